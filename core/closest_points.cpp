@@ -1,0 +1,109 @@
+#include "core/closest_points.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace hagfish {
+namespace {
+
+// The starting grid must be fine enough that the lowest sample lies in the basin of the global
+// minimum, or of one within the tolerance of it: 4 x 4 cells a pair of segments.
+constexpr int grid = 4;
+constexpr int iteration_limit = 50;
+// Newton steps in a parameter of [0, 1] below this are at the rounding of the gap's minimum.
+constexpr double step_tolerance = 1e-10;
+
+double gap_at(const SplineSegment& a, const SplineSegment& b, double t_a, double t_b) {
+  return (b.point(t_b) - a.point(t_a)).norm() - a.radius(t_a) - b.radius(t_b);
+}
+
+ClosestPoints best_sample(const SplineSegment& a, const SplineSegment& b) {
+  ClosestPoints best;
+  best.gap = std::numeric_limits<double>::infinity();
+  std::array<Eigen::Vector3d, grid + 1> points_b;
+  for (int j = 0; j <= grid; ++j) {
+    points_b[j] = b.point(static_cast<double>(j) / grid);
+  }
+  for (int i = 0; i <= grid; ++i) {
+    const double t_a = static_cast<double>(i) / grid;
+    const Eigen::Vector3d point_a = a.point(t_a);
+    for (int j = 0; j <= grid; ++j) {
+      const double t_b = static_cast<double>(j) / grid;
+      const double gap = (points_b[j] - point_a).norm() - a.radius(t_a) - b.radius(t_b);
+      if (gap < best.gap) {
+        best = {t_a, t_b, gap};
+      }
+    }
+  }
+  return best;
+}
+
+/// A Newton direction on the free parameters; `g` is the gradient, `h` the Hessian, `safe` its
+/// positive part.
+Eigen::Vector2d direction(const Eigen::Vector2d& g, const Eigen::Matrix2d& h,
+                          const Eigen::Matrix2d& safe, bool free_a, bool free_b) {
+  if (free_a && free_b) {
+    const double determinant = h.determinant();
+    if (h(0, 0) > 0 && determinant > 1e-12 * safe(0, 0) * safe(1, 1)) {
+      return -Eigen::Vector2d(h(1, 1) * g[0] - h(0, 1) * g[1], h(0, 0) * g[1] - h(1, 0) * g[0]) /
+             determinant;
+    }
+    return {-g[0] / (2 * safe(0, 0)), -g[1] / (2 * safe(1, 1))};
+  }
+  const int k = free_a ? 0 : 1;
+  Eigen::Vector2d step = Eigen::Vector2d::Zero();
+  step[k] = -g[k] / (h(k, k) > 1e-12 * safe(k, k) ? h(k, k) : safe(k, k));
+  return step;
+}
+
+}  // namespace
+
+ClosestPoints closest_points(const SplineSegment& a, const SplineSegment& b) {
+  ClosestPoints at = best_sample(a, b);
+  for (int iteration = 0; iteration < iteration_limit; ++iteration) {
+    const Eigen::Vector3d d = b.point(at.t_b) - a.point(at.t_a);
+    const double distance = d.norm();
+    if (!(distance > 0)) {
+      break;  // the centrelines cross: the gap is as low as it gets
+    }
+    const Eigen::Vector3d n = d / distance;
+    const Eigen::Vector3d xa = a.slope(at.t_a);
+    const Eigen::Vector3d xb = b.slope(at.t_b);
+    // Eq. 5 over the distance, with the taper of the body.
+    const Eigen::Vector2d g(-xa.dot(n) - a.r1, xb.dot(n) - b.r1);
+    const bool free_a = !(at.t_a <= 0 && g[0] >= 0) && !(at.t_a >= 1 && g[0] <= 0);
+    const bool free_b = !(at.t_b <= 0 && g[1] >= 0) && !(at.t_b >= 1 && g[1] <= 0);
+    if (!free_a && !free_b) {
+      break;
+    }
+    const double an = xa.dot(n);
+    const double bn = xb.dot(n);
+    Eigen::Matrix2d h;
+    h(0, 0) = -a.bend(at.t_a).dot(n) + (xa.squaredNorm() - an * an) / distance;
+    h(1, 1) = b.bend(at.t_b).dot(n) + (xb.squaredNorm() - bn * bn) / distance;
+    h(0, 1) = h(1, 0) = -(xa.dot(xb) - an * bn) / distance;
+    const Eigen::Matrix2d safe =
+        Eigen::Vector2d(xa.squaredNorm() / distance, xb.squaredNorm() / distance).asDiagonal();
+    const Eigen::Vector2d step = direction(g, h, safe, free_a, free_b);
+
+    bool moved = false;
+    for (double length = 1; length > 1e-4; length *= 0.5) {
+      const double t_a = std::clamp(at.t_a + length * step[0], 0.0, 1.0);
+      const double t_b = std::clamp(at.t_b + length * step[1], 0.0, 1.0);
+      const double gap = gap_at(a, b, t_a, t_b);
+      if (gap < at.gap) {
+        moved = std::abs(t_a - at.t_a) + std::abs(t_b - at.t_b) > step_tolerance;
+        at = {t_a, t_b, gap};
+        break;
+      }
+    }
+    if (!moved) {
+      break;
+    }
+  }
+  return at;
+}
+
+}  // namespace hagfish

@@ -1,0 +1,98 @@
+#include "core/contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hagfish {
+namespace {
+
+struct Candidate {
+  int a = 0, b = 0;
+  ClosestPoints closest;
+};
+
+std::vector<Candidate> close_pairs(const Model& model, const std::vector<SplineSegment>& segments,
+                                   const ContactSettings& settings) {
+  const int n = static_cast<int>(segments.size());
+  std::vector<double> arc(n);
+  for (int i = 0; i < n; ++i) {
+    arc[i] = arc_length(model, i, 0);
+  }
+  std::vector<Candidate> pairs;
+  for (int a = 0; a < n; ++a) {
+    for (int b = a + 1; b < n; ++b) {
+      // A hair of slack: equal arcs must not fall on either side of the bound by rounding.
+      if (arc[b] - arc[a] < settings.least_arc * (1 - 1e-9)) {
+        continue;
+      }
+      const double reach = segments[a].bound + segments[b].bound + settings.margin;
+      if ((segments[a].middle - segments[b].middle).squaredNorm() > reach * reach) {
+        continue;
+      }
+      const ClosestPoints closest = closest_points(segments[a], segments[b]);
+      if (closest.gap <= settings.margin) {
+        pairs.push_back({a, b, closest});
+      }
+    }
+  }
+  return pairs;
+}
+
+/// Pairs come sorted by (a, b). The first of equal neighbours counts as the lower: a minimum on the
+/// border of two segments is found from both sides.
+bool is_local_minimum(const std::vector<Candidate>& pairs, std::size_t index) {
+  const Candidate& own = pairs[index];
+  for (int a = own.a - 1; a <= own.a + 1; ++a) {
+    auto it = std::lower_bound(pairs.begin(), pairs.end(), std::pair(a, own.b - 1),
+                               [](const Candidate& c, const std::pair<int, int>& key) {
+                                 return std::pair(c.a, c.b) < key;
+                               });
+    for (; it != pairs.end() && it->a == a && it->b <= own.b + 1; ++it) {
+      const auto other = static_cast<std::size_t>(it - pairs.begin());
+      if (other != index && (it->closest.gap < own.closest.gap ||
+                             (it->closest.gap == own.closest.gap && other < index))) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+Contact make_contact(const Model& model, const std::vector<SplineSegment>& segments,
+                     const Candidate& pair) {
+  const SplineSegment& a = segments[pair.a];
+  const SplineSegment& b = segments[pair.b];
+  Contact c;
+  c.segment_a = pair.a;
+  c.segment_b = pair.b;
+  c.t_a = pair.closest.t_a;
+  c.t_b = pair.closest.t_b;
+  c.arc_a = arc_length(model, c.segment_a, c.t_a);
+  c.arc_b = arc_length(model, c.segment_b, c.t_b);
+  c.gap = pair.closest.gap;
+  c.normal = (a.point(c.t_a) - b.point(c.t_b)).normalized();
+  c.tangent_a = a.slope(c.t_a).normalized();
+  c.tangent_b = b.slope(c.t_b).normalized();
+  return c;
+}
+
+}  // namespace
+
+ContactSet find_contacts(const Model& model, const std::vector<SplineSegment>& segments,
+                         const ContactSettings& settings) {
+  const std::vector<Candidate> pairs = close_pairs(model, segments, settings);
+  ContactSet set;
+  set.least_gap = settings.margin;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    set.least_gap = std::min(set.least_gap, pairs[i].closest.gap);
+    if (is_local_minimum(pairs, i)) {
+      set.contacts.push_back(make_contact(model, segments, pairs[i]));
+    }
+  }
+  std::sort(set.contacts.begin(), set.contacts.end(), [](const Contact& x, const Contact& y) {
+    return std::pair(x.arc_a, x.arc_b) < std::pair(y.arc_a, y.arc_b);
+  });
+  return set;
+}
+
+}  // namespace hagfish

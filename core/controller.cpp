@@ -1,0 +1,165 @@
+#include "core/controller.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hagfish {
+namespace {
+
+// A contact moves along the body by h times the sliding speed a step, 0.004 cm; the next one along
+// a strand is a segment or more away. Half a centimetre tells the two apart.
+constexpr double same_contact = 0.5;
+// A script that has not tied within this long after its last knot will not, s.
+constexpr double patience = 2.0;
+
+double apart(const Contact& x, const Contact& y) {
+  return std::hypot(x.arc_a - y.arc_a, x.arc_b - y.arc_b);
+}
+
+/// Keeps to the tracked contact while it lasts, unless `outermost` has been another one for longer
+/// than the hysteresis.
+void follow(TrackedContact& tracked, const std::vector<Contact>& contacts,
+            const Contact* outermost, double time, double hysteresis) {
+  if (outermost == nullptr) {
+    tracked = {};
+    return;
+  }
+  const Contact* same = nullptr;
+  if (tracked.contact) {
+    const auto nearest = std::min_element(
+        contacts.begin(), contacts.end(), [&](const Contact& x, const Contact& y) {
+          return apart(x, *tracked.contact) < apart(y, *tracked.contact);
+        });
+    if (apart(*nearest, *tracked.contact) < same_contact) {
+      same = &*nearest;
+    }
+  }
+  if (same == nullptr || same == outermost) {
+    tracked = {*outermost, 0, false};
+    return;
+  }
+  if (!tracked.rivalled) {
+    tracked.rivalled = true;
+    tracked.rival_since = time;
+  }
+  tracked.contact = *same;
+  if (time - tracked.rival_since >= hysteresis) {
+    tracked = {*outermost, 0, false};
+  }
+}
+
+void follow_contacts(const Scene& scene, const Situation& situation, double time,
+                     ControllerState& controller) {
+  const std::vector<Contact>& contacts = situation.contact.contacts;
+  const Contact* first = nullptr;
+  const Contact* last = nullptr;
+  for (const Contact& contact : contacts) {
+    if (contact.gap > scene.controller.contact_gap) {
+      continue;
+    }
+    if (first == nullptr || contact.arc_a < first->arc_a) {
+      first = &contact;
+    }
+    if (last == nullptr || contact.arc_b > last->arc_b) {
+      last = &contact;
+    }
+  }
+  follow(controller.first, contacts, first, time, scene.controller.hysteresis);
+  follow(controller.last, contacts, last, time, scene.controller.hysteresis);
+}
+
+void enter(ControllerState& controller, Phase phase, double time) {
+  controller.phase = phase;
+  controller.phase_start = time;
+}
+
+/// Phase changes that follow from the knot type just seen.
+void switch_by_knot(const Model& model, const Scene& scene, double time,
+                    ControllerState& controller) {
+  const bool knotted = controller.knot.type != KnotInvariants{};
+  const std::optional<KnotSpan> span = knot_span(controller);
+  switch (controller.phase) {
+    case Phase::form:
+      if (knotted && span && model.length() - span->tail_end >= scene.controller.tail_through) {
+        enter(controller, Phase::tighten, time);
+      } else if (scene.script.kind != ScriptSettings::Kind::none && !knotted &&
+                 time > script_end(scene.script) + patience) {
+        throw StepError("the script ended untied");
+      }
+      break;
+    case Phase::tighten:
+    case Phase::slide:
+      if (!knotted) {
+        throw StepError("the knot came undone before the head was free");
+      }
+      break;
+    case Phase::release:
+      if (!knotted) {
+        enter(controller, Phase::free, time);
+      }
+      break;
+    case Phase::free:
+      break;
+  }
+}
+
+/// Phase changes that follow from where the knot is.
+void switch_by_span(const Scene& scene, double time, ControllerState& controller) {
+  const std::optional<KnotSpan> span = knot_span(controller);
+  if (!span) {
+    return;
+  }
+  const ControllerSettings& settings = scene.controller;
+  if (controller.phase == Phase::tighten &&
+      (span->tail_end - span->head_end <= settings.tight_span ||
+       time - controller.phase_start >= settings.tighten_time)) {
+    enter(controller, Phase::slide, time);
+  }
+  if (controller.phase == Phase::slide && span->head_end <= settings.release_at) {
+    enter(controller, Phase::release, time);
+  }
+}
+
+}  // namespace
+
+const char* phase_name(Phase phase) {
+  constexpr const char* names[phase_count] = {"form", "tighten", "slide", "release", "free"};
+  return names[static_cast<int>(phase)];
+}
+
+std::optional<KnotSpan> knot_span(const ControllerState& controller) {
+  if (!controller.first.contact || !controller.last.contact) {
+    return std::nullopt;
+  }
+  return KnotSpan{controller.first.contact->arc_a, controller.last.contact->arc_b};
+}
+
+Control decide(const Model& model, const Scene& scene, const Situation& situation, double time,
+               ControllerState& controller) {
+  follow_contacts(scene, situation, time, controller);
+  // Half a step of slack: the time of a step is a product and may fall short by rounding.
+  if (time + 0.5 * scene.time.step >= controller.next_look) {
+    controller.next_look = time + scene.knot.interval;
+    controller.knot = knot_type(situation.kin.centre, scene.knot.votes, scene.knot.seed);
+    switch_by_knot(model, scene, time, controller);
+  }
+  switch_by_span(scene, time, controller);
+
+  Control control;
+  control.clamp_head = scene.clamp_head && controller.phase < Phase::release;
+  const int last = model.body_count() - 1;
+  const Kinematics& kin = situation.kin;
+  const ControllerSettings& settings = scene.controller;
+  if (controller.phase == Phase::form) {
+    control.tip = script_force(scene.script, time, scene.time.step, kin.centre.col(last),
+                               point_velocity(kin.twist.col(last), kin.centre_offset(last)));
+  } else if (controller.phase != Phase::free && controller.first.contact) {
+    const bool tighten = controller.phase == Phase::tighten;
+    control.thigmotaxis = {
+        {*controller.first.contact, tighten ? settings.tighten_head : settings.slide_head},
+        {*controller.last.contact, tighten ? settings.tighten_tail : settings.slide_tail}};
+  }
+  return control;
+}
+
+}  // namespace hagfish

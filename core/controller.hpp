@@ -1,0 +1,44 @@
+// The controller (paper, 3.2): forms the knot by script, then tightens and slides it by positive
+// thigmotaxis, then lets the head go. It switches by knot type and knot span, never by eye.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "core/knot.hpp"
+#include "core/script.hpp"
+#include "core/step.hpp"
+
+namespace hagfish {
+
+enum class Phase : std::uint8_t { form, tighten, slide, release, free };
+inline constexpr int phase_count = 5;
+const char* phase_name(Phase phase);
+
+/// The contact that plays the first or the last one, followed from step to step.
+struct TrackedContact {
+  std::optional<Contact> contact;
+  double rival_since = 0;  ///< time since which another one has been the outermost, s
+  bool rivalled = false;
+};
+
+struct ControllerState {
+  Phase phase = Phase::form;
+  double phase_start = 0;  ///< s
+  double next_look = 0;    ///< at the knot type, s
+  KnotVote knot;           ///< as last seen
+  TrackedContact first, last;
+};
+
+/// Where the knot begins and ends: arc length of the first and the last contact, cm.
+struct KnotSpan {
+  double head_end = 0, tail_end = 0;
+};
+std::optional<KnotSpan> knot_span(const ControllerState& controller);
+
+/// Follows the contacts, switches phases and says what the step from `time` shall do.
+/// Throws StepError where the script ends untied or the knot is lost before the head is free.
+Control decide(const Model& model, const Scene& scene, const Situation& situation, double time,
+               ControllerState& controller);
+
+}  // namespace hagfish

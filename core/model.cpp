@@ -1,0 +1,117 @@
+#include "core/model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <stdexcept>
+
+namespace hagfish {
+namespace {
+
+constexpr double unbounded = std::numeric_limits<double>::infinity();
+
+std::string padded(int number, int width) {
+  std::string text = std::to_string(number);
+  return std::string(std::max<int>(0, width - static_cast<int>(text.size())), '0') + text;
+}
+
+void set_hinge(Hinge& hinge, double limit, double stiffness, double damping) {
+  hinge.lower = -limit;
+  hinge.upper = limit;
+  hinge.stiffness = stiffness;
+  hinge.damping = damping;
+}
+
+}  // namespace
+
+double Model::length() const {
+  return std::accumulate(bodies.begin(), bodies.end(), 0.0,
+                         [](double sum, const Body& b) { return sum + b.length; });
+}
+
+std::vector<JointName> joint_names(const Model& model) {
+  const int width = model.body_count() > 100 ? 3 : 2;
+  std::vector<JointName> names;
+  names.push_back({"root",
+                   {"root_x", "root_y", "root_z", "root_rot_x", "root_rot_y", "root_rot_z"}});
+  for (int b = 1; b < model.body_count(); ++b) {
+    const Body& body = model.bodies[b];
+    const std::string number = "j" + padded(b, width);
+    if (body.dofs == 1 && model.hinges[body.first_dof - root_dofs].axis == Axis::x) {
+      names.push_back({number + "_twist", {number + "_twist"}});
+      continue;
+    }
+    JointName name{number + "_bend", {}};
+    for (int k = 0; k < body.dofs; ++k) {
+      const Axis axis = model.hinges[body.first_dof - root_dofs + k].axis;
+      name.dofs.push_back(name.joint + "_" + "xyz"[static_cast<int>(axis)]);
+    }
+    names.push_back(std::move(name));
+  }
+  return names;
+}
+
+void append_body(Model& model, const Body& body, const std::vector<Axis>& axes) {
+  const int index = model.body_count();
+  model.bodies.push_back(body);
+  model.bodies.back().first_dof = index == 0 ? 0 : model.nv();
+  model.bodies.back().dofs = index == 0 ? root_dofs : static_cast<int>(axes.size());
+  for (Axis axis : axes) {
+    model.hinges.push_back({index, axis, -unbounded, unbounded, 0, 0});
+  }
+}
+
+Eigen::Vector3d cylinder_inertia(double mass, double length, double radius) {
+  const double across = mass * (3 * radius * radius + length * length) / 12;
+  return {mass * radius * radius / 2, across, across};
+}
+
+Model make_hagfish(const Specimen& specimen, const Scene& scene) {
+  const ModelSettings& settings = scene.model;
+  const int n = settings.bodies;
+  if (n < 2 || n > 400) {
+    throw std::invalid_argument("model.bodies = " + std::to_string(n) + ": must be in 2..400");
+  }
+  const double length = specimen.length / n;
+  std::vector<double> radius(n);
+  double squares = 0;
+  for (int b = 0; b < n; ++b) {
+    radius[b] = profile(specimen.station, specimen.circumference, (b + 0.5) / n) /
+                (2 * std::numbers::pi);
+    squares += radius[b] * radius[b];
+  }
+
+  Model model;
+  model.drag = scene.drag;
+  model.gravity = scene.gravity;
+  const double span = 2 * length;  // of body that one universal or one revolute joint stands for
+  for (int b = 0; b < n; ++b) {
+    const bool bend = b % 2 == 1;
+    Body body;
+    body.mass = specimen.mass * radius[b] * radius[b] / squares;
+    body.length = length;
+    body.radius = radius[b];
+    body.inertia = cylinder_inertia(body.mass, length, radius[b]);
+    if (b == 0) {
+      append_body(model, body, {});
+    } else if (bend) {
+      append_body(model, body, {Axis::y, Axis::z});
+      const double measured =
+          profile(specimen.station, specimen.bending_limit, static_cast<double>(b) / n);
+      const double limit = std::min(measured * span / specimen.bending_span, settings.largest_limit);
+      for (int k = 1; k <= 2; ++k) {
+        set_hinge(model.hinges[model.hinges.size() - k], limit, settings.bending_stiffness / span,
+                  settings.bending_damping / span);
+      }
+    } else {
+      append_body(model, body, {Axis::x});
+      set_hinge(model.hinges.back(), specimen.twist_limit / n, settings.twist_stiffness / span,
+                settings.twist_damping / span);
+    }
+  }
+  return model;
+}
+
+}  // namespace hagfish

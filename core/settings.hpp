@@ -1,0 +1,135 @@
+// Every number that a scene file may set, grouped by the stage that uses it. Defaults are those of
+// a scene that says nothing: no gravity, no drag, no stiffness, no script.
+//
+// Units are cm, g, s, rad, dyn throughout; scene files give angles in degrees (scene_reader.cpp).
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+namespace hagfish {
+
+/// How the specimen becomes a chain. The passive terms are additions to the paper: it states none.
+struct ModelSettings {
+  int bodies = 100;              ///< rigid bodies along the animal, 2 to 400
+  double bending_stiffness = 0;  ///< flexural rigidity about each bending axis, dyn cm^2
+  double bending_damping = 0;    ///< its rate form, dyn cm^2 s
+  double twist_stiffness = 0;    ///< torsional rigidity, dyn cm^2
+  double twist_damping = 0;      ///< its rate form, dyn cm^2 s
+  /// Largest bending limit of one hinge, rad. A coarse chain must bend further per joint to reach
+  /// the same curvature; past 90 degrees a universal joint loses its second axis.
+  double largest_limit = 1.4835298641951802;
+};
+
+/// Linear water drag per unit length of body (addition to the paper), g / (s cm).
+struct DragSettings {
+  double normal = 0;      ///< across the body
+  double tangential = 0;  ///< along it
+};
+
+/// When a unilateral row (joint limit, contact, wall) enters the problem.
+enum class Activation {
+  speculative,  ///< within reach: C v >= -gap / h, so that the gap closes and does not cross
+  violated      ///< only once violated, as RedMax does
+};
+
+struct ConstraintSettings {
+  Activation activation = Activation::speculative;
+  /// Share of a violation pushed out per step: C v >= -push_out * gap / h for gap < 0.
+  double push_out = 0.2;
+};
+
+/// Self-contact along the spline through the body centres (paper, Eq. 5).
+struct ContactSettings {
+  double margin = 0.1;  ///< gaps up to this enter the problem when speculative, cm
+  /// Strands closer than this along the body never touch: neighbours always overlap, cm of arc.
+  double least_arc = 3.392;
+};
+
+/// The tank's head plate, the plane x = 0.
+struct WallSettings {
+  bool present = true;
+  double neck = 3.0;  ///< bodies nearer the head than this pass through the plate, cm of arc
+};
+
+/// One knot of a script in time: a force (dyn) or a position of the last body's centre (cm).
+struct ScriptKnot {
+  double time = 0;  ///< s
+  Eigen::Vector3d value = Eigen::Vector3d::Zero();
+};
+
+/// Scripted forward dynamics of knot forming (paper, 3.2), acting on the last body's centre.
+struct ScriptSettings {
+  enum class Kind {
+    none,
+    force,    ///< the paper's: a force, linear between knots
+    position  ///< waypoints, Catmull-Rom through time, followed by a spring-damper
+  };
+  Kind kind = Kind::none;
+  std::vector<ScriptKnot> knots;  ///< times rising; first one at 0
+  double spring = 0;              ///< position script: dyn / cm, taken implicitly
+  double damper = 0;              ///< position script: dyn s / cm, taken implicitly
+  double largest_force = 0;       ///< position script: the spring-damper saturates here, dyn
+};
+
+/// Commanded speeds of Eq. 6 at one contact, cm/s.
+struct ThigmotaxisSpeeds {
+  double a = 0;  ///< row along t_a, the tangent of the strand nearer the head
+  double b = 0;  ///< row along t_b, the tangent of the strand nearer the tail
+};
+
+/// The thigmotaxis controller (paper, 3.2, Eq. 6) and its switches between phases.
+struct ControllerSettings {
+  ThigmotaxisSpeeds tighten_head, tighten_tail;  ///< first and last contact while tightening
+  ThigmotaxisSpeeds slide_head, slide_tail;      ///< first and last contact while sliding
+  double cap = 5000;          ///< largest lambda / h of a thigmotaxis row, dyn: the rows are soft
+  double contact_gap = 0.05;  ///< a contact this close counts as touching, cm
+  /// A touching contact takes over as first or last only after it has been the outermost for this
+  /// long: without it the identity jumps 7 to 14 times a second, s.
+  double hysteresis = 0.05;
+  double tail_through = 8.0;   ///< tighten once this much body is past the last contact, cm of arc
+  double tight_span = 20.352;  ///< slide once the knot spans no more body than this, cm of arc
+  double tighten_time = 2.0;   ///< or after this long, s
+  double release_at = 1.908;   ///< free the head when the first contact is this near it, cm of arc
+  double free_time = 1.0;      ///< run on this long after the knot is gone, s
+};
+
+/// Topology of the open centreline, by vote over closures and projections.
+struct KnotSettings {
+  int votes = 15;            ///< directions tried
+  unsigned seed = 20220301;  ///< of the directions
+  double interval = 0.01;    ///< time between looks while the controller waits for a change, s
+};
+
+struct TimeSettings {
+  double step = 0.002;            ///< h, s
+  double frame_interval = 0.020;  ///< time between logged frames, s
+  double duration = 30;           ///< the run ends here at the latest, s
+};
+
+/// A run that passes one of these is stopped: something is wrong, s. `design limits`, not physics.
+struct GuardSettings {
+  double penetration = 0.5;       ///< cm
+  double limit_violation = 0.2;   ///< rad
+  double speed = 1e4;             ///< of any body centre, cm/s
+};
+
+struct Scene {
+  std::string title;
+  std::string specimen;  ///< specimen file as the scene names it
+  bool clamp_head = true;
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< cm/s^2
+  ModelSettings model;
+  DragSettings drag;
+  ConstraintSettings constraints;
+  ContactSettings contact;
+  WallSettings wall;
+  ScriptSettings script;
+  ControllerSettings controller;
+  KnotSettings knot;
+  TimeSettings time;
+  GuardSettings guard;
+};
+
+}  // namespace hagfish

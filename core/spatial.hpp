@@ -1,0 +1,72 @@
+// Spatial vectors in world axes about one reference point O that all bodies share within a step, so
+// that twists and wrenches of different bodies add without transforms. A twist is [angular velocity
+// (rad/s); velocity of the body's material at O (cm/s)], a wrench [moment about O (dyn cm); force
+// (dyn)]. Notation of Featherstone, "Rigid Body Dynamics Algorithms" (2008), ch. 2.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace hagfish {
+
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+using Matrix6Xd = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+
+/// Twist of a unit rotation about the world axis `axis` through `offset`, taken from O.
+inline Vector6d rotation_axis(const Eigen::Vector3d& axis, const Eigen::Vector3d& offset) {
+  Vector6d s;
+  s << axis, offset.cross(axis);
+  return s;
+}
+
+/// Wrench of `force` acting at `offset`, taken from O.
+inline Vector6d wrench_of_force(const Eigen::Vector3d& force, const Eigen::Vector3d& offset) {
+  Vector6d w;
+  w << offset.cross(force), force;
+  return w;
+}
+
+/// Velocity of the material point at `offset`, taken from O, of a body that moves with `twist`.
+inline Eigen::Vector3d point_velocity(const Vector6d& twist, const Eigen::Vector3d& offset) {
+  return twist.tail<3>() + twist.head<3>().cross(offset);
+}
+
+/// Rate of the motion vector `m` when it is carried along by `twist`.
+inline Vector6d cross_motion(const Vector6d& twist, const Vector6d& m) {
+  Vector6d r;
+  r << twist.head<3>().cross(m.head<3>()),
+      twist.head<3>().cross(m.tail<3>()) + twist.tail<3>().cross(m.head<3>());
+  return r;
+}
+
+/// Rate of the wrench or momentum `f` when it is carried along by `twist`.
+inline Vector6d cross_force(const Vector6d& twist, const Vector6d& f) {
+  Vector6d r;
+  r << twist.head<3>().cross(f.head<3>()) + twist.tail<3>().cross(f.tail<3>()),
+      twist.head<3>().cross(f.tail<3>());
+  return r;
+}
+
+/// The matrix [a] with [a] b = a x b.
+inline Eigen::Matrix3d skew(const Eigen::Vector3d& a) {
+  Eigen::Matrix3d m;
+  m << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
+  return m;
+}
+
+/// Symmetric operator on twists of a 3 x 3 pair acting at `offset` from O: `angular` on the angular
+/// velocity and `linear` on the velocity of the point there. The inertia of a body at its centre
+/// (angular = I_c, linear = m 1) and linear drag have this form.
+inline Matrix6d point_operator(const Eigen::Matrix3d& angular, const Eigen::Matrix3d& linear,
+                               const Eigen::Vector3d& offset) {
+  const Eigen::Matrix3d x = skew(offset);
+  Matrix6d m;
+  m.topLeftCorner<3, 3>() = angular + x * linear * x.transpose();
+  m.topRightCorner<3, 3>() = x * linear;
+  m.bottomLeftCorner<3, 3>() = linear * x.transpose();
+  m.bottomRightCorner<3, 3>() = linear;
+  return m;
+}
+
+}  // namespace hagfish

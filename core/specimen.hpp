@@ -1,0 +1,28 @@
+// The measured animal: what Table 1 of the paper lists, and nothing of the simulation.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace hagfish {
+
+/// A measured specimen (paper, Table 1). Profiles are linear between stations and constant outside.
+struct Specimen {
+  std::string name;
+  double length = 0;                  ///< head to tail, cm
+  double mass = 0;                    ///< whole body, g
+  std::vector<double> station;        ///< where the profiles were measured, fraction of length, rising
+  std::vector<double> circumference;  ///< at the stations, cm
+  std::vector<double> bending_limit;  ///< at the stations, rad; see bending_span
+  /// Length of body over which one bending limit was read, cm. The limits bound each axis of a
+  /// universal joint, and the paper's chain of 100 bodies has one such joint per 2 L / 100.
+  double bending_span = 0;
+  double twist_limit = 0;  ///< whole body, rad, to each side
+};
+
+/// Value at `fraction` of the length of a profile given at `station`.
+double profile(const std::vector<double>& station, const std::vector<double>& value,
+               double fraction);
+
+}  // namespace hagfish

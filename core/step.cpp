@@ -1,0 +1,258 @@
+#include "core/step.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace hagfish {
+namespace {
+
+/// A row is left out at first where the unconstrained motion, or the last step's, keeps this much
+/// clear of it, cm/s or rad/s. Only speed depends on it: rows left out are checked after the solve.
+constexpr double lazy_reach = 2.0;
+/// A row left out counts as violated below this, cm/s or rad/s: at h = 2 ms, 2e-11 cm or rad.
+constexpr double lazy_tolerance = 1e-8;
+/// λ above this share of the largest counts as a force when active rows are counted.
+constexpr double active_share = 1e-6;
+
+/// The dual operator of a growing set of rows: A = C H⁻¹ C', read off body twists.
+class DualProblem {
+ public:
+  DualProblem(const Model& model, const Kinematics& kin, const ArticulatedFactor& factor,
+              const Eigen::VectorXd& unconstrained)
+      : model_(model), kin_(kin), factor_(factor), unconstrained_(unconstrained) {
+    twist_ = body_twists(model, kin, unconstrained);
+  }
+
+  double excess_unconstrained(const Row& row) const {
+    return row_velocity(row, kin_, twist_, unconstrained_) - row.rhs;
+  }
+
+  void assemble(const std::vector<Row>& rows, BoxQp& qp) const {
+    const auto m = static_cast<Eigen::Index>(rows.size());
+    ColumnSet columns{Columns::Zero(model_.nv(), m), Columns::Zero(6 * model_.body_count(), m)};
+    for (Eigen::Index j = 0; j < m; ++j) {
+      const Row& row = rows[j];
+      if (row.dof >= 0) {
+        columns.joint(row.dof, j) = row.sign;
+      }
+      for (int k = 0; k < row.forces; ++k) {
+        const auto& [body, force] = row.force[k];
+        columns.body.col(j).segment<6>(6 * body) +=
+            wrench_of_force(force, kin_.centre_offset(body));
+      }
+    }
+    factor_.solve(model_, kin_, columns);
+    qp.A.setZero(m, m);
+    qp.b.resize(m);
+    qp.lower.resize(m);
+    qp.upper.resize(m);
+    for (Eigen::Index i = 0; i < m; ++i) {
+      const Row& row = rows[i];
+      if (row.dof >= 0) {
+        qp.A.row(i) = row.sign * columns.joint.row(row.dof);
+      }
+      for (int k = 0; k < row.forces; ++k) {
+        const auto& [body, force] = row.force[k];
+        const Vector6d wrench = wrench_of_force(force, kin_.centre_offset(body));
+        qp.A.row(i).noalias() += wrench.transpose() * columns.body.middleRows<6>(6 * body);
+      }
+      qp.b[i] = -excess_unconstrained(row);
+      qp.lower[i] = row.lower;
+      qp.upper[i] = row.upper;
+    }
+    qp.A = (0.5 * (qp.A + qp.A.transpose())).eval();
+  }
+
+ private:
+  const Model& model_;
+  const Kinematics& kin_;
+  const ArticulatedFactor& factor_;
+  const Eigen::VectorXd& unconstrained_;
+  Matrix6Xd twist_;
+};
+
+std::vector<Row> all_rows(const Model& model, const State& state, const Situation& situation,
+                          const Control& control, const Scene& scene) {
+  const double h = scene.time.step;
+  std::vector<Row> rows;
+  const auto append = [&rows](std::vector<Row> more) {
+    rows.insert(rows.end(), more.begin(), more.end());
+  };
+  if (control.clamp_head) {
+    append(head_rows(state, scene.constraints, h));
+  }
+  append(thigmotaxis_rows(model, control.thigmotaxis, scene.controller.cap, h));
+  append(contact_rows(model, situation.contact.contacts, scene.constraints, h));
+  append(limit_rows(model, state, scene.constraints, h));
+  append(wall_rows(model, situation.kin, scene.wall, scene.constraints, h));
+  return rows;
+}
+
+bool always_in(const Row& row) {
+  return row.kind == RowKind::head || row.kind == RowKind::thigmotaxis;
+}
+
+ConstraintForces constraint_forces(const Model& model, const Kinematics& kin,
+                                   const std::vector<Row>& rows, const Eigen::VectorXd& lambda,
+                                   double h) {
+  const auto of_kind = [&](RowKind kind) {
+    Matrix6Xd wrench = Matrix6Xd::Zero(6, model.body_count());
+    Eigen::VectorXd joint = Eigen::VectorXd::Zero(model.nv());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (rows[i].kind == kind) {
+        add_row(rows[i], kin, lambda[i] / h, wrench, joint);
+      }
+    }
+    return (generalised_force(model, kin, wrench) + joint).eval();
+  };
+  return {of_kind(RowKind::head), of_kind(RowKind::limit), of_kind(RowKind::contact),
+          of_kind(RowKind::wall), of_kind(RowKind::thigmotaxis)};
+}
+
+/// H⁻¹ (g + C'λ).
+Eigen::VectorXd constrained_velocity(const Model& model, const Kinematics& kin,
+                                     const ArticulatedFactor& factor, const StepSystem& system,
+                                     const std::vector<Row>& rows, const Eigen::VectorXd& lambda) {
+  Matrix6Xd wrench = system.wrench;
+  Eigen::VectorXd joint = system.joint;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    add_row(rows[i], kin, lambda[i], wrench, joint);
+  }
+  return factor.solve(model, kin, wrench, joint);
+}
+
+/// Eq. 3 or Eq. 4 on the rows chosen, as one small problem in the multipliers.
+Eigen::VectorXd solve_multipliers(const BoxQp& qp, const std::vector<Row>& rows,
+                                  BoxQpSolver& solver, const WarmStart& warm,
+                                  StepSolution& step) {
+  const bool bilateral = std::all_of(rows.begin(), rows.end(),
+                                     [](const Row& row) { return row.kind == RowKind::head; });
+  BoxQpSolution solution;
+  if (bilateral) {
+    step.kind = SolveKind::kkt;
+    solution = solve_bilateral(qp.A, qp.b);
+  } else {
+    step.kind = SolveKind::qp;
+    Eigen::VectorXd start = Eigen::VectorXd::Zero(qp.b.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const auto it = warm.find(rows[i].id);
+      start[i] = it == warm.end() ? 0 : it->second;
+    }
+    const auto begin = std::chrono::steady_clock::now();
+    solution = solver.solve(qp, start);
+    step.qp_time +=
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  }
+  step.iterations += solution.iterations;
+  if (solution.status != SolveStatus::solved) {
+    throw StepError(std::string("solver failed: ") + status_name(solution.status) + " on " +
+                    std::to_string(qp.b.size()) + " rows" +
+                    (solution.message.empty() ? "" : " (" + solution.message + ")"));
+  }
+  return solution.x;
+}
+
+}  // namespace
+
+Situation observe(const Model& model, const State& state, const Scene& scene) {
+  Situation s;
+  s.kin = kinematics(model, state);
+  s.contact = find_contacts(model, spline(model, s.kin.centre), scene.contact);
+  s.penetration = std::max(0.0, -s.contact.least_gap);
+  for (const Row& row : wall_rows(model, s.kin, scene.wall,
+                                  {Activation::speculative, scene.constraints.push_out}, 1)) {
+    const int body = row.force[0].body;
+    s.penetration = std::max(s.penetration, model.bodies[body].radius - s.kin.centre(0, body));
+  }
+  for (int k = root_dofs; k < model.nv(); ++k) {
+    const Hinge& hinge = model.hinges[k - root_dofs];
+    s.limit_violation = std::max(
+        {s.limit_violation, hinge.lower - state.q[k + 1], state.q[k + 1] - hinge.upper});
+  }
+  return s;
+}
+
+double head_drift(const Model& model, const Kinematics& kin) {
+  const Eigen::Vector3d origin = kin.origin.col(0);
+  const Eigen::Vector3d end = origin + model.bodies[0].length * kin.rotation[0].col(0);
+  return std::max(origin.norm(), (end - model.bodies[0].length * Eigen::Vector3d::UnitX()).norm());
+}
+
+StepSolution solve_step(const Model& model, const State& state, const Situation& situation,
+                        const Control& control, const Scene& scene, BoxQpSolver& solver,
+                        WarmStart& warm) {
+  const double h = scene.time.step;
+  const Kinematics& kin = situation.kin;
+  StepSolution step;
+
+  // Eq. 1: H q̇* = M q̇0 + h f.
+  step.system = step_system(model, state, kin, control.tip, h);
+  ArticulatedFactor factor;
+  factor.factorise(model, kin, step.system.op);
+  step.unconstrained = factor.solve(model, kin, step.system.wrench, step.system.joint);
+  step.qdot = step.unconstrained;
+
+  // Eq. 3 or 4 on the rows that can bind; any other that the answer violates comes in.
+  const DualProblem dual(model, kin, factor, step.unconstrained);
+  std::vector<Row> waiting;
+  for (const Row& row : all_rows(model, state, situation, control, scene)) {
+    const bool can_bind = always_in(row) || warm.count(row.id) > 0 ||
+                          dual.excess_unconstrained(row) < lazy_reach ||
+                          row_velocity(row, kin, kin.twist, state.qdot) - row.rhs < lazy_reach;
+    (can_bind ? step.rows : waiting).push_back(row);
+  }
+  BoxQp qp;
+  for (bool complete = step.rows.empty() && waiting.empty(); !complete;) {
+    if (!step.rows.empty()) {
+      dual.assemble(step.rows, qp);
+      step.lambda = solve_multipliers(qp, step.rows, solver, warm, step);
+      ++step.rounds;
+      step.qdot = constrained_velocity(model, kin, factor, step.system, step.rows, step.lambda);
+    }
+    const Matrix6Xd twist = body_twists(model, kin, step.qdot);
+    const auto violated = std::stable_partition(
+        waiting.begin(), waiting.end(), [&](const Row& row) {
+          return row_velocity(row, kin, twist, step.qdot) >= row.rhs - lazy_tolerance;
+        });
+    complete = violated == waiting.end();
+    step.rows.insert(step.rows.end(), violated, waiting.end());
+    waiting.erase(violated, waiting.end());
+  }
+  if (!step.qdot.allFinite()) {
+    throw StepError("non-finite velocity");
+  }
+
+  // Residuals on the primal side: q̇ against H, and the rows' excess C q̇ - d.
+  const auto m = static_cast<Eigen::Index>(step.rows.size());
+  step.lambda.conservativeResize(m);
+  step.excess.resize(m);
+  const Matrix6Xd twist = body_twists(model, kin, step.qdot);
+  for (Eigen::Index i = 0; i < m; ++i) {
+    step.excess[i] = row_velocity(step.rows[i], kin, twist, step.qdot) - step.rows[i].rhs;
+  }
+  step.force = constraint_forces(model, kin, step.rows, step.lambda, h);
+  const Eigen::VectorXd impulse = h * step.force.total();
+  const Eigen::VectorXd change =
+      multiply(model, kin, step.system.op, step.qdot - step.unconstrained);
+  const double scale = std::max(impulse.lpNorm<Eigen::Infinity>(), change.lpNorm<Eigen::Infinity>());
+  step.stationarity = scale > 0 ? (change - impulse).lpNorm<Eigen::Infinity>() / scale : 0;
+  if (m > 0) {
+    step.kkt = kkt_residuals(qp, step.lambda, step.excess);
+  }
+
+  const int last = model.body_count() - 1;
+  step.tip = control.tip.value -
+             control.tip.rate * point_velocity(twist.col(last), kin.centre_offset(last));
+  warm.clear();
+  const double largest = m > 0 ? step.lambda.lpNorm<Eigen::Infinity>() : 0;
+  for (Eigen::Index i = 0; i < m; ++i) {
+    if (std::abs(step.lambda[i]) > active_share * largest) {
+      ++step.active;
+      warm[step.rows[i].id] = step.lambda[i];
+    }
+  }
+  return step;
+}
+
+}  // namespace hagfish

@@ -1,0 +1,79 @@
+// One time step (paper, 3.1): Eq. 1, 3 or 4, then Eq. 2.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "core/contact.hpp"
+#include "core/dynamics.hpp"
+#include "core/rows.hpp"
+#include "solvers/box_qp.hpp"
+
+namespace hagfish {
+
+/// What the step's state looks like: found once, used by controller, constraints and solver.
+struct Situation {
+  Kinematics kin;
+  ContactSet contact;
+  double penetration = 0;      ///< deepest overlap of skins or with the head plate, cm, >= 0
+  double limit_violation = 0;  ///< largest angle past a limit, rad, >= 0
+};
+
+Situation observe(const Model& model, const State& state, const Scene& scene);
+
+/// Largest displacement of either end of the head from where the clamp holds it, cm.
+double head_drift(const Model& model, const Kinematics& kin);
+
+/// What the controller asks of a step.
+struct Control {
+  bool clamp_head = true;
+  TipForce tip;
+  std::vector<ThigmotaxisCommand> thigmotaxis;  ///< none, or first and last contact
+};
+
+enum class SolveKind : std::uint8_t { linear, kkt, qp };
+
+/// Multipliers of the last step by row id, for warm starts.
+using WarmStart = std::map<std::int64_t, double>;
+
+/// Multiplier forces C'λ / h by kind of row (paper, Eqs. 7 and 8), generalised, nv each.
+struct ConstraintForces {
+  Eigen::VectorXd head, limit, contact, wall, thigmotaxis;
+  Eigen::VectorXd total() const { return head + limit + contact + wall + thigmotaxis; }
+};
+
+struct StepSolution {
+  Eigen::VectorXd unconstrained;  ///< q̇*, nv
+  Eigen::VectorXd qdot;           ///< new velocity, nv
+  ConstraintForces force;
+  Eigen::Vector3d tip = Eigen::Vector3d::Zero();  ///< tip force as applied, dyn, world
+  SolveKind kind = SolveKind::linear;
+  std::vector<Row> rows;   ///< rows that entered the problem
+  Eigen::VectorXd lambda;  ///< their multipliers, dyn s or dyn cm s
+  Eigen::VectorXd excess;  ///< C q̇ - d of each row at the solution, cm/s or rad/s
+  int active = 0;          ///< rows with a force
+  int iterations = 0;      ///< of the back end, all rounds together
+  int rounds = 0;          ///< problems solved: rows left out at first and found violated come in
+  double stationarity = 0;  ///< |H (q̇ - q̇*) - C'λ|, infinity norm over its largest term
+  KktResiduals kkt;
+  double qp_time = 0;  ///< s spent in the QP back end
+  StepSystem system;   ///< Eq. 1 as assembled
+};
+
+/// A step that cannot be taken; what() names the cause in one line.
+class StepError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Solves for the new velocity. Throws StepError where the solver fails or a result is not finite.
+StepSolution solve_step(const Model& model, const State& state, const Situation& situation,
+                        const Control& control, const Scene& scene, BoxQpSolver& solver,
+                        WarmStart& warm);
+
+}  // namespace hagfish
