@@ -55,8 +55,7 @@ void ArticulatedFactor::factorise(const Model& model, const Kinematics& kin, con
   }
 }
 
-void ArticulatedFactor::solve(const Model& model, const Kinematics& kin,
-                              ColumnSet& columns) const {
+void ArticulatedFactor::solve(const Model& model, const Kinematics& kin, ColumnSet& columns) const {
   const Eigen::Index m = columns.joint.cols();
   using Block = Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor>;
   Block sum = Block::Zero(6, m);

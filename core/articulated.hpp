@@ -47,8 +47,8 @@ class ArticulatedFactor {
                         const Eigen::VectorXd& joint) const;
 
  private:
-  Matrix6Xd weighted_;               // Î^A S, one column a dof
-  Eigen::VectorXd inverse_pivot_;    // 1 / (S' Î^A S + δ)
+  Matrix6Xd weighted_;             // Î^A S, one column a dof
+  Eigen::VectorXd inverse_pivot_;  // 1 / (S' Î^A S + δ)
 };
 
 }  // namespace hagfish

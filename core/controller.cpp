@@ -18,16 +18,16 @@ double apart(const Contact& x, const Contact& y) {
 
 /// Keeps to the tracked contact while it lasts, unless `outermost` has been another one for longer
 /// than the hysteresis.
-void follow(TrackedContact& tracked, const std::vector<Contact>& contacts,
-            const Contact* outermost, double time, double hysteresis) {
+void follow(TrackedContact& tracked, const std::vector<Contact>& contacts, const Contact* outermost,
+            double time, double hysteresis) {
   if (outermost == nullptr) {
     tracked = {};
     return;
   }
   const Contact* same = nullptr;
   if (tracked.contact) {
-    const auto nearest = std::min_element(
-        contacts.begin(), contacts.end(), [&](const Contact& x, const Contact& y) {
+    const auto nearest =
+        std::min_element(contacts.begin(), contacts.end(), [&](const Contact& x, const Contact& y) {
           return apart(x, *tracked.contact) < apart(y, *tracked.contact);
         });
     if (apart(*nearest, *tracked.contact) < same_contact) {

@@ -19,10 +19,10 @@ Matrix6d drag_operator(const Model& model, const Kinematics& kin, int body) {
   const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - along * along.transpose();
   // A rod that turns about its centre meets normal drag alone, at x times the rate: ∫ x² dx.
   const double turning = model.drag.normal * length * length * length / 12;
-  return point_operator(turning * across,
-                        length * (model.drag.normal * across +
-                                  model.drag.tangential * along * along.transpose()),
-                        kin.centre_offset(body));
+  return point_operator(
+      turning * across,
+      length * (model.drag.normal * across + model.drag.tangential * along * along.transpose()),
+      kin.centre_offset(body));
 }
 
 Matrix6Xd bias_wrench(const Kinematics& kin, const std::vector<Matrix6d>& inertia) {
@@ -37,8 +37,7 @@ Matrix6Xd bias_wrench(const Kinematics& kin, const std::vector<Matrix6d>& inerti
 Matrix6Xd gravity_wrench(const Model& model, const Kinematics& kin) {
   Matrix6Xd wrench(6, model.body_count());
   for (int b = 0; b < model.body_count(); ++b) {
-    wrench.col(b) =
-        wrench_of_force(model.bodies[b].mass * model.gravity, kin.centre_offset(b));
+    wrench.col(b) = wrench_of_force(model.bodies[b].mass * model.gravity, kin.centre_offset(b));
   }
   return wrench;
 }
@@ -66,8 +65,7 @@ StepSystem step_system(const Model& model, const State& state, const Kinematics&
     system.op.diagonal[k] = h * hinge.damping + h * h * hinge.stiffness;
   }
 
-  system.wrench =
-      h * (gravity_wrench(model, kin) - bias_wrench(kin, system.inertia));
+  system.wrench = h * (gravity_wrench(model, kin) - bias_wrench(kin, system.inertia));
   for (int b = 0; b < model.body_count(); ++b) {
     system.wrench.col(b) += system.inertia[b] * kin.twist.col(b);
   }
@@ -77,8 +75,8 @@ StepSystem step_system(const Model& model, const State& state, const Kinematics&
   const Eigen::Vector3d offset = kin.centre_offset(last);
   system.wrench.col(last) += h * wrench_of_force(tip.value, offset);
   if (tip.rate != 0) {
-    system.op.inertia[last] += point_operator(
-        Eigen::Matrix3d::Zero(), h * tip.rate * Eigen::Matrix3d::Identity(), offset);
+    system.op.inertia[last] +=
+        point_operator(Eigen::Matrix3d::Zero(), h * tip.rate * Eigen::Matrix3d::Identity(), offset);
   }
   return system;
 }

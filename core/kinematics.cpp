@@ -65,8 +65,7 @@ void update_velocities(const Model& model, const Eigen::VectorXd& qdot, Kinemati
   kin.bias_twist.resize(6, n);
   Vector6d twist = kin.axis.leftCols<root_dofs>() * qdot.head<root_dofs>();
   // The root's translation axes stand still; its rotation axes turn and move with the body.
-  Vector6d bias = cross_motion(
-      twist, Vector6d(kin.axis.middleCols<3>(3) * qdot.segment<3>(3)));
+  Vector6d bias = cross_motion(twist, Vector6d(kin.axis.middleCols<3>(3) * qdot.segment<3>(3)));
   kin.twist.col(0) = twist;
   kin.bias_twist.col(0) = bias;
   for (int b = 1; b < n; ++b) {

@@ -270,8 +270,8 @@ int v2_of(const Diagram& diagram) {
   }
   int v2 = 0;
   for (const Passage& first : passages) {
+    if (first.over) continue;
     const int a = first.crossing;
-    if (first.over || over_at[a] < under_at[a]) continue;
     for (int k = under_at[a] + 1; k < over_at[a]; ++k) {
       const int b = passages[k].crossing;
       if (passages[k].over && under_at[b] > over_at[a]) v2 += diagram.sign[a] * diagram.sign[b];

@@ -34,8 +34,8 @@ double Model::length() const {
 std::vector<JointName> joint_names(const Model& model) {
   const int width = model.body_count() > 100 ? 3 : 2;
   std::vector<JointName> names;
-  names.push_back({"root",
-                   {"root_x", "root_y", "root_z", "root_rot_x", "root_rot_y", "root_rot_z"}});
+  names.push_back(
+      {"root", {"root_x", "root_y", "root_z", "root_rot_x", "root_rot_y", "root_rot_z"}});
   for (int b = 1; b < model.body_count(); ++b) {
     const Body& body = model.bodies[b];
     const std::string number = "j" + padded(b, width);
@@ -78,8 +78,8 @@ Model make_hagfish(const Specimen& specimen, const Scene& scene) {
   std::vector<double> radius(n);
   double squares = 0;
   for (int b = 0; b < n; ++b) {
-    radius[b] = profile(specimen.station, specimen.circumference, (b + 0.5) / n) /
-                (2 * std::numbers::pi);
+    radius[b] =
+        profile(specimen.station, specimen.circumference, (b + 0.5) / n) / (2 * std::numbers::pi);
     squares += radius[b] * radius[b];
   }
 
@@ -100,7 +100,8 @@ Model make_hagfish(const Specimen& specimen, const Scene& scene) {
       append_body(model, body, {Axis::y, Axis::z});
       const double measured =
           profile(specimen.station, specimen.bending_limit, static_cast<double>(b) / n);
-      const double limit = std::min(measured * span / specimen.bending_span, settings.largest_limit);
+      const double limit =
+          std::min(measured * span / specimen.bending_span, settings.largest_limit);
       for (int k = 1; k <= 2; ++k) {
         set_hinge(model.hinges[model.hinges.size() - k], limit, settings.bending_stiffness / span,
                   settings.bending_damping / span);

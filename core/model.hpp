@@ -15,12 +15,12 @@
 namespace hagfish {
 
 struct Body {
-  double mass = 0;                                     ///< g
-  double length = 0;                                   ///< cm
-  double radius = 0;                                   ///< of the skin, cm
-  Eigen::Vector3d inertia = Eigen::Vector3d::Zero();   ///< about the centre, body axes, g cm^2
-  int first_dof = 0;                                   ///< index of its first velocity
-  int dofs = 0;                                        ///< number of its velocities
+  double mass = 0;                                    ///< g
+  double length = 0;                                  ///< cm
+  double radius = 0;                                  ///< of the skin, cm
+  Eigen::Vector3d inertia = Eigen::Vector3d::Zero();  ///< about the centre, body axes, g cm^2
+  int first_dof = 0;                                  ///< index of its first velocity
+  int dofs = 0;                                       ///< number of its velocities
 };
 
 enum class Axis { x = 0, y = 1, z = 2 };

@@ -110,9 +110,22 @@ struct TimeSettings {
 
 /// A run that passes one of these is stopped: something is wrong, s. `design limits`, not physics.
 struct GuardSettings {
-  double penetration = 0.5;       ///< cm
-  double limit_violation = 0.2;   ///< rad
-  double speed = 1e4;             ///< of any body centre, cm/s
+  double penetration = 0.5;      ///< cm
+  double limit_violation = 0.2;  ///< rad
+  double speed = 1e4;            ///< of any body centre, cm/s
+};
+
+/// What a run of the scene must show; `hagfish check` holds a log against it.
+struct ExpectSettings {
+  std::string knot;                   ///< held from tightening to release, "3_1"; "" for no knot
+  double slide_distance = 0;          ///< headward travel of the knot's head end while sliding, cm
+  double speed_share = 0.95;          ///< of sliding steps that meet Eq. 6 without slack
+  double penetration = 0.0015;        ///< deepest at any step, cm
+  double limit_violation = 1.745e-5;  ///< largest at any step, rad (0.001 degrees)
+  double head_drift = 1e-6;           ///< largest at any step while clamped, cm
+  double kkt = 1e-8;                  ///< largest scaled KKT residual of any step
+  double force_balance = 1e-9;        ///< |H (q̇ - q̇*) - h Σ f| of its scale, every frame
+  double energy = 1e-6;               ///< imbalance of the ledger, of the energy that passed
 };
 
 struct Scene {
@@ -130,6 +143,7 @@ struct Scene {
   KnotSettings knot;
   TimeSettings time;
   GuardSettings guard;
+  ExpectSettings expect;
 };
 
 }  // namespace hagfish

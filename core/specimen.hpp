@@ -10,9 +10,9 @@ namespace hagfish {
 /// A measured specimen (paper, Table 1). Profiles are linear between stations and constant outside.
 struct Specimen {
   std::string name;
-  double length = 0;                  ///< head to tail, cm
-  double mass = 0;                    ///< whole body, g
-  std::vector<double> station;        ///< where the profiles were measured, fraction of length, rising
+  double length = 0;            ///< head to tail, cm
+  double mass = 0;              ///< whole body, g
+  std::vector<double> station;  ///< where the profiles were measured, fraction of length, rising
   std::vector<double> circumference;  ///< at the stations, cm
   std::vector<double> bending_limit;  ///< at the stations, rad; see bending_span
   /// Length of body over which one bending limit was read, cm. The limits bound each axis of a

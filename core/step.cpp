@@ -124,8 +124,7 @@ Eigen::VectorXd constrained_velocity(const Model& model, const Kinematics& kin,
 
 /// Eq. 3 or Eq. 4 on the rows chosen, as one small problem in the multipliers.
 Eigen::VectorXd solve_multipliers(const BoxQp& qp, const std::vector<Row>& rows,
-                                  BoxQpSolver& solver, const WarmStart& warm,
-                                  StepSolution& step) {
+                                  BoxQpSolver& solver, const WarmStart& warm, StepSolution& step) {
   const bool bilateral = std::all_of(rows.begin(), rows.end(),
                                      [](const Row& row) { return row.kind == RowKind::head; });
   BoxQpSolution solution;
@@ -141,8 +140,7 @@ Eigen::VectorXd solve_multipliers(const BoxQp& qp, const std::vector<Row>& rows,
     }
     const auto begin = std::chrono::steady_clock::now();
     solution = solver.solve(qp, start);
-    step.qp_time +=
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    step.qp_time += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   }
   step.iterations += solution.iterations;
   if (solution.status != SolveStatus::solved) {
@@ -167,8 +165,8 @@ Situation observe(const Model& model, const State& state, const Scene& scene) {
   }
   for (int k = root_dofs; k < model.nv(); ++k) {
     const Hinge& hinge = model.hinges[k - root_dofs];
-    s.limit_violation = std::max(
-        {s.limit_violation, hinge.lower - state.q[k + 1], state.q[k + 1] - hinge.upper});
+    s.limit_violation =
+        std::max({s.limit_violation, hinge.lower - state.q[k + 1], state.q[k + 1] - hinge.upper});
   }
   return s;
 }
@@ -211,8 +209,8 @@ StepSolution solve_step(const Model& model, const State& state, const Situation&
       step.qdot = constrained_velocity(model, kin, factor, step.system, step.rows, step.lambda);
     }
     const Matrix6Xd twist = body_twists(model, kin, step.qdot);
-    const auto violated = std::stable_partition(
-        waiting.begin(), waiting.end(), [&](const Row& row) {
+    const auto violated =
+        std::stable_partition(waiting.begin(), waiting.end(), [&](const Row& row) {
           return row_velocity(row, kin, twist, step.qdot) >= row.rhs - lazy_tolerance;
         });
     complete = violated == waiting.end();
@@ -235,7 +233,8 @@ StepSolution solve_step(const Model& model, const State& state, const Situation&
   const Eigen::VectorXd impulse = h * step.force.total();
   const Eigen::VectorXd change =
       multiply(model, kin, step.system.op, step.qdot - step.unconstrained);
-  const double scale = std::max(impulse.lpNorm<Eigen::Infinity>(), change.lpNorm<Eigen::Infinity>());
+  const double scale =
+      std::max(impulse.lpNorm<Eigen::Infinity>(), change.lpNorm<Eigen::Infinity>());
   step.stationarity = scale > 0 ? (change - impulse).lpNorm<Eigen::Infinity>() / scale : 0;
   if (m > 0) {
     step.kkt = kkt_residuals(qp, step.lambda, step.excess);

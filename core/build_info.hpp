@@ -1,0 +1,16 @@
+// What was built, from what, with what: written to every log.
+#pragma once
+
+#include <string>
+
+namespace hagfish {
+
+std::string build_version();  ///< of the project
+std::string
+build_revision();  ///< git revision, "+" where the tree had changes, "unknown" outside git
+std::string build_compiler();  ///< name, version, flags
+
+/// "name version; ..." of the libraries that bear on results.
+std::string build_libraries();
+
+}  // namespace hagfish

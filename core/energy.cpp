@@ -1,0 +1,65 @@
+#include "core/energy.hpp"
+
+namespace hagfish {
+namespace {
+
+void set_energies(const Model& model, const State& state, const Kinematics& kin,
+                  EnergyLedger& ledger) {
+  ledger.kinetic = kinetic_energy(body_inertias(model, kin), kin.twist);
+  ledger.elastic = elastic_energy(model, state.q);
+  ledger.gravity = gravity_energy(model, kin);
+}
+
+/// Power lost to drag and damping at velocity `v`, erg/s.
+double dissipation(const Model& model, const Kinematics& kin, const Matrix6Xd& twist,
+                   const Eigen::VectorXd& v) {
+  double power = 0;
+  for (int b = 0; b < model.body_count(); ++b) {
+    power += twist.col(b).dot(drag_operator(model, kin, b) * twist.col(b));
+  }
+  for (int k = root_dofs; k < model.nv(); ++k) {
+    power += model.hinges[k - root_dofs].damping * v[k] * v[k];
+  }
+  return power;
+}
+
+}  // namespace
+
+EnergyLedger open_ledger(const Model& model, const State& state, const Kinematics& kin) {
+  EnergyLedger ledger;
+  set_energies(model, state, kin, ledger);
+  ledger.initial = ledger.kinetic + ledger.elastic + ledger.gravity;
+  return ledger;
+}
+
+void book_step(const Model& model, const State& state, const Kinematics& kin,
+               const StepSolution& solution, const State& next, const Kinematics& next_kin,
+               double h, EnergyLedger& ledger) {
+  const Eigen::VectorXd& v = solution.qdot;
+  const Matrix6Xd twist = body_twists(model, kin, v);
+  const int last = model.body_count() - 1;
+  ledger.work_tip += h * solution.tip.dot(point_velocity(twist.col(last), kin.centre_offset(last)));
+  ledger.work_thigmotaxis += h * solution.force.thigmotaxis.dot(v);
+  ledger.work_contact += h * solution.force.contact.dot(v);
+  ledger.work_limit += h * solution.force.limit.dot(v);
+  ledger.work_head += h * solution.force.head.dot(v);
+  ledger.work_wall += h * solution.force.wall.dot(v);
+  ledger.dissipated += h * dissipation(model, kin, twist, v);
+
+  const std::vector<Matrix6d>& inertia = solution.system.inertia;
+  ledger.integrator_inertia -= kinetic_energy(inertia, body_twists(model, kin, v - state.qdot));
+  double stretch = 0;
+  for (int k = root_dofs; k < model.nv(); ++k) {
+    stretch += model.hinges[k - root_dofs].stiffness * v[k] * v[k];
+  }
+  const Matrix6Xd weight = gravity_wrench(model, kin);
+  const double fall = h * weight.cwiseProduct(twist).sum();
+  const double before = gravity_energy(model, kin);
+  const double moved = kinetic_energy(inertia, twist);
+  const double bias = h * bias_wrench(kin, inertia).cwiseProduct(twist).sum();
+  set_energies(model, next, next_kin, ledger);
+  ledger.integrator_potential += -0.5 * h * h * stretch + fall + ledger.gravity - before;
+  ledger.integrator_coriolis += ledger.kinetic - moved - bias;
+}
+
+}  // namespace hagfish

@@ -1,0 +1,220 @@
+#include "core/hdf5_writer.hpp"
+
+#include <functional>
+#include <numeric>
+
+namespace hagfish {
+namespace {
+
+// Rows a chunk: a second of frames at 50 a second; compression gains little beyond.
+constexpr hsize_t chunk_rows = 64;
+constexpr int deflate_level = 4;
+
+H5::StrType text_type() {
+  H5::StrType type(H5::PredType::C_S1, H5T_VARIABLE);
+  type.setCset(H5T_CSET_UTF8);
+  return type;
+}
+
+void text_attribute(H5::H5Object& object, const std::string& name, const std::string& value) {
+  if (object.attrExists(name)) {
+    object.removeAttr(name);
+  }
+  object.createAttribute(name, text_type(), H5::DataSpace(H5S_SCALAR)).write(text_type(), value);
+}
+
+void describe(H5::DataSet& set, const Meaning& meaning) {
+  text_attribute(set, "unit", meaning.unit);
+  text_attribute(set, "description", meaning.description);
+}
+
+template <class T>
+const H5::PredType& native();
+template <>
+const H5::PredType& native<double>() {
+  return H5::PredType::NATIVE_DOUBLE;
+}
+template <>
+const H5::PredType& native<std::int32_t>() {
+  return H5::PredType::NATIVE_INT32;
+}
+template <>
+const H5::PredType& native<std::int64_t>() {
+  return H5::PredType::NATIVE_INT64;
+}
+template <>
+const H5::PredType& native<std::uint8_t>() {
+  return H5::PredType::NATIVE_UINT8;
+}
+
+std::size_t size_of(const std::vector<hsize_t>& shape) {
+  return std::accumulate(shape.begin(), shape.end(), hsize_t{1}, std::multiplies<>());
+}
+
+}  // namespace
+
+template <class T>
+Series<T>::Series(H5::DataSet set, std::vector<hsize_t> row_shape)
+    : set_(std::move(set)), row_shape_(std::move(row_shape)), row_size_(size_of(row_shape_)) {}
+
+template <class T>
+void Series<T>::append(const T* row, std::size_t count) {
+  if (count != row_size_) {
+    throw std::logic_error("log row has the wrong size");
+  }
+  waiting_.insert(waiting_.end(), row, row + count);
+  if (waiting_.size() >= chunk_rows * row_size_) {
+    flush();
+  }
+}
+
+template <class T>
+void Series<T>::flush() {
+  const hsize_t rows = waiting_.size() / row_size_;
+  if (rows == 0) {
+    return;
+  }
+  std::vector<hsize_t> extent{written_ + rows};
+  std::vector<hsize_t> count{rows};
+  std::vector<hsize_t> offset(row_shape_.size() + 1, 0);
+  offset[0] = written_;
+  extent.insert(extent.end(), row_shape_.begin(), row_shape_.end());
+  count.insert(count.end(), row_shape_.begin(), row_shape_.end());
+  guarded(set_.getFileName(), "write " + set_.getObjName(), [&] {
+    set_.extend(extent.data());
+    const H5::DataSpace space = set_.getSpace();
+    space.selectHyperslab(H5S_SELECT_SET, count.data(), offset.data());
+    // An enumeration is written as itself: its memory is that of its base type.
+    const H5::DataType stored = set_.getDataType();
+    const H5::DataType type = stored.getClass() == H5T_ENUM ? stored : H5::DataType(native<T>());
+    set_.write(waiting_.data(), type, H5::DataSpace(static_cast<int>(count.size()), count.data()),
+               space);
+  });
+  written_ += rows;
+  waiting_.clear();
+}
+
+template class Series<double>;
+template class Series<std::int32_t>;
+template class Series<std::int64_t>;
+template class Series<std::uint8_t>;
+
+Hdf5Writer::Hdf5Writer(const std::filesystem::path& file) : file_(file.string()) {
+  H5::Exception::dontPrint();
+  guarded(file_, "create", [&] { h5_ = H5::H5File(file_, H5F_ACC_TRUNC); });
+  open_ = true;
+}
+
+Hdf5Writer::~Hdf5Writer() {
+  try {
+    close();
+  } catch (const FileError&) {
+    // Reached only while another failure unwinds: that one is reported.
+  }
+}
+
+void Hdf5Writer::group(const std::string& path) {
+  guarded(file_, "create " + path, [&] { h5_.createGroup(path); });
+}
+
+void Hdf5Writer::root_attribute(const std::string& name, const std::string& value) {
+  guarded(file_, "write attribute " + name, [&] {
+    H5::Group root = h5_.openGroup("/");
+    text_attribute(root, name, value);
+  });
+}
+
+void Hdf5Writer::root_attribute(const std::string& name, int value) {
+  guarded(file_, "write attribute " + name, [&] {
+    h5_.openGroup("/")
+        .createAttribute(name, H5::PredType::NATIVE_INT32, H5::DataSpace(H5S_SCALAR))
+        .write(H5::PredType::NATIVE_INT, &value);
+  });
+}
+
+void Hdf5Writer::numbers(const std::string& path, const Eigen::VectorXd& values,
+                         const Meaning& meaning) {
+  guarded(file_, "write " + path, [&] {
+    const hsize_t size = values.size();
+    H5::DataSet set = h5_.createDataSet(path, H5::PredType::NATIVE_DOUBLE, H5::DataSpace(1, &size));
+    set.write(values.data(), H5::PredType::NATIVE_DOUBLE);
+    describe(set, meaning);
+  });
+}
+
+void Hdf5Writer::text(const std::string& path, const std::string& value) {
+  guarded(file_, "write " + path, [&] {
+    h5_.createDataSet(path, text_type(), H5::DataSpace(H5S_SCALAR)).write(value, text_type());
+  });
+}
+
+void Hdf5Writer::texts(const std::string& path, const std::vector<std::string>& values) {
+  std::vector<const char*> pointers;
+  for (const std::string& value : values) {
+    pointers.push_back(value.c_str());
+  }
+  guarded(file_, "write " + path, [&] {
+    const hsize_t size = values.size();
+    h5_.createDataSet(path, text_type(), H5::DataSpace(1, &size))
+        .write(pointers.data(), text_type());
+  });
+}
+
+H5::DataSet Hdf5Writer::series(const std::string& path, const H5::DataType& type,
+                               const std::vector<hsize_t>& row_shape, const Meaning& meaning) {
+  std::vector<hsize_t> now{0};
+  std::vector<hsize_t> most{H5S_UNLIMITED};
+  std::vector<hsize_t> chunk{chunk_rows};
+  for (std::vector<hsize_t>* shape : {&now, &most, &chunk}) {
+    shape->insert(shape->end(), row_shape.begin(), row_shape.end());
+  }
+  return guarded(file_, "create " + path, [&] {
+    H5::DSetCreatPropList layout;
+    layout.setChunk(static_cast<int>(chunk.size()), chunk.data());
+    layout.setShuffle();
+    layout.setDeflate(deflate_level);
+    H5::DataSet set = h5_.createDataSet(
+        path, type, H5::DataSpace(static_cast<int>(now.size()), now.data(), most.data()), layout);
+    describe(set, meaning);
+    return set;
+  });
+}
+
+Series<double> Hdf5Writer::doubles(const std::string& path, std::vector<hsize_t> row_shape,
+                                   const Meaning& meaning) {
+  return {series(path, H5::PredType::NATIVE_DOUBLE, row_shape, meaning), std::move(row_shape)};
+}
+
+Series<std::int32_t> Hdf5Writer::ints(const std::string& path, std::vector<hsize_t> row_shape,
+                                      const Meaning& meaning) {
+  return {series(path, H5::PredType::NATIVE_INT32, row_shape, meaning), std::move(row_shape)};
+}
+
+Series<std::int64_t> Hdf5Writer::longs(const std::string& path, const Meaning& meaning) {
+  return {series(path, H5::PredType::NATIVE_INT64, {}, meaning), {}};
+}
+
+Series<std::uint8_t> Hdf5Writer::choices(const std::string& path,
+                                         const std::vector<std::string>& names,
+                                         const Meaning& meaning) {
+  H5::EnumType type(H5::PredType::NATIVE_UINT8);
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    std::uint8_t value = static_cast<std::uint8_t>(k);
+    type.insert(names[k], &value);
+  }
+  return {series(path, type, {}, meaning), {}};
+}
+
+void Hdf5Writer::flush() {
+  guarded(file_, "write", [&] { h5_.flush(H5F_SCOPE_GLOBAL); });
+}
+
+void Hdf5Writer::close() {
+  if (open_) {
+    open_ = false;
+    flush();
+    guarded(file_, "close", [&] { h5_.close(); });
+  }
+}
+
+}  // namespace hagfish

@@ -1,0 +1,33 @@
+// Text of files and options on its way in, and of the errors about it.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hagfish {
+
+/// One `--set KEY=VALUE` of the command line.
+struct Override {
+  std::string key;    ///< dotted
+  std::string value;  ///< as typed; TOML, or the bare text of a string
+};
+
+/// Splits "KEY=VALUE" at the first '='. Throws InputError where there is none or KEY has an empty
+/// part.
+Override parse_override(std::string_view assignment);
+
+/// The whole of a text file. Throws InputError where `file` is missing, a directory or unreadable.
+std::string read_text_file(const std::filesystem::path& file);
+
+/// Throws InputError with `text` on one line: control characters become spaces.
+[[noreturn]] void throw_input_error(std::string text);
+
+/// The first 60 bytes or so of `text`, in whole UTF-8 characters, with dots for what is left off.
+std::string shortened(const std::string& text);
+
+/// The candidate with the least edit distance to `word`; empty where there is no candidate.
+std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
+
+}  // namespace hagfish

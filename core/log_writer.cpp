@@ -1,0 +1,163 @@
+#include "core/log_writer.hpp"
+
+#include <fmt/chrono.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <fstream>
+
+#include "core/build_info.hpp"
+#include "core/log_frame.hpp"
+
+namespace hagfish {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A crash of the machine loses at most this many frames.
+constexpr std::int64_t flush_interval = 64;
+
+std::string current_time() {
+  const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", now);
+}
+
+/// The processor's name, from the system; empty where it does not say.
+std::string cpu_name() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);) {
+    if (line.starts_with("model name")) {
+      return line.substr(line.find(':') + 2);
+    }
+  }
+  return "";
+}
+
+void write_header(const LogHeader& header, Hdf5Writer& h5) {
+  h5.root_attribute("format", log_format);
+  h5.root_attribute("format_version", log_format_version);
+  h5.root_attribute("creator", "hagfish");
+  h5.root_attribute("creator_version", build_version());
+  h5.root_attribute("git_revision", build_revision());
+  h5.root_attribute("created", current_time());
+  h5.root_attribute("command", header.command);
+  h5.root_attribute("scene", header.scene);
+  h5.root_attribute("libraries", header.libraries);
+  h5.root_attribute("compiler", build_compiler());
+  h5.root_attribute("cpu", cpu_name());
+  h5.root_attribute("status", "running");
+  h5.group("/mjcf");
+  for (const auto& [name, text] : header.mjcf) {
+    h5.text("/mjcf/" + name, text);
+  }
+}
+
+void write_model(const Model& model, Hdf5Writer& h5) {
+  const int n = model.body_count();
+  Eigen::VectorXd mass(n), length(n), radius(n);
+  for (int b = 0; b < n; ++b) {
+    mass[b] = model.bodies[b].mass;
+    length[b] = model.bodies[b].length;
+    radius[b] = model.bodies[b].radius;
+  }
+  Eigen::VectorXd lower = Eigen::VectorXd::Constant(model.nv(), -INFINITY);
+  Eigen::VectorXd upper = -lower;
+  for (int k = root_dofs; k < model.nv(); ++k) {
+    lower[k] = model.hinges[k - root_dofs].lower;
+    upper[k] = model.hinges[k - root_dofs].upper;
+  }
+  std::vector<std::string> joints, dofs;
+  for (const JointName& joint : joint_names(model)) {
+    joints.push_back(joint.joint);
+    dofs.insert(dofs.end(), joint.dofs.begin(), joint.dofs.end());
+  }
+  h5.group("/model");
+  h5.numbers("/model/mass", mass, {"g", "mass of each body, head to tail"});
+  h5.numbers("/model/length", length, {"cm", "length of each body"});
+  h5.numbers("/model/radius", radius, {"cm", "radius of the skin at each body"});
+  h5.texts("/model/joint_name", joints);
+  h5.texts("/model/dof_name", dofs);
+  h5.numbers("/model/limit_lower", lower, {"rad", "lower joint limit, -inf where none"});
+  h5.numbers("/model/limit_upper", upper, {"rad", "upper joint limit, +inf where none"});
+}
+
+}  // namespace
+
+struct LogWriter::Contents {
+  Contents(const fs::path& file, const Model& model, const Scene& scene)
+      : h5(file),
+        frames(h5),
+        steps(h5),
+        knot(scene.knot),
+        h(scene.time.step),
+        stride(std::max<std::int64_t>(1, std::llround(scene.time.frame_interval / h))) {
+    declare_frames(model, h5, frames);
+    declare_steps(h5, steps, h);
+  }
+  void flush() {
+    frames.flush();
+    steps.flush();
+    h5.flush();
+  }
+
+  Hdf5Writer h5;
+  LogTable<Frame> frames;
+  LogTable<StepRecord> steps;
+  KnotSettings knot;
+  double h;
+  std::int64_t stride;  // steps a frame
+  std::int64_t frame_count = 0;
+  Worst worst;
+};
+
+LogWriter::LogWriter(fs::path file, bool replace, const LogHeader& header, const Model& model,
+                     const Scene& scene)
+    : file_(std::move(file)), partial_(file_.string() + ".part") {
+  std::error_code error;
+  if (fs::exists(file_, error) && !replace) {
+    throw FileError(file_.string() + ": already exists (--force replaces it)");
+  }
+  contents_ = std::make_unique<Contents>(partial_, model, scene);
+  write_header(header, contents_->h5);
+  write_model(model, contents_->h5);
+  contents_->flush();
+}
+
+LogWriter::~LogWriter() {
+  if (contents_) {
+    contents_.reset();
+    std::error_code error;
+    fs::remove(partial_, error);
+  }
+}
+
+void LogWriter::write(const StepRecord& record, double wall_time) {
+  Contents& c = *contents_;
+  c.worst.take(record);
+  c.steps.append(record);
+  if (record.step % c.stride != 0) {
+    return;
+  }
+  c.frames.append({record, thigmotaxis_rows_of(record.solution, c.h),
+                   knot_type(record.situation.kin.centre, c.knot.votes, c.knot.seed), c.worst,
+                   wall_time});
+  c.worst = {};
+  if (++c.frame_count % flush_interval == 0) {
+    c.flush();
+  }
+}
+
+void LogWriter::finish(const std::string& status) {
+  contents_->flush();
+  contents_->h5.root_attribute("status", status);
+  contents_->h5.close();
+  contents_.reset();
+  std::error_code error;
+  fs::rename(partial_, file_, error);
+  if (error) {
+    throw FileError(file_.string() + ": cannot be given its name: " + error.message());
+  }
+}
+
+}  // namespace hagfish

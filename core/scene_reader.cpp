@@ -1,0 +1,167 @@
+#include "core/scene_reader.hpp"
+
+#include "core/builtin_files.hpp"
+#include "core/input_text.hpp"
+#include "core/scene_fields.hpp"
+#include "core/toml_reader.hpp"
+#include "core/toml_writer.hpp"
+
+namespace hagfish {
+namespace {
+
+constexpr std::string_view specimen_prefix = "specimen.";
+
+Specimen read_specimen_table(TableReader& table) {
+  Specimen s;
+  table.require_all();
+  specimen_fields(table, s);
+  table.finish();
+  for (std::size_t i = 1; i < s.station.size(); ++i) {
+    if (s.station[i] <= s.station[i - 1]) {
+      table.fail("station", "must rise; station " + std::to_string(i + 1) + " does not");
+    }
+  }
+  const std::string count = std::to_string(s.station.size());
+  if (s.circumference.size() != s.station.size()) {
+    table.fail("circumference", "must have as many values as station, " + count);
+  }
+  if (s.bending_limit.size() != s.station.size()) {
+    const bool radians = table.has("bending_limit_rad");
+    table.fail(radians ? "bending_limit_rad" : "bending_limit_deg",
+               "must have as many values as station, " + count);
+  }
+  if (s.bending_span > s.length) {
+    table.fail("bending_span", "must not exceed the length, " + shortest(s.length));
+  }
+  return s;
+}
+
+/// The text of the specimen file that the scene of `root` names, and its name in errors.
+std::pair<std::string, std::string> specimen_file(const TableReader& root, const std::string& name,
+                                                  const std::filesystem::path* scene_file) {
+  if (root.was_set("specimen") || scene_file) {
+    std::filesystem::path file = name;
+    if (!root.was_set("specimen")) file = scene_file->parent_path() / file;
+    try {
+      return {read_text_file(file), file.string()};
+    } catch (const InputError& error) {
+      root.fail("specimen", error.what());
+    }
+  }
+  const auto text = builtin_file(name);
+  if (!text) root.fail("specimen", "no such built-in file");
+  return {std::string(*text), name + " (built in)"};
+}
+
+/// Reads `specimen` of the scene, a table or a file name, which goes to `name`.
+Specimen read_scene_specimen(TableReader& root, const std::filesystem::path* scene_file,
+                             const std::vector<Override>& changes, std::string& name) {
+  if (root.is_table("specimen")) {
+    Specimen specimen;
+    root.table("specimen", [&](TableReader& table) { specimen = read_specimen_table(table); });
+    return specimen;
+  }
+  if (!root.has("specimen")) root.fail("specimen", "is missing: a file name or a table");
+  root.string("specimen", name);
+  const auto [text, file] = specimen_file(root, name, scene_file);
+  TableReader table(text, file);
+  for (const auto& [key, value] : changes) {
+    table.set({key.substr(specimen_prefix.size()), value}, key);
+  }
+  return read_specimen_table(table);
+}
+
+/// Checks `file` and turns it into the script it spells, for an animal of `length` (cm).
+ScriptSettings resolve_script(const TableReader& root, const ScriptFile& file, double length) {
+  using Kind = ScriptSettings::Kind;
+  ScriptSettings script = file.settings;
+  if (script.kind == Kind::none) return script;
+  const bool position = script.kind == Kind::position;
+  if (file.unit != KnotUnit::unsaid && position == (file.unit == KnotUnit::dyn)) {
+    root.fail("script.unit",
+              position ? "positions are in \"L\" or \"cm\"" : "forces are in \"dyn\"");
+  }
+  if (file.rows.size() < 2) root.fail("script.knots", "a script needs two knots or more");
+  if (file.rows[0][0] != 0) root.fail_element("script.knots", 0, "knot 1 must be at time 0");
+  const bool lengths = position && file.unit != KnotUnit::cm;
+  for (std::size_t i = 0; i < file.rows.size(); ++i) {
+    const auto& row = file.rows[i];
+    if (i > 0 && row[0] <= file.rows[i - 1][0]) {
+      root.fail_element("script.knots", i,
+                        "knot " + std::to_string(i + 1) + " must be later than the one before it");
+    }
+    script.knots.push_back({row[0], row.tail<3>() * (lengths ? length : 1)});
+  }
+  if (position && script.spring == 0) root.fail("script.spring", "must be positive");
+  if (position && script.largest_force == 0) root.fail("script.largest_force", "must be positive");
+  return script;
+}
+
+void check_times(const TableReader& root, const TimeSettings& time) {
+  const std::string step = "must not be less than time.step, " + shortest(time.step);
+  if (time.frame_interval < time.step) root.fail("time.frame_interval", step);
+  if (time.duration < time.step) root.fail("time.duration", step);
+}
+
+ResolvedScene read(const std::string& text, const std::string& name,
+                   const std::filesystem::path* scene_file,
+                   const std::vector<std::string>& overrides) {
+  TableReader root(text, name);
+  std::vector<Override> specimen_changes;
+  for (const auto& assignment : overrides) {
+    const Override change = parse_override(assignment);
+    if (change.key.starts_with(specimen_prefix)) {
+      specimen_changes.push_back(change);
+    } else {
+      root.set(change, change.key);
+    }
+  }
+  // Into the scene where it has the table; into the file that it names where not.
+  if (root.is_table("specimen")) {
+    for (const auto& change : specimen_changes) root.set(change, change.key);
+  }
+  ResolvedScene result;
+  ScriptFile script;
+  result.specimen = read_scene_specimen(root, scene_file, specimen_changes, result.scene.specimen);
+  scene_fields(root, result.scene, script);
+  root.finish();
+  result.scene.script = resolve_script(root, script, result.specimen.length);
+  check_times(root, result.scene.time);
+  return result;
+}
+
+}  // namespace
+
+Specimen read_specimen(const std::filesystem::path& file) {
+  TableReader table(read_text_file(file), file.string());
+  return read_specimen_table(table);
+}
+
+ResolvedScene read_scene(const std::filesystem::path& file,
+                         const std::vector<std::string>& overrides) {
+  return read(read_text_file(file), file.string(), &file, overrides);
+}
+
+ResolvedScene read_scene_text(const std::string& text, const std::string& name,
+                              const std::vector<std::string>& overrides) {
+  return read(text, name, nullptr, overrides);
+}
+
+std::string scene_to_toml(const Scene& scene, const Specimen& specimen) {
+  using Kind = ScriptSettings::Kind;
+  Scene fields = scene;  // the writer only reads them
+  Specimen animal = specimen;
+  ScriptFile script;
+  script.settings = scene.script;
+  // Positions in cm, as they are in memory: a division by the length would not undo to the bit.
+  script.unit = scene.script.kind == Kind::position ? KnotUnit::cm : KnotUnit::dyn;
+  for (const auto& knot : scene.script.knots) {
+    script.rows.emplace_back(knot.time, knot.value.x(), knot.value.y(), knot.value.z());
+  }
+  TomlWriter writer;
+  scene_fields(writer, fields, script);
+  writer.table("specimen", [&](TomlWriter& table) { specimen_fields(table, animal); });
+  return writer.text();
+}
+
+}  // namespace hagfish

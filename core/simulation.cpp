@@ -1,0 +1,84 @@
+#include "core/simulation.hpp"
+
+#include <fmt/format.h>
+
+#include <numbers>
+#include <utility>
+
+namespace hagfish {
+namespace {
+
+/// Stops a run whose state is beyond anything the scene can mean.
+void guard(const Model& model, const Situation& situation, const GuardSettings& limits) {
+  if (!situation.kin.centre.allFinite()) {
+    throw StepError("non-finite state");
+  }
+  if (situation.penetration > limits.penetration) {
+    throw StepError(fmt::format("penetration {:.3g} cm exceeds guard.penetration = {:g} cm",
+                                situation.penetration, limits.penetration));
+  }
+  if (situation.limit_violation > limits.limit_violation) {
+    constexpr double degree = std::numbers::pi / 180;
+    throw StepError(
+        fmt::format("a joint is {:.3g} deg past its limit, over guard.limit_violation_deg = {:g}",
+                    situation.limit_violation / degree, limits.limit_violation / degree));
+  }
+  for (int b = 0; b < model.body_count(); ++b) {
+    const double speed =
+        point_velocity(situation.kin.twist.col(b), situation.kin.centre_offset(b)).norm();
+    if (!(speed <= limits.speed)) {
+      throw StepError(fmt::format("body {} moves at {:.3g} cm/s, over guard.speed = {:g} cm/s", b,
+                                  speed, limits.speed));
+    }
+  }
+}
+
+}  // namespace
+
+Simulation start(const Model& model, const Scene& scene) {
+  return start_from(model, scene, rest_state(model), {}, 0);
+}
+
+Simulation start_from(const Model& model, const Scene& scene, State state,
+                      ControllerState controller, std::int64_t step) {
+  Simulation sim;
+  sim.step = step;
+  sim.state = std::move(state);
+  sim.controller = std::move(controller);
+  sim.situation = observe(model, sim.state, scene);
+  sim.ledger = open_ledger(model, sim.state, sim.situation.kin);
+  return sim;
+}
+
+bool finished(const Simulation& sim, const Scene& scene) {
+  // Half a step of slack: the time of a step is a product and may fall short by rounding.
+  const double time = time_of(sim, scene) + 0.5 * scene.time.step;
+  return time >= scene.time.duration ||
+         (sim.controller.phase == Phase::free &&
+          time >= sim.controller.phase_start + scene.controller.free_time);
+}
+
+StepRecord take_step(const Model& model, const Scene& scene, BoxQpSolver& solver, Simulation& sim) {
+  const double h = scene.time.step;
+  StepRecord record;
+  record.step = sim.step;
+  record.time = time_of(sim, scene);
+  record.control = decide(model, scene, sim.situation, record.time, sim.controller);
+  record.solution =
+      solve_step(model, sim.state, sim.situation, record.control, scene, solver, sim.warm);
+
+  State next{advance(sim.state.q, record.solution.qdot, h), record.solution.qdot};
+  Situation ahead = observe(model, next, scene);
+  guard(model, ahead, scene.guard);
+
+  record.ledger = sim.ledger;
+  book_step(model, sim.state, sim.situation.kin, record.solution, next, ahead.kin, h, sim.ledger);
+  record.head_drift = record.control.clamp_head ? head_drift(model, sim.situation.kin) : 0;
+  record.controller = sim.controller;
+  record.state = std::exchange(sim.state, std::move(next));
+  record.situation = std::exchange(sim.situation, std::move(ahead));
+  ++sim.step;
+  return record;
+}
+
+}  // namespace hagfish

@@ -1,0 +1,52 @@
+// A run of a scene, step by step: observe, decide, solve (Eqs. 1-4), advance (Eq. 2), book.
+#pragma once
+
+#include <cstdint>
+
+#include "core/controller.hpp"
+#include "core/energy.hpp"
+
+namespace hagfish {
+
+/// All that changes while a scene runs.
+struct Simulation {
+  std::int64_t step = 0;  ///< steps taken
+  State state;
+  Situation situation;  ///< of `state`
+  ControllerState controller;
+  WarmStart warm;
+  EnergyLedger ledger;
+};
+
+/// At rest, straight, at time 0.
+Simulation start(const Model& model, const Scene& scene);
+
+/// From a state of another run: `controller` says which phase it is in.
+Simulation start_from(const Model& model, const Scene& scene, State state,
+                      ControllerState controller, std::int64_t step);
+
+inline double time_of(const Simulation& sim, const Scene& scene) {
+  return static_cast<double>(sim.step) * scene.time.step;
+}
+
+/// The scene is over: the knot has been gone for long enough, or its duration has passed.
+bool finished(const Simulation& sim, const Scene& scene);
+
+/// What a step began with and did. `sim` has moved on by the time it is read.
+struct StepRecord {
+  std::int64_t step = 0;
+  double time = 0;  ///< s
+  State state;      ///< at `time`
+  Situation situation;
+  ControllerState controller;
+  Control control;
+  StepSolution solution;
+  EnergyLedger ledger;    ///< up to `time`
+  double head_drift = 0;  ///< cm; 0 while the head is free
+};
+
+/// Takes one step. Throws StepError, naming the cause, where it cannot; `sim` is then unchanged
+/// but for the controller.
+StepRecord take_step(const Model& model, const Scene& scene, BoxQpSolver& solver, Simulation& sim);
+
+}  // namespace hagfish

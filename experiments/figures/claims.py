@@ -1,0 +1,178 @@
+"""The paper's three claims about Figure 8, as numbers computed from the raw log.
+
+(a) joints behind the knot carry no force; (b) the force grows as the knot nears the head;
+(c) the force is smooth along the body and noisy in time, so that a few modes may hold it.
+Nothing is filtered. Forces are f_thigmo (Eq. 8) on the hinges, in dyn cm, in the sliding phase.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from hagfish_log import HagfishLog, LogError
+
+KINDS = {"X": "twist", "Y": "bend_y", "Z": "bend_z"}
+# A contact lies on a spline segment between two bodies and moves with the four nearest ones, so its
+# row may reach this many bodies beyond the one it is filed under.
+SPLINE_REACH = 2
+SHARES = (0.95, 0.99)
+SMOOTH = 0.25  # roughness, of white noise's 1
+LEAST_FRAMES = 12  # one to a block of the bootstrap
+
+
+@dataclass
+class Sliding:
+    """The sliding phase; rows are its frames."""
+
+    time: np.ndarray  # F, s
+    force: np.ndarray  # F x hinges, dyn cm
+    joint: np.ndarray  # joint of each hinge
+    kind: np.ndarray  # its kind
+    arc: np.ndarray  # arc length of each hinge, cm
+    spacing: float  # length of a body, cm
+    head_end: np.ndarray  # F, cm
+    tail_end: np.ndarray  # F, cm
+    last_body: np.ndarray  # F, the most tailward body of any thigmotaxis row, -1 where none
+    lambdas: np.ndarray  # F x 4, dyn
+
+    def axis(self, name: str) -> tuple[np.ndarray, np.ndarray]:
+        """Joint numbers (head 0, tail 50 for 100 bodies: two joints make one) and forces F x n."""
+        own = self.kind == KINDS[name]
+        return self.joint[own] // 2, self.force[:, own]
+
+
+def read_sliding(log: HagfishLog) -> Sliding:
+    frames = log.in_phase("slide")
+    ruled = np.all(log["/thigmotaxis/body_b"][frames] >= 0, axis=1) & np.isfinite(log["/knot/head_end"][frames])
+    if ruled.sum() < LEAST_FRAMES:
+        raise LogError(f"{log.path}: {ruled.sum()} sliding frames with thigmotaxis rows; Figure 8 needs {LEAST_FRAMES}")
+    dof, joint, kind = log.hinges()
+    return Sliding(log["/trajectory/time"][frames], log["/forces/thigmotaxis"][frames][:, dof], joint, kind,
+                   log.joint_arc()[joint], float(np.median(log["/model/length"])),
+                   log["/knot/head_end"][frames], log["/knot/tail_end"][frames],
+                   log["/thigmotaxis/body_b"][frames].max(axis=1), log["/thigmotaxis/lambda"][frames])
+
+
+def zero_behind(s: Sliding) -> dict[str, Any]:
+    """Claim (a): forces at hinges tailward of the last contact, and of the last row's own reach."""
+    ruled = (s.last_body >= 0) & np.isfinite(s.tail_end)
+    force, tail_end = np.abs(s.force[ruled]), s.tail_end[ruled]
+    behind_knot = s.arc[None, :] > tail_end[:, None]
+    beyond_row = s.joint[None, :] > s.last_body[ruled][:, None] + SPLINE_REACH
+    furthest = np.where(force > 0, s.arc[None, :], -np.inf).max(axis=1)
+    past = (furthest - tail_end)[np.isfinite(furthest)]
+    largest = lambda mask: float(force[mask].max()) if mask.any() else 0.0
+    unruled = s.force[s.last_body < 0]
+    return {"frames": int(ruled.sum()), "largest_force_dyn_cm": float(force.max(initial=0.0)),
+            "largest_behind_tail_end_dyn_cm": largest(behind_knot),
+            "nonzero_behind_tail_end": int((force[behind_knot] > 0).sum()),
+            "values_behind_tail_end": int(behind_knot.sum()),
+            "largest_beyond_reach_of_rows_dyn_cm": largest(beyond_row),
+            "nonzero_beyond_reach_of_rows": int((force[beyond_row] > 0).sum()),
+            "values_beyond_reach_of_rows": int(beyond_row.sum()),
+            "furthest_nonzero_past_tail_end_cm": float(past.max()) if past.size else 0.0,
+            "share_of_plane_zero": float((s.force == 0).mean()),
+            "largest_in_frames_without_rows_dyn_cm": float(np.abs(unruled).max()) if unruled.size else 0.0}
+
+
+def ranks(values: np.ndarray) -> np.ndarray:
+    """Ranks from 0, ties sharing their mean."""
+    _, group, count = np.unique(values, return_inverse=True, return_counts=True)
+    return (np.cumsum(count) - (count + 1) / 2)[group]
+
+
+def spearman(x: np.ndarray, y: np.ndarray) -> float:
+    """Rank correlation; 0 where one side is constant."""
+    a, b = ranks(x) - (len(x) - 1) / 2, ranks(y) - (len(y) - 1) / 2
+    scale = np.sqrt((a @ a) * (b @ b))
+    return float(a @ b / scale) if scale > 0 else 0.0
+
+
+def spearman_interval(x: np.ndarray, y: np.ndarray, draws: int = 1000) -> tuple[float, float]:
+    """95 % interval of the rank correlation by a moving-block bootstrap: neighbouring frames are not
+    independent, so whole stretches (a twelfth of the phase) are drawn."""
+    n, block = len(x), max(2, len(x) // LEAST_FRAMES)
+    starts = np.random.default_rng(8).integers(0, n - block + 1, size=(draws, -(-n // block)))
+    picks = (starts[:, :, None] + np.arange(block)).reshape(draws, -1)[:, :n]
+    low, high = np.percentile([spearman(x[pick], y[pick]) for pick in picks], [2.5, 97.5])
+    return float(low), float(high)
+
+
+def measures(s: Sliding) -> dict[str, np.ndarray]:
+    """Sizes of the force, frame by frame."""
+    active = np.maximum((s.force != 0).sum(axis=1), 1)
+    return {"rms over all hinges, dyn cm": np.sqrt((s.force**2).mean(axis=1)),
+            "sum of magnitudes, dyn cm": np.abs(s.force).sum(axis=1),
+            "rms over hinges in reach, dyn cm": np.sqrt((s.force**2).sum(axis=1) / active),
+            "sum of the multipliers / h, dyn": s.lambdas.sum(axis=1)}
+
+
+def larger_near_head(s: Sliding) -> dict[str, Any]:
+    """Claim (b): size of the force against the knot's head end."""
+    ruled = (s.last_body >= 0) & np.isfinite(s.head_end)
+    x = s.head_end[ruled]
+    result: dict[str, Any] = {"frames": int(ruled.sum()), "measures": {}}
+    near, far = x <= np.percentile(x, 100 / 3), x >= np.percentile(x, 200 / 3)
+    for name, all_frames in measures(s).items():
+        y = all_frames[ruled]
+        slope, intercept = np.polyfit(x, y, 1)
+        residual, spread = y - (slope * x + intercept), y - y.mean()
+        low, high = spearman_interval(x, y)
+        result["measures"][name] = {
+            "spearman_with_head_end": spearman(x, y), "spearman_95_low": low, "spearman_95_high": high,
+            "fit_slope_per_cm": float(slope), "fit_intercept": float(intercept),
+            "fit_r2": float(1 - residual @ residual / (spread @ spread)) if spread @ spread > 0 else 0.0,
+            "median_near_third": float(np.median(y[near])), "median_far_third": float(np.median(y[far]))}
+    return result
+
+
+def dct_matrix(n: int) -> np.ndarray:
+    """Orthonormal DCT-II; row k is the cosine with k half waves along the body."""
+    k, j = np.arange(n)[:, None], np.arange(n)[None, :]
+    matrix = np.sqrt(2 / n) * np.cos(np.pi * k * (2 * j + 1) / (2 * n))
+    matrix[0] /= np.sqrt(2)
+    return matrix
+
+
+def roughness(values: np.ndarray, axis: int) -> float:
+    """Energy of first differences over what unrelated neighbours would have: 0 smooth, 1 white noise."""
+    first, second = (np.take(values, range(i, values.shape[axis] + i - 1), axis) for i in (0, 1))
+    scale = (first**2).sum() + (second**2).sum()
+    return float(((second - first) ** 2).sum() / scale) if scale > 0 else 0.0
+
+
+def smooth_in_space(s: Sliding) -> dict[str, Any]:
+    """Claim (c): modes that hold 95 % and 99 % of the energy, and roughness both ways, per axis."""
+    result: dict[str, Any] = {"frame_interval_s": float(np.median(np.diff(s.time))), "axes": {}}
+    for name in KINDS:
+        _, force = s.axis(name)
+        energy = {"dct": ((force @ dct_matrix(force.shape[1]).T) ** 2).sum(axis=0),
+                  "svd": np.linalg.svd(force, compute_uv=False) ** 2}
+        own: dict[str, Any] = {"joints": force.shape[1], "roughness_in_space": roughness(force, 1),
+                               "roughness_in_time": roughness(force, 0)}
+        for basis, values in energy.items():
+            held = np.cumsum(values) / max(values.sum(), np.finfo(float).tiny)
+            own[f"{basis}_held"] = held.tolist()
+            for share in SHARES:
+                own[f"{basis}_modes_{share * 100:.0f}"] = int(np.argmax(held >= share - 1e-12)) + 1
+        result["axes"][name] = own
+    return result
+
+
+def verdicts(a: dict[str, Any], b: dict[str, Any], c: dict[str, Any]) -> dict[str, str]:
+    """'agrees', 'disagrees' or 'undecided' for each claim; the rules are printed with them."""
+    exact = a["nonzero_beyond_reach_of_rows"] == 0 and a["largest_in_frames_without_rows_dyn_cm"] == 0
+    intervals = [b["measures"][name] for name in list(b["measures"])[:2]]
+    grows = ("agrees" if all(m["spearman_95_high"] < 0 for m in intervals) else
+             "disagrees" if all(m["spearman_95_low"] > 0 for m in intervals) else "undecided")
+    axes = c["axes"].values()
+    smooth = ("agrees" if all(own["roughness_in_space"] <= min(SMOOTH, own["roughness_in_time"] / 2) for own in axes)
+              else "disagrees" if all(own["roughness_in_space"] >= own["roughness_in_time"] for own in axes)
+              else "undecided")
+    few = [own["dct_modes_95"] <= own["joints"] / 4 for own in axes]
+    modes = "agrees" if all(few) else "disagrees" if not any(few) else "undecided"
+    return {"zero behind the knot": "agrees" if exact else "disagrees", "larger near the head": grows,
+            "smooth in space, noisy in time": smooth, "a few Fourier modes would do": modes}

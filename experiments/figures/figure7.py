@@ -1,0 +1,183 @@
+"""Figure 7: the run in at least eight pictures, from the straight animal to the freed one.
+
+All panels share one camera and one scale. Usage: figure7.py LOG.h5 OUT.png (writes OUT.pdf beside).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import combinations
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+
+from hagfish_log import HagfishLog, run_script, save_figure
+from skin import Camera, camera, draw, make_skin
+
+WIDTH = 7.2  # of the figure, inches: a full page width
+DPI = 400
+LEAST_PANELS = 8
+GAP = 1.2  # around the animal in a panel, cm
+LEAST_WIDTH = 17.5  # of a panel, cm: room for its caption
+LEAST_TRAVEL = 1.0  # of the knot's head end for pictures of it on its way, cm
+WORDS = {"form": "knot forming", "tighten": "tightening", "slide": "sliding", "release": "released",
+         "free": "free"}
+
+
+@dataclass
+class Stage:
+    frame: int
+    title: str  # empty for a filler, which has none but its phase
+
+
+def plan_crossings(centre: np.ndarray) -> int:
+    """How often the centreline (n x 3) crosses itself as seen along Z."""
+    start, step = centre[:-1, :2], np.diff(centre[:, :2], axis=0)
+    between = start[None, :] - start[:, None]
+    area = step[:, None, 0] * step[None, :, 1] - step[:, None, 1] * step[None, :, 0]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        first = (between[..., 0] * step[None, :, 1] - between[..., 1] * step[None, :, 0]) / area
+        second = (between[..., 0] * step[:, None, 1] - between[..., 1] * step[:, None, 0]) / area
+    crossed = (first >= 0) & (first < 1) & (second >= 0) & (second < 1)
+    return int(np.triu(crossed, k=2).sum())
+
+
+def forming_stages(log: HagfishLog) -> list[Stage]:
+    """Body crossover, tail wrap and tail insertion (paper, 3.2), told by the shape: the tail has
+    crossed the body; it comes round; the centreline has become a knot."""
+    form = log.in_phase("form")
+    knotted = np.flatnonzero(log["/knot/determinant"][form] == 1)
+    inserted = knotted[-1] + 1 if knotted.size else len(form)
+    centres = log["/trajectory/position"]
+    uncrossed = [k for k in range(inserted) if plan_crossings(centres[form[k]]) == 0]
+    if inserted >= len(form) or not uncrossed or uncrossed[-1] + 1 >= inserted:
+        return []
+    crossed = uncrossed[-1] + 1
+    share = lambda a, b, x: form[min(int(round(a + x * (b - a))), len(form) - 1)]
+    return [Stage(share(crossed, inserted, 0.22), "body crossover"),
+            Stage(share(crossed, inserted, 0.62), "tail wrap"),
+            Stage(share(inserted, len(form) - 1, 0.55), "tail insertion")]
+
+
+def sliding_stages(log: HagfishLog) -> list[Stage]:
+    """The tightened knot and the knot a third and two thirds of its way to the head."""
+    slide, head_end = log.in_phase("slide"), log["/knot/head_end"]
+    slide = slide[np.isfinite(head_end[slide])]
+    if not slide.size:
+        return []
+    start, end = head_end[slide[0]], head_end[slide[-1]]
+    stages = [Stage(slide[0], "knot tightened")]
+    if abs(end - start) < LEAST_TRAVEL:
+        return stages
+    for share in (1 / 3, 2 / 3):
+        passed = np.flatnonzero((head_end[slide] - (start + share * (end - start))) * np.sign(end - start) >= 0)
+        stages.append(Stage(slide[passed[0]], f"knot slid {share * abs(end - start):.1f} cm"))
+    return stages
+
+
+def choose_stages(log: HagfishLog) -> list[Stage]:
+    """The stages of a whole run; where a run lacks some, the widest gaps in time are filled."""
+    release = log.in_phase("release")
+    stages = [Stage(0, "start"), *forming_stages(log), *sliding_stages(log)]
+    if release.size:
+        stages.append(Stage(release[0], "head released"))
+    phase, time = log.labels("/trajectory/phase"), log["/trajectory/time"]
+    stages.append(Stage(log.frames - 1, "freed" if phase[-1] == "free" else "end of the log"))
+    stages = list({stage.frame: stage for stage in stages}.values())
+    while len(stages) < min(LEAST_PANELS, log.frames):
+        stages.sort(key=lambda stage: stage.frame)
+        spans = [b.frame - a.frame for a, b in zip(stages, stages[1:])]
+        before = stages[int(np.argmax(spans))]
+        frame = before.frame + max(spans) // 2
+        stages.append(Stage(frame, ""))
+    return sorted(stages, key=lambda stage: time[stage.frame])
+
+
+def choose_camera(log: HagfishLog, stages: list[Stage]) -> Camera:
+    """The view in which the knotted stages hide least of themselves: largest covered area."""
+    knotted = [s.frame for s in stages if log["/knot/determinant"][s.frame] != 1] or [stages[-1].frame]
+    radius, cell = log["/model/radius"], 0.25
+    best, best_area = camera(20.0, 18.0), -1.0
+    for pitch in range(-180, 180, 10):
+        for yaw in (14.0, 22.0):  # enough to show the plate's front, too little to shorten the animal
+            view, area = camera(pitch, yaw), 0.0
+            for frame in knotted:
+                flat = log["/trajectory/position"][frame] @ view.axes().T[:, :2]
+                low = flat.min(axis=0) - 1.0
+                columns, rows = (np.arange(low[i], flat[:, i].max() + 1.0, cell) for i in range(2))
+                covered = np.zeros((len(rows), len(columns)), dtype=bool)
+                for (x, y), r in zip(flat, radius):
+                    covered |= (rows[:, None] - y) ** 2 + (columns[None, :] - x) ** 2 < r * r
+                area += covered.sum()
+            if area > best_area:
+                best, best_area = view, area
+    return best
+
+
+def rows_of(widths: list[float], count: int) -> list[list[int]]:
+    """Panels in reading order cut into `count` rows so that the widest row is as narrow as can be."""
+    n = len(widths)
+    count = min(count, n)
+    cuts = min(combinations(range(1, n), count - 1),
+               key=lambda cut: max(sum(widths[a:b]) for a, b in zip((0, *cut), (*cut, n))))
+    return [list(range(a, b)) for a, b in zip((0, *cuts), (*cuts, n))]
+
+
+def caption(log: HagfishLog, letter: str, stage: Stage) -> str:
+    """Letter, stage, phase, time and where the knot is."""
+    phase = str(log.labels("/trajectory/phase")[stage.frame])
+    titled = f"{stage.title}\n{WORDS[phase]}, " if stage.title else f"{WORDS[phase]}\n"
+    text = f"({letter}) {titled}$t$ = {log['/trajectory/time'][stage.frame]:.2f} s"
+    ends = [log[f"/knot/{end}_end"][stage.frame] for end in ("head", "tail")]
+    knotted = log["/knot/determinant"][stage.frame] != 1 and np.all(np.isfinite(ends))
+    return text + (f"\nknot spans {ends[0]:.1f} to {ends[1]:.1f} cm" if knotted else "\nno knot")
+
+
+def main(log: HagfishLog, out: Path) -> None:
+    stages = choose_stages(log)
+    view = choose_camera(log, stages)
+    clamped = set(np.flatnonzero(np.isin(log.labels("/trajectory/phase"), ("form", "tighten", "slide"))))
+    skins = [make_skin(log, stage.frame, view.up) for stage in stages]
+    flat = [skin.centre @ view.axes().T[:, :2] for skin in skins]
+    plate = np.array([[0.0, y, z] for y in (-2.6, 2.6) for z in (-2.6, 2.6)]) @ view.axes().T[:, :2]
+    both = [np.vstack([f - 0.9, f + 0.9, plate]) for f in flat]
+    left = np.array([b[:, 0].min() - GAP for b in both])
+    right = np.maximum([b[:, 0].max() + GAP for b in both], left + LEAST_WIDTH)
+    rows = rows_of(list(right - left), count=3)
+    across = max(sum(right[i] - left[i] for i in row) for row in rows)
+    per_cm = WIDTH / across  # inches
+    text = 0.50  # below each row, inches
+    low = [min(both[i][:, 1].min() for i in row) - GAP / 2 for row in rows]
+    high = [max(both[i][:, 1].max() for i in row) + GAP / 2 for row in rows]
+    tall = sum((h - l) * per_cm + text for l, h in zip(low, high)) + 0.28
+    figure = plt.figure(figsize=(WIDTH, tall))
+    top = tall
+    for row, bottom, upper in zip(rows, low, high):
+        spare = (across - sum(right[i] - left[i] for i in row)) / len(row)
+        x, height = 0.0, (upper - bottom) * per_cm
+        for i in row:
+            width = right[i] - left[i] + spare
+            picture = draw(skins[i], view, np.array([left[i], bottom]), np.array([width, upper - bottom]),
+                           per_cm * DPI, stages[i].frame in clamped)
+            box = [x * per_cm / WIDTH, (top - height) / tall, width * per_cm / WIDTH, height / tall]
+            axes = figure.add_axes(box)
+            axes.imshow(picture, origin="lower", aspect="auto", extent=(0, width, 0, upper - bottom))
+            axes.axis("off")
+            axes.text(0.35, -0.3, caption(log, "abcdefghijklmnop"[i], stages[i]), fontsize=7, va="top",
+                      linespacing=1.25, clip_on=False)
+            if i == 0:
+                axes.plot([width - 7, width - 2], [1.0, 1.0], color="black", lw=1.5, solid_capstyle="butt")
+                axes.text(width - 4.5, 1.3, "5 cm", fontsize=7, ha="center", va="bottom")
+            x += width
+        top -= height + text
+    figure.text(0.01, 0.012, "Rings: 20, 40, 60, 80 % of the length, where the specimen was measured. Spans: arc "
+                "length from the head. Grey: head plate, pale once the head is free.", fontsize=6)
+    save_figure(figure, out, DPI)
+
+
+if __name__ == "__main__":
+    run_script(__doc__, ["OUT.png"], main)

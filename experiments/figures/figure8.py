@@ -1,0 +1,201 @@
+"""Figure 8: f_thigmo (Eq. 8) about X, Y and Z over time and joint number while the knot slides, and a
+page that tests the paper's three claims about it. Raw data, no filter.
+
+Usage: figure8.py LOG.h5 OUT_SURFACE.png OUT_CLAIMS.png (writes PDFs beside, and OUT_CLAIMS.json).
+"""
+
+from __future__ import annotations
+
+import json
+import textwrap
+from pathlib import Path
+from typing import Any
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.colors import LogNorm
+
+import claims
+from hagfish_log import HagfishLog, run_script, save_figure
+
+DPI = 250
+NAMES = {"X": "X (twist)", "Y": "Y (bend)", "Z": "Z (bend)"}
+COLOURS = {"X": "#4477aa", "Y": "#cc6677", "Z": "#228833"}
+VERDICT_COLOURS = {"agrees": "#1b7837", "disagrees": "#b2182b", "undecided": "#8c6d1f"}
+
+
+def edges(centres: np.ndarray) -> np.ndarray:
+    """Cell boundaries around rising centres."""
+    middle = (centres[1:] + centres[:-1]) / 2
+    return np.r_[2 * centres[0] - middle[0], middle, 2 * centres[-1] - middle[-1]]
+
+
+def surfaces(s: claims.Sliding, out: Path) -> None:
+    """Three surfaces, and the same data from above with the knot's two ends."""
+    figure = plt.figure(figsize=(10.5, 6.1))
+    scale = np.percentile(np.abs(s.force[s.force != 0]), 99) if np.any(s.force) else 1.0
+    per_joint = 2 * s.spacing  # cm of body to a joint number
+    for column, axis in enumerate(claims.KINDS):
+        joint, force = s.axis(axis)
+        axes = figure.add_axes([0.325 * column - 0.005, 0.43, 0.31, 0.60], projection="3d")
+        grid_joint, grid_time = np.meshgrid(joint, s.time)
+        axes.plot_surface(grid_joint, grid_time, force, rstride=1, cstride=1, cmap="RdBu_r", vmin=-scale,
+                          vmax=scale, linewidth=0, antialiased=False, rasterized=True)
+        axes.patch.set_visible(False)  # it would hide the tick labels of the panel before
+        axes.view_init(elev=28, azim=-52)
+        axes.set_xlabel("joint (head 0)", fontsize=8, labelpad=-3)
+        axes.set_ylabel("time, s", fontsize=8, labelpad=-3)
+        axes.tick_params(labelsize=7, pad=-2)
+        axes.tick_params(axis="z", pad=3)
+        axes.set_title(f"about {NAMES[axis]}, dyn cm", fontsize=10, y=0.93)
+
+        flat = figure.add_axes([0.06 + 0.315 * column, 0.09, 0.255, 0.27])
+        image = flat.pcolormesh(edges(joint.astype(float)), edges(s.time), force, cmap="RdBu_r", vmin=-scale,
+                                vmax=scale, rasterized=True)
+        flat.plot(s.head_end / per_joint, s.time, color="black", lw=0.9, label="knot, head end")
+        flat.plot(s.tail_end / per_joint, s.time, color="black", lw=0.9, ls="--", label="knot, tail end")
+        flat.set_xlabel("joint (head 0)", fontsize=8)
+        flat.set_xlim(-0.5, s.joint.max() / 2 + 0.5)
+        flat.tick_params(labelsize=7)
+        if column == 0:
+            flat.set_ylabel("time, s", fontsize=8)
+            figure.legend(loc="lower left", bbox_to_anchor=(0.055, 0.365), ncol=2, fontsize=7.5, frameon=False)
+    bar = figure.add_axes([0.955, 0.09, 0.010, 0.27])
+    figure.colorbar(image, cax=bar, extend="both")
+    bar.tick_params(labelsize=6.5, pad=1)
+    bar.set_title("dyn cm", fontsize=7)
+    figure.text(0.06, 0.012, r"$f_\mathrm{thigmo}=C_\mathrm{thigmo}^\top\lambda_\mathrm{thigmo}/h$ on each hinge at "
+                "each logged frame of sliding, unfiltered. Colours saturate at the 99th percentile of the non-zero "
+                "magnitudes.", fontsize=7.5)
+    save_figure(figure, out, DPI)
+
+
+def draw_zero(axes: Any, s: claims.Sliding) -> None:
+    """Claim (a): where the force is not zero."""
+    arcs = np.unique(s.arc)
+    size = np.stack([np.abs(s.force[:, s.arc == arc]).max(axis=1) for arc in arcs], axis=1)
+    top = max(size.max(), 1e-300)
+    shown = np.ma.masked_where(size == 0, size)
+    image = axes.pcolormesh(edges(arcs), edges(s.time), shown, cmap="viridis", rasterized=True,
+                            norm=LogNorm(vmin=top * 1e-4, vmax=top))
+    axes.plot(s.head_end, s.time, color="#d55e00", lw=1.2, label="knot, head end")
+    axes.plot(s.tail_end, s.time, color="#d55e00", lw=1.2, ls="--", label="knot, tail end")
+    axes.set(xlabel="arc length from the head, cm", ylabel="time, s",
+             title="(a) largest |f| at each joint; white = exactly 0")
+    axes.legend(fontsize=7, loc="upper right")
+    axes.figure.colorbar(image, ax=axes, label="dyn cm", extend="min")
+
+
+def draw_growth(axes: Any, s: claims.Sliding, name: str, found: dict[str, float]) -> None:
+    """Claim (b): one measure of size against the knot's head end."""
+    y = claims.measures(s)[name]
+    axes.plot(s.head_end, y, ".", ms=3, color="#4477aa")
+    x = np.array([np.nanmin(s.head_end), np.nanmax(s.head_end)])
+    axes.plot(x, found["fit_slope_per_cm"] * x + found["fit_intercept"], color="black", lw=1,
+              label=f"fit: {found['fit_slope_per_cm']:+.3g} per cm, $R^2$ = {found['fit_r2']:.2f}")
+    bounds = np.linspace(*x, 11)
+    part = np.clip(np.searchsorted(bounds, s.head_end, side="right") - 1, 0, 9)
+    medians = [np.median(y[part == k]) if np.any(part == k) else np.nan for k in range(10)]
+    axes.stairs(medians, bounds, baseline=None, color="#d55e00", lw=1.3, label="median of each tenth of the way")
+    axes.invert_xaxis()
+    axes.set(xlabel="knot head end, cm (the head is on the right)", ylabel=name,
+             title=f"(b) Spearman {found['spearman_with_head_end']:+.2f} "
+                   f"[{found['spearman_95_low']:+.2f}, {found['spearman_95_high']:+.2f}]")
+    axes.legend(fontsize=7)
+
+
+def draw_modes(axes: Any, c: dict[str, Any]) -> None:
+    """Claim (c): energy that a basis of k modes leaves out."""
+    for axis, own in c["axes"].items():
+        for basis, style in (("dct", "-"), ("svd", ":")):
+            held = np.array(own[f"{basis}_held"])
+            axes.semilogy(np.arange(1, len(held) + 1), np.maximum(1 - held, 1e-6), style, color=COLOURS[axis], lw=1.3,
+                          label=f"{axis}, {'Fourier (DCT)' if basis == 'dct' else 'SVD'}")
+    for share in claims.SHARES:
+        axes.axhline(1 - share, color="grey", lw=0.6)
+        axes.annotate(f"{share * 100:.0f} % held", (0.99, 1 - share), xycoords=("axes fraction", "data"), fontsize=6.5,
+                      ha="right", va="bottom", color="grey")
+    axes.set(xlabel="modes kept", ylabel="share of energy left out", ylim=(1e-4, 1.1), title="(c) modes along the body")
+    axes.legend(fontsize=6.2, ncol=3, loc="upper right", columnspacing=1.0)
+
+
+def draw_roughness(axes: Any, c: dict[str, Any]) -> None:
+    """Claim (c): roughness along the body and in time."""
+    for shift, key, label, colour in ((-0.2, "roughness_in_space", "along the body", "#66aabb"),
+                                      (0.2, "roughness_in_time", "in time", "#ddaa33")):
+        values = [own[key] for own in c["axes"].values()]
+        bars = axes.bar(np.arange(3) + shift, values, 0.38, color=colour, label=label)
+        axes.bar_label(bars, fmt="%.3f", fontsize=7)
+    axes.set_xticks(range(3), [NAMES[axis] for axis in c["axes"]])
+    axes.set(ylabel="roughness (0 smooth, 1 white noise)", title="(c) neighbouring values compared")
+    axes.margins(y=0.3)
+    axes.legend(fontsize=7)
+
+
+def plain_words(a: dict[str, Any], b: dict[str, Any], c: dict[str, Any]) -> list[tuple[str, str]]:
+    """For each claim its name and what was found, with the rule of its verdict."""
+    if a["nonzero_behind_tail_end"]:
+        behind = (f"{a['nonzero_behind_tail_end']} of {a['values_behind_tail_end']} values tailward of the last "
+                  f"contact are not 0 (largest {a['largest_behind_tail_end_dyn_cm']:.3g} dyn cm; furthest "
+                  f"{a['furthest_nonzero_past_tail_end_cm']:.2f} cm past it)")
+    else:
+        behind = f"all {a['values_behind_tail_end']} values tailward of the last contact are exactly 0"
+    zero = (f"{behind}. Beyond the {claims.SPLINE_REACH} bodies that the spline adds to a row: "
+            f"{a['nonzero_beyond_reach_of_rows']} of {a['values_beyond_reach_of_rows']} not 0. Largest force "
+            f"{a['largest_force_dyn_cm']:.4g} dyn cm; {100 * a['share_of_plane_zero']:.0f} % of all values are 0. "
+            "Rule: exactly 0 beyond the rows' reach.")
+    rows = [f"{name.split(',')[0]} ×{m['median_near_third'] / max(m['median_far_third'], 1e-300):.2f} "
+            f"(Spearman {m['spearman_with_head_end']:+.2f})" for name, m in b["measures"].items()]
+    growth = ("median of the third of frames nearest the head over that of the furthest third: " + "; ".join(rows)
+              + ". Rule: the 95 % intervals of the first two correlations with the distance to the head lie below 0.")
+    each = c["axes"].items()
+    rough = ("; ".join(f"{axis}: {own['roughness_in_space']:.3f} along the body, {own['roughness_in_time']:.3f} in time"
+                       for axis, own in each)
+             + f", at {1000 * c['frame_interval_s']:.0f} ms between frames. Rule: on each axis at most "
+             f"{claims.SMOOTH} along the body, and at most half of that in time.")
+    modes = ("; ".join(f"{axis}: Fourier {own['dct_modes_95']} / {own['dct_modes_99']}, SVD {own['svd_modes_95']} / "
+                       f"{own['svd_modes_99']} of {own['joints']}" for axis, own in each)
+             + " modes hold 95 / 99 % of the energy. Rule: 95 % in a quarter of the Fourier modes on each axis.")
+    return list(zip(claims.verdicts(a, b, c), (zero, growth, rough, modes)))
+
+
+def claims_page(s: claims.Sliding, out: Path) -> None:
+    a, b, c = claims.zero_behind(s), claims.larger_near_head(s), claims.smooth_in_space(s)
+    verdict = claims.verdicts(a, b, c)
+    words = plain_words(a, b, c)
+    plt.rcParams.update({"font.size": 8, "axes.titlesize": 8.5})
+    figure = plt.figure(figsize=(8.3, 10.8))
+    grid = figure.add_gridspec(3, 2, left=0.09, right=0.97, top=0.965, bottom=0.265, hspace=0.36, wspace=0.26)
+    draw_zero(figure.add_subplot(grid[0, :]), s)
+    for column, name in enumerate(list(b["measures"])[:2]):
+        draw_growth(figure.add_subplot(grid[1, column]), s, name, b["measures"][name])
+    draw_modes(figure.add_subplot(grid[2, 0]), c)
+    draw_roughness(figure.add_subplot(grid[2, 1]), c)
+    height = 0.205
+    for name, text in words:
+        figure.text(0.04, height, f"{name}: ", fontsize=9, weight="bold")
+        figure.text(0.96, height, verdict[name].upper(), fontsize=9, weight="bold", ha="right",
+                    color=VERDICT_COLOURS[verdict[name]])
+        for line in textwrap.wrap(text, 138):
+            height -= 0.0145
+            figure.text(0.04, height, line, fontsize=7.5)
+        height -= 0.022
+    save_figure(figure, out, DPI)
+    report = {"verdicts": verdict, "in_words": dict(words), "zero_behind_the_knot": a, "larger_near_the_head": b,
+              "smooth_in_space": c}
+    out.with_suffix(".json").write_text(json.dumps(report, indent=1) + "\n")
+    for name, text in words:
+        print(f"{name}: {verdict[name]}. {text}")
+
+
+def main(log: HagfishLog, out_surface: Path, out_claims: Path) -> None:
+    s = claims.read_sliding(log)
+    surfaces(s, out_surface)
+    claims_page(s, out_claims)
+
+
+if __name__ == "__main__":
+    run_script(__doc__, ["OUT_SURFACE.png", "OUT_CLAIMS.png"], main)

@@ -1,0 +1,142 @@
+"""Read access to a `hagfish-log` (HDF5, format version 1), and the command line all figure scripts share.
+
+A log that is missing, unreadable, foreign or without frames ends the script with one line on
+standard error and exit code 2.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import tomllib
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+
+FORMAT = "hagfish-log"
+VERSION = 1
+FRAME_GROUPS = ("trajectory", "forces", "thigmotaxis", "knot", "diagnostics")
+
+
+class LogError(Exception):
+    """The log, or an output, cannot be used; the message is one line that names the file."""
+
+
+class HagfishLog:
+    """An open log. `log["/knot/head_end"]` is the whole dataset as a numpy array.
+
+    Datasets along time are cut to the frames that all of them hold, so that the log of a run that
+    is still going, or was stopped while writing a frame, reads as the frames that are complete.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self._read: dict[str, np.ndarray] = {}
+        if not path.is_file():
+            raise LogError(f"{path}: no such file")
+        try:
+            self._file = h5py.File(path, "r")
+        except OSError as error:
+            raise LogError(f"{path}: not a readable HDF5 file ({error})") from None
+        if self.attribute("format") != FORMAT:
+            raise LogError(f"{path}: not a {FORMAT} file (its format is {self.attribute('format')!r})")
+        version = int(self.attribute("format_version"))
+        if version != VERSION:
+            raise LogError(f"{path}: {FORMAT} version {version}; this script reads version {VERSION}")
+        self.frames = min((self._dataset(f"/{group}/{name}").shape[0] for group in FRAME_GROUPS
+                           for name in self._file.get(group, ())), default=0)
+        if self.frames == 0:
+            raise LogError(f"{path}: holds no frames (status: {self.attribute('status')})")
+
+    def attribute(self, name: str) -> Any:
+        """A root attribute."""
+        if name not in self._file.attrs:
+            raise LogError(f"{self.path}: no root attribute '{name}', so not a {FORMAT} file")
+        value = self._file.attrs[name]
+        return value.decode() if isinstance(value, bytes) else value
+
+    def _dataset(self, path: str) -> h5py.Dataset:
+        found = self._file.get(path)
+        if not isinstance(found, h5py.Dataset):
+            raise LogError(f"{self.path}: no dataset {path}")
+        return found
+
+    def __getitem__(self, path: str) -> np.ndarray:
+        if path not in self._read:
+            dataset = self._dataset(path)
+            along_time = path.strip("/").split("/")[0] in FRAME_GROUPS
+            self._read[path] = dataset[: self.frames] if along_time else dataset[()]
+        return self._read[path]
+
+    def strings(self, path: str) -> list[str]:
+        """A dataset of strings, such as /model/dof_name."""
+        return [str(text) for text in self._dataset(path).asstr()[()]]
+
+    def labels(self, path: str) -> np.ndarray:
+        """An enumerated dataset along time as its words: /trajectory/phase, /diagnostics/solve."""
+        words = h5py.check_enum_dtype(self._dataset(path).dtype)
+        if words is None:
+            raise LogError(f"{self.path}: {path} is not an enumeration")
+        by_value = {value: word for word, value in words.items()}
+        return np.array([by_value[int(value)] for value in self[path]])
+
+    def in_phase(self, phase: str) -> np.ndarray:
+        """Indices of the frames of one phase: form, tighten, slide, release, free."""
+        return np.flatnonzero(self.labels("/trajectory/phase") == phase)
+
+    def scene(self) -> dict[str, Any]:
+        """The resolved scene."""
+        try:
+            return tomllib.loads(self.attribute("scene"))
+        except tomllib.TOMLDecodeError as error:
+            raise LogError(f"{self.path}: the root attribute 'scene' is not TOML ({error})") from None
+
+    def joint_arc(self) -> np.ndarray:
+        """Arc length from the head of each joint at rest, cm (J): joint j is the front of body j."""
+        length = self["/model/length"]
+        return np.concatenate([[0.0], np.cumsum(length)[:-1]])
+
+    def hinges(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Every velocity behind the root: (its index in qvel, its joint, its kind), where the kind
+        is 'twist', 'bend_y' or 'bend_z'."""
+        names = self.strings("/model/dof_name")
+        index = np.array([i for i, name in enumerate(names) if not name.startswith("root")])
+        joint = np.array([int(names[i].split("_", 1)[0].lstrip("j")) for i in index])
+        kind = np.array([names[i].split("_", 1)[1] for i in index])
+        return index, joint, kind
+
+
+def run_script(description: str, outputs: list[str], work: Callable[..., None]) -> None:
+    """Runs `work(log, output path, ...)` on the command line `LOG.h5 outputs...`."""
+    parser = argparse.ArgumentParser(description=description)
+    parser.add_argument("log", metavar="LOG.h5", type=Path)
+    for name in outputs:
+        parser.add_argument(name, metavar=name, type=Path)
+    arguments = vars(parser.parse_args())
+    for name in outputs:
+        if arguments[name].suffix != Path(name).suffix:
+            parser.error(f"{arguments[name]}: {name} must end in {Path(name).suffix}")
+    path = arguments.pop("log")
+    try:
+        work(HagfishLog(path), *arguments.values())
+    except LogError as error:
+        sys.exit(_fail(str(error)))
+    except OSError as error:
+        # HDF5's read errors name no file; those of the outputs do.
+        sys.exit(_fail(f"{error.filename}: cannot be written ({error.strerror})" if error.filename
+                       else f"{path}: cannot be read ({error})"))
+
+
+def _fail(message: str) -> int:
+    print(f"{Path(sys.argv[0]).name}: {message}", file=sys.stderr)
+    return 2
+
+
+def save_figure(figure: Any, png: Path, dpi: int) -> None:
+    """Writes the figure as PNG and, beside it, as PDF. No time stamps: the same log gives the same
+    files."""
+    figure.savefig(png, dpi=dpi)
+    figure.savefig(png.with_suffix(".pdf"), dpi=dpi, metadata={"CreationDate": None})

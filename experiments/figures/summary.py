@@ -1,0 +1,240 @@
+"""Measured figures of a run next to the paper's Table 1, as Markdown.
+
+Usage: summary.py LOG.h5 OUT.md
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import claims
+from hagfish_log import HagfishLog, LogError, run_script
+
+PHASES = ("form", "tighten", "slide", "release", "free")
+KNOTS = {(1, 0): "unknot", (3, 1): "3_1", (5, -1): "4_1", (5, 3): "5_1", (7, 2): "5_2"}
+WORKS = ("tip", "thigmotaxis", "contact", "limit", "head", "wall", "gravity")
+MET = 1e-6  # cm/s by which Eq. 6 may fall short and count as met: the back end's own tolerance
+LEDGER = 1e-9  # of the largest term of the energy ledger: rounding of some 10^4 summed steps
+# Paper, Table 1.
+PAPER_SPECIMEN = {"length": ("Length", "42.4", "cm"), "mass": ("Mass", "80", "g"),
+                  "circumference": ("Circumference", "5.6, 5.5, 5.6, 4.3", "cm"),
+                  "bending_limit": ("Bending limit", "21, 75, 45, 51", "deg"),
+                  "twist_limit": ("Twisting limit", "48", "deg")}
+PAPER_SPEEDS = {("tighten", "head"): (0.0, 0.0), ("tighten", "tail"): (0.5, 2.0),
+                ("slide", "head"): (2.0, 2.0), ("slide", "tail"): (2.0, 2.0)}
+
+
+def table(head: list[str], rows: list[list[str]]) -> list[str]:
+    """A Markdown table."""
+    return ["| " + " | ".join(row) + " |" for row in [head, ["---"] * len(head), *rows]] + [""]
+
+
+def figures(values: Any) -> str:
+    """Numbers in short, with commas between."""
+    return ", ".join(f"{float(value):.6g}" for value in np.atleast_1d(values))
+
+
+def setting(log: HagfishLog, *keys: str) -> Any:
+    """One value of the resolved scene; angles, which a scene gives in _deg or _rad, in degrees."""
+    found: Any = log.scene()
+    for key in keys[:-1]:
+        found = found.get(key, {})
+    name = keys[-1]
+    if name in found:
+        return found[name]
+    if f"{name}_deg" in found:
+        return found[f"{name}_deg"]
+    if f"{name}_rad" in found:
+        return np.degrees(found[f"{name}_rad"])
+    raise LogError(f"{log.path}: the scene in the log has no {'.'.join(keys)}")
+
+
+def commanded(log: HagfishLog, phase: str) -> np.ndarray:
+    """Speeds that Eq. 6 asks for: first contact a, b, last contact a, b; cm/s."""
+    return np.array([setting(log, "controller", f"{phase}_{end}", row) for end in ("head", "tail") for row in "ab"])
+
+
+def rows_met(log: HagfishLog, phase: str) -> tuple[np.ndarray, np.ndarray]:
+    """Frames x 4: Eq. 6 met at the commanded speed without slack; and frames with the rows at all."""
+    frames = log.in_phase(phase)
+    ruled = np.all(log["/thigmotaxis/body_b"][frames] >= 0, axis=1)
+    fast = log["/thigmotaxis/speed"][frames] >= commanded(log, phase) - MET
+    return fast & (log["/thigmotaxis/slack"][frames] <= MET) & ruled[:, None], ruled
+
+
+def limits(log: HagfishLog, kind: str) -> tuple[np.ndarray, np.ndarray]:
+    """Arc length (cm) and upper limit (degrees) of each hinge of a kind."""
+    dof, joint, kinds = log.hinges()
+    own = kinds == kind
+    return log.joint_arc()[joint[own]], np.degrees(log["/model/limit_upper"][dof[own]])
+
+
+def table_one(log: HagfishLog) -> list[str]:
+    """Specimen values and speeds: the paper's, the scene's, and what the run measured."""
+    rows = []
+    for key, (name, paper, unit) in PAPER_SPECIMEN.items():
+        measured = {"length": log["/model/length"].sum(), "mass": log["/model/mass"].sum()}.get(key)
+        at = np.array(setting(log, "specimen", "station")) * log["/model/length"].sum()
+        if key == "circumference":
+            middle = np.cumsum(log["/model/length"]) - log["/model/length"] / 2
+            measured = 2 * np.pi * np.interp(at, middle, log["/model/radius"])
+        elif key == "bending_limit":
+            measured = np.interp(at, *limits(log, "bend_y"))
+        elif key == "twist_limit":
+            measured = limits(log, "twist")[1].sum()
+        model = figures(np.round(measured, 3))
+        rows.append([name, paper, figures(setting(log, "specimen", key)), model, unit])
+    for (phase, end), paper_speeds in PAPER_SPEEDS.items():
+        columns = slice(0, 2) if end == "head" else slice(2, 4)
+        frames = log.in_phase(phase)
+        _, ruled = rows_met(log, phase)
+        speed = log["/thigmotaxis/speed"][frames][ruled][:, columns]
+        median = figures(np.round(np.median(speed, axis=0), 3)) if ruled.any() else "no frames"
+        rows.append([f"v_a, v_b ({'tightening' if phase == 'tighten' else 'sliding'}, {end})", figures(paper_speeds),
+                     figures(commanded(log, phase)[columns]), median, "cm/s"])
+    return ["## Table 1", "", *table(["Data", "Paper", "Scene", "Model, or median measured", "Units"], rows)]
+
+
+def knot_types(log: HagfishLog, frames: np.ndarray) -> dict[str, int]:
+    """Knot types of the frames and how many frames each."""
+    names = [KNOTS.get((int(d), int(v)), f"det {d}, v2 {v}") for d, v in
+             zip(log["/knot/determinant"][frames], log["/knot/v2"][frames])]
+    return {name: names.count(name) for name in dict.fromkeys(names)}
+
+
+def span(values: np.ndarray) -> str:
+    """First and last finite value."""
+    known = values[np.isfinite(values)]
+    return f"{known[0]:.2f} to {known[-1]:.2f}" if known.size else "none"
+
+
+def timetable(log: HagfishLog) -> list[str]:
+    """Each phase: when, how long, the knot and where its ends were."""
+    rows, time = [], log["/trajectory/time"]
+    for phase in PHASES:
+        frames = log.in_phase(phase)
+        if not frames.size:
+            rows.append([phase, "not reached", "", "", "", ""])
+            continue
+        end = time[min(frames[-1] + 1, log.frames - 1)]
+        kinds = ", ".join(f"{name} ({count})" for name, count in knot_types(log, frames).items())
+        rows.append([phase, f"{time[frames[0]]:.2f} to {end:.2f}", f"{end - time[frames[0]]:.2f}", kinds,
+                     span(log["/knot/head_end"][frames]), span(log["/knot/tail_end"][frames])])
+    return ["## Phases", "", *table(["Phase", "Time, s", "Duration, s", "Knot types (frames)", "Head end of knot, cm",
+                                     "Tail end of knot, cm"], rows)]
+
+
+def eq6(log: HagfishLog) -> list[str]:
+    """Eq. 6 while tightening and sliding, row by row."""
+    rows = []
+    for phase in ("tighten", "slide"):
+        met, ruled = rows_met(log, phase)
+        frames = log.in_phase(phase)
+        if not ruled.any():
+            continue
+        for k, name in enumerate(("first, t_a", "first, t_b", "last, t_a", "last, t_b")):
+            speed, slack, force = (log[f"/thigmotaxis/{what}"][frames][ruled][:, k]
+                                   for what in ("speed", "slack", "lambda"))
+            rows.append([phase, name, figures(commanded(log, phase)[k]), f"{np.median(speed):.3f}",
+                         f"{np.percentile(speed, 5):.3f} to {np.percentile(speed, 95):.3f}", f"{slack.max():.2g}",
+                         f"{np.median(force):.0f}", f"{force.max():.0f}", f"{100 * met[:, k].mean():.1f} %"])
+    return ["## Eq. 6 at the logged frames", "",
+            *table(["Phase", "Row", "Commanded, cm/s", "Median, cm/s", "5 to 95 %, cm/s", "Largest slack, cm/s",
+                    "Median λ/h, dyn", "Largest λ/h, dyn", "Met without slack"], rows)]
+
+
+def ledger(log: HagfishLog) -> tuple[list[str], float]:
+    """The energy ledger's table, and how far it is from closing at worst, of its largest term."""
+    read = lambda name: log[f"/diagnostics/{name}"] - log[f"/diagnostics/{name}"][0]
+    stored = read("kinetic_energy") + read("elastic_energy")
+    works = {f"work of {name}": read(f"work_{name}") for name in WORKS}
+    lost, integrator = read("dissipated"), read("integrator_error")
+    gap = stored - (sum(works.values()) - lost + integrator)
+    terms = {"kinetic + elastic energy": stored, **works, "dissipated": lost, "integrator error": integrator,
+             "left over": gap}
+    scale = max(float(np.abs(values).max()) for values in terms.values()) or 1.0
+    rows = [[name, f"{values[-1]:.6g}", f"{np.abs(values).max():.3g}"] for name, values in terms.items()]
+    lines = ["## Energy ledger", "",
+             "kinetic + elastic = works - dissipated + integrator error, counted from the first frame.", "",
+             *table(["Term", "At the end, erg", "Largest, erg"], rows)]
+    return lines, float(np.abs(gap).max()) / scale
+
+
+def requirements(log: HagfishLog, unclosed: float) -> list[str]:
+    """What a Table 1 run at h = 2 ms must show, and what this one shows."""
+    rows: list[list[str]] = []
+
+    def ask(name: str, shown: str, required: str, met: bool) -> None:
+        rows.append([name, shown, required, "yes" if met else "**no**"])
+
+    phases = log.labels("/trajectory/phase")
+    ask("status", str(log.attribute("status")), "complete", log.attribute("status") == "complete")
+    ask("phases reached", ", ".join(p for p in PHASES if p in phases), "all five", set(PHASES) <= set(phases))
+    held = np.flatnonzero(np.isin(phases, ("tighten", "slide")))
+    kinds = knot_types(log, held)
+    ask("knot from tightening to release", str(kinds)[1:-1].replace("'", "") or "no frames", "3_1 at every frame",
+        set(kinds) == {"3_1"})
+    ends = knot_types(log, np.array([0, log.frames - 1]))
+    ask("knot at start and end", ", ".join(ends), "unknot", set(ends) == {"unknot"})
+    slide = log.in_phase("slide")
+    head_end = log["/knot/head_end"][slide]
+    head_end = head_end[np.isfinite(head_end)]
+    travel = float(head_end[0] - head_end[-1]) if head_end.size else 0.0
+    ask("travel of the knot's head end while sliding", f"{travel:.2f} cm", "at least 9 cm", travel >= 9)
+    met, _ = rows_met(log, "slide")
+    share = 100 * float(met.all(axis=1).mean()) if met.size else 0.0
+    ask("sliding frames with all rows met without slack", f"{share:.1f} %", "at least 95 %", share >= 95)
+    for name, dataset, factor, unit, limit in (("penetration", "penetration", 1, "cm", 0.0015),
+                                               ("limit violation", "limit_violation", 180 / np.pi, "deg", 0.001),
+                                               ("head drift", "head_drift", 1, "cm", 1e-6)):
+        values = log[f"/diagnostics/{dataset}"]
+        worst = float(np.nanmax(values)) * factor
+        ask(f"worst {name}, every step", f"{worst:.3g} {unit}", f"at most {limit:g} {unit}", worst <= limit)
+    kkt = max(float(np.nanmax(log[f"/diagnostics/kkt_{part}"]))
+              for part in ("stationarity", "primal", "complementarity"))
+    ask("worst scaled KKT residual", f"{kkt:.2g}", "at most 1e-08", kkt <= 1e-8)
+    if rows_met(log, "slide")[1].sum() >= claims.LEAST_FRAMES:
+        zero = claims.zero_behind(claims.read_sliding(log))
+        past = zero["largest_beyond_reach_of_rows_dyn_cm"]
+        ask("largest f_thigmo past the knot", f"{past:g} dyn cm", "exactly 0", past == 0)
+    ask("energy ledger, left over of its largest term", f"{unclosed:.2g}", f"at most {LEDGER:g}", unclosed <= LEDGER)
+    qp = log["/diagnostics/qp_time"][log.labels("/diagnostics/solve") == "qp"]
+    if qp.size:
+        ask("median time of a QP", f"{1000 * np.median(qp):.3g} ms", "at most 4 ms", float(np.median(qp)) <= 4e-3)
+    return ["## What the run must show", "", "Bounds are those of a Table 1 run at h = 2 ms.", "",
+            *table(["Figure", "This run", "Required", "Met"], rows)]
+
+
+def solver(log: HagfishLog) -> list[str]:
+    """Solve kinds, sizes, iterations and times."""
+    kinds = log.labels("/diagnostics/solve")
+    counts = ", ".join(f"{kind} {100 * np.mean(kinds == kind):.1f} %" for kind in ("linear", "kkt", "qp"))
+    quick = lambda v: [f"{np.median(v):.4g}", f"{np.percentile(v, 95):.4g}", f"{v.max():.4g}"]
+    rows = [[name, *quick(log[f"/diagnostics/{name}"])] for name in ("contacts", "rows", "active")]
+    qp = kinds == "qp"
+    if qp.any():
+        rows.append(["iterations of a QP", *quick(log["/diagnostics/iterations"][qp])])
+        rows.append(["time of a QP, ms", *quick(1000 * log["/diagnostics/qp_time"][qp])])
+    wall, simulated = log["/diagnostics/wall_time"][-1], log["/trajectory/time"][-1]
+    return ["## Solver", "", f"Logged steps by kind: {counts}. {simulated:.2f} s simulated in {wall:.1f} s: "
+            f"{simulated / max(wall, 1e-9):.2f} times real time.", "",
+            *table(["At the logged frames", "Median", "95 %", "Largest"], rows)]
+
+
+def main(log: HagfishLog, out: Path) -> None:
+    energy, unclosed = ledger(log)
+    about = [["log", log.path.name], *([name, str(log.attribute(name))] for name in
+                                       ("status", "created", "creator", "creator_version", "git_revision", "command",
+                                        "libraries", "compiler", "cpu"))]
+    about.append(["step h, frames, bodies", f"{figures(setting(log, 'time', 'step'))} s, {log.frames}, "
+                                            f"{len(log['/model/mass'])}"])
+    text = ["# Summary of a run", "", *table(["", ""], about), *requirements(log, unclosed), *table_one(log),
+            *timetable(log), *eq6(log), *solver(log), *energy]
+    out.write_text("\n".join(text).rstrip() + "\n", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    run_script(__doc__, ["OUT.md"], main)

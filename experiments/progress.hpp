@@ -1,0 +1,32 @@
+// Live progress of a run on the terminal: phase, simulated time, speed, time left, knot.
+#pragma once
+
+#include <chrono>
+
+#include "core/simulation.hpp"
+
+namespace hagfish {
+
+class Progress {
+ public:
+  /// Silent where `quiet`. On a terminal one line is redrawn; elsewhere a line now and then.
+  Progress(const Model& model, const Scene& scene, bool quiet);
+  void show(const StepRecord& record);
+  /// Ends the line that is being redrawn.
+  void end();
+  /// Wall time since construction, s.
+  double elapsed() const;
+
+ private:
+  double estimated_end(const StepRecord& record) const;
+
+  const Model& model_;
+  const Scene& scene_;
+  bool quiet_;
+  bool terminal_;
+  bool drawn_ = false;
+  std::chrono::steady_clock::time_point begin_;
+  double next_ = 0;  // wall time of the next line, s
+};
+
+}  // namespace hagfish

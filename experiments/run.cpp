@@ -1,0 +1,99 @@
+#include <fmt/format.h>
+
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <numbers>
+
+#include "core/build_info.hpp"
+#include "core/builtin_files.hpp"
+#include "core/hdf5_error.hpp"
+#include "core/log_writer.hpp"
+#include "core/scene_reader.hpp"
+#include "experiments/commands.hpp"
+#include "experiments/progress.hpp"
+#include "mujoco_ref/mjcf.hpp"
+
+namespace hagfish {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A signal handler can reach nothing else.
+volatile std::sig_atomic_t interrupted = 0;
+void interrupt(int /*signal*/) { interrupted = 1; }
+
+ResolvedScene load_scene(const RunOptions& options) {
+  if (const auto text = builtin_file(options.scene + ".toml")) {
+    return read_scene_text(std::string(*text), options.scene + " (built in)", options.set);
+  }
+  if (fs::path(options.scene).extension() != ".toml") {
+    throw InputError(options.scene + ": no built-in scene of that name (see `hagfish scenes`)");
+  }
+  return read_scene(options.scene, options.set);
+}
+
+/// Steps until the scene is over; returns the log's status.
+std::string take_steps(const Model& model, const Scene& scene, BoxQpSolver& solver,
+                       LogWriter& log, Progress& progress) {
+  Simulation sim = start(model, scene);
+  while (!finished(sim, scene)) {
+    if (interrupted != 0) {
+      return fmt::format("failed: interrupted at step {}", sim.step);
+    }
+    try {
+      const StepRecord record = take_step(model, scene, solver, sim);
+      log.write(record, progress.elapsed());
+      progress.show(record);
+    } catch (const StepError& error) {
+      return fmt::format("failed: {} at step {} (t = {:.4f} s, {})", error.what(), sim.step,
+                         time_of(sim, scene), phase_name(sim.controller.phase));
+    }
+  }
+  return "complete";
+}
+
+}  // namespace
+
+int run(const RunOptions& options) {
+  const ResolvedScene resolved = load_scene(options);
+  const Scene& scene = resolved.scene;
+  const Model model = make_hagfish(resolved.specimen, scene);
+  const auto solver = make_box_qp_solver(options.qp);
+  const fs::path out =
+      options.out.empty() ? fs::path(options.scene).stem().string() + ".h5" : options.out;
+  LogHeader header;
+  header.command = options.command;
+  header.scene = scene_to_toml(scene, resolved.specimen);
+  header.libraries = build_libraries();
+  header.mjcf = mjcf_files(model, scene.contact.least_arc, scene.time.step);
+  LogWriter log(out, options.force, header, model, scene);
+
+  interrupted = 0;
+  std::signal(SIGINT, interrupt);
+  std::signal(SIGTERM, interrupt);
+  Progress progress(model, scene, options.quiet);
+  const std::string status = take_steps(model, scene, *solver, log, progress);
+  progress.end();
+  log.finish(status);
+  if (status != "complete") {
+    fmt::print(stderr, "hagfish: {}: {}\n", out.string(), status);
+    return 1;
+  }
+  if (!options.quiet) {
+    fmt::print(stderr, "{}: complete after {:.1f} s\n", out.string(), progress.elapsed());
+  }
+  return 0;
+}
+
+int list_scenes() {
+  for (const std::string_view name : builtin_scene_names()) {
+    const auto text = builtin_file(fmt::format("{}.toml", name));
+    const ResolvedScene resolved =
+        read_scene_text(std::string(*text), std::string(name) + " (built in)");
+    fmt::print("{:<20} {}\n", name, resolved.scene.title);
+  }
+  return 0;
+}
+
+}  // namespace hagfish

@@ -1,0 +1,133 @@
+#include "mujoco_ref/mjcf.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <locale>
+#include <sstream>
+#include <vector>
+
+namespace hagfish {
+namespace {
+
+// The XML reader of MuJoCo 2.2 refuses elements nested deeper than 100, and a chain nests one body
+// in another. The limit holds per file: includes are spliced into the tree after reading.
+constexpr int bodies_per_file = 40;
+
+// MuJoCo drops contacts beyond its own bound, 100 whatever the model. In a tight knot of 100 bodies
+// 90 to 150 pairs touch (core/contact.hpp), and a pair of capsules can have two contacts.
+constexpr int contacts_per_body = 5;
+
+std::ostringstream number_stream() {
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out.precision(std::numeric_limits<double>::max_digits10);
+  return out;
+}
+
+std::string body_name(int body) { return "b" + std::to_string(body); }
+
+std::string bodies_file_name(int first_body) {
+  return "hagfish_bodies_" + std::to_string(first_body) + ".xml";
+}
+
+void write_hinge(std::ostream& out, const Hinge& hinge, const std::string& name) {
+  const Eigen::Vector3d axis = Eigen::Vector3d::Unit(static_cast<int>(hinge.axis));
+  const bool limited = std::isfinite(hinge.lower) || std::isfinite(hinge.upper);
+  out << "<joint name=\"" << name << "\" type=\"hinge\" axis=\"" << axis.transpose()
+      << "\" limited=\"" << (limited ? "true" : "false") << "\" range=\"" << hinge.lower << ' '
+      << hinge.upper << "\" stiffness=\"" << hinge.stiffness << "\" springref=\"0\" damping=\""
+      << hinge.damping << "\"/>\n";
+}
+
+/// Everything in the element of body `b` but the body that hangs on it, and not its end.
+void open_body(std::ostream& out, const Model& model, int b, const JointName& names) {
+  const Body& body = model.bodies[b];
+  const double joint = b == 0 ? 0 : model.bodies[b - 1].length;
+  out << "<body name=\"" << body_name(b) << "\" pos=\"" << joint << " 0 0\">\n";
+  if (b == 0) {
+    out << "<freejoint name=\"" << names.joint << "\"/>\n";
+  } else {
+    for (int k = 0; k < body.dofs; ++k) {
+      write_hinge(out, model.hinges[body.first_dof - root_dofs + k], names.dofs[k]);
+    }
+  }
+  out << "<inertial pos=\"" << 0.5 * body.length << " 0 0\" mass=\"" << body.mass
+      << "\" diaginertia=\"" << body.inertia.x() << ' ' << body.inertia.y() << ' '
+      << body.inertia.z() << "\"/>\n";
+  if (body.radius > 0) {
+    out << "<geom fromto=\"0 0 0 " << body.length << " 0 0\" size=\"" << body.radius << "\"/>\n";
+  }
+}
+
+/// The bodies from `first` on, nested, as far as one file goes; the rest is included.
+std::string bodies_file(const Model& model, const std::vector<JointName>& names, int first) {
+  std::ostringstream out = number_stream();
+  const int end = std::min(first + bodies_per_file, model.body_count());
+  out << "<mujocoinclude>\n";
+  for (int b = first; b < end; ++b) {
+    open_body(out, model, b, names[b]);
+  }
+  if (end < model.body_count()) {
+    out << "<include file=\"" << bodies_file_name(end) << "\"/>\n";
+  }
+  for (int b = first; b < end; ++b) {
+    out << "</body>\n";
+  }
+  out << "</mujocoinclude>\n";
+  return out.str();
+}
+
+void write_excludes(std::ostream& out, const Model& model, double least_arc) {
+  std::vector<double> arc;  // of the bodies' centres, cm
+  double start = 0;
+  for (const Body& body : model.bodies) {
+    arc.push_back(start + 0.5 * body.length);
+    start += body.length;
+  }
+  for (int a = 0; a < model.body_count(); ++a) {
+    // The hair of slack is that of core/contact.cpp: equal arcs fall on the same side in both.
+    for (int b = a + 1; b < model.body_count() && arc[b] - arc[a] < least_arc * (1 - 1e-9); ++b) {
+      out << "<exclude body1=\"" << body_name(a) << "\" body2=\"" << body_name(b) << "\"/>\n";
+    }
+  }
+}
+
+std::string root_file(const Model& model, double least_arc, double h) {
+  const int contacts = contacts_per_body * model.body_count();
+  const int rows = contacts + static_cast<int>(model.hinges.size());  // each contact is one row
+  std::ostringstream out = number_stream();
+  out << "<!-- Units: cm, g, s, rad. -->\n"
+         "<mujoco model=\"hagfish\">\n"
+         "<compiler angle=\"radian\" inertiafromgeom=\"false\"/>\n"
+      << "<option timestep=\"" << h << "\" gravity=\"" << model.gravity.x() << ' '
+      << model.gravity.y() << ' ' << model.gravity.z() << "\"/>\n"
+      << "<size nconmax=\"" << contacts << "\" njmax=\"" << rows << "\"/>\n"
+      << "<default>\n"
+         "<geom type=\"capsule\" condim=\"1\"/>\n"
+         "</default>\n"
+         "<worldbody>\n"
+         "<include file=\""
+      << bodies_file_name(0)
+      << "\"/>\n"
+         "</worldbody>\n"
+         "<contact>\n";
+  write_excludes(out, model, least_arc);
+  out << "</contact>\n"
+         "</mujoco>\n";
+  return out.str();
+}
+
+}  // namespace
+
+std::map<std::string, std::string> mjcf_files(const Model& model, double least_arc, double h) {
+  const std::vector<JointName> names = joint_names(model);
+  std::map<std::string, std::string> files;
+  files[mjcf_root_file] = root_file(model, least_arc, h);
+  for (int first = 0; first < model.body_count(); first += bodies_per_file) {
+    files[bodies_file_name(first)] = bodies_file(model, names, first);
+  }
+  return files;
+}
+
+}  // namespace hagfish

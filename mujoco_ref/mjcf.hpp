@@ -1,0 +1,28 @@
+// The model as MJCF, the file format of MuJoCo (written for version 2.2.2).
+//
+// Positions and velocities have the layout of core/state.hpp, so a log replays as it is. What the
+// two simulators share: bodies with their inertias, joints with limits, stiffness and damping, the
+// skin as frictionless capsules, and gravity. What is left out: water drag, which MuJoCo knows only
+// in other forms, and all that belongs to a scene: head clamp, head plate, script, controller.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "core/model.hpp"
+
+namespace hagfish {
+
+/// Name of the root document among the files of one model.
+inline constexpr const char* mjcf_root_file = "hagfish.xml";
+
+/// Texts by file name of `model` with the timestep `h` (s): the root document and the files it
+/// includes, 11 in all for 400 bodies. Units are cm, g, s, rad; numbers read back to the last bit.
+///
+/// Bodies are named b0, b1, ... head to tail, joints by the dofs of joint_names(), the free joint
+/// "root". A body of radius 0 has no geom. Capsules of bodies whose centres are closer along the
+/// body than `least_arc` (cm; ContactSettings::least_arc) never touch, as in core/contact.cpp.
+/// MuJoCo rejects a limited hinge whose lower limit is not below its upper one.
+std::map<std::string, std::string> mjcf_files(const Model& model, double least_arc, double h);
+
+}  // namespace hagfish

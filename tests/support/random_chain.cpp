@@ -1,0 +1,203 @@
+#include "tests/support/random_chain.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <utility>
+
+namespace hagfish {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+}  // namespace
+
+double uniform(Random& random, double low, double high) {
+  return low + (high - low) * static_cast<double>(random()) / 0x1p32;
+}
+
+Eigen::Vector3d random_vector(Random& random, double size) {
+  return random_entries(random, 3, size);
+}
+
+Eigen::VectorXd random_entries(Random& random, Eigen::Index count, double size) {
+  Eigen::VectorXd entries(count);
+  for (double& entry : entries) {
+    entry = uniform(random, -size, size);
+  }
+  return entries;
+}
+
+Eigen::Quaterniond random_rotation(Random& random) {
+  // Points of the cube inside the unit ball are even over all directions.
+  for (;;) {
+    const Eigen::Vector4d x = random_entries(random, 4);
+    if (x.norm() < 1 && x.norm() > 0.1) {
+      return Eigen::Quaterniond(x.normalized());
+    }
+  }
+}
+
+Specimen table1_specimen() {
+  Specimen fish;
+  fish.name = "Pacific hagfish (Eptatretus stoutii)";
+  fish.length = 42.4;
+  fish.mass = 80;
+  fish.station = {0.2, 0.4, 0.6, 0.8};
+  fish.circumference = {5.6, 5.5, 5.6, 4.3};
+  fish.bending_limit = {21 * degree, 75 * degree, 45 * degree, 51 * degree};
+  fish.bending_span = 0.848;
+  fish.twist_limit = 48 * degree;
+  return fish;
+}
+
+Scene table1_scene(int bodies) {
+  Scene scene;
+  scene.model.bodies = bodies;
+  scene.model.bending_stiffness = 424;
+  scene.model.twist_stiffness = 424;
+  scene.drag = {9.434, 2.358};
+  scene.controller.tighten_tail = {0.5, 2};
+  scene.controller.slide_head = {2, 2};
+  scene.controller.slide_tail = {2, 2};
+  return scene;
+}
+
+Model table1_hagfish(int bodies) { return make_hagfish(table1_specimen(), table1_scene(bodies)); }
+
+Model random_chain(Random& random, int bodies) {
+  Model model;
+  model.drag = {uniform(random, 1, 10), uniform(random, 1, 10)};
+  model.gravity = random_vector(random, 980);
+  for (int b = 0; b < bodies; ++b) {
+    Body body;
+    body.mass = uniform(random, 0.5, 2);
+    body.length = uniform(random, 0.3, 1);
+    body.radius = uniform(random, 0.3, 0.9);
+    body.inertia = cylinder_inertia(body.mass, body.length, body.radius);
+    body.inertia.z() *= uniform(random, 0.8, 1.2);  // so that Y and Z differ
+    std::array<Axis, 3> axes = {Axis::x, Axis::y, Axis::z};
+    std::swap(axes[0], axes[random() % 3]);
+    std::swap(axes[1], axes[1 + random() % 2]);
+    const auto count = static_cast<std::ptrdiff_t>(b == 0 ? 0 : random() % 4);
+    append_body(model, body, {axes.begin(), axes.begin() + count});
+  }
+  for (Hinge& hinge : model.hinges) {
+    hinge.lower = -uniform(random, 0.2, 1);
+    hinge.upper = uniform(random, 0.2, 1);
+    hinge.stiffness = uniform(random, 0, 500);
+    hinge.damping = uniform(random, 0, 20);
+  }
+  return model;
+}
+
+State random_state(Random& random, const Model& model, double angle, double speed) {
+  State state = rest_state(model);
+  state.q.head<3>() = random_vector(random, 5);
+  const Eigen::Quaterniond turn = random_rotation(random);
+  state.q.segment<4>(3) << turn.w(), turn.x(), turn.y(), turn.z();
+  for (int k = root_dofs; k < model.nv(); ++k) {
+    const Hinge& hinge = model.hinges[k - root_dofs];
+    state.q[k + 1] =
+        uniform(random, std::max(-angle, hinge.lower), std::min(angle, hinge.upper));
+  }
+  state.qdot = random_entries(random, model.nv(), speed);
+  return state;
+}
+
+State bent_state(const Model& model, double bend_y, double bend_z, double twist) {
+  State state = rest_state(model);
+  for (int k = root_dofs; k < model.nv(); ++k) {
+    const Hinge& hinge = model.hinges[k - root_dofs];
+    const double rate = hinge.axis == Axis::x ? twist : hinge.axis == Axis::y ? bend_y : bend_z;
+    state.q[k + 1] = rate * 2 * model.bodies[hinge.body].length;
+  }
+  return state;
+}
+
+State coiled_state(const Model& model, double torsion) {
+  State state = rest_state(model);
+  double arc = 0;
+  for (const Body& body : model.bodies) {
+    for (int k = std::max(root_dofs, body.first_dof); k < body.first_dof + body.dofs; ++k) {
+      const Axis axis = model.hinges[k - root_dofs].axis;
+      const double share = axis == Axis::x   ? 0
+                           : axis == Axis::y ? std::sin(torsion * arc)
+                                             : std::cos(torsion * arc);
+      state.q[k + 1] = 0.25 * share * 2 * body.length;
+    }
+    arc += body.length;
+  }
+  return state;
+}
+
+State tangled_state(Random& random, const Model& model, double curvature) {
+  const Eigen::Vector3d rate = random_vector(random, 0.3);
+  const Eigen::Vector3d phase = random_vector(random, std::numbers::pi);
+  State state = rest_state(model);
+  double arc = 0;
+  for (const Body& body : model.bodies) {
+    for (int k = std::max(root_dofs, body.first_dof); k < body.first_dof + body.dofs; ++k) {
+      const int axis = static_cast<int>(model.hinges[k - root_dofs].axis);
+      const double size = axis == 0 ? 0.01 : curvature;
+      state.q[k + 1] = size * 2 * body.length * std::cos(rate[axis] * arc + phase[axis]);
+    }
+    arc += body.length;
+  }
+  return state;
+}
+
+Matrix6Xd body_jacobian(const Model& model, const Kinematics& kin, int body) {
+  Matrix6Xd jacobian = Matrix6Xd::Zero(6, model.nv());
+  const int ahead = model.bodies[body].first_dof + model.bodies[body].dofs;
+  jacobian.leftCols(ahead) = kin.axis.leftCols(ahead);
+  return jacobian;
+}
+
+Eigen::Matrix3Xd centre_jacobian(const Model& model, const Kinematics& kin, int body) {
+  const Matrix6Xd jacobian = body_jacobian(model, kin, body);
+  return jacobian.bottomRows<3>() - skew(kin.centre_offset(body)) * jacobian.topRows<3>();
+}
+
+Eigen::MatrixXd dense_rows(const Model& model, const Kinematics& kin,
+                           const std::vector<Row>& rows) {
+  Eigen::MatrixXd c = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(rows.size()), model.nv());
+  for (Eigen::Index i = 0; i < c.rows(); ++i) {
+    const Row& row = rows[i];
+    if (row.dof >= 0) {
+      c(i, row.dof) = row.sign;
+    }
+    for (int k = 0; k < row.forces; ++k) {
+      c.row(i) +=
+          row.force[k].force.transpose() * centre_jacobian(model, kin, row.force[k].body);
+    }
+  }
+  return c;
+}
+
+Operator random_operator(Random& random, const Model& model, const Kinematics& kin) {
+  Operator op;
+  for (int b = 0; b < model.body_count(); ++b) {
+    const Eigen::Matrix3d turn = random_rotation(random).toRotationMatrix();
+    const auto positive = [&](double size) -> Eigen::Matrix3d {
+      const Eigen::Vector3d diagonal =
+          size * (Eigen::Vector3d::Ones() + 0.5 * random_vector(random));
+      return turn * diagonal.asDiagonal() * turn.transpose();
+    };
+    const Body& body = model.bodies[b];
+    op.inertia.push_back(point_operator(positive(body.inertia.maxCoeff()), positive(body.mass),
+                                        kin.centre_offset(b)));
+  }
+  op.diagonal = random_entries(random, model.nv(), 0.01).cwiseAbs();
+  return op;
+}
+
+double relative_error(const Eigen::MatrixXd& x, const Eigen::MatrixXd& y) {
+  const double scale = y.size() > 0 ? y.lpNorm<Eigen::Infinity>() : 0;
+  const double error = x.size() > 0 ? (x - y).lpNorm<Eigen::Infinity>() : 0;
+  return scale > 0 ? error / scale : error;
+}
+
+}  // namespace hagfish

@@ -1,0 +1,74 @@
+// Models, states and reference algebra that the tests of core share. Everything random comes from a
+// seeded std::mt19937 and is the same on every platform. Units: cm, g, s, rad, dyn.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <random>
+#include <vector>
+
+#include "core/articulated.hpp"
+#include "core/kinematics.hpp"
+#include "core/model.hpp"
+#include "core/rows.hpp"
+#include "core/settings.hpp"
+#include "core/specimen.hpp"
+#include "core/state.hpp"
+
+namespace hagfish {
+
+using Random = std::mt19937;
+
+/// Evenly spread over [low, high).
+double uniform(Random& random, double low, double high);
+/// Components even over [-size, size).
+Eigen::Vector3d random_vector(Random& random, double size = 1);
+/// `count` entries even over [-size, size).
+Eigen::VectorXd random_entries(Random& random, Eigen::Index count, double size = 1);
+/// Unit quaternion, even over all rotations.
+Eigen::Quaterniond random_rotation(Random& random);
+
+/// The paper's Table 1, as data/pacific_hagfish.toml gives it.
+Specimen table1_specimen();
+/// The Table 1 scene without its script, as data/table1.toml gives it, for `bodies` bodies.
+Scene table1_scene(int bodies = 100);
+/// The hagfish of that scene.
+Model table1_hagfish(int bodies = 100);
+
+/// `bodies` cylinders of random mass (0.5 to 2 g), length (0.3 to 1 cm) and radius; every body but
+/// the first hangs on 0 to 3 hinges about distinct random axes with limits, stiffness and damping.
+Model random_chain(Random& random, int bodies);
+
+/// Any root pose (positions up to 5 cm), hinge angles up to `angle` to either side but inside the
+/// limits, velocities up to `speed`.
+State random_state(Random& random, const Model& model, double angle = 0.5, double speed = 1);
+
+/// At rest, bent evenly about every Y and Z hinge and twisted about every X hinge, rad per cm of
+/// body (each hinge stands for two bodies), head at the origin.
+State bent_state(const Model& model, double bend_y, double bend_z, double twist = 0);
+
+/// A helix at rest with curvature 0.25 and `torsion` rad / cm: a body of 42.4 cm makes 1.7 turns of
+/// 4 cm radius, 2 pi torsion / (0.0625 + torsion^2) cm apart. The bend turns about the body, the
+/// revolute joints stay at zero. The hagfish touches itself where torsion is 0.018.
+State coiled_state(const Model& model, double torsion);
+
+/// A smooth random curve at rest, bent by up to `curvature` rad / cm about each axis: some tens of
+/// self-contacts for a hagfish of 0.35 rad / cm, deep ones among them.
+State tangled_state(Random& random, const Model& model, double curvature = 0.35);
+
+/// RedMax's J of one body, 6 x nv: the axes of the velocities ahead of it, zero behind.
+Matrix6Xd body_jacobian(const Model& model, const Kinematics& kin, int body);
+
+/// Jacobian of a body's centre, 3 x nv.
+Eigen::Matrix3Xd centre_jacobian(const Model& model, const Kinematics& kin, int body);
+
+/// Rows as a dense matrix, m x nv, from centre_jacobian.
+Eigen::MatrixXd dense_rows(const Model& model, const Kinematics& kin, const std::vector<Row>& rows);
+
+/// Î: symmetric positive definite blocks about O with δ >= 0: random inertias at the centres.
+Operator random_operator(Random& random, const Model& model, const Kinematics& kin);
+
+/// Largest entry of |x - y| over the largest of |y|.
+double relative_error(const Eigen::MatrixXd& x, const Eigen::MatrixXd& y);
+
+}  // namespace hagfish

@@ -1,0 +1,372 @@
+// The mirrored model must be the core's: same layout, same constants to the last bit, and the same
+// kinematics, mass matrix and forces in random states.
+#include "mujoco_ref/mjcf.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <ostream>
+#include <random>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/dynamics.hpp"
+#include "core/kinematics.hpp"
+#include "core/model.hpp"
+#include "core/settings.hpp"
+#include "core/spline.hpp"
+#include "core/state.hpp"
+#include "mujoco_ref/mujoco_model.hpp"
+
+namespace hagfish {
+namespace {
+
+constexpr double least_arc = 3.392;
+constexpr double timestep = 0.002;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+using RowMajor3d = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+using RowMajorXd = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+double uniform(std::mt19937& random, double low, double high) {
+  return low + (high - low) * static_cast<double>(random()) / 0x1p32;
+}
+
+/// A hagfish with passive joints in gravity along no axis, so that no term is zero by chance.
+Model hagfish(int bodies) {
+  Specimen specimen;
+  specimen.length = 42.4;
+  specimen.mass = 80;
+  specimen.station = {0.2, 0.4, 0.6, 0.8};
+  specimen.circumference = {5.6, 5.5, 5.6, 4.3};
+  specimen.bending_limit = {0.37, 1.31, 0.79, 0.89};
+  specimen.bending_span = 0.848;
+  specimen.twist_limit = 0.84;
+  Scene scene;
+  scene.model.bodies = bodies;
+  scene.model.bending_stiffness = 424;
+  scene.model.bending_damping = 17;
+  scene.model.twist_stiffness = 300;
+  scene.model.twist_damping = 11;
+  scene.gravity = {120, -350, -981};
+  return make_hagfish(specimen, scene);
+}
+
+/// What a hagfish has not: bodies of different lengths and full inertia, joints with three hinges
+/// or none, limits on one side or on none, a body without skin.
+Model irregular() {
+  Model model;
+  model.gravity = {1.0 / 3, -2, 981};
+  append_body(model, {.mass = 1.1, .length = 3, .radius = 0.5, .inertia = {1, 2, 2.5}}, {});
+  append_body(model, {.mass = 0.7, .length = 0.3, .radius = 0.4, .inertia = {0.3, 0.2, 0.25}},
+              {Axis::x, Axis::y, Axis::z});
+  append_body(model, {.mass = 2.0 / 3, .length = 5, .radius = 0, .inertia = {0.1, 0.3, 0.35}}, {});
+  append_body(model, {.mass = 0.2, .length = 1, .radius = 0.1, .inertia = {0.01, 0.02, 0.02}},
+              {Axis::z, Axis::y});
+  model.hinges[0].lower = -0.5;
+  model.hinges[1].upper = 0.1;
+  model.hinges[2].stiffness = 7;
+  model.hinges[3].damping = 1.0 / 7;
+  return model;
+}
+
+State random_state(const Model& model, std::mt19937& random) {
+  State state{Eigen::VectorXd(model.nq()), Eigen::VectorXd(model.nv())};
+  for (double& value : state.q) value = uniform(random, -1, 1);
+  state.q.head<3>() *= model.length();
+  state.q.segment<4>(3).normalize();
+  for (std::size_t k = 0; k < model.hinges.size(); ++k) {
+    const Hinge& hinge = model.hinges[k];
+    state.q[7 + static_cast<Eigen::Index>(k)] =
+        uniform(random, std::max(hinge.lower, -2.0), std::min(hinge.upper, 2.0));
+  }
+  for (double& value : state.qdot) value = uniform(random, -5, 5);
+  return state;
+}
+
+struct Case {
+  std::string name;
+  Model model;
+};
+
+void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+
+/// Loads the case's model once a test; `forward` puts it into a state.
+class Mirror : public testing::TestWithParam<Case> {
+ protected:
+  Mirror() : mujoco_(mjcf_files(model(), least_arc, timestep)) {}
+
+  static const Model& model() { return GetParam().model; }
+
+  /// All that MuJoCo computes of `state` short of contacts and limits.
+  void forward(const State& state) {
+    mujoco_.model()->opt.disableflags |= mjDSBL_CONSTRAINT;
+    std::copy(state.q.begin(), state.q.end(), mujoco_.data()->qpos);
+    std::copy(state.qdot.begin(), state.qdot.end(), mujoco_.data()->qvel);
+    mj_forward(mujoco_.model(), mujoco_.data());
+  }
+
+  std::string name(mjtObj type, int id) { return mj_id2name(mujoco_.model(), type, id); }
+
+  MujocoModel mujoco_;
+};
+
+TEST_P(Mirror, HasTheLayoutOfTheCore) {
+  const mjModel& m = *mujoco_.model();
+  ASSERT_EQ(m.nq, model().nq());
+  ASSERT_EQ(m.nv, model().nv());
+  ASSERT_EQ(m.nbody, 1 + model().body_count());
+  ASSERT_EQ(m.njnt, 1 + static_cast<int>(model().hinges.size()));
+  EXPECT_EQ(name(mjOBJ_JOINT, 0), "root");
+  EXPECT_EQ(m.jnt_type[0], mjJNT_FREE);
+  EXPECT_EQ(m.jnt_bodyid[0], 1);
+
+  std::vector<std::string> names;
+  for (const JointName& joint : joint_names(model())) {
+    if (joint.joint != "root") names.insert(names.end(), joint.dofs.begin(), joint.dofs.end());
+  }
+  for (int k = 0; k < m.njnt - 1; ++k) {
+    const Hinge& hinge = model().hinges[k];
+    EXPECT_EQ(name(mjOBJ_JOINT, k + 1), names[k]);
+    EXPECT_EQ(m.jnt_type[k + 1], mjJNT_HINGE);
+    EXPECT_EQ(m.jnt_bodyid[k + 1], 1 + hinge.body);
+    EXPECT_EQ(m.jnt_qposadr[k + 1], 7 + k);
+    EXPECT_EQ(m.jnt_dofadr[k + 1], 6 + k);
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_EQ(m.jnt_axis[3 * (k + 1) + i], i == static_cast<int>(hinge.axis));
+    }
+  }
+  const Eigen::VectorXd rest = rest_state(model()).q;
+  EXPECT_TRUE(std::equal(rest.begin(), rest.end(), m.qpos0));
+}
+
+// Written with all digits, so numbers must come back to the last bit.
+TEST_P(Mirror, HasTheConstantsOfTheCore) {
+  const mjModel& m = *mujoco_.model();
+  EXPECT_EQ(m.opt.timestep, timestep);
+  EXPECT_EQ(Eigen::Vector3d(m.opt.gravity), model().gravity);
+  for (int b = 0; b < model().body_count(); ++b) {
+    const Body& body = model().bodies[b];
+    EXPECT_EQ(name(mjOBJ_BODY, b + 1), "b" + std::to_string(b));
+    EXPECT_EQ(m.body_mass[b + 1], body.mass);
+    EXPECT_EQ(Eigen::Vector3d(m.body_inertia + 3 * (b + 1)), body.inertia);
+    EXPECT_EQ(Eigen::Vector3d(m.body_ipos + 3 * (b + 1)), Eigen::Vector3d(body.length / 2, 0, 0));
+    EXPECT_EQ(Eigen::Vector4d(m.body_iquat + 4 * (b + 1)), Eigen::Vector4d(1, 0, 0, 0));
+  }
+  for (int k = 0; k < m.njnt - 1; ++k) {
+    const Hinge& hinge = model().hinges[k];
+    const bool limited = hinge.lower > -infinity || hinge.upper < infinity;
+    EXPECT_EQ(m.jnt_limited[k + 1] != 0, limited);
+    EXPECT_EQ(m.jnt_range[2 * (k + 1)], hinge.lower);
+    EXPECT_EQ(m.jnt_range[2 * (k + 1) + 1], hinge.upper);
+    EXPECT_EQ(m.jnt_stiffness[k + 1], hinge.stiffness);
+    EXPECT_EQ(m.qpos_spring[k + 7], 0);
+    EXPECT_EQ(m.dof_damping[k + 6], hinge.damping);
+    EXPECT_EQ(m.dof_armature[k + 6], 0);
+    EXPECT_EQ(m.dof_frictionloss[k + 6], 0);
+  }
+}
+
+TEST_P(Mirror, PutsBodiesAndSkinWhereTheCoreDoes) {
+  std::mt19937 random(1);
+  for (int trial = 0; trial < 3; ++trial) {
+    const State state = random_state(model(), random);
+    const Kinematics kin = kinematics(model(), state);
+    forward(state);
+    const mjModel& m = *mujoco_.model();
+    const mjData& d = *mujoco_.data();
+    // Rounding: up to 400 turns, each good to some 1e-16, on positions of up to two body lengths.
+    const double close = 1e-12 * model().length();
+    for (int b = 0; b < model().body_count(); ++b) {
+      SCOPED_TRACE(b);
+      const Eigen::Vector3d origin(d.xpos + 3 * (b + 1));
+      const Eigen::Vector3d centre(d.xipos + 3 * (b + 1));
+      const Eigen::Map<const RowMajor3d> rotation(d.xmat + 9 * (b + 1));
+      EXPECT_LE((origin - kin.origin.col(b)).norm(), close);
+      EXPECT_LE((centre - kin.centre.col(b)).norm(), close);
+      EXPECT_LE((rotation - kin.rotation[b]).norm(), 1e-12);
+      ASSERT_EQ(m.body_geomnum[b + 1], model().bodies[b].radius > 0 ? 1 : 0);
+    }
+    for (int g = 0; g < m.ngeom; ++g) {
+      const int b = m.geom_bodyid[g] - 1;
+      SCOPED_TRACE(b);
+      const Body& body = model().bodies[b];
+      EXPECT_EQ(m.geom_type[g], mjGEOM_CAPSULE);
+      EXPECT_EQ(m.geom_size[3 * g], body.radius);
+      // MuJoCo halves a distance that it takes of two points: 4 ulp.
+      EXPECT_DOUBLE_EQ(m.geom_size[3 * g + 1], body.length / 2);
+      const Eigen::Vector3d centre(d.geom_xpos + 3 * g);
+      const Eigen::Map<const RowMajor3d> rotation(d.geom_xmat + 9 * g);
+      EXPECT_LE((centre - kin.centre.col(b)).norm(), close);
+      // A capsule lies along its own Z, either way round.
+      EXPECT_LE(rotation.col(2).cross(kin.rotation[b].col(0)).norm(), 1e-12);
+    }
+  }
+}
+
+TEST_P(Mirror, HasTheMassMatrixOfTheCore) {
+  std::mt19937 random(2);
+  for (int trial = 0; trial < 3; ++trial) {
+    const State state = random_state(model(), random);
+    const Kinematics kin = kinematics(model(), state);
+    const Eigen::MatrixXd expected =
+        dense(model(), kin, {body_inertias(model(), kin), Eigen::VectorXd::Zero(model().nv())});
+    forward(state);
+    RowMajorXd actual(model().nv(), model().nv());
+    mj_fullM(mujoco_.model(), actual.data(), mujoco_.data()->qM);
+    // Rounding in sums over up to 400 bodies, relative to the diagonal: no entry of a positive
+    // definite matrix exceeds sqrt(M_ii M_jj).
+    const Eigen::VectorXd scale = expected.diagonal().cwiseSqrt().cwiseInverse();
+    const Eigen::MatrixXd error = scale.asDiagonal() * (actual - expected) * scale.asDiagonal();
+    EXPECT_LE(error.cwiseAbs().maxCoeff(), 1e-11);
+  }
+}
+
+TEST_P(Mirror, HasTheForcesOfTheCore) {
+  std::mt19937 random(3);
+  for (int trial = 0; trial < 3; ++trial) {
+    const State state = random_state(model(), random);
+    const Kinematics kin = kinematics(model(), state);
+    const Eigen::VectorXd bias = generalised_force(
+        model(), kin, bias_wrench(kin, body_inertias(model(), kin)) - gravity_wrench(model(), kin));
+    Eigen::VectorXd passive = stiffness_force(model(), state.q);
+    for (std::size_t k = 0; k < model().hinges.size(); ++k) {
+      const auto dof = root_dofs + static_cast<Eigen::Index>(k);
+      passive[dof] -= model().hinges[k].damping * state.qdot[dof];
+    }
+    forward(state);
+    const Eigen::Map<const Eigen::VectorXd> actual_bias(mujoco_.data()->qfrc_bias, model().nv());
+    const Eigen::Map<const Eigen::VectorXd> actual_passive(mujoco_.data()->qfrc_passive,
+                                                           model().nv());
+    // Rounding in sums over up to 400 bodies, relative to the largest force: the terms cancel.
+    EXPECT_LE((actual_bias - bias).lpNorm<Eigen::Infinity>(),
+              1e-10 * bias.lpNorm<Eigen::Infinity>());
+    // Two products and a sum.
+    EXPECT_LE((actual_passive - passive).lpNorm<Eigen::Infinity>(),
+              1e-15 * passive.lpNorm<Eigen::Infinity>());
+  }
+}
+
+TEST_P(Mirror, ExcludesTheContactsThatTheCoreIgnores) {
+  std::set<std::pair<int, int>> expected;
+  const int n = model().body_count();
+  const auto centre = [](int b) {
+    return b == 0 ? arc_length(model(), 0, 0) : arc_length(model(), b - 1, 1);
+  };
+  for (int a = 0; a < n; ++a) {
+    for (int b = a + 1; b < n; ++b) {
+      // 1e-6: the core counts equal arcs as apart.
+      if (centre(b) - centre(a) < least_arc - 1e-6) expected.insert({a, b});
+    }
+  }
+  const mjModel& m = *mujoco_.model();
+  std::set<std::pair<int, int>> actual;
+  for (int e = 0; e < m.nexclude; ++e) {
+    const int signature = m.exclude_signature[e];  // (body1 + 1) << 16 + body2 + 1, world is 0
+    const int a = (signature >> 16) - 2;
+    const int b = (signature & 0xffff) - 2;
+    actual.insert({std::min(a, b), std::max(a, b)});
+  }
+  EXPECT_EQ(actual, expected);
+  mj_forward(mujoco_.model(), mujoco_.data());
+  EXPECT_EQ(mujoco_.data()->ncon, 0) << "at rest";
+}
+
+INSTANTIATE_TEST_SUITE_P(Mjcf, Mirror,
+                         testing::Values(Case{"bodies_2", hagfish(2)}, Case{"bodies_3", hagfish(3)},
+                                         Case{"bodies_10", hagfish(10)},
+                                         Case{"bodies_100", hagfish(100)},
+                                         Case{"bodies_400", hagfish(400)},
+                                         Case{"irregular", irregular()}),
+                         [](const auto& test) { return test.param.name; });
+
+// A tail that meets the head in a pentagon: five corners of 72 degrees, one every second body.
+TEST(Mjcf, SkinTouchesWithoutFriction) {
+  Model model = hagfish(10);
+  State state = rest_state(model);
+  for (std::size_t k = 0; k < model.hinges.size(); ++k) {
+    if (model.hinges[k].axis == Axis::z)
+      state.q[7 + static_cast<Eigen::Index>(k)] = 2 * std::numbers::pi / 5;
+  }
+  MujocoModel mujoco(mjcf_files(model, least_arc, timestep));
+  std::copy(state.q.begin(), state.q.end(), mujoco.data()->qpos);
+  mj_forward(mujoco.model(), mujoco.data());
+  ASSERT_GT(mujoco.data()->ncon, 0);
+  for (int c = 0; c < mujoco.data()->ncon; ++c) {
+    const mjContact& contact = mujoco.data()->contact[c];
+    EXPECT_EQ(std::minmax(mujoco.model()->geom_bodyid[contact.geom1],
+                          mujoco.model()->geom_bodyid[contact.geom2]),
+              std::minmax(1, 10));
+    EXPECT_EQ(contact.dim, 1);
+  }
+}
+
+/// The error of loading `files`.
+std::string load_error(const std::map<std::string, std::string>& files) {
+  try {
+    const MujocoModel mujoco(files);
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::map<std::string, std::string> files_of_100() {
+  return mjcf_files(hagfish(100), least_arc, timestep);
+}
+
+TEST(MujocoModel, NamesTheFileThatIsNotXml) {
+  for (const auto& [name, text] : files_of_100()) {
+    auto files = files_of_100();
+    files[name] = text.substr(0, text.size() / 2);
+    const std::string error = load_error(files);
+    EXPECT_EQ(error.rfind(name + ": XML parse error", 0), 0u) << error;
+    EXPECT_EQ(error.find('\n'), std::string::npos) << error;
+    files[name].clear();
+    EXPECT_EQ(load_error(files), name + ": empty file");
+  }
+}
+
+TEST(MujocoModel, PassesOnWhatMujocoRejects) {
+  auto files = files_of_100();
+  std::string& text = files["hagfish_bodies_40.xml"];
+  text.replace(text.find("<geom"), 5, "<fish");
+  EXPECT_EQ(
+      load_error(files),
+      "hagfish.xml: XML Error: Schema violation: unrecognized element Element 'fish', line 0");
+  files = files_of_100();
+  files.erase("hagfish_bodies_40.xml");
+  EXPECT_NE(load_error(files).find("filename=hagfish_bodies_40.xml"), std::string::npos);
+  Model model = hagfish(2);
+  model.hinges[1].lower = model.hinges[1].upper;
+  const std::string error = load_error(mjcf_files(model, least_arc, timestep));
+  EXPECT_NE(error.find("range[0] should be smaller than range[1] in joint 'j01_bend_z'"),
+            std::string::npos)
+      << error;
+  EXPECT_EQ(error.find('\n'), std::string::npos) << error;
+}
+
+// MuJoCo drops what its buffers cannot hold. A tight knot of 100 bodies has up to 150 touching
+// pairs (core/contact.hpp), with two contacts in a pair at most.
+TEST(Mjcf, HasRoomForTheContactsOfATightKnot) {
+  const Model model = hagfish(100);
+  const MujocoModel mujoco(mjcf_files(model, least_arc, timestep));
+  EXPECT_GE(mujoco.model()->nconmax, 300);
+  EXPECT_GE(mujoco.model()->njmax, 300 + static_cast<int>(model.hinges.size()));
+}
+
+// Overlapping neighbours are too many contacts for MuJoCo's buffer, of which it only warns.
+TEST(MujocoModel, TakesWarningsAsErrors) {
+  const std::string error = load_error(mjcf_files(hagfish(100), 0, timestep));
+  EXPECT_EQ(error.rfind("hagfish.xml: Pre-allocated contact buffer is full", 0), 0u) << error;
+}
+
+}  // namespace
+}  // namespace hagfish
