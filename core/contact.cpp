@@ -58,25 +58,26 @@ bool is_local_minimum(const std::vector<Candidate>& pairs, std::size_t index) {
   return true;
 }
 
-Contact make_contact(const Model& model, const std::vector<SplineSegment>& segments,
-                     const Candidate& pair) {
-  const SplineSegment& a = segments[pair.a];
-  const SplineSegment& b = segments[pair.b];
+}  // namespace
+
+Contact contact_at(const Model& model, const std::vector<SplineSegment>& segments, int segment_a,
+                   double t_a, int segment_b, double t_b) {
+  const SplineSegment& a = segments[segment_a];
+  const SplineSegment& b = segments[segment_b];
+  const Eigen::Vector3d apart = a.point(t_a) - b.point(t_b);
   Contact c;
-  c.segment_a = pair.a;
-  c.segment_b = pair.b;
-  c.t_a = pair.closest.t_a;
-  c.t_b = pair.closest.t_b;
-  c.arc_a = arc_length(model, c.segment_a, c.t_a);
-  c.arc_b = arc_length(model, c.segment_b, c.t_b);
-  c.gap = pair.closest.gap;
-  c.normal = (a.point(c.t_a) - b.point(c.t_b)).normalized();
-  c.tangent_a = a.slope(c.t_a).normalized();
-  c.tangent_b = b.slope(c.t_b).normalized();
+  c.segment_a = segment_a;
+  c.segment_b = segment_b;
+  c.t_a = t_a;
+  c.t_b = t_b;
+  c.arc_a = arc_length(model, segment_a, t_a);
+  c.arc_b = arc_length(model, segment_b, t_b);
+  c.gap = apart.norm() - a.radius(t_a) - b.radius(t_b);
+  c.normal = apart.normalized();
+  c.tangent_a = a.slope(t_a).normalized();
+  c.tangent_b = b.slope(t_b).normalized();
   return c;
 }
-
-}  // namespace
 
 ContactSet find_contacts(const Model& model, const std::vector<SplineSegment>& segments,
                          const ContactSettings& settings) {
@@ -85,9 +86,9 @@ ContactSet find_contacts(const Model& model, const std::vector<SplineSegment>& s
   set.least_gap = settings.margin;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     set.least_gap = std::min(set.least_gap, pairs[i].closest.gap);
-    if (is_local_minimum(pairs, i)) {
-      set.contacts.push_back(make_contact(model, segments, pairs[i]));
-    }
+    const Candidate& pair = pairs[i];
+    (is_local_minimum(pairs, i) ? set.contacts : set.others)
+        .push_back(contact_at(model, segments, pair.a, pair.closest.t_a, pair.b, pair.closest.t_b));
   }
   std::sort(set.contacts.begin(), set.contacts.end(), [](const Contact& x, const Contact& y) {
     return std::pair(x.arc_a, x.arc_b) < std::pair(y.arc_a, y.arc_b);

@@ -25,13 +25,19 @@ struct Contact {
 };
 
 struct ContactSet {
-  /// Local minima of the gap up to the margin, sorted by arc_a, then arc_b. In a tight knot 90 to
-  /// 150 pairs of segments touch, but the gap has some 15 minima, and it is positive everywhere if
-  /// it is at those.
+  /// Local minima of the gap up to the margin, sorted by arc_a, then arc_b: some 5 to 15 in a tight
+  /// knot. The gap is positive everywhere if it is at those.
   std::vector<Contact> contacts;
+  /// The other pairs of segments within the margin, 90 to 150 of them. They matter only where a
+  /// step makes a new minimum of one.
+  std::vector<Contact> others;
   /// Least gap found, cm; at most the margin.
   double least_gap = 0;
 };
+
+/// The pair of spline points (segment_a, t_a) and (segment_b, t_b), whatever the gap there.
+Contact contact_at(const Model& model, const std::vector<SplineSegment>& segments, int segment_a,
+                   double t_a, int segment_b, double t_b);
 
 /// Finds the contacts of `segments` (paper, 3.1: bounding spheres, then Eq. 5).
 ContactSet find_contacts(const Model& model, const std::vector<SplineSegment>& segments,

@@ -16,40 +16,31 @@ double apart(const Contact& x, const Contact& y) {
   return std::hypot(x.arc_a - y.arc_a, x.arc_b - y.arc_b);
 }
 
-/// Keeps to the tracked contact while it lasts, unless `outermost` has been another one for longer
-/// than the hysteresis.
-void follow(TrackedContact& tracked, const std::vector<Contact>& contacts, const Contact* outermost,
-            double time, double hysteresis) {
+void follow(TrackedContact& tracked, const Model& model, const Situation& situation,
+            const Contact* outermost, double time, double hysteresis) {
   if (outermost == nullptr) {
     tracked = {};
     return;
   }
-  const Contact* same = nullptr;
-  if (tracked.contact) {
-    const auto nearest =
-        std::min_element(contacts.begin(), contacts.end(), [&](const Contact& x, const Contact& y) {
-          return apart(x, *tracked.contact) < apart(y, *tracked.contact);
-        });
-    if (apart(*nearest, *tracked.contact) < same_contact) {
-      same = &*nearest;
-    }
-  }
-  if (same == nullptr || same == outermost) {
-    tracked = {*outermost, 0, false};
+  if (!tracked.contact || apart(*outermost, *tracked.contact) < same_contact ||
+      time - tracked.settled >= hysteresis) {
+    tracked = {*outermost, time};
     return;
   }
-  if (!tracked.rivalled) {
-    tracked.rivalled = true;
-    tracked.rival_since = time;
-  }
-  tracked.contact = *same;
-  if (time - tracked.rival_since >= hysteresis) {
-    tracked = {*outermost, 0, false};
-  }
+  const std::vector<Contact>& contacts = situation.contact.contacts;
+  const Contact& old = *tracked.contact;
+  const auto nearest =
+      std::min_element(contacts.begin(), contacts.end(), [&](const Contact& x, const Contact& y) {
+        return apart(x, old) < apart(y, old);
+      });
+  tracked.contact = apart(*nearest, old) < same_contact
+                        ? *nearest
+                        : contact_at(model, situation.segments, old.segment_a, old.t_a,
+                                     old.segment_b, old.t_b);
 }
 
-void follow_contacts(const Scene& scene, const Situation& situation, double time,
-                     ControllerState& controller) {
+void follow_contacts(const Model& model, const Scene& scene, const Situation& situation,
+                     double time, ControllerState& controller) {
   const std::vector<Contact>& contacts = situation.contact.contacts;
   const Contact* first = nullptr;
   const Contact* last = nullptr;
@@ -64,8 +55,8 @@ void follow_contacts(const Scene& scene, const Situation& situation, double time
       last = &contact;
     }
   }
-  follow(controller.first, contacts, first, time, scene.controller.hysteresis);
-  follow(controller.last, contacts, last, time, scene.controller.hysteresis);
+  follow(controller.first, model, situation, first, time, scene.controller.hysteresis);
+  follow(controller.last, model, situation, last, time, scene.controller.hysteresis);
 }
 
 void enter(ControllerState& controller, Phase phase, double time) {
@@ -110,8 +101,11 @@ void switch_by_span(const Scene& scene, double time, ControllerState& controller
     return;
   }
   const ControllerSettings& settings = scene.controller;
+  if (controller.phase == Phase::form || span->tail_end - span->head_end > settings.tight_span) {
+    controller.loose = time;
+  }
   if (controller.phase == Phase::tighten &&
-      (span->tail_end - span->head_end <= settings.tight_span ||
+      (time - controller.loose >= settings.tight_hold ||
        time - controller.phase_start >= settings.tighten_time)) {
     enter(controller, Phase::slide, time);
   }
@@ -136,7 +130,7 @@ std::optional<KnotSpan> knot_span(const ControllerState& controller) {
 
 Control decide(const Model& model, const Scene& scene, const Situation& situation, double time,
                ControllerState& controller) {
-  follow_contacts(scene, situation, time, controller);
+  follow_contacts(model, scene, situation, time, controller);
   // Half a step of slack: the time of a step is a product and may fall short by rounding.
   if (time + 0.5 * scene.time.step >= controller.next_look) {
     controller.next_look = time + scene.knot.interval;

@@ -15,17 +15,19 @@ enum class Phase : std::uint8_t { form, tighten, slide, release, free };
 inline constexpr int phase_count = 5;
 const char* phase_name(Phase phase);
 
-/// The contact that plays the first or the last one, followed from step to step.
+/// The contact that plays the first or the last one, followed from step to step. Minima of the gap
+/// come and go and hop along a strand; the one in use stays, as the pair of material points that it
+/// last was, until another has been the outermost for the hysteresis time.
 struct TrackedContact {
   std::optional<Contact> contact;
-  double rival_since = 0;  ///< time since which another one has been the outermost, s
-  bool rivalled = false;
+  double settled = 0;  ///< time at which it last was the outermost contact, s
 };
 
 struct ControllerState {
   Phase phase = Phase::form;
   double phase_start = 0;  ///< s
   double next_look = 0;    ///< at the knot type, s
+  double loose = 0;        ///< when the knot last spanned more than tight_span, s
   KnotVote knot;           ///< as last seen
   TrackedContact first, last;
 };

@@ -119,19 +119,25 @@ std::vector<Row> limit_rows(const Model& model, const State& state,
   return rows;
 }
 
-std::vector<Row> contact_rows(const Model& model, const std::vector<Contact>& contacts,
+std::vector<Row> contact_rows(const Model& model, const ContactSet& contacts,
                               const ConstraintSettings& settings, double h) {
   std::vector<Row> rows;
-  for (const Contact& contact : contacts) {
+  const auto add = [&](const Contact& contact, bool waits) {
     Row row;
     row.kind = RowKind::contact;
     row.id = row_id(RowKind::contact, contact.segment_a, contact.segment_b);
-    if (!set_unilateral(row, contact.gap, settings, h)) {
-      continue;
+    row.waits = waits;
+    if (set_unilateral(row, contact.gap, settings, h)) {
+      add_spline_force(row, contact.segment_a, contact.t_a, model.body_count(), contact.normal);
+      add_spline_force(row, contact.segment_b, contact.t_b, model.body_count(), -contact.normal);
+      rows.push_back(row);
     }
-    add_spline_force(row, contact.segment_a, contact.t_a, model.body_count(), contact.normal);
-    add_spline_force(row, contact.segment_b, contact.t_b, model.body_count(), -contact.normal);
-    rows.push_back(row);
+  };
+  for (const Contact& contact : contacts.contacts) {
+    add(contact, false);
+  }
+  for (const Contact& contact : contacts.others) {
+    add(contact, true);
   }
   return rows;
 }

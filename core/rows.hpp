@@ -34,6 +34,7 @@ struct Row {
   std::array<BodyForce, 8> force{};  ///< C q̇ = Σ force . centre velocity
   int forces = 0;
   double rhs = 0;    ///< d, cm/s or rad/s
+  bool waits = false;  ///< enters the problem only once a solution without it violates it
   double lower = 0;  ///< bounds on the multiplier λ, dyn s or dyn cm s
   double upper = std::numeric_limits<double>::infinity();
 };
@@ -57,8 +58,8 @@ std::vector<Row> head_rows(const State& state, const ConstraintSettings& setting
 std::vector<Row> limit_rows(const Model& model, const State& state,
                             const ConstraintSettings& settings, double h);
 
-/// One row per contact: the exact rate of its gap.
-std::vector<Row> contact_rows(const Model& model, const std::vector<Contact>& contacts,
+/// One row per contact, the exact rate of its gap; those that are no local minimum wait.
+std::vector<Row> contact_rows(const Model& model, const ContactSet& contacts,
                               const ConstraintSettings& settings, double h);
 
 /// One row per body behind the neck: it stays clear of the head plate x = 0.

@@ -71,6 +71,7 @@ void controller_fields(Io& io, ControllerSettings& s) {
   io.number("hysteresis", s.hysteresis, not_negative());
   io.number("tail_through", s.tail_through, not_negative());
   io.number("tight_span", s.tight_span, positive());
+  io.number("tight_hold", s.tight_hold, not_negative());
   io.number("tighten_time", s.tighten_time, not_negative());
   io.number("release_at", s.release_at, positive());
   io.number("free_time", s.free_time, not_negative());

@@ -90,7 +90,8 @@ struct ControllerSettings {
   double hysteresis = 0.05;
   double tail_through = 8.0;   ///< tighten once this much body is past the last contact, cm of arc
   double tight_span = 20.352;  ///< slide once the knot spans no more body than this, cm of arc
-  double tighten_time = 2.0;   ///< or after this long, s
+  double tight_hold = 0.25;    ///< for this long: a loose loop touches itself here and there, s
+  double tighten_time = 2.0;   ///< or after this long in any case, s
   double release_at = 1.908;   ///< free the head when the first contact is this near it, cm of arc
   double free_time = 1.0;      ///< run on this long after the knot is gone, s
 };

@@ -83,7 +83,7 @@ std::vector<Row> all_rows(const Model& model, const State& state, const Situatio
     append(head_rows(state, scene.constraints, h));
   }
   append(thigmotaxis_rows(model, control.thigmotaxis, scene.controller.cap, h));
-  append(contact_rows(model, situation.contact.contacts, scene.constraints, h));
+  append(contact_rows(model, situation.contact, scene.constraints, h));
   append(limit_rows(model, state, scene.constraints, h));
   append(wall_rows(model, situation.kin, scene.wall, scene.constraints, h));
   return rows;
@@ -156,7 +156,8 @@ Eigen::VectorXd solve_multipliers(const BoxQp& qp, const std::vector<Row>& rows,
 Situation observe(const Model& model, const State& state, const Scene& scene) {
   Situation s;
   s.kin = kinematics(model, state);
-  s.contact = find_contacts(model, spline(model, s.kin.centre), scene.contact);
+  s.segments = spline(model, s.kin.centre);
+  s.contact = find_contacts(model, s.segments, scene.contact);
   s.penetration = std::max(0.0, -s.contact.least_gap);
   for (const Row& row : wall_rows(model, s.kin, scene.wall,
                                   {Activation::speculative, scene.constraints.push_out}, 1)) {
@@ -195,9 +196,11 @@ StepSolution solve_step(const Model& model, const State& state, const Situation&
   const DualProblem dual(model, kin, factor, step.unconstrained);
   std::vector<Row> waiting;
   for (const Row& row : all_rows(model, state, situation, control, scene)) {
-    const bool can_bind = always_in(row) || warm.count(row.id) > 0 ||
-                          dual.excess_unconstrained(row) < lazy_reach ||
-                          row_velocity(row, kin, kin.twist, state.qdot) - row.rhs < lazy_reach;
+    const bool can_bind =
+        always_in(row) || warm.count(row.id) > 0 ||
+        (!row.waits &&
+         (dual.excess_unconstrained(row) < lazy_reach ||
+          row_velocity(row, kin, kin.twist, state.qdot) - row.rhs < lazy_reach));
     (can_bind ? step.rows : waiting).push_back(row);
   }
   BoxQp qp;

@@ -19,6 +19,7 @@ namespace hagfish {
 /// What the step's state looks like: found once, used by controller, constraints and solver.
 struct Situation {
   Kinematics kin;
+  std::vector<SplineSegment> segments;
   ContactSet contact;
   double penetration = 0;      ///< deepest overlap of skins or with the head plate, cm, >= 0
   double limit_violation = 0;  ///< largest angle past a limit, rad, >= 0

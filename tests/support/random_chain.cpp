@@ -117,35 +117,44 @@ State bent_state(const Model& model, double bend_y, double bend_z, double twist)
   return state;
 }
 
-State coiled_state(const Model& model, double torsion) {
-  State state = rest_state(model);
-  double arc = 0;
-  for (const Body& body : model.bodies) {
-    for (int k = std::max(root_dofs, body.first_dof); k < body.first_dof + body.dofs; ++k) {
-      const Axis axis = model.hinges[k - root_dofs].axis;
-      const double share = axis == Axis::x   ? 0
-                           : axis == Axis::y ? std::sin(torsion * arc)
-                                             : std::cos(torsion * arc);
-      state.q[k + 1] = 0.25 * share * 2 * body.length;
-    }
-    arc += body.length;
+Eigen::Vector3d trefoil_point(double share, double height) {
+  // Cut where it is outermost, so that both ends are free of the knot. 1.65 makes it 42 cm long.
+  if (share > 1) {
+    const Eigen::Vector3d end = trefoil_point(1, height);
+    return end + (share - 1) / 0.01 * (end - trefoil_point(0.99, height));
   }
-  return state;
+  const double t = std::numbers::pi * (1.06 + 1.88 * share);
+  return {1.65 * (std::sin(t) + 2 * std::sin(2 * t)), 1.65 * (std::cos(t) - 2 * std::cos(2 * t)),
+          -0.5 * height * std::sin(3 * t)};
 }
 
-State tangled_state(Random& random, const Model& model, double curvature) {
-  const Eigen::Vector3d rate = random_vector(random, 0.3);
-  const Eigen::Vector3d phase = random_vector(random, std::numbers::pi);
+State knotted_state(Random& random, const Model& model, double height, double noise) {
   State state = rest_state(model);
-  double arc = 0;
-  for (const Body& body : model.bodies) {
-    for (int k = std::max(root_dofs, body.first_dof); k < body.first_dof + body.dofs; ++k) {
-      const int axis = static_cast<int>(model.hinges[k - root_dofs].axis);
-      const double size = axis == 0 ? 0.01 : curvature;
-      state.q[k + 1] = size * 2 * body.length * std::cos(rate[axis] * arc + phase[axis]);
+  const auto ahead = [&](double& share, const Eigen::Vector3d& from, double reach) {
+    while (share < 2 && (trefoil_point(share, height) - from).norm() < reach) share += 1e-4;
+    return (trefoil_point(share, height) - from).normalized().eval();
+  };
+  double share = 0;
+  Eigen::Vector3d at = trefoil_point(0, height);
+  const Eigen::Vector3d first = ahead(share, at, model.bodies[0].length);
+  const Eigen::Quaterniond start =
+      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), first);
+  Eigen::Matrix3d frame = start.toRotationMatrix();
+  at += model.bodies[0].length * frame.col(0);
+  for (int b = 1; b < model.body_count(); ++b) {
+    const Body& body = model.bodies[b];
+    if (body.dofs == 2) {  // Y and Z that turn X into the wanted direction; two bodies follow it
+      const Eigen::Vector3d d = frame.transpose() * ahead(share, at, 2 * body.length);
+      const double y = std::atan2(-d.z(), d.x());
+      const double z = std::asin(d.y());
+      state.q.segment<2>(body.first_dof + 1) << y, z;
+      frame = frame * Eigen::AngleAxisd(y, Eigen::Vector3d::UnitY()) *
+              Eigen::AngleAxisd(z, Eigen::Vector3d::UnitZ());
     }
-    arc += body.length;
+    at += body.length * frame.col(0);
   }
+  const Eigen::Index hinges = model.nv() - root_dofs;
+  state.q.tail(hinges) += random_entries(random, hinges, noise);
   return state;
 }
 

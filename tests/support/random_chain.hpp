@@ -47,14 +47,13 @@ State random_state(Random& random, const Model& model, double angle = 0.5, doubl
 /// body (each hinge stands for two bodies), head at the origin.
 State bent_state(const Model& model, double bend_y, double bend_z, double twist = 0);
 
-/// A helix at rest with curvature 0.25 and `torsion` rad / cm: a body of 42.4 cm makes 1.7 turns of
-/// 4 cm radius, 2 pi torsion / (0.0625 + torsion^2) cm apart. The bend turns about the body, the
-/// revolute joints stay at zero. The hagfish touches itself where torsion is 0.018.
-State coiled_state(const Model& model, double torsion);
+/// At rest along an open trefoil, head at the origin along +X, hinges at angles of their own off it
+/// by up to `noise` rad. Strands cross `height` cm apart where there is no noise: 1.75 cm for skins
+/// that just touch.
+State knotted_state(Random& random, const Model& model, double height = 1.75, double noise = 0);
 
-/// A smooth random curve at rest, bent by up to `curvature` rad / cm about each axis: some tens of
-/// self-contacts for a hagfish of 0.35 rad / cm, deep ones among them.
-State tangled_state(Random& random, const Model& model, double curvature = 0.35);
+/// Centres of bodies on a knot like that, without joints.
+Eigen::Vector3d trefoil_point(double share, double height);
 
 /// RedMax's J of one body, 6 x nv: the axes of the velocities ahead of it, zero behind.
 Matrix6Xd body_jacobian(const Model& model, const Kinematics& kin, int body);

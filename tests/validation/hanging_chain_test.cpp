@@ -68,7 +68,8 @@ TEST_P(HangingChain, PeriodOfTheContinuum) {
   // Rods in place of a string err by c / bodies^2, and the time step by (ω h)^2 / 24 < 2e-6.
   const double coarse = chain_period(mode, 20) / continuum - 1;
   const double fine = chain_period(mode, 40) / continuum - 1;
-  // c is 0.03 for the first mode and 1 for the second, of which the lowest 8 cm swing against the rest.
+  // c is 0.03 for the first mode and 1 for the second, of which the lowest 8 cm swing against the
+  // rest.
   EXPECT_NEAR(fine, 0, mode == 0 ? 3e-5 : 1e-3);
   EXPECT_NEAR(coarse / fine, 4, 0.2);  // the next term is of order 1 / bodies^4
   // Without the leading term: what is left is 1.6e-5 for the second mode, below 1e-6 for the first.

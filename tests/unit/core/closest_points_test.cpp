@@ -58,10 +58,12 @@ using Pair = std::pair<SplineSegment, SplineSegment>;
 /// cm cannot bend more sharply than they are thick: at most 55 degrees per universal joint.
 SplineSegment body_segment(Random& random, const Eigen::Vector3d& middle, bool tapered) {
   Model strand;
+  // Table 1's taper is 1.3 cm of circumference on 8.48 cm of body: 0.0103 cm of radius a body.
+  const double taper = tapered ? uniform(random, -0.0103, 0.0103) : 0;
   for (int b = 0; b < 6; ++b) {
     Body body;
     body.length = 0.424;
-    body.radius = tapered ? uniform(random, 0.68, 0.9) : 0.8;
+    body.radius = 0.8 + (b - 2.5) * taper;
     append_body(strand, body,
                 b == 0       ? std::vector<Axis>{}
                 : b % 2 == 1 ? std::vector<Axis>{Axis::y, Axis::z}

@@ -104,12 +104,13 @@ TEST(Spline, BoundHoldsTheSkin) {
   }
 }
 
-TEST(Spline, EndsAreStraight) {
-  // The polygon continues straight beyond both ends, which leaves no second derivative there.
+TEST(Spline, EndsPointAlongTheOutermostBodies) {
+  // The polygon continues straight beyond both ends, so the slope there is the chord.
   Random random(56);
   const Curve c = random_curve(random, 15);
-  EXPECT_LT(c.segments.front().bend(0).norm(), rounding);
-  EXPECT_LT(c.segments.back().bend(1).norm(), rounding);
+  const Eigen::Matrix3Xd& x = c.kin.centre;
+  EXPECT_LT((c.segments.front().slope(0) - (x.col(1) - x.col(0))).norm(), rounding);
+  EXPECT_LT((c.segments.back().slope(1) - (x.col(14) - x.col(13))).norm(), rounding);
 }
 
 TEST(Spline, ArcLengthIsThatOfTheChainAtRest) {
