@@ -87,12 +87,12 @@ struct ControllerSettings {
   double contact_gap = 0.05;  ///< a contact this close counts as touching, cm
   /// A touching contact takes over as first or last only after it has been the outermost for this
   /// long: without it the identity jumps 7 to 14 times a second, s.
-  double hysteresis = 0.05;
+  double hysteresis = 0.1;
   double tail_through = 8.0;   ///< tighten once this much body is past the last contact, cm of arc
   double tight_span = 20.352;  ///< slide once the knot spans no more body than this, cm of arc
   double tight_hold = 0.25;    ///< for this long: a loose loop touches itself here and there, s
   double tighten_time = 2.0;   ///< or after this long in any case, s
-  double release_at = 1.908;   ///< free the head when the first contact is this near it, cm of arc
+  double release_at = 1.6;     ///< free the head when the first contact is this near it, cm of arc
   double free_time = 1.0;      ///< run on this long after the knot is gone, s
 };
 

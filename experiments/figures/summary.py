@@ -15,7 +15,7 @@ from hagfish_log import HagfishLog, LogError, run_script
 
 PHASES = ("form", "tighten", "slide", "release", "free")
 KNOTS = {(1, 0): "unknot", (3, 1): "3_1", (5, -1): "4_1", (5, 3): "5_1", (7, 2): "5_2"}
-WORKS = ("tip", "thigmotaxis", "contact", "limit", "head", "wall", "gravity")
+WORKS = ("tip", "thigmotaxis", "contact", "limit", "head", "wall")
 MET = 1e-6  # cm/s by which Eq. 6 may fall short and count as met: the back end's own tolerance
 LEDGER = 1e-9  # of the largest term of the energy ledger: rounding of some 10^4 summed steps
 # Paper, Table 1.
@@ -149,7 +149,7 @@ def eq6(log: HagfishLog) -> list[str]:
 def ledger(log: HagfishLog) -> tuple[list[str], float]:
     """The energy ledger's table, and how far it is from closing at worst, of its largest term."""
     read = lambda name: log[f"/diagnostics/{name}"] - log[f"/diagnostics/{name}"][0]
-    stored = read("kinetic_energy") + read("elastic_energy")
+    stored = read("kinetic_energy") + read("elastic_energy") + read("gravity_energy")
     works = {f"work of {name}": read(f"work_{name}") for name in WORKS}
     lost, integrator = read("dissipated"), read("integrator_error")
     gap = stored - (sum(works.values()) - lost + integrator)
@@ -186,24 +186,23 @@ def requirements(log: HagfishLog, unclosed: float) -> list[str]:
     ask("travel of the knot's head end while sliding", f"{travel:.2f} cm", "at least 9 cm", travel >= 9)
     met, _ = rows_met(log, "slide")
     share = 100 * float(met.all(axis=1).mean()) if met.size else 0.0
-    ask("sliding frames with all rows met without slack", f"{share:.1f} %", "at least 95 %", share >= 95)
+    ask("logged sliding frames with all rows met without slack", f"{share:.1f} %", "at least 95 %", share >= 95)
     for name, dataset, factor, unit, limit in (("penetration", "penetration", 1, "cm", 0.0015),
                                                ("limit violation", "limit_violation", 180 / np.pi, "deg", 0.001),
                                                ("head drift", "head_drift", 1, "cm", 1e-6)):
         values = log[f"/diagnostics/{dataset}"]
         worst = float(np.nanmax(values)) * factor
         ask(f"worst {name}, every step", f"{worst:.3g} {unit}", f"at most {limit:g} {unit}", worst <= limit)
-    kkt = max(float(np.nanmax(log[f"/diagnostics/kkt_{part}"]))
-              for part in ("stationarity", "primal", "complementarity"))
-    ask("worst scaled KKT residual", f"{kkt:.2g}", "at most 1e-08", kkt <= 1e-8)
+    kkt = float(log["/steps/kkt"].max())
+    ask("worst scaled KKT residual, every step", f"{kkt:.2g}", "at most 1e-08", kkt <= 1e-8)
     if rows_met(log, "slide")[1].sum() >= claims.LEAST_FRAMES:
         zero = claims.zero_behind(claims.read_sliding(log))
         past = zero["largest_beyond_reach_of_rows_dyn_cm"]
         ask("largest f_thigmo past the knot", f"{past:g} dyn cm", "exactly 0", past == 0)
     ask("energy ledger, left over of its largest term", f"{unclosed:.2g}", f"at most {LEDGER:g}", unclosed <= LEDGER)
-    qp = log["/diagnostics/qp_time"][log.labels("/diagnostics/solve") == "qp"]
+    qp = log["/steps/qp_time"][log.labels("/steps/solve") == "qp"]
     if qp.size:
-        ask("median time of a QP", f"{1000 * np.median(qp):.3g} ms", "at most 4 ms", float(np.median(qp)) <= 4e-3)
+        ask("median time of a QP, every step", f"{1000 * np.median(qp):.3g} ms", "at most 4 ms", float(np.median(qp)) <= 4e-3)
     return ["## What the run must show", "", "Bounds are those of a Table 1 run at h = 2 ms.", "",
             *table(["Figure", "This run", "Required", "Met"], rows)]
 

@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <ostream>
+#include <string>
 
 #include "tests/support/chain_runs.hpp"
 
@@ -64,6 +66,8 @@ struct Motion {
   std::function<ChainRun(double)> start;  ///< from the step h, s
   double duration;                        ///< s, a multiple of 4 ms
 };
+
+void PrintTo(const Motion& motion, std::ostream* out) { *out << motion.name; }
 
 class FirstOrder : public ::testing::TestWithParam<Motion> {};
 

@@ -1,7 +1,7 @@
 // A loose overhand knot in an elastic rod under tension F, without friction: the loop becomes a
-// circle that carries no tension, and F R² / B = 1/2 for a rod of no thickness, with corrections of
-// order r / R for radius r (Audoly, Clauvelin, Neukirch, "Elastic knots", Phys. Rev. Lett. 2007:
-// the correction of order sqrt(r / R) is friction's alone).
+// circle that carries no tension, and F R² / B = 1/2 for a rod of no thickness (Audoly, Clauvelin,
+// Neukirch, "Elastic knots", Phys. Rev. Lett. 99, 2007). Thickness adds about 1.3 r / R to that:
+// measured here at r = 0.05, 0.1, 0.15 and 0.2 cm, and the same with links of 0.2 cm.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,15 +25,16 @@ constexpr double touching = 0.02;  // cm: gaps of the knot's contacts
 /// Shastri's long trefoil (t³ - 3t, t⁴ - 4t², t⁵ - 10t), its third axis shortened, run on straight
 /// at both ends: unit directions of the rod's links.
 std::vector<Eigen::Vector3d> trefoil_links() {
-  std::vector<Eigen::Vector3d> knotted;
-  Eigen::Vector3d before = Eigen::Vector3d::Zero();
-  for (double t = -2.2; t < 2.2; t += 1e-4) {
+  const auto curve = [](double t) -> Eigen::Vector3d {
     const double tt = t * t;
-    const Eigen::Vector3d point =
-        0.8 * Eigen::Vector3d(t * (tt - 3), tt * (tt - 4), 0.25 * t * (tt * tt - 10));
-    if (t == -2.2) {
-      before = point;
-    } else if ((point - before).norm() >= link) {
+    return 0.8 * Eigen::Vector3d(t * (tt - 3), tt * (tt - 4), 0.25 * t * (tt * tt - 10));
+  };
+  std::vector<Eigen::Vector3d> knotted;
+  constexpr double end = 2.2;
+  Eigen::Vector3d before = curve(-end);
+  for (double t = -end; t < end; t += 1e-4) {
+    const Eigen::Vector3d point = curve(t);
+    if ((point - before).norm() >= link) {
       knotted.push_back((point - before).normalized());
       before = point;
     }

@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <numbers>
+#include <ostream>
+#include <string>
 
 #include "tests/support/chain_runs.hpp"
 
@@ -39,6 +41,8 @@ struct Swing {
   double degrees;
   double ratio;
 };
+
+void PrintTo(const Swing& swing, std::ostream* out) { *out << swing.degrees << " degrees"; }
 
 class Pendulum : public ::testing::TestWithParam<Swing> {};
 

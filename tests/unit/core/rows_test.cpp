@@ -36,28 +36,28 @@ OneHinge one_hinge(double angle) {
   return c;
 }
 
-/// Contacts of a tangled fish, both near and overlapping, and every other kind of row.
+/// Contacts of a knotted fish, both near and overlapping, and every other kind of row.
 struct Tangle {
   Model model = table1_hagfish();
   State state;
   Kinematics kin;
-  std::vector<Contact> contacts;
+  ContactSet set;
   std::vector<ThigmotaxisCommand> commands;
 
   explicit Tangle(unsigned seed) {
     Random random(seed);
-    state = tangled_state(random, model);
+    state = knotted_state(random, model, 2.45, 0.002);
     state.q.head<3>() = random_vector(random);
     state.qdot = random_entries(random, model.nv());
     kin = kinematics(model, state);
-    contacts = find_contacts(model, spline(model, kin.centre), {}).contacts;
-    commands = {{contacts.front(), {0.5, 2}}, {contacts.back(), {-1, 3}}};
+    set = find_contacts(model, spline(model, kin.centre), {});
+    commands = {{set.contacts.front(), {0.5, 2}}, {set.contacts.back(), {-1, 3}}};
   }
 
   std::vector<Row> rows() const {
     std::vector<Row> all = head_rows(state, speculative, h);
     for (const auto& more :
-         {limit_rows(model, state, speculative, h), contact_rows(model, contacts, speculative, h),
+         {limit_rows(model, state, speculative, h), contact_rows(model, set, speculative, h),
           wall_rows(model, kin, {}, speculative, h), thigmotaxis_rows(model, commands, 5000, h)}) {
       all.insert(all.end(), more.begin(), more.end());
     }
@@ -112,28 +112,38 @@ TEST(LimitRows, LeaveFreeSidesOut) {
 }
 
 TEST(ContactRows, CloseAGapAndPushOutAnOverlap) {
-  Tangle t(81);
-  t.contacts.resize(2, t.contacts.front());
-  t.contacts[0].gap = 0.03;
-  t.contacts[1].gap = -0.01;
-  const std::vector<Row> rows = contact_rows(t.model, t.contacts, speculative, h);
+  const Tangle t(81);
+  ContactSet set{{2, t.set.contacts.front()}, {}, 0};
+  set.contacts[0].gap = 0.03;
+  set.contacts[1].gap = -0.01;
+  const std::vector<Row> rows = contact_rows(t.model, set, speculative, h);
   ASSERT_EQ(rows.size(), 2U);
   EXPECT_DOUBLE_EQ(rows[0].rhs, -0.03 / h);
   EXPECT_DOUBLE_EQ(rows[1].rhs, 0.2 * 0.01 / h);
   EXPECT_EQ(rows[0].lower, 0);
   EXPECT_EQ(rows[0].upper, unbounded);
-  const std::vector<Row> late = contact_rows(t.model, t.contacts, violated, h);
+  const std::vector<Row> late = contact_rows(t.model, set, violated, h);
   ASSERT_EQ(late.size(), 1U);
   EXPECT_DOUBLE_EQ(late[0].rhs, 0.2 * 0.01 / h);
 }
 
 TEST(ContactRows, PositiveForcePushesTheStrandsApart) {
   const Tangle t(82);
-  for (const Row& row : contact_rows(t.model, t.contacts, speculative, h)) {
+  for (const Row& row : contact_rows(t.model, t.set, speculative, h)) {
     // Forces of action and reaction: none in sum.
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (int k = 0; k < row.forces; ++k) sum += row.force[k].force;
     EXPECT_LT(sum.norm(), 1e-15);
+  }
+}
+
+TEST(ContactRows, ThatAreNoMinimumWait) {
+  const Tangle t(89);
+  ASSERT_FALSE(t.set.others.empty());
+  const std::vector<Row> rows = contact_rows(t.model, t.set, speculative, h);
+  ASSERT_EQ(rows.size(), t.set.contacts.size() + t.set.others.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    EXPECT_EQ(rows[i].waits, i >= t.set.contacts.size());
   }
 }
 
@@ -270,9 +280,9 @@ TEST(Rows, EachHasItsOwnIdAndKeepsIt) {
   const std::vector<Row> later = limit_rows(t.model, moved.state, speculative, h);
   ASSERT_EQ(all.size(), later.size());
   for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(all[i].id, later[i].id);
-  const std::vector<Contact> last = {t.contacts.back()};
+  const ContactSet last{{t.set.contacts.back()}, {}, 0};
   EXPECT_EQ(contact_rows(t.model, last, speculative, h)[0].id,
-            contact_rows(t.model, t.contacts, speculative, h).back().id);
+            contact_rows(t.model, t.set, speculative, h)[t.set.contacts.size() - 1].id);
 }
 
 TEST(Rows, HaveNamesThatSayWhichTheyAre) {

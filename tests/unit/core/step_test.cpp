@@ -40,24 +40,24 @@ struct Stage {
     };
     if (control.clamp_head) append(head_rows(state, scene.constraints, h));
     append(thigmotaxis_rows(model, control.thigmotaxis, scene.controller.cap, h));
-    append(contact_rows(model, now.contact.contacts, scene.constraints, h));
+    append(contact_rows(model, now.contact, scene.constraints, h));
     append(limit_rows(model, state, scene.constraints, h));
     append(wall_rows(model, now.kin, scene.wall, scene.constraints, h));
     return all;
   }
 };
 
-/// A coil of the hagfish: strands side by side touch at some twenty places along a turn. It moves
-/// at random, pulled by the tail; thigmotaxis acts at the first and last contact.
-Stage coil(unsigned seed, double speed) {
+/// The hagfish in a knot whose three crossings touch, one of them 0.18 cm deep. It moves at random
+/// and is pulled by the tail; thigmotaxis acts at the first and last contact.
+Stage knotted(unsigned seed, double speed) {
   Random random(seed);
   Stage s;
-  s.scene.wall.present = false;  // the coil passes x = 0
-  s.state = coiled_state(s.model, 0.0183);
+  s.scene.wall.present = false;  // the knot passes x = 0
+  s.state = knotted_state(random, s.model, 2.45, 0.002);
   s.state.qdot = random_entries(random, s.model.nv(), speed);
   s.control.tip = {random_vector(random, 1000), 0};
   const std::vector<Contact> contacts = observe(s.model, s.state, s.scene).contact.contacts;
-  EXPECT_GE(contacts.size(), 2U);
+  EXPECT_GE(contacts.size(), 3U);
   s.control.thigmotaxis = {{contacts.front(), {0, 0}}, {contacts.back(), {0.5, 2}}};
   return s;
 }
@@ -81,7 +81,7 @@ Stage two_hinges(double limit) {
 
 /// Errors of a solution against the paper's Eq. 4 with everything dense, rows left out included.
 struct Optimality {
-  double stationarity = 0;  ///< |H v - g - C'λ| over |C'λ|
+  double stationarity = 0;  ///< |H v - g - C'λ| over the larger of |g|, |C'λ|
   double feasibility = 0;   ///< how far a row falls short, cm/s or rad/s (soft rows by their cap)
   double sign = 0;          ///< how far a multiplier is outside its bounds
   double work = 0;          ///< Σ |λ (C v - d)| over Σ |λ| max |d|
@@ -103,8 +103,9 @@ Optimality optimality(const Stage& s, const StepSolution& step) {
   }
   const Eigen::VectorXd impulse = c.transpose() * lambda;
   Optimality error;
-  error.stationarity =
-      relative_error(dense(s.model, kin, system.op) * step.qdot - g, impulse);
+  const Eigen::VectorXd change = dense(s.model, kin, system.op) * step.qdot - g;
+  error.stationarity = (change - impulse).lpNorm<Eigen::Infinity>() /
+                       std::max(g.lpNorm<Eigen::Infinity>(), impulse.lpNorm<Eigen::Infinity>());
   const Eigen::VectorXd velocity = c * step.qdot;
   double size = 0;
   for (Eigen::Index i = 0; i < c.rows(); ++i) {
@@ -124,8 +125,7 @@ Optimality optimality(const Stage& s, const StepSolution& step) {
 }
 
 // Ipopt stops at 1e-10 of a problem scaled by its largest right-hand side, some 100 rad/s: 1e-7
-// covers what the scaling of single rows adds. Stationarity holds by construction, to rounding
-// times the condition of H.
+// covers what the scaling of single rows adds. Stationarity holds by construction, to rounding.
 void expect_optimal(const Stage& s, const StepSolution& step) {
   const Optimality error = optimality(s, step);
   EXPECT_LT(error.stationarity, 1e-9);
@@ -158,7 +158,8 @@ TEST(Step, IsLinearWhereNoRowCanBind) {
 
 TEST(Step, IsBilateralWhereOnlyTheHeadIsHeld) {
   Stage s;
-  s.control.tip.value << 0, 1, 0;
+  s.state = bent_state(s.model, 0.02, 0.05);
+  s.control.tip.value << 1, 1, 0;
   const StepSolution step = s.solve();
   EXPECT_EQ(step.kind, SolveKind::kkt);
   ASSERT_EQ(step.rows.size(), 6U);
@@ -180,7 +181,7 @@ TEST(Step, IsBilateralWhereOnlyTheHeadIsHeld) {
 }
 
 TEST(Step, IsAQuadraticProgramWhereARowCanBind) {
-  Stage s = coil(91, 0.5);
+  Stage s = knotted(91, 0.5);
   const StepSolution step = s.solve();
   EXPECT_EQ(step.kind, SolveKind::qp);
   EXPECT_GT(step.iterations, 1);
@@ -189,7 +190,7 @@ TEST(Step, IsAQuadraticProgramWhereARowCanBind) {
 TEST(Step, IsOptimalAtEveryStepSize) {
   for (const double h : {5e-4, 2e-3, 1e-2, 5e-2}) {
     for (const unsigned seed : {92U, 93U, 94U}) {
-      Stage s = coil(seed, 1);
+      Stage s = knotted(seed, 1);
       s.scene.time.step = h;
       SCOPED_TRACE("h = " + std::to_string(h) + ", seed " + std::to_string(seed));
       expect_optimal(s, s.solve());
@@ -198,7 +199,7 @@ TEST(Step, IsOptimalAtEveryStepSize) {
 }
 
 TEST(Step, IsOptimalWithThePositionScriptsSpring) {
-  Stage s = coil(95, 1);
+  Stage s = knotted(95, 1);
   s.control.tip.rate = 26;
   const StepSolution step = s.solve();
   expect_optimal(s, step);
@@ -219,7 +220,7 @@ TEST(Step, IsOptimalAgainstTheHeadPlate) {
 }
 
 TEST(Step, ForcesByKindAddUpToTheRows) {
-  Stage s = coil(96, 1);
+  Stage s = knotted(96, 1);
   const StepSolution step = s.solve();
   const Kinematics kin = kinematics(s.model, s.state);
   const double h = s.scene.time.step;
@@ -242,15 +243,7 @@ TEST(Step, ForcesByKindAddUpToTheRows) {
 }
 
 TEST(Step, NoForceBehindTheLastContact) {
-  Stage s = coil(97, 1);
-  // The tail half stays clear: contacts of the head half alone, on a coil that straightens out.
-  for (int k = root_dofs; k < s.model.nv(); ++k) {
-    if (s.model.hinges[k - root_dofs].body > 85) s.state.q[k + 1] = 0;
-  }
-  const std::vector<Contact> contacts =
-      observe(s.model, s.state, s.scene).contact.contacts;
-  ASSERT_GE(contacts.size(), 1U);
-  s.control.thigmotaxis = {{contacts.front(), {0, 0}}, {contacts.back(), {0.5, 2}}};
+  Stage s = knotted(97, 1);
   const StepSolution step = s.solve();
   int last = 0;
   for (const Row& row : step.rows) {
@@ -264,8 +257,16 @@ TEST(Step, NoForceBehindTheLastContact) {
   EXPECT_EQ(step.force.thigmotaxis.tail(behind), Eigen::VectorXd::Zero(behind));
 }
 
+TEST(Step, StationarityStaysSmallWhereTheClampHardlyPulls) {
+  // Across a straight body a pull at the tail hardly reaches the head: its force is 1e-40 dyn, and
+  // what rounding leaves of H q̇ is larger.
+  Stage s;
+  s.control.tip.value << 0, 1, 0;
+  EXPECT_LE(s.solve().stationarity, 1e-9);
+}
+
 TEST(Step, ClampHoldsTheHead) {
-  Stage s = coil(98, 1);
+  Stage s = knotted(98, 1);
   s.control.thigmotaxis.clear();
   const std::unique_ptr<BoxQpSolver> solver = make_box_qp_solver("ipopt");
   for (int k = 0; k < 25; ++k) {
@@ -292,7 +293,7 @@ TEST(Step, ClampTakesADriftBack) {
 }
 
 TEST(Step, WarmStartHoldsTheRowsThatPush) {
-  Stage s = coil(99, 1);
+  Stage s = knotted(99, 1);
   const StepSolution cold = s.solve();
   ASSERT_GT(cold.active, 0);
   EXPECT_EQ(s.warm.size(), static_cast<std::size_t>(cold.active));
@@ -339,9 +340,9 @@ TEST(Step, RowsLeftOutComeInWhereTheAnswerViolatesThem) {
   // The first hinge runs into its limit; the shock flings the second one, which was slow and clear
   // of its own, past it within the step.
   Stage s = two_hinges(0.5);
+  s.model.hinges[0].upper = 0;
   s.scene.time.step = 0.05;
-  s.state.q[7] = 0.5;
-  s.state.qdot[6] = 40;
+  s.state.qdot[6] = 8;
   const StepSolution step = s.solve();
   EXPECT_GT(step.rounds, 1);
   expect_optimal(s, step);
@@ -351,17 +352,19 @@ TEST(Step, RowsLeftOutComeInWhereTheAnswerViolatesThem) {
 
 TEST(Step, LeavingRowsOutChangesNothing) {
   for (const unsigned seed : {101U, 102U}) {
-    Stage s = coil(seed, 20);
+    Stage s = knotted(seed, 20);
     s.scene.time.step = 0.02;
     const StepSolution step = s.solve();
     EXPECT_LT(step.rows.size(), s.rows().size());
-    EXPECT_LT(relative_error(step.qdot, all_rows_in(s)), 1e-6) << seed;
+    // Within a duality gap of e both answers are within sqrt(2 e) of the optimum in the norm of H:
+    // 1e-10 of the scaled problem makes that 1e-5, and joints of small inertia take ten times it.
+    EXPECT_LT(relative_error(step.qdot, all_rows_in(s)), 1e-4) << seed;
     expect_optimal(s, step);
   }
 }
 
 TEST(Step, CapsThigmotaxisForces) {
-  Stage s = coil(103, 0);
+  Stage s = knotted(103, 0);
   for (ThigmotaxisCommand& command : s.control.thigmotaxis) command.speed = {1e4, 1e4};
   const StepSolution step = s.solve();
   double largest = 0;
@@ -374,28 +377,35 @@ TEST(Step, CapsThigmotaxisForces) {
   EXPECT_GT(largest, 4999);
 }
 
-TEST(Step, ThrowsOnAStateThatIsNotFinite) {
+TEST(Step, ThrowsOnAVelocityThatIsNotFinite) {
   for (const bool clamp : {true, false}) {
+    SCOPED_TRACE(clamp ? "clamped" : "free");
     for (const int k : {0, 6, 100}) {
-      Stage s = coil(104, 1);
+      Stage s = knotted(104, 1);
       s.control.clamp_head = clamp;
       s.state.qdot[k] = nan_value;
-      EXPECT_THROW(s.solve(), StepError) << "velocity " << k << (clamp ? ", clamped" : "");
+      EXPECT_THROW(s.solve(), StepError) << "velocity " << k;
       s.control.thigmotaxis.clear();
-      EXPECT_THROW(s.solve(), StepError) << "velocity " << k << (clamp ? ", clamped" : "");
-      s.state.qdot[k] = 1e200;  // overflows in the bias
-      EXPECT_THROW(s.solve(), StepError) << "velocity " << k << (clamp ? ", clamped" : "");
+      EXPECT_THROW(s.solve(), StepError) << "velocity " << k;
     }
-    Stage s = coil(105, 1);
+    Stage s = knotted(104, 1);
     s.control.clamp_head = clamp;
-    s.state.q[9] = nan_value;
-    EXPECT_THROW(s.solve(), StepError) << "position" << (clamp ? ", clamped" : "");
+    s.state.qdot[100] = 1e200;  // its square overflows in the bias
+    EXPECT_THROW(s.solve(), StepError);
   }
   Stage free;
   free.control.clamp_head = false;
   free.scene.wall.present = false;
   free.control.tip.value << nan_value, 0, 0;
   EXPECT_THROW(free.solve(), StepError);
+}
+
+TEST(Step, ThrowsOnAPositionThatIsNotFinite) {
+  for (const int k : {0, 3, 9, 100}) {
+    Stage s = knotted(105, 1);
+    s.state.q[k] = nan_value;
+    EXPECT_THROW(s.solve(), StepError) << "coordinate " << k;
+  }
 }
 
 TEST(Observe, MeasuresPenetrationAndLimitViolation) {
@@ -416,7 +426,7 @@ TEST(Observe, MeasuresPenetrationAndLimitViolation) {
   EXPECT_NEAR(observe(s.model, s.state, s.scene).limit_violation, 0.05, 1e-15);
 
   Random random(106);
-  s.state = tangled_state(random, s.model);
+  s.state = knotted_state(random, s.model);
   now = observe(s.model, s.state, s.scene);
   EXPECT_EQ(now.penetration, std::max(0.0, -now.contact.least_gap));
 }

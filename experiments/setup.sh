@@ -1,0 +1,37 @@
+#!/usr/bin/env bash
+# Prepares a Debian 12 machine and builds the project: installs the Debian packages that are missing
+# (asks for root or sudo only then), configures and builds build/release. The other scripts call it.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+packages=(
+  g++ cmake ninja-build pkg-config git ca-certificates  # to build
+  libeigen3-dev libfmt-dev libtoml11-dev libcli11-dev   # C++ libraries
+  libhdf5-dev coinor-libipopt-dev libmujoco-dev
+  libqhull-dev libgl-dev libopengl-dev                  # named by MuJoCo's CMake file, but not by its package
+  libgtest-dev                                          # tests
+  python3 python3-h5py python3-matplotlib               # figures
+)
+
+missing=()
+for package in "${packages[@]}"; do
+  dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q '^install ok installed' || missing+=("$package")
+done
+if ((${#missing[@]})); then
+  echo "Installing Debian packages: ${missing[*]}"
+  as_root=()
+  if ((EUID != 0)); then as_root=(sudo); fi
+  log=$(mktemp)
+  if ! { "${as_root[@]}" apt-get update &&
+         "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+           apt-get install -y --no-install-recommends "${missing[@]}"; } >"$log" 2>&1; then
+    tail -n 20 "$log" >&2
+    echo "setup: the packages above could not be installed (whole log: $log)" >&2
+    exit 2
+  fi
+  rm -f "$log"
+fi
+
+cmake --preset release >build-configure.log 2>&1 || { cat build-configure.log >&2; exit 2; }
+rm -f build-configure.log
+cmake --build --preset release "$@"
