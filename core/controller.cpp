@@ -29,14 +29,13 @@ void follow(TrackedContact& tracked, const Model& model, const Situation& situat
   }
   const std::vector<Contact>& contacts = situation.contact.contacts;
   const Contact& old = *tracked.contact;
-  const auto nearest =
-      std::min_element(contacts.begin(), contacts.end(), [&](const Contact& x, const Contact& y) {
-        return apart(x, old) < apart(y, old);
-      });
-  tracked.contact = apart(*nearest, old) < same_contact
-                        ? *nearest
-                        : contact_at(model, situation.segments, old.segment_a, old.t_a,
-                                     old.segment_b, old.t_b);
+  const auto nearest = std::min_element(
+      contacts.begin(), contacts.end(),
+      [&](const Contact& x, const Contact& y) { return apart(x, old) < apart(y, old); });
+  tracked.contact =
+      apart(*nearest, old) < same_contact
+          ? *nearest
+          : contact_at(model, situation.segments, old.segment_a, old.t_a, old.segment_b, old.t_b);
 }
 
 void follow_contacts(const Model& model, const Scene& scene, const Situation& situation,

@@ -1,5 +1,8 @@
 #include "core/hdf5_writer.hpp"
 
+#include <cerrno>
+#include <cstring>
+#include <fstream>
 #include <functional>
 #include <numeric>
 
@@ -9,6 +12,8 @@ namespace {
 // Rows a chunk: a second of frames at 50 a second; compression gains little beyond.
 constexpr hsize_t chunk_rows = 64;
 constexpr int deflate_level = 4;
+// By which the file grows in memory, bytes.
+constexpr std::size_t memory_increment = std::size_t{1} << 20;
 
 H5::StrType text_type() {
   H5::StrType type(H5::PredType::C_S1, H5T_VARIABLE);
@@ -80,7 +85,7 @@ void Series<T>::flush() {
   offset[0] = written_;
   extent.insert(extent.end(), row_shape_.begin(), row_shape_.end());
   count.insert(count.end(), row_shape_.begin(), row_shape_.end());
-  guarded(set_.getFileName(), "write " + set_.getObjName(), [&] {
+  guarded("log", "write " + set_.getObjName(), [&] {
     set_.extend(extent.data());
     const H5::DataSpace space = set_.getSpace();
     space.selectHyperslab(H5S_SELECT_SET, count.data(), offset.data());
@@ -99,33 +104,28 @@ template class Series<std::int32_t>;
 template class Series<std::int64_t>;
 template class Series<std::uint8_t>;
 
-Hdf5Writer::Hdf5Writer(const std::filesystem::path& file) : file_(file.string()) {
+Hdf5Writer::Hdf5Writer() {
   H5::Exception::dontPrint();
-  guarded(file_, "create", [&] { h5_ = H5::H5File(file_, H5F_ACC_TRUNC); });
-  open_ = true;
-}
-
-Hdf5Writer::~Hdf5Writer() {
-  try {
-    close();
-  } catch (const FileError&) {
-    // Reached only while another failure unwinds: that one is reported.
-  }
+  guarded("log", "begin", [&] {
+    H5::FileAccPropList in_memory;
+    in_memory.setCore(memory_increment, false);
+    h5_ = H5::H5File("log", H5F_ACC_TRUNC, H5::FileCreatPropList::DEFAULT, in_memory);
+  });
 }
 
 void Hdf5Writer::group(const std::string& path) {
-  guarded(file_, "create " + path, [&] { h5_.createGroup(path); });
+  guarded("log", "create " + path, [&] { h5_.createGroup(path); });
 }
 
 void Hdf5Writer::root_attribute(const std::string& name, const std::string& value) {
-  guarded(file_, "write attribute " + name, [&] {
+  guarded("log", "write attribute " + name, [&] {
     H5::Group root = h5_.openGroup("/");
     text_attribute(root, name, value);
   });
 }
 
 void Hdf5Writer::root_attribute(const std::string& name, int value) {
-  guarded(file_, "write attribute " + name, [&] {
+  guarded("log", "write attribute " + name, [&] {
     h5_.openGroup("/")
         .createAttribute(name, H5::PredType::NATIVE_INT32, H5::DataSpace(H5S_SCALAR))
         .write(H5::PredType::NATIVE_INT, &value);
@@ -134,7 +134,7 @@ void Hdf5Writer::root_attribute(const std::string& name, int value) {
 
 void Hdf5Writer::numbers(const std::string& path, const Eigen::VectorXd& values,
                          const Meaning& meaning) {
-  guarded(file_, "write " + path, [&] {
+  guarded("log", "write " + path, [&] {
     const hsize_t size = values.size();
     H5::DataSet set = h5_.createDataSet(path, H5::PredType::NATIVE_DOUBLE, H5::DataSpace(1, &size));
     set.write(values.data(), H5::PredType::NATIVE_DOUBLE);
@@ -143,7 +143,7 @@ void Hdf5Writer::numbers(const std::string& path, const Eigen::VectorXd& values,
 }
 
 void Hdf5Writer::text(const std::string& path, const std::string& value) {
-  guarded(file_, "write " + path, [&] {
+  guarded("log", "write " + path, [&] {
     h5_.createDataSet(path, text_type(), H5::DataSpace(H5S_SCALAR)).write(value, text_type());
   });
 }
@@ -153,7 +153,7 @@ void Hdf5Writer::texts(const std::string& path, const std::vector<std::string>& 
   for (const std::string& value : values) {
     pointers.push_back(value.c_str());
   }
-  guarded(file_, "write " + path, [&] {
+  guarded("log", "write " + path, [&] {
     const hsize_t size = values.size();
     h5_.createDataSet(path, text_type(), H5::DataSpace(1, &size))
         .write(pointers.data(), text_type());
@@ -168,7 +168,7 @@ H5::DataSet Hdf5Writer::series(const std::string& path, const H5::DataType& type
   for (std::vector<hsize_t>* shape : {&now, &most, &chunk}) {
     shape->insert(shape->end(), row_shape.begin(), row_shape.end());
   }
-  return guarded(file_, "create " + path, [&] {
+  return guarded("log", "create " + path, [&] {
     H5::DSetCreatPropList layout;
     layout.setChunk(static_cast<int>(chunk.size()), chunk.data());
     layout.setShuffle();
@@ -205,15 +205,37 @@ Series<std::uint8_t> Hdf5Writer::choices(const std::string& path,
   return {series(path, type, {}, meaning), {}};
 }
 
-void Hdf5Writer::flush() {
-  guarded(file_, "write", [&] { h5_.flush(H5F_SCOPE_GLOBAL); });
-}
-
-void Hdf5Writer::close() {
-  if (open_) {
-    open_ = false;
-    flush();
-    guarded(file_, "close", [&] { h5_.close(); });
+void Hdf5Writer::save(const std::filesystem::path& file) const {
+  const std::vector<char> image = guarded("log", "gather", [&] {
+    h5_.flush(H5F_SCOPE_GLOBAL);
+    std::vector<char> bytes(static_cast<std::size_t>(h5_.getFileSize()));
+    if (H5Fget_file_image(h5_.getId(), bytes.data(), bytes.size()) < 0) {
+      throw H5::FileIException("H5Fget_file_image", "no image");
+    }
+    return bytes;
+  });
+  const std::filesystem::path fresh = file.string() + ".new";
+  const auto fail = [&](const char* what) {
+    const std::string reason = std::strerror(errno);
+    std::error_code ignored;
+    std::filesystem::remove(fresh, ignored);
+    throw FileError(file.string() + ": cannot be " + what + ": " + reason);
+  };
+  errno = 0;
+  std::ofstream stream(fresh, std::ios::binary);
+  if (!stream) {
+    fail("created");
+  }
+  stream.write(image.data(), static_cast<std::streamsize>(image.size()));
+  stream.close();
+  if (!stream) {
+    fail("written");
+  }
+  std::error_code error;
+  std::filesystem::rename(fresh, file, error);
+  if (error) {
+    errno = error.value();
+    fail("given its name");
   }
 }
 

@@ -1,5 +1,4 @@
 // The little of HDF5 that writing a log needs: attributes, arrays, texts, series that grow by rows.
-// Every failure is thrown as FileError in one line that names the file.
 #pragma once
 
 #include <H5Cpp.h>
@@ -40,11 +39,11 @@ class Series {
   std::vector<T> waiting_;
 };
 
-/// A file being written. Not copied; closes with the object.
+/// A file being written. It grows in memory, where HDF5 cannot fail half-way: on a full disk HDF5
+/// itself neither closes nor forgets a file. save() puts a whole and readable file on disk.
 class Hdf5Writer {
  public:
-  explicit Hdf5Writer(const std::filesystem::path& file);
-  ~Hdf5Writer();
+  Hdf5Writer();
   Hdf5Writer(const Hdf5Writer&) = delete;
   Hdf5Writer& operator=(const Hdf5Writer&) = delete;
 
@@ -64,16 +63,14 @@ class Hdf5Writer {
   Series<std::uint8_t> choices(const std::string& path, const std::vector<std::string>& names,
                                const Meaning& meaning);
 
-  void flush();
-  /// Flushes and closes; throws where the disk does not take the rest.
-  void close();
+  /// Writes all of it to `file`, by way of a second file, so that a crash leaves the last one
+  /// saved.
+  void save(const std::filesystem::path& file) const;
 
  private:
   H5::DataSet series(const std::string& path, const H5::DataType& type,
                      const std::vector<hsize_t>& row_shape, const Meaning& meaning);
-  std::string file_;
   H5::H5File h5_;
-  bool open_ = false;
 };
 
 }  // namespace hagfish

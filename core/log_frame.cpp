@@ -132,9 +132,10 @@ void declare_diagnostics(LogTable<Frame>& t) {
           [](const Frame& f) { return f.record.situation.contact.contacts.size(); });
   t.count(path + "iterations", "iterations of the QP back end",
           [](const Frame& f) { return f.record.solution.iterations; });
-  t.number(path + "kkt_stationarity",
-           {"1", "|H (qdot_next - qdot*) - h sum of forces|, infinity norm over its largest term"},
-           [](const Frame& f) { return f.record.solution.stationarity; });
+  t.number(
+      path + "kkt_stationarity",
+      {"1", "|H (qdot_next - qdot*) - h sum of forces|, infinity norm over the largest momentum"},
+      [](const Frame& f) { return f.record.solution.stationarity; });
   t.number(path + "kkt_primal", {"1", "row violation, scaled, infinity norm"},
            [](const Frame& f) { return f.record.solution.kkt.primal; });
   t.number(path + "kkt_complementarity", {"1", "multiplier times excess, scaled, infinity norm"},

@@ -15,8 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A crash of the machine loses at most this many frames.
-constexpr std::int64_t flush_interval = 64;
+// A crash loses at most this many frames.
+constexpr std::int64_t save_interval = 64;
 
 std::string current_time() {
   const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
@@ -85,9 +85,8 @@ void write_model(const Model& model, Hdf5Writer& h5) {
 }  // namespace
 
 struct LogWriter::Contents {
-  Contents(const fs::path& file, const Model& model, const Scene& scene)
-      : h5(file),
-        frames(h5),
+  Contents(const Model& model, const Scene& scene)
+      : frames(h5),
         steps(h5),
         knot(scene.knot),
         h(scene.time.step),
@@ -95,10 +94,10 @@ struct LogWriter::Contents {
     declare_frames(model, h5, frames);
     declare_steps(h5, steps, h);
   }
-  void flush() {
+  void save(const fs::path& file) {
     frames.flush();
     steps.flush();
-    h5.flush();
+    h5.save(file);
   }
 
   Hdf5Writer h5;
@@ -118,10 +117,10 @@ LogWriter::LogWriter(fs::path file, bool replace, const LogHeader& header, const
   if (fs::exists(file_, error) && !replace) {
     throw FileError(file_.string() + ": already exists (--force replaces it)");
   }
-  contents_ = std::make_unique<Contents>(partial_, model, scene);
+  contents_ = std::make_unique<Contents>(model, scene);
   write_header(header, contents_->h5);
   write_model(model, contents_->h5);
-  contents_->flush();
+  contents_->save(partial_);
 }
 
 LogWriter::~LogWriter() {
@@ -143,21 +142,17 @@ void LogWriter::write(const StepRecord& record, double wall_time) {
                    knot_type(record.situation.kin.centre, c.knot.votes, c.knot.seed), c.worst,
                    wall_time});
   c.worst = {};
-  if (++c.frame_count % flush_interval == 0) {
-    c.flush();
+  if (++c.frame_count % save_interval == 0) {
+    c.save(partial_);
   }
 }
 
 void LogWriter::finish(const std::string& status) {
-  contents_->flush();
   contents_->h5.root_attribute("status", status);
-  contents_->h5.close();
+  contents_->save(file_);
   contents_.reset();
-  std::error_code error;
-  fs::rename(partial_, file_, error);
-  if (error) {
-    throw FileError(file_.string() + ": cannot be given its name: " + error.message());
-  }
+  std::error_code ignored;
+  fs::remove(partial_, ignored);
 }
 
 }  // namespace hagfish

@@ -33,9 +33,9 @@ struct Row {
   };
   std::array<BodyForce, 8> force{};  ///< C q̇ = Σ force . centre velocity
   int forces = 0;
-  double rhs = 0;    ///< d, cm/s or rad/s
+  double rhs = 0;      ///< d, cm/s or rad/s
   bool waits = false;  ///< enters the problem only once a solution without it violates it
-  double lower = 0;  ///< bounds on the multiplier λ, dyn s or dyn cm s
+  double lower = 0;    ///< bounds on the multiplier λ, dyn s or dyn cm s
   double upper = std::numeric_limits<double>::infinity();
 };
 

@@ -184,11 +184,18 @@ StepSolution solve_step(const Model& model, const State& state, const Situation&
   const double h = scene.time.step;
   const Kinematics& kin = situation.kin;
   StepSolution step;
+  if (!state.q.allFinite() || !state.qdot.allFinite()) {
+    throw StepError("non-finite state");
+  }
 
   // Eq. 1: H q̇* = M q̇0 + h f.
   step.system = step_system(model, state, kin, control.tip, h);
   ArticulatedFactor factor;
-  factor.factorise(model, kin, step.system.op);
+  try {
+    factor.factorise(model, kin, step.system.op);
+  } catch (const std::domain_error& error) {
+    throw StepError(error.what());
+  }
   step.unconstrained = factor.solve(model, kin, step.system.wrench, step.system.joint);
   step.qdot = step.unconstrained;
 
@@ -198,9 +205,8 @@ StepSolution solve_step(const Model& model, const State& state, const Situation&
   for (const Row& row : all_rows(model, state, situation, control, scene)) {
     const bool can_bind =
         always_in(row) || warm.count(row.id) > 0 ||
-        (!row.waits &&
-         (dual.excess_unconstrained(row) < lazy_reach ||
-          row_velocity(row, kin, kin.twist, state.qdot) - row.rhs < lazy_reach));
+        (!row.waits && (dual.excess_unconstrained(row) < lazy_reach ||
+                        row_velocity(row, kin, kin.twist, state.qdot) - row.rhs < lazy_reach));
     (can_bind ? step.rows : waiting).push_back(row);
   }
   BoxQp qp;
@@ -236,8 +242,10 @@ StepSolution solve_step(const Model& model, const State& state, const Situation&
   const Eigen::VectorXd impulse = h * step.force.total();
   const Eigen::VectorXd change =
       multiply(model, kin, step.system.op, step.qdot - step.unconstrained);
-  const double scale =
-      std::max(impulse.lpNorm<Eigen::Infinity>(), change.lpNorm<Eigen::Infinity>());
+  // Over the largest momentum in the balance: forces may be nothing but rounding.
+  const double scale = std::max(
+      {impulse.lpNorm<Eigen::Infinity>(), change.lpNorm<Eigen::Infinity>(),
+       multiply(model, kin, step.system.op, step.unconstrained).lpNorm<Eigen::Infinity>()});
   step.stationarity = scale > 0 ? (change - impulse).lpNorm<Eigen::Infinity>() / scale : 0;
   if (m > 0) {
     step.kkt = kkt_residuals(qp, step.lambda, step.excess);

@@ -54,13 +54,14 @@ struct StepSolution {
   ConstraintForces force;
   Eigen::Vector3d tip = Eigen::Vector3d::Zero();  ///< tip force as applied, dyn, world
   SolveKind kind = SolveKind::linear;
-  std::vector<Row> rows;    ///< rows that entered the problem
-  Eigen::VectorXd lambda;   ///< their multipliers, dyn s or dyn cm s
-  Eigen::VectorXd excess;   ///< C q̇ - d of each row at the solution, cm/s or rad/s
-  int active = 0;           ///< rows with a force
-  int iterations = 0;       ///< of the back end, all rounds together
-  int rounds = 0;           ///< problems solved: rows left out at first and found violated come in
-  double stationarity = 0;  ///< |H (q̇ - q̇*) - C'λ|, infinity norm over its largest term
+  std::vector<Row> rows;   ///< rows that entered the problem
+  Eigen::VectorXd lambda;  ///< their multipliers, dyn s or dyn cm s
+  Eigen::VectorXd excess;  ///< C q̇ - d of each row at the solution, cm/s or rad/s
+  int active = 0;          ///< rows with a force
+  int iterations = 0;      ///< of the back end, all rounds together
+  int rounds = 0;          ///< problems solved: rows left out at first and found violated come in
+  double stationarity =
+      0;  ///< |H (q̇ - q̇*) - C'λ| over the largest of these and |H q̇*|, infinity norms
   KktResiduals kkt;
   double qp_time = 0;  ///< s spent in the QP back end
   StepSystem system;   ///< Eq. 1 as assembled

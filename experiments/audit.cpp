@@ -110,8 +110,7 @@ Finding force_balance(const LogContents& log) {
     const Eigen::VectorXd given =
         generalised_force(model, kin, system.wrench) + system.joint + h * sum.row(f).transpose();
     const Eigen::VectorXd taken = multiply(model, kin, system.op, log.qdot_next.row(f));
-    const double scale =
-        std::max(given.lpNorm<Eigen::Infinity>(), taken.lpNorm<Eigen::Infinity>());
+    const double scale = std::max(given.lpNorm<Eigen::Infinity>(), taken.lpNorm<Eigen::Infinity>());
     if (scale > 0) {
       worst = std::max(worst, (given - taken).lpNorm<Eigen::Infinity>() / scale);
     }
@@ -157,9 +156,9 @@ Finding energy(const LogContents& log) {
   const double relative = passed > 0 ? worst / passed : worst;
   Finding finding = bounded("energy ledger", relative, log.resolved.scene.expect.energy,
                             "of the energy that passed");
-  finding.text += fmt::format(
-      "; {:.0f} erg worked, {:.0f} dissipated, {:.0f} integrator's own",
-      works[works.size() - 1], dissipated[dissipated.size() - 1], error[error.size() - 1]);
+  finding.text += fmt::format("; {:.0f} erg worked, {:.0f} dissipated, {:.0f} integrator's own",
+                              works[works.size() - 1], dissipated[dissipated.size() - 1],
+                              error[error.size() - 1]);
   return finding;
 }
 
@@ -188,7 +187,7 @@ std::vector<Finding> sliding(const LogContents& log) {
     }
     for (std::int64_t k = step[f]; k < step[f + 1]; ++k) {
       rows += 1;
-      met += eq6[k] == 1 ? 1 : 0;
+      met += eq6.at(k - step.front()) == 1 ? 1 : 0;
     }
   }
   const double travel = first - last;

@@ -21,9 +21,9 @@ struct LogContents {
   explicit LogContents(const std::string& file);
   Hdf5Reader h5;
   ResolvedScene resolved;
-  std::vector<double> time;            ///< s
-  std::vector<std::int64_t> phase;     ///< as Phase
-  Hdf5Reader::Rows q, qdot, qdot_next; ///< frames x nq, nv, nv
+  std::vector<double> time;             ///< s
+  std::vector<std::int64_t> phase;      ///< as Phase
+  Hdf5Reader::Rows q, qdot, qdot_next;  ///< frames x nq, nv, nv
 };
 
 /// All findings on one log, in the order of its groups. Throws FileError or InputError where the

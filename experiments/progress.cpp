@@ -65,8 +65,7 @@ void Progress::show(const StepRecord& record) {
   }
   next_ = wall + (terminal_ ? terminal_interval : file_interval);
   const double speed = wall > 0 ? record.time / wall : 0;
-  const double left =
-      speed > 0 ? std::max(0.0, estimated_end(record) - record.time) / speed : 0;
+  const double left = speed > 0 ? std::max(0.0, estimated_end(record) - record.time) / speed : 0;
   const auto span = knot_span(record.controller);
   const std::string where =
       span ? fmt::format("{:.1f}-{:.1f} cm", span->head_end, span->tail_end) : "no contact";

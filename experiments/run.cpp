@@ -34,8 +34,8 @@ ResolvedScene load_scene(const RunOptions& options) {
 }
 
 /// Steps until the scene is over; returns the log's status.
-std::string take_steps(const Model& model, const Scene& scene, BoxQpSolver& solver,
-                       LogWriter& log, Progress& progress) {
+std::string take_steps(const Model& model, const Scene& scene, BoxQpSolver& solver, LogWriter& log,
+                       Progress& progress) {
   Simulation sim = start(model, scene);
   while (!finished(sim, scene)) {
     if (interrupted != 0) {

@@ -100,8 +100,7 @@ State random_state(Random& random, const Model& model, double angle, double spee
   state.q.segment<4>(3) << turn.w(), turn.x(), turn.y(), turn.z();
   for (int k = root_dofs; k < model.nv(); ++k) {
     const Hinge& hinge = model.hinges[k - root_dofs];
-    state.q[k + 1] =
-        uniform(random, std::max(-angle, hinge.lower), std::min(angle, hinge.upper));
+    state.q[k + 1] = uniform(random, std::max(-angle, hinge.lower), std::min(angle, hinge.upper));
   }
   state.qdot = random_entries(random, model.nv(), speed);
   return state;
@@ -179,8 +178,7 @@ Eigen::MatrixXd dense_rows(const Model& model, const Kinematics& kin,
       c(i, row.dof) = row.sign;
     }
     for (int k = 0; k < row.forces; ++k) {
-      c.row(i) +=
-          row.force[k].force.transpose() * centre_jacobian(model, kin, row.force[k].body);
+      c.row(i) += row.force[k].force.transpose() * centre_jacobian(model, kin, row.force[k].body);
     }
   }
   return c;

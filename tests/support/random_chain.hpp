@@ -47,12 +47,12 @@ State random_state(Random& random, const Model& model, double angle = 0.5, doubl
 /// body (each hinge stands for two bodies), head at the origin.
 State bent_state(const Model& model, double bend_y, double bend_z, double twist = 0);
 
-/// An open trefoil knot 41.6 cm long, its three crossings about 0.7 `height` cm apart; straight where
-/// `share`, 0 to 1 along it, is larger. cm.
+/// An open trefoil knot 41.6 cm long, its three crossings about 0.7 `height` cm apart; straight
+/// where `share`, 0 to 1 along it, is larger. cm.
 Eigen::Vector3d trefoil_point(double share, double height);
 
-/// The hagfish at rest along that knot, head at the origin along +X, each hinge off by up to `noise`
-/// rad. At a height of 2.45 without noise three crossings touch, one of them 0.18 cm deep.
+/// The hagfish at rest along that knot, head at the origin along +X, each hinge off by up to
+/// `noise` rad. At a height of 2.45 without noise three crossings touch, one of them 0.18 cm deep.
 State knotted_state(Random& random, const Model& model, double height = 2.45, double noise = 0);
 
 /// RedMax's J of one body, 6 x nv: the axes of the velocities ahead of it, zero behind.

@@ -1,0 +1,38 @@
+#include "tests/support/stored_states.hpp"
+
+#include <toml.hpp>
+
+namespace hagfish {
+
+std::vector<StoredState> stored_states() {
+  const auto file = toml::parse(HAGFISH_TEST_DATA_DIR "/table1_states.toml");
+  std::vector<StoredState> states;
+  for (const auto& entry : toml::find<std::vector<toml::value>>(file, "state")) {
+    const auto numbers = [&entry](const char* key) {
+      const auto values = toml::find<std::vector<double>>(entry, key);
+      return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(values.data(), values.size()));
+    };
+    StoredState stored;
+    stored.name = toml::find<std::string>(entry, "name");
+    stored.phase = static_cast<Phase>(toml::find<int>(entry, "phase"));
+    stored.step = toml::find<std::int64_t>(entry, "step");
+    stored.state = {numbers("q"), numbers("qdot")};
+    stored.later = numbers("later").reshaped(3, numbers("later").size() / 3);
+    states.push_back(std::move(stored));
+  }
+  return states;
+}
+
+ResolvedScene stored_scene(const std::vector<std::string>& overrides) {
+  return read_scene(HAGFISH_DATA_DIR "/table1.toml", overrides);
+}
+
+Simulation resume(const Model& model, const Scene& scene, const StoredState& stored) {
+  ControllerState controller;
+  controller.phase = stored.phase;
+  controller.phase_start = static_cast<double>(stored.step) * scene.time.step;
+  controller.loose = controller.phase_start;
+  return start_from(model, scene, stored.state, controller, stored.step);
+}
+
+}  // namespace hagfish

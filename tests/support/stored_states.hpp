@@ -1,0 +1,32 @@
+// States of every phase of the Table 1 run, stored in tests/data.
+#pragma once
+
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "core/scene_reader.hpp"
+#include "core/simulation.hpp"
+
+namespace hagfish {
+
+struct StoredState {
+  std::string name;  ///< "form early", "slide", ...
+  Phase phase = Phase::form;
+  std::int64_t step = 0;
+  State state;
+  Eigen::Matrix3Xd later;  ///< body centres 0.1 s later in the same run, cm
+};
+
+/// How a test names it.
+inline std::ostream& operator<<(std::ostream& out, const StoredState& s) { return out << s.name; }
+
+std::vector<StoredState> stored_states();
+
+/// The scene and the animal of that run: data/table1.toml with `overrides`.
+ResolvedScene stored_scene(const std::vector<std::string>& overrides = {});
+
+/// A simulation that goes on from `stored`, its controller in the right phase.
+Simulation resume(const Model& model, const Scene& scene, const StoredState& stored);
+
+}  // namespace hagfish

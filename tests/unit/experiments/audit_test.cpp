@@ -1,0 +1,112 @@
+// `hagfish check`: passes a log of the sliding phase, and names what was tampered with.
+#include "experiments/audit.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "core/log_writer.hpp"
+#include "tests/support/stored_states.hpp"
+
+namespace hagfish {
+namespace {
+
+namespace fs = std::filesystem;
+
+class AuditTest : public testing::Test {
+ protected:
+  AuditTest() : file(fs::path(testing::TempDir()) / ("audit_" + std::to_string(getpid()) + ".h5")) {
+    const ResolvedScene resolved = stored_scene({"time.frame_interval=0.01"});
+    const Scene& scene = resolved.scene;
+    const Model model = make_hagfish(resolved.specimen, scene);
+    LogHeader header;
+    header.scene = scene_to_toml(scene, resolved.specimen);
+    LogWriter log(file, true, header, model, scene);
+    const auto solver = make_box_qp_solver("ipopt");
+    Simulation sim = resume(model, scene, stored_states().at(3));
+    for (int k = 0; k < 30; ++k) {
+      log.write(take_step(model, scene, *solver, sim), 0);
+    }
+    log.finish("complete");
+  }
+  ~AuditTest() override { fs::remove(file); }
+
+  bool passes(const std::string& name) const {
+    for (const Finding& finding : audit(file)) {
+      if (finding.name == name) {
+        return finding.passed;
+      }
+    }
+    ADD_FAILURE() << "no finding named " << name;
+    return false;
+  }
+
+  /// Adds `change` to one number of a dataset of doubles.
+  void tamper(const std::string& path, std::size_t index, double change) const {
+    H5::H5File h5(file.string(), H5F_ACC_RDWR);
+    H5::DataSet set = h5.openDataSet(path);
+    std::vector<double> values(set.getSpace().getSimpleExtentNpoints());
+    set.read(values.data(), H5::PredType::NATIVE_DOUBLE);
+    values.at(index) += change;
+    set.write(values.data(), H5::PredType::NATIVE_DOUBLE);
+  }
+
+  fs::path file;
+};
+
+TEST_F(AuditTest, PassesAnHonestLog) {
+  for (const char* name :
+       {"status", "knot held", "Eq. 6", "penetration", "limits", "head drift", "KKT residual",
+        "force balance", "f_thigmo past the knot", "energy ledger"}) {
+    EXPECT_TRUE(passes(name)) << name;
+  }
+  // The excerpt starts knotted and does not slide 9 cm: that must show.
+  EXPECT_FALSE(passes("unknot at start"));
+  EXPECT_FALSE(passes("slide"));
+}
+
+TEST_F(AuditTest, SeesAForceThatWasChanged) {
+  tamper("/forces/thigmotaxis", 60, 1e-3);
+  EXPECT_FALSE(passes("force balance"));
+}
+
+TEST_F(AuditTest, SeesAForceBehindTheKnot) {
+  const hsize_t nv = Hdf5Reader(file).shape("/forces/thigmotaxis")[1];
+  tamper("/forces/thigmotaxis", nv - 1, 1e-12);
+  EXPECT_FALSE(passes("f_thigmo past the knot"));
+}
+
+TEST_F(AuditTest, SeesABentLimit) {
+  tamper("/trajectory/q", 7 + 20, 0.5);
+  EXPECT_FALSE(passes("limits"));
+}
+
+TEST_F(AuditTest, SeesDriftPenetrationResidualAndEnergy) {
+  tamper("/steps/head_drift", 3, 1e-3);
+  tamper("/steps/penetration", 3, 0.1);
+  tamper("/steps/kkt", 3, 1e-6);
+  tamper("/diagnostics/work_tip", 2, 50);
+  EXPECT_FALSE(passes("head drift"));
+  EXPECT_FALSE(passes("penetration"));
+  EXPECT_FALSE(passes("KKT residual"));
+  EXPECT_FALSE(passes("energy ledger"));
+}
+
+TEST_F(AuditTest, SeesAKnotThatCameUndone) {
+  // One frame with the body pulled straight is enough.
+  const std::vector<hsize_t> shape = Hdf5Reader(file).shape("/trajectory/position");
+  const Hdf5Reader::Rows position = Hdf5Reader(file).rows("/trajectory/position");
+  for (hsize_t b = 0; b < shape[1]; ++b) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::size_t index = 3 * b + axis;
+      const double straight = axis == 0 ? 0.424 * static_cast<double>(b) : 0;
+      tamper("/trajectory/position", index,
+             straight - position(0, static_cast<Eigen::Index>(index)));
+    }
+  }
+  EXPECT_FALSE(passes("knot held"));
+}
+
+}  // namespace
+}  // namespace hagfish

@@ -1,0 +1,136 @@
+// The program from outside: exit codes, one clear line for bad input, nothing half-written.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Outcome {
+  int code = -1;
+  std::string output;  ///< standard output and error
+};
+
+class ProgramTest : public testing::Test {
+ protected:
+  ProgramTest()
+      : folder(fs::path(testing::TempDir()) / ("hagfish_program_" + std::to_string(getpid()))) {
+    fs::create_directories(folder);
+  }
+  ~ProgramTest() override { fs::remove_all(folder); }
+
+  Outcome hagfish(const std::string& arguments, const std::string& before = "") const {
+    const std::string command = "cd '" + folder.string() + "' && " + before + " '" +
+                                HAGFISH_PROGRAM + "' " + arguments + " 2>&1";
+    Outcome outcome;
+    FILE* pipe = popen(command.c_str(), "r");
+    std::array<char, 4096> buffer{};
+    while (const std::size_t n = fread(buffer.data(), 1, buffer.size(), pipe)) {
+      outcome.output.append(buffer.data(), n);
+    }
+    outcome.code = WEXITSTATUS(pclose(pipe));
+    return outcome;
+  }
+
+  /// Bad input: exit 2, one line that holds every part, and no file left.
+  void expect_refused(const std::string& arguments, const std::vector<std::string>& parts) const {
+    const Outcome outcome = hagfish(arguments);
+    EXPECT_EQ(outcome.code, 2) << arguments << "\n" << outcome.output;
+    EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 1) << outcome.output;
+    for (const std::string& part : parts) {
+      EXPECT_NE(outcome.output.find(part), std::string::npos) << part << " in " << outcome.output;
+    }
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      EXPECT_NE(entry.path().extension(), ".h5") << entry.path();
+      EXPECT_NE(entry.path().extension(), ".part") << entry.path();
+    }
+  }
+
+  fs::path folder;
+};
+
+// 0.02 s of the run: as good as any where only the program's manners are tested.
+const std::string brief = "run --quiet --set time.duration=0.02 ";
+
+TEST_F(ProgramTest, RunsInfoAndCheck) {
+  EXPECT_EQ(hagfish(brief + "--out a.h5").code, 0);
+  const Outcome info = hagfish("info a.h5");
+  EXPECT_EQ(info.code, 0);
+  EXPECT_NE(info.output.find("status           complete"), std::string::npos) << info.output;
+  // Too short to tie: the audit must say what is missing and fail.
+  const Outcome check = hagfish("check a.h5");
+  EXPECT_EQ(check.code, 1);
+  EXPECT_NE(check.output.find("check failed: knot held"), std::string::npos) << check.output;
+  EXPECT_NE(check.output.find("ok   force balance"), std::string::npos) << check.output;
+}
+
+TEST_F(ProgramTest, ListsTheScenes) {
+  const Outcome scenes = hagfish("scenes");
+  EXPECT_EQ(scenes.code, 0);
+  EXPECT_NE(scenes.output.find("table1"), std::string::npos);
+  EXPECT_NE(scenes.output.find("overhand_waypoints"), std::string::npos);
+}
+
+TEST_F(ProgramTest, RunsEveryBodyCount) {
+  for (const char* bodies : {"2", "3", "25", "400"}) {
+    const Outcome run = hagfish(brief + "--force --out n.h5 --set model.bodies=" + bodies);
+    EXPECT_EQ(run.code, 0) << bodies << ": " << run.output;
+  }
+}
+
+TEST_F(ProgramTest, RefusesBadInputInOneLine) {
+  expect_refused("run --set model.bodie=100", {"model.bodie", "unknown", "bodies"});
+  expect_refused("run --set model.bodies=401", {"model.bodies", "401", "400"});
+  expect_refused("run --set model.bodies=many", {"model.bodies", "whole number"});
+  expect_refused("run --set time.step=nan", {"time.step", "finite"});
+  expect_refused("run --set time.step=0", {"time.step", "positive"});
+  expect_refused("run --set specimen.length=-1", {"specimen.length", "positive"});
+  expect_refused("run nowhere", {"nowhere", "scenes"});
+  expect_refused("run missing.toml", {"missing.toml"});
+  expect_refused("run --out /no/such/folder/x.h5", {"/no/such/folder/x.h5", "No such file"});
+  expect_refused("info missing.h5", {"missing.h5", "no such file"});
+  fs::create_directory(folder / "folder.toml");
+  expect_refused("run folder.toml", {"folder.toml"});
+}
+
+TEST_F(ProgramTest, KeepsAnExistingLogUnlessForced) {
+  std::ofstream(folder / "a.h5") << "precious";
+  const Outcome kept = hagfish(brief + "--out a.h5");
+  EXPECT_EQ(kept.code, 2);
+  EXPECT_NE(kept.output.find("a.h5: already exists (--force replaces it)"), std::string::npos);
+  EXPECT_EQ(fs::file_size(folder / "a.h5"), 8u);
+  EXPECT_EQ(hagfish(brief + "--out a.h5 --force").code, 0);
+  EXPECT_GT(fs::file_size(folder / "a.h5"), 8u);
+}
+
+TEST_F(ProgramTest, FullDiskIsOneLine) {
+  // A limit on file size (blocks of 1024 bytes) with its signal ignored stands for a full disk.
+  const Outcome full =
+      hagfish("run --quiet --set time.duration=2 --out a.h5", "trap '' XFSZ && ulimit -f 150 &&");
+  EXPECT_EQ(full.code, 2) << full.output;
+  EXPECT_EQ(std::count(full.output.begin(), full.output.end(), '\n'), 1) << full.output;
+  EXPECT_NE(full.output.find("a.h5"), std::string::npos) << full.output;
+  EXPECT_NE(full.output.find("File too large"), std::string::npos) << full.output;
+  EXPECT_TRUE(fs::is_empty(folder));
+}
+
+TEST_F(ProgramTest, AFailedStepLeavesAReadableLogWithTheCause) {
+  // Joints of a body pulled this hard move faster than the guard allows.
+  const Outcome run = hagfish("run --quiet --set guard.speed=5 --out a.h5");
+  EXPECT_EQ(run.code, 1) << run.output;
+  EXPECT_NE(run.output.find("failed: body"), std::string::npos) << run.output;
+  const Outcome info = hagfish("info a.h5");
+  EXPECT_EQ(info.code, 0);
+  EXPECT_NE(info.output.find("failed: body"), std::string::npos) << info.output;
+  EXPECT_NE(info.output.find("at step"), std::string::npos) << info.output;
+  EXPECT_EQ(hagfish("check a.h5").code, 1);
+}
+
+}  // namespace
