@@ -2,15 +2,14 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
 
 namespace hagfish {
 namespace {
 
-// The starting grid must be fine enough that the lowest sample lies in the basin of the global
-// minimum, or of one within the tolerance of it: 4 x 4 cells a pair of segments.
-constexpr int grid = 4;
+// Cells a segment of the grid that starts are taken from: it must tell the basins of minima apart.
+constexpr int grid = 6;
 constexpr int iteration_limit = 50;
 // Newton steps in a parameter of [0, 1] below this are at the rounding of the gap's minimum.
 constexpr double step_tolerance = 1e-10;
@@ -19,9 +18,14 @@ double gap_at(const SplineSegment& a, const SplineSegment& b, double t_a, double
   return (b.point(t_b) - a.point(t_a)).norm() - a.radius(t_a) - b.radius(t_b);
 }
 
-ClosestPoints best_sample(const SplineSegment& a, const SplineSegment& b) {
-  ClosestPoints best;
-  best.gap = std::numeric_limits<double>::infinity();
+/// Samples of the grid that no neighbour undercuts: one in each basin that the grid can tell apart.
+struct Starts {
+  std::array<ClosestPoints, (grid + 1) * (grid + 1)> at;
+  int count = 0;
+};
+
+Starts starts_of(const SplineSegment& a, const SplineSegment& b) {
+  std::array<std::array<double, grid + 1>, grid + 1> gap;
   std::array<Eigen::Vector3d, grid + 1> points_b;
   for (int j = 0; j <= grid; ++j) {
     points_b[j] = b.point(static_cast<double>(j) / grid);
@@ -30,14 +34,26 @@ ClosestPoints best_sample(const SplineSegment& a, const SplineSegment& b) {
     const double t_a = static_cast<double>(i) / grid;
     const Eigen::Vector3d point_a = a.point(t_a);
     for (int j = 0; j <= grid; ++j) {
-      const double t_b = static_cast<double>(j) / grid;
-      const double gap = (points_b[j] - point_a).norm() - a.radius(t_a) - b.radius(t_b);
-      if (gap < best.gap) {
-        best = {t_a, t_b, gap};
+      gap[i][j] =
+          (points_b[j] - point_a).norm() - a.radius(t_a) - b.radius(static_cast<double>(j) / grid);
+    }
+  }
+  Starts starts;
+  for (int i = 0; i <= grid; ++i) {
+    for (int j = 0; j <= grid; ++j) {
+      bool lowest = true;
+      for (int k = std::max(i - 1, 0); k <= std::min(i + 1, grid); ++k) {
+        for (int l = std::max(j - 1, 0); l <= std::min(j + 1, grid); ++l) {
+          lowest = lowest && gap[i][j] <= gap[k][l];
+        }
+      }
+      if (lowest) {
+        starts.at[starts.count++] = {static_cast<double>(i) / grid, static_cast<double>(j) / grid,
+                                     gap[i][j]};
       }
     }
   }
-  return best;
+  return starts;
 }
 
 /// A Newton direction on the free parameters; `g` is the gradient, `h` the Hessian, `safe` its
@@ -58,10 +74,8 @@ Eigen::Vector2d direction(const Eigen::Vector2d& g, const Eigen::Matrix2d& h,
   return step;
 }
 
-}  // namespace
-
-ClosestPoints closest_points(const SplineSegment& a, const SplineSegment& b) {
-  ClosestPoints at = best_sample(a, b);
+/// Safeguarded Newton from `at`.
+ClosestPoints descend(const SplineSegment& a, const SplineSegment& b, ClosestPoints at) {
   for (int iteration = 0; iteration < iteration_limit; ++iteration) {
     const Eigen::Vector3d d = b.point(at.t_b) - a.point(at.t_a);
     const double distance = d.norm();
@@ -104,6 +118,20 @@ ClosestPoints closest_points(const SplineSegment& a, const SplineSegment& b) {
     }
   }
   return at;
+}
+
+}  // namespace
+
+ClosestPoints closest_points(const SplineSegment& a, const SplineSegment& b) {
+  const Starts starts = starts_of(a, b);
+  ClosestPoints best = descend(a, b, starts.at[0]);
+  for (int k = 1; k < starts.count; ++k) {
+    const ClosestPoints other = descend(a, b, starts.at[k]);
+    if (other.gap < best.gap) {
+      best = other;
+    }
+  }
+  return best;
 }
 
 }  // namespace hagfish
