@@ -14,15 +14,15 @@ struct Candidate {
 std::vector<Candidate> close_pairs(const Model& model, const std::vector<SplineSegment>& segments,
                                    const ContactSettings& settings) {
   const int n = static_cast<int>(segments.size());
-  std::vector<double> arc(n);
-  for (int i = 0; i < n; ++i) {
-    arc[i] = arc_length(model, i, 0);
+  std::vector<double> arc(n + 1);  // of the segments' ends
+  for (int i = 0; i <= n; ++i) {
+    arc[i] = i < n ? arc_length(model, i, 0) : arc_length(model, i - 1, 1);
   }
   std::vector<Candidate> pairs;
   for (int a = 0; a < n; ++a) {
     for (int b = a + 1; b < n; ++b) {
       // A hair of slack: equal arcs must not fall on either side of the bound by rounding.
-      if (arc[b] - arc[a] < settings.least_arc * (1 - 1e-9)) {
+      if (arc[b] - arc[a + 1] < settings.least_arc * (1 - 1e-9)) {
         continue;
       }
       const double reach = segments[a].bound + segments[b].bound + settings.margin;
@@ -38,21 +38,32 @@ std::vector<Candidate> close_pairs(const Model& model, const std::vector<SplineS
   return pairs;
 }
 
-/// Pairs come sorted by (a, b). The first of equal neighbours counts as the lower: a minimum on the
-/// border of two segments is found from both sides.
+// A minimum on the border of two segments is found from both, with gaps that differ by rounding,
+// cm.
+constexpr double same_gap = 1e-9;
+
+/// Which neighbour shares the border that `t` lies on: -1, +1, or 0 inside the segment.
+int across(double t) { return t <= 0 ? -1 : (t >= 1 ? 1 : 0); }
+
+/// A minimum inside both segments always counts; one on a border counts unless the gap falls on
+/// beyond it, and only for the first of the pairs that find it. Pairs come sorted by (a, b).
 bool is_local_minimum(const std::vector<Candidate>& pairs, std::size_t index) {
   const Candidate& own = pairs[index];
-  for (int a = own.a - 1; a <= own.a + 1; ++a) {
-    auto it = std::lower_bound(pairs.begin(), pairs.end(), std::pair(a, own.b - 1),
-                               [](const Candidate& c, const std::pair<int, int>& key) {
-                                 return std::pair(c.a, c.b) < key;
-                               });
-    for (; it != pairs.end() && it->a == a && it->b <= own.b + 1; ++it) {
-      const auto other = static_cast<std::size_t>(it - pairs.begin());
-      if (other != index && (it->closest.gap < own.closest.gap ||
-                             (it->closest.gap == own.closest.gap && other < index))) {
-        return false;
-      }
+  const int step_a = across(own.closest.t_a);
+  const int step_b = across(own.closest.t_b);
+  for (const auto& [da, db] : {std::pair(step_a, 0), {0, step_b}, {step_a, step_b}}) {
+    const std::pair<int, int> wanted(own.a + da, own.b + db);
+    const auto it = std::lower_bound(pairs.begin(), pairs.end(), wanted,
+                                     [](const Candidate& c, const std::pair<int, int>& key) {
+                                       return std::pair(c.a, c.b) < key;
+                                     });
+    if (it == pairs.end() || std::pair(it->a, it->b) != wanted) {
+      continue;
+    }
+    const auto other = static_cast<std::size_t>(it - pairs.begin());
+    const double lower_by = own.closest.gap - it->closest.gap;
+    if (other != index && (lower_by > same_gap || (lower_by >= -same_gap && other < index))) {
+      return false;
     }
   }
   return true;

@@ -96,11 +96,9 @@ void switch_by_knot(const Model& model, const Scene& scene, double time,
 /// Phase changes that follow from where the knot is.
 void switch_by_span(const Scene& scene, double time, ControllerState& controller) {
   const std::optional<KnotSpan> span = knot_span(controller);
-  if (!span) {
-    return;
-  }
   const ControllerSettings& settings = scene.controller;
-  if (controller.phase == Phase::form || span->tail_end - span->head_end > settings.tight_span) {
+  if (controller.phase == Phase::form || !span ||
+      span->tail_end - span->head_end > settings.tight_span) {
     controller.loose = time;
   }
   if (controller.phase == Phase::tighten &&
@@ -108,7 +106,7 @@ void switch_by_span(const Scene& scene, double time, ControllerState& controller
        time - controller.phase_start >= settings.tighten_time)) {
     enter(controller, Phase::slide, time);
   }
-  if (controller.phase == Phase::slide && span->head_end <= settings.release_at) {
+  if (controller.phase == Phase::slide && span && span->head_end <= settings.release_at) {
     enter(controller, Phase::release, time);
   }
 }

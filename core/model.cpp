@@ -55,6 +55,9 @@ std::vector<JointName> joint_names(const Model& model) {
 
 void append_body(Model& model, const Body& body, const std::vector<Axis>& axes) {
   const int index = model.body_count();
+  if (index == 0 && !axes.empty()) {
+    throw std::invalid_argument("body 0 hangs on the free root and takes no hinges");
+  }
   model.bodies.push_back(body);
   model.bodies.back().first_dof = index == 0 ? 0 : model.nv();
   model.bodies.back().dofs = index == 0 ? root_dofs : static_cast<int>(axes.size());

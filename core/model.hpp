@@ -60,7 +60,7 @@ struct JointName {
 std::vector<JointName> joint_names(const Model& model);
 
 /// Appends a body that hangs on hinges about `axes` (limits free, no passive force). The caller
-/// sets the rest through the returned references' indices: bodies.back(), hinges.
+/// sets the rest in bodies.back() and hinges. Throws std::invalid_argument for hinges at body 0.
 void append_body(Model& model, const Body& body, const std::vector<Axis>& axes);
 
 /// Inertia of a solid homogeneous cylinder along X about its centre, g cm^2.

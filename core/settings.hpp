@@ -43,8 +43,9 @@ struct ConstraintSettings {
 /// Self-contact along the spline through the body centres (paper, Eq. 5).
 struct ContactSettings {
   double margin = 0.1;  ///< gaps up to this enter the problem when speculative, cm
-  /// Strands closer than this along the body never touch: neighbours always overlap, cm of arc.
-  double least_arc = 3.392;
+  /// Parts of the body whose nearest ends are closer than this along it never touch: neighbours
+  /// always overlap, cm of arc (7 bodies of 100 between them).
+  double least_arc = 2.968;
 };
 
 /// The tank's head plate, the plane x = 0.

@@ -197,6 +197,9 @@ StepSolution solve_step(const Model& model, const State& state, const Situation&
     throw StepError(error.what());
   }
   step.unconstrained = factor.solve(model, kin, step.system.wrench, step.system.joint);
+  if (!step.unconstrained.allFinite()) {
+    throw StepError("non-finite unconstrained velocity");
+  }
   step.qdot = step.unconstrained;
 
   // Eq. 3 or 4 on the rows that can bind; any other that the answer violates comes in.

@@ -79,15 +79,13 @@ std::string bodies_file(const Model& model, const std::vector<JointName>& names,
 }
 
 void write_excludes(std::ostream& out, const Model& model, double least_arc) {
-  std::vector<double> arc;  // of the bodies' centres, cm
-  double start = 0;
+  std::vector<double> arc{0};  // of the bodies' front ends and the tail, cm
   for (const Body& body : model.bodies) {
-    arc.push_back(start + 0.5 * body.length);
-    start += body.length;
+    arc.push_back(arc.back() + body.length);
   }
   for (int a = 0; a < model.body_count(); ++a) {
     // The hair of slack is that of core/contact.cpp: equal arcs fall on the same side in both.
-    for (int b = a + 1; b < model.body_count() && arc[b] - arc[a] < least_arc * (1 - 1e-9); ++b) {
+    for (int b = a + 1; b < model.body_count() && arc[b] - arc[a + 1] < least_arc * (1 - 1e-9); ++b) {
       out << "<exclude body1=\"" << body_name(a) << "\" body2=\"" << body_name(b) << "\"/>\n";
     }
   }

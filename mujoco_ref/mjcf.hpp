@@ -20,8 +20,8 @@ inline constexpr const char* mjcf_root_file = "hagfish.xml";
 /// includes, 11 in all for 400 bodies. Units are cm, g, s, rad; numbers read back to the last bit.
 ///
 /// Bodies are named b0, b1, ... head to tail, joints by the dofs of joint_names(), the free joint
-/// "root". A body of radius 0 has no geom. Capsules of bodies whose centres are closer along the
-/// body than `least_arc` (cm; ContactSettings::least_arc) never touch, as in core/contact.cpp.
+/// "root". A body of radius 0 has no geom. Capsules with less body than `least_arc` between them
+/// (cm; ContactSettings::least_arc) never touch, as in core/contact.cpp.
 /// MuJoCo rejects a limited hinge whose lower limit is not below its upper one.
 std::map<std::string, std::string> mjcf_files(const Model& model, double least_arc, double h);
 

@@ -1,11 +1,11 @@
 #include "solvers/box_qp.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
+#include "solvers/free_rows.hpp"
 #include "solvers/ipopt_box_qp.hpp"
 
 namespace hagfish {
@@ -24,6 +24,25 @@ const char* status_name(SolveStatus status) {
   return "failed";
 }
 
+void check_box_qp(const BoxQp& qp) {
+  const Eigen::Index m = qp.b.size();
+  if (qp.A.rows() != m || qp.A.cols() != m || qp.lower.size() != m || qp.upper.size() != m) {
+    throw std::invalid_argument("box QP: A, b, lower and upper differ in size");
+  }
+  if (!qp.A.allFinite() || !qp.b.allFinite()) {
+    throw std::invalid_argument("box QP: A or b is not finite");
+  }
+  if (!((qp.lower.array() <= 0).all() && (qp.upper.array() >= 0).all())) {
+    throw std::invalid_argument("box QP: bounds leave out 0");
+  }
+}
+
+Eigen::VectorXd row_scale(const Eigen::MatrixXd& A) {
+  const Eigen::VectorXd s = A.diagonal().cwiseMax(0).cwiseSqrt();
+  const double largest = s.size() > 0 ? s.maxCoeff() : 0;
+  return s.cwiseMax(largest > 0 ? 1e-10 * largest : 1.0);
+}
+
 KktResiduals kkt_residuals(const BoxQp& qp, const Eigen::VectorXd& x) {
   return kkt_residuals(qp, x, qp.A * x - qp.b);
 }
@@ -33,14 +52,22 @@ KktResiduals kkt_residuals(const BoxQp& qp, const Eigen::VectorXd& x, const Eige
   if (x.size() == 0) {
     return r;
   }
-  const Eigen::ArrayXd s = qp.A.diagonal().array().max(std::numeric_limits<double>::min()).sqrt();
-  const double beta =
-      std::max((qp.b.array() / s).abs().maxCoeff(), std::numeric_limits<double>::min());
+  if (!x.allFinite() || !w.allFinite()) {
+    r.primal = std::numeric_limits<double>::infinity();
+    return r;
+  }
+  const Eigen::VectorXd s = row_scale(qp.A);
+  double beta = 0;
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    if (std::sqrt(qp.A(i, i)) >= s[i]) {  // not at the floor of row_scale
+      beta = std::max(beta, std::abs(qp.b[i]) / s[i]);
+    }
+  }
+  beta = beta > 0 ? beta : 1;
   for (Eigen::Index i = 0; i < x.size(); ++i) {
     const double wi = w[i] / s[i] / beta;
     const double above = (x[i] - qp.lower[i]) * s[i] / beta;  // room to the bounds, inf where free
     const double below = (qp.upper[i] - x[i]) * s[i] / beta;
-    // w > 0 wants x at its lower bound, w < 0 at its upper one: an infinite bound makes w an error.
     const double room = wi > 0 ? above : below;
     if (std::isinf(room)) {
       r.primal = std::max(r.primal, std::abs(wi));
@@ -48,9 +75,6 @@ KktResiduals kkt_residuals(const BoxQp& qp, const Eigen::VectorXd& x, const Eige
       r.complementarity = std::max(r.complementarity, std::abs(wi) * std::max(room, 0.0));
     }
     r.primal = std::max({r.primal, -above, -below});
-    if (std::isnan(wi)) {
-      r.primal = std::numeric_limits<double>::infinity();
-    }
   }
   return r;
 }
@@ -65,22 +89,15 @@ std::unique_ptr<BoxQpSolver> make_box_qp_solver(const std::string& name) {
 }
 
 BoxQpSolution solve_bilateral(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
-  // Jacobi scaling first: rows of different units (cm/s, rad/s) must not decide the rank.
-  const Eigen::VectorXd s =
-      A.diagonal().array().max(std::numeric_limits<double>::min()).sqrt().inverse();
-  const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> factor(
-      s.asDiagonal() * A * s.asDiagonal());
-  const Eigen::VectorXd scaled = s.cwiseProduct(b);
   BoxQpSolution solution;
-  const Eigen::VectorXd y = factor.solve(scaled);
-  solution.x = s.cwiseProduct(y);
+  if (b.size() == 0) {
+    solution.status = SolveStatus::solved;
+    return solution;
+  }
+  const SemidefiniteFactor factor(A);
+  solution.x = factor.solve(b);
   solution.iterations = 1;
-  const double residual =
-      (s.asDiagonal() * A * s.asDiagonal() * y - scaled).lpNorm<Eigen::Infinity>();
-  // Consistent equations are met to rounding; 1e-9 of the right-hand side is far above that and
-  // far below any row that really contradicts another.
-  const bool met = residual <= 1e-9 * scaled.lpNorm<Eigen::Infinity>();
-  solution.status = met ? SolveStatus::solved : SolveStatus::infeasible;
+  solution.status = factor.meets(solution.x, b) ? SolveStatus::solved : SolveStatus::infeasible;
   return solution;
 }
 

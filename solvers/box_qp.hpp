@@ -18,34 +18,41 @@ namespace hagfish {
 struct BoxQp {
   Eigen::MatrixXd A;      ///< m x m, symmetric, positive semidefinite, may be singular
   Eigen::VectorXd b;      ///< m
-  Eigen::VectorXd lower;  ///< m, -infinity where free
-  Eigen::VectorXd upper;  ///< m, +infinity where free
+  Eigen::VectorXd lower;  ///< m, <= 0, -infinity where free
+  Eigen::VectorXd upper;  ///< m, >= 0, +infinity where free
 };
+
+/// Throws std::invalid_argument with the cause in one line where sizes differ, A or b is not finite
+/// or a box leaves out 0.
+void check_box_qp(const BoxQp& qp);
+
+/// sqrt(A_ii), m: what brings rows of different units to unit diagonal. At least 1e-10 of the
+/// largest (1 where A = 0), so that rows that cannot move keep a finite scale.
+Eigen::VectorXd row_scale(const Eigen::MatrixXd& A);
 
 enum class SolveStatus { solved, infeasible, iteration_limit, failed };
 const char* status_name(SolveStatus status);
 
 struct BoxQpSolution {
-  Eigen::VectorXd x;  ///< m; within the bounds also where the solve failed
+  Eigen::VectorXd x;  ///< m; within the bounds and finite also where the solve failed
   SolveStatus status = SolveStatus::failed;
   int iterations = 0;
   std::string message;  ///< the back end's own word where it failed
 };
 
 /// Scaled infinity norms; 0 at an exact solution. Rows are brought to unit diagonal first:
-/// x̂_i = x_i s_i, ŵ_i = w_i / s_i with s_i = sqrt(A_ii), and β = max_i |b_i| / s_i is the scale of
-/// both.
+/// x̂_i = x_i s_i / β, ŵ_i = w_i / (s_i β) with s = row_scale(A) and β = max |b_i| / s_i over rows
+/// that can move (1 where b = 0).
 struct KktResiduals {
-  /// max |ŵ_i| / β over rows that may move both ways (strictly inside their bounds by more than
-  /// the complementarity measure can tell), and the wrong-way part of ŵ at rows on a bound.
+  /// max |ŵ_i| of rows with nothing to push against (w > 0 without a lower bound, w < 0 without an
+  /// upper one), and how far any x̂_i lies outside its bounds.
   double primal = 0;
-  double complementarity = 0;  ///< max of |x̂_i - bound| |ŵ_i| / β² against the nearer bound
+  /// max of |ŵ_i| times the distance of x̂_i from the finite bound that w pushes it to.
+  double complementarity = 0;
   double worst() const { return primal > complementarity ? primal : complementarity; }
 };
 
-/// Residuals of any x against the problem; knows no back end. Unilateral rows (u = inf) count a
-/// negative ŵ as primal error, free rows |ŵ|; a row soft from above (finite u) may have ŵ < 0 at
-/// u. Products x̂ ŵ are complementarity error.
+/// Residuals of any x against the problem; knows no back end. Infinite where x or w is not finite.
 KktResiduals kkt_residuals(const BoxQp& qp, const Eigen::VectorXd& x);
 
 /// The same from w = C v - d as measured on the primal side instead of A x - b.
@@ -56,7 +63,7 @@ KktResiduals kkt_residuals(const BoxQp& qp, const Eigen::VectorXd& x, const Eige
 class BoxQpSolver {
  public:
   virtual ~BoxQpSolver() = default;
-  /// `start` (m) is a guess at x, zero where nothing is known.
+  /// `start` (m) is a guess at x, zero where nothing is known. Throws as check_box_qp does.
   virtual BoxQpSolution solve(const BoxQp& qp, const Eigen::VectorXd& start) = 0;
 };
 
@@ -68,7 +75,7 @@ std::unique_ptr<BoxQpSolver> make_box_qp_solver(const std::string& name);
 
 /// The all-free limit l = -inf, u = inf (paper, Eq. 3 after elimination of q̇): A x = b, by a
 /// rank-revealing factorisation; redundant rows share their force. Status infeasible where
-/// A x = b has no solution to rounding.
+/// A x = b has no solution to rounding (1e-9 of b).
 BoxQpSolution solve_bilateral(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
 
 }  // namespace hagfish

@@ -1,26 +1,48 @@
 #include "solvers/ipopt_box_qp.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <coin/IpIpoptApplication.hpp>
 #include <coin/IpSolveStatistics.hpp>
 #include <coin/IpTNLP.hpp>
+#include <limits>
 #include <stdexcept>
+
+#include "solvers/crossover.hpp"
+#include "solvers/free_rows.hpp"
 
 namespace hagfish {
 namespace {
 
 using Ipopt::Index;
 using Ipopt::Number;
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// min ½ y' Q y - c' y, l <= y <= u, with Q of unit diagonal: lower triangle given dense.
 class ScaledProblem final : public Ipopt::TNLP {
  public:
-  Eigen::MatrixXd Q;
-  Eigen::VectorXd c, lower, upper, start, y;
-  Eigen::VectorXd bound_multiplier_lower, bound_multiplier_upper;
+  BoxQp qp;
+  Eigen::VectorXd start, start_lower, start_upper;  ///< y and the multipliers of its bounds
+  Eigen::VectorXd y;                                ///< Ipopt's last point
+  double least_objective = 0;                       ///< below it the solve is stopped
+  double regularisation = 0;                        ///< added to the diagonal of Q
+
+  /// Takes over min ½ x' A x - b' x with x = t y, t = β / sqrt(A_ii): unit diagonal and |b̂| <= 1,
+  /// so that Ipopt's tolerances mean what IpoptSettings says. Returns t.
+  Eigen::VectorXd set(const BoxQp& problem, const Eigen::VectorXd& x) {
+    const Eigen::VectorXd s = problem.A.diagonal().cwiseSqrt().cwiseInverse();
+    const double beta = s.cwiseProduct(problem.b).lpNorm<Eigen::Infinity>();
+    const Eigen::VectorXd t = beta * s;
+    qp = {s.asDiagonal() * problem.A * s.asDiagonal(), s.cwiseProduct(problem.b) / beta,
+          problem.lower.cwiseQuotient(t), problem.upper.cwiseQuotient(t)};
+    start = x.cwiseQuotient(t).cwiseMax(qp.lower).cwiseMin(qp.upper);
+    y = Eigen::VectorXd::Zero(t.size());
+    return t;
+  }
 
   bool get_nlp_info(Index& n, Index& m, Index& nnz_jac_g, Index& nnz_h_lag,
                     IndexStyleEnum& index_style) override {
-    n = static_cast<Index>(c.size());
+    n = static_cast<Index>(qp.b.size());
     m = 0;
     nnz_jac_g = 0;
     nnz_h_lag = n * (n + 1) / 2;
@@ -30,8 +52,8 @@ class ScaledProblem final : public Ipopt::TNLP {
 
   bool get_bounds_info(Index n, Number* x_l, Number* x_u, Index /*m*/, Number* /*g_l*/,
                        Number* /*g_u*/) override {
-    Eigen::Map<Eigen::VectorXd>(x_l, n) = lower;
-    Eigen::Map<Eigen::VectorXd>(x_u, n) = upper;
+    Eigen::Map<Eigen::VectorXd>(x_l, n) = qp.lower;
+    Eigen::Map<Eigen::VectorXd>(x_u, n) = qp.upper;
     return true;
   }
 
@@ -40,21 +62,21 @@ class ScaledProblem final : public Ipopt::TNLP {
                           Number* /*lambda*/) override {
     Eigen::Map<Eigen::VectorXd>(x, n) = start;
     if (init_z) {
-      Eigen::Map<Eigen::VectorXd>(z_L, n) = bound_multiplier_lower;
-      Eigen::Map<Eigen::VectorXd>(z_U, n) = bound_multiplier_upper;
+      Eigen::Map<Eigen::VectorXd>(z_L, n) = start_lower;
+      Eigen::Map<Eigen::VectorXd>(z_U, n) = start_upper;
     }
     return true;
   }
 
   bool eval_f(Index n, const Number* x, bool /*new_x*/, Number& value) override {
     const Eigen::Map<const Eigen::VectorXd> v(x, n);
-    value = 0.5 * v.dot(Q * v) - c.dot(v);
+    value = 0.5 * v.dot(qp.A * v + regularisation * v) - qp.b.dot(v);
     return true;
   }
 
   bool eval_grad_f(Index n, const Number* x, bool /*new_x*/, Number* grad) override {
     const Eigen::Map<const Eigen::VectorXd> v(x, n);
-    Eigen::Map<Eigen::VectorXd>(grad, n) = Q * v - c;
+    Eigen::Map<Eigen::VectorXd>(grad, n) = qp.A * v + regularisation * v - qp.b;
     return true;
   }
 
@@ -63,9 +85,8 @@ class ScaledProblem final : public Ipopt::TNLP {
     return true;
   }
 
-  bool eval_jac_g(Index /*n*/, const Number* /*x*/, bool /*new_x*/, Index /*m*/,
-                  Index /*nele_jac*/, Index* /*iRow*/, Index* /*jCol*/,
-                  Number* /*values*/) override {
+  bool eval_jac_g(Index /*n*/, const Number* /*x*/, bool /*new_x*/, Index /*m*/, Index /*nele_jac*/,
+                  Index* /*iRow*/, Index* /*jCol*/, Number* /*values*/) override {
     return true;
   }
 
@@ -79,11 +100,19 @@ class ScaledProblem final : public Ipopt::TNLP {
           row[k] = i;
           column[k] = j;
         } else {
-          values[k] = factor * Q(i, j);
+          values[k] = factor * (qp.A(i, j) + (i == j ? regularisation : 0));
         }
       }
     }
     return true;
+  }
+
+  bool intermediate_callback(Ipopt::AlgorithmMode /*mode*/, Index /*iteration*/, Number objective,
+                             Number /*inf_pr*/, Number /*inf_du*/, Number /*mu*/, Number /*d_norm*/,
+                             Number /*regularization*/, Number /*alpha_du*/, Number /*alpha_pr*/,
+                             Index /*trials*/, const Ipopt::IpoptData* /*data*/,
+                             Ipopt::IpoptCalculatedQuantities* /*quantities*/) override {
+    return objective >= least_objective;
   }
 
   void finalize_solution(Ipopt::SolverReturn /*status*/, Index n, const Number* x,
@@ -94,6 +123,48 @@ class ScaledProblem final : public Ipopt::TNLP {
     y = Eigen::Map<const Eigen::VectorXd>(x, n);
   }
 };
+
+/// Puts y on the central path next to the start: y z = mu with y - z kept at y0 - w0, measured from
+/// the bound it is nearer to. mu is
+/// the smaller, the better the start.
+void centre_start(ScaledProblem& p, const IpoptSettings& settings) {
+  double off = natural_residual(p.qp, p.start);
+  if (!(off <= 1)) {  // worse than y = 0, where it is at most 1
+    p.start.setZero();
+    off = 1;
+  }
+  const double mu = std::max(settings.barrier_share * off, settings.least_barrier);
+  const BoxQp& qp = p.qp;
+  const Eigen::VectorXd w = qp.A * p.start - qp.b;
+  p.start_lower.setZero(w.size());
+  p.start_upper.setZero(w.size());
+  for (Eigen::Index i = 0; i < w.size(); ++i) {
+    const double width = qp.upper[i] - qp.lower[i];
+    const double above = p.start[i] - qp.lower[i] - w[i];
+    const double below = qp.upper[i] - p.start[i] + w[i];
+    const double nearer = std::min(above, below);
+    const double root = std::hypot(nearer, 2 * std::sqrt(mu));
+    // The root without cancellation.
+    const double positive = nearer > 0 ? 0.5 * (nearer + root) : 2 * mu / (root - nearer);
+    const double room = std::min(positive, 0.5 * width);
+    p.start[i] = above <= below ? qp.lower[i] + room : qp.upper[i] - room;
+    (above <= below ? p.start_lower : p.start_upper)[i] = mu / room;
+    if (std::isfinite(width)) {
+      (above <= below ? p.start_upper : p.start_lower)[i] = mu / (width - room);
+    }
+  }
+}
+
+/// Whether the objective falls below `least` on the ray of y, as it does where rows contradict each
+/// other. Rounding of y' Q y counts as cost. Only rows without an upper bound can make such a ray.
+bool falls_without_end(const BoxQp& qp, const Eigen::VectorXd& y, double least) {
+  const Eigen::VectorXd ray = (qp.upper.array() == infinity).select(y, 0);
+  const double length = ray.lpNorm<1>();
+  const double cost =
+      std::max(ray.dot(qp.A * ray), std::numeric_limits<double>::epsilon() * length * length);
+  const double gain = qp.b.dot(ray);
+  return gain > 0 && -gain * gain < 2 * cost * least;  // min over t of ½ t² cost - t gain
+}
 
 }  // namespace
 
@@ -107,25 +178,29 @@ IpoptBoxQp::IpoptBoxQp(const IpoptSettings& settings) : engine_(std::make_unique
   engine_->settings = settings;
   engine_->application = new Ipopt::IpoptApplication(false);
   engine_->problem = new ScaledProblem;
+  engine_->problem->least_objective = -settings.infeasible_objective;
+  engine_->problem->regularisation = settings.regularisation;
   auto options = engine_->application->Options();
   options->SetIntegerValue("print_level", 0);
   options->SetStringValue("sb", "yes");
   options->SetStringValue("linear_solver", "mumps");
+  options->SetIntegerValue("mumps_mem_percent", settings.mumps_extra_memory);
   options->SetStringValue("hessian_constant", "yes");
   options->SetNumericValue("tol", settings.tolerance);
-  options->SetNumericValue("dual_inf_tol", settings.tolerance);
-  options->SetNumericValue("compl_inf_tol", settings.tolerance);
+  options->SetIntegerValue("acceptable_iter", 0);
   options->SetIntegerValue("max_iter", settings.iteration_limit);
   options->SetNumericValue("bound_relax_factor", 0);
   options->SetStringValue("nlp_scaling_method", "none");
-  // A convex QP needs no globalisation: full steps, no second-order correction.
+  // A convex QP needs no globalisation: full predictor-corrector steps.
   options->SetStringValue("mehrotra_algorithm", "yes");
   options->SetStringValue("fast_step_computation", "yes");
-  options->SetIntegerValue("max_soc", 0);
-  options->SetIntegerValue("mumps_permuting_scaling", 0);
-  options->SetIntegerValue("mumps_scaling", 0);
-  options->SetIntegerValue("mumps_pivot_order", 0);
-  if (engine_->application->Initialize() != Ipopt::Solve_Succeeded) {
+  // The start is centred by centre_start; Ipopt must not push it away from its bounds again.
+  options->SetStringValue("warm_start_init_point", "yes");
+  for (const char* push :
+       {"warm_start_bound_push", "warm_start_bound_frac", "warm_start_mult_bound_push"}) {
+    options->SetNumericValue(push, 1e-12);
+  }
+  if (engine_->application->Initialize("") != Ipopt::Solve_Succeeded) {
     throw std::runtime_error("Ipopt did not accept its options");
   }
 }
@@ -133,47 +208,43 @@ IpoptBoxQp::IpoptBoxQp(const IpoptSettings& settings) : engine_(std::make_unique
 IpoptBoxQp::~IpoptBoxQp() = default;
 
 BoxQpSolution IpoptBoxQp::solve(const BoxQp& qp, const Eigen::VectorXd& start) {
-  const Eigen::Index m = qp.b.size();
+  check_box_qp(qp);
+  if (start.size() != qp.b.size()) {
+    throw std::invalid_argument("box QP: start differs in size from the problem");
+  }
+  const BoundedPart part(qp);
   BoxQpSolution solution;
-  if (m == 0) {
-    solution.status = SolveStatus::solved;
+  if (!part.consistent()) {
+    solution.x = part.expand(Eigen::VectorXd::Zero(part.reduced().b.size()));
+    solution.status = SolveStatus::infeasible;
     return solution;
   }
-  // x = t y with t = β / sqrt(A_ii): unit diagonal and |c| <= 1, so that Ipopt's tolerances mean
-  // what IpoptSettings says.
-  const Eigen::VectorXd s =
-      qp.A.diagonal().array().max(std::numeric_limits<double>::min()).sqrt().inverse();
-  const double largest = s.cwiseProduct(qp.b).lpNorm<Eigen::Infinity>();
-  const double beta = largest > 0 ? largest : 1;
-  ScaledProblem& problem = *engine_->problem;
-  problem.Q = s.asDiagonal() * qp.A * s.asDiagonal();
-  problem.c = s.cwiseProduct(qp.b) / beta;
-  problem.lower = qp.lower.cwiseQuotient(s) / beta;
-  problem.upper = qp.upper.cwiseQuotient(s) / beta;
-  problem.start = start.cwiseQuotient(s) / beta;
-
-  const Ipopt::ApplicationReturnStatus status =
-      engine_->application->OptimizeTNLP(Ipopt::GetRawPtr(engine_->problem));
-  if (engine_->application->Statistics().operator->() != nullptr) {
-    solution.iterations = engine_->application->Statistics()->IterationCount();
-  }
-  solution.x = problem.y.size() == m ? (beta * s.cwiseProduct(problem.y)).eval()
-                                     : Eigen::VectorXd::Zero(m).eval();
-  solution.x = solution.x.cwiseMax(qp.lower).cwiseMin(qp.upper);
-  switch (status) {
-    case Ipopt::Solve_Succeeded:
-    case Ipopt::Solved_To_Acceptable_Level:
-      solution.status = SolveStatus::solved;
-      break;
-    case Ipopt::Diverging_Iterates:
+  Eigen::VectorXd reduced = Eigen::VectorXd::Zero(part.reduced().b.size());
+  if (!part.reduced().b.isZero(0)) {  // else zero is the answer
+    ScaledProblem& problem = *engine_->problem;
+    const Eigen::VectorXd unit = problem.set(part.reduced(), part.restrict_to_reduced(start));
+    centre_start(problem, engine_->settings);
+    const Ipopt::ApplicationReturnStatus code =
+        engine_->application->OptimizeTNLP(Ipopt::GetRawPtr(engine_->problem));
+    if (Ipopt::IsValid(engine_->application->Statistics())) {
+      solution.iterations = engine_->application->Statistics()->IterationCount();
+    }
+    Eigen::VectorXd y = problem.y.cwiseMax(problem.qp.lower).cwiseMin(problem.qp.upper);
+    if (code == Ipopt::Solve_Succeeded) {  // only what is solved is polished: failures must show
+      y = crossover(problem.qp, y);
+    }
+    if (falls_without_end(problem.qp, y, problem.least_objective)) {
       solution.status = SolveStatus::infeasible;
-      break;
-    case Ipopt::Maximum_Iterations_Exceeded:
+    } else if (code == Ipopt::Maximum_Iterations_Exceeded) {
       solution.status = SolveStatus::iteration_limit;
-      break;
-    default:
-      solution.status = SolveStatus::failed;
-      solution.message = "Ipopt return code " + std::to_string(static_cast<int>(status));
+    }
+    solution.message = "Ipopt return code " + std::to_string(static_cast<int>(code));
+    reduced = unit.cwiseProduct(y).cwiseMax(part.reduced().lower).cwiseMin(part.reduced().upper);
+  }
+  solution.x = part.expand(reduced);
+  if (kkt_residuals(qp, solution.x).worst() <= engine_->settings.accepted) {
+    solution.status = SolveStatus::solved;
+    solution.message.clear();
   }
   return solution;
 }

@@ -7,17 +7,34 @@
 
 namespace hagfish {
 
-/// Every number given to Ipopt, on the problem scaled to unit diagonal and |b̂| <= 1, where all are
-/// without unit.
+/// Every number given to Ipopt, on the bounded part of the problem scaled to unit diagonal and
+/// max |b̂| = 1, where all are without unit.
 struct IpoptSettings {
-  /// Ipopt stops at this scaled error; kkt_residuals then comes out below 1e-8.
-  double tolerance = 1e-10;
-  int iteration_limit = 200;
-  /// Distance that a warm start keeps from its bounds, and the barrier that goes with it.
-  double warm_push = 1e-4;
-  double warm_mu = 1e-6;
+  /// Ipopt stops at this error in w - z and in x z. `accepted` holds at this value even where
+  /// crossover finds nothing better.
+  double tolerance = 1e-9;
+  /// Largest kkt_residuals of a point that is called solved.
+  double accepted = 1e-8;
+  /// Usually 3 to 10 are taken; 60 where rows are far from independent.
+  int iteration_limit = 100;
+  /// Barrier parameter of the start over its natural residual, and its least value. Smaller takes
+  /// fewer iterations from good starts and more from bad ones.
+  double barrier_share = 1e-4;
+  double least_barrier = 1e-9;
+  /// Added to the diagonal while Ipopt runs, so that redundant rows do not let multipliers run away
+  /// to infinity. Crossover works without it; where that finds nothing, w is off by this times ŷ.
+  double regularisation = 1e-12;
+  /// A problem whose objective falls below minus this is infeasible: it is ½ |v - v*|² in the H
+  /// norm, over the change of velocity that the worst row alone needs; 5e7 is a change 1e4 times
+  /// that large. Contradictions below 1e-3 of the worst row may come back as another failure.
+  double infeasible_objective = 5e7;
+  /// Working memory of MUMPS over its own estimate, %; it asks for more where this is too little.
+  /// Ipopt's default of 1000 costs 15 % of the time in page faults.
+  int mumps_extra_memory = 20;
 };
 
+/// Free rows are eliminated before (BoundedPart), what Ipopt solved is polished after (crossover),
+/// and a point is called solved by its own residuals, not by Ipopt's word. Reads no option file.
 class IpoptBoxQp final : public BoxQpSolver {
  public:
   explicit IpoptBoxQp(const IpoptSettings& settings = {});

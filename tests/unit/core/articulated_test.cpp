@@ -69,8 +69,9 @@ TEST(Articulated, MultiplyIsTheDenseProduct) {
   for (const int bodies : {1, 2, 3, 12, 100}) {
     const Case c = random_case(random, bodies);
     const Eigen::VectorXd v = random_entries(random, c.model.nv());
-    EXPECT_LT(relative_error(multiply(c.model, c.kin, c.op, v), definition(c.model, c.kin, c.op) * v),
-              rounding);
+    EXPECT_LT(
+        relative_error(multiply(c.model, c.kin, c.op, v), definition(c.model, c.kin, c.op) * v),
+        rounding);
   }
 }
 
@@ -120,9 +121,8 @@ TEST(Articulated, ManyColumnsAreEachSolvedAlone) {
 }
 
 TEST(Articulated, IsAccurateAtEveryBodyCount) {
-  // The error of any backward stable solve is the condition of H times rounding; dense LLT is one.
-  // Bounds are ten times the figures measured on these seeds; a reference point at the head
-  // instead of the middle costs two digits and fails.
+  // The error of a backward stable solve is the condition of H times rounding: measured 6e-14,
+  // 8e-14, 1e-12, 1e-10 and 1e-9, bounds ten times that. The residual stays at rounding.
   struct Row {
     int bodies;
     double error;
@@ -134,15 +134,14 @@ TEST(Articulated, IsAccurateAtEveryBodyCount) {
     factor.factorise(c.model, c.kin, c.op);
     const Eigen::VectorXd v = random_entries(random, c.model.nv());
     const Eigen::VectorXd right = dense(c.model, c.kin, c.op) * v;
-    const Eigen::VectorXd x =
-        factor.solve(c.model, c.kin, Matrix6Xd::Zero(6, row.bodies), right);
+    const Eigen::VectorXd x = factor.solve(c.model, c.kin, Matrix6Xd::Zero(6, row.bodies), right);
     const double error = relative_error(x, v);
     const double residual = relative_error(multiply(c.model, c.kin, c.op, x), right);
-    RecordProperty("error_" + std::to_string(row.bodies), std::to_string(error));
     EXPECT_LT(error, row.error) << row.bodies << " bodies";
     EXPECT_LT(residual, 1e-13) << row.bodies << " bodies";
+    // No worse than dense LLT by more than a digit.
     const Eigen::VectorXd reference = dense(c.model, c.kin, c.op).llt().solve(right);
-    printf("%d err %.2e llt %.2e res %.2e\n", row.bodies, error, relative_error(reference, v), residual);
+    EXPECT_LT(error, 10 * relative_error(reference, v)) << row.bodies << " bodies";
   }
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "core/rows.hpp"
@@ -75,6 +76,25 @@ TEST(Contact, CrossingStrandsTouchOnce) {
   }
 }
 
+TEST(Contact, CrossingOverBodyCentresTouchesOnce) {
+  // On a lattice of halves everything is exact: four pairs of segments see one and the same gap.
+  Model model;
+  Eigen::Matrix3Xd centre(3, 42);
+  for (int b = 0; b < 42; ++b) {
+    append_body(model, {1, 0.5, 0.75, {}, 0, 0}, {});
+    if (b < 21) {
+      centre.col(b) << 0.5 * (b - 10), 0, 0;
+    } else {
+      centre.col(b) << 0, 0.5 * (b - 31), 1.5625;
+    }
+  }
+  const ContactSet set = find_contacts(model, spline(model, centre), {});
+  ASSERT_EQ(set.contacts.size(), 1U);
+  EXPECT_EQ(set.contacts[0].gap, 0.0625);
+  EXPECT_EQ(set.contacts[0].body_a(), 10);
+  EXPECT_EQ(set.contacts[0].body_b(), 31);
+}
+
 TEST(Contact, NearestBodyIsThatOfTheNearerHalf) {
   Contact c;
   c.segment_a = 3;
@@ -91,7 +111,8 @@ TEST(Contact, LeastGapIsTheLeastOfAllPairs) {
   const Model fish = table1_hagfish();
   int touching = 0;
   for (int trial = 0; trial < 12; ++trial) {
-    const std::vector<SplineSegment> segments = segments_of(fish, knotted_state(random, fish, uniform(random, 1, 2.6), 0.02).q);
+    const std::vector<SplineSegment> segments =
+        segments_of(fish, knotted_state(random, fish, uniform(random, 1, 2.6), 0.02).q);
     const ContactSettings settings;
     double least = settings.margin;
     for (int a = 0; a < 99; ++a) {
@@ -120,15 +141,17 @@ TEST(Contact, ContactsAreLocalMinimaOfTheGap) {
   };
   int count = 0;
   for (int trial = 0; trial < 12; ++trial) {
-    const std::vector<SplineSegment> segments = segments_of(fish, knotted_state(random, fish, uniform(random, 1, 2.6), 0.02).q);
+    const std::vector<SplineSegment> segments =
+        segments_of(fish, knotted_state(random, fish, uniform(random, 1, 2.6), 0.02).q);
     for (const Contact& c : find_contacts(fish, segments, {}).contacts) {
       ++count;
       const double a = c.segment_a + c.t_a;
       const double b = c.segment_b + c.t_b;
       for (int k = 0; k < 24; ++k) {
         const double turn = 2 * std::numbers::pi * k / 24;
-        const double near_a = std::clamp(a + 0.05 * std::cos(turn), 0.0, 99.0);
-        const double near_b = std::clamp(b + 0.05 * std::sin(turn), 0.0, 99.0);
+        // Near enough that no other minimum, across a border with its kink of the taper, is met.
+        const double near_a = std::clamp(a + 1e-3 * std::cos(turn), 0.0, 99.0);
+        const double near_b = std::clamp(b + 1e-3 * std::sin(turn), 0.0, 99.0);
         if (near_b - near_a < 9) continue;  // beyond the least arc the gap may well be less
         EXPECT_GE(gap_at(segments, near_a, near_b), c.gap - 1e-12);
       }
@@ -149,8 +172,7 @@ TEST(Contact, FieldsAreInOrder) {
       const Contact& c = set.contacts[i];
       EXPECT_LE(c.gap, settings.margin);
       EXPECT_LT(c.arc_a, c.arc_b);
-      // Segments start least_arc apart or more.
-      EXPECT_GE(arc_length(fish, c.segment_b, 0) - arc_length(fish, c.segment_a, 0),
+      EXPECT_GE(arc_length(fish, c.segment_b, 0) - arc_length(fish, c.segment_a, 1),
                 settings.least_arc * (1 - 1e-9));
       EXPECT_EQ(c.arc_a, arc_length(fish, c.segment_a, c.t_a));
       EXPECT_EQ(c.arc_b, arc_length(fish, c.segment_b, c.t_b));
@@ -182,7 +204,7 @@ TEST(Contact, NeighboursNeverTouch) {
   const ContactSet set = contacts_of(fish, ring.q, settings);
   EXPECT_FALSE(set.contacts.empty());
   for (const Contact& c : set.contacts) {
-    EXPECT_GE(c.arc_b - c.arc_a, 10 - 0.424);  // parameters may close in by a segment
+    EXPECT_GE(c.arc_b - c.arc_a, 10);
   }
 }
 
@@ -227,22 +249,21 @@ RateError gap_rates(Random& random, const Model& model, const State& start) {
 }
 
 // The gap has a minimum in its parameters, so its rate is that of the two points alone. Speeds are
-// some 50 cm/s; e = 1e-6 gives rounding 1e-14 / 1e-6 and truncation below it, but where a minimum
-// moves over the border of two segments of different taper the gap has a kink of second order: e.
-constexpr double rate_tolerance = 2e-5;
+// some 50 cm/s; e = 1e-6 gives rounding 1e-14 / 1e-6 and truncation below it. Where the minimum
+// moves over the border of two segments of different taper the gap's rate has a kink, of order e.
+constexpr double rate_tolerance = 1e-6;
 
 TEST(Contact, RowIsTheRateOfTheGap) {
   Random random(74);
   const Model fish = table1_hagfish();
   RateError all;
   for (int trial = 0; trial < 40; ++trial) {
-    const RateError error = gap_rates(random, fish, knotted_state(random, fish, uniform(random, 1, 2.6), 0.02));
+    const RateError error =
+        gap_rates(random, fish, knotted_state(random, fish, uniform(random, 1, 2.6), 0.02));
     EXPECT_LT(error.worst, rate_tolerance) << trial;
     all.seen += error.seen;
     all.lost += error.lost;
-    all.worst = std::max(all.worst, error.worst);
   }
-  printf("worst %.3e seen %d lost %d\n", all.worst, all.seen, all.lost);
   EXPECT_GT(all.seen, 50);
   EXPECT_LE(all.lost, all.seen / 50);
 }
@@ -252,14 +273,16 @@ TEST(Contact, RowIsTheRateOfTheGapOfATaperedBody) {
   RateError all;
   for (int trial = 0; trial < 40; ++trial) {
     Model fish = table1_hagfish();
-    for (Body& body : fish.bodies) body.radius *= uniform(random, 0.8, 1.2);
-    const RateError error = gap_rates(random, fish, knotted_state(random, fish, uniform(random, 1, 2.6), 0.02));
+    const double phase = uniform(random, 0, 10);
+    for (int b = 0; b < 100; ++b) {  // up to 0.08 cm a body, eight times the animal's taper
+      fish.bodies[b].radius = 0.75 + 0.2 * std::sin(0.4 * b + phase);
+    }
+    const RateError error =
+        gap_rates(random, fish, knotted_state(random, fish, uniform(random, 1, 2.6), 0.02));
     EXPECT_LT(error.worst, rate_tolerance) << trial;
     all.seen += error.seen;
     all.lost += error.lost;
-    all.worst = std::max(all.worst, error.worst);
   }
-  printf("worst %.3e seen %d lost %d\n", all.worst, all.seen, all.lost);
   EXPECT_GT(all.seen, 50);
   EXPECT_LE(all.lost, all.seen / 50);
 }

@@ -59,7 +59,8 @@ TEST(Dynamics, BiasIsLagranges) {
     state.qdot.head<6>().setZero();
     const Eigen::Index hinges = model.nv() - root_dofs;
     const auto hinge_mass = [&](const Eigen::VectorXd& q) -> Eigen::MatrixXd {
-      return mass_matrix(model, kinematics(model, {q, state.qdot})).bottomRightCorner(hinges, hinges);
+      return mass_matrix(model, kinematics(model, {q, state.qdot}))
+          .bottomRightCorner(hinges, hinges);
     };
     const Eigen::VectorXd rate = state.qdot.tail(hinges);
     Eigen::VectorXd expected = (hinge_mass(advance(state.q, state.qdot, step)) -
@@ -95,8 +96,8 @@ TEST(Dynamics, BiasIsRedMaxs) {
       const Eigen::Vector3d acceleration =
           (centre_jacobian(model, after, b) - centre_jacobian(model, before, b)) * state.qdot /
           (2 * step);
-      const Eigen::Matrix3d inertia = now.rotation[b] * model.bodies[b].inertia.asDiagonal() *
-                                      now.rotation[b].transpose();
+      const Eigen::Matrix3d inertia =
+          now.rotation[b] * model.bodies[b].inertia.asDiagonal() * now.rotation[b].transpose();
       const Eigen::Vector3d omega = turning * state.qdot;
       expected += turning.transpose() * (inertia * alpha + omega.cross(inertia * omega)) +
                   centre_jacobian(model, now, b).transpose() * model.bodies[b].mass * acceleration;
@@ -115,8 +116,7 @@ TEST(Dynamics, WorkOfInertiaIsTheRateOfKineticEnergy) {
         mass_matrix(model, kinematics(model, state)) * acceleration + bias_force(model, state);
     // The error of q at ± time is even in time and falls out of the central difference.
     const auto energy = [&](double time) {
-      return energy_at(model, advance(state.q, state.qdot, time),
-                       state.qdot + time * acceleration);
+      return energy_at(model, advance(state.q, state.qdot, time), state.qdot + time * acceleration);
     };
     const double rate = (energy(step) - energy(-step)) / (2 * step);
     const double scale = state.qdot.cwiseAbs().dot(inertial.cwiseAbs());
@@ -152,7 +152,8 @@ TEST(Dynamics, FreeChainKeepsItsMomentum) {
     };
     const Vector6d rate = (after(step) - after(-step)) / (2 * step);
     // Accelerations of single bodies are of the order of nv times the squared rates.
-    const double scale = after(0).lpNorm<Eigen::Infinity>() * acceleration.lpNorm<Eigen::Infinity>();
+    const double scale =
+        after(0).lpNorm<Eigen::Infinity>() * acceleration.lpNorm<Eigen::Infinity>();
     EXPECT_LT(rate.lpNorm<Eigen::Infinity>() / scale, difference_tolerance);
   }
 }
@@ -267,8 +268,7 @@ TEST(Dynamics, ForcesAreGradientsOfTheirEnergies) {
       gravity_slope[k] = (gravity_energy(model, kinematics(model, {up, along})) -
                           gravity_energy(model, kinematics(model, {down, along}))) /
                          (2 * step);
-      stiffness_slope[k] =
-          (elastic_energy(model, up) - elastic_energy(model, down)) / (2 * step);
+      stiffness_slope[k] = (elastic_energy(model, up) - elastic_energy(model, down)) / (2 * step);
     }
     EXPECT_LT(relative_error(gravity, -gravity_slope), difference_tolerance);
     EXPECT_LT(relative_error(stiffness, -stiffness_slope), difference_tolerance);

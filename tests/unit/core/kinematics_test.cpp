@@ -16,8 +16,7 @@ constexpr double step = 1e-5;
 constexpr double difference_tolerance = 1e-7;
 
 Eigen::Matrix3d rotation_about(Axis axis, double angle) {
-  return Eigen::AngleAxisd(angle, Eigen::Vector3d::Unit(static_cast<int>(axis)))
-      .toRotationMatrix();
+  return Eigen::AngleAxisd(angle, Eigen::Vector3d::Unit(static_cast<int>(axis))).toRotationMatrix();
 }
 
 Kinematics at(const Model& model, const Eigen::VectorXd& q, const Eigen::VectorXd& qdot) {
@@ -90,8 +89,8 @@ TEST(Kinematics, AxisColumnsAreRatesOfPositions) {
     const State state = random_state(random, model, 1);
     const Kinematics kin = kinematics(model, state);
     for (int k = 0; k < model.nv(); ++k) {
-      const Matrix6Xd expected = difference_twists(
-          model, state, Eigen::VectorXd::Unit(model.nv(), k), kin.reference);
+      const Matrix6Xd expected =
+          difference_twists(model, state, Eigen::VectorXd::Unit(model.nv(), k), kin.reference);
       for (int b = 0; b < model.body_count(); ++b) {
         const Vector6d column = body_jacobian(model, kin, b).col(k);
         // Unit rates: entries of size 1 to 10.
@@ -108,8 +107,7 @@ TEST(Kinematics, TwistsAreRatesOfPositions) {
     const Model model = random_chain(random, 12);
     const State state = random_state(random, model, 1);
     const Kinematics kin = kinematics(model, state);
-    EXPECT_LT(relative_error(kin.twist,
-                             difference_twists(model, state, state.qdot, kin.reference)),
+    EXPECT_LT(relative_error(kin.twist, difference_twists(model, state, state.qdot, kin.reference)),
               difference_tolerance);
     EXPECT_LT(relative_error(body_twists(model, kin, state.qdot), kin.twist), 1e-14);
     const Eigen::VectorXd v = random_entries(random, model.nv());

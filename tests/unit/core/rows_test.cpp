@@ -152,8 +152,8 @@ TEST(WallRows, SkipTheNeckAndLookAlongX) {
   State state = rest_state(fish);
   state.q[0] = -20;
   const Kinematics kin = kinematics(fish, state);
-  const std::vector<Row> rows = wall_rows(fish, kin, {true, 3.0}, speculative, h);
-  // Centres at 0.424 (b + ½): the first beyond 3 cm is body 7.
+  const std::vector<Row> rows = wall_rows(fish, kin, {true, 2.9}, speculative, h);
+  // Centres at 0.424 (b + ½): the first beyond 2.9 cm is body 7.
   ASSERT_EQ(rows.size(), 93U);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const int body = static_cast<int>(i) + 7;
@@ -164,9 +164,9 @@ TEST(WallRows, SkipTheNeckAndLookAlongX) {
     // Centres are sums of 100 lengths: 1e-14 cm over h.
     EXPECT_NEAR(rows[i].rhs, gap >= 0 ? -gap / h : -0.2 * gap / h, 1e-9);
   }
-  EXPECT_TRUE(wall_rows(fish, kin, {false, 3.0}, speculative, h).empty());
+  EXPECT_TRUE(wall_rows(fish, kin, {false, 2.9}, speculative, h).empty());
   EXPECT_EQ(wall_rows(fish, kin, {true, 0.0}, speculative, h).size(), 100U);
-  const std::vector<Row> late = wall_rows(fish, kin, {true, 3.0}, violated, h);
+  const std::vector<Row> late = wall_rows(fish, kin, {true, 2.9}, violated, h);
   EXPECT_LT(late.size(), rows.size());
   for (const Row& row : late) EXPECT_GT(row.rhs, 0);
 }

@@ -99,8 +99,7 @@ TEST(ScriptForce, OfPositionsIsASpringDamperAtTheEndOfTheStep) {
   const TipForce tip = script_force(position, 1.1, h, at, {1, 2, 0});
   // With the end velocity w the force shall be kp (target(t + h) - at - h w) - kd w.
   const Vector3d w(0.7, -0.3, 2);
-  const Vector3d expected =
-      3000 * (script_value(position, 1.1 + h) - at - h * w) - 20 * w;
+  const Vector3d expected = 3000 * (script_value(position, 1.1 + h) - at - h * w) - 20 * w;
   EXPECT_LT((tip.value - tip.rate * w - expected).norm(), 1000 * rounding);
 }
 

@@ -92,8 +92,7 @@ Optimality optimality(const Stage& s, const StepSolution& step) {
   const std::vector<Row> all = s.rows();
   const Eigen::MatrixXd c = dense_rows(s.model, kin, all);
   const StepSystem system = step_system(s.model, s.state, kin, s.control.tip, s.scene.time.step);
-  const Eigen::VectorXd g =
-      generalised_force(s.model, kin, system.wrench) + system.joint;
+  const Eigen::VectorXd g = generalised_force(s.model, kin, system.wrench) + system.joint;
   Eigen::VectorXd lambda = Eigen::VectorXd::Zero(c.rows());
   for (Eigen::Index i = 0; i < step.lambda.size(); ++i) {
     const auto it = std::find_if(all.begin(), all.end(),
@@ -124,19 +123,17 @@ Optimality optimality(const Stage& s, const StepSolution& step) {
   return error;
 }
 
-// Ipopt stops at 1e-10 of a problem scaled by its largest right-hand side, some 100 rad/s: 1e-7
-// covers what the scaling of single rows adds. Stationarity holds by construction, to rounding.
+// A row left out may fall short by 1e-8; rows that are in are met to the back end's scaled 1e-10
+// times the largest right-hand side, some 100 rad/s. Stationarity holds by construction, to
+// rounding.
 void expect_optimal(const Stage& s, const StepSolution& step) {
   const Optimality error = optimality(s, step);
   EXPECT_LT(error.stationarity, 1e-9);
-  EXPECT_LT(error.feasibility, 1e-6);
+  EXPECT_LT(error.feasibility, 2e-8);
   EXPECT_LE(error.sign, 0);
   EXPECT_LT(error.work, 1e-7);
   EXPECT_LE(step.stationarity, 1e-9);
   EXPECT_LE(step.kkt.worst(), 1e-8);
-  printf("rows %zu act %d it %d rounds %d: stat %.1e feas %.1e sign %.1e work %.1e | own stat %.1e kkt %.1e\n",
-         step.rows.size(), step.active, step.iterations, step.rounds, error.stationarity, error.feasibility,
-         error.sign, error.work, step.stationarity, step.kkt.worst());
 }
 
 TEST(Step, IsLinearWhereNoRowCanBind) {
@@ -244,6 +241,7 @@ TEST(Step, ForcesByKindAddUpToTheRows) {
 
 TEST(Step, NoForceBehindTheLastContact) {
   Stage s = knotted(97, 1);
+  for (ThigmotaxisCommand& command : s.control.thigmotaxis) command.speed = {50, 50};
   const StepSolution step = s.solve();
   int last = 0;
   for (const Row& row : step.rows) {
@@ -308,6 +306,7 @@ TEST(Step, WarmStartHoldsTheRowsThatPush) {
   EXPECT_LT(relative_error(warm.qdot, cold.qdot), 1e-7);
   s.warm[12345] = 1e9;  // a row that is no more
   EXPECT_LT(relative_error(s.solve().qdot, cold.qdot), 1e-7);
+  EXPECT_EQ(s.warm.count(12345), 0U);
 }
 
 /// The velocity with every row in from the start, by dense algebra.
@@ -330,8 +329,7 @@ Eigen::VectorXd all_rows_in(const Stage& s) {
     qp.lower[i] = rows[i].lower;
     qp.upper[i] = rows[i].upper;
   }
-  const BoxQpSolution solution =
-      make_box_qp_solver("ipopt")->solve(qp, Eigen::VectorXd::Zero(m));
+  const BoxQpSolution solution = make_box_qp_solver("ipopt")->solve(qp, Eigen::VectorXd::Zero(m));
   EXPECT_EQ(solution.status, SolveStatus::solved);
   return factor.solve(g + c.transpose() * solution.x);
 }
@@ -356,9 +354,9 @@ TEST(Step, LeavingRowsOutChangesNothing) {
     s.scene.time.step = 0.02;
     const StepSolution step = s.solve();
     EXPECT_LT(step.rows.size(), s.rows().size());
-    // Within a duality gap of e both answers are within sqrt(2 e) of the optimum in the norm of H:
-    // 1e-10 of the scaled problem makes that 1e-5, and joints of small inertia take ten times it.
-    EXPECT_LT(relative_error(step.qdot, all_rows_in(s)), 1e-4) << seed;
+    // The multipliers may be shared otherwise, the velocity is unique: to the condition of H times
+    // rounding, and to what a row left out may fall short, 1e-8 rad/s of 20.
+    EXPECT_LT(relative_error(step.qdot, all_rows_in(s)), 1e-8) << seed;
     expect_optimal(s, step);
   }
 }
@@ -393,9 +391,9 @@ TEST(Step, ThrowsOnAVelocityThatIsNotFinite) {
     s.state.qdot[100] = 1e200;  // its square overflows in the bias
     EXPECT_THROW(s.solve(), StepError);
   }
-  Stage free;
+  // Nothing to solve for: no clamp, no limits.
+  Stage free = two_hinges(std::numeric_limits<double>::infinity());
   free.control.clamp_head = false;
-  free.scene.wall.present = false;
   free.control.tip.value << nan_value, 0, 0;
   EXPECT_THROW(free.solve(), StepError);
 }
@@ -406,40 +404,6 @@ TEST(Step, ThrowsOnAPositionThatIsNotFinite) {
     s.state.q[k] = nan_value;
     EXPECT_THROW(s.solve(), StepError) << "coordinate " << k;
   }
-}
-
-TEST(Observe, MeasuresPenetrationAndLimitViolation) {
-  Stage s;
-  Situation now = observe(s.model, s.state, s.scene);
-  // At rest nothing overlaps: body 7, the first behind the neck, is clear of the plate.
-  EXPECT_EQ(now.penetration, 0);
-  EXPECT_EQ(now.limit_violation, 0);
-
-  s.state.q[0] = -3;
-  now = observe(s.model, s.state, s.scene);
-  EXPECT_NEAR(now.penetration, s.model.bodies[7].radius - (7.5 * 0.424 - 3), 1e-12);
-  s.scene.wall.present = false;
-  EXPECT_EQ(observe(s.model, s.state, s.scene).penetration, 0);
-
-  s.state.q[7 + 12] = s.model.hinges[12].upper + 0.03;
-  s.state.q[7 + 30] = s.model.hinges[30].lower - 0.05;
-  EXPECT_NEAR(observe(s.model, s.state, s.scene).limit_violation, 0.05, 1e-15);
-
-  Random random(106);
-  s.state = knotted_state(random, s.model);
-  now = observe(s.model, s.state, s.scene);
-  EXPECT_EQ(now.penetration, std::max(0.0, -now.contact.least_gap));
-}
-
-TEST(HeadDrift, IsTheLargerOfBothEnds) {
-  const Model fish = table1_hagfish();
-  State state = rest_state(fish);
-  EXPECT_EQ(head_drift(fish, kinematics(fish, state)), 0);
-  state.q[1] = 0.3;
-  EXPECT_NEAR(head_drift(fish, kinematics(fish, state)), 0.3, 1e-15);
-  state = rest_state(fish);
-  state.q.segment<4>(3) << 0, 0, 0, 1;  // turned about: only the far end moves
-  EXPECT_NEAR(head_drift(fish, kinematics(fish, state)), 2 * 0.424, 1e-15);
 }
 
 }  // namespace

@@ -1,0 +1,40 @@
+// The paper's Eq. 4 as it stands, on dense matrices: the tests' independent reference for
+// box_qp.hpp with its own problem, scaling and stopping. Accuracy first, speed irrelevant.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "solvers/box_qp.hpp"
+
+namespace hagfish {
+
+/// min ½ v' H v - g' v  subject to  G v = e, C v >= d. A row of C with a finite `cap` is soft: its
+/// slack s >= 0 in C v + s >= d costs cap s, which bounds its multiplier by cap.
+struct PrimalQp {
+  Eigen::MatrixXd H;    ///< n x n, symmetric, positive definite
+  Eigen::VectorXd g;    ///< n
+  Eigen::MatrixXd G;    ///< p x n, independent rows; p may be 0
+  Eigen::VectorXd e;    ///< p
+  Eigen::MatrixXd C;    ///< m x n; m may be 0
+  Eigen::VectorXd d;    ///< m
+  Eigen::VectorXd cap;  ///< m, >= 0, +infinity where the row is hard
+};
+
+struct PrimalQpSolution {
+  Eigen::VectorXd v;       ///< n
+  Eigen::VectorXd mu;      ///< p: H v - g - G' mu - C' lambda = 0
+  Eigen::VectorXd lambda;  ///< m, 0 <= lambda <= cap
+  SolveStatus status = SolveStatus::failed;
+  /// Largest scaled error in stationarity, the rows and the products of multiplier and excess,
+  /// measured outside of Ipopt on the problem with unit diagonal of H and unit rows.
+  double residual = 0;
+};
+
+/// Throws std::invalid_argument where sizes differ.
+PrimalQpSolution solve_primal(const PrimalQp& qp);
+
+/// The same problem in its multipliers, rows of G first: A = [G; C] H⁻¹ [G; C]' by a dense Cholesky
+/// factorisation. Throws std::invalid_argument where H is not positive definite.
+BoxQp dual_of(const PrimalQp& qp);
+
+}  // namespace hagfish
