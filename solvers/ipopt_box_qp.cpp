@@ -125,8 +125,7 @@ class ScaledProblem final : public Ipopt::TNLP {
 };
 
 /// Puts y on the central path next to the start: y z = mu with y - z kept at y0 - w0, measured from
-/// the bound it is nearer to. mu is
-/// the smaller, the better the start.
+/// the bound it is nearer to. mu is the smaller, the better the start.
 void centre_start(ScaledProblem& p, const IpoptSettings& settings) {
   double off = natural_residual(p.qp, p.start);
   if (!(off <= 1)) {  // worse than y = 0, where it is at most 1
@@ -172,6 +171,11 @@ struct IpoptBoxQp::Engine {
   IpoptSettings settings;
   Ipopt::SmartPtr<Ipopt::IpoptApplication> application;
   Ipopt::SmartPtr<ScaledProblem> problem;
+
+  /// One run of Ipopt from `start` on the bounded part; sets x, status and message of `solution`
+  /// and adds its iterations.
+  void attempt(const BoundedPart& part, const Eigen::VectorXd& start, const BoxQp& qp,
+               BoxQpSolution& solution);
 };
 
 IpoptBoxQp::IpoptBoxQp(const IpoptSettings& settings) : engine_(std::make_unique<Engine>()) {
@@ -220,33 +224,48 @@ BoxQpSolution IpoptBoxQp::solve(const BoxQp& qp, const Eigen::VectorXd& start) {
     return solution;
   }
   Eigen::VectorXd reduced = Eigen::VectorXd::Zero(part.reduced().b.size());
-  if (!part.reduced().b.isZero(0)) {  // else zero is the answer
-    ScaledProblem& problem = *engine_->problem;
-    const Eigen::VectorXd unit = problem.set(part.reduced(), part.restrict_to_reduced(start));
-    centre_start(problem, engine_->settings);
-    const Ipopt::ApplicationReturnStatus code =
-        engine_->application->OptimizeTNLP(Ipopt::GetRawPtr(engine_->problem));
-    if (Ipopt::IsValid(engine_->application->Statistics())) {
-      solution.iterations = engine_->application->Statistics()->IterationCount();
-    }
-    Eigen::VectorXd y = problem.y.cwiseMax(problem.qp.lower).cwiseMin(problem.qp.upper);
-    if (code == Ipopt::Solve_Succeeded) {  // only what is solved is polished: failures must show
-      y = crossover(problem.qp, y);
-    }
-    if (falls_without_end(problem.qp, y, problem.least_objective)) {
-      solution.status = SolveStatus::infeasible;
-    } else if (code == Ipopt::Maximum_Iterations_Exceeded) {
-      solution.status = SolveStatus::iteration_limit;
-    }
-    solution.message = "Ipopt return code " + std::to_string(static_cast<int>(code));
-    reduced = unit.cwiseProduct(y).cwiseMax(part.reduced().lower).cwiseMin(part.reduced().upper);
-  }
-  solution.x = part.expand(reduced);
-  if (kkt_residuals(qp, solution.x).worst() <= engine_->settings.accepted) {
+  if (part.reduced().b.isZero(0)) {  // then zero is the answer
+    solution.x = part.expand(reduced);
     solution.status = SolveStatus::solved;
-    solution.message.clear();
+    return solution;
+  }
+  const Eigen::VectorXd warm = part.restrict_to_reduced(start);
+  engine_->attempt(part, warm, qp, solution);
+  const bool cold = warm.isZero(0);
+  if (!cold && solution.status != SolveStatus::solved &&
+      solution.status != SolveStatus::infeasible) {
+    // About one warm start in 6,000 leads Ipopt astray at its small barrier.
+    engine_->attempt(part, Eigen::VectorXd::Zero(warm.size()), qp, solution);
   }
   return solution;
+}
+
+void IpoptBoxQp::Engine::attempt(const BoundedPart& part, const Eigen::VectorXd& start,
+                                 const BoxQp& qp, BoxQpSolution& solution) {
+  const Eigen::VectorXd unit = problem->set(part.reduced(), start);
+  centre_start(*problem, settings);
+  const Ipopt::ApplicationReturnStatus code = application->OptimizeTNLP(Ipopt::GetRawPtr(problem));
+  if (Ipopt::IsValid(application->Statistics())) {
+    solution.iterations += application->Statistics()->IterationCount();
+  }
+  Eigen::VectorXd y = problem->y.cwiseMax(problem->qp.lower).cwiseMin(problem->qp.upper);
+  if (code == Ipopt::Solve_Succeeded) {  // only what is solved is polished: failures must show
+    y = crossover(problem->qp, y);
+  }
+  solution.x = part.expand(
+      unit.cwiseProduct(y).cwiseMax(part.reduced().lower).cwiseMin(part.reduced().upper));
+  solution.message.clear();
+  if (kkt_residuals(qp, solution.x).worst() <= settings.accepted) {
+    solution.status = SolveStatus::solved;
+    return;
+  }
+  solution.message = "Ipopt return code " + std::to_string(static_cast<int>(code));
+  if (falls_without_end(problem->qp, y, problem->least_objective)) {
+    solution.status = SolveStatus::infeasible;
+  } else {
+    solution.status = code == Ipopt::Maximum_Iterations_Exceeded ? SolveStatus::iteration_limit
+                                                                 : SolveStatus::failed;
+  }
 }
 
 }  // namespace hagfish

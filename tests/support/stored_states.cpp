@@ -1,8 +1,15 @@
 #include "tests/support/stored_states.hpp"
 
+#include <algorithm>
 #include <toml.hpp>
 
 namespace hagfish {
+
+std::string name_of(const testing::TestParamInfo<StoredState>& info) {
+  std::string name = info.param.name;
+  std::replace(name.begin(), name.end(), ' ', '_');
+  return name;
+}
 
 std::vector<StoredState> stored_states() {
   const auto file = toml::parse(HAGFISH_TEST_DATA_DIR "/table1_states.toml");

@@ -1,6 +1,8 @@
 // States of every phase of the Table 1 run, stored in tests/data.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <ostream>
 #include <string>
 #include <vector>
@@ -18,8 +20,9 @@ struct StoredState {
   Eigen::Matrix3Xd later;  ///< body centres 0.1 s later in the same run, cm
 };
 
-/// How a test names it.
+/// How tests of every state name and show it.
 inline std::ostream& operator<<(std::ostream& out, const StoredState& s) { return out << s.name; }
+std::string name_of(const testing::TestParamInfo<StoredState>& info);
 
 std::vector<StoredState> stored_states();
 

@@ -62,12 +62,6 @@ TEST_P(Phases, GoWhereTheRunWent) {
   EXPECT_LE(off, stored.phase == Phase::form ? 1e-3 : 0.1);
 }
 
-std::string name_of(const testing::TestParamInfo<StoredState>& info) {
-  std::string name = info.param.name;
-  std::replace(name.begin(), name.end(), ' ', '_');
-  return name;
-}
-
 INSTANTIATE_TEST_SUITE_P(Table1, Phases, testing::ValuesIn(stored_states()), name_of);
 
 TEST(Sliding, ForceIsZeroBehindTheKnot) {

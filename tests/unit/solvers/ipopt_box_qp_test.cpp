@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <toml.hpp>
+
 #include <Eigen/Cholesky>
 #include <cmath>
 #include <limits>
@@ -241,6 +243,24 @@ TEST(IpoptBoxQp, RejectsBadInput) {
   EXPECT_THROW(solver.solve(qp, Eigen::VectorXd::Zero(3)), std::invalid_argument);
   qp.A(0, 1) = std::nan("");
   EXPECT_THROW(solver.solve(qp, Eigen::VectorXd::Zero(2)), std::invalid_argument);
+}
+
+TEST(IpoptBoxQp, StartsAgainFromZeroWhereAWarmStartLeadsAstray) {
+  const auto file = toml::parse(HAGFISH_TEST_DATA_DIR "/astray_qp.toml");
+  const auto numbers = [&file](const char* key) {
+    const auto values = toml::find<std::vector<double>>(file, key);
+    return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(values.data(), values.size()));
+  };
+  BoxQp qp{{}, numbers("b"), numbers("lower"), numbers("upper")};
+  const Eigen::Index m = qp.b.size();
+  const Eigen::VectorXd triangle = numbers("A");
+  qp.A.resize(m, m);
+  for (Eigen::Index i = 0, k = 0; i < m; ++i) {
+    for (Eigen::Index j = 0; j <= i; ++j, ++k) {
+      qp.A(i, j) = qp.A(j, i) = triangle[k];
+    }
+  }
+  expect_solved(qp, IpoptBoxQp().solve(qp, numbers("start")));
 }
 
 }  // namespace
