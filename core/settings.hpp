@@ -37,7 +37,7 @@ enum class Activation {
 struct ConstraintSettings {
   Activation activation = Activation::speculative;
   /// Share of a violation pushed out per step: C v >= -push_out * gap / h for gap < 0.
-  double push_out = 0.2;
+  double push_out = 0.5;
 };
 
 /// Self-contact along the spline through the body centres (paper, Eq. 5).

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <utility>
+
+#include "core/dual_problem.hpp"
 
 namespace hagfish {
 namespace {
@@ -14,63 +17,6 @@ constexpr double lazy_reach = 2.0;
 constexpr double lazy_tolerance = 1e-8;
 /// λ above this share of the largest counts as a force when active rows are counted.
 constexpr double active_share = 1e-6;
-
-/// The dual operator of a growing set of rows: A = C H⁻¹ C', read off body twists.
-class DualProblem {
- public:
-  DualProblem(const Model& model, const Kinematics& kin, const ArticulatedFactor& factor,
-              const Eigen::VectorXd& unconstrained)
-      : model_(model), kin_(kin), factor_(factor), unconstrained_(unconstrained) {
-    twist_ = body_twists(model, kin, unconstrained);
-  }
-
-  double excess_unconstrained(const Row& row) const {
-    return row_velocity(row, kin_, twist_, unconstrained_) - row.rhs;
-  }
-
-  void assemble(const std::vector<Row>& rows, BoxQp& qp) const {
-    const auto m = static_cast<Eigen::Index>(rows.size());
-    ColumnSet columns{Columns::Zero(model_.nv(), m), Columns::Zero(6 * model_.body_count(), m)};
-    for (Eigen::Index j = 0; j < m; ++j) {
-      const Row& row = rows[j];
-      if (row.dof >= 0) {
-        columns.joint(row.dof, j) = row.sign;
-      }
-      for (int k = 0; k < row.forces; ++k) {
-        const auto& [body, force] = row.force[k];
-        columns.body.col(j).segment<6>(6 * body) +=
-            wrench_of_force(force, kin_.centre_offset(body));
-      }
-    }
-    factor_.solve(model_, kin_, columns);
-    qp.A.setZero(m, m);
-    qp.b.resize(m);
-    qp.lower.resize(m);
-    qp.upper.resize(m);
-    for (Eigen::Index i = 0; i < m; ++i) {
-      const Row& row = rows[i];
-      if (row.dof >= 0) {
-        qp.A.row(i) = row.sign * columns.joint.row(row.dof);
-      }
-      for (int k = 0; k < row.forces; ++k) {
-        const auto& [body, force] = row.force[k];
-        const Vector6d wrench = wrench_of_force(force, kin_.centre_offset(body));
-        qp.A.row(i).noalias() += wrench.transpose() * columns.body.middleRows<6>(6 * body);
-      }
-      qp.b[i] = -excess_unconstrained(row);
-      qp.lower[i] = row.lower;
-      qp.upper[i] = row.upper;
-    }
-    qp.A = (0.5 * (qp.A + qp.A.transpose())).eval();
-  }
-
- private:
-  const Model& model_;
-  const Kinematics& kin_;
-  const ArticulatedFactor& factor_;
-  const Eigen::VectorXd& unconstrained_;
-  Matrix6Xd twist_;
-};
 
 std::vector<Row> all_rows(const Model& model, const State& state, const Situation& situation,
                           const Control& control, const Scene& scene) {
@@ -93,6 +39,7 @@ bool always_in(const Row& row) {
   return row.kind == RowKind::head || row.kind == RowKind::thigmotaxis;
 }
 
+/// Eqs. 7 and 8: f = C'λ / h, by kind of row.
 ConstraintForces constraint_forces(const Model& model, const Kinematics& kin,
                                    const std::vector<Row>& rows, const Eigen::VectorXd& lambda,
                                    double h) {
@@ -151,6 +98,91 @@ Eigen::VectorXd solve_multipliers(const BoxQp& qp, const std::vector<Row>& rows,
   return solution.x;
 }
 
+/// Eq. 1: H q̇* = M q̇0 + h f.
+ArticulatedFactor unconstrained_motion(const Model& model, const State& state,
+                                       const Kinematics& kin, const TipForce& tip, double h,
+                                       StepSolution& step) {
+  if (!state.q.allFinite() || !state.qdot.allFinite()) {
+    throw StepError("non-finite state");
+  }
+  step.system = step_system(model, state, kin, tip, h);
+  ArticulatedFactor factor;
+  try {
+    factor.factorise(model, kin, step.system.op);
+  } catch (const std::domain_error& error) {
+    throw StepError(error.what());
+  }
+  step.unconstrained = factor.solve(model, kin, step.system.wrench, step.system.joint);
+  if (!step.unconstrained.allFinite()) {
+    throw StepError("non-finite unconstrained velocity");
+  }
+  step.qdot = step.unconstrained;
+  return factor;
+}
+
+/// Eq. 3 or 4 on step.rows; rows of `waiting` come in as the answer violates them.
+BoxQp constrained_motion(const Model& model, const Kinematics& kin, const ArticulatedFactor& factor,
+                         const DualProblem& dual, std::vector<Row> waiting, BoxQpSolver& solver,
+                         const WarmStart& warm, StepSolution& step) {
+  BoxQp qp;
+  for (bool complete = step.rows.empty() && waiting.empty(); !complete;) {
+    if (!step.rows.empty()) {
+      qp = dual.assemble(step.rows);
+      step.lambda = solve_multipliers(qp, step.rows, solver, warm, step);
+      ++step.rounds;
+      step.qdot = constrained_velocity(model, kin, factor, step.system, step.rows, step.lambda);
+    }
+    const Matrix6Xd twist = body_twists(model, kin, step.qdot);
+    const auto violated =
+        std::stable_partition(waiting.begin(), waiting.end(), [&](const Row& row) {
+          return row_velocity(row, kin, twist, step.qdot) >= row.rhs - lazy_tolerance;
+        });
+    complete = violated == waiting.end();
+    step.rows.insert(step.rows.end(), violated, waiting.end());
+    waiting.erase(violated, waiting.end());
+  }
+  if (!step.qdot.allFinite()) {
+    throw StepError("non-finite velocity");
+  }
+  return qp;
+}
+
+/// Forces and residuals on the primal side: q̇ against H, and the rows' excess C q̇ - d.
+void measure(const Model& model, const Kinematics& kin, const BoxQp& qp, double h,
+             StepSolution& step) {
+  const auto m = static_cast<Eigen::Index>(step.rows.size());
+  step.lambda.conservativeResize(m);
+  step.excess.resize(m);
+  const Matrix6Xd twist = body_twists(model, kin, step.qdot);
+  for (Eigen::Index i = 0; i < m; ++i) {
+    step.excess[i] = row_velocity(step.rows[i], kin, twist, step.qdot) - step.rows[i].rhs;
+  }
+  if (m > 0) {
+    step.kkt = kkt_residuals(qp, step.lambda, step.excess);
+  }
+  step.force = constraint_forces(model, kin, step.rows, step.lambda, h);
+  const Eigen::VectorXd impulse = h * step.force.total();
+  const Eigen::VectorXd change =
+      multiply(model, kin, step.system.op, step.qdot - step.unconstrained);
+  // Over the largest momentum in the balance: forces may be nothing but rounding.
+  const double scale = std::max(
+      {impulse.lpNorm<Eigen::Infinity>(), change.lpNorm<Eigen::Infinity>(),
+       multiply(model, kin, step.system.op, step.unconstrained).lpNorm<Eigen::Infinity>()});
+  step.stationarity = scale > 0 ? (change - impulse).lpNorm<Eigen::Infinity>() / scale : 0;
+}
+
+/// Counts the rows with a force and keeps their multipliers for the next step.
+void keep_active(StepSolution& step, WarmStart& warm) {
+  warm.clear();
+  const double largest = step.lambda.size() > 0 ? step.lambda.lpNorm<Eigen::Infinity>() : 0;
+  for (Eigen::Index i = 0; i < step.lambda.size(); ++i) {
+    if (std::abs(step.lambda[i]) > active_share * largest) {
+      ++step.active;
+      warm[step.rows[i].id] = step.lambda[i];
+    }
+  }
+}
+
 }  // namespace
 
 Situation observe(const Model& model, const State& state, const Scene& scene) {
@@ -184,25 +216,8 @@ StepSolution solve_step(const Model& model, const State& state, const Situation&
   const double h = scene.time.step;
   const Kinematics& kin = situation.kin;
   StepSolution step;
-  if (!state.q.allFinite() || !state.qdot.allFinite()) {
-    throw StepError("non-finite state");
-  }
+  const ArticulatedFactor factor = unconstrained_motion(model, state, kin, control.tip, h, step);
 
-  // Eq. 1: H q̇* = M q̇0 + h f.
-  step.system = step_system(model, state, kin, control.tip, h);
-  ArticulatedFactor factor;
-  try {
-    factor.factorise(model, kin, step.system.op);
-  } catch (const std::domain_error& error) {
-    throw StepError(error.what());
-  }
-  step.unconstrained = factor.solve(model, kin, step.system.wrench, step.system.joint);
-  if (!step.unconstrained.allFinite()) {
-    throw StepError("non-finite unconstrained velocity");
-  }
-  step.qdot = step.unconstrained;
-
-  // Eq. 3 or 4 on the rows that can bind; any other that the answer violates comes in.
   const DualProblem dual(model, kin, factor, step.unconstrained);
   std::vector<Row> waiting;
   for (const Row& row : all_rows(model, state, situation, control, scene)) {
@@ -212,59 +227,14 @@ StepSolution solve_step(const Model& model, const State& state, const Situation&
                         row_velocity(row, kin, kin.twist, state.qdot) - row.rhs < lazy_reach));
     (can_bind ? step.rows : waiting).push_back(row);
   }
-  BoxQp qp;
-  for (bool complete = step.rows.empty() && waiting.empty(); !complete;) {
-    if (!step.rows.empty()) {
-      dual.assemble(step.rows, qp);
-      step.lambda = solve_multipliers(qp, step.rows, solver, warm, step);
-      ++step.rounds;
-      step.qdot = constrained_velocity(model, kin, factor, step.system, step.rows, step.lambda);
-    }
-    const Matrix6Xd twist = body_twists(model, kin, step.qdot);
-    const auto violated =
-        std::stable_partition(waiting.begin(), waiting.end(), [&](const Row& row) {
-          return row_velocity(row, kin, twist, step.qdot) >= row.rhs - lazy_tolerance;
-        });
-    complete = violated == waiting.end();
-    step.rows.insert(step.rows.end(), violated, waiting.end());
-    waiting.erase(violated, waiting.end());
-  }
-  if (!step.qdot.allFinite()) {
-    throw StepError("non-finite velocity");
-  }
+  const BoxQp qp =
+      constrained_motion(model, kin, factor, dual, std::move(waiting), solver, warm, step);
 
-  // Residuals on the primal side: q̇ against H, and the rows' excess C q̇ - d.
-  const auto m = static_cast<Eigen::Index>(step.rows.size());
-  step.lambda.conservativeResize(m);
-  step.excess.resize(m);
-  const Matrix6Xd twist = body_twists(model, kin, step.qdot);
-  for (Eigen::Index i = 0; i < m; ++i) {
-    step.excess[i] = row_velocity(step.rows[i], kin, twist, step.qdot) - step.rows[i].rhs;
-  }
-  step.force = constraint_forces(model, kin, step.rows, step.lambda, h);
-  const Eigen::VectorXd impulse = h * step.force.total();
-  const Eigen::VectorXd change =
-      multiply(model, kin, step.system.op, step.qdot - step.unconstrained);
-  // Over the largest momentum in the balance: forces may be nothing but rounding.
-  const double scale = std::max(
-      {impulse.lpNorm<Eigen::Infinity>(), change.lpNorm<Eigen::Infinity>(),
-       multiply(model, kin, step.system.op, step.unconstrained).lpNorm<Eigen::Infinity>()});
-  step.stationarity = scale > 0 ? (change - impulse).lpNorm<Eigen::Infinity>() / scale : 0;
-  if (m > 0) {
-    step.kkt = kkt_residuals(qp, step.lambda, step.excess);
-  }
-
+  measure(model, kin, qp, h, step);
+  keep_active(step, warm);
   const int last = model.body_count() - 1;
-  step.tip = control.tip.value -
-             control.tip.rate * point_velocity(twist.col(last), kin.centre_offset(last));
-  warm.clear();
-  const double largest = m > 0 ? step.lambda.lpNorm<Eigen::Infinity>() : 0;
-  for (Eigen::Index i = 0; i < m; ++i) {
-    if (std::abs(step.lambda[i]) > active_share * largest) {
-      ++step.active;
-      warm[step.rows[i].id] = step.lambda[i];
-    }
-  }
+  const Vector6d twist = body_twists(model, kin, step.qdot).col(last);
+  step.tip = control.tip.value - control.tip.rate * point_velocity(twist, kin.centre_offset(last));
   return step;
 }
 

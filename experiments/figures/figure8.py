@@ -37,12 +37,14 @@ def surfaces(s: claims.Sliding, out: Path) -> None:
     """Three surfaces, and the same data from above with the knot's two ends."""
     figure = plt.figure(figsize=(10.5, 6.1))
     scale = np.percentile(np.abs(s.force[s.force != 0]), 99) if np.any(s.force) else 1.0
+    # One frame of an impulse would hide or flatten all the others: left out of the surfaces.
+    impulsive = np.abs(s.force).max(axis=1) > 1.5 * scale
     per_joint = 2 * s.spacing  # cm of body to a joint number
     for column, axis in enumerate(claims.KINDS):
         joint, force = s.axis(axis)
         axes = figure.add_axes([0.325 * column - 0.005, 0.43, 0.31, 0.60], projection="3d")
         grid_joint, grid_time = np.meshgrid(joint, s.time)
-        axes.plot_surface(grid_joint, grid_time, force, rstride=1, cstride=1, cmap="RdBu_r", vmin=-scale,
+        axes.plot_surface(grid_joint, grid_time, np.where(impulsive[:, None], np.nan, force), rstride=1, cstride=1, cmap="RdBu_r", vmin=-scale,
                           vmax=scale, linewidth=0, antialiased=False, rasterized=True)
         axes.patch.set_visible(False)  # it would hide the tick labels of the panel before
         axes.view_init(elev=28, azim=-52)
@@ -52,7 +54,7 @@ def surfaces(s: claims.Sliding, out: Path) -> None:
         axes.tick_params(axis="z", pad=3)
         axes.set_title(f"about {NAMES[axis]}, dyn cm", fontsize=10, y=0.93)
 
-        flat = figure.add_axes([0.06 + 0.315 * column, 0.09, 0.255, 0.27])
+        flat = figure.add_axes([0.06 + 0.315 * column, 0.105, 0.255, 0.255])
         image = flat.pcolormesh(edges(joint.astype(float)), edges(s.time), force, cmap="RdBu_r", vmin=-scale,
                                 vmax=scale, rasterized=True)
         flat.plot(s.head_end / per_joint, s.time, color="black", lw=0.9, label="knot, head end")
@@ -63,13 +65,15 @@ def surfaces(s: claims.Sliding, out: Path) -> None:
         if column == 0:
             flat.set_ylabel("time, s", fontsize=8)
             figure.legend(loc="lower left", bbox_to_anchor=(0.055, 0.365), ncol=2, fontsize=7.5, frameon=False)
-    bar = figure.add_axes([0.955, 0.09, 0.010, 0.27])
+    bar = figure.add_axes([0.955, 0.105, 0.010, 0.255])
     figure.colorbar(image, cax=bar, extend="both")
     bar.tick_params(labelsize=6.5, pad=1)
     bar.set_title("dyn cm", fontsize=7)
-    figure.text(0.06, 0.012, r"$f_\mathrm{thigmo}=C_\mathrm{thigmo}^\top\lambda_\mathrm{thigmo}/h$ on each hinge at "
+    figure.text(0.06, 0.005, r"$f_\mathrm{thigmo}=C_\mathrm{thigmo}^\top\lambda_\mathrm{thigmo}/h$ on each hinge at "
                 "each logged frame of sliding, unfiltered. Colours saturate at the 99th percentile of the non-zero "
-                "magnitudes.", fontsize=7.5)
+                f"magnitudes.\nFrames beyond 1.5 times that, {impulsive.sum()} of {len(s.time)}, are in the maps but left "
+                f"out of the surfaces: impulses up to {np.abs(s.force).max():.0f} dyn cm where a contact or the "
+                "commanded speed changes.", fontsize=7.5)
     save_figure(figure, out, DPI)
 
 
