@@ -17,7 +17,7 @@ struct Operator {
   Eigen::VectorXd diagonal;       ///< δ >= 0, nv
 };
 
-/// H v. `twist` is body_twists(v).
+/// H v in O(n).
 Eigen::VectorXd multiply(const Model& model, const Kinematics& kin, const Operator& op,
                          const Eigen::VectorXd& v);
 

@@ -16,8 +16,8 @@ inline constexpr int phase_count = 5;
 const char* phase_name(Phase phase);
 
 /// The contact that plays the first or the last one, followed from step to step. Minima of the gap
-/// come and go and hop along a strand; the one in use stays, as the pair of material points that it
-/// last was, until another has been the outermost for the hysteresis time.
+/// come and go and hop along a strand; the one in use stays, where it vanishes as the pair of
+/// material points that it last was, until the hysteresis time after it last was the outermost.
 struct TrackedContact {
   std::optional<Contact> contact;
   double settled = 0;  ///< time at which it last was the outermost contact, s

@@ -30,6 +30,10 @@ H5::DataSet Hdf5Reader::open(const std::string& path) const {
 }
 
 bool Hdf5Reader::has(const std::string& path) const {
+  return guarded(file_, "look for " + path, [&] { return holds(path); });
+}
+
+bool Hdf5Reader::holds(const std::string& path) const {
   for (std::size_t end = path.find('/', 1);; end = path.find('/', end + 1)) {
     if (!h5_.nameExists(path.substr(0, end))) {
       return false;
@@ -58,12 +62,15 @@ int Hdf5Reader::root_int(const std::string& name) const {
 }
 
 std::vector<hsize_t> Hdf5Reader::shape(const std::string& path) const {
-  const H5::DataSpace space = open(path).getSpace();
-  std::vector<hsize_t> extent(space.getSimpleExtentNdims());
-  if (!extent.empty()) {
-    space.getSimpleExtentDims(extent.data());
-  }
-  return extent;
+  const H5::DataSet set = open(path);
+  return guarded(file_, "read the shape of " + path, [&] {
+    const H5::DataSpace space = set.getSpace();
+    std::vector<hsize_t> extent(space.getSimpleExtentNdims());
+    if (!extent.empty()) {
+      space.getSimpleExtentDims(extent.data());
+    }
+    return extent;
+  });
 }
 
 std::string Hdf5Reader::attribute(const std::string& path, const std::string& name) const {
@@ -87,6 +94,9 @@ std::vector<std::int64_t> Hdf5Reader::integers(const std::string& path) const {
   const H5::DataSet set = open(path);
   std::vector<std::int64_t> values(size_of(shape(path)));
   guarded(file_, "read " + path, [&] {
+    if (set.getTypeClass() == H5T_ENUM && set.getDataType().getSize() != 1) {
+      throw FileError(file_ + ": " + path + " is not an enumeration of one byte");
+    }
     if (set.getTypeClass() == H5T_ENUM) {
       std::vector<std::uint8_t> raw(values.size());
       set.read(raw.data(), set.getDataType());

@@ -34,6 +34,7 @@ class Hdf5Reader {
 
  private:
   H5::DataSet open(const std::string& path) const;
+  bool holds(const std::string& path) const;
   std::string file_;
   H5::H5File h5_;
 };

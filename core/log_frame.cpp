@@ -40,7 +40,7 @@ void declare_trajectory(const Model& model, LogTable<Frame>& t) {
   const hsize_t n = model.body_count();
   const hsize_t nq = model.nq();
   const hsize_t nv = model.nv();
-  const std::string rates = "mixed: cm/s, rad/s";
+  const std::string rates = "cm/s, rad/s";
   t.index("/trajectory/step", "index of the step that begins at the frame",
           [](const Frame& f) { return f.record.step; });
   t.number("/trajectory/time", {"s", "simulated time"},
@@ -89,7 +89,7 @@ void declare_forces(const Model& model, LogTable<Frame>& t) {
                          Eigen::VectorXd ConstraintForces::*member) {
     t.numbers(
         std::string("/forces/") + name, {nv},
-        {"mixed: dyn, dyn cm", description}, [member](const Frame& f) -> const auto& {
+        {"dyn, dyn·cm", description}, [member](const Frame& f) -> const auto& {
           return f.record.solution.force.*member;
         });
   };
@@ -128,7 +128,7 @@ void declare_diagnostics(LogTable<Frame>& t) {
           [](const Frame& f) { return f.record.solution.rows.size(); });
   t.count(path + "active", "rows with a force",
           [](const Frame& f) { return f.record.solution.active; });
-  t.count(path + "contacts", "contacts within the margin",
+  t.count(path + "contacts", "local minima of the gap within the margin",
           [](const Frame& f) { return f.record.situation.contact.contacts.size(); });
   t.count(path + "iterations", "iterations of the QP back end",
           [](const Frame& f) { return f.record.solution.iterations; });

@@ -27,8 +27,9 @@ std::string current_time() {
 std::string cpu_name() {
   std::ifstream info("/proc/cpuinfo");
   for (std::string line; std::getline(info, line);) {
-    if (line.starts_with("model name")) {
-      return line.substr(line.find(':') + 2);
+    const std::size_t colon = line.find(": ");
+    if (line.starts_with("model name") && colon != std::string::npos) {
+      return line.substr(colon + 2);
     }
   }
   return "";
@@ -114,6 +115,9 @@ LogWriter::LogWriter(fs::path file, bool replace, const LogHeader& header, const
                      const Scene& scene)
     : file_(std::move(file)), partial_(file_.string() + ".part") {
   std::error_code error;
+  if (fs::exists(file_, error) && !fs::is_regular_file(file_, error)) {
+    throw FileError(file_.string() + ": is not a regular file");
+  }
   if (fs::exists(file_, error) && !replace) {
     throw FileError(file_.string() + ": already exists (--force replaces it)");
   }

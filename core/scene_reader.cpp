@@ -1,5 +1,8 @@
 #include "core/scene_reader.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/builtin_files.hpp"
 #include "core/input_text.hpp"
 #include "core/scene_fields.hpp"
@@ -101,6 +104,25 @@ void check_times(const TableReader& root, const TimeSettings& time) {
   const std::string step = "must not be less than time.step, " + shortest(time.step);
   if (time.frame_interval < time.step) root.fail("time.frame_interval", step);
   if (time.duration < time.step) root.fail("time.duration", step);
+  // Beyond 1e9 steps a frame, or a run, an index of steps is of no use.
+  const double steps = time.frame_interval / time.step;
+  if (steps > 1e9 || std::abs(steps - std::round(steps)) > 1e-9 * steps) {
+    root.fail("time.frame_interval", "must be a whole number of time.step, " + shortest(time.step));
+  }
+  if (time.duration / time.step > 1e9) {
+    root.fail("time.duration", "must be at most 1e9 times time.step, " + shortest(time.step));
+  }
+}
+
+void check_expectations(const TableReader& root, const Scene& scene) {
+  const std::vector<std::string> known = {"", "3_1", "4_1", "5_1", "5_2"};
+  if (std::find(known.begin(), known.end(), scene.expect.knot) == known.end()) {
+    root.fail("expect.knot", "must be 3_1, 4_1, 5_1, 5_2, or empty for none");
+  }
+  if (scene.controller.contact_gap > scene.contact.margin) {
+    root.fail("controller.contact_gap",
+              "must not exceed contact.margin, " + shortest(scene.contact.margin));
+  }
 }
 
 ResolvedScene read(const std::string& text, const std::string& name,
@@ -127,6 +149,7 @@ ResolvedScene read(const std::string& text, const std::string& name,
   root.finish();
   result.scene.script = resolve_script(root, script, result.specimen.length);
   check_times(root, result.scene.time);
+  check_expectations(root, result.scene);
   return result;
 }
 

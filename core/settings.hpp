@@ -1,5 +1,6 @@
 // Every number that a scene file may set, grouped by the stage that uses it. Defaults are those of
-// a scene that says nothing: no gravity, no drag, no stiffness, no script.
+// a scene that says nothing: head clamped, head plate in place, no gravity, drag, stiffness or
+// script.
 //
 // Units are cm, g, s, rad, dyn throughout; scene files give angles in degrees (scene_reader.cpp).
 #pragma once
@@ -86,8 +87,8 @@ struct ControllerSettings {
   ThigmotaxisSpeeds slide_head, slide_tail;      ///< first and last contact while sliding
   double cap = 5000;          ///< largest lambda / h of a thigmotaxis row, dyn: the rows are soft
   double contact_gap = 0.05;  ///< a contact this close counts as touching, cm
-  /// A touching contact takes over as first or last only after it has been the outermost for this
-  /// long: without it the identity jumps 7 to 14 times a second, s.
+  /// The contact used as first or last is kept this long after it last was the outermost, s:
+  /// without it the identity jumps 7 to 16 times a second.
   double hysteresis = 0.1;
   double tail_through = 8.0;   ///< tighten once this much body is past the last contact, cm of arc
   double tight_span = 20.352;  ///< slide once the knot spans no more body than this, cm of arc
@@ -106,11 +107,11 @@ struct KnotSettings {
 
 struct TimeSettings {
   double step = 0.002;            ///< h, s
-  double frame_interval = 0.020;  ///< time between logged frames, s
+  double frame_interval = 0.020;  ///< time between logged frames, s; a whole number of steps
   double duration = 30;           ///< the run ends here at the latest, s
 };
 
-/// A run that passes one of these is stopped: something is wrong, s. `design limits`, not physics.
+/// A run that passes one of these is stopped: something is wrong. Bounds of sanity, not physics.
 struct GuardSettings {
   double penetration = 0.5;      ///< cm
   double limit_violation = 0.2;  ///< rad

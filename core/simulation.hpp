@@ -46,7 +46,7 @@ struct StepRecord {
 };
 
 /// Takes one step. Throws StepError, naming the cause, where it cannot; `sim` is then unchanged
-/// but for the controller.
+/// but for the controller and the warm start.
 StepRecord take_step(const Model& model, const Scene& scene, BoxQpSolver& solver, Simulation& sim);
 
 }  // namespace hagfish

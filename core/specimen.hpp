@@ -18,7 +18,9 @@ struct Specimen {
   /// Length of body over which one bending limit was read, cm. The limits bound each axis of a
   /// universal joint, and the paper's chain of 100 bodies has one such joint per 2 L / 100.
   double bending_span = 0;
-  double twist_limit = 0;  ///< whole body, rad, to each side
+  /// Measured on the whole body, rad. Each revolute joint may turn by this over the number of
+  /// bodies to each side (Table 1), and every second joint is one.
+  double twist_limit = 0;
 };
 
 /// Value at `fraction` of the length of a profile given at `station`.

@@ -15,7 +15,7 @@ namespace {
 constexpr double lazy_reach = 2.0;
 /// A row left out counts as violated below this, cm/s or rad/s: at h = 2 ms, 2e-11 cm or rad.
 constexpr double lazy_tolerance = 1e-8;
-/// λ above this share of the largest counts as a force when active rows are counted.
+/// λ, rows brought to unit diagonal, counts as a force above this share of the largest.
 constexpr double active_share = 1e-6;
 
 std::vector<Row> all_rows(const Model& model, const State& state, const Situation& situation,
@@ -70,7 +70,7 @@ Eigen::VectorXd constrained_velocity(const Model& model, const Kinematics& kin,
 }
 
 /// Eq. 3 or Eq. 4 on the rows chosen, as one small problem in the multipliers.
-Eigen::VectorXd solve_multipliers(const BoxQp& qp, const std::vector<Row>& rows,
+Eigen::VectorXd solve_multipliers(const Model& model, const BoxQp& qp, const std::vector<Row>& rows,
                                   BoxQpSolver& solver, const WarmStart& warm, StepSolution& step) {
   const bool bilateral = std::all_of(rows.begin(), rows.end(),
                                      [](const Row& row) { return row.kind == RowKind::head; });
@@ -91,8 +91,11 @@ Eigen::VectorXd solve_multipliers(const BoxQp& qp, const std::vector<Row>& rows,
   }
   step.iterations += solution.iterations;
   if (solution.status != SolveStatus::solved) {
+    Eigen::Index worst = 0;
+    (qp.b - qp.A * solution.x).cwiseQuotient(row_scale(qp.A)).maxCoeff(&worst);
     throw StepError(std::string("solver failed: ") + status_name(solution.status) + " on " +
-                    std::to_string(qp.b.size()) + " rows" +
+                    std::to_string(qp.b.size()) +
+                    " rows, furthest from being met: " + row_name(model, rows[worst]) +
                     (solution.message.empty() ? "" : " (" + solution.message + ")"));
   }
   return solution.x;
@@ -128,7 +131,7 @@ BoxQp constrained_motion(const Model& model, const Kinematics& kin, const Articu
   for (bool complete = step.rows.empty() && waiting.empty(); !complete;) {
     if (!step.rows.empty()) {
       qp = dual.assemble(step.rows);
-      step.lambda = solve_multipliers(qp, step.rows, solver, warm, step);
+      step.lambda = solve_multipliers(model, qp, step.rows, solver, warm, step);
       ++step.rounds;
       step.qdot = constrained_velocity(model, kin, factor, step.system, step.rows, step.lambda);
     }
@@ -168,15 +171,19 @@ void measure(const Model& model, const Kinematics& kin, const BoxQp& qp, double 
   const double scale = std::max(
       {impulse.lpNorm<Eigen::Infinity>(), change.lpNorm<Eigen::Infinity>(),
        multiply(model, kin, step.system.op, step.unconstrained).lpNorm<Eigen::Infinity>()});
-  step.stationarity = scale > 0 ? (change - impulse).lpNorm<Eigen::Infinity>() / scale : 0;
+  step.stationarity = scale == 0 ? 0 : (change - impulse).lpNorm<Eigen::Infinity>() / scale;
 }
 
 /// Counts the rows with a force and keeps their multipliers for the next step.
-void keep_active(StepSolution& step, WarmStart& warm) {
+void keep_active(const BoxQp& qp, StepSolution& step, WarmStart& warm) {
   warm.clear();
-  const double largest = step.lambda.size() > 0 ? step.lambda.lpNorm<Eigen::Infinity>() : 0;
+  if (step.lambda.size() == 0) {
+    return;
+  }
+  // Brought to one unit, rows of cm/s and rad/s compare.
+  const Eigen::VectorXd size = step.lambda.cwiseAbs().cwiseProduct(row_scale(qp.A));
   for (Eigen::Index i = 0; i < step.lambda.size(); ++i) {
-    if (std::abs(step.lambda[i]) > active_share * largest) {
+    if (size[i] > active_share * size.maxCoeff()) {
       ++step.active;
       warm[step.rows[i].id] = step.lambda[i];
     }
@@ -206,8 +213,10 @@ Situation observe(const Model& model, const State& state, const Scene& scene) {
 
 double head_drift(const Model& model, const Kinematics& kin) {
   const Eigen::Vector3d origin = kin.origin.col(0);
-  const Eigen::Vector3d end = origin + model.bodies[0].length * kin.rotation[0].col(0);
-  return std::max(origin.norm(), (end - model.bodies[0].length * Eigen::Vector3d::UnitX()).norm());
+  const Body& head = model.bodies[0];
+  const Eigen::Matrix3d turn = kin.rotation[0] - Eigen::Matrix3d::Identity();
+  return std::max({origin.norm(), (origin + head.length * turn.col(0)).norm(),
+                   (origin + head.radius * turn.col(1)).norm()});
 }
 
 StepSolution solve_step(const Model& model, const State& state, const Situation& situation,
@@ -231,7 +240,7 @@ StepSolution solve_step(const Model& model, const State& state, const Situation&
       constrained_motion(model, kin, factor, dual, std::move(waiting), solver, warm, step);
 
   measure(model, kin, qp, h, step);
-  keep_active(step, warm);
+  keep_active(qp, step, warm);
   const int last = model.body_count() - 1;
   const Vector6d twist = body_twists(model, kin, step.qdot).col(last);
   step.tip = control.tip.value - control.tip.rate * point_velocity(twist, kin.centre_offset(last));

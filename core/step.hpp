@@ -27,7 +27,8 @@ struct Situation {
 
 Situation observe(const Model& model, const State& state, const Scene& scene);
 
-/// Largest displacement of either end of the head from where the clamp holds it, cm.
+/// Largest displacement of the head from where the clamp holds it, cm: of either end and of its
+/// side, which shows a turn about its own axis.
 double head_drift(const Model& model, const Kinematics& kin);
 
 /// What the controller asks of a step.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "core/knot.hpp"
 #include "core/log_writer.hpp"
@@ -14,14 +15,20 @@ namespace hagfish {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
+/// A spline point loads bodies up to two past the one nearest to it.
+constexpr int spline_reach = 2;
+
+/// The larger; a figure that is no number is as bad as can be.
+double worse(double a, double b) {
+  return std::isnan(a) || std::isnan(b) ? INFINITY : std::max(a, b);
+}
 
 double largest(const std::vector<double>& values) {
-  double worst = 0;
-  for (const double value : values) {
-    // A figure that is no number is as bad as can be.
-    worst = std::isnan(value) ? INFINITY : std::max(worst, value);
-  }
-  return worst;
+  return std::accumulate(values.begin(), values.end(), 0.0, worse);
+}
+
+double largest(const Eigen::ArrayXd& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0, worse);
 }
 
 Finding bounded(const std::string& name, double value, double bound, const std::string& unit) {
@@ -40,15 +47,15 @@ Finding status(const LogContents& log) {
 /// Knot types recomputed from the logged positions.
 std::vector<Finding> topology(const LogContents& log) {
   const Scene& scene = log.resolved.scene;
+  if (scene.expect.knot.empty()) {
+    return {};
+  }
   const Hdf5Reader::Rows position = log.h5.rows("/trajectory/position");
   std::vector<std::string> type(log.time.size());
   for (std::size_t f = 0; f < type.size(); ++f) {
     const Eigen::VectorXd row = position.row(static_cast<Eigen::Index>(f));
     type[f] = knot_name(
         knot_type(row.reshaped(3, row.size() / 3), scene.knot.votes, scene.knot.seed).type);
-  }
-  if (scene.expect.knot.empty()) {
-    return {};
   }
   std::size_t held = 0;
   std::size_t frames = 0;
@@ -81,8 +88,8 @@ std::vector<Finding> constraints(const LogContents& log) {
   for (Eigen::Index f = 0; f < log.q.rows(); ++f) {
     const State state{log.q.row(f), log.qdot.row(f)};
     const Situation situation = observe(model, state, log.resolved.scene);
-    violation = std::max(violation, situation.limit_violation);
-    penetration = std::max(penetration, situation.penetration);
+    violation = worse(violation, situation.limit_violation);
+    penetration = worse(penetration, situation.penetration);
   }
   return {bounded("penetration", penetration, expect.penetration, "cm, every step"),
           bounded("limits", violation / degree, expect.limit_violation / degree, "deg, every step"),
@@ -111,9 +118,8 @@ Finding force_balance(const LogContents& log) {
         generalised_force(model, kin, system.wrench) + system.joint + h * sum.row(f).transpose();
     const Eigen::VectorXd taken = multiply(model, kin, system.op, log.qdot_next.row(f));
     const double scale = std::max(given.lpNorm<Eigen::Infinity>(), taken.lpNorm<Eigen::Infinity>());
-    if (scale > 0) {
-      worst = std::max(worst, (given - taken).lpNorm<Eigen::Infinity>() / scale);
-    }
+    const double off = largest((given - taken).array().abs().eval());
+    worst = worse(worst, off > 0 ? off / scale : off);
   }
   return bounded("force balance", worst, log.resolved.scene.expect.force_balance,
                  "of scale, H(q̇ - q̇*) - h Σ f recomputed at every frame");
@@ -126,13 +132,12 @@ Finding thigmotaxis_extent(const LogContents& log) {
   const Hdf5Reader::Rows body_b = log.h5.rows("/thigmotaxis/body_b");
   double beyond = 0;
   for (Eigen::Index f = 0; f < force.rows(); ++f) {
-    // A spline point loads bodies up to two past the segment that it is on.
-    const int last = static_cast<int>(body_b.row(f).maxCoeff()) + 2;
-    for (int b = last + 1; body_b(f, 1) >= 0 && b < model.body_count(); ++b) {
+    // Without rows, -1, there must be no force at all.
+    const int last = static_cast<int>(body_b.row(f).maxCoeff());
+    for (int b = last < 0 ? 0 : last + spline_reach + 1; b < model.body_count(); ++b) {
       const Body& body = model.bodies[b];
-      if (body.dofs > 0) {
-        beyond = std::max(
-            beyond, force.row(f).segment(body.first_dof, body.dofs).lpNorm<Eigen::Infinity>());
+      for (int k = body.first_dof; k < body.first_dof + body.dofs; ++k) {
+        beyond = worse(beyond, std::abs(force(f, k)));
       }
     }
   }
@@ -151,7 +156,7 @@ Finding energy(const LogContents& log) {
                                get("work_limit") + get("work_head") + get("work_wall");
   const Eigen::ArrayXd error = get("integrator_error");
   const Eigen::ArrayXd dissipated = get("dissipated");
-  const double worst = (energy - energy[0] - works + dissipated - error).abs().maxCoeff();
+  const double worst = largest((energy - energy[0] - works + dissipated - error).abs().eval());
   const double passed = std::max(dissipated.abs().maxCoeff(), works.abs().maxCoeff());
   const double relative = passed > 0 ? worst / passed : worst;
   Finding finding = bounded("energy ledger", relative, log.resolved.scene.expect.energy,
@@ -218,6 +223,46 @@ LogContents::LogContents(const std::string& file) : h5(file) {
   qdot_next = h5.rows("/trajectory/qdot_next");
   if (time.empty()) {
     throw FileError(file + ": holds no frames");
+  }
+  check_shapes();
+}
+
+void LogContents::check_shapes() const {
+  const Model model = make_hagfish(resolved.specimen, resolved.scene);
+  const hsize_t t = time.size();
+  const hsize_t n = model.body_count();
+  const hsize_t nq = model.nq();
+  const hsize_t nv = model.nv();
+  using Shape = std::vector<hsize_t>;
+  std::vector<std::pair<std::string, Shape>> wanted = {{"/trajectory/q", {t, nq}},
+                                                       {"/trajectory/qdot", {t, nv}},
+                                                       {"/trajectory/qdot_next", {t, nv}},
+                                                       {"/trajectory/position", {t, n, 3}},
+                                                       {"/trajectory/phase", {t}},
+                                                       {"/trajectory/step", {t}},
+                                                       {"/forces/tip", {t, 3}},
+                                                       {"/thigmotaxis/body_b", {t, 2}},
+                                                       {"/knot/determinant", {t}},
+                                                       {"/knot/v2", {t}},
+                                                       {"/knot/head_end", {t}},
+                                                       {"/knot/tail_end", {t}}};
+  for (const char* block : {"thigmotaxis", "contact", "limit", "head", "wall"}) {
+    wanted.push_back({std::string("/forces/") + block, {t, nv}});
+  }
+  for (const auto& [path, shape] : wanted) {
+    if (h5.shape(path) != shape) {
+      throw FileError(h5.file() + ": " + path + " does not have the shape of its model and frames");
+    }
+  }
+  for (const std::int64_t p : phase) {
+    if (p < 0 || p >= phase_count) {
+      throw FileError(fmt::format("{}: /trajectory/phase holds {}", h5.file(), p));
+    }
+  }
+  const std::vector<std::int64_t> step = h5.integers("/trajectory/step");
+  const auto steps = static_cast<std::int64_t>(h5.shape("/steps/eq6").at(0));
+  if (!std::is_sorted(step.begin(), step.end()) || step.back() - step.front() >= steps) {
+    throw FileError(h5.file() + ": /steps does not cover the frames");
   }
 }
 

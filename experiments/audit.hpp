@@ -18,12 +18,16 @@ struct Finding {
 
 /// A log's scene and the frames that every audit reads.
 struct LogContents {
+  /// Throws FileError where the file is not a log whose datasets fit its own model.
   explicit LogContents(const std::string& file);
   Hdf5Reader h5;
   ResolvedScene resolved;
   std::vector<double> time;             ///< s
   std::vector<std::int64_t> phase;      ///< as Phase
   Hdf5Reader::Rows q, qdot, qdot_next;  ///< frames x nq, nv, nv
+
+ private:
+  void check_shapes() const;
 };
 
 /// All findings on one log, in the order of its groups. Throws FileError or InputError where the

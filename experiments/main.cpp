@@ -59,7 +59,11 @@ int dispatch(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : bad_input;
+    if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
+      return app.exit(error);  // help and version
+    }
+    fmt::print(stderr, "hagfish: {} (see hagfish --help)\n", error.what());
+    return bad_input;
   }
   return code;
 }
@@ -73,6 +77,8 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "hagfish: {}\n", error.what());
   } catch (const hagfish::FileError& error) {
     fmt::print(stderr, "hagfish: {}\n", error.what());
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "hagfish: unforeseen: {}\n", error.what());
   }
   return bad_input;
 }

@@ -14,6 +14,10 @@ constexpr double file_interval = 5;        // between lines where output is no t
 // What a run still does after the head is free: the last loop slips off. Only the estimate of the
 // time left depends on it, s.
 constexpr double release_estimate = 1;
+// Where a freshly tied knot begins, share of the body; same use.
+constexpr double first_contact_estimate = 0.28;
+// Commanded speeds below this do not end the wait, cm/s; same use.
+constexpr double least_speed = 0.1;
 
 }  // namespace
 
@@ -31,7 +35,7 @@ double Progress::elapsed() const {
 double Progress::estimated_end(const StepRecord& record) const {
   const ControllerSettings& c = scene_.controller;
   const double after = release_estimate + c.free_time;
-  const double speed = std::max(c.slide_head.a, 0.1);
+  const double speed = std::max(c.slide_head.a, least_speed);
   const auto slide = [&](double head_end) {
     return std::max(0.0, head_end - c.release_at) / speed + after;
   };
@@ -41,7 +45,8 @@ double Progress::estimated_end(const StepRecord& record) const {
   switch (record.controller.phase) {
     case Phase::form:
       if (scene_.script.kind != ScriptSettings::Kind::none) {
-        end = std::max(record.time, script_end(scene_.script)) + slide(0.28 * model_.length());
+        end = std::max(record.time, script_end(scene_.script)) +
+              slide(first_contact_estimate * model_.length());
       }
       break;
     case Phase::tighten:
@@ -79,6 +84,7 @@ void Progress::show(const StepRecord& record) {
 void Progress::end() {
   if (terminal_ && drawn_ && !quiet_) {
     fmt::print(stderr, "\n");
+    drawn_ = false;
   }
 }
 

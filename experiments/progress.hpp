@@ -11,6 +11,9 @@ class Progress {
  public:
   /// Silent where `quiet`. On a terminal one line is redrawn; elsewhere a line now and then.
   Progress(const Model& model, const Scene& scene, bool quiet);
+  ~Progress() { end(); }
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
   void show(const StepRecord& record);
   /// Ends the line that is being redrawn.
   void end();

@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
-#include <numbers>
 
 #include "core/build_info.hpp"
 #include "core/builtin_files.hpp"
@@ -24,7 +24,9 @@ volatile std::sig_atomic_t interrupted = 0;
 void interrupt(int /*signal*/) { interrupted = 1; }
 
 ResolvedScene load_scene(const RunOptions& options) {
-  if (const auto text = builtin_file(options.scene + ".toml")) {
+  const std::vector<std::string_view> names = builtin_scene_names();
+  if (std::find(names.begin(), names.end(), options.scene) != names.end()) {
+    const auto text = builtin_file(options.scene + ".toml");
     return read_scene_text(std::string(*text), options.scene + " (built in)", options.set);
   }
   if (fs::path(options.scene).extension() != ".toml") {
@@ -45,7 +47,9 @@ std::string take_steps(const Model& model, const Scene& scene, BoxQpSolver& solv
       const StepRecord record = take_step(model, scene, solver, sim);
       log.write(record, progress.elapsed());
       progress.show(record);
-    } catch (const StepError& error) {
+    } catch (const FileError&) {
+      throw;  // the log itself cannot be written
+    } catch (const std::exception& error) {
       return fmt::format("failed: {} at step {} (t = {:.4f} s, {})", error.what(), sim.step,
                          time_of(sim, scene), phase_name(sim.controller.phase));
     }

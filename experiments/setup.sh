@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Prepares a Debian 12 machine and builds the project: installs the Debian packages that are missing
-# (asks for root or sudo only then), configures and builds build/release. The other scripts call it.
+# (asks for root or sudo only then), configures and builds build/release (or PRESET). The other scripts call it.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -32,6 +32,8 @@ if ((${#missing[@]})); then
   rm -f "$log"
 fi
 
-cmake --preset release >build-configure.log 2>&1 || { cat build-configure.log >&2; exit 2; }
-rm -f build-configure.log
-cmake --build --preset release "$@"
+preset=${PRESET:-release}
+log=$(mktemp)
+cmake --preset "$preset" >"$log" 2>&1 || { cat "$log" >&2; exit 2; }
+rm -f "$log"
+cmake --build --preset "$preset" "$@"

@@ -169,22 +169,23 @@ bool falls_without_end(const BoxQp& qp, const Eigen::VectorXd& y, double least) 
 
 struct IpoptBoxQp::Engine {
   IpoptSettings settings;
-  Ipopt::SmartPtr<Ipopt::IpoptApplication> application;
+  /// Full predictor-corrector steps from a centred warm start: a third of the time, but one problem
+  /// in some thousands makes them cycle. Ipopt's own safeguarded way from its own start for those.
+  Ipopt::SmartPtr<Ipopt::IpoptApplication> fast, careful;
   Ipopt::SmartPtr<ScaledProblem> problem;
 
-  /// One run of Ipopt from `start` on the bounded part; sets x, status and message of `solution`
+  /// One run of `ipopt` from `start` on the bounded part; sets x, status and message of `solution`
   /// and adds its iterations.
-  void attempt(const BoundedPart& part, const Eigen::VectorXd& start, const BoxQp& qp,
-               BoxQpSolution& solution);
+  void attempt(Ipopt::IpoptApplication& ipopt, const BoundedPart& part,
+               const Eigen::VectorXd& start, const BoxQp& qp, BoxQpSolution& solution);
 };
 
-IpoptBoxQp::IpoptBoxQp(const IpoptSettings& settings) : engine_(std::make_unique<Engine>()) {
-  engine_->settings = settings;
-  engine_->application = new Ipopt::IpoptApplication(false);
-  engine_->problem = new ScaledProblem;
-  engine_->problem->least_objective = -settings.infeasible_objective;
-  engine_->problem->regularisation = settings.regularisation;
-  auto options = engine_->application->Options();
+namespace {
+
+Ipopt::SmartPtr<Ipopt::IpoptApplication> make_application(const IpoptSettings& settings,
+                                                          bool fast) {
+  Ipopt::SmartPtr<Ipopt::IpoptApplication> application = new Ipopt::IpoptApplication(false);
+  auto options = application->Options();
   options->SetIntegerValue("print_level", 0);
   options->SetStringValue("sb", "yes");
   options->SetStringValue("linear_solver", "mumps");
@@ -195,18 +196,31 @@ IpoptBoxQp::IpoptBoxQp(const IpoptSettings& settings) : engine_(std::make_unique
   options->SetIntegerValue("max_iter", settings.iteration_limit);
   options->SetNumericValue("bound_relax_factor", 0);
   options->SetStringValue("nlp_scaling_method", "none");
-  // A convex QP needs no globalisation: full predictor-corrector steps.
-  options->SetStringValue("mehrotra_algorithm", "yes");
-  options->SetStringValue("fast_step_computation", "yes");
-  // The start is centred by centre_start; Ipopt must not push it away from its bounds again.
-  options->SetStringValue("warm_start_init_point", "yes");
-  for (const char* push :
-       {"warm_start_bound_push", "warm_start_bound_frac", "warm_start_mult_bound_push"}) {
-    options->SetNumericValue(push, 1e-12);
+  if (fast) {
+    options->SetStringValue("mehrotra_algorithm", "yes");
+    options->SetStringValue("fast_step_computation", "yes");
+    // The start is centred by centre_start; Ipopt must not push it away from its bounds again.
+    options->SetStringValue("warm_start_init_point", "yes");
+    for (const char* push :
+         {"warm_start_bound_push", "warm_start_bound_frac", "warm_start_mult_bound_push"}) {
+      options->SetNumericValue(push, 1e-12);
+    }
   }
-  if (engine_->application->Initialize("") != Ipopt::Solve_Succeeded) {
+  if (application->Initialize("") != Ipopt::Solve_Succeeded) {
     throw std::runtime_error("Ipopt did not accept its options");
   }
+  return application;
+}
+
+}  // namespace
+
+IpoptBoxQp::IpoptBoxQp(const IpoptSettings& settings) : engine_(std::make_unique<Engine>()) {
+  engine_->settings = settings;
+  engine_->fast = make_application(settings, true);
+  engine_->careful = make_application(settings, false);
+  engine_->problem = new ScaledProblem;
+  engine_->problem->least_objective = -settings.infeasible_objective;
+  engine_->problem->regularisation = settings.regularisation;
 }
 
 IpoptBoxQp::~IpoptBoxQp() = default;
@@ -223,30 +237,27 @@ BoxQpSolution IpoptBoxQp::solve(const BoxQp& qp, const Eigen::VectorXd& start) {
     solution.status = SolveStatus::infeasible;
     return solution;
   }
-  Eigen::VectorXd reduced = Eigen::VectorXd::Zero(part.reduced().b.size());
+  const Eigen::VectorXd reduced = Eigen::VectorXd::Zero(part.reduced().b.size());
   if (part.reduced().b.isZero(0)) {  // then zero is the answer
     solution.x = part.expand(reduced);
     solution.status = SolveStatus::solved;
     return solution;
   }
-  const Eigen::VectorXd warm = part.restrict_to_reduced(start);
-  engine_->attempt(part, warm, qp, solution);
-  const bool cold = warm.isZero(0);
-  if (!cold && solution.status != SolveStatus::solved &&
-      solution.status != SolveStatus::infeasible) {
-    // About one warm start in 6,000 leads Ipopt astray at its small barrier.
-    engine_->attempt(part, Eigen::VectorXd::Zero(warm.size()), qp, solution);
+  engine_->attempt(*engine_->fast, part, part.restrict_to_reduced(start), qp, solution);
+  if (solution.status != SolveStatus::solved && solution.status != SolveStatus::infeasible) {
+    engine_->attempt(*engine_->careful, part, reduced, qp, solution);
   }
   return solution;
 }
 
-void IpoptBoxQp::Engine::attempt(const BoundedPart& part, const Eigen::VectorXd& start,
-                                 const BoxQp& qp, BoxQpSolution& solution) {
+void IpoptBoxQp::Engine::attempt(Ipopt::IpoptApplication& ipopt, const BoundedPart& part,
+                                 const Eigen::VectorXd& start, const BoxQp& qp,
+                                 BoxQpSolution& solution) {
   const Eigen::VectorXd unit = problem->set(part.reduced(), start);
   centre_start(*problem, settings);
-  const Ipopt::ApplicationReturnStatus code = application->OptimizeTNLP(Ipopt::GetRawPtr(problem));
-  if (Ipopt::IsValid(application->Statistics())) {
-    solution.iterations += application->Statistics()->IterationCount();
+  const Ipopt::ApplicationReturnStatus code = ipopt.OptimizeTNLP(Ipopt::GetRawPtr(problem));
+  if (Ipopt::IsValid(ipopt.Statistics())) {
+    solution.iterations += ipopt.Statistics()->IterationCount();
   }
   Eigen::VectorXd y = problem->y.cwiseMax(problem->qp.lower).cwiseMin(problem->qp.upper);
   if (code == Ipopt::Solve_Succeeded) {  // only what is solved is polished: failures must show

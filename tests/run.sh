@@ -4,12 +4,7 @@
 #   PRESET=sanitize bash tests/run.sh  with AddressSanitizer and UndefinedBehaviorSanitizer
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-preset=${PRESET:-release}
 bash experiments/setup.sh
-if [[ $preset != release ]]; then
-  cmake --preset "$preset" >/dev/null
-  cmake --build --preset "$preset"
-fi
 # Serial BLAS, so that runs repeat and tests do not fight for the cores.
 export OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1
-ctest --preset "$preset" --parallel "$(nproc)" "$@"
+ctest --preset "${PRESET:-release}" --parallel "$(nproc)" "$@"

@@ -1,5 +1,6 @@
 """Figure 8: f_thigmo (Eq. 8) about X, Y and Z over time and joint number while the knot slides, and a
-page that tests the paper's three claims about it. Raw data, no filter.
+page that tests the paper's three claims about it. Raw data, no filter; the surfaces leave out
+impulsive frames, the maps show all.
 
 Usage: figure8.py LOG.h5 OUT_SURFACE.png OUT_CLAIMS.png (writes PDFs beside, and OUT_CLAIMS.json).
 """

@@ -34,16 +34,17 @@ TEST(Observe, MeasuresPenetrationAndLimitViolation) {
   EXPECT_EQ(now.penetration, std::max(0.0, -now.contact.least_gap));
 }
 
-TEST(HeadDrift, IsTheLargerOfBothEnds) {
+TEST(HeadDrift, IsTheLargestOfBothEndsAndTheSide) {
   const Model fish = table1_hagfish();
   State state = rest_state(fish);
   EXPECT_EQ(head_drift(fish, kinematics(fish, state)), 0);
   state.q[1] = 0.3;
   EXPECT_NEAR(head_drift(fish, kinematics(fish, state)), 0.3, 1e-15);
   state = rest_state(fish);
-  state.q.segment<4>(3) << 0, 0, 0, 1;  // turned about: only the far end moves
-  EXPECT_NEAR(head_drift(fish, kinematics(fish, state)), 2 * 0.424, 1e-15);
-  state.q[0] = 2 * 0.424;  // and so shifted that only the near end is off
+  const double radius = fish.bodies[0].radius;
+  state.q.segment<4>(3) << 0, 1, 0, 0;  // rolled over: both ends stay, the side moves
+  EXPECT_NEAR(head_drift(fish, kinematics(fish, state)), 2 * radius, 1e-15);
+  state.q.segment<4>(3) << 0, 0, 1, 0;  // turned about Y: the far end moves, the side at +Y stays
   EXPECT_NEAR(head_drift(fish, kinematics(fish, state)), 2 * 0.424, 1e-15);
 }
 

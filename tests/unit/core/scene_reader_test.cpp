@@ -191,7 +191,10 @@ ResolvedScene odd_scene() {
   s.controller = {{odd(), odd()}, {odd(), odd()}, {odd(), odd()}, {odd(), odd()}, odd(), odd(),
                   odd(),          odd(),          odd(),          odd(),          odd(), odd()};
   s.knot = {3, 4294967295u, odd()};
-  s.time = {odd(), odd(), odd()};
+  s.controller.contact_gap = s.contact.margin / 3;
+  s.time.step = odd();
+  s.time.frame_interval = 3 * s.time.step;
+  s.time.duration = 7 * s.time.step;
   s.guard = {odd(), odd(), odd()};
   s.expect = {"4_1", odd(), odd(), odd(), odd(), odd(), odd(), odd(), odd()};
   result.specimen = {

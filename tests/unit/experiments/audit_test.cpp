@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
 
 #include "core/log_writer.hpp"
@@ -75,6 +76,21 @@ TEST_F(AuditTest, SeesAForceBehindTheKnot) {
   const hsize_t nv = Hdf5Reader(file).shape("/forces/thigmotaxis")[1];
   tamper("/forces/thigmotaxis", nv - 1, 1e-12);
   EXPECT_FALSE(passes("f_thigmo past the knot"));
+}
+
+TEST_F(AuditTest, DoesNotLetNanPass) {
+  tamper("/forces/contact", 30, NAN);
+  tamper("/diagnostics/work_tip", 1, NAN);
+  EXPECT_FALSE(passes("force balance"));
+  EXPECT_FALSE(passes("energy ledger"));
+}
+
+TEST_F(AuditTest, RefusesALogThatDoesNotFitItsModel) {
+  H5::H5File h5(file.string(), H5F_ACC_RDWR);
+  h5.unlink("/trajectory/q");
+  h5.move("/trajectory/qdot", "/trajectory/q");
+  h5.close();
+  EXPECT_THROW(audit(file), FileError);
 }
 
 TEST_F(AuditTest, SeesABentLimit) {

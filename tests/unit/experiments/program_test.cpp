@@ -92,6 +92,13 @@ TEST_F(ProgramTest, RefusesBadInputInOneLine) {
   expect_refused("run --set time.step=nan", {"time.step", "finite"});
   expect_refused("run --set time.step=0", {"time.step", "positive"});
   expect_refused("run --set specimen.length=-1", {"specimen.length", "positive"});
+  expect_refused("run --set time.frame_interval=0.003", {"time.frame_interval", "whole number"});
+  expect_refused("run --set expect.knot=unknot", {"expect.knot", "3_1"});
+  expect_refused("run --set controller.contact_gap=1", {"controller.contact_gap", "margin"});
+  expect_refused("run --out . --force", {"not a regular file"});
+  expect_refused("run --qp none", {"--qp", "ipopt"});
+  expect_refused("run --no-such-option", {"--no-such-option"});
+  expect_refused("run specimens/pacific_hagfish", {"scenes"});
   expect_refused("run nowhere", {"nowhere", "scenes"});
   expect_refused("run missing.toml", {"missing.toml"});
   expect_refused("run --out /no/such/folder/x.h5", {"/no/such/folder/x.h5", "No such file"});
@@ -131,6 +138,14 @@ TEST_F(ProgramTest, AFailedStepLeavesAReadableLogWithTheCause) {
   EXPECT_NE(info.output.find("failed: body"), std::string::npos) << info.output;
   EXPECT_NE(info.output.find("at step"), std::string::npos) << info.output;
   EXPECT_EQ(hagfish("check a.h5").code, 1);
+}
+
+TEST_F(ProgramTest, AbsurdNumbersFailTheRunAndDoNotCrashIt) {
+  for (const char* absurd : {"specimen.length=1e200", "specimen.mass=1e300", "time.step=1e-300"}) {
+    const Outcome run = hagfish(std::string("run --quiet --force --out a.h5 --set ") + absurd);
+    EXPECT_TRUE(run.code == 1 || run.code == 2) << absurd << ": " << run.code << run.output;
+    EXPECT_EQ(std::count(run.output.begin(), run.output.end(), '\n'), 1) << run.output;
+  }
 }
 
 }  // namespace

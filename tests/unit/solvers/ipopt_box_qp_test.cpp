@@ -245,22 +245,36 @@ TEST(IpoptBoxQp, RejectsBadInput) {
   EXPECT_THROW(solver.solve(qp, Eigen::VectorXd::Zero(2)), std::invalid_argument);
 }
 
-TEST(IpoptBoxQp, StartsAgainFromZeroWhereAWarmStartLeadsAstray) {
-  const auto file = toml::parse(HAGFISH_TEST_DATA_DIR "/astray_qp.toml");
+/// A recorded problem of tests/data and the start that it had.
+struct RecordedQp {
+  BoxQp qp;
+  Eigen::VectorXd start;
+};
+
+RecordedQp recorded(const std::string& name) {
+  const auto file = toml::parse(std::string(HAGFISH_TEST_DATA_DIR "/") + name);
   const auto numbers = [&file](const char* key) {
     const auto values = toml::find<std::vector<double>>(file, key);
     return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(values.data(), values.size()));
   };
-  BoxQp qp{{}, numbers("b"), numbers("lower"), numbers("upper")};
-  const Eigen::Index m = qp.b.size();
+  RecordedQp record{{{}, numbers("b"), numbers("lower"), numbers("upper")}, numbers("start")};
+  const Eigen::Index m = record.start.size();
   const Eigen::VectorXd triangle = numbers("A");
-  qp.A.resize(m, m);
+  record.qp.A.resize(m, m);
   for (Eigen::Index i = 0, k = 0; i < m; ++i) {
     for (Eigen::Index j = 0; j <= i; ++j, ++k) {
-      qp.A(i, j) = qp.A(j, i) = triangle[k];
+      record.qp.A(i, j) = record.qp.A(j, i) = triangle[k];
     }
   }
-  expect_solved(qp, IpoptBoxQp().solve(qp, numbers("start")));
+  return record;
+}
+
+TEST(IpoptBoxQp, SolvesWhatFullStepsCycleOn) {
+  for (const char* name : {"astray_qp.toml", "cycling_qp.toml"}) {
+    const RecordedQp record = recorded(name);
+    expect_solved(record.qp, IpoptBoxQp().solve(record.qp, record.start));
+    expect_solved(record.qp, solve_cold(record.qp));
+  }
 }
 
 }  // namespace
