@@ -16,6 +16,8 @@ double apart(const Contact& x, const Contact& y) {
   return std::hypot(x.arc_a - y.arc_a, x.arc_b - y.arc_b);
 }
 
+/// One step of a tracked contact: it goes on as the outermost one where that is the same, else as
+/// the nearest minimum, else as the same material points, for the hysteresis time at most.
 void follow(TrackedContact& tracked, const Model& model, const Situation& situation,
             const Contact* outermost, double time, double hysteresis) {
   if (outermost == nullptr) {

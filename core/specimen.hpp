@@ -1,7 +1,6 @@
 // The measured animal: what Table 1 of the paper lists, and nothing of the simulation.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 

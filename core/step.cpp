@@ -231,7 +231,7 @@ StepSolution solve_step(const Model& model, const State& state, const Situation&
   std::vector<Row> waiting;
   for (const Row& row : all_rows(model, state, situation, control, scene)) {
     const bool can_bind =
-        always_in(row) || warm.count(row.id) > 0 ||
+        always_in(row) || warm.contains(row.id) ||
         (!row.waits && (dual.excess_unconstrained(row) < lazy_reach ||
                         row_velocity(row, kin, kin.twist, state.qdot) - row.rhs < lazy_reach));
     (can_bind ? step.rows : waiting).push_back(row);
