@@ -11,6 +11,8 @@ namespace {
 // Cells a segment of the grid that starts are taken from: it must tell the basins of minima apart.
 constexpr int grid = 6;
 constexpr int iteration_limit = 50;
+// Times that a step is halved for the gap to fall, to some 1e-4 of it.
+constexpr int cut_limit = 14;
 // Newton steps in a parameter of [0, 1] below this are at the rounding of the gap's minimum.
 constexpr double step_tolerance = 1e-10;
 
@@ -103,7 +105,8 @@ ClosestPoints descend(const SplineSegment& a, const SplineSegment& b, ClosestPoi
     const Eigen::Vector2d step = direction(g, h, safe, free_a, free_b);
 
     bool moved = false;
-    for (double length = 1; length > 1e-4; length *= 0.5) {
+    double length = 1;
+    for (int cut = 0; cut < cut_limit; ++cut, length *= 0.5) {
       const double t_a = std::clamp(at.t_a + length * step[0], 0.0, 1.0);
       const double t_b = std::clamp(at.t_b + length * step[1], 0.0, 1.0);
       const double gap = gap_at(a, b, t_a, t_b);

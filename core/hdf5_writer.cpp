@@ -59,8 +59,8 @@ std::size_t size_of(const std::vector<hsize_t>& shape) {
 }  // namespace
 
 template <class T>
-Series<T>::Series(H5::DataSet set, std::vector<hsize_t> row_shape)
-    : set_(std::move(set)), row_shape_(std::move(row_shape)), row_size_(size_of(row_shape_)) {}
+Series<T>::Series(const H5::DataSet& set, std::vector<hsize_t> row_shape)
+    : set_(set), row_shape_(std::move(row_shape)), row_size_(size_of(row_shape_)) {}
 
 template <class T>
 void Series<T>::append(const T* row, std::size_t count) {
@@ -180,14 +180,15 @@ H5::DataSet Hdf5Writer::series(const std::string& path, const H5::DataType& type
   });
 }
 
-Series<double> Hdf5Writer::doubles(const std::string& path, std::vector<hsize_t> row_shape,
+Series<double> Hdf5Writer::doubles(const std::string& path, const std::vector<hsize_t>& row_shape,
                                    const Meaning& meaning) {
-  return {series(path, H5::PredType::NATIVE_DOUBLE, row_shape, meaning), std::move(row_shape)};
+  return {series(path, H5::PredType::NATIVE_DOUBLE, row_shape, meaning), row_shape};
 }
 
-Series<std::int32_t> Hdf5Writer::ints(const std::string& path, std::vector<hsize_t> row_shape,
+Series<std::int32_t> Hdf5Writer::ints(const std::string& path,
+                                      const std::vector<hsize_t>& row_shape,
                                       const Meaning& meaning) {
-  return {series(path, H5::PredType::NATIVE_INT32, row_shape, meaning), std::move(row_shape)};
+  return {series(path, H5::PredType::NATIVE_INT32, row_shape, meaning), row_shape};
 }
 
 Series<std::int64_t> Hdf5Writer::longs(const std::string& path, const Meaning& meaning) {
@@ -199,7 +200,7 @@ Series<std::uint8_t> Hdf5Writer::choices(const std::string& path,
                                          const Meaning& meaning) {
   H5::EnumType type(H5::PredType::NATIVE_UINT8);
   for (std::size_t k = 0; k < names.size(); ++k) {
-    std::uint8_t value = static_cast<std::uint8_t>(k);
+    auto value = static_cast<std::uint8_t>(k);
     type.insert(names[k], &value);
   }
   return {series(path, type, {}, meaning), {}};

@@ -25,7 +25,7 @@ template <class T>
 class Series {
  public:
   Series() = default;
-  Series(H5::DataSet set, std::vector<hsize_t> row_shape);
+  Series(const H5::DataSet& set, std::vector<hsize_t> row_shape);
   /// Appends one row; `count` must be the row's size.
   void append(const T* row, std::size_t count);
   void append(T value) { append(&value, 1); }
@@ -54,9 +54,9 @@ class Hdf5Writer {
   void text(const std::string& path, const std::string& value);
   void texts(const std::string& path, const std::vector<std::string>& values);
 
-  Series<double> doubles(const std::string& path, std::vector<hsize_t> row_shape,
+  Series<double> doubles(const std::string& path, const std::vector<hsize_t>& row_shape,
                          const Meaning& meaning);
-  Series<std::int32_t> ints(const std::string& path, std::vector<hsize_t> row_shape,
+  Series<std::int32_t> ints(const std::string& path, const std::vector<hsize_t>& row_shape,
                             const Meaning& meaning);
   Series<std::int64_t> longs(const std::string& path, const Meaning& meaning);
   /// uint8 enumeration whose values count up from 0 in the order of `names`.

@@ -85,7 +85,8 @@ void write_excludes(std::ostream& out, const Model& model, double least_arc) {
   }
   for (int a = 0; a < model.body_count(); ++a) {
     // The hair of slack is that of core/contact.cpp: equal arcs fall on the same side in both.
-    for (int b = a + 1; b < model.body_count() && arc[b] - arc[a + 1] < least_arc * (1 - 1e-9); ++b) {
+    for (int b = a + 1; b < model.body_count() && arc[b] - arc[a + 1] < least_arc * (1 - 1e-9);
+         ++b) {
       out << "<exclude body1=\"" << body_name(a) << "\" body2=\"" << body_name(b) << "\"/>\n";
     }
   }
