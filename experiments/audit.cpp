@@ -82,7 +82,7 @@ std::vector<Finding> topology(const LogContents& log) {
 
 std::vector<Finding> constraints(const LogContents& log) {
   const ExpectSettings& expect = log.resolved.scene.expect;
-  const Model model = make_hagfish(log.resolved.specimen, log.resolved.scene);
+  const Model& model = log.model;
   double violation = largest(log.h5.doubles("/steps/limit_violation"));
   double penetration = largest(log.h5.doubles("/steps/penetration"));
   for (Eigen::Index f = 0; f < log.q.rows(); ++f) {
@@ -102,7 +102,7 @@ std::vector<Finding> constraints(const LogContents& log) {
 /// |H (q̇_next - q̇*) - h Σ f| of each frame over its largest term, from the logged numbers alone.
 Finding force_balance(const LogContents& log) {
   const Scene& scene = log.resolved.scene;
-  const Model model = make_hagfish(log.resolved.specimen, scene);
+  const Model& model = log.model;
   const double h = scene.time.step;
   Hdf5Reader::Rows sum = log.h5.rows("/forces/thigmotaxis");
   for (const char* block : {"contact", "limit", "head", "wall"}) {
@@ -127,7 +127,7 @@ Finding force_balance(const LogContents& log) {
 
 /// f_thigmo at dofs of bodies tailward of the last contact's spline points.
 Finding thigmotaxis_extent(const LogContents& log) {
-  const Model model = make_hagfish(log.resolved.specimen, log.resolved.scene);
+  const Model& model = log.model;
   const Hdf5Reader::Rows force = log.h5.rows("/forces/thigmotaxis");
   const Hdf5Reader::Rows body_b = log.h5.rows("/thigmotaxis/body_b");
   double beyond = 0;
@@ -216,6 +216,7 @@ LogContents::LogContents(const std::string& file) : h5(file) {
                                 h5.root_int("format_version"), log_format_version));
   }
   resolved = read_scene_text(h5.root_text("scene"), file + ": scene");
+  model = make_hagfish(resolved.specimen, resolved.scene);
   time = h5.doubles("/trajectory/time");
   phase = h5.integers("/trajectory/phase");
   q = h5.rows("/trajectory/q");
@@ -228,7 +229,6 @@ LogContents::LogContents(const std::string& file) : h5(file) {
 }
 
 void LogContents::check_shapes() const {
-  const Model model = make_hagfish(resolved.specimen, resolved.scene);
   const hsize_t t = time.size();
   const hsize_t n = model.body_count();
   const hsize_t nq = model.nq();

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/hdf5_reader.hpp"
+#include "core/model.hpp"
 #include "core/scene_reader.hpp"
 
 namespace hagfish {
@@ -22,6 +23,7 @@ struct LogContents {
   explicit LogContents(const std::string& file);
   Hdf5Reader h5;
   ResolvedScene resolved;
+  Model model;                          ///< that the scene makes
   std::vector<double> time;             ///< s
   std::vector<std::int64_t> phase;      ///< as Phase
   Hdf5Reader::Rows q, qdot, qdot_next;  ///< frames x nq, nv, nv

@@ -10,6 +10,7 @@
 #include <functional>
 
 #include "core/builtin_files.hpp"
+#include "tests/support/input_errors.hpp"
 
 namespace hagfish {
 namespace {
@@ -21,18 +22,6 @@ const std::string plain_specimen =
     "name = 'test'\nlength = 40\nmass = 80\nstation = [0.2, 0.8]\ncircumference = [5, 4]\n"
     "bending_limit_deg = [20, 30]\nbending_span = 0.8\ntwist_limit_deg = 48\n";
 const std::string plain_scene = "[specimen]\n" + plain_specimen;
-
-/// The message of the InputError that `action` throws; checks that it is one line.
-std::string error_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    const std::string message = error.what();
-    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
-    return message;
-  }
-  return "no error";
-}
 
 /// What reading the plain scene with `more` in front of it complains of.
 std::string complaint(const std::string& more, const std::vector<std::string>& overrides = {}) {

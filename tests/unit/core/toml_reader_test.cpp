@@ -10,21 +10,10 @@
 #include <numbers>
 
 #include "core/toml_writer.hpp"
+#include "tests/support/input_errors.hpp"
 
 namespace hagfish {
 namespace {
-
-/// The message of the InputError that `action` throws; checks that it is one line.
-std::string error_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    const std::string message = error.what();
-    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
-    return message;
-  }
-  return "no error";
-}
 
 /// What reading `text` as "f.toml" with `read` complains of.
 std::string complaint(const std::string& text, const std::function<void(TableReader&)>& read) {
