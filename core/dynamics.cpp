@@ -25,6 +25,14 @@ Matrix6d drag_operator(const Model& model, const Kinematics& kin, int body) {
       kin.centre_offset(body));
 }
 
+Eigen::VectorXd drag_force(const Model& model, const Kinematics& kin, const Eigen::VectorXd& v) {
+  Matrix6Xd wrench = body_twists(model, kin, v);
+  for (int b = 0; b < model.body_count(); ++b) {
+    wrench.col(b) = -(drag_operator(model, kin, b) * wrench.col(b)).eval();
+  }
+  return generalised_force(model, kin, wrench);
+}
+
 Matrix6Xd bias_wrench(const Kinematics& kin, const std::vector<Matrix6d>& inertia) {
   Matrix6Xd wrench(6, kin.twist.cols());
   for (Eigen::Index b = 0; b < wrench.cols(); ++b) {

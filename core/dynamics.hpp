@@ -21,6 +21,9 @@ std::vector<Matrix6d> body_inertias(const Model& model, const Kinematics& kin);
 /// length (model.drag) integrated along the body. The drag wrench is minus this times the twist.
 Matrix6d drag_operator(const Model& model, const Kinematics& kin, int body);
 
+/// Drag as a generalised force (nv) at velocities `v` (nv).
+Eigen::VectorXd drag_force(const Model& model, const Kinematics& kin, const Eigen::VectorXd& v);
+
 /// M_m J̇ q̇ plus the gyroscopic wrench, per body: what inertia asks for at q̈ = 0 (6 x N).
 Matrix6Xd bias_wrench(const Kinematics& kin, const std::vector<Matrix6d>& inertia);
 

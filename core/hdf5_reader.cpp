@@ -122,6 +122,20 @@ std::vector<std::string> Hdf5Reader::texts(const std::string& path) const {
   return values;
 }
 
+std::vector<std::string> Hdf5Reader::names(const std::string& group) const {
+  if (!has(group)) {
+    throw FileError(file_ + ": has no " + group);
+  }
+  return guarded(file_, "list " + group, [&] {
+    const H5::Group members = h5_.openGroup(group);
+    std::vector<std::string> names;
+    for (hsize_t i = 0; i < members.getNumObjs(); ++i) {
+      names.push_back(members.getObjnameByIdx(i));
+    }
+    return names;
+  });
+}
+
 Hdf5Reader::Rows Hdf5Reader::rows(const std::string& path) const {
   const std::vector<hsize_t> extent = shape(path);
   const std::vector<double> values = doubles(path);

@@ -27,6 +27,8 @@ class Hdf5Reader {
   std::vector<double> doubles(const std::string& path) const;
   std::vector<std::int64_t> integers(const std::string& path) const;
   std::vector<std::string> texts(const std::string& path) const;
+  /// Names of what lies in a group, in order.
+  std::vector<std::string> names(const std::string& group) const;
   /// Rows as a matrix, rows x (product of the other extents).
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   Rows rows(const std::string& path) const;

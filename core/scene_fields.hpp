@@ -118,6 +118,7 @@ void expect_fields(Io& io, ExpectSettings& s) {
   io.number("head_drift", s.head_drift, not_negative());
   io.number("kkt", s.kkt, not_negative());
   io.number("force_balance", s.force_balance, not_negative());
+  io.number("forward_inverse", s.forward_inverse, not_negative());
   io.number("energy", s.energy, not_negative());
 }
 

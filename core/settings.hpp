@@ -128,7 +128,8 @@ struct ExpectSettings {
   double head_drift = 1e-6;           ///< largest at any step while clamped, cm
   double kkt = 1e-8;                  ///< largest scaled KKT residual of any step
   double force_balance = 1e-9;        ///< |H (q̇ - q̇*) - h Σ f| of its scale, every frame
-  double energy = 1e-6;               ///< imbalance of the ledger, of the energy that passed
+  double forward_inverse = 1e-8;  ///< q̇ that MuJoCo makes of the forces, over its largest entry
+  double energy = 1e-6;           ///< imbalance of the ledger, of the energy that passed
 };
 
 struct Scene {

@@ -10,6 +10,9 @@
 #include "core/knot.hpp"
 #include "core/log_writer.hpp"
 #include "core/simulation.hpp"
+#include "mujoco_ref/forward_inverse.hpp"
+#include "mujoco_ref/log_model.hpp"
+#include "mujoco_ref/mirror.hpp"
 
 namespace hagfish {
 namespace {
@@ -99,15 +102,21 @@ std::vector<Finding> constraints(const LogContents& log) {
                   "scaled, every step")};
 }
 
+/// All constraint forces of each frame, generalised.
+Hdf5Reader::Rows constraint_forces(const LogContents& log) {
+  Hdf5Reader::Rows sum = log.h5.rows("/forces/thigmotaxis");
+  for (const char* block : {"contact", "limit", "head", "wall"}) {
+    sum += log.h5.rows(std::string("/forces/") + block);
+  }
+  return sum;
+}
+
 /// |H (q̇_next - q̇*) - h Σ f| of each frame over its largest term, from the logged numbers alone.
 Finding force_balance(const LogContents& log) {
   const Scene& scene = log.resolved.scene;
   const Model& model = log.model;
   const double h = scene.time.step;
-  Hdf5Reader::Rows sum = log.h5.rows("/forces/thigmotaxis");
-  for (const char* block : {"contact", "limit", "head", "wall"}) {
-    sum += log.h5.rows(std::string("/forces/") + block);
-  }
+  const Hdf5Reader::Rows sum = constraint_forces(log);
   const Hdf5Reader::Rows tip = log.h5.rows("/forces/tip");
   double worst = 0;
   for (Eigen::Index f = 0; f < log.q.rows(); ++f) {
@@ -123,6 +132,33 @@ Finding force_balance(const LogContents& log) {
   }
   return bounded("force balance", worst, log.resolved.scene.expect.force_balance,
                  "of scale, H(q̇ - q̇*) - h Σ f recomputed at every frame");
+}
+
+/// Each frame's forces put back as applied forces in the log's own MuJoCo model, with its contacts
+/// and limits off: one step must end at the logged q̇. Drag is the core's, at the end of the step.
+Finding forward_inverse(const LogContents& log) {
+  const Model& model = log.model;
+  MujocoModel mirror = mujoco_model_of(log.h5);
+  const std::string difference =
+      first_difference(*mirror.model(), model, log.resolved.scene.time.step);
+  if (!difference.empty()) {
+    throw FileError(log.h5.file() + ": /mjcf is not the scene's model: " + difference);
+  }
+  use_core_rule(mirror);
+  const Hdf5Reader::Rows sum = constraint_forces(log);
+  const Hdf5Reader::Rows tip = log.h5.rows("/forces/tip");
+  double largest_error = 0;
+  for (Eigen::Index f = 0; f < log.q.rows(); ++f) {
+    const State state{log.q.row(f), log.qdot.row(f)};
+    const Eigen::VectorXd next = log.qdot_next.row(f);
+    const Kinematics kin = kinematics(model, state);
+    const Eigen::VectorXd force = sum.row(f).transpose() + drag_force(model, kin, next);
+    const Eigen::VectorXd driven = driven_velocity(model, state, force, tip.row(f), mirror);
+    const double off = largest((driven - next).array().abs().eval());
+    largest_error = worse(largest_error, off > 0 ? off / next.lpNorm<Eigen::Infinity>() : off);
+  }
+  return bounded("forward-inverse", largest_error, log.resolved.scene.expect.forward_inverse,
+                 "of q̇, MuJoCo's step under the logged forces at every frame");
 }
 
 /// f_thigmo at dofs of bodies tailward of the last contact's spline points.
@@ -207,65 +243,6 @@ std::vector<Finding> sliding(const LogContents& log) {
 
 }  // namespace
 
-LogContents::LogContents(const std::string& file) : h5(file) {
-  if (h5.root_text("format") != log_format) {
-    throw FileError(file + ": not a " + log_format + " file");
-  }
-  if (h5.root_int("format_version") != log_format_version) {
-    throw FileError(fmt::format("{}: format version {}, this program reads {}", file,
-                                h5.root_int("format_version"), log_format_version));
-  }
-  resolved = read_scene_text(h5.root_text("scene"), file + ": scene");
-  model = make_hagfish(resolved.specimen, resolved.scene);
-  time = h5.doubles("/trajectory/time");
-  phase = h5.integers("/trajectory/phase");
-  q = h5.rows("/trajectory/q");
-  qdot = h5.rows("/trajectory/qdot");
-  qdot_next = h5.rows("/trajectory/qdot_next");
-  if (time.empty()) {
-    throw FileError(file + ": holds no frames");
-  }
-  check_shapes();
-}
-
-void LogContents::check_shapes() const {
-  const hsize_t t = time.size();
-  const hsize_t n = model.body_count();
-  const hsize_t nq = model.nq();
-  const hsize_t nv = model.nv();
-  using Shape = std::vector<hsize_t>;
-  std::vector<std::pair<std::string, Shape>> wanted = {{"/trajectory/q", {t, nq}},
-                                                       {"/trajectory/qdot", {t, nv}},
-                                                       {"/trajectory/qdot_next", {t, nv}},
-                                                       {"/trajectory/position", {t, n, 3}},
-                                                       {"/trajectory/phase", {t}},
-                                                       {"/trajectory/step", {t}},
-                                                       {"/forces/tip", {t, 3}},
-                                                       {"/thigmotaxis/body_b", {t, 2}},
-                                                       {"/knot/determinant", {t}},
-                                                       {"/knot/v2", {t}},
-                                                       {"/knot/head_end", {t}},
-                                                       {"/knot/tail_end", {t}}};
-  for (const char* block : {"thigmotaxis", "contact", "limit", "head", "wall"}) {
-    wanted.push_back({std::string("/forces/") + block, {t, nv}});
-  }
-  for (const auto& [path, shape] : wanted) {
-    if (h5.shape(path) != shape) {
-      throw FileError(h5.file() + ": " + path + " does not have the shape of its model and frames");
-    }
-  }
-  for (const std::int64_t p : phase) {
-    if (p < 0 || p >= phase_count) {
-      throw FileError(fmt::format("{}: /trajectory/phase holds {}", h5.file(), p));
-    }
-  }
-  const std::vector<std::int64_t> step = h5.integers("/trajectory/step");
-  const auto steps = static_cast<std::int64_t>(h5.shape("/steps/eq6").at(0));
-  if (!std::is_sorted(step.begin(), step.end()) || step.back() - step.front() >= steps) {
-    throw FileError(h5.file() + ": /steps does not cover the frames");
-  }
-}
-
 std::vector<Finding> audit(const std::string& file) {
   const LogContents log(file);
   std::vector<Finding> findings{status(log)};
@@ -276,6 +253,7 @@ std::vector<Finding> audit(const std::string& file) {
   append(sliding(log));
   append(constraints(log));
   findings.push_back(force_balance(log));
+  findings.push_back(forward_inverse(log));
   findings.push_back(thigmotaxis_extent(log));
   findings.push_back(energy(log));
   return findings;

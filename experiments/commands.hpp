@@ -19,9 +19,45 @@ struct RunOptions {
   std::string command;  ///< as typed, for the log
 };
 
+struct MjcfOptions {
+  std::string scene = default_scene;
+  std::string out;               ///< folder to write to, made where it is missing
+  std::vector<std::string> set;  ///< KEY=VALUE overrides
+  bool clamp = false;            ///< weld the head to the world
+  bool force = false;            ///< replace existing files
+};
+
+struct CompareOptions {
+  std::string scene = default_scene;
+  std::string out;               ///< HDF5 file for the figure; none where empty
+  std::vector<std::string> set;  ///< KEY=VALUE overrides
+  std::string command;           ///< as typed, for that file
+};
+
+struct PictureOptions {
+  std::string log;
+  std::string out;            ///< PNG to write; numbered where there are several times
+  std::vector<double> times;  ///< s; the last frame where empty
+  double pitch = -70;         ///< of the view, degrees; see view_of in picture.hpp
+  double yaw = 22;            ///< degrees
+};
+
+struct PlaybackOptions {
+  std::string log;      ///< of every step
+  std::string out;      ///< HDF5 file for the figure
+  std::string command;  ///< as typed, for that file
+};
+
 int run(const RunOptions& options);
+int mjcf(const MjcfOptions& options);
+/// Exit code 1 where a difference is beyond its bound.
+int compare(const CompareOptions& options);
+/// The slide of a log in MuJoCo under f_thigmo alone.
+int playback(const PlaybackOptions& options);
 int list_scenes();
 int info(const std::string& file);
 int check(const std::string& file);
+/// Prints a table: for each picture its file, time, lower left corner and scale.
+int picture(const PictureOptions& options);
 
 }  // namespace hagfish

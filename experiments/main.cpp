@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <cstdlib>
+#include <memory>
 
 #include "core/build_info.hpp"
 #include "core/hdf5_error.hpp"
@@ -24,37 +25,99 @@ std::string joined(int argc, char** argv) {
   return text;
 }
 
+constexpr const char* scene_help = "a built-in scene (see `scenes`) or a TOML file";
+constexpr const char* set_help = "override a scene's key: KEY=VALUE, repeatable";
+
+// Each command's options live as long as its callback, which keeps them. `typed` is the command
+// line, for files that tell how they were made; `code` becomes the exit code.
+
+void add_run(CLI::App& app, const std::string& typed, int& code) {
+  const auto options = std::make_shared<hagfish::RunOptions>();
+  options->command = typed;
+  CLI::App* run = app.add_subcommand("run", "run a scene and write its log");
+  run->add_option("SCENE", options->scene, scene_help)->capture_default_str();
+  run->add_option("--out", options->out, "log to write (SCENE.h5)");
+  run->add_option("--qp", options->qp, "QP back end")
+      ->check(CLI::IsMember(hagfish::box_qp_solver_names()))
+      ->capture_default_str();
+  run->add_option("--set", options->set, set_help)->allow_extra_args(false);
+  run->add_flag("--force", options->force, "replace an existing log");
+  run->add_flag("--quiet", options->quiet, "no progress");
+  run->callback([options, &code] { code = hagfish::run(*options); });
+}
+
+void add_log_readers(CLI::App& app, int& code) {
+  const auto file = std::make_shared<std::string>();
+  CLI::App* info = app.add_subcommand("info", "say what a log holds");
+  info->add_option("LOG", *file, "log file")->required();
+  info->callback([file, &code] { code = hagfish::info(*file); });
+  CLI::App* check = app.add_subcommand("check", "audit a log; exits 1 naming what fails");
+  check->add_option("LOG", *file, "log file")->required();
+  check->callback([file, &code] { code = hagfish::check(*file); });
+}
+
+void add_picture(CLI::App& app, int& code) {
+  const auto options = std::make_shared<hagfish::PictureOptions>();
+  CLI::App* picture = app.add_subcommand("picture", "draw frames of a log as PNG");
+  picture->add_option("LOG", options->log, "log file")->required();
+  picture->add_option("--out", options->out, "PNG to write; F_1.png, ... for several times")
+      ->required();
+  picture->add_option("--time", options->times, "s, repeatable (the last frame)")
+      ->allow_extra_args(false);
+  picture->add_option("--pitch", options->pitch, "turn of the view about X, degrees")
+      ->capture_default_str();
+  picture->add_option("--yaw", options->yaw, "turn of the view about its vertical, degrees")
+      ->capture_default_str();
+  picture->callback([options, &code] { code = hagfish::picture(*options); });
+}
+
+void add_mjcf(CLI::App& app, int& code) {
+  const auto options = std::make_shared<hagfish::MjcfOptions>();
+  CLI::App* mjcf = app.add_subcommand("mjcf", "write a scene's animal as MJCF, for MuJoCo");
+  mjcf->add_option("SCENE", options->scene, scene_help)->capture_default_str();
+  mjcf->add_option("--out", options->out, "folder to write to")->required();
+  mjcf->add_option("--set", options->set, set_help)->allow_extra_args(false);
+  mjcf->add_flag("--clamp", options->clamp, "weld the head to the world");
+  mjcf->add_flag("--force", options->force, "replace existing files");
+  mjcf->callback([options, &code] { code = hagfish::mjcf(*options); });
+}
+
+void add_compare(CLI::App& app, const std::string& typed, int& code) {
+  const auto options = std::make_shared<hagfish::CompareOptions>();
+  options->command = typed;
+  CLI::App* compare = app.add_subcommand(
+      "compare", "hold the simulator against MuJoCo; exits 1 where a bound is passed");
+  compare->add_option("SCENE", options->scene, scene_help)->capture_default_str();
+  compare->add_option("--out", options->out, "HDF5 file to write, for the figure");
+  compare->add_option("--set", options->set, set_help)->allow_extra_args(false);
+  compare->callback([options, &code] { code = hagfish::compare(*options); });
+}
+
+void add_playback(CLI::App& app, const std::string& typed, int& code) {
+  const auto options = std::make_shared<hagfish::PlaybackOptions>();
+  options->command = typed;
+  CLI::App* playback = app.add_subcommand(
+      "playback", "slide a log's knot in MuJoCo, with its own contacts, by f_thigmo alone");
+  playback->add_option("LOG", options->log, "log of every step")->required();
+  playback->add_option("--out", options->out, "HDF5 file to write")->required();
+  playback->callback([options, &code] { code = hagfish::playback(*options); });
+}
+
 int dispatch(int argc, char** argv) {
   CLI::App app{"A hagfish that ties itself into a knot and slides it to its head."};
   app.set_version_flag("--version", hagfish::build_version() + " " + hagfish::build_revision());
   app.require_subcommand(1);
+  const std::string typed = joined(argc, argv);
   int code = 0;
-
-  hagfish::RunOptions options;
-  options.command = joined(argc, argv);
-  CLI::App* run = app.add_subcommand("run", "run a scene and write its log");
-  run->add_option("SCENE", options.scene, "a built-in scene (see `scenes`) or a TOML file")
-      ->capture_default_str();
-  run->add_option("--out", options.out, "log to write (SCENE.h5)");
-  run->add_option("--qp", options.qp, "QP back end")
-      ->check(CLI::IsMember(hagfish::box_qp_solver_names()))
-      ->capture_default_str();
-  run->add_option("--set", options.set, "override a scene's key: KEY=VALUE, repeatable")
-      ->allow_extra_args(false);
-  run->add_flag("--force", options.force, "replace an existing log");
-  run->add_flag("--quiet", options.quiet, "no progress");
-  run->callback([&] { code = hagfish::run(options); });
-
-  app.add_subcommand("scenes", "list the built-in scenes")->callback([&] {
+  add_run(app, typed, code);
+  app.add_subcommand("scenes", "list the built-in scenes")->callback([&code] {
     code = hagfish::list_scenes();
   });
-  std::string file;
-  CLI::App* info = app.add_subcommand("info", "say what a log holds");
-  info->add_option("LOG", file, "log file")->required();
-  info->callback([&] { code = hagfish::info(file); });
-  CLI::App* check = app.add_subcommand("check", "audit a log; exits 1 naming what fails");
-  check->add_option("LOG", file, "log file")->required();
-  check->callback([&] { code = hagfish::check(file); });
+  add_log_readers(app, code);
+  add_picture(app, code);
+  add_mjcf(app, code);
+  add_compare(app, typed, code);
+  add_playback(app, typed, code);
 
   try {
     app.parse(argc, argv);

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
@@ -9,9 +8,9 @@
 #include "core/builtin_files.hpp"
 #include "core/hdf5_error.hpp"
 #include "core/log_writer.hpp"
-#include "core/scene_reader.hpp"
 #include "experiments/commands.hpp"
 #include "experiments/progress.hpp"
+#include "experiments/scene_argument.hpp"
 #include "mujoco_ref/mjcf.hpp"
 
 namespace hagfish {
@@ -22,18 +21,6 @@ namespace fs = std::filesystem;
 // A signal handler can reach nothing else.
 volatile std::sig_atomic_t interrupted = 0;
 void interrupt(int /*signal*/) { interrupted = 1; }
-
-ResolvedScene load_scene(const RunOptions& options) {
-  const std::vector<std::string_view> names = builtin_scene_names();
-  if (std::find(names.begin(), names.end(), options.scene) != names.end()) {
-    const auto text = builtin_file(options.scene + ".toml");
-    return read_scene_text(std::string(*text), options.scene + " (built in)", options.set);
-  }
-  if (fs::path(options.scene).extension() != ".toml") {
-    throw InputError(options.scene + ": no built-in scene of that name (see `hagfish scenes`)");
-  }
-  return read_scene(options.scene, options.set);
-}
 
 /// Steps until the scene is over; returns the log's status.
 std::string take_steps(const Model& model, const Scene& scene, BoxQpSolver& solver, LogWriter& log,
@@ -60,7 +47,7 @@ std::string take_steps(const Model& model, const Scene& scene, BoxQpSolver& solv
 }  // namespace
 
 int run(const RunOptions& options) {
-  const ResolvedScene resolved = load_scene(options);
+  const ResolvedScene resolved = scene_argument(options.scene, options.set);
   const Scene& scene = resolved.scene;
   const Model model = make_hagfish(resolved.specimen, scene);
   const auto solver = make_box_qp_solver(options.qp);

@@ -23,7 +23,7 @@ if ((failed > 1)); then exit "$failed"; fi
 # Debian's python3 is the one that has h5py and matplotlib.
 draw() { /usr/bin/python3 "$root/experiments/figures/$1" "${@:2}"; }
 echo "Drawing Figure 7"
-draw figure7.py "$out/table1.h5" "$out/figure7.png"
+draw figure7.py "$out/table1.h5" "$hagfish" "$out/figure7.png"
 echo "Drawing Figure 8"
 draw figure8.py "$out/table1.h5" "$out/figure8.png" "$out/claims.png" >"$out/claims.txt"
 draw summary.py "$out/table1.h5" "$out/summary.md"

@@ -41,13 +41,13 @@ void write_hinge(std::ostream& out, const Hinge& hinge, const std::string& name)
 }
 
 /// Everything in the element of body `b` but the body that hangs on it, and not its end.
-void open_body(std::ostream& out, const Model& model, int b, const JointName& names) {
+void open_body(std::ostream& out, const Model& model, int b, const JointName& names, Head head) {
   const Body& body = model.bodies[b];
   const double joint = b == 0 ? 0 : model.bodies[b - 1].length;
   out << "<body name=\"" << body_name(b) << "\" pos=\"" << joint << " 0 0\">\n";
-  if (b == 0) {
+  if (b == 0 && head == Head::free) {
     out << "<freejoint name=\"" << names.joint << "\"/>\n";
-  } else {
+  } else if (b > 0) {
     for (int k = 0; k < body.dofs; ++k) {
       write_hinge(out, model.hinges[body.first_dof - root_dofs + k], names.dofs[k]);
     }
@@ -61,12 +61,13 @@ void open_body(std::ostream& out, const Model& model, int b, const JointName& na
 }
 
 /// The bodies from `first` on, nested, as far as one file goes; the rest is included.
-std::string bodies_file(const Model& model, const std::vector<JointName>& names, int first) {
+std::string bodies_file(const Model& model, const std::vector<JointName>& names, int first,
+                        Head head) {
   std::ostringstream out = number_stream();
   const int end = std::min(first + bodies_per_file, model.body_count());
   out << "<mujocoinclude>\n";
   for (int b = first; b < end; ++b) {
-    open_body(out, model, b, names[b]);
+    open_body(out, model, b, names[b], head);
   }
   if (end < model.body_count()) {
     out << "<include file=\"" << bodies_file_name(end) << "\"/>\n";
@@ -119,12 +120,13 @@ std::string root_file(const Model& model, double least_arc, double h) {
 
 }  // namespace
 
-std::map<std::string, std::string> mjcf_files(const Model& model, double least_arc, double h) {
+std::map<std::string, std::string> mjcf_files(const Model& model, double least_arc, double h,
+                                              Head head) {
   const std::vector<JointName> names = joint_names(model);
   std::map<std::string, std::string> files;
   files[mjcf_root_file] = root_file(model, least_arc, h);
   for (int first = 0; first < model.body_count(); first += bodies_per_file) {
-    files[bodies_file_name(first)] = bodies_file(model, names, first);
+    files[bodies_file_name(first)] = bodies_file(model, names, first, head);
   }
   return files;
 }

@@ -3,7 +3,7 @@
 // Positions and velocities have the layout of core/state.hpp, so a log replays as it is. What the
 // two simulators share: bodies with their inertias, joints with limits, stiffness and damping, the
 // skin as frictionless capsules, and gravity. What is left out: water drag, which MuJoCo knows only
-// in other forms, and all that belongs to a scene: head clamp, head plate, script, controller.
+// in other forms, and all that belongs to a scene: head plate, script, controller.
 #pragma once
 
 #include <map>
@@ -16,6 +16,10 @@ namespace hagfish {
 /// Name of the root document among the files of one model.
 inline constexpr const char* mjcf_root_file = "hagfish.xml";
 
+/// How the head hangs on the world. A clamped head is part of it, at the origin along +X: MuJoCo's
+/// q and q̇ are then the core's without the root's 7 and 6 entries.
+enum class Head { free, clamped };
+
 /// Texts by file name of `model` with the timestep `h` (s): the root document and the files it
 /// includes, 11 in all for 400 bodies. Units are cm, g, s, rad; numbers read back to the last bit.
 ///
@@ -23,6 +27,7 @@ inline constexpr const char* mjcf_root_file = "hagfish.xml";
 /// "root". A body of radius 0 has no geom. Capsules with less body than `least_arc` between them
 /// (cm; ContactSettings::least_arc) never touch, as in core/contact.cpp.
 /// MuJoCo rejects a limited hinge whose lower limit is not below its upper one.
-std::map<std::string, std::string> mjcf_files(const Model& model, double least_arc, double h);
+std::map<std::string, std::string> mjcf_files(const Model& model, double least_arc, double h,
+                                              Head head = Head::free);
 
 }  // namespace hagfish

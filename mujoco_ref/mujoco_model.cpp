@@ -69,6 +69,8 @@ mjModel* load(const mjVFS* vfs, const std::string& file, std::string& message) {
 }  // namespace
 
 MujocoModel::MujocoModel(const Files& files) {
+  // Each warning is counted in mjData; MuJoCo's own handler writes a file into the working folder.
+  mju_user_warning = [](const char*) {};
   const FileSystem vfs = file_system(files);
   std::string message;
   model_.reset(load(vfs.get(), mjcf_root_file, message));

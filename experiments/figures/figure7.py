@@ -1,10 +1,14 @@
 """Figure 7: the run in at least eight pictures, from the straight animal to the freed one.
 
-All panels share one camera and one scale. Usage: figure7.py LOG.h5 OUT.png (writes OUT.pdf beside).
+All panels share one camera and one scale. `hagfish picture` draws the animal.
+Usage: figure7.py LOG.h5 HAGFISH OUT.png, where HAGFISH is the program (writes OUT.pdf beside).
 """
 
 from __future__ import annotations
 
+import csv
+import subprocess
+import tempfile
 from dataclasses import dataclass
 from itertools import combinations
 from pathlib import Path
@@ -15,8 +19,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-from hagfish_log import HagfishLog, run_script, save_figure
-from skin import Camera, camera, draw, make_skin
+from hagfish_log import HagfishLog, LogError, run_script, save_figure
 
 WIDTH = 7.2  # of the figure, inches: a full page width
 DPI = 400
@@ -32,6 +35,54 @@ WORDS = {"form": "knot forming", "tighten": "tightening", "slide": "sliding", "r
 class Stage:
     frame: int
     title: str  # empty for a filler, which has none but its phase
+
+
+@dataclass
+class Camera:
+    """A view along -Z with +X to the right, turned about X by `pitch` and then about the picture's
+    vertical by `yaw` (degrees), as `hagfish picture` takes it."""
+
+    pitch: float
+    yaw: float
+
+    def plane(self) -> np.ndarray:
+        """World to the picture plane (3 x 2: right, up)."""
+        p, y = np.radians([self.pitch, self.yaw])
+        up = np.array([0.0, np.cos(p), -np.sin(p)])
+        toward = np.array([np.sin(y), np.cos(y) * np.sin(p), np.cos(y) * np.cos(p)])
+        return np.stack([np.cross(up, toward), up], axis=1)
+
+
+@dataclass
+class Picture:
+    """One frame in the picture plane; all have one scale."""
+
+    pixels: np.ndarray  # rows from the top
+    left: float  # cm, as all that follow
+    right: float
+    bottom: float
+    top: float
+
+
+def take_pictures(log: HagfishLog, hagfish: Path, frames: list[int], view: Camera) -> list[Picture]:
+    """The animal and the head plate at `frames`, drawn by `hagfish picture`."""
+    if not hagfish.is_file():
+        raise LogError(f"{hagfish}: no such program")
+    with tempfile.TemporaryDirectory() as folder:
+        command = [hagfish.absolute(), "picture", log.path, "--out", f"{folder}/stage.png",
+                   f"--pitch={view.pitch}", f"--yaw={view.yaw}"]
+        for frame in frames:
+            command.append(f"--time={float(log['/trajectory/time'][frame])!r}")
+        done = subprocess.run(command, capture_output=True, text=True)
+        if done.returncode != 0:
+            raise LogError(done.stderr.strip() or f"{hagfish}: ended with code {done.returncode}")
+        pictures = []
+        for row in csv.DictReader(done.stdout.splitlines(), delimiter="\t"):
+            pixels, size = plt.imread(row["file"]), float(row["cm_per_pixel"])
+            left, bottom = float(row["left_cm"]), float(row["bottom_cm"])
+            height, width = pixels.shape[:2]
+            pictures.append(Picture(pixels, left, left + size * width, bottom, bottom + size * height))
+        return pictures
 
 
 def plan_crossings(centre: np.ndarray) -> int:
@@ -101,12 +152,12 @@ def choose_camera(log: HagfishLog, stages: list[Stage]) -> Camera:
     """The view in which the knotted stages hide least of themselves: largest covered area."""
     knotted = [s.frame for s in stages if log["/knot/determinant"][s.frame] != 1] or [stages[-1].frame]
     radius, cell = log["/model/radius"], 0.25
-    best, best_area = camera(20.0, 18.0), -1.0
+    best, best_area = Camera(20.0, 18.0), -1.0
     for pitch in range(-180, 180, 10):
         for yaw in (14.0, 22.0):  # enough to show the plate's front, too little to shorten the animal
-            view, area = camera(pitch, yaw), 0.0
+            view, area = Camera(float(pitch), yaw), 0.0
             for frame in knotted:
-                flat = log["/trajectory/position"][frame] @ view.axes().T[:, :2]
+                flat = log["/trajectory/position"][frame] @ view.plane()
                 low = flat.min(axis=0) - 1.0
                 columns, rows = (np.arange(low[i], flat[:, i].max() + 1.0, cell) for i in range(2))
                 covered = np.zeros((len(rows), len(columns)), dtype=bool)
@@ -137,22 +188,17 @@ def caption(log: HagfishLog, letter: str, stage: Stage) -> str:
     return text + (f"\nknot spans {ends[0]:.1f} to {ends[1]:.1f} cm" if knotted else "\nno knot")
 
 
-def main(log: HagfishLog, out: Path) -> None:
+def main(log: HagfishLog, hagfish: Path, out: Path) -> None:
     stages = choose_stages(log)
-    view = choose_camera(log, stages)
-    clamped = set(np.flatnonzero(np.isin(log.labels("/trajectory/phase"), ("form", "tighten", "slide"))))
-    skins = [make_skin(log, stage.frame, view.up) for stage in stages]
-    flat = [skin.centre @ view.axes().T[:, :2] for skin in skins]
-    plate = np.array([[0.0, y, z] for y in (-2.6, 2.6) for z in (-2.6, 2.6)]) @ view.axes().T[:, :2]
-    both = [np.vstack([f - 0.9, f + 0.9, plate]) for f in flat]
-    left = np.array([b[:, 0].min() - GAP for b in both])
-    right = np.maximum([b[:, 0].max() + GAP for b in both], left + LEAST_WIDTH)
+    pictures = take_pictures(log, hagfish, [stage.frame for stage in stages], choose_camera(log, stages))
+    left = np.array([p.left - GAP for p in pictures])
+    right = np.maximum([p.right + GAP for p in pictures], left + LEAST_WIDTH)
     rows = rows_of(list(right - left), count=3)
     across = max(sum(right[i] - left[i] for i in row) for row in rows)
     per_cm = WIDTH / across  # inches
     text = 0.50  # below each row, inches
-    low = [min(both[i][:, 1].min() for i in row) - GAP / 2 for row in rows]
-    high = [max(both[i][:, 1].max() for i in row) + GAP / 2 for row in rows]
+    low = [min(pictures[i].bottom for i in row) - GAP / 2 for row in rows]
+    high = [max(pictures[i].top for i in row) + GAP / 2 for row in rows]
     tall = sum((h - l) * per_cm + text for l, h in zip(low, high)) + 0.28
     figure = plt.figure(figsize=(WIDTH, tall))
     top = tall
@@ -161,11 +207,11 @@ def main(log: HagfishLog, out: Path) -> None:
         x, height = 0.0, (upper - bottom) * per_cm
         for i in row:
             width = right[i] - left[i] + spare
-            picture = draw(skins[i], view, np.array([left[i], bottom]), np.array([width, upper - bottom]),
-                           per_cm * DPI, stages[i].frame in clamped)
             box = [x * per_cm / WIDTH, (top - height) / tall, width * per_cm / WIDTH, height / tall]
             axes = figure.add_axes(box)
-            axes.imshow(picture, origin="lower", aspect="auto", extent=(0, width, 0, upper - bottom))
+            p = pictures[i]
+            axes.imshow(p.pixels, extent=(p.left - left[i], p.right - left[i], p.bottom - bottom, p.top - bottom))
+            axes.set(xlim=(0, width), ylim=(0, upper - bottom), aspect="auto")
             axes.axis("off")
             axes.text(0.35, -0.3, caption(log, "abcdefghijklmnop"[i], stages[i]), fontsize=7, va="top",
                       linespacing=1.25, clip_on=False)
@@ -180,4 +226,4 @@ def main(log: HagfishLog, out: Path) -> None:
 
 
 if __name__ == "__main__":
-    run_script(__doc__, ["OUT.png"], main)
+    run_script(__doc__, ["HAGFISH", "OUT.png"], main)

@@ -109,19 +109,42 @@ class HagfishLog:
         return index, joint, kind
 
 
-def run_script(description: str, outputs: list[str], work: Callable[..., None]) -> None:
-    """Runs `work(log, output path, ...)` on the command line `LOG.h5 outputs...`."""
+class Results:
+    """An HDF5 file of a study (`hagfish compare`, `hagfish playback`): `results["/time"]` is an array."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        if not path.is_file():
+            raise LogError(f"{path}: no such file")
+        try:
+            self._file = h5py.File(path, "r")
+        except OSError as error:
+            raise LogError(f"{path}: not a readable HDF5 file ({error})") from None
+
+    def __getitem__(self, path: str) -> np.ndarray:
+        found = self._file.get(path)
+        if not isinstance(found, h5py.Dataset):
+            raise LogError(f"{self.path}: no dataset {path}")
+        return found[()]
+
+    def attribute(self, path: str, name: str) -> str:
+        """A text attribute of a dataset."""
+        return str(self._file[path].attrs[name])
+
+
+def run_script(description: str, files: list[str], work: Callable[..., None], reader: type = HagfishLog) -> None:
+    """Runs `work(reader(log), file, ...)` on the command line `LOG.h5 files...`, each with the suffix of its name."""
     parser = argparse.ArgumentParser(description=description)
     parser.add_argument("log", metavar="LOG.h5", type=Path)
-    for name in outputs:
+    for name in files:
         parser.add_argument(name, metavar=name, type=Path)
     arguments = vars(parser.parse_args())
-    for name in outputs:
+    for name in files:
         if arguments[name].suffix != Path(name).suffix:
             parser.error(f"{arguments[name]}: {name} must end in {Path(name).suffix}")
     path = arguments.pop("log")
     try:
-        work(HagfishLog(path), *arguments.values())
+        work(reader(path), *arguments.values())
     except LogError as error:
         sys.exit(_fail(str(error)))
     except OSError as error:

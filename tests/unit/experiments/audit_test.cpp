@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "core/log_writer.hpp"
+#include "mujoco_ref/mjcf.hpp"
 #include "tests/support/stored_states.hpp"
 
 namespace hagfish {
@@ -23,6 +24,7 @@ class AuditTest : public testing::Test {
     const Model model = make_hagfish(resolved.specimen, scene);
     LogHeader header;
     header.scene = scene_to_toml(scene, resolved.specimen);
+    header.mjcf = mjcf_files(model, scene.contact.least_arc, scene.time.step);
     LogWriter log(file, true, header, model, scene);
     const auto solver = make_box_qp_solver("ipopt");
     Simulation sim = resume(model, scene, stored_states().at(3));
@@ -70,6 +72,49 @@ TEST_F(AuditTest, PassesAnHonestLog) {
 TEST_F(AuditTest, SeesAForceThatWasChanged) {
   tamper("/forces/thigmotaxis", 60, 1e-3);
   EXPECT_FALSE(passes("force balance"));
+}
+
+// Each is a thousandth of the force that slides the knot, or less.
+TEST_F(AuditTest, MujocoMissesAForceThatWasChanged) {
+  EXPECT_TRUE(passes("forward-inverse"));
+  for (const char* block : {"thigmotaxis", "contact", "limit", "head"}) {
+    const std::string path = std::string("/forces/") + block;
+    tamper(path, 60, 0.1);
+    EXPECT_FALSE(passes("forward-inverse")) << block;
+    tamper(path, 60, -0.1);
+  }
+  tamper("/forces/tip", 0, 0.1);
+  EXPECT_FALSE(passes("forward-inverse"));
+}
+
+TEST_F(AuditTest, RefusesAModelThatIsNotTheScenes) {
+  const auto refusal = [this] {
+    try {
+      audit(file);
+    } catch (const FileError& error) {
+      return std::string(error.what());
+    }
+    return std::string("none");
+  };
+  tamper("/model/mass", 17, 0.25);
+  EXPECT_EQ(refusal().rfind(file.string() + ": /model/mass of body 17 is ", 0), 0u) << refusal();
+  tamper("/model/mass", 17, -0.25);
+  tamper("/model/limit_upper", root_dofs + 4, 0.25);
+  EXPECT_NE(refusal().find("/model/limit_upper of hinge 4 is "), std::string::npos) << refusal();
+  tamper("/model/limit_upper", root_dofs + 4, -0.25);
+
+  Scene damped = stored_scene().scene;
+  damped.model.bending_damping = 1;
+  H5::H5File h5(file.string(), H5F_ACC_RDWR);
+  const H5::StrType text(H5::PredType::C_S1, H5T_VARIABLE);
+  const Model other = make_hagfish(stored_scene().specimen, damped);
+  for (const auto& [name, content] : mjcf_files(other, damped.contact.least_arc, 0.002)) {
+    h5.openDataSet("/mjcf/" + name).write(content, text);
+  }
+  h5.close();
+  EXPECT_NE(refusal().find("/mjcf is not the scene's model: damping of j01_bend_y"),
+            std::string::npos)
+      << refusal();
 }
 
 TEST_F(AuditTest, SeesAForceBehindTheKnot) {

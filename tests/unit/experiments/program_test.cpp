@@ -71,6 +71,66 @@ TEST_F(ProgramTest, RunsInfoAndCheck) {
   EXPECT_NE(check.output.find("ok   force balance"), std::string::npos) << check.output;
 }
 
+TEST_F(ProgramTest, PictureDrawsTheFramesAsked) {
+  // Frames at 0, 0.02 and 0.04 s.
+  ASSERT_EQ(hagfish("run --quiet --set time.duration=0.05 --out a.h5").code, 0);
+  const Outcome one = hagfish("picture a.h5 --out one.png");
+  EXPECT_EQ(one.code, 0) << one.output;
+  EXPECT_NE(one.output.find("file\ttime_s\tleft_cm\tbottom_cm\tcm_per_pixel\none.png\t0.04\t"),
+            std::string::npos)
+      << one.output;
+  EXPECT_GT(fs::file_size(folder / "one.png"), 0u);
+  const Outcome two = hagfish("picture a.h5 --out two.png --time 0.001 --time 0.019");
+  EXPECT_EQ(two.code, 0) << two.output;
+  EXPECT_NE(two.output.find("\ntwo_1.png\t0\t"), std::string::npos) << two.output;
+  EXPECT_NE(two.output.find("\ntwo_2.png\t0.02\t"), std::string::npos) << two.output;
+  EXPECT_TRUE(fs::exists(folder / "two_1.png") && fs::exists(folder / "two_2.png"));
+}
+
+TEST_F(ProgramTest, PictureRefusesBadInputInOneLine) {
+  ASSERT_EQ(hagfish(brief + "--out a.h5").code, 0);
+  fs::rename(folder / "a.h5", folder / "a.log");  // expect_refused looks for logs left behind
+  expect_refused("picture missing.log --out a.png", {"missing.log", "no such file"});
+  expect_refused("picture a.log --out a.png --time 0.5", {"a.log", "--time 0.5", "0 to 0 s"});
+  expect_refused("picture a.log --out a.png --time -1", {"a.log", "--time -1"});
+  expect_refused("picture a.log --out a.png --time nan", {"a.log", "--time nan"});
+  expect_refused("picture a.log --out a.png --pitch inf", {"--pitch", "inf"});
+  expect_refused("picture a.log --out a.jpg", {"a.jpg", "--out", ".png"});
+  expect_refused("picture a.log", {"--out"});
+  expect_refused("picture a.log --out /no/such/folder/a.png", {"/no/such/folder/a.png", "No such"});
+  fs::create_directory(folder / "folder.png");
+  expect_refused("picture a.log --out folder.png", {"folder.png", "directory"});
+  EXPECT_FALSE(fs::exists(folder / "a.png"));
+}
+
+TEST_F(ProgramTest, WritesMjcf) {
+  const std::string write = "mjcf --set model.bodies=100 --out model ";
+  EXPECT_EQ(hagfish(write).code, 0);
+  EXPECT_TRUE(fs::exists(folder / "model/hagfish.xml"));
+  EXPECT_TRUE(fs::exists(folder / "model/hagfish_bodies_80.xml"));
+  expect_refused(write, {"model/hagfish.xml", "--force"});
+  EXPECT_EQ(hagfish(write + "--force --clamp").code, 0);
+  expect_refused("mjcf nosuch --out model", {"nosuch"});
+  std::ofstream(folder / "file") << "in the way";
+  expect_refused("mjcf --out file/model", {"file/model"});
+}
+
+TEST_F(ProgramTest, ComparesWithMujoco) {
+  const Outcome compare = hagfish("compare --set model.bodies=3 --out compare.h5");
+  EXPECT_EQ(compare.code, 0) << compare.output;
+  EXPECT_NE(compare.output.find("acceleration"), std::string::npos) << compare.output;
+  EXPECT_EQ(compare.output.find("FAIL"), std::string::npos) << compare.output;
+  EXPECT_TRUE(fs::exists(folder / "compare.h5"));
+  fs::remove(folder / "compare.h5");
+  expect_refused("compare --set model.bodies=1", {"model.bodies"});
+}
+
+TEST_F(ProgramTest, PlaybackRefusesALogWithoutASlide) {
+  EXPECT_EQ(hagfish(brief + "--out a.log").code, 0);
+  expect_refused("playback a.log --out p.h5", {"a.log", "does not slide"});
+  expect_refused("playback none.log --out p.h5", {"none.log", "no such file"});
+}
+
 TEST_F(ProgramTest, ListsTheScenes) {
   const Outcome scenes = hagfish("scenes");
   EXPECT_EQ(scenes.code, 0);

@@ -1,0 +1,19 @@
+// Forces put back: what MuJoCo makes of the forces that the core says it used.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "core/model.hpp"
+#include "core/state.hpp"
+#include "mujoco_ref/mujoco_model.hpp"
+
+namespace hagfish {
+
+/// q̇ (nv) after one step of MuJoCo from `state` under the generalised force `force` (nv; dyn,
+/// dyn cm) and the force `tip` (dyn, world) on the last body's centre, beside the springs, dampers
+/// and gravity of the mirror itself. `mirror` has a free head and the core's rule (mirror.hpp).
+Eigen::VectorXd driven_velocity(const Model& model, const State& state,
+                                const Eigen::VectorXd& force, const Eigen::Vector3d& tip,
+                                MujocoModel& mirror);
+
+}  // namespace hagfish

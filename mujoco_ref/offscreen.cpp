@@ -1,0 +1,261 @@
+#include "mujoco_ref/offscreen.hpp"
+
+// Without X11, whose macros would follow.
+#define EGL_NO_X11
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
+#include <fmt/format.h>
+#include <png.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "core/hdf5_error.hpp"
+
+namespace hagfish {
+namespace {
+
+using Eigen::Vector3d;
+
+// px; MuJoCo ends the program where OpenGL refuses the buffer, which software does beyond 16384.
+constexpr int largest_side = 8192;
+constexpr double lens = 50;    // distance of the camera, in extents of the model
+constexpr double reach = 1.5;  // of the clipping planes to either side of the middle, likewise
+
+[[noreturn]] void fail(const std::string& step, const std::string& reason) {
+  throw std::runtime_error(fmt::format("no off-screen OpenGL: {}: {}", step, reason));
+}
+
+void check_egl(bool done, const std::string& step) {
+  if (!done) fail(step, fmt::format("EGL error {:#x}", eglGetError()));
+}
+
+/// An OpenGL context without any surface, current while it lives.
+class EglContext {
+ public:
+  EglContext() {
+    display_ = eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+    check_egl(display_ != EGL_NO_DISPLAY, "eglGetPlatformDisplay (surfaceless)");
+    check_egl(eglInitialize(display_, nullptr, nullptr) == EGL_TRUE, "eglInitialize");
+    check_egl(eglBindAPI(EGL_OPENGL_API) == EGL_TRUE, "eglBindAPI");
+    const EGLint wanted[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT,
+                             EGL_NONE};
+    EGLConfig config = nullptr;
+    EGLint found = 0;
+    check_egl(eglChooseConfig(display_, wanted, &config, 1, &found) == EGL_TRUE, "eglChooseConfig");
+    if (found == 0) fail("eglChooseConfig", "no configuration has OpenGL");
+    context_ = eglCreateContext(display_, config, EGL_NO_CONTEXT, nullptr);
+    check_egl(context_ != EGL_NO_CONTEXT, "eglCreateContext");
+    if (eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) != EGL_TRUE) {
+      const EGLint error = eglGetError();
+      eglDestroyContext(display_, context_);
+      fail("eglMakeCurrent", fmt::format("EGL error {:#x}", error));
+    }
+  }
+  // The display stays: it is the process's, and to end it would end whatever else uses it.
+  ~EglContext() {
+    eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    eglDestroyContext(display_, context_);
+  }
+  EglContext(const EglContext&) = delete;
+  EglContext& operator=(const EglContext&) = delete;
+
+ private:
+  EGLDisplay display_ = EGL_NO_DISPLAY;
+  EGLContext context_ = EGL_NO_CONTEXT;
+};
+
+struct DeleteModel {
+  void operator()(mjModel* model) const { mj_deleteModel(model); }
+};
+using ModelCopy = std::unique_ptr<mjModel, DeleteModel>;
+
+/// `model` with the settings of the renderer.
+ModelCopy with_settings(const mjModel& model, int width, int height) {
+  if (width > largest_side || height > largest_side) {
+    throw std::runtime_error(fmt::format("picture of {} x {} px: more than {} px on a side", width,
+                                         height, largest_side));
+  }
+  ModelCopy copy(mj_copyModel(nullptr, &model));
+  if (!copy) fail("mj_copyModel", "out of memory");
+  mjVisual& visual = copy->vis;
+  visual.global.offwidth = width;
+  visual.global.offheight = height;
+  visual.quality.offsamples = 4;  // all that Mesa's software renderer has
+  // A silhouette of 32 corners is within 0.5 % of the radius.
+  visual.quality.numslices = 32;
+  visual.quality.numstacks = 12;
+  visual.quality.shadowsize = 4096;
+  // The shadow map is a square about what is shown, to this many extents either side: enough for
+  // the straight animal with the head plate, and no texel wasted.
+  visual.map.shadowclip = 0.6f;
+  return copy;
+}
+
+void set(float* to, const Vector3d& from) { Eigen::Vector3f::Map(to) = from.cast<float>(); }
+
+void set(float* to, double grey) { std::fill_n(to, 3, static_cast<float>(grey)); }
+
+/// The lights of mjvScene are directional, towards `middle` along `from` (world, unit).
+mjvLight& add_light(mjvScene& scene, const Vector3d& middle, const Vector3d& from, double far) {
+  mjvLight& light = scene.lights[scene.nlight++];
+  light = {};
+  // Shadows are looked for between the camera's clipping planes, so the light is as far away.
+  set(light.pos, middle + far * from);
+  set(light.dir, -from);
+  light.attenuation[0] = 1;
+  light.cutoff = 180;
+  light.directional = 1;
+  return light;
+}
+
+/// A ring of lights above the viewer's left shoulder, whose shadows overlap to a soft one, and a
+/// weak one without shadow from the other side.
+void set_lights(mjvScene& scene, const View& view, const Vector3d& middle, double far) {
+  constexpr int ring = 3;
+  constexpr double spread = 0.12;  // of the ring, of the unit distance
+  const auto from = [&](double right, double up, double toward) {
+    return Vector3d((right * view.right + up * view.up + toward * view.toward()).normalized());
+  };
+  for (int k = 0; k < ring; ++k) {
+    const double turn = 2 * std::numbers::pi * k / ring;
+    const Vector3d place =
+        from(-0.25 + spread * std::cos(turn), 0.55 + spread * std::sin(turn), 0.8);
+    mjvLight& light = add_light(scene, middle, place, far);
+    set(light.diffuse, 0.62 / ring);
+    set(light.specular, 0.5 / ring);
+    light.castshadow = 1;
+  }
+  mjvLight& fill = add_light(scene, middle, from(0.5, -0.15, 0.85), far);
+  set(fill.diffuse, 0.28);
+  set(fill.ambient, 0.34);
+}
+
+void set_camera(mjvScene& scene, const View& view, const Vector3d& middle, double extent) {
+  const double far = lens * extent;
+  const double nearest = far - reach * extent;
+  const double half = 0.5 * view.height / view.scale * nearest / far;
+  for (mjvGLCamera& eye : scene.camera) {
+    set(eye.pos, middle + far * view.toward());
+    set(eye.forward, -view.toward());
+    set(eye.up, view.up);
+    eye.frustum_center = 0;
+    eye.frustum_bottom = static_cast<float>(-half);
+    eye.frustum_top = static_cast<float>(half);
+    eye.frustum_near = static_cast<float>(nearest);
+    eye.frustum_far = static_cast<float>(far + reach * extent);
+  }
+}
+
+/// MuJoCo clears to black: a white wall behind everything that shines by itself.
+mjvGeom backdrop(const View& view, const Vector3d& middle, double extent) {
+  const Vector3d centre = middle - 0.99 * reach * extent * view.toward();
+  const double half = std::max(view.width, view.height) / view.scale;
+  const mjtNum size[] = {half, half, 0.001 * extent};
+  Eigen::Matrix<mjtNum, 3, 3, Eigen::RowMajor> axes;
+  axes << view.right, view.up, view.toward();
+  const float white[] = {1, 1, 1, 1};
+  mjvGeom geom;
+  mjv_initGeom(&geom, mjGEOM_BOX, size, centre.data(), axes.data(), white);
+  geom.emission = 1;
+  return geom;
+}
+
+/// The point of the middle of the window at half the depth of the geoms' centres.
+Vector3d middle_of(const std::vector<mjvGeom>& geoms, const View& view) {
+  double low = INFINITY, high = -INFINITY;
+  for (const mjvGeom& geom : geoms) {
+    const double depth =
+        Eigen::Map<const Eigen::Vector3f>(geom.pos).cast<double>().dot(view.toward());
+    low = std::min(low, depth);
+    high = std::max(high, depth);
+  }
+  const Eigen::Vector2d half = 0.5 / view.scale * Eigen::Vector2d(view.width, view.height);
+  const Eigen::Vector2d centre = view.low + half;
+  const double depth = geoms.empty() ? 0 : 0.5 * (low + high);
+  return centre.x() * view.right + centre.y() * view.up + depth * view.toward();
+}
+
+/// A scene of MuJoCo's renderer, with room for `geoms` of them.
+class Scene3d {
+ public:
+  Scene3d(const mjModel& model, int geoms) {
+    mjv_defaultScene(&scene);
+    mjv_makeScene(&model, &scene, geoms);
+  }
+  ~Scene3d() { mjv_freeScene(&scene); }
+  Scene3d(const Scene3d&) = delete;
+  Scene3d& operator=(const Scene3d&) = delete;
+  mjvScene scene;
+};
+
+}  // namespace
+
+struct OffscreenRenderer::Parts {
+  Parts(const mjModel& of, int width, int height) : model(with_settings(of, width, height)) {
+    mjr_defaultContext(&context);
+    mjr_makeContext(model.get(), &context, mjFONTSCALE_100);
+    mjr_setBuffer(mjFB_OFFSCREEN, &context);
+  }
+  ~Parts() { mjr_freeContext(&context); }
+  Parts(const Parts&) = delete;
+  Parts& operator=(const Parts&) = delete;
+
+  EglContext egl;
+  ModelCopy model;
+  mjrContext context;
+};
+
+OffscreenRenderer::OffscreenRenderer(const mjModel& model, int width, int height)
+    : parts_(std::make_unique<Parts>(model, width, height)) {
+  if (parts_->context.currentBuffer != mjFB_OFFSCREEN)
+    fail("mjr_setBuffer", "no off-screen buffer");
+}
+
+OffscreenRenderer::~OffscreenRenderer() = default;
+
+Image OffscreenRenderer::render(const std::vector<mjvGeom>& geoms, const View& view) {
+  mjrContext& context = parts_->context;
+  if (view.width > context.offWidth || view.height > context.offHeight) {
+    throw std::runtime_error(fmt::format("picture of {} x {} px: the renderer goes to {} x {}",
+                                         view.width, view.height, context.offWidth,
+                                         context.offHeight));
+  }
+  const double extent = parts_->model->stat.extent;
+  const Vector3d middle = middle_of(geoms, view);
+  Scene3d holder(*parts_->model, static_cast<int>(geoms.size()) + 1);
+  mjvScene& scene = holder.scene;
+  scene.geoms[0] = backdrop(view, middle, extent);
+  std::copy(geoms.begin(), geoms.end(), scene.geoms + 1);
+  scene.ngeom = static_cast<int>(geoms.size()) + 1;
+  set_camera(scene, view, middle, extent);
+  set_lights(scene, view, middle, lens * extent);
+
+  const mjrRect whole{0, 0, view.width, view.height};
+  mjr_render(whole, &scene, &context);
+  Image image{view.width, view.height, {}};
+  image.rgb.resize(3 * static_cast<std::size_t>(view.width) * view.height);
+  mjr_readPixels(image.rgb.data(), nullptr, whole, &context);
+  // OpenGL's rows come from the bottom.
+  const std::ptrdiff_t row = 3 * static_cast<std::ptrdiff_t>(view.width);
+  for (auto top = image.rgb.begin(), end = image.rgb.end(); end - top > row; top += row) {
+    end -= row;
+    std::swap_ranges(top, top + row, end);
+  }
+  return image;
+}
+
+void write_png(const Image& image, const std::filesystem::path& file) {
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  png.width = static_cast<png_uint_32>(image.width);
+  png.height = static_cast<png_uint_32>(image.height);
+  png.format = PNG_FORMAT_RGB;
+  if (png_image_write_to_file(&png, file.c_str(), 0, image.rgb.data(), 0, nullptr) == 0) {
+    throw FileError(fmt::format("{}: cannot be written: {}", file.string(), png.message));
+  }
+}
+
+}  // namespace hagfish

@@ -1,0 +1,54 @@
+// Pictures without a display: MuJoCo's renderer in an OpenGL context of EGL's surfaceless platform,
+// which Mesa offers with or without a graphics card.
+#pragma once
+
+#include <mujoco/mujoco.h>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+namespace hagfish {
+
+/// 8-bit RGB, rows from the top.
+struct Image {
+  int width = 0, height = 0;       ///< px
+  std::vector<unsigned char> rgb;  ///< 3 x width x height
+};
+
+/// Writes `image` to `file` as PNG, replacing it. Throws FileError.
+void write_png(const Image& image, const std::filesystem::path& file);
+
+/// A window of the picture plane, which is seen through so long a lens that parallel lines stay
+/// parallel: the scale is exact in the middle of the depth of what is shown, and right to 1 % as
+/// far from there as half the model's extent.
+struct View {
+  Eigen::Vector3d right, up;                      ///< world, unit, at right angles
+  Eigen::Vector2d low = Eigen::Vector2d::Zero();  ///< lower left corner along right and up, cm
+  int width = 0, height = 0;                      ///< px
+  double scale = 0;                               ///< px/cm
+
+  Eigen::Vector3d toward() const { return right.cross(up); }  ///< from the scene to the viewer
+};
+
+/// One OpenGL context for any number of pictures. Keep one at a time, in the thread that made it.
+class OffscreenRenderer {
+ public:
+  /// For pictures of at most `width` x `height` px (8192 either way) of things about as large as
+  /// `model`, whose own settings for pictures are not used. Throws std::runtime_error, one line
+  /// with the step that failed and EGL's or MuJoCo's reason.
+  OffscreenRenderer(const mjModel& model, int width, int height);
+  ~OffscreenRenderer();
+
+  /// Draws `geoms` (mjv_initGeom, cm) before white, with soft shadows. Throws std::runtime_error
+  /// where the view is larger than what the renderer was made for.
+  Image render(const std::vector<mjvGeom>& geoms, const View& view);
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace hagfish

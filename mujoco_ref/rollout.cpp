@@ -1,0 +1,63 @@
+#include "mujoco_ref/rollout.hpp"
+
+#include <limits>
+
+#include "core/kinematics.hpp"
+#include "core/step.hpp"
+#include "mujoco_ref/mirror.hpp"
+
+namespace hagfish {
+
+Model smooth(Model model) {
+  model.drag = {};
+  for (Body& body : model.bodies) body.radius = 0;
+  for (Hinge& hinge : model.hinges) {
+    hinge.upper = std::numeric_limits<double>::infinity();
+    hinge.lower = -hinge.upper;
+  }
+  return model;
+}
+
+std::vector<State> core_rollout(const Model& model, const State& start, Head head, double h,
+                                int steps) {
+  Scene scene;
+  scene.time.step = h;
+  scene.wall.present = false;
+  Control control;
+  control.clamp_head = head == Head::clamped;
+  const auto solver = make_box_qp_solver(box_qp_solver_names().front());  // no row needs it
+  WarmStart warm;
+  Situation situation;  // without contacts
+  std::vector<State> states;
+  State state = start;
+  for (int i = 0; i < steps; ++i) {
+    situation.kin = kinematics(model, state);
+    state.qdot = solve_step(model, state, situation, control, scene, *solver, warm).qdot;
+    state.q = advance(state.q, state.qdot, h);
+    states.push_back(state);
+  }
+  return states;
+}
+
+std::vector<State> mujoco_rollout(const Model& model, const State& start, MujocoModel& mirror,
+                                  int steps) {
+  set_state(model, start, mirror);
+  std::vector<State> states;
+  for (int i = 0; i < steps; ++i) {
+    mj_step(mirror.model(), mirror.data());
+    check_stable(mirror);
+    states.push_back(state_of(model, mirror));
+  }
+  return states;
+}
+
+double velocity_difference(const State& a, const State& b) {
+  const double size = b.qdot.lpNorm<Eigen::Infinity>();
+  return (a.qdot - b.qdot).lpNorm<Eigen::Infinity>() / (size == 0 ? 1 : size);
+}
+
+double centre_distance(const Model& model, const State& a, const State& b) {
+  return (kinematics(model, a).centre - kinematics(model, b).centre).colwise().norm().maxCoeff();
+}
+
+}  // namespace hagfish
