@@ -29,6 +29,12 @@ void check_box_qp(const BoxQp& qp);
 /// sqrt(A_ii), m: what brings rows of different units to unit diagonal. At least 1e-10 of the
 /// largest (1 where A = 0), so that rows that cannot move keep a finite scale.
 Eigen::VectorXd row_scale(const Eigen::MatrixXd& A);
+/// The same into memory of the caller's, `s` (m).
+void row_scale(const Eigen::MatrixXd& A, Eigen::Ref<Eigen::VectorXd> s);
+
+/// β = max |b_i| / s_i, s = row_scale(A), over rows that can move (s_i not at its least); 1 where
+/// that is 0.
+double rhs_scale(const BoxQp& qp);
 
 enum class SolveStatus { solved, infeasible, iteration_limit, failed };
 const char* status_name(SolveStatus status);
@@ -41,8 +47,7 @@ struct BoxQpSolution {
 };
 
 /// Scaled infinity norms; 0 at an exact solution. Rows are brought to unit diagonal first:
-/// x̂_i = x_i s_i / β, ŵ_i = w_i / (s_i β) with s = row_scale(A) and β = max |b_i| / s_i over rows
-/// that can move (1 where b = 0).
+/// x̂_i = x_i s_i / β, ŵ_i = w_i / (s_i β) with s = row_scale(A) and β = rhs_scale.
 struct KktResiduals {
   /// max |ŵ_i| of rows with nothing to push against (w > 0 without a lower bound, w < 0 without an
   /// upper one), and how far any x̂_i lies outside its bounds.

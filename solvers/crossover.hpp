@@ -11,12 +11,11 @@ namespace hagfish {
 /// in x elsewhere, where a product x w is of its square. Rows must have unit diagonal.
 double natural_residual(const BoxQp& qp, const Eigen::VectorXd& x);
 
-/// Block principal pivoting (Júdice and Pires 1994) from a point that is nearly right: rows whose
-/// distance to a bound is below their |w| start on that bound, the others with w = 0, and rows that
-/// come out with a wrong sign change sides: all at once while their number falls, else one by one.
-/// Where A is singular, x is changed least. Returns `x` itself where no settled point is met. An
-/// interior point stops at x w = μ, so that rows with both small are off by sqrt(μ); this takes
-/// them to rounding. `qp` has unit diagonal and |b| <= 1, `x` (m) lies within its bounds.
+/// Pivoting (ActiveSetPivoting) from a point that is nearly right: rows whose distance to a bound
+/// is below their |w| start on that bound, the others with w = 0, of which rows that depend on
+/// others stay where they are. Returns `x` itself where no settled point is met. An interior point
+/// stops at x w = μ, so that rows with both small are off by sqrt(μ); this takes them to rounding.
+/// `qp` has unit diagonal and |b| <= 1, `x` (m) lies within its bounds.
 Eigen::VectorXd crossover(const BoxQp& qp, const Eigen::VectorXd& x);
 
 }  // namespace hagfish

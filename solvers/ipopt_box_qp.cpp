@@ -260,7 +260,8 @@ void IpoptBoxQp::Engine::attempt(Ipopt::IpoptApplication& ipopt, const BoundedPa
     solution.iterations += ipopt.Statistics()->IterationCount();
   }
   Eigen::VectorXd y = problem->y.cwiseMax(problem->qp.lower).cwiseMin(problem->qp.upper);
-  if (code == Ipopt::Solve_Succeeded) {  // only what is solved is polished: failures must show
+  // Only what is solved is polished: failures must show.
+  if (settings.polish && code == Ipopt::Solve_Succeeded) {
     y = crossover(problem->qp, y);
   }
   solution.x = part.expand(

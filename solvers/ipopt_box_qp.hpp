@@ -28,6 +28,9 @@ struct IpoptSettings {
   /// norm, over the change of velocity that the worst row alone needs; 5e7 is a change 1e4 times
   /// that large. Contradictions below 1e-3 of the worst row may come back as another failure.
   double infeasible_objective = 5e7;
+  /// Whether crossover takes Ipopt's point to the vertex next to it. Off, the answer is Ipopt's
+  /// own.
+  bool polish = true;
   /// Working memory of MUMPS over its own estimate, %; it asks for more where this is too little.
   /// Ipopt's default of 1000 costs 15 % of the time in page faults.
   int mumps_extra_memory = 20;

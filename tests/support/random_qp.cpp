@@ -94,6 +94,14 @@ std::vector<Role> each_role(int count) {
   return roles;
 }
 
+BoxQp unilateral_qp(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
+  return {A, b, Eigen::VectorXd::Zero(b.size()), Eigen::VectorXd::Constant(b.size(), infinity)};
+}
+
+BoxQp qp_of_rows(const Eigen::MatrixXd& J, const Eigen::VectorXd& b) {
+  return unilateral_qp(J * J.transpose(), b);
+}
+
 Eigen::VectorXd velocity_of(const PrimalQp& primal, const Eigen::VectorXd& x) {
   const Eigen::Index p = primal.e.size();
   return primal.H.llt().solve(primal.g + primal.G.transpose() * x.head(p) +

@@ -38,6 +38,12 @@ KnownQp known_qp(std::mt19937& random, Eigen::Index n, const std::vector<Role>& 
 /// `count` copies of each role, in the order of the enumeration without `copy`.
 std::vector<Role> each_role(int count);
 
+/// All rows unilateral: l = 0, u infinite. A is m x m, b has m entries.
+BoxQp unilateral_qp(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
+
+/// The same for rows J (m x n) where H = I: A = J J'.
+BoxQp qp_of_rows(const Eigen::MatrixXd& J, const Eigen::VectorXd& b);
+
 /// v = H⁻¹ (g + [G; C]' x): the velocity that belongs to multipliers.
 Eigen::VectorXd velocity_of(const PrimalQp& primal, const Eigen::VectorXd& x);
 

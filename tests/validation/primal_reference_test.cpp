@@ -3,6 +3,8 @@
 // same q̇.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "solvers/primal_qp.hpp"
 #include "tests/support/random_chain.hpp"
 #include "tests/support/stored_states.hpp"
@@ -55,13 +57,13 @@ PrimalQp equation_4(const Model& model, const Scene& scene, const StepRecord& re
   return qp;
 }
 
-class PrimalReference : public testing::TestWithParam<StoredState> {};
+class PrimalReference : public testing::TestWithParam<std::tuple<StoredState, std::string>> {};
 
 TEST_P(PrimalReference, FindsTheSameVelocity) {
   const ResolvedScene resolved = stored_scene();
   const Model model = make_hagfish(resolved.specimen, resolved.scene);
-  const auto solver = make_box_qp_solver("ipopt");
-  Simulation sim = resume(model, resolved.scene, GetParam());
+  const auto solver = make_box_qp_solver(std::get<1>(GetParam()));
+  Simulation sim = resume(model, resolved.scene, std::get<0>(GetParam()));
   for (int k = 0; k < 3; ++k) {
     const StepRecord record = take_step(model, resolved.scene, *solver, sim);
     const PrimalQp qp = equation_4(model, resolved.scene, record);
@@ -83,7 +85,17 @@ TEST_P(PrimalReference, FindsTheSameVelocity) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Table1, PrimalReference, testing::ValuesIn(stored_states()), name_of);
+std::string name_of_pair(const testing::TestParamInfo<PrimalReference::ParamType>& pair) {
+  const auto& [stored, back_end] = pair.param;
+  std::string name = name_of({stored, pair.index}) + "_" + back_end;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Table1, PrimalReference,
+                         testing::Combine(testing::ValuesIn(stored_states()),
+                                          testing::ValuesIn(box_qp_solver_names())),
+                         name_of_pair);
 
 }  // namespace
 }  // namespace hagfish

@@ -69,6 +69,16 @@ TEST(Crossover, CorrectsWrongSides) {
   }
 }
 
+TEST(Crossover, LeavesRowsThatShareAForceTheirShares) {
+  BoxQp qp;
+  qp.A = Eigen::Matrix2d::Ones();
+  qp.b = Eigen::Vector2d::Ones();
+  qp.lower = Eigen::Vector2d::Zero();
+  qp.upper = Eigen::Vector2d::Constant(infinity);
+  const Eigen::VectorXd x = crossover(qp, Eigen::Vector2d(0.4 + 1e-6, 0.6));
+  EXPECT_LE((x - Eigen::Vector2d(0.4, 0.6)).lpNorm<Eigen::Infinity>(), settled);
+}
+
 TEST(Crossover, ReturnsItsArgumentWhereNothingIsSettled) {
   // Two rows that contradict each other: no vertex solves them.
   BoxQp qp;

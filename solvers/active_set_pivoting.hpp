@@ -1,0 +1,77 @@
+// Which rows of a box QP rest on a bound and which have w = A x - b = 0: found by pivoting.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "solvers/active_set_factor.hpp"
+#include "solvers/box_qp.hpp"
+
+namespace hagfish {
+
+/// Rows are held (x_i solves w_i = 0 together with the other held rows) or resting (x_i stays).
+/// A resting row is at one of its bounds, at 0, or depends on the held rows.
+/// Two ways to the solution, both also where A is singular, bounds are infinite or rows are free:
+/// rows with a wrong sign change sides all at once, which is quick and may cycle, or one after the
+/// other, which always ends.
+class ActiveSetPivoting {
+ public:
+  enum class Ending { settled, contradiction, limit };
+
+  ActiveSetPivoting() = default;
+  ActiveSetPivoting(const ActiveSetPivoting&) = delete;  // its vectors refer to memory of its own
+  ActiveSetPivoting& operator=(const ActiveSetPivoting&) = delete;
+
+  /// Begins with `qp`, which must outlive the use, and every row resting at 0.
+  void start(const BoxQp& qp);
+  /// Lets row i rest at `value`, within its bounds.
+  void rest(Eigen::Index i, double value) { x_[i] = value; }
+  /// Holds row i from change_blocks on, unless it depends on rows held before: then it goes on
+  /// resting.
+  void hold(Eigen::Index i) { joining_.push_back(i); }
+
+  /// Block principal pivoting (Portugal, Júdice, Vicente: A comparison of block pivoting and
+  /// interior-point algorithms for linear least squares problems with nonnegative variables, Math.
+  /// Comp. 1994). False where the number of wrong rows no longer falls.
+  bool change_blocks();
+
+  /// Primal active set method on x, which is the dual one of Goldfarb and Idnani (Math. Programming
+  /// 1983) on velocities: the worst row joins, the held rows follow as far as their bounds allow,
+  /// and those that meet a bound leave. The objective falls at every change, so that no set comes
+  /// twice. A row that depends on the held ones takes the place of the one that blocks it; where
+  /// none does, rows contradict each other.
+  Ending change_singly();
+
+  /// Within the bounds after change_blocks returned true, and after change_singly.
+  const Eigen::Map<Eigen::VectorXd>& x() const { return x_; }
+  /// Changes of sides so far, a block counting as one.
+  int changes() const { return changes_; }
+  /// Ascending. Multipliers t_i with t_i > 0 on rows without an upper bound (any sign on free rows)
+  /// exist with Σ t_i A_i = 0 and Σ t_i b_i > 0, and with no row left out: Farkas' certificate.
+  const std::vector<Eigen::Index>& contradicting() const { return contradicting_; }
+
+ private:
+  void update_gradient();
+  int push(Eigen::Index i) const;
+  void solve_held();
+  void clamp_held();
+  void enter_box();
+  Eigen::Index advance(double longest);
+  bool descend();
+  Eigen::Index worst_row() const;
+  bool exchange(Eigen::Index row);
+
+  const BoxQp* qp_ = nullptr;
+  ActiveSetFactor factor_;
+  Eigen::MatrixXd memory_;  ///< of the vectors below: Eigen's own allocate at each change of size
+  Eigen::Map<Eigen::VectorXd> scale_{nullptr, 0}, inverse_scale_{nullptr, 0}, x_{nullptr, 0},
+      w_{nullptr, 0};
+  Eigen::Map<Eigen::VectorXd> step_{nullptr, 0};       ///< of the rows in moving_, in their order
+  Eigen::Map<Eigen::VectorXd> tolerated_{nullptr, 0};  ///< |ŵ| β up to which a row may go unmet
+  double beta_ = 1;                                    ///< size of b, brought to unit diagonal
+  double noise_ = 0;                                   ///< rounding of w, brought to unit diagonal
+  std::vector<Eigen::Index> moving_, leaving_, joining_, contradicting_;
+  int changes_ = 0;
+};
+
+}  // namespace hagfish
