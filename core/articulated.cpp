@@ -1,18 +1,28 @@
 #include "core/articulated.hpp"
 
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
 namespace hagfish {
 
+void multiply(const Model& model, const Kinematics& kin, const Operator& op,
+              const Eigen::VectorXd& v, Matrix6Xd& scratch, Eigen::VectorXd& product) {
+  body_twists(model, kin, v, scratch);
+  for (int b = 0; b < model.body_count(); ++b) {
+    const Vector6d twist = scratch.col(b);
+    scratch.col(b).noalias() = op.inertia[b] * twist;
+  }
+  generalised_force(model, kin, scratch, product);
+  product += op.diagonal.cwiseProduct(v);
+}
+
 Eigen::VectorXd multiply(const Model& model, const Kinematics& kin, const Operator& op,
                          const Eigen::VectorXd& v) {
-  const Matrix6Xd twist = body_twists(model, kin, v);
-  Matrix6Xd wrench(6, model.body_count());
-  for (int b = 0; b < model.body_count(); ++b) {
-    wrench.col(b) = op.inertia[b] * twist.col(b);
-  }
-  return generalised_force(model, kin, wrench) + op.diagonal.cwiseProduct(v);
+  Matrix6Xd scratch;
+  Eigen::VectorXd product;
+  multiply(model, kin, op, v, scratch, product);
+  return product;
 }
 
 Eigen::MatrixXd dense(const Model& model, const Kinematics& kin, const Operator& op) {
@@ -55,45 +65,68 @@ void ArticulatedFactor::factorise(const Model& model, const Kinematics& kin, con
   }
 }
 
-void ArticulatedFactor::solve(const Model& model, const Kinematics& kin, ColumnSet& columns) const {
-  const Eigen::Index m = columns.joint.cols();
-  using Block = Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor>;
-  Block sum = Block::Zero(6, m);
+void ArticulatedFactor::solve(const Model& model, const Kinematics& kin, const Matrix6Xd& wrench,
+                              const Eigen::VectorXd& joint, Eigen::VectorXd& v) const {
+  v.resize(model.nv());
+  Vector6d sum = Vector6d::Zero();
   for (int b = model.body_count() - 1; b >= 0; --b) {
     const Body& body = model.bodies[b];
-    sum += columns.body.middleRows<6>(6 * b);
+    sum += wrench.col(b);
     for (int k = body.first_dof + body.dofs - 1; k >= body.first_dof; --k) {
-      auto row = columns.joint.row(k);
-      row.noalias() += kin.axis.col(k).transpose().lazyProduct(sum);
-      row *= inverse_pivot_[k];
-      for (int i = 0; i < 6; ++i) {
-        sum.row(i) -= weighted_(i, k) * row;
-      }
+      v[k] = (joint[k] + kin.axis.col(k).dot(sum)) * inverse_pivot_[k];
+      sum -= weighted_.col(k) * v[k];
     }
   }
-  Block twist = Block::Zero(6, m);
+  Vector6d twist = Vector6d::Zero();
   for (int b = 0; b < model.body_count(); ++b) {
     const Body& body = model.bodies[b];
     for (int k = body.first_dof; k < body.first_dof + body.dofs; ++k) {
-      auto row = columns.joint.row(k);
-      const Vector6d scaled = weighted_.col(k) * inverse_pivot_[k];
-      row.noalias() -= scaled.transpose().lazyProduct(twist);
-      for (int i = 0; i < 6; ++i) {
-        twist.row(i) += kin.axis(i, k) * row;
-      }
+      v[k] -= weighted_.col(k).dot(twist) * inverse_pivot_[k];
+      twist += kin.axis.col(k) * v[k];
     }
-    columns.body.middleRows<6>(6 * b) = twist;
   }
 }
 
 Eigen::VectorXd ArticulatedFactor::solve(const Model& model, const Kinematics& kin,
                                          const Matrix6Xd& wrench,
                                          const Eigen::VectorXd& joint) const {
-  ColumnSet columns;
-  columns.joint = joint;
-  columns.body = wrench.reshaped();
-  solve(model, kin, columns);
-  return columns.joint.col(0);
+  Eigen::VectorXd v;
+  solve(model, kin, wrench, joint, v);
+  return v;
+}
+
+void ArticulatedFactor::half_solve(const Model& model, const Kinematics& kin,
+                                   RowColumns& columns) const {
+  auto& sum = columns.sum_;
+  sum.setZero(6, columns.joint.cols());
+  for (int b = model.body_count() - 1; b >= 0; --b) {
+    for (int i = columns.newest_[b]; i >= 0; i = columns.loads_[i].next) {
+      sum.col(columns.loads_[i].column) += columns.loads_[i].wrench;
+    }
+    const Body& body = model.bodies[b];
+    for (int k = body.first_dof + body.dofs - 1; k >= body.first_dof; --k) {
+      auto row = columns.joint.row(k);
+      for (int i = 0; i < 6; ++i) {
+        row += kin.axis(i, k) * sum.row(i);
+      }
+      const double share = std::sqrt(inverse_pivot_[k]);
+      row *= share;
+      for (int i = 0; i < 6; ++i) {
+        sum.row(i) -= (weighted_(i, k) * share) * row;
+      }
+    }
+  }
+}
+
+void RowColumns::reset(const Model& model, Eigen::Index m) {
+  joint.setZero(model.nv(), m);
+  loads_.clear();
+  newest_.assign(model.body_count(), -1);
+}
+
+void RowColumns::load(int body, Eigen::Index column, const Vector6d& wrench) {
+  loads_.push_back({wrench, column, newest_[body]});
+  newest_[body] = static_cast<int>(loads_.size()) - 1;
 }
 
 }  // namespace hagfish

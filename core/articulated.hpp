@@ -17,7 +17,9 @@ struct Operator {
   Eigen::VectorXd diagonal;       ///< δ >= 0, nv
 };
 
-/// H v in O(n).
+/// H v in O(n); `scratch` is storage.
+void multiply(const Model& model, const Kinematics& kin, const Operator& op,
+              const Eigen::VectorXd& v, Matrix6Xd& scratch, Eigen::VectorXd& product);
 Eigen::VectorXd multiply(const Model& model, const Kinematics& kin, const Operator& op,
                          const Eigen::VectorXd& v);
 
@@ -25,13 +27,28 @@ Eigen::VectorXd multiply(const Model& model, const Kinematics& kin, const Operat
 /// inertias and δ = 0 this is the mass matrix M).
 Eigen::MatrixXd dense(const Model& model, const Kinematics& kin, const Operator& op);
 
-/// Row-major, so that one operation on a row serves all right-hand sides.
+/// Row-major, so that one operation on a row serves all columns.
 using Columns = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// m right-hand sides r = J' w + τ, or their m solutions with the body twists that go with them.
-struct ColumnSet {
-  Columns joint;  ///< nv x m: τ in, H⁻¹ r out
-  Columns body;   ///< 6 N x m: w (6 rows a body, wrenches about O) in, twists out
+/// C' of m rows, column by column: joint forces and wrenches on single bodies.
+struct RowColumns {
+  Columns joint;  ///< nv x m
+
+  /// Empties all for `m` columns.
+  void reset(const Model& model, Eigen::Index m);
+  /// Adds a wrench about O on one body to a column.
+  void load(int body, Eigen::Index column, const Vector6d& wrench);
+
+ private:
+  friend class ArticulatedFactor;
+  struct Load {
+    Vector6d wrench;
+    Eigen::Index column;
+    int next;  ///< load of the same body, -1 at the end
+  };
+  std::vector<Load> loads_;
+  std::vector<int> newest_;  ///< load of each body, -1 where it has none
+  Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor> sum_;
 };
 
 class ArticulatedFactor {
@@ -39,12 +56,15 @@ class ArticulatedFactor {
   /// Throws std::domain_error, naming the dof, where H is not positive definite.
   void factorise(const Model& model, const Kinematics& kin, const Operator& op);
 
-  /// Replaces right-hand sides by solutions, in place.
-  void solve(const Model& model, const Kinematics& kin, ColumnSet& columns) const;
-
-  /// H⁻¹ (J' w + τ) for one wrench per body (6 x N) and joint forces τ (nv).
+  /// v = H⁻¹ (J' w + τ) for one wrench per body (6 x N) and joint forces τ (nv).
+  void solve(const Model& model, const Kinematics& kin, const Matrix6Xd& wrench,
+             const Eigen::VectorXd& joint, Eigen::VectorXd& v) const;
   Eigen::VectorXd solve(const Model& model, const Kinematics& kin, const Matrix6Xd& wrench,
                         const Eigen::VectorXd& joint) const;
+
+  /// Replaces C' in columns.joint by Y (nv x m) with Y'Y = C H⁻¹ C': half of a solve, since the
+  /// recursion factors H⁻¹ = L'L. The product is symmetric and semidefinite by construction.
+  void half_solve(const Model& model, const Kinematics& kin, RowColumns& columns) const;
 
  private:
   Matrix6Xd weighted_;             // Î^A S, one column a dof

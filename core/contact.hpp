@@ -2,10 +2,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <utility>
 #include <vector>
 
 #include "core/closest_points.hpp"
-#include "core/model.hpp"
 #include "core/spline.hpp"
 
 namespace hagfish {
@@ -36,11 +36,29 @@ struct ContactSet {
 };
 
 /// The pair of spline points (segment_a, t_a) and (segment_b, t_b), whatever the gap there.
-Contact contact_at(const Model& model, const std::vector<SplineSegment>& segments, int segment_a,
-                   double t_a, int segment_b, double t_b);
+Contact contact_at(const std::vector<SplineSegment>& segments, int segment_a, double t_a,
+                   int segment_b, double t_b);
 
-/// Finds the contacts of `segments` (paper, 3.1: bounding spheres, then Eq. 5).
-ContactSet find_contacts(const Model& model, const std::vector<SplineSegment>& segments,
+/// Two segments that may touch, a before b, and where they are closest.
+struct SegmentPair {
+  int a = 0, b = 0;
+  ClosestPoints closest;
+};
+
+/// What a search for contacts carries to the next one with the same settings. It changes the time
+/// of a search, never its answer: the pairs carried hold all that can touch until some segment has
+/// moved too far.
+struct ContactSearch {
+  std::vector<std::pair<int, int>> candidates;  ///< sorted
+  std::vector<Eigen::Vector3d> middle;          ///< of the segments when the candidates were found
+  std::vector<double> bound;                    ///< likewise
+  std::vector<SegmentPair> close;               ///< candidates within the margin
+};
+
+/// Finds the contacts of `segments` (paper, 3.1: bounding spheres, then Eq. 5) into `set`.
+void find_contacts(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
+                   ContactSearch& search, ContactSet& set);
+ContactSet find_contacts(const std::vector<SplineSegment>& segments,
                          const ContactSettings& settings);
 
 }  // namespace hagfish

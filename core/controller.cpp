@@ -18,8 +18,8 @@ double apart(const Contact& x, const Contact& y) {
 
 /// One step of a tracked contact: it goes on as the outermost one where that is the same, else as
 /// the nearest minimum, else as the same material points, for the hysteresis time at most.
-void follow(TrackedContact& tracked, const Model& model, const Situation& situation,
-            const Contact* outermost, double time, double hysteresis) {
+void follow(TrackedContact& tracked, const Situation& situation, const Contact* outermost,
+            double time, double hysteresis) {
   if (outermost == nullptr) {
     tracked = {};
     return;
@@ -37,11 +37,11 @@ void follow(TrackedContact& tracked, const Model& model, const Situation& situat
   tracked.contact =
       apart(*nearest, old) < same_contact
           ? *nearest
-          : contact_at(model, situation.segments, old.segment_a, old.t_a, old.segment_b, old.t_b);
+          : contact_at(situation.segments, old.segment_a, old.t_a, old.segment_b, old.t_b);
 }
 
-void follow_contacts(const Model& model, const Scene& scene, const Situation& situation,
-                     double time, ControllerState& controller) {
+void follow_contacts(const Scene& scene, const Situation& situation, double time,
+                     ControllerState& controller) {
   const std::vector<Contact>& contacts = situation.contact.contacts;
   const Contact* first = nullptr;
   const Contact* last = nullptr;
@@ -56,8 +56,8 @@ void follow_contacts(const Model& model, const Scene& scene, const Situation& si
       last = &contact;
     }
   }
-  follow(controller.first, model, situation, first, time, scene.controller.hysteresis);
-  follow(controller.last, model, situation, last, time, scene.controller.hysteresis);
+  follow(controller.first, situation, first, time, scene.controller.hysteresis);
+  follow(controller.last, situation, last, time, scene.controller.hysteresis);
 }
 
 void enter(ControllerState& controller, Phase phase, double time) {
@@ -127,9 +127,9 @@ std::optional<KnotSpan> knot_span(const ControllerState& controller) {
   return KnotSpan{controller.first.contact->arc_a, controller.last.contact->arc_b};
 }
 
-Control decide(const Model& model, const Scene& scene, const Situation& situation, double time,
-               ControllerState& controller) {
-  follow_contacts(model, scene, situation, time, controller);
+void decide(const Model& model, const Scene& scene, const Situation& situation, double time,
+            ControllerState& controller, Control& control) {
+  follow_contacts(scene, situation, time, controller);
   // Half a step of slack: the time of a step is a product and may fall short by rounding.
   if (time + 0.5 * scene.time.step >= controller.next_look) {
     controller.next_look = time + scene.knot.interval;
@@ -138,7 +138,8 @@ Control decide(const Model& model, const Scene& scene, const Situation& situatio
   }
   switch_by_span(scene, time, controller);
 
-  Control control;
+  control.tip = {};
+  control.thigmotaxis.clear();
   control.clamp_head = scene.clamp_head && controller.phase < Phase::release;
   const int last = model.body_count() - 1;
   const Kinematics& kin = situation.kin;
@@ -148,11 +149,11 @@ Control decide(const Model& model, const Scene& scene, const Situation& situatio
                                point_velocity(kin.twist.col(last), kin.centre_offset(last)));
   } else if (controller.phase != Phase::free && controller.first.contact) {
     const bool tighten = controller.phase == Phase::tighten;
-    control.thigmotaxis = {
-        {*controller.first.contact, tighten ? settings.tighten_head : settings.slide_head},
-        {*controller.last.contact, tighten ? settings.tighten_tail : settings.slide_tail}};
+    control.thigmotaxis.push_back(
+        {*controller.first.contact, tighten ? settings.tighten_head : settings.slide_head});
+    control.thigmotaxis.push_back(
+        {*controller.last.contact, tighten ? settings.tighten_tail : settings.slide_tail});
   }
-  return control;
 }
 
 }  // namespace hagfish

@@ -40,7 +40,7 @@ std::optional<KnotSpan> knot_span(const ControllerState& controller);
 
 /// Follows the contacts, switches phases and says what the step from `time` shall do.
 /// Throws StepError where the script ends untied or the knot is lost before the head is free.
-Control decide(const Model& model, const Scene& scene, const Situation& situation, double time,
-               ControllerState& controller);
+void decide(const Model& model, const Scene& scene, const Situation& situation, double time,
+            ControllerState& controller, Control& control);
 
 }  // namespace hagfish

@@ -9,25 +9,16 @@
 
 namespace hagfish {
 
-/// One step's dual operator. Keeps references to its arguments: they must outlive it.
-class DualProblem {
- public:
-  /// `factor` of H, `unconstrained` the velocity q̇* (nv).
-  DualProblem(const Model& model, const Kinematics& kin, const ArticulatedFactor& factor,
-              const Eigen::VectorXd& unconstrained);
-
-  /// C q̇* - d of one row, cm/s or rad/s.
-  double excess_unconstrained(const Row& row) const;
-
-  /// The problem on `rows`: one solve with H for all of them, A read off the body twists.
-  BoxQp assemble(const std::vector<Row>& rows) const;
-
- private:
-  const Model& model_;
-  const Kinematics& kin_;
-  const ArticulatedFactor& factor_;
-  const Eigen::VectorXd& unconstrained_;
-  Matrix6Xd twist_;
+/// Storage that assemble_dual keeps from call to call.
+struct DualScratch {
+  RowColumns columns;
+  Columns product;
 };
+
+/// The problem on `rows` (m): `factor` of H, `unconstrained` the velocity q̇* (nv) with the body
+/// twists (6 x N) that go with it.
+void assemble_dual(const Model& model, const Kinematics& kin, const ArticulatedFactor& factor,
+                   const std::vector<Row>& rows, const Eigen::VectorXd& unconstrained,
+                   const Matrix6Xd& twist, DualScratch& scratch, BoxQp& qp);
 
 }  // namespace hagfish

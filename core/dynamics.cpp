@@ -2,13 +2,17 @@
 
 namespace hagfish {
 
+Matrix6d body_inertia(const Model& model, const Kinematics& kin, int body) {
+  const Body& own = model.bodies[body];
+  const Eigen::Matrix3d& r = kin.rotation[body];
+  return point_operator(r * own.inertia.asDiagonal() * r.transpose(),
+                        own.mass * Eigen::Matrix3d::Identity(), kin.centre_offset(body));
+}
+
 std::vector<Matrix6d> body_inertias(const Model& model, const Kinematics& kin) {
   std::vector<Matrix6d> inertia(model.bodies.size());
   for (int b = 0; b < model.body_count(); ++b) {
-    const Body& body = model.bodies[b];
-    const Eigen::Matrix3d& r = kin.rotation[b];
-    inertia[b] = point_operator(r * body.inertia.asDiagonal() * r.transpose(),
-                                body.mass * Eigen::Matrix3d::Identity(), kin.centre_offset(b));
+    inertia[b] = body_inertia(model, kin, b);
   }
   return inertia;
 }
@@ -33,19 +37,38 @@ Eigen::VectorXd drag_force(const Model& model, const Kinematics& kin, const Eige
   return generalised_force(model, kin, wrench);
 }
 
+double drag_power(const Model& model, const Kinematics& kin, int body, const Vector6d& twist) {
+  const double length = model.bodies[body].length;
+  const Eigen::Vector3d along = kin.rotation[body].col(0);
+  const Eigen::Vector3d velocity = point_velocity(twist, kin.centre_offset(body));
+  const double forward = velocity.dot(along);
+  const double sideways = (velocity - forward * along).squaredNorm();
+  const double turning = twist.head<3>().cross(along).squaredNorm();
+  return length * (model.drag.normal * (sideways + turning * length * length / 12) +
+                   model.drag.tangential * forward * forward);
+}
+
+Vector6d bias_wrench(const Kinematics& kin, const Matrix6d& inertia, int body) {
+  const Vector6d twist = kin.twist.col(body);
+  return inertia * kin.bias_twist.col(body) + cross_force(twist, inertia * twist);
+}
+
 Matrix6Xd bias_wrench(const Kinematics& kin, const std::vector<Matrix6d>& inertia) {
   Matrix6Xd wrench(6, kin.twist.cols());
-  for (Eigen::Index b = 0; b < wrench.cols(); ++b) {
-    const Vector6d momentum = inertia[b] * kin.twist.col(b);
-    wrench.col(b) = inertia[b] * kin.bias_twist.col(b) + cross_force(kin.twist.col(b), momentum);
+  for (int b = 0; b < static_cast<int>(wrench.cols()); ++b) {
+    wrench.col(b) = bias_wrench(kin, inertia[b], b);
   }
   return wrench;
+}
+
+Vector6d gravity_wrench(const Model& model, const Kinematics& kin, int body) {
+  return wrench_of_force(model.bodies[body].mass * model.gravity, kin.centre_offset(body));
 }
 
 Matrix6Xd gravity_wrench(const Model& model, const Kinematics& kin) {
   Matrix6Xd wrench(6, model.body_count());
   for (int b = 0; b < model.body_count(); ++b) {
-    wrench.col(b) = wrench_of_force(model.bodies[b].mass * model.gravity, kin.centre_offset(b));
+    wrench.col(b) = gravity_wrench(model, kin, b);
   }
   return wrench;
 }
@@ -58,35 +81,57 @@ Eigen::VectorXd stiffness_force(const Model& model, const Eigen::VectorXd& q) {
   return force;
 }
 
-StepSystem step_system(const Model& model, const State& state, const Kinematics& kin,
-                       const TipForce& tip, double h) {
-  StepSystem system;
-  system.inertia = body_inertias(model, kin);
-  system.op.inertia = system.inertia;
-  system.op.diagonal = Eigen::VectorXd::Zero(model.nv());
+void assemble_step_system(const Model& model, const State& state, const Kinematics& kin,
+                          const TipForce& tip, double h, StepSystem& system) {
+  const int n = model.body_count();
+  system.inertia.resize(n);
+  system.op.inertia.resize(n);
+  system.op.diagonal.setZero(model.nv());
+  system.wrench.resize(6, n);
+  system.joint.setZero(model.nv());
   const bool drag = model.drag.normal != 0 || model.drag.tangential != 0;
-  for (int b = 0; drag && b < model.body_count(); ++b) {
-    system.op.inertia[b] += h * drag_operator(model, kin, b);
+  for (int b = 0; b < n; ++b) {
+    const Matrix6d inertia = body_inertia(model, kin, b);
+    system.inertia[b] = inertia;
+    system.op.inertia[b] = inertia;
+    if (drag) {
+      system.op.inertia[b] += h * drag_operator(model, kin, b);
+    }
+    system.wrench.col(b) = inertia * kin.twist.col(b) +
+                           h * (gravity_wrench(model, kin, b) - bias_wrench(kin, inertia, b));
   }
   for (int k = root_dofs; k < model.nv(); ++k) {
     const Hinge& hinge = model.hinges[k - root_dofs];
     system.op.diagonal[k] = h * hinge.damping + h * h * hinge.stiffness;
+    system.joint[k] = -h * hinge.stiffness * state.q[k + 1];
   }
 
-  system.wrench = h * (gravity_wrench(model, kin) - bias_wrench(kin, system.inertia));
-  for (int b = 0; b < model.body_count(); ++b) {
-    system.wrench.col(b) += system.inertia[b] * kin.twist.col(b);
-  }
-  system.joint = h * stiffness_force(model, state.q);
-
-  const int last = model.body_count() - 1;
+  const int last = n - 1;
   const Eigen::Vector3d offset = kin.centre_offset(last);
   system.wrench.col(last) += h * wrench_of_force(tip.value, offset);
   if (tip.rate != 0) {
     system.op.inertia[last] +=
         point_operator(Eigen::Matrix3d::Zero(), h * tip.rate * Eigen::Matrix3d::Identity(), offset);
   }
+}
+
+StepSystem step_system(const Model& model, const State& state, const Kinematics& kin,
+                       const TipForce& tip, double h) {
+  StepSystem system;
+  assemble_step_system(model, state, kin, tip, h, system);
   return system;
+}
+
+double kinetic_energy(const Model& model, const Kinematics& kin) {
+  double energy = 0;
+  for (int b = 0; b < model.body_count(); ++b) {
+    const Body& body = model.bodies[b];
+    const Vector6d twist = kin.twist.col(b);
+    const Eigen::Vector3d rate = kin.rotation[b].transpose() * twist.head<3>();
+    energy += 0.5 * (body.mass * point_velocity(twist, kin.centre_offset(b)).squaredNorm() +
+                     rate.cwiseAbs2().dot(body.inertia));
+  }
+  return energy;
 }
 
 double kinetic_energy(const std::vector<Matrix6d>& inertia, const Matrix6Xd& twist) {

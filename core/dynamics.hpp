@@ -15,6 +15,7 @@
 namespace hagfish {
 
 /// M_m: each body's inertia about O, world axes (g cm^2, g cm, g).
+Matrix6d body_inertia(const Model& model, const Kinematics& kin, int body);
 std::vector<Matrix6d> body_inertias(const Model& model, const Kinematics& kin);
 
 /// Water drag of one body as an operator on its twist, about O: normal and tangential drag per
@@ -25,9 +26,11 @@ Matrix6d drag_operator(const Model& model, const Kinematics& kin, int body);
 Eigen::VectorXd drag_force(const Model& model, const Kinematics& kin, const Eigen::VectorXd& v);
 
 /// M_m J̇ q̇ plus the gyroscopic wrench, per body: what inertia asks for at q̈ = 0 (6 x N).
+Vector6d bias_wrench(const Kinematics& kin, const Matrix6d& inertia, int body);
 Matrix6Xd bias_wrench(const Kinematics& kin, const std::vector<Matrix6d>& inertia);
 
 /// Gravity on each body (6 x N).
+Vector6d gravity_wrench(const Model& model, const Kinematics& kin, int body);
 Matrix6Xd gravity_wrench(const Model& model, const Kinematics& kin);
 
 /// Stiffness torque -k q at the angles of q (nv; zero at the root).
@@ -49,11 +52,19 @@ struct StepSystem {
 };
 
 /// Assembles Eq. 1 at `state`; `kin` has positions and velocities.
+void assemble_step_system(const Model& model, const State& state, const Kinematics& kin,
+                          const TipForce& tip, double h, StepSystem& system);
 StepSystem step_system(const Model& model, const State& state, const Kinematics& kin,
                        const TipForce& tip, double h);
 
 /// Kinetic energy, erg, of the twists (6 x N).
 double kinetic_energy(const std::vector<Matrix6d>& inertia, const Matrix6Xd& twist);
+
+/// The same from the bodies' own inertias, at kin.twist.
+double kinetic_energy(const Model& model, const Kinematics& kin);
+
+/// Power that drag takes from one body at `twist`, erg/s.
+double drag_power(const Model& model, const Kinematics& kin, int body, const Vector6d& twist);
 
 /// Energy in the joint springs, erg.
 double elastic_energy(const Model& model, const Eigen::VectorXd& q);

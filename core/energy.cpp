@@ -5,7 +5,7 @@ namespace {
 
 void set_energies(const Model& model, const State& state, const Kinematics& kin,
                   EnergyLedger& ledger) {
-  ledger.kinetic = kinetic_energy(body_inertias(model, kin), kin.twist);
+  ledger.kinetic = kinetic_energy(model, kin);
   ledger.elastic = elastic_energy(model, state.q);
   ledger.gravity = gravity_energy(model, kin);
 }
@@ -15,7 +15,7 @@ double dissipation(const Model& model, const Kinematics& kin, const Matrix6Xd& t
                    const Eigen::VectorXd& v) {
   double power = 0;
   for (int b = 0; b < model.body_count(); ++b) {
-    power += twist.col(b).dot(drag_operator(model, kin, b) * twist.col(b));
+    power += drag_power(model, kin, b, twist.col(b));
   }
   for (int k = root_dofs; k < model.nv(); ++k) {
     power += model.hinges[k - root_dofs].damping * v[k] * v[k];
@@ -32,11 +32,10 @@ EnergyLedger open_ledger(const Model& model, const State& state, const Kinematic
   return ledger;
 }
 
-void book_step(const Model& model, const State& state, const Kinematics& kin,
-               const StepSolution& solution, const State& next, const Kinematics& next_kin,
-               double h, EnergyLedger& ledger) {
+void book_step(const Model& model, const Kinematics& kin, const StepSolution& solution,
+               const State& next, const Kinematics& next_kin, double h, EnergyLedger& ledger) {
   const Eigen::VectorXd& v = solution.qdot;
-  const Matrix6Xd twist = body_twists(model, kin, v);
+  const Matrix6Xd& twist = solution.twist;
   const int last = model.body_count() - 1;
   ledger.work_tip += h * solution.tip.dot(point_velocity(twist.col(last), kin.centre_offset(last)));
   ledger.work_thigmotaxis += h * solution.force.thigmotaxis.dot(v);
@@ -47,17 +46,25 @@ void book_step(const Model& model, const State& state, const Kinematics& kin,
   ledger.dissipated += h * dissipation(model, kin, twist, v);
 
   const std::vector<Matrix6d>& inertia = solution.system.inertia;
-  ledger.integrator_inertia -= kinetic_energy(inertia, body_twists(model, kin, v - state.qdot));
   double stretch = 0;
   for (int k = root_dofs; k < model.nv(); ++k) {
     stretch += model.hinges[k - root_dofs].stiffness * v[k] * v[k];
   }
-  const Matrix6Xd weight = gravity_wrench(model, kin);
-  const double fall = h * weight.cwiseProduct(twist).sum();
+  double change = 0;  // kinetic energy of the change of velocity
+  double moved = 0;   // and of the new one, before the bodies move
+  double fall = 0;    // work of gravity
+  double bias = 0;    // and of what inertia asks for
+  for (int b = 0; b < model.body_count(); ++b) {
+    const Vector6d now = twist.col(b);
+    const Vector6d changed = now - kin.twist.col(b);
+    change += 0.5 * changed.dot(inertia[b] * changed);
+    moved += 0.5 * now.dot(inertia[b] * now);
+    fall += h * gravity_wrench(model, kin, b).dot(now);
+    bias += h * bias_wrench(kin, inertia[b], b).dot(now);
+  }
   const double before = gravity_energy(model, kin);
-  const double moved = kinetic_energy(inertia, twist);
-  const double bias = h * bias_wrench(kin, inertia).cwiseProduct(twist).sum();
   set_energies(model, next, next_kin, ledger);
+  ledger.integrator_inertia -= change;
   ledger.integrator_potential += -0.5 * h * h * stretch + fall + ledger.gravity - before;
   ledger.integrator_coriolis += ledger.kinetic - moved - bias;
 }

@@ -40,9 +40,8 @@ struct EnergyLedger {
 /// Opens the ledger at a state.
 EnergyLedger open_ledger(const Model& model, const State& state, const Kinematics& kin);
 
-/// Books the step from (`state`, `kin`) by `solution` to (`next`, `next_kin`), of length h.
-void book_step(const Model& model, const State& state, const Kinematics& kin,
-               const StepSolution& solution, const State& next, const Kinematics& next_kin,
-               double h, EnergyLedger& ledger);
+/// Books the step from `kin` by `solution` to (`next`, `next_kin`), of length h.
+void book_step(const Model& model, const Kinematics& kin, const StepSolution& solution,
+               const State& next, const Kinematics& next_kin, double h, EnergyLedger& ledger);
 
 }  // namespace hagfish

@@ -88,21 +88,34 @@ Kinematics kinematics(const Model& model, const State& state) {
 }
 
 Matrix6Xd body_twists(const Model& model, const Kinematics& kin, const Eigen::VectorXd& v) {
-  Matrix6Xd twists(6, model.body_count());
-  Vector6d twist = Vector6d::Zero();
+  Matrix6Xd twist;
+  body_twists(model, kin, v, twist);
+  return twist;
+}
+
+void body_twists(const Model& model, const Kinematics& kin, const Eigen::VectorXd& v,
+                 Matrix6Xd& twist) {
+  twist.resize(6, model.body_count());
+  Vector6d sum = Vector6d::Zero();
   for (int b = 0; b < model.body_count(); ++b) {
     const Body& body = model.bodies[b];
     for (int k = body.first_dof; k < body.first_dof + body.dofs; ++k) {
-      twist += kin.axis.col(k) * v[k];
+      sum += kin.axis.col(k) * v[k];
     }
-    twists.col(b) = twist;
+    twist.col(b) = sum;
   }
-  return twists;
 }
 
 Eigen::VectorXd generalised_force(const Model& model, const Kinematics& kin,
                                   const Matrix6Xd& wrench) {
-  Eigen::VectorXd force(model.nv());
+  Eigen::VectorXd force;
+  generalised_force(model, kin, wrench, force);
+  return force;
+}
+
+void generalised_force(const Model& model, const Kinematics& kin, const Matrix6Xd& wrench,
+                       Eigen::VectorXd& force) {
+  force.resize(model.nv());
   Vector6d sum = Vector6d::Zero();
   for (int b = model.body_count() - 1; b >= 0; --b) {
     const Body& body = model.bodies[b];
@@ -111,7 +124,6 @@ Eigen::VectorXd generalised_force(const Model& model, const Kinematics& kin,
       force[k] = kin.axis.col(k).dot(sum);
     }
   }
-  return force;
 }
 
 }  // namespace hagfish

@@ -32,12 +32,18 @@ void update_velocities(const Model& model, const Eigen::VectorXd& qdot, Kinemati
 
 Kinematics kinematics(const Model& model, const State& state);
 
+// Functions with an output argument write into its storage; a step allocates nothing.
+
 /// Twists of all bodies (6 x N) at the velocities `v` (nv) instead of q̇.
 Matrix6Xd body_twists(const Model& model, const Kinematics& kin, const Eigen::VectorXd& v);
+void body_twists(const Model& model, const Kinematics& kin, const Eigen::VectorXd& v,
+                 Matrix6Xd& twist);
 
 /// J' w: generalised force (nv) of one wrench about O per body (6 x N). Exactly zero at every dof
 /// that has no loaded body behind it.
 Eigen::VectorXd generalised_force(const Model& model, const Kinematics& kin,
                                   const Matrix6Xd& wrench);
+void generalised_force(const Model& model, const Kinematics& kin, const Matrix6Xd& wrench,
+                       Eigen::VectorXd& force);
 
 }  // namespace hagfish

@@ -1,6 +1,7 @@
 #include "core/rows.hpp"
 
 #include <cmath>
+#include <optional>
 
 namespace hagfish {
 namespace {
@@ -12,22 +13,20 @@ std::int64_t row_id(RowKind kind, int first, int second) {
          second;
 }
 
-/// Adds weight * force at the spline point (segment, t).
-void add_spline_force(Row& row, int segment, double t, int bodies, const Eigen::Vector3d& force) {
-  const SplineMix mix = spline_mix(segment, t, bodies);
-  for (int k = 0; k < mix.count; ++k) {
-    row.force[row.forces++] = {mix.first + k, mix.weight[k] * force};
-  }
+/// Relative motion along `direction` of the two spline points of a contact.
+void set_points(Row& row, const Contact& contact, const Eigen::Vector3d& direction, int bodies) {
+  row.direction = direction;
+  row.a = spline_mix(contact.segment_a, contact.t_a, bodies);
+  row.b = spline_mix(contact.segment_b, contact.t_b, bodies);
 }
 
-/// The right-hand side of a unilateral row at `gap`, or false where the row is not in force.
+/// The right-hand side of a unilateral row at `gap`; none where the row is not in force.
 /// Speculative rows let a gap close within the step; a violation is pushed out over several.
-bool set_unilateral(Row& row, double gap, const ConstraintSettings& settings, double h) {
+std::optional<double> unilateral(double gap, const ConstraintSettings& settings, double h) {
   if (gap >= 0 && settings.activation == Activation::violated) {
-    return false;
+    return std::nullopt;
   }
-  row.rhs = gap >= 0 ? -gap / h : -settings.push_out * gap / h;
-  return true;
+  return gap >= 0 ? -gap / h : -settings.push_out * gap / h;
 }
 
 }  // namespace
@@ -66,10 +65,9 @@ double row_velocity(const Row& row, const Kinematics& kin, const Matrix6Xd& twis
     return row.sign * v[row.dof];
   }
   double sum = 0;
-  for (int k = 0; k < row.forces; ++k) {
-    const auto& [body, force] = row.force[k];
+  visit_forces(row, [&](int body, const Eigen::Vector3d& force) {
     sum += force.dot(point_velocity(twist.col(body), kin.centre_offset(body)));
-  }
+  });
   return sum;
 }
 
@@ -79,110 +77,94 @@ void add_row(const Row& row, const Kinematics& kin, double lambda, Matrix6Xd& wr
     joint[row.dof] += row.sign * lambda;
     return;
   }
-  for (int k = 0; k < row.forces; ++k) {
-    const auto& [body, force] = row.force[k];
+  visit_forces(row, [&](int body, const Eigen::Vector3d& force) {
     wrench.col(body) += wrench_of_force(lambda * force, kin.centre_offset(body));
-  }
+  });
 }
 
-std::vector<Row> head_rows(const State& state, const ConstraintSettings& settings, double h) {
+void append_head_rows(const State& state, const ConstraintSettings& settings, double h,
+                      std::vector<Row>& rows) {
   // The turn from the clamped orientation, as a rotation vector of small angle, body frame.
   const Eigen::Vector3d turn = 2 * std::copysign(1.0, state.q[3]) * state.q.segment<3>(4);
-  std::vector<Row> rows(root_dofs);
   for (int k = 0; k < root_dofs; ++k) {
-    rows[k].kind = RowKind::head;
-    rows[k].id = row_id(RowKind::head, k, 0);
-    rows[k].dof = k;
-    rows[k].rhs = -settings.push_out / h * (k < 3 ? state.q[k] : turn[k - 3]);
-    rows[k].lower = -unbounded;
+    Row& row = rows.emplace_back();
+    row.kind = RowKind::head;
+    row.id = row_id(RowKind::head, k, 0);
+    row.dof = k;
+    row.rhs = -settings.push_out / h * (k < 3 ? state.q[k] : turn[k - 3]);
+    row.lower = -unbounded;
   }
-  return rows;
 }
 
-std::vector<Row> limit_rows(const Model& model, const State& state,
-                            const ConstraintSettings& settings, double h) {
-  std::vector<Row> rows;
+void append_limit_rows(const Model& model, const State& state, const ConstraintSettings& settings,
+                       double h, std::vector<Row>& rows) {
   for (int k = root_dofs; k < model.nv(); ++k) {
     const Hinge& hinge = model.hinges[k - root_dofs];
     for (const double sign : {1.0, -1.0}) {
       const double gap = sign > 0 ? state.q[k + 1] - hinge.lower : hinge.upper - state.q[k + 1];
-      Row row;
+      const std::optional<double> rhs = unilateral(gap, settings, h);
+      if (!std::isfinite(gap) || !rhs) {
+        continue;
+      }
+      Row& row = rows.emplace_back();
       row.kind = RowKind::limit;
       row.id = row_id(RowKind::limit, k, sign > 0 ? 0 : 1);
       row.dof = k;
       row.sign = sign;
-      if (std::isfinite(gap) && set_unilateral(row, gap, settings, h)) {
-        rows.push_back(row);
-      }
+      row.rhs = *rhs;
     }
   }
-  return rows;
 }
 
-std::vector<Row> contact_rows(const Model& model, const ContactSet& contacts,
-                              const ConstraintSettings& settings, double h) {
-  std::vector<Row> rows;
-  const auto add = [&](const Contact& contact, bool waits) {
-    Row row;
-    row.kind = RowKind::contact;
-    row.id = row_id(RowKind::contact, contact.segment_a, contact.segment_b);
-    row.waits = waits;
-    if (set_unilateral(row, contact.gap, settings, h)) {
-      add_spline_force(row, contact.segment_a, contact.t_a, model.body_count(), contact.normal);
-      add_spline_force(row, contact.segment_b, contact.t_b, model.body_count(), -contact.normal);
-      rows.push_back(row);
+void append_contact_rows(const Model& model, const ContactSet& contacts,
+                         const ConstraintSettings& settings, double h, std::vector<Row>& rows) {
+  const auto append = [&](const Contact& contact, bool waits) {
+    if (const std::optional<double> rhs = unilateral(contact.gap, settings, h)) {
+      Row& row = rows.emplace_back();
+      row.kind = RowKind::contact;
+      row.id = row_id(RowKind::contact, contact.segment_a, contact.segment_b);
+      row.waits = waits;
+      row.rhs = *rhs;
+      set_points(row, contact, contact.normal, model.body_count());
     }
   };
   for (const Contact& contact : contacts.contacts) {
-    add(contact, false);
+    append(contact, false);
   }
   for (const Contact& contact : contacts.others) {
-    add(contact, true);
+    append(contact, true);
   }
-  return rows;
 }
 
-std::vector<Row> wall_rows(const Model& model, const Kinematics& kin, const WallSettings& wall,
-                           const ConstraintSettings& settings, double h) {
-  std::vector<Row> rows;
-  double arc = 0;
-  for (int b = 0; wall.present && b < model.body_count(); ++b) {
-    const Body& body = model.bodies[b];
-    arc += body.length;
-    if (arc - 0.5 * body.length < wall.neck) {
-      continue;
+void append_wall_rows(const Model& model, const Kinematics& kin, const WallSettings& wall,
+                      const ConstraintSettings& settings, double h, std::vector<Row>& rows) {
+  visit_wall_gaps(model, kin, wall, [&](int body, double gap) {
+    if (const std::optional<double> rhs = unilateral(gap, settings, h)) {
+      Row& row = rows.emplace_back();
+      row.kind = RowKind::wall;
+      row.id = row_id(RowKind::wall, body, 0);
+      row.direction = Eigen::Vector3d::UnitX();
+      row.a = {body, 1, {1}};
+      row.rhs = *rhs;
     }
-    Row row;
-    row.kind = RowKind::wall;
-    row.id = row_id(RowKind::wall, b, 0);
-    if (set_unilateral(row, kin.centre(0, b) - body.radius, settings, h)) {
-      row.force[row.forces++] = {b, Eigen::Vector3d::UnitX()};
-      rows.push_back(row);
-    }
-  }
-  return rows;
+  });
 }
 
-std::vector<Row> thigmotaxis_rows(const Model& model,
-                                  const std::vector<ThigmotaxisCommand>& commands, double cap,
-                                  double h) {
-  std::vector<Row> rows;
+void append_thigmotaxis_rows(const Model& model, const std::vector<ThigmotaxisCommand>& commands,
+                             double cap, double h, std::vector<Row>& rows) {
   for (std::size_t place = 0; place < commands.size(); ++place) {
     const auto& [contact, speed] = commands[place];
     for (const bool along_a : {true, false}) {
       // Eq. 6: t_a' (ẋ_a - ẋ_b) >= v_a and t_b' (ẋ_b - ẋ_a) >= v_b.
       const Eigen::Vector3d on_a = along_a ? contact.tangent_a : -contact.tangent_b;
-      Row row;
+      Row& row = rows.emplace_back();
       row.kind = RowKind::thigmotaxis;
       row.id = row_id(RowKind::thigmotaxis, static_cast<int>(place), along_a ? 0 : 1);
-      add_spline_force(row, contact.segment_a, contact.t_a, model.body_count(), on_a);
-      add_spline_force(row, contact.segment_b, contact.t_b, model.body_count(), -on_a);
+      set_points(row, contact, on_a, model.body_count());
       row.rhs = along_a ? speed.a : speed.b;
       row.upper = cap * h;  // the soft row: its L1 slack is this bound's dual
-      rows.push_back(row);
     }
   }
-  return rows;
 }
 
 }  // namespace hagfish

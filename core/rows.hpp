@@ -1,9 +1,8 @@
 // Constraint rows C q̇ >= d and G q̇ = e of the step's QP (paper, Eqs. 3, 4 and 6), all kept as one
-// list: a row is a unit dof or forces on a few body centres, with bounds on its multiplier.
+// list: a row is a unit dof or the relative motion of two points, with bounds on its multiplier.
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -14,6 +13,7 @@
 #include "core/kinematics.hpp"
 #include "core/model.hpp"
 #include "core/settings.hpp"
+#include "core/spline.hpp"
 #include "core/state.hpp"
 
 namespace hagfish {
@@ -22,22 +22,31 @@ enum class RowKind : std::uint8_t { head, limit, contact, wall, thigmotaxis };
 
 struct Row {
   RowKind kind = RowKind::limit;
+  bool waits = false;  ///< enters the problem only once a solution without it violates it
+  int dof = -1;        ///< unit row: C q̇ = sign * q̇[dof]; -1 where points are used
+  double sign = 1;     ///< +1 or -1
   /// Same from step to step for the same physical constraint: limits by dof and side, contacts by
   /// segments, thigmotaxis by place and tangent.
   std::int64_t id = 0;
-  int dof = -1;     ///< unit row: C q̇ = sign * q̇[dof]; -1 where forces are used
-  double sign = 1;  ///< +1 or -1
-  struct BodyForce {
-    int body = 0;
-    Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< at the body's centre, world, per unit λ
-  };
-  std::array<BodyForce, 8> force{};  ///< C q̇ = Σ force . centre velocity
-  int forces = 0;
-  double rhs = 0;      ///< d, cm/s or rad/s
-  bool waits = false;  ///< enters the problem only once a solution without it violates it
-  double lower = 0;    ///< bounds on the multiplier λ, dyn s or dyn cm s
+  /// C q̇ = direction . (ẋ_a - ẋ_b), each point a mix of body centres; `b` may have none.
+  Eigen::Vector3d direction;  ///< unit, world
+  SplineMix a, b;
+  double rhs = 0;    ///< d, cm/s or rad/s
+  double lower = 0;  ///< bounds on the multiplier λ, dyn s or dyn cm s
   double upper = std::numeric_limits<double>::infinity();
 };
+
+/// Calls `visit(body, force)` for each force (world, at the body's centre, per unit λ) that a row
+/// with points stands for: C q̇ is the sum of force . centre velocity.
+template <class Visit>
+void visit_forces(const Row& row, Visit visit) {
+  for (int k = 0; k < row.a.count; ++k) {
+    visit(row.a.first + k, (row.a.weight[k] * row.direction).eval());
+  }
+  for (int k = 0; k < row.b.count; ++k) {
+    visit(row.b.first + k, (-row.b.weight[k] * row.direction).eval());
+  }
+}
 
 /// "limit of j05_bend_y (upper)", "contact of bodies 31 and 74", ...
 std::string row_name(const Model& model, const Row& row);
@@ -50,21 +59,38 @@ double row_velocity(const Row& row, const Kinematics& kin, const Matrix6Xd& twis
 void add_row(const Row& row, const Kinematics& kin, double lambda, Matrix6Xd& wrench,
              Eigen::VectorXd& joint);
 
+// Rows are appended: a step gathers all kinds in one list, whose storage it keeps.
+
 /// Six bilateral rows that hold the root at the origin and unturned (paper, Eq. 3); a drift is
 /// taken back at the rate push_out / h.
-std::vector<Row> head_rows(const State& state, const ConstraintSettings& settings, double h);
+void append_head_rows(const State& state, const ConstraintSettings& settings, double h,
+                      std::vector<Row>& rows);
 
 /// One row per bounded side of each hinge.
-std::vector<Row> limit_rows(const Model& model, const State& state,
-                            const ConstraintSettings& settings, double h);
+void append_limit_rows(const Model& model, const State& state, const ConstraintSettings& settings,
+                       double h, std::vector<Row>& rows);
 
 /// One row per contact, the exact rate of its gap; those that are no local minimum wait.
-std::vector<Row> contact_rows(const Model& model, const ContactSet& contacts,
-                              const ConstraintSettings& settings, double h);
+void append_contact_rows(const Model& model, const ContactSet& contacts,
+                         const ConstraintSettings& settings, double h, std::vector<Row>& rows);
 
-/// One row per body behind the neck: it stays clear of the head plate x = 0.
-std::vector<Row> wall_rows(const Model& model, const Kinematics& kin, const WallSettings& wall,
-                           const ConstraintSettings& settings, double h);
+/// Gaps to the head plate x = 0, cm: calls `visit(body, gap)` for each body behind the neck.
+template <class Visit>
+void visit_wall_gaps(const Model& model, const Kinematics& kin, const WallSettings& wall,
+                     Visit visit) {
+  double arc = 0;
+  for (int b = 0; wall.present && b < model.body_count(); ++b) {
+    const Body& body = model.bodies[b];
+    arc += body.length;
+    if (arc - 0.5 * body.length >= wall.neck) {
+      visit(b, kin.centre(0, b) - body.radius);
+    }
+  }
+}
+
+/// One row per body behind the neck: it stays clear of the head plate.
+void append_wall_rows(const Model& model, const Kinematics& kin, const WallSettings& wall,
+                      const ConstraintSettings& settings, double h, std::vector<Row>& rows);
 
 /// Commanded sliding at one contact.
 struct ThigmotaxisCommand {
@@ -73,8 +99,7 @@ struct ThigmotaxisCommand {
 };
 
 /// Eq. 6 at the first and the last contact: rows t_a, t_b of each. `cap` bounds λ / h (dyn).
-std::vector<Row> thigmotaxis_rows(const Model& model,
-                                  const std::vector<ThigmotaxisCommand>& commands, double cap,
-                                  double h);
+void append_thigmotaxis_rows(const Model& model, const std::vector<ThigmotaxisCommand>& commands,
+                             double cap, double h, std::vector<Row>& rows);
 
 }  // namespace hagfish

@@ -58,26 +58,34 @@ bool finished(const Simulation& sim, const Scene& scene) {
           time >= sim.controller.phase_start + scene.controller.free_time);
 }
 
-StepRecord take_step(const Model& model, const Scene& scene, BoxQpSolver& solver, Simulation& sim) {
+void take_step(const Model& model, const Scene& scene, BoxQpSolver& solver, Simulation& sim,
+               StepRecord& record) {
   const double h = scene.time.step;
-  StepRecord record;
   record.step = sim.step;
   record.time = time_of(sim, scene);
-  record.control = decide(model, scene, sim.situation, record.time, sim.controller);
-  record.solution =
-      solve_step(model, sim.state, sim.situation, record.control, scene, solver, sim.warm);
+  decide(model, scene, sim.situation, record.time, sim.controller, record.control);
+  solve_step(model, sim.state, sim.situation, record.control, scene, solver, sim.warm, sim.scratch,
+             record.solution);
 
-  State next{advance(sim.state.q, record.solution.qdot, h), record.solution.qdot};
-  Situation ahead = observe(model, next, scene);
-  guard(model, ahead, scene.guard);
+  // The record's old state and situation are storage for the next ones; then they change places.
+  advance(sim.state.q, record.solution.qdot, h, record.state.q);
+  record.state.qdot = record.solution.qdot;
+  observe(model, record.state, scene, record.situation);
+  guard(model, record.situation, scene.guard);
 
   record.ledger = sim.ledger;
-  book_step(model, sim.state, sim.situation.kin, record.solution, next, ahead.kin, h, sim.ledger);
+  book_step(model, sim.situation.kin, record.solution, record.state, record.situation.kin, h,
+            sim.ledger);
   record.head_drift = record.control.clamp_head ? head_drift(model, sim.situation.kin) : 0;
   record.controller = sim.controller;
-  record.state = std::exchange(sim.state, std::move(next));
-  record.situation = std::exchange(sim.situation, std::move(ahead));
+  std::swap(record.state, sim.state);
+  std::swap(record.situation, sim.situation);
   ++sim.step;
+}
+
+StepRecord take_step(const Model& model, const Scene& scene, BoxQpSolver& solver, Simulation& sim) {
+  StepRecord record;
+  take_step(model, scene, solver, sim, record);
   return record;
 }
 

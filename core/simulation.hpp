@@ -15,6 +15,7 @@ struct Simulation {
   Situation situation;  ///< of `state`
   ControllerState controller;
   WarmStart warm;
+  StepScratch scratch;
   EnergyLedger ledger;
 };
 
@@ -45,8 +46,10 @@ struct StepRecord {
   double head_drift = 0;  ///< cm; 0 while the head is free
 };
 
-/// Takes one step. Throws StepError, naming the cause, where it cannot; `sim` is then unchanged
-/// but for the controller and the warm start.
+/// Takes one step, writing into the storage of `record`. Throws StepError, naming the cause, where
+/// it cannot; `sim` is then unchanged but for the controller and the warm start.
+void take_step(const Model& model, const Scene& scene, BoxQpSolver& solver, Simulation& sim,
+               StepRecord& record);
 StepRecord take_step(const Model& model, const Scene& scene, BoxQpSolver& solver, Simulation& sim);
 
 }  // namespace hagfish

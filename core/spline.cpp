@@ -29,9 +29,11 @@ SplineMix spline_mix(int segment, double t, int bodies) {
   return mix;
 }
 
-std::vector<SplineSegment> spline(const Model& model, const Eigen::Matrix3Xd& centre) {
+void update_spline(const Model& model, const Eigen::Matrix3Xd& centre,
+                   std::vector<SplineSegment>& segments) {
   const int n = model.body_count();
-  std::vector<SplineSegment> segments(n - 1);
+  segments.resize(n - 1);
+  double arc = 0.5 * model.bodies[0].length;
   for (int i = 0; i + 1 < n; ++i) {
     const Eigen::Vector3d p1 = centre.col(i);
     const Eigen::Vector3d p2 = centre.col(i + 1);
@@ -44,6 +46,9 @@ std::vector<SplineSegment> spline(const Model& model, const Eigen::Matrix3Xd& ce
     s.c3 = 0.5 * (-p0 + 3 * p1 - 3 * p2 + p3);
     s.r0 = model.bodies[i].radius;
     s.r1 = model.bodies[i + 1].radius - s.r0;
+    s.s0 = arc;
+    s.s1 = 0.5 * (model.bodies[i].length + model.bodies[i + 1].length);
+    arc += s.s1;
     // A cubic lies in the hull of its Bézier points, two of which are the ends.
     s.middle = 0.5 * (p1 + p2);
     const Eigen::Vector3d b1 = p1 + (p2 - p0) / 6;
@@ -51,17 +56,12 @@ std::vector<SplineSegment> spline(const Model& model, const Eigen::Matrix3Xd& ce
     s.bound = std::max({(p1 - s.middle).norm(), (b1 - s.middle).norm(), (b2 - s.middle).norm()}) +
               std::max(s.r0, s.r0 + s.r1);
   }
-  return segments;
 }
 
-double arc_length(const Model& model, int segment, double t) {
-  double s = 0;
-  for (int b = 0; b < segment; ++b) {
-    s += model.bodies[b].length;
-  }
-  const double own = model.bodies[segment].length;
-  const double next = model.bodies[segment + 1].length;
-  return s + 0.5 * own + t * 0.5 * (own + next);
+std::vector<SplineSegment> spline(const Model& model, const Eigen::Matrix3Xd& centre) {
+  std::vector<SplineSegment> segments;
+  update_spline(model, centre, segments);
+  return segments;
 }
 
 }  // namespace hagfish

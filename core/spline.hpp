@@ -27,6 +27,7 @@ SplineMix spline_mix(int segment, double t, int bodies);
 struct SplineSegment {
   Eigen::Vector3d c0, c1, c2, c3;  ///< cm
   double r0 = 0, r1 = 0;           ///< cm
+  double s0 = 0, s1 = 0;           ///< arc length from the head at rest, s(t) = s0 + s1 t, cm
   Eigen::Vector3d middle;          ///< centre of a sphere that holds the skin of the segment, cm
   double bound = 0;                ///< its radius, cm
 
@@ -34,12 +35,12 @@ struct SplineSegment {
   Eigen::Vector3d slope(double t) const { return c1 + t * (2 * c2 + 3 * t * c3); }
   Eigen::Vector3d bend(double t) const { return 2 * c2 + 6 * t * c3; }
   double radius(double t) const { return r0 + t * r1; }
+  double arc(double t) const { return s0 + t * s1; }
 };
 
 /// All segments through the columns of `centre` (3 x N, cm) with the bodies' radii.
+void update_spline(const Model& model, const Eigen::Matrix3Xd& centre,
+                   std::vector<SplineSegment>& segments);
 std::vector<SplineSegment> spline(const Model& model, const Eigen::Matrix3Xd& centre);
-
-/// Arc length from the head of a spline point of the chain at rest, cm.
-double arc_length(const Model& model, int segment, double t);
 
 }  // namespace hagfish

@@ -8,8 +8,8 @@ State rest_state(const Model& model) {
   return state;
 }
 
-Eigen::VectorXd advance(const Eigen::VectorXd& q0, const Eigen::VectorXd& qdot, double h) {
-  Eigen::VectorXd q = q0;
+void advance(const Eigen::VectorXd& q0, const Eigen::VectorXd& qdot, double h, Eigen::VectorXd& q) {
+  q = q0;
   q.head<3>() += h * qdot.head<3>();
   const Eigen::Vector3d turn = h * qdot.segment<3>(3);
   const double angle = turn.norm();
@@ -20,6 +20,11 @@ Eigen::VectorXd advance(const Eigen::VectorXd& q0, const Eigen::VectorXd& qdot, 
   }
   const Eigen::Index hinges = qdot.size() - root_dofs;
   q.tail(hinges) += h * qdot.tail(hinges);
+}
+
+Eigen::VectorXd advance(const Eigen::VectorXd& q0, const Eigen::VectorXd& qdot, double h) {
+  Eigen::VectorXd q;
+  advance(q0, qdot, h, q);
   return q;
 }
 

@@ -27,6 +27,7 @@ inline Eigen::Quaterniond root_orientation(const Eigen::VectorXd& q) {
 /// q0 moved by velocity `qdot` for time h (paper, Eq. 2, with the new velocity: semi-implicit
 /// Euler). The orientation turns by the exact rotation of the constant body rate, as MuJoCo's
 /// mj_integratePos, and is renormalised.
+void advance(const Eigen::VectorXd& q0, const Eigen::VectorXd& qdot, double h, Eigen::VectorXd& q);
 Eigen::VectorXd advance(const Eigen::VectorXd& q0, const Eigen::VectorXd& qdot, double h);
 
 }  // namespace hagfish

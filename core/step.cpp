@@ -5,8 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "core/dual_problem.hpp"
-
 namespace hagfish {
 namespace {
 
@@ -18,21 +16,17 @@ constexpr double lazy_tolerance = 1e-8;
 /// λ, rows brought to unit diagonal, counts as a force above this share of the largest.
 constexpr double active_share = 1e-6;
 
-std::vector<Row> all_rows(const Model& model, const State& state, const Situation& situation,
-                          const Control& control, const Scene& scene) {
+void gather_rows(const Model& model, const State& state, const Situation& situation,
+                 const Control& control, const Scene& scene, std::vector<Row>& rows) {
   const double h = scene.time.step;
-  std::vector<Row> rows;
-  const auto append = [&rows](std::vector<Row> more) {
-    rows.insert(rows.end(), more.begin(), more.end());
-  };
+  rows.clear();
   if (control.clamp_head) {
-    append(head_rows(state, scene.constraints, h));
+    append_head_rows(state, scene.constraints, h, rows);
   }
-  append(thigmotaxis_rows(model, control.thigmotaxis, scene.controller.cap, h));
-  append(contact_rows(model, situation.contact, scene.constraints, h));
-  append(limit_rows(model, state, scene.constraints, h));
-  append(wall_rows(model, situation.kin, scene.wall, scene.constraints, h));
-  return rows;
+  append_thigmotaxis_rows(model, control.thigmotaxis, scene.controller.cap, h, rows);
+  append_contact_rows(model, situation.contact, scene.constraints, h, rows);
+  append_limit_rows(model, state, scene.constraints, h, rows);
+  append_wall_rows(model, situation.kin, scene.wall, scene.constraints, h, rows);
 }
 
 bool always_in(const Row& row) {
@@ -40,38 +34,50 @@ bool always_in(const Row& row) {
 }
 
 /// Eqs. 7 and 8: f = C'λ / h, by kind of row.
-ConstraintForces constraint_forces(const Model& model, const Kinematics& kin,
-                                   const std::vector<Row>& rows, const Eigen::VectorXd& lambda,
-                                   double h) {
-  const auto of_kind = [&](RowKind kind) {
-    Matrix6Xd wrench = Matrix6Xd::Zero(6, model.body_count());
-    Eigen::VectorXd joint = Eigen::VectorXd::Zero(model.nv());
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      if (rows[i].kind == kind) {
-        add_row(rows[i], kin, lambda[i] / h, wrench, joint);
+void sum_forces(const Model& model, const Kinematics& kin, double h, StepScratch& scratch,
+                StepSolution& step) {
+  const auto of_kind = [&](RowKind kind, Eigen::VectorXd& force) {
+    scratch.wrench.setZero(6, model.body_count());
+    scratch.joint.setZero(model.nv());
+    bool any = false;
+    for (std::size_t i = 0; i < step.rows.size(); ++i) {
+      if (step.rows[i].kind == kind && step.lambda[i] != 0) {
+        add_row(step.rows[i], kin, step.lambda[i] / h, scratch.wrench, scratch.joint);
+        any = true;
       }
     }
-    return (generalised_force(model, kin, wrench) + joint).eval();
+    if (any) {
+      generalised_force(model, kin, scratch.wrench, force);
+      force += scratch.joint;
+    } else {
+      force.setZero(model.nv());
+    }
   };
-  return {of_kind(RowKind::head), of_kind(RowKind::limit), of_kind(RowKind::contact),
-          of_kind(RowKind::wall), of_kind(RowKind::thigmotaxis)};
+  of_kind(RowKind::head, step.force.head);
+  of_kind(RowKind::limit, step.force.limit);
+  of_kind(RowKind::contact, step.force.contact);
+  of_kind(RowKind::wall, step.force.wall);
+  of_kind(RowKind::thigmotaxis, step.force.thigmotaxis);
 }
 
-/// H⁻¹ (g + C'λ).
-Eigen::VectorXd constrained_velocity(const Model& model, const Kinematics& kin,
-                                     const ArticulatedFactor& factor, const StepSystem& system,
-                                     const std::vector<Row>& rows, const Eigen::VectorXd& lambda) {
-  Matrix6Xd wrench = system.wrench;
-  Eigen::VectorXd joint = system.joint;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    add_row(rows[i], kin, lambda[i], wrench, joint);
+/// q̇ = H⁻¹ (g + C'λ), and the bodies' twists.
+void set_velocity(const Model& model, const Kinematics& kin, StepScratch& scratch,
+                  StepSolution& step) {
+  scratch.wrench = step.system.wrench;
+  scratch.joint = step.system.joint;
+  for (std::size_t i = 0; i < step.rows.size(); ++i) {
+    if (step.lambda[i] != 0) {
+      add_row(step.rows[i], kin, step.lambda[i], scratch.wrench, scratch.joint);
+    }
   }
-  return factor.solve(model, kin, wrench, joint);
+  scratch.factor.solve(model, kin, scratch.wrench, scratch.joint, step.qdot);
+  body_twists(model, kin, step.qdot, step.twist);
 }
 
 /// Eq. 3 or Eq. 4 on the rows chosen, as one small problem in the multipliers.
-Eigen::VectorXd solve_multipliers(const Model& model, const BoxQp& qp, const std::vector<Row>& rows,
-                                  BoxQpSolver& solver, const WarmStart& warm, StepSolution& step) {
+void solve_multipliers(const Model& model, const BoxQp& qp, BoxQpSolver& solver,
+                       const WarmStart& warm, StepScratch& scratch, StepSolution& step) {
+  const std::vector<Row>& rows = step.rows;
   const bool bilateral = std::all_of(rows.begin(), rows.end(),
                                      [](const Row& row) { return row.kind == RowKind::head; });
   BoxQpSolution solution;
@@ -80,13 +86,13 @@ Eigen::VectorXd solve_multipliers(const Model& model, const BoxQp& qp, const std
     solution = solve_bilateral(qp.A, qp.b);
   } else {
     step.kind = SolveKind::qp;
-    Eigen::VectorXd start = Eigen::VectorXd::Zero(qp.b.size());
+    scratch.start.resize(qp.b.size());
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      const auto it = warm.find(rows[i].id);
-      start[i] = it == warm.end() ? 0 : it->second;
+      const double* kept = warm.find(rows[i].id);
+      scratch.start[i] = kept == nullptr ? 0 : *kept;
     }
     const auto begin = std::chrono::steady_clock::now();
-    solution = solver.solve(qp, start);
+    solution = solver.solve(qp, scratch.start);
     step.qp_time += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   }
   step.iterations += solution.iterations;
@@ -98,117 +104,165 @@ Eigen::VectorXd solve_multipliers(const Model& model, const BoxQp& qp, const std
                     " rows, furthest from being met: " + row_name(model, rows[worst]) +
                     (solution.message.empty() ? "" : " (" + solution.message + ")"));
   }
-  return solution.x;
+  step.lambda = solution.x;
 }
 
 /// Eq. 1: H q̇* = M q̇0 + h f.
-ArticulatedFactor unconstrained_motion(const Model& model, const State& state,
-                                       const Kinematics& kin, const TipForce& tip, double h,
-                                       StepSolution& step) {
+void unconstrained_motion(const Model& model, const State& state, const Kinematics& kin,
+                          const TipForce& tip, double h, StepScratch& scratch, StepSolution& step) {
   if (!state.q.allFinite() || !state.qdot.allFinite()) {
     throw StepError("non-finite state");
   }
-  step.system = step_system(model, state, kin, tip, h);
-  ArticulatedFactor factor;
+  assemble_step_system(model, state, kin, tip, h, step.system);
   try {
-    factor.factorise(model, kin, step.system.op);
+    scratch.factor.factorise(model, kin, step.system.op);
   } catch (const std::domain_error& error) {
     throw StepError(error.what());
   }
-  step.unconstrained = factor.solve(model, kin, step.system.wrench, step.system.joint);
+  scratch.factor.solve(model, kin, step.system.wrench, step.system.joint, step.unconstrained);
   if (!step.unconstrained.allFinite()) {
     throw StepError("non-finite unconstrained velocity");
   }
+  body_twists(model, kin, step.unconstrained, scratch.unconstrained_twist);
   step.qdot = step.unconstrained;
-  return factor;
+  step.twist = scratch.unconstrained_twist;
 }
 
-/// Eq. 3 or 4 on step.rows; rows of `waiting` come in as the answer violates them.
-BoxQp constrained_motion(const Model& model, const Kinematics& kin, const ArticulatedFactor& factor,
-                         const DualProblem& dual, std::vector<Row> waiting, BoxQpSolver& solver,
-                         const WarmStart& warm, StepSolution& step) {
-  BoxQp qp;
-  for (bool complete = step.rows.empty() && waiting.empty(); !complete;) {
-    if (!step.rows.empty()) {
-      qp = dual.assemble(step.rows);
-      step.lambda = solve_multipliers(model, qp, step.rows, solver, warm, step);
-      ++step.rounds;
-      step.qdot = constrained_velocity(model, kin, factor, step.system, step.rows, step.lambda);
+/// Moves the rows that cannot bind, as far as one can tell beforehand, to the waiting ones.
+void set_waiting_aside(const State& state, const Kinematics& kin, const WarmStart& warm,
+                       StepScratch& scratch, StepSolution& step) {
+  const auto waits = [&](const Row& row) {
+    if (always_in(row) || warm.find(row.id) != nullptr) {
+      return false;
     }
-    const Matrix6Xd twist = body_twists(model, kin, step.qdot);
-    const auto violated =
-        std::stable_partition(waiting.begin(), waiting.end(), [&](const Row& row) {
-          return row_velocity(row, kin, twist, step.qdot) >= row.rhs - lazy_tolerance;
-        });
-    complete = violated == waiting.end();
-    step.rows.insert(step.rows.end(), violated, waiting.end());
-    waiting.erase(violated, waiting.end());
+    return row.waits ||
+           (row_velocity(row, kin, scratch.unconstrained_twist, step.unconstrained) - row.rhs >=
+                lazy_reach &&
+            row_velocity(row, kin, kin.twist, state.qdot) - row.rhs >= lazy_reach);
+  };
+  scratch.waiting.clear();
+  std::size_t kept = 0;
+  for (const Row& row : step.rows) {
+    if (waits(row)) {
+      scratch.waiting.push_back(row);
+    } else {
+      step.rows[kept++] = row;
+    }
+  }
+  step.rows.resize(kept);
+}
+
+/// Moves the waiting rows that q̇ violates to the rows of the problem; whether there were any.
+bool take_in_violated(const Kinematics& kin, StepScratch& scratch, StepSolution& step) {
+  std::size_t kept = 0;
+  for (const Row& row : scratch.waiting) {
+    if (row_velocity(row, kin, step.twist, step.qdot) >= row.rhs - lazy_tolerance) {
+      scratch.waiting[kept++] = row;
+    } else {
+      step.rows.push_back(row);
+    }
+  }
+  const bool any = kept < scratch.waiting.size();
+  scratch.waiting.resize(kept);
+  return any;
+}
+
+/// Eq. 3 or 4 on step.rows; waiting rows come in as the answer violates them.
+void constrained_motion(const Model& model, const Kinematics& kin, BoxQpSolver& solver,
+                        const WarmStart& warm, StepScratch& scratch, StepSolution& step) {
+  bool changed = !step.rows.empty() || take_in_violated(kin, scratch, step);
+  while (changed) {
+    assemble_dual(model, kin, scratch.factor, step.rows, step.unconstrained,
+                  scratch.unconstrained_twist, scratch.dual, scratch.qp);
+    solve_multipliers(model, scratch.qp, solver, warm, scratch, step);
+    ++step.rounds;
+    set_velocity(model, kin, scratch, step);
+    changed = take_in_violated(kin, scratch, step);
   }
   if (!step.qdot.allFinite()) {
     throw StepError("non-finite velocity");
   }
-  return qp;
 }
 
 /// Forces and residuals on the primal side: q̇ against H, and the rows' excess C q̇ - d.
-void measure(const Model& model, const Kinematics& kin, const BoxQp& qp, double h,
+void measure(const Model& model, const Kinematics& kin, double h, StepScratch& scratch,
              StepSolution& step) {
   const auto m = static_cast<Eigen::Index>(step.rows.size());
   step.lambda.conservativeResize(m);
   step.excess.resize(m);
-  const Matrix6Xd twist = body_twists(model, kin, step.qdot);
   for (Eigen::Index i = 0; i < m; ++i) {
-    step.excess[i] = row_velocity(step.rows[i], kin, twist, step.qdot) - step.rows[i].rhs;
+    step.excess[i] = row_velocity(step.rows[i], kin, step.twist, step.qdot) - step.rows[i].rhs;
   }
-  if (m > 0) {
-    step.kkt = kkt_residuals(qp, step.lambda, step.excess);
-  }
-  step.force = constraint_forces(model, kin, step.rows, step.lambda, h);
-  const Eigen::VectorXd impulse = h * step.force.total();
-  const Eigen::VectorXd change =
-      multiply(model, kin, step.system.op, step.qdot - step.unconstrained);
+  step.kkt = m > 0 ? kkt_residuals(scratch.qp, step.lambda, step.excess) : KktResiduals{};
+  sum_forces(model, kin, h, scratch, step);
+  scratch.impulse = h * step.force.head;
+  scratch.impulse += h * step.force.limit;
+  scratch.impulse += h * step.force.contact;
+  scratch.impulse += h * step.force.wall;
+  scratch.impulse += h * step.force.thigmotaxis;
+  scratch.joint = step.qdot - step.unconstrained;
+  multiply(model, kin, step.system.op, scratch.joint, scratch.wrench, scratch.change);
+  multiply(model, kin, step.system.op, step.unconstrained, scratch.wrench, scratch.joint);
   // Over the largest momentum in the balance: forces may be nothing but rounding.
-  const double scale = std::max(
-      {impulse.lpNorm<Eigen::Infinity>(), change.lpNorm<Eigen::Infinity>(),
-       multiply(model, kin, step.system.op, step.unconstrained).lpNorm<Eigen::Infinity>()});
-  step.stationarity = scale == 0 ? 0 : (change - impulse).lpNorm<Eigen::Infinity>() / scale;
+  const double scale =
+      std::max({scratch.impulse.lpNorm<Eigen::Infinity>(), scratch.change.lpNorm<Eigen::Infinity>(),
+                scratch.joint.lpNorm<Eigen::Infinity>()});
+  scratch.change -= scratch.impulse;
+  step.stationarity = scale == 0 ? 0 : scratch.change.lpNorm<Eigen::Infinity>() / scale;
 }
 
 /// Counts the rows with a force and keeps their multipliers for the next step.
-void keep_active(const BoxQp& qp, StepSolution& step, WarmStart& warm) {
+void keep_active(StepScratch& scratch, StepSolution& step, WarmStart& warm) {
   warm.clear();
+  step.active = 0;
   if (step.lambda.size() == 0) {
     return;
   }
   // Brought to one unit, rows of cm/s and rad/s compare.
-  const Eigen::VectorXd size = step.lambda.cwiseAbs().cwiseProduct(row_scale(qp.A));
+  scratch.scale = row_scale(scratch.qp.A);
+  scratch.scale.array() *= step.lambda.array().abs();
+  const double least = active_share * scratch.scale.maxCoeff();
   for (Eigen::Index i = 0; i < step.lambda.size(); ++i) {
-    if (size[i] > active_share * size.maxCoeff()) {
+    if (scratch.scale[i] > least) {
       ++step.active;
-      warm[step.rows[i].id] = step.lambda[i];
+      warm.add(step.rows[i].id, step.lambda[i]);
     }
   }
+  warm.sort();
 }
 
 }  // namespace
 
-Situation observe(const Model& model, const State& state, const Scene& scene) {
-  Situation s;
-  s.kin = kinematics(model, state);
-  s.segments = spline(model, s.kin.centre);
-  s.contact = find_contacts(model, s.segments, scene.contact);
+void WarmStart::sort() { std::sort(entries_.begin(), entries_.end()); }
+
+const double* WarmStart::find(std::int64_t id) const {
+  const auto it =
+      std::lower_bound(entries_.begin(), entries_.end(), id,
+                       [](const auto& entry, std::int64_t wanted) { return entry.first < wanted; });
+  return it == entries_.end() || it->first != id ? nullptr : &it->second;
+}
+
+void observe(const Model& model, const State& state, const Scene& scene, Situation& situation) {
+  Situation& s = situation;
+  update_positions(model, state.q, s.kin);
+  update_velocities(model, state.qdot, s.kin);
+  update_spline(model, s.kin.centre, s.segments);
+  find_contacts(s.segments, scene.contact, s.search, s.contact);
   s.penetration = std::max(0.0, -s.contact.least_gap);
-  for (const Row& row : wall_rows(model, s.kin, scene.wall,
-                                  {Activation::speculative, scene.constraints.push_out}, 1)) {
-    const int body = row.force[0].body;
-    s.penetration = std::max(s.penetration, model.bodies[body].radius - s.kin.centre(0, body));
-  }
+  visit_wall_gaps(model, s.kin, scene.wall,
+                  [&](int, double gap) { s.penetration = std::max(s.penetration, -gap); });
+  s.limit_violation = 0;
   for (int k = root_dofs; k < model.nv(); ++k) {
     const Hinge& hinge = model.hinges[k - root_dofs];
     s.limit_violation =
         std::max({s.limit_violation, hinge.lower - state.q[k + 1], state.q[k + 1] - hinge.upper});
   }
-  return s;
+}
+
+Situation observe(const Model& model, const State& state, const Scene& scene) {
+  Situation situation;
+  observe(model, state, scene, situation);
+  return situation;
 }
 
 double head_drift(const Model& model, const Kinematics& kin) {
@@ -219,32 +273,25 @@ double head_drift(const Model& model, const Kinematics& kin) {
                    (origin + head.radius * turn.col(1)).norm()});
 }
 
-StepSolution solve_step(const Model& model, const State& state, const Situation& situation,
-                        const Control& control, const Scene& scene, BoxQpSolver& solver,
-                        WarmStart& warm) {
+void solve_step(const Model& model, const State& state, const Situation& situation,
+                const Control& control, const Scene& scene, BoxQpSolver& solver, WarmStart& warm,
+                StepScratch& scratch, StepSolution& step) {
   const double h = scene.time.step;
   const Kinematics& kin = situation.kin;
-  StepSolution step;
-  const ArticulatedFactor factor = unconstrained_motion(model, state, kin, control.tip, h, step);
-
-  const DualProblem dual(model, kin, factor, step.unconstrained);
-  std::vector<Row> waiting;
-  for (const Row& row : all_rows(model, state, situation, control, scene)) {
-    const bool can_bind =
-        always_in(row) || warm.contains(row.id) ||
-        (!row.waits && (dual.excess_unconstrained(row) < lazy_reach ||
-                        row_velocity(row, kin, kin.twist, state.qdot) - row.rhs < lazy_reach));
-    (can_bind ? step.rows : waiting).push_back(row);
-  }
-  const BoxQp qp =
-      constrained_motion(model, kin, factor, dual, std::move(waiting), solver, warm, step);
-
-  measure(model, kin, qp, h, step);
-  keep_active(qp, step, warm);
+  step.kind = SolveKind::linear;
+  step.iterations = 0;
+  step.rounds = 0;
+  step.qp_time = 0;
+  step.lambda.resize(0);
+  unconstrained_motion(model, state, kin, control.tip, h, scratch, step);
+  gather_rows(model, state, situation, control, scene, step.rows);
+  set_waiting_aside(state, kin, warm, scratch, step);
+  constrained_motion(model, kin, solver, warm, scratch, step);
+  measure(model, kin, h, scratch, step);
+  keep_active(scratch, step, warm);
   const int last = model.body_count() - 1;
-  const Vector6d twist = body_twists(model, kin, step.qdot).col(last);
-  step.tip = control.tip.value - control.tip.rate * point_velocity(twist, kin.centre_offset(last));
-  return step;
+  step.tip = control.tip.value -
+             control.tip.rate * point_velocity(step.twist.col(last), kin.centre_offset(last));
 }
 
 }  // namespace hagfish

@@ -3,12 +3,13 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <map>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/contact.hpp"
+#include "core/dual_problem.hpp"
 #include "core/dynamics.hpp"
 #include "core/rows.hpp"
 #include "solvers/box_qp.hpp"
@@ -19,11 +20,13 @@ namespace hagfish {
 struct Situation {
   Kinematics kin;
   std::vector<SplineSegment> segments;
+  ContactSearch search;
   ContactSet contact;
   double penetration = 0;      ///< deepest overlap of skins or with the head plate, cm, >= 0
   double limit_violation = 0;  ///< largest angle past a limit, rad, >= 0
 };
 
+void observe(const Model& model, const State& state, const Scene& scene, Situation& situation);
 Situation observe(const Model& model, const State& state, const Scene& scene);
 
 /// Largest displacement of the head from where the clamp holds it, cm: of either end and of its
@@ -40,7 +43,19 @@ struct Control {
 enum class SolveKind : std::uint8_t { linear, kkt, qp };
 
 /// Multipliers of the last step by row id, for warm starts.
-using WarmStart = std::map<std::int64_t, double>;
+class WarmStart {
+ public:
+  void clear() { entries_.clear(); }
+  /// Ids may come in any order, once each; sort() before the next look.
+  void add(std::int64_t id, double lambda) { entries_.emplace_back(id, lambda); }
+  void sort();
+  /// The multiplier kept for a row, or null.
+  const double* find(std::int64_t id) const;
+  std::size_t size() const { return entries_.size(); }
+
+ private:
+  std::vector<std::pair<std::int64_t, double>> entries_;
+};
 
 /// Multiplier forces C'λ / h by kind of row (paper, Eqs. 7 and 8), generalised, nv each.
 struct ConstraintForces {
@@ -51,6 +66,7 @@ struct ConstraintForces {
 struct StepSolution {
   Eigen::VectorXd unconstrained;  ///< q̇*, nv
   Eigen::VectorXd qdot;           ///< new velocity, nv
+  Matrix6Xd twist;                ///< of the bodies at it, 6 x N
   ConstraintForces force;
   Eigen::Vector3d tip = Eigen::Vector3d::Zero();  ///< tip force as applied, dyn, world
   SolveKind kind = SolveKind::linear;
@@ -73,9 +89,23 @@ class StepError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Solves for the new velocity. Throws StepError where the solver fails or a result is not finite.
-StepSolution solve_step(const Model& model, const State& state, const Situation& situation,
-                        const Control& control, const Scene& scene, BoxQpSolver& solver,
-                        WarmStart& warm);
+/// Storage that a step needs on the way and keeps for the next: with it, nothing is allocated once
+/// all has grown to size.
+struct StepScratch {
+  ArticulatedFactor factor;
+  Matrix6Xd unconstrained_twist;  ///< 6 x N
+  std::vector<Row> waiting;       ///< rows left out so far
+  DualScratch dual;
+  BoxQp qp;
+  Eigen::VectorXd start, scale;
+  Matrix6Xd wrench;
+  Eigen::VectorXd joint, impulse, change;
+};
+
+/// Solves for the new velocity, into `step`. Throws StepError where the solver fails or a result is
+/// not finite.
+void solve_step(const Model& model, const State& state, const Situation& situation,
+                const Control& control, const Scene& scene, BoxQpSolver& solver, WarmStart& warm,
+                StepScratch& scratch, StepSolution& step);
 
 }  // namespace hagfish

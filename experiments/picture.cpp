@@ -89,15 +89,13 @@ std::vector<mjvGeom> skin_geoms(const Model& model, const Specimen& specimen,
   const double length = model.length();
   std::vector<mjvGeom> geoms;
   const std::vector<SplineSegment> segments = spline(model, centre);
-  for (int i = 0; i < static_cast<int>(segments.size()); ++i) {
-    const SplineSegment& segment = segments[i];
-    const double start = arc_length(model, i, 0);
-    const double arc = arc_length(model, i, 1) - start;
-    const int count = static_cast<int>(std::ceil(arc / (sphere_spacing * segment.radius(0.5))));
+  for (const SplineSegment& segment : segments) {
+    const int count =
+        static_cast<int>(std::ceil(segment.s1 / (sphere_spacing * segment.radius(0.5))));
     for (int k = 0; k < count; ++k) {
       const double t = (k + 0.5) / count;
       const bool ring = std::ranges::any_of(specimen.station, [&](double station) {
-        return std::abs(start + t * arc - station * length) < 0.5 * ring_width;
+        return std::abs(segment.arc(t) - station * length) < 0.5 * ring_width;
       });
       geoms.push_back(make_geom(mjGEOM_SPHERE, Vector3d::Constant(segment.radius(t)),
                                 segment.point(t), segment.slope(t).normalized(),

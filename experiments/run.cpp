@@ -26,12 +26,13 @@ void interrupt(int /*signal*/) { interrupted = 1; }
 std::string take_steps(const Model& model, const Scene& scene, BoxQpSolver& solver, LogWriter& log,
                        Progress& progress) {
   Simulation sim = start(model, scene);
+  StepRecord record;
   while (!finished(sim, scene)) {
     if (interrupted != 0) {
       return fmt::format("failed: interrupted at step {}", sim.step);
     }
     try {
-      const StepRecord record = take_step(model, scene, solver, sim);
+      take_step(model, scene, solver, sim, record);
       log.write(record, progress.elapsed());
       progress.show(record);
     } catch (const FileError&) {

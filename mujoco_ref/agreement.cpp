@@ -48,8 +48,12 @@ Dynamics core_dynamics(const Model& model, const State& state, const Kinematics&
   dynamics.acceleration = factor.solve(model, kin, wrench, joint);
   if (head == Head::clamped) {
     // Eq. 3 for accelerations: the head is where the clamp wants it, so that e = 0.
-    const std::vector<Row> rows = head_rows(state, {}, 1);
-    const BoxQp qp = DualProblem(model, kin, factor, dynamics.acceleration).assemble(rows);
+    std::vector<Row> rows;
+    append_head_rows(state, {}, 1, rows);
+    DualScratch scratch;
+    BoxQp qp;
+    assemble_dual(model, kin, factor, rows, dynamics.acceleration,
+                  body_twists(model, kin, dynamics.acceleration), scratch, qp);
     const Eigen::VectorXd lambda = solve_bilateral(qp.A, qp.b).x;
     Matrix6Xd clamped_wrench = wrench;
     for (std::size_t i = 0; i < rows.size(); ++i) {

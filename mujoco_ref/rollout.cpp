@@ -27,12 +27,15 @@ std::vector<State> core_rollout(const Model& model, const State& start, Head hea
   control.clamp_head = head == Head::clamped;
   const auto solver = make_box_qp_solver(box_qp_solver_names().front());  // no row needs it
   WarmStart warm;
+  StepScratch scratch;
+  StepSolution step;
   Situation situation;  // without contacts
   std::vector<State> states;
   State state = start;
   for (int i = 0; i < steps; ++i) {
     situation.kin = kinematics(model, state);
-    state.qdot = solve_step(model, state, situation, control, scene, *solver, warm).qdot;
+    solve_step(model, state, situation, control, scene, *solver, warm, scratch, step);
+    state.qdot = step.qdot;
     state.q = advance(state.q, state.qdot, h);
     states.push_back(state);
   }

@@ -41,7 +41,7 @@ void ChainRun::step(const TipForce& tip) {
   control.clamp_head = scene.clamp_head;
   control.tip = tip;
   seen = observe(model, state, scene);
-  last = solve_step(model, state, seen, control, scene, *solver_, warm_);
+  solve_step(model, state, seen, control, scene, *solver_, warm_, scratch_, last);
   state.qdot = last.qdot;
   state.q = advance(state.q, state.qdot, scene.time.step);
   time += scene.time.step;

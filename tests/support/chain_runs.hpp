@@ -43,6 +43,7 @@ class ChainRun {
  private:
   std::unique_ptr<BoxQpSolver> solver_;
   WarmStart warm_;
+  StepScratch scratch_;
 };
 
 /// Mean period (s) of `coordinate`, which swings about 0, over `periods` periods: steps the run

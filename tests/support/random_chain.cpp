@@ -177,9 +177,9 @@ Eigen::MatrixXd dense_rows(const Model& model, const Kinematics& kin,
     if (row.dof >= 0) {
       c(i, row.dof) = row.sign;
     }
-    for (int k = 0; k < row.forces; ++k) {
-      c.row(i) += row.force[k].force.transpose() * centre_jacobian(model, kin, row.force[k].body);
-    }
+    visit_forces(row, [&](int body, const Eigen::Vector3d& force) {
+      c.row(i) += force.transpose() * centre_jacobian(model, kin, body);
+    });
   }
   return c;
 }

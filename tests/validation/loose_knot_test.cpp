@@ -101,11 +101,14 @@ Eigen::Vector3d force_behind(const ChainRun& run, int b) {
   Eigen::Vector3d force(tension, 0, 0);
   for (std::size_t i = 0; i < run.last.rows.size(); ++i) {
     const Row& row = run.last.rows[i];
-    for (int k = 0; row.kind == RowKind::contact && k < row.forces; ++k) {
-      if (row.force[k].body >= b) {
-        force += run.last.lambda[i] / run.scene.time.step * row.force[k].force;
-      }
+    if (row.kind != RowKind::contact) {
+      continue;
     }
+    visit_forces(row, [&](int body, const Eigen::Vector3d& unit_force) {
+      if (body >= b) {
+        force += run.last.lambda[i] / run.scene.time.step * unit_force;
+      }
+    });
   }
   return force;
 }

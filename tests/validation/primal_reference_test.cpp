@@ -7,6 +7,7 @@
 
 #include "solvers/primal_qp.hpp"
 #include "tests/support/random_chain.hpp"
+#include "tests/support/row_lists.hpp"
 #include "tests/support/stored_states.hpp"
 
 namespace hagfish {

@@ -96,28 +96,41 @@ TEST(Articulated, SolvesForWrenchesAndJointForces) {
   }
 }
 
-TEST(Articulated, ManyColumnsAreEachSolvedAlone) {
+TEST(Articulated, HalfSolvesOfManyColumnsMultiplyToTheWhole) {
   Random random(34);
   const Case c = hagfish_case(random, 100);
   ArticulatedFactor factor;
   factor.factorise(c.model, c.kin, c.op);
   const int m = 37;
-  ColumnSet columns{Columns(c.model.nv(), m), Columns(600, m)};
-  for (int j = 0; j < m; ++j) {
-    columns.joint.col(j) = random_entries(random, c.model.nv());
-    columns.body.col(j) = random_entries(random, 600);
+  RowColumns columns;
+  Eigen::MatrixXd right(c.model.nv(), m), solved(c.model.nv(), m);
+  for (const int count : {m + 5, m}) {  // the second time in storage of the first
+    columns.reset(c.model, count);
+    for (int j = 0; j < count; ++j) {
+      Eigen::VectorXd joint = Eigen::VectorXd::Zero(c.model.nv());
+      Matrix6Xd wrench = Matrix6Xd::Zero(6, 100);
+      for (int k = 0; k < j % 3; ++k) {  // columns 0, 3, 6, ... are empty but for a joint force
+        const int body = static_cast<int>(random() % 100);
+        const Vector6d load = random_entries(random, 6);
+        wrench.col(body) += load;
+        columns.load(body, j, load);
+      }
+      const auto dof = static_cast<Eigen::Index>(random() % c.model.nv());
+      joint[dof] = columns.joint(dof, j) = 1 + j;
+      if (count == m) {
+        right.col(j) = generalised_force(c.model, c.kin, wrench) + joint;
+        solved.col(j) = factor.solve(c.model, c.kin, wrench, joint);
+      }
+    }
   }
-  ColumnSet solved = columns;
-  factor.solve(c.model, c.kin, solved);
-  for (int j = 0; j < m; ++j) {
-    const Eigen::VectorXd body = columns.body.col(j);
-    const Eigen::VectorXd alone =
-        factor.solve(c.model, c.kin, body.reshaped(6, 100), columns.joint.col(j));
-    // The order of sums may differ between one column and many: rounding times the condition of H.
-    EXPECT_LT(relative_error(solved.joint.col(j), alone), 1e-10);
-    const Matrix6Xd twist = body_twists(c.model, c.kin, solved.joint.col(j));
-    EXPECT_LT(relative_error(solved.body.col(j).reshaped(6, 100), twist), rounding);
-  }
+  factor.half_solve(c.model, c.kin, columns);
+  const Eigen::MatrixXd expected = right.transpose() * solved;
+  const Eigen::MatrixXd product = columns.joint.transpose() * columns.joint;
+  // Both are rounding times the condition of H away from the truth, brought to unit diagonal.
+  const Eigen::VectorXd scale = expected.diagonal().cwiseSqrt().cwiseInverse();
+  EXPECT_LT(
+      (scale.asDiagonal() * (product - expected) * scale.asDiagonal()).lpNorm<Eigen::Infinity>(),
+      1e-10);
 }
 
 TEST(Articulated, IsAccurateAtEveryBodyCount) {

@@ -11,6 +11,7 @@
 
 #include "core/rows.hpp"
 #include "tests/support/random_chain.hpp"
+#include "tests/support/row_lists.hpp"
 
 namespace hagfish {
 namespace {
@@ -23,7 +24,7 @@ std::vector<SplineSegment> segments_of(const Model& model, const Eigen::VectorXd
 
 ContactSet contacts_of(const Model& model, const Eigen::VectorXd& q,
                        const ContactSettings& settings = {}) {
-  return find_contacts(model, segments_of(model, q), settings);
+  return find_contacts(segments_of(model, q), settings);
 }
 
 /// Centres of a loop that crosses itself once: a leg along X, three quarters of a circle that
@@ -63,7 +64,7 @@ TEST(Contact, CrossingStrandsTouchOnce) {
     for (Body& body : fish.bodies) body.radius = 0.85;
     for (int k = 0; k < 40; ++k) {
       const Eigen::Matrix3Xd centre = crossing(fish, 1.72, k / 40.0);
-      const ContactSet set = find_contacts(fish, spline(fish, centre), {});
+      const ContactSet set = find_contacts(spline(fish, centre), {});
       ASSERT_EQ(set.contacts.size(), 1U) << bodies << " bodies, shift " << k / 40.0;
       const Contact& c = set.contacts[0];
       // The legs are straight: the gap is exact but for rounding.
@@ -88,7 +89,7 @@ TEST(Contact, CrossingOverBodyCentresTouchesOnce) {
       centre.col(b) << 0, 0.5 * (b - 31), 1.5625;
     }
   }
-  const ContactSet set = find_contacts(model, spline(model, centre), {});
+  const ContactSet set = find_contacts(spline(model, centre), {});
   ASSERT_EQ(set.contacts.size(), 1U);
   EXPECT_EQ(set.contacts[0].gap, 0.0625);
   EXPECT_EQ(set.contacts[0].body_a(), 10);
@@ -120,7 +121,7 @@ TEST(Contact, LeastGapIsTheLeastOfAllPairs) {
         least = std::min(least, closest_points(segments[a], segments[b]).gap);
       }
     }
-    const ContactSet set = find_contacts(fish, segments, settings);
+    const ContactSet set = find_contacts(segments, settings);
     EXPECT_EQ(set.least_gap, least);  // the same pair, the same arithmetic
     double lowest = settings.margin;
     for (const Contact& c : set.contacts) lowest = std::min(lowest, c.gap);
@@ -143,7 +144,7 @@ TEST(Contact, ContactsAreLocalMinimaOfTheGap) {
   for (int trial = 0; trial < 12; ++trial) {
     const std::vector<SplineSegment> segments =
         segments_of(fish, knotted_state(random, fish, uniform(random, 1, 2.6), 0.02).q);
-    for (const Contact& c : find_contacts(fish, segments, {}).contacts) {
+    for (const Contact& c : find_contacts(segments, {}).contacts) {
       ++count;
       const double a = c.segment_a + c.t_a;
       const double b = c.segment_b + c.t_b;
@@ -167,15 +168,16 @@ TEST(Contact, FieldsAreInOrder) {
   for (int trial = 0; trial < 10; ++trial) {
     const State state = knotted_state(random, fish, uniform(random, 1, 2.6), 0.02);
     const Kinematics kin = kinematics(fish, state);
-    const ContactSet set = find_contacts(fish, spline(fish, kin.centre), settings);
+    const std::vector<SplineSegment> segments = spline(fish, kin.centre);
+    const ContactSet set = find_contacts(segments, settings);
     for (std::size_t i = 0; i < set.contacts.size(); ++i) {
       const Contact& c = set.contacts[i];
       EXPECT_LE(c.gap, settings.margin);
       EXPECT_LT(c.arc_a, c.arc_b);
-      EXPECT_GE(arc_length(fish, c.segment_b, 0) - arc_length(fish, c.segment_a, 1),
+      EXPECT_GE(segments[c.segment_b].arc(0) - segments[c.segment_a].arc(1),
                 settings.least_arc * (1 - 1e-9));
-      EXPECT_EQ(c.arc_a, arc_length(fish, c.segment_a, c.t_a));
-      EXPECT_EQ(c.arc_b, arc_length(fish, c.segment_b, c.t_b));
+      EXPECT_EQ(c.arc_a, segments[c.segment_a].arc(c.t_a));
+      EXPECT_EQ(c.arc_b, segments[c.segment_b].arc(c.t_b));
       const Eigen::Vector3d tailward_a =
           kin.centre.col(c.segment_a + 1) - kin.centre.col(c.segment_a);
       const Eigen::Vector3d tailward_b =

@@ -59,7 +59,8 @@ class Controller : public testing::Test {
 
   Control step(std::vector<Contact> contacts) {
     situation.contact.contacts = std::move(contacts);
-    const Control control = decide(model, scene, situation, now, state);
+    Control control;
+    decide(model, scene, situation, now, state, control);
     now += scene.time.step;
     return control;
   }

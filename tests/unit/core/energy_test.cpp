@@ -25,11 +25,13 @@ struct BookedRun {
   template <class Spoil>
   void step(const Control& control, Spoil spoil) {
     const Situation now = observe(model, state, scene);
-    StepSolution solution = solve_step(model, state, now, control, scene, *solver, warm);
+    StepSolution solution;
+    solve_step(model, state, now, control, scene, *solver, warm, scratch, solution);
     spoil(solution);
+    solution.twist = body_twists(model, now.kin, solution.qdot);
     const double h = scene.time.step;
     State next{advance(state.q, solution.qdot, h), solution.qdot};
-    book_step(model, state, now.kin, solution, next, kinematics(model, next), h, ledger);
+    book_step(model, now.kin, solution, next, kinematics(model, next), h, ledger);
     state = std::move(next);
   }
   void step(const Control& control) {
@@ -42,6 +44,7 @@ struct BookedRun {
 
   std::unique_ptr<BoxQpSolver> solver = make_box_qp_solver("ipopt");
   WarmStart warm;
+  StepScratch scratch;
 };
 
 /// Everything on: gravity, drag, stiffness, damping, limits, a head plate and a pulled tail.

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tests/support/random_chain.hpp"
+#include "tests/support/row_lists.hpp"
 
 namespace hagfish {
 namespace {
@@ -50,7 +51,7 @@ struct Tangle {
     state.q.head<3>() = random_vector(random);
     state.qdot = random_entries(random, model.nv());
     kin = kinematics(model, state);
-    set = find_contacts(model, spline(model, kin.centre), {});
+    set = find_contacts(spline(model, kin.centre), {});
     commands = {{set.contacts.front(), {0.5, 2}}, {set.contacts.back(), {-1, 3}}};
   }
 
@@ -132,7 +133,7 @@ TEST(ContactRows, PositiveForcePushesTheStrandsApart) {
   for (const Row& row : contact_rows(t.model, t.set, speculative, h)) {
     // Forces of action and reaction: none in sum.
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (int k = 0; k < row.forces; ++k) sum += row.force[k].force;
+    visit_forces(row, [&](int, const Eigen::Vector3d& force) { sum += force; });
     EXPECT_LT(sum.norm(), 1e-15);
   }
 }
@@ -158,9 +159,13 @@ TEST(WallRows, SkipTheNeckAndLookAlongX) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const int body = static_cast<int>(i) + 7;
     const double gap = 0.424 * (body + 0.5) - 20 - fish.bodies[body].radius;
-    ASSERT_EQ(rows[i].forces, 1);
-    EXPECT_EQ(rows[i].force[0].body, body);
-    EXPECT_EQ(rows[i].force[0].force, Eigen::Vector3d::UnitX());
+    int forces = 0;
+    visit_forces(rows[i], [&](int loaded, const Eigen::Vector3d& force) {
+      ++forces;
+      EXPECT_EQ(loaded, body);
+      EXPECT_EQ(force, Eigen::Vector3d::UnitX());
+    });
+    EXPECT_EQ(forces, 1);
     // Centres are sums of 100 lengths: 1e-14 cm over h.
     EXPECT_NEAR(rows[i].rhs, gap >= 0 ? -gap / h : -0.5 * gap / h, 1e-9);
   }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "tests/support/random_chain.hpp"
+#include "tests/support/row_lists.hpp"
 
 namespace hagfish {
 namespace {
@@ -27,7 +28,11 @@ struct Stage {
 
   StepSolution solve() {
     const std::unique_ptr<BoxQpSolver> solver = make_box_qp_solver("ipopt");
-    return solve_step(model, state, observe(model, state, scene), control, scene, *solver, warm);
+    StepScratch scratch;
+    StepSolution step;
+    solve_step(model, state, observe(model, state, scene), control, scene, *solver, warm, scratch,
+               step);
+    return step;
   }
 
   /// Every row that the step may use, by its makers.
@@ -150,7 +155,7 @@ TEST(Step, IsLinearWhereNoRowCanBind) {
   const Eigen::VectorXd g = generalised_force(s.model, kin, step.system.wrench) + step.system.joint;
   // The residual of a solve is rounding of its terms.
   EXPECT_LT(relative_error(dense(s.model, kin, step.system.op) * step.qdot, g), 1e-10);
-  EXPECT_TRUE(s.warm.empty());
+  EXPECT_EQ(s.warm.size(), 0U);
 }
 
 TEST(Step, IsBilateralWhereOnlyTheHeadIsHeld) {
@@ -246,7 +251,7 @@ TEST(Step, NoForceBehindTheLastContact) {
   int last = 0;
   for (const Row& row : step.rows) {
     if (row.kind != RowKind::contact && row.kind != RowKind::thigmotaxis) continue;
-    for (int k = 0; k < row.forces; ++k) last = std::max(last, row.force[k].body);
+    visit_forces(row, [&](int body, const Eigen::Vector3d&) { last = std::max(last, body); });
   }
   ASSERT_LT(last, 99);
   const Eigen::Index behind = s.model.nv() - s.model.bodies[last + 1].first_dof;
@@ -266,11 +271,8 @@ TEST(Step, StationarityStaysSmallWhereTheClampHardlyPulls) {
 TEST(Step, ClampHoldsTheHead) {
   Stage s = knotted(98, 1);
   s.control.thigmotaxis.clear();
-  const std::unique_ptr<BoxQpSolver> solver = make_box_qp_solver("ipopt");
   for (int k = 0; k < 25; ++k) {
-    const Situation now = observe(s.model, s.state, s.scene);
-    const StepSolution step =
-        solve_step(s.model, s.state, now, s.control, s.scene, *solver, s.warm);
+    const StepSolution step = s.solve();
     s.state.qdot = step.qdot;
     s.state.q = advance(s.state.q, step.qdot, s.scene.time.step);
     // What the solver leaves of the head's velocity, 1e-8 of the largest, over 25 steps of 2 ms.
@@ -296,17 +298,18 @@ TEST(Step, WarmStartHoldsTheRowsThatPush) {
   ASSERT_GT(cold.active, 0);
   EXPECT_EQ(s.warm.size(), static_cast<std::size_t>(cold.active));
   for (std::size_t i = 0; i < cold.rows.size(); ++i) {
-    const auto it = s.warm.find(cold.rows[i].id);
-    if (it != s.warm.end()) {
-      EXPECT_EQ(it->second, cold.lambda[static_cast<Eigen::Index>(i)]);
+    const double* kept = s.warm.find(cold.rows[i].id);
+    if (kept != nullptr) {
+      EXPECT_EQ(*kept, cold.lambda[static_cast<Eigen::Index>(i)]);
     }
   }
   // The answer does not depend on the guess: solver tolerance.
   const StepSolution warm = s.solve();
   EXPECT_LT(relative_error(warm.qdot, cold.qdot), 1e-7);
-  s.warm[12345] = 1e9;  // a row that is no more
+  s.warm.add(12345, 1e9);  // a row that is no more
+  s.warm.sort();
   EXPECT_LT(relative_error(s.solve().qdot, cold.qdot), 1e-7);
-  EXPECT_EQ(s.warm.count(12345), 0U);
+  EXPECT_EQ(s.warm.find(12345), nullptr);
 }
 
 /// The velocity with every row in from the start, by dense algebra.

@@ -1,0 +1,47 @@
+// Constraint rows of one kind as a list of their own; core appends them to a step's list.
+#pragma once
+
+#include <vector>
+
+#include "core/rows.hpp"
+
+namespace hagfish {
+
+inline std::vector<Row> head_rows(const State& state, const ConstraintSettings& settings,
+                                  double h) {
+  std::vector<Row> rows;
+  append_head_rows(state, settings, h, rows);
+  return rows;
+}
+
+inline std::vector<Row> limit_rows(const Model& model, const State& state,
+                                   const ConstraintSettings& settings, double h) {
+  std::vector<Row> rows;
+  append_limit_rows(model, state, settings, h, rows);
+  return rows;
+}
+
+inline std::vector<Row> contact_rows(const Model& model, const ContactSet& contacts,
+                                     const ConstraintSettings& settings, double h) {
+  std::vector<Row> rows;
+  append_contact_rows(model, contacts, settings, h, rows);
+  return rows;
+}
+
+inline std::vector<Row> wall_rows(const Model& model, const Kinematics& kin,
+                                  const WallSettings& wall, const ConstraintSettings& settings,
+                                  double h) {
+  std::vector<Row> rows;
+  append_wall_rows(model, kin, wall, settings, h, rows);
+  return rows;
+}
+
+inline std::vector<Row> thigmotaxis_rows(const Model& model,
+                                         const std::vector<ThigmotaxisCommand>& commands,
+                                         double cap, double h) {
+  std::vector<Row> rows;
+  append_thigmotaxis_rows(model, commands, cap, h, rows);
+  return rows;
+}
+
+}  // namespace hagfish
