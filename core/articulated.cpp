@@ -97,6 +97,8 @@ Eigen::VectorXd ArticulatedFactor::solve(const Model& model, const Kinematics& k
 
 void ArticulatedFactor::half_solve(const Model& model, const Kinematics& kin,
                                    RowColumns& columns) const {
+  // Columns in panels that fill vector registers.
+  constexpr int width = RowColumns::panel;
   auto& sum = columns.sum_;
   sum.setZero(6, columns.joint.cols());
   for (int b = model.body_count() - 1; b >= 0; --b) {
@@ -105,21 +107,26 @@ void ArticulatedFactor::half_solve(const Model& model, const Kinematics& kin,
     }
     const Body& body = model.bodies[b];
     for (int k = body.first_dof + body.dofs - 1; k >= body.first_dof; --k) {
-      auto row = columns.joint.row(k);
-      for (int i = 0; i < 6; ++i) {
-        row += kin.axis(i, k) * sum.row(i);
-      }
       const double share = std::sqrt(inverse_pivot_[k]);
-      row *= share;
-      for (int i = 0; i < 6; ++i) {
-        sum.row(i) -= (weighted_(i, k) * share) * row;
+      const Vector6d axis = share * kin.axis.col(k);
+      const Vector6d weighted = share * weighted_.col(k);
+      for (Eigen::Index first = 0; first < sum.cols(); first += width) {
+        Eigen::Array<double, 1, width> y =
+            share * columns.joint.row(k).segment<width>(first).array();
+        for (int i = 0; i < 6; ++i) {
+          y += axis[i] * sum.row(i).segment<width>(first).array();
+        }
+        columns.joint.row(k).segment<width>(first) = y;
+        for (int i = 0; i < 6; ++i) {
+          sum.row(i).segment<width>(first).array() -= weighted[i] * y;
+        }
       }
     }
   }
 }
 
 void RowColumns::reset(const Model& model, Eigen::Index m) {
-  joint.setZero(model.nv(), m);
+  joint.setZero(model.nv(), (m + panel - 1) / panel * panel);
   loads_.clear();
   newest_.assign(model.body_count(), -1);
 }

@@ -32,7 +32,7 @@ using Columns = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::Row
 
 /// C' of m rows, column by column: joint forces and wrenches on single bodies.
 struct RowColumns {
-  Columns joint;  ///< nv x m
+  Columns joint;  ///< nv x m' with m' >= m: columns past m are zero and fill the last panel
 
   /// Empties all for `m` columns.
   void reset(const Model& model, Eigen::Index m);
@@ -41,6 +41,7 @@ struct RowColumns {
 
  private:
   friend class ArticulatedFactor;
+  static constexpr int panel = 8;
   struct Load {
     Vector6d wrench;
     Eigen::Index column;

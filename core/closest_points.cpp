@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace hagfish {
 namespace {
 
-// Cells a segment of the grid that starts are taken from: it must tell the basins of minima apart.
-constexpr int grid = 6;
+// Samples a segment of the grid that starts are taken from: it must tell the basins of minima
+// apart. Eight fill a vector register.
+constexpr int samples = 8;
 constexpr int iteration_limit = 50;
 // Times that a step is halved for the gap to fall, to some 1e-4 of it.
 constexpr int cut_limit = 14;
@@ -20,38 +22,40 @@ double gap_at(const SplineSegment& a, const SplineSegment& b, double t_a, double
   return (b.point(t_b) - a.point(t_a)).norm() - a.radius(t_a) - b.radius(t_b);
 }
 
+using Samples = Eigen::Array<double, samples, 1>;
+
 /// Samples of the grid that no neighbour undercuts: one in each basin that the grid can tell apart.
 struct Starts {
-  std::array<ClosestPoints, (grid + 1) * (grid + 1)> at;
+  std::array<ClosestPoints, samples * samples> at;
   int count = 0;
 };
 
 Starts starts_of(const SplineSegment& a, const SplineSegment& b) {
-  std::array<std::array<double, grid + 1>, grid + 1> gap;
-  std::array<Eigen::Vector3d, grid + 1> points_b;
-  for (int j = 0; j <= grid; ++j) {
-    points_b[j] = b.point(static_cast<double>(j) / grid);
+  const Samples t = Samples::LinSpaced(0, 1);
+  std::array<Samples, 3> points_b;
+  for (int k = 0; k < 3; ++k) {
+    points_b[k] = b.c0[k] + t * (b.c1[k] + t * (b.c2[k] + t * b.c3[k]));
   }
-  for (int i = 0; i <= grid; ++i) {
-    const double t_a = static_cast<double>(i) / grid;
-    const Eigen::Vector3d point_a = a.point(t_a);
-    for (int j = 0; j <= grid; ++j) {
-      gap[i][j] =
-          (points_b[j] - point_a).norm() - a.radius(t_a) - b.radius(static_cast<double>(j) / grid);
-    }
+  const Samples radius_b = b.r0 + t * b.r1;
+  // With a rim that undercuts nothing.
+  Eigen::Array<double, samples + 2, samples + 2> gap;
+  gap.setConstant(std::numeric_limits<double>::infinity());
+  for (int i = 0; i < samples; ++i) {
+    const Eigen::Vector3d point_a = a.point(t[i]);
+    gap.col(i + 1).segment<samples>(1) =
+        ((points_b[0] - point_a[0]).square() + (points_b[1] - point_a[1]).square() +
+         (points_b[2] - point_a[2]).square())
+            .sqrt() -
+        (radius_b + a.radius(t[i]));
   }
+  Eigen::Array<double, samples, samples + 2> lowest;  // of three along b, then of nine
+  lowest = gap.topRows<samples>().min(gap.middleRows<samples>(1)).min(gap.bottomRows<samples>());
   Starts starts;
-  for (int i = 0; i <= grid; ++i) {
-    for (int j = 0; j <= grid; ++j) {
-      bool lowest = true;
-      for (int k = std::max(i - 1, 0); k <= std::min(i + 1, grid); ++k) {
-        for (int l = std::max(j - 1, 0); l <= std::min(j + 1, grid); ++l) {
-          lowest = lowest && gap[i][j] <= gap[k][l];
-        }
-      }
-      if (lowest) {
-        starts.at[starts.count++] = {static_cast<double>(i) / grid, static_cast<double>(j) / grid,
-                                     gap[i][j]};
+  for (int i = 0; i < samples; ++i) {
+    const Samples least = lowest.col(i).min(lowest.col(i + 1)).min(lowest.col(i + 2));
+    for (int j = 0; j < samples; ++j) {
+      if (gap(j + 1, i + 1) <= least[j]) {
+        starts.at[starts.count++] = {t[i], t[j], gap(j + 1, i + 1)};
       }
     }
   }

@@ -131,8 +131,8 @@ void decide(const Model& model, const Scene& scene, const Situation& situation, 
             ControllerState& controller, Control& control) {
   follow_contacts(scene, situation, time, controller);
   // Half a step of slack: the time of a step is a product and may fall short by rounding.
-  if (time + 0.5 * scene.time.step >= controller.next_look) {
-    controller.next_look = time + scene.knot.interval;
+  if (time + 0.5 * scene.time.step >= controller.knot_seen + scene.knot.interval) {
+    controller.knot_seen = time;
     controller.knot = knot_type(situation.kin.centre, scene.knot.votes, scene.knot.seed);
     switch_by_knot(model, scene, time, controller);
   }
@@ -146,7 +146,7 @@ void decide(const Model& model, const Scene& scene, const Situation& situation, 
   const ControllerSettings& settings = scene.controller;
   if (controller.phase == Phase::form) {
     control.tip = script_force(scene.script, time, scene.time.step, kin.centre.col(last),
-                               point_velocity(kin.twist.col(last), kin.centre_offset(last)));
+                               kin.centre_velocity.col(last));
   } else if (controller.phase != Phase::free && controller.first.contact) {
     const bool tighten = controller.phase == Phase::tighten;
     control.thigmotaxis.push_back(

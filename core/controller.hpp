@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 
 #include "core/knot.hpp"
@@ -26,9 +27,9 @@ struct TrackedContact {
 struct ControllerState {
   Phase phase = Phase::form;
   double phase_start = 0;  ///< s
-  double next_look = 0;    ///< at the knot type, s
   double loose = 0;        ///< when the knot last spanned more than tight_span, s
   KnotVote knot;           ///< as last seen
+  double knot_seen = -std::numeric_limits<double>::infinity();  ///< when that was, s
   TrackedContact first, last;
 };
 

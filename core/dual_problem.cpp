@@ -4,9 +4,8 @@ namespace hagfish {
 
 void assemble_dual(const Model& model, const Kinematics& kin, const ArticulatedFactor& factor,
                    const std::vector<Row>& rows, const Eigen::VectorXd& unconstrained,
-                   const Matrix6Xd& twist, DualScratch& scratch, BoxQp& qp) {
+                   const Eigen::Matrix3Xd& centre_velocity, RowColumns& columns, BoxQp& qp) {
   const auto m = static_cast<Eigen::Index>(rows.size());
-  RowColumns& columns = scratch.columns;
   columns.reset(model, m);
   qp.b.resize(m);
   qp.lower.resize(m);
@@ -19,13 +18,13 @@ void assemble_dual(const Model& model, const Kinematics& kin, const ArticulatedF
     visit_forces(row, [&](int body, const Eigen::Vector3d& force) {
       columns.load(body, j, wrench_of_force(force, kin.centre_offset(body)));
     });
-    qp.b[j] = row.rhs - row_velocity(row, kin, twist, unconstrained);
+    qp.b[j] = row.rhs - row_velocity(row, centre_velocity, unconstrained);
     qp.lower[j] = row.lower;
     qp.upper[j] = row.upper;
   }
   factor.half_solve(model, kin, columns);
   qp.A.setZero(m, m);
-  qp.A.selfadjointView<Eigen::Lower>().rankUpdate(columns.joint.transpose());
+  qp.A.selfadjointView<Eigen::Lower>().rankUpdate(columns.joint.leftCols(m).transpose());
   qp.A.triangularView<Eigen::StrictlyUpper>() = qp.A.transpose();
 }
 

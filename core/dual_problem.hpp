@@ -9,16 +9,10 @@
 
 namespace hagfish {
 
-/// Storage that assemble_dual keeps from call to call.
-struct DualScratch {
-  RowColumns columns;
-  Columns product;
-};
-
-/// The problem on `rows` (m): `factor` of H, `unconstrained` the velocity q̇* (nv) with the body
-/// twists (6 x N) that go with it.
+/// The problem on `rows` (m): `factor` of H, `unconstrained` the velocity q̇* (nv), which moves the
+/// bodies' centres by `centre_velocity` (3 x N). `columns` is storage.
 void assemble_dual(const Model& model, const Kinematics& kin, const ArticulatedFactor& factor,
                    const std::vector<Row>& rows, const Eigen::VectorXd& unconstrained,
-                   const Matrix6Xd& twist, DualScratch& scratch, BoxQp& qp);
+                   const Eigen::Matrix3Xd& centre_velocity, RowColumns& columns, BoxQp& qp);
 
 }  // namespace hagfish

@@ -126,9 +126,8 @@ double kinetic_energy(const Model& model, const Kinematics& kin) {
   double energy = 0;
   for (int b = 0; b < model.body_count(); ++b) {
     const Body& body = model.bodies[b];
-    const Vector6d twist = kin.twist.col(b);
-    const Eigen::Vector3d rate = kin.rotation[b].transpose() * twist.head<3>();
-    energy += 0.5 * (body.mass * point_velocity(twist, kin.centre_offset(b)).squaredNorm() +
+    const Eigen::Vector3d rate = kin.rotation[b].transpose() * kin.twist.col(b).head<3>();
+    energy += 0.5 * (body.mass * kin.centre_velocity.col(b).squaredNorm() +
                      rate.cwiseAbs2().dot(body.inertia));
   }
   return energy;

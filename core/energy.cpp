@@ -37,7 +37,7 @@ void book_step(const Model& model, const Kinematics& kin, const StepSolution& so
   const Eigen::VectorXd& v = solution.qdot;
   const Matrix6Xd& twist = solution.twist;
   const int last = model.body_count() - 1;
-  ledger.work_tip += h * solution.tip.dot(point_velocity(twist.col(last), kin.centre_offset(last)));
+  ledger.work_tip += h * solution.tip.dot(solution.centre_velocity.col(last));
   ledger.work_thigmotaxis += h * solution.force.thigmotaxis.dot(v);
   ledger.work_contact += h * solution.force.contact.dot(v);
   ledger.work_limit += h * solution.force.limit.dot(v);

@@ -11,7 +11,8 @@ namespace {
 
 // Rows a chunk: a second of frames at 50 a second; compression gains little beyond.
 constexpr hsize_t chunk_rows = 64;
-constexpr int deflate_level = 4;
+// Higher levels take up to twice as long and gain nothing on forces.
+constexpr int deflate_level = 1;
 // By which the file grows in memory, bytes.
 constexpr std::size_t memory_increment = std::size_t{1} << 20;
 
@@ -171,8 +172,10 @@ H5::DataSet Hdf5Writer::series(const std::string& path, const H5::DataType& type
   return guarded("log", "create " + path, [&] {
     H5::DSetCreatPropList layout;
     layout.setChunk(static_cast<int>(chunk.size()), chunk.data());
-    layout.setShuffle();
-    layout.setDeflate(deflate_level);
+    if (meaning.sparse) {
+      layout.setShuffle();
+      layout.setDeflate(deflate_level);
+    }
     H5::DataSet set = h5_.createDataSet(
         path, type, H5::DataSpace(static_cast<int>(now.size()), now.data(), most.data()), layout);
     describe(set, meaning);

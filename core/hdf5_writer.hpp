@@ -17,6 +17,7 @@ namespace hagfish {
 struct Meaning {
   std::string unit;
   std::string description;
+  bool sparse = false;  ///< mostly zeros, which are worth compressing; motion is not
 };
 
 /// A dataset with rows of fixed shape, chunked and extensible along the rows. Rows are gathered and

@@ -78,6 +78,7 @@ void update_velocities(const Model& model, const Eigen::VectorXd& qdot, Kinemati
     kin.twist.col(b) = twist;
     kin.bias_twist.col(b) = bias;
   }
+  centre_velocities(kin, kin.twist, kin.centre_velocity);
 }
 
 Kinematics kinematics(const Model& model, const State& state) {
@@ -103,6 +104,19 @@ void body_twists(const Model& model, const Kinematics& kin, const Eigen::VectorX
       sum += kin.axis.col(k) * v[k];
     }
     twist.col(b) = sum;
+  }
+}
+
+Eigen::Matrix3Xd centre_velocities(const Kinematics& kin, const Matrix6Xd& twist) {
+  Eigen::Matrix3Xd velocity;
+  centre_velocities(kin, twist, velocity);
+  return velocity;
+}
+
+void centre_velocities(const Kinematics& kin, const Matrix6Xd& twist, Eigen::Matrix3Xd& velocity) {
+  velocity.resize(3, twist.cols());
+  for (int b = 0; b < static_cast<int>(twist.cols()); ++b) {
+    velocity.col(b) = point_velocity(twist.col(b), kin.centre_offset(b));
   }
 }
 

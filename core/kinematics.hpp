@@ -17,9 +17,10 @@ struct Kinematics {
   std::vector<Eigen::Matrix3d> rotation;                ///< N, body to world
   Eigen::Matrix3Xd origin;                              ///< 3 x N, body frames, cm
   Eigen::Matrix3Xd centre;                              ///< 3 x N, centres of mass, cm
-  Matrix6Xd axis;        ///< 6 x nv: column k of the Jacobian of every body at or behind dof k
-  Matrix6Xd twist;       ///< 6 x N, body twists at q̇
-  Matrix6Xd bias_twist;  ///< 6 x N, J̇ q̇: rates of the twists at q̈ = 0
+  Matrix6Xd axis;   ///< 6 x nv: column k of the Jacobian of every body at or behind dof k
+  Matrix6Xd twist;  ///< 6 x N, body twists at q̇
+  Eigen::Matrix3Xd centre_velocity;  ///< 3 x N, of the centres of mass at q̇, cm/s
+  Matrix6Xd bias_twist;              ///< 6 x N, J̇ q̇: rates of the twists at q̈ = 0
 
   Eigen::Vector3d centre_offset(int body) const { return centre.col(body) - reference; }
 };
@@ -38,6 +39,10 @@ Kinematics kinematics(const Model& model, const State& state);
 Matrix6Xd body_twists(const Model& model, const Kinematics& kin, const Eigen::VectorXd& v);
 void body_twists(const Model& model, const Kinematics& kin, const Eigen::VectorXd& v,
                  Matrix6Xd& twist);
+
+/// Velocities of the bodies' centres (3 x N, cm/s) at `twist` (6 x N).
+Eigen::Matrix3Xd centre_velocities(const Kinematics& kin, const Matrix6Xd& twist);
+void centre_velocities(const Kinematics& kin, const Matrix6Xd& twist, Eigen::Matrix3Xd& velocity);
 
 /// J' w: generalised force (nv) of one wrench about O per body (6 x N). Exactly zero at every dof
 /// that has no loaded body behind it.

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 #include <random>
@@ -41,9 +42,9 @@ struct Diagram {
   std::vector<int> sign;  ///< by crossing, whether left or not
 };
 
-/// Bounding rectangle of a projected edge.
-struct Box {
-  double left, right, bottom, top;
+/// Bounding rectangles of the projected edges.
+struct Boxes {
+  Eigen::ArrayXd left, right, bottom, top;
 };
 
 [[noreturn]] void throw_degenerate() {
@@ -93,33 +94,43 @@ std::optional<Meeting> meet(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                  .sign = volume > 0 ? -1 : 1};
 }
 
-std::vector<Box> boxes_of_edges(const Eigen::Matrix3Xd& view) {
+Boxes boxes_of_edges(const Eigen::Matrix3Xd& view) {
   const Eigen::Index count = view.cols();
-  std::vector<Box> boxes(count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const Eigen::Index next = (i + 1) % count;
-    const auto [left, right] = std::minmax({view(0, i), view(0, next)});
-    const auto [bottom, top] = std::minmax({view(1, i), view(1, next)});
-    boxes[i] = {left, right, bottom, top};
-  }
-  return boxes;
+  Eigen::ArrayX2d ends(count + 1, 2);
+  ends.topRows(count) = view.topRows<2>().transpose();
+  ends.row(count) = ends.row(0);
+  const auto from = ends.topRows(count);
+  const auto to = ends.bottomRows(count);
+  return {from.col(0).min(to.col(0)), from.col(0).max(to.col(0)), from.col(1).min(to.col(1)),
+          from.col(1).max(to.col(1))};
 }
 
 /// Diagram of the closed polygon `view` (3 x n) looked at along its third axis.
 Diagram project(const Eigen::Matrix3Xd& view) {
   const int count = static_cast<int>(view.cols());
   const double tolerance = generic * view.colwise().norm().maxCoeff();
-  const std::vector<Box> boxes = boxes_of_edges(view);
+  const Boxes boxes = boxes_of_edges(view);
+  constexpr int batch = 8;  // edges looked at together: few meet
+  Eigen::ArrayXd apart =
+      Eigen::ArrayXd::Constant(count + batch, std::numeric_limits<double>::infinity());
+  std::vector<int> near;
   Diagram diagram;
   for (int i = 0; i + 2 < count; ++i) {
-    const Box reach{boxes[i].left - tolerance, boxes[i].right + tolerance,
-                    boxes[i].bottom - tolerance, boxes[i].top + tolerance};
     const int end = i == 0 ? count - 1 : count;  // the last edge ends where the first one starts
-    for (int j = i + 2; j < end; ++j) {
-      if (boxes[j].left > reach.right || boxes[j].right < reach.left ||
-          boxes[j].bottom > reach.top || boxes[j].top < reach.bottom) {
-        continue;
+    const auto later = Eigen::seq(i + 2, end - 1);
+    apart(later) = (boxes.left(later) - boxes.right[i])
+                       .max(boxes.left[i] - boxes.right(later))
+                       .max(boxes.bottom(later) - boxes.top[i])
+                       .max(boxes.bottom[i] - boxes.top(later));
+    near.clear();
+    for (int first = i + 2; first < end; first += batch) {
+      if (apart.segment<batch>(first).minCoeff() <= tolerance) {
+        for (int j = first; j < std::min(first + batch, end); ++j) {
+          if (apart[j] <= tolerance) near.push_back(j);
+        }
       }
+    }
+    for (const int j : near) {
       const auto meeting =
           meet(view.col(i), view.col(i + 1), view.col(j), view.col((j + 1) % count), tolerance);
       if (!meeting) continue;

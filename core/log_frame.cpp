@@ -89,7 +89,7 @@ void declare_forces(const Model& model, LogTable<Frame>& t) {
                          Eigen::VectorXd ConstraintForces::*member) {
     t.numbers(
         std::string("/forces/") + name, {nv},
-        {"dyn, dyn·cm", description}, [member](const Frame& f) -> const auto& {
+        {"dyn, dyn·cm", description, true}, [member](const Frame& f) -> const auto& {
           return f.record.solution.force.*member;
         });
   };

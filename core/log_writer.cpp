@@ -15,8 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A crash loses at most this many frames.
-constexpr std::int64_t save_interval = 64;
+// A crash loses at most what was computed in this time, s. A save writes the whole log anew.
+constexpr double save_interval = 10;
 
 std::string current_time() {
   const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
@@ -107,7 +107,7 @@ struct LogWriter::Contents {
   KnotSettings knot;
   double h;
   std::int64_t stride;  // steps a frame
-  std::int64_t frame_count = 0;
+  double saved = 0;     // wall time, s
   Worst worst;
 };
 
@@ -142,12 +142,14 @@ void LogWriter::write(const StepRecord& record, double wall_time) {
   if (record.step % c.stride != 0) {
     return;
   }
-  c.frames.append({record, thigmotaxis_rows_of(record.solution, c.h),
-                   knot_type(record.situation.kin.centre, c.knot.votes, c.knot.seed), c.worst,
-                   wall_time});
+  const KnotVote knot = record.controller.knot_seen == record.time
+                            ? record.controller.knot
+                            : knot_type(record.situation.kin.centre, c.knot.votes, c.knot.seed);
+  c.frames.append({record, thigmotaxis_rows_of(record.solution, c.h), knot, c.worst, wall_time});
   c.worst = {};
-  if (++c.frame_count % save_interval == 0) {
+  if (wall_time - c.saved >= save_interval) {
     c.save(partial_);
+    c.saved = wall_time;
   }
 }
 

@@ -59,16 +59,19 @@ std::string row_name(const Model& model, const Row& row) {
   return "row";
 }
 
-double row_velocity(const Row& row, const Kinematics& kin, const Matrix6Xd& twist,
+double row_velocity(const Row& row, const Eigen::Matrix3Xd& centre_velocity,
                     const Eigen::VectorXd& v) {
   if (row.dof >= 0) {
     return row.sign * v[row.dof];
   }
-  double sum = 0;
-  visit_forces(row, [&](int body, const Eigen::Vector3d& force) {
-    sum += force.dot(point_velocity(twist.col(body), kin.centre_offset(body)));
-  });
-  return sum;
+  Eigen::Vector3d apart = Eigen::Vector3d::Zero();  // ẋ_a - ẋ_b
+  for (int k = 0; k < row.a.count; ++k) {
+    apart += row.a.weight[k] * centre_velocity.col(row.a.first + k);
+  }
+  for (int k = 0; k < row.b.count; ++k) {
+    apart -= row.b.weight[k] * centre_velocity.col(row.b.first + k);
+  }
+  return row.direction.dot(apart);
 }
 
 void add_row(const Row& row, const Kinematics& kin, double lambda, Matrix6Xd& wrench,

@@ -51,8 +51,9 @@ void visit_forces(const Row& row, Visit visit) {
 /// "limit of j05_bend_y (upper)", "contact of bodies 31 and 74", ...
 std::string row_name(const Model& model, const Row& row);
 
-/// C q̇ of one row at body twists (6 x N) and velocities (nv).
-double row_velocity(const Row& row, const Kinematics& kin, const Matrix6Xd& twist,
+/// C v of one row at velocities `v` (nv), which move the bodies' centres by `centre_velocity`
+/// (3 x N).
+double row_velocity(const Row& row, const Eigen::Matrix3Xd& centre_velocity,
                     const Eigen::VectorXd& v);
 
 /// Adds C' λ of one row: to the bodies' wrenches (6 x N) or the joint forces (nv).

@@ -24,8 +24,7 @@ void guard(const Model& model, const Situation& situation, const GuardSettings& 
                     situation.limit_violation / degree, limits.limit_violation / degree));
   }
   for (int b = 0; b < model.body_count(); ++b) {
-    const double speed =
-        point_velocity(situation.kin.twist.col(b), situation.kin.centre_offset(b)).norm();
+    const double speed = situation.kin.centre_velocity.col(b).norm();
     if (!(speed <= limits.speed)) {
       throw StepError(fmt::format("body {} moves at {:.3g} cm/s, over guard.speed = {:g} cm/s", b,
                                   speed, limits.speed));

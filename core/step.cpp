@@ -10,7 +10,7 @@ namespace {
 
 /// A row is left out at first where the unconstrained motion, or the last step's, keeps this much
 /// clear of it, cm/s or rad/s. Only speed depends on it: rows left out are checked after the solve.
-constexpr double lazy_reach = 2.0;
+constexpr double lazy_reach = 0.1;
 /// A row left out counts as violated below this, cm/s or rad/s: at h = 2 ms, 2e-11 cm or rad.
 constexpr double lazy_tolerance = 1e-8;
 /// λ, rows brought to unit diagonal, counts as a force above this share of the largest.
@@ -72,6 +72,7 @@ void set_velocity(const Model& model, const Kinematics& kin, StepScratch& scratc
   }
   scratch.factor.solve(model, kin, scratch.wrench, scratch.joint, step.qdot);
   body_twists(model, kin, step.qdot, step.twist);
+  centre_velocities(kin, step.twist, step.centre_velocity);
 }
 
 /// Eq. 3 or Eq. 4 on the rows chosen, as one small problem in the multipliers.
@@ -124,8 +125,10 @@ void unconstrained_motion(const Model& model, const State& state, const Kinemati
     throw StepError("non-finite unconstrained velocity");
   }
   body_twists(model, kin, step.unconstrained, scratch.unconstrained_twist);
+  centre_velocities(kin, scratch.unconstrained_twist, scratch.unconstrained_centre_velocity);
   step.qdot = step.unconstrained;
   step.twist = scratch.unconstrained_twist;
+  step.centre_velocity = scratch.unconstrained_centre_velocity;
 }
 
 /// Moves the rows that cannot bind, as far as one can tell beforehand, to the waiting ones.
@@ -136,9 +139,10 @@ void set_waiting_aside(const State& state, const Kinematics& kin, const WarmStar
       return false;
     }
     return row.waits ||
-           (row_velocity(row, kin, scratch.unconstrained_twist, step.unconstrained) - row.rhs >=
+           (row_velocity(row, scratch.unconstrained_centre_velocity, step.unconstrained) -
+                    row.rhs >=
                 lazy_reach &&
-            row_velocity(row, kin, kin.twist, state.qdot) - row.rhs >= lazy_reach);
+            row_velocity(row, kin.centre_velocity, state.qdot) - row.rhs >= lazy_reach);
   };
   scratch.waiting.clear();
   std::size_t kept = 0;
@@ -153,10 +157,10 @@ void set_waiting_aside(const State& state, const Kinematics& kin, const WarmStar
 }
 
 /// Moves the waiting rows that q̇ violates to the rows of the problem; whether there were any.
-bool take_in_violated(const Kinematics& kin, StepScratch& scratch, StepSolution& step) {
+bool take_in_violated(StepScratch& scratch, StepSolution& step) {
   std::size_t kept = 0;
   for (const Row& row : scratch.waiting) {
-    if (row_velocity(row, kin, step.twist, step.qdot) >= row.rhs - lazy_tolerance) {
+    if (row_velocity(row, step.centre_velocity, step.qdot) >= row.rhs - lazy_tolerance) {
       scratch.waiting[kept++] = row;
     } else {
       step.rows.push_back(row);
@@ -170,14 +174,14 @@ bool take_in_violated(const Kinematics& kin, StepScratch& scratch, StepSolution&
 /// Eq. 3 or 4 on step.rows; waiting rows come in as the answer violates them.
 void constrained_motion(const Model& model, const Kinematics& kin, BoxQpSolver& solver,
                         const WarmStart& warm, StepScratch& scratch, StepSolution& step) {
-  bool changed = !step.rows.empty() || take_in_violated(kin, scratch, step);
+  bool changed = !step.rows.empty() || take_in_violated(scratch, step);
   while (changed) {
     assemble_dual(model, kin, scratch.factor, step.rows, step.unconstrained,
-                  scratch.unconstrained_twist, scratch.dual, scratch.qp);
+                  scratch.unconstrained_centre_velocity, scratch.columns, scratch.qp);
     solve_multipliers(model, scratch.qp, solver, warm, scratch, step);
     ++step.rounds;
     set_velocity(model, kin, scratch, step);
-    changed = take_in_violated(kin, scratch, step);
+    changed = take_in_violated(scratch, step);
   }
   if (!step.qdot.allFinite()) {
     throw StepError("non-finite velocity");
@@ -191,7 +195,7 @@ void measure(const Model& model, const Kinematics& kin, double h, StepScratch& s
   step.lambda.conservativeResize(m);
   step.excess.resize(m);
   for (Eigen::Index i = 0; i < m; ++i) {
-    step.excess[i] = row_velocity(step.rows[i], kin, step.twist, step.qdot) - step.rows[i].rhs;
+    step.excess[i] = row_velocity(step.rows[i], step.centre_velocity, step.qdot) - step.rows[i].rhs;
   }
   step.kkt = m > 0 ? kkt_residuals(scratch.qp, step.lambda, step.excess) : KktResiduals{};
   sum_forces(model, kin, h, scratch, step);
@@ -290,8 +294,7 @@ void solve_step(const Model& model, const State& state, const Situation& situati
   measure(model, kin, h, scratch, step);
   keep_active(scratch, step, warm);
   const int last = model.body_count() - 1;
-  step.tip = control.tip.value -
-             control.tip.rate * point_velocity(step.twist.col(last), kin.centre_offset(last));
+  step.tip = control.tip.value - control.tip.rate * step.centre_velocity.col(last);
 }
 
 }  // namespace hagfish

@@ -64,9 +64,10 @@ struct ConstraintForces {
 };
 
 struct StepSolution {
-  Eigen::VectorXd unconstrained;  ///< q̇*, nv
-  Eigen::VectorXd qdot;           ///< new velocity, nv
-  Matrix6Xd twist;                ///< of the bodies at it, 6 x N
+  Eigen::VectorXd unconstrained;     ///< q̇*, nv
+  Eigen::VectorXd qdot;              ///< new velocity, nv
+  Matrix6Xd twist;                   ///< of the bodies at it, 6 x N
+  Eigen::Matrix3Xd centre_velocity;  ///< of the bodies' centres at it, 3 x N, cm/s
   ConstraintForces force;
   Eigen::Vector3d tip = Eigen::Vector3d::Zero();  ///< tip force as applied, dyn, world
   SolveKind kind = SolveKind::linear;
@@ -93,9 +94,10 @@ class StepError : public std::runtime_error {
 /// all has grown to size.
 struct StepScratch {
   ArticulatedFactor factor;
-  Matrix6Xd unconstrained_twist;  ///< 6 x N
-  std::vector<Row> waiting;       ///< rows left out so far
-  DualScratch dual;
+  Matrix6Xd unconstrained_twist;                   ///< 6 x N
+  Eigen::Matrix3Xd unconstrained_centre_velocity;  ///< 3 x N, cm/s
+  std::vector<Row> waiting;                        ///< rows left out so far
+  RowColumns columns;
   BoxQp qp;
   Eigen::VectorXd start, scale;
   Matrix6Xd wrench;

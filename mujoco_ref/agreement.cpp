@@ -50,10 +50,11 @@ Dynamics core_dynamics(const Model& model, const State& state, const Kinematics&
     // Eq. 3 for accelerations: the head is where the clamp wants it, so that e = 0.
     std::vector<Row> rows;
     append_head_rows(state, {}, 1, rows);
-    DualScratch scratch;
+    RowColumns columns;
     BoxQp qp;
     assemble_dual(model, kin, factor, rows, dynamics.acceleration,
-                  body_twists(model, kin, dynamics.acceleration), scratch, qp);
+                  centre_velocities(kin, body_twists(model, kin, dynamics.acceleration)), columns,
+                  qp);
     const Eigen::VectorXd lambda = solve_bilateral(qp.A, qp.b).x;
     Matrix6Xd clamped_wrench = wrench;
     for (std::size_t i = 0; i < rows.size(); ++i) {

@@ -36,9 +36,10 @@ PrimalQp equation_4(const Model& model, const Scene& scene, const StepRecord& re
         wall_rows(model, now.kin, scene.wall, scene.constraints, h)}) {
     rows.insert(rows.end(), more.begin(), more.end());
   }
-  const Matrix6Xd twist = body_twists(model, now.kin, record.solution.unconstrained);
+  const Eigen::Matrix3Xd centre_velocity =
+      centre_velocities(now.kin, body_twists(model, now.kin, record.solution.unconstrained));
   std::erase_if(rows, [&](const Row& row) {
-    return row_velocity(row, now.kin, twist, record.solution.unconstrained) - row.rhs > far;
+    return row_velocity(row, centre_velocity, record.solution.unconstrained) - row.rhs > far;
   });
   const auto rhs = [](const std::vector<Row>& of) {
     Eigen::VectorXd d(of.size());

@@ -125,7 +125,7 @@ TEST(Articulated, HalfSolvesOfManyColumnsMultiplyToTheWhole) {
   }
   factor.half_solve(c.model, c.kin, columns);
   const Eigen::MatrixXd expected = right.transpose() * solved;
-  const Eigen::MatrixXd product = columns.joint.transpose() * columns.joint;
+  const Eigen::MatrixXd product = columns.joint.leftCols(m).transpose() * columns.joint.leftCols(m);
   // Both are rounding times the condition of H away from the truth, brought to unit diagonal.
   const Eigen::VectorXd scale = expected.diagonal().cwiseSqrt().cwiseInverse();
   EXPECT_LT(

@@ -157,9 +157,12 @@ TEST(ClosestPoints, OfCentrelinesThatCrossAreFinite) {
   Eigen::Matrix3Xd x(3, 4);
   x << -1, 0, 1, 2, 0, 0, 0, 0, 0, 0, 0, 0;
   Eigen::Matrix3Xd y = Eigen::Matrix3Xd::Zero(3, 4);
-  y.row(1) << -1.5, -0.5, 0.5, 1.5;
-  y.row(0).setConstant(0.5);
+  y.row(1) = x.row(0);  // they cross where both segments begin, at a sample of the grid
   EXPECT_NEAR(closest_points(spline(four, x)[1], spline(four, y)[1]).gap, -0.5, 1e-15);
+  // Between samples the gap is a cone, whose tip is found by halving steps.
+  y.row(1).array() -= 0.5;
+  y.row(0).setConstant(0.5);
+  EXPECT_NEAR(closest_points(spline(four, x)[1], spline(four, y)[1]).gap, -0.5, 1e-9);
 }
 
 TEST(ClosestPoints, ReportTheGapOfTheirParameters) {

@@ -72,7 +72,7 @@ class Controller : public testing::Test {
     state.phase_start = now;
     state.loose = now;
     state.knot = knot_type(situation.kin.centre, scene.knot.votes, scene.knot.seed);
-    state.next_look = now + scene.knot.interval;
+    state.knot_seen = now;
   }
 
   double first() const { return state.first.contact->arc_a; }
@@ -265,7 +265,7 @@ TEST_F(Controller, FreesTheHeadOnceTheKnotIsNear) {
 TEST_F(Controller, StopsOnceUntied) {
   start_in(Phase::release);
   tie(false);
-  now = state.next_look;
+  now = state.knot_seen + scene.knot.interval;
   const Control control = step({contact(1, 20)});
   EXPECT_EQ(state.phase, Phase::free);
   EXPECT_TRUE(control.thigmotaxis.empty());
@@ -297,7 +297,7 @@ TEST_F(Controller, ThrowsWhereTheKnotIsLost) {
   for (const Phase phase : {Phase::tighten, Phase::slide}) {
     start_in(phase);
     tie(false);
-    now = state.next_look;
+    now = state.knot_seen + scene.knot.interval;
     EXPECT_THROW(step({contact(5, 30)}), StepError) << phase_name(phase);
   }
 }

@@ -29,6 +29,7 @@ struct BookedRun {
     solve_step(model, state, now, control, scene, *solver, warm, scratch, solution);
     spoil(solution);
     solution.twist = body_twists(model, now.kin, solution.qdot);
+    solution.centre_velocity = centre_velocities(now.kin, solution.twist);
     const double h = scene.time.step;
     State next{advance(state.q, solution.qdot, h), solution.qdot};
     book_step(model, now.kin, solution, next, kinematics(model, next), h, ledger);

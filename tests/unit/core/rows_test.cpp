@@ -229,7 +229,7 @@ TEST(ThigmotaxisRows, AreEquationSixOfThePaper) {
     const Eigen::Vector3d tangent_a = now[c.segment_a].slope(c.t_a).normalized();
     const Eigen::Vector3d tangent_b = now[c.segment_b].slope(c.t_b).normalized();
     const auto velocity = [&](const Row& row) {
-      return row_velocity(row, t.kin, t.kin.twist, t.state.qdot);
+      return row_velocity(row, t.kin.centre_velocity, t.state.qdot);
     };
     EXPECT_NEAR(velocity(rows[2 * place]), tangent_a.dot(a - b), 1e-6);
     EXPECT_NEAR(velocity(rows[2 * place + 1]), tangent_b.dot(b - a), 1e-6);
@@ -248,7 +248,7 @@ TEST(Rows, VelocityIsTheDenseRow) {
   const Eigen::VectorXd expected = dense_rows(t.model, t.kin, rows) * t.state.qdot;
   Eigen::VectorXd actual(expected.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    actual[i] = row_velocity(rows[i], t.kin, t.kin.twist, t.state.qdot);
+    actual[i] = row_velocity(rows[i], t.kin.centre_velocity, t.state.qdot);
   }
   // Sums over 100 bodies of terms that cancel.
   EXPECT_LT(relative_error(actual, expected), 1e-12);
@@ -266,7 +266,8 @@ TEST(Rows, ForceIsTheTransposeOfVelocity) {
     add_row(row, t.kin, lambda, wrench, joint);
     const Eigen::VectorXd force = generalised_force(t.model, t.kin, wrench) + joint;
     const double scale = force.cwiseAbs().dot(v.cwiseAbs());
-    const double velocity = row_velocity(row, t.kin, body_twists(t.model, t.kin, v), v);
+    const double velocity =
+        row_velocity(row, centre_velocities(t.kin, body_twists(t.model, t.kin, v)), v);
     EXPECT_NEAR(lambda * velocity, v.dot(force), 1e-13 * scale) << row_name(t.model, row);
   }
 }
