@@ -15,11 +15,22 @@ constexpr int samples = 8;
 constexpr int iteration_limit = 50;
 // Times that a step is halved for the gap to fall, to some 1e-4 of it.
 constexpr int cut_limit = 14;
-// Newton steps in a parameter of [0, 1] below this are at the rounding of the gap's minimum.
-constexpr double step_tolerance = 1e-10;
+// A whole Newton step in parameters of [0, 1] below this leaves an error of about its square, which
+// is rounding.
+constexpr double step_tolerance = 1e-7;
 
-double gap_at(const SplineSegment& a, const SplineSegment& b, double t_a, double t_b) {
-  return (b.point(t_b) - a.point(t_a)).norm() - a.radius(t_a) - b.radius(t_b);
+/// A pair of points on its way down.
+struct Iterate {
+  double t_a, t_b;
+  Eigen::Vector3d apart;  ///< x_b - x_a
+  double distance;        ///< |apart|
+  double gap;
+};
+
+Iterate iterate_at(const SplineSegment& a, const SplineSegment& b, double t_a, double t_b) {
+  const Eigen::Vector3d apart = b.point(t_b) - a.point(t_a);
+  const double distance = apart.norm();
+  return {t_a, t_b, apart, distance, distance - a.radius(t_a) - b.radius(t_b)};
 }
 
 using Samples = Eigen::Array<double, samples, 1>;
@@ -28,10 +39,11 @@ using Samples = Eigen::Array<double, samples, 1>;
 struct Starts {
   std::array<ClosestPoints, samples * samples> at;
   int count = 0;
+  int lowest = 0;  ///< the first of the lowest
 };
 
 Starts starts_of(const SplineSegment& a, const SplineSegment& b) {
-  const Samples t = Samples::LinSpaced(0, 1);
+  static const Samples t = Samples::LinSpaced(0, 1);
   std::array<Samples, 3> points_b;
   for (int k = 0; k < 3; ++k) {
     points_b[k] = b.c0[k] + t * (b.c1[k] + t * (b.c2[k] + t * b.c3[k]));
@@ -53,9 +65,15 @@ Starts starts_of(const SplineSegment& a, const SplineSegment& b) {
   Starts starts;
   for (int i = 0; i < samples; ++i) {
     const Samples least = lowest.col(i).min(lowest.col(i + 1)).min(lowest.col(i + 2));
+    const Samples own = gap.col(i + 1).segment<samples>(1);
+    if ((own - least).minCoeff() > 0) {
+      continue;
+    }
     for (int j = 0; j < samples; ++j) {
-      if (gap(j + 1, i + 1) <= least[j]) {
-        starts.at[starts.count++] = {t[i], t[j], gap(j + 1, i + 1)};
+      if (own[j] <= least[j]) {
+        starts.at[starts.count] = {t[i], t[j], own[j]};
+        starts.lowest = own[j] < starts.at[starts.lowest].gap ? starts.count : starts.lowest;
+        ++starts.count;
       }
     }
   }
@@ -80,57 +98,68 @@ Eigen::Vector2d direction(const Eigen::Vector2d& g, const Eigen::Matrix2d& h,
   return step;
 }
 
-/// Safeguarded Newton from `at`.
-ClosestPoints descend(const SplineSegment& a, const SplineSegment& b, ClosestPoints at) {
+/// Safeguarded Newton from `start`.
+ClosestPoints descend(const SplineSegment& a, const SplineSegment& b, const ClosestPoints& start) {
+  Iterate at = iterate_at(a, b, start.t_a, start.t_b);
   for (int iteration = 0; iteration < iteration_limit; ++iteration) {
-    const Eigen::Vector3d d = b.point(at.t_b) - a.point(at.t_a);
-    const double distance = d.norm();
-    if (!(distance > 0)) {
+    if (!(at.distance > 0)) {
       break;  // the centrelines cross: the gap is as low as it gets
     }
-    const Eigen::Vector3d n = d / distance;
+    const Eigen::Vector3d n = at.apart / at.distance;
     const Eigen::Vector3d xa = a.slope(at.t_a);
     const Eigen::Vector3d xb = b.slope(at.t_b);
+    const double an = xa.dot(n);
+    const double bn = xb.dot(n);
     // Eq. 5 over the distance, with the taper of the body.
-    const Eigen::Vector2d g(-xa.dot(n) - a.r1, xb.dot(n) - b.r1);
+    const Eigen::Vector2d g(-an - a.r1, bn - b.r1);
     const bool free_a = !(at.t_a <= 0 && g[0] >= 0) && !(at.t_a >= 1 && g[0] <= 0);
     const bool free_b = !(at.t_b <= 0 && g[1] >= 0) && !(at.t_b >= 1 && g[1] <= 0);
     if (!free_a && !free_b) {
       break;
     }
-    const double an = xa.dot(n);
-    const double bn = xb.dot(n);
+    const double inverse = 1 / at.distance;
     Eigen::Matrix2d h;
-    h(0, 0) = -a.bend(at.t_a).dot(n) + (xa.squaredNorm() - an * an) / distance;
-    h(1, 1) = b.bend(at.t_b).dot(n) + (xb.squaredNorm() - bn * bn) / distance;
-    h(0, 1) = h(1, 0) = -(xa.dot(xb) - an * bn) / distance;
+    h(0, 0) = -a.bend(at.t_a).dot(n) + (xa.squaredNorm() - an * an) * inverse;
+    h(1, 1) = b.bend(at.t_b).dot(n) + (xb.squaredNorm() - bn * bn) * inverse;
+    h(0, 1) = h(1, 0) = -(xa.dot(xb) - an * bn) * inverse;
     const Eigen::Matrix2d safe =
-        Eigen::Vector2d(xa.squaredNorm() / distance, xb.squaredNorm() / distance).asDiagonal();
+        Eigen::Vector2d(xa.squaredNorm() * inverse, xb.squaredNorm() * inverse).asDiagonal();
     const Eigen::Vector2d step = direction(g, h, safe, free_a, free_b);
 
-    bool moved = false;
+    bool last = true;
     double length = 1;
     for (int cut = 0; cut < cut_limit; ++cut, length *= 0.5) {
       const double t_a = std::clamp(at.t_a + length * step[0], 0.0, 1.0);
       const double t_b = std::clamp(at.t_b + length * step[1], 0.0, 1.0);
-      const double gap = gap_at(a, b, t_a, t_b);
-      if (gap < at.gap) {
-        moved = std::abs(t_a - at.t_a) + std::abs(t_b - at.t_b) > step_tolerance;
-        at = {t_a, t_b, gap};
+      const bool small = std::abs(t_a - at.t_a) + std::abs(t_b - at.t_b) <= step_tolerance;
+      const Iterate next = iterate_at(a, b, t_a, t_b);
+      if (next.gap < at.gap) {
+        last = small;
+        at = next;
+        break;
+      }
+      if (small) {
         break;
       }
     }
-    if (!moved) {
+    if (last) {
       break;
     }
   }
-  return at;
+  return {at.t_a, at.t_b, at.gap};
 }
 
 }  // namespace
 
-ClosestPoints closest_points(const SplineSegment& a, const SplineSegment& b) {
-  const Starts starts = starts_of(a, b);
+ClosestPoints closest_points(const SplineSegment& a, const SplineSegment& b,
+                             const std::optional<ClosestPoints>& guess) {
+  Starts starts = starts_of(a, b);
+  if (guess) {
+    const double gap = iterate_at(a, b, guess->t_a, guess->t_b).gap;
+    if (gap < starts.at[starts.lowest].gap) {
+      starts.at[starts.lowest] = {guess->t_a, guess->t_b, gap};
+    }
+  }
   ClosestPoints best = descend(a, b, starts.at[0]);
   for (int k = 1; k < starts.count; ++k) {
     const ClosestPoints other = descend(a, b, starts.at[k]);

@@ -1,6 +1,8 @@
 // Closest points of two spline segments: a safeguarded Newton method on the paper's Eq. 5.
 #pragma once
 
+#include <optional>
+
 #include "core/spline.hpp"
 
 namespace hagfish {
@@ -18,6 +20,9 @@ struct ClosestPoints {
 /// Newton where the Hessian is positive on the free parameters, else the part of it that always is
 /// (Gauss-Newton); steps are cut until the gap falls, parameters stay in [0, 1]. Plain clamped
 /// Newton cycles on 7 % of candidate pairs.
-ClosestPoints closest_points(const SplineSegment& a, const SplineSegment& b);
+/// Starts from samples of both segments, so that every basin they can tell apart is looked into; a
+/// `guess`, such as the answer a step ago, takes the lowest sample's place where it lies lower.
+ClosestPoints closest_points(const SplineSegment& a, const SplineSegment& b,
+                             const std::optional<ClosestPoints>& guess = std::nullopt);
 
 }  // namespace hagfish

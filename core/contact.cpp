@@ -10,54 +10,63 @@ namespace {
 /// what a segment may move before they are found anew. Only speed depends on it.
 constexpr double carried = 0.5;
 
-/// The pairs carried still hold all that are within the margin.
-bool still_holds(const std::vector<SplineSegment>& segments, const ContactSearch& search) {
-  if (search.middle.size() != segments.size()) {
-    return false;
-  }
-  for (std::size_t i = 0; i < segments.size(); ++i) {
-    const double left = 0.5 * carried - (segments[i].bound - search.bound[i]);
-    if (left < 0 || (segments[i].middle - search.middle[i]).squaredNorm() > left * left) {
-      return false;
-    }
-  }
-  return true;
-}
-
-bool spheres_within(const SplineSegment& a, const SplineSegment& b, double distance) {
-  const double reach = a.bound + b.bound + distance;
-  return (a.middle - b.middle).squaredNorm() <= reach * reach;
+/// A cubic stays as close to another as their Bézier points: at most this far from `before`, cm.
+double displacement(const SplineSegment& before, const SplineSegment& now) {
+  const Eigen::Vector3d d0 = now.c0 - before.c0;
+  const Eigen::Vector3d d1 = now.c1 - before.c1;
+  const Eigen::Vector3d d2 = now.c2 - before.c2;
+  const Eigen::Vector3d d3 = now.c3 - before.c3;
+  return std::sqrt(
+      std::max({d0.squaredNorm(), (d0 + d1 / 3).squaredNorm(),
+                (d0 + 2 * d1 / 3 + d2 / 3).squaredNorm(), (d0 + d1 + d2 + d3).squaredNorm()}));
 }
 
 void find_candidates(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
                      ContactSearch& search) {
   const int n = static_cast<int>(segments.size());
   search.candidates.clear();
-  search.middle.resize(n);
-  search.bound.resize(n);
+  search.moved.assign(n, 0);
   // A hair of slack: equal arcs must not fall on either side of the bound by rounding.
   const double least_arc = settings.least_arc * (1 - 1e-9);
   for (int a = 0; a < n; ++a) {
-    search.middle[a] = segments[a].middle;
-    search.bound[a] = segments[a].bound;
     for (int b = a + 1; b < n; ++b) {
-      if (spheres_within(segments[a], segments[b], settings.margin + carried) &&
+      const double reach = segments[a].bound + segments[b].bound + settings.margin;
+      const double square = (segments[a].middle - segments[b].middle).squaredNorm();
+      if (square <= (reach + carried) * (reach + carried) &&
           segments[b].s0 - segments[a].arc(1) >= least_arc) {
-        search.candidates.emplace_back(a, b);
+        search.candidates.push_back({a, b, std::nullopt, std::sqrt(square) - reach});
       }
     }
   }
 }
 
+/// Adds up how far the segments have moved; finds the candidates anew where that is too far.
+void update_candidates(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
+                       ContactSearch& search) {
+  bool hold = search.segments.size() == segments.size();
+  for (std::size_t i = 0; hold && i < segments.size(); ++i) {
+    search.moved[i] += displacement(search.segments[i], segments[i]);
+    hold = search.moved[i] <= 0.5 * carried;
+  }
+  if (!hold) {
+    find_candidates(segments, settings, search);
+  }
+  search.segments = segments;
+}
+
 void find_close_pairs(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
                       ContactSearch& search) {
   search.close.clear();
-  for (const auto& [a, b] : search.candidates) {
-    if (spheres_within(segments[a], segments[b], settings.margin)) {
-      const ClosestPoints closest = closest_points(segments[a], segments[b]);
-      if (closest.gap <= settings.margin) {
-        search.close.push_back({a, b, closest});
-      }
+  for (std::size_t i = 0; i < search.candidates.size(); ++i) {
+    SegmentPair& pair = search.candidates[i];
+    const double moved = search.moved[pair.a] + search.moved[pair.b];
+    if (moved < pair.clear_until) {
+      continue;
+    }
+    pair.closest = closest_points(segments[pair.a], segments[pair.b], pair.closest);
+    pair.clear_until = moved + pair.closest->gap - settings.margin;
+    if (pair.closest->gap <= settings.margin) {
+      search.close.push_back(static_cast<int>(i));
     }
   }
 }
@@ -70,22 +79,27 @@ constexpr double same_gap = 1e-9;
 int across(double t) { return t <= 0 ? -1 : (t >= 1 ? 1 : 0); }
 
 /// A minimum inside both segments always counts; one on a border counts unless the gap falls on
-/// beyond it, and only for the first of the pairs that find it. Pairs come sorted by (a, b).
-bool is_local_minimum(const std::vector<SegmentPair>& pairs, std::size_t index) {
-  const SegmentPair& own = pairs[index];
-  const int step_a = across(own.closest.t_a);
-  const int step_b = across(own.closest.t_b);
+/// beyond it, and only for the first of the pairs that find it. `index` counts in search.close.
+bool is_local_minimum(const ContactSearch& search, std::size_t index) {
+  const SegmentPair& own = search.candidates[search.close[index]];
+  const int step_a = across(own.closest->t_a);
+  const int step_b = across(own.closest->t_b);
   for (const auto& [da, db] : {std::pair(step_a, 0), {0, step_b}, {step_a, step_b}}) {
     const std::pair<int, int> wanted(own.a + da, own.b + db);
-    const auto it = std::lower_bound(pairs.begin(), pairs.end(), wanted,
-                                     [](const SegmentPair& c, const std::pair<int, int>& key) {
-                                       return std::pair(c.a, c.b) < key;
+    const auto it = std::lower_bound(search.close.begin(), search.close.end(), wanted,
+                                     [&](int candidate, const std::pair<int, int>& key) {
+                                       const SegmentPair& pair = search.candidates[candidate];
+                                       return std::pair(pair.a, pair.b) < key;
                                      });
-    if (it == pairs.end() || std::pair(it->a, it->b) != wanted) {
+    if (it == search.close.end()) {
       continue;
     }
-    const auto other = static_cast<std::size_t>(it - pairs.begin());
-    const double lower_by = own.closest.gap - it->closest.gap;
+    const SegmentPair& found = search.candidates[*it];
+    if (std::pair(found.a, found.b) != wanted) {
+      continue;
+    }
+    const auto other = static_cast<std::size_t>(it - search.close.begin());
+    const double lower_by = own.closest->gap - found.closest->gap;
     if (other != index && (lower_by > same_gap || (lower_by >= -same_gap && other < index))) {
       return false;
     }
@@ -116,18 +130,16 @@ Contact contact_at(const std::vector<SplineSegment>& segments, int segment_a, do
 
 void find_contacts(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
                    ContactSearch& search, ContactSet& set) {
-  if (!still_holds(segments, search)) {
-    find_candidates(segments, settings, search);
-  }
+  update_candidates(segments, settings, search);
   find_close_pairs(segments, settings, search);
   set.contacts.clear();
   set.others.clear();
   set.least_gap = settings.margin;
   for (std::size_t i = 0; i < search.close.size(); ++i) {
-    const SegmentPair& pair = search.close[i];
-    set.least_gap = std::min(set.least_gap, pair.closest.gap);
-    (is_local_minimum(search.close, i) ? set.contacts : set.others)
-        .push_back(contact_at(segments, pair.a, pair.closest.t_a, pair.b, pair.closest.t_b));
+    const SegmentPair& pair = search.candidates[search.close[i]];
+    set.least_gap = std::min(set.least_gap, pair.closest->gap);
+    (is_local_minimum(search, i) ? set.contacts : set.others)
+        .push_back(contact_at(segments, pair.a, pair.closest->t_a, pair.b, pair.closest->t_b));
   }
   std::sort(set.contacts.begin(), set.contacts.end(), [](const Contact& x, const Contact& y) {
     return std::pair(x.arc_a, x.arc_b) < std::pair(y.arc_a, y.arc_b);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <utility>
+#include <optional>
 #include <vector>
 
 #include "core/closest_points.hpp"
@@ -39,20 +39,22 @@ struct ContactSet {
 Contact contact_at(const std::vector<SplineSegment>& segments, int segment_a, double t_a,
                    int segment_b, double t_b);
 
-/// Two segments that may touch, a before b, and where they are closest.
+/// Two segments that may touch, a before b.
 struct SegmentPair {
   int a = 0, b = 0;
-  ClosestPoints closest;
+  std::optional<ClosestPoints> closest;  ///< when last looked at
+  /// Their gap stays above the margin until the two have moved this far in all, cm.
+  double clear_until = 0;
 };
 
 /// What a search for contacts carries to the next one with the same settings. It changes the time
-/// of a search, never its answer: the pairs carried hold all that can touch until some segment has
-/// moved too far.
+/// of a search, and its answer by rounding only: pairs are left out as long as nothing that moved
+/// can have brought them together.
 struct ContactSearch {
-  std::vector<std::pair<int, int>> candidates;  ///< sorted
-  std::vector<Eigen::Vector3d> middle;          ///< of the segments when the candidates were found
-  std::vector<double> bound;                    ///< likewise
-  std::vector<SegmentPair> close;               ///< candidates within the margin
+  std::vector<SegmentPair> candidates;  ///< sorted
+  std::vector<SplineSegment> segments;  ///< of the last search
+  std::vector<double> moved;            ///< at most, by each since the candidates were found, cm
+  std::vector<int> close;               ///< indices of the candidates within the margin
 };
 
 /// Finds the contacts of `segments` (paper, 3.1: bounding spheres, then Eq. 5) into `set`.

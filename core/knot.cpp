@@ -345,15 +345,16 @@ KnotVote knot_type(const Eigen::Matrix3Xd& centreline, int votes, unsigned seed)
       (centreline.colwise() - centreline.rowwise().mean()).colwise().norm().maxCoeff();
   std::mt19937 random(seed);
   std::map<std::pair<int, int>, int> ballots;
-  for (int vote = 0; vote < votes; ++vote) {
+  int cast = 0;
+  for (int most = 0; cast < votes && 2 * most <= votes; ++cast) {
     const KnotInvariants type = cast_vote(closed, 4 * radius, random);
-    ++ballots[{type.determinant, type.v2}];
+    most = std::max(most, ++ballots[{type.determinant, type.v2}]);
   }
   // max_element keeps the first of equals: a tie goes to the smaller determinant, then v2.
   const auto winner = std::max_element(ballots.begin(), ballots.end(),
                                        [](auto& a, auto& b) { return a.second < b.second; });
   return {.type = {.determinant = winner->first.first, .v2 = winner->first.second},
-          .agreement = static_cast<double>(winner->second) / votes};
+          .agreement = static_cast<double>(winner->second) / cast};
 }
 
 std::string knot_name(const KnotInvariants& type) {

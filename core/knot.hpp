@@ -16,7 +16,7 @@ struct KnotInvariants {
 
 struct KnotVote {
   KnotInvariants type;   ///< the most frequent answer
-  double agreement = 1;  ///< its share of the votes, above 0 and up to 1
+  double agreement = 1;  ///< its share of the votes cast, above 0 and up to 1
 };
 
 /// Invariants of the closed polygon through the columns of `points` (3 x n, n >= 3, any length
@@ -31,7 +31,8 @@ KnotInvariants invariants_of_closed(const Eigen::Matrix3Xd& points,
 
 /// Type of the open polygon through the columns of `centreline` (3 x n, n >= 2, any length unit).
 /// Both ends are run out in one direction to beyond a sphere around the polygon and joined there,
-/// for `votes` >= 1 directions drawn from `seed`; each gives one vote. A tie goes to the smaller
+/// for up to `votes` >= 1 directions drawn from `seed`; each gives one vote, until more than half
+/// of them all agree. A tie goes to the smaller
 /// determinant, then the smaller v2. The directions are the same on every platform.
 /// A closure or line of sight that is not generic, or shows too many crossings, is drawn again.
 /// Throws as invariants_of_closed, but of these two errors only where 100 draws in a row failed:

@@ -44,7 +44,7 @@ Simulation start_from(const Model& model, const Scene& scene, State state,
   sim.step = step;
   sim.state = std::move(state);
   sim.controller = std::move(controller);
-  sim.situation = observe(model, sim.state, scene);
+  observe(model, sim.state, scene, sim.search, sim.situation);
   sim.ledger = open_ledger(model, sim.state, sim.situation.kin);
   return sim;
 }
@@ -69,7 +69,7 @@ void take_step(const Model& model, const Scene& scene, BoxQpSolver& solver, Simu
   // The record's old state and situation are storage for the next ones; then they change places.
   advance(sim.state.q, record.solution.qdot, h, record.state.q);
   record.state.qdot = record.solution.qdot;
-  observe(model, record.state, scene, record.situation);
+  observe(model, record.state, scene, sim.search, record.situation);
   guard(model, record.situation, scene.guard);
 
   record.ledger = sim.ledger;

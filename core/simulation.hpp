@@ -12,7 +12,8 @@ namespace hagfish {
 struct Simulation {
   std::int64_t step = 0;  ///< steps taken
   State state;
-  Situation situation;  ///< of `state`
+  Situation situation;   ///< of `state`
+  ContactSearch search;  ///< that found its contacts
   ControllerState controller;
   WarmStart warm;
   StepScratch scratch;

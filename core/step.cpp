@@ -206,7 +206,8 @@ void measure(const Model& model, const Kinematics& kin, double h, StepScratch& s
   scratch.impulse += h * step.force.thigmotaxis;
   scratch.joint = step.qdot - step.unconstrained;
   multiply(model, kin, step.system.op, scratch.joint, scratch.wrench, scratch.change);
-  multiply(model, kin, step.system.op, step.unconstrained, scratch.wrench, scratch.joint);
+  generalised_force(model, kin, step.system.wrench, scratch.joint);
+  scratch.joint += step.system.joint;  // H q̇*
   // Over the largest momentum in the balance: forces may be nothing but rounding.
   const double scale =
       std::max({scratch.impulse.lpNorm<Eigen::Infinity>(), scratch.change.lpNorm<Eigen::Infinity>(),
@@ -246,12 +247,13 @@ const double* WarmStart::find(std::int64_t id) const {
   return it == entries_.end() || it->first != id ? nullptr : &it->second;
 }
 
-void observe(const Model& model, const State& state, const Scene& scene, Situation& situation) {
+void observe(const Model& model, const State& state, const Scene& scene, ContactSearch& search,
+             Situation& situation) {
   Situation& s = situation;
   update_positions(model, state.q, s.kin);
   update_velocities(model, state.qdot, s.kin);
   update_spline(model, s.kin.centre, s.segments);
-  find_contacts(s.segments, scene.contact, s.search, s.contact);
+  find_contacts(s.segments, scene.contact, search, s.contact);
   s.penetration = std::max(0.0, -s.contact.least_gap);
   visit_wall_gaps(model, s.kin, scene.wall,
                   [&](int, double gap) { s.penetration = std::max(s.penetration, -gap); });
@@ -264,8 +266,9 @@ void observe(const Model& model, const State& state, const Scene& scene, Situati
 }
 
 Situation observe(const Model& model, const State& state, const Scene& scene) {
+  ContactSearch search;
   Situation situation;
-  observe(model, state, scene, situation);
+  observe(model, state, scene, search, situation);
   return situation;
 }
 

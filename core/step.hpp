@@ -20,13 +20,13 @@ namespace hagfish {
 struct Situation {
   Kinematics kin;
   std::vector<SplineSegment> segments;
-  ContactSearch search;
   ContactSet contact;
   double penetration = 0;      ///< deepest overlap of skins or with the head plate, cm, >= 0
   double limit_violation = 0;  ///< largest angle past a limit, rad, >= 0
 };
 
-void observe(const Model& model, const State& state, const Scene& scene, Situation& situation);
+void observe(const Model& model, const State& state, const Scene& scene, ContactSearch& search,
+             Situation& situation);
 Situation observe(const Model& model, const State& state, const Scene& scene);
 
 /// Largest displacement of the head from where the clamp holds it, cm: of either end and of its

@@ -1,0 +1,198 @@
+// What each part of a step costs, with MuJoCo's part beside it in the same process.
+//   hagfish_benchmarks [--benchmark_...] LOG...
+// Each log gives an animal and a knotted state of it (start.hpp). Names are SIMULATOR/PART/BODIES.
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include <functional>
+#include <memory>
+
+#include "core/build_info.hpp"
+#include "core/dual_problem.hpp"
+#include "experiments/benchmarks/start.hpp"
+#include "mujoco_ref/mirror.hpp"
+
+namespace {
+
+using namespace hagfish;
+
+// Steps from the start before a simulation is set back to it: the state stays what it is named, and
+// the copy does not count.
+constexpr int steps_before_reset = 100;
+
+void add(const std::string& simulator, const std::string& part, int bodies,
+         const std::function<void()>& work) {
+  benchmark::RegisterBenchmark(fmt::format("{}/{}/{}", simulator, part, bodies).c_str(),
+                               [work](benchmark::State& state) {
+                                 for (auto _ : state) work();
+                               })
+      ->Unit(benchmark::kMicrosecond);
+}
+
+/// The core's whole step, on and on from `start`.
+void add_core_step(const std::string& part, const std::shared_ptr<Start>& start,
+                   const std::string& back_end) {
+  struct Run {
+    Simulation sim;
+    StepRecord record;
+    std::shared_ptr<BoxQpSolver> solver;
+    int steps = 0;
+  };
+  auto run = std::make_shared<Run>();
+  run->sim = start->sim;
+  run->solver = make_box_qp_solver(back_end);
+  add("core", part, start->model.body_count(), [start, run] {
+    if (run->steps++ % steps_before_reset == 0) {
+      run->sim = start->sim;
+    }
+    take_step(start->model, start->scene, *run->solver, run->sim, run->record);
+  });
+}
+
+/// mj_step, on and on from `start`.
+void add_mujoco_step(const std::string& part, const std::shared_ptr<Start>& start, int solver) {
+  struct Run {
+    MujocoModel mirror;
+    int steps = 0;
+  };
+  auto run = std::make_shared<Run>(Run{mirror_of(*start)});
+  run->mirror.model()->opt.solver = solver;
+  add("mujoco", part, start->model.body_count(), [start, run] {
+    if (run->steps++ % steps_before_reset == 0) {
+      set_state(start->model, start->sim.state, run->mirror);
+    }
+    mj_step(run->mirror.model(), run->mirror.data());
+  });
+}
+
+/// A step of the knotted animal, taken apart.
+struct Parts {
+  explicit Parts(std::shared_ptr<Start> of) : start(std::move(of)), sim(start->sim) {
+    const auto solver = make_box_qp_solver("active-set");
+    for (int k = 0; k < 2; ++k) {  // the second one has a warm start
+      take_step(start->model, start->scene, *solver, sim, record);
+    }
+  }
+  std::shared_ptr<Start> start;
+  Simulation sim;
+  StepRecord record;
+  ContactSearch search;
+  ContactSet contacts;
+  std::vector<SplineSegment> segments;
+  std::vector<Row> rows;
+  RowColumns columns;
+  BoxQp qp;
+};
+
+void add_core_parts(const std::shared_ptr<Start>& start) {
+  const auto parts = std::make_shared<Parts>(start);
+  const int n = start->model.body_count();
+  const auto part = [&](const std::string& name, void (*work)(Parts&)) {
+    add("core", name, n, [parts, work] { work(*parts); });
+  };
+  part("kinematics", [](Parts& p) {
+    update_positions(p.start->model, p.record.state.q, p.record.situation.kin);
+    update_velocities(p.start->model, p.record.state.qdot, p.record.situation.kin);
+  });
+  part("mass_matrix", [](Parts& p) {  // dense, for comparison: a step never forms it
+    const Kinematics& kin = p.record.situation.kin;
+    const Operator op{body_inertias(p.start->model, kin),
+                      Eigen::VectorXd::Zero(p.start->model.nv())};
+    benchmark::DoNotOptimize(dense(p.start->model, kin, op));
+  });
+  part("bias", [](Parts& p) {
+    const Kinematics& kin = p.record.situation.kin;
+    benchmark::DoNotOptimize(generalised_force(
+        p.start->model, kin, bias_wrench(kin, body_inertias(p.start->model, kin))));
+  });
+  part("system", [](Parts& p) {  // Eq. 1 assembled, factorised and solved
+    const Kinematics& kin = p.record.situation.kin;
+    StepSystem& system = p.record.solution.system;
+    assemble_step_system(p.start->model, p.record.state, kin, p.record.control.tip,
+                         p.start->scene.time.step, system);
+    p.sim.scratch.factor.factorise(p.start->model, kin, system.op);
+    p.sim.scratch.factor.solve(p.start->model, kin, system.wrench, system.joint,
+                               p.record.solution.unconstrained);
+  });
+  part("contact", [](Parts& p) {
+    update_spline(p.start->model, p.record.situation.kin.centre, p.segments);
+    find_contacts(p.segments, p.start->scene.contact, p.search, p.contacts);
+  });
+  part("rows", [](Parts& p) {
+    const Scene& scene = p.start->scene;
+    const double h = scene.time.step;
+    const Situation& now = p.record.situation;
+    p.rows.clear();
+    append_head_rows(p.record.state, scene.constraints, h, p.rows);
+    append_thigmotaxis_rows(p.start->model, p.record.control.thigmotaxis, scene.controller.cap, h,
+                            p.rows);
+    append_contact_rows(p.start->model, now.contact, scene.constraints, h, p.rows);
+    append_limit_rows(p.start->model, p.record.state, scene.constraints, h, p.rows);
+    append_wall_rows(p.start->model, now.kin, scene.wall, scene.constraints, h, p.rows);
+  });
+  part("dual", [](Parts& p) {
+    const Situation& now = p.record.situation;
+    const Eigen::VectorXd& unconstrained = p.record.solution.unconstrained;
+    assemble_dual(p.start->model, now.kin, p.sim.scratch.factor, p.record.solution.rows,
+                  unconstrained, p.sim.scratch.unconstrained_centre_velocity, p.columns, p.qp);
+  });
+  for (const std::string& name : box_qp_solver_names()) {
+    const std::shared_ptr<BoxQpSolver> solver = make_box_qp_solver(name);
+    add("core", "qp_" + name, n, [parts, solver] {
+      benchmark::DoNotOptimize(solver->solve(parts->sim.scratch.qp, parts->sim.scratch.start));
+    });
+  }
+}
+
+void add_mujoco_parts(const std::shared_ptr<Start>& start) {
+  const auto mirror = std::make_shared<MujocoModel>(mirror_of(*start));
+  const auto part = [&](const std::string& name, void (*work)(const mjModel*, mjData*)) {
+    add("mujoco", name, start->model.body_count(),
+        [mirror, work] { work(mirror->model(), mirror->data()); });
+  };
+  part("kinematics", [](const mjModel* m, mjData* d) {
+    mj_kinematics(m, d);
+    mj_comPos(m, d);
+    mj_comVel(m, d);
+  });
+  part("mass_matrix", [](const mjModel* m, mjData* d) { mj_crb(m, d); });
+  part("bias", [](const mjModel* m, mjData* d) { mj_rne(m, d, 0, d->qfrc_bias); });
+  part("system", [](const mjModel* m, mjData* d) {
+    mj_crb(m, d);
+    mj_factorM(m, d);
+    mj_fwdAcceleration(m, d);
+  });
+  part("contact", [](const mjModel* m, mjData* d) { mj_collision(m, d); });
+  part("rows", [](const mjModel* m, mjData* d) { mj_makeConstraint(m, d); });
+  part("dual", [](const mjModel* m, mjData* d) { mj_projectConstraint(m, d); });
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  benchmark::Initialize(&argc, argv);
+  benchmark::AddCustomContext("compiler", build_compiler());
+  benchmark::AddCustomContext("libraries", build_libraries());
+  benchmark::AddCustomContext("revision", build_revision());
+  try {
+    for (int k = 1; k < argc; ++k) {
+      const auto knotted = std::make_shared<Start>(knotted_start(argv[k]));
+      const auto free = std::make_shared<Start>(free_start(*knotted));
+      add_core_parts(knotted);
+      add_mujoco_parts(knotted);
+      for (const std::string& name : box_qp_solver_names()) {
+        add_core_step("step_knotted_" + name, knotted, name);
+      }
+      add_mujoco_step("step_knotted_pgs", knotted, mjSOL_PGS);
+      add_mujoco_step("step_knotted_cg", knotted, mjSOL_CG);
+      add_mujoco_step("step_knotted_newton", knotted, mjSOL_NEWTON);
+      add_core_step("step_free", free, box_qp_solver_names().front());
+      add_mujoco_step("step_free", free, mjSOL_NEWTON);
+    }
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "hagfish_benchmarks: {}\n", error.what());
+    return 2;
+  }
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}

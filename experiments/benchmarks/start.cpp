@@ -1,0 +1,77 @@
+#include "experiments/benchmarks/start.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/hdf5_error.hpp"
+#include "experiments/log_contents.hpp"
+#include "mujoco_ref/mirror.hpp"
+
+namespace hagfish {
+namespace {
+
+// The wave: hinge angles as a share of their limits, which falls where it would bring strands
+// close; waves along the body; and the share of the angles that they change by in a second.
+constexpr double wave_share = 0.1;
+constexpr double wave_count = 2;
+constexpr double wave_rate = 0.5;
+
+bool clamps_head(const Start& start) {
+  return start.scene.clamp_head && start.sim.controller.phase < Phase::release;
+}
+
+}  // namespace
+
+Start knotted_start(const std::string& log) {
+  const LogContents contents(log);
+  const auto slide = static_cast<std::int64_t>(Phase::slide);
+  const auto [first, last] = std::ranges::equal_range(contents.phase, slide);
+  if (first == last) {
+    throw FileError(log + ": the knot never slides");
+  }
+  const Eigen::Index frame = (first - contents.phase.begin()) + (last - first) / 2;
+  Start start{contents.resolved.scene, contents.model, {}};
+  ControllerState controller;
+  controller.phase = Phase::slide;
+  controller.phase_start = contents.time[frame];
+  controller.loose = controller.phase_start;
+  const std::int64_t step = std::llround(contents.time[frame] / start.scene.time.step);
+  start.sim = start_from(start.model, start.scene,
+                         {contents.q.row(frame).transpose(), contents.qdot.row(frame).transpose()},
+                         controller, step);
+  return start;
+}
+
+Start free_start(const Start& knotted) {
+  Start start{knotted.scene, knotted.model, {}};
+  State state = rest_state(start.model);
+  for (std::size_t k = 0; k < start.model.hinges.size(); ++k) {
+    const Hinge& hinge = start.model.hinges[k];
+    const double along = static_cast<double>(hinge.body) / start.model.body_count();
+    const auto i = static_cast<Eigen::Index>(k) + root_dofs;
+    state.q[i + 1] = wave_share * hinge.upper * std::sin(2 * std::numbers::pi * wave_count * along);
+    state.qdot[i] = wave_rate * state.q[i + 1];
+  }
+  ControllerState controller;
+  controller.phase = Phase::free;
+  // Never over, however long the benchmark runs.
+  start.scene.time.duration = std::numeric_limits<double>::infinity();
+  start.scene.controller.free_time = start.scene.time.duration;
+  start.scene.wall.present = false;
+  start.sim = start_from(start.model, start.scene, std::move(state), controller, 0);
+  return start;
+}
+
+MujocoModel mirror_of(const Start& start) {
+  MujocoModel mirror(mjcf_files(start.model, start.scene.contact.least_arc, start.scene.time.step,
+                                clamps_head(start) ? Head::clamped : Head::free));
+  std::fill_n(mirror.model()->geom_margin, mirror.model()->ngeom, 0.0);
+  mirror.model()->opt.integrator = mjINT_EULER;
+  set_state(start.model, start.sim.state, mirror);
+  mj_forward(mirror.model(), mirror.data());
+  return mirror;
+}
+
+}  // namespace hagfish
