@@ -131,7 +131,8 @@ void decide(const Model& model, const Scene& scene, const Situation& situation, 
             ControllerState& controller, Control& control) {
   follow_contacts(scene, situation, time, controller);
   // Half a step of slack: the time of a step is a product and may fall short by rounding.
-  if (time + 0.5 * scene.time.step >= controller.knot_seen + scene.knot.interval) {
+  if (controller.phase != Phase::free &&
+      time + 0.5 * scene.time.step >= controller.knot_seen + scene.knot.interval) {
     controller.knot_seen = time;
     controller.knot = knot_type(situation.kin.centre, scene.knot.votes, scene.knot.seed);
     switch_by_knot(model, scene, time, controller);
