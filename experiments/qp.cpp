@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <system_error>
 
 #include "core/input_error.hpp"
@@ -51,13 +52,13 @@ void print_heading(const std::string& file, const QpReport& report, int repeat) 
 }
 
 void print_table(const QpReport& report) {
-  fmt::print("\n{:<22} {:<5} {:>11} {:>9} {:>7}  {:>9} {:>9} {:>9} {:>8}\n", "back end", "start",
+  fmt::print("\n{:<24} {:<5} {:>11} {:>9} {:>7}  {:>9} {:>9} {:>9} {:>8}\n", "back end", "start",
              "median, µs", "99 %, µs", "speed", "KKT", "H norm", "entry", "failures");
   for (std::size_t k = 0; k < report.rows.size(); ++k) {
     const Performance& row = report.rows[k];
     const double median = quantile(row.time, 0.5);
     const double first = quantile(report.rows[row.warm ? 1 : 0].time, 0.5);
-    fmt::print("{:<22} {:<5} {:>11.1f} {:>9.1f} {:>7.3g}  {:>9.1e} {:>9.1e} {:>9} {:>8}\n",
+    fmt::print("{:<24} {:<5} {:>11.1f} {:>9.1f} {:>7.3g}  {:>9.1e} {:>9.1e} {:>9} {:>8}\n",
                label(row.back_end), row.warm ? "warm" : "cold", microseconds * median,
                microseconds * quantile(row.time, tail), first / median, row.kkt,
                row.velocity.relative,
@@ -70,33 +71,48 @@ void print_table(const QpReport& report) {
   }
 }
 
-void write_csv(const std::string& file, const QpReport& report) {
+fmt::ostream open_csv(const std::string& file) {
   try {
-    auto out = fmt::output_file(file);
-    out.print(
-        "back_end,tolerance,start,qps,median_s,p99_s,max_s,kkt,error_norm,error_norm_relative,"
-        "error_entry,error_entry_relative,without_reference,failures\n");
-    for (const Performance& row : report.rows) {
-      const bool entries = report.primal > 0;
-      out.print(
-          "{},{},{},{},{:.9g},{:.9g},{:.9g},{:.6g},{:.6g},{:.6g},{},{},{},{}\n", row.back_end.name,
-          std::isnan(row.back_end.tolerance) ? "" : fmt::format("{:g}", row.back_end.tolerance),
-          row.warm ? "warm" : "cold", row.time.size(), quantile(row.time, 0.5),
-          quantile(row.time, tail), quantile(row.time, 1), row.kkt, row.velocity.norm,
-          row.velocity.relative, entries ? fmt::format("{:.6g}", row.velocity.largest) : "",
-          entries ? fmt::format("{:.6g}", row.velocity.largest_relative) : "",
-          report.without_reference, row.failures);
-    }
-    out.close();
+    return fmt::output_file(file);
   } catch (const std::system_error& error) {
     throw FileError(file + ": cannot be written: " + error.code().message());
   }
+}
+
+/// Whether the folder takes files must show before the work, not after.
+void try_csv(const std::string& file) {
+  const std::string trial = file + ".part";
+  open_csv(trial).close();
+  std::filesystem::remove(trial);
+}
+
+void write_csv(const std::string& file, const QpReport& report) {
+  auto out = open_csv(file);
+  out.print(
+      "back_end,tolerance,start,qps,median_s,p99_s,max_s,iterations,kkt,error_norm,error_norm_"
+      "relative,"
+      "error_entry,error_entry_relative,without_reference,failures\n");
+  for (const Performance& row : report.rows) {
+    const bool entries = report.primal > 0;
+    out.print(
+        "{},{},{},{},{:.9g},{:.9g},{:.9g},{},{:.6g},{:.6g},{:.6g},{},{},{},{}\n", row.back_end.name,
+        std::isnan(row.back_end.tolerance) ? "" : fmt::format("{:g}", row.back_end.tolerance),
+        row.warm ? "warm" : "cold", row.time.size(), quantile(row.time, 0.5),
+        quantile(row.time, tail), quantile(row.time, 1), row.iterations, row.kkt, row.velocity.norm,
+        row.velocity.relative, entries ? fmt::format("{:.6g}", row.velocity.largest) : "",
+        entries ? fmt::format("{:.6g}", row.velocity.largest_relative) : "",
+        report.without_reference, row.failures);
+  }
+  out.close();
 }
 
 }  // namespace
 
 int qp(const QpOptions& options) {
   const QpSetReader set(options.set);
+  if (!options.csv.empty()) {
+    try_csv(options.csv);
+  }
   const QpReport report = measure(set, chosen(options), options.repeat);
   print_heading(options.set, report, options.repeat);
   print_table(report);

@@ -59,7 +59,7 @@ class Contest {
     for (const BackEnd& back_end : back_ends) {
       for (const bool warm : {false, true}) {
         contestants_.push_back({make(back_end), {}, 0});
-        report_.rows.push_back({back_end, warm, {}, 0, {}, 0});
+        report_.rows.push_back({back_end, warm, {}, 0, {}, 0, 0});
       }
     }
   }
@@ -98,6 +98,7 @@ class Contest {
       Performance& row = report_.rows[k];
       const BoxQpSolution& answer = contestants_[k].answer;
       row.time.push_back(contestants_[k].time);
+      row.iterations += answer.iterations;
       if (answer.status != SolveStatus::solved) {
         ++row.failures;
         tell(qp, row, answer);

@@ -1,6 +1,7 @@
 // Back ends measured on a set of QPs.
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <vector>
@@ -27,6 +28,7 @@ struct Performance {
   /// Worst of each; QPs without a reference do not count.
   VelocityError velocity;
   int failures = 0;
+  std::int64_t iterations = 0;  ///< of all QPs together
 };
 
 struct QpReport {

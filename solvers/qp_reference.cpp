@@ -100,7 +100,8 @@ void QpReference::solve_held() {
   }
 }
 
-/// Lists the rows on the wrong side; returns the worst row's error over its terms.
+/// Lists the rows on the wrong side, with the side to change to; returns the worst row's error over
+/// its terms.
 QpReference::Real QpReference::judge() {
   wrong_.clear();
   Real worst = 0;
@@ -108,24 +109,30 @@ QpReference::Real QpReference::judge() {
   for (Eigen::Index i = 0; i < x_.size(); ++i) {
     const Real w = A_.row(i).dot(x_) - b_[i];
     const Real terms = A_.row(i).cwiseAbs().dot(x_.cwiseAbs()) + std::abs(b_[i]);
-    bool wrong = false;
     Real error = 0;
     switch (side_[i]) {
-      case Side::held:
-        wrong = x_[i] < lower_[i] - tight * largest || x_[i] > upper_[i] + tight * largest;
+      case Side::held: {
+        // Where dependent rows contradict each other by their rounding, those with w > 0 are met
+        // without holding them.
+        const Real noise = accepted * terms;
+        if (x_[i] < lower_[i] - tight * largest || (w > noise && std::isfinite(lower_[i]))) {
+          wrong_.emplace_back(i, Side::lower);
+        } else if (x_[i] > upper_[i] + tight * largest ||
+                   (-w > noise && std::isfinite(upper_[i]))) {
+          wrong_.emplace_back(i, Side::upper);
+        }
         error = std::max({std::abs(w), lower_[i] - x_[i], x_[i] - upper_[i]});
         break;
+      }
       case Side::lower:
         error = lower_[i] < upper_[i] ? std::max(-w, Real{0}) : 0;
-        wrong = error > tight * terms;
         break;
       case Side::upper:
         error = std::max(w, Real{0});
-        wrong = error > tight * terms;
         break;
     }
-    if (wrong) {
-      wrong_.push_back(i);
+    if (side_[i] != Side::held && error > tight * terms) {
+      wrong_.emplace_back(i, Side::held);
     }
     worst = std::max(worst, error > 0 ? error / std::max(terms, largest) : 0);
   }
@@ -136,15 +143,17 @@ bool QpReference::solve(const Eigen::VectorXd& guess) {
   x_ = scale_.cwiseProduct(guess.cast<Real>()) / beta_;
   const Vector w = A_ * x_ - b_;
   side_.assign(b_.size(), Side::held);
-  const auto rest = [this](Eigen::Index i, Side side) {
+  const auto move = [this](Eigen::Index i, Side side) {
     side_[i] = side;
-    x_[i] = side == Side::lower ? lower_[i] : upper_[i];
+    if (side != Side::held) {
+      x_[i] = side == Side::lower ? lower_[i] : upper_[i];
+    }
   };
   for (Eigen::Index i = 0; i < b_.size(); ++i) {
     if (x_[i] - lower_[i] < w[i] || !(lower_[i] < upper_[i])) {
-      rest(i, Side::lower);
+      move(i, Side::lower);
     } else if (upper_[i] - x_[i] < -w[i]) {
-      rest(i, Side::upper);
+      move(i, Side::upper);
     }
   }
   auto least = wrong_.max_size();
@@ -161,12 +170,8 @@ bool QpReference::solve(const Eigen::VectorXd& guess) {
     } else if (--tries < 0) {
       wrong_.erase(wrong_.begin(), wrong_.end() - 1);  // Murty's rule: the last row alone
     }
-    for (const Eigen::Index i : wrong_) {
-      if (side_[i] != Side::held) {
-        side_[i] = Side::held;
-      } else {
-        rest(i, x_[i] < lower_[i] ? Side::lower : Side::upper);
-      }
+    for (const auto& [i, side] : wrong_) {
+      move(i, side);
     }
   }
   return false;
@@ -175,10 +180,10 @@ bool QpReference::solve(const Eigen::VectorXd& guess) {
 VelocityError QpReference::error(const Eigen::VectorXd& x) const {
   const Vector scaled = scale_.cwiseProduct(x.cast<Real>()) / beta_;
   const Vector difference = scaled - x_;
-  const Real change = norm(x_);
+  const Real unit = std::max(norm(x_), Real{1});  // both over beta_
   VelocityError error;
   error.norm = static_cast<double>(beta_ * norm(difference));
-  error.relative = static_cast<double>(norm(difference) / (change > 0 ? change : 1));
+  error.relative = static_cast<double>(norm(difference) / unit);
   if (free_velocity_.size() > 0 && x.size() > 0) {
     const auto velocity = [this](const Vector& y) -> Vector {
       return response_ * (beta_ * y.cwiseQuotient(scale_));

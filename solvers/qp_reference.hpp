@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <utility>
 #include <vector>
 
 #include "solvers/box_qp.hpp"
@@ -12,8 +13,10 @@ namespace hagfish {
 /// How far the velocity v = H⁻¹ (g + J' x) of an answer x is from that of the solution x*. v is
 /// unique where x is not.
 struct VelocityError {
-  double norm = 0;      ///< |v - v*| in the H norm: sqrt((x - x*)' A (x - x*))
-  double relative = 0;  ///< that over |v* - H⁻¹ g| = sqrt(x*' A x*), or over rhs_scale where x* = 0
+  double norm = 0;  ///< |v - v*| in the H norm: sqrt((x - x*)' A (x - x*))
+  /// That over the change |v* - H⁻¹ g| = sqrt(x*' A x*) or rhs_scale, whichever is larger: where
+  /// rows hardly do anything, errors count as in kkt_residuals.
+  double relative = 0;
   double largest = 0;           ///< |v - v*|∞; 0 where v is not known (BoxQp)
   double largest_relative = 0;  ///< that over |v*|∞
 };
@@ -54,7 +57,7 @@ class QpReference {
   Real beta_ = 1;
   Vector x_;
   std::vector<Side> side_;
-  std::vector<Eigen::Index> wrong_;  ///< rows on the wrong side, ascending
+  std::vector<std::pair<Eigen::Index, Side>> wrong_;  ///< rows and where they belong, ascending
   // With a primal problem: v = free_velocity_ + response_ x.
   Matrix response_;
   Vector free_velocity_;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -27,7 +28,8 @@ TEST(QpReference, IsSharperThanDouble) {
   const auto missed = static_cast<double>(1.0L / 3 - static_cast<long double>(1.0 / 3));
   const VelocityError error = reference.error(Eigen::Vector2d::Constant(1.0 / 3));
   EXPECT_NEAR(error.norm, std::sqrt(6) * missed, 1e-18);
-  EXPECT_NEAR(error.relative, std::sqrt(6) * missed / std::sqrt(2.0 / 3), 1e-18);
+  EXPECT_NEAR(error.relative, std::sqrt(6) * missed / std::sqrt(2.0 / 3), 1e-18)
+      << "over sqrt(x' A x), which is more than |b| / s";
   EXPECT_EQ(error.largest, 0) << "a box QP does not know v";
 }
 
@@ -59,7 +61,8 @@ TEST(QpReference, MeasuresVelocities) {
   const double norm = std::sqrt(off.dot(known.primal.H * off));
   const VelocityError error = reference.error(x);
   EXPECT_NEAR(error.norm, norm, known_to * norm);
-  const double relative = norm / std::sqrt(change.dot(known.primal.H * change));
+  const double relative =
+      norm / std::max(std::sqrt(change.dot(known.primal.H * change)), rhs_scale(known.dual));
   EXPECT_NEAR(error.relative, relative, known_to * relative);
   const double largest = off.lpNorm<Eigen::Infinity>();
   EXPECT_NEAR(error.largest, largest, known_to * largest);
@@ -85,6 +88,15 @@ TEST(QpReference, KnowsTheVelocityWhereMultipliersAreNotUnique) {
     ASSERT_TRUE(of_dual.solve(found.x)) << trial;
     EXPECT_LE(of_dual.error(known.x).relative, known_to);
   }
+}
+
+TEST(QpReference, TakesDependentRowsThatContradictEachOtherByRounding) {
+  // v >= 1, 2 v >= 2 + 1e-14: both held at first, the first is met by holding the second.
+  const BoxQp qp = qp_of_rows(Eigen::Vector2d(1, 2), Eigen::Vector2d(1, 2 + 1e-14));
+  QpReference reference(qp);
+  ASSERT_TRUE(reference.solve(Eigen::Vector2d(0.2, 0.4)));
+  EXPECT_NEAR(reference.error(Eigen::Vector2d(1 + 5e-15, 0)).norm, 0, 1e-16)
+      << "the same velocity by the other row, to the rounding of 1 + 5e-15";
 }
 
 TEST(QpReference, HasNoneWhereRowsContradictEachOther) {
