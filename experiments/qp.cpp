@@ -89,9 +89,9 @@ void try_csv(const std::string& file) {
 void write_csv(const std::string& file, const QpReport& report) {
   auto out = open_csv(file);
   out.print(
-      "back_end,tolerance,start,qps,median_s,p99_s,max_s,iterations,kkt,error_norm,error_norm_"
-      "relative,"
-      "error_entry,error_entry_relative,without_reference,failures\n");
+      "back_end,tolerance,start,qps,median_s,p99_s,max_s,iterations,kkt,"
+      "error_norm,error_norm_relative,error_entry,error_entry_relative,"
+      "without_reference,failures\n");
   for (const Performance& row : report.rows) {
     const bool entries = report.primal > 0;
     out.print(
