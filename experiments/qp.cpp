@@ -47,8 +47,8 @@ void print_heading(const std::string& file, const QpReport& report, int repeat) 
              report.carried_starts, rows.size() - report.stored_starts - report.carried_starts);
   fmt::print("time: of solve() alone, least of {}; speed: over the first back end's, by medians\n",
              repeat);
-  fmt::print("error in velocity: against long double, of the change by the rows in the H norm{}\n",
-             report.primal == 0 ? "" : "; of the largest entry (primal QPs)");
+  fmt::print("H norm: error of the velocity against long double, over the rows' change of it{}\n",
+             report.primal == 0 ? "" : "; entry: largest, over the velocity's (primal QPs)");
 }
 
 void print_table(const QpReport& report) {

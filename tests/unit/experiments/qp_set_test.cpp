@@ -25,7 +25,7 @@ class QpSetTest : public testing::Test {
   }
   ~QpSetTest() override { fs::remove_all(folder); }
 
-  /// The error of reading a good primal and a good box problem, the second spoilt by `spoil`.
+  /// The error of reading what `put` writes once `spoil` has been at it.
   std::string error_with(const std::function<void(ForeignQps&)>& put,
                          const std::function<void(ForeignQps&)>& spoil) const {
     {
@@ -116,6 +116,7 @@ TEST_F(QpSetTest, ReadsWhatOthersWrite) {
   const StoredQp primal = set.read(0);
   EXPECT_EQ(primal.group, "/qp/9");
   EXPECT_EQ(primal.sequence, -3);
+  ASSERT_TRUE(primal.primal);
   EXPECT_EQ(primal.primal->C, (Eigen::Matrix2d() << -1, -1, 0, 1).finished());
   EXPECT_EQ(primal.box.b, Eigen::VectorXd(Eigen::Vector2d(1, -2)));
   const StoredQp box = set.read(1);
