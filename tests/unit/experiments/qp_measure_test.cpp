@@ -123,6 +123,20 @@ TEST_F(QpMeasureTest, MeasuresVelocitiesOfPrimalQps) {
               1e-15);
 }
 
+TEST_F(QpMeasureTest, CountsWhatIsSolvedButHasNoSolution) {
+  {
+    ForeignQps set(file);
+    set.problem("0");
+    put_contradiction(set);
+    set.replace("d", {1, -1 + 1e-5});  // by less than a loose back end minds
+    set.problem("1");
+    put_primal(set);
+  }
+  const QpReport report = measure(QpSetReader(file), {{"ipopt-unpolished", 1e-3}}, 1);
+  EXPECT_EQ(report.rows[0].failures, 0);
+  EXPECT_EQ(report.without_reference, 1u);
+}
+
 TEST_F(QpMeasureTest, CountsFailuresAndTellsTheFirst) {
   {
     ForeignQps set(file);
