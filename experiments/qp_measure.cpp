@@ -58,7 +58,7 @@ class Contest {
   Contest(const std::vector<BackEnd>& back_ends, int repeat) : repeat_(repeat) {
     for (const BackEnd& back_end : back_ends) {
       for (const bool warm : {false, true}) {
-        contestants_.push_back({make(back_end), {}, 0});
+        contestants_.emplace_back().solver = make(back_end);
         report_.rows.push_back({back_end, warm, {}, 0, {}, 0, 0});
       }
     }
