@@ -105,9 +105,10 @@ TEST_F(ProgramTest, PictureRefusesBadInputInOneLine) {
   EXPECT_FALSE(fs::exists(folder / "a.png"));
 }
 
-// Ten steps, long enough that rows are in reach from the first.
+// Ten steps, with joints that can hardly twist, so that limits are in reach from the first.
 const std::string record =
-    "record-qp --quiet --set time.step=0.005 --set time.duration=0.05 --out ";
+    "record-qp --quiet --set specimen.twist_limit_deg=0.01 --set time.step=0.005 --set "
+    "time.duration=0.05 --out ";
 
 TEST_F(ProgramTest, RecordsQpsAndMeasuresBackEnds) {
   const Outcome recorded = hagfish(record + "a.qps");
@@ -147,8 +148,8 @@ TEST_F(ProgramTest, RecordsPrimalQpsNowAndThen) {
 }
 
 TEST_F(ProgramTest, AFailedRunKeepsItsQps) {
-  const Outcome run =
-      hagfish("record-qp --quiet --set time.step=0.005 --set guard.speed=5 --out a.qps");
+  const Outcome run = hagfish(
+      "record-qp --quiet --set specimen.twist_limit_deg=0.01 --set guard.speed=5 --out a.qps");
   EXPECT_EQ(run.code, 1) << run.output;
   EXPECT_NE(run.output.find("a.qps: the run failed: body"), std::string::npos) << run.output;
   EXPECT_EQ(hagfish("qp a.qps --backend active-set --repeat 1").code, 0);
