@@ -47,20 +47,25 @@ Eigen::MatrixXd dense(const Model& model, const Kinematics& kin, const Operator&
 void ArticulatedFactor::factorise(const Model& model, const Kinematics& kin, const Operator& op) {
   weighted_.resize(6, model.nv());
   inverse_pivot_.resize(model.nv());
-  Matrix6d articulated = Matrix6d::Zero();
+  // Columns of eight fill a vector register; the last two rows are zero.
+  Eigen::Matrix<double, 8, 6> articulated = Eigen::Matrix<double, 8, 6>::Zero();
   for (int b = model.body_count() - 1; b >= 0; --b) {
     const Body& body = model.bodies[b];
-    articulated += op.inertia[b];
+    articulated.topRows<6>() += op.inertia[b];
     for (int k = body.first_dof + body.dofs - 1; k >= body.first_dof; --k) {
-      const Vector6d u = articulated * kin.axis.col(k);
-      const double pivot = kin.axis.col(k).dot(u) + op.diagonal[k];
+      const Vector6d axis = kin.axis.col(k);
+      const Eigen::Matrix<double, 8, 1> u = articulated * axis;
+      const double pivot = axis.dot(u.head<6>()) + op.diagonal[k];
       if (!(pivot > 0)) {
         throw std::domain_error("articulated inertia is not positive at velocity " +
                                 std::to_string(k) + " (pivot " + std::to_string(pivot) + ")");
       }
-      weighted_.col(k) = u;
+      weighted_.col(k) = u.head<6>();
       inverse_pivot_[k] = 1 / pivot;
-      articulated -= (u * inverse_pivot_[k]) * u.transpose();
+      const Vector6d share = inverse_pivot_[k] * u.head<6>();
+      for (int i = 0; i < 6; ++i) {
+        articulated.col(i) -= share[i] * u;
+      }
     }
   }
 }

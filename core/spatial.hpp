@@ -55,16 +55,17 @@ inline Eigen::Matrix3d skew(const Eigen::Vector3d& a) {
   return m;
 }
 
-/// Symmetric operator on twists of a 3 x 3 pair acting at `offset` from O: `angular` on the angular
+/// Symmetric operator on twists of a symmetric 3 x 3 pair acting at `offset` from O: `angular` on the angular
 /// velocity and `linear` on the velocity of the point there. The inertia of a body at its centre
 /// (angular = I_c, linear = m 1) and linear drag have this form.
 inline Matrix6d point_operator(const Eigen::Matrix3d& angular, const Eigen::Matrix3d& linear,
                                const Eigen::Vector3d& offset) {
   const Eigen::Matrix3d x = skew(offset);
   Matrix6d m;
-  m.topLeftCorner<3, 3>() = angular + x * linear * x.transpose();
-  m.topRightCorner<3, 3>() = x * linear;
-  m.bottomLeftCorner<3, 3>() = linear * x.transpose();
+  const Eigen::Matrix3d moment = x * linear;
+  m.topLeftCorner<3, 3>() = angular - moment * x;  // [x]' = -[x]
+  m.topRightCorner<3, 3>() = moment;
+  m.bottomLeftCorner<3, 3>() = moment.transpose();
   m.bottomRightCorner<3, 3>() = linear;
   return m;
 }
