@@ -81,7 +81,7 @@ void solve_multipliers(const Model& model, const BoxQp& qp, BoxQpSolver& solver,
   const std::vector<Row>& rows = step.rows;
   const bool bilateral = std::all_of(rows.begin(), rows.end(),
                                      [](const Row& row) { return row.kind == RowKind::head; });
-  BoxQpSolution solution;
+  BoxQpSolution& solution = scratch.solution;
   if (bilateral) {
     step.kind = SolveKind::kkt;
     solution = solve_bilateral(qp.A, qp.b);
@@ -93,7 +93,7 @@ void solve_multipliers(const Model& model, const BoxQp& qp, BoxQpSolver& solver,
       scratch.start[i] = kept == nullptr ? 0 : *kept;
     }
     const auto begin = std::chrono::steady_clock::now();
-    solution = solver.solve(qp, scratch.start);
+    solver.solve(qp, scratch.start, solution);
     step.qp_time += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   }
   step.iterations += solution.iterations;
@@ -224,7 +224,8 @@ void keep_active(StepScratch& scratch, StepSolution& step, WarmStart& warm) {
     return;
   }
   // Brought to one unit, rows of cm/s and rad/s compare.
-  scratch.scale = row_scale(scratch.qp.A);
+  scratch.scale.resize(step.lambda.size());
+  row_scale(scratch.qp.A, scratch.scale);
   scratch.scale.array() *= step.lambda.array().abs();
   const double least = active_share * scratch.scale.maxCoeff();
   for (Eigen::Index i = 0; i < step.lambda.size(); ++i) {
@@ -289,7 +290,6 @@ void solve_step(const Model& model, const State& state, const Situation& situati
   step.iterations = 0;
   step.rounds = 0;
   step.qp_time = 0;
-  step.lambda.resize(0);
   unconstrained_motion(model, state, kin, control.tip, h, scratch, step);
   gather_rows(model, state, situation, control, scene, step.rows);
   set_waiting_aside(state, kin, warm, scratch, step);

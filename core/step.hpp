@@ -100,6 +100,7 @@ struct StepScratch {
   RowColumns columns;
   BoxQp qp;
   Eigen::VectorXd start, scale;
+  BoxQpSolution solution;
   Matrix6Xd wrench;
   Eigen::VectorXd joint, impulse, change;
 };

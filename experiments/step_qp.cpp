@@ -20,10 +20,11 @@ Eigen::VectorXd dense_row(const Model& model, const Kinematics& kin, const Row& 
 
 }  // namespace
 
-BoxQpSolution RememberingSolver::solve(const BoxQp& qp, const Eigen::VectorXd& start) {
+void RememberingSolver::solve(const BoxQp& qp, const Eigen::VectorXd& start,
+                              BoxQpSolution& solution) {
   problem_ = qp;
   start_ = start;
-  return solver_->solve(qp, start);
+  solver_->solve(qp, start, solution);
 }
 
 bool at_cap(const StepSolution& solution) {

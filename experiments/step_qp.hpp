@@ -14,7 +14,8 @@ namespace hagfish {
 class RememberingSolver final : public BoxQpSolver {
  public:
   explicit RememberingSolver(std::unique_ptr<BoxQpSolver> solver) : solver_(std::move(solver)) {}
-  BoxQpSolution solve(const BoxQp& qp, const Eigen::VectorXd& start) override;
+  using BoxQpSolver::solve;
+  void solve(const BoxQp& qp, const Eigen::VectorXd& start, BoxQpSolution& solution) override;
   const BoxQp& problem() const { return problem_; }
   const Eigen::VectorXd& start() const { return start_; }
 

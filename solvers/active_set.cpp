@@ -22,7 +22,7 @@ std::string names(const std::vector<Eigen::Index>& rows) {
 
 }  // namespace
 
-BoxQpSolution ActiveSetBoxQp::solve(const BoxQp& qp, const Eigen::VectorXd& start) {
+void ActiveSetBoxQp::solve(const BoxQp& qp, const Eigen::VectorXd& start, BoxQpSolution& solution) {
   check_box_qp(qp);
   const Eigen::Index m = qp.b.size();
   if (start.size() != m) {
@@ -43,7 +43,7 @@ BoxQpSolution ActiveSetBoxQp::solve(const BoxQp& qp, const Eigen::VectorXd& star
   if (!pivoting_.change_blocks()) {
     ending = pivoting_.change_singly();
   }
-  BoxQpSolution solution;
+  solution.message.clear();
   solution.x = pivoting_.x();
   solution.iterations = pivoting_.changes();
   const double residual = kkt_residuals(qp, solution.x).worst();
@@ -59,7 +59,6 @@ BoxQpSolution ActiveSetBoxQp::solve(const BoxQp& qp, const Eigen::VectorXd& star
     text << "KKT residual " << residual;
     solution.message = text.str();
   }
-  return solution;
 }
 
 }  // namespace hagfish

@@ -12,7 +12,8 @@ namespace hagfish {
 /// changes of the active set. Where rows contradict each other, `message` names them by index.
 class ActiveSetBoxQp final : public BoxQpSolver {
  public:
-  BoxQpSolution solve(const BoxQp& qp, const Eigen::VectorXd& start) override;
+  using BoxQpSolver::solve;
+  void solve(const BoxQp& qp, const Eigen::VectorXd& start, BoxQpSolution& solution) override;
 
  private:
   ActiveSetPivoting pivoting_;

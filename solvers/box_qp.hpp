@@ -68,8 +68,14 @@ KktResiduals kkt_residuals(const BoxQp& qp, const Eigen::VectorXd& x, const Eige
 class BoxQpSolver {
  public:
   virtual ~BoxQpSolver() = default;
-  /// `start` (m) is a guess at x, zero where nothing is known. Throws as check_box_qp does.
-  virtual BoxQpSolution solve(const BoxQp& qp, const Eigen::VectorXd& start) = 0;
+  /// `start` (m) is a guess at x, zero where nothing is known. `solution` is written whole, into
+  /// the storage that it has. Throws as check_box_qp does.
+  virtual void solve(const BoxQp& qp, const Eigen::VectorXd& start, BoxQpSolution& solution) = 0;
+  BoxQpSolution solve(const BoxQp& qp, const Eigen::VectorXd& start) {
+    BoxQpSolution solution;
+    solve(qp, start, solution);
+    return solution;
+  }
 };
 
 /// Names that make_box_qp_solver takes.

@@ -225,29 +225,29 @@ IpoptBoxQp::IpoptBoxQp(const IpoptSettings& settings) : engine_(std::make_unique
 
 IpoptBoxQp::~IpoptBoxQp() = default;
 
-BoxQpSolution IpoptBoxQp::solve(const BoxQp& qp, const Eigen::VectorXd& start) {
+void IpoptBoxQp::solve(const BoxQp& qp, const Eigen::VectorXd& start, BoxQpSolution& solution) {
   check_box_qp(qp);
   if (start.size() != qp.b.size()) {
     throw std::invalid_argument("box QP: start differs in size from the problem");
   }
   const BoundedPart part(qp);
-  BoxQpSolution solution;
+  solution.iterations = 0;
+  solution.message.clear();
   if (!part.consistent()) {
     solution.x = part.expand(Eigen::VectorXd::Zero(part.reduced().b.size()));
     solution.status = SolveStatus::infeasible;
-    return solution;
+    return;
   }
   const Eigen::VectorXd reduced = Eigen::VectorXd::Zero(part.reduced().b.size());
   if (part.reduced().b.isZero(0)) {  // then zero is the answer
     solution.x = part.expand(reduced);
     solution.status = SolveStatus::solved;
-    return solution;
+    return;
   }
   engine_->attempt(*engine_->fast, part, part.restrict_to_reduced(start), qp, solution);
   if (solution.status != SolveStatus::solved && solution.status != SolveStatus::infeasible) {
     engine_->attempt(*engine_->careful, part, reduced, qp, solution);
   }
-  return solution;
 }
 
 void IpoptBoxQp::Engine::attempt(Ipopt::IpoptApplication& ipopt, const BoundedPart& part,

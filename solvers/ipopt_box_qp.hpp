@@ -42,7 +42,8 @@ class IpoptBoxQp final : public BoxQpSolver {
  public:
   explicit IpoptBoxQp(const IpoptSettings& settings = {});
   ~IpoptBoxQp() override;
-  BoxQpSolution solve(const BoxQp& qp, const Eigen::VectorXd& start) override;
+  using BoxQpSolver::solve;
+  void solve(const BoxQp& qp, const Eigen::VectorXd& start, BoxQpSolution& solution) override;
 
  private:
   struct Engine;

@@ -1,0 +1,103 @@
+// A step works in storage that it keeps. The linker sends all requests for memory that come from
+// the project's own code, Eigen included, through the two counters below (tests/CMakeLists.txt).
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+
+#include "core/simulation.hpp"
+#include "tests/support/stored_states.hpp"
+
+namespace {
+volatile int requests = 0;  // the compiler believes that malloc touches no such thing
+}
+
+// NOLINTBEGIN(bugprone-reserved-identifier): the linker's names
+extern "C" {
+void* __real_malloc(std::size_t size);
+void* __wrap_malloc(std::size_t size) {
+  requests = requests + 1;
+  return __real_malloc(size);
+}
+void* __real__Znwm(std::size_t size);
+void* __wrap__Znwm(std::size_t size) {
+  requests = requests + 1;
+  return __real__Znwm(size);
+}
+}
+// NOLINTEND(bugprone-reserved-identifier)
+
+namespace hagfish {
+namespace {
+
+/// Steps a stored state; the controller does not look at the knot, which costs memory of its own.
+class Allocation : public testing::Test {
+ protected:
+  void start(const std::string& name) {
+    scene.knot.interval = std::numeric_limits<double>::infinity();
+    const std::vector<StoredState> states = stored_states();
+    const auto found = std::ranges::find(states, name, &StoredState::name);
+    ASSERT_NE(found, states.end());
+    sim = resume(model, scene, *found);
+    sim.controller.knot_seen = 0;
+  }
+  /// Requests of one step.
+  int step() {
+    const int before = requests;
+    take_step(model, scene, *solver, sim, record);
+    return requests - before;
+  }
+
+  Scene scene = stored_scene().scene;
+  Model model = make_hagfish(stored_scene().specimen, scene);
+  std::unique_ptr<BoxQpSolver> solver = make_box_qp_solver("active-set");
+  Simulation sim;
+  StepRecord record;
+};
+
+TEST_F(Allocation, CountersSeeEigenAndTheStandardLibrary) {
+  const auto size = static_cast<Eigen::Index>(scene.knot.votes);  // not known to the compiler
+  const int before = requests;
+  const Eigen::VectorXd vector = Eigen::VectorXd::Ones(size);
+  volatile const double* used = vector.data();
+  EXPECT_EQ(requests - before, 1) << *used;
+  const int between = requests;
+  const std::vector<double> other(vector.begin(), vector.end());
+  EXPECT_EQ(requests - between, 1) << other.front();
+}
+
+TEST_F(Allocation, NoneInAStepWithAsManyRowsAsTheLastOne) {
+  // Arrays by row keep their storage as long as the number of rows stays; lists of rows always.
+  start("slide");
+  for (int k = 0; k < 300; ++k) step();
+  int compared = 0;
+  for (int k = 0; k < 100; ++k) {
+    const std::size_t rows = record.solution.rows.size();
+    const int asked = step();
+    if (record.solution.rows.size() == rows && record.solution.rounds == 1) {
+      EXPECT_EQ(asked, 0) << "step " << record.step;
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 20);
+}
+
+TEST_F(Allocation, NoneInAStepWithoutConstraints) {
+  scene.wall.present = false;
+  State state = rest_state(model);
+  state.qdot[7] = 0.01;
+  ControllerState controller;
+  controller.phase = Phase::free;
+  sim = start_from(model, scene, state, controller, 0);
+  for (int k = 0; k < 200; ++k) {
+    const int asked = step();
+    ASSERT_EQ(record.solution.kind, SolveKind::linear);
+    if (k >= 10) {
+      EXPECT_EQ(asked, 0) << "step " << record.step;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace hagfish
