@@ -19,9 +19,7 @@ TEST_P(StepQp, PrimalFormHasTheStepsOwnDual) {
   Simulation sim = resume(model, resolved.scene, GetParam());
   take_step(model, resolved.scene, solver, sim);
   const StepRecord record = take_step(model, resolved.scene, solver, sim);
-  if (record.solution.kind != SolveKind::qp) {
-    GTEST_SKIP() << "no unilateral row is in reach";
-  }
+  ASSERT_EQ(record.solution.kind, SolveKind::qp);
   EXPECT_EQ(solver.problem().b.size(), record.solution.lambda.size()) << "the last problem";
   EXPECT_FALSE(solver.start().isZero(0)) << "a warm one";
   StoredQp qp;
@@ -54,7 +52,14 @@ TEST_P(StepQp, PrimalFormHasTheStepsOwnDual) {
   EXPECT_EQ(at_cap(capped), soft);
 }
 
-INSTANTIATE_TEST_SUITE_P(Table1, StepQp, testing::ValuesIn(stored_states()), name_of);
+/// Early in the script no unilateral row is in reach, and the step has no QP.
+std::vector<StoredState> states_with_qp() {
+  std::vector<StoredState> states = stored_states();
+  std::erase_if(states, [](const StoredState& stored) { return stored.name == "form early"; });
+  return states;
+}
+
+INSTANTIATE_TEST_SUITE_P(Table1, StepQp, testing::ValuesIn(states_with_qp()), name_of);
 
 }  // namespace
 }  // namespace hagfish
