@@ -8,8 +8,8 @@
 namespace hagfish {
 namespace {
 
-/// A row is left out at first where the unconstrained motion, or the last step's, keeps this much
-/// clear of it, cm/s or rad/s. Only speed depends on it: rows left out are checked after the solve.
+/// A row is left out at first where the last step's motion keeps this much clear of it, cm/s or
+/// rad/s. Only speed depends on it: rows left out are checked after the solve.
 constexpr double lazy_reach = 0.1;
 /// A row left out counts as violated below this, cm/s or rad/s: at h = 2 ms, 2e-11 cm or rad.
 constexpr double lazy_tolerance = 1e-8;
@@ -138,11 +138,7 @@ void set_waiting_aside(const State& state, const Kinematics& kin, const WarmStar
     if (always_in(row) || warm.find(row.id) != nullptr) {
       return false;
     }
-    return row.waits ||
-           (row_velocity(row, scratch.unconstrained_centre_velocity, step.unconstrained) -
-                    row.rhs >=
-                lazy_reach &&
-            row_velocity(row, kin.centre_velocity, state.qdot) - row.rhs >= lazy_reach);
+    return row.waits || row_velocity(row, kin.centre_velocity, state.qdot) - row.rhs >= lazy_reach;
   };
   scratch.waiting.clear();
   std::size_t kept = 0;

@@ -164,13 +164,13 @@ void add_mujoco_parts(const std::shared_ptr<Start>& start) {
   });
   part("contact", [](const mjModel* m, mjData* d) { mj_collision(m, d); });
   part("rows", [](const mjModel* m, mjData* d) { mj_makeConstraint(m, d); });
-  part("dual", [](const mjModel* m, mjData* d) { mj_projectConstraint(m, d); });
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
+  benchmark::AddCustomContext("cpu", cpu_name());
   benchmark::AddCustomContext("compiler", build_compiler());
   benchmark::AddCustomContext("libraries", build_libraries());
   benchmark::AddCustomContext("revision", build_revision());
