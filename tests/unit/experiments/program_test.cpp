@@ -157,6 +157,7 @@ TEST_F(ProgramTest, RefusesBadInputInOneLine) {
   expect_refused("run --set controller.contact_gap=1", {"controller.contact_gap", "margin"});
   expect_refused("run --out . --force", {"not a regular file"});
   expect_refused("run --qp none", {"--qp", "ipopt"});
+  expect_refused("run --preset best", {"--preset best", "quick, default, figure"});
   expect_refused("run --no-such-option", {"--no-such-option"});
   expect_refused("run specimens/pacific_hagfish", {"scenes"});
   expect_refused("run nowhere", {"nowhere", "scenes"});
