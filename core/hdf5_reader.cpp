@@ -61,6 +61,24 @@ int Hdf5Reader::root_int(const std::string& name) const {
   });
 }
 
+std::optional<std::int64_t> Hdf5Reader::attribute_int(const std::string& group,
+                                                      const std::string& name) const {
+  return guarded(file_, "read attribute " + name + " of " + group, [&] {
+    const H5::Group members = h5_.openGroup(group);
+    if (!members.attrExists(name)) {
+      return std::optional<std::int64_t>();
+    }
+    const H5::Attribute attribute = members.openAttribute(name);
+    if (attribute.getTypeClass() != H5T_INTEGER ||
+        attribute.getSpace().getSimpleExtentNpoints() != 1) {
+      throw FileError(file_ + ": attribute " + name + " of " + group + " is not one whole number");
+    }
+    std::int64_t value = 0;
+    attribute.read(H5::PredType::NATIVE_INT64, &value);
+    return std::optional<std::int64_t>(value);
+  });
+}
+
 std::vector<hsize_t> Hdf5Reader::shape(const std::string& path) const {
   const H5::DataSet set = open(path);
   return guarded(file_, "read the shape of " + path, [&] {
@@ -85,6 +103,10 @@ std::string Hdf5Reader::attribute(const std::string& path, const std::string& na
 
 std::vector<double> Hdf5Reader::doubles(const std::string& path) const {
   const H5::DataSet set = open(path);
+  const H5T_class_t type = guarded(file_, "read " + path, [&] { return set.getTypeClass(); });
+  if (type != H5T_FLOAT && type != H5T_INTEGER) {
+    throw FileError(file_ + ": " + path + " does not hold numbers");
+  }
   std::vector<double> values(size_of(shape(path)));
   guarded(file_, "read " + path, [&] { set.read(values.data(), H5::PredType::NATIVE_DOUBLE); });
   return values;

@@ -1,4 +1,5 @@
-// Reading logs. Every failure is thrown as FileError in one line that names the file.
+// Reading logs and other HDF5. Every failure is thrown as FileError in one line that names the
+// file.
 #pragma once
 
 #include <H5Cpp.h>
@@ -6,6 +7,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +23,9 @@ class Hdf5Reader {
   bool has(const std::string& path) const;
   std::string root_text(const std::string& name) const;
   int root_int(const std::string& name) const;
+  /// A whole number that goes with a group; none where there is no such attribute.
+  std::optional<std::int64_t> attribute_int(const std::string& group,
+                                            const std::string& name) const;
   std::vector<hsize_t> shape(const std::string& path) const;
   std::string attribute(const std::string& path, const std::string& name) const;
   /// All values, row by row.

@@ -1,5 +1,6 @@
 #include "core/hdf5_writer.hpp"
 
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -140,6 +141,32 @@ void Hdf5Writer::numbers(const std::string& path, const Eigen::VectorXd& values,
     H5::DataSet set = h5_.createDataSet(path, H5::PredType::NATIVE_DOUBLE, H5::DataSpace(1, &size));
     set.write(values.data(), H5::PredType::NATIVE_DOUBLE);
     describe(set, meaning);
+  });
+}
+
+void Hdf5Writer::plain(const std::string& path, const Eigen::VectorXd& values) {
+  guarded("log", "write " + path, [&] {
+    const hsize_t size = values.size();
+    h5_.createDataSet(path, H5::PredType::NATIVE_DOUBLE, H5::DataSpace(1, &size))
+        .write(values.data(), H5::PredType::NATIVE_DOUBLE);
+  });
+}
+
+void Hdf5Writer::plain(const std::string& path, const Eigen::MatrixXd& values) {
+  guarded("log", "write " + path, [&] {
+    const std::array<hsize_t, 2> shape{static_cast<hsize_t>(values.rows()),
+                                       static_cast<hsize_t>(values.cols())};
+    const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> by_rows = values;
+    h5_.createDataSet(path, H5::PredType::NATIVE_DOUBLE, H5::DataSpace(2, shape.data()))
+        .write(by_rows.data(), H5::PredType::NATIVE_DOUBLE);
+  });
+}
+
+void Hdf5Writer::attribute(const std::string& path, const std::string& name, std::int64_t value) {
+  guarded("log", "write attribute " + name + " of " + path, [&] {
+    h5_.openGroup(path)
+        .createAttribute(name, H5::PredType::NATIVE_INT64, H5::DataSpace(H5S_SCALAR))
+        .write(H5::PredType::NATIVE_INT64, &value);
   });
 }
 

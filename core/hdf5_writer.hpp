@@ -52,6 +52,11 @@ class Hdf5Writer {
   void root_attribute(const std::string& name, const std::string& value);
   void root_attribute(const std::string& name, int value);
   void numbers(const std::string& path, const Eigen::VectorXd& values, const Meaning& meaning);
+  /// The same without unit and meaning, where a file's thousands of datasets share theirs.
+  void plain(const std::string& path, const Eigen::VectorXd& values);
+  void plain(const std::string& path, const Eigen::MatrixXd& values);
+  /// Of a group.
+  void attribute(const std::string& path, const std::string& name, std::int64_t value);
   void text(const std::string& path, const std::string& value);
   void texts(const std::string& path, const std::vector<std::string>& values);
 

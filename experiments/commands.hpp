@@ -20,6 +20,26 @@ struct RunOptions {
   std::string command;  ///< as typed, for the log
 };
 
+struct RecordQpOptions {
+  std::string scene = default_scene;
+  std::string out;               ///< HDF5 file to write
+  std::string qp = "ipopt";      ///< QP back end of the run
+  std::vector<std::string> set;  ///< KEY=VALUE overrides
+  int every = 1;                 ///< steps from one that is recorded to the next
+  bool primal = false;           ///< as {H, g, G, e, C, d} instead of {A, b, l, u}
+  bool force = false;            ///< replace an existing file
+  bool quiet = false;
+  std::string command;  ///< as typed, for that file
+};
+
+struct QpOptions {
+  std::string set;                     ///< HDF5 file of QPs
+  std::vector<std::string> back_ends;  ///< those of measured_back_ends() where empty
+  std::vector<double> tolerances;      ///< of Ipopt, each in turn; its own where empty
+  int repeat = 3;                      ///< times that each QP is solved
+  std::string csv;                     ///< table as a file; none where empty
+};
+
 struct MjcfOptions {
   std::string scene = default_scene;
   std::string out;               ///< folder to write to, made where it is missing
@@ -58,6 +78,12 @@ struct PlaybackOptions {
 };
 
 int run(const RunOptions& options);
+/// Runs a scene and saves its QPs.
+int record_qp(const RecordQpOptions& options);
+/// Solves a set of QPs with each back end. Exit code 1 where one fails.
+int qp(const QpOptions& options);
+/// Back ends that `qp` takes by name.
+std::vector<std::string> measured_back_ends();
 int mjcf(const MjcfOptions& options);
 /// Exit code 1 where a difference is beyond its bound.
 int compare(const CompareOptions& options);

@@ -47,6 +47,44 @@ void add_run(CLI::App& app, const std::string& typed, int& code) {
   run->callback([options, &code] { code = hagfish::run(*options); });
 }
 
+void add_record_qp(CLI::App& app, const std::string& typed, int& code) {
+  const auto options = std::make_shared<hagfish::RecordQpOptions>();
+  options->command = typed;
+  CLI::App* record = app.add_subcommand("record-qp", "run a scene and save its QPs");
+  record->add_option("SCENE", options->scene, scene_help)->capture_default_str();
+  record->add_option("--out", options->out, "HDF5 file to write")->required();
+  record->add_option("--qp", options->qp, "QP back end of the run")
+      ->check(CLI::IsMember(hagfish::box_qp_solver_names()))
+      ->capture_default_str();
+  record->add_option("--set", options->set, set_help)->allow_extra_args(false);
+  record->add_option("--every", options->every, "steps from one saved to the next")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  record->add_flag("--primal", options->primal, "save {H, g, G, e, C, d}, not {A, b, l, u}");
+  record->add_flag("--force", options->force, "replace an existing file");
+  record->add_flag("--quiet", options->quiet, "no progress");
+  record->callback([options, &code] { code = hagfish::record_qp(*options); });
+}
+
+void add_qp(CLI::App& app, int& code) {
+  const auto options = std::make_shared<hagfish::QpOptions>();
+  CLI::App* qp = app.add_subcommand(
+      "qp", "solve a set of QPs with each back end, cold and warm; exits 1 where one fails");
+  qp->add_option("SET", options->set, "HDF5 file of QPs")->required();
+  qp->add_option("--backend", options->back_ends, "repeatable (all)")
+      ->check(CLI::IsMember(hagfish::measured_back_ends()))
+      ->allow_extra_args(false);
+  qp->add_option("--tolerance", options->tolerances,
+                 "of Ipopt's own stopping, repeatable: measures each (1e-9)")
+      ->check(CLI::PositiveNumber)
+      ->allow_extra_args(false);
+  qp->add_option("--repeat", options->repeat, "times that each QP is solved")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  qp->add_option("--csv", options->csv, "file for the table");
+  qp->callback([options, &code] { code = hagfish::qp(*options); });
+}
+
 void add_log_readers(CLI::App& app, int& code) {
   const auto file = std::make_shared<std::string>();
   CLI::App* info = app.add_subcommand("info", "say what a log holds");
@@ -127,6 +165,8 @@ int dispatch(int argc, char** argv) {
   app.add_subcommand("scenes", "list the built-in scenes")->callback([&code] {
     code = hagfish::list_scenes();
   });
+  add_record_qp(app, typed, code);
+  add_qp(app, code);
   add_log_readers(app, code);
   add_picture(app, code);
   add_mjcf(app, code);

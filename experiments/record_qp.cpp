@@ -1,0 +1,93 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+
+#include "experiments/commands.hpp"
+#include "experiments/progress.hpp"
+#include "experiments/qp_set.hpp"
+#include "experiments/scene_argument.hpp"
+#include "experiments/step_qp.hpp"
+
+namespace hagfish {
+namespace {
+
+/// Takes the steps of a run and keeps their QPs.
+class Recorder {
+ public:
+  Recorder(const RecordQpOptions& options, const Model& model, QpSetWriter& set)
+      : options_(options), model_(model), set_(set) {}
+
+  /// What `solver` was last given, if it was given anything in this step.
+  void take(const StepRecord& record, const RememberingSolver& solver) {
+    if (record.solution.kind != SolveKind::qp || record.step % options_.every != 0) {
+      return;
+    }
+    StoredQp qp;
+    qp.box = solver.problem();
+    qp.start = solver.start();
+    if (options_.primal) {
+      if (at_cap(record.solution)) {
+        ++left_out_;
+        return;
+      }
+      to_primal(model_, record, qp);
+    }
+    // Consecutive steps share a number.
+    sequence_ += set_.size() > 0 && record.step != last_ + 1 ? 1 : 0;
+    last_ = record.step;
+    qp.sequence = sequence_;
+    set_.append(qp, record.step);
+  }
+
+  int left_out() const { return left_out_; }
+
+ private:
+  const RecordQpOptions& options_;
+  const Model& model_;
+  QpSetWriter& set_;
+  std::int64_t sequence_ = 0, last_ = 0;
+  int left_out_ = 0;
+};
+
+}  // namespace
+
+int record_qp(const RecordQpOptions& options) {
+  const ResolvedScene resolved = scene_argument(options.scene, options.set);
+  const Scene& scene = resolved.scene;
+  const Model model = make_hagfish(resolved.specimen, scene);
+  RememberingSolver solver(make_box_qp_solver(options.qp));
+  QpSetWriter set(options.out, options.force, options.command,
+                  scene_to_toml(scene, resolved.specimen));
+  Recorder recorder(options, model, set);
+  Progress progress(model, scene, options.quiet);
+  std::string failure;
+  Simulation sim = start(model, scene);
+  while (failure.empty() && !finished(sim, scene)) {
+    try {
+      const StepRecord record = take_step(model, scene, solver, sim);
+      recorder.take(record, solver);
+      progress.show(record);
+    } catch (const StepError& error) {
+      failure =
+          fmt::format("{} at step {} (t = {:.4f} s)", error.what(), sim.step, time_of(sim, scene));
+    }
+  }
+  progress.end();
+  set.finish();
+  fmt::print("{}: {} QPs of {} steps{}\n", options.out, set.size(), sim.step,
+             recorder.left_out() == 0
+                 ? ""
+                 : fmt::format("; {} left out, as a row is at its controller.cap, which "
+                               "{{H, g, G, e, C, d}} cannot say",
+                               recorder.left_out()));
+  if (!failure.empty()) {
+    std::fflush(stdout);
+    fmt::print(stderr, "hagfish: {}: the run failed: {}\n", options.out, failure);
+    return 1;
+  }
+  return 0;
+}
+
+}  // namespace hagfish
