@@ -51,7 +51,18 @@ job() {
   "${fields[@]}"
   [[ -t 2 ]] || echo "$PARALLEL_SEQ of $jobs: ${fields[1]}"
 }
-export -f timed_run integrate job
+# QPs of every tenth step of a run, solved by each back end down to each tolerance.
+back_ends() {
+  local set=$runs/$1.h5 tolerance
+  local -a tolerances=()
+  for tolerance in 1e-2 1e-4 1e-6 1e-8 1e-10; do tolerances+=(--tolerance "$tolerance"); done
+  [[ -e $runs/$1.csv ]] && return
+  "$hagfish" record-qp table1 --qp active-set --every 10 --out "$set" --force --quiet >"$runs/$1.txt"
+  # A tolerance that a back end cannot reach fails, which the table counts.
+  "$hagfish" qp "$set" "${tolerances[@]}" --csv "$runs/$1.csv.new" >>"$runs/$1.txt" 2>&1 || (($? == 1))
+  mv "$runs/$1.csv.new" "$runs/$1.csv"
+}
+export -f timed_run integrate back_ends job
 
 # work AT_ONCE TITLE: the jobs of standard input, `function TAB arguments`, so many at once.
 work() {
@@ -126,13 +137,14 @@ presets() {
 
 whole_runs | work "$cores" "Whole runs"
 needs | work "$cores" "Choices of the model"
-printf 'integrate\t%s\n' coil hanging whip | work "$cores" "Smooth motions"
+{ printf 'back_ends\tqps\n'; printf 'integrate\t%s\n' coil hanging whip; } | work "$cores" "QPs and smooth motions"
 presets | work 1 "Presets, alone on the machine"
 
 # Debian's python3 is the one that has h5py and matplotlib.
 draw() { /usr/bin/python3 "$root/experiments/figures/$1" "${@:2}"; }
 echo "Drawing"
 draw integration.py "$runs" "$out/integration.csv" "$out/integration.png"
+draw back_ends.py "$runs" "$out/back_ends.csv" "$out/back_ends.png"
 draw whole_runs.py "$runs" "$out/whole_runs.csv" "$out/whole_runs.png"
 draw needs.py "$runs" "$out/needs.csv" "$out/needs.png"
 draw conclusions.py "$runs" "$out/conclusions.md"

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+from back_ends import BACK_ENDS, read_table
 from hagfish_log import HagfishLog, Results
 from integration import METHODS, MOTIONS, steps
 from needs import LEAST_SAVING, needs
@@ -54,6 +55,17 @@ def integration(folder: Path) -> list[str]:
               "- RK4 is the cheaper one wherever its column above is the smaller: on motions that stay smooth, where "
               "accuracy is asked for. Contacts that come and go leave a step of first order at best.", ""]
     return lines
+
+
+def solvers(folder: Path) -> list[str]:
+    table_rows = read_table(folder)
+    rows = [[BACK_ENDS[row["back_end"]][0], row["tolerance"] or "exact", row["start"], f"{1e6 * float(row['median_s']):.0f}",
+             f"{1e6 * float(row['p99_s']):.0f}", f"{float(row['error_norm_relative']):.1e}", f"{float(row['kkt']):.1e}",
+             row["failures"]] for row in table_rows]
+    return ["## QPs", "", f"{table_rows[0]['qps']} QPs of the Table 1 run, of every tenth step; errors are the worst of them, "
+            "in the H norm, over the rows' change of the velocity.", "",
+            *table(["Back end", "Tolerance", "Start", "Median, µs", "99 %, µs", "Error of the velocity", "KKT residual",
+                    "Failures"], rows), ""]
 
 
 def whole(folder: Path) -> list[str]:
@@ -143,7 +155,7 @@ def main(folder: Path, out: Path) -> None:
     cpu = HagfishLog(folder / "preset_default.h5").attribute("cpu")
     text = ["# Speed against accuracy", "", f"hagfish {version}, {cpu}. Times are CPU times of one process, serial; all but the "
             "presets were measured with a run on every core.", "", *presets(folder), *whole(folder), *choices(folder),
-            *integration(folder)]
+            *solvers(folder), *integration(folder)]
     out.write_text("\n".join(text).rstrip() + "\n", encoding="utf-8")
 
 

@@ -34,7 +34,8 @@ CHOICES = {
     "no_wall": ("head plate", "none"),
 }
 LEAST_SAVING = 0.1  # of CPU time, to change what works
-LEAST_DIGIT = 2  # deeper by this factor counts as worse
+LEAST_FACTOR = 2  # of penetration, to count as deeper
+LEAST_FORCE = 10  # %, of change in the sliding force: twice what chance makes of it
 
 
 @dataclass
@@ -55,14 +56,21 @@ def verdict_of(run: Run, as_is: Run) -> str:
         return f"keep: else {run.failure}"
     if run.unmet:
         return f"keep: else the audit fails ({', '.join(run.unmet)})"
-    if run.penetration > LEAST_DIGIT * as_is.penetration:
+    if run.penetration > LEAST_FACTOR * as_is.penetration:
         return f"keep: else {run.penetration / as_is.penetration:.1f} times the penetration"
-    if run.penetration < as_is.penetration / LEAST_DIGIT and saving > -LEAST_SAVING:
-        return f"change: {as_is.penetration / run.penetration:.1f} times less penetration at {run.cpu / as_is.cpu:.2f} of the time"
+    force = 100 * (run.force / as_is.force - 1)
+    if abs(force) > LEAST_FORCE:
+        return f"keep: else the sliding force is {force:+.0f} %"
+    if run.penetration < as_is.penetration / LEAST_FACTOR and saving > -LEAST_SAVING:
+        return (f"change: {as_is.penetration / run.penetration:.1f} times less penetration at "
+                f"{run.cpu / as_is.cpu:.2f} of the time")
+    same = (run.slide, run.force, run.penetration) == (as_is.slide, as_is.force, as_is.penetration)
+    if same and abs(saving) < LEAST_SAVING:
+        return "keep: the same motion to the last bit, at no other cost"
     if saving >= LEAST_SAVING:
         return f"change: saves {100 * saving:.0f} %"
     if saving <= -LEAST_SAVING:
-        return f"keep: else {-100 * saving:.0f} % more time for no gain in penetration"
+        return f"keep: else {-100 * saving:.0f} % more time for {'the same motion' if same else 'no gain that counts'}"
     return "keep: no difference that counts"
 
 
@@ -81,7 +89,8 @@ def main(folder: Path, csv: Path, png: Path) -> None:
     as_is, found = needs(folder)
     heading = ["choice", "instead", "cpu_ratio", "slide_change_cm", "force_change_percent", "penetration_cm", "outcome",
                "audit_fails", "verdict"]
-    write_csv(csv, heading, [["as it is", "", 1.0, 0.0, 0.0, as_is.penetration, as_is.failure or "slid", "; ".join(as_is.unmet), ""]] +
+    own = ["as it is", "", 1.0, 0.0, 0.0, as_is.penetration, as_is.failure or "slid", "; ".join(as_is.unmet), ""]
+    write_csv(csv, heading, [own] +
               [[n.choice, n.instead, n.cpu, n.slide, n.force, n.run.penetration, n.run.failure or "slid",
                 "; ".join(n.run.unmet), n.verdict] for n in found])
 
@@ -96,7 +105,7 @@ def main(folder: Path, csv: Path, png: Path) -> None:
         for row, need in zip(rows, found):
             failed = bool(need.run.failure)
             if failed and panel is not axes[0]:
-                panel.text(0.5, row, "failed", transform=panel.get_yaxis_transform(), ha="center", va="center",
+                panel.text(0.2, row, "failed", transform=panel.get_yaxis_transform(), ha="center", va="center",
                            fontsize=8, color="#aa3333")
                 continue
             panel.barh(row, value(need) - base, left=base, color="white" if failed else "#4477aa",
@@ -108,7 +117,7 @@ def main(folder: Path, csv: Path, png: Path) -> None:
         panel.set_axisbelow(True)
     axes[3].set_xscale("log")
     axes[3].set_xlim(as_is.penetration / 20)
-    axes[0].set_yticks(rows, [f"{n.choice}: {n.instead}" for n in found], fontsize=8)
+    axes[0].set_yticks(rows, [f"{n.choice} → {n.instead}" for n in found], fontsize=8)
     axes[0].invert_yaxis()
     save_figure(figure, png, DPI)
 

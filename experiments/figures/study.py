@@ -18,6 +18,7 @@ import numpy as np
 
 from hagfish_log import HagfishLog, LogError
 
+SHIFTS = 21  # tried within a frame to either side
 INK, GREY = "#000000", "#777777"
 
 
@@ -98,13 +99,16 @@ def read_runs(folder: Path, prefix: str) -> list[Run]:
 
 
 def path_error(run: Run, reference: Run, end: str = "head_end") -> float:
-    """Distance along the body between the knot's ends in two runs, rms over the slide, cm: at like times since the
-    slide began, as far as both slide; nan where one does not."""
+    """Distance along the body between the knot's ends in two runs, rms over the slide, cm; nan where one does not slide.
+    Times count from the beginning of the slide, which is known to a frame: the best shift within that is taken."""
     if not run.time.size or not reference.time.size:
         return np.nan
-    time = reference.time[reference.time <= run.time[-1]]
-    found = np.interp(time, run.time, getattr(run, end))
-    return float(np.sqrt(np.mean((found - getattr(reference, end)[: len(time)]) ** 2)))
+    frame = max(float(np.median(np.diff(each.time))) for each in (run, reference))
+    inside = (reference.time >= frame) & (reference.time <= run.time[-1] - frame)
+    time, path = reference.time[inside], getattr(reference, end)[inside]
+    shifts = np.linspace(-frame, frame, SHIFTS)
+    return float(min(np.sqrt(np.mean((np.interp(time + shift, run.time, getattr(run, end)) - path) ** 2))
+                     for shift in shifts))
 
 
 def pareto(cost: np.ndarray, error: np.ndarray) -> np.ndarray:

@@ -107,7 +107,8 @@ def draw_failures(axes: Any, runs: list[Run]) -> None:
         axes.scatter([run.cpu for run in own], [row] * len(own), marker="x", s=22,
                      c=[COLOURS[run.bodies] for run in own])
         sizes = ", ".join(str(n) for n in sorted({run.bodies for run in own}))
-        axes.text(0.02, row + 0.12, f"{words}: {len(own)} run{"s"[:len(own) > 1]}, {sizes} bodies", fontsize=8,
+        count = f"{len(own)} runs" if len(own) > 1 else "one run"
+        axes.text(0.02, row + 0.12, f"{words}: {count}, {sizes} bodies", fontsize=8,
                   transform=axes.get_yaxis_transform())
     axes.set_yticks([])
     axes.set_ylim(-0.5, len(causes) - 0.3)
