@@ -11,6 +11,7 @@
 #include "core/hdf5_error.hpp"
 #include "core/input_error.hpp"
 #include "experiments/commands.hpp"
+#include "experiments/presets.hpp"
 #include "solvers/box_qp.hpp"
 
 namespace {
@@ -37,7 +38,7 @@ void add_run(CLI::App& app, const std::string& typed, int& code) {
   CLI::App* run = app.add_subcommand("run", "run a scene and write its log");
   run->add_option("SCENE", options->scene, scene_help)->capture_default_str();
   run->add_option("--out", options->out, "log to write (SCENE.h5)");
-  run->add_option("--preset", options->preset, "settings by name: quick, default or figure")
+  run->add_option("--preset", options->preset, "settings by name: " + hagfish::preset_names())
       ->capture_default_str();
   run->add_option("--qp", options->qp, "QP back end, instead of the preset's")
       ->check(CLI::IsMember(hagfish::box_qp_solver_names()));

@@ -22,16 +22,21 @@ std::vector<Preset> presets() {
   return found;
 }
 
+std::string preset_names() {
+  std::vector<std::string> names;
+  for (const Preset& preset : presets()) {
+    names.push_back(preset.name);
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
 Preset preset_called(const std::string& name) {
-  std::vector<std::string> known;
   for (const Preset& preset : presets()) {
     if (preset.name == name) {
       return preset;
     }
-    known.push_back(preset.name);
   }
-  throw InputError(
-      fmt::format("--preset {}: no such preset; there are {}", name, fmt::join(known, ", ")));
+  throw InputError(fmt::format("--preset {}: no such preset; there are {}", name, preset_names()));
 }
 
 }  // namespace hagfish

@@ -15,6 +15,9 @@ struct Preset {
 /// All of them, in the file's order.
 std::vector<Preset> presets();
 
+/// "quick, default, figure".
+std::string preset_names();
+
 /// Throws InputError, whose line names the known ones, where there is none called `name`.
 Preset preset_called(const std::string& name);
 

@@ -1,5 +1,5 @@
-"""QPs of the Table 1 run: error in velocity and KKT residual against the time of a solve, over back ends and tolerances,
-from zero and from warm starts.
+"""QPs of the Table 1 run: error in velocity and KKT residual against the time of a solve, over back ends and
+tolerances, from zero and from warm starts.
 
 Usage: back_ends.py RUNS OUT.csv OUT.png (writes a PDF beside), with RUNS/qps.csv of `hagfish qp`.
 """
@@ -20,7 +20,6 @@ from hagfish_log import LogError, save_figure
 from study import run_study
 
 DPI = 200
-# Label, colour, marker, and where a tolerance stands beside its point.
 BACK_ENDS = {"active-set": ("active-set", "#882255", "*"), "ipopt": ("Ipopt, crossed over to a vertex", "#332288", "s"),
              "ipopt-unpolished": ("Ipopt's own point", "#44aa99", "o")}
 MEASURES = {"error_norm_relative": "worst error of the velocity,\nH norm, relative", "kkt": "worst scaled KKT residual"}
@@ -31,7 +30,8 @@ def read_table(folder: Path) -> list[dict[str, str]]:
     file = folder / "qps.csv"
     with file.open(newline="", encoding="utf-8") as text:
         rows = list(csv.DictReader(text))
-    missing = {"back_end", "tolerance", "start", "qps", "median_s", "p99_s", "failures", *MEASURES} - set(rows[0] if rows else ())
+    wanted = {"back_end", "tolerance", "start", "qps", "median_s", "p99_s", "failures", *MEASURES}
+    missing = wanted - set(rows[0] if rows else ())
     if missing:
         raise LogError(f"{file}: without column {sorted(missing)[0]}")
     return rows

@@ -19,8 +19,8 @@ from study import GREY, run_study, write_csv
 
 DPI = 200
 MOTIONS = ("coil", "hanging", "whip")
-METHODS = {"core": ("core", "#000000", "o"), "mujoco_euler": ("MuJoCo Euler", "#4477aa", "s"),
-           "mujoco_implicit": ("MuJoCo implicit", "#cc6677", "^"), "mujoco_rk4": ("MuJoCo RK4", "#228833", "D")}
+METHODS = {"core": ("core, semi-implicit", "#000000", "o"), "mujoco_euler": ("MuJoCo Euler, to 0.25 ms", "#4477aa", "s"),
+           "mujoco_implicit": ("MuJoCo implicit, to 0.25 ms", "#cc6677", "^"), "mujoco_rk4": ("MuJoCo RK4", "#228833", "D")}
 
 
 def steps(results: Results, method: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -33,10 +33,14 @@ def draw(axes: Any, results: Results, letter: str) -> None:
         h, cost, error = steps(results, method)
         known = np.isfinite(error)
         axes.loglog(cost[known], error[known], marker=marker, ms=4.5, color=colour, label=label)
-        for k in np.flatnonzero(known)[[0, -1]]:
-            above = method in ("mujoco_euler", "mujoco_implicit")
-            axes.annotate(f"{h[k]:g} ms", (cost[k], error[k]), (4, 4) if above else (-4, -5), textcoords="offset points",
-                          fontsize=7, color=colour, ha="left" if above else "right", va="bottom" if above else "top")
+        note = lambda k, shift, ha, va: axes.annotate(f"{h[k]:g} ms", (cost[k], error[k]), shift, fontsize=7, ha=ha,
+                                                      textcoords="offset points", color=colour, va=va)
+        first, last = np.flatnonzero(known)[[0, -1]]
+        if method in ("mujoco_euler", "mujoco_implicit"):
+            note(first, (4, 4), "left", "bottom")
+        else:
+            note(first, (-4, -5), "right", "top")
+            note(last, (6, -1), "left", "center")
     agreement = float(results["/reference/agreement"][0])
     axes.axhline(agreement, color=GREY, lw=0.8, ls="--")
     axes.text(0.98, agreement * 1.4, "two references differ", transform=axes.get_yaxis_transform(), ha="right",

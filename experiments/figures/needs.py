@@ -116,7 +116,7 @@ def main(folder: Path, csv: Path, png: Path) -> None:
         panel.grid(axis="x", color="#e5e5e5", lw=0.6)
         panel.set_axisbelow(True)
     axes[3].set_xscale("log")
-    axes[3].set_xlim(as_is.penetration / 20)
+    axes[3].set_xlim(as_is.penetration / 4)
     axes[0].set_yticks(rows, [f"{n.choice} → {n.instead}" for n in found], fontsize=8)
     axes[0].invert_yaxis()
     save_figure(figure, png, DPI)

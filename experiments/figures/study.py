@@ -99,8 +99,8 @@ def read_runs(folder: Path, prefix: str) -> list[Run]:
 
 
 def path_error(run: Run, reference: Run, end: str = "head_end") -> float:
-    """Distance along the body between the knot's ends in two runs, rms over the slide, cm; nan where one does not slide.
-    Times count from the beginning of the slide, which is known to a frame: the best shift within that is taken."""
+    """Distance along the body between the knot's ends in two runs, rms over the slide, cm; nan where one has none. Times
+    count from the beginning of the slide, which is known to a frame: the best shift within that is taken."""
     if not run.time.size or not reference.time.size:
         return np.nan
     frame = max(float(np.median(np.diff(each.time))) for each in (run, reference))

@@ -25,7 +25,7 @@ REFERENCE = "whole_100_0.0005_speculative_active-set"
 COLOURS = {25: "#999999", 35: "#ddcc77", 50: "#44aa99", 70: "#88ccee", 100: "#332288", 140: "#cc6677", 200: "#882255"}
 MARKERS = {"active-set": "o", "ipopt": "s"}
 LABELS_APART = 1.2  # ratio of times
-LEAST_FORCE = 0.3  # %, where the figure ends: far below chance
+BELOW_CHANCE = 3  # a panel ends at this part of chance
 FINE = 0.001  # steps, s, whose differences from the reference are chance
 
 
@@ -71,7 +71,7 @@ def series(runs: list[Run]) -> list[list[Run]]:
     return [sorted(group, key=lambda run: run.step) for group in groups.values()]
 
 
-def draw(axes: Any, runs: list[Run], presets: list[Run], reference: Run, what: str) -> None:
+def draw(axes: Any, runs: list[Run], presets: list[Run], reference: Run, what: str, floor: float) -> None:
     done = [run for run in runs if not run.failure]
     for group in series(done):
         group = [run for run in group if run is not reference or what == "penetration"]
@@ -90,7 +90,7 @@ def draw(axes: Any, runs: list[Run], presets: list[Run], reference: Run, what: s
                           va="top", color=COLOURS[run.bodies], fontweight="bold")
             labelled = point[0]
     for run in presets:
-        point = (run.cpu, max(errors(run, reference)[what], LEAST_FORCE if what == "force" else 0.0))
+        point = (run.cpu, max(errors(run, reference)[what], 1.5 * floor / BELOW_CHANCE))
         axes.plot(*point, "*", ms=13, mfc="#ddaa33", mec=INK, zorder=5)
         axes.annotate(run.name.removeprefix("preset_"), point, (5, 8), textcoords="offset points", fontsize=8.5,
                       fontweight="bold", bbox={"fc": "white", "ec": "none", "pad": 0.5, "alpha": 0.8}, zorder=6)
@@ -148,11 +148,10 @@ def main(folder: Path, csv: Path, png: Path) -> None:
     figure.set_layout_engine("constrained", rect=(0, 0, 1, 0.94))
     floor = chance(runs, reference)
     for panel, what, letter in zip(axes.flat, PANELS, "abc"):
-        draw(panel, runs, read_runs(folder, "preset"), reference, what)
-        if what == "force":
-            panel.set_ylim(bottom=LEAST_FORCE)
+        draw(panel, runs, read_runs(folder, "preset"), reference, what, floor.get(what, 0.0))
         panel.set_title(f"({letter}) {PANELS[what]}", loc="left", fontsize=10)
         if what in floor:
+            panel.set_ylim(bottom=floor[what] / BELOW_CHANCE)
             panel.axhspan(panel.get_ylim()[0], floor[what], color="#eeeeee", zorder=-1)
             panel.text(0.99, floor[what] * 0.93, "chance", transform=panel.get_yaxis_transform(), ha="right", va="top",
                        fontsize=8, color=GREY)
