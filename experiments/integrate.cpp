@@ -43,11 +43,7 @@ constexpr std::array<Method, 4> methods{
      {"mujoco_implicit", "MuJoCo implicit", mjINT_IMPLICIT, 2e-4},
      {"mujoco_rk4", "MuJoCo RK4", mjINT_RK4, 4e-4}}};
 
-double cpu_time() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
+double cpu_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 struct Ending {
   State state;
@@ -99,7 +95,6 @@ void measure(const Method& method, const Model& model, const State& start, const
     cost.push_back(ending ? ending->cost / settings.duration : NAN);
     fmt::print("{:<20} {:>9g} {:>11.3e} {:>11.3e}\n", method.title, 1e3 * h, error.back(),
                cost.back());
-    std::fflush(stdout);
   }
   const auto array = [](const std::vector<double>& values) {
     return Eigen::Map<const Eigen::VectorXd>(values.data(),
