@@ -31,6 +31,7 @@ void write_header(const LogHeader& header, Hdf5Writer& h5) {
   h5.root_attribute("created", current_time());
   h5.root_attribute("command", header.command);
   h5.root_attribute("scene", header.scene);
+  h5.root_attribute("qp", header.qp);
   h5.root_attribute("libraries", header.libraries);
   h5.root_attribute("compiler", build_compiler());
   h5.root_attribute("cpu", cpu_name());

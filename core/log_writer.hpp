@@ -19,6 +19,7 @@ inline constexpr int log_format_version = 1;
 struct LogHeader {
   std::string command;  ///< as typed
   std::string scene;    ///< fully resolved TOML
+  std::string qp;       ///< QP back end
   std::string libraries;
   std::map<std::string, std::string> mjcf;  ///< the mirrored model's files by name
 };

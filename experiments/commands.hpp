@@ -12,8 +12,9 @@ inline constexpr const char* default_scene = "table1";
 struct RunOptions {
   std::string scene = default_scene;  ///< a built-in scene's name or a file
   std::string out;                    ///< log to write; SCENE.h5 where empty
-  std::string qp = "ipopt";           ///< QP back end
-  std::vector<std::string> set;       ///< KEY=VALUE overrides
+  std::string preset = "default";     ///< settings by name (presets.hpp)
+  std::string qp;                     ///< QP back end; the preset's where empty
+  std::vector<std::string> set;       ///< KEY=VALUE overrides, after the preset's
   bool force = false;                 ///< replace an existing log
   bool quiet = false;
   std::string command;  ///< as typed, for the log
@@ -54,6 +55,14 @@ struct CompareOptions {
   std::string command;           ///< as typed, for that file
 };
 
+struct IntegrateOptions {
+  std::string scene = default_scene;
+  std::string motion = "coil";   ///< which start (motions.hpp)
+  std::string out;               ///< HDF5 file for the figure
+  std::vector<std::string> set;  ///< KEY=VALUE overrides
+  std::string command;           ///< as typed, for that file
+};
+
 struct PictureOptions {
   std::string log;
   std::string out;            ///< PNG to write; numbered where there are several times
@@ -78,6 +87,8 @@ std::vector<std::string> measured_back_ends();
 int mjcf(const MjcfOptions& options);
 /// Exit code 1 where a difference is beyond its bound.
 int compare(const CompareOptions& options);
+/// Error against CPU time of the core's and MuJoCo's steps along a smooth motion.
+int integrate(const IntegrateOptions& options);
 /// The slide of a log in MuJoCo under f_thigmo alone.
 int playback(const PlaybackOptions& options);
 int list_scenes();

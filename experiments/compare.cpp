@@ -8,6 +8,7 @@
 #include "core/hdf5_writer.hpp"
 #include "core/step.hpp"
 #include "experiments/commands.hpp"
+#include "experiments/motions.hpp"
 #include "experiments/scene_argument.hpp"
 #include "mujoco_ref/agreement.hpp"
 #include "mujoco_ref/mirror.hpp"
@@ -22,13 +23,10 @@ struct Comparison {
   double angle = 3.1;  ///< hinge angles of those to either side, rad
   double spin = 100;   ///< and velocities, cm/s and rad/s
   unsigned seed = 1;
-  double curvature = 0.12;  ///< rollouts start from a coil bent this much about Y, rad/cm,
-  double coil_share[3] = {0.2, 1, 0.5};  ///< as shares of it about X, Y, Z,
-  double uncoiling = 1;                  ///< which opens at this share of its angles, 1/s
-  double rollout_time = 1;               ///< step by step at the scene's h, s
-  double rollout_bound = 1e-8;           ///< largest difference in q̇ there
-  double error_time = 0.5;               ///< errors are taken here, s
-  double reference_step = 2e-4;          ///< of MuJoCo's RK4, which they are taken against, s
+  double rollout_time = 1;       ///< the coil opens step by step at the scene's h, s
+  double rollout_bound = 1e-8;   ///< largest difference in q̇ there
+  double error_time = 0.5;       ///< errors are taken here, s
+  double reference_step = 2e-4;  ///< of MuJoCo's RK4, which they are taken against, s
   std::array<double, 5> steps = {0.008, 0.004, 0.002, 0.001, 0.0005};  ///< s
 };
 
@@ -64,20 +62,6 @@ class Findings {
 
 MujocoModel mirror_of(const Model& model, double h, Head head) {
   return MujocoModel(mjcf_files(model, 0, h, head));
-}
-
-/// A coil in space that is opening.
-State coil(const Model& model, const Comparison& settings) {
-  State state = rest_state(model);
-  // Each hinge stands for two bodies' length.
-  const double arc = 2 * model.length() / model.body_count();
-  for (std::size_t k = 0; k < model.hinges.size(); ++k) {
-    const double share = settings.coil_share[static_cast<int>(model.hinges[k].axis)];
-    const auto i = static_cast<Eigen::Index>(k) + root_dofs;
-    state.q[i + 1] = settings.curvature * share * arc;
-    state.qdot[i] = -settings.uncoiling * state.q[i + 1];
-  }
-  return state;
 }
 
 void compare_states(const Model& model, Head head, double h, const Comparison& settings,
@@ -116,7 +100,7 @@ void compare_states(const Model& model, Head head, double h, const Comparison& s
 void compare_rollouts(const Model& model, Head head, double h, const Comparison& settings,
                       Findings& findings) {
   const int steps = static_cast<int>(std::lround(settings.rollout_time / h));
-  const State start = coil(model, settings);
+  const State start = start_of(motions.front(), model);
   MujocoModel mirror = mirror_of(model, h, head);
   use_core_rule(mirror);
   const std::vector<State> core = core_rollout(model, start, head, h, steps);
@@ -150,7 +134,7 @@ State end_of(const Rule& rule, const Model& model, const State& start, Head head
 }
 
 void compare_errors(const Model& model, Head head, const Comparison& settings, Findings& findings) {
-  const State start = coil(model, settings);
+  const State start = start_of(motions.front(), model);
   const State reference =
       end_of(rules.back(), model, start, head, settings.reference_step, settings.error_time);
   const std::string group = std::string("/error/") + head_name(head);

@@ -11,6 +11,7 @@
 #include "core/hdf5_error.hpp"
 #include "core/input_error.hpp"
 #include "experiments/commands.hpp"
+#include "experiments/presets.hpp"
 #include "solvers/box_qp.hpp"
 
 namespace {
@@ -37,9 +38,10 @@ void add_run(CLI::App& app, const std::string& typed, int& code) {
   CLI::App* run = app.add_subcommand("run", "run a scene and write its log");
   run->add_option("SCENE", options->scene, scene_help)->capture_default_str();
   run->add_option("--out", options->out, "log to write (SCENE.h5)");
-  run->add_option("--qp", options->qp, "QP back end")
-      ->check(CLI::IsMember(hagfish::box_qp_solver_names()))
+  run->add_option("--preset", options->preset, "settings by name: " + hagfish::preset_names())
       ->capture_default_str();
+  run->add_option("--qp", options->qp, "QP back end, instead of the preset's")
+      ->check(CLI::IsMember(hagfish::box_qp_solver_names()));
   run->add_option("--set", options->set, set_help)->allow_extra_args(false);
   run->add_flag("--force", options->force, "replace an existing log");
   run->add_flag("--quiet", options->quiet, "no progress");
@@ -131,6 +133,19 @@ void add_compare(CLI::App& app, const std::string& typed, int& code) {
   compare->callback([options, &code] { code = hagfish::compare(*options); });
 }
 
+void add_integrate(CLI::App& app, const std::string& typed, int& code) {
+  const auto options = std::make_shared<hagfish::IntegrateOptions>();
+  options->command = typed;
+  CLI::App* integrate = app.add_subcommand(
+      "integrate", "error against CPU time along a smooth motion, for the core and MuJoCo");
+  integrate->add_option("SCENE", options->scene, scene_help)->capture_default_str();
+  integrate->add_option("--motion", options->motion, "coil, hanging or whip")
+      ->capture_default_str();
+  integrate->add_option("--out", options->out, "HDF5 file to write")->required();
+  integrate->add_option("--set", options->set, set_help)->allow_extra_args(false);
+  integrate->callback([options, &code] { code = hagfish::integrate(*options); });
+}
+
 void add_playback(CLI::App& app, const std::string& typed, int& code) {
   const auto options = std::make_shared<hagfish::PlaybackOptions>();
   options->command = typed;
@@ -157,6 +172,7 @@ int dispatch(int argc, char** argv) {
   add_picture(app, code);
   add_mjcf(app, code);
   add_compare(app, typed, code);
+  add_integrate(app, typed, code);
   add_playback(app, typed, code);
 
   try {

@@ -21,7 +21,7 @@ failed=0
 draw agreement.py "$out/compare.h5" "$out/agreement.png"
 echo
 # f_thigmo changes from step to step, so the log holds every one.
-"$hagfish" run table1 --set time.frame_interval=0.002 --out "$out/every_step.h5" --force
+"$hagfish" run table1 --qp ipopt --set time.frame_interval=0.002 --out "$out/every_step.h5" --force
 "$hagfish" playback "$out/every_step.h5" --out "$out/playback.h5" | tee "$out/playback.txt"
 draw playback.py "$out/playback.h5" "$out/playback.png"
 echo

@@ -9,6 +9,7 @@
 #include "core/hdf5_error.hpp"
 #include "core/log_writer.hpp"
 #include "experiments/commands.hpp"
+#include "experiments/presets.hpp"
 #include "experiments/progress.hpp"
 #include "experiments/scene_argument.hpp"
 #include "mujoco_ref/mjcf.hpp"
@@ -48,15 +49,20 @@ std::string take_steps(const Model& model, const Scene& scene, BoxQpSolver& solv
 }  // namespace
 
 int run(const RunOptions& options) {
-  const ResolvedScene resolved = scene_argument(options.scene, options.set);
+  const Preset preset = preset_called(options.preset);
+  std::vector<std::string> set = preset.set;
+  set.insert(set.end(), options.set.begin(), options.set.end());
+  const ResolvedScene resolved = scene_argument(options.scene, set);
   const Scene& scene = resolved.scene;
   const Model model = make_hagfish(resolved.specimen, scene);
-  const auto solver = make_box_qp_solver(options.qp);
+  const std::string qp = options.qp.empty() ? preset.qp : options.qp;
+  const auto solver = make_box_qp_solver(qp);
   const fs::path out =
       options.out.empty() ? fs::path(options.scene).stem().string() + ".h5" : options.out;
   LogHeader header;
   header.command = options.command;
   header.scene = scene_to_toml(scene, resolved.specimen);
+  header.qp = qp;
   header.libraries = build_libraries();
   header.mjcf = mjcf_files(model, scene.contact.least_arc, scene.time.step);
   LogWriter log(out, options.force, header, model, scene);

@@ -12,6 +12,7 @@ packages=(
   libqhull-dev libgl-dev libopengl-dev                  # named by MuJoCo's CMake file, but not by its package
   libgtest-dev libbenchmark-dev                         # tests and benchmarks
   python3 python3-h5py python3-matplotlib               # figures
+  parallel                                              # sweeps
 )
 
 missing=()

@@ -127,6 +127,10 @@ class Results:
             raise LogError(f"{self.path}: no dataset {path}")
         return found[()]
 
+    def root(self, name: str) -> str:
+        """A text attribute of the file."""
+        return str(self._file.attrs[name])
+
     def attribute(self, path: str, name: str) -> str:
         """A text attribute of a dataset."""
         return str(self._file[path].attrs[name])

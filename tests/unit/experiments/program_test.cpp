@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "experiments/log_contents.hpp"
 #include "tests/support/foreign_qps.hpp"
 
 namespace {
@@ -223,6 +224,29 @@ TEST_F(ProgramTest, ComparesWithMujoco) {
   expect_refused("compare --set model.bodies=1", {"model.bodies"});
 }
 
+TEST_F(ProgramTest, APresetComesBeforeSetAndQp) {
+  const auto written = [this](const std::string& arguments) {
+    const Outcome run = hagfish(brief + "--force --out a.h5 " + arguments);
+    EXPECT_EQ(run.code, 0) << arguments << ": " << run.output;
+    const hagfish::LogContents log((folder / "a.h5").string());
+    return std::pair(log.resolved.scene.time.step, log.h5.root_text("qp"));
+  };
+  EXPECT_EQ(written(""), written("--preset default"));
+  EXPECT_EQ(written("--preset quick"), std::pair(0.02, std::string("active-set")));
+  EXPECT_EQ(written("--preset quick --set time.step=0.01").first, 0.01);
+  EXPECT_EQ(written("--preset quick --qp ipopt").second, "ipopt");
+}
+
+TEST_F(ProgramTest, IntegratesSmoothMotions) {
+  const Outcome whip = hagfish("integrate --set model.bodies=3 --motion whip --out whip.h5");
+  EXPECT_EQ(whip.code, 0) << whip.output;
+  EXPECT_NE(whip.output.find("MuJoCo RK4"), std::string::npos) << whip.output;
+  EXPECT_TRUE(fs::exists(folder / "whip.h5"));
+  fs::remove(folder / "whip.h5");
+  expect_refused("integrate --motion jump --out i.h5", {"--motion jump", "coil hanging whip"});
+  expect_refused("integrate", {"--out"});
+}
+
 TEST_F(ProgramTest, PlaybackRefusesALogWithoutASlide) {
   EXPECT_EQ(hagfish(brief + "--out a.log").code, 0);
   expect_refused("playback a.log --out p.h5", {"a.log", "does not slide"});
@@ -255,6 +279,7 @@ TEST_F(ProgramTest, RefusesBadInputInOneLine) {
   expect_refused("run --set controller.contact_gap=1", {"controller.contact_gap", "margin"});
   expect_refused("run --out . --force", {"not a regular file"});
   expect_refused("run --qp none", {"--qp", "ipopt"});
+  expect_refused("run --preset best", {"--preset best", "quick, default, figure"});
   expect_refused("run --no-such-option", {"--no-such-option"});
   expect_refused("run specimens/pacific_hagfish", {"scenes"});
   expect_refused("run nowhere", {"nowhere", "scenes"});

@@ -1,0 +1,142 @@
+"""Runs of `experiments/speed_accuracy.sh`: what each cost, what became of it, and how far it is from a reference.
+
+A run is NAME.h5 (its log), NAME.cpu (user and system time of each repeat, s) and NAME.check (its audit).
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import re
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from hagfish_log import HagfishLog, LogError
+
+SHIFTS = 21  # tried within a frame to either side
+INK, GREY = "#000000", "#777777"
+
+
+@dataclass
+class Run:
+    """One run; cm, s, dyn cm. Arrays are of its sliding frames, times from the first of them."""
+
+    name: str
+    cpu: float  # the least of the repeats
+    step: float
+    bodies: int
+    qp: str
+    activation: str
+    scene: str  # built-in scene's name
+    failure: str  # why the knot did not slide to the head; empty where it did
+    unmet: list[str]  # what the audit names, the penetration aside
+    penetration: float  # deepest of every step
+    slide: float  # headward travel of the knot's head end, cm
+    tighten_at: float  # s; nan where it never came to that
+    slide_at: float
+    force: float  # f_thigmo on the hinges: rms over them, median over the sliding frames
+    force_rms: float  # and rms over both, which a few steps dominate
+    time: np.ndarray
+    head_end: np.ndarray
+    tail_end: np.ndarray
+
+
+def cause(status: str) -> str:
+    """Why a run stopped, without its numbers."""
+    text = status.removeprefix("failed: ").split(" at step ")[0].split(",")[0]
+    return re.sub(r" is [\d.]+ \w+ past", " went past", re.sub(r"^body \d+", "a body", text))
+
+
+def failure_of(log: HagfishLog, unmet: list[str]) -> str:
+    status = str(log.attribute("status"))
+    if status != "complete":
+        return cause(status)
+    if not log.in_phase("tighten").size:
+        return "the knot was never ready to tighten"
+    if not log.in_phase("slide").size:
+        return "the knot never slid"
+    for name, words in (("knot held", "the knot came undone early"), ("unknot at end", "the knot stayed on")):
+        if name in unmet:
+            return words
+    return ""
+
+
+def read_run(folder: Path, name: str) -> Run:
+    log = HagfishLog(folder / f"{name}.h5")
+    try:
+        cpu = [sum(map(float, line.split())) for line in (folder / f"{name}.cpu").read_text().splitlines()]
+        check = (folder / f"{name}.check").read_text()
+    except OSError as error:
+        raise LogError(f"{error.filename}: cannot be read ({error.strerror})") from None
+    unmet = [line[5:29].strip() for line in check.splitlines() if line.startswith("FAIL")]
+    scene = log.scene()
+    slides = log.in_phase("slide")
+    known = slides[np.isfinite(log["/knot/head_end"][slides])]
+    start = lambda phase: float(log["/trajectory/time"][log.in_phase(phase)[0]]) if log.in_phase(phase).size else np.nan
+    hinges = log.hinges()[0]
+    squares = (log["/forces/thigmotaxis"][slides][:, hinges] ** 2).mean(axis=1)
+    head_end = log["/knot/head_end"][known]
+    return Run(name, min(cpu), scene["time"]["step"], scene["model"]["bodies"], str(log.attribute("qp")),
+               scene["constraints"]["activation"], str(log.attribute("command")).split(" run ")[1].split()[0],
+               failure_of(log, unmet), [what for what in unmet if what != "penetration"],
+               float(log["/steps/penetration"].max()), float(head_end[0] - head_end[-1]) if known.size else np.nan,
+               start("tighten"), start("slide"), float(np.sqrt(np.median(squares))) if slides.size else np.nan,
+               float(np.sqrt(squares.mean())) if slides.size else np.nan,
+               log["/trajectory/time"][known] - start("slide"), head_end, log["/knot/tail_end"][known])
+
+
+def read_runs(folder: Path, prefix: str) -> list[Run]:
+    """All runs called PREFIX_..., by name."""
+    names = sorted(path.stem for path in folder.glob(f"{prefix}_*.cpu"))
+    if not names:
+        raise LogError(f"{folder}: holds no run {prefix}_*")
+    return [read_run(folder, name) for name in names]
+
+
+def path_error(run: Run, reference: Run, end: str = "head_end") -> float:
+    """Distance along the body between the knot's ends in two runs, rms over the slide, cm; nan where one has none. Times
+    count from the beginning of the slide, which is known to a frame: the best shift within that is taken."""
+    if not run.time.size or not reference.time.size:
+        return np.nan
+    frame = max(float(np.median(np.diff(each.time))) for each in (run, reference))
+    inside = (reference.time >= frame) & (reference.time <= run.time[-1] - frame)
+    time, path = reference.time[inside], getattr(reference, end)[inside]
+    shifts = np.linspace(-frame, frame, SHIFTS)
+    return float(min(np.sqrt(np.mean((np.interp(time + shift, run.time, getattr(run, end)) - path) ** 2))
+                     for shift in shifts))
+
+
+def pareto(cost: np.ndarray, error: np.ndarray) -> np.ndarray:
+    """Indices, by rising cost, of what nothing else beats in both."""
+    order = np.lexsort((error, cost))
+    best, front = np.inf, []
+    for i in order:
+        if error[i] < best:
+            best = error[i]
+            front.append(i)
+    return np.array(front, dtype=int)
+
+
+def write_csv(path: Path, heading: list[str], rows: list[list[Any]]) -> None:
+    with path.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(heading)
+        writer.writerows([f"{cell:.6g}" if isinstance(cell, float) else cell for cell in row] for row in rows)
+
+
+def run_study(description: str, outputs: list[str], work: Callable[..., None]) -> None:
+    """Runs `work(folder, file, ...)` on the command line `RUNS files...`; bad input is one line and exit code 2."""
+    parser = argparse.ArgumentParser(description=description)
+    parser.add_argument("folder", metavar="RUNS", type=Path)
+    for name in outputs:
+        parser.add_argument(name, metavar=name, type=Path)
+    try:
+        work(*vars(parser.parse_args()).values())
+    except (LogError, OSError) as error:
+        print(f"{Path(sys.argv[0]).name}: {error}", file=sys.stderr)
+        sys.exit(2)

@@ -1,0 +1,164 @@
+"""Whole runs of the Table 1 scene: where the knot is, how hard it is pushed and how deep skins overlap, against CPU
+time, over step, body count, back end and activation. The reference is 100 bodies at 0.5 ms.
+
+Usage: whole_runs.py RUNS OUT.csv OUT.png (writes a PDF beside).
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.lines import Line2D
+
+from hagfish_log import LogError, save_figure
+from study import GREY, INK, Run, pareto, path_error, read_runs, run_study, write_csv
+
+DPI = 200
+REFERENCE = "whole_100_0.0005_speculative_active-set"
+# Body counts from light to dark, and Paul Tol's muted colours for those that tie.
+COLOURS = {25: "#999999", 35: "#ddcc77", 50: "#44aa99", 70: "#88ccee", 100: "#332288", 140: "#cc6677", 200: "#882255"}
+MARKERS = {"active-set": "o", "ipopt": "s"}
+LABELS_APART = 1.2  # ratio of times
+BELOW_CHANCE = 3  # a panel ends at this part of chance
+FINE = 0.001  # steps, s, whose differences from the reference are chance
+
+
+def errors(run: Run, reference: Run) -> dict[str, float]:
+    """The three measures of the figure."""
+    return {"position": path_error(run, reference), "force": 100 * abs(run.force / reference.force - 1),
+            "penetration": run.penetration}
+
+
+PANELS = {"position": "error of the knot's head end, rms, cm", "force": "sliding force off the reference, %",
+          "penetration": "deepest penetration of any step, cm"}
+
+
+def reference_of(runs: list[Run]) -> Run:
+    for run in runs:
+        if run.name == REFERENCE and not run.failure:
+            return run
+    raise LogError(f"{REFERENCE}: the reference is missing or failed")
+
+
+def chance(runs: list[Run], reference: Run) -> dict[str, float]:
+    """Largest difference from the reference among fine runs of the same bodies: no smaller one means anything."""
+    same = [run for run in runs if run is not reference and run.bodies == reference.bodies and not run.failure
+            and run.step <= FINE and run.activation == reference.activation]
+    return {what: max(errors(run, reference)[what] for run in same) for what in ("position", "force")}
+
+
+def front_of(runs: list[Run], reference: Run, what: str) -> list[Run]:
+    """The Pareto front in CPU time and one measure, by rising time; within chance the cheapest is as good as any. The
+    reference has no error to compare."""
+    able = [run for run in runs if not run.failure and (run is not reference or what == "penetration")]
+    floor = chance(runs, reference).get(what, 0.0)
+    front = pareto(np.array([run.cpu for run in able]),
+                   np.array([max(floor, errors(run, reference)[what]) for run in able]))
+    return [able[k] for k in front]
+
+
+def series(runs: list[Run]) -> list[list[Run]]:
+    """Runs that differ by their step alone, by rising step."""
+    groups: dict[Any, list[Run]] = {}
+    for run in runs:
+        groups.setdefault((run.bodies, run.qp, run.activation, run.scene), []).append(run)
+    return [sorted(group, key=lambda run: run.step) for group in groups.values()]
+
+
+def draw(axes: Any, runs: list[Run], presets: list[Run], reference: Run, what: str, floor: float) -> None:
+    done = [run for run in runs if not run.failure]
+    for group in series(done):
+        group = [run for run in group if run is not reference or what == "penetration"]
+        first = group[0]
+        colour, spec = COLOURS[first.bodies], first.activation == "speculative"
+        axes.loglog([run.cpu for run in group], [errors(run, reference)[what] for run in group],
+                    MARKERS[first.qp] + ("-" if spec else ":"), color=colour, ms=4, lw=0.9,
+                    mfc=colour if spec else "white", alpha=0.9)
+    front = front_of(runs, reference, what)
+    points = [(run.cpu, errors(run, reference)[what]) for run in front]
+    axes.step(*zip(*points), where="post", color=INK, lw=2.2, alpha=0.35, zorder=0)
+    labelled = 0.0
+    for run, point in zip(front, points):
+        if point[0] > LABELS_APART * labelled:
+            axes.annotate(f"{1e3 * run.step:g}", point, (-3, -3), textcoords="offset points", fontsize=7.5, ha="right",
+                          va="top", color=COLOURS[run.bodies], fontweight="bold")
+            labelled = point[0]
+    for run in presets:
+        point = (run.cpu, max(errors(run, reference)[what], 1.5 * floor / BELOW_CHANCE))
+        axes.plot(*point, "*", ms=13, mfc="#ddaa33", mec=INK, zorder=5)
+        axes.annotate(run.name.removeprefix("preset_"), point, (5, 8), textcoords="offset points", fontsize=8.5,
+                      fontweight="bold", bbox={"fc": "white", "ec": "none", "pad": 0.5, "alpha": 0.8}, zorder=6)
+    axes.set_xlabel("CPU time of the run, s")
+    axes.set_ylabel(PANELS[what])
+    axes.grid(which="major", color="#e5e5e5", lw=0.6)
+
+
+def draw_failures(axes: Any, runs: list[Run]) -> None:
+    """A row for every cause: one cross a run, at what it cost until then."""
+    causes = sorted({run.failure for run in runs if run.failure})
+    for row, words in enumerate(causes):
+        own = [run for run in runs if run.failure == words]
+        axes.scatter([run.cpu for run in own], [row] * len(own), marker="x", s=22,
+                     c=[COLOURS[run.bodies] for run in own])
+        sizes = ", ".join(str(n) for n in sorted({run.bodies for run in own}))
+        count = f"{len(own)} runs" if len(own) > 1 else "one run"
+        axes.text(0.02, row + 0.12, f"{words}: {count}, {sizes} bodies", fontsize=8,
+                  transform=axes.get_yaxis_transform())
+    axes.set_yticks([])
+    axes.set_ylim(-0.5, len(causes) - 0.3)
+    axes.set_xscale("log")
+    axes.set_xlabel("CPU time until then, s")
+    axes.set_title("(d) runs that failed", loc="left", fontsize=10)
+    axes.grid(axis="x", color="#e5e5e5", lw=0.6)
+
+
+def legend(figure: Any) -> None:
+    lines = [Line2D([], [], color=colour, lw=2, label=f"{bodies} bodies") for bodies, colour in COLOURS.items()]
+    lines += [Line2D([], [], color=GREY, marker=marker, lw=0.9, ms=5, label=qp) for qp, marker in MARKERS.items()]
+    lines += [Line2D([], [], color=GREY, marker="o", ls=":", mfc="white", lw=0.9, ms=5, label="violated rows only"),
+              Line2D([], [], color=INK, lw=2.2, alpha=0.35, label="Pareto front, h in ms"),
+              Line2D([], [], color=INK, marker="*", ls="", mfc="#ddaa33", ms=11, label="preset, timed alone")]
+    figure.legend(handles=lines, loc="upper center", ncols=7, fontsize=8, frameon=False)
+
+
+def rows_of(runs: list[Run], reference: Run) -> tuple[list[str], list[list[Any]]]:
+    heading = ["scene", "bodies", "h_ms", "activation", "back_end", "cpu_s", "outcome", "position_error_cm",
+               "tail_end_error_cm", "slide_start_s", "slide_cm", "force_median_dyn_cm", "force_rms_dyn_cm",
+               "penetration_cm", "audit_fails", "on_front"]
+    fronts = {what: {run.name for run in front_of(runs, reference, what)} for what in PANELS}
+    rows = [[run.scene, run.bodies, 1e3 * run.step, run.activation, run.qp, run.cpu,
+             run.failure or ("reference" if run is reference else "knot slid to the head"),
+             path_error(run, reference), path_error(run, reference, "tail_end"), run.slide_at, run.slide, run.force,
+             run.force_rms, run.penetration, "; ".join(run.unmet),
+             " ".join(what for what in PANELS if run.name in fronts[what])] for run in runs]
+    return heading, rows
+
+
+def main(folder: Path, csv: Path, png: Path) -> None:
+    runs = read_runs(folder, "whole")
+    reference = reference_of(runs)
+    write_csv(csv, *rows_of(runs, reference))
+    figure, axes = plt.subplots(2, 2, figsize=(11, 8.6))
+    figure.set_layout_engine("constrained", rect=(0, 0, 1, 0.94))
+    floor = chance(runs, reference)
+    for panel, what, letter in zip(axes.flat, PANELS, "abc"):
+        draw(panel, runs, read_runs(folder, "preset"), reference, what, floor.get(what, 0.0))
+        panel.set_title(f"({letter}) {PANELS[what]}", loc="left", fontsize=10)
+        if what in floor:
+            panel.set_ylim(bottom=floor[what] / BELOW_CHANCE)
+            panel.axhspan(panel.get_ylim()[0], floor[what], color="#eeeeee", zorder=-1)
+            panel.text(0.99, floor[what] * 0.93, "chance", transform=panel.get_yaxis_transform(), ha="right", va="top",
+                       fontsize=8, color=GREY)
+    draw_failures(axes[1, 1], runs)
+    legend(figure)
+    save_figure(figure, png, DPI)
+
+
+if __name__ == "__main__":
+    run_study(__doc__, ["OUT.csv", "OUT.png"], main)
