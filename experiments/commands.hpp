@@ -12,8 +12,8 @@ inline constexpr const char* default_scene = "table1";
 struct RunOptions {
   std::string scene = default_scene;  ///< a built-in scene's name or a file
   std::string out;                    ///< log to write; SCENE.h5 where empty
-  std::string preset = "default";     ///< settings by name (presets.hpp)
-  std::string qp;                     ///< QP back end; the preset's where empty
+  std::string preset;                 ///< settings by name (presets.hpp); none where empty
+  std::string qp;                     ///< QP back end; the preset's, or Ipopt, where empty
   std::vector<std::string> set;       ///< KEY=VALUE overrides, after the preset's
   bool force = false;                 ///< replace an existing log
   bool quiet = false;

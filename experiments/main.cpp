@@ -38,8 +38,8 @@ void add_run(CLI::App& app, const std::string& typed, int& code) {
   CLI::App* run = app.add_subcommand("run", "run a scene and write its log");
   run->add_option("SCENE", options->scene, scene_help)->capture_default_str();
   run->add_option("--out", options->out, "log to write (SCENE.h5)");
-  run->add_option("--preset", options->preset, "settings by name: " + hagfish::preset_names())
-      ->capture_default_str();
+  run->add_option("--preset", options->preset,
+                  "settings by name: " + hagfish::preset_names() + " (the scene's, and Ipopt)");
   run->add_option("--qp", options->qp, "QP back end, instead of the preset's")
       ->check(CLI::IsMember(hagfish::box_qp_solver_names()));
   run->add_option("--set", options->set, set_help)->allow_extra_args(false);

@@ -13,6 +13,7 @@
 #include "experiments/progress.hpp"
 #include "experiments/scene_argument.hpp"
 #include "mujoco_ref/mjcf.hpp"
+#include "solvers/box_qp.hpp"
 
 namespace hagfish {
 namespace {
@@ -49,7 +50,8 @@ std::string take_steps(const Model& model, const Scene& scene, BoxQpSolver& solv
 }  // namespace
 
 int run(const RunOptions& options) {
-  const Preset preset = preset_called(options.preset);
+  const Preset preset = options.preset.empty() ? Preset{"", box_qp_solver_names().front(), {}}
+                                               : preset_called(options.preset);
   std::vector<std::string> set = preset.set;
   set.insert(set.end(), options.set.begin(), options.set.end());
   const ResolvedScene resolved = scene_argument(options.scene, set);
