@@ -76,13 +76,13 @@ void switch_by_knot(const Model& model, const Scene& scene, double time,
         enter(controller, Phase::tighten, time);
       } else if (scene.script.kind != ScriptSettings::Kind::none && !knotted &&
                  time > script_end(scene.script) + patience) {
-        throw StepError("the script ended untied");
+        throw StepError(StopCause::never_tied, "the script ended untied");
       }
       break;
     case Phase::tighten:
     case Phase::slide:
       if (!knotted) {
-        throw StepError("the knot came undone before the head was free");
+        throw StepError(StopCause::knot_lost, "the knot came undone before the head was free");
       }
       break;
     case Phase::release:

@@ -11,22 +11,25 @@ namespace {
 /// Stops a run whose state is beyond anything the scene can mean.
 void guard(const Model& model, const Situation& situation, const GuardSettings& limits) {
   if (!situation.kin.centre.allFinite()) {
-    throw StepError("non-finite state");
+    throw StepError(StopCause::non_finite, "non-finite state");
   }
   if (situation.penetration > limits.penetration) {
-    throw StepError(fmt::format("penetration {:.3g} cm exceeds guard.penetration = {:g} cm",
+    throw StepError(StopCause::penetration,
+                    fmt::format("penetration {:.3g} cm exceeds guard.penetration = {:g} cm",
                                 situation.penetration, limits.penetration));
   }
   if (situation.limit_violation > limits.limit_violation) {
     constexpr double degree = std::numbers::pi / 180;
     throw StepError(
+        StopCause::limits,
         fmt::format("a joint is {:.3g} deg past its limit, over guard.limit_violation_deg = {:g}",
                     situation.limit_violation / degree, limits.limit_violation / degree));
   }
   for (int b = 0; b < model.body_count(); ++b) {
     const double speed = situation.kin.centre_velocity.col(b).norm();
     if (!(speed <= limits.speed)) {
-      throw StepError(fmt::format("body {} moves at {:.3g} cm/s, over guard.speed = {:g} cm/s", b,
+      throw StepError(StopCause::speed,
+                      fmt::format("body {} moves at {:.3g} cm/s, over guard.speed = {:g} cm/s", b,
                                   speed, limits.speed));
     }
   }

@@ -100,10 +100,12 @@ void solve_multipliers(const Model& model, const BoxQp& qp, BoxQpSolver& solver,
   if (solution.status != SolveStatus::solved) {
     Eigen::Index worst = 0;
     (qp.b - qp.A * solution.x).cwiseQuotient(row_scale(qp.A)).maxCoeff(&worst);
-    throw StepError(std::string("solver failed: ") + status_name(solution.status) + " on " +
-                    std::to_string(qp.b.size()) +
-                    " rows, furthest from being met: " + row_name(model, rows[worst]) +
-                    (solution.message.empty() ? "" : " (" + solution.message + ")"));
+    throw StepError(solution.status == SolveStatus::infeasible ? StopCause::infeasible
+                                                               : StopCause::solver_failed,
+                    std::string("solver failed: ") + status_name(solution.status) + " on " +
+                        std::to_string(qp.b.size()) +
+                        " rows, furthest from being met: " + row_name(model, rows[worst]) +
+                        (solution.message.empty() ? "" : " (" + solution.message + ")"));
   }
   step.lambda = solution.x;
 }
@@ -112,17 +114,17 @@ void solve_multipliers(const Model& model, const BoxQp& qp, BoxQpSolver& solver,
 void unconstrained_motion(const Model& model, const State& state, const Kinematics& kin,
                           const TipForce& tip, double h, StepScratch& scratch, StepSolution& step) {
   if (!state.q.allFinite() || !state.qdot.allFinite()) {
-    throw StepError("non-finite state");
+    throw StepError(StopCause::non_finite, "non-finite state");
   }
   assemble_step_system(model, state, kin, tip, h, step.system);
   try {
     scratch.factor.factorise(model, kin, step.system.op);
   } catch (const std::domain_error& error) {
-    throw StepError(error.what());
+    throw StepError(StopCause::non_finite, error.what());
   }
   scratch.factor.solve(model, kin, step.system.wrench, step.system.joint, step.unconstrained);
   if (!step.unconstrained.allFinite()) {
-    throw StepError("non-finite unconstrained velocity");
+    throw StepError(StopCause::non_finite, "non-finite unconstrained velocity");
   }
   body_twists(model, kin, step.unconstrained, scratch.unconstrained_twist);
   centre_velocities(kin, scratch.unconstrained_twist, scratch.unconstrained_centre_velocity);
@@ -180,7 +182,7 @@ void constrained_motion(const Model& model, const Kinematics& kin, BoxQpSolver& 
     changed = take_in_violated(scratch, step);
   }
   if (!step.qdot.allFinite()) {
-    throw StepError("non-finite velocity");
+    throw StepError(StopCause::non_finite, "non-finite velocity");
   }
 }
 

@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "core/dual_problem.hpp"
 #include "core/dynamics.hpp"
 #include "core/rows.hpp"
+#include "core/step_error.hpp"
 #include "solvers/box_qp.hpp"
 
 namespace hagfish {
@@ -82,12 +82,6 @@ struct StepSolution {
   KktResiduals kkt;
   double qp_time = 0;  ///< s spent in the QP back end
   StepSystem system;   ///< Eq. 1 as assembled
-};
-
-/// A step that cannot be taken; what() names the cause in one line.
-class StepError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
 };
 
 /// Storage that a step needs on the way and keeps for the next: with it, nothing is allocated once
