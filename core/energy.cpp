@@ -29,6 +29,7 @@ EnergyLedger open_ledger(const Model& model, const State& state, const Kinematic
   EnergyLedger ledger;
   set_energies(model, state, kin, ledger);
   ledger.initial = ledger.kinetic + ledger.elastic + ledger.gravity;
+  ledger.largest = ledger.kinetic + ledger.elastic;
   return ledger;
 }
 

@@ -24,12 +24,16 @@ struct EnergyLedger {
   double integrator_potential = 0;
   /// Change of M along the step against the work of the explicit Coriolis force.
   double integrator_coriolis = 0;
+  /// Taken back from the velocity where the scene holds the integrator's gain (guard.hpp), <= 0.
+  double integrator_held = 0;
+  double lowest_error = 0;  ///< of integrator_error() so far
+  double largest = 0;       ///< kinetic + elastic so far
 
   double works() const {
     return work_tip + work_thigmotaxis + work_contact + work_limit + work_head + work_wall;
   }
   double integrator_error() const {
-    return integrator_inertia + integrator_potential + integrator_coriolis;
+    return integrator_inertia + integrator_potential + integrator_coriolis + integrator_held;
   }
   /// What the ledger fails to explain, erg.
   double imbalance() const {

@@ -177,7 +177,10 @@ void declare_energy(LogTable<Frame>& t) {
          &EnergyLedger::integrator_potential);
   energy("integrator_coriolis", "gained by the integrator from explicit Coriolis forces so far",
          &EnergyLedger::integrator_coriolis);
-  t.number("/diagnostics/integrator_error", {"erg", "sum of the three integrator terms"},
+  energy("integrator_held",
+         "taken back from the velocity so far: what the integrator gained too much",
+         &EnergyLedger::integrator_held);
+  t.number("/diagnostics/integrator_error", {"erg", "sum of the integrator's terms"},
            [](const Frame& f) { return f.record.ledger.integrator_error(); });
 }
 

@@ -36,6 +36,7 @@ void write_header(const LogHeader& header, Hdf5Writer& h5) {
   h5.root_attribute("compiler", build_compiler());
   h5.root_attribute("cpu", cpu_name());
   h5.root_attribute("status", "running");
+  h5.root_attribute("warnings", "");
   h5.group("/mjcf");
   for (const auto& [name, text] : header.mjcf) {
     h5.text("/mjcf/" + name, text);
@@ -97,6 +98,7 @@ struct LogWriter::Contents {
   std::int64_t stride;  // steps a frame
   double saved = 0;     // wall time, s
   Worst worst;
+  std::string warnings;
 };
 
 LogWriter::LogWriter(fs::path file, bool replace, const LogHeader& header, const Model& model,
@@ -125,6 +127,11 @@ LogWriter::~LogWriter() {
 
 void LogWriter::write(const StepRecord& record, double wall_time) {
   Contents& c = *contents_;
+  for (const std::string& warning : record.warnings) {
+    c.warnings += fmt::format("{}step {} (t = {:.4f} s): {}", c.warnings.empty() ? "" : "\n",
+                              record.step, record.time, warning);
+    c.h5.root_attribute("warnings", c.warnings);
+  }
   c.worst.take(record);
   c.steps.append(record);
   if (record.step % c.stride != 0) {

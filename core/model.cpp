@@ -53,6 +53,18 @@ std::vector<JointName> joint_names(const Model& model) {
   return names;
 }
 
+std::string dof_name(const Model& model, int dof) {
+  int first = 0;
+  for (const JointName& joint : joint_names(model)) {
+    const int count = static_cast<int>(joint.dofs.size());
+    if (dof < first + count) {
+      return joint.dofs.at(dof - first);
+    }
+    first += count;
+  }
+  throw std::out_of_range("no velocity " + std::to_string(dof));
+}
+
 void append_body(Model& model, const Body& body, const std::vector<Axis>& axes) {
   const int index = model.body_count();
   if (index == 0 && !axes.empty()) {

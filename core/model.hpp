@@ -59,6 +59,9 @@ struct JointName {
 /// Names of joints 0..N-1 and their velocities, as the log and the MJCF give them.
 std::vector<JointName> joint_names(const Model& model);
 
+/// The name of one velocity. Throws std::out_of_range.
+std::string dof_name(const Model& model, int dof);
+
 /// Appends a body that hangs on hinges about `axes` (limits free, no passive force). The caller
 /// sets the rest in bodies.back() and hinges. Throws std::invalid_argument for hinges at body 0.
 void append_body(Model& model, const Body& body, const std::vector<Axis>& axes);

@@ -37,17 +37,9 @@ std::string row_name(const Model& model, const Row& row) {
   switch (row.kind) {
     case RowKind::head:
       return "head clamp, velocity " + std::to_string(row.dof);
-    case RowKind::limit: {
-      int dof = 0;
-      for (const JointName& joint : joint_names(model)) {
-        for (const std::string& name : joint.dofs) {
-          if (dof++ == row.dof) {
-            return (row.sign > 0 ? "lower" : "upper") + std::string(" limit of ") + name;
-          }
-        }
-      }
-      break;
-    }
+    case RowKind::limit:
+      return (row.sign > 0 ? "lower" : "upper") + std::string(" limit of ") +
+             dof_name(model, row.dof);
     case RowKind::contact:
       return "contact of bodies " + std::to_string(first) + " and " + std::to_string(second);
     case RowKind::wall:
@@ -83,6 +75,23 @@ void add_row(const Row& row, const Kinematics& kin, double lambda, Matrix6Xd& wr
   visit_forces(row, [&](int body, const Eigen::Vector3d& force) {
     wrench.col(body) += wrench_of_force(lambda * force, kin.centre_offset(body));
   });
+}
+
+Row contact_row(const Model& model, const Contact& contact) {
+  Row row;
+  row.kind = RowKind::contact;
+  row.id = row_id(RowKind::contact, contact.segment_a, contact.segment_b);
+  set_points(row, contact, contact.normal, model.body_count());
+  return row;
+}
+
+Row wall_row(int body) {
+  Row row;
+  row.kind = RowKind::wall;
+  row.id = row_id(RowKind::wall, body, 0);
+  row.direction = Eigen::Vector3d::UnitX();
+  row.a = {body, 1, {1}};
+  return row;
 }
 
 void append_head_rows(const State& state, const ConstraintSettings& settings, double h,
@@ -123,12 +132,9 @@ void append_contact_rows(const Model& model, const ContactSet& contacts,
                          const ConstraintSettings& settings, double h, std::vector<Row>& rows) {
   const auto append = [&](const Contact& contact, bool waits) {
     if (const std::optional<double> rhs = unilateral(contact.gap, settings, h)) {
-      Row& row = rows.emplace_back();
-      row.kind = RowKind::contact;
-      row.id = row_id(RowKind::contact, contact.segment_a, contact.segment_b);
+      Row& row = rows.emplace_back(contact_row(model, contact));
       row.waits = waits;
       row.rhs = *rhs;
-      set_points(row, contact, contact.normal, model.body_count());
     }
   };
   for (const Contact& contact : contacts.contacts) {
@@ -143,12 +149,7 @@ void append_wall_rows(const Model& model, const Kinematics& kin, const WallSetti
                       const ConstraintSettings& settings, double h, std::vector<Row>& rows) {
   visit_wall_gaps(model, kin, wall, [&](int body, double gap) {
     if (const std::optional<double> rhs = unilateral(gap, settings, h)) {
-      Row& row = rows.emplace_back();
-      row.kind = RowKind::wall;
-      row.id = row_id(RowKind::wall, body, 0);
-      row.direction = Eigen::Vector3d::UnitX();
-      row.a = {body, 1, {1}};
-      row.rhs = *rhs;
+      rows.emplace_back(wall_row(body)).rhs = *rhs;
     }
   });
 }

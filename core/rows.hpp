@@ -62,6 +62,11 @@ void add_row(const Row& row, const Kinematics& kin, double lambda, Matrix6Xd& wr
 
 // Rows are appended: a step gathers all kinds in one list, whose storage it keeps.
 
+/// A contact's row: the exact rate of its gap, with no right-hand side yet.
+Row contact_row(const Model& model, const Contact& contact);
+/// The row of body `body` against the head plate, with no right-hand side yet.
+Row wall_row(int body);
+
 /// Six bilateral rows that hold the root at the origin and unturned (paper, Eq. 3); a drift is
 /// taken back at the rate push_out / h.
 void append_head_rows(const State& state, const ConstraintSettings& settings, double h,

@@ -48,6 +48,9 @@ void constraint_fields(Io& io, ConstraintSettings& s) {
       "activation", s.activation,
       {{"speculative", Activation::speculative}, {"violated", Activation::violated}});
   io.number("push_out", s.push_out, within(0, 1));
+  io.number("tolerance", s.tolerance, not_negative());
+  io.integer("corrections", s.corrections, within(0, 100));
+  io.number("stride", s.stride, positive());
 }
 
 template <class Io>
@@ -103,9 +106,15 @@ void time_fields(Io& io, TimeSettings& s) {
 
 template <class Io>
 void guard_fields(Io& io, GuardSettings& s) {
+  io.template choice<GuardAction>("action", s.action,
+                                  {{"stop", GuardAction::stop}, {"warn", GuardAction::warn}});
   io.number("penetration", s.penetration, positive());
   io.angle("limit_violation", s.limit_violation, positive());
   io.number("speed", s.speed, positive());
+  io.number("energy_gain", s.energy_gain, not_negative());
+  io.template choice<EnergyAction>(
+      "energy_action", s.energy_action,
+      {{"hold", EnergyAction::hold}, {"warn", EnergyAction::warn}, {"stop", EnergyAction::stop}});
 }
 
 template <class Io>

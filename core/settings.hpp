@@ -39,6 +39,13 @@ struct ConstraintSettings {
   Activation activation = Activation::speculative;
   /// Share of a violation pushed out per step: C v >= -push_out * gap / h for gap < 0.
   double push_out = 0.5;
+  /// Speculative rows only: a step whose path overlaps by this much more than it should is solved
+  /// again with rows that see it, cm.
+  double tolerance = 0.0003;
+  int corrections = 8;  ///< at most this often; 0: never
+  /// A step that moves a body further than this is looked at on its way too, cm: less than the
+  /// radius of the thinnest body, so that no strand passes through another unseen.
+  double stride = 0.25;
 };
 
 /// Self-contact along the spline through the body centres (paper, Eq. 5).
@@ -111,11 +118,24 @@ struct TimeSettings {
   double duration = 30;           ///< the run ends here at the latest, s
 };
 
-/// A run that passes one of these is stopped: something is wrong. Bounds of sanity, not physics.
+enum class GuardAction { stop, warn };
+enum class EnergyAction {
+  hold,  ///< what is too much is taken from the velocity, and told once
+  warn,
+  stop
+};
+
+/// Bounds of sanity, not physics: past one of these something is wrong with a run.
 struct GuardSettings {
+  /// At too much penetration, a limit passed too far or a lost knot. Speed always stops.
+  GuardAction action = GuardAction::stop;
   double penetration = 0.5;      ///< cm
   double limit_violation = 0.2;  ///< rad
   double speed = 1e4;            ///< of any body centre, cm/s
+  /// Energy that the integrator makes, over the largest kinetic and elastic energy so far and what
+  /// drag and damping took.
+  double energy_gain = 0.01;
+  EnergyAction energy_action = EnergyAction::hold;
 };
 
 /// What a run of the scene must show; `hagfish check` holds a log against it.

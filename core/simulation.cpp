@@ -1,38 +1,38 @@
 #include "core/simulation.hpp"
 
-#include <fmt/format.h>
-
-#include <numbers>
+#include <algorithm>
 #include <utility>
+
+#include "core/guard.hpp"
+#include "core/look_ahead.hpp"
 
 namespace hagfish {
 namespace {
 
-/// Stops a run whose state is beyond anything the scene can mean.
-void guard(const Model& model, const Situation& situation, const GuardSettings& limits) {
-  if (!situation.kin.centre.allFinite()) {
-    throw StepError(StopCause::non_finite, "non-finite state");
-  }
-  if (situation.penetration > limits.penetration) {
-    throw StepError(StopCause::penetration,
-                    fmt::format("penetration {:.3g} cm exceeds guard.penetration = {:g} cm",
-                                situation.penetration, limits.penetration));
-  }
-  if (situation.limit_violation > limits.limit_violation) {
-    constexpr double degree = std::numbers::pi / 180;
-    throw StepError(
-        StopCause::limits,
-        fmt::format("a joint is {:.3g} deg past its limit, over guard.limit_violation_deg = {:g}",
-                    situation.limit_violation / degree, limits.limit_violation / degree));
-  }
-  for (int b = 0; b < model.body_count(); ++b) {
-    const double speed = situation.kin.centre_velocity.col(b).norm();
-    if (!(speed <= limits.speed)) {
-      throw StepError(StopCause::speed,
-                      fmt::format("body {} moves at {:.3g} cm/s, over guard.speed = {:g} cm/s", b,
-                                  speed, limits.speed));
+/// Moves by the step's velocity into record.state and record.situation. Where the path overlaps and
+/// `correct` is set, adds the rows that see it and returns true: the step is to be solved again.
+bool meets_overlap(const Model& model, const Scene& scene, bool correct, Simulation& sim,
+                   StepRecord& record) {
+  const double h = scene.time.step;
+  const ConstraintSettings& settings = scene.constraints;
+  correct = correct && settings.activation == Activation::speculative;
+  guard_speed(record.solution.centre_velocity, scene.guard);
+  const int count = looks(record.solution.centre_velocity, h, settings.stride);
+  record.state.qdot = record.solution.qdot;
+  record.crossing = 0;
+  for (int i = 1; i <= count; ++i) {
+    const double t = i < count ? h * i / count : h;
+    advance(sim.state.q, record.solution.qdot, t, record.state.q);
+    observe(model, record.state, scene, sim.search, record.situation);
+    if (i < count) {
+      record.crossing = std::max(record.crossing, record.situation.penetration);
+    }
+    if (correct && add_missed_rows(model, sim.situation, record.situation, t, scene,
+                                   record.solution, record.solution.rows, sim.scratch.waiting)) {
+      return true;
     }
   }
+  return false;
 }
 
 }  // namespace
@@ -65,19 +65,24 @@ void take_step(const Model& model, const Scene& scene, BoxQpSolver& solver, Simu
   const double h = scene.time.step;
   record.step = sim.step;
   record.time = time_of(sim, scene);
+  record.warnings.clear();
   decide(model, scene, sim.situation, record.time, sim.controller, record.control);
-  solve_step(model, sim.state, sim.situation, record.control, scene, solver, sim.warm, sim.scratch,
+  begin_step(model, sim.state, sim.situation, record.control, scene, solver, sim.warm, sim.scratch,
              record.solution);
-
   // The record's old state and situation are storage for the next ones; then they change places.
-  advance(sim.state.q, record.solution.qdot, h, record.state.q);
-  record.state.qdot = record.solution.qdot;
-  observe(model, record.state, scene, sim.search, record.situation);
-  guard(model, record.situation, scene.guard);
+  for (int k = 0; meets_overlap(model, scene, k < scene.constraints.corrections, sim, record);
+       ++k) {
+    resume_step(model, sim.situation, solver, sim.warm, sim.scratch, record.solution);
+  }
+  finish_step(model, sim.situation, record.control, scene, sim.warm, sim.scratch, record.solution);
+  guard_state(model, record.state, record.situation, record.crossing, scene, sim.told,
+              record.warnings);
 
   record.ledger = sim.ledger;
   book_step(model, sim.situation.kin, record.solution, record.state, record.situation.kin, h,
             sim.ledger);
+  guard_energy(model, scene, record.state, record.situation.kin, sim.ledger, sim.told,
+               record.warnings);
   record.head_drift = record.control.clamp_head ? head_drift(model, sim.situation.kin) : 0;
   record.controller = sim.controller;
   std::swap(record.state, sim.state);

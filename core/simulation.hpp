@@ -5,6 +5,7 @@
 
 #include "core/controller.hpp"
 #include "core/energy.hpp"
+#include "core/guard.hpp"
 
 namespace hagfish {
 
@@ -18,6 +19,7 @@ struct Simulation {
   WarmStart warm;
   StepScratch scratch;
   EnergyLedger ledger;
+  Told told;  ///< warnings given
 };
 
 /// At rest, straight, at time 0.
@@ -45,6 +47,9 @@ struct StepRecord {
   StepSolution solution;
   EnergyLedger ledger;    ///< up to `time`
   double head_drift = 0;  ///< cm; 0 while the head is free
+  double crossing = 0;    ///< deepest overlap on the way to the next state, cm; 0 of a short way
+  std::vector<std::string>
+      warnings;  ///< what this step gave rise to for the first time (guard.hpp)
 };
 
 /// Takes one step, writing into the storage of `record`. Throws StepError, naming the cause, where

@@ -55,9 +55,9 @@ inline Eigen::Matrix3d skew(const Eigen::Vector3d& a) {
   return m;
 }
 
-/// Symmetric operator on twists of a symmetric 3 x 3 pair acting at `offset` from O: `angular` on the angular
-/// velocity and `linear` on the velocity of the point there. The inertia of a body at its centre
-/// (angular = I_c, linear = m 1) and linear drag have this form.
+/// Symmetric operator on twists of a symmetric 3 x 3 pair acting at `offset` from O: `angular` on
+/// the angular velocity and `linear` on the velocity of the point there. The inertia of a body at
+/// its centre (angular = I_c, linear = m 1) and linear drag have this form.
 inline Matrix6d point_operator(const Eigen::Matrix3d& angular, const Eigen::Matrix3d& linear,
                                const Eigen::Vector3d& offset) {
   const Eigen::Matrix3d x = skew(offset);

@@ -75,6 +75,35 @@ void set_velocity(const Model& model, const Kinematics& kin, StepScratch& scratc
   centre_velocities(kin, step.twist, step.centre_velocity);
 }
 
+/// Names the rows that contradict each other; the active-set back end finds them where the one in
+/// use does not. Without such rows, names the one furthest from being met.
+[[noreturn]] void fail(const Model& model, const BoxQp& qp, const std::vector<Row>& rows,
+                       const BoxQpSolution& solution) {
+  std::vector<Eigen::Index> contradicting = solution.contradicting;
+  if (contradicting.empty()) {
+    const auto exact = make_box_qp_solver("active-set");
+    contradicting = exact->solve(qp, Eigen::VectorXd::Zero(qp.b.size())).contradicting;
+  }
+  if (!contradicting.empty()) {
+    std::string names;
+    for (const Eigen::Index i : contradicting) {
+      names += (names.empty() ? "" : "; ") + row_name(model, rows[i]);
+    }
+    throw StepError(StopCause::infeasible,
+                    "rows contradict each other: " + names +
+                        "; a start without overlap, a finite controller.cap or a smaller "
+                        "time.step would help");
+  }
+  Eigen::Index worst = 0;
+  (qp.b - qp.A * solution.x).cwiseQuotient(row_scale(qp.A)).maxCoeff(&worst);
+  throw StepError(StopCause::solver_failed,
+                  std::string("solver failed: ") + status_name(solution.status) + " on " +
+                      std::to_string(qp.b.size()) +
+                      " rows, furthest from being met: " + row_name(model, rows[worst]) +
+                      (solution.message.empty() ? "" : " (" + solution.message + ")") +
+                      "; another --qp or a smaller time.step would help");
+}
+
 /// Eq. 3 or Eq. 4 on the rows chosen, as one small problem in the multipliers.
 void solve_multipliers(const Model& model, const BoxQp& qp, BoxQpSolver& solver,
                        const WarmStart& warm, StepScratch& scratch, StepSolution& step) {
@@ -88,8 +117,10 @@ void solve_multipliers(const Model& model, const BoxQp& qp, BoxQpSolver& solver,
   } else {
     step.kind = SolveKind::qp;
     scratch.start.resize(qp.b.size());
+    // Rows of the round before, if there was one, come first and are still in their places.
+    const std::size_t solved = step.rounds > 0 ? static_cast<std::size_t>(step.lambda.size()) : 0;
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      const double* kept = warm.find(rows[i].id);
+      const double* kept = i < solved ? &step.lambda[i] : warm.find(rows[i].id);
       scratch.start[i] = kept == nullptr ? 0 : *kept;
     }
     const auto begin = std::chrono::steady_clock::now();
@@ -98,14 +129,7 @@ void solve_multipliers(const Model& model, const BoxQp& qp, BoxQpSolver& solver,
   }
   step.iterations += solution.iterations;
   if (solution.status != SolveStatus::solved) {
-    Eigen::Index worst = 0;
-    (qp.b - qp.A * solution.x).cwiseQuotient(row_scale(qp.A)).maxCoeff(&worst);
-    throw StepError(solution.status == SolveStatus::infeasible ? StopCause::infeasible
-                                                               : StopCause::solver_failed,
-                    std::string("solver failed: ") + status_name(solution.status) + " on " +
-                        std::to_string(qp.b.size()) +
-                        " rows, furthest from being met: " + row_name(model, rows[worst]) +
-                        (solution.message.empty() ? "" : " (" + solution.message + ")"));
+    fail(model, qp, rows, solution);
   }
   step.lambda = solution.x;
 }
@@ -172,15 +196,13 @@ bool take_in_violated(StepScratch& scratch, StepSolution& step) {
 /// Eq. 3 or 4 on step.rows; waiting rows come in as the answer violates them.
 void constrained_motion(const Model& model, const Kinematics& kin, BoxQpSolver& solver,
                         const WarmStart& warm, StepScratch& scratch, StepSolution& step) {
-  bool changed = !step.rows.empty() || take_in_violated(scratch, step);
-  while (changed) {
+  do {
     assemble_dual(model, kin, scratch.factor, step.rows, step.unconstrained,
                   scratch.unconstrained_centre_velocity, scratch.columns, scratch.qp);
     solve_multipliers(model, scratch.qp, solver, warm, scratch, step);
     ++step.rounds;
     set_velocity(model, kin, scratch, step);
-    changed = take_in_violated(scratch, step);
-  }
+  } while (take_in_violated(scratch, step));
   if (!step.qdot.allFinite()) {
     throw StepError(StopCause::non_finite, "non-finite velocity");
   }
@@ -279,23 +301,39 @@ double head_drift(const Model& model, const Kinematics& kin) {
                    (origin + head.radius * turn.col(1)).norm()});
 }
 
-void solve_step(const Model& model, const State& state, const Situation& situation,
-                const Control& control, const Scene& scene, BoxQpSolver& solver, WarmStart& warm,
-                StepScratch& scratch, StepSolution& step) {
-  const double h = scene.time.step;
-  const Kinematics& kin = situation.kin;
+void begin_step(const Model& model, const State& state, const Situation& situation,
+                const Control& control, const Scene& scene, BoxQpSolver& solver,
+                const WarmStart& warm, StepScratch& scratch, StepSolution& step) {
   step.kind = SolveKind::linear;
   step.iterations = 0;
   step.rounds = 0;
   step.qp_time = 0;
-  unconstrained_motion(model, state, kin, control.tip, h, scratch, step);
+  unconstrained_motion(model, state, situation.kin, control.tip, scene.time.step, scratch, step);
   gather_rows(model, state, situation, control, scene, step.rows);
-  set_waiting_aside(state, kin, warm, scratch, step);
-  constrained_motion(model, kin, solver, warm, scratch, step);
-  measure(model, kin, h, scratch, step);
+  set_waiting_aside(state, situation.kin, warm, scratch, step);
+  if (!step.rows.empty() || take_in_violated(scratch, step)) {
+    constrained_motion(model, situation.kin, solver, warm, scratch, step);
+  }
+}
+
+void resume_step(const Model& model, const Situation& situation, BoxQpSolver& solver,
+                 const WarmStart& warm, StepScratch& scratch, StepSolution& step) {
+  constrained_motion(model, situation.kin, solver, warm, scratch, step);
+}
+
+void finish_step(const Model& model, const Situation& situation, const Control& control,
+                 const Scene& scene, WarmStart& warm, StepScratch& scratch, StepSolution& step) {
+  measure(model, situation.kin, scene.time.step, scratch, step);
   keep_active(scratch, step, warm);
   const int last = model.body_count() - 1;
   step.tip = control.tip.value - control.tip.rate * step.centre_velocity.col(last);
+}
+
+void solve_step(const Model& model, const State& state, const Situation& situation,
+                const Control& control, const Scene& scene, BoxQpSolver& solver, WarmStart& warm,
+                StepScratch& scratch, StepSolution& step) {
+  begin_step(model, state, situation, control, scene, solver, warm, scratch, step);
+  finish_step(model, situation, control, scene, warm, scratch, step);
 }
 
 }  // namespace hagfish

@@ -99,10 +99,23 @@ struct StepScratch {
   Eigen::VectorXd joint, impulse, change;
 };
 
-/// Solves for the new velocity, into `step`. Throws StepError where the solver fails or a result is
-/// not finite.
+/// Solves for the new velocity, into `step`: begin_step and finish_step. Throws StepError where the
+/// solver fails or a result is not finite.
 void solve_step(const Model& model, const State& state, const Situation& situation,
                 const Control& control, const Scene& scene, BoxQpSolver& solver, WarmStart& warm,
                 StepScratch& scratch, StepSolution& step);
+
+/// Eq. 1, the rows, and Eq. 3 or 4: step.qdot is a velocity that meets all rows. Throws as above.
+void begin_step(const Model& model, const State& state, const Situation& situation,
+                const Control& control, const Scene& scene, BoxQpSolver& solver,
+                const WarmStart& warm, StepScratch& scratch, StepSolution& step);
+
+/// Eq. 4 anew, after rows have come to step.rows. Throws as above.
+void resume_step(const Model& model, const Situation& situation, BoxQpSolver& solver,
+                 const WarmStart& warm, StepScratch& scratch, StepSolution& step);
+
+/// Forces and residuals of the step as solved; keeps its multipliers in `warm`.
+void finish_step(const Model& model, const Situation& situation, const Control& control,
+                 const Scene& scene, WarmStart& warm, StepScratch& scratch, StepSolution& step);
 
 }  // namespace hagfish

@@ -81,6 +81,14 @@ void Progress::show(const StepRecord& record) {
   drawn_ = true;
 }
 
+void Progress::warn(const StepRecord& record) {
+  for (const std::string& warning : record.warnings) {
+    end();
+    fmt::print(stderr, "hagfish: warning at step {} (t = {:.4f} s): {}\n", record.step, record.time,
+               warning);
+  }
+}
+
 void Progress::end() {
   if (terminal_ && drawn_ && !quiet_) {
     fmt::print(stderr, "\n");

@@ -15,6 +15,8 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
   void show(const StepRecord& record);
+  /// Tells what the step warns of, also where quiet.
+  void warn(const StepRecord& record);
   /// Ends the line that is being redrawn.
   void end();
   /// Wall time since construction, s.

@@ -36,6 +36,7 @@ std::string take_steps(const Model& model, const Scene& scene, BoxQpSolver& solv
     try {
       take_step(model, scene, solver, sim, record);
       log.write(record, progress.elapsed());
+      progress.warn(record);
       progress.show(record);
     } catch (const FileError&) {
       throw;  // the log itself cannot be written

@@ -44,12 +44,14 @@ void ActiveSetBoxQp::solve(const BoxQp& qp, const Eigen::VectorXd& start, BoxQpS
     ending = pivoting_.change_singly();
   }
   solution.message.clear();
+  solution.contradicting.clear();
   solution.x = pivoting_.x();
   solution.iterations = pivoting_.changes();
   const double residual = kkt_residuals(qp, solution.x).worst();
   if (ending == ActiveSetPivoting::Ending::contradiction) {
     solution.status = SolveStatus::infeasible;
-    solution.message = names(pivoting_.contradicting());
+    solution.contradicting = pivoting_.contradicting();
+    solution.message = names(solution.contradicting);
   } else if (residual <= accepted) {
     solution.status = SolveStatus::solved;
   } else {

@@ -44,6 +44,9 @@ struct BoxQpSolution {
   SolveStatus status = SolveStatus::failed;
   int iterations = 0;
   std::string message;  ///< the back end's own word where it failed
+  /// Where infeasible: rows that cannot be met together, rising. Empty where the back end does not
+  /// know them.
+  std::vector<Eigen::Index> contradicting;
 };
 
 /// Scaled infinity norms; 0 at an exact solution. Rows are brought to unit diagonal first:

@@ -102,6 +102,9 @@ std::vector<std::uint64_t> bits(const Scene& s, const Specimen& animal) {
                            s.drag.tangential,
                            double(s.constraints.activation),
                            s.constraints.push_out,
+                           s.constraints.tolerance,
+                           double(s.constraints.corrections),
+                           s.constraints.stride,
                            s.contact.margin,
                            s.contact.least_arc,
                            double(s.wall.present),
@@ -132,6 +135,9 @@ std::vector<std::uint64_t> bits(const Scene& s, const Specimen& animal) {
                            s.time.step,
                            s.time.frame_interval,
                            s.time.duration,
+                           double(s.guard.action),
+                           s.guard.energy_gain,
+                           double(s.guard.energy_action),
                            s.guard.penetration,
                            s.guard.limit_violation,
                            s.guard.speed,
@@ -184,7 +190,10 @@ ResolvedScene odd_scene() {
   s.time.step = odd();
   s.time.frame_interval = 3 * s.time.step;
   s.time.duration = 7 * s.time.step;
-  s.guard = {odd(), odd(), odd()};
+  s.constraints.tolerance = odd();
+  s.constraints.corrections = 5;
+  s.constraints.stride = odd();
+  s.guard = {GuardAction::warn, odd(), odd(), odd(), odd(), EnergyAction::stop};
   s.expect = {"4_1", odd(), odd(), odd(), odd(), odd(), odd(), odd(), odd()};
   result.specimen = {
       "odd", 50 + odd(), odd(), {odd(), odd(), odd()}, {odd(), odd(), odd()}, {odd(), odd(), odd()},

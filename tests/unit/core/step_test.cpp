@@ -378,6 +378,29 @@ TEST(Step, CapsThigmotaxisForces) {
   EXPECT_GT(largest, 4999);
 }
 
+TEST(Step, NamesRowsThatContradictEachOther) {
+  // The clamp holds a head that the plate, without a neck to let it through, wants to push out.
+  for (const std::string& name : box_qp_solver_names()) {
+    Stage s;
+    s.scene.wall.neck = 0;
+    const Situation now = observe(s.model, s.state, s.scene);
+    StepScratch scratch;
+    StepSolution step;
+    try {
+      solve_step(s.model, s.state, now, s.control, s.scene, *make_box_qp_solver(name), s.warm,
+                 scratch, step);
+      ADD_FAILURE() << name;
+    } catch (const StepError& error) {
+      const std::string message = error.what();
+      EXPECT_EQ(error.cause(), StopCause::infeasible) << message;
+      EXPECT_EQ(message.find("rows contradict each other: head clamp, velocity 0; head plate at "
+                             "body 0; "),
+                0u)
+          << message;
+    }
+  }
+}
+
 TEST(Step, ThrowsOnAVelocityThatIsNotFinite) {
   for (const bool clamp : {true, false}) {
     SCOPED_TRACE(clamp ? "clamped" : "free");

@@ -1,0 +1,38 @@
+// What every run is watched for: signs that its figures are no longer to be believed.
+#pragma once
+
+#include <bitset>
+#include <string>
+#include <vector>
+
+#include "core/energy.hpp"
+#include "core/step.hpp"
+#include "core/step_error.hpp"
+
+namespace hagfish {
+
+/// What has been told so far: each cause once a run.
+using Told = std::bitset<stop_cause_count>;
+
+/// Throws StepError(cause, message) where the scene stops at it; else adds the message to
+/// `warnings` the first time.
+void report(StopCause cause, const std::string& message, GuardAction action, Told& told,
+            std::vector<std::string>& warnings);
+
+/// Body speeds a step has come to, before it moves anything. Throws StepError.
+void guard_speed(const Eigen::Matrix3Xd& centre_velocity, const GuardSettings& guard);
+
+/// The state that a step led to, and the deepest overlap on the way there (`crossing`, cm).
+/// Messages name the bodies or joint furthest out and the setting that would help.
+void guard_state(const Model& model, const State& state, const Situation& situation,
+                 double crossing, const Scene& scene, Told& told,
+                 std::vector<std::string>& warnings);
+
+/// Energy that the integrator has made since the sum of its own terms was lowest (impacts lower
+/// it), against what passed before this step: the largest kinetic and elastic energy, and what drag
+/// and damping took. Where the scene says hold,
+/// what is too much is taken back: `state` and `kin` slow down by one factor, the ledger books it.
+void guard_energy(const Model& model, const Scene& scene, State& state, Kinematics& kin,
+                  EnergyLedger& ledger, Told& told, std::vector<std::string>& warnings);
+
+}  // namespace hagfish

@@ -1,0 +1,73 @@
+#include "core/look_ahead.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+namespace hagfish {
+namespace {
+
+/// Overlap that is let pass on the way of a step, as a share of `stride`.
+constexpr double way_tolerance = 0.25;
+
+Row* find(std::vector<Row>& rows, std::int64_t id) {
+  const auto it =
+      std::find_if(rows.begin(), rows.end(), [&](const Row& row) { return row.id == id; });
+  return it == rows.end() ? nullptr : &*it;
+}
+
+/// A row's place is kept where it has one: what is known of its multiplier stays by it.
+void put(Row row, std::vector<Row>& rows, std::vector<Row>& waiting) {
+  if (Row* known = find(rows, row.id)) {
+    *known = row;
+    return;
+  }
+  std::erase_if(waiting, [&](const Row& other) { return other.id == row.id; });
+  rows.push_back(row);
+}
+
+}  // namespace
+
+int looks(const Eigen::Matrix3Xd& centre_velocity, double h, double stride) {
+  const double longest = h * std::sqrt(centre_velocity.colwise().squaredNorm().maxCoeff());
+  return std::max(1, static_cast<int>(std::ceil(longest / stride)));
+}
+
+bool add_missed_rows(const Model& model, const Situation& now, const Situation& there, double t,
+                     const Scene& scene, const StepSolution& step, std::vector<Row>& rows,
+                     std::vector<Row>& waiting) {
+  const ConstraintSettings& settings = scene.constraints;
+  const double h = scene.time.step;
+  // On the way strands must not pass through each other; its end is the next step's start.
+  const double tolerance = t < h ? way_tolerance * settings.stride : settings.tolerance;
+  bool any = false;
+  const auto look = [&](double gap_now, double gap_there, const auto& make_row) {
+    const double goal = (1 - settings.push_out) * std::min(0.0, gap_now);
+    if (gap_there < goal - tolerance) {
+      Row row = make_row();
+      const double missed =
+          gap_there - gap_now - t * row_velocity(row, step.centre_velocity, step.qdot);
+      // At great speeds what the line misses grows beyond all sense; rows that ask strands to part
+      // by more than they may move unseen only contradict each other.
+      row.rhs = std::min(goal - gap_now - missed * (h / t) * (h / t), settings.stride) / h;
+      put(std::move(row), rows, waiting);
+      any = true;
+    }
+  };
+  for (const auto* contacts : {&there.contact.contacts, &there.contact.others}) {
+    for (const Contact& contact : *contacts) {
+      if (contact.gap < -tolerance) {
+        const Contact before = contact_at(now.segments, contact.segment_a, contact.t_a,
+                                          contact.segment_b, contact.t_b);
+        look(before.gap, contact.gap, [&] { return contact_row(model, before); });
+      }
+    }
+  }
+  visit_wall_gaps(model, there.kin, scene.wall, [&](int body, double gap) {
+    look(now.kin.centre(0, body) - model.bodies[body].radius, gap, [&] { return wall_row(body); });
+  });
+  return any;
+}
+
+}  // namespace hagfish

@@ -1,0 +1,27 @@
+// Rows for what a step's own path shows. Contact rows are linear in q̇, the path is not: at a long
+// step strands overlap at its end that the rows kept apart, or pass each other on the way. Such
+// pairs get a row whose right-hand side holds what the line misses, and the step is solved again.
+#pragma once
+
+#include <vector>
+
+#include "core/step.hpp"
+
+namespace hagfish {
+
+/// How many looks a step of h (s) needs so that no body moves further than `stride` (cm) between
+/// two: 1 is the end alone.
+int looks(const Eigen::Matrix3Xd& centre_velocity, double h, double stride);
+
+/// Goes through the contacts and wall gaps of `there`, where velocities `step.centre_velocity` lead
+/// from `now` within time `t` (s). Each overlap that is deeper than `settings.tolerance` allows
+/// gets a row between the same material points, with C taken at `now`:
+///     φ_now + h C q̇ + (φ_there - φ_now - t C q̇_step) (h/t)² >= goal,
+/// where the bracket is what the line misses at t, of second order, and the goal is 0, or what
+/// push_out leaves of an overlap that was there before; h C q̇ is asked to be `stride` at most. A row
+/// of the same id in `rows` or `waiting` gives way to it. Whether there was any.
+bool add_missed_rows(const Model& model, const Situation& now, const Situation& there, double t,
+                     const Scene& scene, const StepSolution& step, std::vector<Row>& rows,
+                     std::vector<Row>& waiting);
+
+}  // namespace hagfish
