@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace hagfish {
 namespace {
@@ -47,15 +48,32 @@ std::string furthest_limit(const Model& model, const State& state) {
   return dof_name(model, static_cast<int>(worst));
 }
 
+/// The rows whose forces work hardest against row i, at most three.
+std::string opponents(const Model& model, const StepSolution& step, const Eigen::MatrixXd& A,
+                      Eigen::Index i) {
+  std::vector<std::pair<double, Eigen::Index>> effect;  // on the row's velocity
+  for (Eigen::Index j = 0; j < A.rows(); ++j) {
+    if (j != i && A(i, j) * step.lambda[j] < 0) {
+      effect.emplace_back(A(i, j) * step.lambda[j], j);
+    }
+  }
+  std::sort(effect.begin(), effect.end());
+  std::string names;
+  for (std::size_t k = 0; k < std::min<std::size_t>(3, effect.size()); ++k) {
+    names += (k == 0 ? "" : "; ") + row_name(model, step.rows[effect[k].second]);
+  }
+  return names.empty() ? "no row" : names;
+}
+
 }  // namespace
 
-void report(StopCause cause, const std::string& message, GuardAction action, Told& told,
+void report(StopCause cause, const std::string& message, GuardAction action, Watch& watch,
             std::vector<std::string>& warnings) {
   if (action == GuardAction::stop) {
     throw StepError(cause, message);
   }
-  if (!told.test(static_cast<std::size_t>(cause))) {
-    told.set(static_cast<std::size_t>(cause));
+  if (!watch.told.test(static_cast<std::size_t>(cause))) {
+    watch.told.set(static_cast<std::size_t>(cause));
     warnings.push_back(message);
   }
 }
@@ -73,7 +91,7 @@ void guard_speed(const Eigen::Matrix3Xd& centre_velocity, const GuardSettings& g
 }
 
 void guard_state(const Model& model, const State& state, const Situation& situation,
-                 double crossing, const Scene& scene, Told& told,
+                 double crossing, const Scene& scene, Watch& watch,
                  std::vector<std::string>& warnings) {
   const GuardSettings& guard = scene.guard;
   if (!situation.kin.centre.allFinite()) {
@@ -85,14 +103,14 @@ void guard_state(const Model& model, const State& state, const Situation& situat
                        "time.step or more constraints.corrections would help",
                        situation.penetration, deepest_overlap(model, situation, scene),
                        guard.penetration),
-           guard.action, told, warnings);
+           guard.action, watch, warnings);
   } else if (crossing > guard.penetration) {
     report(StopCause::penetration,
            fmt::format("strands {:.3g} cm into each other on the way of a step, over "
                        "guard.penetration = {:g} cm; a smaller time.step or more "
                        "constraints.corrections would help",
                        crossing, guard.penetration),
-           guard.action, told, warnings);
+           guard.action, watch, warnings);
   }
   if (situation.limit_violation > guard.limit_violation) {
     report(StopCause::limits,
@@ -100,12 +118,12 @@ void guard_state(const Model& model, const State& state, const Situation& situat
                        "constraints.activation = \"speculative\" or a smaller time.step would help",
                        furthest_limit(model, state), situation.limit_violation / degree,
                        guard.limit_violation / degree),
-           guard.action, told, warnings);
+           guard.action, watch, warnings);
   }
 }
 
 void guard_energy(const Model& model, const Scene& scene, State& state, Kinematics& kin,
-                  EnergyLedger& ledger, Told& told, std::vector<std::string>& warnings) {
+                  EnergyLedger& ledger, Watch& watch, std::vector<std::string>& warnings) {
   const GuardSettings& guard = scene.guard;
   const double passed = ledger.largest + ledger.dissipated;
   const double allowed = guard.energy_gain * passed;
@@ -127,12 +145,37 @@ void guard_energy(const Model& model, const Scene& scene, State& state, Kinemati
       ledger.kinetic -= taken;
       ledger.integrator_held -= taken;
       report(StopCause::energy_gain, message + "; what is more is taken from the velocity",
-             GuardAction::warn, told, warnings);
+             GuardAction::warn, watch, warnings);
     } else {
-      report(StopCause::energy_gain, message, GuardAction::warn, told, warnings);
+      report(StopCause::energy_gain, message, GuardAction::warn, watch, warnings);
     }
   }
   ledger.largest = std::max(ledger.largest, ledger.kinetic + ledger.elastic);
+}
+
+void guard_cap(const Model& model, const Scene& scene, const StepSolution& step,
+               const Eigen::MatrixXd& A, double time, Watch& watch,
+               std::vector<std::string>& warnings) {
+  std::array<double, 4> below;
+  below.fill(time);
+  for (std::size_t i = 0; i < step.rows.size(); ++i) {
+    const Row& row = step.rows[i];
+    if (row.kind != RowKind::thigmotaxis || step.lambda[i] < row.upper) {
+      continue;
+    }
+    const auto place = static_cast<std::size_t>(thigmotaxis_place(row));
+    below[place] = watch.below_cap[place];
+    if (time - below[place] > scene.guard.capped_time) {
+      report(
+          StopCause::capped,
+          fmt::format("{} has been at controller.cap = {:g} dyn for {:g} s and falls {:.3g} cm/s "
+                      "short; held back most by {}; a lower speed or a higher cap would help",
+                      row_name(model, row), scene.controller.cap, scene.guard.capped_time,
+                      -step.excess[i], opponents(model, step, A, i)),
+          GuardAction::warn, watch, warnings);
+    }
+  }
+  watch.below_cap = below;
 }
 
 }  // namespace hagfish

@@ -1,6 +1,7 @@
 // What every run is watched for: signs that its figures are no longer to be believed.
 #pragma once
 
+#include <array>
 #include <bitset>
 #include <string>
 #include <vector>
@@ -11,12 +12,16 @@
 
 namespace hagfish {
 
-/// What has been told so far: each cause once a run.
-using Told = std::bitset<stop_cause_count>;
+/// What a run remembers of its watches.
+struct Watch {
+  std::bitset<stop_cause_count> told;  ///< warnings given: each cause once a run
+  /// When each thigmotaxis row (first t_a, t_b, last t_a, t_b) was last below its cap, s.
+  std::array<double, 4> below_cap{};
+};
 
 /// Throws StepError(cause, message) where the scene stops at it; else adds the message to
 /// `warnings` the first time.
-void report(StopCause cause, const std::string& message, GuardAction action, Told& told,
+void report(StopCause cause, const std::string& message, GuardAction action, Watch& watch,
             std::vector<std::string>& warnings);
 
 /// Body speeds a step has come to, before it moves anything. Throws StepError.
@@ -25,7 +30,7 @@ void guard_speed(const Eigen::Matrix3Xd& centre_velocity, const GuardSettings& g
 /// The state that a step led to, and the deepest overlap on the way there (`crossing`, cm).
 /// Messages name the bodies or joint furthest out and the setting that would help.
 void guard_state(const Model& model, const State& state, const Situation& situation,
-                 double crossing, const Scene& scene, Told& told,
+                 double crossing, const Scene& scene, Watch& watch,
                  std::vector<std::string>& warnings);
 
 /// Energy that the integrator has made since the sum of its own terms was lowest (impacts lower
@@ -33,6 +38,12 @@ void guard_state(const Model& model, const State& state, const Situation& situat
 /// and damping took. Where the scene says hold,
 /// what is too much is taken back: `state` and `kin` slow down by one factor, the ledger books it.
 void guard_energy(const Model& model, const Scene& scene, State& state, Kinematics& kin,
-                  EnergyLedger& ledger, Told& told, std::vector<std::string>& warnings);
+                  EnergyLedger& ledger, Watch& watch, std::vector<std::string>& warnings);
+
+/// A thigmotaxis row whose force has been at its cap for longer than the scene lets pass: warns and
+/// names the rows that hold back hardest. `A` is the matrix of the step's QP.
+void guard_cap(const Model& model, const Scene& scene, const StepSolution& step,
+               const Eigen::MatrixXd& A, double time, Watch& watch,
+               std::vector<std::string>& warnings);
 
 }  // namespace hagfish

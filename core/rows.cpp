@@ -51,6 +51,10 @@ std::string row_name(const Model& model, const Row& row) {
   return "row";
 }
 
+int thigmotaxis_place(const Row& row) {
+  return static_cast<int>(2 * ((row.id >> 20) & 0xfffff) + (row.id & 0xfffff));
+}
+
 double row_velocity(const Row& row, const Eigen::Matrix3Xd& centre_velocity,
                     const Eigen::VectorXd& v) {
   if (row.dof >= 0) {

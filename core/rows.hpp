@@ -51,6 +51,9 @@ void visit_forces(const Row& row, Visit visit) {
 /// "limit of j05_bend_y (upper)", "contact of bodies 31 and 74", ...
 std::string row_name(const Model& model, const Row& row);
 
+/// 0 to 3 for a thigmotaxis row: first contact t_a, t_b, last contact t_a, t_b.
+int thigmotaxis_place(const Row& row);
+
 /// C v of one row at velocities `v` (nv), which move the bodies' centres by `centre_velocity`
 /// (3 x N).
 double row_velocity(const Row& row, const Eigen::Matrix3Xd& centre_velocity,

@@ -115,6 +115,7 @@ void guard_fields(Io& io, GuardSettings& s) {
   io.template choice<EnergyAction>(
       "energy_action", s.energy_action,
       {{"hold", EnergyAction::hold}, {"warn", EnergyAction::warn}, {"stop", EnergyAction::stop}});
+  io.number("capped_time", s.capped_time, not_negative());
 }
 
 template <class Io>

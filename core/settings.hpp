@@ -136,6 +136,7 @@ struct GuardSettings {
   /// drag and damping took.
   double energy_gain = 0.01;
   EnergyAction energy_action = EnergyAction::hold;
+  double capped_time = 0.25;  ///< a thigmotaxis row at its cap for this long is told, s
 };
 
 /// What a run of the scene must show; `hagfish check` holds a log against it.

@@ -75,13 +75,15 @@ void take_step(const Model& model, const Scene& scene, BoxQpSolver& solver, Simu
     resume_step(model, sim.situation, solver, sim.warm, sim.scratch, record.solution);
   }
   finish_step(model, sim.situation, record.control, scene, sim.warm, sim.scratch, record.solution);
-  guard_state(model, record.state, record.situation, record.crossing, scene, sim.told,
+  guard_cap(model, scene, record.solution, sim.scratch.qp.A, record.time, sim.watch,
+            record.warnings);
+  guard_state(model, record.state, record.situation, record.crossing, scene, sim.watch,
               record.warnings);
 
   record.ledger = sim.ledger;
   book_step(model, sim.situation.kin, record.solution, record.state, record.situation.kin, h,
             sim.ledger);
-  guard_energy(model, scene, record.state, record.situation.kin, sim.ledger, sim.told,
+  guard_energy(model, scene, record.state, record.situation.kin, sim.ledger, sim.watch,
                record.warnings);
   record.head_drift = record.control.clamp_head ? head_drift(model, sim.situation.kin) : 0;
   record.controller = sim.controller;

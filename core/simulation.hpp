@@ -19,7 +19,7 @@ struct Simulation {
   WarmStart warm;
   StepScratch scratch;
   EnergyLedger ledger;
-  Told told;  ///< warnings given
+  Watch watch;
 };
 
 /// At rest, straight, at time 0.

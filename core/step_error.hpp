@@ -17,9 +17,10 @@ enum class StopCause : std::uint8_t {
   infeasible,     ///< rows contradict each other
   solver_failed,  ///< the back end gave up
   never_tied,     ///< the script ended without the knot
-  knot_lost       ///< the knot changed its type while it should have held
+  knot_lost,      ///< the knot changed its type while it should have held
+  capped          ///< a thigmotaxis row stays at its cap; warns only
 };
-inline constexpr int stop_cause_count = 9;
+inline constexpr int stop_cause_count = 10;
 /// "non-finite", "energy gain", ...
 const char* stop_cause_name(StopCause cause);
 

@@ -29,13 +29,13 @@ struct DeepKnot {
     state = knotted_state(random, model);
     situation = observe(model, state, scene);
   }
-  void look() { guard_state(model, state, situation, crossing, scene, told, warnings); }
+  void look() { guard_state(model, state, situation, crossing, scene, watch, warnings); }
   Scene scene = table1_scene();
   Model model;
   State state;
   Situation situation;
   double crossing = 0;
-  Told told;
+  Watch watch;
   std::vector<std::string> warnings;
 };
 
@@ -88,6 +88,54 @@ TEST(Guard, StopsAtSpeed) {
             0u);
   velocity(0, 3) = std::numeric_limits<double>::quiet_NaN();
   message_of(StopCause::speed, [&] { guard_speed(velocity, guard); });
+}
+
+TEST(Guard, TellsOfARowThatStaysAtItsCapAndWhatHoldsItBack) {
+  const Model model = table1_hagfish();
+  Scene scene = table1_scene();
+  scene.guard.capped_time = 0.1;
+  StepSolution step;
+  append_thigmotaxis_rows(model, {{Contact{}, {1, 1}}, {Contact{}, {1, 1}}}, 10, 1, step.rows);
+  append_limit_rows(model, rest_state(model), scene.constraints, 1, step.rows);
+  step.rows.resize(7);  // four of thigmotaxis, three limits
+  step.lambda.resize(7);
+  step.lambda << 3, 10, 0, 9, 5, 0, 1;  // the second one is at the cap
+  step.excess = Eigen::VectorXd::Constant(7, -0.5);
+  Eigen::MatrixXd A = Eigen::MatrixXd::Identity(7, 7);
+  A.row(1) << 0.1, 1, -5, 0, -1, -9, -7;  // rows 6 and 4 work against it; 2 and 5 have no force
+  Watch watch;
+  std::vector<std::string> warnings;
+  for (const double time : {0.0, 0.05, 0.1}) {
+    guard_cap(model, scene, step, A, time, watch, warnings);
+  }
+  EXPECT_TRUE(warnings.empty());
+  guard_cap(model, scene, step, A, 0.11, watch, warnings);
+  guard_cap(model, scene, step, A, 0.12, watch, warnings);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0].find("first thigmotaxis contact, along t_b has been at controller.cap"), 0u)
+      << warnings[0];
+  EXPECT_NE(warnings[0].find("held back most by " + row_name(model, step.rows[6]) + "; " +
+                             row_name(model, step.rows[4]) + "; a lower"),
+            std::string::npos)
+      << warnings[0];
+}
+
+TEST(Guard, ARowBelowItsCapForAStepStartsAnew) {
+  const Model model = table1_hagfish();
+  Scene scene = table1_scene();
+  scene.guard.capped_time = 0.1;
+  StepSolution step;
+  append_thigmotaxis_rows(model, {{Contact{}, {1, 1}}}, 10, 1, step.rows);
+  step.excess = Eigen::VectorXd::Zero(2);
+  const Eigen::MatrixXd A = Eigen::MatrixXd::Identity(2, 2);
+  Watch watch;
+  std::vector<std::string> warnings;
+  for (int k = 0; k < 10; ++k) {
+    step.lambda.setZero(2);
+    step.lambda[0] = k == 5 ? 9 : 10;
+    guard_cap(model, scene, step, A, 0.02 * k, watch, warnings);
+  }
+  EXPECT_TRUE(warnings.empty());
 }
 
 /// A body bent evenly that turns about its root without damping: explicit Coriolis forces feed it.

@@ -138,6 +138,7 @@ std::vector<std::uint64_t> bits(const Scene& s, const Specimen& animal) {
                            double(s.guard.action),
                            s.guard.energy_gain,
                            double(s.guard.energy_action),
+                           s.guard.capped_time,
                            s.guard.penetration,
                            s.guard.limit_violation,
                            s.guard.speed,
@@ -193,7 +194,7 @@ ResolvedScene odd_scene() {
   s.constraints.tolerance = odd();
   s.constraints.corrections = 5;
   s.constraints.stride = odd();
-  s.guard = {GuardAction::warn, odd(), odd(), odd(), odd(), EnergyAction::stop};
+  s.guard = {GuardAction::warn, odd(), odd(), odd(), odd(), EnergyAction::stop, odd()};
   s.expect = {"4_1", odd(), odd(), odd(), odd(), odd(), odd(), odd(), odd()};
   result.specimen = {
       "odd", 50 + odd(), odd(), {odd(), odd(), odd()}, {odd(), odd(), odd()}, {odd(), odd(), odd()},
