@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "core/phase.hpp"
+
 namespace hagfish {
 
 /// How the specimen becomes a chain. The passive terms are additions to the paper: it states none.
@@ -59,6 +61,7 @@ struct WallSettings {
 struct ScriptKnot {
   double time = 0;  ///< s
   Eigen::Vector3d value = Eigen::Vector3d::Zero();
+  Eigen::Vector3d noise = Eigen::Vector3d::Zero();  ///< drawn on top of it, same unit
 };
 
 /// Scripted forward dynamics of knot forming (paper, 3.2), acting on the last body's centre.
@@ -73,6 +76,10 @@ struct ScriptSettings {
   double spring = 0;              ///< position script: dyn / cm, taken implicitly
   double damper = 0;              ///< position script: dyn s / cm, taken implicitly
   double largest_force = 0;       ///< position script: the spring-damper saturates here, dyn
+  /// Standard deviation of the normal noise on each coordinate of each knot, cm or dyn: no animal
+  /// does the same thing twice.
+  double noise = 0;
+  unsigned noise_seed = 1;  ///< which draw
 };
 
 /// Commanded speeds of Eq. 6 at one contact, cm/s.
@@ -81,10 +88,18 @@ struct ThigmotaxisSpeeds {
   double b = 0;  ///< row along t_b, the tangent of the strand nearer the tail
 };
 
+/// The end of the animal by which the knot leaves it.
+enum class BodyEnd { head, tail };
+
 /// The thigmotaxis controller (paper, 3.2, Eq. 6) and its switches between phases.
 struct ControllerSettings {
   ThigmotaxisSpeeds tighten_head, tighten_tail;  ///< first and last contact while tightening
   ThigmotaxisSpeeds slide_head, slide_tail;      ///< first and last contact while sliding
+  /// The same on the way back to the tail. Eq. 6 bounds speeds from below, so that v < 0 asks for
+  /// nothing: here both tangents point to the head.
+  ThigmotaxisSpeeds reverse_head, reverse_tail;
+  BodyEnd leave_by = BodyEnd::head;  ///< tail: at the head the knot turns back
+  Phase free_from = Phase::release;  ///< a clamped head is free from this phase on
   double cap = 5000;          ///< largest lambda / h of a thigmotaxis row, dyn: the rows are soft
   double contact_gap = 0.05;  ///< a contact this close counts as touching, cm
   /// The contact used as first or last is kept this long after it last was the outermost, s:
@@ -94,7 +109,9 @@ struct ControllerSettings {
   double tight_span = 20.352;  ///< slide once the knot spans no more body than this, cm of arc
   double tight_hold = 0.25;    ///< for this long: a loose loop touches itself here and there, s
   double tighten_time = 2.0;   ///< or after this long in any case, s
-  double release_at = 1.6;     ///< free the head when the first contact is this near it, cm of arc
+  /// The slide ends when the first contact is this near the head, and a way back when the last one
+  /// is this near the tail: then the knot may go, cm of arc.
+  double release_at = 1.6;
   double free_time = 1.0;      ///< run on this long after the knot is gone, s
 };
 
@@ -109,6 +126,7 @@ struct TimeSettings {
   double step = 0.002;            ///< h, s
   double frame_interval = 0.020;  ///< time between logged frames, s; a whole number of steps
   double duration = 30;           ///< the run ends here at the latest, s
+  Phase until = Phase::free;      ///< the run ends with this phase
 };
 
 /// A run that passes one of these is stopped: something is wrong. Bounds of sanity, not physics.
@@ -118,9 +136,23 @@ struct GuardSettings {
   double speed = 1e4;            ///< of any body centre, cm/s
 };
 
+/// The sign of the body's writhe: which of its two mirror images a knot is.
+enum class Hand { any, right, left };
+
+/// A stretch of the run in which the knot has one type.
+struct KnotStretch {
+  std::string type;         ///< as knot_name() gives it
+  double from = 0, to = 0;  ///< s
+};
+
 /// What a run of the scene must show; `hagfish check` holds a log against it.
 struct ExpectSettings {
-  std::string knot;                   ///< held from tightening to release, "3_1"; "" for no knot
+  /// Knot that the controller waits for before it tightens, held until release: "3_1", or
+  /// "det=9,v2=-2" for one without a name; "" for none, which is never tightened.
+  std::string knot;
+  /// Knot type through time. Between the stretches, while it changes, anything goes.
+  std::vector<KnotStretch> types;
+  Hand hand = Hand::any;              ///< of the knot while it is held
   double slide_distance = 0;          ///< headward travel of the knot's head end while sliding, cm
   double speed_share = 0.95;          ///< of sliding steps that meet Eq. 6 without slack
   double penetration = 0.0015;        ///< deepest at any step, cm
@@ -135,6 +167,9 @@ struct ExpectSettings {
 struct Scene {
   std::string title;
   std::string specimen;  ///< specimen file as the scene names it
+  /// The scene is the mirror image, y to -y, of what its file says: all of this is reflected
+  /// already, and written back as the file had it.
+  bool mirror = false;
   bool clamp_head = true;
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< cm/s^2
   ModelSettings model;

@@ -53,6 +53,7 @@ bool finished(const Simulation& sim, const Scene& scene) {
   // Half a step of slack: the time of a step is a product and may fall short by rounding.
   const double time = time_of(sim, scene) + 0.5 * scene.time.step;
   return time >= scene.time.duration ||
+         phase_order(sim.controller.phase) > phase_order(scene.time.until) ||
          (sim.controller.phase == Phase::free &&
           time >= sim.controller.phase_start + scene.controller.free_time);
 }

@@ -38,9 +38,7 @@ Finding bounded(const std::string& name, double value, double bound, const std::
   return {name, value <= bound, fmt::format("{:.3g} {} (at most {:g})", value, unit, bound)};
 }
 
-bool in_knot(std::int64_t phase) {
-  return phase >= static_cast<int>(Phase::tighten) && phase < static_cast<int>(Phase::release);
-}
+bool in_knot(std::int64_t phase) { return holds_knot(static_cast<Phase>(phase)); }
 
 Finding status(const LogContents& log) {
   const std::string text = log.h5.root_text("status");

@@ -15,6 +15,7 @@ struct RunOptions {
   std::string preset;                 ///< settings by name (presets.hpp); none where empty
   std::string qp;                     ///< QP back end; the preset's, or Ipopt, where empty
   std::vector<std::string> set;       ///< KEY=VALUE overrides, after the preset's
+  std::string until;                  ///< ends with this phase: time.until; the scene's where empty
   bool force = false;                 ///< replace an existing log
   bool quiet = false;
   std::string command;  ///< as typed, for the log

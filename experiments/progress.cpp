@@ -35,9 +35,13 @@ double Progress::elapsed() const {
 double Progress::estimated_end(const StepRecord& record) const {
   const ControllerSettings& c = scene_.controller;
   const double after = release_estimate + c.free_time;
-  const double speed = std::max(c.slide_head.a, least_speed);
+  const auto way = [&](double distance, double speed) {
+    return std::max(0.0, distance - c.release_at) / std::max(speed, least_speed);
+  };
   const auto slide = [&](double head_end) {
-    return std::max(0.0, head_end - c.release_at) / speed + after;
+    const bool back = c.leave_by == BodyEnd::tail;
+    return way(head_end, c.slide_head.a) +
+           (back ? way(model_.length() - c.tight_span, c.reverse_head.a) : 0) + after;
   };
   const double start = record.controller.phase_start;
   const auto span = knot_span(record.controller);
@@ -52,6 +56,10 @@ double Progress::estimated_end(const StepRecord& record) const {
     case Phase::tighten:
     case Phase::slide:
       end = record.time + slide(span ? span->head_end : 0);
+      break;
+    case Phase::reverse:
+      end = record.time +
+            way(model_.length() - (span ? span->tail_end : 0), c.reverse_head.a) + after;
       break;
     case Phase::release:
       end = std::max(record.time, start + release_estimate) + c.free_time;
