@@ -81,19 +81,18 @@ void look_at_knot(const Scene& scene, const Situation& situation, double time,
   }
 }
 
-/// "a 3_1, there from 8.64 s on", or "no knot", with the last one that there was.
+/// "a 3_1, tied since 8.64 s", or "no knot", with the last one that there was.
 std::string knot_seen_text(const ControllerState& controller) {
-  const auto since = [](double time) { return fmt::format("{:.2f} s", time); };
   if (controller.knot.type != KnotInvariants{}) {
-    return fmt::format("a {}, there from {} on", knot_name(controller.knot.type),
-                       since(controller.knot_from));
+    return fmt::format("a {}, tied since {:.2f} s", knot_name(controller.knot.type),
+                       controller.knot_from);
   }
   const PastKnot& past = controller.past;
   if (past.type == KnotInvariants{}) {
-    return "no knot, as it was throughout";
+    return "no knot, and tied none before";
   }
-  return fmt::format("no knot; a {} was there from {} to {}", knot_name(past.type),
-                     since(past.from), since(past.to));
+  return fmt::format("no knot, after a {} from {:.2f} to {:.2f} s", knot_name(past.type), past.from,
+                     past.to);
 }
 
 /// A script that is over has tied what the scene expects, and pulled its tail through.
@@ -117,15 +116,16 @@ void switch_by_knot(const Model& model, const Scene& scene, double time,
   if (controller.phase == Phase::form) {
     const std::optional<KnotSpan> span = knot_span(controller);
     const double through = span ? model.length() - span->tail_end : 0;
-    if (tied && span && through >= scene.controller.tail_through) {
+    if (tied && span && through >= scene.controller.tail_through &&
+        time >= scene.controller.tighten_from) {
       enter(controller, Phase::tighten, time);
     } else if (wanted && scene.script.kind != ScriptSettings::Kind::none &&
                time > script_end(scene.script) + patience) {
       fail_script(scene, controller, through);
     }
   } else if (holds_knot(controller.phase) && !tied) {
-    throw KnotError(fmt::format("the {} was lost: now {}", scene.expect.knot,
-                                knot_seen_text(controller)));
+    throw KnotError(
+        fmt::format("the {} was lost: now {}", scene.expect.knot, knot_seen_text(controller)));
   } else if (controller.phase == Phase::release && controller.knot.type == KnotInvariants{}) {
     enter(controller, Phase::free, time);
   }

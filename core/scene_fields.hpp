@@ -74,6 +74,7 @@ void controller_fields(Io& io, ControllerSettings& s) {
   io.number("contact_gap", s.contact_gap, not_negative());
   io.number("hysteresis", s.hysteresis, not_negative());
   io.number("tail_through", s.tail_through, not_negative());
+  io.number("tighten_from", s.tighten_from, not_negative());
   io.number("tight_span", s.tight_span, positive());
   io.number("tight_hold", s.tight_hold, not_negative());
   io.number("tighten_time", s.tighten_time, not_negative());
@@ -132,13 +133,15 @@ template <class Io>
 void expect_fields(Io& io, ExpectSettings& s) {
   io.string("knot", s.knot);
   std::vector<std::pair<std::string, Eigen::Vector2d>> stretches;
-  for (const KnotStretch& k : s.types) stretches.emplace_back(k.type, Eigen::Vector2d(k.from, k.to));
+  for (const KnotStretch& k : s.types)
+    stretches.emplace_back(k.type, Eigen::Vector2d(k.from, k.to));
   io.labelled_rows("types", "stretch", "[type, from, to]", stretches);
   s.types.clear();
   for (const auto& [type, times] : stretches) s.types.push_back({type, times[0], times[1]});
   io.template choice<Hand>("hand", s.hand,
                            {{"any", Hand::any}, {"right", Hand::right}, {"left", Hand::left}});
   io.number("slide_distance", s.slide_distance, not_negative());
+  io.number("reverse_distance", s.reverse_distance, not_negative());
   io.number("speed_share", s.speed_share, within(0, 1));
   io.number("penetration", s.penetration, not_negative());
   io.angle("limit_violation", s.limit_violation, not_negative());

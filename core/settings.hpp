@@ -106,13 +106,14 @@ struct ControllerSettings {
   /// without it the identity jumps 7 to 16 times a second.
   double hysteresis = 0.1;
   double tail_through = 8.0;   ///< tighten once this much body is past the last contact, cm of arc
+  double tighten_from = 0;     ///< and not before this time: a script may end by pulling tight, s
   double tight_span = 20.352;  ///< slide once the knot spans no more body than this, cm of arc
   double tight_hold = 0.25;    ///< for this long: a loose loop touches itself here and there, s
   double tighten_time = 2.0;   ///< or after this long in any case, s
   /// The slide ends when the first contact is this near the head, and a way back when the last one
   /// is this near the tail: then the knot may go, cm of arc.
   double release_at = 1.6;
-  double free_time = 1.0;      ///< run on this long after the knot is gone, s
+  double free_time = 1.0;  ///< run on this long after the knot is gone, s
 };
 
 /// Topology of the open centreline, by vote over closures and projections.
@@ -154,6 +155,7 @@ struct ExpectSettings {
   std::vector<KnotStretch> types;
   Hand hand = Hand::any;              ///< of the knot while it is held
   double slide_distance = 0;          ///< headward travel of the knot's head end while sliding, cm
+  double reverse_distance = 0;        ///< tailward travel of its tail end on the way back, cm
   double speed_share = 0.95;          ///< of sliding steps that meet Eq. 6 without slack
   double penetration = 0.0015;        ///< deepest at any step, cm
   double limit_violation = 1.745e-5;  ///< largest at any step, rad (0.001 degrees)

@@ -1,5 +1,6 @@
 // The subcommands of `hagfish`. Each returns the program's exit code: 0 done, 1 the run or the
-// audit failed, 2 bad input (thrown as InputError or FileError, or returned).
+// audit failed, 2 bad input (thrown as InputError or FileError, or returned), 3 the knot is not the
+// scene's.
 #pragma once
 
 #include <string>

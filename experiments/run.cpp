@@ -35,7 +35,7 @@ struct Ending {
 
 /// Steps until the scene is over.
 Ending take_steps(const Model& model, const Scene& scene, BoxQpSolver& solver, LogWriter& log,
-                       Progress& progress) {
+                  Progress& progress) {
   Simulation sim = start(model, scene);
   StepRecord record;
   while (!finished(sim, scene)) {

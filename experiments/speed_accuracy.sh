@@ -24,7 +24,8 @@ mkdir -p "$runs"
 "$hagfish" --version >"$runs/version"
 
 # One job a line, fields by tabs: NAME REPEATS and the arguments of `hagfish run`. A job that is done
-# has a NAME.cpu: user and system time of each repeat, s. A run may fail: that is a result.
+# has a NAME.cpu: user and system time of each repeat, s. A run may fail, or tie another
+# knot: that is a result.
 timed_run() {
   local name=$1 repeats=$2
   local -a arguments
@@ -37,7 +38,7 @@ timed_run() {
     code=0
     { time "$hagfish" run "${arguments[@]}" --out "$log" --force --quiet 2>"$runs/$name.err"; } 2>>"$runs/$name.times" ||
       code=$?
-    if ((code > 1)) || grep -q 'failed: interrupted' "$runs/$name.err"; then
+    if ((code == 2)) || grep -q 'failed: interrupted' "$runs/$name.err"; then
       cat "$runs/$name.err" >&2
       return "$code"
     fi

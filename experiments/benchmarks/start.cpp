@@ -18,9 +18,7 @@ constexpr double wave_share = 0.1;
 constexpr double wave_count = 2;
 constexpr double wave_rate = 0.5;
 
-bool holds_head(const Start& start) {
-  return clamps_head(start.scene, start.sim.controller.phase);
-}
+bool holds_head(const Start& start) { return clamps_head(start.scene, start.sim.controller.phase); }
 
 }  // namespace
 
