@@ -126,7 +126,8 @@ void switch_by_knot(const Model& model, const Scene& scene, double time,
   } else if (holds_knot(controller.phase) && !tied) {
     throw KnotError(
         fmt::format("the {} was lost: now {}", scene.expect.knot, knot_seen_text(controller)));
-  } else if (controller.phase == Phase::release && controller.knot.type == KnotInvariants{}) {
+  } else if (controller.phase == Phase::release && controller.knot.type == KnotInvariants{} &&
+             time + 0.5 * scene.time.step >= controller.knot_from + scene.controller.untied_for) {
     enter(controller, Phase::free, time);
   }
 }

@@ -79,6 +79,7 @@ void controller_fields(Io& io, ControllerSettings& s) {
   io.number("tight_hold", s.tight_hold, not_negative());
   io.number("tighten_time", s.tighten_time, not_negative());
   io.number("release_at", s.release_at, positive());
+  io.number("untied_for", s.untied_for, not_negative());
   io.number("free_time", s.free_time, not_negative());
   io.template choice<BodyEnd>("leave_by", s.leave_by,
                               {{"head", BodyEnd::head}, {"tail", BodyEnd::tail}});

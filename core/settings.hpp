@@ -113,6 +113,9 @@ struct ControllerSettings {
   /// The slide ends when the first contact is this near the head, and a way back when the last one
   /// is this near the tail: then the knot may go, cm of arc.
   double release_at = 1.6;
+  /// The knot is gone once it has been for this long: near an end of the body, where it leaves, the
+  /// type of an open line is for a moment a matter of how it is closed, s.
+  double untied_for = 0;
   double free_time = 1.0;  ///< run on this long after the knot is gone, s
 };
 

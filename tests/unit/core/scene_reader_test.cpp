@@ -118,6 +118,20 @@ std::vector<std::uint64_t> bits(const Scene& s, const Specimen& animal) {
                            s.controller.slide_head.b,
                            s.controller.slide_tail.a,
                            s.controller.slide_tail.b,
+                           s.controller.reverse_head.a,
+                           s.controller.reverse_head.b,
+                           s.controller.reverse_tail.a,
+                           s.controller.reverse_tail.b,
+                           double(s.controller.leave_by),
+                           double(s.controller.free_from),
+                           s.controller.tighten_from,
+                           s.controller.untied_for,
+                           double(s.mirror),
+                           s.script.noise,
+                           double(s.script.noise_seed),
+                           double(s.time.until),
+                           double(s.expect.hand),
+                           s.expect.reverse_distance,
                            s.controller.cap,
                            s.controller.contact_gap,
                            s.controller.hysteresis,
@@ -148,7 +162,11 @@ std::vector<std::uint64_t> bits(const Scene& s, const Specimen& animal) {
                            animal.bending_span,
                            animal.twist_limit};
   for (const auto& knot : s.script.knots) {
-    x.insert(x.end(), {knot.time, knot.value.x(), knot.value.y(), knot.value.z()});
+    x.insert(x.end(), {knot.time, knot.value.x(), knot.value.y(), knot.value.z(), knot.noise.x(),
+                       knot.noise.y(), knot.noise.z()});
+  }
+  for (const KnotStretch& stretch : s.expect.types) {
+    x.insert(x.end(), {stretch.from, stretch.to});
   }
   for (const auto* profile : {&animal.station, &animal.circumference, &animal.bending_limit}) {
     x.insert(x.end(), profile->begin(), profile->end());
@@ -177,15 +195,22 @@ ResolvedScene odd_scene() {
   s.script.spring = odd();
   s.script.damper = odd();
   s.script.largest_force = odd();
-  s.controller = {{odd(), odd()}, {odd(), odd()}, {odd(), odd()}, {odd(), odd()}, odd(), odd(),
-                  odd(),          odd(),          odd(),          odd(),          odd(), odd()};
+  s.controller = {{odd(), odd()}, {odd(), odd()},  {odd(), odd()},
+                  {odd(), odd()}, {odd(), odd()},  {odd(), odd()},
+                  BodyEnd::tail,  Phase::tighten,  odd(),
+                  odd(),          odd(),           odd(),
+                  odd(),          odd(),           odd(),
+                  odd(),          odd(),           odd(),
+                  odd()};
   s.knot = {3, 4294967295u, odd()};
   s.controller.contact_gap = s.contact.margin / 3;
   s.time.step = odd();
   s.time.frame_interval = 3 * s.time.step;
   s.time.duration = 7 * s.time.step;
+  s.time.until = Phase::reverse;
   s.guard = {odd(), odd(), odd()};
-  s.expect = {"4_1", odd(), odd(), odd(), odd(), odd(), odd(), odd(), odd()};
+  s.expect = {"4_1", {{"0_1", 0, odd()}, {"det=9,v2=2", odd(), odd()}},
+              Hand::left, odd(), odd(), odd(), odd(), odd(), odd(), odd(), odd(), odd()};
   result.specimen = {
       "odd", 50 + odd(), odd(), {odd(), odd(), odd()}, {odd(), odd(), odd()}, {odd(), odd(), odd()},
       odd(), odd()};
@@ -193,8 +218,9 @@ ResolvedScene odd_scene() {
 }
 
 TEST(SceneReader, ResolvedTextGivesTheSameScene) {
-  for (const auto& [scene, specimen] : {odd_scene(), read_scene(data + "/table1.toml"),
-                                        read_scene(data + "/overhand_waypoints.toml")}) {
+  for (const auto& [scene, specimen] :
+       {odd_scene(), read_scene(data + "/table1.toml"), read_scene(data + "/overhand_waypoints.toml"),
+        read_scene(data + "/overhand_reverse.toml")}) {
     const std::string text = scene_to_toml(scene, specimen);
     const ResolvedScene again = read_scene_text(text, "resolved");
     EXPECT_EQ(bits(again.scene, again.specimen), bits(scene, specimen));
@@ -203,6 +229,95 @@ TEST(SceneReader, ResolvedTextGivesTheSameScene) {
     EXPECT_EQ(again.specimen.name, specimen.name);
     EXPECT_EQ(scene_to_toml(again.scene, again.specimen), text);
   }
+}
+
+TEST(SceneReader, ResolvedTextOfAMirroredNoisySceneGivesTheSameScene) {
+  const auto [scene, specimen] =
+      read_scene(data + "/double_overhand.toml", {"mirror=true", "script.noise=0.3"});
+  const std::string text = scene_to_toml(scene, specimen);
+  const ResolvedScene again = read_scene_text(text, "resolved");
+  EXPECT_EQ(bits(again.scene, again.specimen), bits(scene, specimen));
+  EXPECT_EQ(again.scene.expect.types.at(2).type, "5_1");
+  EXPECT_EQ(scene_to_toml(again.scene, again.specimen), text);
+}
+
+TEST(SceneReader, MirrorReflectsAllThatTheSceneGives) {
+  const std::vector<std::string> noisy = {"script.noise=0.3", "gravity=[1, 2, 3]"};
+  std::vector<std::string> turned = noisy;
+  turned.emplace_back("mirror=true");
+  const Eigen::Vector3d flip(1, -1, 1);
+  for (const char* file : {"/table1.toml", "/double_overhand.toml"}) {
+    const Scene scene = read_scene(data + file, noisy).scene;
+    const Scene image = read_scene(data + file, turned).scene;
+    EXPECT_EQ(image.gravity, scene.gravity.cwiseProduct(flip));
+    ASSERT_EQ(image.script.knots.size(), scene.script.knots.size());
+    for (std::size_t k = 0; k < scene.script.knots.size(); ++k) {
+      EXPECT_EQ(image.script.knots[k].value, scene.script.knots[k].value.cwiseProduct(flip));
+      EXPECT_EQ(image.script.knots[k].noise, scene.script.knots[k].noise.cwiseProduct(flip));
+    }
+  }
+  EXPECT_EQ(read_scene(data + "/double_overhand.toml").scene.expect.hand, Hand::right);
+  EXPECT_EQ(read_scene(data + "/double_overhand.toml", turned).scene.expect.hand, Hand::left);
+  EXPECT_EQ(read_scene(data + "/figure_eight.toml", turned).scene.expect.hand, Hand::any);
+}
+
+TEST(SceneReader, NoiseIsNormalAndOneDrawPerSeed) {
+  const auto noise = [](const std::string& seed) {
+    std::vector<double> all;
+    for (const auto& knot :
+         read_scene(data + "/three_twist.toml", {"script.noise=0.2", "script.noise_seed=" + seed})
+             .scene.script.knots) {
+      all.insert(all.end(), knot.noise.begin(), knot.noise.end());
+    }
+    return all;
+  };
+  EXPECT_EQ(noise("3"), noise("3"));
+  EXPECT_NE(noise("3"), noise("4"));
+  double square = 0;
+  double sum = 0;
+  int count = 0;
+  int far = 0;  // beyond one standard deviation
+  for (int seed = 1; seed <= 50; ++seed) {
+    for (const double x : noise(std::to_string(seed))) {
+      square += x * x;
+      sum += x;
+      ++count;
+      far += std::abs(x) > 0.2 ? 1 : 0;
+    }
+  }
+  // Some 3000 numbers: standard errors of the mean 0.02, of the spread 0.013, of the share 0.0085,
+  // of which four each.
+  EXPECT_NEAR(sum / count / 0.2, 0, 0.08);
+  EXPECT_NEAR(std::sqrt(square / count) / 0.2, 1, 0.052);
+  EXPECT_NEAR(far / double(count), 0.3173, 0.034);
+  for (const auto& knot : read_scene(data + "/three_twist.toml").scene.script.knots) {
+    EXPECT_EQ(knot.noise, Eigen::Vector3d::Zero());
+  }
+}
+
+TEST(SceneReader, RefusesBadExpectations) {
+  const std::string names = "must be the name of a knot, 3_1 to 7_7 or det=D,v2=V";
+  EXPECT_EQ(complaint("[expect]\nknot = '3_2'\n"),
+            "s.toml:2: expect.knot = '3_2': " + names + ", or empty for none");
+  EXPECT_EQ(complaint("[expect]\nknot = '0_1'\n"),
+            "s.toml:2: expect.knot = '0_1': " + names + ", or empty for none");
+  EXPECT_EQ(complaint("[expect]\nknot = 'det=9,v2=2'\n"), "");
+  EXPECT_EQ(complaint("[expect]\ntypes = [['0_1', 0, 1], ['8_1', 2, 3]]\n"),
+            "s.toml:2: expect.types = [\"8_1\", 2, 3]: type " + names + ", or 0_1 for none");
+  EXPECT_EQ(complaint("[expect]\ntypes = [['0_1', 0, 2], ['3_1', 1, 3]]\n"),
+            "s.toml:2: expect.types = [\"3_1\", 1, 3]: times must rise");
+  EXPECT_EQ(complaint("[expect]\ntypes = [['0_1', 2, 1]]\n"),
+            "s.toml:2: expect.types = [\"0_1\", 2, 1]: times must rise");
+  EXPECT_EQ(complaint("[expect]\ntypes = [['0_1', 0]]\n"),
+            "s.toml:2: expect.types = [\"0_1\", 0]: stretch 1 must be [type, from, to]");
+  EXPECT_EQ(complaint("[expect]\nhand = 'both'\n"),
+            "s.toml:2: expect.hand = 'both': must be one of \"any\", \"right\", \"left\"");
+  EXPECT_EQ(complaint("[controller]\nfree_from = 'form'\n"),
+            "s.toml:2: controller.free_from = 'form': must be one of \"tighten\", \"slide\", "
+            "\"release\", \"free\"");
+  EXPECT_EQ(complaint("mirror = 1\n"), "s.toml:1: mirror = 1: must be true or false");
+  EXPECT_EQ(complaint("[script]\nnoise = -1\n"),
+            "s.toml:2: script.noise = -1: must not be negative");
 }
 
 TEST(SceneReader, DefaultsAreThoseOfSettings) {
