@@ -305,8 +305,9 @@ TEST_F(Controller, TellsWhichKnotCameUndoneAndWhen) {
   now = 4.5;
   step({});
   now = 7.1;
-  EXPECT_EQ(complaint({}),
-            "the script ended with no knot, after a 3_1 from 3.00 to 4.50 s, but expect.knot = 3_1");
+  EXPECT_EQ(
+      complaint({}),
+      "the script ended with no knot, after a 3_1 from 3.00 to 4.50 s, but expect.knot = 3_1");
 }
 
 TEST_F(Controller, WaitsForTheScenesKnotAndTellsWhichOneCame) {

@@ -384,12 +384,9 @@ TEST(Knot, NamesOfSixAndSevenCrossingsAreThoseOfTheirBraids) {
     const char* name;
     std::vector<int> braid;
     int strands;
-  } table[] = {{"6_1", {1, 1, 2, -1, -3, 2, -3}, 4},
-               {"6_2", {-1, -1, -1, 2, -1, 2}, 3},
-               {"6_3", {-1, -1, 2, -1, 2, 2}, 3},
-               {"7_1", {1, 1, 1, 1, 1, 1, 1}, 2},
-               {"7_3", {1, 1, 1, 1, 1, 2, -1, 2}, 3},
-               {"7_5", {1, 1, 1, 1, 2, -1, 2, 2}, 3},
+  } table[] = {{"6_1", {1, 1, 2, -1, -3, 2, -3}, 4},  {"6_2", {-1, -1, -1, 2, -1, 2}, 3},
+               {"6_3", {-1, -1, 2, -1, 2, 2}, 3},     {"7_1", {1, 1, 1, 1, 1, 1, 1}, 2},
+               {"7_3", {1, 1, 1, 1, 1, 2, -1, 2}, 3}, {"7_5", {1, 1, 1, 1, 2, -1, 2, 2}, 3},
                {"7_7", {1, -2, 1, -2, 3, -2, 3}, 4}};
   for (const auto& entry : table) {
     const KnotInvariants type =
@@ -404,7 +401,8 @@ TEST(Knot, TypeOfANameIsTheOneThatHasIt) {
     EXPECT_EQ(knot_called(knot_name(type)), type);
   }
   EXPECT_EQ(knot_called("5_2"), (KnotInvariants{7, 2}));
-  for (const char* none : {"", "5_3", "trefoil", "det=9", "det=9,v2=", "det=9,v2=2 ", "det=3,v2=1"}) {
+  for (const char* none :
+       {"", "5_3", "trefoil", "det=9", "det=9,v2=", "det=9,v2=2 ", "det=3,v2=1"}) {
     EXPECT_FALSE(knot_called(none)) << none;
   }
 }

@@ -195,13 +195,10 @@ ResolvedScene odd_scene() {
   s.script.spring = odd();
   s.script.damper = odd();
   s.script.largest_force = odd();
-  s.controller = {{odd(), odd()}, {odd(), odd()},  {odd(), odd()},
-                  {odd(), odd()}, {odd(), odd()},  {odd(), odd()},
-                  BodyEnd::tail,  Phase::tighten,  odd(),
-                  odd(),          odd(),           odd(),
-                  odd(),          odd(),           odd(),
-                  odd(),          odd(),           odd(),
-                  odd()};
+  s.controller = {{odd(), odd()}, {odd(), odd()}, {odd(), odd()}, {odd(), odd()}, {odd(), odd()},
+                  {odd(), odd()}, BodyEnd::tail,  Phase::tighten, odd(),          odd(),
+                  odd(),          odd(),          odd(),          odd(),          odd(),
+                  odd(),          odd(),          odd(),          odd()};
   s.knot = {3, 4294967295u, odd()};
   s.controller.contact_gap = s.contact.margin / 3;
   s.time.step = odd();
@@ -209,8 +206,12 @@ ResolvedScene odd_scene() {
   s.time.duration = 7 * s.time.step;
   s.time.until = Phase::reverse;
   s.guard = {odd(), odd(), odd()};
-  s.expect = {"4_1", {{"0_1", 0, odd()}, {"det=9,v2=2", odd(), odd()}},
-              Hand::left, odd(), odd(), odd(), odd(), odd(), odd(), odd(), odd(), odd()};
+  s.expect = {"4_1",      {{"0_1", 0, odd()}, {"det=9,v2=2", odd(), odd()}},
+              Hand::left, odd(),
+              odd(),      odd(),
+              odd(),      odd(),
+              odd(),      odd(),
+              odd(),      odd()};
   result.specimen = {
       "odd", 50 + odd(), odd(), {odd(), odd(), odd()}, {odd(), odd(), odd()}, {odd(), odd(), odd()},
       odd(), odd()};
@@ -218,9 +219,9 @@ ResolvedScene odd_scene() {
 }
 
 TEST(SceneReader, ResolvedTextGivesTheSameScene) {
-  for (const auto& [scene, specimen] :
-       {odd_scene(), read_scene(data + "/table1.toml"), read_scene(data + "/overhand_waypoints.toml"),
-        read_scene(data + "/overhand_reverse.toml")}) {
+  for (const auto& [scene, specimen] : {odd_scene(), read_scene(data + "/table1.toml"),
+                                        read_scene(data + "/overhand_waypoints.toml"),
+                                        read_scene(data + "/overhand_reverse.toml")}) {
     const std::string text = scene_to_toml(scene, specimen);
     const ResolvedScene again = read_scene_text(text, "resolved");
     EXPECT_EQ(bits(again.scene, again.specimen), bits(scene, specimen));

@@ -81,8 +81,7 @@ TEST(TomlReader, LabelledRowsThereAndBack) {
     Rows r;
     t.labelled_rows("k", "row", "[x, y, z]", r);
   };
-  EXPECT_EQ(complaint("k = 1", read),
-            "f.toml:1: k = 1: must be an array of arrays [x, y, z]");
+  EXPECT_EQ(complaint("k = 1", read), "f.toml:1: k = 1: must be an array of arrays [x, y, z]");
   EXPECT_EQ(complaint("k = [[1, 2, 3]]", read), "f.toml:1: k = [1, 2, 3]: row 1 must be [x, y, z]");
   EXPECT_EQ(complaint("k = [['a', 2, 3], ['b', 2]]", read),
             "f.toml:1: k = [\"b\", 2]: row 2 must be [x, y, z]");

@@ -334,13 +334,15 @@ TEST_F(ProgramTest, AScriptThatTiesNothingEndsWithCode3AndSaysSo) {
   const Outcome run = hagfish(hasty + "--quiet --out a.h5");
   EXPECT_EQ(run.code, 3) << run.output;
   EXPECT_EQ(std::count(run.output.begin(), run.output.end(), '\n'), 1) << run.output;
-  EXPECT_NE(run.output.find("a.h5: failed: the script ended with no knot, and tied none before, but "
-                            "expect.knot = 3_1"),
-            std::string::npos)
+  EXPECT_NE(
+      run.output.find("a.h5: failed: the script ended with no knot, and tied none before, but "
+                      "expect.knot = 3_1"),
+      std::string::npos)
       << run.output;
   EXPECT_EQ(hagfish("check a.h5").code, 1);
-  const Outcome none = hagfish(hasty + "--quiet --force --out a.h5 --set expect.knot= --set "
-                                       "time.duration=3.5");
+  const Outcome none = hagfish(hasty +
+                               "--quiet --force --out a.h5 --set expect.knot= --set "
+                               "time.duration=3.5");
   EXPECT_EQ(none.code, 0) << none.output;
 }
 
