@@ -319,29 +319,6 @@ KnotInvariants cast_vote(Eigen::Matrix3Xd& closed, double far, std::mt19937& ran
   }
 }
 
-struct NamedKnot {
-  const char* name;
-  KnotInvariants type;
-};
-
-/// Prime knots of up to seven crossings: |Alexander polynomial at -1|, and half its second
-/// derivative at 1 (Rolfsen's table). All differ.
-constexpr std::array<NamedKnot, 15> named_knots = {{{"0_1", {1, 0}},
-                                                    {"3_1", {3, 1}},
-                                                    {"4_1", {5, -1}},
-                                                    {"5_1", {5, 3}},
-                                                    {"5_2", {7, 2}},
-                                                    {"6_1", {9, -2}},
-                                                    {"6_2", {11, -1}},
-                                                    {"6_3", {13, 1}},
-                                                    {"7_1", {7, 6}},
-                                                    {"7_2", {11, 3}},
-                                                    {"7_3", {13, 5}},
-                                                    {"7_4", {15, 4}},
-                                                    {"7_5", {17, 4}},
-                                                    {"7_6", {19, 1}},
-                                                    {"7_7", {21, -1}}}};
-
 }  // namespace
 
 KnotInvariants invariants_of_closed(const Eigen::Matrix3Xd& points,
@@ -378,24 +355,6 @@ KnotVote knot_type(const Eigen::Matrix3Xd& centreline, int votes, unsigned seed)
                                        [](auto& a, auto& b) { return a.second < b.second; });
   return {.type = {.determinant = winner->first.first, .v2 = winner->first.second},
           .agreement = static_cast<double>(winner->second) / cast};
-}
-
-std::string knot_name(const KnotInvariants& type) {
-  const auto* const found =
-      std::ranges::find(named_knots, type, [](const NamedKnot& knot) { return knot.type; });
-  if (found != named_knots.end()) return found->name;
-  return "det=" + std::to_string(type.determinant) + ",v2=" + std::to_string(type.v2);
-}
-
-std::optional<KnotInvariants> knot_called(std::string_view name) {
-  const auto* const found = std::ranges::find(named_knots, name, &NamedKnot::name);
-  if (found != named_knots.end()) return found->type;
-  KnotInvariants type;
-  if (std::sscanf(std::string(name).c_str(), "det=%d,v2=%d", &type.determinant, &type.v2) != 2 ||
-      knot_name(type) != name) {
-    return std::nullopt;
-  }
-  return type;
 }
 
 }  // namespace hagfish

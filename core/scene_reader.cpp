@@ -111,6 +111,7 @@ double normal(std::mt19937& random) {
 }
 
 void draw_noise(ScriptSettings& script) {
+  if (script.noise == 0) return;
   std::mt19937 random(script.noise_seed);
   for (ScriptKnot& knot : script.knots) {
     for (double& coordinate : knot.noise) coordinate = script.noise * normal(random);

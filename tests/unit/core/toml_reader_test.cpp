@@ -84,9 +84,9 @@ TEST(TomlReader, LabelledRowsThereAndBack) {
   EXPECT_EQ(complaint("k = 1", read), "f.toml:1: k = 1: must be an array of arrays [x, y, z]");
   EXPECT_EQ(complaint("k = [[1, 2, 3]]", read), "f.toml:1: k = [1, 2, 3]: row 1 must be [x, y, z]");
   EXPECT_EQ(complaint("k = [['a', 2, 3], ['b', 2]]", read),
-            "f.toml:1: k = [\"b\", 2]: row 2 must be [x, y, z]");
+            "f.toml:1: k = ['b', 2]: row 2 must be [x, y, z]");
   EXPECT_EQ(complaint("k = [['a', 2, 'c']]", read),
-            "f.toml:1: k = [\"a\", 2, \"c\"]: row 1 must be a number");
+            "f.toml:1: k = ['a', 2, 'c']: row 1 must be a number");
 }
 
 TEST(TomlReader, AbsentKeyKeepsTheValue) {
