@@ -357,12 +357,4 @@ KnotVote knot_type(const Eigen::Matrix3Xd& centreline, int votes, unsigned seed)
           .agreement = static_cast<double>(winner->second) / cast};
 }
 
-std::string knot_name(const KnotInvariants& type) {
-  static const std::map<std::pair<int, int>, std::string> names = {
-      {{1, 0}, "0_1"}, {{3, 1}, "3_1"}, {{5, -1}, "4_1"}, {{5, 3}, "5_1"}, {{7, 2}, "5_2"}};
-  const auto found = names.find({type.determinant, type.v2});
-  if (found != names.end()) return found->second;
-  return "det=" + std::to_string(type.determinant) + ",v2=" + std::to_string(type.v2);
-}
-
 }  // namespace hagfish

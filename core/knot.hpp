@@ -2,7 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
+#include <string_view>
 
 namespace hagfish {
 
@@ -39,7 +41,10 @@ KnotInvariants invariants_of_closed(const Eigen::Matrix3Xd& points,
 /// the polygon touches itself, repeats a vertex or ends where it starts, or is hopelessly tangled.
 KnotVote knot_type(const Eigen::Matrix3Xd& centreline, int votes, unsigned seed);
 
-/// "0_1", "3_1", "4_1", "5_1", "5_2", or "det=D,v2=V" for any other.
+/// "0_1", or a prime knot of up to seven crossings, "3_1" to "7_7"; "det=D,v2=V" for any other.
 std::string knot_name(const KnotInvariants& type);
+
+/// The type of which `name` is the knot_name(), or nothing.
+std::optional<KnotInvariants> knot_called(std::string_view name);
 
 }  // namespace hagfish

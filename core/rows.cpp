@@ -161,10 +161,11 @@ void append_wall_rows(const Model& model, const Kinematics& kin, const WallSetti
 void append_thigmotaxis_rows(const Model& model, const std::vector<ThigmotaxisCommand>& commands,
                              double cap, double h, std::vector<Row>& rows) {
   for (std::size_t place = 0; place < commands.size(); ++place) {
-    const auto& [contact, speed] = commands[place];
+    const auto& [contact, speed, towards] = commands[place];
+    const double sense = towards == BodyEnd::head ? 1 : -1;
     for (const bool along_a : {true, false}) {
       // Eq. 6: t_a' (ẋ_a - ẋ_b) >= v_a and t_b' (ẋ_b - ẋ_a) >= v_b.
-      const Eigen::Vector3d on_a = along_a ? contact.tangent_a : -contact.tangent_b;
+      const Eigen::Vector3d on_a = sense * (along_a ? contact.tangent_a : -contact.tangent_b);
       Row& row = rows.emplace_back();
       row.kind = RowKind::thigmotaxis;
       row.id = row_id(RowKind::thigmotaxis, static_cast<int>(place), along_a ? 0 : 1);

@@ -105,6 +105,7 @@ void append_wall_rows(const Model& model, const Kinematics& kin, const WallSetti
 struct ThigmotaxisCommand {
   Contact contact;
   ThigmotaxisSpeeds speed;
+  BodyEnd towards = BodyEnd::head;  ///< where the knot shall go: to the tail, both tangents turn
 };
 
 /// Eq. 6 at the first and the last contact: rows t_a, t_b of each. `cap` bounds λ / h (dyn).

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <limits>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "core/settings.hpp"
@@ -62,6 +64,8 @@ void script_fields(Io& io, ScriptFile& s) {
   io.number("spring", s.settings.spring, not_negative());
   io.number("damper", s.settings.damper, not_negative());
   io.number("largest_force", s.settings.largest_force, not_negative());
+  io.number("noise", s.settings.noise, not_negative());
+  io.integer("noise_seed", s.settings.noise_seed, any_number());
   io.template choice<KnotUnit>(
       "unit", s.unit, {{"dyn", KnotUnit::dyn}, {"cm", KnotUnit::cm}, {"L", KnotUnit::body_length}});
   io.rows("knots", "knot", s.rows);
@@ -73,11 +77,20 @@ void controller_fields(Io& io, ControllerSettings& s) {
   io.number("contact_gap", s.contact_gap, not_negative());
   io.number("hysteresis", s.hysteresis, not_negative());
   io.number("tail_through", s.tail_through, not_negative());
+  io.number("tighten_from", s.tighten_from, not_negative());
   io.number("tight_span", s.tight_span, positive());
   io.number("tight_hold", s.tight_hold, not_negative());
   io.number("tighten_time", s.tighten_time, not_negative());
   io.number("release_at", s.release_at, positive());
+  io.number("untied_for", s.untied_for, not_negative());
   io.number("free_time", s.free_time, not_negative());
+  io.template choice<BodyEnd>("leave_by", s.leave_by,
+                              {{"head", BodyEnd::head}, {"tail", BodyEnd::tail}});
+  io.template choice<Phase>("free_from", s.free_from,
+                            {{"tighten", Phase::tighten},
+                             {"slide", Phase::slide},
+                             {"release", Phase::release},
+                             {"free", Phase::free}});
   const auto speeds = [&io](std::string_view key, ThigmotaxisSpeeds& pair) {
     io.table(key, [&pair](Io& table) {
       table.number("a", pair.a, any_number());
@@ -88,6 +101,8 @@ void controller_fields(Io& io, ControllerSettings& s) {
   speeds("tighten_tail", s.tighten_tail);
   speeds("slide_head", s.slide_head);
   speeds("slide_tail", s.slide_tail);
+  speeds("reverse_head", s.reverse_head);
+  speeds("reverse_tail", s.reverse_tail);
 }
 
 template <class Io>
@@ -102,6 +117,13 @@ void time_fields(Io& io, TimeSettings& s) {
   io.number("step", s.step, positive());
   io.number("frame_interval", s.frame_interval, positive());
   io.number("duration", s.duration, positive());
+  io.template choice<Phase>("until", s.until,
+                            {{"form", Phase::form},
+                             {"tighten", Phase::tighten},
+                             {"slide", Phase::slide},
+                             {"reverse", Phase::reverse},
+                             {"release", Phase::release},
+                             {"free", Phase::free}});
 }
 
 template <class Io>
@@ -121,7 +143,16 @@ void guard_fields(Io& io, GuardSettings& s) {
 template <class Io>
 void expect_fields(Io& io, ExpectSettings& s) {
   io.string("knot", s.knot);
+  std::vector<std::pair<std::string, Eigen::Vector2d>> stretches;
+  for (const KnotStretch& k : s.types)
+    stretches.emplace_back(k.type, Eigen::Vector2d(k.from, k.to));
+  io.labelled_rows("types", "stretch", "[type, from, to]", stretches);
+  s.types.clear();
+  for (const auto& [type, times] : stretches) s.types.push_back({type, times[0], times[1]});
+  io.template choice<Hand>("hand", s.hand,
+                           {{"any", Hand::any}, {"right", Hand::right}, {"left", Hand::left}});
   io.number("slide_distance", s.slide_distance, not_negative());
+  io.number("reverse_distance", s.reverse_distance, not_negative());
   io.number("speed_share", s.speed_share, within(0, 1));
   io.number("penetration", s.penetration, not_negative());
   io.angle("limit_violation", s.limit_violation, not_negative());
@@ -136,6 +167,7 @@ void expect_fields(Io& io, ExpectSettings& s) {
 template <class Io>
 void scene_fields(Io& io, Scene& s, ScriptFile& script) {
   io.string("title", s.title);
+  io.boolean("mirror", s.mirror);
   io.boolean("clamp_head", s.clamp_head);
   io.vector("gravity", s.gravity);
   io.table("model", [&](Io& t) { model_fields(t, s.model); });

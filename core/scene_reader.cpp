@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <random>
 
 #include "core/builtin_files.hpp"
 #include "core/input_text.hpp"
+#include "core/knot.hpp"
 #include "core/scene_fields.hpp"
 #include "core/toml_reader.hpp"
 #include "core/toml_writer.hpp"
@@ -100,6 +103,32 @@ ScriptSettings resolve_script(const TableReader& root, const ScriptFile& file, d
   return script;
 }
 
+/// A number from the standard normal distribution (Box and Muller), from the generator's bits.
+double normal(std::mt19937& random) {
+  const double u = (static_cast<double>(random()) + 0.5) * 0x1p-32;
+  const double v = static_cast<double>(random()) * 0x1p-32;
+  return std::sqrt(-2 * std::log(u)) * std::cos(2 * std::numbers::pi * v);
+}
+
+void draw_noise(ScriptSettings& script) {
+  if (script.noise == 0) return;
+  std::mt19937 random(script.noise_seed);
+  for (ScriptKnot& knot : script.knots) {
+    for (double& coordinate : knot.noise) coordinate = script.noise * normal(random);
+  }
+}
+
+/// The mirror image, y to -y, of all that the scene gives. Twice is the scene itself.
+void reflect(Scene& scene) {
+  scene.gravity.y() *= -1;
+  for (ScriptKnot& knot : scene.script.knots) {
+    knot.value.y() *= -1;
+    knot.noise.y() *= -1;
+  }
+  Hand& hand = scene.expect.hand;
+  if (hand != Hand::any) hand = hand == Hand::right ? Hand::left : Hand::right;
+}
+
 void check_times(const TableReader& root, const TimeSettings& time) {
   const std::string step = "must not be less than time.step, " + shortest(time.step);
   if (time.frame_interval < time.step) root.fail("time.frame_interval", step);
@@ -115,9 +144,19 @@ void check_times(const TableReader& root, const TimeSettings& time) {
 }
 
 void check_expectations(const TableReader& root, const Scene& scene) {
-  const std::vector<std::string> known = {"", "3_1", "4_1", "5_1", "5_2"};
-  if (std::find(known.begin(), known.end(), scene.expect.knot) == known.end()) {
-    root.fail("expect.knot", "must be 3_1, 4_1, 5_1, 5_2, or empty for none");
+  const auto known = [](const std::string& name) { return knot_called(name).has_value(); };
+  const std::string names = "must be the name of a knot, 3_1 to 7_7 or det=D,v2=V";
+  if (!scene.expect.knot.empty() && (!known(scene.expect.knot) || scene.expect.knot == "0_1")) {
+    root.fail("expect.knot", names + ", or empty for none");
+  }
+  const std::vector<KnotStretch>& types = scene.expect.types;
+  for (std::size_t i = 0; i < types.size(); ++i) {
+    if (!known(types[i].type)) {
+      root.fail_element("expect.types", i, "type " + names + ", or 0_1 for none");
+    }
+    if (types[i].to < types[i].from || types[i].from < (i > 0 ? types[i - 1].to : 0)) {
+      root.fail_element("expect.types", i, "times must rise");
+    }
   }
   if (scene.controller.contact_gap > scene.contact.margin) {
     root.fail("controller.contact_gap",
@@ -148,6 +187,8 @@ ResolvedScene read(const std::string& text, const std::string& name,
   scene_fields(root, result.scene, script);
   root.finish();
   result.scene.script = resolve_script(root, script, result.specimen.length);
+  draw_noise(result.scene.script);
+  if (result.scene.mirror) reflect(result.scene);
   check_times(root, result.scene.time);
   check_expectations(root, result.scene);
   return result;
@@ -173,12 +214,13 @@ ResolvedScene read_scene_text(const std::string& text, const std::string& name,
 std::string scene_to_toml(const Scene& scene, const Specimen& specimen) {
   using Kind = ScriptSettings::Kind;
   Scene fields = scene;  // the writer only reads them
+  if (scene.mirror) reflect(fields);
   Specimen animal = specimen;
   ScriptFile script;
-  script.settings = scene.script;
+  script.settings = fields.script;
   // Positions in cm, as they are in memory: a division by the length would not undo to the bit.
   script.unit = scene.script.kind == Kind::position ? KnotUnit::cm : KnotUnit::dyn;
-  for (const auto& knot : scene.script.knots) {
+  for (const auto& knot : fields.script.knots) {
     script.rows.emplace_back(knot.time, knot.value.x(), knot.value.y(), knot.value.z());
   }
   TomlWriter writer;

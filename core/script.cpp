@@ -5,11 +5,14 @@
 namespace hagfish {
 namespace {
 
+/// Where a knot is, noise and all.
+Eigen::Vector3d at(const ScriptKnot& knot) { return knot.value + knot.noise; }
+
 /// Catmull-Rom tangent of knot k by finite differences in time.
 Eigen::Vector3d tangent(const std::vector<ScriptKnot>& knots, std::size_t k) {
   const std::size_t before = k > 0 ? k - 1 : k;
   const std::size_t after = std::min(k + 1, knots.size() - 1);
-  return (knots[after].value - knots[before].value) / (knots[after].time - knots[before].time);
+  return (at(knots[after]) - at(knots[before])) / (knots[after].time - knots[before].time);
 }
 
 }  // namespace
@@ -21,10 +24,10 @@ double script_end(const ScriptSettings& script) {
 Eigen::Vector3d script_value(const ScriptSettings& script, double time) {
   const std::vector<ScriptKnot>& knots = script.knots;
   if (time <= knots.front().time) {
-    return knots.front().value;
+    return at(knots.front());
   }
   if (time >= knots.back().time) {
-    return knots.back().value;
+    return at(knots.back());
   }
   const auto next = std::upper_bound(knots.begin(), knots.end(), time,
                                      [](double t, const ScriptKnot& k) { return t < k.time; });
@@ -32,12 +35,12 @@ Eigen::Vector3d script_value(const ScriptSettings& script, double time) {
   const double span = knots[k + 1].time - knots[k].time;
   const double u = (time - knots[k].time) / span;
   if (script.kind == ScriptSettings::Kind::force) {
-    return (1 - u) * knots[k].value + u * knots[k + 1].value;
+    return (1 - u) * at(knots[k]) + u * at(knots[k + 1]);
   }
   const double u2 = u * u;
   const double u3 = u2 * u;
-  return (2 * u3 - 3 * u2 + 1) * knots[k].value + (u3 - 2 * u2 + u) * span * tangent(knots, k) +
-         (3 * u2 - 2 * u3) * knots[k + 1].value + (u3 - u2) * span * tangent(knots, k + 1);
+  return (2 * u3 - 3 * u2 + 1) * at(knots[k]) + (u3 - 2 * u2 + u) * span * tangent(knots, k) +
+         (3 * u2 - 2 * u3) * at(knots[k + 1]) + (u3 - u2) * span * tangent(knots, k + 1);
 }
 
 TipForce script_force(const ScriptSettings& script, double time, double h,

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "core/phase.hpp"
+
 namespace hagfish {
 
 /// How the specimen becomes a chain. The passive terms are additions to the paper: it states none.
@@ -66,6 +68,7 @@ struct WallSettings {
 struct ScriptKnot {
   double time = 0;  ///< s
   Eigen::Vector3d value = Eigen::Vector3d::Zero();
+  Eigen::Vector3d noise = Eigen::Vector3d::Zero();  ///< drawn on top of it, same unit
 };
 
 /// Scripted forward dynamics of knot forming (paper, 3.2), acting on the last body's centre.
@@ -80,6 +83,10 @@ struct ScriptSettings {
   double spring = 0;              ///< position script: dyn / cm, taken implicitly
   double damper = 0;              ///< position script: dyn s / cm, taken implicitly
   double largest_force = 0;       ///< position script: the spring-damper saturates here, dyn
+  /// Standard deviation of the normal noise on each coordinate of each knot, cm or dyn: no animal
+  /// does the same thing twice.
+  double noise = 0;
+  unsigned noise_seed = 1;  ///< which draw
 };
 
 /// Commanded speeds of Eq. 6 at one contact, cm/s.
@@ -88,21 +95,35 @@ struct ThigmotaxisSpeeds {
   double b = 0;  ///< row along t_b, the tangent of the strand nearer the tail
 };
 
+/// The end of the animal by which the knot leaves it.
+enum class BodyEnd { head, tail };
+
 /// The thigmotaxis controller (paper, 3.2, Eq. 6) and its switches between phases.
 struct ControllerSettings {
   ThigmotaxisSpeeds tighten_head, tighten_tail;  ///< first and last contact while tightening
   ThigmotaxisSpeeds slide_head, slide_tail;      ///< first and last contact while sliding
+  /// The same on the way back to the tail. Eq. 6 bounds speeds from below, so that v < 0 asks for
+  /// nothing: here both tangents point to the head.
+  ThigmotaxisSpeeds reverse_head, reverse_tail;
+  BodyEnd leave_by = BodyEnd::head;  ///< tail: at the head the knot turns back
+  Phase free_from = Phase::release;  ///< a clamped head is free from this phase on
   double cap = 5000;          ///< largest lambda / h of a thigmotaxis row, dyn: the rows are soft
   double contact_gap = 0.05;  ///< a contact this close counts as touching, cm
   /// The contact used as first or last is kept this long after it last was the outermost, s:
   /// without it the identity jumps 7 to 16 times a second.
   double hysteresis = 0.1;
   double tail_through = 8.0;   ///< tighten once this much body is past the last contact, cm of arc
+  double tighten_from = 0;     ///< and not before this time: a script may end by pulling tight, s
   double tight_span = 20.352;  ///< slide once the knot spans no more body than this, cm of arc
   double tight_hold = 0.25;    ///< for this long: a loose loop touches itself here and there, s
   double tighten_time = 2.0;   ///< or after this long in any case, s
-  double release_at = 1.6;     ///< free the head when the first contact is this near it, cm of arc
-  double free_time = 1.0;      ///< run on this long after the knot is gone, s
+  /// The slide ends when the first contact is this near the head, and a way back when the last one
+  /// is this near the tail: then the knot may go, cm of arc.
+  double release_at = 1.6;
+  /// The knot is gone once it has been for this long: near an end of the body, where it leaves, the
+  /// type of an open line is for a moment a matter of how it is closed, s.
+  double untied_for = 0;
+  double free_time = 1.0;  ///< run on this long after the knot is gone, s
 };
 
 /// Topology of the open centreline, by vote over closures and projections.
@@ -116,6 +137,7 @@ struct TimeSettings {
   double step = 0.002;            ///< h, s
   double frame_interval = 0.020;  ///< time between logged frames, s; a whole number of steps
   double duration = 30;           ///< the run ends here at the latest, s
+  Phase until = Phase::free;      ///< the run ends with this phase
 };
 
 enum class GuardAction { stop, warn };
@@ -139,10 +161,25 @@ struct GuardSettings {
   double capped_time = 0.25;  ///< a thigmotaxis row at its cap for this long is told, s
 };
 
+/// The sign of the body's writhe: which of its two mirror images a knot is.
+enum class Hand { any, right, left };
+
+/// A stretch of the run in which the knot has one type.
+struct KnotStretch {
+  std::string type;         ///< as knot_name() gives it
+  double from = 0, to = 0;  ///< s
+};
+
 /// What a run of the scene must show; `hagfish check` holds a log against it.
 struct ExpectSettings {
-  std::string knot;                   ///< held from tightening to release, "3_1"; "" for no knot
+  /// Knot that the controller waits for before it tightens, held until release: "3_1", or
+  /// "det=9,v2=-2" for one without a name; "" for none, which is never tightened.
+  std::string knot;
+  /// Knot type through time. Between the stretches, while it changes, anything goes.
+  std::vector<KnotStretch> types;
+  Hand hand = Hand::any;              ///< of the knot while it is held
   double slide_distance = 0;          ///< headward travel of the knot's head end while sliding, cm
+  double reverse_distance = 0;        ///< tailward travel of its tail end on the way back, cm
   double speed_share = 0.95;          ///< of sliding steps that meet Eq. 6 without slack
   double penetration = 0.0015;        ///< deepest at any step, cm
   double limit_violation = 1.745e-5;  ///< largest at any step, rad (0.001 degrees)
@@ -156,6 +193,9 @@ struct ExpectSettings {
 struct Scene {
   std::string title;
   std::string specimen;  ///< specimen file as the scene names it
+  /// The scene is the mirror image, y to -y, of what its file says: all of this is reflected
+  /// already, and written back as the file had it.
+  bool mirror = false;
   bool clamp_head = true;
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< cm/s^2
   ModelSettings model;

@@ -56,6 +56,7 @@ bool finished(const Simulation& sim, const Scene& scene) {
   // Half a step of slack: the time of a step is a product and may fall short by rounding.
   const double time = time_of(sim, scene) + 0.5 * scene.time.step;
   return time >= scene.time.duration ||
+         phase_order(sim.controller.phase) > phase_order(scene.time.until) ||
          (sim.controller.phase == Phase::free &&
           time >= sim.controller.phase_start + scene.controller.free_time);
 }
@@ -67,6 +68,10 @@ void take_step(const Model& model, const Scene& scene, BoxQpSolver& solver, Simu
   record.time = time_of(sim, scene);
   record.warnings.clear();
   decide(model, scene, sim.situation, record.time, sim.controller, record.control);
+  if (!sim.controller.lost.empty()) {
+    report(StopCause::knot_lost, sim.controller.lost, GuardAction::warn, sim.watch,
+           record.warnings);
+  }
   begin_step(model, sim.state, sim.situation, record.control, scene, solver, sim.warm, sim.scratch,
              record.solution);
   // The record's old state and situation are storage for the next ones; then they change places.

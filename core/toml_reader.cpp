@@ -314,6 +314,25 @@ void TableReader::rows(std::string_view key, std::string_view noun,
   }
 }
 
+void TableReader::labelled_rows(std::string_view key, std::string_view noun, std::string_view form,
+                                std::vector<std::pair<std::string, Eigen::Vector2d>>& value) {
+  const Impl::Place place = impl_->ask(key);
+  if (!place.value) return;
+  const std::string wanted = "must be an array of arrays " + std::string(form);
+  if (!place.value->is_array()) impl_->fail(place, wanted);
+  value.clear();
+  for (const auto& row : place.value->as_array()) {
+    const std::string which = std::string(noun) + " " + std::to_string(value.size() + 1) + " ";
+    const Impl::Place here{place.key, &row, which};
+    if (!row.is_array() || row.size() != 3 || !row.at(0).is_string()) {
+      impl_->fail(here, "must be " + std::string(form));
+    }
+    value.emplace_back(row.at(0).as_string().str,
+                       Eigen::Vector2d(impl_->checked(here, row.at(1), any_number()),
+                                       impl_->checked(here, row.at(2), any_number())));
+  }
+}
+
 void TableReader::angle(std::string_view name, double& value, const Range& range) {
   const auto [place, unit] = impl_->ask_angle(name);
   if (place.value) value = impl_->checked(place, *place.value, in_unit(range, unit)) * unit;

@@ -51,6 +51,9 @@ class TableReader {
   void numbers(std::string_view key, std::vector<double>& value, const Range& range);
   /// An array of arrays of four numbers; errors call an element `noun` and count from 1.
   void rows(std::string_view key, std::string_view noun, std::vector<Eigen::Vector4d>& value);
+  /// An array of arrays of a string and two numbers, which errors show as `form`.
+  void labelled_rows(std::string_view key, std::string_view noun, std::string_view form,
+                     std::vector<std::pair<std::string, Eigen::Vector2d>>& value);
   /// An angle in rad, read from NAME_deg or NAME_rad; `range` is in degrees.
   void angle(std::string_view name, double& value, const Range& range);
   /// As angle(), one or more in an array.

@@ -90,6 +90,17 @@ void TomlWriter::rows(std::string_view key, std::string_view,
   line(key, text + "]");
 }
 
+void TomlWriter::labelled_rows(std::string_view key, std::string_view, std::string_view,
+                               const std::vector<std::pair<std::string, Eigen::Vector2d>>& value) {
+  std::string text = "[\n";
+  for (const auto& [label, numbers] : value) {
+    text += "  [" + quoted(label);
+    for (const double x : numbers) text += ", " + number_text(x);
+    text += "],\n";
+  }
+  line(key, text + "]");
+}
+
 void TomlWriter::angle(std::string_view name, double value, const Range& range) {
   const auto degrees = exact_degrees(value);
   number(std::string(name) + (degrees ? "_deg" : "_rad"), degrees.value_or(value), range);

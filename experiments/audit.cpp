@@ -7,9 +7,9 @@
 #include <numbers>
 #include <numeric>
 
-#include "core/knot.hpp"
 #include "core/log_writer.hpp"
 #include "core/simulation.hpp"
+#include "experiments/audit_knot.hpp"
 #include "mujoco_ref/forward_inverse.hpp"
 #include "mujoco_ref/log_model.hpp"
 #include "mujoco_ref/mirror.hpp"
@@ -38,49 +38,9 @@ Finding bounded(const std::string& name, double value, double bound, const std::
   return {name, value <= bound, fmt::format("{:.3g} {} (at most {:g})", value, unit, bound)};
 }
 
-bool in_knot(std::int64_t phase) {
-  return phase >= static_cast<int>(Phase::tighten) && phase < static_cast<int>(Phase::release);
-}
-
 Finding status(const LogContents& log) {
   const std::string text = log.h5.root_text("status");
   return {"status", text == "complete", text};
-}
-
-/// Knot types recomputed from the logged positions.
-std::vector<Finding> topology(const LogContents& log) {
-  const Scene& scene = log.resolved.scene;
-  if (scene.expect.knot.empty()) {
-    return {};
-  }
-  const Hdf5Reader::Rows position = log.h5.rows("/trajectory/position");
-  std::vector<std::string> type(log.time.size());
-  for (std::size_t f = 0; f < type.size(); ++f) {
-    const Eigen::VectorXd row = position.row(static_cast<Eigen::Index>(f));
-    type[f] = knot_name(
-        knot_type(row.reshaped(3, row.size() / 3), scene.knot.votes, scene.knot.seed).type);
-  }
-  std::size_t held = 0;
-  std::size_t frames = 0;
-  std::string lost;
-  for (std::size_t f = 0; f < type.size(); ++f) {
-    if (in_knot(log.phase[f])) {
-      ++frames;
-      held += type[f] == scene.expect.knot ? 1 : 0;
-      if (lost.empty() && type[f] != scene.expect.knot) {
-        lost = fmt::format(", first {} at {:.3f} s", type[f], log.time[f]);
-      }
-    }
-  }
-  std::vector<Finding> findings;
-  findings.push_back({"knot held", frames > 0 && held == frames,
-                      fmt::format("{} at {} of {} frames from tightening to release{}",
-                                  scene.expect.knot, held, frames, lost)});
-  const bool ended = log.phase.back() == static_cast<int>(Phase::free);
-  findings.push_back({"unknot at start", type.front() == "0_1", type.front()});
-  findings.push_back({"unknot at end", ended && type.back() == "0_1",
-                      type.back() + (ended ? "" : ", but the run ended before the knot was off")});
-  return findings;
 }
 
 std::vector<Finding> constraints(const LogContents& log) {
@@ -203,44 +163,6 @@ Finding energy(const LogContents& log) {
   return finding;
 }
 
-std::vector<Finding> sliding(const LogContents& log) {
-  const ExpectSettings& expect = log.resolved.scene.expect;
-  if (expect.knot.empty()) {
-    return {};
-  }
-  const std::vector<double> head_end = log.h5.doubles("/knot/head_end");
-  double first = NAN;
-  double last = NAN;
-  for (std::size_t f = 0; f < head_end.size(); ++f) {
-    if (log.phase[f] == static_cast<int>(Phase::slide) && !std::isnan(head_end[f])) {
-      first = std::isnan(first) ? head_end[f] : first;
-      last = head_end[f];
-    }
-  }
-  // Steps of a phase lie between its frames' first and last step.
-  const std::vector<std::int64_t> step = log.h5.integers("/trajectory/step");
-  const std::vector<std::int64_t> eq6 = log.h5.integers("/steps/eq6");
-  std::int64_t met = 0;
-  std::int64_t rows = 0;
-  for (std::size_t f = 0; f + 1 < step.size(); ++f) {
-    if (log.phase[f] != static_cast<int>(Phase::slide)) {
-      continue;
-    }
-    for (std::int64_t k = step[f]; k < step[f + 1]; ++k) {
-      rows += 1;
-      met += eq6.at(k - step.front()) == 1 ? 1 : 0;
-    }
-  }
-  const double travel = first - last;
-  const double share = rows > 0 ? static_cast<double>(met) / static_cast<double>(rows) : 0;
-  return {{"slide", travel >= expect.slide_distance,
-           fmt::format("head end of the knot moved {:.2f} cm headward (at least {:g})", travel,
-                       expect.slide_distance)},
-          {"Eq. 6", share >= expect.speed_share,
-           fmt::format("met without slack on {:.2f} % of {} sliding steps (at least {:g} %)",
-                       100 * share, rows, 100 * expect.speed_share)}};
-}
-
 }  // namespace
 
 std::vector<Finding> audit(const std::string& file) {
@@ -249,8 +171,7 @@ std::vector<Finding> audit(const std::string& file) {
   const auto append = [&findings](std::vector<Finding> more) {
     findings.insert(findings.end(), more.begin(), more.end());
   };
-  append(topology(log));
-  append(sliding(log));
+  append(audit_knot(log));
   append(constraints(log));
   findings.push_back(force_balance(log));
   findings.push_back(forward_inverse(log));

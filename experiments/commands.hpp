@@ -1,5 +1,6 @@
 // The subcommands of `hagfish`. Each returns the program's exit code: 0 done, 1 the run or the
-// audit failed, 2 bad input (thrown as InputError or FileError, or returned).
+// audit failed, 2 bad input (thrown as InputError or FileError, or returned), 3 the knot is not the
+// scene's.
 #pragma once
 
 #include <string>
@@ -15,6 +16,7 @@ struct RunOptions {
   std::string preset;                 ///< settings by name (presets.hpp); none where empty
   std::string qp;                     ///< QP back end; the preset's, or Ipopt, where empty
   std::vector<std::string> set;       ///< KEY=VALUE overrides, after the preset's
+  std::string until;                  ///< ends with this phase: time.until; the scene's where empty
   bool force = false;                 ///< replace an existing log
   bool quiet = false;
   std::string command;  ///< as typed, for the log

@@ -43,6 +43,8 @@ void add_run(CLI::App& app, const std::string& typed, int& code) {
   run->add_option("--qp", options->qp, "QP back end, instead of the preset's")
       ->check(CLI::IsMember(hagfish::box_qp_solver_names()));
   run->add_option("--set", options->set, set_help)->allow_extra_args(false);
+  run->add_option("--until", options->until,
+                  "stop when this phase has ended: form, tighten, slide, reverse, release");
   run->add_flag("--force", options->force, "replace an existing log");
   run->add_flag("--quiet", options->quiet, "no progress");
   run->callback([options, &code] { code = hagfish::run(*options); });

@@ -69,8 +69,7 @@ std::vector<mjvGeom> geoms_of(const LogContents& log, std::size_t frame, MujocoM
   std::vector<mjvGeom> geoms = skin_geoms(log.model, log.resolved.specimen, centre);
   const Scene& scene = log.resolved.scene;
   if (scene.wall.present) {
-    const bool holds = scene.clamp_head && log.phase[frame] < static_cast<int>(Phase::release);
-    geoms.push_back(plate_geom(holds));
+    geoms.push_back(plate_geom(clamps_head(scene, static_cast<Phase>(log.phase[frame]))));
   }
   return geoms;
 }

@@ -14,6 +14,7 @@ class Progress {
   ~Progress() { end(); }
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
+  /// Each change of phase or knot type gets a line of its own.
   void show(const StepRecord& record);
   /// Tells what the step warns of, also where quiet.
   void warn(const StepRecord& record);
@@ -24,6 +25,7 @@ class Progress {
 
  private:
   double estimated_end(const StepRecord& record) const;
+  void show_change(const StepRecord& record);
 
   const Model& model_;
   const Scene& scene_;
@@ -32,6 +34,8 @@ class Progress {
   bool drawn_ = false;
   std::chrono::steady_clock::time_point begin_;
   double next_ = 0;  // wall time of the next line, s
+  Phase phase_ = Phase::form;
+  KnotInvariants type_;
 };
 
 }  // namespace hagfish

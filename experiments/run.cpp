@@ -24,14 +24,23 @@ namespace fs = std::filesystem;
 volatile std::sig_atomic_t interrupted = 0;
 void interrupt(int /*signal*/) { interrupted = 1; }
 
-/// Steps until the scene is over; returns the log's status.
-std::string take_steps(const Model& model, const Scene& scene, BoxQpSolver& solver, LogWriter& log,
-                       Progress& progress) {
+constexpr int run_failed = 1;
+constexpr int wrong_knot = 3;
+
+/// How a run ended: the log's status, and the program's exit code.
+struct Ending {
+  std::string status;
+  int code = 0;
+};
+
+/// Steps until the scene is over.
+Ending take_steps(const Model& model, const Scene& scene, BoxQpSolver& solver, LogWriter& log,
+                  Progress& progress) {
   Simulation sim = start(model, scene);
   StepRecord record;
   while (!finished(sim, scene)) {
     if (interrupted != 0) {
-      return fmt::format("failed: interrupted at step {}", sim.step);
+      return {fmt::format("failed: interrupted at step {}", sim.step), run_failed};
     }
     try {
       take_step(model, scene, solver, sim, record);
@@ -40,12 +49,15 @@ std::string take_steps(const Model& model, const Scene& scene, BoxQpSolver& solv
       progress.show(record);
     } catch (const FileError&) {
       throw;  // the log itself cannot be written
-    } catch (const std::exception& error) {
-      return fmt::format("failed: {} at step {} (t = {:.4f} s, {})", error.what(), sim.step,
-                         time_of(sim, scene), phase_name(sim.controller.phase));
+    } catch (const StepError& error) {
+      const bool knot =
+          error.cause() == StopCause::never_tied || error.cause() == StopCause::knot_lost;
+      return {fmt::format("failed: {} at step {} (t = {:.4f} s, {})", error.what(), sim.step,
+                          time_of(sim, scene), phase_name(sim.controller.phase)),
+              knot ? wrong_knot : run_failed};
     }
   }
-  return "complete";
+  return {"complete", 0};
 }
 
 }  // namespace
@@ -55,6 +67,7 @@ int run(const RunOptions& options) {
                                                : preset_called(options.preset);
   std::vector<std::string> set = preset.set;
   set.insert(set.end(), options.set.begin(), options.set.end());
+  if (!options.until.empty()) set.push_back("time.until=" + options.until);
   const ResolvedScene resolved = scene_argument(options.scene, set);
   const Scene& scene = resolved.scene;
   const Model model = make_hagfish(resolved.specimen, scene);
@@ -74,12 +87,12 @@ int run(const RunOptions& options) {
   std::signal(SIGINT, interrupt);
   std::signal(SIGTERM, interrupt);
   Progress progress(model, scene, options.quiet);
-  const std::string status = take_steps(model, scene, *solver, log, progress);
+  const Ending ending = take_steps(model, scene, *solver, log, progress);
   progress.end();
-  log.finish(status);
-  if (status != "complete") {
-    fmt::print(stderr, "hagfish: {}: {}\n", out.string(), status);
-    return 1;
+  log.finish(ending.status);
+  if (ending.code != 0) {
+    fmt::print(stderr, "hagfish: {}: {}\n", out.string(), ending.status);
+    return ending.code;
   }
   if (!options.quiet) {
     fmt::print(stderr, "{}: complete after {:.1f} s\n", out.string(), progress.elapsed());

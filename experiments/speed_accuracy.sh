@@ -6,54 +6,10 @@
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 out=${1:-$root/out/speed_accuracy}
-mkdir -p "$out"
-out=$(cd "$out" && pwd)
+source "$root/experiments/study.sh"
 
-bash "$root/experiments/setup.sh" --target hagfish
-cores=$(nproc)
-# Serial BLAS, so that runs repeat to the last bit.
-export OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1
-export hagfish=$root/build/release/experiments/hagfish runs=$out/runs
-
-# Results of another program do not mix with this one's.
-if [[ -d $runs && $(cat "$runs/version" 2>/dev/null) != "$("$hagfish" --version)" ]]; then
-  echo "$runs was made by another version: starting anew"
-  rm -r "$runs"
-fi
-mkdir -p "$runs"
-"$hagfish" --version >"$runs/version"
-
-# One job a line, fields by tabs: NAME REPEATS and the arguments of `hagfish run`. A job that is done
-# has a NAME.cpu: user and system time of each repeat, s. A run may fail: that is a result.
-timed_run() {
-  local name=$1 repeats=$2
-  local -a arguments
-  read -ra arguments <<<"$3"
-  local log=$runs/$name.h5 i code
-  [[ -e $runs/$name.cpu ]] && return
-  TIMEFORMAT='%U %S'
-  rm -f "$runs/$name.times"
-  for ((i = 0; i < repeats; ++i)); do
-    code=0
-    { time "$hagfish" run "${arguments[@]}" --out "$log" --force --quiet 2>"$runs/$name.err"; } 2>>"$runs/$name.times" ||
-      code=$?
-    if ((code > 1)) || grep -q 'failed: interrupted' "$runs/$name.err"; then
-      cat "$runs/$name.err" >&2
-      return "$code"
-    fi
-  done
-  "$hagfish" check "$log" >"$runs/$name.check" 2>&1 || (($? == 1))
-  mv "$runs/$name.times" "$runs/$name.cpu"
-}
 integrate() {
   [[ -e $runs/$1.h5 ]] || "$hagfish" integrate --motion "$1" --out "$runs/$1.h5" >"$runs/$1.txt"
-}
-# One job, which says that it is done where no bar does.
-job() {
-  local -a fields
-  IFS=$'\t' read -ra fields <<<"$1"
-  "${fields[@]}"
-  [[ -t 2 ]] || echo "$PARALLEL_SEQ of $jobs: ${fields[1]}"
 }
 # QPs of every tenth step of a run, solved by each back end down to each tolerance.
 back_ends() {
@@ -66,18 +22,7 @@ back_ends() {
   "$hagfish" qp "$set" "${tolerances[@]}" --csv "$runs/$1.csv.new" >>"$runs/$1.txt" 2>&1 || (($? == 1))
   mv "$runs/$1.csv.new" "$runs/$1.csv"
 }
-export -f timed_run integrate back_ends job
-
-# work AT_ONCE TITLE: the jobs of standard input, `function TAB arguments`, so many at once.
-work() {
-  local list show=()
-  list=$(cat)
-  jobs=$(wc -l <<<"$list")
-  export jobs
-  echo "$2: $jobs jobs, $1 at once"
-  if [[ -t 2 ]]; then show=(--bar); fi
-  parallel --will-cite --halt soon,fail=1 -j "$1" "${show[@]}" job {} <<<"$list"
-}
+export -f integrate back_ends
 
 # Frames every 50 ms, a multiple of every step here.
 frames="--set time.frame_interval=0.05"
@@ -144,8 +89,6 @@ needs | work "$cores" "Choices of the model"
 { printf 'back_ends\tqps\n'; printf 'integrate\t%s\n' coil hanging whip; } | work "$cores" "QPs and smooth motions"
 presets | work 1 "Presets, alone on the machine"
 
-# Debian's python3 is the one that has h5py and matplotlib.
-draw() { /usr/bin/python3 "$root/experiments/figures/$1" "${@:2}"; }
 echo "Drawing"
 draw integration.py "$runs" "$out/integration.csv" "$out/integration.png"
 draw back_ends.py "$runs" "$out/back_ends.csv" "$out/back_ends.png"

@@ -18,9 +18,7 @@ constexpr double wave_share = 0.1;
 constexpr double wave_count = 2;
 constexpr double wave_rate = 0.5;
 
-bool clamps_head(const Start& start) {
-  return start.scene.clamp_head && start.sim.controller.phase < Phase::release;
-}
+bool holds_head(const Start& start) { return clamps_head(start.scene, start.sim.controller.phase); }
 
 }  // namespace
 
@@ -66,7 +64,7 @@ Start free_start(const Start& knotted) {
 
 MujocoModel mirror_of(const Start& start) {
   MujocoModel mirror(mjcf_files(start.model, start.scene.contact.least_arc, start.scene.time.step,
-                                clamps_head(start) ? Head::clamped : Head::free));
+                                holds_head(start) ? Head::clamped : Head::free));
   std::fill_n(mirror.model()->geom_margin, mirror.model()->ngeom, 0.0);
   mirror.model()->opt.integrator = mjINT_EULER;
   set_state(start.model, start.sim.state, mirror);

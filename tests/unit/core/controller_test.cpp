@@ -33,6 +33,7 @@ class Controller : public testing::Test {
   double now = 0;
 
   Controller() {
+    scene.expect.knot = "3_1";
     scene.script.kind = ScriptSettings::Kind::force;
     scene.script.knots = {{0, {10, 20, 30}}, {5, {50, 60, 70}}};
     scene.controller.hysteresis = 0.05;
@@ -73,6 +74,16 @@ class Controller : public testing::Test {
     state.loose = now;
     state.knot = knot_type(situation.kin.centre, scene.knot.votes, scene.knot.seed);
     state.knot_seen = now;
+  }
+
+  /// What the controller complains of at a step.
+  std::string complaint(std::vector<Contact> contacts) {
+    try {
+      step(std::move(contacts));
+    } catch (const StepError& error) {
+      return error.what();
+    }
+    return "none";
   }
 
   double first() const { return state.first.contact->arc_a; }
@@ -282,7 +293,121 @@ TEST_F(Controller, ThrowsWhereTheScriptEndsUntied) {
   now = 6.9;  // the script ends at 5 s; patience is 2 s
   EXPECT_NO_THROW(step({}));
   now = 7.1;
-  EXPECT_THROW(step({}), StepError);
+  EXPECT_EQ(complaint({}),
+            "the script ended with no knot, and tied none before, but expect.knot = 3_1");
+}
+
+TEST_F(Controller, TellsWhichKnotCameUndoneAndWhen) {
+  tie(true);
+  now = 3;
+  step({});
+  tie(false);
+  now = 4.5;
+  step({});
+  now = 7.1;
+  EXPECT_EQ(
+      complaint({}),
+      "the script ended with no knot, after a 3_1 from 3.00 to 4.50 s, but expect.knot = 3_1");
+}
+
+TEST_F(Controller, WaitsForTheScenesKnotAndTellsWhichOneCame) {
+  scene.expect.knot = "4_1";
+  tie(true);
+  now = 3;
+  step({contact(5, 30)});
+  EXPECT_EQ(state.phase, Phase::form);
+  now = 7.1;
+  EXPECT_EQ(complaint({contact(5, 30)}),
+            "the script ended with a 3_1, tied since 3.00 s, but expect.knot = 4_1");
+}
+
+TEST_F(Controller, TellsOfTooLittleTailThrough) {
+  tie(true);
+  now = 3;
+  step({contact(5, 35)});
+  now = 7.1;
+  EXPECT_EQ(complaint({contact(5, 35)}),
+            "the script ended with a 3_1, tied since 3.00 s, but 7.40 cm of tail through it where "
+            "controller.tail_through = 8 cm");
+}
+
+TEST_F(Controller, WithoutAKnotExpectedItOnlyForms) {
+  scene.expect.knot = "";
+  tie(true);
+  now = 100;
+  EXPECT_EQ(complaint({contact(5, 30)}), "none");
+  EXPECT_EQ(state.phase, Phase::form);
+}
+
+TEST_F(Controller, DoesNotTightenBeforeItsTime) {
+  scene.controller.tighten_from = 4;
+  tie(true);
+  now = 3.98;
+  step({contact(5, 30)});
+  EXPECT_EQ(state.phase, Phase::form);
+  now = 4;
+  step({contact(5, 30)});
+  EXPECT_EQ(state.phase, Phase::tighten);
+}
+
+TEST_F(Controller, FreesTheHeadFromThePhaseThatTheSceneNames) {
+  scene.controller.free_from = Phase::tighten;
+  tie(false);
+  EXPECT_TRUE(step({contact(5, 30)}).clamp_head);
+  start_in(Phase::tighten);
+  EXPECT_FALSE(step({contact(5, 30)}).clamp_head);
+  scene.controller.free_from = Phase::free;
+  start_in(Phase::release);
+  EXPECT_TRUE(step({contact(5, 30)}).clamp_head);
+}
+
+TEST_F(Controller, TurnsBackAtTheHeadAndLetsGoNearTheTail) {
+  scene.controller.leave_by = BodyEnd::tail;
+  scene.controller.reverse_head = {3, 4};
+  scene.controller.reverse_tail = {5, 6};
+  start_in(Phase::slide);
+  EXPECT_EQ(step({contact(1.95, 20)}).thigmotaxis.at(0).towards, BodyEnd::head);
+  Control control = step({contact(1.9, 20)});
+  EXPECT_EQ(state.phase, Phase::reverse);
+  EXPECT_TRUE(control.clamp_head);
+  ASSERT_EQ(control.thigmotaxis.size(), 2U);
+  EXPECT_EQ(control.thigmotaxis[0].towards, BodyEnd::tail);
+  EXPECT_EQ(control.thigmotaxis[0].speed.a, 3);
+  EXPECT_EQ(control.thigmotaxis[1].speed.b, 6);
+  // 1.908 cm before the tail's end, at 42.4 cm.
+  now += scene.controller.hysteresis;
+  step({contact(20, 40.48)});
+  EXPECT_EQ(state.phase, Phase::reverse);
+  control = step({contact(20, 40.5)});
+  EXPECT_EQ(state.phase, Phase::release);
+  EXPECT_EQ(control.thigmotaxis.at(1).towards, BodyEnd::tail);
+  // Until then the knot must hold.
+  start_in(Phase::reverse);
+  tie(false);
+  now = state.knot_seen + scene.knot.interval;
+  EXPECT_THROW(step({contact(5, 30)}), StepError);
+}
+
+TEST_F(Controller, AKnotIsGoneOnceItHasBeenForAWhile) {
+  scene.controller.untied_for = 0.1;
+  start_in(Phase::release);
+  tie(false);
+  now = state.knot_seen + scene.knot.interval;
+  const double since = now;
+  while (now < since + 0.1 - 1e-9) {
+    step({contact(1, 20)});
+    ASSERT_EQ(state.phase, Phase::release) << now - since;
+  }
+  tie(true);  // back for a moment: the wait starts anew
+  now = state.knot_seen + scene.knot.interval;
+  step({contact(1, 20)});
+  tie(false);
+  now = state.knot_seen + scene.knot.interval;
+  step({contact(1, 20)});
+  EXPECT_EQ(state.phase, Phase::release);
+  now += 0.1;
+  step({contact(1, 20)});
+  EXPECT_EQ(state.phase, Phase::free);
 }
 
 TEST_F(Controller, WaitsWithoutAScript) {
@@ -305,6 +430,18 @@ TEST_F(Controller, ThrowsWhereTheKnotIsLost) {
 TEST_F(Controller, SaysNothingToAKnotThatDoesNotTouch) {
   start_in(Phase::slide);
   EXPECT_TRUE(step({contact(5, 30, 0.08)}).thigmotaxis.empty());
+}
+
+TEST(Phase, HasAnOrderInTime) {
+  const std::vector<Phase> order = {Phase::form,    Phase::tighten, Phase::slide,
+                                    Phase::reverse, Phase::release, Phase::free};
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    EXPECT_EQ(phase_order(order[k]), static_cast<int>(k));
+    EXPECT_EQ(holds_knot(order[k]), k >= 1 && k <= 3) << phase_name(order[k]);
+  }
+  // Logs hold these numbers.
+  EXPECT_EQ(static_cast<int>(Phase::free), 4);
+  EXPECT_EQ(static_cast<int>(Phase::reverse), 5);
 }
 
 TEST(Phase, HasNames) {

@@ -272,6 +272,21 @@ TEST(Rows, ForceIsTheTransposeOfVelocity) {
   }
 }
 
+TEST(Rows, TowardsTheTailBothTangentsTurn) {
+  const Tangle t(86);
+  const std::vector<Row> headward = thigmotaxis_rows(t.model, t.commands, 5000, h);
+  std::vector<ThigmotaxisCommand> back = t.commands;
+  for (ThigmotaxisCommand& command : back) command.towards = BodyEnd::tail;
+  const std::vector<Row> tailward = thigmotaxis_rows(t.model, back, 5000, h);
+  ASSERT_EQ(tailward.size(), headward.size());
+  for (std::size_t i = 0; i < headward.size(); ++i) {
+    EXPECT_EQ(tailward[i].direction, -headward[i].direction);
+    EXPECT_EQ(tailward[i].rhs, headward[i].rhs);
+    EXPECT_EQ(tailward[i].upper, headward[i].upper);
+    EXPECT_EQ(tailward[i].id, headward[i].id);
+  }
+}
+
 TEST(Rows, EachHasItsOwnIdAndKeepsIt) {
   const Tangle t(87);
   const std::vector<Row> rows = t.rows();

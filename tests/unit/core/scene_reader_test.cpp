@@ -121,6 +121,20 @@ std::vector<std::uint64_t> bits(const Scene& s, const Specimen& animal) {
                            s.controller.slide_head.b,
                            s.controller.slide_tail.a,
                            s.controller.slide_tail.b,
+                           s.controller.reverse_head.a,
+                           s.controller.reverse_head.b,
+                           s.controller.reverse_tail.a,
+                           s.controller.reverse_tail.b,
+                           double(s.controller.leave_by),
+                           double(s.controller.free_from),
+                           s.controller.tighten_from,
+                           s.controller.untied_for,
+                           double(s.mirror),
+                           s.script.noise,
+                           double(s.script.noise_seed),
+                           double(s.time.until),
+                           double(s.expect.hand),
+                           s.expect.reverse_distance,
                            s.controller.cap,
                            s.controller.contact_gap,
                            s.controller.hysteresis,
@@ -155,7 +169,11 @@ std::vector<std::uint64_t> bits(const Scene& s, const Specimen& animal) {
                            animal.bending_span,
                            animal.twist_limit};
   for (const auto& knot : s.script.knots) {
-    x.insert(x.end(), {knot.time, knot.value.x(), knot.value.y(), knot.value.z()});
+    x.insert(x.end(), {knot.time, knot.value.x(), knot.value.y(), knot.value.z(), knot.noise.x(),
+                       knot.noise.y(), knot.noise.z()});
+  }
+  for (const KnotStretch& stretch : s.expect.types) {
+    x.insert(x.end(), {stretch.from, stretch.to});
   }
   for (const auto* profile : {&animal.station, &animal.circumference, &animal.bending_limit}) {
     x.insert(x.end(), profile->begin(), profile->end());
@@ -184,8 +202,10 @@ ResolvedScene odd_scene() {
   s.script.spring = odd();
   s.script.damper = odd();
   s.script.largest_force = odd();
-  s.controller = {{odd(), odd()}, {odd(), odd()}, {odd(), odd()}, {odd(), odd()}, odd(), odd(),
-                  odd(),          odd(),          odd(),          odd(),          odd(), odd()};
+  s.controller = {{odd(), odd()}, {odd(), odd()}, {odd(), odd()}, {odd(), odd()}, {odd(), odd()},
+                  {odd(), odd()}, BodyEnd::tail,  Phase::tighten, odd(),          odd(),
+                  odd(),          odd(),          odd(),          odd(),          odd(),
+                  odd(),          odd(),          odd(),          odd()};
   s.knot = {3, 4294967295u, odd()};
   s.controller.contact_gap = s.contact.margin / 3;
   s.time.step = odd();
@@ -195,7 +215,13 @@ ResolvedScene odd_scene() {
   s.constraints.corrections = 5;
   s.constraints.stride = odd();
   s.guard = {GuardAction::warn, odd(), odd(), odd(), odd(), EnergyAction::stop, odd()};
-  s.expect = {"4_1", odd(), odd(), odd(), odd(), odd(), odd(), odd(), odd()};
+  s.time.until = Phase::reverse;
+  s.expect = {"4_1",      {{"0_1", 0, odd()}, {"det=9,v2=2", odd(), odd()}},
+              Hand::left, odd(),
+              odd(),      odd(),
+              odd(),      odd(),
+              odd(),      odd(),
+              odd(),      odd()};
   result.specimen = {
       "odd", 50 + odd(), odd(), {odd(), odd(), odd()}, {odd(), odd(), odd()}, {odd(), odd(), odd()},
       odd(), odd()};
@@ -204,7 +230,8 @@ ResolvedScene odd_scene() {
 
 TEST(SceneReader, ResolvedTextGivesTheSameScene) {
   for (const auto& [scene, specimen] : {odd_scene(), read_scene(data + "/table1.toml"),
-                                        read_scene(data + "/overhand_waypoints.toml")}) {
+                                        read_scene(data + "/overhand_waypoints.toml"),
+                                        read_scene(data + "/overhand_reverse.toml")}) {
     const std::string text = scene_to_toml(scene, specimen);
     const ResolvedScene again = read_scene_text(text, "resolved");
     EXPECT_EQ(bits(again.scene, again.specimen), bits(scene, specimen));
@@ -213,6 +240,16 @@ TEST(SceneReader, ResolvedTextGivesTheSameScene) {
     EXPECT_EQ(again.specimen.name, specimen.name);
     EXPECT_EQ(scene_to_toml(again.scene, again.specimen), text);
   }
+}
+
+TEST(SceneReader, ResolvedTextOfAMirroredNoisySceneGivesTheSameScene) {
+  const auto [scene, specimen] =
+      read_scene(data + "/double_overhand.toml", {"mirror=true", "script.noise=0.3"});
+  const std::string text = scene_to_toml(scene, specimen);
+  const ResolvedScene again = read_scene_text(text, "resolved");
+  EXPECT_EQ(bits(again.scene, again.specimen), bits(scene, specimen));
+  EXPECT_EQ(again.scene.expect.types.at(2).type, "5_1");
+  EXPECT_EQ(scene_to_toml(again.scene, again.specimen), text);
 }
 
 TEST(SceneReader, DefaultsAreThoseOfSettings) {

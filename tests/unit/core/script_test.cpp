@@ -76,6 +76,20 @@ TEST(Script, PositionsOfEvenMotionAreEven) {
   }
 }
 
+TEST(Script, NoiseMovesTheKnots) {
+  for (const ScriptSettings& plain : {force, position}) {
+    ScriptSettings noisy = plain;
+    ScriptSettings moved = plain;
+    for (std::size_t k = 0; k < plain.knots.size(); ++k) {
+      noisy.knots[k].noise = Vector3d(0.1, -0.2, 0.3) * static_cast<double>(k + 1);
+      moved.knots[k].value += noisy.knots[k].noise;
+    }
+    for (const double time : {-1.0, 0.0, 0.3, 0.5, 1.1, 2.9, 3.0, 4.0}) {
+      EXPECT_EQ(script_value(noisy, time), script_value(moved, time)) << time;
+    }
+  }
+}
+
 TEST(Script, EndsAtItsLastKnot) {
   EXPECT_EQ(script_end(force), 3);
   EXPECT_EQ(script_end({}), 0);

@@ -19,7 +19,9 @@ namespace fs = std::filesystem;
 class AuditTest : public testing::Test {
  protected:
   AuditTest() : file(fs::path(testing::TempDir()) / ("audit_" + std::to_string(getpid()) + ".h5")) {
-    const ResolvedScene resolved = stored_scene({"time.frame_interval=0.01"});
+    // The excerpt is of 13.76 to 13.82 s.
+    const ResolvedScene resolved = stored_scene(
+        {"time.frame_interval=0.01", "expect.hand=right", "expect.types=[['3_1', 13, 14]]"});
     const Scene& scene = resolved.scene;
     const Model model = make_hagfish(resolved.specimen, scene);
     LogHeader header;
@@ -60,8 +62,8 @@ class AuditTest : public testing::Test {
 
 TEST_F(AuditTest, PassesAnHonestLog) {
   for (const char* name :
-       {"status", "knot held", "Eq. 6", "penetration", "limits", "head drift", "KKT residual",
-        "force balance", "f_thigmo past the knot", "energy ledger"}) {
+       {"status", "knot held", "knot through time", "hand", "Eq. 6", "penetration", "limits",
+        "head drift", "KKT residual", "force balance", "f_thigmo past the knot", "energy ledger"}) {
     EXPECT_TRUE(passes(name)) << name;
   }
   // The excerpt starts knotted and does not slide 9 cm: that must show.
@@ -167,6 +169,16 @@ TEST_F(AuditTest, SeesAKnotThatCameUndone) {
     }
   }
   EXPECT_FALSE(passes("knot held"));
+  EXPECT_FALSE(passes("knot through time"));
+}
+
+TEST_F(AuditTest, SeesTheMirrorImageOfTheKnotExpected) {
+  const Hdf5Reader::Rows position = Hdf5Reader(file).rows("/trajectory/position");
+  for (Eigen::Index k = 1; k < position.cols(); k += 3) {
+    tamper("/trajectory/position", k, -2 * position(0, k));  // one frame of them
+  }
+  EXPECT_TRUE(passes("knot held"));
+  EXPECT_FALSE(passes("hand"));
 }
 
 }  // namespace

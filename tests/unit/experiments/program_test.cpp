@@ -324,6 +324,54 @@ TEST_F(ProgramTest, AFailedStepLeavesAReadableLogWithTheCause) {
   EXPECT_EQ(hagfish("check a.h5").code, 1);
 }
 
+/// A script that ends after a second, long before anything is tied.
+const std::string hasty =
+    "run --qp active-set --set script.kind=position --set script.spring=3000 --set "
+    "script.largest_force=500 --set script.unit=L --set "
+    "'script.knots=[[0, 0.995, 0, 0], [1, 0.95, 0.05, 0]]' --set time.step=0.02 ";
+
+TEST_F(ProgramTest, AScriptThatTiesNothingEndsWithCode3AndSaysSo) {
+  const Outcome run = hagfish(hasty + "--quiet --out a.h5");
+  EXPECT_EQ(run.code, 3) << run.output;
+  EXPECT_EQ(std::count(run.output.begin(), run.output.end(), '\n'), 1) << run.output;
+  EXPECT_NE(
+      run.output.find("a.h5: failed: the script ended with no knot, and tied none before, but "
+                      "expect.knot = 3_1"),
+      std::string::npos)
+      << run.output;
+  EXPECT_EQ(hagfish("check a.h5").code, 1);
+  const Outcome none = hagfish(hasty +
+                               "--quiet --force --out a.h5 --set expect.knot= --set "
+                               "time.duration=3.5");
+  EXPECT_EQ(none.code, 0) << none.output;
+}
+
+TEST_F(ProgramTest, AScriptThatTiesAnotherKnotEndsWithCode3AndNamesIt) {
+  const Outcome run = hagfish("run --preset quick --quiet --set expect.knot=4_1 --out a.h5");
+  EXPECT_EQ(run.code, 3) << run.output;
+  EXPECT_NE(run.output.find("failed: the script ended with a 3_1, tied since "), std::string::npos)
+      << run.output;
+  EXPECT_NE(run.output.find(", but expect.knot = 4_1 at step "), std::string::npos) << run.output;
+}
+
+TEST_F(ProgramTest, StopsWhenAPhaseHasEndedAndTellsTheKnotAsItGoes) {
+  const Outcome run = hagfish("run --preset quick --until form --out a.log");
+  EXPECT_EQ(run.code, 0) << run.output;
+  EXPECT_NE(run.output.find(" s  knot 3_1  "), std::string::npos) << run.output;
+  EXPECT_NE(run.output.find("tighten  t = "), std::string::npos) << run.output;
+  EXPECT_EQ(run.output.find("slide    t = "), std::string::npos) << run.output;
+  {
+    const hagfish::LogContents log((folder / "a.log").string());
+    EXPECT_EQ(log.resolved.scene.time.until, hagfish::Phase::form);  // a rerun stops there too
+    EXPECT_GT(log.time.back(), 9);
+  }
+  // What was not reached is not judged.
+  const Outcome check = hagfish("check a.log");
+  EXPECT_EQ(check.code, 0) << check.output;
+  EXPECT_EQ(check.output.find("slide"), std::string::npos) << check.output;
+  expect_refused("run --until tied --out b.h5", {"time.until=tied", "must be one of", "tighten"});
+}
+
 TEST_F(ProgramTest, AbsurdNumbersFailTheRunAndDoNotCrashIt) {
   for (const char* absurd : {"specimen.length=1e200", "specimen.mass=1e300", "time.step=1e-300"}) {
     const Outcome run = hagfish(std::string("run --quiet --force --out a.h5 --set ") + absurd);

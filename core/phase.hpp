@@ -1,0 +1,31 @@
+// The phases of an experiment, in the log's numbering.
+#pragma once
+
+#include <cstdint>
+
+namespace hagfish {
+
+/// `reverse` comes between slide and release where the knot leaves by the tail; its number is the
+/// last one because logs hold these numbers.
+enum class Phase : std::uint8_t { form, tighten, slide, release, free, reverse };
+inline constexpr int phase_count = 6;
+
+constexpr const char* phase_name(Phase phase) {
+  constexpr const char* names[phase_count] = {"form",    "tighten", "slide",
+                                              "release", "free",    "reverse"};
+  return names[static_cast<int>(phase)];
+}
+
+/// Place of a phase in time: form, tighten, slide, reverse, release, free.
+constexpr int phase_order(Phase phase) {
+  constexpr int order[phase_count] = {0, 1, 2, 4, 5, 3};
+  return order[static_cast<int>(phase)];
+}
+
+/// The knot must hold: it is tied and not yet let go.
+constexpr bool holds_knot(Phase phase) {
+  return phase_order(phase) >= phase_order(Phase::tighten) &&
+         phase_order(phase) < phase_order(Phase::release);
+}
+
+}  // namespace hagfish

@@ -1,0 +1,183 @@
+"""Four knots side by side: pictures of four stages, force profiles of the slides, and a page on how surely each is tied.
+
+Usage: knots.py RUNS HAGFISH OUT_PICTURES.png OUT_FORCES.png OUT.md, where HAGFISH is the program (writes PDFs beside).
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+
+import claims
+from figure7 import GAP, Stage, choose_camera, take_pictures
+from hagfish_log import HagfishLog, LogError, save_figure
+from slides import COLOURS, knot_label, unmet_of
+from study import run_study
+
+DPI = 300
+WIDTH = 7.2  # of the pictures, inches
+NOISES = ("0.2", "0.5", "1")
+STEPS = ("0.0005", "0.001", "0.005", "0.01", "0.02")
+SMOOTHED = 5  # frames of the running median over time
+
+
+def stages_of(log: HagfishLog) -> list[Stage]:
+    """Tied by the script, tightened, at the head, and half way through letting go."""
+    tighten, slide, release = (log.in_phase(phase) for phase in ("tighten", "slide", "release"))
+    if not (tighten.size and slide.size and release.size):
+        raise LogError(f"{log.path}: does not get as far as letting the knot go")
+    return [Stage(int(tighten[0]), "tied"), Stage(int(slide[0]), "tightened"), Stage(int(release[0]), "slid to the head"),
+            Stage(int(release[release.size // 2]), "slipping off")]
+
+
+def draw_pictures(logs: dict[str, HagfishLog], hagfish: Path, out: Path) -> None:
+    """A row for each knot, a column for each stage; one scale throughout."""
+    pictures = {}
+    for knot, log in logs.items():
+        stages = stages_of(log)
+        pictures[knot] = stages, take_pictures(log, hagfish, [s.frame for s in stages], choose_camera(log, stages))
+    wide = max(p.right - p.left for _, row in pictures.values() for p in row) + 2 * GAP
+    heights = {knot: max(p.top for p in row) - min(p.bottom for p in row) + 2 * GAP for knot, (_, row) in pictures.items()}
+    per_cm, text = WIDTH / (4 * wide), 0.32
+    tall = sum(heights.values()) * per_cm + text * len(pictures) + 0.25
+    figure, top = plt.figure(figsize=(WIDTH, tall)), tall - 0.25
+    for knot, (stages, row) in pictures.items():
+        height, low = heights[knot] * per_cm, min(p.bottom for p in row) - GAP
+        for column, (stage, p) in enumerate(zip(stages, row)):
+            axes = figure.add_axes([column / 4, (top - height) / tall, 1 / 4, height / tall])
+            middle = (p.left + p.right) / 2
+            axes.imshow(p.pixels, extent=(p.left, p.right, p.bottom, p.top))
+            axes.set(xlim=(middle - wide / 2, middle + wide / 2), ylim=(low, low + heights[knot]), aspect="auto")
+            axes.axis("off")
+            log = logs[knot]
+            ends = [log[f"/knot/{end}_end"][stage.frame] for end in ("head", "tail")]
+            spans = f", {ends[0]:.1f} to {ends[1]:.1f} cm" if np.all(np.isfinite(ends)) else ""
+            axes.text(0.03, 0.0, f"$t$ = {log['/trajectory/time'][stage.frame]:.2f} s{spans}", fontsize=6.5, va="top",
+                      transform=axes.transAxes)
+            if column == 0:
+                axes.text(0.03, 0.97, knot_label(knot), fontsize=8.5, va="top", weight="bold", transform=axes.transAxes)
+        top -= height + text
+    for column, stage in enumerate(next(iter(pictures.values()))[0]):
+        figure.text(column / 4 + 0.01, 1 - 0.16 / tall, stage.title, fontsize=8.5, va="center")
+    save_figure(figure, out, DPI)
+
+
+def running_median(values: np.ndarray) -> np.ndarray:
+    padded = np.pad(values, SMOOTHED // 2, mode="edge")
+    return np.median(np.lib.stride_tricks.sliding_window_view(padded, SMOOTHED), axis=1)
+
+
+def force_figures(log: HagfishLog, s: claims.Sliding) -> dict[str, float]:
+    """f_thigmo on the hinges over the slide: peak, total effort, work, modes."""
+    interval = float(np.median(np.diff(s.time)))
+    size = np.abs(s.force)
+    slide = log.in_phase("slide")
+    work = log["/diagnostics/work_thigmotaxis"]
+    travel = float(s.head_end[0] - s.head_end[-1])
+    modes = claims.smooth_in_space(s)["axes"]
+    return {"seconds": float(s.time[-1] - s.time[0]), "travel": travel, "multipliers": float(np.median(s.lambdas.sum(axis=1))),
+            "peak": float(size.max()), "peak99": float(np.percentile(size.max(axis=1), 99)),
+            "median": float(np.median(size.max(axis=1))), "effort": float(size.sum() * interval),
+            "effort_per_cm": float(size.sum() * interval / travel), "work": float(work[slide[-1]] - work[slide[0]]),
+            "dct": max(axis["dct_modes_95"] for axis in modes.values()),
+            "svd": max(axis["svd_modes_95"] for axis in modes.values())}
+
+
+def draw_forces(slides: dict[str, claims.Sliding], out: Path) -> None:
+    figure, (over_time, along, modes) = plt.subplots(1, 3, figsize=(11.5, 3.9), layout="constrained")
+    for knot, s in slides.items():
+        colour, label = COLOURS[knot], knot_label(knot)
+        total = s.lambdas.sum(axis=1)
+        over_time.plot(s.time - s.time[0], total, color=colour, lw=0.5, alpha=0.3)
+        over_time.plot(s.time - s.time[0], running_median(total), color=colour, lw=1.4, label=label)
+        arcs = np.unique(s.arc)
+        rms = np.sqrt([(s.force[:, s.arc == arc] ** 2).sum(axis=1).mean() for arc in arcs])
+        along.plot(arcs, rms, color=colour, lw=1.3)
+        held = np.sum([np.linalg.svd(s.axis(axis)[1], compute_uv=False)[:30] ** 2 for axis in claims.KINDS], axis=0)
+        modes.plot(np.arange(1, held.size + 1), 100 * (1 - np.cumsum(held) / (s.force**2).sum()), "o-", color=colour, ms=3, lw=1)
+    over_time.set(xlabel="time since the slide began, s", ylabel=r"sum of the four $\lambda/h$, dyn", yscale="log")
+    over_time.legend(fontsize=8, frameon=False)
+    over_time.set_title("(a) thin: every frame; thick: median of five", loc="left", fontsize=9)
+    along.set(xlabel="joint, cm from the head", ylabel="$f_{thigmo}$, rms over the slide, dyn cm", yscale="log", ylim=(1, None))
+    along.set_title("(b) where along the body", loc="left", fontsize=9)
+    modes.set(xlabel="SVD modes of each axis kept", ylabel="energy left out, %", yscale="log", ylim=(0.1, 100), xlim=(0.5, 20.5))
+    modes.axhline(5, color="#777777", lw=0.8, ls="--", zorder=0)
+    modes.set_title("(c) how many modes hold it", loc="left", fontsize=9)
+    for axes in (over_time, along, modes):
+        axes.grid(alpha=0.25)
+    save_figure(figure, out, DPI)
+
+
+def outcome(folder: Path, name: str) -> str:
+    """What the audit of a run names, the step's own penetration aside; empty where all is well."""
+    return ", ".join(dict.fromkeys(unmet_of(folder, name)))
+
+
+def sure(folder: Path, scene: str) -> list[str]:
+    """Of ten noisy starts, how many were tied, held, slid and came off, for each noise."""
+    cells = []
+    for noise in NOISES:
+        names = sorted(path.stem for path in folder.glob(f"noise_{scene}_{noise}_*.check"))
+        unmet = [set(unmet_of(folder, name)) for name in names]
+        good = sum(not each & {"status", "knot held", "unknot at end", "limits"} for each in unmet)
+        clean = sum(not each & {"status", "knot held", "unknot at end", "limits", "penetration"} for each in unmet)
+        cells.append(f"{good} of {len(names)}" + (f" ({clean} within the penetration)" if clean != good else ""))
+    return cells
+
+
+def scene_of(folder: Path, knot: str) -> str:
+    for path in sorted(folder.glob("plain_*.h5")):
+        if HagfishLog(path).scene()["expect"]["knot"] == knot:
+            return path.stem.removeprefix("plain_")
+    raise LogError(f"{folder}: holds no run plain_* of {knot}")
+
+
+def mirror_error(folder: Path, scene: str) -> float:
+    """Largest distance of a body from where the mirror of the plain run has it, cm."""
+    plain, image = (HagfishLog(folder / f"{kind}_{scene}.h5")["/trajectory/position"] for kind in ("plain", "mirror"))
+    frames = min(len(plain), len(image))
+    return float(np.abs(plain[:frames] * [1.0, -1.0, 1.0] - image[:frames]).max())
+
+
+def write_page(folder: Path, logs: dict[str, HagfishLog], slides: dict[str, claims.Sliding], page: Path) -> None:
+    lines = ["# Four knots", "", "| | " + " | ".join(logs) + " |", "|---" * (len(logs) + 1) + "|"]
+    scenes = {knot: scene_of(folder, knot) for knot in logs}
+    row = lambda name, cell: lines.append(f"| {name} | " + " | ".join(cell(knot) for knot in logs) + " |")
+    row("scene", lambda k: scenes[k])
+    row("audit", lambda k: outcome(folder, f"plain_{scenes[k]}") or "passes")
+    row("mirror image, audit", lambda k: outcome(folder, f"mirror_{scenes[k]}") or "passes")
+    row("mirror image, farthest body off the reflected run, cm", lambda k: f"{mirror_error(folder, scenes[k]):.1g}")
+    row("penetration, cm", lambda k: f"{logs[k]['/steps/penetration'].max():.5f}")
+    row("past a limit, deg", lambda k: f"{np.degrees(logs[k]['/steps/limit_violation'].max()):.0e}")
+    for i, noise in enumerate(NOISES):
+        row(f"tied, held and off, noise {noise} cm", lambda k, i=i: sure(folder, scenes[k])[i])
+    for step in STEPS:
+        row(f"audit at h = {1000 * float(step):g} ms", lambda k, step=step:
+            outcome(folder, f"step_{scenes[k]}_{step}") or "passes")
+    figures = {k: force_figures(logs[k], slides[k]) for k in logs}
+    for name, key, form in (("slide, s", "seconds", ".2f"), ("slide, cm", "travel", ".2f"),
+                            ("sum of the four λ/h, median, dyn", "multipliers", ".0f"),
+                            ("peak of f_thigmo, dyn cm", "peak", ".0f"), ("99 % of frames below", "peak99", ".0f"),
+                            ("largest hinge, median frame", "median", ".0f"),
+                            ("total effort, sum of magnitudes over time, dyn cm s", "effort", ".3g"),
+                            ("effort for each cm of travel", "effort_per_cm", ".3g"), ("work, erg", "work", ".0f"),
+                            ("Fourier modes for 95 % of the energy, of 50", "dct", "d"), ("SVD modes", "svd", "d")):
+        row(name, lambda k, key=key, form=form: format(figures[k][key], form))
+    page.write_text("\n".join([*lines, ""]), encoding="utf-8")
+
+
+def main(folder: Path, hagfish: Path, pictures: Path, forces: Path, page: Path) -> None:
+    logs = {knot: HagfishLog(folder / f"plain_{scene_of(folder, knot)}.h5") for knot in COLOURS}
+    slides = {knot: claims.read_sliding(log) for knot, log in logs.items()}
+    draw_pictures(logs, hagfish, pictures)
+    draw_forces(slides, forces)
+    write_page(folder, logs, slides, page)
+
+
+if __name__ == "__main__":
+    run_study(__doc__, ["HAGFISH", "OUT_PICTURES.png", "OUT_FORCES.png", "OUT.md"], main)

@@ -1,0 +1,96 @@
+"""Slides of the studies of knots: what was commanded and what came of it, from the runs of experiments/*.sh.
+
+A run is NAME.h5 (its log) and NAME.check (its audit), where NAME is KIND_SCENE_VALUE.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from hagfish_log import HagfishLog, LogError
+from study import failure_of
+from summary import step_phases
+
+# Paul Tol's bright colours, one for each knot.
+COLOURS = {"3_1": "#4477aa", "4_1": "#ee6677", "5_1": "#228833", "5_2": "#aa3377"}
+NAMES = {"3_1": "overhand", "4_1": "figure-eight", "5_1": "double overhand", "5_2": "three-twist"}
+LEAST_FRAMES = 5  # of a slide with a speed
+
+
+@dataclass
+class Slide:
+    """One phase of one run in which the knot slides; cm, s, dyn."""
+
+    name: str  # of the run
+    knot: str  # expected type
+    commanded: float  # speed, cm/s
+    speed: float  # of the knot's leading end, a line through its places; nan where it never slid
+    travel: float  # of that end
+    force: float  # sum of the four multipliers / h, median over the frames
+    peak: float  # largest of it
+    capped: float  # share of rows at controller.cap
+    slack: float  # largest shortfall of the four rows of Eq. 6, median over the frames, cm/s
+    met: float  # share of steps without slack
+    penetration: float  # deepest of any step in the phase
+    held: bool  # the knot had its type at every frame
+    failure: str  # why the run did not go on to its end; empty where it did
+    time: np.ndarray  # from the beginning of the phase
+    head_end: np.ndarray
+    tail_end: np.ndarray
+
+
+def knot_label(knot: str) -> str:
+    """3_1 as a mathematician writes it, with its name."""
+    return f"${knot[0]}_{{{knot[2:]}}}$ {NAMES[knot]}"
+
+
+def unmet_of(folder: Path, name: str) -> list[str]:
+    """What the audit of a run names as failed."""
+    try:
+        check = (folder / f"{name}.check").read_text()
+    except OSError as error:
+        raise LogError(f"{error.filename}: cannot be read ({error.strerror})") from None
+    return [line[5:29].strip() for line in check.splitlines() if line.startswith("FAIL")]
+
+
+def read_slide(folder: Path, name: str, phase: str = "slide") -> Slide:
+    log = HagfishLog(folder / f"{name}.h5")
+    scene = log.scene()
+    end = "head" if phase == "slide" else "tail"
+    frames = log.in_phase(phase)
+    frames = frames[np.isfinite(log["/knot/head_end"][frames])]
+    time, place = log["/trajectory/time"][frames], log[f"/knot/{end}_end"][frames]
+    moved = frames.size >= LEAST_FRAMES
+    slope = float(np.polyfit(time, place, 1)[0]) if moved else np.nan
+    travel = float(place[-1] - place[0]) if moved else np.nan
+    sign = -1.0 if phase == "slide" else 1.0
+    force = log["/thigmotaxis/lambda"][frames]
+    slack = log["/thigmotaxis/slack"][frames]
+    median = lambda values: float(np.median(values)) if moved else np.nan
+    steps = step_phases(log) == phase
+    unmet = unmet_of(folder, name)
+    ended = str(log.attribute("status")) == "complete" and "unknot at end" not in unmet
+    commanded = float(scene["controller"][f"{phase}_head"]["a"])
+    return Slide(name, scene["expect"]["knot"], commanded, sign * slope, sign * travel,
+                 median(force.sum(axis=1)), float(force.sum(axis=1).max()) if moved else np.nan,
+                 float((force >= 0.999 * scene["controller"]["cap"]).mean()) if moved else np.nan,
+                 median(np.nanmax(slack, axis=1)) if moved else np.nan,
+                 float((log["/steps/eq6"][steps] == 1).mean()) if steps.any() else np.nan,
+                 float(log["/steps/penetration"][steps].max()) if steps.any() else np.nan,
+                 "knot held" not in unmet, "" if ended else failure_of(log, unmet),
+                 time - time[0] if moved else time, log["/knot/head_end"][frames], log["/knot/tail_end"][frames])
+
+
+def read_slides(folder: Path, kind: str, phase: str = "slide") -> list[Slide]:
+    """All runs called KIND_..., by knot and speed."""
+    names = [path.stem for path in folder.glob(f"{kind}_*.check")]
+    if not names:
+        raise LogError(f"{folder}: holds no run {kind}_*")
+    return sorted((read_slide(folder, name, phase) for name in names), key=lambda s: (s.knot, s.commanded))
+
+
+def of_knot(slides: list[Slide], knot: str) -> list[Slide]:
+    return [slide for slide in slides if slide.knot == knot]

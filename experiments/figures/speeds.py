@@ -1,0 +1,91 @@
+"""Commanded against measured speed of a sliding knot, with the force, the slack of Eq. 6 and the penetration that come of
+it. Usage: speeds.py RUNS OUT.csv OUT.png OUT.md (writes a PDF beside).
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+
+from hagfish_log import save_figure
+from slides import COLOURS, Slide, knot_label, of_knot, read_slides
+from study import GREY, run_study, write_csv
+
+DPI = 200
+WITHIN = 0.1  # a speed counts as met when measured to this share
+MOST_PENETRATION = 0.002  # cm, the audit's
+
+
+def panel(axes: plt.Axes, slides: list[Slide], values: list[float], ylabel: str) -> None:
+    """One measure over commanded speed, a line for each knot; open where the knot was lost or stayed on."""
+    for knot, colour in COLOURS.items():
+        own = [(s, v) for s, v in zip(slides, values) if s.knot == knot and np.isfinite(v)]
+        axes.plot([s.commanded for s, _ in own], [v for _, v in own], "-", color=colour, lw=1)
+        for good in (True, False):
+            some = [(s.commanded, v) for s, v in own if (not s.failure) == good]
+            axes.plot(*(zip(*some) if some else ([], [])), "o", color=colour, ms=4.5, mfc=colour if good else "white",
+                      label=knot_label(knot) if good else None)
+    axes.set(xscale="log", yscale="log", xlabel="commanded speed, cm/s")
+    axes.set_ylabel(ylabel)
+    axes.grid(alpha=0.25, which="major")
+
+
+def draw(slides: list[Slide], out: Path) -> None:
+    figure, grid = plt.subplots(2, 2, figsize=(8.2, 6.6), layout="constrained")
+    (speed, force), (slack, deep) = grid
+    panel(speed, slides, [s.speed for s in slides], "measured speed of the knot's head end, cm/s")
+    line = np.array([min(s.commanded for s in slides), max(s.commanded for s in slides)])
+    speed.plot(line, line, color=GREY, lw=0.8, ls="--", zorder=0)
+    speed.text(line[0] * 1.3, line[0] * 2.2, "as commanded", color=GREY, fontsize=8, rotation=38)
+    panel(force, slides, [s.force for s in slides], r"sum of the four $\lambda/h$, median, dyn")
+    panel(slack, slides, [max(1 - s.met, 1e-4) if np.isfinite(s.met) else np.nan for s in slides],
+          "share of steps that fall short of Eq. 6\n(drawn at $10^{-4}$ where none does)")
+    panel(deep, slides, [s.penetration for s in slides], "deepest penetration while sliding, cm")
+    deep.axhline(MOST_PENETRATION, color=GREY, lw=0.8, ls="--", zorder=0)
+    deep.text(line[0], MOST_PENETRATION * 1.1, "bound of the scenes", color=GREY, fontsize=8, va="bottom")
+    speed.legend(fontsize=8, frameon=False, title="open: the knot was lost, or the run failed", title_fontsize=7)
+    for axes, letter in zip(grid.flat, "abcd"):
+        axes.set_title(f"({letter})", loc="left", fontsize=10)
+    save_figure(figure, out, DPI)
+
+
+def limits(slides: list[Slide]) -> list[str]:
+    """For each knot the fastest command that is met, and why faster ones are not."""
+    lines = []
+    for knot in COLOURS:
+        own = of_knot(slides, knot)
+        if not own:
+            continue
+        good = [s for s in own if not s.failure and s.speed >= (1 - WITHIN) * s.commanded]
+        best = max((s.commanded for s in good), default=np.nan)
+        clean = max((s.commanded for s in own if not s.failure and s.penetration <= MOST_PENETRATION), default=np.nan)
+        beyond = [s for s in own if s.commanded > best]
+        why = "; ".join(f"{s.commanded:g}: {s.failure or f'{s.speed:.3g} cm/s, {100 * s.capped:.0f} % of rows at the cap'}"
+                        for s in beyond)
+        lines.append(f"- {knot}: follows its command to {100 * WITHIN:.0f} % up to {best:g} cm/s and stays within "
+                     f"{MOST_PENETRATION:g} cm of penetration up to {clean:g} cm/s. Beyond: {why or 'not tried'}.")
+    return lines
+
+
+def main(folder: Path, table: Path, out: Path, page: Path) -> None:
+    slides = read_slides(folder, "speed")
+    heading = ["knot", "commanded_cm_s", "measured_cm_s", "travel_cm", "force_dyn", "peak_force_dyn", "rows_at_cap",
+               "slack_cm_s", "steps_met", "penetration_cm", "knot_held", "failure"]
+    write_csv(table, heading, [[s.knot, s.commanded, s.speed, s.travel, s.force, s.peak, s.capped, s.slack, s.met,
+                                s.penetration, int(s.held), s.failure] for s in slides])
+    draw(slides, out)
+    rows = [f"| {s.knot} | {s.commanded:g} | {s.speed:.3g} | {s.force:.0f} | {100 * s.met:.1f} | {s.slack:.2g} | "
+            f"{100 * s.capped:.0f} | {s.penetration:.2g} | {s.failure or 'complete'} |" for s in slides]
+    page.write_text("\n".join(["# How fast a knot slides", "", *limits(slides), "",
+                               "| knot | commanded, cm/s | measured, cm/s | force, dyn | steps that meet Eq. 6, % | slack, "
+                               "cm/s | rows at the cap, % | penetration, cm | run |", "|---" * 9 + "|", *rows, ""]),
+                    encoding="utf-8")
+
+
+if __name__ == "__main__":
+    run_study(__doc__, ["OUT.csv", "OUT.png", "OUT.md"], main)
