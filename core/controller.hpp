@@ -12,7 +12,6 @@
 
 namespace hagfish {
 
-enum class Phase : std::uint8_t { form, tighten, slide, release, free };
 inline constexpr int phase_count = 5;
 const char* phase_name(Phase phase);
 

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <utility>
 
+#include "core/start.hpp"
+
 namespace hagfish {
 namespace {
 
@@ -38,7 +40,9 @@ void guard(const Model& model, const Situation& situation, const GuardSettings& 
 }  // namespace
 
 Simulation start(const Model& model, const Scene& scene) {
-  return start_from(model, scene, rest_state(model), {}, 0);
+  ControllerState controller;
+  controller.phase = scene.start.phase;
+  return start_from(model, scene, start_state(model, scene.start), controller, 0);
 }
 
 Simulation start_from(const Model& model, const Scene& scene, State state,

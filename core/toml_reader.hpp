@@ -49,8 +49,10 @@ class TableReader {
   void vector(std::string_view key, Eigen::Vector3d& value);
   /// As number(), one or more in an array.
   void numbers(std::string_view key, std::vector<double>& value, const Range& range);
-  /// An array of arrays of four numbers; errors call an element `noun` and count from 1.
-  void rows(std::string_view key, std::string_view noun, std::vector<Eigen::Vector4d>& value);
+  /// An array of arrays of four numbers; errors call an element `noun`, count from 1 and name its
+  /// `columns`, "t, x, y, z".
+  void rows(std::string_view key, std::string_view noun, std::string_view columns,
+            std::vector<Eigen::Vector4d>& value);
   /// An angle in rad, read from NAME_deg or NAME_rad; `range` is in degrees.
   void angle(std::string_view name, double& value, const Range& range);
   /// As angle(), one or more in an array.
