@@ -79,14 +79,13 @@ Model make_hagfish(const Specimen& specimen, const Scene& scene) {
   }
   const double length = specimen.length / n;
   std::vector<double> radius(n);
-  std::vector<double> volume(n);  // weighted by density
+  std::vector<double> density(n);  // relative
   double whole = 0;
   for (int b = 0; b < n; ++b) {
     radius[b] =
         profile(specimen.station, specimen.circumference, (b + 0.5) / n) / (2 * std::numbers::pi);
-    volume[b] =
-        radius[b] * radius[b] * std::pow(settings.mass_ratio, static_cast<double>(b) / (n - 1));
-    whole += volume[b];
+    density[b] = std::pow(settings.mass_ratio, static_cast<double>(b) / (n - 1));
+    whole += radius[b] * radius[b] * density[b];
   }
 
   Model model;
@@ -96,7 +95,7 @@ Model make_hagfish(const Specimen& specimen, const Scene& scene) {
   for (int b = 0; b < n; ++b) {
     const bool bend = b % 2 == 1;
     Body body;
-    body.mass = specimen.mass * volume[b] / whole;
+    body.mass = specimen.mass * radius[b] * radius[b] * density[b] / whole;
     body.length = length;
     body.radius = radius[b];
     body.inertia = cylinder_inertia(body.mass, length, radius[b]);
