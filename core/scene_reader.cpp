@@ -106,7 +106,8 @@ void check_stations(const TableReader& root, const std::string& key,
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const double before = i == 0 ? 0 : rows[i - 1][0];
     if (rows[i][0] < before || rows[i][0] > 1 || (i > 0 && rows[i][0] == before)) {
-      root.fail_element(key, i, "stations must rise from 0 to 1; row " + std::to_string(i + 1));
+      root.fail_element(
+          key, i, "stations must rise from 0 to 1; row " + std::to_string(i + 1) + " does not");
     }
   }
 }
