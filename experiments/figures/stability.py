@@ -21,6 +21,7 @@ from matplotlib.patches import Patch, Rectangle
 from hagfish_log import save_figure
 
 DPI = 160
+LEGEND_COLUMNS, LEGEND_ROWS = 5, 2
 # Outcome: letter, colour (Paul Tol's light and muted schemes, told apart without red and green).
 LOOKS = {"ok": ("", "#e8f4f0"), "energy gain": ("E", "#ee8866"), "non-finite": ("N", "#000000"),
          "tunnelled": ("T", "#882255"), "penetration": ("P", "#77aadd"), "limits": ("L", "#eedd88"),
@@ -88,7 +89,7 @@ def legend(figure: Any, cells: list[Cell]) -> None:
     seen = {cell["outcome"] for cell in cells}
     patches = [Patch(fc=colour, ec="#999999", label=f"{name} ({letter})" if letter else name)
                for name, (letter, colour) in LOOKS.items() if name in seen]
-    figure.legend(handles=patches, loc="outside lower center", ncols=6, fontsize=8, frameon=False)
+    figure.legend(handles=patches, loc="lower center", ncols=LEGEND_COLUMNS, fontsize=8, frameon=False)
 
 
 def by_level(cells: list[Cell]) -> list[tuple[str, list[Cell]]]:
@@ -126,8 +127,10 @@ def draw_scene(scene: str, cells: list[Cell], png: Path) -> None:
     # Cells of one size: panels are as wide and high as what they hold.
     wide = [0.34 * len(steps) + 1.6 for _, _, _, steps in panels]
     high = 0.25 * max(len(rows) for _, _, rows, _ in panels) + 1.5
-    figure, axes = plt.subplots(1, len(panels), figsize=(max(sum(wide), 6.5), high), squeeze=False,
-                                width_ratios=wide, layout="constrained")
+    high += 0.2 * LEGEND_ROWS
+    figure, axes = plt.subplots(1, len(panels), figsize=(max(sum(wide), 6.5), high), squeeze=False, width_ratios=wide)
+    bottom = 0.2 * LEGEND_ROWS / high
+    figure.set_layout_engine("constrained", rect=(0, bottom, 1, 1 - bottom))
     for panel, (title, grid, rows, steps) in zip(axes[0], panels):
         draw_grid(panel, grid, rows, steps)
         panel.set_aspect("equal", anchor="N")
@@ -149,10 +152,9 @@ def survived(cells: list[Cell]) -> tuple[str, float | None]:
         if cell["outcome"] != "ok":
             break
         largest = step_of(cell)
-    first = Counter(cell["outcome"] for cell in cells if cell["outcome"] != "ok").most_common(1)
-    if largest is None:
-        return f"none ({first[0][0]})", None
-    return (f"all ({largest:g})" if not first else f"{largest:g} ({first_failure(cells)})"), largest
+    if all(cell["outcome"] == "ok" for cell in cells):
+        return f"all ({largest:g})", largest
+    return f"{'none' if largest is None else format(largest, 'g')} ({first_failure(cells)})", largest
 
 
 def first_failure(cells: list[Cell]) -> str:

@@ -77,14 +77,16 @@ TEST_F(StressJudgeTest, AStopBySpeedAfterEnergyGainIsEnergyGain) {
 }
 
 TEST_F(StressJudgeTest, StrandsThatPassWithinAStepTunnel) {
-  // A ring of most of a turn that closes, goes through itself and opens in one step: both ends of
-  // the step are free of overlap.
-  StartSettings settings;
-  const double ring = 6.0 / model.length();  // rad/cm
-  settings.bend = {{0, 0, 0.02, ring}};
-  State before = start_state(model, settings);
-  settings.bend = {{0, 0, -0.02, ring}};
-  State after = start_state(model, settings);
+  // A loop whose tail lies above the front of the body, and then below: both ends of the step are
+  // free of overlap.
+  const auto loop = [&](double lift) {
+    StartSettings settings;
+    settings.bend = {{0.2, 0, 0, 0},       {0.2001, 0, lift, 0}, {0.28, 0, lift, 0},
+                     {0.2801, 0, 0, 0.25}, {0.7246, 0, 0, 0.25}, {0.7247, 0, 0, 0}};
+    return start_state(model, settings);
+  };
+  const State before = loop(0.3);
+  State after = loop(-0.3);
   after.qdot.tail(model.nv() - root_dofs) =
       (after.q - before.q).tail(model.nv() - root_dofs) / scene.time.step;
   const Situation situation = observe(model, after, scene);
