@@ -72,7 +72,11 @@ line() {
   done
 }
 pull() { echo "script.knots=[[0,$1,0,0],[1,$1,0,0]]"; }
-whip() { echo "start.bend_rate=[[0,0,$1,$1],[0.2,0,$1,$1],[0.2001,0,0,0]]"; }
+whip() {
+  local twist sideways
+  twist=$(awk "BEGIN { print 0.2 * $1 }") sideways=$(awk "BEGIN { print 0.5 * $1 }")
+  echo "start.bend_rate=[[0,$twist,$1,$sideways],[0.2,$twist,$1,$sideways],[0.2001,0,0,0]]"
+}
 close_in() { echo "start.bend_rate=[[0.54,0,0,0],[0.5401,0,$1,0],[0.62,0,$1,0],[0.6201,0,0,0]]"; }
 
 list() {
@@ -89,27 +93,31 @@ list() {
   line contradictory "as is" "$coarse" ipopt
   line knot_into_head "as is" "$steps" "$rows hard_thigmotaxis"
   line knot_into_head "as is" "$coarse" ipopt
+  line parallel "as is" "$steps" "$rows hard_thigmotaxis"
+  line parallel "as is" "$coarse" ipopt
   line table1 "as is" "$steps" "$rows hard_thigmotaxis"
   line table1 "as is" "$coarse" ipopt
-  # Levels of stress.
-  for level in 0.03 0.1 1; do line whip "$level rad/(cm s)" "0.2 $few" "default mujoco_euler mujoco_rk4" "$(whip "$level")"; done
-  for level in 1 10; do line spinning "$level rad/s" "0.2 $few" "default mujoco_euler mujoco_rk4" "start.spin=[$level,0,0]"; done
-  for level in 1 10 100 1e3 1e-2 1e-4; do line mass_ratio "$level" "$few" "default mujoco_euler" "model.mass_ratio=$level"; done
-  for level in 1e2 1e3 1e4 1e5; do
+  # Levels of stress, that of the scene itself among them.
+  for level in 0.03 0.1 0.3 1; do line whip "$level rad/(cm s)" "0.2 $few" "default mujoco_euler mujoco_rk4" "$(whip "$level")"; done
+  for level in 1 3 10; do line spinning "$level rad/s" "0.2 $few" "default mujoco_euler mujoco_rk4" "start.spin=[$level,0,0]"; done
+  for level in 1e-4 1e-2 1 1e2 1e3 1e4; do line mass_ratio "$level" "$few" "default mujoco_euler" "model.mass_ratio=$level"; done
+  for level in 1e2 1e3 1e4 1e5 1e6; do
     line stiff_joints "$level dyn cm/rad" "$few" "default mujoco_euler" \
       "model.bending_stiffness=$(awk "BEGIN { print 1.696 * $level }") model.twist_stiffness=$(awk "BEGIN { print 1.696 * $level }")"
   done
-  for level in 3e3 3e4 3e5 3e7; do line stiff_tip "$level dyn/cm" "$few" "default mujoco_euler" "script.spring=$level"; done
-  for level in 500 1000 5000 20000 50000 100000; do
+  for level in 3e3 3e4 3e5 3e6 3e7; do line stiff_tip "$level dyn/cm" "$few" "default mujoco_euler" "script.spring=$level"; done
+  for level in 500 1000 5000 10000 20000 50000 100000; do
     line pulled_knot "$level dyn" "$few" "default violated mujoco_euler" "$(pull $level)"
   done
   for level in 0.3 0.6 1; do line tight_limits "scale $level" "$few" "default mujoco_euler" "model.limit_scale=$level"; done
-  for level in 0.3 0.5 0.7 0.85; do line table1 "limit scale $level" "$few" default "model.limit_scale=$level"; done
+  for level in 0.3 0.5 0.7 0.85 1; do line table1 "limit scale $level" "$few" default "model.limit_scale=$level"; done
   line closing "10 cm/s" "$few" "default mujoco_euler" "$(close_in 1.475)"
   line closing "100 cm/s" "$few" "default mujoco_euler" "$(close_in 14.75)"
+  line closing "1000 cm/s" "$few" "default mujoco_euler" "$(close_in 147.5)"
   line closing "10000 cm/s" "$few" "default mujoco_euler" "$(close_in 1475)"
   line short_bodies "200 bodies" "$few" "default mujoco_euler" model.bodies=200
   line short_bodies "100 bodies" "$few" "default mujoco_euler" model.bodies=100
+  line short_bodies "400 bodies" "$few" default model.bodies=400
   # Perturbed starts of the whole run.
   for level in {1..20}; do
     line table1 "seed $level" "1 2 5 10 20" default "start.noise_deg=1 start.seed=$level"

@@ -13,17 +13,18 @@ enum class Outcome : std::uint8_t {
   ok,
   energy_gain,
   non_finite,
-  tunnelled,  ///< the knot changed its type while it should have held, or strands passed through
+  tunnelled,  ///< strands passed through each other, or the knot changed its type by an overlap
   penetration,
   limits,
   solver_failed,
   infeasible,
   capped,  ///< not done in time, or Eq. 6 not met: its rows stayed at controller.cap
   never_tied,
+  came_undone,  ///< the knot changed its type while it should have held, skins never overlapping
   speed,
   not_applicable
 };
-inline constexpr int outcome_count = 12;
+inline constexpr int outcome_count = 13;
 /// "ok", "energy gain", ...
 const char* outcome_name(Outcome outcome);
 
@@ -63,17 +64,19 @@ class StressJudge {
 
   const StressFigures& figures() const { return figures_; }
 
-  /// The outcome of a run that came to its end. In this order: tunnelled, energy gain, penetration,
-  /// limits, solver failed (KKT), never tied, capped (Eq. 6), ok.
+  /// The outcome of a run that came to its end. In this order: tunnelled, came undone, energy gain,
+  /// penetration, limits, solver failed (KKT), never tied, capped (Eq. 6), ok.
   Verdict ended() const;
-  /// Of one that an error stopped: by its cause, but the first two above where they are so and the
-  /// run was stopped by penetration, limits or speed, which follow from them.
+  /// Of one that an error stopped: by its cause, but the first three above where they are so and
+  /// the run was stopped by penetration, limits or speed, which follow from them.
   Verdict stopped(StopCause cause, const std::string& message) const;
 
  private:
   void see_path(const State& before, const State& after, const Kinematics& kin);
   void see_knot(const Situation& situation, double time);
-  /// tunnelled, energy gain, or ok.
+  /// Tunnelled or came undone.
+  Outcome lost_knot() const;
+  /// One of these two, energy gain, or ok.
   Verdict root_cause() const;
   /// Whether the thigmotaxis did what the scene expects.
   Verdict thigmotaxis() const;

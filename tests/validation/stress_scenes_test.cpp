@@ -79,7 +79,7 @@ TEST_P(StressScenes, EveryMethodHasAnOutcomeByName) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Stability, StressScenes, testing::ValuesIn(scenes()),
-                         [](const auto& info) { return fs::path(info.param).stem().string(); });
+                         [](const auto& scene) { return fs::path(scene.param).stem().string(); });
 
 }  // namespace
 }  // namespace hagfish
