@@ -14,7 +14,7 @@ bash "$root/experiments/setup.sh" --target hagfish
 # Serial BLAS, so that runs repeat to the last bit.
 export OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1
 export hagfish=$root/build/release/experiments/hagfish cells=$out/cells scenes=$root/experiments/stability
-export cpu_limit=40 wall_limit=120 # s, of a cell
+export cpu_limit=60 wall_limit=300 # s, of a cell
 
 # Results of another program or of other scenes do not mix with this one's.
 version=$("$hagfish" --version; cat "$scenes"/*.toml | cksum)

@@ -32,9 +32,9 @@ Eigen::VectorXd between(const Eigen::VectorXd& q0, const Eigen::VectorXd& q1, do
 
 const char* outcome_name(Outcome outcome) {
   constexpr std::array<const char*, outcome_count> names = {
-      "ok",          "energy gain", "non-finite",    "tunnelled",
-      "penetration", "limits",      "solver failed", "infeasible",
-      "capped",      "never tied",  "speed",         "not applicable"};
+      "ok",          "energy gain",   "non-finite",    "tunnelled", "penetration",
+      "limits",      "solver failed", "infeasible",    "capped",    "never tied",
+      "came undone", "speed",         "not applicable"};
   return names[static_cast<std::size_t>(outcome)];
 }
 
@@ -116,9 +116,14 @@ void StressJudge::see_control(const StepRecord& record) {
   slide_met_ += thigmotaxis_rows_of(record.solution, scene_.time.step).met ? 1 : 0;
 }
 
+Outcome StressJudge::lost_knot() const {
+  return figures_.path_penetration > scene_.expect.penetration ? Outcome::tunnelled
+                                                               : Outcome::came_undone;
+}
+
 Verdict StressJudge::root_cause() const {
   if (!lost_.empty()) {
-    return {Outcome::tunnelled, lost_};
+    return {lost_knot(), lost_};
   }
   if (figures_.path_penetration > thinnest_) {
     return {Outcome::tunnelled,
@@ -199,7 +204,7 @@ Verdict StressJudge::stopped(StopCause cause, const std::string& message) const 
     case StopCause::never_tied:
       return {Outcome::never_tied, message};
     case StopCause::knot_lost:
-      return {Outcome::tunnelled, message};
+      return {lost_knot(), message};
   }
   throw std::logic_error("no outcome for this cause");
 }

@@ -26,7 +26,8 @@ LEGEND_COLUMNS, LEGEND_ROWS = 5, 2
 LOOKS = {"ok": ("", "#e8f4f0"), "energy gain": ("E", "#ee8866"), "non-finite": ("N", "#000000"),
          "tunnelled": ("T", "#882255"), "penetration": ("P", "#77aadd"), "limits": ("L", "#eedd88"),
          "solver failed": ("S", "#332288"), "infeasible": ("I", "#aaaa00"), "capped": ("C", "#bbbbbb"),
-         "never tied": ("U", "#ffaabb"), "speed": ("V", "#cc6677"), "crashed": ("X", "#ff0000"),
+         "never tied": ("U", "#ffaabb"),
+         "came undone": ("K", "#ddaa33"), "speed": ("V", "#cc6677"), "crashed": ("X", "#ff0000"),
          "not applicable": ("-", "#ffffff")}
 DARK = {"non-finite", "tunnelled", "solver failed"}
 METHODS = ["default", "violated", "push_out_0.2", "push_out_1", "hard_thigmotaxis", "ipopt", "mujoco_euler",
