@@ -116,19 +116,14 @@ void StressJudge::see_control(const StepRecord& record) {
   slide_met_ += thigmotaxis_rows_of(record.solution, scene_.time.step).met ? 1 : 0;
 }
 
-Outcome StressJudge::lost_knot() const {
-  return figures_.path_penetration > scene_.expect.penetration ? Outcome::tunnelled
-                                                               : Outcome::came_undone;
-}
-
 Verdict StressJudge::root_cause() const {
-  if (!lost_.empty()) {
-    return {lost_knot(), lost_};
-  }
   if (figures_.path_penetration > thinnest_) {
     return {Outcome::tunnelled,
             fmt::format("strands {:.3g} cm into each other, more than the radius {:.3g} cm",
                         figures_.path_penetration, thinnest_)};
+  }
+  if (!lost_.empty()) {
+    return {Outcome::came_undone, lost_};
   }
   if (figures_.energy_gain > scene_.expect.energy_gain) {
     return {Outcome::energy_gain,
@@ -204,7 +199,7 @@ Verdict StressJudge::stopped(StopCause cause, const std::string& message) const 
     case StopCause::never_tied:
       return {Outcome::never_tied, message};
     case StopCause::knot_lost:
-      return {lost_knot(), message};
+      return {Outcome::came_undone, message};
   }
   throw std::logic_error("no outcome for this cause");
 }

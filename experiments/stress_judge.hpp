@@ -13,14 +13,14 @@ enum class Outcome : std::uint8_t {
   ok,
   energy_gain,
   non_finite,
-  tunnelled,  ///< strands passed through each other, or the knot changed its type by an overlap
+  tunnelled,  ///< strands passed through each other: deeper at or between steps than any radius
   penetration,
   limits,
   solver_failed,
   infeasible,
   capped,  ///< not done in time, or Eq. 6 not met: its rows stayed at controller.cap
   never_tied,
-  came_undone,  ///< the knot changed its type while it should have held, skins never overlapping
+  came_undone,  ///< the knot changed its type while it should have held, though nothing tunnelled
   speed,
   not_applicable
 };
@@ -68,15 +68,13 @@ class StressJudge {
   /// penetration, limits, solver failed (KKT), never tied, capped (Eq. 6), ok.
   Verdict ended() const;
   /// Of one that an error stopped: by its cause, but the first three above where they are so and
-  /// the run was stopped by penetration, limits or speed, which follow from them.
+  /// the run was stopped by penetration, limits, speed or a lost knot, which follow from them.
   Verdict stopped(StopCause cause, const std::string& message) const;
 
  private:
   void see_path(const State& before, const State& after, const Kinematics& kin);
   void see_knot(const Situation& situation, double time);
-  /// Tunnelled or came undone.
-  Outcome lost_knot() const;
-  /// One of these two, energy gain, or ok.
+  /// Tunnelled, came undone, energy gain, or ok.
   Verdict root_cause() const;
   /// Whether the thigmotaxis did what the scene expects.
   Verdict thigmotaxis() const;
