@@ -115,9 +115,9 @@ list() {
   line closing "100 cm/s" "$few" "default mujoco_euler" "$(close_in 14.75)"
   line closing "1000 cm/s" "$few" "default mujoco_euler" "$(close_in 147.5)"
   line closing "10000 cm/s" "$few" "default mujoco_euler" "$(close_in 1475)"
-  line short_bodies "200 bodies" "$few" "default mujoco_euler" model.bodies=200
   line short_bodies "100 bodies" "$few" "default mujoco_euler" model.bodies=100
-  line short_bodies "400 bodies" "$few" default model.bodies=400
+  line short_bodies "200 bodies" "$few" "default mujoco_euler"
+  line short_bodies "400 bodies" "$steps" default model.bodies=400
   # Perturbed starts of the whole run.
   for level in {1..20}; do
     line table1 "seed $level" "1 2 5 10 20" default "start.noise_deg=1 start.seed=$level"

@@ -96,7 +96,7 @@ TEST_F(StressJudgeTest, StrandsThatPassWithinAStepTunnel) {
   EXPECT_EQ(judge.ended().outcome, Outcome::tunnelled);
 }
 
-TEST_F(StressJudgeTest, AKnotThatChangesItsTypeComesUndoneOrTunnels) {
+TEST_F(StressJudgeTest, AKnotThatChangesItsTypeComesUndone) {
   ResolvedScene tied = stored_scene();
   for (const StoredState& stored : stored_states()) {
     if (stored.name == "slide") {
@@ -107,8 +107,6 @@ TEST_F(StressJudgeTest, AKnotThatChangesItsTypeComesUndoneOrTunnels) {
       EXPECT_EQ(watch.figures().knot, "0_1");
       EXPECT_EQ(watch.ended().outcome, Outcome::came_undone);
       EXPECT_EQ(watch.ended().message, "3_1 became 0_1 at 1 s");
-      tied.scene.expect.penetration = -1;  // then any overlap is too much
-      EXPECT_EQ(watch.ended().outcome, Outcome::tunnelled);
     }
   }
 }
