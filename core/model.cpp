@@ -91,11 +91,13 @@ Model make_hagfish(const Specimen& specimen, const Scene& scene) {
   }
   const double length = specimen.length / n;
   std::vector<double> radius(n);
-  double squares = 0;
+  std::vector<double> density(n);  // relative
+  double whole = 0;
   for (int b = 0; b < n; ++b) {
     radius[b] =
         profile(specimen.station, specimen.circumference, (b + 0.5) / n) / (2 * std::numbers::pi);
-    squares += radius[b] * radius[b];
+    density[b] = std::pow(settings.mass_ratio, static_cast<double>(b) / (n - 1));
+    whole += radius[b] * radius[b] * density[b];
   }
 
   Model model;
@@ -105,7 +107,7 @@ Model make_hagfish(const Specimen& specimen, const Scene& scene) {
   for (int b = 0; b < n; ++b) {
     const bool bend = b % 2 == 1;
     Body body;
-    body.mass = specimen.mass * radius[b] * radius[b] / squares;
+    body.mass = specimen.mass * radius[b] * radius[b] * density[b] / whole;
     body.length = length;
     body.radius = radius[b];
     body.inertia = cylinder_inertia(body.mass, length, radius[b]);
@@ -115,16 +117,16 @@ Model make_hagfish(const Specimen& specimen, const Scene& scene) {
       append_body(model, body, {Axis::y, Axis::z});
       const double measured =
           profile(specimen.station, specimen.bending_limit, static_cast<double>(b) / n);
-      const double limit =
-          std::min(measured * span / specimen.bending_span, settings.largest_limit);
+      const double limit = std::min(settings.limit_scale * measured * span / specimen.bending_span,
+                                    settings.largest_limit);
       for (int k = 1; k <= 2; ++k) {
         set_hinge(model.hinges[model.hinges.size() - k], limit, settings.bending_stiffness / span,
                   settings.bending_damping / span);
       }
     } else {
       append_body(model, body, {Axis::x});
-      set_hinge(model.hinges.back(), specimen.twist_limit / n, settings.twist_stiffness / span,
-                settings.twist_damping / span);
+      set_hinge(model.hinges.back(), settings.limit_scale * specimen.twist_limit / n,
+                settings.twist_stiffness / span, settings.twist_damping / span);
     }
   }
   return model;

@@ -71,8 +71,8 @@ Eigen::Vector3d cylinder_inertia(double mass, double length, double radius);
 
 /// The animal (design: alternating YZ-universal and X-revolute joints, paper 3.1). Mass goes with
 /// r^2; stiffness, damping and limits are those of the length of body that a joint stands for, so
-/// that the physics per length does not depend on the number of bodies.
-/// Throws std::invalid_argument for a body count outside 2..400.
+/// that the physics per length does not depend on the number of bodies. Scaled as ModelSettings
+/// says. Throws std::invalid_argument for a body count outside 2..400.
 Model make_hagfish(const Specimen& specimen, const Scene& scene);
 
 }  // namespace hagfish

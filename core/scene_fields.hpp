@@ -42,6 +42,25 @@ void model_fields(Io& io, ModelSettings& s) {
   io.number("twist_stiffness", s.twist_stiffness, not_negative());
   io.number("twist_damping", s.twist_damping, not_negative());
   io.angle("largest_limit", s.largest_limit, inside(0, 90));
+  io.number("limit_scale", s.limit_scale, positive());
+  io.number("mass_ratio", s.mass_ratio, positive());
+}
+
+template <class Io>
+void start_fields(Io& io, StartSettings& s) {
+  io.rows("bend", "row", "station, x, y, z", s.bend);
+  io.rows("bend_rate", "row", "station, x, y, z", s.bend_rate);
+  io.vector("spin", s.spin);
+  io.numbers("q", s.q, any_number());
+  io.numbers("qdot", s.qdot, any_number());
+  io.angle("noise", s.noise, not_negative());
+  io.integer("seed", s.seed, any_number());
+  io.template choice<Phase>("phase", s.phase,
+                            {{"form", Phase::form},
+                             {"tighten", Phase::tighten},
+                             {"slide", Phase::slide},
+                             {"release", Phase::release},
+                             {"free", Phase::free}});
 }
 
 template <class Io>
@@ -68,7 +87,7 @@ void script_fields(Io& io, ScriptFile& s) {
   io.integer("noise_seed", s.settings.noise_seed, any_number());
   io.template choice<KnotUnit>(
       "unit", s.unit, {{"dyn", KnotUnit::dyn}, {"cm", KnotUnit::cm}, {"L", KnotUnit::body_length}});
-  io.rows("knots", "knot", s.rows);
+  io.rows("knots", "knot", "t, x, y, z", s.rows);
 }
 
 template <class Io>
@@ -161,6 +180,7 @@ void expect_fields(Io& io, ExpectSettings& s) {
   io.number("force_balance", s.force_balance, not_negative());
   io.number("forward_inverse", s.forward_inverse, not_negative());
   io.number("energy", s.energy, not_negative());
+  io.number("energy_gain", s.energy_gain, not_negative());
 }
 
 /// All but `specimen`, which is a file name or a table.
@@ -184,6 +204,7 @@ void scene_fields(Io& io, Scene& s, ScriptFile& script) {
     t.boolean("present", s.wall.present);
     t.number("neck", s.wall.neck, not_negative());
   });
+  io.table("start", [&](Io& t) { start_fields(t, s.start); });
   io.table("script", [&](Io& t) { script_fields(t, script); });
   io.table("controller", [&](Io& t) { controller_fields(t, s.controller); });
   io.table("knot", [&](Io& t) { knot_fields(t, s.knot); });

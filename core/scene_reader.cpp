@@ -8,6 +8,7 @@
 #include "core/builtin_files.hpp"
 #include "core/input_text.hpp"
 #include "core/knot.hpp"
+#include "core/model.hpp"
 #include "core/scene_fields.hpp"
 #include "core/toml_reader.hpp"
 #include "core/toml_writer.hpp"
@@ -125,8 +126,57 @@ void reflect(Scene& scene) {
     knot.value.y() *= -1;
     knot.noise.y() *= -1;
   }
+  for (auto* rows : {&scene.start.bend, &scene.start.bend_rate}) {
+    for (Eigen::Vector4d& row : *rows) {  // turns about x and z change sign
+      row[1] *= -1;
+      row[3] *= -1;
+    }
+  }
+  scene.start.spin.x() *= -1;
+  scene.start.spin.z() *= -1;
   Hand& hand = scene.expect.hand;
   if (hand != Hand::any) hand = hand == Hand::right ? Hand::left : Hand::right;
+}
+
+void check_stations(const TableReader& root, const std::string& key,
+                    const std::vector<Eigen::Vector4d>& rows) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double before = i == 0 ? 0 : rows[i - 1][0];
+    if (rows[i][0] < before || rows[i][0] > 1 || (i > 0 && rows[i][0] == before)) {
+      root.fail_element(
+          key, i, "stations must rise from 0 to 1; row " + std::to_string(i + 1) + " does not");
+    }
+  }
+}
+
+void check_start(const TableReader& root, const ResolvedScene& resolved) {
+  const StartSettings& start = resolved.scene.start;
+  check_stations(root, "start.bend", start.bend);
+  check_stations(root, "start.bend_rate", start.bend_rate);
+  if (resolved.scene.clamp_head && !start.spin.isZero(0)) {
+    root.fail("start.spin", "the head is clamped (clamp_head)");
+  }
+  if (!start.q.empty() && !start.bend.empty()) root.fail("start.q", "start.bend is given too");
+  if (resolved.scene.mirror && (!start.q.empty() || !start.qdot.empty() || start.noise > 0)) {
+    root.fail("mirror", "start.q, start.qdot and start.noise have no mirror image");
+  }
+  if (!start.qdot.empty() && (!start.bend_rate.empty() || !start.spin.isZero(0))) {
+    root.fail("start.qdot", "start.bend_rate or start.spin is given too");
+  }
+  if (start.q.empty() && start.qdot.empty()) return;
+  const Model model = make_hagfish(resolved.specimen, resolved.scene);
+  const auto check_length = [&](const std::string& key, const std::vector<double>& x, int length) {
+    if (!x.empty() && static_cast<int>(x.size()) != length) {
+      root.fail(key, "has " + std::to_string(x.size()) + " numbers; " +
+                         std::to_string(model.body_count()) + " bodies need " +
+                         std::to_string(length));
+    }
+  };
+  check_length("start.q", start.q, model.nq());
+  check_length("start.qdot", start.qdot, model.nv());
+  if (!start.q.empty() && Eigen::Vector4d::Map(start.q.data() + 3).isZero(0)) {
+    root.fail("start.q", "numbers 4 to 7 are a quaternion and must not all be 0");
+  }
 }
 
 void check_times(const TableReader& root, const TimeSettings& time) {
@@ -189,6 +239,7 @@ ResolvedScene read(const std::string& text, const std::string& name,
   result.scene.script = resolve_script(root, script, result.specimen.length);
   draw_noise(result.scene.script);
   if (result.scene.mirror) reflect(result.scene);
+  check_start(root, result);
   check_times(root, result.scene.time);
   check_expectations(root, result.scene);
   return result;

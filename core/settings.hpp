@@ -6,6 +6,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,9 @@ struct ModelSettings {
   /// Largest bending limit of one hinge, rad. A coarse chain must bend further per joint to reach
   /// the same curvature; past 90 degrees a universal joint loses its second axis.
   double largest_limit = 1.4835298641951802;
+  double limit_scale = 1;  ///< on every bending and twisting limit, before the bound above
+  /// Last body's density over the first's, geometric in between; the mass of the whole is kept.
+  double mass_ratio = 1;
 };
 
 /// Linear water drag per unit length of body (addition to the paper), g / (s cm).
@@ -126,6 +130,21 @@ struct ControllerSettings {
   double free_time = 1.0;  ///< run on this long after the knot is gone, s
 };
 
+/// How the body lies and moves at time 0: straight and at rest where nothing is said.
+struct StartSettings {
+  /// Bend of the body [station, about x, y, z], rad per cm of body, linear between stations (0 head
+  /// to 1 tail). A hinge takes the share of the body that it stands for, and stops at its limits.
+  std::vector<Eigen::Vector4d> bend;
+  std::vector<Eigen::Vector4d> bend_rate;  ///< the same of its velocity, rad/(cm s)
+  /// Turn of the body as a whole, rad/s, head's own axes; the head must be free.
+  Eigen::Vector3d spin = Eigen::Vector3d::Zero();
+  std::vector<double> q;      ///< in place of bend: the whole state as State::q has it, or empty
+  std::vector<double> qdot;   ///< likewise, in place of bend_rate and spin
+  double noise = 0;           ///< normal noise on each hinge, stopped by its limits, rad
+  unsigned seed = 1;          ///< of the noise
+  Phase phase = Phase::form;  ///< what the controller takes the state to be
+};
+
 /// Topology of the open centreline, by vote over closures and projections.
 struct KnotSettings {
   int votes = 15;            ///< directions tried
@@ -188,6 +207,9 @@ struct ExpectSettings {
   double force_balance = 1e-9;        ///< |H (q̇ - q̇*) - h Σ f| of its scale, every frame
   double forward_inverse = 1e-8;  ///< q̇ that MuJoCo makes of the forces, over its largest entry
   double energy = 1e-6;           ///< imbalance of the ledger, of the energy that passed
+  /// Share by which kinetic, elastic and gravity energy may exceed what there was and what the
+  /// script and thigmotaxis put in, at any step.
+  double energy_gain = 0.01;
 };
 
 struct Scene {
@@ -203,6 +225,7 @@ struct Scene {
   ConstraintSettings constraints;
   ContactSettings contact;
   WallSettings wall;
+  StartSettings start;
   ScriptSettings script;
   ControllerSettings controller;
   KnotSettings knot;

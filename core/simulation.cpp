@@ -5,6 +5,7 @@
 
 #include "core/guard.hpp"
 #include "core/look_ahead.hpp"
+#include "core/start.hpp"
 
 namespace hagfish {
 namespace {
@@ -38,7 +39,9 @@ bool meets_overlap(const Model& model, const Scene& scene, bool correct, Simulat
 }  // namespace
 
 Simulation start(const Model& model, const Scene& scene) {
-  return start_from(model, scene, rest_state(model), {}, 0);
+  ControllerState controller;
+  controller.phase = scene.start.phase;
+  return start_from(model, scene, start_state(model, scene.start), controller, 0);
 }
 
 Simulation start_from(const Model& model, const Scene& scene, State state,

@@ -22,7 +22,7 @@ struct Simulation {
   Watch watch;
 };
 
-/// At rest, straight, at time 0.
+/// As the scene starts, at time 0.
 Simulation start(const Model& model, const Scene& scene);
 
 /// From a state of another run: `controller` says which phase it is in.

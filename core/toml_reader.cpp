@@ -300,16 +300,17 @@ void TableReader::numbers(std::string_view key, std::vector<double>& value, cons
   if (place.value) value = impl_->array(place, range, 0, numbers_wanted);
 }
 
-void TableReader::rows(std::string_view key, std::string_view noun,
+void TableReader::rows(std::string_view key, std::string_view noun, std::string_view columns,
                        std::vector<Eigen::Vector4d>& value) {
   const Impl::Place place = impl_->ask(key);
   if (!place.value) return;
-  if (!place.value->is_array()) impl_->fail(place, "must be an array of arrays [t, x, y, z]");
+  const std::string shape = "[" + std::string(columns) + "]";
+  if (!place.value->is_array()) impl_->fail(place, "must be an array of arrays " + shape);
   value.clear();
   for (const auto& row : place.value->as_array()) {
     const std::string which = std::string(noun) + " " + std::to_string(value.size() + 1) + " ";
-    const auto numbers = impl_->array({place.key, &row, which}, any_number(), 4,
-                                      "must be four numbers [t, x, y, z]");
+    const auto numbers =
+        impl_->array({place.key, &row, which}, any_number(), 4, "must be four numbers " + shape);
     value.emplace_back(Eigen::Vector4d::Map(numbers.data()));
   }
 }

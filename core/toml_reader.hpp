@@ -49,8 +49,10 @@ class TableReader {
   void vector(std::string_view key, Eigen::Vector3d& value);
   /// As number(), one or more in an array.
   void numbers(std::string_view key, std::vector<double>& value, const Range& range);
-  /// An array of arrays of four numbers; errors call an element `noun` and count from 1.
-  void rows(std::string_view key, std::string_view noun, std::vector<Eigen::Vector4d>& value);
+  /// An array of arrays of four numbers; errors call an element `noun`, count from 1 and name its
+  /// `columns`, "t, x, y, z".
+  void rows(std::string_view key, std::string_view noun, std::string_view columns,
+            std::vector<Eigen::Vector4d>& value);
   /// An array of arrays of a string and two numbers, which errors show as `form`.
   void labelled_rows(std::string_view key, std::string_view noun, std::string_view form,
                      std::vector<std::pair<std::string, Eigen::Vector2d>>& value);

@@ -80,10 +80,10 @@ void TomlWriter::vector(std::string_view key, const Eigen::Vector3d& value) {
 }
 
 void TomlWriter::numbers(std::string_view key, const std::vector<double>& value, const Range&) {
-  line(key, array_text(value));
+  if (!value.empty()) line(key, array_text(value));
 }
 
-void TomlWriter::rows(std::string_view key, std::string_view,
+void TomlWriter::rows(std::string_view key, std::string_view, std::string_view,
                       const std::vector<Eigen::Vector4d>& value) {
   std::string text = "[\n";
   for (const auto& row : value) text += "  " + array_text(row) + ",\n";

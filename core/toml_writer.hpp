@@ -26,8 +26,10 @@ class TomlWriter {
   void integer(std::string_view key, unsigned value, const Range& range);
   void number(std::string_view key, double value, const Range& range);
   void vector(std::string_view key, const Eigen::Vector3d& value);
+  /// No line where there are none: the reader wants one or more.
   void numbers(std::string_view key, const std::vector<double>& value, const Range& range);
-  void rows(std::string_view key, std::string_view noun, const std::vector<Eigen::Vector4d>& value);
+  void rows(std::string_view key, std::string_view noun, std::string_view columns,
+            const std::vector<Eigen::Vector4d>& value);
   void labelled_rows(std::string_view key, std::string_view noun, std::string_view form,
                      const std::vector<std::pair<std::string, Eigen::Vector2d>>& value);
   /// Writes NAME_deg, or NAME_rad where no double of degrees gives `value` (rad) back exactly.

@@ -79,6 +79,16 @@ struct PlaybackOptions {
   std::string command;  ///< as typed, for that file
 };
 
+struct StressOptions {
+  std::string scene;
+  std::string method = "default";  ///< of stress_methods()
+  std::string level = "as is";     ///< what the row calls the scene's level
+  double step = 0;                 ///< h, s; the scene's where 0
+  double cpu_limit = 60;           ///< s
+  std::vector<std::string> set;    ///< KEY=VALUE overrides, after the method's
+  std::string out;                 ///< CSV to write; standard output where empty
+};
+
 int run(const RunOptions& options);
 /// Runs a scene and saves its QPs.
 int record_qp(const RecordQpOptions& options);
@@ -93,6 +103,11 @@ int compare(const CompareOptions& options);
 int integrate(const IntegrateOptions& options);
 /// The slide of a log in MuJoCo under f_thigmo alone.
 int playback(const PlaybackOptions& options);
+/// One cell of the failure map: runs a scene by one method at one step and writes a row of what
+/// became of it (stress_judge.hpp).
+int stress(const StressOptions& options);
+/// Methods that `stress` takes by name.
+std::vector<std::string> stress_methods();
 int list_scenes();
 int info(const std::string& file);
 int check(const std::string& file);

@@ -158,6 +158,26 @@ void add_playback(CLI::App& app, const std::string& typed, int& code) {
   playback->callback([options, &code] { code = hagfish::playback(*options); });
 }
 
+void add_stress(CLI::App& app, int& code) {
+  const auto options = std::make_shared<hagfish::StressOptions>();
+  CLI::App* stress = app.add_subcommand(
+      "stress", "run a scene by one method at one step and name the outcome: a CSV row");
+  stress->add_option("SCENE", options->scene, scene_help)->required();
+  stress->add_option("--method", options->method, "how the steps are taken")
+      ->check(CLI::IsMember(hagfish::stress_methods()))
+      ->capture_default_str();
+  stress->add_option("--step", options->step, "time step, s (the scene's)")
+      ->check(CLI::PositiveNumber);
+  stress->add_option("--level", options->level, "what the row calls the scene's level")
+      ->capture_default_str();
+  stress->add_option("--set", options->set, set_help)->allow_extra_args(false);
+  stress->add_option("--cpu-limit", options->cpu_limit, "the run is capped after this, s")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  stress->add_option("--out", options->out, "CSV to write (standard output)");
+  stress->callback([options, &code] { code = hagfish::stress(*options); });
+}
+
 int dispatch(int argc, char** argv) {
   CLI::App app{"A hagfish that ties itself into a knot and slides it to its head."};
   app.set_version_flag("--version", hagfish::build_version() + " " + hagfish::build_revision());
@@ -176,6 +196,7 @@ int dispatch(int argc, char** argv) {
   add_compare(app, typed, code);
   add_integrate(app, typed, code);
   add_playback(app, typed, code);
+  add_stress(app, code);
 
   try {
     app.parse(argc, argv);

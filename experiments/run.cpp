@@ -55,6 +55,8 @@ Ending take_steps(const Model& model, const Scene& scene, BoxQpSolver& solver, L
       return {fmt::format("failed: {} at step {} (t = {:.4f} s, {})", error.what(), sim.step,
                           time_of(sim, scene), phase_name(sim.controller.phase)),
               knot ? wrong_knot : run_failed};
+    } catch (const std::exception& error) {
+      return {fmt::format("failed: {} at step {}", error.what(), sim.step), run_failed};
     }
   }
   return {"complete", 0};

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -9,6 +10,7 @@
 #include <stdexcept>
 
 #include "tests/support/random_chain.hpp"
+#include "tests/support/stored_states.hpp"
 
 namespace hagfish {
 namespace {
@@ -168,6 +170,35 @@ TEST(JointNames, FollowTheVelocities) {
   EXPECT_EQ(names[98].joint, "j98_twist");
   EXPECT_EQ(names[98].dofs, (std::vector<std::string>{"j98_twist"}));
   EXPECT_EQ(joint_names(table1_hagfish(101))[7].joint, "j007_bend");
+}
+
+TEST(Hagfish, MassRatioIsGeometricAndKeepsTheWhole) {
+  const auto [scene, animal] = stored_scene({"model.mass_ratio=10000"});
+  const Model even = table1_hagfish();
+  const Model fish = make_hagfish(animal, scene);
+  const double first = fish.bodies.front().mass / even.bodies.front().mass;
+  const int last = fish.body_count() - 1;
+  double whole = 0;
+  for (int b = 0; b <= last; ++b) {
+    const double share = fish.bodies[b].mass / even.bodies[b].mass / first;
+    EXPECT_NEAR(share / std::pow(1e4, double(b) / last), 1, sum_rounding) << b;
+    whole += fish.bodies[b].mass;
+  }
+  EXPECT_NEAR(whole / animal.mass, 1, sum_rounding);
+}
+
+TEST(Hagfish, LimitScaleIsOnEveryLimitBelowTheLargest) {
+  const auto [scene, animal] = stored_scene({"model.limit_scale=1.5"});
+  const Model even = table1_hagfish();
+  const Model fish = make_hagfish(animal, scene);
+  for (std::size_t k = 0; k < fish.hinges.size(); ++k) {
+    const double scaled = std::min(1.5 * even.hinges[k].upper, scene.model.largest_limit);
+    // The two sides round twice each.
+    EXPECT_NEAR(fish.hinges[k].upper,
+                fish.hinges[k].axis == Axis::x ? 1.5 * even.hinges[k].upper : scaled, 1e-15)
+        << k;
+    EXPECT_EQ(fish.hinges[k].lower, -fish.hinges[k].upper) << k;
+  }
 }
 
 }  // namespace

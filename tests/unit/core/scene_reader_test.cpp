@@ -98,6 +98,8 @@ std::vector<std::uint64_t> bits(const Scene& s, const Specimen& animal) {
                            s.model.twist_stiffness,
                            s.model.twist_damping,
                            s.model.largest_limit,
+                           s.model.limit_scale,
+                           s.model.mass_ratio,
                            s.drag.normal,
                            s.drag.tangential,
                            double(s.constraints.activation),
@@ -164,6 +166,13 @@ std::vector<std::uint64_t> bits(const Scene& s, const Specimen& animal) {
                            s.expect.kkt,
                            s.expect.force_balance,
                            s.expect.energy,
+                           s.expect.energy_gain,
+                           s.start.spin.x(),
+                           s.start.spin.y(),
+                           s.start.spin.z(),
+                           s.start.noise,
+                           double(s.start.seed),
+                           double(s.start.phase),
                            animal.length,
                            animal.mass,
                            animal.bending_span,
@@ -174,6 +183,12 @@ std::vector<std::uint64_t> bits(const Scene& s, const Specimen& animal) {
   }
   for (const KnotStretch& stretch : s.expect.types) {
     x.insert(x.end(), {stretch.from, stretch.to});
+  }
+  for (const auto* rows : {&s.start.bend, &s.start.bend_rate}) {
+    for (const Eigen::Vector4d& row : *rows) x.insert(x.end(), row.data(), row.data() + 4);
+  }
+  for (const auto* whole : {&s.start.q, &s.start.qdot}) {
+    x.insert(x.end(), whole->begin(), whole->end());
   }
   for (const auto* profile : {&animal.station, &animal.circumference, &animal.bending_limit}) {
     x.insert(x.end(), profile->begin(), profile->end());
@@ -192,7 +207,7 @@ ResolvedScene odd_scene() {
   s.title = "odd \"title\"";
   s.clamp_head = false;
   s.gravity = {odd(), -odd(), odd()};
-  s.model = {7, odd(), odd(), odd(), odd(), odd()};
+  s.model = {7, odd(), odd(), odd(), odd(), odd(), odd(), odd()};
   s.drag = {odd(), odd()};
   s.constraints = {Activation::violated, odd()};
   s.contact = {odd(), odd()};
@@ -222,6 +237,12 @@ ResolvedScene odd_scene() {
               odd(),      odd(),
               odd(),      odd(),
               odd(),      odd()};
+  s.expect.energy_gain = odd();
+  s.start.bend = {{odd(), odd(), -odd(), odd()}, {odd(), odd(), odd(), odd()}};
+  for (int i = 0; i < 6 + 9; ++i) s.start.qdot.push_back(odd());  // of 7 bodies
+  s.start.noise = odd();
+  s.start.seed = 4294967294u;
+  s.start.phase = Phase::slide;
   result.specimen = {
       "odd", 50 + odd(), odd(), {odd(), odd(), odd()}, {odd(), odd(), odd()}, {odd(), odd(), odd()},
       odd(), odd()};
@@ -360,6 +381,34 @@ TEST(SceneReader, RefusesBadOverrides) {
             "\"violated\"");
   EXPECT_EQ(error_of([] { read_scene(data + "/table1.toml", {"specimen.mass=0"}); }),
             data + "/specimens/pacific_hagfish.toml: --set specimen.mass=0: must be positive");
+}
+
+TEST(SceneReader, RefusesStartsThatDoNotFit) {
+  EXPECT_EQ(complaint("[start]\nbend = [[0, 1, 2]]\n"),
+            "s.toml:2: start.bend = [0, 1, 2]: row 1 must be four numbers [station, x, y, z]");
+  EXPECT_EQ(
+      complaint("[start]\nbend = [[0.5, 0, 0, 1], [0.5, 0, 0, 0]]\n"),
+      "s.toml:2: start.bend = [0.5, 0, 0, 0]: stations must rise from 0 to 1; row 2 does not");
+  EXPECT_EQ(
+      complaint("[start]\nbend_rate = [[1.5, 0, 0, 1]]\n"),
+      "s.toml:2: start.bend_rate = [1.5, 0, 0, 1]: stations must rise from 0 to 1; row 1 does "
+      "not");
+  EXPECT_EQ(complaint("[model]\nbodies = 2\n[start]\nq = [0, 0, 0, 1, 0, 0, 0]\n"),
+            "s.toml:4: start.q = [0, 0, 0, 1, 0, 0, 0]: has 7 numbers; 2 bodies need 9");
+  EXPECT_EQ(complaint("[model]\nbodies = 2\n[start]\nqdot = [0]\n"),
+            "s.toml:4: start.qdot = [0]: has 1 numbers; 2 bodies need 8");
+  EXPECT_EQ(complaint("[model]\nbodies = 2\n[start]\nq = [0, 0, 0, 0, 0, 0, 0, 0, 0]\n"),
+            "s.toml:4: start.q = [0, 0, 0, 0, 0, 0, 0, 0, 0]: numbers 4 to 7 are a quaternion and "
+            "must not all be 0");
+  EXPECT_EQ(complaint("[start]\nspin = [1, 0, 0]\n"),
+            "s.toml:2: start.spin = [1, 0, 0]: the head is clamped (clamp_head)");
+  EXPECT_EQ(complaint("[start]\nbend = [[0, 0, 0, 1]]\nq = [1]\n"),
+            "s.toml:3: start.q = [1]: start.bend is given too");
+  EXPECT_EQ(complaint("[start]\nbend_rate = [[0, 0, 0, 1]]\nqdot = [1]\n"),
+            "s.toml:3: start.qdot = [1]: start.bend_rate or start.spin is given too");
+  EXPECT_EQ(complaint("[start]\nphase = 'tie'\n"),
+            "s.toml:2: start.phase = 'tie': must be one of \"form\", \"tighten\", \"slide\", "
+            "\"release\", \"free\"");
 }
 
 TEST(SceneReader, RefusesScriptsOutOfOrder) {

@@ -51,7 +51,7 @@ TEST(TomlReader, ReadsEveryTypeOfValue) {
   table.numbers("n", n, positive());
   table.angle("angle", angle, within(0, 180));
   table.angles("fine", fine, inside(0, 90));
-  table.rows("r", "knot", r);
+  table.rows("r", "knot", "t, x, y, z", r);
   table.table("t", [&](TableReader& t) { t.number("x", inner, positive()); });
   table.finish();
   EXPECT_EQ(s, "text");
@@ -171,7 +171,7 @@ TEST(TomlReader, RefusesBadArrays) {
     std::vector<Eigen::Vector4d> r;
     table.vector("v", v);
     table.numbers("n", n, positive());
-    table.rows("r", "knot", r);
+    table.rows("r", "knot", "t, x, y, z", r);
   };
   EXPECT_EQ(complaint("v = [1, 2]", read), "f.toml:1: v = [1, 2]: must be three numbers [x, y, z]");
   EXPECT_EQ(complaint("n = []", read), "f.toml:1: n = []: must be an array of numbers");

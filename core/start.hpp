@@ -1,0 +1,15 @@
+// The state that a scene starts from.
+#pragma once
+
+#include "core/model.hpp"
+#include "core/settings.hpp"
+#include "core/state.hpp"
+
+namespace hagfish {
+
+/// The state of `settings`, whose q and qdot, where given, have the lengths nq and nv of `model`.
+/// Bends and noise stop at the hinges' limits; a given q does not. The noise depends on the seed
+/// and the number of hinges alone (on one standard library).
+State start_state(const Model& model, const StartSettings& settings);
+
+}  // namespace hagfish

@@ -1,0 +1,91 @@
+// The scenes of experiments/stability.sh: each is read, runs on for a few steps by the core and in
+// MuJoCo, and ends in an outcome by name, whatever the step.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "core/scene_reader.hpp"
+#include "experiments/commands.hpp"
+#include "experiments/stress_judge.hpp"
+
+namespace hagfish {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int most_bodies = 100;
+
+std::vector<std::string> scenes() {
+  std::vector<std::string> found;
+  for (const auto& entry : fs::directory_iterator(HAGFISH_STRESS_DIR)) {
+    found.push_back(entry.path().string());
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+/// The outcome that a cell's file tells; empty where it is none.
+std::string outcome_in(const std::string& file) {
+  std::ifstream in(file);
+  std::string heading, row, field;
+  std::getline(in, heading);
+  std::getline(in, row);
+  std::istringstream fields(row);
+  for (int i = 0; i < 5; ++i) {
+    std::getline(fields, field, ',');
+  }
+  for (int i = 0; i < outcome_count; ++i) {
+    if (field == outcome_name(static_cast<Outcome>(i))) {
+      return field;
+    }
+  }
+  return "";
+}
+
+class StressScenes : public testing::TestWithParam<std::string> {
+ protected:
+  StressOptions cell(const std::string& method, double step) const {
+    StressOptions options;
+    options.scene = GetParam();
+    options.method = method;
+    options.step = step;
+    options.set = {"time.duration=" + std::to_string(4 * step)};
+    // A few steps of 400 bodies take MuJoCo a minute.
+    if (read_scene(GetParam()).scene.model.bodies > most_bodies) {
+      options.set.push_back("model.bodies=" + std::to_string(most_bodies));
+    }
+    options.out = file;
+    return options;
+  }
+  ~StressScenes() override { fs::remove(file); }
+  const std::string file =
+      (fs::path(testing::TempDir()) / (fs::path(GetParam()).stem().string() + ".csv")).string();
+};
+
+TEST_P(StressScenes, ComesBackFromItsOwnText) {
+  const ResolvedScene resolved = read_scene(GetParam());
+  EXPECT_FALSE(resolved.scene.title.empty());
+  const std::string text = scene_to_toml(resolved.scene, resolved.specimen);
+  const ResolvedScene again = read_scene_text(text, "again");
+  EXPECT_EQ(scene_to_toml(again.scene, again.specimen), text);
+}
+
+TEST_P(StressScenes, EveryMethodHasAnOutcomeByName) {
+  for (const std::string& method : stress_methods()) {
+    for (const double step : {0.0002, 0.05}) {
+      SCOPED_TRACE(method);
+      ASSERT_EQ(stress(cell(method, step)), 0);
+      EXPECT_NE(outcome_in(file), "") << step;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Stability, StressScenes, testing::ValuesIn(scenes()),
+                         [](const auto& scene) { return fs::path(scene.param).stem().string(); });
+
+}  // namespace
+}  // namespace hagfish
