@@ -61,7 +61,7 @@ class AuditTest : public testing::Test {
 TEST_F(AuditTest, PassesAnHonestLog) {
   for (const char* name :
        {"status", "knot held", "Eq. 6", "penetration", "limits", "head drift", "KKT residual",
-        "force balance", "f_thigmo past the knot", "energy ledger"}) {
+        "force balance", "f_thigmo past the knot", "energy ledger", "energy gain"}) {
     EXPECT_TRUE(passes(name)) << name;
   }
   // The excerpt starts knotted and does not slide 9 cm: that must show.
@@ -167,6 +167,11 @@ TEST_F(AuditTest, SeesAKnotThatCameUndone) {
     }
   }
   EXPECT_FALSE(passes("knot held"));
+}
+
+TEST_F(AuditTest, SeesEnergyOutOfNothing) {
+  tamper("/diagnostics/kinetic_energy", 2, 1e6);  // erg; the bent body holds some 1e5
+  EXPECT_FALSE(passes("energy gain"));
 }
 
 }  // namespace
