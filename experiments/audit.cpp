@@ -140,12 +140,31 @@ Finding thigmotaxis_extent(const LogContents& log) {
   return bounded("f_thigmo past the knot", beyond, 0, "dyn cm");
 }
 
+Eigen::ArrayXd diagnostic(const LogContents& log, const char* name) {
+  const std::vector<double> v = log.h5.doubles(std::string("/diagnostics/") + name);
+  return Eigen::ArrayXd::Map(v.data(), static_cast<Eigen::Index>(v.size()));
+}
+
+/// Mechanical energy above what there was and what script and thigmotaxis put in, of the most that
+/// there was of these so far.
+Finding energy_gain(const LogContents& log) {
+  const auto get = [&](const char* name) { return diagnostic(log, name); };
+  const Eigen::ArrayXd energy =
+      get("kinetic_energy") + get("elastic_energy") + get("gravity_energy");
+  const Eigen::ArrayXd had = energy[0] + get("work_tip") + get("work_thigmotaxis");
+  double gain = 0;
+  double most = 0;
+  for (Eigen::Index f = 0; f < energy.size(); ++f) {
+    most = std::max(most, had[f]);
+    gain = worse(gain, most > 0 ? (energy[f] - had[f]) / most : 0);
+  }
+  return bounded("energy gain", gain, log.resolved.scene.expect.energy_gain,
+                 "of what there was and was put in");
+}
+
 /// The ledger's imbalance, over the energy that has passed through it.
 Finding energy(const LogContents& log) {
-  const auto get = [&](const char* name) {
-    const std::vector<double> v = log.h5.doubles(std::string("/diagnostics/") + name);
-    return Eigen::ArrayXd(Eigen::Map<const Eigen::ArrayXd>(v.data(), v.size()));
-  };
+  const auto get = [&](const char* name) { return diagnostic(log, name); };
   const Eigen::ArrayXd energy =
       get("kinetic_energy") + get("elastic_energy") + get("gravity_energy");
   const Eigen::ArrayXd works = get("work_tip") + get("work_thigmotaxis") + get("work_contact") +
@@ -177,6 +196,7 @@ std::vector<Finding> audit(const std::string& file) {
   findings.push_back(forward_inverse(log));
   findings.push_back(thigmotaxis_extent(log));
   findings.push_back(energy(log));
+  findings.push_back(energy_gain(log));
   return findings;
 }
 

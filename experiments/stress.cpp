@@ -99,10 +99,10 @@ Verdict run_cell(const Model& model, const Scene& scene, const StressMethod& met
                 : Verdict{Outcome::capped, fmt::format("not done in {:g} s of CPU", cpu_limit)};
   } catch (const StepError& error) {
     return judge.stopped(error.cause(), error.what());
-  } catch (const std::domain_error& error) {  // of the knot's type
-    return {Outcome::tunnelled, error.what()};
+  } catch (const std::domain_error& error) {  // the body is past having a knot type
+    return judge.stopped(StopCause::knot_lost, error.what());
   } catch (const std::overflow_error& error) {
-    return {Outcome::tunnelled, error.what()};
+    return judge.stopped(StopCause::knot_lost, error.what());
   }
 }
 

@@ -176,8 +176,8 @@ Verdict StressJudge::ended() const {
 }
 
 Verdict StressJudge::stopped(StopCause cause, const std::string& message) const {
-  const bool symptom =
-      cause == StopCause::penetration || cause == StopCause::limits || cause == StopCause::speed;
+  const bool symptom = cause == StopCause::penetration || cause == StopCause::limits ||
+                       cause == StopCause::speed || cause == StopCause::knot_lost;
   if (const Verdict root = root_cause(); symptom && root.outcome != Outcome::ok) {
     return {root.outcome, root.message + "; " + message};
   }

@@ -22,6 +22,7 @@ from hagfish_log import save_figure
 
 DPI = 160
 LEGEND_COLUMNS, LEGEND_ROWS = 5, 2
+CELL, LETTER = 0.3, 0.075  # inches, of a cell's side and of a label's letter
 # Outcome: letter, colour (Paul Tol's light and muted schemes, told apart without red and green).
 LOOKS = {"ok": ("", "#e8f4f0"), "energy gain": ("E", "#ee8866"), "non-finite": ("N", "#000000"),
          "tunnelled": ("T", "#882255"), "penetration": ("P", "#77aadd"), "limits": ("L", "#eedd88"),
@@ -78,10 +79,10 @@ def draw_grid(axes: Any, grid: Grid, rows: list[str], steps: list[float]) -> Non
                       color="white" if outcome in DARK else "#222222")
     axes.set_xlim(0, len(steps))
     axes.set_ylim(len(rows), 0)
-    axes.set_xticks([x + 0.5 for x in range(len(steps))], [f"{step:g}" for step in steps])
+    axes.set_xticks([x + 0.5 for x in range(len(steps))], [f"{step:g}" for step in steps], fontsize=8)
     axes.set_yticks([y + 0.5 for y in range(len(rows))], [TITLES.get(row, row) for row in rows], fontsize=8)
     axes.tick_params(length=0)
-    axes.set_xlabel("h, ms")
+    axes.set_xlabel("h, ms", fontsize=8)
     for side in axes.spines.values():
         side.set_visible(False)
 
@@ -125,18 +126,20 @@ def draw_scene(scene: str, cells: list[Cell], png: Path) -> None:
     if seeds:
         panels.append(("perturbed starts", grid_of(seeds, lambda c: c["level"]),
                        sorted({c["level"] for c in seeds}, key=level_order), sorted({step_of(c) for c in seeds})))
-    # Cells of one size: panels are as wide and high as what they hold.
-    wide = [0.34 * len(steps) + 1.6 for _, _, _, steps in panels]
-    high = 0.25 * max(len(rows) for _, _, rows, _ in panels) + 1.5
-    high += 0.2 * LEGEND_ROWS
-    figure, axes = plt.subplots(1, len(panels), figsize=(max(sum(wide), 6.5), high), squeeze=False, width_ratios=wide)
-    bottom = 0.2 * LEGEND_ROWS / high
-    figure.set_layout_engine("constrained", rect=(0, bottom, 1, 1 - bottom))
-    for panel, (title, grid, rows, steps) in zip(axes[0], panels):
-        draw_grid(panel, grid, rows, steps)
-        panel.set_aspect("equal", anchor="N")
-        panel.set_title(title, fontsize=9, loc="left")
-    figure.suptitle(SCENES.get(scene, scene), fontsize=11)
+    # Cells of one size in every panel, laid out in inches.
+    left = [LETTER * max(len(TITLES.get(row, row)) for row in rows) + 0.25 for _, _, rows, _ in panels]
+    width = max(sum(left) + CELL * sum(len(steps) for _, _, _, steps in panels) + 0.3, 6.8)
+    below = 0.55 + 0.2 * LEGEND_ROWS
+    height = CELL * max(len(rows) for _, _, rows, _ in panels) + below + 0.7
+    figure = plt.figure(figsize=(width, height))
+    x = 0.0
+    for margin, (title, grid, rows, steps) in zip(left, panels):
+        wide, high = CELL * len(steps), CELL * len(rows)
+        axes = figure.add_axes(((x + margin) / width, (height - 0.7 - high) / height, wide / width, high / height))
+        draw_grid(axes, grid, rows, steps)
+        axes.set_title(title, fontsize=9, loc="left")
+        x += margin + wide
+    figure.suptitle(SCENES.get(scene, scene), fontsize=11, y=1 - 0.08 / height, va="top")
     legend(figure, cells)
     save_figure(figure, png, DPI)
     plt.close(figure)
@@ -200,7 +203,7 @@ def draw_summary(cells: list[Cell], png: Path) -> None:
     for side in axes.spines.values():
         side.set_visible(False)
     codes = ", ".join(f"{letter} {name}" for name, (letter, _) in LOOKS.items() if letter not in ("", "-"))
-    figure.supxlabel("Largest step, ms, up to which every step is survived, and what comes first beyond it.\n" + codes,
+    figure.supxlabel("Largest step, ms, up to which every step is survived, and what comes first beyond it; blank: not run.\n" + codes,
                      fontsize=7.5)
     save_figure(figure, png, DPI)
 

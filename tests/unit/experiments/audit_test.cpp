@@ -61,9 +61,9 @@ class AuditTest : public testing::Test {
 };
 
 TEST_F(AuditTest, PassesAnHonestLog) {
-  for (const char* name :
-       {"status", "knot held", "knot through time", "hand", "Eq. 6", "penetration", "limits",
-        "head drift", "KKT residual", "force balance", "f_thigmo past the knot", "energy ledger"}) {
+  for (const char* name : {"status", "knot held", "knot through time", "hand", "Eq. 6",
+                           "penetration", "limits", "head drift", "KKT residual", "force balance",
+                           "f_thigmo past the knot", "energy ledger", "energy gain"}) {
     EXPECT_TRUE(passes(name)) << name;
   }
   // The excerpt starts knotted and does not slide 9 cm: that must show.
@@ -179,6 +179,11 @@ TEST_F(AuditTest, SeesTheMirrorImageOfTheKnotExpected) {
   }
   EXPECT_TRUE(passes("knot held"));
   EXPECT_FALSE(passes("hand"));
+}
+
+TEST_F(AuditTest, SeesEnergyOutOfNothing) {
+  tamper("/diagnostics/kinetic_energy", 2, 1e6);  // erg; the bent body holds some 1e5
+  EXPECT_FALSE(passes("energy gain"));
 }
 
 }  // namespace

@@ -73,6 +73,7 @@ TEST_F(StressJudgeTest, ACauseIsItsOwnOutcome) {
 TEST_F(StressJudgeTest, AStopBySpeedAfterEnergyGainIsEnergyGain) {
   show(0, 0, {1e6, 0});
   EXPECT_EQ(judge.stopped(StopCause::speed, "fast").outcome, Outcome::energy_gain);
+  EXPECT_EQ(judge.stopped(StopCause::knot_lost, "gone").outcome, Outcome::energy_gain);
   EXPECT_EQ(judge.stopped(StopCause::infeasible, "rows").outcome, Outcome::infeasible);
 }
 
