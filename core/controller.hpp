@@ -31,9 +31,9 @@ struct ControllerState {
   double phase_start = 0;  ///< s
   double loose = 0;        ///< when the knot last spanned more than tight_span, s
   KnotVote knot;           ///< as last seen
-  double knot_from = 0;    ///< when it became of that type, s
-  PastKnot past;           ///< the last one before it; an unknot where there was none
-  double knot_seen = -std::numeric_limits<double>::infinity();  ///< when last looked at, s
+  double knot_seen = -std::numeric_limits<double>::infinity();  ///< when that was, s
+  double knot_from = 0;                                         ///< when it became of that type, s
+  PastKnot past;     ///< the last one before it; an unknot where there was none
   std::string lost;  ///< where the scene only warns: how the knot was lost; empty while it holds
   TrackedContact first, last;
 };

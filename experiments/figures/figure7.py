@@ -27,8 +27,8 @@ LEAST_PANELS = 8
 GAP = 1.2  # around the animal in a panel, cm
 LEAST_WIDTH = 17.5  # of a panel, cm: room for its caption
 LEAST_TRAVEL = 1.0  # of the knot's head end for pictures of it on its way, cm
-WORDS = {"form": "knot forming", "tighten": "tightening", "slide": "sliding", "release": "released",
-         "free": "free"}
+WORDS = {"form": "knot forming", "tighten": "tightening", "slide": "sliding", "reverse": "sliding back",
+         "release": "released", "free": "free"}
 
 
 @dataclass

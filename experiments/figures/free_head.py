@@ -36,6 +36,8 @@ def compare(axes: plt.Axes, sets: list[tuple[list[Slide], str]], what: str) -> N
             own = [s for s in slides if s.knot == knot and np.isfinite(getattr(s, what))]
             axes.plot([s.commanded for s in own], [getattr(s, what) for s in own], marker=marker[0], ls=marker[1:],
                       color=colour, lw=1, ms=5, mfc="none" if marker[0] == "s" else colour)
+            lost = [s for s in own if s.failure]
+            axes.plot([s.commanded for s in lost], [getattr(s, what) for s in lost], "x", color="black", ms=9)
     axes.set(xscale="log", yscale="log", xlabel="commanded speed, cm/s")
     axes.grid(alpha=0.25)
 
@@ -63,7 +65,7 @@ def main(folder: Path, table: Path, out: Path, page: Path) -> None:
     middle.set_title("(b) discs: free; squares: held; dashed: as commanded", loc="left", fontsize=9)
     compare(right, [(sets["held"], "s:"), (sets["free"], "o-")], "force")
     right.set_ylabel(r"sum of the four $\lambda/h$, median, dyn")
-    right.set_title("(c)", loc="left", fontsize=10)
+    right.set_title("(c) crossed: the knot was lost", loc="left", fontsize=10)
     save_figure(figure, out, DPI)
 
     rows = [f"| {head} | {s.knot} | {s.commanded:g} | {s.speed:.3g} | {s.travel:.1f} | {s.force:.0f} | {100 * s.met:.1f} | "

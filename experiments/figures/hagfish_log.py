@@ -84,7 +84,7 @@ class HagfishLog:
         return np.array([by_value[int(value)] for value in self[path]])
 
     def in_phase(self, phase: str) -> np.ndarray:
-        """Indices of the frames of one phase: form, tighten, slide, release, free."""
+        """Indices of the frames of one phase: form, tighten, slide, reverse, release, free."""
         return np.flatnonzero(self.labels("/trajectory/phase") == phase)
 
     def scene(self) -> dict[str, Any]:

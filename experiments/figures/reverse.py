@@ -25,22 +25,21 @@ def paths(axes: plt.Axes, slides: list[Slide]) -> None:
     """Both ends of the knot on its way back."""
     for s in slides:
         if s.commanded == SHOWN and s.time.size:
-            axes.fill_between(s.time, s.head_end, s.tail_end, color=COLOURS[s.knot], alpha=0.15, lw=0)
             axes.plot(s.time, s.tail_end, color=COLOURS[s.knot], lw=1.2, label=knot_label(s.knot))
             axes.plot(s.time, s.head_end, color=COLOURS[s.knot], lw=1.2)
-    axes.set(xlabel="time since the turn, s", ylabel="where the knot begins and ends, cm from the head", ylim=(0, 42.4))
-    axes.legend(fontsize=8, frameon=False, loc="lower right")
+    axes.set(xlabel="time since the turn, s", ylabel="both ends of the knot, cm from the head", ylim=(0, 42.4))
+    axes.legend(fontsize=8, frameon=False, loc=(0.5, 0.38))
     axes.set_title(f"(a) back at {SHOWN:g} cm/s, until the tail lets go", loc="left", fontsize=10)
 
 
 def against_speed(axes: plt.Axes, back: list[Slide], there: list[Slide], what: str) -> None:
     """A measure over commanded speed; the way to the head, always at 2 cm/s, as a square."""
     for knot, colour in COLOURS.items():
-        own = [s for s in back if s.knot == knot and np.isfinite(getattr(s, what))]
+        own = [s for s in back if s.knot == knot and getattr(s, what) > 0]
         axes.plot([s.commanded for s in own], [getattr(s, what) for s in own], "-", color=colour, lw=1)
         for s in own:
             axes.plot(s.commanded, getattr(s, what), "o", ms=4.5, color=colour, mfc="white" if s.failure else colour)
-        slid = [getattr(s, what) for s in there if s.knot == knot and np.isfinite(getattr(s, what))]
+        slid = [getattr(s, what) for s in there if s.knot == knot and getattr(s, what) > 0]
         if slid:
             axes.plot(SHOWN, np.median(slid), "s", ms=7, color=colour, mfc="none")
     axes.set(xscale="log", yscale="log", xlabel="commanded speed, cm/s")
@@ -61,7 +60,7 @@ def main(folder: Path, table: Path, out: Path, page: Path) -> None:
     line = np.array([min(s.commanded for s in back), max(s.commanded for s in back)])
     middle.plot(line, line, color=GREY, lw=0.8, ls="--", zorder=0)
     middle.set_ylabel("measured speed of the tail end, cm/s")
-    middle.set_title("(b) dashed: as commanded; open: failed", loc="left", fontsize=10)
+    middle.set_title("(b) dashed: as commanded; open: knot lost early", loc="left", fontsize=10)
     against_speed(right, back, there, "force")
     right.set_ylabel(r"sum of the four $\lambda/h$, median, dyn")
     right.set_title("(c) squares: the way to the head", loc="left", fontsize=10)

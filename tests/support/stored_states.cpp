@@ -1,9 +1,16 @@
 #include "tests/support/stored_states.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <toml.hpp>
 
 namespace hagfish {
+namespace {
+
+/// Step of the run that the states were stored from, s.
+constexpr double stored_step = 0.002;
+
+}  // namespace
 
 std::string name_of(const testing::TestParamInfo<StoredState>& info) {
   std::string name = info.param.name;
@@ -37,9 +44,10 @@ ResolvedScene stored_scene(const std::vector<std::string>& overrides) {
 Simulation resume(const Model& model, const Scene& scene, const StoredState& stored) {
   ControllerState controller;
   controller.phase = stored.phase;
-  controller.phase_start = static_cast<double>(stored.step) * scene.time.step;
+  controller.phase_start = static_cast<double>(stored.step) * stored_step;
   controller.loose = controller.phase_start;
-  return start_from(model, scene, stored.state, controller, stored.step);
+  return start_from(model, scene, stored.state, controller,
+                    std::llround(controller.phase_start / scene.time.step));
 }
 
 }  // namespace hagfish

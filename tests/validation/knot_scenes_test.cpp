@@ -87,7 +87,7 @@ TEST_P(KnotScenes, TieHoldSlideAndComeOff) {
 
 INSTANTIATE_TEST_SUITE_P(BuiltIn, KnotScenes,
                          testing::Values("figure_eight", "double_overhand", "three_twist",
-                                         "overhand_reverse", "overhand_free_head"),
+                                         "overhand_reverse", "overhand_free_head", "overhand_fast"),
                          scene_name);
 
 class MirrorImage : public testing::TestWithParam<const char*> {};

@@ -375,7 +375,7 @@ TEST_F(ProgramTest, StopsWhenAPhaseHasEndedAndTellsTheKnotAsItGoes) {
 TEST_F(ProgramTest, AbsurdNumbersFailTheRunAndDoNotCrashIt) {
   for (const char* absurd : {"specimen.length=1e200", "specimen.mass=1e300", "time.step=1e-300"}) {
     const Outcome run = hagfish(std::string("run --quiet --force --out a.h5 --set ") + absurd);
-    EXPECT_TRUE(run.code == 1 || run.code == 2) << absurd << ": " << run.code << run.output;
+    EXPECT_TRUE(run.code >= 1 && run.code <= 3) << absurd << ": " << run.code << run.output;
     EXPECT_EQ(std::count(run.output.begin(), run.output.end(), '\n'), 1) << run.output;
   }
 }
