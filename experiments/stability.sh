@@ -11,6 +11,7 @@ mkdir -p "$out"
 out=$(cd "$out" && pwd)
 
 bash "$root/experiments/setup.sh" --target hagfish
+cores=$(nproc) # which heeds the next line's variables
 # Serial BLAS, so that runs repeat to the last bit.
 export OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1
 export hagfish=$root/build/release/experiments/hagfish cells=$out/cells scenes=$root/experiments/stability
@@ -131,7 +132,7 @@ echo "$jobs cells"
 show=()
 if [[ -t 2 ]]; then show=(--bar); fi
 # Large steps first: they are quick and show the most.
-sort -t$'\t' -k4,4gr <<<"$work" | parallel --will-cite --halt soon,fail=1 -j "$(nproc)" "${show[@]}" job {}
+sort -t$'\t' -k4,4gr <<<"$work" | parallel --will-cite --halt soon,fail=1 -j "$cores" "${show[@]}" job {}
 
 {
   head -qn 1 "$cells"/whip_as-is_default_1.csv

@@ -10,7 +10,7 @@
 namespace hagfish {
 namespace {
 
-/// The scene's drag and script as generalised forces (nv); adds up their work over h.
+/// The drag and the force `tip` (dyn, world) on the last body as a generalised force (nv).
 Eigen::VectorXd applied_force(const Model& model, const State& state, const Kinematics& kin,
                               const Eigen::Vector3d& tip) {
   Eigen::VectorXd force;

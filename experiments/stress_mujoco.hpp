@@ -12,7 +12,7 @@ namespace hagfish {
 /// the core's.
 std::string not_in_mujoco(const Scene& scene);
 
-/// The scene's first energy, by the core's own formulas, erg.
+/// Kinetic, elastic and gravity energy, by the core's own formulas, erg.
 double mechanical_energy(const Model& model, const State& state, const Kinematics& kin);
 
 /// Runs `scene` by MuJoCo's `integrator` (mjINT_...) from its start to its end: its own soft

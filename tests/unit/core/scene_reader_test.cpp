@@ -201,7 +201,7 @@ std::vector<std::uint64_t> bits(const Scene& s, const Specimen& animal) {
 /// A scene in which every number differs from its default and has no short decimal form.
 ResolvedScene odd_scene() {
   double next = 0.01;
-  const auto odd = [&next] { return next += 1.0 / 97; };
+  const auto odd = [&next] { return next += 1.0 / 197; };
   ResolvedScene result;
   Scene& s = result.scene;
   s.title = "odd \"title\"";
