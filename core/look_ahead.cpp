@@ -43,7 +43,8 @@ bool add_missed_rows(const Model& model, const Situation& now, const Situation& 
   const double tolerance = t < h ? way_tolerance * settings.stride : settings.tolerance;
   bool any = false;
   const auto look = [&](double gap_now, double gap_there, const auto& make_row) {
-    const double goal = (1 - settings.push_out) * std::min(0.0, gap_now);
+    const double before = std::min(0.0, gap_now);
+    const double goal = before + std::min(-settings.push_out * before, h * settings.push_out_speed);
     if (gap_there < goal - tolerance) {
       Row row = make_row();
       const double missed =

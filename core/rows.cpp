@@ -1,5 +1,6 @@
 #include "core/rows.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -22,11 +23,13 @@ void set_points(Row& row, const Contact& contact, const Eigen::Vector3d& directi
 
 /// The right-hand side of a unilateral row at `gap`; none where the row is not in force.
 /// Speculative rows let a gap close within the step; a violation is pushed out over several.
-std::optional<double> unilateral(double gap, const ConstraintSettings& settings, double h) {
+/// `fastest` bounds the speed of that.
+std::optional<double> unilateral(double gap, const ConstraintSettings& settings, double h,
+                                 double fastest) {
   if (gap >= 0 && settings.activation == Activation::violated) {
     return std::nullopt;
   }
-  return gap >= 0 ? -gap / h : -settings.push_out * gap / h;
+  return gap >= 0 ? -gap / h : std::min(-settings.push_out * gap / h, fastest);
 }
 
 }  // namespace
@@ -118,7 +121,7 @@ void append_limit_rows(const Model& model, const State& state, const ConstraintS
     const Hinge& hinge = model.hinges[k - root_dofs];
     for (const double sign : {1.0, -1.0}) {
       const double gap = sign > 0 ? state.q[k + 1] - hinge.lower : hinge.upper - state.q[k + 1];
-      const std::optional<double> rhs = unilateral(gap, settings, h);
+      const std::optional<double> rhs = unilateral(gap, settings, h, unbounded);
       if (!std::isfinite(gap) || !rhs) {
         continue;
       }
@@ -135,7 +138,8 @@ void append_limit_rows(const Model& model, const State& state, const ConstraintS
 void append_contact_rows(const Model& model, const ContactSet& contacts,
                          const ConstraintSettings& settings, double h, std::vector<Row>& rows) {
   const auto append = [&](const Contact& contact, bool waits) {
-    if (const std::optional<double> rhs = unilateral(contact.gap, settings, h)) {
+    if (const std::optional<double> rhs =
+            unilateral(contact.gap, settings, h, settings.push_out_speed)) {
       Row& row = rows.emplace_back(contact_row(model, contact));
       row.waits = waits;
       row.rhs = *rhs;
@@ -152,7 +156,7 @@ void append_contact_rows(const Model& model, const ContactSet& contacts,
 void append_wall_rows(const Model& model, const Kinematics& kin, const WallSettings& wall,
                       const ConstraintSettings& settings, double h, std::vector<Row>& rows) {
   visit_wall_gaps(model, kin, wall, [&](int body, double gap) {
-    if (const std::optional<double> rhs = unilateral(gap, settings, h)) {
+    if (const std::optional<double> rhs = unilateral(gap, settings, h, settings.push_out_speed)) {
       rows.emplace_back(wall_row(body)).rhs = *rhs;
     }
   });

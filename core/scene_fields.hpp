@@ -69,6 +69,7 @@ void constraint_fields(Io& io, ConstraintSettings& s) {
       "activation", s.activation,
       {{"speculative", Activation::speculative}, {"violated", Activation::violated}});
   io.number("push_out", s.push_out, within(0, 1));
+  io.number("push_out_speed", s.push_out_speed, positive());
   io.number("tolerance", s.tolerance, not_negative());
   io.integer("corrections", s.corrections, within(0, 100));
   io.number("stride", s.stride, positive());

@@ -45,6 +45,9 @@ struct ConstraintSettings {
   Activation activation = Activation::speculative;
   /// Share of a violation pushed out per step: C v >= -push_out * gap / h for gap < 0.
   double push_out = 0.5;
+  /// But no faster than this, cm/s: what is pushed out keeps its speed, which deep overlaps must not
+  /// make a blast of.
+  double push_out_speed = 5;
   /// Speculative rows only: a step whose path overlaps by this much more than it should is solved
   /// again with rows that see it, cm.
   double tolerance = 0.0003;
@@ -175,7 +178,7 @@ struct GuardSettings {
   double speed = 1e4;            ///< of any body centre, cm/s
   /// Energy that the integrator makes, over the largest kinetic and elastic energy so far and what
   /// drag and damping took.
-  double energy_gain = 0.01;
+  double energy_gain = 0.005;
   EnergyAction energy_action = EnergyAction::hold;
   double capped_time = 0.25;  ///< a thigmotaxis row at its cap for this long is told, s
 };

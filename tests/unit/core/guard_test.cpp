@@ -195,7 +195,7 @@ TEST_F(EnergyWatch, OnlyWarnsWhereTheSceneAsksForIt) {
 
 TEST_F(EnergyWatch, StopsWhereTheSceneAsksForIt) {
   EXPECT_NE(message_of(StopCause::energy_gain, [&] { growth(EnergyAction::stop); })
-                .find("guard.energy_gain = 0.01"),
+                .find("guard.energy_gain = 0.005"),
             std::string::npos);
 }
 

@@ -104,6 +104,7 @@ std::vector<std::uint64_t> bits(const Scene& s, const Specimen& animal) {
                            s.drag.tangential,
                            double(s.constraints.activation),
                            s.constraints.push_out,
+                           s.constraints.push_out_speed,
                            s.constraints.tolerance,
                            double(s.constraints.corrections),
                            s.constraints.stride,
@@ -226,6 +227,7 @@ ResolvedScene odd_scene() {
   s.time.step = odd();
   s.time.frame_interval = 3 * s.time.step;
   s.time.duration = 7 * s.time.step;
+  s.constraints.push_out_speed = odd();
   s.constraints.tolerance = odd();
   s.constraints.corrections = 5;
   s.constraints.stride = odd();
