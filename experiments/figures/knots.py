@@ -19,7 +19,7 @@ from hagfish_log import HagfishLog, LogError, save_figure
 from slides import COLOURS, knot_label, unmet_of
 from study import run_study
 
-DPI = 300
+DPI = 200
 WIDTH = 7.2  # of the pictures, inches
 NOISES = ("0.2", "0.5", "1")
 STEPS = ("0.0005", "0.001", "0.005", "0.01", "0.02")

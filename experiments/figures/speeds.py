@@ -41,7 +41,7 @@ def draw(slides: list[Slide], out: Path) -> None:
     panel(speed, slides, [s.speed for s in slides], "measured speed, cm/s")
     line = np.array([min(s.commanded for s in slides), max(s.commanded for s in slides)])
     speed.plot(line, line, color=GREY, lw=0.8, ls="--", zorder=0)
-    speed.text(line[1], line[1] * 1.15, "as commanded", color=GREY, fontsize=8, ha="right", va="bottom")
+    speed.text(2 * line[0], 1.3 * line[0], "as commanded", color=GREY, fontsize=8)
     panel(force, slides, [s.force for s in slides], r"sum of the four $\lambda/h$, median, dyn")
     panel(slack, slides, [max(1 - s.met, 1e-4) if np.isfinite(s.met) else np.nan for s in slides],
           "share of steps that fall short of Eq. 6\n(drawn at $10^{-4}$ where none does)")
