@@ -121,7 +121,7 @@ list() {
   line short_bodies "400 bodies" "$steps" default model.bodies=400
   # Perturbed starts of the whole run.
   for level in {1..20}; do
-    line table1 "seed $level" "1 2 5 10 20" default "start.noise_deg=1 start.seed=$level"
+    line table1 "seed $level" "1 2 5 10 20" default "start.noise_deg=0.3 start.seed=$level"
   done
 }
 
