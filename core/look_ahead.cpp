@@ -8,9 +8,6 @@
 namespace hagfish {
 namespace {
 
-/// Overlap that is let pass on the way of a step, as a share of `stride`.
-constexpr double way_tolerance = 0.25;
-
 Row* find(std::vector<Row>& rows, std::int64_t id) {
   const auto it =
       std::find_if(rows.begin(), rows.end(), [&](const Row& row) { return row.id == id; });

@@ -9,6 +9,10 @@
 
 namespace hagfish {
 
+/// Overlap that is let pass on the way of a step, as a share of `stride`: strands must not pass
+/// through each other there, no more.
+inline constexpr double way_tolerance = 0.25;
+
 /// How many looks a step of h (s) needs so that no body moves further than `stride` (cm) between
 /// two: 1 is the end alone.
 int looks(const Eigen::Matrix3Xd& centre_velocity, double h, double stride);

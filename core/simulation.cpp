@@ -1,5 +1,7 @@
 #include "core/simulation.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -15,10 +17,8 @@ namespace {
 bool meets_overlap(const Model& model, const Scene& scene, bool correct, Simulation& sim,
                    StepRecord& record) {
   const double h = scene.time.step;
-  const ConstraintSettings& settings = scene.constraints;
-  correct = correct && settings.activation == Activation::speculative;
   guard_speed(record.solution.centre_velocity, scene.guard);
-  const int count = looks(record.solution.centre_velocity, h, settings.stride);
+  const int count = looks(record.solution.centre_velocity, h, scene.constraints.stride);
   record.state.qdot = record.solution.qdot;
   record.crossing = 0;
   for (int i = 1; i <= count; ++i) {
@@ -34,6 +34,37 @@ bool meets_overlap(const Model& model, const Scene& scene, bool correct, Simulat
     }
   }
   return false;
+}
+
+/// A step whose path still overlaps ends where strands meet: the rest of its motion is left out,
+/// and the next step, with strands close, can see and stop them. Whether it did so.
+bool end_where_strands_meet(const Model& model, const Scene& scene, Simulation& sim,
+                            StepRecord& record) {
+  constexpr int least_looks = 16;
+  const double h = scene.time.step;
+  const double allowed =
+      std::max(sim.situation.penetration, way_tolerance * scene.constraints.stride);
+  if (std::max(record.crossing, record.situation.penetration) <= allowed) {
+    return false;
+  }
+  const int count =
+      std::max(least_looks, looks(record.solution.centre_velocity, h, scene.constraints.stride));
+  const auto move_to = [&](int i) {
+    advance(sim.state.q, record.solution.qdot, h * i / count, record.state.q);
+    observe(model, record.state, scene, sim.search, record.situation);
+  };
+  int clear = 0;
+  for (move_to(1); clear < count && record.situation.penetration <= allowed; move_to(clear + 1)) {
+    ++clear;
+  }
+  move_to(clear);
+  record.crossing = 0;
+  report(StopCause::speed,
+         fmt::format("strands meet too fast for the step, which ends there: {:.3g} s of its motion "
+                     "are left out; a smaller time.step would help",
+                     h * (count - clear) / count),
+         GuardAction::warn, sim.watch, record.warnings);
+  return true;
 }
 
 }  // namespace
@@ -78,10 +109,18 @@ void take_step(const Model& model, const Scene& scene, BoxQpSolver& solver, Simu
   begin_step(model, sim.state, sim.situation, record.control, scene, solver, sim.warm, sim.scratch,
              record.solution);
   // The record's old state and situation are storage for the next ones; then they change places.
-  for (int k = 0; meets_overlap(model, scene, k < scene.constraints.corrections, sim, record);
-       ++k) {
-    resume_step(model, sim.situation, solver, sim.warm, sim.scratch, record.solution);
+  const bool sees = scene.constraints.activation == Activation::speculative;
+  int corrections = sees ? scene.constraints.corrections : 0;
+  for (int k = 0; meets_overlap(model, scene, k < corrections, sim, record); ++k) {
+    try {
+      resume_step(model, sim.situation, solver, sim.warm, sim.scratch, record.solution);
+    } catch (const StepError&) {  // the rows added cannot all be met: without them
+      begin_step(model, sim.state, sim.situation, record.control, scene, solver, sim.warm,
+                 sim.scratch, record.solution);
+      corrections = 0;
+    }
   }
+  const bool shortened = sees && end_where_strands_meet(model, scene, sim, record);
   finish_step(model, sim.situation, record.control, scene, sim.warm, sim.scratch, record.solution);
   guard_cap(model, scene, record.solution, sim.scratch.qp.A, record.time, sim.watch,
             record.warnings);
@@ -91,6 +130,10 @@ void take_step(const Model& model, const Scene& scene, BoxQpSolver& solver, Simu
   record.ledger = sim.ledger;
   book_step(model, sim.situation.kin, record.solution, record.state, record.situation.kin, h,
             sim.ledger);
+  if (shortened) {  // the ledger's terms are those of the whole way: what they miss is the rule's
+                    // own
+    sim.ledger.integrator_potential += sim.ledger.imbalance();
+  }
   guard_energy(model, scene, record.state, record.situation.kin, sim.ledger, sim.watch,
                record.warnings);
   record.head_drift = record.control.clamp_head ? head_drift(model, sim.situation.kin) : 0;
