@@ -28,6 +28,7 @@ CHOICES = {
     "least_arc_4.24": ("contacts 2.97 cm of body apart", "4.24 cm"),
     "no_stiffness": ("joint stiffness", "none"), "no_drag": ("water drag", "none"),
     "push_out_0.2": ("half a violation pushed out", "a fifth"), "push_out_1": ("half a violation pushed out", "all"),
+    "no_corrections": ("steps corrected along their path", "not corrected"),
     "cap_1000": ("thigmotaxis up to 5000 dyn", "1000 dyn"), "no_cap": ("thigmotaxis up to 5000 dyn", "no cap"),
     "no_hysteresis": ("contacts keep their identity 0.1 s", "not at all"),
     "votes_5": ("15 votes on the knot", "5"), "votes_45": ("15 votes on the knot", "45"),
