@@ -51,7 +51,7 @@ whole_runs() {
 needs() {
   local name sets key
   while read -r name sets; do
-    local arguments="table1 $frames"
+    local arguments="table1 --qp active-set $frames"
     for key in $sets; do arguments+=" --set $key"; done
     printf 'timed_run\t%s\t3\t%s\n' "need_$name" "$arguments"
   done <<'LIST'
