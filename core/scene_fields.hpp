@@ -4,6 +4,7 @@
 
 #include <limits>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -46,6 +47,9 @@ void model_fields(Io& io, ModelSettings& s) {
   io.number("mass_ratio", s.mass_ratio, positive());
 }
 
+/// A phase as a choice, by the name that logs have.
+inline std::pair<std::string_view, Phase> named(Phase phase) { return {phase_name(phase), phase}; }
+
 template <class Io>
 void start_fields(Io& io, StartSettings& s) {
   io.rows("bend", "row", "station, x, y, z", s.bend);
@@ -56,11 +60,8 @@ void start_fields(Io& io, StartSettings& s) {
   io.angle("noise", s.noise, not_negative());
   io.integer("seed", s.seed, any_number());
   io.template choice<Phase>("phase", s.phase,
-                            {{"form", Phase::form},
-                             {"tighten", Phase::tighten},
-                             {"slide", Phase::slide},
-                             {"release", Phase::release},
-                             {"free", Phase::free}});
+                            {named(Phase::form), named(Phase::tighten), named(Phase::slide),
+                             named(Phase::release), named(Phase::free)});
 }
 
 template <class Io>
@@ -106,11 +107,9 @@ void controller_fields(Io& io, ControllerSettings& s) {
   io.number("free_time", s.free_time, not_negative());
   io.template choice<BodyEnd>("leave_by", s.leave_by,
                               {{"head", BodyEnd::head}, {"tail", BodyEnd::tail}});
-  io.template choice<Phase>("free_from", s.free_from,
-                            {{"tighten", Phase::tighten},
-                             {"slide", Phase::slide},
-                             {"release", Phase::release},
-                             {"free", Phase::free}});
+  io.template choice<Phase>(
+      "free_from", s.free_from,
+      {named(Phase::tighten), named(Phase::slide), named(Phase::release), named(Phase::free)});
   const auto speeds = [&io](std::string_view key, ThigmotaxisSpeeds& pair) {
     io.table(key, [&pair](Io& table) {
       table.number("a", pair.a, any_number());
@@ -138,12 +137,8 @@ void time_fields(Io& io, TimeSettings& s) {
   io.number("frame_interval", s.frame_interval, positive());
   io.number("duration", s.duration, positive());
   io.template choice<Phase>("until", s.until,
-                            {{"form", Phase::form},
-                             {"tighten", Phase::tighten},
-                             {"slide", Phase::slide},
-                             {"reverse", Phase::reverse},
-                             {"release", Phase::release},
-                             {"free", Phase::free}});
+                            {named(Phase::form), named(Phase::tighten), named(Phase::slide),
+                             named(Phase::reverse), named(Phase::release), named(Phase::free)});
 }
 
 template <class Io>

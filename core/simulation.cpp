@@ -12,6 +12,13 @@
 namespace hagfish {
 namespace {
 
+/// Follows the step's velocity for time `t` (s) into record.state and record.situation.
+void follow_path(const Model& model, const Scene& scene, double t, Simulation& sim,
+                 StepRecord& record) {
+  advance(sim.state.q, record.solution.qdot, t, record.state.q);
+  observe(model, record.state, scene, sim.search, record.situation);
+}
+
 /// Moves by the step's velocity into record.state and record.situation. Where the path overlaps and
 /// `correct` is set, adds the rows that see it and returns true: the step is to be solved again.
 bool meets_overlap(const Model& model, const Scene& scene, bool correct, Simulation& sim,
@@ -23,8 +30,7 @@ bool meets_overlap(const Model& model, const Scene& scene, bool correct, Simulat
   record.crossing = 0;
   for (int i = 1; i <= count; ++i) {
     const double t = i < count ? h * i / count : h;
-    advance(sim.state.q, record.solution.qdot, t, record.state.q);
-    observe(model, record.state, scene, sim.search, record.situation);
+    follow_path(model, scene, t, sim, record);
     if (i < count) {
       record.crossing = std::max(record.crossing, record.situation.penetration);
     }
@@ -49,10 +55,7 @@ bool end_where_strands_meet(const Model& model, const Scene& scene, Simulation& 
   }
   const int count =
       std::max(least_looks, looks(record.solution.centre_velocity, h, scene.constraints.stride));
-  const auto move_to = [&](int i) {
-    advance(sim.state.q, record.solution.qdot, h * i / count, record.state.q);
-    observe(model, record.state, scene, sim.search, record.situation);
-  };
+  const auto move_to = [&](int i) { follow_path(model, scene, h * i / count, sim, record); };
   int clear = 0;
   for (move_to(1); clear < count && record.situation.penetration <= allowed; move_to(clear + 1)) {
     ++clear;
@@ -130,8 +133,7 @@ void take_step(const Model& model, const Scene& scene, BoxQpSolver& solver, Simu
   record.ledger = sim.ledger;
   book_step(model, sim.situation.kin, record.solution, record.state, record.situation.kin, h,
             sim.ledger);
-  if (shortened) {  // the ledger's terms are those of the whole way: what they miss is the rule's
-                    // own
+  if (shortened) {  // the ledger speaks of the whole way: what it misses is the rule's own
     sim.ledger.integrator_potential += sim.ledger.imbalance();
   }
   guard_energy(model, scene, record.state, record.situation.kin, sim.ledger, sim.watch,

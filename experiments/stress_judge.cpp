@@ -92,8 +92,7 @@ void StressJudge::see_knot(const Situation& situation, double time) {
   } catch (const std::overflow_error&) {
     figures_.knot = "tangle";
   }
-  const bool holds = phase_ == Phase::tighten || phase_ == Phase::slide ||
-                     (phase_ == Phase::form && knotted_at_start_);
+  const bool holds = holds_knot(phase_) || (phase_ == Phase::form && knotted_at_start_);
   if (holds && !scene_.expect.knot.empty() && figures_.knot != scene_.expect.knot &&
       lost_.empty()) {
     lost_ = fmt::format("{} became {} at {:g} s", scene_.expect.knot, figures_.knot, time);
