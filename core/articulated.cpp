@@ -1,5 +1,6 @@
 #include "core/articulated.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -102,10 +103,10 @@ Eigen::VectorXd ArticulatedFactor::solve(const Model& model, const Kinematics& k
 
 void ArticulatedFactor::half_solve(const Model& model, const Kinematics& kin,
                                    RowColumns& columns) const {
-  // Columns in panels that fill vector registers.
-  constexpr int width = RowColumns::panel;
+  using Panel = Eigen::Array<double, 1, RowColumns::panel>;
   auto& sum = columns.sum_;
-  sum.setZero(6, columns.joint.cols());
+  auto& y = columns.y_;
+  columns.set_widths();
   for (int b = model.body_count() - 1; b >= 0; --b) {
     for (int i = columns.newest_[b]; i >= 0; i = columns.loads_[i].next) {
       sum.col(columns.loads_[i].column) += columns.loads_[i].wrench;
@@ -115,15 +116,24 @@ void ArticulatedFactor::half_solve(const Model& model, const Kinematics& kin,
       const double share = std::sqrt(inverse_pivot_[k]);
       const Vector6d axis = share * kin.axis.col(k);
       const Vector6d weighted = share * weighted_.col(k);
-      for (Eigen::Index first = 0; first < sum.cols(); first += width) {
-        Eigen::Array<double, 1, width> y =
-            share * columns.joint.row(k).segment<width>(first).array();
-        for (int i = 0; i < 6; ++i) {
-          y += axis[i] * sum.row(i).segment<width>(first).array();
+      const bool loaded = columns.newest_joint_[k] >= 0;
+      if (loaded) {
+        y.row(k).head(columns.width_[k]).setZero();
+      }
+      for (int i = columns.newest_joint_[k]; i >= 0; i = columns.joint_loads_[i].next) {
+        y(k, columns.joint_loads_[i].column) += share * columns.joint_loads_[i].force;
+      }
+      for (Eigen::Index first = 0; first < columns.width_[k]; first += RowColumns::panel) {
+        Panel own = Panel::Zero();
+        if (loaded) {
+          own = y.row(k).segment<RowColumns::panel>(first);
         }
-        columns.joint.row(k).segment<width>(first) = y;
         for (int i = 0; i < 6; ++i) {
-          sum.row(i).segment<width>(first).array() -= weighted[i] * y;
+          own += axis[i] * sum.row(i).segment<RowColumns::panel>(first).array();
+        }
+        y.row(k).segment<RowColumns::panel>(first) = own;
+        for (int i = 0; i < 6; ++i) {
+          sum.row(i).segment<RowColumns::panel>(first).array() -= weighted[i] * own;
         }
       }
     }
@@ -131,14 +141,59 @@ void ArticulatedFactor::half_solve(const Model& model, const Kinematics& kin,
 }
 
 void RowColumns::reset(const Model& model, Eigen::Index m) {
-  joint.setZero(model.nv(), (m + panel - 1) / panel * panel);
+  const Eigen::Index panels = (m + panel - 1) / panel;
+  count_ = m;
   loads_.clear();
+  joint_loads_.clear();
   newest_.assign(model.body_count(), -1);
+  newest_joint_.assign(model.nv(), -1);
+  end_.assign(panels, 0);
+  y_.resize(model.nv(), panels * panel);
+  sum_.setZero(6, panels * panel);
 }
 
-void RowColumns::load(int body, Eigen::Index column, const Vector6d& wrench) {
+void RowColumns::load(const Model& model, int body, Eigen::Index column, const Vector6d& wrench) {
   loads_.push_back({wrench, column, newest_[body]});
   newest_[body] = static_cast<int>(loads_.size()) - 1;
+  extend(column, model.bodies[body].first_dof + model.bodies[body].dofs);
+}
+
+void RowColumns::load_joint(Eigen::Index dof, Eigen::Index column, double force) {
+  joint_loads_.push_back({force, column, newest_joint_[dof]});
+  newest_joint_[dof] = static_cast<int>(joint_loads_.size()) - 1;
+  extend(column, dof + 1);
+}
+
+void RowColumns::extend(Eigen::Index column, Eigen::Index end) {
+  end_[column / panel] = std::max(end_[column / panel], end);
+}
+
+void RowColumns::set_widths() {
+  width_.assign(y_.rows(), 0);
+  for (std::size_t p = 0; p < end_.size(); ++p) {
+    std::fill_n(width_.begin(), end_[p], (static_cast<Eigen::Index>(p) + 1) * panel);
+  }
+}
+
+void RowColumns::gram(Eigen::MatrixXd& A) const {
+  A.resize(count_, count_);
+  for (Eigen::Index p = 0; p < count_; p += panel) {
+    for (Eigen::Index q = 0; q <= p; q += panel) {
+      const Eigen::Index end = std::min(end_[p / panel], end_[q / panel]);
+      Eigen::Array<double, panel, panel> tile = Eigen::Array<double, panel, panel>::Zero();
+      for (Eigen::Index k = 0; k < end; ++k) {
+        const double* row = &y_(k, 0);
+        const Eigen::Map<const Eigen::Array<double, panel, 1>> left(row + q);
+        for (int j = 0; j < panel; ++j) {
+          tile.col(j) += left * row[p + j];
+        }
+      }
+      const Eigen::Index rows = std::min<Eigen::Index>(panel, count_ - q);
+      const Eigen::Index cols = std::min<Eigen::Index>(panel, count_ - p);
+      A.block(q, p, rows, cols) = tile.topLeftCorner(rows, cols);
+      A.block(p, q, cols, rows) = tile.topLeftCorner(rows, cols).transpose();
+    }
+  }
 }
 
 }  // namespace hagfish

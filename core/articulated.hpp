@@ -27,28 +27,45 @@ Eigen::VectorXd multiply(const Model& model, const Kinematics& kin, const Operat
 /// inertias and δ = 0 this is the mass matrix M).
 Eigen::MatrixXd dense(const Model& model, const Kinematics& kin, const Operator& op);
 
-/// Row-major, so that one operation on a row serves all columns.
-using Columns = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-/// C' of m rows, column by column: joint forces and wrenches on single bodies.
-struct RowColumns {
-  Columns joint;  ///< nv x m' with m' >= m: columns past m are zero and fill the last panel
-
+/// C' of m rows, column by column: joint forces and wrenches on single bodies; then Y with
+/// Y'Y = C H⁻¹ C'. A column ends with the last velocity that moves what its row is about; those
+/// that end late are best put first, as the work on a panel of them ends with the longest.
+class RowColumns {
+ public:
   /// Empties all for `m` columns.
   void reset(const Model& model, Eigen::Index m);
   /// Adds a wrench about O on one body to a column.
-  void load(int body, Eigen::Index column, const Vector6d& wrench);
+  void load(const Model& model, int body, Eigen::Index column, const Vector6d& wrench);
+  /// Adds a force on one velocity to a column.
+  void load_joint(Eigen::Index dof, Eigen::Index column, double force);
+  /// A = Y'Y, m x m, after half_solve. Symmetric and semidefinite by construction.
+  void gram(Eigen::MatrixXd& A) const;
 
  private:
   friend class ArticulatedFactor;
-  static constexpr int panel = 8;
+  static constexpr int panel = 8;  // columns that fill a vector register
   struct Load {
     Vector6d wrench;
     Eigen::Index column;
     int next;  ///< load of the same body, -1 at the end
   };
+  struct JointLoad {
+    double force;
+    Eigen::Index column;
+    int next;  ///< load of the same velocity, -1 at the end
+  };
+  void extend(Eigen::Index column, Eigen::Index end);
+  void set_widths();
+
+  Eigen::Index count_ = 0;
   std::vector<Load> loads_;
-  std::vector<int> newest_;  ///< load of each body, -1 where it has none
+  std::vector<JointLoad> joint_loads_;
+  std::vector<int> newest_, newest_joint_;  ///< load of each body, velocity; -1 where it has none
+  std::vector<Eigen::Index> end_;           ///< of each panel: 1 + last velocity
+  std::vector<Eigen::Index> width_;         ///< panels times columns that reach each velocity
+  /// Y, nv x m' with m' >= m, row-major so that one operation serves all columns. Rows past the end
+  /// of a panel are not set.
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> y_;
   Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor> sum_;
 };
 
@@ -63,8 +80,7 @@ class ArticulatedFactor {
   Eigen::VectorXd solve(const Model& model, const Kinematics& kin, const Matrix6Xd& wrench,
                         const Eigen::VectorXd& joint) const;
 
-  /// Replaces C' in columns.joint by Y (nv x m) with Y'Y = C H⁻¹ C': half of a solve, since the
-  /// recursion factors H⁻¹ = L'L. The product is symmetric and semidefinite by construction.
+  /// Turns C' in `columns` into Y: half of a solve, since the recursion factors H⁻¹ = L'L.
   void half_solve(const Model& model, const Kinematics& kin, RowColumns& columns) const;
 
  private:

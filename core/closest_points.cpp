@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace hagfish {
 namespace {
@@ -15,9 +16,11 @@ constexpr int samples = 8;
 constexpr int iteration_limit = 50;
 // Times that a step is halved for the gap to fall, to some 1e-4 of it.
 constexpr int cut_limit = 14;
-// A whole Newton step in parameters of [0, 1] below this leaves an error of about its square, which
-// is rounding.
-constexpr double step_tolerance = 1e-7;
+// A whole Newton step in parameters of [0, 1] below this leaves an error of about its square, and
+// in the gap of the square of that, which is rounding.
+constexpr double whole_step_tolerance = 1e-4;
+// A step that was cut leaves an error of about its own size.
+constexpr double cut_step_tolerance = 1e-7;
 
 /// A pair of points on its way down.
 struct Iterate {
@@ -33,34 +36,50 @@ Iterate iterate_at(const SplineSegment& a, const SplineSegment& b, double t_a, d
   return {t_a, t_b, apart, distance, distance - a.radius(t_a) - b.radius(t_b)};
 }
 
-using Samples = Eigen::Array<double, samples, 1>;
+// Single precision tells samples apart well enough to start from, in half the time.
+using Samples = Eigen::Array<float, samples, 1>;
 
 /// Samples of the grid that no neighbour undercuts: one in each basin that the grid can tell apart.
 struct Starts {
-  std::array<ClosestPoints, samples * samples> at;
+  std::array<std::pair<double, double>, samples * samples> at;  ///< t_a, t_b
   int count = 0;
-  int lowest = 0;  ///< the first of the lowest
 };
+
+/// The sampled points of a segment, by coordinate, from `origin`.
+std::array<Samples, 3> sampled_points(const SplineSegment& s, const Samples& t,
+                                      const Eigen::Vector3d& origin) {
+  const Eigen::Vector3f c0 = (s.c0 - origin).cast<float>();
+  const Eigen::Vector3f c1 = s.c1.cast<float>();
+  const Eigen::Vector3f c2 = s.c2.cast<float>();
+  const Eigen::Vector3f c3 = s.c3.cast<float>();
+  std::array<Samples, 3> points;
+  for (int k = 0; k < 3; ++k) {
+    points[k] = c0[k] + t * (c1[k] + t * (c2[k] + t * c3[k]));
+  }
+  return points;
+}
+
+Samples sampled_radii(const SplineSegment& s, const Samples& t) {
+  return static_cast<float>(s.r0) + t * static_cast<float>(s.r1);
+}
 
 Starts starts_of(const SplineSegment& a, const SplineSegment& b) {
   static const Samples t = Samples::LinSpaced(0, 1);
-  std::array<Samples, 3> points_b;
-  for (int k = 0; k < 3; ++k) {
-    points_b[k] = b.c0[k] + t * (b.c1[k] + t * (b.c2[k] + t * b.c3[k]));
-  }
-  const Samples radius_b = b.r0 + t * b.r1;
+  const std::array<Samples, 3> points_a = sampled_points(a, t, a.c0);
+  const std::array<Samples, 3> points_b = sampled_points(b, t, a.c0);
+  const Samples radii_a = sampled_radii(a, t);
+  const Samples radii_b = sampled_radii(b, t);
   // With a rim that undercuts nothing.
-  Eigen::Array<double, samples + 2, samples + 2> gap;
-  gap.setConstant(std::numeric_limits<double>::infinity());
+  Eigen::Array<float, samples + 2, samples + 2> gap;
+  gap.setConstant(std::numeric_limits<float>::infinity());
   for (int i = 0; i < samples; ++i) {
-    const Eigen::Vector3d point_a = a.point(t[i]);
     gap.col(i + 1).segment<samples>(1) =
-        ((points_b[0] - point_a[0]).square() + (points_b[1] - point_a[1]).square() +
-         (points_b[2] - point_a[2]).square())
+        ((points_b[0] - points_a[0][i]).square() + (points_b[1] - points_a[1][i]).square() +
+         (points_b[2] - points_a[2][i]).square())
             .sqrt() -
-        (radius_b + a.radius(t[i]));
+        (radii_b + radii_a[i]);
   }
-  Eigen::Array<double, samples, samples + 2> lowest;  // of three along b, then of nine
+  Eigen::Array<float, samples, samples + 2> lowest;  // of three along b, then of nine
   lowest = gap.topRows<samples>().min(gap.middleRows<samples>(1)).min(gap.bottomRows<samples>());
   Starts starts;
   for (int i = 0; i < samples; ++i) {
@@ -71,9 +90,7 @@ Starts starts_of(const SplineSegment& a, const SplineSegment& b) {
     }
     for (int j = 0; j < samples; ++j) {
       if (own[j] <= least[j]) {
-        starts.at[starts.count] = {t[i], t[j], own[j]};
-        starts.lowest = own[j] < starts.at[starts.lowest].gap ? starts.count : starts.lowest;
-        ++starts.count;
+        starts.at[starts.count++] = {t[i], t[j]};
       }
     }
   }
@@ -99,8 +116,7 @@ Eigen::Vector2d direction(const Eigen::Vector2d& g, const Eigen::Matrix2d& h,
 }
 
 /// Safeguarded Newton from `start`.
-ClosestPoints descend(const SplineSegment& a, const SplineSegment& b, const ClosestPoints& start) {
-  Iterate at = iterate_at(a, b, start.t_a, start.t_b);
+Iterate descend(const SplineSegment& a, const SplineSegment& b, Iterate at) {
   for (int iteration = 0; iteration < iteration_limit; ++iteration) {
     if (!(at.distance > 0)) {
       break;  // the centrelines cross: the gap is as low as it gets
@@ -131,7 +147,8 @@ ClosestPoints descend(const SplineSegment& a, const SplineSegment& b, const Clos
     for (int cut = 0; cut < cut_limit; ++cut, length *= 0.5) {
       const double t_a = std::clamp(at.t_a + length * step[0], 0.0, 1.0);
       const double t_b = std::clamp(at.t_b + length * step[1], 0.0, 1.0);
-      const bool small = std::abs(t_a - at.t_a) + std::abs(t_b - at.t_b) <= step_tolerance;
+      const bool small = std::abs(t_a - at.t_a) + std::abs(t_b - at.t_b) <=
+                         (cut == 0 ? whole_step_tolerance : cut_step_tolerance);
       const Iterate next = iterate_at(a, b, t_a, t_b);
       if (next.gap < at.gap) {
         last = small;
@@ -146,28 +163,32 @@ ClosestPoints descend(const SplineSegment& a, const SplineSegment& b, const Clos
       break;
     }
   }
-  return {at.t_a, at.t_b, at.gap};
+  return at;
 }
 
 }  // namespace
 
 ClosestPoints closest_points(const SplineSegment& a, const SplineSegment& b,
                              const std::optional<ClosestPoints>& guess) {
-  Starts starts = starts_of(a, b);
-  if (guess) {
-    const double gap = iterate_at(a, b, guess->t_a, guess->t_b).gap;
-    if (gap < starts.at[starts.lowest].gap) {
-      starts.at[starts.lowest] = {guess->t_a, guess->t_b, gap};
+  const Starts starts = starts_of(a, b);
+  const auto start = [&](int k) {
+    return iterate_at(a, b, starts.at[k].first, starts.at[k].second);
+  };
+  Iterate first = start(0);
+  if (guess && starts.count == 1) {
+    const Iterate guessed = iterate_at(a, b, guess->t_a, guess->t_b);
+    if (guessed.gap < first.gap) {
+      first = guessed;
     }
   }
-  ClosestPoints best = descend(a, b, starts.at[0]);
+  Iterate best = descend(a, b, first);
   for (int k = 1; k < starts.count; ++k) {
-    const ClosestPoints other = descend(a, b, starts.at[k]);
+    const Iterate other = descend(a, b, start(k));
     if (other.gap < best.gap) {
       best = other;
     }
   }
-  return best;
+  return {best.t_a, best.t_b, best.gap};
 }
 
 }  // namespace hagfish

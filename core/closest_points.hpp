@@ -21,7 +21,8 @@ struct ClosestPoints {
 /// (Gauss-Newton); steps are cut until the gap falls, parameters stay in [0, 1]. Plain clamped
 /// Newton cycles on 7 % of candidate pairs.
 /// Starts from samples of both segments, so that every basin they can tell apart is looked into; a
-/// `guess`, such as the answer a step ago, takes the lowest sample's place where it lies lower.
+/// `guess`, such as the answer a step ago, takes the place of a sample without rivals where it lies
+/// lower.
 ClosestPoints closest_points(const SplineSegment& a, const SplineSegment& b,
                              const std::optional<ClosestPoints>& guess = std::nullopt);
 

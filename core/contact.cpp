@@ -54,21 +54,25 @@ void update_candidates(const std::vector<SplineSegment>& segments, const Contact
   search.segments = segments;
 }
 
-void find_close_pairs(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
-                      ContactSearch& search) {
-  search.close.clear();
-  for (std::size_t i = 0; i < search.candidates.size(); ++i) {
-    SegmentPair& pair = search.candidates[i];
-    const double moved = search.moved[pair.a] + search.moved[pair.b];
-    if (moved < pair.clear_until) {
-      continue;
-    }
-    pair.closest = closest_points(segments[pair.a], segments[pair.b], pair.closest);
-    pair.clear_until = moved + pair.closest->gap - settings.margin;
-    if (pair.closest->gap <= settings.margin) {
-      search.close.push_back(static_cast<int>(i));
-    }
+/// Looks at a candidate; notes it where it is within the margin.
+void look(const std::vector<SplineSegment>& segments, const ContactSettings& settings, int index,
+          ContactSearch& search) {
+  SegmentPair& pair = search.candidates[index];
+  pair.closest = closest_points(segments[pair.a], segments[pair.b], pair.closest);
+  pair.clear_until = search.moved_by(pair) + pair.closest->gap - settings.margin;
+  search.looked[index] = 1;
+  if (pair.closest->gap <= settings.margin) {
+    search.close.push_back(index);
   }
+}
+
+/// The candidate of two segments, -1 where they are none.
+int find_candidate(const ContactSearch& search, int a, int b) {
+  const auto it = std::lower_bound(
+      search.candidates.begin(), search.candidates.end(), std::pair(a, b),
+      [](const SegmentPair& pair, const auto& key) { return std::pair(pair.a, pair.b) < key; });
+  const bool found = it != search.candidates.end() && it->a == a && it->b == b;
+  return found ? static_cast<int>(it - search.candidates.begin()) : -1;
 }
 
 // A minimum on the border of two segments is found from both, with gaps that differ by rounding,
@@ -79,28 +83,25 @@ constexpr double same_gap = 1e-9;
 int across(double t) { return t <= 0 ? -1 : (t >= 1 ? 1 : 0); }
 
 /// A minimum inside both segments always counts; one on a border counts unless the gap falls on
-/// beyond it, and only for the first of the pairs that find it. `index` counts in search.close.
-bool is_local_minimum(const ContactSearch& search, std::size_t index) {
-  const SegmentPair& own = search.candidates[search.close[index]];
+/// beyond it, and only for the first of the pairs that find it.
+bool is_local_minimum(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
+                      int index, ContactSearch& search) {
+  const SegmentPair& own = search.candidates[index];
   const int step_a = across(own.closest->t_a);
   const int step_b = across(own.closest->t_b);
   for (const auto& [da, db] : {std::pair(step_a, 0), {0, step_b}, {step_a, step_b}}) {
-    const std::pair<int, int> wanted(own.a + da, own.b + db);
-    const auto it = std::lower_bound(search.close.begin(), search.close.end(), wanted,
-                                     [&](int candidate, const std::pair<int, int>& key) {
-                                       const SegmentPair& pair = search.candidates[candidate];
-                                       return std::pair(pair.a, pair.b) < key;
-                                     });
-    if (it == search.close.end()) {
+    if (da == 0 && db == 0) {
       continue;
     }
-    const SegmentPair& found = search.candidates[*it];
-    if (std::pair(found.a, found.b) != wanted) {
+    const int other = find_candidate(search, own.a + da, own.b + db);
+    if (other < 0) {
       continue;
     }
-    const auto other = static_cast<std::size_t>(it - search.close.begin());
-    const double lower_by = own.closest->gap - found.closest->gap;
-    if (other != index && (lower_by > same_gap || (lower_by >= -same_gap && other < index))) {
+    if (search.looked[other] == 0) {
+      look(segments, settings, other, search);
+    }
+    const double lower_by = own.closest->gap - search.candidates[other].closest->gap;
+    if (lower_by > same_gap || (lower_by >= -same_gap && other < index)) {
       return false;
     }
   }
@@ -131,15 +132,30 @@ Contact contact_at(const std::vector<SplineSegment>& segments, int segment_a, do
 void find_contacts(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
                    ContactSearch& search, ContactSet& set) {
   update_candidates(segments, settings, search);
-  find_close_pairs(segments, settings, search);
+  search.looked.assign(search.candidates.size(), 0);
+  search.close.clear();
+  for (std::size_t i = 0; i < search.candidates.size(); ++i) {
+    if (search.moved_by(search.candidates[i]) >= search.candidates[i].clear_until) {
+      look(segments, settings, static_cast<int>(i), search);
+    }
+  }
   set.contacts.clear();
   set.others.clear();
   set.least_gap = settings.margin;
-  for (std::size_t i = 0; i < search.close.size(); ++i) {
-    const SegmentPair& pair = search.candidates[search.close[i]];
-    set.least_gap = std::min(set.least_gap, pair.closest->gap);
-    (is_local_minimum(search, i) ? set.contacts : set.others)
-        .push_back(contact_at(segments, pair.a, pair.closest->t_a, pair.b, pair.closest->t_b));
+  // By index, as the list grows: what a pair is compared with is looked at too.
+  for (std::size_t k = 0; k < search.close.size(); ++k) {
+    const int index = search.close[k];
+    const bool minimum = is_local_minimum(segments, settings, index, search);
+    SegmentPair& pair = search.candidates[index];
+    const double gap = pair.closest->gap;
+    set.least_gap = std::min(set.least_gap, gap);
+    if (!minimum) {
+      pair.clear_until = search.moved_by(pair) + gap;
+    }
+    if (minimum || gap < 0) {
+      (minimum ? set.contacts : set.others)
+          .push_back(contact_at(segments, pair.a, pair.closest->t_a, pair.b, pair.closest->t_b));
+    }
   }
   std::sort(set.contacts.begin(), set.contacts.end(), [](const Contact& x, const Contact& y) {
     return std::pair(x.arc_a, x.arc_b) < std::pair(y.arc_a, y.arc_b);

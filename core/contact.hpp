@@ -28,8 +28,7 @@ struct ContactSet {
   /// Local minima of the gap up to the margin, sorted by arc_a, then arc_b: some 5 to 15 in a tight
   /// knot. The gap is positive everywhere if it is at those.
   std::vector<Contact> contacts;
-  /// The other pairs of segments within the margin, 90 to 150 of them. They matter only where a
-  /// step makes a new minimum of one.
+  /// Pairs that overlap but are no minimum. They matter only where a step makes one of them.
   std::vector<Contact> others;
   /// Least gap found, cm; at most the margin.
   double least_gap = 0;
@@ -43,18 +42,22 @@ Contact contact_at(const std::vector<SplineSegment>& segments, int segment_a, do
 struct SegmentPair {
   int a = 0, b = 0;
   std::optional<ClosestPoints> closest;  ///< when last looked at
-  /// Their gap stays above the margin until the two have moved this far in all, cm.
+  /// They need no look until the two have moved this far in all, cm.
   double clear_until = 0;
 };
 
-/// What a search for contacts carries to the next one with the same settings. It changes the time
-/// of a search, and its answer by rounding only: pairs are left out as long as nothing that moved
-/// can have brought them together.
+/// What a search for contacts carries to the next one with the same settings. Pairs are left out as
+/// long as nothing that moved can have brought them together. So a new minimum is seen at once
+/// where strands touch or come within the margin, but beside another one, while it is clear of
+/// touching, perhaps some steps late.
 struct ContactSearch {
   std::vector<SegmentPair> candidates;  ///< sorted
   std::vector<SplineSegment> segments;  ///< of the last search
   std::vector<double> moved;            ///< at most, by each since the candidates were found, cm
-  std::vector<int> close;               ///< indices of the candidates within the margin
+  std::vector<char> looked;             ///< which candidates this search has looked at
+  std::vector<int> close;               ///< indices of those of them that are within the margin
+
+  double moved_by(const SegmentPair& pair) const { return moved[pair.a] + moved[pair.b]; }
 };
 
 /// Finds the contacts of `segments` (paper, 3.1: bounding spheres, then Eq. 5) into `set`.

@@ -13,19 +13,17 @@ void assemble_dual(const Model& model, const Kinematics& kin, const ArticulatedF
   for (Eigen::Index j = 0; j < m; ++j) {
     const Row& row = rows[j];
     if (row.dof >= 0) {
-      columns.joint(row.dof, j) = row.sign;
+      columns.load_joint(row.dof, j, row.sign);
     }
     visit_forces(row, [&](int body, const Eigen::Vector3d& force) {
-      columns.load(body, j, wrench_of_force(force, kin.centre_offset(body)));
+      columns.load(model, body, j, wrench_of_force(force, kin.centre_offset(body)));
     });
     qp.b[j] = row.rhs - row_velocity(row, centre_velocity, unconstrained);
     qp.lower[j] = row.lower;
     qp.upper[j] = row.upper;
   }
   factor.half_solve(model, kin, columns);
-  qp.A.setZero(m, m);
-  qp.A.selfadjointView<Eigen::Lower>().rankUpdate(columns.joint.leftCols(m).transpose());
-  qp.A.triangularView<Eigen::StrictlyUpper>() = qp.A.transpose();
+  columns.gram(qp.A);
 }
 
 }  // namespace hagfish

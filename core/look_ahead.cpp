@@ -2,26 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <utility>
 
 namespace hagfish {
 namespace {
 
-Row* find(std::vector<Row>& rows, std::int64_t id) {
-  const auto it =
-      std::find_if(rows.begin(), rows.end(), [&](const Row& row) { return row.id == id; });
-  return it == rows.end() ? nullptr : &*it;
-}
-
 /// A row's place is kept where it has one: what is known of its multiplier stays by it.
-void put(Row row, std::vector<Row>& rows, std::vector<Row>& waiting) {
-  if (Row* known = find(rows, row.id)) {
+void put(const Row& row, std::vector<Row>& rows) {
+  const auto known =
+      std::find_if(rows.begin(), rows.end(), [&](const Row& other) { return other.id == row.id; });
+  if (known == rows.end()) {
+    rows.push_back(row);
+  } else {
     *known = row;
-    return;
   }
-  std::erase_if(waiting, [&](const Row& other) { return other.id == row.id; });
-  rows.push_back(row);
 }
 
 }  // namespace
@@ -32,8 +25,7 @@ int looks(const Eigen::Matrix3Xd& centre_velocity, double h, double stride) {
 }
 
 bool add_missed_rows(const Model& model, const Situation& now, const Situation& there, double t,
-                     const Scene& scene, const StepSolution& step, std::vector<Row>& rows,
-                     std::vector<Row>& waiting) {
+                     const Scene& scene, const StepSolution& step, std::vector<Row>& rows) {
   const ConstraintSettings& settings = scene.constraints;
   const double h = scene.time.step;
   // On the way strands must not pass through each other; its end is the next step's start.
@@ -49,7 +41,7 @@ bool add_missed_rows(const Model& model, const Situation& now, const Situation& 
       // At great speeds what the line misses grows beyond all sense; rows that ask strands to part
       // by more than they may move unseen only contradict each other.
       row.rhs = std::min(goal - gap_now - missed * (h / t) * (h / t), settings.stride) / h;
-      put(std::move(row), rows, waiting);
+      put(row, rows);
       any = true;
     }
   };

@@ -23,9 +23,8 @@ int looks(const Eigen::Matrix3Xd& centre_velocity, double h, double stride);
 ///     φ_now + h C q̇ + (φ_there - φ_now - t C q̇_step) (h/t)² >= goal,
 /// where the bracket is what the line misses at t, of second order, and the goal is 0, or what
 /// push_out leaves of an overlap that was there before; h C q̇ is asked to be `stride` at most. A
-/// row of the same id in `rows` or `waiting` gives way to it. Whether there was any.
+/// row of the same id in `rows` gives way to it. Whether there was any.
 bool add_missed_rows(const Model& model, const Situation& now, const Situation& there, double t,
-                     const Scene& scene, const StepSolution& step, std::vector<Row>& rows,
-                     std::vector<Row>& waiting);
+                     const Scene& scene, const StepSolution& step, std::vector<Row>& rows);
 
 }  // namespace hagfish

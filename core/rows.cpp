@@ -54,6 +54,15 @@ std::string row_name(const Model& model, const Row& row) {
   return "row";
 }
 
+int leading_dofs(const Model& model, const Row& row) {
+  if (row.dof >= 0) {
+    return row.dof + 1;
+  }
+  const Body& last =
+      model.bodies[std::max(row.a.first + row.a.count, row.b.first + row.b.count) - 1];
+  return last.first_dof + last.dofs;
+}
+
 int thigmotaxis_place(const Row& row) {
   return static_cast<int>(2 * ((row.id >> 20) & 0xfffff) + (row.id & 0xfffff));
 }
@@ -116,13 +125,13 @@ void append_head_rows(const State& state, const ConstraintSettings& settings, do
 }
 
 void append_limit_rows(const Model& model, const State& state, const ConstraintSettings& settings,
-                       double h, std::vector<Row>& rows) {
+                       double h, const NearBinding& wanted, std::vector<Row>& rows) {
   for (int k = root_dofs; k < model.nv(); ++k) {
     const Hinge& hinge = model.hinges[k - root_dofs];
     for (const double sign : {1.0, -1.0}) {
       const double gap = sign > 0 ? state.q[k + 1] - hinge.lower : hinge.upper - state.q[k + 1];
       const std::optional<double> rhs = unilateral(gap, settings, h, unbounded);
-      if (!std::isfinite(gap) || !rhs) {
+      if (!rhs || !std::isfinite(gap) || !wanted(sign * wanted.v[k], *rhs)) {
         continue;
       }
       Row& row = rows.emplace_back();
@@ -135,28 +144,28 @@ void append_limit_rows(const Model& model, const State& state, const ConstraintS
   }
 }
 
-void append_contact_rows(const Model& model, const ContactSet& contacts,
-                         const ConstraintSettings& settings, double h, std::vector<Row>& rows) {
-  const auto append = [&](const Contact& contact, bool waits) {
-    if (const std::optional<double> rhs =
-            unilateral(contact.gap, settings, h, settings.push_out_speed)) {
-      Row& row = rows.emplace_back(contact_row(model, contact));
-      row.waits = waits;
-      row.rhs = *rhs;
+void append_contact_rows(const Model& model, const std::vector<Contact>& contacts,
+                         const ConstraintSettings& settings, double h, const NearBinding& wanted,
+                         std::vector<Row>& rows) {
+  for (const Contact& contact : contacts) {
+    const std::optional<double> rhs = unilateral(contact.gap, settings, h, settings.push_out_speed);
+    if (!rhs) {
+      continue;
     }
-  };
-  for (const Contact& contact : contacts.contacts) {
-    append(contact, false);
-  }
-  for (const Contact& contact : contacts.others) {
-    append(contact, true);
+    Row& row = rows.emplace_back(contact_row(model, contact));
+    row.rhs = *rhs;
+    if (!wanted(row_velocity(row, wanted.centre_velocity, wanted.v), row.rhs)) {
+      rows.pop_back();
+    }
   }
 }
 
 void append_wall_rows(const Model& model, const Kinematics& kin, const WallSettings& wall,
-                      const ConstraintSettings& settings, double h, std::vector<Row>& rows) {
+                      const ConstraintSettings& settings, double h, const NearBinding& wanted,
+                      std::vector<Row>& rows) {
   visit_wall_gaps(model, kin, wall, [&](int body, double gap) {
-    if (const std::optional<double> rhs = unilateral(gap, settings, h, settings.push_out_speed)) {
+    const std::optional<double> rhs = unilateral(gap, settings, h, settings.push_out_speed);
+    if (rhs && wanted(wanted.centre_velocity(0, body), *rhs)) {
       rows.emplace_back(wall_row(body)).rhs = *rhs;
     }
   });

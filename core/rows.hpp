@@ -22,9 +22,8 @@ enum class RowKind : std::uint8_t { head, limit, contact, wall, thigmotaxis };
 
 struct Row {
   RowKind kind = RowKind::limit;
-  bool waits = false;  ///< enters the problem only once a solution without it violates it
-  int dof = -1;        ///< unit row: C q̇ = sign * q̇[dof]; -1 where points are used
-  double sign = 1;     ///< +1 or -1
+  int dof = -1;     ///< unit row: C q̇ = sign * q̇[dof]; -1 where points are used
+  double sign = 1;  ///< +1 or -1
   /// Same from step to step for the same physical constraint: limits by dof and side, contacts by
   /// segments, thigmotaxis by place and tangent.
   std::int64_t id = 0;
@@ -51,6 +50,9 @@ void visit_forces(const Row& row, Visit visit) {
 /// "limit of j05_bend_y (upper)", "contact of bodies 31 and 74", ...
 std::string row_name(const Model& model, const Row& row);
 
+/// How many leading velocities C of a row involves: none behind these.
+int leading_dofs(const Model& model, const Row& row);
+
 /// 0 to 3 for a thigmotaxis row: first contact t_a, t_b, last contact t_a, t_b.
 int thigmotaxis_place(const Row& row);
 
@@ -65,6 +67,18 @@ void add_row(const Row& row, const Kinematics& kin, double lambda, Matrix6Xd& wr
 
 // Rows are appended: a step gathers all kinds in one list, whose storage it keeps.
 
+/// Which unilateral rows are wanted; most of the animal's 500 are far from binding.
+struct NearBinding {
+  const Eigen::VectorXd& v;                 ///< a velocity, nv
+  const Eigen::Matrix3Xd& centre_velocity;  ///< of the bodies' centres at it, 3 x N, cm/s
+  double slack;                             ///< those with C v - d below this, cm/s or rad/s
+  double slack_at_rest;                     ///< and those with -d below this, which touch
+
+  bool operator()(double row_velocity, double rhs) const {
+    return row_velocity - rhs < slack || -rhs < slack_at_rest;
+  }
+};
+
 /// A contact's row: the exact rate of its gap, with no right-hand side yet.
 Row contact_row(const Model& model, const Contact& contact);
 /// The row of body `body` against the head plate, with no right-hand side yet.
@@ -77,11 +91,12 @@ void append_head_rows(const State& state, const ConstraintSettings& settings, do
 
 /// One row per bounded side of each hinge.
 void append_limit_rows(const Model& model, const State& state, const ConstraintSettings& settings,
-                       double h, std::vector<Row>& rows);
+                       double h, const NearBinding& wanted, std::vector<Row>& rows);
 
-/// One row per contact, the exact rate of its gap; those that are no local minimum wait.
-void append_contact_rows(const Model& model, const ContactSet& contacts,
-                         const ConstraintSettings& settings, double h, std::vector<Row>& rows);
+/// One row per contact, the exact rate of its gap.
+void append_contact_rows(const Model& model, const std::vector<Contact>& contacts,
+                         const ConstraintSettings& settings, double h, const NearBinding& wanted,
+                         std::vector<Row>& rows);
 
 /// Gaps to the head plate x = 0, cm: calls `visit(body, gap)` for each body behind the neck.
 template <class Visit>
@@ -99,7 +114,8 @@ void visit_wall_gaps(const Model& model, const Kinematics& kin, const WallSettin
 
 /// One row per body behind the neck: it stays clear of the head plate.
 void append_wall_rows(const Model& model, const Kinematics& kin, const WallSettings& wall,
-                      const ConstraintSettings& settings, double h, std::vector<Row>& rows);
+                      const ConstraintSettings& settings, double h, const NearBinding& wanted,
+                      std::vector<Row>& rows);
 
 /// Commanded sliding at one contact.
 struct ThigmotaxisCommand {

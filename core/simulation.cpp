@@ -35,7 +35,7 @@ bool meets_overlap(const Model& model, const Scene& scene, bool correct, Simulat
       record.crossing = std::max(record.crossing, record.situation.penetration);
     }
     if (correct && add_missed_rows(model, sim.situation, record.situation, t, scene,
-                                   record.solution, record.solution.rows, sim.scratch.waiting)) {
+                                   record.solution, record.solution.rows)) {
       return true;
     }
   }
@@ -116,7 +116,8 @@ void take_step(const Model& model, const Scene& scene, BoxQpSolver& solver, Simu
   int corrections = sees ? scene.constraints.corrections : 0;
   for (int k = 0; meets_overlap(model, scene, k < corrections, sim, record); ++k) {
     try {
-      resume_step(model, sim.situation, solver, sim.warm, sim.scratch, record.solution);
+      resume_step(model, sim.state, sim.situation, scene, solver, sim.warm, sim.scratch,
+                  record.solution);
     } catch (const StepError&) {  // the rows added cannot all be met: without them
       begin_step(model, sim.state, sim.situation, record.control, scene, solver, sim.warm,
                  sim.scratch, record.solution);

@@ -3,34 +3,30 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace hagfish {
 namespace {
 
-/// A row is left out at first where the last step's motion keeps this much clear of it, cm/s or
-/// rad/s. Only speed depends on it: rows left out are checked after the solve.
+/// A row is left out at first where rest and the last step's velocity keep this much clear of it,
+/// cm/s or rad/s. Only speed depends on it: rows left out are checked after the solve.
 constexpr double lazy_reach = 0.1;
 /// A row left out counts as violated below this, cm/s or rad/s: at h = 2 ms, 2e-11 cm or rad.
 constexpr double lazy_tolerance = 1e-8;
+constexpr double nowhere = -std::numeric_limits<double>::infinity();
 /// λ, rows brought to unit diagonal, counts as a force above this share of the largest.
 constexpr double active_share = 1e-6;
 
-void gather_rows(const Model& model, const State& state, const Situation& situation,
-                 const Control& control, const Scene& scene, std::vector<Row>& rows) {
+/// The unilateral rows that are near to binding.
+void append_unilateral_rows(const Model& model, const State& state, const Situation& situation,
+                            const Scene& scene, const NearBinding& wanted, std::vector<Row>& rows) {
+  const ConstraintSettings& settings = scene.constraints;
   const double h = scene.time.step;
-  rows.clear();
-  if (control.clamp_head) {
-    append_head_rows(state, scene.constraints, h, rows);
-  }
-  append_thigmotaxis_rows(model, control.thigmotaxis, scene.controller.cap, h, rows);
-  append_contact_rows(model, situation.contact, scene.constraints, h, rows);
-  append_limit_rows(model, state, scene.constraints, h, rows);
-  append_wall_rows(model, situation.kin, scene.wall, scene.constraints, h, rows);
-}
-
-bool always_in(const Row& row) {
-  return row.kind == RowKind::head || row.kind == RowKind::thigmotaxis;
+  append_contact_rows(model, situation.contact.contacts, settings, h, wanted, rows);
+  append_contact_rows(model, situation.contact.others, settings, h, wanted, rows);
+  append_limit_rows(model, state, settings, h, wanted, rows);
+  append_wall_rows(model, situation.kin, scene.wall, settings, h, wanted, rows);
 }
 
 /// Eqs. 7 and 8: f = C'λ / h, by kind of row.
@@ -106,7 +102,7 @@ void set_velocity(const Model& model, const Kinematics& kin, StepScratch& scratc
 
 /// Eq. 3 or Eq. 4 on the rows chosen, as one small problem in the multipliers.
 void solve_multipliers(const Model& model, const BoxQp& qp, BoxQpSolver& solver,
-                       const WarmStart& warm, StepScratch& scratch, StepSolution& step) {
+                       StepScratch& scratch, StepSolution& step) {
   const std::vector<Row>& rows = step.rows;
   const bool bilateral = std::all_of(rows.begin(), rows.end(),
                                      [](const Row& row) { return row.kind == RowKind::head; });
@@ -116,13 +112,6 @@ void solve_multipliers(const Model& model, const BoxQp& qp, BoxQpSolver& solver,
     solution = solve_bilateral(qp.A, qp.b);
   } else {
     step.kind = SolveKind::qp;
-    scratch.start.resize(qp.b.size());
-    // Rows of the round before, if there was one, come first and are still in their places.
-    const std::size_t solved = step.rounds > 0 ? static_cast<std::size_t>(step.lambda.size()) : 0;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      const double* kept = i < solved ? &step.lambda[i] : warm.find(rows[i].id);
-      scratch.start[i] = kept == nullptr ? 0 : *kept;
-    }
     const auto begin = std::chrono::steady_clock::now();
     solver.solve(qp, scratch.start, solution);
     step.qp_time += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -157,52 +146,62 @@ void unconstrained_motion(const Model& model, const State& state, const Kinemati
   step.centre_velocity = scratch.unconstrained_centre_velocity;
 }
 
-/// Moves the rows that cannot bind, as far as one can tell beforehand, to the waiting ones.
-void set_waiting_aside(const State& state, const Kinematics& kin, const WarmStart& warm,
-                       StepScratch& scratch, StepSolution& step) {
-  const auto waits = [&](const Row& row) {
-    if (always_in(row) || warm.find(row.id) != nullptr) {
-      return false;
-    }
-    return row.waits || row_velocity(row, kin.centre_velocity, state.qdot) - row.rhs >= lazy_reach;
-  };
-  scratch.waiting.clear();
-  std::size_t kept = 0;
-  for (const Row& row : step.rows) {
-    if (waits(row)) {
-      scratch.waiting.push_back(row);
-    } else {
-      step.rows[kept++] = row;
-    }
-  }
-  step.rows.resize(kept);
-}
-
-/// Moves the waiting rows that q̇ violates to the rows of the problem; whether there were any.
-bool take_in_violated(StepScratch& scratch, StepSolution& step) {
-  std::size_t kept = 0;
-  for (const Row& row : scratch.waiting) {
-    if (row_velocity(row, step.centre_velocity, step.qdot) >= row.rhs - lazy_tolerance) {
-      scratch.waiting[kept++] = row;
-    } else {
+/// Takes in rows that were left out and that q̇ violates; whether there were any.
+bool take_in_violated(const Model& model, const State& state, const Situation& situation,
+                      const Scene& scene, StepScratch& scratch, StepSolution& step) {
+  scratch.violated.clear();
+  append_unilateral_rows(model, state, situation, scene,
+                         {step.qdot, step.centre_velocity, -lazy_tolerance, nowhere},
+                         scratch.violated);
+  bool any = false;
+  for (const Row& row : scratch.violated) {
+    if (std::ranges::find(step.rows, row.id, &Row::id) == step.rows.end()) {
       step.rows.push_back(row);
+      any = true;
     }
   }
-  const bool any = kept < scratch.waiting.size();
-  scratch.waiting.resize(kept);
   return any;
 }
 
-/// Eq. 3 or 4 on step.rows; waiting rows come in as the answer violates them.
-void constrained_motion(const Model& model, const Kinematics& kin, BoxQpSolver& solver,
-                        const WarmStart& warm, StepScratch& scratch, StepSolution& step) {
+/// Sorts the rows by where along the body they end, the last first, which is what the columns of
+/// the dual problem like best; but bilateral ones before all others. With them the multipliers to
+/// start from.
+void order_rows(const Model& model, const WarmStart& warm, StepScratch& scratch,
+                StepSolution& step) {
+  const std::size_t m = step.rows.size();
+  // Rows of the round before, if there was one, come first and are still in their places.
+  const std::size_t solved = step.rounds > 0 ? static_cast<std::size_t>(step.lambda.size()) : 0;
+  scratch.order.clear();
+  for (std::size_t i = 0; i < m; ++i) {
+    const Row& row = step.rows[i];
+    const bool bilateral = row.kind == RowKind::head;
+    scratch.order.emplace_back(bilateral ? -model.nv() - 1 : -leading_dofs(model, row), i);
+  }
+  std::ranges::sort(scratch.order);
+  scratch.ordered.clear();
+  scratch.start.resize(static_cast<Eigen::Index>(m));
+  for (std::size_t k = 0; k < m; ++k) {
+    const std::size_t i = scratch.order[k].second;
+    scratch.ordered.push_back(step.rows[i]);
+    const double* kept = i < solved ? &step.lambda[i] : warm.find(step.rows[i].id);
+    scratch.start[k] = kept == nullptr ? 0 : *kept;
+  }
+  std::swap(step.rows, scratch.ordered);
+}
+
+/// Eq. 3 or 4 on step.rows; rows left out come in as the answer violates them.
+void constrained_motion(const Model& model, const State& state, const Situation& situation,
+                        const Scene& scene, BoxQpSolver& solver, const WarmStart& warm,
+                        StepScratch& scratch, StepSolution& step) {
+  const Kinematics& kin = situation.kin;
   do {
+    order_rows(model, warm, scratch, step);
     assemble_dual(model, kin, scratch.factor, step.rows, step.unconstrained,
                   scratch.unconstrained_centre_velocity, scratch.columns, scratch.qp);
-    solve_multipliers(model, scratch.qp, solver, warm, scratch, step);
+    solve_multipliers(model, scratch.qp, solver, scratch, step);
     ++step.rounds;
     set_velocity(model, kin, scratch, step);
-  } while (take_in_violated(scratch, step));
+  } while (take_in_violated(model, state, situation, scene, scratch, step));
   if (!step.qdot.allFinite()) {
     throw StepError(StopCause::non_finite, "non-finite velocity");
   }
@@ -301,6 +300,18 @@ double head_drift(const Model& model, const Kinematics& kin) {
                    (origin + head.radius * turn.col(1)).norm()});
 }
 
+void gather_rows(const Model& model, const State& state, const Situation& situation,
+                 const Control& control, const Scene& scene, std::vector<Row>& rows) {
+  const double h = scene.time.step;
+  rows.clear();
+  if (control.clamp_head) {
+    append_head_rows(state, scene.constraints, h, rows);
+  }
+  append_thigmotaxis_rows(model, control.thigmotaxis, scene.controller.cap, h, rows);
+  append_unilateral_rows(model, state, situation, scene,
+                         {state.qdot, situation.kin.centre_velocity, lazy_reach, lazy_reach}, rows);
+}
+
 void begin_step(const Model& model, const State& state, const Situation& situation,
                 const Control& control, const Scene& scene, BoxQpSolver& solver,
                 const WarmStart& warm, StepScratch& scratch, StepSolution& step) {
@@ -310,15 +321,15 @@ void begin_step(const Model& model, const State& state, const Situation& situati
   step.qp_time = 0;
   unconstrained_motion(model, state, situation.kin, control.tip, scene.time.step, scratch, step);
   gather_rows(model, state, situation, control, scene, step.rows);
-  set_waiting_aside(state, situation.kin, warm, scratch, step);
-  if (!step.rows.empty() || take_in_violated(scratch, step)) {
-    constrained_motion(model, situation.kin, solver, warm, scratch, step);
+  if (!step.rows.empty() || take_in_violated(model, state, situation, scene, scratch, step)) {
+    constrained_motion(model, state, situation, scene, solver, warm, scratch, step);
   }
 }
 
-void resume_step(const Model& model, const Situation& situation, BoxQpSolver& solver,
-                 const WarmStart& warm, StepScratch& scratch, StepSolution& step) {
-  constrained_motion(model, situation.kin, solver, warm, scratch, step);
+void resume_step(const Model& model, const State& state, const Situation& situation,
+                 const Scene& scene, BoxQpSolver& solver, const WarmStart& warm,
+                 StepScratch& scratch, StepSolution& step) {
+  constrained_motion(model, state, situation, scene, solver, warm, scratch, step);
 }
 
 void finish_step(const Model& model, const Situation& situation, const Control& control,

@@ -71,7 +71,7 @@ struct StepSolution {
   ConstraintForces force;
   Eigen::Vector3d tip = Eigen::Vector3d::Zero();  ///< tip force as applied, dyn, world
   SolveKind kind = SolveKind::linear;
-  std::vector<Row> rows;   ///< rows that entered the problem
+  std::vector<Row> rows;   ///< rows that entered the problem, bilateral, then from the tail on
   Eigen::VectorXd lambda;  ///< their multipliers, dyn s or dyn cm s
   Eigen::VectorXd excess;  ///< C q̇ - d of each row at the solution, cm/s or rad/s
   int active = 0;          ///< rows with a force
@@ -90,7 +90,9 @@ struct StepScratch {
   ArticulatedFactor factor;
   Matrix6Xd unconstrained_twist;                   ///< 6 x N
   Eigen::Matrix3Xd unconstrained_centre_velocity;  ///< 3 x N, cm/s
-  std::vector<Row> waiting;                        ///< rows left out so far
+  std::vector<Row> violated;                       ///< rows that the last answer violates
+  std::vector<std::pair<int, std::size_t>> order;  ///< of the rows: where they end, which
+  std::vector<Row> ordered;                        ///< storage for them
   RowColumns columns;
   BoxQp qp;
   Eigen::VectorXd start, scale;
@@ -105,14 +107,19 @@ void solve_step(const Model& model, const State& state, const Situation& situati
                 const Control& control, const Scene& scene, BoxQpSolver& solver, WarmStart& warm,
                 StepScratch& scratch, StepSolution& step);
 
+/// The rows of a step that bind or may do so, as far as one can tell beforehand, into `rows`.
+void gather_rows(const Model& model, const State& state, const Situation& situation,
+                 const Control& control, const Scene& scene, std::vector<Row>& rows);
+
 /// Eq. 1, the rows, and Eq. 3 or 4: step.qdot is a velocity that meets all rows. Throws as above.
 void begin_step(const Model& model, const State& state, const Situation& situation,
                 const Control& control, const Scene& scene, BoxQpSolver& solver,
                 const WarmStart& warm, StepScratch& scratch, StepSolution& step);
 
 /// Eq. 4 anew, after rows have come to step.rows. Throws as above.
-void resume_step(const Model& model, const Situation& situation, BoxQpSolver& solver,
-                 const WarmStart& warm, StepScratch& scratch, StepSolution& step);
+void resume_step(const Model& model, const State& state, const Situation& situation,
+                 const Scene& scene, BoxQpSolver& solver, const WarmStart& warm,
+                 StepScratch& scratch, StepSolution& step);
 
 /// Forces and residuals of the step as solved; keeps its multipliers in `warm`.
 void finish_step(const Model& model, const Situation& situation, const Control& control,

@@ -119,16 +119,8 @@ void add_core_parts(const std::shared_ptr<Start>& start) {
     find_contacts(p.segments, p.start->scene.contact, p.search, p.contacts);
   });
   part("rows", [](Parts& p) {
-    const Scene& scene = p.start->scene;
-    const double h = scene.time.step;
-    const Situation& now = p.record.situation;
-    p.rows.clear();
-    append_head_rows(p.record.state, scene.constraints, h, p.rows);
-    append_thigmotaxis_rows(p.start->model, p.record.control.thigmotaxis, scene.controller.cap, h,
-                            p.rows);
-    append_contact_rows(p.start->model, now.contact, scene.constraints, h, p.rows);
-    append_limit_rows(p.start->model, p.record.state, scene.constraints, h, p.rows);
-    append_wall_rows(p.start->model, now.kin, scene.wall, scene.constraints, h, p.rows);
+    gather_rows(p.start->model, p.record.state, p.record.situation, p.record.control,
+                p.start->scene, p.rows);
   });
   part("dual", [](Parts& p) {
     const Situation& now = p.record.situation;

@@ -1,6 +1,7 @@
 // Constraint rows of one kind as a list of their own; core appends them to a step's list.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "core/rows.hpp"
@@ -14,17 +15,29 @@ inline std::vector<Row> head_rows(const State& state, const ConstraintSettings& 
   return rows;
 }
 
+/// Where all rows are wanted, whatever the velocity.
+struct AllRows {
+  explicit AllRows(const Model& model)
+      : v(Eigen::VectorXd::Zero(model.nv())),
+        centre_velocity(Eigen::Matrix3Xd::Zero(3, model.body_count())) {}
+  Eigen::VectorXd v;
+  Eigen::Matrix3Xd centre_velocity;
+  NearBinding wanted{v, centre_velocity, std::numeric_limits<double>::infinity(), 0};
+};
+
 inline std::vector<Row> limit_rows(const Model& model, const State& state,
                                    const ConstraintSettings& settings, double h) {
   std::vector<Row> rows;
-  append_limit_rows(model, state, settings, h, rows);
+  append_limit_rows(model, state, settings, h, AllRows(model).wanted, rows);
   return rows;
 }
 
 inline std::vector<Row> contact_rows(const Model& model, const ContactSet& contacts,
                                      const ConstraintSettings& settings, double h) {
   std::vector<Row> rows;
-  append_contact_rows(model, contacts, settings, h, rows);
+  const AllRows all(model);
+  append_contact_rows(model, contacts.contacts, settings, h, all.wanted, rows);
+  append_contact_rows(model, contacts.others, settings, h, all.wanted, rows);
   return rows;
 }
 
@@ -32,7 +45,7 @@ inline std::vector<Row> wall_rows(const Model& model, const Kinematics& kin,
                                   const WallSettings& wall, const ConstraintSettings& settings,
                                   double h) {
   std::vector<Row> rows;
-  append_wall_rows(model, kin, wall, settings, h, rows);
+  append_wall_rows(model, kin, wall, settings, h, AllRows(model).wanted, rows);
   return rows;
 }
 

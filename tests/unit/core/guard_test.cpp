@@ -6,6 +6,7 @@
 
 #include "core/simulation.hpp"
 #include "tests/support/random_chain.hpp"
+#include "tests/support/row_lists.hpp"
 
 namespace hagfish {
 namespace {
@@ -96,8 +97,8 @@ TEST(Guard, TellsOfARowThatStaysAtItsCapAndWhatHoldsItBack) {
   scene.guard.capped_time = 0.1;
   StepSolution step;
   append_thigmotaxis_rows(model, {{Contact{}, {1, 1}}, {Contact{}, {1, 1}}}, 10, 1, step.rows);
-  append_limit_rows(model, rest_state(model), scene.constraints, 1, step.rows);
-  step.rows.resize(7);  // four of thigmotaxis, three limits
+  const std::vector<Row> limits = limit_rows(model, rest_state(model), scene.constraints, 1);
+  step.rows.insert(step.rows.end(), limits.begin(), limits.begin() + 3);
   step.lambda.resize(7);
   step.lambda << 3, 10, 0, 9, 5, 0, 1;  // the second one is at the cap
   step.excess = Eigen::VectorXd::Constant(7, -0.5);

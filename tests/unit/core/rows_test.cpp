@@ -138,13 +138,30 @@ TEST(ContactRows, PositiveForcePushesTheStrandsApart) {
   }
 }
 
-TEST(ContactRows, ThatAreNoMinimumWait) {
+TEST(Rows, OnlyThoseNearBindingAreAppended) {
   const Tangle t(89);
-  ASSERT_FALSE(t.set.others.empty());
-  const std::vector<Row> rows = contact_rows(t.model, t.set, speculative, h);
-  ASSERT_EQ(rows.size(), t.set.contacts.size() + t.set.others.size());
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    EXPECT_EQ(rows[i].waits, i >= t.set.contacts.size());
+  const Eigen::Matrix3Xd& velocity = t.kin.centre_velocity;
+  for (const auto& [slack, at_rest] :
+       {std::pair(-10.0, -unbounded), {0.1, -unbounded}, {10, 0.1}}) {
+    const NearBinding wanted{t.state.qdot, velocity, slack, at_rest};
+    std::vector<Row> rows;
+    append_contact_rows(t.model, t.set.contacts, speculative, h, wanted, rows);
+    append_contact_rows(t.model, t.set.others, speculative, h, wanted, rows);
+    append_limit_rows(t.model, t.state, speculative, h, wanted, rows);
+    append_wall_rows(t.model, t.kin, {}, speculative, h, wanted, rows);
+    std::vector<std::int64_t> expected;
+    for (const auto& all : {contact_rows(t.model, t.set, speculative, h),
+                            limit_rows(t.model, t.state, speculative, h),
+                            wall_rows(t.model, t.kin, {}, speculative, h)}) {
+      for (const Row& row : all) {
+        if (row_velocity(row, velocity, t.state.qdot) < row.rhs + slack || row.rhs > -at_rest) {
+          expected.push_back(row.id);
+        }
+      }
+    }
+    std::vector<std::int64_t> found;
+    for (const Row& row : rows) found.push_back(row.id);
+    EXPECT_EQ(found, expected);
   }
 }
 
