@@ -72,8 +72,10 @@ void ArticulatedFactor::factorise(const Model& model, const Kinematics& kin, con
 }
 
 void ArticulatedFactor::solve(const Model& model, const Kinematics& kin, const Matrix6Xd& wrench,
-                              const Eigen::VectorXd& joint, Eigen::VectorXd& v) const {
+                              const Eigen::VectorXd& joint, Eigen::VectorXd& v,
+                              Matrix6Xd& twist) const {
   v.resize(model.nv());
+  twist.resize(6, model.body_count());
   Vector6d sum = Vector6d::Zero();
   for (int b = model.body_count() - 1; b >= 0; --b) {
     const Body& body = model.bodies[b];
@@ -83,13 +85,14 @@ void ArticulatedFactor::solve(const Model& model, const Kinematics& kin, const M
       sum -= weighted_.col(k) * v[k];
     }
   }
-  Vector6d twist = Vector6d::Zero();
+  Vector6d moved = Vector6d::Zero();
   for (int b = 0; b < model.body_count(); ++b) {
     const Body& body = model.bodies[b];
     for (int k = body.first_dof; k < body.first_dof + body.dofs; ++k) {
-      v[k] -= weighted_.col(k).dot(twist) * inverse_pivot_[k];
-      twist += kin.axis.col(k) * v[k];
+      v[k] -= weighted_.col(k).dot(moved) * inverse_pivot_[k];
+      moved += kin.axis.col(k) * v[k];
     }
+    twist.col(b) = moved;
   }
 }
 
@@ -97,7 +100,8 @@ Eigen::VectorXd ArticulatedFactor::solve(const Model& model, const Kinematics& k
                                          const Matrix6Xd& wrench,
                                          const Eigen::VectorXd& joint) const {
   Eigen::VectorXd v;
-  solve(model, kin, wrench, joint, v);
+  Matrix6Xd twist;
+  solve(model, kin, wrench, joint, v, twist);
   return v;
 }
 
@@ -180,14 +184,7 @@ void RowColumns::gram(Eigen::MatrixXd& A) const {
   for (Eigen::Index p = 0; p < count_; p += panel) {
     for (Eigen::Index q = 0; q <= p; q += panel) {
       const Eigen::Index end = std::min(end_[p / panel], end_[q / panel]);
-      Eigen::Array<double, panel, panel> tile = Eigen::Array<double, panel, panel>::Zero();
-      for (Eigen::Index k = 0; k < end; ++k) {
-        const double* row = &y_(k, 0);
-        const Eigen::Map<const Eigen::Array<double, panel, 1>> left(row + q);
-        for (int j = 0; j < panel; ++j) {
-          tile.col(j) += left * row[p + j];
-        }
-      }
+      const auto tile = tile_product<panel>(&y_(0, q), &y_(0, p), y_.outerStride(), end);
       const Eigen::Index rows = std::min<Eigen::Index>(panel, count_ - q);
       const Eigen::Index cols = std::min<Eigen::Index>(panel, count_ - p);
       A.block(q, p, rows, cols) = tile.topLeftCorner(rows, cols);

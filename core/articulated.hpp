@@ -9,6 +9,7 @@
 
 #include "core/kinematics.hpp"
 #include "core/model.hpp"
+#include "solvers/tile_product.hpp"
 
 namespace hagfish {
 
@@ -43,7 +44,7 @@ class RowColumns {
 
  private:
   friend class ArticulatedFactor;
-  static constexpr int panel = 8;  // columns that fill a vector register
+  static constexpr int panel = tile_rows;
   struct Load {
     Vector6d wrench;
     Eigen::Index column;
@@ -74,9 +75,10 @@ class ArticulatedFactor {
   /// Throws std::domain_error, naming the dof, where H is not positive definite.
   void factorise(const Model& model, const Kinematics& kin, const Operator& op);
 
-  /// v = H⁻¹ (J' w + τ) for one wrench per body (6 x N) and joint forces τ (nv).
+  /// v = H⁻¹ (J' w + τ) for one wrench per body (6 x N) and joint forces τ (nv), and the twists of
+  /// the bodies at v (6 x N).
   void solve(const Model& model, const Kinematics& kin, const Matrix6Xd& wrench,
-             const Eigen::VectorXd& joint, Eigen::VectorXd& v) const;
+             const Eigen::VectorXd& joint, Eigen::VectorXd& v, Matrix6Xd& twist) const;
   Eigen::VectorXd solve(const Model& model, const Kinematics& kin, const Matrix6Xd& wrench,
                         const Eigen::VectorXd& joint) const;
 

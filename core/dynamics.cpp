@@ -2,11 +2,27 @@
 
 namespace hagfish {
 
-Matrix6d body_inertia(const Model& model, const Kinematics& kin, int body) {
-  const Body& own = model.bodies[body];
+namespace {
+
+/// About the centre, world axes, g cm^2.
+Eigen::Matrix3d angular_inertia(const Model& model, const Kinematics& kin, int body) {
   const Eigen::Matrix3d& r = kin.rotation[body];
-  return point_operator(r * own.inertia.asDiagonal() * r.transpose(),
-                        own.mass * Eigen::Matrix3d::Identity(), kin.centre_offset(body));
+  return r * model.bodies[body].inertia.asDiagonal() * r.transpose();
+}
+
+/// A wrench whose moment is about `offset` from O, taken to O.
+Vector6d about_reference(const Vector6d& wrench, const Eigen::Vector3d& offset) {
+  Vector6d w;
+  w << wrench.head<3>() + offset.cross(wrench.tail<3>()), wrench.tail<3>();
+  return w;
+}
+
+}  // namespace
+
+Matrix6d body_inertia(const Model& model, const Kinematics& kin, int body) {
+  return point_operator(angular_inertia(model, kin, body),
+                        model.bodies[body].mass * Eigen::Matrix3d::Identity(),
+                        kin.centre_offset(body));
 }
 
 std::vector<Matrix6d> body_inertias(const Model& model, const Kinematics& kin) {
@@ -17,16 +33,20 @@ std::vector<Matrix6d> body_inertias(const Model& model, const Kinematics& kin) {
   return inertia;
 }
 
-Matrix6d drag_operator(const Model& model, const Kinematics& kin, int body) {
+CentreOperator drag_at_centre(const Model& model, const Kinematics& kin, int body) {
   const double length = model.bodies[body].length;
   const Eigen::Vector3d along = kin.rotation[body].col(0);
-  const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - along * along.transpose();
+  const Eigen::Matrix3d forward = along * along.transpose();
+  const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - forward;
   // A rod that turns about its centre meets normal drag alone, at x times the rate: ∫ x² dx.
   const double turning = model.drag.normal * length * length * length / 12;
-  return point_operator(
-      turning * across,
-      length * (model.drag.normal * across + model.drag.tangential * along * along.transpose()),
-      kin.centre_offset(body));
+  return {turning * across,
+          length * model.drag.normal * across + length * model.drag.tangential * forward};
+}
+
+Matrix6d drag_operator(const Model& model, const Kinematics& kin, int body) {
+  const CentreOperator drag = drag_at_centre(model, kin, body);
+  return point_operator(drag.angular, drag.linear, kin.centre_offset(body));
 }
 
 Eigen::VectorXd drag_force(const Model& model, const Kinematics& kin, const Eigen::VectorXd& v) {
@@ -37,10 +57,10 @@ Eigen::VectorXd drag_force(const Model& model, const Kinematics& kin, const Eige
   return generalised_force(model, kin, wrench);
 }
 
-double drag_power(const Model& model, const Kinematics& kin, int body, const Vector6d& twist) {
+double drag_power(const Model& model, const Kinematics& kin, int body, const Vector6d& twist,
+                  const Eigen::Vector3d& velocity) {
   const double length = model.bodies[body].length;
   const Eigen::Vector3d along = kin.rotation[body].col(0);
-  const Eigen::Vector3d velocity = point_velocity(twist, kin.centre_offset(body));
   const double forward = velocity.dot(along);
   const double sideways = (velocity - forward * along).squaredNorm();
   const double turning = twist.head<3>().cross(along).squaredNorm();
@@ -48,15 +68,23 @@ double drag_power(const Model& model, const Kinematics& kin, int body, const Vec
                    model.drag.tangential * forward * forward);
 }
 
-Vector6d bias_wrench(const Kinematics& kin, const Matrix6d& inertia, int body) {
-  const Vector6d twist = kin.twist.col(body);
-  return inertia * kin.bias_twist.col(body) + cross_force(twist, inertia * twist);
+Vector6d bias_at_centre(const Model& model, const Kinematics& kin, const Eigen::Matrix3d& angular,
+                        int body) {
+  const Vector6d bias = kin.bias_twist.col(body);
+  const Eigen::Vector3d spin = kin.twist.col(body).head<3>();
+  const Eigen::Vector3d momentum = angular * spin;
+  const Eigen::Vector3d acceleration =
+      point_velocity(bias, kin.centre_offset(body)) + spin.cross(kin.centre_velocity.col(body));
+  Vector6d wrench;
+  wrench << angular * bias.head<3>() + spin.cross(momentum), model.bodies[body].mass * acceleration;
+  return wrench;
 }
 
-Matrix6Xd bias_wrench(const Kinematics& kin, const std::vector<Matrix6d>& inertia) {
+Matrix6Xd bias_wrench(const Model& model, const Kinematics& kin) {
   Matrix6Xd wrench(6, kin.twist.cols());
-  for (int b = 0; b < static_cast<int>(wrench.cols()); ++b) {
-    wrench.col(b) = bias_wrench(kin, inertia[b], b);
+  for (int b = 0; b < model.body_count(); ++b) {
+    wrench.col(b) = about_reference(bias_at_centre(model, kin, angular_inertia(model, kin, b), b),
+                                    kin.centre_offset(b));
   }
   return wrench;
 }
@@ -84,21 +112,24 @@ Eigen::VectorXd stiffness_force(const Model& model, const Eigen::VectorXd& q) {
 void assemble_step_system(const Model& model, const State& state, const Kinematics& kin,
                           const TipForce& tip, double h, StepSystem& system) {
   const int n = model.body_count();
-  system.inertia.resize(n);
+  system.bias.resize(6, n);
   system.op.inertia.resize(n);
   system.op.diagonal.setZero(model.nv());
   system.wrench.resize(6, n);
   system.joint.setZero(model.nv());
-  const bool drag = model.drag.normal != 0 || model.drag.tangential != 0;
   for (int b = 0; b < n; ++b) {
-    const Matrix6d inertia = body_inertia(model, kin, b);
-    system.inertia[b] = inertia;
-    system.op.inertia[b] = inertia;
-    if (drag) {
-      system.op.inertia[b] += h * drag_operator(model, kin, b);
-    }
-    system.wrench.col(b) = inertia * kin.twist.col(b) +
-                           h * (gravity_wrench(model, kin, b) - bias_wrench(kin, inertia, b));
+    const double mass = model.bodies[b].mass;
+    const Eigen::Vector3d offset = kin.centre_offset(b);
+    const Eigen::Matrix3d angular = angular_inertia(model, kin, b);
+    const CentreOperator drag = drag_at_centre(model, kin, b);
+    system.op.inertia[b] = point_operator(
+        angular + h * drag.angular, mass * Eigen::Matrix3d::Identity() + h * drag.linear, offset);
+    const Vector6d bias = bias_at_centre(model, kin, angular, b);
+    system.bias.col(b) = bias;
+    Vector6d momentum;
+    momentum << angular * kin.twist.col(b).head<3>() - h * bias.head<3>(),
+        mass * kin.centre_velocity.col(b) + h * (mass * model.gravity - bias.tail<3>());
+    system.wrench.col(b) = about_reference(momentum, offset);
   }
   for (int k = root_dofs; k < model.nv(); ++k) {
     const Hinge& hinge = model.hinges[k - root_dofs];
@@ -122,21 +153,17 @@ StepSystem step_system(const Model& model, const State& state, const Kinematics&
   return system;
 }
 
+double kinetic_energy(const Model& model, const Kinematics& kin, int body, const Vector6d& twist,
+                      const Eigen::Vector3d& velocity) {
+  const Eigen::Vector3d rate = kin.rotation[body].transpose() * twist.head<3>();
+  return 0.5 * (model.bodies[body].mass * velocity.squaredNorm() +
+                rate.cwiseAbs2().dot(model.bodies[body].inertia));
+}
+
 double kinetic_energy(const Model& model, const Kinematics& kin) {
   double energy = 0;
   for (int b = 0; b < model.body_count(); ++b) {
-    const Body& body = model.bodies[b];
-    const Eigen::Vector3d rate = kin.rotation[b].transpose() * kin.twist.col(b).head<3>();
-    energy += 0.5 * (body.mass * kin.centre_velocity.col(b).squaredNorm() +
-                     rate.cwiseAbs2().dot(body.inertia));
-  }
-  return energy;
-}
-
-double kinetic_energy(const std::vector<Matrix6d>& inertia, const Matrix6Xd& twist) {
-  double energy = 0;
-  for (Eigen::Index b = 0; b < twist.cols(); ++b) {
-    energy += 0.5 * twist.col(b).dot(inertia[b] * twist.col(b));
+    energy += kinetic_energy(model, kin, b, kin.twist.col(b), kin.centre_velocity.col(b));
   }
   return energy;
 }

@@ -18,16 +18,27 @@ namespace hagfish {
 Matrix6d body_inertia(const Model& model, const Kinematics& kin, int body);
 std::vector<Matrix6d> body_inertias(const Model& model, const Kinematics& kin);
 
-/// Water drag of one body as an operator on its twist, about O: normal and tangential drag per
-/// length (model.drag) integrated along the body. The drag wrench is minus this times the twist.
+/// A symmetric operator on the angular velocity and on the velocity of the body's centre.
+struct CentreOperator {
+  Eigen::Matrix3d angular, linear;
+};
+
+/// Water drag of one body: normal and tangential drag per length (model.drag) integrated along it,
+/// dyn cm s and dyn s / cm. The drag is minus this times the velocities.
+CentreOperator drag_at_centre(const Model& model, const Kinematics& kin, int body);
+
+/// The same as an operator on the twist, about O.
 Matrix6d drag_operator(const Model& model, const Kinematics& kin, int body);
 
 /// Drag as a generalised force (nv) at velocities `v` (nv).
 Eigen::VectorXd drag_force(const Model& model, const Kinematics& kin, const Eigen::VectorXd& v);
 
 /// M_m J̇ q̇ plus the gyroscopic wrench, per body: what inertia asks for at q̈ = 0 (6 x N).
-Vector6d bias_wrench(const Kinematics& kin, const Matrix6d& inertia, int body);
-Matrix6Xd bias_wrench(const Kinematics& kin, const std::vector<Matrix6d>& inertia);
+Matrix6Xd bias_wrench(const Model& model, const Kinematics& kin);
+
+/// The same of one body about its centre, from its `angular` inertia there, world axes.
+Vector6d bias_at_centre(const Model& model, const Kinematics& kin, const Eigen::Matrix3d& angular,
+                        int body);
 
 /// Gravity on each body (6 x N).
 Vector6d gravity_wrench(const Model& model, const Kinematics& kin, int body);
@@ -45,10 +56,10 @@ struct TipForce {
 
 /// One step's unconstrained problem H q̇* = M q̇0 + h f (paper, Eq. 1).
 struct StepSystem {
-  std::vector<Matrix6d> inertia;  ///< M_m, the bodies' inertias alone
-  Operator op;                    ///< H = M + h D - h² K
-  Matrix6Xd wrench;               ///< right-hand side, body part, 6 x N (times s)
-  Eigen::VectorXd joint;          ///< right-hand side, joint part, nv (times s)
+  Operator op;            ///< H = M + h D - h² K
+  Matrix6Xd bias;         ///< bias_at_centre of the bodies, 6 x N
+  Matrix6Xd wrench;       ///< right-hand side, body part, 6 x N (times s)
+  Eigen::VectorXd joint;  ///< right-hand side, joint part, nv (times s)
 };
 
 /// Assembles Eq. 1 at `state`; `kin` has positions and velocities.
@@ -57,14 +68,16 @@ void assemble_step_system(const Model& model, const State& state, const Kinemati
 StepSystem step_system(const Model& model, const State& state, const Kinematics& kin,
                        const TipForce& tip, double h);
 
-/// Kinetic energy, erg, of the twists (6 x N).
-double kinetic_energy(const std::vector<Matrix6d>& inertia, const Matrix6Xd& twist);
+/// Kinetic energy of one body, erg, at `twist`, which moves its centre with `velocity`.
+double kinetic_energy(const Model& model, const Kinematics& kin, int body, const Vector6d& twist,
+                      const Eigen::Vector3d& velocity);
 
-/// The same from the bodies' own inertias, at kin.twist.
+/// Of all bodies, at kin.twist.
 double kinetic_energy(const Model& model, const Kinematics& kin);
 
-/// Power that drag takes from one body at `twist`, erg/s.
-double drag_power(const Model& model, const Kinematics& kin, int body, const Vector6d& twist);
+/// Power that drag takes from one body, erg/s, at `twist`, which moves its centre with `velocity`.
+double drag_power(const Model& model, const Kinematics& kin, int body, const Vector6d& twist,
+                  const Eigen::Vector3d& velocity);
 
 /// Energy in the joint springs, erg.
 double elastic_energy(const Model& model, const Eigen::VectorXd& q);

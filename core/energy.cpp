@@ -10,15 +10,14 @@ void set_energies(const Model& model, const State& state, const Kinematics& kin,
   ledger.gravity = gravity_energy(model, kin);
 }
 
-/// Power lost to drag and damping at velocity `v`, erg/s.
-double dissipation(const Model& model, const Kinematics& kin, const Matrix6Xd& twist,
-                   const Eigen::VectorXd& v) {
+/// Power lost to drag and damping at the step's velocity, erg/s.
+double dissipation(const Model& model, const Kinematics& kin, const StepSolution& solution) {
   double power = 0;
   for (int b = 0; b < model.body_count(); ++b) {
-    power += drag_power(model, kin, b, twist.col(b));
+    power += drag_power(model, kin, b, solution.twist.col(b), solution.centre_velocity.col(b));
   }
   for (int k = root_dofs; k < model.nv(); ++k) {
-    power += model.hinges[k - root_dofs].damping * v[k] * v[k];
+    power += model.hinges[k - root_dofs].damping * solution.qdot[k] * solution.qdot[k];
   }
   return power;
 }
@@ -36,7 +35,6 @@ EnergyLedger open_ledger(const Model& model, const State& state, const Kinematic
 void book_step(const Model& model, const Kinematics& kin, const StepSolution& solution,
                const State& next, const Kinematics& next_kin, double h, EnergyLedger& ledger) {
   const Eigen::VectorXd& v = solution.qdot;
-  const Matrix6Xd& twist = solution.twist;
   const int last = model.body_count() - 1;
   ledger.work_tip += h * solution.tip.dot(solution.centre_velocity.col(last));
   ledger.work_thigmotaxis += h * solution.force.thigmotaxis.dot(v);
@@ -44,9 +42,8 @@ void book_step(const Model& model, const Kinematics& kin, const StepSolution& so
   ledger.work_limit += h * solution.force.limit.dot(v);
   ledger.work_head += h * solution.force.head.dot(v);
   ledger.work_wall += h * solution.force.wall.dot(v);
-  ledger.dissipated += h * dissipation(model, kin, twist, v);
+  ledger.dissipated += h * dissipation(model, kin, solution);
 
-  const std::vector<Matrix6d>& inertia = solution.system.inertia;
   double stretch = 0;
   for (int k = root_dofs; k < model.nv(); ++k) {
     stretch += model.hinges[k - root_dofs].stiffness * v[k] * v[k];
@@ -56,12 +53,14 @@ void book_step(const Model& model, const Kinematics& kin, const StepSolution& so
   double fall = 0;    // work of gravity
   double bias = 0;    // and of what inertia asks for
   for (int b = 0; b < model.body_count(); ++b) {
-    const Vector6d now = twist.col(b);
-    const Vector6d changed = now - kin.twist.col(b);
-    change += 0.5 * changed.dot(inertia[b] * changed);
-    moved += 0.5 * now.dot(inertia[b] * now);
-    fall += h * gravity_wrench(model, kin, b).dot(now);
-    bias += h * bias_wrench(kin, inertia[b], b).dot(now);
+    const Vector6d now = solution.twist.col(b);
+    const Eigen::Vector3d velocity = solution.centre_velocity.col(b);
+    change += kinetic_energy(model, kin, b, now - kin.twist.col(b),
+                             velocity - kin.centre_velocity.col(b));
+    moved += kinetic_energy(model, kin, b, now, velocity);
+    fall += h * model.bodies[b].mass * model.gravity.dot(velocity);
+    bias += h * (solution.system.bias.col(b).head<3>().dot(now.head<3>()) +
+                 solution.system.bias.col(b).tail<3>().dot(velocity));
   }
   const double before = gravity_energy(model, kin);
   set_energies(model, next, next_kin, ledger);

@@ -152,7 +152,7 @@ struct StartSettings {
 struct KnotSettings {
   int votes = 15;            ///< directions tried
   unsigned seed = 20220301;  ///< of the directions
-  double interval = 0.01;    ///< time between looks while the controller waits for a change, s
+  double interval = 0.02;    ///< time between looks while the controller waits for a change, s
 };
 
 struct TimeSettings {

@@ -60,10 +60,14 @@ inline Eigen::Matrix3d skew(const Eigen::Vector3d& a) {
 /// its centre (angular = I_c, linear = m 1) and linear drag have this form.
 inline Matrix6d point_operator(const Eigen::Matrix3d& angular, const Eigen::Matrix3d& linear,
                                const Eigen::Vector3d& offset) {
-  const Eigen::Matrix3d x = skew(offset);
+  Eigen::Matrix3d moment;  // [offset] linear
+  for (int i = 0; i < 3; ++i) {
+    moment.col(i) = offset.cross(linear.col(i));
+  }
   Matrix6d m;
-  const Eigen::Matrix3d moment = x * linear;
-  m.topLeftCorner<3, 3>() = angular - moment * x;  // [x]' = -[x]
+  for (int i = 0; i < 3; ++i) {  // angular + moment [offset]'
+    m.block<1, 3>(i, 0) = angular.row(i) + offset.cross(moment.row(i).transpose()).transpose();
+  }
   m.topRightCorner<3, 3>() = moment;
   m.bottomLeftCorner<3, 3>() = moment.transpose();
   m.bottomRightCorner<3, 3>() = linear;

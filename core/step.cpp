@@ -66,8 +66,7 @@ void set_velocity(const Model& model, const Kinematics& kin, StepScratch& scratc
       add_row(step.rows[i], kin, step.lambda[i], scratch.wrench, scratch.joint);
     }
   }
-  scratch.factor.solve(model, kin, scratch.wrench, scratch.joint, step.qdot);
-  body_twists(model, kin, step.qdot, step.twist);
+  scratch.factor.solve(model, kin, scratch.wrench, scratch.joint, step.qdot, step.twist);
   centre_velocities(kin, step.twist, step.centre_velocity);
 }
 
@@ -135,11 +134,11 @@ void unconstrained_motion(const Model& model, const State& state, const Kinemati
   } catch (const std::domain_error& error) {
     throw StepError(StopCause::non_finite, error.what());
   }
-  scratch.factor.solve(model, kin, step.system.wrench, step.system.joint, step.unconstrained);
+  scratch.factor.solve(model, kin, step.system.wrench, step.system.joint, step.unconstrained,
+                       scratch.unconstrained_twist);
   if (!step.unconstrained.allFinite()) {
     throw StepError(StopCause::non_finite, "non-finite unconstrained velocity");
   }
-  body_twists(model, kin, step.unconstrained, scratch.unconstrained_twist);
   centre_velocities(kin, scratch.unconstrained_twist, scratch.unconstrained_centre_velocity);
   step.qdot = step.unconstrained;
   step.twist = scratch.unconstrained_twist;

@@ -35,13 +35,12 @@ struct Dynamics {
 };
 
 Dynamics core_dynamics(const Model& model, const State& state, const Kinematics& kin, Head head) {
-  const std::vector<Matrix6d> inertia = body_inertias(model, kin);
-  const Operator op{inertia, Eigen::VectorXd::Zero(model.nv())};
+  const Operator op{body_inertias(model, kin), Eigen::VectorXd::Zero(model.nv())};
   Eigen::VectorXd joint = stiffness_force(model, state.q);
   for (int k = root_dofs; k < model.nv(); ++k) {
     joint[k] -= model.hinges[k - root_dofs].damping * state.qdot[k];
   }
-  const Matrix6Xd wrench = gravity_wrench(model, kin) - bias_wrench(kin, inertia);
+  const Matrix6Xd wrench = gravity_wrench(model, kin) - bias_wrench(model, kin);
   Dynamics dynamics{dense(model, kin, op), -(generalised_force(model, kin, wrench) + joint), {}};
   ArticulatedFactor factor;
   factor.factorise(model, kin, op);

@@ -4,9 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "solvers/tile_product.hpp"
+
 namespace hagfish {
 namespace {
 
+constexpr int panel = 4;  // columns made together
 /// As in free_rows.cpp: smaller pivots of a matrix of unit diagonal are rounding.
 constexpr double rank_threshold = 1e-12;
 /// Pivots above this are not: they are told from rounding without a closer look.
@@ -21,8 +24,8 @@ void ActiveSetFactor::reset(const Eigen::MatrixXd& A,
   const Eigen::Index m = A.rows();
   A_ = &A;
   inverse_scale_ = &inverse_scale;
-  if (L_.rows() < m) {
-    L_.resize(m, m);
+  if (L_.cols() < m || L_.cols() == 0) {
+    L_.setZero(m + tile_rows, m);
     work_.resize(m);
     rows_.reserve(m);
   }
@@ -47,42 +50,62 @@ void ActiveSetFactor::remove(std::span<const Eigen::Index> dropped) {
   factorise_tail(known);
 }
 
-/// Factorises rows_ from position `known` on, column by column.
+/// Factorises rows_ from position `known` on, panel by panel of columns.
 bool ActiveSetFactor::factorise_tail(Eigen::Index known) {
-  const auto& s = *inverse_scale_;
   auto n = static_cast<Eigen::Index>(rows_.size());
-  if (known > 0 && n > known) {
-    const auto L = L_.topLeftCorner(known, known).triangularView<Eigen::Lower>();
-    for (Eigen::Index k = known; k < n; ++k) {
-      const Eigen::Index row = rows_[k];
-      auto cross = work_.head(known);
-      for (Eigen::Index i = 0; i < known; ++i) {
-        cross[i] = (*A_)(rows_[i], row) * s[rows_[i]] * s[row];
-      }
-      L.solveInPlace(cross);
-      L_.row(k).head(known) = cross.transpose();
-    }
-  }
   bool all = true;
-  for (Eigen::Index k = known; k < n;) {
-    const Eigen::Index row = rows_[k];
-    auto column = L_.col(k).segment(k, n - k);
-    for (Eigen::Index i = k; i < n; ++i) {
-      L_(i, k) = (*A_)(rows_[i], row) * s[rows_[i]] * s[row];
+  for (Eigen::Index first = 0; known < n && first < n;) {
+    // Columns that are final already gain the new rows only.
+    const bool final = first < known;
+    const Eigen::Index top = final ? known : first;
+    const Eigen::Index width = std::min<Eigen::Index>(panel, (final ? known : n) - first);
+    start_panel(first, width, top, n);
+    Eigen::Index k = first;
+    for (; k < first + width && (final || accept(k)); ++k) {
+      const Eigen::Index from = final ? known : k + 1;
+      auto column = L_.col(k).segment(from, n - from);
+      column /= L_(k, k);
+      for (Eigen::Index j = k + 1; j < first + width; ++j) {
+        const Eigen::Index behind = std::max(top, j);
+        L_.col(j).segment(behind, n - behind) -= L_(j, k) * column.tail(n - behind);
+      }
     }
-    column.noalias() -= L_.block(k, 0, n - k, k) * L_.row(k).head(k).transpose();
-    const double pivot = column[0];
-    if (pivot > clear_pivot || (pivot > rank_threshold && pivot > pivot_rounding(k))) {
-      column /= std::sqrt(pivot);
-      held_[row] = 1;
-      ++k;
-    } else {
+    if (k < first + width) {  // the columns behind it are to be made anew
       refuse(k);
       --n;
       all = false;
     }
+    first = k;
   }
   return all;
+}
+
+/// Sets `width` columns from `first` on, rows `top` to n, to what the columns before them leave of
+/// A, on and below the diagonal.
+void ActiveSetFactor::start_panel(Eigen::Index first, Eigen::Index width, Eigen::Index top,
+                                  Eigen::Index n) {
+  const auto& s = *inverse_scale_;
+  for (Eigen::Index k = first; k < first + width; ++k) {
+    for (Eigen::Index i = std::max(top, k); i < n; ++i) {
+      L_(i, k) = (*A_)(rows_[i], rows_[k]) * s[rows_[i]] * s[rows_[k]];
+    }
+  }
+  for (Eigen::Index i = top; first > 0 && i < n; i += tile_rows) {
+    const auto tile = tile_product<panel>(&L_(i, 0), &L_(first, 0), L_.outerStride(), first);
+    const Eigen::Index rows = std::min(tile_rows, n - i);
+    L_.block(i, first, rows, width).array() -= tile.topLeftCorner(rows, width);
+  }
+}
+
+/// Makes the pivot at `k` final unless its row depends on those before it.
+bool ActiveSetFactor::accept(Eigen::Index k) {
+  const double pivot = L_(k, k);
+  if (pivot <= clear_pivot && (pivot <= rank_threshold || pivot <= pivot_rounding(k))) {
+    return false;
+  }
+  L_(k, k) = std::sqrt(pivot);
+  held_[rows_[k]] = 1;
+  return true;
 }
 
 /// Rounding of the pivot at `position`. It is (e - r)' S A S (e - r) with r the shares of the rows

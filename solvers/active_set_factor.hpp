@@ -33,12 +33,15 @@ class ActiveSetFactor {
 
  private:
   bool factorise_tail(Eigen::Index known);
+  void start_panel(Eigen::Index first, Eigen::Index width, Eigen::Index top, Eigen::Index n);
+  bool accept(Eigen::Index k);
   double pivot_rounding(Eigen::Index position);
   void refuse(Eigen::Index position);
 
   const Eigen::MatrixXd* A_ = nullptr;
   const Eigen::Map<Eigen::VectorXd>* inverse_scale_ = nullptr;
-  Eigen::MatrixXd L_;  ///< at least m x m; its lower triangle holds the factor
+  /// Its lower triangle holds the factor; larger than m x m, as tiles reach past its end.
+  Eigen::MatrixXd L_;
   Eigen::VectorXd work_;
   std::vector<Eigen::Index> rows_;
   std::vector<char> held_;

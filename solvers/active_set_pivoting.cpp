@@ -68,13 +68,20 @@ int ActiveSetPivoting::push(Eigen::Index i) const {
   return w > noise_ && x_[i] > qp_->lower[i] ? -1 : 0;
 }
 
-/// Corrects x of the held rows so that their w vanishes; w is up to date before and after.
-void ActiveSetPivoting::solve_held() {
+/// Corrects x of the held rows so that their w vanishes; w is up to date before and after. Whether
+/// it came from far beyond where it is now: then its rounding is that of what it was.
+bool ActiveSetPivoting::solve_held() {
   const auto change = factor_.solve(w_);
+  double most_moved = 0;
+  double largest = 0;
   for (Eigen::Index k = 0; k < change.size(); ++k) {
-    x_[factor_.rows()[k]] -= change[k];
+    const Eigen::Index i = factor_.rows()[k];
+    x_[i] -= change[k];
+    most_moved = std::max(most_moved, std::abs(change[k]) * scale_[i]);
+    largest = std::max(largest, std::abs(x_[i]) * scale_[i]);
   }
   update_gradient();
+  return most_moved > 2 * largest;
 }
 
 void ActiveSetPivoting::clamp_held() {
@@ -88,7 +95,7 @@ bool ActiveSetPivoting::change_blocks() {
   update_gradient();
   std::size_t fewest = x_.size() + 1;
   for (int tries = patience;; ++changes_) {
-    solve_held();
+    const bool from_far = solve_held();
     leaving_.clear();
     joining_.clear();
     for (Eigen::Index i = 0; i < x_.size(); ++i) {
@@ -102,7 +109,9 @@ bool ActiveSetPivoting::change_blocks() {
     }
     const std::size_t wrong = leaving_.size() + joining_.size();
     if (wrong == 0) {
-      solve_held();  // refinement, as x of the last round was far from the answer
+      if (from_far) {
+        solve_held();
+      }
       clamp_held();
       return true;
     }

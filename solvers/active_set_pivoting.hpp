@@ -53,7 +53,7 @@ class ActiveSetPivoting {
  private:
   void update_gradient();
   int push(Eigen::Index i) const;
-  void solve_held();
+  bool solve_held();
   void clamp_held();
   void enter_box();
   Eigen::Index advance(double longest);

@@ -102,8 +102,8 @@ void add_core_parts(const std::shared_ptr<Start>& start) {
   });
   part("bias", [](Parts& p) {
     const Kinematics& kin = p.record.situation.kin;
-    benchmark::DoNotOptimize(generalised_force(
-        p.start->model, kin, bias_wrench(kin, body_inertias(p.start->model, kin))));
+    benchmark::DoNotOptimize(
+        generalised_force(p.start->model, kin, bias_wrench(p.start->model, kin)));
   });
   part("system", [](Parts& p) {  // Eq. 1 assembled, factorised and solved
     const Kinematics& kin = p.record.situation.kin;
@@ -112,7 +112,7 @@ void add_core_parts(const std::shared_ptr<Start>& start) {
                          p.start->scene.time.step, system);
     p.sim.scratch.factor.factorise(p.start->model, kin, system.op);
     p.sim.scratch.factor.solve(p.start->model, kin, system.wrench, system.joint,
-                               p.record.solution.unconstrained);
+                               p.record.solution.unconstrained, p.sim.scratch.unconstrained_twist);
   });
   part("contact", [](Parts& p) {
     update_spline(p.start->model, p.record.situation.kin.centre, p.segments);

@@ -49,8 +49,7 @@ void ChainRun::step(const TipForce& tip) {
 
 double ChainRun::energy() const {
   const Kinematics kin = kinematics(model, state);
-  return kinetic_energy(body_inertias(model, kin), kin.twist) + gravity_energy(model, kin) +
-         elastic_energy(model, state.q);
+  return kinetic_energy(model, kin) + gravity_energy(model, kin) + elastic_energy(model, state.q);
 }
 
 Eigen::Matrix3Xd ChainRun::centres() const { return kinematics(model, state).centre; }
