@@ -130,7 +130,7 @@ Contact contact_at(const std::vector<SplineSegment>& segments, int segment_a, do
 }
 
 void find_contacts(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
-                   ContactSearch& search, ContactSet& set) {
+                   double near, ContactSearch& search, ContactSet& set) {
   update_candidates(segments, settings, search);
   search.looked.assign(search.candidates.size(), 0);
   search.close.clear();
@@ -150,9 +150,9 @@ void find_contacts(const std::vector<SplineSegment>& segments, const ContactSett
     const double gap = pair.closest->gap;
     set.least_gap = std::min(set.least_gap, gap);
     if (!minimum) {
-      pair.clear_until = search.moved_by(pair) + gap;
+      pair.clear_until = search.moved_by(pair) + gap - near;
     }
-    if (minimum || gap < 0) {
+    if (minimum || gap < near) {
       (minimum ? set.contacts : set.others)
           .push_back(contact_at(segments, pair.a, pair.closest->t_a, pair.b, pair.closest->t_b));
     }
@@ -166,7 +166,7 @@ ContactSet find_contacts(const std::vector<SplineSegment>& segments,
                          const ContactSettings& settings) {
   ContactSearch search;
   ContactSet set;
-  find_contacts(segments, settings, search, set);
+  find_contacts(segments, settings, 0, search, set);
   return set;
 }
 

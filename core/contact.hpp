@@ -28,7 +28,7 @@ struct ContactSet {
   /// Local minima of the gap up to the margin, sorted by arc_a, then arc_b: some 5 to 15 in a tight
   /// knot. The gap is positive everywhere if it is at those.
   std::vector<Contact> contacts;
-  /// Pairs that overlap but are no minimum. They matter only where a step makes one of them.
+  /// Pairs that nearly touch but are no minimum. They matter only where a step makes one of them.
   std::vector<Contact> others;
   /// Least gap found, cm; at most the margin.
   double least_gap = 0;
@@ -60,9 +60,11 @@ struct ContactSearch {
   double moved_by(const SegmentPair& pair) const { return moved[pair.a] + moved[pair.b]; }
 };
 
-/// Finds the contacts of `segments` (paper, 3.1: bounding spheres, then Eq. 5) into `set`.
+/// Finds the contacts of `segments` (paper, 3.1: bounding spheres, then Eq. 5) into `set`. Of pairs
+/// that are no minimum those with a gap below `near` (cm) are listed; none with a gap in the other
+/// one.
 void find_contacts(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
-                   ContactSearch& search, ContactSet& set);
+                   double near, ContactSearch& search, ContactSet& set);
 ContactSet find_contacts(const std::vector<SplineSegment>& segments,
                          const ContactSettings& settings);
 

@@ -139,7 +139,7 @@ void guard_energy(const Model& model, const Scene& scene, State& state, Kinemati
     }
     if (guard.energy_action == EnergyAction::hold) {
       const double taken = std::min(made - allowed, ledger.kinetic);
-      const double share = std::sqrt(1 - taken / ledger.kinetic);
+      const double share = ledger.kinetic > 0 ? std::sqrt(1 - taken / ledger.kinetic) : 0;
       state.qdot *= share;
       update_velocities(model, state.qdot, kin);
       ledger.kinetic -= taken;

@@ -14,17 +14,23 @@ namespace {
 constexpr double lazy_reach = 0.1;
 /// A row left out counts as violated below this, cm/s or rad/s: at h = 2 ms, 2e-11 cm or rad.
 constexpr double lazy_tolerance = 1e-8;
+/// Pairs of segments that are no minimum of the gap are watched where they could close it in a step
+/// at this speed, cm/s: next to a minimum, strands close slower than there.
+constexpr double closing_speed = 1;
 constexpr double nowhere = -std::numeric_limits<double>::infinity();
 /// λ, rows brought to unit diagonal, counts as a force above this share of the largest.
 constexpr double active_share = 1e-6;
 
-/// The unilateral rows that are near to binding.
+/// The unilateral rows that are near to binding. Pairs of segments that are no minimum of the gap
+/// count only where they overlap or the wanted velocity makes them.
 void append_unilateral_rows(const Model& model, const State& state, const Situation& situation,
                             const Scene& scene, const NearBinding& wanted, std::vector<Row>& rows) {
   const ConstraintSettings& settings = scene.constraints;
   const double h = scene.time.step;
   append_contact_rows(model, situation.contact.contacts, settings, h, wanted, rows);
-  append_contact_rows(model, situation.contact.others, settings, h, wanted, rows);
+  const NearBinding others{wanted.v, wanted.centre_velocity, std::min(wanted.slack, 0.0),
+                           std::min(wanted.slack_at_rest, 0.0)};
+  append_contact_rows(model, situation.contact.others, settings, h, others, rows);
   append_limit_rows(model, state, settings, h, wanted, rows);
   append_wall_rows(model, situation.kin, scene.wall, settings, h, wanted, rows);
 }
@@ -272,7 +278,7 @@ void observe(const Model& model, const State& state, const Scene& scene, Contact
   update_positions(model, state.q, s.kin);
   update_velocities(model, state.qdot, s.kin);
   update_spline(model, s.kin.centre, s.segments);
-  find_contacts(s.segments, scene.contact, search, s.contact);
+  find_contacts(s.segments, scene.contact, closing_speed * scene.time.step, search, s.contact);
   s.penetration = std::max(0.0, -s.contact.least_gap);
   visit_wall_gaps(model, s.kin, scene.wall,
                   [&](int, double gap) { s.penetration = std::max(s.penetration, -gap); });

@@ -189,6 +189,18 @@ TEST_F(EnergyWatch, HoldsWhatTheIntegratorMakes) {
   EXPECT_EQ(warnings[0].find("the integrator made"), 0u) << warnings[0];
 }
 
+TEST_F(EnergyWatch, TakesNothingFromABodyAtRest) {
+  State state = rest_state(model);
+  Kinematics kin = kinematics(model, state);
+  EnergyLedger ledger = open_ledger(model, state, kin);
+  ledger.integrator_coriolis = 1;
+  Watch watch;
+  guard_energy(model, scene, state, kin, ledger, watch, warnings);
+  EXPECT_TRUE(state.qdot.isZero(0));
+  EXPECT_EQ(ledger.kinetic, 0);
+  EXPECT_EQ(warnings.size(), 1u);
+}
+
 TEST_F(EnergyWatch, OnlyWarnsWhereTheSceneAsksForIt) {
   EXPECT_GT(growth(EnergyAction::warn, 40), 1.1);
   EXPECT_EQ(warnings.size(), 1u);
