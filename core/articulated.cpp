@@ -45,9 +45,13 @@ Eigen::MatrixXd dense(const Model& model, const Kinematics& kin, const Operator&
   return h;
 }
 
-void ArticulatedFactor::factorise(const Model& model, const Kinematics& kin, const Operator& op) {
+void ArticulatedFactor::factorise(const Model& model, const Kinematics& kin, const Operator& op,
+                                  std::span<const HeldVelocity> held) {
   weighted_.resize(6, model.nv());
+  pivot_.resize(model.nv());
   inverse_pivot_.resize(model.nv());
+  held_.assign(held.begin(), held.end());
+  auto next = held_.rbegin();
   // Columns of eight fill a vector register; the last two rows are zero.
   Eigen::Matrix<double, 8, 6> articulated = Eigen::Matrix<double, 8, 6>::Zero();
   for (int b = model.body_count() - 1; b >= 0; --b) {
@@ -62,6 +66,12 @@ void ArticulatedFactor::factorise(const Model& model, const Kinematics& kin, con
                                 std::to_string(k) + " (pivot " + std::to_string(pivot) + ")");
       }
       weighted_.col(k) = u.head<6>();
+      pivot_[k] = pivot;
+      if (next != held_.rend() && next->dof == k) {
+        inverse_pivot_[k] = 0;
+        ++next;
+        continue;
+      }
       inverse_pivot_[k] = 1 / pivot;
       const Vector6d share = inverse_pivot_[k] * u.head<6>();
       for (int i = 0; i < 6; ++i) {
@@ -72,16 +82,25 @@ void ArticulatedFactor::factorise(const Model& model, const Kinematics& kin, con
 }
 
 void ArticulatedFactor::solve(const Model& model, const Kinematics& kin, const Matrix6Xd& wrench,
-                              const Eigen::VectorXd& joint, Eigen::VectorXd& v,
-                              Matrix6Xd& twist) const {
+                              const Eigen::VectorXd& joint, Eigen::VectorXd& v, Matrix6Xd& twist,
+                              Eigen::VectorXd& holding) const {
   v.resize(model.nv());
   twist.resize(6, model.body_count());
+  const auto count = static_cast<Eigen::Index>(held_.size());
+  holding.resize(count);
+  Eigen::Index next = count;
   Vector6d sum = Vector6d::Zero();
   for (int b = model.body_count() - 1; b >= 0; --b) {
     const Body& body = model.bodies[b];
     sum += wrench.col(b);
     for (int k = body.first_dof + body.dofs - 1; k >= body.first_dof; --k) {
-      v[k] = (joint[k] + kin.axis.col(k).dot(sum)) * inverse_pivot_[k];
+      const double force = joint[k] + kin.axis.col(k).dot(sum);
+      v[k] = force * inverse_pivot_[k];
+      if (next > 0 && held_[next - 1].dof == k) {
+        --next;
+        holding[next] = -force;
+        v[k] = held_[next].value;
+      }
       sum -= weighted_.col(k) * v[k];
     }
   }
@@ -89,7 +108,12 @@ void ArticulatedFactor::solve(const Model& model, const Kinematics& kin, const M
   for (int b = 0; b < model.body_count(); ++b) {
     const Body& body = model.bodies[b];
     for (int k = body.first_dof; k < body.first_dof + body.dofs; ++k) {
-      v[k] -= weighted_.col(k).dot(moved) * inverse_pivot_[k];
+      const double force = weighted_.col(k).dot(moved);
+      v[k] -= force * inverse_pivot_[k];
+      if (next < count && held_[next].dof == k) {
+        holding[next] += force + pivot_[k] * v[k];
+        ++next;
+      }
       moved += kin.axis.col(k) * v[k];
     }
     twist.col(b) = moved;
@@ -99,9 +123,9 @@ void ArticulatedFactor::solve(const Model& model, const Kinematics& kin, const M
 Eigen::VectorXd ArticulatedFactor::solve(const Model& model, const Kinematics& kin,
                                          const Matrix6Xd& wrench,
                                          const Eigen::VectorXd& joint) const {
-  Eigen::VectorXd v;
+  Eigen::VectorXd v, holding;
   Matrix6Xd twist;
-  solve(model, kin, wrench, joint, v, twist);
+  solve(model, kin, wrench, joint, v, twist, holding);
   return v;
 }
 
@@ -117,6 +141,10 @@ void ArticulatedFactor::half_solve(const Model& model, const Kinematics& kin,
     }
     const Body& body = model.bodies[b];
     for (int k = body.first_dof + body.dofs - 1; k >= body.first_dof; --k) {
+      if (inverse_pivot_[k] == 0) {
+        y.row(k).head(columns.width_[k]).setZero();
+        continue;
+      }
       const double share = std::sqrt(inverse_pivot_[k]);
       const Vector6d axis = share * kin.axis.col(k);
       const Vector6d weighted = share * weighted_.col(k);

@@ -3,7 +3,7 @@
 namespace hagfish {
 
 void assemble_dual(const Model& model, const Kinematics& kin, const ArticulatedFactor& factor,
-                   const std::vector<Row>& rows, const Eigen::VectorXd& unconstrained,
+                   std::span<const Row> rows, const Eigen::VectorXd& base,
                    const Eigen::Matrix3Xd& centre_velocity, RowColumns& columns, BoxQp& qp) {
   const auto m = static_cast<Eigen::Index>(rows.size());
   columns.reset(model, m);
@@ -18,7 +18,7 @@ void assemble_dual(const Model& model, const Kinematics& kin, const ArticulatedF
     visit_forces(row, [&](int body, const Eigen::Vector3d& force) {
       columns.load(model, body, j, wrench_of_force(force, kin.centre_offset(body)));
     });
-    qp.b[j] = row.rhs - row_velocity(row, centre_velocity, unconstrained);
+    qp.b[j] = row.rhs - row_velocity(row, centre_velocity, base);
     qp.lower[j] = row.lower;
     qp.upper[j] = row.upper;
   }

@@ -1,7 +1,7 @@
 // A set of rows as the box QP in their multipliers: A = C H⁻¹ C', b = d - C q̇*.
 #pragma once
 
-#include <vector>
+#include <span>
 
 #include "core/articulated.hpp"
 #include "core/rows.hpp"
@@ -9,10 +9,10 @@
 
 namespace hagfish {
 
-/// The problem on `rows` (m): `factor` of H, `unconstrained` the velocity q̇* (nv), which moves the
-/// bodies' centres by `centre_velocity` (3 x N). `columns` is storage.
+/// The problem on `rows` (m): `factor` of H, `base` the velocity q̇* without their forces (nv),
+/// which moves the bodies' centres by `centre_velocity` (3 x N). `columns` is storage.
 void assemble_dual(const Model& model, const Kinematics& kin, const ArticulatedFactor& factor,
-                   const std::vector<Row>& rows, const Eigen::VectorXd& unconstrained,
+                   std::span<const Row> rows, const Eigen::VectorXd& base,
                    const Eigen::Matrix3Xd& centre_velocity, RowColumns& columns, BoxQp& qp);
 
 }  // namespace hagfish

@@ -49,8 +49,14 @@ std::string furthest_limit(const Model& model, const State& state) {
 }
 
 /// The rows whose forces work hardest against row i, at most three.
-std::string opponents(const Model& model, const StepSolution& step, const Eigen::MatrixXd& A,
+std::string opponents(const Model& model, const Kinematics& kin, const StepSolution& step,
                       Eigen::Index i) {
+  ArticulatedFactor factor;
+  factor.factorise(model, kin, step.system.op);
+  RowColumns columns;
+  BoxQp qp;
+  assemble_dual(model, kin, factor, step.rows, step.qdot, step.centre_velocity, columns, qp);
+  const Eigen::MatrixXd& A = qp.A;
   std::vector<std::pair<double, Eigen::Index>> effect;  // on the row's velocity
   for (Eigen::Index j = 0; j < A.rows(); ++j) {
     if (j != i && A(i, j) * step.lambda[j] < 0) {
@@ -153,8 +159,8 @@ void guard_energy(const Model& model, const Scene& scene, State& state, Kinemati
   ledger.largest = std::max(ledger.largest, ledger.kinetic + ledger.elastic);
 }
 
-void guard_cap(const Model& model, const Scene& scene, const StepSolution& step,
-               const Eigen::MatrixXd& A, double time, Watch& watch,
+void guard_cap(const Model& model, const Kinematics& kin, const Scene& scene,
+               const StepSolution& step, double time, Watch& watch,
                std::vector<std::string>& warnings) {
   std::array<double, 4> below;
   below.fill(time);
@@ -165,13 +171,15 @@ void guard_cap(const Model& model, const Scene& scene, const StepSolution& step,
     }
     const auto place = static_cast<std::size_t>(thigmotaxis_place(row));
     below[place] = watch.below_cap[place];
-    if (time - below[place] > scene.guard.capped_time) {
+    // Naming the opponents takes a factorisation: once.
+    if (time - below[place] > scene.guard.capped_time &&
+        !watch.told.test(static_cast<std::size_t>(StopCause::capped))) {
       report(
           StopCause::capped,
           fmt::format("{} has been at controller.cap = {:g} dyn for {:g} s and falls {:.3g} cm/s "
                       "short; held back most by {}; a lower speed or a higher cap would help",
                       row_name(model, row), scene.controller.cap, scene.guard.capped_time,
-                      -step.excess[i], opponents(model, step, A, i)),
+                      -step.excess[i], opponents(model, kin, step, i)),
           GuardAction::warn, watch, warnings);
     }
   }

@@ -41,9 +41,9 @@ void guard_energy(const Model& model, const Scene& scene, State& state, Kinemati
                   EnergyLedger& ledger, Watch& watch, std::vector<std::string>& warnings);
 
 /// A thigmotaxis row whose force has been at its cap for longer than the scene lets pass: warns and
-/// names the rows that hold back hardest. `A` is the matrix of the step's QP.
-void guard_cap(const Model& model, const Scene& scene, const StepSolution& step,
-               const Eigen::MatrixXd& A, double time, Watch& watch,
+/// names the rows that hold back hardest. `kin` is that of the step's start.
+void guard_cap(const Model& model, const Kinematics& kin, const Scene& scene,
+               const StepSolution& step, double time, Watch& watch,
                std::vector<std::string>& warnings);
 
 }  // namespace hagfish

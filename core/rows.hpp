@@ -33,6 +33,8 @@ struct Row {
   double rhs = 0;    ///< d, cm/s or rad/s
   double lower = 0;  ///< bounds on the multiplier λ, dyn s or dyn cm s
   double upper = std::numeric_limits<double>::infinity();
+  /// A unit row expected to bind: its velocity is held at `rhs`, and λ is what holds it.
+  bool held = false;
 };
 
 /// Calls `visit(body, force)` for each force (world, at the body's centre, per unit λ) that a row

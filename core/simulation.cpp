@@ -126,7 +126,7 @@ void take_step(const Model& model, const Scene& scene, BoxQpSolver& solver, Simu
   }
   const bool shortened = sees && end_where_strands_meet(model, scene, sim, record);
   finish_step(model, sim.situation, record.control, scene, sim.warm, sim.scratch, record.solution);
-  guard_cap(model, scene, record.solution, sim.scratch.qp.A, record.time, sim.watch,
+  guard_cap(model, sim.situation.kin, scene, record.solution, record.time, sim.watch,
             record.warnings);
   guard_state(model, record.state, record.situation, record.crossing, scene, sim.watch,
               record.warnings);

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 
 namespace hagfish {
@@ -17,10 +18,10 @@ constexpr double lazy_tolerance = 1e-8;
 /// Pairs of segments that are no minimum of the gap are watched where they could close it in a step
 /// at this speed, cm/s: next to a minimum, strands close slower than there.
 constexpr double closing_speed = 1;
+/// A limit's joint is held where its last multiplier would have to fall this much faster than it
+/// last changed to vanish. Only speed depends on it: what had to pull is let go.
+constexpr double steadiness = 2;
 constexpr double nowhere = -std::numeric_limits<double>::infinity();
-/// λ, rows brought to unit diagonal, counts as a force above this share of the largest.
-constexpr double active_share = 1e-6;
-
 /// The unilateral rows that are near to binding. Pairs of segments that are no minimum of the gap
 /// count only where they overlap or the wanted velocity makes them.
 void append_unilateral_rows(const Model& model, const State& state, const Situation& situation,
@@ -35,45 +36,35 @@ void append_unilateral_rows(const Model& model, const State& state, const Situat
   append_wall_rows(model, situation.kin, scene.wall, settings, h, wanted, rows);
 }
 
-/// Eqs. 7 and 8: f = C'λ / h, by kind of row.
-void sum_forces(const Model& model, const Kinematics& kin, double h, StepScratch& scratch,
-                StepSolution& step) {
-  const auto of_kind = [&](RowKind kind, Eigen::VectorXd& force) {
-    scratch.wrench.setZero(6, model.body_count());
-    scratch.joint.setZero(model.nv());
-    bool any = false;
-    for (std::size_t i = 0; i < step.rows.size(); ++i) {
-      if (step.rows[i].kind == kind && step.lambda[i] != 0) {
-        add_row(step.rows[i], kin, step.lambda[i] / h, scratch.wrench, scratch.joint);
-        any = true;
-      }
-    }
-    if (any) {
-      generalised_force(model, kin, scratch.wrench, force);
-      force += scratch.joint;
-    } else {
-      force.setZero(model.nv());
-    }
-  };
-  of_kind(RowKind::head, step.force.head);
-  of_kind(RowKind::limit, step.force.limit);
-  of_kind(RowKind::contact, step.force.contact);
-  of_kind(RowKind::wall, step.force.wall);
-  of_kind(RowKind::thigmotaxis, step.force.thigmotaxis);
+/// Whether a row binds for all one can tell beforehand.
+bool surely_binds(const Row& row, const WarmStart& warm) {
+  if (row.kind == RowKind::head) {
+    return true;
+  }
+  const WarmStart::Kept* kept = row.kind == RowKind::limit ? warm.find(row.id) : nullptr;
+  return kept != nullptr && kept->lambda > steadiness * std::abs(kept->change);
 }
 
-/// q̇ = H⁻¹ (g + C'λ), and the bodies' twists.
-void set_velocity(const Model& model, const Kinematics& kin, StepScratch& scratch,
-                  StepSolution& step) {
-  scratch.wrench = step.system.wrench;
-  scratch.joint = step.system.joint;
-  for (std::size_t i = 0; i < step.rows.size(); ++i) {
-    if (step.lambda[i] != 0) {
-      add_row(step.rows[i], kin, step.lambda[i], scratch.wrench, scratch.joint);
+/// Marks the rows whose velocities are held.
+void hold_rows(const WarmStart& warm, std::vector<Row>& rows) {
+  int last = -1;  // of a joint's two limits, which follow each other, one at most
+  for (Row& row : rows) {
+    row.held = surely_binds(row, warm) && row.dof != last;
+    last = row.held ? row.dof : last;
+  }
+}
+
+/// Lets go of the held rows that `goes` tells; whether there were any.
+template <class Goes>
+bool let_go(StepSolution& step, Goes goes) {
+  bool any = false;
+  for (Eigen::Index i = 0; i < step.held; ++i) {
+    if (goes(i)) {
+      step.rows[i].held = false;
+      any = true;
     }
   }
-  scratch.factor.solve(model, kin, scratch.wrench, scratch.joint, step.qdot, step.twist);
-  centre_velocities(kin, step.twist, step.centre_velocity);
+  return any;
 }
 
 /// Names the rows that contradict each other; the active-set back end finds them where the one in
@@ -105,50 +96,65 @@ void set_velocity(const Model& model, const Kinematics& kin, StepScratch& scratc
                       "; another --qp or a smaller time.step would help");
 }
 
-/// Eq. 3 or Eq. 4 on the rows chosen, as one small problem in the multipliers.
-void solve_multipliers(const Model& model, const BoxQp& qp, BoxQpSolver& solver,
+/// Eq. 4 on the rows that are not held, as one small problem in the multipliers. False where those
+/// contradict the held ones.
+bool solve_multipliers(const Model& model, const BoxQp& qp, BoxQpSolver& solver,
                        StepScratch& scratch, StepSolution& step) {
-  const std::vector<Row>& rows = step.rows;
-  const bool bilateral = std::all_of(rows.begin(), rows.end(),
-                                     [](const Row& row) { return row.kind == RowKind::head; });
   BoxQpSolution& solution = scratch.solution;
-  if (bilateral) {
-    step.kind = SolveKind::kkt;
-    solution = solve_bilateral(qp.A, qp.b);
-  } else {
-    step.kind = SolveKind::qp;
-    const auto begin = std::chrono::steady_clock::now();
-    solver.solve(qp, scratch.start, solution);
-    step.qp_time += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  }
+  step.kind = SolveKind::qp;
+  const auto begin = std::chrono::steady_clock::now();
+  solver.solve(qp, scratch.start, solution);
+  step.qp_time += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   step.iterations += solution.iterations;
-  if (solution.status != SolveStatus::solved) {
-    fail(model, qp, rows, solution);
+  if (solution.status == SolveStatus::solved) {
+    step.lambda.tail(qp.b.size()) = solution.x;
+    return true;
   }
-  step.lambda = solution.x;
+  if (step.held == 0) {
+    fail(model, qp, step.rows, solution);
+  }
+  return false;
 }
 
-/// Eq. 1: H q̇* = M q̇0 + h f.
-void unconstrained_motion(const Model& model, const State& state, const Kinematics& kin,
-                          const TipForce& tip, double h, StepScratch& scratch, StepSolution& step) {
-  if (!state.q.allFinite() || !state.qdot.allFinite()) {
-    throw StepError(StopCause::non_finite, "non-finite state");
+/// q̇ = H⁻¹ (g + C'λ) with the λ of the rows that are not held; with it the bodies' twists and the λ
+/// of those that are.
+void set_velocity(const Model& model, const Kinematics& kin, StepScratch& scratch,
+                  StepSolution& step) {
+  scratch.wrench = step.system.wrench;
+  scratch.joint = step.system.joint;
+  for (auto i = static_cast<std::size_t>(step.held); i < step.rows.size(); ++i) {
+    if (step.lambda[i] != 0) {
+      add_row(step.rows[i], kin, step.lambda[i], scratch.wrench, scratch.joint);
+    }
   }
-  assemble_step_system(model, state, kin, tip, h, step.system);
+  scratch.factor.solve(model, kin, scratch.wrench, scratch.joint, step.qdot, step.twist,
+                       scratch.holding);
+  centre_velocities(kin, step.twist, step.centre_velocity);
+  for (Eigen::Index i = 0; i < step.held; ++i) {
+    step.lambda[i] = step.rows[i].sign * scratch.holding[i];
+  }
+}
+
+/// Eq. 1, H q̇* = M q̇0 + h f, or Eq. 3 with the rows that are held; they come first.
+void base_motion(const Model& model, const Kinematics& kin, StepScratch& scratch,
+                 StepSolution& step) {
+  scratch.held.clear();
+  for (Eigen::Index i = 0; i < step.held; ++i) {
+    const Row& row = step.rows[i];
+    scratch.held.push_back({row.dof, row.sign * row.rhs});
+  }
   try {
-    scratch.factor.factorise(model, kin, step.system.op);
+    scratch.factor.factorise(model, kin, step.system.op, scratch.held);
   } catch (const std::domain_error& error) {
     throw StepError(StopCause::non_finite, error.what());
   }
-  scratch.factor.solve(model, kin, step.system.wrench, step.system.joint, step.unconstrained,
-                       scratch.unconstrained_twist);
-  if (!step.unconstrained.allFinite()) {
+  step.lambda.setZero(static_cast<Eigen::Index>(step.rows.size()));
+  set_velocity(model, kin, scratch, step);
+  if (!step.qdot.allFinite()) {
     throw StepError(StopCause::non_finite, "non-finite unconstrained velocity");
   }
-  centre_velocities(kin, scratch.unconstrained_twist, scratch.unconstrained_centre_velocity);
-  step.qdot = step.unconstrained;
-  step.twist = scratch.unconstrained_twist;
-  step.centre_velocity = scratch.unconstrained_centre_velocity;
+  step.base = step.qdot;
+  scratch.base_centre_velocity = step.centre_velocity;
 }
 
 /// Takes in rows that were left out and that q̇ violates; whether there were any.
@@ -168,109 +174,69 @@ bool take_in_violated(const Model& model, const State& state, const Situation& s
   return any;
 }
 
-/// Sorts the rows by where along the body they end, the last first, which is what the columns of
-/// the dual problem like best; but bilateral ones before all others. With them the multipliers to
-/// start from.
+/// Sorts the rows: those held (and those of the head in any case) by dof, then the others by where
+/// along the body they end, the last first, which is what the columns of the dual problem like
+/// best. With them the multipliers to start from.
 void order_rows(const Model& model, const WarmStart& warm, StepScratch& scratch,
                 StepSolution& step) {
   const std::size_t m = step.rows.size();
   // Rows of the round before, if there was one, come first and are still in their places.
   const std::size_t solved = step.rounds > 0 ? static_cast<std::size_t>(step.lambda.size()) : 0;
   scratch.order.clear();
+  step.held = 0;
   for (std::size_t i = 0; i < m; ++i) {
     const Row& row = step.rows[i];
-    const bool bilateral = row.kind == RowKind::head;
-    scratch.order.emplace_back(bilateral ? -model.nv() - 1 : -leading_dofs(model, row), i);
+    step.held += row.held ? 1 : 0;
+    const bool in_front = row.held || row.kind == RowKind::head;
+    scratch.order.emplace_back(in_front ? row.dof - 2 * model.nv() : -leading_dofs(model, row), i);
   }
   std::ranges::sort(scratch.order);
   scratch.ordered.clear();
-  scratch.start.resize(static_cast<Eigen::Index>(m));
+  scratch.start.resize(static_cast<Eigen::Index>(m) - step.held);
   for (std::size_t k = 0; k < m; ++k) {
     const std::size_t i = scratch.order[k].second;
     scratch.ordered.push_back(step.rows[i]);
-    const double* kept = i < solved ? &step.lambda[i] : warm.find(step.rows[i].id);
-    scratch.start[k] = kept == nullptr ? 0 : *kept;
+    const Eigen::Index place = static_cast<Eigen::Index>(k) - step.held;
+    if (place >= 0) {
+      const WarmStart::Kept* kept = warm.find(step.rows[i].id);
+      scratch.start[place] = i < solved ? step.lambda[i] : (kept == nullptr ? 0 : kept->lambda);
+    }
   }
   std::swap(step.rows, scratch.ordered);
 }
 
-/// Eq. 3 or 4 on step.rows; rows left out come in as the answer violates them.
+/// Eq. 3 or 4 on step.rows; rows left out come in as the answer violates them, rows held are let go
+/// as it pulls at them. `anew`: nothing is known yet.
 void constrained_motion(const Model& model, const State& state, const Situation& situation,
-                        const Scene& scene, BoxQpSolver& solver, const WarmStart& warm,
+                        const Scene& scene, BoxQpSolver& solver, const WarmStart& warm, bool anew,
                         StepScratch& scratch, StepSolution& step) {
   const Kinematics& kin = situation.kin;
-  do {
+  for (bool again = true; again;) {
     order_rows(model, warm, scratch, step);
-    assemble_dual(model, kin, scratch.factor, step.rows, step.unconstrained,
-                  scratch.unconstrained_centre_velocity, scratch.columns, scratch.qp);
-    solve_multipliers(model, scratch.qp, solver, scratch, step);
     ++step.rounds;
-    set_velocity(model, kin, scratch, step);
-  } while (take_in_violated(model, state, situation, scene, scratch, step));
+    if (anew) {
+      base_motion(model, kin, scratch, step);
+    }
+    const auto others = std::span(step.rows).subspan(static_cast<std::size_t>(step.held));
+    if (!others.empty()) {
+      step.lambda.conservativeResize(static_cast<Eigen::Index>(step.rows.size()));
+      assemble_dual(model, kin, scratch.factor, others, step.base, scratch.base_centre_velocity,
+                    scratch.columns, scratch.qp);
+      if (!solve_multipliers(model, scratch.qp, solver, scratch, step)) {
+        anew = let_go(step, [](Eigen::Index) { return true; });
+        continue;
+      }
+      set_velocity(model, kin, scratch, step);
+    }
+    anew = let_go(step, [&](Eigen::Index i) { return step.lambda[i] < step.rows[i].lower; });
+    again = take_in_violated(model, state, situation, scene, scratch, step) || anew;
+  }
   if (!step.qdot.allFinite()) {
     throw StepError(StopCause::non_finite, "non-finite velocity");
   }
 }
 
-/// Forces and residuals on the primal side: q̇ against H, and the rows' excess C q̇ - d.
-void measure(const Model& model, const Kinematics& kin, double h, StepScratch& scratch,
-             StepSolution& step) {
-  const auto m = static_cast<Eigen::Index>(step.rows.size());
-  step.lambda.conservativeResize(m);
-  step.excess.resize(m);
-  for (Eigen::Index i = 0; i < m; ++i) {
-    step.excess[i] = row_velocity(step.rows[i], step.centre_velocity, step.qdot) - step.rows[i].rhs;
-  }
-  step.kkt = m > 0 ? kkt_residuals(scratch.qp, step.lambda, step.excess) : KktResiduals{};
-  sum_forces(model, kin, h, scratch, step);
-  scratch.impulse = h * step.force.head;
-  scratch.impulse += h * step.force.limit;
-  scratch.impulse += h * step.force.contact;
-  scratch.impulse += h * step.force.wall;
-  scratch.impulse += h * step.force.thigmotaxis;
-  scratch.joint = step.qdot - step.unconstrained;
-  multiply(model, kin, step.system.op, scratch.joint, scratch.wrench, scratch.change);
-  generalised_force(model, kin, step.system.wrench, scratch.joint);
-  scratch.joint += step.system.joint;  // H q̇*
-  // Over the largest momentum in the balance: forces may be nothing but rounding.
-  const double scale =
-      std::max({scratch.impulse.lpNorm<Eigen::Infinity>(), scratch.change.lpNorm<Eigen::Infinity>(),
-                scratch.joint.lpNorm<Eigen::Infinity>()});
-  scratch.change -= scratch.impulse;
-  step.stationarity = scale == 0 ? 0 : scratch.change.lpNorm<Eigen::Infinity>() / scale;
-}
-
-/// Counts the rows with a force and keeps their multipliers for the next step.
-void keep_active(StepScratch& scratch, StepSolution& step, WarmStart& warm) {
-  warm.clear();
-  step.active = 0;
-  if (step.lambda.size() == 0) {
-    return;
-  }
-  // Brought to one unit, rows of cm/s and rad/s compare.
-  scratch.scale.resize(step.lambda.size());
-  row_scale(scratch.qp.A, scratch.scale);
-  scratch.scale.array() *= step.lambda.array().abs();
-  const double least = active_share * scratch.scale.maxCoeff();
-  for (Eigen::Index i = 0; i < step.lambda.size(); ++i) {
-    if (scratch.scale[i] > least) {
-      ++step.active;
-      warm.add(step.rows[i].id, step.lambda[i]);
-    }
-  }
-  warm.sort();
-}
-
 }  // namespace
-
-void WarmStart::sort() { std::sort(entries_.begin(), entries_.end()); }
-
-const double* WarmStart::find(std::int64_t id) const {
-  const auto it =
-      std::lower_bound(entries_.begin(), entries_.end(), id,
-                       [](const auto& entry, std::int64_t wanted) { return entry.first < wanted; });
-  return it == entries_.end() || it->first != id ? nullptr : &it->second;
-}
 
 void observe(const Model& model, const State& state, const Scene& scene, ContactSearch& search,
              Situation& situation) {
@@ -320,29 +286,34 @@ void gather_rows(const Model& model, const State& state, const Situation& situat
 void begin_step(const Model& model, const State& state, const Situation& situation,
                 const Control& control, const Scene& scene, BoxQpSolver& solver,
                 const WarmStart& warm, StepScratch& scratch, StepSolution& step) {
+  if (!state.q.allFinite() || !state.qdot.allFinite()) {
+    throw StepError(StopCause::non_finite, "non-finite state");
+  }
+  const Kinematics& kin = situation.kin;
+  assemble_step_system(model, state, kin, control.tip, scene.time.step, step.system);
+  gather_rows(model, state, situation, control, scene, step.rows);
+  hold_rows(warm, step.rows);
   step.kind = SolveKind::linear;
   step.iterations = 0;
   step.rounds = 0;
   step.qp_time = 0;
-  unconstrained_motion(model, state, situation.kin, control.tip, scene.time.step, scratch, step);
-  gather_rows(model, state, situation, control, scene, step.rows);
-  if (!step.rows.empty() || take_in_violated(model, state, situation, scene, scratch, step)) {
-    constrained_motion(model, state, situation, scene, solver, warm, scratch, step);
+  step.held = 0;
+  bool anew = true;
+  if (step.rows.empty()) {
+    base_motion(model, kin, scratch, step);
+    if (!take_in_violated(model, state, situation, scene, scratch, step)) {
+      return;
+    }
+    anew = false;
   }
+  step.kind = SolveKind::kkt;
+  constrained_motion(model, state, situation, scene, solver, warm, anew, scratch, step);
 }
 
 void resume_step(const Model& model, const State& state, const Situation& situation,
                  const Scene& scene, BoxQpSolver& solver, const WarmStart& warm,
                  StepScratch& scratch, StepSolution& step) {
-  constrained_motion(model, state, situation, scene, solver, warm, scratch, step);
-}
-
-void finish_step(const Model& model, const Situation& situation, const Control& control,
-                 const Scene& scene, WarmStart& warm, StepScratch& scratch, StepSolution& step) {
-  measure(model, situation.kin, scene.time.step, scratch, step);
-  keep_active(scratch, step, warm);
-  const int last = model.body_count() - 1;
-  step.tip = control.tip.value - control.tip.rate * step.centre_velocity.col(last);
+  constrained_motion(model, state, situation, scene, solver, warm, false, scratch, step);
 }
 
 void solve_step(const Model& model, const State& state, const Situation& situation,

@@ -12,6 +12,7 @@
 #include "core/dynamics.hpp"
 #include "core/rows.hpp"
 #include "core/step_error.hpp"
+#include "core/warm_start.hpp"
 #include "solvers/box_qp.hpp"
 
 namespace hagfish {
@@ -40,22 +41,8 @@ struct Control {
   std::vector<ThigmotaxisCommand> thigmotaxis;  ///< none, or first and last contact
 };
 
+/// Eq. 1, Eq. 3 (with limits that surely bind as bilateral rows too) or Eq. 4.
 enum class SolveKind : std::uint8_t { linear, kkt, qp };
-
-/// Multipliers of the last step by row id, for warm starts.
-class WarmStart {
- public:
-  void clear() { entries_.clear(); }
-  /// Ids may come in any order, once each; sort() before the next look.
-  void add(std::int64_t id, double lambda) { entries_.emplace_back(id, lambda); }
-  void sort();
-  /// The multiplier kept for a row, or null.
-  const double* find(std::int64_t id) const;
-  std::size_t size() const { return entries_.size(); }
-
- private:
-  std::vector<std::pair<std::int64_t, double>> entries_;
-};
 
 /// Multiplier forces C'λ / h by kind of row (paper, Eqs. 7 and 8), generalised, nv each.
 struct ConstraintForces {
@@ -64,32 +51,35 @@ struct ConstraintForces {
 };
 
 struct StepSolution {
-  Eigen::VectorXd unconstrained;     ///< q̇*, nv
+  Eigen::VectorXd base;              ///< q̇ with the held rows' forces, but no others, nv
   Eigen::VectorXd qdot;              ///< new velocity, nv
   Matrix6Xd twist;                   ///< of the bodies at it, 6 x N
   Eigen::Matrix3Xd centre_velocity;  ///< of the bodies' centres at it, 3 x N, cm/s
   ConstraintForces force;
   Eigen::Vector3d tip = Eigen::Vector3d::Zero();  ///< tip force as applied, dyn, world
   SolveKind kind = SolveKind::linear;
-  std::vector<Row> rows;   ///< rows that entered the problem, bilateral, then from the tail on
+  std::vector<Row> rows;   ///< rows that entered the problem: held, then from the tail on
+  Eigen::Index held = 0;   ///< how many of them are held; the others are the QP's
   Eigen::VectorXd lambda;  ///< their multipliers, dyn s or dyn cm s
   Eigen::VectorXd excess;  ///< C q̇ - d of each row at the solution, cm/s or rad/s
   int active = 0;          ///< rows with a force
   int iterations = 0;      ///< of the back end, all rounds together
-  int rounds = 0;          ///< problems solved: rows left out at first and found violated come in
-  double stationarity =
-      0;  ///< |H (q̇ - q̇*) - C'λ| over the largest of these and |H q̇*|, infinity norms
-  KktResiduals kkt;
-  double qp_time = 0;  ///< s spent in the QP back end
-  StepSystem system;   ///< Eq. 1 as assembled
+  /// Problems solved: rows left out at first and found violated come in, rows held that would have
+  /// to pull are let go.
+  int rounds = 0;
+  double stationarity = 0;  ///< |H q̇ - g - C'λ| over the largest of these three, infinity norms
+  KktResiduals kkt;         ///< of the rows that are not held; those that are hold exactly
+  double qp_time = 0;       ///< s spent in the QP back end
+  StepSystem system;        ///< Eq. 1 as assembled
 };
 
 /// Storage that a step needs on the way and keeps for the next: with it, nothing is allocated once
 /// all has grown to size.
 struct StepScratch {
+  std::vector<HeldVelocity> held;
   ArticulatedFactor factor;
-  Matrix6Xd unconstrained_twist;                   ///< 6 x N
-  Eigen::Matrix3Xd unconstrained_centre_velocity;  ///< 3 x N, cm/s
+  Eigen::VectorXd holding;                         ///< what holds the held
+  Eigen::Matrix3Xd base_centre_velocity;           ///< 3 x N, cm/s
   std::vector<Row> violated;                       ///< rows that the last answer violates
   std::vector<std::pair<int, std::size_t>> order;  ///< of the rows: where they end, which
   std::vector<Row> ordered;                        ///< storage for them

@@ -19,8 +19,9 @@ class Recorder {
   Recorder(const RecordQpOptions& options, const Model& model, QpSetWriter& set)
       : options_(options), model_(model), set_(set) {}
 
-  /// What `solver` was last given, if it was given anything in this step.
-  void take(const StepRecord& record, const RememberingSolver& solver) {
+  /// What `solver` was last given, if it was given anything in this step; `warm` as the step found
+  /// it.
+  void take(const StepRecord& record, const WarmStart& warm, const RememberingSolver& solver) {
     if (record.solution.kind != SolveKind::qp || record.step % options_.every != 0) {
       return;
     }
@@ -32,7 +33,7 @@ class Recorder {
         ++left_out_;
         return;
       }
-      to_primal(model_, record, qp);
+      to_primal(model_, record, warm, qp);
     }
     // Consecutive steps share a number.
     sequence_ += set_.size() > 0 && record.step != last_ + 1 ? 1 : 0;
@@ -66,8 +67,9 @@ int record_qp(const RecordQpOptions& options) {
   Simulation sim = start(model, scene);
   while (failure.empty() && !finished(sim, scene)) {
     try {
+      const WarmStart warm = sim.warm;
       const StepRecord record = take_step(model, scene, solver, sim);
-      recorder.take(record, solver);
+      recorder.take(record, warm, solver);
       progress.show(record);
     } catch (const StepError& error) {
       failure =

@@ -38,14 +38,14 @@ bool at_cap(const StepSolution& solution) {
   return false;
 }
 
-void to_primal(const Model& model, const StepRecord& record, StoredQp& qp) {
+void to_primal(const Model& model, const StepRecord& record, const WarmStart& warm, StoredQp& qp) {
   const Kinematics& kin = record.situation.kin;
   const StepSystem& system = record.solution.system;
   const std::vector<Row>& rows = record.solution.rows;
   PrimalQp primal;
   primal.H = dense(model, kin, system.op);
   primal.g = generalised_force(model, kin, system.wrench) + system.joint;
-  Eigen::VectorXd start(qp.start.size());
+  qp.start.resize(static_cast<Eigen::Index>(rows.size()));
   Eigen::Index filled = 0;
   const auto fill = [&](bool bilateral, Eigen::MatrixXd& C, Eigen::VectorXd& d) {
     const auto of_kind = [&](const Row& row) { return std::isinf(row.lower) == bilateral; };
@@ -57,14 +57,14 @@ void to_primal(const Model& model, const StepRecord& record, StoredQp& qp) {
       if (of_kind(rows[i])) {
         C.row(k) = dense_row(model, kin, rows[i]).transpose();
         d[k++] = rows[i].rhs;
-        start[filled++] = qp.start[static_cast<Eigen::Index>(i)];
+        const WarmStart::Kept* kept = warm.find(rows[i].id);
+        qp.start[filled++] = kept == nullptr ? 0 : kept->lambda;
       }
     }
   };
   fill(true, primal.G, primal.e);
   fill(false, primal.C, primal.d);
   primal.cap = Eigen::VectorXd::Constant(primal.d.size(), std::numeric_limits<double>::infinity());
-  qp.start = start;
   qp.primal = std::move(primal);
 }
 

@@ -29,9 +29,9 @@ class RememberingSolver final : public BoxQpSolver {
 /// solution then, and else the same.
 bool at_cap(const StepSolution& solution);
 
-/// Gives `qp`, the last box problem of the step, the form that it has in the paper's Eq. 4, with
-/// soft rows as hard ones: H and g dense in q̇, bilateral rows in G and e, all others in C and d.
-/// Reorders qp.start accordingly.
-void to_primal(const Model& model, const StepRecord& record, StoredQp& qp);
+/// The QP of the step as the paper's Eq. 4 has it, with soft rows as hard ones: H and g dense in q̇,
+/// bilateral rows in G and e, all others in C and d, held ones too. qp.start is what `warm`, as the
+/// step found it, keeps of their multipliers.
+void to_primal(const Model& model, const StepRecord& record, const WarmStart& warm, StoredQp& qp);
 
 }  // namespace hagfish

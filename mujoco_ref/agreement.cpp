@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "core/dual_problem.hpp"
 #include "core/dynamics.hpp"
 #include "core/kinematics.hpp"
-#include "core/rows.hpp"
 #include "mujoco_ref/mirror.hpp"
 
 namespace hagfish {
@@ -42,25 +40,13 @@ Dynamics core_dynamics(const Model& model, const State& state, const Kinematics&
   }
   const Matrix6Xd wrench = gravity_wrench(model, kin) - bias_wrench(model, kin);
   Dynamics dynamics{dense(model, kin, op), -(generalised_force(model, kin, wrench) + joint), {}};
-  ArticulatedFactor factor;
-  factor.factorise(model, kin, op);
-  dynamics.acceleration = factor.solve(model, kin, wrench, joint);
-  if (head == Head::clamped) {
-    // Eq. 3 for accelerations: the head is where the clamp wants it, so that e = 0.
-    std::vector<Row> rows;
-    append_head_rows(state, {}, 1, rows);
-    RowColumns columns;
-    BoxQp qp;
-    assemble_dual(model, kin, factor, rows, dynamics.acceleration,
-                  centre_velocities(kin, body_twists(model, kin, dynamics.acceleration)), columns,
-                  qp);
-    const Eigen::VectorXd lambda = solve_bilateral(qp.A, qp.b).x;
-    Matrix6Xd clamped_wrench = wrench;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      add_row(rows[i], kin, lambda[i], clamped_wrench, joint);
-    }
-    dynamics.acceleration = factor.solve(model, kin, clamped_wrench, joint);
+  std::vector<HeldVelocity> held;  // Eq. 3 for accelerations: the clamped head has none
+  for (int k = 0; head == Head::clamped && k < root_dofs; ++k) {
+    held.push_back({k, 0});
   }
+  ArticulatedFactor factor;
+  factor.factorise(model, kin, op, held);
+  dynamics.acceleration = factor.solve(model, kin, wrench, joint);
   return dynamics;
 }
 

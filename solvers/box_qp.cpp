@@ -6,7 +6,6 @@
 #include <stdexcept>
 
 #include "solvers/active_set.hpp"
-#include "solvers/free_rows.hpp"
 #include "solvers/ipopt_box_qp.hpp"
 
 namespace hagfish {
@@ -86,7 +85,8 @@ namespace {
 
 /// `gradient(i)` is w_i.
 template <class Gradient>
-KktResiduals residuals(const BoxQp& qp, const Eigen::VectorXd& x, const Gradient& gradient) {
+KktResiduals residuals(const BoxQp& qp, const Eigen::Ref<const Eigen::VectorXd>& x,
+                       const Gradient& gradient) {
   KktResiduals r;
   const RowScale s(qp.A);
   const double beta = rhs_scale(qp);
@@ -112,11 +112,12 @@ KktResiduals residuals(const BoxQp& qp, const Eigen::VectorXd& x, const Gradient
 
 }  // namespace
 
-KktResiduals kkt_residuals(const BoxQp& qp, const Eigen::VectorXd& x) {
+KktResiduals kkt_residuals(const BoxQp& qp, const Eigen::Ref<const Eigen::VectorXd>& x) {
   return residuals(qp, x, [&](Eigen::Index i) { return qp.A.col(i).dot(x) - qp.b[i]; });
 }
 
-KktResiduals kkt_residuals(const BoxQp& qp, const Eigen::VectorXd& x, const Eigen::VectorXd& w) {
+KktResiduals kkt_residuals(const BoxQp& qp, const Eigen::Ref<const Eigen::VectorXd>& x,
+                           const Eigen::Ref<const Eigen::VectorXd>& w) {
   return residuals(qp, x, [&](Eigen::Index i) { return w[i]; });
 }
 
@@ -130,19 +131,6 @@ std::unique_ptr<BoxQpSolver> make_box_qp_solver(const std::string& name) {
     return std::make_unique<ActiveSetBoxQp>();
   }
   throw std::invalid_argument("unknown QP back end '" + name + "' (there are: ipopt, active-set)");
-}
-
-BoxQpSolution solve_bilateral(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
-  BoxQpSolution solution;
-  if (b.size() == 0) {
-    solution.status = SolveStatus::solved;
-    return solution;
-  }
-  const SemidefiniteFactor factor(A);
-  solution.x = factor.solve(b);
-  solution.iterations = 1;
-  solution.status = factor.meets(solution.x, b) ? SolveStatus::solved : SolveStatus::infeasible;
-  return solution;
 }
 
 }  // namespace hagfish

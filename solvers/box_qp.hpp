@@ -61,10 +61,11 @@ struct KktResiduals {
 };
 
 /// Residuals of any x against the problem; knows no back end. Infinite where x or w is not finite.
-KktResiduals kkt_residuals(const BoxQp& qp, const Eigen::VectorXd& x);
+KktResiduals kkt_residuals(const BoxQp& qp, const Eigen::Ref<const Eigen::VectorXd>& x);
 
 /// The same from w = C v - d as measured on the primal side instead of A x - b.
-KktResiduals kkt_residuals(const BoxQp& qp, const Eigen::VectorXd& x, const Eigen::VectorXd& w);
+KktResiduals kkt_residuals(const BoxQp& qp, const Eigen::Ref<const Eigen::VectorXd>& x,
+                           const Eigen::Ref<const Eigen::VectorXd>& w);
 
 /// A back end. Solvers keep settings and scratch, never results: the same problem and start give
 /// the same answer.
@@ -86,10 +87,5 @@ std::vector<std::string> box_qp_solver_names();
 
 /// Throws std::invalid_argument naming the known back ends where `name` is none of them.
 std::unique_ptr<BoxQpSolver> make_box_qp_solver(const std::string& name);
-
-/// The all-free limit l = -inf, u = inf (paper, Eq. 3 after elimination of q̇): A x = b, by a
-/// rank-revealing factorisation; redundant rows share their force. Status infeasible where
-/// A x = b has no solution to rounding (1e-9 of b).
-BoxQpSolution solve_bilateral(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
 
 }  // namespace hagfish

@@ -7,6 +7,7 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <span>
 
 #include "core/build_info.hpp"
 #include "core/dual_problem.hpp"
@@ -114,9 +115,10 @@ void add_core_parts(const std::shared_ptr<Start>& start) {
     StepSystem& system = p.record.solution.system;
     assemble_step_system(p.start->model, p.record.state, kin, p.record.control.tip,
                          p.start->scene.time.step, system);
-    p.sim.scratch.factor.factorise(p.start->model, kin, system.op);
-    p.sim.scratch.factor.solve(p.start->model, kin, system.wrench, system.joint,
-                               p.record.solution.unconstrained, p.sim.scratch.unconstrained_twist);
+    StepScratch& scratch = p.sim.scratch;
+    scratch.factor.factorise(p.start->model, kin, system.op, scratch.held);
+    scratch.factor.solve(p.start->model, kin, system.wrench, system.joint, p.record.solution.base,
+                         p.record.solution.twist, scratch.holding);
   });
   part("contact", [](Parts& p) {  // to and fro, as a search saves its work where nothing moves
     p.pose = 1 - p.pose;
@@ -128,10 +130,10 @@ void add_core_parts(const std::shared_ptr<Start>& start) {
                 p.start->scene, p.rows);
   });
   part("dual", [](Parts& p) {
-    const Situation& now = p.record.situation;
-    const Eigen::VectorXd& unconstrained = p.record.solution.unconstrained;
-    assemble_dual(p.start->model, now.kin, p.sim.scratch.factor, p.record.solution.rows,
-                  unconstrained, p.sim.scratch.unconstrained_centre_velocity, p.columns, p.qp);
+    const StepSolution& step = p.record.solution;
+    assemble_dual(p.start->model, p.record.situation.kin, p.sim.scratch.factor,
+                  std::span(step.rows).subspan(static_cast<std::size_t>(step.held)), step.base,
+                  p.sim.scratch.base_centre_velocity, p.columns, p.qp);
   });
   for (const std::string& name : box_qp_solver_names()) {
     const std::shared_ptr<BoxQpSolver> solver = make_box_qp_solver(name);

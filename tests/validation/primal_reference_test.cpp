@@ -37,9 +37,9 @@ PrimalQp equation_4(const Model& model, const Scene& scene, const StepRecord& re
     rows.insert(rows.end(), more.begin(), more.end());
   }
   const Eigen::Matrix3Xd centre_velocity =
-      centre_velocities(now.kin, body_twists(model, now.kin, record.solution.unconstrained));
+      centre_velocities(now.kin, body_twists(model, now.kin, record.solution.base));
   std::erase_if(rows, [&](const Row& row) {
-    return row_velocity(row, centre_velocity, record.solution.unconstrained) - row.rhs > far;
+    return row_velocity(row, centre_velocity, record.solution.base) - row.rhs > far;
   });
   const auto rhs = [](const std::vector<Row>& of) {
     Eigen::VectorXd d(of.size());

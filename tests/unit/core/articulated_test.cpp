@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <stdexcept>
 #include <string>
 
@@ -133,6 +134,104 @@ TEST(Articulated, HalfSolvesOfManyColumnsMultiplyToTheWhole) {
   EXPECT_LT(
       (scale.asDiagonal() * (product - expected) * scale.asDiagonal()).lpNorm<Eigen::Infinity>(),
       1e-10);
+}
+
+/// Every third velocity held, and the first six where the head is.
+std::vector<HeldVelocity> some_held(Random& random, const Model& model, bool head) {
+  std::vector<HeldVelocity> held;
+  for (int k = head ? 0 : root_dofs; k < model.nv(); ++k) {
+    if (k < root_dofs || k % 3 == 0) {
+      held.push_back({k, random_entries(random, 1)[0]});
+    }
+  }
+  return held;
+}
+
+/// What is left of H where velocities are held: their rows and columns out, 1 on the diagonal.
+Eigen::MatrixXd without(Eigen::MatrixXd h, const std::vector<HeldVelocity>& held) {
+  for (const HeldVelocity& velocity : held) {
+    h.row(velocity.dof).setZero();
+    h.col(velocity.dof).setZero();
+    h(velocity.dof, velocity.dof) = 1;
+  }
+  return h;
+}
+
+TEST(Articulated, HoldsVelocitiesAndTellsTheForces) {
+  Random random(37);
+  for (const int bodies : {1, 2, 3, 12}) {
+    for (const bool head : {true, false}) {
+      const Case c = random_case(random, bodies);
+      const std::vector<HeldVelocity> held = some_held(random, c.model, head);
+      ArticulatedFactor factor;
+      factor.factorise(c.model, c.kin, c.op, held);
+      const Eigen::VectorXd joint = random_entries(random, c.model.nv());
+      const Matrix6Xd wrench = random_entries(random, 6 * bodies).reshaped(6, bodies);
+      Eigen::VectorXd v, holding;
+      Matrix6Xd twist;
+      factor.solve(c.model, c.kin, wrench, joint, v, twist, holding);
+      const Eigen::MatrixXd h = definition(c.model, c.kin, c.op);
+      const Eigen::VectorXd right = generalised_force(c.model, c.kin, wrench) + joint;
+      Eigen::VectorXd given = Eigen::VectorXd::Zero(c.model.nv());
+      for (const HeldVelocity& velocity : held) given[velocity.dof] = velocity.value;
+      Eigen::VectorXd rest = right - h * given;
+      for (const HeldVelocity& velocity : held) rest[velocity.dof] = 0;
+      const Eigen::VectorXd expected = given + without(h, held).llt().solve(rest);
+      EXPECT_LT(relative_error(v, expected), 1e-10);  // the condition of H, as above
+      EXPECT_LT(relative_error(twist, body_twists(c.model, c.kin, v)), rounding);
+      const Eigen::VectorXd force = h * expected - right;
+      ASSERT_EQ(holding.size(), static_cast<Eigen::Index>(held.size()));
+      const double scale = force.lpNorm<Eigen::Infinity>() + right.lpNorm<Eigen::Infinity>();
+      for (std::size_t i = 0; i < held.size(); ++i) {
+        EXPECT_EQ(v[held[i].dof], held[i].value);
+        EXPECT_NEAR(holding[static_cast<Eigen::Index>(i)], force[held[i].dof], 1e-10 * scale);
+      }
+    }
+  }
+}
+
+TEST(Articulated, HeldVelocitiesDoNotAnswerInAHalfSolve) {
+  Random random(38);
+  const Case c = hagfish_case(random, 100);
+  const std::vector<HeldVelocity> held = some_held(random, c.model, true);
+  ArticulatedFactor factor;
+  factor.factorise(c.model, c.kin, c.op, held);
+  const int m = 21;
+  RowColumns columns;
+  columns.reset(c.model, m);
+  Eigen::MatrixXd right(c.model.nv(), m);
+  for (int j = 0; j < m; ++j) {
+    Matrix6Xd wrench = Matrix6Xd::Zero(6, 100);
+    const int body = 99 - 4 * j;
+    wrench.col(body) = random_entries(random, 6);
+    columns.load(c.model, body, j, wrench.col(body));
+    right.col(j) = generalised_force(c.model, c.kin, wrench);
+    columns.load_joint(7 * (j % 3), j, 1);  // the first and the last are held
+    right(7 * (j % 3), j) += 1;
+  }
+  for (const HeldVelocity& velocity : held) right.row(velocity.dof).setZero();
+  factor.half_solve(c.model, c.kin, columns);
+  Eigen::MatrixXd product;
+  columns.gram(product);
+  const Eigen::MatrixXd h = dense(c.model, c.kin, c.op);
+  const Eigen::MatrixXd expected = right.transpose() * without(h, held).llt().solve(right);
+  const Eigen::VectorXd scale = expected.diagonal().cwiseSqrt().cwiseInverse();
+  EXPECT_LT(
+      (scale.asDiagonal() * (product - expected) * scale.asDiagonal()).lpNorm<Eigen::Infinity>(),
+      1e-10);
+}
+
+TEST(Articulated, PivotIsTheInverseMobilityOverAFixedBase) {
+  Random random(39);
+  const Case c = random_case(random, 6);
+  ArticulatedFactor factor;
+  factor.factorise(c.model, c.kin, c.op);
+  const Eigen::MatrixXd h = definition(c.model, c.kin, c.op);
+  for (int k = 0; k < c.model.nv(); ++k) {
+    const Eigen::Index rest = c.model.nv() - k;
+    const Eigen::MatrixXd mobility = h.bottomRightCorner(rest, rest).inverse();
+    EXPECT_NEAR(factor.pivot(k) * mobility(0, 0), 1, 1e-10) << k;
+  }
 }
 
 TEST(Articulated, IsAccurateAtEveryBodyCount) {

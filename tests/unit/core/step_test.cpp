@@ -150,7 +150,7 @@ TEST(Step, IsLinearWhereNoRowCanBind) {
   EXPECT_EQ(step.kind, SolveKind::linear);
   EXPECT_TRUE(step.rows.empty());
   EXPECT_EQ(step.rounds, 0);
-  EXPECT_EQ(step.qdot, step.unconstrained);
+  EXPECT_EQ(step.qdot, step.base);
   const Kinematics kin = kinematics(s.model, s.state);
   const Eigen::VectorXd g = generalised_force(s.model, kin, step.system.wrench) + step.system.joint;
   // The residual of a solve is rounding of its terms.
@@ -165,7 +165,8 @@ TEST(Step, IsBilateralWhereOnlyTheHeadIsHeld) {
   const StepSolution step = s.solve();
   EXPECT_EQ(step.kind, SolveKind::kkt);
   ASSERT_EQ(step.rows.size(), 6U);
-  EXPECT_EQ(step.iterations, 1);
+  EXPECT_EQ(step.held, 6);
+  EXPECT_EQ(step.iterations, 0);
   EXPECT_EQ(step.qp_time, 0);
   expect_optimal(s, step);
   // The paper's Eq. 3, dense.
@@ -298,16 +299,16 @@ TEST(Step, WarmStartHoldsTheRowsThatPush) {
   ASSERT_GT(cold.active, 0);
   EXPECT_EQ(s.warm.size(), static_cast<std::size_t>(cold.active));
   for (std::size_t i = 0; i < cold.rows.size(); ++i) {
-    const double* kept = s.warm.find(cold.rows[i].id);
+    const WarmStart::Kept* kept = s.warm.find(cold.rows[i].id);
     if (kept != nullptr) {
-      EXPECT_EQ(*kept, cold.lambda[static_cast<Eigen::Index>(i)]);
+      EXPECT_EQ(kept->lambda, cold.lambda[static_cast<Eigen::Index>(i)]);
     }
   }
   // The answer does not depend on the guess: solver tolerance.
   const StepSolution warm = s.solve();
   EXPECT_LT(relative_error(warm.qdot, cold.qdot), 1e-7);
   s.warm.add(12345, 1e9);  // a row that is no more
-  s.warm.sort();
+  s.warm.end();
   EXPECT_LT(relative_error(s.solve().qdot, cold.qdot), 1e-7);
   EXPECT_EQ(s.warm.find(12345), nullptr);
 }
@@ -362,6 +363,75 @@ TEST(Step, LeavingRowsOutChangesNothing) {
     EXPECT_LT(relative_error(step.qdot, all_rows_in(s)), 1e-8) << seed;
     expect_optimal(s, step);
   }
+}
+
+/// A warm start in which these limits have pushed as hard for two steps.
+WarmStart steady(const std::vector<Row>& rows) {
+  WarmStart warm;
+  for (int k = 0; k < 2; ++k) {
+    warm.begin();
+    for (const Row& row : rows) {
+      if (row.kind == RowKind::limit) warm.add(row.id, 1);
+    }
+    warm.end();
+  }
+  return warm;
+}
+
+TEST(Step, HoldsLimitsThatPushSteadily) {
+  Stage s = knotted(106, 1);
+  int held = 0;
+  for (int k = 0; k < 20; ++k) {
+    SCOPED_TRACE(k);
+    const StepSolution step = s.solve();
+    expect_optimal(s, step);
+    EXPECT_LT(relative_error(step.qdot, all_rows_in(s)), 1e-7);  // solver tolerance
+    for (std::size_t i = 0; i < step.rows.size(); ++i) {
+      EXPECT_EQ(step.rows[i].held, static_cast<Eigen::Index>(i) < step.held);
+      if (step.rows[i].held) {
+        EXPECT_EQ(step.excess[static_cast<Eigen::Index>(i)], 0) << "held exactly";
+        held += step.rows[i].kind == RowKind::limit ? 1 : 0;
+      }
+    }
+    s.state.qdot = step.qdot;
+    s.state.q = advance(s.state.q, step.qdot, s.scene.time.step);
+  }
+  EXPECT_GT(held, 20);
+}
+
+TEST(Step, LetsGoOfHeldLimitsThatWouldHaveToPull) {
+  Stage s = knotted(107, 20);
+  s.scene.time.step = 0.02;  // limits are in reach
+  const StepSolution cold = s.solve();
+  const auto resting =
+      std::ranges::count_if(cold.rows, [](const Row& row) { return row.kind == RowKind::limit; });
+  ASSERT_GT(resting, 3);
+  s.warm = steady(cold.rows);
+  const StepSolution step = s.solve();
+  EXPECT_GT(step.rounds, 1);
+  EXPECT_LT(step.held, 6 + resting);
+  EXPECT_GT(step.held, 6);
+  expect_optimal(s, step);
+  EXPECT_LT(relative_error(step.qdot, cold.qdot), 1e-7);  // solver tolerance
+}
+
+TEST(Step, LetsGoOfHeldLimitsThatStandAgainstOtherRows) {
+  // With both hinges held the plate could not push the last body out.
+  Stage s = two_hinges(3);
+  s.model.hinges[0].upper = 2.5;
+  s.model.hinges[1].upper = 0.5;
+  s.state.q[7] = 2.5;
+  s.state.q[8] = 0.5;
+  s.scene.wall.present = true;
+  s.scene.wall.neck = 2;
+  const StepSolution cold = s.solve();
+  ASSERT_GT(cold.force.wall.norm(), 0);
+  s.warm = steady(s.rows());
+  const StepSolution step = s.solve();
+  EXPECT_GT(step.rounds, 1);
+  EXPECT_EQ(step.held, 0);
+  expect_optimal(s, step);
+  EXPECT_LT(relative_error(step.qdot, cold.qdot), 1e-7);  // solver tolerance
 }
 
 TEST(Step, CapsThigmotaxisForces) {

@@ -123,57 +123,5 @@ TEST(MakeBoxQpSolver, KnowsItsNames) {
   EXPECT_THROW(make_box_qp_solver("simplex"), std::invalid_argument);
 }
 
-TEST(SolveBilateral, MeetsIndependentRows) {
-  std::mt19937 random(2);
-  const KnownQp known = known_qp(random, 20, std::vector<Role>(12, Role::bilateral), 100);
-  const BoxQpSolution solution = solve_bilateral(known.dual.A, known.dual.b);
-  EXPECT_EQ(solution.status, SolveStatus::solved);
-  EXPECT_LE((solution.x - known.x).cwiseQuotient(known.x).lpNorm<Eigen::Infinity>(), 1e3 * rounding)
-      << "A has a condition of about 1e3";
-}
-
-TEST(SolveBilateral, SharesForceBetweenRedundantRows) {
-  // The same row in two units, c and 10 c: equal shares after scaling, x₀ c + x₁ 10 c = c.
-  Eigen::Matrix2d A;
-  A << 1, 10, 10, 100;
-  const BoxQpSolution solution = solve_bilateral(A, Eigen::Vector2d(1, 10));
-  EXPECT_EQ(solution.status, SolveStatus::solved);
-  EXPECT_NEAR(solution.x[0], 0.5, rounding);
-  EXPECT_NEAR(solution.x[1], 0.05, rounding);
-}
-
-TEST(SolveBilateral, TakesRoundingForRedundancy) {
-  // The last row is the sum of the others: A has rank 8 and, as an assembled one does,
-  // a pivot of some 1e-14 left over.
-  std::mt19937 random(19);
-  const KnownQp known = known_qp(random, 20, std::vector<Role>(8, Role::bilateral));
-  Eigen::MatrixXd combine = Eigen::MatrixXd::Ones(9, 8);
-  combine.topRows(8).setIdentity();
-  Eigen::MatrixXd A = combine * known.dual.A * combine.transpose();
-  A(8, 8) *= 1 + 1e-14;
-  const BoxQpSolution solution = solve_bilateral(A, combine * known.dual.b);
-  EXPECT_EQ(solution.status, SolveStatus::solved);
-  // The least solution has no part along what cannot be told: +1 on each row, -1 on their sum.
-  const Eigen::VectorXd scale = row_scale(A);
-  Eigen::VectorXd idle = scale;
-  idle[8] *= -1;
-  EXPECT_LE(std::abs(solution.x.cwiseProduct(scale).dot(idle)), 1e3 * rounding * idle.norm());
-}
-
-TEST(SolveBilateral, RefusesContradictoryRows) {
-  Eigen::Matrix2d A;
-  A << 1, 10, 10, 100;
-  EXPECT_EQ(solve_bilateral(A, Eigen::Vector2d(1, 10.001)).status, SolveStatus::infeasible);
-  EXPECT_EQ(solve_bilateral(Eigen::Matrix2d::Zero(), Eigen::Vector2d(0, 1)).status,
-            SolveStatus::infeasible);
-}
-
-TEST(SolveBilateral, TakesNothing) {
-  EXPECT_EQ(solve_bilateral(Eigen::MatrixXd(0, 0), Eigen::VectorXd(0)).status, SolveStatus::solved);
-  const BoxQpSolution rest = solve_bilateral(Eigen::Matrix2d::Identity(), Eigen::Vector2d::Zero());
-  EXPECT_EQ(rest.status, SolveStatus::solved);
-  EXPECT_TRUE(rest.x.isZero(0));
-}
-
 }  // namespace
 }  // namespace hagfish

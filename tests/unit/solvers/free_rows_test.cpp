@@ -10,6 +10,7 @@ namespace hagfish {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double rounding = 1e-13;  // of sums of a few terms of size 1 to 10
 
 TEST(BoundedPart, KeepsTheGradientOfTheRowsItKeeps) {
   std::mt19937 random(20);
@@ -22,22 +23,79 @@ TEST(BoundedPart, KeepsTheGradientOfTheRowsItKeeps) {
   const Eigen::VectorXd x = part.expand(y);
   EXPECT_EQ(part.restrict_to_reduced(x), y);
   const Eigen::VectorXd w = known.dual.A * x - known.dual.b;
-  // Rounding of sums of a few terms of size 1 to 10.
-  EXPECT_LE(w.head(2).lpNorm<Eigen::Infinity>(), 1e-13) << "free rows are met";
-  EXPECT_LE((part.reduced().A * y - part.reduced().b - w.tail(3)).lpNorm<Eigen::Infinity>(), 1e-13);
+  EXPECT_LE(w.head(2).lpNorm<Eigen::Infinity>(), rounding) << "free rows are met";
+  EXPECT_LE((part.reduced().A * y - part.reduced().b - w.tail(3)).lpNorm<Eigen::Infinity>(),
+            rounding);
 }
 
 TEST(BoundedPart, LeavesOutRowsWithoutRoomOrMotion) {
   BoxQp qp;
-  qp.A = Eigen::Vector3d(1, 2, 0).asDiagonal();
-  qp.b = Eigen::Vector3d(1, 1, -1);
-  qp.lower = Eigen::Vector3d::Zero();
-  qp.upper = Eigen::Vector3d(infinity, 0, infinity);
+  qp.A = Eigen::MatrixXd::Zero(3, 3);
+  qp.A.diagonal() << 1, 2, 0;
+  qp.b = Eigen::VectorXd::Ones(3);
+  qp.b[2] = -1;
+  qp.lower = Eigen::VectorXd::Zero(3);
+  qp.upper = Eigen::VectorXd::Constant(3, infinity);
+  qp.upper[1] = 0;
   const BoundedPart part(qp);
   EXPECT_TRUE(part.consistent());
   ASSERT_EQ(part.reduced().b.size(), 1);
   EXPECT_EQ(part.expand(Eigen::VectorXd::Constant(1, 5)),
             Eigen::VectorXd(Eigen::Vector3d(5, 0, 0)));
+}
+
+TEST(SemidefiniteFactor, MeetsIndependentRows) {
+  std::mt19937 random(2);
+  const KnownQp known = known_qp(random, 20, std::vector<Role>(12, Role::bilateral), 100);
+  const SemidefiniteFactor factor(known.dual.A);
+  const Eigen::VectorXd x = factor.solve(known.dual.b);
+  EXPECT_TRUE(factor.meets(x, known.dual.b));
+  EXPECT_LE((x - known.x).cwiseQuotient(known.x).lpNorm<Eigen::Infinity>(), 1e3 * rounding)
+      << "A has a condition of about 1e3";
+}
+
+TEST(SemidefiniteFactor, SharesForceBetweenRedundantRows) {
+  // The same row in two units, c and 10 c: equal shares after scaling, x₀ c + x₁ 10 c = c.
+  Eigen::Matrix2d A;
+  A << 1, 10, 10, 100;
+  const SemidefiniteFactor factor(A);
+  const Eigen::Vector2d b(1, 10);
+  const Eigen::VectorXd x = factor.solve(b);
+  EXPECT_TRUE(factor.meets(x, b));
+  EXPECT_NEAR(x[0], 0.5, rounding);
+  EXPECT_NEAR(x[1], 0.05, rounding);
+}
+
+TEST(SemidefiniteFactor, TakesRoundingForRedundancy) {
+  // The last row is the sum of the others: A has rank 8 and, as an assembled one does,
+  // a pivot of some 1e-14 left over.
+  std::mt19937 random(19);
+  const KnownQp known = known_qp(random, 20, std::vector<Role>(8, Role::bilateral));
+  Eigen::MatrixXd combine = Eigen::MatrixXd::Ones(9, 8);
+  combine.topRows(8).setIdentity();
+  Eigen::MatrixXd A = combine * known.dual.A * combine.transpose();
+  A(8, 8) *= 1 + 1e-14;
+  const SemidefiniteFactor factor(A);
+  const Eigen::VectorXd b = combine * known.dual.b;
+  const Eigen::VectorXd x = factor.solve(b);
+  EXPECT_TRUE(factor.meets(x, b));
+  // The least solution has no part along what cannot be told: +1 on each row, -1 on their sum.
+  const Eigen::VectorXd scale = row_scale(A);
+  Eigen::VectorXd idle = scale;
+  idle[8] *= -1;
+  EXPECT_LE(std::abs(x.cwiseProduct(scale).dot(idle)), 1e3 * rounding * idle.norm());
+}
+
+TEST(SemidefiniteFactor, TellsContradictoryRows) {
+  Eigen::Matrix2d A;
+  A << 1, 10, 10, 100;
+  const auto contradictory = [](const Eigen::Matrix2d& of, const Eigen::Vector2d& b) {
+    const SemidefiniteFactor factor(of);
+    return !factor.meets(factor.solve(b), b);
+  };
+  EXPECT_TRUE(contradictory(A, {1, 10.001}));
+  EXPECT_TRUE(contradictory(Eigen::Matrix2d::Zero(), {0, 1}));
+  EXPECT_FALSE(contradictory(Eigen::Matrix2d::Identity(), {0, 0}));
 }
 
 }  // namespace

@@ -1,0 +1,30 @@
+// What a step leaves for the next one to start from.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace hagfish {
+
+/// Multipliers of the last step by row id.
+class WarmStart {
+ public:
+  struct Kept {
+    std::int64_t id = 0;
+    double lambda = 0;  ///< dyn s or dyn cm s
+    double change = 0;  ///< since the step before, in which a row that had no force counts as 0
+  };
+  /// Forgets all but what the changes are taken from.
+  void begin();
+  /// Ids may come in any order, once each; end() before the next look.
+  void add(std::int64_t id, double lambda) { entries_.push_back({id, lambda, lambda}); }
+  void end();
+  /// What is kept of a row, or null.
+  const Kept* find(std::int64_t id) const;
+  std::size_t size() const { return entries_.size(); }
+
+ private:
+  std::vector<Kept> entries_, before_;  // by id
+};
+
+}  // namespace hagfish
