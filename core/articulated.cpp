@@ -7,23 +7,13 @@
 
 namespace hagfish {
 
-void multiply(const Model& model, const Kinematics& kin, const Operator& op,
-              const Eigen::VectorXd& v, Matrix6Xd& scratch, Eigen::VectorXd& product) {
-  body_twists(model, kin, v, scratch);
-  for (int b = 0; b < model.body_count(); ++b) {
-    const Vector6d twist = scratch.col(b);
-    scratch.col(b).noalias() = op.inertia[b] * twist;
-  }
-  generalised_force(model, kin, scratch, product);
-  product += op.diagonal.cwiseProduct(v);
-}
-
 Eigen::VectorXd multiply(const Model& model, const Kinematics& kin, const Operator& op,
                          const Eigen::VectorXd& v) {
-  Matrix6Xd scratch;
-  Eigen::VectorXd product;
-  multiply(model, kin, op, v, scratch, product);
-  return product;
+  Matrix6Xd twist = body_twists(model, kin, v);
+  for (int b = 0; b < model.body_count(); ++b) {
+    twist.col(b) = (op.inertia[b] * twist.col(b)).eval();
+  }
+  return generalised_force(model, kin, twist) + op.diagonal.cwiseProduct(v);
 }
 
 Eigen::MatrixXd dense(const Model& model, const Kinematics& kin, const Operator& op) {

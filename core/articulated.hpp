@@ -19,9 +19,7 @@ struct Operator {
   Eigen::VectorXd diagonal;       ///< δ >= 0, nv
 };
 
-/// H v in O(n); `scratch` is storage.
-void multiply(const Model& model, const Kinematics& kin, const Operator& op,
-              const Eigen::VectorXd& v, Matrix6Xd& scratch, Eigen::VectorXd& product);
+/// H v in O(n).
 Eigen::VectorXd multiply(const Model& model, const Kinematics& kin, const Operator& op,
                          const Eigen::VectorXd& v);
 

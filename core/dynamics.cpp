@@ -17,6 +17,36 @@ Vector6d about_reference(const Vector6d& wrench, const Eigen::Vector3d& offset) 
   return w;
 }
 
+/// A symmetric operator on the angular velocity and on the velocity of the body's centre.
+struct CentreOperator {
+  Eigen::Matrix3d angular, linear;
+};
+
+/// Water drag of one body, dyn cm s and dyn s / cm.
+CentreOperator drag_at_centre(const Model& model, const Kinematics& kin, int body) {
+  const double length = model.bodies[body].length;
+  const Eigen::Vector3d along = kin.rotation[body].col(0);
+  const Eigen::Matrix3d forward = along * along.transpose();
+  const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - forward;
+  // A rod that turns about its centre meets normal drag alone, at x times the rate: ∫ x² dx.
+  const double turning = model.drag.normal * length * length * length / 12;
+  return {turning * across,
+          length * model.drag.normal * across + length * model.drag.tangential * forward};
+}
+
+/// What inertia asks of one body at q̈ = 0, about its centre, from its `angular` inertia there.
+Vector6d bias_at_centre(const Model& model, const Kinematics& kin, const Eigen::Matrix3d& angular,
+                        int body) {
+  const Vector6d bias = kin.bias_twist.col(body);
+  const Eigen::Vector3d spin = kin.twist.col(body).head<3>();
+  const Eigen::Vector3d momentum = angular * spin;
+  const Eigen::Vector3d acceleration =
+      point_velocity(bias, kin.centre_offset(body)) + spin.cross(kin.centre_velocity.col(body));
+  Vector6d wrench;
+  wrench << angular * bias.head<3>() + spin.cross(momentum), model.bodies[body].mass * acceleration;
+  return wrench;
+}
+
 }  // namespace
 
 Matrix6d body_inertia(const Model& model, const Kinematics& kin, int body) {
@@ -31,17 +61,6 @@ std::vector<Matrix6d> body_inertias(const Model& model, const Kinematics& kin) {
     inertia[b] = body_inertia(model, kin, b);
   }
   return inertia;
-}
-
-CentreOperator drag_at_centre(const Model& model, const Kinematics& kin, int body) {
-  const double length = model.bodies[body].length;
-  const Eigen::Vector3d along = kin.rotation[body].col(0);
-  const Eigen::Matrix3d forward = along * along.transpose();
-  const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - forward;
-  // A rod that turns about its centre meets normal drag alone, at x times the rate: ∫ x² dx.
-  const double turning = model.drag.normal * length * length * length / 12;
-  return {turning * across,
-          length * model.drag.normal * across + length * model.drag.tangential * forward};
 }
 
 Matrix6d drag_operator(const Model& model, const Kinematics& kin, int body) {
@@ -68,18 +87,6 @@ double drag_power(const Model& model, const Kinematics& kin, int body, const Vec
                    model.drag.tangential * forward * forward);
 }
 
-Vector6d bias_at_centre(const Model& model, const Kinematics& kin, const Eigen::Matrix3d& angular,
-                        int body) {
-  const Vector6d bias = kin.bias_twist.col(body);
-  const Eigen::Vector3d spin = kin.twist.col(body).head<3>();
-  const Eigen::Vector3d momentum = angular * spin;
-  const Eigen::Vector3d acceleration =
-      point_velocity(bias, kin.centre_offset(body)) + spin.cross(kin.centre_velocity.col(body));
-  Vector6d wrench;
-  wrench << angular * bias.head<3>() + spin.cross(momentum), model.bodies[body].mass * acceleration;
-  return wrench;
-}
-
 Matrix6Xd bias_wrench(const Model& model, const Kinematics& kin) {
   Matrix6Xd wrench(6, kin.twist.cols());
   for (int b = 0; b < model.body_count(); ++b) {
@@ -89,14 +96,10 @@ Matrix6Xd bias_wrench(const Model& model, const Kinematics& kin) {
   return wrench;
 }
 
-Vector6d gravity_wrench(const Model& model, const Kinematics& kin, int body) {
-  return wrench_of_force(model.bodies[body].mass * model.gravity, kin.centre_offset(body));
-}
-
 Matrix6Xd gravity_wrench(const Model& model, const Kinematics& kin) {
   Matrix6Xd wrench(6, model.body_count());
   for (int b = 0; b < model.body_count(); ++b) {
-    wrench.col(b) = gravity_wrench(model, kin, b);
+    wrench.col(b) = wrench_of_force(model.bodies[b].mass * model.gravity, kin.centre_offset(b));
   }
   return wrench;
 }

@@ -18,16 +18,8 @@ namespace hagfish {
 Matrix6d body_inertia(const Model& model, const Kinematics& kin, int body);
 std::vector<Matrix6d> body_inertias(const Model& model, const Kinematics& kin);
 
-/// A symmetric operator on the angular velocity and on the velocity of the body's centre.
-struct CentreOperator {
-  Eigen::Matrix3d angular, linear;
-};
-
 /// Water drag of one body: normal and tangential drag per length (model.drag) integrated along it,
-/// dyn cm s and dyn s / cm. The drag is minus this times the velocities.
-CentreOperator drag_at_centre(const Model& model, const Kinematics& kin, int body);
-
-/// The same as an operator on the twist, about O.
+/// as an operator on the twist, about O. The drag is minus this times the twist.
 Matrix6d drag_operator(const Model& model, const Kinematics& kin, int body);
 
 /// Drag as a generalised force (nv) at velocities `v` (nv).
@@ -36,12 +28,7 @@ Eigen::VectorXd drag_force(const Model& model, const Kinematics& kin, const Eige
 /// M_m J̇ q̇ plus the gyroscopic wrench, per body: what inertia asks for at q̈ = 0 (6 x N).
 Matrix6Xd bias_wrench(const Model& model, const Kinematics& kin);
 
-/// The same of one body about its centre, from its `angular` inertia there, world axes.
-Vector6d bias_at_centre(const Model& model, const Kinematics& kin, const Eigen::Matrix3d& angular,
-                        int body);
-
 /// Gravity on each body (6 x N).
-Vector6d gravity_wrench(const Model& model, const Kinematics& kin, int body);
 Matrix6Xd gravity_wrench(const Model& model, const Kinematics& kin);
 
 /// Stiffness torque -k q at the angles of q (nv; zero at the root).
@@ -57,7 +44,7 @@ struct TipForce {
 /// One step's unconstrained problem H q̇* = M q̇0 + h f (paper, Eq. 1).
 struct StepSystem {
   Operator op;            ///< H = M + h D - h² K
-  Matrix6Xd bias;         ///< bias_at_centre of the bodies, 6 x N
+  Matrix6Xd bias;         ///< as bias_wrench, but with moments about the bodies' centres, 6 x N
   Matrix6Xd wrench;       ///< right-hand side, body part, 6 x N (times s)
   Eigen::VectorXd joint;  ///< right-hand side, joint part, nv (times s)
 };

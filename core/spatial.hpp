@@ -48,13 +48,6 @@ inline Vector6d cross_force(const Vector6d& twist, const Vector6d& f) {
   return r;
 }
 
-/// The matrix [a] with [a] b = a x b.
-inline Eigen::Matrix3d skew(const Eigen::Vector3d& a) {
-  Eigen::Matrix3d m;
-  m << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
-  return m;
-}
-
 /// Symmetric operator on twists of a symmetric 3 x 3 pair acting at `offset` from O: `angular` on
 /// the angular velocity and `linear` on the velocity of the point there. The inertia of a body at
 /// its centre (angular = I_c, linear = m 1) and linear drag have this form.

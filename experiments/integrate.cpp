@@ -109,22 +109,6 @@ void measure(const Method& method, const Model& model, const State& start, const
              {"1", "CPU time per simulated time of the steps alone; nan where it blew up"});
 }
 
-/// CPU time per step that the six rows which hold the head take in the core, s.
-double head_rows_cost(const Model& model, const State& start, const Measurement& settings) {
-  constexpr double h = 0.001;  // no matter: a smooth step costs the same at any
-  const int steps = static_cast<int>(std::lround(settings.duration / h));
-  const auto least = [&](Head head) {
-    double best = INFINITY;
-    for (int i = 0; i < settings.repeats; ++i) {
-      const double before = cpu_time();
-      core_rollout(model, start, head, h, steps);
-      best = std::min(best, cpu_time() - before);
-    }
-    return best / steps;
-  };
-  return least(Head::clamped) - least(Head::free);
-}
-
 Motion motion_called(const std::string& name) {
   std::string known;
   for (const Motion& motion : motions) {
@@ -167,10 +151,6 @@ int integrate(const IntegrateOptions& options) {
              {"cm", fmt::format("largest distance of a body centre at the end between RK4 at {:g} "
                                 "and {:g} s, the reference",
                                 h, h / 2)});
-  h5.group("/head_rows");
-  h5.numbers("/head_rows/cost",
-             Eigen::VectorXd::Constant(1, head_rows_cost(model, start, settings)),
-             {"s", "CPU time per step of the core's six rows that hold the head"});
   h5.root_attribute("motion", std::string(motion.title));
   h5.root_attribute("command", options.command);
   h5.root_attribute("scene", scene_to_toml(resolved.scene, resolved.specimen));

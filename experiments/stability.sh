@@ -7,30 +7,16 @@
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 out=${1:-$root/out/stability}
-mkdir -p "$out"
-out=$(cd "$out" && pwd)
-
-bash "$root/experiments/setup.sh" --target hagfish
-cores=$(nproc) # which heeds the next line's variables
-# Serial BLAS, so that runs repeat to the last bit.
-export OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1
-export hagfish=$root/build/release/experiments/hagfish cells=$out/cells scenes=$root/experiments/stability
+export scenes=$root/experiments/stability
+inputs=("$scenes"/*.toml)
+source "$root/experiments/study.sh"
 export cpu_limit=60 wall_limit=300 # s, of a cell
-
-# Results of another program or of other scenes do not mix with this one's.
-version=$("$hagfish" --version; cat "$scenes"/*.toml | cksum)
-if [[ -d $cells && $(cat "$cells/version" 2>/dev/null) != "$version" ]]; then
-  echo "$cells was made by another version: starting anew"
-  rm -r "$cells"
-fi
-mkdir -p "$cells"
-echo "$version" >"$cells/version"
 
 # cell SCENE LEVEL METHOD H_MS SETTINGS: one row in a file of its own. SETTINGS are KEY=VALUE, by blanks. A cell that
 # hangs or crashes is a row, too.
 cell() {
   local scene=$1 level=$2 method=$3 h=$4
-  local file=$cells/${scene}_${level//[^a-z0-9.]/-}_${method}_$h.csv
+  local file=$runs/${scene}_${level//[^a-z0-9.]/-}_${method}_$h.csv
   [[ -e $file ]] && return
   local -a settings=() arguments=()
   read -ra settings <<<"${5:-}"
@@ -51,13 +37,7 @@ cell() {
   rm -f "$file.err"
   mv "$file.new" "$file"
 }
-job() {
-  local -a fields
-  IFS=$'\t' read -ra fields <<<"$1"
-  cell "${fields[@]}"
-  [[ -t 2 ]] || { ((PARALLEL_SEQ % 100)) || echo "$PARALLEL_SEQ of $jobs"; }
-}
-export -f cell job
+export -f cell
 
 steps="0.2 0.5 1 2 5 10 20 50" # ms
 coarse="1 2 5 10 20 50"        # where a step is slow
@@ -69,7 +49,7 @@ rows="default violated push_out_0.2 push_out_1"
 line() {
   local h method
   for h in $3; do
-    for method in $4; do printf '%s\t%s\t%s\t%s\t%s\n' "$1" "$2" "$method" "$h" "${5:-}"; done
+    for method in $4; do printf 'cell\t%s\t%s\t%s\t%s\t%s\n' "$1" "$2" "$method" "$h" "${5:-}"; done
   done
 }
 pull() { echo "script.knots=[[0,$1,0,0],[1,$1,0,0]]"; }
@@ -125,21 +105,14 @@ list() {
   done
 }
 
-work=$(list)
-jobs=$(wc -l <<<"$work")
-export jobs
-echo "$jobs cells"
-show=()
-if [[ -t 2 ]]; then show=(--bar); fi
 # Large steps first: they are quick and show the most.
-sort -t$'\t' -k4,4gr <<<"$work" | parallel --will-cite --halt soon,fail=1 -j "$cores" "${show[@]}" job {}
+list | sort -t$'\t' -k5,5gr | work "$cores" cells
 
 {
-  head -qn 1 "$cells"/whip_as-is_default_1.csv
-  tail -qn 1 "$cells"/*.csv
+  head -qn 1 "$runs"/whip_as-is_default_1.csv
+  tail -qn 1 "$runs"/*.csv
 } >"$out/stability.csv"
-# Debian's python3 is the one that has matplotlib.
-/usr/bin/python3 "$root/experiments/figures/stability.py" "$out/stability.csv" "$out"
+draw stability.py "$out/stability.csv" "$out"
 echo
 cat "$out/summary.md"
 echo

@@ -1,5 +1,6 @@
 # Sourced by the studies, not run: sets up and builds, and runs jobs side by side, which go on where they were stopped.
-# Comes after root=... and out=... (the output folder). Leaves runs (a folder), hagfish (the program) and cores.
+# Comes after root=... and out=... (the output folder), and perhaps inputs=(...), files that results depend on besides
+# the program. Leaves runs (a folder), hagfish (the program) and cores.
 
 mkdir -p "$out"
 out=$(cd "$out" && pwd)
@@ -9,13 +10,14 @@ cores=$(nproc)
 export OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1
 export hagfish=$root/build/release/experiments/hagfish runs=$out/runs
 
-# Results of another program do not mix with this one's.
-if [[ -d $runs && $(cat "$runs/version" 2>/dev/null) != "$("$hagfish" --version)" ]]; then
+# Results of another program or of other inputs do not mix with this one's.
+version=$("$hagfish" --version; [[ -z ${inputs-} ]] || cat "${inputs[@]}" | cksum)
+if [[ -d $runs && $(cat "$runs/version" 2>/dev/null) != "$version" ]]; then
   echo "$runs was made by another version: starting anew"
   rm -r "$runs"
 fi
 mkdir -p "$runs"
-"$hagfish" --version >"$runs/version"
+echo "$version" >"$runs/version"
 
 # One job a line, fields by tabs: NAME REPEATS and the arguments of `hagfish run`. A job that is done has a NAME.cpu: user
 # and system time of each repeat, s. A run may fail, or tie another knot: that is a result.

@@ -12,7 +12,7 @@ import numpy as np
 from back_ends import BACK_ENDS, read_table
 from hagfish_log import HagfishLog, Results
 from integration import METHODS, MOTIONS, steps
-from needs import LEAST_SAVING, needs
+from needs import needs
 from study import Run, path_error, read_run, read_runs, run_study
 from summary import table
 from whole_runs import chance, errors, front_of, reference_of
@@ -152,17 +152,6 @@ def presets(folder: Path) -> list[str]:
                         "Penetration, cm", "Audit"], rows), ""]
 
 
-def head_rows(folder: Path, as_is: Run) -> str:
-    """What eliminating the clamped root could save at most."""
-    log = HagfishLog(folder / f"{as_is.name}.h5")
-    step = as_is.cpu / len(log["/steps/kkt"])
-    cost = float(np.median([Results(folder / f"{motion}.h5")["/head_rows/cost"][0] for motion in MOTIONS]))
-    share = cost / step
-    advice = "worth eliminating" if share > LEAST_SAVING else "not worth eliminating"
-    return (f"The six rows that hold the head take {1e6 * cost:.1f} of the {1e6 * step:.0f} µs of a step, {100 * share:.1f} %: "
-            f"{advice} (estimate, from smooth steps with and without them).")
-
-
 def choices(folder: Path) -> list[str]:
     as_is, found = needs(folder)
     rows = [["as it is", "", "1", "0", "0", f"{as_is.penetration:.5f}", ""]]
@@ -172,7 +161,7 @@ def choices(folder: Path) -> list[str]:
                      [f"{n.slide:+.2f}", f"{n.force:+.0f}", f"{n.run.penetration:.5f}"]), n.verdict])
     return ["## What the scene needs", "", f"Each choice changed by itself; the scene as it is takes {as_is.cpu:.2f} s of CPU time.",
             "", *table(["Choice", "Instead", "CPU, ratio", "Slide, cm more", "Force, % more", "Penetration, cm", "Verdict"], rows),
-            "", head_rows(folder, as_is), ""]
+            ""]
 
 
 def main(folder: Path, out: Path) -> None:

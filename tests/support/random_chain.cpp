@@ -166,7 +166,12 @@ Matrix6Xd body_jacobian(const Model& model, const Kinematics& kin, int body) {
 
 Eigen::Matrix3Xd centre_jacobian(const Model& model, const Kinematics& kin, int body) {
   const Matrix6Xd jacobian = body_jacobian(model, kin, body);
-  return jacobian.bottomRows<3>() - skew(kin.centre_offset(body)) * jacobian.topRows<3>();
+  const Eigen::Vector3d offset = kin.centre_offset(body);
+  Eigen::Matrix3Xd velocity = jacobian.bottomRows<3>();
+  for (Eigen::Index k = 0; k < velocity.cols(); ++k) {
+    velocity.col(k) += jacobian.col(k).head<3>().cross(offset);
+  }
+  return velocity;
 }
 
 Eigen::MatrixXd dense_rows(const Model& model, const Kinematics& kin,
