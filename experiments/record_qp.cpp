@@ -1,8 +1,6 @@
 #include <fmt/format.h>
 
-#include <cmath>
 #include <cstdio>
-#include <stdexcept>
 
 #include "experiments/commands.hpp"
 #include "experiments/progress.hpp"
@@ -19,21 +17,21 @@ class Recorder {
   Recorder(const RecordQpOptions& options, const Model& model, QpSetWriter& set)
       : options_(options), model_(model), set_(set) {}
 
-  /// What `solver` was last given, if it was given anything in this step; `warm` as the step found
-  /// it.
-  void take(const StepRecord& record, const WarmStart& warm, const RememberingSolver& solver) {
-    if (record.solution.kind != SolveKind::qp || record.step % options_.every != 0) {
+  /// The QP of a step, if it had one; `warm` as the step found it.
+  void take(const StepRecord& record, const WarmStart& warm) {
+    if (!has_qp(record.solution) || record.step % options_.every != 0) {
       return;
     }
     StoredQp qp;
-    qp.box = solver.problem();
-    qp.start = solver.start();
-    if (options_.primal) {
+    qp.start = kept_multipliers(record.solution.rows, warm);
+    if (!options_.primal) {
+      qp.box = to_box(model_, record);
+    } else {
       if (at_cap(record.solution)) {
         ++left_out_;
         return;
       }
-      to_primal(model_, record, warm, qp);
+      qp.primal = to_primal(model_, record);
     }
     // Consecutive steps share a number.
     sequence_ += set_.size() > 0 && record.step != last_ + 1 ? 1 : 0;
@@ -58,7 +56,7 @@ int record_qp(const RecordQpOptions& options) {
   const ResolvedScene resolved = scene_argument(options.scene, options.set);
   const Scene& scene = resolved.scene;
   const Model model = make_hagfish(resolved.specimen, scene);
-  RememberingSolver solver(make_box_qp_solver(options.qp));
+  const auto solver = make_box_qp_solver(options.qp);
   QpSetWriter set(options.out, options.force, options.command,
                   scene_to_toml(scene, resolved.specimen));
   Recorder recorder(options, model, set);
@@ -68,8 +66,8 @@ int record_qp(const RecordQpOptions& options) {
   while (failure.empty() && !finished(sim, scene)) {
     try {
       const WarmStart warm = sim.warm;
-      const StepRecord record = take_step(model, scene, solver, sim);
-      recorder.take(record, warm, solver);
+      const StepRecord record = take_step(model, scene, *solver, sim);
+      recorder.take(record, warm);
       progress.show(record);
     } catch (const StepError& error) {
       failure =

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/dual_problem.hpp"
+
 namespace hagfish {
 namespace {
 
@@ -20,11 +22,9 @@ Eigen::VectorXd dense_row(const Model& model, const Kinematics& kin, const Row& 
 
 }  // namespace
 
-void RememberingSolver::solve(const BoxQp& qp, const Eigen::VectorXd& start,
-                              BoxQpSolution& solution) {
-  problem_ = qp;
-  start_ = start;
-  solver_->solve(qp, start, solution);
+bool has_qp(const StepSolution& solution) {
+  return std::ranges::any_of(solution.rows,
+                             [](const Row& row) { return std::isfinite(row.lower); });
 }
 
 bool at_cap(const StepSolution& solution) {
@@ -38,34 +38,52 @@ bool at_cap(const StepSolution& solution) {
   return false;
 }
 
-void to_primal(const Model& model, const StepRecord& record, const WarmStart& warm, StoredQp& qp) {
+BoxQp to_box(const Model& model, const StepRecord& record) {
+  const Kinematics& kin = record.situation.kin;
+  const StepSystem& system = record.solution.system;
+  ArticulatedFactor factor;
+  factor.factorise(model, kin, system.op);
+  const Eigen::VectorXd base = factor.solve(model, kin, system.wrench, system.joint);
+  RowColumns columns;
+  BoxQp qp;
+  assemble_dual(model, kin, factor, record.solution.rows, base,
+                centre_velocities(kin, body_twists(model, kin, base)), columns, qp);
+  return qp;
+}
+
+PrimalQp to_primal(const Model& model, const StepRecord& record) {
   const Kinematics& kin = record.situation.kin;
   const StepSystem& system = record.solution.system;
   const std::vector<Row>& rows = record.solution.rows;
   PrimalQp primal;
   primal.H = dense(model, kin, system.op);
   primal.g = generalised_force(model, kin, system.wrench) + system.joint;
-  qp.start.resize(static_cast<Eigen::Index>(rows.size()));
-  Eigen::Index filled = 0;
   const auto fill = [&](bool bilateral, Eigen::MatrixXd& C, Eigen::VectorXd& d) {
     const auto of_kind = [&](const Row& row) { return std::isinf(row.lower) == bilateral; };
     const auto m = std::count_if(rows.begin(), rows.end(), of_kind);
     C.resize(m, model.nv());
     d.resize(m);
     Eigen::Index k = 0;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      if (of_kind(rows[i])) {
-        C.row(k) = dense_row(model, kin, rows[i]).transpose();
-        d[k++] = rows[i].rhs;
-        const WarmStart::Kept* kept = warm.find(rows[i].id);
-        qp.start[filled++] = kept == nullptr ? 0 : kept->lambda;
+    for (const Row& row : rows) {
+      if (of_kind(row)) {
+        C.row(k) = dense_row(model, kin, row).transpose();
+        d[k++] = row.rhs;
       }
     }
   };
   fill(true, primal.G, primal.e);
   fill(false, primal.C, primal.d);
   primal.cap = Eigen::VectorXd::Constant(primal.d.size(), std::numeric_limits<double>::infinity());
-  qp.primal = std::move(primal);
+  return primal;
+}
+
+Eigen::VectorXd kept_multipliers(const std::vector<Row>& rows, const WarmStart& warm) {
+  Eigen::VectorXd lambda(static_cast<Eigen::Index>(rows.size()));
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const WarmStart::Kept* kept = warm.find(rows[i].id);
+    lambda[static_cast<Eigen::Index>(i)] = kept == nullptr ? 0 : kept->lambda;
+  }
+  return lambda;
 }
 
 }  // namespace hagfish
