@@ -64,6 +64,11 @@ double stationarity(const Model& model, const Kinematics& kin, double h, StepScr
   return scale == 0 ? 0 : change.lpNorm<Eigen::Infinity>() / scale;
 }
 
+/// |λ| of a held row, brought to about unit diagonal.
+double held_share(const ArticulatedFactor& factor, const Row& row, double lambda) {
+  return std::abs(lambda) / std::sqrt(factor.pivot(row.dof));
+}
+
 /// Forces and residuals on the primal side: q̇ against H, and the rows' excess C q̇ - d.
 void measure(const Model& model, const Kinematics& kin, double h, StepScratch& scratch,
              StepSolution& step) {
@@ -72,10 +77,15 @@ void measure(const Model& model, const Kinematics& kin, double h, StepScratch& s
   for (Eigen::Index i = 0; i < m; ++i) {
     step.excess[i] = row_velocity(step.rows[i], step.centre_velocity, step.qdot) - step.rows[i].rhs;
   }
+  // β of the whole problem: where a held row binds alone, b over its scale is this.
+  double beta = 0;
+  for (Eigen::Index i = 0; i < step.held; ++i) {
+    beta = std::max(beta, held_share(scratch.factor, step.rows[i], step.lambda[i]));
+  }
   const Eigen::Index others = m - step.held;
-  step.kkt = others == 0
-                 ? KktResiduals{}
-                 : kkt_residuals(scratch.qp, step.lambda.tail(others), step.excess.tail(others));
+  step.kkt = others == 0 ? KktResiduals{}
+                         : kkt_residuals(scratch.qp, step.lambda.tail(others),
+                                         step.excess.tail(others), beta);
   sum_forces(model, kin, h, scratch, step);
   step.stationarity = stationarity(model, kin, h, scratch, step);
 }
@@ -88,13 +98,13 @@ void keep_active(StepScratch& scratch, StepSolution& step, WarmStart& warm) {
   Eigen::VectorXd& share = scratch.scale;
   share.resize(step.lambda.size());
   for (Eigen::Index i = 0; i < step.held; ++i) {
-    share[i] = 1 / std::sqrt(scratch.factor.pivot(step.rows[i].dof));
+    share[i] = held_share(scratch.factor, step.rows[i], step.lambda[i]);
   }
   const Eigen::Index others = share.size() - step.held;
   if (others > 0) {
     row_scale(scratch.qp.A, share.tail(others));
+    share.tail(others).array() *= step.lambda.tail(others).array().abs();
   }
-  share.array() *= step.lambda.array().abs();
   const double least = share.size() > 0 ? active_share * share.maxCoeff() : 0;
   for (Eigen::Index i = 0; i < share.size(); ++i) {
     if (share[i] > least) {

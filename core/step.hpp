@@ -68,9 +68,9 @@ struct StepSolution {
   /// to pull are let go.
   int rounds = 0;
   double stationarity = 0;  ///< |H q̇ - g - C'λ| over the largest of these three, infinity norms
-  KktResiduals kkt;         ///< of the rows that are not held; those that are hold exactly
-  double qp_time = 0;       ///< s spent in the QP back end
-  StepSystem system;        ///< Eq. 1 as assembled
+  KktResiduals kkt;    ///< of the rows not held, on the scale of all; those held are met exactly
+  double qp_time = 0;  ///< s spent in the QP back end
+  StepSystem system;   ///< Eq. 1 as assembled
 };
 
 /// Storage that a step needs on the way and keeps for the next: with it, nothing is allocated once

@@ -85,11 +85,10 @@ namespace {
 
 /// `gradient(i)` is w_i.
 template <class Gradient>
-KktResiduals residuals(const BoxQp& qp, const Eigen::Ref<const Eigen::VectorXd>& x,
+KktResiduals residuals(const BoxQp& qp, const Eigen::Ref<const Eigen::VectorXd>& x, double beta,
                        const Gradient& gradient) {
   KktResiduals r;
   const RowScale s(qp.A);
-  const double beta = rhs_scale(qp);
   for (Eigen::Index i = 0; i < x.size(); ++i) {
     const double si = s[i];
     const double wi = gradient(i) / si / beta;
@@ -113,12 +112,14 @@ KktResiduals residuals(const BoxQp& qp, const Eigen::Ref<const Eigen::VectorXd>&
 }  // namespace
 
 KktResiduals kkt_residuals(const BoxQp& qp, const Eigen::Ref<const Eigen::VectorXd>& x) {
-  return residuals(qp, x, [&](Eigen::Index i) { return qp.A.col(i).dot(x) - qp.b[i]; });
+  return residuals(qp, x, rhs_scale(qp),
+                   [&](Eigen::Index i) { return qp.A.col(i).dot(x) - qp.b[i]; });
 }
 
 KktResiduals kkt_residuals(const BoxQp& qp, const Eigen::Ref<const Eigen::VectorXd>& x,
-                           const Eigen::Ref<const Eigen::VectorXd>& w) {
-  return residuals(qp, x, [&](Eigen::Index i) { return w[i]; });
+                           const Eigen::Ref<const Eigen::VectorXd>& w, double least_beta) {
+  const double beta = std::max(rhs_scale(qp), least_beta);
+  return residuals(qp, x, beta, [&](Eigen::Index i) { return w[i]; });
 }
 
 std::vector<std::string> box_qp_solver_names() { return {"ipopt", "active-set"}; }

@@ -63,9 +63,10 @@ struct KktResiduals {
 /// Residuals of any x against the problem; knows no back end. Infinite where x or w is not finite.
 KktResiduals kkt_residuals(const BoxQp& qp, const Eigen::Ref<const Eigen::VectorXd>& x);
 
-/// The same from w = C v - d as measured on the primal side instead of A x - b.
+/// The same from w = C v - d as measured on the primal side instead of A x - b. β is at least
+/// `least_beta`: of a larger problem of which this one is a part.
 KktResiduals kkt_residuals(const BoxQp& qp, const Eigen::Ref<const Eigen::VectorXd>& x,
-                           const Eigen::Ref<const Eigen::VectorXd>& w);
+                           const Eigen::Ref<const Eigen::VectorXd>& w, double least_beta = 0);
 
 /// A back end. Solvers keep settings and scratch, never results: the same problem and start give
 /// the same answer.

@@ -33,6 +33,8 @@ TEST_P(StepQp, BothFormsHaveTheStepsOwnSolution) {
   ASSERT_EQ(box.b.size(), step.lambda.size());
   // To rounding of λ, of which a step finds those held by another way: seen 1e-12.
   EXPECT_LE(kkt_residuals(box, step.lambda).worst(), 1e-10);
+  // What the step says of the rows that it does not hold is as large as what the whole problem has.
+  EXPECT_LE(step.kkt.worst(), 3 * kkt_residuals(box, step.lambda, step.excess).worst() + 1e-15);
   const PrimalQp primal = to_primal(model, record);
   EXPECT_EQ(primal.e.size(), record.control.clamp_head ? 6 : 0);
   const BoxQp dual = dual_of(primal);

@@ -116,6 +116,17 @@ TEST(CheckBoxQp, NamesWhatIsWrong) {
   EXPECT_THROW(check_box_qp(qp), std::invalid_argument);
 }
 
+TEST(KktResiduals, ScaleOfALargerProblemMakesThemSmaller) {
+  const Eigen::Vector2d x(0.5, 0);
+  const Eigen::Vector2d w(-0.6, 3);
+  const KktResiduals own = kkt_residuals(two_rows(), x, w);
+  const double beta = rhs_scale(two_rows());
+  const KktResiduals part = kkt_residuals(two_rows(), x, w, 10 * beta);
+  EXPECT_NEAR(part.primal, own.primal / 10, rounding);
+  EXPECT_NEAR(part.complementarity, own.complementarity / 100, rounding);
+  EXPECT_EQ(kkt_residuals(two_rows(), x, w, 0.1 * beta).primal, own.primal);
+}
+
 TEST(MakeBoxQpSolver, KnowsItsNames) {
   for (const std::string& name : box_qp_solver_names()) {
     EXPECT_NE(make_box_qp_solver(name), nullptr);
