@@ -47,7 +47,7 @@ def draw(slides: list[Slide], out: Path) -> None:
           "share of steps that fall short of Eq. 6\n(drawn at $10^{-4}$ where none does)")
     panel(deep, slides, [s.penetration for s in slides], "deepest penetration, cm")
     deep.axhline(MOST_PENETRATION, color=GREY, lw=0.8, ls="--", zorder=0)
-    deep.text(line[0], MOST_PENETRATION * 1.1, "bound of the scenes", color=GREY, fontsize=8, va="bottom")
+    deep.text(line[0], MOST_PENETRATION * 0.9, "bound of the scenes", color=GREY, fontsize=8, va="top")
     speed.legend(fontsize=8, frameon=False, title="open: the knot was lost, or the run failed", title_fontsize=7)
     for axes, letter in zip(grid.flat, "abcd"):
         axes.set_title(f"({letter})", loc="left", fontsize=10)
