@@ -22,6 +22,7 @@ constexpr double closing_speed = 1;
 /// last changed to vanish. Only speed depends on it: what had to pull is let go.
 constexpr double steadiness = 2;
 constexpr double nowhere = -std::numeric_limits<double>::infinity();
+
 /// The unilateral rows that are near to binding. Pairs of segments that are no minimum of the gap
 /// count only where they overlap or the wanted velocity makes them.
 void append_unilateral_rows(const Model& model, const State& state, const Situation& situation,
@@ -206,7 +207,7 @@ void order_rows(const Model& model, const WarmStart& warm, StepScratch& scratch,
 }
 
 /// Eq. 3 or 4 on step.rows; rows left out come in as the answer violates them, rows held are let go
-/// as it pulls at them. `anew`: nothing is known yet.
+/// as it pulls at them. `anew`: nothing is known yet of the motion with the rows held now.
 void constrained_motion(const Model& model, const State& state, const Situation& situation,
                         const Scene& scene, BoxQpSolver& solver, const WarmStart& warm, bool anew,
                         StepScratch& scratch, StepSolution& step) {
@@ -220,6 +221,7 @@ void constrained_motion(const Model& model, const State& state, const Situation&
     const auto others = std::span(step.rows).subspan(static_cast<std::size_t>(step.held));
     if (!others.empty()) {
       step.lambda.conservativeResize(static_cast<Eigen::Index>(step.rows.size()));
+      step.lambda.tail(scratch.start.size()) = scratch.start;
       assemble_dual(model, kin, scratch.factor, others, step.base, scratch.base_centre_velocity,
                     scratch.columns, scratch.qp);
       if (!solve_multipliers(model, scratch.qp, solver, scratch, step)) {
