@@ -61,8 +61,12 @@ QpReference::QpReference(const PrimalQp& qp) {
   rhs << qp.e.cast<Real>(), qp.d.cast<Real>();
   const Eigen::LLT<Matrix> factor(qp.H.cast<Real>());
   free_velocity_ = factor.solve(qp.g.cast<Real>());
-  half_ = factor.matrixL().solve(rows.transpose());
-  response_ = factor.matrixU().solve(half_);
+  half_ = rows.transpose();
+  response_ = half_;
+  if (half_.size() > 0) {  // Eigen refers to the first entry, also where there is none
+    factor.matrixL().solveInPlace(half_);
+    response_ = factor.matrixU().solve(half_);
+  }
   A_ = half_.transpose() * half_;
   b_ = rhs - rows * free_velocity_;
   scale(dual);
