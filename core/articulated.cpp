@@ -7,13 +7,23 @@
 
 namespace hagfish {
 
+void multiply(const Model& model, const Kinematics& kin, const Operator& op,
+              const Eigen::VectorXd& v, const Matrix6Xd& twist, Matrix6Xd& wrench,
+              Eigen::VectorXd& product) {
+  wrench.resize(6, model.body_count());
+  for (int b = 0; b < model.body_count(); ++b) {
+    wrench.col(b).noalias() = op.inertia[b] * twist.col(b);
+  }
+  generalised_force(model, kin, wrench, product);
+  product += op.diagonal.cwiseProduct(v);
+}
+
 Eigen::VectorXd multiply(const Model& model, const Kinematics& kin, const Operator& op,
                          const Eigen::VectorXd& v) {
-  Matrix6Xd twist = body_twists(model, kin, v);
-  for (int b = 0; b < model.body_count(); ++b) {
-    twist.col(b) = (op.inertia[b] * twist.col(b)).eval();
-  }
-  return generalised_force(model, kin, twist) + op.diagonal.cwiseProduct(v);
+  Matrix6Xd wrench;
+  Eigen::VectorXd product;
+  multiply(model, kin, op, v, body_twists(model, kin, v), wrench, product);
+  return product;
 }
 
 Eigen::MatrixXd dense(const Model& model, const Kinematics& kin, const Operator& op) {

@@ -19,7 +19,10 @@ struct Operator {
   Eigen::VectorXd diagonal;       ///< δ >= 0, nv
 };
 
-/// H v in O(n).
+/// H v in O(n); `twist` are those of the bodies at v (6 x N), `wrench` is storage.
+void multiply(const Model& model, const Kinematics& kin, const Operator& op,
+              const Eigen::VectorXd& v, const Matrix6Xd& twist, Matrix6Xd& wrench,
+              Eigen::VectorXd& product);
 Eigen::VectorXd multiply(const Model& model, const Kinematics& kin, const Operator& op,
                          const Eigen::VectorXd& v);
 

@@ -26,4 +26,16 @@ void assemble_dual(const Model& model, const Kinematics& kin, const ArticulatedF
   columns.gram(qp.A);
 }
 
+BoxQp whole_dual(const Model& model, const Kinematics& kin, const StepSystem& system,
+                 std::span<const Row> rows) {
+  ArticulatedFactor factor;
+  factor.factorise(model, kin, system.op);
+  const Eigen::VectorXd base = factor.solve(model, kin, system.wrench, system.joint);
+  RowColumns columns;
+  BoxQp qp;
+  assemble_dual(model, kin, factor, rows, base,
+                centre_velocities(kin, body_twists(model, kin, base)), columns, qp);
+  return qp;
+}
+
 }  // namespace hagfish

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "core/articulated.hpp"
+#include "core/dynamics.hpp"
 #include "core/rows.hpp"
 #include "solvers/box_qp.hpp"
 
@@ -14,5 +15,9 @@ namespace hagfish {
 void assemble_dual(const Model& model, const Kinematics& kin, const ArticulatedFactor& factor,
                    std::span<const Row> rows, const Eigen::VectorXd& base,
                    const Eigen::Matrix3Xd& centre_velocity, RowColumns& columns, BoxQp& qp);
+
+/// The problem of a step on all of `rows`, with nothing held, made from nothing.
+BoxQp whole_dual(const Model& model, const Kinematics& kin, const StepSystem& system,
+                 std::span<const Row> rows);
 
 }  // namespace hagfish

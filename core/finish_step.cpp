@@ -52,21 +52,26 @@ double stationarity(const Model& model, const Kinematics& kin, double h, StepScr
   scratch.impulse = h * (f.head + f.limit + f.contact + f.wall + f.thigmotaxis);
   scale = std::max(scale, scratch.impulse.lpNorm<Eigen::Infinity>());
   momentum += scratch.impulse;
-  scratch.wrench.resize(6, model.body_count());
-  for (int b = 0; b < model.body_count(); ++b) {
-    scratch.wrench.col(b).noalias() = system.op.inertia[b] * step.twist.col(b);
-  }
   Eigen::VectorXd& change = scratch.change;  // H q̇
-  generalised_force(model, kin, scratch.wrench, change);
-  change += system.op.diagonal.cwiseProduct(step.qdot);
+  multiply(model, kin, system.op, step.qdot, step.twist, scratch.wrench, change);
   scale = std::max(scale, change.lpNorm<Eigen::Infinity>());
   change -= momentum;
   return scale == 0 ? 0 : change.lpNorm<Eigen::Infinity>() / scale;
 }
 
-/// |λ| of a held row, brought to about unit diagonal.
-double held_share(const ArticulatedFactor& factor, const Row& row, double lambda) {
-  return std::abs(lambda) / std::sqrt(factor.pivot(row.dof));
+/// |λ| with rows brought to unit diagonal (held ones to about that), so that those of cm/s and
+/// rad/s compare, into scratch.scaled.
+void scale_multipliers(StepScratch& scratch, const StepSolution& step) {
+  Eigen::VectorXd& scaled = scratch.scaled;
+  scaled.resize(step.lambda.size());
+  for (Eigen::Index i = 0; i < step.held; ++i) {
+    scaled[i] = 1 / std::sqrt(scratch.factor.pivot(step.rows[i].dof));
+  }
+  const Eigen::Index others = scaled.size() - step.held;
+  if (others > 0) {
+    row_scale(scratch.qp.A, scaled.tail(others));
+  }
+  scaled.array() *= step.lambda.array().abs();
 }
 
 /// Forces and residuals on the primal side: q̇ against H, and the rows' excess C q̇ - d.
@@ -78,10 +83,7 @@ void measure(const Model& model, const Kinematics& kin, double h, StepScratch& s
     step.excess[i] = row_velocity(step.rows[i], step.centre_velocity, step.qdot) - step.rows[i].rhs;
   }
   // β of the whole problem: where a held row binds alone, b over its scale is this.
-  double beta = 0;
-  for (Eigen::Index i = 0; i < step.held; ++i) {
-    beta = std::max(beta, held_share(scratch.factor, step.rows[i], step.lambda[i]));
-  }
+  const double beta = step.held == 0 ? 0 : scratch.scaled.head(step.held).maxCoeff();
   const Eigen::Index others = m - step.held;
   step.kkt = others == 0 ? KktResiduals{}
                          : kkt_residuals(scratch.qp, step.lambda.tail(others),
@@ -91,23 +93,13 @@ void measure(const Model& model, const Kinematics& kin, double h, StepScratch& s
 }
 
 /// Counts the rows with a force and keeps their multipliers for the next step.
-void keep_active(StepScratch& scratch, StepSolution& step, WarmStart& warm) {
+void keep_active(const StepScratch& scratch, StepSolution& step, WarmStart& warm) {
   warm.begin();
   step.active = 0;
-  // Brought to one unit, rows of cm/s and rad/s compare.
-  Eigen::VectorXd& share = scratch.scale;
-  share.resize(step.lambda.size());
-  for (Eigen::Index i = 0; i < step.held; ++i) {
-    share[i] = held_share(scratch.factor, step.rows[i], step.lambda[i]);
-  }
-  const Eigen::Index others = share.size() - step.held;
-  if (others > 0) {
-    row_scale(scratch.qp.A, share.tail(others));
-    share.tail(others).array() *= step.lambda.tail(others).array().abs();
-  }
-  const double least = share.size() > 0 ? active_share * share.maxCoeff() : 0;
-  for (Eigen::Index i = 0; i < share.size(); ++i) {
-    if (share[i] > least) {
+  const Eigen::VectorXd& scaled = scratch.scaled;
+  const double least = scaled.size() > 0 ? active_share * scaled.maxCoeff() : 0;
+  for (Eigen::Index i = 0; i < scaled.size(); ++i) {
+    if (scaled[i] > least) {
       ++step.active;
       warm.add(step.rows[i].id, step.lambda[i]);
     }
@@ -119,6 +111,7 @@ void keep_active(StepScratch& scratch, StepSolution& step, WarmStart& warm) {
 
 void finish_step(const Model& model, const Situation& situation, const Control& control,
                  const Scene& scene, WarmStart& warm, StepScratch& scratch, StepSolution& step) {
+  scale_multipliers(scratch, step);
   measure(model, situation.kin, scene.time.step, scratch, step);
   keep_active(scratch, step, warm);
   const int last = model.body_count() - 1;

@@ -51,12 +51,7 @@ std::string furthest_limit(const Model& model, const State& state) {
 /// The rows whose forces work hardest against row i, at most three.
 std::string opponents(const Model& model, const Kinematics& kin, const StepSolution& step,
                       Eigen::Index i) {
-  ArticulatedFactor factor;
-  factor.factorise(model, kin, step.system.op);
-  RowColumns columns;
-  BoxQp qp;
-  assemble_dual(model, kin, factor, step.rows, step.qdot, step.centre_velocity, columns, qp);
-  const Eigen::MatrixXd& A = qp.A;
+  const Eigen::MatrixXd A = whole_dual(model, kin, step.system, step.rows).A;
   std::vector<std::pair<double, Eigen::Index>> effect;  // on the row's velocity
   for (Eigen::Index j = 0; j < A.rows(); ++j) {
     if (j != i && A(i, j) * step.lambda[j] < 0) {

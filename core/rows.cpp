@@ -54,13 +54,16 @@ std::string row_name(const Model& model, const Row& row) {
   return "row";
 }
 
-int leading_dofs(const Model& model, const Row& row) {
+int place_in_step(const Model& model, const Row& row) {
+  if (row.held || row.kind == RowKind::head) {
+    return row.dof - 2 * model.nv();
+  }
   if (row.dof >= 0) {
-    return row.dof + 1;
+    return -row.dof - 1;
   }
   const Body& last =
       model.bodies[std::max(row.a.first + row.a.count, row.b.first + row.b.count) - 1];
-  return last.first_dof + last.dofs;
+  return -last.first_dof - last.dofs;
 }
 
 int thigmotaxis_place(const Row& row) {

@@ -52,8 +52,10 @@ void visit_forces(const Row& row, Visit visit) {
 /// "limit of j05_bend_y (upper)", "contact of bodies 31 and 74", ...
 std::string row_name(const Model& model, const Row& row);
 
-/// How many leading velocities C of a row involves: none behind these.
-int leading_dofs(const Model& model, const Row& row);
+/// Rows of a step go by this, rising: those held (and those of the head in any case) by dof, then
+/// the others by the last velocity that they involve, the last first, which is what the columns of
+/// the dual problem like best.
+int place_in_step(const Model& model, const Row& row);
 
 /// 0 to 3 for a thigmotaxis row: first contact t_a, t_b, last contact t_a, t_b.
 int thigmotaxis_place(const Row& row);

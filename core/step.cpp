@@ -175,9 +175,7 @@ bool take_in_violated(const Model& model, const State& state, const Situation& s
   return any;
 }
 
-/// Sorts the rows: those held (and those of the head in any case) by dof, then the others by where
-/// along the body they end, the last first, which is what the columns of the dual problem like
-/// best. With them the multipliers to start from.
+/// Sorts the rows by their places, held ones first. With them the multipliers to start from.
 void order_rows(const Model& model, const WarmStart& warm, StepScratch& scratch,
                 StepSolution& step) {
   const std::size_t m = step.rows.size();
@@ -186,10 +184,8 @@ void order_rows(const Model& model, const WarmStart& warm, StepScratch& scratch,
   scratch.order.clear();
   step.held = 0;
   for (std::size_t i = 0; i < m; ++i) {
-    const Row& row = step.rows[i];
-    step.held += row.held ? 1 : 0;
-    const bool in_front = row.held || row.kind == RowKind::head;
-    scratch.order.emplace_back(in_front ? row.dof - 2 * model.nv() : -leading_dofs(model, row), i);
+    step.held += step.rows[i].held ? 1 : 0;
+    scratch.order.emplace_back(place_in_step(model, step.rows[i]), i);
   }
   std::ranges::sort(scratch.order);
   scratch.ordered.clear();
@@ -199,8 +195,7 @@ void order_rows(const Model& model, const WarmStart& warm, StepScratch& scratch,
     scratch.ordered.push_back(step.rows[i]);
     const Eigen::Index place = static_cast<Eigen::Index>(k) - step.held;
     if (place >= 0) {
-      const WarmStart::Kept* kept = warm.find(step.rows[i].id);
-      scratch.start[place] = i < solved ? step.lambda[i] : (kept == nullptr ? 0 : kept->lambda);
+      scratch.start[place] = i < solved ? step.lambda[i] : warm.multiplier(step.rows[i].id);
     }
   }
   std::swap(step.rows, scratch.ordered);

@@ -81,11 +81,11 @@ struct StepScratch {
   Eigen::VectorXd holding;                         ///< what holds the held
   Eigen::Matrix3Xd base_centre_velocity;           ///< 3 x N, cm/s
   std::vector<Row> violated;                       ///< rows that the last answer violates
-  std::vector<std::pair<int, std::size_t>> order;  ///< of the rows: where they end, which
+  std::vector<std::pair<int, std::size_t>> order;  ///< of the rows: place_in_step, which
   std::vector<Row> ordered;                        ///< storage for them
   RowColumns columns;
   BoxQp qp;
-  Eigen::VectorXd start, scale;
+  Eigen::VectorXd start, scaled;
   BoxQpSolution solution;
   Matrix6Xd wrench;
   Eigen::VectorXd joint, impulse, change;

@@ -28,4 +28,9 @@ const WarmStart::Kept* WarmStart::find(std::int64_t id) const {
   return it == entries_.end() || it->id != id ? nullptr : &*it;
 }
 
+double WarmStart::multiplier(std::int64_t id) const {
+  const Kept* kept = find(id);
+  return kept == nullptr ? 0 : kept->lambda;
+}
+
 }  // namespace hagfish

@@ -21,6 +21,8 @@ class WarmStart {
   void end();
   /// What is kept of a row, or null.
   const Kept* find(std::int64_t id) const;
+  /// The multiplier kept of a row, 0 where there is none.
+  double multiplier(std::int64_t id) const;
   std::size_t size() const { return entries_.size(); }
 
  private:

@@ -25,7 +25,8 @@ class Recorder {
     StoredQp qp;
     qp.start = kept_multipliers(record.solution.rows, warm);
     if (!options_.primal) {
-      qp.box = to_box(model_, record);
+      qp.box =
+          whole_dual(model_, record.situation.kin, record.solution.system, record.solution.rows);
     } else {
       if (at_cap(record.solution)) {
         ++left_out_;

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/dual_problem.hpp"
-
 namespace hagfish {
 namespace {
 
@@ -38,19 +36,6 @@ bool at_cap(const StepSolution& solution) {
   return false;
 }
 
-BoxQp to_box(const Model& model, const StepRecord& record) {
-  const Kinematics& kin = record.situation.kin;
-  const StepSystem& system = record.solution.system;
-  ArticulatedFactor factor;
-  factor.factorise(model, kin, system.op);
-  const Eigen::VectorXd base = factor.solve(model, kin, system.wrench, system.joint);
-  RowColumns columns;
-  BoxQp qp;
-  assemble_dual(model, kin, factor, record.solution.rows, base,
-                centre_velocities(kin, body_twists(model, kin, base)), columns, qp);
-  return qp;
-}
-
 PrimalQp to_primal(const Model& model, const StepRecord& record) {
   const Kinematics& kin = record.situation.kin;
   const StepSystem& system = record.solution.system;
@@ -80,8 +65,7 @@ PrimalQp to_primal(const Model& model, const StepRecord& record) {
 Eigen::VectorXd kept_multipliers(const std::vector<Row>& rows, const WarmStart& warm) {
   Eigen::VectorXd lambda(static_cast<Eigen::Index>(rows.size()));
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const WarmStart::Kept* kept = warm.find(rows[i].id);
-    lambda[static_cast<Eigen::Index>(i)] = kept == nullptr ? 0 : kept->lambda;
+    lambda[static_cast<Eigen::Index>(i)] = warm.multiplier(rows[i].id);
   }
   return lambda;
 }

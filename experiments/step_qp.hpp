@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 
 #include "core/simulation.hpp"
-#include "solvers/box_qp.hpp"
 #include "solvers/primal_qp.hpp"
 
 namespace hagfish {
@@ -16,11 +15,8 @@ bool has_qp(const StepSolution& solution);
 /// solution then, and else the same.
 bool at_cap(const StepSolution& solution);
 
-/// The QP in the multipliers of record.solution.rows.
-BoxQp to_box(const Model& model, const StepRecord& record);
-
-/// The same as the paper's Eq. 4 has it, with soft rows as hard ones: H and g dense in q̇, bilateral
-/// rows in G and e, all others in C and d, in the order of the rows.
+/// The QP as the paper's Eq. 4 has it, with soft rows as hard ones: H and g dense in q̇, bilateral
+/// rows in G and e, all others in C and d, in the order of record.solution.rows.
 PrimalQp to_primal(const Model& model, const StepRecord& record);
 
 /// What `warm`, as the step found it, keeps of the multipliers of its rows; 0 where nothing.

@@ -110,14 +110,14 @@ void add_holding(const std::string& name, const std::shared_ptr<Parts>& parts, H
   const auto run = std::make_shared<Run>();
   const Model& model = parts->start->model;
   const StepSolution& step = parts->record.solution;
-  std::vector<std::pair<int, std::size_t>> order;  // of the others, as in a step
+  std::vector<std::pair<int, std::size_t>> order;  // of the others
   for (std::size_t i = 0; i < step.rows.size(); ++i) {
-    const Row& row = step.rows[i];
-    if (row.held && holds(row)) {
+    Row row = step.rows[i];
+    row.held = row.held && holds(row);
+    if (row.held) {
       run->held.push_back({row.dof, row.sign * row.rhs});
     } else {
-      order.emplace_back(row.kind == RowKind::head ? -model.nv() - 1 : -leading_dofs(model, row),
-                         i);
+      order.emplace_back(place_in_step(model, row), i);
     }
   }
   std::ranges::sort(order);

@@ -29,7 +29,7 @@ TEST_P(StepQp, BothFormsHaveTheStepsOwnSolution) {
   ASSERT_TRUE(has_qp(step));
   EXPECT_GE(step.held, record.control.clamp_head ? 6 : 1);
 
-  const BoxQp box = to_box(model, record);
+  const BoxQp box = whole_dual(model, record.situation.kin, step.system, rows);
   ASSERT_EQ(box.b.size(), step.lambda.size());
   // To rounding of λ, of which a step finds those held by another way: seen 1e-12.
   EXPECT_LE(kkt_residuals(box, step.lambda).worst(), 1e-10);
