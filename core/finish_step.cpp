@@ -40,21 +40,23 @@ void sum_forces(const Model& model, const Kinematics& kin, double h, StepScratch
   of_kind(RowKind::thigmotaxis, step.force.thigmotaxis);
 }
 
-/// |H q̇ - g - C'λ| over the largest of the three: forces alone may be nothing but rounding.
+/// step.net_force, and |H q̇ - g - C'λ| over the largest of the three: forces alone may be nothing
+/// but rounding.
 double stationarity(const Model& model, const Kinematics& kin, double h, StepScratch& scratch,
-                    const StepSolution& step) {
+                    StepSolution& step) {
   const StepSystem& system = step.system;
   const ConstraintForces& f = step.force;
   Eigen::VectorXd& momentum = scratch.joint;  // g, then with C'λ
   generalised_force(model, kin, system.wrench, momentum);
   momentum += system.joint;
   double scale = momentum.lpNorm<Eigen::Infinity>();
-  scratch.impulse = h * (f.head + f.limit + f.contact + f.wall + f.thigmotaxis);
-  scale = std::max(scale, scratch.impulse.lpNorm<Eigen::Infinity>());
-  momentum += scratch.impulse;
   Eigen::VectorXd& change = scratch.change;  // H q̇
   multiply(model, kin, system.op, step.qdot, step.twist, scratch.wrench, change);
   scale = std::max(scale, change.lpNorm<Eigen::Infinity>());
+  step.net_force = (change - momentum) / h;
+  scratch.impulse = h * (f.head + f.limit + f.contact + f.wall + f.thigmotaxis);
+  scale = std::max(scale, scratch.impulse.lpNorm<Eigen::Infinity>());
+  momentum += scratch.impulse;
   change -= momentum;
   return scale == 0 ? 0 : change.lpNorm<Eigen::Infinity>() / scale;
 }

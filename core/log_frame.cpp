@@ -8,9 +8,6 @@ namespace hagfish {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-// Relative to the commanded speed, or to 1 cm/s where that is less: Ipopt's tolerance moves the
-// speed of a row by 1e-8 of the largest in the step.
-constexpr double slack_tolerance = 1e-6;
 
 std::vector<std::string> phase_names() {
   std::vector<std::string> names;
@@ -30,11 +27,27 @@ double worst_residual(const StepSolution& s) { return std::max(s.kkt.worst(), s.
 /// Bodies of the thigmotaxis contacts, [first, last].
 std::array<int, 2> bodies(const Frame& frame, int (Contact::*body)() const) {
   std::array<int, 2> pair{-1, -1};
-  for (std::size_t k = 0; k < frame.record.control.thigmotaxis.size(); ++k) {
+  const std::size_t count = std::min(pair.size(), frame.record.control.thigmotaxis.size());
+  for (std::size_t k = 0; k < count; ++k) {
     pair[k] = (frame.record.control.thigmotaxis[k].contact.*body)();
   }
   return pair;
 }
+
+/// Spline parameters of the contacts that the controller follows, [first, last].
+std::array<double, 2> followed(const Frame& frame, int Contact::*segment, double Contact::*t) {
+  std::array<double, 2> pair{nan, nan};
+  const ControllerState& controller = frame.record.controller;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const std::optional<Contact>& contact = (k == 0 ? controller.first : controller.last).contact;
+    if (contact) {
+      pair[k] = *contact.*segment + *contact.*t;
+    }
+  }
+  return pair;
+}
+
+const std::string order = "first t_a, first t_b, last t_a, last t_b: ";
 
 void declare_trajectory(const Model& model, LogTable<Frame>& t) {
   const hsize_t n = model.body_count();
@@ -108,7 +121,15 @@ void declare_thigmotaxis(LogTable<Frame>& t) {
          [](const Frame& f) { return bodies(f, &Contact::body_a); });
   t.pair("/thigmotaxis/body_b", "strand nearer the tail at [first, last] contact; -1 where none",
          [](const Frame& f) { return bodies(f, &Contact::body_b); });
-  const std::string order = "first t_a, first t_b, last t_a, last t_b: ";
+  const std::string parameter =
+      " of the [first, last] contact followed, segment + t in bodies from the head; nan where none";
+  t.numbers("/thigmotaxis/spline_a", {2}, {"1", "spline parameter on the strand a" + parameter},
+            [](const Frame& f) { return followed(f, &Contact::segment_a, &Contact::t_a); });
+  t.numbers("/thigmotaxis/spline_b", {2}, {"1", "spline parameter on the strand b" + parameter},
+            [](const Frame& f) { return followed(f, &Contact::segment_b, &Contact::t_b); });
+  t.numbers(
+      "/thigmotaxis/command", {4}, {"cm/s", order + "right side of Eq. 6, nan where no row"},
+      [](const Frame& f) -> const auto& { return f.thigmotaxis.command; });
   t.numbers(
       "/thigmotaxis/lambda", {4}, {"dyn", order + "multiplier over h, 0 where no row"},
       [](const Frame& f) -> const auto& { return f.thigmotaxis.lambda; });
@@ -118,6 +139,46 @@ void declare_thigmotaxis(LogTable<Frame>& t) {
   t.numbers(
       "/thigmotaxis/slack", {4}, {"cm/s", order + "shortfall of Eq. 6, nan where no row"},
       [](const Frame& f) -> const auto& { return f.thigmotaxis.slack; });
+}
+
+/// /mean: what stands in the snapshots' groups, as means.
+void declare_means(const Model& model, Hdf5Writer& file, LogTable<Frame>& t) {
+  for (const char* group : {"/mean", "/mean/forces", "/mean/thigmotaxis"}) {
+    file.group(group);
+  }
+  const std::string since = ", mean over the steps since the frame before; nan at the first frame";
+  const auto force = [&](const char* name, const std::string& description,
+                         Eigen::VectorXd ConstraintForces::*member) {
+    t.numbers(
+        std::string("/mean/forces/") + name, {static_cast<hsize_t>(model.nv())},
+        {"dyn, dyn·cm", description + since, true}, [member](const Frame& f) -> const auto& {
+          return f.mean.force.*member;
+        });
+  };
+  force("thigmotaxis", "f_thigmo (Eq. 8)", &ConstraintForces::thigmotaxis);
+  force("contact", "self-contact", &ConstraintForces::contact);
+  force("limit", "joint limits", &ConstraintForces::limit);
+  force("head", "head clamp", &ConstraintForces::head);
+  force("wall", "head plate", &ConstraintForces::wall);
+  t.numbers(
+      "/mean/forces/net", {static_cast<hsize_t>(model.nv())},
+      {"dyn, dyn·cm", "H (qdot_next - qdot*) / h, what the five add up to, from the motion" + since,
+       true},
+      [](const Frame& f) -> const auto& { return f.mean.net_force; });
+  t.numbers(
+      "/mean/forces/tip", {3}, {"dyn", "scripted force on the last body, world axes" + since},
+      [](const Frame& f) -> const auto& { return f.mean.tip; });
+  const auto row = [&](const char* name, const char* unit, const std::string& description,
+                       std::array<double, 4> FrameMeans::*member) {
+    t.numbers(
+        std::string("/mean/thigmotaxis/") + name, {4},
+        {unit, order + description + since}, [member](const Frame& f) -> const auto& {
+          return f.mean.*member;
+        });
+  };
+  row("lambda", "dyn", "multiplier over h, 0 where no row", &FrameMeans::lambda);
+  row("speed", "cm/s", "left side of Eq. 6 where there was a row, else nan", &FrameMeans::speed);
+  row("slack", "cm/s", "shortfall of Eq. 6 where there was a row, else nan", &FrameMeans::slack);
 }
 
 void declare_diagnostics(LogTable<Frame>& t) {
@@ -186,29 +247,6 @@ void declare_energy(LogTable<Frame>& t) {
 
 }  // namespace
 
-ThigmotaxisRows thigmotaxis_rows_of(const StepSolution& solution, double h) {
-  ThigmotaxisRows rows;
-  rows.speed.fill(nan);
-  rows.slack.fill(nan);
-  std::size_t next = 0;
-  rows.met = true;
-  for (std::size_t i = 0; i < solution.rows.size(); ++i) {
-    const Row& row = solution.rows[i];
-    if (row.kind != RowKind::thigmotaxis) {
-      continue;
-    }
-    const auto index = static_cast<Eigen::Index>(i);
-    rows.lambda[next] = solution.lambda[index] / h;
-    rows.speed[next] = solution.excess[index] + row.rhs;
-    rows.slack[next] = std::max(0.0, -solution.excess[index]);
-    rows.met = rows.met && rows.slack[next] <= slack_tolerance * std::max(1.0, std::abs(row.rhs));
-    ++next;
-  }
-  rows.any = next > 0;
-  rows.met = rows.met && rows.any;
-  return rows;
-}
-
 void Worst::take(const StepRecord& record) {
   penetration = std::max(penetration, record.situation.penetration);
   limit_violation = std::max(limit_violation, record.situation.limit_violation);
@@ -224,33 +262,63 @@ void declare_frames(const Model& model, Hdf5Writer& file, LogTable<Frame>& table
   declare_knot(table);
   declare_forces(model, table);
   declare_thigmotaxis(table);
+  declare_means(model, file, table);
   declare_diagnostics(table);
   declare_energy(table);
 }
 
-void declare_steps(Hdf5Writer& file, LogTable<StepRecord>& t, double h) {
+void declare_steps(Hdf5Writer& file, LogTable<LoggedStep>& t) {
   file.group("/steps");
   t.choice("/steps/solve", solve_names(), "least that each step had to solve",
-           [](const StepRecord& r) { return r.solution.kind; });
+           [](const LoggedStep& s) { return s.record.solution.kind; });
   t.count("/steps/rows", "rows in the problem of each step",
-          [](const StepRecord& r) { return r.solution.rows.size(); });
+          [](const LoggedStep& s) { return s.record.solution.rows.size(); });
   t.count("/steps/iterations", "back end iterations of each step",
-          [](const StepRecord& r) { return r.solution.iterations; });
+          [](const LoggedStep& s) { return s.record.solution.iterations; });
   t.count("/steps/eq6", "Eq. 6 at each step: -1 no rows, 0 with slack, 1 met",
-          [h](const StepRecord& r) {
-            const ThigmotaxisRows rows = thigmotaxis_rows_of(r.solution, h);
-            return rows.any ? static_cast<int>(rows.met) : -1;
+          [](const LoggedStep& s) {
+            return s.thigmotaxis.any ? static_cast<int>(s.thigmotaxis.met) : -1;
           });
+  const auto row = [&t](const char* name, const char* unit, const std::string& description,
+                        std::array<double, 4> ThigmotaxisRows::*member) {
+    t.numbers(
+        std::string("/steps/thigmotaxis_") + name, {4},
+        {unit, order + description, true}, [member](const LoggedStep& s) -> const auto& {
+          return s.thigmotaxis.*member;
+        });
+  };
+  row("lambda", "dyn", "multiplier over h of each step", &ThigmotaxisRows::lambda);
+  row("command", "cm/s", "right side of Eq. 6, nan where no row", &ThigmotaxisRows::command);
+  row("speed", "cm/s", "left side of Eq. 6, nan where no row", &ThigmotaxisRows::speed);
   t.number("/steps/kkt", {"1", "largest KKT residual of each step"},
-           [](const StepRecord& r) { return worst_residual(r.solution); });
+           [](const LoggedStep& s) { return worst_residual(s.record.solution); });
   t.number("/steps/penetration", {"cm", "deepest at each step's start"},
-           [](const StepRecord& r) { return r.situation.penetration; });
+           [](const LoggedStep& s) { return s.record.situation.penetration; });
   t.number("/steps/limit_violation", {"rad", "largest at each step's start"},
-           [](const StepRecord& r) { return r.situation.limit_violation; });
+           [](const LoggedStep& s) { return s.record.situation.limit_violation; });
   t.number("/steps/head_drift", {"cm", "at each step's start while clamped"},
-           [](const StepRecord& r) { return r.head_drift; });
+           [](const LoggedStep& s) { return s.record.head_drift; });
   t.number("/steps/qp_time", {"s", "wall time in the QP back end, each step"},
-           [](const StepRecord& r) { return r.solution.qp_time; });
+           [](const LoggedStep& s) { return s.record.solution.qp_time; });
+}
+
+void declare_contacts(Hdf5Writer& file, LogTable<BearingContact>& t) {
+  file.group("/contacts");
+  t.count("/contacts/frame", "index along the frames of each contact with a force",
+          [](const BearingContact& c) { return c.frame; });
+  t.number("/contacts/spline_a",
+           {"1",
+            "spline parameter on the strand nearer the head, segment + t; of the head plate "
+            "the body"},
+           [](const BearingContact& c) { return c.row.a.parameter; });
+  t.number("/contacts/spline_b",
+           {"1", "spline parameter on the strand nearer the tail; nan where it is the head plate"},
+           [](const BearingContact& c) {
+             return c.row.kind == RowKind::wall ? nan : c.row.b.parameter;
+           });
+  t.number("/contacts/force",
+           {"dyn", "multiplier over h of the step at the frame, along the normal"},
+           [](const BearingContact& c) { return c.force; });
 }
 
 }  // namespace hagfish

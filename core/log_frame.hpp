@@ -7,20 +7,11 @@
 #include <vector>
 
 #include "core/hdf5_writer.hpp"
+#include "core/log_means.hpp"
 #include "core/simulation.hpp"
+#include "core/thigmotaxis_rows.hpp"
 
 namespace hagfish {
-
-/// The four rows of Eq. 6 in the log's order: first t_a, first t_b, last t_a, last t_b.
-struct ThigmotaxisRows {
-  std::array<double, 4> lambda{};  ///< over h, dyn; 0 where there is no row
-  std::array<double, 4> speed{};   ///< left side of Eq. 6 at the solution, cm/s; nan where no row
-  std::array<double, 4> slack{};   ///< shortfall, cm/s; nan where no row
-  bool any = false;
-  bool met = false;  ///< all rows at their commanded speed without slack
-};
-
-ThigmotaxisRows thigmotaxis_rows_of(const StepSolution& solution, double h);
 
 /// Worst figures of the steps since the last frame.
 struct Worst {
@@ -33,10 +24,24 @@ struct Worst {
 
 struct Frame {
   const StepRecord& record;
-  ThigmotaxisRows thigmotaxis;
+  const ThigmotaxisRows& thigmotaxis;
+  const FrameMeans& mean;
   KnotVote knot;
   Worst worst;
   double wall_time = 0;  ///< s
+};
+
+/// What is logged of every step.
+struct LoggedStep {
+  const StepRecord& record;
+  const ThigmotaxisRows& thigmotaxis;
+};
+
+/// A contact with a force, of the step at a frame.
+struct BearingContact {
+  std::int32_t frame = 0;  ///< index along the frames
+  const Row& row;          ///< of kind contact or wall
+  double force = 0;        ///< λ / h, dyn
 };
 
 /// A group of datasets that grow together. Each is declared in one place: path, shape, unit,
@@ -48,13 +53,13 @@ class LogTable {
 
   template <class Get>  // double(const Source&)
   void number(const std::string& path, const Meaning& meaning, Get get) {
-    add(file_.doubles(path, {}, meaning),
+    add(path, {}, file_.doubles(path, {}, meaning),
         [get](Series<double>& series, const Source& source) { series.append(get(source)); });
   }
   template <class Get>  // anything with data() and size()
-  void numbers(const std::string& path, std::vector<hsize_t> shape, const Meaning& meaning,
+  void numbers(const std::string& path, const std::vector<hsize_t>& shape, const Meaning& meaning,
                Get get) {
-    add(file_.doubles(path, std::move(shape), meaning),
+    add(path, shape, file_.doubles(path, shape, meaning),
         [get](Series<double>& series, const Source& source) {
           const auto& row = get(source);
           series.append(row.data(), row.size());
@@ -62,30 +67,35 @@ class LogTable {
   }
   template <class Get>  // std::array<int, 2>(const Source&)
   void pair(const std::string& path, const std::string& description, Get get) {
-    add(file_.ints(path, {2}, {"1", description}),
+    add(path, {2}, file_.ints(path, {2}, {"1", description}),
         [get](Series<std::int32_t>& series, const Source& source) {
           series.append(get(source).data(), 2);
         });
   }
   template <class Get>  // int(const Source&)
   void count(const std::string& path, const std::string& description, Get get) {
-    add(file_.ints(path, {}, {"1", description}),
+    add(path, {}, file_.ints(path, {}, {"1", description}),
         [get](Series<std::int32_t>& series, const Source& source) {
           series.append(static_cast<std::int32_t>(get(source)));
         });
   }
   template <class Get>  // std::int64_t(const Source&)
   void index(const std::string& path, const std::string& description, Get get) {
-    add(file_.longs(path, {"1", description}),
+    add(path, {}, file_.longs(path, {"1", description}),
         [get](Series<std::int64_t>& series, const Source& source) { series.append(get(source)); });
   }
   template <class Get>  // an enum class that counts up from 0 in the order of `names`
   void choice(const std::string& path, const std::vector<std::string>& names,
               const std::string& description, Get get) {
-    add(file_.choices(path, names, {"1", description}),
+    add(path, {}, file_.choices(path, names, {"1", description}),
         [get](Series<std::uint8_t>& series, const Source& source) {
           series.append(static_cast<std::uint8_t>(get(source)));
         });
+  }
+
+  /// Paths and shapes of the rows of what has been declared.
+  const std::vector<std::pair<std::string, std::vector<hsize_t>>>& declared() const {
+    return declared_;
   }
 
   void append(const Source& source) {
@@ -105,13 +115,15 @@ class LogTable {
     std::function<void()> flush;
   };
   template <class T, class Put>
-  void add(Series<T> series, Put put) {
+  void add(const std::string& path, const std::vector<hsize_t>& shape, Series<T> series, Put put) {
+    declared_.emplace_back(path, shape);
     const auto shared = std::make_shared<Series<T>>(std::move(series));
     columns_.push_back({[shared, put](const Source& source) { put(*shared, source); },
                         [shared] { shared->flush(); }});
   }
 
   Hdf5Writer& file_;
+  std::vector<std::pair<std::string, std::vector<hsize_t>>> declared_;
   std::vector<Column> columns_;
 };
 
@@ -119,6 +131,9 @@ class LogTable {
 void declare_frames(const Model& model, Hdf5Writer& file, LogTable<Frame>& table);
 
 /// Declares the datasets along the steps, /steps: few figures, but of every step.
-void declare_steps(Hdf5Writer& file, LogTable<StepRecord>& table, double h);
+void declare_steps(Hdf5Writer& file, LogTable<LoggedStep>& table);
+
+/// Declares /contacts, a row for each contact with a force at a frame.
+void declare_contacts(Hdf5Writer& file, LogTable<BearingContact>& table);
 
 }  // namespace hagfish

@@ -78,25 +78,32 @@ struct LogWriter::Contents {
   Contents(const Model& model, const Scene& scene)
       : frames(h5),
         steps(h5),
+        contacts(h5),
+        means(model.nv()),
         knot(scene.knot),
         h(scene.time.step),
         stride(std::max<std::int64_t>(1, std::llround(scene.time.frame_interval / h))) {
     declare_frames(model, h5, frames);
-    declare_steps(h5, steps, h);
+    declare_steps(h5, steps);
+    declare_contacts(h5, contacts);
   }
   void save(const fs::path& file) {
     frames.flush();
     steps.flush();
+    contacts.flush();
     h5.save(file);
   }
 
   Hdf5Writer h5;
   LogTable<Frame> frames;
-  LogTable<StepRecord> steps;
+  LogTable<LoggedStep> steps;
+  LogTable<BearingContact> contacts;
+  RunningMeans means;
   KnotSettings knot;
   double h;
   std::int64_t stride;  // steps a frame
-  double saved = 0;     // wall time, s
+  std::int32_t frame_count = 0;
+  double saved = 0;  // wall time, s
   Worst worst;
   std::string warnings;
 };
@@ -132,15 +139,32 @@ void LogWriter::write(const StepRecord& record, double wall_time) {
                               record.step, record.time, warning);
     c.h5.root_attribute("warnings", c.warnings);
   }
+  const ThigmotaxisRows rows = thigmotaxis_rows_of(record.solution, c.h);
   c.worst.take(record);
-  c.steps.append(record);
-  if (record.step % c.stride != 0) {
-    return;
+  c.steps.append({record, rows});
+  if (record.step % c.stride == 0) {
+    write_frame(record, rows, wall_time);
   }
+  // The step that begins at a frame counts to the next one's means.
+  c.means.take(record, rows);
+}
+
+void LogWriter::write_frame(const StepRecord& record, const ThigmotaxisRows& rows,
+                            double wall_time) {
+  Contents& c = *contents_;
   const KnotVote knot = record.controller.knot_seen == record.time
                             ? record.controller.knot
                             : knot_type(record.situation.kin.centre, c.knot.votes, c.knot.seed);
-  c.frames.append({record, thigmotaxis_rows_of(record.solution, c.h), knot, c.worst, wall_time});
+  c.frames.append({record, rows, c.means.close(), knot, c.worst, wall_time});
+  const StepSolution& step = record.solution;
+  for (std::size_t i = 0; i < step.rows.size(); ++i) {
+    const Row& row = step.rows[i];
+    const double force = step.lambda[static_cast<Eigen::Index>(i)] / c.h;
+    if ((row.kind == RowKind::contact || row.kind == RowKind::wall) && force != 0) {
+      c.contacts.append({c.frame_count, row, force});
+    }
+  }
+  ++c.frame_count;
   c.worst = {};
   if (wall_time - c.saved >= save_interval) {
     c.save(partial_);

@@ -9,6 +9,7 @@
 
 #include "core/simulation.hpp"
 #include "core/specimen.hpp"
+#include "core/thigmotaxis_rows.hpp"
 
 namespace hagfish {
 
@@ -43,6 +44,7 @@ class LogWriter {
   void finish(const std::string& status);
 
  private:
+  void write_frame(const StepRecord& record, const ThigmotaxisRows& rows, double wall_time);
   struct Contents;
   std::filesystem::path file_, partial_;
   std::unique_ptr<Contents> contents_;

@@ -109,7 +109,7 @@ Row wall_row(int body) {
   row.kind = RowKind::wall;
   row.id = row_id(RowKind::wall, body, 0);
   row.direction = Eigen::Vector3d::UnitX();
-  row.a = {body, 1, {1}};
+  row.a = {body, 1, {1}, static_cast<double>(body)};
   return row;
 }
 

@@ -12,6 +12,7 @@ SplineMix spline_mix(int segment, double t, int bodies) {
   const bool at_head = segment == 0;
   const bool at_tail = segment == bodies - 2;
   SplineMix mix;
+  mix.parameter = segment + t;
   mix.first = at_head ? 0 : segment - 1;
   const int skipped = at_head ? 1 : 0;
   mix.count = 4 - skipped - (at_tail ? 1 : 0);

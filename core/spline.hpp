@@ -17,6 +17,7 @@ struct SplineMix {
   int first = 0;
   int count = 0;
   std::array<double, 4> weight{};
+  double parameter = 0;  ///< segment + t: counts bodies from the head
 };
 
 /// Segment `i` of n - 1 runs from body centre i (t = 0) to i + 1 (t = 1). Beyond both ends the

@@ -67,6 +67,8 @@ struct StepSolution {
   /// Problems solved: rows left out at first and found violated come in, rows held that would have
   /// to pull are let go.
   int rounds = 0;
+  /// (H q̇ - g) / h: what the forces of all rows add up to, from the motion alone, nv.
+  Eigen::VectorXd net_force;
   double stationarity = 0;  ///< |H q̇ - g - C'λ| over the largest of these three, infinity norms
   KktResiduals kkt;    ///< of the rows not held, on the scale of all; those held are met exactly
   double qp_time = 0;  ///< s spent in the QP back end
