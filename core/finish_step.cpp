@@ -7,7 +7,7 @@
 namespace hagfish {
 namespace {
 
-/// λ, rows brought to unit diagonal, counts as a force above this share of the largest.
+/// λ, rows brought to unit diagonal, is kept for the next step above this share of the largest.
 constexpr double active_share = 1e-6;
 
 /// Eqs. 7 and 8: f = C'λ / h, by kind of row.
@@ -94,15 +94,13 @@ void measure(const Model& model, const Kinematics& kin, double h, StepScratch& s
   step.stationarity = stationarity(model, kin, h, scratch, step);
 }
 
-/// Counts the rows with a force and keeps their multipliers for the next step.
-void keep_active(const StepScratch& scratch, StepSolution& step, WarmStart& warm) {
+/// Keeps the multipliers of the rows with a force for the next step.
+void keep_active(const StepScratch& scratch, const StepSolution& step, WarmStart& warm) {
   warm.begin();
-  step.active = 0;
   const Eigen::VectorXd& scaled = scratch.scaled;
   const double least = scaled.size() > 0 ? active_share * scaled.maxCoeff() : 0;
   for (Eigen::Index i = 0; i < scaled.size(); ++i) {
     if (scaled[i] > least) {
-      ++step.active;
       warm.add(step.rows[i].id, step.lambda[i]);
     }
   }
@@ -116,6 +114,7 @@ void finish_step(const Model& model, const Situation& situation, const Control& 
   scale_multipliers(scratch, step);
   measure(model, situation.kin, scene.time.step, scratch, step);
   keep_active(scratch, step, warm);
+  step.active = static_cast<int>((step.lambda.array() != 0).count());
   const int last = model.body_count() - 1;
   step.tip = control.tip.value - control.tip.rate * step.centre_velocity.col(last);
 }

@@ -165,9 +165,6 @@ void declare_means(const Model& model, Hdf5Writer& file, LogTable<Frame>& t) {
       {"dyn, dyn·cm", "H (qdot_next - qdot*) / h, what the five add up to, from the motion" + since,
        true},
       [](const Frame& f) -> const auto& { return f.mean.net_force; });
-  t.numbers(
-      "/mean/forces/tip", {3}, {"dyn", "scripted force on the last body, world axes" + since},
-      [](const Frame& f) -> const auto& { return f.mean.tip; });
   const auto row = [&](const char* name, const char* unit, const std::string& description,
                        std::array<double, 4> FrameMeans::*member) {
     t.numbers(
@@ -288,8 +285,8 @@ void declare_steps(Hdf5Writer& file, LogTable<LoggedStep>& t) {
         });
   };
   row("lambda", "dyn", "multiplier over h of each step", &ThigmotaxisRows::lambda);
-  row("command", "cm/s", "right side of Eq. 6, nan where no row", &ThigmotaxisRows::command);
   row("speed", "cm/s", "left side of Eq. 6, nan where no row", &ThigmotaxisRows::speed);
+  row("slack", "cm/s", "shortfall of Eq. 6, nan where no row", &ThigmotaxisRows::slack);
   t.number("/steps/kkt", {"1", "largest KKT residual of each step"},
            [](const LoggedStep& s) { return worst_residual(s.record.solution); });
   t.number("/steps/penetration", {"cm", "deepest at each step's start"},

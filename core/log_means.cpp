@@ -25,7 +25,6 @@ RunningMeans::RunningMeans(Eigen::Index nv) {
 
 void RunningMeans::clear() {
   visit_vectors(sum_, [](Eigen::VectorXd& v) { v.setZero(); });
-  sum_.tip.setZero();
   sum_.lambda = {};
   sum_.speed = {};
   sum_.slack = {};
@@ -42,7 +41,6 @@ void RunningMeans::take(const StepRecord& record, const ThigmotaxisRows& rows) {
   sum_.force.wall += step.force.wall;
   sum_.force.thigmotaxis += step.force.thigmotaxis;
   sum_.net_force += step.net_force;
-  sum_.tip += step.tip;
   for (int k = 0; k < 4; ++k) {
     if (rows.present[k]) {
       ++with_row_[k];
@@ -57,7 +55,6 @@ const FrameMeans& RunningMeans::close() {
   const double per_step = steps_ > 0 ? 1.0 / steps_ : std::numeric_limits<double>::quiet_NaN();
   mean_ = sum_;
   visit_vectors(mean_, [per_step](Eigen::VectorXd& v) { v *= per_step; });
-  mean_.tip *= per_step;
   for (int k = 0; k < 4; ++k) {
     mean_.lambda[k] *= per_step;
     mean_.speed[k] /= with_row_[k];  // 0 / 0 where there was no row

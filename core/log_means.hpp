@@ -13,7 +13,6 @@ namespace hagfish {
 struct FrameMeans {
   ConstraintForces force;              ///< Σ impulse / elapsed time, by kind, nv each
   Eigen::VectorXd net_force;           ///< the same of StepSolution::net_force, nv
-  Eigen::Vector3d tip;                 ///< dyn, world
   std::array<double, 4> lambda;        ///< over h, dyn; a step without the row counts as 0
   std::array<double, 4> speed, slack;  ///< over the steps that have the row, cm/s; nan where none
 };

@@ -82,7 +82,7 @@ struct LogWriter::Contents {
         means(model.nv()),
         knot(scene.knot),
         h(scene.time.step),
-        stride(std::max<std::int64_t>(1, std::llround(scene.time.frame_interval / h))) {
+        stride(frame_stride(scene.time)) {
     declare_frames(model, h5, frames);
     declare_steps(h5, steps);
     declare_contacts(h5, contacts);
@@ -107,6 +107,10 @@ struct LogWriter::Contents {
   Worst worst;
   std::string warnings;
 };
+
+std::int64_t frame_stride(const TimeSettings& time) {
+  return std::max<std::int64_t>(1, std::llround(time.frame_interval / time.step));
+}
 
 LogWriter::LogWriter(fs::path file, bool replace, const LogHeader& header, const Model& model,
                      const Scene& scene)

@@ -25,6 +25,9 @@ struct LogHeader {
   std::map<std::string, std::string> mjcf;  ///< the mirrored model's files by name
 };
 
+/// Steps from one frame to the next.
+std::int64_t frame_stride(const TimeSettings& time);
+
 class LogWriter {
  public:
   /// Writes beside `file` until finish(). Throws FileError where `file` exists and `replace` is not

@@ -9,7 +9,11 @@
 
 #include "core/log_writer.hpp"
 #include "core/simulation.hpp"
+#include "experiments/audit_datasets.hpp"
+#include "experiments/audit_forces.hpp"
+#include "experiments/audit_frames.hpp"
 #include "experiments/audit_knot.hpp"
+#include "experiments/audit_steps.hpp"
 #include "mujoco_ref/forward_inverse.hpp"
 #include "mujoco_ref/log_model.hpp"
 #include "mujoco_ref/mirror.hpp"
@@ -21,11 +25,6 @@ constexpr double degree = std::numbers::pi / 180;
 /// A spline point loads bodies up to two past the one nearest to it.
 constexpr int spline_reach = 2;
 
-/// The larger; a figure that is no number is as bad as can be.
-double worse(double a, double b) {
-  return std::isnan(a) || std::isnan(b) ? INFINITY : std::max(a, b);
-}
-
 double largest(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0, worse);
 }
@@ -34,26 +33,17 @@ double largest(const Eigen::ArrayXd& values) {
   return std::accumulate(values.begin(), values.end(), 0.0, worse);
 }
 
-Finding bounded(const std::string& name, double value, double bound, const std::string& unit) {
-  return {name, value <= bound, fmt::format("{:.3g} {} (at most {:g})", value, unit, bound)};
-}
-
 Finding status(const LogContents& log) {
   const std::string text = log.h5.root_text("status");
   return {"status", text == "complete", text};
 }
 
-std::vector<Finding> constraints(const LogContents& log) {
+/// Bounds of the scene; `deepest` and `furthest` are overlap (cm) and angle past a limit (rad) at
+/// the frames, observed anew.
+std::vector<Finding> constraints(const LogContents& log, double deepest, double furthest) {
   const ExpectSettings& expect = log.resolved.scene.expect;
-  const Model& model = log.model;
-  double violation = largest(log.h5.doubles("/steps/limit_violation"));
-  double penetration = largest(log.h5.doubles("/steps/penetration"));
-  for (Eigen::Index f = 0; f < log.q.rows(); ++f) {
-    const State state{log.q.row(f), log.qdot.row(f)};
-    const Situation situation = observe(model, state, log.resolved.scene);
-    violation = worse(violation, situation.limit_violation);
-    penetration = worse(penetration, situation.penetration);
-  }
+  const double penetration = worse(deepest, largest(log.h5.doubles("/steps/penetration")));
+  const double violation = worse(furthest, largest(log.h5.doubles("/steps/limit_violation")));
   return {bounded("penetration", penetration, expect.penetration, "cm, every step"),
           bounded("limits", violation / degree, expect.limit_violation / degree, "deg, every step"),
           bounded("head drift", largest(log.h5.doubles("/steps/head_drift")), expect.head_drift,
@@ -69,29 +59,6 @@ Hdf5Reader::Rows constraint_forces(const LogContents& log) {
     sum += log.h5.rows(std::string("/forces/") + block);
   }
   return sum;
-}
-
-/// |H (q̇_next - q̇*) - h Σ f| of each frame over its largest term, from the logged numbers alone.
-Finding force_balance(const LogContents& log) {
-  const Scene& scene = log.resolved.scene;
-  const Model& model = log.model;
-  const double h = scene.time.step;
-  const Hdf5Reader::Rows sum = constraint_forces(log);
-  const Hdf5Reader::Rows tip = log.h5.rows("/forces/tip");
-  double worst = 0;
-  for (Eigen::Index f = 0; f < log.q.rows(); ++f) {
-    const State state{log.q.row(f), log.qdot.row(f)};
-    const Kinematics kin = kinematics(model, state);
-    const StepSystem system = step_system(model, state, kin, {tip.row(f).transpose(), 0}, h);
-    const Eigen::VectorXd given =
-        generalised_force(model, kin, system.wrench) + system.joint + h * sum.row(f).transpose();
-    const Eigen::VectorXd taken = multiply(model, kin, system.op, log.qdot_next.row(f));
-    const double scale = std::max(given.lpNorm<Eigen::Infinity>(), taken.lpNorm<Eigen::Infinity>());
-    const double off = largest((given - taken).array().abs().eval());
-    worst = worse(worst, off > 0 ? off / scale : off);
-  }
-  return bounded("force balance", worst, log.resolved.scene.expect.force_balance,
-                 "of scale, H(q̇ - q̇*) - h Σ f recomputed at every frame");
 }
 
 /// Each frame's forces put back as applied forces in the log's own MuJoCo model, with its contacts
@@ -184,15 +151,35 @@ Finding energy(const LogContents& log) {
 
 }  // namespace
 
+Finding bounded(const std::string& name, double value, double bound, const std::string& unit) {
+  return {name, value <= bound, fmt::format("{:.3g} {} (at most {:g})", value, unit, bound)};
+}
+
 std::vector<Finding> audit(const std::string& file) {
   const LogContents log(file);
+  check_datasets(log);
+  FrameAudit frames(log);
+  ForceAudit forces(log);
+  std::vector<SeenKnot> knots;
+  double deepest = 0;
+  double furthest = 0;
+  for (Eigen::Index f = 0; f < log.q.rows(); ++f) {
+    const AuditedFrame frame(log, f);
+    knots.push_back(see_knot(log, frame));
+    frames.see(frame, knots.back().vote);
+    forces.see(frame);
+    deepest = worse(deepest, frame.situation.penetration);
+    furthest = worse(furthest, frame.situation.limit_violation);
+  }
   std::vector<Finding> findings{status(log)};
   const auto append = [&findings](std::vector<Finding> more) {
     findings.insert(findings.end(), more.begin(), more.end());
   };
-  append(audit_knot(log));
-  append(constraints(log));
-  findings.push_back(force_balance(log));
+  append(audit_knot(log, knots));
+  append(constraints(log, deepest, furthest));
+  append(frames.findings());
+  append(audit_steps(log));
+  append(forces.findings());
   findings.push_back(forward_inverse(log));
   findings.push_back(thigmotaxis_extent(log));
   findings.push_back(energy(log));

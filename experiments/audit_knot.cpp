@@ -15,29 +15,6 @@ Phase phase_at(const LogContents& log, std::size_t frame) {
   return static_cast<Phase>(log.phase[frame]);
 }
 
-/// Body centres of each frame, 3 x N, cm.
-class Centrelines {
- public:
-  explicit Centrelines(const LogContents& log) : rows_(log.h5.rows("/trajectory/position")) {}
-  Eigen::Matrix3Xd operator()(std::size_t frame) const {
-    const Eigen::VectorXd row = rows_.row(static_cast<Eigen::Index>(frame));
-    return row.reshaped(3, row.size() / 3);
-  }
-
- private:
-  Hdf5Reader::Rows rows_;
-};
-
-/// Knot type of each frame, recomputed from the logged positions.
-std::vector<std::string> knot_types(const LogContents& log, const Centrelines& centreline) {
-  const KnotSettings& settings = log.resolved.scene.knot;
-  std::vector<std::string> type;
-  for (std::size_t f = 0; f < log.time.size(); ++f) {
-    type.push_back(knot_name(knot_type(centreline(f), settings.votes, settings.seed).type));
-  }
-  return type;
-}
-
 Finding held(const LogContents& log, const std::vector<std::string>& type) {
   const std::string& expected = log.resolved.scene.expect.knot;
   std::size_t frames = 0;
@@ -83,14 +60,13 @@ std::vector<Finding> types_through_time(const LogContents& log,
 }
 
 /// The sign of the writhe while the knot holds.
-Finding hand(const LogContents& log, const Centrelines& centreline) {
+Finding hand(const LogContents& log, const std::vector<SeenKnot>& seen) {
   double least = INFINITY;
   double most = -INFINITY;
   for (std::size_t f = 0; f < log.time.size(); ++f) {
     if (holds_knot(phase_at(log, f))) {
-      const double w = writhe(centreline(f));
-      least = std::min(least, w);
-      most = std::max(most, w);
+      least = std::min(least, seen[f].writhe);
+      most = std::max(most, seen[f].writhe);
     }
   }
   const bool right = log.resolved.scene.expect.hand == Hand::right;
@@ -137,7 +113,14 @@ Finding commanded_speed(const LogContents& log) {
 
 }  // namespace
 
-std::vector<Finding> audit_knot(const LogContents& log) {
+SeenKnot see_knot(const LogContents& log, const AuditedFrame& frame) {
+  const KnotSettings& settings = log.resolved.scene.knot;
+  const Eigen::Matrix3Xd& centre = frame.situation.kin.centre;
+  return {knot_type(centre, settings.votes, settings.seed),
+          holds_knot(frame.phase) ? writhe(centre) : 0};
+}
+
+std::vector<Finding> audit_knot(const LogContents& log, const std::vector<SeenKnot>& seen) {
   const Scene& scene = log.resolved.scene;
   const ExpectSettings& expect = scene.expect;
   if (expect.knot.empty()) {
@@ -146,8 +129,10 @@ std::vector<Finding> audit_knot(const LogContents& log) {
   const auto reaches = [&](Phase phase) {
     return phase_order(scene.time.until) >= phase_order(phase);
   };
-  const Centrelines centreline(log);
-  const std::vector<std::string> type = knot_types(log, centreline);
+  std::vector<std::string> type;
+  for (const SeenKnot& knot : seen) {
+    type.push_back(knot_name(knot.vote.type));
+  }
   std::vector<Finding> findings;
   if (reaches(Phase::tighten)) {
     findings.push_back(held(log, type));
@@ -162,7 +147,7 @@ std::vector<Finding> audit_knot(const LogContents& log) {
   const std::vector<Finding> through_time = types_through_time(log, type);
   findings.insert(findings.end(), through_time.begin(), through_time.end());
   if (reaches(Phase::tighten) && expect.hand != Hand::any) {
-    findings.push_back(hand(log, centreline));
+    findings.push_back(hand(log, seen));
   }
   if (reaches(Phase::slide)) {
     const double slid = -travel(log, Phase::slide, "/knot/head_end");

@@ -3,12 +3,21 @@
 
 #include <vector>
 
+#include "core/knot.hpp"
 #include "experiments/audit.hpp"
+#include "experiments/audited_frame.hpp"
 
 namespace hagfish {
 
+/// The knot of one frame, from the body as its q says.
+struct SeenKnot {
+  KnotVote vote;
+  double writhe = 0;  ///< while the knot is held, else 0
+};
+SeenKnot see_knot(const LogContents& log, const AuditedFrame& frame);
+
 /// Findings against the scene's [expect]; none where the scene expects no knot. What a run that
 /// stops early (time.until) does not reach is not judged.
-std::vector<Finding> audit_knot(const LogContents& log);
+std::vector<Finding> audit_knot(const LogContents& log, const std::vector<SeenKnot>& seen);
 
 }  // namespace hagfish

@@ -158,24 +158,27 @@ TEST_F(AuditTest, SeesDriftPenetrationResidualAndEnergy) {
 
 TEST_F(AuditTest, SeesAKnotThatCameUndone) {
   // One frame with the body pulled straight is enough.
-  const std::vector<hsize_t> shape = Hdf5Reader(file).shape("/trajectory/position");
-  const Hdf5Reader::Rows position = Hdf5Reader(file).rows("/trajectory/position");
-  for (hsize_t b = 0; b < shape[1]; ++b) {
-    for (int axis = 0; axis < 3; ++axis) {
-      const std::size_t index = 3 * b + axis;
-      const double straight = axis == 0 ? 0.424 * static_cast<double>(b) : 0;
-      tamper("/trajectory/position", index,
-             straight - position(0, static_cast<Eigen::Index>(index)));
-    }
+  const Hdf5Reader::Rows q = Hdf5Reader(file).rows("/trajectory/q");
+  for (Eigen::Index k = 7; k < q.cols(); ++k) {
+    tamper("/trajectory/q", k, -q(0, k));
   }
   EXPECT_FALSE(passes("knot held"));
   EXPECT_FALSE(passes("knot through time"));
 }
 
 TEST_F(AuditTest, SeesTheMirrorImageOfTheKnotExpected) {
-  const Hdf5Reader::Rows position = Hdf5Reader(file).rows("/trajectory/position");
-  for (Eigen::Index k = 1; k < position.cols(); k += 3) {
-    tamper("/trajectory/position", k, -2 * position(0, k));  // one frame of them
+  // y to -y, of one frame: root y, turns about x and z.
+  const Hdf5Reader::Rows q = Hdf5Reader(file).rows("/trajectory/q");
+  const ResolvedScene resolved = stored_scene();
+  const Model model = make_hagfish(resolved.specimen, resolved.scene);
+  const auto reflect = [&](Eigen::Index k) { tamper("/trajectory/q", k, -2 * q(0, k)); };
+  for (const Eigen::Index k : {1, 4, 6}) {
+    reflect(k);
+  }
+  for (std::size_t k = 0; k < model.hinges.size(); ++k) {
+    if (model.hinges[k].axis != Axis::y) {
+      reflect(7 + static_cast<Eigen::Index>(k));
+    }
   }
   EXPECT_TRUE(passes("knot held"));
   EXPECT_FALSE(passes("hand"));

@@ -1,0 +1,12 @@
+// The part of an audit that asks whether a log holds all that a log must hold.
+#pragma once
+
+#include "experiments/log_contents.hpp"
+
+namespace hagfish {
+
+/// Throws FileError naming the first dataset that is missing or does not have the shape that its
+/// model, frames, steps and contacts give it, or an attribute `unit` or `description`.
+void check_datasets(const LogContents& log);
+
+}  // namespace hagfish

@@ -1,0 +1,48 @@
+// The part of an audit that makes every force anew from q, q̇, the contacts' spline parameters and
+// the multipliers, and holds their sum against the motion.
+#pragma once
+
+#include <array>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "experiments/audited_frame.hpp"
+#include "experiments/rebuilt.hpp"
+
+namespace hagfish {
+
+class ForceAudit {
+ public:
+  /// The log is referred to.
+  explicit ForceAudit(const LogContents& log);
+  /// Frames in their order.
+  void see(const AuditedFrame& frame);
+  std::vector<Finding> findings() const;
+
+ private:
+  /// Gives C_thigmo', nv x 4, zero where there is no row.
+  Eigen::MatrixXd see_thigmotaxis(const AuditedFrame& frame);
+  void see_contacts(const AuditedFrame& frame);
+  void see_limits(const AuditedFrame& frame);
+  void see_head(const AuditedFrame& frame);
+  void see_tip(const AuditedFrame& frame);
+  void see_balance(const AuditedFrame& frame);
+  void see_means(const AuditedFrame& frame, const Eigen::MatrixXd& columns);
+
+  const LogContents& log_;
+  Hdf5Reader::Rows thigmotaxis_, contact_, limit_, head_, wall_, tip_;
+  Hdf5Reader::Rows lambda_, command_, speed_, spline_a_, spline_b_, body_a_, body_b_;
+  std::array<Hdf5Reader::Rows, 5> mean_;  ///< thigmotaxis, contact, limit, head, wall
+  Hdf5Reader::Rows mean_net_, mean_lambda_;
+  std::vector<std::int64_t> contact_frame_, active_;
+  std::vector<double> contact_a_, contact_b_, contact_force_;
+  std::size_t next_contact_ = 0;  ///< first one of frames not seen yet
+  Rebuilt from_rows_;
+  double imbalance_ = 0, mean_imbalance_ = 0, limit_miss_ = 0;
+  std::set<std::string> shape_;         ///< datasets with a force where there can be none
+  Eigen::MatrixXd columns_before_;      ///< C_thigmo' of the frame before, nv x 4
+  std::vector<double> mean_deviation_;  ///< of mean f_thigmo from C' of the mean λ, shares
+};
+
+}  // namespace hagfish
