@@ -139,7 +139,7 @@ void LogWriter::write(const StepRecord& record, double wall_time) {
   }
   const KnotVote knot = record.controller.knot_seen == record.time
                             ? record.controller.knot
-                            : knot_type(record.situation.kin.centre, c.knot.votes, c.knot.seed);
+                            : knot_type(record.situation.kin.centre, c.knot);
   c.frames.append({record, thigmotaxis_rows_of(record.solution, c.h), knot, c.worst, wall_time});
   c.worst = {};
   if (wall_time - c.saved >= save_interval) {

@@ -33,7 +33,7 @@ std::vector<std::string> knot_types(const LogContents& log, const Centrelines& c
   const KnotSettings& settings = log.resolved.scene.knot;
   std::vector<std::string> type;
   for (std::size_t f = 0; f < log.time.size(); ++f) {
-    type.push_back(knot_name(knot_type(centreline(f), settings.votes, settings.seed).type));
+    type.push_back(knot_name(knot_type(centreline(f), settings).type));
   }
   return type;
 }
