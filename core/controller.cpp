@@ -72,7 +72,7 @@ void look_at_knot(const Scene& scene, const Situation& situation, double time,
                   ControllerState& controller) {
   const KnotInvariants before = controller.knot.type;
   controller.knot_seen = time;
-  controller.knot = knot_type(situation.kin.centre, scene.knot.votes, scene.knot.seed);
+  controller.knot = knot_type(situation.kin.centre, scene.knot);
   if (controller.knot.type != before) {
     if (before != KnotInvariants{}) {
       controller.past = {before, controller.knot_from, time};

@@ -66,6 +66,10 @@ std::string opponents(const Model& model, const Kinematics& kin, const StepSolut
   return names.empty() ? "no row" : names;
 }
 
+std::size_t place_of(const Row& thigmotaxis) {
+  return static_cast<std::size_t>(thigmotaxis_place(thigmotaxis));
+}
+
 }  // namespace
 
 void report(StopCause cause, const std::string& message, GuardAction action, Watch& watch,
@@ -157,15 +161,24 @@ void guard_energy(const Model& model, const Scene& scene, State& state, Kinemati
 void guard_cap(const Model& model, const Kinematics& kin, const Scene& scene,
                const StepSolution& step, double time, Watch& watch,
                std::vector<std::string>& warnings) {
-  std::array<double, 4> below;
-  below.fill(time);
-  for (std::size_t i = 0; i < step.rows.size(); ++i) {
-    const Row& row = step.rows[i];
-    if (row.kind != RowKind::thigmotaxis || step.lambda[i] < row.upper) {
+  std::vector<double>& below = watch.below_cap;
+  for (const Row& row : step.rows) {
+    if (row.kind == RowKind::thigmotaxis) {
+      below.resize(std::max(below.size(), place_of(row) + 1), time);
+    }
+  }
+  for (std::size_t place = 0; place < below.size(); ++place) {
+    const auto at_cap = [&](const Row& row) {
+      return row.kind == RowKind::thigmotaxis && place_of(row) == place &&
+             step.lambda[&row - step.rows.data()] >= row.upper;
+    };
+    const auto found = std::ranges::find_if(step.rows, at_cap);
+    if (found == step.rows.end()) {
+      below[place] = time;
       continue;
     }
-    const auto place = static_cast<std::size_t>(thigmotaxis_place(row));
-    below[place] = watch.below_cap[place];
+    const Row& row = *found;
+    const Eigen::Index i = found - step.rows.begin();
     // Naming the opponents takes a factorisation: once.
     if (time - below[place] > scene.guard.capped_time &&
         !watch.told.test(static_cast<std::size_t>(StopCause::capped))) {
@@ -178,7 +191,6 @@ void guard_cap(const Model& model, const Kinematics& kin, const Scene& scene,
           GuardAction::warn, watch, warnings);
     }
   }
-  watch.below_cap = below;
 }
 
 }  // namespace hagfish

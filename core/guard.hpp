@@ -1,7 +1,6 @@
 // What every run is watched for: signs that its figures are no longer to be believed.
 #pragma once
 
-#include <array>
 #include <bitset>
 #include <string>
 #include <vector>
@@ -15,8 +14,9 @@ namespace hagfish {
 /// What a run remembers of its watches.
 struct Watch {
   std::bitset<stop_cause_count> told;  ///< warnings given: each cause once a run
-  /// When each thigmotaxis row (first t_a, t_b, last t_a, t_b) was last below its cap, s.
-  std::array<double, 4> below_cap{};
+  /// When each thigmotaxis row was last below its cap or not there, s: by thigmotaxis_place, as far
+  /// as rows have been seen.
+  std::vector<double> below_cap;
 };
 
 /// Throws StepError(cause, message) where the scene stops at it; else adds the message to

@@ -333,17 +333,21 @@ KnotInvariants invariants_of_closed(const Eigen::Matrix3Xd& points,
   return {.determinant = determinant_of(diagram), .v2 = v2_of(diagram)};
 }
 
-KnotVote knot_type(const Eigen::Matrix3Xd& centreline, int votes, unsigned seed) {
+KnotVote knot_type(const Eigen::Matrix3Xd& centreline, const KnotSettings& settings) {
+  const int votes = settings.votes;
   const Eigen::Index count = centreline.cols();
   if (count < 2) throw std::invalid_argument("knot: a centreline needs 2 points");
   if (votes < 1) throw std::invalid_argument("knot: at least one vote is needed");
   Eigen::Matrix3Xd closed(3, count + 2);
   closed.leftCols(count) = centreline;
+  if (settings.mirror) {  // the same as mirrored directions: types are blind to mirror images
+    closed.row(1) *= -1;
+  }
   // The edge that joins the ends must pass outside the ball around the centreline; more than two
   // radii away is enough, and farther would only cost precision.
   const double radius =
       (centreline.colwise() - centreline.rowwise().mean()).colwise().norm().maxCoeff();
-  std::mt19937 random(seed);
+  std::mt19937 random(settings.seed);
   std::map<std::pair<int, int>, int> ballots;
   int cast = 0;
   for (int most = 0; cast < votes && 2 * most <= votes; ++cast) {

@@ -83,6 +83,12 @@ Eigen::Vector3d cylinder_inertia(double mass, double length, double radius) {
   return {mass * radius * radius / 2, across, across};
 }
 
+double hinge_span(int bodies, double length, int body) {
+  const int from = body <= 2 ? 0 : body - 1;
+  const int to = body + 2 >= bodies ? bodies : body + 1;
+  return (to - from) * length;
+}
+
 Model make_hagfish(const Specimen& specimen, const Scene& scene) {
   const ModelSettings& settings = scene.model;
   const int n = settings.bodies;
@@ -103,7 +109,6 @@ Model make_hagfish(const Specimen& specimen, const Scene& scene) {
   Model model;
   model.drag = scene.drag;
   model.gravity = scene.gravity;
-  const double span = 2 * length;  // of body that one universal or one revolute joint stands for
   for (int b = 0; b < n; ++b) {
     const bool bend = b % 2 == 1;
     Body body;
@@ -115,16 +120,19 @@ Model make_hagfish(const Specimen& specimen, const Scene& scene) {
       append_body(model, body, {});
     } else if (bend) {
       append_body(model, body, {Axis::y, Axis::z});
+      const double span = hinge_span(n, length, b);
       const double measured =
           profile(specimen.station, specimen.bending_limit, static_cast<double>(b) / n);
-      const double limit = std::min(settings.limit_scale * measured * span / specimen.bending_span,
-                                    settings.largest_limit);
+      const double limit =
+          std::min(settings.limit_scale * measured * 2 * length / specimen.bending_span,
+                   settings.largest_limit);
       for (int k = 1; k <= 2; ++k) {
         set_hinge(model.hinges[model.hinges.size() - k], limit, settings.bending_stiffness / span,
                   settings.bending_damping / span);
       }
     } else {
       append_body(model, body, {Axis::x});
+      const double span = hinge_span(n, length, b);
       set_hinge(model.hinges.back(), settings.limit_scale * specimen.twist_limit / n,
                 settings.twist_stiffness / span, settings.twist_damping / span);
     }

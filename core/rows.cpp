@@ -131,7 +131,9 @@ void append_limit_rows(const Model& model, const State& state, const ConstraintS
                        double h, const NearBinding& wanted, std::vector<Row>& rows) {
   for (int k = root_dofs; k < model.nv(); ++k) {
     const Hinge& hinge = model.hinges[k - root_dofs];
-    for (const double sign : {1.0, -1.0}) {
+    // The nearer side first: an order that a mirror image, which swaps the sides, keeps.
+    const double nearer = state.q[k + 1] - hinge.lower <= hinge.upper - state.q[k + 1] ? 1 : -1;
+    for (const double sign : {nearer, -nearer}) {
       const double gap = sign > 0 ? state.q[k + 1] - hinge.lower : hinge.upper - state.q[k + 1];
       const std::optional<double> rhs = unilateral(gap, settings, h, unbounded);
       if (!rhs || !std::isfinite(gap) || !wanted(sign * wanted.v[k], *rhs)) {

@@ -93,7 +93,7 @@ Row wall_row(int body);
 void append_head_rows(const State& state, const ConstraintSettings& settings, double h,
                       std::vector<Row>& rows);
 
-/// One row per bounded side of each hinge.
+/// One row per bounded side of each hinge, that of the nearer side first.
 void append_limit_rows(const Model& model, const State& state, const ConstraintSettings& settings,
                        double h, const NearBinding& wanted, std::vector<Row>& rows);
 

@@ -134,6 +134,7 @@ void reflect(Scene& scene) {
   }
   scene.start.spin.x() *= -1;
   scene.start.spin.z() *= -1;
+  scene.knot.mirror = !scene.knot.mirror;
   Hand& hand = scene.expect.hand;
   if (hand != Hand::any) hand = hand == Hand::right ? Hand::left : Hand::right;
 }

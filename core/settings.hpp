@@ -153,6 +153,7 @@ struct KnotSettings {
   int votes = 15;            ///< directions tried
   unsigned seed = 20220301;  ///< of the directions
   double interval = 0.02;    ///< time between looks while the controller waits for a change, s
+  bool mirror = false;       ///< tries the directions' mirror images, y to -y: see Scene::mirror
 };
 
 struct TimeSettings {

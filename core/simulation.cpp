@@ -43,15 +43,15 @@ bool meets_overlap(const Model& model, const Scene& scene, bool correct, Simulat
 }
 
 /// A step whose path still overlaps ends where strands meet: the rest of its motion is left out,
-/// and the next step, with strands close, can see and stop them. Whether it did so.
-bool end_where_strands_meet(const Model& model, const Scene& scene, Simulation& sim,
-                            StepRecord& record) {
+/// and the next step, with strands close, can see and stop them. The time travelled, s.
+double end_where_strands_meet(const Model& model, const Scene& scene, Simulation& sim,
+                              StepRecord& record) {
   constexpr int least_looks = 16;
   const double h = scene.time.step;
   const double allowed =
       std::max(sim.situation.penetration, way_tolerance * scene.constraints.stride);
   if (std::max(record.crossing, record.situation.penetration) <= allowed) {
-    return false;
+    return h;
   }
   const int count =
       std::max(least_looks, looks(record.solution.centre_velocity, h, scene.constraints.stride));
@@ -67,7 +67,7 @@ bool end_where_strands_meet(const Model& model, const Scene& scene, Simulation& 
                      "are left out; a smaller time.step would help",
                      h * (count - clear) / count),
          GuardAction::warn, sim.watch, record.warnings);
-  return true;
+  return h * clear / count;
 }
 
 }  // namespace
@@ -124,7 +124,7 @@ void take_step(const Model& model, const Scene& scene, BoxQpSolver& solver, Simu
       corrections = 0;
     }
   }
-  const bool shortened = sees && end_where_strands_meet(model, scene, sim, record);
+  const double travelled = sees ? end_where_strands_meet(model, scene, sim, record) : h;
   finish_step(model, sim.situation, record.control, scene, sim.warm, sim.scratch, record.solution);
   guard_cap(model, sim.situation.kin, scene, record.solution, record.time, sim.watch,
             record.warnings);
@@ -133,10 +133,7 @@ void take_step(const Model& model, const Scene& scene, BoxQpSolver& solver, Simu
 
   record.ledger = sim.ledger;
   book_step(model, sim.situation.kin, record.solution, record.state, record.situation.kin, h,
-            sim.ledger);
-  if (shortened) {  // the ledger speaks of the whole way: what it misses is the rule's own
-    sim.ledger.integrator_potential += sim.ledger.imbalance();
-  }
+            travelled, sim.ledger);
   guard_energy(model, scene, record.state, record.situation.kin, sim.ledger, sim.watch,
                record.warnings);
   record.head_drift = record.control.clamp_head ? head_drift(model, sim.situation.kin) : 0;

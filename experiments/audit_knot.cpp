@@ -114,10 +114,8 @@ Finding commanded_speed(const LogContents& log) {
 }  // namespace
 
 SeenKnot see_knot(const LogContents& log, const AuditedFrame& frame) {
-  const KnotSettings& settings = log.resolved.scene.knot;
   const Eigen::Matrix3Xd& centre = frame.situation.kin.centre;
-  return {knot_type(centre, settings.votes, settings.seed),
-          holds_knot(frame.phase) ? writhe(centre) : 0};
+  return {knot_type(centre, log.resolved.scene.knot), holds_knot(frame.phase) ? writhe(centre) : 0};
 }
 
 std::vector<Finding> audit_knot(const LogContents& log, const std::vector<SeenKnot>& seen) {

@@ -156,7 +156,7 @@ Playback play(const LogContents& log, const Slide& slide, const std::vector<Seen
     result.capsule_penetration[i] = player.capsule_penetration();
     result.drift[i] = (seen.centre - logged[i + 1].centre).colwise().norm().maxCoeff();
     if ((i + 1) % every(knot_interval) == 0) {
-      const KnotInvariants type = knot_type(seen.centre, scene.knot.votes, scene.knot.seed).type;
+      const KnotInvariants type = knot_type(seen.centre, scene.knot).type;
       result.determinant[i] = type.determinant;
       ++result.looks;
       result.held += knot_name(type) == scene.expect.knot ? 1 : 0;

@@ -85,8 +85,7 @@ void StressJudge::see_path(const State& before, const State& after, const Kinema
 void StressJudge::see_knot(const Situation& situation, double time) {
   knot_seen_ = time;
   try {
-    figures_.knot =
-        knot_name(knot_type(situation.kin.centre, scene_.knot.votes, scene_.knot.seed).type);
+    figures_.knot = knot_name(knot_type(situation.kin.centre, scene_.knot).type);
   } catch (const std::domain_error&) {
     figures_.knot = "touches itself";
   } catch (const std::overflow_error&) {

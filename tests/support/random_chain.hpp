@@ -44,7 +44,7 @@ Model random_chain(Random& random, int bodies);
 State random_state(Random& random, const Model& model, double angle = 0.5, double speed = 1);
 
 /// At rest, bent evenly about every Y and Z hinge and twisted about every X hinge, rad per cm of
-/// body (each hinge stands for two bodies), head at the origin.
+/// body (each hinge stands for hinge_span of it), head at the origin.
 State bent_state(const Model& model, double bend_y, double bend_z, double twist = 0);
 
 /// An open trefoil knot 41.6 cm long, its three crossings about 0.7 `height` cm apart; straight

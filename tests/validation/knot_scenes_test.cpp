@@ -1,5 +1,5 @@
 // The built-in scenes of knots, run to their end: each ties what it expects, holds it, slides it
-// and loses it, and its mirror image is its reflection.
+// and loses it, and so does its mirror image.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -51,7 +51,7 @@ Seen run(const ResolvedScene& resolved) {
       }
     }
   }
-  seen.last_type = knot_type(sim.situation.kin.centre, scene.knot.votes, scene.knot.seed).type;
+  seen.last_type = knot_type(sim.situation.kin.centre, scene.knot).type;
   return seen;
 }
 
@@ -88,40 +88,6 @@ TEST_P(KnotScenes, TieHoldSlideAndComeOff) {
 INSTANTIATE_TEST_SUITE_P(BuiltIn, KnotScenes,
                          testing::Values("figure_eight", "double_overhand", "three_twist",
                                          "overhand_reverse", "overhand_free_head", "overhand_fast"),
-                         scene_name);
-
-class MirrorImage : public testing::TestWithParam<const char*> {};
-
-TEST_P(MirrorImage, IsTheReflectionOfTheRun) {
-  const std::vector<std::string> noisy = {"script.noise=0.2", "gravity=[3, 20, -5]"};
-  std::vector<std::string> turned = noisy;
-  turned.emplace_back("mirror=true");
-  const ResolvedScene plain = scene_called(GetParam(), noisy);
-  const ResolvedScene image = scene_called(GetParam(), turned);
-  const Model model = make_hagfish(plain.specimen, plain.scene);
-  const Model other = make_hagfish(image.specimen, image.scene);
-  const auto solver = make_box_qp_solver("active-set");
-  const auto solver_of_image = make_box_qp_solver("active-set");
-  Simulation sim = start(model, plain.scene);
-  Simulation reflected = start(other, image.scene);
-  double farthest = 0;
-  while (time_of(sim, plain.scene) < 7) {  // strands touch from 5 s on
-    take_step(model, plain.scene, *solver, sim);
-    take_step(other, image.scene, *solver_of_image, reflected);
-    const Eigen::Vector3d flip(1, -1, 1);
-    const Eigen::Matrix3Xd off =
-        sim.situation.kin.centre - flip.asDiagonal() * reflected.situation.kin.centre;
-    farthest = std::max(farthest, off.cwiseAbs().maxCoeff());
-  }
-  EXPECT_GT(sim.situation.kin.centre.row(1).cwiseAbs().maxCoeff(),
-            1);  // cm: not a plane of symmetry
-  // Rounding, grown in 3500 steps of which some are contacts: 1e-13 to 1e-9 cm.
-  EXPECT_LE(farthest, 1e-7);
-}
-
-INSTANTIATE_TEST_SUITE_P(BuiltIn, MirrorImage,
-                         testing::Values("table1", "figure_eight", "double_overhand",
-                                         "three_twist"),
                          scene_name);
 
 TEST(Mirror, GivesTheOtherHandToTheEnd) {

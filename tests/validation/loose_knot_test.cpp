@@ -164,7 +164,8 @@ Rest pull(double radius, double h) {
     }
     // No strand may have passed through another: looked at as often as the phases of a run.
     if (std::lround(run.time / h) % std::lround(0.25 / h) == 0) {
-      EXPECT_EQ(knot_name(knot_type(run.centres(), 9, 1).type), "3_1") << "at " << run.time << " s";
+      EXPECT_EQ(knot_name(knot_type(run.centres(), {.votes = 9, .seed = 1}).type), "3_1")
+          << "at " << run.time << " s";
     }
   }
   const double loop_radius = count / sum.mean_curvature;

@@ -83,7 +83,8 @@ Pull pull(ChainRun& run, double force, double duration) {
       result.before += shortening(run) / knot_diameter(run) / averaged;
     }
     if (k % std::lround(look / h) == 0) {
-      EXPECT_EQ(knot_name(knot_type(run.seen.kin.centre, 9, 1).type), "3_1") << "step " << k;
+      EXPECT_EQ(knot_name(knot_type(run.seen.kin.centre, {.votes = 9, .seed = 1}).type), "3_1")
+          << "step " << k;
     }
     result.penetration = std::max(result.penetration, run.seen.penetration);
     EXPECT_LE(run.last.kkt.worst(), expect.kkt);

@@ -72,7 +72,7 @@ class Controller : public testing::Test {
     state.phase = phase;
     state.phase_start = now;
     state.loose = now;
-    state.knot = knot_type(situation.kin.centre, scene.knot.votes, scene.knot.seed);
+    state.knot = knot_type(situation.kin.centre, scene.knot);
     state.knot_seen = now;
   }
 
@@ -92,7 +92,7 @@ class Controller : public testing::Test {
 
 TEST_F(Controller, TrefoilOfTheseTestsIsOne) {
   tie(true);
-  EXPECT_EQ(knot_type(situation.kin.centre, 15, 1).type, (KnotInvariants{3, 1}));
+  EXPECT_EQ(knot_type(situation.kin.centre, {.votes = 15, .seed = 1}).type, (KnotInvariants{3, 1}));
 }
 
 TEST_F(Controller, HasNoSpanWithoutContacts) {

@@ -161,6 +161,24 @@ TEST(Guard, ARowBelowItsCapForAStepStartsAnew) {
   EXPECT_TRUE(capped.warnings.empty());
 }
 
+TEST(Guard, WatchesTheCapOfAnyNumberOfContacts) {
+  CappedRow capped;
+  const Contact& contact = capped.now.contact.contacts.at(0);
+  capped.step.rows.clear();
+  append_thigmotaxis_rows(capped.model, std::vector(5, ThigmotaxisCommand{contact, {1, 1}}), 10, 1,
+                          capped.step.rows);
+  capped.step.lambda = Eigen::VectorXd::Zero(10);
+  capped.step.lambda[9] = 10;
+  capped.step.excess = Eigen::VectorXd::Constant(10, -0.5);
+  for (const double time : {0.0, 0.05, 0.11}) {
+    capped.look(time);
+  }
+  ASSERT_EQ(capped.warnings.size(), 1u);
+  EXPECT_EQ(capped.watch.below_cap.size(), 10u);
+  EXPECT_EQ(capped.watch.below_cap[8], 0.11);
+  EXPECT_EQ(capped.watch.below_cap[9], 0);
+}
+
 /// A body bent evenly that turns about its root without damping: explicit Coriolis forces feed it.
 class EnergyWatch : public testing::Test {
  protected:

@@ -185,7 +185,7 @@ TEST_P(NamedKnots, HasItsName) { EXPECT_EQ(knot_name(type()), GetParam().name); 
 
 TEST_P(NamedKnots, OpenCurveIsUnanimous) {
   for (unsigned seed = 0; seed < 5; ++seed) {
-    const KnotVote vote = knot_type(opened(polygon()), 15, seed);
+    const KnotVote vote = knot_type(opened(polygon()), {.votes = 15, .seed = seed});
     EXPECT_EQ(vote.type, type());
     // A ray from an end 30 radii away meets the knot in about one draw of 4000.
     EXPECT_EQ(vote.agreement, 1);
@@ -194,7 +194,7 @@ TEST_P(NamedKnots, OpenCurveIsUnanimous) {
 
 TEST_P(NamedKnots, OpenCurveKeepsItsTypeReversed) {
   const Eigen::Matrix3Xd reversed = opened(polygon()).rowwise().reverse();
-  EXPECT_EQ(knot_type(reversed, 15, 3).type, type());
+  EXPECT_EQ(knot_type(reversed, {.votes = 15, .seed = 3}).type, type());
 }
 
 TEST_P(NamedKnots, InvariantUnderRotationOrderStartAndScale) {
@@ -228,7 +228,7 @@ TEST(Knot, CompositeOfTwoTrefoils) {
     EXPECT_EQ(invariants_of_closed(braid_closure({1, 1, 1, 2, 2, 2}, 3), sight), expected);
     EXPECT_EQ(invariants_of_closed(braid_closure({1, 1, 1, -2, -2, -2}, 3), sight), expected);
   }
-  EXPECT_EQ(knot_type(opened(braid_closure({1, 1, 1, 2, 2, 2}, 3)), 15, 2).type,
+  EXPECT_EQ(knot_type(opened(braid_closure({1, 1, 1, 2, 2, 2}, 3)), {.votes = 15, .seed = 2}).type,
             (KnotInvariants{9, 2}));
 }
 
@@ -306,7 +306,7 @@ TEST(Knot, CurvesThatAdvanceAreUnknotsForEveryClosure) {
   });
   for (unsigned seed = 0; seed < 20; ++seed) {
     for (const Eigen::Matrix3Xd& line : {straight, coil, wobbly_line(100, random)}) {
-      const KnotVote vote = knot_type(line, 15, seed);
+      const KnotVote vote = knot_type(line, {.votes = 15, .seed = seed});
       EXPECT_EQ(vote.type, unknot);
       EXPECT_EQ(vote.agreement, 1);
     }
@@ -315,7 +315,7 @@ TEST(Knot, CurvesThatAdvanceAreUnknotsForEveryClosure) {
 
 TEST(Knot, LooseEndInsideTheKnotSplitsTheVote) {
   const Eigen::Matrix3Xd loose = torus_knot(3).leftCols(76);
-  const KnotVote vote = knot_type(loose, 200, 1);
+  const KnotVote vote = knot_type(loose, {.votes = 200, .seed = 1});
   EXPECT_LT(vote.agreement, 1);
   EXPECT_GE(vote.agreement, 0.5);  // two answers are possible here: one has half the votes
   EXPECT_TRUE(vote.type == unknot || vote.type == (KnotInvariants{3, 1}));
@@ -323,13 +323,28 @@ TEST(Knot, LooseEndInsideTheKnotSplitsTheVote) {
   EXPECT_EQ(count, std::round(count));
 }
 
+TEST(Knot, MirroredDirectionsGiveTheMirrorImageTheSameVotes) {
+  const Eigen::Matrix3Xd loose = torus_knot(3).leftCols(76);
+  Eigen::Matrix3Xd image = loose;
+  image.row(1) *= -1;
+  int others = 0;  // where the same directions split the votes otherwise
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    const KnotVote vote = knot_type(loose, {.votes = 50, .seed = seed});
+    const KnotVote same = knot_type(image, {.votes = 50, .seed = seed, .mirror = true});
+    EXPECT_EQ(same.type, vote.type);
+    EXPECT_EQ(same.agreement, vote.agreement);
+    others += knot_type(image, {.votes = 50, .seed = seed}).agreement != vote.agreement ? 1 : 0;
+  }
+  EXPECT_GT(others, 0);
+}
+
 TEST(Knot, SeedDecidesTheVoteAndATieGoesToTheSimplerKnot) {
   const Eigen::Matrix3Xd loose = torus_knot(3).leftCols(76);
   int ties = 0;
   int split = 0;
   for (unsigned seed = 0; seed < 200; ++seed) {
-    const KnotVote vote = knot_type(loose, 2, seed);
-    const KnotVote again = knot_type(loose, 2, seed);
+    const KnotVote vote = knot_type(loose, {.votes = 2, .seed = seed});
+    const KnotVote again = knot_type(loose, {.votes = 2, .seed = seed});
     EXPECT_EQ(vote.type, again.type);
     EXPECT_EQ(vote.agreement, again.agreement);
     if (vote.agreement == 0.5) {
@@ -357,7 +372,7 @@ TEST(Knot, DegenerateProjectionsAreRefused) {
       0, 1, 0, 1,                //
       0, 0, 0, 0;
   EXPECT_THROW(invariants_of_closed(eight, {0.3, 0.2, 1}), std::domain_error);
-  EXPECT_THROW(knot_type(eight, 3, 1), std::domain_error);
+  EXPECT_THROW(knot_type(eight, {.votes = 3, .seed = 1}), std::domain_error);
 
   Eigen::Matrix3Xd star(3, 6);      // three edges through one point of the projection
   star << 1, -1, -1, 1, 0.1, -0.1,  //
@@ -372,11 +387,11 @@ TEST(Knot, BadInputIsRefused) {
   broken(1, 4) = std::numeric_limits<double>::quiet_NaN();
   const Eigen::Vector3d sight(0.3, 0.2, 1);
   EXPECT_THROW(invariants_of_closed(broken, sight), std::invalid_argument);
-  EXPECT_THROW(knot_type(broken, 3, 1), std::invalid_argument);
+  EXPECT_THROW(knot_type(broken, {.votes = 3, .seed = 1}), std::invalid_argument);
   EXPECT_THROW(invariants_of_closed(trefoil.leftCols(2), sight), std::invalid_argument);
   EXPECT_THROW(invariants_of_closed(trefoil, Eigen::Vector3d::Zero()), std::invalid_argument);
-  EXPECT_THROW(knot_type(trefoil.leftCols(1), 3, 1), std::invalid_argument);
-  EXPECT_THROW(knot_type(trefoil, 0, 1), std::invalid_argument);
+  EXPECT_THROW(knot_type(trefoil.leftCols(1), {.votes = 3, .seed = 1}), std::invalid_argument);
+  EXPECT_THROW(knot_type(trefoil, {.votes = 0, .seed = 1}), std::invalid_argument);
 }
 
 TEST(Knot, NamesOfSixAndSevenCrossingsAreThoseOfTheirBraids) {

@@ -37,6 +37,18 @@ OneHinge one_hinge(double angle) {
   return c;
 }
 
+TEST(LimitRows, TheNearerSideComesFirstSoThatMirrorImagesKeepTheOrder) {
+  OneHinge c = one_hinge(0.1);
+  c.model.hinges[0].lower = -0.5;
+  for (const double side : {-1.0, 1.0}) {
+    c.state.q[7] = 0.1 * side;
+    const std::vector<Row> rows = limit_rows(c.model, c.state, speculative, h);
+    ASSERT_EQ(rows.size(), 2U);
+    EXPECT_EQ(rows[0].sign, -side);
+    EXPECT_EQ(rows[1].sign, side);
+  }
+}
+
 /// Contacts of a knotted fish, both near and overlapping, and every other kind of row.
 struct Tangle {
   Model model = table1_hagfish();
@@ -85,7 +97,7 @@ TEST(LimitRows, BoundBothSides) {
 
 TEST(LimitRows, PushAViolationOutByItsShare) {
   const OneHinge over = one_hinge(0.52);
-  const Row upper = limit_rows(over.model, over.state, speculative, h)[1];
+  const Row upper = limit_rows(over.model, over.state, speculative, h)[0];
   EXPECT_NEAR(upper.rhs, 0.5 * 0.02 / h, 1e-12);
   EXPECT_EQ(upper.sign, -1);  // so -q̇ >= a positive speed: back in
   const OneHinge under = one_hinge(-0.32);

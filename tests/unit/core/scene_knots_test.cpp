@@ -30,6 +30,8 @@ TEST(SceneKnots, MirrorReflectsAllThatTheSceneGives) {
   for (const char* file : {"/table1.toml", "/double_overhand.toml"}) {
     const Scene scene = read_scene(data + file, noisy).scene;
     const Scene image = read_scene(data + file, turned).scene;
+    EXPECT_TRUE(image.knot.mirror);
+    EXPECT_FALSE(scene.knot.mirror);
     EXPECT_EQ(image.gravity, scene.gravity.cwiseProduct(flip));
     ASSERT_EQ(image.script.knots.size(), scene.script.knots.size());
     for (std::size_t k = 0; k < scene.script.knots.size(); ++k) {

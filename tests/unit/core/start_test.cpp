@@ -29,10 +29,11 @@ TEST(Start, EachHingeTakesTheShareOfTheBodyThatItStandsFor) {
   settings.bend = {{0, 0.001, 0, 0.1}, {0.5, 0.001, 0.2, 0.1}};  // constant beyond 0.5
   settings.bend_rate = {{0.5, 0, 0, 0}, {1, 3, 0, 0}};
   const State state = start_state(fish, settings);
-  const double span = 2 * 42.4 / 100;  // cm
   for (std::size_t k = 0; k < fish.hinges.size(); ++k) {
     const Hinge& hinge = fish.hinges[k];
     const double station = hinge.body / 100.0;
+    // cm; the first and the last of the 49 twists take half a body more, to the ends.
+    const double span = (hinge.body == 2 || hinge.body == 98 ? 3 : 2) * 42.4 / 100;
     const double angle = hinge.axis == Axis::x   ? 0.001 * span
                          : hinge.axis == Axis::y ? 0.2 * span * std::min(2 * station, 1.0)
                                                  : 0.1 * span;
@@ -40,6 +41,27 @@ TEST(Start, EachHingeTakesTheShareOfTheBodyThatItStandsFor) {
     EXPECT_NEAR(hinge_of(state.q, fish, k), angle, 1e-15) << k;
     const double rate = hinge.axis == Axis::x ? 3 * span * std::max(0.0, 2 * station - 1) : 0;
     EXPECT_NEAR(hinge_of(state.qdot, fish, k), rate, 1e-14) << k;
+  }
+}
+
+TEST(Start, OneCurvatureTurnsTheTailByItsWholeLength) {
+  ResolvedScene resolved = stored_scene();
+  resolved.scene.model.limit_scale = 10;
+  for (const int n : {3, 4, 7, 50, 99, 100}) {
+    resolved.scene.model.bodies = n;
+    const Model fish = make_hagfish(resolved.specimen, resolved.scene);
+    for (int axis = 0; axis < 3; ++axis) {
+      StartSettings settings;
+      Eigen::Vector4d bend = Eigen::Vector4d::Zero();  // station, then the curvatures
+      bend[1 + axis] = 0.01;                           // rad / cm
+      settings.bend = {bend};
+      settings.bend_rate = {bend};
+      const State state = start_state(fish, settings);
+      const auto hinges = static_cast<Eigen::Index>(fish.hinges.size());
+      // A hundred roundings of a sum below 1.
+      EXPECT_NEAR(state.q.tail(hinges).sum(), 0.01 * 42.4, 1e-14) << n << " about " << axis;
+      EXPECT_NEAR(state.qdot.tail(hinges).sum(), 0.01 * 42.4, 1e-14) << n << " about " << axis;
+    }
   }
 }
 
