@@ -27,4 +27,18 @@ int looks(const Eigen::Matrix3Xd& centre_velocity, double h, double stride);
 bool add_missed_rows(const Model& model, const Situation& now, const Situation& there, double t,
                      const Scene& scene, const StepSolution& step, std::vector<Row>& rows);
 
+/// A bend past its cone that is let pass at the end of a step, rad. The next step leaves half of it
+/// (push_out) and may add as much: 1e-5 rad at most, 0.0006 degrees, below the 0.001 that a log may
+/// show (ExpectSettings::limit_violation).
+inline constexpr double bend_tolerance = 5e-6;
+
+/// The same for the cones of universal joints, from coordinates `now` to `there` (nq) at the end of
+/// a step. Each joint bent further past its cone than bend_tolerance and what push_out leaves of
+/// before gets one more row: the cone's tangent where a bend in the plane of `there` meets it. The
+/// angles within a cone are a convex set, which no tangent cuts: earlier rows stay, the cone is
+/// followed as closely as need be, and a path that ends within it has never left it. Whether there
+/// was any.
+bool add_missed_bends(const Model& model, const Eigen::VectorXd& now, const Eigen::VectorXd& there,
+                      const Scene& scene, std::vector<Row>& rows);
+
 }  // namespace hagfish

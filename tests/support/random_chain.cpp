@@ -181,6 +181,7 @@ Eigen::MatrixXd dense_rows(const Model& model, const Kinematics& kin,
     const Row& row = rows[i];
     if (row.dof >= 0) {
       c(i, row.dof) = row.sign;
+      if (row.beside != 0) c(i, row.dof + 1) = row.beside;
     }
     visit_forces(row, [&](int body, const Eigen::Vector3d& force) {
       c.row(i) += force.transpose() * centre_jacobian(model, kin, body);
