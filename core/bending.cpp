@@ -29,15 +29,16 @@ Direction direction(double y, double z) {
 Bend total_bend(double y, double z) {
   const Direction d = direction(y, z);
   // The arc tangent keeps all digits of small angles, which the arc cosine loses.
-  Bend bend{std::atan2(d.across, d.along), Eigen::Vector2d::Zero()};
+  Bend bend{std::atan2(d.across, d.along)};
   if (d.across > 0) {
     bend.slope << d.z / d.across, std::cos(y) * d.y / d.across;
   }
   return bend;
 }
 
-Eigen::Vector2d bend_in_plane(double y, double z, double angle) {
-  const Direction d = direction(y, z);
+Eigen::Vector2d bend_to(double y, double z, double angle) {
+  const double scale = std::min(1.0, angle / std::max(std::abs(y), std::abs(z)));
+  const Direction d = direction(scale * y, scale * z);
   const double across = std::sin(angle) / d.across;
   return {std::atan2(across * d.z, std::cos(angle)),
           std::asin(std::clamp(across * d.y, -1.0, 1.0))};
@@ -49,7 +50,9 @@ double past_cone(const BendingCone& cone, const Eigen::VectorXd& q) {
   if (angles.squaredNorm() <= cone.limit * cone.limit) {
     return 0;
   }
-  return std::max(0.0, total_bend(angles[0], angles[1]).angle - cone.limit);
+  const double angle = std::max(total_bend(angles[0], angles[1]).angle,
+                                angles.lpNorm<Eigen::Infinity>());  // the first up to 90 degrees
+  return std::max(0.0, angle - cone.limit);
 }
 
 }  // namespace hagfish

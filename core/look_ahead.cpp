@@ -72,7 +72,7 @@ bool add_missed_bends(const Model& model, const Eigen::VectorXd& now, const Eige
       continue;
     }
     const Eigen::Vector2d goal =
-        bend_in_plane(there[cone.dof + 1], there[cone.dof + 2], cone.limit + left);
+        bend_to(there[cone.dof + 1], there[cone.dof + 2], cone.limit + left);
     int cuts = 1;
     while (known(cone_row(cone, {}, cuts).id, rows) != rows.end()) {
       ++cuts;

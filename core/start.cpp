@@ -42,7 +42,7 @@ void stop_at_limits(const Model& model, State& state) {
   for (const BendingCone& cone : model.cones) {
     auto angles = state.q.segment<2>(cone.dof + 1);
     if (past_cone(cone, state.q) > 0) {
-      angles = bend_in_plane(angles[0], angles[1], cone.limit);
+      angles = bend_to(angles[0], angles[1], cone.limit);
     }
   }
 }

@@ -57,10 +57,8 @@ Seen run(const ResolvedScene& resolved) {
 
 std::string scene_name(const testing::TestParamInfo<const char*>& scene) { return scene.param; }
 
-class KnotScenes : public testing::TestWithParam<const char*> {};
-
-TEST_P(KnotScenes, TieHoldSlideAndComeOff) {
-  const ResolvedScene resolved = scene_called(GetParam());
+/// Runs a scene to its end, which shows what it expects.
+void expect_whole(const ResolvedScene& resolved) {
   const ExpectSettings& expect = resolved.scene.expect;
   const Seen seen = run(resolved);
   std::vector<Phase> phases = {Phase::form, Phase::tighten, Phase::slide, Phase::release,
@@ -85,19 +83,25 @@ TEST_P(KnotScenes, TieHoldSlideAndComeOff) {
   }
 }
 
+class KnotScenes : public testing::TestWithParam<const char*> {};
+
+TEST_P(KnotScenes, TieHoldSlideAndComeOff) { expect_whole(scene_called(GetParam())); }
+
 INSTANTIATE_TEST_SUITE_P(BuiltIn, KnotScenes,
                          testing::Values("figure_eight", "double_overhand", "three_twist",
                                          "overhand_reverse", "overhand_free_head", "overhand_fast"),
                          scene_name);
 
-class MirrorImage : public testing::TestWithParam<const char*> {};
+TEST(KnotScenesWithCones, TieHoldSlideAndComeOff) {
+  expect_whole(scene_called("table1", {"model.bending_limit=cone"}));
+}
 
-TEST_P(MirrorImage, IsTheReflectionOfTheRun) {
-  const std::vector<std::string> noisy = {"script.noise=0.2", "gravity=[3, 20, -5]"};
+/// Runs a scene and its mirror image side by side.
+void expect_reflection(const std::string& name, std::vector<std::string> noisy) {
   std::vector<std::string> turned = noisy;
   turned.emplace_back("mirror=true");
-  const ResolvedScene plain = scene_called(GetParam(), noisy);
-  const ResolvedScene image = scene_called(GetParam(), turned);
+  const ResolvedScene plain = scene_called(name, noisy);
+  const ResolvedScene image = scene_called(name, turned);
   const Model model = make_hagfish(plain.specimen, plain.scene);
   const Model other = make_hagfish(image.specimen, image.scene);
   const auto solver = make_box_qp_solver("active-set");
@@ -117,6 +121,17 @@ TEST_P(MirrorImage, IsTheReflectionOfTheRun) {
             1);  // cm: not a plane of symmetry
   // Rounding, grown in 3500 steps of which some are contacts: 1e-13 to 1e-9 cm.
   EXPECT_LE(farthest, 1e-7);
+}
+
+class MirrorImage : public testing::TestWithParam<const char*> {};
+
+TEST_P(MirrorImage, IsTheReflectionOfTheRun) {
+  expect_reflection(GetParam(), {"script.noise=0.2", "gravity=[3, 20, -5]"});
+}
+
+TEST(MirrorImageWithCones, IsTheReflectionOfTheRun) {
+  expect_reflection("table1",
+                    {"script.noise=0.2", "gravity=[3, 20, -5]", "model.bending_limit=cone"});
 }
 
 INSTANTIATE_TEST_SUITE_P(BuiltIn, MirrorImage,
