@@ -15,6 +15,9 @@ void assemble_dual(const Model& model, const Kinematics& kin, const ArticulatedF
     if (row.dof >= 0) {
       columns.load_joint(row.dof, j, row.sign);
     }
+    if (row.beside != 0) {
+      columns.load_joint(row.dof + 1, j, row.beside);
+    }
     visit_forces(row, [&](int body, const Eigen::Vector3d& force) {
       columns.load(model, body, j, wrench_of_force(force, kin.centre_offset(body)));
     });

@@ -45,7 +45,15 @@ std::string furthest_limit(const Model& model, const State& state) {
       worst = k;
     }
   }
-  return dof_name(model, static_cast<int>(worst));
+  const BendingCone* bent = nullptr;
+  for (const BendingCone& cone : model.cones) {
+    const double over = past_cone(cone, state.q);
+    if (over > most) {
+      most = over;
+      bent = &cone;
+    }
+  }
+  return bent == nullptr ? dof_name(model, static_cast<int>(worst)) : cone_joint_name(model, *bent);
 }
 
 /// The rows whose forces work hardest against row i, at most three.

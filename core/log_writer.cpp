@@ -53,10 +53,9 @@ void write_model(const Model& model, Hdf5Writer& h5) {
   }
   Eigen::VectorXd lower = Eigen::VectorXd::Constant(model.nv(), -INFINITY);
   Eigen::VectorXd upper = -lower;
-  for (int k = root_dofs; k < model.nv(); ++k) {
-    lower[k] = model.hinges[k - root_dofs].lower;
-    upper[k] = model.hinges[k - root_dofs].upper;
-  }
+  const Eigen::Matrix2Xd ranges = hinge_ranges(model);
+  lower.tail(ranges.cols()) = ranges.row(0);
+  upper.tail(ranges.cols()) = ranges.row(1);
   std::vector<std::string> joints, dofs;
   for (const JointName& joint : joint_names(model)) {
     joints.push_back(joint.joint);
@@ -68,8 +67,16 @@ void write_model(const Model& model, Hdf5Writer& h5) {
   h5.numbers("/model/radius", radius, {"cm", "radius of the skin at each body"});
   h5.texts("/model/joint_name", joints);
   h5.texts("/model/dof_name", dofs);
-  h5.numbers("/model/limit_lower", lower, {"rad", "lower joint limit, -inf where none"});
-  h5.numbers("/model/limit_upper", upper, {"rad", "upper joint limit, +inf where none"});
+  h5.numbers("/model/limit_lower", lower,
+             {"rad",
+              "lower joint limit, -inf where none; where the total angle of a joint is bounded "
+              "(bending_limit), what this leaves each hinge by itself"});
+  h5.numbers("/model/limit_upper", upper,
+             {"rad", "upper joint limit, +inf where none, as limit_lower"});
+  h5.numbers("/model/bending_limit", bending_limits(model),
+             {"rad",
+              "largest angle between the X axes of the two bodies of each joint, +inf where "
+              "its hinges have limits of their own or there are none"});
 }
 
 }  // namespace

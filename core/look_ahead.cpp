@@ -6,14 +6,17 @@
 namespace hagfish {
 namespace {
 
+auto known(std::int64_t id, std::vector<Row>& rows) {
+  return std::ranges::find(rows, id, &Row::id);
+}
+
 /// A row's place is kept where it has one: what is known of its multiplier stays by it.
 void put(const Row& row, std::vector<Row>& rows) {
-  const auto known =
-      std::find_if(rows.begin(), rows.end(), [&](const Row& other) { return other.id == row.id; });
-  if (known == rows.end()) {
+  const auto place = known(row.id, rows);
+  if (place == rows.end()) {
     rows.push_back(row);
   } else {
-    *known = row;
+    *place = row;
   }
 }
 
@@ -57,6 +60,29 @@ bool add_missed_rows(const Model& model, const Situation& now, const Situation& 
   visit_wall_gaps(model, there.kin, scene.wall, [&](int body, double gap) {
     look(now.kin.centre(0, body) - model.bodies[body].radius, gap, [&] { return wall_row(body); });
   });
+  return any;
+}
+
+bool add_missed_bends(const Model& model, const Eigen::VectorXd& now, const Eigen::VectorXd& there,
+                      const Scene& scene, std::vector<Row>& rows) {
+  bool any = false;
+  for (const BendingCone& cone : model.cones) {
+    const double left = (1 - scene.constraints.push_out) * past_cone(cone, now);
+    if (past_cone(cone, there) <= left + bend_tolerance) {
+      continue;
+    }
+    const Eigen::Vector2d goal =
+        bend_to(there[cone.dof + 1], there[cone.dof + 2], cone.limit + left);
+    int cuts = 1;
+    while (known(cone_row(cone, {}, cuts).id, rows) != rows.end()) {
+      ++cuts;
+    }
+    Row row = cone_row(cone, total_bend(goal[0], goal[1]), cuts);
+    const Eigen::Vector2d way = goal - now.segment<2>(cone.dof + 1);
+    row.rhs = (row.sign * way[0] + row.beside * way[1]) / scene.time.step;
+    rows.push_back(row);
+    any = true;
+  }
   return any;
 }
 

@@ -1,6 +1,8 @@
 // Rows for what a step's own path shows. Contact rows are linear in q̇, the path is not: at a long
 // step strands overlap at its end that the rows kept apart, or pass each other on the way. Such
 // pairs get a row whose right-hand side holds what the line misses, and the step is solved again.
+// Cones of universal joints are curved, and a step along their tangent leaves them: one more
+// tangent.
 #pragma once
 
 #include <vector>
@@ -26,5 +28,19 @@ int looks(const Eigen::Matrix3Xd& centre_velocity, double h, double stride);
 /// row of the same id in `rows` gives way to it. Whether there was any.
 bool add_missed_rows(const Model& model, const Situation& now, const Situation& there, double t,
                      const Scene& scene, const StepSolution& step, std::vector<Row>& rows);
+
+/// A bend past its cone that is let pass at the end of a step, rad. The next step leaves half of it
+/// (push_out) and may add as much: 1e-5 rad at most, 0.0006 degrees, below the 0.001 that a log may
+/// show (ExpectSettings::limit_violation).
+inline constexpr double bend_tolerance = 5e-6;
+
+/// The same for the cones of universal joints, from coordinates `now` to `there` (nq) at the end of
+/// a step. Each joint bent further past its cone than bend_tolerance and what push_out leaves of
+/// before gets one more row: the cone's tangent where a bend the way of `there` meets it. The
+/// angles within a cone are a convex set, which no tangent cuts: earlier rows stay, the cone is
+/// followed as closely as need be, and a path that ends within it has never left it. Whether there
+/// was any.
+bool add_missed_bends(const Model& model, const Eigen::VectorXd& now, const Eigen::VectorXd& there,
+                      const Scene& scene, std::vector<Row>& rows);
 
 }  // namespace hagfish

@@ -65,6 +65,30 @@ std::string dof_name(const Model& model, int dof) {
   throw std::out_of_range("no velocity " + std::to_string(dof));
 }
 
+std::string cone_joint_name(const Model& model, const BendingCone& cone) {
+  return joint_names(model).at(model.hinges.at(cone.dof - root_dofs).body).joint;
+}
+
+Eigen::Matrix2Xd hinge_ranges(const Model& model) {
+  Eigen::Matrix2Xd ranges(2, static_cast<Eigen::Index>(model.hinges.size()));
+  for (Eigen::Index k = 0; k < ranges.cols(); ++k) {
+    ranges.col(k) << model.hinges[k].lower, model.hinges[k].upper;
+  }
+  for (const BendingCone& cone : model.cones) {
+    ranges.middleCols<2>(cone.dof - root_dofs).row(0).setConstant(-cone.limit);
+    ranges.middleCols<2>(cone.dof - root_dofs).row(1).setConstant(cone.limit);
+  }
+  return ranges;
+}
+
+Eigen::VectorXd bending_limits(const Model& model) {
+  Eigen::VectorXd limits = Eigen::VectorXd::Constant(model.body_count(), unbounded);
+  for (const BendingCone& cone : model.cones) {
+    limits[model.hinges[cone.dof - root_dofs].body] = cone.limit;
+  }
+  return limits;
+}
+
 void append_body(Model& model, const Body& body, const std::vector<Axis>& axes) {
   const int index = model.body_count();
   if (index == 0 && !axes.empty()) {
@@ -126,9 +150,13 @@ Model make_hagfish(const Specimen& specimen, const Scene& scene) {
       const double limit =
           std::min(settings.limit_scale * measured * 2 * length / specimen.bending_span,
                    settings.largest_limit);
+      const bool cone = settings.bending_limit == BendingLimit::cone;
+      if (cone) {
+        model.cones.push_back({model.bodies.back().first_dof, limit});
+      }
       for (int k = 1; k <= 2; ++k) {
-        set_hinge(model.hinges[model.hinges.size() - k], limit, settings.bending_stiffness / span,
-                  settings.bending_damping / span);
+        set_hinge(model.hinges[model.hinges.size() - k], cone ? unbounded : limit,
+                  settings.bending_stiffness / span, settings.bending_damping / span);
       }
     } else {
       append_body(model, body, {Axis::x});

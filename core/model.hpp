@@ -35,9 +35,17 @@ struct Hinge {
   double damping = 0;    ///< dyn cm s / rad
 };
 
+/// A limit on the total angle of a universal joint, whose hinges have none of their own: its second
+/// body's X axis stays within a cone about that of its first (core/bending.hpp).
+struct BendingCone {
+  int dof = 0;       ///< velocity of its Y hinge; that of its Z hinge is the next
+  double limit = 0;  ///< rad, below pi/2
+};
+
 struct Model {
   std::vector<Body> bodies;   ///< head to tail
   std::vector<Hinge> hinges;  ///< head to tail; hinge k has velocity 6 + k and coordinate 7 + k
+  std::vector<BendingCone> cones;  ///< head to tail; none where each hinge has its own limit
   DragSettings drag;
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< cm / s^2
 
@@ -61,6 +69,16 @@ std::vector<JointName> joint_names(const Model& model);
 
 /// The name of one velocity. Throws std::out_of_range.
 std::string dof_name(const Model& model, int dof);
+
+/// The joint of a cone, by the name that joint_names() gives.
+std::string cone_joint_name(const Model& model, const BendingCone& cone);
+
+/// The lowest and the highest angle that each hinge can have, 2 x hinges, rad: its own limits or,
+/// in a cone, what this leaves it where the other hinge is straight.
+Eigen::Matrix2Xd hinge_ranges(const Model& model);
+
+/// The limit on the total angle of joints 0..N-1, rad: their cones', +infinity where none.
+Eigen::VectorXd bending_limits(const Model& model);
 
 /// Appends a body that hangs on hinges about `axes` (limits free, no passive force). The caller
 /// sets the rest in bodies.back() and hinges. Throws std::invalid_argument for hinges at body 0.

@@ -9,6 +9,10 @@ namespace {
 
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 
+/// The last number of a limit row's id: 0 for a hinge's lower limit, 1 for its upper one, from here
+/// on for a cone.
+constexpr int first_cone_row = 2;
+
 std::int64_t row_id(RowKind kind, int first, int second) {
   return (static_cast<std::int64_t>(kind) << 40) | (static_cast<std::int64_t>(first) << 20) |
          second;
@@ -41,6 +45,9 @@ std::string row_name(const Model& model, const Row& row) {
     case RowKind::head:
       return "head clamp, velocity " + std::to_string(row.dof);
     case RowKind::limit:
+      if (second >= first_cone_row) {
+        return "bending limit of " + cone_joint_name(model, {row.dof, 0}) + " (total angle)";
+      }
       return (row.sign > 0 ? "lower" : "upper") + std::string(" limit of ") +
              dof_name(model, row.dof);
     case RowKind::contact:
@@ -59,7 +66,7 @@ int place_in_step(const Model& model, const Row& row) {
     return row.dof - 2 * model.nv();
   }
   if (row.dof >= 0) {
-    return -row.dof - 1;
+    return -row.dof - (row.unit() ? 1 : 2);
   }
   const Body& last =
       model.bodies[std::max(row.a.first + row.a.count, row.b.first + row.b.count) - 1];
@@ -73,7 +80,7 @@ int thigmotaxis_place(const Row& row) {
 double row_velocity(const Row& row, const Eigen::Matrix3Xd& centre_velocity,
                     const Eigen::VectorXd& v) {
   if (row.dof >= 0) {
-    return row.sign * v[row.dof];
+    return row.sign * v[row.dof] + (row.unit() ? 0 : row.beside * v[row.dof + 1]);
   }
   Eigen::Vector3d apart = Eigen::Vector3d::Zero();  // ẋ_a - ẋ_b
   for (int k = 0; k < row.a.count; ++k) {
@@ -89,6 +96,9 @@ void add_row(const Row& row, const Kinematics& kin, double lambda, Matrix6Xd& wr
              Eigen::VectorXd& joint) {
   if (row.dof >= 0) {
     joint[row.dof] += row.sign * lambda;
+    if (!row.unit()) {
+      joint[row.dof + 1] += row.beside * lambda;
+    }
     return;
   }
   visit_forces(row, [&](int body, const Eigen::Vector3d& force) {
@@ -113,6 +123,16 @@ Row wall_row(int body) {
   return row;
 }
 
+Row cone_row(const BendingCone& cone, const Bend& bend, int cut) {
+  Row row;
+  row.kind = RowKind::limit;
+  row.id = row_id(RowKind::limit, cone.dof, first_cone_row + cut);
+  row.dof = cone.dof;
+  row.sign = -bend.slope[0];
+  row.beside = -bend.slope[1];
+  return row;
+}
+
 void append_head_rows(const State& state, const ConstraintSettings& settings, double h,
                       std::vector<Row>& rows) {
   // The turn from the clamped orientation, as a rotation vector of small angle, body frame.
@@ -127,7 +147,9 @@ void append_head_rows(const State& state, const ConstraintSettings& settings, do
   }
 }
 
-void append_limit_rows(const Model& model, const State& state, const ConstraintSettings& settings,
+namespace {
+
+void append_hinge_rows(const Model& model, const State& state, const ConstraintSettings& settings,
                        double h, const NearBinding& wanted, std::vector<Row>& rows) {
   for (int k = root_dofs; k < model.nv(); ++k) {
     const Hinge& hinge = model.hinges[k - root_dofs];
@@ -147,6 +169,36 @@ void append_limit_rows(const Model& model, const State& state, const ConstraintS
       row.rhs = *rhs;
     }
   }
+}
+
+void append_cone_rows(const Model& model, const State& state, const ConstraintSettings& settings,
+                      double h, const NearBinding& wanted, std::vector<Row>& rows) {
+  for (const BendingCone& cone : model.cones) {
+    const auto angles = state.q.segment<2>(cone.dof + 1);
+    // θ is at most the length of both angles and grows no faster than they do: most joints are far
+    // from their cones by this.
+    if (!wanted(-wanted.v.segment<2>(cone.dof).norm(), (angles.norm() - cone.limit) / h)) {
+      continue;
+    }
+    const Bend bend = total_bend(angles[0], angles[1]);
+    const std::optional<double> rhs = unilateral(cone.limit - bend.angle, settings, h, unbounded);
+    if (!rhs || bend.slope.isZero(0)) {
+      continue;
+    }
+    Row& row = rows.emplace_back(cone_row(cone, bend, 0));
+    row.rhs = *rhs;
+    if (!wanted(row_velocity(row, wanted.centre_velocity, wanted.v), row.rhs)) {
+      rows.pop_back();
+    }
+  }
+}
+
+}  // namespace
+
+void append_limit_rows(const Model& model, const State& state, const ConstraintSettings& settings,
+                       double h, const NearBinding& wanted, std::vector<Row>& rows) {
+  append_hinge_rows(model, state, settings, h, wanted, rows);
+  append_cone_rows(model, state, settings, h, wanted, rows);
 }
 
 void append_contact_rows(const Model& model, const std::vector<Contact>& contacts,

@@ -1,5 +1,6 @@
 // Constraint rows C q̇ >= d and G q̇ = e of the step's QP (paper, Eqs. 3, 4 and 6), all kept as one
-// list: a row is a unit dof or the relative motion of two points, with bounds on its multiplier.
+// list: a row is a unit dof, two dofs of a joint or the relative motion of two points, with bounds
+// on its multiplier.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "core/articulated.hpp"
+#include "core/bending.hpp"
 #include "core/contact.hpp"
 #include "core/kinematics.hpp"
 #include "core/model.hpp"
@@ -22,9 +24,12 @@ enum class RowKind : std::uint8_t { head, limit, contact, wall, thigmotaxis };
 
 struct Row {
   RowKind kind = RowKind::limit;
-  int dof = -1;     ///< unit row: C q̇ = sign * q̇[dof]; -1 where points are used
-  double sign = 1;  ///< +1 or -1
-  /// Same from step to step for the same physical constraint: limits by dof and side, contacts by
+  /// C q̇ = sign * q̇[dof] + beside * q̇[dof + 1]; -1 where points are used.
+  int dof = -1;
+  double sign = 1;    ///< of a unit row +1 or -1
+  double beside = 0;  ///< of a unit row 0
+  /// Same from step to step for the same physical constraint: limits by dof and side, cones by dof
+  /// and which of their rows in the step, contacts by
   /// segments, thigmotaxis by place and tangent.
   std::int64_t id = 0;
   /// C q̇ = direction . (ẋ_a - ẋ_b), each point a mix of body centres; `b` may have none.
@@ -35,6 +40,8 @@ struct Row {
   double upper = std::numeric_limits<double>::infinity();
   /// A unit row expected to bind: its velocity is held at `rhs`, and λ is what holds it.
   bool held = false;
+
+  bool unit() const { return dof >= 0 && beside == 0; }
 };
 
 /// Calls `visit(body, force)` for each force (world, at the body's centre, per unit λ) that a row
@@ -88,12 +95,17 @@ Row contact_row(const Model& model, const Contact& contact);
 /// The row of body `body` against the head plate, with no right-hand side yet.
 Row wall_row(int body);
 
+/// The row of a joint bent as `bend`, with no right-hand side yet: the exact rate of what its cone
+/// leaves it. `cut` 0 is that of the step's start; others come on top (core/look_ahead.hpp).
+Row cone_row(const BendingCone& cone, const Bend& bend, int cut);
+
 /// Six bilateral rows that hold the root at the origin and unturned (paper, Eq. 3); a drift is
 /// taken back at the rate push_out / h.
 void append_head_rows(const State& state, const ConstraintSettings& settings, double h,
                       std::vector<Row>& rows);
 
-/// One row per bounded side of each hinge, that of the nearer side first.
+/// One row per bounded side of each hinge, that of the nearer side first, and one per cone unless
+/// its joint is straight.
 void append_limit_rows(const Model& model, const State& state, const ConstraintSettings& settings,
                        double h, const NearBinding& wanted, std::vector<Row>& rows);
 

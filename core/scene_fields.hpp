@@ -45,6 +45,8 @@ void model_fields(Io& io, ModelSettings& s) {
   io.angle("largest_limit", s.largest_limit, inside(0, 90));
   io.number("limit_scale", s.limit_scale, positive());
   io.number("mass_ratio", s.mass_ratio, positive());
+  io.template choice<BendingLimit>("bending_limit", s.bending_limit,
+                                   {{"box", BendingLimit::box}, {"cone", BendingLimit::cone}});
 }
 
 /// A phase as a choice, by the name that logs have.

@@ -14,6 +14,12 @@
 
 namespace hagfish {
 
+/// What a universal joint's limit bounds; the paper does not say.
+enum class BendingLimit {
+  box,  ///< the angle of each of its two hinges, so that both together bend up to 1.4 times as far
+  cone  ///< the angle between the X axes of its two bodies
+};
+
 /// How the specimen becomes a chain. The passive terms are additions to the paper: it states none.
 struct ModelSettings {
   int bodies = 100;              ///< rigid bodies along the animal, 2 to 400
@@ -21,12 +27,13 @@ struct ModelSettings {
   double bending_damping = 0;    ///< its rate form, dyn cm^2 s
   double twist_stiffness = 0;    ///< torsional rigidity, dyn cm^2
   double twist_damping = 0;      ///< its rate form, dyn cm^2 s
-  /// Largest bending limit of one hinge, rad. A coarse chain must bend further per joint to reach
-  /// the same curvature; past 90 degrees a universal joint loses its second axis.
+  /// Largest bending limit of one hinge or cone, rad. A coarse chain must bend further per joint to
+  /// reach the same curvature; past 90 degrees a universal joint loses its second axis.
   double largest_limit = 1.4835298641951802;
   double limit_scale = 1;  ///< on every bending and twisting limit, before the bound above
   /// Last body's density over the first's, geometric in between; the mass of the whole is kept.
   double mass_ratio = 1;
+  BendingLimit bending_limit = BendingLimit::box;
 };
 
 /// Linear water drag per unit length of body (addition to the paper), g / (s cm).

@@ -19,10 +19,11 @@ void follow_path(const Model& model, const Scene& scene, double t, Simulation& s
   observe(model, record.state, scene, sim.search, record.situation);
 }
 
-/// Moves by the step's velocity into record.state and record.situation. Where the path overlaps and
-/// `correct` is set, adds the rows that see it and returns true: the step is to be solved again.
-bool meets_overlap(const Model& model, const Scene& scene, bool correct, Simulation& sim,
-                   StepRecord& record) {
+/// Moves by the step's velocity into record.state and record.situation. Where the path overlaps or
+/// leaves a cone and `correct` is set, adds the rows that see it and returns true: the step is to
+/// be solved again.
+bool misses_rows(const Model& model, const Scene& scene, bool correct, Simulation& sim,
+                 StepRecord& record) {
   const double h = scene.time.step;
   guard_speed(record.solution.centre_velocity, scene.guard);
   const int count = looks(record.solution.centre_velocity, h, scene.constraints.stride);
@@ -34,8 +35,16 @@ bool meets_overlap(const Model& model, const Scene& scene, bool correct, Simulat
     if (i < count) {
       record.crossing = std::max(record.crossing, record.situation.penetration);
     }
-    if (correct && add_missed_rows(model, sim.situation, record.situation, t, scene,
-                                   record.solution, record.solution.rows)) {
+    if (!correct) {
+      continue;
+    }
+    std::vector<Row>& rows = record.solution.rows;
+    bool missed =
+        add_missed_rows(model, sim.situation, record.situation, t, scene, record.solution, rows);
+    if (i == count) {
+      missed = add_missed_bends(model, sim.state.q, record.state.q, scene, rows) || missed;
+    }
+    if (missed) {
       return true;
     }
   }
@@ -114,7 +123,7 @@ void take_step(const Model& model, const Scene& scene, BoxQpSolver& solver, Simu
   // The record's old state and situation are storage for the next ones; then they change places.
   const bool sees = scene.constraints.activation == Activation::speculative;
   int corrections = sees ? scene.constraints.corrections : 0;
-  for (int k = 0; meets_overlap(model, scene, k < corrections, sim, record); ++k) {
+  for (int k = 0; misses_rows(model, scene, k < corrections, sim, record); ++k) {
     try {
       resume_step(model, sim.state, sim.situation, scene, solver, sim.warm, sim.scratch,
                   record.solution);

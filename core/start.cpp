@@ -4,6 +4,8 @@
 #include <array>
 #include <random>
 
+#include "core/bending.hpp"
+
 namespace hagfish {
 namespace {
 
@@ -37,6 +39,12 @@ void stop_at_limits(const Model& model, State& state) {
   for (std::size_t k = 0; k < model.hinges.size(); ++k) {
     double& angle = state.q[static_cast<Eigen::Index>(k) + root_dofs + 1];
     angle = std::clamp(angle, model.hinges[k].lower, model.hinges[k].upper);
+  }
+  for (const BendingCone& cone : model.cones) {
+    auto angles = state.q.segment<2>(cone.dof + 1);
+    if (past_cone(cone, state.q) > 0) {
+      angles = bend_to(angles[0], angles[1], cone.limit);
+    }
   }
 }
 

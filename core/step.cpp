@@ -42,6 +42,9 @@ bool surely_binds(const Row& row, const WarmStart& warm) {
   if (row.kind == RowKind::head) {
     return true;
   }
+  if (!row.unit()) {
+    return false;
+  }
   const WarmStart::Kept* kept = row.kind == RowKind::limit ? warm.find(row.id) : nullptr;
   return kept != nullptr && kept->lambda > steadiness * std::abs(kept->change);
 }
@@ -250,6 +253,9 @@ void observe(const Model& model, const State& state, const Scene& scene, Contact
     const Hinge& hinge = model.hinges[k - root_dofs];
     s.limit_violation =
         std::max({s.limit_violation, hinge.lower - state.q[k + 1], state.q[k + 1] - hinge.upper});
+  }
+  for (const BendingCone& cone : model.cones) {
+    s.limit_violation = std::max(s.limit_violation, past_cone(cone, state.q));
   }
 }
 

@@ -60,6 +60,9 @@ void check_datasets(const LogContents& log) {
   check_table(log, frames, log.time.size());
   check_table(log, steps, step_count);
   check_table(log, contacts, log.h5.shape("/contacts/frame").at(0));
+  if (!log.h5.has("/model/bending_limit")) {
+    throw FileError(log.h5.file() + ": has no /model/bending_limit");
+  }
   check_names(log);
 }
 

@@ -13,6 +13,10 @@ namespace {
 /// How far from its limit a joint that bears on it may end a step, rad: the speed of Ipopt's rows
 /// is met to 1e-8 of the largest, some rad/s, over a step of some ms.
 constexpr double limit_tolerance = 1e-8;
+/// A cone is followed by tangents, rad: a step's end may be this far inside or past it, and the
+/// force that far turned from the bend.
+constexpr double cone_tolerance = 2e-5;
+constexpr double cone_turn_tolerance = 0.1;
 /// Mean f_thigmo is not C' of the mean multipliers exactly, as the knot moves between two frames:
 /// the median, which grows with the time between them, tells a wrong column, sign or window.
 constexpr double mean_tolerance = 0.05;
@@ -194,8 +198,13 @@ void ForceAudit::see_limits(const AuditedFrame& frame) {
   if ((force.head(root_dofs).array() != 0).any()) {
     shape_.insert("/forces/limit");
   }
+  std::vector<char> of_cone(model.nv(), 0);
+  for (const BendingCone& cone : model.cones) {
+    of_cone[cone.dof] = of_cone[cone.dof + 1] = 1;
+    see_cone(frame, cone, force.segment<2>(cone.dof));
+  }
   for (Eigen::Index k = root_dofs; k < model.nv(); ++k) {
-    if (force[k] == 0) {
+    if (force[k] == 0 || of_cone[k] != 0) {
       continue;
     }
     // A row with a force is met exactly: the joint ends at its limit, or as far back as push_out
@@ -207,6 +216,24 @@ void ForceAudit::see_limits(const AuditedFrame& frame) {
     const double wanted = gap >= 0 ? -gap / h : -scene.constraints.push_out * gap / h;
     limit_miss_ = worse(limit_miss_, std::abs(speed - wanted) * h);
   }
+}
+
+void ForceAudit::see_cone(const AuditedFrame& frame, const BendingCone& cone,
+                          const Eigen::Vector2d& force) {
+  if (force.isZero(0)) {
+    return;
+  }
+  const auto bend_of = [&cone](const Eigen::VectorXd& q) {
+    return total_bend(q[cone.dof + 1], q[cone.dof + 2]);
+  };
+  const double h = log_.resolved.scene.time.step;
+  const double left =
+      (1 - log_.resolved.scene.constraints.push_out) * past_cone(cone, frame.state.q);
+  const Bend end = bend_of(advance(frame.state.q, frame.qdot_next, h));
+  cone_miss_ = worse(cone_miss_, std::abs(end.angle - cone.limit - left));
+  // Every tangent that a step takes pushes back the way the joint bends.
+  const double along = -force.dot(end.slope) / (force.norm() * end.slope.norm());
+  cone_turn_ = worse(cone_turn_, std::acos(std::min(1.0, along)));
 }
 
 void ForceAudit::see_head(const AuditedFrame& frame) {
@@ -280,6 +307,12 @@ std::vector<Finding> ForceAudit::findings() const {
       from_rows_.finding("forces of rows", "q, spline parameters and multipliers")};
   findings.push_back(bounded("limits bear at limits", limit_miss_, limit_tolerance,
                              "rad from the limit at the step's end, /forces/limit"));
+  if (!log_.model.cones.empty()) {
+    findings.push_back(bounded("cones bear at cones", cone_miss_, cone_tolerance,
+                               "rad from the cone at the step's end, /forces/limit"));
+    findings.push_back(bounded("cones push back", cone_turn_, cone_turn_tolerance,
+                               "rad from the way the joint bends, /forces/limit"));
+  }
   std::string shape;
   for (const std::string& path : shape_) {
     shape += (shape.empty() ? "" : ", ") + path;

@@ -25,6 +25,8 @@ class ForceAudit {
   Eigen::MatrixXd see_thigmotaxis(const AuditedFrame& frame);
   void see_contacts(const AuditedFrame& frame);
   void see_limits(const AuditedFrame& frame);
+  /// `force` on the two hinges of a cone's joint, dyn cm.
+  void see_cone(const AuditedFrame& frame, const BendingCone& cone, const Eigen::Vector2d& force);
   void see_head(const AuditedFrame& frame);
   void see_tip(const AuditedFrame& frame);
   void see_balance(const AuditedFrame& frame);
@@ -39,7 +41,7 @@ class ForceAudit {
   std::vector<double> contact_a_, contact_b_, contact_force_;
   std::size_t next_contact_ = 0;  ///< first one of frames not seen yet
   Rebuilt from_rows_;
-  double imbalance_ = 0, mean_imbalance_ = 0, limit_miss_ = 0;
+  double imbalance_ = 0, mean_imbalance_ = 0, limit_miss_ = 0, cone_miss_ = 0, cone_turn_ = 0;
   std::set<std::string> shape_;         ///< datasets with a force where there can be none
   Eigen::MatrixXd columns_before_;      ///< C_thigmo' of the frame before, nv x 4
   std::vector<double> mean_deviation_;  ///< of mean f_thigmo from C' of the mean λ, shares

@@ -89,14 +89,20 @@ void LogContents::check_model() const {
     }
   };
   const std::vector<Body>& bodies = model.bodies;
-  const std::vector<Hinge>& hinges = model.hinges;
+  const std::size_t hinges = model.hinges.size();
+  const Eigen::Matrix2Xd ranges = hinge_ranges(model);
   check("mass", "body", 0, bodies.size(), [&](std::size_t b) { return bodies[b].mass; });
   check("length", "body", 0, bodies.size(), [&](std::size_t b) { return bodies[b].length; });
   check("radius", "body", 0, bodies.size(), [&](std::size_t b) { return bodies[b].radius; });
-  check("limit_lower", "hinge", root_dofs, hinges.size(),
-        [&](std::size_t k) { return hinges[k].lower; });
-  check("limit_upper", "hinge", root_dofs, hinges.size(),
-        [&](std::size_t k) { return hinges[k].upper; });
+  check("limit_lower", "hinge", root_dofs, hinges,
+        [&](std::size_t k) { return ranges(0, static_cast<Eigen::Index>(k)); });
+  check("limit_upper", "hinge", root_dofs, hinges,
+        [&](std::size_t k) { return ranges(1, static_cast<Eigen::Index>(k)); });
+  if (h5.has("/model/bending_limit")) {  // logs older than cones say nothing of them
+    const Eigen::VectorXd limits = bending_limits(model);
+    check("bending_limit", "joint", 0, bodies.size(),
+          [&](std::size_t b) { return limits[static_cast<Eigen::Index>(b)]; });
+  }
 }
 
 }  // namespace hagfish

@@ -70,7 +70,8 @@ Seen look(const Model& model, const Scene& scene, const State& state) {
   return seen;
 }
 
-/// MuJoCo with its own contacts and limits, its head clamped, driven through a slide.
+/// MuJoCo with its own contacts and limits (but for cones, which it has not), its head clamped,
+/// driven through a slide.
 class Player {
  public:
   Player(const LogContents& log, const Slide& slide)
@@ -216,6 +217,9 @@ int playback(const PlaybackOptions& options) {
   }
   h5.numbers("/time", time, {"s", "end of each step of the sliding phase"});
   h5.numbers("/head_end", head_end, {"cm", "arc length of the first touching contact in the log"});
+  if (!log.model.cones.empty()) {
+    fmt::print("without bending limits: MuJoCo knows none on the total angle of a joint\n");
+  }
   fmt::print("{:<12} {:>8} {:>10} {:>10} {:>10} {:>11} {:>8} {:>8} {:>4}\n", "driven by", "restart",
              "slid", "log slid", "drift", "knot held", "overlap", "capsules", "blew");
   for (const bool driven : {true, false}) {

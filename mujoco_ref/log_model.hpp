@@ -15,7 +15,8 @@ MujocoModel mujoco_model_of(const Hdf5Reader& log);
 
 /// The first quantity in which `mirror`, with a free head, is not `model` at timestep `h` (s), with
 /// both values: "mass of b17: 0.81 against 0.8 g". Empty where all agree to 1e-12 of each value;
-/// MJCF carries all digits. Looks at counts, names, timestep, gravity, bodies, skin and joints.
+/// MJCF carries all digits. Looks at counts, names, timestep, gravity, bodies, skin and joints;
+/// cones are in no MuJoCo model.
 std::string first_difference(const mjModel& mirror, const Model& model, double h);
 
 }  // namespace hagfish

@@ -97,8 +97,12 @@ std::string root_file(const Model& model, double least_arc, double h) {
   const int contacts = contacts_per_body * model.body_count();
   const int rows = contacts + static_cast<int>(model.hinges.size());  // each contact is one row
   std::ostringstream out = number_stream();
-  out << "<!-- Units: cm, g, s, rad. -->\n"
-         "<mujoco model=\"hagfish\">\n"
+  out << "<!-- Units: cm, g, s, rad. -->\n";
+  if (!model.cones.empty()) {
+    out << "<!-- Left out: the limit on the total angle of each bending joint (Y and Z together). "
+           "MuJoCo limits hinges one by one. -->\n";
+  }
+  out << "<mujoco model=\"hagfish\">\n"
          "<compiler angle=\"radian\" inertiafromgeom=\"false\"/>\n"
       << "<option timestep=\"" << h << "\" gravity=\"" << model.gravity.x() << ' '
       << model.gravity.y() << ' ' << model.gravity.z() << "\"/>\n"

@@ -3,7 +3,8 @@
 // Positions and velocities have the layout of core/state.hpp, so a log replays as it is. What the
 // two simulators share: bodies with their inertias, joints with limits, stiffness and damping, the
 // skin as frictionless capsules, and gravity. What is left out: water drag, which MuJoCo knows only
-// in other forms, and all that belongs to a scene: head plate, script, controller.
+// in other forms, limits on the total angle of a joint (the root document says so), since MuJoCo
+// limits hinges one by one, and all that belongs to a scene: head plate, script, controller.
 #pragma once
 
 #include <map>

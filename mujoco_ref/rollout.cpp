@@ -10,6 +10,7 @@ namespace hagfish {
 
 Model smooth(Model model) {
   model.drag = {};
+  model.cones.clear();
   for (Body& body : model.bodies) body.radius = 0;
   for (Hinge& hinge : model.hinges) {
     hinge.upper = std::numeric_limits<double>::infinity();

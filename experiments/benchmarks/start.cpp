@@ -45,11 +45,13 @@ Start knotted_start(const std::string& log) {
 Start free_start(const Start& knotted) {
   Start start{knotted.scene, knotted.model, {}};
   State state = rest_state(start.model);
+  const Eigen::Matrix2Xd ranges = hinge_ranges(start.model);
   for (std::size_t k = 0; k < start.model.hinges.size(); ++k) {
     const Hinge& hinge = start.model.hinges[k];
     const double along = static_cast<double>(hinge.body) / start.model.body_count();
     const auto i = static_cast<Eigen::Index>(k) + root_dofs;
-    state.q[i + 1] = wave_share * hinge.upper * std::sin(2 * std::numbers::pi * wave_count * along);
+    const double most = ranges(1, static_cast<Eigen::Index>(k));
+    state.q[i + 1] = wave_share * most * std::sin(2 * std::numbers::pi * wave_count * along);
     state.qdot[i] = wave_rate * state.q[i + 1];
   }
   ControllerState controller;

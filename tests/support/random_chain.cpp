@@ -67,6 +67,22 @@ Scene table1_scene(int bodies) {
 
 Model table1_hagfish(int bodies) { return make_hagfish(table1_specimen(), table1_scene(bodies)); }
 
+Model cone_hagfish(int bodies) {
+  Scene scene = table1_scene(bodies);
+  scene.model.bending_limit = BendingLimit::cone;
+  return make_hagfish(table1_specimen(), scene);
+}
+
+State within_cones(const Model& model, State state, double share) {
+  for (const BendingCone& cone : model.cones) {
+    auto angles = state.q.segment<2>(cone.dof + 1);
+    if (total_bend(angles[0], angles[1]).angle > share * cone.limit) {
+      angles = bend_to(angles[0], angles[1], share * cone.limit);
+    }
+  }
+  return state;
+}
+
 Model random_chain(Random& random, int bodies) {
   Model model;
   model.drag = {uniform(random, 1, 10), uniform(random, 1, 10)};
@@ -182,6 +198,7 @@ Eigen::MatrixXd dense_rows(const Model& model, const Kinematics& kin,
     const Row& row = rows[i];
     if (row.dof >= 0) {
       c(i, row.dof) = row.sign;
+      if (row.beside != 0) c(i, row.dof + 1) = row.beside;
     }
     visit_forces(row, [&](int body, const Eigen::Vector3d& force) {
       c.row(i) += force.transpose() * centre_jacobian(model, kin, body);

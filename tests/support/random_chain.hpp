@@ -34,6 +34,10 @@ Specimen table1_specimen();
 Scene table1_scene(int bodies = 100);
 /// The hagfish of that scene.
 Model table1_hagfish(int bodies = 100);
+/// The same with limits on the total angle of its universal joints.
+Model cone_hagfish(int bodies = 100);
+/// `state` with each universal joint bent back, in its plane, to `share` of its cone at most.
+State within_cones(const Model& model, State state, double share = 1);
 
 /// `bodies` cylinders of random mass (0.5 to 2 g), length (0.3 to 1 cm) and radius; every body but
 /// the first hangs on 0 to 3 hinges about distinct random axes with limits, stiffness and damping.

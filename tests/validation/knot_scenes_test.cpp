@@ -57,10 +57,8 @@ Seen run(const ResolvedScene& resolved) {
 
 std::string scene_name(const testing::TestParamInfo<const char*>& scene) { return scene.param; }
 
-class KnotScenes : public testing::TestWithParam<const char*> {};
-
-TEST_P(KnotScenes, TieHoldSlideAndComeOff) {
-  const ResolvedScene resolved = scene_called(GetParam());
+/// Runs a scene to its end, which shows what it expects.
+void expect_whole(const ResolvedScene& resolved) {
   const ExpectSettings& expect = resolved.scene.expect;
   const Seen seen = run(resolved);
   std::vector<Phase> phases = {Phase::form, Phase::tighten, Phase::slide, Phase::release,
@@ -85,10 +83,18 @@ TEST_P(KnotScenes, TieHoldSlideAndComeOff) {
   }
 }
 
+class KnotScenes : public testing::TestWithParam<const char*> {};
+
+TEST_P(KnotScenes, TieHoldSlideAndComeOff) { expect_whole(scene_called(GetParam())); }
+
 INSTANTIATE_TEST_SUITE_P(BuiltIn, KnotScenes,
                          testing::Values("figure_eight", "double_overhand", "three_twist",
                                          "overhand_reverse", "overhand_free_head", "overhand_fast"),
                          scene_name);
+
+TEST(KnotScenesWithCones, TieHoldSlideAndComeOff) {
+  expect_whole(scene_called("table1", {"model.bending_limit=cone"}));
+}
 
 TEST(Mirror, GivesTheOtherHandToTheEnd) {
   const Seen seen = run(scene_called("double_overhand", {"mirror=true"}));

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "core/simulation.hpp"
+#include "tests/support/random_chain.hpp"
 #include "tests/support/stored_states.hpp"
 
 namespace {
@@ -35,12 +36,16 @@ namespace {
 /// Steps a stored state; the controller does not look at the knot, which costs memory of its own.
 class Allocation : public testing::Test {
  protected:
-  void start(const std::string& name) {
+  void start(const std::string& name, BendingLimit limit = BendingLimit::box) {
+    scene.model.bending_limit = limit;
+    model = make_hagfish(stored_scene().specimen, scene);
     scene.knot.interval = std::numeric_limits<double>::infinity();
     const std::vector<StoredState> states = stored_states();
     const auto found = std::ranges::find(states, name, &StoredState::name);
     ASSERT_NE(found, states.end());
-    sim = resume(model, scene, *found);
+    StoredState stored = *found;
+    stored.state = within_cones(model, stored.state);
+    sim = resume(model, scene, stored);
     sim.controller.knot_seen = 0;
   }
   /// Requests of one step.
@@ -68,10 +73,12 @@ TEST_F(Allocation, CountersSeeEigenAndTheStandardLibrary) {
   EXPECT_EQ(requests - between, 1) << other.front();
 }
 
-TEST_F(Allocation, NoneInAStepWithAsManyRowsAsTheLastOne) {
+class AllocationOfRows : public Allocation, public testing::WithParamInterface<BendingLimit> {};
+
+TEST_P(AllocationOfRows, NoneInAStepWithAsManyRowsAsTheLastOne) {
   // Arrays by row keep their storage as long as the numbers of rows and of held ones stay; lists
   // keep what they have grown to, so that the same steps, taken again, need no more.
-  start("slide");
+  start("slide", GetParam());
   for (int k = 0; k < 300; ++k) step();
   const Simulation middle = sim;
   for (int k = 0; k < 100; ++k) step();
@@ -91,6 +98,9 @@ TEST_F(Allocation, NoneInAStepWithAsManyRowsAsTheLastOne) {
   }
   EXPECT_GT(compared, 20);
 }
+
+INSTANTIATE_TEST_SUITE_P(BendingLimits, AllocationOfRows,
+                         testing::Values(BendingLimit::box, BendingLimit::cone));
 
 TEST_F(Allocation, NoneInAStepWithoutConstraints) {
   scene.wall.present = false;

@@ -70,6 +70,7 @@ TEST_F(LogTest, HoldsWhatTheContractNames) {
       {"/model/radius", {n}, "cm"},
       {"/model/limit_lower", {nv}, "rad"},
       {"/model/limit_upper", {nv}, "rad"},
+      {"/model/bending_limit", {n}, "rad"},
       {"/trajectory/step", {t}, "1"},
       {"/trajectory/time", {t}, "s"},
       {"/trajectory/phase", {t}, "1"},

@@ -100,6 +100,7 @@ std::vector<std::uint64_t> bits(const Scene& s, const Specimen& animal) {
                            s.model.largest_limit,
                            s.model.limit_scale,
                            s.model.mass_ratio,
+                           double(s.model.bending_limit),
                            s.drag.normal,
                            s.drag.tangential,
                            double(s.constraints.activation),
@@ -208,7 +209,7 @@ ResolvedScene odd_scene() {
   s.title = "odd \"title\"";
   s.clamp_head = false;
   s.gravity = {odd(), -odd(), odd()};
-  s.model = {7, odd(), odd(), odd(), odd(), odd(), odd(), odd()};
+  s.model = {7, odd(), odd(), odd(), odd(), odd(), odd(), odd(), BendingLimit::cone};
   s.drag = {odd(), odd()};
   s.constraints = {Activation::violated, odd()};
   s.contact = {odd(), odd()};
@@ -359,6 +360,8 @@ TEST(SceneReader, RefusesBadValues) {
             "s.toml:2: model.bodies = 401: must be from 2 to 400");
   EXPECT_EQ(complaint("[model]\nlargest_limit_deg = 90\n"),
             "s.toml:2: model.largest_limit_deg = 90: must be above 0 and below 90 degrees");
+  EXPECT_EQ(complaint("[model]\nbending_limit = 'ball'\n"),
+            "s.toml:2: model.bending_limit = 'ball': must be one of \"box\", \"cone\"");
   EXPECT_EQ(complaint("[drag]\nnormal = nan\n"), "s.toml:2: drag.normal = nan: must be finite");
   EXPECT_EQ(complaint("[drag]\ntangential = -1\n"),
             "s.toml:2: drag.tangential = -1: must not be negative");

@@ -49,6 +49,7 @@ const std::map<std::string, std::string>& watchers() {
                              "/mean/thigmotaxis/lambda",
                              "/mean/thigmotaxis/slack",
                              "/mean/thigmotaxis/speed",
+                             "/model/bending_limit",
                              "/model/dof_name",
                              "/model/joint_name",
                              "/model/length",

@@ -9,6 +9,7 @@
 
 #include "core/log_writer.hpp"
 #include "mujoco_ref/mjcf.hpp"
+#include "tests/support/random_chain.hpp"
 #include "tests/support/stored_states.hpp"
 
 namespace hagfish {
@@ -18,10 +19,13 @@ namespace fs = std::filesystem;
 
 class AuditTest : public testing::Test {
  protected:
-  AuditTest() : file(fs::path(testing::TempDir()) / ("audit_" + std::to_string(getpid()) + ".h5")) {
+  explicit AuditTest(const std::vector<std::string>& more = {})
+      : file(fs::path(testing::TempDir()) / ("audit_" + std::to_string(getpid()) + ".h5")) {
     // The excerpt is of 13.76 to 13.82 s.
-    const ResolvedScene resolved = stored_scene(
-        {"time.frame_interval=0.01", "expect.hand=right", "expect.types=[['3_1', 13, 14]]"});
+    std::vector<std::string> overrides = {"time.frame_interval=0.01", "expect.hand=right",
+                                          "expect.types=[['3_1', 13, 14]]"};
+    overrides.insert(overrides.end(), more.begin(), more.end());
+    const ResolvedScene resolved = stored_scene(overrides);
     const Scene& scene = resolved.scene;
     const Model model = make_hagfish(resolved.specimen, scene);
     LogHeader header;
@@ -29,7 +33,9 @@ class AuditTest : public testing::Test {
     header.mjcf = mjcf_files(model, scene.contact.least_arc, scene.time.step);
     LogWriter log(file, true, header, model, scene);
     const auto solver = make_box_qp_solver("ipopt");
-    Simulation sim = resume(model, scene, stored_states().at(3));
+    StoredState stored = stored_states().at(3);
+    stored.state = within_cones(model, stored.state);
+    Simulation sim = resume(model, scene, stored);
     for (int k = 0; k < 30; ++k) {
       log.write(take_step(model, scene, *solver, sim), 0);
     }
@@ -117,6 +123,38 @@ TEST_F(AuditTest, RefusesAModelThatIsNotTheScenes) {
   EXPECT_NE(refusal().find("/mjcf is not the scene's model: damping of j01_bend_y"),
             std::string::npos)
       << refusal();
+}
+
+/// The same run with limits on the total angle of its joints.
+class AuditOfCones : public AuditTest {
+ protected:
+  AuditOfCones() : AuditTest({"model.bending_limit=cone"}) {}
+};
+
+TEST_F(AuditOfCones, SeesABendPastItsCone) {
+  EXPECT_TRUE(passes("limits"));
+  EXPECT_TRUE(passes("forward-inverse"));
+  EXPECT_TRUE(passes("force balance"));
+  // As far about Y and Z as each alone might go.
+  const Model model = cone_hagfish();
+  const BendingCone& cone = model.cones.back();
+  const Hdf5Reader::Rows q = Hdf5Reader(file).rows("/trajectory/q");
+  for (const int k : {cone.dof + 1, cone.dof + 2}) {
+    tamper("/trajectory/q", k, 0.95 * cone.limit - q(0, k));
+  }
+  EXPECT_FALSE(passes("limits"));
+}
+
+TEST_F(AuditOfCones, RefusesALogOfOtherCones) {
+  tamper("/model/bending_limit", 5, 0.25);
+  try {
+    audit(file);
+    ADD_FAILURE();
+  } catch (const FileError& error) {
+    EXPECT_NE(std::string(error.what()).find("/model/bending_limit of joint 5 is "),
+              std::string::npos)
+        << error.what();
+  }
 }
 
 TEST_F(AuditTest, SeesAForceBehindTheKnot) {

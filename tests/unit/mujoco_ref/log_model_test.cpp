@@ -83,6 +83,8 @@ TEST(FirstDifference, IsNoneForTheSameModel) {
     const Model model = table1_hagfish(bodies);
     const MujocoModel mirror(files_of(model));
     EXPECT_EQ(first_difference(*mirror.model(), model, h), "");
+    const Model cones = cone_hagfish(bodies);
+    EXPECT_EQ(first_difference(*MujocoModel(files_of(cones)).model(), cones, h), "");
   }
 }
 

@@ -339,6 +339,25 @@ TEST(MujocoModel, PassesOnWhatMujocoRejects) {
   EXPECT_EQ(error.find('\n'), std::string::npos) << error;
 }
 
+TEST(Mjcf, LeavesConesOutAndSaysSo) {
+  Model model = hagfish(10);
+  EXPECT_EQ(mjcf_files(model, least_arc, timestep).at(mjcf_root_file).find("Left out"),
+            std::string::npos);
+  for (const int k : {0, 1}) {
+    model.hinges[k].lower = -infinity;
+    model.hinges[k].upper = infinity;
+  }
+  model.cones.push_back({root_dofs, 0.5});
+  const auto files = mjcf_files(model, least_arc, timestep);
+  EXPECT_NE(files.at(mjcf_root_file).find("Left out: the limit on the total angle"),
+            std::string::npos);
+  const MujocoModel mujoco(files);
+  EXPECT_EQ(std::string(mj_id2name(mujoco.model(), mjOBJ_JOINT, 1)), "j01_bend_y");
+  EXPECT_FALSE(mujoco.model()->jnt_limited[1]);
+  EXPECT_FALSE(mujoco.model()->jnt_limited[2]);
+  EXPECT_TRUE(mujoco.model()->jnt_limited[3]);
+}
+
 // MuJoCo drops what its buffers cannot hold. A tight knot of 100 bodies has up to 150 touching
 // pairs (core/contact.hpp), with two contacts in a pair at most.
 TEST(Mjcf, HasRoomForTheContactsOfATightKnot) {
