@@ -79,36 +79,30 @@ double end_where_strands_meet(const Model& model, const Scene& scene, Simulation
   return h * clear / count;
 }
 
-}  // namespace
-
-Simulation start(const Model& model, const Scene& scene) {
-  ControllerState controller;
-  controller.phase = scene.start.phase;
-  return start_from(model, scene, start_state(model, scene.start), controller, 0);
+void keep(Simulation& sim) {
+  BeforeStep& before = sim.before;
+  before.controller = sim.controller;
+  before.warm = sim.warm;
+  before.ledger = sim.ledger;
+  before.watch = sim.watch;
+  before.candidates = sim.search.candidates;
+  before.moved = sim.search.moved;
 }
 
-Simulation start_from(const Model& model, const Scene& scene, State state,
-                      ControllerState controller, std::int64_t step) {
-  Simulation sim;
-  sim.step = step;
-  sim.state = std::move(state);
-  sim.controller = std::move(controller);
-  observe(model, sim.state, scene, sim.search, sim.situation);
-  sim.ledger = open_ledger(model, sim.state, sim.situation.kin);
-  return sim;
+void put_back(Simulation& sim) {
+  const BeforeStep& before = sim.before;
+  sim.controller = before.controller;
+  sim.warm = before.warm;
+  sim.ledger = before.ledger;
+  sim.watch = before.watch;
+  sim.search.candidates = before.candidates;
+  sim.search.moved = before.moved;
+  sim.search.segments = sim.situation.segments;
 }
 
-bool finished(const Simulation& sim, const Scene& scene) {
-  // Half a step of slack: the time of a step is a product and may fall short by rounding.
-  const double time = time_of(sim, scene) + 0.5 * scene.time.step;
-  return time >= scene.time.duration ||
-         phase_order(sim.controller.phase) > phase_order(scene.time.until) ||
-         (sim.controller.phase == Phase::free &&
-          time >= sim.controller.phase_start + scene.controller.free_time);
-}
-
-void take_step(const Model& model, const Scene& scene, BoxQpSolver& solver, Simulation& sim,
-               StepRecord& record) {
+/// A step that may throw half way.
+void try_step(const Model& model, const Scene& scene, BoxQpSolver& solver, Simulation& sim,
+              StepRecord& record) {
   const double h = scene.time.step;
   record.step = sim.step;
   record.time = time_of(sim, scene);
@@ -150,6 +144,46 @@ void take_step(const Model& model, const Scene& scene, BoxQpSolver& solver, Simu
   std::swap(record.state, sim.state);
   std::swap(record.situation, sim.situation);
   ++sim.step;
+}
+
+}  // namespace
+
+Simulation start(const Model& model, const Scene& scene) {
+  ControllerState controller;
+  controller.phase = scene.start.phase;
+  return start_from(model, scene, start_state(model, scene.start), controller, 0);
+}
+
+Simulation start_from(const Model& model, const Scene& scene, State state,
+                      ControllerState controller, std::int64_t step) {
+  Simulation sim;
+  sim.step = step;
+  sim.state = std::move(state);
+  sim.controller = std::move(controller);
+  observe(model, sim.state, scene, sim.search, sim.situation);
+  sim.ledger = open_ledger(model, sim.state, sim.situation.kin);
+  return sim;
+}
+
+bool finished(const Simulation& sim, const Scene& scene) {
+  // Half a step of slack: the time of a step is a product and may fall short by rounding.
+  const double time = time_of(sim, scene) + 0.5 * scene.time.step;
+  return time >= scene.time.duration ||
+         phase_order(sim.controller.phase) > phase_order(scene.time.until) ||
+         (sim.controller.phase == Phase::free &&
+          time >= sim.controller.phase_start + scene.controller.free_time);
+}
+
+void take_step(const Model& model, const Scene& scene, BoxQpSolver& solver, Simulation& sim,
+               StepRecord& record) {
+  keep(sim);
+  try {
+    try_step(model, scene, solver, sim, record);
+  } catch (...) {
+    record.controller = sim.controller;
+    put_back(sim);
+    throw;
+  }
 }
 
 StepRecord take_step(const Model& model, const Scene& scene, BoxQpSolver& solver, Simulation& sim) {

@@ -9,6 +9,17 @@
 
 namespace hagfish {
 
+/// What a step changes before it is sure to be taken, as it was: storage of take_step. Search
+/// segments are those of the situation.
+struct BeforeStep {
+  ControllerState controller;
+  WarmStart warm;
+  EnergyLedger ledger;
+  Watch watch;
+  std::vector<SegmentPair> candidates;  ///< of the search
+  std::vector<double> moved;            ///< of the search
+};
+
 /// All that changes while a scene runs.
 struct Simulation {
   std::int64_t step = 0;  ///< steps taken
@@ -20,6 +31,7 @@ struct Simulation {
   StepScratch scratch;
   EnergyLedger ledger;
   Watch watch;
+  BeforeStep before;
 };
 
 /// As the scene starts, at time 0.
@@ -53,7 +65,10 @@ struct StepRecord {
 };
 
 /// Takes one step, writing into the storage of `record`. Throws StepError, naming the cause, where
-/// it cannot; `sim` is then unchanged but for the controller and the warm start.
+/// it cannot. Whatever it throws, `sim` is then as it was, but for storage whose contents do not
+/// matter; a step with another scene goes on as if nothing had been. `record` then holds its step
+/// and time, the controller as far as it came and, where a guard looked at them, the state and
+/// situation that it refused.
 void take_step(const Model& model, const Scene& scene, BoxQpSolver& solver, Simulation& sim,
                StepRecord& record);
 StepRecord take_step(const Model& model, const Scene& scene, BoxQpSolver& solver, Simulation& sim);

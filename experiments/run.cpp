@@ -53,7 +53,7 @@ Ending take_steps(const Model& model, const Scene& scene, BoxQpSolver& solver, L
       const bool knot =
           error.cause() == StopCause::never_tied || error.cause() == StopCause::knot_lost;
       return {fmt::format("failed: {} at step {} (t = {:.4f} s, {})", error.what(), sim.step,
-                          time_of(sim, scene), phase_name(sim.controller.phase)),
+                          time_of(sim, scene), phase_name(record.controller.phase)),
               knot ? wrong_knot : run_failed};
     } catch (const std::exception& error) {
       return {fmt::format("failed: {} at step {}", error.what(), sim.step), run_failed};
