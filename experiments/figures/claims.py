@@ -48,11 +48,17 @@ class Sliding:
         return self.joint[own] // 2, self.force[:, own]
 
 
-def read_sliding(log: HagfishLog) -> Sliding:
+def ruled_intervals(log: HagfishLog) -> int:
+    """How many intervals of the sliding phase end with both contacts of Eq. 6 and a knot."""
     frames = log.intervals_in("slide")
     ruled = np.all(log["/thigmotaxis/body_b"][frames] >= 0, axis=1) & np.isfinite(log["/knot/head_end"][frames])
-    if ruled.sum() < LEAST_FRAMES:
-        raise LogError(f"{log.path}: {ruled.sum()} sliding frames with thigmotaxis rows; Figure 8 needs {LEAST_FRAMES}")
+    return int(ruled.sum())
+
+
+def read_sliding(log: HagfishLog) -> Sliding:
+    frames, ruled = log.intervals_in("slide"), ruled_intervals(log)
+    if ruled < LEAST_FRAMES:
+        raise LogError(f"{log.path}: {ruled} sliding frames with thigmotaxis rows; Figure 8 needs {LEAST_FRAMES}")
     dof, joint, kind = log.hinges()
     time, last_body = log["/trajectory/time"], log["/thigmotaxis/body_b"].max(axis=1)
     step = log["/trajectory/step"] - log["/trajectory/step"][0]
