@@ -123,9 +123,21 @@ void ForceAudit::see(const AuditedFrame& frame) {
   const auto count = [f](const Hdf5Reader::Rows& rows) {
     return static_cast<std::int64_t>((rows.row(f).array() != 0).count());
   };
+  const std::int64_t bearing = count(lambda_) + bearing_limits(frame) + count(head_) +
+                               static_cast<std::int64_t>(next_contact_ - first_contact);
+  // A cone is followed by as many tangents as it takes.
+  const std::int64_t more = log_.model.cones.empty() ? 0 : active_[f] - bearing;
   from_rows_.compare_exactly("/diagnostics/active", active_[f],
-                             count(lambda_) + count(limit_) + count(head_) +
-                                 static_cast<std::int64_t>(next_contact_ - first_contact));
+                             bearing + std::max<std::int64_t>(0, more));
+}
+
+std::int64_t ForceAudit::bearing_limits(const AuditedFrame& frame) const {
+  const Eigen::VectorXd force = limit_.row(frame.index);
+  std::int64_t count = (force.array() != 0).count();
+  for (const BendingCone& cone : log_.model.cones) {  // one row on both
+    count -= force[cone.dof] != 0 && force[cone.dof + 1] != 0 ? 1 : 0;
+  }
+  return count;
 }
 
 Eigen::MatrixXd ForceAudit::see_thigmotaxis(const AuditedFrame& frame) {

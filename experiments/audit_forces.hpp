@@ -23,6 +23,8 @@ class ForceAudit {
  private:
   /// Gives C_thigmo', nv x 4, zero where there is no row.
   Eigen::MatrixXd see_thigmotaxis(const AuditedFrame& frame);
+  /// Hinges and cones with a force.
+  std::int64_t bearing_limits(const AuditedFrame& frame) const;
   void see_contacts(const AuditedFrame& frame);
   void see_limits(const AuditedFrame& frame);
   /// `force` on the two hinges of a cone's joint, dyn cm.

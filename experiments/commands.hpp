@@ -74,7 +74,7 @@ struct PictureOptions {
 };
 
 struct PlaybackOptions {
-  std::string log;      ///< of every step
+  std::string log;      ///< with restart intervals of whole frames
   std::string out;      ///< HDF5 file for the figure
   std::string command;  ///< as typed, for that file
 };
@@ -101,7 +101,7 @@ int mjcf(const MjcfOptions& options);
 int compare(const CompareOptions& options);
 /// Error against CPU time of the core's and MuJoCo's steps along a smooth motion.
 int integrate(const IntegrateOptions& options);
-/// The slide of a log in MuJoCo under f_thigmo alone.
+/// The slide of a log in MuJoCo under f_thigmo alone, the log's mean from frame to frame.
 int playback(const PlaybackOptions& options);
 /// One cell of the failure map: runs a scene by one method at one step and writes a row of what
 /// became of it (stress_judge.hpp).

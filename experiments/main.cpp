@@ -152,8 +152,9 @@ void add_playback(CLI::App& app, const std::string& typed, int& code) {
   const auto options = std::make_shared<hagfish::PlaybackOptions>();
   options->command = typed;
   CLI::App* playback = app.add_subcommand(
-      "playback", "slide a log's knot in MuJoCo, with its own contacts, by f_thigmo alone");
-  playback->add_option("LOG", options->log, "log of every step")->required();
+      "playback",
+      "slide a log's knot in MuJoCo, with its own contacts, by mean f_thigmo from frame to frame");
+  playback->add_option("LOG", options->log, "log whose knot slides")->required();
   playback->add_option("--out", options->out, "HDF5 file to write")->required();
   playback->callback([options, &code] { code = hagfish::playback(*options); });
 }

@@ -1,8 +1,10 @@
-"""The paper's three claims about Figure 8, as numbers computed from the raw log.
+"""The paper's three claims about Figure 8, as numbers computed from a log.
 
 (a) joints behind the knot carry no force; (b) the force grows as the knot nears the head;
 (c) the force is smooth along the body and noisy in time, so that a few modes may hold it.
-Nothing is filtered. Forces are f_thigmo (Eq. 8) on the hinges, in dyn cm, in the sliding phase.
+Forces are f_thigmo (Eq. 8) on the hinges, in dyn cm, in the sliding phase: means over the time from a
+frame of the log to the next (impulse over time, by default 20 ms), as a single step's force is an
+impulse over h. Nothing else is filtered.
 """
 
 from __future__ import annotations
@@ -25,18 +27,20 @@ LEAST_FRAMES = 12  # one to a block of the bootstrap
 
 @dataclass
 class Sliding:
-    """The sliding phase; rows are its frames."""
+    """The sliding phase; rows are the intervals between its frames."""
 
-    time: np.ndarray  # F, s
-    force: np.ndarray  # F x hinges, dyn cm
+    time: np.ndarray  # F, end of the interval, s
+    interval: float  # from frame to frame, s
+    force: np.ndarray  # F x hinges, mean over the interval, dyn cm
     joint: np.ndarray  # joint of each hinge
     kind: np.ndarray  # its kind
     arc: np.ndarray  # arc length of each hinge, cm
     spacing: float  # length of a body, cm
-    head_end: np.ndarray  # F, cm
-    tail_end: np.ndarray  # F, cm
-    last_body: np.ndarray  # F, the most tailward body of any thigmotaxis row, -1 where none
-    lambdas: np.ndarray  # F x 4, dyn
+    head_end: np.ndarray  # F, the knot's at the end of the interval, cm
+    tail_end: np.ndarray  # F, the more tailward of the two ends of the interval, cm
+    last_body: np.ndarray  # F, the most tailward body of any thigmotaxis row at either end of it, -1 where none
+    lambdas: np.ndarray  # F x 4, multipliers / h, mean over the interval, dyn
+    step_lambdas: np.ndarray  # steps x 4, of every single step in the intervals, dyn
 
     def axis(self, name: str) -> tuple[np.ndarray, np.ndarray]:
         """Joint numbers (head 0, tail 50 for 100 bodies: two joints make one) and forces F x n."""
@@ -44,16 +48,26 @@ class Sliding:
         return self.joint[own] // 2, self.force[:, own]
 
 
-def read_sliding(log: HagfishLog) -> Sliding:
-    frames = log.in_phase("slide")
+def ruled_intervals(log: HagfishLog) -> int:
+    """How many intervals of the sliding phase end with both contacts of Eq. 6 and a knot."""
+    frames = log.intervals_in("slide")
     ruled = np.all(log["/thigmotaxis/body_b"][frames] >= 0, axis=1) & np.isfinite(log["/knot/head_end"][frames])
-    if ruled.sum() < LEAST_FRAMES:
-        raise LogError(f"{log.path}: {ruled.sum()} sliding frames with thigmotaxis rows; Figure 8 needs {LEAST_FRAMES}")
+    return int(ruled.sum())
+
+
+def read_sliding(log: HagfishLog) -> Sliding:
+    frames, ruled = log.intervals_in("slide"), ruled_intervals(log)
+    if ruled < LEAST_FRAMES:
+        raise LogError(f"{log.path}: {ruled} sliding frames with thigmotaxis rows; Figure 8 needs {LEAST_FRAMES}")
     dof, joint, kind = log.hinges()
-    return Sliding(log["/trajectory/time"][frames], log["/forces/thigmotaxis"][frames][:, dof], joint, kind,
-                   log.joint_arc()[joint], float(np.median(log["/model/length"])),
-                   log["/knot/head_end"][frames], log["/knot/tail_end"][frames],
-                   log["/thigmotaxis/body_b"][frames].max(axis=1), log["/thigmotaxis/lambda"][frames])
+    time, last_body = log["/trajectory/time"], log["/thigmotaxis/body_b"].max(axis=1)
+    step = log["/trajectory/step"] - log["/trajectory/step"][0]
+    either = lambda values: np.fmax(values[frames], values[frames - 1])
+    return Sliding(time[frames], float(np.median(time[frames] - time[frames - 1])),
+                   log["/mean/forces/thigmotaxis"][frames][:, dof], joint, kind, log.joint_arc()[joint],
+                   float(np.median(log["/model/length"])), log["/knot/head_end"][frames],
+                   either(log["/knot/tail_end"]), either(last_body), log["/mean/thigmotaxis/lambda"][frames],
+                   log["/steps/thigmotaxis_lambda"][step[frames[0] - 1]:step[frames[-1]]])
 
 
 def zero_behind(s: Sliding) -> dict[str, Any]:
@@ -65,8 +79,8 @@ def zero_behind(s: Sliding) -> dict[str, Any]:
     furthest = np.where(force > 0, s.arc[None, :], -np.inf).max(axis=1)
     past = (furthest - tail_end)[np.isfinite(furthest)]
     largest = lambda mask: float(force[mask].max()) if mask.any() else 0.0
-    unruled = s.force[s.last_body < 0]
-    return {"frames": int(ruled.sum()), "largest_force_dyn_cm": float(force.max(initial=0.0)),
+    unruled = s.force[np.all(s.lambdas == 0, axis=1)]
+    return {"mean_over_s": s.interval, "intervals": int(ruled.sum()), "largest_force_dyn_cm": float(force.max(initial=0.0)),
             "largest_behind_tail_end_dyn_cm": largest(behind_knot),
             "nonzero_behind_tail_end": int((force[behind_knot] > 0).sum()),
             "values_behind_tail_end": int(behind_knot.sum()),
@@ -75,7 +89,7 @@ def zero_behind(s: Sliding) -> dict[str, Any]:
             "values_beyond_reach_of_rows": int(beyond_row.sum()),
             "furthest_nonzero_past_tail_end_cm": float(past.max()) if past.size else 0.0,
             "share_of_plane_zero": float((s.force == 0).mean()),
-            "largest_in_frames_without_rows_dyn_cm": float(np.abs(unruled).max()) if unruled.size else 0.0}
+            "largest_in_intervals_without_multipliers_dyn_cm": float(np.abs(unruled).max()) if unruled.size else 0.0}
 
 
 def ranks(values: np.ndarray) -> np.ndarray:
@@ -92,7 +106,7 @@ def spearman(x: np.ndarray, y: np.ndarray) -> float:
 
 
 def spearman_interval(x: np.ndarray, y: np.ndarray, draws: int = 1000) -> tuple[float, float]:
-    """95 % interval of the rank correlation by a moving-block bootstrap: neighbouring frames are not
+    """95 % interval of the rank correlation by a moving-block bootstrap: neighbouring means are not
     independent, so whole stretches (a twelfth of the phase) are drawn."""
     n, block = len(x), max(2, len(x) // LEAST_FRAMES)
     starts = np.random.default_rng(8).integers(0, n - block + 1, size=(draws, -(-n // block)))
@@ -102,7 +116,7 @@ def spearman_interval(x: np.ndarray, y: np.ndarray, draws: int = 1000) -> tuple[
 
 
 def measures(s: Sliding) -> dict[str, np.ndarray]:
-    """Sizes of the force, frame by frame."""
+    """Sizes of the mean force, interval by interval."""
     active = np.maximum((s.force != 0).sum(axis=1), 1)
     return {"rms over all hinges, dyn cm": np.sqrt((s.force**2).mean(axis=1)),
             "sum of magnitudes, dyn cm": np.abs(s.force).sum(axis=1),
@@ -114,10 +128,10 @@ def larger_near_head(s: Sliding) -> dict[str, Any]:
     """Claim (b): size of the force against the knot's head end."""
     ruled = (s.last_body >= 0) & np.isfinite(s.head_end)
     x = s.head_end[ruled]
-    result: dict[str, Any] = {"frames": int(ruled.sum()), "measures": {}}
+    result: dict[str, Any] = {"mean_over_s": s.interval, "intervals": int(ruled.sum()), "measures": {}}
     near, far = x <= np.percentile(x, 100 / 3), x >= np.percentile(x, 200 / 3)
-    for name, all_frames in measures(s).items():
-        y = all_frames[ruled]
+    for name, every in measures(s).items():
+        y = every[ruled]
         slope, intercept = np.polyfit(x, y, 1)
         residual, spread = y - (slope * x + intercept), y - y.mean()
         low, high = spearman_interval(x, y)
@@ -146,7 +160,9 @@ def roughness(values: np.ndarray, axis: int) -> float:
 
 def smooth_in_space(s: Sliding) -> dict[str, Any]:
     """Claim (c): modes that hold 95 % and 99 % of the energy, and roughness both ways, per axis."""
-    result: dict[str, Any] = {"frame_interval_s": float(np.median(np.diff(s.time))), "axes": {}}
+    result: dict[str, Any] = {"mean_over_s": s.interval, "axes": {},
+                              "multipliers_roughness_in_time": roughness(s.lambdas, 0),
+                              "multipliers_roughness_in_time_every_step": roughness(s.step_lambdas, 0)}
     for name in KINDS:
         _, force = s.axis(name)
         energy = {"dct": ((force @ dct_matrix(force.shape[1]).T) ** 2).sum(axis=0),
@@ -164,7 +180,7 @@ def smooth_in_space(s: Sliding) -> dict[str, Any]:
 
 def verdicts(a: dict[str, Any], b: dict[str, Any], c: dict[str, Any]) -> dict[str, str]:
     """'agrees', 'disagrees' or 'undecided' for each claim; the rules are printed with them."""
-    exact = a["nonzero_beyond_reach_of_rows"] == 0 and a["largest_in_frames_without_rows_dyn_cm"] == 0
+    exact = a["nonzero_beyond_reach_of_rows"] == 0 and a["largest_in_intervals_without_multipliers_dyn_cm"] == 0
     intervals = [b["measures"][name] for name in list(b["measures"])[:2]]
     grows = ("agrees" if all(m["spearman_95_high"] < 0 for m in intervals) else
              "disagrees" if all(m["spearman_95_low"] > 0 for m in intervals) else "undecided")

@@ -1,6 +1,6 @@
 """Figure 8: f_thigmo (Eq. 8) about X, Y and Z over time and joint number while the knot slides, and a
-page that tests the paper's three claims about it. Raw data, no filter; the surfaces leave out
-impulsive frames, the maps show all.
+page that tests the paper's three claims about it. Forces are means from one frame of the log to the
+next (by default 20 ms); nothing else is filtered.
 
 Usage: figure8.py LOG.h5 OUT_SURFACE.png OUT_CLAIMS.png (writes PDFs beside, and OUT_CLAIMS.json).
 """
@@ -36,26 +36,24 @@ def edges(centres: np.ndarray) -> np.ndarray:
 
 def surfaces(s: claims.Sliding, out: Path) -> None:
     """Three surfaces, and the same data from above with the knot's two ends."""
-    figure = plt.figure(figsize=(10.5, 6.1))
+    figure = plt.figure(figsize=(10.5, 6.5))
     scale = np.percentile(np.abs(s.force[s.force != 0]), 99) if np.any(s.force) else 1.0
-    # One frame of an impulse would hide or flatten all the others: left out of the surfaces.
-    impulsive = np.abs(s.force).max(axis=1) > 1.5 * scale
     per_joint = 2 * s.spacing  # cm of body to a joint number
     for column, axis in enumerate(claims.KINDS):
         joint, force = s.axis(axis)
-        axes = figure.add_axes([0.325 * column - 0.005, 0.43, 0.31, 0.60], projection="3d")
+        axes = figure.add_axes([0.325 * column - 0.005, 0.42, 0.30, 0.56], projection="3d")
         grid_joint, grid_time = np.meshgrid(joint, s.time)
-        axes.plot_surface(grid_joint, grid_time, np.where(impulsive[:, None], np.nan, force), rstride=1, cstride=1, cmap="RdBu_r", vmin=-scale,
-                          vmax=scale, linewidth=0, antialiased=False, rasterized=True)
+        axes.plot_surface(grid_joint, grid_time, force, rstride=1, cstride=1, cmap="RdBu_r", vmin=-scale, vmax=scale,
+                          linewidth=0, antialiased=False, rasterized=True)
         axes.patch.set_visible(False)  # it would hide the tick labels of the panel before
         axes.view_init(elev=28, azim=-52)
         axes.set_xlabel("joint (head 0)", fontsize=8, labelpad=-3)
         axes.set_ylabel("time, s", fontsize=8, labelpad=-3)
         axes.tick_params(labelsize=7, pad=-2)
         axes.tick_params(axis="z", pad=3)
-        axes.set_title(f"about {NAMES[axis]}, dyn cm", fontsize=10, y=0.93)
+        axes.set_title(f"about {NAMES[axis]}, dyn cm", fontsize=10, y=1.0)
 
-        flat = figure.add_axes([0.06 + 0.315 * column, 0.105, 0.255, 0.255])
+        flat = figure.add_axes([0.06 + 0.315 * column, 0.135, 0.255, 0.24])
         image = flat.pcolormesh(edges(joint.astype(float)), edges(s.time), force, cmap="RdBu_r", vmin=-scale,
                                 vmax=scale, rasterized=True)
         flat.plot(s.head_end / per_joint, s.time, color="black", lw=0.9, label="knot, head end")
@@ -65,16 +63,15 @@ def surfaces(s: claims.Sliding, out: Path) -> None:
         flat.tick_params(labelsize=7)
         if column == 0:
             flat.set_ylabel("time, s", fontsize=8)
-            figure.legend(loc="lower left", bbox_to_anchor=(0.055, 0.365), ncol=2, fontsize=7.5, frameon=False)
-    bar = figure.add_axes([0.955, 0.105, 0.010, 0.255])
+            figure.legend(loc="lower left", bbox_to_anchor=(0.055, 0.38), ncol=2, fontsize=7.5, frameon=False)
+    bar = figure.add_axes([0.955, 0.135, 0.010, 0.24])
     figure.colorbar(image, cax=bar, extend="both")
     bar.tick_params(labelsize=6.5, pad=1)
     bar.set_title("dyn cm", fontsize=7)
-    figure.text(0.06, 0.005, r"$f_\mathrm{thigmo}=C_\mathrm{thigmo}^\top\lambda_\mathrm{thigmo}/h$ on each hinge at "
-                "each logged frame of sliding, unfiltered. Colours saturate at the 99th percentile of the non-zero "
-                f"magnitudes.\nFrames beyond 1.5 times that, {impulsive.sum()} of {len(s.time)}, are in the maps but left "
-                f"out of the surfaces: impulses up to {np.abs(s.force).max():.0f} dyn cm where a contact or the "
-                "commanded speed changes.", fontsize=7.5)
+    figure.text(0.06, 0.015, r"$f_\mathrm{thigmo}=C_\mathrm{thigmo}^\top\lambda_\mathrm{thigmo}/h$ on each hinge while "
+                f"the knot slides: means over {1000 * s.interval:.0f} ms, from frame to frame of the log. The largest is "
+                f"{np.abs(s.force).max():.0f} dyn cm.\nColours saturate at the 99th percentile of the non-zero magnitudes, "
+                f"{scale:.0f} dyn cm.", fontsize=7.5)
     save_figure(figure, out, DPI)
 
 
@@ -91,7 +88,8 @@ def draw_zero(axes: Any, s: claims.Sliding) -> None:
     axes.set(xlabel="arc length from the head, cm", ylabel="time, s",
              title="(a) largest |f| at each joint; white = exactly 0")
     axes.legend(fontsize=7, loc="upper right")
-    axes.figure.colorbar(image, ax=axes, label="dyn cm", extend="min")
+    bar = axes.figure.colorbar(image, ax=axes, extend="min", pad=0.02, fraction=0.04)
+    bar.ax.set_title("dyn cm", fontsize=7)
 
 
 def draw_growth(axes: Any, s: claims.Sliding, name: str, found: dict[str, float]) -> None:
@@ -114,8 +112,8 @@ def draw_growth(axes: Any, s: claims.Sliding, name: str, found: dict[str, float]
 
 def draw_modes(axes: Any, c: dict[str, Any]) -> None:
     """Claim (c): energy that a basis of k modes leaves out."""
-    for axis, own in c["axes"].items():
-        for basis, style in (("dct", "-"), ("svd", ":")):
+    for basis, style in (("dct", "-"), ("svd", ":")):
+        for axis, own in c["axes"].items():
             held = np.array(own[f"{basis}_held"])
             axes.semilogy(np.arange(1, len(held) + 1), np.maximum(1 - held, 1e-6), style, color=COLOURS[axis], lw=1.3,
                           label=f"{axis}, {'Fourier (DCT)' if basis == 'dct' else 'SVD'}")
@@ -123,8 +121,8 @@ def draw_modes(axes: Any, c: dict[str, Any]) -> None:
         axes.axhline(1 - share, color="grey", lw=0.6)
         axes.annotate(f"{share * 100:.0f} % held", (0.99, 1 - share), xycoords=("axes fraction", "data"), fontsize=6.5,
                       ha="right", va="bottom", color="grey")
-    axes.set(xlabel="modes kept", ylabel="share of energy left out", ylim=(1e-4, 1.1), title="(c) modes along the body")
-    axes.legend(fontsize=6.2, ncol=3, loc="upper right", columnspacing=1.0)
+    axes.set(xlabel="modes kept", ylabel="share of energy left out", ylim=(1e-4, 1.6), title="(c) modes along the body")
+    axes.legend(fontsize=6.2, ncol=2, loc="upper right", columnspacing=1.0)
 
 
 def draw_roughness(axes: Any, c: dict[str, Any]) -> None:
@@ -135,9 +133,9 @@ def draw_roughness(axes: Any, c: dict[str, Any]) -> None:
         bars = axes.bar(np.arange(3) + shift, values, 0.38, color=colour, label=label)
         axes.bar_label(bars, fmt="%.3f", fontsize=7)
     axes.set_xticks(range(3), [NAMES[axis] for axis in c["axes"]])
-    axes.set(ylabel="roughness (0 smooth, 1 white noise)", title="(c) neighbouring values compared")
+    axes.set(ylabel="roughness (0 smooth, 1 white noise)", title="(c) neighbouring means compared")
     axes.margins(y=0.3)
-    axes.legend(fontsize=7)
+    axes.legend(fontsize=7, ncol=2, loc="upper left")
 
 
 def plain_words(a: dict[str, Any], b: dict[str, Any], c: dict[str, Any]) -> list[tuple[str, str]]:
@@ -149,21 +147,23 @@ def plain_words(a: dict[str, Any], b: dict[str, Any], c: dict[str, Any]) -> list
     else:
         behind = f"all {a['values_behind_tail_end']} values tailward of the last contact are exactly 0"
     zero = (f"{behind}. Beyond the {claims.SPLINE_REACH} bodies that the spline adds to a row: "
-            f"{a['nonzero_beyond_reach_of_rows']} of {a['values_beyond_reach_of_rows']} not 0. Largest force "
-            f"{a['largest_force_dyn_cm']:.4g} dyn cm; {100 * a['share_of_plane_zero']:.0f} % of all values are 0. "
-            "Rule: exactly 0 beyond the rows' reach.")
+            f"{a['nonzero_beyond_reach_of_rows']} of {a['values_beyond_reach_of_rows']} not 0. Largest force, a mean over "
+            f"{1000 * a['mean_over_s']:.0f} ms: {a['largest_force_dyn_cm']:.4g} dyn cm; {100 * a['share_of_plane_zero']:.0f} % "
+            "of all values are 0. Rule: exactly 0 beyond the rows' reach.")
     rows = [f"{name.split(',')[0]} ×{m['median_near_third'] / max(m['median_far_third'], 1e-300):.2f} "
             f"(Spearman {m['spearman_with_head_end']:+.2f})" for name, m in b["measures"].items()]
-    growth = ("median of the third of frames nearest the head over that of the furthest third: " + "; ".join(rows)
+    growth = ("median of the third of the means nearest the head over that of the furthest third: " + "; ".join(rows)
               + ". Rule: the 95 % intervals of the first two correlations with the distance to the head lie below 0.")
     each = c["axes"].items()
     rough = ("; ".join(f"{axis}: {own['roughness_in_space']:.3f} along the body, {own['roughness_in_time']:.3f} in time"
                        for axis, own in each)
-             + f", at {1000 * c['frame_interval_s']:.0f} ms between frames. Rule: on each axis at most "
+             + f", of means over {1000 * c['mean_over_s']:.0f} ms. The four multipliers in time: "
+             f"{c['multipliers_roughness_in_time']:.3f} from mean to mean, "
+             f"{c['multipliers_roughness_in_time_every_step']:.3f} from step to step. Rule: on each axis at most "
              f"{claims.SMOOTH} along the body, and at most half of that in time.")
     modes = ("; ".join(f"{axis}: Fourier {own['dct_modes_95']} / {own['dct_modes_99']}, SVD {own['svd_modes_95']} / "
                        f"{own['svd_modes_99']} of {own['joints']}" for axis, own in each)
-             + " modes hold 95 / 99 % of the energy. Rule: 95 % in a quarter of the Fourier modes on each axis.")
+             + " modes hold 95 / 99 % of the energy of these means. Rule: 95 % in a quarter of the Fourier modes on each axis.")
     return list(zip(claims.verdicts(a, b, c), (zero, growth, rough, modes)))
 
 
@@ -172,14 +172,16 @@ def claims_page(s: claims.Sliding, out: Path) -> None:
     verdict = claims.verdicts(a, b, c)
     words = plain_words(a, b, c)
     plt.rcParams.update({"font.size": 8, "axes.titlesize": 8.5})
-    figure = plt.figure(figsize=(8.3, 10.8))
-    grid = figure.add_gridspec(3, 2, left=0.09, right=0.97, top=0.965, bottom=0.265, hspace=0.36, wspace=0.26)
+    figure = plt.figure(figsize=(8.3, 11.2))
+    grid = figure.add_gridspec(3, 2, left=0.09, right=0.97, top=0.945, bottom=0.30, hspace=0.36, wspace=0.26)
+    figure.text(0.04, 0.98, "Three claims about $f_\\mathrm{thigmo}$ while the knot slides. Forces f are means over "
+                f"{1000 * s.interval:.0f} ms, from frame to frame of the log.", fontsize=9)
     draw_zero(figure.add_subplot(grid[0, :]), s)
     for column, name in enumerate(list(b["measures"])[:2]):
         draw_growth(figure.add_subplot(grid[1, column]), s, name, b["measures"][name])
     draw_modes(figure.add_subplot(grid[2, 0]), c)
     draw_roughness(figure.add_subplot(grid[2, 1]), c)
-    height = 0.205
+    height = 0.24
     for name, text in words:
         figure.text(0.04, height, f"{name}: ", fontsize=9, weight="bold")
         figure.text(0.96, height, verdict[name].upper(), fontsize=9, weight="bold", ha="right",

@@ -18,7 +18,7 @@ import numpy as np
 
 FORMAT = "hagfish-log"
 VERSION = 1
-FRAME_GROUPS = ("trajectory", "forces", "thigmotaxis", "knot", "diagnostics")
+FRAME_GROUPS = ("trajectory", "forces", "thigmotaxis", "mean", "knot", "diagnostics")
 
 
 class LogError(Exception):
@@ -46,10 +46,18 @@ class HagfishLog:
         version = int(self.attribute("format_version"))
         if version != VERSION:
             raise LogError(f"{path}: {FORMAT} version {version}; this script reads version {VERSION}")
-        self.frames = min((self._dataset(f"/{group}/{name}").shape[0] for group in FRAME_GROUPS
-                           for name in self._file.get(group, ())), default=0)
+        self.frames = min((dataset.shape[0] for dataset in self._along_time()), default=0)
         if self.frames == 0:
             raise LogError(f"{path}: holds no frames (status: {self.attribute('status')})")
+
+    def _along_time(self) -> list[h5py.Dataset]:
+        """Every dataset with a row for each frame, those of nested groups (/mean/forces/...) too."""
+        found: list[h5py.Dataset] = []
+        take = lambda _, item: found.append(item) if isinstance(item, h5py.Dataset) else None
+        for group in FRAME_GROUPS:
+            if isinstance(self._file.get(group), h5py.Group):
+                self._file[group].visititems(take)
+        return found
 
     def attribute(self, name: str) -> Any:
         """A root attribute."""
@@ -86,6 +94,12 @@ class HagfishLog:
     def in_phase(self, phase: str) -> np.ndarray:
         """Indices of the frames of one phase: form, tighten, slide, reverse, release, free."""
         return np.flatnonzero(self.labels("/trajectory/phase") == phase)
+
+    def intervals_in(self, phase: str) -> np.ndarray:
+        """Indices of the frames of one phase whose frame before is of it too: their rows of /mean are
+        means over steps of that phase alone."""
+        frames = self.in_phase(phase)
+        return frames[np.isin(frames - 1, frames)]
 
     def scene(self) -> dict[str, Any]:
         """The resolved scene."""

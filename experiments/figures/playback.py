@@ -1,5 +1,6 @@
-"""A knot slid in MuJoCo by f_thigmo alone, from `hagfish playback`: where its head end goes, how much of the slide it
-keeps, how far the body drifts from the log, and how deep the soft contacts overlap. The control has no f_thigmo.
+"""A knot slid in MuJoCo by f_thigmo alone, its mean from frame to frame of a log, from `hagfish playback`: where its
+head end goes, how much of the slide it keeps, how far the body drifts from the log, and how deep the soft contacts
+overlap. The control has no f_thigmo.
 
 Usage: playback.py PLAYBACK.h5 OUT.png (writes a PDF beside).
 """
@@ -18,29 +19,31 @@ import numpy as np
 from hagfish_log import Results, run_script, save_figure
 
 DPI = 200
-INTERVALS = ["0.05", "0.1", "0.2", "0.5", "1"]
-FORCES = {"thigmotaxis": ("#cc6677", r"driven by $f_{thigmo}$"), "none": ("#888888", "no force (control)")}
+INTERVALS = ["0.04", "0.1", "0.2", "0.5", "1"]
+FORCES = {"thigmotaxis": ("#cc6677", r"driven by mean $f_\mathrm{thigmo}$"), "none": ("#888888", "no force (control)")}
 SHOWN = {"0.1": "#ddaa33", "0.5": "#4477aa", "1": "#aa3377"}
 
 
 def stretches(results: Results, interval: str) -> list[slice]:
-    """The steps between two restarts, one slice each."""
+    """The frames that MuJoCo comes to between two restarts, one slice each of its rows: row k is frame k + 1 of the
+    log, so that each stretch starts from the log's frame `start`."""
     time = results["/time"]
-    count = round(float(interval) / (time[1] - time[0]))
-    return [slice(k, min(k + count, len(time))) for k in range(0, len(time), count)]
+    count, rows = round(float(interval) / (time[1] - time[0])), len(time) - 1
+    return [slice(k, min(k + count, rows)) for k in range(0, rows, count)]
 
 
 def draw_paths(axes: Any, results: Results) -> None:
-    time = results["/time"]
-    axes.plot(time, results["/head_end"], color="black", lw=2, label="log")
+    time, logged = results["/time"], results["/head_end"]
+    axes.plot(time, logged, color="black", lw=2, label="log")
     for interval, colour in SHOWN.items():
-        path = results[f"/thigmotaxis_{interval}s/head_end"].copy()
+        path = results[f"/thigmotaxis_{interval}s/head_end"]
         for part in stretches(results, interval):
-            path[part.stop - 1] = np.nan  # a gap at each restart
-        axes.plot(time, path, color=colour, lw=1.2, label=f"MuJoCo, restarted every {interval} s")
+            axes.plot(time[part.start:part.stop + 1], np.r_[logged[part.start], path[part]], color=colour, lw=1.2,
+                      label=f"MuJoCo, restarted every {interval} s" if part.start == 0 else None)
     axes.set_xlabel("time, s")
     axes.set_ylabel("head end of the knot, cm from the head")
-    axes.set_title(r"(a) driven by $f_{thigmo}$ alone", loc="left")
+    interval = 1000 * np.median(np.diff(time))
+    axes.set_title(rf"(a) driven by $f_\mathrm{{thigmo}}$ alone, means over {interval:.0f} ms", loc="left")
     axes.legend(fontsize=8)
 
 
@@ -50,7 +53,7 @@ def draw_share(axes: Any, results: Results) -> None:
         share = []
         for interval in INTERVALS:
             path = results[f"/{force}_{interval}s/head_end"]
-            ends = [(logged[max(p.start - 1, 0)], path[p.stop - 1], logged[p.stop - 1])
+            ends = [(logged[p.start], path[p.stop - 1], logged[p.stop])
                     for p in stretches(results, interval)]
             share.append(sum(a - b for a, b, _ in ends) / sum(a - c for a, _, c in ends))
         axes.plot([float(i) for i in INTERVALS], 100 * np.array(share), "o-", color=colour, label=label)

@@ -16,7 +16,8 @@ from hagfish_log import HagfishLog, LogError, run_script
 PHASES = ("form", "tighten", "slide", "release", "free")
 KNOTS = {(1, 0): "unknot", (3, 1): "3_1", (5, -1): "4_1", (5, 3): "5_1", (7, 2): "5_2"}
 WORKS = ("tip", "thigmotaxis", "contact", "limit", "head", "wall")
-MET = 1e-6  # cm/s by which Eq. 6 may fall short and count as met: the back end's own tolerance
+ROWS = ("first, t_a", "first, t_b", "last, t_a", "last, t_b")
+MET = 1e-6  # slack of a row of Eq. 6 that counts as met, of its command or of 1 cm/s: Ipopt's own tolerance
 LEDGER = 1e-9  # of the largest term of the energy ledger: rounding of some 10^4 summed steps
 # Paper, Table 1.
 PAPER_SPECIMEN = {"length": ("Length", "42.4", "cm"), "mass": ("Mass", "80", "g"),
@@ -57,12 +58,25 @@ def commanded(log: HagfishLog, phase: str) -> np.ndarray:
     return np.array([setting(log, "controller", f"{phase}_{end}", row) for end in ("head", "tail") for row in "ab"])
 
 
-def rows_met(log: HagfishLog, phase: str) -> tuple[np.ndarray, np.ndarray]:
-    """Frames x 4: Eq. 6 met at the commanded speed without slack; and frames with the rows at all."""
-    frames = log.in_phase(phase)
-    ruled = np.all(log["/thigmotaxis/body_b"][frames] >= 0, axis=1)
-    fast = log["/thigmotaxis/speed"][frames] >= commanded(log, phase) - MET
-    return fast & (log["/thigmotaxis/slack"][frames] <= MET) & ruled[:, None], ruled
+def rows_met(log: HagfishLog, phase: str) -> np.ndarray:
+    """Share of the steps of a phase that have a row of Eq. 6 at which it was met without slack (4); nan
+    where no step has it."""
+    slack = log["/steps/thigmotaxis_slack"][step_phases(log) == phase]
+    present = np.isfinite(slack)
+    met = (slack <= MET * np.maximum(1.0, np.abs(commanded(log, phase)))).sum(axis=0)  # a nan is not
+    return met / np.where(present.any(axis=0), present.sum(axis=0), np.nan)
+
+
+def mean_rows(log: HagfishLog, phase: str, what: str) -> np.ndarray:
+    """Means of the rows of Eq. 6 between the frames of a phase, where all four were there: F x 4."""
+    frames = log.intervals_in(phase)
+    ruled = np.all(np.isfinite(log["/mean/thigmotaxis/speed"][frames]), axis=1)
+    return log[f"/mean/thigmotaxis/{what}"][frames][ruled]
+
+
+def interval(log: HagfishLog) -> str:
+    """Time between frames, over which /mean is taken."""
+    return f"{1000 * np.median(np.diff(log['/trajectory/time'])):.3g} ms" if log.frames > 1 else "no time"
 
 
 def limits(log: HagfishLog, kind: str) -> tuple[np.ndarray, np.ndarray]:
@@ -89,13 +103,11 @@ def table_one(log: HagfishLog) -> list[str]:
         rows.append([name, paper, figures(setting(log, "specimen", key)), model, unit])
     for (phase, end), paper_speeds in PAPER_SPEEDS.items():
         columns = slice(0, 2) if end == "head" else slice(2, 4)
-        frames = log.in_phase(phase)
-        _, ruled = rows_met(log, phase)
-        speed = log["/thigmotaxis/speed"][frames][ruled][:, columns]
-        median = figures(np.round(np.median(speed, axis=0), 3)) if ruled.any() else "no frames"
+        speed = mean_rows(log, phase, "speed")[:, columns]
+        median = figures(np.round(np.median(speed, axis=0), 3)) if len(speed) else "no frames"
         rows.append([f"v_a, v_b ({'tightening' if phase == 'tighten' else 'sliding'}, {end})", figures(paper_speeds),
                      figures(commanded(log, phase)[columns]), median, "cm/s"])
-    return ["## Table 1", "", *table(["Data", "Paper", "Scene", "Model, or median measured", "Units"], rows)]
+    return ["## Table 1", "", *table(["Data", "Paper", "Scene", f"Model, or median of means over {interval(log)}", "Units"], rows)]
 
 
 def knot_types(log: HagfishLog, frames: np.ndarray) -> dict[str, int]:
@@ -131,19 +143,22 @@ def eq6(log: HagfishLog) -> list[str]:
     """Eq. 6 while tightening and sliding, row by row."""
     rows = []
     for phase in ("tighten", "slide"):
-        met, ruled = rows_met(log, phase)
-        frames = log.in_phase(phase)
-        if not ruled.any():
+        speed, force = (mean_rows(log, phase, what) for what in ("speed", "lambda"))
+        if not len(speed):
             continue
-        for k, name in enumerate(("first, t_a", "first, t_b", "last, t_a", "last, t_b")):
-            speed, slack, force = (log[f"/thigmotaxis/{what}"][frames][ruled][:, k]
-                                   for what in ("speed", "slack", "lambda"))
-            rows.append([phase, name, figures(commanded(log, phase)[k]), f"{np.median(speed):.3f}",
-                         f"{np.percentile(speed, 5):.3f} to {np.percentile(speed, 95):.3f}", f"{slack.max():.2g}",
-                         f"{np.median(force):.0f}", f"{force.max():.0f}", f"{100 * met[:, k].mean():.1f} %"])
-    return ["## Eq. 6 at the logged frames", "",
-            *table(["Phase", "Row", "Commanded, cm/s", "Median, cm/s", "5 to 95 %, cm/s", "Largest slack, cm/s",
-                    "Median λ/h, dyn", "Largest λ/h, dyn", "Met without slack"], rows)]
+        steps = step_phases(log) == phase
+        slack, single = log["/steps/thigmotaxis_slack"][steps], log["/steps/thigmotaxis_lambda"][steps]
+        met = rows_met(log, phase)
+        for k, name in enumerate(ROWS):
+            rows.append([phase, name, figures(commanded(log, phase)[k]), f"{np.median(speed[:, k]):.3f}",
+                         f"{np.percentile(speed[:, k], 5):.3f} to {np.percentile(speed[:, k], 95):.3f}",
+                         f"{np.median(force[:, k]):.0f}", f"{force[:, k].max():.0f}", f"{single[:, k].max():.0f}",
+                         f"{np.nanmax(slack[:, k]):.2g}", f"{100 * met[k]:.1f} %"])
+    mean = f"means over {interval(log)}"
+    return ["## Eq. 6", "", f"Speeds and multipliers are {mean}, from frame to frame of the log; a step's multiplier is an "
+            "impulse over h. Slack and the share met are of every step.", "",
+            *table(["Phase", "Row", "Commanded, cm/s", "Median, cm/s", "5 to 95 %, cm/s", "Median λ/h, dyn",
+                    "Largest λ/h, dyn", "Largest at a step, dyn", "Largest slack, cm/s", "Met without slack"], rows)]
 
 
 def ledger(log: HagfishLog) -> tuple[list[str], float]:
@@ -202,10 +217,10 @@ def requirements(log: HagfishLog, unclosed: float) -> list[str]:
         ask(f"worst {name}, every step", f"{worst:.3g} {unit}", f"at most {limit:g} {unit}", worst <= limit)
     kkt = float(log["/steps/kkt"].max())
     ask("worst scaled KKT residual, every step", f"{kkt:.2g}", "at most 1e-08", kkt <= 1e-8)
-    if rows_met(log, "slide")[1].sum() >= claims.LEAST_FRAMES:
+    if claims.ruled_intervals(log) >= claims.LEAST_FRAMES:
         zero = claims.zero_behind(claims.read_sliding(log))
         past = zero["largest_beyond_reach_of_rows_dyn_cm"]
-        ask("largest f_thigmo past the knot", f"{past:g} dyn cm", "exactly 0", past == 0)
+        ask(f"largest f_thigmo past the knot, means over {interval(log)}", f"{past:g} dyn cm", "exactly 0", past == 0)
     ask("energy ledger, left over of its largest term", f"{unclosed:.2g}", f"at most {LEDGER:g}", unclosed <= LEDGER)
     qp = log["/steps/qp_time"][log.labels("/steps/solve") == "qp"]
     if qp.size:
