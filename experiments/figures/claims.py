@@ -23,6 +23,7 @@ SPLINE_REACH = 2
 SHARES = (0.95, 0.99)
 SMOOTH = 0.25  # roughness, of white noise's 1
 LEAST_FRAMES = 12  # one to a block of the bootstrap
+NAMES = ("zero behind the knot", "larger near the head", "smooth in space, noisy in time", "a few Fourier modes would do")
 
 
 @dataclass
@@ -190,5 +191,4 @@ def verdicts(a: dict[str, Any], b: dict[str, Any], c: dict[str, Any]) -> dict[st
               else "undecided")
     few = [own["dct_modes_95"] <= own["joints"] / 4 for own in axes]
     modes = "agrees" if all(few) else "disagrees" if not any(few) else "undecided"
-    return {"zero behind the knot": "agrees" if exact else "disagrees", "larger near the head": grows,
-            "smooth in space, noisy in time": smooth, "a few Fourier modes would do": modes}
+    return dict(zip(NAMES, ("agrees" if exact else "disagrees", grows, smooth, modes)))

@@ -1,0 +1,59 @@
+"""What one run says of the paper's claims, as a CSV row, whatever the run came to. Usage: claim_row.py LOG.h5 OUT.csv"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+import claims
+from hagfish_log import HagfishLog, LogError, run_script
+from study import write_csv
+
+MEASURES = ["slide_cm", "beyond_dyn_cm", "near_over_far", "roughness_space", "roughness_time", "roughness_time_steps",
+            "dct_modes_95", "effort_dyn_cm"]
+HEADING = ["outcome", *MEASURES, *claims.NAMES]
+
+
+def outcome_of(log: HagfishLog) -> str:
+    """What the run came to, in a word or two."""
+    if not log.in_phase("tighten").size:
+        return "not tied"
+    if str(log.attribute("status")) != "complete":
+        return "stopped"
+    return "slid" if log.in_phase("slide").size else "not tight"
+
+
+def near_over_far(s: claims.Sliding) -> float:
+    """Effort, the sum of |f_thigmo| over the body, in the third of the slide nearest to the head over that in the
+    furthest third."""
+    ruled = np.isfinite(s.head_end)
+    place, effort = s.head_end[ruled], np.abs(s.force[ruled]).sum(axis=1)
+    low, high = (place.min() + share * np.ptp(place) for share in (1 / 3, 2 / 3))
+    return float(effort[place <= low].mean() / effort[place >= high].mean())
+
+
+def judged(log: HagfishLog) -> list[object]:
+    s = claims.read_sliding(log)
+    a, b, c = claims.zero_behind(s), claims.larger_near_head(s), claims.smooth_in_space(s)
+    worst = lambda key: max(own[key] for own in c["axes"].values())
+    verdict = claims.verdicts(a, b, c)
+    return ["slid", float(s.head_end[0] - s.head_end[-1]), float(a["largest_beyond_reach_of_rows_dyn_cm"]),
+            near_over_far(s), worst("roughness_in_space"), worst("roughness_in_time"),
+            float(c["multipliers_roughness_in_time_every_step"]), worst("dct_modes_95"),
+            float(np.abs(s.force).sum(axis=1).mean()), *(verdict[name] for name in claims.NAMES)]
+
+
+def main(log: HagfishLog, out: Path) -> None:
+    outcome = outcome_of(log)
+    row: list[object] = [outcome] + [np.nan] * len(MEASURES) + [""] * len(claims.NAMES)
+    if outcome == "slid":
+        try:
+            row = judged(log)
+        except LogError:  # too few frames
+            row[0] = "hardly slid"
+    write_csv(out, HEADING, [row])
+
+
+if __name__ == "__main__":
+    run_script(__doc__, ["OUT.csv"], main)
