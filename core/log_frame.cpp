@@ -116,7 +116,8 @@ void declare_thigmotaxis(LogTable<Frame>& t) {
       "/thigmotaxis/speed", {4}, {"cm/s", order + "left side of Eq. 6, nan where no row"},
       [](const Frame& f) -> const auto& { return f.thigmotaxis.speed; });
   t.numbers(
-      "/thigmotaxis/slack", {4}, {"cm/s", order + "shortfall of Eq. 6, nan where no row"},
+      "/thigmotaxis/slack", {4},
+      {"cm/s", order + "shortfall of the speed asked for, nan where no row"},
       [](const Frame& f) -> const auto& { return f.thigmotaxis.slack; });
 }
 
@@ -236,7 +237,7 @@ void declare_steps(Hdf5Writer& file, LogTable<StepRecord>& t, double h) {
           [](const StepRecord& r) { return r.solution.rows.size(); });
   t.count("/steps/iterations", "back end iterations of each step",
           [](const StepRecord& r) { return r.solution.iterations; });
-  t.count("/steps/eq6", "Eq. 6 at each step: -1 no rows, 0 with slack, 1 met",
+  t.count("/steps/eq6", "Eq. 6 as asked at each step: -1 no rows, 0 with slack, 1 met",
           [h](const StepRecord& r) {
             const ThigmotaxisRows rows = thigmotaxis_rows_of(r.solution, h);
             return rows.any ? static_cast<int>(rows.met) : -1;

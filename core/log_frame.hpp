@@ -15,9 +15,10 @@ namespace hagfish {
 struct ThigmotaxisRows {
   std::array<double, 4> lambda{};  ///< over h, dyn; 0 where there is no row
   std::array<double, 4> speed{};   ///< left side of Eq. 6 at the solution, cm/s; nan where no row
-  std::array<double, 4> slack{};   ///< shortfall, cm/s; nan where no row
+  std::array<double, 4>
+      slack{};  ///< shortfall of the row's right-hand side, cm/s; nan where no row
   bool any = false;
-  bool met = false;  ///< all rows at their commanded speed without slack
+  bool met = false;  ///< all rows as fast as asked (controller.acceleration) without slack
 };
 
 ThigmotaxisRows thigmotaxis_rows_of(const StepSolution& solution, double h);
