@@ -137,7 +137,8 @@ void declare_thigmotaxis(LogTable<Frame>& t) {
       "/thigmotaxis/speed", {4}, {"cm/s", order + "left side of Eq. 6, nan where no row"},
       [](const Frame& f) -> const auto& { return f.thigmotaxis.speed; });
   t.numbers(
-      "/thigmotaxis/slack", {4}, {"cm/s", order + "shortfall of Eq. 6, nan where no row"},
+      "/thigmotaxis/slack", {4},
+      {"cm/s", order + "shortfall of the speed asked for, nan where no row"},
       [](const Frame& f) -> const auto& { return f.thigmotaxis.slack; });
 }
 

@@ -150,7 +150,7 @@ void LogWriter::write(const StepRecord& record, double wall_time) {
                               record.step, record.time, warning);
     c.h5.root_attribute("warnings", c.warnings);
   }
-  const ThigmotaxisRows rows = thigmotaxis_rows_of(record.solution, c.h);
+  const ThigmotaxisRows rows = thigmotaxis_rows_of(record.control, record.solution, c.h);
   c.worst.take(record);
   c.steps.append({record, rows});
   if (record.step % c.stride == 0) {

@@ -25,6 +25,18 @@ void set_points(Row& row, const Contact& contact, const Eigen::Vector3d& directi
   row.b = spline_mix(contact.segment_b, contact.t_b, bodies);
 }
 
+/// C q̇ of a row with points.
+double relative_velocity(const Row& row, const Eigen::Matrix3Xd& centre_velocity) {
+  Eigen::Vector3d apart = Eigen::Vector3d::Zero();  // ẋ_a - ẋ_b
+  for (int k = 0; k < row.a.count; ++k) {
+    apart += row.a.weight[k] * centre_velocity.col(row.a.first + k);
+  }
+  for (int k = 0; k < row.b.count; ++k) {
+    apart -= row.b.weight[k] * centre_velocity.col(row.b.first + k);
+  }
+  return row.direction.dot(apart);
+}
+
 /// The right-hand side of a unilateral row at `gap`; none where the row is not in force.
 /// Speculative rows let a gap close within the step; a violation is pushed out over several.
 /// `fastest` bounds the speed of that.
@@ -79,17 +91,10 @@ int thigmotaxis_place(const Row& row) {
 
 double row_velocity(const Row& row, const Eigen::Matrix3Xd& centre_velocity,
                     const Eigen::VectorXd& v) {
-  if (row.dof >= 0) {
-    return row.sign * v[row.dof] + (row.unit() ? 0 : row.beside * v[row.dof + 1]);
+  if (row.dof < 0) {
+    return relative_velocity(row, centre_velocity);
   }
-  Eigen::Vector3d apart = Eigen::Vector3d::Zero();  // ẋ_a - ẋ_b
-  for (int k = 0; k < row.a.count; ++k) {
-    apart += row.a.weight[k] * centre_velocity.col(row.a.first + k);
-  }
-  for (int k = 0; k < row.b.count; ++k) {
-    apart -= row.b.weight[k] * centre_velocity.col(row.b.first + k);
-  }
-  return row.direction.dot(apart);
+  return row.sign * v[row.dof] + (row.unit() ? 0 : row.beside * v[row.dof + 1]);
 }
 
 void add_row(const Row& row, const Kinematics& kin, double lambda, Matrix6Xd& wrench,
@@ -229,7 +234,10 @@ void append_wall_rows(const Model& model, const Kinematics& kin, const WallSetti
 }
 
 void append_thigmotaxis_rows(const Model& model, const std::vector<ThigmotaxisCommand>& commands,
-                             double cap, double h, std::vector<Row>& rows) {
+                             const ControllerSettings& settings,
+                             const Eigen::Matrix3Xd& centre_velocity, double h,
+                             std::vector<Row>& rows) {
+  const double gain = settings.acceleration * h;
   for (std::size_t place = 0; place < commands.size(); ++place) {
     const auto& [contact, speed, towards] = commands[place];
     const double sense = towards == BodyEnd::head ? 1 : -1;
@@ -240,8 +248,9 @@ void append_thigmotaxis_rows(const Model& model, const std::vector<ThigmotaxisCo
       row.kind = RowKind::thigmotaxis;
       row.id = row_id(RowKind::thigmotaxis, static_cast<int>(place), along_a ? 0 : 1);
       set_points(row, contact, on_a, model.body_count());
-      row.rhs = along_a ? speed.a : speed.b;
-      row.upper = cap * h;  // the soft row: its L1 slack is this bound's dual
+      const double now = relative_velocity(row, centre_velocity);
+      row.rhs = std::min(along_a ? speed.a : speed.b, now + gain);
+      row.upper = settings.cap * h;  // the soft row: its L1 slack is this bound's dual
     }
   }
 }

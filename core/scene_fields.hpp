@@ -97,6 +97,7 @@ void script_fields(Io& io, ScriptFile& s) {
 template <class Io>
 void controller_fields(Io& io, ControllerSettings& s) {
   io.number("cap", s.cap, positive());
+  io.number("acceleration", s.acceleration, positive());
   io.number("contact_gap", s.contact_gap, not_negative());
   io.number("hysteresis", s.hysteresis, not_negative());
   io.number("tail_through", s.tail_through, not_negative());

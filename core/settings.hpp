@@ -121,7 +121,11 @@ struct ControllerSettings {
   ThigmotaxisSpeeds reverse_head, reverse_tail;
   BodyEnd leave_by = BodyEnd::head;  ///< tail: at the head the knot turns back
   Phase free_from = Phase::release;  ///< a clamped head is free from this phase on
-  double cap = 5000;          ///< largest lambda / h of a thigmotaxis row, dyn: the rows are soft
+  double cap = 5000;  ///< largest lambda / h of a thigmotaxis row, dyn: the rows are soft
+  /// A thigmotaxis row below its commanded speed asks for no more than this, cm/s^2 (addition): at
+  /// phase starts, and where another contact becomes the first or last one, the speeds along the
+  /// new tangents are up to 2 cm/s off, and to mend that within a step takes a force as 1 / h.
+  double acceleration = 100;
   double contact_gap = 0.05;  ///< a contact this close counts as touching, cm
   /// The contact used as first or last is kept this long after it last was the outermost, s:
   /// without it the identity jumps 7 to 16 times a second.

@@ -281,7 +281,8 @@ void gather_rows(const Model& model, const State& state, const Situation& situat
   if (control.clamp_head) {
     append_head_rows(state, scene.constraints, h, rows);
   }
-  append_thigmotaxis_rows(model, control.thigmotaxis, scene.controller.cap, h, rows);
+  append_thigmotaxis_rows(model, control.thigmotaxis, scene.controller,
+                          situation.kin.centre_velocity, h, rows);
   append_unilateral_rows(model, state, situation, scene,
                          {state.qdot, situation.kin.centre_velocity, lazy_reach, lazy_reach}, rows);
 }

@@ -19,7 +19,8 @@ bool meets_command(double slack, double command) {
   return slack <= slack_tolerance * std::max(1.0, std::abs(command));
 }
 
-ThigmotaxisRows thigmotaxis_rows_of(const StepSolution& solution, double h) {
+ThigmotaxisRows thigmotaxis_rows_of(const Control& control, const StepSolution& solution,
+                                    double h) {
   ThigmotaxisRows rows;
   rows.command.fill(nan);
   rows.speed.fill(nan);
@@ -39,10 +40,11 @@ ThigmotaxisRows thigmotaxis_rows_of(const StepSolution& solution, double h) {
     const auto index = static_cast<Eigen::Index>(i);
     rows.present[place] = true;
     rows.lambda[place] = solution.lambda[index] / h;
-    rows.command[place] = row.rhs;
+    const ThigmotaxisSpeeds& speed = control.thigmotaxis[place / 2].speed;
+    rows.command[place] = place % 2 == 0 ? speed.a : speed.b;
     rows.speed[place] = solution.excess[index] + row.rhs;
-    rows.slack[place] = std::max(0.0, -solution.excess[index]);
-    rows.met = rows.met && meets_command(rows.slack[place], row.rhs);
+    rows.slack[place] = std::max(0.0, rows.command[place] - rows.speed[place]);
+    rows.met = rows.met && meets_command(rows.slack[place], rows.command[place]);
     rows.any = true;
   }
   rows.met = rows.met && rows.any;

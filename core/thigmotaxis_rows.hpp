@@ -13,14 +13,16 @@ struct ThigmotaxisRows {
   std::array<double, 4> lambda{};   ///< over h, dyn; 0 where there is no row
   std::array<double, 4> command{};  ///< right side of Eq. 6, cm/s; nan where no row
   std::array<double, 4> speed{};    ///< left side of Eq. 6 at the solution, cm/s; nan where no row
-  std::array<double, 4> slack{};    ///< shortfall, cm/s; nan where no row
+  /// Shortfall of the command, whether by controller.cap or controller.acceleration, cm/s; nan
+  /// where no row.
+  std::array<double, 4> slack{};
   bool any = false;
   bool met = false;  ///< all rows at their commanded speed without slack
 };
 
 /// Throws std::invalid_argument where the step commands more than two contacts: a log holds those
 /// of the first and the last one.
-ThigmotaxisRows thigmotaxis_rows_of(const StepSolution& solution, double h);
+ThigmotaxisRows thigmotaxis_rows_of(const Control& control, const StepSolution& solution, double h);
 
 /// Whether a row counts as met: its slack against its command, both cm/s.
 bool meets_command(double slack, double command);

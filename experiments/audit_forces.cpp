@@ -17,6 +17,9 @@ constexpr double limit_tolerance = 1e-8;
 /// force that far turned from the bend.
 constexpr double cone_tolerance = 2e-5;
 constexpr double cone_turn_tolerance = 0.1;
+/// Speeds of rows are met to 1e-8 of the largest in the step, some 10 cm/s (Ipopt).
+constexpr double ask_tolerance = 1e-5;  // cm/s
+constexpr double cap_tolerance = 1e-6;
 /// Mean f_thigmo is not C' of the mean multipliers exactly, as the knot moves between two frames:
 /// the median, which grows with the time between them, tells a wrong column, sign or window.
 constexpr double mean_tolerance = 0.05;
@@ -169,8 +172,16 @@ Eigen::MatrixXd ForceAudit::see_thigmotaxis(const AuditedFrame& frame) {
       const Contact contact = contact_of(log_, frame, a, b);
       const Row row = motion_row(
           model, along == 0 ? sense * contact.tangent_a : -sense * contact.tangent_b, a, b);
-      from_rows_.compare("/thigmotaxis/speed", speed_(f, k),
-                         row_velocity(row, velocity, frame.qdot_next));
+      const double speed = row_velocity(row, velocity, frame.qdot_next);
+      from_rows_.compare("/thigmotaxis/speed", speed_(f, k), speed);
+      // A row with a force below its cap is met exactly: at its command, or on the way to it.
+      const double asked =
+          std::min(commanded[k], row_velocity(row, kin.centre_velocity, frame.state.qdot) +
+                                     scene.controller.acceleration * scene.time.step);
+      if (lambda_(f, k) > 0 && lambda_(f, k) < (1 - cap_tolerance) * scene.controller.cap) {
+        ask_miss_ = worse(ask_miss_, std::abs(speed - asked));
+      }
+      most_ = worse(most_, lambda_(f, k) / scene.controller.cap);
       columns.col(k) = force_of(model, kin, row, 1);
     }
   }
@@ -325,6 +336,10 @@ std::vector<Finding> ForceAudit::findings() const {
     findings.push_back(bounded("cones push back", cone_turn_, cone_turn_tolerance,
                                "rad from the way the joint bends, /forces/limit"));
   }
+  findings.push_back(bounded("thigmotaxis as asked", ask_miss_, ask_tolerance,
+                             "cm/s, speed of a row with a force below its cap"));
+  findings.push_back(bounded("thigmotaxis cap", most_, 1 + cap_tolerance,
+                             "of controller.cap, largest multiplier"));
   std::string shape;
   for (const std::string& path : shape_) {
     shape += (shape.empty() ? "" : ", ") + path;

@@ -111,7 +111,7 @@ void StressJudge::see_control(const StepRecord& record) {
   }
   slide_to_ = span->head_end;
   ++slide_steps_;
-  slide_met_ += thigmotaxis_rows_of(record.solution, scene_.time.step).met ? 1 : 0;
+  slide_met_ += thigmotaxis_rows_of(record.control, record.solution, scene_.time.step).met ? 1 : 0;
 }
 
 Verdict StressJudge::root_cause() const {

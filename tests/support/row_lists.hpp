@@ -51,9 +51,10 @@ inline std::vector<Row> wall_rows(const Model& model, const Kinematics& kin,
 
 inline std::vector<Row> thigmotaxis_rows(const Model& model,
                                          const std::vector<ThigmotaxisCommand>& commands,
-                                         double cap, double h) {
+                                         const ControllerSettings& settings,
+                                         const Eigen::Matrix3Xd& centre_velocity, double h) {
   std::vector<Row> rows;
-  append_thigmotaxis_rows(model, commands, cap, h, rows);
+  append_thigmotaxis_rows(model, commands, settings, centre_velocity, h, rows);
   return rows;
 }
 

@@ -29,7 +29,7 @@ TEST_P(Phases, KeepTheirCriteriaAtEveryStep) {
     const StepRecord record = take_step(model, scene, *solver, sim);
     worst.take(record);
     balance = std::max(balance, record.solution.stationarity);
-    const ThigmotaxisRows rows = thigmotaxis_rows_of(record.solution, scene.time.step);
+    const ThigmotaxisRows rows = thigmotaxis_rows_of(record.control, record.solution, scene.time.step);
     EXPECT_EQ(rows.any, stored.phase != Phase::form && stored.phase != Phase::free);
     if (stored.phase == Phase::slide) {
       EXPECT_TRUE(rows.met) << "step " << record.step;

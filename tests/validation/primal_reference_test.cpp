@@ -28,8 +28,8 @@ PrimalQp equation_4(const Model& model, const Scene& scene, const StepRecord& re
   qp.g = generalised_force(model, now.kin, system.wrench) + system.joint;
   const std::vector<Row> head =
       record.control.clamp_head ? head_rows(state, scene.constraints, h) : std::vector<Row>{};
-  std::vector<Row> rows =
-      thigmotaxis_rows(model, record.control.thigmotaxis, scene.controller.cap, h);
+  std::vector<Row> rows = thigmotaxis_rows(model, record.control.thigmotaxis, scene.controller,
+                                           now.kin.centre_velocity, h);
   for (const std::vector<Row>& more :
        {contact_rows(model, now.contact, scene.constraints, h),
         limit_rows(model, state, scene.constraints, h),

@@ -100,7 +100,9 @@ struct CappedRow {
     now = observe(model, state, scene);
     step.system = step_system(model, state, now.kin, {}, scene.time.step);
     const Contact& contact = now.contact.contacts.at(0);
-    append_thigmotaxis_rows(model, {{contact, {1, 1}}, {contact, {1, 1}}}, 10, 1, step.rows);
+    scene.controller.cap = 10;
+    append_thigmotaxis_rows(model, {{contact, {1, 1}}, {contact, {1, 1}}}, scene.controller,
+                            now.kin.centre_velocity, 1, step.rows);
     const std::vector<Row> limits = limit_rows(model, state, scene.constraints, 1);
     step.rows.insert(step.rows.end(), limits.begin() + 20, limits.begin() + 23);
     step.qdot = Eigen::VectorXd::Zero(model.nv());

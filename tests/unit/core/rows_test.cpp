@@ -67,11 +67,18 @@ struct Tangle {
     commands = {{set.contacts.front(), {0.5, 2}}, {set.contacts.back(), {-1, 3}}};
   }
 
+  /// Eq. 6 of `commands_`, at the speeds commanded, whatever those now.
+  std::vector<Row> at_once(const std::vector<ThigmotaxisCommand>& commands_) const {
+    ControllerSettings settings;
+    settings.acceleration = unbounded;
+    return thigmotaxis_rows(model, commands_, settings, kin.centre_velocity, h);
+  }
+
   std::vector<Row> rows() const {
     std::vector<Row> all = head_rows(state, speculative, h);
     for (const auto& more :
          {limit_rows(model, state, speculative, h), contact_rows(model, set, speculative, h),
-          wall_rows(model, kin, {}, speculative, h), thigmotaxis_rows(model, commands, 5000, h)}) {
+          wall_rows(model, kin, {}, speculative, h), at_once(commands)}) {
       all.insert(all.end(), more.begin(), more.end());
     }
     return all;
@@ -251,7 +258,7 @@ TEST(ThigmotaxisRows, AreEquationSixOfThePaper) {
   };
   const std::vector<SplineSegment> after = segments(e);
   const std::vector<SplineSegment> before = segments(-e);
-  const std::vector<Row> rows = thigmotaxis_rows(t.model, t.commands, 5000, h);
+  const std::vector<Row> rows = t.at_once(t.commands);
   ASSERT_EQ(rows.size(), 4U);
   for (int place = 0; place < 2; ++place) {
     const Contact& c = t.commands[place].contact;
@@ -307,10 +314,10 @@ TEST(Rows, ForceIsTheTransposeOfVelocity) {
 
 TEST(Rows, TowardsTheTailBothTangentsTurn) {
   const Tangle t(86);
-  const std::vector<Row> headward = thigmotaxis_rows(t.model, t.commands, 5000, h);
+  const std::vector<Row> headward = t.at_once(t.commands);
   std::vector<ThigmotaxisCommand> back = t.commands;
   for (ThigmotaxisCommand& command : back) command.towards = BodyEnd::tail;
-  const std::vector<Row> tailward = thigmotaxis_rows(t.model, back, 5000, h);
+  const std::vector<Row> tailward = t.at_once(back);
   ASSERT_EQ(tailward.size(), headward.size());
   for (std::size_t i = 0; i < headward.size(); ++i) {
     EXPECT_EQ(tailward[i].direction, -headward[i].direction);

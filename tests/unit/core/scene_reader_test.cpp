@@ -140,6 +140,7 @@ std::vector<std::uint64_t> bits(const Scene& s, const Specimen& animal) {
                            double(s.expect.hand),
                            s.expect.reverse_distance,
                            s.controller.cap,
+                           s.controller.acceleration,
                            s.controller.contact_gap,
                            s.controller.hysteresis,
                            s.controller.tail_through,
@@ -222,7 +223,7 @@ ResolvedScene odd_scene() {
   s.controller = {{odd(), odd()}, {odd(), odd()}, {odd(), odd()}, {odd(), odd()}, {odd(), odd()},
                   {odd(), odd()}, BodyEnd::tail,  Phase::tighten, odd(),          odd(),
                   odd(),          odd(),          odd(),          odd(),          odd(),
-                  odd(),          odd(),          odd(),          odd()};
+                  odd(),          odd(),          odd(),          odd(),          odd()};
   s.knot = {3, 4294967295u, odd()};
   s.controller.contact_gap = s.contact.margin / 3;
   s.time.step = odd();

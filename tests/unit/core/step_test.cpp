@@ -44,7 +44,8 @@ struct Stage {
       all.insert(all.end(), more.begin(), more.end());
     };
     if (control.clamp_head) append(head_rows(state, scene.constraints, h));
-    append(thigmotaxis_rows(model, control.thigmotaxis, scene.controller.cap, h));
+    append(
+        thigmotaxis_rows(model, control.thigmotaxis, scene.controller, now.kin.centre_velocity, h));
     append(contact_rows(model, now.contact, scene.constraints, h));
     append(limit_rows(model, state, scene.constraints, h));
     append(wall_rows(model, now.kin, scene.wall, scene.constraints, h));
@@ -436,6 +437,7 @@ TEST(Step, LetsGoOfHeldLimitsThatStandAgainstOtherRows) {
 
 TEST(Step, CapsThigmotaxisForces) {
   Stage s = knotted(103, 0);
+  s.scene.controller.acceleration = 1e8;  // at once
   for (ThigmotaxisCommand& command : s.control.thigmotaxis) command.speed = {1e4, 1e4};
   const StepSolution step = s.solve();
   double largest = 0;

@@ -14,7 +14,8 @@ namespace {
 class ThigmotaxisRowsTest : public testing::Test {
  protected:
   ResolvedScene resolved = stored_scene({"controller.slide_head.a=0.5", "controller.slide_head.b=1",
-                                         "controller.slide_tail.a=3", "controller.slide_tail.b=4"});
+                                         "controller.slide_tail.a=3", "controller.slide_tail.b=4",
+                                         "controller.acceleration=1e9"});
   const Scene& scene = resolved.scene;
   Model model = make_hagfish(resolved.specimen, scene);
   std::unique_ptr<BoxQpSolver> solver = make_box_qp_solver("active-set");
@@ -23,7 +24,8 @@ class ThigmotaxisRowsTest : public testing::Test {
 
 TEST_F(ThigmotaxisRowsTest, ColumnsAreThoseOfTheirContact) {
   const StepRecord record = take_step(model, scene, *solver, sim);
-  const ThigmotaxisRows rows = thigmotaxis_rows_of(record.solution, scene.time.step);
+  const ThigmotaxisRows rows =
+      thigmotaxis_rows_of(record.control, record.solution, scene.time.step);
   ASSERT_EQ(record.control.thigmotaxis.size(), 2u);
   const Eigen::Matrix3Xd& velocity = record.solution.centre_velocity;
   const int n = model.body_count();
@@ -64,7 +66,7 @@ TEST_F(ThigmotaxisRowsTest, MoreContactsThanALogHoldsAreRefusedByName) {
   // The step itself takes any number.
   solve_step(model, record.state, record.situation, control, scene, *solver, warm, scratch, step);
   try {
-    thigmotaxis_rows_of(step, scene.time.step);
+    thigmotaxis_rows_of(control, step, scene.time.step);
     FAIL() << "took three contacts";
   } catch (const std::invalid_argument& error) {
     EXPECT_NE(std::string(error.what()).find("more than two contacts"), std::string::npos);
@@ -80,7 +82,8 @@ TEST_F(ThigmotaxisRowsTest, MeansAreThoseOfTheSteps) {
   std::array<double, 4> lambda{}, speed{};
   for (int i = 0; i < steps; ++i) {
     const StepRecord record = take_step(model, scene, *solver, sim);
-    const ThigmotaxisRows rows = thigmotaxis_rows_of(record.solution, scene.time.step);
+    const ThigmotaxisRows rows =
+        thigmotaxis_rows_of(record.control, record.solution, scene.time.step);
     means.take(record, rows);
     contact += record.solution.force.contact / steps;
     net += record.solution.force.total() / steps;
