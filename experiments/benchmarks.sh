@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # What each part of a step costs at 25 to 400 bodies, with MuJoCo's part beside it in one process.
 # Leaves a CSV with processor, flags and library versions, a table of ratios and a figure.
-#   bash experiments/benchmarks.sh [OUTPUT_FOLDER]     default: out/benchmarks; some 3 minutes
+#   bash experiments/benchmarks.sh [OUTPUT_FOLDER]     default: out/benchmarks
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 out=${1:-$root/out/benchmarks}
+source "$root/experiments/elapsed.sh"
 mkdir -p "$out"
 out=$(cd "$out" && pwd)
 

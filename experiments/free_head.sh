@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Free head: each knot tied with the head held, then tightened and slid off by an animal that nothing holds (no clamp, no
 # plate), beside the held one, at several speeds. Leaves free_head.png, free_head.csv and free_head.md.
-#   bash experiments/free_head.sh [OUTPUT_FOLDER]     default: out/free_head; some 3 minutes on two cores
+#   bash experiments/free_head.sh [OUTPUT_FOLDER]     default: out/free_head
 # Stopped, it goes on where it was.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)

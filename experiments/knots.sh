@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Every knot the animal ties: overhand (3_1), figure-eight (4_1), double overhand (5_1) and three-twist (5_2), their mirror
-# images, from noisy starts and with coarse and fine steps. Leaves pictures, force profiles, tables and knots.md.
-#   bash experiments/knots.sh [OUTPUT_FOLDER]     default: out/knots; some 8 minutes on two cores
+# images, from noisy starts, with coarse and fine steps and from starts that differ by rounding. Leaves pictures, force
+# profiles, tables and knots.md.
+#   bash experiments/knots.sh [OUTPUT_FOLDER]     default: out/knots
 # Stopped, it goes on where it was.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -16,6 +17,12 @@ runs_of_all() {
     printf 'timed_run\t%s\t1\t%s\n' "mirror_$scene" "$scene --qp active-set --set mirror=true"
     for h in 0.0005 0.001 0.005 0.01 0.02; do
       printf 'timed_run\t%s\t1\t%s\n' "step_${scene}_$h" "$scene --qp active-set --set time.step=$h"
+    done
+    for h in 0.002 0.001; do
+      for seed in {1..8}; do
+        printf 'timed_run\t%s\t1\t%s\n' "chance_${scene}_${h}_$seed" \
+          "$scene --qp active-set --set time.step=$h $rounding --set start.seed=$seed"
+      done
     done
     for noise in 0.2 0.5 1; do
       for seed in {1..10}; do

@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # The Table 1 animal in two simulators: holds the core against MuJoCo, then slides the knot of a run
 # in MuJoCo, with its own contacts and limits, by its mean f_thigmo alone. Leaves tables, HDF5 and figures.
-#   bash experiments/mujoco.sh [OUTPUT_FOLDER]     default: out/mujoco; some 3 minutes
+#   bash experiments/mujoco.sh [OUTPUT_FOLDER]     default: out/mujoco
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 out=${1:-$root/out/mujoco}
+source "$root/experiments/elapsed.sh"
 mkdir -p "$out"
 out=$(cd "$out" && pwd)
 

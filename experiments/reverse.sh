@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The reverse slide: each knot slid to the head and back until it comes undone at the tail, at several speeds, beside the way
 # to the head at the same speed. Leaves reverse.png, reverse.csv and reverse.md.
-#   bash experiments/reverse.sh [OUTPUT_FOLDER]     default: out/reverse; some 3 minutes on two cores
+#   bash experiments/reverse.sh [OUTPUT_FOLDER]     default: out/reverse
 # Stopped, it goes on where it was.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)

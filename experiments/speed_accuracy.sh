@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # What accuracy costs: smooth motions, QPs, whole runs of the Table 1 scene and the choices of its
 # model, each measured over step, size and method. Leaves CSV, figures and conclusions.md.
-#   bash experiments/speed_accuracy.sh [OUTPUT_FOLDER]     default: out/speed_accuracy; some 13 minutes
+#   bash experiments/speed_accuracy.sh [OUTPUT_FOLDER]     default: out/speed_accuracy
 # Stopped, it goes on where it was. Times are CPU times; jobs share the machine, presets do not.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -47,6 +47,17 @@ whole_runs() {
   done
 }
 
+# The reference of the whole runs and the default, each from starts that differ by rounding.
+chance() {
+  local h seed
+  for h in 0.0005 0.002; do
+    for seed in {1..8}; do
+      printf 'timed_run\t%s\t1\t%s\n' "chance_${h}_$seed" \
+        "table1 --qp active-set $frames --set time.step=$h $rounding --set start.seed=$seed"
+    done
+  done
+}
+
 # One choice of the scene changed at a time; `as_is` is none.
 needs() {
   local name sets key
@@ -86,6 +97,7 @@ presets() {
 }
 
 whole_runs | work "$cores" "Whole runs"
+chance | work "$cores" "Chance"
 needs | work "$cores" "Choices of the model"
 { printf 'back_ends\tqps\n'; printf 'integrate\t%s\n' coil hanging whip; } | work "$cores" "QPs and smooth motions"
 presets | work 1 "Presets, alone on the machine"

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # How fast a knot can slide: 0.1 to 50 cm/s commanded, against the speed, force, slack and penetration that come of it. Leaves
 # speeds.png, speeds.csv and speeds.md.
-#   bash experiments/speeds.sh [OUTPUT_FOLDER]     default: out/speeds; some 5 minutes on two cores
+#   bash experiments/speeds.sh [OUTPUT_FOLDER]     default: out/speeds
 # Stopped, it goes on where it was.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)

@@ -2,7 +2,7 @@
 # The failure map: stress scenes (experiments/stability/*.toml, and the Table 1 run) over time steps, methods and
 # levels of stress. Leaves stability.csv, a heat map per scene, and summary.md and summary.png: the largest step that
 # each method survives.
-#   bash experiments/stability.sh [OUTPUT_FOLDER]     default: out/stability; some 20 minutes on two cores
+#   bash experiments/stability.sh [OUTPUT_FOLDER]     default: out/stability
 # Stopped, it goes on where it was. `hagfish stress` judges a cell (experiments/stress_judge.hpp).
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)

@@ -13,10 +13,11 @@ from back_ends import BACK_ENDS, read_table
 from hagfish_log import HagfishLog, Results
 from integration import METHODS, MOTIONS, steps
 from needs import needs
-from study import Run, path_error, read_run, read_runs, run_study
+from study import FORCE_WINDOW, Run, path_error, read_run, read_runs, run_study
 from summary import table
-from whole_runs import chance, errors, front_of, reference_of
+from whole_runs import chance, front_of, reference_of
 
+CHANCE_STEPS = (0.0005, 0.002)  # s: the reference's and the default
 PRESETS = {"quick": "a look at a new script", "default": "work", "figure": "print"}
 
 
@@ -88,34 +89,38 @@ def body_counts(runs: list[Run], reference: Run) -> list[str]:
     rows = []
     for bodies in sorted({run.bodies for run in runs}):
         own = {run.step: run for run in runs if run.bodies == bodies}
-        found = [path_error(run, reference) for step, run in own.items() if step <= 0.005 and run is not reference]
+        found = [path_error(run, reference)[0] for step, run in own.items() if step <= 0.005 and run is not reference]
         if 0.002 in own:
             at = own[0.002]
             rows.append([str(bodies), f"{at.cpu:.2f}", f"{min(found):.2f} to {max(found):.2f}", f"{at.force:.0f}",
                          f"{at.penetration:.5f}"])
-    return table(["Bodies", "CPU, s", "Head end of the knot, cm", "Sliding force, dyn cm", "Penetration, cm"], rows)
+    return table(["Bodies", "CPU, s", "Head end of the knot off, cm", "Sliding force, dyn", "Penetration, cm"], rows)
 
 
 def whole(folder: Path) -> list[str]:
     runs = read_runs(folder, "whole")
     reference = reference_of(runs)
-    floor = chance(runs, reference)
+    floor = chance(folder, reference.step)
     done = [run for run in runs if not run.failure]
     lines = ["## Whole runs", "", f"{len(runs)} runs, of which {len(done)} tie, slide and untie. Errors are against "
-             f"{reference.bodies} bodies at {1e3 * reference.step:g} ms, at like times since the slide began.", ""]
+             f"{reference.bodies} bodies at {1e3 * reference.step:g} ms, at like times since the slide began: rms over the slide, and "
+             f"largest at any frame in brackets. The sliding force is the sum of the four λ/h: median of its means over "
+             f"{1000 * FORCE_WINDOW:g} ms.", ""]
     shown = [run for run in done if run.bodies == 100 and run.activation == "speculative" and run.qp == "active-set"]
     twins = {(run.step, run.bodies, run.activation): run for run in done if run.qp == "ipopt"}
     rows = []
     for run in sorted(shown, key=lambda run: run.step):
-        twin = twins.get((run.step, run.bodies, run.activation))
+        twin, off = twins.get((run.step, run.bodies, run.activation)), path_error(run, reference)
         rows.append([f"{1e3 * run.step:g}", f"{run.cpu:.2f}", f"{twin.cpu:.1f}" if twin else "", "0 (reference)" if run is reference
-                     else f"{path_error(run, reference):.3f}", f"{run.force:.0f}", f"{run.penetration:.5f}"])
-    lines += table(["h, ms", "CPU, s (active-set)", "CPU, s (Ipopt)", "Head end of the knot, cm", "Sliding force, dyn cm",
+                     else f"{off[0]:.2f} ({off[1]:.2f})", f"{run.force:.0f}", f"{run.penetration:.5f}"])
+    lines += table(["h, ms", "CPU, s (active-set)", "CPU, s (Ipopt)", "Head end of the knot off, cm", "Sliding force, dyn",
                     "Penetration, cm"], rows)
     lines += ["Speculative rows, active-set; errors at 5 ms and finer, the rest at 2 ms:", "",
               *body_counts([run for run in done if run.activation == "speculative" and run.qp == "active-set"], reference)]
-    lines += [f"- Chance: runs of {reference.bodies} bodies at 1 ms and finer differ by up to {floor['position']:.3f} cm "
-              f"and {floor['force']:.1f} %: impacts amplify rounding, so nothing below that means more accuracy."]
+    lines += [f"- Chance at h = {1e3 * step:g} ms: {c.starts} starts that differ by rounding alone come apart by up to "
+              f"{c.position:.2f} cm (knot's head end, rms over the slide) and {c.pointwise:.2f} cm (at any frame); their sliding "
+              f"forces have a standard deviation of {c.force_spread:.1f} % and differ by up to {c.force:.0f} %. Nothing below that "
+              "means more accuracy." for step in CHANCE_STEPS for c in [chance(folder, step)]]
     both = [(run, twins[key]) for run in done if run.qp == "active-set" and (key := (run.step, run.bodies, run.activation)) in twins]
     ratios = [twin.cpu / run.cpu for run, twin in both]
     lines += [f"- Ipopt takes {min(ratios):.0f} to {max(ratios):.0f} times the CPU time of active-set for the whole run."]
@@ -131,8 +136,9 @@ def whole(folder: Path) -> list[str]:
         lines.append(f"- Failed: {words}, in {len(own)} of the runs ({which}; h "
                      f"{least if least == largest else f'{least} to {largest}'} ms).")
     for what, words in (("position", "position of the knot"), ("penetration", "penetration")):
+        front = front_of(runs, reference, what, floor.of(what))
         names = [f"{run.bodies} bodies at {1e3 * run.step:g} ms{'' if run.activation == 'speculative' else ', violated'}"
-                 f"{'' if run.qp == 'active-set' else ', Ipopt'} ({run.cpu:.2f} s)" for run in front_of(runs, reference, what)]
+                 f"{'' if run.qp == 'active-set' else ', Ipopt'} ({run.cpu:.2f} s)" for run in front]
         lines.append(f"- Pareto front in CPU time and {words}: {'; '.join(names)}.")
     return [*lines, ""]
 
@@ -142,13 +148,14 @@ def presets(folder: Path) -> list[str]:
     rows = []
     for name, use in PRESETS.items():
         run = read_run(folder, f"preset_{name}")
-        found = errors(run, reference)
+        off = path_error(run, reference)
         audit = (folder / f"preset_{name}.check").read_text()
-        rows.append([f"`{name}`", use, f"{1e3 * run.step:g}", str(run.bodies), run.qp, f"{run.cpu:.2f}", f"{found['position']:.2f}" + (" (as the reference)" if run.step == reference.step else ""),
+        rows.append([f"`{name}`", use, f"{1e3 * run.step:g}", str(run.bodies), run.qp, f"{run.cpu:.2f}",
+                     f"{off[0]:.2f} ({off[1]:.2f})" + (", as the reference" if run.step == reference.step else ""),
                      f"{run.force / reference.force * 100 - 100:+.0f} %", f"{run.penetration:.4f}",
                      "failed" if "FAIL" in audit else "passed"])
     return ["## Presets", "", "`hagfish run --preset NAME`, timed alone on the machine, with their own intervals between frames.",
-            "", *table(["Preset", "For", "h, ms", "Bodies", "Back end", "CPU, s", "Head end of the knot, cm", "Sliding force",
+            "", *table(["Preset", "For", "h, ms", "Bodies", "Back end", "CPU, s", "Head end of the knot off, cm", "Sliding force",
                         "Penetration, cm", "Audit"], rows), ""]
 
 

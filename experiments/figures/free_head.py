@@ -14,7 +14,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from hagfish_log import HagfishLog, save_figure
-from slides import COLOURS, Slide, knot_label, read_slides
+from slides import COLOURS, FORCE_COLUMNS, MEAN, SLACK_COLUMN, Slide, knot_label, read_slides
 from study import GREY, run_study, write_csv
 
 DPI = 200
@@ -45,8 +45,8 @@ def compare(axes: plt.Axes, sets: list[tuple[list[Slide], str]], what: str) -> N
 def main(folder: Path, table: Path, out: Path, page: Path) -> None:
     sets = {"held": read_slides(folder, "held"), "free": read_slides(folder, "free")}
     forming = read_slides(folder, "forming")
-    heading = ["head", "knot", "commanded_cm_s", "measured_cm_s", "travel_cm", "force_dyn", "peak_force_dyn", "slack_cm_s",
-               "steps_met", "penetration_cm", "knot_held", "failure"]
+    heading = ["head", "knot", "commanded_cm_s", "measured_cm_s", "travel_cm", *FORCE_COLUMNS, SLACK_COLUMN, "steps_met",
+               "penetration_cm", "knot_held", "failure"]
     write_csv(table, heading, [[head, s.knot, s.commanded, s.speed, s.travel, s.force, s.peak, s.slack, s.met, s.penetration,
                                 int(s.held), s.failure] for head, slides in sets.items() for s in slides])
 
@@ -64,16 +64,17 @@ def main(folder: Path, table: Path, out: Path, page: Path) -> None:
     middle.set_ylabel("measured speed of the knot's head end, cm/s")
     middle.set_title("(b) discs: free; squares: held; dashed: as commanded", loc="left", fontsize=9)
     compare(right, [(sets["held"], "s:"), (sets["free"], "o-")], "force")
-    right.set_ylabel(r"sum of the four $\lambda/h$, median, dyn")
+    right.set_ylabel(rf"sum of the four $\lambda/h$, median {MEAN}, dyn")
     right.set_title("(c) crossed: the knot was lost", loc="left", fontsize=10)
     save_figure(figure, out, DPI)
 
-    rows = [f"| {head} | {s.knot} | {s.commanded:g} | {s.speed:.3g} | {s.travel:.1f} | {s.force:.0f} | {100 * s.met:.1f} | "
-            f"{s.penetration:.2g} | {s.failure or 'complete'} |" for head, slides in sets.items() for s in slides]
+    rows = [f"| {head} | {s.knot} | {s.commanded:g} | {s.speed:.3g} | {s.travel:.1f} | {s.force:.0f} | {s.peak:.0f} | "
+            f"{100 * s.met:.1f} | {s.penetration:.2g} | {s.failure or 'complete'} |" for head, slides in sets.items() for s in slides]
     towed = [f"- {s.knot}: {s.failure or 'tied all the same'}" for s in forming]
     page.write_text("\n".join(["# A free head", "", "Forming with a free head too:", "", *towed, "",
-                               "| head | knot | commanded, cm/s | measured, cm/s | travel, cm | force, dyn | steps that meet "
-                               "Eq. 6, % | penetration, cm | run |", "|---" * 9 + "|", *rows, ""]), encoding="utf-8")
+                               "| head | knot | commanded, cm/s | measured, cm/s | travel, cm | force, median "
+                               f"{MEAN}, dyn | largest {MEAN}, dyn | steps that meet "
+                               "Eq. 6, % | penetration, cm | run |", "|---" * 10 + "|", *rows, ""]), encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -16,14 +16,16 @@ import numpy as np
 import claims
 from figure7 import GAP, Stage, choose_camera, take_pictures
 from hagfish_log import HagfishLog, LogError, save_figure
-from slides import COLOURS, knot_label, unmet_of
+from means import Means, effort_per_cm, read_means
+from slides import COLOURS, MEAN, knot_label, unmet_of
 from study import run_study
 
 DPI = 200
 WIDTH = 7.2  # of the pictures, inches
 NOISES = ("0.2", "0.5", "1")
 STEPS = ("0.0005", "0.001", "0.005", "0.01", "0.02")
-SMOOTHED = 5  # frames of the running median over time
+CHANCE_STEPS = ("0.002", "0.001")
+SMOOTHED = 5  # means in the running median over time
 
 
 def stages_of(log: HagfishLog) -> list[Stage]:
@@ -72,44 +74,50 @@ def running_median(values: np.ndarray) -> np.ndarray:
     return np.median(np.lib.stride_tricks.sliding_window_view(padded, SMOOTHED), axis=1)
 
 
-def force_figures(log: HagfishLog, s: claims.Sliding) -> dict[str, float]:
-    """f_thigmo on the hinges over the slide: peak, total effort, work, modes."""
-    interval = float(np.median(np.diff(s.time)))
-    size = np.abs(s.force)
-    slide = log.in_phase("slide")
-    work = log["/diagnostics/work_thigmotaxis"]
-    travel = float(s.head_end[0] - s.head_end[-1])
-    modes = claims.smooth_in_space(s)["axes"]
-    return {"seconds": float(s.time[-1] - s.time[0]), "travel": travel, "multipliers": float(np.median(s.lambdas.sum(axis=1))),
-            "peak": float(size.max()), "peak99": float(np.percentile(size.max(axis=1), 99)),
-            "median": float(np.median(size.max(axis=1))), "effort": float(size.sum() * interval),
-            "effort_per_cm": float(size.sum() * interval / travel), "work": float(work[slide[-1]] - work[slide[0]]),
-            "dct": max(axis["dct_modes_95"] for axis in modes.values()),
-            "svd": max(axis["svd_modes_95"] for axis in modes.values())}
+def force_figures(log: HagfishLog, means: Means) -> dict[str, float]:
+    """f_thigmo over the slide, in means over WINDOW, dyn, dyn cm, dyn s; the work in erg."""
+    first, last = means.start[0], means.end[-1]
+    work, head_end = log["/diagnostics/work_thigmotaxis"], log["/knot/head_end"]
+    largest = np.abs(means.force).max(axis=1)  # of any hinge
+    return {"seconds": float(means.end.size * means.window), "travel": float(head_end[first] - head_end[last]),
+            "median": float(np.median(means.total)), "mean": float(means.total.mean()), "peak_multipliers": float(means.total.max()),
+            "peak": float(largest.max()), "peak99": float(np.percentile(largest, 99)), "median_hinge": float(np.median(largest)),
+            "effort": effort_per_cm(log, means), "work": float(work[last] - work[first])}
 
 
-def draw_forces(slides: dict[str, claims.Sliding], out: Path) -> None:
+def chance_figures(folder: Path, scene: str, step: str) -> dict[str, np.ndarray]:
+    """`force_figures` of every start that differs by rounding alone."""
+    paths = sorted(folder.glob(f"chance_{scene}_{step}_*.h5"))
+    if len(paths) < 2:
+        raise LogError(f"{folder}: holds too few runs chance_{scene}_{step}_*")
+    found = [force_figures(log, read_means(log)) for log in map(HagfishLog, paths)]
+    return {name: np.array([each[name] for each in found]) for name in found[0]}
+
+
+def draw_forces(logs: dict[str, HagfishLog], slides: dict[str, claims.Sliding], out: Path) -> None:
     figure, (over_time, along, modes) = plt.subplots(1, 3, figsize=(11.5, 3.9), layout="constrained")
-    for knot, s in slides.items():
-        colour, label = COLOURS[knot], knot_label(knot)
-        total = s.lambdas.sum(axis=1)
-        over_time.plot(s.time - s.time[0], total, color=colour, lw=0.5, alpha=0.3)
-        over_time.plot(s.time - s.time[0], running_median(total), color=colour, lw=1.4, label=label)
+    for knot, log in logs.items():
+        colour, label, means, s = COLOURS[knot], knot_label(knot), read_means(log), slides[knot]
+        time = means.window * (np.arange(means.end.size) + 0.5)
+        over_time.plot(time, means.total, color=colour, lw=0.5, alpha=0.3)
+        over_time.plot(time, running_median(means.total), color=colour, lw=1.4, label=label)
         # Two joints make one, as they bend and twist in turn.
-        pair = s.joint // 2
-        pairs = np.unique(pair)
-        rms = np.sqrt([(s.force[:, pair == each] ** 2).sum(axis=1).mean() for each in pairs])
-        along.plot([s.arc[pair == each].mean() for each in pairs], rms, color=colour, lw=1.3)
+        _, joint, _ = log.hinges()
+        arc, size = log.joint_arc(), np.abs(means.force).mean(axis=0)
+        pairs = np.unique(joint // 2)
+        along.plot([arc[joint[joint // 2 == each]].mean() for each in pairs], [size[joint // 2 == each].sum() for each in pairs],
+                   color=colour, lw=1.3)
         held = np.sum([np.linalg.svd(s.axis(axis)[1], compute_uv=False)[:30] ** 2 for axis in claims.KINDS], axis=0)
         modes.plot(np.arange(1, held.size + 1), 100 * (1 - np.cumsum(held) / (s.force**2).sum()), "o-", color=colour, ms=3, lw=1)
     over_time.set(xlabel="time since the slide began, s", ylabel=r"sum of the four $\lambda/h$, dyn", yscale="log")
     over_time.legend(fontsize=8, frameon=False)
-    over_time.set_title("(a) thin: every frame; thick: median of five", loc="left", fontsize=9)
-    along.set(xlabel="joint, cm from the head", ylabel="$f_{thigmo}$, rms over the slide, dyn cm", yscale="log", ylim=(10, 1e4))
+    over_time.set_title(f"(a) thin: {MEAN}s; thick: running median of {SMOOTHED}", loc="left", fontsize=9)
+    along.set(xlabel="joint, cm from the head", ylabel="$|f_{thigmo}|$ of three axes, mean over the slide, dyn cm", yscale="log",
+              ylim=(1, 1e4))
     along.set_title("(b) where along the body", loc="left", fontsize=9)
     modes.set(xlabel="SVD modes of each axis kept", ylabel="energy left out, %", yscale="log", ylim=(0.1, 100), xlim=(0.5, 12.5))
     modes.axhline(5, color="#777777", lw=0.8, ls="--", zorder=0)
-    modes.set_title("(c) how many modes hold it", loc="left", fontsize=9)
+    modes.set_title(f"(c) how many modes hold the {MEAN}s", loc="left", fontsize=9)
     for axes in (over_time, along, modes):
         axes.grid(alpha=0.25)
     save_figure(figure, out, DPI)
@@ -146,6 +154,28 @@ def mirror_error(folder: Path, scene: str) -> float:
     return float(np.abs(plain[:frames] * [1.0, -1.0, 1.0] - image[:frames]).max())
 
 
+def write_chance(folder: Path, scenes: dict[str, str], lines: list[str]) -> None:
+    """What chance and the step make of the sliding force."""
+    chance = {k: [chance_figures(folder, scene, step) for step in CHANCE_STEPS] for k, scene in scenes.items()}
+    starts = min(each["median"].size for found in chance.values() for each in found)
+    lines += ["", f"Starts that differ by rounding alone, {starts} at each step; mean ± standard deviation among them. The change "
+              "has its standard error.", "", "| | " + " | ".join(scenes) + " |", "|---" * (len(scenes) + 1) + "|"]
+    for name, key in ((f"sum of the four λ/h: median of the {MEAN}s, dyn", "median"), ("mean over the slide, dyn", "mean"),
+                      (f"largest {MEAN}, dyn", "peak_multipliers"), ("effort for each cm of slide, dyn s", "effort"),
+                      ("slide, s", "seconds"), ("slide, cm", "travel")):
+        form = ".2f" if key in ("seconds", "travel") else ".0f"
+        for i, step in enumerate(CHANCE_STEPS):
+            lines.append(f"| {name}, at h = {1000 * float(step):g} ms | " + " | ".join(
+                f"{found[i][key].mean():{form}} ± {found[i][key].std(ddof=1):{form}}" for found in chance.values()) + " |")
+        lines.append("| change, % | " + " | ".join(change(coarse[key], fine[key]) for coarse, fine in chance.values()) + " |")
+
+
+def change(coarse: np.ndarray, fine: np.ndarray) -> str:
+    """From one set of runs to the other, % of the first, with its standard error."""
+    error = np.sqrt(coarse.var(ddof=1) / coarse.size + fine.var(ddof=1) / fine.size)
+    return f"{100 * (fine.mean() / coarse.mean() - 1):+.1f} ± {100 * error / coarse.mean():.1f}"
+
+
 def write_page(folder: Path, logs: dict[str, HagfishLog], slides: dict[str, claims.Sliding], page: Path) -> None:
     lines = ["# Four knots", "", "| | " + " | ".join(logs) + " |", "|---" * (len(logs) + 1) + "|"]
     scenes = {knot: scene_of(folder, knot) for knot in logs}
@@ -161,15 +191,21 @@ def write_page(folder: Path, logs: dict[str, HagfishLog], slides: dict[str, clai
     for step in STEPS:
         row(f"audit at h = {1000 * float(step):g} ms", lambda k, step=step:
             outcome(folder, f"step_{scenes[k]}_{step}") or "passes")
-    figures = {k: force_figures(logs[k], slides[k]) for k in logs}
+    figures = {k: force_figures(logs[k], read_means(logs[k])) for k in logs}
     for name, key, form in (("slide, s", "seconds", ".2f"), ("slide, cm", "travel", ".2f"),
-                            ("sum of the four λ/h, median, dyn", "multipliers", ".0f"),
-                            ("peak of f_thigmo, dyn cm", "peak", ".0f"), ("99 % of frames below", "peak99", ".0f"),
-                            ("largest hinge, median frame", "median", ".0f"),
-                            ("total effort, sum of magnitudes over time, dyn cm s", "effort", ".3g"),
-                            ("effort for each cm of travel", "effort_per_cm", ".3g"), ("work, erg", "work", ".0f"),
-                            ("Fourier modes for 95 % of the energy, of 50", "dct", "d"), ("SVD modes", "svd", "d")):
+                            (f"sum of the four λ/h: median of the {MEAN}s, dyn", "median", ".0f"),
+                            ("mean over the slide, dyn", "mean", ".0f"),
+                            (f"largest {MEAN}, dyn", "peak_multipliers", ".0f"),
+                            (f"f_thigmo of a hinge: largest {MEAN}, dyn cm", "peak", ".0f"),
+                            (f"of 99 % of the {MEAN}s, no hinge above", "peak99", ".0f"),
+                            (f"largest hinge, median of the {MEAN}s", "median_hinge", ".0f"),
+                            ("effort, mean of \\|f_thigmo\\| along the body over time for each cm of slide, dyn s", "effort", ".0f"),
+                            ("work, erg", "work", ".0f")):
         row(name, lambda k, key=key, form=form: format(figures[k][key], form))
+    modes = {k: claims.smooth_in_space(slides[k])["axes"].values() for k in logs}
+    for name, key in (("Fourier modes for 95 % of the energy, of 50", "dct_modes_95"), ("SVD modes", "svd_modes_95")):
+        row(name, lambda k, key=key: str(max(axis[key] for axis in modes[k])))
+    write_chance(folder, scenes, lines)
     page.write_text("\n".join([*lines, ""]), encoding="utf-8")
 
 
@@ -177,7 +213,7 @@ def main(folder: Path, hagfish: Path, pictures: Path, forces: Path, page: Path) 
     logs = {knot: HagfishLog(folder / f"plain_{scene_of(folder, knot)}.h5") for knot in COLOURS}
     slides = {knot: claims.read_sliding(log) for knot, log in logs.items()}
     draw_pictures(logs, hagfish, pictures)
-    draw_forces(slides, forces)
+    draw_forces(logs, slides, forces)
     write_page(folder, logs, slides, page)
 
 

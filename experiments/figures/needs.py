@@ -16,6 +16,7 @@ import numpy as np
 
 from hagfish_log import LogError, Results, save_figure
 from study import GREY, INK, Run, read_runs, run_study, write_csv
+from whole_runs import chance
 
 DPI = 200
 AS_IS = "as_is"
@@ -36,7 +37,6 @@ CHOICES = {
 }
 LEAST_SAVING = 0.1  # of CPU time, to change what works
 LEAST_FACTOR = 2  # of penetration, to count as deeper
-LEAST_FORCE = 10  # %, of change in the sliding force: twice what chance makes of it
 
 
 @dataclass
@@ -50,7 +50,7 @@ class Need:
     verdict: str
 
 
-def verdict_of(run: Run, as_is: Run) -> str:
+def verdict_of(run: Run, as_is: Run, least_force: float) -> str:
     """Keep or change, and why, from the figures alone."""
     saving = 1 - run.cpu / as_is.cpu
     if run.failure:
@@ -60,7 +60,7 @@ def verdict_of(run: Run, as_is: Run) -> str:
     if run.penetration > LEAST_FACTOR * as_is.penetration:
         return f"keep: else {run.penetration / as_is.penetration:.1f} times the penetration"
     force = 100 * (run.force / as_is.force - 1)
-    if abs(force) > LEAST_FORCE:
+    if abs(force) > least_force:
         return f"keep: else the sliding force is {force:+.0f} %"
     if run.penetration < as_is.penetration / LEAST_FACTOR and saving > -LEAST_SAVING:
         return (f"change: {as_is.penetration / run.penetration:.1f} times less penetration at "
@@ -76,13 +76,15 @@ def verdict_of(run: Run, as_is: Run) -> str:
 
 
 def needs(folder: Path) -> tuple[Run, list[Need]]:
+    """The scene as it is, and what each change makes of it; a force that differs by no more than chance is the same."""
     runs = {run.name.removeprefix("need_"): run for run in read_runs(folder, "need")}
     missing = {AS_IS, *CHOICES} - set(runs)
     if missing:
         raise LogError(f"{folder}: without run need_{sorted(missing)[0]}")
     as_is = runs[AS_IS]
+    least_force = chance(folder, as_is.step).force
     return as_is, [Need(choice, instead, run, run.cpu / as_is.cpu, run.slide - as_is.slide,
-                        100 * (run.force / as_is.force - 1), verdict_of(run, as_is))
+                        100 * (run.force / as_is.force - 1), verdict_of(run, as_is, least_force))
                    for (choice, instead), run in ((texts, runs[name]) for name, texts in CHOICES.items())]
 
 

@@ -14,7 +14,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from hagfish_log import save_figure
-from slides import COLOURS, Slide, knot_label, read_slides
+from slides import COLOURS, FORCE_COLUMNS, MEAN, SLACK_COLUMN, Slide, knot_label, read_slides
 from study import GREY, run_study, write_csv
 
 DPI = 200
@@ -48,8 +48,8 @@ def against_speed(axes: plt.Axes, back: list[Slide], there: list[Slide], what: s
 
 def main(folder: Path, table: Path, out: Path, page: Path) -> None:
     back, there = read_slides(folder, "reverse", "reverse"), read_slides(folder, "reverse", "slide")
-    heading = ["knot", "commanded_cm_s", "measured_cm_s", "travel_cm", "seconds", "force_dyn", "peak_force_dyn", "slack_cm_s",
-               "steps_met", "penetration_cm", "knot_held", "failure"]
+    heading = ["knot", "commanded_cm_s", "measured_cm_s", "travel_cm", "seconds", *FORCE_COLUMNS, SLACK_COLUMN, "steps_met",
+               "penetration_cm", "knot_held", "failure"]
     seconds = lambda s: float(s.time[-1]) if s.time.size else np.nan
     write_csv(table, heading, [[s.knot, s.commanded, s.speed, s.travel, seconds(s), s.force, s.peak, s.slack, s.met,
                                 s.penetration, int(s.held), s.failure] for s in back])
@@ -62,16 +62,17 @@ def main(folder: Path, table: Path, out: Path, page: Path) -> None:
     middle.set_ylabel("measured speed of the tail end, cm/s")
     middle.set_title("(b) dashed: as commanded; open: knot lost early", loc="left", fontsize=10)
     against_speed(right, back, there, "force")
-    right.set_ylabel(r"sum of the four $\lambda/h$, median, dyn")
+    right.set_ylabel(rf"sum of the four $\lambda/h$, median {MEAN}, dyn")
     right.set_title("(c) squares: the way to the head", loc="left", fontsize=10)
     save_figure(figure, out, DPI)
 
-    rows = [f"| {s.knot} | {s.commanded:g} | {s.speed:.3g} | {s.travel:.1f} | {seconds(s):.1f} | {s.force:.0f} | "
+    rows = [f"| {s.knot} | {s.commanded:g} | {s.speed:.3g} | {s.travel:.1f} | {seconds(s):.1f} | {s.force:.0f} | {s.peak:.0f} | "
             f"{100 * s.met:.1f} | {s.penetration:.2g} | {s.failure or 'untied at the tail'} |" for s in back]
     page.write_text("\n".join(["# The reverse slide", "",
                                "From the head back to the tail; the way ends 1.6 cm before the tail's tip, where the knot may go.", "",
-                               "| knot | commanded, cm/s | measured, cm/s | tail end moved, cm | time, s | force, dyn | steps that "
-                               "meet Eq. 6, % | penetration, cm | run |", "|---" * 9 + "|", *rows, ""]), encoding="utf-8")
+                               "| knot | commanded, cm/s | measured, cm/s | tail end moved, cm | time, s | force, median "
+                               f"{MEAN}, dyn | largest {MEAN}, dyn | steps that "
+                               "meet Eq. 6, % | penetration, cm | run |", "|---" * 10 + "|", *rows, ""]), encoding="utf-8")
 
 
 if __name__ == "__main__":

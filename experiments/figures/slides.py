@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from hagfish_log import HagfishLog, LogError
+from means import WINDOW, read_means
 from study import failure_of
 from summary import step_phases
 
@@ -18,23 +19,29 @@ from summary import step_phases
 COLOURS = {"3_1": "#4477aa", "4_1": "#ee6677", "5_1": "#228833", "5_2": "#aa3377"}
 NAMES = {"3_1": "overhand", "4_1": "figure-eight", "5_1": "double overhand", "5_2": "three-twist"}
 LEAST_FRAMES = 5  # of a slide with a speed
+AT_CAP = 0.999  # of the cap, a multiplier that is at it
+MEAN = f"{1000 * WINDOW:g} ms mean"  # what forces are, for headings
+# Columns of a table: force, peak, slack.
+FORCE_COLUMNS = [f"force_median_of_{1000 * WINDOW:g}_ms_means_dyn", f"force_largest_{1000 * WINDOW:g}_ms_mean_dyn"]
+SLACK_COLUMN = f"slack_median_of_{1000 * WINDOW:g}_ms_means_cm_s"
 
 
 @dataclass
 class Slide:
-    """One phase of one run in which the knot slides; cm, s, dyn."""
+    """One phase of one run in which the knot slides; cm, s, dyn. Forces are means over WINDOW."""
 
     name: str  # of the run
     knot: str  # expected type
     commanded: float  # speed, cm/s
     speed: float  # of the knot's leading end, a line through its places; nan where it never slid
     travel: float  # of that end
-    force: float  # sum of the four multipliers / h, median over the frames
-    peak: float  # largest of it
-    capped: float  # share of rows at controller.cap
-    slack: float  # largest shortfall of the four rows of Eq. 6, median over the frames, cm/s
+    force: float  # sum of the four multipliers / h, median of the means
+    peak: float  # largest of them
+    capped: float  # share of rows at controller.cap, of all steps
+    slack: float  # largest shortfall of the four rows of Eq. 6, median of the means, cm/s
     met: float  # share of steps without slack
     penetration: float  # deepest of any step in the phase
+    allowed: float  # deepest that the scene expects
     held: bool  # the knot had its type at every frame
     failure: str  # why the run did not go on to its end; empty where it did
     time: np.ndarray  # from the beginning of the phase
@@ -67,19 +74,20 @@ def read_slide(folder: Path, name: str, phase: str = "slide") -> Slide:
     slope = float(np.polyfit(time, place, 1)[0]) if moved else np.nan
     travel = float(place[-1] - place[0]) if moved else np.nan
     sign = -1.0 if phase == "slide" else 1.0
-    force = log["/thigmotaxis/lambda"][frames]
-    slack = log["/thigmotaxis/slack"][frames]
-    median = lambda values: float(np.median(values)) if moved else np.nan
+    means = read_means(log, phase)
+    some = moved and means.end.size > 0
     steps = step_phases(log) == phase
+    at_cap = log["/steps/thigmotaxis_lambda"][steps] >= AT_CAP * scene["controller"]["cap"]
     unmet = unmet_of(folder, name)
     ended = str(log.attribute("status")) == "complete" and "unknot at end" not in unmet
     commanded = float(scene["controller"][f"{phase}_head"]["a"])
     return Slide(name, scene["expect"]["knot"], commanded, sign * slope, sign * travel,
-                 median(force.sum(axis=1)), float(force.sum(axis=1).max()) if moved else np.nan,
-                 float((force >= 0.999 * scene["controller"]["cap"]).mean()) if moved else np.nan,
-                 median(np.nanmax(slack, axis=1)) if moved else np.nan,
+                 float(np.median(means.total)) if some else np.nan, float(means.total.max()) if some else np.nan,
+                 float(at_cap.mean()) if steps.any() else np.nan,
+                 float(np.nanmedian(np.fmax.reduce(means.slack, axis=1))) if some else np.nan,
                  float((log["/steps/eq6"][steps] == 1).mean()) if steps.any() else np.nan,
                  float(log["/steps/penetration"][steps].max()) if steps.any() else np.nan,
+                 float(scene["expect"]["penetration"]),
                  "knot held" not in unmet, "" if ended else failure_of(log, unmet),
                  time - time[0] if moved else time, log["/knot/head_end"][frames], log["/knot/tail_end"][frames])
 

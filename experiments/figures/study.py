@@ -17,14 +17,16 @@ from typing import Any
 import numpy as np
 
 from hagfish_log import HagfishLog, LogError
+from means import read_means
 
 SHIFTS = 21  # tried within a frame to either side
+FORCE_WINDOW = 0.1  # s, of the means of forces: a multiple of every interval between frames in the study
 INK, GREY = "#000000", "#777777"
 
 
 @dataclass
 class Run:
-    """One run; cm, s, dyn cm. Arrays are of its sliding frames, times from the first of them."""
+    """One run; cm, s, dyn. Arrays are of its sliding frames, times from the first of them."""
 
     name: str
     cpu: float  # the least of the repeats
@@ -39,8 +41,8 @@ class Run:
     slide: float  # headward travel of the knot's head end, cm
     tighten_at: float  # s; nan where it never came to that
     slide_at: float
-    force: float  # f_thigmo on the hinges: rms over them, median over the sliding frames
-    force_rms: float  # and rms over both, which a few steps dominate
+    force: float  # sum of the four multipliers / h while sliding: median of means over FORCE_WINDOW
+    force_mean: float  # and mean over the slide
     time: np.ndarray
     head_end: np.ndarray
     tail_end: np.ndarray
@@ -78,15 +80,14 @@ def read_run(folder: Path, name: str) -> Run:
     slides = log.in_phase("slide")
     known = slides[np.isfinite(log["/knot/head_end"][slides])]
     start = lambda phase: float(log["/trajectory/time"][log.in_phase(phase)[0]]) if log.in_phase(phase).size else np.nan
-    hinges = log.hinges()[0]
-    squares = (log["/forces/thigmotaxis"][slides][:, hinges] ** 2).mean(axis=1)
+    force = read_means(log, "slide", FORCE_WINDOW).total
     head_end = log["/knot/head_end"][known]
     return Run(name, min(cpu), scene["time"]["step"], scene["model"]["bodies"], str(log.attribute("qp")),
                scene["constraints"]["activation"], str(log.attribute("command")).split(" run ")[1].split()[0],
                failure_of(log, unmet), [what for what in unmet if what != "penetration"],
                float(log["/steps/penetration"].max()), float(head_end[0] - head_end[-1]) if known.size else np.nan,
-               start("tighten"), start("slide"), float(np.sqrt(np.median(squares))) if slides.size else np.nan,
-               float(np.sqrt(squares.mean())) if slides.size else np.nan,
+               start("tighten"), start("slide"), float(np.median(force)) if force.size else np.nan,
+               float(force.mean()) if force.size else np.nan,
                log["/trajectory/time"][known] - start("slide"), head_end, log["/knot/tail_end"][known])
 
 
@@ -98,17 +99,19 @@ def read_runs(folder: Path, prefix: str) -> list[Run]:
     return [read_run(folder, name) for name in names]
 
 
-def path_error(run: Run, reference: Run, end: str = "head_end") -> float:
-    """Distance along the body between the knot's ends in two runs, rms over the slide, cm; nan where one has none. Times
-    count from the beginning of the slide, which is known to a frame: the best shift within that is taken."""
+def path_error(run: Run, reference: Run, end: str = "head_end") -> tuple[float, float]:
+    """Distance along the body between the knot's ends in two runs, cm: rms over the slide and largest at any frame; nan where
+    one has none. Times count from the beginning of the slide, which is known to a frame: the shift within that with the
+    least rms is taken."""
     if not run.time.size or not reference.time.size:
-        return np.nan
+        return np.nan, np.nan
     frame = max(float(np.median(np.diff(each.time))) for each in (run, reference))
     inside = (reference.time >= frame) & (reference.time <= run.time[-1] - frame)
     time, path = reference.time[inside], getattr(reference, end)[inside]
-    shifts = np.linspace(-frame, frame, SHIFTS)
-    return float(min(np.sqrt(np.mean((np.interp(time + shift, run.time, getattr(run, end)) - path) ** 2))
-                     for shift in shifts))
+    if not time.size:
+        return np.nan, np.nan
+    away = [np.abs(np.interp(time + shift, run.time, getattr(run, end)) - path) for shift in np.linspace(-frame, frame, SHIFTS)]
+    return min((float(np.sqrt(np.mean(each**2))), float(each.max())) for each in away)
 
 
 def pareto(cost: np.ndarray, error: np.ndarray) -> np.ndarray:

@@ -6,6 +6,8 @@ Usage: whole_runs.py RUNS OUT.csv OUT.png (writes a PDF beside).
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from itertools import combinations
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +19,7 @@ import numpy as np
 from matplotlib.lines import Line2D
 
 from hagfish_log import LogError, save_figure
-from study import GREY, INK, Run, pareto, path_error, read_runs, run_study, write_csv
+from study import FORCE_WINDOW, GREY, INK, Run, pareto, path_error, read_runs, run_study, write_csv
 
 DPI = 200
 REFERENCE = "whole_100_0.0005_speculative_active-set"
@@ -26,12 +28,11 @@ COLOURS = {25: "#999999", 35: "#ddcc77", 50: "#44aa99", 70: "#88ccee", 100: "#33
 MARKERS = {"active-set": "o", "ipopt": "s"}
 LABELS_APART = 1.2  # ratio of times
 BELOW_CHANCE = 3  # a panel ends at this part of chance
-FINE = 0.001  # steps, s, whose differences from the reference are chance
 
 
 def errors(run: Run, reference: Run) -> dict[str, float]:
     """The three measures of the figure."""
-    return {"position": path_error(run, reference), "force": 100 * abs(run.force / reference.force - 1),
+    return {"position": path_error(run, reference)[0], "force": 100 * abs(run.force / reference.force - 1),
             "penetration": run.penetration}
 
 
@@ -46,18 +47,36 @@ def reference_of(runs: list[Run]) -> Run:
     raise LogError(f"{REFERENCE}: the reference is missing or failed")
 
 
-def chance(runs: list[Run], reference: Run) -> dict[str, float]:
-    """Largest difference from the reference among fine runs of the same bodies: no smaller one means anything."""
-    same = [run for run in runs if run is not reference and run.bodies == reference.bodies and not run.failure
-            and run.step <= FINE and run.activation == reference.activation]
-    return {what: max(errors(run, reference)[what] for run in same) for what in ("position", "force")}
+@dataclass
+class Chance:
+    """What starts that differ by rounding alone come to: the largest difference between any two. None smaller means
+    anything."""
+
+    starts: int
+    position: float  # of the knot's head end, rms over the slide, cm
+    pointwise: float  # at any frame, cm
+    force: float  # %
+    force_spread: float  # standard deviation, %
+
+    def of(self, what: str) -> float:
+        """In one of PANELS; 0 where runs are not compared with another."""
+        return {"position": self.position, "force": self.force}.get(what, 0.0)
 
 
-def front_of(runs: list[Run], reference: Run, what: str) -> list[Run]:
-    """The Pareto front in CPU time and one measure, by rising time; within chance the cheapest is as good as any. The
-    reference has no error to compare."""
+def chance(folder: Path, step: float) -> Chance:
+    runs = [run for run in read_runs(folder, f"chance_{step:g}") if not run.failure]
+    if len(runs) < 2:
+        raise LogError(f"{folder}: of the runs chance_{step:g}_*, {len(runs)} slid")
+    away = np.array([path_error(*pair) for pair in combinations(runs, 2)])
+    force = np.array([run.force for run in runs])
+    return Chance(len(runs), *map(float, away.max(axis=0)), float(100 * np.ptp(force) / force.mean()),
+                  float(100 * force.std(ddof=1) / force.mean()))
+
+
+def front_of(runs: list[Run], reference: Run, what: str, floor: float) -> list[Run]:
+    """The Pareto front in CPU time and one measure, by rising time; within chance, `floor`, the cheapest is as good as any.
+    The reference has no error to compare."""
     able = [run for run in runs if not run.failure and (run is not reference or what == "penetration")]
-    floor = chance(runs, reference).get(what, 0.0)
     front = pareto(np.array([run.cpu for run in able]),
                    np.array([max(floor, errors(run, reference)[what]) for run in able]))
     return [able[k] for k in front]
@@ -80,7 +99,7 @@ def draw(axes: Any, runs: list[Run], presets: list[Run], reference: Run, what: s
         axes.loglog([run.cpu for run in group], [errors(run, reference)[what] for run in group],
                     MARKERS[first.qp] + ("-" if spec else ":"), color=colour, ms=4, lw=0.9,
                     mfc=colour if spec else "white", alpha=0.9)
-    front = front_of(runs, reference, what)
+    front = front_of(runs, reference, what, floor)
     points = [(run.cpu, errors(run, reference)[what]) for run in front]
     axes.step(*zip(*points), where="post", color=INK, lw=2.2, alpha=0.35, zorder=0)
     labelled = 0.0
@@ -127,15 +146,15 @@ def legend(figure: Any) -> None:
     figure.legend(handles=lines, loc="upper center", ncols=7, fontsize=8, frameon=False)
 
 
-def rows_of(runs: list[Run], reference: Run) -> tuple[list[str], list[list[Any]]]:
-    heading = ["scene", "bodies", "h_ms", "activation", "back_end", "cpu_s", "outcome", "position_error_cm",
-               "tail_end_error_cm", "slide_start_s", "slide_cm", "force_median_dyn_cm", "force_rms_dyn_cm",
-               "penetration_cm", "audit_fails", "on_front"]
-    fronts = {what: {run.name for run in front_of(runs, reference, what)} for what in PANELS}
+def rows_of(runs: list[Run], reference: Run, floor: Chance) -> tuple[list[str], list[list[Any]]]:
+    heading = ["scene", "bodies", "h_ms", "activation", "back_end", "cpu_s", "outcome", "position_error_rms_cm",
+               "position_error_largest_cm", "tail_end_error_rms_cm", "slide_start_s", "slide_cm",
+               f"force_median_of_{1000 * FORCE_WINDOW:g}_ms_means_dyn", "force_mean_dyn", "penetration_cm", "audit_fails", "on_front"]
+    fronts = {what: {run.name for run in front_of(runs, reference, what, floor.of(what))} for what in PANELS}
     rows = [[run.scene, run.bodies, 1e3 * run.step, run.activation, run.qp, run.cpu,
              run.failure or ("reference" if run is reference else "knot slid to the head"),
-             path_error(run, reference), path_error(run, reference, "tail_end"), run.slide_at, run.slide, run.force,
-             run.force_rms, run.penetration, "; ".join(run.unmet),
+             *path_error(run, reference), path_error(run, reference, "tail_end")[0], run.slide_at, run.slide, run.force,
+             run.force_mean, run.penetration, "; ".join(run.unmet),
              " ".join(what for what in PANELS if run.name in fronts[what])] for run in runs]
     return heading, rows
 
@@ -143,18 +162,18 @@ def rows_of(runs: list[Run], reference: Run) -> tuple[list[str], list[list[Any]]
 def main(folder: Path, csv: Path, png: Path) -> None:
     runs = read_runs(folder, "whole")
     reference = reference_of(runs)
-    write_csv(csv, *rows_of(runs, reference))
+    floor = chance(folder, reference.step)
+    write_csv(csv, *rows_of(runs, reference, floor))
     figure, axes = plt.subplots(2, 2, figsize=(11, 8.6))
     figure.set_layout_engine("constrained", rect=(0, 0, 1, 0.94))
-    floor = chance(runs, reference)
     for panel, what, letter in zip(axes.flat, PANELS, "abc"):
-        draw(panel, runs, read_runs(folder, "preset"), reference, what, floor.get(what, 0.0))
+        draw(panel, runs, read_runs(folder, "preset"), reference, what, floor.of(what))
         panel.set_title(f"({letter}) {PANELS[what]}", loc="left", fontsize=10)
-        if what in floor:
-            panel.set_ylim(bottom=floor[what] / BELOW_CHANCE)
-            panel.axhspan(panel.get_ylim()[0], floor[what], color="#eeeeee", zorder=-1)
-            panel.text(0.99, floor[what] * 0.93, "chance", transform=panel.get_yaxis_transform(), ha="right", va="top",
-                       fontsize=8, color=GREY)
+        if floor.of(what):
+            panel.set_ylim(bottom=floor.of(what) / BELOW_CHANCE)
+            panel.axhspan(panel.get_ylim()[0], floor.of(what), color="#eeeeee", zorder=-1)
+            panel.text(0.99, floor.of(what) * 0.93, f"chance, {floor.starts} starts", transform=panel.get_yaxis_transform(),
+                       ha="right", va="top", fontsize=8, color=GREY)
     draw_failures(axes[1, 1], runs)
     legend(figure)
     save_figure(figure, png, DPI)
