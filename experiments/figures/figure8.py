@@ -53,7 +53,7 @@ def surfaces(s: claims.Sliding, out: Path) -> None:
         axes.tick_params(axis="z", pad=3)
         axes.set_title(f"about {NAMES[axis]}, dyn cm", fontsize=10, y=1.0)
 
-        flat = figure.add_axes([0.06 + 0.315 * column, 0.135, 0.255, 0.24])
+        flat = figure.add_axes([0.055 + 0.312 * column, 0.135, 0.255, 0.24])
         image = flat.pcolormesh(edges(joint.astype(float)), edges(s.time), force, cmap="RdBu_r", vmin=-scale,
                                 vmax=scale, rasterized=True)
         flat.plot(s.head_end / per_joint, s.time, color="black", lw=0.9, label="knot, head end")
@@ -63,12 +63,12 @@ def surfaces(s: claims.Sliding, out: Path) -> None:
         flat.tick_params(labelsize=7)
         if column == 0:
             flat.set_ylabel("time, s", fontsize=8)
-            figure.legend(loc="lower left", bbox_to_anchor=(0.055, 0.38), ncol=2, fontsize=7.5, frameon=False)
-    bar = figure.add_axes([0.955, 0.135, 0.010, 0.24])
+            figure.legend(loc="lower left", bbox_to_anchor=(0.05, 0.38), ncol=2, fontsize=7.5, frameon=False)
+    bar = figure.add_axes([0.945, 0.135, 0.010, 0.24])
     figure.colorbar(image, cax=bar, extend="both")
     bar.tick_params(labelsize=6.5, pad=1)
     bar.set_title("dyn cm", fontsize=7)
-    figure.text(0.06, 0.015, r"$f_\mathrm{thigmo}=C_\mathrm{thigmo}^\top\lambda_\mathrm{thigmo}/h$ on each hinge while "
+    figure.text(0.055, 0.015, r"$f_\mathrm{thigmo}=C_\mathrm{thigmo}^\top\lambda_\mathrm{thigmo}/h$ on each hinge while "
                 f"the knot slides: means over {1000 * s.interval:.0f} ms, from frame to frame of the log. The largest is "
                 f"{np.abs(s.force).max():.0f} dyn cm.\nColours saturate at the 99th percentile of the non-zero magnitudes, "
                 f"{scale:.0f} dyn cm.", fontsize=7.5)

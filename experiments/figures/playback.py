@@ -95,7 +95,9 @@ def draw_overlap(axes: Any, results: Results) -> None:
     for shift, (kind, (colour, label)) in zip((-0.18, 0.18), kinds.items()):
         sets = [results[f"/thigmotaxis_{i}s/{kind}"] for i in INTERVALS]
         axes.bar(x + shift, [np.nanmax(s) for s in sets], 0.34, color=colour, alpha=0.45, label=f"{label}, largest")
-        axes.bar(x + shift, [np.nanmedian(s) for s in sets], 0.34, color=colour, label="median")
+        middle = [np.nanmedian(s) for s in sets]
+        # A logarithmic axis has no 0.
+        axes.bar(x + shift, middle, 0.34, color=colour, label="median" if any(middle) else "median: 0")
     axes.set_yscale("log")
     axes.set_xticks(x, INTERVALS)
     axes.set_xlabel("time between restarts, s")

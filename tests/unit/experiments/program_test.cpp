@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "core/controller.hpp"
 #include "experiments/log_contents.hpp"
 #include "tests/support/foreign_qps.hpp"
 
@@ -252,6 +253,52 @@ TEST_F(ProgramTest, PlaybackRefusesALogWithoutASlide) {
   EXPECT_EQ(hagfish(brief + "--out a.log").code, 0);
   expect_refused("playback a.log --out p.h5", {"a.log", "does not slide"});
   expect_refused("playback none.log --out p.h5", {"none.log", "no such file"});
+}
+
+TEST_F(ProgramTest, PlaybackRefusesRestartsBetweenFrames) {
+  const Outcome run = hagfish(
+      "run table1 --preset quick --set time.step=0.01 --set time.frame_interval=0.03 --until slide "
+      "--quiet --out a.log");
+  ASSERT_EQ(run.code, 0) << run.output;
+  expect_refused("playback a.log --out p.h5", {"a.log", "0.04 s", "0.03 s", "time.frame_interval"});
+}
+
+TEST_F(ProgramTest, PlaybackRefusesALogWithoutMeans) {
+  const Outcome run = hagfish("run table1 --preset quick --until slide --quiet --out a.log");
+  ASSERT_EQ(run.code, 0) << run.output;
+  H5::H5File((folder / "a.log").string(), H5F_ACC_RDWR).unlink("/mean/forces/thigmotaxis");
+  expect_refused("playback a.log --out p.h5", {"a.log", "/mean/forces/thigmotaxis"});
+}
+
+/// Of a log whose means are all 0 but for one that ends where the slide begins, nothing drives the
+/// slide: not that mean, which is of the time before, and no single step's force.
+TEST_F(ProgramTest, PlaybackAppliesTheMeansBetweenFramesAlone) {
+  const Outcome run = hagfish(
+      "run table1 --preset quick --set controller.release_at=9 --until slide --quiet --out a.log");
+  ASSERT_EQ(run.code, 0) << run.output;
+  const auto paths = [this] {
+    const Outcome played = hagfish("playback a.log --out p.log");
+    EXPECT_EQ(played.code, 0) << played.output;
+    const hagfish::Hdf5Reader h5(folder / "p.log");
+    return std::pair(h5.doubles("/thigmotaxis_0.04s/drift"), h5.doubles("/none_0.04s/drift"));
+  };
+  const auto [driven, none] = paths();
+  ASSERT_GT(driven.size(), 10);
+  EXPECT_NE(driven, none);
+  hagfish::Hdf5Reader::Rows means;
+  {
+    const hagfish::LogContents log((folder / "a.log").string());
+    const auto begin = std::find(log.phase.begin(), log.phase.end(),
+                                 static_cast<std::int64_t>(hagfish::Phase::slide));
+    means.setZero(log.qdot.rows(), log.qdot.cols());
+    means.row(begin - log.phase.begin()).setConstant(1e3);
+  }
+  H5::H5File((folder / "a.log").string(), H5F_ACC_RDWR)
+      .openDataSet("/mean/forces/thigmotaxis")
+      .write(means.data(), H5::PredType::NATIVE_DOUBLE);
+  const auto [zeroed, control] = paths();
+  EXPECT_EQ(zeroed, control);
+  EXPECT_EQ(control, none);
 }
 
 TEST_F(ProgramTest, ListsTheScenes) {
