@@ -167,7 +167,8 @@ TEST(Guard, WatchesTheCapOfAnyNumberOfContacts) {
   CappedRow capped;
   const Contact& contact = capped.now.contact.contacts.at(0);
   capped.step.rows.clear();
-  append_thigmotaxis_rows(capped.model, std::vector(5, ThigmotaxisCommand{contact, {1, 1}}), 10, 1,
+  append_thigmotaxis_rows(capped.model, std::vector(5, ThigmotaxisCommand{contact, {1, 1}}),
+                          capped.scene.controller, capped.now.kin.centre_velocity, 1,
                           capped.step.rows);
   capped.step.lambda = Eigen::VectorXd::Zero(10);
   capped.step.lambda[9] = 10;
