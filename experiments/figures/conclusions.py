@@ -15,9 +15,8 @@ from integration import METHODS, MOTIONS, steps
 from needs import needs
 from study import FORCE_WINDOW, Run, path_error, read_run, read_runs, run_study
 from summary import table
-from whole_runs import chance, front_of, reference_of
+from whole_runs import CHANCE_STEPS, chance, front_of, reference_of
 
-CHANCE_STEPS = (0.0005, 0.002)  # s: the reference's and the default
 PRESETS = {"quick": "a look at a new script", "default": "work", "figure": "print"}
 
 

@@ -27,6 +27,7 @@ REFERENCE = "whole_100_0.0005_speculative_active-set"
 COLOURS = {25: "#999999", 35: "#ddcc77", 50: "#44aa99", 70: "#88ccee", 100: "#332288", 140: "#cc6677", 200: "#882255"}
 MARKERS = {"active-set": "o", "ipopt": "s"}
 LABELS_APART = 1.2  # ratio of times
+CHANCE_STEPS = (0.0005, 0.002)  # s, of the starts that differ by rounding: the reference's and the default
 BELOW_CHANCE = 3  # a panel ends at this part of chance
 
 
