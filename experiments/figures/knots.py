@@ -80,8 +80,9 @@ def force_figures(log: HagfishLog, means: Means) -> dict[str, float]:
     work, head_end = log["/diagnostics/work_thigmotaxis"], log["/knot/head_end"]
     largest = np.abs(means.force).max(axis=1)  # of any hinge
     return {"seconds": float(means.end.size * means.window), "travel": float(head_end[first] - head_end[last]),
-            "median": float(np.median(means.total)), "mean": float(means.total.mean()), "peak_multipliers": float(means.total.max()),
-            "peak": float(largest.max()), "peak99": float(np.percentile(largest, 99)), "median_hinge": float(np.median(largest)),
+            "median": float(np.median(means.total)), "mean": float(means.total.mean()),
+            "peak_multipliers": float(means.total.max()), "peak": float(largest.max()),
+            "peak99": float(np.percentile(largest, 99)), "median_hinge": float(np.median(largest)),
             "effort": effort_per_cm(log, means), "work": float(work[last] - work[first])}
 
 
@@ -156,8 +157,8 @@ def mirror_error(folder: Path, scene: str) -> float:
 def write_steps(folder: Path, scenes: dict[str, str], lines: list[str]) -> None:
     """The sliding force at every step tried, one run each."""
     head = "| h, ms | " + " | ".join(scenes) + " |"
-    lines += ["", f"Sum of the four λ/h by step, one run each: median of the {MEAN}s and, in brackets, mean over the slide, dyn.", "",
-              head, "|---" * (len(scenes) + 1) + "|"]
+    lines += ["", f"Sum of the four λ/h by step, one run each: median of the {MEAN}s and, in brackets, mean over the slide, dyn.",
+              "", head, "|---" * (len(scenes) + 1) + "|"]
     runs: dict[float, list[str]] = {}
     for scene in scenes.values():
         for name in (f"plain_{scene}", *(f"step_{scene}_{step}" for step in STEPS)):
@@ -171,8 +172,8 @@ def write_chance(folder: Path, scenes: dict[str, str], lines: list[str]) -> None
     """What chance and the step make of the sliding force."""
     chance = {k: [chance_figures(folder, scene, step) for step in CHANCE_STEPS] for k, scene in scenes.items()}
     starts = min(each["median"].size for found in chance.values() for each in found)
-    lines += ["", f"Starts that differ by rounding alone, {starts} at each step: mean ± standard deviation, and the change from one step "
-              "to the other ± its standard error.", "", "| | " + " | ".join(scenes) + " |", "|---" * (len(scenes) + 1) + "|"]
+    lines += ["", f"Starts that differ by rounding alone, {starts} at each step: mean ± standard deviation, and the change from "
+              "one step to the other ± its standard error.", "", "| | " + " | ".join(scenes) + " |", "|---" * (len(scenes) + 1) + "|"]
     for name, key in ((f"sum of the four λ/h: median of the {MEAN}s, dyn", "median"), ("mean over the slide, dyn", "mean"),
                       (f"largest {MEAN}, dyn", "peak_multipliers"), ("effort for each cm of slide, dyn s", "effort"),
                       ("slide, s", "seconds"), ("slide, cm", "travel")):
@@ -212,7 +213,8 @@ def write_page(folder: Path, logs: dict[str, HagfishLog], slides: dict[str, clai
                             (f"f_thigmo of a hinge: largest {MEAN}, dyn cm", "peak", ".0f"),
                             (f"of 99 % of the {MEAN}s, no hinge above", "peak99", ".0f"),
                             (f"largest hinge, median of the {MEAN}s", "median_hinge", ".0f"),
-                            ("effort, mean of \\|f_thigmo\\| along the body over time for each cm of slide, dyn s", "effort", ".0f"),
+                            ("effort, mean of \\|f_thigmo\\| along the body over time for each cm of slide, dyn s",
+                             "effort", ".0f"),
                             ("work, erg", "work", ".0f")):
         row(name, lambda k, key=key, form=form: format(figures[k][key], form))
     modes = {k: claims.smooth_in_space(slides[k])["axes"].values() for k in logs}
