@@ -2,6 +2,6 @@
 # of it left does not.
 elapsed() {
   echo
-  echo "$(basename "$0") took $((SECONDS / 60)) min $((SECONDS % 60)) s on $(nproc) cores"
+  echo "$(basename "$0") took $((SECONDS / 60)) min $((SECONDS % 60)) s on $(env -u OMP_NUM_THREADS nproc) cores"
 }
 trap elapsed EXIT

@@ -6,7 +6,7 @@ source "$root/experiments/elapsed.sh"
 mkdir -p "$out"
 out=$(cd "$out" && pwd)
 bash "$root/experiments/setup.sh" --target hagfish
-cores=$(nproc)
+cores=$(env -u OMP_NUM_THREADS nproc) # which it would take for their number
 # Serial BLAS, so that runs repeat to the last bit.
 export OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1
 export hagfish=$root/build/release/experiments/hagfish runs=$out/runs

@@ -33,7 +33,7 @@ def head_path(folder: Path, name: str) -> tuple[np.ndarray, np.ndarray]:
 def compare(axes: plt.Axes, sets: list[tuple[list[Slide], str]], what: str) -> None:
     for slides, marker in sets:
         for knot, colour in COLOURS.items():
-            own = [s for s in slides if s.knot == knot and np.isfinite(getattr(s, what))]
+            own = [s for s in slides if s.knot == knot and getattr(s, what) > 0]
             axes.plot([s.commanded for s in own], [getattr(s, what) for s in own], marker=marker[0], ls=marker[1:],
                       color=colour, lw=1, ms=5, mfc="none" if marker[0] == "s" else colour)
             lost = [s for s in own if s.failure]
@@ -64,7 +64,7 @@ def main(folder: Path, table: Path, out: Path, page: Path) -> None:
     middle.set_ylabel("measured speed of the knot's head end, cm/s")
     middle.set_title("(b) discs: free; squares: held; dashed: as commanded", loc="left", fontsize=9)
     compare(right, [(sets["held"], "s:"), (sets["free"], "o-")], "force")
-    right.set_ylabel(rf"sum of the four $\lambda/h$, median {MEAN}, dyn")
+    right.set_ylabel(r"sum of the four $\lambda/h$, dyn" + f"\n(median {MEAN})")
     right.set_title("(c) crossed: the knot was lost", loc="left", fontsize=10)
     save_figure(figure, out, DPI)
 

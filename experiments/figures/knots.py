@@ -45,9 +45,9 @@ def draw_pictures(logs: dict[str, HagfishLog], hagfish: Path, out: Path) -> None
         pictures[knot] = stages, take_pictures(log, hagfish, [s.frame for s in stages], choose_camera(log, stages))
     wide = max(p.right - p.left for _, row in pictures.values() for p in row) + 2 * GAP
     heights = {knot: max(p.top for p in row) - min(p.bottom for p in row) + 2 * GAP for knot, (_, row) in pictures.items()}
-    per_cm, text = WIDTH / (4 * wide), 0.32
-    tall = sum(heights.values()) * per_cm + text * len(pictures) + 0.25
-    figure, top = plt.figure(figsize=(WIDTH, tall)), tall - 0.25
+    per_cm, above, below = WIDTH / (4 * wide), 0.14, 0.32  # inches of text about a row
+    tall = sum(heights.values()) * per_cm + (above + below) * len(pictures) + 0.25
+    figure, top = plt.figure(figsize=(WIDTH, tall)), tall - 0.25 - above
     for knot, (stages, row) in pictures.items():
         height, low = heights[knot] * per_cm, min(p.bottom for p in row) - GAP
         for column, (stage, p) in enumerate(zip(stages, row)):
@@ -62,8 +62,8 @@ def draw_pictures(logs: dict[str, HagfishLog], hagfish: Path, out: Path) -> None
             axes.text(0.03, 0.0, f"$t$ = {log['/trajectory/time'][stage.frame]:.2f} s{spans}", fontsize=6.5, va="top",
                       transform=axes.transAxes)
             if column == 0:
-                axes.text(0.03, 0.97, knot_label(knot), fontsize=8.5, va="top", weight="bold", transform=axes.transAxes)
-        top -= height + text
+                axes.text(0.03, 1.0, knot_label(knot), fontsize=8.5, va="bottom", weight="bold", transform=axes.transAxes)
+        top -= height + above + below
     for column, stage in enumerate(next(iter(pictures.values()))[0]):
         figure.text(column / 4 + 0.01, 1 - 0.16 / tall, stage.title, fontsize=8.5, va="center")
     save_figure(figure, out, DPI)
@@ -80,8 +80,9 @@ def force_figures(log: HagfishLog, means: Means) -> dict[str, float]:
     work, head_end = log["/diagnostics/work_thigmotaxis"], log["/knot/head_end"]
     largest = np.abs(means.force).max(axis=1)  # of any hinge
     return {"seconds": float(means.end.size * means.window), "travel": float(head_end[first] - head_end[last]),
-            "median": float(np.median(means.total)), "mean": float(means.total.mean()), "peak_multipliers": float(means.total.max()),
-            "peak": float(largest.max()), "peak99": float(np.percentile(largest, 99)), "median_hinge": float(np.median(largest)),
+            "median": float(np.median(means.total)), "mean": float(means.total.mean()),
+            "peak_multipliers": float(means.total.max()), "peak": float(largest.max()),
+            "peak99": float(np.percentile(largest, 99)), "median_hinge": float(np.median(largest)),
             "effort": effort_per_cm(log, means), "work": float(work[last] - work[first])}
 
 
@@ -104,7 +105,7 @@ def draw_forces(logs: dict[str, HagfishLog], slides: dict[str, claims.Sliding], 
         # Two joints make one, as they bend and twist in turn.
         _, joint, _ = log.hinges()
         arc, size = log.joint_arc(), np.abs(means.force).mean(axis=0)
-        pairs = np.unique(joint // 2)
+        pairs = [each for each in np.unique(joint // 2) if np.unique(joint[joint // 2 == each]).size == 2]
         along.plot([arc[joint[joint // 2 == each]].mean() for each in pairs], [size[joint // 2 == each].sum() for each in pairs],
                    color=colour, lw=1.3)
         held = np.sum([np.linalg.svd(s.axis(axis)[1], compute_uv=False)[:30] ** 2 for axis in claims.KINDS], axis=0)
@@ -112,9 +113,8 @@ def draw_forces(logs: dict[str, HagfishLog], slides: dict[str, claims.Sliding], 
     over_time.set(xlabel="time since the slide began, s", ylabel=r"sum of the four $\lambda/h$, dyn", yscale="log")
     over_time.legend(fontsize=8, frameon=False)
     over_time.set_title(f"(a) thin: {MEAN}s; thick: running median of {SMOOTHED}", loc="left", fontsize=9)
-    along.set(xlabel="joint, cm from the head", ylabel="$|f_{thigmo}|$ of three axes, mean over the slide, dyn cm", yscale="log",
-              ylim=(1, 1e4))
-    along.set_title("(b) where along the body", loc="left", fontsize=9)
+    along.set(xlabel="joint, cm from the head", ylabel="$|f_{thigmo}|$, mean over the slide, dyn cm", yscale="log", ylim=(10, 1e4))
+    along.set_title("(b) where along the body, three axes added", loc="left", fontsize=9)
     modes.set(xlabel="SVD modes of each axis kept", ylabel="energy left out, %", yscale="log", ylim=(0.1, 100), xlim=(0.5, 12.5))
     modes.axhline(5, color="#777777", lw=0.8, ls="--", zorder=0)
     modes.set_title(f"(c) how many modes hold the {MEAN}s", loc="left", fontsize=9)
@@ -154,12 +154,26 @@ def mirror_error(folder: Path, scene: str) -> float:
     return float(np.abs(plain[:frames] * [1.0, -1.0, 1.0] - image[:frames]).max())
 
 
+def write_steps(folder: Path, scenes: dict[str, str], lines: list[str]) -> None:
+    """The sliding force at every step tried, one run each."""
+    head = "| h, ms | " + " | ".join(scenes) + " |"
+    lines += ["", f"Sum of the four λ/h by step, one run each: median of the {MEAN}s and, in brackets, mean over the slide, dyn.",
+              "", head, "|---" * (len(scenes) + 1) + "|"]
+    runs: dict[float, list[str]] = {}
+    for scene in scenes.values():
+        for name in (f"plain_{scene}", *(f"step_{scene}_{step}" for step in STEPS)):
+            log = HagfishLog(folder / f"{name}.h5")
+            found = force_figures(log, read_means(log))
+            runs.setdefault(log.scene()["time"]["step"], []).append(f"{found['median']:.0f} ({found['mean']:.0f})")
+    lines += [f"| {1000 * step:g} | " + " | ".join(cells) + " |" for step, cells in sorted(runs.items())]
+
+
 def write_chance(folder: Path, scenes: dict[str, str], lines: list[str]) -> None:
     """What chance and the step make of the sliding force."""
     chance = {k: [chance_figures(folder, scene, step) for step in CHANCE_STEPS] for k, scene in scenes.items()}
     starts = min(each["median"].size for found in chance.values() for each in found)
-    lines += ["", f"Starts that differ by rounding alone, {starts} at each step; mean ± standard deviation among them. The change "
-              "has its standard error.", "", "| | " + " | ".join(scenes) + " |", "|---" * (len(scenes) + 1) + "|"]
+    lines += ["", f"Starts that differ by rounding alone, {starts} at each step: mean ± standard deviation, and the change from "
+              "one step to the other ± its standard error.", "", "| | " + " | ".join(scenes) + " |", "|---" * (len(scenes) + 1) + "|"]
     for name, key in ((f"sum of the four λ/h: median of the {MEAN}s, dyn", "median"), ("mean over the slide, dyn", "mean"),
                       (f"largest {MEAN}, dyn", "peak_multipliers"), ("effort for each cm of slide, dyn s", "effort"),
                       ("slide, s", "seconds"), ("slide, cm", "travel")):
@@ -199,12 +213,14 @@ def write_page(folder: Path, logs: dict[str, HagfishLog], slides: dict[str, clai
                             (f"f_thigmo of a hinge: largest {MEAN}, dyn cm", "peak", ".0f"),
                             (f"of 99 % of the {MEAN}s, no hinge above", "peak99", ".0f"),
                             (f"largest hinge, median of the {MEAN}s", "median_hinge", ".0f"),
-                            ("effort, mean of \\|f_thigmo\\| along the body over time for each cm of slide, dyn s", "effort", ".0f"),
+                            ("effort, mean of \\|f_thigmo\\| along the body over time for each cm of slide, dyn s",
+                             "effort", ".0f"),
                             ("work, erg", "work", ".0f")):
         row(name, lambda k, key=key, form=form: format(figures[k][key], form))
     modes = {k: claims.smooth_in_space(slides[k])["axes"].values() for k in logs}
     for name, key in (("Fourier modes for 95 % of the energy, of 50", "dct_modes_95"), ("SVD modes", "svd_modes_95")):
         row(name, lambda k, key=key: str(max(axis[key] for axis in modes[k])))
+    write_steps(folder, scenes, lines)
     write_chance(folder, scenes, lines)
     page.write_text("\n".join([*lines, ""]), encoding="utf-8")
 

@@ -16,7 +16,7 @@ import numpy as np
 
 from hagfish_log import LogError, Results, save_figure
 from study import GREY, INK, Run, read_runs, run_study, write_csv
-from whole_runs import chance
+from whole_runs import CHANCE_STEPS, chance
 
 DPI = 200
 AS_IS = "as_is"
@@ -37,6 +37,7 @@ CHOICES = {
 }
 LEAST_SAVING = 0.1  # of CPU time, to change what works
 LEAST_FACTOR = 2  # of penetration, to count as deeper
+LEAST_FORCE = 2  # times what chance makes of the sliding force, to count as another
 
 
 @dataclass
@@ -76,13 +77,13 @@ def verdict_of(run: Run, as_is: Run, least_force: float) -> str:
 
 
 def needs(folder: Path) -> tuple[Run, list[Need]]:
-    """The scene as it is, and what each change makes of it; a force that differs by no more than chance is the same."""
+    """The scene as it is, and what each change makes of it; forces are compared with what chance makes of them."""
     runs = {run.name.removeprefix("need_"): run for run in read_runs(folder, "need")}
     missing = {AS_IS, *CHOICES} - set(runs)
     if missing:
         raise LogError(f"{folder}: without run need_{sorted(missing)[0]}")
     as_is = runs[AS_IS]
-    least_force = chance(folder, as_is.step).force
+    least_force = LEAST_FORCE * max(chance(folder, step).force for step in CHANCE_STEPS)
     return as_is, [Need(choice, instead, run, run.cpu / as_is.cpu, run.slide - as_is.slide,
                         100 * (run.force / as_is.force - 1), verdict_of(run, as_is, least_force))
                    for (choice, instead), run in ((texts, runs[name]) for name, texts in CHOICES.items())]

@@ -62,7 +62,7 @@ def main(folder: Path, table: Path, out: Path, page: Path) -> None:
     middle.set_ylabel("measured speed of the tail end, cm/s")
     middle.set_title("(b) dashed: as commanded; open: knot lost early", loc="left", fontsize=10)
     against_speed(right, back, there, "force")
-    right.set_ylabel(rf"sum of the four $\lambda/h$, median {MEAN}, dyn")
+    right.set_ylabel(r"sum of the four $\lambda/h$, dyn" + f"\n(median {MEAN})")
     right.set_title("(c) squares: the way to the head", loc="left", fontsize=10)
     save_figure(figure, out, DPI)
 

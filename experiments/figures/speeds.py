@@ -41,14 +41,14 @@ def draw(slides: list[Slide], out: Path) -> None:
     line = np.array([min(s.commanded for s in slides), max(s.commanded for s in slides)])
     speed.plot(line, line, color=GREY, lw=0.8, ls="--", zorder=0)
     speed.text(2 * line[0], 1.3 * line[0], "as commanded", color=GREY, fontsize=8)
-    panel(force, slides, [s.force for s in slides], rf"sum of the four $\lambda/h$, median {MEAN}, dyn")
+    panel(force, slides, [s.force for s in slides], r"sum of the four $\lambda/h$, dyn" + f"\n(median {MEAN})")
     panel(slack, slides, [max(1 - s.met, 1e-4) if np.isfinite(s.met) else np.nan for s in slides],
           "share of steps that fall short of Eq. 6\n(drawn at $10^{-4}$ where none does)")
     panel(deep, slides, [s.penetration for s in slides], "deepest penetration, cm")
     allowed = min(s.allowed for s in slides)
     deep.axhline(allowed, color=GREY, lw=0.8, ls="--", zorder=0)
-    deep.text(line[0], allowed * 0.9, "bound of the scenes", color=GREY, fontsize=8, va="top")
-    speed.legend(fontsize=8, frameon=False, title="open: the knot was lost, or the run failed", title_fontsize=7)
+    deep.text(line[0], allowed * 0.9, "strictest bound of the scenes", color=GREY, fontsize=8, va="top")
+    speed.legend(fontsize=8, frameon=False, title="open: knot lost, or run failed", title_fontsize=7)
     for axes, letter in zip(grid.flat, "abcd"):
         axes.set_title(f"({letter})", loc="left", fontsize=10)
     save_figure(figure, out, DPI)
@@ -82,7 +82,7 @@ def main(folder: Path, table: Path, out: Path, page: Path) -> None:
                                 s.penetration, int(s.held), s.failure] for s in slides])
     draw(slides, out)
     rows = [f"| {s.knot} | {s.commanded:g} | {s.speed:.3g} | {s.force:.0f} | {s.peak:.0f} | {100 * s.met:.1f} | "
-            f"{s.slack:.2g} | {100 * s.capped:.0f} | {s.penetration:.2g} | {s.failure or 'complete'} |" for s in slides]
+            f"{round(s.slack, 9):.2g} | {100 * s.capped:.0f} | {s.penetration:.2g} | {s.failure or 'complete'} |" for s in slides]
     page.write_text("\n".join(["# How fast a knot slides", "", *limits(slides), "",
                                "| knot | commanded, cm/s | measured, cm/s | force, median "
                                f"{MEAN}, dyn | largest {MEAN}, dyn | steps that meet Eq. 6, % | slack, median {MEAN}, "

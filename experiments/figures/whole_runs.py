@@ -27,7 +27,9 @@ REFERENCE = "whole_100_0.0005_speculative_active-set"
 COLOURS = {25: "#999999", 35: "#ddcc77", 50: "#44aa99", 70: "#88ccee", 100: "#332288", 140: "#cc6677", 200: "#882255"}
 MARKERS = {"active-set": "o", "ipopt": "s"}
 LABELS_APART = 1.2  # ratio of times
-BELOW_CHANCE = 3  # a panel ends at this part of chance
+CHANCE_STEPS = (0.0005, 0.002)  # s, of the starts that differ by rounding: the reference's and the default
+BELOW_CHANCE = 5  # a panel ends at this part of chance
+AT_EDGE = 1.2  # times the end of a panel, where a preset is drawn that is below
 
 
 def errors(run: Run, reference: Run) -> dict[str, float]:
@@ -109,7 +111,7 @@ def draw(axes: Any, runs: list[Run], presets: list[Run], reference: Run, what: s
                           va="top", color=COLOURS[run.bodies], fontweight="bold")
             labelled = point[0]
     for run in presets:
-        point = (run.cpu, max(errors(run, reference)[what], 1.5 * floor / BELOW_CHANCE))
+        point = (run.cpu, max(errors(run, reference)[what], AT_EDGE * floor / BELOW_CHANCE))
         axes.plot(*point, "*", ms=13, mfc="#ddaa33", mec=INK, zorder=5)
         axes.annotate(run.name.removeprefix("preset_"), point, (5, 8), textcoords="offset points", fontsize=8.5,
                       fontweight="bold", bbox={"fc": "white", "ec": "none", "pad": 0.5, "alpha": 0.8}, zorder=6)
@@ -142,8 +144,8 @@ def legend(figure: Any) -> None:
     lines += [Line2D([], [], color=GREY, marker=marker, lw=0.9, ms=5, label=qp) for qp, marker in MARKERS.items()]
     lines += [Line2D([], [], color=GREY, marker="o", ls=":", mfc="white", lw=0.9, ms=5, label="violated rows only"),
               Line2D([], [], color=INK, lw=2.2, alpha=0.35, label="Pareto front, h in ms"),
-              Line2D([], [], color=INK, marker="*", ls="", mfc="#ddaa33", ms=11, label="preset, timed alone")]
-    figure.legend(handles=lines, loc="upper center", ncols=7, fontsize=8, frameon=False)
+              Line2D([], [], color=INK, marker="*", ls="", mfc="#ddaa33", ms=11, label="preset, timed alone (lower edge: less)")]
+    figure.legend(handles=lines, loc="upper center", ncols=6, fontsize=8, frameon=False)
 
 
 def rows_of(runs: list[Run], reference: Run, floor: Chance) -> tuple[list[str], list[list[Any]]]:
