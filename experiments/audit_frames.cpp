@@ -153,8 +153,9 @@ std::vector<Finding> FrameAudit::findings() const {
       from_q_.finding("figures of q", "q and q̇ at every frame"),
       {"contacts", contacts_off_by_ <= most_contacts_off && share <= largest_share_off,
        fmt::format("/diagnostics/contacts is not what a search from nothing finds at {} of {} "
-                   "frames (at most 10 %), by {} at most (2)",
-                   contacts_off_, frames_, contacts_off_by_)}};
+                   "frames (at most {:g} %), by {} at most ({})",
+                   contacts_off_, frames_, 100 * largest_share_off, contacts_off_by_,
+                   most_contacts_off)}};
 }
 
 }  // namespace hagfish

@@ -81,7 +81,8 @@ void LogContents::check_model() const {
     for (std::size_t i = 0; i < count; ++i) {
       // Another machine's compiler may round otherwise.
       const bool same = found[first + i] == wanted(i) ||
-                        std::abs(found[first + i] - wanted(i)) <= 1e-12 * std::abs(wanted(i));
+                        (std::isfinite(wanted(i)) &&
+                         std::abs(found[first + i] - wanted(i)) <= 1e-12 * std::abs(wanted(i)));
       if (!same) {
         throw FileError(fmt::format("{}: /model/{} of {} {} is {:.17g}, its scene makes {:.17g}",
                                     h5.file(), name, of, i, found[first + i], wanted(i)));

@@ -80,7 +80,8 @@ no_drag drag.normal=0 drag.tangential=0
 push_out_0.2 constraints.push_out=0.2
 push_out_1 constraints.push_out=1
 no_corrections constraints.corrections=0
-cap_1000 controller.cap=1000
+cap_5000 controller.cap=5000
+at_once controller.acceleration=1e9
 no_cap controller.cap=1e9
 no_hysteresis controller.hysteresis=0
 votes_5 knot.votes=5

@@ -27,7 +27,8 @@ DPI = 200
 GROWTH = claims.NAMES[1]
 # Paul Tol's bright colours.
 VERDICTS = {"agrees": "#228833", "undecided": "#ccbb44", "disagrees": "#aa3377"}
-CHANGES = {"as_it_is": "as it is", "scale": "limits ×", "release": "let go at, cm", "stiffness": "stiffness ×", "drag": "drag ×"}
+CHANGES = {"as-it-is": "Table 1", "scale": "limits ×", "release": "let go at, cm:", "waypoints": "waypoints", "stiffness": "same, stiffness ×",
+           "drag": "same, drag ×"}
 READINGS = {"box": "limit on each axis (box)", "cone": "limit on the total angle (cone)"}
 
 
@@ -47,11 +48,11 @@ class Claim:
 def read_claims(folder: Path) -> list[Claim]:
     runs = []
     for path in sorted(folder.glob("*_*_*.csv")):
-        reading, *change, step, seed = path.stem.split("_")
+        reading, change, step, seed = path.stem.split("_")
         with path.open(newline="", encoding="utf-8") as file:
             row = next(csv.DictReader(file))
-        kind = "_".join(change) if "_".join(change) in CHANGES else change[0]
-        label = CHANGES[kind] + ("" if kind == "as_it_is" else f" {change[-1]}")
+        kind, _, value = (change, "", "") if change in CHANGES else change.partition("-")
+        label = f"{CHANGES[kind]} {value}".strip()
         runs.append(Claim(reading, label, float(step), int(seed), row["outcome"],
                           {name: row[name] for name in claims.NAMES}, {name: float(row[name]) for name in MEASURES}))
     if not runs:
@@ -97,17 +98,21 @@ def draw(runs: list[Claim], out: Path) -> None:
     growth.set(xscale="log", xlabel="effort in the third nearest the head\nover that in the furthest third")
     growth.set_yticks(list(height.values()), [key[1] for key in keys], fontsize=8)
     ticks = [0.5, 1, 2, 5, 10]
+    growth.set_ylim(min(height.values()) - 0.7, 1.3)
     growth.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
     growth.minorticks_off()
     growth.set_title("(b) larger near the head?", loc="left", fontsize=9.5)
     growth.set_title("slid", loc="right", fontsize=7, color=GREY, x=1.08)
     growth.legend([Line2D([], [], marker="o", ls="", ms=4, color=colour) for colour in VERDICTS.values()], VERDICTS,
-                  fontsize=7.5, loc="upper center", bbox_to_anchor=(0.5, -0.075), ncol=3, frameon=False)
+                  fontsize=7.5, loc="upper center", bbox_to_anchor=(0.5, -0.1), ncol=3, frameon=False)
+    tenths = [0.02, 0.05, 0.1, 0.2]
     rough.set(xscale="log", xlabel="roughness of 20 ms means\n(0 smooth, 1 white noise; worst axis)")
+    rough.set_xticks(tenths, [f"{tick:g}" for tick in tenths])
+    rough.minorticks_off()
     rough.set_title("(c) smooth along the body, noisy in time?", loc="left", fontsize=9.5)
     rough.legend([Line2D([], [], marker="o", ls="", ms=4, color="#4477aa"),
                   Line2D([], [], marker="D", ls="", ms=4, color="#ee6677")], ["along the body", "in time"], fontsize=7.5,
-                 loc="upper center", bbox_to_anchor=(0.5, -0.075), ncol=2, frameon=False)
+                 loc="upper center", bbox_to_anchor=(0.5, -0.1), ncol=2, frameon=False)
     for axes in (growth, rough):
         axes.grid(alpha=0.25, axis="both")
         axes.set_axisbelow(True)
@@ -123,7 +128,7 @@ def spread(values: list[float]) -> str:
 
 def page(runs: list[Claim]) -> str:
     lines = ["# Where the paper's claims about the sliding force hold", "",
-             "Table 1 run; each row is " f"{len({run.seed for run in runs})} starts with 0.1 degrees of noise on every hinge at "
+             "Overhand knots; each row is " f"{len({run.seed for run in runs})} starts with 0.1 degrees of noise on every hinge at "
              + " and ".join(f"{1000 * step:g}" for step in sorted({run.step for run in runs})) + " ms. Forces are means over "
              "20 ms. Verdicts are counts of agrees / undecided / disagrees among the runs that slid.", "",
              "| bending limit | change | slid | (a) zero behind | (b) larger near the head | near over far | (c) smooth, noisy "

@@ -38,8 +38,9 @@ class Sliding:
     arc: np.ndarray  # arc length of each hinge, cm
     spacing: float  # length of a body, cm
     head_end: np.ndarray  # F, the knot's at the end of the interval, cm
-    tail_end: np.ndarray  # F, the more tailward of the two ends of the interval, cm
-    last_body: np.ndarray  # F, the most tailward body of any thigmotaxis row at either end of it, -1 where none
+    tail_end: np.ndarray  # F, the knot's at the end of the interval, cm
+    last_body: np.ndarray  # F, the most tailward body of any thigmotaxis row there, -1 where none
+    step_force: np.ndarray  # F x hinges, of the single step that begins there, dyn cm
     lambdas: np.ndarray  # F x 4, multipliers / h, mean over the interval, dyn
     step_lambdas: np.ndarray  # steps x 4, of every single step in the intervals, dyn
 
@@ -61,27 +62,28 @@ def read_sliding(log: HagfishLog) -> Sliding:
     if ruled < LEAST_FRAMES:
         raise LogError(f"{log.path}: {ruled} sliding frames with thigmotaxis rows; Figure 8 needs {LEAST_FRAMES}")
     dof, joint, kind = log.hinges()
-    time, last_body = log["/trajectory/time"], log["/thigmotaxis/body_b"].max(axis=1)
+    time = log["/trajectory/time"]
     step = log["/trajectory/step"] - log["/trajectory/step"][0]
-    either = lambda values: np.fmax(values[frames], values[frames - 1])
     return Sliding(time[frames], float(np.median(time[frames] - time[frames - 1])),
                    log["/mean/forces/thigmotaxis"][frames][:, dof], joint, kind, log.joint_arc()[joint],
                    float(np.median(log["/model/length"])), log["/knot/head_end"][frames],
-                   either(log["/knot/tail_end"]), either(last_body), log["/mean/thigmotaxis/lambda"][frames],
+                   log["/knot/tail_end"][frames], log["/thigmotaxis/body_b"][frames].max(axis=1),
+                   log["/forces/thigmotaxis"][frames][:, dof], log["/mean/thigmotaxis/lambda"][frames],
                    log["/steps/thigmotaxis_lambda"][step[frames[0] - 1]:step[frames[-1]]])
 
 
 def zero_behind(s: Sliding) -> dict[str, Any]:
-    """Claim (a): forces at hinges tailward of the last contact, and of the last row's own reach."""
+    """Claim (a): forces at hinges tailward of the last contact, and of the last row's own reach. Of single steps, at
+    which it is known where that contact is: within an interval it may hop to the tail and back."""
     ruled = (s.last_body >= 0) & np.isfinite(s.tail_end)
-    force, tail_end = np.abs(s.force[ruled]), s.tail_end[ruled]
+    force, tail_end = np.abs(s.step_force[ruled]), s.tail_end[ruled]
     behind_knot = s.arc[None, :] > tail_end[:, None]
     beyond_row = s.joint[None, :] > s.last_body[ruled][:, None] + SPLINE_REACH
     furthest = np.where(force > 0, s.arc[None, :], -np.inf).max(axis=1)
     past = (furthest - tail_end)[np.isfinite(furthest)]
     largest = lambda mask: float(force[mask].max()) if mask.any() else 0.0
-    unruled = s.force[np.all(s.lambdas == 0, axis=1)]
-    return {"mean_over_s": s.interval, "intervals": int(ruled.sum()), "largest_force_dyn_cm": float(force.max(initial=0.0)),
+    unruled = s.step_force[s.last_body < 0]
+    return {"steps": int(ruled.sum()), "largest_force_dyn_cm": float(np.abs(s.force).max(initial=0.0)),
             "largest_behind_tail_end_dyn_cm": largest(behind_knot),
             "nonzero_behind_tail_end": int((force[behind_knot] > 0).sum()),
             "values_behind_tail_end": int(behind_knot.sum()),
@@ -89,8 +91,8 @@ def zero_behind(s: Sliding) -> dict[str, Any]:
             "nonzero_beyond_reach_of_rows": int((force[beyond_row] > 0).sum()),
             "values_beyond_reach_of_rows": int(beyond_row.sum()),
             "furthest_nonzero_past_tail_end_cm": float(past.max()) if past.size else 0.0,
-            "share_of_plane_zero": float((s.force == 0).mean()),
-            "largest_in_intervals_without_multipliers_dyn_cm": float(np.abs(unruled).max()) if unruled.size else 0.0}
+            "share_of_plane_zero": float((s.step_force == 0).mean()),
+            "largest_in_steps_without_rows_dyn_cm": float(np.abs(unruled).max()) if unruled.size else 0.0}
 
 
 def ranks(values: np.ndarray) -> np.ndarray:
@@ -181,7 +183,7 @@ def smooth_in_space(s: Sliding) -> dict[str, Any]:
 
 def verdicts(a: dict[str, Any], b: dict[str, Any], c: dict[str, Any]) -> dict[str, str]:
     """'agrees', 'disagrees' or 'undecided' for each claim; the rules are printed with them."""
-    exact = a["nonzero_beyond_reach_of_rows"] == 0 and a["largest_in_intervals_without_multipliers_dyn_cm"] == 0
+    exact = a["nonzero_beyond_reach_of_rows"] == 0 and a["largest_in_steps_without_rows_dyn_cm"] == 0
     intervals = [b["measures"][name] for name in list(b["measures"])[:2]]
     grows = ("agrees" if all(m["spearman_95_high"] < 0 for m in intervals) else
              "disagrees" if all(m["spearman_95_low"] > 0 for m in intervals) else "undecided")

@@ -146,9 +146,9 @@ def plain_words(a: dict[str, Any], b: dict[str, Any], c: dict[str, Any]) -> list
                   f"{a['furthest_nonzero_past_tail_end_cm']:.2f} cm past it)")
     else:
         behind = f"all {a['values_behind_tail_end']} values tailward of the last contact are exactly 0"
-    zero = (f"{behind}. Beyond the {claims.SPLINE_REACH} bodies that the spline adds to a row: "
+    zero = (f"of {a['steps']} single steps at frames, {behind}. Beyond the {claims.SPLINE_REACH} bodies that the spline adds to a row: "
             f"{a['nonzero_beyond_reach_of_rows']} of {a['values_beyond_reach_of_rows']} not 0. Largest force, a mean over "
-            f"{1000 * a['mean_over_s']:.0f} ms: {a['largest_force_dyn_cm']:.4g} dyn cm; {100 * a['share_of_plane_zero']:.0f} % "
+            f"{1000 * c['mean_over_s']:.0f} ms: {a['largest_force_dyn_cm']:.4g} dyn cm; {100 * a['share_of_plane_zero']:.0f} % "
             "of all values are 0. Rule: exactly 0 beyond the rows' reach.")
     rows = [f"{name.split(',')[0]} ×{m['median_near_third'] / max(m['median_far_third'], 1e-300):.2f} "
             f"(Spearman {m['spearman_with_head_end']:+.2f})" for name, m in b["measures"].items()]

@@ -351,7 +351,7 @@ TEST_F(AuditCorruption, SeesBlocksOfMeansExchanged) {
 }
 
 TEST_F(AuditCorruption, NamesThatAreNotTheModels) {
-  for (const char* path : {"/model/joint_name", "/model/dof_name"}) {
+  const auto exchange_names = [](const char* path) {
     const H5::StrType text(H5::PredType::C_S1, H5T_VARIABLE);
     const H5::H5File h5(file.string(), H5F_ACC_RDWR);
     const H5::DataSet set = h5.openDataSet(path);
@@ -359,9 +359,12 @@ TEST_F(AuditCorruption, NamesThatAreNotTheModels) {
     set.read(names.data(), text);
     std::swap(names[1], names[2]);
     set.write(names.data(), text);
-    EXPECT_NE(objections().find(path), std::string::npos);
-    std::swap(names[1], names[2]);
-    set.write(names.data(), text);
+    H5::DataSet::vlenReclaim(names.data(), text, set.getSpace());
+  };
+  for (const char* path : {"/model/joint_name", "/model/dof_name"}) {
+    exchange_names(path);
+    EXPECT_NE(objections().find(path), std::string::npos) << objections();
+    exchange_names(path);
   }
 }
 
