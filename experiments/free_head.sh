@@ -13,6 +13,7 @@ runs_of_all() {
   for scene in overhand_waypoints figure_eight double_overhand three_twist; do
     for v in 0.5 1 2 5 10; do
       sets="--set time.duration=60 --set expect.types=[]"
+      sets+=" --set controller.acceleration=$(awk "BEGIN { print 200 * $v }")"  # the speed within 5 ms
       for row in head.a head.b tail.a tail.b; do sets+=" --set controller.slide_$row=$v"; done
       printf 'timed_run\t%s\t1\t%s\n' "held_${scene}_$v" "$scene --qp active-set $sets"
       printf 'timed_run\t%s\t1\t%s\n' "free_${scene}_$v" "$scene --qp active-set $free $sets"

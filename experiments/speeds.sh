@@ -15,7 +15,7 @@ runs_of_all() {
       # A fast slide is over in a few frames of the usual kind.
       frames=$([[ ${v%.*} -gt 5 ]] && echo 0.002 || echo 0.02)
       sets="--set time.duration=130 --set time.frame_interval=$frames --set expect.types=[] --set guard.penetration=2"
-      sets+=" --set controller.acceleration=$(awk "BEGIN { print 50 * $v }")"  # the speed within 20 ms
+      sets+=" --set controller.acceleration=$(awk "BEGIN { print 200 * $v }")"  # the speed within 5 ms
       for row in head.a head.b tail.a tail.b; do sets+=" --set controller.slide_$row=$v"; done
       printf 'timed_run\t%s\t1\t%s\n' "speed_${scene}_$v" "$scene --qp active-set $sets"
     done
