@@ -1,9 +1,8 @@
 // The energy ledger: where every erg comes from and goes to, so that no damping hides.
 //
 // Forces work over the displacement that the step makes: h q̇ (Eq. 2), or t q̇ of a step that ends
-// early (simulation.hpp). What the semi-implicit rule
-// then gains or loses by itself is written down apart, from its own formulas and not as the
-// remainder, so that
+// early (simulation.hpp). What the semi-implicit rule then gains or loses by itself is written down
+// apart, from its own formulas and not as the remainder, so that
 //   kinetic + elastic + gravity - initial = works - dissipated + integrator error
 // is a check: it closes to rounding, or the step is not what it claims.
 #pragma once

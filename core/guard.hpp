@@ -35,8 +35,8 @@ void guard_state(const Model& model, const State& state, const Situation& situat
 
 /// Energy that the integrator has made since the sum of its own terms was lowest (impacts lower
 /// it), against what passed before this step: the largest kinetic and elastic energy, and what drag
-/// and damping took. Where the scene says hold,
-/// what is too much is taken back: `state` and `kin` slow down by one factor, the ledger books it.
+/// and damping took. Where the scene says hold, what is too much is taken back: `state` and `kin`
+/// slow down by one factor, the ledger books it.
 void guard_energy(const Model& model, const Scene& scene, State& state, Kinematics& kin,
                   EnergyLedger& ledger, Watch& watch, std::vector<std::string>& warnings);
 

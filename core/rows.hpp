@@ -29,8 +29,7 @@ struct Row {
   double sign = 1;    ///< of a unit row +1 or -1
   double beside = 0;  ///< of a unit row 0
   /// Same from step to step for the same physical constraint: limits by dof and side, cones by dof
-  /// and which of their rows in the step, contacts by
-  /// segments, thigmotaxis by place and tangent.
+  /// and which of their rows in the step, contacts by segments, thigmotaxis by place and tangent.
   std::int64_t id = 0;
   /// C q̇ = direction . (ẋ_a - ẋ_b), each point a mix of body centres; `b` may have none.
   Eigen::Vector3d direction;  ///< unit, world

@@ -43,7 +43,7 @@ ThigmotaxisRows thigmotaxis_rows_of(const Control& control, const StepSolution& 
     const ThigmotaxisSpeeds& speed = control.thigmotaxis[place / 2].speed;
     rows.command[place] = place % 2 == 0 ? speed.a : speed.b;
     rows.speed[place] = solution.excess[index] + row.rhs;
-    rows.slack[place] = std::max(0.0, rows.command[place] - rows.speed[place]);
+    rows.slack[place] = std::max(rows.command[place] - rows.speed[place], 0.0);
     rows.met = rows.met && meets_command(rows.slack[place], rows.command[place]);
     rows.any = true;
   }

@@ -5,8 +5,9 @@
 
 namespace hagfish {
 
-/// Throws FileError naming the first dataset that is missing or does not have the shape that its
-/// model, frames, steps and contacts give it, or an attribute `unit` or `description`.
+/// Logs made before a dataset was added can be read, but not audited: what is not there cannot be
+/// checked. Throws FileError naming the first dataset that is missing or does not have the shape
+/// that its model, frames, steps and contacts give it, or an attribute `unit` or `description`.
 void check_datasets(const LogContents& log);
 
 }  // namespace hagfish

@@ -23,7 +23,9 @@ constexpr double cap_tolerance = 1e-6;
 /// Mean f_thigmo is not C' of the mean multipliers exactly, as the knot moves between two frames:
 /// the median, which grows with the time between them, tells a wrong column, sign or window.
 constexpr double mean_tolerance = 0.05;
-constexpr double mean_tolerance_growth = 1;  // 1/s
+constexpr double mean_tolerance_growth = 1;     // 1/s
+constexpr double largest_mean_tolerance = 0.3;  // beyond it the finding would say nothing
+constexpr std::size_t least_means = 5;          // for a median
 
 /// The knot goes to the tail in this phase: both tangents turn.
 bool towards_tail(const Scene& scene, Phase phase) {
@@ -75,10 +77,12 @@ Eigen::VectorXd force_of(const Model& model, const Kinematics& kin, const Row& r
   return generalised_force(model, kin, wrench);
 }
 
-/// |a - b| over the largest of both, in infinity norms; infinite where one is no number.
-double mismatch(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+/// |a - b| over the largest of both and of `least_scale`, in infinity norms; infinite where one is
+/// no number.
+double mismatch(const Eigen::VectorXd& a, const Eigen::VectorXd& b, double least_scale = 0) {
   const double off = (a - b).lpNorm<Eigen::Infinity>();
-  const double scale = std::max(a.lpNorm<Eigen::Infinity>(), b.lpNorm<Eigen::Infinity>());
+  const double scale =
+      std::max({a.lpNorm<Eigen::Infinity>(), b.lpNorm<Eigen::Infinity>(), least_scale});
   return !(a - b).allFinite() ? INFINITY : (off > 0 ? off / scale : 0);
 }
 
@@ -128,10 +132,11 @@ void ForceAudit::see(const AuditedFrame& frame) {
   };
   const std::int64_t bearing = count(lambda_) + bearing_limits(frame) + count(head_) +
                                static_cast<std::int64_t>(next_contact_ - first_contact);
-  // A cone is followed by as many tangents as it takes.
-  const std::int64_t more = log_.model.cones.empty() ? 0 : active_[f] - bearing;
+  // A cone that bears may be followed by one more tangent a correction.
+  const std::int64_t most =
+      bearing + bearing_cones(frame) * log_.resolved.scene.constraints.corrections;
   from_rows_.compare_exactly("/diagnostics/active", active_[f],
-                             bearing + std::max<std::int64_t>(0, more));
+                             std::clamp(active_[f], bearing, most));
 }
 
 std::int64_t ForceAudit::bearing_limits(const AuditedFrame& frame) const {
@@ -141,6 +146,13 @@ std::int64_t ForceAudit::bearing_limits(const AuditedFrame& frame) const {
     count -= force[cone.dof] != 0 && force[cone.dof + 1] != 0 ? 1 : 0;
   }
   return count;
+}
+
+std::int64_t ForceAudit::bearing_cones(const AuditedFrame& frame) const {
+  const Eigen::VectorXd force = limit_.row(frame.index);
+  return std::ranges::count_if(log_.model.cones, [&force](const BendingCone& cone) {
+    return !force.segment<2>(cone.dof).isZero(0);
+  });
 }
 
 Eigen::MatrixXd ForceAudit::see_thigmotaxis(const AuditedFrame& frame) {
@@ -174,12 +186,15 @@ Eigen::MatrixXd ForceAudit::see_thigmotaxis(const AuditedFrame& frame) {
           model, along == 0 ? sense * contact.tangent_a : -sense * contact.tangent_b, a, b);
       const double speed = row_velocity(row, velocity, frame.qdot_next);
       from_rows_.compare("/thigmotaxis/speed", speed_(f, k), speed);
-      // A row with a force below its cap is met exactly: at its command, or on the way to it.
+      // A row below its cap is met, with a force exactly: at its command, or on the way to it.
       const double asked =
           std::min(commanded[k], row_velocity(row, kin.centre_velocity, frame.state.qdot) +
                                      scene.controller.acceleration * scene.time.step);
-      if (lambda_(f, k) > 0 && lambda_(f, k) < (1 - cap_tolerance) * scene.controller.cap) {
-        ask_miss_ = worse(ask_miss_, std::abs(speed - asked));
+      if (lambda_(f, k) < 0) {
+        shape_.insert("/thigmotaxis/lambda");
+      }
+      if (lambda_(f, k) < (1 - cap_tolerance) * scene.controller.cap) {
+        ask_miss_ = worse(ask_miss_, lambda_(f, k) > 0 ? std::abs(speed - asked) : asked - speed);
       }
       most_ = worse(most_, lambda_(f, k) / scene.controller.cap);
       columns.col(k) = force_of(model, kin, row, 1);
@@ -256,7 +271,7 @@ void ForceAudit::see_cone(const AuditedFrame& frame, const BendingCone& cone,
   cone_miss_ = worse(cone_miss_, std::abs(end.angle - cone.limit - left));
   // Every tangent that a step takes pushes back the way the joint bends.
   const double along = -force.dot(end.slope) / (force.norm() * end.slope.norm());
-  cone_turn_ = worse(cone_turn_, std::acos(std::min(1.0, along)));
+  cone_turn_ = worse(cone_turn_, std::acos(std::min(along, 1.0)));
 }
 
 void ForceAudit::see_head(const AuditedFrame& frame) {
@@ -294,6 +309,8 @@ void ForceAudit::see_balance(const AuditedFrame& frame) {
   const Eigen::VectorXd given =
       generalised_force(model, kin, system.wrench) + system.joint + h * sum;
   imbalance_ = worse(imbalance_, mismatch(given, multiply(model, kin, system.op, frame.qdot_next)));
+  momentum_before_ = momentum_;
+  momentum_ = given.lpNorm<Eigen::Infinity>() / h;
 }
 
 void ForceAudit::see_means(const AuditedFrame& frame, const Eigen::MatrixXd& columns) {
@@ -301,7 +318,9 @@ void ForceAudit::see_means(const AuditedFrame& frame, const Eigen::MatrixXd& col
   const auto row = [f](const Hdf5Reader::Rows& rows) -> Eigen::VectorXd { return rows.row(f); };
   const auto& [thigmotaxis, contact, limit, head, wall] = mean_;
   const Eigen::VectorXd sum = row(thigmotaxis) + row(contact) + row(limit) + row(head) + row(wall);
-  mean_imbalance_ = worse(mean_imbalance_, mismatch(sum, row(mean_net_)));
+  // Forces alone may be nothing but rounding of the momentum.
+  mean_imbalance_ =
+      worse(mean_imbalance_, mismatch(sum, row(mean_net_), std::max(momentum_, momentum_before_)));
   const auto ask = [this](const char* path, bool met) {
     if (!met) {
       shape_.insert(path);
@@ -336,8 +355,8 @@ std::vector<Finding> ForceAudit::findings() const {
     findings.push_back(bounded("cones push back", cone_turn_, cone_turn_tolerance,
                                "rad from the way the joint bends, /forces/limit"));
   }
-  findings.push_back(bounded("thigmotaxis as asked", ask_miss_, ask_tolerance,
-                             "cm/s, speed of a row with a force below its cap"));
+  findings.push_back(
+      bounded("thigmotaxis as asked", ask_miss_, ask_tolerance, "cm/s, rows below their cap"));
   findings.push_back(bounded("thigmotaxis cap", most_, 1 + cap_tolerance,
                              "of controller.cap, largest multiplier"));
   std::string shape;
@@ -354,14 +373,14 @@ std::vector<Finding> ForceAudit::findings() const {
                              "of scale, H(q̇ - q̇*) - h Σ f recomputed at every frame"));
   findings.push_back(bounded("balance of means", mean_imbalance_, expect.force_balance,
                              "of scale, Σ /mean/forces against /mean/forces/net at every frame"));
-  if (!mean_deviation_.empty()) {
+  const double tolerance =
+      mean_tolerance + mean_tolerance_growth * log_.resolved.scene.time.frame_interval;
+  if (mean_deviation_.size() >= least_means && tolerance <= largest_mean_tolerance) {
     std::vector<double> deviation = mean_deviation_;
     const auto middle = deviation.begin() + static_cast<std::ptrdiff_t>(deviation.size() / 2);
     std::nth_element(deviation.begin(), middle, deviation.end());
-    findings.push_back(
-        bounded("means of f_thigmo", *middle,
-                mean_tolerance + mean_tolerance_growth * log_.resolved.scene.time.frame_interval,
-                "of scale, median, against C' of the mean multipliers"));
+    findings.push_back(bounded("means of f_thigmo", *middle, tolerance,
+                               "of scale, median, against C' of the mean multipliers"));
   }
   return findings;
 }

@@ -25,6 +25,7 @@ class ForceAudit {
   Eigen::MatrixXd see_thigmotaxis(const AuditedFrame& frame);
   /// Hinges and cones with a force.
   std::int64_t bearing_limits(const AuditedFrame& frame) const;
+  std::int64_t bearing_cones(const AuditedFrame& frame) const;
   void see_contacts(const AuditedFrame& frame);
   void see_limits(const AuditedFrame& frame);
   /// `force` on the two hinges of a cone's joint, dyn cm.
@@ -45,9 +46,10 @@ class ForceAudit {
   Rebuilt from_rows_;
   double imbalance_ = 0, mean_imbalance_ = 0, limit_miss_ = 0, cone_miss_ = 0, cone_turn_ = 0,
          ask_miss_ = 0, most_ = 0;
-  std::set<std::string> shape_;         ///< datasets with a force where there can be none
-  Eigen::MatrixXd columns_before_;      ///< C_thigmo' of the frame before, nv x 4
-  std::vector<double> mean_deviation_;  ///< of mean f_thigmo from C' of the mean λ, shares
+  double momentum_ = 0, momentum_before_ = 0;  ///< largest over h, at this frame and the one before
+  std::set<std::string> shape_;                ///< datasets with a force where there can be none
+  Eigen::MatrixXd columns_before_;             ///< C_thigmo' of the frame before, nv x 4
+  std::vector<double> mean_deviation_;         ///< of mean f_thigmo from C' of the mean λ, shares
 };
 
 }  // namespace hagfish

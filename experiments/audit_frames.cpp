@@ -75,7 +75,8 @@ FrameAudit::FrameAudit(const LogContents& log)
       head_drift_(log.h5.doubles("/steps/head_drift")),
       position_(log.h5.rows("/trajectory/position")),
       spline_a_(log.h5.rows("/thigmotaxis/spline_a")),
-      spline_b_(log.h5.rows("/thigmotaxis/spline_b")) {}
+      spline_b_(log.h5.rows("/thigmotaxis/spline_b")),
+      last_order_(phase_order(log.resolved.scene.start.phase)) {}
 
 void FrameAudit::see(const AuditedFrame& frame, const KnotVote& knot) {
   see_trajectory(frame);
@@ -147,15 +148,22 @@ void FrameAudit::see_bounds(const AuditedFrame& frame) {
 }
 
 std::vector<Finding> FrameAudit::findings() const {
-  const double share = static_cast<double>(contacts_off_) / static_cast<double>(frames_);
+  const auto within = [](std::int64_t count, double share, std::int64_t of) {
+    return static_cast<double>(count) <= std::max(1.0, share * static_cast<double>(of));
+  };
   return {
       by_itself_.finding("frames", "the frame's number, the phase before, the integrator's terms"),
       from_q_.finding("figures of q", "q and q̇ at every frame"),
-      {"contacts", contacts_off_by_ <= most_contacts_off && share <= largest_share_off,
+      {"contacts",
+       contacts_off_by_ <= most_contacts_off && within(contacts_off_, largest_share_off, frames_),
        fmt::format("/diagnostics/contacts is not what a search from nothing finds at {} of {} "
                    "frames (at most {:g} %), by {} at most ({})",
                    contacts_off_, frames_, 100 * largest_share_off, contacts_off_by_,
-                   most_contacts_off)}};
+                   most_contacts_off)},
+      {"contacts followed", within(kept_, largest_kept_share, followed_),
+       fmt::format("/thigmotaxis/spline_a and spline_b are no minimum of the gap, but kept from "
+                   "one, {} times of {} (at most {:g} %)",
+                   kept_, followed_, 100 * largest_kept_share)}};
 }
 
 }  // namespace hagfish

@@ -125,7 +125,8 @@ std::vector<Finding> audit_knot(const LogContents& log, const std::vector<SeenKn
     return {};
   }
   const auto reaches = [&](Phase phase) {
-    return phase_order(scene.time.until) >= phase_order(phase);
+    return phase_order(scene.time.until) >= phase_order(phase) &&
+           phase_order(scene.start.phase) <= phase_order(phase);
   };
   std::vector<std::string> type;
   for (const SeenKnot& knot : seen) {
@@ -135,7 +136,9 @@ std::vector<Finding> audit_knot(const LogContents& log, const std::vector<SeenKn
   if (reaches(Phase::tighten)) {
     findings.push_back(held(log, type));
   }
-  findings.push_back({"unknot at start", type.front() == "0_1", type.front()});
+  if (scene.start.phase == Phase::form) {
+    findings.push_back({"unknot at start", type.front() == "0_1", type.front()});
+  }
   if (reaches(Phase::free)) {
     const bool ended = phase_at(log, type.size() - 1) == Phase::free;
     findings.push_back(

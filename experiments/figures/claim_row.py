@@ -12,6 +12,7 @@ from study import write_csv
 
 MEASURES = ["slide_cm", "beyond_dyn_cm", "near_over_far", "roughness_space", "roughness_time", "roughness_time_steps",
             "dct_modes_95", "effort_dyn_cm"]
+NEAR_RELEASE = 0.5  # cm
 HEADING = ["outcome", *MEASURES, *claims.NAMES]
 
 
@@ -21,7 +22,12 @@ def outcome_of(log: HagfishLog) -> str:
         return "not tied"
     if str(log.attribute("status")) != "complete":
         return "stopped"
-    return "slid" if log.in_phase("slide").size else "not tight"
+    slide = log.in_phase("slide")
+    if not slide.size:
+        return "not tight"
+    # The last frame of the slide lies up to one frame before the place where it ends.
+    left = log["/knot/head_end"][slide[-1]] - log.scene()["controller"]["release_at"]
+    return "slid" if left <= NEAR_RELEASE else "jammed"
 
 
 def near_over_far(s: claims.Sliding) -> float:

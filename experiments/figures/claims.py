@@ -4,7 +4,7 @@
 (c) the force is smooth along the body and noisy in time, so that a few modes may hold it.
 Forces are f_thigmo (Eq. 8) on the hinges, in dyn cm, in the sliding phase: means over the time from a
 frame of the log to the next (impulse over time, by default 20 ms), as a single step's force is an
-impulse over h. Nothing else is filtered.
+impulse over h. Only (a) is of single steps, at frames. Nothing else is filtered.
 """
 
 from __future__ import annotations

@@ -78,7 +78,7 @@ def surfaces(s: claims.Sliding, out: Path) -> None:
 def draw_zero(axes: Any, s: claims.Sliding) -> None:
     """Claim (a): where the force is not zero."""
     arcs = np.unique(s.arc)
-    size = np.stack([np.abs(s.force[:, s.arc == arc]).max(axis=1) for arc in arcs], axis=1)
+    size = np.stack([np.abs(s.step_force[:, s.arc == arc]).max(axis=1) for arc in arcs], axis=1)
     top = max(size.max(), 1e-300)
     shown = np.ma.masked_where(size == 0, size)
     image = axes.pcolormesh(edges(arcs), edges(s.time), shown, cmap="viridis", rasterized=True,
@@ -86,7 +86,7 @@ def draw_zero(axes: Any, s: claims.Sliding) -> None:
     axes.plot(s.head_end, s.time, color="#d55e00", lw=1.2, label="knot, head end")
     axes.plot(s.tail_end, s.time, color="#d55e00", lw=1.2, ls="--", label="knot, tail end")
     axes.set(xlabel="arc length from the head, cm", ylabel="time, s",
-             title="(a) largest |f| at each joint; white = exactly 0")
+             title="(a) largest |f| at each joint, single steps at frames; white = exactly 0")
     axes.legend(fontsize=7, loc="upper right")
     bar = axes.figure.colorbar(image, ax=axes, extend="min", pad=0.02, fraction=0.04)
     bar.ax.set_title("dyn cm", fontsize=7)
@@ -175,7 +175,7 @@ def claims_page(s: claims.Sliding, out: Path) -> None:
     figure = plt.figure(figsize=(8.3, 11.2))
     grid = figure.add_gridspec(3, 2, left=0.09, right=0.97, top=0.945, bottom=0.30, hspace=0.36, wspace=0.26)
     figure.text(0.04, 0.98, "Three claims about $f_\\mathrm{thigmo}$ while the knot slides. Forces f are means over "
-                f"{1000 * s.interval:.0f} ms, from frame to frame of the log.", fontsize=9)
+                f"{1000 * s.interval:.0f} ms, from frame to frame of the log; (a) is of single steps.", fontsize=9)
     draw_zero(figure.add_subplot(grid[0, :]), s)
     for column, name in enumerate(list(b["measures"])[:2]):
         draw_growth(figure.add_subplot(grid[1, column]), s, name, b["measures"][name])

@@ -37,8 +37,7 @@ class Means:
 def read_means(log: HagfishLog, phase: str = "slide", window: float = WINDOW) -> Means:
     """Means of one phase. Windows that are no whole number of the log's frame intervals are an error; what is left of the phase
     after the last whole window is left out."""
-    frames = log.in_phase(phase)
-    frames = frames[np.isin(frames - 1, frames)]  # whose frame before is of the phase, too
+    frames = log.intervals_in(phase)
     hinges, joints, _ = log.hinges()
     span = 2 / (joints.max() + 1)  # bend and twist take turns from body to body
     if not frames.size:

@@ -69,7 +69,7 @@ def main(folder: Path, table: Path, out: Path, page: Path) -> None:
     rows = [f"| {s.knot} | {s.commanded:g} | {s.speed:.3g} | {s.travel:.1f} | {seconds(s):.1f} | {s.force:.0f} | {s.peak:.0f} | "
             f"{100 * s.met:.1f} | {s.penetration:.2g} | {s.failure or 'untied at the tail'} |" for s in back]
     page.write_text("\n".join(["# The reverse slide", "",
-                               "From the head back to the tail; the way ends 1.6 cm before the tail's tip, where the knot may go.", "",
+                               "From the head back to the tail; the way ends near the tail's tip, at the scene's `release_at`, where the knot may go.", "",
                                "| knot | commanded, cm/s | measured, cm/s | tail end moved, cm | time, s | force, median "
                                f"{MEAN}, dyn | largest {MEAN}, dyn | steps that "
                                "meet Eq. 6, % | penetration, cm | run |", "|---" * 10 + "|", *rows, ""]), encoding="utf-8")

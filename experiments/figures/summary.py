@@ -220,7 +220,7 @@ def requirements(log: HagfishLog, unclosed: float) -> list[str]:
     if claims.ruled_intervals(log) >= claims.LEAST_FRAMES:
         zero = claims.zero_behind(claims.read_sliding(log))
         past = zero["largest_beyond_reach_of_rows_dyn_cm"]
-        ask(f"largest f_thigmo past the knot, means over {interval(log)}", f"{past:g} dyn cm", "exactly 0", past == 0)
+        ask(f"largest f_thigmo past the knot, single steps at frames", f"{past:g} dyn cm", "exactly 0", past == 0)
     ask("energy ledger, left over of its largest term", f"{unclosed:.2g}", f"at most {LEDGER:g}", unclosed <= LEDGER)
     qp = log["/steps/qp_time"][log.labels("/steps/solve") == "qp"]
     if qp.size:

@@ -352,9 +352,9 @@ TEST_F(AuditCorruption, SeesBlocksOfMeansExchanged) {
 
 TEST_F(AuditCorruption, NamesThatAreNotTheModels) {
   const auto exchange_names = [](const char* path) {
-    const H5::StrType text(H5::PredType::C_S1, H5T_VARIABLE);
     const H5::H5File h5(file.string(), H5F_ACC_RDWR);
     const H5::DataSet set = h5.openDataSet(path);
+    const H5::StrType text = set.getStrType();
     std::vector<char*> names(set.getSpace().getSimpleExtentNpoints());
     set.read(names.data(), text);
     std::swap(names[1], names[2]);

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <optional>
 
 #include "core/log_writer.hpp"
 #include "mujoco_ref/mjcf.hpp"
@@ -19,7 +20,8 @@ namespace fs = std::filesystem;
 
 class AuditTest : public testing::Test {
  protected:
-  explicit AuditTest(const std::vector<std::string>& more = {})
+  /// From the stored state of that number, or from the scene's own start.
+  explicit AuditTest(const std::vector<std::string>& more = {}, std::optional<int> from = 3)
       : file(fs::path(testing::TempDir()) / ("audit_" + std::to_string(getpid()) + ".h5")) {
     // The excerpt is of 13.76 to 13.82 s.
     std::vector<std::string> overrides = {"time.frame_interval=0.01", "expect.hand=right",
@@ -33,9 +35,12 @@ class AuditTest : public testing::Test {
     header.mjcf = mjcf_files(model, scene.contact.least_arc, scene.time.step);
     LogWriter log(file, true, header, model, scene);
     const auto solver = make_box_qp_solver("ipopt");
-    StoredState stored = stored_states().at(3);
-    stored.state = within_cones(model, stored.state);
-    Simulation sim = resume(model, scene, stored);
+    Simulation sim = start(model, scene);
+    if (from) {
+      StoredState stored = stored_states().at(*from);
+      stored.state = within_cones(model, stored.state);
+      sim = resume(model, scene, stored);
+    }
     for (int k = 0; k < 30; ++k) {
       log.write(take_step(model, scene, *solver, sim), 0);
     }
@@ -155,6 +160,37 @@ TEST_F(AuditOfCones, RefusesALogOfOtherCones) {
               std::string::npos)
         << error.what();
   }
+}
+
+/// A bent body let go in open water: no row has a force.
+class AuditWithoutForces : public AuditTest {
+ protected:
+  AuditWithoutForces()
+      : AuditTest({"clamp_head=false", "wall.present=false", "script.kind=none", "expect.knot=",
+                   "expect.types=[]", "start.bend=[[0, 0, 0.05, 0], [1, 0, 0.05, 0]]"},
+                  std::nullopt) {}
+};
+
+TEST_F(AuditWithoutForces, RoundingIsNoImbalance) {
+  for (const char* name : {"force balance", "balance of means", "forces of rows", "figures of q",
+                           "shape of forces", "contacts followed"}) {
+    EXPECT_TRUE(passes(name)) << name;
+  }
+}
+
+TEST_F(AuditTest, SeesContactsThatAreNone) {
+  EXPECT_TRUE(passes("contacts followed"));
+  const std::vector<hsize_t> shape = Hdf5Reader(file).shape("/thigmotaxis/spline_a");
+  for (std::size_t k = 0; k < shape[0] * shape[1]; ++k) {
+    tamper("/thigmotaxis/spline_a", k, 3);
+  }
+  EXPECT_FALSE(passes("contacts followed"));
+}
+
+TEST_F(AuditTest, SeesAMultiplierThatPulls) {
+  const std::vector<double> lambda = Hdf5Reader(file).doubles("/thigmotaxis/lambda");
+  tamper("/thigmotaxis/lambda", 0, -2 * lambda[0] - 1);
+  EXPECT_FALSE(passes("shape of forces"));
 }
 
 TEST_F(AuditTest, SeesAForceBehindTheKnot) {
