@@ -5,7 +5,7 @@
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 out=${1:-$root/out/table1}
-source "$root/experiments/elapsed.sh"
+source "$root/experiments/studies/elapsed.sh"
 mkdir -p "$out"
 out=$(cd "$out" && pwd)
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "core/dynamics.hpp"
-#include "core/kinematics.hpp"
+#include "core/chain/dynamics.hpp"
+#include "core/chain/kinematics.hpp"
 #include "mujoco_ref/mirror.hpp"
 
 namespace hagfish {

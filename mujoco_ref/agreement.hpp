@@ -4,8 +4,8 @@
 #include <Eigen/Core>
 #include <random>
 
-#include "core/model.hpp"
-#include "core/state.hpp"
+#include "core/chain/model.hpp"
+#include "core/chain/state.hpp"
 #include "mujoco_ref/mjcf.hpp"
 #include "mujoco_ref/mujoco_model.hpp"
 

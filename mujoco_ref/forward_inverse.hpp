@@ -3,8 +3,8 @@
 
 #include <Eigen/Core>
 
-#include "core/model.hpp"
-#include "core/state.hpp"
+#include "core/chain/model.hpp"
+#include "core/chain/state.hpp"
 #include "mujoco_ref/mujoco_model.hpp"
 
 namespace hagfish {

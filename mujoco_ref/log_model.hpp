@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "core/hdf5_reader.hpp"
-#include "core/model.hpp"
+#include "core/chain/model.hpp"
+#include "core/log/hdf5_reader.hpp"
 #include "mujoco_ref/mujoco_model.hpp"
 
 namespace hagfish {

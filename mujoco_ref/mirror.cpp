@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "core/step.hpp"
+#include "core/step/step.hpp"
 
 namespace hagfish {
 

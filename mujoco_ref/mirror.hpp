@@ -1,8 +1,8 @@
 // The core's states and the core's rule of motion in MuJoCo.
 #pragma once
 
-#include "core/model.hpp"
-#include "core/state.hpp"
+#include "core/chain/model.hpp"
+#include "core/chain/state.hpp"
 #include "mujoco_ref/mjcf.hpp"
 #include "mujoco_ref/mujoco_model.hpp"
 

@@ -15,7 +15,7 @@ namespace {
 constexpr int bodies_per_file = 40;
 
 // MuJoCo drops contacts beyond its own bound, 100 whatever the model. In a tight knot of 100 bodies
-// 90 to 150 pairs touch (core/contact.hpp), and a pair of capsules can have two contacts.
+// 90 to 150 pairs touch (core/contact/contact.hpp), and a pair of capsules can have two contacts.
 constexpr int contacts_per_body = 5;
 
 std::ostringstream number_stream() {
@@ -85,7 +85,8 @@ void write_excludes(std::ostream& out, const Model& model, double least_arc) {
     arc.push_back(arc.back() + body.length);
   }
   for (int a = 0; a < model.body_count(); ++a) {
-    // The hair of slack is that of core/contact.cpp: equal arcs fall on the same side in both.
+    // The hair of slack is that of core/contact/contact.cpp: equal arcs fall on the same side in
+    // both.
     for (int b = a + 1; b < model.body_count() && arc[b] - arc[a + 1] < least_arc * (1 - 1e-9);
          ++b) {
       out << "<exclude body1=\"" << body_name(a) << "\" body2=\"" << body_name(b) << "\"/>\n";

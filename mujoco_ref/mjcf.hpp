@@ -1,16 +1,16 @@
 // The model as MJCF, the file format of MuJoCo (written for version 2.2.2).
 //
-// Positions and velocities have the layout of core/state.hpp, so a log replays as it is. What the
-// two simulators share: bodies with their inertias, joints with limits, stiffness and damping, the
-// skin as frictionless capsules, and gravity. What is left out: water drag, which MuJoCo knows only
-// in other forms, limits on the total angle of a joint (the root document says so), since MuJoCo
-// limits hinges one by one, and all that belongs to a scene: head plate, script, controller.
+// Positions and velocities have the layout of core/chain/state.hpp, so a log replays as it is. What
+// the two simulators share: bodies with their inertias, joints with limits, stiffness and damping,
+// the skin as frictionless capsules, and gravity. What is left out: water drag, which MuJoCo knows
+// only in other forms, limits on the total angle of a joint (the root document says so), since
+// MuJoCo limits hinges one by one, and all that belongs to a scene: head plate, script, controller.
 #pragma once
 
 #include <map>
 #include <string>
 
-#include "core/model.hpp"
+#include "core/chain/model.hpp"
 
 namespace hagfish {
 
@@ -26,7 +26,7 @@ enum class Head { free, clamped };
 ///
 /// Bodies are named b0, b1, ... head to tail, joints by the dofs of joint_names(), the free joint
 /// "root". A body of radius 0 has no geom. Capsules with less body than `least_arc` between them
-/// (cm; ContactSettings::least_arc) never touch, as in core/contact.cpp.
+/// (cm; ContactSettings::least_arc) never touch, as in core/contact/contact.cpp.
 /// MuJoCo rejects a limited hinge whose lower limit is not below its upper one.
 std::map<std::string, std::string> mjcf_files(const Model& model, double least_arc, double h,
                                               Head head = Head::free);

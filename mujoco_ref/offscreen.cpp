@@ -12,7 +12,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "core/hdf5_error.hpp"
+#include "core/log/hdf5_error.hpp"
 
 namespace hagfish {
 namespace {

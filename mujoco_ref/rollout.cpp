@@ -2,8 +2,8 @@
 
 #include <limits>
 
-#include "core/kinematics.hpp"
-#include "core/step.hpp"
+#include "core/chain/kinematics.hpp"
+#include "core/step/step.hpp"
 #include "mujoco_ref/mirror.hpp"
 
 namespace hagfish {

@@ -10,8 +10,8 @@
 #include <memory>
 #include <span>
 
-#include "core/build_info.hpp"
-#include "core/dual_problem.hpp"
+#include "core/log/build_info.hpp"
+#include "core/step/dual_problem.hpp"
 #include "experiments/benchmarks/start.hpp"
 #include "mujoco_ref/mirror.hpp"
 

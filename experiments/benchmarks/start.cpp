@@ -5,8 +5,8 @@
 #include <limits>
 #include <numbers>
 
-#include "core/hdf5_error.hpp"
-#include "experiments/log_contents.hpp"
+#include "core/log/hdf5_error.hpp"
+#include "experiments/audit/log_contents.hpp"
 #include "mujoco_ref/mirror.hpp"
 
 namespace hagfish {

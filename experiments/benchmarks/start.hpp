@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "core/scene_reader.hpp"
-#include "core/simulation.hpp"
+#include "core/input/scene_reader.hpp"
+#include "core/run/simulation.hpp"
 #include "mujoco_ref/mujoco_model.hpp"
 
 namespace hagfish {

@@ -1,4 +1,4 @@
-"""Runs of `experiments/speed_accuracy.sh`: what each cost, what became of it, and how far it is from a reference.
+"""Runs of `experiments/studies/speed_accuracy.sh`: what each cost, what became of it, and how far it is from a reference.
 
 A run is NAME.h5 (its log), NAME.cpu (user and system time of each repeat, s) and NAME.check (its audit).
 """

@@ -4,7 +4,7 @@
 #include <functional>
 #include <memory>
 
-#include "core/step.hpp"
+#include "core/step/step.hpp"
 
 namespace hagfish {
 

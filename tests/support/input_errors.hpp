@@ -6,7 +6,7 @@
 #include <functional>
 #include <string>
 
-#include "core/input_error.hpp"
+#include "core/input/input_error.hpp"
 
 namespace hagfish {
 

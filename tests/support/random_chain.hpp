@@ -7,13 +7,13 @@
 #include <random>
 #include <vector>
 
-#include "core/articulated.hpp"
-#include "core/kinematics.hpp"
-#include "core/model.hpp"
-#include "core/rows.hpp"
-#include "core/settings.hpp"
-#include "core/specimen.hpp"
-#include "core/state.hpp"
+#include "core/chain/articulated.hpp"
+#include "core/chain/kinematics.hpp"
+#include "core/chain/model.hpp"
+#include "core/chain/state.hpp"
+#include "core/scene/settings.hpp"
+#include "core/scene/specimen.hpp"
+#include "core/step/rows.hpp"
 
 namespace hagfish {
 

@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/rows.hpp"
+#include "core/step/rows.hpp"
 
 namespace hagfish {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "core/scene_reader.hpp"
-#include "core/simulation.hpp"
+#include "core/input/scene_reader.hpp"
+#include "core/run/simulation.hpp"
 
 namespace hagfish {
 

@@ -2,7 +2,7 @@
 // as applied forces with its own contacts and limits off, must make the velocities of the run.
 #include <gtest/gtest.h>
 
-#include "core/dynamics.hpp"
+#include "core/chain/dynamics.hpp"
 #include "mujoco_ref/forward_inverse.hpp"
 #include "mujoco_ref/mirror.hpp"
 #include "tests/support/stored_states.hpp"

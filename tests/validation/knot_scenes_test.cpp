@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "core/log_frame.hpp"
-#include "core/scene_reader.hpp"
-#include "core/writhe.hpp"
+#include "core/input/scene_reader.hpp"
+#include "core/knot/writhe.hpp"
+#include "core/log/log_frame.hpp"
 
 namespace hagfish {
 namespace {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/knot.hpp"
+#include "core/knot/knot.hpp"
 #include "tests/support/chain_runs.hpp"
 
 namespace hagfish {

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/scene_reader.hpp"
-#include "core/simulation.hpp"
-#include "core/writhe.hpp"
+#include "core/input/scene_reader.hpp"
+#include "core/knot/writhe.hpp"
+#include "core/run/simulation.hpp"
 
 namespace hagfish {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/step.hpp"
+#include "core/step/step.hpp"
 #include "mujoco_ref/agreement.hpp"
 #include "mujoco_ref/mirror.hpp"
 #include "mujoco_ref/rollout.hpp"

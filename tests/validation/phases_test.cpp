@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-#include "core/log_frame.hpp"
+#include "core/log/log_frame.hpp"
 #include "tests/support/stored_states.hpp"
 
 namespace hagfish {

@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/knot.hpp"
+#include "core/knot/knot.hpp"
 #include "tests/support/chain_runs.hpp"
 #include "tests/support/stored_states.hpp"
 

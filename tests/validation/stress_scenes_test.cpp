@@ -1,5 +1,5 @@
-// The scenes of experiments/stability.sh: each is read, runs on for a few steps by the core and in
-// MuJoCo, and ends in an outcome by name, whatever the step.
+// The scenes of experiments/studies/stability.sh: each is read, runs on for a few steps by the core
+// and in MuJoCo, and ends in an outcome by name, whatever the step.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,9 +8,9 @@
 #include <fstream>
 #include <sstream>
 
-#include "core/scene_reader.hpp"
-#include "experiments/commands.hpp"
-#include "experiments/stress_judge.hpp"
+#include "core/input/scene_reader.hpp"
+#include "experiments/program/commands.hpp"
+#include "experiments/stress/stress_judge.hpp"
 
 namespace hagfish {
 namespace {

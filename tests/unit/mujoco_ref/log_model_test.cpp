@@ -6,8 +6,8 @@
 
 #include <filesystem>
 
-#include "core/hdf5_writer.hpp"
-#include "core/kinematics.hpp"
+#include "core/chain/kinematics.hpp"
+#include "core/log/hdf5_writer.hpp"
 #include "mujoco_ref/mirror.hpp"
 #include "tests/support/random_chain.hpp"
 

@@ -17,12 +17,12 @@
 #include <utility>
 #include <vector>
 
-#include "core/dynamics.hpp"
-#include "core/kinematics.hpp"
-#include "core/model.hpp"
-#include "core/settings.hpp"
-#include "core/spline.hpp"
-#include "core/state.hpp"
+#include "core/chain/dynamics.hpp"
+#include "core/chain/kinematics.hpp"
+#include "core/chain/model.hpp"
+#include "core/chain/state.hpp"
+#include "core/contact/spline.hpp"
+#include "core/scene/settings.hpp"
 #include "mujoco_ref/agreement.hpp"
 #include "mujoco_ref/mujoco_model.hpp"
 
@@ -359,7 +359,7 @@ TEST(Mjcf, LeavesConesOutAndSaysSo) {
 }
 
 // MuJoCo drops what its buffers cannot hold. A tight knot of 100 bodies has up to 150 touching
-// pairs (core/contact.hpp), with two contacts in a pair at most.
+// pairs (core/contact/contact.hpp), with two contacts in a pair at most.
 TEST(Mjcf, HasRoomForTheContactsOfATightKnot) {
   const Model model = hagfish(100);
   const MujocoModel mujoco(mjcf_files(model, least_arc, timestep));

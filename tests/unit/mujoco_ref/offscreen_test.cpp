@@ -10,8 +10,8 @@
 #include <fstream>
 #include <numbers>
 
-#include "core/hdf5_error.hpp"
-#include "experiments/picture.hpp"
+#include "core/log/hdf5_error.hpp"
+#include "experiments/program/picture.hpp"
 #include "mujoco_ref/mjcf.hpp"
 #include "mujoco_ref/mujoco_model.hpp"
 #include "tests/support/random_chain.hpp"

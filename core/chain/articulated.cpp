@@ -1,0 +1,224 @@
+#include "core/chain/articulated.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace hagfish {
+
+void multiply(const Model& model, const Kinematics& kin, const Operator& op,
+              const Eigen::VectorXd& v, const Matrix6Xd& twist, Matrix6Xd& wrench,
+              Eigen::VectorXd& product) {
+  wrench.resize(6, model.body_count());
+  for (int b = 0; b < model.body_count(); ++b) {
+    wrench.col(b).noalias() = op.inertia[b] * twist.col(b);
+  }
+  generalised_force(model, kin, wrench, product);
+  product += op.diagonal.cwiseProduct(v);
+}
+
+Eigen::VectorXd multiply(const Model& model, const Kinematics& kin, const Operator& op,
+                         const Eigen::VectorXd& v) {
+  Matrix6Xd wrench;
+  Eigen::VectorXd product;
+  multiply(model, kin, op, v, body_twists(model, kin, v), wrench, product);
+  return product;
+}
+
+Eigen::MatrixXd dense(const Model& model, const Kinematics& kin, const Operator& op) {
+  Eigen::MatrixXd h = Eigen::MatrixXd::Zero(model.nv(), model.nv());
+  Matrix6d composite = Matrix6d::Zero();
+  for (int b = model.body_count() - 1; b >= 0; --b) {
+    const Body& body = model.bodies[b];
+    composite += op.inertia[b];
+    const int end = body.first_dof + body.dofs;
+    for (int k = body.first_dof; k < end; ++k) {
+      const Vector6d momentum = composite * kin.axis.col(k);
+      for (int i = 0; i < end; ++i) {
+        h(i, k) = kin.axis.col(i).dot(momentum);
+        h(k, i) = h(i, k);
+      }
+    }
+  }
+  h.diagonal() += op.diagonal;
+  return h;
+}
+
+void ArticulatedFactor::factorise(const Model& model, const Kinematics& kin, const Operator& op,
+                                  std::span<const HeldVelocity> held) {
+  weighted_.resize(6, model.nv());
+  pivot_.resize(model.nv());
+  inverse_pivot_.resize(model.nv());
+  held_.assign(held.begin(), held.end());
+  auto next = held_.rbegin();
+  // Columns of eight fill a vector register; the last two rows are zero.
+  Eigen::Matrix<double, 8, 6> articulated = Eigen::Matrix<double, 8, 6>::Zero();
+  for (int b = model.body_count() - 1; b >= 0; --b) {
+    const Body& body = model.bodies[b];
+    articulated.topRows<6>() += op.inertia[b];
+    for (int k = body.first_dof + body.dofs - 1; k >= body.first_dof; --k) {
+      const Vector6d axis = kin.axis.col(k);
+      const Eigen::Matrix<double, 8, 1> u = articulated * axis;
+      const double pivot = axis.dot(u.head<6>()) + op.diagonal[k];
+      if (!(pivot > 0)) {
+        throw std::domain_error("articulated inertia is not positive at velocity " +
+                                std::to_string(k) + " (pivot " + std::to_string(pivot) + ")");
+      }
+      weighted_.col(k) = u.head<6>();
+      pivot_[k] = pivot;
+      if (next != held_.rend() && next->dof == k) {
+        inverse_pivot_[k] = 0;
+        ++next;
+        continue;
+      }
+      inverse_pivot_[k] = 1 / pivot;
+      const Vector6d share = inverse_pivot_[k] * u.head<6>();
+      for (int i = 0; i < 6; ++i) {
+        articulated.col(i) -= share[i] * u;
+      }
+    }
+  }
+}
+
+void ArticulatedFactor::solve(const Model& model, const Kinematics& kin, const Matrix6Xd& wrench,
+                              const Eigen::VectorXd& joint, Eigen::VectorXd& v, Matrix6Xd& twist,
+                              Eigen::VectorXd& holding) const {
+  v.resize(model.nv());
+  twist.resize(6, model.body_count());
+  const auto count = static_cast<Eigen::Index>(held_.size());
+  holding.resize(count);
+  Eigen::Index next = count;
+  Vector6d sum = Vector6d::Zero();
+  for (int b = model.body_count() - 1; b >= 0; --b) {
+    const Body& body = model.bodies[b];
+    sum += wrench.col(b);
+    for (int k = body.first_dof + body.dofs - 1; k >= body.first_dof; --k) {
+      const double force = joint[k] + kin.axis.col(k).dot(sum);
+      v[k] = force * inverse_pivot_[k];
+      if (next > 0 && held_[next - 1].dof == k) {
+        --next;
+        holding[next] = -force;
+        v[k] = held_[next].value;
+      }
+      sum -= weighted_.col(k) * v[k];
+    }
+  }
+  Vector6d moved = Vector6d::Zero();
+  for (int b = 0; b < model.body_count(); ++b) {
+    const Body& body = model.bodies[b];
+    for (int k = body.first_dof; k < body.first_dof + body.dofs; ++k) {
+      const double force = weighted_.col(k).dot(moved);
+      v[k] -= force * inverse_pivot_[k];
+      if (next < count && held_[next].dof == k) {
+        holding[next] += force + pivot_[k] * v[k];
+        ++next;
+      }
+      moved += kin.axis.col(k) * v[k];
+    }
+    twist.col(b) = moved;
+  }
+}
+
+Eigen::VectorXd ArticulatedFactor::solve(const Model& model, const Kinematics& kin,
+                                         const Matrix6Xd& wrench,
+                                         const Eigen::VectorXd& joint) const {
+  Eigen::VectorXd v, holding;
+  Matrix6Xd twist;
+  solve(model, kin, wrench, joint, v, twist, holding);
+  return v;
+}
+
+void ArticulatedFactor::half_solve(const Model& model, const Kinematics& kin,
+                                   RowColumns& columns) const {
+  using Panel = Eigen::Array<double, 1, RowColumns::panel>;
+  auto& sum = columns.sum_;
+  auto& y = columns.y_;
+  columns.set_widths();
+  for (int b = model.body_count() - 1; b >= 0; --b) {
+    for (int i = columns.newest_[b]; i >= 0; i = columns.loads_[i].next) {
+      sum.col(columns.loads_[i].column) += columns.loads_[i].wrench;
+    }
+    const Body& body = model.bodies[b];
+    for (int k = body.first_dof + body.dofs - 1; k >= body.first_dof; --k) {
+      if (inverse_pivot_[k] == 0) {
+        y.row(k).head(columns.width_[k]).setZero();
+        continue;
+      }
+      const double share = std::sqrt(inverse_pivot_[k]);
+      const Vector6d axis = share * kin.axis.col(k);
+      const Vector6d weighted = share * weighted_.col(k);
+      const bool loaded = columns.newest_joint_[k] >= 0;
+      if (loaded) {
+        y.row(k).head(columns.width_[k]).setZero();
+      }
+      for (int i = columns.newest_joint_[k]; i >= 0; i = columns.joint_loads_[i].next) {
+        y(k, columns.joint_loads_[i].column) += share * columns.joint_loads_[i].force;
+      }
+      for (Eigen::Index first = 0; first < columns.width_[k]; first += RowColumns::panel) {
+        Panel own = Panel::Zero();
+        if (loaded) {
+          own = y.row(k).segment<RowColumns::panel>(first);
+        }
+        for (int i = 0; i < 6; ++i) {
+          own += axis[i] * sum.row(i).segment<RowColumns::panel>(first).array();
+        }
+        y.row(k).segment<RowColumns::panel>(first) = own;
+        for (int i = 0; i < 6; ++i) {
+          sum.row(i).segment<RowColumns::panel>(first).array() -= weighted[i] * own;
+        }
+      }
+    }
+  }
+}
+
+void RowColumns::reset(const Model& model, Eigen::Index m) {
+  const Eigen::Index panels = (m + panel - 1) / panel;
+  count_ = m;
+  loads_.clear();
+  joint_loads_.clear();
+  newest_.assign(model.body_count(), -1);
+  newest_joint_.assign(model.nv(), -1);
+  end_.assign(panels, 0);
+  y_.resize(model.nv(), panels * panel);
+  sum_.setZero(6, panels * panel);
+}
+
+void RowColumns::load(const Model& model, int body, Eigen::Index column, const Vector6d& wrench) {
+  loads_.push_back({wrench, column, newest_[body]});
+  newest_[body] = static_cast<int>(loads_.size()) - 1;
+  extend(column, model.bodies[body].first_dof + model.bodies[body].dofs);
+}
+
+void RowColumns::load_joint(Eigen::Index dof, Eigen::Index column, double force) {
+  joint_loads_.push_back({force, column, newest_joint_[dof]});
+  newest_joint_[dof] = static_cast<int>(joint_loads_.size()) - 1;
+  extend(column, dof + 1);
+}
+
+void RowColumns::extend(Eigen::Index column, Eigen::Index end) {
+  end_[column / panel] = std::max(end_[column / panel], end);
+}
+
+void RowColumns::set_widths() {
+  width_.assign(y_.rows(), 0);
+  for (std::size_t p = 0; p < end_.size(); ++p) {
+    std::fill_n(width_.begin(), end_[p], (static_cast<Eigen::Index>(p) + 1) * panel);
+  }
+}
+
+void RowColumns::gram(Eigen::MatrixXd& A) const {
+  A.resize(count_, count_);
+  for (Eigen::Index p = 0; p < count_; p += panel) {
+    for (Eigen::Index q = 0; q <= p; q += panel) {
+      const Eigen::Index end = std::min(end_[p / panel], end_[q / panel]);
+      const auto tile = tile_product<panel>(&y_(0, q), &y_(0, p), y_.outerStride(), end);
+      const Eigen::Index rows = std::min<Eigen::Index>(panel, count_ - q);
+      const Eigen::Index cols = std::min<Eigen::Index>(panel, count_ - p);
+      A.block(q, p, rows, cols) = tile.topLeftCorner(rows, cols);
+      A.block(p, q, cols, rows) = tile.topLeftCorner(rows, cols).transpose();
+    }
+  }
+}
+
+}  // namespace hagfish

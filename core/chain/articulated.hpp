@@ -1,0 +1,114 @@
+// The step's operator H = J' Î J + diag(δ) of a chain, never formed: an articulated-body
+// factorisation applies H⁻¹ in O(n) to many right-hand sides at once (Featherstone 2008, ch. 7).
+// Spatial vectors are in world axes about one point (core/chain/spatial.hpp), so the recursion has
+// no transforms, and joints of several dofs are taken as one dof after another.
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "core/chain/kinematics.hpp"
+#include "core/chain/model.hpp"
+#include "solvers/tile_product.hpp"
+
+namespace hagfish {
+
+struct Operator {
+  std::vector<Matrix6d> inertia;  ///< Î, one symmetric positive operator per body, about O
+  Eigen::VectorXd diagonal;       ///< δ >= 0, nv
+};
+
+/// H v in O(n); `twist` are those of the bodies at v (6 x N), `wrench` is storage.
+void multiply(const Model& model, const Kinematics& kin, const Operator& op,
+              const Eigen::VectorXd& v, const Matrix6Xd& twist, Matrix6Xd& wrench,
+              Eigen::VectorXd& product);
+Eigen::VectorXd multiply(const Model& model, const Kinematics& kin, const Operator& op,
+                         const Eigen::VectorXd& v);
+
+/// Lower and upper triangle of H, dense nv x nv (composite rigid bodies; with Î the bodies'
+/// inertias and δ = 0 this is the mass matrix M).
+Eigen::MatrixXd dense(const Model& model, const Kinematics& kin, const Operator& op);
+
+/// C' of m rows, column by column: joint forces and wrenches on single bodies; then Y with
+/// Y'Y = C H⁻¹ C'. A column ends with the last velocity that moves what its row is about; those
+/// that end late are best put first, as the work on a panel of them ends with the longest.
+class RowColumns {
+ public:
+  /// Empties all for `m` columns.
+  void reset(const Model& model, Eigen::Index m);
+  /// Adds a wrench about O on one body to a column.
+  void load(const Model& model, int body, Eigen::Index column, const Vector6d& wrench);
+  /// Adds a force on one velocity to a column.
+  void load_joint(Eigen::Index dof, Eigen::Index column, double force);
+  /// A = Y'Y, m x m, after half_solve. Symmetric and semidefinite by construction.
+  void gram(Eigen::MatrixXd& A) const;
+
+ private:
+  friend class ArticulatedFactor;
+  static constexpr int panel = tile_rows;
+  struct Load {
+    Vector6d wrench;
+    Eigen::Index column;
+    int next;  ///< load of the same body, -1 at the end
+  };
+  struct JointLoad {
+    double force;
+    Eigen::Index column;
+    int next;  ///< load of the same velocity, -1 at the end
+  };
+  void extend(Eigen::Index column, Eigen::Index end);
+  void set_widths();
+
+  Eigen::Index count_ = 0;
+  std::vector<Load> loads_;
+  std::vector<JointLoad> joint_loads_;
+  std::vector<int> newest_, newest_joint_;  ///< load of each body, velocity; -1 where it has none
+  std::vector<Eigen::Index> end_;           ///< of each panel: 1 + last velocity
+  std::vector<Eigen::Index> width_;         ///< panels times columns that reach each velocity
+  /// Y, nv x m' with m' >= m, row-major so that one operation serves all columns. Rows past the end
+  /// of a panel are not set.
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> y_;
+  Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor> sum_;
+};
+
+/// A velocity that is given, rad/s or cm/s: a joint that rests on its limit, say, turns as the
+/// limit tells it.
+struct HeldVelocity {
+  int dof = 0;
+  double value = 0;
+};
+
+/// H⁻¹ of the velocities that are free; those held do as they are told, at no cost to the recursion
+/// (hybrid dynamics, Featherstone 2008, ch. 9.2).
+class ArticulatedFactor {
+ public:
+  /// `held` by rising dof, once each. Throws std::domain_error, naming the dof, where H is not
+  /// positive definite.
+  void factorise(const Model& model, const Kinematics& kin, const Operator& op,
+                 std::span<const HeldVelocity> held = {});
+
+  /// H v = J' w + τ + what holds those held, for one wrench per body (6 x N) and joint forces τ
+  /// (nv): v (nv), the twists of the bodies at it (6 x N), and `holding`, the joint force on each
+  /// of the held.
+  void solve(const Model& model, const Kinematics& kin, const Matrix6Xd& wrench,
+             const Eigen::VectorXd& joint, Eigen::VectorXd& v, Matrix6Xd& twist,
+             Eigen::VectorXd& holding) const;
+  Eigen::VectorXd solve(const Model& model, const Kinematics& kin, const Matrix6Xd& wrench,
+                        const Eigen::VectorXd& joint) const;
+
+  /// Turns C' in `columns` into Y: half of a solve, since the recursion factors H⁻¹ = L'L. Held
+  /// velocities do not answer to a force.
+  void half_solve(const Model& model, const Kinematics& kin, RowColumns& columns) const;
+
+  /// S' Î^A S + δ: force over velocity at a dof (held or not) where all nearer the head are held.
+  double pivot(int dof) const { return pivot_[dof]; }
+
+ private:
+  Matrix6Xd weighted_;             // Î^A S, one column a dof
+  Eigen::VectorXd pivot_;          // S' Î^A S + δ
+  Eigen::VectorXd inverse_pivot_;  // of the free; 0 where held
+  std::vector<HeldVelocity> held_;
+};
+
+}  // namespace hagfish

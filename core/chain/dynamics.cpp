@@ -1,0 +1,190 @@
+#include "core/chain/dynamics.hpp"
+
+namespace hagfish {
+
+namespace {
+
+/// About the centre, world axes, g cm^2.
+Eigen::Matrix3d angular_inertia(const Model& model, const Kinematics& kin, int body) {
+  const Eigen::Matrix3d& r = kin.rotation[body];
+  return r * model.bodies[body].inertia.asDiagonal() * r.transpose();
+}
+
+/// A wrench whose moment is about `offset` from O, taken to O.
+Vector6d about_reference(const Vector6d& wrench, const Eigen::Vector3d& offset) {
+  Vector6d w;
+  w << wrench.head<3>() + offset.cross(wrench.tail<3>()), wrench.tail<3>();
+  return w;
+}
+
+/// A symmetric operator on the angular velocity and on the velocity of the body's centre.
+struct CentreOperator {
+  Eigen::Matrix3d angular, linear;
+};
+
+/// Water drag of one body, dyn cm s and dyn s / cm.
+CentreOperator drag_at_centre(const Model& model, const Kinematics& kin, int body) {
+  const double length = model.bodies[body].length;
+  const Eigen::Vector3d along = kin.rotation[body].col(0);
+  const Eigen::Matrix3d forward = along * along.transpose();
+  const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - forward;
+  // A rod that turns about its centre meets normal drag alone, at x times the rate: ∫ x² dx.
+  const double turning = model.drag.normal * length * length * length / 12;
+  return {turning * across,
+          length * model.drag.normal * across + length * model.drag.tangential * forward};
+}
+
+/// What inertia asks of one body at q̈ = 0, about its centre, from its `angular` inertia there.
+Vector6d bias_at_centre(const Model& model, const Kinematics& kin, const Eigen::Matrix3d& angular,
+                        int body) {
+  const Vector6d bias = kin.bias_twist.col(body);
+  const Eigen::Vector3d spin = kin.twist.col(body).head<3>();
+  const Eigen::Vector3d momentum = angular * spin;
+  const Eigen::Vector3d acceleration =
+      point_velocity(bias, kin.centre_offset(body)) + spin.cross(kin.centre_velocity.col(body));
+  Vector6d wrench;
+  wrench << angular * bias.head<3>() + spin.cross(momentum), model.bodies[body].mass * acceleration;
+  return wrench;
+}
+
+}  // namespace
+
+Matrix6d body_inertia(const Model& model, const Kinematics& kin, int body) {
+  return point_operator(angular_inertia(model, kin, body),
+                        model.bodies[body].mass * Eigen::Matrix3d::Identity(),
+                        kin.centre_offset(body));
+}
+
+std::vector<Matrix6d> body_inertias(const Model& model, const Kinematics& kin) {
+  std::vector<Matrix6d> inertia(model.bodies.size());
+  for (int b = 0; b < model.body_count(); ++b) {
+    inertia[b] = body_inertia(model, kin, b);
+  }
+  return inertia;
+}
+
+Matrix6d drag_operator(const Model& model, const Kinematics& kin, int body) {
+  const CentreOperator drag = drag_at_centre(model, kin, body);
+  return point_operator(drag.angular, drag.linear, kin.centre_offset(body));
+}
+
+Eigen::VectorXd drag_force(const Model& model, const Kinematics& kin, const Eigen::VectorXd& v) {
+  Matrix6Xd wrench = body_twists(model, kin, v);
+  for (int b = 0; b < model.body_count(); ++b) {
+    wrench.col(b) = -(drag_operator(model, kin, b) * wrench.col(b)).eval();
+  }
+  return generalised_force(model, kin, wrench);
+}
+
+double drag_power(const Model& model, const Kinematics& kin, int body, const Vector6d& twist,
+                  const Eigen::Vector3d& velocity) {
+  const double length = model.bodies[body].length;
+  const Eigen::Vector3d along = kin.rotation[body].col(0);
+  const double forward = velocity.dot(along);
+  const double sideways = (velocity - forward * along).squaredNorm();
+  const double turning = twist.head<3>().cross(along).squaredNorm();
+  return length * (model.drag.normal * (sideways + turning * length * length / 12) +
+                   model.drag.tangential * forward * forward);
+}
+
+Matrix6Xd bias_wrench(const Model& model, const Kinematics& kin) {
+  Matrix6Xd wrench(6, kin.twist.cols());
+  for (int b = 0; b < model.body_count(); ++b) {
+    wrench.col(b) = about_reference(bias_at_centre(model, kin, angular_inertia(model, kin, b), b),
+                                    kin.centre_offset(b));
+  }
+  return wrench;
+}
+
+Matrix6Xd gravity_wrench(const Model& model, const Kinematics& kin) {
+  Matrix6Xd wrench(6, model.body_count());
+  for (int b = 0; b < model.body_count(); ++b) {
+    wrench.col(b) = wrench_of_force(model.bodies[b].mass * model.gravity, kin.centre_offset(b));
+  }
+  return wrench;
+}
+
+Eigen::VectorXd stiffness_force(const Model& model, const Eigen::VectorXd& q) {
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(model.nv());
+  for (int k = root_dofs; k < model.nv(); ++k) {
+    force[k] = -model.hinges[k - root_dofs].stiffness * q[k + 1];
+  }
+  return force;
+}
+
+void assemble_step_system(const Model& model, const State& state, const Kinematics& kin,
+                          const TipForce& tip, double h, StepSystem& system) {
+  const int n = model.body_count();
+  system.bias.resize(6, n);
+  system.op.inertia.resize(n);
+  system.op.diagonal.setZero(model.nv());
+  system.wrench.resize(6, n);
+  system.joint.setZero(model.nv());
+  for (int b = 0; b < n; ++b) {
+    const double mass = model.bodies[b].mass;
+    const Eigen::Vector3d offset = kin.centre_offset(b);
+    const Eigen::Matrix3d angular = angular_inertia(model, kin, b);
+    const CentreOperator drag = drag_at_centre(model, kin, b);
+    system.op.inertia[b] = point_operator(
+        angular + h * drag.angular, mass * Eigen::Matrix3d::Identity() + h * drag.linear, offset);
+    const Vector6d bias = bias_at_centre(model, kin, angular, b);
+    system.bias.col(b) = bias;
+    Vector6d momentum;
+    momentum << angular * kin.twist.col(b).head<3>() - h * bias.head<3>(),
+        mass * kin.centre_velocity.col(b) + h * (mass * model.gravity - bias.tail<3>());
+    system.wrench.col(b) = about_reference(momentum, offset);
+  }
+  for (int k = root_dofs; k < model.nv(); ++k) {
+    const Hinge& hinge = model.hinges[k - root_dofs];
+    system.op.diagonal[k] = h * hinge.damping + h * h * hinge.stiffness;
+    system.joint[k] = -h * hinge.stiffness * state.q[k + 1];
+  }
+
+  const int last = n - 1;
+  const Eigen::Vector3d offset = kin.centre_offset(last);
+  system.wrench.col(last) += h * wrench_of_force(tip.value, offset);
+  if (tip.rate != 0) {
+    system.op.inertia[last] +=
+        point_operator(Eigen::Matrix3d::Zero(), h * tip.rate * Eigen::Matrix3d::Identity(), offset);
+  }
+}
+
+StepSystem step_system(const Model& model, const State& state, const Kinematics& kin,
+                       const TipForce& tip, double h) {
+  StepSystem system;
+  assemble_step_system(model, state, kin, tip, h, system);
+  return system;
+}
+
+double kinetic_energy(const Model& model, const Kinematics& kin, int body, const Vector6d& twist,
+                      const Eigen::Vector3d& velocity) {
+  const Eigen::Vector3d rate = kin.rotation[body].transpose() * twist.head<3>();
+  return 0.5 * (model.bodies[body].mass * velocity.squaredNorm() +
+                rate.cwiseAbs2().dot(model.bodies[body].inertia));
+}
+
+double kinetic_energy(const Model& model, const Kinematics& kin) {
+  double energy = 0;
+  for (int b = 0; b < model.body_count(); ++b) {
+    energy += kinetic_energy(model, kin, b, kin.twist.col(b), kin.centre_velocity.col(b));
+  }
+  return energy;
+}
+
+double elastic_energy(const Model& model, const Eigen::VectorXd& q) {
+  double energy = 0;
+  for (int k = root_dofs; k < model.nv(); ++k) {
+    energy += 0.5 * model.hinges[k - root_dofs].stiffness * q[k + 1] * q[k + 1];
+  }
+  return energy;
+}
+
+double gravity_energy(const Model& model, const Kinematics& kin) {
+  double energy = 0;
+  for (int b = 0; b < model.body_count(); ++b) {
+    energy -= model.bodies[b].mass * model.gravity.dot(kin.centre.col(b));
+  }
+  return energy;
+}
+
+}  // namespace hagfish

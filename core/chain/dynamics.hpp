@@ -1,0 +1,75 @@
+// Inertia, bias and passive forces: the matrix and right-hand side of the paper's Eq. 1.
+//
+// RedMax form (Wang et al. 2019): M = J' M_m J and f = J' (f_m - M_m J̇ q̇), with M_m the bodies'
+// inertias. Damping, drag and stiffness are taken linearly implicitly, as RedMax does:
+// H = M + h D - h² K in place of M.
+#pragma once
+
+#include <vector>
+
+#include "core/chain/articulated.hpp"
+#include "core/chain/kinematics.hpp"
+#include "core/chain/model.hpp"
+#include "core/chain/state.hpp"
+
+namespace hagfish {
+
+/// M_m: each body's inertia about O, world axes (g cm^2, g cm, g).
+Matrix6d body_inertia(const Model& model, const Kinematics& kin, int body);
+std::vector<Matrix6d> body_inertias(const Model& model, const Kinematics& kin);
+
+/// Water drag of one body: normal and tangential drag per length (model.drag) integrated along it,
+/// as an operator on the twist, about O. The drag is minus this times the twist.
+Matrix6d drag_operator(const Model& model, const Kinematics& kin, int body);
+
+/// Drag as a generalised force (nv) at velocities `v` (nv).
+Eigen::VectorXd drag_force(const Model& model, const Kinematics& kin, const Eigen::VectorXd& v);
+
+/// M_m J̇ q̇ plus the gyroscopic wrench, per body: what inertia asks for at q̈ = 0 (6 x N).
+Matrix6Xd bias_wrench(const Model& model, const Kinematics& kin);
+
+/// Gravity on each body (6 x N).
+Matrix6Xd gravity_wrench(const Model& model, const Kinematics& kin);
+
+/// Stiffness torque -k q at the angles of q (nv; zero at the root).
+Eigen::VectorXd stiffness_force(const Model& model, const Eigen::VectorXd& q);
+
+/// A force on the last body's centre: `value` minus `rate` times the centre's velocity at the end
+/// of the step. A scripted force has rate 0; an implicit spring-damper has rate h kp + kd.
+struct TipForce {
+  Eigen::Vector3d value = Eigen::Vector3d::Zero();  ///< dyn, world
+  double rate = 0;                                  ///< dyn s / cm
+};
+
+/// One step's unconstrained problem H q̇* = M q̇0 + h f (paper, Eq. 1).
+struct StepSystem {
+  Operator op;            ///< H = M + h D - h² K
+  Matrix6Xd bias;         ///< as bias_wrench, but with moments about the bodies' centres, 6 x N
+  Matrix6Xd wrench;       ///< right-hand side, body part, 6 x N (times s)
+  Eigen::VectorXd joint;  ///< right-hand side, joint part, nv (times s)
+};
+
+/// Assembles Eq. 1 at `state`; `kin` has positions and velocities.
+void assemble_step_system(const Model& model, const State& state, const Kinematics& kin,
+                          const TipForce& tip, double h, StepSystem& system);
+StepSystem step_system(const Model& model, const State& state, const Kinematics& kin,
+                       const TipForce& tip, double h);
+
+/// Kinetic energy of one body, erg, at `twist`, which moves its centre with `velocity`.
+double kinetic_energy(const Model& model, const Kinematics& kin, int body, const Vector6d& twist,
+                      const Eigen::Vector3d& velocity);
+
+/// Of all bodies, at kin.twist.
+double kinetic_energy(const Model& model, const Kinematics& kin);
+
+/// Power that drag takes from one body, erg/s, at `twist`, which moves its centre with `velocity`.
+double drag_power(const Model& model, const Kinematics& kin, int body, const Vector6d& twist,
+                  const Eigen::Vector3d& velocity);
+
+/// Energy in the joint springs, erg.
+double elastic_energy(const Model& model, const Eigen::VectorXd& q);
+
+/// Potential energy in gravity, erg; zero at the world's origin.
+double gravity_energy(const Model& model, const Kinematics& kin);
+
+}  // namespace hagfish

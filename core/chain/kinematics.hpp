@@ -1,0 +1,54 @@
+// Where the bodies are and how they move, from q and q̇: once per step, used by all that follows.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/chain/model.hpp"
+#include "core/chain/spatial.hpp"
+#include "core/chain/state.hpp"
+
+namespace hagfish {
+
+/// World axes. Spatial vectors are about `reference`, the centre of the middle body: taken about
+/// the far head, a 100-body solve loses two digits.
+struct Kinematics {
+  Eigen::Vector3d reference = Eigen::Vector3d::Zero();  ///< O, cm
+  std::vector<Eigen::Matrix3d> rotation;                ///< N, body to world
+  Eigen::Matrix3Xd origin;                              ///< 3 x N, body frames, cm
+  Eigen::Matrix3Xd centre;                              ///< 3 x N, centres of mass, cm
+  Matrix6Xd axis;   ///< 6 x nv: column k of the Jacobian of every body at or behind dof k
+  Matrix6Xd twist;  ///< 6 x N, body twists at q̇
+  Eigen::Matrix3Xd centre_velocity;  ///< 3 x N, of the centres of mass at q̇, cm/s
+  Matrix6Xd bias_twist;              ///< 6 x N, J̇ q̇: rates of the twists at q̈ = 0
+
+  Eigen::Vector3d centre_offset(int body) const { return centre.col(body) - reference; }
+};
+
+/// Positions and axes; leaves the velocity fields alone.
+void update_positions(const Model& model, const Eigen::VectorXd& q, Kinematics& kin);
+
+/// Twists and bias twists; wants update_positions first.
+void update_velocities(const Model& model, const Eigen::VectorXd& qdot, Kinematics& kin);
+
+Kinematics kinematics(const Model& model, const State& state);
+
+// Functions with an output argument write into its storage; a step allocates nothing.
+
+/// Twists of all bodies (6 x N) at the velocities `v` (nv) instead of q̇.
+Matrix6Xd body_twists(const Model& model, const Kinematics& kin, const Eigen::VectorXd& v);
+void body_twists(const Model& model, const Kinematics& kin, const Eigen::VectorXd& v,
+                 Matrix6Xd& twist);
+
+/// Velocities of the bodies' centres (3 x N, cm/s) at `twist` (6 x N).
+Eigen::Matrix3Xd centre_velocities(const Kinematics& kin, const Matrix6Xd& twist);
+void centre_velocities(const Kinematics& kin, const Matrix6Xd& twist, Eigen::Matrix3Xd& velocity);
+
+/// J' w: generalised force (nv) of one wrench about O per body (6 x N). Exactly zero at every dof
+/// that has no loaded body behind it.
+Eigen::VectorXd generalised_force(const Model& model, const Kinematics& kin,
+                                  const Matrix6Xd& wrench);
+void generalised_force(const Model& model, const Kinematics& kin, const Matrix6Xd& wrench,
+                       Eigen::VectorXd& force);
+
+}  // namespace hagfish

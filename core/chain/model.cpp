@@ -1,0 +1,171 @@
+#include "core/chain/model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <stdexcept>
+
+namespace hagfish {
+namespace {
+
+constexpr double unbounded = std::numeric_limits<double>::infinity();
+
+std::string padded(int number, int width) {
+  std::string text = std::to_string(number);
+  return std::string(std::max<int>(0, width - static_cast<int>(text.size())), '0') + text;
+}
+
+void set_hinge(Hinge& hinge, double limit, double stiffness, double damping) {
+  hinge.lower = -limit;
+  hinge.upper = limit;
+  hinge.stiffness = stiffness;
+  hinge.damping = damping;
+}
+
+}  // namespace
+
+double Model::length() const {
+  return std::accumulate(bodies.begin(), bodies.end(), 0.0,
+                         [](double sum, const Body& b) { return sum + b.length; });
+}
+
+std::vector<JointName> joint_names(const Model& model) {
+  const int width = model.body_count() > 100 ? 3 : 2;
+  std::vector<JointName> names;
+  names.push_back(
+      {"root", {"root_x", "root_y", "root_z", "root_rot_x", "root_rot_y", "root_rot_z"}});
+  for (int b = 1; b < model.body_count(); ++b) {
+    const Body& body = model.bodies[b];
+    const std::string number = "j" + padded(b, width);
+    if (body.dofs == 1 && model.hinges[body.first_dof - root_dofs].axis == Axis::x) {
+      names.push_back({number + "_twist", {number + "_twist"}});
+      continue;
+    }
+    JointName name{number + "_bend", {}};
+    for (int k = 0; k < body.dofs; ++k) {
+      const Axis axis = model.hinges[body.first_dof - root_dofs + k].axis;
+      name.dofs.push_back(name.joint + "_" + "xyz"[static_cast<int>(axis)]);
+    }
+    names.push_back(std::move(name));
+  }
+  return names;
+}
+
+std::string dof_name(const Model& model, int dof) {
+  int first = 0;
+  for (const JointName& joint : joint_names(model)) {
+    const int count = static_cast<int>(joint.dofs.size());
+    if (dof < first + count) {
+      return joint.dofs.at(dof - first);
+    }
+    first += count;
+  }
+  throw std::out_of_range("no velocity " + std::to_string(dof));
+}
+
+std::string cone_joint_name(const Model& model, const BendingCone& cone) {
+  return joint_names(model).at(model.hinges.at(cone.dof - root_dofs).body).joint;
+}
+
+Eigen::Matrix2Xd hinge_ranges(const Model& model) {
+  Eigen::Matrix2Xd ranges(2, static_cast<Eigen::Index>(model.hinges.size()));
+  for (Eigen::Index k = 0; k < ranges.cols(); ++k) {
+    ranges.col(k) << model.hinges[k].lower, model.hinges[k].upper;
+  }
+  for (const BendingCone& cone : model.cones) {
+    ranges.middleCols<2>(cone.dof - root_dofs).row(0).setConstant(-cone.limit);
+    ranges.middleCols<2>(cone.dof - root_dofs).row(1).setConstant(cone.limit);
+  }
+  return ranges;
+}
+
+Eigen::VectorXd bending_limits(const Model& model) {
+  Eigen::VectorXd limits = Eigen::VectorXd::Constant(model.body_count(), unbounded);
+  for (const BendingCone& cone : model.cones) {
+    limits[model.hinges[cone.dof - root_dofs].body] = cone.limit;
+  }
+  return limits;
+}
+
+void append_body(Model& model, const Body& body, const std::vector<Axis>& axes) {
+  const int index = model.body_count();
+  if (index == 0 && !axes.empty()) {
+    throw std::invalid_argument("body 0 hangs on the free root and takes no hinges");
+  }
+  model.bodies.push_back(body);
+  model.bodies.back().first_dof = index == 0 ? 0 : model.nv();
+  model.bodies.back().dofs = index == 0 ? root_dofs : static_cast<int>(axes.size());
+  for (Axis axis : axes) {
+    model.hinges.push_back({index, axis, -unbounded, unbounded, 0, 0});
+  }
+}
+
+Eigen::Vector3d cylinder_inertia(double mass, double length, double radius) {
+  const double across = mass * (3 * radius * radius + length * length) / 12;
+  return {mass * radius * radius / 2, across, across};
+}
+
+double hinge_span(int bodies, double length, int body) {
+  const int from = body <= 2 ? 0 : body - 1;
+  const int to = body + 2 >= bodies ? bodies : body + 1;
+  return (to - from) * length;
+}
+
+Model make_hagfish(const Specimen& specimen, const Scene& scene) {
+  const ModelSettings& settings = scene.model;
+  const int n = settings.bodies;
+  if (n < 2 || n > 400) {
+    throw std::invalid_argument("model.bodies = " + std::to_string(n) + ": must be in 2..400");
+  }
+  const double length = specimen.length / n;
+  std::vector<double> radius(n);
+  std::vector<double> density(n);  // relative
+  double whole = 0;
+  for (int b = 0; b < n; ++b) {
+    radius[b] =
+        profile(specimen.station, specimen.circumference, (b + 0.5) / n) / (2 * std::numbers::pi);
+    density[b] = std::pow(settings.mass_ratio, static_cast<double>(b) / (n - 1));
+    whole += radius[b] * radius[b] * density[b];
+  }
+
+  Model model;
+  model.drag = scene.drag;
+  model.gravity = scene.gravity;
+  for (int b = 0; b < n; ++b) {
+    const bool bend = b % 2 == 1;
+    Body body;
+    body.mass = specimen.mass * radius[b] * radius[b] * density[b] / whole;
+    body.length = length;
+    body.radius = radius[b];
+    body.inertia = cylinder_inertia(body.mass, length, radius[b]);
+    if (b == 0) {
+      append_body(model, body, {});
+    } else if (bend) {
+      append_body(model, body, {Axis::y, Axis::z});
+      const double span = hinge_span(n, length, b);
+      const double measured =
+          profile(specimen.station, specimen.bending_limit, static_cast<double>(b) / n);
+      const double limit =
+          std::min(settings.limit_scale * measured * 2 * length / specimen.bending_span,
+                   settings.largest_limit);
+      const bool cone = settings.bending_limit == BendingLimit::cone;
+      if (cone) {
+        model.cones.push_back({model.bodies.back().first_dof, limit});
+      }
+      for (int k = 1; k <= 2; ++k) {
+        set_hinge(model.hinges[model.hinges.size() - k], cone ? unbounded : limit,
+                  settings.bending_stiffness / span, settings.bending_damping / span);
+      }
+    } else {
+      append_body(model, body, {Axis::x});
+      const double span = hinge_span(n, length, b);
+      set_hinge(model.hinges.back(), settings.limit_scale * specimen.twist_limit / n,
+                settings.twist_stiffness / span, settings.twist_damping / span);
+    }
+  }
+  return model;
+}
+
+}  // namespace hagfish

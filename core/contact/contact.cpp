@@ -1,0 +1,173 @@
+#include "core/contact/contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hagfish {
+namespace {
+
+/// Distance between bounding spheres up to which pairs are carried beyond the margin, cm: twice
+/// what a segment may move before they are found anew. Only speed depends on it.
+constexpr double carried = 0.5;
+
+/// A cubic stays as close to another as their Bézier points: at most this far from `before`, cm.
+double displacement(const SplineSegment& before, const SplineSegment& now) {
+  const Eigen::Vector3d d0 = now.c0 - before.c0;
+  const Eigen::Vector3d d1 = now.c1 - before.c1;
+  const Eigen::Vector3d d2 = now.c2 - before.c2;
+  const Eigen::Vector3d d3 = now.c3 - before.c3;
+  return std::sqrt(
+      std::max({d0.squaredNorm(), (d0 + d1 / 3).squaredNorm(),
+                (d0 + 2 * d1 / 3 + d2 / 3).squaredNorm(), (d0 + d1 + d2 + d3).squaredNorm()}));
+}
+
+void find_candidates(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
+                     ContactSearch& search) {
+  const int n = static_cast<int>(segments.size());
+  search.candidates.clear();
+  search.moved.assign(n, 0);
+  // A hair of slack: equal arcs must not fall on either side of the bound by rounding.
+  const double least_arc = settings.least_arc * (1 - 1e-9);
+  for (int a = 0; a < n; ++a) {
+    for (int b = a + 1; b < n; ++b) {
+      const double reach = segments[a].bound + segments[b].bound + settings.margin;
+      const double square = (segments[a].middle - segments[b].middle).squaredNorm();
+      if (square <= (reach + carried) * (reach + carried) &&
+          segments[b].s0 - segments[a].arc(1) >= least_arc) {
+        search.candidates.push_back({a, b, std::nullopt, std::sqrt(square) - reach});
+      }
+    }
+  }
+}
+
+/// Adds up how far the segments have moved; finds the candidates anew where that is too far.
+void update_candidates(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
+                       ContactSearch& search) {
+  bool hold = search.segments.size() == segments.size();
+  for (std::size_t i = 0; hold && i < segments.size(); ++i) {
+    search.moved[i] += displacement(search.segments[i], segments[i]);
+    hold = search.moved[i] <= 0.5 * carried;
+  }
+  if (!hold) {
+    find_candidates(segments, settings, search);
+  }
+  search.segments = segments;
+}
+
+/// Looks at a candidate; notes it where it is within the margin.
+void look(const std::vector<SplineSegment>& segments, const ContactSettings& settings, int index,
+          ContactSearch& search) {
+  SegmentPair& pair = search.candidates[index];
+  pair.closest = closest_points(segments[pair.a], segments[pair.b], pair.closest);
+  pair.clear_until = search.moved_by(pair) + pair.closest->gap - settings.margin;
+  search.looked[index] = 1;
+  if (pair.closest->gap <= settings.margin) {
+    search.close.push_back(index);
+  }
+}
+
+/// The candidate of two segments, -1 where they are none.
+int find_candidate(const ContactSearch& search, int a, int b) {
+  const auto it = std::lower_bound(
+      search.candidates.begin(), search.candidates.end(), std::pair(a, b),
+      [](const SegmentPair& pair, const auto& key) { return std::pair(pair.a, pair.b) < key; });
+  const bool found = it != search.candidates.end() && it->a == a && it->b == b;
+  return found ? static_cast<int>(it - search.candidates.begin()) : -1;
+}
+
+// A minimum on the border of two segments is found from both, with gaps that differ by rounding,
+// cm.
+constexpr double same_gap = 1e-9;
+
+/// Which neighbour shares the border that `t` lies on: -1, +1, or 0 inside the segment.
+int across(double t) { return t <= 0 ? -1 : (t >= 1 ? 1 : 0); }
+
+/// A minimum inside both segments always counts; one on a border counts unless the gap falls on
+/// beyond it, and only for the first of the pairs that find it.
+bool is_local_minimum(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
+                      int index, ContactSearch& search) {
+  const SegmentPair& own = search.candidates[index];
+  const int step_a = across(own.closest->t_a);
+  const int step_b = across(own.closest->t_b);
+  for (const auto& [da, db] : {std::pair(step_a, 0), {0, step_b}, {step_a, step_b}}) {
+    if (da == 0 && db == 0) {
+      continue;
+    }
+    const int other = find_candidate(search, own.a + da, own.b + db);
+    if (other < 0) {
+      continue;
+    }
+    if (search.looked[other] == 0) {
+      look(segments, settings, other, search);
+    }
+    const double lower_by = own.closest->gap - search.candidates[other].closest->gap;
+    if (lower_by > same_gap || (lower_by >= -same_gap && other < index)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+Contact contact_at(const std::vector<SplineSegment>& segments, int segment_a, double t_a,
+                   int segment_b, double t_b) {
+  const SplineSegment& a = segments[segment_a];
+  const SplineSegment& b = segments[segment_b];
+  const Eigen::Vector3d apart = a.point(t_a) - b.point(t_b);
+  Contact c;
+  c.segment_a = segment_a;
+  c.segment_b = segment_b;
+  c.t_a = t_a;
+  c.t_b = t_b;
+  c.arc_a = a.arc(t_a);
+  c.arc_b = b.arc(t_b);
+  c.gap = apart.norm() - a.radius(t_a) - b.radius(t_b);
+  c.normal = apart.normalized();
+  c.tangent_a = a.slope(t_a).normalized();
+  c.tangent_b = b.slope(t_b).normalized();
+  return c;
+}
+
+void find_contacts(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
+                   double near, ContactSearch& search, ContactSet& set) {
+  update_candidates(segments, settings, search);
+  search.looked.assign(search.candidates.size(), 0);
+  search.close.clear();
+  for (std::size_t i = 0; i < search.candidates.size(); ++i) {
+    if (search.moved_by(search.candidates[i]) >= search.candidates[i].clear_until) {
+      look(segments, settings, static_cast<int>(i), search);
+    }
+  }
+  set.contacts.clear();
+  set.others.clear();
+  set.least_gap = settings.margin;
+  // By index, as the list grows: what a pair is compared with is looked at too.
+  for (std::size_t k = 0; k < search.close.size(); ++k) {
+    const int index = search.close[k];
+    const bool minimum = is_local_minimum(segments, settings, index, search);
+    SegmentPair& pair = search.candidates[index];
+    const double gap = pair.closest->gap;
+    set.least_gap = std::min(set.least_gap, gap);
+    if (!minimum) {
+      pair.clear_until = search.moved_by(pair) + gap - near;
+    }
+    if (minimum || gap < near) {
+      (minimum ? set.contacts : set.others)
+          .push_back(contact_at(segments, pair.a, pair.closest->t_a, pair.b, pair.closest->t_b));
+    }
+  }
+  std::sort(set.contacts.begin(), set.contacts.end(), [](const Contact& x, const Contact& y) {
+    return std::pair(x.arc_a, x.arc_b) < std::pair(y.arc_a, y.arc_b);
+  });
+}
+
+ContactSet find_contacts(const std::vector<SplineSegment>& segments,
+                         const ContactSettings& settings) {
+  ContactSearch search;
+  ContactSet set;
+  find_contacts(segments, settings, 0, search, set);
+  return set;
+}
+
+}  // namespace hagfish

@@ -1,0 +1,71 @@
+// Self-contact of the swept skin: where strands of the body touch or nearly touch.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "core/contact/closest_points.hpp"
+#include "core/contact/spline.hpp"
+
+namespace hagfish {
+
+/// One local minimum of the gap between two strands; a is the strand nearer the head.
+struct Contact {
+  int segment_a = 0, segment_b = 0;
+  double t_a = 0, t_b = 0;
+  double arc_a = 0, arc_b = 0;           ///< arc length from the head, cm
+  double gap = 0;                        ///< cm; negative where the skins overlap
+  Eigen::Vector3d normal;                ///< unit, world, from b to a: the gap's rate along ẋ_a
+  Eigen::Vector3d tangent_a, tangent_b;  ///< unit, world, both to the tail
+
+  /// Body of the chain nearest to the point on strand a (b).
+  int body_a() const { return segment_a + (t_a >= 0.5 ? 1 : 0); }
+  int body_b() const { return segment_b + (t_b >= 0.5 ? 1 : 0); }
+};
+
+struct ContactSet {
+  /// Local minima of the gap up to the margin, sorted by arc_a, then arc_b: some 5 to 15 in a tight
+  /// knot. The gap is positive everywhere if it is at those.
+  std::vector<Contact> contacts;
+  /// Pairs that nearly touch but are no minimum. They matter only where a step makes one of them.
+  std::vector<Contact> others;
+  /// Least gap found, cm; at most the margin.
+  double least_gap = 0;
+};
+
+/// The pair of spline points (segment_a, t_a) and (segment_b, t_b), whatever the gap there.
+Contact contact_at(const std::vector<SplineSegment>& segments, int segment_a, double t_a,
+                   int segment_b, double t_b);
+
+/// Two segments that may touch, a before b.
+struct SegmentPair {
+  int a = 0, b = 0;
+  std::optional<ClosestPoints> closest;  ///< when last looked at
+  /// They need no look until the two have moved this far in all, cm.
+  double clear_until = 0;
+};
+
+/// What a search for contacts carries to the next one with the same settings. Pairs are left out as
+/// long as nothing that moved can have brought them together. So a new minimum is seen at once
+/// where strands touch or come within the margin, but beside another one, while it is clear of
+/// touching, perhaps some steps late.
+struct ContactSearch {
+  std::vector<SegmentPair> candidates;  ///< sorted
+  std::vector<SplineSegment> segments;  ///< of the last search
+  std::vector<double> moved;            ///< at most, by each since the candidates were found, cm
+  std::vector<char> looked;             ///< which candidates this search has looked at
+  std::vector<int> close;               ///< indices of those of them that are within the margin
+
+  double moved_by(const SegmentPair& pair) const { return moved[pair.a] + moved[pair.b]; }
+};
+
+/// Finds the contacts of `segments` (paper, 3.1: bounding spheres, then Eq. 5) into `set`. Of pairs
+/// that are no minimum those with a gap below `near` (cm) are listed; none with a gap in the other
+/// one.
+void find_contacts(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
+                   double near, ContactSearch& search, ContactSet& set);
+ContactSet find_contacts(const std::vector<SplineSegment>& segments,
+                         const ContactSettings& settings);
+
+}  // namespace hagfish

@@ -1,0 +1,215 @@
+// The keys of scene and specimen files, once for the reader and the writer: `Io` is TableReader or
+// TomlWriter. Included by scene_reader.cpp only.
+#pragma once
+
+#include <limits>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/input/toml_range.hpp"
+#include "core/scene/settings.hpp"
+#include "core/scene/specimen.hpp"
+
+namespace hagfish {
+
+enum class KnotUnit { unsaid, dyn, cm, body_length };
+
+/// A script as its file spells it: knots in rows [t, x, y, z], in `unit`.
+struct ScriptFile {
+  ScriptSettings settings;  ///< all but the knots
+  KnotUnit unit = KnotUnit::unsaid;
+  std::vector<Eigen::Vector4d> rows;
+};
+
+template <class Io>
+void specimen_fields(Io& io, Specimen& s) {
+  io.string("name", s.name);
+  io.number("length", s.length, positive());
+  io.number("mass", s.mass, positive());
+  io.numbers("station", s.station, within(0, 1));
+  io.numbers("circumference", s.circumference, positive());
+  io.angles("bending_limit", s.bending_limit, inside(0, 180));
+  io.number("bending_span", s.bending_span, positive());
+  io.angle("twist_limit", s.twist_limit, positive());
+}
+
+template <class Io>
+void model_fields(Io& io, ModelSettings& s) {
+  io.integer("bodies", s.bodies, within(2, 400));
+  io.number("bending_stiffness", s.bending_stiffness, not_negative());
+  io.number("bending_damping", s.bending_damping, not_negative());
+  io.number("twist_stiffness", s.twist_stiffness, not_negative());
+  io.number("twist_damping", s.twist_damping, not_negative());
+  io.angle("largest_limit", s.largest_limit, inside(0, 90));
+  io.number("limit_scale", s.limit_scale, positive());
+  io.number("mass_ratio", s.mass_ratio, positive());
+  io.template choice<BendingLimit>("bending_limit", s.bending_limit,
+                                   {{"box", BendingLimit::box}, {"cone", BendingLimit::cone}});
+}
+
+/// A phase as a choice, by the name that logs have.
+inline std::pair<std::string_view, Phase> named(Phase phase) { return {phase_name(phase), phase}; }
+
+template <class Io>
+void start_fields(Io& io, StartSettings& s) {
+  io.rows("bend", "row", "station, x, y, z", s.bend);
+  io.rows("bend_rate", "row", "station, x, y, z", s.bend_rate);
+  io.vector("spin", s.spin);
+  io.numbers("q", s.q, any_number());
+  io.numbers("qdot", s.qdot, any_number());
+  io.angle("noise", s.noise, not_negative());
+  io.integer("seed", s.seed, any_number());
+  io.template choice<Phase>("phase", s.phase,
+                            {named(Phase::form), named(Phase::tighten), named(Phase::slide),
+                             named(Phase::release), named(Phase::free)});
+}
+
+template <class Io>
+void constraint_fields(Io& io, ConstraintSettings& s) {
+  io.template choice<Activation>(
+      "activation", s.activation,
+      {{"speculative", Activation::speculative}, {"violated", Activation::violated}});
+  io.number("push_out", s.push_out, within(0, 1));
+  io.number("push_out_speed", s.push_out_speed, positive());
+  io.number("tolerance", s.tolerance, not_negative());
+  io.integer("corrections", s.corrections, within(0, 100));
+  io.number("stride", s.stride, positive());
+}
+
+template <class Io>
+void script_fields(Io& io, ScriptFile& s) {
+  using Kind = ScriptSettings::Kind;
+  io.template choice<Kind>(
+      "kind", s.settings.kind,
+      {{"none", Kind::none}, {"force", Kind::force}, {"position", Kind::position}});
+  io.number("spring", s.settings.spring, not_negative());
+  io.number("damper", s.settings.damper, not_negative());
+  io.number("largest_force", s.settings.largest_force, not_negative());
+  io.number("noise", s.settings.noise, not_negative());
+  io.integer("noise_seed", s.settings.noise_seed, any_number());
+  io.template choice<KnotUnit>(
+      "unit", s.unit, {{"dyn", KnotUnit::dyn}, {"cm", KnotUnit::cm}, {"L", KnotUnit::body_length}});
+  io.rows("knots", "knot", "t, x, y, z", s.rows);
+}
+
+template <class Io>
+void controller_fields(Io& io, ControllerSettings& s) {
+  io.number("cap", s.cap, positive());
+  io.number("acceleration", s.acceleration, positive());
+  io.number("contact_gap", s.contact_gap, not_negative());
+  io.number("hysteresis", s.hysteresis, not_negative());
+  io.number("tail_through", s.tail_through, not_negative());
+  io.number("tighten_from", s.tighten_from, not_negative());
+  io.number("tight_span", s.tight_span, positive());
+  io.number("tight_hold", s.tight_hold, not_negative());
+  io.number("tighten_time", s.tighten_time, not_negative());
+  io.number("release_at", s.release_at, positive());
+  io.number("untied_for", s.untied_for, not_negative());
+  io.number("free_time", s.free_time, not_negative());
+  io.template choice<BodyEnd>("leave_by", s.leave_by,
+                              {{"head", BodyEnd::head}, {"tail", BodyEnd::tail}});
+  io.template choice<Phase>(
+      "free_from", s.free_from,
+      {named(Phase::tighten), named(Phase::slide), named(Phase::release), named(Phase::free)});
+  const auto speeds = [&io](std::string_view key, ThigmotaxisSpeeds& pair) {
+    io.table(key, [&pair](Io& table) {
+      table.number("a", pair.a, any_number());
+      table.number("b", pair.b, any_number());
+    });
+  };
+  speeds("tighten_head", s.tighten_head);
+  speeds("tighten_tail", s.tighten_tail);
+  speeds("slide_head", s.slide_head);
+  speeds("slide_tail", s.slide_tail);
+  speeds("reverse_head", s.reverse_head);
+  speeds("reverse_tail", s.reverse_tail);
+}
+
+template <class Io>
+void knot_fields(Io& io, KnotSettings& s) {
+  io.integer("votes", s.votes, within(1, 10000));
+  io.integer("seed", s.seed, any_number());
+  io.number("interval", s.interval, positive());
+}
+
+template <class Io>
+void time_fields(Io& io, TimeSettings& s) {
+  io.number("step", s.step, positive());
+  io.number("frame_interval", s.frame_interval, positive());
+  io.number("duration", s.duration, positive());
+  io.template choice<Phase>("until", s.until,
+                            {named(Phase::form), named(Phase::tighten), named(Phase::slide),
+                             named(Phase::reverse), named(Phase::release), named(Phase::free)});
+}
+
+template <class Io>
+void guard_fields(Io& io, GuardSettings& s) {
+  io.template choice<GuardAction>("action", s.action,
+                                  {{"stop", GuardAction::stop}, {"warn", GuardAction::warn}});
+  io.number("penetration", s.penetration, positive());
+  io.angle("limit_violation", s.limit_violation, positive());
+  io.number("speed", s.speed, positive());
+  io.number("energy_gain", s.energy_gain, not_negative());
+  io.template choice<EnergyAction>(
+      "energy_action", s.energy_action,
+      {{"hold", EnergyAction::hold}, {"warn", EnergyAction::warn}, {"stop", EnergyAction::stop}});
+  io.number("capped_time", s.capped_time, not_negative());
+}
+
+template <class Io>
+void expect_fields(Io& io, ExpectSettings& s) {
+  io.string("knot", s.knot);
+  std::vector<std::pair<std::string, Eigen::Vector2d>> stretches;
+  for (const KnotStretch& k : s.types)
+    stretches.emplace_back(k.type, Eigen::Vector2d(k.from, k.to));
+  io.labelled_rows("types", "stretch", "[type, from, to]", stretches);
+  s.types.clear();
+  for (const auto& [type, times] : stretches) s.types.push_back({type, times[0], times[1]});
+  io.template choice<Hand>("hand", s.hand,
+                           {{"any", Hand::any}, {"right", Hand::right}, {"left", Hand::left}});
+  io.number("slide_distance", s.slide_distance, not_negative());
+  io.number("reverse_distance", s.reverse_distance, not_negative());
+  io.number("speed_share", s.speed_share, within(0, 1));
+  io.number("penetration", s.penetration, not_negative());
+  io.angle("limit_violation", s.limit_violation, not_negative());
+  io.number("head_drift", s.head_drift, not_negative());
+  io.number("kkt", s.kkt, not_negative());
+  io.number("force_balance", s.force_balance, not_negative());
+  io.number("forward_inverse", s.forward_inverse, not_negative());
+  io.number("energy", s.energy, not_negative());
+  io.number("energy_gain", s.energy_gain, not_negative());
+}
+
+/// All but `specimen`, which is a file name or a table.
+template <class Io>
+void scene_fields(Io& io, Scene& s, ScriptFile& script) {
+  io.string("title", s.title);
+  io.boolean("mirror", s.mirror);
+  io.boolean("clamp_head", s.clamp_head);
+  io.vector("gravity", s.gravity);
+  io.table("model", [&](Io& t) { model_fields(t, s.model); });
+  io.table("drag", [&](Io& t) {
+    t.number("normal", s.drag.normal, not_negative());
+    t.number("tangential", s.drag.tangential, not_negative());
+  });
+  io.table("constraints", [&](Io& t) { constraint_fields(t, s.constraints); });
+  io.table("contact", [&](Io& t) {
+    t.number("margin", s.contact.margin, not_negative());
+    t.number("least_arc", s.contact.least_arc, positive());
+  });
+  io.table("wall", [&](Io& t) {
+    t.boolean("present", s.wall.present);
+    t.number("neck", s.wall.neck, not_negative());
+  });
+  io.table("start", [&](Io& t) { start_fields(t, s.start); });
+  io.table("script", [&](Io& t) { script_fields(t, script); });
+  io.table("controller", [&](Io& t) { controller_fields(t, s.controller); });
+  io.table("knot", [&](Io& t) { knot_fields(t, s.knot); });
+  io.table("time", [&](Io& t) { time_fields(t, s.time); });
+  io.table("guard", [&](Io& t) { guard_fields(t, s.guard); });
+  io.table("expect", [&](Io& t) { expect_fields(t, s.expect); });
+}
+
+}  // namespace hagfish

@@ -1,0 +1,284 @@
+#include "core/input/scene_reader.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "core/chain/model.hpp"
+#include "core/input/builtin_files.hpp"
+#include "core/input/input_text.hpp"
+#include "core/input/scene_fields.hpp"
+#include "core/input/toml_reader.hpp"
+#include "core/input/toml_writer.hpp"
+#include "core/knot/knot.hpp"
+
+namespace hagfish {
+namespace {
+
+constexpr std::string_view specimen_prefix = "specimen.";
+
+Specimen read_specimen_table(TableReader& table) {
+  Specimen s;
+  table.require_all();
+  specimen_fields(table, s);
+  table.finish();
+  for (std::size_t i = 1; i < s.station.size(); ++i) {
+    if (s.station[i] <= s.station[i - 1]) {
+      table.fail("station", "must rise; station " + std::to_string(i + 1) + " does not");
+    }
+  }
+  const std::string count = std::to_string(s.station.size());
+  if (s.circumference.size() != s.station.size()) {
+    table.fail("circumference", "must have as many values as station, " + count);
+  }
+  if (s.bending_limit.size() != s.station.size()) {
+    const bool radians = table.has("bending_limit_rad");
+    table.fail(radians ? "bending_limit_rad" : "bending_limit_deg",
+               "must have as many values as station, " + count);
+  }
+  if (s.bending_span > s.length) {
+    table.fail("bending_span", "must not exceed the length, " + shortest(s.length));
+  }
+  return s;
+}
+
+/// The text of the specimen file that the scene of `root` names, and its name in errors.
+std::pair<std::string, std::string> specimen_file(const TableReader& root, const std::string& name,
+                                                  const std::filesystem::path* scene_file) {
+  if (root.was_set("specimen") || scene_file) {
+    std::filesystem::path file = name;
+    if (!root.was_set("specimen")) file = scene_file->parent_path() / file;
+    try {
+      return {read_text_file(file), file.string()};
+    } catch (const InputError& error) {
+      root.fail("specimen", error.what());
+    }
+  }
+  const auto text = builtin_file(name);
+  if (!text) root.fail("specimen", "no such built-in file");
+  return {std::string(*text), name + " (built in)"};
+}
+
+/// Reads `specimen` of the scene, a table or a file name, which goes to `name`.
+Specimen read_scene_specimen(TableReader& root, const std::filesystem::path* scene_file,
+                             const std::vector<Override>& changes, std::string& name) {
+  if (root.is_table("specimen")) {
+    Specimen specimen;
+    root.table("specimen", [&](TableReader& table) { specimen = read_specimen_table(table); });
+    return specimen;
+  }
+  if (!root.has("specimen")) root.fail("specimen", "is missing: a file name or a table");
+  root.string("specimen", name);
+  const auto [text, file] = specimen_file(root, name, scene_file);
+  TableReader table(text, file);
+  for (const auto& [key, value] : changes) {
+    table.set({key.substr(specimen_prefix.size()), value}, key);
+  }
+  return read_specimen_table(table);
+}
+
+/// Checks `file` and turns it into the script it spells, for an animal of `length` (cm).
+ScriptSettings resolve_script(const TableReader& root, const ScriptFile& file, double length) {
+  using Kind = ScriptSettings::Kind;
+  ScriptSettings script = file.settings;
+  if (script.kind == Kind::none) return script;
+  const bool position = script.kind == Kind::position;
+  if (file.unit != KnotUnit::unsaid && position == (file.unit == KnotUnit::dyn)) {
+    root.fail("script.unit",
+              position ? "positions are in \"L\" or \"cm\"" : "forces are in \"dyn\"");
+  }
+  if (file.rows.size() < 2) root.fail("script.knots", "a script needs two knots or more");
+  if (file.rows[0][0] != 0) root.fail_element("script.knots", 0, "knot 1 must be at time 0");
+  const bool lengths = position && file.unit != KnotUnit::cm;
+  for (std::size_t i = 0; i < file.rows.size(); ++i) {
+    const auto& row = file.rows[i];
+    if (i > 0 && row[0] <= file.rows[i - 1][0]) {
+      root.fail_element("script.knots", i,
+                        "knot " + std::to_string(i + 1) + " must be later than the one before it");
+    }
+    script.knots.push_back({row[0], row.tail<3>() * (lengths ? length : 1)});
+  }
+  if (position && script.spring == 0) root.fail("script.spring", "must be positive");
+  if (position && script.largest_force == 0) root.fail("script.largest_force", "must be positive");
+  return script;
+}
+
+/// A number from the standard normal distribution (Box and Muller), from the generator's bits.
+double normal(std::mt19937& random) {
+  const double u = (static_cast<double>(random()) + 0.5) * 0x1p-32;
+  const double v = static_cast<double>(random()) * 0x1p-32;
+  return std::sqrt(-2 * std::log(u)) * std::cos(2 * std::numbers::pi * v);
+}
+
+void draw_noise(ScriptSettings& script) {
+  if (script.noise == 0) return;
+  std::mt19937 random(script.noise_seed);
+  for (ScriptKnot& knot : script.knots) {
+    for (double& coordinate : knot.noise) coordinate = script.noise * normal(random);
+  }
+}
+
+/// The mirror image, y to -y, of all that the scene gives. Twice is the scene itself.
+void reflect(Scene& scene) {
+  scene.gravity.y() *= -1;
+  for (ScriptKnot& knot : scene.script.knots) {
+    knot.value.y() *= -1;
+    knot.noise.y() *= -1;
+  }
+  for (auto* rows : {&scene.start.bend, &scene.start.bend_rate}) {
+    for (Eigen::Vector4d& row : *rows) {  // turns about x and z change sign
+      row[1] *= -1;
+      row[3] *= -1;
+    }
+  }
+  scene.start.spin.x() *= -1;
+  scene.start.spin.z() *= -1;
+  scene.knot.mirror = !scene.knot.mirror;
+  Hand& hand = scene.expect.hand;
+  if (hand != Hand::any) hand = hand == Hand::right ? Hand::left : Hand::right;
+}
+
+void check_stations(const TableReader& root, const std::string& key,
+                    const std::vector<Eigen::Vector4d>& rows) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double before = i == 0 ? 0 : rows[i - 1][0];
+    if (rows[i][0] < before || rows[i][0] > 1 || (i > 0 && rows[i][0] == before)) {
+      root.fail_element(
+          key, i, "stations must rise from 0 to 1; row " + std::to_string(i + 1) + " does not");
+    }
+  }
+}
+
+void check_start(const TableReader& root, const ResolvedScene& resolved) {
+  const StartSettings& start = resolved.scene.start;
+  check_stations(root, "start.bend", start.bend);
+  check_stations(root, "start.bend_rate", start.bend_rate);
+  if (resolved.scene.clamp_head && !start.spin.isZero(0)) {
+    root.fail("start.spin", "the head is clamped (clamp_head)");
+  }
+  if (!start.q.empty() && !start.bend.empty()) root.fail("start.q", "start.bend is given too");
+  if (resolved.scene.mirror && (!start.q.empty() || !start.qdot.empty() || start.noise > 0)) {
+    root.fail("mirror", "start.q, start.qdot and start.noise have no mirror image");
+  }
+  if (!start.qdot.empty() && (!start.bend_rate.empty() || !start.spin.isZero(0))) {
+    root.fail("start.qdot", "start.bend_rate or start.spin is given too");
+  }
+  if (start.q.empty() && start.qdot.empty()) return;
+  const Model model = make_hagfish(resolved.specimen, resolved.scene);
+  const auto check_length = [&](const std::string& key, const std::vector<double>& x, int length) {
+    if (!x.empty() && static_cast<int>(x.size()) != length) {
+      root.fail(key, "has " + std::to_string(x.size()) + " numbers; " +
+                         std::to_string(model.body_count()) + " bodies need " +
+                         std::to_string(length));
+    }
+  };
+  check_length("start.q", start.q, model.nq());
+  check_length("start.qdot", start.qdot, model.nv());
+  if (!start.q.empty() && Eigen::Vector4d::Map(start.q.data() + 3).isZero(0)) {
+    root.fail("start.q", "numbers 4 to 7 are a quaternion and must not all be 0");
+  }
+}
+
+void check_times(const TableReader& root, const TimeSettings& time) {
+  const std::string step = "must not be less than time.step, " + shortest(time.step);
+  if (time.frame_interval < time.step) root.fail("time.frame_interval", step);
+  if (time.duration < time.step) root.fail("time.duration", step);
+  // Beyond 1e9 steps a frame, or a run, an index of steps is of no use.
+  const double steps = time.frame_interval / time.step;
+  if (steps > 1e9 || std::abs(steps - std::round(steps)) > 1e-9 * steps) {
+    root.fail("time.frame_interval", "must be a whole number of time.step, " + shortest(time.step));
+  }
+  if (time.duration / time.step > 1e9) {
+    root.fail("time.duration", "must be at most 1e9 times time.step, " + shortest(time.step));
+  }
+}
+
+void check_expectations(const TableReader& root, const Scene& scene) {
+  const auto known = [](const std::string& name) { return knot_called(name).has_value(); };
+  const std::string names = "must be the name of a knot, 3_1 to 7_7 or det=D,v2=V";
+  if (!scene.expect.knot.empty() && (!known(scene.expect.knot) || scene.expect.knot == "0_1")) {
+    root.fail("expect.knot", names + ", or empty for none");
+  }
+  const std::vector<KnotStretch>& types = scene.expect.types;
+  for (std::size_t i = 0; i < types.size(); ++i) {
+    if (!known(types[i].type)) {
+      root.fail_element("expect.types", i, "type " + names + ", or 0_1 for none");
+    }
+    if (types[i].to < types[i].from || types[i].from < (i > 0 ? types[i - 1].to : 0)) {
+      root.fail_element("expect.types", i, "times must rise");
+    }
+  }
+  if (scene.controller.contact_gap > scene.contact.margin) {
+    root.fail("controller.contact_gap",
+              "must not exceed contact.margin, " + shortest(scene.contact.margin));
+  }
+}
+
+ResolvedScene read(const std::string& text, const std::string& name,
+                   const std::filesystem::path* scene_file,
+                   const std::vector<std::string>& overrides) {
+  TableReader root(text, name);
+  std::vector<Override> specimen_changes;
+  for (const auto& assignment : overrides) {
+    const Override change = parse_override(assignment);
+    if (change.key.starts_with(specimen_prefix)) {
+      specimen_changes.push_back(change);
+    } else {
+      root.set(change, change.key);
+    }
+  }
+  // Into the scene where it has the table; into the file that it names where not.
+  if (root.is_table("specimen")) {
+    for (const auto& change : specimen_changes) root.set(change, change.key);
+  }
+  ResolvedScene result;
+  ScriptFile script;
+  result.specimen = read_scene_specimen(root, scene_file, specimen_changes, result.scene.specimen);
+  scene_fields(root, result.scene, script);
+  root.finish();
+  result.scene.script = resolve_script(root, script, result.specimen.length);
+  draw_noise(result.scene.script);
+  if (result.scene.mirror) reflect(result.scene);
+  check_start(root, result);
+  check_times(root, result.scene.time);
+  check_expectations(root, result.scene);
+  return result;
+}
+
+}  // namespace
+
+Specimen read_specimen(const std::filesystem::path& file) {
+  TableReader table(read_text_file(file), file.string());
+  return read_specimen_table(table);
+}
+
+ResolvedScene read_scene(const std::filesystem::path& file,
+                         const std::vector<std::string>& overrides) {
+  return read(read_text_file(file), file.string(), &file, overrides);
+}
+
+ResolvedScene read_scene_text(const std::string& text, const std::string& name,
+                              const std::vector<std::string>& overrides) {
+  return read(text, name, nullptr, overrides);
+}
+
+std::string scene_to_toml(const Scene& scene, const Specimen& specimen) {
+  using Kind = ScriptSettings::Kind;
+  Scene fields = scene;  // the writer only reads them
+  if (scene.mirror) reflect(fields);
+  Specimen animal = specimen;
+  ScriptFile script;
+  script.settings = fields.script;
+  // Positions in cm, as they are in memory: a division by the length would not undo to the bit.
+  script.unit = scene.script.kind == Kind::position ? KnotUnit::cm : KnotUnit::dyn;
+  for (const auto& knot : fields.script.knots) {
+    script.rows.emplace_back(knot.time, knot.value.x(), knot.value.y(), knot.value.z());
+  }
+  TomlWriter writer;
+  scene_fields(writer, fields, script);
+  writer.table("specimen", [&](TomlWriter& table) { specimen_fields(table, animal); });
+  return writer.text();
+}
+
+}  // namespace hagfish

@@ -1,0 +1,399 @@
+#include "core/input/toml_reader.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <sstream>
+#include <toml.hpp>
+#include <utility>
+
+namespace hagfish {
+namespace {
+
+constexpr const char* numbers_wanted = "must be an array of numbers";
+
+struct Document {
+  std::string file;
+  toml::value root;
+  std::map<std::string, Override> overrides;  ///< by path in this document; key is the shown one
+};
+
+/// The value as the file spells it; only the first line of what spans several.
+std::string spelling(const toml::value& value) {
+  const toml::source_location at = value.location();
+  const std::string& line = at.line_str();
+  const std::size_t start = std::min<std::size_t>(at.column() - 1, line.size());
+  const std::string text = line.substr(start, at.region());
+  return text.size() < at.region() ? shortened(text) + " ..." : shortened(text);
+}
+
+/// The parser's many lines as one: what is wrong and, after the caret, what it wanted.
+std::string condensed(std::string message) {
+  std::string wanted;
+  if (const auto caret = message.rfind("^---"); caret != std::string::npos) {
+    wanted = message.substr(caret + 4);
+    wanted = wanted.substr(0, wanted.find('\n'));
+  }
+  message = message.substr(0, message.find('\n'));
+  for (const std::string_view prefix : {"[error] ", "toml::"}) {
+    if (message.starts_with(prefix)) message.erase(0, prefix.size());
+  }
+  // What is left may begin with the parser's own function: "parse_array: ...".
+  const auto colon = message.find(':');
+  if (message.starts_with("parse_") || message.starts_with("insert_")) {
+    message.erase(0, message.find_first_not_of(": ", colon));
+  }
+  return message + (wanted.empty() ? "" : " (" + wanted.substr(1) + ")");
+}
+
+toml::value parse(const std::string& text, const std::string& file) {
+  try {
+    std::istringstream stream(text);
+    return toml::parse(stream, file);
+  } catch (const toml::exception& error) {
+    throw_input_error(file + ":" + std::to_string(error.location().line()) +
+                      ": not valid TOML: " + condensed(error.what()));
+  } catch (const std::exception& error) {
+    throw_input_error(file + ": not valid TOML: " + condensed(error.what()));
+  }
+}
+
+/// An override's value: TOML where it parses as one value, the bare text where not.
+toml::value parse_value(const std::string& text) {
+  try {
+    toml::value parsed = parse("value = " + text, "--set");
+    if (parsed.as_table().size() == 1) return parsed.at("value");
+  } catch (const InputError&) {  // a bare string, and wrong only where no string is wanted
+  }
+  return toml::value(text);
+}
+
+/// A range in degrees as one in the unit of which `unit` makes rad.
+Range in_unit(Range degrees, double unit) {
+  const double factor = std::numbers::pi / 180 / unit;
+  if (std::isfinite(degrees.high)) degrees.rule += " degrees";
+  degrees.low *= factor;
+  degrees.high *= factor;
+  return degrees;
+}
+
+std::string join(const std::string& path, std::string_view key) {
+  return path.empty() ? std::string(key) : path + "." + std::string(key);
+}
+
+}  // namespace
+
+struct TableReader::Impl {
+  /// What an error is about: a key, the value to quote, and words to put before the reason.
+  struct Place {
+    std::string key;
+    const toml::value* value = nullptr;  ///< nothing where the key is absent
+    std::string subject = "";
+  };
+
+  std::shared_ptr<Document> document;
+  const toml::value* table = nullptr;  ///< nothing where the file has no such table
+  std::string path;
+  bool all_required = false;
+  std::vector<std::string> known, missing;
+
+  const toml::value* peek(std::string_view key) const {
+    if (!table) return nullptr;
+    const auto found = table->as_table().find(std::string(key));
+    return found == table->as_table().end() ? nullptr : &found->second;
+  }
+
+  /// The value at a dotted path below this table.
+  const toml::value* walk(const std::string& dotted) const {
+    const toml::value* at = table;
+    std::istringstream parts(dotted);
+    for (std::string part; at && std::getline(parts, part, '.');) {
+      const auto found = at->as_table().find(part);
+      at = found == at->as_table().end() ? nullptr : &found->second;
+    }
+    return at;
+  }
+
+  /// The place of `key`, which counts as asked for.
+  Place ask(std::string_view key) {
+    known.emplace_back(key);
+    const toml::value* value = peek(key);
+    if (!value && all_required) missing.emplace_back(key);
+    return {std::string(key), value};
+  }
+
+  /// The place of NAME_deg or NAME_rad and the factor from its unit to rad.
+  std::pair<Place, double> ask_angle(std::string_view name) {
+    const std::string degrees = std::string(name) + "_deg", radians = std::string(name) + "_rad";
+    if (peek(degrees) && peek(radians)) {
+      fail({radians, peek(radians)}, degrees + " is given too");
+    }
+    const bool in_rad = peek(radians);
+    const Place place = ask(in_rad ? radians : degrees);
+    known.push_back(in_rad ? degrees : radians);
+    return {place, in_rad ? 1 : std::numbers::pi / 180};
+  }
+
+  /// The override that set `full`, a dotted path, or a table around it.
+  const Override* override_of(std::string full) const {
+    for (;;) {
+      const auto found = document->overrides.find(full);
+      if (found != document->overrides.end()) return &found->second;
+      const auto dot = full.rfind('.');
+      if (dot == std::string::npos) return nullptr;
+      full.erase(dot);
+    }
+  }
+
+  [[noreturn]] void fail(const Place& place, const std::string& why) const {
+    const std::string full = join(path, place.key);
+    const std::string reason = place.subject + why;
+    if (const Override* change = override_of(full)) {
+      const bool itself = document->overrides.contains(full);
+      throw_input_error(document->file + ": --set " + change->key + "=" + shortened(change->value) +
+                        ": " + (itself ? "" : full + " ") + reason);
+    }
+    std::string text = document->file;
+    if (place.value) text += ":" + std::to_string(place.value->location().line());
+    text += ": " + full;
+    if (place.value && !place.value->is_table()) text += " = " + spelling(*place.value);
+    throw_input_error(text + ": " + reason);
+  }
+
+  double checked(const Place& place, const toml::value& value, const Range& range) const {
+    double x = 0;
+    if (value.is_integer()) {
+      x = static_cast<double>(integral(place, value));
+    } else if (value.is_floating()) {
+      x = value.as_floating();
+    } else {
+      fail(place, "must be a number");
+    }
+    // The parser reads a number that overflows as the largest double.
+    if (!std::isfinite(x) || std::abs(x) == std::numeric_limits<double>::max()) {
+      fail(place, "must be finite");
+    }
+    if (!range.contains(x)) fail(place, range.rule);
+    return x;
+  }
+
+  std::int64_t integral(const Place& place, const toml::value& value) const {
+    if (!value.is_integer()) fail(place, "must be a whole number");
+    const std::int64_t n = value.as_integer();
+    // The parser clamps an integer that overflows.
+    if (n == std::numeric_limits<std::int64_t>::max() ||
+        n == std::numeric_limits<std::int64_t>::min()) {
+      fail(place, "does not fit 64 bits");
+    }
+    return n;
+  }
+
+  /// The numbers of an array of `size`, or of one or more where `size` is 0.
+  std::vector<double> array(const Place& place, const Range& range, std::size_t size,
+                            const std::string& shape) const {
+    if (!place.value->is_array()) fail(place, shape);
+    const auto& elements = place.value->as_array();
+    if (elements.empty() || (size > 0 && elements.size() != size)) fail(place, shape);
+    std::vector<double> numbers;
+    for (const auto& element : elements) {
+      const std::string which = "number " + std::to_string(numbers.size() + 1) + " ";
+      numbers.push_back(checked({place.key, place.value, place.subject + which}, element, range));
+    }
+    return numbers;
+  }
+
+  template <class Integer>
+  void integer(std::string_view key, Integer& value, const Range& range) {
+    const Place place = ask(key);
+    if (!place.value) return;
+    const std::int64_t n = integral(place, *place.value);
+    if (!std::in_range<Integer>(n)) fail(place, "is out of range");
+    if (!range.contains(static_cast<double>(n))) fail(place, range.rule);
+    value = static_cast<Integer>(n);
+  }
+};
+
+TableReader::TableReader(const std::string& text, const std::string& file)
+    : impl_(std::make_unique<Impl>()) {
+  impl_->document = std::make_shared<Document>(Document{file, parse(text, file), {}});
+  impl_->table = &impl_->document->root;
+}
+
+TableReader::TableReader(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+TableReader::TableReader(TableReader&&) noexcept = default;
+TableReader::~TableReader() = default;
+
+void TableReader::set(const Override& change, const std::string& shown) {
+  toml::value* at = &impl_->document->root;
+  std::istringstream parts(change.key);
+  std::string part, walked;
+  while (std::getline(parts, part, '.')) {
+    if (at->is_uninitialized()) *at = toml::table();
+    if (!at->is_table()) {
+      throw_input_error(impl_->document->file + ": --set " + shown + "=" + shortened(change.value) +
+                        ": " + walked + " is not a table");
+    }
+    walked = join(walked, part);
+    at = &at->as_table()[part];
+  }
+  *at = parse_value(change.value);
+  impl_->document->overrides[change.key] = {shown, change.value};
+}
+
+void TableReader::require_all() { impl_->all_required = true; }
+
+bool TableReader::has(std::string_view key) const { return impl_->peek(key); }
+
+bool TableReader::is_table(std::string_view key) const {
+  const toml::value* value = impl_->peek(key);
+  return value && value->is_table();
+}
+
+bool TableReader::was_set(std::string_view key) const {
+  return impl_->document->overrides.contains(join(impl_->path, key));
+}
+
+void TableReader::string(std::string_view key, std::string& value) {
+  const Impl::Place place = impl_->ask(key);
+  if (!place.value) return;
+  if (place.value->is_string()) {
+    value = place.value->as_string().str;
+  } else if (was_set(key)) {
+    value = impl_->override_of(join(impl_->path, key))->value;  // --set title=2 is a title too
+  } else {
+    impl_->fail(place, "must be a string in quotes");
+  }
+}
+
+void TableReader::boolean(std::string_view key, bool& value) {
+  const Impl::Place place = impl_->ask(key);
+  if (!place.value) return;
+  if (!place.value->is_boolean()) impl_->fail(place, "must be true or false");
+  value = place.value->as_boolean();
+}
+
+void TableReader::integer(std::string_view key, int& value, const Range& range) {
+  impl_->integer(key, value, range);
+}
+
+void TableReader::integer(std::string_view key, unsigned& value, const Range& range) {
+  impl_->integer(key, value, range);
+}
+
+void TableReader::number(std::string_view key, double& value, const Range& range) {
+  const Impl::Place place = impl_->ask(key);
+  if (place.value) value = impl_->checked(place, *place.value, range);
+}
+
+void TableReader::vector(std::string_view key, Eigen::Vector3d& value) {
+  const Impl::Place place = impl_->ask(key);
+  if (!place.value) return;
+  const auto x = impl_->array(place, any_number(), 3, "must be three numbers [x, y, z]");
+  value = Eigen::Vector3d::Map(x.data());
+}
+
+void TableReader::numbers(std::string_view key, std::vector<double>& value, const Range& range) {
+  const Impl::Place place = impl_->ask(key);
+  if (place.value) value = impl_->array(place, range, 0, numbers_wanted);
+}
+
+void TableReader::rows(std::string_view key, std::string_view noun, std::string_view columns,
+                       std::vector<Eigen::Vector4d>& value) {
+  const Impl::Place place = impl_->ask(key);
+  if (!place.value) return;
+  const std::string shape = "[" + std::string(columns) + "]";
+  if (!place.value->is_array()) impl_->fail(place, "must be an array of arrays " + shape);
+  value.clear();
+  for (const auto& row : place.value->as_array()) {
+    const std::string which = std::string(noun) + " " + std::to_string(value.size() + 1) + " ";
+    const auto numbers =
+        impl_->array({place.key, &row, which}, any_number(), 4, "must be four numbers " + shape);
+    value.emplace_back(Eigen::Vector4d::Map(numbers.data()));
+  }
+}
+
+void TableReader::labelled_rows(std::string_view key, std::string_view noun, std::string_view form,
+                                std::vector<std::pair<std::string, Eigen::Vector2d>>& value) {
+  const Impl::Place place = impl_->ask(key);
+  if (!place.value) return;
+  const std::string wanted = "must be an array of arrays " + std::string(form);
+  if (!place.value->is_array()) impl_->fail(place, wanted);
+  value.clear();
+  for (const auto& row : place.value->as_array()) {
+    const std::string which = std::string(noun) + " " + std::to_string(value.size() + 1) + " ";
+    const Impl::Place here{place.key, &row, which};
+    if (!row.is_array() || row.size() != 3 || !row.at(0).is_string()) {
+      impl_->fail(here, "must be " + std::string(form));
+    }
+    value.emplace_back(row.at(0).as_string().str,
+                       Eigen::Vector2d(impl_->checked(here, row.at(1), any_number()),
+                                       impl_->checked(here, row.at(2), any_number())));
+  }
+}
+
+void TableReader::angle(std::string_view name, double& value, const Range& range) {
+  const auto [place, unit] = impl_->ask_angle(name);
+  if (place.value) value = impl_->checked(place, *place.value, in_unit(range, unit)) * unit;
+}
+
+void TableReader::angles(std::string_view name, std::vector<double>& value, const Range& range) {
+  const auto [place, unit] = impl_->ask_angle(name);
+  if (!place.value) return;
+  value = impl_->array(place, in_unit(range, unit), 0, numbers_wanted);
+  for (double& x : value) x *= unit;
+}
+
+std::optional<std::size_t> TableReader::choice_index(std::string_view key,
+                                                     const std::vector<std::string_view>& names) {
+  std::string word;
+  string(key, word);
+  const toml::value* found = impl_->peek(key);
+  if (!found) return std::nullopt;
+  const auto match = std::ranges::find(names, word);
+  if (match != names.end()) return static_cast<std::size_t>(match - names.begin());
+  std::string list;
+  for (const auto name : names) list += (list.empty() ? "\"" : ", \"") + std::string(name) + "\"";
+  impl_->fail({std::string(key), found}, "must be one of " + list);
+}
+
+TableReader TableReader::open(std::string_view key) {
+  auto child = std::make_unique<Impl>();
+  child->document = impl_->document;
+  const Impl::Place place = impl_->ask(key);
+  if (place.value && !place.value->is_table()) impl_->fail(place, "must be a table");
+  child->table = place.value;
+  child->path = join(impl_->path, key);
+  return TableReader(std::move(child));
+}
+
+void TableReader::finish() const {
+  if (impl_->table) {
+    // The parser keeps no order: of several unknown keys the one with the first name is told.
+    std::map<std::string, const toml::value*> strangers;
+    for (const auto& [key, value] : impl_->table->as_table()) {
+      if (std::ranges::find(impl_->known, key) == impl_->known.end()) strangers[key] = &value;
+    }
+    if (!strangers.empty()) {
+      const auto& [key, value] = *strangers.begin();
+      const std::string near = join(impl_->path, nearest(key, impl_->known));
+      impl_->fail({key, value}, "unknown key; did you mean " + near + "?");
+    }
+  }
+  if (!impl_->missing.empty()) fail(impl_->missing.front(), "is missing");
+}
+
+void TableReader::fail(std::string_view key, const std::string& why) const {
+  const std::string dotted(key);
+  impl_->fail({dotted, impl_->walk(dotted)}, why);
+}
+
+void TableReader::fail_element(std::string_view key, std::size_t index,
+                               const std::string& why) const {
+  const std::string dotted(key);
+  impl_->fail({dotted, &impl_->walk(dotted)->as_array().at(index)}, why);
+}
+
+}  // namespace hagfish

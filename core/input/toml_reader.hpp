@@ -1,0 +1,101 @@
+// A checked layer over a TOML parser: every value is asked for by name, type and range, and every
+// error is an InputError of one line, `FILE:LINE: KEY = VALUE: why`.
+//
+// TableReader and TomlWriter (toml_writer.hpp) answer to the same calls, so that one list of fields
+// (scene_fields.hpp) serves to read and to write. No key may be read twice from one TableReader.
+#pragma once
+
+#include <Eigen/Core>
+#include <initializer_list>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/input/input_error.hpp"
+#include "core/input/input_text.hpp"
+#include "core/input/toml_range.hpp"
+
+namespace hagfish {
+
+/// One table of a TOML document. The getters leave `value` as it is where the key is absent.
+class TableReader {
+ public:
+  /// The root table of `text`; `file` is its name in errors. Throws InputError on bad syntax.
+  TableReader(const std::string& text, const std::string& file);
+  TableReader(TableReader&&) noexcept;
+  ~TableReader();
+
+  /// Puts `value` at the dotted `key` below this table, which must be a root. Errors about it say
+  /// `--set SHOWN=VALUE` from then on. Comes before any getter.
+  void set(const Override& change, const std::string& shown);
+
+  /// From here on an absent key is an error, told by finish().
+  void require_all();
+
+  bool has(std::string_view key) const;
+  bool is_table(std::string_view key) const;
+  bool was_set(std::string_view key) const;  ///< by set()
+
+  void string(std::string_view key, std::string& value);
+  void boolean(std::string_view key, bool& value);
+  void integer(std::string_view key, int& value, const Range& range);
+  void integer(std::string_view key, unsigned& value, const Range& range);
+  /// A finite number; TOML integers count as numbers.
+  void number(std::string_view key, double& value, const Range& range);
+  /// As number(), three in an array.
+  void vector(std::string_view key, Eigen::Vector3d& value);
+  /// As number(), one or more in an array.
+  void numbers(std::string_view key, std::vector<double>& value, const Range& range);
+  /// An array of arrays of four numbers; errors call an element `noun`, count from 1 and name its
+  /// `columns`, "t, x, y, z".
+  void rows(std::string_view key, std::string_view noun, std::string_view columns,
+            std::vector<Eigen::Vector4d>& value);
+  /// An array of arrays of a string and two numbers, which errors show as `form`.
+  void labelled_rows(std::string_view key, std::string_view noun, std::string_view form,
+                     std::vector<std::pair<std::string, Eigen::Vector2d>>& value);
+  /// An angle in rad, read from NAME_deg or NAME_rad; `range` is in degrees.
+  void angle(std::string_view name, double& value, const Range& range);
+  /// As angle(), one or more in an array.
+  void angles(std::string_view name, std::vector<double>& value, const Range& range);
+
+  /// A string out of a fixed list.
+  template <class E>
+  void choice(std::string_view key, E& value,
+              std::initializer_list<std::pair<std::string_view, E>> options) {
+    std::vector<std::string_view> names;
+    for (const auto& option : options) names.push_back(option.first);
+    if (const auto index = choice_index(key, names)) value = (options.begin() + *index)->second;
+  }
+
+  /// Reads the table `key` with `read(TableReader&)`, as an empty one where it is absent.
+  template <class Read>
+  void table(std::string_view key, Read read) {
+    TableReader child = open(key);
+    read(child);
+    child.finish();
+  }
+
+  /// Ends the reading: throws InputError for a key that nobody asked for (with the nearest one that
+  /// somebody did ask for), then for the first required key that is absent.
+  void finish() const;
+
+  /// Throws InputError about `key`, a dotted path below this table.
+  [[noreturn]] void fail(std::string_view key, const std::string& why) const;
+  /// The same about one element, counted from 0, of the array at `key`.
+  [[noreturn]] void fail_element(std::string_view key, std::size_t index,
+                                 const std::string& why) const;
+
+ private:
+  struct Impl;
+  explicit TableReader(std::unique_ptr<Impl> impl);
+  TableReader open(std::string_view key);
+  std::optional<std::size_t> choice_index(std::string_view key,
+                                          const std::vector<std::string_view>& names);
+
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace hagfish

@@ -1,0 +1,322 @@
+#include "core/log/log_frame.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace hagfish {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+std::vector<std::string> phase_names() {
+  std::vector<std::string> names;
+  for (int k = 0; k < phase_count; ++k) {
+    names.emplace_back(phase_name(static_cast<Phase>(k)));
+  }
+  return names;
+}
+
+const std::vector<std::string>& solve_names() {
+  static const std::vector<std::string> names = {"linear", "kkt", "qp"};
+  return names;
+}
+
+double worst_residual(const StepSolution& s) { return std::max(s.kkt.worst(), s.stationarity); }
+
+/// Bodies of the thigmotaxis contacts, [first, last].
+std::array<int, 2> bodies(const Frame& frame, int (Contact::*body)() const) {
+  std::array<int, 2> pair{-1, -1};
+  const std::size_t count = std::min(pair.size(), frame.record.control.thigmotaxis.size());
+  for (std::size_t k = 0; k < count; ++k) {
+    pair[k] = (frame.record.control.thigmotaxis[k].contact.*body)();
+  }
+  return pair;
+}
+
+/// Spline parameters of the contacts that the controller follows, [first, last].
+std::array<double, 2> followed(const Frame& frame, int Contact::*segment, double Contact::*t) {
+  std::array<double, 2> pair{nan, nan};
+  const ControllerState& controller = frame.record.controller;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const std::optional<Contact>& contact = (k == 0 ? controller.first : controller.last).contact;
+    if (contact) {
+      pair[k] = *contact.*segment + *contact.*t;
+    }
+  }
+  return pair;
+}
+
+const std::string order = "first t_a, first t_b, last t_a, last t_b: ";
+
+void declare_trajectory(const Model& model, LogTable<Frame>& t) {
+  const hsize_t n = model.body_count();
+  const hsize_t nq = model.nq();
+  const hsize_t nv = model.nv();
+  const std::string rates = "cm/s, rad/s";
+  t.index("/trajectory/step", "index of the step that begins at the frame",
+          [](const Frame& f) { return f.record.step; });
+  t.number("/trajectory/time", {"s", "simulated time"},
+           [](const Frame& f) { return f.record.time; });
+  t.choice("/trajectory/phase", phase_names(), "phase of the experiment",
+           [](const Frame& f) { return f.record.controller.phase; });
+  t.numbers(
+      "/trajectory/q", {nq},
+      {"mixed: cm, 1, rad", "root position, root quaternion wxyz, hinge angles (MuJoCo qpos)"},
+      [](const Frame& f) -> const auto& { return f.record.state.q; });
+  t.numbers(
+      "/trajectory/qdot", {nv},
+      {rates, "root velocity (world), root rate (body axes), hinge rates (MuJoCo qvel)"},
+      [](const Frame& f) -> const auto& { return f.record.state.qdot; });
+  t.numbers(
+      "/trajectory/qdot_next", {nv},
+      {rates, "velocity after the step that begins at the frame, to which its forces lead"},
+      [](const Frame& f) -> const auto& { return f.record.solution.qdot; });
+  t.numbers(
+      "/trajectory/position", {n, 3}, {"cm", "body centres, world axes"},
+      [](const Frame& f) -> const auto& { return f.record.situation.kin.centre; });
+}
+
+void declare_knot(LogTable<Frame>& t) {
+  t.count("/knot/determinant", "knot determinant: 1 unknot, 3 3_1, 5 4_1 or 5_1, 7 5_2",
+          [](const Frame& f) { return f.knot.type.determinant; });
+  t.count("/knot/v2", "Vassiliev invariant of order 2: 0 unknot, 1 3_1, -1 4_1, 3 5_1, 2 5_2",
+          [](const Frame& f) { return f.knot.type.v2; });
+  t.number("/knot/agreement", {"1", "share of the projections that agree"},
+           [](const Frame& f) { return f.knot.agreement; });
+  t.number("/knot/head_end", {"cm", "arc length from the head of the first contact"},
+           [](const Frame& f) {
+             const auto span = knot_span(f.record.controller);
+             return span ? span->head_end : nan;
+           });
+  t.number("/knot/tail_end", {"cm", "arc length from the head of the last contact"},
+           [](const Frame& f) {
+             const auto span = knot_span(f.record.controller);
+             return span ? span->tail_end : nan;
+           });
+}
+
+void declare_forces(const Model& model, LogTable<Frame>& t) {
+  const hsize_t nv = model.nv();
+  const auto force = [&](const char* name, const char* description,
+                         Eigen::VectorXd ConstraintForces::*member) {
+    t.numbers(
+        std::string("/forces/") + name, {nv},
+        {"dyn, dyn·cm", description, true}, [member](const Frame& f) -> const auto& {
+          return f.record.solution.force.*member;
+        });
+  };
+  force("thigmotaxis", "C_thigmo' lambda_thigmo / h (Eq. 8)", &ConstraintForces::thigmotaxis);
+  force("contact", "self-contact", &ConstraintForces::contact);
+  force("limit", "joint limits", &ConstraintForces::limit);
+  force("head", "head clamp", &ConstraintForces::head);
+  force("wall", "head plate", &ConstraintForces::wall);
+  t.numbers(
+      "/forces/tip", {3}, {"dyn", "scripted force on the last body, world axes"},
+      [](const Frame& f) -> const auto& { return f.record.solution.tip; });
+}
+
+void declare_thigmotaxis(LogTable<Frame>& t) {
+  t.pair("/thigmotaxis/body_a", "strand nearer the head at [first, last] contact; -1 where none",
+         [](const Frame& f) { return bodies(f, &Contact::body_a); });
+  t.pair("/thigmotaxis/body_b", "strand nearer the tail at [first, last] contact; -1 where none",
+         [](const Frame& f) { return bodies(f, &Contact::body_b); });
+  const std::string parameter =
+      " of the [first, last] contact followed, segment + t in bodies from the head; nan where none";
+  t.numbers("/thigmotaxis/spline_a", {2}, {"1", "spline parameter on the strand a" + parameter},
+            [](const Frame& f) { return followed(f, &Contact::segment_a, &Contact::t_a); });
+  t.numbers("/thigmotaxis/spline_b", {2}, {"1", "spline parameter on the strand b" + parameter},
+            [](const Frame& f) { return followed(f, &Contact::segment_b, &Contact::t_b); });
+  t.numbers(
+      "/thigmotaxis/command", {4}, {"cm/s", order + "right side of Eq. 6, nan where no row"},
+      [](const Frame& f) -> const auto& { return f.thigmotaxis.command; });
+  t.numbers(
+      "/thigmotaxis/lambda", {4}, {"dyn", order + "multiplier over h, 0 where no row"},
+      [](const Frame& f) -> const auto& { return f.thigmotaxis.lambda; });
+  t.numbers(
+      "/thigmotaxis/speed", {4}, {"cm/s", order + "left side of Eq. 6, nan where no row"},
+      [](const Frame& f) -> const auto& { return f.thigmotaxis.speed; });
+  t.numbers(
+      "/thigmotaxis/slack", {4},
+      {"cm/s", order + "shortfall of the speed asked for, nan where no row"},
+      [](const Frame& f) -> const auto& { return f.thigmotaxis.slack; });
+}
+
+/// /mean: what stands in the snapshots' groups, as means.
+void declare_means(const Model& model, Hdf5Writer& file, LogTable<Frame>& t) {
+  for (const char* group : {"/mean", "/mean/forces", "/mean/thigmotaxis"}) {
+    file.group(group);
+  }
+  const std::string since = ", mean over the steps since the frame before; nan at the first frame";
+  const auto force = [&](const char* name, const std::string& description,
+                         Eigen::VectorXd ConstraintForces::*member) {
+    t.numbers(
+        std::string("/mean/forces/") + name, {static_cast<hsize_t>(model.nv())},
+        {"dyn, dyn·cm", description + since, true}, [member](const Frame& f) -> const auto& {
+          return f.mean.force.*member;
+        });
+  };
+  force("thigmotaxis", "f_thigmo (Eq. 8)", &ConstraintForces::thigmotaxis);
+  force("contact", "self-contact", &ConstraintForces::contact);
+  force("limit", "joint limits", &ConstraintForces::limit);
+  force("head", "head clamp", &ConstraintForces::head);
+  force("wall", "head plate", &ConstraintForces::wall);
+  t.numbers(
+      "/mean/forces/net", {static_cast<hsize_t>(model.nv())},
+      {"dyn, dyn·cm", "H (qdot_next - qdot*) / h, what the five add up to, from the motion" + since,
+       true},
+      [](const Frame& f) -> const auto& { return f.mean.net_force; });
+  const auto row = [&](const char* name, const char* unit, const std::string& description,
+                       std::array<double, 4> FrameMeans::*member) {
+    t.numbers(
+        std::string("/mean/thigmotaxis/") + name, {4},
+        {unit, order + description + since}, [member](const Frame& f) -> const auto& {
+          return f.mean.*member;
+        });
+  };
+  row("lambda", "dyn", "multiplier over h, 0 where no row", &FrameMeans::lambda);
+  row("speed", "cm/s", "left side of Eq. 6 where there was a row, else nan", &FrameMeans::speed);
+  row("slack", "cm/s", "shortfall of Eq. 6 where there was a row, else nan", &FrameMeans::slack);
+}
+
+void declare_diagnostics(LogTable<Frame>& t) {
+  const std::string path = "/diagnostics/";
+  t.choice(path + "solve", solve_names(), "least that the step had to solve",
+           [](const Frame& f) { return f.record.solution.kind; });
+  t.count(path + "rows", "rows in the problem",
+          [](const Frame& f) { return f.record.solution.rows.size(); });
+  t.count(path + "active", "rows with a force",
+          [](const Frame& f) { return f.record.solution.active; });
+  t.count(path + "contacts", "local minima of the gap within the margin",
+          [](const Frame& f) { return f.record.situation.contact.contacts.size(); });
+  t.count(path + "iterations", "iterations of the QP back end",
+          [](const Frame& f) { return f.record.solution.iterations; });
+  t.number(
+      path + "kkt_stationarity",
+      {"1", "|H (qdot_next - qdot*) - h sum of forces|, infinity norm over the largest momentum"},
+      [](const Frame& f) { return f.record.solution.stationarity; });
+  t.number(path + "kkt_primal", {"1", "row violation, scaled, infinity norm"},
+           [](const Frame& f) { return f.record.solution.kkt.primal; });
+  t.number(path + "kkt_complementarity", {"1", "multiplier times excess, scaled, infinity norm"},
+           [](const Frame& f) { return f.record.solution.kkt.complementarity; });
+  t.number(path + "kkt_worst", {"1", "largest of the three at any step since the last frame"},
+           [](const Frame& f) { return f.worst.kkt; });
+  t.number(path + "penetration", {"cm", "deepest at any step since the last frame"},
+           [](const Frame& f) { return f.worst.penetration; });
+  t.number(path + "limit_violation", {"rad", "largest at any step since the last frame"},
+           [](const Frame& f) { return f.worst.limit_violation; });
+  t.number(path + "head_drift", {"cm", "largest since the last frame while clamped"},
+           [](const Frame& f) { return f.worst.head_drift; });
+  t.number(path + "qp_time", {"s", "wall time in the QP back end"},
+           [](const Frame& f) { return f.record.solution.qp_time; });
+  t.number(path + "wall_time", {"s", "elapsed since the run began"},
+           [](const Frame& f) { return f.wall_time; });
+}
+
+void declare_energy(LogTable<Frame>& t) {
+  const auto energy = [&t](const char* name, const char* description,
+                           double EnergyLedger::*member) {
+    t.number(std::string("/diagnostics/") + name, {"erg", description},
+             [member](const Frame& f) { return f.record.ledger.*member; });
+  };
+  energy("kinetic_energy", "kinetic energy", &EnergyLedger::kinetic);
+  energy("elastic_energy", "energy in the joint springs", &EnergyLedger::elastic);
+  energy("gravity_energy", "potential energy, 0 at the world's origin", &EnergyLedger::gravity);
+  energy("work_tip", "work of the scripted force so far", &EnergyLedger::work_tip);
+  energy("work_thigmotaxis", "work of f_thigmo so far", &EnergyLedger::work_thigmotaxis);
+  energy("work_contact", "work of self-contact so far", &EnergyLedger::work_contact);
+  energy("work_limit", "work of the joint limits so far", &EnergyLedger::work_limit);
+  energy("work_head", "work of the head clamp so far", &EnergyLedger::work_head);
+  energy("work_wall", "work of the head plate so far", &EnergyLedger::work_wall);
+  energy("dissipated", "lost to drag and joint damping so far", &EnergyLedger::dissipated);
+  energy("integrator_inertia",
+         "gained by the integrator from velocity changes, impacts included, so far",
+         &EnergyLedger::integrator_inertia);
+  energy("integrator_potential", "gained by the integrator from springs and gravity so far",
+         &EnergyLedger::integrator_potential);
+  energy("integrator_coriolis", "gained by the integrator from explicit Coriolis forces so far",
+         &EnergyLedger::integrator_coriolis);
+  energy("integrator_held",
+         "taken back from the velocity so far: what the integrator gained too much",
+         &EnergyLedger::integrator_held);
+  t.number("/diagnostics/integrator_error", {"erg", "sum of the integrator's terms"},
+           [](const Frame& f) { return f.record.ledger.integrator_error(); });
+}
+
+}  // namespace
+
+void Worst::take(const StepRecord& record) {
+  penetration = std::max(penetration, record.situation.penetration);
+  limit_violation = std::max(limit_violation, record.situation.limit_violation);
+  head_drift = std::max(head_drift, record.head_drift);
+  kkt = std::max(kkt, worst_residual(record.solution));
+}
+
+void declare_frames(const Model& model, Hdf5Writer& file, LogTable<Frame>& table) {
+  for (const char* group : {"/trajectory", "/knot", "/forces", "/thigmotaxis", "/diagnostics"}) {
+    file.group(group);
+  }
+  declare_trajectory(model, table);
+  declare_knot(table);
+  declare_forces(model, table);
+  declare_thigmotaxis(table);
+  declare_means(model, file, table);
+  declare_diagnostics(table);
+  declare_energy(table);
+}
+
+void declare_steps(Hdf5Writer& file, LogTable<LoggedStep>& t) {
+  file.group("/steps");
+  t.choice("/steps/solve", solve_names(), "least that each step had to solve",
+           [](const LoggedStep& s) { return s.record.solution.kind; });
+  t.count("/steps/rows", "rows in the problem of each step",
+          [](const LoggedStep& s) { return s.record.solution.rows.size(); });
+  t.count("/steps/iterations", "back end iterations of each step",
+          [](const LoggedStep& s) { return s.record.solution.iterations; });
+  t.count("/steps/eq6", "Eq. 6 at each step: -1 no rows, 0 with slack, 1 met",
+          [](const LoggedStep& s) {
+            return s.thigmotaxis.any ? static_cast<int>(s.thigmotaxis.met) : -1;
+          });
+  const auto row = [&t](const char* name, const char* unit, const std::string& description,
+                        std::array<double, 4> ThigmotaxisRows::*member) {
+    t.numbers(
+        std::string("/steps/thigmotaxis_") + name, {4},
+        {unit, order + description, true}, [member](const LoggedStep& s) -> const auto& {
+          return s.thigmotaxis.*member;
+        });
+  };
+  row("lambda", "dyn", "multiplier over h of each step", &ThigmotaxisRows::lambda);
+  row("speed", "cm/s", "left side of Eq. 6, nan where no row", &ThigmotaxisRows::speed);
+  row("slack", "cm/s", "shortfall of Eq. 6, nan where no row", &ThigmotaxisRows::slack);
+  t.number("/steps/kkt", {"1", "largest KKT residual of each step"},
+           [](const LoggedStep& s) { return worst_residual(s.record.solution); });
+  t.number("/steps/penetration", {"cm", "deepest at each step's start"},
+           [](const LoggedStep& s) { return s.record.situation.penetration; });
+  t.number("/steps/limit_violation", {"rad", "largest at each step's start"},
+           [](const LoggedStep& s) { return s.record.situation.limit_violation; });
+  t.number("/steps/head_drift", {"cm", "at each step's start while clamped"},
+           [](const LoggedStep& s) { return s.record.head_drift; });
+  t.number("/steps/qp_time", {"s", "wall time in the QP back end, each step"},
+           [](const LoggedStep& s) { return s.record.solution.qp_time; });
+}
+
+void declare_contacts(Hdf5Writer& file, LogTable<BearingContact>& t) {
+  file.group("/contacts");
+  t.count("/contacts/frame", "index along the frames of each contact with a force",
+          [](const BearingContact& c) { return c.frame; });
+  t.number("/contacts/spline_a",
+           {"1",
+            "spline parameter on the strand nearer the head, segment + t; of the head plate "
+            "the body"},
+           [](const BearingContact& c) { return c.row.a.parameter; });
+  t.number("/contacts/spline_b",
+           {"1", "spline parameter on the strand nearer the tail; nan where it is the head plate"},
+           [](const BearingContact& c) {
+             return c.row.kind == RowKind::wall ? nan : c.row.b.parameter;
+           });
+  t.number("/contacts/force",
+           {"dyn", "multiplier over h of the step at the frame, along the normal"},
+           [](const BearingContact& c) { return c.force; });
+}
+
+}  // namespace hagfish

@@ -1,0 +1,67 @@
+#include "core/log/log_means.hpp"
+
+#include <limits>
+
+namespace hagfish {
+namespace {
+
+/// Calls `visit` with each part of the means that is a vector.
+template <class Means, class Visit>
+void visit_vectors(Means& means, Visit visit) {
+  visit(means.force.head);
+  visit(means.force.limit);
+  visit(means.force.contact);
+  visit(means.force.wall);
+  visit(means.force.thigmotaxis);
+  visit(means.net_force);
+}
+
+}  // namespace
+
+RunningMeans::RunningMeans(Eigen::Index nv) {
+  visit_vectors(sum_, [nv](Eigen::VectorXd& v) { v.resize(nv); });
+  clear();
+}
+
+void RunningMeans::clear() {
+  visit_vectors(sum_, [](Eigen::VectorXd& v) { v.setZero(); });
+  sum_.lambda = {};
+  sum_.speed = {};
+  sum_.slack = {};
+  with_row_ = {};
+  steps_ = 0;
+}
+
+void RunningMeans::take(const StepRecord& record, const ThigmotaxisRows& rows) {
+  const StepSolution& step = record.solution;
+  ++steps_;
+  sum_.force.head += step.force.head;
+  sum_.force.limit += step.force.limit;
+  sum_.force.contact += step.force.contact;
+  sum_.force.wall += step.force.wall;
+  sum_.force.thigmotaxis += step.force.thigmotaxis;
+  sum_.net_force += step.net_force;
+  for (int k = 0; k < 4; ++k) {
+    if (rows.present[k]) {
+      ++with_row_[k];
+      sum_.lambda[k] += rows.lambda[k];
+      sum_.speed[k] += rows.speed[k];
+      sum_.slack[k] += rows.slack[k];
+    }
+  }
+}
+
+const FrameMeans& RunningMeans::close() {
+  const double per_step = steps_ > 0 ? 1.0 / steps_ : std::numeric_limits<double>::quiet_NaN();
+  mean_ = sum_;
+  visit_vectors(mean_, [per_step](Eigen::VectorXd& v) { v *= per_step; });
+  for (int k = 0; k < 4; ++k) {
+    mean_.lambda[k] *= per_step;
+    mean_.speed[k] /= with_row_[k];  // 0 / 0 where there was no row
+    mean_.slack[k] /= with_row_[k];
+  }
+  clear();
+  return mean_;
+}
+
+}  // namespace hagfish

@@ -1,0 +1,56 @@
+// Writes a run as HDF5, format `hagfish-log` version 1. Beyond the contract it adds what an audit
+// needs: every step under /steps, the next velocity, and the full energy ledger.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "core/log/thigmotaxis_rows.hpp"
+#include "core/run/simulation.hpp"
+#include "core/scene/specimen.hpp"
+
+namespace hagfish {
+
+inline constexpr const char* log_format = "hagfish-log";
+inline constexpr int log_format_version = 1;
+
+/// What a log says about its making.
+struct LogHeader {
+  std::string command;  ///< as typed
+  std::string scene;    ///< fully resolved TOML
+  std::string qp;       ///< QP back end
+  std::string libraries;
+  std::map<std::string, std::string> mjcf;  ///< the mirrored model's files by name
+};
+
+/// Steps from one frame to the next.
+std::int64_t frame_stride(const TimeSettings& time);
+
+class LogWriter {
+ public:
+  /// Writes beside `file` until finish(). Throws FileError where `file` exists and `replace` is not
+  /// set, or cannot be created.
+  LogWriter(std::filesystem::path file, bool replace, const LogHeader& header, const Model& model,
+            const Scene& scene);
+  /// Without finish(), a file that was never finished is removed: nothing half-written is left.
+  ~LogWriter();
+  LogWriter(const LogWriter&) = delete;
+  LogWriter& operator=(const LogWriter&) = delete;
+
+  /// Takes in one step; every scene.time.frame_interval it becomes a frame. `wall_time`: since the
+  /// run began, s.
+  void write(const StepRecord& record, double wall_time);
+
+  /// Sets the status ("complete" or "failed: CAUSE"), closes the log and gives it its name.
+  void finish(const std::string& status);
+
+ private:
+  void write_frame(const StepRecord& record, const ThigmotaxisRows& rows, double wall_time);
+  struct Contents;
+  std::filesystem::path file_, partial_;
+  std::unique_ptr<Contents> contents_;
+};
+
+}  // namespace hagfish

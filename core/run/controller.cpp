@@ -1,0 +1,219 @@
+#include "core/run/controller.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hagfish {
+namespace {
+
+// Minima of the gap hop along a contact line from one universal joint to the next, 0.85 cm at 100
+// bodies, and slide by 0.004 cm a step in between. Half a centimetre tells the two apart, cm.
+constexpr double same_contact = 0.5;
+// A script that has not tied within this long after its last knot will not, s.
+constexpr double patience = 2.0;
+
+double apart(const Contact& x, const Contact& y) {
+  return std::hypot(x.arc_a - y.arc_a, x.arc_b - y.arc_b);
+}
+
+/// One step of a tracked contact: it goes on as the outermost one where that is the same, else as
+/// the nearest minimum, else as the same material points, for the hysteresis time at most.
+void follow(TrackedContact& tracked, const Situation& situation, const Contact* outermost,
+            double time, double hysteresis) {
+  if (outermost == nullptr) {
+    tracked = {};
+    return;
+  }
+  if (!tracked.contact || apart(*outermost, *tracked.contact) < same_contact ||
+      time - tracked.settled >= hysteresis) {
+    tracked = {*outermost, time};
+    return;
+  }
+  const std::vector<Contact>& contacts = situation.contact.contacts;
+  const Contact& old = *tracked.contact;
+  const auto nearest = std::min_element(
+      contacts.begin(), contacts.end(),
+      [&](const Contact& x, const Contact& y) { return apart(x, old) < apart(y, old); });
+  tracked.contact =
+      apart(*nearest, old) < same_contact
+          ? *nearest
+          : contact_at(situation.segments, old.segment_a, old.t_a, old.segment_b, old.t_b);
+}
+
+void follow_contacts(const Scene& scene, const Situation& situation, double time,
+                     ControllerState& controller) {
+  const std::vector<Contact>& contacts = situation.contact.contacts;
+  const Contact* first = nullptr;
+  const Contact* last = nullptr;
+  for (const Contact& contact : contacts) {
+    if (contact.gap > scene.controller.contact_gap) {
+      continue;
+    }
+    if (first == nullptr || contact.arc_a < first->arc_a) {
+      first = &contact;
+    }
+    if (last == nullptr || contact.arc_b > last->arc_b) {
+      last = &contact;
+    }
+  }
+  follow(controller.first, situation, first, time, scene.controller.hysteresis);
+  follow(controller.last, situation, last, time, scene.controller.hysteresis);
+}
+
+void enter(ControllerState& controller, Phase phase, double time) {
+  controller.phase = phase;
+  controller.phase_start = time;
+}
+
+/// Notes the knot type just seen, and since when it has been there.
+void look_at_knot(const Scene& scene, const Situation& situation, double time,
+                  ControllerState& controller) {
+  const KnotInvariants before = controller.knot.type;
+  controller.knot_seen = time;
+  controller.knot = knot_type(situation.kin.centre, scene.knot);
+  if (controller.knot.type != before) {
+    if (before != KnotInvariants{}) {
+      controller.past = {before, controller.knot_from, time};
+    }
+    controller.knot_from = time;
+  }
+}
+
+/// "a 3_1, tied since 8.64 s", or "no knot", with the last one that there was.
+std::string knot_seen_text(const ControllerState& controller) {
+  if (controller.knot.type != KnotInvariants{}) {
+    return fmt::format("a {}, tied since {:.2f} s", knot_name(controller.knot.type),
+                       controller.knot_from);
+  }
+  const PastKnot& past = controller.past;
+  if (past.type == KnotInvariants{}) {
+    return "no knot, and tied none before";
+  }
+  return fmt::format("no knot, after a {} from {:.2f} to {:.2f} s", knot_name(past.type), past.from,
+                     past.to);
+}
+
+/// A script that is over has tied what the scene expects, and pulled its tail through.
+[[noreturn]] void fail_script(const Scene& scene, const ControllerState& controller,
+                              double through) {
+  if (knot_name(controller.knot.type) != scene.expect.knot) {
+    throw StepError(StopCause::never_tied,
+                    fmt::format("the script ended with {}, but expect.knot = {}",
+                                knot_seen_text(controller), scene.expect.knot));
+  }
+  throw StepError(StopCause::never_tied,
+                  fmt::format("the script ended with {}, but {:.2f} cm of tail through it where "
+                              "controller.tail_through = {:g} cm",
+                              knot_seen_text(controller), through, scene.controller.tail_through));
+}
+
+/// Phase changes that follow from the knot type just seen.
+void switch_by_knot(const Model& model, const Scene& scene, double time,
+                    ControllerState& controller) {
+  const std::optional<KnotInvariants> wanted = knot_called(scene.expect.knot);
+  const bool tied = wanted && controller.knot.type == *wanted;
+  if (controller.phase == Phase::form) {
+    const std::optional<KnotSpan> span = knot_span(controller);
+    const double through = span ? model.length() - span->tail_end : 0;
+    if (tied && span && through >= scene.controller.tail_through &&
+        time >= scene.controller.tighten_from) {
+      enter(controller, Phase::tighten, time);
+    } else if (wanted && scene.script.kind != ScriptSettings::Kind::none &&
+               time > script_end(scene.script) + patience) {
+      fail_script(scene, controller, through);
+    }
+  } else if (holds_knot(controller.phase) && !tied) {
+    const std::string message =
+        fmt::format("the {} was lost: now {}", scene.expect.knot, knot_seen_text(controller));
+    if (scene.guard.action == GuardAction::stop) {
+      throw StepError(StopCause::knot_lost, message);
+    }
+    controller.lost = message;
+  } else if (controller.phase == Phase::release && controller.knot.type == KnotInvariants{} &&
+             time + 0.5 * scene.time.step >= controller.knot_from + scene.controller.untied_for) {
+    enter(controller, Phase::free, time);
+  }
+}
+
+/// Phase changes that follow from where the knot is.
+void switch_by_span(const Model& model, const Scene& scene, double time,
+                    ControllerState& controller) {
+  const std::optional<KnotSpan> span = knot_span(controller);
+  const ControllerSettings& settings = scene.controller;
+  if (controller.phase == Phase::form || !span ||
+      span->tail_end - span->head_end > settings.tight_span) {
+    controller.loose = time;
+  }
+  if (controller.phase == Phase::tighten &&
+      (time - controller.loose >= settings.tight_hold ||
+       time - controller.phase_start >= settings.tighten_time)) {
+    enter(controller, Phase::slide, time);
+  }
+  if (controller.phase == Phase::slide && span && span->head_end <= settings.release_at) {
+    enter(controller, settings.leave_by == BodyEnd::head ? Phase::release : Phase::reverse, time);
+  }
+  if (controller.phase == Phase::reverse && span &&
+      model.length() - span->tail_end <= settings.release_at) {
+    enter(controller, Phase::release, time);
+  }
+}
+
+/// Commanded speeds at the first and the last contact.
+void command_speeds(const ControllerSettings& settings, const ControllerState& controller,
+                    std::vector<ThigmotaxisCommand>& commands) {
+  const auto command = [&](const ThigmotaxisSpeeds& first, const ThigmotaxisSpeeds& last,
+                           BodyEnd towards) {
+    commands.push_back({*controller.first.contact, first, towards});
+    commands.push_back({*controller.last.contact, last, towards});
+  };
+  const bool back = controller.phase == Phase::reverse ||
+                    (controller.phase == Phase::release && settings.leave_by == BodyEnd::tail);
+  if (controller.phase == Phase::tighten) {
+    command(settings.tighten_head, settings.tighten_tail, BodyEnd::head);
+  } else if (back) {
+    command(settings.reverse_head, settings.reverse_tail, BodyEnd::tail);
+  } else {
+    command(settings.slide_head, settings.slide_tail, BodyEnd::head);
+  }
+}
+
+}  // namespace
+
+std::optional<KnotSpan> knot_span(const ControllerState& controller) {
+  if (!controller.first.contact || !controller.last.contact) {
+    return std::nullopt;
+  }
+  return KnotSpan{controller.first.contact->arc_a, controller.last.contact->arc_b};
+}
+
+bool clamps_head(const Scene& scene, Phase phase) {
+  return scene.clamp_head && phase_order(phase) < phase_order(scene.controller.free_from);
+}
+
+void decide(const Model& model, const Scene& scene, const Situation& situation, double time,
+            ControllerState& controller, Control& control) {
+  follow_contacts(scene, situation, time, controller);
+  // Half a step of slack: the time of a step is a product and may fall short by rounding.
+  if (controller.phase != Phase::free &&
+      time + 0.5 * scene.time.step >= controller.knot_seen + scene.knot.interval) {
+    look_at_knot(scene, situation, time, controller);
+    switch_by_knot(model, scene, time, controller);
+  }
+  switch_by_span(model, scene, time, controller);
+
+  control.tip = {};
+  control.thigmotaxis.clear();
+  control.clamp_head = clamps_head(scene, controller.phase);
+  const int last = model.body_count() - 1;
+  const Kinematics& kin = situation.kin;
+  if (controller.phase == Phase::form) {
+    control.tip = script_force(scene.script, time, scene.time.step, kin.centre.col(last),
+                               kin.centre_velocity.col(last));
+  } else if (controller.phase != Phase::free && controller.first.contact) {
+    command_speeds(scene.controller, controller, control.thigmotaxis);
+  }
+}
+
+}  // namespace hagfish

@@ -1,0 +1,57 @@
+// The controller (paper, 3.2): forms the knot by script, then tightens and slides it by positive
+// thigmotaxis, then lets the head go. It switches by knot type and knot span, never by eye.
+#pragma once
+
+#include <limits>
+#include <optional>
+
+#include "core/knot/knot.hpp"
+#include "core/run/script.hpp"
+#include "core/scene/phase.hpp"
+#include "core/step/step.hpp"
+
+namespace hagfish {
+
+/// The contact that plays the first or the last one, followed from step to step. Minima of the gap
+/// come and go and hop along a strand; the one in use stays, where it vanishes as the pair of
+/// material points that it last was, until the hysteresis time after it last was the outermost.
+struct TrackedContact {
+  std::optional<Contact> contact;
+  double settled = 0;  ///< time at which it last was the outermost contact, s
+};
+
+/// A knot that was there and is gone: its type, and between which times it was seen, s.
+struct PastKnot {
+  KnotInvariants type;
+  double from = 0, to = 0;
+};
+
+struct ControllerState {
+  Phase phase = Phase::form;
+  double phase_start = 0;  ///< s
+  double loose = 0;        ///< when the knot last spanned more than tight_span, s
+  KnotVote knot;           ///< as last seen
+  double knot_seen = -std::numeric_limits<double>::infinity();  ///< when that was, s
+  double knot_from = 0;                                         ///< when it became of that type, s
+  PastKnot past;     ///< the last one before it; an unknot where there was none
+  std::string lost;  ///< where the scene only warns: how the knot was lost; empty while it holds
+  TrackedContact first, last;
+};
+
+/// Where the knot begins and ends: arc length of the first and the last contact, cm.
+struct KnotSpan {
+  double head_end = 0, tail_end = 0;
+};
+std::optional<KnotSpan> knot_span(const ControllerState& controller);
+
+/// Whether the head is held in a phase.
+bool clamps_head(const Scene& scene, Phase phase);
+
+/// Follows the contacts, switches phases and says what the step from `time` shall do.
+/// Throws StepError (never_tied) where the script ends without the scene's knot, or with too little
+/// tail through it, and (knot_lost) where that knot goes before it may, unless the scene only
+/// warns. what() says which knot there is, since when.
+void decide(const Model& model, const Scene& scene, const Situation& situation, double time,
+            ControllerState& controller, Control& control);
+
+}  // namespace hagfish

@@ -1,0 +1,54 @@
+// The energy ledger: where every erg comes from and goes to, so that no damping hides.
+//
+// Forces work over the displacement that the step makes: h q̇ (Eq. 2), or t q̇ of a step that ends
+// early (simulation.hpp). What the semi-implicit rule then gains or loses by itself is written down
+// apart, from its own formulas and not as the remainder, so that
+//   kinetic + elastic + gravity - initial = works - dissipated + integrator error
+// is a check: it closes to rounding, or the step is not what it claims.
+#pragma once
+
+#include "core/step/step.hpp"
+
+namespace hagfish {
+
+/// Energies in erg. Works, dissipated and integrator terms are running totals.
+struct EnergyLedger {
+  double initial = 0;  ///< kinetic + elastic + gravity at the start
+  double kinetic = 0, elastic = 0, gravity = 0;
+  double work_tip = 0, work_thigmotaxis = 0, work_contact = 0, work_limit = 0, work_head = 0,
+         work_wall = 0;
+  double dissipated = 0;  ///< by drag and joint damping
+  /// -½ Δq̇' M Δq̇: what first-order steps lose when velocities change, inelastic impacts included;
+  /// and (1 - t/h) q̇' M Δq̇, the share of the impulse that has no displacement to work over.
+  double integrator_inertia = 0;
+  /// (½ t² - t h) q̇' K q̇ of the implicit springs, and gravity over the curved path.
+  double integrator_potential = 0;
+  /// Change of M along the step against the work of the explicit Coriolis force.
+  double integrator_coriolis = 0;
+  /// Taken back from the velocity where the scene holds the integrator's gain (guard.hpp), <= 0.
+  double integrator_held = 0;
+  double lowest_error = 0;  ///< of integrator_error() so far
+  double largest = 0;       ///< kinetic + elastic so far
+
+  double works() const {
+    return work_tip + work_thigmotaxis + work_contact + work_limit + work_head + work_wall;
+  }
+  double integrator_error() const {
+    return integrator_inertia + integrator_potential + integrator_coriolis + integrator_held;
+  }
+  /// What the ledger fails to explain, erg.
+  double imbalance() const {
+    return kinetic + elastic + gravity - initial - works() + dissipated - integrator_error();
+  }
+};
+
+/// Opens the ledger at a state.
+EnergyLedger open_ledger(const Model& model, const State& state, const Kinematics& kin);
+
+/// Books the step from `kin`, where the ledger stands, by `solution`, solved for length h (s), to
+/// (`next`, `next_kin`), where its velocity has led in the time `travelled` (s), 0 to h.
+void book_step(const Model& model, const Kinematics& kin, const StepSolution& solution,
+               const State& next, const Kinematics& next_kin, double h, double travelled,
+               EnergyLedger& ledger);
+
+}  // namespace hagfish

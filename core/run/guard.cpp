@@ -1,0 +1,204 @@
+#include "core/run/guard.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace hagfish {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+/// The deepest overlap of a state by the names of what touches.
+std::string deepest_overlap(const Model& model, const Situation& situation, const Scene& scene) {
+  double least = 0;
+  std::string name = "none";
+  for (const auto* contacts : {&situation.contact.contacts, &situation.contact.others}) {
+    for (const Contact& contact : *contacts) {
+      if (contact.gap < least) {
+        least = contact.gap;
+        name = fmt::format("bodies {} and {}", contact.body_a(), contact.body_b());
+      }
+    }
+  }
+  visit_wall_gaps(model, situation.kin, scene.wall, [&](int body, double gap) {
+    if (gap < least) {
+      least = gap;
+      name = fmt::format("body {} and the head plate", body);
+    }
+  });
+  return name;
+}
+
+/// The joint that is furthest past its limit.
+std::string furthest_limit(const Model& model, const State& state) {
+  Eigen::Index worst = root_dofs;
+  double most = 0;
+  for (Eigen::Index k = root_dofs; k < model.nv(); ++k) {
+    const Hinge& hinge = model.hinges[k - root_dofs];
+    const double over = std::max(hinge.lower - state.q[k + 1], state.q[k + 1] - hinge.upper);
+    if (over > most) {
+      most = over;
+      worst = k;
+    }
+  }
+  const BendingCone* bent = nullptr;
+  for (const BendingCone& cone : model.cones) {
+    const double over = past_cone(cone, state.q);
+    if (over > most) {
+      most = over;
+      bent = &cone;
+    }
+  }
+  return bent == nullptr ? dof_name(model, static_cast<int>(worst)) : cone_joint_name(model, *bent);
+}
+
+/// The rows whose forces work hardest against row i, at most three.
+std::string opponents(const Model& model, const Kinematics& kin, const StepSolution& step,
+                      Eigen::Index i) {
+  const Eigen::MatrixXd A = whole_dual(model, kin, step.system, step.rows).A;
+  std::vector<std::pair<double, Eigen::Index>> effect;  // on the row's velocity
+  for (Eigen::Index j = 0; j < A.rows(); ++j) {
+    if (j != i && A(i, j) * step.lambda[j] < 0) {
+      effect.emplace_back(A(i, j) * step.lambda[j], j);
+    }
+  }
+  std::sort(effect.begin(), effect.end());
+  std::string names;
+  for (std::size_t k = 0; k < std::min<std::size_t>(3, effect.size()); ++k) {
+    names += (k == 0 ? "" : "; ") + row_name(model, step.rows[effect[k].second]);
+  }
+  return names.empty() ? "no row" : names;
+}
+
+std::size_t place_of(const Row& thigmotaxis) {
+  return static_cast<std::size_t>(thigmotaxis_place(thigmotaxis));
+}
+
+}  // namespace
+
+void report(StopCause cause, const std::string& message, GuardAction action, Watch& watch,
+            std::vector<std::string>& warnings) {
+  if (action == GuardAction::stop) {
+    throw StepError(cause, message);
+  }
+  if (!watch.told.test(static_cast<std::size_t>(cause))) {
+    watch.told.set(static_cast<std::size_t>(cause));
+    warnings.push_back(message);
+  }
+}
+
+void guard_speed(const Eigen::Matrix3Xd& centre_velocity, const GuardSettings& guard) {
+  for (Eigen::Index b = 0; b < centre_velocity.cols(); ++b) {
+    const double speed = centre_velocity.col(b).norm();
+    if (!(speed <= guard.speed)) {
+      throw StepError(StopCause::speed,
+                      fmt::format("body {} moves at {:.3g} cm/s, over guard.speed = {:g} cm/s; a "
+                                  "smaller time.step would help",
+                                  b, speed, guard.speed));
+    }
+  }
+}
+
+void guard_state(const Model& model, const State& state, const Situation& situation,
+                 double crossing, const Scene& scene, Watch& watch,
+                 std::vector<std::string>& warnings) {
+  const GuardSettings& guard = scene.guard;
+  if (!situation.kin.centre.allFinite()) {
+    throw StepError(StopCause::non_finite, "non-finite state");
+  }
+  if (situation.penetration > guard.penetration) {
+    report(StopCause::penetration,
+           fmt::format("penetration {:.3g} cm of {} exceeds guard.penetration = {:g} cm; a smaller "
+                       "time.step or more constraints.corrections would help",
+                       situation.penetration, deepest_overlap(model, situation, scene),
+                       guard.penetration),
+           guard.action, watch, warnings);
+  } else if (crossing > guard.penetration) {
+    report(StopCause::penetration,
+           fmt::format("strands {:.3g} cm into each other on the way of a step, over "
+                       "guard.penetration = {:g} cm; a smaller time.step or more "
+                       "constraints.corrections would help",
+                       crossing, guard.penetration),
+           guard.action, watch, warnings);
+  }
+  if (situation.limit_violation > guard.limit_violation) {
+    report(StopCause::limits,
+           fmt::format("{} is {:.3g} deg past its limit, over guard.limit_violation_deg = {:g}; "
+                       "constraints.activation = \"speculative\" or a smaller time.step would help",
+                       furthest_limit(model, state), situation.limit_violation / degree,
+                       guard.limit_violation / degree),
+           guard.action, watch, warnings);
+  }
+}
+
+void guard_energy(const Model& model, const Scene& scene, State& state, Kinematics& kin,
+                  EnergyLedger& ledger, Watch& watch, std::vector<std::string>& warnings) {
+  const GuardSettings& guard = scene.guard;
+  const double passed = ledger.largest + ledger.dissipated;
+  const double allowed = guard.energy_gain * passed;
+  const double made = ledger.integrator_error() - ledger.lowest_error;
+  ledger.lowest_error = std::min(ledger.lowest_error, ledger.integrator_error());
+  if (!(made <= allowed)) {
+    const std::string message = fmt::format(
+        "the integrator made {:.3g} erg, over guard.energy_gain = {:g} of the {:.3g} erg that the "
+        "body had or lost; a smaller time.step, drag or damping would help",
+        made, guard.energy_gain, passed);
+    if (guard.energy_action == EnergyAction::stop) {
+      throw StepError(StopCause::energy_gain, message);
+    }
+    if (guard.energy_action == EnergyAction::hold) {
+      const double taken = std::min(made - allowed, ledger.kinetic);
+      const double share = ledger.kinetic > 0 ? std::sqrt(1 - taken / ledger.kinetic) : 0;
+      state.qdot *= share;
+      update_velocities(model, state.qdot, kin);
+      ledger.kinetic -= taken;
+      ledger.integrator_held -= taken;
+      report(StopCause::energy_gain, message + "; what is more is taken from the velocity",
+             GuardAction::warn, watch, warnings);
+    } else {
+      report(StopCause::energy_gain, message, GuardAction::warn, watch, warnings);
+    }
+  }
+  ledger.largest = std::max(ledger.largest, ledger.kinetic + ledger.elastic);
+}
+
+void guard_cap(const Model& model, const Kinematics& kin, const Scene& scene,
+               const StepSolution& step, double time, Watch& watch,
+               std::vector<std::string>& warnings) {
+  std::vector<double>& below = watch.below_cap;
+  for (const Row& row : step.rows) {
+    if (row.kind == RowKind::thigmotaxis) {
+      below.resize(std::max(below.size(), place_of(row) + 1), time);
+    }
+  }
+  for (std::size_t place = 0; place < below.size(); ++place) {
+    const auto at_cap = [&](const Row& row) {
+      return row.kind == RowKind::thigmotaxis && place_of(row) == place &&
+             step.lambda[&row - step.rows.data()] >= row.upper;
+    };
+    const auto found = std::ranges::find_if(step.rows, at_cap);
+    if (found == step.rows.end()) {
+      below[place] = time;
+      continue;
+    }
+    const Row& row = *found;
+    const Eigen::Index i = found - step.rows.begin();
+    // Naming the opponents takes a factorisation: once.
+    if (time - below[place] > scene.guard.capped_time &&
+        !watch.told.test(static_cast<std::size_t>(StopCause::capped))) {
+      report(
+          StopCause::capped,
+          fmt::format("{} has been at controller.cap = {:g} dyn for {:g} s and falls {:.3g} cm/s "
+                      "short; held back most by {}; a lower speed or a higher cap would help",
+                      row_name(model, row), scene.controller.cap, scene.guard.capped_time,
+                      -step.excess[i], opponents(model, kin, step, i)),
+          GuardAction::warn, watch, warnings);
+    }
+  }
+}
+
+}  // namespace hagfish

@@ -1,0 +1,64 @@
+#include "core/run/script.hpp"
+
+#include <algorithm>
+
+namespace hagfish {
+namespace {
+
+/// Where a knot is, noise and all.
+Eigen::Vector3d at(const ScriptKnot& knot) { return knot.value + knot.noise; }
+
+/// Catmull-Rom tangent of knot k by finite differences in time.
+Eigen::Vector3d tangent(const std::vector<ScriptKnot>& knots, std::size_t k) {
+  const std::size_t before = k > 0 ? k - 1 : k;
+  const std::size_t after = std::min(k + 1, knots.size() - 1);
+  return (at(knots[after]) - at(knots[before])) / (knots[after].time - knots[before].time);
+}
+
+}  // namespace
+
+double script_end(const ScriptSettings& script) {
+  return script.knots.empty() ? 0 : script.knots.back().time;
+}
+
+Eigen::Vector3d script_value(const ScriptSettings& script, double time) {
+  const std::vector<ScriptKnot>& knots = script.knots;
+  if (time <= knots.front().time) {
+    return at(knots.front());
+  }
+  if (time >= knots.back().time) {
+    return at(knots.back());
+  }
+  const auto next = std::upper_bound(knots.begin(), knots.end(), time,
+                                     [](double t, const ScriptKnot& k) { return t < k.time; });
+  const auto k = static_cast<std::size_t>(next - knots.begin()) - 1;
+  const double span = knots[k + 1].time - knots[k].time;
+  const double u = (time - knots[k].time) / span;
+  if (script.kind == ScriptSettings::Kind::force) {
+    return (1 - u) * at(knots[k]) + u * at(knots[k + 1]);
+  }
+  const double u2 = u * u;
+  const double u3 = u2 * u;
+  return (2 * u3 - 3 * u2 + 1) * at(knots[k]) + (u3 - 2 * u2 + u) * span * tangent(knots, k) +
+         (3 * u2 - 2 * u3) * at(knots[k + 1]) + (u3 - u2) * span * tangent(knots, k + 1);
+}
+
+TipForce script_force(const ScriptSettings& script, double time, double h,
+                      const Eigen::Vector3d& position, const Eigen::Vector3d& velocity) {
+  if (script.kind == ScriptSettings::Kind::none) {
+    return {};
+  }
+  if (script.kind == ScriptSettings::Kind::force) {
+    return {script_value(script, time), 0};
+  }
+  const TipForce implicit{script.spring * (script_value(script, time + h) - position),
+                          h * script.spring + script.damper};
+  const Eigen::Vector3d expected = implicit.value - implicit.rate * velocity;
+  const double size = expected.norm();
+  if (size <= script.largest_force) {
+    return implicit;
+  }
+  return {script.largest_force / size * expected, 0};
+}
+
+}  // namespace hagfish

@@ -1,0 +1,25 @@
+// Scripted forward dynamics of knot forming (paper, 3.2): what pulls the last body, and when.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "core/chain/dynamics.hpp"
+#include "core/scene/settings.hpp"
+
+namespace hagfish {
+
+/// Value of a script at `time`: forces are linear between knots, positions a Catmull-Rom spline
+/// through time; constant outside.
+Eigen::Vector3d script_value(const ScriptSettings& script, double time);
+
+/// Time of the last knot, s; 0 without a script.
+double script_end(const ScriptSettings& script);
+
+/// The script's force on the last body for the step from `time` to `time + h`. A position script
+/// pulls with a spring-damper towards its value at the end of the step, implicitly, up to
+/// largest_force, above which the force is constant within the step.
+/// `position`, `velocity`: the last body's centre, world, cm and cm/s.
+TipForce script_force(const ScriptSettings& script, double time, double h,
+                      const Eigen::Vector3d& position, const Eigen::Vector3d& velocity);
+
+}  // namespace hagfish

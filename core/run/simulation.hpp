@@ -1,0 +1,76 @@
+// A run of a scene, step by step: observe, decide, solve (Eqs. 1-4), advance (Eq. 2), book.
+#pragma once
+
+#include <cstdint>
+
+#include "core/run/controller.hpp"
+#include "core/run/energy.hpp"
+#include "core/run/guard.hpp"
+
+namespace hagfish {
+
+/// What a step changes before it is sure to be taken, as it was: storage of take_step. Search
+/// segments are those of the situation.
+struct BeforeStep {
+  ControllerState controller;
+  WarmStart warm;
+  EnergyLedger ledger;
+  Watch watch;
+  std::vector<SegmentPair> candidates;  ///< of the search
+  std::vector<double> moved;            ///< of the search
+};
+
+/// All that changes while a scene runs.
+struct Simulation {
+  std::int64_t step = 0;  ///< steps taken
+  State state;
+  Situation situation;   ///< of `state`
+  ContactSearch search;  ///< that found its contacts
+  ControllerState controller;
+  WarmStart warm;
+  StepScratch scratch;
+  EnergyLedger ledger;
+  Watch watch;
+  BeforeStep before;
+};
+
+/// As the scene starts, at time 0.
+Simulation start(const Model& model, const Scene& scene);
+
+/// From a state of another run: `controller` says which phase it is in.
+Simulation start_from(const Model& model, const Scene& scene, State state,
+                      ControllerState controller, std::int64_t step);
+
+inline double time_of(const Simulation& sim, const Scene& scene) {
+  return static_cast<double>(sim.step) * scene.time.step;
+}
+
+/// The scene is over: the knot has been gone for long enough, or its duration has passed.
+bool finished(const Simulation& sim, const Scene& scene);
+
+/// What a step began with and did. `sim` has moved on by the time it is read.
+struct StepRecord {
+  std::int64_t step = 0;
+  double time = 0;  ///< s
+  State state;      ///< at `time`
+  Situation situation;
+  ControllerState controller;
+  Control control;
+  StepSolution solution;
+  EnergyLedger ledger;    ///< up to `time`
+  double head_drift = 0;  ///< cm; 0 while the head is free
+  double crossing = 0;    ///< deepest overlap on the way to the next state, cm; 0 of a short way
+  std::vector<std::string>
+      warnings;  ///< what this step gave rise to for the first time (guard.hpp)
+};
+
+/// Takes one step, writing into the storage of `record`. Throws StepError, naming the cause, where
+/// it cannot. Whatever it throws, `sim` is then as it was, but for storage whose contents do not
+/// matter; a step with another scene goes on as if nothing had been. `record` then holds its step
+/// and time, the controller as far as it came and, where a guard looked at them, the state and
+/// situation that it refused.
+void take_step(const Model& model, const Scene& scene, BoxQpSolver& solver, Simulation& sim,
+               StepRecord& record);
+StepRecord take_step(const Model& model, const Scene& scene, BoxQpSolver& solver, Simulation& sim);
+
+}  // namespace hagfish

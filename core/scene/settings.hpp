@@ -1,0 +1,252 @@
+// Every number that a scene file may set, grouped by the stage that uses it. Defaults are those of
+// a scene that says nothing: head clamped, head plate in place, no gravity, drag, stiffness or
+// script.
+//
+// Units are cm, g, s, rad, dyn throughout; scene files give angles in degrees (scene_reader.cpp).
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/scene/phase.hpp"
+
+namespace hagfish {
+
+/// What a universal joint's limit bounds; the paper does not say.
+enum class BendingLimit {
+  box,  ///< the angle of each of its two hinges, so that both together bend up to 1.4 times as far
+  cone  ///< the angle between the X axes of its two bodies
+};
+
+/// How the specimen becomes a chain. The passive terms are additions to the paper: it states none.
+struct ModelSettings {
+  int bodies = 100;              ///< rigid bodies along the animal, 2 to 400
+  double bending_stiffness = 0;  ///< flexural rigidity about each bending axis, dyn cm^2
+  double bending_damping = 0;    ///< its rate form, dyn cm^2 s
+  double twist_stiffness = 0;    ///< torsional rigidity, dyn cm^2
+  double twist_damping = 0;      ///< its rate form, dyn cm^2 s
+  /// Largest bending limit of one hinge or cone, rad. A coarse chain must bend further per joint to
+  /// reach the same curvature; past 90 degrees a universal joint loses its second axis.
+  double largest_limit = 1.4835298641951802;
+  double limit_scale = 1;  ///< on every bending and twisting limit, before the bound above
+  /// Last body's density over the first's, geometric in between; the mass of the whole is kept.
+  double mass_ratio = 1;
+  BendingLimit bending_limit = BendingLimit::box;
+};
+
+/// Linear water drag per unit length of body (addition to the paper), g / (s cm).
+struct DragSettings {
+  double normal = 0;      ///< across the body
+  double tangential = 0;  ///< along it
+};
+
+/// When a unilateral row (joint limit, contact, wall) enters the problem.
+enum class Activation {
+  speculative,  ///< within reach: C v >= -gap / h, so that the gap closes and does not cross
+  violated      ///< only once violated, as RedMax does
+};
+
+struct ConstraintSettings {
+  Activation activation = Activation::speculative;
+  /// Share of a violation pushed out per step: C v >= -push_out * gap / h for gap < 0.
+  double push_out = 0.5;
+  /// But no faster than this, cm/s: what is pushed out keeps its speed, which deep overlaps must
+  /// not make a blast of.
+  double push_out_speed = 5;
+  /// Speculative rows only: a step whose path overlaps by this much more than it should is solved
+  /// again with rows that see it, cm.
+  double tolerance = 0.0003;
+  int corrections = 8;  ///< at most this often; 0: never
+  /// A step that moves a body further than this is looked at on its way too, cm: less than the
+  /// radius of the thinnest body, so that no strand passes through another unseen.
+  double stride = 0.25;
+};
+
+/// Self-contact along the spline through the body centres (paper, Eq. 5).
+struct ContactSettings {
+  double margin = 0.1;  ///< gaps up to this enter the problem when speculative, cm
+  /// Parts of the body whose nearest ends are closer than this along it never touch: neighbours
+  /// always overlap, cm of arc (7 bodies of 100 between them).
+  double least_arc = 2.968;
+};
+
+/// The tank's head plate, the plane x = 0.
+struct WallSettings {
+  bool present = true;
+  double neck = 3.0;  ///< bodies nearer the head than this pass through the plate, cm of arc
+};
+
+/// One knot of a script in time: a force (dyn) or a position of the last body's centre (cm).
+struct ScriptKnot {
+  double time = 0;  ///< s
+  Eigen::Vector3d value = Eigen::Vector3d::Zero();
+  Eigen::Vector3d noise = Eigen::Vector3d::Zero();  ///< drawn on top of it, same unit
+};
+
+/// Scripted forward dynamics of knot forming (paper, 3.2), acting on the last body's centre.
+struct ScriptSettings {
+  enum class Kind {
+    none,
+    force,    ///< the paper's: a force, linear between knots
+    position  ///< waypoints, Catmull-Rom through time, followed by a spring-damper
+  };
+  Kind kind = Kind::none;
+  std::vector<ScriptKnot> knots;  ///< times rising; first one at 0
+  double spring = 0;              ///< position script: dyn / cm, taken implicitly
+  double damper = 0;              ///< position script: dyn s / cm, taken implicitly
+  double largest_force = 0;       ///< position script: the spring-damper saturates here, dyn
+  /// Standard deviation of the normal noise on each coordinate of each knot, cm or dyn: no animal
+  /// does the same thing twice.
+  double noise = 0;
+  unsigned noise_seed = 1;  ///< which draw
+};
+
+/// Commanded speeds of Eq. 6 at one contact, cm/s.
+struct ThigmotaxisSpeeds {
+  double a = 0;  ///< row along t_a, the tangent of the strand nearer the head
+  double b = 0;  ///< row along t_b, the tangent of the strand nearer the tail
+};
+
+/// The end of the animal by which the knot leaves it.
+enum class BodyEnd { head, tail };
+
+/// The thigmotaxis controller (paper, 3.2, Eq. 6) and its switches between phases.
+struct ControllerSettings {
+  ThigmotaxisSpeeds tighten_head, tighten_tail;  ///< first and last contact while tightening
+  ThigmotaxisSpeeds slide_head, slide_tail;      ///< first and last contact while sliding
+  /// The same on the way back to the tail. Eq. 6 bounds speeds from below, so that v < 0 asks for
+  /// nothing: here both tangents point to the head.
+  ThigmotaxisSpeeds reverse_head, reverse_tail;
+  BodyEnd leave_by = BodyEnd::head;  ///< tail: at the head the knot turns back
+  Phase free_from = Phase::release;  ///< a clamped head is free from this phase on
+  double cap = 5000;  ///< largest lambda / h of a thigmotaxis row, dyn: the rows are soft
+  /// A thigmotaxis row below its commanded speed asks for no more than this, cm/s^2 (addition): at
+  /// phase starts, and where another contact becomes the first or last one, the speeds along the
+  /// new tangents are up to 2 cm/s off, and to mend that within a step takes a force as 1 / h.
+  double acceleration = 100;
+  double contact_gap = 0.05;  ///< a contact this close counts as touching, cm
+  /// The contact used as first or last is kept this long after it last was the outermost, s:
+  /// without it the identity jumps 7 to 16 times a second.
+  double hysteresis = 0.1;
+  double tail_through = 8.0;   ///< tighten once this much body is past the last contact, cm of arc
+  double tighten_from = 0;     ///< and not before this time: a script may end by pulling tight, s
+  double tight_span = 20.352;  ///< slide once the knot spans no more body than this, cm of arc
+  double tight_hold = 0.25;    ///< for this long: a loose loop touches itself here and there, s
+  double tighten_time = 2.0;   ///< or after this long in any case, s
+  /// The slide ends when the first contact is this near the head, and a way back when the last one
+  /// is this near the tail: then the knot may go, cm of arc.
+  double release_at = 1.6;
+  /// The knot is gone once it has been for this long: near an end of the body, where it leaves, the
+  /// type of an open line is for a moment a matter of how it is closed, s.
+  double untied_for = 0;
+  double free_time = 1.0;  ///< run on this long after the knot is gone, s
+};
+
+/// How the body lies and moves at time 0: straight and at rest where nothing is said.
+struct StartSettings {
+  /// Bend of the body [station, about x, y, z], rad per cm of body, linear between stations (0 head
+  /// to 1 tail). A hinge takes the share of the body that it stands for, and stops at its limits.
+  std::vector<Eigen::Vector4d> bend;
+  std::vector<Eigen::Vector4d> bend_rate;  ///< the same of its velocity, rad/(cm s)
+  /// Turn of the body as a whole, rad/s, head's own axes; the head must be free.
+  Eigen::Vector3d spin = Eigen::Vector3d::Zero();
+  std::vector<double> q;      ///< in place of bend: the whole state as State::q has it, or empty
+  std::vector<double> qdot;   ///< likewise, in place of bend_rate and spin
+  double noise = 0;           ///< normal noise on each hinge, stopped by its limits, rad
+  unsigned seed = 1;          ///< of the noise
+  Phase phase = Phase::form;  ///< what the controller takes the state to be
+};
+
+/// Topology of the open centreline, by vote over closures and projections.
+struct KnotSettings {
+  int votes = 15;            ///< directions tried
+  unsigned seed = 20220301;  ///< of the directions
+  double interval = 0.02;    ///< time between looks while the controller waits for a change, s
+  bool mirror = false;       ///< tries the directions' mirror images, y to -y: see Scene::mirror
+};
+
+struct TimeSettings {
+  double step = 0.002;            ///< h, s
+  double frame_interval = 0.020;  ///< time between logged frames, s; a whole number of steps
+  double duration = 30;           ///< the run ends here at the latest, s
+  Phase until = Phase::free;      ///< the run ends with this phase
+};
+
+enum class GuardAction { stop, warn };
+enum class EnergyAction {
+  hold,  ///< what is too much is taken from the velocity, and told once
+  warn,
+  stop
+};
+
+/// Bounds of sanity, not physics: past one of these something is wrong with a run.
+struct GuardSettings {
+  /// At too much penetration, a limit passed too far or a lost knot. Speed always stops.
+  GuardAction action = GuardAction::stop;
+  double penetration = 0.5;      ///< cm
+  double limit_violation = 0.2;  ///< rad
+  double speed = 1e4;            ///< of any body centre, cm/s
+  /// Energy that the integrator makes, over the largest kinetic and elastic energy so far and what
+  /// drag and damping took.
+  double energy_gain = 0.005;
+  EnergyAction energy_action = EnergyAction::hold;
+  double capped_time = 0.25;  ///< a thigmotaxis row at its cap for this long is told, s
+};
+
+/// The sign of the body's writhe: which of its two mirror images a knot is.
+enum class Hand { any, right, left };
+
+/// A stretch of the run in which the knot has one type.
+struct KnotStretch {
+  std::string type;         ///< as knot_name() gives it
+  double from = 0, to = 0;  ///< s
+};
+
+/// What a run of the scene must show; `hagfish check` holds a log against it.
+struct ExpectSettings {
+  /// Knot that the controller waits for before it tightens, held until release: "3_1", or
+  /// "det=9,v2=-2" for one without a name; "" for none, which is never tightened.
+  std::string knot;
+  /// Knot type through time. Between the stretches, while it changes, anything goes.
+  std::vector<KnotStretch> types;
+  Hand hand = Hand::any;              ///< of the knot while it is held
+  double slide_distance = 0;          ///< headward travel of the knot's head end while sliding, cm
+  double reverse_distance = 0;        ///< tailward travel of its tail end on the way back, cm
+  double speed_share = 0.95;          ///< of sliding steps that meet Eq. 6 without slack
+  double penetration = 0.0015;        ///< deepest at any step, cm
+  double limit_violation = 1.745e-5;  ///< largest at any step, rad (0.001 degrees)
+  double head_drift = 1e-6;           ///< largest at any step while clamped, cm
+  double kkt = 1e-8;                  ///< largest scaled KKT residual of any step
+  double force_balance = 1e-9;        ///< |H (q̇ - q̇*) - h Σ f| of its scale, every frame
+  double forward_inverse = 1e-8;  ///< q̇ that MuJoCo makes of the forces, over its largest entry
+  double energy = 1e-6;           ///< imbalance of the ledger, of the energy that passed
+  /// Share by which kinetic, elastic and gravity energy may exceed what there was and what the
+  /// script and thigmotaxis put in, at any step.
+  double energy_gain = 0.01;
+};
+
+struct Scene {
+  std::string title;
+  std::string specimen;  ///< specimen file as the scene names it
+  /// The scene is the mirror image, y to -y, of what its file says: all of this is reflected
+  /// already, and written back as the file had it.
+  bool mirror = false;
+  bool clamp_head = true;
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< cm/s^2
+  ModelSettings model;
+  DragSettings drag;
+  ConstraintSettings constraints;
+  ContactSettings contact;
+  WallSettings wall;
+  StartSettings start;
+  ScriptSettings script;
+  ControllerSettings controller;
+  KnotSettings knot;
+  TimeSettings time;
+  GuardSettings guard;
+  ExpectSettings expect;
+};
+
+}  // namespace hagfish

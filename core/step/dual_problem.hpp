@@ -1,0 +1,23 @@
+// A set of rows as the box QP in their multipliers: A = C H⁻¹ C', b = d - C q̇*.
+#pragma once
+
+#include <span>
+
+#include "core/chain/articulated.hpp"
+#include "core/chain/dynamics.hpp"
+#include "core/step/rows.hpp"
+#include "solvers/box_qp.hpp"
+
+namespace hagfish {
+
+/// The problem on `rows` (m): `factor` of H, `base` the velocity q̇* without their forces (nv),
+/// which moves the bodies' centres by `centre_velocity` (3 x N). `columns` is storage.
+void assemble_dual(const Model& model, const Kinematics& kin, const ArticulatedFactor& factor,
+                   std::span<const Row> rows, const Eigen::VectorXd& base,
+                   const Eigen::Matrix3Xd& centre_velocity, RowColumns& columns, BoxQp& qp);
+
+/// The problem of a step on all of `rows`, with nothing held, made from nothing.
+BoxQp whole_dual(const Model& model, const Kinematics& kin, const StepSystem& system,
+                 std::span<const Row> rows);
+
+}  // namespace hagfish

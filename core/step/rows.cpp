@@ -1,0 +1,258 @@
+#include "core/step/rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace hagfish {
+namespace {
+
+constexpr double unbounded = std::numeric_limits<double>::infinity();
+
+/// The last number of a limit row's id: 0 for a hinge's lower limit, 1 for its upper one, from here
+/// on for a cone.
+constexpr int first_cone_row = 2;
+
+std::int64_t row_id(RowKind kind, int first, int second) {
+  return (static_cast<std::int64_t>(kind) << 40) | (static_cast<std::int64_t>(first) << 20) |
+         second;
+}
+
+/// Relative motion along `direction` of the two spline points of a contact.
+void set_points(Row& row, const Contact& contact, const Eigen::Vector3d& direction, int bodies) {
+  row.direction = direction;
+  row.a = spline_mix(contact.segment_a, contact.t_a, bodies);
+  row.b = spline_mix(contact.segment_b, contact.t_b, bodies);
+}
+
+/// C q̇ of a row with points.
+double relative_velocity(const Row& row, const Eigen::Matrix3Xd& centre_velocity) {
+  Eigen::Vector3d apart = Eigen::Vector3d::Zero();  // ẋ_a - ẋ_b
+  for (int k = 0; k < row.a.count; ++k) {
+    apart += row.a.weight[k] * centre_velocity.col(row.a.first + k);
+  }
+  for (int k = 0; k < row.b.count; ++k) {
+    apart -= row.b.weight[k] * centre_velocity.col(row.b.first + k);
+  }
+  return row.direction.dot(apart);
+}
+
+/// The right-hand side of a unilateral row at `gap`; none where the row is not in force.
+/// Speculative rows let a gap close within the step; a violation is pushed out over several.
+/// `fastest` bounds the speed of that.
+std::optional<double> unilateral(double gap, const ConstraintSettings& settings, double h,
+                                 double fastest) {
+  if (gap >= 0 && settings.activation == Activation::violated) {
+    return std::nullopt;
+  }
+  return gap >= 0 ? -gap / h : std::min(-settings.push_out * gap / h, fastest);
+}
+
+}  // namespace
+
+std::string row_name(const Model& model, const Row& row) {
+  const int first = static_cast<int>((row.id >> 20) & 0xfffff);
+  const int second = static_cast<int>(row.id & 0xfffff);
+  switch (row.kind) {
+    case RowKind::head:
+      return "head clamp, velocity " + std::to_string(row.dof);
+    case RowKind::limit:
+      if (second >= first_cone_row) {
+        return "bending limit of " + cone_joint_name(model, {row.dof, 0}) + " (total angle)";
+      }
+      return (row.sign > 0 ? "lower" : "upper") + std::string(" limit of ") +
+             dof_name(model, row.dof);
+    case RowKind::contact:
+      return "contact of bodies " + std::to_string(first) + " and " + std::to_string(second);
+    case RowKind::wall:
+      return "head plate at body " + std::to_string(first);
+    case RowKind::thigmotaxis:
+      return std::string(first == 0 ? "first" : "last") + " thigmotaxis contact, along " +
+             (second == 0 ? "t_a" : "t_b");
+  }
+  return "row";
+}
+
+int place_in_step(const Model& model, const Row& row) {
+  if (row.held || row.kind == RowKind::head) {
+    return row.dof - 2 * model.nv();
+  }
+  if (row.dof >= 0) {
+    return -row.dof - (row.unit() ? 1 : 2);
+  }
+  const Body& last =
+      model.bodies[std::max(row.a.first + row.a.count, row.b.first + row.b.count) - 1];
+  return -last.first_dof - last.dofs;
+}
+
+int thigmotaxis_place(const Row& row) {
+  return static_cast<int>(2 * ((row.id >> 20) & 0xfffff) + (row.id & 0xfffff));
+}
+
+double row_velocity(const Row& row, const Eigen::Matrix3Xd& centre_velocity,
+                    const Eigen::VectorXd& v) {
+  if (row.dof < 0) {
+    return relative_velocity(row, centre_velocity);
+  }
+  return row.sign * v[row.dof] + (row.unit() ? 0 : row.beside * v[row.dof + 1]);
+}
+
+void add_row(const Row& row, const Kinematics& kin, double lambda, Matrix6Xd& wrench,
+             Eigen::VectorXd& joint) {
+  if (row.dof >= 0) {
+    joint[row.dof] += row.sign * lambda;
+    if (!row.unit()) {
+      joint[row.dof + 1] += row.beside * lambda;
+    }
+    return;
+  }
+  visit_forces(row, [&](int body, const Eigen::Vector3d& force) {
+    wrench.col(body) += wrench_of_force(lambda * force, kin.centre_offset(body));
+  });
+}
+
+Row contact_row(const Model& model, const Contact& contact) {
+  Row row;
+  row.kind = RowKind::contact;
+  row.id = row_id(RowKind::contact, contact.segment_a, contact.segment_b);
+  set_points(row, contact, contact.normal, model.body_count());
+  return row;
+}
+
+Row wall_row(int body) {
+  Row row;
+  row.kind = RowKind::wall;
+  row.id = row_id(RowKind::wall, body, 0);
+  row.direction = Eigen::Vector3d::UnitX();
+  row.a = {body, 1, {1}, static_cast<double>(body)};
+  return row;
+}
+
+Row cone_row(const BendingCone& cone, const Bend& bend, int cut) {
+  Row row;
+  row.kind = RowKind::limit;
+  row.id = row_id(RowKind::limit, cone.dof, first_cone_row + cut);
+  row.dof = cone.dof;
+  row.sign = -bend.slope[0];
+  row.beside = -bend.slope[1];
+  return row;
+}
+
+void append_head_rows(const State& state, const ConstraintSettings& settings, double h,
+                      std::vector<Row>& rows) {
+  // The turn from the clamped orientation, as a rotation vector of small angle, body frame.
+  const Eigen::Vector3d turn = 2 * std::copysign(1.0, state.q[3]) * state.q.segment<3>(4);
+  for (int k = 0; k < root_dofs; ++k) {
+    Row& row = rows.emplace_back();
+    row.kind = RowKind::head;
+    row.id = row_id(RowKind::head, k, 0);
+    row.dof = k;
+    row.rhs = -settings.push_out / h * (k < 3 ? state.q[k] : turn[k - 3]);
+    row.lower = -unbounded;
+  }
+}
+
+namespace {
+
+void append_hinge_rows(const Model& model, const State& state, const ConstraintSettings& settings,
+                       double h, const NearBinding& wanted, std::vector<Row>& rows) {
+  for (int k = root_dofs; k < model.nv(); ++k) {
+    const Hinge& hinge = model.hinges[k - root_dofs];
+    // The nearer side first: an order that a mirror image, which swaps the sides, keeps.
+    const double nearer = state.q[k + 1] - hinge.lower <= hinge.upper - state.q[k + 1] ? 1 : -1;
+    for (const double sign : {nearer, -nearer}) {
+      const double gap = sign > 0 ? state.q[k + 1] - hinge.lower : hinge.upper - state.q[k + 1];
+      const std::optional<double> rhs = unilateral(gap, settings, h, unbounded);
+      if (!rhs || !std::isfinite(gap) || !wanted(sign * wanted.v[k], *rhs)) {
+        continue;
+      }
+      Row& row = rows.emplace_back();
+      row.kind = RowKind::limit;
+      row.id = row_id(RowKind::limit, k, sign > 0 ? 0 : 1);
+      row.dof = k;
+      row.sign = sign;
+      row.rhs = *rhs;
+    }
+  }
+}
+
+void append_cone_rows(const Model& model, const State& state, const ConstraintSettings& settings,
+                      double h, const NearBinding& wanted, std::vector<Row>& rows) {
+  for (const BendingCone& cone : model.cones) {
+    const auto angles = state.q.segment<2>(cone.dof + 1);
+    // θ is at most the length of both angles and grows no faster than they do: most joints are far
+    // from their cones by this.
+    if (!wanted(-wanted.v.segment<2>(cone.dof).norm(), (angles.norm() - cone.limit) / h)) {
+      continue;
+    }
+    const Bend bend = total_bend(angles[0], angles[1]);
+    const std::optional<double> rhs = unilateral(cone.limit - bend.angle, settings, h, unbounded);
+    if (!rhs || bend.slope.isZero(0)) {
+      continue;
+    }
+    Row& row = rows.emplace_back(cone_row(cone, bend, 0));
+    row.rhs = *rhs;
+    if (!wanted(row_velocity(row, wanted.centre_velocity, wanted.v), row.rhs)) {
+      rows.pop_back();
+    }
+  }
+}
+
+}  // namespace
+
+void append_limit_rows(const Model& model, const State& state, const ConstraintSettings& settings,
+                       double h, const NearBinding& wanted, std::vector<Row>& rows) {
+  append_hinge_rows(model, state, settings, h, wanted, rows);
+  append_cone_rows(model, state, settings, h, wanted, rows);
+}
+
+void append_contact_rows(const Model& model, const std::vector<Contact>& contacts,
+                         const ConstraintSettings& settings, double h, const NearBinding& wanted,
+                         std::vector<Row>& rows) {
+  for (const Contact& contact : contacts) {
+    const std::optional<double> rhs = unilateral(contact.gap, settings, h, settings.push_out_speed);
+    if (!rhs) {
+      continue;
+    }
+    Row& row = rows.emplace_back(contact_row(model, contact));
+    row.rhs = *rhs;
+    if (!wanted(row_velocity(row, wanted.centre_velocity, wanted.v), row.rhs)) {
+      rows.pop_back();
+    }
+  }
+}
+
+void append_wall_rows(const Model& model, const Kinematics& kin, const WallSettings& wall,
+                      const ConstraintSettings& settings, double h, const NearBinding& wanted,
+                      std::vector<Row>& rows) {
+  visit_wall_gaps(model, kin, wall, [&](int body, double gap) {
+    const std::optional<double> rhs = unilateral(gap, settings, h, settings.push_out_speed);
+    if (rhs && wanted(wanted.centre_velocity(0, body), *rhs)) {
+      rows.emplace_back(wall_row(body)).rhs = *rhs;
+    }
+  });
+}
+
+void append_thigmotaxis_rows(const Model& model, const std::vector<ThigmotaxisCommand>& commands,
+                             const ControllerSettings& settings,
+                             const Eigen::Matrix3Xd& centre_velocity, double h,
+                             std::vector<Row>& rows) {
+  const double gain = settings.acceleration * h;
+  for (std::size_t place = 0; place < commands.size(); ++place) {
+    const auto& [contact, speed, towards] = commands[place];
+    const double sense = towards == BodyEnd::head ? 1 : -1;
+    for (const bool along_a : {true, false}) {
+      // Eq. 6: t_a' (ẋ_a - ẋ_b) >= v_a and t_b' (ẋ_b - ẋ_a) >= v_b.
+      const Eigen::Vector3d on_a = sense * (along_a ? contact.tangent_a : -contact.tangent_b);
+      Row& row = rows.emplace_back();
+      row.kind = RowKind::thigmotaxis;
+      row.id = row_id(RowKind::thigmotaxis, static_cast<int>(place), along_a ? 0 : 1);
+      set_points(row, contact, on_a, model.body_count());
+      const double now = relative_velocity(row, centre_velocity);
+      row.rhs = std::min(along_a ? speed.a : speed.b, now + gain);
+      row.upper = settings.cap * h;  // the soft row: its L1 slack is this bound's dual
+    }
+  }
+}
+
+}  // namespace hagfish

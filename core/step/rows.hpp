@@ -1,0 +1,150 @@
+// Constraint rows C q̇ >= d and G q̇ = e of the step's QP (paper, Eqs. 3, 4 and 6), all kept as one
+// list: a row is a unit dof, two dofs of a joint or the relative motion of two points, with bounds
+// on its multiplier.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "core/chain/articulated.hpp"
+#include "core/chain/bending.hpp"
+#include "core/chain/kinematics.hpp"
+#include "core/chain/model.hpp"
+#include "core/chain/state.hpp"
+#include "core/contact/contact.hpp"
+#include "core/contact/spline.hpp"
+#include "core/scene/settings.hpp"
+
+namespace hagfish {
+
+enum class RowKind : std::uint8_t { head, limit, contact, wall, thigmotaxis };
+
+struct Row {
+  RowKind kind = RowKind::limit;
+  /// C q̇ = sign * q̇[dof] + beside * q̇[dof + 1]; -1 where points are used.
+  int dof = -1;
+  double sign = 1;    ///< of a unit row +1 or -1
+  double beside = 0;  ///< of a unit row 0
+  /// Same from step to step for the same physical constraint: limits by dof and side, cones by dof
+  /// and which of their rows in the step, contacts by segments, thigmotaxis by place and tangent.
+  std::int64_t id = 0;
+  /// C q̇ = direction . (ẋ_a - ẋ_b), each point a mix of body centres; `b` may have none.
+  Eigen::Vector3d direction;  ///< unit, world
+  SplineMix a, b;
+  double rhs = 0;    ///< d, cm/s or rad/s
+  double lower = 0;  ///< bounds on the multiplier λ, dyn s or dyn cm s
+  double upper = std::numeric_limits<double>::infinity();
+  /// A unit row expected to bind: its velocity is held at `rhs`, and λ is what holds it.
+  bool held = false;
+
+  bool unit() const { return dof >= 0 && beside == 0; }
+};
+
+/// Calls `visit(body, force)` for each force (world, at the body's centre, per unit λ) that a row
+/// with points stands for: C q̇ is the sum of force . centre velocity.
+template <class Visit>
+void visit_forces(const Row& row, Visit visit) {
+  for (int k = 0; k < row.a.count; ++k) {
+    visit(row.a.first + k, (row.a.weight[k] * row.direction).eval());
+  }
+  for (int k = 0; k < row.b.count; ++k) {
+    visit(row.b.first + k, (-row.b.weight[k] * row.direction).eval());
+  }
+}
+
+/// "limit of j05_bend_y (upper)", "contact of bodies 31 and 74", ...
+std::string row_name(const Model& model, const Row& row);
+
+/// Rows of a step go by this, rising: those held (and those of the head in any case) by dof, then
+/// the others by the last velocity that they involve, the last first, which is what the columns of
+/// the dual problem like best.
+int place_in_step(const Model& model, const Row& row);
+
+/// 0 to 3 for a thigmotaxis row: first contact t_a, t_b, last contact t_a, t_b.
+int thigmotaxis_place(const Row& row);
+
+/// C v of one row at velocities `v` (nv), which move the bodies' centres by `centre_velocity`
+/// (3 x N).
+double row_velocity(const Row& row, const Eigen::Matrix3Xd& centre_velocity,
+                    const Eigen::VectorXd& v);
+
+/// Adds C' λ of one row: to the bodies' wrenches (6 x N) or the joint forces (nv).
+void add_row(const Row& row, const Kinematics& kin, double lambda, Matrix6Xd& wrench,
+             Eigen::VectorXd& joint);
+
+// Rows are appended: a step gathers all kinds in one list, whose storage it keeps.
+
+/// Which unilateral rows are wanted; most of the animal's 500 are far from binding.
+struct NearBinding {
+  const Eigen::VectorXd& v;                 ///< a velocity, nv
+  const Eigen::Matrix3Xd& centre_velocity;  ///< of the bodies' centres at it, 3 x N, cm/s
+  double slack;                             ///< those with C v - d below this, cm/s or rad/s
+  double slack_at_rest;                     ///< and those with -d below this, which touch
+
+  bool operator()(double row_velocity, double rhs) const {
+    return row_velocity - rhs < slack || -rhs < slack_at_rest;
+  }
+};
+
+/// A contact's row: the exact rate of its gap, with no right-hand side yet.
+Row contact_row(const Model& model, const Contact& contact);
+/// The row of body `body` against the head plate, with no right-hand side yet.
+Row wall_row(int body);
+
+/// The row of a joint bent as `bend`, with no right-hand side yet: the exact rate of what its cone
+/// leaves it. `cut` 0 is that of the step's start; others come on top (core/step/look_ahead.hpp).
+Row cone_row(const BendingCone& cone, const Bend& bend, int cut);
+
+/// Six bilateral rows that hold the root at the origin and unturned (paper, Eq. 3); a drift is
+/// taken back at the rate push_out / h.
+void append_head_rows(const State& state, const ConstraintSettings& settings, double h,
+                      std::vector<Row>& rows);
+
+/// One row per bounded side of each hinge, that of the nearer side first, and one per cone unless
+/// its joint is straight.
+void append_limit_rows(const Model& model, const State& state, const ConstraintSettings& settings,
+                       double h, const NearBinding& wanted, std::vector<Row>& rows);
+
+/// One row per contact, the exact rate of its gap.
+void append_contact_rows(const Model& model, const std::vector<Contact>& contacts,
+                         const ConstraintSettings& settings, double h, const NearBinding& wanted,
+                         std::vector<Row>& rows);
+
+/// Gaps to the head plate x = 0, cm: calls `visit(body, gap)` for each body behind the neck.
+template <class Visit>
+void visit_wall_gaps(const Model& model, const Kinematics& kin, const WallSettings& wall,
+                     Visit visit) {
+  double arc = 0;
+  for (int b = 0; wall.present && b < model.body_count(); ++b) {
+    const Body& body = model.bodies[b];
+    arc += body.length;
+    if (arc - 0.5 * body.length >= wall.neck) {
+      visit(b, kin.centre(0, b) - body.radius);
+    }
+  }
+}
+
+/// One row per body behind the neck: it stays clear of the head plate.
+void append_wall_rows(const Model& model, const Kinematics& kin, const WallSettings& wall,
+                      const ConstraintSettings& settings, double h, const NearBinding& wanted,
+                      std::vector<Row>& rows);
+
+/// Commanded sliding at one contact.
+struct ThigmotaxisCommand {
+  Contact contact;
+  ThigmotaxisSpeeds speed;
+  BodyEnd towards = BodyEnd::head;  ///< where the knot shall go: to the tail, both tangents turn
+};
+
+/// Eq. 6 at the first and the last contact: rows t_a, t_b of each. settings.cap bounds λ / h; a row
+/// asks for its commanded speed, but for no more than settings.acceleration makes in the step of
+/// the speed that it has now, where the bodies' centres move by `centre_velocity` (3 x N, cm/s).
+void append_thigmotaxis_rows(const Model& model, const std::vector<ThigmotaxisCommand>& commands,
+                             const ControllerSettings& settings,
+                             const Eigen::Matrix3Xd& centre_velocity, double h,
+                             std::vector<Row>& rows);
+
+}  // namespace hagfish

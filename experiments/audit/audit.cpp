@@ -1,0 +1,190 @@
+#include "experiments/audit/audit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "core/log/log_writer.hpp"
+#include "core/run/simulation.hpp"
+#include "experiments/audit/audit_datasets.hpp"
+#include "experiments/audit/audit_forces.hpp"
+#include "experiments/audit/audit_frames.hpp"
+#include "experiments/audit/audit_knot.hpp"
+#include "experiments/audit/audit_steps.hpp"
+#include "mujoco_ref/forward_inverse.hpp"
+#include "mujoco_ref/log_model.hpp"
+#include "mujoco_ref/mirror.hpp"
+
+namespace hagfish {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+/// A spline point loads bodies up to two past the one nearest to it.
+constexpr int spline_reach = 2;
+
+double largest(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0, worse);
+}
+
+double largest(const Eigen::ArrayXd& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0, worse);
+}
+
+Finding status(const LogContents& log) {
+  const std::string text = log.h5.root_text("status");
+  return {"status", text == "complete", text};
+}
+
+/// Bounds of the scene; `deepest` and `furthest` are overlap (cm) and angle past a limit (rad) at
+/// the frames, observed anew.
+std::vector<Finding> constraints(const LogContents& log, double deepest, double furthest) {
+  const ExpectSettings& expect = log.resolved.scene.expect;
+  const double penetration = worse(deepest, largest(log.h5.doubles("/steps/penetration")));
+  const double violation = worse(furthest, largest(log.h5.doubles("/steps/limit_violation")));
+  return {bounded("penetration", penetration, expect.penetration, "cm, every step"),
+          bounded("limits", violation / degree, expect.limit_violation / degree, "deg, every step"),
+          bounded("head drift", largest(log.h5.doubles("/steps/head_drift")), expect.head_drift,
+                  "cm, every step"),
+          bounded("KKT residual", largest(log.h5.doubles("/steps/kkt")), expect.kkt,
+                  "scaled, every step")};
+}
+
+/// All constraint forces of each frame, generalised.
+Hdf5Reader::Rows constraint_forces(const LogContents& log) {
+  Hdf5Reader::Rows sum = log.h5.rows("/forces/thigmotaxis");
+  for (const char* block : {"contact", "limit", "head", "wall"}) {
+    sum += log.h5.rows(std::string("/forces/") + block);
+  }
+  return sum;
+}
+
+/// Each frame's forces put back as applied forces in the log's own MuJoCo model, with its contacts
+/// and limits off: one step must end at the logged q̇. Drag is the core's, at the end of the step.
+Finding forward_inverse(const LogContents& log) {
+  const Model& model = log.model;
+  MujocoModel mirror = mujoco_model_of(log.h5);
+  const std::string difference =
+      first_difference(*mirror.model(), model, log.resolved.scene.time.step);
+  if (!difference.empty()) {
+    throw FileError(log.h5.file() + ": /mjcf is not the scene's model: " + difference);
+  }
+  use_core_rule(mirror);
+  const Hdf5Reader::Rows sum = constraint_forces(log);
+  const Hdf5Reader::Rows tip = log.h5.rows("/forces/tip");
+  double largest_error = 0;
+  for (Eigen::Index f = 0; f < log.q.rows(); ++f) {
+    const State state{log.q.row(f), log.qdot.row(f)};
+    const Eigen::VectorXd next = log.qdot_next.row(f);
+    const Kinematics kin = kinematics(model, state);
+    const Eigen::VectorXd force = sum.row(f).transpose() + drag_force(model, kin, next);
+    const Eigen::VectorXd driven = driven_velocity(model, state, force, tip.row(f), mirror);
+    const double off = largest((driven - next).array().abs().eval());
+    largest_error = worse(largest_error, off > 0 ? off / next.lpNorm<Eigen::Infinity>() : off);
+  }
+  return bounded("forward-inverse", largest_error, log.resolved.scene.expect.forward_inverse,
+                 "of q̇, MuJoCo's step under the logged forces at every frame");
+}
+
+/// f_thigmo at dofs of bodies tailward of the last contact's spline points.
+Finding thigmotaxis_extent(const LogContents& log) {
+  const Model& model = log.model;
+  const Hdf5Reader::Rows force = log.h5.rows("/forces/thigmotaxis");
+  const Hdf5Reader::Rows body_b = log.h5.rows("/thigmotaxis/body_b");
+  double beyond = 0;
+  for (Eigen::Index f = 0; f < force.rows(); ++f) {
+    // Without rows, -1, there must be no force at all.
+    const int last = static_cast<int>(body_b.row(f).maxCoeff());
+    for (int b = last < 0 ? 0 : last + spline_reach + 1; b < model.body_count(); ++b) {
+      const Body& body = model.bodies[b];
+      for (int k = body.first_dof; k < body.first_dof + body.dofs; ++k) {
+        beyond = worse(beyond, std::abs(force(f, k)));
+      }
+    }
+  }
+  return bounded("f_thigmo past the knot", beyond, 0, "dyn cm");
+}
+
+Eigen::ArrayXd diagnostic(const LogContents& log, const char* name) {
+  const std::vector<double> v = log.h5.doubles(std::string("/diagnostics/") + name);
+  return Eigen::ArrayXd::Map(v.data(), static_cast<Eigen::Index>(v.size()));
+}
+
+/// Mechanical energy above what there was and what script and thigmotaxis put in, of the most that
+/// there was of these so far.
+Finding energy_gain(const LogContents& log) {
+  const auto get = [&](const char* name) { return diagnostic(log, name); };
+  const Eigen::ArrayXd energy =
+      get("kinetic_energy") + get("elastic_energy") + get("gravity_energy");
+  const Eigen::ArrayXd had = energy[0] + get("work_tip") + get("work_thigmotaxis");
+  double gain = 0;
+  double most = 0;
+  for (Eigen::Index f = 0; f < energy.size(); ++f) {
+    most = std::max(most, had[f]);
+    gain = worse(gain, most > 0 ? (energy[f] - had[f]) / most : 0);
+  }
+  return bounded("energy gain", gain, log.resolved.scene.expect.energy_gain,
+                 "of what there was and was put in");
+}
+
+/// The ledger's imbalance, over the energy that has passed through it.
+Finding energy(const LogContents& log) {
+  const auto get = [&](const char* name) { return diagnostic(log, name); };
+  const Eigen::ArrayXd energy =
+      get("kinetic_energy") + get("elastic_energy") + get("gravity_energy");
+  const Eigen::ArrayXd works = get("work_tip") + get("work_thigmotaxis") + get("work_contact") +
+                               get("work_limit") + get("work_head") + get("work_wall");
+  const Eigen::ArrayXd error = get("integrator_error");
+  const Eigen::ArrayXd dissipated = get("dissipated");
+  const double worst = largest((energy - energy[0] - works + dissipated - error).abs().eval());
+  const double passed = std::max(dissipated.abs().maxCoeff(), works.abs().maxCoeff());
+  const double relative = passed > 0 ? worst / passed : worst;
+  Finding finding = bounded("energy ledger", relative, log.resolved.scene.expect.energy,
+                            "of the energy that passed");
+  finding.text += fmt::format("; {:.0f} erg worked, {:.0f} dissipated, {:.0f} integrator's own",
+                              works[works.size() - 1], dissipated[dissipated.size() - 1],
+                              error[error.size() - 1]);
+  return finding;
+}
+
+}  // namespace
+
+Finding bounded(const std::string& name, double value, double bound, const std::string& unit) {
+  return {name, value <= bound, fmt::format("{:.3g} {} (at most {:g})", value, unit, bound)};
+}
+
+std::vector<Finding> audit(const std::string& file) {
+  const LogContents log(file);
+  check_datasets(log);
+  FrameAudit frames(log);
+  ForceAudit forces(log);
+  std::vector<SeenKnot> knots;
+  double deepest = 0;
+  double furthest = 0;
+  for (Eigen::Index f = 0; f < log.q.rows(); ++f) {
+    const AuditedFrame frame(log, f);
+    knots.push_back(see_knot(log, frame));
+    frames.see(frame, knots.back().vote);
+    forces.see(frame);
+    deepest = worse(deepest, frame.situation.penetration);
+    furthest = worse(furthest, frame.situation.limit_violation);
+  }
+  std::vector<Finding> findings{status(log)};
+  const auto append = [&findings](std::vector<Finding> more) {
+    findings.insert(findings.end(), more.begin(), more.end());
+  };
+  append(audit_knot(log, knots));
+  append(constraints(log, deepest, furthest));
+  append(frames.findings());
+  append(audit_steps(log));
+  append(forces.findings());
+  findings.push_back(forward_inverse(log));
+  findings.push_back(thigmotaxis_extent(log));
+  findings.push_back(energy(log));
+  findings.push_back(energy_gain(log));
+  return findings;
+}
+
+}  // namespace hagfish

@@ -1,0 +1,388 @@
+#include "experiments/audit/audit_forces.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/run/script.hpp"
+
+namespace hagfish {
+namespace {
+
+/// How far from its limit a joint that bears on it may end a step, rad: the speed of Ipopt's rows
+/// is met to 1e-8 of the largest, some rad/s, over a step of some ms.
+constexpr double limit_tolerance = 1e-8;
+/// A cone is followed by tangents, rad: a step's end may be this far inside or past it, and the
+/// force that far turned from the bend.
+constexpr double cone_tolerance = 2e-5;
+constexpr double cone_turn_tolerance = 0.1;
+/// Speeds of rows are met to 1e-8 of the largest in the step, some 10 cm/s (Ipopt).
+constexpr double ask_tolerance = 1e-5;  // cm/s
+constexpr double cap_tolerance = 1e-6;
+/// Mean f_thigmo is not C' of the mean multipliers exactly, as the knot moves between two frames:
+/// the median, which grows with the time between them, tells a wrong column, sign or window.
+constexpr double mean_tolerance = 0.05;
+constexpr double mean_tolerance_growth = 1;     // 1/s
+constexpr double largest_mean_tolerance = 0.3;  // beyond it the finding would say nothing
+constexpr std::size_t least_means = 5;          // for a median
+
+/// The knot goes to the tail in this phase: both tangents turn.
+bool towards_tail(const Scene& scene, Phase phase) {
+  return phase == Phase::reverse ||
+         (phase == Phase::release && scene.controller.leave_by == BodyEnd::tail);
+}
+
+/// Commanded speeds of a phase: first t_a, first t_b, last t_a, last t_b, cm/s; nan without rows.
+Eigen::Vector4d commands(const Scene& scene, Phase phase) {
+  const ControllerSettings& c = scene.controller;
+  const auto four = [](const ThigmotaxisSpeeds& first, const ThigmotaxisSpeeds& last) {
+    return Eigen::Vector4d(first.a, first.b, last.a, last.b);
+  };
+  if (phase == Phase::form || phase == Phase::free) {
+    return Eigen::Vector4d::Constant(NAN);
+  }
+  if (phase == Phase::tighten) {
+    return four(c.tighten_head, c.tighten_tail);
+  }
+  return towards_tail(scene, phase) ? four(c.reverse_head, c.reverse_tail)
+                                    : four(c.slide_head, c.slide_tail);
+}
+
+/// Relative motion of two spline points along `direction`, by their spline parameters; without the
+/// second one, of the first alone.
+Row motion_row(const Model& model, const Eigen::Vector3d& direction, double a, double b) {
+  const auto mix = [&model](double parameter) {
+    const auto [segment, t] = spline_point(model, parameter);
+    return spline_mix(segment, t, model.body_count());
+  };
+  Row row;
+  row.direction = direction;
+  row.a = mix(a);
+  row.b = std::isnan(b) ? SplineMix{} : mix(b);
+  return row;
+}
+
+Contact contact_of(const LogContents& log, const AuditedFrame& frame, double a, double b) {
+  const auto [segment_a, t_a] = spline_point(log.model, a);
+  const auto [segment_b, t_b] = spline_point(log.model, b);
+  return contact_at(frame.situation.segments, segment_a, t_a, segment_b, t_b);
+}
+
+/// C' λ of one row, generalised.
+Eigen::VectorXd force_of(const Model& model, const Kinematics& kin, const Row& row, double lambda) {
+  Matrix6Xd wrench = Matrix6Xd::Zero(6, model.body_count());
+  Eigen::VectorXd joint = Eigen::VectorXd::Zero(model.nv());
+  add_row(row, kin, lambda, wrench, joint);
+  return generalised_force(model, kin, wrench);
+}
+
+/// |a - b| over the largest of both and of `least_scale`, in infinity norms; infinite where one is
+/// no number.
+double mismatch(const Eigen::VectorXd& a, const Eigen::VectorXd& b, double least_scale = 0) {
+  const double off = (a - b).lpNorm<Eigen::Infinity>();
+  const double scale =
+      std::max({a.lpNorm<Eigen::Infinity>(), b.lpNorm<Eigen::Infinity>(), least_scale});
+  return !(a - b).allFinite() ? INFINITY : (off > 0 ? off / scale : 0);
+}
+
+}  // namespace
+
+ForceAudit::ForceAudit(const LogContents& log)
+    : log_(log),
+      thigmotaxis_(log.h5.rows("/forces/thigmotaxis")),
+      contact_(log.h5.rows("/forces/contact")),
+      limit_(log.h5.rows("/forces/limit")),
+      head_(log.h5.rows("/forces/head")),
+      wall_(log.h5.rows("/forces/wall")),
+      tip_(log.h5.rows("/forces/tip")),
+      lambda_(log.h5.rows("/thigmotaxis/lambda")),
+      command_(log.h5.rows("/thigmotaxis/command")),
+      speed_(log.h5.rows("/thigmotaxis/speed")),
+      spline_a_(log.h5.rows("/thigmotaxis/spline_a")),
+      spline_b_(log.h5.rows("/thigmotaxis/spline_b")),
+      body_a_(log.h5.rows("/thigmotaxis/body_a")),
+      body_b_(log.h5.rows("/thigmotaxis/body_b")),
+      mean_{log.h5.rows("/mean/forces/thigmotaxis"), log.h5.rows("/mean/forces/contact"),
+            log.h5.rows("/mean/forces/limit"), log.h5.rows("/mean/forces/head"),
+            log.h5.rows("/mean/forces/wall")},
+      mean_net_(log.h5.rows("/mean/forces/net")),
+      mean_lambda_(log.h5.rows("/mean/thigmotaxis/lambda")),
+      contact_frame_(log.h5.integers("/contacts/frame")),
+      active_(log.h5.integers("/diagnostics/active")),
+      contact_a_(log.h5.doubles("/contacts/spline_a")),
+      contact_b_(log.h5.doubles("/contacts/spline_b")),
+      contact_force_(log.h5.doubles("/contacts/force")) {}
+
+void ForceAudit::see(const AuditedFrame& frame) {
+  const Eigen::MatrixXd columns = see_thigmotaxis(frame);
+  const std::size_t first_contact = next_contact_;
+  see_contacts(frame);
+  see_limits(frame);
+  see_head(frame);
+  see_tip(frame);
+  see_balance(frame);
+  if (frame.index > 0) {
+    see_means(frame, columns);
+  }
+  columns_before_ = columns;
+  const Eigen::Index f = frame.index;
+  const auto count = [f](const Hdf5Reader::Rows& rows) {
+    return static_cast<std::int64_t>((rows.row(f).array() != 0).count());
+  };
+  const std::int64_t bearing = count(lambda_) + bearing_limits(frame) + count(head_) +
+                               static_cast<std::int64_t>(next_contact_ - first_contact);
+  // A cone that bears may be followed by one more tangent a correction.
+  const std::int64_t most =
+      bearing + bearing_cones(frame) * log_.resolved.scene.constraints.corrections;
+  from_rows_.compare_exactly("/diagnostics/active", active_[f],
+                             std::clamp(active_[f], bearing, most));
+}
+
+std::int64_t ForceAudit::bearing_limits(const AuditedFrame& frame) const {
+  const Eigen::VectorXd force = limit_.row(frame.index);
+  std::int64_t count = (force.array() != 0).count();
+  for (const BendingCone& cone : log_.model.cones) {  // one row on both
+    count -= force[cone.dof] != 0 && force[cone.dof + 1] != 0 ? 1 : 0;
+  }
+  return count;
+}
+
+std::int64_t ForceAudit::bearing_cones(const AuditedFrame& frame) const {
+  const Eigen::VectorXd force = limit_.row(frame.index);
+  return std::ranges::count_if(log_.model.cones, [&force](const BendingCone& cone) {
+    return !force.segment<2>(cone.dof).isZero(0);
+  });
+}
+
+Eigen::MatrixXd ForceAudit::see_thigmotaxis(const AuditedFrame& frame) {
+  const Eigen::Index f = frame.index;
+  const Model& model = log_.model;
+  const Scene& scene = log_.resolved.scene;
+  const Kinematics& kin = frame.situation.kin;
+  const Eigen::Matrix3Xd velocity =
+      centre_velocities(kin, body_twists(model, kin, frame.qdot_next));
+  const Eigen::Vector4d commanded = commands(scene, frame.phase);
+  const double sense = towards_tail(scene, frame.phase) ? -1 : 1;
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(model.nv(), 4);
+  for (int place = 0; place < 2; ++place) {
+    const double a = spline_a_(f, place);
+    const double b = spline_b_(f, place);
+    const bool rows = on_spline(model, a) && on_spline(model, b) && !std::isnan(commanded[0]);
+    const auto nearest = [rows](double s) { return rows ? std::floor(s + 0.5) : -1; };
+    from_rows_.compare("/thigmotaxis/body_a", body_a_(f, place), nearest(a));
+    from_rows_.compare("/thigmotaxis/body_b", body_b_(f, place), nearest(b));
+    for (const int along : {0, 1}) {
+      const int k = 2 * place + along;
+      from_rows_.compare("/thigmotaxis/command", command_(f, k), rows ? commanded[k] : NAN);
+      if (!rows) {
+        from_rows_.compare("/thigmotaxis/speed", speed_(f, k), NAN);
+        from_rows_.compare("/thigmotaxis/lambda", lambda_(f, k), 0);
+        continue;
+      }
+      // Eq. 6: t_a' (ẋ_a - ẋ_b) >= v_a and t_b' (ẋ_b - ẋ_a) >= v_b.
+      const Contact contact = contact_of(log_, frame, a, b);
+      const Row row = motion_row(
+          model, along == 0 ? sense * contact.tangent_a : -sense * contact.tangent_b, a, b);
+      const double speed = row_velocity(row, velocity, frame.qdot_next);
+      from_rows_.compare("/thigmotaxis/speed", speed_(f, k), speed);
+      // A row below its cap is met, with a force exactly: at its command, or on the way to it.
+      const double asked =
+          std::min(commanded[k], row_velocity(row, kin.centre_velocity, frame.state.qdot) +
+                                     scene.controller.acceleration * scene.time.step);
+      if (lambda_(f, k) < 0) {
+        shape_.insert("/thigmotaxis/lambda");
+      }
+      if (lambda_(f, k) < (1 - cap_tolerance) * scene.controller.cap) {
+        ask_miss_ = worse(ask_miss_, lambda_(f, k) > 0 ? std::abs(speed - asked) : asked - speed);
+      }
+      most_ = worse(most_, lambda_(f, k) / scene.controller.cap);
+      columns.col(k) = force_of(model, kin, row, 1);
+    }
+  }
+  from_rows_.compare("/forces/thigmotaxis", thigmotaxis_.row(f).transpose(),
+                     columns * lambda_.row(f).transpose());
+  return columns;
+}
+
+void ForceAudit::see_contacts(const AuditedFrame& frame) {
+  const Model& model = log_.model;
+  Eigen::VectorXd contact = Eigen::VectorXd::Zero(model.nv());
+  Eigen::VectorXd wall = contact;
+  for (; next_contact_ < contact_frame_.size() && contact_frame_[next_contact_] == frame.index;
+       ++next_contact_) {
+    const double a = contact_a_[next_contact_];
+    const double b = contact_b_[next_contact_];
+    const double force = contact_force_[next_contact_];
+    const bool of_wall = std::isnan(b);
+    if (!on_spline(model, a) || !(of_wall || on_spline(model, b)) || !(force > 0)) {
+      shape_.insert("/contacts");
+      continue;
+    }
+    const Eigen::Vector3d normal =
+        of_wall ? Eigen::Vector3d::UnitX().eval() : contact_of(log_, frame, a, b).normal;
+    (of_wall ? wall : contact) +=
+        force_of(model, frame.situation.kin, motion_row(model, normal, a, b), force);
+  }
+  from_rows_.compare("/forces/contact", contact_.row(frame.index).transpose(), contact);
+  from_rows_.compare("/forces/wall", wall_.row(frame.index).transpose(), wall);
+}
+
+void ForceAudit::see_limits(const AuditedFrame& frame) {
+  const Model& model = log_.model;
+  const Scene& scene = log_.resolved.scene;
+  const double h = scene.time.step;
+  const Eigen::VectorXd force = limit_.row(frame.index);
+  if ((force.head(root_dofs).array() != 0).any()) {
+    shape_.insert("/forces/limit");
+  }
+  std::vector<char> of_cone(model.nv(), 0);
+  for (const BendingCone& cone : model.cones) {
+    of_cone[cone.dof] = of_cone[cone.dof + 1] = 1;
+    see_cone(frame, cone, force.segment<2>(cone.dof));
+  }
+  for (Eigen::Index k = root_dofs; k < model.nv(); ++k) {
+    if (force[k] == 0 || of_cone[k] != 0) {
+      continue;
+    }
+    // A row with a force is met exactly: the joint ends at its limit, or as far back as push_out
+    // says.
+    const Hinge& hinge = model.hinges[k - root_dofs];
+    const double angle = frame.state.q[k + 1];
+    const double gap = force[k] > 0 ? angle - hinge.lower : hinge.upper - angle;
+    const double speed = (force[k] > 0 ? 1 : -1) * frame.qdot_next[k];
+    const double wanted = gap >= 0 ? -gap / h : -scene.constraints.push_out * gap / h;
+    limit_miss_ = worse(limit_miss_, std::abs(speed - wanted) * h);
+  }
+}
+
+void ForceAudit::see_cone(const AuditedFrame& frame, const BendingCone& cone,
+                          const Eigen::Vector2d& force) {
+  if (force.isZero(0)) {
+    return;
+  }
+  const auto bend_of = [&cone](const Eigen::VectorXd& q) {
+    return total_bend(q[cone.dof + 1], q[cone.dof + 2]);
+  };
+  const double h = log_.resolved.scene.time.step;
+  const double left =
+      (1 - log_.resolved.scene.constraints.push_out) * past_cone(cone, frame.state.q);
+  const Bend end = bend_of(advance(frame.state.q, frame.qdot_next, h));
+  cone_miss_ = worse(cone_miss_, std::abs(end.angle - cone.limit - left));
+  // Every tangent that a step takes pushes back the way the joint bends.
+  const double along = -force.dot(end.slope) / (force.norm() * end.slope.norm());
+  cone_turn_ = worse(cone_turn_, std::acos(std::min(along, 1.0)));
+}
+
+void ForceAudit::see_head(const AuditedFrame& frame) {
+  const Eigen::VectorXd force = head_.row(frame.index);
+  const bool clamped = clamps_head(log_.resolved.scene, frame.phase);
+  const Eigen::Index first_free = clamped ? root_dofs : 0;
+  if ((force.tail(force.size() - first_free).array() != 0).any()) {
+    shape_.insert("/forces/head");
+  }
+}
+
+void ForceAudit::see_tip(const AuditedFrame& frame) {
+  const Scene& scene = log_.resolved.scene;
+  const Kinematics& kin = frame.situation.kin;
+  const int last = log_.model.body_count() - 1;
+  TipForce tip;
+  if (frame.phase == Phase::form) {
+    tip = script_force(scene.script, log_.time[frame.index], scene.time.step, kin.centre.col(last),
+                       kin.centre_velocity.col(last));
+  }
+  const Eigen::Vector3d next =
+      centre_velocities(kin, body_twists(log_.model, kin, frame.qdot_next)).col(last);
+  from_rows_.compare("/forces/tip", tip_.row(frame.index).transpose(), tip.value - tip.rate * next);
+}
+
+void ForceAudit::see_balance(const AuditedFrame& frame) {
+  const Eigen::Index f = frame.index;
+  const Model& model = log_.model;
+  const double h = log_.resolved.scene.time.step;
+  const Kinematics& kin = frame.situation.kin;
+  const StepSystem system = step_system(model, frame.state, kin, {tip_.row(f).transpose(), 0}, h);
+  const Eigen::VectorXd sum =
+      (thigmotaxis_.row(f) + contact_.row(f) + limit_.row(f) + head_.row(f) + wall_.row(f))
+          .transpose();
+  const Eigen::VectorXd given =
+      generalised_force(model, kin, system.wrench) + system.joint + h * sum;
+  imbalance_ = worse(imbalance_, mismatch(given, multiply(model, kin, system.op, frame.qdot_next)));
+  momentum_before_ = momentum_;
+  momentum_ = given.lpNorm<Eigen::Infinity>() / h;
+}
+
+void ForceAudit::see_means(const AuditedFrame& frame, const Eigen::MatrixXd& columns) {
+  const Eigen::Index f = frame.index;
+  const auto row = [f](const Hdf5Reader::Rows& rows) -> Eigen::VectorXd { return rows.row(f); };
+  const auto& [thigmotaxis, contact, limit, head, wall] = mean_;
+  const Eigen::VectorXd sum = row(thigmotaxis) + row(contact) + row(limit) + row(head) + row(wall);
+  // Forces alone may be nothing but rounding of the momentum.
+  mean_imbalance_ =
+      worse(mean_imbalance_, mismatch(sum, row(mean_net_), std::max(momentum_, momentum_before_)));
+  const auto ask = [this](const char* path, bool met) {
+    if (!met) {
+      shape_.insert(path);
+    }
+  };
+  ask("/mean/forces/limit", (row(limit).head(root_dofs).array() == 0).all());
+  ask("/mean/forces/head", (row(head).tail(row(head).size() - root_dofs).array() == 0).all());
+  // Action is reaction within the body, not at the head plate, which pushes tailward.
+  const auto internal = [](const Eigen::VectorXd& force) {
+    return force.head<3>().lpNorm<Eigen::Infinity>() <=
+           rebuilt_tolerance * force.lpNorm<Eigen::Infinity>();
+  };
+  ask("/mean/forces/thigmotaxis", internal(row(thigmotaxis)));
+  ask("/mean/forces/contact", internal(row(contact)));
+  ask("/mean/forces/wall", (row(wall).array() == 0).all() || row(wall)[0] > 0);
+  const Eigen::VectorXd expected =
+      0.5 * (columns + columns_before_) * mean_lambda_.row(f).transpose();
+  if ((columns.array() != 0).any() && (columns_before_.array() != 0).any()) {
+    mean_deviation_.push_back(mismatch(row(thigmotaxis), expected));
+  }
+}
+
+std::vector<Finding> ForceAudit::findings() const {
+  const ExpectSettings& expect = log_.resolved.scene.expect;
+  std::vector<Finding> findings{
+      from_rows_.finding("forces of rows", "q, spline parameters and multipliers")};
+  findings.push_back(bounded("limits bear at limits", limit_miss_, limit_tolerance,
+                             "rad from the limit at the step's end, /forces/limit"));
+  if (!log_.model.cones.empty()) {
+    findings.push_back(bounded("cones bear at cones", cone_miss_, cone_tolerance,
+                               "rad from the cone at the step's end, /forces/limit"));
+    findings.push_back(bounded("cones push back", cone_turn_, cone_turn_tolerance,
+                               "rad from the way the joint bends, /forces/limit"));
+  }
+  findings.push_back(
+      bounded("thigmotaxis as asked", ask_miss_, ask_tolerance, "cm/s, rows below their cap"));
+  findings.push_back(bounded("thigmotaxis cap", most_, 1 + cap_tolerance,
+                             "of controller.cap, largest multiplier"));
+  std::string shape;
+  for (const std::string& path : shape_) {
+    shape += (shape.empty() ? "" : ", ") + path;
+  }
+  if (next_contact_ != contact_frame_.size()) {
+    shape += (shape.empty() ? "" : ", ") + std::string("/contacts/frame");
+  }
+  findings.push_back({"shape of forces", shape.empty(),
+                      shape.empty() ? "each kind acts where it can, contacts push"
+                                    : "act where they cannot, or pull: " + shape});
+  findings.push_back(bounded("force balance", imbalance_, expect.force_balance,
+                             "of scale, H(q̇ - q̇*) - h Σ f recomputed at every frame"));
+  findings.push_back(bounded("balance of means", mean_imbalance_, expect.force_balance,
+                             "of scale, Σ /mean/forces against /mean/forces/net at every frame"));
+  const double tolerance =
+      mean_tolerance + mean_tolerance_growth * log_.resolved.scene.time.frame_interval;
+  if (mean_deviation_.size() >= least_means && tolerance <= largest_mean_tolerance) {
+    std::vector<double> deviation = mean_deviation_;
+    const auto middle = deviation.begin() + static_cast<std::ptrdiff_t>(deviation.size() / 2);
+    std::nth_element(deviation.begin(), middle, deviation.end());
+    findings.push_back(bounded("means of f_thigmo", *middle, tolerance,
+                               "of scale, median, against C' of the mean multipliers"));
+  }
+  return findings;
+}
+
+}  // namespace hagfish

@@ -1,0 +1,169 @@
+#include "experiments/audit/audit_frames.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "core/log/log_writer.hpp"
+
+namespace hagfish {
+namespace {
+
+/// A search that carries its pairs from step to step may see a minimum beside another one late, and
+/// with it an overlap that much deeper, cm.
+constexpr double search_tolerance = 3e-4;
+/// So many minima more or less, at such a share of the frames.
+constexpr std::int64_t most_contacts_off = 6;
+constexpr double largest_share_off = 0.2;
+/// The contact followed is a minimum of the gap, up to how far Newton's method finds it, cm of arc;
+/// or it was one, and is kept for the hysteresis time: at up to this share of the frames.
+constexpr double found_tolerance = 1e-3;
+constexpr double largest_kept_share = 0.3;
+/// Figures that are nothing but rounding have no scale of their own, cm and rad.
+constexpr double nothing_but_rounding = 1e-9;
+
+/// How far the contact followed, by its spline parameters, is from the nearest one found; 0 where
+/// none is followed; cm of arc.
+double distance_to_contact(const AuditedFrame& frame, double a, double b) {
+  if (std::isnan(a) && std::isnan(b)) {
+    return 0;
+  }
+  double nearest = INFINITY;
+  for (const Contact& c : frame.situation.contact.contacts) {
+    const double length = frame.situation.segments[c.segment_a].s1;
+    nearest =
+        std::min(nearest, length * std::hypot(c.segment_a + c.t_a - a, c.segment_b + c.t_b - b));
+  }
+  return nearest;
+}
+
+/// Sum of the integrator's terms of the ledger at each frame, erg.
+std::vector<double> sum_of(const LogContents& log, const std::vector<std::string>& terms) {
+  std::vector<double> sum(log.time.size(), 0);
+  for (const std::string& term : terms) {
+    const std::vector<double> values = log.h5.doubles("/diagnostics/integrator_" + term);
+    std::transform(sum.begin(), sum.end(), values.begin(), sum.begin(), std::plus<>());
+  }
+  return sum;
+}
+
+}  // namespace
+
+Steps::Steps(const LogContents& log)
+    : first(log.h5.integers("/trajectory/step").front()),
+      stride(frame_stride(log.resolved.scene.time)) {}
+
+FrameAudit::FrameAudit(const LogContents& log)
+    : log_(log),
+      steps_(log),
+      step_(log.h5.integers("/trajectory/step")),
+      determinant_(log.h5.integers("/knot/determinant")),
+      v2_(log.h5.integers("/knot/v2")),
+      contacts_(log.h5.integers("/diagnostics/contacts")),
+      agreement_(log.h5.doubles("/knot/agreement")),
+      head_end_(log.h5.doubles("/knot/head_end")),
+      tail_end_(log.h5.doubles("/knot/tail_end")),
+      kinetic_(log.h5.doubles("/diagnostics/kinetic_energy")),
+      elastic_(log.h5.doubles("/diagnostics/elastic_energy")),
+      gravity_(log.h5.doubles("/diagnostics/gravity_energy")),
+      integrator_(sum_of(log, {"inertia", "potential", "coriolis", "held"})),
+      integrator_error_(log.h5.doubles("/diagnostics/integrator_error")),
+      penetration_(log.h5.doubles("/steps/penetration")),
+      limit_violation_(log.h5.doubles("/steps/limit_violation")),
+      head_drift_(log.h5.doubles("/steps/head_drift")),
+      position_(log.h5.rows("/trajectory/position")),
+      spline_a_(log.h5.rows("/thigmotaxis/spline_a")),
+      spline_b_(log.h5.rows("/thigmotaxis/spline_b")),
+      last_order_(phase_order(log.resolved.scene.start.phase)) {}
+
+void FrameAudit::see(const AuditedFrame& frame, const KnotVote& knot) {
+  see_trajectory(frame);
+  see_knot(frame, knot);
+  see_energy(frame);
+  see_bounds(frame);
+}
+
+void FrameAudit::see_trajectory(const AuditedFrame& frame) {
+  const Eigen::Index f = frame.index;
+  const std::int64_t step = steps_.first + f * steps_.stride;
+  by_itself_.compare_exactly("/trajectory/step", step_[f], step);
+  by_itself_.compare("/trajectory/time", log_.time[f],
+                     static_cast<double>(step) * log_.resolved.scene.time.step);
+  // Phases follow each other.
+  const int order = phase_order(frame.phase);
+  by_itself_.compare_exactly("/trajectory/phase", order, std::max(order, last_order_));
+  last_order_ = std::max(order, last_order_);
+  from_q_.compare("/trajectory/position", position_.row(f).transpose(),
+                  frame.situation.kin.centre.reshaped());
+}
+
+void FrameAudit::see_knot(const AuditedFrame& frame, const KnotVote& knot) {
+  const Eigen::Index f = frame.index;
+  from_q_.compare_exactly("/knot/determinant", determinant_[f], knot.type.determinant);
+  from_q_.compare_exactly("/knot/v2", v2_[f], knot.type.v2);
+  from_q_.compare("/knot/agreement", agreement_[f], knot.agreement);
+  const std::vector<SplineSegment>& segments = frame.situation.segments;
+  const auto arc = [&](double parameter) {
+    const auto [segment, t] = spline_point(log_.model, parameter);
+    return segments[segment].arc(t);
+  };
+  const double first = spline_a_(f, 0);
+  const double last = spline_b_(f, 1);
+  for (int place = 0; place < 2; ++place) {
+    const double a = spline_a_(f, place);
+    followed_ += std::isnan(a) ? 0 : 1;
+    kept_ += distance_to_contact(frame, a, spline_b_(f, place)) > found_tolerance ? 1 : 0;
+  }
+  const bool span = on_spline(log_.model, first) && on_spline(log_.model, last);
+  from_q_.compare("/knot/head_end", head_end_[f], span ? arc(first) : NAN);
+  from_q_.compare("/knot/tail_end", tail_end_[f], span ? arc(last) : NAN);
+}
+
+void FrameAudit::see_energy(const AuditedFrame& frame) {
+  const Eigen::Index f = frame.index;
+  const Kinematics& kin = frame.situation.kin;
+  from_q_.compare("/diagnostics/kinetic_energy", kinetic_[f], kinetic_energy(log_.model, kin));
+  from_q_.compare("/diagnostics/elastic_energy", elastic_[f],
+                  elastic_energy(log_.model, frame.state.q));
+  by_itself_.compare("/diagnostics/integrator_error", integrator_error_[f], integrator_[f]);
+  from_q_.compare("/diagnostics/gravity_energy", gravity_[f], gravity_energy(log_.model, kin));
+}
+
+void FrameAudit::see_bounds(const AuditedFrame& frame) {
+  const Eigen::Index f = frame.index;
+  const Eigen::Index step = steps_.at(f);
+  const Situation& s = frame.situation;
+  const auto found = static_cast<std::int64_t>(s.contact.contacts.size());
+  contacts_off_by_ = std::max(contacts_off_by_, std::abs(contacts_[f] - found));
+  contacts_off_ += contacts_[f] == found ? 0 : 1;
+  ++frames_;
+  from_q_.compare("/steps/penetration", penetration_[step], s.penetration, search_tolerance);
+  from_q_.compare("/steps/limit_violation", limit_violation_[step], s.limit_violation,
+                  nothing_but_rounding);
+  const bool clamped = clamps_head(log_.resolved.scene, frame.phase);
+  from_q_.compare("/steps/head_drift", head_drift_[step],
+                  clamped ? head_drift(log_.model, s.kin) : 0, nothing_but_rounding);
+}
+
+std::vector<Finding> FrameAudit::findings() const {
+  const auto within = [](std::int64_t count, double share, std::int64_t of) {
+    return static_cast<double>(count) <= std::max(1.0, share * static_cast<double>(of));
+  };
+  return {
+      by_itself_.finding("frames", "the frame's number, the phase before, the integrator's terms"),
+      from_q_.finding("figures of q", "q and q̇ at every frame"),
+      {"contacts",
+       contacts_off_by_ <= most_contacts_off && within(contacts_off_, largest_share_off, frames_),
+       fmt::format("/diagnostics/contacts is not what a search from nothing finds at {} of {} "
+                   "frames (at most {:g} %), by {} at most ({})",
+                   contacts_off_, frames_, 100 * largest_share_off, contacts_off_by_,
+                   most_contacts_off)},
+      {"contacts followed", within(kept_, largest_kept_share, followed_),
+       fmt::format("/thigmotaxis/spline_a and spline_b are no minimum of the gap, but kept from "
+                   "one, {} times of {} (at most {:g} %)",
+                   kept_, followed_, 100 * largest_kept_share)}};
+}
+
+}  // namespace hagfish

@@ -1,0 +1,38 @@
+// The part of an audit that makes a log's figures anew from q and q̇: where the body is, how it is
+// knotted, its energies and how well it keeps its bounds.
+#pragma once
+
+#include <vector>
+
+#include "core/knot/knot.hpp"
+#include "experiments/audit/audited_frame.hpp"
+#include "experiments/audit/rebuilt.hpp"
+
+namespace hagfish {
+
+class FrameAudit {
+ public:
+  /// The log is referred to.
+  explicit FrameAudit(const LogContents& log);
+  /// Frames in their order. `knot` is the type of this frame's centreline.
+  void see(const AuditedFrame& frame, const KnotVote& knot);
+  std::vector<Finding> findings() const;
+
+ private:
+  void see_trajectory(const AuditedFrame& frame);
+  void see_knot(const AuditedFrame& frame, const KnotVote& knot);
+  void see_energy(const AuditedFrame& frame);
+  void see_bounds(const AuditedFrame& frame);
+
+  const LogContents& log_;
+  Steps steps_;
+  std::vector<std::int64_t> step_, determinant_, v2_, contacts_;
+  std::vector<double> agreement_, head_end_, tail_end_, kinetic_, elastic_, gravity_, integrator_,
+      integrator_error_, penetration_, limit_violation_, head_drift_;
+  Hdf5Reader::Rows position_, spline_a_, spline_b_;
+  int last_order_ = 0;
+  std::int64_t frames_ = 0, contacts_off_ = 0, contacts_off_by_ = 0, followed_ = 0, kept_ = 0;
+  Rebuilt by_itself_, from_q_;
+};
+
+}  // namespace hagfish

@@ -1,0 +1,171 @@
+#include "experiments/audit/audit_knot.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/knot/knot.hpp"
+#include "core/knot/writhe.hpp"
+
+namespace hagfish {
+namespace {
+
+Phase phase_at(const LogContents& log, std::size_t frame) {
+  return static_cast<Phase>(log.phase[frame]);
+}
+
+Finding held(const LogContents& log, const std::vector<std::string>& type) {
+  const std::string& expected = log.resolved.scene.expect.knot;
+  std::size_t frames = 0;
+  std::size_t kept = 0;
+  std::string lost;
+  for (std::size_t f = 0; f < type.size(); ++f) {
+    if (!holds_knot(phase_at(log, f))) {
+      continue;
+    }
+    ++frames;
+    kept += type[f] == expected ? 1 : 0;
+    if (lost.empty() && type[f] != expected) {
+      lost = fmt::format(", first {} at {:.3f} s", type[f], log.time[f]);
+    }
+  }
+  return {"knot held", frames > 0 && kept == frames,
+          fmt::format("{} at {} of {} frames from tightening to release{}", expected, kept, frames,
+                      lost)};
+}
+
+/// expect.types, where the run gets that far.
+std::vector<Finding> types_through_time(const LogContents& log,
+                                        const std::vector<std::string>& type) {
+  const Scene& scene = log.resolved.scene;
+  std::vector<Finding> findings;
+  for (const KnotStretch& stretch : scene.expect.types) {
+    if (scene.time.until != Phase::free && stretch.from > log.time.back()) {
+      continue;
+    }
+    std::size_t frames = 0;
+    std::size_t kept = 0;
+    for (std::size_t f = 0; f < type.size(); ++f) {
+      if (log.time[f] >= stretch.from && log.time[f] <= stretch.to) {
+        ++frames;
+        kept += type[f] == stretch.type ? 1 : 0;
+      }
+    }
+    findings.push_back({"knot through time", frames > 0 && kept == frames,
+                        fmt::format("{} at {} of {} frames from {:g} to {:g} s", stretch.type, kept,
+                                    frames, stretch.from, stretch.to)});
+  }
+  return findings;
+}
+
+/// The sign of the writhe while the knot holds.
+Finding hand(const LogContents& log, const std::vector<SeenKnot>& seen) {
+  double least = INFINITY;
+  double most = -INFINITY;
+  for (std::size_t f = 0; f < log.time.size(); ++f) {
+    if (holds_knot(phase_at(log, f))) {
+      least = std::min(least, seen[f].writhe);
+      most = std::max(most, seen[f].writhe);
+    }
+  }
+  const bool right = log.resolved.scene.expect.hand == Hand::right;
+  return {"hand", right ? least > 0 && least < INFINITY : most < 0 && most > -INFINITY,
+          fmt::format("writhe from {:.2f} to {:.2f} while held ({} for a {}-handed knot)", least,
+                      most, right ? "above 0" : "below 0", right ? "right" : "left")};
+}
+
+/// How far an end of the knot moves in one phase, cm; nan where it is not seen.
+double travel(const LogContents& log, Phase phase, const char* end) {
+  const std::vector<double> arc = log.h5.doubles(end);
+  double first = NAN;
+  double last = NAN;
+  for (std::size_t f = 0; f < arc.size(); ++f) {
+    if (phase_at(log, f) == phase && !std::isnan(arc[f])) {
+      first = std::isnan(first) ? arc[f] : first;
+      last = arc[f];
+    }
+  }
+  return last - first;
+}
+
+/// Eq. 6 at the steps of both slides. Steps of a phase lie between its frames' first and last step.
+Finding commanded_speed(const LogContents& log) {
+  const std::vector<std::int64_t> step = log.h5.integers("/trajectory/step");
+  const std::vector<std::int64_t> eq6 = log.h5.integers("/steps/eq6");
+  std::int64_t met = 0;
+  std::int64_t rows = 0;
+  for (std::size_t f = 0; f + 1 < step.size(); ++f) {
+    if (phase_at(log, f) != Phase::slide && phase_at(log, f) != Phase::reverse) {
+      continue;
+    }
+    for (std::int64_t k = step[f]; k < step[f + 1]; ++k) {
+      rows += 1;
+      met += eq6.at(k - step.front()) == 1 ? 1 : 0;
+    }
+  }
+  const double share = rows > 0 ? static_cast<double>(met) / static_cast<double>(rows) : 0;
+  const double least = log.resolved.scene.expect.speed_share;
+  return {"Eq. 6", share >= least,
+          fmt::format("met without slack on {:.2f} % of {} sliding steps (at least {:g} %)",
+                      100 * share, rows, 100 * least)};
+}
+
+}  // namespace
+
+SeenKnot see_knot(const LogContents& log, const AuditedFrame& frame) {
+  const Eigen::Matrix3Xd& centre = frame.situation.kin.centre;
+  return {knot_type(centre, log.resolved.scene.knot), holds_knot(frame.phase) ? writhe(centre) : 0};
+}
+
+std::vector<Finding> audit_knot(const LogContents& log, const std::vector<SeenKnot>& seen) {
+  const Scene& scene = log.resolved.scene;
+  const ExpectSettings& expect = scene.expect;
+  if (expect.knot.empty()) {
+    return {};
+  }
+  const auto reaches = [&](Phase phase) {
+    return phase_order(scene.time.until) >= phase_order(phase) &&
+           phase_order(scene.start.phase) <= phase_order(phase);
+  };
+  std::vector<std::string> type;
+  for (const SeenKnot& knot : seen) {
+    type.push_back(knot_name(knot.vote.type));
+  }
+  std::vector<Finding> findings;
+  if (reaches(Phase::tighten)) {
+    findings.push_back(held(log, type));
+  }
+  if (scene.start.phase == Phase::form) {
+    findings.push_back({"unknot at start", type.front() == "0_1", type.front()});
+  }
+  if (reaches(Phase::free)) {
+    const bool ended = phase_at(log, type.size() - 1) == Phase::free;
+    findings.push_back(
+        {"unknot at end", ended && type.back() == "0_1",
+         type.back() + (ended ? "" : ", but the run ended before the knot was off")});
+  }
+  const std::vector<Finding> through_time = types_through_time(log, type);
+  findings.insert(findings.end(), through_time.begin(), through_time.end());
+  if (reaches(Phase::tighten) && expect.hand != Hand::any) {
+    findings.push_back(hand(log, seen));
+  }
+  if (reaches(Phase::slide)) {
+    const double slid = -travel(log, Phase::slide, "/knot/head_end");
+    findings.push_back({"slide", slid >= expect.slide_distance,
+                        fmt::format("head end of the knot moved {:.2f} cm headward (at least {:g})",
+                                    slid, expect.slide_distance)});
+  }
+  if (reaches(Phase::reverse) && scene.controller.leave_by == BodyEnd::tail) {
+    const double slid = travel(log, Phase::reverse, "/knot/tail_end");
+    findings.push_back({"reverse", slid >= expect.reverse_distance,
+                        fmt::format("tail end of the knot moved {:.2f} cm tailward (at least {:g})",
+                                    slid, expect.reverse_distance)});
+  }
+  if (reaches(Phase::slide)) {
+    findings.push_back(commanded_speed(log));
+  }
+  return findings;
+}
+
+}  // namespace hagfish

@@ -1,0 +1,174 @@
+#include "experiments/audit/audit_steps.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "core/log/thigmotaxis_rows.hpp"
+#include "experiments/audit/audited_frame.hpp"
+#include "experiments/audit/rebuilt.hpp"
+
+namespace hagfish {
+namespace {
+
+/// A slack of nothing but rounding has no scale of its own, cm/s.
+constexpr double slack_tolerance = 1e-9;
+
+/// /steps/eq6 from each step's slack, against the command of the frame before or after it: a phase
+/// may end in between.
+void rebuild_eq6(const LogContents& log, const Steps& steps, Rebuilt& rebuilt) {
+  const std::vector<std::int64_t> eq6 = log.h5.integers("/steps/eq6");
+  const Hdf5Reader::Rows slack = log.h5.rows("/steps/thigmotaxis_slack");
+  const Hdf5Reader::Rows command = log.h5.rows("/thigmotaxis/command");
+  const auto verdict = [&](Eigen::Index s, Eigen::Index frame) -> std::int64_t {
+    int met = std::isnan(slack(s, 0)) ? -1 : 1;
+    for (int k = 0; k < 4 && met == 1; ++k) {
+      // Without rows at that frame the tolerance is that of 1 cm/s.
+      const double asked = command(frame, k);
+      met = meets_command(slack(s, k), std::isnan(asked) ? 0 : asked) ? 1 : 0;
+    }
+    return met;
+  };
+  for (Eigen::Index s = 0; s < slack.rows(); ++s) {
+    const Eigen::Index before = s / steps.stride;
+    const Eigen::Index after = std::min(before + 1, command.rows() - 1);
+    const bool same = eq6[s] == verdict(s, before) || eq6[s] == verdict(s, after);
+    rebuilt.compare_exactly("/steps/eq6", same ? 1 : 0, 1);
+  }
+}
+
+/// Eq. 6 at frames, and its means, from what each step says.
+void rebuild_thigmotaxis(const LogContents& log, const Steps& steps, Rebuilt& rebuilt) {
+  const Hdf5Reader::Rows lambda = log.h5.rows("/steps/thigmotaxis_lambda");
+  const Hdf5Reader::Rows speed = log.h5.rows("/steps/thigmotaxis_speed");
+  const Hdf5Reader::Rows slack = log.h5.rows("/steps/thigmotaxis_slack");
+  const std::tuple<const char*, const Hdf5Reader::Rows*, double> series[] = {
+      {"/thigmotaxis/lambda", &lambda, 0},
+      {"/thigmotaxis/speed", &speed, 0},
+      {"/thigmotaxis/slack", &slack, slack_tolerance}};
+  for (const auto& [path, steps_of, allowed] : series) {
+    const Hdf5Reader::Rows& each = *steps_of;
+    const Hdf5Reader::Rows at_frame = log.h5.rows(path);
+    const std::string mean_path = std::string("/mean") + path;
+    const Hdf5Reader::Rows mean = log.h5.rows(mean_path);
+    for (Eigen::Index f = 0; f < mean.rows(); ++f) {
+      const Eigen::Index begin = f > 0 ? steps.at(f - 1) : 0;
+      for (int k = 0; k < 4; ++k) {
+        rebuilt.compare(path, at_frame(f, k), each(steps.at(f), k), allowed);
+        double sum = 0;
+        double count = 0;
+        for (Eigen::Index s = begin; s < steps.at(f); ++s) {
+          if (!std::isnan(each(s, k))) {  // no row; of forces, 0
+            sum += each(s, k);
+            count += 1;
+          }
+        }
+        rebuilt.compare(mean_path, mean(f, k), sum / count, allowed);
+      }
+    }
+  }
+  const Hdf5Reader::Rows command = log.h5.rows("/thigmotaxis/command");
+  for (Eigen::Index f = 0; f < command.rows(); ++f) {
+    for (int k = 0; k < 4; ++k) {
+      const double wanted = std::max(0.0, command(f, k) - speed(steps.at(f), k));
+      rebuilt.compare("/thigmotaxis/slack against command and speed", slack(steps.at(f), k),
+                      std::isnan(command(f, k)) ? NAN : wanted, slack_tolerance);
+    }
+  }
+}
+
+/// Worst figures since the frame before, from those of each step.
+void rebuild_worst(const LogContents& log, const Steps& steps, Rebuilt& rebuilt) {
+  const std::pair<const char*, const char*> worst[] = {
+      {"/diagnostics/kkt_worst", "/steps/kkt"},
+      {"/diagnostics/penetration", "/steps/penetration"},
+      {"/diagnostics/limit_violation", "/steps/limit_violation"},
+      {"/diagnostics/head_drift", "/steps/head_drift"}};
+  for (const auto& [path, of_steps] : worst) {
+    const std::vector<double> logged = log.h5.doubles(path);
+    const std::vector<double> each = log.h5.doubles(of_steps);
+    for (std::size_t f = 0; f < logged.size(); ++f) {
+      const auto frame = static_cast<Eigen::Index>(f);
+      const auto begin = each.begin() + (f > 0 ? steps.at(frame - 1) + 1 : 0);
+      rebuilt.compare(path, logged[f],
+                      *std::max_element(begin, each.begin() + steps.at(frame) + 1));
+    }
+  }
+}
+
+/// What the solver says of the step at a frame, against what it says of all steps.
+void rebuild_solver(const LogContents& log, const Steps& steps, Rebuilt& rebuilt) {
+  for (const char* name : {"solve", "rows", "iterations"}) {
+    const std::string path = std::string("/diagnostics/") + name;
+    const std::vector<std::int64_t> logged = log.h5.integers(path);
+    const std::vector<std::int64_t> each = log.h5.integers(std::string("/steps/") + name);
+    for (std::size_t f = 0; f < logged.size(); ++f) {
+      rebuilt.compare_exactly(path, logged[f], each[steps.at(static_cast<Eigen::Index>(f))]);
+    }
+  }
+  const std::vector<double> time = log.h5.doubles("/diagnostics/qp_time");
+  const std::vector<double> each_time = log.h5.doubles("/steps/qp_time");
+  const std::vector<double> kkt = log.h5.doubles("/steps/kkt");
+  std::vector<std::vector<double>> residuals;
+  for (const char* name : {"kkt_stationarity", "kkt_primal", "kkt_complementarity"}) {
+    residuals.push_back(log.h5.doubles(std::string("/diagnostics/") + name));
+  }
+  for (std::size_t f = 0; f < time.size(); ++f) {
+    const Eigen::Index s = steps.at(static_cast<Eigen::Index>(f));
+    rebuilt.compare("/diagnostics/qp_time", time[f], each_time[s]);
+    rebuilt.compare("/steps/kkt at frames", kkt[s],
+                    std::max({residuals[0][f], residuals[1][f], residuals[2][f]}));
+  }
+}
+
+/// Figures that cannot be below zero, or that must not fall.
+Finding plausible(const LogContents& log) {
+  std::string failed;
+  const auto ask = [&failed](const std::string& path, bool met) {
+    if (!met) {
+      failed += (failed.empty() ? "" : ", ") + path;
+    }
+  };
+  for (const char* path :
+       {"/steps/kkt", "/steps/penetration", "/steps/limit_violation", "/steps/head_drift",
+        "/steps/qp_time", "/diagnostics/kkt_stationarity", "/diagnostics/kkt_primal",
+        "/diagnostics/kkt_complementarity", "/diagnostics/wall_time"}) {
+    const std::vector<double> values = log.h5.doubles(path);
+    ask(path, std::all_of(values.begin(), values.end(),
+                          [](double v) { return v >= 0 && std::isfinite(v); }));
+  }
+  const std::vector<double> wall = log.h5.doubles("/diagnostics/wall_time");
+  ask("/diagnostics/wall_time falls", std::is_sorted(wall.begin(), wall.end()));
+  const std::vector<std::int64_t> solve = log.h5.integers("/steps/solve");
+  const std::vector<std::int64_t> rows = log.h5.integers("/steps/rows");
+  const std::vector<std::int64_t> iterations = log.h5.integers("/steps/iterations");
+  constexpr auto linear = static_cast<std::int64_t>(SolveKind::linear);
+  constexpr auto qp = static_cast<std::int64_t>(SolveKind::qp);
+  bool kinds = true;
+  bool counts = true;
+  for (std::size_t s = 0; s < solve.size(); ++s) {
+    kinds = kinds && (solve[s] == linear) == (rows[s] == 0);
+    counts = counts && iterations[s] >= 0 && (solve[s] == qp || iterations[s] == 0);
+  }
+  ask("/steps/solve against /steps/rows", kinds);
+  ask("/steps/iterations against /steps/solve", counts);
+  return {"plausible", failed.empty(),
+          failed.empty() ? "nothing below zero or against its kind at any step"
+                         : "below zero, not finite or against its kind: " + failed};
+}
+
+}  // namespace
+
+std::vector<Finding> audit_steps(const LogContents& log) {
+  const Steps steps(log);
+  Rebuilt rebuilt;
+  rebuild_eq6(log, steps, rebuilt);
+  rebuild_thigmotaxis(log, steps, rebuilt);
+  rebuild_worst(log, steps, rebuilt);
+  rebuild_solver(log, steps, rebuilt);
+  return {rebuilt.finding("steps and frames", "every step"), plausible(log)};
+}
+
+}  // namespace hagfish

@@ -1,0 +1,46 @@
+// One frame of a log as the audit sees it: what was logged of its state, and what follows from
+// that.
+#pragma once
+
+#include <algorithm>
+#include <utility>
+
+#include "core/run/simulation.hpp"
+#include "experiments/audit/log_contents.hpp"
+
+namespace hagfish {
+
+struct AuditedFrame {
+  AuditedFrame(const LogContents& log, Eigen::Index frame)
+      : index(frame),
+        phase(static_cast<Phase>(log.phase[frame])),
+        state{log.q.row(frame), log.qdot.row(frame)},
+        qdot_next(log.qdot_next.row(frame)),
+        situation(observe(log.model, state, log.resolved.scene)) {}
+
+  Eigen::Index index;
+  Phase phase;
+  State state;
+  Eigen::VectorXd qdot_next;
+  Situation situation;  ///< observed anew from the logged state
+};
+
+/// Whether a logged spline parameter lies on the animal.
+inline bool on_spline(const Model& model, double parameter) {
+  return parameter >= 0 && parameter <= model.body_count() - 1;
+}
+/// Its segment and t.
+inline std::pair<int, double> spline_point(const Model& model, double parameter) {
+  const int segment = std::min(static_cast<int>(parameter), model.body_count() - 2);
+  return {segment, parameter - segment};
+}
+
+/// A run's steps by the frames of its log: frame f begins with step first + f stride.
+struct Steps {
+  explicit Steps(const LogContents& log);
+  std::int64_t first = 0, stride = 1;
+  /// Index along /steps of the step that begins at a frame.
+  Eigen::Index at(Eigen::Index frame) const { return frame * stride; }
+};
+
+}  // namespace hagfish

@@ -1,0 +1,109 @@
+#include "experiments/audit/log_contents.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/log/log_writer.hpp"
+#include "core/run/controller.hpp"
+
+namespace hagfish {
+
+LogContents::LogContents(const std::string& file) : h5(file) {
+  if (h5.root_text("format") != log_format) {
+    throw FileError(file + ": not a " + log_format + " file");
+  }
+  if (h5.root_int("format_version") != log_format_version) {
+    throw FileError(fmt::format("{}: format version {}, this program reads {}", file,
+                                h5.root_int("format_version"), log_format_version));
+  }
+  resolved = read_scene_text(h5.root_text("scene"), file + ": scene");
+  model = make_hagfish(resolved.specimen, resolved.scene);
+  time = h5.doubles("/trajectory/time");
+  phase = h5.integers("/trajectory/phase");
+  q = h5.rows("/trajectory/q");
+  qdot = h5.rows("/trajectory/qdot");
+  qdot_next = h5.rows("/trajectory/qdot_next");
+  if (time.empty()) {
+    throw FileError(file + ": holds no frames");
+  }
+  check_shapes();
+  check_model();
+}
+
+void LogContents::check_shapes() const {
+  const hsize_t t = time.size();
+  const hsize_t n = model.body_count();
+  const hsize_t nq = model.nq();
+  const hsize_t nv = model.nv();
+  using Shape = std::vector<hsize_t>;
+  std::vector<std::pair<std::string, Shape>> wanted = {{"/trajectory/q", {t, nq}},
+                                                       {"/trajectory/qdot", {t, nv}},
+                                                       {"/trajectory/qdot_next", {t, nv}},
+                                                       {"/trajectory/position", {t, n, 3}},
+                                                       {"/trajectory/phase", {t}},
+                                                       {"/trajectory/step", {t}},
+                                                       {"/forces/tip", {t, 3}},
+                                                       {"/thigmotaxis/body_b", {t, 2}},
+                                                       {"/knot/determinant", {t}},
+                                                       {"/knot/v2", {t}},
+                                                       {"/knot/head_end", {t}},
+                                                       {"/knot/tail_end", {t}}};
+  for (const char* block : {"thigmotaxis", "contact", "limit", "head", "wall"}) {
+    wanted.push_back({std::string("/forces/") + block, {t, nv}});
+  }
+  for (const auto& [path, shape] : wanted) {
+    if (h5.shape(path) != shape) {
+      throw FileError(h5.file() + ": " + path + " does not have the shape of its model and frames");
+    }
+  }
+  for (const std::int64_t p : phase) {
+    if (p < 0 || p >= phase_count) {
+      throw FileError(fmt::format("{}: /trajectory/phase holds {}", h5.file(), p));
+    }
+  }
+  const std::vector<std::int64_t> step = h5.integers("/trajectory/step");
+  const auto steps = static_cast<std::int64_t>(h5.shape("/steps/eq6").at(0));
+  if (!std::is_sorted(step.begin(), step.end()) || step.back() - step.front() >= steps) {
+    throw FileError(h5.file() + ": /steps does not cover the frames");
+  }
+}
+
+void LogContents::check_model() const {
+  const auto check = [this](const std::string& name, const std::string& of, std::size_t first,
+                            std::size_t count, const auto& wanted) {
+    const std::vector<double> found = h5.doubles("/model/" + name);
+    if (found.size() != first + count) {
+      throw FileError(fmt::format("{}: /model/{} holds {} values, its scene makes {}", h5.file(),
+                                  name, found.size(), first + count));
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      // Another machine's compiler may round otherwise.
+      const bool same = found[first + i] == wanted(i) ||
+                        (std::isfinite(wanted(i)) &&
+                         std::abs(found[first + i] - wanted(i)) <= 1e-12 * std::abs(wanted(i)));
+      if (!same) {
+        throw FileError(fmt::format("{}: /model/{} of {} {} is {:.17g}, its scene makes {:.17g}",
+                                    h5.file(), name, of, i, found[first + i], wanted(i)));
+      }
+    }
+  };
+  const std::vector<Body>& bodies = model.bodies;
+  const std::size_t hinges = model.hinges.size();
+  const Eigen::Matrix2Xd ranges = hinge_ranges(model);
+  check("mass", "body", 0, bodies.size(), [&](std::size_t b) { return bodies[b].mass; });
+  check("length", "body", 0, bodies.size(), [&](std::size_t b) { return bodies[b].length; });
+  check("radius", "body", 0, bodies.size(), [&](std::size_t b) { return bodies[b].radius; });
+  check("limit_lower", "hinge", root_dofs, hinges,
+        [&](std::size_t k) { return ranges(0, static_cast<Eigen::Index>(k)); });
+  check("limit_upper", "hinge", root_dofs, hinges,
+        [&](std::size_t k) { return ranges(1, static_cast<Eigen::Index>(k)); });
+  if (h5.has("/model/bending_limit")) {  // logs older than cones say nothing of them
+    const Eigen::VectorXd limits = bending_limits(model);
+    check("bending_limit", "joint", 0, bodies.size(),
+          [&](std::size_t b) { return limits[static_cast<Eigen::Index>(b)]; });
+  }
+}
+
+}  // namespace hagfish

@@ -1,0 +1,31 @@
+// A log read back: its scene, the model that the scene makes, and the frames.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/chain/model.hpp"
+#include "core/input/scene_reader.hpp"
+#include "core/log/hdf5_reader.hpp"
+
+namespace hagfish {
+
+/// What every reader of a log starts from.
+struct LogContents {
+  /// Throws FileError where the file is not a log whose datasets fit the model that its own scene
+  /// makes: wrong shapes, or /model with another value, of which the first is named.
+  explicit LogContents(const std::string& file);
+  Hdf5Reader h5;
+  ResolvedScene resolved;
+  Model model;                          ///< that the scene makes
+  std::vector<double> time;             ///< s
+  std::vector<std::int64_t> phase;      ///< as Phase
+  Hdf5Reader::Rows q, qdot, qdot_next;  ///< frames x nq, nv, nv
+
+ private:
+  void check_shapes() const;
+  void check_model() const;
+};
+
+}  // namespace hagfish

@@ -1,0 +1,161 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/input/input_error.hpp"
+#include "core/log/hdf5_writer.hpp"
+#include "core/step/step.hpp"
+#include "experiments/mujoco/motions.hpp"
+#include "experiments/program/commands.hpp"
+#include "experiments/program/scene_argument.hpp"
+#include "mujoco_ref/rollout.hpp"
+
+namespace hagfish {
+namespace {
+
+/// How the methods are measured.
+struct Measurement {
+  double duration = 0.5;         ///< errors are taken here, s
+  double reference_step = 2e-4;  ///< of MuJoCo's RK4, s; half of it is the reference
+  int repeats = 3;               ///< the least CPU time of these counts
+  double long_run = 1;           ///< a run that takes this much of it is not repeated, s
+  std::array<double, 9> steps = {0.02,   0.01,    0.005,    0.002,    0.001,
+                                 0.0005, 0.00025, 0.000125, 0.0000625};  ///< s
+};
+
+struct Method {
+  const char* name;
+  const char* title;
+  int integrator;        ///< MuJoCo's; not used for the core
+  double smallest_step;  ///< below this it takes long and shows nothing new, s
+};
+constexpr int core_rule = -1;
+constexpr std::array<Method, 4> methods{
+    {{"core", "core, semi-implicit", core_rule, 6e-5},
+     {"mujoco_euler", "MuJoCo Euler", mjINT_EULER, 2e-4},
+     {"mujoco_implicit", "MuJoCo implicit", mjINT_IMPLICIT, 2e-4},
+     {"mujoco_rk4", "MuJoCo RK4", mjINT_RK4, 4e-4}}};
+
+double cpu_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+struct Ending {
+  State state;
+  double cost = 0;  ///< CPU time, s
+};
+
+/// The motion's end by a method, and what the steps alone cost; nothing where it blew up.
+std::optional<Ending> end_of(const Method& method, const Model& model, const State& start, double h,
+                             double duration) {
+  const int steps = static_cast<int>(std::lround(duration / h));
+  Ending ending;
+  try {
+    if (method.integrator == core_rule) {
+      const double before = cpu_time();
+      ending.state = core_rollout(model, start, Head::clamped, h, steps).back();
+      ending.cost = cpu_time() - before;
+      return ending;
+    }
+    MujocoModel mirror(mjcf_files(model, 0, h, Head::clamped));
+    mirror.model()->opt.integrator = method.integrator;
+    const double before = cpu_time();
+    ending.state = mujoco_rollout(model, start, mirror, steps).back();
+    ending.cost = cpu_time() - before;
+    return ending;
+  } catch (const StepError&) {
+    return std::nullopt;
+  }
+}
+
+std::optional<Ending> measured(const Method& method, const Model& model, const State& start,
+                               double h, const Measurement& settings) {
+  std::optional<Ending> best = end_of(method, model, start, h, settings.duration);
+  for (int i = 1; best && best->cost < settings.long_run && i < settings.repeats; ++i) {
+    best->cost = std::min(best->cost, end_of(method, model, start, h, settings.duration)->cost);
+  }
+  return best;
+}
+
+void measure(const Method& method, const Model& model, const State& start, const State& reference,
+             const Measurement& settings, Hdf5Writer& h5) {
+  std::vector<double> step, error, cost;
+  for (const double h : settings.steps) {
+    if (h < method.smallest_step) {
+      continue;
+    }
+    const auto ending = measured(method, model, start, h, settings);
+    step.push_back(h);
+    error.push_back(ending ? centre_distance(model, ending->state, reference) : INFINITY);
+    cost.push_back(ending ? ending->cost / settings.duration : NAN);
+    fmt::print("{:<20} {:>9g} {:>11.3e} {:>11.3e}\n", method.title, 1e3 * h, error.back(),
+               cost.back());
+  }
+  const auto array = [](const std::vector<double>& values) {
+    return Eigen::Map<const Eigen::VectorXd>(values.data(),
+                                             static_cast<Eigen::Index>(values.size()));
+  };
+  const std::string group = std::string("/") + method.name;
+  h5.group(group);
+  h5.numbers(group + "/h", array(step), {"s", "time steps"});
+  h5.numbers(group + "/error", array(error),
+             {"cm", "largest error of a body centre at the end; infinite where it blew up"});
+  h5.numbers(group + "/cost", array(cost),
+             {"1", "CPU time per simulated time of the steps alone; nan where it blew up"});
+}
+
+Motion motion_called(const std::string& name) {
+  std::string known;
+  for (const Motion& motion : motions) {
+    if (motion.name == name) {
+      return motion;
+    }
+    known += fmt::format(" {}", motion.name);
+  }
+  throw InputError(fmt::format("--motion {}: no such motion; there are{}", name, known));
+}
+
+}  // namespace
+
+int integrate(const IntegrateOptions& options) {
+  const ResolvedScene resolved = scene_argument(options.scene, options.set);
+  const Motion motion = motion_called(options.motion);
+  Model model = smooth(make_hagfish(resolved.specimen, resolved.scene));
+  model.gravity = {motion.gravity, 0, 0};
+  const State start = start_of(motion, model);
+  const Measurement settings;
+  Hdf5Writer h5;
+
+  const Method& rk4 = methods.back();
+  const double h = settings.reference_step;
+  const auto coarse = end_of(rk4, model, start, h, settings.duration);
+  const auto fine = end_of(rk4, model, start, h / 2, settings.duration);
+  if (!coarse || !fine) {
+    fmt::print(stderr, "hagfish: {}: the reference blew up\n", motion.name);
+    return 1;
+  }
+  const double agreement = centre_distance(model, coarse->state, fine->state);
+  fmt::print("{}, {} bodies, {:g} s; references at {:g} and {:g} ms agree to {:.1e} cm\n",
+             motion.title, model.body_count(), settings.duration, 1e3 * h, 5e2 * h, agreement);
+  fmt::print("{:<20} {:>9} {:>11} {:>11}\n", "method", "h, ms", "error, cm", "CPU s/s");
+  for (const Method& method : methods) {
+    measure(method, model, start, fine->state, settings, h5);
+  }
+  h5.group("/reference");
+  h5.numbers("/reference/agreement", Eigen::VectorXd::Constant(1, agreement),
+             {"cm", fmt::format("largest distance of a body centre at the end between RK4 at {:g} "
+                                "and {:g} s, the reference",
+                                h, h / 2)});
+  h5.root_attribute("motion", std::string(motion.title));
+  h5.root_attribute("command", options.command);
+  h5.root_attribute("scene", scene_to_toml(resolved.scene, resolved.specimen));
+  h5.save(options.out);
+  return 0;
+}
+
+}  // namespace hagfish

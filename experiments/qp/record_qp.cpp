@@ -1,0 +1,94 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "experiments/program/commands.hpp"
+#include "experiments/program/progress.hpp"
+#include "experiments/program/scene_argument.hpp"
+#include "experiments/qp/qp_set.hpp"
+#include "experiments/qp/step_qp.hpp"
+
+namespace hagfish {
+namespace {
+
+/// Takes the steps of a run and keeps their QPs.
+class Recorder {
+ public:
+  Recorder(const RecordQpOptions& options, const Model& model, QpSetWriter& set)
+      : options_(options), model_(model), set_(set) {}
+
+  /// The QP of a step, if it had one; `warm` as the step found it.
+  void take(const StepRecord& record, const WarmStart& warm) {
+    if (!has_qp(record.solution) || record.step % options_.every != 0) {
+      return;
+    }
+    StoredQp qp;
+    qp.start = kept_multipliers(record.solution.rows, warm);
+    if (!options_.primal) {
+      qp.box =
+          whole_dual(model_, record.situation.kin, record.solution.system, record.solution.rows);
+    } else {
+      if (at_cap(record.solution)) {
+        ++left_out_;
+        return;
+      }
+      qp.primal = to_primal(model_, record);
+    }
+    // Consecutive steps share a number.
+    sequence_ += set_.size() > 0 && record.step != last_ + 1 ? 1 : 0;
+    last_ = record.step;
+    qp.sequence = sequence_;
+    set_.append(qp, record.step);
+  }
+
+  int left_out() const { return left_out_; }
+
+ private:
+  const RecordQpOptions& options_;
+  const Model& model_;
+  QpSetWriter& set_;
+  std::int64_t sequence_ = 0, last_ = 0;
+  int left_out_ = 0;
+};
+
+}  // namespace
+
+int record_qp(const RecordQpOptions& options) {
+  const ResolvedScene resolved = scene_argument(options.scene, options.set);
+  const Scene& scene = resolved.scene;
+  const Model model = make_hagfish(resolved.specimen, scene);
+  const auto solver = make_box_qp_solver(options.qp);
+  QpSetWriter set(options.out, options.force, options.command,
+                  scene_to_toml(scene, resolved.specimen));
+  Recorder recorder(options, model, set);
+  Progress progress(model, scene, options.quiet);
+  std::string failure;
+  Simulation sim = start(model, scene);
+  while (failure.empty() && !finished(sim, scene)) {
+    try {
+      const WarmStart warm = sim.warm;
+      const StepRecord record = take_step(model, scene, *solver, sim);
+      recorder.take(record, warm);
+      progress.show(record);
+    } catch (const StepError& error) {
+      failure =
+          fmt::format("{} at step {} (t = {:.4f} s)", error.what(), sim.step, time_of(sim, scene));
+    }
+  }
+  progress.end();
+  set.finish();
+  fmt::print("{}: {} QPs of {} steps{}\n", options.out, set.size(), sim.step,
+             recorder.left_out() == 0
+                 ? ""
+                 : fmt::format("; {} left out, as a row is at its controller.cap, which "
+                               "{{H, g, G, e, C, d}} cannot say",
+                               recorder.left_out()));
+  if (!failure.empty()) {
+    std::fflush(stdout);
+    fmt::print(stderr, "hagfish: {}: the run failed: {}\n", options.out, failure);
+    return 1;
+  }
+  return 0;
+}
+
+}  // namespace hagfish

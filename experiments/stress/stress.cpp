@@ -1,0 +1,171 @@
+#include <fmt/format.h>
+#include <mujoco/mujoco.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+
+#include "core/log/hdf5_error.hpp"
+#include "experiments/program/commands.hpp"
+#include "experiments/program/scene_argument.hpp"
+#include "experiments/stress/stress_judge.hpp"
+#include "experiments/stress/stress_mujoco.hpp"
+#include "solvers/box_qp.hpp"
+
+namespace hagfish {
+namespace {
+
+constexpr const char* active_set = "active-set";
+constexpr int core_rule = -1;
+
+/// How a cell's steps are taken.
+struct StressMethod {
+  const char* name;
+  int integrator;      ///< MuJoCo's, or core_rule
+  const char* qp;      ///< back end of the core
+  const char* change;  ///< KEY=VALUE of the scene; none where empty
+};
+constexpr std::array<StressMethod, 9> methods{
+    {{"default", core_rule, active_set, ""},
+     {"violated", core_rule, active_set, "constraints.activation=violated"},
+     {"push_out_0.2", core_rule, active_set, "constraints.push_out=0.2"},
+     {"push_out_1", core_rule, active_set, "constraints.push_out=1"},
+     {"hard_thigmotaxis", core_rule, active_set, "controller.cap=1e9"},
+     {"ipopt", core_rule, "ipopt", ""},
+     {"mujoco_euler", mjINT_EULER, "", ""},
+     {"mujoco_implicit", mjINT_IMPLICIT, "", ""},
+     {"mujoco_rk4", mjINT_RK4, "", ""}}};
+
+const StressMethod& method_called(const std::string& name) {
+  const auto* found = std::find_if(methods.begin(), methods.end(),
+                                   [&](const StressMethod& m) { return m.name == name; });
+  if (found == methods.end()) {
+    throw InputError(fmt::format("--method {}: no such method", name));
+  }
+  return *found;
+}
+
+double cpu_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+/// Whether the run came to its end in time. Throws StepError as take_step.
+bool run_in_core(const Model& model, const Scene& scene, const char* qp,
+                 const std::function<bool()>& out_of_time, StressJudge& judge) {
+  const auto solver = make_box_qp_solver(qp);
+  Simulation sim = start(model, scene);
+  StepRecord record;
+  while (!finished(sim, scene)) {
+    if (out_of_time()) {
+      return false;
+    }
+    const auto see = [&](const State& before, const State& after, const Situation& situation,
+                         const EnergyLedger& ledger) {
+      judge.see(before, after, situation, time_of(sim, scene),
+                {ledger.kinetic + ledger.elastic + ledger.gravity,
+                 ledger.work_tip + ledger.work_thigmotaxis});
+    };
+    try {
+      take_step(model, scene, *solver, sim, record);
+    } catch (const StepError& error) {
+      // A guard looked at where the step led: into the record, while the simulation stayed.
+      if (error.cause() == StopCause::penetration || error.cause() == StopCause::limits ||
+          error.cause() == StopCause::speed) {
+        see(sim.state, record.state, record.situation, sim.ledger);
+      }
+      throw;
+    }
+    judge.see_control(record);
+    see(record.state, sim.state, sim.situation, sim.ledger);
+  }
+  return true;
+}
+
+Verdict run_cell(const Model& model, const Scene& scene, const StressMethod& method,
+                 double cpu_limit, StressJudge& judge) {
+  const double begin = cpu_time();
+  const auto out_of_time = [&] { return cpu_time() - begin > cpu_limit; };
+  const bool core = method.integrator == core_rule;
+  if (const std::string why = core ? "" : not_in_mujoco(scene); !why.empty()) {
+    return {Outcome::not_applicable, why};
+  }
+  try {
+    const bool done = core ? run_in_core(model, scene, method.qp, out_of_time, judge)
+                           : run_in_mujoco(model, scene, start_state(model, scene.start),
+                                           method.integrator, out_of_time, judge);
+    return done ? judge.ended()
+                : Verdict{Outcome::capped, fmt::format("not done in {:g} s of CPU", cpu_limit)};
+  } catch (const StepError& error) {
+    return judge.stopped(error.cause(), error.what());
+  } catch (const std::domain_error& error) {  // the body is past having a knot type
+    return judge.stopped(StopCause::knot_lost, error.what());
+  } catch (const std::overflow_error& error) {
+    return judge.stopped(StopCause::knot_lost, error.what());
+  }
+}
+
+/// A field of a CSV row, in quotes where it needs them.
+std::string field(std::string text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) {
+    return text;
+  }
+  for (std::size_t at = 0; (at = text.find('"', at)) != std::string::npos; at += 2) {
+    text.insert(at, 1, '"');
+  }
+  return '"' + text + '"';
+}
+
+}  // namespace
+
+std::vector<std::string> stress_methods() {
+  std::vector<std::string> names;
+  for (const StressMethod& method : methods) {
+    names.emplace_back(method.name);
+  }
+  return names;
+}
+
+int stress(const StressOptions& options) {
+  const StressMethod& method = method_called(options.method);
+  std::vector<std::string> set;
+  if (method.change[0] != '\0') {
+    set.emplace_back(method.change);
+  }
+  if (options.step > 0) {
+    set.push_back(fmt::format("time.step={}", options.step));
+    set.push_back(fmt::format("time.frame_interval={}", options.step));
+  }
+  set.insert(set.end(), options.set.begin(), options.set.end());
+  const ResolvedScene resolved = scene_argument(options.scene, set);
+  const Scene& scene = resolved.scene;
+  const Model model = make_hagfish(resolved.specimen, scene);
+  const State first = start_state(model, scene.start);
+  StressJudge judge(model, scene, first, mechanical_energy(model, first, kinematics(model, first)));
+  const double begin = cpu_time();
+  const Verdict verdict = run_cell(model, scene, method, options.cpu_limit, judge);
+  const StressFigures& seen = judge.figures();
+  const std::string text = fmt::format(
+      "scene,level,method,h_ms,outcome,time_s,energy_gain,penetration_cm,path_penetration_cm,"
+      "limit_violation_deg,knot,cpu_s,message\n"
+      "{},{},{},{:g},{},{:g},{:.3g},{:.3g},{:.3g},{:.3g},{},{:.3g},{}\n",
+      field(std::filesystem::path(options.scene).stem().string()), field(options.level),
+      method.name, 1e3 * scene.time.step, outcome_name(verdict.outcome), seen.time,
+      seen.energy_gain, seen.penetration, seen.path_penetration,
+      seen.limit_violation * 180 / std::numbers::pi, field(seen.knot), cpu_time() - begin,
+      field(verdict.message));
+  if (options.out.empty()) {
+    fmt::print("{}", text);
+    return 0;
+  }
+  std::ofstream file(options.out);
+  file << text;
+  file.close();
+  if (!file) {
+    throw FileError(options.out + ": cannot be written");
+  }
+  return 0;
+}
+
+}  // namespace hagfish

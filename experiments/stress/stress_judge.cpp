@@ -1,0 +1,207 @@
+#include "experiments/stress/stress_judge.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "core/log/log_frame.hpp"
+
+namespace hagfish {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+/// Between steps the body is looked at whenever one of its points may have moved by this share of
+/// the thinnest radius.
+constexpr double stride = 0.25;
+/// And no more often than this: 340 cm of way at the animal's thinnest, 0.68 cm.
+constexpr int most_looks = 2000;
+
+/// The configuration a share `u` of the way from q0 to q1.
+Eigen::VectorXd between(const Eigen::VectorXd& q0, const Eigen::VectorXd& q1, double u) {
+  Eigen::VectorXd q = q0 + u * (q1 - q0);
+  const Eigen::Quaterniond turned = root_orientation(q0).slerp(u, root_orientation(q1));
+  q.segment<4>(3) << turned.w(), turned.x(), turned.y(), turned.z();
+  return q;
+}
+
+}  // namespace
+
+const char* outcome_name(Outcome outcome) {
+  constexpr std::array<const char*, outcome_count> names = {
+      "ok",          "energy gain",   "non-finite",    "tunnelled", "penetration",
+      "limits",      "solver failed", "infeasible",    "capped",    "never tied",
+      "came undone", "speed",         "not applicable"};
+  return names[static_cast<std::size_t>(outcome)];
+}
+
+StressJudge::StressJudge(const Model& model, const Scene& scene, const State& start, double energy)
+    : model_(model), scene_(scene), energy_(energy), most_(energy), phase_(scene.start.phase) {
+  const auto thinner = [](const Body& x, const Body& y) { return x.radius < y.radius; };
+  thinnest_ = std::min_element(model.bodies.begin(), model.bodies.end(), thinner)->radius;
+  const Situation situation = observe(model, start, scene);
+  figures_.penetration = situation.penetration;
+  figures_.path_penetration = std::max(0.0, -situation.contact.least_gap);
+  figures_.limit_violation = situation.limit_violation;
+  see_knot(situation, 0);
+  knotted_at_start_ = figures_.knot == scene.expect.knot && !scene.expect.knot.empty();
+}
+
+void StressJudge::see(const State& before, const State& after, const Situation& situation,
+                      double time, const EnergyState& energy) {
+  figures_.time = time;
+  figures_.penetration = std::max(figures_.penetration, situation.penetration);
+  figures_.limit_violation = std::max(figures_.limit_violation, situation.limit_violation);
+  most_ = std::max(most_, energy_ + energy.put_in);
+  if (most_ > 0) {
+    const double gain = (energy.total - energy_ - energy.put_in) / most_;
+    figures_.energy_gain = std::max(figures_.energy_gain, gain);
+  }
+  see_path(before, after, situation.kin);
+  if (time + 0.5 * scene_.time.step >= knot_seen_ + scene_.knot.interval) {
+    see_knot(situation, time);
+  }
+}
+
+void StressJudge::see_path(const State& before, const State& after, const Kinematics& kin) {
+  const double way = scene_.time.step * kin.centre_velocity.colwise().norm().maxCoeff();
+  if (!std::isfinite(way)) {
+    return;
+  }
+  const double looks = std::ceil(way / (stride * thinnest_));
+  const int count = static_cast<int>(std::clamp(looks, 1.0, static_cast<double>(most_looks)));
+  State on_the_way = after;
+  Situation seen;
+  for (int i = 1; i <= count; ++i) {
+    on_the_way.q = between(before.q, after.q, static_cast<double>(i) / count);
+    observe(model_, on_the_way, scene_, search_, seen);
+    figures_.path_penetration = std::max(figures_.path_penetration, -seen.contact.least_gap);
+  }
+}
+
+void StressJudge::see_knot(const Situation& situation, double time) {
+  knot_seen_ = time;
+  try {
+    figures_.knot = knot_name(knot_type(situation.kin.centre, scene_.knot).type);
+  } catch (const std::domain_error&) {
+    figures_.knot = "touches itself";
+  } catch (const std::overflow_error&) {
+    figures_.knot = "tangle";
+  }
+  const bool holds = holds_knot(phase_) || (phase_ == Phase::form && knotted_at_start_);
+  if (holds && !scene_.expect.knot.empty() && figures_.knot != scene_.expect.knot &&
+      lost_.empty()) {
+    lost_ = fmt::format("{} became {} at {:g} s", scene_.expect.knot, figures_.knot, time);
+  }
+}
+
+void StressJudge::see_control(const StepRecord& record) {
+  kkt_ = std::max(kkt_, record.solution.kkt.worst());
+  phase_ = record.controller.phase;
+  tightened_ = tightened_ || phase_ == Phase::tighten;
+  const std::optional<KnotSpan> span = knot_span(record.controller);
+  if (phase_ != Phase::slide || !span) {
+    return;
+  }
+  if (slide_steps_ == 0) {
+    slide_from_ = span->head_end;
+  }
+  slide_to_ = span->head_end;
+  ++slide_steps_;
+  slide_met_ += thigmotaxis_rows_of(record.control, record.solution, scene_.time.step).met ? 1 : 0;
+}
+
+Verdict StressJudge::root_cause() const {
+  if (figures_.path_penetration > thinnest_) {
+    return {Outcome::tunnelled,
+            fmt::format("strands {:.3g} cm into each other, more than the radius {:.3g} cm",
+                        figures_.path_penetration, thinnest_)};
+  }
+  if (!lost_.empty()) {
+    return {Outcome::came_undone, lost_};
+  }
+  if (figures_.energy_gain > scene_.expect.energy_gain) {
+    return {Outcome::energy_gain,
+            fmt::format("energy {:.3g} of what there was, over expect.energy_gain = {:g}",
+                        figures_.energy_gain, scene_.expect.energy_gain)};
+  }
+  return {};
+}
+
+Verdict StressJudge::thigmotaxis() const {
+  const ExpectSettings& expect = scene_.expect;
+  if (expect.slide_distance > 0 && scene_.start.phase == Phase::form && !tightened_) {
+    return {Outcome::never_tied, "the knot was never ready to tighten"};
+  }
+  if (expect.slide_distance > 0 && slide_from_ - slide_to_ < expect.slide_distance) {
+    return {Outcome::capped, fmt::format("the knot slid {:.3g} cm, less than {:g} cm",
+                                         slide_from_ - slide_to_, expect.slide_distance)};
+  }
+  const double share = static_cast<double>(slide_met_) / static_cast<double>(slide_steps_);
+  if (slide_steps_ > 0 && share < expect.speed_share) {
+    return {Outcome::capped,
+            fmt::format("Eq. 6 met without slack in {:.3g} of the sliding steps", share)};
+  }
+  if (expect.slide_distance > 0 && phase_ != Phase::free) {
+    return {Outcome::capped, "the knot was not off in time"};
+  }
+  return {};
+}
+
+Verdict StressJudge::ended() const {
+  const ExpectSettings& expect = scene_.expect;
+  if (const Verdict root = root_cause(); root.outcome != Outcome::ok) {
+    return root;
+  }
+  const double depth = std::max(figures_.penetration, figures_.path_penetration);
+  if (depth > expect.penetration) {
+    return {Outcome::penetration,
+            fmt::format("{:.3g} cm, over expect.penetration = {:g} cm", depth, expect.penetration)};
+  }
+  if (figures_.limit_violation > expect.limit_violation) {
+    return {Outcome::limits,
+            fmt::format("{:.3g} deg past, over expect.limit_violation_deg = {:g}",
+                        figures_.limit_violation / degree, expect.limit_violation / degree)};
+  }
+  if (kkt_ > expect.kkt) {
+    return {Outcome::solver_failed,
+            fmt::format("KKT residual {:.3g}, over expect.kkt = {:g}", kkt_, expect.kkt)};
+  }
+  return thigmotaxis();
+}
+
+Verdict StressJudge::stopped(StopCause cause, const std::string& message) const {
+  const bool symptom = cause == StopCause::penetration || cause == StopCause::limits ||
+                       cause == StopCause::speed || cause == StopCause::knot_lost;
+  if (const Verdict root = root_cause(); symptom && root.outcome != Outcome::ok) {
+    return {root.outcome, root.message + "; " + message};
+  }
+  switch (cause) {
+    case StopCause::non_finite:
+      return {Outcome::non_finite, message};
+    case StopCause::penetration:
+      return {Outcome::penetration, message};
+    case StopCause::limits:
+      return {Outcome::limits, message};
+    case StopCause::speed:
+      return {Outcome::speed, message};
+    case StopCause::energy_gain:
+      return {Outcome::energy_gain, message};
+    case StopCause::infeasible:
+      return {Outcome::infeasible, message};
+    case StopCause::solver_failed:
+      return {Outcome::solver_failed, message};
+    case StopCause::never_tied:
+      return {Outcome::never_tied, message};
+    case StopCause::knot_lost:
+      return {Outcome::came_undone, message};
+    case StopCause::capped:
+      return {Outcome::capped, message};
+  }
+  throw std::logic_error("no outcome for this cause");
+}
+
+}  // namespace hagfish

@@ -1,0 +1,98 @@
+// What became of one cell of the failure map: its outcome by name and the figures behind it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "core/chain/start.hpp"
+#include "core/run/simulation.hpp"
+
+namespace hagfish {
+
+enum class Outcome : std::uint8_t {
+  ok,
+  energy_gain,
+  non_finite,
+  tunnelled,  ///< strands passed through each other: deeper at or between steps than any radius
+  penetration,
+  limits,
+  solver_failed,
+  infeasible,
+  capped,  ///< not done in time, or Eq. 6 not met: its rows stayed at controller.cap
+  never_tied,
+  came_undone,  ///< the knot changed its type while it should have held, though nothing tunnelled
+  speed,
+  not_applicable
+};
+inline constexpr int outcome_count = 13;
+/// "ok", "energy gain", ...
+const char* outcome_name(Outcome outcome);
+
+/// Figures of a run up to now.
+struct StressFigures {
+  double time = 0;              ///< reached, s
+  double energy_gain = 0;       ///< largest, as ExpectSettings::energy_gain has it
+  double penetration = 0;       ///< deepest at the end of any step, cm
+  double path_penetration = 0;  ///< deepest of strands at and between steps, cm
+  double limit_violation = 0;   ///< largest, rad
+  std::string knot;             ///< type as last seen
+};
+
+struct Verdict {
+  Outcome outcome = Outcome::ok;
+  std::string message;  ///< what says so; empty where ok
+};
+
+/// Mechanical energy of a moment, erg.
+struct EnergyState {
+  double total = 0;   ///< kinetic, elastic and gravity
+  double put_in = 0;  ///< by script and thigmotaxis since the start
+};
+
+/// Watches a run step by step, whoever takes the steps, and judges it by the scene's [expect]:
+/// penetration, limits, energy gain, knot, KKT residual and Eq. 6.
+class StressJudge {
+ public:
+  /// The model and the scene are referred to. `energy` is that of the start.
+  StressJudge(const Model& model, const Scene& scene, const State& start, double energy);
+
+  /// A step from `before` to `after`, where all looks like `situation`, at the time of `after`.
+  void see(const State& before, const State& after, const Situation& situation, double time,
+           const EnergyState& energy);
+  /// What the core's controller and solver say of its step.
+  void see_control(const StepRecord& record);
+
+  const StressFigures& figures() const { return figures_; }
+
+  /// The outcome of a run that came to its end. In this order: tunnelled, came undone, energy gain,
+  /// penetration, limits, solver failed (KKT), never tied, capped (Eq. 6), ok.
+  Verdict ended() const;
+  /// Of one that an error stopped: by its cause, but the first three above where they are so and
+  /// the run was stopped by penetration, limits, speed or a lost knot, which follow from them.
+  Verdict stopped(StopCause cause, const std::string& message) const;
+
+ private:
+  void see_path(const State& before, const State& after, const Kinematics& kin);
+  void see_knot(const Situation& situation, double time);
+  /// Tunnelled, came undone, energy gain, or ok.
+  Verdict root_cause() const;
+  /// Whether the thigmotaxis did what the scene expects.
+  Verdict thigmotaxis() const;
+
+  const Model& model_;
+  const Scene& scene_;
+  StressFigures figures_;
+  double thinnest_ = 0;  ///< radius, cm
+  ContactSearch search_;
+  double energy_ = 0, most_ = 0;  ///< at the start, and with the most that was put in, erg
+  Phase phase_;
+  bool knotted_at_start_ = false;
+  double knot_seen_ = 0;  ///< s
+  std::string lost_;      ///< what the knot became while it should have held
+  bool tightened_ = false;
+  double slide_from_ = 0, slide_to_ = 0;  ///< head end of the knot, cm of arc
+  long slide_steps_ = 0, slide_met_ = 0;
+  double kkt_ = 0;
+};
+
+}  // namespace hagfish

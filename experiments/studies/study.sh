@@ -1,0 +1,70 @@
+# Sourced by the studies, not run: sets up and builds, and runs jobs side by side, which go on where they were stopped.
+# Comes after root=... and out=... (the output folder), and perhaps inputs=(...), files that results depend on besides
+# the program. Leaves runs (a folder), hagfish (the program), cores and rounding (settings).
+
+source "$root/experiments/studies/elapsed.sh"
+mkdir -p "$out"
+out=$(cd "$out" && pwd)
+bash "$root/experiments/setup.sh" --target hagfish
+cores=$(env -u OMP_NUM_THREADS nproc) # which it would take for their number
+# Serial BLAS, so that runs repeat to the last bit.
+export OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1
+export hagfish=$root/build/release/experiments/hagfish runs=$out/runs
+
+# Offsets of every hinge at the start, drawn anew with each start.seed, that put the tail off by some 1e-6 cm: what such
+# runs differ by is chance.
+rounding="--set start.noise_deg=1e-6"
+
+# Results of another program or of other inputs do not mix with this one's.
+version=$("$hagfish" --version; [[ -z ${inputs-} ]] || cat "${inputs[@]}" | cksum)
+if [[ -d $runs && $(cat "$runs/version" 2>/dev/null) != "$version" ]]; then
+  echo "$runs was made by another version: starting anew"
+  rm -r "$runs"
+fi
+mkdir -p "$runs"
+echo "$version" >"$runs/version"
+
+# One job a line, fields by tabs: NAME REPEATS and the arguments of `hagfish run`. A job that is done has a NAME.cpu: user
+# and system time of each repeat, s. A run may fail, or tie another knot: that is a result.
+timed_run() {
+  local name=$1 repeats=$2
+  local -a arguments
+  read -ra arguments <<<"$3"
+  local log=$runs/$name.h5 i code
+  [[ -e $runs/$name.cpu ]] && return
+  TIMEFORMAT='%U %S'
+  rm -f "$runs/$name.times"
+  for ((i = 0; i < repeats; ++i)); do
+    code=0
+    { time "$hagfish" run "${arguments[@]}" --out "$log" --force --quiet 2>"$runs/$name.err"; } 2>>"$runs/$name.times" ||
+      code=$?
+    if ((code == 2)) || grep -q 'failed: interrupted' "$runs/$name.err"; then
+      cat "$runs/$name.err" >&2
+      return 2
+    fi
+  done
+  "$hagfish" check "$log" >"$runs/$name.check" 2>&1 || (($? == 1))
+  mv "$runs/$name.times" "$runs/$name.cpu"
+}
+# One job, which says that it is done where no bar does.
+job() {
+  local -a fields
+  IFS=$'\t' read -ra fields <<<"$1"
+  "${fields[@]}"
+  [[ -t 2 ]] || echo "$PARALLEL_SEQ of $jobs: ${fields[1]}"
+}
+export -f timed_run job
+
+# work AT_ONCE TITLE: the jobs of standard input, `function TAB arguments`, so many at once.
+work() {
+  local list show=()
+  list=$(cat)
+  jobs=$(wc -l <<<"$list")
+  export jobs
+  echo "$2: $jobs jobs, $1 at once"
+  if [[ -t 2 ]]; then show=(--bar); fi
+  parallel --will-cite --halt soon,fail=1 -j "$1" "${show[@]}" job {} <<<"$list"
+}
+
+# Debian's python3 is the one that has h5py and matplotlib.
+draw() { /usr/bin/python3 "$root/experiments/figures/$1" "${@:2}"; }

@@ -1,0 +1,308 @@
+#include "core/chain/dynamics.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <vector>
+
+#include "tests/support/random_chain.hpp"
+
+namespace hagfish {
+namespace {
+
+// Central differences over ±1e-5: truncation and rounding come to some 1e-8 of the largest rate.
+constexpr double step = 1e-5;
+constexpr double difference_tolerance = 1e-7;
+// Sums over a dozen bodies of products of six.
+constexpr double rounding = 1e-12;
+
+Eigen::MatrixXd mass_matrix(const Model& model, const Kinematics& kin) {
+  return dense(model, kin, {body_inertias(model, kin), Eigen::VectorXd::Zero(model.nv())});
+}
+
+Eigen::VectorXd bias_force(const Model& model, const State& state) {
+  const Kinematics kin = kinematics(model, state);
+  return generalised_force(model, kin, bias_wrench(model, kin));
+}
+
+double energy_at(const Model& model, const Eigen::VectorXd& q, const Eigen::VectorXd& qdot) {
+  const Kinematics kin = kinematics(model, {q, qdot});
+  return kinetic_energy(model, kin);
+}
+
+TEST(Dynamics, KineticEnergyIsThatOfTheBodiesAndOfTheMassMatrix) {
+  Random random(41);
+  for (int trial = 0; trial < 10; ++trial) {
+    const Model model = random_chain(random, 10);
+    const State state = random_state(random, model, 1);
+    const Kinematics kin = kinematics(model, state);
+    double energy = 0;
+    for (int b = 0; b < model.body_count(); ++b) {
+      const Eigen::Vector3d omega = kin.rotation[b].transpose() * kin.twist.col(b).head<3>();
+      const Eigen::Vector3d velocity = point_velocity(kin.twist.col(b), kin.centre_offset(b));
+      energy += 0.5 * model.bodies[b].mass * velocity.squaredNorm() +
+                0.5 * omega.dot(model.bodies[b].inertia.cwiseProduct(omega));
+    }
+    EXPECT_NEAR(kinetic_energy(model, kin) / energy, 1, rounding);
+    EXPECT_NEAR(0.5 * state.qdot.dot(mass_matrix(model, kin) * state.qdot) / energy, 1, rounding);
+  }
+}
+
+// Lagrange: with the root clamped the hinge angles are true coordinates, and the bias is
+// Ṁ q̇ - ∂T/∂q. The mass matrix at displaced angles is all it takes from the code under test.
+TEST(Dynamics, BiasIsLagranges) {
+  Random random(42);
+  for (int trial = 0; trial < 10; ++trial) {
+    const Model model = random_chain(random, 8);
+    State state = random_state(random, model, 1, 2);
+    state.qdot.head<6>().setZero();
+    const Eigen::Index hinges = model.nv() - root_dofs;
+    const auto hinge_mass = [&](const Eigen::VectorXd& q) -> Eigen::MatrixXd {
+      return mass_matrix(model, kinematics(model, {q, state.qdot}))
+          .bottomRightCorner(hinges, hinges);
+    };
+    const Eigen::VectorXd rate = state.qdot.tail(hinges);
+    Eigen::VectorXd expected = (hinge_mass(advance(state.q, state.qdot, step)) -
+                                hinge_mass(advance(state.q, state.qdot, -step))) *
+                               rate / (2 * step);
+    for (Eigen::Index k = 0; k < hinges; ++k) {
+      const Eigen::VectorXd along = Eigen::VectorXd::Unit(model.nv(), 6 + k);
+      const Eigen::MatrixXd change =
+          hinge_mass(advance(state.q, along, step)) - hinge_mass(advance(state.q, along, -step));
+      expected[k] -= 0.5 * rate.dot(change * rate) / (2 * step);
+    }
+    EXPECT_LT(relative_error(bias_force(model, state).tail(hinges), expected),
+              difference_tolerance);
+  }
+}
+
+// RedMax: J' (M_m J̇ q̇ + gyroscopic wrench), with J̇ by differences of J, each body about its own
+// centre in world axes: no spatial algebra about a shared point.
+TEST(Dynamics, BiasIsRedMaxs) {
+  Random random(43);
+  for (int trial = 0; trial < 10; ++trial) {
+    const Model model = random_chain(random, 10);
+    const State state = random_state(random, model, 1, 2);
+    const Kinematics now = kinematics(model, state);
+    const Kinematics after = kinematics(model, {advance(state.q, state.qdot, step), state.qdot});
+    const Kinematics before = kinematics(model, {advance(state.q, state.qdot, -step), state.qdot});
+    Eigen::VectorXd expected = Eigen::VectorXd::Zero(model.nv());
+    for (int b = 0; b < model.body_count(); ++b) {
+      const Eigen::Matrix3Xd turning = body_jacobian(model, now, b).topRows<3>();
+      const Eigen::Vector3d alpha = (body_jacobian(model, after, b).topRows<3>() -
+                                     body_jacobian(model, before, b).topRows<3>()) *
+                                    state.qdot / (2 * step);
+      const Eigen::Vector3d acceleration =
+          (centre_jacobian(model, after, b) - centre_jacobian(model, before, b)) * state.qdot /
+          (2 * step);
+      const Eigen::Matrix3d inertia =
+          now.rotation[b] * model.bodies[b].inertia.asDiagonal() * now.rotation[b].transpose();
+      const Eigen::Vector3d omega = turning * state.qdot;
+      expected += turning.transpose() * (inertia * alpha + omega.cross(inertia * omega)) +
+                  centre_jacobian(model, now, b).transpose() * model.bodies[b].mass * acceleration;
+    }
+    EXPECT_LT(relative_error(bias_force(model, state), expected), difference_tolerance);
+  }
+}
+
+TEST(Dynamics, WorkOfInertiaIsTheRateOfKineticEnergy) {
+  Random random(44);
+  for (int trial = 0; trial < 10; ++trial) {
+    const Model model = random_chain(random, 10);
+    const State state = random_state(random, model, 1, 2);
+    const Eigen::VectorXd acceleration = random_entries(random, model.nv(), 5);
+    const Eigen::VectorXd inertial =
+        mass_matrix(model, kinematics(model, state)) * acceleration + bias_force(model, state);
+    // The error of q at ± time is even in time and falls out of the central difference.
+    const auto energy = [&](double time) {
+      return energy_at(model, advance(state.q, state.qdot, time), state.qdot + time * acceleration);
+    };
+    const double rate = (energy(step) - energy(-step)) / (2 * step);
+    const double scale = state.qdot.cwiseAbs().dot(inertial.cwiseAbs());
+    EXPECT_NEAR(state.qdot.dot(inertial) / scale, rate / scale, difference_tolerance);
+  }
+}
+
+/// Linear and angular momentum about the world's origin.
+Vector6d momentum(const Model& model, const Kinematics& kin) {
+  Vector6d sum = Vector6d::Zero();
+  for (int b = 0; b < model.body_count(); ++b) {
+    const Eigen::Vector3d p =
+        model.bodies[b].mass * point_velocity(kin.twist.col(b), kin.centre_offset(b));
+    const Eigen::Vector3d spin =
+        kin.rotation[b] * model.bodies[b].inertia.cwiseProduct(kin.rotation[b].transpose() *
+                                                               kin.twist.col(b).head<3>());
+    sum.head<3>() += kin.centre.col(b).cross(p) + spin;
+    sum.tail<3>() += p;
+  }
+  return sum;
+}
+
+TEST(Dynamics, FreeChainKeepsItsMomentum) {
+  Random random(45);
+  for (int trial = 0; trial < 10; ++trial) {
+    const Model model = random_chain(random, 10);
+    const State state = random_state(random, model, 1, 2);
+    const Eigen::VectorXd acceleration =
+        -mass_matrix(model, kinematics(model, state)).llt().solve(bias_force(model, state));
+    const auto after = [&](double time) {
+      return momentum(model, kinematics(model, {advance(state.q, state.qdot, time),
+                                                state.qdot + time * acceleration}));
+    };
+    const Vector6d rate = (after(step) - after(-step)) / (2 * step);
+    // Accelerations of single bodies are of the order of nv times the squared rates.
+    const double scale =
+        after(0).lpNorm<Eigen::Infinity>() * acceleration.lpNorm<Eigen::Infinity>();
+    EXPECT_LT(rate.lpNorm<Eigen::Infinity>() / scale, difference_tolerance);
+  }
+}
+
+TEST(Dynamics, StepsOfAFreeChainKeepMomentumToFirstOrder) {
+  // Semi-implicit Euler errs by O(h²) a step: half the step, half the drift. 20 % covers the next
+  // order.
+  Random random(46);
+  Model model = random_chain(random, 8);
+  model.gravity.setZero();
+  model.drag = {};
+  const State start = random_state(random, model, 0.5);
+  const auto drift = [&](double h) {
+    State state = start;
+    for (double time = 0; time < 0.1 - 0.5 * h; time += h) {
+      const Kinematics kin = kinematics(model, state);
+      const StepSystem system = step_system(model, state, kin, {}, h);
+      ArticulatedFactor factor;
+      factor.factorise(model, kin, system.op);
+      state.qdot = factor.solve(model, kin, system.wrench, system.joint);
+      state.q = advance(state.q, state.qdot, h);
+    }
+    return (momentum(model, kinematics(model, state)) - momentum(model, kinematics(model, start)))
+        .norm();
+  };
+  EXPECT_NEAR(drift(2e-4) / drift(1e-4), 2, 0.4);
+}
+
+TEST(Dynamics, DragIsItsIntegralAlongTheBody) {
+  Random random(47);
+  const Model model = random_chain(random, 6);
+  const Kinematics kin = kinematics(model, random_state(random, model, 1));
+  for (int b = 0; b < model.body_count(); ++b) {
+    const double length = model.bodies[b].length;
+    const Eigen::Vector3d along = kin.rotation[b].col(0);
+    const Vector6d twist = random_entries(random, 6);
+    // Force per length is linear along the body and its moment quadratic: Simpson's rule is exact.
+    Vector6d expected = Vector6d::Zero();
+    for (const auto& [place, weight] : {std::pair{-0.5, 1.0}, {0.0, 4.0}, {0.5, 1.0}}) {
+      const Eigen::Vector3d offset = kin.centre_offset(b) + place * length * along;
+      const Eigen::Vector3d velocity = point_velocity(twist, offset);
+      const Eigen::Vector3d axial = along.dot(velocity) * along;
+      const Eigen::Vector3d force =
+          model.drag.normal * (velocity - axial) + model.drag.tangential * axial;
+      expected += weight / 6 * length * wrench_of_force(force, offset);
+    }
+    EXPECT_LT(relative_error(drag_operator(model, kin, b) * twist, expected), 1e-13);
+  }
+}
+
+/// Total drag wrench about the middle of a straight fish that moves as one with `twist` there.
+Vector6d straight_drag(int bodies, const Eigen::Vector3d& velocity, const Eigen::Vector3d& omega) {
+  const Model fish = table1_hagfish(bodies);
+  const Kinematics kin = kinematics(fish, rest_state(fish));
+  const Eigen::Vector3d middle = Eigen::Vector3d(21.2, 0, 0) - kin.reference;
+  Vector6d twist;
+  twist << omega, velocity - omega.cross(middle);
+  Vector6d total = Vector6d::Zero();
+  for (int b = 0; b < bodies; ++b) {
+    total += drag_operator(fish, kin, b) * twist;
+  }
+  total.head<3>() -= middle.cross(Eigen::Vector3d(total.tail<3>()));
+  return total;
+}
+
+TEST(Dynamics, DragOfAStraightFishDoesNotDependOnTheBodyCount) {
+  const Eigen::Vector3d velocity(1.5, -0.7, 2);
+  const Eigen::Vector3d omega(0.3, 0.9, -0.4);
+  Vector6d expected;  // normal, tangential drag and ∫ x² dx over 42.4 cm
+  const double turning = 9.434 * 42.4 * 42.4 * 42.4 / 12;
+  expected << 0, turning * omega.y(), turning * omega.z(), 2.358 * 42.4 * velocity.x(),
+      9.434 * 42.4 * velocity.y(), 9.434 * 42.4 * velocity.z();
+  for (const int n : {2, 3, 10, 99, 100, 400}) {
+    // The moment is a difference of sums over 400 bodies about another point.
+    EXPECT_LT(relative_error(straight_drag(n, velocity, omega), expected), rounding) << n;
+  }
+}
+
+TEST(Dynamics, EnergyOfOneCurvatureDoesNotDependOnTheBodyCount) {
+  const double curvature = 0.05;
+  const double twist = 0.01;
+  for (const int n : {3, 4, 5, 10, 51, 99, 100, 400}) {
+    const Model fish = table1_hagfish(n);
+    const double bent = elastic_energy(fish, bent_state(fish, curvature, 2 * curvature).q);
+    EXPECT_NEAR(bent / (0.5 * 424 * 5 * curvature * curvature * 42.4), 1, rounding) << n;
+    const double twisted = elastic_energy(fish, bent_state(fish, 0, 0, twist).q);
+    EXPECT_NEAR(twisted / (0.5 * 424 * twist * twist * 42.4), 1, rounding) << n;
+  }
+}
+
+TEST(Dynamics, ForcesAreGradientsOfTheirEnergies) {
+  Random random(48);
+  for (int trial = 0; trial < 10; ++trial) {
+    const Model model = random_chain(random, 10);
+    const State state = random_state(random, model, 1);
+    const Kinematics kin = kinematics(model, state);
+    const Eigen::VectorXd gravity = generalised_force(model, kin, gravity_wrench(model, kin));
+    const Eigen::VectorXd stiffness = stiffness_force(model, state.q);
+    Eigen::VectorXd gravity_slope(model.nv());
+    Eigen::VectorXd stiffness_slope(model.nv());
+    for (int k = 0; k < model.nv(); ++k) {
+      const Eigen::VectorXd along = Eigen::VectorXd::Unit(model.nv(), k);
+      const Eigen::VectorXd up = advance(state.q, along, step);
+      const Eigen::VectorXd down = advance(state.q, along, -step);
+      gravity_slope[k] = (gravity_energy(model, kinematics(model, {up, along})) -
+                          gravity_energy(model, kinematics(model, {down, along}))) /
+                         (2 * step);
+      stiffness_slope[k] = (elastic_energy(model, up) - elastic_energy(model, down)) / (2 * step);
+    }
+    EXPECT_LT(relative_error(gravity, -gravity_slope), difference_tolerance);
+    EXPECT_LT(relative_error(stiffness, -stiffness_slope), difference_tolerance);
+  }
+}
+
+// Eq. 1 with everything dense: H = M + h D - h² K and g = M q̇0 + h f.
+TEST(Dynamics, StepSystemIsEquationOneOfThePaper) {
+  Random random(49);
+  for (int trial = 0; trial < 10; ++trial) {
+    const Model model = random_chain(random, 9);
+    const State state = random_state(random, model, 1);
+    const Kinematics kin = kinematics(model, state);
+    const double h = 0.013;
+    const TipForce tip{random_vector(random, 1000), 40};
+
+    const Eigen::MatrixXd mass = mass_matrix(model, kin);
+    Eigen::MatrixXd damping = Eigen::MatrixXd::Zero(model.nv(), model.nv());
+    Eigen::VectorXd force = generalised_force(model, kin, gravity_wrench(model, kin)) -
+                            bias_force(model, state) + stiffness_force(model, state.q);
+    for (int b = 0; b < model.body_count(); ++b) {
+      const Matrix6Xd jacobian = body_jacobian(model, kin, b);
+      damping += jacobian.transpose() * drag_operator(model, kin, b) * jacobian;
+    }
+    Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(model.nv(), model.nv());
+    for (int k = root_dofs; k < model.nv(); ++k) {
+      damping(k, k) += model.hinges[k - root_dofs].damping;
+      stiffness(k, k) = -model.hinges[k - root_dofs].stiffness;
+    }
+    const Eigen::Matrix3Xd last = centre_jacobian(model, kin, model.body_count() - 1);
+    damping += tip.rate * last.transpose() * last;
+    force += last.transpose() * tip.value;
+
+    const StepSystem system = step_system(model, state, kin, tip, h);
+    EXPECT_LT(relative_error(dense(model, kin, system.op), mass + h * damping - h * h * stiffness),
+              rounding);
+    EXPECT_LT(relative_error(generalised_force(model, kin, system.wrench) + system.joint,
+                             mass * state.qdot + h * force),
+              rounding);
+  }
+}
+
+}  // namespace
+}  // namespace hagfish

@@ -1,0 +1,107 @@
+// What a scene says about its knot: mirror image, noise on the script, what is expected.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/input/scene_reader.hpp"
+#include "tests/support/input_errors.hpp"
+
+namespace hagfish {
+namespace {
+
+const std::string data = HAGFISH_DATA_DIR;
+
+/// What reading a scene with `text` in front of its specimen complains of.
+std::string complaint(const std::string& text) {
+  return error_of([&] {
+    read_scene_text(text +
+                        "[specimen]\nname = 'test'\nlength = 40\nmass = 80\nstation = [0.2, 0.8]\n"
+                        "circumference = [5, 4]\nbending_limit_deg = [20, 30]\nbending_span = 0.8\n"
+                        "twist_limit_deg = 48\n",
+                    "s.toml");
+  });
+}
+
+TEST(SceneKnots, MirrorReflectsAllThatTheSceneGives) {
+  const std::vector<std::string> noisy = {"script.noise=0.3", "gravity=[1, 2, 3]"};
+  std::vector<std::string> turned = noisy;
+  turned.emplace_back("mirror=true");
+  const Eigen::Vector3d flip(1, -1, 1);
+  for (const char* file : {"/table1.toml", "/double_overhand.toml"}) {
+    const Scene scene = read_scene(data + file, noisy).scene;
+    const Scene image = read_scene(data + file, turned).scene;
+    EXPECT_TRUE(image.knot.mirror);
+    EXPECT_FALSE(scene.knot.mirror);
+    EXPECT_EQ(image.gravity, scene.gravity.cwiseProduct(flip));
+    ASSERT_EQ(image.script.knots.size(), scene.script.knots.size());
+    for (std::size_t k = 0; k < scene.script.knots.size(); ++k) {
+      EXPECT_EQ(image.script.knots[k].value, scene.script.knots[k].value.cwiseProduct(flip));
+      EXPECT_EQ(image.script.knots[k].noise, scene.script.knots[k].noise.cwiseProduct(flip));
+    }
+  }
+  EXPECT_EQ(read_scene(data + "/double_overhand.toml").scene.expect.hand, Hand::right);
+  EXPECT_EQ(read_scene(data + "/double_overhand.toml", turned).scene.expect.hand, Hand::left);
+  EXPECT_EQ(read_scene(data + "/figure_eight.toml", turned).scene.expect.hand, Hand::any);
+}
+
+TEST(SceneKnots, NoiseIsNormalAndOneDrawPerSeed) {
+  const auto noise = [](const std::string& seed) {
+    std::vector<double> all;
+    for (const auto& knot :
+         read_scene(data + "/three_twist.toml", {"script.noise=0.2", "script.noise_seed=" + seed})
+             .scene.script.knots) {
+      all.insert(all.end(), knot.noise.begin(), knot.noise.end());
+    }
+    return all;
+  };
+  EXPECT_EQ(noise("3"), noise("3"));
+  EXPECT_NE(noise("3"), noise("4"));
+  double square = 0;
+  double sum = 0;
+  int count = 0;
+  int far = 0;  // beyond one standard deviation
+  for (int seed = 1; seed <= 50; ++seed) {
+    for (const double x : noise(std::to_string(seed))) {
+      square += x * x;
+      sum += x;
+      ++count;
+      far += std::abs(x) > 0.2 ? 1 : 0;
+    }
+  }
+  // Some 3000 numbers: standard errors of the mean 0.02, of the spread 0.013, of the share 0.0085,
+  // of which four each.
+  EXPECT_NEAR(sum / count / 0.2, 0, 0.08);
+  EXPECT_NEAR(std::sqrt(square / count) / 0.2, 1, 0.052);
+  EXPECT_NEAR(far / double(count), 0.3173, 0.034);
+  for (const auto& knot : read_scene(data + "/three_twist.toml").scene.script.knots) {
+    EXPECT_EQ(knot.noise, Eigen::Vector3d::Zero());
+  }
+}
+
+TEST(SceneKnots, RefusesBadExpectations) {
+  const std::string names = "must be the name of a knot, 3_1 to 7_7 or det=D,v2=V";
+  EXPECT_EQ(complaint("[expect]\nknot = '3_2'\n"),
+            "s.toml:2: expect.knot = '3_2': " + names + ", or empty for none");
+  EXPECT_EQ(complaint("[expect]\nknot = '0_1'\n"),
+            "s.toml:2: expect.knot = '0_1': " + names + ", or empty for none");
+  EXPECT_EQ(complaint("[expect]\nknot = 'det=9,v2=2'\n"), "no error");
+  EXPECT_EQ(complaint("[expect]\ntypes = [['0_1', 0, 1], ['8_1', 2, 3]]\n"),
+            "s.toml:2: expect.types = ['8_1', 2, 3]: type " + names + ", or 0_1 for none");
+  EXPECT_EQ(complaint("[expect]\ntypes = [['0_1', 0, 2], ['3_1', 1, 3]]\n"),
+            "s.toml:2: expect.types = ['3_1', 1, 3]: times must rise");
+  EXPECT_EQ(complaint("[expect]\ntypes = [['0_1', 2, 1]]\n"),
+            "s.toml:2: expect.types = ['0_1', 2, 1]: times must rise");
+  EXPECT_EQ(complaint("[expect]\ntypes = [['0_1', 0]]\n"),
+            "s.toml:2: expect.types = ['0_1', 0]: stretch 1 must be [type, from, to]");
+  EXPECT_EQ(complaint("[expect]\nhand = 'both'\n"),
+            "s.toml:2: expect.hand = 'both': must be one of \"any\", \"right\", \"left\"");
+  EXPECT_EQ(complaint("[controller]\nfree_from = 'form'\n"),
+            "s.toml:2: controller.free_from = 'form': must be one of \"tighten\", \"slide\", "
+            "\"release\", \"free\"");
+  EXPECT_EQ(complaint("mirror = 1\n"), "s.toml:1: mirror = 1: must be true or false");
+  EXPECT_EQ(complaint("[script]\nnoise = -1\n"),
+            "s.toml:2: script.noise = -1: must not be negative");
+}
+
+}  // namespace
+}  // namespace hagfish

@@ -1,0 +1,313 @@
+#include "core/input/toml_reader.hpp"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <numbers>
+
+#include "core/input/toml_writer.hpp"
+#include "tests/support/input_errors.hpp"
+
+namespace hagfish {
+namespace {
+
+/// What reading `text` as "f.toml" with `read` complains of.
+std::string complaint(const std::string& text, const std::function<void(TableReader&)>& read) {
+  return error_of([&] {
+    TableReader table(text, "f.toml");
+    read(table);
+    table.finish();
+  });
+}
+
+void read_size(TableReader& table) {
+  double size = 0;
+  table.number("size", size, positive());
+}
+
+TEST(TomlReader, ReadsEveryTypeOfValue) {
+  TableReader table(
+      "s = 'text'\nb = true\ni = -3\nu = 4294967295\nx = 2\nv = [1, 2.5, -3]\nn = [4]\n"
+      "angle_deg = 180\nfine_rad = [0.25]\nr = [[0, 1, 2, 3], [1.5, 4, 5, 6]]\n[t]\nx = 1e-3\n",
+      "f.toml");
+  std::string s;
+  bool b = false;
+  int i = 0;
+  unsigned u = 0;
+  double x = 0, angle = 0, inner = 0;
+  Eigen::Vector3d v;
+  std::vector<double> n, fine;
+  std::vector<Eigen::Vector4d> r;
+  table.string("s", s);
+  table.boolean("b", b);
+  table.integer("i", i, within(-3, 3));
+  table.integer("u", u, any_number());
+  table.number("x", x, positive());
+  table.vector("v", v);
+  table.numbers("n", n, positive());
+  table.angle("angle", angle, within(0, 180));
+  table.angles("fine", fine, inside(0, 90));
+  table.rows("r", "knot", "t, x, y, z", r);
+  table.table("t", [&](TableReader& t) { t.number("x", inner, positive()); });
+  table.finish();
+  EXPECT_EQ(s, "text");
+  EXPECT_TRUE(b);
+  EXPECT_EQ(i, -3);
+  EXPECT_EQ(u, 4294967295u);
+  EXPECT_EQ(x, 2.0);
+  EXPECT_EQ(v, Eigen::Vector3d(1, 2.5, -3));
+  EXPECT_EQ(n, std::vector<double>{4});
+  EXPECT_DOUBLE_EQ(angle, std::numbers::pi);  // 4 ulp: one multiplication by a rounded factor
+  EXPECT_EQ(fine, std::vector<double>{0.25});
+  ASSERT_EQ(r.size(), 2u);
+  EXPECT_EQ(r[1], Eigen::Vector4d(1.5, 4, 5, 6));
+  EXPECT_EQ(inner, 1e-3);
+}
+
+TEST(TomlReader, LabelledRowsThereAndBack) {
+  using Rows = std::vector<std::pair<std::string, Eigen::Vector2d>>;
+  const Rows rows = {{"a \"b\"", {0.1, 2}}, {"", {-3, 1e-9}}};
+  TomlWriter writer;
+  writer.labelled_rows("k", "row", "[x, y, z]", rows);
+  Rows again = {{"old", {0, 0}}};
+  TableReader table(writer.text(), "f.toml");
+  table.labelled_rows("k", "row", "[x, y, z]", again);
+  EXPECT_EQ(again, rows);
+  const auto read = [](TableReader& t) {
+    Rows r;
+    t.labelled_rows("k", "row", "[x, y, z]", r);
+  };
+  EXPECT_EQ(complaint("k = 1", read), "f.toml:1: k = 1: must be an array of arrays [x, y, z]");
+  EXPECT_EQ(complaint("k = [[1, 2, 3]]", read), "f.toml:1: k = [1, 2, 3]: row 1 must be [x, y, z]");
+  EXPECT_EQ(complaint("k = [['a', 2, 3], ['b', 2]]", read),
+            "f.toml:1: k = ['b', 2]: row 2 must be [x, y, z]");
+  EXPECT_EQ(complaint("k = [['a', 2, 'c']]", read),
+            "f.toml:1: k = ['a', 2, 'c']: row 1 must be a number");
+}
+
+TEST(TomlReader, AbsentKeyKeepsTheValue) {
+  TableReader table("", "f.toml");
+  double x = 7;
+  table.number("x", x, positive());
+  table.table("t", [&](TableReader& t) { t.number("x", x, positive()); });
+  table.finish();
+  EXPECT_EQ(x, 7);
+}
+
+TEST(TomlReader, UnknownKeySuggestsTheNearest) {
+  const auto read = [](TableReader& table) {
+    table.table("time", [](TableReader& t) {
+      double x = 0;
+      t.number("duration", x, positive());
+      t.number("step", x, positive());
+    });
+  };
+  EXPECT_EQ(complaint("[time]\n\nstpe = 2\n", read),
+            "f.toml:3: time.stpe = 2: unknown key; did you mean time.step?");
+  EXPECT_EQ(complaint("tme = 3\n", read), "f.toml:1: tme = 3: unknown key; did you mean time?");
+}
+
+TEST(TomlReader, UnknownKeyIsToldBeforeAMissingOne) {
+  const auto read = [](TableReader& table) {
+    table.require_all();
+    read_size(table);
+  };
+  EXPECT_EQ(complaint("sise = 1", read), "f.toml:1: sise = 1: unknown key; did you mean size?");
+  EXPECT_EQ(complaint("", read), "f.toml: size: is missing");
+}
+
+TEST(TomlReader, RefusesBadNumbers) {
+  const auto why = [](const std::string& text) { return complaint("size = " + text, read_size); };
+  EXPECT_EQ(why("'big'"), "f.toml:1: size = 'big': must be a number");
+  EXPECT_EQ(why("true"), "f.toml:1: size = true: must be a number");
+  EXPECT_EQ(why("[1]"), "f.toml:1: size = [1]: must be a number");
+  EXPECT_EQ(why("nan"), "f.toml:1: size = nan: must be finite");
+  EXPECT_EQ(why("-inf"), "f.toml:1: size = -inf: must be finite");
+  EXPECT_EQ(why("1e400"), "f.toml:1: size = 1e400: must be finite");
+  EXPECT_EQ(why("99999999999999999999"),
+            "f.toml:1: size = 99999999999999999999: does not fit 64 bits");
+  EXPECT_EQ(why("0"), "f.toml:1: size = 0: must be positive");
+  EXPECT_EQ(why("-1.5"), "f.toml:1: size = -1.5: must be positive");
+}
+
+TEST(TomlReader, RefusesBadIntegers) {
+  const auto read = [](TableReader& table) {
+    int n = 0;
+    unsigned u = 0;
+    table.integer("n", n, within(2, 400));
+    table.integer("u", u, any_number());
+  };
+  EXPECT_EQ(complaint("n = 1", read), "f.toml:1: n = 1: must be from 2 to 400");
+  EXPECT_EQ(complaint("n = 401", read), "f.toml:1: n = 401: must be from 2 to 400");
+  EXPECT_EQ(complaint("n = 100.0", read), "f.toml:1: n = 100.0: must be a whole number");
+  EXPECT_EQ(complaint("n = 4294967300", read), "f.toml:1: n = 4294967300: is out of range");
+  EXPECT_EQ(complaint("u = -1", read), "f.toml:1: u = -1: is out of range");
+}
+
+TEST(TomlReader, RefusesWrongTypes) {
+  const auto read = [](TableReader& table) {
+    bool b = false;
+    std::string s;
+    int choice = 0;
+    table.boolean("b", b);
+    table.string("s", s);
+    table.choice<int>("c", choice, {{"one", 1}, {"two", 2}});
+    table.table("t", [](TableReader&) {});
+  };
+  EXPECT_EQ(complaint("b = 1", read), "f.toml:1: b = 1: must be true or false");
+  EXPECT_EQ(complaint("s = 1", read), "f.toml:1: s = 1: must be a string in quotes");
+  EXPECT_EQ(complaint("c = 'ten'", read), "f.toml:1: c = 'ten': must be one of \"one\", \"two\"");
+  EXPECT_EQ(complaint("t = 3", read), "f.toml:1: t = 3: must be a table");
+}
+
+TEST(TomlReader, RefusesBadArrays) {
+  const auto read = [](TableReader& table) {
+    Eigen::Vector3d v;
+    std::vector<double> n;
+    std::vector<Eigen::Vector4d> r;
+    table.vector("v", v);
+    table.numbers("n", n, positive());
+    table.rows("r", "knot", "t, x, y, z", r);
+  };
+  EXPECT_EQ(complaint("v = [1, 2]", read), "f.toml:1: v = [1, 2]: must be three numbers [x, y, z]");
+  EXPECT_EQ(complaint("n = []", read), "f.toml:1: n = []: must be an array of numbers");
+  EXPECT_EQ(complaint("n = 1", read), "f.toml:1: n = 1: must be an array of numbers");
+  EXPECT_EQ(complaint("n = [1, 'x']", read), "f.toml:1: n = [1, 'x']: number 2 must be a number");
+  EXPECT_EQ(complaint("n = [1, 0]", read), "f.toml:1: n = [1, 0]: number 2 must be positive");
+  EXPECT_EQ(complaint("r = [\n [0, 1, 2, 3],\n [1, 2, 3]]", read),
+            "f.toml:3: r = [1, 2, 3]: knot 2 must be four numbers [t, x, y, z]");
+  EXPECT_EQ(complaint("r = [[0, 1, nan, 3]]", read),
+            "f.toml:1: r = [0, 1, nan, 3]: knot 1 number 3 must be finite");
+}
+
+TEST(TomlReader, RefusesBadAngles) {
+  const auto read = [](TableReader& table) {
+    double angle = 0;
+    table.angle("bend", angle, inside(0, 90));
+  };
+  EXPECT_EQ(complaint("bend_deg = 90", read),
+            "f.toml:1: bend_deg = 90: must be above 0 and below 90 degrees");
+  EXPECT_EQ(complaint("bend_rad = 1.6", read),
+            "f.toml:1: bend_rad = 1.6: must be above 0 and below 90 degrees");
+  EXPECT_EQ(complaint("bend_deg = 1\nbend_rad = 1", read),
+            "f.toml:2: bend_rad = 1: bend_deg is given too");
+  EXPECT_EQ(complaint("bend = 1", read), "f.toml:1: bend = 1: unknown key; did you mean bend_deg?");
+}
+
+TEST(TomlReader, CondensesSyntaxErrorsToOneLine) {
+  const auto why = [](const std::string& text) { return complaint(text, read_size); };
+  EXPECT_EQ(
+      why("a = 1\nb = \n"),
+      "f.toml:2: not valid TOML: missing value after key-value separator '=' (expected value, "
+      "but got nothing)");
+  EXPECT_EQ(why("size = 1\nsize = 2"),
+            "f.toml:2: not valid TOML: value (\"size\") already exists. (value defined twice)");
+  EXPECT_EQ(why("\n\n[time"),
+            "f.toml:3: not valid TOML: an invalid key appeared. (is not a valid key)");
+}
+
+TEST(TomlReader, KeepsErrorsOnOneShortLine) {
+  const std::string text = "\"a\\nb\" = \"" + std::string(500, 'x') + "\"";
+  const std::string message = complaint(text, read_size);  // error_of() looks for line breaks
+  EXPECT_LT(message.size(), 150u);  // 60 bytes of the value and what is said of it
+  EXPECT_NE(message.find("a b = \"xxx"), std::string::npos) << message;
+}
+
+TEST(TomlReader, OverridesNameTheOption) {
+  const auto why = [](const std::string& assignment) {
+    return complaint("size = 1\n[t]\nx = 1\n", [&](TableReader& table) {
+      const Override change = parse_override(assignment);
+      table.set(change, change.key);
+      read_size(table);
+      table.table("t", [](TableReader& t) {
+        double x = 0;
+        t.number("x", x, positive());
+      });
+    });
+  };
+  EXPECT_EQ(why("size=2"), "no error");
+  EXPECT_EQ(why(" t.x = 2 "), "no error");
+  EXPECT_EQ(why("size=-2"), "f.toml: --set size=-2: must be positive");
+  EXPECT_EQ(why("t.x=abc"), "f.toml: --set t.x=abc: must be a number");
+  EXPECT_EQ(why("t.x="), "f.toml: --set t.x=: must be a number");
+  EXPECT_EQ(why("t.x=1\ny=2"), "f.toml: --set t.x=1 y=2: must be a number");
+  EXPECT_EQ(why("t.y=1"), "f.toml: --set t.y=1: unknown key; did you mean t.x?");
+  EXPECT_EQ(why("size.x=1"), "f.toml: --set size.x=1: size is not a table");
+  EXPECT_EQ(why("t={x = -1}"), "f.toml: --set t={x = -1}: t.x must be positive");
+  EXPECT_EQ(why("size"), "--set size: must be KEY=VALUE");
+  EXPECT_EQ(why("=2"), "--set =2: must be KEY=VALUE");
+  EXPECT_EQ(why("t..x=2"), "--set t..x=2: must be KEY=VALUE");
+}
+
+TEST(TomlReader, OverriddenStringsNeedNoQuotes) {
+  for (const std::string typed : {"two words", "\"two words\"", "12", "nan", "1979-05-27", ""}) {
+    TableReader table("title = 'x'", "f.toml");
+    table.set(parse_override("title=" + typed), "title");
+    std::string title;
+    table.string("title", title);
+    EXPECT_EQ(title, typed.starts_with('"') ? "two words" : typed);
+  }
+}
+
+TEST(TomlReader, TellsUnreadableFilesApart) {
+  const std::filesystem::path directory = std::filesystem::temp_directory_path();
+  EXPECT_EQ(error_of([] { read_text_file("no/such.toml"); }), "no/such.toml: no such file");
+  EXPECT_EQ(error_of([&] { read_text_file(directory); }), directory.string() + ": is a directory");
+}
+
+TEST(TomlWriter, WritesWhatTheReaderReadsToTheBit) {
+  // 1.21 rad is one of the doubles that no double of degrees reaches by the reader's product.
+  const std::vector<double> values = {0.1, 1.0 / 3, -0.0, 5e-324, 1e22, 1e-5, 123456789.0, 1.21};
+  const std::string name = "quote \" backslash \\ tab \t bell \a é";
+  TomlWriter writer;
+  writer.string("name", name);
+  writer.numbers("values", values, any_number());
+  writer.table("t", [&](TomlWriter& t) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      t.angle("angle" + std::to_string(i), values[i], any_number());
+    }
+    t.table("u", [](TomlWriter& u) { u.boolean("b", true); });
+  });
+  TableReader reader(writer.text(), "f.toml");
+  std::string read_name;
+  std::vector<double> read, angles(values.size());
+  bool b = false;
+  reader.string("name", read_name);
+  reader.numbers("values", read, any_number());
+  reader.table("t", [&](TableReader& t) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      t.angle("angle" + std::to_string(i), angles[i], any_number());
+    }
+    t.table("u", [&](TableReader& u) { u.boolean("b", b); });
+  });
+  reader.finish();
+  EXPECT_EQ(read_name, name);
+  EXPECT_TRUE(b);
+  ASSERT_EQ(read.size(), values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(read[i]), std::bit_cast<std::uint64_t>(values[i]));
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(angles[i]), std::bit_cast<std::uint64_t>(values[i]));
+  }
+}
+
+TEST(TomlWriter, PrefersDegreesAndFallsBackOnRadians) {
+  TomlWriter writer;
+  writer.angle("right", 90 * (std::numbers::pi / 180), any_number());
+  EXPECT_EQ(writer.text(), "right_deg = 90.0\n");
+  // The product with pi / 180 jumps over 1.21, as over one double in eleven.
+  TomlWriter skipped;
+  skipped.angle("a", 1.21, any_number());
+  EXPECT_EQ(skipped.text(), "a_rad = 1.21\n");
+}
+
+TEST(TomlWriter, RefusesWhatNoReaderTakesBack) {
+  TomlWriter writer;
+  EXPECT_THROW(writer.number("x", HUGE_VAL, any_number()), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace hagfish

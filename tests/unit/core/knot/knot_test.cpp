@@ -1,0 +1,432 @@
+// Knot types are integers, so nothing here has a tolerance: answers must be equal.
+#include "core/knot/knot.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <ostream>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace hagfish {
+
+// Found by GoogleTest, for messages.
+void PrintTo(const KnotInvariants& type, std::ostream* out) {
+  *out << "(" << type.determinant << ", " << type.v2 << ")";
+}
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr KnotInvariants unknot{1, 0};
+
+double uniform(std::mt19937& random, double low, double high) {
+  return low + (high - low) * static_cast<double>(random()) / 0x1p32;
+}
+
+Eigen::Vector3d random_vector(std::mt19937& random) {
+  const double x = uniform(random, -1, 1);
+  const double y = uniform(random, -1, 1);
+  return {x, y, uniform(random, -1, 1)};
+}
+
+Eigen::Matrix3d random_rotation(std::mt19937& random) {
+  const Eigen::Vector3d axis = random_vector(random).normalized();
+  return Eigen::AngleAxisd(uniform(random, 0, 2 * pi), axis).toRotationMatrix();
+}
+
+/// `count` points of a curve over [from, to), as columns.
+template <typename Curve>
+Eigen::Matrix3Xd sample(int count, double from, double to, const Curve& curve) {
+  Eigen::Matrix3Xd points(3, count);
+  for (int i = 0; i < count; ++i) points.col(i) = curve(from + (to - from) * i / count);
+  return points;
+}
+
+/// T(2, q): q windings through the hole of a torus, two around its axis.
+Eigen::Matrix3Xd torus_knot(int q) {
+  return sample(90, 0, 2 * pi, [q](double t) {
+    const double r = 2 + std::cos(q * t);
+    return Eigen::Vector3d(r * std::cos(2 * t), r * std::sin(2 * t), std::sin(q * t));
+  });
+}
+
+Eigen::Matrix3Xd figure_eight() {
+  return sample(90, 0, 2 * pi, [](double t) {
+    const double r = 2 + std::cos(2 * t);
+    return Eigen::Vector3d(r * std::cos(3 * t), r * std::sin(3 * t), std::sin(4 * t));
+  });
+}
+
+/// Lissajous knot 5_2 of frequencies 2, 3, 7.
+Eigen::Matrix3Xd lissajous_5_2() {
+  return sample(90, 0, 2 * pi, [](double t) {
+    return Eigen::Vector3d(std::cos(2 * t + 0.2), std::cos(3 * t + 0.7), std::cos(7 * t));
+  });
+}
+
+/// Closure of a braid: generator +-i swaps strands i and i + 1, the sign says which one is over.
+Eigen::Matrix3Xd braid_closure(const std::vector<int>& word, int strands) {
+  std::vector<Eigen::Vector3d> points;
+  const double length = static_cast<double>(word.size());
+  int y = 0;
+  int rounds = 0;
+  do {
+    for (std::size_t k = 0; k < word.size(); ++k) {
+      const int lower = std::abs(word[k]) - 1;
+      const double x = static_cast<double>(k);
+      if (y == lower || y == lower + 1) {
+        const bool over = (y == lower) == (word[k] > 0);
+        y = 2 * lower + 1 - y;
+        points.emplace_back(x + 0.5, lower + 0.5, over ? 0.3 : -0.3);
+      }
+      points.emplace_back(x + 1, y, 0);
+    }
+    // Back under the braid on nested rectangles, which do not cross.
+    points.emplace_back(length + 1 + y, y, 0);
+    points.emplace_back(length + 1 + y, -1 - y, 0);
+    points.emplace_back(-1 - y, -1 - y, 0);
+    points.emplace_back(-1 - y, y, 0);
+    ++rounds;
+  } while (y != 0);
+  if (rounds != strands) throw std::logic_error("the closure of this braid is not one knot");
+  Eigen::Matrix3Xd polygon(3, points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) polygon.col(static_cast<int>(i)) = points[i];
+  return polygon;
+}
+
+Eigen::Matrix3Xd mirrored(Eigen::Matrix3Xd points) {
+  points.row(2) *= -1;
+  return points;
+}
+
+/// Closed polygon with `first` as its first vertex.
+Eigen::Matrix3Xd started_at(const Eigen::Matrix3Xd& points, Eigen::Index first) {
+  const Eigen::Index rest = points.cols() - first;
+  Eigen::Matrix3Xd turned(3, points.cols());
+  turned << points.rightCols(rest), points.leftCols(first);
+  return turned;
+}
+
+/// The closed polygon cut where it is farthest from its mean, both ends pulled 30 radii away from
+/// each other in the tangent plane of the ball that holds the knot.
+Eigen::Matrix3Xd opened(const Eigen::Matrix3Xd& closed) {
+  const Eigen::Vector3d mean = closed.rowwise().mean();
+  Eigen::Index outermost = 0;
+  const double radius = (closed.colwise() - mean).colwise().norm().maxCoeff(&outermost);
+  const Eigen::Matrix3Xd turned = started_at(closed, outermost);
+  const Eigen::Vector3d outward = (turned.col(0) - mean).normalized();
+  const Eigen::Vector3d pull = 30 * radius * outward.unitOrthogonal();
+  const Eigen::Vector3d other_end = turned.col(0) + 0.01 * radius * outward;
+  Eigen::Matrix3Xd open(3, turned.cols() + 3);
+  open << turned.col(0) - pull, turned, other_end, other_end + pull;
+  return open;
+}
+
+struct NamedKnot {
+  std::string name;
+  KnotInvariants type;
+  Eigen::Matrix3Xd polygon;
+};
+
+void PrintTo(const NamedKnot& knot, std::ostream* out) { *out << knot.name; }
+
+/// Every knot of a hagfish from two constructions, each with its mirror image.
+std::vector<NamedKnot> named_knots() {
+  std::vector<NamedKnot> knots = {
+      {"3_1", {3, 1}, torus_knot(3)},   {"3_1", {3, 1}, braid_closure({1, 1, 1}, 2)},
+      {"4_1", {5, -1}, figure_eight()}, {"4_1", {5, -1}, braid_closure({1, -2, 1, -2}, 3)},
+      {"5_1", {5, 3}, torus_knot(5)},   {"5_1", {5, 3}, braid_closure({1, 1, 1, 1, 1}, 2)},
+      {"5_2", {7, 2}, lissajous_5_2()}, {"5_2", {7, 2}, braid_closure({1, 1, 1, 2, -1, 2}, 3)},
+  };
+  for (std::size_t i = 0; i < 8; ++i) {
+    knots.push_back({knots[i].name, knots[i].type, mirrored(knots[i].polygon)});
+  }
+  return knots;
+}
+
+Eigen::Matrix3Xd random_polygon(int count, std::mt19937& random) {
+  Eigen::Matrix3Xd points(3, count);
+  for (auto column : points.colwise()) column = random_vector(random);
+  return points;
+}
+
+/// Open curve that advances along x with coordinates of up to 1 across.
+Eigen::Matrix3Xd wobbly_line(int count, std::mt19937& random) {
+  Eigen::Matrix3Xd points = random_polygon(count, random);
+  points.row(0).setLinSpaced(0, 10);
+  return points;
+}
+
+class NamedKnots : public testing::TestWithParam<NamedKnot> {
+ protected:
+  const KnotInvariants& type() const { return GetParam().type; }
+  const Eigen::Matrix3Xd& polygon() const { return GetParam().polygon; }
+  std::mt19937 random{7};
+};
+
+INSTANTIATE_TEST_SUITE_P(Hagfish, NamedKnots, testing::ValuesIn(named_knots()),
+                         [](const testing::TestParamInfo<NamedKnot>& knot) {
+                           return "knot_" + knot.param.name + "_" + std::to_string(knot.index);
+                         });
+
+TEST_P(NamedKnots, ClosedPolygonFromEveryDirection) {
+  for (int k = 0; k < 50; ++k) {
+    EXPECT_EQ(invariants_of_closed(polygon(), random_vector(random)), type());
+  }
+}
+
+TEST_P(NamedKnots, HasItsName) { EXPECT_EQ(knot_name(type()), GetParam().name); }
+
+TEST_P(NamedKnots, OpenCurveIsUnanimous) {
+  for (unsigned seed = 0; seed < 5; ++seed) {
+    const KnotVote vote = knot_type(opened(polygon()), {.votes = 15, .seed = seed});
+    EXPECT_EQ(vote.type, type());
+    // A ray from an end 30 radii away meets the knot in about one draw of 4000.
+    EXPECT_EQ(vote.agreement, 1);
+  }
+}
+
+TEST_P(NamedKnots, OpenCurveKeepsItsTypeReversed) {
+  const Eigen::Matrix3Xd reversed = opened(polygon()).rowwise().reverse();
+  EXPECT_EQ(knot_type(reversed, {.votes = 15, .seed = 3}).type, type());
+}
+
+TEST_P(NamedKnots, InvariantUnderRotationOrderStartAndScale) {
+  const Eigen::Vector3d sight(0.3, 0.2, 0.9);
+  for (int k = 0; k < 20; ++k) {
+    const Eigen::Matrix3Xd turned = random_rotation(random) * polygon();
+    EXPECT_EQ(invariants_of_closed(turned, sight), type());
+    EXPECT_EQ(invariants_of_closed(turned.rowwise().reverse(), sight), type());
+    const auto first = static_cast<Eigen::Index>(random() % polygon().cols());
+    EXPECT_EQ(invariants_of_closed(started_at(turned, first), sight), type());
+    const double scale = std::pow(10, uniform(random, -6, 6));
+    const Eigen::Vector3d shift = 10 * scale * random_vector(random);
+    EXPECT_EQ(invariants_of_closed((scale * turned).colwise() + shift, sight), type());
+  }
+}
+
+TEST_P(NamedKnots, InvariantUnderSmallPerturbation) {
+  for (int k = 0; k < 20; ++k) {
+    // Strands are 0.2 apart or more, so 0.02 per coordinate cannot let one through another.
+    const Eigen::Matrix3Xd noise =
+        0.02 * random_polygon(static_cast<int>(polygon().cols()), random);
+    EXPECT_EQ(invariants_of_closed(polygon() + noise, random_vector(random)), type());
+  }
+}
+
+TEST(Knot, CompositeOfTwoTrefoils) {
+  std::mt19937 random(1);
+  for (int k = 0; k < 20; ++k) {  // granny and square knot: determinants multiply, v2 adds up
+    const KnotInvariants expected{9, 2};
+    const Eigen::Vector3d sight = random_vector(random);
+    EXPECT_EQ(invariants_of_closed(braid_closure({1, 1, 1, 2, 2, 2}, 3), sight), expected);
+    EXPECT_EQ(invariants_of_closed(braid_closure({1, 1, 1, -2, -2, -2}, 3), sight), expected);
+  }
+  EXPECT_EQ(knot_type(opened(braid_closure({1, 1, 1, 2, 2, 2}, 3)), {.votes = 15, .seed = 2}).type,
+            (KnotInvariants{9, 2}));
+}
+
+TEST(Knot, TorusKnotsOfAnySize) {
+  // T(2, q) has determinant q and v2 (q^2 - 1) / 8. From 31 crossings on one prime does not do.
+  for (const int q : {7, 9, 29, 31, 61, 119}) {
+    EXPECT_EQ(invariants_of_closed(braid_closure(std::vector<int>(q, 1), 2), {0.1, 0.2, 1}),
+              (KnotInvariants{q, (q * q - 1) / 8}));
+  }
+}
+
+/// Closure of (s1 s2^-1)^n, whose determinant is the Lucas number L(2n) less 2.
+Eigen::Matrix3Xd turks_head(int n) {
+  std::vector<int> word;
+  for (int k = 0; k < n; ++k) word.insert(word.end(), {1, -2});
+  return braid_closure(word, 3);
+}
+
+TEST(Knot, LargeDeterminantsAreExactOrRefused) {
+  const Eigen::Vector3d sight(0.05, 0.1, 1);
+  EXPECT_EQ(invariants_of_closed(turks_head(4), sight).determinant, 45);
+  EXPECT_EQ(invariants_of_closed(turks_head(16), sight).determinant, 4870845);
+  EXPECT_EQ(invariants_of_closed(turks_head(20), sight).determinant, 228826125);
+  EXPECT_THROW(invariants_of_closed(turks_head(22), sight), std::overflow_error);
+  EXPECT_THROW(invariants_of_closed(turks_head(50), sight), std::overflow_error);
+  const std::vector<int> too_many(121, 1);
+  EXPECT_THROW(invariants_of_closed(braid_closure(too_many, 2), sight), std::overflow_error);
+}
+
+TEST(Knot, CrossingsThatCancelDoNotCount) {
+  std::vector<int> word = {1, 1, 1};
+  for (int k = 0; k < 100; ++k) word.insert(word.end(), {1, -1});
+  EXPECT_EQ(invariants_of_closed(braid_closure(word, 2), {0.1, 0.2, 1}), (KnotInvariants{3, 1}));
+}
+
+TEST(Knot, PerturbedCirclesAreUnknots) {
+  std::mt19937 random(2);
+  for (int k = 0; k < 500; ++k) {
+    // Its plan stays star-shaped, hence without crossings, however far out of plane it goes.
+    const Eigen::Matrix3Xd circle = sample(40, 0, 2 * pi, [&](double t) {
+      const double r = uniform(random, 0.3, 1);
+      const double z = uniform(random, -2, 2);
+      return Eigen::Vector3d(r * std::cos(t), r * std::sin(t), z);
+    });
+    EXPECT_EQ(invariants_of_closed(circle, random_vector(random)), unknot);
+  }
+}
+
+TEST(Knot, RandomPolygonsLookTheSameFromEveryDirection) {
+  std::mt19937 random(3);
+  int knotted = 0;
+  for (int k = 0; k < 600; ++k) {
+    const Eigen::Matrix3Xd points = random_polygon(k < 400 ? 15 : 22, random);
+    const KnotInvariants type = invariants_of_closed(points, random_vector(random));
+    for (int view = 0; view < 6; ++view) {
+      EXPECT_EQ(invariants_of_closed(points, random_vector(random)), type);
+    }
+    EXPECT_EQ(invariants_of_closed(mirrored(points), random_vector(random)), type);
+    // Arf invariant: v2 modulo 2, and 0 just where the determinant is 1 or 7 modulo 8.
+    const bool arf = type.v2 % 2 != 0;
+    EXPECT_EQ(type.determinant % 8 == 3 || type.determinant % 8 == 5, arf);
+    EXPECT_EQ(type.determinant % 2, 1);
+    knotted += type == unknot ? 0 : 1;
+  }
+  EXPECT_GT(knotted, 100);  // or the test would say little
+}
+
+TEST(Knot, CurvesThatAdvanceAreUnknotsForEveryClosure) {
+  // A curve that advances along one axis has, closed by parallel rays, one maximum along it.
+  std::mt19937 random(4);
+  const Eigen::Matrix3Xd straight = sample(
+      100, 0, 42.4, [](double s) -> Eigen::Vector3d { return s * Eigen::Vector3d::UnitX(); });
+  const Eigen::Matrix3Xd coil = sample(100, 0, 10 * pi, [](double t) {
+    return Eigen::Vector3d(std::cos(t), std::sin(t), 0.05 * t);
+  });
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    for (const Eigen::Matrix3Xd& line : {straight, coil, wobbly_line(100, random)}) {
+      const KnotVote vote = knot_type(line, {.votes = 15, .seed = seed});
+      EXPECT_EQ(vote.type, unknot);
+      EXPECT_EQ(vote.agreement, 1);
+    }
+  }
+}
+
+TEST(Knot, LooseEndInsideTheKnotSplitsTheVote) {
+  const Eigen::Matrix3Xd loose = torus_knot(3).leftCols(76);
+  const KnotVote vote = knot_type(loose, {.votes = 200, .seed = 1});
+  EXPECT_LT(vote.agreement, 1);
+  EXPECT_GE(vote.agreement, 0.5);  // two answers are possible here: one has half the votes
+  EXPECT_TRUE(vote.type == unknot || vote.type == (KnotInvariants{3, 1}));
+  const double count = vote.agreement * 200;
+  EXPECT_EQ(count, std::round(count));
+}
+
+TEST(Knot, MirroredDirectionsGiveTheMirrorImageTheSameVotes) {
+  const Eigen::Matrix3Xd loose = torus_knot(3).leftCols(76);
+  Eigen::Matrix3Xd image = loose;
+  image.row(1) *= -1;
+  int others = 0;  // where the same directions split the votes otherwise
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    const KnotVote vote = knot_type(loose, {.votes = 50, .seed = seed});
+    const KnotVote same = knot_type(image, {.votes = 50, .seed = seed, .mirror = true});
+    EXPECT_EQ(same.type, vote.type);
+    EXPECT_EQ(same.agreement, vote.agreement);
+    others += knot_type(image, {.votes = 50, .seed = seed}).agreement != vote.agreement ? 1 : 0;
+  }
+  EXPECT_GT(others, 0);
+}
+
+TEST(Knot, SeedDecidesTheVoteAndATieGoesToTheSimplerKnot) {
+  const Eigen::Matrix3Xd loose = torus_knot(3).leftCols(76);
+  int ties = 0;
+  int split = 0;
+  for (unsigned seed = 0; seed < 200; ++seed) {
+    const KnotVote vote = knot_type(loose, {.votes = 2, .seed = seed});
+    const KnotVote again = knot_type(loose, {.votes = 2, .seed = seed});
+    EXPECT_EQ(vote.type, again.type);
+    EXPECT_EQ(vote.agreement, again.agreement);
+    if (vote.agreement == 0.5) {
+      ++ties;
+      EXPECT_EQ(vote.type, unknot);
+    } else {
+      split += vote.type == unknot ? 1 : 0;
+    }
+  }
+  EXPECT_GT(ties, 10);
+  EXPECT_GT(200 - ties - split, 10);  // other seeds agree on the trefoil
+}
+
+TEST(Knot, DegenerateProjectionsAreRefused) {
+  Eigen::Matrix3Xd bow(3, 5);  // the fifth vertex lies above the middle of the first edge
+  bow << 0, 2, 2, 0, 1,        //
+      0, 0, 2, 2, 0,           //
+      0, 0, 0, 1, 1;
+  EXPECT_THROW(invariants_of_closed(bow, Eigen::Vector3d::UnitZ()), std::domain_error);
+  EXPECT_THROW(invariants_of_closed(bow, Eigen::Vector3d::UnitX()), std::domain_error);  // an edge
+  EXPECT_EQ(invariants_of_closed(bow, {0.3, 0.2, 1}), unknot);
+
+  Eigen::Matrix3Xd eight(3, 4);  // touches itself, so every line of sight is degenerate
+  eight << 0, 1, 1, 0,           //
+      0, 1, 0, 1,                //
+      0, 0, 0, 0;
+  EXPECT_THROW(invariants_of_closed(eight, {0.3, 0.2, 1}), std::domain_error);
+  EXPECT_THROW(knot_type(eight, {.votes = 3, .seed = 1}), std::domain_error);
+
+  Eigen::Matrix3Xd star(3, 6);      // three edges through one point of the projection
+  star << 1, -1, -1, 1, 0.1, -0.1,  //
+      0, 0, -1, 1, 1, -1,           //
+      0, 0, 1, 1, 2, 2;
+  EXPECT_THROW(invariants_of_closed(star, Eigen::Vector3d::UnitZ()), std::domain_error);
+}
+
+TEST(Knot, BadInputIsRefused) {
+  const Eigen::Matrix3Xd trefoil = torus_knot(3);
+  Eigen::Matrix3Xd broken = trefoil;
+  broken(1, 4) = std::numeric_limits<double>::quiet_NaN();
+  const Eigen::Vector3d sight(0.3, 0.2, 1);
+  EXPECT_THROW(invariants_of_closed(broken, sight), std::invalid_argument);
+  EXPECT_THROW(knot_type(broken, {.votes = 3, .seed = 1}), std::invalid_argument);
+  EXPECT_THROW(invariants_of_closed(trefoil.leftCols(2), sight), std::invalid_argument);
+  EXPECT_THROW(invariants_of_closed(trefoil, Eigen::Vector3d::Zero()), std::invalid_argument);
+  EXPECT_THROW(knot_type(trefoil.leftCols(1), {.votes = 3, .seed = 1}), std::invalid_argument);
+  EXPECT_THROW(knot_type(trefoil, {.votes = 0, .seed = 1}), std::invalid_argument);
+}
+
+TEST(Knot, NamesOfSixAndSevenCrossingsAreThoseOfTheirBraids) {
+  const struct {
+    const char* name;
+    std::vector<int> braid;
+    int strands;
+  } table[] = {{"6_1", {1, 1, 2, -1, -3, 2, -3}, 4},  {"6_2", {-1, -1, -1, 2, -1, 2}, 3},
+               {"6_3", {-1, -1, 2, -1, 2, 2}, 3},     {"7_1", {1, 1, 1, 1, 1, 1, 1}, 2},
+               {"7_3", {1, 1, 1, 1, 1, 2, -1, 2}, 3}, {"7_5", {1, 1, 1, 1, 2, -1, 2, 2}, 3},
+               {"7_7", {1, -2, 1, -2, 3, -2, 3}, 4}};
+  for (const auto& entry : table) {
+    const KnotInvariants type =
+        invariants_of_closed(braid_closure(entry.braid, entry.strands), {0.1, 0.2, 1});
+    EXPECT_EQ(knot_name(type), entry.name);
+  }
+}
+
+TEST(Knot, TypeOfANameIsTheOneThatHasIt) {
+  for (const KnotInvariants type : {unknot, KnotInvariants{3, 1}, KnotInvariants{5, -1},
+                                    KnotInvariants{21, -1}, KnotInvariants{9, 2}}) {
+    EXPECT_EQ(knot_called(knot_name(type)), type);
+  }
+  EXPECT_EQ(knot_called("5_2"), (KnotInvariants{7, 2}));
+  for (const char* none :
+       {"", "5_3", "trefoil", "det=9", "det=9,v2=", "det=9,v2=2 ", "det=3,v2=1"}) {
+    EXPECT_FALSE(knot_called(none)) << none;
+  }
+}
+
+TEST(Knot, NameOfAnyOther) {
+  EXPECT_EQ(knot_name(unknot), "0_1");
+  EXPECT_EQ(knot_name({9, 2}), "det=9,v2=2");
+  EXPECT_EQ(knot_name({5, 2}), "det=5,v2=2");
+}
+
+}  // namespace
+}  // namespace hagfish

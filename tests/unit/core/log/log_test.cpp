@@ -1,0 +1,249 @@
+// The log against its contract: every dataset with its shape, unit and description; nothing
+// half-written under the final name; a full disk or an existing file in one line.
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <array>
+#include <csignal>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "core/input/scene_reader.hpp"
+#include "core/log/hdf5_reader.hpp"
+#include "core/log/log_writer.hpp"
+#include "tests/support/random_chain.hpp"
+
+namespace hagfish {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A short run's log in a folder of its own.
+class LogTest : public testing::Test {
+ protected:
+  LogTest() : folder(fs::path(testing::TempDir()) / ("hagfish_log_" + std::to_string(getpid()))) {
+    fs::create_directories(folder);
+    scene.time.frame_interval = 0.01;
+    scene.script.kind = ScriptSettings::Kind::force;
+    scene.script.knots = {{0, {100, 200, 0}}, {1, {100, 200, 0}}};
+    header.command = "test";
+    header.scene = scene_to_toml(scene, table1_specimen());
+    header.mjcf = {{"hagfish.xml", "<mujoco/>"}};
+  }
+  ~LogTest() override { fs::remove_all(folder); }
+
+  /// Steps and logs; returns the records' states.
+  std::vector<State> write(LogWriter& log, int steps) {
+    std::vector<State> states;
+    const auto solver = make_box_qp_solver("ipopt");
+    Simulation sim = start(model, scene);
+    for (int k = 0; k < steps; ++k) {
+      const StepRecord record = take_step(model, scene, *solver, sim);
+      states.push_back(record.state);
+      log.write(record, 0.5);
+    }
+    return states;
+  }
+
+  fs::path folder;
+  Scene scene = table1_scene(10);
+  Model model = table1_hagfish(10);
+  LogHeader header;
+};
+
+TEST_F(LogTest, HoldsWhatTheContractNames) {
+  const fs::path file = folder / "run.h5";
+  LogWriter log(file, false, header, model, scene);
+  write(log, 12);
+  log.finish("complete");
+  const Hdf5Reader h5(file);
+  const hsize_t t = 3;  // steps 0, 5 and 10 of 12 at one frame in 5
+  const hsize_t n = 10;
+  const hsize_t nq = model.nq();
+  const hsize_t nv = model.nv();
+  using Shape = std::vector<hsize_t>;
+  const std::vector<std::tuple<std::string, Shape, std::string>> contract = {
+      {"/model/mass", {n}, "g"},
+      {"/model/length", {n}, "cm"},
+      {"/model/radius", {n}, "cm"},
+      {"/model/limit_lower", {nv}, "rad"},
+      {"/model/limit_upper", {nv}, "rad"},
+      {"/model/bending_limit", {n}, "rad"},
+      {"/trajectory/step", {t}, "1"},
+      {"/trajectory/time", {t}, "s"},
+      {"/trajectory/phase", {t}, "1"},
+      {"/trajectory/q", {t, nq}, "mixed: cm, 1, rad"},
+      {"/trajectory/qdot", {t, nv}, "cm/s, rad/s"},
+      {"/trajectory/position", {t, n, 3}, "cm"},
+      {"/forces/thigmotaxis", {t, nv}, "dyn, dyn·cm"},
+      {"/forces/contact", {t, nv}, "dyn, dyn·cm"},
+      {"/forces/limit", {t, nv}, "dyn, dyn·cm"},
+      {"/forces/head", {t, nv}, "dyn, dyn·cm"},
+      {"/forces/wall", {t, nv}, "dyn, dyn·cm"},
+      {"/forces/tip", {t, 3}, "dyn"},
+      {"/thigmotaxis/body_a", {t, 2}, "1"},
+      {"/thigmotaxis/body_b", {t, 2}, "1"},
+      {"/thigmotaxis/lambda", {t, 4}, "dyn"},
+      {"/thigmotaxis/speed", {t, 4}, "cm/s"},
+      {"/thigmotaxis/slack", {t, 4}, "cm/s"},
+      {"/knot/determinant", {t}, "1"},
+      {"/knot/v2", {t}, "1"},
+      {"/knot/agreement", {t}, "1"},
+      {"/knot/head_end", {t}, "cm"},
+      {"/knot/tail_end", {t}, "cm"},
+      {"/diagnostics/solve", {t}, "1"},
+      {"/diagnostics/rows", {t}, "1"},
+      {"/diagnostics/active", {t}, "1"},
+      {"/diagnostics/contacts", {t}, "1"},
+      {"/diagnostics/iterations", {t}, "1"},
+      {"/diagnostics/kkt_stationarity", {t}, "1"},
+      {"/diagnostics/kkt_primal", {t}, "1"},
+      {"/diagnostics/kkt_complementarity", {t}, "1"},
+      {"/diagnostics/penetration", {t}, "cm"},
+      {"/diagnostics/limit_violation", {t}, "rad"},
+      {"/diagnostics/head_drift", {t}, "cm"},
+      {"/diagnostics/kinetic_energy", {t}, "erg"},
+      {"/diagnostics/work_thigmotaxis", {t}, "erg"},
+      {"/diagnostics/work_tip", {t}, "erg"},
+      {"/diagnostics/dissipated", {t}, "erg"},
+      {"/diagnostics/wall_time", {t}, "s"}};
+  for (const auto& [path, shape, unit] : contract) {
+    ASSERT_TRUE(h5.has(path)) << path;
+    EXPECT_EQ(h5.shape(path), shape) << path;
+    EXPECT_EQ(h5.attribute(path, "unit"), unit) << path;
+    EXPECT_FALSE(h5.attribute(path, "description").empty()) << path;
+  }
+  EXPECT_EQ(h5.texts("/model/joint_name").size(), n);
+  EXPECT_EQ(h5.texts("/model/dof_name").size(), nv);
+  EXPECT_EQ(h5.texts("/model/joint_name")[1], "j01_bend");
+  EXPECT_EQ(h5.texts("/mjcf/hagfish.xml"), std::vector<std::string>{"<mujoco/>"});
+  for (const char* name : {"creator", "creator_version", "git_revision", "created", "command",
+                           "scene", "compiler", "cpu"}) {
+    EXPECT_FALSE(h5.root_text(name).empty()) << name;
+  }
+  EXPECT_EQ(h5.root_text("format"), "hagfish-log");
+  EXPECT_EQ(h5.root_int("format_version"), 1);
+  EXPECT_EQ(h5.root_text("status"), "complete");
+  EXPECT_EQ(h5.shape("/steps/kkt"), Shape{12});
+}
+
+TEST_F(LogTest, ReadsBackTheVeryStatesThatWereWritten) {
+  const fs::path file = folder / "run.h5";
+  LogWriter log(file, false, header, model, scene);
+  const std::vector<State> states = write(log, 11);
+  log.finish("complete");
+  const Hdf5Reader h5(file);
+  const Hdf5Reader::Rows q = h5.rows("/trajectory/q");
+  const Hdf5Reader::Rows qdot = h5.rows("/trajectory/qdot");
+  EXPECT_EQ(h5.integers("/trajectory/step"), (std::vector<std::int64_t>{0, 5, 10}));
+  for (const int frame : {0, 1, 2}) {
+    EXPECT_EQ(q.row(frame).transpose(), states[5 * frame].q);
+    EXPECT_EQ(qdot.row(frame).transpose(), states[5 * frame].qdot);
+  }
+  // The scene in the log makes the run again.
+  const ResolvedScene again = read_scene_text(h5.root_text("scene"), "log");
+  EXPECT_EQ(again.scene.time.step, scene.time.step);
+  EXPECT_EQ(again.specimen.mass, table1_specimen().mass);
+}
+
+TEST_F(LogTest, TheSameRunTwiceGivesTheSameBytes) {
+  std::array<std::string, 2> files;
+  for (std::string& file : files) {
+    file = folder / ("run" + std::to_string(&file - files.data()) + ".h5");
+    LogWriter log(file, false, header, model, scene);
+    write(log, 41);
+    log.finish("complete");
+  }
+  const Hdf5Reader a(files[0]);
+  const Hdf5Reader b(files[1]);
+  for (const char* path : {"/trajectory/q", "/trajectory/qdot", "/trajectory/qdot_next",
+                           "/trajectory/position", "/forces/limit", "/forces/head"}) {
+    const std::vector<double> x = a.doubles(path);
+    const std::vector<double> y = b.doubles(path);
+    ASSERT_EQ(x.size(), y.size()) << path;
+    EXPECT_EQ(std::memcmp(x.data(), y.data(), x.size() * sizeof(double)), 0) << path;
+  }
+}
+
+TEST_F(LogTest, RefusesToReplaceUnlessAsked) {
+  const fs::path file = folder / "run.h5";
+  std::ofstream(file) << "precious";
+  try {
+    LogWriter log(file, false, header, model, scene);
+    FAIL() << "replaced an existing file";
+  } catch (const FileError& error) {
+    EXPECT_EQ(error.what(), file.string() + ": already exists (--force replaces it)");
+  }
+  EXPECT_EQ(fs::file_size(file), 8u);
+  LogWriter log(file, true, header, model, scene);
+  write(log, 1);
+  log.finish("complete");
+  EXPECT_GT(fs::file_size(file), 8u);
+}
+
+TEST_F(LogTest, LeavesNothingBehindUnlessFinished) {
+  const fs::path file = folder / "run.h5";
+  {
+    LogWriter log(file, false, header, model, scene);
+    write(log, 3);
+  }
+  EXPECT_TRUE(fs::is_empty(folder));
+}
+
+TEST_F(LogTest, FailedRunsStayReadable) {
+  const fs::path file = folder / "run.h5";
+  LogWriter log(file, false, header, model, scene);
+  write(log, 6);
+  log.finish("failed: solver failed at step 6");
+  const Hdf5Reader h5(file);
+  EXPECT_EQ(h5.root_text("status"), "failed: solver failed at step 6");
+  EXPECT_EQ(h5.shape("/trajectory/time"), std::vector<hsize_t>{2});
+}
+
+TEST_F(LogTest, NamesAFolderThatIsNotThere) {
+  const fs::path file = folder / "missing" / "run.h5";
+  try {
+    LogWriter log(file, false, header, model, scene);
+    FAIL();
+  } catch (const FileError& error) {
+    EXPECT_EQ(std::string(error.what()).rfind(file.string(), 0), 0u) << error.what();
+    EXPECT_NE(std::string(error.what()).find("No such file"), std::string::npos) << error.what();
+  }
+}
+
+TEST_F(LogTest, FullDiskIsOneLineAndLeavesNothing) {
+  // In a child: a limit on file size stands for a full disk and cannot be taken back.
+  const auto fill = [this] {
+    const fs::path file = folder / "run.h5";
+    const rlimit limit{200000, 200000};  // room for the header, not for the frames
+    std::signal(SIGXFSZ, SIG_IGN);
+    setrlimit(RLIMIT_FSIZE, &limit);
+    try {
+      LogWriter log(file, false, header, model, scene);
+      write(log, 1000);
+      log.finish("complete");
+    } catch (const FileError& error) {
+      fprintf(stderr, "%s\n", error.what());
+    }
+    std::_Exit(fs::is_empty(folder) ? 2 : 1);
+  };
+  EXPECT_EXIT(fill(), testing::ExitedWithCode(2), "run.h5.part: cannot .*: File too large\n$");
+}
+
+TEST_F(LogTest, ForeignFilesAreRefusedInOneLine) {
+  const fs::path file = folder / "run.h5";
+  std::ofstream(file) << "not HDF5";
+  try {
+    const Hdf5Reader h5(file);
+    FAIL();
+  } catch (const FileError& error) {
+    EXPECT_EQ(std::string(error.what()).rfind(file.string(), 0), 0u);
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+  }
+  EXPECT_THROW(Hdf5Reader(folder / "nothing.h5"), FileError);
+}
+
+}  // namespace
+}  // namespace hagfish

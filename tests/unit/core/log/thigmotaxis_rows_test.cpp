@@ -1,0 +1,107 @@
+// The rows of Eq. 6 in the log: each in its own column, whatever the order in which a step has
+// them; means over steps are what the single steps say.
+#include "core/log/thigmotaxis_rows.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/log/log_means.hpp"
+#include "tests/support/stored_states.hpp"
+
+namespace hagfish {
+namespace {
+
+/// A step of the stored slide, whose knot's first and last contact are commanded differently.
+class ThigmotaxisRowsTest : public testing::Test {
+ protected:
+  ResolvedScene resolved = stored_scene({"controller.slide_head.a=0.5", "controller.slide_head.b=1",
+                                         "controller.slide_tail.a=3", "controller.slide_tail.b=4",
+                                         "controller.acceleration=1e9"});
+  const Scene& scene = resolved.scene;
+  Model model = make_hagfish(resolved.specimen, scene);
+  std::unique_ptr<BoxQpSolver> solver = make_box_qp_solver("active-set");
+  Simulation sim = resume(model, scene, stored_states().at(3));
+};
+
+TEST_F(ThigmotaxisRowsTest, ColumnsAreThoseOfTheirContact) {
+  const StepRecord record = take_step(model, scene, *solver, sim);
+  const ThigmotaxisRows rows =
+      thigmotaxis_rows_of(record.control, record.solution, scene.time.step);
+  ASSERT_EQ(record.control.thigmotaxis.size(), 2u);
+  const Eigen::Matrix3Xd& velocity = record.solution.centre_velocity;
+  const int n = model.body_count();
+  const auto at = [&](int segment, double t) {
+    const SplineMix mix = spline_mix(segment, t, n);
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (int k = 0; k < mix.count; ++k) {
+      sum += mix.weight[k] * velocity.col(mix.first + k);
+    }
+    return sum;
+  };
+  const double commands[] = {0.5, 1, 3, 4};
+  for (int place = 0; place < 2; ++place) {
+    const Contact& c =
+        place == 0 ? *record.controller.first.contact : *record.controller.last.contact;
+    const Eigen::Vector3d apart = at(c.segment_a, c.t_a) - at(c.segment_b, c.t_b);
+    // Eq. 6, left sides; rounding of sums of four.
+    EXPECT_NEAR(rows.speed[2 * place], c.tangent_a.dot(apart), 1e-12);
+    EXPECT_NEAR(rows.speed[2 * place + 1], -c.tangent_b.dot(apart), 1e-12);
+    for (const int k : {2 * place, 2 * place + 1}) {
+      EXPECT_EQ(rows.command[k], commands[k]);
+      // A row with a force below its cap is met exactly (rounding of the solver).
+      if (rows.lambda[k] > 0 && rows.lambda[k] < scene.controller.cap) {
+        EXPECT_NEAR(rows.speed[k], commands[k], 1e-9);
+      }
+    }
+  }
+  EXPECT_TRUE(rows.any);
+}
+
+TEST_F(ThigmotaxisRowsTest, MoreContactsThanALogHoldsAreRefusedByName) {
+  StepRecord record = take_step(model, scene, *solver, sim);
+  Control& control = record.control;
+  control.thigmotaxis.push_back(control.thigmotaxis.front());
+  StepSolution step;
+  WarmStart warm;
+  StepScratch scratch;
+  // The step itself takes any number.
+  solve_step(model, record.state, record.situation, control, scene, *solver, warm, scratch, step);
+  try {
+    thigmotaxis_rows_of(control, step, scene.time.step);
+    FAIL() << "took three contacts";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("more than two contacts"), std::string::npos);
+  }
+}
+
+TEST_F(ThigmotaxisRowsTest, MeansAreThoseOfTheSteps) {
+  RunningMeans means(model.nv());
+  EXPECT_TRUE(means.close().force.contact.array().isNaN().all()) << "no step, no mean";
+  constexpr int steps = 7;
+  Eigen::VectorXd contact = Eigen::VectorXd::Zero(model.nv());
+  Eigen::VectorXd net = contact;
+  std::array<double, 4> lambda{}, speed{};
+  for (int i = 0; i < steps; ++i) {
+    const StepRecord record = take_step(model, scene, *solver, sim);
+    const ThigmotaxisRows rows =
+        thigmotaxis_rows_of(record.control, record.solution, scene.time.step);
+    means.take(record, rows);
+    contact += record.solution.force.contact / steps;
+    net += record.solution.force.total() / steps;
+    for (int k = 0; k < 4; ++k) {
+      lambda[k] += rows.lambda[k] / steps;
+      speed[k] += rows.speed[k] / steps;
+    }
+  }
+  const FrameMeans& mean = means.close();
+  const double rounding = 1e-9 * net.lpNorm<Eigen::Infinity>();
+  EXPECT_LE((mean.force.contact - contact).lpNorm<Eigen::Infinity>(), rounding);
+  EXPECT_LE((mean.net_force - net).lpNorm<Eigen::Infinity>(), rounding);
+  for (int k = 0; k < 4; ++k) {
+    EXPECT_NEAR(mean.lambda[k], lambda[k], 1e-9 * (1 + lambda[k]));
+    EXPECT_NEAR(mean.speed[k], speed[k], 1e-12);
+  }
+  EXPECT_TRUE(std::isnan(means.close().lambda[0])) << "starts anew";
+}
+
+}  // namespace
+}  // namespace hagfish

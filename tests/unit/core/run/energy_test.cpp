@@ -1,0 +1,149 @@
+// The energy ledger: it must close to rounding on any motion, and must not close on a wrong one.
+#include "core/run/energy.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/random_chain.hpp"
+
+namespace hagfish {
+namespace {
+
+/// A run of a scene from a state, booked step by step.
+struct BookedRun {
+  Model model;
+  Scene scene;
+  State state;
+  EnergyLedger ledger;
+
+  BookedRun(Model of, Scene in, State from)
+      : model(std::move(of)), scene(std::move(in)), state(std::move(from)) {
+    ledger = open_ledger(model, state, kinematics(model, state));
+  }
+  /// `spoil` changes the solved step before it is taken and booked. It moves for `share` of its
+  /// length.
+  template <class Spoil>
+  void step(const Control& control, Spoil spoil, double share = 1) {
+    const Situation now = observe(model, state, scene);
+    StepSolution solution;
+    solve_step(model, state, now, control, scene, *solver, warm, scratch, solution);
+    spoil(solution);
+    solution.twist = body_twists(model, now.kin, solution.qdot);
+    solution.centre_velocity = centre_velocities(now.kin, solution.twist);
+    const double h = scene.time.step;
+    State next{advance(state.q, solution.qdot, share * h), solution.qdot};
+    book_step(model, now.kin, solution, next, kinematics(model, next), h, share * h, ledger);
+    state = std::move(next);
+  }
+  void step(const Control& control, double share = 1) {
+    step(
+        control, [](StepSolution&) {}, share);
+  }
+  double throughput() const {
+    return std::abs(ledger.initial) + std::abs(ledger.works()) + ledger.dissipated +
+           std::abs(ledger.kinetic) + std::abs(ledger.gravity) + std::abs(ledger.elastic);
+  }
+
+  std::unique_ptr<BoxQpSolver> solver = make_box_qp_solver("ipopt");
+  WarmStart warm;
+  StepScratch scratch;
+};
+
+/// Everything on: gravity, drag, stiffness, damping, limits, a head plate and a pulled tail.
+BookedRun busy_run(unsigned seed, double h) {
+  Random random(seed);
+  Scene scene = table1_scene(20);
+  scene.time.step = h;
+  scene.gravity = {30, -200, 100};
+  scene.model.bending_damping = 5;
+  scene.model.twist_damping = 5;
+  Model model = make_hagfish(table1_specimen(), scene);
+  State state = random_state(random, model, 0.2, 3);
+  state.q.head<7>() << 0, 0, 0, 1, 0, 0, 0;
+  state.qdot.head<6>().setZero();
+  return {std::move(model), std::move(scene), std::move(state)};
+}
+
+TEST(Energy, LedgerClosesWithEveryKindOfForce) {
+  for (const double h : {5e-4, 2e-3, 1e-2}) {
+    BookedRun run = busy_run(1, h);
+    for (int k = 0; k < 100; ++k) {
+      run.step({true, {{200, 300, -100}, 0}, {}});
+    }
+    // Rounding of 100 booked steps, each exact to some 1e-14 of what passes.
+    EXPECT_LE(std::abs(run.ledger.imbalance()), 1e-11 * run.throughput()) << "h = " << h;
+    EXPECT_NE(run.ledger.work_tip, 0);
+    EXPECT_NE(run.ledger.work_limit, 0);
+    EXPECT_GT(run.ledger.dissipated, 0);
+  }
+}
+
+TEST(Energy, LedgerClosesWhereStepsEndEarly) {
+  for (const double h : {5e-4, 2e-3, 1e-2}) {
+    BookedRun run = busy_run(1, h);
+    Random random(5);
+    for (int k = 0; k < 100; ++k) {
+      const double share = k % 7 == 0 ? 0 : k % 5 == 0 ? 1 : uniform(random, 0, 1);
+      run.step({true, {{200, 300, -100}, 0}, {}}, share);
+    }
+    EXPECT_LE(std::abs(run.ledger.imbalance()), 1e-11 * run.throughput()) << "h = " << h;  // above
+  }
+}
+
+TEST(Energy, LedgerSeesForcesThatDoNotAddUp) {
+  BookedRun run = busy_run(2, 2e-3);
+  for (int k = 0; k < 20; ++k) {
+    // One part in a thousand of one hinge's rate has no force that explains it.
+    run.step({true, {}, {}}, [](StepSolution& s) { s.qdot[s.qdot.size() / 2] *= 1.001; });
+  }
+  EXPECT_GT(std::abs(run.ledger.imbalance()), 1e-8 * run.throughput());
+}
+
+TEST(Energy, IntegratorErrorFallsWithTheStep) {
+  // A free smooth motion: no impact, so all that the ledger calls the integrator's own is of first
+  // order in h.
+  const auto error_at = [](double h) {
+    BookedRun run = busy_run(3, h);
+    for (Hinge& hinge : run.model.hinges) {
+      hinge.lower = -INFINITY;
+      hinge.upper = INFINITY;
+    }
+    run.scene.wall.present = false;
+    for (int k = 0; k < std::lround(0.04 / h); ++k) {
+      run.step({false, {}, {}});
+    }
+    return std::abs(run.ledger.integrator_error());
+  };
+  const double ratio = error_at(2e-4) / error_at(1e-4);
+  // 2 at first order; 0.2 of room for the second.
+  EXPECT_NEAR(ratio, 2, 0.2);
+}
+
+TEST(Energy, ConservedWithoutForcesButForTheIntegratorsShare) {
+  Random random(4);
+  Scene scene = table1_scene(12);
+  scene.drag = {};
+  scene.model.bending_stiffness = 0;
+  scene.model.twist_stiffness = 0;
+  scene.wall.present = false;
+  scene.time.step = 1e-4;
+  Model model = make_hagfish(table1_specimen(), scene);
+  for (Hinge& hinge : model.hinges) {
+    hinge.lower = -INFINITY;
+    hinge.upper = INFINITY;
+  }
+  const State state = random_state(random, model, 0.3, 2);
+  BookedRun run(std::move(model), std::move(scene), state);
+  for (int k = 0; k < 50; ++k) {
+    run.step({false, {}, {}});
+  }
+  EXPECT_EQ(run.ledger.works(), 0);
+  EXPECT_EQ(run.ledger.dissipated, 0);
+  const double gained = run.ledger.kinetic - run.ledger.initial;
+  // Rounding of energies of this size.
+  EXPECT_NEAR(gained, run.ledger.integrator_error(), 1e-11 * run.ledger.initial);
+}
+
+}  // namespace
+}  // namespace hagfish

@@ -1,0 +1,259 @@
+#include "core/run/guard.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "core/run/simulation.hpp"
+#include "tests/support/random_chain.hpp"
+#include "tests/support/row_lists.hpp"
+
+namespace hagfish {
+namespace {
+
+std::string message_of(StopCause cause, const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const StepError& error) {
+    EXPECT_EQ(error.cause(), cause) << error.what();
+    return error.what();
+  }
+  return "no StepError";
+}
+
+/// A knot with a contact 0.18 cm too deep (random_chain.hpp).
+struct DeepKnot {
+  DeepKnot() {
+    scene.wall.present = false;
+    Random random(1);
+    model = table1_hagfish();
+    state = knotted_state(random, model);
+    situation = observe(model, state, scene);
+  }
+  void look() { guard_state(model, state, situation, crossing, scene, watch, warnings); }
+  Scene scene = table1_scene();
+  Model model;
+  State state;
+  Situation situation;
+  double crossing = 0;
+  Watch watch;
+  std::vector<std::string> warnings;
+};
+
+TEST(Guard, NamesTheBodiesThatOverlapAndWhatWouldHelp) {
+  DeepKnot knot;
+  knot.look();  // half a centimetre is permitted
+  knot.scene.guard.penetration = 0.1;
+  const std::string message = message_of(StopCause::penetration, [&] { knot.look(); });
+  const auto deepest = std::ranges::min_element(knot.situation.contact.contacts, {}, &Contact::gap);
+  EXPECT_NE(message.find("of bodies " + std::to_string(deepest->body_a()) + " and " +
+                         std::to_string(deepest->body_b())),
+            std::string::npos)
+      << message;
+  EXPECT_NE(message.find("constraints.corrections"), std::string::npos) << message;
+}
+
+TEST(Guard, StopsAtWhatHappensOnTheWay) {
+  DeepKnot knot;
+  knot.crossing = 0.6;
+  EXPECT_NE(message_of(StopCause::penetration, [&] { knot.look(); }).find("on the way"),
+            std::string::npos);
+}
+
+TEST(Guard, NamesTheJointPastItsLimit) {
+  DeepKnot knot;
+  const Hinge& hinge = knot.model.hinges[4];
+  knot.state.q[7 + 4] = hinge.upper + 0.3;
+  knot.situation = observe(knot.model, knot.state, knot.scene);
+  knot.scene.guard.penetration = 100;
+  const std::string message = message_of(StopCause::limits, [&] { knot.look(); });
+  EXPECT_EQ(message.find(dof_name(knot.model, root_dofs + 4) + " is 17.2 deg past"), 0u) << message;
+}
+
+TEST(Guard, WarnsOnceWhereTheSceneAsksForIt) {
+  DeepKnot knot;
+  knot.scene.guard.penetration = 0.1;
+  knot.scene.guard.action = GuardAction::warn;
+  knot.look();
+  knot.look();
+  ASSERT_EQ(knot.warnings.size(), 1u);
+  EXPECT_EQ(knot.warnings[0].find("penetration 0."), 0u) << knot.warnings[0];
+}
+
+TEST(Guard, StopsAtSpeed) {
+  Eigen::Matrix3Xd velocity = Eigen::Matrix3Xd::Zero(3, 5);
+  GuardSettings guard;
+  guard_speed(velocity, guard);
+  velocity.col(3) << 0, 0, 2 * guard.speed;
+  EXPECT_EQ(message_of(StopCause::speed, [&] { guard_speed(velocity, guard); }).find("body 3 "),
+            0u);
+  velocity(0, 3) = std::numeric_limits<double>::quiet_NaN();
+  message_of(StopCause::speed, [&] { guard_speed(velocity, guard); });
+}
+
+/// The knot with thigmotaxis rows at one of its contacts, twice, and three limits.
+struct CappedRow {
+  CappedRow() {
+    Random random(131);
+    scene.guard.capped_time = 0.1;
+    const State state = knotted_state(random, model, 2.45, 0.002);
+    now = observe(model, state, scene);
+    step.system = step_system(model, state, now.kin, {}, scene.time.step);
+    const Contact& contact = now.contact.contacts.at(0);
+    scene.controller.cap = 10;
+    append_thigmotaxis_rows(model, {{contact, {1, 1}}, {contact, {1, 1}}}, scene.controller,
+                            now.kin.centre_velocity, 1, step.rows);
+    const std::vector<Row> limits = limit_rows(model, state, scene.constraints, 1);
+    step.rows.insert(step.rows.end(), limits.begin() + 20, limits.begin() + 23);
+    step.qdot = Eigen::VectorXd::Zero(model.nv());
+    step.centre_velocity = Eigen::Matrix3Xd::Zero(3, model.body_count());
+    step.lambda.resize(7);
+    step.lambda << 3, 10, 0, 9, 5, 7, 1;  // the second one is at the cap
+    step.excess = Eigen::VectorXd::Constant(7, -0.5);
+  }
+  void look(double time) { guard_cap(model, now.kin, scene, step, time, watch, warnings); }
+
+  Model model = table1_hagfish();
+  Scene scene = table1_scene();
+  Situation now;
+  StepSolution step;
+  Watch watch;
+  std::vector<std::string> warnings;
+};
+
+TEST(Guard, TellsOfARowThatStaysAtItsCapAndWhatHoldsItBack) {
+  CappedRow capped;
+  const StepSolution& step = capped.step;
+  for (const double time : {0.0, 0.05, 0.1}) {
+    capped.look(time);
+  }
+  EXPECT_TRUE(capped.warnings.empty());
+  capped.look(0.11);
+  capped.look(0.12);
+  ASSERT_EQ(capped.warnings.size(), 1u);
+  const std::string& warning = capped.warnings[0];
+  EXPECT_EQ(warning.find("first thigmotaxis contact, along t_b has been at controller.cap"), 0u)
+      << warning;
+  // What each row's force does to the velocity of the second, by dense algebra.
+  const Eigen::MatrixXd c = dense_rows(capped.model, capped.now.kin, step.rows);
+  const Eigen::MatrixXd h = dense(capped.model, capped.now.kin, step.system.op);
+  const Eigen::VectorXd effect =
+      (c * h.llt().solve(c.row(1).transpose())).cwiseProduct(step.lambda);
+  std::vector<std::pair<double, std::size_t>> hardest;
+  for (std::size_t i = 0; i < step.rows.size(); ++i) {
+    if (i != 1 && effect[static_cast<Eigen::Index>(i)] < 0) {
+      hardest.emplace_back(effect[static_cast<Eigen::Index>(i)], i);
+    }
+  }
+  std::ranges::sort(hardest);
+  ASSERT_GE(hardest.size(), 2u);
+  EXPECT_NE(
+      warning.find("held back most by " + row_name(capped.model, step.rows[hardest[0].second]) +
+                   "; " + row_name(capped.model, step.rows[hardest[1].second]) + "; "),
+      std::string::npos)
+      << warning;
+}
+
+TEST(Guard, ARowBelowItsCapForAStepStartsAnew) {
+  CappedRow capped;
+  for (int k = 0; k < 10; ++k) {
+    capped.step.lambda[1] = k == 5 ? 9 : 10;
+    capped.look(0.02 * k);
+  }
+  EXPECT_TRUE(capped.warnings.empty());
+}
+
+TEST(Guard, WatchesTheCapOfAnyNumberOfContacts) {
+  CappedRow capped;
+  const Contact& contact = capped.now.contact.contacts.at(0);
+  capped.step.rows.clear();
+  append_thigmotaxis_rows(capped.model, std::vector(5, ThigmotaxisCommand{contact, {1, 1}}),
+                          capped.scene.controller, capped.now.kin.centre_velocity, 1,
+                          capped.step.rows);
+  capped.step.lambda = Eigen::VectorXd::Zero(10);
+  capped.step.lambda[9] = 10;
+  capped.step.excess = Eigen::VectorXd::Constant(10, -0.5);
+  for (const double time : {0.0, 0.05, 0.11}) {
+    capped.look(time);
+  }
+  ASSERT_EQ(capped.warnings.size(), 1u);
+  EXPECT_EQ(capped.watch.below_cap.size(), 10u);
+  EXPECT_EQ(capped.watch.below_cap[8], 0.11);
+  EXPECT_EQ(capped.watch.below_cap[9], 0);
+}
+
+/// A body bent evenly that turns about its root without damping: explicit Coriolis forces feed it.
+class EnergyWatch : public testing::Test {
+ protected:
+  EnergyWatch() {
+    scene = table1_scene(20);
+    scene.clamp_head = false;
+    scene.wall.present = false;
+    scene.drag = {};
+    scene.model.bending_stiffness = 0;
+    scene.model.twist_stiffness = 0;
+    scene.time.step = 0.005;
+    model = make_hagfish(table1_specimen(), scene);
+    for (Hinge& hinge : model.hinges) {  // a limit's impacts would hide what is made
+      hinge.lower = -std::numeric_limits<double>::infinity();
+      hinge.upper = std::numeric_limits<double>::infinity();
+    }
+  }
+  /// Energy at the end over that at the start.
+  double growth(EnergyAction action, int steps = 400) {
+    scene.guard.energy_action = action;
+    scene.contact.least_arc = 100;  // strands pass each other: no impacts
+    State state = bent_state(model, 0.05, 0);
+    state.qdot.tail(model.nv() - root_dofs).setConstant(2);
+    Simulation sim = start_from(model, scene, state, {}, 0);
+    const auto solver = make_box_qp_solver("active-set");
+    StepRecord record;
+    for (int k = 0; k < steps; ++k) {
+      take_step(model, scene, *solver, sim, record);
+      for (const std::string& warning : record.warnings) {
+        warnings.push_back(warning);
+      }
+      // The ledger closes to rounding, what was taken back included.
+      EXPECT_LT(std::abs(sim.ledger.imbalance()), 1e-9 * sim.ledger.initial);
+      // The velocity that goes on is the one that the ledger speaks of.
+      EXPECT_NEAR(kinetic_energy(model, kinematics(model, sim.state)), sim.ledger.kinetic,
+                  1e-9 * sim.ledger.initial);
+    }
+    return (sim.ledger.kinetic + sim.ledger.elastic) / sim.ledger.initial;
+  }
+  Scene scene;
+  Model model;
+  std::vector<std::string> warnings;
+};
+
+TEST_F(EnergyWatch, HoldsWhatTheIntegratorMakes) {
+  EXPECT_LE(growth(EnergyAction::hold), 1 + 1.02 * scene.guard.energy_gain);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0].find("the integrator made"), 0u) << warnings[0];
+}
+
+TEST_F(EnergyWatch, TakesNothingFromABodyAtRest) {
+  State state = rest_state(model);
+  Kinematics kin = kinematics(model, state);
+  EnergyLedger ledger = open_ledger(model, state, kin);
+  ledger.integrator_coriolis = 1;
+  Watch watch;
+  guard_energy(model, scene, state, kin, ledger, watch, warnings);
+  EXPECT_TRUE(state.qdot.isZero(0));
+  EXPECT_EQ(ledger.kinetic, 0);
+  EXPECT_EQ(warnings.size(), 1u);
+}
+
+TEST_F(EnergyWatch, OnlyWarnsWhereTheSceneAsksForIt) {
+  EXPECT_GT(growth(EnergyAction::warn, 40), 1.1);
+  EXPECT_EQ(warnings.size(), 1u);
+}
+
+TEST_F(EnergyWatch, StopsWhereTheSceneAsksForIt) {
+  EXPECT_NE(message_of(StopCause::energy_gain, [&] { growth(EnergyAction::stop); })
+                .find("guard.energy_gain = 0.005"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace hagfish

@@ -1,0 +1,152 @@
+// What take_step promises: a step that cannot be taken leaves the simulation as it was.
+#include "core/run/simulation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "tests/support/stored_states.hpp"
+
+namespace hagfish {
+namespace {
+
+/// A cause that stops a step, and what brings it about.
+struct Obstacle {
+  std::string name;
+  StopCause cause;
+  std::string from;  ///< stored state
+  std::function<void(Scene&, Model&)> set;
+};
+
+void PrintTo(const Obstacle& obstacle, std::ostream* out) { *out << obstacle.name; }
+
+bool same(const std::optional<Contact>& a, const std::optional<Contact>& b) {
+  return a.has_value() == b.has_value() &&
+         (!a || (a->arc_a == b->arc_a && a->arc_b == b->arc_b && a->gap == b->gap));
+}
+
+/// EXPECTs that all is the same which the future of a run depends on.
+void expect_same(const Simulation& a, const Simulation& b) {
+  EXPECT_EQ(a.step, b.step);
+  EXPECT_EQ(a.state.q, b.state.q);
+  EXPECT_EQ(a.state.qdot, b.state.qdot);
+  EXPECT_EQ(a.situation.kin.centre, b.situation.kin.centre);
+  EXPECT_EQ(a.situation.kin.twist, b.situation.kin.twist);
+  EXPECT_EQ(a.situation.contact.contacts.size(), b.situation.contact.contacts.size());
+  EXPECT_EQ(a.situation.penetration, b.situation.penetration);
+
+  const ControllerState &c = a.controller, &d = b.controller;
+  EXPECT_EQ(c.phase, d.phase);
+  EXPECT_EQ(c.phase_start, d.phase_start);
+  EXPECT_EQ(c.loose, d.loose);
+  EXPECT_EQ(c.knot.type, d.knot.type);
+  EXPECT_EQ(c.knot_seen, d.knot_seen);
+  EXPECT_EQ(c.knot_from, d.knot_from);
+  EXPECT_EQ(c.lost, d.lost);
+  EXPECT_EQ(c.first.settled, d.first.settled);
+  EXPECT_EQ(c.last.settled, d.last.settled);
+  EXPECT_TRUE(same(c.first.contact, d.first.contact) && same(c.last.contact, d.last.contact));
+
+  EXPECT_EQ(std::memcmp(&a.ledger, &b.ledger, sizeof(EnergyLedger)), 0);
+  EXPECT_EQ(a.watch.told, b.watch.told);
+  EXPECT_EQ(a.watch.below_cap, b.watch.below_cap);
+  EXPECT_EQ(a.warm.size(), b.warm.size());
+
+  EXPECT_EQ(a.search.moved, b.search.moved);
+  EXPECT_TRUE(std::ranges::equal(
+      a.search.segments, b.search.segments, [](const SplineSegment& s, const SplineSegment& t) {
+        return s.c0 == t.c0 && s.c1 == t.c1 && s.c2 == t.c2 && s.c3 == t.c3;
+      }));
+  EXPECT_TRUE(std::ranges::equal(
+      a.search.candidates, b.search.candidates, [](const SegmentPair& s, const SegmentPair& t) {
+        return s.a == t.a && s.b == t.b && s.clear_until == t.clear_until &&
+               s.closest.has_value() == t.closest.has_value() &&
+               (!s.closest ||
+                (s.closest->t_a == t.closest->t_a && s.closest->t_b == t.closest->t_b));
+      }));
+}
+
+class StoppedStep : public testing::TestWithParam<Obstacle> {};
+
+TEST_P(StoppedStep, LeavesTheSimulationAsItWas) {
+  const Obstacle& obstacle = GetParam();
+  const Scene scene = stored_scene().scene;
+  const Model model = make_hagfish(stored_scene().specimen, scene);
+  const std::vector<StoredState> states = stored_states();
+  const auto found = std::ranges::find(states, obstacle.from, &StoredState::name);
+  ASSERT_NE(found, states.end());
+  Simulation sim = resume(model, scene, *found);
+  const auto solver = make_box_qp_solver("active-set");
+  const auto other_solver = make_box_qp_solver("active-set");
+  StepRecord record;
+  for (int k = 0; k < 5; ++k) {
+    take_step(model, scene, *solver, sim, record);
+  }
+  Simulation twin = sim;
+  Scene harder = scene;
+  Model other = model;
+  obstacle.set(harder, other);
+  for (int attempt = 0; attempt < 2; ++attempt) {
+    try {
+      take_step(other, harder, *solver, sim, record);
+      FAIL() << "the step was taken";
+    } catch (const StepError& error) {
+      EXPECT_EQ(error.cause(), obstacle.cause) << error.what();
+    }
+    EXPECT_EQ(record.controller.phase, twin.controller.phase);
+    expect_same(sim, twin);
+  }
+  StepRecord record_of_twin;
+  for (int k = 0; k < 20; ++k) {
+    take_step(model, scene, *solver, sim, record);
+    take_step(model, scene, *other_solver, twin, record_of_twin);
+    ASSERT_EQ(record.solution.lambda, record_of_twin.solution.lambda) << k;
+    expect_same(sim, twin);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Causes, StoppedStep,
+    testing::Values(Obstacle{"penetration", StopCause::penetration, "slide",
+                             [](Scene& scene, Model&) {
+                               scene.guard.action = GuardAction::stop;
+                               scene.guard.penetration = -1;
+                             }},
+                    Obstacle{"limits", StopCause::limits, "slide",
+                             [](Scene& scene, Model&) {
+                               scene.guard.action = GuardAction::stop;
+                               scene.guard.limit_violation = -1;
+                             }},
+                    Obstacle{"speed", StopCause::speed, "slide",
+                             [](Scene& scene, Model&) { scene.guard.speed = 0; }},
+                    Obstacle{"energy", StopCause::energy_gain, "slide",
+                             [](Scene& scene, Model&) {
+                               scene.guard.energy_action = EnergyAction::stop;
+                               scene.guard.energy_gain = -1;
+                             }},
+                    Obstacle{"knotLost", StopCause::knot_lost, "slide",
+                             [](Scene& scene, Model&) {
+                               scene.guard.action = GuardAction::stop;
+                               scene.expect.knot = "4_1";
+                               scene.knot.interval = 0;
+                             }},
+                    Obstacle{"neverTied", StopCause::never_tied, "form",
+                             [](Scene& scene, Model&) {
+                               scene.expect.knot = "4_1";
+                               scene.script.knots.resize(2);
+                               scene.knot.interval = 0;
+                             }},
+                    Obstacle{"infeasible", StopCause::infeasible, "slide",
+                             [](Scene&, Model& model) {  // both limits of a hinge push
+                               model.hinges[20].lower = 0.1;
+                               model.hinges[20].upper = -0.1;
+                             }}),
+    [](const auto& obstacle) { return obstacle.param.name; });
+
+}  // namespace
+}  // namespace hagfish

@@ -1,0 +1,122 @@
+// A step works in storage that it keeps. The linker sends all requests for memory that come from
+// the project's own code, Eigen included, through the two counters below (tests/CMakeLists.txt).
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <tuple>
+
+#include "core/run/simulation.hpp"
+#include "tests/support/random_chain.hpp"
+#include "tests/support/stored_states.hpp"
+
+namespace {
+volatile int requests = 0;  // the compiler believes that malloc touches no such thing
+}
+
+// NOLINTBEGIN(bugprone-reserved-identifier): the linker's names
+extern "C" {
+void* __real_malloc(std::size_t size);
+void* __wrap_malloc(std::size_t size) {
+  requests = requests + 1;
+  return __real_malloc(size);
+}
+void* __real__Znwm(std::size_t size);
+void* __wrap__Znwm(std::size_t size) {
+  requests = requests + 1;
+  return __real__Znwm(size);
+}
+}
+// NOLINTEND(bugprone-reserved-identifier)
+
+namespace hagfish {
+namespace {
+
+/// Steps a stored state; the controller does not look at the knot, which costs memory of its own.
+class Allocation : public testing::Test {
+ protected:
+  void start(const std::string& name, BendingLimit limit = BendingLimit::box) {
+    scene.model.bending_limit = limit;
+    model = make_hagfish(stored_scene().specimen, scene);
+    scene.knot.interval = std::numeric_limits<double>::infinity();
+    const std::vector<StoredState> states = stored_states();
+    const auto found = std::ranges::find(states, name, &StoredState::name);
+    ASSERT_NE(found, states.end());
+    StoredState stored = *found;
+    stored.state = within_cones(model, stored.state);
+    sim = resume(model, scene, stored);
+    sim.controller.knot_seen = 0;
+  }
+  /// Requests of one step.
+  int step() {
+    const int before = requests;
+    take_step(model, scene, *solver, sim, record);
+    return requests - before;
+  }
+
+  Scene scene = stored_scene().scene;
+  Model model = make_hagfish(stored_scene().specimen, scene);
+  std::unique_ptr<BoxQpSolver> solver = make_box_qp_solver("active-set");
+  Simulation sim;
+  StepRecord record;
+};
+
+TEST_F(Allocation, CountersSeeEigenAndTheStandardLibrary) {
+  const auto size = static_cast<Eigen::Index>(scene.knot.votes);  // not known to the compiler
+  const int before = requests;
+  const Eigen::VectorXd vector = Eigen::VectorXd::Ones(size);
+  volatile const double* used = vector.data();
+  EXPECT_EQ(requests - before, 1) << *used;
+  const int between = requests;
+  const std::vector<double> other(vector.begin(), vector.end());
+  EXPECT_EQ(requests - between, 1) << other.front();
+}
+
+class AllocationOfRows : public Allocation, public testing::WithParamInterface<BendingLimit> {};
+
+TEST_P(AllocationOfRows, NoneInAStepWithAsManyRowsAsTheLastOne) {
+  // Arrays by row keep their storage as long as the numbers of rows and of held ones stay; lists
+  // keep what they have grown to, so that the same steps, taken again, need no more.
+  start("slide", GetParam());
+  for (int k = 0; k < 300; ++k) step();
+  const Simulation middle = sim;
+  for (int k = 0; k < 100; ++k) step();
+  sim = middle;
+  int compared = 0;
+  for (int k = 0; k < 100; ++k) {
+    const auto sizes = [&] {
+      const StepSolution& last = record.solution;
+      return std::tuple(last.rows.size(), last.held, last.rounds);
+    };
+    const auto before = sizes();
+    const int asked = step();
+    if (sizes() == before && record.solution.rounds == 1) {
+      EXPECT_EQ(asked, 0) << "step " << record.step;
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 20);
+}
+
+INSTANTIATE_TEST_SUITE_P(BendingLimits, AllocationOfRows,
+                         testing::Values(BendingLimit::box, BendingLimit::cone));
+
+TEST_F(Allocation, NoneInAStepWithoutConstraints) {
+  scene.wall.present = false;
+  State state = rest_state(model);
+  state.qdot[7] = 0.01;
+  ControllerState controller;
+  controller.phase = Phase::free;
+  sim = start_from(model, scene, state, controller, 0);
+  for (int k = 0; k < 200; ++k) {
+    const int asked = step();
+    ASSERT_EQ(record.solution.kind, SolveKind::linear);
+    if (k >= 10) {
+      EXPECT_EQ(asked, 0) << "step " << record.step;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace hagfish

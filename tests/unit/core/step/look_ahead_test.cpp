@@ -1,0 +1,156 @@
+#include "core/step/look_ahead.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "core/run/simulation.hpp"
+#include "tests/support/random_chain.hpp"
+#include "tests/support/stored_states.hpp"
+
+namespace hagfish {
+namespace {
+
+/// Deepest overlap at `count` places evenly along the way of a step to `end`, which is the last.
+double deepest_on_way(const Model& model, const Scene& scene, const StepRecord& record,
+                      const State& end, int count) {
+  // How long it went on, from the hinges: a step may end early.
+  const Eigen::Index hinges = model.nv() - root_dofs;
+  const Eigen::VectorXd rate = record.solution.qdot.tail(hinges);
+  const double time = rate.dot((end.q - record.state.q).tail(hinges)) / rate.squaredNorm();
+  double deepest = 0;
+  for (int i = 1; i <= count; ++i) {
+    const double t = time * i / count;
+    const State there{advance(record.state.q, record.solution.qdot, t), record.solution.qdot};
+    deepest = std::max(deepest, observe(model, there, scene).penetration);
+  }
+  return deepest;
+}
+
+TEST(LookAhead, ShortStepsAreLookedAtTheirEndAlone) {
+  Eigen::Matrix3Xd velocity = Eigen::Matrix3Xd::Zero(3, 4);
+  EXPECT_EQ(looks(velocity, 0.01, 0.25), 1);
+  velocity.col(2) << 0, 24, 0;
+  EXPECT_EQ(looks(velocity, 0.01, 0.25), 1);
+  velocity.col(2) << 0, -60, 80;  // 1 cm
+  EXPECT_EQ(looks(velocity, 0.01, 0.3), 4);
+}
+
+/// Steps of the stored knot that slides, ten times as long as the scene's.
+struct LongSteps {
+  explicit LongSteps(const std::vector<std::string>& overrides)
+      : scene(stored_scene(overrides).scene), model(make_hagfish(stored_scene().specimen, scene)) {
+    const std::vector<StoredState> states = stored_states();
+    sim = resume(model, scene, *std::ranges::find(states, "slide", &StoredState::name));
+  }
+  /// Deepest overlap at the end of any of so many steps.
+  double deepest(int steps) {
+    double worst = 0;
+    for (int k = 0; k < steps; ++k) {
+      take_step(model, scene, *solver, sim, record);
+      corrected += record.solution.rounds > 1 ? 1 : 0;
+      worst = std::max(worst, sim.situation.penetration);
+    }
+    return worst;
+  }
+  Scene scene;
+  Model model;
+  std::unique_ptr<BoxQpSolver> solver = make_box_qp_solver("active-set");
+  Simulation sim;
+  StepRecord record;
+  int corrected = 0;
+};
+
+TEST(LookAhead, HoldsStrandsApartAlongTheCurvedPath) {
+  LongSteps corrected({"time.step=0.02"});
+  LongSteps linear({"time.step=0.02", "constraints.corrections=0"});
+  const double tolerance = corrected.scene.constraints.tolerance;
+  // The rows alone let five times the tolerance through; corrections leave what they may, and half
+  // of what was there before.
+  EXPECT_GT(linear.deepest(50), 5 * tolerance);
+  EXPECT_LT(corrected.deepest(50), 2.001 * tolerance);
+  EXPECT_GT(corrected.corrected, 5);
+}
+
+TEST(LookAhead, AddsRowsOnceAndMeetsThem) {
+  LongSteps run({"time.step=0.02"});
+  for (int k = 0; k < 50; ++k) {
+    run.deepest(1);
+    std::set<std::int64_t> ids;
+    for (const Row& row : run.record.solution.rows) {
+      EXPECT_TRUE(ids.insert(row.id).second) << row_name(run.model, row);
+    }
+    // The bound of the KKT residual of any step.
+    EXPECT_LT(run.record.solution.kkt.worst(), run.scene.expect.kkt);
+  }
+}
+
+TEST(LookAhead, LeavesViolatedRowsAsRedMaxHasThem) {
+  LongSteps run({"time.step=0.02", "constraints.activation=violated"});
+  LongSteps none(
+      {"time.step=0.02", "constraints.activation=violated", "constraints.corrections=0"});
+  EXPECT_EQ(run.deepest(20), none.deepest(20));
+}
+
+/// A hairpin whose arms close at `speed` (cm/s) at their ends, 15 degrees apart.
+class ClosingArms : public testing::TestWithParam<double> {
+ protected:
+  ClosingArms() {
+    scene = table1_scene(50);
+    scene.clamp_head = false;
+    scene.wall.present = false;
+    scene.drag = {};
+    scene.time.step = 0.005;
+    scene.guard.speed = 1e6;
+    model = make_hagfish(table1_specimen(), scene);
+    State state = rest_state(model);
+    constexpr double arms = 20;  // cm
+    int bends = 0;
+    for (std::size_t k = 0; k < model.hinges.size(); ++k) {
+      const Hinge& hinge = model.hinges[k];
+      if (hinge.axis == Axis::y && hinge.body >= 23 && bends < 3) {
+        const auto i = static_cast<Eigen::Index>(k) + root_dofs;
+        state.q[i + 1] = 55 * degree;
+        state.qdot[i] = GetParam() / arms / 3;
+        ++bends;
+      }
+    }
+    sim = start_from(model, scene, state, {}, 0);
+  }
+  static constexpr double degree = 0.017453292519943295;
+  Scene scene;
+  Model model;
+  Simulation sim;
+};
+
+TEST_P(ClosingArms, NeverPassThroughEachOther) {
+  const auto solver = make_box_qp_solver("active-set");
+  StepRecord record;
+  double deepest = 0;
+  int held = 0;
+  bool shortened = false;
+  for (int k = 0; k < 200; ++k) {
+    take_step(model, scene, *solver, sim, record);
+    deepest = std::max(deepest, deepest_on_way(model, scene, record, sim.state, 100));
+    held += record.solution.force.contact.isZero() ? 0 : 1;
+    // Closes to rounding, steps that end early included.
+    EXPECT_LT(std::abs(sim.ledger.imbalance()), 1e-9 * sim.ledger.initial) << "step " << k;
+    for (const std::string& warning : record.warnings) {
+      shortened = shortened || warning.find("strands meet too fast") == 0;
+    }
+  }
+  // Two thin strands are 1.3 cm apart at their centres when they touch. What looks `stride` apart
+  // may miss is a small share of it.
+  EXPECT_LT(deepest, 0.1);
+  EXPECT_GT(held, 0);
+  if (GetParam() >= 10000) {
+    EXPECT_TRUE(shortened);  // no row can see so far
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Speeds, ClosingArms, testing::Values(10, 100, 1000, 10000));
+
+}  // namespace
+}  // namespace hagfish

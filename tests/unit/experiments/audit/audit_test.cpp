@@ -1,0 +1,267 @@
+// `hagfish check`: passes a log of the sliding phase, and names what was tampered with.
+#include "experiments/audit/audit.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <optional>
+
+#include "core/log/log_writer.hpp"
+#include "mujoco_ref/mjcf.hpp"
+#include "tests/support/random_chain.hpp"
+#include "tests/support/stored_states.hpp"
+
+namespace hagfish {
+namespace {
+
+namespace fs = std::filesystem;
+
+class AuditTest : public testing::Test {
+ protected:
+  /// From the stored state of that number, or from the scene's own start.
+  explicit AuditTest(const std::vector<std::string>& more = {}, std::optional<int> from = 3)
+      : file(fs::path(testing::TempDir()) / ("audit_" + std::to_string(getpid()) + ".h5")) {
+    // The excerpt is of 13.76 to 13.82 s.
+    std::vector<std::string> overrides = {"time.frame_interval=0.01", "expect.hand=right",
+                                          "expect.types=[['3_1', 13, 14]]"};
+    overrides.insert(overrides.end(), more.begin(), more.end());
+    const ResolvedScene resolved = stored_scene(overrides);
+    const Scene& scene = resolved.scene;
+    const Model model = make_hagfish(resolved.specimen, scene);
+    LogHeader header;
+    header.scene = scene_to_toml(scene, resolved.specimen);
+    header.mjcf = mjcf_files(model, scene.contact.least_arc, scene.time.step);
+    LogWriter log(file, true, header, model, scene);
+    const auto solver = make_box_qp_solver("ipopt");
+    Simulation sim = start(model, scene);
+    if (from) {
+      StoredState stored = stored_states().at(*from);
+      stored.state = within_cones(model, stored.state);
+      sim = resume(model, scene, stored);
+    }
+    for (int k = 0; k < 30; ++k) {
+      log.write(take_step(model, scene, *solver, sim), 0);
+    }
+    log.finish("complete");
+  }
+  ~AuditTest() override { fs::remove(file); }
+
+  bool passes(const std::string& name) const {
+    for (const Finding& finding : audit(file)) {
+      if (finding.name == name) {
+        return finding.passed;
+      }
+    }
+    ADD_FAILURE() << "no finding named " << name;
+    return false;
+  }
+
+  /// Adds `change` to one number of a dataset of doubles.
+  void tamper(const std::string& path, std::size_t index, double change) const {
+    H5::H5File h5(file.string(), H5F_ACC_RDWR);
+    H5::DataSet set = h5.openDataSet(path);
+    std::vector<double> values(set.getSpace().getSimpleExtentNpoints());
+    set.read(values.data(), H5::PredType::NATIVE_DOUBLE);
+    values.at(index) += change;
+    set.write(values.data(), H5::PredType::NATIVE_DOUBLE);
+  }
+
+  fs::path file;
+};
+
+TEST_F(AuditTest, PassesAnHonestLog) {
+  for (const char* name : {"status", "knot held", "knot through time", "hand", "Eq. 6",
+                           "penetration", "limits", "head drift", "KKT residual", "force balance",
+                           "f_thigmo past the knot", "energy ledger", "energy gain"}) {
+    EXPECT_TRUE(passes(name)) << name;
+  }
+  // The excerpt starts knotted and does not slide 9 cm: that must show.
+  EXPECT_FALSE(passes("unknot at start"));
+  EXPECT_FALSE(passes("slide"));
+}
+
+TEST_F(AuditTest, SeesAForceThatWasChanged) {
+  tamper("/forces/thigmotaxis", 60, 1e-3);
+  EXPECT_FALSE(passes("force balance"));
+}
+
+// Each is a thousandth of the force that slides the knot, or less.
+TEST_F(AuditTest, MujocoMissesAForceThatWasChanged) {
+  EXPECT_TRUE(passes("forward-inverse"));
+  for (const char* block : {"thigmotaxis", "contact", "limit", "head"}) {
+    const std::string path = std::string("/forces/") + block;
+    tamper(path, 60, 0.1);
+    EXPECT_FALSE(passes("forward-inverse")) << block;
+    tamper(path, 60, -0.1);
+  }
+  tamper("/forces/tip", 0, 0.1);
+  EXPECT_FALSE(passes("forward-inverse"));
+}
+
+TEST_F(AuditTest, RefusesAModelThatIsNotTheScenes) {
+  const auto refusal = [this] {
+    try {
+      audit(file);
+    } catch (const FileError& error) {
+      return std::string(error.what());
+    }
+    return std::string("none");
+  };
+  tamper("/model/mass", 17, 0.25);
+  EXPECT_EQ(refusal().rfind(file.string() + ": /model/mass of body 17 is ", 0), 0u) << refusal();
+  tamper("/model/mass", 17, -0.25);
+  tamper("/model/limit_upper", root_dofs + 4, 0.25);
+  EXPECT_NE(refusal().find("/model/limit_upper of hinge 4 is "), std::string::npos) << refusal();
+  tamper("/model/limit_upper", root_dofs + 4, -0.25);
+
+  Scene damped = stored_scene().scene;
+  damped.model.bending_damping = 1;
+  H5::H5File h5(file.string(), H5F_ACC_RDWR);
+  const H5::StrType text(H5::PredType::C_S1, H5T_VARIABLE);
+  const Model other = make_hagfish(stored_scene().specimen, damped);
+  for (const auto& [name, content] : mjcf_files(other, damped.contact.least_arc, 0.002)) {
+    h5.openDataSet("/mjcf/" + name).write(content, text);
+  }
+  h5.close();
+  EXPECT_NE(refusal().find("/mjcf is not the scene's model: damping of j01_bend_y"),
+            std::string::npos)
+      << refusal();
+}
+
+/// The same run with limits on the total angle of its joints.
+class AuditOfCones : public AuditTest {
+ protected:
+  AuditOfCones() : AuditTest({"model.bending_limit=cone"}) {}
+};
+
+TEST_F(AuditOfCones, SeesABendPastItsCone) {
+  EXPECT_TRUE(passes("limits"));
+  EXPECT_TRUE(passes("forward-inverse"));
+  EXPECT_TRUE(passes("force balance"));
+  // As far about Y and Z as each alone might go.
+  const Model model = cone_hagfish();
+  const BendingCone& cone = model.cones.back();
+  const Hdf5Reader::Rows q = Hdf5Reader(file).rows("/trajectory/q");
+  for (const int k : {cone.dof + 1, cone.dof + 2}) {
+    tamper("/trajectory/q", k, 0.95 * cone.limit - q(0, k));
+  }
+  EXPECT_FALSE(passes("limits"));
+}
+
+TEST_F(AuditOfCones, RefusesALogOfOtherCones) {
+  tamper("/model/bending_limit", 5, 0.25);
+  try {
+    audit(file);
+    ADD_FAILURE();
+  } catch (const FileError& error) {
+    EXPECT_NE(std::string(error.what()).find("/model/bending_limit of joint 5 is "),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+/// A bent body let go in open water: no row has a force.
+class AuditWithoutForces : public AuditTest {
+ protected:
+  AuditWithoutForces()
+      : AuditTest({"clamp_head=false", "wall.present=false", "script.kind=none", "expect.knot=",
+                   "expect.types=[]", "start.bend=[[0, 0, 0.05, 0], [1, 0, 0.05, 0]]"},
+                  std::nullopt) {}
+};
+
+TEST_F(AuditWithoutForces, RoundingIsNoImbalance) {
+  for (const char* name : {"force balance", "balance of means", "forces of rows", "figures of q",
+                           "shape of forces", "contacts followed"}) {
+    EXPECT_TRUE(passes(name)) << name;
+  }
+}
+
+TEST_F(AuditTest, SeesContactsThatAreNone) {
+  EXPECT_TRUE(passes("contacts followed"));
+  const std::vector<hsize_t> shape = Hdf5Reader(file).shape("/thigmotaxis/spline_a");
+  for (std::size_t k = 0; k < shape[0] * shape[1]; ++k) {
+    tamper("/thigmotaxis/spline_a", k, 3);
+  }
+  EXPECT_FALSE(passes("contacts followed"));
+}
+
+TEST_F(AuditTest, SeesAMultiplierThatPulls) {
+  const std::vector<double> lambda = Hdf5Reader(file).doubles("/thigmotaxis/lambda");
+  tamper("/thigmotaxis/lambda", 0, -2 * lambda[0] - 1);
+  EXPECT_FALSE(passes("shape of forces"));
+}
+
+TEST_F(AuditTest, SeesAForceBehindTheKnot) {
+  const hsize_t nv = Hdf5Reader(file).shape("/forces/thigmotaxis")[1];
+  tamper("/forces/thigmotaxis", nv - 1, 1e-12);
+  EXPECT_FALSE(passes("f_thigmo past the knot"));
+}
+
+TEST_F(AuditTest, DoesNotLetNanPass) {
+  tamper("/forces/contact", 30, NAN);
+  tamper("/diagnostics/work_tip", 1, NAN);
+  EXPECT_FALSE(passes("force balance"));
+  EXPECT_FALSE(passes("energy ledger"));
+}
+
+TEST_F(AuditTest, RefusesALogThatDoesNotFitItsModel) {
+  H5::H5File h5(file.string(), H5F_ACC_RDWR);
+  h5.unlink("/trajectory/q");
+  h5.move("/trajectory/qdot", "/trajectory/q");
+  h5.close();
+  EXPECT_THROW(audit(file), FileError);
+}
+
+TEST_F(AuditTest, SeesABentLimit) {
+  tamper("/trajectory/q", 7 + 20, 0.5);
+  EXPECT_FALSE(passes("limits"));
+}
+
+TEST_F(AuditTest, SeesDriftPenetrationResidualAndEnergy) {
+  tamper("/steps/head_drift", 3, 1e-3);
+  tamper("/steps/penetration", 3, 0.1);
+  tamper("/steps/kkt", 3, 1e-6);
+  tamper("/diagnostics/work_tip", 2, 50);
+  EXPECT_FALSE(passes("head drift"));
+  EXPECT_FALSE(passes("penetration"));
+  EXPECT_FALSE(passes("KKT residual"));
+  EXPECT_FALSE(passes("energy ledger"));
+}
+
+TEST_F(AuditTest, SeesAKnotThatCameUndone) {
+  // One frame with the body pulled straight is enough.
+  const Hdf5Reader::Rows q = Hdf5Reader(file).rows("/trajectory/q");
+  for (Eigen::Index k = 7; k < q.cols(); ++k) {
+    tamper("/trajectory/q", k, -q(0, k));
+  }
+  EXPECT_FALSE(passes("knot held"));
+  EXPECT_FALSE(passes("knot through time"));
+}
+
+TEST_F(AuditTest, SeesTheMirrorImageOfTheKnotExpected) {
+  // y to -y, of one frame: root y, turns about x and z.
+  const Hdf5Reader::Rows q = Hdf5Reader(file).rows("/trajectory/q");
+  const ResolvedScene resolved = stored_scene();
+  const Model model = make_hagfish(resolved.specimen, resolved.scene);
+  const auto reflect = [&](Eigen::Index k) { tamper("/trajectory/q", k, -2 * q(0, k)); };
+  for (const Eigen::Index k : {1, 4, 6}) {
+    reflect(k);
+  }
+  for (std::size_t k = 0; k < model.hinges.size(); ++k) {
+    if (model.hinges[k].axis != Axis::y) {
+      reflect(7 + static_cast<Eigen::Index>(k));
+    }
+  }
+  EXPECT_TRUE(passes("knot held"));
+  EXPECT_FALSE(passes("hand"));
+}
+
+TEST_F(AuditTest, SeesEnergyOutOfNothing) {
+  tamper("/diagnostics/kinetic_energy", 2, 1e6);  // erg; the bent body holds some 1e5
+  EXPECT_FALSE(passes("energy gain"));
+}
+
+}  // namespace
+}  // namespace hagfish

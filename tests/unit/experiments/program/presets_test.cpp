@@ -1,0 +1,40 @@
+#include "experiments/program/presets.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/input/builtin_files.hpp"
+#include "experiments/program/scene_argument.hpp"
+#include "solvers/box_qp.hpp"
+
+namespace hagfish {
+namespace {
+
+TEST(Presets, AreThoseOfTheReadme) { EXPECT_EQ(preset_names(), "quick, default, figure"); }
+
+TEST(Presets, DefaultIsTheSceneItself) { EXPECT_TRUE(preset_called("default").set.empty()); }
+
+TEST(Presets, FitEveryScene) {
+  for (const Preset& preset : presets()) {
+    EXPECT_NO_THROW(make_box_qp_solver(preset.qp)) << preset.name;
+    for (const std::string_view scene : builtin_scene_names()) {
+      EXPECT_NO_THROW(scene_argument(std::string(scene), preset.set)) << preset.name << scene;
+    }
+  }
+}
+
+// The longer the step, the cheaper and the rougher.
+TEST(Presets, RiseInCostFromQuickToFigure) {
+  double before = 1;
+  for (const char* name : {"quick", "default", "figure"}) {
+    const double step = scene_argument("table1", preset_called(name).set).scene.time.step;
+    EXPECT_LT(step, before) << name;
+    before = step;
+  }
+}
+
+TEST(Presets, AreNoScene) {
+  for (const std::string_view scene : builtin_scene_names()) EXPECT_NE(scene, "presets");
+}
+
+}  // namespace
+}  // namespace hagfish

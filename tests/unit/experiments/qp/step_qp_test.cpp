@@ -1,0 +1,78 @@
+// QPs taken out of a run, in both forms.
+#include "experiments/qp/step_qp.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+
+#include "tests/support/random_chain.hpp"
+#include "tests/support/stored_states.hpp"
+
+namespace hagfish {
+namespace {
+
+class StepQp : public testing::TestWithParam<StoredState> {};
+
+TEST_P(StepQp, BothFormsHaveTheStepsOwnSolution) {
+  // Long steps, with more rows in reach.
+  const ResolvedScene resolved = stored_scene({"time.step=0.005"});
+  const Model model = make_hagfish(resolved.specimen, resolved.scene);
+  const auto solver = make_box_qp_solver("active-set");
+  Simulation sim = resume(model, resolved.scene, GetParam());
+  for (int k = 0; k < 2; ++k) {  // limits are held once two steps have seen them
+    take_step(model, resolved.scene, *solver, sim);
+  }
+  const WarmStart warm = sim.warm;
+  const StepRecord record = take_step(model, resolved.scene, *solver, sim);
+  const StepSolution& step = record.solution;
+  const std::vector<Row>& rows = step.rows;
+  ASSERT_TRUE(has_qp(step));
+  EXPECT_GE(step.held, record.control.clamp_head ? 6 : 1);
+
+  const BoxQp box = whole_dual(model, record.situation.kin, step.system, rows);
+  ASSERT_EQ(box.b.size(), step.lambda.size());
+  // To rounding of λ, of which a step finds those held by another way: seen 1e-12.
+  EXPECT_LE(kkt_residuals(box, step.lambda).worst(), 1e-10);
+  // What the step says of the rows that it does not hold is as large as what the whole problem has.
+  EXPECT_LE(step.kkt.worst(), 3 * kkt_residuals(box, step.lambda, step.excess).worst() + 1e-15);
+  const PrimalQp primal = to_primal(model, record);
+  EXPECT_EQ(primal.e.size(), record.control.clamp_head ? 6 : 0);
+  const BoxQp dual = dual_of(primal);
+  // Bilateral rows come first, so that the order is the same. A condition of H of 1.4e6 and as much
+  // in the units of A's entries.
+  EXPECT_LE(relative_error(dual.A, box.A), 1e-10);
+  EXPECT_LE(relative_error(dual.b, box.b), 1e-10);
+  EXPECT_EQ(dual.lower, box.lower);
+  const Eigen::MatrixXd C = dense_rows(model, record.situation.kin, rows);
+  EXPECT_LE(relative_error(primal.C, C.bottomRows(primal.d.size())), 1e-13);
+
+  const Eigen::VectorXd start = kept_multipliers(rows, warm);
+  EXPECT_FALSE(start.isZero(0)) << "a warm one";
+  for (Eigen::Index i = 0; i < start.size(); ++i) {
+    const WarmStart::Kept* kept = warm.find(rows[i].id);
+    EXPECT_EQ(start[i], kept == nullptr ? 0 : kept->lambda);
+  }
+
+  EXPECT_FALSE(at_cap(step));
+  StepSolution capped = step;
+  bool soft = false;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (std::isfinite(rows[i].upper)) {
+      capped.lambda[static_cast<Eigen::Index>(i)] = rows[i].upper;
+      soft = true;
+    }
+  }
+  EXPECT_EQ(at_cap(capped), soft);
+}
+
+/// Early in the script no unilateral row is in reach, and the step has no QP.
+std::vector<StoredState> states_with_qp() {
+  std::vector<StoredState> states = stored_states();
+  std::erase_if(states, [](const StoredState& stored) { return stored.name == "form early"; });
+  return states;
+}
+
+INSTANTIATE_TEST_SUITE_P(Table1, StepQp, testing::ValuesIn(states_with_qp()), name_of);
+
+}  // namespace
+}  // namespace hagfish

@@ -1,0 +1,128 @@
+#include "experiments/stress/stress_judge.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/support/stored_states.hpp"
+
+namespace hagfish {
+namespace {
+
+/// A judge of two straight bodies' worth of scene, shown steps by hand.
+class StressJudgeTest : public testing::Test {
+ protected:
+  StressJudgeTest()
+      : resolved(stored_scene({"expect.knot=", "expect.slide_distance=0", "wall.present=false",
+                               "expect.penetration=0.1", "expect.energy_gain=0.01"})),
+        scene(resolved.scene),
+        model(make_hagfish(resolved.specimen, scene)),
+        state(rest_state(model)),
+        judge(model, scene, state, 100) {}
+
+  /// Shows a step to where the judge already is, with figures of its own.
+  void show(double penetration, double limit_violation, const EnergyState& energy) {
+    Situation situation = observe(model, state, scene);
+    situation.penetration = penetration;
+    situation.limit_violation = limit_violation;
+    judge.see(state, state, situation, 0.002, energy);
+  }
+
+  ResolvedScene resolved;
+  const Scene& scene;
+  Model model;
+  State state;
+  StressJudge judge;
+};
+
+TEST_F(StressJudgeTest, NothingWrongIsOk) {
+  show(0.09, 1e-5, {150, 50});  // 50 erg put in, and all there
+  EXPECT_EQ(judge.ended().outcome, Outcome::ok);
+  EXPECT_EQ(judge.ended().message, "");
+}
+
+TEST_F(StressJudgeTest, EnergyAboveWhatWasPutInIsGain) {
+  show(0, 0, {152, 50});                                       // 2 of 150
+  EXPECT_NEAR(judge.figures().energy_gain, 2.0 / 150, 1e-15);  // one rounding
+  EXPECT_EQ(judge.ended().outcome, Outcome::energy_gain);
+}
+
+TEST_F(StressJudgeTest, PenetrationComesBeforeLimits) {
+  show(0, 0.1, {100, 0});
+  EXPECT_EQ(judge.ended().outcome, Outcome::limits);
+  show(0.2, 0, {100, 0});
+  EXPECT_EQ(judge.ended().outcome, Outcome::penetration);
+}
+
+TEST_F(StressJudgeTest, ACauseIsItsOwnOutcome) {
+  for (const auto& [cause, outcome] : {std::pair{StopCause::non_finite, Outcome::non_finite},
+                                       {StopCause::penetration, Outcome::penetration},
+                                       {StopCause::limits, Outcome::limits},
+                                       {StopCause::speed, Outcome::speed},
+                                       {StopCause::energy_gain, Outcome::energy_gain},
+                                       {StopCause::infeasible, Outcome::infeasible},
+                                       {StopCause::solver_failed, Outcome::solver_failed},
+                                       {StopCause::never_tied, Outcome::never_tied},
+                                       {StopCause::knot_lost, Outcome::came_undone}}) {
+    const Verdict verdict = judge.stopped(cause, "why");
+    EXPECT_EQ(verdict.outcome, outcome) << stop_cause_name(cause);
+    EXPECT_EQ(verdict.message, "why");
+  }
+}
+
+TEST_F(StressJudgeTest, AStopBySpeedAfterEnergyGainIsEnergyGain) {
+  show(0, 0, {1e6, 0});
+  EXPECT_EQ(judge.stopped(StopCause::speed, "fast").outcome, Outcome::energy_gain);
+  EXPECT_EQ(judge.stopped(StopCause::knot_lost, "gone").outcome, Outcome::energy_gain);
+  EXPECT_EQ(judge.stopped(StopCause::infeasible, "rows").outcome, Outcome::infeasible);
+}
+
+TEST_F(StressJudgeTest, StrandsThatPassWithinAStepTunnel) {
+  // A loop whose tail lies above the front of the body, and then below: both ends of the step are
+  // free of overlap.
+  const auto loop = [&](double lift) {
+    StartSettings settings;
+    settings.bend = {{0.2, 0, 0, 0},       {0.2001, 0, lift, 0}, {0.28, 0, lift, 0},
+                     {0.2801, 0, 0, 0.25}, {0.7246, 0, 0, 0.25}, {0.7247, 0, 0, 0}};
+    return start_state(model, settings);
+  };
+  const State before = loop(0.3);
+  State after = loop(-0.3);
+  after.qdot.tail(model.nv() - root_dofs) =
+      (after.q - before.q).tail(model.nv() - root_dofs) / scene.time.step;
+  const Situation situation = observe(model, after, scene);
+  ASSERT_EQ(observe(model, before, scene).penetration, 0);
+  ASSERT_EQ(situation.penetration, 0);
+  judge.see(before, after, situation, 0.002, {100, 0});
+  EXPECT_EQ(judge.ended().outcome, Outcome::tunnelled);
+}
+
+TEST_F(StressJudgeTest, AKnotThatChangesItsTypeComesUndone) {
+  ResolvedScene tied = stored_scene();
+  for (const StoredState& stored : stored_states()) {
+    if (stored.name == "slide") {
+      tied.scene.start.phase = Phase::slide;
+      StressJudge watch(model, tied.scene, stored.state, 100);
+      EXPECT_EQ(watch.figures().knot, "3_1");
+      watch.see(state, state, observe(model, state, tied.scene), 1, {100, 0});
+      EXPECT_EQ(watch.figures().knot, "0_1");
+      EXPECT_EQ(watch.ended().outcome, Outcome::came_undone);
+      EXPECT_EQ(watch.ended().message, "3_1 became 0_1 at 1 s");
+    }
+  }
+}
+
+TEST_F(StressJudgeTest, AScriptThatNeverTiesIsNamed) {
+  const ResolvedScene untied = stored_scene();
+  EXPECT_EQ(StressJudge(model, untied.scene, state, 0).ended().outcome, Outcome::never_tied);
+}
+
+TEST_F(StressJudgeTest, AKnotThatDoesNotSlideIsCapped) {
+  ResolvedScene stuck = stored_scene();
+  stuck.scene.start.phase = Phase::slide;
+  EXPECT_EQ(StressJudge(model, stuck.scene, stored_states().at(3).state, 0).ended().outcome,
+            Outcome::capped);
+}
+
+}  // namespace
+}  // namespace hagfish
