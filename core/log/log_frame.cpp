@@ -137,8 +137,7 @@ void declare_thigmotaxis(LogTable<Frame>& t) {
       "/thigmotaxis/speed", {4}, {"cm/s", order + "left side of Eq. 6, nan where no row"},
       [](const Frame& f) -> const auto& { return f.thigmotaxis.speed; });
   t.numbers(
-      "/thigmotaxis/slack", {4},
-      {"cm/s", order + "shortfall of the speed asked for, nan where no row"},
+      "/thigmotaxis/slack", {4}, {"cm/s", order + "shortfall of the command, nan where no row"},
       [](const Frame& f) -> const auto& { return f.thigmotaxis.slack; });
 }
 
@@ -176,7 +175,8 @@ void declare_means(const Model& model, Hdf5Writer& file, LogTable<Frame>& t) {
   };
   row("lambda", "dyn", "multiplier over h, 0 where no row", &FrameMeans::lambda);
   row("speed", "cm/s", "left side of Eq. 6 where there was a row, else nan", &FrameMeans::speed);
-  row("slack", "cm/s", "shortfall of Eq. 6 where there was a row, else nan", &FrameMeans::slack);
+  row("slack", "cm/s", "shortfall of the command where there was a row, else nan",
+      &FrameMeans::slack);
 }
 
 void declare_diagnostics(LogTable<Frame>& t) {
@@ -287,7 +287,7 @@ void declare_steps(Hdf5Writer& file, LogTable<LoggedStep>& t) {
   };
   row("lambda", "dyn", "multiplier over h of each step", &ThigmotaxisRows::lambda);
   row("speed", "cm/s", "left side of Eq. 6, nan where no row", &ThigmotaxisRows::speed);
-  row("slack", "cm/s", "shortfall of Eq. 6, nan where no row", &ThigmotaxisRows::slack);
+  row("slack", "cm/s", "shortfall of the command, nan where no row", &ThigmotaxisRows::slack);
   t.number("/steps/kkt", {"1", "largest KKT residual of each step"},
            [](const LoggedStep& s) { return worst_residual(s.record.solution); });
   t.number("/steps/penetration", {"cm", "deepest at each step's start"},

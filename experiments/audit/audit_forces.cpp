@@ -160,8 +160,6 @@ Eigen::MatrixXd ForceAudit::see_thigmotaxis(const AuditedFrame& frame) {
   const Model& model = log_.model;
   const Scene& scene = log_.resolved.scene;
   const Kinematics& kin = frame.situation.kin;
-  const Eigen::Matrix3Xd velocity =
-      centre_velocities(kin, body_twists(model, kin, frame.qdot_next));
   const Eigen::Vector4d commanded = commands(scene, frame.phase);
   const double sense = towards_tail(scene, frame.phase) ? -1 : 1;
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(model.nv(), 4);
@@ -184,7 +182,7 @@ Eigen::MatrixXd ForceAudit::see_thigmotaxis(const AuditedFrame& frame) {
       const Contact contact = contact_of(log_, frame, a, b);
       const Row row = motion_row(
           model, along == 0 ? sense * contact.tangent_a : -sense * contact.tangent_b, a, b);
-      const double speed = row_velocity(row, velocity, frame.qdot_next);
+      const double speed = row_velocity(row, frame.next_velocity, frame.qdot_next);
       from_rows_.compare("/thigmotaxis/speed", speed_(f, k), speed);
       // A row below its cap is met, with a force exactly: at its command, or on the way to it.
       const double asked =
@@ -292,8 +290,7 @@ void ForceAudit::see_tip(const AuditedFrame& frame) {
     tip = script_force(scene.script, log_.time[frame.index], scene.time.step, kin.centre.col(last),
                        kin.centre_velocity.col(last));
   }
-  const Eigen::Vector3d next =
-      centre_velocities(kin, body_twists(log_.model, kin, frame.qdot_next)).col(last);
+  const Eigen::Vector3d next = frame.next_velocity.col(last);
   from_rows_.compare("/forces/tip", tip_.row(frame.index).transpose(), tip.value - tip.rate * next);
 }
 

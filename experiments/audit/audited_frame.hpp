@@ -16,13 +16,16 @@ struct AuditedFrame {
         phase(static_cast<Phase>(log.phase[frame])),
         state{log.q.row(frame), log.qdot.row(frame)},
         qdot_next(log.qdot_next.row(frame)),
-        situation(observe(log.model, state, log.resolved.scene)) {}
+        situation(observe(log.model, state, log.resolved.scene)),
+        next_velocity(
+            centre_velocities(situation.kin, body_twists(log.model, situation.kin, qdot_next))) {}
 
   Eigen::Index index;
   Phase phase;
   State state;
   Eigen::VectorXd qdot_next;
-  Situation situation;  ///< observed anew from the logged state
+  Situation situation;             ///< observed anew from the logged state
+  Eigen::Matrix3Xd next_velocity;  ///< of the bodies' centres at qdot_next, 3 x N, cm/s
 };
 
 /// Whether a logged spline parameter lies on the animal.

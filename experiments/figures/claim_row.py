@@ -10,8 +10,7 @@ import claims
 from hagfish_log import HagfishLog, LogError, run_script
 from study import write_csv
 
-MEASURES = ["slide_cm", "beyond_dyn_cm", "near_over_far", "roughness_space", "roughness_time", "roughness_time_steps",
-            "dct_modes_95", "effort_dyn_cm"]
+MEASURES = ["slide_cm", "beyond_dyn_cm", "near_over_far", "roughness_space", "roughness_time", "dct_modes_95"]
 NEAR_RELEASE = 0.5  # cm
 HEADING = ["outcome", *MEASURES, *claims.NAMES]
 
@@ -46,8 +45,7 @@ def judged(log: HagfishLog) -> list[object]:
     verdict = claims.verdicts(a, b, c)
     return ["slid", float(s.head_end[0] - s.head_end[-1]), float(a["largest_beyond_reach_of_rows_dyn_cm"]),
             near_over_far(s), worst("roughness_in_space"), worst("roughness_in_time"),
-            float(c["multipliers_roughness_in_time_every_step"]), worst("dct_modes_95"),
-            float(np.abs(s.force).sum(axis=1).mean()), *(verdict[name] for name in claims.NAMES)]
+            worst("dct_modes_95"), *(verdict[name] for name in claims.NAMES)]
 
 
 def main(log: HagfishLog, out: Path) -> None:
