@@ -33,7 +33,7 @@ struct Dynamics {
 };
 
 Dynamics core_dynamics(const Model& model, const State& state, const Kinematics& kin, Head head) {
-  const Operator op{body_inertias(model, kin), Eigen::VectorXd::Zero(model.nv())};
+  const StepOperator op{body_inertias(model, kin), Eigen::VectorXd::Zero(model.nv())};
   Eigen::VectorXd joint = stiffness_force(model, state.q);
   for (int k = root_dofs; k < model.nv(); ++k) {
     joint[k] -= model.hinges[k - root_dofs].damping * state.qdot[k];

@@ -30,12 +30,12 @@ std::vector<State> core_rollout(const Model& model, const State& start, Head hea
   WarmStart warm;
   StepScratch scratch;
   StepSolution step;
-  Situation situation;  // without contacts
+  Observation observation;  // without contacts
   std::vector<State> states;
   State state = start;
   for (int i = 0; i < steps; ++i) {
-    situation.kin = kinematics(model, state);
-    solve_step(model, state, situation, control, scene, *solver, warm, scratch, step);
+    observation.kin = kinematics(model, state);
+    solve_step(model, state, observation, control, scene, *solver, warm, scratch, step);
     state.qdot = step.qdot;
     state.q = advance(state.q, state.qdot, h);
     states.push_back(state);

@@ -7,7 +7,7 @@
 
 namespace hagfish {
 
-void multiply(const Model& model, const Kinematics& kin, const Operator& op,
+void multiply(const Model& model, const Kinematics& kin, const StepOperator& op,
               const Eigen::VectorXd& v, const Matrix6Xd& twist, Matrix6Xd& wrench,
               Eigen::VectorXd& product) {
   wrench.resize(6, model.body_count());
@@ -18,7 +18,7 @@ void multiply(const Model& model, const Kinematics& kin, const Operator& op,
   product += op.diagonal.cwiseProduct(v);
 }
 
-Eigen::VectorXd multiply(const Model& model, const Kinematics& kin, const Operator& op,
+Eigen::VectorXd multiply(const Model& model, const Kinematics& kin, const StepOperator& op,
                          const Eigen::VectorXd& v) {
   Matrix6Xd wrench;
   Eigen::VectorXd product;
@@ -26,7 +26,7 @@ Eigen::VectorXd multiply(const Model& model, const Kinematics& kin, const Operat
   return product;
 }
 
-Eigen::MatrixXd dense(const Model& model, const Kinematics& kin, const Operator& op) {
+Eigen::MatrixXd dense(const Model& model, const Kinematics& kin, const StepOperator& op) {
   Eigen::MatrixXd h = Eigen::MatrixXd::Zero(model.nv(), model.nv());
   Matrix6d composite = Matrix6d::Zero();
   for (int b = model.body_count() - 1; b >= 0; --b) {
@@ -45,7 +45,7 @@ Eigen::MatrixXd dense(const Model& model, const Kinematics& kin, const Operator&
   return h;
 }
 
-void ArticulatedFactor::factorise(const Model& model, const Kinematics& kin, const Operator& op,
+void ArticulatedFactor::factorise(const Model& model, const Kinematics& kin, const StepOperator& op,
                                   std::span<const HeldVelocity> held) {
   weighted_.resize(6, model.nv());
   pivot_.resize(model.nv());

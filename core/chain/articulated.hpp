@@ -14,21 +14,21 @@
 
 namespace hagfish {
 
-struct Operator {
+struct StepOperator {
   std::vector<Matrix6d> inertia;  ///< Î, one symmetric positive operator per body, about O
   Eigen::VectorXd diagonal;       ///< δ >= 0, nv
 };
 
 /// H v in O(n); `twist` are those of the bodies at v (6 x N), `wrench` is storage.
-void multiply(const Model& model, const Kinematics& kin, const Operator& op,
+void multiply(const Model& model, const Kinematics& kin, const StepOperator& op,
               const Eigen::VectorXd& v, const Matrix6Xd& twist, Matrix6Xd& wrench,
               Eigen::VectorXd& product);
-Eigen::VectorXd multiply(const Model& model, const Kinematics& kin, const Operator& op,
+Eigen::VectorXd multiply(const Model& model, const Kinematics& kin, const StepOperator& op,
                          const Eigen::VectorXd& v);
 
 /// Lower and upper triangle of H, dense nv x nv (composite rigid bodies; with Î the bodies'
 /// inertias and δ = 0 this is the mass matrix M).
-Eigen::MatrixXd dense(const Model& model, const Kinematics& kin, const Operator& op);
+Eigen::MatrixXd dense(const Model& model, const Kinematics& kin, const StepOperator& op);
 
 /// C' of m rows, column by column: joint forces and wrenches on single bodies; then Y with
 /// Y'Y = C H⁻¹ C'. A column ends with the last velocity that moves what its row is about; those
@@ -85,7 +85,7 @@ class ArticulatedFactor {
  public:
   /// `held` by rising dof, once each. Throws std::domain_error, naming the dof, where H is not
   /// positive definite.
-  void factorise(const Model& model, const Kinematics& kin, const Operator& op,
+  void factorise(const Model& model, const Kinematics& kin, const StepOperator& op,
                  std::span<const HeldVelocity> held = {});
 
   /// H v = J' w + τ + what holds those held, for one wrench per body (6 x N) and joint forces τ

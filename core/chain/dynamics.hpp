@@ -43,7 +43,7 @@ struct TipForce {
 
 /// One step's unconstrained problem H q̇* = M q̇0 + h f (paper, Eq. 1).
 struct StepSystem {
-  Operator op;            ///< H = M + h D - h² K
+  StepOperator op;        ///< H = M + h D - h² K
   Matrix6Xd bias;         ///< as bias_wrench, but with moments about the bodies' centres, 6 x N
   Matrix6Xd wrench;       ///< right-hand side, body part, 6 x N (times s)
   Eigen::VectorXd joint;  ///< right-hand side, joint part, nv (times s)

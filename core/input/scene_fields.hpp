@@ -71,8 +71,8 @@ void constraint_fields(Io& io, ConstraintSettings& s) {
   io.template choice<Activation>(
       "activation", s.activation,
       {{"speculative", Activation::speculative}, {"violated", Activation::violated}});
-  io.number("push_out", s.push_out, within(0, 1));
-  io.number("push_out_speed", s.push_out_speed, positive());
+  io.number("baumgarte", s.baumgarte, within(0, 1));
+  io.number("baumgarte_speed", s.baumgarte_speed, positive());
   io.number("tolerance", s.tolerance, not_negative());
   io.integer("corrections", s.corrections, within(0, 100));
   io.number("stride", s.stride, positive());

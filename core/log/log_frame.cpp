@@ -74,7 +74,7 @@ void declare_trajectory(const Model& model, LogTable<Frame>& t) {
       [](const Frame& f) -> const auto& { return f.record.solution.qdot; });
   t.numbers(
       "/trajectory/position", {n, 3}, {"cm", "body centres, world axes"},
-      [](const Frame& f) -> const auto& { return f.record.situation.kin.centre; });
+      [](const Frame& f) -> const auto& { return f.record.observation.kin.centre; });
 }
 
 void declare_knot(LogTable<Frame>& t) {
@@ -188,7 +188,7 @@ void declare_diagnostics(LogTable<Frame>& t) {
   t.count(path + "active", "rows with a force",
           [](const Frame& f) { return f.record.solution.active; });
   t.count(path + "contacts", "local minima of the gap within the margin",
-          [](const Frame& f) { return f.record.situation.contact.contacts.size(); });
+          [](const Frame& f) { return f.record.observation.contact.contacts.size(); });
   t.count(path + "iterations", "iterations of the QP back end",
           [](const Frame& f) { return f.record.solution.iterations; });
   t.number(
@@ -246,8 +246,8 @@ void declare_energy(LogTable<Frame>& t) {
 }  // namespace
 
 void Worst::take(const StepRecord& record) {
-  penetration = std::max(penetration, record.situation.penetration);
-  limit_violation = std::max(limit_violation, record.situation.limit_violation);
+  penetration = std::max(penetration, record.observation.penetration);
+  limit_violation = std::max(limit_violation, record.observation.limit_violation);
   head_drift = std::max(head_drift, record.head_drift);
   kkt = std::max(kkt, worst_residual(record.solution));
 }
@@ -291,9 +291,9 @@ void declare_steps(Hdf5Writer& file, LogTable<LoggedStep>& t) {
   t.number("/steps/kkt", {"1", "largest KKT residual of each step"},
            [](const LoggedStep& s) { return worst_residual(s.record.solution); });
   t.number("/steps/penetration", {"cm", "deepest at each step's start"},
-           [](const LoggedStep& s) { return s.record.situation.penetration; });
+           [](const LoggedStep& s) { return s.record.observation.penetration; });
   t.number("/steps/limit_violation", {"rad", "largest at each step's start"},
-           [](const LoggedStep& s) { return s.record.situation.limit_violation; });
+           [](const LoggedStep& s) { return s.record.observation.limit_violation; });
   t.number("/steps/head_drift", {"cm", "at each step's start while clamped"},
            [](const LoggedStep& s) { return s.record.head_drift; });
   t.number("/steps/qp_time", {"s", "wall time in the QP back end, each step"},

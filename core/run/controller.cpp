@@ -20,7 +20,7 @@ double apart(const Contact& x, const Contact& y) {
 
 /// One step of a tracked contact: it goes on as the outermost one where that is the same, else as
 /// the nearest minimum, else as the same material points, for the hysteresis time at most.
-void follow(TrackedContact& tracked, const Situation& situation, const Contact* outermost,
+void follow(TrackedContact& tracked, const Observation& observation, const Contact* outermost,
             double time, double hysteresis) {
   if (outermost == nullptr) {
     tracked = {};
@@ -31,7 +31,7 @@ void follow(TrackedContact& tracked, const Situation& situation, const Contact* 
     tracked = {*outermost, time};
     return;
   }
-  const std::vector<Contact>& contacts = situation.contact.contacts;
+  const std::vector<Contact>& contacts = observation.contact.contacts;
   const Contact& old = *tracked.contact;
   const auto nearest = std::min_element(
       contacts.begin(), contacts.end(),
@@ -39,12 +39,12 @@ void follow(TrackedContact& tracked, const Situation& situation, const Contact* 
   tracked.contact =
       apart(*nearest, old) < same_contact
           ? *nearest
-          : contact_at(situation.segments, old.segment_a, old.t_a, old.segment_b, old.t_b);
+          : contact_at(observation.segments, old.segment_a, old.t_a, old.segment_b, old.t_b);
 }
 
-void follow_contacts(const Scene& scene, const Situation& situation, double time,
+void follow_contacts(const Scene& scene, const Observation& observation, double time,
                      ControllerState& controller) {
-  const std::vector<Contact>& contacts = situation.contact.contacts;
+  const std::vector<Contact>& contacts = observation.contact.contacts;
   const Contact* first = nullptr;
   const Contact* last = nullptr;
   for (const Contact& contact : contacts) {
@@ -58,8 +58,8 @@ void follow_contacts(const Scene& scene, const Situation& situation, double time
       last = &contact;
     }
   }
-  follow(controller.first, situation, first, time, scene.controller.hysteresis);
-  follow(controller.last, situation, last, time, scene.controller.hysteresis);
+  follow(controller.first, observation, first, time, scene.controller.hysteresis);
+  follow(controller.last, observation, last, time, scene.controller.hysteresis);
 }
 
 void enter(ControllerState& controller, Phase phase, double time) {
@@ -68,11 +68,11 @@ void enter(ControllerState& controller, Phase phase, double time) {
 }
 
 /// Notes the knot type just seen, and since when it has been there.
-void look_at_knot(const Scene& scene, const Situation& situation, double time,
+void look_at_knot(const Scene& scene, const Observation& observation, double time,
                   ControllerState& controller) {
   const KnotInvariants before = controller.knot.type;
   controller.knot_seen = time;
-  controller.knot = knot_type(situation.kin.centre, scene.knot);
+  controller.knot = knot_type(observation.kin.centre, scene.knot);
   if (controller.knot.type != before) {
     if (before != KnotInvariants{}) {
       controller.past = {before, controller.knot_from, time};
@@ -192,13 +192,13 @@ bool clamps_head(const Scene& scene, Phase phase) {
   return scene.clamp_head && phase_order(phase) < phase_order(scene.controller.free_from);
 }
 
-void decide(const Model& model, const Scene& scene, const Situation& situation, double time,
+void decide(const Model& model, const Scene& scene, const Observation& observation, double time,
             ControllerState& controller, Control& control) {
-  follow_contacts(scene, situation, time, controller);
+  follow_contacts(scene, observation, time, controller);
   // Half a step of slack: the time of a step is a product and may fall short by rounding.
   if (controller.phase != Phase::free &&
       time + 0.5 * scene.time.step >= controller.knot_seen + scene.knot.interval) {
-    look_at_knot(scene, situation, time, controller);
+    look_at_knot(scene, observation, time, controller);
     switch_by_knot(model, scene, time, controller);
   }
   switch_by_span(model, scene, time, controller);
@@ -207,7 +207,7 @@ void decide(const Model& model, const Scene& scene, const Situation& situation, 
   control.thigmotaxis.clear();
   control.clamp_head = clamps_head(scene, controller.phase);
   const int last = model.body_count() - 1;
-  const Kinematics& kin = situation.kin;
+  const Kinematics& kin = observation.kin;
   if (controller.phase == Phase::form) {
     control.tip = script_force(scene.script, time, scene.time.step, kin.centre.col(last),
                                kin.centre_velocity.col(last));

@@ -51,7 +51,7 @@ bool clamps_head(const Scene& scene, Phase phase);
 /// Throws StepError (never_tied) where the script ends without the scene's knot, or with too little
 /// tail through it, and (knot_lost) where that knot goes before it may, unless the scene only
 /// warns. what() says which knot there is, since when.
-void decide(const Model& model, const Scene& scene, const Situation& situation, double time,
+void decide(const Model& model, const Scene& scene, const Observation& observation, double time,
             ControllerState& controller, Control& control);
 
 }  // namespace hagfish

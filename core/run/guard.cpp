@@ -13,10 +13,11 @@ namespace {
 constexpr double degree = std::numbers::pi / 180;
 
 /// The deepest overlap of a state by the names of what touches.
-std::string deepest_overlap(const Model& model, const Situation& situation, const Scene& scene) {
+std::string deepest_overlap(const Model& model, const Observation& observation,
+                            const Scene& scene) {
   double least = 0;
   std::string name = "none";
-  for (const auto* contacts : {&situation.contact.contacts, &situation.contact.others}) {
+  for (const auto* contacts : {&observation.contact.contacts, &observation.contact.others}) {
     for (const Contact& contact : *contacts) {
       if (contact.gap < least) {
         least = contact.gap;
@@ -24,7 +25,7 @@ std::string deepest_overlap(const Model& model, const Situation& situation, cons
       }
     }
   }
-  visit_wall_gaps(model, situation.kin, scene.wall, [&](int body, double gap) {
+  visit_wall_gaps(model, observation.kin, scene.wall, [&](int body, double gap) {
     if (gap < least) {
       least = gap;
       name = fmt::format("body {} and the head plate", body);
@@ -103,18 +104,18 @@ void guard_speed(const Eigen::Matrix3Xd& centre_velocity, const GuardSettings& g
   }
 }
 
-void guard_state(const Model& model, const State& state, const Situation& situation,
+void guard_state(const Model& model, const State& state, const Observation& observation,
                  double crossing, const Scene& scene, Watch& watch,
                  std::vector<std::string>& warnings) {
   const GuardSettings& guard = scene.guard;
-  if (!situation.kin.centre.allFinite()) {
+  if (!observation.kin.centre.allFinite()) {
     throw StepError(StopCause::non_finite, "non-finite state");
   }
-  if (situation.penetration > guard.penetration) {
+  if (observation.penetration > guard.penetration) {
     report(StopCause::penetration,
            fmt::format("penetration {:.3g} cm of {} exceeds guard.penetration = {:g} cm; a smaller "
                        "time.step or more constraints.corrections would help",
-                       situation.penetration, deepest_overlap(model, situation, scene),
+                       observation.penetration, deepest_overlap(model, observation, scene),
                        guard.penetration),
            guard.action, watch, warnings);
   } else if (crossing > guard.penetration) {
@@ -125,11 +126,11 @@ void guard_state(const Model& model, const State& state, const Situation& situat
                        crossing, guard.penetration),
            guard.action, watch, warnings);
   }
-  if (situation.limit_violation > guard.limit_violation) {
+  if (observation.limit_violation > guard.limit_violation) {
     report(StopCause::limits,
            fmt::format("{} is {:.3g} deg past its limit, over guard.limit_violation_deg = {:g}; "
                        "constraints.activation = \"speculative\" or a smaller time.step would help",
-                       furthest_limit(model, state), situation.limit_violation / degree,
+                       furthest_limit(model, state), observation.limit_violation / degree,
                        guard.limit_violation / degree),
            guard.action, watch, warnings);
   }

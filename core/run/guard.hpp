@@ -29,7 +29,7 @@ void guard_speed(const Eigen::Matrix3Xd& centre_velocity, const GuardSettings& g
 
 /// The state that a step led to, and the deepest overlap on the way there (`crossing`, cm).
 /// Messages name the bodies or joint furthest out and the setting that would help.
-void guard_state(const Model& model, const State& state, const Situation& situation,
+void guard_state(const Model& model, const State& state, const Observation& observation,
                  double crossing, const Scene& scene, Watch& watch,
                  std::vector<std::string>& warnings);
 

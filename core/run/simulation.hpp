@@ -10,7 +10,7 @@
 namespace hagfish {
 
 /// What a step changes before it is sure to be taken, as it was: storage of take_step. Search
-/// segments are those of the situation.
+/// segments are those of the observation.
 struct BeforeStep {
   ControllerState controller;
   WarmStart warm;
@@ -24,8 +24,8 @@ struct BeforeStep {
 struct Simulation {
   std::int64_t step = 0;  ///< steps taken
   State state;
-  Situation situation;   ///< of `state`
-  ContactSearch search;  ///< that found its contacts
+  Observation observation;  ///< of `state`
+  ContactSearch search;     ///< that found its contacts
   ControllerState controller;
   WarmStart warm;
   StepScratch scratch;
@@ -53,7 +53,7 @@ struct StepRecord {
   std::int64_t step = 0;
   double time = 0;  ///< s
   State state;      ///< at `time`
-  Situation situation;
+  Observation observation;
   ControllerState controller;
   Control control;
   StepSolution solution;
@@ -68,7 +68,7 @@ struct StepRecord {
 /// it cannot. Whatever it throws, `sim` is then as it was, but for storage whose contents do not
 /// matter; a step with another scene goes on as if nothing had been. `record` then holds its step
 /// and time, the controller as far as it came and, where a guard looked at them, the state and
-/// situation that it refused.
+/// observation that it refused.
 void take_step(const Model& model, const Scene& scene, BoxQpSolver& solver, Simulation& sim,
                StepRecord& record);
 StepRecord take_step(const Model& model, const Scene& scene, BoxQpSolver& solver, Simulation& sim);

@@ -50,11 +50,12 @@ enum class Activation {
 
 struct ConstraintSettings {
   Activation activation = Activation::speculative;
-  /// Share of a violation pushed out per step: C v >= -push_out * gap / h for gap < 0.
-  double push_out = 0.5;
+  /// Baumgarte gain, the share of a violation that a step takes back: C v >= -baumgarte * gap / h
+  /// for gap < 0.
+  double baumgarte = 0.5;
   /// But no faster than this, cm/s: what is pushed out keeps its speed, which deep overlaps must
   /// not make a blast of.
-  double push_out_speed = 5;
+  double baumgarte_speed = 5;
   /// Speculative rows only: a step whose path overlaps by this much more than it should is solved
   /// again with rows that see it, cm.
   double tolerance = 0.0003;

@@ -109,10 +109,10 @@ void keep_active(const StepScratch& scratch, const StepSolution& step, WarmStart
 
 }  // namespace
 
-void finish_step(const Model& model, const Situation& situation, const Control& control,
+void finish_step(const Model& model, const Observation& observation, const Control& control,
                  const Scene& scene, WarmStart& warm, StepScratch& scratch, StepSolution& step) {
   scale_multipliers(scratch, step);
-  measure(model, situation.kin, scene.time.step, scratch, step);
+  measure(model, observation.kin, scene.time.step, scratch, step);
   keep_active(scratch, step, warm);
   step.active = static_cast<int>((step.lambda.array() != 0).count());
   const int last = model.body_count() - 1;

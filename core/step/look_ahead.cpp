@@ -22,12 +22,12 @@ void put(const Row& row, std::vector<Row>& rows) {
 
 }  // namespace
 
-int looks(const Eigen::Matrix3Xd& centre_velocity, double h, double stride) {
+int path_samples(const Eigen::Matrix3Xd& centre_velocity, double h, double stride) {
   const double longest = h * std::sqrt(centre_velocity.colwise().squaredNorm().maxCoeff());
   return std::max(1, static_cast<int>(std::ceil(longest / stride)));
 }
 
-bool add_missed_rows(const Model& model, const Situation& now, const Situation& there, double t,
+bool add_missed_rows(const Model& model, const Observation& now, const Observation& there, double t,
                      const Scene& scene, const StepSolution& step, std::vector<Row>& rows) {
   const ConstraintSettings& settings = scene.constraints;
   const double h = scene.time.step;
@@ -36,7 +36,8 @@ bool add_missed_rows(const Model& model, const Situation& now, const Situation& 
   bool any = false;
   const auto look = [&](double gap_now, double gap_there, const auto& make_row) {
     const double before = std::min(0.0, gap_now);
-    const double goal = before + std::min(-settings.push_out * before, h * settings.push_out_speed);
+    const double goal =
+        before + std::min(-settings.baumgarte * before, h * settings.baumgarte_speed);
     if (gap_there < goal - tolerance) {
       Row row = make_row();
       const double missed =
@@ -67,7 +68,7 @@ bool add_missed_bends(const Model& model, const Eigen::VectorXd& now, const Eige
                       const Scene& scene, std::vector<Row>& rows) {
   bool any = false;
   for (const BendingCone& cone : model.cones) {
-    const double left = (1 - scene.constraints.push_out) * past_cone(cone, now);
+    const double left = (1 - scene.constraints.baumgarte) * past_cone(cone, now);
     if (past_cone(cone, there) <= left + bend_tolerance) {
       continue;
     }

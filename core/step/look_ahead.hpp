@@ -17,25 +17,25 @@ inline constexpr double way_tolerance = 0.25;
 
 /// How many looks a step of h (s) needs so that no body moves further than `stride` (cm) between
 /// two: 1 is the end alone.
-int looks(const Eigen::Matrix3Xd& centre_velocity, double h, double stride);
+int path_samples(const Eigen::Matrix3Xd& centre_velocity, double h, double stride);
 
 /// Goes through the contacts and wall gaps of `there`, where velocities `step.centre_velocity` lead
 /// from `now` within time `t` (s). Each overlap that is deeper than `settings.tolerance` allows
 /// gets a row between the same material points, with C taken at `now`:
 ///     φ_now + h C q̇ + (φ_there - φ_now - t C q̇_step) (h/t)² >= goal,
 /// where the bracket is what the line misses at t, of second order, and the goal is 0, or what
-/// push_out leaves of an overlap that was there before; h C q̇ is asked to be `stride` at most. A
+/// baumgarte leaves of an overlap that was there before; h C q̇ is asked to be `stride` at most. A
 /// row of the same id in `rows` gives way to it. Whether there was any.
-bool add_missed_rows(const Model& model, const Situation& now, const Situation& there, double t,
+bool add_missed_rows(const Model& model, const Observation& now, const Observation& there, double t,
                      const Scene& scene, const StepSolution& step, std::vector<Row>& rows);
 
 /// A bend past its cone that is let pass at the end of a step, rad. The next step leaves half of it
-/// (push_out) and may add as much: 1e-5 rad at most, 0.0006 degrees, below the 0.001 that a log may
-/// show (ExpectSettings::limit_violation).
+/// (baumgarte) and may add as much: 1e-5 rad at most, 0.0006 degrees, below the 0.001 that a log
+/// may show (ExpectSettings::limit_violation).
 inline constexpr double bend_tolerance = 5e-6;
 
 /// The same for the cones of universal joints, from coordinates `now` to `there` (nq) at the end of
-/// a step. Each joint bent further past its cone than bend_tolerance and what push_out leaves of
+/// a step. Each joint bent further past its cone than bend_tolerance and what baumgarte leaves of
 /// before gets one more row: the cone's tangent where a bend the way of `there` meets it. The
 /// angles within a cone are a convex set, which no tangent cuts: earlier rows stay, the cone is
 /// followed as closely as need be, and a path that ends within it has never left it. Whether there

@@ -45,7 +45,7 @@ std::optional<double> unilateral(double gap, const ConstraintSettings& settings,
   if (gap >= 0 && settings.activation == Activation::violated) {
     return std::nullopt;
   }
-  return gap >= 0 ? -gap / h : std::min(-settings.push_out * gap / h, fastest);
+  return gap >= 0 ? -gap / h : std::min(-settings.baumgarte * gap / h, fastest);
 }
 
 }  // namespace
@@ -147,7 +147,7 @@ void append_head_rows(const State& state, const ConstraintSettings& settings, do
     row.kind = RowKind::head;
     row.id = row_id(RowKind::head, k, 0);
     row.dof = k;
-    row.rhs = -settings.push_out / h * (k < 3 ? state.q[k] : turn[k - 3]);
+    row.rhs = -settings.baumgarte / h * (k < 3 ? state.q[k] : turn[k - 3]);
     row.lower = -unbounded;
   }
 }
@@ -210,7 +210,8 @@ void append_contact_rows(const Model& model, const std::vector<Contact>& contact
                          const ConstraintSettings& settings, double h, const NearBinding& wanted,
                          std::vector<Row>& rows) {
   for (const Contact& contact : contacts) {
-    const std::optional<double> rhs = unilateral(contact.gap, settings, h, settings.push_out_speed);
+    const std::optional<double> rhs =
+        unilateral(contact.gap, settings, h, settings.baumgarte_speed);
     if (!rhs) {
       continue;
     }
@@ -226,7 +227,7 @@ void append_wall_rows(const Model& model, const Kinematics& kin, const WallSetti
                       const ConstraintSettings& settings, double h, const NearBinding& wanted,
                       std::vector<Row>& rows) {
   visit_wall_gaps(model, kin, wall, [&](int body, double gap) {
-    const std::optional<double> rhs = unilateral(gap, settings, h, settings.push_out_speed);
+    const std::optional<double> rhs = unilateral(gap, settings, h, settings.baumgarte_speed);
     if (rhs && wanted(wanted.centre_velocity(0, body), *rhs)) {
       rows.emplace_back(wall_row(body)).rhs = *rhs;
     }

@@ -99,7 +99,7 @@ Row wall_row(int body);
 Row cone_row(const BendingCone& cone, const Bend& bend, int cut);
 
 /// Six bilateral rows that hold the root at the origin and unturned (paper, Eq. 3); a drift is
-/// taken back at the rate push_out / h.
+/// taken back at the rate baumgarte / h.
 void append_head_rows(const State& state, const ConstraintSettings& settings, double h,
                       std::vector<Row>& rows);
 

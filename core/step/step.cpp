@@ -25,16 +25,16 @@ constexpr double nowhere = -std::numeric_limits<double>::infinity();
 
 /// The unilateral rows that are near to binding. Pairs of segments that are no minimum of the gap
 /// count only where they overlap or the wanted velocity makes them.
-void append_unilateral_rows(const Model& model, const State& state, const Situation& situation,
+void append_unilateral_rows(const Model& model, const State& state, const Observation& observation,
                             const Scene& scene, const NearBinding& wanted, std::vector<Row>& rows) {
   const ConstraintSettings& settings = scene.constraints;
   const double h = scene.time.step;
-  append_contact_rows(model, situation.contact.contacts, settings, h, wanted, rows);
+  append_contact_rows(model, observation.contact.contacts, settings, h, wanted, rows);
   const NearBinding others{wanted.v, wanted.centre_velocity, std::min(wanted.slack, 0.0),
                            std::min(wanted.slack_at_rest, 0.0)};
-  append_contact_rows(model, situation.contact.others, settings, h, others, rows);
+  append_contact_rows(model, observation.contact.others, settings, h, others, rows);
   append_limit_rows(model, state, settings, h, wanted, rows);
-  append_wall_rows(model, situation.kin, scene.wall, settings, h, wanted, rows);
+  append_wall_rows(model, observation.kin, scene.wall, settings, h, wanted, rows);
 }
 
 /// Whether a row binds for all one can tell beforehand.
@@ -162,10 +162,10 @@ void base_motion(const Model& model, const Kinematics& kin, StepScratch& scratch
 }
 
 /// Takes in rows that were left out and that q̇ violates; whether there were any.
-bool take_in_violated(const Model& model, const State& state, const Situation& situation,
+bool take_in_violated(const Model& model, const State& state, const Observation& observation,
                       const Scene& scene, StepScratch& scratch, StepSolution& step) {
   scratch.violated.clear();
-  append_unilateral_rows(model, state, situation, scene,
+  append_unilateral_rows(model, state, observation, scene,
                          {step.qdot, step.centre_velocity, -lazy_tolerance, nowhere},
                          scratch.violated);
   bool any = false;
@@ -206,10 +206,10 @@ void order_rows(const Model& model, const WarmStart& warm, StepScratch& scratch,
 
 /// Eq. 3 or 4 on step.rows; rows left out come in as the answer violates them, rows held are let go
 /// as it pulls at them. `anew`: nothing is known yet of the motion with the rows held now.
-void constrained_motion(const Model& model, const State& state, const Situation& situation,
+void constrained_motion(const Model& model, const State& state, const Observation& observation,
                         const Scene& scene, BoxQpSolver& solver, const WarmStart& warm, bool anew,
                         StepScratch& scratch, StepSolution& step) {
-  const Kinematics& kin = situation.kin;
+  const Kinematics& kin = observation.kin;
   for (bool again = true; again;) {
     order_rows(model, warm, scratch, step);
     ++step.rounds;
@@ -229,7 +229,7 @@ void constrained_motion(const Model& model, const State& state, const Situation&
       set_velocity(model, kin, scratch, step);
     }
     anew = let_go(step, [&](Eigen::Index i) { return step.lambda[i] < step.rows[i].lower; });
-    again = take_in_violated(model, state, situation, scene, scratch, step) || anew;
+    again = take_in_violated(model, state, observation, scene, scratch, step) || anew;
   }
   if (!step.qdot.allFinite()) {
     throw StepError(StopCause::non_finite, "non-finite velocity");
@@ -239,8 +239,8 @@ void constrained_motion(const Model& model, const State& state, const Situation&
 }  // namespace
 
 void observe(const Model& model, const State& state, const Scene& scene, ContactSearch& search,
-             Situation& situation) {
-  Situation& s = situation;
+             Observation& observation) {
+  Observation& s = observation;
   update_positions(model, state.q, s.kin);
   update_velocities(model, state.qdot, s.kin);
   update_spline(model, s.kin.centre, s.segments);
@@ -259,11 +259,11 @@ void observe(const Model& model, const State& state, const Scene& scene, Contact
   }
 }
 
-Situation observe(const Model& model, const State& state, const Scene& scene) {
+Observation observe(const Model& model, const State& state, const Scene& scene) {
   ContactSearch search;
-  Situation situation;
-  observe(model, state, scene, search, situation);
-  return situation;
+  Observation observation;
+  observe(model, state, scene, search, observation);
+  return observation;
 }
 
 double head_drift(const Model& model, const Kinematics& kin) {
@@ -274,7 +274,7 @@ double head_drift(const Model& model, const Kinematics& kin) {
                    (origin + head.radius * turn.col(1)).norm()});
 }
 
-void gather_rows(const Model& model, const State& state, const Situation& situation,
+void gather_rows(const Model& model, const State& state, const Observation& observation,
                  const Control& control, const Scene& scene, std::vector<Row>& rows) {
   const double h = scene.time.step;
   rows.clear();
@@ -282,20 +282,21 @@ void gather_rows(const Model& model, const State& state, const Situation& situat
     append_head_rows(state, scene.constraints, h, rows);
   }
   append_thigmotaxis_rows(model, control.thigmotaxis, scene.controller,
-                          situation.kin.centre_velocity, h, rows);
-  append_unilateral_rows(model, state, situation, scene,
-                         {state.qdot, situation.kin.centre_velocity, lazy_reach, lazy_reach}, rows);
+                          observation.kin.centre_velocity, h, rows);
+  append_unilateral_rows(model, state, observation, scene,
+                         {state.qdot, observation.kin.centre_velocity, lazy_reach, lazy_reach},
+                         rows);
 }
 
-void begin_step(const Model& model, const State& state, const Situation& situation,
+void begin_step(const Model& model, const State& state, const Observation& observation,
                 const Control& control, const Scene& scene, BoxQpSolver& solver,
                 const WarmStart& warm, StepScratch& scratch, StepSolution& step) {
   if (!state.q.allFinite() || !state.qdot.allFinite()) {
     throw StepError(StopCause::non_finite, "non-finite state");
   }
-  const Kinematics& kin = situation.kin;
+  const Kinematics& kin = observation.kin;
   assemble_step_system(model, state, kin, control.tip, scene.time.step, step.system);
-  gather_rows(model, state, situation, control, scene, step.rows);
+  gather_rows(model, state, observation, control, scene, step.rows);
   hold_rows(warm, step.rows);
   step.kind = SolveKind::linear;
   step.iterations = 0;
@@ -305,26 +306,26 @@ void begin_step(const Model& model, const State& state, const Situation& situati
   bool anew = true;
   if (step.rows.empty()) {
     base_motion(model, kin, scratch, step);
-    if (!take_in_violated(model, state, situation, scene, scratch, step)) {
+    if (!take_in_violated(model, state, observation, scene, scratch, step)) {
       return;
     }
     anew = false;
   }
   step.kind = SolveKind::kkt;
-  constrained_motion(model, state, situation, scene, solver, warm, anew, scratch, step);
+  constrained_motion(model, state, observation, scene, solver, warm, anew, scratch, step);
 }
 
-void resume_step(const Model& model, const State& state, const Situation& situation,
+void resume_step(const Model& model, const State& state, const Observation& observation,
                  const Scene& scene, BoxQpSolver& solver, const WarmStart& warm,
                  StepScratch& scratch, StepSolution& step) {
-  constrained_motion(model, state, situation, scene, solver, warm, false, scratch, step);
+  constrained_motion(model, state, observation, scene, solver, warm, false, scratch, step);
 }
 
-void solve_step(const Model& model, const State& state, const Situation& situation,
+void solve_step(const Model& model, const State& state, const Observation& observation,
                 const Control& control, const Scene& scene, BoxQpSolver& solver, WarmStart& warm,
                 StepScratch& scratch, StepSolution& step) {
-  begin_step(model, state, situation, control, scene, solver, warm, scratch, step);
-  finish_step(model, situation, control, scene, warm, scratch, step);
+  begin_step(model, state, observation, control, scene, solver, warm, scratch, step);
+  finish_step(model, observation, control, scene, warm, scratch, step);
 }
 
 }  // namespace hagfish

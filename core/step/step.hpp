@@ -18,7 +18,7 @@
 namespace hagfish {
 
 /// What the step's state looks like: found once, used by controller, constraints and solver.
-struct Situation {
+struct Observation {
   Kinematics kin;
   std::vector<SplineSegment> segments;
   ContactSet contact;
@@ -27,8 +27,8 @@ struct Situation {
 };
 
 void observe(const Model& model, const State& state, const Scene& scene, ContactSearch& search,
-             Situation& situation);
-Situation observe(const Model& model, const State& state, const Scene& scene);
+             Observation& observation);
+Observation observe(const Model& model, const State& state, const Scene& scene);
 
 /// Largest displacement of the head from where the clamp holds it, cm: of either end and of its
 /// side, which shows a turn about its own axis.
@@ -95,26 +95,26 @@ struct StepScratch {
 
 /// Solves for the new velocity, into `step`: begin_step and finish_step. Throws StepError where the
 /// solver fails or a result is not finite.
-void solve_step(const Model& model, const State& state, const Situation& situation,
+void solve_step(const Model& model, const State& state, const Observation& observation,
                 const Control& control, const Scene& scene, BoxQpSolver& solver, WarmStart& warm,
                 StepScratch& scratch, StepSolution& step);
 
 /// The rows of a step that bind or may do so, as far as one can tell beforehand, into `rows`.
-void gather_rows(const Model& model, const State& state, const Situation& situation,
+void gather_rows(const Model& model, const State& state, const Observation& observation,
                  const Control& control, const Scene& scene, std::vector<Row>& rows);
 
 /// Eq. 1, the rows, and Eq. 3 or 4: step.qdot is a velocity that meets all rows. Throws as above.
-void begin_step(const Model& model, const State& state, const Situation& situation,
+void begin_step(const Model& model, const State& state, const Observation& observation,
                 const Control& control, const Scene& scene, BoxQpSolver& solver,
                 const WarmStart& warm, StepScratch& scratch, StepSolution& step);
 
 /// Eq. 4 anew, after rows have come to step.rows. Throws as above.
-void resume_step(const Model& model, const State& state, const Situation& situation,
+void resume_step(const Model& model, const State& state, const Observation& observation,
                  const Scene& scene, BoxQpSolver& solver, const WarmStart& warm,
                  StepScratch& scratch, StepSolution& step);
 
 /// Forces and residuals of the step as solved; keeps its multipliers in `warm`.
-void finish_step(const Model& model, const Situation& situation, const Control& control,
+void finish_step(const Model& model, const Observation& observation, const Control& control,
                  const Scene& scene, WarmStart& warm, StepScratch& scratch, StepSolution& step);
 
 }  // namespace hagfish

@@ -168,8 +168,8 @@ std::vector<Finding> audit(const std::string& file) {
     knots.push_back(see_knot(log, frame));
     frames.see(frame, knots.back().vote);
     forces.see(frame);
-    deepest = worse(deepest, frame.situation.penetration);
-    furthest = worse(furthest, frame.situation.limit_violation);
+    deepest = worse(deepest, frame.observation.penetration);
+    furthest = worse(furthest, frame.observation.limit_violation);
   }
   std::vector<Finding> findings{status(log)};
   const auto append = [&findings](std::vector<Finding> more) {

@@ -66,7 +66,7 @@ Row motion_row(const Model& model, const Eigen::Vector3d& direction, double a, d
 Contact contact_of(const LogContents& log, const AuditedFrame& frame, double a, double b) {
   const auto [segment_a, t_a] = spline_point(log.model, a);
   const auto [segment_b, t_b] = spline_point(log.model, b);
-  return contact_at(frame.situation.segments, segment_a, t_a, segment_b, t_b);
+  return contact_at(frame.observation.segments, segment_a, t_a, segment_b, t_b);
 }
 
 /// C' λ of one row, generalised.
@@ -159,7 +159,7 @@ Eigen::MatrixXd ForceAudit::see_thigmotaxis(const AuditedFrame& frame) {
   const Eigen::Index f = frame.index;
   const Model& model = log_.model;
   const Scene& scene = log_.resolved.scene;
-  const Kinematics& kin = frame.situation.kin;
+  const Kinematics& kin = frame.observation.kin;
   const Eigen::Vector4d commanded = commands(scene, frame.phase);
   const double sense = towards_tail(scene, frame.phase) ? -1 : 1;
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(model.nv(), 4);
@@ -220,7 +220,7 @@ void ForceAudit::see_contacts(const AuditedFrame& frame) {
     const Eigen::Vector3d normal =
         of_wall ? Eigen::Vector3d::UnitX().eval() : contact_of(log_, frame, a, b).normal;
     (of_wall ? wall : contact) +=
-        force_of(model, frame.situation.kin, motion_row(model, normal, a, b), force);
+        force_of(model, frame.observation.kin, motion_row(model, normal, a, b), force);
   }
   from_rows_.compare("/forces/contact", contact_.row(frame.index).transpose(), contact);
   from_rows_.compare("/forces/wall", wall_.row(frame.index).transpose(), wall);
@@ -243,13 +243,13 @@ void ForceAudit::see_limits(const AuditedFrame& frame) {
     if (force[k] == 0 || of_cone[k] != 0) {
       continue;
     }
-    // A row with a force is met exactly: the joint ends at its limit, or as far back as push_out
+    // A row with a force is met exactly: the joint ends at its limit, or as far back as baumgarte
     // says.
     const Hinge& hinge = model.hinges[k - root_dofs];
     const double angle = frame.state.q[k + 1];
     const double gap = force[k] > 0 ? angle - hinge.lower : hinge.upper - angle;
     const double speed = (force[k] > 0 ? 1 : -1) * frame.qdot_next[k];
-    const double wanted = gap >= 0 ? -gap / h : -scene.constraints.push_out * gap / h;
+    const double wanted = gap >= 0 ? -gap / h : -scene.constraints.baumgarte * gap / h;
     limit_miss_ = worse(limit_miss_, std::abs(speed - wanted) * h);
   }
 }
@@ -264,7 +264,7 @@ void ForceAudit::see_cone(const AuditedFrame& frame, const BendingCone& cone,
   };
   const double h = log_.resolved.scene.time.step;
   const double left =
-      (1 - log_.resolved.scene.constraints.push_out) * past_cone(cone, frame.state.q);
+      (1 - log_.resolved.scene.constraints.baumgarte) * past_cone(cone, frame.state.q);
   const Bend end = bend_of(advance(frame.state.q, frame.qdot_next, h));
   cone_miss_ = worse(cone_miss_, std::abs(end.angle - cone.limit - left));
   // Every tangent that a step takes pushes back the way the joint bends.
@@ -283,7 +283,7 @@ void ForceAudit::see_head(const AuditedFrame& frame) {
 
 void ForceAudit::see_tip(const AuditedFrame& frame) {
   const Scene& scene = log_.resolved.scene;
-  const Kinematics& kin = frame.situation.kin;
+  const Kinematics& kin = frame.observation.kin;
   const int last = log_.model.body_count() - 1;
   TipForce tip;
   if (frame.phase == Phase::form) {
@@ -298,7 +298,7 @@ void ForceAudit::see_balance(const AuditedFrame& frame) {
   const Eigen::Index f = frame.index;
   const Model& model = log_.model;
   const double h = log_.resolved.scene.time.step;
-  const Kinematics& kin = frame.situation.kin;
+  const Kinematics& kin = frame.observation.kin;
   const StepSystem system = step_system(model, frame.state, kin, {tip_.row(f).transpose(), 0}, h);
   const Eigen::VectorXd sum =
       (thigmotaxis_.row(f) + contact_.row(f) + limit_.row(f) + head_.row(f) + wall_.row(f))

@@ -31,8 +31,8 @@ double distance_to_contact(const AuditedFrame& frame, double a, double b) {
     return 0;
   }
   double nearest = INFINITY;
-  for (const Contact& c : frame.situation.contact.contacts) {
-    const double length = frame.situation.segments[c.segment_a].s1;
+  for (const Contact& c : frame.observation.contact.contacts) {
+    const double length = frame.observation.segments[c.segment_a].s1;
     nearest =
         std::min(nearest, length * std::hypot(c.segment_a + c.t_a - a, c.segment_b + c.t_b - b));
   }
@@ -96,7 +96,7 @@ void FrameAudit::see_trajectory(const AuditedFrame& frame) {
   by_itself_.compare_exactly("/trajectory/phase", order, std::max(order, last_order_));
   last_order_ = std::max(order, last_order_);
   from_q_.compare("/trajectory/position", position_.row(f).transpose(),
-                  frame.situation.kin.centre.reshaped());
+                  frame.observation.kin.centre.reshaped());
 }
 
 void FrameAudit::see_knot(const AuditedFrame& frame, const KnotVote& knot) {
@@ -104,7 +104,7 @@ void FrameAudit::see_knot(const AuditedFrame& frame, const KnotVote& knot) {
   from_q_.compare_exactly("/knot/determinant", determinant_[f], knot.type.determinant);
   from_q_.compare_exactly("/knot/v2", v2_[f], knot.type.v2);
   from_q_.compare("/knot/agreement", agreement_[f], knot.agreement);
-  const std::vector<SplineSegment>& segments = frame.situation.segments;
+  const std::vector<SplineSegment>& segments = frame.observation.segments;
   const auto arc = [&](double parameter) {
     const auto [segment, t] = spline_point(log_.model, parameter);
     return segments[segment].arc(t);
@@ -123,7 +123,7 @@ void FrameAudit::see_knot(const AuditedFrame& frame, const KnotVote& knot) {
 
 void FrameAudit::see_energy(const AuditedFrame& frame) {
   const Eigen::Index f = frame.index;
-  const Kinematics& kin = frame.situation.kin;
+  const Kinematics& kin = frame.observation.kin;
   from_q_.compare("/diagnostics/kinetic_energy", kinetic_[f], kinetic_energy(log_.model, kin));
   from_q_.compare("/diagnostics/elastic_energy", elastic_[f],
                   elastic_energy(log_.model, frame.state.q));
@@ -134,7 +134,7 @@ void FrameAudit::see_energy(const AuditedFrame& frame) {
 void FrameAudit::see_bounds(const AuditedFrame& frame) {
   const Eigen::Index f = frame.index;
   const Eigen::Index step = steps_.at(f);
-  const Situation& s = frame.situation;
+  const Observation& s = frame.observation;
   const auto found = static_cast<std::int64_t>(s.contact.contacts.size());
   contacts_off_by_ = std::max(contacts_off_by_, std::abs(contacts_[f] - found));
   contacts_off_ += contacts_[f] == found ? 0 : 1;

@@ -114,7 +114,7 @@ Finding commanded_speed(const LogContents& log) {
 }  // namespace
 
 SeenKnot see_knot(const LogContents& log, const AuditedFrame& frame) {
-  const Eigen::Matrix3Xd& centre = frame.situation.kin.centre;
+  const Eigen::Matrix3Xd& centre = frame.observation.kin.centre;
   return {knot_type(centre, log.resolved.scene.knot), holds_knot(frame.phase) ? writhe(centre) : 0};
 }
 

@@ -16,15 +16,15 @@ struct AuditedFrame {
         phase(static_cast<Phase>(log.phase[frame])),
         state{log.q.row(frame), log.qdot.row(frame)},
         qdot_next(log.qdot_next.row(frame)),
-        situation(observe(log.model, state, log.resolved.scene)),
-        next_velocity(
-            centre_velocities(situation.kin, body_twists(log.model, situation.kin, qdot_next))) {}
+        observation(observe(log.model, state, log.resolved.scene)),
+        next_velocity(centre_velocities(observation.kin,
+                                        body_twists(log.model, observation.kin, qdot_next))) {}
 
   Eigen::Index index;
   Phase phase;
   State state;
   Eigen::VectorXd qdot_next;
-  Situation situation;             ///< observed anew from the logged state
+  Observation observation;         ///< observed anew from the logged state
   Eigen::Matrix3Xd next_velocity;  ///< of the bodies' centres at qdot_next, 3 x N, cm/s
 };
 

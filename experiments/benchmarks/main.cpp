@@ -77,7 +77,7 @@ struct Parts {
     const auto solver = make_box_qp_solver("active-set");
     for (int k = 0; k < warm_steps; ++k) {
       take_step(start->model, start->scene, *solver, sim, record);
-      centre[k % 2] = sim.situation.kin.centre;
+      centre[k % 2] = sim.observation.kin.centre;
     }
   }
   std::shared_ptr<Start> start;
@@ -129,7 +129,7 @@ void add_holding(const std::string& name, const std::shared_ptr<Parts>& parts, H
   }
   add("core", name, model.body_count(), [parts, run] {
     const Model& of = parts->start->model;
-    const Kinematics& kin = parts->record.situation.kin;
+    const Kinematics& kin = parts->record.observation.kin;
     const StepSystem& system = parts->record.solution.system;
     run->factor.factorise(of, kin, system.op, run->held);
     run->factor.solve(of, kin, system.wrench, system.joint, run->base, run->twist, run->holding);
@@ -147,22 +147,22 @@ void add_core_parts(const std::shared_ptr<Start>& start) {
     add("core", name, n, [parts, work] { work(*parts); });
   };
   part("kinematics", [](Parts& p) {
-    update_positions(p.start->model, p.record.state.q, p.record.situation.kin);
-    update_velocities(p.start->model, p.record.state.qdot, p.record.situation.kin);
+    update_positions(p.start->model, p.record.state.q, p.record.observation.kin);
+    update_velocities(p.start->model, p.record.state.qdot, p.record.observation.kin);
   });
   part("mass_matrix", [](Parts& p) {  // dense, for comparison: a step never forms it
-    const Kinematics& kin = p.record.situation.kin;
-    const Operator op{body_inertias(p.start->model, kin),
-                      Eigen::VectorXd::Zero(p.start->model.nv())};
+    const Kinematics& kin = p.record.observation.kin;
+    const StepOperator op{body_inertias(p.start->model, kin),
+                          Eigen::VectorXd::Zero(p.start->model.nv())};
     benchmark::DoNotOptimize(dense(p.start->model, kin, op));
   });
   part("bias", [](Parts& p) {
-    const Kinematics& kin = p.record.situation.kin;
+    const Kinematics& kin = p.record.observation.kin;
     benchmark::DoNotOptimize(
         generalised_force(p.start->model, kin, bias_wrench(p.start->model, kin)));
   });
   part("system", [](Parts& p) {  // Eq. 1 assembled, factorised and solved
-    const Kinematics& kin = p.record.situation.kin;
+    const Kinematics& kin = p.record.observation.kin;
     StepSystem& system = p.record.solution.system;
     assemble_step_system(p.start->model, p.record.state, kin, p.record.control.tip,
                          p.start->scene.time.step, system);
@@ -177,12 +177,12 @@ void add_core_parts(const std::shared_ptr<Start>& start) {
     find_contacts(p.segments, p.start->scene.contact, 0, p.search, p.contacts);
   });
   part("rows", [](Parts& p) {
-    gather_rows(p.start->model, p.record.state, p.record.situation, p.record.control,
+    gather_rows(p.start->model, p.record.state, p.record.observation, p.record.control,
                 p.start->scene, p.rows);
   });
   part("dual", [](Parts& p) {
     const StepSolution& step = p.record.solution;
-    assemble_dual(p.start->model, p.record.situation.kin, p.sim.scratch.factor,
+    assemble_dual(p.start->model, p.record.observation.kin, p.sim.scratch.factor,
                   std::span(step.rows).subspan(static_cast<std::size_t>(step.held)), step.base,
                   p.sim.scratch.base_centre_velocity, p.columns, p.qp);
   });

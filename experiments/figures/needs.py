@@ -28,7 +28,7 @@ CHOICES = {
     "least_arc_2.12": ("contacts 2.97 cm of body apart", "2.12 cm"),
     "least_arc_4.24": ("contacts 2.97 cm of body apart", "4.24 cm"),
     "no_stiffness": ("joint stiffness", "none"), "no_drag": ("water drag", "none"),
-    "push_out_0.2": ("half a violation pushed out", "a fifth"), "push_out_1": ("half a violation pushed out", "all"),
+    "baumgarte_0.2": ("half a violation pushed out", "a fifth"), "baumgarte_1": ("half a violation pushed out", "all"),
     "no_corrections": ("steps corrected along their path", "not corrected"),
     "cap_5000": ("thigmotaxis up to 1000 dyn", "5000 dyn"), "no_cap": ("thigmotaxis up to 1000 dyn", "no cap"),
     "at_once": ("speeds rise by 100 cm/s²", "at once"),

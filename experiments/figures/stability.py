@@ -31,9 +31,9 @@ LOOKS = {"ok": ("", "#e8f4f0"), "energy gain": ("E", "#ee8866"), "non-finite": (
          "came undone": ("K", "#ddaa33"), "speed": ("V", "#cc6677"), "crashed": ("X", "#ff0000"),
          "not applicable": ("-", "#ffffff")}
 DARK = {"non-finite", "tunnelled", "solver failed"}
-METHODS = ["default", "violated", "push_out_0.2", "push_out_1", "hard_thigmotaxis", "ipopt", "mujoco_euler",
+METHODS = ["default", "violated", "baumgarte_0.2", "baumgarte_1", "hard_thigmotaxis", "ipopt", "mujoco_euler",
            "mujoco_implicit", "mujoco_rk4"]
-TITLES = {"push_out_0.2": "push-out 0.2", "push_out_1": "push-out 1", "hard_thigmotaxis": "hard Eq. 6",
+TITLES = {"baumgarte_0.2": "Baumgarte 0.2", "baumgarte_1": "Baumgarte 1", "hard_thigmotaxis": "hard Eq. 6",
           "ipopt": "Ipopt", "mujoco_euler": "MuJoCo Euler", "mujoco_implicit": "MuJoCo implicit",
           "mujoco_rk4": "MuJoCo RK4"}
 SCENES = {"whip": "fast undamped whip", "spinning": "spin near 90°", "coil": "coil from its limits",

@@ -84,9 +84,9 @@ struct Seen {
 };
 
 Seen look(const Model& model, const Scene& scene, const State& state) {
-  const Situation situation = observe(model, state, scene);
-  Seen seen{NAN, situation.penetration, situation.kin.centre};
-  for (const Contact& contact : situation.contact.contacts) {
+  const Observation observation = observe(model, state, scene);
+  Seen seen{NAN, observation.penetration, observation.kin.centre};
+  for (const Contact& contact : observation.contact.contacts) {
     if (contact.gap <= scene.controller.contact_gap) {
       seen.head_end = contact.arc_a;
       break;  // sorted from the head

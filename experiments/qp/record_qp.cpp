@@ -26,7 +26,7 @@ class Recorder {
     qp.start = kept_multipliers(record.solution.rows, warm);
     if (!options_.primal) {
       qp.box =
-          whole_dual(model_, record.situation.kin, record.solution.system, record.solution.rows);
+          whole_dual(model_, record.observation.kin, record.solution.system, record.solution.rows);
     } else {
       if (at_cap(record.solution)) {
         ++left_out_;

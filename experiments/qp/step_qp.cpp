@@ -37,7 +37,7 @@ bool at_cap(const StepSolution& solution) {
 }
 
 PrimalQp to_primal(const Model& model, const StepRecord& record) {
-  const Kinematics& kin = record.situation.kin;
+  const Kinematics& kin = record.observation.kin;
   const StepSystem& system = record.solution.system;
   const std::vector<Row>& rows = record.solution.rows;
   PrimalQp primal;

@@ -32,8 +32,8 @@ struct StressMethod {
 constexpr std::array<StressMethod, 9> methods{
     {{"default", core_rule, active_set, ""},
      {"violated", core_rule, active_set, "constraints.activation=violated"},
-     {"push_out_0.2", core_rule, active_set, "constraints.push_out=0.2"},
-     {"push_out_1", core_rule, active_set, "constraints.push_out=1"},
+     {"baumgarte_0.2", core_rule, active_set, "constraints.baumgarte=0.2"},
+     {"baumgarte_1", core_rule, active_set, "constraints.baumgarte=1"},
      {"hard_thigmotaxis", core_rule, active_set, "controller.cap=1e9"},
      {"ipopt", core_rule, "ipopt", ""},
      {"mujoco_euler", mjINT_EULER, "", ""},
@@ -61,9 +61,9 @@ bool run_in_core(const Model& model, const Scene& scene, const char* qp,
     if (out_of_time()) {
       return false;
     }
-    const auto see = [&](const State& before, const State& after, const Situation& situation,
+    const auto see = [&](const State& before, const State& after, const Observation& observation,
                          const EnergyLedger& ledger) {
-      judge.see(before, after, situation, time_of(sim, scene),
+      judge.see(before, after, observation, time_of(sim, scene),
                 {ledger.kinetic + ledger.elastic + ledger.gravity,
                  ledger.work_tip + ledger.work_thigmotaxis});
     };
@@ -73,12 +73,12 @@ bool run_in_core(const Model& model, const Scene& scene, const char* qp,
       // A guard looked at where the step led: into the record, while the simulation stayed.
       if (error.cause() == StopCause::penetration || error.cause() == StopCause::limits ||
           error.cause() == StopCause::speed) {
-        see(sim.state, record.state, record.situation, sim.ledger);
+        see(sim.state, record.state, record.observation, sim.ledger);
       }
       throw;
     }
     judge.see_control(record);
-    see(record.state, sim.state, sim.situation, sim.ledger);
+    see(record.state, sim.state, sim.observation, sim.ledger);
   }
   return true;
 }

@@ -42,27 +42,27 @@ StressJudge::StressJudge(const Model& model, const Scene& scene, const State& st
     : model_(model), scene_(scene), energy_(energy), most_(energy), phase_(scene.start.phase) {
   const auto thinner = [](const Body& x, const Body& y) { return x.radius < y.radius; };
   thinnest_ = std::min_element(model.bodies.begin(), model.bodies.end(), thinner)->radius;
-  const Situation situation = observe(model, start, scene);
-  figures_.penetration = situation.penetration;
-  figures_.path_penetration = std::max(0.0, -situation.contact.least_gap);
-  figures_.limit_violation = situation.limit_violation;
-  see_knot(situation, 0);
+  const Observation observation = observe(model, start, scene);
+  figures_.penetration = observation.penetration;
+  figures_.path_penetration = std::max(0.0, -observation.contact.least_gap);
+  figures_.limit_violation = observation.limit_violation;
+  see_knot(observation, 0);
   knotted_at_start_ = figures_.knot == scene.expect.knot && !scene.expect.knot.empty();
 }
 
-void StressJudge::see(const State& before, const State& after, const Situation& situation,
+void StressJudge::see(const State& before, const State& after, const Observation& observation,
                       double time, const EnergyState& energy) {
   figures_.time = time;
-  figures_.penetration = std::max(figures_.penetration, situation.penetration);
-  figures_.limit_violation = std::max(figures_.limit_violation, situation.limit_violation);
+  figures_.penetration = std::max(figures_.penetration, observation.penetration);
+  figures_.limit_violation = std::max(figures_.limit_violation, observation.limit_violation);
   most_ = std::max(most_, energy_ + energy.put_in);
   if (most_ > 0) {
     const double gain = (energy.total - energy_ - energy.put_in) / most_;
     figures_.energy_gain = std::max(figures_.energy_gain, gain);
   }
-  see_path(before, after, situation.kin);
+  see_path(before, after, observation.kin);
   if (time + 0.5 * scene_.time.step >= knot_seen_ + scene_.knot.interval) {
-    see_knot(situation, time);
+    see_knot(observation, time);
   }
 }
 
@@ -74,7 +74,7 @@ void StressJudge::see_path(const State& before, const State& after, const Kinema
   const double looks = std::ceil(way / (stride * thinnest_));
   const int count = static_cast<int>(std::clamp(looks, 1.0, static_cast<double>(most_looks)));
   State on_the_way = after;
-  Situation seen;
+  Observation seen;
   for (int i = 1; i <= count; ++i) {
     on_the_way.q = between(before.q, after.q, static_cast<double>(i) / count);
     observe(model_, on_the_way, scene_, search_, seen);
@@ -82,10 +82,10 @@ void StressJudge::see_path(const State& before, const State& after, const Kinema
   }
 }
 
-void StressJudge::see_knot(const Situation& situation, double time) {
+void StressJudge::see_knot(const Observation& observation, double time) {
   knot_seen_ = time;
   try {
-    figures_.knot = knot_name(knot_type(situation.kin.centre, scene_.knot).type);
+    figures_.knot = knot_name(knot_type(observation.kin.centre, scene_.knot).type);
   } catch (const std::domain_error&) {
     figures_.knot = "touches itself";
   } catch (const std::overflow_error&) {

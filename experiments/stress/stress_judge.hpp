@@ -56,8 +56,8 @@ class StressJudge {
   /// The model and the scene are referred to. `energy` is that of the start.
   StressJudge(const Model& model, const Scene& scene, const State& start, double energy);
 
-  /// A step from `before` to `after`, where all looks like `situation`, at the time of `after`.
-  void see(const State& before, const State& after, const Situation& situation, double time,
+  /// A step from `before` to `after`, where all looks like `observation`, at the time of `after`.
+  void see(const State& before, const State& after, const Observation& observation, double time,
            const EnergyState& energy);
   /// What the core's controller and solver say of its step.
   void see_control(const StepRecord& record);
@@ -73,7 +73,7 @@ class StressJudge {
 
  private:
   void see_path(const State& before, const State& after, const Kinematics& kin);
-  void see_knot(const Situation& situation, double time);
+  void see_knot(const Observation& observation, double time);
   /// Tunnelled, came undone, energy gain, or ok.
   Verdict root_cause() const;
   /// Whether the thigmotaxis did what the scene expects.

@@ -21,17 +21,17 @@ Eigen::VectorXd applied_force(const Model& model, const State& state, const Kine
   return force + drag_force(model, kin, state.qdot);
 }
 
-void guard(const Situation& situation, const GuardSettings& limits) {
-  if (!situation.kin.centre.allFinite()) {
+void guard(const Observation& observation, const GuardSettings& limits) {
+  if (!observation.kin.centre.allFinite()) {
     throw StepError(StopCause::non_finite, "non-finite state");
   }
-  if (situation.penetration > limits.penetration) {
+  if (observation.penetration > limits.penetration) {
     throw StepError(StopCause::penetration, "deeper than guard.penetration");
   }
-  if (situation.limit_violation > limits.limit_violation) {
+  if (observation.limit_violation > limits.limit_violation) {
     throw StepError(StopCause::limits, "further than guard.limit_violation");
   }
-  const double speed = situation.kin.centre_velocity.colwise().norm().maxCoeff();
+  const double speed = observation.kin.centre_velocity.colwise().norm().maxCoeff();
   if (!(speed <= limits.speed)) {
     throw StepError(StopCause::speed, fmt::format("{:.3g} cm/s, over guard.speed", speed));
   }
@@ -62,15 +62,15 @@ bool run_in_mujoco(const Model& model, const Scene& scene, const State& start, i
   set_state(model, start, mirror);
   State state = state_of(model, mirror);
   ContactSearch search;
-  Situation situation, next;
-  observe(model, state, scene, search, situation);
+  Observation observation, next;
+  observe(model, state, scene, search, observation);
   const int last = model.body_count() - 1;
   double work = 0;
   for (int i = 0; i * h + 0.5 * h < scene.time.duration; ++i) {
     if (out_of_time()) {
       return false;
     }
-    const Kinematics& kin = situation.kin;
+    const Kinematics& kin = observation.kin;
     const Eigen::Vector3d velocity = kin.centre_velocity.col(last);
     const TipForce tip = script_force(scene.script, i * h, h, kin.centre.col(last), velocity);
     const Eigen::Vector3d pull = tip.value - tip.rate * velocity;
@@ -86,7 +86,7 @@ bool run_in_mujoco(const Model& model, const Scene& scene, const State& start, i
     work += pull.dot(next.kin.centre.col(last) - kin.centre.col(last));
     judge.see(before, state, next, (i + 1) * h, {mechanical_energy(model, state, next.kin), work});
     guard(next, scene.guard);
-    std::swap(situation, next);
+    std::swap(observation, next);
   }
   return true;
 }

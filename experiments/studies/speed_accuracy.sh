@@ -77,8 +77,8 @@ least_arc_4.24 contact.least_arc=4.24
 least_arc_2.12 contact.least_arc=2.12
 no_stiffness model.bending_stiffness=0 model.twist_stiffness=0
 no_drag drag.normal=0 drag.tangential=0
-push_out_0.2 constraints.push_out=0.2
-push_out_1 constraints.push_out=1
+baumgarte_0.2 constraints.baumgarte=0.2
+baumgarte_1 constraints.baumgarte=1
 no_corrections constraints.corrections=0
 cap_5000 controller.cap=5000
 at_once controller.acceleration=1e9

@@ -43,7 +43,7 @@ steps="0.2 0.5 1 2 5 10 20 50" # ms
 coarse="1 2 5 10 20 50"        # where a step is slow
 few="1 5 20"                   # of level sweeps
 mujoco="mujoco_euler mujoco_implicit mujoco_rk4"
-rows="default violated push_out_0.2 push_out_1"
+rows="default violated baumgarte_0.2 baumgarte_1"
 
 # line SCENE LEVEL STEPS METHODS [SETTINGS]
 line() {

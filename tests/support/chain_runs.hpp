@@ -38,7 +38,7 @@ class ChainRun {
   State state;
   double time = 0;    ///< s
   StepSolution last;  ///< the last step's, empty before the first
-  Situation seen;     ///< at the start of the last step
+  Observation seen;   ///< at the start of the last step
 
  private:
   std::unique_ptr<BoxQpSolver> solver_;

@@ -207,8 +207,8 @@ Eigen::MatrixXd dense_rows(const Model& model, const Kinematics& kin,
   return c;
 }
 
-Operator random_operator(Random& random, const Model& model, const Kinematics& kin) {
-  Operator op;
+StepOperator random_operator(Random& random, const Model& model, const Kinematics& kin) {
+  StepOperator op;
   for (int b = 0; b < model.body_count(); ++b) {
     const Eigen::Matrix3d turn = random_rotation(random).toRotationMatrix();
     const auto positive = [&](double size) -> Eigen::Matrix3d {

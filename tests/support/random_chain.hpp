@@ -69,7 +69,7 @@ Eigen::Matrix3Xd centre_jacobian(const Model& model, const Kinematics& kin, int 
 Eigen::MatrixXd dense_rows(const Model& model, const Kinematics& kin, const std::vector<Row>& rows);
 
 /// Î: symmetric positive definite blocks about O with δ >= 0: random inertias at the centres.
-Operator random_operator(Random& random, const Model& model, const Kinematics& kin);
+StepOperator random_operator(Random& random, const Model& model, const Kinematics& kin);
 
 /// Largest entry of |x - y| over the largest of |y|.
 double relative_error(const Eigen::MatrixXd& x, const Eigen::MatrixXd& y);

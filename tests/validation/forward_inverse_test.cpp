@@ -29,7 +29,7 @@ class ForwardInverse : public testing::TestWithParam<StoredState> {
       const Eigen::VectorXd& next = record.solution.qdot;
       spoil(record.solution.force);
       const Eigen::VectorXd force =
-          record.solution.force.total() + drag_force(model, record.situation.kin, next);
+          record.solution.force.total() + drag_force(model, record.observation.kin, next);
       const Eigen::VectorXd driven =
           driven_velocity(model, record.state, force, record.solution.tip, mirror);
       largest = std::max(

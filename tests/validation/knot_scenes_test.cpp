@@ -45,13 +45,13 @@ Seen run(const ResolvedScene& resolved) {
     if (holds_knot(now.phase)) {
       seen.held = seen.held && knot_name(now.knot.type) == scene.expect.knot;
       if (record.step % 50 == 0) {
-        const double w = writhe(sim.situation.kin.centre);
+        const double w = writhe(sim.observation.kin.centre);
         seen.least_writhe = std::min(seen.least_writhe, w);
         seen.most_writhe = std::max(seen.most_writhe, w);
       }
     }
   }
-  seen.last_type = knot_type(sim.situation.kin.centre, scene.knot).type;
+  seen.last_type = knot_type(sim.observation.kin.centre, scene.knot).type;
   return seen;
 }
 

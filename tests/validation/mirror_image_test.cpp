@@ -44,7 +44,7 @@ class Comparison {
     motion(r, image);
     solution(r.solution, image.solution);
     for (auto list : {&ContactSet::contacts, &ContactSet::others}) {
-      contacts(r.situation.contact.*list, image.situation.contact.*list);
+      contacts(r.observation.contact.*list, image.observation.contact.*list);
     }
     controller(r.controller, image.controller);
     ledger(r.ledger, image.ledger);
@@ -62,10 +62,10 @@ class Comparison {
     same("time", r.time, image.time);
     same("q", reflected_q(model_, r.state.q), image.state.q);
     same("qdot", r.state.qdot.cwiseProduct(parity_).eval(), image.state.qdot);
-    same("positions", (flip.asDiagonal() * r.situation.kin.centre).eval(),
-         image.situation.kin.centre);
-    same("penetration", r.situation.penetration, image.situation.penetration);
-    same("limit violation", r.situation.limit_violation, image.situation.limit_violation);
+    same("positions", (flip.asDiagonal() * r.observation.kin.centre).eval(),
+         image.observation.kin.centre);
+    same("penetration", r.observation.penetration, image.observation.penetration);
+    same("limit violation", r.observation.limit_violation, image.observation.limit_violation);
     same("head drift", r.head_drift, image.head_drift);
     same("crossing", r.crossing, image.crossing);
   }
@@ -161,8 +161,8 @@ ControllerState expect_reflection(const char* name, std::vector<std::string> set
     comparison.compare(record, record_of_image);
     double w = 0, w_of_image = 0;
     if (record.step % 100 == 0) {
-      w = writhe(record.situation.kin.centre);
-      w_of_image = writhe(record_of_image.situation.kin.centre);
+      w = writhe(record.observation.kin.centre);
+      w_of_image = writhe(record_of_image.observation.kin.centre);
       most_writhe = std::max(most_writhe, std::abs(w));
     }
     if (!comparison.first().empty() || w != -w_of_image) {

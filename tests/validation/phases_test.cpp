@@ -59,7 +59,7 @@ TEST_P(Phases, GoWhereTheRunWent) {
   for (int k = 0; k < steps; ++k) {
     take_step(model, scene, *solver, sim);
   }
-  const double off = (sim.situation.kin.centre - stored.later).colwise().norm().maxCoeff();
+  const double off = (sim.observation.kin.centre - stored.later).colwise().norm().maxCoeff();
   // The controller forgets which contacts it used and for how long, so for up to the hysteresis
   // time (0.1 s) another pair may slide at 2 cm/s: half that way. Without contact rows: rounding,
   // grown in 50 steps.

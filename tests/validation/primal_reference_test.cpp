@@ -21,7 +21,7 @@ constexpr double far = 5;
 PrimalQp equation_4(const Model& model, const Scene& scene, const StepRecord& record) {
   const double h = scene.time.step;
   const State& state = record.state;
-  const Situation& now = record.situation;
+  const Observation& now = record.observation;
   const StepSystem system = step_system(model, state, now.kin, record.control.tip, h);
   PrimalQp qp;
   qp.H = dense(model, now.kin, system.op);

@@ -70,7 +70,7 @@ TEST(RedMaxEnergy, LimitRowsOnceViolated) {
   run.model.hinges[1].lower = -quarter_turn / 2;
   run.model.hinges[1].upper = quarter_turn / 2;
   run.scene.constraints.activation = Activation::violated;
-  run.scene.constraints.push_out = 5 * run.scene.time.step;  // RedMax: 5 / s times the violation
+  run.scene.constraints.baumgarte = 5 * run.scene.time.step;  // RedMax: 5 / s times the violation
   EXPECT_NEAR(energy_gained(std::move(run)), 34838.892, tolerance);
 }
 

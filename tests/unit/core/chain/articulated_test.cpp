@@ -17,7 +17,7 @@ namespace {
 constexpr double rounding = 1e-13;
 
 /// J' Î J + diag(δ) by the definition of RedMax.
-Eigen::MatrixXd definition(const Model& model, const Kinematics& kin, const Operator& op) {
+Eigen::MatrixXd definition(const Model& model, const Kinematics& kin, const StepOperator& op) {
   Eigen::MatrixXd h = op.diagonal.asDiagonal();
   for (int b = 0; b < model.body_count(); ++b) {
     const Matrix6Xd jacobian = body_jacobian(model, kin, b);
@@ -29,7 +29,7 @@ Eigen::MatrixXd definition(const Model& model, const Kinematics& kin, const Oper
 struct Case {
   Model model;
   Kinematics kin;
-  Operator op;
+  StepOperator op;
 };
 
 Case random_case(Random& random, int bodies) {

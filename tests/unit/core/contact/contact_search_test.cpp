@@ -41,7 +41,7 @@ Missed missed(double step, int steps) {
     take_step(model, scene, *solver, sim, record);
     for (const Contact& c : observe(model, sim.state, scene).contact.contacts) {
       ++missed.minima;
-      if (!holds(sim.situation.contact.contacts, c)) {
+      if (!holds(sim.observation.contact.contacts, c)) {
         ++(c.gap < 0 ? missed.touching : missed.clear);
       }
     }

@@ -13,7 +13,7 @@ TEST(Observe, MeasuresPenetrationAndLimitViolation) {
   Scene scene = table1_scene();
   const Model fish = table1_hagfish();
   State state = rest_state(fish);
-  Situation now = observe(fish, state, scene);
+  Observation now = observe(fish, state, scene);
   // At rest nothing overlaps: body 7, the first behind the neck, is clear of the plate.
   EXPECT_EQ(now.penetration, 0);
   EXPECT_EQ(now.limit_violation, 0);

@@ -104,8 +104,8 @@ std::vector<std::uint64_t> bits(const Scene& s, const Specimen& animal) {
                            s.drag.normal,
                            s.drag.tangential,
                            double(s.constraints.activation),
-                           s.constraints.push_out,
-                           s.constraints.push_out_speed,
+                           s.constraints.baumgarte,
+                           s.constraints.baumgarte_speed,
                            s.constraints.tolerance,
                            double(s.constraints.corrections),
                            s.constraints.stride,
@@ -229,7 +229,7 @@ ResolvedScene odd_scene() {
   s.time.step = odd();
   s.time.frame_interval = 3 * s.time.step;
   s.time.duration = 7 * s.time.step;
-  s.constraints.push_out_speed = odd();
+  s.constraints.baumgarte_speed = odd();
   s.constraints.tolerance = odd();
   s.constraints.corrections = 5;
   s.constraints.stride = odd();
@@ -366,8 +366,8 @@ TEST(SceneReader, RefusesBadValues) {
   EXPECT_EQ(complaint("[drag]\nnormal = nan\n"), "s.toml:2: drag.normal = nan: must be finite");
   EXPECT_EQ(complaint("[drag]\ntangential = -1\n"),
             "s.toml:2: drag.tangential = -1: must not be negative");
-  EXPECT_EQ(complaint("[constraints]\npush_out = 1.5\n"),
-            "s.toml:2: constraints.push_out = 1.5: must be from 0 to 1");
+  EXPECT_EQ(complaint("[constraints]\nbaumgarte = 1.5\n"),
+            "s.toml:2: constraints.baumgarte = 1.5: must be from 0 to 1");
   EXPECT_EQ(complaint("[time]\nstep = 0.0\n"), "s.toml:2: time.step = 0.0: must be positive");
   EXPECT_EQ(complaint("[time]\nframe_interval = 0.001\n"),
             "s.toml:2: time.frame_interval = 0.001: must not be less than time.step, 0.002");

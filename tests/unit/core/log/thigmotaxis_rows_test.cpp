@@ -64,7 +64,7 @@ TEST_F(ThigmotaxisRowsTest, MoreContactsThanALogHoldsAreRefusedByName) {
   WarmStart warm;
   StepScratch scratch;
   // The step itself takes any number.
-  solve_step(model, record.state, record.situation, control, scene, *solver, warm, scratch, step);
+  solve_step(model, record.state, record.observation, control, scene, *solver, warm, scratch, step);
   try {
     thigmotaxis_rows_of(control, step, scene.time.step);
     FAIL() << "took three contacts";

@@ -1,5 +1,5 @@
-// Phases and contact identity on made-up situations: the controller sees contacts and centres, and
-// neither needs to come from a simulation here.
+// Phases and contact identity on made-up observations: the controller sees contacts and centres,
+// and neither needs to come from a simulation here.
 #include "core/run/controller.hpp"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ class Controller : public testing::Test {
   Scene scene = table1_scene();
   Model model = table1_hagfish();
   ControllerState state;
-  Situation situation;
+  Observation observation;
   double now = 0;
 
   Controller() {
@@ -45,23 +45,23 @@ class Controller : public testing::Test {
     scene.controller.release_at = 1.908;
     scene.knot.interval = 0.01;
     scene.time.step = 0.002;
-    situation.kin = kinematics(model, rest_state(model));
-    situation.segments = spline(model, situation.kin.centre);
+    observation.kin = kinematics(model, rest_state(model));
+    observation.segments = spline(model, observation.kin.centre);
   }
 
   /// Centres on an open overhand knot or on a line.
   void tie(bool knotted) {
     for (int b = 0; b < model.body_count(); ++b) {
       const double t = (b + 0.5) / model.body_count();
-      situation.kin.centre.col(b) =
+      observation.kin.centre.col(b) =
           knotted ? trefoil_point(t, 2.45) : Eigen::Vector3d(42.4 * t, 0, 0);
     }
   }
 
   Control step(std::vector<Contact> contacts) {
-    situation.contact.contacts = std::move(contacts);
+    observation.contact.contacts = std::move(contacts);
     Control control;
-    decide(model, scene, situation, now, state, control);
+    decide(model, scene, observation, now, state, control);
     now += scene.time.step;
     return control;
   }
@@ -72,7 +72,7 @@ class Controller : public testing::Test {
     state.phase = phase;
     state.phase_start = now;
     state.loose = now;
-    state.knot = knot_type(situation.kin.centre, scene.knot);
+    state.knot = knot_type(observation.kin.centre, scene.knot);
     state.knot_seen = now;
   }
 
@@ -92,7 +92,8 @@ class Controller : public testing::Test {
 
 TEST_F(Controller, TrefoilOfTheseTestsIsOne) {
   tie(true);
-  EXPECT_EQ(knot_type(situation.kin.centre, {.votes = 15, .seed = 1}).type, (KnotInvariants{3, 1}));
+  EXPECT_EQ(knot_type(observation.kin.centre, {.votes = 15, .seed = 1}).type,
+            (KnotInvariants{3, 1}));
 }
 
 TEST_F(Controller, HasNoSpanWithoutContacts) {

@@ -25,7 +25,7 @@ struct BookedRun {
   /// length.
   template <class Spoil>
   void step(const Control& control, Spoil spoil, double share = 1) {
-    const Situation now = observe(model, state, scene);
+    const Observation now = observe(model, state, scene);
     StepSolution solution;
     solve_step(model, state, now, control, scene, *solver, warm, scratch, solution);
     spoil(solution);

@@ -28,13 +28,13 @@ struct DeepKnot {
     Random random(1);
     model = table1_hagfish();
     state = knotted_state(random, model);
-    situation = observe(model, state, scene);
+    observation = observe(model, state, scene);
   }
-  void look() { guard_state(model, state, situation, crossing, scene, watch, warnings); }
+  void look() { guard_state(model, state, observation, crossing, scene, watch, warnings); }
   Scene scene = table1_scene();
   Model model;
   State state;
-  Situation situation;
+  Observation observation;
   double crossing = 0;
   Watch watch;
   std::vector<std::string> warnings;
@@ -45,7 +45,8 @@ TEST(Guard, NamesTheBodiesThatOverlapAndWhatWouldHelp) {
   knot.look();  // half a centimetre is permitted
   knot.scene.guard.penetration = 0.1;
   const std::string message = message_of(StopCause::penetration, [&] { knot.look(); });
-  const auto deepest = std::ranges::min_element(knot.situation.contact.contacts, {}, &Contact::gap);
+  const auto deepest =
+      std::ranges::min_element(knot.observation.contact.contacts, {}, &Contact::gap);
   EXPECT_NE(message.find("of bodies " + std::to_string(deepest->body_a()) + " and " +
                          std::to_string(deepest->body_b())),
             std::string::npos)
@@ -64,7 +65,7 @@ TEST(Guard, NamesTheJointPastItsLimit) {
   DeepKnot knot;
   const Hinge& hinge = knot.model.hinges[4];
   knot.state.q[7 + 4] = hinge.upper + 0.3;
-  knot.situation = observe(knot.model, knot.state, knot.scene);
+  knot.observation = observe(knot.model, knot.state, knot.scene);
   knot.scene.guard.penetration = 100;
   const std::string message = message_of(StopCause::limits, [&] { knot.look(); });
   EXPECT_EQ(message.find(dof_name(knot.model, root_dofs + 4) + " is 17.2 deg past"), 0u) << message;
@@ -115,7 +116,7 @@ struct CappedRow {
 
   Model model = table1_hagfish();
   Scene scene = table1_scene();
-  Situation now;
+  Observation now;
   StepSolution step;
   Watch watch;
   std::vector<std::string> warnings;

@@ -35,10 +35,10 @@ void expect_same(const Simulation& a, const Simulation& b) {
   EXPECT_EQ(a.step, b.step);
   EXPECT_EQ(a.state.q, b.state.q);
   EXPECT_EQ(a.state.qdot, b.state.qdot);
-  EXPECT_EQ(a.situation.kin.centre, b.situation.kin.centre);
-  EXPECT_EQ(a.situation.kin.twist, b.situation.kin.twist);
-  EXPECT_EQ(a.situation.contact.contacts.size(), b.situation.contact.contacts.size());
-  EXPECT_EQ(a.situation.penetration, b.situation.penetration);
+  EXPECT_EQ(a.observation.kin.centre, b.observation.kin.centre);
+  EXPECT_EQ(a.observation.kin.twist, b.observation.kin.twist);
+  EXPECT_EQ(a.observation.contact.contacts.size(), b.observation.contact.contacts.size());
+  EXPECT_EQ(a.observation.penetration, b.observation.penetration);
 
   const ControllerState &c = a.controller, &d = b.controller;
   EXPECT_EQ(c.phase, d.phase);

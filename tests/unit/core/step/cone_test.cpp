@@ -89,7 +89,7 @@ TEST(Cones, AreWhatObserveAndTheWatchMeasure) {
   state.q.segment<2>(cone.dof + 1).setConstant(0.95 * cone.limit);
   const double over =
       std::acos(std::pow(std::cos(0.95 * cone.limit), 2)) - cone.limit;  // far from straight
-  Situation now = observe(model, state, scene);
+  Observation now = observe(model, state, scene);
   EXPECT_NEAR(now.limit_violation, over, 1e-14);
   EXPECT_EQ(observe(table1_hagfish(), state, scene).limit_violation, 0);
 
@@ -125,7 +125,7 @@ struct Swung {
   /// One step, whose rows differ by their ids; counts cones that push and rows of one cone.
   void step(BoxQpSolver& solver) {
     take_step(model, scene, solver, sim, record);
-    worst = std::max(worst, sim.situation.limit_violation);
+    worst = std::max(worst, sim.observation.limit_violation);
     std::set<std::int64_t> ids;
     for (const Row& row : record.solution.rows) {
       EXPECT_TRUE(ids.insert(row.id).second) << row_name(model, row);
@@ -196,7 +196,7 @@ TEST(Cones, StepsMeetTheDenseEquation4) {
     swung.step(*solver);
     cut += swung.most_rows > 1 ? 1 : 0;
     const StepSolution& step = swung.record.solution;
-    const Kinematics& kin = swung.record.situation.kin;
+    const Kinematics& kin = swung.record.observation.kin;
     const Eigen::MatrixXd c = dense_rows(swung.model, kin, step.rows);
     const Eigen::VectorXd g =
         generalised_force(swung.model, kin, step.system.wrench) + step.system.joint;

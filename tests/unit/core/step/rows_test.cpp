@@ -204,7 +204,7 @@ TEST(WallRows, SkipTheNeckAndLookAlongX) {
     });
     EXPECT_EQ(forces, 1);
     // Centres are sums of 100 lengths: 1e-14 cm over h.
-    const double fastest = speculative.push_out_speed;
+    const double fastest = speculative.baumgarte_speed;
     EXPECT_NEAR(rows[i].rhs, gap >= 0 ? -gap / h : std::min(-0.5 * gap / h, fastest), 1e-9);
     if (gap < 0 && -0.5 * gap / h < fastest) ++slower;
   }
@@ -222,7 +222,7 @@ TEST(HeadRows, TakeADriftBack) {
   EXPECT_EQ(head_rows(state, speculative, h).size(), 6U);
   for (const Row& row : head_rows(state, speculative, h)) EXPECT_EQ(row.rhs, 0);
 
-  // Going at the velocity that the rows ask for shrinks the drift by push_out. The angle of a
+  // Going at the velocity that the rows ask for shrinks the drift by baumgarte. The angle of a
   // rotation by its sine is off by its cube.
   const Eigen::Vector3d turn(1e-4, -2e-4, 3e-4);
   state.q.head<3>() << 1e-3, 2e-3, -3e-3;

@@ -37,7 +37,7 @@ struct Stage {
 
   /// Every row that the step may use, by its makers.
   std::vector<Row> rows() const {
-    const Situation now = observe(model, state, scene);
+    const Observation now = observe(model, state, scene);
     const double h = scene.time.step;
     std::vector<Row> all;
     const auto append = [&all](const std::vector<Row>& more) {
@@ -455,7 +455,7 @@ TEST(Step, NamesRowsThatContradictEachOther) {
   for (const std::string& name : box_qp_solver_names()) {
     Stage s;
     s.scene.wall.neck = 0;
-    const Situation now = observe(s.model, s.state, s.scene);
+    const Observation now = observe(s.model, s.state, s.scene);
     StepScratch scratch;
     StepSolution step;
     try {

@@ -22,10 +22,10 @@ class StressJudgeTest : public testing::Test {
 
   /// Shows a step to where the judge already is, with figures of its own.
   void show(double penetration, double limit_violation, const EnergyState& energy) {
-    Situation situation = observe(model, state, scene);
-    situation.penetration = penetration;
-    situation.limit_violation = limit_violation;
-    judge.see(state, state, situation, 0.002, energy);
+    Observation observation = observe(model, state, scene);
+    observation.penetration = penetration;
+    observation.limit_violation = limit_violation;
+    judge.see(state, state, observation, 0.002, energy);
   }
 
   ResolvedScene resolved;
@@ -90,10 +90,10 @@ TEST_F(StressJudgeTest, StrandsThatPassWithinAStepTunnel) {
   State after = loop(-0.3);
   after.qdot.tail(model.nv() - root_dofs) =
       (after.q - before.q).tail(model.nv() - root_dofs) / scene.time.step;
-  const Situation situation = observe(model, after, scene);
+  const Observation observation = observe(model, after, scene);
   ASSERT_EQ(observe(model, before, scene).penetration, 0);
-  ASSERT_EQ(situation.penetration, 0);
-  judge.see(before, after, situation, 0.002, {100, 0});
+  ASSERT_EQ(observation.penetration, 0);
+  judge.see(before, after, observation, 0.002, {100, 0});
   EXPECT_EQ(judge.ended().outcome, Outcome::tunnelled);
 }
 
