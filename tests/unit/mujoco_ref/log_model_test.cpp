@@ -2,7 +2,6 @@
 #include "mujoco_ref/log_model.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 
@@ -10,6 +9,7 @@
 #include "core/log/hdf5_writer.hpp"
 #include "mujoco_ref/mirror.hpp"
 #include "tests/support/random_chain.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace hagfish {
 namespace {
@@ -24,10 +24,6 @@ std::map<std::string, std::string> files_of(const Model& model, Head head = Head
 
 class LogModel : public testing::Test {
  protected:
-  LogModel()
-      : file(fs::path(testing::TempDir()) / ("log_model_" + std::to_string(getpid()) + ".h5")) {}
-  ~LogModel() override { fs::remove(file); }
-
   void write(const std::map<std::string, std::string>& files) const {
     Hdf5Writer h5;
     h5.group("/mjcf");
@@ -43,7 +39,8 @@ class LogModel : public testing::Test {
     return "no error";
   }
 
-  fs::path file;
+  TemporaryFolder folder;
+  const fs::path file = folder / "log.h5";
 };
 
 TEST_F(LogModel, ReplaysPositions) {

@@ -2,15 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include <unistd.h>
 #include <bit>
 #include <cstdint>
-#include <filesystem>
-#include <fstream>
 #include <functional>
 
 #include "core/input/builtin_files.hpp"
 #include "tests/support/input_errors.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace hagfish {
 namespace {
@@ -31,24 +29,6 @@ std::string complaint(const std::string& more, const std::vector<std::string>& o
 std::string script(const std::string& knots) {
   return "[script]\nkind = 'force'\nknots = [\n" + knots + "]\n";
 }
-
-/// A directory of files that goes away with the object.
-class Files {
- public:
-  Files()
-      : path_(std::filesystem::path(testing::TempDir()) / ("scene" + std::to_string(getpid()))) {
-    std::filesystem::create_directories(path_ / "sub");
-  }
-  ~Files() { std::filesystem::remove_all(path_); }
-  std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(path_ / name) << text;
-    return (path_ / name).string();
-  }
-  std::string path(const std::string& name) const { return (path_ / name).string(); }
-
- private:
-  std::filesystem::path path_;
-};
 
 TEST(SceneReader, Table1FileIsThePapersScene) {
   const auto [scene, specimen] = read_scene(data + "/table1.toml");
@@ -308,26 +288,27 @@ TEST(SceneReader, OverridesReachSceneAndSpecimen) {
 }
 
 TEST(SceneReader, SpecimenFileIsBesideTheSceneOrWhereTheOptionSays) {
-  const Files files;
-  files.write("animal.toml", plain_specimen);
-  const std::string scene = files.write("sub/scene.toml", "specimen = '../animal.toml'\n");
+  const TemporaryFolder folder;
+  folder.write("animal.toml", plain_specimen);
+  const std::string scene = folder.write("sub/scene.toml", "specimen = '../animal.toml'\n");
   EXPECT_EQ(read_scene(scene).specimen.length, 40);
   const auto changed = read_scene_text("specimen = 'table1.toml'\n", "built in",
-                                       {"specimen=" + files.path("animal.toml")});
+                                       {"specimen=" + (folder / "animal.toml").string()});
   EXPECT_EQ(changed.specimen.length, 40);
 }
 
 TEST(SceneReader, TellsMissingAndUnreadableFiles) {
-  const Files files;
+  const TemporaryFolder folder;
   EXPECT_EQ(error_of([] { read_scene("no/such.toml"); }), "no/such.toml: no such file");
   EXPECT_EQ(error_of([] { read_specimen("no/such.toml"); }), "no/such.toml: no such file");
-  EXPECT_EQ(error_of([&] { read_scene(files.path("sub")); }),
-            files.path("sub") + ": is a directory");
-  EXPECT_EQ(error_of([&] { read_specimen(files.path("sub")); }),
-            files.path("sub") + ": is a directory");
-  const std::string scene = files.write("scene.toml", "title = ''\nspecimen = 'gone.toml'\n");
-  EXPECT_EQ(error_of([&] { read_scene(scene); }),
-            scene + ":2: specimen = 'gone.toml': " + files.path("gone.toml") + ": no such file");
+  EXPECT_EQ(error_of([&] { read_scene(folder.path()); }),
+            folder.path().string() + ": is a directory");
+  EXPECT_EQ(error_of([&] { read_specimen(folder.path()); }),
+            folder.path().string() + ": is a directory");
+  const std::string scene = folder.write("scene.toml", "title = ''\nspecimen = 'gone.toml'\n");
+  EXPECT_EQ(
+      error_of([&] { read_scene(scene); }),
+      scene + ":2: specimen = 'gone.toml': " + (folder / "gone.toml").string() + ": no such file");
   EXPECT_EQ(error_of([] { read_scene_text("specimen = 'gone.toml'", "s"); }),
             "s:1: specimen = 'gone.toml': no such built-in file");
   EXPECT_EQ(error_of([] { read_scene_text("", "s", {"specimen=gone.toml"}); }),
@@ -474,10 +455,10 @@ TEST(SpecimenReader, RefusesBadValues) {
 }
 
 TEST(SpecimenReader, NamesTheFileAndTheMissingKey) {
-  const Files files;
-  const std::string file = files.write("animal.toml", "name = 'x'\nlength = 40\nmass = 0\n");
+  const TemporaryFolder folder;
+  const std::string file = folder.write("animal.toml", "name = 'x'\nlength = 40\nmass = 0\n");
   EXPECT_EQ(error_of([&] { read_specimen(file); }), file + ":3: mass = 0: must be positive");
-  files.write("animal.toml", "name = 'x'\nlength = 40\n");
+  folder.write("animal.toml", "name = 'x'\nlength = 40\n");
   EXPECT_EQ(error_of([&] { read_specimen(file); }), file + ": mass: is missing");
 }
 

@@ -2,7 +2,6 @@
 // half-written under the final name; a full disk or an existing file in one line.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <array>
 #include <csignal>
@@ -14,17 +13,17 @@
 #include "core/log/hdf5_reader.hpp"
 #include "core/log/log_writer.hpp"
 #include "tests/support/random_chain.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace hagfish {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// A short run's log in a folder of its own.
+/// A short run's log.
 class LogTest : public testing::Test {
  protected:
-  LogTest() : folder(fs::path(testing::TempDir()) / ("hagfish_log_" + std::to_string(getpid()))) {
-    fs::create_directories(folder);
+  LogTest() {
     scene.time.frame_interval = 0.01;
     scene.script.kind = ScriptSettings::Kind::force;
     scene.script.knots = {{0, {100, 200, 0}}, {1, {100, 200, 0}}};
@@ -32,7 +31,6 @@ class LogTest : public testing::Test {
     header.scene = scene_to_toml(scene, table1_specimen());
     header.mjcf = {{"hagfish.xml", "<mujoco/>"}};
   }
-  ~LogTest() override { fs::remove_all(folder); }
 
   /// Steps and logs; returns the records' states.
   std::vector<State> write(LogWriter& log, int steps) {
@@ -47,7 +45,7 @@ class LogTest : public testing::Test {
     return states;
   }
 
-  fs::path folder;
+  TemporaryFolder folder;
   Scene scene = table1_scene(10);
   Model model = table1_hagfish(10);
   LogHeader header;
@@ -189,7 +187,7 @@ TEST_F(LogTest, LeavesNothingBehindUnlessFinished) {
     LogWriter log(file, false, header, model, scene);
     write(log, 3);
   }
-  EXPECT_TRUE(fs::is_empty(folder));
+  EXPECT_TRUE(fs::is_empty(folder.path()));
 }
 
 TEST_F(LogTest, FailedRunsStayReadable) {
@@ -203,7 +201,7 @@ TEST_F(LogTest, FailedRunsStayReadable) {
 }
 
 TEST_F(LogTest, NamesAFolderThatIsNotThere) {
-  const fs::path file = folder / "missing" / "run.h5";
+  const fs::path file = folder / "missing/run.h5";
   try {
     LogWriter log(file, false, header, model, scene);
     FAIL();
@@ -227,7 +225,7 @@ TEST_F(LogTest, FullDiskIsOneLineAndLeavesNothing) {
     } catch (const FileError& error) {
       fprintf(stderr, "%s\n", error.what());
     }
-    std::_Exit(fs::is_empty(folder) ? 2 : 1);
+    std::_Exit(fs::is_empty(folder.path()) ? 2 : 1);
   };
   EXPECT_EXIT(fill(), testing::ExitedWithCode(2), "run.h5.part: cannot .*: File too large\n$");
 }
