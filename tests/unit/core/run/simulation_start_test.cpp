@@ -1,0 +1,163 @@
+// How a run starts, goes on from the state of another, and ends.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/chain/start.hpp"
+#include "core/run/simulation.hpp"
+#include "tests/support/random_chain.hpp"
+#include "tests/support/stored_states.hpp"
+
+namespace hagfish {
+namespace {
+
+/// Ten bodies in open water, pulled at the tail.
+struct Pulled {
+  Pulled() {
+    scene.script.kind = ScriptSettings::Kind::force;
+    scene.script.knots = {{0, {100, 200, 0}}, {1, {100, -200, 50}}};
+  }
+  Scene scene = table1_scene(10);
+  Model model = table1_hagfish(10);
+};
+
+/// Steps that a run of `scene` takes before it is over.
+std::int64_t steps_of(const Model& model, const Scene& scene) {
+  const auto solver = make_box_qp_solver("active-set");
+  Simulation sim = start(model, scene);
+  StepRecord record;
+  while (!finished(sim, scene)) {
+    take_step(model, scene, *solver, sim, record);
+  }
+  return sim.step;
+}
+
+TEST(SimulationStart, IsTheScenesStateAtTimeZero) {
+  Pulled p;
+  p.scene.start.phase = Phase::slide;
+  p.scene.start.bend = {{0, 0, 0.05, 0.02}, {1, 0, 0.05, 0.02}};
+  const Simulation sim = start(p.model, p.scene);
+  EXPECT_EQ(sim.step, 0);
+  EXPECT_EQ(time_of(sim, p.scene), 0);
+  EXPECT_EQ(sim.controller.phase, Phase::slide);
+  EXPECT_EQ(sim.controller.phase_start, 0);
+  const State state = start_state(p.model, p.scene.start);
+  EXPECT_EQ(sim.state.q, state.q);
+  EXPECT_EQ(sim.state.qdot, state.qdot);
+  EXPECT_EQ(sim.observation.kin.centre, kinematics(p.model, state).centre);
+  EXPECT_FALSE(finished(sim, p.scene));
+}
+
+TEST(SimulationStart, BooksTheEnergyOfItsState) {
+  Pulled p;
+  p.scene.start.bend = {{0, 0, 0.05, 0.02}, {1, 0, 0.05, 0.02}};
+  const Simulation sim = start(p.model, p.scene);
+  double elastic = 0;
+  for (std::size_t k = 0; k < p.model.hinges.size(); ++k) {
+    elastic += 0.5 * p.model.hinges[k].stiffness * std::pow(sim.state.q[7 + k], 2);
+  }
+  EXPECT_GT(elastic, 0);
+  EXPECT_NEAR(sim.ledger.elastic, elastic, 1e-12 * elastic);  // rounding of a sum of 20
+  EXPECT_EQ(sim.ledger.kinetic, 0);
+}
+
+TEST(SimulationStart, TimeIsStepsTimesTheirLength) {
+  Pulled p;
+  p.scene.time.step = 0.003;
+  const Simulation sim = start_from(p.model, p.scene, rest_state(p.model), {}, 1000000007);
+  EXPECT_EQ(time_of(sim, p.scene), 1000000007 * 0.003);
+}
+
+TEST(SimulationStart, ARecordIsOfTheMomentBeforeTheStep) {
+  const Pulled p;
+  const auto solver = make_box_qp_solver("active-set");
+  Simulation sim = start(p.model, p.scene);
+  for (int k = 0; k < 5; ++k) {
+    const State before = sim.state;
+    const Eigen::Matrix3Xd centre = sim.observation.kin.centre;
+    const StepRecord record = take_step(p.model, p.scene, *solver, sim);
+    EXPECT_EQ(record.step, k);
+    EXPECT_EQ(record.time, k * p.scene.time.step);
+    EXPECT_EQ(record.state.q, before.q);
+    EXPECT_EQ(record.state.qdot, before.qdot);
+    EXPECT_EQ(record.observation.kin.centre, centre);
+    EXPECT_EQ(sim.step, k + 1);
+    EXPECT_EQ(sim.state.qdot, record.solution.qdot);
+    EXPECT_EQ(sim.observation.kin.centre, kinematics(p.model, sim.state).centre);
+  }
+}
+
+TEST(SimulationStart, GoesOnFromTheStateOfAnotherRun) {
+  const Pulled p;
+  const auto solver = make_box_qp_solver("active-set");
+  Simulation sim = start(p.model, p.scene);
+  for (int k = 0; k < 20; ++k) {
+    take_step(p.model, p.scene, *solver, sim);
+  }
+  Simulation other = start_from(p.model, p.scene, sim.state, sim.controller, sim.step);
+  for (int k = 0; k < 20; ++k) {
+    take_step(p.model, p.scene, *solver, sim);
+    const StepRecord record = take_step(p.model, p.scene, *solver, other);
+    EXPECT_EQ(record.time, (20 + k) * p.scene.time.step);
+  }
+  EXPECT_EQ(other.step, 40);
+  // It has no multipliers to start from: rounding of the solver, some 1e-13, over twenty steps.
+  EXPECT_LE(relative_error(other.state.q, sim.state.q), 1e-10);
+  EXPECT_LE(relative_error(other.state.qdot, sim.state.qdot), 1e-10);
+}
+
+TEST(SimulationStart, GoesOnInThePhaseThatItIsGiven) {
+  const ResolvedScene resolved = stored_scene();
+  const Model model = make_hagfish(resolved.specimen, resolved.scene);
+  const auto solver = make_box_qp_solver("active-set");
+  for (const StoredState& stored : stored_states()) {
+    Simulation sim = resume(model, resolved.scene, stored);
+    EXPECT_EQ(take_step(model, resolved.scene, *solver, sim).controller.phase, stored.phase);
+  }
+}
+
+TEST(SimulationEnd, IsAtTheDurationWhateverTheRounding) {
+  Pulled p;
+  // 0.1 three times is more than 0.3, eight times less than 0.8.
+  for (const double step : {0.1, 0.03, 0.007, 0.002}) {
+    for (const int count : {1, 3, 8, 11}) {
+      p.scene.time.step = step;
+      for (const double duration : {count * step, count * step - 0.4 * step}) {
+        p.scene.time.duration = duration;
+        EXPECT_EQ(steps_of(p.model, p.scene), count) << step << " " << duration;
+      }
+    }
+  }
+}
+
+TEST(SimulationEnd, ComesWithThePhaseAfterTheLastOne) {
+  Pulled p;
+  Simulation sim = start(p.model, p.scene);
+  const std::vector<Phase> order = {Phase::form,    Phase::tighten, Phase::slide,
+                                    Phase::reverse, Phase::release, Phase::free};
+  for (std::size_t until = 0; until < order.size(); ++until) {
+    p.scene.time.until = order[until];
+    for (std::size_t now = 0; now < order.size(); ++now) {
+      sim.controller.phase = order[now];
+      EXPECT_EQ(finished(sim, p.scene), now > until) << until << " " << now;
+    }
+  }
+}
+
+TEST(SimulationEnd, ComesATimeAfterTheKnotIsGone) {
+  Pulled p;
+  p.scene.time.step = 0.01;
+  p.scene.controller.free_time = 0.5;
+  ControllerState controller;
+  controller.phase_start = 2;
+  const auto over = [&](Phase phase, std::int64_t step) {
+    controller.phase = phase;
+    return finished(start_from(p.model, p.scene, rest_state(p.model), controller, step), p.scene);
+  };
+  EXPECT_FALSE(over(Phase::free, 249));
+  EXPECT_TRUE(over(Phase::free, 250));
+  EXPECT_FALSE(over(Phase::release, 250));
+}
+
+}  // namespace
+}  // namespace hagfish
