@@ -8,6 +8,7 @@
 #include "core/chain/kinematics.hpp"
 #include "core/log/hdf5_writer.hpp"
 #include "mujoco_ref/mirror.hpp"
+#include "tests/support/errors.hpp"
 #include "tests/support/random_chain.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -31,12 +32,7 @@ class LogModel : public testing::Test {
     h5.save(file);
   }
   std::string error() const {
-    try {
-      mujoco_model_of(Hdf5Reader(file));
-    } catch (const FileError& e) {
-      return e.what();
-    }
-    return "no error";
+    return error_of<FileError>([this] { mujoco_model_of(Hdf5Reader(file)); });
   }
 
   TemporaryFolder folder;

@@ -7,17 +7,11 @@
 #include <string>
 
 #include "core/input/builtin_files.hpp"
-#include "core/input/scene_reader.hpp"
-#include "tests/support/input_errors.hpp"
+#include "tests/support/plain_scene.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace hagfish {
 namespace {
-
-const std::string specimen =
-    "[specimen]\nname = 'test'\nlength = 40\nmass = 80\nstation = [0.2, 0.8]\n"
-    "circumference = [5, 4]\nbending_limit_deg = [20, 30]\nbending_span = 0.8\n"
-    "twist_limit_deg = 48\n";
 
 std::string text_of(const ResolvedScene& resolved) {
   return scene_to_toml(resolved.scene, resolved.specimen);
@@ -38,7 +32,7 @@ TEST(SceneBase, TablesMergeKeyByKeyAndArraysReplace) {
                "title = 'base'\ngravity = [1, 2, 3]\n[controller]\ncap = 7\nrelease_at = 3\n"
                "slide_head = { a = 1, b = 2 }\n[script]\nkind = 'force'\n"
                "knots = [[0, 1, 1, 1], [1, 2, 2, 2], [2, 3, 3, 3]]\n" +
-                   specimen);
+                   plain_scene);
   const Scene scene =
       read_scene(folder.write("s.toml",
                               "base = 'base.toml'\ntitle = 'own'\n[controller]\ncap = 8\n"
@@ -60,7 +54,7 @@ TEST(SceneBase, TablesMergeKeyByKeyAndArraysReplace) {
 
 TEST(SceneBase, AnAngleReplacesThatOfTheOtherUnit) {
   const TemporaryFolder folder;
-  folder.write("base.toml", "[guard]\nlimit_violation_rad = 0.5\n" + specimen);
+  folder.write("base.toml", "[guard]\nlimit_violation_rad = 0.5\n" + plain_scene);
   const std::string scene =
       folder.write("s.toml", "base = 'base.toml'\n[guard]\nlimit_violation_deg = 180\n");
   EXPECT_EQ(read_scene(scene).scene.guard.limit_violation, std::numbers::pi);
@@ -70,7 +64,7 @@ TEST(SceneBase, AnAngleReplacesThatOfTheOtherUnit) {
 
 TEST(SceneBase, FilesAreRelativeToTheOneThatNamesThem) {
   const TemporaryFolder folder;
-  folder.write("animals/animal.toml", specimen.substr(specimen.find('\n') + 1));
+  folder.write("animals/animal.toml", plain_specimen);
   folder.write("shared/deep.toml", "specimen = '../animals/animal.toml'\ntitle = 'deep'\n");
   folder.write("shared/base.toml", "base = 'deep.toml'\n[time]\nduration = 5\n");
   const auto [scene, animal] = read_scene(
@@ -83,7 +77,7 @@ TEST(SceneBase, FilesAreRelativeToTheOneThatNamesThem) {
 }
 
 TEST(SceneBase, ASpecimenOfOnesOwnReplacesTheFileOfTheBase) {
-  EXPECT_EQ(read_scene_text("base = 'table1'\n" + specimen, "s").specimen.name, "test");
+  EXPECT_EQ(read_scene_text("base = 'table1'\n" + plain_scene, "s").specimen.name, "test");
   EXPECT_EQ(read_scene_text("base = 'table1'\n", "s", {"specimen.mass=3"}).specimen.mass, 3);
 }
 
@@ -103,7 +97,7 @@ TEST(SceneBase, OverridesComeAfterTheBase) {
 TEST(SceneBase, UnknownOnesAreTold) {
   const TemporaryFolder folder;
   const auto with_base = [&](const std::string& base) {
-    return folder.write("s.toml", "title = ''\nbase = " + base + "\n" + specimen);
+    return folder.write("s.toml", "title = ''\nbase = " + base + "\n" + plain_scene);
   };
   const std::string scene = with_base("'tabel1'");
   EXPECT_EQ(complaint(scene),
@@ -133,7 +127,7 @@ TEST(SceneBase, CirclesAreTold) {
 TEST(SceneBase, ErrorsInItNameItsFile) {
   const TemporaryFolder folder;
   const std::string base = folder.write("base.toml", "title = ''\n[time]\nstep = 'fast'\n");
-  const std::string scene = folder.write("s.toml", "base = 'base.toml'\n" + specimen);
+  const std::string scene = folder.write("s.toml", "base = 'base.toml'\n" + plain_scene);
   const std::string about = " (base of " + scene + "): ";
   EXPECT_EQ(complaint(scene), base + ":3" + about + "time.step = 'fast': must be a number");
   folder.write("base.toml", "[time]\nsteps = 1\n");
@@ -145,7 +139,7 @@ TEST(SceneBase, ErrorsInItNameItsFile) {
   EXPECT_EQ(complaint(scene).rfind(base + ":1: not valid TOML: ", 0), 0u) << complaint(scene);
   // The scene's own keys, in a table that the base has too.
   folder.write("base.toml", "[time]\nstep = 0.001\n");
-  folder.write("s.toml", "base = 'base.toml'\n[time]\nduration = 0\n" + specimen);
+  folder.write("s.toml", "base = 'base.toml'\n[time]\nduration = 0\n" + plain_scene);
   EXPECT_EQ(complaint(scene), scene + ":3: time.duration = 0: must be positive");
 }
 
@@ -156,6 +150,7 @@ TEST(SceneBase, EveryBuiltInSceneIsTheSameOnDisk) {
               text_of(read_scene(std::string(HAGFISH_DATA_DIR) + "/" + file)))
         << file;
   }
+  EXPECT_FALSE(builtin_file("table2.toml"));
 }
 
 }  // namespace

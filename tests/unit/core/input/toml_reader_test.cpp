@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "core/input/toml_writer.hpp"
-#include "tests/support/input_errors.hpp"
+#include "tests/support/errors.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace hagfish {

@@ -9,6 +9,7 @@
 
 #include "core/log/hdf5_reader.hpp"
 #include "core/log/hdf5_writer.hpp"
+#include "tests/support/errors.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace hagfish {
@@ -30,17 +31,7 @@ class Hdf5Test : public testing::Test {
   Hdf5Writer h5;
 };
 
-/// The message of the FileError that `action` throws; checks that it is one line.
-std::string refusal(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const FileError& error) {
-    const std::string message = error.what();
-    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
-    return message;
-  }
-  return "no error";
-}
+std::string refusal(const std::function<void()>& action) { return error_of<FileError>(action); }
 
 TEST_F(Hdf5Test, NumbersComeBackWithTheirMeaning) {
   const Eigen::Vector3d values(1.0 / 3, -0.0, 1e300);

@@ -51,6 +51,60 @@ class LogTest : public testing::Test {
   LogHeader header;
 };
 
+struct Dataset {
+  std::string path;
+  std::vector<hsize_t> shape;
+  std::string unit;
+};
+
+/// What a log of `t` frames of `n` bodies must hold.
+std::vector<Dataset> contract(hsize_t t, hsize_t n, hsize_t nq, hsize_t nv) {
+  return {{"/model/mass", {n}, "g"},
+          {"/model/length", {n}, "cm"},
+          {"/model/radius", {n}, "cm"},
+          {"/model/limit_lower", {nv}, "rad"},
+          {"/model/limit_upper", {nv}, "rad"},
+          {"/model/bending_limit", {n}, "rad"},
+          {"/trajectory/step", {t}, "1"},
+          {"/trajectory/time", {t}, "s"},
+          {"/trajectory/phase", {t}, "1"},
+          {"/trajectory/q", {t, nq}, "mixed: cm, 1, rad"},
+          {"/trajectory/qdot", {t, nv}, "cm/s, rad/s"},
+          {"/trajectory/position", {t, n, 3}, "cm"},
+          {"/forces/thigmotaxis", {t, nv}, "dyn, dyn·cm"},
+          {"/forces/contact", {t, nv}, "dyn, dyn·cm"},
+          {"/forces/limit", {t, nv}, "dyn, dyn·cm"},
+          {"/forces/head", {t, nv}, "dyn, dyn·cm"},
+          {"/forces/wall", {t, nv}, "dyn, dyn·cm"},
+          {"/forces/tip", {t, 3}, "dyn"},
+          {"/thigmotaxis/body_a", {t, 2}, "1"},
+          {"/thigmotaxis/body_b", {t, 2}, "1"},
+          {"/thigmotaxis/lambda", {t, 4}, "dyn"},
+          {"/thigmotaxis/speed", {t, 4}, "cm/s"},
+          {"/thigmotaxis/slack", {t, 4}, "cm/s"},
+          {"/knot/determinant", {t}, "1"},
+          {"/knot/v2", {t}, "1"},
+          {"/knot/agreement", {t}, "1"},
+          {"/knot/head_end", {t}, "cm"},
+          {"/knot/tail_end", {t}, "cm"},
+          {"/diagnostics/solve", {t}, "1"},
+          {"/diagnostics/rows", {t}, "1"},
+          {"/diagnostics/active", {t}, "1"},
+          {"/diagnostics/contacts", {t}, "1"},
+          {"/diagnostics/iterations", {t}, "1"},
+          {"/diagnostics/kkt_stationarity", {t}, "1"},
+          {"/diagnostics/kkt_primal", {t}, "1"},
+          {"/diagnostics/kkt_complementarity", {t}, "1"},
+          {"/diagnostics/penetration", {t}, "cm"},
+          {"/diagnostics/limit_violation", {t}, "rad"},
+          {"/diagnostics/head_drift", {t}, "cm"},
+          {"/diagnostics/kinetic_energy", {t}, "erg"},
+          {"/diagnostics/work_thigmotaxis", {t}, "erg"},
+          {"/diagnostics/work_tip", {t}, "erg"},
+          {"/diagnostics/dissipated", {t}, "erg"},
+          {"/diagnostics/wall_time", {t}, "s"}};
+}
+
 TEST_F(LogTest, HoldsWhatTheContractNames) {
   const fs::path file = folder / "run.h5";
   LogWriter log(file, false, header, model, scene);
@@ -61,53 +115,7 @@ TEST_F(LogTest, HoldsWhatTheContractNames) {
   const hsize_t n = 10;
   const hsize_t nq = model.nq();
   const hsize_t nv = model.nv();
-  using Shape = std::vector<hsize_t>;
-  const std::vector<std::tuple<std::string, Shape, std::string>> contract = {
-      {"/model/mass", {n}, "g"},
-      {"/model/length", {n}, "cm"},
-      {"/model/radius", {n}, "cm"},
-      {"/model/limit_lower", {nv}, "rad"},
-      {"/model/limit_upper", {nv}, "rad"},
-      {"/model/bending_limit", {n}, "rad"},
-      {"/trajectory/step", {t}, "1"},
-      {"/trajectory/time", {t}, "s"},
-      {"/trajectory/phase", {t}, "1"},
-      {"/trajectory/q", {t, nq}, "mixed: cm, 1, rad"},
-      {"/trajectory/qdot", {t, nv}, "cm/s, rad/s"},
-      {"/trajectory/position", {t, n, 3}, "cm"},
-      {"/forces/thigmotaxis", {t, nv}, "dyn, dyn·cm"},
-      {"/forces/contact", {t, nv}, "dyn, dyn·cm"},
-      {"/forces/limit", {t, nv}, "dyn, dyn·cm"},
-      {"/forces/head", {t, nv}, "dyn, dyn·cm"},
-      {"/forces/wall", {t, nv}, "dyn, dyn·cm"},
-      {"/forces/tip", {t, 3}, "dyn"},
-      {"/thigmotaxis/body_a", {t, 2}, "1"},
-      {"/thigmotaxis/body_b", {t, 2}, "1"},
-      {"/thigmotaxis/lambda", {t, 4}, "dyn"},
-      {"/thigmotaxis/speed", {t, 4}, "cm/s"},
-      {"/thigmotaxis/slack", {t, 4}, "cm/s"},
-      {"/knot/determinant", {t}, "1"},
-      {"/knot/v2", {t}, "1"},
-      {"/knot/agreement", {t}, "1"},
-      {"/knot/head_end", {t}, "cm"},
-      {"/knot/tail_end", {t}, "cm"},
-      {"/diagnostics/solve", {t}, "1"},
-      {"/diagnostics/rows", {t}, "1"},
-      {"/diagnostics/active", {t}, "1"},
-      {"/diagnostics/contacts", {t}, "1"},
-      {"/diagnostics/iterations", {t}, "1"},
-      {"/diagnostics/kkt_stationarity", {t}, "1"},
-      {"/diagnostics/kkt_primal", {t}, "1"},
-      {"/diagnostics/kkt_complementarity", {t}, "1"},
-      {"/diagnostics/penetration", {t}, "cm"},
-      {"/diagnostics/limit_violation", {t}, "rad"},
-      {"/diagnostics/head_drift", {t}, "cm"},
-      {"/diagnostics/kinetic_energy", {t}, "erg"},
-      {"/diagnostics/work_thigmotaxis", {t}, "erg"},
-      {"/diagnostics/work_tip", {t}, "erg"},
-      {"/diagnostics/dissipated", {t}, "erg"},
-      {"/diagnostics/wall_time", {t}, "s"}};
-  for (const auto& [path, shape, unit] : contract) {
+  for (const auto& [path, shape, unit] : contract(t, n, nq, nv)) {
     ASSERT_TRUE(h5.has(path)) << path;
     EXPECT_EQ(h5.shape(path), shape) << path;
     EXPECT_EQ(h5.attribute(path, "unit"), unit) << path;
@@ -124,7 +132,7 @@ TEST_F(LogTest, HoldsWhatTheContractNames) {
   EXPECT_EQ(h5.root_text("format"), "hagfish-log");
   EXPECT_EQ(h5.root_int("format_version"), 1);
   EXPECT_EQ(h5.root_text("status"), "complete");
-  EXPECT_EQ(h5.shape("/steps/kkt"), Shape{12});
+  EXPECT_EQ(h5.shape("/steps/kkt"), std::vector<hsize_t>{12});
 }
 
 TEST_F(LogTest, ReadsBackTheVeryStatesThatWereWritten) {

@@ -6,8 +6,8 @@
 #include <functional>
 #include <limits>
 
+#include "tests/support/errors.hpp"
 #include "tests/support/foreign_qps.hpp"
-#include "tests/support/input_errors.hpp"
 #include "tests/support/random_qp.hpp"
 #include "tests/support/temporary_folder.hpp"
 
