@@ -8,6 +8,7 @@
 #include "core/chain/model.hpp"
 #include "core/input/builtin_files.hpp"
 #include "core/input/input_text.hpp"
+#include "core/input/scene_base.hpp"
 #include "core/input/scene_fields.hpp"
 #include "core/input/toml_reader.hpp"
 #include "core/input/toml_writer.hpp"
@@ -45,10 +46,13 @@ Specimen read_specimen_table(TableReader& table) {
 
 /// The text of the specimen file that the scene of `root` names, and its name in errors.
 std::pair<std::string, std::string> specimen_file(const TableReader& root, const std::string& name,
-                                                  const std::filesystem::path* scene_file) {
-  if (root.was_set("specimen") || scene_file) {
+                                                  const std::vector<SceneSource>& sources) {
+  const bool set = root.was_set("specimen");
+  const SceneSource& source =
+      *std::ranges::find(sources, root.file_of("specimen"), &SceneSource::name);
+  if (set || source.file) {
     std::filesystem::path file = name;
-    if (!root.was_set("specimen")) file = scene_file->parent_path() / file;
+    if (!set) file = source.file->parent_path() / file;
     try {
       return {read_text_file(file), file.string()};
     } catch (const InputError& error) {
@@ -61,7 +65,7 @@ std::pair<std::string, std::string> specimen_file(const TableReader& root, const
 }
 
 /// Reads `specimen` of the scene, a table or a file name, which goes to `name`.
-Specimen read_scene_specimen(TableReader& root, const std::filesystem::path* scene_file,
+Specimen read_scene_specimen(TableReader& root, const std::vector<SceneSource>& sources,
                              const std::vector<Override>& changes, std::string& name) {
   if (root.is_table("specimen")) {
     Specimen specimen;
@@ -70,7 +74,7 @@ Specimen read_scene_specimen(TableReader& root, const std::filesystem::path* sce
   }
   if (!root.has("specimen")) root.fail("specimen", "is missing: a file name or a table");
   root.string("specimen", name);
-  const auto [text, file] = specimen_file(root, name, scene_file);
+  const auto [text, file] = specimen_file(root, name, sources);
   TableReader table(text, file);
   for (const auto& [key, value] : changes) {
     table.set({key.substr(specimen_prefix.size()), value}, key);
@@ -215,13 +219,16 @@ void check_expectations(const TableReader& root, const Scene& scene) {
   }
 }
 
-ResolvedScene read(const std::string& text, const std::string& name,
-                   const std::filesystem::path* scene_file,
-                   const std::vector<std::string>& overrides) {
-  TableReader root(text, name);
+ResolvedScene read(SceneSource source, const std::vector<std::string>& overrides) {
+  const std::string name = source.name;
+  std::vector<SceneSource> sources;
+  TableReader root = read_with_bases(std::move(source), sources);
   std::vector<Override> specimen_changes;
   for (const auto& assignment : overrides) {
     const Override change = parse_override(assignment);
+    if ((change.key + ".").starts_with("base.")) {
+      throw_input_error(name + ": --set " + shortened(assignment) + ": only a file has a base");
+    }
     if (change.key.starts_with(specimen_prefix)) {
       specimen_changes.push_back(change);
     } else {
@@ -234,7 +241,7 @@ ResolvedScene read(const std::string& text, const std::string& name,
   }
   ResolvedScene result;
   ScriptFile script;
-  result.specimen = read_scene_specimen(root, scene_file, specimen_changes, result.scene.specimen);
+  result.specimen = read_scene_specimen(root, sources, specimen_changes, result.scene.specimen);
   scene_fields(root, result.scene, script);
   root.finish();
   result.scene.script = resolve_script(root, script, result.specimen.length);
@@ -255,12 +262,12 @@ Specimen read_specimen(const std::filesystem::path& file) {
 
 ResolvedScene read_scene(const std::filesystem::path& file,
                          const std::vector<std::string>& overrides) {
-  return read(read_text_file(file), file.string(), &file, overrides);
+  return read({read_text_file(file), file.string(), file}, overrides);
 }
 
 ResolvedScene read_scene_text(const std::string& text, const std::string& name,
                               const std::vector<std::string>& overrides) {
-  return read(text, name, nullptr, overrides);
+  return read({text, name, std::nullopt}, overrides);
 }
 
 std::string scene_to_toml(const Scene& scene, const Specimen& specimen) {

@@ -1,9 +1,11 @@
 // Scene and specimen files: TOML, with every number checked. data/table1.toml shows each key.
 //
 // Keys are the names of the members of Scene (settings.hpp) and Specimen (specimen.hpp), in the
-// same units; angles are given in degrees under NAME_deg, or in rad under NAME_rad. Absent keys of
-// a scene keep the defaults of settings.hpp; a specimen has no defaults. All functions that read
-// throw InputError, whose one line names file, key and reason.
+// same units; angles are given in degrees under NAME_deg, or in rad under NAME_rad. A scene may
+// name a base, another scene whose keys it inherits: a built-in scene's name, or a file that ends
+// in .toml, relative to the one that names it. Tables merge key by key, arrays replace. Keys absent
+// from all of these keep the defaults of settings.hpp; a specimen has no defaults. All functions
+// that read throw InputError, whose one line names file, key and reason.
 #pragma once
 
 #include <filesystem>
@@ -27,8 +29,8 @@ Specimen read_specimen(const std::filesystem::path& file);
 
 /// Reads a scene file. Each override is "KEY=VALUE" with a dotted key ("time.step=0.005") and a
 /// TOML value; a string needs no quotes. `specimen.KEY=VALUE` changes the specimen wherever it is
-/// read from. A specimen file is looked for beside the scene file, or, where an override names it,
-/// in the working directory.
+/// read from. A specimen file is looked for beside the file that names it, or, where an override
+/// names it, in the working directory.
 ResolvedScene read_scene(const std::filesystem::path& file,
                          const std::vector<std::string>& overrides = {});
 

@@ -7,69 +7,14 @@
 #include <map>
 #include <numbers>
 #include <sstream>
-#include <toml.hpp>
 #include <utility>
+
+#include "core/input/toml_document.hpp"
 
 namespace hagfish {
 namespace {
 
 constexpr const char* numbers_wanted = "must be an array of numbers";
-
-struct Document {
-  std::string file;
-  toml::value root;
-  std::map<std::string, Override> overrides;  ///< by path in this document; key is the shown one
-};
-
-/// The value as the file spells it; only the first line of what spans several.
-std::string spelling(const toml::value& value) {
-  const toml::source_location at = value.location();
-  const std::string& line = at.line_str();
-  const std::size_t start = std::min<std::size_t>(at.column() - 1, line.size());
-  const std::string text = line.substr(start, at.region());
-  return text.size() < at.region() ? shortened(text) + " ..." : shortened(text);
-}
-
-/// The parser's many lines as one: what is wrong and, after the caret, what it wanted.
-std::string condensed(std::string message) {
-  std::string wanted;
-  if (const auto caret = message.rfind("^---"); caret != std::string::npos) {
-    wanted = message.substr(caret + 4);
-    wanted = wanted.substr(0, wanted.find('\n'));
-  }
-  message = message.substr(0, message.find('\n'));
-  for (const std::string_view prefix : {"[error] ", "toml::"}) {
-    if (message.starts_with(prefix)) message.erase(0, prefix.size());
-  }
-  // What is left may begin with the parser's own function: "parse_array: ...".
-  const auto colon = message.find(':');
-  if (message.starts_with("parse_") || message.starts_with("insert_")) {
-    message.erase(0, message.find_first_not_of(": ", colon));
-  }
-  return message + (wanted.empty() ? "" : " (" + wanted.substr(1) + ")");
-}
-
-toml::value parse(const std::string& text, const std::string& file) {
-  try {
-    std::istringstream stream(text);
-    return toml::parse(stream, file);
-  } catch (const toml::exception& error) {
-    throw_input_error(file + ":" + std::to_string(error.location().line()) +
-                      ": not valid TOML: " + condensed(error.what()));
-  } catch (const std::exception& error) {
-    throw_input_error(file + ": not valid TOML: " + condensed(error.what()));
-  }
-}
-
-/// An override's value: TOML where it parses as one value, the bare text where not.
-toml::value parse_value(const std::string& text) {
-  try {
-    toml::value parsed = parse("value = " + text, "--set");
-    if (parsed.as_table().size() == 1) return parsed.at("value");
-  } catch (const InputError&) {  // a bare string, and wrong only where no string is wanted
-  }
-  return toml::value(text);
-}
 
 /// A range in degrees as one in the unit of which `unit` makes rad.
 Range in_unit(Range degrees, double unit) {
@@ -78,10 +23,6 @@ Range in_unit(Range degrees, double unit) {
   degrees.low *= factor;
   degrees.high *= factor;
   return degrees;
-}
-
-std::string join(const std::string& path, std::string_view key) {
-  return path.empty() ? std::string(key) : path + "." + std::string(key);
 }
 
 }  // namespace
@@ -94,7 +35,7 @@ struct TableReader::Impl {
     std::string subject = "";
   };
 
-  std::shared_ptr<Document> document;
+  std::shared_ptr<TomlDocument> document;
   const toml::value* table = nullptr;  ///< nothing where the file has no such table
   std::string path;
   bool all_required = false;
@@ -137,29 +78,20 @@ struct TableReader::Impl {
     return {place, in_rad ? 1 : std::numbers::pi / 180};
   }
 
-  /// The override that set `full`, a dotted path, or a table around it.
-  const Override* override_of(std::string full) const {
-    for (;;) {
-      const auto found = document->overrides.find(full);
-      if (found != document->overrides.end()) return &found->second;
-      const auto dot = full.rfind('.');
-      if (dot == std::string::npos) return nullptr;
-      full.erase(dot);
-    }
-  }
-
   [[noreturn]] void fail(const Place& place, const std::string& why) const {
-    const std::string full = join(path, place.key);
+    const std::string full = join_keys(path, place.key);
     const std::string reason = place.subject + why;
-    if (const Override* change = override_of(full)) {
+    if (const Override* change = document->override_of(full)) {
       const bool itself = document->overrides.contains(full);
       throw_input_error(document->file + ": --set " + change->key + "=" + shortened(change->value) +
                         ": " + (itself ? "" : full + " ") + reason);
     }
-    std::string text = document->file;
+    const std::string file = document->file_of(place.value);
+    std::string text = file;
     if (place.value) text += ":" + std::to_string(place.value->location().line());
+    if (file != document->file) text += " (base of " + document->file + ")";
     text += ": " + full;
-    if (place.value && !place.value->is_table()) text += " = " + spelling(*place.value);
+    if (place.value && !place.value->is_table()) text += " = " + toml_spelling(*place.value);
     throw_input_error(text + ": " + reason);
   }
 
@@ -218,7 +150,7 @@ struct TableReader::Impl {
 
 TableReader::TableReader(const std::string& text, const std::string& file)
     : impl_(std::make_unique<Impl>()) {
-  impl_->document = std::make_shared<Document>(Document{file, parse(text, file), {}});
+  impl_->document = std::make_shared<TomlDocument>(parse_toml(text, file));
   impl_->table = &impl_->document->root;
 }
 
@@ -226,21 +158,12 @@ TableReader::TableReader(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 TableReader::TableReader(TableReader&&) noexcept = default;
 TableReader::~TableReader() = default;
 
+void TableReader::inherit(const TableReader& base) {
+  impl_->document->inherit(*base.impl_->document);
+}
+
 void TableReader::set(const Override& change, const std::string& shown) {
-  toml::value* at = &impl_->document->root;
-  std::istringstream parts(change.key);
-  std::string part, walked;
-  while (std::getline(parts, part, '.')) {
-    if (at->is_uninitialized()) *at = toml::table();
-    if (!at->is_table()) {
-      throw_input_error(impl_->document->file + ": --set " + shown + "=" + shortened(change.value) +
-                        ": " + walked + " is not a table");
-    }
-    walked = join(walked, part);
-    at = &at->as_table()[part];
-  }
-  *at = parse_value(change.value);
-  impl_->document->overrides[change.key] = {shown, change.value};
+  impl_->document->set(change, shown);
 }
 
 void TableReader::require_all() { impl_->all_required = true; }
@@ -252,8 +175,12 @@ bool TableReader::is_table(std::string_view key) const {
   return value && value->is_table();
 }
 
+std::string TableReader::file_of(std::string_view key) const {
+  return impl_->document->file_of(impl_->peek(key));
+}
+
 bool TableReader::was_set(std::string_view key) const {
-  return impl_->document->overrides.contains(join(impl_->path, key));
+  return impl_->document->overrides.contains(join_keys(impl_->path, key));
 }
 
 void TableReader::string(std::string_view key, std::string& value) {
@@ -262,7 +189,8 @@ void TableReader::string(std::string_view key, std::string& value) {
   if (place.value->is_string()) {
     value = place.value->as_string().str;
   } else if (was_set(key)) {
-    value = impl_->override_of(join(impl_->path, key))->value;  // --set title=2 is a title too
+    // --set title=2 is a title too.
+    value = impl_->document->override_of(join_keys(impl_->path, key))->value;
   } else {
     impl_->fail(place, "must be a string in quotes");
   }
@@ -365,7 +293,7 @@ TableReader TableReader::open(std::string_view key) {
   const Impl::Place place = impl_->ask(key);
   if (place.value && !place.value->is_table()) impl_->fail(place, "must be a table");
   child->table = place.value;
-  child->path = join(impl_->path, key);
+  child->path = join_keys(impl_->path, key);
   return TableReader(std::move(child));
 }
 
@@ -378,7 +306,7 @@ void TableReader::finish() const {
     }
     if (!strangers.empty()) {
       const auto& [key, value] = *strangers.begin();
-      const std::string near = join(impl_->path, nearest(key, impl_->known));
+      const std::string near = join_keys(impl_->path, nearest(key, impl_->known));
       impl_->fail({key, value}, "unknown key; did you mean " + near + "?");
     }
   }

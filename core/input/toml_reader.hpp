@@ -28,6 +28,10 @@ class TableReader {
   TableReader(TableReader&&) noexcept;
   ~TableReader();
 
+  /// Takes from `base` what this table does not have, table by table; arrays are not merged. Both
+  /// are roots. Errors about such a value name the file of `base`. Comes before set().
+  void inherit(const TableReader& base);
+
   /// Puts `value` at the dotted `key` below this table, which must be a root. Errors about it say
   /// `--set SHOWN=VALUE` from then on. Comes before any getter.
   void set(const Override& change, const std::string& shown);
@@ -38,6 +42,8 @@ class TableReader {
   bool has(std::string_view key) const;
   bool is_table(std::string_view key) const;
   bool was_set(std::string_view key) const;  ///< by set()
+  /// The file that the value at `key` was read from: this table's, or a base's.
+  std::string file_of(std::string_view key) const;
 
   void string(std::string_view key, std::string& value);
   void boolean(std::string_view key, bool& value);

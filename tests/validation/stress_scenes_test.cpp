@@ -1,16 +1,15 @@
-// The scenes of experiments/studies/stability.sh: each is read, runs on for a few steps by the core
-// and in MuJoCo, and ends in an outcome by name, whatever the step.
+// The scenes of experiments/studies/stability.sh: each is read, runs for four steps by the core and
+// in MuJoCo, and ends in the outcome that the scene is made for.
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
 #include "core/input/scene_reader.hpp"
 #include "experiments/program/commands.hpp"
-#include "experiments/stress/stress_judge.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace hagfish {
 namespace {
@@ -28,9 +27,12 @@ std::vector<std::string> scenes() {
   return found;
 }
 
-/// The outcome that a cell's file tells; empty where it is none.
-std::string outcome_in(const std::string& file) {
-  std::ifstream in(file);
+/// The outcome of the cell of `options`.
+std::string outcome_of(StressOptions options) {
+  const TemporaryFolder folder;
+  options.out = folder / "cell.csv";
+  EXPECT_EQ(stress(options), 0);
+  std::ifstream in(options.out);
   std::string heading, row, field;
   std::getline(in, heading);
   std::getline(in, row);
@@ -38,17 +40,13 @@ std::string outcome_in(const std::string& file) {
   for (int i = 0; i < 5; ++i) {
     std::getline(fields, field, ',');
   }
-  for (int i = 0; i < outcome_count; ++i) {
-    if (field == outcome_name(static_cast<Outcome>(i))) {
-      return field;
-    }
-  }
-  return "";
+  return field;
 }
 
 class StressScenes : public testing::TestWithParam<std::string> {
  protected:
-  StressOptions cell(const std::string& method, double step) const {
+  /// What becomes of four steps of `step` (s) by `method`.
+  static std::string outcome(const std::string& method, double step) {
     StressOptions options;
     options.scene = GetParam();
     options.method = method;
@@ -58,12 +56,14 @@ class StressScenes : public testing::TestWithParam<std::string> {
     if (read_scene(GetParam()).scene.model.bodies > most_bodies) {
       options.set.push_back("model.bodies=" + std::to_string(most_bodies));
     }
-    options.out = file;
-    return options;
+    return outcome_of(options);
   }
-  ~StressScenes() override { fs::remove(file); }
-  const std::string file =
-      (fs::path(testing::TempDir()) / (fs::path(GetParam()).stem().string() + ".csv")).string();
+
+  const std::string name = fs::path(GetParam()).stem();
+  /// Eq. 6 cannot be met there.
+  const bool unmeetable = name == "knot_into_head" || name == "parallel";
+  const bool contradictory = name == "contradictory";
+  static constexpr double small_step = 0.0002, large_step = 0.05;  // s, the ends of the map
 };
 
 TEST_P(StressScenes, ComesBackFromItsOwnText) {
@@ -74,12 +74,30 @@ TEST_P(StressScenes, ComesBackFromItsOwnText) {
   EXPECT_EQ(scene_to_toml(again.scene, again.specimen), text);
 }
 
-TEST_P(StressScenes, EveryMethodHasAnOutcomeByName) {
+TEST_P(StressScenes, SmallStepsOfTheCoreAreSurvivedByEveryMethod) {
   for (const std::string& method : stress_methods()) {
-    for (const double step : {0.0002, 0.05}) {
-      SCOPED_TRACE(method);
-      ASSERT_EQ(stress(cell(method, step)), 0);
-      EXPECT_NE(outcome_in(file), "") << step;
+    if (method.starts_with("mujoco")) continue;
+    std::string expected = contradictory ? "infeasible" : "ok";
+    if (name == "parallel" && method == "hard_thigmotaxis") expected = "solver failed";
+    EXPECT_EQ(outcome(method, small_step), expected) << method;
+  }
+}
+
+TEST_P(StressScenes, LargeStepsAreSurvivedByTheDefaultWithEitherBackEnd) {
+  // Soft rows that cannot be met push without end: README of experiments, "Where it fails".
+  const std::string expected = contradictory ? "infeasible" : unmeetable ? "energy gain" : "ok";
+  EXPECT_EQ(outcome("default", large_step), expected);
+  EXPECT_EQ(outcome("ipopt", large_step), expected);
+}
+
+TEST_P(StressScenes, MujocoSurvivesSmallStepsOfWhatItHas) {
+  for (const std::string method : {"mujoco_euler", "mujoco_implicit", "mujoco_rk4"}) {
+    if (contradictory || unmeetable) {  // head plate, thigmotaxis
+      EXPECT_EQ(outcome(method, small_step), "not applicable") << method;
+    } else if (name == "closing") {  // its contacts give way by design
+      EXPECT_EQ(outcome(method, small_step), "penetration") << method;
+    } else {
+      EXPECT_EQ(outcome(method, small_step), "ok") << method;
     }
   }
 }
@@ -95,17 +113,12 @@ class MendedCells : public testing::TestWithParam<MendedCell> {};
 
 TEST_P(MendedCells, StayMended) {
   const MendedCell& cell = GetParam();
-  const std::string file =
-      (fs::path(testing::TempDir()) / ("mended_" + cell.name + ".csv")).string();
   StressOptions options;
   options.scene =
       cell.scene == "table1" ? cell.scene : (fs::path(HAGFISH_STRESS_DIR) / cell.scene).string();
   options.step = cell.step;
   options.set = cell.set;
-  options.out = file;
-  ASSERT_EQ(stress(options), 0);
-  EXPECT_EQ(outcome_in(file), outcome_name(Outcome::ok));
-  fs::remove(file);
+  EXPECT_EQ(outcome_of(options), "ok");
 }
 
 const MendedCell mended_cells[] = {

@@ -2,14 +2,15 @@
 #include "mujoco_ref/log_model.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 
 #include "core/chain/kinematics.hpp"
 #include "core/log/hdf5_writer.hpp"
 #include "mujoco_ref/mirror.hpp"
+#include "tests/support/errors.hpp"
 #include "tests/support/random_chain.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace hagfish {
 namespace {
@@ -24,10 +25,6 @@ std::map<std::string, std::string> files_of(const Model& model, Head head = Head
 
 class LogModel : public testing::Test {
  protected:
-  LogModel()
-      : file(fs::path(testing::TempDir()) / ("log_model_" + std::to_string(getpid()) + ".h5")) {}
-  ~LogModel() override { fs::remove(file); }
-
   void write(const std::map<std::string, std::string>& files) const {
     Hdf5Writer h5;
     h5.group("/mjcf");
@@ -35,15 +32,11 @@ class LogModel : public testing::Test {
     h5.save(file);
   }
   std::string error() const {
-    try {
-      mujoco_model_of(Hdf5Reader(file));
-    } catch (const FileError& e) {
-      return e.what();
-    }
-    return "no error";
+    return error_of<FileError>([this] { mujoco_model_of(Hdf5Reader(file)); });
   }
 
-  fs::path file;
+  TemporaryFolder folder;
+  const fs::path file = folder / "log.h5";
 };
 
 TEST_F(LogModel, ReplaysPositions) {

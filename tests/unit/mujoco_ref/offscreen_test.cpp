@@ -15,6 +15,7 @@
 #include "mujoco_ref/mjcf.hpp"
 #include "mujoco_ref/mujoco_model.hpp"
 #include "tests/support/random_chain.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace hagfish {
 namespace {
@@ -168,13 +169,13 @@ TEST_F(OffscreenTest, MissingOpenGlIsNamed) {
 
 TEST_F(OffscreenTest, PngHoldsTheImageAndNamesWhatCannotBeWritten) {
   const Image image{2, 1, {255, 0, 0, 0, 0, 255}};
-  const std::string file = testing::TempDir() + "hagfish_offscreen.png";
+  const TemporaryFolder folder;
+  const std::string file = folder / "a.png";
   write_png(image, file);
   std::ifstream written(file, std::ios::binary);
   std::string magic(8, ' ');
   written.read(magic.data(), 8);
   EXPECT_EQ(magic, "\x89PNG\r\n\x1a\n");
-  std::remove(file.c_str());
   try {
     write_png(image, "/no/such/folder/a.png");
     FAIL() << "no error";

@@ -3,24 +3,12 @@
 
 #include <cmath>
 
-#include "core/input/scene_reader.hpp"
-#include "tests/support/input_errors.hpp"
+#include "tests/support/plain_scene.hpp"
 
 namespace hagfish {
 namespace {
 
 const std::string data = HAGFISH_DATA_DIR;
-
-/// What reading a scene with `text` in front of its specimen complains of.
-std::string complaint(const std::string& text) {
-  return error_of([&] {
-    read_scene_text(text +
-                        "[specimen]\nname = 'test'\nlength = 40\nmass = 80\nstation = [0.2, 0.8]\n"
-                        "circumference = [5, 4]\nbending_limit_deg = [20, 30]\nbending_span = 0.8\n"
-                        "twist_limit_deg = 48\n",
-                    "s.toml");
-  });
-}
 
 TEST(SceneKnots, MirrorReflectsAllThatTheSceneGives) {
   const std::vector<std::string> noisy = {"script.noise=0.3", "gravity=[1, 2, 3]"};
@@ -80,26 +68,26 @@ TEST(SceneKnots, NoiseIsNormalAndOneDrawPerSeed) {
 
 TEST(SceneKnots, RefusesBadExpectations) {
   const std::string names = "must be the name of a knot, 3_1 to 7_7 or det=D,v2=V";
-  EXPECT_EQ(complaint("[expect]\nknot = '3_2'\n"),
+  EXPECT_EQ(scene_complaint("[expect]\nknot = '3_2'\n"),
             "s.toml:2: expect.knot = '3_2': " + names + ", or empty for none");
-  EXPECT_EQ(complaint("[expect]\nknot = '0_1'\n"),
+  EXPECT_EQ(scene_complaint("[expect]\nknot = '0_1'\n"),
             "s.toml:2: expect.knot = '0_1': " + names + ", or empty for none");
-  EXPECT_EQ(complaint("[expect]\nknot = 'det=9,v2=2'\n"), "no error");
-  EXPECT_EQ(complaint("[expect]\ntypes = [['0_1', 0, 1], ['8_1', 2, 3]]\n"),
+  EXPECT_EQ(scene_complaint("[expect]\nknot = 'det=9,v2=2'\n"), "no error");
+  EXPECT_EQ(scene_complaint("[expect]\ntypes = [['0_1', 0, 1], ['8_1', 2, 3]]\n"),
             "s.toml:2: expect.types = ['8_1', 2, 3]: type " + names + ", or 0_1 for none");
-  EXPECT_EQ(complaint("[expect]\ntypes = [['0_1', 0, 2], ['3_1', 1, 3]]\n"),
+  EXPECT_EQ(scene_complaint("[expect]\ntypes = [['0_1', 0, 2], ['3_1', 1, 3]]\n"),
             "s.toml:2: expect.types = ['3_1', 1, 3]: times must rise");
-  EXPECT_EQ(complaint("[expect]\ntypes = [['0_1', 2, 1]]\n"),
+  EXPECT_EQ(scene_complaint("[expect]\ntypes = [['0_1', 2, 1]]\n"),
             "s.toml:2: expect.types = ['0_1', 2, 1]: times must rise");
-  EXPECT_EQ(complaint("[expect]\ntypes = [['0_1', 0]]\n"),
+  EXPECT_EQ(scene_complaint("[expect]\ntypes = [['0_1', 0]]\n"),
             "s.toml:2: expect.types = ['0_1', 0]: stretch 1 must be [type, from, to]");
-  EXPECT_EQ(complaint("[expect]\nhand = 'both'\n"),
+  EXPECT_EQ(scene_complaint("[expect]\nhand = 'both'\n"),
             "s.toml:2: expect.hand = 'both': must be one of \"any\", \"right\", \"left\"");
-  EXPECT_EQ(complaint("[controller]\nfree_from = 'form'\n"),
+  EXPECT_EQ(scene_complaint("[controller]\nfree_from = 'form'\n"),
             "s.toml:2: controller.free_from = 'form': must be one of \"tighten\", \"slide\", "
             "\"release\", \"free\"");
-  EXPECT_EQ(complaint("mirror = 1\n"), "s.toml:1: mirror = 1: must be true or false");
-  EXPECT_EQ(complaint("[script]\nnoise = -1\n"),
+  EXPECT_EQ(scene_complaint("mirror = 1\n"), "s.toml:1: mirror = 1: must be true or false");
+  EXPECT_EQ(scene_complaint("[script]\nnoise = -1\n"),
             "s.toml:2: script.noise = -1: must not be negative");
 }
 

@@ -5,12 +5,12 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <numbers>
 
 #include "core/input/toml_writer.hpp"
-#include "tests/support/input_errors.hpp"
+#include "tests/support/errors.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace hagfish {
 namespace {
@@ -254,9 +254,10 @@ TEST(TomlReader, OverriddenStringsNeedNoQuotes) {
 }
 
 TEST(TomlReader, TellsUnreadableFilesApart) {
-  const std::filesystem::path directory = std::filesystem::temp_directory_path();
+  const TemporaryFolder folder;
   EXPECT_EQ(error_of([] { read_text_file("no/such.toml"); }), "no/such.toml: no such file");
-  EXPECT_EQ(error_of([&] { read_text_file(directory); }), directory.string() + ": is a directory");
+  EXPECT_EQ(error_of([&] { read_text_file(folder.path()); }),
+            folder.path().string() + ": is a directory");
 }
 
 TEST(TomlWriter, WritesWhatTheReaderReadsToTheBit) {

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -12,6 +11,9 @@
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "tests/support/knot_curves.hpp"
+#include "tests/support/random_chain.hpp"
 
 namespace hagfish {
 
@@ -24,109 +26,6 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr KnotInvariants unknot{1, 0};
-
-double uniform(std::mt19937& random, double low, double high) {
-  return low + (high - low) * static_cast<double>(random()) / 0x1p32;
-}
-
-Eigen::Vector3d random_vector(std::mt19937& random) {
-  const double x = uniform(random, -1, 1);
-  const double y = uniform(random, -1, 1);
-  return {x, y, uniform(random, -1, 1)};
-}
-
-Eigen::Matrix3d random_rotation(std::mt19937& random) {
-  const Eigen::Vector3d axis = random_vector(random).normalized();
-  return Eigen::AngleAxisd(uniform(random, 0, 2 * pi), axis).toRotationMatrix();
-}
-
-/// `count` points of a curve over [from, to), as columns.
-template <typename Curve>
-Eigen::Matrix3Xd sample(int count, double from, double to, const Curve& curve) {
-  Eigen::Matrix3Xd points(3, count);
-  for (int i = 0; i < count; ++i) points.col(i) = curve(from + (to - from) * i / count);
-  return points;
-}
-
-/// T(2, q): q windings through the hole of a torus, two around its axis.
-Eigen::Matrix3Xd torus_knot(int q) {
-  return sample(90, 0, 2 * pi, [q](double t) {
-    const double r = 2 + std::cos(q * t);
-    return Eigen::Vector3d(r * std::cos(2 * t), r * std::sin(2 * t), std::sin(q * t));
-  });
-}
-
-Eigen::Matrix3Xd figure_eight() {
-  return sample(90, 0, 2 * pi, [](double t) {
-    const double r = 2 + std::cos(2 * t);
-    return Eigen::Vector3d(r * std::cos(3 * t), r * std::sin(3 * t), std::sin(4 * t));
-  });
-}
-
-/// Lissajous knot 5_2 of frequencies 2, 3, 7.
-Eigen::Matrix3Xd lissajous_5_2() {
-  return sample(90, 0, 2 * pi, [](double t) {
-    return Eigen::Vector3d(std::cos(2 * t + 0.2), std::cos(3 * t + 0.7), std::cos(7 * t));
-  });
-}
-
-/// Closure of a braid: generator +-i swaps strands i and i + 1, the sign says which one is over.
-Eigen::Matrix3Xd braid_closure(const std::vector<int>& word, int strands) {
-  std::vector<Eigen::Vector3d> points;
-  const double length = static_cast<double>(word.size());
-  int y = 0;
-  int rounds = 0;
-  do {
-    for (std::size_t k = 0; k < word.size(); ++k) {
-      const int lower = std::abs(word[k]) - 1;
-      const double x = static_cast<double>(k);
-      if (y == lower || y == lower + 1) {
-        const bool over = (y == lower) == (word[k] > 0);
-        y = 2 * lower + 1 - y;
-        points.emplace_back(x + 0.5, lower + 0.5, over ? 0.3 : -0.3);
-      }
-      points.emplace_back(x + 1, y, 0);
-    }
-    // Back under the braid on nested rectangles, which do not cross.
-    points.emplace_back(length + 1 + y, y, 0);
-    points.emplace_back(length + 1 + y, -1 - y, 0);
-    points.emplace_back(-1 - y, -1 - y, 0);
-    points.emplace_back(-1 - y, y, 0);
-    ++rounds;
-  } while (y != 0);
-  if (rounds != strands) throw std::logic_error("the closure of this braid is not one knot");
-  Eigen::Matrix3Xd polygon(3, points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) polygon.col(static_cast<int>(i)) = points[i];
-  return polygon;
-}
-
-Eigen::Matrix3Xd mirrored(Eigen::Matrix3Xd points) {
-  points.row(2) *= -1;
-  return points;
-}
-
-/// Closed polygon with `first` as its first vertex.
-Eigen::Matrix3Xd started_at(const Eigen::Matrix3Xd& points, Eigen::Index first) {
-  const Eigen::Index rest = points.cols() - first;
-  Eigen::Matrix3Xd turned(3, points.cols());
-  turned << points.rightCols(rest), points.leftCols(first);
-  return turned;
-}
-
-/// The closed polygon cut where it is farthest from its mean, both ends pulled 30 radii away from
-/// each other in the tangent plane of the ball that holds the knot.
-Eigen::Matrix3Xd opened(const Eigen::Matrix3Xd& closed) {
-  const Eigen::Vector3d mean = closed.rowwise().mean();
-  Eigen::Index outermost = 0;
-  const double radius = (closed.colwise() - mean).colwise().norm().maxCoeff(&outermost);
-  const Eigen::Matrix3Xd turned = started_at(closed, outermost);
-  const Eigen::Vector3d outward = (turned.col(0) - mean).normalized();
-  const Eigen::Vector3d pull = 30 * radius * outward.unitOrthogonal();
-  const Eigen::Vector3d other_end = turned.col(0) + 0.01 * radius * outward;
-  Eigen::Matrix3Xd open(3, turned.cols() + 3);
-  open << turned.col(0) - pull, turned, other_end, other_end + pull;
-  return open;
-}
 
 struct NamedKnot {
   std::string name;
@@ -148,12 +47,6 @@ std::vector<NamedKnot> named_knots() {
     knots.push_back({knots[i].name, knots[i].type, mirrored(knots[i].polygon)});
   }
   return knots;
-}
-
-Eigen::Matrix3Xd random_polygon(int count, std::mt19937& random) {
-  Eigen::Matrix3Xd points(3, count);
-  for (auto column : points.colwise()) column = random_vector(random);
-  return points;
 }
 
 /// Open curve that advances along x with coordinates of up to 1 across.
@@ -200,7 +93,7 @@ TEST_P(NamedKnots, OpenCurveKeepsItsTypeReversed) {
 TEST_P(NamedKnots, InvariantUnderRotationOrderStartAndScale) {
   const Eigen::Vector3d sight(0.3, 0.2, 0.9);
   for (int k = 0; k < 20; ++k) {
-    const Eigen::Matrix3Xd turned = random_rotation(random) * polygon();
+    const Eigen::Matrix3Xd turned = random_rotation(random).toRotationMatrix() * polygon();
     EXPECT_EQ(invariants_of_closed(turned, sight), type());
     EXPECT_EQ(invariants_of_closed(turned.rowwise().reverse(), sight), type());
     const auto first = static_cast<Eigen::Index>(random() % polygon().cols());
@@ -243,7 +136,10 @@ TEST(Knot, TorusKnotsOfAnySize) {
 /// Closure of (s1 s2^-1)^n, whose determinant is the Lucas number L(2n) less 2.
 Eigen::Matrix3Xd turks_head(int n) {
   std::vector<int> word;
-  for (int k = 0; k < n; ++k) word.insert(word.end(), {1, -2});
+  for (int k = 0; k < n; ++k) {
+    word.push_back(1);
+    word.push_back(-2);
+  }
   return braid_closure(word, 3);
 }
 
@@ -260,7 +156,10 @@ TEST(Knot, LargeDeterminantsAreExactOrRefused) {
 
 TEST(Knot, CrossingsThatCancelDoNotCount) {
   std::vector<int> word = {1, 1, 1};
-  for (int k = 0; k < 100; ++k) word.insert(word.end(), {1, -1});
+  for (int k = 0; k < 100; ++k) {
+    word.push_back(1);
+    word.push_back(-1);
+  }
   EXPECT_EQ(invariants_of_closed(braid_closure(word, 2), {0.1, 0.2, 1}), (KnotInvariants{3, 1}));
 }
 
@@ -393,40 +292,5 @@ TEST(Knot, BadInputIsRefused) {
   EXPECT_THROW(knot_type(trefoil.leftCols(1), {.votes = 3, .seed = 1}), std::invalid_argument);
   EXPECT_THROW(knot_type(trefoil, {.votes = 0, .seed = 1}), std::invalid_argument);
 }
-
-TEST(Knot, NamesOfSixAndSevenCrossingsAreThoseOfTheirBraids) {
-  const struct {
-    const char* name;
-    std::vector<int> braid;
-    int strands;
-  } table[] = {{"6_1", {1, 1, 2, -1, -3, 2, -3}, 4},  {"6_2", {-1, -1, -1, 2, -1, 2}, 3},
-               {"6_3", {-1, -1, 2, -1, 2, 2}, 3},     {"7_1", {1, 1, 1, 1, 1, 1, 1}, 2},
-               {"7_3", {1, 1, 1, 1, 1, 2, -1, 2}, 3}, {"7_5", {1, 1, 1, 1, 2, -1, 2, 2}, 3},
-               {"7_7", {1, -2, 1, -2, 3, -2, 3}, 4}};
-  for (const auto& entry : table) {
-    const KnotInvariants type =
-        invariants_of_closed(braid_closure(entry.braid, entry.strands), {0.1, 0.2, 1});
-    EXPECT_EQ(knot_name(type), entry.name);
-  }
-}
-
-TEST(Knot, TypeOfANameIsTheOneThatHasIt) {
-  for (const KnotInvariants type : {unknot, KnotInvariants{3, 1}, KnotInvariants{5, -1},
-                                    KnotInvariants{21, -1}, KnotInvariants{9, 2}}) {
-    EXPECT_EQ(knot_called(knot_name(type)), type);
-  }
-  EXPECT_EQ(knot_called("5_2"), (KnotInvariants{7, 2}));
-  for (const char* none :
-       {"", "5_3", "trefoil", "det=9", "det=9,v2=", "det=9,v2=2 ", "det=3,v2=1"}) {
-    EXPECT_FALSE(knot_called(none)) << none;
-  }
-}
-
-TEST(Knot, NameOfAnyOther) {
-  EXPECT_EQ(knot_name(unknot), "0_1");
-  EXPECT_EQ(knot_name({9, 2}), "det=9,v2=2");
-  EXPECT_EQ(knot_name({5, 2}), "det=5,v2=2");
-}
-
 }  // namespace
 }  // namespace hagfish

@@ -2,7 +2,6 @@
 // half-written under the final name; a full disk or an existing file in one line.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <array>
 #include <csignal>
@@ -14,17 +13,17 @@
 #include "core/log/hdf5_reader.hpp"
 #include "core/log/log_writer.hpp"
 #include "tests/support/random_chain.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace hagfish {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// A short run's log in a folder of its own.
+/// A short run's log.
 class LogTest : public testing::Test {
  protected:
-  LogTest() : folder(fs::path(testing::TempDir()) / ("hagfish_log_" + std::to_string(getpid()))) {
-    fs::create_directories(folder);
+  LogTest() {
     scene.time.frame_interval = 0.01;
     scene.script.kind = ScriptSettings::Kind::force;
     scene.script.knots = {{0, {100, 200, 0}}, {1, {100, 200, 0}}};
@@ -32,7 +31,6 @@ class LogTest : public testing::Test {
     header.scene = scene_to_toml(scene, table1_specimen());
     header.mjcf = {{"hagfish.xml", "<mujoco/>"}};
   }
-  ~LogTest() override { fs::remove_all(folder); }
 
   /// Steps and logs; returns the records' states.
   std::vector<State> write(LogWriter& log, int steps) {
@@ -46,11 +44,65 @@ class LogTest : public testing::Test {
     return states;
   }
 
-  fs::path folder;
+  TemporaryFolder folder;
   Scene scene = table1_scene(10);
   Model model = table1_hagfish(10);
   LogHeader header;
 };
+
+struct Dataset {
+  std::string path;
+  std::vector<hsize_t> shape;
+  std::string unit;
+};
+
+/// What a log of `t` frames of `n` bodies must hold.
+std::vector<Dataset> contract(hsize_t t, hsize_t n, hsize_t nq, hsize_t nv) {
+  return {{"/model/mass", {n}, "g"},
+          {"/model/length", {n}, "cm"},
+          {"/model/radius", {n}, "cm"},
+          {"/model/limit_lower", {nv}, "rad"},
+          {"/model/limit_upper", {nv}, "rad"},
+          {"/model/bending_limit", {n}, "rad"},
+          {"/trajectory/step", {t}, "1"},
+          {"/trajectory/time", {t}, "s"},
+          {"/trajectory/phase", {t}, "1"},
+          {"/trajectory/q", {t, nq}, "mixed: cm, 1, rad"},
+          {"/trajectory/qdot", {t, nv}, "cm/s, rad/s"},
+          {"/trajectory/position", {t, n, 3}, "cm"},
+          {"/forces/thigmotaxis", {t, nv}, "dyn, dyn·cm"},
+          {"/forces/contact", {t, nv}, "dyn, dyn·cm"},
+          {"/forces/limit", {t, nv}, "dyn, dyn·cm"},
+          {"/forces/head", {t, nv}, "dyn, dyn·cm"},
+          {"/forces/wall", {t, nv}, "dyn, dyn·cm"},
+          {"/forces/tip", {t, 3}, "dyn"},
+          {"/thigmotaxis/body_a", {t, 2}, "1"},
+          {"/thigmotaxis/body_b", {t, 2}, "1"},
+          {"/thigmotaxis/lambda", {t, 4}, "dyn"},
+          {"/thigmotaxis/speed", {t, 4}, "cm/s"},
+          {"/thigmotaxis/slack", {t, 4}, "cm/s"},
+          {"/knot/determinant", {t}, "1"},
+          {"/knot/v2", {t}, "1"},
+          {"/knot/agreement", {t}, "1"},
+          {"/knot/head_end", {t}, "cm"},
+          {"/knot/tail_end", {t}, "cm"},
+          {"/diagnostics/solve", {t}, "1"},
+          {"/diagnostics/rows", {t}, "1"},
+          {"/diagnostics/active", {t}, "1"},
+          {"/diagnostics/contacts", {t}, "1"},
+          {"/diagnostics/iterations", {t}, "1"},
+          {"/diagnostics/kkt_stationarity", {t}, "1"},
+          {"/diagnostics/kkt_primal", {t}, "1"},
+          {"/diagnostics/kkt_complementarity", {t}, "1"},
+          {"/diagnostics/penetration", {t}, "cm"},
+          {"/diagnostics/limit_violation", {t}, "rad"},
+          {"/diagnostics/head_drift", {t}, "cm"},
+          {"/diagnostics/kinetic_energy", {t}, "erg"},
+          {"/diagnostics/work_thigmotaxis", {t}, "erg"},
+          {"/diagnostics/work_tip", {t}, "erg"},
+          {"/diagnostics/dissipated", {t}, "erg"},
+          {"/diagnostics/wall_time", {t}, "s"}};
+}
 
 TEST_F(LogTest, HoldsWhatTheContractNames) {
   const fs::path file = folder / "run.h5";
@@ -62,53 +114,7 @@ TEST_F(LogTest, HoldsWhatTheContractNames) {
   const hsize_t n = 10;
   const hsize_t nq = model.nq();
   const hsize_t nv = model.nv();
-  using Shape = std::vector<hsize_t>;
-  const std::vector<std::tuple<std::string, Shape, std::string>> contract = {
-      {"/model/mass", {n}, "g"},
-      {"/model/length", {n}, "cm"},
-      {"/model/radius", {n}, "cm"},
-      {"/model/limit_lower", {nv}, "rad"},
-      {"/model/limit_upper", {nv}, "rad"},
-      {"/model/bending_limit", {n}, "rad"},
-      {"/trajectory/step", {t}, "1"},
-      {"/trajectory/time", {t}, "s"},
-      {"/trajectory/phase", {t}, "1"},
-      {"/trajectory/q", {t, nq}, "mixed: cm, 1, rad"},
-      {"/trajectory/qdot", {t, nv}, "cm/s, rad/s"},
-      {"/trajectory/position", {t, n, 3}, "cm"},
-      {"/forces/thigmotaxis", {t, nv}, "dyn, dyn·cm"},
-      {"/forces/contact", {t, nv}, "dyn, dyn·cm"},
-      {"/forces/limit", {t, nv}, "dyn, dyn·cm"},
-      {"/forces/head", {t, nv}, "dyn, dyn·cm"},
-      {"/forces/wall", {t, nv}, "dyn, dyn·cm"},
-      {"/forces/tip", {t, 3}, "dyn"},
-      {"/thigmotaxis/body_a", {t, 2}, "1"},
-      {"/thigmotaxis/body_b", {t, 2}, "1"},
-      {"/thigmotaxis/lambda", {t, 4}, "dyn"},
-      {"/thigmotaxis/speed", {t, 4}, "cm/s"},
-      {"/thigmotaxis/slack", {t, 4}, "cm/s"},
-      {"/knot/determinant", {t}, "1"},
-      {"/knot/v2", {t}, "1"},
-      {"/knot/agreement", {t}, "1"},
-      {"/knot/head_end", {t}, "cm"},
-      {"/knot/tail_end", {t}, "cm"},
-      {"/diagnostics/solve", {t}, "1"},
-      {"/diagnostics/rows", {t}, "1"},
-      {"/diagnostics/active", {t}, "1"},
-      {"/diagnostics/contacts", {t}, "1"},
-      {"/diagnostics/iterations", {t}, "1"},
-      {"/diagnostics/kkt_stationarity", {t}, "1"},
-      {"/diagnostics/kkt_primal", {t}, "1"},
-      {"/diagnostics/kkt_complementarity", {t}, "1"},
-      {"/diagnostics/penetration", {t}, "cm"},
-      {"/diagnostics/limit_violation", {t}, "rad"},
-      {"/diagnostics/head_drift", {t}, "cm"},
-      {"/diagnostics/kinetic_energy", {t}, "erg"},
-      {"/diagnostics/work_thigmotaxis", {t}, "erg"},
-      {"/diagnostics/work_tip", {t}, "erg"},
-      {"/diagnostics/dissipated", {t}, "erg"},
-      {"/diagnostics/wall_time", {t}, "s"}};
-  for (const auto& [path, shape, unit] : contract) {
+  for (const auto& [path, shape, unit] : contract(t, n, nq, nv)) {
     ASSERT_TRUE(h5.has(path)) << path;
     EXPECT_EQ(h5.shape(path), shape) << path;
     EXPECT_EQ(h5.attribute(path, "unit"), unit) << path;
@@ -125,7 +131,7 @@ TEST_F(LogTest, HoldsWhatTheContractNames) {
   EXPECT_EQ(h5.root_text("format"), "hagfish-log");
   EXPECT_EQ(h5.root_int("format_version"), 1);
   EXPECT_EQ(h5.root_text("status"), "complete");
-  EXPECT_EQ(h5.shape("/steps/kkt"), Shape{12});
+  EXPECT_EQ(h5.shape("/steps/kkt"), std::vector<hsize_t>{12});
 }
 
 TEST_F(LogTest, ReadsBackTheVeryStatesThatWereWritten) {
@@ -188,7 +194,7 @@ TEST_F(LogTest, LeavesNothingBehindUnlessFinished) {
     LogWriter log(file, false, header, model, scene);
     write(log, 3);
   }
-  EXPECT_TRUE(fs::is_empty(folder));
+  EXPECT_TRUE(fs::is_empty(folder.path()));
 }
 
 TEST_F(LogTest, FailedRunsStayReadable) {
@@ -202,7 +208,7 @@ TEST_F(LogTest, FailedRunsStayReadable) {
 }
 
 TEST_F(LogTest, NamesAFolderThatIsNotThere) {
-  const fs::path file = folder / "missing" / "run.h5";
+  const fs::path file = folder / "missing/run.h5";
   try {
     LogWriter log(file, false, header, model, scene);
     FAIL();
@@ -226,7 +232,7 @@ TEST_F(LogTest, FullDiskIsOneLineAndLeavesNothing) {
     } catch (const FileError& error) {
       fprintf(stderr, "%s\n", error.what());
     }
-    std::_Exit(fs::is_empty(folder) ? 2 : 1);
+    std::_Exit(fs::is_empty(folder.path()) ? 2 : 1);
   };
   EXPECT_EXIT(fill(), testing::ExitedWithCode(2), "run.h5.part: cannot .*: File too large\n$");
 }

@@ -2,73 +2,77 @@
 // and the audit must fail where this file says it does. A dataset that is not watched fails the
 // test too.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
+#include <limits>
 #include <map>
+#include <memory>
 
-#include "core/log/log_writer.hpp"
+#include "core/log/hdf5_error.hpp"
 #include "experiments/audit/audit.hpp"
-#include "mujoco_ref/mjcf.hpp"
 #include "tests/support/stored_states.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tests/support/written_log.hpp"
 
 namespace hagfish {
 namespace {
 
 namespace fs = std::filesystem;
 
+/// Datasets that the audit names where they are off.
+constexpr const char* named_by_themselves[] = {"/contacts/frame",
+                                               "/diagnostics/active",
+                                               "/diagnostics/elastic_energy",
+                                               "/diagnostics/gravity_energy",
+                                               "/diagnostics/head_drift",
+                                               "/diagnostics/integrator_error",
+                                               "/diagnostics/iterations",
+                                               "/diagnostics/kinetic_energy",
+                                               "/diagnostics/kkt_worst",
+                                               "/diagnostics/limit_violation",
+                                               "/diagnostics/penetration",
+                                               "/diagnostics/qp_time",
+                                               "/diagnostics/rows",
+                                               "/diagnostics/solve",
+                                               "/forces/contact",
+                                               "/forces/thigmotaxis",
+                                               "/forces/tip",
+                                               "/forces/wall",
+                                               "/knot/agreement",
+                                               "/knot/determinant",
+                                               "/knot/head_end",
+                                               "/knot/tail_end",
+                                               "/knot/v2",
+                                               "/mean/thigmotaxis/lambda",
+                                               "/mean/thigmotaxis/slack",
+                                               "/mean/thigmotaxis/speed",
+                                               "/model/bending_limit",
+                                               "/model/dof_name",
+                                               "/model/joint_name",
+                                               "/model/length",
+                                               "/model/limit_lower",
+                                               "/model/limit_upper",
+                                               "/model/mass",
+                                               "/model/radius",
+                                               "/steps/eq6",
+                                               "/thigmotaxis/body_a",
+                                               "/thigmotaxis/body_b",
+                                               "/thigmotaxis/command",
+                                               "/thigmotaxis/lambda",
+                                               "/thigmotaxis/slack",
+                                               "/thigmotaxis/speed",
+                                               "/trajectory/phase",
+                                               "/trajectory/position",
+                                               "/trajectory/step",
+                                               "/trajectory/time",
+                                               "/diagnostics/contacts"};
+
 /// What the audit says of a dataset that is off by a hundredth in its largest entry: a part of a
 /// failing finding's name or text, or of the refusal.
 const std::map<std::string, std::string>& watchers() {
   static const std::map<std::string, std::string> by_path = [] {
     std::map<std::string, std::string> watch;
-    // Named by themselves.
-    for (const char* path : {"/contacts/frame",
-                             "/diagnostics/active",
-                             "/diagnostics/elastic_energy",
-                             "/diagnostics/gravity_energy",
-                             "/diagnostics/head_drift",
-                             "/diagnostics/integrator_error",
-                             "/diagnostics/iterations",
-                             "/diagnostics/kinetic_energy",
-                             "/diagnostics/kkt_worst",
-                             "/diagnostics/limit_violation",
-                             "/diagnostics/penetration",
-                             "/diagnostics/qp_time",
-                             "/diagnostics/rows",
-                             "/diagnostics/solve",
-                             "/forces/contact",
-                             "/forces/thigmotaxis",
-                             "/forces/tip",
-                             "/forces/wall",
-                             "/knot/agreement",
-                             "/knot/determinant",
-                             "/knot/head_end",
-                             "/knot/tail_end",
-                             "/knot/v2",
-                             "/mean/thigmotaxis/lambda",
-                             "/mean/thigmotaxis/slack",
-                             "/mean/thigmotaxis/speed",
-                             "/model/bending_limit",
-                             "/model/dof_name",
-                             "/model/joint_name",
-                             "/model/length",
-                             "/model/limit_lower",
-                             "/model/limit_upper",
-                             "/model/mass",
-                             "/model/radius",
-                             "/steps/eq6",
-                             "/thigmotaxis/body_a",
-                             "/thigmotaxis/body_b",
-                             "/thigmotaxis/command",
-                             "/thigmotaxis/lambda",
-                             "/thigmotaxis/slack",
-                             "/thigmotaxis/speed",
-                             "/trajectory/phase",
-                             "/trajectory/position",
-                             "/trajectory/step",
-                             "/trajectory/time",
-                             "/diagnostics/contacts"}) {
+    for (const char* path : named_by_themselves) {
       watch[path] = path;
     }
     // By what is rebuilt from them, or summed with them.
@@ -115,28 +119,16 @@ const std::map<std::string, std::string>& watchers() {
 /// A log of the whole Table 1 run, coarse enough to be audited some hundred times.
 class AuditCorruption : public testing::Test {
  protected:
-  static fs::path file;
-
   static void SetUpTestSuite() {
-    file = fs::path(testing::TempDir()) / ("corruption_" + std::to_string(getpid()) + ".h5");
+    folder = std::make_unique<TemporaryFolder>();
+    file = *folder / "log.h5";
     const ResolvedScene resolved = stored_scene(
         {"time.step=0.01", "time.frame_interval=0.2", "knot.votes=5", "expect.slide_distance=8"});
-    const Scene& scene = resolved.scene;
-    const Model model = make_hagfish(resolved.specimen, scene);
-    LogHeader header;
-    header.scene = scene_to_toml(scene, resolved.specimen);
-    header.mjcf = mjcf_files(model, scene.contact.least_arc, scene.time.step);
-    LogWriter log(file, true, header, model, scene);
-    Simulation sim = start(model, scene, "active-set");
-    StepRecord record;
-    double wall_time = 0;
-    while (!finished(sim, scene)) {
-      take_step(model, scene, sim, record);
-      log.write(record, wall_time += 1e-4);
-    }
-    log.finish("complete");
+    const Model model = make_hagfish(resolved.specimen, resolved.scene);
+    write_log(file, resolved, model, start(model, resolved.scene, "active-set"),
+              std::numeric_limits<int>::max());
   }
-  static void TearDownTestSuite() { fs::remove(file); }
+  static void TearDownTestSuite() { folder.reset(); }
 
   /// All that the audit objects to; empty for a good log.
   static std::string objections() {
@@ -164,25 +156,12 @@ class AuditCorruption : public testing::Test {
     return paths;
   }
 
-  /// Writes all of a dataset as `change` leaves it; gives back what it was.
-  template <class T, class Change>
-  static std::vector<T> rewrite(const std::string& path, const H5::DataType& type, Change change) {
-    const H5::H5File h5(file.string(), H5F_ACC_RDWR);
-    const H5::DataSet set = h5.openDataSet(path);
-    std::vector<T> values(set.getSpace().getSimpleExtentNpoints());
-    set.read(values.data(), type);
-    const std::vector<T> before = values;
-    change(values);
-    set.write(values.data(), type);
-    return before;
-  }
-
   /// Runs `judge` while `change` of the doubles of a dataset is in force.
   template <class Change, class Judge>
   static void while_changed(const std::string& path, Change change, Judge judge) {
-    const auto before = rewrite<double>(path, H5::PredType::NATIVE_DOUBLE, change);
+    const auto before = rewrite<double>(file, path, H5::PredType::NATIVE_DOUBLE, change);
     judge();
-    rewrite<double>(path, H5::PredType::NATIVE_DOUBLE,
+    rewrite<double>(file, path, H5::PredType::NATIVE_DOUBLE,
                     [&before](std::vector<double>& values) { values = before; });
   }
 
@@ -219,9 +198,9 @@ class AuditCorruption : public testing::Test {
       const auto corrupt = [](std::vector<std::int64_t>& values) {
         values[middle(values.size())] += 1;
       };
-      const auto before = rewrite<std::int64_t>(path, H5::PredType::NATIVE_INT64, corrupt);
+      const auto before = rewrite<std::int64_t>(file, path, H5::PredType::NATIVE_INT64, corrupt);
       judge();
-      rewrite<std::int64_t>(path, H5::PredType::NATIVE_INT64,
+      rewrite<std::int64_t>(file, path, H5::PredType::NATIVE_INT64,
                             [&before](auto& values) { values = before; });
     } else if (kind == H5T_ENUM) {
       const H5::DataType type =
@@ -230,15 +209,19 @@ class AuditCorruption : public testing::Test {
         std::uint8_t& value = values[middle(values.size())];
         value = value == 1 ? 2 : 1;
       };
-      const auto before = rewrite<std::uint8_t>(path, type, corrupt);
+      const auto before = rewrite<std::uint8_t>(file, path, type, corrupt);
       judge();
-      rewrite<std::uint8_t>(path, type, [&before](auto& values) { values = before; });
+      rewrite<std::uint8_t>(file, path, type, [&before](auto& values) { values = before; });
     } else {
       ADD_FAILURE() << path << " is of a kind that this test cannot corrupt";
     }
   }
+
+  static std::unique_ptr<TemporaryFolder> folder;
+  static fs::path file;
 };
 
+std::unique_ptr<TemporaryFolder> AuditCorruption::folder;
 fs::path AuditCorruption::file;
 
 TEST_F(AuditCorruption, AGoodLogIsGood) { EXPECT_EQ(objections(), ""); }

@@ -2,16 +2,17 @@
 #include "experiments/audit/audit.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
 #include <optional>
 
-#include "core/log/log_writer.hpp"
+#include "core/log/hdf5_reader.hpp"
 #include "mujoco_ref/mjcf.hpp"
 #include "tests/support/random_chain.hpp"
 #include "tests/support/stored_states.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tests/support/written_log.hpp"
 
 namespace hagfish {
 namespace {
@@ -21,31 +22,21 @@ namespace fs = std::filesystem;
 class AuditTest : public testing::Test {
  protected:
   /// From the stored state of that number, or from the scene's own start.
-  explicit AuditTest(const std::vector<std::string>& more = {}, std::optional<int> from = 3)
-      : file(fs::path(testing::TempDir()) / ("audit_" + std::to_string(getpid()) + ".h5")) {
+  explicit AuditTest(const std::vector<std::string>& more = {}, std::optional<int> from = 3) {
     // The excerpt is of 13.76 to 13.82 s.
     std::vector<std::string> overrides = {"time.frame_interval=0.01", "expect.hand=right",
                                           "expect.types=[['3_1', 13, 14]]"};
     overrides.insert(overrides.end(), more.begin(), more.end());
     const ResolvedScene resolved = stored_scene(overrides);
-    const Scene& scene = resolved.scene;
-    const Model model = make_hagfish(resolved.specimen, scene);
-    LogHeader header;
-    header.scene = scene_to_toml(scene, resolved.specimen);
-    header.mjcf = mjcf_files(model, scene.contact.least_arc, scene.time.step);
-    LogWriter log(file, true, header, model, scene);
-    Simulation sim = start(model, scene, "ipopt");
+    const Model model = make_hagfish(resolved.specimen, resolved.scene);
+    Simulation sim = start(model, resolved.scene, "ipopt");
     if (from) {
       StoredState stored = stored_states().at(*from);
       stored.state = within_cones(model, stored.state);
-      sim = resume(model, scene, stored, "ipopt");
+      sim = resume(model, resolved.scene, stored, "ipopt");
     }
-    for (int k = 0; k < 30; ++k) {
-      log.write(take_step(model, scene, sim), 0);
-    }
-    log.finish("complete");
+    write_log(file, resolved, model, std::move(sim), 30);
   }
-  ~AuditTest() override { fs::remove(file); }
 
   bool passes(const std::string& name) const {
     for (const Finding& finding : audit(file)) {
@@ -59,15 +50,12 @@ class AuditTest : public testing::Test {
 
   /// Adds `change` to one number of a dataset of doubles.
   void tamper(const std::string& path, std::size_t index, double change) const {
-    H5::H5File h5(file.string(), H5F_ACC_RDWR);
-    H5::DataSet set = h5.openDataSet(path);
-    std::vector<double> values(set.getSpace().getSimpleExtentNpoints());
-    set.read(values.data(), H5::PredType::NATIVE_DOUBLE);
-    values.at(index) += change;
-    set.write(values.data(), H5::PredType::NATIVE_DOUBLE);
+    rewrite<double>(file, path, H5::PredType::NATIVE_DOUBLE,
+                    [&](std::vector<double>& values) { values.at(index) += change; });
   }
 
-  fs::path file;
+  TemporaryFolder folder;
+  const fs::path file = folder / "log.h5";
 };
 
 TEST_F(AuditTest, PassesAnHonestLog) {

@@ -1,22 +1,18 @@
 #include "experiments/qp/qp_measure.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
+
+#include <filesystem>
 
 #include "tests/support/foreign_qps.hpp"
 #include "tests/support/random_qp.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace hagfish {
 namespace {
 
-namespace fs = std::filesystem;
-
 class QpMeasureTest : public testing::Test {
  protected:
-  QpMeasureTest()
-      : file(fs::path(testing::TempDir()) / ("hagfish_measure_" + std::to_string(getpid()))) {}
-  ~QpMeasureTest() override { fs::remove(file); }
-
   /// Writes a set and measures `back_ends` on it.
   QpReport report_of(const std::vector<StoredQp>& qps, const std::vector<BackEnd>& back_ends) {
     QpSetWriter set(file, true, "", "");
@@ -32,7 +28,8 @@ class QpMeasureTest : public testing::Test {
     return known_qp(random, 40, each_role(count));
   }
 
-  fs::path file;
+  TemporaryFolder folder;
+  const std::filesystem::path file = folder / "a.qps";
 };
 
 TEST(Quantile, IsByNearestRank) {

@@ -2,14 +2,14 @@
 #include "experiments/qp/qp_set.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <functional>
 #include <limits>
 
+#include "tests/support/errors.hpp"
 #include "tests/support/foreign_qps.hpp"
-#include "tests/support/input_errors.hpp"
 #include "tests/support/random_qp.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace hagfish {
 namespace {
@@ -18,13 +18,6 @@ namespace fs = std::filesystem;
 
 class QpSetTest : public testing::Test {
  protected:
-  QpSetTest()
-      : folder(fs::path(testing::TempDir()) / ("hagfish_qp_set_" + std::to_string(getpid()))),
-        file((folder / "a.qps").string()) {
-    fs::create_directories(folder);
-  }
-  ~QpSetTest() override { fs::remove_all(folder); }
-
   /// The error of reading what `put` writes once `spoil` has been at it.
   std::string error_with(const std::function<void(ForeignQps&)>& put,
                          const std::function<void(ForeignQps&)>& spoil) const {
@@ -43,8 +36,8 @@ class QpSetTest : public testing::Test {
     EXPECT_EQ(error_with(put, spoil), file + ": /qp/0: " + reason);
   }
 
-  fs::path folder;
-  std::string file;
+  TemporaryFolder folder;
+  const std::string file = folder / "a.qps";
 };
 
 TEST_F(QpSetTest, ReadsBackWhatItWrote) {
@@ -245,7 +238,7 @@ TEST_F(QpSetTest, KeepsAnExistingFileUnlessForced) {
   QpSetWriter(file, false, "", "").finish();
   EXPECT_THROW(QpSetWriter(file, false, "", ""), FileError);
   EXPECT_NO_THROW(QpSetWriter(file, true, "", ""));
-  EXPECT_THROW(QpSetWriter(folder, true, "", ""), FileError) << "a folder";
+  EXPECT_THROW(QpSetWriter(folder.path(), true, "", ""), FileError) << "a folder";
   EXPECT_THROW(QpSetWriter(folder / "none" / "a.qps", true, "", ""), FileError);
 }
 

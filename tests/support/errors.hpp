@@ -1,4 +1,4 @@
-// What the tests of bad input share.
+// What the tests of bad input and bad files share.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -10,11 +10,12 @@
 
 namespace hagfish {
 
-/// The message of the InputError that `action` throws; checks that it is one line.
-inline std::string error_of(const std::function<void()>& action) {
+/// The message of the Error that `action` throws; checks that it is one line.
+template <class Error = InputError>
+std::string error_of(const std::function<void()>& action) {
   try {
     action();
-  } catch (const InputError& error) {
+  } catch (const Error& error) {
     const std::string message = error.what();
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
     return message;

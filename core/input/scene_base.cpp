@@ -1,0 +1,66 @@
+#include "core/input/scene_base.hpp"
+
+#include <algorithm>
+#include <system_error>
+#include <utility>
+
+#include "core/input/builtin_files.hpp"
+#include "core/input/input_text.hpp"
+
+namespace hagfish {
+namespace {
+
+SceneSource builtin_base(const TableReader& root, const std::string& base) {
+  const std::vector<std::string_view> views = builtin_scene_names();
+  const std::vector<std::string> names(views.begin(), views.end());
+  if (std::ranges::find(names, base) == names.end()) {
+    root.fail("base", "no such built-in scene; did you mean " + nearest(base, names) + "?");
+  }
+  return {std::string(*builtin_file(base + ".toml")), base + " (built in)", std::nullopt};
+}
+
+/// The source that `base` names, in the scene of `root` and `scene`.
+SceneSource find_base(const TableReader& root, const std::string& base, const SceneSource& scene) {
+  if (!scene.file || std::filesystem::path(base).extension() != ".toml") {
+    return builtin_base(root, base);
+  }
+  const std::filesystem::path file = scene.file->parent_path() / base;
+  try {
+    return {read_text_file(file), file.string(), file};
+  } catch (const InputError& error) {
+    root.fail("base", error.what());
+  }
+}
+
+bool same_file(const SceneSource& a, const SceneSource& b) {
+  if (!a.file || !b.file) return !a.file && !b.file && a.name == b.name;
+  std::error_code error;  // both were read a moment ago
+  return std::filesystem::equivalent(*a.file, *b.file, error);
+}
+
+/// Fails where `base` is among `sources`, each of which is the base of the one before.
+void check_circle(const TableReader& root, const SceneSource& base,
+                  const std::vector<SceneSource>& sources) {
+  auto at = std::ranges::find_if(sources, [&](const auto& s) { return same_file(s, base); });
+  if (at == sources.end()) return;
+  if (at + 1 == sources.end()) root.fail("base", "a scene cannot be its own base");
+  std::string circle;
+  for (; at != sources.end(); ++at) circle += at->name + ", ";
+  root.fail("base", "bases form a circle: " + circle + base.name);
+}
+
+}  // namespace
+
+TableReader read_with_bases(SceneSource scene, std::vector<SceneSource>& sources) {
+  TableReader root(scene.text, scene.name);
+  sources.push_back(std::move(scene));
+  std::string name;
+  root.string("base", name);
+  if (!root.has("base")) return root;
+  SceneSource base = find_base(root, name, sources.back());
+  check_circle(root, base, sources);
+  root.inherit(read_with_bases(std::move(base), sources));
+  return root;
+}
+
+}  // namespace hagfish

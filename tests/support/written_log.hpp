@@ -1,0 +1,34 @@
+// Logs as `hagfish run` writes them, to be audited, and changes of their numbers.
+#pragma once
+
+#include <H5Cpp.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/input/scene_reader.hpp"
+#include "core/run/simulation.hpp"
+
+namespace hagfish {
+
+/// Runs `scene` on from `sim` to its end, but for `most_steps` at most, and logs it in `file`. Each
+/// step is said to have taken 0.1 ms.
+void write_log(const std::filesystem::path& file, const ResolvedScene& scene, const Model& model,
+               Simulation sim, int most_steps);
+
+/// Lets `change` have the values of a dataset, written as `type`; returns what they were.
+template <class T, class Change>
+std::vector<T> rewrite(const std::filesystem::path& file, const std::string& path,
+                       const H5::DataType& type, Change change) {
+  const H5::H5File h5(file.string(), H5F_ACC_RDWR);
+  const H5::DataSet set = h5.openDataSet(path);
+  std::vector<T> values(set.getSpace().getSimpleExtentNpoints());
+  set.read(values.data(), type);
+  const std::vector<T> before = values;
+  change(values);
+  set.write(values.data(), type);
+  return before;
+}
+
+}  // namespace hagfish

@@ -1,0 +1,184 @@
+// What is said of scenes and specimens that are wrong: one line with file, key, value and reason.
+#include <gtest/gtest.h>
+
+#include "tests/support/plain_scene.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace hagfish {
+namespace {
+
+const std::string data = HAGFISH_DATA_DIR;
+
+std::string script(const std::string& knots) {
+  return "[script]\nkind = 'force'\nknots = [\n" + knots + "]\n";
+}
+
+TEST(SceneErrors, TellsMissingAndUnreadableFiles) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(error_of([] { read_scene("no/such.toml"); }), "no/such.toml: no such file");
+  EXPECT_EQ(error_of([] { read_specimen("no/such.toml"); }), "no/such.toml: no such file");
+  EXPECT_EQ(error_of([&] { read_scene(folder.path()); }),
+            folder.path().string() + ": is a directory");
+  EXPECT_EQ(error_of([&] { read_specimen(folder.path()); }),
+            folder.path().string() + ": is a directory");
+  const std::string scene = folder.write("scene.toml", "title = ''\nspecimen = 'gone.toml'\n");
+  EXPECT_EQ(
+      error_of([&] { read_scene(scene); }),
+      scene + ":2: specimen = 'gone.toml': " + (folder / "gone.toml").string() + ": no such file");
+  EXPECT_EQ(error_of([] { read_scene_text("specimen = 'gone.toml'", "s"); }),
+            "s:1: specimen = 'gone.toml': no such built-in file");
+  EXPECT_EQ(error_of([] { read_scene_text("", "s", {"specimen=gone.toml"}); }),
+            "s: --set specimen=gone.toml: gone.toml: no such file");
+  EXPECT_EQ(error_of([] { read_scene_text("title = 'x'", "s"); }),
+            "s: specimen: is missing: a file name or a table");
+}
+
+TEST(SceneErrors, TellsSyntaxErrors) {
+  EXPECT_EQ(
+      scene_complaint("title = \n"),
+      "s.toml:1: not valid TOML: missing value after key-value separator '=' (expected value, "
+      "but got nothing)");
+}
+
+TEST(SceneErrors, RefusesUnknownKeys) {
+  EXPECT_EQ(scene_complaint("[controler]\ncap = 1\n"),
+            "s.toml:1: controler: unknown key; did you mean controller?");
+  EXPECT_EQ(scene_complaint("[time]\nsteps = 1\n"),
+            "s.toml:2: time.steps = 1: unknown key; did you mean time.step?");
+  EXPECT_EQ(
+      scene_complaint("[model]\nlargest_limit = 1\n"),
+      "s.toml:2: model.largest_limit = 1: unknown key; did you mean model.largest_limit_deg?");
+}
+
+TEST(SceneErrors, RefusesBadValues) {
+  EXPECT_EQ(scene_complaint("title = 3\n"), "s.toml:1: title = 3: must be a string in quotes");
+  EXPECT_EQ(scene_complaint("[model]\nbodies = 1\n"),
+            "s.toml:2: model.bodies = 1: must be from 2 to 400");
+  EXPECT_EQ(scene_complaint("[model]\nbodies = 401\n"),
+            "s.toml:2: model.bodies = 401: must be from 2 to 400");
+  EXPECT_EQ(scene_complaint("[model]\nlargest_limit_deg = 90\n"),
+            "s.toml:2: model.largest_limit_deg = 90: must be above 0 and below 90 degrees");
+  EXPECT_EQ(scene_complaint("[model]\nbending_limit = 'ball'\n"),
+            "s.toml:2: model.bending_limit = 'ball': must be one of \"box\", \"cone\"");
+  EXPECT_EQ(scene_complaint("[drag]\nnormal = nan\n"),
+            "s.toml:2: drag.normal = nan: must be finite");
+  EXPECT_EQ(scene_complaint("[drag]\ntangential = -1\n"),
+            "s.toml:2: drag.tangential = -1: must not be negative");
+  EXPECT_EQ(scene_complaint("[constraints]\nbaumgarte = 1.5\n"),
+            "s.toml:2: constraints.baumgarte = 1.5: must be from 0 to 1");
+  EXPECT_EQ(scene_complaint("[time]\nstep = 0.0\n"), "s.toml:2: time.step = 0.0: must be positive");
+  EXPECT_EQ(scene_complaint("[time]\nframe_interval = 0.001\n"),
+            "s.toml:2: time.frame_interval = 0.001: must not be less than time.step, 0.002");
+  EXPECT_EQ(scene_complaint("[time]\nstep = 0.05\n"),
+            "s.toml: time.frame_interval: must not be less than time.step, 0.05");
+  EXPECT_EQ(scene_complaint("[time]\nduration = 0.001\n"),
+            "s.toml:2: time.duration = 0.001: must not be less than time.step, 0.002");
+}
+
+TEST(SceneErrors, RefusesBadOverrides) {
+  EXPECT_EQ(scene_complaint("", {"time.stop=1"}),
+            "s.toml: --set time.stop=1: unknown key; did you mean time.step?");
+  EXPECT_EQ(scene_complaint("", {"time.step=fast"}),
+            "s.toml: --set time.step=fast: must be a number");
+  EXPECT_EQ(scene_complaint("", {"time.step"}), "--set time.step: must be KEY=VALUE");
+  EXPECT_EQ(scene_complaint("", {"constraints.activation=never"}),
+            "s.toml: --set constraints.activation=never: must be one of \"speculative\", "
+            "\"violated\"");
+  EXPECT_EQ(error_of([] { read_scene(data + "/table1.toml", {"specimen.mass=0"}); }),
+            data + "/specimens/pacific_hagfish.toml: --set specimen.mass=0: must be positive");
+}
+
+TEST(SceneErrors, RefusesStartsThatDoNotFit) {
+  EXPECT_EQ(scene_complaint("[start]\nbend = [[0, 1, 2]]\n"),
+            "s.toml:2: start.bend = [0, 1, 2]: row 1 must be four numbers [station, x, y, z]");
+  EXPECT_EQ(
+      scene_complaint("[start]\nbend = [[0.5, 0, 0, 1], [0.5, 0, 0, 0]]\n"),
+      "s.toml:2: start.bend = [0.5, 0, 0, 0]: stations must rise from 0 to 1; row 2 does not");
+  EXPECT_EQ(
+      scene_complaint("[start]\nbend_rate = [[1.5, 0, 0, 1]]\n"),
+      "s.toml:2: start.bend_rate = [1.5, 0, 0, 1]: stations must rise from 0 to 1; row 1 does "
+      "not");
+  EXPECT_EQ(scene_complaint("[model]\nbodies = 2\n[start]\nq = [0, 0, 0, 1, 0, 0, 0]\n"),
+            "s.toml:4: start.q = [0, 0, 0, 1, 0, 0, 0]: has 7 numbers; 2 bodies need 9");
+  EXPECT_EQ(scene_complaint("[model]\nbodies = 2\n[start]\nqdot = [0]\n"),
+            "s.toml:4: start.qdot = [0]: has 1 numbers; 2 bodies need 8");
+  EXPECT_EQ(scene_complaint("[model]\nbodies = 2\n[start]\nq = [0, 0, 0, 0, 0, 0, 0, 0, 0]\n"),
+            "s.toml:4: start.q = [0, 0, 0, 0, 0, 0, 0, 0, 0]: numbers 4 to 7 are a quaternion and "
+            "must not all be 0");
+  EXPECT_EQ(scene_complaint("[start]\nspin = [1, 0, 0]\n"),
+            "s.toml:2: start.spin = [1, 0, 0]: the head is clamped (clamp_head)");
+  EXPECT_EQ(scene_complaint("[start]\nbend = [[0, 0, 0, 1]]\nq = [1]\n"),
+            "s.toml:3: start.q = [1]: start.bend is given too");
+  EXPECT_EQ(scene_complaint("[start]\nbend_rate = [[0, 0, 0, 1]]\nqdot = [1]\n"),
+            "s.toml:3: start.qdot = [1]: start.bend_rate or start.spin is given too");
+  EXPECT_EQ(scene_complaint("[start]\nphase = 'tie'\n"),
+            "s.toml:2: start.phase = 'tie': must be one of \"form\", \"tighten\", \"slide\", "
+            "\"release\", \"free\"");
+}
+
+TEST(SceneErrors, RefusesScriptsOutOfOrder) {
+  EXPECT_EQ(scene_complaint(script("[0, 1, 2, 3],\n[1, 1, 2, 3],\n[1, 4, 5, 6],\n")),
+            "s.toml:6: script.knots = [1, 4, 5, 6]: knot 3 must be later than the one before it");
+  EXPECT_EQ(scene_complaint(script("[0.5, 1, 2, 3],\n[1, 1, 2, 3],\n")),
+            "s.toml:4: script.knots = [0.5, 1, 2, 3]: knot 1 must be at time 0");
+  EXPECT_EQ(scene_complaint(script("[0, 1, 2, 3],\n[1, 1, 2],\n")),
+            "s.toml:5: script.knots = [1, 1, 2]: knot 2 must be four numbers [t, x, y, z]");
+  EXPECT_EQ(scene_complaint("[script]\nkind = 'force'\nknots = [[0, 1, 2, 3]]\n"),
+            "s.toml:3: script.knots = [[0, 1, 2, 3]]: a script needs two knots or more");
+  EXPECT_EQ(scene_complaint("[script]\nkind = 'force'\n"),
+            "s.toml: script.knots: a script needs two knots or more");
+}
+
+TEST(SceneErrors, RefusesScriptsOfTheWrongKind) {
+  const std::string knots = "knots = [[0, 1, 2, 3], [1, 1, 2, 3]]\n";
+  EXPECT_EQ(scene_complaint("[script]\nkind = 'pull'\n"),
+            "s.toml:2: script.kind = 'pull': must be one of \"none\", \"force\", \"position\"");
+  EXPECT_EQ(scene_complaint("[script]\nkind = 'force'\nunit = 'L'\n" + knots),
+            "s.toml:3: script.unit = 'L': forces are in \"dyn\"");
+  EXPECT_EQ(scene_complaint("[script]\nkind = 'position'\nunit = 'dyn'\n" + knots),
+            "s.toml:3: script.unit = 'dyn': positions are in \"L\" or \"cm\"");
+  EXPECT_EQ(scene_complaint("[script]\nkind = 'position'\nlargest_force = 1\n" + knots),
+            "s.toml: script.spring: must be positive");
+  EXPECT_EQ(scene_complaint("[script]\nkind = 'position'\nspring = 1\n" + knots),
+            "s.toml: script.largest_force: must be positive");
+}
+
+TEST(SpecimenReader, RefusesBadValues) {
+  // Each takes the place of one key of the specimen.
+  const auto why = [](const std::string& key, const std::string& value) {
+    return scene_complaint("", {"specimen." + key + "=" + value});
+  };
+  const auto told = [](const std::string& key, const std::string& value, const std::string& what) {
+    return "s.toml: --set specimen." + key + "=" + value + ": " + what;
+  };
+  const auto expect = [&](const std::string& key, const std::string& value,
+                          const std::string& what) {
+    EXPECT_EQ(why(key, value), told(key, value, what));
+  };
+  expect("length", "0", "must be positive");
+  expect("length", "nan", "must be finite");
+  expect("mass", "-80", "must be positive");
+  expect("mass", "heavy", "must be a number");
+  expect("circumference", "[5, 0]", "number 2 must be positive");
+  expect("circumference", "[5]", "must have as many values as station, 2");
+  expect("bending_limit_deg", "[20, 30, 40]", "must have as many values as station, 2");
+  expect("bending_limit_deg", "[20, -30]", "number 2 must be above 0 and below 180 degrees");
+  expect("bending_limit_deg", "[0, 30]", "number 1 must be above 0 and below 180 degrees");
+  expect("bending_span", "41", "must not exceed the length, 40");
+  expect("twist_limit_deg", "-48", "must be positive");
+  expect("station", "[0.8, 0.2]", "must rise; station 2 does not");
+  expect("station", "[0.2, 0.2]", "must rise; station 2 does not");
+  expect("station", "[0.2, 1.5]", "number 2 must be from 0 to 1");
+  expect("station", "[]", "must be an array of numbers");
+}
+
+TEST(SpecimenReader, NamesTheFileAndTheMissingKey) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("animal.toml", "name = 'x'\nlength = 40\nmass = 0\n");
+  EXPECT_EQ(error_of([&] { read_specimen(file); }), file + ":3: mass = 0: must be positive");
+  folder.write("animal.toml", "name = 'x'\nlength = 40\n");
+  EXPECT_EQ(error_of([&] { read_specimen(file); }), file + ": mass: is missing");
+}
+
+}  // namespace
+}  // namespace hagfish

@@ -1,0 +1,212 @@
+// A scene written as text and read again is the same to the last bit.
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cstdint>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "tests/support/plain_scene.hpp"
+
+namespace hagfish {
+namespace {
+
+const std::string data = HAGFISH_DATA_DIR;
+
+/// Every number of a scene and a specimen as bits, and every name. A member more or less of any
+/// structure, and this does not compile.
+class Bits {
+ public:
+  Bits(const Scene& scene, const Specimen& specimen) {
+    // Of the file that the specimen came from nothing is written.
+    const auto& [title, file, mirror, clamp_head, gravity, model, drag, constraints, contact, wall,
+                 start, script, controller, knot, time, guard, expect] = scene;
+    add(title, mirror, clamp_head, gravity, model, drag, constraints, contact, wall, start, script,
+        controller, knot, time, guard, expect, specimen);
+  }
+  bool operator==(const Bits&) const = default;
+
+ private:
+  template <class... Values>
+  void add(const Values&... values) {
+    (put(values), ...);
+  }
+  void put(double value) { bits_.push_back(std::bit_cast<std::uint64_t>(value)); }
+  template <class T>
+  requires std::is_integral_v<T> || std::is_enum_v<T>
+  void put(T value) { bits_.push_back(static_cast<std::uint64_t>(value)); }
+  void put(const std::string& value) { put(std::vector<char>(value.begin(), value.end())); }
+  template <class T>
+  void put(const std::vector<T>& values) {
+    put(values.size());
+    for (const T& value : values) put(value);
+  }
+  template <int size>
+  void put(const Eigen::Matrix<double, size, 1>& values) {
+    for (const double value : values) put(value);
+  }
+  void put(const ModelSettings& s) {
+    const auto& [bodies, bending_stiffness, bending_damping, twist_stiffness, twist_damping,
+                 largest_limit, limit_scale, mass_ratio, bending_limit] = s;
+    add(bodies, bending_stiffness, bending_damping, twist_stiffness, twist_damping, largest_limit,
+        limit_scale, mass_ratio, bending_limit);
+  }
+  void put(const DragSettings& s) {
+    const auto& [normal, tangential] = s;
+    add(normal, tangential);
+  }
+  void put(const ConstraintSettings& s) {
+    const auto& [activation, baumgarte, baumgarte_speed, tolerance, corrections, stride] = s;
+    add(activation, baumgarte, baumgarte_speed, tolerance, corrections, stride);
+  }
+  void put(const ContactSettings& s) {
+    const auto& [margin, least_arc] = s;
+    add(margin, least_arc);
+  }
+  void put(const WallSettings& s) {
+    const auto& [present, neck] = s;
+    add(present, neck);
+  }
+  void put(const ScriptKnot& s) {
+    const auto& [time, value, noise] = s;
+    add(time, value, noise);
+  }
+  void put(const ScriptSettings& s) {
+    const auto& [kind, knots, spring, damper, largest_force, noise, noise_seed] = s;
+    add(kind, knots, spring, damper, largest_force, noise, noise_seed);
+  }
+  void put(const ThigmotaxisSpeeds& s) {
+    const auto& [a, b] = s;
+    add(a, b);
+  }
+  void put(const ControllerSettings& s) {
+    const auto& [tighten_head, tighten_tail, slide_head, slide_tail, reverse_head, reverse_tail,
+                 leave_by, free_from, cap, acceleration, contact_gap, hysteresis, tail_through,
+                 tighten_from, tight_span, tight_hold, tighten_time, release_at, untied_for,
+                 free_time] = s;
+    add(tighten_head, tighten_tail, slide_head, slide_tail, reverse_head, reverse_tail, leave_by,
+        free_from, cap, acceleration, contact_gap, hysteresis, tail_through, tighten_from,
+        tight_span, tight_hold, tighten_time, release_at, untied_for, free_time);
+  }
+  void put(const StartSettings& s) {
+    const auto& [bend, bend_rate, spin, q, qdot, noise, seed, phase] = s;
+    add(bend, bend_rate, spin, q, qdot, noise, seed, phase);
+  }
+  void put(const KnotSettings& s) {
+    const auto& [votes, seed, interval, mirror] = s;
+    add(votes, seed, interval, mirror);
+  }
+  void put(const TimeSettings& s) {
+    const auto& [step, frame_interval, duration, until] = s;
+    add(step, frame_interval, duration, until);
+  }
+  void put(const GuardSettings& s) {
+    const auto& [action, penetration, limit_violation, speed, energy_gain, energy_action,
+                 capped_time] = s;
+    add(action, penetration, limit_violation, speed, energy_gain, energy_action, capped_time);
+  }
+  void put(const KnotStretch& s) {
+    const auto& [type, from, to] = s;
+    add(type, from, to);
+  }
+  void put(const ExpectSettings& s) {
+    const auto& [knot, types, hand, slide_distance, reverse_distance, speed_share, penetration,
+                 limit_violation, head_drift, kkt, force_balance, forward_inverse, energy,
+                 energy_gain] = s;
+    add(knot, types, hand, slide_distance, reverse_distance, speed_share, penetration,
+        limit_violation, head_drift, kkt, force_balance, forward_inverse, energy, energy_gain);
+  }
+  void put(const Specimen& s) {
+    const auto& [name, length, mass, station, circumference, bending_limit, bending_span,
+                 twist_limit] = s;
+    add(name, length, mass, station, circumference, bending_limit, bending_span, twist_limit);
+  }
+
+  std::vector<std::uint64_t> bits_;
+};
+
+/// A scene in which every number differs from its default and has no short decimal form.
+ResolvedScene odd_scene() {
+  double next = 0.01;
+  const auto odd = [&next] { return next += 1.0 / 197; };
+  ResolvedScene result;
+  Scene& s = result.scene;
+  s.title = "odd \"title\"";
+  s.clamp_head = false;
+  s.gravity = {odd(), -odd(), odd()};
+  s.model = {7, odd(), odd(), odd(), odd(), odd(), odd(), odd(), BendingLimit::cone};
+  s.drag = {odd(), odd()};
+  s.constraints = {Activation::violated, odd()};
+  s.contact = {odd(), odd()};
+  s.wall = {false, odd()};
+  s.script.kind = ScriptSettings::Kind::position;
+  s.script.knots = {{0, {odd(), odd(), odd()}}, {odd(), {-odd(), odd(), odd()}}};
+  s.script.spring = odd();
+  s.script.damper = odd();
+  s.script.largest_force = odd();
+  s.controller = {{odd(), odd()}, {odd(), odd()}, {odd(), odd()}, {odd(), odd()}, {odd(), odd()},
+                  {odd(), odd()}, BodyEnd::tail,  Phase::tighten, odd(),          odd(),
+                  odd(),          odd(),          odd(),          odd(),          odd(),
+                  odd(),          odd(),          odd(),          odd(),          odd()};
+  s.knot = {3, 4294967295u, odd()};
+  s.controller.contact_gap = s.contact.margin / 3;
+  s.time.step = odd();
+  s.time.frame_interval = 3 * s.time.step;
+  s.time.duration = 7 * s.time.step;
+  s.constraints.baumgarte_speed = odd();
+  s.constraints.tolerance = odd();
+  s.constraints.corrections = 5;
+  s.constraints.stride = odd();
+  s.guard = {GuardAction::warn, odd(), odd(), odd(), odd(), EnergyAction::stop, odd()};
+  s.time.until = Phase::reverse;
+  s.expect = {"4_1",      {{"0_1", 0, odd()}, {"det=9,v2=2", odd(), odd()}},
+              Hand::left, odd(),
+              odd(),      odd(),
+              odd(),      odd(),
+              odd(),      odd(),
+              odd(),      odd()};
+  s.expect.energy = odd();
+  s.expect.energy_gain = odd();
+  s.start.bend = {{odd(), odd(), -odd(), odd()}, {odd(), odd(), odd(), odd()}};
+  for (int i = 0; i < 6 + 9; ++i) s.start.qdot.push_back(odd());  // of 7 bodies
+  s.start.noise = odd();
+  s.start.seed = 4294967294u;
+  s.start.phase = Phase::slide;
+  result.specimen = {
+      "odd", 50 + odd(), odd(), {odd(), odd(), odd()}, {odd(), odd(), odd()}, {odd(), odd(), odd()},
+      odd(), odd()};
+  return result;
+}
+
+TEST(SceneText, ResolvedTextGivesTheSameScene) {
+  for (const auto& [scene, specimen] : {odd_scene(), read_scene(data + "/table1.toml"),
+                                        read_scene(data + "/overhand_waypoints.toml"),
+                                        read_scene(data + "/overhand_reverse.toml")}) {
+    const std::string text = scene_to_toml(scene, specimen);
+    const ResolvedScene again = read_scene_text(text, "resolved");
+    EXPECT_TRUE(Bits(again.scene, again.specimen) == Bits(scene, specimen));
+    EXPECT_EQ(again.scene.title, scene.title);
+    EXPECT_EQ(again.scene.expect.knot, scene.expect.knot);
+    EXPECT_EQ(again.specimen.name, specimen.name);
+    EXPECT_EQ(scene_to_toml(again.scene, again.specimen), text);
+  }
+}
+
+TEST(SceneText, ResolvedTextOfAMirroredNoisySceneGivesTheSameScene) {
+  const auto [scene, specimen] =
+      read_scene(data + "/double_overhand.toml", {"mirror=true", "script.noise=0.3"});
+  const std::string text = scene_to_toml(scene, specimen);
+  const ResolvedScene again = read_scene_text(text, "resolved");
+  EXPECT_TRUE(Bits(again.scene, again.specimen) == Bits(scene, specimen));
+  EXPECT_EQ(again.scene.expect.types.at(2).type, "5_1");
+  EXPECT_EQ(scene_to_toml(again.scene, again.specimen), text);
+}
+
+TEST(SceneText, DefaultsAreThoseOfSettings) {
+  const auto [scene, specimen] = read_scene_text(plain_scene, "plain");
+  EXPECT_TRUE(Bits(scene, specimen) == Bits(Scene{}, specimen));
+}
+
+}  // namespace
+}  // namespace hagfish

@@ -1,0 +1,47 @@
+// Names of knots by their invariants, and back.
+#include <gtest/gtest.h>
+
+#include "core/knot/knot.hpp"
+#include "tests/support/knot_curves.hpp"
+
+namespace hagfish {
+namespace {
+
+constexpr KnotInvariants unknot{1, 0};
+
+TEST(KnotName, NamesOfSixAndSevenCrossingsAreThoseOfTheirBraids) {
+  const struct {
+    const char* name;
+    std::vector<int> braid;
+    int strands;
+  } table[] = {{"6_1", {1, 1, 2, -1, -3, 2, -3}, 4},  {"6_2", {-1, -1, -1, 2, -1, 2}, 3},
+               {"6_3", {-1, -1, 2, -1, 2, 2}, 3},     {"7_1", {1, 1, 1, 1, 1, 1, 1}, 2},
+               {"7_3", {1, 1, 1, 1, 1, 2, -1, 2}, 3}, {"7_5", {1, 1, 1, 1, 2, -1, 2, 2}, 3},
+               {"7_7", {1, -2, 1, -2, 3, -2, 3}, 4}};
+  for (const auto& entry : table) {
+    const KnotInvariants type =
+        invariants_of_closed(braid_closure(entry.braid, entry.strands), {0.1, 0.2, 1});
+    EXPECT_EQ(knot_name(type), entry.name);
+  }
+}
+
+TEST(KnotName, TypeOfANameIsTheOneThatHasIt) {
+  for (const KnotInvariants type : {unknot, KnotInvariants{3, 1}, KnotInvariants{5, -1},
+                                    KnotInvariants{21, -1}, KnotInvariants{9, 2}}) {
+    EXPECT_EQ(knot_called(knot_name(type)), type);
+  }
+  EXPECT_EQ(knot_called("5_2"), (KnotInvariants{7, 2}));
+  for (const char* none :
+       {"", "5_3", "trefoil", "det=9", "det=9,v2=", "det=9,v2=2 ", "det=3,v2=1"}) {
+    EXPECT_FALSE(knot_called(none)) << none;
+  }
+}
+
+TEST(KnotName, NameOfAnyOther) {
+  EXPECT_EQ(knot_name(unknot), "0_1");
+  EXPECT_EQ(knot_name({9, 2}), "det=9,v2=2");
+  EXPECT_EQ(knot_name({5, 2}), "det=5,v2=2");
+}
+
+}  // namespace
+}  // namespace hagfish

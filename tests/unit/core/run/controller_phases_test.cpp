@@ -1,0 +1,192 @@
+// When the controller goes from one phase to the next, and what it commands in each.
+#include <gtest/gtest.h>
+
+#include "tests/support/controller_fixture.hpp"
+
+namespace hagfish {
+namespace {
+
+using ControllerPhases = ControllerTest;
+
+TEST_F(ControllerPhases, TrefoilOfTheseTestsIsOne) {
+  tie(true);
+  EXPECT_EQ(knot_type(observation.kin.centre, {.votes = 15, .seed = 1}).type,
+            (KnotInvariants{3, 1}));
+}
+
+TEST_F(ControllerPhases, FormsByScriptWithTheHeadClamped) {
+  now = 2.5;
+  const Control control = step({contact(5, 30)});
+  EXPECT_EQ(state.phase, Phase::form);
+  EXPECT_TRUE(control.clamp_head);
+  EXPECT_EQ(control.tip.value, Eigen::Vector3d(30, 40, 50));
+  EXPECT_TRUE(control.thigmotaxis.empty());
+}
+
+TEST_F(ControllerPhases, TightensOnceTiedWithEnoughTailThrough) {
+  tie(true);
+  step({contact(5, 34.5)});  // 7.9 cm of tail
+  EXPECT_EQ(state.phase, Phase::form);
+  now = 1;
+  const Control control = step({contact(5, 34.3)});  // 8.1 cm
+  EXPECT_EQ(state.phase, Phase::tighten);
+  EXPECT_EQ(state.phase_start, 1);
+  EXPECT_EQ(control.tip.value, Eigen::Vector3d::Zero());
+  EXPECT_TRUE(control.clamp_head);
+  ASSERT_EQ(control.thigmotaxis.size(), 2U);
+  EXPECT_EQ(control.thigmotaxis[0].contact.arc_a, 5);
+  EXPECT_EQ(control.thigmotaxis[0].speed.a, 0);
+  EXPECT_EQ(control.thigmotaxis[0].speed.b, 0);
+  EXPECT_EQ(control.thigmotaxis[1].speed.a, 0.5);
+  EXPECT_EQ(control.thigmotaxis[1].speed.b, 2);
+}
+
+TEST_F(ControllerPhases, DoesNotTightenAnUnknot) {
+  tie(false);
+  step({contact(5, 30)});
+  EXPECT_EQ(state.phase, Phase::form);
+}
+
+TEST_F(ControllerPhases, LooksAtTheKnotOnlyNowAndThen) {
+  tie(false);
+  step({contact(5, 30)});  // looks, and again in 10 ms
+  tie(true);
+  for (int k = 0; k < 4; ++k) {
+    step({contact(5, 30)});
+    ASSERT_EQ(state.phase, Phase::form) << k;
+  }
+  step({contact(5, 30)});
+  EXPECT_EQ(state.phase, Phase::tighten);
+}
+
+TEST_F(ControllerPhases, SlidesOnceTightForAWhile) {
+  start_in(Phase::tighten);
+  for (int round = 0; round < 3; ++round) {
+    const double loose = now;
+    step({contact(5, 25.4)});  // 20.4 cm, which starts the wait anew
+    while (now < loose + 0.1 - 1e-9) {
+      step({contact(5.1, 25.3)});  // 20.2 cm
+      ASSERT_EQ(state.phase, Phase::tighten) << now - loose;
+    }
+  }
+  step({contact(5.1, 25.3)});  // the time of a step may fall short of the hold by rounding
+  const Control control = step({contact(5.1, 25.3)});
+  EXPECT_EQ(state.phase, Phase::slide);
+  ASSERT_EQ(control.thigmotaxis.size(), 2U);
+  for (const ThigmotaxisCommand& command : control.thigmotaxis) {
+    EXPECT_EQ(command.speed.a, 2);
+    EXPECT_EQ(command.speed.b, 2);
+  }
+}
+
+TEST_F(ControllerPhases, SlidesAfterTheLongestTightening) {
+  now = 20;
+  start_in(Phase::tighten);
+  step({contact(5, 30)});
+  now = 21.99;
+  step({contact(5, 30)});
+  EXPECT_EQ(state.phase, Phase::tighten);
+  now = 22;
+  step({contact(5, 30)});
+  EXPECT_EQ(state.phase, Phase::slide);
+}
+
+TEST_F(ControllerPhases, FreesTheHeadOnceTheKnotIsNear) {
+  start_in(Phase::slide);
+  EXPECT_TRUE(step({contact(1.95, 20)}).clamp_head);
+  EXPECT_EQ(state.phase, Phase::slide);
+  const Control control = step({contact(1.90, 20)});
+  EXPECT_EQ(state.phase, Phase::release);
+  EXPECT_FALSE(control.clamp_head);
+  ASSERT_EQ(control.thigmotaxis.size(), 2U);
+  EXPECT_EQ(control.thigmotaxis[0].speed.a, 2);
+}
+
+TEST_F(ControllerPhases, StopsOnceUntied) {
+  start_in(Phase::release);
+  tie(false);
+  now = state.knot_seen + scene.knot.interval;
+  const Control control = step({contact(1, 20)});
+  EXPECT_EQ(state.phase, Phase::free);
+  EXPECT_TRUE(control.thigmotaxis.empty());
+  EXPECT_FALSE(control.clamp_head);
+}
+
+TEST_F(ControllerPhases, NeverClampsAHeadThatTheSceneLeavesFree) {
+  scene.clamp_head = false;
+  EXPECT_FALSE(step({}).clamp_head);
+}
+
+TEST_F(ControllerPhases, DoesNotTightenBeforeItsTime) {
+  scene.controller.tighten_from = 4;
+  tie(true);
+  now = 3.98;
+  step({contact(5, 30)});
+  EXPECT_EQ(state.phase, Phase::form);
+  now = 4;
+  step({contact(5, 30)});
+  EXPECT_EQ(state.phase, Phase::tighten);
+}
+
+TEST_F(ControllerPhases, FreesTheHeadFromThePhaseThatTheSceneNames) {
+  scene.controller.free_from = Phase::tighten;
+  tie(false);
+  EXPECT_TRUE(step({contact(5, 30)}).clamp_head);
+  start_in(Phase::tighten);
+  EXPECT_FALSE(step({contact(5, 30)}).clamp_head);
+  scene.controller.free_from = Phase::free;
+  start_in(Phase::release);
+  EXPECT_TRUE(step({contact(5, 30)}).clamp_head);
+}
+
+TEST_F(ControllerPhases, TurnsBackAtTheHeadAndReleasesNearTheTail) {
+  scene.controller.leave_by = BodyEnd::tail;
+  scene.controller.reverse_head = {3, 4};
+  scene.controller.reverse_tail = {5, 6};
+  start_in(Phase::slide);
+  EXPECT_EQ(step({contact(1.95, 20)}).thigmotaxis.at(0).towards, BodyEnd::head);
+  Control control = step({contact(1.9, 20)});
+  EXPECT_EQ(state.phase, Phase::reverse);
+  EXPECT_TRUE(control.clamp_head);
+  ASSERT_EQ(control.thigmotaxis.size(), 2U);
+  EXPECT_EQ(control.thigmotaxis[0].towards, BodyEnd::tail);
+  EXPECT_EQ(control.thigmotaxis[0].speed.a, 3);
+  EXPECT_EQ(control.thigmotaxis[1].speed.b, 6);
+  // 1.908 cm before the tail's end, at 42.4 cm.
+  now += scene.controller.hysteresis;
+  step({contact(20, 40.48)});
+  EXPECT_EQ(state.phase, Phase::reverse);
+  control = step({contact(20, 40.5)});
+  EXPECT_EQ(state.phase, Phase::release);
+  EXPECT_EQ(control.thigmotaxis.at(1).towards, BodyEnd::tail);
+  // Until then the knot must hold.
+  start_in(Phase::reverse);
+  tie(false);
+  now = state.knot_seen + scene.knot.interval;
+  EXPECT_THROW(step({contact(5, 30)}), StepError);
+}
+
+TEST_F(ControllerPhases, AKnotIsGoneOnceItHasBeenForAWhile) {
+  scene.controller.untied_for = 0.1;
+  start_in(Phase::release);
+  tie(false);
+  now = state.knot_seen + scene.knot.interval;
+  const double since = now;
+  while (now < since + 0.1 - 1e-9) {
+    step({contact(1, 20)});
+    ASSERT_EQ(state.phase, Phase::release) << now - since;
+  }
+  tie(true);  // back for a moment: the wait starts anew
+  now = state.knot_seen + scene.knot.interval;
+  step({contact(1, 20)});
+  tie(false);
+  now = state.knot_seen + scene.knot.interval;
+  step({contact(1, 20)});
+  EXPECT_EQ(state.phase, Phase::release);
+  now += 0.1;
+  step({contact(1, 20)});
+  EXPECT_EQ(state.phase, Phase::free);
+}
+
+}  // namespace
+}  // namespace hagfish

@@ -1,0 +1,161 @@
+// How a run starts, goes on from the state of another, and ends.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/chain/start.hpp"
+#include "core/run/simulation.hpp"
+#include "tests/support/random_chain.hpp"
+#include "tests/support/stored_states.hpp"
+
+namespace hagfish {
+namespace {
+
+/// Ten bodies in open water, pulled at the tail.
+struct Pulled {
+  Pulled() {
+    scene.script.kind = ScriptSettings::Kind::force;
+    scene.script.knots = {{0, {100, 200, 0}}, {1, {100, -200, 50}}};
+  }
+  Scene scene = table1_scene(10);
+  Model model = table1_hagfish(10);
+};
+
+/// Steps that a run of `scene` takes before it is over.
+std::int64_t steps_of(const Model& model, const Scene& scene) {
+  Simulation sim = start(model, scene, "active-set");
+  StepRecord record;
+  while (!finished(sim, scene)) {
+    take_step(model, scene, sim, record);
+  }
+  return sim.step;
+}
+
+TEST(SimulationStart, IsTheScenesStateAtTimeZero) {
+  Pulled p;
+  p.scene.start.phase = Phase::slide;
+  p.scene.start.bend = {{0, 0, 0.05, 0.02}, {1, 0, 0.05, 0.02}};
+  const Simulation sim = start(p.model, p.scene, "active-set");
+  EXPECT_EQ(sim.step, 0);
+  EXPECT_EQ(time_of(sim, p.scene), 0);
+  EXPECT_EQ(sim.controller.phase, Phase::slide);
+  EXPECT_EQ(sim.controller.phase_start, 0);
+  const State state = start_state(p.model, p.scene.start);
+  EXPECT_EQ(sim.now.state.q, state.q);
+  EXPECT_EQ(sim.now.state.qdot, state.qdot);
+  EXPECT_EQ(sim.now.observation.kin.centre, kinematics(p.model, state).centre);
+  EXPECT_FALSE(finished(sim, p.scene));
+}
+
+TEST(SimulationStart, BooksTheEnergyOfItsState) {
+  Pulled p;
+  p.scene.start.bend = {{0, 0, 0.05, 0.02}, {1, 0, 0.05, 0.02}};
+  const Simulation sim = start(p.model, p.scene, "active-set");
+  double elastic = 0;
+  for (std::size_t k = 0; k < p.model.hinges.size(); ++k) {
+    elastic += 0.5 * p.model.hinges[k].stiffness * std::pow(sim.now.state.q[7 + k], 2);
+  }
+  EXPECT_GT(elastic, 0);
+  EXPECT_NEAR(sim.ledger.elastic, elastic, 1e-12 * elastic);  // rounding of a sum of 20
+  EXPECT_EQ(sim.ledger.kinetic, 0);
+}
+
+TEST(SimulationStart, TimeIsStepsTimesTheirLength) {
+  Pulled p;
+  p.scene.time.step = 0.003;
+  const Simulation sim =
+      start_from(p.model, p.scene, "active-set", rest_state(p.model), {}, 1000000007);
+  EXPECT_EQ(time_of(sim, p.scene), 1000000007 * 0.003);
+}
+
+TEST(SimulationStart, ARecordIsOfTheMomentBeforeTheStep) {
+  const Pulled p;
+  Simulation sim = start(p.model, p.scene, "active-set");
+  for (int k = 0; k < 5; ++k) {
+    const State before = sim.now.state;
+    const Eigen::Matrix3Xd centre = sim.now.observation.kin.centre;
+    const StepRecord record = take_step(p.model, p.scene, sim);
+    EXPECT_EQ(record.step, k);
+    EXPECT_EQ(record.time, k * p.scene.time.step);
+    EXPECT_EQ(record.moment.state.q, before.q);
+    EXPECT_EQ(record.moment.state.qdot, before.qdot);
+    EXPECT_EQ(record.moment.observation.kin.centre, centre);
+    EXPECT_EQ(sim.step, k + 1);
+    EXPECT_EQ(sim.now.state.qdot, record.solution.qdot);
+    EXPECT_EQ(sim.now.observation.kin.centre, kinematics(p.model, sim.now.state).centre);
+  }
+}
+
+TEST(SimulationStart, GoesOnFromTheStateOfAnotherRun) {
+  const Pulled p;
+  Simulation sim = start(p.model, p.scene, "active-set");
+  for (int k = 0; k < 20; ++k) {
+    take_step(p.model, p.scene, sim);
+  }
+  Simulation other =
+      start_from(p.model, p.scene, "active-set", sim.now.state, sim.controller, sim.step);
+  for (int k = 0; k < 20; ++k) {
+    take_step(p.model, p.scene, sim);
+    const StepRecord record = take_step(p.model, p.scene, other);
+    EXPECT_EQ(record.time, (20 + k) * p.scene.time.step);
+  }
+  EXPECT_EQ(other.step, 40);
+  // It has no multipliers to start from: rounding of the solver, some 1e-13, over twenty steps.
+  EXPECT_LE(relative_error(other.now.state.q, sim.now.state.q), 1e-10);
+  EXPECT_LE(relative_error(other.now.state.qdot, sim.now.state.qdot), 1e-10);
+}
+
+TEST(SimulationStart, GoesOnInThePhaseThatItIsGiven) {
+  const ResolvedScene resolved = stored_scene();
+  const Model model = make_hagfish(resolved.specimen, resolved.scene);
+  for (const StoredState& stored : stored_states()) {
+    Simulation sim = resume(model, resolved.scene, stored);
+    EXPECT_EQ(take_step(model, resolved.scene, sim).controller.phase, stored.phase);
+  }
+}
+
+TEST(SimulationEnd, IsAtTheStepNearestTheDuration) {
+  Pulled p;
+  for (const double step : {0.1, 0.03, 0.007, 0.002}) {
+    for (const int count : {1, 3, 8, 11}) {
+      for (const double off : {-0.4, 0.0, 0.4}) {
+        p.scene.time.step = step;
+        p.scene.time.duration = (count + off) * step;
+        EXPECT_EQ(steps_of(p.model, p.scene), count) << step << " " << off;
+      }
+    }
+  }
+}
+
+TEST(SimulationEnd, ComesWithThePhaseAfterTheLastOne) {
+  Pulled p;
+  Simulation sim = start(p.model, p.scene, "active-set");
+  const std::vector<Phase> order = {Phase::form,    Phase::tighten, Phase::slide,
+                                    Phase::reverse, Phase::release, Phase::free};
+  for (std::size_t until = 0; until < order.size(); ++until) {
+    p.scene.time.until = order[until];
+    for (std::size_t now = 0; now < order.size(); ++now) {
+      sim.controller.phase = order[now];
+      EXPECT_EQ(finished(sim, p.scene), now > until) << until << " " << now;
+    }
+  }
+}
+
+TEST(SimulationEnd, ComesATimeAfterTheKnotIsGone) {
+  Pulled p;
+  p.scene.time.step = 0.01;
+  p.scene.controller.free_time = 0.5;
+  ControllerState controller;
+  controller.phase_start = 2;
+  const auto over = [&](Phase phase, std::int64_t step) {
+    controller.phase = phase;
+    return finished(
+        start_from(p.model, p.scene, "active-set", rest_state(p.model), controller, step), p.scene);
+  };
+  EXPECT_FALSE(over(Phase::free, 249));
+  EXPECT_TRUE(over(Phase::free, 250));
+  EXPECT_FALSE(over(Phase::release, 250));
+}
+
+}  // namespace
+}  // namespace hagfish
