@@ -32,11 +32,11 @@ void ActiveSetBoxQp::solve(const BoxQp& qp, const Eigen::VectorXd& start, BoxQpS
   for (Eigen::Index i = 0; i < m; ++i) {
     const bool is_free = std::isinf(qp.lower[i]) && std::isinf(qp.upper[i]);
     if (start[i] <= qp.lower[i] && std::isfinite(qp.lower[i])) {
-      pivoting_.rest(i, qp.lower[i]);
+      pivoting_.fix(i, qp.lower[i]);
     } else if (start[i] >= qp.upper[i] && std::isfinite(qp.upper[i])) {
-      pivoting_.rest(i, qp.upper[i]);
+      pivoting_.fix(i, qp.upper[i]);
     } else if (is_free || start[i] != 0) {
-      pivoting_.hold(i);
+      pivoting_.activate(i);
     }
   }
   ActiveSetPivoting::Ending ending = ActiveSetPivoting::Ending::settled;

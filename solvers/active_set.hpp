@@ -1,5 +1,5 @@
-// An active set method for the box QP: pivoting on the rows of A with a Cholesky factor of the held
-// ones. Exact to rounding, small and quick; the counterpart of Ipopt's interior point.
+// An active set method for the box QP: pivoting on the rows of A with a Cholesky factor of the
+// active ones. Exact to rounding, small and quick; the counterpart of Ipopt's interior point.
 #pragma once
 
 #include "solvers/active_set_pivoting.hpp"

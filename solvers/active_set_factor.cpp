@@ -30,7 +30,7 @@ void ActiveSetFactor::reset(const Eigen::MatrixXd& A,
     rows_.reserve(m);
   }
   rows_.clear();
-  held_.assign(m, 0);
+  active_.assign(m, 0);
 }
 
 bool ActiveSetFactor::append(std::span<const Eigen::Index> added) {
@@ -41,9 +41,9 @@ bool ActiveSetFactor::append(std::span<const Eigen::Index> added) {
 
 void ActiveSetFactor::remove(std::span<const Eigen::Index> dropped) {
   for (const Eigen::Index row : dropped) {
-    held_[row] = 0;
+    active_[row] = 0;
   }
-  const auto gone = [this](Eigen::Index row) { return held_[row] == 0; };
+  const auto gone = [this](Eigen::Index row) { return active_[row] == 0; };
   const auto first = std::find_if(rows_.begin(), rows_.end(), gone);
   const auto known = first - rows_.begin();
   rows_.erase(std::remove_if(first, rows_.end(), gone), rows_.end());
@@ -104,7 +104,7 @@ bool ActiveSetFactor::accept(Eigen::Index k) {
     return false;
   }
   L_(k, k) = std::sqrt(pivot);
-  held_[rows_[k]] = 1;
+  active_[rows_[k]] = 1;
   return true;
 }
 
@@ -124,7 +124,7 @@ double ActiveSetFactor::pivot_rounding(Eigen::Index position) {
 /// Takes the row at `position`, not yet factorised, out of the list.
 void ActiveSetFactor::refuse(Eigen::Index position) {
   const auto last = static_cast<Eigen::Index>(rows_.size()) - 1;
-  held_[rows_[position]] = 0;
+  active_[rows_[position]] = 0;
   rows_.erase(rows_.begin() + position);
   for (Eigen::Index j = 0; j < position; ++j) {
     for (Eigen::Index i = position; i < last; ++i) {

@@ -1,4 +1,4 @@
-// Cholesky factor of the rows that an active set holds, changed a few rows at a time.
+// Cholesky factor of the rows of an active set, changed a few rows at a time.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,13 +18,13 @@ class ActiveSetFactor {
 
   /// Indices into A, in the order of the factor.
   const std::vector<Eigen::Index>& rows() const { return rows_; }
-  bool holds(Eigen::Index row) const { return held_[row] != 0; }
+  bool contains(Eigen::Index row) const { return active_[row] != 0; }
 
-  /// Adds `added` (none of them held) one after the other. Rows that depend on those before them to
+  /// Adds `added` (none of them in) one after the other. Rows that depend on those before them to
   /// rounding (at least 1e-12 of their unit diagonal) stay out; true where there were none.
   bool append(std::span<const Eigen::Index> added);
 
-  /// Takes `dropped` (all of them held) out. What follows the first of them is factorised anew.
+  /// Takes `dropped` (all of them in) out. What follows the first of them is factorised again.
   void remove(std::span<const Eigen::Index> dropped);
 
   /// y = A(rows, rows)⁻¹ c(rows), in the order of rows(); `c` has m entries. Valid until the next
@@ -40,11 +40,11 @@ class ActiveSetFactor {
 
   const Eigen::MatrixXd* A_ = nullptr;
   const Eigen::Map<Eigen::VectorXd>* inverse_scale_ = nullptr;
-  /// Its lower triangle holds the factor; larger than m x m, as tiles reach past its end.
+  /// The factor in its lower triangle; larger than m x m, as tiles reach past its end.
   Eigen::MatrixXd L_;
   Eigen::VectorXd work_;
   std::vector<Eigen::Index> rows_;
-  std::vector<char> held_;
+  std::vector<char> active_;
 };
 
 }  // namespace hagfish

@@ -59,7 +59,7 @@ void ActiveSetPivoting::update_gradient() {
   noise_ = rounding * sum;
 }
 
-/// +1 or -1 where the sign of w moves row i off the place where it rests, else 0.
+/// +1 or -1 where the sign of w moves row i off the place where it is fixed, else 0.
 int ActiveSetPivoting::push(Eigen::Index i) const {
   const double w = w_[i] * inverse_scale_[i];
   if (w < -noise_) {
@@ -68,9 +68,9 @@ int ActiveSetPivoting::push(Eigen::Index i) const {
   return w > noise_ && x_[i] > qp_->lower[i] ? -1 : 0;
 }
 
-/// Corrects x of the held rows so that their w vanishes; w is up to date before and after. Whether
-/// it came from far beyond where it is now: then its rounding is that of what it was.
-bool ActiveSetPivoting::solve_held() {
+/// Corrects x of the active rows so that their w vanishes; w is up to date before and after.
+/// Whether it came from far beyond where it is now: then its rounding is that of what it was.
+bool ActiveSetPivoting::solve_active() {
   const auto change = factor_.solve(w_);
   double most_moved = 0;
   double largest = 0;
@@ -84,7 +84,7 @@ bool ActiveSetPivoting::solve_held() {
   return most_moved > 2 * largest;
 }
 
-void ActiveSetPivoting::clamp_held() {
+void ActiveSetPivoting::clamp_active() {
   for (const Eigen::Index i : factor_.rows()) {
     x_[i] = std::clamp(x_[i], qp_->lower[i], qp_->upper[i]);
   }
@@ -95,11 +95,11 @@ bool ActiveSetPivoting::change_blocks() {
   update_gradient();
   std::size_t fewest = x_.size() + 1;
   for (int tries = patience;; ++changes_) {
-    const bool from_far = solve_held();
+    const bool from_far = solve_active();
     leaving_.clear();
     joining_.clear();
     for (Eigen::Index i = 0; i < x_.size(); ++i) {
-      if (factor_.holds(i)) {
+      if (factor_.contains(i)) {
         if (x_[i] < qp_->lower[i] || x_[i] > qp_->upper[i]) {
           leaving_.push_back(i);
         }
@@ -110,9 +110,9 @@ bool ActiveSetPivoting::change_blocks() {
     const std::size_t wrong = leaving_.size() + joining_.size();
     if (wrong == 0) {
       if (from_far) {
-        solve_held();
+        solve_active();
       }
-      clamp_held();
+      clamp_active();
       return true;
     }
     if (wrong < fewest) {
@@ -132,7 +132,7 @@ bool ActiveSetPivoting::change_blocks() {
   }
 }
 
-/// Lets held rows that are not between their bounds rest there.
+/// Fixes active rows that are not between their bounds at the nearer one.
 void ActiveSetPivoting::enter_box() {
   leaving_.clear();
   for (const Eigen::Index i : factor_.rows()) {
@@ -140,7 +140,7 @@ void ActiveSetPivoting::enter_box() {
       leaving_.push_back(i);
     }
   }
-  clamp_held();
+  clamp_active();
   factor_.remove(leaving_);
 }
 
@@ -154,8 +154,8 @@ ActiveSetPivoting::Ending ActiveSetPivoting::change_singly() {
     }
     const Eigen::Index row = worst_row();
     if (row < 0) {
-      solve_held();
-      clamp_held();
+      solve_active();
+      clamp_active();
       return Ending::settled;
     }
     ++changes_;
@@ -166,7 +166,7 @@ ActiveSetPivoting::Ending ActiveSetPivoting::change_singly() {
   return Ending::limit;
 }
 
-/// One Newton step of the held rows, cut where it meets a bound; true where it meets none.
+/// One Newton step of the active rows, cut where it meets a bound; true where it meets none.
 bool ActiveSetPivoting::descend() {
   const auto change = factor_.solve(w_);
   moving_ = factor_.rows();
@@ -209,13 +209,13 @@ Eigen::Index ActiveSetPivoting::advance(double longest) {
   return blocking;
 }
 
-/// The resting row with the largest |ŵ| of a wrong sign, -1 where there is none.
+/// The fixed row with the largest |ŵ| of a wrong sign, -1 where there is none.
 Eigen::Index ActiveSetPivoting::worst_row() const {
   Eigen::Index worst = -1;
   double most = 0;
   for (Eigen::Index i = 0; i < x_.size(); ++i) {
     const double size = std::abs(w_[i]) * inverse_scale_[i];
-    if (size > most && !factor_.holds(i) && push(i) != 0 && size > tolerated_[i]) {
+    if (size > most && !factor_.contains(i) && push(i) != 0 && size > tolerated_[i]) {
       worst = i;
       most = size;
     }
@@ -223,7 +223,7 @@ Eigen::Index ActiveSetPivoting::worst_row() const {
   return worst;
 }
 
-/// Moves along the ray on which `row`, which depends on the held rows, changes no velocity, and
+/// Moves along the ray on which `row`, which depends on the active rows, changes no velocity, and
 /// lets it take the place of the row that blocks. False where nothing blocks and `row` is missed by
 /// more than rounding.
 bool ActiveSetPivoting::exchange(Eigen::Index row) {

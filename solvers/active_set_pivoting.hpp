@@ -9,8 +9,8 @@
 
 namespace hagfish {
 
-/// Rows are held (x_i solves w_i = 0 together with the other held rows) or resting (x_i stays).
-/// A resting row is at one of its bounds, at 0, or depends on the held rows.
+/// Rows are active (x_i solves w_i = 0 together with the other active rows) or fixed (x_i stays).
+/// A fixed row is at one of its bounds, at 0, or depends on the active rows.
 /// Two ways to the solution, both also where A is singular, bounds are infinite or rows are free:
 /// rows with a wrong sign change sides all at once, which is quick and may cycle, or one after the
 /// other, which always ends.
@@ -22,13 +22,13 @@ class ActiveSetPivoting {
   ActiveSetPivoting(const ActiveSetPivoting&) = delete;  // its vectors refer to memory of its own
   ActiveSetPivoting& operator=(const ActiveSetPivoting&) = delete;
 
-  /// Begins with `qp`, which must outlive the use, and every row resting at 0.
+  /// Begins with `qp`, which must outlive the use, and every row fixed at 0.
   void start(const BoxQp& qp);
-  /// Lets row i rest at `value`, within its bounds.
-  void rest(Eigen::Index i, double value) { x_[i] = value; }
-  /// Holds row i from change_blocks on, unless it depends on rows held before: then it goes on
-  /// resting.
-  void hold(Eigen::Index i) { joining_.push_back(i); }
+  /// Fixes row i at `value`, within its bounds.
+  void fix(Eigen::Index i, double value) { x_[i] = value; }
+  /// Makes row i active from change_blocks on, unless it depends on rows activated before: then it
+  /// stays fixed.
+  void activate(Eigen::Index i) { joining_.push_back(i); }
 
   /// Block principal pivoting (Portugal, Júdice, Vicente: A comparison of block pivoting and
   /// interior-point algorithms for linear least squares problems with nonnegative variables, Math.
@@ -36,9 +36,9 @@ class ActiveSetPivoting {
   bool change_blocks();
 
   /// Primal active set method on x, which is the dual one of Goldfarb and Idnani (Math. Programming
-  /// 1983) on velocities: the worst row joins, the held rows follow as far as their bounds allow,
+  /// 1983) on velocities: the worst row joins, the active rows follow as far as their bounds allow,
   /// and those that meet a bound leave. The objective falls at every change, so that no set comes
-  /// twice. A row that depends on the held ones takes the place of the one that blocks it; where
+  /// twice. A row that depends on the active ones takes the place of the one that blocks it; where
   /// none does, rows contradict each other.
   Ending change_singly();
 
@@ -53,8 +53,8 @@ class ActiveSetPivoting {
  private:
   void update_gradient();
   int push(Eigen::Index i) const;
-  bool solve_held();
-  void clamp_held();
+  bool solve_active();
+  void clamp_active();
   void enter_box();
   Eigen::Index advance(double longest);
   bool descend();

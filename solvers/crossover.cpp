@@ -21,12 +21,12 @@ Eigen::VectorXd crossover(const BoxQp& qp, const Eigen::VectorXd& x) {
   pivoting.start(qp);
   for (Eigen::Index i = 0; i < x.size(); ++i) {
     if (x[i] - qp.lower[i] < w[i]) {
-      pivoting.rest(i, qp.lower[i]);
+      pivoting.fix(i, qp.lower[i]);
     } else if (qp.upper[i] - x[i] < -w[i]) {
-      pivoting.rest(i, qp.upper[i]);
+      pivoting.fix(i, qp.upper[i]);
     } else {
-      pivoting.rest(i, x[i]);
-      pivoting.hold(i);
+      pivoting.fix(i, x[i]);
+      pivoting.activate(i);
     }
   }
   if (!pivoting.change_blocks() && pivoting.change_singly() != ActiveSetPivoting::Ending::settled) {

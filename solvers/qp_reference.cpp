@@ -84,23 +84,23 @@ void QpReference::scale(const BoxQp& qp) {
   upper_ = scale_.cwiseProduct(qp.upper.cast<Real>()) / beta_;
 }
 
-/// Moves the held rows to w = 0; those that depend on others share the change.
-void QpReference::solve_held() {
-  std::vector<Eigen::Index> held;
+/// Moves the active rows to w = 0; those that depend on others share the change.
+void QpReference::solve_active() {
+  std::vector<Eigen::Index> active;
   for (Eigen::Index i = 0; i < b_.size(); ++i) {
-    if (side_[i] == Side::held) {
-      held.push_back(i);
+    if (side_[i] == Side::active) {
+      active.push_back(i);
     }
   }
-  if (held.empty()) {
+  if (active.empty()) {
     return;
   }
   Eigen::CompleteOrthogonalDecomposition<Matrix> factor;
   factor.setThreshold(rank_threshold);
-  factor.compute(A_(held, held));
+  factor.compute(A_(active, active));
   for (int refinement = 0; refinement < 3; ++refinement) {
-    const Vector missing = b_(held) - A_(held, Eigen::all) * x_;
-    x_(held) += factor.solve(missing);
+    const Vector missing = b_(active) - A_(active, Eigen::all) * x_;
+    x_(active) += factor.solve(missing);
   }
 }
 
@@ -115,9 +115,9 @@ QpReference::Real QpReference::judge() {
     const Real terms = A_.row(i).cwiseAbs().dot(x_.cwiseAbs()) + std::abs(b_[i]);
     Real error = 0;
     switch (side_[i]) {
-      case Side::held: {
+      case Side::active: {
         // Where dependent rows contradict each other by their rounding, those with w > 0 are met
-        // without holding them.
+        // without activating them.
         const Real noise = accepted * terms;
         if (x_[i] < lower_[i] - tight * largest || (w > noise && std::isfinite(lower_[i]))) {
           wrong_.emplace_back(i, Side::lower);
@@ -135,8 +135,8 @@ QpReference::Real QpReference::judge() {
         error = std::max(w, Real{0});
         break;
     }
-    if (side_[i] != Side::held && error > tight * terms) {
-      wrong_.emplace_back(i, Side::held);
+    if (side_[i] != Side::active && error > tight * terms) {
+      wrong_.emplace_back(i, Side::active);
     }
     worst = std::max(worst, error > 0 ? error / std::max(terms, largest) : 0);
   }
@@ -146,10 +146,10 @@ QpReference::Real QpReference::judge() {
 bool QpReference::solve(const Eigen::VectorXd& guess) {
   x_ = scale_.cwiseProduct(guess.cast<Real>()) / beta_;
   const Vector w = A_ * x_ - b_;
-  side_.assign(b_.size(), Side::held);
+  side_.assign(b_.size(), Side::active);
   const auto move = [this](Eigen::Index i, Side side) {
     side_[i] = side;
-    if (side != Side::held) {
+    if (side != Side::active) {
       x_[i] = side == Side::lower ? lower_[i] : upper_[i];
     }
   };
@@ -163,7 +163,7 @@ bool QpReference::solve(const Eigen::VectorXd& guess) {
   auto least = wrong_.max_size();
   int tries = patience;
   for (Eigen::Index change = 0; change <= changes_per_row * b_.size(); ++change) {
-    solve_held();
+    solve_active();
     const Real error = judge();
     if (wrong_.empty()) {
       return error <= accepted;

@@ -43,10 +43,10 @@ class QpReference {
   using Real = long double;
   using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
   using Vector = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
-  enum class Side : unsigned char { held, lower, upper };  ///< held: w = A x - b = 0
+  enum class Side : unsigned char { active, lower, upper };  ///< active: w = A x - b = 0
 
   void scale(const BoxQp& qp);
-  void solve_held();
+  void solve_active();
   Real judge();
   Real norm(const Vector& y) const { return (half_ * y).norm(); }
 

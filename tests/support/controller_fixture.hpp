@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/run/controller.hpp"
-#include "core/step/step_error.hpp"
+#include "core/step/outcome.hpp"
 #include "tests/support/random_chain.hpp"
 
 namespace hagfish {
@@ -66,7 +66,8 @@ class ControllerTest : public testing::Test {
   Control step(std::vector<Contact> contacts) {
     observation.contact.contacts = std::move(contacts);
     Control control;
-    decide(model, scene, observation, now, state, control);
+    const Status status = decide(model, scene, observation, now, state, control);
+    if (!status.ok()) throw StepError(status);
     now += scene.time.step;
     return control;
   }

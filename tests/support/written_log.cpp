@@ -2,21 +2,19 @@
 
 #include "core/log/log_writer.hpp"
 #include "mujoco_ref/mjcf.hpp"
-#include "solvers/box_qp.hpp"
 
 namespace hagfish {
 
 void write_log(const std::filesystem::path& file, const ResolvedScene& scene, const Model& model,
-               Simulation sim, const char* back_end, int most_steps) {
+               Simulation sim, int most_steps) {
   LogHeader header;
   header.scene = scene_to_toml(scene.scene, scene.specimen);
   header.mjcf = mjcf_files(model, scene.scene.contact.least_arc, scene.scene.time.step);
   LogWriter log(file, true, header, model, scene.scene);
-  const auto solver = make_box_qp_solver(back_end);
   StepRecord record;
   double wall_time = 0;
   for (int k = 0; k < most_steps && !finished(sim, scene.scene); ++k) {
-    take_step(model, scene.scene, *solver, sim, record);
+    take_step(model, scene.scene, sim, record);
     log.write(record, wall_time += 1e-4);
   }
   log.finish("complete");

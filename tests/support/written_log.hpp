@@ -15,7 +15,7 @@ namespace hagfish {
 /// Runs `scene` on from `sim` to its end, but for `most_steps` at most, and logs it in `file`. Each
 /// step is said to have taken 0.1 ms.
 void write_log(const std::filesystem::path& file, const ResolvedScene& scene, const Model& model,
-               Simulation sim, const char* back_end, int most_steps);
+               Simulation sim, int most_steps);
 
 /// Lets `change` have the values of a dataset, written as `type`; returns what they were.
 template <class T, class Change>

@@ -59,7 +59,7 @@ TEST(ActiveSetFactor, SolvesTheBlockOfItsRowsInTheirOrder) {
   EXPECT_EQ(p.factor.rows(), (Indices{7, 29, 3, 11, 0, 20, 5, 1, 2}));
   EXPECT_LE(p.error(c), rounding);
   for (Eigen::Index row = 0; row < 30; ++row) {
-    EXPECT_EQ(p.factor.holds(row), std::ranges::count(p.factor.rows(), row) == 1) << row;
+    EXPECT_EQ(p.factor.contains(row), std::ranges::count(p.factor.rows(), row) == 1) << row;
   }
 }
 
@@ -70,7 +70,7 @@ TEST(ActiveSetFactor, RemovesRowsAndKeepsTheOrderOfTheOthers) {
   ASSERT_TRUE(p.factor.append(Indices{0, 1, 2, 3, 4, 5, 6, 7, 8, 9}));
   p.factor.remove(Indices{8, 2, 5});
   EXPECT_EQ(p.factor.rows(), (Indices{0, 1, 3, 4, 6, 7, 9}));
-  EXPECT_FALSE(p.factor.holds(5));
+  EXPECT_FALSE(p.factor.contains(5));
   EXPECT_LE(p.error(c), rounding);
   p.factor.remove(Indices{9});
   EXPECT_LE(p.error(c), rounding);
@@ -87,7 +87,7 @@ TEST(ActiveSetFactor, StaysExactThroughAThousandChanges) {
   for (int k = 0; k < 1000; ++k) {
     Indices in, out;
     for (Eigen::Index row = 0; row < 40; ++row) {
-      if (uniform(random, 0, 1) < 0.1) (p.factor.holds(row) ? out : in).push_back(row);
+      if (uniform(random, 0, 1) < 0.1) (p.factor.contains(row) ? out : in).push_back(row);
     }
     if (!out.empty()) p.factor.remove(out);
     ASSERT_TRUE(p.factor.append(in));
@@ -105,8 +105,8 @@ TEST(ActiveSetFactor, RefusesRowsThatDependOnThoseBefore) {
   // Refused in the middle of a panel; what stands behind it comes in.
   EXPECT_FALSE(p.factor.append(Indices{0, 1, 8, 2, 5, 3, 4}));
   EXPECT_EQ(p.factor.rows(), (Indices{0, 1, 2, 3, 4}));
-  EXPECT_FALSE(p.factor.holds(5));
-  EXPECT_FALSE(p.factor.holds(8));
+  EXPECT_FALSE(p.factor.contains(5));
+  EXPECT_FALSE(p.factor.contains(8));
   EXPECT_LE(p.error(c), rounding);
   // Once a row on which it depends is gone, it may come in.
   p.factor.remove(Indices{1, 0});
@@ -151,7 +151,7 @@ TEST(ActiveSetFactor, ResetForgetsTheProblemBefore) {
     const Eigen::Map<Eigen::VectorXd> inverse_scale(scale.data(), m);
     p.factor.reset(other.A, inverse_scale);
     EXPECT_TRUE(p.factor.rows().empty());
-    EXPECT_FALSE(p.factor.holds(4));
+    EXPECT_FALSE(p.factor.contains(4));
     const Indices rows{m - 1, 0, 2};
     ASSERT_TRUE(p.factor.append(rows));
     const Eigen::VectorXd c = random_entries(random, m);

@@ -91,7 +91,7 @@ TEST(QpReference, KnowsTheVelocityWhereMultipliersAreNotUnique) {
 }
 
 TEST(QpReference, TakesDependentRowsThatContradictEachOtherByRounding) {
-  // v >= 1, 2 v >= 2 + 1e-14: both held at first, the first is met by holding the second.
+  // v >= 1, 2 v >= 2 + 1e-14: both active at first, the first is met by the second alone.
   const BoxQp qp = qp_of_rows(Eigen::Vector2d(1, 2), Eigen::Vector2d(1, 2 + 1e-14));
   QpReference reference(qp);
   ASSERT_TRUE(reference.solve(Eigen::Vector2d(0.2, 0.4)));

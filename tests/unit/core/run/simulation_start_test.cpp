@@ -23,11 +23,10 @@ struct Pulled {
 
 /// Steps that a run of `scene` takes before it is over.
 std::int64_t steps_of(const Model& model, const Scene& scene) {
-  const auto solver = make_box_qp_solver("active-set");
-  Simulation sim = start(model, scene);
+  Simulation sim = start(model, scene, "active-set");
   StepRecord record;
   while (!finished(sim, scene)) {
-    take_step(model, scene, *solver, sim, record);
+    take_step(model, scene, sim, record);
   }
   return sim.step;
 }
@@ -36,25 +35,25 @@ TEST(SimulationStart, IsTheScenesStateAtTimeZero) {
   Pulled p;
   p.scene.start.phase = Phase::slide;
   p.scene.start.bend = {{0, 0, 0.05, 0.02}, {1, 0, 0.05, 0.02}};
-  const Simulation sim = start(p.model, p.scene);
+  const Simulation sim = start(p.model, p.scene, "active-set");
   EXPECT_EQ(sim.step, 0);
   EXPECT_EQ(time_of(sim, p.scene), 0);
   EXPECT_EQ(sim.controller.phase, Phase::slide);
   EXPECT_EQ(sim.controller.phase_start, 0);
   const State state = start_state(p.model, p.scene.start);
-  EXPECT_EQ(sim.state.q, state.q);
-  EXPECT_EQ(sim.state.qdot, state.qdot);
-  EXPECT_EQ(sim.observation.kin.centre, kinematics(p.model, state).centre);
+  EXPECT_EQ(sim.now.state.q, state.q);
+  EXPECT_EQ(sim.now.state.qdot, state.qdot);
+  EXPECT_EQ(sim.now.observation.kin.centre, kinematics(p.model, state).centre);
   EXPECT_FALSE(finished(sim, p.scene));
 }
 
 TEST(SimulationStart, BooksTheEnergyOfItsState) {
   Pulled p;
   p.scene.start.bend = {{0, 0, 0.05, 0.02}, {1, 0, 0.05, 0.02}};
-  const Simulation sim = start(p.model, p.scene);
+  const Simulation sim = start(p.model, p.scene, "active-set");
   double elastic = 0;
   for (std::size_t k = 0; k < p.model.hinges.size(); ++k) {
-    elastic += 0.5 * p.model.hinges[k].stiffness * std::pow(sim.state.q[7 + k], 2);
+    elastic += 0.5 * p.model.hinges[k].stiffness * std::pow(sim.now.state.q[7 + k], 2);
   }
   EXPECT_GT(elastic, 0);
   EXPECT_NEAR(sim.ledger.elastic, elastic, 1e-12 * elastic);  // rounding of a sum of 20
@@ -64,55 +63,54 @@ TEST(SimulationStart, BooksTheEnergyOfItsState) {
 TEST(SimulationStart, TimeIsStepsTimesTheirLength) {
   Pulled p;
   p.scene.time.step = 0.003;
-  const Simulation sim = start_from(p.model, p.scene, rest_state(p.model), {}, 1000000007);
+  const Simulation sim =
+      start_from(p.model, p.scene, "active-set", rest_state(p.model), {}, 1000000007);
   EXPECT_EQ(time_of(sim, p.scene), 1000000007 * 0.003);
 }
 
 TEST(SimulationStart, ARecordIsOfTheMomentBeforeTheStep) {
   const Pulled p;
-  const auto solver = make_box_qp_solver("active-set");
-  Simulation sim = start(p.model, p.scene);
+  Simulation sim = start(p.model, p.scene, "active-set");
   for (int k = 0; k < 5; ++k) {
-    const State before = sim.state;
-    const Eigen::Matrix3Xd centre = sim.observation.kin.centre;
-    const StepRecord record = take_step(p.model, p.scene, *solver, sim);
+    const State before = sim.now.state;
+    const Eigen::Matrix3Xd centre = sim.now.observation.kin.centre;
+    const StepRecord record = take_step(p.model, p.scene, sim);
     EXPECT_EQ(record.step, k);
     EXPECT_EQ(record.time, k * p.scene.time.step);
-    EXPECT_EQ(record.state.q, before.q);
-    EXPECT_EQ(record.state.qdot, before.qdot);
-    EXPECT_EQ(record.observation.kin.centre, centre);
+    EXPECT_EQ(record.moment.state.q, before.q);
+    EXPECT_EQ(record.moment.state.qdot, before.qdot);
+    EXPECT_EQ(record.moment.observation.kin.centre, centre);
     EXPECT_EQ(sim.step, k + 1);
-    EXPECT_EQ(sim.state.qdot, record.solution.qdot);
-    EXPECT_EQ(sim.observation.kin.centre, kinematics(p.model, sim.state).centre);
+    EXPECT_EQ(sim.now.state.qdot, record.solution.qdot);
+    EXPECT_EQ(sim.now.observation.kin.centre, kinematics(p.model, sim.now.state).centre);
   }
 }
 
 TEST(SimulationStart, GoesOnFromTheStateOfAnotherRun) {
   const Pulled p;
-  const auto solver = make_box_qp_solver("active-set");
-  Simulation sim = start(p.model, p.scene);
+  Simulation sim = start(p.model, p.scene, "active-set");
   for (int k = 0; k < 20; ++k) {
-    take_step(p.model, p.scene, *solver, sim);
+    take_step(p.model, p.scene, sim);
   }
-  Simulation other = start_from(p.model, p.scene, sim.state, sim.controller, sim.step);
+  Simulation other =
+      start_from(p.model, p.scene, "active-set", sim.now.state, sim.controller, sim.step);
   for (int k = 0; k < 20; ++k) {
-    take_step(p.model, p.scene, *solver, sim);
-    const StepRecord record = take_step(p.model, p.scene, *solver, other);
+    take_step(p.model, p.scene, sim);
+    const StepRecord record = take_step(p.model, p.scene, other);
     EXPECT_EQ(record.time, (20 + k) * p.scene.time.step);
   }
   EXPECT_EQ(other.step, 40);
   // It has no multipliers to start from: rounding of the solver, some 1e-13, over twenty steps.
-  EXPECT_LE(relative_error(other.state.q, sim.state.q), 1e-10);
-  EXPECT_LE(relative_error(other.state.qdot, sim.state.qdot), 1e-10);
+  EXPECT_LE(relative_error(other.now.state.q, sim.now.state.q), 1e-10);
+  EXPECT_LE(relative_error(other.now.state.qdot, sim.now.state.qdot), 1e-10);
 }
 
 TEST(SimulationStart, GoesOnInThePhaseThatItIsGiven) {
   const ResolvedScene resolved = stored_scene();
   const Model model = make_hagfish(resolved.specimen, resolved.scene);
-  const auto solver = make_box_qp_solver("active-set");
   for (const StoredState& stored : stored_states()) {
     Simulation sim = resume(model, resolved.scene, stored);
-    EXPECT_EQ(take_step(model, resolved.scene, *solver, sim).controller.phase, stored.phase);
+    EXPECT_EQ(take_step(model, resolved.scene, sim).controller.phase, stored.phase);
   }
 }
 
@@ -131,7 +129,7 @@ TEST(SimulationEnd, IsAtTheStepNearestTheDuration) {
 
 TEST(SimulationEnd, ComesWithThePhaseAfterTheLastOne) {
   Pulled p;
-  Simulation sim = start(p.model, p.scene);
+  Simulation sim = start(p.model, p.scene, "active-set");
   const std::vector<Phase> order = {Phase::form,    Phase::tighten, Phase::slide,
                                     Phase::reverse, Phase::release, Phase::free};
   for (std::size_t until = 0; until < order.size(); ++until) {
@@ -151,7 +149,8 @@ TEST(SimulationEnd, ComesATimeAfterTheKnotIsGone) {
   controller.phase_start = 2;
   const auto over = [&](Phase phase, std::int64_t step) {
     controller.phase = phase;
-    return finished(start_from(p.model, p.scene, rest_state(p.model), controller, step), p.scene);
+    return finished(
+        start_from(p.model, p.scene, "active-set", rest_state(p.model), controller, step), p.scene);
   };
   EXPECT_FALSE(over(Phase::free, 249));
   EXPECT_TRUE(over(Phase::free, 250));

@@ -125,7 +125,7 @@ class AuditCorruption : public testing::Test {
     const ResolvedScene resolved = stored_scene(
         {"time.step=0.01", "time.frame_interval=0.2", "knot.votes=5", "expect.slide_distance=8"});
     const Model model = make_hagfish(resolved.specimen, resolved.scene);
-    write_log(file, resolved, model, start(model, resolved.scene), "active-set",
+    write_log(file, resolved, model, start(model, resolved.scene, "active-set"),
               std::numeric_limits<int>::max());
   }
   static void TearDownTestSuite() { folder.reset(); }

@@ -29,13 +29,13 @@ class AuditTest : public testing::Test {
     overrides.insert(overrides.end(), more.begin(), more.end());
     const ResolvedScene resolved = stored_scene(overrides);
     const Model model = make_hagfish(resolved.specimen, resolved.scene);
-    Simulation sim = start(model, resolved.scene);
+    Simulation sim = start(model, resolved.scene, "ipopt");
     if (from) {
       StoredState stored = stored_states().at(*from);
       stored.state = within_cones(model, stored.state);
-      sim = resume(model, resolved.scene, stored);
+      sim = resume(model, resolved.scene, stored, "ipopt");
     }
-    write_log(file, resolved, model, std::move(sim), "ipopt", 30);
+    write_log(file, resolved, model, std::move(sim), 30);
   }
 
   bool passes(const std::string& name) const {
