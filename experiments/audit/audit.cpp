@@ -11,12 +11,10 @@
 #include "core/run/simulation.hpp"
 #include "experiments/audit/audit_datasets.hpp"
 #include "experiments/audit/audit_forces.hpp"
+#include "experiments/audit/audit_forward_inverse.hpp"
 #include "experiments/audit/audit_frames.hpp"
 #include "experiments/audit/audit_knot.hpp"
 #include "experiments/audit/audit_steps.hpp"
-#include "mujoco_ref/forward_inverse.hpp"
-#include "mujoco_ref/log_model.hpp"
-#include "mujoco_ref/mirror.hpp"
 
 namespace hagfish {
 namespace {
@@ -50,42 +48,6 @@ std::vector<Finding> constraints(const LogContents& log, double deepest, double 
                   "cm, every step"),
           bounded("KKT residual", largest(log.h5.doubles("/steps/kkt")), expect.kkt,
                   "scaled, every step")};
-}
-
-/// All constraint forces of each frame, generalised.
-Hdf5Reader::Rows constraint_forces(const LogContents& log) {
-  Hdf5Reader::Rows sum = log.h5.rows("/forces/thigmotaxis");
-  for (const char* block : {"contact", "limit", "head", "wall"}) {
-    sum += log.h5.rows(std::string("/forces/") + block);
-  }
-  return sum;
-}
-
-/// Each frame's forces put back as applied forces in the log's own MuJoCo model, with its contacts
-/// and limits off: one step must end at the logged q̇. Drag is the core's, at the end of the step.
-Finding forward_inverse(const LogContents& log) {
-  const Model& model = log.model;
-  MujocoModel mirror = mujoco_model_of(log.h5);
-  const std::string difference =
-      first_difference(*mirror.model(), model, log.resolved.scene.time.step);
-  if (!difference.empty()) {
-    throw FileError(log.h5.file() + ": /mjcf is not the scene's model: " + difference);
-  }
-  use_core_rule(mirror);
-  const Hdf5Reader::Rows sum = constraint_forces(log);
-  const Hdf5Reader::Rows tip = log.h5.rows("/forces/tip");
-  double largest_error = 0;
-  for (Eigen::Index f = 0; f < log.q.rows(); ++f) {
-    const State state{log.q.row(f), log.qdot.row(f)};
-    const Eigen::VectorXd next = log.qdot_next.row(f);
-    const Kinematics kin = kinematics(model, state);
-    const Eigen::VectorXd force = sum.row(f).transpose() + drag_force(model, kin, next);
-    const Eigen::VectorXd driven = driven_velocity(model, state, force, tip.row(f), mirror);
-    const double off = largest((driven - next).array().abs().eval());
-    largest_error = worse(largest_error, off > 0 ? off / next.lpNorm<Eigen::Infinity>() : off);
-  }
-  return bounded("forward-inverse", largest_error, log.resolved.scene.expect.forward_inverse,
-                 "of q̇, MuJoCo's step under the logged forces at every frame");
 }
 
 /// f_thigmo at dofs of bodies tailward of the last contact's spline points.
@@ -180,7 +142,7 @@ std::vector<Finding> audit(const std::string& file) {
   append(frames.findings());
   append(audit_steps(log));
   append(forces.findings());
-  findings.push_back(forward_inverse(log));
+  findings.push_back(audit_forward_inverse(log));
   findings.push_back(thigmotaxis_extent(log));
   findings.push_back(energy(log));
   findings.push_back(energy_gain(log));

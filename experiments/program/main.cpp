@@ -98,6 +98,8 @@ void add_log_readers(CLI::App& app, int& code) {
   check->callback([file, &code] { code = hagfish::check(*file); });
 }
 
+#ifdef HAGFISH_MUJOCO
+
 void add_picture(CLI::App& app, int& code) {
   const auto options = std::make_shared<hagfish::PictureOptions>();
   CLI::App* picture = app.add_subcommand("picture", "draw frames of a log as PNG");
@@ -179,6 +181,8 @@ void add_stress(CLI::App& app, int& code) {
   stress->callback([options, &code] { code = hagfish::stress(*options); });
 }
 
+#endif
+
 int dispatch(int argc, char** argv) {
   CLI::App app{"A hagfish that ties itself into a knot and slides it to its head."};
   app.set_version_flag("--version", hagfish::build_version() + " " + hagfish::build_revision());
@@ -192,12 +196,14 @@ int dispatch(int argc, char** argv) {
   add_record_qp(app, typed, code);
   add_qp(app, code);
   add_log_readers(app, code);
+#ifdef HAGFISH_MUJOCO
   add_picture(app, code);
   add_mjcf(app, code);
   add_compare(app, typed, code);
   add_integrate(app, typed, code);
   add_playback(app, typed, code);
   add_stress(app, code);
+#endif
 
   try {
     app.parse(argc, argv);
