@@ -1,8 +1,9 @@
 #include "experiments/audit/audit_forward_inverse.hpp"
 
 #ifdef HAGFISH_MUJOCO
+#include <cmath>
+
 #include "core/chain/dynamics.hpp"
-#include "core/log/hdf5_error.hpp"
 #include "mujoco_ref/forward_inverse.hpp"
 #include "mujoco_ref/log_model.hpp"
 #include "mujoco_ref/mirror.hpp"
@@ -43,17 +44,19 @@ Finding audit_forward_inverse(const LogContents& log) {
     const Kinematics kin = kinematics(model, state);
     const Eigen::VectorXd force = sum.row(f).transpose() + drag_force(model, kin, next);
     const Eigen::VectorXd driven = driven_velocity(model, state, force, tip.row(f), mirror);
-    const double off = (driven - next).array().abs().maxCoeff<Eigen::PropagateNaN>();
+    const double off =
+        (driven - next).allFinite() ? (driven - next).lpNorm<Eigen::Infinity>() : INFINITY;
     largest_error = worse(largest_error, off > 0 ? off / next.lpNorm<Eigen::Infinity>() : off);
   }
-  return bounded("forward-inverse", largest_error, log.resolved.scene.expect.forward_inverse,
-                 "of q̇, MuJoCo's step under the logged forces at every frame");
+  return judged_over(
+      {"forward-inverse", largest_error, log.resolved.scene.expect.forward_inverse, "of q̇"},
+      "MuJoCo's step under the logged forces at every frame");
 }
 
 #else
 
 Finding audit_forward_inverse(const LogContents& /*log*/) {
-  return {"forward-inverse", true, "not judged: this program is built without MuJoCo"};
+  return {"forward-inverse", true, "not judged: this program is built without MuJoCo", "", "", ""};
 }
 
 #endif
