@@ -4,18 +4,17 @@
 #include "core/input/builtin_files.hpp"
 #include "core/input/scene_reader.hpp"
 #include "core/run/simulation.hpp"
-#include "solvers/box_qp.hpp"
 
 int main() {
   using namespace hagfish;
   const std::string text(builtin_file("table1.toml").value());
   const ResolvedScene resolved = read_scene_text(text, "table1", {"time.step=0.005"});
-  const Model model = make_hagfish(resolved.specimen, resolved.scene);
-  const auto solver = make_box_qp_solver("active-set");
-  Simulation sim = start(model, resolved.scene);
+  const Scene& scene = resolved.scene;
+  const Model model = make_hagfish(resolved.specimen, scene);
+  Simulation sim = start(model, scene, "active-set");
   StepRecord record;
-  while (record.controller.phase == Phase::form && !finished(sim, resolved.scene)) {
-    take_step(model, resolved.scene, *solver, sim, record);
+  while (record.controller.phase == Phase::form && !finished(sim, scene)) {
+    take_step(model, scene, sim, record);
   }
   std::cout << knot_name(record.controller.knot.type) << " tied at " << record.time << " s\n";
 }

@@ -17,7 +17,7 @@ std::vector<std::string> stress_overrides(const std::string& method, double step
 
 /// What became of a cell.
 struct StressResult {
-  Verdict verdict;
+  Status verdict;
   StressFigures figures;
   double cpu_time = 0;  ///< s
 };
