@@ -32,7 +32,7 @@ def draw_states(axes: Any, results: Results) -> None:
             low, middle, high = np.quantile(values, [0.01, 0.5, 1])
             axes.plot([low, high], [row + shift] * 2, color=colour, lw=2, label=label if row == 0 else None)
             axes.plot(middle, row + shift, "o", color=colour, ms=5)
-        bound = float(results.attribute(f"/states/free/{name}", "description").rsplit(" ", 1)[1])
+        bound = results[f"/states/free/{name}_bound"][0]
         axes.plot([bound] * 2, [row - 0.35, row + 0.35], color="black", lw=1, label="required" if row == 0 else None)
     axes.set_xscale("log")
     axes.set_yticks(range(len(QUANTITIES)), QUANTITIES.values())
@@ -45,7 +45,7 @@ def draw_states(axes: Any, results: Results) -> None:
 def draw_rollouts(axes: Any, results: Results) -> None:
     for head, (colour, label) in HEADS.items():
         axes.semilogy(results[f"/rollout/{head}/time"], results[f"/rollout/{head}/velocity"], color=colour, label=label)
-    axes.axhline(1e-8, color="black", lw=1, label="required")
+    axes.axhline(results["/rollout/free/velocity_bound"][0], color="black", lw=1, label="required")
     axes.set_xlabel("time, s")
     axes.set_ylabel(r"largest difference in $\dot q$ over largest $\dot q$")
     axes.set_title("(b) the same rule, step by step", loc="left")
