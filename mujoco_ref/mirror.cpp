@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "core/step/step.hpp"
+#include "core/step/outcome.hpp"
 
 namespace hagfish {
 
@@ -37,8 +37,8 @@ void check_stable(const MujocoModel& mirror) {
   for (const int kind : {mjWARN_BADQPOS, mjWARN_BADQVEL, mjWARN_BADQACC}) {
     const mjWarningStat& warning = mirror.data()->warning[kind];
     if (warning.number > 0) {
-      throw StepError(StopCause::non_finite,
-                      std::string("MuJoCo: ") + mju_warningText(kind, warning.lastinfo));
+      throw StepError(
+          {Outcome::non_finite, std::string("MuJoCo: ") + mju_warningText(kind, warning.lastinfo)});
     }
   }
 }

@@ -26,16 +26,17 @@ std::vector<State> core_rollout(const Model& model, const State& start, Head hea
   scene.wall.present = false;
   Control control;
   control.clamp_head = head == Head::clamped;
-  const auto solver = make_box_qp_solver(box_qp_solver_names().front());  // no row needs it
-  WarmStart warm;
-  StepScratch scratch;
+  StepSolver solver("active-set");  // no row needs it
   StepSolution step;
   Observation observation;  // without contacts
   std::vector<State> states;
   State state = start;
   for (int i = 0; i < steps; ++i) {
     observation.kin = kinematics(model, state);
-    solve_step(model, state, observation, control, scene, *solver, warm, scratch, step);
+    if (const Status status = solver.solve({model, scene, state, observation, control}, step);
+        !status.ok()) {
+      throw StepError(status);
+    }
     state.qdot = step.qdot;
     state.q = advance(state.q, state.qdot, h);
     states.push_back(state);

@@ -1,5 +1,4 @@
-// The paper's Eq. 4 as it stands, on dense matrices: the tests' independent reference for
-// box_qp.hpp with its own problem, scaling and stopping. Accuracy first, speed irrelevant.
+// The paper's Eq. 4 as it stands, on dense matrices.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,18 +19,11 @@ struct PrimalQp {
   Eigen::VectorXd cap;  ///< m, >= 0, +infinity where the row is hard
 };
 
-struct PrimalQpSolution {
-  Eigen::VectorXd v;       ///< n
-  Eigen::VectorXd mu;      ///< p: H v - g - G' mu - C' lambda = 0
-  Eigen::VectorXd lambda;  ///< m, 0 <= lambda <= cap
-  SolveStatus status = SolveStatus::failed;
-  /// Largest scaled error in stationarity, the rows and the products of multiplier and excess,
-  /// measured outside of Ipopt on the problem with unit diagonal of H and unit rows.
-  double residual = 0;
-};
-
 /// Throws std::invalid_argument where sizes differ.
-PrimalQpSolution solve_primal(const PrimalQp& qp);
+void check_primal_qp(const PrimalQp& qp);
+
+/// [G; C], (p + m) x n.
+Eigen::MatrixXd all_rows(const PrimalQp& qp);
 
 /// The same problem in its multipliers, rows of G first: A = [G; C] H⁻¹ [G; C]' by a dense Cholesky
 /// factorisation. Throws std::invalid_argument where H is not positive definite.

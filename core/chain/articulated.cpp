@@ -46,12 +46,12 @@ Eigen::MatrixXd dense(const Model& model, const Kinematics& kin, const StepOpera
 }
 
 void ArticulatedFactor::factorise(const Model& model, const Kinematics& kin, const StepOperator& op,
-                                  std::span<const HeldVelocity> held) {
+                                  std::span<const PrescribedVelocity> prescribed) {
   weighted_.resize(6, model.nv());
   pivot_.resize(model.nv());
   inverse_pivot_.resize(model.nv());
-  held_.assign(held.begin(), held.end());
-  auto next = held_.rbegin();
+  prescribed_.assign(prescribed.begin(), prescribed.end());
+  auto next = prescribed_.rbegin();
   // Columns of eight fill a vector register; the last two rows are zero.
   Eigen::Matrix<double, 8, 6> articulated = Eigen::Matrix<double, 8, 6>::Zero();
   for (int b = model.body_count() - 1; b >= 0; --b) {
@@ -67,7 +67,7 @@ void ArticulatedFactor::factorise(const Model& model, const Kinematics& kin, con
       }
       weighted_.col(k) = u.head<6>();
       pivot_[k] = pivot;
-      if (next != held_.rend() && next->dof == k) {
+      if (next != prescribed_.rend() && next->dof == k) {
         inverse_pivot_[k] = 0;
         ++next;
         continue;
@@ -83,11 +83,11 @@ void ArticulatedFactor::factorise(const Model& model, const Kinematics& kin, con
 
 void ArticulatedFactor::solve(const Model& model, const Kinematics& kin, const Matrix6Xd& wrench,
                               const Eigen::VectorXd& joint, Eigen::VectorXd& v, Matrix6Xd& twist,
-                              Eigen::VectorXd& holding) const {
+                              Eigen::VectorXd& reaction) const {
   v.resize(model.nv());
   twist.resize(6, model.body_count());
-  const auto count = static_cast<Eigen::Index>(held_.size());
-  holding.resize(count);
+  const auto count = static_cast<Eigen::Index>(prescribed_.size());
+  reaction.resize(count);
   Eigen::Index next = count;
   Vector6d sum = Vector6d::Zero();
   for (int b = model.body_count() - 1; b >= 0; --b) {
@@ -96,10 +96,10 @@ void ArticulatedFactor::solve(const Model& model, const Kinematics& kin, const M
     for (int k = body.first_dof + body.dofs - 1; k >= body.first_dof; --k) {
       const double force = joint[k] + kin.axis.col(k).dot(sum);
       v[k] = force * inverse_pivot_[k];
-      if (next > 0 && held_[next - 1].dof == k) {
+      if (next > 0 && prescribed_[next - 1].dof == k) {
         --next;
-        holding[next] = -force;
-        v[k] = held_[next].value;
+        reaction[next] = -force;
+        v[k] = prescribed_[next].value;
       }
       sum -= weighted_.col(k) * v[k];
     }
@@ -110,8 +110,8 @@ void ArticulatedFactor::solve(const Model& model, const Kinematics& kin, const M
     for (int k = body.first_dof; k < body.first_dof + body.dofs; ++k) {
       const double force = weighted_.col(k).dot(moved);
       v[k] -= force * inverse_pivot_[k];
-      if (next < count && held_[next].dof == k) {
-        holding[next] += force + pivot_[k] * v[k];
+      if (next < count && prescribed_[next].dof == k) {
+        reaction[next] += force + pivot_[k] * v[k];
         ++next;
       }
       moved += kin.axis.col(k) * v[k];
@@ -123,9 +123,9 @@ void ArticulatedFactor::solve(const Model& model, const Kinematics& kin, const M
 Eigen::VectorXd ArticulatedFactor::solve(const Model& model, const Kinematics& kin,
                                          const Matrix6Xd& wrench,
                                          const Eigen::VectorXd& joint) const {
-  Eigen::VectorXd v, holding;
+  Eigen::VectorXd v, reaction;
   Matrix6Xd twist;
-  solve(model, kin, wrench, joint, v, twist, holding);
+  solve(model, kin, wrench, joint, v, twist, reaction);
   return v;
 }
 

@@ -72,43 +72,43 @@ class RowColumns {
   Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor> sum_;
 };
 
-/// A velocity that is given, rad/s or cm/s: a joint that rests on its limit, say, turns as the
-/// limit tells it.
-struct HeldVelocity {
+/// A velocity that is prescribed, rad/s or cm/s: that of a joint that rests on its limit, say.
+struct PrescribedVelocity {
   int dof = 0;
   double value = 0;
 };
 
-/// H⁻¹ of the velocities that are free; those held do as they are told, at no cost to the recursion
-/// (hybrid dynamics, Featherstone 2008, ch. 9.2).
+/// H⁻¹ of the velocities that are not prescribed; those that are cost nothing (hybrid dynamics,
+/// Featherstone 2008, ch. 9.2).
 class ArticulatedFactor {
  public:
-  /// `held` by rising dof, once each. Throws std::domain_error, naming the dof, where H is not
-  /// positive definite.
+  /// `prescribed` by rising dof, once each. Throws std::domain_error, naming the dof, where H is
+  /// not positive definite.
   void factorise(const Model& model, const Kinematics& kin, const StepOperator& op,
-                 std::span<const HeldVelocity> held = {});
+                 std::span<const PrescribedVelocity> prescribed = {});
 
-  /// H v = J' w + τ + what holds those held, for one wrench per body (6 x N) and joint forces τ
-  /// (nv): v (nv), the twists of the bodies at it (6 x N), and `holding`, the joint force on each
-  /// of the held.
+  /// H v = J' w + τ + the reactions of prescribed velocities, for one wrench per body (6 x N) and
+  /// joint forces τ (nv): v (nv), the twists of the bodies at it (6 x N), and `reaction`, the joint
+  /// force at each prescribed velocity.
   void solve(const Model& model, const Kinematics& kin, const Matrix6Xd& wrench,
              const Eigen::VectorXd& joint, Eigen::VectorXd& v, Matrix6Xd& twist,
-             Eigen::VectorXd& holding) const;
+             Eigen::VectorXd& reaction) const;
   Eigen::VectorXd solve(const Model& model, const Kinematics& kin, const Matrix6Xd& wrench,
                         const Eigen::VectorXd& joint) const;
 
-  /// Turns C' in `columns` into Y: half of a solve, since the recursion factors H⁻¹ = L'L. Held
-  /// velocities do not answer to a force.
+  /// Turns C' in `columns` into Y: half of a solve, since the recursion factors H⁻¹ = L'L.
+  /// Prescribed velocities do not answer to a force.
   void half_solve(const Model& model, const Kinematics& kin, RowColumns& columns) const;
 
-  /// S' Î^A S + δ: force over velocity at a dof (held or not) where all nearer the head are held.
+  /// S' Î^A S + δ: force over velocity at a dof (prescribed or not) where all nearer the head are
+  /// prescribed.
   double pivot(int dof) const { return pivot_[dof]; }
 
  private:
   Matrix6Xd weighted_;             // Î^A S, one column a dof
   Eigen::VectorXd pivot_;          // S' Î^A S + δ
-  Eigen::VectorXd inverse_pivot_;  // of the free; 0 where held
-  std::vector<HeldVelocity> held_;
+  Eigen::VectorXd inverse_pivot_;  // 0 where prescribed
+  std::vector<PrescribedVelocity> prescribed_;
 };
 
 }  // namespace hagfish

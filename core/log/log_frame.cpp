@@ -49,6 +49,18 @@ std::array<double, 2> followed(const Frame& frame, int Contact::*segment, double
 
 const std::string order = "first t_a, first t_b, last t_a, last t_b: ";
 
+/// Forces of constraints, in the order of their datasets.
+struct LoggedForce {
+  RowKind kind;
+  const char* description;
+};
+constexpr std::array<LoggedForce, row_kinds.size()> logged_forces = {
+    {{RowKind::thigmotaxis, "f_thigmo = C_thigmo' lambda_thigmo / h (Eq. 8)"},
+     {RowKind::contact, "self-contact"},
+     {RowKind::limit, "joint limits"},
+     {RowKind::head, "head clamp"},
+     {RowKind::wall, "head plate"}}};
+
 void declare_trajectory(const Model& model, LogTable<Frame>& t) {
   const hsize_t n = model.body_count();
   const hsize_t nq = model.nq();
@@ -63,18 +75,18 @@ void declare_trajectory(const Model& model, LogTable<Frame>& t) {
   t.numbers(
       "/trajectory/q", {nq},
       {"mixed: cm, 1, rad", "root position, root quaternion wxyz, hinge angles (MuJoCo qpos)"},
-      [](const Frame& f) -> const auto& { return f.record.state.q; });
+      [](const Frame& f) -> const auto& { return f.record.moment.state.q; });
   t.numbers(
       "/trajectory/qdot", {nv},
       {rates, "root velocity (world), root rate (body axes), hinge rates (MuJoCo qvel)"},
-      [](const Frame& f) -> const auto& { return f.record.state.qdot; });
+      [](const Frame& f) -> const auto& { return f.record.moment.state.qdot; });
   t.numbers(
       "/trajectory/qdot_next", {nv},
       {rates, "velocity after the step that begins at the frame, to which its forces lead"},
       [](const Frame& f) -> const auto& { return f.record.solution.qdot; });
   t.numbers(
       "/trajectory/position", {n, 3}, {"cm", "body centres, world axes"},
-      [](const Frame& f) -> const auto& { return f.record.observation.kin.centre; });
+      [](const Frame& f) -> const auto& { return f.record.moment.observation.kin.centre; });
 }
 
 void declare_knot(LogTable<Frame>& t) {
@@ -98,19 +110,14 @@ void declare_knot(LogTable<Frame>& t) {
 
 void declare_forces(const Model& model, LogTable<Frame>& t) {
   const hsize_t nv = model.nv();
-  const auto force = [&](const char* name, const char* description,
-                         Eigen::VectorXd ConstraintForces::*member) {
+  for (const LoggedForce& force : logged_forces) {
     t.numbers(
-        std::string("/forces/") + name, {nv},
-        {"dyn, dyn·cm", description, true}, [member](const Frame& f) -> const auto& {
-          return f.record.solution.force.*member;
+        std::string("/forces/") + row_kind_name(force.kind), {nv},
+        {"dyn, dyn·cm", force.description, true},
+        [kind = force.kind](const Frame& f) -> const auto& {
+          return f.record.solution.force[kind];
         });
-  };
-  force("thigmotaxis", "C_thigmo' lambda_thigmo / h (Eq. 8)", &ConstraintForces::thigmotaxis);
-  force("contact", "self-contact", &ConstraintForces::contact);
-  force("limit", "joint limits", &ConstraintForces::limit);
-  force("head", "head clamp", &ConstraintForces::head);
-  force("wall", "head plate", &ConstraintForces::wall);
+  }
   t.numbers(
       "/forces/tip", {3}, {"dyn", "scripted force on the last body, world axes"},
       [](const Frame& f) -> const auto& { return f.record.solution.tip; });
@@ -147,19 +154,12 @@ void declare_means(const Model& model, Hdf5Writer& file, LogTable<Frame>& t) {
     file.group(group);
   }
   const std::string since = ", mean over the steps since the frame before; nan at the first frame";
-  const auto force = [&](const char* name, const std::string& description,
-                         Eigen::VectorXd ConstraintForces::*member) {
+  for (const LoggedForce& force : logged_forces) {
     t.numbers(
-        std::string("/mean/forces/") + name, {static_cast<hsize_t>(model.nv())},
-        {"dyn, dyn·cm", description + since, true}, [member](const Frame& f) -> const auto& {
-          return f.mean.force.*member;
-        });
-  };
-  force("thigmotaxis", "f_thigmo (Eq. 8)", &ConstraintForces::thigmotaxis);
-  force("contact", "self-contact", &ConstraintForces::contact);
-  force("limit", "joint limits", &ConstraintForces::limit);
-  force("head", "head clamp", &ConstraintForces::head);
-  force("wall", "head plate", &ConstraintForces::wall);
+        std::string("/mean/forces/") + row_kind_name(force.kind),
+        {static_cast<hsize_t>(model.nv())}, {"dyn, dyn·cm", force.description + since, true},
+        [kind = force.kind](const Frame& f) -> const auto& { return f.mean.force[kind]; });
+  }
   t.numbers(
       "/mean/forces/net", {static_cast<hsize_t>(model.nv())},
       {"dyn, dyn·cm", "H (qdot_next - qdot*) / h, what the five add up to, from the motion" + since,
@@ -188,7 +188,7 @@ void declare_diagnostics(LogTable<Frame>& t) {
   t.count(path + "active", "rows with a force",
           [](const Frame& f) { return f.record.solution.active; });
   t.count(path + "contacts", "local minima of the gap within the margin",
-          [](const Frame& f) { return f.record.observation.contact.contacts.size(); });
+          [](const Frame& f) { return f.record.moment.observation.contact.contacts.size(); });
   t.count(path + "iterations", "iterations of the QP back end",
           [](const Frame& f) { return f.record.solution.iterations; });
   t.number(
@@ -223,11 +223,11 @@ void declare_energy(LogTable<Frame>& t) {
   energy("elastic_energy", "energy in the joint springs", &EnergyLedger::elastic);
   energy("gravity_energy", "potential energy, 0 at the world's origin", &EnergyLedger::gravity);
   energy("work_tip", "work of the scripted force so far", &EnergyLedger::work_tip);
-  energy("work_thigmotaxis", "work of f_thigmo so far", &EnergyLedger::work_thigmotaxis);
-  energy("work_contact", "work of self-contact so far", &EnergyLedger::work_contact);
-  energy("work_limit", "work of the joint limits so far", &EnergyLedger::work_limit);
-  energy("work_head", "work of the head clamp so far", &EnergyLedger::work_head);
-  energy("work_wall", "work of the head plate so far", &EnergyLedger::work_wall);
+  for (const LoggedForce& force : logged_forces) {
+    t.number(std::string("/diagnostics/work_") + row_kind_name(force.kind),
+             {"erg", "work so far of: " + std::string(force.description)},
+             [kind = force.kind](const Frame& f) { return f.record.ledger.work(kind); });
+  }
   energy("dissipated", "lost to drag and joint damping so far", &EnergyLedger::dissipated);
   energy("integrator_inertia",
          "gained by the integrator from velocity changes, impacts included, so far",
@@ -246,8 +246,8 @@ void declare_energy(LogTable<Frame>& t) {
 }  // namespace
 
 void Worst::take(const StepRecord& record) {
-  penetration = std::max(penetration, record.observation.penetration);
-  limit_violation = std::max(limit_violation, record.observation.limit_violation);
+  penetration = std::max(penetration, record.moment.observation.penetration);
+  limit_violation = std::max(limit_violation, record.moment.observation.limit_violation);
   head_drift = std::max(head_drift, record.head_drift);
   kkt = std::max(kkt, worst_residual(record.solution));
 }
@@ -291,9 +291,9 @@ void declare_steps(Hdf5Writer& file, LogTable<LoggedStep>& t) {
   t.number("/steps/kkt", {"1", "largest KKT residual of each step"},
            [](const LoggedStep& s) { return worst_residual(s.record.solution); });
   t.number("/steps/penetration", {"cm", "deepest at each step's start"},
-           [](const LoggedStep& s) { return s.record.observation.penetration; });
+           [](const LoggedStep& s) { return s.record.moment.observation.penetration; });
   t.number("/steps/limit_violation", {"rad", "largest at each step's start"},
-           [](const LoggedStep& s) { return s.record.observation.limit_violation; });
+           [](const LoggedStep& s) { return s.record.moment.observation.limit_violation; });
   t.number("/steps/head_drift", {"cm", "at each step's start while clamped"},
            [](const LoggedStep& s) { return s.record.head_drift; });
   t.number("/steps/qp_time", {"s", "wall time in the QP back end, each step"},

@@ -8,11 +8,9 @@ namespace {
 /// Calls `visit` with each part of the means that is a vector.
 template <class Means, class Visit>
 void visit_vectors(Means& means, Visit visit) {
-  visit(means.force.head);
-  visit(means.force.limit);
-  visit(means.force.contact);
-  visit(means.force.wall);
-  visit(means.force.thigmotaxis);
+  for (auto& force : means.force.of_kind) {
+    visit(force);
+  }
   visit(means.net_force);
 }
 
@@ -35,11 +33,9 @@ void RunningMeans::clear() {
 void RunningMeans::take(const StepRecord& record, const ThigmotaxisRows& rows) {
   const StepSolution& step = record.solution;
   ++steps_;
-  sum_.force.head += step.force.head;
-  sum_.force.limit += step.force.limit;
-  sum_.force.contact += step.force.contact;
-  sum_.force.wall += step.force.wall;
-  sum_.force.thigmotaxis += step.force.thigmotaxis;
+  for (const RowKind kind : row_kinds) {
+    sum_.force[kind] += step.force[kind];
+  }
   sum_.net_force += step.net_force;
   for (int k = 0; k < 4; ++k) {
     if (rows.present[k]) {

@@ -165,7 +165,7 @@ void LogWriter::write_frame(const StepRecord& record, const ThigmotaxisRows& row
   Contents& c = *contents_;
   const KnotVote knot = record.controller.knot_seen == record.time
                             ? record.controller.knot
-                            : knot_type(record.observation.kin.centre, c.knot);
+                            : knot_type(record.moment.observation.kin.centre, c.knot);
   c.frames.append({record, rows, c.means.close(), knot, c.worst, wall_time});
   const StepSolution& step = record.solution;
   for (std::size_t i = 0; i < step.rows.size(); ++i) {

@@ -95,23 +95,21 @@ std::string knot_seen_text(const ControllerState& controller) {
                      past.to);
 }
 
-/// A script that is over has tied what the scene expects, and pulled its tail through.
-[[noreturn]] void fail_script(const Scene& scene, const ControllerState& controller,
-                              double through) {
+/// A script that is over without what the scene expects: the knot, and its tail pulled through.
+Status failed_script(const Scene& scene, const ControllerState& controller, double through) {
   if (knot_name(controller.knot.type) != scene.expect.knot) {
-    throw StepError(StopCause::never_tied,
-                    fmt::format("the script ended with {}, but expect.knot = {}",
-                                knot_seen_text(controller), scene.expect.knot));
+    return {Outcome::never_tied, fmt::format("the script ended with {}, but expect.knot = {}",
+                                             knot_seen_text(controller), scene.expect.knot)};
   }
-  throw StepError(StopCause::never_tied,
-                  fmt::format("the script ended with {}, but {:.2f} cm of tail through it where "
-                              "controller.tail_through = {:g} cm",
-                              knot_seen_text(controller), through, scene.controller.tail_through));
+  return {Outcome::never_tied,
+          fmt::format("the script ended with {}, but {:.2f} cm of tail through it where "
+                      "controller.tail_through = {:g} cm",
+                      knot_seen_text(controller), through, scene.controller.tail_through)};
 }
 
 /// Phase changes that follow from the knot type just seen.
-void switch_by_knot(const Model& model, const Scene& scene, double time,
-                    ControllerState& controller) {
+Status switch_by_knot(const Model& model, const Scene& scene, double time,
+                      ControllerState& controller) {
   const std::optional<KnotInvariants> wanted = knot_called(scene.expect.knot);
   const bool tied = wanted && controller.knot.type == *wanted;
   if (controller.phase == Phase::form) {
@@ -122,19 +120,20 @@ void switch_by_knot(const Model& model, const Scene& scene, double time,
       enter(controller, Phase::tighten, time);
     } else if (wanted && scene.script.kind != ScriptSettings::Kind::none &&
                time > script_end(scene.script) + patience) {
-      fail_script(scene, controller, through);
+      return failed_script(scene, controller, through);
     }
   } else if (holds_knot(controller.phase) && !tied) {
     const std::string message =
         fmt::format("the {} was lost: now {}", scene.expect.knot, knot_seen_text(controller));
     if (scene.guard.action == GuardAction::stop) {
-      throw StepError(StopCause::knot_lost, message);
+      return {Outcome::knot_lost, message};
     }
     controller.lost = message;
   } else if (controller.phase == Phase::release && controller.knot.type == KnotInvariants{} &&
              time + 0.5 * scene.time.step >= controller.knot_from + scene.controller.untied_for) {
     enter(controller, Phase::free, time);
   }
+  return {};
 }
 
 /// Phase changes that follow from where the knot is.
@@ -192,14 +191,16 @@ bool clamps_head(const Scene& scene, Phase phase) {
   return scene.clamp_head && phase_order(phase) < phase_order(scene.controller.free_from);
 }
 
-void decide(const Model& model, const Scene& scene, const Observation& observation, double time,
-            ControllerState& controller, Control& control) {
+Status decide(const Model& model, const Scene& scene, const Observation& observation, double time,
+              ControllerState& controller, Control& control) {
   follow_contacts(scene, observation, time, controller);
   // Half a step of slack: the time of a step is a product and may fall short by rounding.
   if (controller.phase != Phase::free &&
       time + 0.5 * scene.time.step >= controller.knot_seen + scene.knot.interval) {
     look_at_knot(scene, observation, time, controller);
-    switch_by_knot(model, scene, time, controller);
+    if (Status status = switch_by_knot(model, scene, time, controller); !status.ok()) {
+      return status;
+    }
   }
   switch_by_span(model, scene, time, controller);
 
@@ -214,6 +215,7 @@ void decide(const Model& model, const Scene& scene, const Observation& observati
   } else if (controller.phase != Phase::free && controller.first.contact) {
     command_speeds(scene.controller, controller, control.thigmotaxis);
   }
+  return {};
 }
 
 }  // namespace hagfish

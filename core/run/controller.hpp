@@ -34,7 +34,7 @@ struct ControllerState {
   double knot_seen = -std::numeric_limits<double>::infinity();  ///< when that was, s
   double knot_from = 0;                                         ///< when it became of that type, s
   PastKnot past;     ///< the last one before it; an unknot where there was none
-  std::string lost;  ///< where the scene only warns: how the knot was lost; empty while it holds
+  std::string lost;  ///< where the scene only warns: how the knot was lost; empty before that
   TrackedContact first, last;
 };
 
@@ -44,14 +44,14 @@ struct KnotSpan {
 };
 std::optional<KnotSpan> knot_span(const ControllerState& controller);
 
-/// Whether the head is held in a phase.
+/// Whether the head is clamped in a phase.
 bool clamps_head(const Scene& scene, Phase phase);
 
-/// Follows the contacts, switches phases and says what the step from `time` shall do.
-/// Throws StepError (never_tied) where the script ends without the scene's knot, or with too little
-/// tail through it, and (knot_lost) where that knot goes before it may, unless the scene only
-/// warns. what() says which knot there is, since when.
-void decide(const Model& model, const Scene& scene, const Observation& observation, double time,
-            ControllerState& controller, Control& control);
+/// Follows the contacts, switches phases and says what the step from `time` shall do. Not ok
+/// (never_tied) where the script ends without the scene's knot, or with too little tail through it,
+/// and (knot_lost) where that knot goes before it may, unless the scene only warns. The message
+/// says which knot there is, since when.
+Status decide(const Model& model, const Scene& scene, const Observation& observation, double time,
+              ControllerState& controller, Control& control);
 
 }  // namespace hagfish

@@ -3,11 +3,10 @@
 namespace hagfish {
 namespace {
 
-void set_energies(const Model& model, const State& state, const Kinematics& kin,
-                  EnergyLedger& ledger) {
-  ledger.kinetic = kinetic_energy(model, kin);
-  ledger.elastic = elastic_energy(model, state.q);
-  ledger.gravity = gravity_energy(model, kin);
+void set_energies(const Model& model, const Moment& now, EnergyLedger& ledger) {
+  ledger.kinetic = kinetic_energy(model, now.observation.kin);
+  ledger.elastic = elastic_energy(model, now.state.q);
+  ledger.gravity = gravity_energy(model, now.observation.kin);
 }
 
 /// Power lost to drag and damping at the step's velocity, erg/s.
@@ -24,9 +23,9 @@ double dissipation(const Model& model, const Kinematics& kin, const StepSolution
 
 }  // namespace
 
-EnergyLedger open_ledger(const Model& model, const State& state, const Kinematics& kin) {
+EnergyLedger open_ledger(const Model& model, const Moment& now) {
   EnergyLedger ledger;
-  set_energies(model, state, kin, ledger);
+  set_energies(model, now, ledger);
   ledger.initial = ledger.kinetic + ledger.elastic + ledger.gravity;
   ledger.largest = ledger.kinetic + ledger.elastic;
   return ledger;
@@ -39,17 +38,14 @@ EnergyLedger open_ledger(const Model& model, const State& state, const Kinematic
 //   V(q0 + t v) - V(q0) = t v'K q0 + ½ t² v'K v   of the springs.
 // Their sum is works less dissipation, t v'(f - D v), and the integrator's own terms below.
 void book_step(const Model& model, const Kinematics& kin, const StepSolution& solution,
-               const State& next, const Kinematics& next_kin, double h, double travelled,
-               EnergyLedger& ledger) {
+               const Moment& next, double h, double travelled, EnergyLedger& ledger) {
   const double t = travelled;
   const Eigen::VectorXd& v = solution.qdot;
   const int last = model.body_count() - 1;
   ledger.work_tip += t * solution.tip.dot(solution.centre_velocity.col(last));
-  ledger.work_thigmotaxis += t * solution.force.thigmotaxis.dot(v);
-  ledger.work_contact += t * solution.force.contact.dot(v);
-  ledger.work_limit += t * solution.force.limit.dot(v);
-  ledger.work_head += t * solution.force.head.dot(v);
-  ledger.work_wall += t * solution.force.wall.dot(v);
+  for (const RowKind kind : row_kinds) {
+    ledger.work(kind) += t * solution.force[kind].dot(v);
+  }
   ledger.dissipated += t * dissipation(model, kin, solution);
 
   double stretch = 0;  // v'K v
@@ -72,7 +68,7 @@ void book_step(const Model& model, const Kinematics& kin, const StepSolution& so
   }
   const double impulse_work = moved - ledger.kinetic + change;  // v'MΔv
   const double before = gravity_energy(model, kin);
-  set_energies(model, next, next_kin, ledger);
+  set_energies(model, next, ledger);
   ledger.integrator_inertia += (1 - t / h) * impulse_work - change;
   ledger.integrator_potential += (0.5 * t - h) * t * stretch + fall + ledger.gravity - before;
   ledger.integrator_coriolis += ledger.kinetic - moved - bias;

@@ -7,6 +7,9 @@
 // is a check: it closes to rounding, or the step is not what it claims.
 #pragma once
 
+#include <array>
+#include <numeric>
+
 #include "core/step/step.hpp"
 
 namespace hagfish {
@@ -15,9 +18,9 @@ namespace hagfish {
 struct EnergyLedger {
   double initial = 0;  ///< kinetic + elastic + gravity at the start
   double kinetic = 0, elastic = 0, gravity = 0;
-  double work_tip = 0, work_thigmotaxis = 0, work_contact = 0, work_limit = 0, work_head = 0,
-         work_wall = 0;
-  double dissipated = 0;  ///< by drag and joint damping
+  double work_tip = 0;
+  std::array<double, row_kinds.size()> work_of_kind{};  ///< of the constraint forces, by row kind
+  double dissipated = 0;                                ///< by drag and joint damping
   /// -½ Δq̇' M Δq̇: what first-order steps lose when velocities change, inelastic impacts included;
   /// and (1 - t/h) q̇' M Δq̇, the share of the impulse that has no displacement to work over.
   double integrator_inertia = 0;
@@ -30,8 +33,10 @@ struct EnergyLedger {
   double lowest_error = 0;  ///< of integrator_error() so far
   double largest = 0;       ///< kinetic + elastic so far
 
+  double& work(RowKind kind) { return work_of_kind[static_cast<std::size_t>(kind)]; }
+  double work(RowKind kind) const { return work_of_kind[static_cast<std::size_t>(kind)]; }
   double works() const {
-    return work_tip + work_thigmotaxis + work_contact + work_limit + work_head + work_wall;
+    return std::accumulate(work_of_kind.begin(), work_of_kind.end(), work_tip);
   }
   double integrator_error() const {
     return integrator_inertia + integrator_potential + integrator_coriolis + integrator_held;
@@ -42,13 +47,12 @@ struct EnergyLedger {
   }
 };
 
-/// Opens the ledger at a state.
-EnergyLedger open_ledger(const Model& model, const State& state, const Kinematics& kin);
+/// Opens the ledger at a moment.
+EnergyLedger open_ledger(const Model& model, const Moment& now);
 
 /// Books the step from `kin`, where the ledger stands, by `solution`, solved for length h (s), to
-/// (`next`, `next_kin`), where its velocity has led in the time `travelled` (s), 0 to h.
+/// `next`, where its velocity has led in the time `travelled` (s), 0 to h.
 void book_step(const Model& model, const Kinematics& kin, const StepSolution& solution,
-               const State& next, const Kinematics& next_kin, double h, double travelled,
-               EnergyLedger& ledger);
+               const Moment& next, double h, double travelled, EnergyLedger& ledger);
 
 }  // namespace hagfish

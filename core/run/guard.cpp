@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 #include <utility>
+
+#include "core/contact/wall.hpp"
 
 namespace hagfish {
 namespace {
@@ -81,90 +84,94 @@ std::size_t place_of(const Row& thigmotaxis) {
 
 }  // namespace
 
-void report(StopCause cause, const std::string& message, GuardAction action, Watch& watch,
-            std::vector<std::string>& warnings) {
+Status report(Outcome outcome, const std::string& message, GuardAction action, Watch& watch,
+              std::vector<std::string>& warnings) {
   if (action == GuardAction::stop) {
-    throw StepError(cause, message);
+    return {outcome, message};
   }
-  if (!watch.told.test(static_cast<std::size_t>(cause))) {
-    watch.told.set(static_cast<std::size_t>(cause));
+  if (!watch.told.test(static_cast<std::size_t>(outcome))) {
+    watch.told.set(static_cast<std::size_t>(outcome));
     warnings.push_back(message);
   }
+  return {};
 }
 
-void guard_speed(const Eigen::Matrix3Xd& centre_velocity, const GuardSettings& guard) {
+Status guard_speed(const Eigen::Matrix3Xd& centre_velocity, const GuardSettings& guard) {
   for (Eigen::Index b = 0; b < centre_velocity.cols(); ++b) {
     const double speed = centre_velocity.col(b).norm();
     if (!(speed <= guard.speed)) {
-      throw StepError(StopCause::speed,
-                      fmt::format("body {} moves at {:.3g} cm/s, over guard.speed = {:g} cm/s; a "
-                                  "smaller time.step would help",
-                                  b, speed, guard.speed));
+      return {Outcome::speed,
+              fmt::format("body {} moves at {:.3g} cm/s, over guard.speed = {:g} cm/s; a smaller "
+                          "time.step would help",
+                          b, speed, guard.speed)};
     }
   }
+  return {};
 }
 
-void guard_state(const Model& model, const State& state, const Observation& observation,
-                 double crossing, const Scene& scene, Watch& watch,
-                 std::vector<std::string>& warnings) {
+Status guard_state(const Model& model, const Moment& moment, double crossing, const Scene& scene,
+                   Watch& watch, std::vector<std::string>& warnings) {
   const GuardSettings& guard = scene.guard;
-  if (!observation.kin.centre.allFinite()) {
-    throw StepError(StopCause::non_finite, "non-finite state");
+  const Observation& seen = moment.observation;
+  if (!seen.kin.centre.allFinite()) {
+    return {Outcome::non_finite, "non-finite state"};
   }
-  if (observation.penetration > guard.penetration) {
-    report(StopCause::penetration,
-           fmt::format("penetration {:.3g} cm of {} exceeds guard.penetration = {:g} cm; a smaller "
-                       "time.step or more constraints.corrections would help",
-                       observation.penetration, deepest_overlap(model, observation, scene),
-                       guard.penetration),
-           guard.action, watch, warnings);
+  Status status;
+  if (seen.penetration > guard.penetration) {
+    status = report(
+        Outcome::penetration,
+        fmt::format("penetration {:.3g} cm of {} exceeds guard.penetration = {:g} cm; a smaller "
+                    "time.step or more constraints.corrections would help",
+                    seen.penetration, deepest_overlap(model, seen, scene), guard.penetration),
+        guard.action, watch, warnings);
   } else if (crossing > guard.penetration) {
-    report(StopCause::penetration,
-           fmt::format("strands {:.3g} cm into each other on the way of a step, over "
-                       "guard.penetration = {:g} cm; a smaller time.step or more "
-                       "constraints.corrections would help",
-                       crossing, guard.penetration),
-           guard.action, watch, warnings);
+    status = report(Outcome::penetration,
+                    fmt::format("strands {:.3g} cm into each other on the way of a step, over "
+                                "guard.penetration = {:g} cm; a smaller time.step or more "
+                                "constraints.corrections would help",
+                                crossing, guard.penetration),
+                    guard.action, watch, warnings);
   }
-  if (observation.limit_violation > guard.limit_violation) {
-    report(StopCause::limits,
-           fmt::format("{} is {:.3g} deg past its limit, over guard.limit_violation_deg = {:g}; "
-                       "constraints.activation = \"speculative\" or a smaller time.step would help",
-                       furthest_limit(model, state), observation.limit_violation / degree,
-                       guard.limit_violation / degree),
-           guard.action, watch, warnings);
+  if (status.ok() && seen.limit_violation > guard.limit_violation) {
+    status = report(
+        Outcome::limits,
+        fmt::format("{} is {:.3g} deg past its limit, over guard.limit_violation_deg = {:g}; "
+                    "constraints.activation = \"speculative\" or a smaller time.step would help",
+                    furthest_limit(model, moment.state), seen.limit_violation / degree,
+                    guard.limit_violation / degree),
+        guard.action, watch, warnings);
   }
+  return status;
 }
 
-void guard_energy(const Model& model, const Scene& scene, State& state, Kinematics& kin,
-                  EnergyLedger& ledger, Watch& watch, std::vector<std::string>& warnings) {
+Status guard_energy(const Model& model, const Scene& scene, Moment& moment, EnergyLedger& ledger,
+                    Watch& watch, std::vector<std::string>& warnings) {
   const GuardSettings& guard = scene.guard;
   const double passed = ledger.largest + ledger.dissipated;
   const double allowed = guard.energy_gain * passed;
   const double made = ledger.integrator_error() - ledger.lowest_error;
   ledger.lowest_error = std::min(ledger.lowest_error, ledger.integrator_error());
+  Status status;
   if (!(made <= allowed)) {
-    const std::string message = fmt::format(
+    std::string message = fmt::format(
         "the integrator made {:.3g} erg, over guard.energy_gain = {:g} of the {:.3g} erg that the "
         "body had or lost; a smaller time.step, drag or damping would help",
         made, guard.energy_gain, passed);
-    if (guard.energy_action == EnergyAction::stop) {
-      throw StepError(StopCause::energy_gain, message);
-    }
     if (guard.energy_action == EnergyAction::hold) {
       const double taken = std::min(made - allowed, ledger.kinetic);
       const double share = ledger.kinetic > 0 ? std::sqrt(1 - taken / ledger.kinetic) : 0;
-      state.qdot *= share;
-      update_velocities(model, state.qdot, kin);
+      moment.state.qdot *= share;
+      update_velocities(model, moment.state.qdot, moment.observation.kin);
       ledger.kinetic -= taken;
       ledger.integrator_held -= taken;
-      report(StopCause::energy_gain, message + "; what is more is taken from the velocity",
-             GuardAction::warn, watch, warnings);
-    } else {
-      report(StopCause::energy_gain, message, GuardAction::warn, watch, warnings);
+      message += "; what is more is taken from the velocity";
     }
+    const bool stop = guard.energy_action == EnergyAction::stop;
+    status = report(Outcome::energy_gain, message, stop ? GuardAction::stop : GuardAction::warn,
+                    watch, warnings);
   }
   ledger.largest = std::max(ledger.largest, ledger.kinetic + ledger.elastic);
+  return status;
 }
 
 void guard_cap(const Model& model, const Kinematics& kin, const Scene& scene,
@@ -190,9 +197,9 @@ void guard_cap(const Model& model, const Kinematics& kin, const Scene& scene,
     const Eigen::Index i = found - step.rows.begin();
     // Naming the opponents takes a factorisation: once.
     if (time - below[place] > scene.guard.capped_time &&
-        !watch.told.test(static_cast<std::size_t>(StopCause::capped))) {
-      report(
-          StopCause::capped,
+        !watch.told.test(static_cast<std::size_t>(Outcome::capped))) {
+      std::ignore = report(
+          Outcome::capped,
           fmt::format("{} has been at controller.cap = {:g} dyn for {:g} s and falls {:.3g} cm/s "
                       "short; held back most by {}; a lower speed or a higher cap would help",
                       row_name(model, row), scene.controller.cap, scene.guard.capped_time,

@@ -6,42 +6,41 @@
 #include <vector>
 
 #include "core/run/energy.hpp"
+#include "core/step/outcome.hpp"
 #include "core/step/step.hpp"
-#include "core/step/step_error.hpp"
 
 namespace hagfish {
 
 /// What a run remembers of its watches.
 struct Watch {
-  std::bitset<stop_cause_count> told;  ///< warnings given: each cause once a run
+  std::bitset<outcome_count> told;  ///< warnings given: each cause once a run
   /// When each thigmotaxis row was last below its cap or not there, s: by thigmotaxis_place, as far
   /// as rows have been seen.
   std::vector<double> below_cap;
 };
 
-/// Throws StepError(cause, message) where the scene stops at it; else adds the message to
-/// `warnings` the first time.
-void report(StopCause cause, const std::string& message, GuardAction action, Watch& watch,
-            std::vector<std::string>& warnings);
+/// A status of this outcome and message where the scene stops at it; else ok, and the message is
+/// added to `warnings` the first time.
+Status report(Outcome outcome, const std::string& message, GuardAction action, Watch& watch,
+              std::vector<std::string>& warnings);
 
-/// Body speeds a step has come to, before it moves anything. Throws StepError.
-void guard_speed(const Eigen::Matrix3Xd& centre_velocity, const GuardSettings& guard);
+/// Body speeds a step has come to, before it moves anything.
+Status guard_speed(const Eigen::Matrix3Xd& centre_velocity, const GuardSettings& guard);
 
-/// The state that a step led to, and the deepest overlap on the way there (`crossing`, cm).
+/// The moment that a step led to, and the deepest overlap on the way there (`crossing`, cm).
 /// Messages name the bodies or joint furthest out and the setting that would help.
-void guard_state(const Model& model, const State& state, const Observation& observation,
-                 double crossing, const Scene& scene, Watch& watch,
-                 std::vector<std::string>& warnings);
+Status guard_state(const Model& model, const Moment& moment, double crossing, const Scene& scene,
+                   Watch& watch, std::vector<std::string>& warnings);
 
 /// Energy that the integrator has made since the sum of its own terms was lowest (impacts lower
-/// it), against what passed before this step: the largest kinetic and elastic energy, and what drag
-/// and damping took. Where the scene says hold, what is too much is taken back: `state` and `kin`
-/// slow down by one factor, the ledger books it.
-void guard_energy(const Model& model, const Scene& scene, State& state, Kinematics& kin,
-                  EnergyLedger& ledger, Watch& watch, std::vector<std::string>& warnings);
+/// it), against what there was before this step: the largest kinetic and elastic energy, and what
+/// drag and damping took. Where the scene says hold, the excess is taken back: the velocities of
+/// `moment` are scaled down by one factor, and the ledger books it.
+Status guard_energy(const Model& model, const Scene& scene, Moment& moment, EnergyLedger& ledger,
+                    Watch& watch, std::vector<std::string>& warnings);
 
-/// A thigmotaxis row whose force has been at its cap for longer than the scene lets pass: warns and
-/// names the rows that hold back hardest. `kin` is that of the step's start.
+/// A thigmotaxis row whose force has been at its cap for longer than the scene permits: warns and
+/// names the rows that resist it most. `kin` is that of the step's start.
 void guard_cap(const Model& model, const Kinematics& kin, const Scene& scene,
                const StepSolution& step, double time, Watch& watch,
                std::vector<std::string>& warnings);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 #include "core/chain/start.hpp"
@@ -12,77 +13,156 @@
 namespace hagfish {
 namespace {
 
-/// Follows the step's velocity for time `t` (s) into record.state and record.observation.
-void follow_path(const Model& model, const Scene& scene, double t, Simulation& sim,
-                 StepRecord& record) {
-  advance(sim.state.q, record.solution.qdot, t, record.state.q);
-  observe(model, record.state, scene, sim.search, record.observation);
-}
+/// One step on its way from `sim.now` to `next`, which is the record's storage for a moment: the
+/// two change places once, when the step has been taken.
+class Attempt {
+ public:
+  Attempt(const Model& model, const Scene& scene, Simulation& sim, StepRecord& record)
+      : model_(model),
+        scene_(scene),
+        sim_(sim),
+        record_(record),
+        step_(record.solution),
+        next_(record.moment),
+        in_{model, scene, sim.now.state, sim.now.observation, record.control} {}
 
-/// Moves by the step's velocity into record.state and record.observation. Where the path overlaps
-/// or leaves a cone and `correct` is set, adds the rows that see it and returns true: the step is
-/// to be solved again.
-bool misses_rows(const Model& model, const Scene& scene, bool correct, Simulation& sim,
-                 StepRecord& record) {
-  const double h = scene.time.step;
-  guard_speed(record.solution.centre_velocity, scene.guard);
-  const int count = path_samples(record.solution.centre_velocity, h, scene.constraints.stride);
-  record.state.qdot = record.solution.qdot;
-  record.crossing = 0;
-  for (int i = 1; i <= count; ++i) {
-    const double t = i < count ? h * i / count : h;
-    follow_path(model, scene, t, sim, record);
-    if (i < count) {
-      record.crossing = std::max(record.crossing, record.observation.penetration);
+  Status take() {
+    record_.step = sim_.step;
+    record_.time = time_of(sim_, scene_);
+    record_.warnings.clear();
+    if (Status status = decide(model_, scene_, sim_.now.observation, record_.time, sim_.controller,
+                               record_.control);
+        !status.ok()) {
+      return status;
     }
-    if (!correct) {
-      continue;
+    if (!sim_.controller.lost.empty()) {
+      warn(Outcome::knot_lost, sim_.controller.lost);
     }
-    std::vector<Row>& rows = record.solution.rows;
-    bool missed = add_missed_rows(model, sim.observation, record.observation, t, scene,
-                                  record.solution, rows);
-    if (i == count) {
-      missed = add_missed_bends(model, sim.state.q, record.state.q, scene, rows) || missed;
+    if (Status status = solve(); !status.ok()) {
+      return status;
     }
-    if (missed) {
-      return true;
+    const double travelled = looks_ahead() ? end_where_strands_meet() : h();
+    sim_.solver.finish(in_, step_);
+    guard_cap(model_, sim_.now.observation.kin, scene_, step_, record_.time, sim_.watch,
+              record_.warnings);
+    if (Status status =
+            guard_state(model_, next_, record_.crossing, scene_, sim_.watch, record_.warnings);
+        !status.ok()) {
+      return status;
     }
+    record_.ledger = sim_.ledger;
+    book_step(model_, sim_.now.observation.kin, step_, next_, h(), travelled, sim_.ledger);
+    if (Status status =
+            guard_energy(model_, scene_, next_, sim_.ledger, sim_.watch, record_.warnings);
+        !status.ok()) {
+      return status;
+    }
+    record_.head_drift =
+        record_.control.clamp_head ? head_drift(model_, sim_.now.observation.kin) : 0;
+    record_.controller = sim_.controller;
+    std::swap(sim_.now, next_);
+    ++sim_.step;
+    return {};
   }
-  return false;
-}
 
-/// A step whose path still overlaps ends where strands meet: the rest of its motion is left out,
-/// and the next step, with strands close, can see and stop them. The time travelled, s.
-double end_where_strands_meet(const Model& model, const Scene& scene, Simulation& sim,
-                              StepRecord& record) {
-  constexpr int least_samples = 16;
-  const double h = scene.time.step;
-  const double allowed =
-      std::max(sim.observation.penetration, way_tolerance * scene.constraints.stride);
-  if (std::max(record.crossing, record.observation.penetration) <= allowed) {
-    return h;
+ private:
+  double h() const { return scene_.time.step; }
+  bool looks_ahead() const { return scene_.constraints.activation == Activation::speculative; }
+
+  void warn(Outcome outcome, const std::string& message) {
+    std::ignore = report(outcome, message, GuardAction::warn, sim_.watch, record_.warnings);
   }
-  const int count = std::max(
-      least_samples, path_samples(record.solution.centre_velocity, h, scene.constraints.stride));
-  const auto move_to = [&](int i) { follow_path(model, scene, h * i / count, sim, record); };
-  int clear = 0;
-  for (move_to(1); clear < count && record.observation.penetration <= allowed; move_to(clear + 1)) {
-    ++clear;
+
+  /// Solves the step, and again as long as its path misses rows, up to
+  /// scene.constraints.corrections times. Where the rows added cannot all be met the step goes
+  /// without them.
+  Status solve() {
+    Status status = sim_.solver.begin(in_, step_);
+    int corrections = looks_ahead() ? scene_.constraints.corrections : 0;
+    for (int k = 0; status.ok(); ++k) {
+      status = guard_speed(step_.centre_velocity, scene_.guard);
+      if (!status.ok() || !follow_path(k < corrections)) {
+        break;
+      }
+      if (!sim_.solver.resume(in_, step_).ok()) {
+        corrections = 0;
+        status = sim_.solver.begin(in_, step_);
+      }
+    }
+    return status;
   }
-  move_to(clear);
-  record.crossing = 0;
-  report(StopCause::speed,
+
+  /// Where the step's velocity leads within time `t` (s).
+  void move(double t) {
+    advance(sim_.now.state.q, step_.qdot, t, next_.state.q);
+    observe(model_, next_.state, scene_, sim_.search, next_.observation);
+  }
+
+  /// Moves along the step's path to its end. Where the path overlaps or leaves a cone and `correct`
+  /// is set, adds the rows that show it and returns true: the step is to be solved again.
+  bool follow_path(bool correct) {
+    const int count = path_samples(step_.centre_velocity, h(), scene_.constraints.stride);
+    next_.state.qdot = step_.qdot;
+    record_.crossing = 0;
+    for (int i = 1; i <= count; ++i) {
+      const double t = i < count ? h() * i / count : h();
+      move(t);
+      if (i < count) {
+        record_.crossing = std::max(record_.crossing, next_.observation.penetration);
+      }
+      if (!correct) {
+        continue;
+      }
+      bool missed = add_missed_rows(in_, next_.observation, t, step_);
+      if (i == count) {
+        missed = add_missed_bends(in_, next_.state.q, step_) || missed;
+      }
+      if (missed) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /// A step whose path still overlaps ends where strands meet: the rest of its motion is left out,
+  /// and the next step, with strands close, can see and stop them. The time travelled, s.
+  double end_where_strands_meet() {
+    constexpr int least_samples = 16;
+    const double allowed =
+        std::max(sim_.now.observation.penetration, way_tolerance * scene_.constraints.stride);
+    if (std::max(record_.crossing, next_.observation.penetration) <= allowed) {
+      return h();
+    }
+    const int count = std::max(least_samples,
+                               path_samples(step_.centre_velocity, h(), scene_.constraints.stride));
+    const auto move_to = [&](int i) { move(h() * i / count); };
+    int clear = 0;
+    for (move_to(1); clear < count && next_.observation.penetration <= allowed;
+         move_to(clear + 1)) {
+      ++clear;
+    }
+    move_to(clear);
+    record_.crossing = 0;
+    warn(Outcome::speed,
          fmt::format("strands meet too fast for the step, which ends there: {:.3g} s of its motion "
                      "are left out; a smaller time.step would help",
-                     h * (count - clear) / count),
-         GuardAction::warn, sim.watch, record.warnings);
-  return h * clear / count;
-}
+                     h() * (count - clear) / count));
+    return h() * clear / count;
+  }
+
+  const Model& model_;
+  const Scene& scene_;
+  Simulation& sim_;
+  StepRecord& record_;
+  StepSolution& step_;
+  Moment& next_;
+  StepInput in_;
+};
 
 void keep(Simulation& sim) {
   BeforeStep& before = sim.before;
   before.controller = sim.controller;
-  before.warm = sim.warm;
+  before.warm = sim.solver.warm;
   before.ledger = sim.ledger;
   before.watch = sim.watch;
   before.candidates = sim.search.candidates;
@@ -92,77 +172,34 @@ void keep(Simulation& sim) {
 void put_back(Simulation& sim) {
   const BeforeStep& before = sim.before;
   sim.controller = before.controller;
-  sim.warm = before.warm;
+  sim.solver.warm = before.warm;
   sim.ledger = before.ledger;
   sim.watch = before.watch;
   sim.search.candidates = before.candidates;
   sim.search.moved = before.moved;
-  sim.search.segments = sim.observation.segments;
-}
-
-/// A step that may throw half way.
-void try_step(const Model& model, const Scene& scene, BoxQpSolver& solver, Simulation& sim,
-              StepRecord& record) {
-  const double h = scene.time.step;
-  record.step = sim.step;
-  record.time = time_of(sim, scene);
-  record.warnings.clear();
-  decide(model, scene, sim.observation, record.time, sim.controller, record.control);
-  if (!sim.controller.lost.empty()) {
-    report(StopCause::knot_lost, sim.controller.lost, GuardAction::warn, sim.watch,
-           record.warnings);
-  }
-  begin_step(model, sim.state, sim.observation, record.control, scene, solver, sim.warm,
-             sim.scratch, record.solution);
-  // The record's old state and observation are storage for the next ones; then they change places.
-  const bool sees = scene.constraints.activation == Activation::speculative;
-  int corrections = sees ? scene.constraints.corrections : 0;
-  for (int k = 0; misses_rows(model, scene, k < corrections, sim, record); ++k) {
-    try {
-      resume_step(model, sim.state, sim.observation, scene, solver, sim.warm, sim.scratch,
-                  record.solution);
-    } catch (const StepError&) {  // the rows added cannot all be met: without them
-      begin_step(model, sim.state, sim.observation, record.control, scene, solver, sim.warm,
-                 sim.scratch, record.solution);
-      corrections = 0;
-    }
-  }
-  const double travelled = sees ? end_where_strands_meet(model, scene, sim, record) : h;
-  finish_step(model, sim.observation, record.control, scene, sim.warm, sim.scratch,
-              record.solution);
-  guard_cap(model, sim.observation.kin, scene, record.solution, record.time, sim.watch,
-            record.warnings);
-  guard_state(model, record.state, record.observation, record.crossing, scene, sim.watch,
-              record.warnings);
-
-  record.ledger = sim.ledger;
-  book_step(model, sim.observation.kin, record.solution, record.state, record.observation.kin, h,
-            travelled, sim.ledger);
-  guard_energy(model, scene, record.state, record.observation.kin, sim.ledger, sim.watch,
-               record.warnings);
-  record.head_drift = record.control.clamp_head ? head_drift(model, sim.observation.kin) : 0;
-  record.controller = sim.controller;
-  std::swap(record.state, sim.state);
-  std::swap(record.observation, sim.observation);
-  ++sim.step;
+  sim.search.segments = sim.now.observation.segments;
 }
 
 }  // namespace
 
-Simulation start(const Model& model, const Scene& scene) {
+Simulation start(const Model& model, const Scene& scene, const std::string& back_end) {
   ControllerState controller;
   controller.phase = scene.start.phase;
-  return start_from(model, scene, start_state(model, scene.start), controller, 0);
+  return start_from(model, scene, back_end, start_state(model, scene.start), controller, 0);
 }
 
-Simulation start_from(const Model& model, const Scene& scene, State state,
-                      ControllerState controller, std::int64_t step) {
-  Simulation sim;
-  sim.step = step;
-  sim.state = std::move(state);
-  sim.controller = std::move(controller);
-  observe(model, sim.state, scene, sim.search, sim.observation);
-  sim.ledger = open_ledger(model, sim.state, sim.observation.kin);
+Simulation start_from(const Model& model, const Scene& scene, const std::string& back_end,
+                      State state, ControllerState controller, std::int64_t step) {
+  Simulation sim{.step = step,
+                 .now = {std::move(state), {}},
+                 .search = {},
+                 .controller = std::move(controller),
+                 .solver = StepSolver(back_end),
+                 .ledger = {},
+                 .watch = {},
+                 .before = {}};
+  observe(model, sim.now.state, scene, sim.search, sim.now.observation);
+  sim.ledger = open_ledger(model, sim.now);
   return sim;
 }
 
@@ -175,11 +212,13 @@ bool finished(const Simulation& sim, const Scene& scene) {
           time >= sim.controller.phase_start + scene.controller.free_time);
 }
 
-void take_step(const Model& model, const Scene& scene, BoxQpSolver& solver, Simulation& sim,
-               StepRecord& record) {
+void take_step(const Model& model, const Scene& scene, Simulation& sim, StepRecord& record) {
   keep(sim);
   try {
-    try_step(model, scene, solver, sim, record);
+    const Status status = Attempt(model, scene, sim, record).take();
+    if (!status.ok()) {
+      throw StepError(status);
+    }
   } catch (...) {
     record.controller = sim.controller;
     put_back(sim);
@@ -187,9 +226,9 @@ void take_step(const Model& model, const Scene& scene, BoxQpSolver& solver, Simu
   }
 }
 
-StepRecord take_step(const Model& model, const Scene& scene, BoxQpSolver& solver, Simulation& sim) {
+StepRecord take_step(const Model& model, const Scene& scene, Simulation& sim) {
   StepRecord record;
-  take_step(model, scene, solver, sim, record);
+  take_step(model, scene, sim, record);
   return record;
 }
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "core/run/controller.hpp"
 #include "core/run/energy.hpp"
@@ -9,8 +11,8 @@
 
 namespace hagfish {
 
-/// What a step changes before it is sure to be taken, as it was: storage of take_step. Search
-/// segments are those of the observation.
+/// What a step changes before it is sure to be taken, as it was: storage of take_step. The
+/// segments of the search are those of the observation.
 struct BeforeStep {
   ControllerState controller;
   WarmStart warm;
@@ -20,26 +22,25 @@ struct BeforeStep {
   std::vector<double> moved;            ///< of the search
 };
 
-/// All that changes while a scene runs.
+/// All that changes while a scene runs. Copies go on independently of each other.
 struct Simulation {
   std::int64_t step = 0;  ///< steps taken
-  State state;
-  Observation observation;  ///< of `state`
-  ContactSearch search;     ///< that found its contacts
+  Moment now;
+  ContactSearch search;  ///< that found its contacts
   ControllerState controller;
-  WarmStart warm;
-  StepScratch scratch;
+  StepSolver solver;
   EnergyLedger ledger;
   Watch watch;
   BeforeStep before;
 };
 
-/// As the scene starts, at time 0.
-Simulation start(const Model& model, const Scene& scene);
+/// As the scene starts, at time 0. `back_end`: one of box_qp_solver_names(); throws
+/// std::invalid_argument otherwise.
+Simulation start(const Model& model, const Scene& scene, const std::string& back_end);
 
 /// From a state of another run: `controller` says which phase it is in.
-Simulation start_from(const Model& model, const Scene& scene, State state,
-                      ControllerState controller, std::int64_t step);
+Simulation start_from(const Model& model, const Scene& scene, const std::string& back_end,
+                      State state, ControllerState controller, std::int64_t step);
 
 inline double time_of(const Simulation& sim, const Scene& scene) {
   return static_cast<double>(sim.step) * scene.time.step;
@@ -52,25 +53,23 @@ bool finished(const Simulation& sim, const Scene& scene);
 struct StepRecord {
   std::int64_t step = 0;
   double time = 0;  ///< s
-  State state;      ///< at `time`
-  Observation observation;
+  Moment moment;    ///< at `time`
   ControllerState controller;
   Control control;
   StepSolution solution;
   EnergyLedger ledger;    ///< up to `time`
   double head_drift = 0;  ///< cm; 0 while the head is free
   double crossing = 0;    ///< deepest overlap on the way to the next state, cm; 0 of a short way
-  std::vector<std::string>
-      warnings;  ///< what this step gave rise to for the first time (guard.hpp)
+  /// What this step gave rise to for the first time (guard.hpp).
+  std::vector<std::string> warnings;
 };
 
-/// Takes one step, writing into the storage of `record`. Throws StepError, naming the cause, where
-/// it cannot. Whatever it throws, `sim` is then as it was, but for storage whose contents do not
-/// matter; a step with another scene goes on as if nothing had been. `record` then holds its step
-/// and time, the controller as far as it came and, where a guard looked at them, the state and
-/// observation that it refused.
-void take_step(const Model& model, const Scene& scene, BoxQpSolver& solver, Simulation& sim,
-               StepRecord& record);
-StepRecord take_step(const Model& model, const Scene& scene, BoxQpSolver& solver, Simulation& sim);
+/// Takes one step, writing into the storage of `record`. Throws StepError, with the outcome by
+/// name, where it cannot. Whatever it throws, `sim` is then as it was, but for storage whose
+/// contents do not matter; a step with another scene goes on as if nothing had been. `record` then
+/// has its step and time, the controller as far as it came and, where a guard refused the moment
+/// that the step led to, that moment.
+void take_step(const Model& model, const Scene& scene, Simulation& sim, StepRecord& record);
+StepRecord take_step(const Model& model, const Scene& scene, Simulation& sim);
 
 }  // namespace hagfish

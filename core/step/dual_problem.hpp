@@ -16,7 +16,7 @@ void assemble_dual(const Model& model, const Kinematics& kin, const ArticulatedF
                    std::span<const Row> rows, const Eigen::VectorXd& base,
                    const Eigen::Matrix3Xd& centre_velocity, RowColumns& columns, BoxQp& qp);
 
-/// The problem of a step on all of `rows`, with nothing held, made from nothing.
+/// The problem of a step on all of `rows`, with nothing prescribed, from Eq. 1 as assembled.
 BoxQp whole_dual(const Model& model, const Kinematics& kin, const StepSystem& system,
                  std::span<const Row> rows);
 

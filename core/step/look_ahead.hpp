@@ -1,7 +1,7 @@
 // Rows for what a step's own path shows. Contact rows are linear in q̇, the path is not: at a long
-// step strands overlap at its end that the rows kept apart, or pass each other on the way. Such
-// pairs get a row whose right-hand side holds what the line misses, and the step is solved again.
-// Cones of universal joints are curved, and a step along their tangent leaves them: one more
+// step strands that the rows kept apart overlap at its end, or pass each other on the way. Such
+// pairs get a row whose right-hand side contains what the linear row misses, and the step is solved
+// again. Cones of universal joints are curved, and a step along their tangent leaves them: one more
 // tangent.
 #pragma once
 
@@ -11,36 +11,34 @@
 
 namespace hagfish {
 
-/// Overlap that is let pass on the way of a step, as a share of `stride`: strands must not pass
+/// Overlap that is accepted on the way of a step, as a share of `stride`: strands must not pass
 /// through each other there, no more.
 inline constexpr double way_tolerance = 0.25;
 
-/// How many looks a step of h (s) needs so that no body moves further than `stride` (cm) between
-/// two: 1 is the end alone.
+/// How many samples of the path of a step of h (s) are needed so that no body moves further than
+/// `stride` (cm) between two: 1 is the end alone.
 int path_samples(const Eigen::Matrix3Xd& centre_velocity, double h, double stride);
 
-/// Goes through the contacts and wall gaps of `there`, where velocities `step.centre_velocity` lead
-/// from `now` within time `t` (s). Each overlap that is deeper than `settings.tolerance` allows
-/// gets a row between the same material points, with C taken at `now`:
+/// Goes through the contacts and wall gaps of `there`, where the velocities of `step` lead within
+/// time `t` (s). Each overlap that is deeper than `constraints.tolerance` allows gets a row in
+/// step.rows between the same material points, with C taken at the step's start:
 ///     φ_now + h C q̇ + (φ_there - φ_now - t C q̇_step) (h/t)² >= goal,
-/// where the bracket is what the line misses at t, of second order, and the goal is 0, or what
-/// baumgarte leaves of an overlap that was there before; h C q̇ is asked to be `stride` at most. A
-/// row of the same id in `rows` gives way to it. Whether there was any.
-bool add_missed_rows(const Model& model, const Observation& now, const Observation& there, double t,
-                     const Scene& scene, const StepSolution& step, std::vector<Row>& rows);
+/// where the bracket is what the linear row misses at t, of second order, and the goal is 0, or
+/// what the Baumgarte gain leaves of an overlap that was there before; h C q̇ is asked to be
+/// `stride` at most. It replaces a row of the same id. Whether there was any.
+bool add_missed_rows(const StepInput& in, const Observation& there, double t, StepSolution& step);
 
-/// A bend past its cone that is let pass at the end of a step, rad. The next step leaves half of it
-/// (baumgarte) and may add as much: 1e-5 rad at most, 0.0006 degrees, below the 0.001 that a log
+/// A bend past its cone that is accepted at the end of a step, rad. The next step leaves half of it
+/// (Baumgarte) and may add as much: 1e-5 rad at most, 0.0006 degrees, below the 0.001 that a log
 /// may show (ExpectSettings::limit_violation).
 inline constexpr double bend_tolerance = 5e-6;
 
-/// The same for the cones of universal joints, from coordinates `now` to `there` (nq) at the end of
-/// a step. Each joint bent further past its cone than bend_tolerance and what baumgarte leaves of
-/// before gets one more row: the cone's tangent where a bend the way of `there` meets it. The
+/// The same for the cones of universal joints, with coordinates `there` (nq) at the end of the
+/// step. Each joint bent further past its cone than bend_tolerance and what the Baumgarte gain
+/// leaves of an earlier violation gets one more row: the cone's tangent at the bend of `there`. The
 /// angles within a cone are a convex set, which no tangent cuts: earlier rows stay, the cone is
 /// followed as closely as need be, and a path that ends within it has never left it. Whether there
 /// was any.
-bool add_missed_bends(const Model& model, const Eigen::VectorXd& now, const Eigen::VectorXd& there,
-                      const Scene& scene, std::vector<Row>& rows);
+bool add_missed_bends(const StepInput& in, const Eigen::VectorXd& there, StepSolution& step);
 
 }  // namespace hagfish

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "core/contact/wall.hpp"
+
 namespace hagfish {
 namespace {
 
@@ -50,6 +52,12 @@ std::optional<double> unilateral(double gap, const ConstraintSettings& settings,
 
 }  // namespace
 
+const char* row_kind_name(RowKind kind) {
+  constexpr std::array<const char*, row_kinds.size()> names = {"head", "limit", "contact", "wall",
+                                                               "thigmotaxis"};
+  return names[static_cast<std::size_t>(kind)];
+}
+
 std::string row_name(const Model& model, const Row& row) {
   const int first = static_cast<int>((row.id >> 20) & 0xfffff);
   const int second = static_cast<int>(row.id & 0xfffff);
@@ -74,7 +82,7 @@ std::string row_name(const Model& model, const Row& row) {
 }
 
 int place_in_step(const Model& model, const Row& row) {
-  if (row.held || row.kind == RowKind::head) {
+  if (row.prescribed || row.kind == RowKind::head) {
     return row.dof - 2 * model.nv();
   }
   if (row.dof >= 0) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -21,6 +22,10 @@
 namespace hagfish {
 
 enum class RowKind : std::uint8_t { head, limit, contact, wall, thigmotaxis };
+inline constexpr std::array row_kinds = {RowKind::head, RowKind::limit, RowKind::contact,
+                                         RowKind::wall, RowKind::thigmotaxis};
+/// "head", "limit", "contact", "wall", "thigmotaxis": as the log names their forces.
+const char* row_kind_name(RowKind kind);
 
 struct Row {
   RowKind kind = RowKind::limit;
@@ -37,8 +42,8 @@ struct Row {
   double rhs = 0;    ///< d, cm/s or rad/s
   double lower = 0;  ///< bounds on the multiplier λ, dyn s or dyn cm s
   double upper = std::numeric_limits<double>::infinity();
-  /// A unit row expected to bind: its velocity is held at `rhs`, and λ is what holds it.
-  bool held = false;
+  /// A unit row whose velocity is prescribed, C q̇ = d; λ is its reaction.
+  bool prescribed = false;
 
   bool unit() const { return dof >= 0 && beside == 0; }
 };
@@ -58,9 +63,9 @@ void visit_forces(const Row& row, Visit visit) {
 /// "limit of j05_bend_y (upper)", "contact of bodies 31 and 74", ...
 std::string row_name(const Model& model, const Row& row);
 
-/// Rows of a step go by this, rising: those held (and those of the head in any case) by dof, then
-/// the others by the last velocity that they involve, the last first, which is what the columns of
-/// the dual problem like best.
+/// The order of a step's rows, rising: those prescribed (and those of the head in any case) by dof,
+/// then the others from the tail on by the last velocity that they involve, which gives the columns
+/// of the dual problem their staircase.
 int place_in_step(const Model& model, const Row& row);
 
 /// 0 to 3 for a thigmotaxis row: first contact t_a, t_b, last contact t_a, t_b.
@@ -77,7 +82,7 @@ void add_row(const Row& row, const Kinematics& kin, double lambda, Matrix6Xd& wr
 
 // Rows are appended: a step gathers all kinds in one list, whose storage it keeps.
 
-/// Which unilateral rows are wanted; most of the animal's 500 are far from binding.
+/// Selects the unilateral rows near binding; most of the animal's 500 are far from it.
 struct NearBinding {
   const Eigen::VectorXd& v;                 ///< a velocity, nv
   const Eigen::Matrix3Xd& centre_velocity;  ///< of the bodies' centres at it, 3 x N, cm/s
@@ -98,7 +103,7 @@ Row wall_row(int body);
 /// leaves it. `cut` 0 is that of the step's start; others come on top (core/step/look_ahead.hpp).
 Row cone_row(const BendingCone& cone, const Bend& bend, int cut);
 
-/// Six bilateral rows that hold the root at the origin and unturned (paper, Eq. 3); a drift is
+/// Six bilateral rows that keep the root at the origin and unturned (paper, Eq. 3); a drift is
 /// taken back at the rate baumgarte / h.
 void append_head_rows(const State& state, const ConstraintSettings& settings, double h,
                       std::vector<Row>& rows);
@@ -113,21 +118,7 @@ void append_contact_rows(const Model& model, const std::vector<Contact>& contact
                          const ConstraintSettings& settings, double h, const NearBinding& wanted,
                          std::vector<Row>& rows);
 
-/// Gaps to the head plate x = 0, cm: calls `visit(body, gap)` for each body behind the neck.
-template <class Visit>
-void visit_wall_gaps(const Model& model, const Kinematics& kin, const WallSettings& wall,
-                     Visit visit) {
-  double arc = 0;
-  for (int b = 0; wall.present && b < model.body_count(); ++b) {
-    const Body& body = model.bodies[b];
-    arc += body.length;
-    if (arc - 0.5 * body.length >= wall.neck) {
-      visit(b, kin.centre(0, b) - body.radius);
-    }
-  }
-}
-
-/// One row per body behind the neck: it stays clear of the head plate.
+/// One row per body behind the neck against the head plate.
 void append_wall_rows(const Model& model, const Kinematics& kin, const WallSettings& wall,
                       const ConstraintSettings& settings, double h, const NearBinding& wanted,
                       std::vector<Row>& rows);

@@ -1,38 +1,24 @@
-// One time step (paper, 3.1): Eq. 1, 3 or 4, then Eq. 2.
+// One time step (paper, 3.1): Eq. 1, 3 or 4 for the new velocity. Eq. 2 is advance() in
+// core/chain/state.hpp.
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/chain/dynamics.hpp"
-#include "core/contact/contact.hpp"
+#include "core/contact/observation.hpp"
 #include "core/step/dual_problem.hpp"
+#include "core/step/outcome.hpp"
 #include "core/step/rows.hpp"
-#include "core/step/step_error.hpp"
 #include "core/step/warm_start.hpp"
 #include "solvers/box_qp.hpp"
 
 namespace hagfish {
-
-/// What the step's state looks like: found once, used by controller, constraints and solver.
-struct Observation {
-  Kinematics kin;
-  std::vector<SplineSegment> segments;
-  ContactSet contact;
-  double penetration = 0;      ///< deepest overlap of skins or with the head plate, cm, >= 0
-  double limit_violation = 0;  ///< largest angle past a limit, rad, >= 0
-};
-
-void observe(const Model& model, const State& state, const Scene& scene, ContactSearch& search,
-             Observation& observation);
-Observation observe(const Model& model, const State& state, const Scene& scene);
-
-/// Largest displacement of the head from where the clamp holds it, cm: of either end and of its
-/// side, which shows a turn about its own axis.
-double head_drift(const Model& model, const Kinematics& kin);
 
 /// What the controller asks of a step.
 struct Control {
@@ -41,50 +27,64 @@ struct Control {
   std::vector<ThigmotaxisCommand> thigmotaxis;  ///< none, or first and last contact
 };
 
-/// Eq. 1, Eq. 3 (with limits that surely bind as bilateral rows too) or Eq. 4.
+/// All that a step depends on, but for the warm start.
+struct StepInput {
+  const Model& model;
+  const Scene& scene;
+  const State& state;
+  const Observation& observation;  ///< of `state`
+  const Control& control;
+};
+
+/// Eq. 1, Eq. 3 (with limits as bilateral rows too) or Eq. 4.
 enum class SolveKind : std::uint8_t { linear, kkt, qp };
 
-/// Multiplier forces C'λ / h by kind of row (paper, Eqs. 7 and 8), generalised, nv each.
+/// Multiplier forces C'λ / h (paper, Eqs. 7 and 8), generalised, nv each.
 struct ConstraintForces {
-  Eigen::VectorXd head, limit, contact, wall, thigmotaxis;
-  Eigen::VectorXd total() const { return head + limit + contact + wall + thigmotaxis; }
+  std::array<Eigen::VectorXd, row_kinds.size()> of_kind;
+
+  Eigen::VectorXd& operator[](RowKind kind) { return of_kind[static_cast<std::size_t>(kind)]; }
+  const Eigen::VectorXd& operator[](RowKind kind) const {
+    return of_kind[static_cast<std::size_t>(kind)];
+  }
+  /// Their sum into `sum` (nv).
+  void total(Eigen::VectorXd& sum) const;
+  Eigen::VectorXd total() const;
 };
 
 struct StepSolution {
-  Eigen::VectorXd base;              ///< q̇ with the held rows' forces, but no others, nv
-  Eigen::VectorXd qdot;              ///< new velocity, nv
-  Matrix6Xd twist;                   ///< of the bodies at it, 6 x N
+  Eigen::VectorXd base;  ///< q̇ with the reactions of prescribed rows, but no other rows, nv
+  Eigen::VectorXd qdot;  ///< new velocity, nv
+  Matrix6Xd twist;       ///< of the bodies at it, 6 x N
   Eigen::Matrix3Xd centre_velocity;  ///< of the bodies' centres at it, 3 x N, cm/s
   ConstraintForces force;
   Eigen::Vector3d tip = Eigen::Vector3d::Zero();  ///< tip force as applied, dyn, world
   SolveKind kind = SolveKind::linear;
-  std::vector<Row> rows;   ///< rows that entered the problem: held, then from the tail on
-  Eigen::Index held = 0;   ///< how many of them are held; the others are the QP's
-  Eigen::VectorXd lambda;  ///< their multipliers, dyn s or dyn cm s
-  Eigen::VectorXd excess;  ///< C q̇ - d of each row at the solution, cm/s or rad/s
-  int active = 0;          ///< rows with a force
-  int iterations = 0;      ///< of the back end, all rounds together
-  /// Problems solved: rows left out at first and found violated come in, rows held that would have
-  /// to pull are let go.
+  std::vector<Row> rows;        ///< rows that entered the problem, in the order of place_in_step
+  Eigen::Index prescribed = 0;  ///< how many of them, the first, are prescribed
+  Eigen::VectorXd lambda;       ///< their multipliers, dyn s or dyn cm s
+  Eigen::VectorXd excess;       ///< C q̇ - d of each row at the solution, cm/s or rad/s
+  int active = 0;               ///< rows with a force
+  int iterations = 0;           ///< of the back end, all rounds together
+  /// QP rounds: each adds violated rows and releases prescribed limits with λ < 0.
   int rounds = 0;
   /// (H q̇ - g) / h: what the forces of all rows add up to, from the motion alone, nv.
   Eigen::VectorXd net_force;
   double stationarity = 0;  ///< |H q̇ - g - C'λ| over the largest of these three, infinity norms
-  KktResiduals kkt;    ///< of the rows not held, on the scale of all; those held are met exactly
+  KktResiduals kkt;    ///< of the rows not prescribed, on the scale of all; the others are exact
   double qp_time = 0;  ///< s spent in the QP back end
   StepSystem system;   ///< Eq. 1 as assembled
 };
 
-/// Storage that a step needs on the way and keeps for the next: with it, nothing is allocated once
-/// all has grown to size.
+/// Storage for intermediate results. A step allocates nothing once all of it has grown to size.
 struct StepScratch {
-  std::vector<HeldVelocity> held;
+  std::vector<PrescribedVelocity> prescribed;
   ArticulatedFactor factor;
-  Eigen::VectorXd holding;                         ///< what holds the held
+  Eigen::VectorXd reaction;                        ///< at the prescribed velocities
   Eigen::Matrix3Xd base_centre_velocity;           ///< 3 x N, cm/s
   std::vector<Row> violated;                       ///< rows that the last answer violates
-  std::vector<std::pair<int, std::size_t>> order;  ///< of the rows: place_in_step, which
-  std::vector<Row> ordered;                        ///< storage for them
+  std::vector<std::pair<int, std::size_t>> order;  ///< of the rows: place_in_step, index
+  std::vector<Row> ordered;
   RowColumns columns;
   BoxQp qp;
   Eigen::VectorXd start, scaled;
@@ -93,28 +93,50 @@ struct StepScratch {
   Eigen::VectorXd joint, impulse, change;
 };
 
-/// Solves for the new velocity, into `step`: begin_step and finish_step. Throws StepError where the
-/// solver fails or a result is not finite.
-void solve_step(const Model& model, const State& state, const Observation& observation,
-                const Control& control, const Scene& scene, BoxQpSolver& solver, WarmStart& warm,
-                StepScratch& scratch, StepSolution& step);
+/// Solves steps, one after the other. A step is begun, resumed as often as rows are added to its
+/// solution, and finished; or solved at once. Copies have a back end and storage of their own.
+class StepSolver {
+ public:
+  /// `back_end`: one of box_qp_solver_names(). Throws std::invalid_argument otherwise.
+  explicit StepSolver(std::string back_end);
+  StepSolver(const StepSolver& other);
+  StepSolver& operator=(const StepSolver& other);
+  StepSolver(StepSolver&&) = default;
+  StepSolver& operator=(StepSolver&&) = default;
+  ~StepSolver() = default;
 
-/// The rows of a step that bind or may do so, as far as one can tell beforehand, into `rows`.
-void gather_rows(const Model& model, const State& state, const Observation& observation,
-                 const Control& control, const Scene& scene, std::vector<Row>& rows);
+  /// Eq. 1, the rows, and Eq. 3 or 4: step.qdot is a velocity that meets all rows. Not ok where a
+  /// number is not finite, rows contradict each other or the back end fails.
+  Status begin(const StepInput& in, StepSolution& step);
 
-/// Eq. 1, the rows, and Eq. 3 or 4: step.qdot is a velocity that meets all rows. Throws as above.
-void begin_step(const Model& model, const State& state, const Observation& observation,
-                const Control& control, const Scene& scene, BoxQpSolver& solver,
-                const WarmStart& warm, StepScratch& scratch, StepSolution& step);
+  /// Eq. 3 or 4 again, after rows were added to step.rows. Status as above.
+  Status resume(const StepInput& in, StepSolution& step);
 
-/// Eq. 4 anew, after rows have come to step.rows. Throws as above.
-void resume_step(const Model& model, const State& state, const Observation& observation,
-                 const Scene& scene, BoxQpSolver& solver, const WarmStart& warm,
-                 StepScratch& scratch, StepSolution& step);
+  /// Forces and residuals of the step as solved; keeps its multipliers in `warm`.
+  void finish(const StepInput& in, StepSolution& step);
 
-/// Forces and residuals of the step as solved; keeps its multipliers in `warm`.
-void finish_step(const Model& model, const Observation& observation, const Control& control,
-                 const Scene& scene, WarmStart& warm, StepScratch& scratch, StepSolution& step);
+  /// begin and finish.
+  Status solve(const StepInput& in, StepSolution& step);
+
+  /// What the last step left for the next one.
+  WarmStart warm;
+
+  /// Intermediate results of the last step.
+  const StepScratch& scratch() const { return scratch_; }
+
+ private:
+  Status constrained_motion(const StepInput& in, bool base_known, StepSolution& step);
+  void order_rows(const Model& model, StepSolution& step);
+  Status base_motion(const StepInput& in, StepSolution& step);
+  void set_velocity(const StepInput& in, StepSolution& step);
+  bool solve_multipliers(StepSolution& step);
+  bool add_violated(const StepInput& in, StepSolution& step);
+  void measure(const StepInput& in, StepSolution& step);
+  void keep_active(const StepSolution& step);
+
+  std::string back_end_;
+  std::unique_ptr<BoxQpSolver> solver_;
+  StepScratch scratch_;
+};
 
 }  // namespace hagfish

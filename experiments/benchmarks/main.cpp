@@ -12,6 +12,7 @@
 
 #include "core/log/build_info.hpp"
 #include "core/step/dual_problem.hpp"
+#include "core/step/row_selection.hpp"
 #include "experiments/benchmarks/start.hpp"
 #include "mujoco_ref/mirror.hpp"
 
@@ -23,7 +24,7 @@ using namespace hagfish;
 // named: nothing pulls MuJoCo's knot along, and of its 58 contacts at 100 bodies 54 are left after
 // 10 steps, 47 after 20 and 16 after 50.
 constexpr int steps_before_reset = 10;
-// Steps before one is taken apart: limits are held from the third on.
+// Steps before one is taken apart: limits are prescribed from the third on.
 constexpr int warm_steps = 6;
 
 void add(const std::string& simulator, const std::string& part, int bodies,
@@ -39,19 +40,18 @@ void add(const std::string& simulator, const std::string& part, int bodies,
 void add_core_step(const std::string& part, const std::shared_ptr<Start>& start,
                    const std::string& back_end) {
   struct Run {
-    Simulation sim;
+    Simulation origin, sim;
     StepRecord record;
-    std::shared_ptr<BoxQpSolver> solver;
     int steps = 0;
   };
-  auto run = std::make_shared<Run>();
-  run->sim = start->sim;
-  run->solver = make_box_qp_solver(back_end);
+  Simulation origin = start->sim;
+  origin.solver = StepSolver(back_end);
+  auto run = std::make_shared<Run>(Run{origin, origin, {}});
   add("core", part, start->model.body_count(), [start, run] {
     if (run->steps++ % steps_before_reset == 0) {
-      run->sim = start->sim;
+      run->sim = run->origin;
     }
-    take_step(start->model, start->scene, *run->solver, run->sim, run->record);
+    take_step(start->model, start->scene, run->sim, run->record);
   });
 }
 
@@ -65,7 +65,7 @@ void add_mujoco_step(const std::string& part, const std::shared_ptr<Start>& star
   run->mirror.model()->opt.solver = solver;
   add("mujoco", part, start->model.body_count(), [start, run] {
     if (run->steps++ % steps_before_reset == 0) {
-      set_state(start->model, start->sim.state, run->mirror);
+      set_state(start->model, start->sim.now.state, run->mirror);
     }
     mj_step(run->mirror.model(), run->mirror.data());
   });
@@ -74,10 +74,9 @@ void add_mujoco_step(const std::string& part, const std::shared_ptr<Start>& star
 /// A step of the knotted animal, taken apart.
 struct Parts {
   explicit Parts(std::shared_ptr<Start> of) : start(std::move(of)), sim(start->sim) {
-    const auto solver = make_box_qp_solver("active-set");
     for (int k = 0; k < warm_steps; ++k) {
-      take_step(start->model, start->scene, *solver, sim, record);
-      centre[k % 2] = sim.observation.kin.centre;
+      take_step(start->model, start->scene, sim, record);
+      centre[k % 2] = sim.now.observation.kin.centre;
     }
   }
   std::shared_ptr<Start> start;
@@ -89,18 +88,20 @@ struct Parts {
   ContactSet contacts;
   std::vector<SplineSegment> segments;
   std::vector<Row> rows;
+  ArticulatedFactor factor;
+  Eigen::VectorXd reaction;
   RowColumns columns;
   BoxQp qp;
 };
 
-/// The constrained motion of the knotted state, from Eq. 1 assembled, with the rows held that
-/// `holds` tells and the others in a warm QP.
-template <class Holds>
-void add_holding(const std::string& name, const std::shared_ptr<Parts>& parts, Holds holds) {
+/// The constrained motion of the knotted state, from Eq. 1 assembled, with those of the rows
+/// prescribed that `select` says, and the others in a warm QP.
+template <class Select>
+void add_prescribing(const std::string& name, const std::shared_ptr<Parts>& parts, Select select) {
   struct Run {
     std::vector<Row> rows;
-    std::vector<HeldVelocity> held;
-    Eigen::VectorXd start, base, holding;
+    std::vector<PrescribedVelocity> prescribed;
+    Eigen::VectorXd start, base, reaction;
     Eigen::Matrix3Xd centre_velocity;
     Matrix6Xd twist;
     ArticulatedFactor factor;
@@ -113,9 +114,9 @@ void add_holding(const std::string& name, const std::shared_ptr<Parts>& parts, H
   std::vector<std::pair<int, std::size_t>> order;  // of the others
   for (std::size_t i = 0; i < step.rows.size(); ++i) {
     Row row = step.rows[i];
-    row.held = row.held && holds(row);
-    if (row.held) {
-      run->held.push_back({row.dof, row.sign * row.rhs});
+    row.prescribed = row.prescribed && select(row);
+    if (row.prescribed) {
+      run->prescribed.push_back({row.dof, row.sign * row.rhs});
     } else {
       order.emplace_back(place_in_step(model, row), i);
     }
@@ -129,10 +130,10 @@ void add_holding(const std::string& name, const std::shared_ptr<Parts>& parts, H
   }
   add("core", name, model.body_count(), [parts, run] {
     const Model& of = parts->start->model;
-    const Kinematics& kin = parts->record.observation.kin;
+    const Kinematics& kin = parts->record.moment.observation.kin;
     const StepSystem& system = parts->record.solution.system;
-    run->factor.factorise(of, kin, system.op, run->held);
-    run->factor.solve(of, kin, system.wrench, system.joint, run->base, run->twist, run->holding);
+    run->factor.factorise(of, kin, system.op, run->prescribed);
+    run->factor.solve(of, kin, system.wrench, system.joint, run->base, run->twist, run->reaction);
     centre_velocities(kin, run->twist, run->centre_velocity);
     assemble_dual(of, kin, run->factor, run->rows, run->base, run->centre_velocity, parts->columns,
                   parts->qp);
@@ -147,29 +148,28 @@ void add_core_parts(const std::shared_ptr<Start>& start) {
     add("core", name, n, [parts, work] { work(*parts); });
   };
   part("kinematics", [](Parts& p) {
-    update_positions(p.start->model, p.record.state.q, p.record.observation.kin);
-    update_velocities(p.start->model, p.record.state.qdot, p.record.observation.kin);
+    update_positions(p.start->model, p.record.moment.state.q, p.record.moment.observation.kin);
+    update_velocities(p.start->model, p.record.moment.state.qdot, p.record.moment.observation.kin);
   });
   part("mass_matrix", [](Parts& p) {  // dense, for comparison: a step never forms it
-    const Kinematics& kin = p.record.observation.kin;
+    const Kinematics& kin = p.record.moment.observation.kin;
     const StepOperator op{body_inertias(p.start->model, kin),
                           Eigen::VectorXd::Zero(p.start->model.nv())};
     benchmark::DoNotOptimize(dense(p.start->model, kin, op));
   });
   part("bias", [](Parts& p) {
-    const Kinematics& kin = p.record.observation.kin;
+    const Kinematics& kin = p.record.moment.observation.kin;
     benchmark::DoNotOptimize(
         generalised_force(p.start->model, kin, bias_wrench(p.start->model, kin)));
   });
   part("system", [](Parts& p) {  // Eq. 1 assembled, factorised and solved
-    const Kinematics& kin = p.record.observation.kin;
+    const Kinematics& kin = p.record.moment.observation.kin;
     StepSystem& system = p.record.solution.system;
-    assemble_step_system(p.start->model, p.record.state, kin, p.record.control.tip,
+    assemble_step_system(p.start->model, p.record.moment.state, kin, p.record.control.tip,
                          p.start->scene.time.step, system);
-    StepScratch& scratch = p.sim.scratch;
-    scratch.factor.factorise(p.start->model, kin, system.op, scratch.held);
-    scratch.factor.solve(p.start->model, kin, system.wrench, system.joint, p.record.solution.base,
-                         p.record.solution.twist, scratch.holding);
+    p.factor.factorise(p.start->model, kin, system.op, p.sim.solver.scratch().prescribed);
+    p.factor.solve(p.start->model, kin, system.wrench, system.joint, p.record.solution.base,
+                   p.record.solution.twist, p.reaction);
   });
   part("contact", [](Parts& p) {  // to and fro, as a search saves its work where nothing moves
     p.pose = 1 - p.pose;
@@ -177,22 +177,25 @@ void add_core_parts(const std::shared_ptr<Start>& start) {
     find_contacts(p.segments, p.start->scene.contact, 0, p.search, p.contacts);
   });
   part("rows", [](Parts& p) {
-    gather_rows(p.start->model, p.record.state, p.record.observation, p.record.control,
-                p.start->scene, p.rows);
+    const Moment& at = p.record.moment;
+    gather_rows({p.start->model, p.start->scene, at.state, at.observation, p.record.control},
+                p.rows);
   });
   part("dual", [](Parts& p) {
     const StepSolution& step = p.record.solution;
-    assemble_dual(p.start->model, p.record.observation.kin, p.sim.scratch.factor,
-                  std::span(step.rows).subspan(static_cast<std::size_t>(step.held)), step.base,
-                  p.sim.scratch.base_centre_velocity, p.columns, p.qp);
+    assemble_dual(p.start->model, p.record.moment.observation.kin, p.sim.solver.scratch().factor,
+                  std::span(step.rows).subspan(static_cast<std::size_t>(step.prescribed)),
+                  step.base, p.sim.solver.scratch().base_centre_velocity, p.columns, p.qp);
   });
-  add_holding("hold_nothing", parts, [](const Row&) { return false; });
-  add_holding("hold_head", parts, [](const Row& row) { return row.kind == RowKind::head; });
-  add_holding("hold_all", parts, [](const Row& row) { return row.held; });
+  add_prescribing("prescribe_nothing", parts, [](const Row&) { return false; });
+  add_prescribing("prescribe_head", parts,
+                  [](const Row& row) { return row.kind == RowKind::head; });
+  add_prescribing("prescribe_all", parts, [](const Row& row) { return row.prescribed; });
   for (const std::string& name : box_qp_solver_names()) {
     const std::shared_ptr<BoxQpSolver> solver = make_box_qp_solver(name);
     add("core", "qp_" + name, n, [parts, solver] {
-      benchmark::DoNotOptimize(solver->solve(parts->sim.scratch.qp, parts->sim.scratch.start));
+      benchmark::DoNotOptimize(
+          solver->solve(parts->sim.solver.scratch().qp, parts->sim.solver.scratch().start));
     });
   }
 }

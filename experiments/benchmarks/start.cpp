@@ -18,7 +18,9 @@ constexpr double wave_share = 0.1;
 constexpr double wave_count = 2;
 constexpr double wave_rate = 0.5;
 
-bool holds_head(const Start& start) { return clamps_head(start.scene, start.sim.controller.phase); }
+constexpr const char* back_end = "active-set";
+
+bool clamped(const Start& start) { return clamps_head(start.scene, start.sim.controller.phase); }
 
 }  // namespace
 
@@ -30,25 +32,23 @@ Start knotted_start(const std::string& log) {
     throw FileError(log + ": the knot never slides");
   }
   const Eigen::Index frame = (first - contents.phase.begin()) + (last - first) / 2;
-  Start start{contents.resolved.scene, contents.model, {}};
+  const Scene& scene = contents.resolved.scene;
   ControllerState controller;
   controller.phase = Phase::slide;
   controller.phase_start = contents.time[frame];
   controller.loose = controller.phase_start;
-  const std::int64_t step = std::llround(contents.time[frame] / start.scene.time.step);
-  start.sim = start_from(start.model, start.scene,
-                         {contents.q.row(frame).transpose(), contents.qdot.row(frame).transpose()},
-                         controller, step);
-  return start;
+  return {scene, contents.model,
+          start_from(contents.model, scene, back_end,
+                     {contents.q.row(frame).transpose(), contents.qdot.row(frame).transpose()},
+                     controller, std::llround(contents.time[frame] / scene.time.step))};
 }
 
 Start free_start(const Start& knotted) {
-  Start start{knotted.scene, knotted.model, {}};
-  State state = rest_state(start.model);
-  const Eigen::Matrix2Xd ranges = hinge_ranges(start.model);
-  for (std::size_t k = 0; k < start.model.hinges.size(); ++k) {
-    const Hinge& hinge = start.model.hinges[k];
-    const double along = static_cast<double>(hinge.body) / start.model.body_count();
+  const Model& model = knotted.model;
+  State state = rest_state(model);
+  const Eigen::Matrix2Xd ranges = hinge_ranges(model);
+  for (std::size_t k = 0; k < model.hinges.size(); ++k) {
+    const double along = static_cast<double>(model.hinges[k].body) / model.body_count();
     const auto i = static_cast<Eigen::Index>(k) + root_dofs;
     const double most = ranges(1, static_cast<Eigen::Index>(k));
     state.q[i + 1] = wave_share * most * std::sin(2 * std::numbers::pi * wave_count * along);
@@ -57,19 +57,19 @@ Start free_start(const Start& knotted) {
   ControllerState controller;
   controller.phase = Phase::free;
   // Never over, however long the benchmark runs.
-  start.scene.time.duration = std::numeric_limits<double>::infinity();
-  start.scene.controller.free_time = start.scene.time.duration;
-  start.scene.wall.present = false;
-  start.sim = start_from(start.model, start.scene, std::move(state), controller, 0);
-  return start;
+  Scene scene = knotted.scene;
+  scene.time.duration = std::numeric_limits<double>::infinity();
+  scene.controller.free_time = scene.time.duration;
+  scene.wall.present = false;
+  return {scene, model, start_from(model, scene, back_end, std::move(state), controller, 0)};
 }
 
 MujocoModel mirror_of(const Start& start) {
   MujocoModel mirror(mjcf_files(start.model, start.scene.contact.least_arc, start.scene.time.step,
-                                holds_head(start) ? Head::clamped : Head::free));
+                                clamped(start) ? Head::clamped : Head::free));
   std::fill_n(mirror.model()->geom_margin, mirror.model()->ngeom, 0.0);
   mirror.model()->opt.integrator = mjINT_EULER;
-  set_state(start.model, start.sim.state, mirror);
+  set_state(start.model, start.sim.now.state, mirror);
   mj_forward(mirror.model(), mirror.data());
   return mirror;
 }

@@ -13,7 +13,7 @@ namespace hagfish {
 struct Start {
   Scene scene;
   Model model;
-  Simulation sim;
+  Simulation sim;  ///< with the active-set back end
 };
 
 /// The frame of a log half-way through the slide: knotted and tight, the head clamped. Throws

@@ -66,9 +66,9 @@ def print_ratios(times: Times) -> None:
         row(text, [f"{times[('mujoco', other)][n] / times[('core', part)][n]:.1f}" for n in bodies])
     row("QP: Ipopt over active-set, both warm",
         [f"{times[('core', 'qp_ipopt')][n] / times[('core', 'qp_active-set')][n]:.0f}" for n in bodies])
-    held = times[("core", "hold_all")]
-    for text, part in (("Eqs. 1 and 4: nothing held over as it is", "hold_nothing"), ("Eqs. 1 and 4: head alone held", "hold_head")):
-        row(text, [f"{times[('core', part)][n] / held[n]:.2f}" for n in bodies])
+    as_is = times[("core", "prescribe_all")]
+    for text, part in (("Eqs. 1 and 4: nothing prescribed over as it is", "prescribe_nothing"), ("Eqs. 1 and 4: head alone prescribed", "prescribe_head")):
+        row(text, [f"{times[('core', part)][n] / as_is[n]:.2f}" for n in bodies])
     free = times[("core", "step_free")]
     row("step without contact, over 100 bodies", [f"{free[n] / free[100]:.2f}" for n in bodies])
 

@@ -28,7 +28,7 @@ LOOKS = {"ok": ("", "#e8f4f0"), "energy gain": ("E", "#ee8866"), "non-finite": (
          "tunnelled": ("T", "#882255"), "penetration": ("P", "#77aadd"), "limits": ("L", "#eedd88"),
          "solver failed": ("S", "#332288"), "infeasible": ("I", "#aaaa00"), "capped": ("C", "#bbbbbb"),
          "never tied": ("U", "#ffaabb"),
-         "came undone": ("K", "#ddaa33"), "speed": ("V", "#cc6677"), "crashed": ("X", "#ff0000"),
+         "knot lost": ("K", "#ddaa33"), "speed": ("V", "#cc6677"), "crashed": ("X", "#ff0000"),
          "not applicable": ("-", "#ffffff")}
 DARK = {"non-finite", "tunnelled", "solver failed"}
 METHODS = ["default", "violated", "baumgarte_0.2", "baumgarte_1", "hard_thigmotaxis", "ipopt", "mujoco_euler",

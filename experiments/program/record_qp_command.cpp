@@ -26,8 +26,8 @@ struct RecordQpOptions {
 /// Takes the steps of a run and keeps their QPs.
 class Recorder {
  public:
-  Recorder(const RecordQpOptions& options, const Model& model, QpSetWriter& set)
-      : options_(options), model_(model), set_(set) {}
+  Recorder(const RecordQpOptions& options, const Model& model, const Scene& scene, QpSetWriter& set)
+      : options_(options), model_(model), scene_(scene), set_(set) {}
 
   /// The QP of a step, if it had one; `warm` as the step found it.
   void take(const StepRecord& record, const WarmStart& warm) {
@@ -37,14 +37,14 @@ class Recorder {
     StoredQp qp;
     qp.start = kept_multipliers(record.solution.rows, warm);
     if (!options_.primal) {
-      qp.box =
-          whole_dual(model_, record.observation.kin, record.solution.system, record.solution.rows);
+      qp.box = whole_dual(model_, record.moment.observation.kin, record.solution.system,
+                          record.solution.rows);
     } else {
       if (at_cap(record.solution)) {
         ++left_out_;
         return;
       }
-      qp.primal = to_primal(model_, record);
+      qp.primal = to_primal(model_, scene_, record);
     }
     // Consecutive steps share a number.
     sequence_ += set_.size() > 0 && record.step != last_ + 1 ? 1 : 0;
@@ -58,6 +58,7 @@ class Recorder {
  private:
   const RecordQpOptions& options_;
   const Model& model_;
+  const Scene& scene_;
   QpSetWriter& set_;
   std::int64_t sequence_ = 0, last_ = 0;
   int left_out_ = 0;
@@ -67,16 +68,15 @@ int record_qp(const RecordQpOptions& options, const std::string& typed) {
   const ResolvedScene resolved = scene_argument(options.scene, options.set);
   const Scene& scene = resolved.scene;
   const Model model = make_hagfish(resolved.specimen, scene);
-  const auto solver = make_box_qp_solver(options.qp);
   QpSetWriter set(options.out, options.force, typed, scene_to_toml(scene, resolved.specimen));
-  Recorder recorder(options, model, set);
+  Recorder recorder(options, model, scene, set);
   Progress progress(model, scene, options.quiet);
   std::string failure;
-  Simulation sim = start(model, scene);
+  Simulation sim = start(model, scene, options.qp);
   while (failure.empty() && !finished(sim, scene)) {
     try {
-      const WarmStart warm = sim.warm;
-      const StepRecord record = take_step(model, scene, *solver, sim);
+      const WarmStart warm = sim.solver.warm;
+      const StepRecord record = take_step(model, scene, sim);
       recorder.take(record, warm);
       progress.show(record);
     } catch (const StepError& error) {

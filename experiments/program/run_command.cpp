@@ -43,16 +43,16 @@ struct Ending {
 };
 
 /// Steps until the scene is over.
-Ending take_steps(const Model& model, const Scene& scene, BoxQpSolver& solver, LogWriter& log,
+Ending take_steps(const Model& model, const Scene& scene, const std::string& qp, LogWriter& log,
                   Progress& progress) {
-  Simulation sim = start(model, scene);
+  Simulation sim = start(model, scene, qp);
   StepRecord record;
   while (!finished(sim, scene)) {
     if (interrupted != 0) {
       return {fmt::format("failed: interrupted at step {}", sim.step), exit_code::failed};
     }
     try {
-      take_step(model, scene, solver, sim, record);
+      take_step(model, scene, sim, record);
       log.write(record, progress.elapsed());
       progress.warn(record);
       progress.show(record);
@@ -60,7 +60,7 @@ Ending take_steps(const Model& model, const Scene& scene, BoxQpSolver& solver, L
       throw;  // the log itself cannot be written
     } catch (const StepError& error) {
       const bool knot =
-          error.cause() == StopCause::never_tied || error.cause() == StopCause::knot_lost;
+          error.outcome() == Outcome::never_tied || error.outcome() == Outcome::knot_lost;
       return {fmt::format("failed: {} at step {} (t = {:.4f} s, {})", error.what(), sim.step,
                           time_of(sim, scene), phase_name(record.controller.phase)),
               knot ? exit_code::wrong_knot : exit_code::failed};
@@ -81,7 +81,6 @@ int run(const RunOptions& options, const std::string& typed) {
   const Scene& scene = resolved.scene;
   const Model model = make_hagfish(resolved.specimen, scene);
   const std::string qp = options.qp.empty() ? preset.qp : options.qp;
-  const auto solver = make_box_qp_solver(qp);
   const fs::path out =
       options.out.empty() ? fs::path(options.scene).stem().string() + ".h5" : options.out;
   LogHeader header;
@@ -96,7 +95,7 @@ int run(const RunOptions& options, const std::string& typed) {
   std::signal(SIGINT, interrupt);
   std::signal(SIGTERM, interrupt);
   Progress progress(model, scene, options.quiet);
-  const Ending ending = take_steps(model, scene, *solver, log, progress);
+  const Ending ending = take_steps(model, scene, qp, log, progress);
   progress.end();
   log.finish(ending.status);
   if (ending.code != exit_code::done) {

@@ -50,37 +50,35 @@ double cpu_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 /// Whether the run came to its end in time. Throws StepError as take_step.
 bool run_in_core(const Model& model, const Scene& scene, const char* qp,
                  const std::function<bool()>& out_of_time, StressJudge& judge) {
-  const auto solver = make_box_qp_solver(qp);
-  Simulation sim = start(model, scene);
+  Simulation sim = start(model, scene, qp);
   StepRecord record;
   while (!finished(sim, scene)) {
     if (out_of_time()) {
       return false;
     }
-    const auto see = [&](const State& before, const State& after, const Observation& observation,
-                         const EnergyLedger& ledger) {
-      judge.see(before, after, observation, time_of(sim, scene),
+    const auto see = [&](const State& before, const Moment& after, const EnergyLedger& ledger) {
+      judge.see(before, after.state, after.observation, time_of(sim, scene),
                 {ledger.kinetic + ledger.elastic + ledger.gravity,
-                 ledger.work_tip + ledger.work_thigmotaxis});
+                 ledger.work_tip + ledger.work(RowKind::thigmotaxis)});
     };
     try {
-      take_step(model, scene, *solver, sim, record);
+      take_step(model, scene, sim, record);
     } catch (const StepError& error) {
       // A guard looked at where the step led: into the record, while the simulation stayed.
-      if (error.cause() == StopCause::penetration || error.cause() == StopCause::limits ||
-          error.cause() == StopCause::speed) {
-        see(sim.state, record.state, record.observation, sim.ledger);
+      if (error.outcome() == Outcome::penetration || error.outcome() == Outcome::limits ||
+          error.outcome() == Outcome::speed) {
+        see(sim.now.state, record.moment, sim.ledger);
       }
       throw;
     }
     judge.see_control(record);
-    see(record.state, sim.state, sim.observation, sim.ledger);
+    see(record.moment.state, sim.now, sim.ledger);
   }
   return true;
 }
 
-Verdict run_cell(const Model& model, const Scene& scene, const StressMethod& method,
-                 double cpu_limit, StressJudge& judge) {
+Status run_cell(const Model& model, const Scene& scene, const StressMethod& method,
+                double cpu_limit, StressJudge& judge) {
   const double begin = cpu_time();
   const auto out_of_time = [&] { return cpu_time() - begin > cpu_limit; };
   const bool core = method.integrator == core_rule;
@@ -92,13 +90,13 @@ Verdict run_cell(const Model& model, const Scene& scene, const StressMethod& met
                            : run_in_mujoco(model, scene, start_state(model, scene.start),
                                            method.integrator, out_of_time, judge);
     return done ? judge.ended()
-                : Verdict{Outcome::capped, fmt::format("not done in {:g} s of CPU", cpu_limit)};
+                : Status{Outcome::capped, fmt::format("not done in {:g} s of CPU", cpu_limit)};
   } catch (const StepError& error) {
-    return judge.stopped(error.cause(), error.what());
+    return judge.stopped(error);
   } catch (const std::domain_error& error) {  // the body is past having a knot type
-    return judge.stopped(StopCause::knot_lost, error.what());
+    return judge.stopped(StepError({Outcome::knot_lost, error.what()}));
   } catch (const std::overflow_error& error) {
-    return judge.stopped(StopCause::knot_lost, error.what());
+    return judge.stopped(StepError({Outcome::knot_lost, error.what()}));
   }
 }
 
@@ -129,7 +127,7 @@ StressResult stress(const Scene& scene, const Model& model, const std::string& m
   const State first = start_state(model, scene.start);
   StressJudge judge(model, scene, first, mechanical_energy(model, first, kinematics(model, first)));
   const double begin = cpu_time();
-  const Verdict verdict = run_cell(model, scene, method_called(method), cpu_limit, judge);
+  const Status verdict = run_cell(model, scene, method_called(method), cpu_limit, judge);
   return {verdict, judge.figures(), cpu_time() - begin};
 }
 

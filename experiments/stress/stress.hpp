@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/step/outcome.hpp"
 #include "experiments/stress/stress_judge.hpp"
 
 namespace hagfish {
@@ -17,7 +18,7 @@ std::vector<std::string> stress_overrides(const std::string& method, double step
 
 /// What became of a cell.
 struct StressResult {
-  Verdict verdict;
+  Status verdict;
   StressFigures figures;
   double cpu_time = 0;  ///< s
 };

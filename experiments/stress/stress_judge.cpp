@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -34,14 +33,6 @@ std::string unmet(const Criterion& criterion) {
 }
 
 }  // namespace
-
-const char* outcome_name(Outcome outcome) {
-  constexpr std::array<const char*, outcome_count> names = {
-      "ok",          "energy gain",   "non-finite",    "tunnelled", "penetration",
-      "limits",      "solver failed", "infeasible",    "capped",    "never tied",
-      "came undone", "speed",         "not applicable"};
-  return names[static_cast<std::size_t>(outcome)];
-}
 
 StressJudge::StressJudge(const Model& model, const Scene& scene, const State& start, double energy)
     : model_(model), scene_(scene), gain_(energy), phase_(scene.start.phase) {
@@ -116,14 +107,14 @@ void StressJudge::see_control(const StepRecord& record) {
   slide_met_ += thigmotaxis_rows_of(record.control, record.solution, scene_.time.step).met ? 1 : 0;
 }
 
-Verdict StressJudge::root_cause() const {
+Status StressJudge::root_cause() const {
   if (figures_.path_penetration > thinnest_) {
     return {Outcome::tunnelled,
             fmt::format("strands {:.3g} cm into each other, more than the radius {:.3g} cm",
                         figures_.path_penetration, thinnest_)};
   }
   if (!lost_.empty()) {
-    return {Outcome::came_undone, lost_};
+    return {Outcome::knot_lost, lost_};
   }
   if (const auto gain = energy_gain_criterion(scene_.expect, figures_.energy_gain); !gain.met()) {
     return {Outcome::energy_gain, unmet(gain)};
@@ -131,7 +122,7 @@ Verdict StressJudge::root_cause() const {
   return {};
 }
 
-Verdict StressJudge::thigmotaxis() const {
+Status StressJudge::thigmotaxis() const {
   const ExpectSettings& expect = scene_.expect;
   if (expect.slide_distance > 0 && scene_.start.phase == Phase::form && !tightened_) {
     return {Outcome::never_tied, "the knot was never ready to tighten"};
@@ -153,9 +144,9 @@ Verdict StressJudge::thigmotaxis() const {
   return {};
 }
 
-Verdict StressJudge::ended() const {
+Status StressJudge::ended() const {
   const ExpectSettings& expect = scene_.expect;
-  if (const Verdict root = root_cause(); root.outcome != Outcome::ok) {
+  if (const Status root = root_cause(); !root.ok()) {
     return root;
   }
   const double depth = std::max(figures_.penetration, figures_.path_penetration);
@@ -170,35 +161,14 @@ Verdict StressJudge::ended() const {
   return thigmotaxis();
 }
 
-Verdict StressJudge::stopped(StopCause cause, const std::string& message) const {
-  const bool symptom = cause == StopCause::penetration || cause == StopCause::limits ||
-                       cause == StopCause::speed || cause == StopCause::knot_lost;
-  if (const Verdict root = root_cause(); symptom && root.outcome != Outcome::ok) {
-    return {root.outcome, root.message + "; " + message};
+Status StressJudge::stopped(const StepError& error) const {
+  const bool symptom = error.outcome() == Outcome::penetration ||
+                       error.outcome() == Outcome::limits || error.outcome() == Outcome::speed ||
+                       error.outcome() == Outcome::knot_lost;
+  if (const Status root = root_cause(); symptom && !root.ok()) {
+    return {root.outcome, root.message + "; " + error.what()};
   }
-  switch (cause) {
-    case StopCause::non_finite:
-      return {Outcome::non_finite, message};
-    case StopCause::penetration:
-      return {Outcome::penetration, message};
-    case StopCause::limits:
-      return {Outcome::limits, message};
-    case StopCause::speed:
-      return {Outcome::speed, message};
-    case StopCause::energy_gain:
-      return {Outcome::energy_gain, message};
-    case StopCause::infeasible:
-      return {Outcome::infeasible, message};
-    case StopCause::solver_failed:
-      return {Outcome::solver_failed, message};
-    case StopCause::never_tied:
-      return {Outcome::never_tied, message};
-    case StopCause::knot_lost:
-      return {Outcome::came_undone, message};
-    case StopCause::capped:
-      return {Outcome::capped, message};
-  }
-  throw std::logic_error("no outcome for this cause");
+  return {error.outcome(), error.what()};
 }
 
 }  // namespace hagfish

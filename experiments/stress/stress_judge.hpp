@@ -1,7 +1,6 @@
 // What became of one cell of the failure map: its outcome by name and the figures behind it.
 #pragma once
 
-#include <cstdint>
 #include <string>
 
 #include "core/chain/start.hpp"
@@ -9,25 +8,6 @@
 #include "experiments/audit/expectations.hpp"
 
 namespace hagfish {
-
-enum class Outcome : std::uint8_t {
-  ok,
-  energy_gain,
-  non_finite,
-  tunnelled,  ///< strands passed through each other: deeper at or between steps than any radius
-  penetration,
-  limits,
-  solver_failed,
-  infeasible,
-  capped,  ///< not done in time, or Eq. 6 not met: its rows stayed at controller.cap
-  never_tied,
-  came_undone,  ///< the knot changed its type while it should have held, though nothing tunnelled
-  speed,
-  not_applicable
-};
-inline constexpr int outcome_count = 13;
-/// "ok", "energy gain", ...
-const char* outcome_name(Outcome outcome);
 
 /// Figures of a run up to now.
 struct StressFigures {
@@ -37,11 +17,6 @@ struct StressFigures {
   double path_penetration = 0;  ///< deepest of strands at and between steps, cm
   double limit_violation = 0;   ///< largest, rad
   std::string knot;             ///< type as last seen
-};
-
-struct Verdict {
-  Outcome outcome = Outcome::ok;
-  std::string message;  ///< what says so; empty where ok
 };
 
 /// Mechanical energy of a moment, erg.
@@ -65,20 +40,20 @@ class StressJudge {
 
   const StressFigures& figures() const { return figures_; }
 
-  /// The outcome of a run that came to its end. In this order: tunnelled, came undone, energy gain,
+  /// The outcome of a run that came to its end. In this order: tunnelled, knot lost, energy gain,
   /// penetration, limits, solver failed (KKT), never tied, capped (Eq. 6), ok.
-  Verdict ended() const;
+  Status ended() const;
   /// Of one that an error stopped: by its cause, but the first three above where they are so and
   /// the run was stopped by penetration, limits, speed or a lost knot, which follow from them.
-  Verdict stopped(StopCause cause, const std::string& message) const;
+  Status stopped(const StepError& error) const;
 
  private:
   void see_path(const State& before, const State& after, const Kinematics& kin);
   void see_knot(const Observation& observation, double time);
-  /// Tunnelled, came undone, energy gain, or ok.
-  Verdict root_cause() const;
+  /// Tunnelled, knot lost, energy gain, or ok.
+  Status root_cause() const;
   /// Whether the thigmotaxis did what the scene expects.
-  Verdict thigmotaxis() const;
+  Status thigmotaxis() const;
 
   const Model& model_;
   const Scene& scene_;
@@ -89,7 +64,7 @@ class StressJudge {
   Phase phase_;
   bool knotted_at_start_ = false;
   double knot_seen_ = 0;  ///< s
-  std::string lost_;      ///< what the knot became while it should have held
+  std::string lost_;      ///< what the knot became before its release
   bool tightened_ = false;
   double slide_from_ = 0, slide_to_ = 0;  ///< head end of the knot, cm of arc
   long slide_steps_ = 0, slide_met_ = 0;

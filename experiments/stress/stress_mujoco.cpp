@@ -23,17 +23,17 @@ Eigen::VectorXd applied_force(const Model& model, const State& state, const Kine
 
 void guard(const Observation& observation, const GuardSettings& limits) {
   if (!observation.kin.centre.allFinite()) {
-    throw StepError(StopCause::non_finite, "non-finite state");
+    throw StepError({Outcome::non_finite, "non-finite state"});
   }
   if (observation.penetration > limits.penetration) {
-    throw StepError(StopCause::penetration, "deeper than guard.penetration");
+    throw StepError({Outcome::penetration, "deeper than guard.penetration"});
   }
   if (observation.limit_violation > limits.limit_violation) {
-    throw StepError(StopCause::limits, "further than guard.limit_violation");
+    throw StepError({Outcome::limits, "further than guard.limit_violation"});
   }
   const double speed = observation.kin.centre_velocity.colwise().norm().maxCoeff();
   if (!(speed <= limits.speed)) {
-    throw StepError(StopCause::speed, fmt::format("{:.3g} cm/s, over guard.speed", speed));
+    throw StepError({Outcome::speed, fmt::format("{:.3g} cm/s, over guard.speed", speed)});
   }
 }
 

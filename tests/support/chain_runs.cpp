@@ -34,14 +34,17 @@ ChainRun::ChainRun(Model chain, Scene of)
     : model(std::move(chain)),
       scene(std::move(of)),
       state(rest_state(model)),
-      solver_(make_box_qp_solver(box_qp_solver_names().front())) {}
+      solver_("active-set") {}
 
 void ChainRun::step(const TipForce& tip) {
   Control control;
   control.clamp_head = scene.clamp_head;
   control.tip = tip;
   seen = observe(model, state, scene);
-  solve_step(model, state, seen, control, scene, *solver_, warm_, scratch_, last);
+  if (const Status status = solver_.solve({model, scene, state, seen, control}, last);
+      !status.ok()) {
+    throw StepError(status);
+  }
   state.qdot = last.qdot;
   state.q = advance(state.q, state.qdot, scene.time.step);
   time += scene.time.step;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 
 #include "core/step/step.hpp"
 
@@ -41,9 +40,7 @@ class ChainRun {
   Observation seen;   ///< at the start of the last step
 
  private:
-  std::unique_ptr<BoxQpSolver> solver_;
-  WarmStart warm_;
-  StepScratch scratch_;
+  StepSolver solver_;
 };
 
 /// Mean period (s) of `coordinate`, which swings about 0, over `periods` periods: steps the run

@@ -174,39 +174,6 @@ State knotted_state(Random& random, const Model& model, double height, double no
   return state;
 }
 
-Matrix6Xd body_jacobian(const Model& model, const Kinematics& kin, int body) {
-  Matrix6Xd jacobian = Matrix6Xd::Zero(6, model.nv());
-  const int ahead = model.bodies[body].first_dof + model.bodies[body].dofs;
-  jacobian.leftCols(ahead) = kin.axis.leftCols(ahead);
-  return jacobian;
-}
-
-Eigen::Matrix3Xd centre_jacobian(const Model& model, const Kinematics& kin, int body) {
-  const Matrix6Xd jacobian = body_jacobian(model, kin, body);
-  const Eigen::Vector3d offset = kin.centre_offset(body);
-  Eigen::Matrix3Xd velocity = jacobian.bottomRows<3>();
-  for (Eigen::Index k = 0; k < velocity.cols(); ++k) {
-    velocity.col(k) += jacobian.col(k).head<3>().cross(offset);
-  }
-  return velocity;
-}
-
-Eigen::MatrixXd dense_rows(const Model& model, const Kinematics& kin,
-                           const std::vector<Row>& rows) {
-  Eigen::MatrixXd c = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(rows.size()), model.nv());
-  for (Eigen::Index i = 0; i < c.rows(); ++i) {
-    const Row& row = rows[i];
-    if (row.dof >= 0) {
-      c(i, row.dof) = row.sign;
-      if (row.beside != 0) c(i, row.dof + 1) = row.beside;
-    }
-    visit_forces(row, [&](int body, const Eigen::Vector3d& force) {
-      c.row(i) += force.transpose() * centre_jacobian(model, kin, body);
-    });
-  }
-  return c;
-}
-
 StepOperator random_operator(Random& random, const Model& model, const Kinematics& kin) {
   StepOperator op;
   for (int b = 0; b < model.body_count(); ++b) {

@@ -59,15 +59,6 @@ Eigen::Vector3d trefoil_point(double share, double height);
 /// `noise` rad. At a height of 2.45 without noise three crossings touch, one of them 0.18 cm deep.
 State knotted_state(Random& random, const Model& model, double height = 2.45, double noise = 0);
 
-/// RedMax's J of one body, 6 x nv: the axes of the velocities ahead of it, zero behind.
-Matrix6Xd body_jacobian(const Model& model, const Kinematics& kin, int body);
-
-/// Jacobian of a body's centre, 3 x nv.
-Eigen::Matrix3Xd centre_jacobian(const Model& model, const Kinematics& kin, int body);
-
-/// Rows as a dense matrix, m x nv, from centre_jacobian.
-Eigen::MatrixXd dense_rows(const Model& model, const Kinematics& kin, const std::vector<Row>& rows);
-
 /// Î: symmetric positive definite blocks about O with δ >= 0: random inertias at the centres.
 StepOperator random_operator(Random& random, const Model& model, const Kinematics& kin);
 

@@ -41,12 +41,13 @@ ResolvedScene stored_scene(const std::vector<std::string>& overrides) {
   return read_scene(HAGFISH_DATA_DIR "/table1.toml", overrides);
 }
 
-Simulation resume(const Model& model, const Scene& scene, const StoredState& stored) {
+Simulation resume(const Model& model, const Scene& scene, const StoredState& stored,
+                  const std::string& back_end) {
   ControllerState controller;
   controller.phase = stored.phase;
   controller.phase_start = static_cast<double>(stored.step) * stored_step;
   controller.loose = controller.phase_start;
-  return start_from(model, scene, stored.state, controller,
+  return start_from(model, scene, back_end, stored.state, controller,
                     std::llround(controller.phase_start / scene.time.step));
 }
 

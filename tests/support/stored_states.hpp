@@ -30,6 +30,7 @@ std::vector<StoredState> stored_states();
 ResolvedScene stored_scene(const std::vector<std::string>& overrides = {});
 
 /// A simulation that goes on from `stored`, its controller in the right phase.
-Simulation resume(const Model& model, const Scene& scene, const StoredState& stored);
+Simulation resume(const Model& model, const Scene& scene, const StoredState& stored,
+                  const std::string& back_end = "active-set");
 
 }  // namespace hagfish

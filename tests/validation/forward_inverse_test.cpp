@@ -19,19 +19,18 @@ class ForwardInverse : public testing::TestWithParam<StoredState> {
     const ResolvedScene resolved = stored_scene({"model.bending_damping=17"});
     const Scene& scene = resolved.scene;
     const Model model = make_hagfish(resolved.specimen, scene);
-    const auto solver = make_box_qp_solver("ipopt");
     MujocoModel mirror(mjcf_files(model, scene.contact.least_arc, scene.time.step));
     use_core_rule(mirror);
-    Simulation sim = resume(model, scene, GetParam());
+    Simulation sim = resume(model, scene, GetParam(), "ipopt");
     double largest = 0;
     for (int k = 0; k < steps; ++k) {
-      StepRecord record = take_step(model, scene, *solver, sim);
+      StepRecord record = take_step(model, scene, sim);
       const Eigen::VectorXd& next = record.solution.qdot;
       spoil(record.solution.force);
       const Eigen::VectorXd force =
-          record.solution.force.total() + drag_force(model, record.observation.kin, next);
+          record.solution.force.total() + drag_force(model, record.moment.observation.kin, next);
       const Eigen::VectorXd driven =
-          driven_velocity(model, record.state, force, record.solution.tip, mirror);
+          driven_velocity(model, record.moment.state, force, record.solution.tip, mirror);
       largest = std::max(
           largest, (driven - next).lpNorm<Eigen::Infinity>() / next.lpNorm<Eigen::Infinity>());
     }
@@ -48,11 +47,11 @@ TEST_P(ForwardInverse, MakesTheVelocitiesOfTheRun) {
 TEST_P(ForwardInverse, NeedsEveryForce) {
   const StoredState& stored = GetParam();
   if (stored.phase == Phase::tighten || stored.phase == Phase::slide) {
-    EXPECT_GT(largest_error([](ConstraintForces& f) { f.thigmotaxis *= 1.001; }), 1e-7);
-    EXPECT_GT(largest_error([](ConstraintForces& f) { f.contact *= 1.001; }), 1e-7);
+    EXPECT_GT(largest_error([](ConstraintForces& f) { f[RowKind::thigmotaxis] *= 1.001; }), 1e-7);
+    EXPECT_GT(largest_error([](ConstraintForces& f) { f[RowKind::contact] *= 1.001; }), 1e-7);
   }
   if (stored.phase < Phase::release) {  // the head is clamped
-    EXPECT_GT(largest_error([](ConstraintForces& f) { f.head *= 1.001; }), 1e-7);
+    EXPECT_GT(largest_error([](ConstraintForces& f) { f[RowKind::head] *= 1.001; }), 1e-7);
   }
 }
 

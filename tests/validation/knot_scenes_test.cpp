@@ -28,12 +28,11 @@ struct Seen {
 Seen run(const ResolvedScene& resolved) {
   const Scene& scene = resolved.scene;
   const Model model = make_hagfish(resolved.specimen, scene);
-  const auto solver = make_box_qp_solver("active-set");
-  Simulation sim = start(model, scene);
+  Simulation sim = start(model, scene, "active-set");
   StepRecord record;
   Seen seen;
   while (!finished(sim, scene)) {
-    take_step(model, scene, *solver, sim, record);
+    take_step(model, scene, sim, record);
     seen.worst.take(record);
     const ControllerState& now = record.controller;
     const auto span = knot_span(now);
@@ -45,13 +44,13 @@ Seen run(const ResolvedScene& resolved) {
     if (holds_knot(now.phase)) {
       seen.held = seen.held && knot_name(now.knot.type) == scene.expect.knot;
       if (record.step % 50 == 0) {
-        const double w = writhe(sim.observation.kin.centre);
+        const double w = writhe(sim.now.observation.kin.centre);
         seen.least_writhe = std::min(seen.least_writhe, w);
         seen.most_writhe = std::max(seen.most_writhe, w);
       }
     }
   }
-  seen.last_type = knot_type(sim.observation.kin.centre, scene.knot).type;
+  seen.last_type = knot_type(sim.now.observation.kin.centre, scene.knot).type;
   return seen;
 }
 

@@ -44,7 +44,7 @@ class Comparison {
     motion(r, image);
     solution(r.solution, image.solution);
     for (auto list : {&ContactSet::contacts, &ContactSet::others}) {
-      contacts(r.observation.contact.*list, image.observation.contact.*list);
+      contacts(r.moment.observation.contact.*list, image.moment.observation.contact.*list);
     }
     controller(r.controller, image.controller);
     ledger(r.ledger, image.ledger);
@@ -60,12 +60,13 @@ class Comparison {
 
   void motion(const StepRecord& r, const StepRecord& image) {
     same("time", r.time, image.time);
-    same("q", reflected_q(model_, r.state.q), image.state.q);
-    same("qdot", r.state.qdot.cwiseProduct(parity_).eval(), image.state.qdot);
-    same("positions", (flip.asDiagonal() * r.observation.kin.centre).eval(),
-         image.observation.kin.centre);
-    same("penetration", r.observation.penetration, image.observation.penetration);
-    same("limit violation", r.observation.limit_violation, image.observation.limit_violation);
+    same("q", reflected_q(model_, r.moment.state.q), image.moment.state.q);
+    same("qdot", r.moment.state.qdot.cwiseProduct(parity_).eval(), image.moment.state.qdot);
+    same("positions", (flip.asDiagonal() * r.moment.observation.kin.centre).eval(),
+         image.moment.observation.kin.centre);
+    same("penetration", r.moment.observation.penetration, image.moment.observation.penetration);
+    same("limit violation", r.moment.observation.limit_violation,
+         image.moment.observation.limit_violation);
     same("head drift", r.head_drift, image.head_drift);
     same("crossing", r.crossing, image.crossing);
   }
@@ -76,10 +77,8 @@ class Comparison {
     same("iterations", s.iterations, image.iterations);
     same("rounds", s.rounds, image.rounds);
     same("new velocity", s.qdot.cwiseProduct(parity_).eval(), image.qdot);
-    for (auto force :
-         {&ConstraintForces::head, &ConstraintForces::limit, &ConstraintForces::contact,
-          &ConstraintForces::wall, &ConstraintForces::thigmotaxis}) {
-      same("force", (s.force.*force).cwiseProduct(parity_).eval(), image.force.*force);
+    for (const RowKind kind : row_kinds) {
+      same("force", s.force[kind].cwiseProduct(parity_).eval(), image.force[kind]);
     }
     same("tip force", s.tip.cwiseProduct(flip).eval(), image.tip);
     same("stationarity", s.stationarity, image.stationarity);
@@ -124,13 +123,12 @@ class Comparison {
 
   void ledger(const EnergyLedger& l, const EnergyLedger& image) {
     for (auto part : {&EnergyLedger::kinetic, &EnergyLedger::elastic, &EnergyLedger::gravity,
-                      &EnergyLedger::work_tip, &EnergyLedger::work_thigmotaxis,
-                      &EnergyLedger::work_contact, &EnergyLedger::work_limit,
-                      &EnergyLedger::work_head, &EnergyLedger::work_wall, &EnergyLedger::dissipated,
+                      &EnergyLedger::work_tip, &EnergyLedger::dissipated,
                       &EnergyLedger::integrator_inertia, &EnergyLedger::integrator_potential,
                       &EnergyLedger::integrator_coriolis, &EnergyLedger::integrator_held}) {
       same("energy", l.*part, image.*part);
     }
+    same("work", l.work_of_kind, image.work_of_kind);
   }
 
   const Model& model_;
@@ -148,21 +146,19 @@ ControllerState expect_reflection(const char* name, std::vector<std::string> set
   const ResolvedScene turned = read_scene(file, set);
   const Model model = make_hagfish(plain.specimen, plain.scene);
   const Model model_of_image = make_hagfish(turned.specimen, turned.scene);  // gravity differs
-  const auto solver = make_box_qp_solver("active-set");
-  const auto solver_of_image = make_box_qp_solver("active-set");
-  Simulation sim = start(model, plain.scene);
-  Simulation image = start(model_of_image, turned.scene);
+  Simulation sim = start(model, plain.scene, "active-set");
+  Simulation image = start(model_of_image, turned.scene, "active-set");
   StepRecord record, record_of_image;
   Comparison comparison(model);
   double most_writhe = 0;
   while (!finished(sim, plain.scene) && time_of(sim, plain.scene) < end) {
-    take_step(model, plain.scene, *solver, sim, record);
-    take_step(model_of_image, turned.scene, *solver_of_image, image, record_of_image);
+    take_step(model, plain.scene, sim, record);
+    take_step(model_of_image, turned.scene, image, record_of_image);
     comparison.compare(record, record_of_image);
     double w = 0, w_of_image = 0;
     if (record.step % 100 == 0) {
-      w = writhe(record.observation.kin.centre);
-      w_of_image = writhe(record_of_image.observation.kin.centre);
+      w = writhe(record.moment.observation.kin.centre);
+      w_of_image = writhe(record_of_image.moment.observation.kin.centre);
       most_writhe = std::max(most_writhe, std::abs(w));
     }
     if (!comparison.first().empty() || w != -w_of_image) {

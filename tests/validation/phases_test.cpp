@@ -16,18 +16,17 @@ class Phases : public testing::TestWithParam<StoredState> {
   ResolvedScene resolved = stored_scene();
   const Scene& scene = resolved.scene;
   Model model = make_hagfish(resolved.specimen, scene);
-  std::unique_ptr<BoxQpSolver> solver = make_box_qp_solver("ipopt");
 };
 
 TEST_P(Phases, KeepTheirCriteriaAtEveryStep) {
   const StoredState& stored = GetParam();
-  Simulation sim = resume(model, scene, stored);
+  Simulation sim = resume(model, scene, stored, "ipopt");
   const bool knotted = stored.phase == Phase::tighten || stored.phase == Phase::slide;
   Worst worst;
   double balance = 0;
   int met = 0;
   for (int k = 0; k < steps; ++k) {
-    const StepRecord record = take_step(model, scene, *solver, sim);
+    const StepRecord record = take_step(model, scene, sim);
     worst.take(record);
     balance = std::max(balance, record.solution.stationarity);
     const ThigmotaxisRows rows =
@@ -55,11 +54,11 @@ TEST_P(Phases, KeepTheirCriteriaAtEveryStep) {
 
 TEST_P(Phases, GoWhereTheRunWent) {
   const StoredState& stored = GetParam();
-  Simulation sim = resume(model, scene, stored);
+  Simulation sim = resume(model, scene, stored, "ipopt");
   for (int k = 0; k < steps; ++k) {
-    take_step(model, scene, *solver, sim);
+    take_step(model, scene, sim);
   }
-  const double off = (sim.observation.kin.centre - stored.later).colwise().norm().maxCoeff();
+  const double off = (sim.now.observation.kin.centre - stored.later).colwise().norm().maxCoeff();
   // The controller forgets which contacts it used and for how long, so for up to the hysteresis
   // time (0.1 s) another pair may slide at 2 cm/s: half that way. Without contact rows: rounding,
   // grown in 50 steps.
@@ -71,17 +70,16 @@ INSTANTIATE_TEST_SUITE_P(Table1, Phases, testing::ValuesIn(stored_states()), nam
 TEST(Sliding, ForceIsZeroBehindTheKnot) {
   const ResolvedScene resolved = stored_scene();
   const Model model = make_hagfish(resolved.specimen, resolved.scene);
-  const auto solver = make_box_qp_solver("ipopt");
   for (const StoredState& stored : stored_states()) {
     if (stored.phase != Phase::slide) {
       continue;
     }
-    Simulation sim = resume(model, resolved.scene, stored);
-    const StepRecord record = take_step(model, resolved.scene, *solver, sim);
+    Simulation sim = resume(model, resolved.scene, stored, "ipopt");
+    const StepRecord record = take_step(model, resolved.scene, sim);
     // The spline's four weights reach two bodies past the segment of the contact.
     const int last = record.controller.last.contact->segment_b + 2;
     const Body& behind = model.bodies[last + 1];
-    const Eigen::VectorXd& force = record.solution.force.thigmotaxis;
+    const Eigen::VectorXd& force = record.solution.force[RowKind::thigmotaxis];
     EXPECT_EQ(force.tail(force.size() - behind.first_dof).lpNorm<Eigen::Infinity>(), 0);
     EXPECT_GT(force.head(behind.first_dof).lpNorm<Eigen::Infinity>(), 0);
   }
@@ -91,12 +89,11 @@ TEST(Determinism, TheSameStepsTwiceToTheLastBit) {
   const ResolvedScene resolved = stored_scene();
   const Model model = make_hagfish(resolved.specimen, resolved.scene);
   const auto run = [&] {
-    const auto solver = make_box_qp_solver("ipopt");
-    Simulation sim = resume(model, resolved.scene, stored_states().at(3));
+    Simulation sim = resume(model, resolved.scene, stored_states().at(3), "ipopt");
     for (int k = 0; k < 25; ++k) {
-      take_step(model, resolved.scene, *solver, sim);
+      take_step(model, resolved.scene, sim);
     }
-    return sim.state;
+    return sim.now.state;
   };
   const State once = run();
   const State twice = run();

@@ -1,4 +1,4 @@
-#include "solvers/primal_qp.hpp"
+#include "tests/support/primal_reference.hpp"
 
 #include <gtest/gtest.h>
 

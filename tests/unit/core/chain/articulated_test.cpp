@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/chain/dynamics.hpp"
+#include "core/step/paper_step.hpp"
 #include "tests/support/random_chain.hpp"
 
 namespace hagfish {
@@ -137,8 +138,8 @@ TEST(Articulated, HalfSolvesOfManyColumnsMultiplyToTheWhole) {
 }
 
 /// Every third velocity held, and the first six where the head is.
-std::vector<HeldVelocity> some_held(Random& random, const Model& model, bool head) {
-  std::vector<HeldVelocity> held;
+std::vector<PrescribedVelocity> some_held(Random& random, const Model& model, bool head) {
+  std::vector<PrescribedVelocity> held;
   for (int k = head ? 0 : root_dofs; k < model.nv(); ++k) {
     if (k < root_dofs || k % 3 == 0) {
       held.push_back({k, random_entries(random, 1)[0]});
@@ -148,8 +149,8 @@ std::vector<HeldVelocity> some_held(Random& random, const Model& model, bool hea
 }
 
 /// What is left of H where velocities are held: their rows and columns out, 1 on the diagonal.
-Eigen::MatrixXd without(Eigen::MatrixXd h, const std::vector<HeldVelocity>& held) {
-  for (const HeldVelocity& velocity : held) {
+Eigen::MatrixXd without(Eigen::MatrixXd h, const std::vector<PrescribedVelocity>& held) {
+  for (const PrescribedVelocity& velocity : held) {
     h.row(velocity.dof).setZero();
     h.col(velocity.dof).setZero();
     h(velocity.dof, velocity.dof) = 1;
@@ -162,7 +163,7 @@ TEST(Articulated, HoldsVelocitiesAndTellsTheForces) {
   for (const int bodies : {1, 2, 3, 12}) {
     for (const bool head : {true, false}) {
       const Case c = random_case(random, bodies);
-      const std::vector<HeldVelocity> held = some_held(random, c.model, head);
+      const std::vector<PrescribedVelocity> held = some_held(random, c.model, head);
       ArticulatedFactor factor;
       factor.factorise(c.model, c.kin, c.op, held);
       const Eigen::VectorXd joint = random_entries(random, c.model.nv());
@@ -173,9 +174,9 @@ TEST(Articulated, HoldsVelocitiesAndTellsTheForces) {
       const Eigen::MatrixXd h = definition(c.model, c.kin, c.op);
       const Eigen::VectorXd right = generalised_force(c.model, c.kin, wrench) + joint;
       Eigen::VectorXd given = Eigen::VectorXd::Zero(c.model.nv());
-      for (const HeldVelocity& velocity : held) given[velocity.dof] = velocity.value;
+      for (const PrescribedVelocity& velocity : held) given[velocity.dof] = velocity.value;
       Eigen::VectorXd rest = right - h * given;
-      for (const HeldVelocity& velocity : held) rest[velocity.dof] = 0;
+      for (const PrescribedVelocity& velocity : held) rest[velocity.dof] = 0;
       const Eigen::VectorXd expected = given + without(h, held).llt().solve(rest);
       EXPECT_LT(relative_error(v, expected), 1e-10);  // the condition of H, as above
       EXPECT_LT(relative_error(twist, body_twists(c.model, c.kin, v)), rounding);
@@ -193,7 +194,7 @@ TEST(Articulated, HoldsVelocitiesAndTellsTheForces) {
 TEST(Articulated, HeldVelocitiesDoNotAnswerInAHalfSolve) {
   Random random(38);
   const Case c = hagfish_case(random, 100);
-  const std::vector<HeldVelocity> held = some_held(random, c.model, true);
+  const std::vector<PrescribedVelocity> held = some_held(random, c.model, true);
   ArticulatedFactor factor;
   factor.factorise(c.model, c.kin, c.op, held);
   const int m = 21;
@@ -209,7 +210,7 @@ TEST(Articulated, HeldVelocitiesDoNotAnswerInAHalfSolve) {
     columns.load_joint(7 * (j % 3), j, 1);  // the first and the last are held
     right(7 * (j % 3), j) += 1;
   }
-  for (const HeldVelocity& velocity : held) right.row(velocity.dof).setZero();
+  for (const PrescribedVelocity& velocity : held) right.row(velocity.dof).setZero();
   factor.half_solve(c.model, c.kin, columns);
   Eigen::MatrixXd product;
   columns.gram(product);

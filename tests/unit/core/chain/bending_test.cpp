@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "core/step/paper_step.hpp"
 #include "tests/support/random_chain.hpp"
 #include "tests/support/row_lists.hpp"
 

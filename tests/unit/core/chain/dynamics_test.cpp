@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/step/paper_step.hpp"
 #include "tests/support/random_chain.hpp"
 
 namespace hagfish {

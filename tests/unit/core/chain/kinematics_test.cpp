@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/step/paper_step.hpp"
 #include "tests/support/random_chain.hpp"
 
 namespace hagfish {

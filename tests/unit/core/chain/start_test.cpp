@@ -118,8 +118,9 @@ TEST(Start, TheSimulationBeginsThere) {
   ResolvedScene resolved = stored_scene({"clamp_head=false"});
   resolved.scene.start.spin = {1, 2, 3};
   resolved.scene.start.phase = Phase::free;
-  const Simulation sim = start(make_hagfish(resolved.specimen, resolved.scene), resolved.scene);
-  EXPECT_EQ(sim.state.qdot.segment<3>(3), Eigen::Vector3d(1, 2, 3));
+  const Simulation sim =
+      start(make_hagfish(resolved.specimen, resolved.scene), resolved.scene, "active-set");
+  EXPECT_EQ(sim.now.state.qdot.segment<3>(3), Eigen::Vector3d(1, 2, 3));
   EXPECT_EQ(sim.controller.phase, Phase::free);
 }
 

@@ -34,14 +34,13 @@ Missed missed(double step, int steps) {
   const Model model = make_hagfish(stored_scene().specimen, scene);
   const std::vector<StoredState> states = stored_states();
   Simulation sim = resume(model, scene, *std::ranges::find(states, "slide", &StoredState::name));
-  const std::unique_ptr<BoxQpSolver> solver = make_box_qp_solver("active-set");
   StepRecord record;
   Missed missed;
   for (int k = 0; k < steps; ++k) {
-    take_step(model, scene, *solver, sim, record);
-    for (const Contact& c : observe(model, sim.state, scene).contact.contacts) {
+    take_step(model, scene, sim, record);
+    for (const Contact& c : observe(model, sim.now.state, scene).contact.contacts) {
       ++missed.minima;
-      if (!holds(sim.observation.contact.contacts, c)) {
+      if (!holds(sim.now.observation.contact.contacts, c)) {
         ++(c.gap < 0 ? missed.touching : missed.clear);
       }
     }

@@ -37,11 +37,10 @@ class LogTest : public testing::Test {
   /// Steps and logs; returns the records' states.
   std::vector<State> write(LogWriter& log, int steps) {
     std::vector<State> states;
-    const auto solver = make_box_qp_solver("ipopt");
-    Simulation sim = start(model, scene);
+    Simulation sim = start(model, scene, "ipopt");
     for (int k = 0; k < steps; ++k) {
-      const StepRecord record = take_step(model, scene, *solver, sim);
-      states.push_back(record.state);
+      const StepRecord record = take_step(model, scene, sim);
+      states.push_back(record.moment.state);
       log.write(record, 0.5);
     }
     return states;

@@ -18,12 +18,11 @@ class ThigmotaxisRowsTest : public testing::Test {
                                          "controller.acceleration=1e9"});
   const Scene& scene = resolved.scene;
   Model model = make_hagfish(resolved.specimen, scene);
-  std::unique_ptr<BoxQpSolver> solver = make_box_qp_solver("active-set");
   Simulation sim = resume(model, scene, stored_states().at(3));
 };
 
 TEST_F(ThigmotaxisRowsTest, ColumnsAreThoseOfTheirContact) {
-  const StepRecord record = take_step(model, scene, *solver, sim);
+  const StepRecord record = take_step(model, scene, sim);
   const ThigmotaxisRows rows =
       thigmotaxis_rows_of(record.control, record.solution, scene.time.step);
   ASSERT_EQ(record.control.thigmotaxis.size(), 2u);
@@ -57,14 +56,13 @@ TEST_F(ThigmotaxisRowsTest, ColumnsAreThoseOfTheirContact) {
 }
 
 TEST_F(ThigmotaxisRowsTest, MoreContactsThanALogHoldsAreRefusedByName) {
-  StepRecord record = take_step(model, scene, *solver, sim);
+  StepRecord record = take_step(model, scene, sim);
   Control& control = record.control;
   control.thigmotaxis.push_back(control.thigmotaxis.front());
   StepSolution step;
-  WarmStart warm;
-  StepScratch scratch;
   // The step itself takes any number.
-  solve_step(model, record.state, record.observation, control, scene, *solver, warm, scratch, step);
+  const Moment& now = record.moment;
+  ASSERT_TRUE(sim.solver.solve({model, scene, now.state, now.observation, control}, step).ok());
   try {
     thigmotaxis_rows_of(control, step, scene.time.step);
     FAIL() << "took three contacts";
@@ -75,17 +73,17 @@ TEST_F(ThigmotaxisRowsTest, MoreContactsThanALogHoldsAreRefusedByName) {
 
 TEST_F(ThigmotaxisRowsTest, MeansAreThoseOfTheSteps) {
   RunningMeans means(model.nv());
-  EXPECT_TRUE(means.close().force.contact.array().isNaN().all()) << "no step, no mean";
+  EXPECT_TRUE(means.close().force[RowKind::contact].array().isNaN().all()) << "no step, no mean";
   constexpr int steps = 7;
   Eigen::VectorXd contact = Eigen::VectorXd::Zero(model.nv());
   Eigen::VectorXd net = contact;
   std::array<double, 4> lambda{}, speed{};
   for (int i = 0; i < steps; ++i) {
-    const StepRecord record = take_step(model, scene, *solver, sim);
+    const StepRecord record = take_step(model, scene, sim);
     const ThigmotaxisRows rows =
         thigmotaxis_rows_of(record.control, record.solution, scene.time.step);
     means.take(record, rows);
-    contact += record.solution.force.contact / steps;
+    contact += record.solution.force[RowKind::contact] / steps;
     net += record.solution.force.total() / steps;
     for (int k = 0; k < 4; ++k) {
       lambda[k] += rows.lambda[k] / steps;
@@ -94,7 +92,7 @@ TEST_F(ThigmotaxisRowsTest, MeansAreThoseOfTheSteps) {
   }
   const FrameMeans& mean = means.close();
   const double rounding = 1e-9 * net.lpNorm<Eigen::Infinity>();
-  EXPECT_LE((mean.force.contact - contact).lpNorm<Eigen::Infinity>(), rounding);
+  EXPECT_LE((mean.force[RowKind::contact] - contact).lpNorm<Eigen::Infinity>(), rounding);
   EXPECT_LE((mean.net_force - net).lpNorm<Eigen::Infinity>(), rounding);
   for (int k = 0; k < 4; ++k) {
     EXPECT_NEAR(mean.lambda[k], lambda[k], 1e-9 * (1 + lambda[k]));

@@ -61,7 +61,8 @@ class Controller : public testing::Test {
   Control step(std::vector<Contact> contacts) {
     observation.contact.contacts = std::move(contacts);
     Control control;
-    decide(model, scene, observation, now, state, control);
+    const Status status = decide(model, scene, observation, now, state, control);
+    if (!status.ok()) throw StepError(status);
     now += scene.time.step;
     return control;
   }

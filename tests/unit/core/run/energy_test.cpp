@@ -19,7 +19,7 @@ struct BookedRun {
 
   BookedRun(Model of, Scene in, State from)
       : model(std::move(of)), scene(std::move(in)), state(std::move(from)) {
-    ledger = open_ledger(model, state, kinematics(model, state));
+    ledger = open_ledger(model, {state, observe(model, state, scene)});
   }
   /// `spoil` changes the solved step before it is taken and booked. It moves for `share` of its
   /// length.
@@ -27,14 +27,14 @@ struct BookedRun {
   void step(const Control& control, Spoil spoil, double share = 1) {
     const Observation now = observe(model, state, scene);
     StepSolution solution;
-    solve_step(model, state, now, control, scene, *solver, warm, scratch, solution);
+    ASSERT_TRUE(solver.solve({model, scene, state, now, control}, solution).ok());
     spoil(solution);
     solution.twist = body_twists(model, now.kin, solution.qdot);
     solution.centre_velocity = centre_velocities(now.kin, solution.twist);
     const double h = scene.time.step;
-    State next{advance(state.q, solution.qdot, share * h), solution.qdot};
-    book_step(model, now.kin, solution, next, kinematics(model, next), h, share * h, ledger);
-    state = std::move(next);
+    const State next{advance(state.q, solution.qdot, share * h), solution.qdot};
+    book_step(model, now.kin, solution, {next, observe(model, next, scene)}, h, share * h, ledger);
+    state = next;
   }
   void step(const Control& control, double share = 1) {
     step(
@@ -45,9 +45,7 @@ struct BookedRun {
            std::abs(ledger.kinetic) + std::abs(ledger.gravity) + std::abs(ledger.elastic);
   }
 
-  std::unique_ptr<BoxQpSolver> solver = make_box_qp_solver("ipopt");
-  WarmStart warm;
-  StepScratch scratch;
+  StepSolver solver{"ipopt"};
 };
 
 /// Everything on: gravity, drag, stiffness, damping, limits, a head plate and a pulled tail.
@@ -74,7 +72,7 @@ TEST(Energy, LedgerClosesWithEveryKindOfForce) {
     // Rounding of 100 booked steps, each exact to some 1e-14 of what passes.
     EXPECT_LE(std::abs(run.ledger.imbalance()), 1e-11 * run.throughput()) << "h = " << h;
     EXPECT_NE(run.ledger.work_tip, 0);
-    EXPECT_NE(run.ledger.work_limit, 0);
+    EXPECT_NE(run.ledger.work(RowKind::limit), 0);
     EXPECT_GT(run.ledger.dissipated, 0);
   }
 }

@@ -51,14 +51,13 @@ class Allocation : public testing::Test {
   /// Requests of one step.
   int step() {
     const int before = requests;
-    take_step(model, scene, *solver, sim, record);
+    take_step(model, scene, sim, record);
     return requests - before;
   }
 
   Scene scene = stored_scene().scene;
   Model model = make_hagfish(stored_scene().specimen, scene);
-  std::unique_ptr<BoxQpSolver> solver = make_box_qp_solver("active-set");
-  Simulation sim;
+  Simulation sim = hagfish::start(model, scene, "active-set");
   StepRecord record;
 };
 
@@ -76,8 +75,8 @@ TEST_F(Allocation, CountersSeeEigenAndTheStandardLibrary) {
 class AllocationOfRows : public Allocation, public testing::WithParamInterface<BendingLimit> {};
 
 TEST_P(AllocationOfRows, NoneInAStepWithAsManyRowsAsTheLastOne) {
-  // Arrays by row keep their storage as long as the numbers of rows and of held ones stay; lists
-  // keep what they have grown to, so that the same steps, taken again, need no more.
+  // Arrays by row keep their storage as long as the numbers of rows and of prescribed ones stay;
+  // lists keep what they have grown to, so that the same steps, taken again, need no more.
   start("slide", GetParam());
   for (int k = 0; k < 300; ++k) step();
   const Simulation middle = sim;
@@ -87,7 +86,7 @@ TEST_P(AllocationOfRows, NoneInAStepWithAsManyRowsAsTheLastOne) {
   for (int k = 0; k < 100; ++k) {
     const auto sizes = [&] {
       const StepSolution& last = record.solution;
-      return std::tuple(last.rows.size(), last.held, last.rounds);
+      return std::tuple(last.rows.size(), last.prescribed, last.rounds);
     };
     const auto before = sizes();
     const int asked = step();
@@ -108,7 +107,7 @@ TEST_F(Allocation, NoneInAStepWithoutConstraints) {
   state.qdot[7] = 0.01;
   ControllerState controller;
   controller.phase = Phase::free;
-  sim = start_from(model, scene, state, controller, 0);
+  sim = start_from(model, scene, "active-set", state, controller, 0);
   for (int k = 0; k < 200; ++k) {
     const int asked = step();
     ASSERT_EQ(record.solution.kind, SolveKind::linear);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/step/paper_step.hpp"
 #include "tests/support/random_chain.hpp"
 #include "tests/support/row_lists.hpp"
 #include "tests/support/stored_states.hpp"
@@ -49,12 +50,12 @@ double largest_at_start(const std::string& step, const std::string& acceleration
   StoredState tight = *std::ranges::find(states, "tighten", &StoredState::name);
   tight.phase = Phase::slide;
   Simulation sim = resume(model, scene, tight);
-  const auto solver = make_box_qp_solver("active-set");
   const double end = time_of(sim, scene) + 0.02;
   double largest = 0;
   while (time_of(sim, scene) < end) {
-    const StepRecord record = take_step(model, scene, *solver, sim);
-    largest = std::max(largest, record.solution.force.thigmotaxis.lpNorm<Eigen::Infinity>());
+    const StepRecord record = take_step(model, scene, sim);
+    largest =
+        std::max(largest, record.solution.force[RowKind::thigmotaxis].lpNorm<Eigen::Infinity>());
   }
   return largest;
 }

@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <set>
 
 #include "core/chain/start.hpp"
 #include "core/run/simulation.hpp"
 #include "core/step/look_ahead.hpp"
+#include "core/step/paper_step.hpp"
 #include "tests/support/random_chain.hpp"
 #include "tests/support/row_lists.hpp"
 
@@ -98,7 +100,7 @@ TEST(Cones, AreWhatObserveAndTheWatchMeasure) {
   scene.guard.penetration = INFINITY;
   scene.guard.limit_violation = 0.5 * over;
   scene.guard.action = GuardAction::warn;
-  guard_state(model, state, now, 0, scene, watch, warnings);
+  EXPECT_TRUE(guard_state(model, {state, now}, 0, scene, watch, warnings).ok());
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_EQ(warnings[0].rfind("j41_bend is ", 0), 0U) << warnings[0];
 }
@@ -120,12 +122,12 @@ struct Swung {
           {0.1 * k, {-500, 3000 * std::cos(turn), 3000 * std::sin(turn)}, {0, 0, 0}});
     }
     model = make_hagfish(table1_specimen(), scene);
-    sim = start(model, scene);
+    sim.emplace(start(model, scene, "active-set"));
   }
   /// One step, whose rows differ by their ids; counts cones that push and rows of one cone.
-  void step(BoxQpSolver& solver) {
-    take_step(model, scene, solver, sim, record);
-    worst = std::max(worst, sim.observation.limit_violation);
+  void step() {
+    take_step(model, scene, *sim, record);
+    worst = std::max(worst, sim->now.observation.limit_violation);
     std::set<std::int64_t> ids;
     for (const Row& row : record.solution.rows) {
       EXPECT_TRUE(ids.insert(row.id).second) << row_name(model, row);
@@ -136,16 +138,15 @@ struct Swung {
         rows += row.kind == RowKind::limit && row.dof == cone.dof ? 1 : 0;
       }
       most_rows = std::max(most_rows, rows);
-      pushing += record.solution.force.limit.segment<2>(cone.dof).isZero(0) ? 0 : 1;
+      pushing += record.solution.force[RowKind::limit].segment<2>(cone.dof).isZero(0) ? 0 : 1;
     }
   }
   void run(double time) {
-    const auto solver = make_box_qp_solver("active-set");
-    while (time_of(sim, scene) < time - 0.5 * scene.time.step) step(*solver);
+    while (time_of(*sim, scene) < time - 0.5 * scene.time.step) step();
   }
   Scene scene;
   Model model;
-  Simulation sim;
+  std::optional<Simulation> sim;
   StepRecord record;
   double worst = 0;
   int pushing = 0, most_rows = 0;
@@ -171,13 +172,13 @@ INSTANTIATE_TEST_SUITE_P(Steps, ConesAtStep, testing::Values(0.001, 0.002, 0.005
 TEST(Cones, GiveOneStepByEitherSolver) {
   Swung swung(0.005);
   swung.run(0.5);
-  const auto one = make_box_qp_solver("active-set");
-  const auto other = make_box_qp_solver("ipopt");
   int cut = 0;
   for (int k = 0; k < 20; ++k) {
     Swung again = swung;
-    swung.step(*one);
-    again.step(*other);
+    again.sim->solver = StepSolver("ipopt");
+    again.sim->solver.warm = swung.sim->solver.warm;
+    swung.step();
+    again.step();
     cut += swung.most_rows > 1 ? 1 : 0;
     EXPECT_LT(relative_error(again.record.solution.qdot, swung.record.solution.qdot), 1e-7) << k;
     EXPECT_LE(swung.record.solution.kkt.worst(), swung.scene.expect.kkt);
@@ -190,13 +191,12 @@ TEST(Cones, StepsMeetTheDenseEquation4) {
   // Rows that came in where the path left a cone included.
   Swung swung(0.005);
   swung.run(0.5);
-  const auto solver = make_box_qp_solver("active-set");
   int cut = 0;
   for (int k = 0; k < 20; ++k) {
-    swung.step(*solver);
+    swung.step();
     cut += swung.most_rows > 1 ? 1 : 0;
     const StepSolution& step = swung.record.solution;
-    const Kinematics& kin = swung.record.observation.kin;
+    const Kinematics& kin = swung.record.moment.observation.kin;
     const Eigen::MatrixXd c = dense_rows(swung.model, kin, step.rows);
     const Eigen::VectorXd g =
         generalised_force(swung.model, kin, step.system.wrench) + step.system.joint;
@@ -231,12 +231,12 @@ TEST(Cones, PassThroughTheMiddleWithinAStep) {
     State state = rest_state(model);
     state.q[7] = offset;
     state.qdot.tail<2>() << 40 * limit / scene.time.step, 20 * limit / scene.time.step;
-    Simulation sim = start_from(model, scene, state, {}, 0);
+    Simulation sim = start_from(model, scene, "active-set", state, {}, 0);
     StepRecord record;
-    take_step(model, scene, *make_box_qp_solver("active-set"), sim, record);
-    EXPECT_NEAR(total_bend(sim.state.q[7], sim.state.q[8]).angle, limit, bend_tolerance);
-    EXPECT_GT(sim.state.q[7], 0);
-    EXPECT_GT(sim.state.q[8], 0);
+    take_step(model, scene, sim, record);
+    EXPECT_NEAR(total_bend(sim.now.state.q[7], sim.now.state.q[8]).angle, limit, bend_tolerance);
+    EXPECT_GT(sim.now.state.q[7], 0);
+    EXPECT_GT(sim.now.state.q[8], 0);
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 
 #include "core/run/simulation.hpp"
@@ -19,11 +20,12 @@ double deepest_on_way(const Model& model, const Scene& scene, const StepRecord& 
   // How long it went on, from the hinges: a step may end early.
   const Eigen::Index hinges = model.nv() - root_dofs;
   const Eigen::VectorXd rate = record.solution.qdot.tail(hinges);
-  const double time = rate.dot((end.q - record.state.q).tail(hinges)) / rate.squaredNorm();
+  const double time = rate.dot((end.q - record.moment.state.q).tail(hinges)) / rate.squaredNorm();
   double deepest = 0;
   for (int i = 1; i <= count; ++i) {
     const double t = time * i / count;
-    const State there{advance(record.state.q, record.solution.qdot, t), record.solution.qdot};
+    const State there{advance(record.moment.state.q, record.solution.qdot, t),
+                      record.solution.qdot};
     deepest = std::max(deepest, observe(model, there, scene).penetration);
   }
   return deepest;
@@ -49,16 +51,15 @@ struct LongSteps {
   double deepest(int steps) {
     double worst = 0;
     for (int k = 0; k < steps; ++k) {
-      take_step(model, scene, *solver, sim, record);
+      take_step(model, scene, sim, record);
       corrected += record.solution.rounds > 1 ? 1 : 0;
-      worst = std::max(worst, sim.observation.penetration);
+      worst = std::max(worst, sim.now.observation.penetration);
     }
     return worst;
   }
   Scene scene;
   Model model;
-  std::unique_ptr<BoxQpSolver> solver = make_box_qp_solver("active-set");
-  Simulation sim;
+  Simulation sim = start(model, scene, "active-set");
   StepRecord record;
   int corrected = 0;
 };
@@ -117,26 +118,25 @@ class ClosingArms : public testing::TestWithParam<double> {
         ++bends;
       }
     }
-    sim = start_from(model, scene, state, {}, 0);
+    sim.emplace(start_from(model, scene, "active-set", state, {}, 0));
   }
   static constexpr double degree = 0.017453292519943295;
   Scene scene;
   Model model;
-  Simulation sim;
+  std::optional<Simulation> sim;
 };
 
 TEST_P(ClosingArms, NeverPassThroughEachOther) {
-  const auto solver = make_box_qp_solver("active-set");
   StepRecord record;
   double deepest = 0;
   int held = 0;
   bool shortened = false;
   for (int k = 0; k < 200; ++k) {
-    take_step(model, scene, *solver, sim, record);
-    deepest = std::max(deepest, deepest_on_way(model, scene, record, sim.state, 100));
-    held += record.solution.force.contact.isZero() ? 0 : 1;
+    take_step(model, scene, *sim, record);
+    deepest = std::max(deepest, deepest_on_way(model, scene, record, sim->now.state, 100));
+    held += record.solution.force[RowKind::contact].isZero() ? 0 : 1;
     // Closes to rounding, steps that end early included.
-    EXPECT_LT(std::abs(sim.ledger.imbalance()), 1e-9 * sim.ledger.initial) << "step " << k;
+    EXPECT_LT(std::abs(sim->ledger.imbalance()), 1e-9 * sim->ledger.initial) << "step " << k;
     for (const std::string& warning : record.warnings) {
       shortened = shortened || warning.find("strands meet too fast") == 0;
     }

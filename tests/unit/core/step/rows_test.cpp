@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/step/paper_step.hpp"
 #include "tests/support/random_chain.hpp"
 #include "tests/support/row_lists.hpp"
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "core/step/paper_step.hpp"
 #include "tests/support/random_chain.hpp"
 #include "tests/support/row_lists.hpp"
 
@@ -24,14 +25,14 @@ struct Stage {
   Model model = table1_hagfish();
   State state = rest_state(model);
   Control control;
-  WarmStart warm;
+  StepSolver solver{"ipopt"};
 
+  /// Throws StepError where the step cannot be solved.
   StepSolution solve() {
-    const std::unique_ptr<BoxQpSolver> solver = make_box_qp_solver("ipopt");
-    StepScratch scratch;
     StepSolution step;
-    solve_step(model, state, observe(model, state, scene), control, scene, *solver, warm, scratch,
-               step);
+    const Status status =
+        solver.solve({model, scene, state, observe(model, state, scene), control}, step);
+    if (!status.ok()) throw StepError(status);
     return step;
   }
 
@@ -156,17 +157,17 @@ TEST(Step, IsLinearWhereNoRowCanBind) {
   const Eigen::VectorXd g = generalised_force(s.model, kin, step.system.wrench) + step.system.joint;
   // The residual of a solve is rounding of its terms.
   EXPECT_LT(relative_error(dense(s.model, kin, step.system.op) * step.qdot, g), 1e-10);
-  EXPECT_EQ(s.warm.size(), 0U);
+  EXPECT_EQ(s.solver.warm.size(), 0U);
 }
 
-TEST(Step, IsBilateralWhereOnlyTheHeadIsHeld) {
+TEST(Step, IsBilateralWhereOnlyTheHeadIsClamped) {
   Stage s;
   s.state = bent_state(s.model, 0.02, 0.05);
   s.control.tip.value << 1, 1, 0;
   const StepSolution step = s.solve();
   EXPECT_EQ(step.kind, SolveKind::kkt);
   ASSERT_EQ(step.rows.size(), 6U);
-  EXPECT_EQ(step.held, 6);
+  EXPECT_EQ(step.prescribed, 6);
   EXPECT_EQ(step.iterations, 0);
   EXPECT_EQ(step.qp_time, 0);
   expect_optimal(s, step);
@@ -219,7 +220,7 @@ TEST(Step, IsOptimalAgainstTheHeadPlate) {
   s.control.tip.value << -500, 20, 0;
   const StepSolution step = s.solve();
   EXPECT_EQ(step.kind, SolveKind::qp);
-  EXPECT_GT(step.force.wall.lpNorm<Eigen::Infinity>(), 0);
+  EXPECT_GT(step.force[RowKind::wall].lpNorm<Eigen::Infinity>(), 0);
   expect_optimal(s, step);
 }
 
@@ -228,13 +229,8 @@ TEST(Step, ForcesByKindAddUpToTheRows) {
   const StepSolution step = s.solve();
   const Kinematics kin = kinematics(s.model, s.state);
   const double h = s.scene.time.step;
-  const std::vector<std::pair<RowKind, Eigen::VectorXd>> kinds = {
-      {RowKind::head, step.force.head},
-      {RowKind::limit, step.force.limit},
-      {RowKind::contact, step.force.contact},
-      {RowKind::wall, step.force.wall},
-      {RowKind::thigmotaxis, step.force.thigmotaxis}};
-  for (const auto& [kind, force] : kinds) {
+  for (const RowKind kind : row_kinds) {
+    const Eigen::VectorXd& force = step.force[kind];
     Eigen::VectorXd lambda = step.lambda / h;  // Eq. 8
     for (std::size_t i = 0; i < step.rows.size(); ++i) {
       if (step.rows[i].kind != kind) lambda[static_cast<Eigen::Index>(i)] = 0;
@@ -257,9 +253,9 @@ TEST(Step, NoForceBehindTheLastContact) {
   }
   ASSERT_LT(last, 99);
   const Eigen::Index behind = s.model.nv() - s.model.bodies[last + 1].first_dof;
-  EXPECT_GT(step.force.thigmotaxis.lpNorm<Eigen::Infinity>(), 0);
-  EXPECT_EQ(step.force.contact.tail(behind), Eigen::VectorXd::Zero(behind));  // exactly
-  EXPECT_EQ(step.force.thigmotaxis.tail(behind), Eigen::VectorXd::Zero(behind));
+  EXPECT_GT(step.force[RowKind::thigmotaxis].lpNorm<Eigen::Infinity>(), 0);
+  EXPECT_EQ(step.force[RowKind::contact].tail(behind), Eigen::VectorXd::Zero(behind));  // exactly
+  EXPECT_EQ(step.force[RowKind::thigmotaxis].tail(behind), Eigen::VectorXd::Zero(behind));
 }
 
 TEST(Step, StationarityStaysSmallWhereTheClampHardlyPulls) {
@@ -270,7 +266,7 @@ TEST(Step, StationarityStaysSmallWhereTheClampHardlyPulls) {
   EXPECT_LE(s.solve().stationarity, 1e-9);
 }
 
-TEST(Step, ClampHoldsTheHead) {
+TEST(Step, ClampKeepsTheHeadInPlace) {
   Stage s = knotted(98, 1);
   s.control.thigmotaxis.clear();
   for (int k = 0; k < 25; ++k) {
@@ -294,13 +290,13 @@ TEST(Step, ClampTakesADriftBack) {
   EXPECT_NEAR(head_drift(s.model, kinematics(s.model, s.state)) / start, 0.5, 1e-5);
 }
 
-TEST(Step, WarmStartHoldsTheRowsThatPush) {
+TEST(Step, WarmStartKeepsTheRowsWithAForce) {
   Stage s = knotted(99, 1);
   const StepSolution cold = s.solve();
   ASSERT_GT(cold.active, 0);
-  EXPECT_EQ(s.warm.size(), static_cast<std::size_t>(cold.active));
+  EXPECT_EQ(s.solver.warm.size(), static_cast<std::size_t>(cold.active));
   for (std::size_t i = 0; i < cold.rows.size(); ++i) {
-    const WarmStart::Kept* kept = s.warm.find(cold.rows[i].id);
+    const WarmStart::Kept* kept = s.solver.warm.find(cold.rows[i].id);
     if (kept != nullptr) {
       EXPECT_EQ(kept->lambda, cold.lambda[static_cast<Eigen::Index>(i)]);
     }
@@ -308,10 +304,10 @@ TEST(Step, WarmStartHoldsTheRowsThatPush) {
   // The answer does not depend on the guess: solver tolerance.
   const StepSolution warm = s.solve();
   EXPECT_LT(relative_error(warm.qdot, cold.qdot), 1e-7);
-  s.warm.add(12345, 1e9);  // a row that is no more
-  s.warm.end();
+  s.solver.warm.add(12345, 1e9);  // a row that is no more
+  s.solver.warm.end();
   EXPECT_LT(relative_error(s.solve().qdot, cold.qdot), 1e-7);
-  EXPECT_EQ(s.warm.find(12345), nullptr);
+  EXPECT_EQ(s.solver.warm.find(12345), nullptr);
 }
 
 /// The velocity with every row in from the start, by dense algebra.
@@ -379,45 +375,45 @@ WarmStart steady(const std::vector<Row>& rows) {
   return warm;
 }
 
-TEST(Step, HoldsLimitsThatPushSteadily) {
+TEST(Step, PrescribesLimitsThatPushSteadily) {
   Stage s = knotted(106, 1);
-  int held = 0;
+  int limits = 0;
   for (int k = 0; k < 20; ++k) {
     SCOPED_TRACE(k);
     const StepSolution step = s.solve();
     expect_optimal(s, step);
     EXPECT_LT(relative_error(step.qdot, all_rows_in(s)), 1e-7);  // solver tolerance
     for (std::size_t i = 0; i < step.rows.size(); ++i) {
-      EXPECT_EQ(step.rows[i].held, static_cast<Eigen::Index>(i) < step.held);
-      if (step.rows[i].held) {
-        EXPECT_EQ(step.excess[static_cast<Eigen::Index>(i)], 0) << "held exactly";
-        held += step.rows[i].kind == RowKind::limit ? 1 : 0;
+      EXPECT_EQ(step.rows[i].prescribed, static_cast<Eigen::Index>(i) < step.prescribed);
+      if (step.rows[i].prescribed) {
+        EXPECT_EQ(step.excess[static_cast<Eigen::Index>(i)], 0) << "met exactly";
+        limits += step.rows[i].kind == RowKind::limit ? 1 : 0;
       }
     }
     s.state.qdot = step.qdot;
     s.state.q = advance(s.state.q, step.qdot, s.scene.time.step);
   }
-  EXPECT_GT(held, 20);
+  EXPECT_GT(limits, 20);
 }
 
-TEST(Step, LetsGoOfHeldLimitsThatWouldHaveToPull) {
+TEST(Step, ReleasesPrescribedLimitsThatWouldHaveToPull) {
   Stage s = knotted(107, 20);
   s.scene.time.step = 0.02;  // limits are in reach
   const StepSolution cold = s.solve();
   const auto resting =
       std::ranges::count_if(cold.rows, [](const Row& row) { return row.kind == RowKind::limit; });
   ASSERT_GT(resting, 3);
-  s.warm = steady(cold.rows);
+  s.solver.warm = steady(cold.rows);
   const StepSolution step = s.solve();
   EXPECT_GT(step.rounds, 1);
-  EXPECT_LT(step.held, 6 + resting);
-  EXPECT_GT(step.held, 6);
+  EXPECT_LT(step.prescribed, 6 + resting);
+  EXPECT_GT(step.prescribed, 6);
   expect_optimal(s, step);
   EXPECT_LT(relative_error(step.qdot, cold.qdot), 1e-7);  // solver tolerance
 }
 
-TEST(Step, LetsGoOfHeldLimitsThatStandAgainstOtherRows) {
-  // With both hinges held the plate could not push the last body out.
+TEST(Step, ReleasesPrescribedLimitsThatContradictOtherRows) {
+  // With both hinges prescribed the plate could not push the last body out.
   Stage s = two_hinges(3);
   s.model.hinges[0].upper = 2.5;
   s.model.hinges[1].upper = 0.5;
@@ -426,11 +422,11 @@ TEST(Step, LetsGoOfHeldLimitsThatStandAgainstOtherRows) {
   s.scene.wall.present = true;
   s.scene.wall.neck = 2;
   const StepSolution cold = s.solve();
-  ASSERT_GT(cold.force.wall.norm(), 0);
-  s.warm = steady(s.rows());
+  ASSERT_GT(cold.force[RowKind::wall].norm(), 0);
+  s.solver.warm = steady(s.rows());
   const StepSolution step = s.solve();
   EXPECT_GT(step.rounds, 1);
-  EXPECT_EQ(step.held, 0);
+  EXPECT_EQ(step.prescribed, 0);
   expect_optimal(s, step);
   EXPECT_LT(relative_error(step.qdot, cold.qdot), 1e-7);  // solver tolerance
 }
@@ -455,21 +451,15 @@ TEST(Step, NamesRowsThatContradictEachOther) {
   for (const std::string& name : box_qp_solver_names()) {
     Stage s;
     s.scene.wall.neck = 0;
+    s.solver = StepSolver(name);
     const Observation now = observe(s.model, s.state, s.scene);
-    StepScratch scratch;
     StepSolution step;
-    try {
-      solve_step(s.model, s.state, now, s.control, s.scene, *make_box_qp_solver(name), s.warm,
-                 scratch, step);
-      ADD_FAILURE() << name;
-    } catch (const StepError& error) {
-      const std::string message = error.what();
-      EXPECT_EQ(error.cause(), StopCause::infeasible) << message;
-      EXPECT_EQ(message.find("rows contradict each other: head clamp, velocity 0; head plate at "
-                             "body "),
-                0u)
-          << message;
-    }
+    const Status status = s.solver.solve({s.model, s.scene, s.state, now, s.control}, step);
+    EXPECT_EQ(status.outcome, Outcome::infeasible) << status.message;
+    EXPECT_EQ(status.message.find("rows contradict each other: head clamp, velocity 0; head plate "
+                                  "at body "),
+              0u)
+        << status.message;
   }
 }
 

@@ -127,12 +127,11 @@ class AuditCorruption : public testing::Test {
     header.scene = scene_to_toml(scene, resolved.specimen);
     header.mjcf = mjcf_files(model, scene.contact.least_arc, scene.time.step);
     LogWriter log(file, true, header, model, scene);
-    const auto solver = make_box_qp_solver("active-set");
-    Simulation sim = start(model, scene);
+    Simulation sim = start(model, scene, "active-set");
     StepRecord record;
     double wall_time = 0;
     while (!finished(sim, scene)) {
-      take_step(model, scene, *solver, sim, record);
+      take_step(model, scene, sim, record);
       log.write(record, wall_time += 1e-4);
     }
     log.finish("complete");

@@ -34,15 +34,14 @@ class AuditTest : public testing::Test {
     header.scene = scene_to_toml(scene, resolved.specimen);
     header.mjcf = mjcf_files(model, scene.contact.least_arc, scene.time.step);
     LogWriter log(file, true, header, model, scene);
-    const auto solver = make_box_qp_solver("ipopt");
-    Simulation sim = start(model, scene);
+    Simulation sim = start(model, scene, "ipopt");
     if (from) {
       StoredState stored = stored_states().at(*from);
       stored.state = within_cones(model, stored.state);
-      sim = resume(model, scene, stored);
+      sim = resume(model, scene, stored, "ipopt");
     }
     for (int k = 0; k < 30; ++k) {
-      log.write(take_step(model, scene, *solver, sim), 0);
+      log.write(take_step(model, scene, sim), 0);
     }
     log.finish("complete");
   }

@@ -7,7 +7,7 @@
 
 #include "core/input/input_error.hpp"
 #include "core/log/hdf5_error.hpp"
-#include "core/step/step_error.hpp"
+#include "core/step/outcome.hpp"
 
 namespace hagfish {
 namespace {
@@ -20,7 +20,7 @@ TEST(Failure, OutOfMemoryIsSaidInWords) {
 TEST(Failure, AMessageForTheReaderIsAllThatIsSaid) {
   EXPECT_EQ(reason(InputError("a.toml: why")), "a.toml: why");
   EXPECT_EQ(reason(FileError("a.h5: why")), "a.h5: why");
-  EXPECT_EQ(reason(StepError(StopCause::speed, "body 3 is fast")), "body 3 is fast");
+  EXPECT_EQ(reason(StepError({Outcome::speed, "body 3 is fast"})), "body 3 is fast");
   EXPECT_EQ(reason(std::domain_error("knot: degenerate")), "knot: degenerate");
 }
 

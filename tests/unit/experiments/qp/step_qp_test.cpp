@@ -5,6 +5,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "core/step/paper_step.hpp"
 #include "tests/support/random_chain.hpp"
 #include "tests/support/stored_states.hpp"
 
@@ -17,25 +18,24 @@ TEST_P(StepQp, BothFormsHaveTheStepsOwnSolution) {
   // Long steps, with more rows in reach.
   const ResolvedScene resolved = stored_scene({"time.step=0.005"});
   const Model model = make_hagfish(resolved.specimen, resolved.scene);
-  const auto solver = make_box_qp_solver("active-set");
   Simulation sim = resume(model, resolved.scene, GetParam());
-  for (int k = 0; k < 2; ++k) {  // limits are held once two steps have seen them
-    take_step(model, resolved.scene, *solver, sim);
+  for (int k = 0; k < 2; ++k) {  // limits are prescribed once two steps have seen them
+    take_step(model, resolved.scene, sim);
   }
-  const WarmStart warm = sim.warm;
-  const StepRecord record = take_step(model, resolved.scene, *solver, sim);
+  const WarmStart warm = sim.solver.warm;
+  const StepRecord record = take_step(model, resolved.scene, sim);
   const StepSolution& step = record.solution;
   const std::vector<Row>& rows = step.rows;
   ASSERT_TRUE(has_qp(step));
-  EXPECT_GE(step.held, record.control.clamp_head ? 6 : 1);
+  EXPECT_GE(step.prescribed, record.control.clamp_head ? 6 : 1);
 
-  const BoxQp box = whole_dual(model, record.observation.kin, step.system, rows);
+  const BoxQp box = whole_dual(model, record.moment.observation.kin, step.system, rows);
   ASSERT_EQ(box.b.size(), step.lambda.size());
-  // To rounding of λ, of which a step finds those held by another way: seen 1e-12.
+  // To rounding of λ, of which a step finds those of prescribed rows in another way: seen 1e-12.
   EXPECT_LE(kkt_residuals(box, step.lambda).worst(), 1e-10);
-  // What the step says of the rows that it does not hold is as large as what the whole problem has.
+  // The residual of the rows not prescribed is as large as that of the whole problem.
   EXPECT_LE(step.kkt.worst(), 3 * kkt_residuals(box, step.lambda, step.excess).worst() + 1e-15);
-  const PrimalQp primal = to_primal(model, record);
+  const PrimalQp primal = to_primal(model, resolved.scene, record);
   EXPECT_EQ(primal.e.size(), record.control.clamp_head ? 6 : 0);
   const BoxQp dual = dual_of(primal);
   // Bilateral rows come first, so that the order is the same. A condition of H of 1.4e6 and as much
@@ -43,7 +43,7 @@ TEST_P(StepQp, BothFormsHaveTheStepsOwnSolution) {
   EXPECT_LE(relative_error(dual.A, box.A), 1e-10);
   EXPECT_LE(relative_error(dual.b, box.b), 1e-10);
   EXPECT_EQ(dual.lower, box.lower);
-  const Eigen::MatrixXd C = dense_rows(model, record.observation.kin, rows);
+  const Eigen::MatrixXd C = dense_rows(model, record.moment.observation.kin, rows);
   EXPECT_LE(relative_error(primal.C, C.bottomRows(primal.d.size())), 1e-13);
 
   const Eigen::VectorXd start = kept_multipliers(rows, warm);

@@ -56,26 +56,20 @@ TEST_F(StressJudgeTest, PenetrationComesBeforeLimits) {
 }
 
 TEST_F(StressJudgeTest, ACauseIsItsOwnOutcome) {
-  for (const auto& [cause, outcome] : {std::pair{StopCause::non_finite, Outcome::non_finite},
-                                       {StopCause::penetration, Outcome::penetration},
-                                       {StopCause::limits, Outcome::limits},
-                                       {StopCause::speed, Outcome::speed},
-                                       {StopCause::energy_gain, Outcome::energy_gain},
-                                       {StopCause::infeasible, Outcome::infeasible},
-                                       {StopCause::solver_failed, Outcome::solver_failed},
-                                       {StopCause::never_tied, Outcome::never_tied},
-                                       {StopCause::knot_lost, Outcome::came_undone}}) {
-    const Verdict verdict = judge.stopped(cause, "why");
-    EXPECT_EQ(verdict.outcome, outcome) << stop_cause_name(cause);
-    EXPECT_EQ(verdict.message, "why");
+  for (const Outcome cause : {Outcome::non_finite, Outcome::penetration, Outcome::limits,
+                              Outcome::speed, Outcome::energy_gain, Outcome::infeasible,
+                              Outcome::solver_failed, Outcome::never_tied, Outcome::knot_lost}) {
+    const Status status = judge.stopped(StepError({cause, "why"}));
+    EXPECT_EQ(status.outcome, cause) << outcome_name(cause);
+    EXPECT_EQ(status.message, "why");
   }
 }
 
 TEST_F(StressJudgeTest, AStopBySpeedAfterEnergyGainIsEnergyGain) {
   show(0, 0, {1e6, 0});
-  EXPECT_EQ(judge.stopped(StopCause::speed, "fast").outcome, Outcome::energy_gain);
-  EXPECT_EQ(judge.stopped(StopCause::knot_lost, "gone").outcome, Outcome::energy_gain);
-  EXPECT_EQ(judge.stopped(StopCause::infeasible, "rows").outcome, Outcome::infeasible);
+  EXPECT_EQ(judge.stopped(StepError({Outcome::speed, "fast"})).outcome, Outcome::energy_gain);
+  EXPECT_EQ(judge.stopped(StepError({Outcome::knot_lost, "gone"})).outcome, Outcome::energy_gain);
+  EXPECT_EQ(judge.stopped(StepError({Outcome::infeasible, "rows"})).outcome, Outcome::infeasible);
 }
 
 TEST_F(StressJudgeTest, StrandsThatPassWithinAStepTunnel) {
@@ -107,7 +101,7 @@ TEST_F(StressJudgeTest, AKnotThatChangesItsTypeComesUndone) {
       EXPECT_EQ(watch.figures().knot, "3_1");
       watch.see(state, state, observe(model, state, tied.scene), 1, {100, 0});
       EXPECT_EQ(watch.figures().knot, "0_1");
-      EXPECT_EQ(watch.ended().outcome, Outcome::came_undone);
+      EXPECT_EQ(watch.ended().outcome, Outcome::knot_lost);
       EXPECT_EQ(watch.ended().message, "3_1 became 0_1 at 1 s");
     }
   }

@@ -1,0 +1,53 @@
+#include "core/contact/observation.hpp"
+
+#include <algorithm>
+
+#include "core/chain/bending.hpp"
+#include "core/contact/wall.hpp"
+
+namespace hagfish {
+namespace {
+
+/// Pairs of segments that are no minimum of the gap are listed where they could close it in a step
+/// at this speed, cm/s: next to a minimum, strands close slower than there.
+constexpr double closing_speed = 1;
+
+}  // namespace
+
+void observe(const Model& model, const State& state, const Scene& scene, ContactSearch& search,
+             Observation& observation) {
+  Observation& o = observation;
+  update_positions(model, state.q, o.kin);
+  update_velocities(model, state.qdot, o.kin);
+  update_spline(model, o.kin.centre, o.segments);
+  find_contacts(o.segments, scene.contact, closing_speed * scene.time.step, search, o.contact);
+  o.penetration = std::max(0.0, -o.contact.least_gap);
+  visit_wall_gaps(model, o.kin, scene.wall,
+                  [&](int, double gap) { o.penetration = std::max(o.penetration, -gap); });
+  o.limit_violation = 0;
+  for (int k = root_dofs; k < model.nv(); ++k) {
+    const Hinge& hinge = model.hinges[k - root_dofs];
+    o.limit_violation =
+        std::max({o.limit_violation, hinge.lower - state.q[k + 1], state.q[k + 1] - hinge.upper});
+  }
+  for (const BendingCone& cone : model.cones) {
+    o.limit_violation = std::max(o.limit_violation, past_cone(cone, state.q));
+  }
+}
+
+Observation observe(const Model& model, const State& state, const Scene& scene) {
+  ContactSearch search;
+  Observation observation;
+  observe(model, state, scene, search, observation);
+  return observation;
+}
+
+double head_drift(const Model& model, const Kinematics& kin) {
+  const Eigen::Vector3d origin = kin.origin.col(0);
+  const Body& head = model.bodies[0];
+  const Eigen::Matrix3d turn = kin.rotation[0] - Eigen::Matrix3d::Identity();
+  return std::max({origin.norm(), (origin + head.length * turn.col(0)).norm(),
+                   (origin + head.radius * turn.col(1)).norm()});
+}
+
+}  // namespace hagfish

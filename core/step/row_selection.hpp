@@ -1,0 +1,17 @@
+// Which rows a step's problem contains: those near binding at first, violated ones later.
+#pragma once
+
+#include <vector>
+
+#include "core/step/step.hpp"
+
+namespace hagfish {
+
+/// The rows of a step that bind or may do so, as far as the last velocity tells, into `rows`:
+/// head clamp, thigmotaxis, contacts, limits, head plate.
+void gather_rows(const StepInput& in, std::vector<Row>& rows);
+
+/// The unilateral rows that the velocity of `step` violates, into `rows`.
+void gather_violated_rows(const StepInput& in, const StepSolution& step, std::vector<Row>& rows);
+
+}  // namespace hagfish

@@ -1,0 +1,33 @@
+#include "core/step/step_failure.hpp"
+
+#include <fmt/format.h>
+
+namespace hagfish {
+
+Status describe_failure(const Model& model, const BoxQp& qp, const std::vector<Row>& rows,
+                        const BoxQpSolution& solution) {
+  std::vector<Eigen::Index> contradicting = solution.contradicting;
+  if (contradicting.empty()) {
+    const auto exact = make_box_qp_solver("active-set");
+    contradicting = exact->solve(qp, Eigen::VectorXd::Zero(qp.b.size())).contradicting;
+  }
+  if (!contradicting.empty()) {
+    std::string names;
+    for (const Eigen::Index i : contradicting) {
+      names += (names.empty() ? "" : "; ") + row_name(model, rows[i]);
+    }
+    return {Outcome::infeasible,
+            fmt::format("rows contradict each other: {}; a start without overlap, a finite "
+                        "controller.cap or a smaller time.step would help",
+                        names)};
+  }
+  Eigen::Index worst = 0;
+  (qp.b - qp.A * solution.x).cwiseQuotient(row_scale(qp.A)).maxCoeff(&worst);
+  return {Outcome::solver_failed,
+          fmt::format("solver failed: {} on {} rows, furthest from being met: {}{}; another --qp "
+                      "or a smaller time.step would help",
+                      status_name(solution.status), qp.b.size(), row_name(model, rows[worst]),
+                      solution.message.empty() ? "" : fmt::format(" ({})", solution.message))};
+}
+
+}  // namespace hagfish
