@@ -129,7 +129,8 @@ Finding judged_over(const Criterion& criterion, const std::string& scope) {
 
 Finding all_of(const std::string& name, std::int64_t count, std::int64_t of,
                const std::string& unit, const std::string& text) {
-  return {name, of > 0 && count == of, text, std::to_string(count), std::to_string(of), unit};
+  const auto number = [of](std::int64_t n) { return of > 0 ? std::to_string(n) : ""; };
+  return {name, of > 0 && count == of, text, number(count), number(of), unit};
 }
 
 std::vector<Finding> audit(const std::string& file) {

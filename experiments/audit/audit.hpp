@@ -26,7 +26,7 @@ Finding judged(const Criterion& criterion, const std::string& text);
 /// The same, described as "VALUE UNIT, SCOPE (at most BOUND)".
 Finding judged_over(const Criterion& criterion, const std::string& scope = "");
 
-/// So many of so many: all must be.
+/// So many of so many: all must be, and there must be some.
 Finding all_of(const std::string& name, std::int64_t count, std::int64_t of,
                const std::string& unit, const std::string& text);
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/step/outcome.hpp"
 #include "experiments/stress/stress_judge.hpp"
 
 namespace hagfish {

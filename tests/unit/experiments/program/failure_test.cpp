@@ -7,7 +7,7 @@
 
 #include "core/input/input_error.hpp"
 #include "core/log/hdf5_error.hpp"
-#include "core/step/step_error.hpp"
+#include "core/step/outcome.hpp"
 
 namespace hagfish {
 namespace {
