@@ -17,7 +17,7 @@ struct Bend {
 /// cos θ = cos y cos z, to rounding at any θ.
 Bend total_bend(double y, double z);
 
-/// Angles y, z of the bend by `angle` (rad, below pi/2) that goes the way of `y`, `z` (not
+/// Angles y, z of the bend by `angle` (rad, below pi/2) in the direction of `y`, `z` (not
 /// straight): these are scaled down together until neither is past `angle`, then brought to it in
 /// their plane.
 Eigen::Vector2d bend_to(double y, double z, double angle);

@@ -28,13 +28,13 @@ CentreOperator drag_at_centre(const Model& model, const Kinematics& kin, int bod
   const Eigen::Vector3d along = kin.rotation[body].col(0);
   const Eigen::Matrix3d forward = along * along.transpose();
   const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - forward;
-  // A rod that turns about its centre meets normal drag alone, at x times the rate: ∫ x² dx.
+  // A rod that turns about its centre moves across itself at x times the rate: ∫ x² dx.
   const double turning = model.drag.normal * length * length * length / 12;
   return {turning * across,
           length * model.drag.normal * across + length * model.drag.tangential * forward};
 }
 
-/// What inertia asks of one body at q̈ = 0, about its centre, from its `angular` inertia there.
+/// Inertial wrench of one body at q̈ = 0, about its centre, from its `angular` inertia there.
 Vector6d bias_at_centre(const Model& model, const Kinematics& kin, const Eigen::Matrix3d& angular,
                         int body) {
   const Vector6d bias = kin.bias_twist.col(body);

@@ -25,7 +25,7 @@ Matrix6d drag_operator(const Model& model, const Kinematics& kin, int body);
 /// Drag as a generalised force (nv) at velocities `v` (nv).
 Eigen::VectorXd drag_force(const Model& model, const Kinematics& kin, const Eigen::VectorXd& v);
 
-/// M_m J̇ q̇ plus the gyroscopic wrench, per body: what inertia asks for at q̈ = 0 (6 x N).
+/// M_m J̇ q̇ plus the gyroscopic wrench: the inertial wrench of each body at q̈ = 0 (6 x N).
 Matrix6Xd bias_wrench(const Model& model, const Kinematics& kin);
 
 /// Gravity on each body (6 x N).

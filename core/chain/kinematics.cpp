@@ -4,7 +4,7 @@ namespace hagfish {
 namespace {
 
 Eigen::Matrix3d turned(const Eigen::Matrix3d& frame, Axis axis, double angle) {
-  // Two columns mix and the axis stays: cheaper and rounder than a product of matrices.
+  // Only two columns change: cheaper than a product of matrices, and less rounding.
   const int a = static_cast<int>(axis);
   const int b = (a + 1) % 3;
   const int c = (a + 2) % 3;

@@ -25,10 +25,10 @@ struct Kinematics {
   Eigen::Vector3d centre_offset(int body) const { return centre.col(body) - reference; }
 };
 
-/// Positions and axes; leaves the velocity fields alone.
+/// Positions and axes; does not touch the velocity fields.
 void update_positions(const Model& model, const Eigen::VectorXd& q, Kinematics& kin);
 
-/// Twists and bias twists; wants update_positions first.
+/// Twists and bias twists; after update_positions.
 void update_velocities(const Model& model, const Eigen::VectorXd& qdot, Kinematics& kin);
 
 Kinematics kinematics(const Model& model, const State& state);

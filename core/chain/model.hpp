@@ -58,7 +58,7 @@ struct Model {
 /// Velocities of the free root, always the first of every velocity vector.
 inline constexpr int root_dofs = 6;
 
-/// A joint as the paper's Figure 1 draws it: what kind it is follows from its hinges.
+/// A joint of the paper's Figure 1; its hinges say of which kind.
 struct JointName {
   std::string joint;              ///< "root", "j01_bend", "j02_twist"
   std::vector<std::string> dofs;  ///< "root_x", ..., "j01_bend_y"
@@ -94,11 +94,11 @@ Eigen::Vector3d cylinder_inertia(double mass, double length, double radius);
 /// order in `length`.
 double hinge_span(int bodies, double length, int body);
 
-/// The animal (design: alternating YZ-universal and X-revolute joints, paper 3.1). Mass goes with
-/// r^2; stiffness and damping are those of the length of body that a joint stands for, limits those
-/// of one joint in every two bodies, so that the physics per length does not depend on the number
-/// of bodies. Scaled as ModelSettings says. Throws std::invalid_argument for a body count
-/// outside 2..400.
+/// The animal (design: alternating YZ-universal and X-revolute joints, paper 3.1). Mass is in
+/// proportion to r^2; stiffness and damping are those of the length of body that a joint stands
+/// for, limits those of one joint in every two bodies, so that the physics per length does not
+/// depend on the number of bodies. Scaled as ModelSettings says. Throws std::invalid_argument for a
+/// body count outside 2..400.
 Model make_hagfish(const Specimen& specimen, const Scene& scene);
 
 }  // namespace hagfish

@@ -10,8 +10,8 @@
 namespace hagfish {
 namespace {
 
-// Samples a segment of the grid that starts are taken from: it must tell the basins of minima
-// apart. Eight fill a vector register.
+// Samples per segment of the grid that starts are taken from: it must resolve the basins of the
+// minima. Eight fill a vector register.
 constexpr int samples = 8;
 constexpr int iteration_limit = 50;
 // Times that a step is halved for the gap to fall, to some 1e-4 of it.
@@ -36,10 +36,10 @@ Iterate iterate_at(const SplineSegment& a, const SplineSegment& b, double t_a, d
   return {t_a, t_b, apart, distance, distance - a.radius(t_a) - b.radius(t_b)};
 }
 
-// Single precision tells samples apart well enough to start from, in half the time.
+// Single precision is enough to choose starts, in half the time.
 using Samples = Eigen::Array<float, samples, 1>;
 
-/// Samples of the grid that no neighbour undercuts: one in each basin that the grid can tell apart.
+/// Local minima of the gap on the grid: one in each basin that the grid resolves.
 struct Starts {
   std::array<std::pair<double, double>, samples * samples> at;  ///< t_a, t_b
   int count = 0;
@@ -69,7 +69,7 @@ Starts starts_of(const SplineSegment& a, const SplineSegment& b) {
   const std::array<Samples, 3> points_b = sampled_points(b, t, a.c0);
   const Samples radii_a = sampled_radii(a, t);
   const Samples radii_b = sampled_radii(b, t);
-  // With a rim that undercuts nothing.
+  // With a border of infinite gap.
   Eigen::Array<float, samples + 2, samples + 2> gap;
   gap.setConstant(std::numeric_limits<float>::infinity());
   for (int i = 0; i < samples; ++i) {

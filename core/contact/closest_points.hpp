@@ -20,9 +20,8 @@ struct ClosestPoints {
 /// Newton where the Hessian is positive on the free parameters, else the part of it that always is
 /// (Gauss-Newton); steps are cut until the gap falls, parameters stay in [0, 1]. Plain clamped
 /// Newton cycles on 7 % of candidate pairs.
-/// Starts from samples of both segments, so that every basin they can tell apart is looked into; a
-/// `guess`, such as the answer a step ago, takes the place of a sample without rivals where it lies
-/// lower.
+/// Starts from samples of both segments, one in each basin that they resolve; where there is only
+/// one, a `guess`, such as the answer a step ago, replaces it if its gap is smaller.
 ClosestPoints closest_points(const SplineSegment& a, const SplineSegment& b,
                              const std::optional<ClosestPoints>& guess = std::nullopt);
 

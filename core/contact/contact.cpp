@@ -7,7 +7,7 @@ namespace hagfish {
 namespace {
 
 /// Distance between bounding spheres up to which pairs are carried beyond the margin, cm: twice
-/// what a segment may move before they are found anew. Only speed depends on it.
+/// what a segment may move before they are searched again. Affects speed only.
 constexpr double carried = 0.5;
 
 /// A cubic stays as close to another as their Bézier points: at most this far from `before`, cm.
@@ -26,7 +26,7 @@ void find_candidates(const std::vector<SplineSegment>& segments, const ContactSe
   const int n = static_cast<int>(segments.size());
   search.candidates.clear();
   search.moved.assign(n, 0);
-  // A hair of slack: equal arcs must not fall on either side of the bound by rounding.
+  // Slack, so that rounding does not put equal arcs on different sides of the bound.
   const double least_arc = settings.least_arc * (1 - 1e-9);
   for (int a = 0; a < n; ++a) {
     for (int b = a + 1; b < n; ++b) {
@@ -40,23 +40,23 @@ void find_candidates(const std::vector<SplineSegment>& segments, const ContactSe
   }
 }
 
-/// Adds up how far the segments have moved; finds the candidates anew where that is too far.
+/// Adds up how far the segments have moved; searches the candidates again once that is too far.
 void update_candidates(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
                        ContactSearch& search) {
-  bool hold = search.segments.size() == segments.size();
-  for (std::size_t i = 0; hold && i < segments.size(); ++i) {
+  bool valid = search.segments.size() == segments.size();
+  for (std::size_t i = 0; valid && i < segments.size(); ++i) {
     search.moved[i] += displacement(search.segments[i], segments[i]);
-    hold = search.moved[i] <= 0.5 * carried;
+    valid = search.moved[i] <= 0.5 * carried;
   }
-  if (!hold) {
+  if (!valid) {
     find_candidates(segments, settings, search);
   }
   search.segments = segments;
 }
 
-/// Looks at a candidate; notes it where it is within the margin.
-void look(const std::vector<SplineSegment>& segments, const ContactSettings& settings, int index,
-          ContactSearch& search) {
+/// Computes the closest points of a candidate; lists it where they are within the margin.
+void evaluate(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
+              int index, ContactSearch& search) {
   SegmentPair& pair = search.candidates[index];
   pair.closest = closest_points(segments[pair.a], segments[pair.b], pair.closest);
   pair.clear_until = search.moved_by(pair) + pair.closest->gap - settings.margin;
@@ -82,7 +82,7 @@ constexpr double same_gap = 1e-9;
 /// Which neighbour shares the border that `t` lies on: -1, +1, or 0 inside the segment.
 int across(double t) { return t <= 0 ? -1 : (t >= 1 ? 1 : 0); }
 
-/// A minimum inside both segments always counts; one on a border counts unless the gap falls on
+/// A minimum inside both segments always counts; one on a border counts unless the gap decreases
 /// beyond it, and only for the first of the pairs that find it.
 bool is_local_minimum(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
                       int index, ContactSearch& search) {
@@ -98,7 +98,7 @@ bool is_local_minimum(const std::vector<SplineSegment>& segments, const ContactS
       continue;
     }
     if (search.looked[other] == 0) {
-      look(segments, settings, other, search);
+      evaluate(segments, settings, other, search);
     }
     const double lower_by = own.closest->gap - search.candidates[other].closest->gap;
     if (lower_by > same_gap || (lower_by >= -same_gap && other < index)) {
@@ -136,13 +136,13 @@ void find_contacts(const std::vector<SplineSegment>& segments, const ContactSett
   search.close.clear();
   for (std::size_t i = 0; i < search.candidates.size(); ++i) {
     if (search.moved_by(search.candidates[i]) >= search.candidates[i].clear_until) {
-      look(segments, settings, static_cast<int>(i), search);
+      evaluate(segments, settings, static_cast<int>(i), search);
     }
   }
   set.contacts.clear();
   set.others.clear();
   set.least_gap = settings.margin;
-  // By index, as the list grows: what a pair is compared with is looked at too.
+  // By index, as the list grows: neighbours that a pair is compared with are evaluated too.
   for (std::size_t k = 0; k < search.close.size(); ++k) {
     const int index = search.close[k];
     const bool minimum = is_local_minimum(segments, settings, index, search);

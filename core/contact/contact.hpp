@@ -28,7 +28,7 @@ struct ContactSet {
   /// Local minima of the gap up to the margin, sorted by arc_a, then arc_b: some 5 to 15 in a tight
   /// knot. The gap is positive everywhere if it is at those.
   std::vector<Contact> contacts;
-  /// Pairs that nearly touch but are no minimum. They matter only where a step makes one of them.
+  /// Pairs that nearly touch but are no minimum. They matter only where a step makes them one.
   std::vector<Contact> others;
   /// Least gap found, cm; at most the margin.
   double least_gap = 0;
@@ -41,28 +41,28 @@ Contact contact_at(const std::vector<SplineSegment>& segments, int segment_a, do
 /// Two segments that may touch, a before b.
 struct SegmentPair {
   int a = 0, b = 0;
-  std::optional<ClosestPoints> closest;  ///< when last looked at
-  /// They need no look until the two have moved this far in all, cm.
+  std::optional<ClosestPoints> closest;  ///< as last computed
+  /// The pair need not be evaluated until both together have moved this far, cm.
   double clear_until = 0;
 };
 
-/// What a search for contacts carries to the next one with the same settings. Pairs are left out as
-/// long as nothing that moved can have brought them together. So a new minimum is seen at once
-/// where strands touch or come within the margin, but beside another one, while it is clear of
-/// touching, perhaps some steps late.
+/// What a search for contacts keeps for the next one with the same settings. Pairs are skipped as
+/// long as they cannot have moved close enough. A new minimum is found at once where strands touch
+/// or come within the margin, but beside another minimum, with a positive gap, perhaps some steps
+/// late.
 struct ContactSearch {
   std::vector<SegmentPair> candidates;  ///< sorted
   std::vector<SplineSegment> segments;  ///< of the last search
   std::vector<double> moved;            ///< at most, by each since the candidates were found, cm
-  std::vector<char> looked;             ///< which candidates this search has looked at
+  std::vector<char> looked;             ///< which candidates this search has evaluated
   std::vector<int> close;               ///< indices of those of them that are within the margin
 
   double moved_by(const SegmentPair& pair) const { return moved[pair.a] + moved[pair.b]; }
 };
 
 /// Finds the contacts of `segments` (paper, 3.1: bounding spheres, then Eq. 5) into `set`. Of pairs
-/// that are no minimum those with a gap below `near` (cm) are listed; none with a gap in the other
-/// one.
+/// that are no minimum, the first form lists those with a gap below `near` (cm), the second form
+/// those that overlap.
 void find_contacts(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
                    double near, ContactSearch& search, ContactSet& set);
 ContactSet find_contacts(const std::vector<SplineSegment>& segments,

@@ -15,7 +15,7 @@ function(hagfish_builtin_files OUT)
     string(APPEND entries "  if (name == \"${file}\") return R\"HAGFISH(${text})HAGFISH\";\n")
   endforeach()
   set(source ${CMAKE_CURRENT_BINARY_DIR}/builtin_files.cpp)
-  # By way of a second file, so that an unchanged text compiles nothing anew.
+  # By way of a second file, so that an unchanged text recompiles nothing.
   file(WRITE ${source}.new "// Written by builtin_files.cmake from data/.
 #include \"core/input/builtin_files.hpp\"
 

@@ -11,7 +11,7 @@ namespace hagfish {
 /// where there is none.
 std::optional<std::string_view> builtin_file(std::string_view name);
 
-/// Names of the scenes, the files of data/ itself but for presets.toml, without their ending.
+/// Names of the scenes, the files of data/ itself except presets.toml, without .toml.
 std::vector<std::string_view> builtin_scene_names();
 
 }  // namespace hagfish

@@ -78,7 +78,7 @@ Override parse_override(std::string_view assignment) {
 }
 
 std::string read_text_file(const std::filesystem::path& file) {
-  // A directory opens as a file and reads as an empty one or worse, so it is told apart first.
+  // A directory opens as a file and reads as an empty one or worse, so it is checked first.
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
   if (status.type() == std::filesystem::file_type::not_found) {

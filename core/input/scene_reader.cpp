@@ -108,7 +108,7 @@ ScriptSettings resolve_script(const TableReader& root, const ScriptFile& file, d
   return script;
 }
 
-/// A number from the standard normal distribution (Box and Muller), from the generator's bits.
+/// Standard normal (Box and Muller), from the generator's bits: the same on every platform.
 double normal(std::mt19937& random) {
   const double u = (static_cast<double>(random()) + 0.5) * 0x1p-32;
   const double v = static_cast<double>(random()) * 0x1p-32;
@@ -123,7 +123,7 @@ void draw_noise(ScriptSettings& script) {
   }
 }
 
-/// The mirror image, y to -y, of all that the scene gives. Twice is the scene itself.
+/// The mirror image, y to -y, of all that the scene gives; applied twice, the scene itself.
 void reflect(Scene& scene) {
   scene.gravity.y() *= -1;
   for (ScriptKnot& knot : scene.script.knots) {
@@ -188,7 +188,7 @@ void check_times(const TableReader& root, const TimeSettings& time) {
   const std::string step = "must not be less than time.step, " + shortest(time.step);
   if (time.frame_interval < time.step) root.fail("time.frame_interval", step);
   if (time.duration < time.step) root.fail("time.duration", step);
-  // Beyond 1e9 steps a frame, or a run, an index of steps is of no use.
+  // A frame or a run of more than 1e9 steps is taken for an error.
   const double steps = time.frame_interval / time.step;
   if (steps > 1e9 || std::abs(steps - std::round(steps)) > 1e-9 * steps) {
     root.fail("time.frame_interval", "must be a whole number of time.step, " + shortest(time.step));
@@ -235,7 +235,7 @@ ResolvedScene read(SceneSource source, const std::vector<std::string>& overrides
       root.set(change, change.key);
     }
   }
-  // Into the scene where it has the table; into the file that it names where not.
+  // The scene's own table if it has one; else the file that it names.
   if (root.is_table("specimen")) {
     for (const auto& change : specimen_changes) root.set(change, change.key);
   }

@@ -56,7 +56,7 @@ std::string other_unit(const std::string& key) {
   return key.ends_with("_rad") ? name + "_deg" : "";
 }
 
-/// Adds to `table` what only `base` has, table by table. An angle counts as had in either unit.
+/// Adds to `table` what only `base` has, table by table. An angle is the same key in either unit.
 void merge(toml::value& table, const toml::value& base) {
   auto& values = table.as_table();
   for (const auto& [key, value] : base.as_table()) {

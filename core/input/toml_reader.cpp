@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* numbers_wanted = "must be an array of numbers";
 
-/// A range in degrees as one in the unit of which `unit` makes rad.
+/// A range in degrees converted to the unit that is `unit` rad.
 Range in_unit(Range degrees, double unit) {
   const double factor = std::numbers::pi / 180 / unit;
   if (std::isfinite(degrees.high)) degrees.rule += " degrees";
@@ -58,7 +58,7 @@ struct TableReader::Impl {
     return at;
   }
 
-  /// The place of `key`, which counts as asked for.
+  /// The place of `key`, which counts as read.
   Place ask(std::string_view key) {
     known.emplace_back(key);
     const toml::value* value = peek(key);
@@ -306,7 +306,7 @@ TableReader TableReader::open(std::string_view key) {
 
 void TableReader::finish() const {
   if (impl_->table) {
-    // The parser keeps no order: of several unknown keys the one with the first name is told.
+    // The parser keeps no order: of several unknown keys, the first by name is reported.
     std::map<std::string, const toml::value*> strangers;
     for (const auto& [key, value] : impl_->table->as_table()) {
       if (std::ranges::find(impl_->known, key) == impl_->known.end()) strangers[key] = &value;

@@ -1,7 +1,7 @@
-// A checked layer over a TOML parser: every value is asked for by name, type and range, and every
+// A checked layer over a TOML parser: every value is read by name, type and range, and every
 // error is an InputError of one line, `FILE:LINE: KEY = VALUE: why`.
 //
-// TableReader and TomlWriter (toml_writer.hpp) answer to the same calls, so that one list of fields
+// TableReader and TomlWriter (toml_writer.hpp) have the same functions, so that one list of fields
 // (scene_fields.hpp) serves to read and to write. No key may be read twice from one TableReader.
 #pragma once
 
@@ -36,7 +36,7 @@ class TableReader {
   /// `--set SHOWN=VALUE` from then on. Comes before any getter.
   void set(const Override& change, const std::string& shown);
 
-  /// From here on an absent key is an error, told by finish().
+  /// From here on an absent key is an error, reported by finish().
   void require_all();
 
   bool has(std::string_view key) const;
@@ -84,8 +84,8 @@ class TableReader {
     child.finish();
   }
 
-  /// Ends the reading: throws InputError for a key that nobody asked for (with the nearest one that
-  /// somebody did ask for), then for the first required key that is absent.
+  /// Ends the reading: throws InputError for a key that was not read (with the nearest one that
+  /// was), then for the first required key that is absent.
   void finish() const;
 
   /// Throws InputError about `key`, a dotted path below this table.

@@ -14,8 +14,8 @@
 namespace hagfish {
 
 /// Appends keys and tables to a text. Doubles keep every bit. Tables come after the keys of the
-/// table that holds them. Ranges are the reader's concern. Throws std::invalid_argument for a
-/// number that is not finite, which no reader would take back.
+/// table that holds them. The writer ignores ranges. Throws std::invalid_argument for a
+/// number that is not finite, which the reader would refuse.
 class TomlWriter {
  public:
   const std::string& text() const { return text_; }

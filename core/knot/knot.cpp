@@ -105,12 +105,12 @@ Boxes boxes_of_edges(const Eigen::Matrix3Xd& view) {
           from.col(1).max(to.col(1))};
 }
 
-/// Diagram of the closed polygon `view` (3 x n) looked at along its third axis.
+/// Diagram of the closed polygon `view` (3 x n) seen along its third axis.
 Diagram project(const Eigen::Matrix3Xd& view) {
   const int count = static_cast<int>(view.cols());
   const double tolerance = generic * view.colwise().norm().maxCoeff();
   const Boxes boxes = boxes_of_edges(view);
-  constexpr int batch = 8;  // edges looked at together: few meet
+  constexpr int batch = 8;  // edges tested together: few cross
   Eigen::ArrayXd apart =
       Eigen::ArrayXd::Constant(count + batch, std::numeric_limits<double>::infinity());
   std::vector<int> near;
@@ -168,7 +168,7 @@ std::optional<std::pair<int, int>> removable(const Diagram& diagram) {
     if (here.crossing == next.crossing) return std::pair(here.crossing, here.crossing);
     // Move II: two arcs without further crossings between the same two crossings. Opposite signs
     // make them bound an empty disc of the sphere: the four other ends lie on one side of it, and
-    // the rest of the curve hangs together through them.
+    // the rest of the curve connects them.
     if (!here.over || !next.over) continue;
     const int apart = std::abs(under_at[here.crossing] - under_at[next.crossing]);
     if ((apart == 1 || apart == count - 1) &&

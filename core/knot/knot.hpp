@@ -1,4 +1,4 @@
-// Knot type of an open centreline, decided by topology and never by eye.
+// Knot type of an open centreline by topological invariants.
 #pragma once
 
 #include <Eigen/Core>
@@ -34,14 +34,14 @@ KnotInvariants invariants_of_closed(const Eigen::Matrix3Xd& points,
                                     const Eigen::Vector3d& direction);
 
 /// Type of the open polygon through the columns of `centreline` (3 x n, n >= 2, any length unit).
-/// Both ends are run out in one direction to beyond a sphere around the polygon and joined there,
+/// Both ends are extended in one direction beyond a sphere around the polygon and joined there,
 /// for up to settings.votes >= 1 directions drawn from settings.seed; each gives one vote, until
 /// more than half of them all agree. With settings.mirror the answer is, vote for vote, that of the
 /// mirror image (y to -y) without it. A tie goes to the smaller
 /// determinant, then the smaller v2. The directions are the same on every platform.
 /// A closure or line of sight that is not generic, or shows too many crossings, is drawn again.
 /// Throws as invariants_of_closed, but of these two errors only where 100 draws in a row failed:
-/// the polygon touches itself, repeats a vertex or ends where it starts, or is hopelessly tangled.
+/// the polygon touches itself, repeats a vertex or ends where it starts, or is too tangled.
 KnotVote knot_type(const Eigen::Matrix3Xd& centreline, const KnotSettings& settings);
 
 /// "0_1", or a prime knot of up to seven crossings, "3_1" to "7_7"; "det=D,v2=V" for any other.

@@ -17,7 +17,7 @@ class FileError : public std::runtime_error {
 };
 
 /// Runs `work`, turning HDF5's exceptions into one line. The system's reason (disk full, no
-/// permission) is more use than HDF5's own, where there is one.
+/// permission) is more useful than HDF5's own, where there is one.
 template <class Work>
 auto guarded(const std::string& file, const std::string& what, Work&& work) {
   errno = 0;

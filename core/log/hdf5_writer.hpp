@@ -1,4 +1,4 @@
-// The little of HDF5 that writing a log needs: attributes, arrays, texts, series that grow by rows.
+// What writing a log needs of HDF5: attributes, arrays, texts, series that grow by rows.
 #pragma once
 
 #include <H5Cpp.h>
@@ -41,7 +41,7 @@ class Series {
 };
 
 /// A file being written. It grows in memory, where HDF5 cannot fail half-way: on a full disk HDF5
-/// itself neither closes nor forgets a file. save() puts a whole and readable file on disk.
+/// can neither close nor abandon a file. save() puts a whole and readable file on disk.
 class Hdf5Writer {
  public:
   Hdf5Writer();

@@ -1,5 +1,6 @@
 // Means over the steps from one frame of the log to the next. A step's force is an impulse over h,
-// and rows switch on and off many times a second: a single step says nothing of the time around it.
+// and rows switch on and off many times a second: a single step does not represent the time around
+// it.
 #pragma once
 
 #include <array>
@@ -17,13 +18,13 @@ struct FrameMeans {
   std::array<double, 4> speed, slack;  ///< over the steps that have the row, cm/s; nan where none
 };
 
-/// Adds up what FrameMeans is made of. Storage is kept: after the first frame nothing is allocated.
+/// Accumulates FrameMeans. Storage is kept: after the first frame nothing is allocated.
 class RunningMeans {
  public:
   /// `nv`: number of velocities.
   explicit RunningMeans(Eigen::Index nv);
   void take(const StepRecord& record, const ThigmotaxisRows& rows);
-  /// Of all steps taken since the last call; then starts anew.
+  /// Means of all steps since the last call; then starts over.
   const FrameMeans& close();
 
  private:

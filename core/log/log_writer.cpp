@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A crash loses at most what was computed in this time, s. A save writes the whole log anew.
+// A crash loses at most what was computed in this time, s. Each save writes the whole log.
 constexpr double save_interval = 10;
 
 std::string current_time() {

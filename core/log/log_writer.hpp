@@ -16,7 +16,7 @@ namespace hagfish {
 inline constexpr const char* log_format = "hagfish-log";
 inline constexpr int log_format_version = 1;
 
-/// What a log says about its making.
+/// How a log came about.
 struct LogHeader {
   std::string command;  ///< as typed
   std::string scene;    ///< fully resolved TOML
@@ -34,7 +34,7 @@ class LogWriter {
   /// set, or cannot be created.
   LogWriter(std::filesystem::path file, bool replace, const LogHeader& header, const Model& model,
             const Scene& scene);
-  /// Without finish(), a file that was never finished is removed: nothing half-written is left.
+  /// Without finish() the file is removed: nothing half-written is left.
   ~LogWriter();
   LogWriter(const LogWriter&) = delete;
   LogWriter& operator=(const LogWriter&) = delete;

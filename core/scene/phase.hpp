@@ -22,7 +22,7 @@ constexpr int phase_order(Phase phase) {
   return order[static_cast<int>(phase)];
 }
 
-/// The knot must hold: it is tied and not yet let go.
+/// The knot must stay tied: from tightening to release.
 constexpr bool holds_knot(Phase phase) {
   return phase_order(phase) >= phase_order(Phase::tighten) &&
          phase_order(phase) < phase_order(Phase::release);

@@ -53,14 +53,14 @@ struct ConstraintSettings {
   /// Baumgarte gain, the share of a violation that a step takes back: C v >= -baumgarte * gap / h
   /// for gap < 0.
   double baumgarte = 0.5;
-  /// But no faster than this, cm/s: what is pushed out keeps its speed, which deep overlaps must
-  /// not make a blast of.
+  /// But no faster than this, cm/s: bodies keep the speed at which they separate, and deep overlaps
+  /// must not throw them apart.
   double baumgarte_speed = 5;
   /// Speculative rows only: a step whose path overlaps by this much more than it should is solved
   /// again with rows that see it, cm.
   double tolerance = 0.0003;
   int corrections = 8;  ///< at most this often; 0: never
-  /// A step that moves a body further than this is looked at on its way too, cm: less than the
+  /// A step that moves a body further than this is checked along its path too, cm: less than the
   /// radius of the thinnest body, so that no strand passes through another unseen.
   double stride = 0.25;
 };
@@ -137,7 +137,7 @@ struct ControllerSettings {
   double tight_hold = 0.25;    ///< for this long: a loose loop touches itself here and there, s
   double tighten_time = 2.0;   ///< or after this long in any case, s
   /// The slide ends when the first contact is this near the head, and a way back when the last one
-  /// is this near the tail: then the knot may go, cm of arc.
+  /// is this near the tail: then it is released, cm of arc.
   double release_at = 1.6;
   /// The knot is gone once it has been for this long: near an end of the body, where it leaves, the
   /// type of an open line is for a moment a matter of how it is closed, s.
@@ -164,7 +164,7 @@ struct StartSettings {
 struct KnotSettings {
   int votes = 15;            ///< directions tried
   unsigned seed = 20220301;  ///< of the directions
-  double interval = 0.02;    ///< time between looks while the controller waits for a change, s
+  double interval = 0.02;    ///< time between checks while the controller waits for a change, s
   bool mirror = false;       ///< tries the directions' mirror images, y to -y: see Scene::mirror
 };
 
@@ -177,7 +177,7 @@ struct TimeSettings {
 
 enum class GuardAction { stop, warn };
 enum class EnergyAction {
-  hold,  ///< what is too much is taken from the velocity, and told once
+  hold,  ///< the excess is removed from the velocity, reported once
   warn,
   stop
 };
@@ -193,7 +193,7 @@ struct GuardSettings {
   /// drag and damping took.
   double energy_gain = 0.005;
   EnergyAction energy_action = EnergyAction::hold;
-  double capped_time = 0.25;  ///< a thigmotaxis row at its cap for this long is told, s
+  double capped_time = 0.25;  ///< a thigmotaxis row at its cap for this long is reported, s
 };
 
 /// The sign of the body's writhe: which of its two mirror images a knot is.
@@ -205,14 +205,14 @@ struct KnotStretch {
   double from = 0, to = 0;  ///< s
 };
 
-/// What a run of the scene must show; `hagfish check` holds a log against it.
+/// What a run of the scene must show; `hagfish check` compares a log with it.
 struct ExpectSettings {
-  /// Knot that the controller waits for before it tightens, held until release: "3_1", or
+  /// Knot that the controller waits for before it tightens, kept until release: "3_1", or
   /// "det=9,v2=-2" for one without a name; "" for none, which is never tightened.
   std::string knot;
-  /// Knot type through time. Between the stretches, while it changes, anything goes.
+  /// Knot type through time. Between the stretches, while it changes, any type will do.
   std::vector<KnotStretch> types;
-  Hand hand = Hand::any;              ///< of the knot while it is held
+  Hand hand = Hand::any;              ///< of the knot until release
   double slide_distance = 0;          ///< headward travel of the knot's head end while sliding, cm
   double reverse_distance = 0;        ///< tailward travel of its tail end on the way back, cm
   double speed_share = 0.95;          ///< of sliding steps that meet Eq. 6 without slack

@@ -13,7 +13,7 @@ namespace hagfish {
 inline const std::string plain_specimen =
     "name = 'test'\nlength = 40\nmass = 80\nstation = [0.2, 0.8]\ncircumference = [5, 4]\n"
     "bending_limit_deg = [20, 30]\nbending_span = 0.8\ntwist_limit_deg = 48\n";
-/// A scene that says nothing but this.
+/// A scene with nothing else.
 inline const std::string plain_scene = "[specimen]\n" + plain_specimen;
 
 /// What reading the plain scene with `more` in front of it complains of.

@@ -23,7 +23,7 @@ ChainRun double_pendulum(double h) {
   return run;
 }
 
-/// A chain of the animal's proportions, bent to a helix and let go in water.
+/// A chain of the animal's proportions, bent to a helix and released in water.
 ChainRun released_coil(double h) {
   constexpr int bodies = 20;
   constexpr double rod = 2;

@@ -1,4 +1,5 @@
-// A log opens in MuJoCo and replays; a model that is not the log's is told by its first difference.
+// A log opens in MuJoCo and replays; of a model that is not the log's the first difference is
+// named.
 #include "mujoco_ref/log_model.hpp"
 
 #include <gtest/gtest.h>

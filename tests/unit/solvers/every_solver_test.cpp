@@ -61,7 +61,7 @@ TEST_P(EverySolver, FindsTheVelocityWhereMultipliersAreNotUnique) {
 }
 
 TEST_P(EverySolver, TakesMoreActiveRowsThanVelocities) {
-  // 30 rows that hold 6 velocities still: A has rank 6.
+  // 30 rows on 6 velocities: A has rank 6.
   std::mt19937 random(5);
   const KnownQp known = known_qp(random, 6, std::vector<Role>(30, Role::active));
   const BoxQpSolution solution = solve_cold(known.dual);

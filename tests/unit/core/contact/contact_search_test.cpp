@@ -1,4 +1,4 @@
-// A search for contacts that is carried along, against one that starts from nothing.
+// A search for contacts that keeps its candidates, against a fresh one at every step.
 #include <gtest/gtest.h>
 
 #include <algorithm>

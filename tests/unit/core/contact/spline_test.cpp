@@ -98,7 +98,7 @@ TEST(Spline, BoundHoldsTheSkin) {
         reach = std::max(reach, (s.point(t) - s.middle).norm() + s.radius(t));
       }
       EXPECT_LE(reach, s.bound + rounding);
-      // Not a bound that holds everything: the chord and the Bézier points come near the skin.
+      // Not a trivially large bound: the chord and the Bézier points come near the skin.
       EXPECT_LT(s.bound, 1.5 * reach);
     }
   }

@@ -19,7 +19,7 @@ const std::string data = HAGFISH_DATA_DIR;
 class Bits {
  public:
   Bits(const Scene& scene, const Specimen& specimen) {
-    // Of the file that the specimen came from nothing is written.
+    // The name of the specimen's file is not written.
     const auto& [title, file, mirror, clamp_head, gravity, model, drag, constraints, contact, wall,
                  start, script, controller, knot, time, guard, expect] = scene;
     add(title, mirror, clamp_head, gravity, model, drag, constraints, contact, wall, start, script,

@@ -98,7 +98,7 @@ TEST_F(ThigmotaxisRowsTest, MeansAreThoseOfTheSteps) {
     EXPECT_NEAR(mean.lambda[k], lambda[k], 1e-9 * (1 + lambda[k]));
     EXPECT_NEAR(mean.speed[k], speed[k], 1e-12);
   }
-  EXPECT_TRUE(std::isnan(means.close().lambda[0])) << "starts anew";
+  EXPECT_TRUE(std::isnan(means.close().lambda[0])) << "starts over";
 }
 
 }  // namespace

@@ -59,7 +59,7 @@ TEST_F(ControllerContacts, FollowsAContactThatSlides) {
     step({contact(arc, 30)});
     ASSERT_EQ(first(), arc);
   }
-  // Also past a rival's time: what it holds is the contact where it is now.
+  // Also past a rival's time: the contact is where it is now.
   for (int k = 0; k < 10; ++k) {
     arc -= 0.01;
     step({contact(1, 20), contact(arc, 30)});

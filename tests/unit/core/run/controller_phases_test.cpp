@@ -49,7 +49,7 @@ TEST_F(ControllerPhases, DoesNotTightenAnUnknot) {
 
 TEST_F(ControllerPhases, LooksAtTheKnotOnlyNowAndThen) {
   tie(false);
-  step({contact(5, 30)});  // looks, and again in 10 ms
+  step({contact(5, 30)});  // checks the knot, and again in 10 ms
   tie(true);
   for (int k = 0; k < 4; ++k) {
     step({contact(5, 30)});
@@ -63,13 +63,13 @@ TEST_F(ControllerPhases, SlidesOnceTightForAWhile) {
   start_in(Phase::tighten);
   for (int round = 0; round < 3; ++round) {
     const double loose = now;
-    step({contact(5, 25.4)});  // 20.4 cm, which starts the wait anew
+    step({contact(5, 25.4)});  // 20.4 cm, which restarts the wait
     while (now < loose + 0.1 - 1e-9) {
       step({contact(5.1, 25.3)});  // 20.2 cm
       ASSERT_EQ(state.phase, Phase::tighten) << now - loose;
     }
   }
-  step({contact(5.1, 25.3)});  // the time of a step may fall short of the hold by rounding
+  step({contact(5.1, 25.3)});  // the time of a step may fall short of tight_hold by rounding
   const Control control = step({contact(5.1, 25.3)});
   EXPECT_EQ(state.phase, Phase::slide);
   ASSERT_EQ(control.thigmotaxis.size(), 2U);
@@ -159,7 +159,7 @@ TEST_F(ControllerPhases, TurnsBackAtTheHeadAndReleasesNearTheTail) {
   control = step({contact(20, 40.5)});
   EXPECT_EQ(state.phase, Phase::release);
   EXPECT_EQ(control.thigmotaxis.at(1).towards, BodyEnd::tail);
-  // Until then the knot must hold.
+  // Until then the knot must not come undone.
   start_in(Phase::reverse);
   tie(false);
   now = state.knot_seen + scene.knot.interval;
@@ -176,7 +176,7 @@ TEST_F(ControllerPhases, AKnotIsGoneOnceItHasBeenForAWhile) {
     step({contact(1, 20)});
     ASSERT_EQ(state.phase, Phase::release) << now - since;
   }
-  tie(true);  // back for a moment: the wait starts anew
+  tie(true);  // back for a moment: the wait restarts
   now = state.knot_seen + scene.knot.interval;
   step({contact(1, 20)});
   tie(false);

@@ -123,7 +123,7 @@ TEST(ScriptForce, SaturatesAtTheLargestForce) {
   EXPECT_EQ(tip.rate, 0);
   EXPECT_NEAR(tip.value.norm(), 1200, 1200 * rounding);
   EXPECT_LT((tip.value.normalized() + Vector3d::UnitX()).norm(), rounding);
-  // Just below, just above: one force, whether implicit or held.
+  // Just below, just above: one force, whether implicit or saturated.
   for (const double reach : {0.3999, 0.4001}) {
     const TipForce near = script_force(position, 3, 0.002, {reach, 0, 0}, Vector3d::Zero());
     EXPECT_NEAR(near.value.norm(), 1200, 0.4);

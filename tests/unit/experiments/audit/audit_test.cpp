@@ -149,7 +149,7 @@ TEST_F(AuditOfCones, RefusesALogOfOtherCones) {
   }
 }
 
-/// A bent body let go in open water: no row has a force.
+/// A bent body released in open water: no row has a force.
 class AuditWithoutForces : public AuditTest {
  protected:
   AuditWithoutForces()
