@@ -10,12 +10,12 @@ source "$(dirname "${BASH_SOURCE[0]}")/studies/common.sh"
 failed=0
 "$hagfish" run table1 --qp ipopt --out "$out/table1.h5" --force || failed=$?
 if ((failed == 2)); then exit "$failed"; fi
-"$hagfish" check "$out/table1.h5" | tee "$out/check.txt" || failed=$?
+"$hagfish" check "$out/table1.h5" --csv "$out/check.csv" | tee "$out/check.txt" || failed=$?
 
 echo "Drawing Figure 7"
 draw figure7.py "$out/table1.h5" "$hagfish" "$out/figure7.png"
 echo "Drawing Figure 8"
 draw figure8.py "$out/table1.h5" "$out/figure8.png" "$out/claims.png" >"$out/claims.txt"
-draw summary.py "$out/table1.h5" "$out/summary.md"
+draw summary.py "$out/table1.h5" "$out/check.csv" "$out/summary.md"
 finish "$out/claims.txt"
 exit "$failed"

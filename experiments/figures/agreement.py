@@ -19,7 +19,6 @@ HEADS = {"free": (plots.BLUE, "free head"), "clamped": (plots.ORANGE, "clamped h
 QUANTITIES = {"position": "positions", "orientation": "orientations", "mass": "M", "bias": "bias",
               "acceleration": r"$\ddot q$"}
 REQUIRED = {"color": plots.INK, "lw": 1, "label": "required"}
-VELOCITY = 1e-8  # required of the velocity along a rollout
 
 
 def draw_states(axes: Any, results: Results) -> None:
@@ -29,7 +28,7 @@ def draw_states(axes: Any, results: Results) -> None:
             low, middle, high = np.quantile(values, [0.01, 0.5, 1])
             axes.plot([low, high], [row + shift] * 2, color=colour, lw=2, label=label if row == 0 else None)
             axes.plot(middle, row + shift, "o", color=colour)
-        bound = float(results.attribute(f"/states/free/{name}", "description").rsplit(" ", 1)[1])
+        bound = results[f"/states/free/{name}_bound"][0]
         axes.plot([bound] * 2, [row - 0.35, row + 0.35], **(REQUIRED | ({} if row == 0 else {"label": None})))
     axes.set(xscale="log", xlabel="difference over scale: median, 1 % to largest")
     axes.set_yticks(range(len(QUANTITIES)), QUANTITIES.values())
@@ -40,7 +39,7 @@ def draw_states(axes: Any, results: Results) -> None:
 def draw_rollouts(axes: Any, results: Results) -> None:
     for head, (colour, label) in HEADS.items():
         axes.semilogy(results[f"/rollout/{head}/time"], results[f"/rollout/{head}/velocity"], color=colour, lw=1, label=label)
-    axes.axhline(VELOCITY, **REQUIRED)
+    axes.axhline(results["/rollout/free/velocity_bound"][0], **REQUIRED)
     axes.set(xlabel="time, s", ylabel=r"largest difference in $\dot q$ over largest $\dot q$")
     axes.legend(loc="center left", bbox_to_anchor=(0, 0.65))
 

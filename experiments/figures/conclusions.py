@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+import audits
 from back_ends import BACK_ENDS, read_table
 from hagfish_log import HagfishLog, Results
 from integration import MOTIONS, steps
@@ -150,11 +151,11 @@ def presets(folder: Path) -> list[str]:
     for name, use in PRESETS.items():
         run = read_run(folder, f"preset_{name}")
         off = path_error(run, reference)
-        audit = (folder / f"preset_{name}.check").read_text()
+        failed = audits.unmet(audits.read_findings(folder / f"preset_{name}.check.csv"))
         rows.append([f"`{name}`", use, f"{1e3 * run.step:g}", str(run.bodies), run.qp, f"{run.cpu:.2f}",
                      f"{off[0]:.2f} ({off[1]:.2f})" + (", as the reference" if run.step == reference.step else ""),
                      f"{run.force / reference.force * 100 - 100:+.0f} %", f"{run.penetration:.4f}",
-                     "failed" if "FAIL" in audit else "passed"])
+                     "failed" if failed else "passed"])
     return ["## Presets", "", "`hagfish run --preset NAME`, timed alone on the machine, with their own intervals between frames.",
             "", *markdown(["Preset", "For", "h, ms", "Bodies", "Back end", "CPU, s", "Head end of the knot off, rms (largest), cm", "Sliding force",
                         "Penetration, cm", "Audit"], rows), ""]

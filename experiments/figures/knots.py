@@ -130,7 +130,7 @@ def sure(folder: Path, scene: str) -> list[str]:
     """Of ten noisy starts, how many were tied, held, slid and came off, for each noise."""
     cells = []
     for noise in NOISES:
-        names = sorted(path.stem for path in folder.glob(f"noise_{scene}_{noise}_*.check"))
+        names = sorted(path.name.removesuffix(".check.csv") for path in folder.glob(f"noise_{scene}_{noise}_*.check.csv"))
         unmet = [set(unmet_of(folder, name)) for name in names]
         good = sum(not each & {"status", "knot held", "unknot at end", "limits"} for each in unmet)
         clean = sum(not each & {"status", "knot held", "unknot at end", "limits", "penetration"} for each in unmet)

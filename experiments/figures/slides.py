@@ -1,6 +1,6 @@
 """Slides of the studies of knots: what was commanded and what came of it, from the runs of experiments/*.sh.
 
-A run is NAME.h5 (its log) and NAME.check (its audit), where NAME is KIND_SCENE_VALUE.
+A run is NAME.h5 (its log) and NAME.check.csv (its audit), where NAME is KIND_SCENE_VALUE.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+import audits
 import plots
 from hagfish_log import HagfishLog, LogError
 from means import WINDOW, read_means
@@ -51,11 +52,7 @@ class Slide:
 
 def unmet_of(folder: Path, name: str) -> list[str]:
     """What the audit of a run names as failed."""
-    try:
-        check = (folder / f"{name}.check").read_text()
-    except OSError as error:
-        raise LogError(f"{error.filename}: cannot be read ({error.strerror})") from None
-    return [line[5:29].strip() for line in check.splitlines() if line.startswith("FAIL")]
+    return audits.unmet(audits.read_findings(folder / f"{name}.check.csv"))
 
 
 def read_slide(folder: Path, name: str, phase: str = "slide") -> Slide:
@@ -73,7 +70,8 @@ def read_slide(folder: Path, name: str, phase: str = "slide") -> Slide:
     some = moved and means.end.size > 0
     steps = step_phases(log) == phase
     at_cap = log["/steps/thigmotaxis_lambda"][steps] >= AT_CAP * scene["controller"]["cap"]
-    unmet = unmet_of(folder, name)
+    findings = audits.read_findings(folder / f"{name}.check.csv")
+    unmet = audits.unmet(findings)
     ended = str(log.attribute("status")) == "complete" and "unknot at end" not in unmet
     commanded = float(scene["controller"][f"{phase}_head"]["a"])
     return Slide(name, scene["expect"]["knot"], commanded, sign * slope, sign * travel,
@@ -82,14 +80,14 @@ def read_slide(folder: Path, name: str, phase: str = "slide") -> Slide:
                  float(np.nanmedian(np.fmax.reduce(means.slack, axis=1))) if some else np.nan,
                  float((log["/steps/eq6"][steps] == 1).mean()) if steps.any() else np.nan,
                  float(log["/steps/penetration"][steps].max()) if steps.any() else np.nan,
-                 float(scene["expect"]["penetration"]),
+                 audits.bound_on(findings, "penetration"),
                  "knot held" not in unmet, "" if ended else failure_of(log, unmet),
                  time - time[0] if moved else time, log["/knot/head_end"][frames], log["/knot/tail_end"][frames])
 
 
 def read_slides(folder: Path, kind: str, phase: str = "slide") -> list[Slide]:
     """All runs called KIND_..., by knot and speed."""
-    names = [path.stem for path in folder.glob(f"{kind}_*.check")]
+    names = [path.name.removesuffix(".check.csv") for path in folder.glob(f"{kind}_*.check.csv")]
     if not names:
         raise LogError(f"{folder}: holds no run {kind}_*")
     return sorted((read_slide(folder, name, phase) for name in names), key=lambda s: (s.knot, s.commanded))

@@ -1,6 +1,6 @@
 """Runs of `experiments/studies/speed_accuracy.sh`: what each cost, what became of it, and how far it is from a reference.
 
-A run is NAME.h5 (its log), NAME.cpu (user and system time of each repeat, s) and NAME.check (its audit).
+A run is NAME.h5 (its log), NAME.cpu (user and system time of each repeat, s) and NAME.check.csv (its audit).
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
+import audits
 from hagfish_log import HagfishLog, LogError
 from means import read_means
 
@@ -66,10 +67,9 @@ def read_run(folder: Path, name: str) -> Run:
     log = HagfishLog(folder / f"{name}.h5")
     try:
         cpu = [sum(map(float, line.split())) for line in (folder / f"{name}.cpu").read_text().splitlines()]
-        check = (folder / f"{name}.check").read_text()
     except OSError as error:
         raise LogError(f"{error.filename}: cannot be read ({error.strerror})") from None
-    unmet = [line[5:29].strip() for line in check.splitlines() if line.startswith("FAIL")]
+    unmet = audits.unmet(audits.read_findings(folder / f"{name}.check.csv"))
     scene = log.scene()
     slides = log.in_phase("slide")
     known = slides[np.isfinite(log["/knot/head_end"][slides])]

@@ -41,7 +41,13 @@ timed_run() {
       return 2
     fi
   done
-  "$hagfish" check "$log" >"$runs/$name.check" 2>&1 || (($? == 1))
+  # A log that fails its audit is a result, too.
+  code=0
+  "$hagfish" check "$log" --csv "$runs/$name.check.csv" >/dev/null 2>"$runs/$name.err" || code=$?
+  if ((code > 1)); then
+    cat "$runs/$name.err" >&2
+    return "$code"
+  fi
   mv "$runs/$name.times" "$runs/$name.cpu"
 }
 # One job, which says that it is done where no bar does.
