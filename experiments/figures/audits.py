@@ -37,4 +37,7 @@ def unmet(findings: list[Finding]) -> list[str]:
 
 def bound_on(findings: list[Finding], criterion: str) -> float:
     """The bound on a figure."""
-    return next(float(finding.bound) for finding in findings if finding.criterion == criterion)
+    for finding in findings:
+        if finding.criterion == criterion:
+            return float(finding.bound)
+    raise LogError(f"the audit has no bound on {criterion}")
