@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import csv
 from dataclasses import dataclass
 from pathlib import Path
 
 from hagfish_log import LogError
+from tables import read_csv
 
 COLUMNS = ["log", "criterion", "value", "bound", "unit", "met"]
 
@@ -24,14 +24,7 @@ class Finding:
 
 def read_findings(path: Path) -> list[Finding]:
     """The findings on one log, in the order of the audit."""
-    try:
-        with path.open(newline="", encoding="utf-8") as file:
-            reader = csv.DictReader(file)
-            rows = list(reader)
-    except OSError as error:
-        raise LogError(f"{path}: cannot be read ({error.strerror})") from None
-    if reader.fieldnames != COLUMNS or not rows:
-        raise LogError(f"{path}: not a table of hagfish check --csv")
+    rows = read_csv(path, COLUMNS)
     if len({row["log"] for row in rows}) > 1:
         raise LogError(f"{path}: of several logs; one was expected")
     return [Finding(row["criterion"], row["value"], row["bound"], row["unit"], row["met"] == "yes") for row in rows]
@@ -44,4 +37,7 @@ def unmet(findings: list[Finding]) -> list[str]:
 
 def bound_on(findings: list[Finding], criterion: str) -> float:
     """The bound on a figure."""
-    return next(float(finding.bound) for finding in findings if finding.criterion == criterion)
+    for finding in findings:
+        if finding.criterion == criterion:
+            return float(finding.bound)
+    raise LogError(f"the audit has no bound on {criterion}")

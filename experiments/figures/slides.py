@@ -5,20 +5,20 @@ A run is NAME.h5 (its log) and NAME.check.csv (its audit), where NAME is KIND_SC
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 import audits
+import plots
 from hagfish_log import HagfishLog, LogError
 from means import WINDOW, read_means
 from study import failure_of
 from summary import step_phases
 
-# Paul Tol's bright colours, one for each knot.
-COLOURS = {"3_1": "#4477aa", "4_1": "#ee6677", "5_1": "#228833", "5_2": "#aa3377"}
-NAMES = {"3_1": "overhand", "4_1": "figure-eight", "5_1": "double overhand", "5_2": "three-twist"}
 LEAST_FRAMES = 5  # of a slide with a speed
 AT_CAP = 0.999  # of the cap, a multiplier that is at it
 MEAN = f"{1000 * WINDOW:g} ms mean"  # what forces are, for headings
@@ -48,11 +48,6 @@ class Slide:
     time: np.ndarray  # from the beginning of the phase
     head_end: np.ndarray
     tail_end: np.ndarray
-
-
-def knot_label(knot: str) -> str:
-    """3_1 as a mathematician writes it, with its name."""
-    return f"${knot[0]}_{{{knot[2:]}}}$ {NAMES[knot]}"
 
 
 def unmet_of(folder: Path, name: str) -> list[str]:
@@ -100,3 +95,15 @@ def read_slides(folder: Path, kind: str, phase: str = "slide") -> list[Slide]:
 
 def of_knot(slides: list[Slide], knot: str) -> list[Slide]:
     return [slide for slide in slides if slide.knot == knot]
+
+
+def draw_over_speed(axes: Any, slides: list[Slide], measure: Callable[[Slide], float], **style: Any) -> None:
+    """A measure over commanded speed, a line for each knot; open where the knot was lost or the run failed. What is not
+    above 0, which logarithmic axes lack, is left out."""
+    for knot, look in plots.KNOTS.items():
+        own = [s for s in slides if s.knot == knot and measure(s) > 0]
+        axes.plot([s.commanded for s in own], [measure(s) for s in own], label=look.label, **(look.style | style))
+        lost = [s for s in own if s.failure]
+        axes.plot([s.commanded for s in lost], [measure(s) for s in lost], **(look.style | style | {"ls": "", "mfc": "white"}))
+    axes.set(xscale="log", yscale="log", xlabel="commanded speed, cm/s")
+    plots.plain_ticks(axes.xaxis, sorted({s.commanded for s in slides}))

@@ -11,7 +11,9 @@ from typing import Any
 import numpy as np
 
 import audits
-from hagfish_log import HagfishLog, LogError, run_script
+from hagfish_log import HagfishLog, LogError
+from script import run_script
+from tables import markdown, write_page
 
 PHASES = ("form", "tighten", "slide", "release", "free")
 KNOTS = {(1, 0): "unknot", (3, 1): "3_1", (5, -1): "4_1", (5, 3): "5_1", (7, 2): "5_2"}
@@ -26,11 +28,6 @@ PAPER_SPECIMEN = {"length": ("Length", "42.4", "cm"), "mass": ("Mass", "80", "g"
                   "twist_limit": ("Twisting limit", "48", "deg")}
 PAPER_SPEEDS = {("tighten", "head"): (0.0, 0.0), ("tighten", "tail"): (0.5, 2.0),
                 ("slide", "head"): (2.0, 2.0), ("slide", "tail"): (2.0, 2.0)}
-
-
-def table(head: list[str], rows: list[list[str]]) -> list[str]:
-    """A Markdown table."""
-    return ["| " + " | ".join(row) + " |" for row in [head, ["---"] * len(head), *rows]] + [""]
 
 
 def figures(values: Any) -> str:
@@ -107,7 +104,7 @@ def table_one(log: HagfishLog) -> list[str]:
         median = figures(np.round(np.median(speed, axis=0), 3)) if len(speed) else "no frames"
         rows.append([f"v_a, v_b ({'tightening' if phase == 'tighten' else 'sliding'}, {end})", figures(paper_speeds),
                      figures(commanded(log, phase)[columns]), median, "cm/s"])
-    return ["## Table 1", "", *table(["Data", "Paper", "Scene", f"Model, or median of means over {interval(log)}", "Units"], rows)]
+    return ["## Table 1", "", *markdown(["Data", "Paper", "Scene", f"Model, or median of means over {interval(log)}", "Units"], rows)]
 
 
 def knot_types(log: HagfishLog, frames: np.ndarray) -> dict[str, int]:
@@ -135,7 +132,7 @@ def timetable(log: HagfishLog) -> list[str]:
         kinds = ", ".join(f"{name} ({count})" for name, count in knot_types(log, frames).items())
         rows.append([phase, f"{time[frames[0]]:.2f} to {end:.2f}", f"{end - time[frames[0]]:.2f}", kinds,
                      span(log["/knot/head_end"][frames]), span(log["/knot/tail_end"][frames])])
-    return ["## Phases", "", *table(["Phase", "Time, s", "Duration, s", "Knot types (frames)", "Head end of knot, cm",
+    return ["## Phases", "", *markdown(["Phase", "Time, s", "Duration, s", "Knot types (frames)", "Head end of knot, cm",
                                      "Tail end of knot, cm"], rows)]
 
 
@@ -157,7 +154,7 @@ def eq6(log: HagfishLog) -> list[str]:
     mean = f"means over {interval(log)}"
     return ["## Eq. 6", "", f"Speeds and multipliers are {mean}, from frame to frame of the log; a step's multiplier is an "
             "impulse over h. Slack and the share met are of every step.", "",
-            *table(["Phase", "Row", "Commanded, cm/s", "Median, cm/s", "5 to 95 %, cm/s", "Median λ/h, dyn",
+            *markdown(["Phase", "Row", "Commanded, cm/s", "Median, cm/s", "5 to 95 %, cm/s", "Median λ/h, dyn",
                     "Largest λ/h, dyn", "Largest at a step, dyn", "Largest slack, cm/s", "Met without slack"], rows)]
 
 
@@ -173,7 +170,7 @@ def ledger(log: HagfishLog) -> list[str]:
     rows = [[name, f"{values[-1]:.6g}", f"{np.abs(values).max():.3g}"] for name, values in terms.items()]
     return ["## Energy ledger", "",
             "kinetic + elastic = works - dissipated + integrator error, counted from the first frame.", "",
-            *table(["Term", "At the end, erg", "Largest, erg"], rows)]
+            *markdown(["Term", "At the end, erg", "Largest, erg"], rows)]
 
 
 def step_phases(log: HagfishLog) -> np.ndarray:
@@ -202,7 +199,7 @@ def requirements(log: HagfishLog, findings: list[audits.Finding]) -> list[str]:
         rows.append(["median time of a QP, every step", f"{1000 * median:.3g} ms", f"{1000 * QP_TIME:g}",
                      "yes" if median <= QP_TIME else "**no**"])
     return ["## What the run must show", "", "Bounds are those of `hagfish check`: most of them are the scene's `[expect]`.", "",
-            *table(["Figure", "This run", "Bound", "Met"], rows)]
+            *markdown(["Figure", "This run", "Bound", "Met"], rows)]
 
 
 def solver(log: HagfishLog) -> list[str]:
@@ -218,19 +215,20 @@ def solver(log: HagfishLog) -> list[str]:
     wall, simulated = log["/diagnostics/wall_time"][-1], log["/trajectory/time"][-1]
     return ["## Solver", "", f"Logged steps by kind: {counts}. {simulated:.2f} s simulated in {wall:.1f} s: "
             f"{simulated / max(wall, 1e-9):.2f} times real time.", "",
-            *table(["At the logged frames", "Median", "95 %", "Largest"], rows)]
+            *markdown(["At the logged frames", "Median", "95 %", "Largest"], rows)]
 
 
-def main(log: HagfishLog, check: Path, out: Path) -> None:
+def main(path: Path, check: Path, out: Path) -> None:
+    log = HagfishLog(path)
     about = [["log", log.path.name], *([name, str(log.attribute(name))] for name in
                                        ("status", "created", "creator", "creator_version", "git_revision", "command",
                                         "libraries", "compiler", "cpu"))]
     about.append(["step h, frames, bodies", f"{figures(setting(log, 'time', 'step'))} s, {log.frames}, "
                                             f"{len(log['/model/mass'])}"])
-    text = ["# Summary of a run", "", *table(["", ""], about), *requirements(log, audits.read_findings(check)), *table_one(log),
+    text = ["# Summary of a run", "", *markdown(["", ""], about), *requirements(log, audits.read_findings(check)), *table_one(log),
             *timetable(log), *eq6(log), *solver(log), *ledger(log)]
-    out.write_text("\n".join(text).rstrip() + "\n", encoding="utf-8")
+    write_page(out, text)
 
 
 if __name__ == "__main__":
-    run_script(__doc__, ["CHECK.csv", "OUT.md"], main)
+    run_script(__doc__, ["LOG.h5", "CHECK.csv", "OUT.md"], main)
