@@ -12,7 +12,7 @@ namespace {
 constexpr int panel = 4;  // columns made together
 /// As in free_rows.cpp: smaller pivots of a matrix of unit diagonal are rounding.
 constexpr double rank_threshold = 1e-12;
-/// Pivots above this are not: they are told from rounding without a closer look.
+/// Pivots above this are not: they are clear of rounding without a closer look.
 constexpr double clear_pivot = 1e-4;
 /// Rounding of A and of the factor, in entries of A brought to unit diagonal.
 constexpr double entry_rounding = 8 * std::numeric_limits<double>::epsilon();
@@ -70,7 +70,7 @@ bool ActiveSetFactor::factorise_tail(Eigen::Index known) {
         L_.col(j).segment(behind, n - behind) -= L_(j, k) * column.tail(n - behind);
       }
     }
-    if (k < first + width) {  // the columns behind it are to be made anew
+    if (k < first + width) {  // the columns behind it are made again
       refuse(k);
       --n;
       all = false;

@@ -1,5 +1,7 @@
 #include "core/chain/model.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,11 +13,6 @@ namespace hagfish {
 namespace {
 
 constexpr double unbounded = std::numeric_limits<double>::infinity();
-
-std::string padded(int number, int width) {
-  std::string text = std::to_string(number);
-  return std::string(std::max<int>(0, width - static_cast<int>(text.size())), '0') + text;
-}
 
 void set_hinge(Hinge& hinge, double limit, double stiffness, double damping) {
   hinge.lower = -limit;
@@ -38,7 +35,7 @@ std::vector<JointName> joint_names(const Model& model) {
       {"root", {"root_x", "root_y", "root_z", "root_rot_x", "root_rot_y", "root_rot_z"}});
   for (int b = 1; b < model.body_count(); ++b) {
     const Body& body = model.bodies[b];
-    const std::string number = "j" + padded(b, width);
+    const std::string number = fmt::format("j{:0{}}", b, width);
     if (body.dofs == 1 && model.hinges[body.first_dof - root_dofs].axis == Axis::x) {
       names.push_back({number + "_twist", {number + "_twist"}});
       continue;

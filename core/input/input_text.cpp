@@ -50,6 +50,18 @@ std::string nearest(std::string_view word, const std::vector<std::string>& candi
   return best == candidates.end() ? "" : *best;
 }
 
+std::string similar(std::string_view word, const std::vector<std::string>& candidates) {
+  const std::string near = nearest(word, candidates);
+  const bool extended = near.starts_with(word) || word.starts_with(near);
+  const bool slip = edit_distance(word, near) <= (word.size() + 1) / 2;
+  return extended || slip ? near : "";
+}
+
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates) {
+  const std::string near = similar(word, candidates);
+  return near.empty() ? "" : "; did you mean `" + near + "`?";
+}
+
 Override parse_override(std::string_view assignment) {
   const auto trimmed = [](std::string_view text) {
     const auto first = text.find_first_not_of(" \t"), last = text.find_last_not_of(" \t");

@@ -30,4 +30,11 @@ std::string shortened(const std::string& text);
 /// The candidate with the least edit distance to `word`; empty where there is no candidate.
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
 
+/// The same, but only one that `word` may be a slip of: up to half of its letters are others, or
+/// one begins with the other. Empty where there is none.
+std::string similar(std::string_view word, const std::vector<std::string>& candidates);
+
+/// "; did you mean `CANDIDATE`?" of the similar one; empty where there is none.
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates);
+
 }  // namespace hagfish

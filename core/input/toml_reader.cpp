@@ -86,6 +86,13 @@ struct TableReader::Impl {
       throw_input_error(document->file + ": --set " + change->key + "=" + shortened(change->value) +
                         ": " + (itself ? "" : full + " ") + reason);
     }
+    // A table that is there by an override of something in it.
+    const auto within = document->overrides.lower_bound(full + ".");
+    if (within != document->overrides.end() && within->first.starts_with(full + ".")) {
+      const Override& change = within->second;
+      throw_input_error(document->file + ": --set " + change.key + "=" + shortened(change.value) +
+                        ": " + full + ": " + reason);
+    }
     const std::string file = document->file_of(place.value);
     std::string text = file;
     if (place.value) text += ":" + std::to_string(place.value->location().line());

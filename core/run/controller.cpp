@@ -9,7 +9,7 @@ namespace hagfish {
 namespace {
 
 // Minima of the gap hop along a contact line from one universal joint to the next, 0.85 cm at 100
-// bodies, and slide by 0.004 cm a step in between. Half a centimetre tells the two apart, cm.
+// bodies, and slide by 0.004 cm a step in between. Half a centimetre separates the two, cm.
 constexpr double same_contact = 0.5;
 // A script that has not tied within this long after its last knot will not, s.
 constexpr double patience = 2.0;

@@ -89,8 +89,8 @@ Status report(Outcome outcome, const std::string& message, GuardAction action, W
   if (action == GuardAction::stop) {
     return {outcome, message};
   }
-  if (!watch.told.test(static_cast<std::size_t>(outcome))) {
-    watch.told.set(static_cast<std::size_t>(outcome));
+  if (!watch.warned.test(static_cast<std::size_t>(outcome))) {
+    watch.warned.set(static_cast<std::size_t>(outcome));
     warnings.push_back(message);
   }
   return {};
@@ -197,7 +197,7 @@ void guard_cap(const Model& model, const Kinematics& kin, const Scene& scene,
     const Eigen::Index i = found - step.rows.begin();
     // Naming the opponents takes a factorisation: once.
     if (time - below[place] > scene.guard.capped_time &&
-        !watch.told.test(static_cast<std::size_t>(Outcome::capped))) {
+        !watch.warned.test(static_cast<std::size_t>(Outcome::capped))) {
       std::ignore = report(
           Outcome::capped,
           fmt::format("{} has been at controller.cap = {:g} dyn for {:g} s and falls {:.3g} cm/s "

@@ -13,7 +13,7 @@ namespace hagfish {
 
 /// What a run remembers of its watches.
 struct Watch {
-  std::bitset<outcome_count> told;  ///< warnings given: each cause once a run
+  std::bitset<outcome_count> warned;  ///< warnings given: each cause once a run
   /// When each thigmotaxis row was last below its cap or not there, s: by thigmotaxis_place, as far
   /// as rows have been seen.
   std::vector<double> below_cap;

@@ -4,24 +4,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 #include "core/log/log_writer.hpp"
 #include "core/run/simulation.hpp"
 #include "experiments/audit/audit_datasets.hpp"
 #include "experiments/audit/audit_forces.hpp"
+#include "experiments/audit/audit_forward_inverse.hpp"
 #include "experiments/audit/audit_frames.hpp"
 #include "experiments/audit/audit_knot.hpp"
 #include "experiments/audit/audit_steps.hpp"
-#include "mujoco_ref/forward_inverse.hpp"
-#include "mujoco_ref/log_model.hpp"
-#include "mujoco_ref/mirror.hpp"
 
 namespace hagfish {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 /// A spline point loads bodies up to two past the one nearest to it.
 constexpr int spline_reach = 2;
 
@@ -35,57 +31,22 @@ double largest(const Eigen::ArrayXd& values) {
 
 Finding status(const LogContents& log) {
   const std::string text = log.h5.root_text("status");
-  return {"status", text == "complete", text};
+  return {"status", text == "complete", text, text, "complete", ""};
 }
 
 /// Bounds of the scene; `deepest` and `furthest` are overlap (cm) and angle past a limit (rad) at
-/// the frames, observed anew.
+/// the frames, observed again.
 std::vector<Finding> constraints(const LogContents& log, double deepest, double furthest) {
   const ExpectSettings& expect = log.resolved.scene.expect;
   const double penetration = worse(deepest, largest(log.h5.doubles("/steps/penetration")));
   const double violation = worse(furthest, largest(log.h5.doubles("/steps/limit_violation")));
-  return {bounded("penetration", penetration, expect.penetration, "cm, every step"),
-          bounded("limits", violation / degree, expect.limit_violation / degree, "deg, every step"),
-          bounded("head drift", largest(log.h5.doubles("/steps/head_drift")), expect.head_drift,
-                  "cm, every step"),
-          bounded("KKT residual", largest(log.h5.doubles("/steps/kkt")), expect.kkt,
-                  "scaled, every step")};
-}
-
-/// All constraint forces of each frame, generalised.
-Hdf5Reader::Rows constraint_forces(const LogContents& log) {
-  Hdf5Reader::Rows sum = log.h5.rows("/forces/thigmotaxis");
-  for (const char* block : {"contact", "limit", "head", "wall"}) {
-    sum += log.h5.rows(std::string("/forces/") + block);
-  }
-  return sum;
-}
-
-/// Each frame's forces put back as applied forces in the log's own MuJoCo model, with its contacts
-/// and limits off: one step must end at the logged q̇. Drag is the core's, at the end of the step.
-Finding forward_inverse(const LogContents& log) {
-  const Model& model = log.model;
-  MujocoModel mirror = mujoco_model_of(log.h5);
-  const std::string difference =
-      first_difference(*mirror.model(), model, log.resolved.scene.time.step);
-  if (!difference.empty()) {
-    throw FileError(log.h5.file() + ": /mjcf is not the scene's model: " + difference);
-  }
-  use_core_rule(mirror);
-  const Hdf5Reader::Rows sum = constraint_forces(log);
-  const Hdf5Reader::Rows tip = log.h5.rows("/forces/tip");
-  double largest_error = 0;
-  for (Eigen::Index f = 0; f < log.q.rows(); ++f) {
-    const State state{log.q.row(f), log.qdot.row(f)};
-    const Eigen::VectorXd next = log.qdot_next.row(f);
-    const Kinematics kin = kinematics(model, state);
-    const Eigen::VectorXd force = sum.row(f).transpose() + drag_force(model, kin, next);
-    const Eigen::VectorXd driven = driven_velocity(model, state, force, tip.row(f), mirror);
-    const double off = largest((driven - next).array().abs().eval());
-    largest_error = worse(largest_error, off > 0 ? off / next.lpNorm<Eigen::Infinity>() : off);
-  }
-  return bounded("forward-inverse", largest_error, log.resolved.scene.expect.forward_inverse,
-                 "of q̇, MuJoCo's step under the logged forces at every frame");
+  const auto every_step = [](const Criterion& criterion) {
+    return judged_over(criterion, "every step");
+  };
+  return {every_step(penetration_criterion(expect, penetration)),
+          every_step(limits_criterion(expect, violation)),
+          every_step(head_drift_criterion(expect, largest(log.h5.doubles("/steps/head_drift")))),
+          every_step(kkt_criterion(expect, largest(log.h5.doubles("/steps/kkt"))))};
 }
 
 /// f_thigmo at dofs of bodies tailward of the last contact's spline points.
@@ -104,7 +65,7 @@ Finding thigmotaxis_extent(const LogContents& log) {
       }
     }
   }
-  return bounded("f_thigmo past the knot", beyond, 0, "dyn cm");
+  return judged_over({"f_thigmo past the knot", beyond, 0, "dyn cm"});
 }
 
 Eigen::ArrayXd diagnostic(const LogContents& log, const char* name) {
@@ -112,28 +73,25 @@ Eigen::ArrayXd diagnostic(const LogContents& log, const char* name) {
   return Eigen::ArrayXd::Map(v.data(), static_cast<Eigen::Index>(v.size()));
 }
 
-/// Mechanical energy above what there was and what script and thigmotaxis put in, of the most that
-/// there was of these so far.
+Eigen::ArrayXd mechanical_energy(const LogContents& log) {
+  return diagnostic(log, "kinetic_energy") + diagnostic(log, "elastic_energy") +
+         diagnostic(log, "gravity_energy");
+}
+
 Finding energy_gain(const LogContents& log) {
-  const auto get = [&](const char* name) { return diagnostic(log, name); };
-  const Eigen::ArrayXd energy =
-      get("kinetic_energy") + get("elastic_energy") + get("gravity_energy");
-  const Eigen::ArrayXd had = energy[0] + get("work_tip") + get("work_thigmotaxis");
-  double gain = 0;
-  double most = 0;
+  const Eigen::ArrayXd energy = mechanical_energy(log);
+  const Eigen::ArrayXd put_in = diagnostic(log, "work_tip") + diagnostic(log, "work_thigmotaxis");
+  EnergyGain gain(energy[0]);
   for (Eigen::Index f = 0; f < energy.size(); ++f) {
-    most = std::max(most, had[f]);
-    gain = worse(gain, most > 0 ? (energy[f] - had[f]) / most : 0);
+    gain.see(energy[f], put_in[f]);
   }
-  return bounded("energy gain", gain, log.resolved.scene.expect.energy_gain,
-                 "of what there was and was put in");
+  return judged_over(energy_gain_criterion(log.resolved.scene.expect, gain.largest()));
 }
 
 /// The ledger's imbalance, over the energy that has passed through it.
 Finding energy(const LogContents& log) {
   const auto get = [&](const char* name) { return diagnostic(log, name); };
-  const Eigen::ArrayXd energy =
-      get("kinetic_energy") + get("elastic_energy") + get("gravity_energy");
+  const Eigen::ArrayXd energy = mechanical_energy(log);
   const Eigen::ArrayXd works = get("work_tip") + get("work_thigmotaxis") + get("work_contact") +
                                get("work_limit") + get("work_head") + get("work_wall");
   const Eigen::ArrayXd error = get("integrator_error");
@@ -141,8 +99,8 @@ Finding energy(const LogContents& log) {
   const double worst = largest((energy - energy[0] - works + dissipated - error).abs().eval());
   const double passed = std::max(dissipated.abs().maxCoeff(), works.abs().maxCoeff());
   const double relative = passed > 0 ? worst / passed : worst;
-  Finding finding = bounded("energy ledger", relative, log.resolved.scene.expect.energy,
-                            "of the energy that passed");
+  Finding finding = judged_over(
+      {"energy ledger", relative, log.resolved.scene.expect.energy, "of the energy that passed"});
   finding.text += fmt::format("; {:.0f} erg worked, {:.0f} dissipated, {:.0f} integrator's own",
                               works[works.size() - 1], dissipated[dissipated.size() - 1],
                               error[error.size() - 1]);
@@ -151,8 +109,28 @@ Finding energy(const LogContents& log) {
 
 }  // namespace
 
-Finding bounded(const std::string& name, double value, double bound, const std::string& unit) {
-  return {name, value <= bound, fmt::format("{:.3g} {} (at most {:g})", value, unit, bound)};
+Finding judged(const Criterion& criterion, const std::string& text) {
+  const auto number = [](double value) {
+    return std::isfinite(value) ? fmt::format("{}", value) : "";
+  };
+  return {criterion.name,          criterion.met(),         text,
+          number(criterion.value), number(criterion.bound), criterion.unit};
+}
+
+Finding judged_over(const Criterion& criterion, const std::string& scope) {
+  return judged(criterion,
+                fmt::format("{}{}{} (at {} {:g})",
+                            std::isfinite(criterion.value)
+                                ? fmt::format("{:.3g} {}", criterion.value, criterion.unit)
+                                : "no finite number",
+                            scope.empty() ? "" : ", ", scope, criterion.at_least ? "least" : "most",
+                            criterion.bound));
+}
+
+Finding all_of(const std::string& name, std::int64_t count, std::int64_t of,
+               const std::string& unit, const std::string& text) {
+  const auto number = [of](std::int64_t n) { return of > 0 ? std::to_string(n) : ""; };
+  return {name, of > 0 && count == of, text, number(count), number(of), unit};
 }
 
 std::vector<Finding> audit(const std::string& file) {
@@ -180,7 +158,7 @@ std::vector<Finding> audit(const std::string& file) {
   append(frames.findings());
   append(audit_steps(log));
   append(forces.findings());
-  findings.push_back(forward_inverse(log));
+  findings.push_back(audit_forward_inverse(log));
   findings.push_back(thigmotaxis_extent(log));
   findings.push_back(energy(log));
   findings.push_back(energy_gain(log));

@@ -1,6 +1,7 @@
 #include "experiments/audit/audit_forces.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -344,40 +345,40 @@ std::vector<Finding> ForceAudit::findings() const {
   const ExpectSettings& expect = log_.resolved.scene.expect;
   std::vector<Finding> findings{
       from_rows_.finding("forces of rows", "q, spline parameters and multipliers")};
-  findings.push_back(bounded("limits bear at limits", limit_miss_, limit_tolerance,
-                             "rad from the limit at the step's end, /forces/limit"));
+  findings.push_back(judged_over({"limits bear at limits", limit_miss_, limit_tolerance,
+                                  "rad from the limit at the step's end"},
+                                 "/forces/limit"));
   if (!log_.model.cones.empty()) {
-    findings.push_back(bounded("cones bear at cones", cone_miss_, cone_tolerance,
-                               "rad from the cone at the step's end, /forces/limit"));
-    findings.push_back(bounded("cones push back", cone_turn_, cone_turn_tolerance,
-                               "rad from the way the joint bends, /forces/limit"));
+    findings.push_back(judged_over(
+        {"cones bear at cones", cone_miss_, cone_tolerance, "rad from the cone at the step's end"},
+        "/forces/limit"));
+    findings.push_back(judged_over(
+        {"cones push back", cone_turn_, cone_turn_tolerance, "rad from the way the joint bends"},
+        "/forces/limit"));
   }
+  findings.push_back(judged_over({"thigmotaxis as asked", ask_miss_, ask_tolerance, "cm/s"},
+                                 "rows below their cap"));
+  findings.push_back(judged_over({"thigmotaxis cap", most_, 1 + cap_tolerance, "of controller.cap"},
+                                 "largest multiplier"));
+  std::set<std::string> shape = shape_;
+  if (next_contact_ != contact_frame_.size()) shape.insert("/contacts/frame");
+  findings.push_back(judged(
+      {"shape of forces", static_cast<double>(shape.size()), 0, "datasets"},
+      shape.empty() ? "each kind acts where it can, contacts push"
+                    : fmt::format("act where they cannot, or pull: {}", fmt::join(shape, ", "))));
+  findings.push_back(judged_over({"force balance", imbalance_, expect.force_balance, "of scale"},
+                                 "H(q̇ - q̇*) - h Σ f recomputed at every frame"));
   findings.push_back(
-      bounded("thigmotaxis as asked", ask_miss_, ask_tolerance, "cm/s, rows below their cap"));
-  findings.push_back(bounded("thigmotaxis cap", most_, 1 + cap_tolerance,
-                             "of controller.cap, largest multiplier"));
-  std::string shape;
-  for (const std::string& path : shape_) {
-    shape += (shape.empty() ? "" : ", ") + path;
-  }
-  if (next_contact_ != contact_frame_.size()) {
-    shape += (shape.empty() ? "" : ", ") + std::string("/contacts/frame");
-  }
-  findings.push_back({"shape of forces", shape.empty(),
-                      shape.empty() ? "each kind acts where it can, contacts push"
-                                    : "act where they cannot, or pull: " + shape});
-  findings.push_back(bounded("force balance", imbalance_, expect.force_balance,
-                             "of scale, H(q̇ - q̇*) - h Σ f recomputed at every frame"));
-  findings.push_back(bounded("balance of means", mean_imbalance_, expect.force_balance,
-                             "of scale, Σ /mean/forces against /mean/forces/net at every frame"));
+      judged_over({"balance of means", mean_imbalance_, expect.force_balance, "of scale"},
+                  "Σ /mean/forces against /mean/forces/net at every frame"));
   const double tolerance =
       mean_tolerance + mean_tolerance_growth * log_.resolved.scene.time.frame_interval;
   if (mean_deviation_.size() >= least_means && tolerance <= largest_mean_tolerance) {
     std::vector<double> deviation = mean_deviation_;
     const auto middle = deviation.begin() + static_cast<std::ptrdiff_t>(deviation.size() / 2);
     std::nth_element(deviation.begin(), middle, deviation.end());
-    findings.push_back(bounded("means of f_thigmo", *middle, tolerance,
-                               "of scale, median, against C' of the mean multipliers"));
+    findings.push_back(judged_over({"means of f_thigmo", *middle, tolerance, "of scale"},
+                                   "median, against C' of the mean multipliers"));
   }
   return findings;
 }

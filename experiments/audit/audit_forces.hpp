@@ -1,4 +1,4 @@
-// The part of an audit that makes every force anew from q, q̇, the contacts' spline parameters and
+// The part of an audit that recomputes every force from q, q̇, the contacts' spline parameters and
 // the multipliers, and holds their sum against the motion.
 #pragma once
 

@@ -148,22 +148,27 @@ void FrameAudit::see_bounds(const AuditedFrame& frame) {
 }
 
 std::vector<Finding> FrameAudit::findings() const {
-  const auto within = [](std::int64_t count, double share, std::int64_t of) {
-    return static_cast<double>(count) <= std::max(1.0, share * static_cast<double>(of));
+  // At one frame more or less, whatever the share.
+  const auto share = [](std::int64_t count, double most, std::int64_t of) {
+    return static_cast<double>(count) / std::max(1.0, most * static_cast<double>(of));
   };
+  const double off = std::max(static_cast<double>(contacts_off_by_) / most_contacts_off,
+                              share(contacts_off_, largest_share_off, frames_));
   return {
       by_itself_.finding("frames", "the frame's number, the phase before, the integrator's terms"),
       from_q_.finding("figures of q", "q and q̇ at every frame"),
-      {"contacts",
-       contacts_off_by_ <= most_contacts_off && within(contacts_off_, largest_share_off, frames_),
-       fmt::format("/diagnostics/contacts is not what a search from nothing finds at {} of {} "
-                   "frames (at most {:g} %), by {} at most ({})",
-                   contacts_off_, frames_, 100 * largest_share_off, contacts_off_by_,
-                   most_contacts_off)},
-      {"contacts followed", within(kept_, largest_kept_share, followed_),
-       fmt::format("/thigmotaxis/spline_a and spline_b are no minimum of the gap, but kept from "
-                   "one, {} times of {} (at most {:g} %)",
-                   kept_, followed_, 100 * largest_kept_share)}};
+      judged({"contacts", off, 1, "of what is allowed"},
+             fmt::format("/diagnostics/contacts is not what a search from nothing finds at {} of "
+                         "{} frames (at most {:g} %), by {} at most ({})",
+                         contacts_off_, frames_, 100 * largest_share_off, contacts_off_by_,
+                         most_contacts_off)),
+      judged({"contacts followed", share(kept_, largest_kept_share, followed_), 1,
+              "of what is allowed"},
+             followed_ == 0
+                 ? "no contact was followed"
+                 : fmt::format("/thigmotaxis/spline_a and spline_b are no minimum of the gap, but "
+                               "kept from one, {} times of {} (at most {:g} %)",
+                               kept_, followed_, 100 * largest_kept_share))};
 }
 
 }  // namespace hagfish

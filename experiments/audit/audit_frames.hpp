@@ -1,4 +1,4 @@
-// The part of an audit that makes a log's figures anew from q and q̇: where the body is, how it is
+// The part of an audit that recomputes a log's figures from q and q̇: where the body is, how it is
 // knotted, its energies and how well it keeps its bounds.
 #pragma once
 

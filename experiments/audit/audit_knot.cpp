@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/knot/knot.hpp"
 #include "core/knot/writhe.hpp"
@@ -15,10 +16,18 @@ Phase phase_at(const LogContents& log, std::size_t frame) {
   return static_cast<Phase>(log.phase[frame]);
 }
 
+/// Of a run that never came to hold the knot.
+std::string never_held(const std::string& expected, const std::vector<std::string>& type) {
+  const auto tied = std::ranges::count(type, expected);
+  return tied == 0 ? "never tied: no frame with a " + expected
+                   : fmt::format("never tightened, though a {} at {} of {} frames", expected, tied,
+                                 type.size());
+}
+
 Finding held(const LogContents& log, const std::vector<std::string>& type) {
   const std::string& expected = log.resolved.scene.expect.knot;
-  std::size_t frames = 0;
-  std::size_t kept = 0;
+  std::int64_t frames = 0;
+  std::int64_t kept = 0;
   std::string lost;
   for (std::size_t f = 0; f < type.size(); ++f) {
     if (!holds_knot(phase_at(log, f))) {
@@ -30,9 +39,10 @@ Finding held(const LogContents& log, const std::vector<std::string>& type) {
       lost = fmt::format(", first {} at {:.3f} s", type[f], log.time[f]);
     }
   }
-  return {"knot held", frames > 0 && kept == frames,
-          fmt::format("{} at {} of {} frames from tightening to release{}", expected, kept, frames,
-                      lost)};
+  return all_of("knot held", kept, frames, "frames",
+                frames == 0 ? never_held(expected, type)
+                            : fmt::format("{} at {} of {} frames from tightening to release{}",
+                                          expected, kept, frames, lost));
 }
 
 /// expect.types, where the run gets that far.
@@ -44,23 +54,28 @@ std::vector<Finding> types_through_time(const LogContents& log,
     if (scene.time.until != Phase::free && stretch.from > log.time.back()) {
       continue;
     }
-    std::size_t frames = 0;
-    std::size_t kept = 0;
+    std::int64_t frames = 0;
+    std::int64_t kept = 0;
     for (std::size_t f = 0; f < type.size(); ++f) {
       if (log.time[f] >= stretch.from && log.time[f] <= stretch.to) {
         ++frames;
         kept += type[f] == stretch.type ? 1 : 0;
       }
     }
-    findings.push_back({"knot through time", frames > 0 && kept == frames,
-                        fmt::format("{} at {} of {} frames from {:g} to {:g} s", stretch.type, kept,
-                                    frames, stretch.from, stretch.to)});
+    const std::string what =
+        frames > 0 ? fmt::format("{} at {} of {} frames", stretch.type, kept, frames)
+                   : fmt::format("the log, of {:g} to {:g} s, has no frame to be a {}",
+                                 log.time.front(), log.time.back(), stretch.type);
+    findings.push_back(
+        all_of("knot through time", kept, frames, "frames",
+               fmt::format("{} from {:g} to {:g} s", what, stretch.from, stretch.to)));
   }
   return findings;
 }
 
 /// The sign of the writhe while the knot holds.
-Finding hand(const LogContents& log, const std::vector<SeenKnot>& seen) {
+Finding hand(const LogContents& log, const std::vector<SeenKnot>& seen,
+             const std::vector<std::string>& type) {
   double least = INFINITY;
   double most = -INFINITY;
   for (std::size_t f = 0; f < log.time.size(); ++f) {
@@ -70,23 +85,39 @@ Finding hand(const LogContents& log, const std::vector<SeenKnot>& seen) {
     }
   }
   const bool right = log.resolved.scene.expect.hand == Hand::right;
-  return {"hand", right ? least > 0 && least < INFINITY : most < 0 && most > -INFINITY,
-          fmt::format("writhe from {:.2f} to {:.2f} while held ({} for a {}-handed knot)", least,
-                      most, right ? "above 0" : "below 0", right ? "right" : "left")};
+  const bool any = least <= most;
+  const char* bound = right ? "above 0" : "below 0";
+  return {"hand",
+          any && (right ? least > 0 : most < 0),
+          any ? fmt::format("writhe from {:.2f} to {:.2f} while held ({} for a {}-handed knot)",
+                            least, most, bound, right ? "right" : "left")
+              : never_held(log.resolved.scene.expect.knot, type),
+          any ? fmt::format("{}", right ? least : most) : "",
+          bound,
+          "writhe"};
 }
 
-/// How far an end of the knot moves in one phase, cm; nan where it is not seen.
-double travel(const LogContents& log, Phase phase, const char* end) {
+/// How far an end of the knot moves tailward in one phase, cm; nothing where it is not seen.
+std::optional<double> travel(const LogContents& log, Phase phase, const char* end) {
   const std::vector<double> arc = log.h5.doubles(end);
-  double first = NAN;
-  double last = NAN;
+  std::optional<double> first;
+  double last = 0;
   for (std::size_t f = 0; f < arc.size(); ++f) {
     if (phase_at(log, f) == phase && !std::isnan(arc[f])) {
-      first = std::isnan(first) ? arc[f] : first;
+      first = first.value_or(arc[f]);
       last = arc[f];
     }
   }
-  return last - first;
+  return first ? std::optional(last - *first) : std::nullopt;
+}
+
+/// "head" end of the knot moved "headward".
+Finding moved(const Criterion& criterion, const char* end, const char* way) {
+  return judged(criterion,
+                std::isnan(criterion.value)
+                    ? fmt::format("no {} (at least {:g} cm)", criterion.name, criterion.bound)
+                    : fmt::format("{} end of the knot moved {:.2f} cm {} (at least {:g})", end,
+                                  criterion.value, way, criterion.bound));
 }
 
 /// Eq. 6 at the steps of both slides. Steps of a phase lie between its frames' first and last step.
@@ -104,11 +135,12 @@ Finding commanded_speed(const LogContents& log) {
       met += eq6.at(k - step.front()) == 1 ? 1 : 0;
     }
   }
-  const double share = rows > 0 ? static_cast<double>(met) / static_cast<double>(rows) : 0;
-  const double least = log.resolved.scene.expect.speed_share;
-  return {"Eq. 6", share >= least,
-          fmt::format("met without slack on {:.2f} % of {} sliding steps (at least {:g} %)",
-                      100 * share, rows, 100 * least)};
+  const Criterion criterion = eq6_criterion(log.resolved.scene.expect, met, rows);
+  return judged(criterion,
+                rows == 0 ? fmt::format("no sliding steps (at least {:g} %)", criterion.bound)
+                          : fmt::format("met without slack on {:.2f} % of {} sliding steps (at "
+                                        "least {:g} %)",
+                                        criterion.value, rows, criterion.bound));
 }
 
 }  // namespace
@@ -137,30 +169,28 @@ std::vector<Finding> audit_knot(const LogContents& log, const std::vector<SeenKn
     findings.push_back(held(log, type));
   }
   if (scene.start.phase == Phase::form) {
-    findings.push_back({"unknot at start", type.front() == "0_1", type.front()});
+    findings.push_back(
+        {"unknot at start", type.front() == "0_1", type.front(), type.front(), "0_1", ""});
   }
   if (reaches(Phase::free)) {
     const bool ended = phase_at(log, type.size() - 1) == Phase::free;
-    findings.push_back(
-        {"unknot at end", ended && type.back() == "0_1",
-         type.back() + (ended ? "" : ", but the run ended before the knot was off")});
+    findings.push_back({"unknot at end", ended && type.back() == "0_1",
+                        type.back() + (ended ? "" : ", but the run ended before the knot was off"),
+                        type.back(), "0_1", ""});
   }
   const std::vector<Finding> through_time = types_through_time(log, type);
   findings.insert(findings.end(), through_time.begin(), through_time.end());
   if (reaches(Phase::tighten) && expect.hand != Hand::any) {
-    findings.push_back(hand(log, seen));
+    findings.push_back(hand(log, seen, type));
   }
   if (reaches(Phase::slide)) {
-    const double slid = -travel(log, Phase::slide, "/knot/head_end");
-    findings.push_back({"slide", slid >= expect.slide_distance,
-                        fmt::format("head end of the knot moved {:.2f} cm headward (at least {:g})",
-                                    slid, expect.slide_distance)});
+    std::optional<double> slid = travel(log, Phase::slide, "/knot/head_end");
+    if (slid) slid = -*slid;
+    findings.push_back(moved(slide_criterion(expect, slid), "head", "headward"));
   }
   if (reaches(Phase::reverse) && scene.controller.leave_by == BodyEnd::tail) {
-    const double slid = travel(log, Phase::reverse, "/knot/tail_end");
-    findings.push_back({"reverse", slid >= expect.reverse_distance,
-                        fmt::format("tail end of the knot moved {:.2f} cm tailward (at least {:g})",
-                                    slid, expect.reverse_distance)});
+    const std::optional<double> slid = travel(log, Phase::reverse, "/knot/tail_end");
+    findings.push_back(moved(reverse_criterion(expect, slid), "tail", "tailward"));
   }
   if (reaches(Phase::slide)) {
     findings.push_back(commanded_speed(log));

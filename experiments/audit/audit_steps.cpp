@@ -1,6 +1,7 @@
 #include "experiments/audit/audit_steps.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -125,11 +126,9 @@ void rebuild_solver(const LogContents& log, const Steps& steps, Rebuilt& rebuilt
 
 /// Figures that cannot be below zero, or that must not fall.
 Finding plausible(const LogContents& log) {
-  std::string failed;
+  std::vector<std::string> failed;
   const auto ask = [&failed](const std::string& path, bool met) {
-    if (!met) {
-      failed += (failed.empty() ? "" : ", ") + path;
-    }
+    if (!met) failed.push_back(path);
   };
   for (const char* path :
        {"/steps/kkt", "/steps/penetration", "/steps/limit_violation", "/steps/head_drift",
@@ -154,9 +153,10 @@ Finding plausible(const LogContents& log) {
   }
   ask("/steps/solve against /steps/rows", kinds);
   ask("/steps/iterations against /steps/solve", counts);
-  return {"plausible", failed.empty(),
-          failed.empty() ? "nothing below zero or against its kind at any step"
-                         : "below zero, not finite or against its kind: " + failed};
+  return judged({"plausible", static_cast<double>(failed.size()), 0, "datasets"},
+                failed.empty() ? "nothing below zero or against its kind at any step"
+                               : fmt::format("below zero, not finite or against its kind: {}",
+                                             fmt::join(failed, ", ")));
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ struct AuditedFrame {
   Phase phase;
   State state;
   Eigen::VectorXd qdot_next;
-  Observation observation;         ///< observed anew from the logged state
+  Observation observation;         ///< observed again from the logged state
   Eigen::Matrix3Xd next_velocity;  ///< of the bodies' centres at qdot_next, 3 x N, cm/s
 };
 

@@ -47,16 +47,20 @@ Finding Rebuilt::finding(const std::string& name, const std::string& from) const
       worst_path = " in " + path;
     }
     if (!(share <= 1)) {
-      failed += fmt::format("{}{} is off by {:.2g} times its tolerance", failed.empty() ? "" : ", ",
-                            path, share);
+      failed +=
+          fmt::format("{}{} is {}", failed.empty() ? "" : ", ", path,
+                      std::isfinite(share) ? fmt::format("off by {:.2g} times its tolerance", share)
+                                           : "another number, or none");
     }
   }
+  const Criterion criterion{name, worst, 1, "of the tolerance"};
   if (!failed.empty()) {
-    return {name, false, failed + ", rebuilt from " + from};
+    return judged(criterion, failed + ", rebuilt from " + from);
   }
-  return {name, true,
-          fmt::format("{} datasets rebuilt from {}: off by {:.2g} of the tolerance at most{}",
-                      datasets_.size(), from, worst, worst_path)};
+  return judged(criterion,
+                fmt::format("{} datasets rebuilt from {}: off by {:.2g} of the tolerance "
+                            "at most{}",
+                            datasets_.size(), from, worst, worst_path));
 }
 
 }  // namespace hagfish

@@ -5,30 +5,25 @@ Usage: benchmarks.py BENCHMARKS.json OUT.png (writes a PDF and a CSV beside).
 
 from __future__ import annotations
 
-import argparse
-import csv
 import json
 from pathlib import Path
 from typing import Any
 
-import matplotlib
+import plots
+import tables
+from script import run_script
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
-import numpy as np
-
-from hagfish_log import save_figure
-
-DPI = 200
 MUJOCO_SOLVERS = ("pgs", "cg", "newton")
 PARTS = {"kinematics": "kinematics", "mass_matrix": "mass matrix, dense", "bias": "bias",
          "system": "Eq. 1: M, factor, solve", "contact": "contact", "rows": "rows", "dual": "A and b of the QP",
          "qp_active-set": "QP, active-set"}
-STEPS = {("core", "step_knotted_ipopt"): ("knotted, Ipopt", "#882255", "s", "-"),
-         ("mujoco", "step_knotted"): ("knotted, MuJoCo's best solver", "#4477aa", "o", "-"),
-         ("core", "step_knotted_active-set"): ("knotted, active-set", "#000000", "o", "-"),
-         ("mujoco", "step_free"): ("without contact, MuJoCo", "#4477aa", "^", "--"),
-         ("core", "step_free"): ("without contact, core", "#000000", "^", "--")}
+SIMULATORS = {"core": ("core", plots.INK), "mujoco": ("MuJoCo", plots.BLUE)}
+# Part, label, marker and line; the colour is the simulator's.
+STEPS = {("core", "step_knotted_ipopt"): ("knotted, core with Ipopt", "s", ":"),
+         ("mujoco", "step_knotted"): ("knotted, MuJoCo's best solver", "o", "-"),
+         ("core", "step_knotted_active-set"): ("knotted, core with active-set", "o", "-"),
+         ("mujoco", "step_free"): ("without contact, MuJoCo", "^", "--"),
+         ("core", "step_free"): ("without contact, core", "^", "--")}
 Times = dict[tuple[str, str], dict[int, float]]
 
 
@@ -44,15 +39,11 @@ def medians(benchmarks: list[dict[str, Any]]) -> Times:
     return times
 
 
-def write_csv(times: Times, context: dict[str, Any], path: Path) -> None:
-    with path.open("w", newline="", encoding="utf-8") as file:
-        for key in ("cpu", "compiler", "libraries", "revision", "date"):
-            file.write(f"# {key}: {context[key]}\n")
-        writer = csv.writer(file)
-        writer.writerow(["simulator", "part", "bodies", "cpu_time_us"])
-        for (simulator, part), by_bodies in times.items():
-            for bodies, time in by_bodies.items():
-                writer.writerow([simulator, part, bodies, f"{time:.4g}"])
+def write_times(times: Times, context: dict[str, Any], path: Path) -> None:
+    notes = [f"{key}: {context[key]}" for key in ("cpu", "compiler", "libraries", "revision", "date")]
+    tables.write_csv(path, ["simulator", "part", "bodies", "cpu_time_us"],
+                     [[simulator, part, bodies, f"{time:.4g}"] for (simulator, part), by_bodies in times.items()
+                      for bodies, time in by_bodies.items()], notes)
 
 
 def print_ratios(times: Times) -> None:
@@ -74,48 +65,39 @@ def print_ratios(times: Times) -> None:
 
 
 def draw_steps(axes: Any, times: Times) -> None:
-    for key, (label, colour, marker, line) in STEPS.items():
-        bodies = np.array(sorted(times[key]))
-        axes.loglog(bodies, [times[key][n] for n in bodies], line, color=colour, marker=marker, ms=5, label=label)
-    axes.set_xticks(bodies, [str(n) for n in bodies])
-    axes.minorticks_off()
-    axes.set_xlabel("bodies")
-    axes.set_ylabel("CPU time of a whole step, µs")
-    axes.set_title("(a) one step", loc="left")
-    axes.legend(fontsize=8)
+    for (simulator, part), (label, marker, line) in STEPS.items():
+        by_bodies = dict(sorted(times[(simulator, part)].items()))
+        axes.loglog(by_bodies.keys(), by_bodies.values(), line, color=SIMULATORS[simulator][1], marker=marker, label=label)
+    plots.plain_ticks(axes.xaxis, by_bodies)
+    axes.set(xlabel="bodies", ylabel="CPU time of a whole step, µs")
+    axes.legend(loc="upper left")
 
 
 def draw_parts(axes: Any, times: Times, bodies: int) -> None:
     for row, part in enumerate(PARTS):
-        for shift, simulator, colour in ((-0.18, "core", "#000000"), (0.18, "mujoco", "#4477aa")):
+        for shift, (simulator, (label, colour)) in zip((-0.18, 0.18), SIMULATORS.items()):
             if (simulator, part) in times:
                 time = times[(simulator, part)][bodies]
-                label = {"core": "core", "mujoco": "MuJoCo"}[simulator] if row == 0 else None
-                axes.barh(row + shift, time, 0.34, color=colour, label=label)
+                axes.barh(row + shift, time, 0.34, color=colour, label=label if row == 0 else None)
                 axes.text(time * 1.1, row + shift, f"{time:.2g}" if time < 10 else f"{time:.0f}", va="center", fontsize=8)
-    axes.set_xscale("log")
-    axes.set_xlim(1, 2 * axes.get_xlim()[1])
+    axes.set(xscale="log", xlabel="CPU time, µs", xlim=(1, 2 * axes.get_xlim()[1]))
     axes.set_yticks(range(len(PARTS)), PARTS.values())
+    axes.grid(axis="y", visible=False)
     axes.invert_yaxis()
-    axes.set_xlabel("CPU time, µs")
-    axes.set_title(f"(b) parts of the knotted step, {bodies} bodies", loc="left")
-    axes.legend(fontsize=8, loc="lower right")
+    axes.legend(loc="lower right")
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("benchmarks", type=Path)
-    parser.add_argument("out", type=Path)
-    arguments = parser.parse_args()
-    results = json.loads(arguments.benchmarks.read_text(encoding="utf-8"))
+def main(benchmarks: Path, out: Path) -> None:
+    results = json.loads(benchmarks.read_text(encoding="utf-8"))
     times = medians(results["benchmarks"])
-    write_csv(times, results["context"], arguments.out.with_suffix(".csv"))
+    write_times(times, results["context"], out.with_suffix(".csv"))
     print_ratios(times)
-    figure, axes = plt.subplots(1, 2, figsize=(11, 4.4), layout="constrained")
-    draw_steps(axes[0], times)
-    draw_parts(axes[1], times, 100)
-    save_figure(figure, arguments.out, DPI)
+    bodies = 100
+    figure, (step, parts) = plots.panels(1, 2, (11, 4.4), ["one step", f"parts of the knotted step, {bodies} bodies"])
+    draw_steps(step, times)
+    draw_parts(parts, times, bodies)
+    plots.save(figure, out)
 
 
 if __name__ == "__main__":
-    main()
+    run_script(__doc__, ["BENCHMARKS.json", "OUT.png"], main)

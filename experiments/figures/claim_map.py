@@ -6,27 +6,23 @@ Usage: claim_map.py RUNS OUT.csv OUT.png OUT.md (writes a PDF beside), where RUN
 
 from __future__ import annotations
 
-import csv
 from collections import Counter
+from collections.abc import Collection
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.lines import Line2D
 
 import claims
+import plots
+import tables
 from claim_row import HEADING, MEASURES
-from hagfish_log import LogError, save_figure
-from study import GREY, run_study, write_csv
+from hagfish_log import LogError
+from script import run_script
 
-DPI = 200
 GROWTH = claims.NAMES[1]
-# Paul Tol's bright colours.
-VERDICTS = {"agrees": "#228833", "undecided": "#ccbb44", "disagrees": "#aa3377"}
 CHANGES = {"as-it-is": "Table 1", "scale": "limits ×", "release": "let go at, cm:", "waypoints": "waypoints", "stiffness": "same, stiffness ×",
            "drag": "same, drag ×"}
 READINGS = {"box": "limit on each axis (box)", "cone": "limit on the total angle (cone)"}
@@ -49,8 +45,7 @@ def read_claims(folder: Path) -> list[Claim]:
     runs = []
     for path in sorted(folder.glob("*_*_*.csv")):
         reading, change, step, seed = path.stem.split("_")
-        with path.open(newline="", encoding="utf-8") as file:
-            row = next(csv.DictReader(file))
+        row = tables.read_csv(path, HEADING)[0]
         kind, _, value = (change, "", "") if change in CHANGES else change.partition("-")
         label = f"{CHANGES[kind]} {value}".strip()
         runs.append(Claim(reading, label, float(step), int(seed), row["outcome"],
@@ -77,46 +72,38 @@ def of_group(runs: list[Claim], key: tuple[str, str]) -> list[Claim]:
 def draw(runs: list[Claim], out: Path) -> None:
     keys = groups(runs)
     height = {key: -i - 1.2 * list(READINGS).index(key[0]) for i, key in enumerate(keys)}
-    figure, (growth, rough) = plt.subplots(1, 2, figsize=(8.6, 0.8 + 0.235 * (len(keys) + 2)), sharey=True, layout="constrained",
-                                           gridspec_kw={"width_ratios": [1.3, 1]})
-    steps = sorted({run.step for run in runs})
+    figure, (growth, rough) = plots.panels(1, 2, (8.6, 0.8 + 0.235 * (len(keys) + 2)), [
+        "larger near the head?", "smooth along the body, noisy in time?"], sharey=True, gridspec_kw={"width_ratios": [1.3, 1]})
+    finest = min(run.step for run in runs)
     for key, y in height.items():
         slid = [run for run in of_group(runs, key) if run.outcome == "slid"]
         for run in slid:
-            shift = 0.16 if run.step == steps[0] else -0.16
-            growth.plot(run.measure["near_over_far"], y + shift, "o", ms=3.4, mew=0, alpha=0.8,
-                        color=VERDICTS[run.verdict[GROWTH]])
-            rough.plot(run.measure["roughness_space"], y + 0.16, "o", ms=3, mew=0, alpha=0.7, color="#4477aa")
-            rough.plot(run.measure["roughness_time"], y - 0.16, "D", ms=2.6, mew=0, alpha=0.7, color="#ee6677")
+            shift = 0.16 if run.step == finest else -0.16
+            growth.plot(run.measure["near_over_far"], y + shift, ms=3.6, mew=0, alpha=0.8, **plots.VERDICTS[run.verdict[GROWTH]].style)
+            for shift, (name, look) in zip((0.16, -0.16), plots.ROUGHNESS.items()):
+                rough.plot(run.measure[f"roughness_{name}"], y + shift, ms=3, mew=0, alpha=0.7, **look.style)
         count = f"{len(slid)} of {len(of_group(runs, key))}"
-        growth.text(1.005, y, count, transform=growth.get_yaxis_transform(), fontsize=7, va="center", color=GREY)
+        growth.text(1.005, y, count, transform=growth.get_yaxis_transform(), fontsize=7, va="center", color=plots.GREY)
     for reading, title in READINGS.items():
         tops = [y for key, y in height.items() if key[0] == reading]
         if tops:
-            growth.text(0.0, max(tops) + 0.72, title, transform=growth.get_yaxis_transform(), fontsize=8.5, weight="bold")
-    growth.axvline(1, color=GREY, lw=0.8, ls="--", zorder=0)
+            growth.text(0.01, max(tops) + 0.72, title, transform=growth.get_yaxis_transform(), fontsize=8.5, weight="bold")
+    growth.axvline(1, color=plots.GREY, lw=0.8, ls="--", zorder=0)
     growth.set(xscale="log", xlabel="effort in the third nearest the head\nover that in the furthest third")
-    growth.set_yticks(list(height.values()), [key[1] for key in keys], fontsize=8)
-    ticks = [0.5, 1, 2, 5, 10]
+    growth.set_yticks(list(height.values()), [key[1] for key in keys])
     growth.set_ylim(min(height.values()) - 0.7, 1.3)
-    growth.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
-    growth.minorticks_off()
-    growth.set_title("(b) larger near the head?", loc="left", fontsize=9.5)
-    growth.set_title("slid", loc="right", fontsize=7, color=GREY, x=1.08)
-    growth.legend([Line2D([], [], marker="o", ls="", ms=4, color=colour) for colour in VERDICTS.values()], VERDICTS,
-                  fontsize=7.5, loc="upper center", bbox_to_anchor=(0.5, -0.1), ncol=3, frameon=False)
-    tenths = [0.02, 0.05, 0.1, 0.2]
+    growth.set_title("slid", loc="right", fontsize=7, color=plots.GREY, x=1.08)
+    plots.plain_ticks(growth.xaxis, [0.5, 1, 2, 5, 10])
     rough.set(xscale="log", xlabel="roughness of 20 ms means\n(0 smooth, 1 white noise; worst axis)")
-    rough.set_xticks(tenths, [f"{tick:g}" for tick in tenths])
-    rough.minorticks_off()
-    rough.set_title("(c) smooth along the body, noisy in time?", loc="left", fontsize=9.5)
-    rough.legend([Line2D([], [], marker="o", ls="", ms=4, color="#4477aa"),
-                  Line2D([], [], marker="D", ls="", ms=4, color="#ee6677")], ["along the body", "in time"], fontsize=7.5,
-                 loc="upper center", bbox_to_anchor=(0.5, -0.1), ncol=2, frameon=False)
-    for axes in (growth, rough):
-        axes.grid(alpha=0.25, axis="both")
-        axes.set_axisbelow(True)
-    save_figure(figure, out, DPI)
+    plots.plain_ticks(rough.xaxis, [0.02, 0.05, 0.1, 0.2])
+    legend_below(growth, plots.VERDICTS.values())
+    legend_below(rough, plots.ROUGHNESS.values())
+    plots.save(figure, out)
+
+
+def legend_below(axes: Any, looks: Collection[plots.Look]) -> None:
+    axes.legend([Line2D([], [], ls="", ms=4, **look.style) for look in looks], [look.label for look in looks],
+                loc="upper center", bbox_to_anchor=(0.5, -0.1), ncol=len(looks), frameon=False)
 
 
 def spread(values: list[float]) -> str:
@@ -126,34 +113,35 @@ def spread(values: list[float]) -> str:
     return f"{middle:.3g} ({low:.3g} to {high:.3g})"
 
 
-def page(runs: list[Claim]) -> str:
-    lines = ["# Where the paper's claims about the sliding force hold", "",
-             "Overhand knots; each row is " f"{len({run.seed for run in runs})} starts with 0.1 degrees of noise on every hinge at "
-             + " and ".join(f"{1000 * step:g}" for step in sorted({run.step for run in runs})) + " ms. Forces are means over "
-             "20 ms. Verdicts are counts of agrees / undecided / disagrees among the runs that slid.", "",
-             "| bending limit | change | slid | (a) zero behind | (b) larger near the head | near over far | (c) smooth, noisy "
-             "| roughness along the body | in time | Fourier modes for 95 % | what else became of it |", "|---" * 11 + "|"]
+def page(runs: list[Claim]) -> list[str]:
+    rows = []
     for key in groups(runs):
         own = of_group(runs, key)
         slid = [run for run in own if run.outcome == "slid"]
-        counts = [" / ".join(str(sum(run.verdict[name] == verdict for run in slid)) for verdict in VERDICTS)
+        counts = [" / ".join(str(sum(run.verdict[name] == verdict for run in slid)) for verdict in plots.VERDICTS)
                   for name in claims.NAMES]
         measure = lambda name: spread([run.measure[name] for run in slid])
         others = Counter(run.outcome for run in own if run.outcome != "slid")
-        lines.append(f"| {key[0]} | {key[1]} | {len(slid)} of {len(own)} | {counts[0]} | {counts[1]} | {measure('near_over_far')} "
-                     f"| {counts[2]} | {measure('roughness_space')} | {measure('roughness_time')} | {measure('dct_modes_95')} "
-                     f"| {', '.join(f'{what}: {count}' for what, count in others.items())} |")
-    return "\n".join([*lines, ""])
+        rows.append([*key, f"{len(slid)} of {len(own)}", counts[0], counts[1], measure("near_over_far"), counts[2],
+                     measure("roughness_space"), measure("roughness_time"), measure("dct_modes_95"),
+                     ", ".join(f"{what}: {count}" for what, count in others.items())])
+    return ["# Where the paper's claims about the sliding force hold", "",
+            f"Overhand knots; each row is {len({run.seed for run in runs})} starts with 0.1 degrees of noise on every hinge at "
+            + " and ".join(f"{1000 * step:g}" for step in sorted({run.step for run in runs})) + " ms. Forces are means over "
+            "20 ms. Verdicts are counts of agrees / undecided / disagrees among the runs that slid.", "",
+            *tables.markdown(["bending limit", "change", "slid", "zero behind", "larger near the head", "near over far",
+                              "smooth, noisy", "roughness along the body", "in time", "Fourier modes for 95 %",
+                              "what else became of it"], rows)]
 
 
 def main(folder: Path, table: Path, out: Path, text: Path) -> None:
     runs = read_claims(folder)
-    write_csv(table, ["reading", "change", "step_s", "seed", *HEADING],
-              [[run.reading, run.change, run.step, run.seed, run.outcome, *run.measure.values(), *run.verdict.values()]
-               for run in runs])
+    tables.write_csv(table, ["reading", "change", "step_s", "seed", *HEADING],
+                     [[run.reading, run.change, run.step, run.seed, run.outcome, *run.measure.values(), *run.verdict.values()]
+                      for run in runs])
     draw(runs, out)
-    text.write_text(page(runs), encoding="utf-8")
+    tables.write_page(text, page(runs))
 
 
 if __name__ == "__main__":
-    run_study(__doc__, ["OUT.csv", "OUT.png", "OUT.md"], main)
+    run_script(__doc__, ["RUNS", "OUT.csv", "OUT.png", "OUT.md"], main)

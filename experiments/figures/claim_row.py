@@ -7,8 +7,9 @@ from pathlib import Path
 import numpy as np
 
 import claims
-from hagfish_log import HagfishLog, LogError, run_script
-from study import write_csv
+from hagfish_log import HagfishLog, LogError
+from script import run_script
+from tables import write_csv
 
 MEASURES = ["slide_cm", "beyond_dyn_cm", "near_over_far", "roughness_space", "roughness_time", "dct_modes_95"]
 NEAR_RELEASE = 0.5  # cm
@@ -48,7 +49,8 @@ def judged(log: HagfishLog) -> list[object]:
             worst("dct_modes_95"), *(verdict[name] for name in claims.NAMES)]
 
 
-def main(log: HagfishLog, out: Path) -> None:
+def main(path: Path, out: Path) -> None:
+    log = HagfishLog(path)
     outcome = outcome_of(log)
     row: list[object] = [outcome] + [np.nan] * len(MEASURES) + [""] * len(claims.NAMES)
     if outcome == "slid":
@@ -60,4 +62,4 @@ def main(log: HagfishLog, out: Path) -> None:
 
 
 if __name__ == "__main__":
-    run_script(__doc__, ["OUT.csv"], main)
+    run_script(__doc__, ["LOG.h5", "OUT.csv"], main)

@@ -9,12 +9,15 @@ from pathlib import Path
 
 import numpy as np
 
+import audits
 from back_ends import BACK_ENDS, read_table
 from hagfish_log import HagfishLog, Results
-from integration import METHODS, MOTIONS, steps
+from integration import MOTIONS, steps
 from needs import needs
-from study import FORCE_WINDOW, Run, path_error, read_run, read_runs, run_study
-from summary import table
+from plots import INTEGRATORS
+from script import run_script
+from study import FORCE_WINDOW, Run, path_error, read_run, read_runs
+from tables import markdown, write_page
 from whole_runs import CHANCE_STEPS, chance, front_of, reference_of
 
 PRESETS = {"quick": "a look at a new script", "default": "work", "figure": "print"}
@@ -53,13 +56,12 @@ def integration(folder: Path) -> list[str]:
     for motion in MOTIONS:
         results = Results(folder / f"{motion}.h5")
         agreements.append(float(results["/reference/agreement"][0]))
-        for method, (label, _, _) in METHODS.items():
-            label = label.split(",")[0]
+        for method, look in INTEGRATORS.items():
             h, cost, error = steps(results, method)
             times = [reached(cost, error, w) for w in wanted]
-            rows.append([results.root("motion"), label, *("-" if np.isnan(t) else f"{t:.2g}" for t in times),
+            rows.append([results.root("motion"), look.label.split(",")[0], *("-" if np.isnan(t) else f"{t:.2g}" for t in times),
                          f"{h[np.isfinite(error)].max():g}"])
-    lines += table(["Motion", "Method", *(f"{w:g} cm" for w in wanted), "Largest h, ms"], rows)
+    lines += markdown(["Motion", "Method", *(f"{w:g} cm" for w in wanted), "Largest h, ms"], rows)
     ratio = []
     for motion in MOTIONS:
         results = Results(folder / f"{motion}.h5")
@@ -75,12 +77,12 @@ def integration(folder: Path) -> list[str]:
 
 def solvers(folder: Path) -> list[str]:
     table_rows = read_table(folder)
-    rows = [[BACK_ENDS[row["back_end"]][0], row["tolerance"] or "exact", row["start"], f"{1e6 * float(row['median_s']):.0f}",
+    rows = [[BACK_ENDS[row["back_end"]].label, row["tolerance"] or "exact", row["start"], f"{1e6 * float(row['median_s']):.0f}",
              f"{1e6 * float(row['p99_s']):.0f}", f"{float(row['error_norm_relative']):.1e}", f"{float(row['kkt']):.1e}",
              row["failures"]] for row in table_rows]
     return ["## QPs", "", f"{table_rows[0]['qps']} QPs of the Table 1 run, of every tenth step; errors are the worst of them, "
             "in the H norm, over the rows' change of the velocity.", "",
-            *table(["Back end", "Tolerance", "Start", "Median, µs", "99 %, µs", "Error of the velocity", "KKT residual",
+            *markdown(["Back end", "Tolerance", "Start", "Median, µs", "99 %, µs", "Error of the velocity", "KKT residual",
                     "Failures"], rows), ""]
 
 
@@ -93,7 +95,7 @@ def body_counts(runs: list[Run], reference: Run) -> list[str]:
             at = own[0.002]
             rows.append([str(bodies), f"{at.cpu:.2f}", f"{min(found):.2f} to {max(found):.2f}", f"{at.force:.0f}",
                          f"{at.penetration:.5f}"])
-    return table(["Bodies", "CPU, s", "Head end of the knot off, cm", "Sliding force, dyn", "Penetration, cm"], rows)
+    return markdown(["Bodies", "CPU, s", "Head end of the knot off, cm", "Sliding force, dyn", "Penetration, cm"], rows)
 
 
 def whole(folder: Path) -> list[str]:
@@ -112,7 +114,7 @@ def whole(folder: Path) -> list[str]:
         twin, off = twins.get((run.step, run.bodies, run.activation)), path_error(run, reference)
         rows.append([f"{1e3 * run.step:g}", f"{run.cpu:.2f}", f"{twin.cpu:.1f}" if twin else "", "0 (reference)" if run is reference
                      else f"{off[0]:.2f} ({off[1]:.2f})", f"{run.force:.0f}", f"{run.penetration:.5f}"])
-    lines += table(["h, ms", "CPU, s (active-set)", "CPU, s (Ipopt)", "Head end of the knot off, cm", "Sliding force, dyn",
+    lines += markdown(["h, ms", "CPU, s (active-set)", "CPU, s (Ipopt)", "Head end of the knot off, cm", "Sliding force, dyn",
                     "Penetration, cm"], rows)
     lines += ["Speculative rows, active-set; errors at 5 ms and finer, the rest at 2 ms:", "",
               *body_counts([run for run in done if run.activation == "speculative" and run.qp == "active-set"], reference)]
@@ -149,13 +151,13 @@ def presets(folder: Path) -> list[str]:
     for name, use in PRESETS.items():
         run = read_run(folder, f"preset_{name}")
         off = path_error(run, reference)
-        audit = (folder / f"preset_{name}.check").read_text()
+        failed = audits.unmet(audits.read_findings(folder / f"preset_{name}.check.csv"))
         rows.append([f"`{name}`", use, f"{1e3 * run.step:g}", str(run.bodies), run.qp, f"{run.cpu:.2f}",
                      f"{off[0]:.2f} ({off[1]:.2f})" + (", as the reference" if run.step == reference.step else ""),
                      f"{run.force / reference.force * 100 - 100:+.0f} %", f"{run.penetration:.4f}",
-                     "failed" if "FAIL" in audit else "passed"])
+                     "failed" if failed else "passed"])
     return ["## Presets", "", "`hagfish run --preset NAME`, timed alone on the machine, with their own intervals between frames.",
-            "", *table(["Preset", "For", "h, ms", "Bodies", "Back end", "CPU, s", "Head end of the knot off, rms (largest), cm", "Sliding force",
+            "", *markdown(["Preset", "For", "h, ms", "Bodies", "Back end", "CPU, s", "Head end of the knot off, rms (largest), cm", "Sliding force",
                         "Penetration, cm", "Audit"], rows), ""]
 
 
@@ -167,7 +169,7 @@ def choices(folder: Path) -> list[str]:
         rows.append([n.choice, n.instead, f"{n.cpu:.2f}", *(["", "", ""] if failed else
                      [f"{n.slide:+.2f}", f"{n.force:+.0f}", f"{n.run.penetration:.5f}"]), n.verdict])
     return ["## What the scene needs", "", f"Each choice changed by itself; the scene as it is takes {as_is.cpu:.2f} s of CPU time.",
-            "", *table(["Choice", "Instead", "CPU, ratio", "Slide, cm more", "Force, % more", "Penetration, cm", "Verdict"], rows),
+            "", *markdown(["Choice", "Instead", "CPU, ratio", "Slide, cm more", "Force, % more", "Penetration, cm", "Verdict"], rows),
             ""]
 
 
@@ -177,8 +179,8 @@ def main(folder: Path, out: Path) -> None:
     text = ["# Speed against accuracy", "", f"hagfish {version}, {cpu}. Times are CPU times of one process, serial; all but the "
             "presets were measured with a run on every core.", "", *presets(folder), *whole(folder), *choices(folder),
             *solvers(folder), *integration(folder)]
-    out.write_text("\n".join(text).rstrip() + "\n", encoding="utf-8")
+    write_page(out, text)
 
 
 if __name__ == "__main__":
-    run_study(__doc__, ["OUT.md"], main)
+    run_script(__doc__, ["RUNS", "OUT.md"], main)

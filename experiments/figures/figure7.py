@@ -12,21 +12,24 @@ import tempfile
 from dataclasses import dataclass
 from itertools import combinations
 from pathlib import Path
+from string import ascii_lowercase
+from typing import Any
 
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-from hagfish_log import HagfishLog, LogError, run_script, save_figure
+import plots
+from hagfish_log import HagfishLog, LogError
+from script import run_script
 
-WIDTH = 7.2  # of the figure, inches: a full page width
 DPI = 400
+WIDTH = 7.2  # of the figure, inches: a full page width
 LEAST_PANELS = 8
 GAP = 1.2  # around the animal in a panel, cm
 LEAST_WIDTH = 17.5  # of a panel, cm: room for its caption
 LEAST_TRAVEL = 1.0  # of the knot's head end for pictures of it on its way, cm
+WORD = (0.22, 0.10)  # inches that "head" or "tail" takes
+BACKGROUND = 0.98  # of a pixel's colour, where nothing is drawn
 WORDS = {"form": "knot forming", "tighten": "tightening", "slide": "sliding", "reverse": "sliding back",
          "release": "released", "free": "free"}
 
@@ -178,6 +181,32 @@ def rows_of(widths: list[float], count: int) -> list[list[int]]:
     return [list(range(a, b)) for a, b in zip((0, *cuts), (*cuts, n))]
 
 
+def label_ends(axes: Any, log: HagfishLog, frame: int, view: Camera, picture: Picture, per_cm: float) -> None:
+    """Writes "head" and "tail" on axes in cm of the picture plane, `per_cm` inches each: where nothing is drawn and as near as
+    can be to that end of the animal, with a line to it."""
+    centres = log["/trajectory/position"][frame] @ view.plane()
+    drawn = np.any(picture.pixels[..., :3] < BACKGROUND, axis=-1)
+    per_pixel = (picture.right - picture.left) / drawn.shape[1]
+    half = np.array(WORD) / per_cm / 2
+    least, most = np.transpose([axes.get_xlim(), axes.get_ylim()])
+    around = [away * np.array([np.cos(angle), np.sin(angle)]) for away in np.arange(1.0, 8.0, 0.25)
+              for angle in np.linspace(0, 2 * np.pi, 24, endpoint=False)]
+    labels: list[np.ndarray] = []
+
+    def free(place: np.ndarray) -> bool:
+        low, high = place - half, place + half
+        columns = slice(*(max(0, int((x - picture.left) / per_pixel)) for x in (low[0], high[0])))
+        rows = slice(*(max(0, int((picture.top - y) / per_pixel)) for y in (high[1], low[1])))
+        return bool(np.all(low >= least) and np.all(high <= most) and not drawn[rows, columns].any()
+                    and all(np.any(np.abs(place - other) > 2 * half) for other in labels))
+
+    for word, end in (("head", centres[0]), ("tail", centres[-1])):
+        place = next((end + offset for offset in around if free(end + offset)), end)
+        labels.append(place)
+        axes.annotate(word, end, place, fontsize=6, ha="center", va="center",
+                      arrowprops={"arrowstyle": "-", "color": plots.INK, "lw": 0.5, "shrinkA": 1, "shrinkB": 0})
+
+
 def caption(log: HagfishLog, letter: str, stage: Stage) -> str:
     """Letter, stage, phase, time and where the knot is."""
     phase = str(log.labels("/trajectory/phase")[stage.frame])
@@ -188,9 +217,11 @@ def caption(log: HagfishLog, letter: str, stage: Stage) -> str:
     return text + (f"\nknot spans {ends[0]:.1f} to {ends[1]:.1f} cm" if knotted else "\nno knot")
 
 
-def main(log: HagfishLog, hagfish: Path, out: Path) -> None:
+def main(path: Path, hagfish: Path, out: Path) -> None:
+    log = HagfishLog(path)
     stages = choose_stages(log)
-    pictures = take_pictures(log, hagfish, [stage.frame for stage in stages], choose_camera(log, stages))
+    view = choose_camera(log, stages)
+    pictures = take_pictures(log, hagfish, [stage.frame for stage in stages], view)
     left = np.array([p.left - GAP for p in pictures])
     right = np.maximum([p.right + GAP for p in pictures], left + LEAST_WIDTH)
     rows = rows_of(list(right - left), count=3)
@@ -210,20 +241,21 @@ def main(log: HagfishLog, hagfish: Path, out: Path) -> None:
             box = [x * per_cm / WIDTH, (top - height) / tall, width * per_cm / WIDTH, height / tall]
             axes = figure.add_axes(box)
             p = pictures[i]
-            axes.imshow(p.pixels, extent=(p.left - left[i], p.right - left[i], p.bottom - bottom, p.top - bottom))
-            axes.set(xlim=(0, width), ylim=(0, upper - bottom), aspect="auto")
+            axes.imshow(p.pixels, extent=(p.left, p.right, p.bottom, p.top))
+            axes.set(xlim=(left[i], left[i] + width), ylim=(bottom, upper), aspect="auto")
             axes.axis("off")
-            axes.text(0.35, -0.3, caption(log, "abcdefghijklmnop"[i], stages[i]), fontsize=7, va="top",
+            label_ends(axes, log, stages[i].frame, view, p, per_cm)
+            axes.text(left[i] + 0.35, bottom - 0.3, caption(log, ascii_lowercase[i], stages[i]), fontsize=7, va="top",
                       linespacing=1.25, clip_on=False)
             if i == 0:
-                axes.plot([width - 7, width - 2], [1.0, 1.0], color="black", lw=1.5, solid_capstyle="butt")
-                axes.text(width - 4.5, 1.3, "5 cm", fontsize=7, ha="center", va="bottom")
+                axes.plot(left[i] + width - np.array([7, 2]), [bottom + 1.0] * 2, color="black", lw=1.5, solid_capstyle="butt")
+                axes.text(left[i] + width - 4.5, bottom + 1.3, "5 cm", fontsize=7, ha="center", va="bottom")
             x += width
         top -= height + text
     figure.text(0.01, 0.012, "Rings: 20, 40, 60, 80 % of the length, where the specimen was measured. Spans: arc "
                 "length from the head. Grey: head plate, pale once the head is free.", fontsize=6)
-    save_figure(figure, out, DPI)
+    plots.save(figure, out, DPI)
 
 
 if __name__ == "__main__":
-    run_script(__doc__, ["HAGFISH", "OUT.png"], main)
+    run_script(__doc__, ["LOG.h5", "HAGFISH", "OUT.png"], main)

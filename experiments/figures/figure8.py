@@ -12,20 +12,18 @@ import textwrap
 from pathlib import Path
 from typing import Any
 
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.colors import LogNorm
 
 import claims
-from hagfish_log import HagfishLog, run_script, save_figure
+import plots
+from hagfish_log import HagfishLog
+from script import run_script
 
-DPI = 250
 NAMES = {"X": "X (twist)", "Y": "Y (bend)", "Z": "Z (bend)"}
-COLOURS = {"X": "#4477aa", "Y": "#cc6677", "Z": "#228833"}
-VERDICT_COLOURS = {"agrees": "#1b7837", "disagrees": "#b2182b", "undecided": "#8c6d1f"}
+COLOURS = {"X": plots.BLUE, "Y": plots.ORANGE, "Z": plots.INK}
+LETTERS = ("a", "b, c", "e", "d")  # panels of the page that show each claim
 
 
 def edges(centres: np.ndarray) -> np.ndarray:
@@ -39,6 +37,7 @@ def surfaces(s: claims.Sliding, out: Path) -> None:
     figure = plt.figure(figsize=(10.5, 6.5))
     scale = np.percentile(np.abs(s.force[s.force != 0]), 99) if np.any(s.force) else 1.0
     per_joint = 2 * s.spacing  # cm of body to a joint number
+    solids, flats = [], []
     for column, axis in enumerate(claims.KINDS):
         joint, force = s.axis(axis)
         axes = figure.add_axes([0.325 * column - 0.005, 0.42, 0.30, 0.56], projection="3d")
@@ -51,20 +50,25 @@ def surfaces(s: claims.Sliding, out: Path) -> None:
         axes.set_ylabel("time, s", fontsize=8, labelpad=-3)
         axes.tick_params(labelsize=7, pad=-2)
         axes.tick_params(axis="z", pad=3)
-        axes.set_title(f"about {NAMES[axis]}, dyn cm", fontsize=10, y=1.0)
+        solids.append(axes)
 
         flat = figure.add_axes([0.055 + 0.312 * column, 0.135, 0.255, 0.24])
+        flat.grid(visible=False)
         image = flat.pcolormesh(edges(joint.astype(float)), edges(s.time), force, cmap="RdBu_r", vmin=-scale,
                                 vmax=scale, rasterized=True)
-        flat.plot(s.head_end / per_joint, s.time, color="black", lw=0.9, label="knot, head end")
-        flat.plot(s.tail_end / per_joint, s.time, color="black", lw=0.9, ls="--", label="knot, tail end")
+        flat.plot(s.head_end / per_joint, s.time, color="black", lw=0.9, label="head end")
+        flat.plot(s.tail_end / per_joint, s.time, color="black", lw=0.9, ls="--", label="tail end")
         flat.set_xlabel("joint (head 0)", fontsize=8)
         flat.set_xlim(-0.5, s.joint.max() / 2 + 0.5)
         flat.tick_params(labelsize=7)
+        flats.append(flat)
         if column == 0:
             flat.set_ylabel("time, s", fontsize=8)
-            figure.legend(loc="lower left", bbox_to_anchor=(0.05, 0.38), ncol=2, fontsize=7.5, frameon=False)
+            flat.legend(loc="upper right", fontsize=7, title="knot", title_fontsize=7, handlelength=1.4)
+    plots.name_panels([*solids, *flats], [f"about {NAMES[axis]}, dyn cm" for axis in claims.KINDS]
+                      + [f"{NAMES[axis]}, from above" for axis in claims.KINDS])
     bar = figure.add_axes([0.945, 0.135, 0.010, 0.24])
+    bar.grid(visible=False)
     figure.colorbar(image, cax=bar, extend="both")
     bar.tick_params(labelsize=6.5, pad=1)
     bar.set_title("dyn cm", fontsize=7)
@@ -72,7 +76,7 @@ def surfaces(s: claims.Sliding, out: Path) -> None:
                 f"the knot slides: means over {1000 * s.interval:.0f} ms, from frame to frame of the log. The largest is "
                 f"{np.abs(s.force).max():.0f} dyn cm.\nColours saturate at the 99th percentile of the non-zero magnitudes, "
                 f"{scale:.0f} dyn cm.", fontsize=7.5)
-    save_figure(figure, out, DPI)
+    plots.save(figure, out)
 
 
 def draw_zero(axes: Any, s: claims.Sliding) -> None:
@@ -81,13 +85,13 @@ def draw_zero(axes: Any, s: claims.Sliding) -> None:
     size = np.stack([np.abs(s.step_force[:, s.arc == arc]).max(axis=1) for arc in arcs], axis=1)
     top = max(size.max(), 1e-300)
     shown = np.ma.masked_where(size == 0, size)
-    image = axes.pcolormesh(edges(arcs), edges(s.time), shown, cmap="viridis", rasterized=True,
+    axes.grid(visible=False)
+    image = axes.pcolormesh(edges(arcs), edges(s.time), shown, cmap="cividis", rasterized=True,
                             norm=LogNorm(vmin=top * 1e-4, vmax=top))
-    axes.plot(s.head_end, s.time, color="#d55e00", lw=1.2, label="knot, head end")
-    axes.plot(s.tail_end, s.time, color="#d55e00", lw=1.2, ls="--", label="knot, tail end")
-    axes.set(xlabel="arc length from the head, cm", ylabel="time, s",
-             title="(a) largest |f| at each joint, single steps at frames; white = exactly 0")
-    axes.legend(fontsize=7, loc="upper right")
+    axes.plot(s.head_end, s.time, color=plots.VERMILION, lw=1.2, label="knot, head end")
+    axes.plot(s.tail_end, s.time, color=plots.VERMILION, lw=1.2, ls="--", label="knot, tail end")
+    axes.set(xlabel="arc length from the head, cm", ylabel="time, s")
+    axes.legend(loc="upper right")
     bar = axes.figure.colorbar(image, ax=axes, extend="min", pad=0.02, fraction=0.04)
     bar.ax.set_title("dyn cm", fontsize=7)
 
@@ -95,19 +99,19 @@ def draw_zero(axes: Any, s: claims.Sliding) -> None:
 def draw_growth(axes: Any, s: claims.Sliding, name: str, found: dict[str, float]) -> None:
     """Claim (b): one measure of size against the knot's head end."""
     y = claims.measures(s)[name]
-    axes.plot(s.head_end, y, ".", ms=3, color="#4477aa")
+    axes.plot(s.head_end, y, ".", ms=3, color=plots.BLUE, label=f"means; Spearman {found['spearman_with_head_end']:+.2f} "
+              f"[{found['spearman_95_low']:+.2f}, {found['spearman_95_high']:+.2f}]")
     x = np.array([np.nanmin(s.head_end), np.nanmax(s.head_end)])
-    axes.plot(x, found["fit_slope_per_cm"] * x + found["fit_intercept"], color="black", lw=1,
-              label=f"fit: {found['fit_slope_per_cm']:+.3g} per cm, $R^2$ = {found['fit_r2']:.2f}")
+    axes.plot(x, found["fit_slope_per_cm"] * x + found["fit_intercept"], color=plots.INK, lw=1,
+              label=f"line: {found['fit_slope_per_cm']:+.3g} per cm, $R^2$ = {found['fit_r2']:.2f}")
     bounds = np.linspace(*x, 11)
     part = np.clip(np.searchsorted(bounds, s.head_end, side="right") - 1, 0, 9)
     medians = [np.median(y[part == k]) if np.any(part == k) else np.nan for k in range(10)]
-    axes.stairs(medians, bounds, baseline=None, color="#d55e00", lw=1.3, label="median of each tenth of the way")
+    axes.stairs(medians, bounds, baseline=None, color=plots.VERMILION, lw=1.3, label="median of each tenth of the way")
     axes.invert_xaxis()
-    axes.set(xlabel="knot head end, cm (the head is on the right)", ylabel=name,
-             title=f"(b) Spearman {found['spearman_with_head_end']:+.2f} "
-                   f"[{found['spearman_95_low']:+.2f}, {found['spearman_95_high']:+.2f}]")
-    axes.legend(fontsize=7)
+    axes.set(xlabel="knot head end, cm (the head is on the right)", ylabel=name)
+    axes.set_ylim(0, 1.3 * axes.get_ylim()[1])  # room for the legend
+    axes.legend(fontsize=7, loc="upper right")
 
 
 def draw_modes(axes: Any, c: dict[str, Any]) -> None:
@@ -118,24 +122,24 @@ def draw_modes(axes: Any, c: dict[str, Any]) -> None:
             axes.semilogy(np.arange(1, len(held) + 1), np.maximum(1 - held, 1e-6), style, color=COLOURS[axis], lw=1.3,
                           label=f"{axis}, {'Fourier (DCT)' if basis == 'dct' else 'SVD'}")
     for share in claims.SHARES:
-        axes.axhline(1 - share, color="grey", lw=0.6)
+        axes.axhline(1 - share, color=plots.GREY, lw=0.6)
         axes.annotate(f"{share * 100:.0f} % held", (0.99, 1 - share), xycoords=("axes fraction", "data"), fontsize=6.5,
-                      ha="right", va="bottom", color="grey")
-    axes.set(xlabel="modes kept", ylabel="share of energy left out", ylim=(1e-4, 1.6), title="(c) modes along the body")
-    axes.legend(fontsize=6.2, ncol=2, loc="upper right", columnspacing=1.0)
+                      ha="right", va="bottom", color=plots.GREY)
+    axes.set(xlabel="modes kept", ylabel="share of energy left out", ylim=(1e-4, 1.6))
+    axes.legend(fontsize=6.5, ncol=2, loc="upper right", columnspacing=1.0)
 
 
 def draw_roughness(axes: Any, c: dict[str, Any]) -> None:
     """Claim (c): roughness along the body and in time."""
-    for shift, key, label, colour in ((-0.2, "roughness_in_space", "along the body", "#66aabb"),
-                                      (0.2, "roughness_in_time", "in time", "#ddaa33")):
-        values = [own[key] for own in c["axes"].values()]
-        bars = axes.bar(np.arange(3) + shift, values, 0.38, color=colour, label=label)
+    for shift, (name, look) in zip((-0.2, 0.2), plots.ROUGHNESS.items()):
+        bars = axes.bar(np.arange(3) + shift, [own[f"roughness_in_{name}"] for own in c["axes"].values()], 0.38, color=look.colour,
+                        label=look.label)
         axes.bar_label(bars, fmt="%.3f", fontsize=7)
     axes.set_xticks(range(3), [NAMES[axis] for axis in c["axes"]])
-    axes.set(ylabel="roughness (0 smooth, 1 white noise)", title="(c) neighbouring means compared")
+    axes.set_ylabel("roughness (1: white noise)")
+    axes.grid(axis="x", visible=False)
     axes.margins(y=0.3)
-    axes.legend(fontsize=7, ncol=2, loc="upper left")
+    axes.legend(ncol=2, loc="upper left")
 
 
 def plain_words(a: dict[str, Any], b: dict[str, Any], c: dict[str, Any]) -> list[tuple[str, str]]:
@@ -171,26 +175,30 @@ def claims_page(s: claims.Sliding, out: Path) -> None:
     a, b, c = claims.zero_behind(s), claims.larger_near_head(s), claims.smooth_in_space(s)
     verdict = claims.verdicts(a, b, c)
     words = plain_words(a, b, c)
-    plt.rcParams.update({"font.size": 8, "axes.titlesize": 8.5})
     figure = plt.figure(figsize=(8.3, 11.2))
     grid = figure.add_gridspec(3, 2, left=0.09, right=0.97, top=0.945, bottom=0.30, hspace=0.36, wspace=0.26)
     figure.text(0.04, 0.98, "Three claims about $f_\\mathrm{thigmo}$ while the knot slides. Forces f are means over "
-                f"{1000 * s.interval:.0f} ms, from frame to frame of the log; (a) is of single steps.", fontsize=9)
-    draw_zero(figure.add_subplot(grid[0, :]), s)
-    for column, name in enumerate(list(b["measures"])[:2]):
-        draw_growth(figure.add_subplot(grid[1, column]), s, name, b["measures"][name])
-    draw_modes(figure.add_subplot(grid[2, 0]), c)
-    draw_roughness(figure.add_subplot(grid[2, 1]), c)
+                f"{1000 * s.interval:.0f} ms; (a) is of single steps.")
+    zero, modes, rough = (figure.add_subplot(grid[place]) for place in ((0, slice(None)), (2, 0), (2, 1)))
+    growth = [figure.add_subplot(grid[1, column]) for column in range(2)]
+    draw_zero(zero, s)
+    shown = list(b["measures"])[:2]
+    for axes, name in zip(growth, shown):
+        draw_growth(axes, s, name, b["measures"][name])
+    draw_modes(modes, c)
+    draw_roughness(rough, c)
+    plots.name_panels([zero, *growth, modes, rough], ["largest |f| at each joint, single steps at frames; white: exactly 0",
+                                                      *(name.split(",")[0] for name in shown), "modes along the body",
+                                                      "neighbouring means compared"])
     height = 0.24
-    for name, text in words:
-        figure.text(0.04, height, f"{name}: ", fontsize=9, weight="bold")
-        figure.text(0.96, height, verdict[name].upper(), fontsize=9, weight="bold", ha="right",
-                    color=VERDICT_COLOURS[verdict[name]])
+    for (name, text), letters in zip(words, LETTERS):
+        figure.text(0.04, height, f"{name} ({letters}):", weight="bold")
+        figure.text(0.96, height, verdict[name].upper(), weight="bold", ha="right", color=plots.VERDICTS[verdict[name]].colour)
         for line in textwrap.wrap(text, 138):
             height -= 0.0145
             figure.text(0.04, height, line, fontsize=7.5)
         height -= 0.022
-    save_figure(figure, out, DPI)
+    plots.save(figure, out)
     report = {"verdicts": verdict, "in_words": dict(words), "zero_behind_the_knot": a, "larger_near_the_head": b,
               "smooth_in_space": c}
     out.with_suffix(".json").write_text(json.dumps(report, indent=1) + "\n")
@@ -198,11 +206,11 @@ def claims_page(s: claims.Sliding, out: Path) -> None:
         print(f"{name}: {verdict[name]}. {text}")
 
 
-def main(log: HagfishLog, out_surface: Path, out_claims: Path) -> None:
-    s = claims.read_sliding(log)
+def main(path: Path, out_surface: Path, out_claims: Path) -> None:
+    s = claims.read_sliding(HagfishLog(path))
     surfaces(s, out_surface)
     claims_page(s, out_claims)
 
 
 if __name__ == "__main__":
-    run_script(__doc__, ["OUT_SURFACE.png", "OUT_CLAIMS.png"], main)
+    run_script(__doc__, ["LOG.h5", "OUT_SURFACE.png", "OUT_CLAIMS.png"], main)

@@ -1,15 +1,11 @@
-"""Read access to a `hagfish-log` (HDF5, format version 1), and the command line all figure scripts share.
+"""Read access to a `hagfish-log` (HDF5, format version 1) and to the HDF5 results of a study.
 
-A log that is missing, unreadable, foreign or without frames ends the script with one line on
-standard error and exit code 2.
+What is missing, unreadable, foreign or without frames is a LogError.
 """
 
 from __future__ import annotations
 
-import argparse
-import sys
 import tomllib
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -22,7 +18,30 @@ FRAME_GROUPS = ("trajectory", "forces", "thigmotaxis", "mean", "knot", "diagnost
 
 
 class LogError(Exception):
-    """The log, or an output, cannot be used; the message is one line that names the file."""
+    """An input cannot be used; the message is one line that names the file."""
+
+
+def open_hdf5(path: Path) -> h5py.File:
+    if not path.is_file():
+        raise LogError(f"{path}: no such file")
+    try:
+        return h5py.File(path, "r")
+    except OSError as error:
+        raise LogError(f"{path}: not a readable HDF5 file ({error})") from None
+
+
+def dataset_of(file: h5py.File, path: str) -> h5py.Dataset:
+    found = file.get(path)
+    if not isinstance(found, h5py.Dataset):
+        raise LogError(f"{file.filename}: no dataset {path}")
+    return found
+
+
+def values_of(dataset: h5py.Dataset, rows: slice | tuple[()] = ()) -> np.ndarray:
+    try:
+        return dataset[rows]
+    except OSError as error:  # a damaged file
+        raise LogError(f"{dataset.file.filename}: {dataset.name} cannot be read ({error})") from None
 
 
 class HagfishLog:
@@ -35,12 +54,7 @@ class HagfishLog:
     def __init__(self, path: Path) -> None:
         self.path = path
         self._read: dict[str, np.ndarray] = {}
-        if not path.is_file():
-            raise LogError(f"{path}: no such file")
-        try:
-            self._file = h5py.File(path, "r")
-        except OSError as error:
-            raise LogError(f"{path}: not a readable HDF5 file ({error})") from None
+        self._file = open_hdf5(path)
         if self.attribute("format") != FORMAT:
             raise LogError(f"{path}: not a {FORMAT} file (its format is {self.attribute('format')!r})")
         version = int(self.attribute("format_version"))
@@ -66,26 +80,20 @@ class HagfishLog:
         value = self._file.attrs[name]
         return value.decode() if isinstance(value, bytes) else value
 
-    def _dataset(self, path: str) -> h5py.Dataset:
-        found = self._file.get(path)
-        if not isinstance(found, h5py.Dataset):
-            raise LogError(f"{self.path}: no dataset {path}")
-        return found
-
     def __getitem__(self, path: str) -> np.ndarray:
         if path not in self._read:
-            dataset = self._dataset(path)
+            dataset = dataset_of(self._file, path)
             along_time = path.strip("/").split("/")[0] in FRAME_GROUPS
-            self._read[path] = dataset[: self.frames] if along_time else dataset[()]
+            self._read[path] = values_of(dataset, slice(self.frames) if along_time else ())
         return self._read[path]
 
     def strings(self, path: str) -> list[str]:
         """A dataset of strings, such as /model/dof_name."""
-        return [str(text) for text in self._dataset(path).asstr()[()]]
+        return [str(text) for text in dataset_of(self._file, path).asstr()[()]]
 
     def labels(self, path: str) -> np.ndarray:
         """An enumerated dataset along time as its words: /trajectory/phase, /diagnostics/solve."""
-        words = h5py.check_enum_dtype(self._dataset(path).dtype)
+        words = h5py.check_enum_dtype(dataset_of(self._file, path).dtype)
         if words is None:
             raise LogError(f"{self.path}: {path} is not an enumeration")
         by_value = {value: word for word, value in words.items()}
@@ -128,56 +136,20 @@ class Results:
 
     def __init__(self, path: Path) -> None:
         self.path = path
-        if not path.is_file():
-            raise LogError(f"{path}: no such file")
-        try:
-            self._file = h5py.File(path, "r")
-        except OSError as error:
-            raise LogError(f"{path}: not a readable HDF5 file ({error})") from None
+        self._file = open_hdf5(path)
 
     def __getitem__(self, path: str) -> np.ndarray:
-        found = self._file.get(path)
-        if not isinstance(found, h5py.Dataset):
-            raise LogError(f"{self.path}: no dataset {path}")
-        return found[()]
+        return values_of(dataset_of(self._file, path))
 
     def root(self, name: str) -> str:
         """A text attribute of the file."""
-        return str(self._file.attrs[name])
+        return self._text(self._file, name)
 
     def attribute(self, path: str, name: str) -> str:
         """A text attribute of a dataset."""
-        return str(self._file[path].attrs[name])
+        return self._text(dataset_of(self._file, path), name)
 
-
-def run_script(description: str, files: list[str], work: Callable[..., None], reader: type = HagfishLog) -> None:
-    """Runs `work(reader(log), file, ...)` on the command line `LOG.h5 files...`, each with the suffix of its name."""
-    parser = argparse.ArgumentParser(description=description)
-    parser.add_argument("log", metavar="LOG.h5", type=Path)
-    for name in files:
-        parser.add_argument(name, metavar=name, type=Path)
-    arguments = vars(parser.parse_args())
-    for name in files:
-        if arguments[name].suffix != Path(name).suffix:
-            parser.error(f"{arguments[name]}: {name} must end in {Path(name).suffix}")
-    path = arguments.pop("log")
-    try:
-        work(reader(path), *arguments.values())
-    except LogError as error:
-        sys.exit(_fail(str(error)))
-    except OSError as error:
-        # HDF5's read errors name no file; those of the outputs do.
-        sys.exit(_fail(f"{error.filename}: cannot be written ({error.strerror})" if error.filename
-                       else f"{path}: cannot be read ({error})"))
-
-
-def _fail(message: str) -> int:
-    print(f"{Path(sys.argv[0]).name}: {message}", file=sys.stderr)
-    return 2
-
-
-def save_figure(figure: Any, png: Path, dpi: int) -> None:
-    """Writes the figure as PNG and, beside it, as PDF. No time stamps: the same log gives the same
-    files."""
-    figure.savefig(png, dpi=dpi)
-    figure.savefig(png.with_suffix(".pdf"), dpi=dpi, metadata={"CreationDate": None})
+    def _text(self, item: h5py.File | h5py.Dataset, name: str) -> str:
+        if name not in item.attrs:
+            raise LogError(f"{self.path}: {item.name} has no attribute '{name}'")
+        return str(item.attrs[name])

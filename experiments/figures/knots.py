@@ -7,20 +7,18 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
 import claims
-from figure7 import GAP, Stage, choose_camera, take_pictures
-from hagfish_log import HagfishLog, LogError, save_figure
+import plots
+from figure7 import GAP, Stage, choose_camera, label_ends, take_pictures
+from hagfish_log import HagfishLog, LogError
 from means import Means, effort_per_cm, read_means
-from slides import COLOURS, MEAN, knot_label, unmet_of
-from study import run_study
+from script import run_script
+from slides import MEAN, unmet_of
+from tables import markdown, write_page
 
-DPI = 200
 WIDTH = 7.2  # of the pictures, inches
 NOISES = ("0.2", "0.5", "1")
 STEPS = ("0.0005", "0.001", "0.005", "0.01", "0.02")
@@ -42,13 +40,14 @@ def draw_pictures(logs: dict[str, HagfishLog], hagfish: Path, out: Path) -> None
     pictures = {}
     for knot, log in logs.items():
         stages = stages_of(log)
-        pictures[knot] = stages, take_pictures(log, hagfish, [s.frame for s in stages], choose_camera(log, stages))
-    wide = max(p.right - p.left for _, row in pictures.values() for p in row) + 2 * GAP
-    heights = {knot: max(p.top for p in row) - min(p.bottom for p in row) + 2 * GAP for knot, (_, row) in pictures.items()}
-    per_cm, above, below = WIDTH / (4 * wide), 0.14, 0.32  # inches of text about a row
+        view = choose_camera(log, stages)
+        pictures[knot] = stages, take_pictures(log, hagfish, [s.frame for s in stages], view), view
+    wide = max(p.right - p.left for _, row, _ in pictures.values() for p in row) + 2 * GAP
+    heights = {knot: max(p.top for p in row) - min(p.bottom for p in row) + 2 * GAP for knot, (_, row, _) in pictures.items()}
+    per_cm, above, below = WIDTH / (4 * wide), 0.18, 0.32  # inches of text about a row
     tall = sum(heights.values()) * per_cm + (above + below) * len(pictures) + 0.25
     figure, top = plt.figure(figsize=(WIDTH, tall)), tall - 0.25 - above
-    for knot, (stages, row) in pictures.items():
+    for knot, (stages, row, view) in pictures.items():
         height, low = heights[knot] * per_cm, min(p.bottom for p in row) - GAP
         for column, (stage, p) in enumerate(zip(stages, row)):
             axes = figure.add_axes([column / 4, (top - height) / tall, 1 / 4, height / tall])
@@ -57,16 +56,17 @@ def draw_pictures(logs: dict[str, HagfishLog], hagfish: Path, out: Path) -> None
             axes.set(xlim=(middle - wide / 2, middle + wide / 2), ylim=(low, low + heights[knot]), aspect="auto")
             axes.axis("off")
             log = logs[knot]
+            label_ends(axes, log, stage.frame, view, p, per_cm)
             ends = [log[f"/knot/{end}_end"][stage.frame] for end in ("head", "tail")]
             spans = f", {ends[0]:.1f} to {ends[1]:.1f} cm" if np.all(np.isfinite(ends)) else ""
             axes.text(0.03, 0.0, f"$t$ = {log['/trajectory/time'][stage.frame]:.2f} s{spans}", fontsize=6.5, va="top",
                       transform=axes.transAxes)
             if column == 0:
-                axes.text(0.03, 1.0, knot_label(knot), fontsize=8.5, va="bottom", weight="bold", transform=axes.transAxes)
+                axes.text(0.03, 1.0, plots.KNOTS[knot].label, fontsize=8.5, va="bottom", weight="bold", transform=axes.transAxes)
         top -= height + above + below
     for column, stage in enumerate(next(iter(pictures.values()))[0]):
         figure.text(column / 4 + 0.01, 1 - 0.16 / tall, stage.title, fontsize=8.5, va="center")
-    save_figure(figure, out, DPI)
+    plots.save(figure, out)
 
 
 def running_median(values: np.ndarray) -> np.ndarray:
@@ -96,31 +96,29 @@ def chance_figures(folder: Path, scene: str, step: str) -> dict[str, np.ndarray]
 
 
 def draw_forces(logs: dict[str, HagfishLog], slides: dict[str, claims.Sliding], out: Path) -> None:
-    figure, (over_time, along, modes) = plt.subplots(1, 3, figsize=(11.5, 3.9), layout="constrained")
+    figure, (over_time, along, modes) = plots.panels(1, 3, (11.5, 3.9), [
+        f"thin: {MEAN}s; thick: running median of {SMOOTHED}", "where along the body, three axes added",
+        f"how many modes hold the {MEAN}s"])
     for knot, log in logs.items():
-        colour, label, means, s = COLOURS[knot], knot_label(knot), read_means(log), slides[knot]
+        look, means, s = plots.KNOTS[knot], read_means(log), slides[knot]
         time = means.window * (np.arange(means.end.size) + 0.5)
-        over_time.plot(time, means.total, color=colour, lw=0.5, alpha=0.3)
-        over_time.plot(time, running_median(means.total), color=colour, lw=1.4, label=label)
+        over_time.plot(time, means.total, color=look.colour, lw=0.5, alpha=0.3)
+        over_time.plot(time, running_median(means.total), **look.style, markevery=[-1], lw=1.4, label=look.label)
         # Two joints make one, as they bend and twist in turn.
         _, joint, _ = log.hinges()
         arc, size = log.joint_arc(), np.abs(means.force).mean(axis=0)
         pairs = [each for each in np.unique(joint // 2) if np.unique(joint[joint // 2 == each]).size == 2]
         along.plot([arc[joint[joint // 2 == each]].mean() for each in pairs], [size[joint // 2 == each].sum() for each in pairs],
-                   color=colour, lw=1.3)
+                   **look.style, markevery=6)
         held = np.sum([np.linalg.svd(s.axis(axis)[1], compute_uv=False)[:30] ** 2 for axis in claims.KINDS], axis=0)
-        modes.plot(np.arange(1, held.size + 1), 100 * (1 - np.cumsum(held) / (s.force**2).sum()), "o-", color=colour, ms=3, lw=1)
+        modes.plot(np.arange(1, held.size + 1), 100 * (1 - np.cumsum(held) / (s.force**2).sum()), **look.style, ms=4, lw=1)
     over_time.set(xlabel="time since the slide began, s", ylabel=r"sum of the four $\lambda/h$, dyn", yscale="log")
-    over_time.legend(fontsize=8, frameon=False)
-    over_time.set_title(f"(a) thin: {MEAN}s; thick: running median of {SMOOTHED}", loc="left", fontsize=9)
-    along.set(xlabel="joint, cm from the head", ylabel="$|f_{thigmo}|$, mean over the slide, dyn cm", yscale="log", ylim=(10, 1e4))
-    along.set_title("(b) where along the body, three axes added", loc="left", fontsize=9)
+    over_time.legend(loc="upper right")
+    along.set(xlabel="joint, cm from the head", ylabel=r"$|f_\mathrm{thigmo}|$, mean over the slide, dyn cm", yscale="log",
+              ylim=(10, 1e4))
     modes.set(xlabel="SVD modes of each axis kept", ylabel="energy left out, %", yscale="log", ylim=(0.1, 100), xlim=(0.5, 12.5))
-    modes.axhline(5, color="#777777", lw=0.8, ls="--", zorder=0)
-    modes.set_title(f"(c) how many modes hold the {MEAN}s", loc="left", fontsize=9)
-    for axes in (over_time, along, modes):
-        axes.grid(alpha=0.25)
-    save_figure(figure, out, DPI)
+    modes.axhline(5, color=plots.GREY, lw=0.8, ls="--", zorder=0)
+    plots.save(figure, out)
 
 
 def outcome(folder: Path, name: str) -> str:
@@ -132,7 +130,7 @@ def sure(folder: Path, scene: str) -> list[str]:
     """Of ten noisy starts, how many were tied, held, slid and came off, for each noise."""
     cells = []
     for noise in NOISES:
-        names = sorted(path.stem for path in folder.glob(f"noise_{scene}_{noise}_*.check"))
+        names = sorted(path.name.removesuffix(".check.csv") for path in folder.glob(f"noise_{scene}_{noise}_*.check.csv"))
         unmet = [set(unmet_of(folder, name)) for name in names]
         good = sum(not each & {"status", "knot held", "unknot at end", "limits"} for each in unmet)
         clean = sum(not each & {"status", "knot held", "unknot at end", "limits", "penetration"} for each in unmet)
@@ -154,34 +152,33 @@ def mirror_error(folder: Path, scene: str) -> float:
     return float(np.abs(plain[:frames] * [1.0, -1.0, 1.0] - image[:frames]).max())
 
 
-def write_steps(folder: Path, scenes: dict[str, str], lines: list[str]) -> None:
+def force_by_step(folder: Path, scenes: dict[str, str]) -> list[str]:
     """The sliding force at every step tried, one run each."""
-    head = "| h, ms | " + " | ".join(scenes) + " |"
-    lines += ["", f"Sum of the four λ/h by step, one run each: median of the {MEAN}s and, in brackets, mean over the slide, dyn.",
-              "", head, "|---" * (len(scenes) + 1) + "|"]
     runs: dict[float, list[str]] = {}
     for scene in scenes.values():
         for name in (f"plain_{scene}", *(f"step_{scene}_{step}" for step in STEPS)):
             log = HagfishLog(folder / f"{name}.h5")
             found = force_figures(log, read_means(log))
             runs.setdefault(log.scene()["time"]["step"], []).append(f"{found['median']:.0f} ({found['mean']:.0f})")
-    lines += [f"| {1000 * step:g} | " + " | ".join(cells) + " |" for step, cells in sorted(runs.items())]
+    return [f"Sum of the four λ/h by step, one run each: median of the {MEAN}s and, in brackets, mean over the slide, dyn.", "",
+            *markdown(["h, ms", *scenes], [[f"{1000 * step:g}", *cells] for step, cells in sorted(runs.items())])]
 
 
-def write_chance(folder: Path, scenes: dict[str, str], lines: list[str]) -> None:
+def force_by_chance(folder: Path, scenes: dict[str, str]) -> list[str]:
     """What chance and the step make of the sliding force."""
     chance = {k: [chance_figures(folder, scene, step) for step in CHANCE_STEPS] for k, scene in scenes.items()}
     starts = min(each["median"].size for found in chance.values() for each in found)
-    lines += ["", f"Starts that differ by rounding alone, {starts} at each step: mean ± standard deviation, and the change from "
-              "one step to the other ± its standard error.", "", "| | " + " | ".join(scenes) + " |", "|---" * (len(scenes) + 1) + "|"]
+    rows = []
     for name, key in ((f"sum of the four λ/h: median of the {MEAN}s, dyn", "median"), ("mean over the slide, dyn", "mean"),
                       (f"largest {MEAN}, dyn", "peak_multipliers"), ("effort for each cm of slide, dyn s", "effort"),
                       ("slide, s", "seconds"), ("slide, cm", "travel")):
         form = ".2f" if key in ("seconds", "travel") else ".0f"
         for i, step in enumerate(CHANCE_STEPS):
-            lines.append(f"| {name}, at h = {1000 * float(step):g} ms | " + " | ".join(
-                f"{found[i][key].mean():{form}} ± {found[i][key].std(ddof=1):{form}}" for found in chance.values()) + " |")
-        lines.append("| change, % | " + " | ".join(change(coarse[key], fine[key]) for coarse, fine in chance.values()) + " |")
+            rows.append([f"{name}, at h = {1000 * float(step):g} ms", *(
+                f"{found[i][key].mean():{form}} ± {found[i][key].std(ddof=1):{form}}" for found in chance.values())])
+        rows.append(["change, %", *(change(coarse[key], fine[key]) for coarse, fine in chance.values())])
+    return [f"Starts that differ by rounding alone, {starts} at each step: mean ± standard deviation, and the change from "
+            "one step to the other ± its standard error.", "", *markdown(["", *scenes], rows)]
 
 
 def change(coarse: np.ndarray, fine: np.ndarray) -> str:
@@ -190,10 +187,10 @@ def change(coarse: np.ndarray, fine: np.ndarray) -> str:
     return f"{100 * (fine.mean() / coarse.mean() - 1):+.1f} ± {100 * error / coarse.mean():.1f}"
 
 
-def write_page(folder: Path, logs: dict[str, HagfishLog], slides: dict[str, claims.Sliding], page: Path) -> None:
-    lines = ["# Four knots", "", "| | " + " | ".join(logs) + " |", "|---" * (len(logs) + 1) + "|"]
+def write_tables(folder: Path, logs: dict[str, HagfishLog], slides: dict[str, claims.Sliding], page: Path) -> None:
+    rows: list[list[str]] = []
     scenes = {knot: scene_of(folder, knot) for knot in logs}
-    row = lambda name, cell: lines.append(f"| {name} | " + " | ".join(cell(knot) for knot in logs) + " |")
+    row = lambda name, cell: rows.append([name, *(cell(knot) for knot in logs)])
     row("scene", lambda k: scenes[k])
     row("audit", lambda k: outcome(folder, f"plain_{scenes[k]}") or "passes")
     row("mirror image, audit", lambda k: outcome(folder, f"mirror_{scenes[k]}") or "passes")
@@ -220,18 +217,17 @@ def write_page(folder: Path, logs: dict[str, HagfishLog], slides: dict[str, clai
     modes = {k: claims.smooth_in_space(slides[k])["axes"].values() for k in logs}
     for name, key in (("Fourier modes for 95 % of the energy, of 50", "dct_modes_95"), ("SVD modes", "svd_modes_95")):
         row(name, lambda k, key=key: str(max(axis[key] for axis in modes[k])))
-    write_steps(folder, scenes, lines)
-    write_chance(folder, scenes, lines)
-    page.write_text("\n".join([*lines, ""]), encoding="utf-8")
+    write_page(page, ["# Four knots", "", *markdown(["", *logs], rows), *force_by_step(folder, scenes),
+                      *force_by_chance(folder, scenes)])
 
 
 def main(folder: Path, hagfish: Path, pictures: Path, forces: Path, page: Path) -> None:
-    logs = {knot: HagfishLog(folder / f"plain_{scene_of(folder, knot)}.h5") for knot in COLOURS}
+    logs = {knot: HagfishLog(folder / f"plain_{scene_of(folder, knot)}.h5") for knot in plots.KNOTS}
     slides = {knot: claims.read_sliding(log) for knot, log in logs.items()}
     draw_pictures(logs, hagfish, pictures)
     draw_forces(logs, slides, forces)
-    write_page(folder, logs, slides, page)
+    write_tables(folder, logs, slides, page)
 
 
 if __name__ == "__main__":
-    run_study(__doc__, ["HAGFISH", "OUT_PICTURES.png", "OUT_FORCES.png", "OUT.md"], main)
+    run_script(__doc__, ["RUNS", "HAGFISH", "OUT_PICTURES.png", "OUT_FORCES.png", "OUT.md"], main)

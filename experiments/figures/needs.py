@@ -5,20 +5,18 @@ Usage: needs.py RUNS OUT.csv OUT.png (writes a PDF beside).
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
-import numpy as np
-
-from hagfish_log import LogError, Results, save_figure
-from study import GREY, INK, Run, read_runs, run_study, write_csv
+import plots
+from hagfish_log import LogError
+from script import run_script
+from study import Run, read_runs
+from tables import write_csv
 from whole_runs import CHANCE_STEPS, chance
 
-DPI = 200
 AS_IS = "as_is"
 # Run, the choice as it is, what is tried instead.
 CHOICES = {
@@ -90,6 +88,19 @@ def needs(folder: Path) -> tuple[Run, list[Need]]:
                    for (choice, instead), run in ((texts, runs[name]) for name, texts in CHOICES.items())]
 
 
+def draw(panel: Any, found: list[Need], value: Callable[[Need], float], base: float, costs: bool) -> None:
+    """A bar for each choice, from what the scene as it is has; a failed run has a cost alone."""
+    for row, need in enumerate(found):
+        if not need.run.failure:
+            panel.barh(row, value(need) - base, left=base, color=plots.BLUE, height=0.6)
+        elif costs:
+            panel.barh(row, value(need) - base, left=base, color="white", edgecolor=plots.VERMILION, hatch="////", height=0.6)
+        else:
+            panel.text(0.03, row, "failed", transform=panel.get_yaxis_transform(), va="center", color=plots.VERMILION)
+    panel.axvline(base, color=plots.INK, lw=0.9)
+    panel.grid(axis="y", visible=False)
+
+
 def main(folder: Path, csv: Path, png: Path) -> None:
     as_is, found = needs(folder)
     heading = ["choice", "instead", "cpu_ratio", "slide_change_cm", "force_change_percent", "penetration_cm", "outcome",
@@ -99,33 +110,24 @@ def main(folder: Path, csv: Path, png: Path) -> None:
               [[n.choice, n.instead, n.cpu, n.slide, n.force, n.run.penetration, n.run.failure or "slid",
                 "; ".join(n.run.unmet), n.verdict] for n in found])
 
-    figure, axes = plt.subplots(1, 4, figsize=(12, 6.4), layout="constrained", sharey=True,
-                                gridspec_kw={"width_ratios": [1.2, 1, 1, 1.2]})
-    rows = np.arange(len(found))
-    columns = [("CPU time, of the scene's as it is", lambda n: n.cpu, 1),
-               ("change in slide, cm", lambda n: n.slide, 0),
+    columns = [("CPU time, of the scene's as it is", lambda n: n.cpu, 1), ("change in slide, cm", lambda n: n.slide, 0),
                ("change in sliding force, %", lambda n: n.force, 0),
                ("deepest penetration, cm", lambda n: n.run.penetration, as_is.penetration)]
-    for panel, (title, value, base) in zip(axes, columns):
-        for row, need in zip(rows, found):
-            failed = bool(need.run.failure)
-            if failed and panel is not axes[0]:
-                panel.text(0.2, row, "failed", transform=panel.get_yaxis_transform(), ha="center", va="center",
-                           fontsize=8, color="#aa3333")
-                continue
-            panel.barh(row, value(need) - base, left=base, color="white" if failed else "#4477aa",
-                       edgecolor="#aa3333" if failed else "#4477aa", hatch="////" if failed else None, height=0.6)
-        panel.axvline(base, color=INK, lw=0.9)
-        panel.set_xlabel(title, fontsize=9)
-        panel.tick_params(labelsize=8)
-        panel.grid(axis="x", color="#e5e5e5", lw=0.6)
-        panel.set_axisbelow(True)
-    axes[3].set_xscale("log")
-    axes[3].set_xlim(as_is.penetration / 4)
-    axes[0].set_yticks(rows, [f"{n.choice} → {n.instead}" for n in found], fontsize=8)
-    axes[0].invert_yaxis()
-    save_figure(figure, png, DPI)
+    figure, panels = plots.panels(1, 4, (12, 6.4), ["cost", "slide", "force", "penetration"], sharey=True,
+                                  gridspec_kw={"width_ratios": [1.2, 1, 1, 1.2]})
+    for panel, (label, value, base) in zip(panels, columns):
+        draw(panel, found, value, base, costs=panel is panels[0])
+        panel.set_xlabel(label)
+    # Three choices change slide and force ten to a hundred times as much as the rest: linear near 0 alone.
+    for panel, least, ends in ((panels[1], 0.01, (-0.5, 0.8)), (panels[2], 1, (-60, 60))):
+        panel.set_xscale("symlog", linthresh=least, linscale=0.5)
+        panel.set_xlim(ends)
+    panels[3].set_xscale("log")
+    panels[3].set_xlim(as_is.penetration / 4)
+    panels[0].set_yticks(range(len(found)), [f"{n.choice} → {n.instead}" for n in found])
+    panels[0].invert_yaxis()
+    plots.save(figure, png)
 
 
 if __name__ == "__main__":
-    run_study(__doc__, ["OUT.csv", "OUT.png"], main)
+    run_script(__doc__, ["RUNS", "OUT.csv", "OUT.png"], main)

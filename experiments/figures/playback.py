@@ -10,18 +10,16 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
 import numpy as np
 
-from hagfish_log import Results, run_script, save_figure
+import plots
+from hagfish_log import Results
+from script import run_script
 
-DPI = 200
 INTERVALS = ["0.04", "0.1", "0.2", "0.5", "1"]
-FORCES = {"thigmotaxis": ("#cc6677", r"driven by mean $f_\mathrm{thigmo}$"), "none": ("#888888", "no force (control)")}
-SHOWN = {"0.1": "#ddaa33", "0.5": "#4477aa", "1": "#aa3377"}
+SECONDS = [float(interval) for interval in INTERVALS]
+FORCES = {"thigmotaxis": (plots.ORANGE, r"driven by mean $f_\mathrm{thigmo}$"), "none": (plots.GREY, "no force (control)")}
+SHOWN = {"0.1": plots.ORANGE, "0.5": plots.BLUE, "1": plots.PURPLE}
 
 
 def stretches(results: Results, interval: str) -> list[slice]:
@@ -40,11 +38,8 @@ def draw_paths(axes: Any, results: Results) -> None:
         for part in stretches(results, interval):
             axes.plot(time[part.start:part.stop + 1], np.r_[logged[part.start], path[part]], color=colour, lw=1.2,
                       label=f"MuJoCo, restarted every {interval} s" if part.start == 0 else None)
-    axes.set_xlabel("time, s")
-    axes.set_ylabel("head end of the knot, cm from the head")
-    interval = 1000 * np.median(np.diff(time))
-    axes.set_title(rf"(a) driven by $f_\mathrm{{thigmo}}$ alone, means over {interval:.0f} ms", loc="left")
-    axes.legend(fontsize=8)
+    axes.set(xlabel="time, s", ylabel="head end of the knot, cm from the head")
+    axes.legend(loc="upper right")
 
 
 def draw_share(axes: Any, results: Results) -> None:
@@ -56,16 +51,11 @@ def draw_share(axes: Any, results: Results) -> None:
             ends = [(logged[p.start], path[p.stop - 1], logged[p.stop])
                     for p in stretches(results, interval)]
             share.append(sum(a - b for a, b, _ in ends) / sum(a - c for a, _, c in ends))
-        axes.plot([float(i) for i in INTERVALS], 100 * np.array(share), "o-", color=colour, label=label)
-    axes.axhline(100, color="black", lw=0.8)
-    axes.set_xscale("log")
-    axes.set_xticks([float(i) for i in INTERVALS], INTERVALS)
-    axes.minorticks_off()
-    axes.set_ylim(0, 110)
-    axes.set_xlabel("time between restarts, s")
-    axes.set_ylabel("headward slide, % of the log's")
-    axes.set_title("(b) how much of the slide", loc="left")
-    axes.legend(fontsize=8)
+        axes.plot(SECONDS, 100 * np.array(share), "o-", color=colour, label=label)
+    axes.axhline(100, color=plots.INK, lw=0.8)
+    axes.set(xscale="log", ylim=(0, 110), xlabel="time between restarts, s", ylabel="headward slide, % of the log's")
+    plots.plain_ticks(axes.xaxis, SECONDS)
+    axes.legend(loc="lower left")
 
 
 def draw_drift(axes: Any, results: Results) -> None:
@@ -76,45 +66,41 @@ def draw_drift(axes: Any, results: Results) -> None:
             ends = [drift[p.stop - 1] for p in stretches(results, interval)]
             middle.append(np.nanmedian(ends))
             high.append(np.nanmax(drift))
-        x = [float(i) for i in INTERVALS]
-        axes.plot(x, middle, "o-", color=colour, label=f"{label}, median at the end")
-        axes.plot(x, high, ":", color=colour, label="largest")
-    axes.set_xscale("log")
-    axes.set_yscale("log")
-    axes.set_xticks(x, INTERVALS)
-    axes.minorticks_off()
-    axes.set_xlabel("time between restarts, s")
-    axes.set_ylabel("farthest body centre from the log, cm")
-    axes.set_title("(c) drift", loc="left")
-    axes.legend(fontsize=8)
+        axes.loglog(SECONDS, middle, "o-", color=colour, label=f"{label}, median at the end")
+        axes.plot(SECONDS, high, ":", color=colour, label=f"{label.split(' (')[0]}, largest")
+    plots.plain_ticks(axes.xaxis, SECONDS)
+    axes.set(xlabel="time between restarts, s", ylabel="farthest body centre from the log, cm")
+    axes.legend(loc="upper left")
 
 
 def draw_overlap(axes: Any, results: Results) -> None:
     x = np.arange(len(INTERVALS))
-    kinds = {"capsule_penetration": ("#4477aa", "capsules (MuJoCo)"), "penetration": ("#ddaa33", "skin along the spline")}
+    kinds = {"capsule_penetration": (plots.BLUE, "capsules (MuJoCo)"), "penetration": (plots.ORANGE, "skin along the spline")}
     for shift, (kind, (colour, label)) in zip((-0.18, 0.18), kinds.items()):
         sets = [results[f"/thigmotaxis_{i}s/{kind}"] for i in INTERVALS]
         axes.bar(x + shift, [np.nanmax(s) for s in sets], 0.34, color=colour, alpha=0.45, label=f"{label}, largest")
         middle = [np.nanmedian(s) for s in sets]
         # A logarithmic axis has no 0.
         axes.bar(x + shift, middle, 0.34, color=colour, label="median" if any(middle) else "median: 0")
-    axes.set_yscale("log")
     axes.set_xticks(x, INTERVALS)
-    axes.set_xlabel("time between restarts, s")
-    axes.set_ylabel("overlap, cm")
-    axes.set_title("(d) overlap of the soft contacts", loc="left")
+    axes.set(yscale="log", xlabel="time between restarts, s", ylabel="overlap, cm")
     axes.set_ylim(top=2)  # room for the legend
-    axes.legend(fontsize=8, ncols=2)
+    axes.grid(axis="x", visible=False)
+    axes.legend(ncols=2, loc="upper right")
 
 
-def main(results: Results, out: Path) -> None:
-    figure, axes = plt.subplots(2, 2, figsize=(11, 8), layout="constrained")
-    draw_paths(axes[0, 0], results)
-    draw_share(axes[0, 1], results)
-    draw_drift(axes[1, 0], results)
-    draw_overlap(axes[1, 1], results)
-    save_figure(figure, out, DPI)
+def main(playback: Path, out: Path) -> None:
+    results = Results(playback)
+    interval = 1000 * np.median(np.diff(results["/time"]))
+    figure, (paths, share, drift, overlap) = plots.panels(
+        2, 2, (11, 8), [rf"driven by $f_\mathrm{{thigmo}}$ alone, means over {interval:.0f} ms", "how much of the slide",
+                        "drift", "overlap of the soft contacts"])
+    draw_paths(paths, results)
+    draw_share(share, results)
+    draw_drift(drift, results)
+    draw_overlap(overlap, results)
+    plots.save(figure, out)
 
 
 if __name__ == "__main__":
-    run_script(__doc__, ["OUT.png"], main, Results)
+    run_script(__doc__, ["PLAYBACK.h5", "OUT.png"], main)

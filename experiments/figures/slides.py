@@ -1,23 +1,24 @@
 """Slides of the studies of knots: what was commanded and what came of it, from the runs of experiments/*.sh.
 
-A run is NAME.h5 (its log) and NAME.check (its audit), where NAME is KIND_SCENE_VALUE.
+A run is NAME.h5 (its log) and NAME.check.csv (its audit), where NAME is KIND_SCENE_VALUE.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
+import audits
+import plots
 from hagfish_log import HagfishLog, LogError
 from means import WINDOW, read_means
 from study import failure_of
 from summary import step_phases
 
-# Paul Tol's bright colours, one for each knot.
-COLOURS = {"3_1": "#4477aa", "4_1": "#ee6677", "5_1": "#228833", "5_2": "#aa3377"}
-NAMES = {"3_1": "overhand", "4_1": "figure-eight", "5_1": "double overhand", "5_2": "three-twist"}
 LEAST_FRAMES = 5  # of a slide with a speed
 AT_CAP = 0.999  # of the cap, a multiplier that is at it
 MEAN = f"{1000 * WINDOW:g} ms mean"  # what forces are, for headings
@@ -49,18 +50,9 @@ class Slide:
     tail_end: np.ndarray
 
 
-def knot_label(knot: str) -> str:
-    """3_1 as a mathematician writes it, with its name."""
-    return f"${knot[0]}_{{{knot[2:]}}}$ {NAMES[knot]}"
-
-
 def unmet_of(folder: Path, name: str) -> list[str]:
     """What the audit of a run names as failed."""
-    try:
-        check = (folder / f"{name}.check").read_text()
-    except OSError as error:
-        raise LogError(f"{error.filename}: cannot be read ({error.strerror})") from None
-    return [line[5:29].strip() for line in check.splitlines() if line.startswith("FAIL")]
+    return audits.unmet(audits.read_findings(folder / f"{name}.check.csv"))
 
 
 def read_slide(folder: Path, name: str, phase: str = "slide") -> Slide:
@@ -78,7 +70,8 @@ def read_slide(folder: Path, name: str, phase: str = "slide") -> Slide:
     some = moved and means.end.size > 0
     steps = step_phases(log) == phase
     at_cap = log["/steps/thigmotaxis_lambda"][steps] >= AT_CAP * scene["controller"]["cap"]
-    unmet = unmet_of(folder, name)
+    findings = audits.read_findings(folder / f"{name}.check.csv")
+    unmet = audits.unmet(findings)
     ended = str(log.attribute("status")) == "complete" and "unknot at end" not in unmet
     commanded = float(scene["controller"][f"{phase}_head"]["a"])
     return Slide(name, scene["expect"]["knot"], commanded, sign * slope, sign * travel,
@@ -87,14 +80,14 @@ def read_slide(folder: Path, name: str, phase: str = "slide") -> Slide:
                  float(np.nanmedian(np.fmax.reduce(means.slack, axis=1))) if some else np.nan,
                  float((log["/steps/eq6"][steps] == 1).mean()) if steps.any() else np.nan,
                  float(log["/steps/penetration"][steps].max()) if steps.any() else np.nan,
-                 float(scene["expect"]["penetration"]),
+                 audits.bound_on(findings, "penetration"),
                  "knot held" not in unmet, "" if ended else failure_of(log, unmet),
                  time - time[0] if moved else time, log["/knot/head_end"][frames], log["/knot/tail_end"][frames])
 
 
 def read_slides(folder: Path, kind: str, phase: str = "slide") -> list[Slide]:
     """All runs called KIND_..., by knot and speed."""
-    names = [path.stem for path in folder.glob(f"{kind}_*.check")]
+    names = [path.name.removesuffix(".check.csv") for path in folder.glob(f"{kind}_*.check.csv")]
     if not names:
         raise LogError(f"{folder}: holds no run {kind}_*")
     return sorted((read_slide(folder, name, phase) for name in names), key=lambda s: (s.knot, s.commanded))
@@ -102,3 +95,15 @@ def read_slides(folder: Path, kind: str, phase: str = "slide") -> list[Slide]:
 
 def of_knot(slides: list[Slide], knot: str) -> list[Slide]:
     return [slide for slide in slides if slide.knot == knot]
+
+
+def draw_over_speed(axes: Any, slides: list[Slide], measure: Callable[[Slide], float], **style: Any) -> None:
+    """A measure over commanded speed, a line for each knot; open where the knot was lost or the run failed. What is not
+    above 0, which logarithmic axes lack, is left out."""
+    for knot, look in plots.KNOTS.items():
+        own = [s for s in slides if s.knot == knot and measure(s) > 0]
+        axes.plot([s.commanded for s in own], [measure(s) for s in own], label=look.label, **(look.style | style))
+        lost = [s for s in own if s.failure]
+        axes.plot([s.commanded for s in lost], [measure(s) for s in lost], **(look.style | style | {"ls": "", "mfc": "white"}))
+    axes.set(xscale="log", yscale="log", xlabel="commanded speed, cm/s")
+    plots.plain_ticks(axes.xaxis, sorted({s.commanded for s in slides}))

@@ -5,22 +5,20 @@ Usage: stability.py STABILITY.csv OUT_FOLDER (SCENE.png, summary.png, each with 
 
 from __future__ import annotations
 
-import argparse
-import csv
-import sys
 from collections import Counter
+from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 from matplotlib.patches import Patch, Rectangle
 
-from hagfish_log import save_figure
+import plots
+from hagfish_log import LogError
+from script import run_script
+from tables import markdown, read_csv, write_page
 
-DPI = 160
 LEGEND_COLUMNS, LEGEND_ROWS = 5, 2
 CELL, LETTER = 0.3, 0.075  # inches, of a cell's side and of a label's letter
 # Outcome: letter, colour (Paul Tol's light and muted schemes, told apart without red and green).
@@ -45,15 +43,34 @@ SCENES = {"whip": "fast undamped whip", "spinning": "spin near 90°", "coil": "c
 AS_IS = "as is"
 
 Cell = dict[str, str]
-Grid = dict[tuple[str, float], Cell]  # by row and h, ms
+
+
+@dataclass
+class Panel:
+    """One heat map: cells by row and column, as they are called."""
+
+    title: str
+    across: str  # what its columns are
+    rows: list[str]
+    columns: list[str]
+    cells: dict[tuple[str, str], Cell]
+
+    @property
+    def margin(self) -> float:
+        """Inches that the longest name of a row takes."""
+        return LETTER * max(map(len, self.rows)) + 0.25
+
+    @property
+    def size(self) -> tuple[float, float]:
+        return CELL * len(self.columns), CELL * len(self.rows)
 
 
 def read(path: Path) -> list[Cell]:
-    with path.open(newline="", encoding="utf-8") as file:
-        cells = list(csv.DictReader(file))
+    cells = read_csv(path, ("scene", "level", "method", "h_ms", "outcome"))
     for cell in cells:
-        if cell["outcome"] not in LOOKS:
-            raise ValueError(f"{path}: no such outcome: {cell['outcome']}")
+        for what, known in (("outcome", LOOKS), ("method", METHODS)):
+            if cell[what] not in known:
+                raise LogError(f"{path}: no such {what}: {cell[what]}")
     return cells
 
 
@@ -61,30 +78,34 @@ def step_of(cell: Cell) -> float:
     return float(cell["h_ms"])
 
 
-def grid_of(cells: list[Cell], key: Any) -> Grid:
-    return {(key(cell), step_of(cell)): cell for cell in cells}
+def panel_of(title: str, cells: list[Cell], row: Callable[[Cell], str], rows: list[str]) -> Panel:
+    """Over time steps."""
+    steps = [f"{step:g}" for step in sorted({step_of(cell) for cell in cells})]
+    return Panel(title, "h, ms", rows, steps, {(row(cell), f"{step_of(cell):g}"): cell for cell in cells})
 
 
-def draw_grid(axes: Any, grid: Grid, rows: list[str], steps: list[float]) -> None:
-    for y, row in enumerate(rows):
-        for x, step in enumerate(steps):
-            cell = grid.get((row, step))
-            if cell is None:
-                continue
-            outcome = cell["outcome"]
-            letter, colour = LOOKS[outcome]
-            axes.add_patch(Rectangle((x, y), 1, 1, fc=colour, ec="white", lw=1.5,
-                                     hatch="///" if outcome == "not applicable" else None))
-            axes.text(x + 0.5, y + 0.52, letter, ha="center", va="center", fontsize=8, fontweight="bold",
-                      color="white" if outcome in DARK else "#222222")
-    axes.set_xlim(0, len(steps))
-    axes.set_ylim(len(rows), 0)
-    axes.set_xticks([x + 0.5 for x in range(len(steps))], [f"{step:g}" for step in steps], fontsize=8)
-    axes.set_yticks([y + 0.5 for y in range(len(rows))], [TITLES.get(row, row) for row in rows], fontsize=8)
+def cell_grid(axes: Any, rows: list[str], columns: list[str]) -> None:
+    """Axes for cells of one unit, the first row at the top."""
+    axes.set(xlim=(0, len(columns)), ylim=(len(rows), 0))
+    axes.set_xticks([x + 0.5 for x in range(len(columns))], columns)
+    axes.set_yticks([y + 0.5 for y in range(len(rows))], rows)
     axes.tick_params(length=0)
-    axes.set_xlabel("h, ms", fontsize=8)
-    for side in axes.spines.values():
-        side.set_visible(False)
+    axes.grid(visible=False)
+    axes.spines[:].set_visible(False)
+
+
+def draw_cell(axes: Any, place: tuple[int, int], colour: Any, applicable: bool, text: str, ink: str) -> None:
+    axes.add_patch(Rectangle(place, 1, 1, fc=colour, ec="white", lw=1.5, hatch=None if applicable else "///"))
+    axes.text(place[0] + 0.5, place[1] + 0.52, text, ha="center", va="center", fontsize=8, color=ink)
+
+
+def draw_panel(axes: Any, panel: Panel) -> None:
+    cell_grid(axes, panel.rows, panel.columns)
+    axes.set_xlabel(panel.across)
+    for (row, column), cell in panel.cells.items():
+        letter, colour = LOOKS[cell["outcome"]]
+        draw_cell(axes, (panel.columns.index(column), panel.rows.index(row)), colour, cell["outcome"] != "not applicable", letter,
+                  "white" if cell["outcome"] in DARK else plots.INK)
 
 
 def legend(figure: Any, cells: list[Cell]) -> None:
@@ -114,35 +135,46 @@ def level_order(level: str) -> float:
     return 0.0
 
 
-def draw_scene(scene: str, cells: list[Cell], png: Path) -> None:
+def panels_of(cells: list[Cell]) -> tuple[list[Panel], list[Panel]]:
+    """Methods and levels of stress, side by side; below them perturbed starts."""
     whole = [cell for cell in cells if cell["level"] == AS_IS]
-    panels = [("methods", grid_of(whole, lambda c: c["method"]),
-               [m for m in METHODS if any(c["method"] == m for c in whole)], sorted({step_of(c) for c in whole}))]
+    name = lambda cell: TITLES.get(cell["method"], cell["method"])
+    known = {cell["method"] for cell in whole}
+    upper = [panel_of("methods", whole, name, [TITLES.get(method, method) for method in METHODS if method in known])]
     for method, own in by_level(cells):
-        levels = sorted({c["level"] for c in own}, key=level_order)
-        panels.append((TITLES.get(method, method), grid_of(own, lambda c: c["level"]), levels,
-                       sorted({step_of(c) for c in own})))
+        upper.append(panel_of(TITLES.get(method, method), own, lambda cell: cell["level"],
+                              sorted({cell["level"] for cell in own}, key=level_order)))
     seeds = [cell for cell in cells if cell["level"].startswith("seed")]
-    if seeds:
-        panels.append(("perturbed starts", grid_of(seeds, lambda c: c["level"]),
-                       sorted({c["level"] for c in seeds}, key=level_order), sorted({step_of(c) for c in seeds})))
-    # Cells of one size in every panel, laid out in inches.
-    left = [LETTER * max(len(TITLES.get(row, row)) for row in rows) + 0.25 for _, _, rows, _ in panels]
-    width = max(sum(left) + CELL * sum(len(steps) for _, _, _, steps in panels) + 0.3, 6.8)
-    below = 0.55 + 0.2 * LEGEND_ROWS
-    height = CELL * max(len(rows) for _, _, rows, _ in panels) + below + 0.7
-    figure = plt.figure(figsize=(width, height))
-    x = 0.0
-    for margin, (title, grid, rows, steps) in zip(left, panels):
-        wide, high = CELL * len(steps), CELL * len(rows)
-        axes = figure.add_axes(((x + margin) / width, (height - 0.7 - high) / height, wide / width, high / height))
-        draw_grid(axes, grid, rows, steps)
-        axes.set_title(title, fontsize=9, loc="left")
-        x += margin + wide
+    if not seeds:
+        return upper, []
+    number = lambda cell: f"{level_order(cell['level']):g}"
+    lower = Panel("perturbed starts, default", "seed", [f"{step:g} ms" for step in sorted({step_of(cell) for cell in seeds})],
+                  sorted({number(cell) for cell in seeds}, key=float),
+                  {(f"{step_of(cell):g} ms", number(cell)): cell for cell in seeds})
+    return upper, [lower]
+
+
+def draw_scene(scene: str, cells: list[Cell], png: Path) -> None:
+    """Cells of one size in every panel, laid out in inches."""
+    lines = [line for line in panels_of(cells) if line]
+    heights = [max(panel.size[1] for panel in line) + 0.75 for line in lines]
+    width = max(6.8, *(sum(panel.margin + panel.size[0] for panel in line) + 0.5 for line in lines))
+    height = sum(heights) + 0.4 + 0.2 * LEGEND_ROWS
+    figure, drawn, top = plt.figure(figsize=(width, height)), [], height - 0.65
+    for line, tall in zip(lines, heights):
+        left = 0.0
+        for panel in line:
+            wide, high = panel.size
+            left += panel.margin
+            axes = figure.add_axes((left / width, (top - high) / height, wide / width, high / height))
+            draw_panel(axes, panel)
+            drawn.append(axes)
+            left += wide
+        top -= tall
+    plots.name_panels(drawn, [panel.title for line in lines for panel in line])
     figure.suptitle(SCENES.get(scene, scene), fontsize=11, y=1 - 0.08 / height, va="top")
     legend(figure, cells)
-    save_figure(figure, png, DPI)
-    plt.close(figure)
+    plots.save(figure, png)
 
 
 def survived(cells: list[Cell]) -> tuple[str, float | None]:
@@ -177,7 +209,7 @@ def own_cells(cells: list[Cell], scene: str, method: str) -> list[Cell]:
 def draw_summary(cells: list[Cell], png: Path) -> None:
     scenes = scenes_of(cells)
     steps = sorted({step_of(cell) for cell in cells})
-    figure, axes = plt.subplots(figsize=(9.5, 0.36 * len(scenes) + 1.6), layout="constrained")
+    figure, axes = plt.subplots(figsize=(10.5, 0.36 * len(scenes) + 1.6), layout="constrained")
     shades = plt.get_cmap("cividis")
     for y, scene in enumerate(scenes):
         for x, method in enumerate(METHODS):
@@ -187,25 +219,17 @@ def draw_summary(cells: list[Cell], png: Path) -> None:
                 continue
             rank = -1 if largest is None else steps.index(largest)
             shade = "#ffffff" if text == "n/a" else shades((rank + 1) / len(steps))
-            axes.add_patch(Rectangle((x, y), 1, 1, fc=shade, ec="white", lw=1.5,
-                                     hatch="///" if text == "n/a" else None))
             letter = "" if text == "n/a" or text.startswith("all") else LOOKS[first_failure(own)][0]
             words = "" if text == "n/a" else ("none" if largest is None else f"{largest:g}")
-            axes.text(x + 0.5, y + 0.52, f"{words} {letter}".strip(), ha="center", va="center", fontsize=8,
-                      color="white" if rank + 1 < 0.55 * len(steps) and text != "n/a" else "black")
-    axes.set_xlim(0, len(METHODS))
-    axes.set_ylim(len(scenes), 0)
-    axes.set_xticks([x + 0.5 for x in range(len(METHODS))], [TITLES.get(m, m) for m in METHODS], fontsize=8,
-                    rotation=20, ha="left")
+            draw_cell(axes, (x, y), shade, text != "n/a", f"{words} {letter}".strip(),
+                      "white" if rank + 1 < 0.55 * len(steps) and text != "n/a" else plots.INK)
+    cell_grid(axes, [SCENES.get(s, s) for s in scenes], [TITLES.get(m, m) for m in METHODS])
     axes.xaxis.tick_top()
-    axes.set_yticks([y + 0.5 for y in range(len(scenes))], [SCENES.get(s, s) for s in scenes], fontsize=9)
-    axes.tick_params(length=0)
-    for side in axes.spines.values():
-        side.set_visible(False)
+    axes.tick_params(axis="x", length=0)
     codes = ", ".join(f"{letter} {name}" for name, (letter, _) in LOOKS.items() if letter not in ("", "-"))
     figure.supxlabel("Largest step, ms, up to which every step is survived, and what comes first beyond it; blank: not run.\n" + codes,
                      fontsize=7.5)
-    save_figure(figure, png, DPI)
+    plots.save(figure, png)
 
 
 def behind_mujoco(cells: list[Cell]) -> list[str]:
@@ -216,42 +240,33 @@ def behind_mujoco(cells: list[Cell]) -> list[str]:
             and (mine := ours.get((c["scene"], c["level"], c["h_ms"]))) and mine["outcome"] != "ok"]
 
 
-def write_summary(cells: list[Cell], path: Path) -> None:
+def summary_page(cells: list[Cell]) -> list[str]:
     lines = ["# Where it fails", "", "Largest h (ms) up to which every step is survived, and the first outcome beyond it.",
-             "", "| scene | " + " | ".join(TITLES.get(m, m) for m in METHODS) + " |", "|---" * (len(METHODS) + 1) + "|"]
-    for scene in scenes_of(cells):
-        lines.append(f"| {SCENES.get(scene, scene)} | "
-                     + " | ".join(survived(own_cells(cells, scene, m))[0] for m in METHODS) + " |")
+             "", *markdown(["scene", *(TITLES.get(m, m) for m in METHODS)],
+                           [[SCENES.get(scene, scene), *(survived(own_cells(cells, scene, m))[0] for m in METHODS)]
+                            for scene in scenes_of(cells)])]
     seeds = [cell for cell in cells if cell["level"].startswith("seed")]
-    if seeds:
-        lines += ["", "Perturbed starts of the Table 1 run:", "", "| h, ms | ok | otherwise |", "|---|---|---|"]
-        for step in sorted({step_of(c) for c in seeds}):
-            counts = Counter(c["outcome"] for c in seeds if step_of(c) == step)
-            others = ", ".join(f"{n} {name}" for name, n in counts.most_common() if name != "ok")
-            lines.append(f"| {step:g} | {counts['ok']} of {counts.total()} | {others} |")
+    rows = []
+    for step in sorted({step_of(c) for c in seeds}):
+        counts = Counter(c["outcome"] for c in seeds if step_of(c) == step)
+        others = ", ".join(f"{n} {name}" for name, n in counts.most_common() if name != "ok")
+        rows.append([f"{step:g}", f"{counts['ok']} of {counts.total()}", others])
+    if rows:
+        lines += ["Perturbed starts of the Table 1 run:", "", *markdown(["h, ms", "ok", "otherwise"], rows)]
     counts = Counter(cell["outcome"] for cell in cells)
-    lines += ["", f"{len(cells)} cells: " + ", ".join(f"{n} {name}" for name, n in counts.most_common()) + ".", ""]
     worse = behind_mujoco(cells)
-    lines += [f"Cells in which MuJoCo's default (Euler) survives and the core's does not: {len(worse)}."]
-    lines += [f"- {text}" for text in worse]
-    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    return [*lines, f"{len(cells)} cells: " + ", ".join(f"{n} {name}" for name, n in counts.most_common()) + ".", "",
+            f"Cells in which MuJoCo's default (Euler) survives and the core's does not: {len(worse)}.",
+            *(f"- {text}" for text in worse)]
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("csv", metavar="STABILITY.csv", type=Path)
-    parser.add_argument("out", metavar="OUT_FOLDER", type=Path)
-    arguments = parser.parse_args()
-    try:
-        cells = read(arguments.csv)
-        for scene in scenes_of(cells):
-            draw_scene(scene, [cell for cell in cells if cell["scene"] == scene], arguments.out / f"{scene}.png")
-        draw_summary(cells, arguments.out / "summary.png")
-        write_summary(cells, arguments.out / "summary.md")
-    except (OSError, ValueError, KeyError) as error:
-        print(f"stability.py: {error}", file=sys.stderr)
-        sys.exit(2)
+def main(table: Path, out: Path) -> None:
+    cells = read(table)
+    for scene in scenes_of(cells):
+        draw_scene(scene, [cell for cell in cells if cell["scene"] == scene], out / f"{scene}.png")
+    draw_summary(cells, out / "summary.png")
+    write_page(out / "summary.md", summary_page(cells))
 
 
 if __name__ == "__main__":
-    main()
+    run_script(__doc__, ["STABILITY.csv", "OUT_FOLDER"], main)

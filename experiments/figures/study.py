@@ -1,27 +1,22 @@
 """Runs of `experiments/studies/speed_accuracy.sh`: what each cost, what became of it, and how far it is from a reference.
 
-A run is NAME.h5 (its log), NAME.cpu (user and system time of each repeat, s) and NAME.check (its audit).
+A run is NAME.h5 (its log), NAME.cpu (user and system time of each repeat, s) and NAME.check.csv (its audit).
 """
 
 from __future__ import annotations
 
-import argparse
-import csv
 import re
-import sys
-from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
+import audits
 from hagfish_log import HagfishLog, LogError
 from means import read_means
 
 SHIFTS = 21  # tried within a frame to either side
 FORCE_WINDOW = 0.1  # s, of the means of forces: a multiple of every interval between frames in the study
-INK, GREY = "#000000", "#777777"
 
 
 @dataclass
@@ -72,10 +67,9 @@ def read_run(folder: Path, name: str) -> Run:
     log = HagfishLog(folder / f"{name}.h5")
     try:
         cpu = [sum(map(float, line.split())) for line in (folder / f"{name}.cpu").read_text().splitlines()]
-        check = (folder / f"{name}.check").read_text()
     except OSError as error:
         raise LogError(f"{error.filename}: cannot be read ({error.strerror})") from None
-    unmet = [line[5:29].strip() for line in check.splitlines() if line.startswith("FAIL")]
+    unmet = audits.unmet(audits.read_findings(folder / f"{name}.check.csv"))
     scene = log.scene()
     slides = log.in_phase("slide")
     known = slides[np.isfinite(log["/knot/head_end"][slides])]
@@ -123,23 +117,3 @@ def pareto(cost: np.ndarray, error: np.ndarray) -> np.ndarray:
             best = error[i]
             front.append(i)
     return np.array(front, dtype=int)
-
-
-def write_csv(path: Path, heading: list[str], rows: list[list[Any]]) -> None:
-    with path.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(heading)
-        writer.writerows([f"{cell:.6g}" if isinstance(cell, float) else cell for cell in row] for row in rows)
-
-
-def run_study(description: str, outputs: list[str], work: Callable[..., None]) -> None:
-    """Runs `work(folder, file, ...)` on the command line `RUNS files...`; bad input is one line and exit code 2."""
-    parser = argparse.ArgumentParser(description=description)
-    parser.add_argument("folder", metavar="RUNS", type=Path)
-    for name in outputs:
-        parser.add_argument(name, metavar=name, type=Path)
-    try:
-        work(*vars(parser.parse_args()).values())
-    except (LogError, OSError) as error:
-        print(f"{Path(sys.argv[0]).name}: {error}", file=sys.stderr)
-        sys.exit(2)

@@ -11,17 +11,16 @@ from itertools import combinations
 from pathlib import Path
 from typing import Any
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.lines import Line2D
 
-from hagfish_log import LogError, save_figure
-from study import FORCE_WINDOW, GREY, INK, Run, pareto, path_error, read_runs, run_study, write_csv
+import plots
+from hagfish_log import LogError
+from plots import GREY, INK
+from script import run_script
+from study import FORCE_WINDOW, Run, pareto, path_error, read_runs
+from tables import write_csv
 
-DPI = 200
 REFERENCE = "whole_100_0.0005_speculative_active-set"
 # Body counts from light to dark, and Paul Tol's muted colours for those that tie.
 COLOURS = {25: "#999999", 35: "#ddcc77", 50: "#44aa99", 70: "#88ccee", 100: "#332288", 140: "#cc6677", 200: "#882255"}
@@ -38,8 +37,10 @@ def errors(run: Run, reference: Run) -> dict[str, float]:
             "penetration": run.penetration}
 
 
-PANELS = {"position": "error of the knot's head end, rms, cm", "force": "sliding force off the reference, %",
-          "penetration": "deepest penetration of any step, cm"}
+# Title and axis label of each.
+PANELS = {"position": ("position of the knot", "error of the knot's head end, rms, cm"),
+          "force": ("sliding force", "sliding force off the reference, %"),
+          "penetration": ("penetration", "deepest penetration of any step, cm")}
 
 
 def reference_of(runs: list[Run]) -> Run:
@@ -112,12 +113,10 @@ def draw(axes: Any, runs: list[Run], presets: list[Run], reference: Run, what: s
             labelled = point[0]
     for run in presets:
         point = (run.cpu, max(errors(run, reference)[what], AT_EDGE * floor / BELOW_CHANCE))
-        axes.plot(*point, "*", ms=13, mfc="#ddaa33", mec=INK, zorder=5)
+        axes.plot(*point, "*", ms=13, mfc=plots.YELLOW, mec=INK, zorder=5)
         axes.annotate(run.name.removeprefix("preset_"), point, (5, 8), textcoords="offset points", fontsize=8.5,
                       fontweight="bold", bbox={"fc": "white", "ec": "none", "pad": 0.5, "alpha": 0.8}, zorder=6)
-    axes.set_xlabel("CPU time of the run, s")
-    axes.set_ylabel(PANELS[what])
-    axes.grid(which="major", color="#e5e5e5", lw=0.6)
+    axes.set(xlabel="CPU time of the run, s", ylabel=PANELS[what][1])
 
 
 def draw_failures(axes: Any, runs: list[Run]) -> None:
@@ -135,8 +134,6 @@ def draw_failures(axes: Any, runs: list[Run]) -> None:
     axes.set_ylim(-0.5, len(causes) - 0.3)
     axes.set_xscale("log")
     axes.set_xlabel("CPU time until then, s")
-    axes.set_title("(d) runs that failed", loc="left", fontsize=10)
-    axes.grid(axis="x", color="#e5e5e5", lw=0.6)
 
 
 def legend(figure: Any) -> None:
@@ -144,7 +141,7 @@ def legend(figure: Any) -> None:
     lines += [Line2D([], [], color=GREY, marker=marker, lw=0.9, ms=5, label=qp) for qp, marker in MARKERS.items()]
     lines += [Line2D([], [], color=GREY, marker="o", ls=":", mfc="white", lw=0.9, ms=5, label="violated rows only"),
               Line2D([], [], color=INK, lw=2.2, alpha=0.35, label="Pareto front, h in ms"),
-              Line2D([], [], color=INK, marker="*", ls="", mfc="#ddaa33", ms=11, label="preset, timed alone (lower edge: less)")]
+              Line2D([], [], color=INK, marker="*", ls="", mfc=plots.YELLOW, ms=11, label="preset, timed alone (lower edge: less)")]
     figure.legend(handles=lines, loc="upper center", ncols=6, fontsize=8, frameon=False)
 
 
@@ -166,20 +163,20 @@ def main(folder: Path, csv: Path, png: Path) -> None:
     reference = reference_of(runs)
     floor = chance(folder, reference.step)
     write_csv(csv, *rows_of(runs, reference, floor))
-    figure, axes = plt.subplots(2, 2, figsize=(11, 8.6))
-    figure.set_layout_engine("constrained", rect=(0, 0, 1, 0.94))
-    for panel, what, letter in zip(axes.flat, PANELS, "abc"):
-        draw(panel, runs, read_runs(folder, "preset"), reference, what, floor.of(what))
-        panel.set_title(f"({letter}) {PANELS[what]}", loc="left", fontsize=10)
+    figure, panels = plots.panels(2, 2, (11, 8.6), [*(title for title, _ in PANELS.values()), "runs that failed"])
+    figure.get_layout_engine().set(rect=(0, 0, 1, 0.94))
+    presets = read_runs(folder, "preset")
+    for panel, what in zip(panels, PANELS):
+        draw(panel, runs, presets, reference, what, floor.of(what))
         if floor.of(what):
             panel.set_ylim(bottom=floor.of(what) / BELOW_CHANCE)
             panel.axhspan(panel.get_ylim()[0], floor.of(what), color="#eeeeee", zorder=-1)
             panel.text(0.99, floor.of(what) * 0.93, f"chance, {floor.starts} starts", transform=panel.get_yaxis_transform(),
                        ha="right", va="top", fontsize=8, color=GREY)
-    draw_failures(axes[1, 1], runs)
+    draw_failures(panels[3], runs)
     legend(figure)
-    save_figure(figure, png, DPI)
+    plots.save(figure, png)
 
 
 if __name__ == "__main__":
-    run_study(__doc__, ["OUT.csv", "OUT.png"], main)
+    run_script(__doc__, ["RUNS", "OUT.csv", "OUT.png"], main)

@@ -1,15 +1,13 @@
+#include "experiments/mujoco/compare.hpp"
+
 #include <fmt/format.h>
 
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 
-#include "core/log/hdf5_writer.hpp"
 #include "core/step/step.hpp"
 #include "experiments/mujoco/motions.hpp"
-#include "experiments/program/commands.hpp"
-#include "experiments/program/scene_argument.hpp"
 #include "mujoco_ref/agreement.hpp"
 #include "mujoco_ref/mirror.hpp"
 #include "mujoco_ref/rollout.hpp"
@@ -42,9 +40,10 @@ constexpr std::array<Rule, 4> rules{{core_rule,
 
 const char* head_name(Head head) { return head == Head::free ? "free" : "clamped"; }
 
-/// Results of one run, written where a file is asked for.
+/// Results of one run.
 class Findings {
  public:
+  explicit Findings(Hdf5Writer& file) : h5(file) {}
   /// Prints a line of the table; returns whether the bound holds.
   bool row(Head head, const char* quantity, double value, double bound) {
     const bool ok = value <= bound;
@@ -54,7 +53,11 @@ class Findings {
     return ok;
   }
   bool passed() const { return passed_; }
-  Hdf5Writer h5;
+  /// Writes the bound on the numbers at `path`.
+  void bound(const std::string& path, double most) {
+    h5.numbers(path + "_bound", Eigen::VectorXd::Constant(1, most), {"1", "at most this"});
+  }
+  Hdf5Writer& h5;
 
  private:
   bool passed_ = true;
@@ -90,10 +93,10 @@ void compare_states(const Model& model, Head head, double h, const Comparison& s
   findings.h5.group(group);
   for (int i = 0; i < 5; ++i) {
     findings.row(head, texts[i], found[i], bounds[i]);
-    findings.h5.numbers(group + "/" + names[i], all.row(i).transpose(),
-                        {"1", fmt::format("difference of {} in each random state, over its "
-                                          "scale; at most {:g}",
-                                          texts[i], bounds[i])});
+    findings.h5.numbers(
+        group + "/" + names[i], all.row(i).transpose(),
+        {"1", fmt::format("difference of {} in each random state, over its scale", texts[i])});
+    findings.bound(group + "/" + names[i], bounds[i]);
   }
 }
 
@@ -118,6 +121,7 @@ void compare_rollouts(const Model& model, Head head, double h, const Comparison&
   findings.h5.numbers(group + "/time", time, {"s", "time of each step's end"});
   findings.h5.numbers(group + "/velocity", velocity,
                       {"1", "largest difference in q̇ over the largest q̇"});
+  findings.bound(group + "/velocity", settings.rollout_bound);
   findings.h5.numbers(group + "/distance", distance,
                       {"cm", "largest distance between body centres"});
 }
@@ -153,10 +157,11 @@ void compare_errors(const Model& model, Head head, const Comparison& settings, F
       try {
         const State end = end_of(rule, model, start, head, settings.steps[i], settings.error_time);
         value = centre_distance(model, end, reference);
+        fmt::print(" {:>9.2e}", value);
       } catch (const StepError&) {
-        value = INFINITY;  // blew up
+        value = INFINITY;
+        fmt::print(" {:>9}", "blew up");
       }
-      fmt::print(" {:>9.2e}", value);
       std::fflush(stdout);
     }
     fmt::print("\n");
@@ -169,13 +174,12 @@ void compare_errors(const Model& model, Head head, const Comparison& settings, F
 
 }  // namespace
 
-int compare(const CompareOptions& options) {
-  const ResolvedScene resolved = scene_argument(options.scene, options.set);
+bool compare(const ResolvedScene& resolved, Hdf5Writer& h5) {
   const Model model = smooth(make_hagfish(resolved.specimen, resolved.scene));
   const double h = resolved.scene.time.step;
   const Comparison settings;
-  Findings findings;
-  for (const char* group : {"/states", "/rollout", "/error"}) findings.h5.group(group);
+  Findings findings(h5);
+  for (const char* group : {"/states", "/rollout", "/error"}) h5.group(group);
   fmt::print("{} bodies, {} random states; contacts, limits and drag left out\n\n",
              model.body_count(), settings.states);
   fmt::print("{:<8} {:<34} {:>9} {:>9}\n", "head", "largest difference in", "found", "bound");
@@ -188,12 +192,7 @@ int compare(const CompareOptions& options) {
   for (const Head head : {Head::free, Head::clamped}) {
     compare_errors(model, head, settings, findings);
   }
-  if (!options.out.empty()) {
-    findings.h5.root_attribute("command", options.command);
-    findings.h5.root_attribute("scene", scene_to_toml(resolved.scene, resolved.specimen));
-    findings.h5.save(options.out);
-  }
-  return findings.passed() ? 0 : 1;
+  return findings.passed();
 }
 
 }  // namespace hagfish

@@ -1,3 +1,5 @@
+#include "experiments/mujoco/integrate.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,12 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "core/input/input_error.hpp"
-#include "core/log/hdf5_writer.hpp"
 #include "core/step/step.hpp"
-#include "experiments/mujoco/motions.hpp"
-#include "experiments/program/commands.hpp"
-#include "experiments/program/scene_argument.hpp"
 #include "mujoco_ref/rollout.hpp"
 
 namespace hagfish {
@@ -93,8 +90,12 @@ void measure(const Method& method, const Model& model, const State& start, const
     step.push_back(h);
     error.push_back(ending ? centre_distance(model, ending->state, reference) : INFINITY);
     cost.push_back(ending ? ending->cost / settings.duration : NAN);
-    fmt::print("{:<20} {:>9g} {:>11.3e} {:>11.3e}\n", method.title, 1e3 * h, error.back(),
-               cost.back());
+    if (ending) {
+      fmt::print("{:<20} {:>9g} {:>11.3e} {:>11.3e}\n", method.title, 1e3 * h, error.back(),
+                 cost.back());
+    } else {
+      fmt::print("{:<20} {:>9g} {:>11}\n", method.title, 1e3 * h, "blew up");
+    }
   }
   const auto array = [](const std::vector<double>& values) {
     return Eigen::Map<const Eigen::VectorXd>(values.data(),
@@ -109,35 +110,20 @@ void measure(const Method& method, const Model& model, const State& start, const
              {"1", "CPU time per simulated time of the steps alone; nan where it blew up"});
 }
 
-Motion motion_called(const std::string& name) {
-  std::string known;
-  for (const Motion& motion : motions) {
-    if (motion.name == name) {
-      return motion;
-    }
-    known += fmt::format(" {}", motion.name);
-  }
-  throw InputError(fmt::format("--motion {}: no such motion; there are{}", name, known));
-}
-
 }  // namespace
 
-int integrate(const IntegrateOptions& options) {
-  const ResolvedScene resolved = scene_argument(options.scene, options.set);
-  const Motion motion = motion_called(options.motion);
+bool integrate(const ResolvedScene& resolved, const Motion& motion, Hdf5Writer& h5) {
   Model model = smooth(make_hagfish(resolved.specimen, resolved.scene));
   model.gravity = {motion.gravity, 0, 0};
   const State start = start_of(motion, model);
   const Measurement settings;
-  Hdf5Writer h5;
-
   const Method& rk4 = methods.back();
   const double h = settings.reference_step;
   const auto coarse = end_of(rk4, model, start, h, settings.duration);
   const auto fine = end_of(rk4, model, start, h / 2, settings.duration);
   if (!coarse || !fine) {
     fmt::print(stderr, "hagfish: {}: the reference blew up\n", motion.name);
-    return 1;
+    return false;
   }
   const double agreement = centre_distance(model, coarse->state, fine->state);
   fmt::print("{}, {} bodies, {:g} s; references at {:g} and {:g} ms agree to {:.1e} cm\n",
@@ -152,10 +138,7 @@ int integrate(const IntegrateOptions& options) {
                                 "and {:g} s, the reference",
                                 h, h / 2)});
   h5.root_attribute("motion", std::string(motion.title));
-  h5.root_attribute("command", options.command);
-  h5.root_attribute("scene", scene_to_toml(resolved.scene, resolved.specimen));
-  h5.save(options.out);
-  return 0;
+  return true;
 }
 
 }  // namespace hagfish

@@ -1,3 +1,5 @@
+#include "experiments/mujoco/playback.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,11 +8,8 @@
 #include <cstdio>
 
 #include "core/chain/dynamics.hpp"
-#include "core/log/hdf5_writer.hpp"
 #include "core/run/controller.hpp"
 #include "core/step/step.hpp"
-#include "experiments/audit/log_contents.hpp"
-#include "experiments/program/commands.hpp"
 #include "mujoco_ref/log_model.hpp"
 #include "mujoco_ref/mirror.hpp"
 
@@ -216,17 +215,13 @@ void print_row(const Playback& p, bool driven, double interval) {
 
 }  // namespace
 
-int playback(const PlaybackOptions& options) {
-  const LogContents log(options.log);
+void playback(const LogContents& log, Hdf5Writer& h5) {
   const Slide slide(log);
   std::vector<Seen> logged;
   for (Eigen::Index i = 0; i <= slide.gaps(); ++i) {
     logged.push_back(look(log.model, log.resolved.scene, slide.state(i)));
   }
   for (const double interval : intervals) slide.frames_in(interval);  // before any work
-  Hdf5Writer h5;
-  h5.root_attribute("log", options.log);
-  h5.root_attribute("command", options.command);
   Eigen::VectorXd time(slide.gaps() + 1), head_end(slide.gaps() + 1);
   for (Eigen::Index i = 0; i <= slide.gaps(); ++i) {
     time[i] = slide.time[i];
@@ -246,8 +241,6 @@ int playback(const PlaybackOptions& options) {
       write(result, fmt::format("/{}_{:g}s", driven ? "thigmotaxis" : "none", interval), h5);
     }
   }
-  h5.save(options.out);
-  return 0;
 }
 
 }  // namespace hagfish

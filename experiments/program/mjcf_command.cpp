@@ -20,6 +20,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
+struct MjcfOptions {
+  std::string scene = default_scene;
+  std::string out;               ///< folder to write to, made where it is missing
+  std::vector<std::string> set;  ///< KEY=VALUE overrides
+  bool clamp = false;            ///< weld the head to the world
+  bool force = false;            ///< replace existing files
+};
+
 void write_text(const fs::path& file, const std::string& text, bool replace) {
   std::error_code error;
   if (!replace && fs::exists(file, error)) {
@@ -32,8 +40,6 @@ void write_text(const fs::path& file, const std::string& text, bool replace) {
     throw FileError(file.string() + ": cannot write: " + std::strerror(errno));
   }
 }
-
-}  // namespace
 
 int mjcf(const MjcfOptions& options) {
   const ResolvedScene resolved = scene_argument(options.scene, options.set);
@@ -56,7 +62,21 @@ int mjcf(const MjcfOptions& options) {
   }
   fmt::print("{}: {} bodies in {} files\n", (fs::path(options.out) / mjcf_root_file).string(),
              model.body_count(), files.size());
-  return 0;
+  return exit_code::done;
+}
+
+}  // namespace
+
+void add_mjcf(Program& program) {
+  const auto options = std::make_shared<MjcfOptions>();
+  CLI::App* mjcf_app =
+      program.app.add_subcommand("mjcf", "write a scene's animal as MJCF, for MuJoCo");
+  mjcf_app->add_option("SCENE", options->scene, scene_help)->capture_default_str();
+  mjcf_app->add_option("--out", options->out, "folder to write to")->required();
+  mjcf_app->add_option("--set", options->set, set_help)->allow_extra_args(false);
+  mjcf_app->add_flag("--clamp", options->clamp, "weld the head to the world");
+  mjcf_app->add_flag("--force", options->force, "replace existing files");
+  mjcf_app->callback([options, &program] { program.code = mjcf(*options); });
 }
 
 }  // namespace hagfish

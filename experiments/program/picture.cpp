@@ -1,22 +1,14 @@
 #include "experiments/program/picture.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <numbers>
 
 #include "core/contact/spline.hpp"
-#include "core/input/input_error.hpp"
-#include "core/run/controller.hpp"
-#include "experiments/program/commands.hpp"
-#include "mujoco_ref/log_model.hpp"
 
 namespace hagfish {
 namespace {
 
-namespace fs = std::filesystem;
 using Eigen::Vector3d;
 
 constexpr double scale = 80;               // px/cm; Figure 7 prints 40 px/cm
@@ -45,40 +37,6 @@ mjvGeom make_geom(mjtGeom type, const Vector3d& size, const Vector3d& position,
   geom.specular = colour.specular;
   geom.shininess = 0.35f;
   return geom;
-}
-
-/// The frame whose time is nearest. Throws InputError outside the log.
-std::size_t frame_at(const LogContents& log, double time) {
-  if (!(time >= log.time.front() && time <= log.time.back())) {
-    throw InputError(fmt::format("{}: --time {:g}: the log runs from {:g} to {:g} s", log.h5.file(),
-                                 time, log.time.front(), log.time.back()));
-  }
-  const auto after = std::lower_bound(log.time.begin(), log.time.end(), time);
-  const auto frame = static_cast<std::size_t>(after - log.time.begin());
-  return frame > 0 && time - log.time[frame - 1] < *after - time ? frame - 1 : frame;
-}
-
-/// What stands in the picture of one frame, with the bodies where MuJoCo puts them.
-std::vector<mjvGeom> geoms_of(const LogContents& log, std::size_t frame, MujocoModel& mirror) {
-  const auto row = log.q.row(static_cast<Eigen::Index>(frame));
-  std::copy(row.begin(), row.end(), mirror.data()->qpos);
-  mj_kinematics(mirror.model(), mirror.data());
-  // MuJoCo's first body is the world.
-  const Eigen::Map<const Eigen::Matrix3Xd> centre(mirror.data()->xipos + 3, 3,
-                                                  log.model.body_count());
-  std::vector<mjvGeom> geoms = skin_geoms(log.model, log.resolved.specimen, centre);
-  const Scene& scene = log.resolved.scene;
-  if (scene.wall.present) {
-    geoms.push_back(plate_geom(clamps_head(scene, static_cast<Phase>(log.phase[frame]))));
-  }
-  return geoms;
-}
-
-/// OUT.png for one picture, OUT_1.png, OUT_2.png... for several.
-fs::path numbered(const fs::path& out, std::size_t index, std::size_t count) {
-  if (count == 1) return out;
-  return out.parent_path() /
-         fmt::format("{}_{}{}", out.stem().string(), index + 1, out.extension().string());
 }
 
 }  // namespace
@@ -138,42 +96,6 @@ View view_of(const std::vector<mjvGeom>& geoms, double pitch, double yaw) {
   view.width = size.x();
   view.height = size.y();
   return view;
-}
-
-int picture(const PictureOptions& options) {
-  const LogContents log(options.log);
-  std::vector<std::size_t> frames;
-  for (const double time : options.times) frames.push_back(frame_at(log, time));
-  if (frames.empty()) frames.push_back(log.time.size() - 1);
-  const fs::path out = options.out;
-  if (out.extension() != ".png") throw InputError(options.out + ": --out must end in .png");
-  for (const auto& [name, angle] : {std::pair{"--pitch", options.pitch}, {"--yaw", options.yaw}}) {
-    if (!std::isfinite(angle)) throw InputError(fmt::format("{} {}: must be finite", name, angle));
-  }
-
-  MujocoModel mirror = mujoco_model_of(log.h5);
-  if (mirror.model()->nq != log.q.cols() || mirror.model()->nbody != log.model.body_count() + 1) {
-    throw FileError(log.h5.file() + ": /mjcf is not the model of /trajectory");
-  }
-  std::vector<std::vector<mjvGeom>> geoms;
-  std::vector<View> views;
-  int width = 0, height = 0;
-  for (const std::size_t frame : frames) {
-    geoms.push_back(geoms_of(log, frame, mirror));
-    views.push_back(view_of(geoms.back(), options.pitch, options.yaw));
-    width = std::max(width, views.back().width);
-    height = std::max(height, views.back().height);
-  }
-  OffscreenRenderer renderer(*mirror.model(), width, height);
-  std::string table = "file\ttime_s\tleft_cm\tbottom_cm\tcm_per_pixel\n";
-  for (std::size_t k = 0; k < frames.size(); ++k) {
-    const fs::path file = numbered(out, k, frames.size());
-    write_png(renderer.render(geoms[k], views[k]), file);
-    table += fmt::format("{}\t{:.9g}\t{:.6f}\t{:.6f}\t{:.6f}\n", file.string(), log.time[frames[k]],
-                         views[k].low.x(), views[k].low.y(), 1 / views[k].scale);
-  }
-  fmt::print("{}", table);
-  return 0;
 }
 
 }  // namespace hagfish

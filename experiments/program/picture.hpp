@@ -4,7 +4,8 @@
 
 #include <vector>
 
-#include "experiments/audit/audit.hpp"
+#include "core/chain/model.hpp"
+#include "core/scene/specimen.hpp"
 #include "mujoco_ref/offscreen.hpp"
 
 namespace hagfish {

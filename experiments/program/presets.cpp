@@ -1,13 +1,11 @@
 #include "experiments/program/presets.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
+#include <algorithm>
 #include <sstream>
+#include <stdexcept>
 #include <toml.hpp>
 
 #include "core/input/builtin_files.hpp"
-#include "core/input/input_error.hpp"
 
 namespace hagfish {
 
@@ -22,21 +20,21 @@ std::vector<Preset> presets() {
   return found;
 }
 
-std::string preset_names() {
+std::vector<std::string> preset_names() {
   std::vector<std::string> names;
   for (const Preset& preset : presets()) {
     names.push_back(preset.name);
   }
-  return fmt::format("{}", fmt::join(names, ", "));
+  return names;
 }
 
 Preset preset_called(const std::string& name) {
-  for (const Preset& preset : presets()) {
-    if (preset.name == name) {
-      return preset;
-    }
+  const std::vector<Preset> known = presets();
+  const auto found = std::ranges::find(known, name, &Preset::name);
+  if (found == known.end()) {
+    throw std::invalid_argument("unknown preset '" + name + "'");
   }
-  throw InputError(fmt::format("--preset {}: no such preset; there are {}", name, preset_names()));
+  return *found;
 }
 
 }  // namespace hagfish

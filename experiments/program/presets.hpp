@@ -15,10 +15,10 @@ struct Preset {
 /// All of them, in the file's order.
 std::vector<Preset> presets();
 
-/// "quick, default, figure".
-std::string preset_names();
+/// quick, default, figure.
+std::vector<std::string> preset_names();
 
-/// Throws InputError, whose line names the known ones, where there is none called `name`.
+/// Throws std::invalid_argument where `name` is none of preset_names().
 Preset preset_called(const std::string& name);
 
 }  // namespace hagfish

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <memory>
 
-#include "experiments/program/commands.hpp"
 #include "solvers/ipopt_box_qp.hpp"
 
 namespace hagfish {

@@ -11,6 +11,9 @@
 
 namespace hagfish {
 
+/// Back ends that can be measured, by name.
+std::vector<std::string> measured_back_ends();
+
 /// A back end as it is to be measured.
 struct BackEnd {
   std::string name;  ///< one of measured_back_ends()

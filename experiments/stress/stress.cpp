@@ -1,18 +1,14 @@
+#include "experiments/stress/stress.hpp"
+
 #include <fmt/format.h>
 #include <mujoco/mujoco.h>
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <ctime>
-#include <filesystem>
-#include <fstream>
-#include <numbers>
+#include <functional>
+#include <stdexcept>
 
-#include "core/log/hdf5_error.hpp"
-#include "experiments/program/commands.hpp"
-#include "experiments/program/scene_argument.hpp"
-#include "experiments/stress/stress_judge.hpp"
 #include "experiments/stress/stress_mujoco.hpp"
 #include "solvers/box_qp.hpp"
 
@@ -44,7 +40,7 @@ const StressMethod& method_called(const std::string& name) {
   const auto* found = std::find_if(methods.begin(), methods.end(),
                                    [&](const StressMethod& m) { return m.name == name; });
   if (found == methods.end()) {
-    throw InputError(fmt::format("--method {}: no such method", name));
+    throw std::invalid_argument("unknown method '" + name + "'");
   }
   return *found;
 }
@@ -104,17 +100,6 @@ Status run_cell(const Model& model, const Scene& scene, const StressMethod& meth
   }
 }
 
-/// A field of a CSV row, in quotes where it needs them.
-std::string field(std::string text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) {
-    return text;
-  }
-  for (std::size_t at = 0; (at = text.find('"', at)) != std::string::npos; at += 2) {
-    text.insert(at, 1, '"');
-  }
-  return '"' + text + '"';
-}
-
 }  // namespace
 
 std::vector<std::string> stress_methods() {
@@ -125,45 +110,25 @@ std::vector<std::string> stress_methods() {
   return names;
 }
 
-int stress(const StressOptions& options) {
-  const StressMethod& method = method_called(options.method);
+std::vector<std::string> stress_overrides(const std::string& method, double step) {
   std::vector<std::string> set;
-  if (method.change[0] != '\0') {
-    set.emplace_back(method.change);
+  if (const std::string change = method_called(method).change; !change.empty()) {
+    set.push_back(change);
   }
-  if (options.step > 0) {
-    set.push_back(fmt::format("time.step={}", options.step));
-    set.push_back(fmt::format("time.frame_interval={}", options.step));
+  if (step > 0) {
+    set.push_back(fmt::format("time.step={}", step));
+    set.push_back(fmt::format("time.frame_interval={}", step));
   }
-  set.insert(set.end(), options.set.begin(), options.set.end());
-  const ResolvedScene resolved = scene_argument(options.scene, set);
-  const Scene& scene = resolved.scene;
-  const Model model = make_hagfish(resolved.specimen, scene);
+  return set;
+}
+
+StressResult stress(const Scene& scene, const Model& model, const std::string& method,
+                    double cpu_limit) {
   const State first = start_state(model, scene.start);
   StressJudge judge(model, scene, first, mechanical_energy(model, first, kinematics(model, first)));
   const double begin = cpu_time();
-  const Status verdict = run_cell(model, scene, method, options.cpu_limit, judge);
-  const StressFigures& seen = judge.figures();
-  const std::string text = fmt::format(
-      "scene,level,method,h_ms,outcome,time_s,energy_gain,penetration_cm,path_penetration_cm,"
-      "limit_violation_deg,knot,cpu_s,message\n"
-      "{},{},{},{:g},{},{:g},{:.3g},{:.3g},{:.3g},{:.3g},{},{:.3g},{}\n",
-      field(std::filesystem::path(options.scene).stem().string()), field(options.level),
-      method.name, 1e3 * scene.time.step, outcome_name(verdict.outcome), seen.time,
-      seen.energy_gain, seen.penetration, seen.path_penetration,
-      seen.limit_violation * 180 / std::numbers::pi, field(seen.knot), cpu_time() - begin,
-      field(verdict.message));
-  if (options.out.empty()) {
-    fmt::print("{}", text);
-    return 0;
-  }
-  std::ofstream file(options.out);
-  file << text;
-  file.close();
-  if (!file) {
-    throw FileError(options.out + ": cannot be written");
-  }
-  return 0;
+  const Status status = run_cell(model, scene, method_called(method), cpu_limit, judge);
+  return {status, judge.figures(), cpu_time() - begin};
 }
 
 }  // namespace hagfish

@@ -4,15 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
+#include <utility>
 
 #include "core/log/log_frame.hpp"
 
 namespace hagfish {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 /// Between steps the body is looked at whenever one of its points may have moved by this share of
 /// the thinnest radius.
 constexpr double stride = 0.25;
@@ -27,10 +26,16 @@ Eigen::VectorXd between(const Eigen::VectorXd& q0, const Eigen::VectorXd& q1, do
   return q;
 }
 
+/// "penetration 0.2 cm (at most 0.1)".
+std::string unmet(const Criterion& criterion) {
+  return fmt::format("{} {:.3g} {} (at {} {:g})", criterion.name, criterion.value, criterion.unit,
+                     criterion.at_least ? "least" : "most", criterion.bound);
+}
+
 }  // namespace
 
 StressJudge::StressJudge(const Model& model, const Scene& scene, const State& start, double energy)
-    : model_(model), scene_(scene), energy_(energy), most_(energy), phase_(scene.start.phase) {
+    : model_(model), scene_(scene), gain_(energy), phase_(scene.start.phase) {
   const auto thinner = [](const Body& x, const Body& y) { return x.radius < y.radius; };
   thinnest_ = std::min_element(model.bodies.begin(), model.bodies.end(), thinner)->radius;
   const Observation observation = observe(model, start, scene);
@@ -46,11 +51,8 @@ void StressJudge::see(const State& before, const State& after, const Observation
   figures_.time = time;
   figures_.penetration = std::max(figures_.penetration, observation.penetration);
   figures_.limit_violation = std::max(figures_.limit_violation, observation.limit_violation);
-  most_ = std::max(most_, energy_ + energy.put_in);
-  if (most_ > 0) {
-    const double gain = (energy.total - energy_ - energy.put_in) / most_;
-    figures_.energy_gain = std::max(figures_.energy_gain, gain);
-  }
+  gain_.see(energy.total, energy.put_in);
+  figures_.energy_gain = gain_.largest();
   see_path(before, after, observation.kin);
   if (time + 0.5 * scene_.time.step >= knot_seen_ + scene_.knot.interval) {
     see_knot(observation, time);
@@ -114,10 +116,8 @@ Status StressJudge::root_cause() const {
   if (!lost_.empty()) {
     return {Outcome::knot_lost, lost_};
   }
-  if (figures_.energy_gain > scene_.expect.energy_gain) {
-    return {Outcome::energy_gain,
-            fmt::format("energy {:.3g} of what there was, over expect.energy_gain = {:g}",
-                        figures_.energy_gain, scene_.expect.energy_gain)};
+  if (const auto gain = energy_gain_criterion(scene_.expect, figures_.energy_gain); !gain.met()) {
+    return {Outcome::energy_gain, unmet(gain)};
   }
   return {};
 }
@@ -127,14 +127,16 @@ Status StressJudge::thigmotaxis() const {
   if (expect.slide_distance > 0 && scene_.start.phase == Phase::form && !tightened_) {
     return {Outcome::never_tied, "the knot was never ready to tighten"};
   }
-  if (expect.slide_distance > 0 && slide_from_ - slide_to_ < expect.slide_distance) {
-    return {Outcome::capped, fmt::format("the knot slid {:.3g} cm, less than {:g} cm",
-                                         slide_from_ - slide_to_, expect.slide_distance)};
+  if (expect.slide_distance > 0 && slide_steps_ == 0) {
+    return {Outcome::capped, "no slide"};
   }
-  const double share = static_cast<double>(slide_met_) / static_cast<double>(slide_steps_);
-  if (slide_steps_ > 0 && share < expect.speed_share) {
-    return {Outcome::capped,
-            fmt::format("Eq. 6 met without slack in {:.3g} of the sliding steps", share)};
+  const auto slide = slide_criterion(expect, slide_from_ - slide_to_);
+  if (expect.slide_distance > 0 && !slide.met()) {
+    return {Outcome::capped, unmet(slide)};
+  }
+  const auto eq6 = eq6_criterion(expect, slide_met_, slide_steps_);
+  if (slide_steps_ > 0 && !eq6.met()) {
+    return {Outcome::capped, unmet(eq6)};
   }
   if (expect.slide_distance > 0 && phase_ != Phase::free) {
     return {Outcome::capped, "the knot was not off in time"};
@@ -148,18 +150,13 @@ Status StressJudge::ended() const {
     return root;
   }
   const double depth = std::max(figures_.penetration, figures_.path_penetration);
-  if (depth > expect.penetration) {
-    return {Outcome::penetration,
-            fmt::format("{:.3g} cm, over expect.penetration = {:g} cm", depth, expect.penetration)};
-  }
-  if (figures_.limit_violation > expect.limit_violation) {
-    return {Outcome::limits,
-            fmt::format("{:.3g} deg past, over expect.limit_violation_deg = {:g}",
-                        figures_.limit_violation / degree, expect.limit_violation / degree)};
-  }
-  if (kkt_ > expect.kkt) {
-    return {Outcome::solver_failed,
-            fmt::format("KKT residual {:.3g}, over expect.kkt = {:g}", kkt_, expect.kkt)};
+  for (const auto& [criterion, outcome] :
+       {std::pair{penetration_criterion(expect, depth), Outcome::penetration},
+        {limits_criterion(expect, figures_.limit_violation), Outcome::limits},
+        {kkt_criterion(expect, kkt_), Outcome::solver_failed}}) {
+    if (!criterion.met()) {
+      return {outcome, unmet(criterion)};
+    }
   }
   return thigmotaxis();
 }

@@ -5,6 +5,7 @@
 
 #include "core/chain/start.hpp"
 #include "core/run/simulation.hpp"
+#include "experiments/audit/expectations.hpp"
 
 namespace hagfish {
 
@@ -25,7 +26,7 @@ struct EnergyState {
 };
 
 /// Watches a run step by step, whoever takes the steps, and judges it by the scene's [expect]:
-/// penetration, limits, energy gain, knot, KKT residual and Eq. 6.
+/// penetration, limits, energy gain, knot, KKT residual and Eq. 6 (audit/expectations.hpp).
 class StressJudge {
  public:
   /// The model and the scene are referred to. `energy` is that of the start.
@@ -59,7 +60,7 @@ class StressJudge {
   StressFigures figures_;
   double thinnest_ = 0;  ///< radius, cm
   ContactSearch search_;
-  double energy_ = 0, most_ = 0;  ///< at the start, and with the most that was put in, erg
+  EnergyGain gain_;
   Phase phase_;
   bool knotted_at_start_ = false;
   double knot_seen_ = 0;  ///< s

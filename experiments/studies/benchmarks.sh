@@ -3,30 +3,21 @@
 # Leaves a CSV with processor, flags and library versions, a table of ratios and a figure.
 #   bash experiments/studies/benchmarks.sh [OUTPUT_FOLDER]     default: out/benchmarks
 set -euo pipefail
-root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
-out=${1:-$root/out/benchmarks}
-source "$root/experiments/studies/elapsed.sh"
-mkdir -p "$out"
-out=$(cd "$out" && pwd)
-
-bash "$root/experiments/setup.sh" --target hagfish hagfish_benchmarks
-export OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1
-build=$root/build/release/experiments
+targets=(hagfish_benchmarks)
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 # The knotted states come from runs of the animal with as many bodies. At 25 the force script ends untied;
 # the waypoints tie, with less of the tail through.
-run() { "$build/hagfish" run "${@:2}" --qp active-set --out "$out/$1.h5" --force --quiet; }
+run() { "$hagfish" run "${@:2}" --qp active-set --out "$out/$1.h5" --force --quiet; }
 run 25 overhand_waypoints --set model.bodies=25 --set controller.tail_through=6 --set controller.tighten_from=10
 for bodies in 50 100 200 400; do
   run "$bodies" table1 --set model.bodies="$bodies"
 done
 
 # On one core, parts in random order, so that a busy spell of the machine falls on all alike.
-taskset --cpu-list 0 "$build/benchmarks/hagfish_benchmarks" \
+taskset --cpu-list 0 "$root/build/release/experiments/benchmarks/hagfish_benchmarks" \
   --benchmark_min_time=0.1 --benchmark_repetitions=5 --benchmark_enable_random_interleaving=true \
   --benchmark_out="$out/benchmarks.json" --benchmark_out_format=json \
   "$out"/{25,50,100,200,400}.h5 >"$out/benchmarks.log" 2>&1 || { cat "$out/benchmarks.log" >&2; exit 2; }
-/usr/bin/python3 "$root/experiments/figures/benchmarks.py" "$out/benchmarks.json" "$out/benchmarks.png"
-echo
-echo "In $out:"
-ls "$out"
+draw benchmarks.py "$out/benchmarks.json" "$out/benchmarks.png"
+list_output

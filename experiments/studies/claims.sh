@@ -6,9 +6,7 @@
 #   bash experiments/studies/claims.sh [OUTPUT_FOLDER]     default: out/claims
 # Stopped, it goes on where it was.
 set -euo pipefail
-root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
-out=${1:-$root/out/claims}
-source "$root/experiments/studies/study.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/study.sh"
 export figures=$root/experiments/figures
 
 # claim NAME SETTINGS: a row in a file of its own; the log is not kept. A run that fails, or ties no knot, is a row too.
@@ -57,10 +55,10 @@ list() {
     while read -r scene name sets; do
       for h in 0.005 0.002; do
         for seed in {1..8}; do
-          local arguments="$scene --set model.bending_limit=$reading --set time.step=$h"
-          arguments+=" --set start.noise_deg=0.1 --set start.seed=$seed"
-          for key in $sets; do arguments+=" --set $key"; done
-          printf 'claim\t%s\t%s\n' "${reading}_${name}_${h}_$seed" "$arguments"
+          local line="$scene --set model.bending_limit=$reading --set time.step=$h"
+          line+=" --set start.noise_deg=0.1 --set start.seed=$seed"
+          for key in $sets; do line+=" --set $key"; done
+          printf 'claim\t%s\t%s\n' "${reading}_${name}_${h}_$seed" "$line"
         done
       done
     done < <(changes)
@@ -69,8 +67,4 @@ list() {
 list | work "$cores" "Claims"
 
 draw claim_map.py "$runs" "$out/claims.csv" "$out/claims.png" "$out/claims.md"
-echo
-cat "$out/claims.md"
-echo
-echo "In $out:"
-ls "$out"
+finish "$out/claims.md"

@@ -4,9 +4,7 @@
 #   bash experiments/studies/free_head.sh [OUTPUT_FOLDER]     default: out/free_head
 # Stopped, it goes on where it was.
 set -euo pipefail
-root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
-out=${1:-$root/out/free_head}
-source "$root/experiments/studies/study.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/study.sh"
 
 runs_of_all() {
   local scene v row sets free="--set controller.free_from=tighten --set wall.present=false"
@@ -25,8 +23,4 @@ runs_of_all | work "$cores" "Free heads"
 
 echo "Drawing"
 draw free_head.py "$runs" "$out/free_head.csv" "$out/free_head.png" "$out/free_head.md"
-echo
-cat "$out/free_head.md"
-echo
-echo "In $out:"
-ls "$out"
+finish "$out/free_head.md"

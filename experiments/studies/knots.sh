@@ -5,9 +5,7 @@
 #   bash experiments/studies/knots.sh [OUTPUT_FOLDER]     default: out/knots
 # Stopped, it goes on where it was.
 set -euo pipefail
-root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
-out=${1:-$root/out/knots}
-source "$root/experiments/studies/study.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/study.sh"
 
 scenes=(overhand_waypoints figure_eight double_overhand three_twist)
 runs_of_all() {
@@ -36,8 +34,4 @@ runs_of_all | work "$cores" "Four knots"
 
 echo "Drawing"
 draw knots.py "$runs" "$hagfish" "$out/knots.png" "$out/knot_forces.png" "$out/knots.md"
-echo
-cat "$out/knots.md"
-echo
-echo "In $out:"
-ls "$out"
+finish "$out/knots.md"

@@ -4,9 +4,7 @@
 #   bash experiments/studies/reverse.sh [OUTPUT_FOLDER]     default: out/reverse
 # Stopped, it goes on where it was.
 set -euo pipefail
-root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
-out=${1:-$root/out/reverse}
-source "$root/experiments/studies/study.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/study.sh"
 
 runs_of_all() {
   local scene v turn back="" row
@@ -24,8 +22,4 @@ runs_of_all | work "$cores" "Reverse slides"
 
 echo "Drawing"
 draw reverse.py "$runs" "$out/reverse.csv" "$out/reverse.png" "$out/reverse.md"
-echo
-cat "$out/reverse.md"
-echo
-echo "In $out:"
-ls "$out"
+finish "$out/reverse.md"

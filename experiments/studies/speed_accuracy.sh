@@ -4,9 +4,7 @@
 #   bash experiments/studies/speed_accuracy.sh [OUTPUT_FOLDER]     default: out/speed_accuracy
 # Stopped, it goes on where it was. Times are CPU times; jobs share the machine, presets do not.
 set -euo pipefail
-root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
-out=${1:-$root/out/speed_accuracy}
-source "$root/experiments/studies/study.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/study.sh"
 
 integrate() {
   [[ -e $runs/$1.h5 ]] || "$hagfish" integrate --motion "$1" --out "$runs/$1.h5" >"$runs/$1.txt"
@@ -62,9 +60,9 @@ chance() {
 needs() {
   local name sets key
   while read -r name sets; do
-    local arguments="table1 --qp active-set $frames"
-    for key in $sets; do arguments+=" --set $key"; done
-    printf 'timed_run\t%s\t3\t%s\n' "need_$name" "$arguments"
+    local line="table1 --qp active-set $frames"
+    for key in $sets; do line+=" --set $key"; done
+    printf 'timed_run\t%s\t3\t%s\n' "need_$name" "$line"
   done <<'LIST'
 as_is
 bodies_25 model.bodies=25
@@ -109,8 +107,4 @@ draw back_ends.py "$runs" "$out/back_ends.csv" "$out/back_ends.png"
 draw whole_runs.py "$runs" "$out/whole_runs.csv" "$out/whole_runs.png"
 draw needs.py "$runs" "$out/needs.csv" "$out/needs.png"
 draw conclusions.py "$runs" "$out/conclusions.md"
-echo
-cat "$out/conclusions.md"
-echo
-echo "In $out:"
-ls "$out"
+finish "$out/conclusions.md"

@@ -4,9 +4,7 @@
 #   bash experiments/studies/speeds.sh [OUTPUT_FOLDER]     default: out/speeds
 # Stopped, it goes on where it was.
 set -euo pipefail
-root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
-out=${1:-$root/out/speeds}
-source "$root/experiments/studies/study.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/study.sh"
 
 runs_of_all() {
   local scene v row sets frames
@@ -25,8 +23,4 @@ runs_of_all | work "$cores" "Speeds"
 
 echo "Drawing"
 draw speeds.py "$runs" "$out/speeds.csv" "$out/speeds.png" "$out/speeds.md"
-echo
-cat "$out/speeds.md"
-echo
-echo "In $out:"
-ls "$out"
+finish "$out/speeds.md"

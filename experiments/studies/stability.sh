@@ -5,11 +5,10 @@
 #   bash experiments/studies/stability.sh [OUTPUT_FOLDER]     default: out/stability
 # Stopped, it goes on where it was. `hagfish stress` judges a cell (experiments/stress/stress_judge.hpp).
 set -euo pipefail
-root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
-out=${1:-$root/out/stability}
-export scenes=$root/experiments/stability
+scenes=$(cd "$(dirname "${BASH_SOURCE[0]}")/../stability" && pwd)
+export scenes
 inputs=("$scenes"/*.toml)
-source "$root/experiments/studies/study.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/study.sh"
 export cpu_limit=60 wall_limit=300 # s, of a cell
 
 # cell SCENE LEVEL METHOD H_MS SETTINGS: one row in a file of its own. SETTINGS are KEY=VALUE, by blanks. A cell that
@@ -113,8 +112,4 @@ list | sort -t$'\t' -k5,5gr | work "$cores" cells
   tail -qn 1 "$runs"/*.csv
 } >"$out/stability.csv"
 draw stability.py "$out/stability.csv" "$out"
-echo
-cat "$out/summary.md"
-echo
-echo "In $out:"
-ls "$out"
+finish "$out/summary.md"

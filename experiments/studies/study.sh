@@ -1,18 +1,16 @@
-# Sourced by the studies, not run: sets up and builds, and runs jobs side by side, which go on where they were stopped.
-# Comes after root=... and out=... (the output folder), and perhaps inputs=(...), files that results depend on besides
-# the program. Leaves runs (a folder), hagfish (the program), cores and rounding (settings).
+# shellcheck shell=bash
+# Sourced by the studies that sweep, not run: what common.sh does, and runs jobs side by side, which go on where they were
+# stopped. Comes after inputs=(...), files that results depend on besides the program, if any. Leaves runs (a folder), cores
+# and rounding (settings) besides.
 
-source "$root/experiments/studies/elapsed.sh"
-mkdir -p "$out"
-out=$(cd "$out" && pwd)
-bash "$root/experiments/setup.sh" --target hagfish
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+# shellcheck disable=SC2034 # for the studies
 cores=$(env -u OMP_NUM_THREADS nproc) # which it would take for their number
-# Serial BLAS, so that runs repeat to the last bit.
-export OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1
-export hagfish=$root/build/release/experiments/hagfish runs=$out/runs
+export runs=$out/runs
 
 # Offsets of every hinge at the start, drawn anew with each start.seed, that put the tail off by some 1e-6 cm: what such
 # runs differ by is chance.
+# shellcheck disable=SC2034
 rounding="--set start.noise_deg=1e-6"
 
 # Results of another program or of other inputs do not mix with this one's.
@@ -43,7 +41,13 @@ timed_run() {
       return 2
     fi
   done
-  "$hagfish" check "$log" >"$runs/$name.check" 2>&1 || (($? == 1))
+  # A log that fails its audit is a result, too.
+  code=0
+  "$hagfish" check "$log" --csv "$runs/$name.check.csv" >/dev/null 2>"$runs/$name.err" || code=$?
+  if ((code > 1)); then
+    cat "$runs/$name.err" >&2
+    return "$code"
+  fi
   mv "$runs/$name.times" "$runs/$name.cpu"
 }
 # One job, which says that it is done where no bar does.
@@ -65,6 +69,3 @@ work() {
   if [[ -t 2 ]]; then show=(--bar); fi
   parallel --will-cite --halt soon,fail=1 -j "$1" "${show[@]}" job {} <<<"$list"
 }
-
-# Debian's python3 is the one that has h5py and matplotlib.
-draw() { /usr/bin/python3 "$root/experiments/figures/$1" "${@:2}"; }

@@ -4,12 +4,10 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "core/input/scene_reader.hpp"
-#include "experiments/program/commands.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "experiments/program/scene_argument.hpp"
+#include "experiments/stress/stress.hpp"
 
 namespace hagfish {
 namespace {
@@ -17,6 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int most_bodies = 100;
+constexpr double cpu_limit = 60;  // s
 
 std::vector<std::string> scenes() {
   std::vector<std::string> found;
@@ -27,36 +26,28 @@ std::vector<std::string> scenes() {
   return found;
 }
 
-/// The outcome of the cell of `options`.
-std::string outcome_of(StressOptions options) {
-  const TemporaryFolder folder;
-  options.out = folder / "cell.csv";
-  EXPECT_EQ(stress(options), 0);
-  std::ifstream in(options.out);
-  std::string heading, row, field;
-  std::getline(in, heading);
-  std::getline(in, row);
-  std::istringstream fields(row);
-  for (int i = 0; i < 5; ++i) {
-    std::getline(fields, field, ',');
-  }
-  return field;
+/// A scene run by a method at a step, with overrides after the method's.
+StressResult run_cell(const std::string& scene, const std::string& method, double step,
+                      const std::vector<std::string>& more) {
+  std::vector<std::string> set = stress_overrides(method, step);
+  set.insert(set.end(), more.begin(), more.end());
+  const ResolvedScene resolved = scene_argument(scene, set);
+  return stress(resolved.scene, make_hagfish(resolved.specimen, resolved.scene), method, cpu_limit);
 }
 
 class StressScenes : public testing::TestWithParam<std::string> {
  protected:
   /// What becomes of four steps of `step` (s) by `method`.
   static std::string outcome(const std::string& method, double step) {
-    StressOptions options;
-    options.scene = GetParam();
-    options.method = method;
-    options.step = step;
-    options.set = {"time.duration=" + std::to_string(4 * step)};
+    std::vector<std::string> set = {"time.duration=" + std::to_string(4 * step)};
     // A few steps of 400 bodies take MuJoCo a minute.
     if (read_scene(GetParam()).scene.model.bodies > most_bodies) {
-      options.set.push_back("model.bodies=" + std::to_string(most_bodies));
+      set.push_back("model.bodies=" + std::to_string(most_bodies));
     }
-    return outcome_of(options);
+    const StressResult result = run_cell(GetParam(), method, step, set);
+    EXPECT_EQ(result.status.message.empty(), result.status.ok()) << result.status.message;
+    EXPECT_LE(result.figures.time, 4.5 * step) << "to half a step";
+    return outcome_name(result.status.outcome);
   }
 
   const std::string name = fs::path(GetParam()).stem();
@@ -113,12 +104,10 @@ class MendedCells : public testing::TestWithParam<MendedCell> {};
 
 TEST_P(MendedCells, StayMended) {
   const MendedCell& cell = GetParam();
-  StressOptions options;
-  options.scene =
+  const std::string scene =
       cell.scene == "table1" ? cell.scene : (fs::path(HAGFISH_STRESS_DIR) / cell.scene).string();
-  options.step = cell.step;
-  options.set = cell.set;
-  EXPECT_EQ(outcome_of(options), "ok");
+  const StressResult result = run_cell(scene, "default", cell.step, cell.set);
+  EXPECT_EQ(result.status.outcome, Outcome::ok) << result.status.message;
 }
 
 const MendedCell mended_cells[] = {

@@ -53,7 +53,7 @@ void expect_same(const Simulation& a, const Simulation& b) {
   EXPECT_TRUE(same(c.first.contact, d.first.contact) && same(c.last.contact, d.last.contact));
 
   EXPECT_EQ(std::memcmp(&a.ledger, &b.ledger, sizeof(EnergyLedger)), 0);
-  EXPECT_EQ(a.watch.told, b.watch.told);
+  EXPECT_EQ(a.watch.warned, b.watch.warned);
   EXPECT_EQ(a.watch.below_cap, b.watch.below_cap);
   EXPECT_EQ(a.solver.warm.size(), b.solver.warm.size());
 

@@ -9,7 +9,9 @@
 namespace hagfish {
 namespace {
 
-TEST(Presets, AreThoseOfTheReadme) { EXPECT_EQ(preset_names(), "quick, default, figure"); }
+TEST(Presets, AreThoseOfTheReadme) {
+  EXPECT_EQ(preset_names(), (std::vector<std::string>{"quick", "default", "figure"}));
+}
 
 TEST(Presets, DefaultIsTheSceneItself) { EXPECT_TRUE(preset_called("default").set.empty()); }
 

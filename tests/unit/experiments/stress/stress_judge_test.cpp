@@ -52,6 +52,7 @@ TEST_F(StressJudgeTest, PenetrationComesBeforeLimits) {
   EXPECT_EQ(judge.ended().outcome, Outcome::limits);
   show(0.2, 0, {100, 0});
   EXPECT_EQ(judge.ended().outcome, Outcome::penetration);
+  EXPECT_EQ(judge.ended().message, "penetration 0.2 cm (at most 0.1)");
 }
 
 TEST_F(StressJudgeTest, ACauseIsItsOwnOutcome) {
@@ -114,8 +115,9 @@ TEST_F(StressJudgeTest, AScriptThatNeverTiesIsNamed) {
 TEST_F(StressJudgeTest, AKnotThatDoesNotSlideIsCapped) {
   ResolvedScene stuck = stored_scene();
   stuck.scene.start.phase = Phase::slide;
-  EXPECT_EQ(StressJudge(model, stuck.scene, stored_states().at(3).state, 0).ended().outcome,
-            Outcome::capped);
+  const StressJudge judge_of_it(model, stuck.scene, stored_states().at(3).state, 0);
+  EXPECT_EQ(judge_of_it.ended().outcome, Outcome::capped);
+  EXPECT_EQ(judge_of_it.ended().message, "no slide");
 }
 
 }  // namespace

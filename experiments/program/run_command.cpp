@@ -4,14 +4,15 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "core/input/builtin_files.hpp"
 #include "core/log/build_info.hpp"
 #include "core/log/hdf5_error.hpp"
 #include "core/log/log_writer.hpp"
 #include "experiments/program/commands.hpp"
+#include "experiments/program/failure.hpp"
 #include "experiments/program/presets.hpp"
 #include "experiments/program/progress.hpp"
 #include "experiments/program/scene_argument.hpp"
+#include "experiments/program/suggestion.hpp"
 #include "mujoco_ref/mjcf.hpp"
 #include "solvers/box_qp.hpp"
 
@@ -24,13 +25,21 @@ namespace fs = std::filesystem;
 volatile std::sig_atomic_t interrupted = 0;
 void interrupt(int /*signal*/) { interrupted = 1; }
 
-constexpr int run_failed = 1;
-constexpr int wrong_knot = 3;
+struct RunOptions {
+  std::string scene = default_scene;  ///< a built-in scene's name or a file
+  std::string out;                    ///< log to write; SCENE.h5 where empty
+  std::string preset;                 ///< settings by name (presets.hpp); none where empty
+  std::string qp;                     ///< QP back end; the preset's, or Ipopt, where empty
+  std::vector<std::string> set;       ///< KEY=VALUE overrides, after the preset's
+  std::string until;                  ///< ends with this phase: time.until; the scene's where empty
+  bool force = false;                 ///< replace an existing log
+  bool quiet = false;
+};
 
 /// How a run ended: the log's status, and the program's exit code.
 struct Ending {
   std::string status;
-  int code = 0;
+  int code = exit_code::done;
 };
 
 /// Steps until the scene is over.
@@ -40,7 +49,7 @@ Ending take_steps(const Model& model, const Scene& scene, const std::string& qp,
   StepRecord record;
   while (!finished(sim, scene)) {
     if (interrupted != 0) {
-      return {fmt::format("failed: interrupted at step {}", sim.step), run_failed};
+      return {fmt::format("failed: interrupted at step {}", sim.step), exit_code::failed};
     }
     try {
       take_step(model, scene, sim, record);
@@ -54,17 +63,15 @@ Ending take_steps(const Model& model, const Scene& scene, const std::string& qp,
           error.outcome() == Outcome::never_tied || error.outcome() == Outcome::knot_lost;
       return {fmt::format("failed: {} at step {} (t = {:.4f} s, {})", error.what(), sim.step,
                           time_of(sim, scene), phase_name(record.controller.phase)),
-              knot ? wrong_knot : run_failed};
+              knot ? exit_code::wrong_knot : exit_code::failed};
     } catch (const std::exception& error) {
-      return {fmt::format("failed: {} at step {}", error.what(), sim.step), run_failed};
+      return {fmt::format("failed: {} at step {}", reason(error), sim.step), exit_code::failed};
     }
   }
-  return {"complete", 0};
+  return {"complete", exit_code::done};
 }
 
-}  // namespace
-
-int run(const RunOptions& options) {
+int run(const RunOptions& options, const std::string& typed) {
   const Preset preset = options.preset.empty() ? Preset{"", box_qp_solver_names().front(), {}}
                                                : preset_called(options.preset);
   std::vector<std::string> set = preset.set;
@@ -77,7 +84,7 @@ int run(const RunOptions& options) {
   const fs::path out =
       options.out.empty() ? fs::path(options.scene).stem().string() + ".h5" : options.out;
   LogHeader header;
-  header.command = options.command;
+  header.command = typed;
   header.scene = scene_to_toml(scene, resolved.specimen);
   header.qp = qp;
   header.libraries = build_libraries();
@@ -91,24 +98,33 @@ int run(const RunOptions& options) {
   const Ending ending = take_steps(model, scene, qp, log, progress);
   progress.end();
   log.finish(ending.status);
-  if (ending.code != 0) {
+  if (ending.code != exit_code::done) {
     fmt::print(stderr, "hagfish: {}: {}\n", out.string(), ending.status);
     return ending.code;
   }
   if (!options.quiet) {
     fmt::print(stderr, "{}: complete after {:.1f} s\n", out.string(), progress.elapsed());
   }
-  return 0;
+  return exit_code::done;
 }
 
-int list_scenes() {
-  for (const std::string_view name : builtin_scene_names()) {
-    const auto text = builtin_file(fmt::format("{}.toml", name));
-    const ResolvedScene resolved =
-        read_scene_text(std::string(*text), std::string(name) + " (built in)");
-    fmt::print("{:<20} {}\n", name, resolved.scene.title);
-  }
-  return 0;
+}  // namespace
+
+void add_run(Program& program) {
+  const auto options = std::make_shared<RunOptions>();
+  CLI::App* run_app = program.app.add_subcommand("run", "run a scene and write its log");
+  run_app->add_option("SCENE", options->scene, scene_help)->capture_default_str();
+  run_app->add_option("--out", options->out, "log to write (SCENE.h5)");
+  run_app->add_option("--preset", options->preset, "settings by name (the scene's, and Ipopt)")
+      ->check(one_of(preset_names()));
+  run_app->add_option("--qp", options->qp, "QP back end, instead of the preset's")
+      ->check(one_of(box_qp_solver_names()));
+  run_app->add_option("--set", options->set, set_help)->allow_extra_args(false);
+  run_app->add_option("--until", options->until,
+                      "stop when this phase has ended: form, tighten, slide, reverse, release");
+  run_app->add_flag("--force", options->force, "replace an existing log");
+  run_app->add_flag("--quiet", options->quiet, "no progress");
+  run_app->callback([options, &program] { program.code = run(*options, program.typed); });
 }
 
 }  // namespace hagfish

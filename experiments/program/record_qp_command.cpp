@@ -5,11 +5,23 @@
 #include "experiments/program/commands.hpp"
 #include "experiments/program/progress.hpp"
 #include "experiments/program/scene_argument.hpp"
+#include "experiments/program/suggestion.hpp"
 #include "experiments/qp/qp_set.hpp"
 #include "experiments/qp/step_qp.hpp"
 
 namespace hagfish {
 namespace {
+
+struct RecordQpOptions {
+  std::string scene = default_scene;
+  std::string out;               ///< HDF5 file to write
+  std::string qp = "ipopt";      ///< QP back end of the run
+  std::vector<std::string> set;  ///< KEY=VALUE overrides
+  int every = 1;                 ///< steps from one that is recorded to the next
+  bool primal = false;           ///< as {H, g, G, e, C, d} instead of {A, b, l, u}
+  bool force = false;            ///< replace an existing file
+  bool quiet = false;
+};
 
 /// Takes the steps of a run and keeps their QPs.
 class Recorder {
@@ -52,14 +64,11 @@ class Recorder {
   int left_out_ = 0;
 };
 
-}  // namespace
-
-int record_qp(const RecordQpOptions& options) {
+int record_qp(const RecordQpOptions& options, const std::string& typed) {
   const ResolvedScene resolved = scene_argument(options.scene, options.set);
   const Scene& scene = resolved.scene;
   const Model model = make_hagfish(resolved.specimen, scene);
-  QpSetWriter set(options.out, options.force, options.command,
-                  scene_to_toml(scene, resolved.specimen));
+  QpSetWriter set(options.out, options.force, typed, scene_to_toml(scene, resolved.specimen));
   Recorder recorder(options, model, scene, set);
   Progress progress(model, scene, options.quiet);
   std::string failure;
@@ -86,9 +95,29 @@ int record_qp(const RecordQpOptions& options) {
   if (!failure.empty()) {
     std::fflush(stdout);
     fmt::print(stderr, "hagfish: {}: the run failed: {}\n", options.out, failure);
-    return 1;
+    return exit_code::failed;
   }
-  return 0;
+  return exit_code::done;
+}
+
+}  // namespace
+
+void add_record_qp(Program& program) {
+  const auto options = std::make_shared<RecordQpOptions>();
+  CLI::App* record = program.app.add_subcommand("record-qp", "run a scene and save its QPs");
+  record->add_option("SCENE", options->scene, scene_help)->capture_default_str();
+  record->add_option("--out", options->out, "HDF5 file to write")->required();
+  record->add_option("--qp", options->qp, "QP back end of the run")
+      ->check(one_of(box_qp_solver_names()))
+      ->capture_default_str();
+  record->add_option("--set", options->set, set_help)->allow_extra_args(false);
+  record->add_option("--every", options->every, "steps from one saved to the next")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  record->add_flag("--primal", options->primal, "save {H, g, G, e, C, d}, not {A, b, l, u}");
+  record->add_flag("--force", options->force, "replace an existing file");
+  record->add_flag("--quiet", options->quiet, "no progress");
+  record->callback([options, &program] { program.code = record_qp(*options, program.typed); });
 }
 
 }  // namespace hagfish

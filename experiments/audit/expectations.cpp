@@ -1,0 +1,52 @@
+#include "experiments/audit/expectations.hpp"
+
+#include <numbers>
+
+namespace hagfish {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+constexpr double percent = 0.01;
+
+}  // namespace
+
+Criterion penetration_criterion(const ExpectSettings& expect, double deepest) {
+  return {"penetration", deepest, expect.penetration, "cm"};
+}
+
+Criterion limits_criterion(const ExpectSettings& expect, double furthest) {
+  return {"limits", furthest / degree, expect.limit_violation / degree, "deg"};
+}
+
+Criterion head_drift_criterion(const ExpectSettings& expect, double largest) {
+  return {"head drift", largest, expect.head_drift, "cm"};
+}
+
+Criterion kkt_criterion(const ExpectSettings& expect, double largest) {
+  return {"KKT residual", largest, expect.kkt, "scaled"};
+}
+
+Criterion energy_gain_criterion(const ExpectSettings& expect, double largest) {
+  return {"energy gain", largest, expect.energy_gain, "of what there was and was put in"};
+}
+
+Criterion slide_criterion(const ExpectSettings& expect, std::optional<double> travel) {
+  return {"slide", travel.value_or(NAN), expect.slide_distance, "cm", true};
+}
+
+Criterion reverse_criterion(const ExpectSettings& expect, std::optional<double> travel) {
+  return {"reverse", travel.value_or(NAN), expect.reverse_distance, "cm", true};
+}
+
+Criterion eq6_criterion(const ExpectSettings& expect, std::int64_t met, std::int64_t steps) {
+  const double share = steps > 0 ? static_cast<double>(met) / static_cast<double>(steps) : NAN;
+  return {"Eq. 6", share / percent, expect.speed_share / percent, "% of sliding steps", true};
+}
+
+void EnergyGain::see(double energy, double put_in) {
+  const double had = start_ + put_in;
+  most_ = std::max(most_, had);
+  largest_ = worse(largest_, most_ > 0 ? (energy - had) / most_ : 0);
+}
+
+}  // namespace hagfish

@@ -1,0 +1,62 @@
+// Figures of a run against the bounds of its scene's [expect]: the one place where they meet, for
+// `hagfish check` and for the failure map.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "core/scene/settings.hpp"
+
+namespace hagfish {
+
+/// A figure and the bound on it.
+struct Criterion {
+  std::string name;  ///< what is judged, in a word or two
+  double value = 0;  ///< nan where the run has no such figure
+  double bound = 0;
+  std::string unit;
+  bool at_least = false;  ///< the bound is the least, not the most
+  /// Never of a figure that is no number.
+  bool met() const { return at_least ? value >= bound : value <= bound; }
+};
+
+/// Deepest overlap of skins at any step, cm.
+Criterion penetration_criterion(const ExpectSettings& expect, double deepest);
+/// Furthest that a joint is past its limit at any step, rad; judged in degrees.
+Criterion limits_criterion(const ExpectSettings& expect, double furthest);
+/// Largest way of the clamped head at any step, cm.
+Criterion head_drift_criterion(const ExpectSettings& expect, double largest);
+/// Largest scaled KKT residual of any step.
+Criterion kkt_criterion(const ExpectSettings& expect, double largest);
+/// As EnergyGain has it.
+Criterion energy_gain_criterion(const ExpectSettings& expect, double largest);
+/// Headward travel of the knot's head end while sliding, cm; nothing where it never slid.
+Criterion slide_criterion(const ExpectSettings& expect, std::optional<double> travel);
+/// Tailward travel of its tail end on the way back, cm; likewise.
+Criterion reverse_criterion(const ExpectSettings& expect, std::optional<double> travel);
+/// Sliding steps that meet Eq. 6 without slack, of all sliding steps; judged in %.
+Criterion eq6_criterion(const ExpectSettings& expect, std::int64_t met, std::int64_t steps);
+
+/// The larger; a figure that is no number is as bad as can be.
+inline double worse(double a, double b) {
+  return std::isnan(a) || std::isnan(b) ? INFINITY : std::max(a, b);
+}
+
+/// Mechanical energy (kinetic, elastic, gravity) above what there was and what script and
+/// thigmotaxis put in, over the most that there was of these so far.
+class EnergyGain {
+ public:
+  /// `energy` at the start, erg.
+  explicit EnergyGain(double energy) : start_(energy), most_(energy) {}
+  /// A later moment: `energy`, and what was put in since the start, erg.
+  void see(double energy, double put_in);
+  double largest() const { return largest_; }
+
+ private:
+  double start_ = 0, most_ = 0, largest_ = 0;
+};
+
+}  // namespace hagfish

@@ -1,0 +1,43 @@
+"""Verdicts of `hagfish check --csv`: a script has no bounds of its own."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from hagfish_log import LogError
+from tables import read_csv
+
+COLUMNS = ["log", "criterion", "value", "bound", "unit", "met"]
+
+
+@dataclass(frozen=True)
+class Finding:
+    """What was judged of a log; value and bound are numbers, or words where it is those that are compared."""
+
+    criterion: str
+    value: str  # empty where the run has no such figure
+    bound: str
+    unit: str
+    met: bool
+
+
+def read_findings(path: Path) -> list[Finding]:
+    """The findings on one log, in the order of the audit."""
+    rows = read_csv(path, COLUMNS)
+    if len({row["log"] for row in rows}) > 1:
+        raise LogError(f"{path}: of several logs; one was expected")
+    return [Finding(row["criterion"], row["value"], row["bound"], row["unit"], row["met"] == "yes") for row in rows]
+
+
+def unmet(findings: list[Finding]) -> list[str]:
+    """Criteria that failed."""
+    return [finding.criterion for finding in findings if not finding.met]
+
+
+def bound_on(findings: list[Finding], criterion: str) -> float:
+    """The bound on a figure."""
+    for finding in findings:
+        if finding.criterion == criterion:
+            return float(finding.bound)
+    raise LogError(f"the audit has no bound on {criterion}")

@@ -1,0 +1,41 @@
+"""Tables of the studies: Markdown for readers, CSV for programs."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Any
+
+from hagfish_log import LogError
+
+
+def markdown(head: Sequence[str], rows: Iterable[Sequence[str]]) -> list[str]:
+    """The lines of a table, an empty one behind it."""
+    line = lambda cells: "| " + " | ".join(cells) + " |"
+    return [line(head), "|" + "---|" * len(head), *map(line, rows), ""]
+
+
+def write_page(path: Path, lines: Iterable[str]) -> None:
+    path.write_text("\n".join(lines).rstrip() + "\n", encoding="utf-8")
+
+
+def write_csv(path: Path, heading: Sequence[str], rows: Iterable[Sequence[Any]], notes: Sequence[str] = ()) -> None:
+    """Floats to six digits; `notes` are lines above the heading, each behind a #."""
+    with path.open("w", newline="", encoding="utf-8") as file:
+        file.writelines(f"# {note}\n" for note in notes)
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(heading)
+        writer.writerows([f"{cell:.6g}" if isinstance(cell, float) else cell for cell in row] for row in rows)
+
+
+def read_csv(path: Path, wanted: Iterable[str]) -> list[dict[str, str]]:
+    """Rows by column name; a file without rows or without a column of `wanted` is an error."""
+    with path.open(newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    if not rows:
+        raise LogError(f"{path}: holds no rows")
+    for name in wanted:
+        if name not in rows[0]:
+            raise LogError(f"{path}: without column {name}")
+    return rows

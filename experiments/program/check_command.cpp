@@ -1,0 +1,71 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "experiments/audit/audit.hpp"
+#include "experiments/program/commands.hpp"
+#include "experiments/program/csv.hpp"
+#include "experiments/program/failure.hpp"
+
+namespace hagfish {
+namespace {
+
+struct CheckOptions {
+  std::vector<std::string> logs;
+  std::string csv;  ///< findings as a file; none where empty
+};
+
+/// Audits one log; its findings become rows of `table`. Returns an exit code.
+int check_log(const std::string& file, CsvTable& table) {
+  const std::vector<Finding> findings = audit(file);
+  std::vector<std::string> unmet;
+  for (const Finding& f : findings) {
+    fmt::print("{:<4} {:<24} {}\n", f.passed ? "ok" : "FAIL", f.name, f.text);
+    table.push_back({file, f.name, f.value, f.bound, f.unit, f.passed ? "yes" : "no"});
+    if (!f.passed) unmet.push_back(f.name);
+  }
+  if (unmet.empty()) {
+    return exit_code::done;
+  }
+  std::fflush(stdout);
+  fmt::print(stderr, "hagfish: {}: check failed: {}\n", file, fmt::join(unmet, ", "));
+  return exit_code::failed;
+}
+
+int check(const CheckOptions& options) {
+  if (!options.csv.empty()) try_csv(options.csv);
+  CsvTable table{{"log", "criterion", "value", "bound", "unit", "met"}};
+  int code = exit_code::done;
+  for (const std::string& file : options.logs) {
+    if (options.logs.size() > 1) {
+      fmt::print("{}{}:\n", &file == &options.logs[0] ? "" : "\n", file);
+    }
+    try {
+      code = std::max(code, check_log(file, table));
+    } catch (const std::exception& error) {
+      // One log that cannot be read does not lose the others.
+      if (!is_bad_input(error)) throw;
+      std::fflush(stdout);
+      fmt::print(stderr, "hagfish: {}\n", reason(error));
+      code = exit_code::bad_input;
+    }
+  }
+  if (!options.csv.empty()) write_csv(options.csv, table);
+  return code;
+}
+
+}  // namespace
+
+void add_check(Program& program) {
+  const auto options = std::make_shared<CheckOptions>();
+  CLI::App* check_app =
+      program.app.add_subcommand("check", "audit logs; exits 1 naming what fails");
+  check_app->add_option("LOG", options->logs, "log files")->required();
+  check_app->add_option("--csv", options->csv,
+                        "file for the findings: log, criterion, value, bound, unit, met");
+  check_app->callback([options, &program] { program.code = check(*options); });
+}
+
+}  // namespace hagfish

@@ -1,0 +1,9 @@
+#include "experiments/program/commands.hpp"
+
+namespace hagfish {
+
+std::vector<Registrar> commands() {
+  return {add_run, add_scenes, add_record_qp, add_qp, add_info, add_check};
+}
+
+}  // namespace hagfish

@@ -1,0 +1,40 @@
+#include "experiments/mujoco/compare.hpp"
+
+#include "experiments/program/commands.hpp"
+#include "experiments/program/scene_argument.hpp"
+
+namespace hagfish {
+namespace {
+
+struct CompareOptions {
+  std::string scene = default_scene;
+  std::string out;               ///< HDF5 file for the figure; none where empty
+  std::vector<std::string> set;  ///< KEY=VALUE overrides
+};
+
+int run_compare(const CompareOptions& options, const std::string& typed) {
+  const ResolvedScene resolved = scene_argument(options.scene, options.set);
+  Hdf5Writer h5;
+  const bool passed = compare(resolved, h5);
+  if (!options.out.empty()) {
+    h5.root_attribute("command", typed);
+    h5.root_attribute("scene", scene_to_toml(resolved.scene, resolved.specimen));
+    h5.save(options.out);
+  }
+  return passed ? exit_code::done : exit_code::failed;
+}
+
+}  // namespace
+
+void add_compare(Program& program) {
+  const auto options = std::make_shared<CompareOptions>();
+  CLI::App* compare_app = program.app.add_subcommand(
+      "compare", "hold the simulator against MuJoCo; exits 1 where a bound is passed");
+  compare_app->add_option("SCENE", options->scene, scene_help)->capture_default_str();
+  compare_app->add_option("--out", options->out, "HDF5 file to write, for the figure");
+  compare_app->add_option("--set", options->set, set_help)->allow_extra_args(false);
+  compare_app->callback(
+      [options, &program] { program.code = run_compare(*options, program.typed); });
+}
+
+}  // namespace hagfish

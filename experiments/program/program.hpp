@@ -1,0 +1,32 @@
+// What the subcommands of `hagfish` share. Each has a file of its own, NAME_command.cpp: its
+// options, its registration, its call.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+namespace hagfish {
+
+/// Exit codes of the program.
+namespace exit_code {
+inline constexpr int done = 0;
+inline constexpr int failed = 1;      ///< the run, the audit or a QP
+inline constexpr int bad_input = 2;   ///< told in one line, and thrown as InputError or FileError
+inline constexpr int wrong_knot = 3;  ///< the run ended with a knot that is not the scene's
+}  // namespace exit_code
+
+/// The program while its command line is read: CLI11 calls the command that was chosen.
+struct Program {
+  CLI::App app;
+  std::string typed;           ///< the command line, for files that tell how they were made
+  int code = exit_code::done;  ///< what the command ended with
+};
+
+/// Adds one subcommand to `program`, which outlives its callback.
+using Registrar = void (*)(Program& program);
+
+inline constexpr const char* default_scene = "table1";
+inline constexpr const char* scene_help = "a built-in scene (see `scenes`) or a TOML file";
+inline constexpr const char* set_help = "override a scene's key: KEY=VALUE, repeatable";
+
+}  // namespace hagfish

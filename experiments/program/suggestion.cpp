@@ -1,0 +1,70 @@
+#include "experiments/program/suggestion.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "core/input/builtin_files.hpp"
+#include "core/input/input_text.hpp"
+
+namespace hagfish {
+namespace {
+
+std::string help_of(const CLI::App& command) {
+  const bool whole = command.get_parent() == nullptr;
+  return fmt::format(" (see `hagfish {}--help`)", whole ? "" : command.get_name() + " ");
+}
+
+/// Of a word in the place of a command.
+std::string no_command(const CLI::App& app, const std::string& word) {
+  const auto meant = [&word](const std::string& command) {
+    return fmt::format("{}: no such command; did you mean `{}`?", word, command);
+  };
+  const std::filesystem::path file = word;
+  if (file.extension() == ".toml") return meant("run " + word);
+  if (file.extension() == ".h5") return meant("check " + word);
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  const auto commands = static_cast<std::ptrdiff_t>(names.size());
+  for (const std::string_view scene : builtin_scene_names()) names.emplace_back(scene);
+  const std::string near = similar(word, names);
+  if (near.empty()) return word + ": no such command" + help_of(app);
+  const bool scene = std::find(names.begin(), names.end(), near) - names.begin() >= commands;
+  return meant((scene ? "run " : "") + near);
+}
+
+/// Of an option that `command` does not have.
+std::string no_option(const CLI::App& command, const std::string& word) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return word + ": no such option" + did_you_mean(word, names);
+}
+
+}  // namespace
+
+std::string complaint(const CLI::App& app, const CLI::ParseError& error) {
+  const std::vector<CLI::App*> chosen = app.get_subcommands();
+  const std::vector<std::string> left = app.remaining(true);
+  const bool option = !left.empty() && left.front().starts_with("--");
+  if (chosen.empty() && !left.empty() && !left.front().starts_with('-')) {
+    return no_command(app, left.front());
+  }
+  const CLI::App& command = chosen.empty() ? app : *chosen.front();
+  return (option ? no_option(command, left.front()) : std::string(error.what())) + help_of(command);
+}
+
+CLI::Validator one_of(const std::vector<std::string>& names) {
+  const auto reject = [names](const std::string& word) {
+    return std::find(names.begin(), names.end(), word) != names.end()
+               ? std::string()
+               : fmt::format("{} is not one of {}{}", word, fmt::join(names, ", "),
+                             did_you_mean(word, names));
+  };
+  return CLI::Validator(reject, fmt::format("{{{}}}", fmt::join(names, ",")));
+}
+
+}  // namespace hagfish

@@ -1,0 +1,34 @@
+# shellcheck shell=bash
+# Sourced by table1.sh and the studies, not run: sets up and builds, and makes the output folder, the script's argument or
+# out/ with the script's name. Comes after targets=(...), what to build besides the program, if anything. Leaves root, out
+# and hagfish (the program). When the script ends, in whatever way, it says how long it took; building counts, and what an
+# earlier run of it left does not.
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+out=${1:-$root/out/$(basename "$0" .sh)}
+elapsed() {
+  echo
+  echo "$(basename "$0") took $((SECONDS / 60)) min $((SECONDS % 60)) s on $(env -u OMP_NUM_THREADS nproc) cores"
+}
+trap elapsed EXIT
+mkdir -p "$out"
+out=$(cd "$out" && pwd)
+# shellcheck disable=SC2154 # targets may be unset
+bash "$root/experiments/setup.sh" --target hagfish "${targets[@]}"
+# Serial BLAS, so that runs repeat to the last bit.
+export OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1
+export hagfish=$root/build/release/experiments/hagfish
+
+# draw SCRIPT.py ARGUMENT...: Debian's python3 is the one that has h5py and matplotlib.
+draw() { /usr/bin/python3 "$root/experiments/figures/$1" "${@:2}"; }
+
+# Closes a script: what lies in the output folder, for `finish PAGE` after a page of results.
+list_output() {
+  echo
+  echo "In $out:"
+  ls "$out"
+}
+finish() {
+  echo
+  cat "$1"
+  list_output
+}

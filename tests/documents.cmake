@@ -1,0 +1,17 @@
+# What the documents repeat is what it repeats: cmake -DROOT=... -DVERSION=... -P documents.cmake
+file(READ ${ROOT}/README.md readme)
+file(READ ${ROOT}/experiments/example.cpp example)
+string(FIND "${readme}" "```cpp\n${example}```\n" found)
+if(found EQUAL -1)
+  message(SEND_ERROR "README.md does not quote experiments/example.cpp as it is")
+endif()
+
+file(STRINGS ${ROOT}/CITATION.cff cited REGEX "^version:")
+if(NOT cited STREQUAL "version: ${VERSION}")
+  message(SEND_ERROR "CITATION.cff: ${cited}, but the project is at ${VERSION}")
+endif()
+file(STRINGS ${ROOT}/CHANGELOG.md releases REGEX "^## \\[[0-9]")
+list(GET releases 0 newest)
+if(NOT newest MATCHES "^## \\[${VERSION}\\]")
+  message(SEND_ERROR "CHANGELOG.md: its newest release is ${newest}, but the project is at ${VERSION}")
+endif()

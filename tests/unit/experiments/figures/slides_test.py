@@ -1,0 +1,82 @@
+"""Means, slides and runs of the studies: what was commanded, what came of it, and how far two runs are apart."""
+
+import numpy as np
+import pytest
+
+import means
+import study
+from conftest import SPEED, STEP, STEPS
+from hagfish_log import LogError
+
+INTERVAL = STEP * STEPS
+
+
+def test_means_over_whole_windows(content, log):
+    force = content.data["mean/forces/thigmotaxis"]
+    force[:, 6] = np.arange(len(force))  # one hinge, more each interval
+    found = means.read_means(log(), window=3 * INTERVAL)
+    first = content.slide[1]
+    assert list(found.force[:2, 0]) == [first + 1, first + 4]
+    assert (found.start[0], found.end[0], len(found.end)) == (content.slide[0], first + 2, 20)
+    assert np.all(found.total == 200)  # four multipliers of 50 dyn
+
+
+def test_a_window_of_no_whole_number_of_frames_is_refused(log):
+    with pytest.raises(LogError, match="do not make windows of 0.03 s"):
+        means.read_means(log(), window=0.03)
+
+
+def test_a_phase_that_never_came_has_no_means(log):
+    none = means.read_means(log(), "reverse")
+    assert none.total.size == 0 and np.isnan(means.effort_per_cm(log(), none))
+
+
+def test_effort_is_force_over_time_per_way(content, log):
+    """14 hinges of 100 dyn cm at a body of 41, two bodies to a hinge of each kind, at 5 cm/s."""
+    own = means.read_means(log())
+    assert means.effort(own) == pytest.approx(2 / 41 * 1400 * INTERVAL, rel=1e-12)
+    assert means.effort_per_cm(log(), own) == pytest.approx(2 / 41 * 1400 / SPEED, rel=1e-9)
+    assert means.effort_per_cm(log(), own, "tail") == pytest.approx(means.effort_per_cm(log(), own), rel=1e-9)
+
+
+def run_of(**changes):
+    time = np.arange(0, 5, 0.02)
+    fields = dict.fromkeys(study.Run.__dataclass_fields__, 0) | {
+        "time": time, "head_end": 12 - 2 * time + 0.1 * np.sin(9 * time), "tail_end": 30 - 2 * time} | changes
+    return study.Run(**fields)
+
+
+def test_a_path_is_the_same_to_within_a_frame_of_time():
+    run = run_of()
+    # Between samples a path is a line, off by its curvature, 0.1 * 9^2, over 8 times the square of a frame: twice, here.
+    late = run_of(head_end=np.interp(run.time + 0.01, run.time, run.head_end))
+    assert study.path_error(late, run)[0] == pytest.approx(0, abs=2 * 0.1 * 81 / 8 * 0.02**2)
+
+
+def test_a_path_that_is_off_everywhere():
+    """A constant distance on a path of constant speed is a shift in time, of which one frame, 0.04 cm, is free."""
+    time = np.arange(0, 5, 0.02)
+    straight, off = (run_of(head_end=12 - 2 * time + away) for away in (0.0, 0.5))
+    assert study.path_error(off, straight) == pytest.approx((0.46, 0.46), rel=1e-9)
+    assert np.isnan(study.path_error(run_of(time=np.empty(0)), straight)).all()
+
+
+def test_pareto_front():
+    assert list(study.pareto(np.array([3.0, 1, 2, 4]), np.array([1.0, 5, 6, 1]))) == [1, 0]
+
+
+@pytest.mark.parametrize("status, words", [
+    ("failed: body 7 is 0.31 cm past its limit at step 12 (t = 0.1 s)", "a body went past its limit"),
+    ("failed: the script ended with a 3_1, tied since 8.60 s, but expect.knot = 4_1 at step 6505", "the script ended with a 3_1"),
+    ("complete", "")])
+def test_why_a_run_failed(content, log, status, words):
+    content.attributes["status"] = status
+    assert study.failure_of(log(), []) == words
+
+
+def test_a_complete_run_may_have_failed(content, log):
+    assert study.failure_of(log(), ["knot held"]) == "the knot came undone early"
+    content.data["trajectory/phase"][content.slide] = 1
+    assert study.failure_of(log(), []) == "the knot never slid"
+    content.data["trajectory/phase"][:] = 0
+    assert study.failure_of(log(), []) == "the knot was never ready to tighten"

@@ -1,0 +1,188 @@
+// `hagfish info` and `check` from outside.
+#include <H5Cpp.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "core/log/hdf5_reader.hpp"
+#include "tests/support/program_runs.hpp"
+
+namespace hagfish {
+namespace {
+
+/// What a log holds of a run that never got to this or that.
+const std::regex no_number(R"((^|[^a-z])-?(inf|nan)([^a-z]|$))");
+
+class LogCommandsTest : public ProgramTest {
+ protected:
+  std::string text_of(const std::string& name) const {
+    std::ifstream file(folder / name);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+  }
+
+  /// Runs `arguments` into a.h5, which `check` must fail with every one of `parts`, and neither
+  /// command may print a number that is none.
+  void expect_told(const std::string& arguments, int code, const std::vector<std::string>& parts) {
+    const ProgramOutcome run = run_program("run --quiet --force --out a.h5 " + arguments);
+    ASSERT_EQ(run.code, code) << run.output;
+    const ProgramOutcome check = run_program("check a.h5 --csv a.csv");
+    EXPECT_EQ(check.code, 1) << check.output;
+    for (const std::string& part : parts) {
+      EXPECT_NE(check.output.find(part), std::string::npos) << part << " in " << check.output;
+    }
+    const std::string text = check.output + run_program("info a.h5").output +
+                             run_program("info --json a.h5").output + text_of("a.csv");
+    EXPECT_FALSE(std::regex_search(text, no_number)) << text;
+  }
+};
+
+TEST_F(LogCommandsTest, RunInfoAndCheck) {
+  EXPECT_EQ(run_program(brief_run + "--out a.h5").code, 0);
+  const ProgramOutcome info = run_program("info a.h5");
+  EXPECT_EQ(info.code, 0);
+  EXPECT_NE(info.output.find("status           complete"), std::string::npos) << info.output;
+  // Too short to tie: the audit must say what is missing and fail.
+  const ProgramOutcome check = run_program("check a.h5");
+  EXPECT_EQ(check.code, 1);
+  EXPECT_NE(check.output.find("check failed: knot held"), std::string::npos) << check.output;
+  EXPECT_NE(check.output.find("ok   force balance"), std::string::npos) << check.output;
+}
+
+TEST_F(LogCommandsTest, OfARunThatNeverTiesTellSo) {
+  expect_told("--set time.duration=0.02 --set expect.hand=right", 0,
+              {"FAIL knot held                never tied: no frame with a 3_1\n",
+               "FAIL hand                     never tied: no frame with a 3_1\n",
+               "the log, of 0 to 0 s, has no frame to be a 3_1 from 9.5 to 16.5 s\n",
+               "FAIL slide                    no slide (at least 9 cm)\n",
+               "FAIL Eq. 6                    no sliding steps (at least 95 %)\n",
+               "ok   contacts followed        no contact was followed\n"});
+}
+
+TEST_F(LogCommandsTest, OfARunThatTiesButNeverTightensTellSo) {
+  // The script ties after 9 s; this much tail is never through.
+  expect_told("--preset quick --set controller.tail_through=40 --set time.duration=11", 0,
+              {"FAIL knot held                never tightened, though a 3_1 at ",
+               "FAIL hand                     never tightened, though a 3_1 at ",
+               "FAIL slide                    no slide (at least 9 cm)\n"});
+}
+
+TEST_F(LogCommandsTest, OfARunThatEndsWhileItTightensTellThatThereIsNoSlide) {
+  expect_told("--preset quick --set time.duration=11", 0,
+              {"ok   knot held  ", "FAIL slide                    no slide (at least 9 cm)\n",
+               "FAIL Eq. 6                    no sliding steps (at least 95 %)\n"});
+}
+
+TEST_F(LogCommandsTest, OfARunThatNeverTurnsTellThatThereIsNoWayBack) {
+  expect_told("overhand_reverse --preset quick --set time.duration=1", 0,
+              {"FAIL reverse                  no reverse (at least "});
+}
+
+/// Every line of `text`, its fields by commas.
+std::vector<std::vector<std::string>> rows_of(const std::string& text) {
+  std::vector<std::vector<std::string>> rows;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    rows.emplace_back();
+    std::istringstream fields(line + ',');
+    for (std::string field; std::getline(fields, field, ',');) rows.back().push_back(field);
+  }
+  return rows;
+}
+
+TEST_F(LogCommandsTest, CheckWritesARowForEachLogAndCriterion) {
+  ASSERT_EQ(run_program(brief_run + "--out a.h5").code, 0);
+  ASSERT_EQ(run_program(brief_run + "--set expect.knot= --out b.h5").code, 0);
+  const ProgramOutcome one = run_program("check b.h5 --csv b.csv");
+  EXPECT_EQ(one.code, 0) << one.output;
+  EXPECT_EQ(one.output.rfind("ok   status", 0), 0u)
+      << "no heading for a single log: " << one.output;
+  const ProgramOutcome both = run_program("check b.h5 a.h5 --csv a.csv");
+  EXPECT_EQ(both.code, 1) << both.output;
+  EXPECT_NE(both.output.find("b.h5:\nok   status"), std::string::npos) << both.output;
+  EXPECT_NE(both.output.find("\na.h5:\nok   status"), std::string::npos) << both.output;
+  EXPECT_NE(both.output.find("hagfish: a.h5: check failed: "), std::string::npos) << both.output;
+  EXPECT_EQ(both.output.find("hagfish: b.h5:"), std::string::npos) << both.output;
+
+  const auto rows = rows_of(text_of("a.csv"));
+  using Row = std::vector<std::string>;
+  ASSERT_GT(rows.size(), 2u);
+  EXPECT_EQ(rows[0], (Row{"log", "criterion", "value", "bound", "unit", "met"}));
+  EXPECT_EQ(rows[1], (Row{"b.h5", "status", "complete", "complete", "", "yes"}));
+  const auto has = [&rows](const Row& row) { return std::ranges::count(rows, row) == 1; };
+  EXPECT_TRUE(has({"a.h5", "slide", "", "9", "cm", "no"})) << text_of("a.csv");
+  EXPECT_TRUE(has({"a.h5", "penetration", "0", "0.0015", "cm", "yes"})) << text_of("a.csv");
+  EXPECT_TRUE(has({"a.h5", "knot held", "", "", "frames", "no"})) << text_of("a.csv");
+  EXPECT_TRUE(has({"b.h5", "f_thigmo past the knot", "0", "0", "dyn cm", "yes"}));
+  // As many verdicts of each kind as the table for people has.
+  std::size_t no = 0;
+  for (const Row& row : rows) no += row.back() == "no" ? 1 : 0;
+  std::size_t told = 0;
+  for (std::size_t at = 0; (at = both.output.find("\nFAIL ", at)) != std::string::npos; ++at)
+    ++told;
+  EXPECT_EQ(no, told);
+}
+
+TEST_F(LogCommandsTest, ALogThatCannotBeReadDoesNotLoseTheOthers) {
+  ASSERT_EQ(run_program(brief_run + "--out a.h5").code, 0);
+  const ProgramOutcome check = run_program("check none.h5 a.h5 --csv a.csv");
+  EXPECT_EQ(check.code, 2) << check.output;
+  EXPECT_NE(check.output.find("hagfish: none.h5: no such file\n"), std::string::npos);
+  EXPECT_NE(check.output.find("hagfish: a.h5: check failed: "), std::string::npos) << check.output;
+  EXPECT_NE(text_of("a.csv").find("\na.h5,slide,"), std::string::npos);
+  std::filesystem::rename(folder / "a.h5", folder / "a.log");
+  expect_refused("check a.log --csv /no/such/folder/a.csv", {"/no/such/folder/a.csv", "No such"});
+}
+
+TEST_F(LogCommandsTest, InfoGivesJson) {
+  ASSERT_EQ(run_program(brief_run + "--set time.step=0.005 --out a.h5").code, 0);
+  const ProgramOutcome info = run_program("info --json a.h5 a.h5");
+  ASSERT_EQ(info.code, 0) << info.output;
+  const auto logs = nlohmann::json::parse(info.output);
+  ASSERT_EQ(logs.size(), 2u);
+  EXPECT_EQ(logs[0], logs[1]);
+  const nlohmann::json& log = logs[0];
+  EXPECT_EQ(log["log"], "a.h5");
+  EXPECT_EQ(log["status"], "complete");
+  EXPECT_EQ(log["bodies"], 100);
+  EXPECT_EQ(log["step_s"], 0.005);
+  EXPECT_EQ(log["steps"], 4);
+  EXPECT_EQ(log["frames"], Hdf5Reader(folder / "a.h5").doubles("/trajectory/time").size());
+  ASSERT_EQ(log["phases"].size(), 1u);
+  EXPECT_EQ(log["phases"][0]["phase"], "form");
+  EXPECT_EQ(log["phases"][0]["knot"], "0_1");
+  EXPECT_TRUE(log["phases"][0]["head_end_cm"].is_null()) << "no contact yet";
+  const ProgramOutcome both = run_program("info a.h5 a.h5");
+  EXPECT_NE(both.output.find("a.h5:\nstatus "), std::string::npos) << both.output;
+}
+
+TEST_F(LogCommandsTest, ALogBeyondTheMemoryIsOneHonestLine) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "AddressSanitizer ends a program that asks for too much";
+#endif
+  ASSERT_EQ(run_program(brief_run + "--out a.h5").code, 0);
+  {
+    // 7e15 bytes, of which none is on disk: more than any address space.
+    H5::H5File file((folder / "a.h5").string(), H5F_ACC_RDWR);
+    file.unlink("/trajectory/q");
+    const hsize_t size[] = {30'000'000, 30'000'000}, chunk[] = {100, 100};
+    H5::DSetCreatPropList chunked;
+    chunked.setChunk(2, chunk);
+    file.createDataSet("/trajectory/q", H5::PredType::NATIVE_DOUBLE, H5::DataSpace(2, size),
+                       chunked);
+  }
+  const ProgramOutcome info = run_program("info a.h5");
+  EXPECT_EQ(info.code, 1);
+  EXPECT_EQ(info.output, "hagfish: out of memory\n");
+}
+
+}  // namespace
+}  // namespace hagfish

@@ -1,0 +1,67 @@
+// `hagfish playback` from outside.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/scene/phase.hpp"
+#include "experiments/audit/log_contents.hpp"
+#include "tests/support/program_runs.hpp"
+
+namespace hagfish {
+namespace {
+
+TEST_F(ProgramTest, PlaybackRefusesALogWithoutASlide) {
+  EXPECT_EQ(run_program(brief_run + "--out a.log").code, 0);
+  expect_refused("playback a.log --out p.h5", {"a.log", "does not slide"});
+  expect_refused("playback none.log --out p.h5", {"none.log", "no such file"});
+}
+
+TEST_F(ProgramTest, PlaybackRefusesRestartsBetweenFrames) {
+  const ProgramOutcome run = run_program(
+      "run table1 --preset quick --set time.step=0.01 --set time.frame_interval=0.03 --until slide "
+      "--quiet --out a.log");
+  ASSERT_EQ(run.code, 0) << run.output;
+  expect_refused("playback a.log --out p.h5", {"a.log", "0.04 s", "0.03 s", "time.frame_interval"});
+}
+
+TEST_F(ProgramTest, PlaybackRefusesALogWithoutMeans) {
+  const ProgramOutcome run =
+      run_program("run table1 --preset quick --until slide --quiet --out a.log");
+  ASSERT_EQ(run.code, 0) << run.output;
+  H5::H5File((folder / "a.log").string(), H5F_ACC_RDWR).unlink("/mean/forces/thigmotaxis");
+  expect_refused("playback a.log --out p.h5", {"a.log", "/mean/forces/thigmotaxis"});
+}
+
+/// Of a log whose means are all 0 but for one that ends where the slide begins, nothing drives the
+/// slide: not that mean, which is of the time before, and no single step's force.
+TEST_F(ProgramTest, PlaybackAppliesTheMeansBetweenFramesAlone) {
+  const ProgramOutcome run = run_program(
+      "run table1 --preset quick --set controller.release_at=9 --until slide --quiet --out a.log");
+  ASSERT_EQ(run.code, 0) << run.output;
+  const auto paths = [this] {
+    const ProgramOutcome played = run_program("playback a.log --out p.log");
+    EXPECT_EQ(played.code, 0) << played.output;
+    const Hdf5Reader h5(folder / "p.log");
+    return std::pair(h5.doubles("/thigmotaxis_0.04s/drift"), h5.doubles("/none_0.04s/drift"));
+  };
+  const auto [driven, none] = paths();
+  ASSERT_GT(driven.size(), 10);
+  EXPECT_NE(driven, none);
+  Hdf5Reader::Rows means;
+  {
+    const LogContents log((folder / "a.log").string());
+    const auto begin =
+        std::find(log.phase.begin(), log.phase.end(), static_cast<std::int64_t>(Phase::slide));
+    means.setZero(log.qdot.rows(), log.qdot.cols());
+    means.row(begin - log.phase.begin()).setConstant(1e3);
+  }
+  H5::H5File((folder / "a.log").string(), H5F_ACC_RDWR)
+      .openDataSet("/mean/forces/thigmotaxis")
+      .write(means.data(), H5::PredType::NATIVE_DOUBLE);
+  const auto [zeroed, control] = paths();
+  EXPECT_EQ(zeroed, control);
+  EXPECT_EQ(control, none);
+}
+
+}  // namespace
+}  // namespace hagfish

@@ -1,0 +1,157 @@
+// `hagfish run` and `scenes` from outside.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "experiments/audit/log_contents.hpp"
+#include "tests/support/program_runs.hpp"
+
+namespace hagfish {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST_F(ProgramTest, APresetComesBeforeSetAndQp) {
+  const auto written = [this](const std::string& arguments) {
+    const ProgramOutcome run = run_program(brief_run + "--force --out a.h5 " + arguments);
+    EXPECT_EQ(run.code, 0) << arguments << ": " << run.output;
+    const LogContents log((folder / "a.h5").string());
+    return std::pair(log.resolved.scene.time.step, log.h5.root_text("qp"));
+  };
+  EXPECT_EQ(written(""), std::pair(0.002, std::string("ipopt")));
+  EXPECT_EQ(written("--preset default"), std::pair(0.002, std::string("active-set")));
+  EXPECT_EQ(written("--preset quick"), std::pair(0.02, std::string("active-set")));
+  EXPECT_EQ(written("--preset quick --set time.step=0.01").first, 0.01);
+  EXPECT_EQ(written("--preset quick --qp ipopt").second, "ipopt");
+}
+
+TEST_F(ProgramTest, RunsEveryBodyCount) {
+  for (const char* bodies : {"2", "3", "25", "400"}) {
+    const ProgramOutcome run =
+        run_program(brief_run + "--force --out n.h5 --set model.bodies=" + bodies);
+    EXPECT_EQ(run.code, 0) << bodies << ": " << run.output;
+  }
+}
+
+TEST_F(ProgramTest, RefusesBadInputInOneLine) {
+  expect_refused("run --set model.bodies=401", {"model.bodies", "401", "400"});
+  expect_refused("run --set model.bodies=many", {"model.bodies", "whole number"});
+  expect_refused("run --set time.step=nan", {"time.step", "finite"});
+  expect_refused("run --set time.step=0", {"time.step", "positive"});
+  expect_refused("run --set specimen.length=-1", {"specimen.length", "positive"});
+  expect_refused("run --set time.frame_interval=0.003", {"time.frame_interval", "whole number"});
+  expect_refused("run --set expect.knot=unknot", {"expect.knot", "3_1"});
+  expect_refused("run --set controller.contact_gap=1", {"controller.contact_gap", "margin"});
+  expect_refused("run --out . --force", {"not a regular file"});
+  expect_refused("run --qp none", {"--qp", "ipopt"});
+  expect_refused("run specimens/pacific_hagfish", {"scenes"});
+  expect_refused("run missing.toml", {"missing.toml"});
+  expect_refused("run --out /no/such/folder/x.h5", {"/no/such/folder/x.h5", "No such file"});
+  expect_refused("info missing.h5", {"missing.h5", "no such file"});
+  fs::create_directory(folder / "folder.toml");
+  expect_refused("run folder.toml", {"folder.toml"});
+}
+
+TEST_F(ProgramTest, KeepsAnExistingLogUnlessForced) {
+  std::ofstream(folder / "a.h5") << "precious";
+  const ProgramOutcome kept = run_program(brief_run + "--out a.h5");
+  EXPECT_EQ(kept.code, 2);
+  EXPECT_NE(kept.output.find("a.h5: already exists (--force replaces it)"), std::string::npos);
+  EXPECT_EQ(fs::file_size(folder / "a.h5"), 8u);
+  EXPECT_EQ(run_program(brief_run + "--out a.h5 --force").code, 0);
+  EXPECT_GT(fs::file_size(folder / "a.h5"), 8u);
+}
+
+TEST_F(ProgramTest, FullDiskIsOneLine) {
+  // A limit on file size (blocks of 1024 bytes) with its signal ignored stands for a full disk.
+  const ProgramOutcome full = run_program("run --quiet --set time.duration=2 --out a.h5",
+                                          "trap '' XFSZ && ulimit -f 150 &&");
+  EXPECT_EQ(full.code, 2) << full.output;
+  EXPECT_EQ(std::count(full.output.begin(), full.output.end(), '\n'), 1) << full.output;
+  EXPECT_NE(full.output.find("a.h5"), std::string::npos) << full.output;
+  EXPECT_NE(full.output.find("File too large"), std::string::npos) << full.output;
+  EXPECT_TRUE(fs::is_empty(folder));
+}
+
+TEST_F(ProgramTest, AFailedStepLeavesAReadableLogWithTheCause) {
+  // Joints of a body pulled this hard move faster than the guard allows.
+  const ProgramOutcome run = run_program("run --quiet --set guard.speed=5 --out a.h5");
+  EXPECT_EQ(run.code, 1) << run.output;
+  EXPECT_NE(run.output.find("failed: body"), std::string::npos) << run.output;
+  const ProgramOutcome info = run_program("info a.h5");
+  EXPECT_EQ(info.code, 0);
+  EXPECT_NE(info.output.find("failed: body"), std::string::npos) << info.output;
+  EXPECT_NE(info.output.find("at step"), std::string::npos) << info.output;
+  EXPECT_EQ(run_program("check a.h5").code, 1);
+}
+
+/// A script that ends after a second, long before anything is tied.
+const std::string hasty =
+    "run --qp active-set --set script.kind=position --set script.spring=3000 --set "
+    "script.largest_force=500 --set script.unit=L --set "
+    "'script.knots=[[0, 0.995, 0, 0], [1, 0.95, 0.05, 0]]' --set time.step=0.02 ";
+
+TEST_F(ProgramTest, AScriptThatTiesNothingEndsWithCode3AndSaysSo) {
+  const ProgramOutcome run = run_program(hasty + "--quiet --out a.h5");
+  EXPECT_EQ(run.code, 3) << run.output;
+  EXPECT_EQ(std::count(run.output.begin(), run.output.end(), '\n'), 1) << run.output;
+  EXPECT_NE(
+      run.output.find("a.h5: failed: the script ended with no knot, and tied none before, but "
+                      "expect.knot = 3_1"),
+      std::string::npos)
+      << run.output;
+  EXPECT_EQ(run_program("check a.h5").code, 1);
+  const ProgramOutcome none = run_program(hasty +
+                                          "--quiet --force --out a.h5 --set expect.knot= --set "
+                                          "time.duration=3.5");
+  EXPECT_EQ(none.code, 0) << none.output;
+}
+
+TEST_F(ProgramTest, AScriptThatTiesAnotherKnotEndsWithCode3AndNamesIt) {
+  const ProgramOutcome run =
+      run_program("run --preset quick --quiet --set expect.knot=4_1 --out a.h5");
+  EXPECT_EQ(run.code, 3) << run.output;
+  EXPECT_NE(run.output.find("failed: the script ended with a 3_1, tied since "), std::string::npos)
+      << run.output;
+  EXPECT_NE(run.output.find(", but expect.knot = 4_1 at step "), std::string::npos) << run.output;
+}
+
+TEST_F(ProgramTest, StopsWhenAPhaseHasEndedAndTellsTheKnotAsItGoes) {
+  const ProgramOutcome run = run_program("run --preset quick --until form --out a.log");
+  EXPECT_EQ(run.code, 0) << run.output;
+  EXPECT_NE(run.output.find(" s  knot 3_1  "), std::string::npos) << run.output;
+  EXPECT_NE(run.output.find("tighten  t = "), std::string::npos) << run.output;
+  EXPECT_EQ(run.output.find("slide    t = "), std::string::npos) << run.output;
+  {
+    const LogContents log((folder / "a.log").string());
+    EXPECT_EQ(log.resolved.scene.time.until, Phase::form);  // a rerun stops there too
+    EXPECT_GT(log.time.back(), 9);
+  }
+  // What was not reached is not judged.
+  const ProgramOutcome check = run_program("check a.log");
+  EXPECT_EQ(check.code, 0) << check.output;
+  EXPECT_EQ(check.output.find("slide"), std::string::npos) << check.output;
+  expect_refused("run --until tied --out b.h5", {"time.until=tied", "must be one of", "tighten"});
+}
+
+TEST_F(ProgramTest, AbsurdNumbersFailTheRunAndDoNotCrashIt) {
+  for (const char* absurd : {"specimen.length=1e200", "specimen.mass=1e300", "time.step=1e-300"}) {
+    const ProgramOutcome run =
+        run_program(std::string("run --quiet --force --out a.h5 --set ") + absurd);
+    EXPECT_TRUE(run.code >= 1 && run.code <= 3) << absurd << ": " << run.code << run.output;
+    EXPECT_EQ(std::count(run.output.begin(), run.output.end(), '\n'), 1) << run.output;
+  }
+}
+
+TEST_F(ProgramTest, ListsTheScenes) {
+  const ProgramOutcome scenes = run_program("scenes");
+  EXPECT_EQ(scenes.code, 0);
+  EXPECT_NE(scenes.output.find("table1"), std::string::npos);
+  EXPECT_NE(scenes.output.find("overhand_waypoints"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace hagfish
