@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -12,6 +11,8 @@
 #include <filesystem>
 #include <string>
 #include <vector>
+
+#include "tests/support/temporary_folder.hpp"
 
 namespace hagfish {
 
@@ -23,15 +24,8 @@ struct ProgramOutcome {
 /// A folder of its own, and the program run in it.
 class ProgramTest : public testing::Test {
  protected:
-  ProgramTest()
-      : folder(std::filesystem::path(testing::TempDir()) /
-               ("hagfish_program_" + std::to_string(getpid()))) {
-    std::filesystem::create_directories(folder);
-  }
-  ~ProgramTest() override { std::filesystem::remove_all(folder); }
-
   ProgramOutcome run_program(const std::string& arguments, const std::string& before = "") const {
-    const std::string command = "cd '" + folder.string() + "' && " + before + " '" +
+    const std::string command = "cd '" + folder.path().string() + "' && " + before + " '" +
                                 HAGFISH_PROGRAM + "' " + arguments + " 2>&1";
     ProgramOutcome outcome;
     FILE* pipe = popen(command.c_str(), "r");
@@ -51,13 +45,13 @@ class ProgramTest : public testing::Test {
     for (const std::string& part : parts) {
       EXPECT_NE(outcome.output.find(part), std::string::npos) << part << " in " << outcome.output;
     }
-    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
       EXPECT_NE(entry.path().extension(), ".h5") << entry.path();
       EXPECT_NE(entry.path().extension(), ".part") << entry.path();
     }
   }
 
-  std::filesystem::path folder;
+  TemporaryFolder folder;
 };
 
 /// 0.02 s of the run: as good as any where only the program's manners are tested.

@@ -53,6 +53,8 @@ TEST_F(ProgramTest, RefusesBadInputInOneLine) {
   expect_refused("info missing.h5", {"missing.h5", "no such file"});
   fs::create_directory(folder / "folder.toml");
   expect_refused("run folder.toml", {"folder.toml"});
+  folder.write("own.toml", "base = 'figure_eigth'\n");
+  expect_refused("run own.toml", {"own.toml:1", "base = 'figure_eigth'", "figure_eight"});
 }
 
 TEST_F(ProgramTest, KeepsAnExistingLogUnlessForced) {
@@ -73,7 +75,7 @@ TEST_F(ProgramTest, FullDiskIsOneLine) {
   EXPECT_EQ(std::count(full.output.begin(), full.output.end(), '\n'), 1) << full.output;
   EXPECT_NE(full.output.find("a.h5"), std::string::npos) << full.output;
   EXPECT_NE(full.output.find("File too large"), std::string::npos) << full.output;
-  EXPECT_TRUE(fs::is_empty(folder));
+  EXPECT_TRUE(fs::is_empty(folder.path()));
 }
 
 TEST_F(ProgramTest, AFailedStepLeavesAReadableLogWithTheCause) {
