@@ -35,12 +35,11 @@ bool set_status_in_place(const std::filesystem::path& file, const std::string& s
   try {
     const std::vector<char> changed = with_status(file, status);
     std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
-    std::vector<char> before(changed.size() + 1);
+    std::vector<char> before(changed.size());
     stream.read(before.data(), static_cast<std::streamsize>(before.size()));
-    if (stream.gcount() != static_cast<std::streamsize>(changed.size())) {
-      return false;  // not of the same size
+    if (!stream) {
+      return false;  // it has grown
     }
-    stream.clear();
     for (auto at = changed.begin(); at != changed.end();) {
       const auto differs =
           std::mismatch(at, changed.end(), before.begin() + (at - changed.begin()));

@@ -15,11 +15,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where a name leads, by way of symbolic links whose end need not exist.
-fs::path target_of(const fs::path& file) {
+/// Where a name leads, by way of symbolic links, the last of which may lead nowhere yet.
+fs::path target_of(fs::path file) {
+  constexpr int most_links = 40;  // as the kernel's own bound
   std::error_code error;
-  const fs::path target = fs::is_symlink(file, error) ? fs::weakly_canonical(file, error) : file;
-  return error ? file : target;
+  for (int k = 0; k < most_links && fs::is_symlink(file, error); ++k) {
+    file = file.parent_path() / fs::read_symlink(file, error);
+  }
+  return file;
 }
 
 }  // namespace
