@@ -203,6 +203,7 @@ H5::DataSet Hdf5Writer::series(const std::string& path, const H5::DataType& type
       layout.setShuffle();
       layout.setDeflate(deflate_level);
     }
+    layout.setFletcher32();  // readers refuse a chunk with a flipped bit
     H5::DataSet set = h5_.createDataSet(
         path, type, H5::DataSpace(static_cast<int>(now.size()), now.data(), most.data()), layout);
     describe(set, meaning);

@@ -8,14 +8,17 @@
 
 #include "core/log/build_info.hpp"
 #include "core/log/log_frame.hpp"
+#include "core/log/log_status.hpp"
 
 namespace hagfish {
 namespace {
 
 namespace fs = std::filesystem;
 
-// A crash loses at most what was computed in this time, s. Each save writes the whole log.
-constexpr double save_interval = 10;
+// Each save writes the whole log: no more often than this, s,
+constexpr double save_interval = 1;
+// and than this many times what the last save took, which bounds its share of the CPU time.
+constexpr double save_share = 100;
 
 std::string current_time() {
   const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
@@ -110,7 +113,8 @@ struct LogWriter::Contents {
   double h;
   std::int64_t stride;  // steps a frame
   std::int32_t frame_count = 0;
-  double saved = 0;  // wall time, s
+  double next_save = save_interval;  // wall time, s
+  bool saved = false;                // with a step in it
   Worst worst;
   std::string warnings;
 };
@@ -119,27 +123,19 @@ std::int64_t frame_stride(const TimeSettings& time) {
   return std::max<std::int64_t>(1, std::llround(time.frame_interval / time.step));
 }
 
-LogWriter::LogWriter(fs::path file, bool replace, const LogHeader& header, const Model& model,
-                     const Scene& scene)
-    : file_(std::move(file)), partial_(file_.string() + ".part") {
-  std::error_code error;
-  if (fs::exists(file_, error) && !fs::is_regular_file(file_, error)) {
-    throw FileError(file_.string() + ": is not a regular file");
-  }
-  if (fs::exists(file_, error) && !replace) {
-    throw FileError(file_.string() + ": already exists (--force replaces it)");
-  }
+LogWriter::LogWriter(const fs::path& file, bool replace, const LogHeader& header,
+                     const Model& model, const Scene& scene)
+    : file_(file, replace) {
   contents_ = std::make_unique<Contents>(model, scene);
   write_header(header, contents_->h5);
   write_model(model, contents_->h5);
-  contents_->save(partial_);
+  contents_->save(file_.partial());
 }
 
 LogWriter::~LogWriter() {
-  if (contents_) {
-    contents_.reset();
+  if (contents_ && !contents_->saved) {
     std::error_code error;
-    fs::remove(partial_, error);
+    fs::remove(file_.partial(), error);
   }
 }
 
@@ -177,18 +173,31 @@ void LogWriter::write_frame(const StepRecord& record, const ThigmotaxisRows& row
   }
   ++c.frame_count;
   c.worst = {};
-  if (wall_time - c.saved >= save_interval) {
-    c.save(partial_);
-    c.saved = wall_time;
+  if (wall_time >= c.next_save) {
+    const auto begin = std::chrono::steady_clock::now();
+    c.save(file_.partial());
+    c.saved = true;
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+    c.next_save = wall_time + std::max(save_interval, save_share * took.count());
   }
 }
 
 void LogWriter::finish(const std::string& status) {
-  contents_->h5.root_attribute("status", status);
-  contents_->save(file_);
+  try {
+    contents_->h5.root_attribute("status", status);
+    contents_->save(file_.partial());
+  } catch (const std::exception& error) {
+    if (!contents_->saved) {
+      throw;
+    }
+    const bool full = dynamic_cast<const FileError*>(&error) != nullptr;
+    const std::string cause = full ? error.what() : "out of memory";
+    set_status_in_place(file_.partial(), "failed: " + cause);
+    throw FileError(cause + "; " + file_.partial().string() + " has what was saved before");
+  }
+  contents_->saved = true;
+  file_.publish();
   contents_.reset();
-  std::error_code ignored;
-  fs::remove(partial_, ignored);
 }
 
 }  // namespace hagfish

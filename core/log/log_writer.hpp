@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "core/log/output_file.hpp"
 #include "core/log/thigmotaxis_rows.hpp"
 #include "core/run/simulation.hpp"
 #include "core/scene/specimen.hpp"
@@ -30,26 +31,29 @@ std::int64_t frame_stride(const TimeSettings& time);
 
 class LogWriter {
  public:
-  /// Writes beside `file` until finish(). Throws FileError where `file` exists and `replace` is not
-  /// set, or cannot be created.
-  LogWriter(std::filesystem::path file, bool replace, const LogHeader& header, const Model& model,
-            const Scene& scene);
-  /// Without finish() the file is removed: nothing half-written is left.
+  /// Writes to FILE.part until finish(). Throws FileError as OutputFile, or where the header cannot
+  /// be written.
+  LogWriter(const std::filesystem::path& file, bool replace, const LogHeader& header,
+            const Model& model, const Scene& scene);
+  /// Without finish(), FILE.part stays as it was last saved, but for one without any step.
   ~LogWriter();
   LogWriter(const LogWriter&) = delete;
   LogWriter& operator=(const LogWriter&) = delete;
 
   /// Takes in one step; every scene.time.frame_interval it becomes a frame. `wall_time`: since the
-  /// run began, s.
+  /// run began, s. Now and then the log is saved, so that a crash loses a second of wall time or,
+  /// of a long log, a hundred times what a save takes. Throws FileError where a save fails.
   void write(const StepRecord& record, double wall_time);
 
-  /// Sets the status ("complete" or "failed: CAUSE"), closes the log and gives it its name.
+  /// Sets the status ("complete" or "failed: CAUSE"), closes the log and gives it its name. Throws
+  /// FileError where that fails; FILE.part is then as it was last saved, if possible with the
+  /// status "failed: CAUSE".
   void finish(const std::string& status);
 
  private:
   void write_frame(const StepRecord& record, const ThigmotaxisRows& rows, double wall_time);
   struct Contents;
-  std::filesystem::path file_, partial_;
+  OutputFile file_;
   std::unique_ptr<Contents> contents_;
 };
 

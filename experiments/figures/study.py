@@ -57,7 +57,7 @@ def failure_of(log: HagfishLog, unmet: list[str]) -> str:
         return "the knot was never ready to tighten"
     if not log.in_phase("slide").size:
         return "the knot never slid"
-    for name, words in (("knot held", "the knot came undone early"), ("unknot at end", "the knot stayed on")):
+    for name, words in (("knot held", "the knot was lost early"), ("unknot at end", "the knot stayed on")):
         if name in unmet:
             return words
     return ""

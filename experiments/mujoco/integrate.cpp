@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/step/step.hpp"
+#include "experiments/program/terminal.hpp"
 #include "mujoco_ref/rollout.hpp"
 
 namespace hagfish {
@@ -122,7 +123,7 @@ bool integrate(const ResolvedScene& resolved, const Motion& motion, Hdf5Writer& 
   const auto coarse = end_of(rk4, model, start, h, settings.duration);
   const auto fine = end_of(rk4, model, start, h / 2, settings.duration);
   if (!coarse || !fine) {
-    fmt::print(stderr, "hagfish: {}: the reference blew up\n", motion.name);
+    say("hagfish: {}: the reference blew up\n", motion.name);
     return false;
   }
   const double agreement = centre_distance(model, coarse->state, fine->state);

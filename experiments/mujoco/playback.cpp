@@ -142,7 +142,7 @@ struct Playback {
   Eigen::VectorXd head_end, drift, penetration, capsule_penetration;
   Eigen::VectorXd determinant;
   double slid = 0, log_slid = 0;  ///< headward, over the stretches between restarts, cm
-  int looks = 0, held = 0;        ///< at the knot type
+  int samples = 0, kept = 0;      ///< at the knot type
   int blown_up = 0;               ///< stretches
 };
 
@@ -177,8 +177,8 @@ Playback play(const LogContents& log, const Slide& slide, const std::vector<Seen
     result.drift[i] = (seen.centre - logged[i + 1].centre).colwise().norm().maxCoeff();
     const KnotInvariants type = knot_type(seen.centre, scene.knot).type;
     result.determinant[i] = type.determinant;
-    ++result.looks;
-    result.held += knot_name(type) == scene.expect.knot ? 1 : 0;
+    ++result.samples;
+    result.kept += knot_name(type) == scene.expect.knot ? 1 : 0;
     if ((i + 1) % stretch == 0 || i + 1 == slide.gaps()) {
       const double from = logged[i / stretch * stretch].head_end;
       result.slid += from - seen.head_end;
@@ -208,8 +208,8 @@ void write(const Playback& p, const std::string& group, Hdf5Writer& h5) {
 
 void print_row(const Playback& p, bool driven, double interval) {
   fmt::print("{:<12} {:>8g} {:>10.2f} {:>10.2f} {:>10.3f} {:>5}/{:<5} {:>8.3f} {:>8.3f} {:>4}\n",
-             driven ? "f_thigmo" : "none", interval, p.slid, p.log_slid, largest(p.drift), p.held,
-             p.looks, largest(p.penetration), largest(p.capsule_penetration), p.blown_up);
+             driven ? "f_thigmo" : "none", interval, p.slid, p.log_slid, largest(p.drift), p.kept,
+             p.samples, largest(p.penetration), largest(p.capsule_penetration), p.blown_up);
   std::fflush(stdout);
 }
 
@@ -233,7 +233,7 @@ void playback(const LogContents& log, Hdf5Writer& h5) {
     fmt::print("without bending limits: MuJoCo knows none on the total angle of a joint\n");
   }
   fmt::print("{:<12} {:>8} {:>10} {:>10} {:>10} {:>11} {:>8} {:>8} {:>4}\n", "driven by", "restart",
-             "slid", "log slid", "drift", "knot held", "overlap", "capsules", "blew");
+             "slid", "log slid", "drift", "knot kept", "overlap", "capsules", "blew");
   for (const bool driven : {true, false}) {
     for (const double interval : intervals) {
       const Playback result = play(log, slide, logged, interval, driven);

@@ -8,6 +8,7 @@
 #include "experiments/program/commands.hpp"
 #include "experiments/program/csv.hpp"
 #include "experiments/program/failure.hpp"
+#include "experiments/program/terminal.hpp"
 
 namespace hagfish {
 namespace {
@@ -30,7 +31,7 @@ int check_log(const std::string& file, CsvTable& table) {
     return exit_code::done;
   }
   std::fflush(stdout);
-  fmt::print(stderr, "hagfish: {}: check failed: {}\n", file, fmt::join(unmet, ", "));
+  say("hagfish: {}: check failed: {}\n", file, fmt::join(unmet, ", "));
   return exit_code::failed;
 }
 
@@ -48,7 +49,7 @@ int check(const CheckOptions& options) {
       // One log that cannot be read does not lose the others.
       if (!is_bad_input(error)) throw;
       std::fflush(stdout);
-      fmt::print(stderr, "hagfish: {}\n", reason(error));
+      say("hagfish: {}\n", reason(error));
       code = exit_code::bad_input;
     }
   }

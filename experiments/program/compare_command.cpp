@@ -1,5 +1,8 @@
 #include "experiments/mujoco/compare.hpp"
 
+#include <optional>
+
+#include "core/log/output_file.hpp"
 #include "experiments/program/commands.hpp"
 #include "experiments/program/scene_argument.hpp"
 
@@ -10,16 +13,20 @@ struct CompareOptions {
   std::string scene = default_scene;
   std::string out;               ///< HDF5 file for the figure; none where empty
   std::vector<std::string> set;  ///< KEY=VALUE overrides
+  bool force = false;            ///< replace an existing file
 };
 
 int run_compare(const CompareOptions& options, const std::string& typed) {
   const ResolvedScene resolved = scene_argument(options.scene, options.set);
+  std::optional<OutputFile> file;
+  if (!options.out.empty()) file.emplace(options.out, options.force);
   Hdf5Writer h5;
   const bool passed = compare(resolved, h5);
-  if (!options.out.empty()) {
+  if (file) {
     h5.root_attribute("command", typed);
     h5.root_attribute("scene", scene_to_toml(resolved.scene, resolved.specimen));
-    h5.save(options.out);
+    h5.save(file->partial());
+    file->publish();
   }
   return passed ? exit_code::done : exit_code::failed;
 }
@@ -33,6 +40,7 @@ void add_compare(Program& program) {
   compare_app->add_option("SCENE", options->scene, scene_help)->capture_default_str();
   compare_app->add_option("--out", options->out, "HDF5 file to write, for the figure");
   compare_app->add_option("--set", options->set, set_help)->allow_extra_args(false);
+  compare_app->add_flag("--force", options->force, "replace an existing file");
   compare_app->callback(
       [options, &program] { program.code = run_compare(*options, program.typed); });
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/log/output_file.hpp"
 #include "experiments/program/commands.hpp"
 #include "experiments/program/scene_argument.hpp"
 #include "experiments/program/suggestion.hpp"
@@ -14,6 +15,7 @@ struct IntegrateOptions {
   std::string motion = "coil";   ///< which start (motions.hpp)
   std::string out;               ///< HDF5 file for the figure
   std::vector<std::string> set;  ///< KEY=VALUE overrides
+  bool force = false;            ///< replace an existing file
 };
 
 std::vector<std::string> motion_names() {
@@ -25,13 +27,15 @@ std::vector<std::string> motion_names() {
 int run_integrate(const IntegrateOptions& options, const std::string& typed) {
   const ResolvedScene resolved = scene_argument(options.scene, options.set);
   const Motion& motion = *std::ranges::find(motions, options.motion, &Motion::name);
+  OutputFile file(options.out, options.force);
   Hdf5Writer h5;
   if (!integrate(resolved, motion, h5)) {
     return exit_code::failed;
   }
   h5.root_attribute("command", typed);
   h5.root_attribute("scene", scene_to_toml(resolved.scene, resolved.specimen));
-  h5.save(options.out);
+  h5.save(file.partial());
+  file.publish();
   return exit_code::done;
 }
 
@@ -47,6 +51,7 @@ void add_integrate(Program& program) {
       ->capture_default_str();
   integrate_app->add_option("--out", options->out, "HDF5 file to write")->required();
   integrate_app->add_option("--set", options->set, set_help)->allow_extra_args(false);
+  integrate_app->add_flag("--force", options->force, "replace an existing file");
   integrate_app->callback(
       [options, &program] { program.code = run_integrate(*options, program.typed); });
 }

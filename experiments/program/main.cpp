@@ -10,6 +10,7 @@
 #include "experiments/program/commands.hpp"
 #include "experiments/program/failure.hpp"
 #include "experiments/program/suggestion.hpp"
+#include "experiments/program/terminal.hpp"
 
 namespace {
 
@@ -37,7 +38,7 @@ int dispatch(int argc, char** argv) {
     if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
       return app.exit(error);  // help and version
     }
-    fmt::print(stderr, "hagfish: {}\n", hagfish::complaint(app, error));
+    hagfish::say("hagfish: {}\n", hagfish::complaint(app, error));
     return hagfish::exit_code::bad_input;
   }
   return program.code;
@@ -46,14 +47,21 @@ int dispatch(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  using hagfish::say;
+  hagfish::open_standard_streams();
   try {
-    return dispatch(argc, argv);
+    const int code = dispatch(argc, argv);
+    if (!hagfish::standard_output_arrived()) {
+      say("hagfish: standard output cannot be written\n");
+      return hagfish::exit_code::failed;
+    }
+    return code;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "hagfish: {}\n", hagfish::reason(error));
+    say("hagfish: {}\n", hagfish::reason(error));
     return hagfish::is_bad_input(error) ? hagfish::exit_code::bad_input
                                         : hagfish::exit_code::failed;
   } catch (...) {
-    fmt::print(stderr, "hagfish: internal error: an exception of no standard kind\n");
+    say("hagfish: internal error: an exception of no standard kind\n");
     return hagfish::exit_code::failed;
   }
 }

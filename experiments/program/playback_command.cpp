@@ -1,21 +1,25 @@
 #include "experiments/mujoco/playback.hpp"
 
+#include "core/log/output_file.hpp"
 #include "experiments/program/commands.hpp"
 
 namespace hagfish {
 namespace {
 
 struct PlaybackOptions {
-  std::string log;  ///< with restart intervals of whole frames
-  std::string out;  ///< HDF5 file for the figure
+  std::string log;     ///< with restart intervals of whole frames
+  std::string out;     ///< HDF5 file for the figure
+  bool force = false;  ///< replace an existing file
 };
 
 int run_playback(const PlaybackOptions& options, const std::string& typed) {
+  OutputFile file(options.out, options.force);
   Hdf5Writer h5;
   h5.root_attribute("log", options.log);
   h5.root_attribute("command", typed);
   playback(LogContents(options.log), h5);
-  h5.save(options.out);
+  h5.save(file.partial());
+  file.publish();
   return exit_code::done;
 }
 
@@ -28,6 +32,7 @@ void add_playback(Program& program) {
       "slide a log's knot in MuJoCo, with its own contacts, by mean f_thigmo from frame to frame");
   playback_app->add_option("LOG", options->log, "log whose knot slides")->required();
   playback_app->add_option("--out", options->out, "HDF5 file to write")->required();
+  playback_app->add_flag("--force", options->force, "replace an existing file");
   playback_app->callback(
       [options, &program] { program.code = run_playback(*options, program.typed); });
 }

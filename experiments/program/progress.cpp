@@ -1,4 +1,5 @@
 #include "experiments/program/progress.hpp"
+#include "experiments/program/terminal.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -84,9 +85,8 @@ void Progress::show_change(const StepRecord& record) {
   }
   phase_ = now.phase;
   type_ = now.knot.type;
-  fmt::print(stderr, "{}{:<8} t = {:6.2f} s  knot {}  {}{}\n", terminal_ ? "\r" : "",
-             phase_name(phase_), record.time, knot_name(type_), span_text(now),
-             terminal_ ? "\x1b[K" : "");
+  say("{}{:<8} t = {:6.2f} s  knot {}  {}{}\n", terminal_ ? "\r" : "", phase_name(phase_),
+      record.time, knot_name(type_), span_text(now), terminal_ ? "\x1b[K" : "");
 }
 
 void Progress::show(const StepRecord& record) {
@@ -101,10 +101,10 @@ void Progress::show(const StepRecord& record) {
   next_ = wall + (terminal_ ? terminal_interval : file_interval);
   const double speed = wall > 0 ? record.time / wall : 0;
   const double left = speed > 0 ? std::max(0.0, estimated_end(record) - record.time) / speed : 0;
-  fmt::print(stderr, "{}{:<8} t = {:6.2f} s  {:5.2f} x real time  {:3.0f} s left  knot {}  {}{}",
-             terminal_ ? "\r" : "", phase_name(record.controller.phase), record.time, speed, left,
-             knot_name(record.controller.knot.type), span_text(record.controller),
-             terminal_ ? "   \x1b[K" : "\n");
+  say("{}{:<8} t = {:6.2f} s  {:5.2f} x real time  {:3.0f} s left  knot {}  {}{}",
+      terminal_ ? "\r" : "", phase_name(record.controller.phase), record.time, speed, left,
+      knot_name(record.controller.knot.type), span_text(record.controller),
+      terminal_ ? "   \x1b[K" : "\n");
   std::fflush(stderr);
   drawn_ = true;
 }
@@ -112,14 +112,13 @@ void Progress::show(const StepRecord& record) {
 void Progress::warn(const StepRecord& record) {
   for (const std::string& warning : record.warnings) {
     end();
-    fmt::print(stderr, "hagfish: warning at step {} (t = {:.4f} s): {}\n", record.step, record.time,
-               warning);
+    say("hagfish: warning at step {} (t = {:.4f} s): {}\n", record.step, record.time, warning);
   }
 }
 
 void Progress::end() {
   if (terminal_ && drawn_ && !quiet_) {
-    fmt::print(stderr, "\n");
+    say("\n");
     drawn_ = false;
   }
 }

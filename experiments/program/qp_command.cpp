@@ -6,6 +6,7 @@
 #include "experiments/program/commands.hpp"
 #include "experiments/program/csv.hpp"
 #include "experiments/program/suggestion.hpp"
+#include "experiments/program/terminal.hpp"
 #include "experiments/qp/qp_table.hpp"
 
 namespace hagfish {
@@ -81,10 +82,10 @@ int qp(const QpOptions& options) {
   }
   std::fflush(stdout);
   for (const std::string& failure : report.failures) {
-    fmt::print(stderr, "hagfish: {}: {}\n", options.set, failure);
+    say("hagfish: {}: {}\n", options.set, failure);
   }
   if (const auto told = static_cast<int>(report.failures.size()); failures > told) {
-    fmt::print(stderr, "hagfish: {}: and {} more failures\n", options.set, failures - told);
+    say("hagfish: {}: and {} more failures\n", options.set, failures - told);
   }
   return exit_code::failed;
 }

@@ -6,6 +6,7 @@
 #include "experiments/program/progress.hpp"
 #include "experiments/program/scene_argument.hpp"
 #include "experiments/program/suggestion.hpp"
+#include "experiments/program/terminal.hpp"
 #include "experiments/qp/qp_set.hpp"
 #include "experiments/qp/step_qp.hpp"
 
@@ -71,9 +72,14 @@ int record_qp(const RecordQpOptions& options, const std::string& typed) {
   QpSetWriter set(options.out, options.force, typed, scene_to_toml(scene, resolved.specimen));
   Recorder recorder(options, model, scene, set);
   Progress progress(model, scene, options.quiet);
+  note_signals();
   std::string failure;
   Simulation sim = start(model, scene, options.qp);
   while (failure.empty() && !finished(sim, scene)) {
+    if (interrupted()) {
+      failure = fmt::format("interrupted at step {}", sim.step);
+      break;
+    }
     try {
       const WarmStart warm = sim.solver.warm;
       const StepRecord record = take_step(model, scene, sim);
@@ -94,7 +100,7 @@ int record_qp(const RecordQpOptions& options, const std::string& typed) {
                                recorder.left_out()));
   if (!failure.empty()) {
     std::fflush(stdout);
-    fmt::print(stderr, "hagfish: {}: the run failed: {}\n", options.out, failure);
+    say("hagfish: {}: the run failed: {}\n", options.out, failure);
     return exit_code::failed;
   }
   return exit_code::done;

@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <csignal>
-#include <cstdio>
 #include <filesystem>
 
 #include "core/log/build_info.hpp"
@@ -13,6 +11,7 @@
 #include "experiments/program/progress.hpp"
 #include "experiments/program/scene_argument.hpp"
 #include "experiments/program/suggestion.hpp"
+#include "experiments/program/terminal.hpp"
 #include "mujoco_ref/mjcf.hpp"
 #include "solvers/box_qp.hpp"
 
@@ -20,10 +19,6 @@ namespace hagfish {
 namespace {
 
 namespace fs = std::filesystem;
-
-// A signal handler can reach nothing else.
-volatile std::sig_atomic_t interrupted = 0;
-void interrupt(int /*signal*/) { interrupted = 1; }
 
 struct RunOptions {
   std::string scene = default_scene;  ///< a built-in scene's name or a file
@@ -48,7 +43,7 @@ Ending take_steps(const Model& model, const Scene& scene, const std::string& qp,
   Simulation sim = start(model, scene, qp);
   StepRecord record;
   while (!finished(sim, scene)) {
-    if (interrupted != 0) {
+    if (interrupted()) {
       return {fmt::format("failed: interrupted at step {}", sim.step), exit_code::failed};
     }
     try {
@@ -56,8 +51,6 @@ Ending take_steps(const Model& model, const Scene& scene, const std::string& qp,
       log.write(record, progress.elapsed());
       progress.warn(record);
       progress.show(record);
-    } catch (const FileError&) {
-      throw;  // the log itself cannot be written
     } catch (const StepError& error) {
       const bool knot =
           error.outcome() == Outcome::never_tied || error.outcome() == Outcome::knot_lost;
@@ -91,19 +84,22 @@ int run(const RunOptions& options, const std::string& typed) {
   header.mjcf = mjcf_files(model, scene.contact.least_arc, scene.time.step);
   LogWriter log(out, options.force, header, model, scene);
 
-  interrupted = 0;
-  std::signal(SIGINT, interrupt);
-  std::signal(SIGTERM, interrupt);
+  note_signals();
   Progress progress(model, scene, options.quiet);
   const Ending ending = take_steps(model, scene, qp, log, progress);
   progress.end();
-  log.finish(ending.status);
+  try {
+    log.finish(ending.status);
+  } catch (const FileError& error) {
+    say("hagfish: {}\n", reason(error));
+    return exit_code::failed;
+  }
   if (ending.code != exit_code::done) {
-    fmt::print(stderr, "hagfish: {}: {}\n", out.string(), ending.status);
+    say("hagfish: {}: {}\n", out.string(), ending.status);
     return ending.code;
   }
   if (!options.quiet) {
-    fmt::print(stderr, "{}: complete after {:.1f} s\n", out.string(), progress.elapsed());
+    say("{}: complete after {:.1f} s\n", out.string(), progress.elapsed());
   }
   return exit_code::done;
 }

@@ -178,16 +178,9 @@ StoredQp QpSetReader::read(std::size_t index) const {
   return qp;
 }
 
-QpSetWriter::QpSetWriter(fs::path file, bool replace, const std::string& command,
+QpSetWriter::QpSetWriter(const fs::path& file, bool replace, const std::string& command,
                          const std::string& scene)
-    : file_(std::move(file)) {
-  std::error_code error;
-  if (!replace && fs::exists(file_, error)) {
-    throw FileError(file_.string() + ": already exists (--force replaces it)");
-  }
-  if (fs::exists(file_, error) && !fs::is_regular_file(file_, error)) {
-    throw FileError(file_.string() + ": is not a regular file");
-  }
+    : file_(file, replace) {
   h5_.root_attribute("format", format);
   h5_.root_attribute("format_version", format_version);
   h5_.root_attribute("description",
@@ -198,10 +191,6 @@ QpSetWriter::QpSetWriter(fs::path file, bool replace, const std::string& command
   h5_.root_attribute("command", command);
   h5_.root_attribute("scene", scene);
   h5_.group("/qp");
-  // Whether the folder takes files must show before the run, not after.
-  const fs::path trial = file_.string() + ".part";
-  h5_.save(trial);
-  fs::remove(trial, error);
 }
 
 void QpSetWriter::append(const StoredQp& qp, std::int64_t step) {
@@ -232,6 +221,9 @@ void QpSetWriter::append(const StoredQp& qp, std::int64_t step) {
   }
 }
 
-void QpSetWriter::finish() { h5_.save(file_); }
+void QpSetWriter::finish() {
+  h5_.save(file_.partial());
+  file_.publish();
+}
 
 }  // namespace hagfish

@@ -18,6 +18,7 @@
 
 #include "core/log/hdf5_reader.hpp"
 #include "core/log/hdf5_writer.hpp"
+#include "core/log/output_file.hpp"
 #include "solvers/box_qp.hpp"
 #include "solvers/primal_qp.hpp"
 
@@ -48,9 +49,8 @@ class QpSetReader {
 
 class QpSetWriter {
  public:
-  /// Throws FileError where `file` exists and `replace` is not set, or cannot be written. `scene`
-  /// is the resolved scene, `command` as typed.
-  QpSetWriter(std::filesystem::path file, bool replace, const std::string& command,
+  /// Throws FileError as OutputFile. `scene` is the resolved scene, `command` as typed.
+  QpSetWriter(const std::filesystem::path& file, bool replace, const std::string& command,
               const std::string& scene);
   /// Adds a problem in the form that it has, taken from step `step` of a run. The set grows in
   /// memory.
@@ -60,7 +60,7 @@ class QpSetWriter {
   void finish();
 
  private:
-  std::filesystem::path file_;
+  OutputFile file_;
   Hdf5Writer h5_;
   std::size_t size_ = 0;
 };

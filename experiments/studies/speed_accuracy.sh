@@ -7,7 +7,7 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/study.sh"
 
 integrate() {
-  [[ -e $runs/$1.h5 ]] || "$hagfish" integrate --motion "$1" --out "$runs/$1.h5" >"$runs/$1.txt"
+  [[ -e $runs/$1.h5 ]] || "$hagfish" integrate --motion "$1" --out "$runs/$1.h5" --force >"$runs/$1.txt"
 }
 # QPs of every tenth step of a run, solved by each back end down to each tolerance.
 back_ends() {

@@ -137,20 +137,21 @@ TEST(Articulated, HalfSolvesOfManyColumnsMultiplyToTheWhole) {
       1e-10);
 }
 
-/// Every third velocity held, and the first six where the head is.
-std::vector<PrescribedVelocity> some_held(Random& random, const Model& model, bool head) {
-  std::vector<PrescribedVelocity> held;
+/// Every third velocity prescribed, and the first six where the head is.
+std::vector<PrescribedVelocity> some_prescribed(Random& random, const Model& model, bool head) {
+  std::vector<PrescribedVelocity> prescribed;
   for (int k = head ? 0 : root_dofs; k < model.nv(); ++k) {
     if (k < root_dofs || k % 3 == 0) {
-      held.push_back({k, random_entries(random, 1)[0]});
+      prescribed.push_back({k, random_entries(random, 1)[0]});
     }
   }
-  return held;
+  return prescribed;
 }
 
-/// What is left of H where velocities are held: their rows and columns out, 1 on the diagonal.
-Eigen::MatrixXd without(Eigen::MatrixXd h, const std::vector<PrescribedVelocity>& held) {
-  for (const PrescribedVelocity& velocity : held) {
+/// What is left of H where velocities are prescribed: their rows and columns out, 1 on the
+/// diagonal.
+Eigen::MatrixXd without(Eigen::MatrixXd h, const std::vector<PrescribedVelocity>& prescribed) {
+  for (const PrescribedVelocity& velocity : prescribed) {
     h.row(velocity.dof).setZero();
     h.col(velocity.dof).setZero();
     h(velocity.dof, velocity.dof) = 1;
@@ -163,9 +164,9 @@ TEST(Articulated, HoldsVelocitiesAndTellsTheForces) {
   for (const int bodies : {1, 2, 3, 12}) {
     for (const bool head : {true, false}) {
       const Case c = random_case(random, bodies);
-      const std::vector<PrescribedVelocity> held = some_held(random, c.model, head);
+      const std::vector<PrescribedVelocity> prescribed = some_prescribed(random, c.model, head);
       ArticulatedFactor factor;
-      factor.factorise(c.model, c.kin, c.op, held);
+      factor.factorise(c.model, c.kin, c.op, prescribed);
       const Eigen::VectorXd joint = random_entries(random, c.model.nv());
       const Matrix6Xd wrench = random_entries(random, 6 * bodies).reshaped(6, bodies);
       Eigen::VectorXd v, holding;
@@ -174,18 +175,18 @@ TEST(Articulated, HoldsVelocitiesAndTellsTheForces) {
       const Eigen::MatrixXd h = definition(c.model, c.kin, c.op);
       const Eigen::VectorXd right = generalised_force(c.model, c.kin, wrench) + joint;
       Eigen::VectorXd given = Eigen::VectorXd::Zero(c.model.nv());
-      for (const PrescribedVelocity& velocity : held) given[velocity.dof] = velocity.value;
+      for (const PrescribedVelocity& velocity : prescribed) given[velocity.dof] = velocity.value;
       Eigen::VectorXd rest = right - h * given;
-      for (const PrescribedVelocity& velocity : held) rest[velocity.dof] = 0;
-      const Eigen::VectorXd expected = given + without(h, held).llt().solve(rest);
+      for (const PrescribedVelocity& velocity : prescribed) rest[velocity.dof] = 0;
+      const Eigen::VectorXd expected = given + without(h, prescribed).llt().solve(rest);
       EXPECT_LT(relative_error(v, expected), 1e-10);  // the condition of H, as above
       EXPECT_LT(relative_error(twist, body_twists(c.model, c.kin, v)), rounding);
       const Eigen::VectorXd force = h * expected - right;
-      ASSERT_EQ(holding.size(), static_cast<Eigen::Index>(held.size()));
+      ASSERT_EQ(holding.size(), static_cast<Eigen::Index>(prescribed.size()));
       const double scale = force.lpNorm<Eigen::Infinity>() + right.lpNorm<Eigen::Infinity>();
-      for (std::size_t i = 0; i < held.size(); ++i) {
-        EXPECT_EQ(v[held[i].dof], held[i].value);
-        EXPECT_NEAR(holding[static_cast<Eigen::Index>(i)], force[held[i].dof], 1e-10 * scale);
+      for (std::size_t i = 0; i < prescribed.size(); ++i) {
+        EXPECT_EQ(v[prescribed[i].dof], prescribed[i].value);
+        EXPECT_NEAR(holding[static_cast<Eigen::Index>(i)], force[prescribed[i].dof], 1e-10 * scale);
       }
     }
   }
@@ -194,9 +195,9 @@ TEST(Articulated, HoldsVelocitiesAndTellsTheForces) {
 TEST(Articulated, HeldVelocitiesDoNotAnswerInAHalfSolve) {
   Random random(38);
   const Case c = hagfish_case(random, 100);
-  const std::vector<PrescribedVelocity> held = some_held(random, c.model, true);
+  const std::vector<PrescribedVelocity> prescribed = some_prescribed(random, c.model, true);
   ArticulatedFactor factor;
-  factor.factorise(c.model, c.kin, c.op, held);
+  factor.factorise(c.model, c.kin, c.op, prescribed);
   const int m = 21;
   RowColumns columns;
   columns.reset(c.model, m);
@@ -207,15 +208,15 @@ TEST(Articulated, HeldVelocitiesDoNotAnswerInAHalfSolve) {
     wrench.col(body) = random_entries(random, 6);
     columns.load(c.model, body, j, wrench.col(body));
     right.col(j) = generalised_force(c.model, c.kin, wrench);
-    columns.load_joint(7 * (j % 3), j, 1);  // the first and the last are held
+    columns.load_joint(7 * (j % 3), j, 1);  // the first and the last are prescribed
     right(7 * (j % 3), j) += 1;
   }
-  for (const PrescribedVelocity& velocity : held) right.row(velocity.dof).setZero();
+  for (const PrescribedVelocity& velocity : prescribed) right.row(velocity.dof).setZero();
   factor.half_solve(c.model, c.kin, columns);
   Eigen::MatrixXd product;
   columns.gram(product);
   const Eigen::MatrixXd h = dense(c.model, c.kin, c.op);
-  const Eigen::MatrixXd expected = right.transpose() * without(h, held).llt().solve(right);
+  const Eigen::MatrixXd expected = right.transpose() * without(h, prescribed).llt().solve(right);
   const Eigen::VectorXd scale = expected.diagonal().cwiseSqrt().cwiseInverse();
   EXPECT_LT(
       (scale.asDiagonal() * (product - expected) * scale.asDiagonal()).lpNorm<Eigen::Infinity>(),

@@ -11,6 +11,7 @@
 
 #include "core/input/scene_reader.hpp"
 #include "core/log/hdf5_reader.hpp"
+#include "core/log/log_status.hpp"
 #include "core/log/log_writer.hpp"
 #include "tests/support/random_chain.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -32,14 +33,14 @@ class LogTest : public testing::Test {
     header.mjcf = {{"hagfish.xml", "<mujoco/>"}};
   }
 
-  /// Steps and logs; returns the records' states.
-  std::vector<State> write(LogWriter& log, int steps) {
+  /// Steps and logs, each step in `wall_time` (s); returns the records' states.
+  std::vector<State> write(LogWriter& log, int steps, double wall_time = 0) {
     std::vector<State> states;
     Simulation sim = start(model, scene, "ipopt");
     for (int k = 0; k < steps; ++k) {
       const StepRecord record = take_step(model, scene, sim);
       states.push_back(record.moment.state);
-      log.write(record, 0.5);
+      log.write(record, wall_time * (k + 1));
     }
     return states;
   }
@@ -188,13 +189,56 @@ TEST_F(LogTest, RefusesToReplaceUnlessAsked) {
   EXPECT_GT(fs::file_size(file), 8u);
 }
 
-TEST_F(LogTest, LeavesNothingBehindUnlessFinished) {
+TEST_F(LogTest, KeepsWhatWasSavedUnlessFinished) {
   const fs::path file = folder / "run.h5";
+  { LogWriter log(file, false, header, model, scene); }
+  EXPECT_TRUE(fs::is_empty(folder.path())) << "without a step there is nothing to keep";
   {
     LogWriter log(file, false, header, model, scene);
-    write(log, 3);
+    write(log, 3, 100);  // long enough for a save at each frame
   }
-  EXPECT_TRUE(fs::is_empty(folder.path()));
+  EXPECT_FALSE(fs::exists(file));
+  EXPECT_EQ(Hdf5Reader(folder / "run.h5.part").root_text("status"), "running");
+}
+
+TEST_F(LogTest, AStatusIsSetInPlace) {
+  const fs::path file = folder / "run.h5";
+  LogWriter log(file, false, header, model, scene);
+  write(log, 6);
+  log.finish("running");
+  const auto size = fs::file_size(file);
+  const std::string status = "failed: " + file.string() + ".part: cannot be written: No space left";
+  EXPECT_TRUE(set_status_in_place(file, status));
+  EXPECT_EQ(fs::file_size(file), size);
+  const Hdf5Reader h5(file);
+  EXPECT_EQ(h5.root_text("status"), status);
+  EXPECT_EQ(h5.shape("/trajectory/time"), std::vector<hsize_t>{2});
+  std::ofstream(folder / "other") << "no log";
+  EXPECT_FALSE(set_status_in_place(folder / "other", status));
+  EXPECT_EQ(fs::file_size(folder / "other"), 6u);
+}
+
+TEST_F(LogTest, AFlippedBitInAChunkIsRefused) {
+  const fs::path file = folder / "run.h5";
+  LogWriter log(file, false, header, model, scene);
+  write(log, 6);
+  log.finish("complete");
+  const H5::H5File h5(file.string(), H5F_ACC_RDONLY);
+  hsize_t offset[2] = {0, 0};
+  unsigned mask = 0;
+  haddr_t address = 0;
+  hsize_t bytes = 0;
+  const H5::DataSet set = h5.openDataSet("/trajectory/q");
+  ASSERT_GE(
+      H5Dget_chunk_info(set.getId(), set.getSpace().getId(), 0, offset, &mask, &address, &bytes),
+      0);
+  std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
+  stream.seekg(static_cast<std::streamoff>(address + 20));
+  const char byte = static_cast<char>(stream.get() ^ 4);
+  stream.seekp(static_cast<std::streamoff>(address + 20));
+  stream.put(byte);
+  stream.close();
+  EXPECT_THROW(Hdf5Reader(file).doubles("/trajectory/q"), FileError);
 }
 
 TEST_F(LogTest, FailedRunsStayReadable) {
@@ -218,23 +262,33 @@ TEST_F(LogTest, NamesAFolderThatIsNotThere) {
   }
 }
 
-TEST_F(LogTest, FullDiskIsOneLineAndLeavesNothing) {
+TEST_F(LogTest, AFullDiskIsOneLineAndKeepsWhatWasSaved) {
   // In a child: a limit on file size stands for a full disk and cannot be taken back.
-  const auto fill = [this] {
-    const fs::path file = folder / "run.h5";
-    const rlimit limit{200000, 200000};  // room for the header, not for the frames
+  const fs::path file = folder / "run.h5";
+  const auto fill = [&] {
+    const rlimit limit{1500000, 1500000};  // room for the header and some frames
     std::signal(SIGXFSZ, SIG_IGN);
     setrlimit(RLIMIT_FSIZE, &limit);
     try {
       LogWriter log(file, false, header, model, scene);
-      write(log, 1000);
-      log.finish("complete");
+      std::string cause = "complete";
+      try {
+        write(log, 3000, 100);  // a save at each frame
+      } catch (const FileError& error) {
+        cause = error.what();
+      }
+      log.finish("failed: " + cause);
     } catch (const FileError& error) {
       fprintf(stderr, "%s\n", error.what());
     }
-    std::_Exit(fs::is_empty(folder.path()) ? 2 : 1);
+    std::_Exit(1);
   };
-  EXPECT_EXIT(fill(), testing::ExitedWithCode(2), "run.h5.part: cannot .*: File too large\n$");
+  EXPECT_EXIT(fill(), testing::ExitedWithCode(1),
+              "run.h5.part: cannot .*: File too large; .*run.h5.part has");
+  const Hdf5Reader h5(folder / "run.h5.part");
+  EXPECT_EQ(h5.root_text("status").find("failed: "), 0u) << h5.root_text("status");
+  EXPECT_GT(h5.shape("/trajectory/time")[0], 0u);
+  EXPECT_FALSE(fs::exists(folder / "run.h5.lock"));
 }
 
 TEST_F(LogTest, ForeignFilesAreRefusedInOneLine) {

@@ -75,7 +75,7 @@ def test_why_a_run_failed(content, log, status, words):
 
 
 def test_a_complete_run_may_have_failed(content, log):
-    assert study.failure_of(log(), ["knot held"]) == "the knot came undone early"
+    assert study.failure_of(log(), ["knot held"]) == "the knot was lost early"
     content.data["trajectory/phase"][content.slide] = 1
     assert study.failure_of(log(), []) == "the knot never slid"
     content.data["trajectory/phase"][:] = 0

@@ -107,6 +107,7 @@ TEST_F(LogCommandsTest, CheckWritesARowForEachLogAndCriterion) {
       << "no heading for a single log: " << one.output;
   const ProgramOutcome both = run_program("check b.h5 a.h5 --csv a.csv");
   EXPECT_EQ(both.code, 1) << both.output;
+  EXPECT_EQ(run_program("check a.h5 b.h5").code, 1) << "in this order too";
   EXPECT_NE(both.output.find("b.h5:\nok   status"), std::string::npos) << both.output;
   EXPECT_NE(both.output.find("\na.h5:\nok   status"), std::string::npos) << both.output;
   EXPECT_NE(both.output.find("hagfish: a.h5: check failed: "), std::string::npos) << both.output;

@@ -39,7 +39,7 @@ TEST_F(ProgramTest, PlaybackAppliesTheMeansBetweenFramesAlone) {
       "run table1 --preset quick --set controller.release_at=9 --until slide --quiet --out a.log");
   ASSERT_EQ(run.code, 0) << run.output;
   const auto paths = [this] {
-    const ProgramOutcome played = run_program("playback a.log --out p.log");
+    const ProgramOutcome played = run_program("playback a.log --out p.log --force");
     EXPECT_EQ(played.code, 0) << played.output;
     const Hdf5Reader h5(folder / "p.log");
     return std::pair(h5.doubles("/thigmotaxis_0.04s/drift"), h5.doubles("/none_0.04s/drift"));

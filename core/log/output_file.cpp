@@ -1,0 +1,97 @@
+#include "core/log/output_file.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <string>
+
+namespace hagfish {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Where a name leads, by way of symbolic links, the last of which may lead nowhere yet.
+fs::path target_of(fs::path file) {
+  constexpr int most_links = 40;  // as the kernel's own bound
+  std::error_code error;
+  for (int k = 0; k < most_links && fs::is_symlink(file, error); ++k) {
+    file = file.parent_path() / fs::read_symlink(file, error);
+  }
+  return file;
+}
+
+}  // namespace
+
+OutputFile::OutputFile(const fs::path& file, bool replace)
+    : file_(target_of(file)),
+      partial_(file_.string() + ".part"),
+      lock_(file_.string() + ".lock"),
+      replace_(replace) {
+  std::error_code error;
+  if (fs::exists(file_, error) && !fs::is_regular_file(file_, error)) {
+    throw FileError(file_.string() + ": is not a regular file");
+  }
+  if (fs::exists(file_, error) && !replace) {
+    throw FileError(file_.string() + ": already exists (--force replaces it)");
+  }
+  take_lock();
+  if (fs::exists(partial_, error) && !replace) {
+    fs::remove(lock_, error);
+    ::close(lock_descriptor_);
+    throw FileError(partial_.string() +
+                    ": left by a run that did not end; save it, or --force replaces it");
+  }
+}
+
+/// A process that ends removes its lock file, so that the one just locked may be of no name any
+/// more: then another one is taken.
+void OutputFile::take_lock() {
+  for (;;) {
+    lock_descriptor_ = ::open(lock_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (lock_descriptor_ < 0) {
+      throw FileError(file_.string() + ": cannot be created: " + std::strerror(errno));
+    }
+    if (::flock(lock_descriptor_, LOCK_EX | LOCK_NB) != 0) {
+      const int reason = errno;
+      ::close(lock_descriptor_);
+      throw FileError(file_.string() +
+                      (reason == EWOULDBLOCK
+                           ? ": is being made by another process"
+                           : std::string(": cannot be locked: ") + std::strerror(reason)));
+    }
+    struct stat locked {
+    }, named{};
+    if (::fstat(lock_descriptor_, &locked) == 0 && ::stat(lock_.c_str(), &named) == 0 &&
+        locked.st_ino == named.st_ino && locked.st_dev == named.st_dev) {
+      return;
+    }
+    ::close(lock_descriptor_);
+  }
+}
+
+OutputFile::~OutputFile() {
+  ::unlink(lock_.c_str());
+  ::close(lock_descriptor_);
+}
+
+void OutputFile::publish() {
+  if (replace_) {
+    if (std::rename(partial_.c_str(), file_.c_str()) == 0) {
+      return;
+    }
+  } else if (::link(partial_.c_str(), file_.c_str()) == 0) {  // fails where the name is taken
+    ::unlink(partial_.c_str());
+    return;
+  }
+  const std::string reason = errno == EEXIST
+                                 ? "appeared while it was made"
+                                 : std::string("cannot be named: ") + std::strerror(errno);
+  throw FileError(file_.string() + ": " + reason + "; what was made is " + partial_.string());
+}
+
+}  // namespace hagfish

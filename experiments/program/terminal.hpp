@@ -1,0 +1,29 @@
+// Words for whoever sits at the terminal. They are a courtesy: a run goes on where nobody reads.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <utility>
+
+namespace hagfish {
+
+/// Prints to standard error, and ignores that this fails, as on a full disk or a closed stream.
+template <class... Values>
+void say(fmt::format_string<Values...> format, Values&&... values) {
+  std::fputs(fmt::format(format, std::forward<Values>(values)...).c_str(), stderr);
+}
+
+/// Opens what is closed of standard input, output and error as /dev/null, so that no file of the
+/// program's own takes their places.
+void open_standard_streams();
+
+/// Whether all that was printed to standard output arrived there.
+bool standard_output_arrived();
+
+/// Has signals that would end the process (SIGINT, SIGTERM, SIGHUP) noted instead, for
+/// `interrupted` to tell, and failed writes (SIGPIPE, SIGXFSZ) reported as errors.
+void note_signals();
+bool interrupted();
+
+}  // namespace hagfish
