@@ -5,6 +5,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 bash experiments/setup.sh
+jobs=$(nproc) # which would heed OMP_NUM_THREADS
 # Serial BLAS, so that runs repeat and tests do not fight for the cores.
 export OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1
-ctest --preset "${PRESET:-release}" --parallel "$(nproc)" "$@"
+ctest --preset "${PRESET:-release}" --parallel "$jobs" "$@"

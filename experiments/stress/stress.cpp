@@ -64,9 +64,8 @@ bool run_in_core(const Model& model, const Scene& scene, const char* qp,
     try {
       take_step(model, scene, sim, record);
     } catch (const StepError& error) {
-      // A guard looked at where the step led: into the record, while the simulation stayed.
-      if (error.outcome() == Outcome::penetration || error.outcome() == Outcome::limits ||
-          error.outcome() == Outcome::speed) {
+      // A guard refused where the step led: that is in the record, while the simulation stayed.
+      if (error.outcome() == Outcome::penetration || error.outcome() == Outcome::limits) {
         see(sim.now.state, record.moment, sim.ledger);
       }
       throw;

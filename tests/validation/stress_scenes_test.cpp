@@ -100,6 +100,8 @@ struct MendedCell {
   std::vector<std::string> set;
 };
 
+void PrintTo(const MendedCell& cell, std::ostream* out) { *out << cell.name; }
+
 class MendedCells : public testing::TestWithParam<MendedCell> {};
 
 TEST_P(MendedCells, StayMended) {
@@ -132,6 +134,12 @@ INSTANTIATE_TEST_SUITE_P(Stability, MendedCells, testing::ValuesIn(mended_cells)
 
 INSTANTIATE_TEST_SUITE_P(Stability, StressScenes, testing::ValuesIn(scenes()),
                          [](const auto& scene) { return fs::path(scene.param).stem().string(); });
+
+TEST(StressOfAFirstStep, ThatIsTooFastHasAnOutcome) {
+  const StressResult result = run_cell((fs::path(HAGFISH_STRESS_DIR) / "whip.toml").string(),
+                                       "default", 0.002, {"guard.speed=1e-6"});
+  EXPECT_EQ(result.status.outcome, Outcome::speed) << result.status.message;
+}
 
 }  // namespace
 }  // namespace hagfish
