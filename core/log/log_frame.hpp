@@ -4,6 +4,7 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <type_traits>
 #include <vector>
 
 #include "core/log/hdf5_writer.hpp"
@@ -42,6 +43,13 @@ struct BearingContact {
   std::int32_t frame = 0;  ///< index along the frames
   const Row& row;          ///< of kind contact or wall
   double force = 0;        ///< λ / h, dyn
+};
+
+/// What a column of a table is in the file.
+struct DeclaredColumn {
+  std::string path;
+  std::vector<hsize_t> row;  ///< its shape
+  H5T_class_t type;          ///< of its values
 };
 
 /// A group of datasets that grow together. Each is declared in one place: path, shape, unit,
@@ -93,10 +101,7 @@ class LogTable {
         });
   }
 
-  /// Paths and shapes of the rows of what has been declared.
-  const std::vector<std::pair<std::string, std::vector<hsize_t>>>& declared() const {
-    return declared_;
-  }
+  const std::vector<DeclaredColumn>& declared() const { return declared_; }
 
   void append(const Source& source) {
     for (Column& column : columns_) {
@@ -116,14 +121,18 @@ class LogTable {
   };
   template <class T, class Put>
   void add(const std::string& path, const std::vector<hsize_t>& shape, Series<T> series, Put put) {
-    declared_.emplace_back(path, shape);
+    // An enumeration is all that is kept in a byte.
+    constexpr H5T_class_t type = std::is_floating_point_v<T>       ? H5T_FLOAT
+                                 : std::is_same_v<T, std::uint8_t> ? H5T_ENUM
+                                                                   : H5T_INTEGER;
+    declared_.push_back({path, shape, type});
     const auto shared = std::make_shared<Series<T>>(std::move(series));
     columns_.push_back({[shared, put](const Source& source) { put(*shared, source); },
                         [shared] { shared->flush(); }});
   }
 
   Hdf5Writer& file_;
-  std::vector<std::pair<std::string, std::vector<hsize_t>>> declared_;
+  std::vector<DeclaredColumn> declared_;
   std::vector<Column> columns_;
 };
 

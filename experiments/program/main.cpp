@@ -6,6 +6,7 @@
 #include <exception>
 #include <string>
 
+#include "core/input/input_text.hpp"
 #include "core/log/build_info.hpp"
 #include "experiments/program/commands.hpp"
 #include "experiments/program/failure.hpp"
@@ -38,7 +39,7 @@ int dispatch(int argc, char** argv) {
     if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
       return app.exit(error);  // help and version
     }
-    hagfish::say("hagfish: {}\n", hagfish::complaint(app, error));
+    hagfish::say("hagfish: {}\n", hagfish::printable(hagfish::complaint(app, error)));
     return hagfish::exit_code::bad_input;
   }
   return program.code;

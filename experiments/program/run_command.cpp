@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "core/input/input_text.hpp"
 #include "core/log/build_info.hpp"
 #include "core/log/hdf5_error.hpp"
 #include "core/log/log_writer.hpp"
@@ -95,7 +96,7 @@ int run(const RunOptions& options, const std::string& typed) {
     return exit_code::failed;
   }
   if (ending.code != exit_code::done) {
-    say("hagfish: {}: {}\n", out.string(), ending.status);
+    say("hagfish: {}\n", printable(out.string() + ": " + ending.status));
     return ending.code;
   }
   if (!options.quiet) {
