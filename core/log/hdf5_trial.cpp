@@ -17,7 +17,7 @@
 namespace hagfish {
 namespace {
 
-constexpr rlim_t least_time = 10;                         // of CPU, s; a log of 20 MB takes 0.02 s
+constexpr rlim_t least_time = 2;                          // of CPU, s; a log of 20 MB takes 0.02 s
 constexpr std::uintmax_t bytes_each_second = 20'000'000;  // one more second for each
 constexpr std::size_t largest_read = std::size_t{1} << 30;  // of one dataset, bytes
 

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -199,10 +200,16 @@ struct GuardSettings {
 /// The sign of the body's writhe: which of its two mirror images a knot is.
 enum class Hand { any, right, left };
 
+/// A time of a run: by the clock, or after a phase has begun, as no two animals are as quick.
+struct RunTime {
+  std::optional<Phase> after;  ///< counted from its start; from that of the run where there is none
+  double time = 0;             ///< s; infinite for the run's end
+};
+
 /// A stretch of the run in which the knot has one type.
 struct KnotStretch {
-  std::string type;         ///< as knot_name() gives it
-  double from = 0, to = 0;  ///< s
+  std::string type;  ///< as knot_name() gives it
+  RunTime from, to;  ///< both included where they are times by the clock; else up to before `to`
 };
 
 /// What a run of the scene must show; `hagfish check` compares a log with it.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/input/run_time_text.hpp"
 #include "core/knot/knot.hpp"
 #include "core/knot/writhe.hpp"
 
@@ -45,19 +46,32 @@ Finding held(const LogContents& log, const std::vector<std::string>& type) {
                                           expected, kept, frames, lost));
 }
 
+/// When a time of the run came, s; infinite where it never did.
+double clock_of(const LogContents& log, const RunTime& time) {
+  if (!time.after) return time.time;
+  const int order = phase_order(*time.after);
+  for (std::size_t f = 0; f < log.time.size(); ++f) {
+    if (phase_order(phase_at(log, f)) >= order) return log.time[f] + time.time;
+  }
+  return INFINITY;
+}
+
 /// expect.types, where the run gets that far.
 std::vector<Finding> types_through_time(const LogContents& log,
                                         const std::vector<std::string>& type) {
   const Scene& scene = log.resolved.scene;
   std::vector<Finding> findings;
   for (const KnotStretch& stretch : scene.expect.types) {
-    if (scene.time.until != Phase::free && stretch.from > log.time.back()) {
+    const double from = clock_of(log, stretch.from), to = clock_of(log, stretch.to);
+    if (scene.time.until != Phase::free && from > log.time.back()) {
       continue;
     }
     std::int64_t frames = 0;
     std::int64_t kept = 0;
     for (std::size_t f = 0; f < type.size(); ++f) {
-      if (log.time[f] >= stretch.from && log.time[f] <= stretch.to) {
+      // At the very start of a phase the type may have changed already.
+      const bool before_end = stretch.to.after ? log.time[f] < to : log.time[f] <= to;
+      if (log.time[f] >= from && before_end) {
         ++frames;
         kept += type[f] == stretch.type ? 1 : 0;
       }
@@ -66,9 +80,15 @@ std::vector<Finding> types_through_time(const LogContents& log,
         frames > 0 ? fmt::format("{} at {} of {} frames", stretch.type, kept, frames)
                    : fmt::format("the log, of {:g} to {:g} s, has no frame to be a {}",
                                  log.time.front(), log.time.back(), stretch.type);
-    findings.push_back(
-        all_of("knot through time", kept, frames, "frames",
-               fmt::format("{} from {:g} to {:g} s", what, stretch.from, stretch.to)));
+    const auto told = [](const RunTime& time, double clock) {
+      const std::string text = run_time_text(time);
+      return time.after && std::isfinite(clock) ? fmt::format("{} ({:g} s)", text, clock)
+             : time.after || std::isinf(clock)  ? text
+                                                : text + " s";
+    };
+    findings.push_back(all_of(
+        "knot through time", kept, frames, "frames",
+        fmt::format("{} from {} to {}", what, told(stretch.from, from), told(stretch.to, to))));
   }
   return findings;
 }
