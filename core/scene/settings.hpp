@@ -219,8 +219,10 @@ struct ExpectSettings {
   std::string knot;
   /// Knot type through time. Between the stretches, while it changes, any type will do.
   std::vector<KnotStretch> types;
-  Hand hand = Hand::any;              ///< of the knot until release
-  double slide_distance = 0;          ///< headward travel of the knot's head end while sliding, cm
+  Hand hand = Hand::any;  ///< of the knot until release
+  /// Headward travel of the knot's head end while sliding, cm; where the knot began nearer to its
+  /// release than that, all the way there, but half of this at least.
+  double slide_distance = 0;
   double reverse_distance = 0;        ///< tailward travel of its tail end on the way back, cm
   double speed_share = 0.95;          ///< of sliding steps that meet Eq. 6 without slack
   double penetration = 0.0015;        ///< deepest at any step, cm
