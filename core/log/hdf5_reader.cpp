@@ -53,6 +53,11 @@ std::string Hdf5Reader::root_text(const std::string& name) const {
   });
 }
 
+bool Hdf5Reader::has_root_attribute(const std::string& name) const {
+  return guarded(file_, "look for attribute " + name,
+                 [&] { return h5_.openGroup("/").attrExists(name); });
+}
+
 int Hdf5Reader::root_int(const std::string& name) const {
   return guarded(file_, "read attribute " + name, [&] {
     int value = 0;
@@ -126,6 +131,18 @@ std::vector<std::int64_t> Hdf5Reader::integers(const std::string& path) const {
     } else {
       set.read(values.data(), H5::PredType::NATIVE_INT64);
     }
+  });
+  return values;
+}
+
+std::vector<std::uint8_t> Hdf5Reader::bytes(const std::string& path) const {
+  const H5::DataSet set = open(path);
+  std::vector<std::uint8_t> values(size_of(shape(path)));
+  guarded(file_, "read " + path, [&] {
+    if (!(set.getDataType() == H5::PredType::NATIVE_UINT8)) {
+      throw FileError(file_ + ": " + path + " does not hold bytes");
+    }
+    set.read(values.data(), H5::PredType::NATIVE_UINT8);
   });
   return values;
 }

@@ -12,7 +12,9 @@ namespace {
 /// Every dataset of a table, as the writer declares it, with `rows` rows.
 template <class Source>
 void check_table(const LogContents& log, const LogTable<Source>& table, hsize_t rows) {
-  for (const auto& [path, row_shape] : table.declared()) {
+  for (const auto& series : table.series()) {
+    const std::string& path = series->layout().path;
+    const std::vector<hsize_t>& row_shape = series->layout().row_shape;
     std::vector<hsize_t> shape{rows};
     shape.insert(shape.end(), row_shape.begin(), row_shape.end());
     if (log.h5.shape(path) != shape) {
@@ -43,13 +45,12 @@ void check_names(const LogContents& log) {
 
 void check_datasets(const LogContents& log) {
   // The writer says what there must be; nothing is written.
-  Hdf5Writer nowhere;
-  LogTable<Frame> frames(nowhere);
-  LogTable<LoggedStep> steps(nowhere);
-  LogTable<BearingContact> contacts(nowhere);
-  declare_frames(log.model, nowhere, frames);
-  declare_steps(nowhere, steps);
-  declare_contacts(nowhere, contacts);
+  LogTable<Frame> frames(frame_chunk_rows);
+  LogTable<LoggedStep> steps(step_chunk_rows);
+  LogTable<BearingContact> contacts(step_chunk_rows);
+  declare_frames(log.model, frames);
+  declare_steps(steps);
+  declare_contacts(contacts);
   const hsize_t step_count = log.h5.shape("/steps/kkt").at(0);
   const auto stride = static_cast<hsize_t>(frame_stride(log.resolved.scene.time));
   const hsize_t covered = (log.time.size() - 1) * stride + 1;
