@@ -142,6 +142,7 @@ template <class Io>
 void time_fields(Io& io, TimeSettings& s) {
   io.number("step", s.step, positive());
   io.number("frame_interval", s.frame_interval, positive());
+  io.number("checkpoint_interval", s.checkpoint_interval, positive());
   io.number("duration", s.duration, positive());
   io.template choice<Phase>("until", s.until,
                             {named(Phase::form), named(Phase::tighten), named(Phase::slide),

@@ -76,13 +76,13 @@ std::int64_t whole_number_of(const H5::Attribute& attribute, const std::string& 
 
 }  // namespace
 
-Hdf5Reader::Hdf5Reader(const std::filesystem::path& file) : file_(file.string()) {
+Hdf5Reader::Hdf5Reader(const std::filesystem::path& file, Origin origin) : file_(file.string()) {
   H5::Exception::dontPrint();
   if (const std::string why = unreadable(file); !why.empty()) {
     throw FileError(file_ + ": " + why);
   }
   file_size_ = std::filesystem::file_size(file);
-  try_hdf5(file);
+  if (origin == Origin::anywhere) try_hdf5(file);
   guarded(file_, "read as HDF5", [&] { h5_ = H5::H5File(file_, H5F_ACC_RDONLY); });
 }
 
@@ -138,6 +138,11 @@ std::string Hdf5Reader::root_text(const std::string& name) const {
   return guarded(file_, "read attribute " + name, [&] {
     return text_of(h5_.openGroup("/").openAttribute(name), file_ + ": attribute " + name);
   });
+}
+
+bool Hdf5Reader::has_root_attribute(const std::string& name) const {
+  return guarded(file_, "look for attribute " + name,
+                 [&] { return h5_.openGroup("/").attrExists(name); });
 }
 
 int Hdf5Reader::root_int(const std::string& name) const {
@@ -214,6 +219,18 @@ std::vector<std::int64_t> Hdf5Reader::integers(const std::string& path) const {
     }
     return values;
   });
+}
+
+std::vector<std::uint8_t> Hdf5Reader::bytes(const std::string& path) const {
+  const H5::DataSet set = open(path);
+  std::vector<std::uint8_t> values(size_of(shape(path)));
+  guarded(file_, "read " + path, [&] {
+    if (!(set.getDataType() == H5::PredType::NATIVE_UINT8)) {
+      throw FileError(file_ + ": " + path + " does not hold bytes");
+    }
+    set.read(values.data(), H5::PredType::NATIVE_UINT8);
+  });
+  return values;
 }
 
 std::vector<std::string> Hdf5Reader::texts(const std::string& path) const {

@@ -17,15 +17,19 @@
 
 namespace hagfish {
 
+/// Who wrote a file. What this process wrote just now needs no trial (hdf5_trial.hpp).
+enum class Origin { anywhere, own };
+
 /// A file being read.
 class Hdf5Reader {
  public:
   /// Throws FileError where the file is missing, not a regular one, unreadable, not HDF5, or such
   /// that HDF5 crashes on it or comes to no end (hdf5_trial.hpp).
-  explicit Hdf5Reader(const std::filesystem::path& file);
+  explicit Hdf5Reader(const std::filesystem::path& file, Origin origin = Origin::anywhere);
   bool has(const std::string& path) const;
   /// Attributes of the file: one text, one whole number.
   std::string root_text(const std::string& name) const;
+  bool has_root_attribute(const std::string& name) const;
   int root_int(const std::string& name) const;
   /// A whole number that goes with a group; none where there is no such attribute.
   std::optional<std::int64_t> attribute_int(const std::string& group,
@@ -39,6 +43,7 @@ class Hdf5Reader {
   /// All values, row by row.
   std::vector<double> doubles(const std::string& path) const;
   std::vector<std::int64_t> integers(const std::string& path) const;
+  std::vector<std::uint8_t> bytes(const std::string& path) const;
   std::vector<std::string> texts(const std::string& path) const;
   std::string text(const std::string& path) const;  ///< of a dataset that holds one
   /// Names of what lies in a group, in order.
@@ -46,10 +51,11 @@ class Hdf5Reader {
   /// Rows as a matrix, rows x (product of the other extents).
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   Rows rows(const std::string& path) const;
+  /// Throws FileError where there is none.
+  H5::DataSet open(const std::string& path) const;
   const std::string& file() const { return file_; }
 
  private:
-  H5::DataSet open(const std::string& path) const;
   bool holds(const std::string& path) const;
   void require_group(const std::string& path) const;
   std::string file_;

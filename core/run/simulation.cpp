@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <stdexcept>
 #include <tuple>
 #include <utility>
 
@@ -201,6 +203,29 @@ Simulation start_from(const Model& model, const Scene& scene, const std::string&
   observe(model, sim.now.state, scene, sim.search, sim.now.observation);
   sim.ledger = open_ledger(model, sim.now);
   return sim;
+}
+
+void change_scene(const Model& model, const Scene& before, const Scene& scene, Simulation& sim) {
+  if (sim.now.state.q.size() != model.nq()) {
+    throw std::invalid_argument("the state is of a chain of another number of bodies");
+  }
+  const double frames = time_of(sim, before) / scene.time.frame_interval;
+  constexpr double rounding = 1e-9;  // of a number of frames that is whole
+  if (std::abs(frames - std::round(frames)) > rounding * std::max(1.0, frames)) {
+    throw std::invalid_argument(
+        fmt::format("its time, {:g} s, is no multiple of time.frame_interval, {:g} s",
+                    time_of(sim, before), scene.time.frame_interval));
+  }
+  sim.step = std::llround(time_of(sim, before) / scene.time.step);
+  sim.search = {};
+  observe(model, sim.now.state, scene, sim.search, sim.now.observation);
+  const EnergyLedger now = open_ledger(model, sim.now);
+  EnergyLedger& ledger = sim.ledger;
+  ledger.initial += now.initial - (ledger.kinetic + ledger.elastic + ledger.gravity);
+  ledger.kinetic = now.kinetic;
+  ledger.elastic = now.elastic;
+  ledger.gravity = now.gravity;
+  ledger.largest = std::max(ledger.largest, now.largest);
 }
 
 bool finished(const Simulation& sim, const Scene& scene) {

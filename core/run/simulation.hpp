@@ -42,6 +42,12 @@ Simulation start(const Model& model, const Scene& scene, const std::string& back
 Simulation start_from(const Model& model, const Scene& scene, const std::string& back_end,
                       State state, ControllerState controller, std::int64_t step);
 
+/// Goes on in another scene of the same chain, with another time step at the same time: contacts
+/// are found anew, and energy that the change brings counts as there from the start. Throws
+/// std::invalid_argument where the state is not of `model`, or its time no multiple of the frame
+/// interval.
+void change_scene(const Model& model, const Scene& before, const Scene& scene, Simulation& sim);
+
 inline double time_of(const Simulation& sim, const Scene& scene) {
   return static_cast<double>(sim.step) * scene.time.step;
 }

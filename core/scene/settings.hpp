@@ -172,6 +172,8 @@ struct KnotSettings {
 struct TimeSettings {
   double step = 0.002;            ///< h, s
   double frame_interval = 0.020;  ///< time between logged frames, s; a whole number of steps
+  /// Time between checkpoints in the log, from which a run can branch, rounded to whole frames, s.
+  double checkpoint_interval = 1;
   double duration = 30;           ///< the run ends here at the latest, s
   Phase until = Phase::free;      ///< the run ends with this phase
 };

@@ -20,9 +20,10 @@ enum class Outcome : std::uint8_t {
   knot_lost,      ///< the knot changed its type before its release
   capped,         ///< not done in time, or thigmotaxis rows stayed at controller.cap
   tunnelled,      ///< strands passed through each other: deeper at or between steps than any radius
+  stopped,        ///< it was asked to, or took longer than it may
   not_applicable,  ///< the scene needs what the simulator in question does not have
 };
-inline constexpr int outcome_count = 13;
+inline constexpr int outcome_count = 14;
 /// "ok", "non-finite", "energy gain", ...
 const char* outcome_name(Outcome outcome);
 

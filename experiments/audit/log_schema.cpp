@@ -72,10 +72,11 @@ hsize_t rows_of(const Hdf5Reader& log, const std::string& path) {
 
 template <class Source>
 void add_forms(const LogTable<Source>& table, hsize_t rows, std::vector<DatasetForm>& forms) {
-  for (const DeclaredColumn& column : table.declared()) {
+  for (const auto& series : table.series()) {
+    const SeriesLayout& layout = series->layout();
     std::vector<hsize_t> shape{rows};
-    shape.insert(shape.end(), column.row.begin(), column.row.end());
-    forms.push_back({column.path, shape, column.type});
+    shape.insert(shape.end(), layout.row_shape.begin(), layout.row_shape.end());
+    forms.push_back({layout.path, shape, layout.type.getClass()});
   }
 }
 
@@ -151,13 +152,12 @@ void check_motion(const Hdf5Reader& log) {
 
 std::vector<DatasetForm> log_forms(const Hdf5Reader& log, const Model& model) {
   // The writer says what there must be; nothing is written.
-  Hdf5Writer nowhere;
-  LogTable<Frame> frames(nowhere);
-  LogTable<LoggedStep> steps(nowhere);
-  LogTable<BearingContact> contacts(nowhere);
-  declare_frames(model, nowhere, frames);
-  declare_steps(nowhere, steps);
-  declare_contacts(nowhere, contacts);
+  LogTable<Frame> frames(frame_chunk_rows);
+  LogTable<LoggedStep> steps(step_chunk_rows);
+  LogTable<BearingContact> contacts(step_chunk_rows);
+  declare_frames(model, frames);
+  declare_steps(steps);
+  declare_contacts(contacts);
   std::vector<DatasetForm> forms;
   add_forms(frames, rows_of(log, "/trajectory/time"), forms);
   add_forms(steps, rows_of(log, "/steps/kkt"), forms);

@@ -14,7 +14,7 @@ struct PlaybackOptions {
 
 int run_playback(const PlaybackOptions& options, const std::string& typed) {
   const LogContents log(options.log);
-  OutputFile file(options.out, options.force);
+  OutputFile file(options.out, replaced_if(options.force));
   Hdf5Writer h5;
   h5.root_attribute("log", options.log);
   h5.root_attribute("command", typed);

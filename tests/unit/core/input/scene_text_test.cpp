@@ -98,8 +98,8 @@ class Bits {
     add(votes, seed, interval, mirror);
   }
   void put(const TimeSettings& s) {
-    const auto& [step, frame_interval, duration, until] = s;
-    add(step, frame_interval, duration, until);
+    const auto& [step, frame_interval, checkpoint_interval, duration, until] = s;
+    add(step, frame_interval, checkpoint_interval, duration, until);
   }
   void put(const GuardSettings& s) {
     const auto& [action, penetration, limit_violation, speed, energy_gain, energy_action,
