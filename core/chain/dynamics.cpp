@@ -149,6 +149,13 @@ void assemble_step_system(const Model& model, const State& state, const Kinemati
   }
 }
 
+void add_active_torque(const ActiveTorque& torque, double h, StepSystem& system) {
+  if (torque.value.size() > 0) {
+    system.joint += h * torque.value;
+    system.op.diagonal += h * torque.rate;
+  }
+}
+
 StepSystem step_system(const Model& model, const State& state, const Kinematics& kin,
                        const TipForce& tip, double h) {
   StepSystem system;

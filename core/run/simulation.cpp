@@ -30,7 +30,7 @@ class Attempt {
     record_.step = sim_.step;
     record_.time = time_of(sim_, scene_);
     record_.warnings.clear();
-    if (Status status = decide(model_, scene_, sim_.now.observation, record_.time, sim_.controller,
+    if (Status status = decide(model_, scene_, sim_.now, record_.time, sim_.controller,
                                record_.control);
         !status.ok()) {
       return status;
