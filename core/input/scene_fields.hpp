@@ -42,9 +42,23 @@ void specimen_fields(Io& io, Specimen& s) {
   io.angle("twist_limit", s.twist_limit, positive());
 }
 
+/// What a specimen may leave out.
+template <class Io>
+void passive_fields(Io& io, Specimen& s) {
+  io.table("passive", [&s](Io& table) {
+    table.numbers("bending_stiffness", s.bending_stiffness, not_negative());
+    table.numbers("bending_damping", s.bending_damping, not_negative());
+    table.numbers("twist_stiffness", s.twist_stiffness, not_negative());
+    table.numbers("twist_damping", s.twist_damping, not_negative());
+  });
+}
+
 template <class Io>
 void model_fields(Io& io, ModelSettings& s) {
   io.integer("bodies", s.bodies, within(2, 400));
+  io.template choice<PassiveSource>(
+      "passive", s.passive,
+      {{"scene", PassiveSource::scene}, {"specimen", PassiveSource::specimen}});
   io.number("bending_stiffness", s.bending_stiffness, not_negative());
   io.number("bending_damping", s.bending_damping, not_negative());
   io.number("twist_stiffness", s.twist_stiffness, not_negative());

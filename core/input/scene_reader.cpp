@@ -22,6 +22,7 @@ constexpr std::string_view specimen_prefix = "specimen.";
 
 Specimen read_specimen_table(TableReader& table) {
   Specimen s;
+  passive_fields(table, s);
   table.require_all();
   specimen_fields(table, s);
   table.finish();
@@ -256,6 +257,22 @@ void check_start(const TableReader& root, const ResolvedScene& resolved) {
   }
 }
 
+void check_passive(const TableReader& root, const ResolvedScene& resolved) {
+  const Specimen& s = resolved.specimen;
+  const std::size_t count = s.station.size();
+  for (const auto& [key, values] :
+       {std::pair("bending_stiffness", &s.bending_stiffness), {"bending_damping", &s.bending_damping},
+        {"twist_stiffness", &s.twist_stiffness}, {"twist_damping", &s.twist_damping}}) {
+    if (!values->empty() && values->size() != count) {
+      root.fail("specimen", "its passive." + std::string(key) +
+                                " must have as many values as station, " + std::to_string(count));
+    }
+    if (values->empty() && resolved.scene.model.passive == PassiveSource::specimen) {
+      root.fail("model.passive", "the specimen has no passive." + std::string(key));
+    }
+  }
+}
+
 void check_active(const TableReader& root, const Scene& scene) {
   if (scene.script.kind != ScriptSettings::Kind::curvature) return;
   const ActiveSettings& active = scene.active;
@@ -336,6 +353,7 @@ ResolvedScene read(SceneSource source, const std::vector<std::string>& overrides
   draw_noise(result.scene.script);
   if (result.scene.mirror) reflect(result.scene);
   check_start(root, result);
+  check_passive(root, result);
   check_active(root, result.scene);
   check_times(root, result.scene.time);
   check_expectations(root, result.scene);
@@ -374,7 +392,10 @@ std::string scene_to_toml(const Scene& scene, const Specimen& specimen) {
   script.curvature = program_table(fields.script.curvature);
   TomlWriter writer;
   scene_fields(writer, fields, script);
-  writer.table("specimen", [&](TomlWriter& table) { specimen_fields(table, animal); });
+  writer.table("specimen", [&](TomlWriter& table) {
+    specimen_fields(table, animal);
+    passive_fields(table, animal);
+  });
   return writer.text();
 }
 

@@ -43,6 +43,8 @@ class Attempt {
     }
     const double travelled = looks_ahead() ? end_where_strands_meet() : h();
     sim_.solver.finish(in_, step_);
+    guard_muscles(model_, scene_, sim_.controller.rest_shape, record_.control.active, record_.time,
+                  sim_.watch, record_.warnings);
     guard_cap(model_, sim_.now.observation.kin, scene_, step_, record_.time, sim_.watch,
               record_.warnings);
     if (Status status =

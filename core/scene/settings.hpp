@@ -20,9 +20,16 @@ enum class BendingLimit {
   cone  ///< the angle between the X axes of its two bodies
 };
 
+/// Where the body's passive stiffness and damping come from.
+enum class PassiveSource {
+  scene,    ///< ModelSettings, the same all along the body
+  specimen  ///< what is known of the animal, Specimen::bending_stiffness and so on
+};
+
 /// How the specimen becomes a chain. The passive terms are additions to the paper: it states none.
 struct ModelSettings {
   int bodies = 100;              ///< rigid bodies along the animal, 2 to 400
+  PassiveSource passive = PassiveSource::scene;
   double bending_stiffness = 0;  ///< flexural rigidity about each bending axis, dyn cm^2
   double bending_damping = 0;    ///< its rate form, dyn cm^2 s
   double twist_stiffness = 0;    ///< torsional rigidity, dyn cm^2

@@ -80,7 +80,8 @@ Eigen::ArrayXd mechanical_energy(const LogContents& log) {
 
 Finding energy_gain(const LogContents& log) {
   const Eigen::ArrayXd energy = mechanical_energy(log);
-  const Eigen::ArrayXd put_in = diagnostic(log, "work_tip") + diagnostic(log, "work_thigmotaxis");
+  const Eigen::ArrayXd put_in = diagnostic(log, "work_tip") + diagnostic(log, "work_active") +
+                                diagnostic(log, "work_thigmotaxis");
   EnergyGain gain(energy[0]);
   for (Eigen::Index f = 0; f < energy.size(); ++f) {
     gain.see(energy[f], put_in[f]);
@@ -92,7 +93,7 @@ Finding energy_gain(const LogContents& log) {
 Finding energy(const LogContents& log) {
   const auto get = [&](const char* name) { return diagnostic(log, name); };
   const Eigen::ArrayXd energy = mechanical_energy(log);
-  const Eigen::ArrayXd works = get("work_tip") + get("work_thigmotaxis") + get("work_contact") +
+  const Eigen::ArrayXd works = get("work_tip") + get("work_active") + get("work_thigmotaxis") + get("work_contact") +
                                get("work_limit") + get("work_head") + get("work_wall");
   const Eigen::ArrayXd error = get("integrator_error");
   const Eigen::ArrayXd dissipated = get("dissipated");

@@ -12,16 +12,17 @@ namespace {
 struct ProgramOptions {
   std::string log, out;
   int stations = 20, times = 24;
+  double until = 0;  ///< s; 0: to the end of forming
 };
 
 int make_program(const ProgramOptions& options) {
   const LogContents log(options.log);
-  // While the knot forms: what follows is the controller's.
+  const auto taken = [&](std::size_t f) {
+    return options.until > 0 ? log.time[f] <= options.until
+                             : log.phase[f] == static_cast<int>(Phase::form);
+  };
   std::vector<double> time;
-  for (std::size_t f = 0; f < log.time.size() && log.phase[f] == static_cast<int>(Phase::form);
-       ++f) {
-    time.push_back(log.time[f]);
-  }
+  for (std::size_t f = 0; f < log.time.size() && taken(f); ++f) time.push_back(log.time[f]);
   const auto frames = static_cast<Eigen::Index>(time.size());
   if (time.size() < 2 || time[0] != 0) {
     throw FileError(options.log + ": does not show a knot being formed from time 0 on");
@@ -56,6 +57,9 @@ void add_program(Program& program) {
   app->add_option("--times", options->times, "from 0 to the end of forming")
       ->check(CLI::Range(2, 1000))
       ->capture_default_str();
+  app->add_option("--until", options->until,
+                  "s; where not given, while the knot forms: what follows is the controller's")
+      ->check(CLI::PositiveNumber);
   app->callback([options, &program] { program.code = make_program(*options); });
 }
 
