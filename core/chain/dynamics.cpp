@@ -76,6 +76,11 @@ Eigen::VectorXd drag_force(const Model& model, const Kinematics& kin, const Eige
   return generalised_force(model, kin, wrench);
 }
 
+Eigen::Vector3d drag_on_body(const Model& model, const Kinematics& kin, int body,
+                             const Eigen::Vector3d& velocity) {
+  return -(drag_at_centre(model, kin, body).linear * velocity);
+}
+
 double drag_power(const Model& model, const Kinematics& kin, int body, const Vector6d& twist,
                   const Eigen::Vector3d& velocity) {
   const double length = model.bodies[body].length;

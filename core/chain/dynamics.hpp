@@ -73,6 +73,10 @@ double kinetic_energy(const Model& model, const Kinematics& kin, int body, const
 /// Of all bodies, at kin.twist.
 double kinetic_energy(const Model& model, const Kinematics& kin);
 
+/// Drag on one body whose centre moves with `velocity` (cm/s, world), dyn, world.
+Eigen::Vector3d drag_on_body(const Model& model, const Kinematics& kin, int body,
+                             const Eigen::Vector3d& velocity);
+
 /// Power that drag takes from one body, erg/s, at `twist`, which moves its centre with `velocity`.
 double drag_power(const Model& model, const Kinematics& kin, int body, const Vector6d& twist,
                   const Eigen::Vector3d& velocity);

@@ -263,6 +263,23 @@ void declare_energy(LogTable<Frame>& t) {
            [](const Frame& f) { return f.record.ledger.integrator_error(); });
 }
 
+void declare_momentum(LogTable<Frame>& t) {
+  const auto vector = [&t](const char* name, const char* unit, const char* description,
+                           Eigen::Vector3d MomentumLedger::*member) {
+    t.numbers(
+        std::string("/diagnostics/") + name, {3}, {unit, description},
+        [member](const Frame& f) -> const auto& { return f.record.momentum.*member; });
+  };
+  vector("momentum", "g cm/s", "linear momentum of all bodies, world axes",
+         &MomentumLedger::momentum);
+  vector("impulse_drag", "dyn s", "impulse of drag so far, world axes", &MomentumLedger::drag);
+  vector("impulse_outside", "dyn s",
+         "impulse of tip, head clamp, head plate and gravity so far, world axes",
+         &MomentumLedger::outside);
+  vector("integrator_momentum", "g cm/s", "gained by the integrator so far, world axes",
+         &MomentumLedger::integrator);
+}
+
 }  // namespace
 
 void Worst::take(const StepRecord& record) {
@@ -283,6 +300,7 @@ void declare_frames(const Model& model, Hdf5Writer& file, LogTable<Frame>& table
   declare_means(model, file, table);
   declare_diagnostics(table);
   declare_energy(table);
+  declare_momentum(table);
 }
 
 void declare_steps(Hdf5Writer& file, LogTable<LoggedStep>& t) {

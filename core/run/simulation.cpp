@@ -62,6 +62,8 @@ class Attempt {
     record_.head_drift =
         record_.control.clamp_head ? head_drift(model_, sim_.now.observation.kin) : 0;
     record_.controller = sim_.controller;
+    record_.momentum = sim_.momentum;
+    book_momentum(model_, sim_.now.observation.kin, step_, next_, h(), sim_.momentum);
     std::swap(sim_.now, next_);
     ++sim_.step;
     return {};
@@ -198,10 +200,12 @@ Simulation start_from(const Model& model, const Scene& scene, const std::string&
                  .controller = std::move(controller),
                  .solver = StepSolver(back_end),
                  .ledger = {},
+                 .momentum = {},
                  .watch = {},
                  .before = {}};
   observe(model, sim.now.state, scene, sim.search, sim.now.observation);
   sim.ledger = open_ledger(model, sim.now);
+  sim.momentum = open_momentum(model, sim.now);
   return sim;
 }
 

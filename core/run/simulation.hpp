@@ -8,6 +8,7 @@
 #include "core/run/controller.hpp"
 #include "core/run/energy.hpp"
 #include "core/run/guard.hpp"
+#include "core/run/momentum.hpp"
 
 namespace hagfish {
 
@@ -30,6 +31,7 @@ struct Simulation {
   ControllerState controller;
   StepSolver solver;
   EnergyLedger ledger;
+  MomentumLedger momentum;
   Watch watch;
   BeforeStep before;
 };
@@ -58,6 +60,7 @@ struct StepRecord {
   Control control;
   StepSolution solution;
   EnergyLedger ledger;    ///< up to `time`
+  MomentumLedger momentum;  ///< up to `time`
   double head_drift = 0;  ///< cm; 0 while the head is free
   double crossing = 0;    ///< deepest overlap on the way to the next state, cm; 0 of a short way
   /// What this step gave rise to for the first time (guard.hpp).

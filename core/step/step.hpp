@@ -24,8 +24,8 @@ namespace hagfish {
 struct Control {
   bool clamp_head = true;
   TipForce tip;
-  ActiveTorque active;
   std::vector<ThigmotaxisCommand> thigmotaxis;  ///< none, or first and last contact
+  ActiveTorque active = {};
 };
 
 /// All that a step depends on, but for the warm start.

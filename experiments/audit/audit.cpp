@@ -108,6 +108,39 @@ Finding energy(const LogContents& log) {
   return finding;
 }
 
+/// What happens to linear momentum; where nothing holds or pulls the animal, that nothing does.
+std::vector<Finding> momentum(const LogContents& log) {
+  const auto get = [&log](const char* name) {
+    return log.h5.rows(std::string("/diagnostics/") + name);
+  };
+  const Hdf5Reader::Rows momentum = get("momentum");
+  const Hdf5Reader::Rows drag = get("impulse_drag");
+  const Hdf5Reader::Rows outside = get("impulse_outside");
+  const Hdf5Reader::Rows integrator = get("integrator_momentum");
+  const auto most = [](const Hdf5Reader::Rows& rows) {
+    return rows.allFinite() ? rows.cwiseAbs().maxCoeff() : INFINITY;
+  };
+  const Hdf5Reader::Rows off =
+      (momentum - drag - outside - integrator).rowwise() - momentum.row(0).eval();
+  const double passed = std::max({most(momentum), most(drag), most(outside)});
+  const double relative = passed > 0 ? most(off) / passed : most(off);
+  Finding finding = judged_over({"momentum ledger", relative, log.resolved.scene.expect.energy,
+                                 "of the momentum that passed"});
+  finding.text += fmt::format("; at most {:.3g} dyn s by drag, {:.3g} from outside, {:.3g} the "
+                              "integrator's own",
+                              most(drag), most(outside), most(integrator));
+  std::vector<Finding> findings{finding};
+  const Scene& scene = log.resolved.scene;
+  using Kind = ScriptSettings::Kind;
+  const bool free = !scene.clamp_head && !scene.wall.present && scene.gravity.isZero(0) &&
+                    (scene.script.kind == Kind::none || scene.script.kind == Kind::curvature);
+  if (free) {
+    findings.push_back(judged_over({"nothing outside", most(outside), 0, "dyn s"},
+                                   "no clamp, plate, gravity or tip force"));
+  }
+  return findings;
+}
+
 }  // namespace
 
 Finding judged(const Criterion& criterion, const std::string& text) {
@@ -163,6 +196,7 @@ std::vector<Finding> audit(const std::string& file) {
   findings.push_back(thigmotaxis_extent(log));
   findings.push_back(energy(log));
   findings.push_back(energy_gain(log));
+  append(momentum(log));
   return findings;
 }
 
