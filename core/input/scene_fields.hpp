@@ -16,11 +16,18 @@ namespace hagfish {
 
 enum class KnotUnit { unsaid, dyn, cm, body_length };
 
+/// A curvature program as a table: `times` x `stations` values each, a time after the other.
+struct ProgramTable {
+  std::vector<double> times, stations, bend_y, bend_z, twist;
+};
+
 /// A script as its file spells it: knots in rows [t, x, y, z], in `unit`.
 struct ScriptFile {
   ScriptSettings settings;  ///< all but the knots
   KnotUnit unit = KnotUnit::unsaid;
   std::vector<Eigen::Vector4d> rows;
+  std::string program;  ///< CSV file of a curvature program, or empty
+  ProgramTable curvature;
 };
 
 template <class Io>
@@ -35,9 +42,23 @@ void specimen_fields(Io& io, Specimen& s) {
   io.angle("twist_limit", s.twist_limit, positive());
 }
 
+/// What a specimen may leave out.
+template <class Io>
+void passive_fields(Io& io, Specimen& s) {
+  io.table("passive", [&s](Io& table) {
+    table.numbers("bending_stiffness", s.bending_stiffness, not_negative());
+    table.numbers("bending_damping", s.bending_damping, not_negative());
+    table.numbers("twist_stiffness", s.twist_stiffness, not_negative());
+    table.numbers("twist_damping", s.twist_damping, not_negative());
+  });
+}
+
 template <class Io>
 void model_fields(Io& io, ModelSettings& s) {
   io.integer("bodies", s.bodies, within(2, 400));
+  io.template choice<PassiveSource>(
+      "passive", s.passive,
+      {{"scene", PassiveSource::scene}, {"specimen", PassiveSource::specimen}});
   io.number("bending_stiffness", s.bending_stiffness, not_negative());
   io.number("bending_damping", s.bending_damping, not_negative());
   io.number("twist_stiffness", s.twist_stiffness, not_negative());
@@ -83,7 +104,8 @@ void script_fields(Io& io, ScriptFile& s) {
   using Kind = ScriptSettings::Kind;
   io.template choice<Kind>(
       "kind", s.settings.kind,
-      {{"none", Kind::none}, {"force", Kind::force}, {"position", Kind::position}});
+      {{"none", Kind::none}, {"force", Kind::force}, {"position", Kind::position},
+       {"curvature", Kind::curvature}});
   io.number("spring", s.settings.spring, not_negative());
   io.number("damper", s.settings.damper, not_negative());
   io.number("largest_force", s.settings.largest_force, not_negative());
@@ -92,6 +114,22 @@ void script_fields(Io& io, ScriptFile& s) {
   io.template choice<KnotUnit>(
       "unit", s.unit, {{"dyn", KnotUnit::dyn}, {"cm", KnotUnit::cm}, {"L", KnotUnit::body_length}});
   io.rows("knots", "knot", "t, x, y, z", s.rows);
+  io.string("program", s.program);
+  io.table("curvature", [&s](Io& table) {
+    table.numbers("times", s.curvature.times, not_negative());
+    table.numbers("stations", s.curvature.stations, within(0, 1));
+    table.numbers("bend_y", s.curvature.bend_y, any_number());
+    table.numbers("bend_z", s.curvature.bend_z, any_number());
+    table.numbers("twist", s.curvature.twist, any_number());
+  });
+}
+
+template <class Io>
+void active_fields(Io& io, ActiveSettings& s) {
+  io.number("stiffness", s.stiffness, not_negative());
+  io.number("tone_time", s.tone_time, not_negative());
+  io.number("relax_time", s.relax_time, not_negative());
+  io.number("capacity", s.capacity, not_negative());
 }
 
 template <class Io>
@@ -206,6 +244,7 @@ void scene_fields(Io& io, Scene& s, ScriptFile& script) {
   });
   io.table("start", [&](Io& t) { start_fields(t, s.start); });
   io.table("script", [&](Io& t) { script_fields(t, script); });
+  io.table("active", [&](Io& t) { active_fields(t, s.active); });
   io.table("controller", [&](Io& t) { controller_fields(t, s.controller); });
   io.table("knot", [&](Io& t) { knot_fields(t, s.knot); });
   io.table("time", [&](Io& t) { time_fields(t, s.time); });

@@ -183,7 +183,7 @@ bool TableReader::is_table(std::string_view key) const {
 }
 
 std::string TableReader::file_of(std::string_view key) const {
-  return impl_->document->file_of(impl_->peek(key));
+  return impl_->document->file_of(impl_->walk(std::string(key)));
 }
 
 bool TableReader::was_set(std::string_view key) const {

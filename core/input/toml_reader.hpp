@@ -42,7 +42,7 @@ class TableReader {
   bool has(std::string_view key) const;
   bool is_table(std::string_view key) const;
   bool was_set(std::string_view key) const;  ///< by set()
-  /// The file that the value at `key` was read from: this table's, or a base's.
+  /// The file that the value at the dotted `key` was read from: this table's, or a base's.
   std::string file_of(std::string_view key) const;
 
   void string(std::string_view key, std::string& value);

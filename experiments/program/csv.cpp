@@ -20,6 +20,8 @@ std::string field(std::string text) {
   return '"' + text + '"';
 }
 
+}  // namespace
+
 void write_text(const std::string& file, const std::string& text) {
   try {
     auto out = fmt::output_file(file);
@@ -29,8 +31,6 @@ void write_text(const std::string& file, const std::string& text) {
     throw FileError(file + ": cannot be written: " + error.code().message());
   }
 }
-
-}  // namespace
 
 std::string csv_text(const CsvTable& table) {
   std::string text;
