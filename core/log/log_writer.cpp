@@ -91,7 +91,7 @@ struct LogWriter::Contents {
     }
     try {
       Hdf5Writer h5(file->begin(room));
-      const Hdf5Reader newer(file->whole());
+      const Hdf5Reader newer(file->whole(), Origin::own);
       std::ranges::for_each(series, [&](const auto& s) { s->write(newer, h5); });
       h5.bytes(last_checkpoint, now);
       for (const auto& [name, value] : attributes) {

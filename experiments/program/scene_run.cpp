@@ -4,6 +4,7 @@
 
 #include <chrono>
 
+#include "core/input/input_text.hpp"
 #include "core/log/build_info.hpp"
 #include "experiments/program/failure.hpp"
 #include "experiments/program/progress.hpp"
@@ -94,7 +95,7 @@ int take_run(const Model& model, const Scene& scene, Simulation sim, const RunOp
     return exit_code::failed;
   }
   if (ending.code != exit_code::done) {
-    say("hagfish: {}: {}\n", options.out, ending.status);
+    say("hagfish: {}\n", printable(options.out + ": " + ending.status));
     return ending.code;
   }
   if (!options.quiet) {

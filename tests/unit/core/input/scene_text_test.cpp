@@ -108,7 +108,7 @@ class Bits {
   }
   void put(const KnotStretch& s) {
     const auto& [type, from, to] = s;
-    add(type, from, to);
+    add(type, run_time_text(from), run_time_text(to));
   }
   void put(const ExpectSettings& s) {
     const auto& [knot, types, hand, slide_distance, reverse_distance, speed_share, penetration,

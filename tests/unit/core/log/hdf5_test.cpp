@@ -95,10 +95,10 @@ TEST_F(Hdf5Test, WhatIsNotThereIsNamedWithItsFile) {
   EXPECT_EQ(refusal([&] { in.texts("/no/such"); }), name + "has no /no/such");
   EXPECT_EQ(refusal([&] { in.names("/none"); }), name + "has no /none");
   EXPECT_EQ(refusal([&] { in.doubles("/texts"); }), name + "/texts does not hold numbers");
-  for (const auto& read : std::vector<std::function<void()>>{
-           [&] { in.root_text("none"); }, [&] { in.root_int("none"); },
-           [&] { in.attribute("/v", "unit"); }, [&] { in.doubles("/g"); },
-           [&] { in.attribute_int("/none", "sequence"); }}) {
+  EXPECT_EQ(refusal([&] { in.attribute_int("/none", "sequence"); }), name + "has no /none");
+  for (const auto& read : std::vector<std::function<void()>>{[&] { in.root_text("none"); },
+                                                             [&] { in.root_int("none"); },
+                                                             [&] { in.attribute("/v", "unit"); }}) {
     EXPECT_EQ(refusal(read).rfind(name + "cannot read ", 0), 0u) << refusal(read);
   }
 }
