@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "mujoco_ref/mjcf.hpp"
+#include "mujoco_ref/mjcf_vocabulary.hpp"
 
 namespace hagfish {
 namespace {
@@ -93,12 +94,13 @@ void compare_joints(const mjModel& mirror, const Model& model, Comparison& compa
 MujocoModel mujoco_model_of(const Hdf5Reader& log) {
   std::map<std::string, std::string> files;
   for (const std::string& name : log.names("/mjcf")) {
-    files[name] = log.texts("/mjcf/" + name).at(0);
+    files[name] = log.text("/mjcf/" + name);
   }
   if (!files.contains(mjcf_root_file)) {
     throw FileError(log.file() + ": has no /mjcf/" + mjcf_root_file);
   }
   try {
+    check_vocabulary(files);
     return MujocoModel(files);
   } catch (const std::runtime_error& error) {
     throw FileError(log.file() + ": /mjcf/" + error.what());

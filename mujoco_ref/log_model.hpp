@@ -10,7 +10,8 @@
 namespace hagfish {
 
 /// The model that a log carries under /mjcf; rows of its /trajectory/q are MuJoCo's qpos. Throws
-/// FileError, one line with the log's name, where the log holds none or MuJoCo rejects it.
+/// FileError, one line with the log's name, where the log holds none, one that asks for more than
+/// models of this program have (mjcf_vocabulary.hpp), or one that MuJoCo rejects.
 MujocoModel mujoco_model_of(const Hdf5Reader& log);
 
 /// The first quantity in which `mirror`, with a free head, is not `model` at timestep `h` (s), with

@@ -47,6 +47,15 @@ FileSystem file_system(const Files& files) {
   return vfs;
 }
 
+/// MuJoCo's own handlers write a file into the working folder, and wait for a key after an error.
+void install_handlers() {
+  mju_user_warning = [](const char*) {};  // each is counted in mjData
+  // Whoever returns from here goes on in MuJoCo where it cannot go on.
+  mju_user_error = [](const char* message) {
+    throw std::runtime_error("MuJoCo: " + one_line(message));
+  };
+}
+
 /// Loads `file` as the root document; `message` is what MuJoCo said, empty where all is well.
 mjModel* load(const mjVFS* vfs, const std::string& file, std::string& message) {
   std::array<char, 1024> text{};
@@ -69,8 +78,7 @@ mjModel* load(const mjVFS* vfs, const std::string& file, std::string& message) {
 }  // namespace
 
 MujocoModel::MujocoModel(const Files& files) {
-  // Each warning is counted in mjData; MuJoCo's own handler writes a file into the working folder.
-  mju_user_warning = [](const char*) {};
+  install_handlers();
   const FileSystem vfs = file_system(files);
   std::string message;
   model_.reset(load(vfs.get(), mjcf_root_file, message));

@@ -15,6 +15,8 @@ class MujocoModel {
   /// Throws std::runtime_error, one line with the file's name and MuJoCo's own message, where
   /// MuJoCo rejects or only warns about a file. The name is that of the file that is not XML, or of
   /// the root document: MuJoCo forgets which file the rest came from.
+  /// From the first one on, errors of MuJoCo anywhere are thrown as std::runtime_error, "MuJoCo:
+  /// ..." in one line, and it writes nothing of its own.
   explicit MujocoModel(const std::map<std::string, std::string>& files);
 
   const mjModel* model() const { return model_.get(); }

@@ -54,6 +54,8 @@ void ActiveSetBoxQp::solve(const BoxQp& qp, const Eigen::VectorXd& start, BoxQpS
     solution.message = names(solution.contradicting);
   } else if (residual <= accepted) {
     solution.status = SolveStatus::solved;
+  } else if (ending == ActiveSetPivoting::Ending::stopped) {
+    solution.status = SolveStatus::stopped;
   } else {
     solution.status = ending == ActiveSetPivoting::Ending::limit ? SolveStatus::iteration_limit
                                                                  : SolveStatus::failed;

@@ -12,6 +12,7 @@ namespace hagfish {
 /// changes of the active set. Where rows contradict each other, `message` names them by index.
 class ActiveSetBoxQp final : public BoxQpSolver {
  public:
+  ActiveSetBoxQp() : pivoting_([this] { return stopped(); }) {}
   using BoxQpSolver::solve;
   void solve(const BoxQp& qp, const Eigen::VectorXd& start, BoxQpSolution& solution) override;
 

@@ -121,6 +121,9 @@ bool ActiveSetPivoting::change_blocks() {
     } else if (tries-- == 0) {
       return false;
     }
+    if (stop_()) {
+      return false;
+    }
     for (const Eigen::Index i : leaving_) {
       x_[i] = std::clamp(x_[i], qp_->lower[i], qp_->upper[i]);
     }
@@ -148,6 +151,9 @@ ActiveSetPivoting::Ending ActiveSetPivoting::change_singly() {
   enter_box();
   const auto most = 100 + 20 * static_cast<int>(x_.size());
   for (int k = 0; k < most; ++k) {
+    if (stop_()) {
+      return Ending::stopped;
+    }
     update_gradient();
     if (!descend()) {
       continue;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <vector>
 
 #include "solvers/active_set_factor.hpp"
@@ -16,9 +17,11 @@ namespace hagfish {
 /// other, which always ends.
 class ActiveSetPivoting {
  public:
-  enum class Ending { settled, contradiction, limit };
+  enum class Ending { settled, contradiction, limit, stopped };
 
-  ActiveSetPivoting() = default;
+  /// `stop` is asked at each change whether to end.
+  explicit ActiveSetPivoting(std::function<bool()> stop = [] { return false; })
+      : stop_(std::move(stop)) {}
   ActiveSetPivoting(const ActiveSetPivoting&) = delete;  // its vectors refer to memory of its own
   ActiveSetPivoting& operator=(const ActiveSetPivoting&) = delete;
 
@@ -32,7 +35,8 @@ class ActiveSetPivoting {
 
   /// Block principal pivoting (Portugal, Júdice, Vicente: A comparison of block pivoting and
   /// interior-point algorithms for linear least squares problems with nonnegative variables, Math.
-  /// Comp. 1994). False where the number of wrong rows no longer falls.
+  /// Comp. 1994). False where the number of wrong rows no longer falls, or where
+  /// it is to stop.
   bool change_blocks();
 
   /// Primal active set method on x, which is the dual one of Goldfarb and Idnani (Math. Programming
@@ -61,6 +65,7 @@ class ActiveSetPivoting {
   Eigen::Index worst_row() const;
   bool exchange(Eigen::Index row);
 
+  std::function<bool()> stop_;
   const BoxQp* qp_ = nullptr;
   ActiveSetFactor factor_;
   Eigen::MatrixXd memory_;  ///< of the vectors below: Eigen's own allocate at each change of size

@@ -16,6 +16,8 @@ const char* status_name(SolveStatus status) {
       return "solved";
     case SolveStatus::infeasible:
       return "infeasible";
+    case SolveStatus::stopped:
+      return "stopped";
     case SolveStatus::iteration_limit:
       return "iteration limit";
     case SolveStatus::failed:

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -36,7 +37,7 @@ void row_scale(const Eigen::MatrixXd& A, Eigen::Ref<Eigen::VectorXd> s);
 /// that is 0.
 double rhs_scale(const BoxQp& qp);
 
-enum class SolveStatus { solved, infeasible, iteration_limit, failed };
+enum class SolveStatus { solved, infeasible, iteration_limit, stopped, failed };
 const char* status_name(SolveStatus status);
 
 struct BoxQpSolution {
@@ -73,6 +74,9 @@ KktResiduals kkt_residuals(const BoxQp& qp, const Eigen::Ref<const Eigen::Vector
 class BoxQpSolver {
  public:
   virtual ~BoxQpSolver() = default;
+  /// A solve ends, with SolveStatus::stopped, soon after `asked` returns true: it is called at each
+  /// iteration. Never, where it is empty.
+  void stop_when(std::function<bool()> asked) { stop_ = std::move(asked); }
   /// `start` (m) is a guess at x, zero where nothing is known. `solution` is written whole, into
   /// the storage that it has. Throws as check_box_qp does.
   virtual void solve(const BoxQp& qp, const Eigen::VectorXd& start, BoxQpSolution& solution) = 0;
@@ -81,6 +85,12 @@ class BoxQpSolver {
     solve(qp, start, solution);
     return solution;
   }
+
+ protected:
+  bool stopped() const { return stop_ && stop_(); }
+
+ private:
+  std::function<bool()> stop_;
 };
 
 /// Names that make_box_qp_solver takes.

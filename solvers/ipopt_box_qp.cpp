@@ -26,6 +26,8 @@ class ScaledProblem final : public Ipopt::TNLP {
   Eigen::VectorXd y;                                ///< Ipopt's last point
   double least_objective = 0;                       ///< below it the solve is stopped
   double regularisation = 0;                        ///< added to the diagonal of Q
+  std::function<bool()> stop;                       ///< whether to end the solve
+  bool stopped = false;                             ///< it did
 
   /// Takes over min ½ x' A x - b' x with x = t y, t = β / sqrt(A_ii): unit diagonal and |b̂| <= 1,
   /// so that Ipopt's tolerances mean what IpoptSettings says. Returns t.
@@ -112,7 +114,8 @@ class ScaledProblem final : public Ipopt::TNLP {
                              Number /*regularization*/, Number /*alpha_du*/, Number /*alpha_pr*/,
                              Index /*trials*/, const Ipopt::IpoptData* /*data*/,
                              Ipopt::IpoptCalculatedQuantities* /*quantities*/) override {
-    return objective >= least_objective;
+    stopped = stop();
+    return objective >= least_objective && !stopped;
   }
 
   void finalize_solution(Ipopt::SolverReturn /*status*/, Index n, const Number* x,
@@ -221,6 +224,7 @@ IpoptBoxQp::IpoptBoxQp(const IpoptSettings& settings) : engine_(std::make_unique
   engine_->problem = new ScaledProblem;
   engine_->problem->least_objective = -settings.infeasible_objective;
   engine_->problem->regularisation = settings.regularisation;
+  engine_->problem->stop = [this] { return stopped(); };
 }
 
 IpoptBoxQp::~IpoptBoxQp() = default;
@@ -245,7 +249,7 @@ void IpoptBoxQp::solve(const BoxQp& qp, const Eigen::VectorXd& start, BoxQpSolut
     return;
   }
   engine_->attempt(*engine_->fast, part, part.restrict_to_reduced(start), qp, solution);
-  if (solution.status != SolveStatus::solved && solution.status != SolveStatus::infeasible) {
+  if (solution.status == SolveStatus::failed || solution.status == SolveStatus::iteration_limit) {
     engine_->attempt(*engine_->careful, part, reduced, qp, solution);
   }
 }
@@ -255,6 +259,7 @@ void IpoptBoxQp::Engine::attempt(Ipopt::IpoptApplication& ipopt, const BoundedPa
                                  BoxQpSolution& solution) {
   const Eigen::VectorXd unit = problem->set(part.reduced(), start);
   centre_start(*problem, settings);
+  problem->stopped = false;
   const Ipopt::ApplicationReturnStatus code = ipopt.OptimizeTNLP(Ipopt::GetRawPtr(problem));
   if (Ipopt::IsValid(ipopt.Statistics())) {
     solution.iterations += ipopt.Statistics()->IterationCount();
@@ -272,7 +277,9 @@ void IpoptBoxQp::Engine::attempt(Ipopt::IpoptApplication& ipopt, const BoundedPa
     return;
   }
   solution.message = "Ipopt return code " + std::to_string(static_cast<int>(code));
-  if (falls_without_end(problem->qp, y, problem->least_objective)) {
+  if (problem->stopped) {
+    solution.status = SolveStatus::stopped;
+  } else if (falls_without_end(problem->qp, y, problem->least_objective)) {
     solution.status = SolveStatus::infeasible;
   } else {
     solution.status = code == Ipopt::Maximum_Iterations_Exceeded ? SolveStatus::iteration_limit

@@ -7,11 +7,16 @@
 #include <utility>
 
 #include "core/input/input_error.hpp"
+#include "core/input/regular_file.hpp"
 
 namespace hagfish {
 namespace {
 
 constexpr std::size_t longest_quote = 60;  ///< bytes of a value that an error repeats
+/// Of a text file, bytes. A scene with the whole state of 400 bodies has some 30,000.
+constexpr std::size_t largest_text = std::size_t{1} << 20;
+constexpr std::size_t longest_shown = 2000;  ///< bytes of a text that is printed
+constexpr std::ptrdiff_t most_parts = 32;    ///< of a dotted key; scenes use 3
 
 /// Levenshtein distance.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -28,6 +33,21 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
+/// Bytes of the UTF-8 character that `text` begins with; 0 where that is none, or one to control a
+/// terminal: below U+0020, and U+007F to U+009F.
+std::size_t character_size(std::string_view text) {
+  const auto byte = [&text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned char first = byte(0);
+  if (first < 0x80) return first >= 0x20 && first != 0x7f ? 1 : 0;
+  const std::size_t size =
+      first < 0xC2 || first > 0xF4 ? 0 : 2 + (first >= 0xE0 ? 1 : 0) + (first >= 0xF0 ? 1 : 0);
+  if (size > text.size()) return 0;
+  for (std::size_t i = 1; i < size; ++i) {
+    if ((byte(i) & 0xC0) != 0x80) return 0;
+  }
+  return first == 0xC2 && byte(1) < 0xA0 ? 0 : size;
+}
+
 }  // namespace
 
 std::string shortened(const std::string& text) {
@@ -35,6 +55,24 @@ std::string shortened(const std::string& text) {
   std::size_t end = longest_quote;
   while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
   return text.substr(0, end) + "...";
+}
+
+std::string printable(std::string_view text) {
+  std::string shown;
+  std::size_t at = 0;
+  while (at < text.size() && at < longest_shown) {
+    const std::size_t size = character_size(text.substr(at));
+    if (size == 0) {
+      constexpr char digits[] = "0123456789abcdef";
+      const auto byte = static_cast<unsigned char>(text[at]);
+      shown += {'\\', 'x', digits[byte >> 4], digits[byte & 15]};
+    } else {
+      shown += text.substr(at, size);
+    }
+    at += std::max<std::size_t>(size, 1);
+  }
+  if (at < text.size()) shown += "... (" + std::to_string(text.size() - at) + " more bytes)";
+  return shown;
 }
 
 void throw_input_error(std::string text) {
@@ -74,23 +112,27 @@ Override parse_override(std::string_view assignment) {
   if (equals == assignment.npos || dotted.find("..") != std::string::npos) {
     throw_input_error("--set " + shortened(std::string(assignment)) + ": must be KEY=VALUE");
   }
+  if (std::ranges::count(change.key, '.') >= most_parts) {
+    throw_input_error("--set " + shortened(change.key) + ": has more than " +
+                      std::to_string(most_parts) + " parts");
+  }
   return change;
 }
 
 std::string read_text_file(const std::filesystem::path& file) {
-  // A directory opens as a file and reads as an empty one or worse, so it is checked first.
-  std::error_code error;
-  const auto status = std::filesystem::status(file, error);
-  if (status.type() == std::filesystem::file_type::not_found) {
-    throw_input_error(file.string() + ": no such file");
+  if (const std::string why = unreadable(file); !why.empty()) {
+    throw_input_error(file.string() + ": " + why);
   }
-  if (error) throw_input_error(file.string() + ": cannot be read: " + error.message());
-  if (std::filesystem::is_directory(status)) throw_input_error(file.string() + ": is a directory");
   std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  if (stream && stream.peek() != std::ifstream::traits_type::eof()) text << stream.rdbuf();
+  std::string text(largest_text + 1, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (stream.bad() || !stream.is_open()) throw_input_error(file.string() + ": cannot be read");
-  return text.str();
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  if (text.size() > largest_text) {
+    throw_input_error(file.string() + ": is larger than " + std::to_string(largest_text) +
+                      " bytes");
+  }
+  return text;
 }
 
 }  // namespace hagfish

@@ -15,14 +15,19 @@ struct Override {
 };
 
 /// Splits "KEY=VALUE" at the first '='. Throws InputError where there is none or KEY has an empty
-/// part.
+/// part or more than 32.
 Override parse_override(std::string_view assignment);
 
-/// The whole of a text file. Throws InputError where `file` is missing, a directory or unreadable.
+/// The whole of a text file. Throws InputError where `file` is missing, not a regular file,
+/// unreadable or larger than 1 MiB.
 std::string read_text_file(const std::filesystem::path& file);
 
 /// Throws InputError with `text` on one line: control characters become spaces.
 [[noreturn]] void throw_input_error(std::string text);
+
+/// `text` for a terminal: bytes that a terminal would obey (control characters) or that are no
+/// UTF-8 as \\xNN; of more than 2000 bytes the first ones, and how many more there are.
+std::string printable(std::string_view text);
 
 /// The first 60 bytes or so of `text`, in whole UTF-8 characters, with dots for what is left off.
 std::string shortened(const std::string& text);

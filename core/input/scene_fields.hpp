@@ -2,12 +2,16 @@
 // TomlWriter. Included by scene_reader.cpp only.
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "core/input/run_time_text.hpp"
 #include "core/input/toml_range.hpp"
 #include "core/scene/settings.hpp"
 #include "core/scene/specimen.hpp"
@@ -176,6 +180,7 @@ template <class Io>
 void time_fields(Io& io, TimeSettings& s) {
   io.number("step", s.step, positive());
   io.number("frame_interval", s.frame_interval, positive());
+  io.number("checkpoint_interval", s.checkpoint_interval, positive());
   io.number("duration", s.duration, positive());
   io.template choice<Phase>("until", s.until,
                             {named(Phase::form), named(Phase::tighten), named(Phase::slide),
@@ -199,12 +204,16 @@ void guard_fields(Io& io, GuardSettings& s) {
 template <class Io>
 void expect_fields(Io& io, ExpectSettings& s) {
   io.string("knot", s.knot);
-  std::vector<std::pair<std::string, Eigen::Vector2d>> stretches;
-  for (const KnotStretch& k : s.types)
-    stretches.emplace_back(k.type, Eigen::Vector2d(k.from, k.to));
-  io.labelled_rows("types", "stretch", "[type, from, to]", stretches);
+  const auto text = [](const RunTime& time) { return run_time_text(time); };
+  // What is no time becomes none, which the reader refuses.
+  const auto time = [](const std::string& called) {
+    return run_time_called(called).value_or(RunTime{std::nullopt, NAN});
+  };
+  std::vector<std::array<std::string, 3>> stretches;
+  for (const KnotStretch& k : s.types) stretches.push_back({k.type, text(k.from), text(k.to)});
+  io.text_rows("types", "stretch", "[type, from, to]", stretches);
   s.types.clear();
-  for (const auto& [type, times] : stretches) s.types.push_back({type, times[0], times[1]});
+  for (const auto& [type, from, to] : stretches) s.types.push_back({type, time(from), time(to)});
   io.template choice<Hand>("hand", s.hand,
                            {{"any", Hand::any}, {"right", Hand::right}, {"left", Hand::left}});
   io.length("slide_distance", s.slide_distance, not_negative());

@@ -303,6 +303,15 @@ void check_times(const TableReader& root, const TimeSettings& time) {
   }
 }
 
+/// Whether two times follow each other, as far as that can be said before the run.
+bool in_order(const RunTime& a, const RunTime& b) {
+  if (a.after && b.after) {
+    const int first = phase_order(*a.after), second = phase_order(*b.after);
+    return first < second || (first == second && a.time <= b.time);
+  }
+  return a.after || b.after || a.time <= b.time;
+}
+
 void check_expectations(const TableReader& root, const Scene& scene) {
   const auto known = [](const std::string& name) { return knot_called(name).has_value(); };
   const std::string names = "must be the name of a knot, 3_1 to 7_7 or det=D,v2=V";
@@ -314,7 +323,14 @@ void check_expectations(const TableReader& root, const Scene& scene) {
     if (!known(types[i].type)) {
       root.fail_element("expect.types", i, "type " + names + ", or 0_1 for none");
     }
-    if (types[i].to < types[i].from || types[i].from < (i > 0 ? types[i - 1].to : 0)) {
+    if (std::isnan(types[i].from.time) || std::isnan(types[i].to.time)) {
+      root.fail_element("expect.types", i,
+                        "a time must be in s, a phase as in \"release\", later as in "
+                        "\"free + 0.5\", or \"end\"");
+    }
+    const RunTime start;
+    if (!in_order(types[i].from, types[i].to) ||
+        !in_order(i > 0 ? types[i - 1].to : start, types[i].from)) {
       root.fail_element("expect.types", i, "times must rise");
     }
   }

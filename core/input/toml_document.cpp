@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "core/input/input_error.hpp"
+#include "core/input/toml_bounds.hpp"
 
 namespace hagfish {
 namespace {
@@ -28,6 +29,7 @@ std::string condensed(std::string message) {
 }
 
 toml::value parse(const std::string& text, const std::string& file) {
+  check_toml_bounds(text, file);
   try {
     std::istringstream stream(text);
     return toml::parse(stream, file);

@@ -275,8 +275,8 @@ void TableReader::rows(std::string_view key, std::string_view noun, std::string_
   }
 }
 
-void TableReader::labelled_rows(std::string_view key, std::string_view noun, std::string_view form,
-                                std::vector<std::pair<std::string, Eigen::Vector2d>>& value) {
+void TableReader::text_rows(std::string_view key, std::string_view noun, std::string_view form,
+                            std::vector<std::array<std::string, 3>>& value) {
   const Impl::Place place = impl_->ask(key);
   if (!place.value) return;
   const std::string wanted = "must be an array of arrays " + std::string(form);
@@ -288,9 +288,12 @@ void TableReader::labelled_rows(std::string_view key, std::string_view noun, std
     if (!row.is_array() || row.size() != 3 || !row.at(0).is_string()) {
       impl_->fail(here, "must be " + std::string(form));
     }
-    value.emplace_back(row.at(0).as_string().str,
-                       Eigen::Vector2d(impl_->checked(here, row.at(1), any_number()),
-                                       impl_->checked(here, row.at(2), any_number())));
+    std::array<std::string, 3> texts;
+    for (std::size_t i = 0; i < 3; ++i) {
+      texts[i] = row.at(i).is_string() ? row.at(i).as_string().str
+                                       : shortest(impl_->checked(here, row.at(i), any_number()));
+    }
+    value.push_back(texts);
   }
 }
 

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <initializer_list>
 #include <memory>
 #include <optional>
@@ -65,9 +66,10 @@ class TableReader {
   /// `columns`, "t, x, y, z".
   void rows(std::string_view key, std::string_view noun, std::string_view columns,
             std::vector<Eigen::Vector4d>& value);
-  /// An array of arrays of a string and two numbers, which errors show as `form`.
-  void labelled_rows(std::string_view key, std::string_view noun, std::string_view form,
-                     std::vector<std::pair<std::string, Eigen::Vector2d>>& value);
+  /// An array of arrays of three strings, which errors show as `form`; a number but in the first
+  /// place is taken as its shortest text.
+  void text_rows(std::string_view key, std::string_view noun, std::string_view form,
+                 std::vector<std::array<std::string, 3>>& value);
   /// An angle in rad, read from NAME_deg or NAME_rad; `range` is in degrees.
   void angle(std::string_view name, double& value, const Range& range);
   /// As angle(), one or more in an array.

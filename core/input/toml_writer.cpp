@@ -94,13 +94,11 @@ void TomlWriter::rows(std::string_view key, std::string_view, std::string_view,
   line(key, text + "]");
 }
 
-void TomlWriter::labelled_rows(std::string_view key, std::string_view, std::string_view,
-                               const std::vector<std::pair<std::string, Eigen::Vector2d>>& value) {
+void TomlWriter::text_rows(std::string_view key, std::string_view, std::string_view,
+                           const std::vector<std::array<std::string, 3>>& value) {
   std::string text = "[\n";
-  for (const auto& [label, numbers] : value) {
-    text += "  [" + quoted(label);
-    for (const double x : numbers) text += ", " + number_text(x);
-    text += "],\n";
+  for (const auto& row : value) {
+    text += "  [" + quoted(row[0]) + ", " + quoted(row[1]) + ", " + quoted(row[2]) + "],\n";
   }
   line(key, text + "]");
 }

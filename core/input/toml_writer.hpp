@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <initializer_list>
 #include <stdexcept>
 #include <string>
@@ -32,8 +33,8 @@ class TomlWriter {
   void numbers(std::string_view key, const std::vector<double>& value, const Range& range);
   void rows(std::string_view key, std::string_view noun, std::string_view columns,
             const std::vector<Eigen::Vector4d>& value);
-  void labelled_rows(std::string_view key, std::string_view noun, std::string_view form,
-                     const std::vector<std::pair<std::string, Eigen::Vector2d>>& value);
+  void text_rows(std::string_view key, std::string_view noun, std::string_view form,
+                 const std::vector<std::array<std::string, 3>>& value);
   /// Writes NAME_deg, or NAME_rad where no double of degrees gives `value` (rad) back exactly.
   void angle(std::string_view name, double value, const Range& range);
   void angles(std::string_view name, const std::vector<double>& value, const Range& range);

@@ -1,24 +1,88 @@
 #include "core/log/hdf5_reader.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <functional>
+#include <limits>
 #include <numeric>
+#include <utility>
+
+#include "core/input/regular_file.hpp"
+#include "core/log/hdf5_trial.hpp"
 
 namespace hagfish {
 namespace {
 
-std::size_t size_of(const std::vector<hsize_t>& shape) {
-  return std::accumulate(shape.begin(), shape.end(), hsize_t{1}, std::multiplies<>());
+/// Deflate packs no better, to one byte of so many; a dataset with more holds what is not in its
+/// file.
+constexpr hsize_t densest_packing = 1032;
+/// But a small one may leave all to its fill value, bytes.
+constexpr hsize_t small_dataset = hsize_t{1} << 20;
+/// Objects of a group: a set of QPs has one a step.
+constexpr hsize_t most_names = 10'000'000;
+
+/// A quantity that does not fit comes out as the largest.
+hsize_t product(const std::vector<hsize_t>& factors, hsize_t first) {
+  return std::accumulate(factors.begin(), factors.end(), first, [](hsize_t a, hsize_t b) {
+    const bool fits = b == 0 || a <= std::numeric_limits<hsize_t>::max() / b;
+    return fits ? a * b : std::numeric_limits<hsize_t>::max();
+  });
+}
+
+hsize_t size_of(const std::vector<hsize_t>& shape) { return product(shape, 1); }
+
+std::vector<hsize_t> extent_of(const H5::DataSpace& space) {
+  std::vector<hsize_t> extent(space.getSimpleExtentNdims());
+  if (!extent.empty()) space.getSimpleExtentDims(extent.data());
+  return extent;
+}
+
+/// A text of fixed length up to the padding after it.
+std::string unpadded(const char* text, std::size_t size, H5T_str_t padding) {
+  std::string value(text, size);
+  const std::size_t end =
+      padding == H5T_STR_SPACEPAD ? value.find_last_not_of(' ') + 1 : value.find('\0');
+  return value.substr(0, end);
+}
+
+/// The one text or whole number of `attribute`; a FileError says what it is if not that.
+std::string text_of(const H5::Attribute& attribute, const std::string& name) {
+  if (attribute.getTypeClass() != H5T_STRING ||
+      attribute.getSpace().getSimpleExtentNpoints() != 1) {
+    throw FileError(name + " is not one text");
+  }
+  const H5::StrType type = attribute.getStrType();
+  if (!type.isVariableStr()) {
+    std::vector<char> raw(type.getSize());
+    attribute.read(type, raw.data());
+    return unpadded(raw.data(), raw.size(), type.getStrpad());
+  }
+  char* raw = nullptr;
+  attribute.read(type, static_cast<void*>(&raw));
+  const std::string value = raw != nullptr ? raw : "";
+  H5::DataSet::vlenReclaim(static_cast<void*>(&raw), type, attribute.getSpace());
+  return value;
+}
+
+std::int64_t whole_number_of(const H5::Attribute& attribute, const std::string& name) {
+  if (attribute.getTypeClass() != H5T_INTEGER ||
+      attribute.getSpace().getSimpleExtentNpoints() != 1) {
+    throw FileError(name + " is not one whole number");
+  }
+  std::int64_t value = 0;
+  attribute.read(H5::PredType::NATIVE_INT64, &value);
+  return value;
 }
 
 }  // namespace
 
-Hdf5Reader::Hdf5Reader(const std::filesystem::path& file) : file_(file.string()) {
+Hdf5Reader::Hdf5Reader(const std::filesystem::path& file, Origin origin) : file_(file.string()) {
   H5::Exception::dontPrint();
-  std::error_code error;
-  if (!std::filesystem::exists(file, error)) {
-    throw FileError(file_ + ": no such file");
+  if (const std::string why = unreadable(file); !why.empty()) {
+    throw FileError(file_ + ": " + why);
   }
+  file_size_ = std::filesystem::file_size(file);
+  if (origin == Origin::anywhere) try_hdf5(file);
   guarded(file_, "read as HDF5", [&] { h5_ = H5::H5File(file_, H5F_ACC_RDONLY); });
 }
 
@@ -26,7 +90,22 @@ H5::DataSet Hdf5Reader::open(const std::string& path) const {
   if (!has(path)) {
     throw FileError(file_ + ": has no " + path);
   }
-  return guarded(file_, "read " + path, [&] { return h5_.openDataSet(path); });
+  return guarded(file_, "read " + path, [&] {
+    if (h5_.childObjType(path) != H5O_TYPE_DATASET) {
+      throw FileError(file_ + ": " + path + " is no dataset");
+    }
+    const H5::DataSet set = h5_.openDataSet(path);
+    const H5::DSetCreatPropList made = set.getCreatePlist();
+    if (made.getLayout() == H5D_VIRTUAL || H5Pget_external_count(made.getId()) != 0) {
+      throw FileError(file_ + ": the numbers of " + path + " are in another file");
+    }
+    const hsize_t bytes = product(extent_of(set.getSpace()), set.getDataType().getSize());
+    if (bytes > std::max(small_dataset, densest_packing * file_size_)) {
+      throw FileError(file_ + ": " + path +
+                      " says that it holds more than a file of this size can");
+    }
+    return set;
+  });
 }
 
 bool Hdf5Reader::has(const std::string& path) const {
@@ -35,123 +114,179 @@ bool Hdf5Reader::has(const std::string& path) const {
 
 bool Hdf5Reader::holds(const std::string& path) const {
   for (std::size_t end = path.find('/', 1);; end = path.find('/', end + 1)) {
-    if (!h5_.nameExists(path.substr(0, end))) {
+    const std::string part = path.substr(0, end);
+    if (!h5_.nameExists(part)) {
       return false;
+    }
+    H5L_info_t link;
+    if (H5Lget_info(h5_.getId(), part.c_str(), &link, H5P_DEFAULT) < 0) {
+      throw FileError(file_ + ": " + part + " cannot be looked up");
+    }
+    if (link.type != H5L_TYPE_HARD) {
+      throw FileError(file_ + ": " + part + " is a link; only what the file itself has is read");
     }
     if (end == std::string::npos) {
       return true;
+    }
+    if (h5_.childObjType(part) != H5O_TYPE_GROUP) {
+      throw FileError(file_ + ": " + part + " is no group");
     }
   }
 }
 
 std::string Hdf5Reader::root_text(const std::string& name) const {
   return guarded(file_, "read attribute " + name, [&] {
-    const H5::Attribute attribute = h5_.openGroup("/").openAttribute(name);
-    std::string value;
-    attribute.read(attribute.getStrType(), value);
-    return value;
+    return text_of(h5_.openGroup("/").openAttribute(name), file_ + ": attribute " + name);
   });
+}
+
+bool Hdf5Reader::has_root_attribute(const std::string& name) const {
+  return guarded(file_, "look for attribute " + name,
+                 [&] { return h5_.openGroup("/").attrExists(name); });
 }
 
 int Hdf5Reader::root_int(const std::string& name) const {
   return guarded(file_, "read attribute " + name, [&] {
-    int value = 0;
-    h5_.openGroup("/").openAttribute(name).read(H5::PredType::NATIVE_INT, &value);
-    return value;
+    const std::int64_t value =
+        whole_number_of(h5_.openGroup("/").openAttribute(name), file_ + ": attribute " + name);
+    if (!std::in_range<int>(value)) {
+      throw FileError(fmt::format("{}: attribute {} is {}", file_, name, value));
+    }
+    return static_cast<int>(value);
   });
 }
 
 std::optional<std::int64_t> Hdf5Reader::attribute_int(const std::string& group,
                                                       const std::string& name) const {
   return guarded(file_, "read attribute " + name + " of " + group, [&] {
+    require_group(group);
     const H5::Group members = h5_.openGroup(group);
     if (!members.attrExists(name)) {
       return std::optional<std::int64_t>();
     }
-    const H5::Attribute attribute = members.openAttribute(name);
-    if (attribute.getTypeClass() != H5T_INTEGER ||
-        attribute.getSpace().getSimpleExtentNpoints() != 1) {
-      throw FileError(file_ + ": attribute " + name + " of " + group + " is not one whole number");
-    }
-    std::int64_t value = 0;
-    attribute.read(H5::PredType::NATIVE_INT64, &value);
-    return std::optional<std::int64_t>(value);
+    return std::optional(whole_number_of(members.openAttribute(name),
+                                         file_ + ": attribute " + name + " of " + group));
   });
 }
 
 std::vector<hsize_t> Hdf5Reader::shape(const std::string& path) const {
   const H5::DataSet set = open(path);
-  return guarded(file_, "read the shape of " + path, [&] {
-    const H5::DataSpace space = set.getSpace();
-    std::vector<hsize_t> extent(space.getSimpleExtentNdims());
-    if (!extent.empty()) {
-      space.getSimpleExtentDims(extent.data());
-    }
-    return extent;
-  });
+  return guarded(file_, "read the shape of " + path, [&] { return extent_of(set.getSpace()); });
 }
 
 std::string Hdf5Reader::attribute(const std::string& path, const std::string& name) const {
   const H5::DataSet set = open(path);
   return guarded(file_, "read attribute " + name + " of " + path, [&] {
-    const H5::Attribute attribute = set.openAttribute(name);
-    std::string value;
-    attribute.read(attribute.getStrType(), value);
-    return value;
+    return text_of(set.openAttribute(name), file_ + ": attribute " + name + " of " + path);
   });
+}
+
+H5T_class_t Hdf5Reader::type(const std::string& path) const {
+  const H5::DataSet set = open(path);
+  return guarded(file_, "read " + path, [&] { return set.getTypeClass(); });
 }
 
 std::vector<double> Hdf5Reader::doubles(const std::string& path) const {
   const H5::DataSet set = open(path);
-  const H5T_class_t type = guarded(file_, "read " + path, [&] { return set.getTypeClass(); });
-  if (type != H5T_FLOAT && type != H5T_INTEGER) {
-    throw FileError(file_ + ": " + path + " does not hold numbers");
-  }
-  std::vector<double> values(size_of(shape(path)));
-  guarded(file_, "read " + path, [&] { set.read(values.data(), H5::PredType::NATIVE_DOUBLE); });
-  return values;
+  return guarded(file_, "read " + path, [&] {
+    const H5T_class_t type = set.getTypeClass();
+    if (type != H5T_FLOAT && type != H5T_INTEGER) {
+      throw FileError(file_ + ": " + path + " does not hold numbers");
+    }
+    std::vector<double> values(size_of(extent_of(set.getSpace())));
+    set.read(values.data(), H5::PredType::NATIVE_DOUBLE);
+    return values;
+  });
 }
 
 std::vector<std::int64_t> Hdf5Reader::integers(const std::string& path) const {
   const H5::DataSet set = open(path);
-  std::vector<std::int64_t> values(size_of(shape(path)));
-  guarded(file_, "read " + path, [&] {
-    if (set.getTypeClass() == H5T_ENUM && set.getDataType().getSize() != 1) {
+  return guarded(file_, "read " + path, [&] {
+    const H5T_class_t type = set.getTypeClass();
+    if (type != H5T_ENUM && type != H5T_INTEGER) {
+      throw FileError(file_ + ": " + path + " does not hold whole numbers");
+    }
+    if (type == H5T_ENUM && set.getDataType().getSize() != 1) {
       throw FileError(file_ + ": " + path + " is not an enumeration of one byte");
     }
-    if (set.getTypeClass() == H5T_ENUM) {
+    std::vector<std::int64_t> values(size_of(extent_of(set.getSpace())));
+    if (type == H5T_ENUM) {
       std::vector<std::uint8_t> raw(values.size());
       set.read(raw.data(), set.getDataType());
       std::copy(raw.begin(), raw.end(), values.begin());
     } else {
       set.read(values.data(), H5::PredType::NATIVE_INT64);
     }
+    return values;
+  });
+}
+
+std::vector<std::uint8_t> Hdf5Reader::bytes(const std::string& path) const {
+  const H5::DataSet set = open(path);
+  std::vector<std::uint8_t> values(size_of(shape(path)));
+  guarded(file_, "read " + path, [&] {
+    if (!(set.getDataType() == H5::PredType::NATIVE_UINT8)) {
+      throw FileError(file_ + ": " + path + " does not hold bytes");
+    }
+    set.read(values.data(), H5::PredType::NATIVE_UINT8);
   });
   return values;
 }
 
 std::vector<std::string> Hdf5Reader::texts(const std::string& path) const {
   const H5::DataSet set = open(path);
-  const std::size_t count = size_of(shape(path));
-  std::vector<std::string> values;
-  guarded(file_, "read " + path, [&] {
+  return guarded(file_, "read " + path, [&] {
+    if (set.getTypeClass() != H5T_STRING) {
+      throw FileError(file_ + ": " + path + " does not hold texts");
+    }
+    const H5::StrType type = set.getStrType();
+    const std::size_t count = size_of(extent_of(set.getSpace())), size = type.getSize();
+    std::vector<std::string> values;
+    if (!type.isVariableStr()) {
+      std::vector<char> raw(count * size);
+      set.read(raw.data(), type);
+      for (std::size_t i = 0; i < count; ++i) {
+        values.push_back(unpadded(raw.data() + i * size, size, type.getStrpad()));
+      }
+      return values;
+    }
     std::vector<char*> raw(count);
-    const H5::DataType type = set.getDataType();
     set.read(raw.data(), type);
-    values.assign(raw.begin(), raw.end());
+    for (const char* text : raw) {
+      values.emplace_back(text != nullptr ? text : "");
+    }
     H5::DataSet::vlenReclaim(raw.data(), type, set.getSpace());
+    return values;
   });
-  return values;
+}
+
+std::string Hdf5Reader::text(const std::string& path) const {
+  if (size_of(shape(path)) != 1) {
+    throw FileError(file_ + ": " + path + " is not one text");
+  }
+  return texts(path).at(0);
+}
+
+void Hdf5Reader::require_group(const std::string& path) const {
+  if (!has(path)) {
+    throw FileError(file_ + ": has no " + path);
+  }
+  if (guarded(file_, "read " + path, [&] { return h5_.childObjType(path); }) != H5O_TYPE_GROUP) {
+    throw FileError(file_ + ": " + path + " is no group");
+  }
 }
 
 std::vector<std::string> Hdf5Reader::names(const std::string& group) const {
-  if (!has(group)) {
-    throw FileError(file_ + ": has no " + group);
-  }
+  require_group(group);
   return guarded(file_, "list " + group, [&] {
     const H5::Group members = h5_.openGroup(group);
+    const hsize_t count = members.getNumObjs();
+    if (count > most_names) {
+      throw FileError(
+          fmt::format("{}: {} holds {} objects (at most {})", file_, group, count, most_names));
+    }
     std::vector<std::string> names;
-    for (hsize_t i = 0; i < members.getNumObjs(); ++i) {
+    for (hsize_t i = 0; i < count; ++i) {
       names.push_back(members.getObjnameByIdx(i));
     }
     return names;

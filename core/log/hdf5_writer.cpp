@@ -4,18 +4,16 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <functional>
-#include <numeric>
 
 namespace hagfish {
 namespace {
 
-// Rows a chunk: a second of frames at 50 a second; compression gains little beyond.
-constexpr hsize_t chunk_rows = 64;
 // Higher levels take up to twice as long and gain nothing on forces.
 constexpr int deflate_level = 1;
+// In which bytes without rows are stored.
+constexpr hsize_t bytes_chunk = 16384;
 // By which the file grows in memory, bytes.
-constexpr std::size_t memory_increment = std::size_t{1} << 20;
+constexpr std::size_t memory_increment = std::size_t{1} << 16;
 
 H5::StrType text_type() {
   H5::StrType type(H5::PredType::C_S1, H5T_VARIABLE);
@@ -35,80 +33,16 @@ void describe(H5::DataSet& set, const Meaning& meaning) {
   text_attribute(set, "description", meaning.description);
 }
 
-template <class T>
-const H5::PredType& native();
-template <>
-const H5::PredType& native<double>() {
-  return H5::PredType::NATIVE_DOUBLE;
-}
-template <>
-const H5::PredType& native<std::int32_t>() {
-  return H5::PredType::NATIVE_INT32;
-}
-template <>
-const H5::PredType& native<std::int64_t>() {
-  return H5::PredType::NATIVE_INT64;
-}
-template <>
-const H5::PredType& native<std::uint8_t>() {
-  return H5::PredType::NATIVE_UINT8;
-}
-
-std::size_t size_of(const std::vector<hsize_t>& shape) {
-  return std::accumulate(shape.begin(), shape.end(), hsize_t{1}, std::multiplies<>());
-}
-
 }  // namespace
 
-template <class T>
-Series<T>::Series(const H5::DataSet& set, std::vector<hsize_t> row_shape)
-    : set_(set), row_shape_(std::move(row_shape)), row_size_(size_of(row_shape_)) {}
-
-template <class T>
-void Series<T>::append(const T* row, std::size_t count) {
-  if (count != row_size_) {
-    throw std::logic_error("log row has the wrong size");
-  }
-  waiting_.insert(waiting_.end(), row, row + count);
-  if (waiting_.size() >= chunk_rows * row_size_) {
-    flush();
-  }
-}
-
-template <class T>
-void Series<T>::flush() {
-  const hsize_t rows = waiting_.size() / row_size_;
-  if (rows == 0) {
-    return;
-  }
-  std::vector<hsize_t> extent{written_ + rows};
-  std::vector<hsize_t> count{rows};
-  std::vector<hsize_t> offset(row_shape_.size() + 1, 0);
-  offset[0] = written_;
-  extent.insert(extent.end(), row_shape_.begin(), row_shape_.end());
-  count.insert(count.end(), row_shape_.begin(), row_shape_.end());
-  guarded("log", "write " + set_.getObjName(), [&] {
-    set_.extend(extent.data());
-    const H5::DataSpace space = set_.getSpace();
-    space.selectHyperslab(H5S_SELECT_SET, count.data(), offset.data());
-    // An enumeration is written as itself: its memory is that of its base type.
-    const H5::DataType stored = set_.getDataType();
-    const H5::DataType type = stored.getClass() == H5T_ENUM ? stored : H5::DataType(native<T>());
-    set_.write(waiting_.data(), type, H5::DataSpace(static_cast<int>(count.size()), count.data()),
-               space);
-  });
-  written_ += rows;
-  waiting_.clear();
-}
-
-template class Series<double>;
-template class Series<std::int32_t>;
-template class Series<std::int64_t>;
-template class Series<std::uint8_t>;
-
-Hdf5Writer::Hdf5Writer() {
+Hdf5Writer::Hdf5Writer(const std::filesystem::path& file) : name_(file.string()) {
   H5::Exception::dontPrint();
-  guarded("log", "begin", [&] {
+  guarded(name_, "open", [&] { h5_ = H5::H5File(name_, H5F_ACC_RDWR); });
+}
+
+Hdf5Writer::Hdf5Writer() : name_("file in memory") {
+  H5::Exception::dontPrint();
+  guarded(name_, "begin", [&] {
     H5::FileAccPropList in_memory;
     in_memory.setCore(memory_increment, false);
     h5_ = H5::H5File("log", H5F_ACC_TRUNC, H5::FileCreatPropList::DEFAULT, in_memory);
@@ -116,18 +50,18 @@ Hdf5Writer::Hdf5Writer() {
 }
 
 void Hdf5Writer::group(const std::string& path) {
-  guarded("log", "create " + path, [&] { h5_.createGroup(path); });
+  guarded(name_, "create " + path, [&] { h5_.createGroup(path); });
 }
 
 void Hdf5Writer::root_attribute(const std::string& name, const std::string& value) {
-  guarded("log", "write attribute " + name, [&] {
+  guarded(name_, "write attribute " + name, [&] {
     H5::Group root = h5_.openGroup("/");
     text_attribute(root, name, value);
   });
 }
 
 void Hdf5Writer::root_attribute(const std::string& name, int value) {
-  guarded("log", "write attribute " + name, [&] {
+  guarded(name_, "write attribute " + name, [&] {
     h5_.openGroup("/")
         .createAttribute(name, H5::PredType::NATIVE_INT32, H5::DataSpace(H5S_SCALAR))
         .write(H5::PredType::NATIVE_INT, &value);
@@ -136,7 +70,7 @@ void Hdf5Writer::root_attribute(const std::string& name, int value) {
 
 void Hdf5Writer::numbers(const std::string& path, const Eigen::VectorXd& values,
                          const Meaning& meaning) {
-  guarded("log", "write " + path, [&] {
+  guarded(name_, "write " + path, [&] {
     const hsize_t size = values.size();
     H5::DataSet set = h5_.createDataSet(path, H5::PredType::NATIVE_DOUBLE, H5::DataSpace(1, &size));
     set.write(values.data(), H5::PredType::NATIVE_DOUBLE);
@@ -145,7 +79,7 @@ void Hdf5Writer::numbers(const std::string& path, const Eigen::VectorXd& values,
 }
 
 void Hdf5Writer::plain(const std::string& path, const Eigen::VectorXd& values) {
-  guarded("log", "write " + path, [&] {
+  guarded(name_, "write " + path, [&] {
     const hsize_t size = values.size();
     h5_.createDataSet(path, H5::PredType::NATIVE_DOUBLE, H5::DataSpace(1, &size))
         .write(values.data(), H5::PredType::NATIVE_DOUBLE);
@@ -153,7 +87,7 @@ void Hdf5Writer::plain(const std::string& path, const Eigen::VectorXd& values) {
 }
 
 void Hdf5Writer::plain(const std::string& path, const Eigen::MatrixXd& values) {
-  guarded("log", "write " + path, [&] {
+  guarded(name_, "write " + path, [&] {
     const std::array<hsize_t, 2> shape{static_cast<hsize_t>(values.rows()),
                                        static_cast<hsize_t>(values.cols())};
     const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> by_rows = values;
@@ -163,7 +97,7 @@ void Hdf5Writer::plain(const std::string& path, const Eigen::MatrixXd& values) {
 }
 
 void Hdf5Writer::attribute(const std::string& path, const std::string& name, std::int64_t value) {
-  guarded("log", "write attribute " + name + " of " + path, [&] {
+  guarded(name_, "write attribute " + name + " of " + path, [&] {
     h5_.openGroup(path)
         .createAttribute(name, H5::PredType::NATIVE_INT64, H5::DataSpace(H5S_SCALAR))
         .write(H5::PredType::NATIVE_INT64, &value);
@@ -171,7 +105,7 @@ void Hdf5Writer::attribute(const std::string& path, const std::string& name, std
 }
 
 void Hdf5Writer::text(const std::string& path, const std::string& value) {
-  guarded("log", "write " + path, [&] {
+  guarded(name_, "write " + path, [&] {
     h5_.createDataSet(path, text_type(), H5::DataSpace(H5S_SCALAR)).write(value, text_type());
   });
 }
@@ -181,64 +115,106 @@ void Hdf5Writer::texts(const std::string& path, const std::vector<std::string>& 
   for (const std::string& value : values) {
     pointers.push_back(value.c_str());
   }
-  guarded("log", "write " + path, [&] {
+  guarded(name_, "write " + path, [&] {
     const hsize_t size = values.size();
     h5_.createDataSet(path, text_type(), H5::DataSpace(1, &size))
         .write(pointers.data(), text_type());
   });
 }
 
-H5::DataSet Hdf5Writer::series(const std::string& path, const H5::DataType& type,
-                               const std::vector<hsize_t>& row_shape, const Meaning& meaning) {
-  std::vector<hsize_t> now{0};
-  std::vector<hsize_t> most{H5S_UNLIMITED};
-  std::vector<hsize_t> chunk{chunk_rows};
-  for (std::vector<hsize_t>* shape : {&now, &most, &chunk}) {
-    shape->insert(shape->end(), row_shape.begin(), row_shape.end());
-  }
-  return guarded("log", "create " + path, [&] {
-    H5::DSetCreatPropList layout;
-    layout.setChunk(static_cast<int>(chunk.size()), chunk.data());
-    if (meaning.sparse) {
-      layout.setShuffle();
-      layout.setDeflate(deflate_level);
+void Hdf5Writer::bytes(const std::string& path, const std::vector<std::uint8_t>& values) {
+  const hsize_t size = values.size();
+  guarded(name_, "write " + path, [&] {
+    if (!h5_.nameExists(path)) {
+      const hsize_t most = H5S_UNLIMITED;
+      H5::DSetCreatPropList storage;
+      storage.setChunk(1, &bytes_chunk);
+      storage.setFletcher32();
+      h5_.createDataSet(path, H5::PredType::NATIVE_UINT8, H5::DataSpace(1, &size, &most), storage);
     }
-    layout.setFletcher32();  // readers refuse a chunk with a flipped bit
-    H5::DataSet set = h5_.createDataSet(
-        path, type, H5::DataSpace(static_cast<int>(now.size()), now.data(), most.data()), layout);
-    describe(set, meaning);
-    return set;
+    H5::DataSet set = h5_.openDataSet(path);
+    set.extend(&size);
+    set.write(values.data(), H5::PredType::NATIVE_UINT8);
   });
 }
 
-Series<double> Hdf5Writer::doubles(const std::string& path, const std::vector<hsize_t>& row_shape,
-                                   const Meaning& meaning) {
-  return {series(path, H5::PredType::NATIVE_DOUBLE, row_shape, meaning), row_shape};
-}
-
-Series<std::int32_t> Hdf5Writer::ints(const std::string& path,
-                                      const std::vector<hsize_t>& row_shape,
-                                      const Meaning& meaning) {
-  return {series(path, H5::PredType::NATIVE_INT32, row_shape, meaning), row_shape};
-}
-
-Series<std::int64_t> Hdf5Writer::longs(const std::string& path, const Meaning& meaning) {
-  return {series(path, H5::PredType::NATIVE_INT64, {}, meaning), {}};
-}
-
-Series<std::uint8_t> Hdf5Writer::choices(const std::string& path,
-                                         const std::vector<std::string>& names,
-                                         const Meaning& meaning) {
-  H5::EnumType type(H5::PredType::NATIVE_UINT8);
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    auto value = static_cast<std::uint8_t>(k);
-    type.insert(names[k], &value);
+void Hdf5Writer::create(const SeriesLayout& layout) {
+  std::vector<hsize_t> now{0};
+  std::vector<hsize_t> most{H5S_UNLIMITED};
+  std::vector<hsize_t> chunk{layout.chunk_rows};
+  for (std::vector<hsize_t>* shape : {&now, &most, &chunk}) {
+    shape->insert(shape->end(), layout.row_shape.begin(), layout.row_shape.end());
   }
-  return {series(path, type, {}, meaning), {}};
+  guarded(name_, "create " + layout.path, [&] {
+    H5::DSetCreatPropList storage;
+    storage.setChunk(static_cast<int>(chunk.size()), chunk.data());
+    if (layout.meaning.sparse) {
+      storage.setShuffle();
+      storage.setDeflate(deflate_level);
+    }
+    storage.setFletcher32();  // readers refuse a chunk with a flipped bit
+    H5::LinkCreatPropList groups;
+    groups.setCreateIntermediateGroup(true);
+    H5::DataSet set =
+        h5_.createDataSet(layout.path, layout.type,
+                          H5::DataSpace(static_cast<int>(now.size()), now.data(), most.data()),
+                          storage, H5::DSetAccPropList::DEFAULT, groups);
+    describe(set, layout.meaning);
+  });
+}
+
+void Hdf5Writer::append(const SeriesLayout& layout, hsize_t first, hsize_t count,
+                        const void* values) {
+  std::vector<hsize_t> extent{first + count};
+  std::vector<hsize_t> size{count};
+  std::vector<hsize_t> offset(layout.row_shape.size() + 1, 0);
+  offset[0] = first;
+  extent.insert(extent.end(), layout.row_shape.begin(), layout.row_shape.end());
+  size.insert(size.end(), layout.row_shape.begin(), layout.row_shape.end());
+  guarded(name_, "write " + layout.path, [&] {
+    H5::DataSet set = h5_.openDataSet(layout.path);
+    set.extend(extent.data());
+    const H5::DataSpace space = set.getSpace();
+    space.selectHyperslab(H5S_SELECT_SET, size.data(), offset.data());
+    set.write(values, layout.type, H5::DataSpace(static_cast<int>(size.size()), size.data()),
+              space);
+  });
+}
+
+void Hdf5Writer::copy_chunks(const Hdf5Reader& from, const SeriesLayout& layout, hsize_t begin,
+                             hsize_t end) {
+  std::vector<hsize_t> extent{end * layout.chunk_rows};
+  extent.insert(extent.end(), layout.row_shape.begin(), layout.row_shape.end());
+  guarded(name_, "write " + layout.path, [&] {
+    const H5::DataSet source = from.open(layout.path);
+    const H5::DataSet target = h5_.openDataSet(layout.path);
+    target.extend(extent.data());
+    std::vector<hsize_t> offset(extent.size(), 0);
+    std::vector<char> stored;
+    for (hsize_t chunk = begin; chunk < end; ++chunk) {
+      offset[0] = chunk * layout.chunk_rows;
+      hsize_t size = 0;
+      std::uint32_t filters = 0;
+      bool done = H5Dget_chunk_storage_size(source.getId(), offset.data(), &size) >= 0;
+      stored.resize(size);
+      done =
+          done &&
+          H5Dread_chunk(source.getId(), H5P_DEFAULT, offset.data(), &filters, stored.data()) >= 0 &&
+          H5Dwrite_chunk(target.getId(), H5P_DEFAULT, filters, offset.data(), size,
+                         stored.data()) >= 0;
+      if (!done) {
+        throw H5::DataSetIException("copy_chunks", "a chunk cannot be copied");
+      }
+    }
+  });
+}
+
+void Hdf5Writer::close() {
+  guarded(name_, "save", [&] { h5_.close(); });
 }
 
 void Hdf5Writer::save(const std::filesystem::path& file) const {
-  const std::vector<char> image = guarded("log", "gather", [&] {
+  const std::vector<char> image = guarded(name_, "gather", [&] {
     h5_.flush(H5F_SCOPE_GLOBAL);
     std::vector<char> bytes(static_cast<std::size_t>(h5_.getFileSize()));
     if (H5Fget_file_image(h5_.getId(), bytes.data(), bytes.size()) < 0) {

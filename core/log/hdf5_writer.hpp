@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/log/hdf5_error.hpp"
+#include "core/log/hdf5_reader.hpp"
 
 namespace hagfish {
 
@@ -20,31 +21,23 @@ struct Meaning {
   bool sparse = false;  ///< mostly zeros, which are worth compressing; motion is not
 };
 
-/// A dataset with rows of fixed shape, chunked and extensible along the rows. Rows are gathered and
-/// written a chunk at a time, so that compression works on whole chunks; flush() writes the rest.
-template <class T>
-class Series {
- public:
-  Series() = default;
-  Series(const H5::DataSet& set, std::vector<hsize_t> row_shape);
-  /// Appends one row; `count` must be the row's size.
-  void append(const T* row, std::size_t count);
-  void append(T value) { append(&value, 1); }
-  void flush();
-
- private:
-  H5::DataSet set_;
-  std::vector<hsize_t> row_shape_;
-  std::size_t row_size_ = 0;
-  hsize_t written_ = 0;
-  std::vector<T> waiting_;
+/// A dataset that grows by rows of fixed shape: stored in chunks with a checksum each.
+struct SeriesLayout {
+  std::string path;
+  std::vector<hsize_t> row_shape;
+  Meaning meaning;
+  H5::DataType type;
+  hsize_t chunk_rows = 1;
 };
 
-/// A file being written. It grows in memory, where HDF5 cannot fail half-way: on a full disk HDF5
-/// can neither close nor abandon a file. save() puts a whole and readable file on disk.
+/// A file being written.
 class Hdf5Writer {
  public:
+  /// A new one. It grows in memory, where HDF5 cannot fail half-way: on a full disk HDF5 can
+  /// neither close nor abandon a file. save() puts a whole and readable file on disk.
   Hdf5Writer();
+  /// One that is there, to be changed on the disk, which must have room.
+  explicit Hdf5Writer(const std::filesystem::path& file);
   Hdf5Writer(const Hdf5Writer&) = delete;
   Hdf5Writer& operator=(const Hdf5Writer&) = delete;
 
@@ -60,22 +53,25 @@ class Hdf5Writer {
   void text(const std::string& path, const std::string& value);
   void texts(const std::string& path, const std::vector<std::string>& values);
 
-  Series<double> doubles(const std::string& path, const std::vector<hsize_t>& row_shape,
-                         const Meaning& meaning);
-  Series<std::int32_t> ints(const std::string& path, const std::vector<hsize_t>& row_shape,
-                            const Meaning& meaning);
-  Series<std::int64_t> longs(const std::string& path, const Meaning& meaning);
-  /// uint8 enumeration whose values count up from 0 in the order of `names`.
-  Series<std::uint8_t> choices(const std::string& path, const std::vector<std::string>& names,
-                               const Meaning& meaning);
+  /// Bytes of any number, in place of those that were there.
+  void bytes(const std::string& path, const std::vector<std::uint8_t>& values);
+
+  /// A series without rows, in groups that are created with it.
+  void create(const SeriesLayout& layout);
+  /// Sets rows `first` on of a series, and no others behind them, from `count` rows of values.
+  void append(const SeriesLayout& layout, hsize_t first, hsize_t count, const void* values);
+  /// Sets chunks [begin, end) of a series to those of another file, as they are stored, and no rows
+  /// behind them.
+  void copy_chunks(const Hdf5Reader& from, const SeriesLayout& layout, hsize_t begin, hsize_t end);
+  /// Closes a file on the disk. Throws FileError where that fails, after which it is of no use.
+  void close();
 
   /// Writes all of it to `file`, by way of a second file, so that a crash leaves the last one
-  /// saved.
+  /// saved. Only of a new file.
   void save(const std::filesystem::path& file) const;
 
  private:
-  H5::DataSet series(const std::string& path, const H5::DataType& type,
-                     const std::vector<hsize_t>& row_shape, const Meaning& meaning);
+  std::string name_;  // in messages
   H5::H5File h5_;
 };
 

@@ -164,10 +164,7 @@ void declare_thigmotaxis(LogTable<Frame>& t) {
 }
 
 /// /mean: what stands in the snapshots' groups, as means.
-void declare_means(const Model& model, Hdf5Writer& file, LogTable<Frame>& t) {
-  for (const char* group : {"/mean", "/mean/forces", "/mean/thigmotaxis"}) {
-    file.group(group);
-  }
+void declare_means(const Model& model, LogTable<Frame>& t) {
   const std::string since = ", mean over the steps since the frame before; nan at the first frame";
   for (const LoggedForce& force : logged_forces) {
     t.numbers(
@@ -267,8 +264,10 @@ void declare_momentum(LogTable<Frame>& t) {
   const auto vector = [&t](const char* name, const char* unit, const char* description,
                            Eigen::Vector3d MomentumLedger::*member) {
     t.numbers(
-        std::string("/diagnostics/") + name, {3}, {unit, description},
-        [member](const Frame& f) -> const auto& { return f.record.momentum.*member; });
+        std::string("/diagnostics/") + name, {3},
+        {unit, description}, [member](const Frame& f) -> const auto& {
+          return f.record.momentum.*member;
+        });
   };
   vector("momentum", "g cm/s", "linear momentum of all bodies, world axes",
          &MomentumLedger::momentum);
@@ -289,22 +288,18 @@ void Worst::take(const StepRecord& record) {
   kkt = std::max(kkt, worst_residual(record.solution));
 }
 
-void declare_frames(const Model& model, Hdf5Writer& file, LogTable<Frame>& table) {
-  for (const char* group : {"/trajectory", "/knot", "/forces", "/thigmotaxis", "/diagnostics"}) {
-    file.group(group);
-  }
+void declare_frames(const Model& model, LogTable<Frame>& table) {
   declare_trajectory(model, table);
   declare_knot(table);
   declare_forces(model, table);
   declare_thigmotaxis(table);
-  declare_means(model, file, table);
+  declare_means(model, table);
   declare_diagnostics(table);
   declare_energy(table);
   declare_momentum(table);
 }
 
-void declare_steps(Hdf5Writer& file, LogTable<LoggedStep>& t) {
-  file.group("/steps");
+void declare_steps(LogTable<LoggedStep>& t) {
   t.choice("/steps/solve", solve_names(), "least that each step had to solve",
            [](const LoggedStep& s) { return s.record.solution.kind; });
   t.count("/steps/rows", "rows in the problem of each step",
@@ -338,8 +333,7 @@ void declare_steps(Hdf5Writer& file, LogTable<LoggedStep>& t) {
            [](const LoggedStep& s) { return s.record.solution.qp_time; });
 }
 
-void declare_contacts(Hdf5Writer& file, LogTable<BearingContact>& t) {
-  file.group("/contacts");
+void declare_contacts(LogTable<BearingContact>& t) {
   t.count("/contacts/frame", "index along the frames of each contact with a force",
           [](const BearingContact& c) { return c.frame; });
   t.number("/contacts/spline_a",

@@ -6,8 +6,8 @@
 #include <memory>
 #include <vector>
 
-#include "core/log/hdf5_writer.hpp"
 #include "core/log/log_means.hpp"
+#include "core/log/series.hpp"
 #include "core/log/thigmotaxis_rows.hpp"
 #include "core/run/simulation.hpp"
 
@@ -44,96 +44,88 @@ struct BearingContact {
   double force = 0;        ///< λ / h, dyn
 };
 
-/// A group of datasets that grow together. Each is declared in one place: path, shape, unit,
-/// meaning, and how a row of it follows from `Source`.
+/// Datasets that grow together. Each is declared in one place: path, shape, unit, meaning, and how
+/// a row of it follows from `Source`.
 template <class Source>
 class LogTable {
  public:
-  explicit LogTable(Hdf5Writer& file) : file_(file) {}
+  /// `chunk_rows`: how many rows are stored together.
+  explicit LogTable(hsize_t chunk_rows) : chunk_rows_(chunk_rows) {}
 
   template <class Get>  // double(const Source&)
   void number(const std::string& path, const Meaning& meaning, Get get) {
-    add(path, {}, file_.doubles(path, {}, meaning),
-        [get](Series<double>& series, const Source& source) { series.append(get(source)); });
+    add<double>(layout_of<double>(path, {}, meaning),
+                [get](auto& series, const Source& source) { series.append(get(source)); });
   }
   template <class Get>  // anything with data() and size()
   void numbers(const std::string& path, const std::vector<hsize_t>& shape, const Meaning& meaning,
                Get get) {
-    add(path, shape, file_.doubles(path, shape, meaning),
-        [get](Series<double>& series, const Source& source) {
-          const auto& row = get(source);
-          series.append(row.data(), row.size());
-        });
+    add<double>(layout_of<double>(path, shape, meaning), [get](auto& series, const Source& source) {
+      const auto& row = get(source);
+      series.append(row.data(), row.size());
+    });
   }
   template <class Get>  // std::array<int, 2>(const Source&)
   void pair(const std::string& path, const std::string& description, Get get) {
-    add(path, {2}, file_.ints(path, {2}, {"1", description}),
-        [get](Series<std::int32_t>& series, const Source& source) {
-          series.append(get(source).data(), 2);
-        });
+    add<std::int32_t>(
+        layout_of<std::int32_t>(path, {2}, {"1", description}),
+        [get](auto& series, const Source& source) { series.append(get(source).data(), 2); });
   }
   template <class Get>  // int(const Source&)
   void count(const std::string& path, const std::string& description, Get get) {
-    add(path, {}, file_.ints(path, {}, {"1", description}),
-        [get](Series<std::int32_t>& series, const Source& source) {
-          series.append(static_cast<std::int32_t>(get(source)));
-        });
+    add<std::int32_t>(layout_of<std::int32_t>(path, {}, {"1", description}),
+                      [get](auto& series, const Source& source) {
+                        series.append(static_cast<std::int32_t>(get(source)));
+                      });
   }
   template <class Get>  // std::int64_t(const Source&)
   void index(const std::string& path, const std::string& description, Get get) {
-    add(path, {}, file_.longs(path, {"1", description}),
-        [get](Series<std::int64_t>& series, const Source& source) { series.append(get(source)); });
+    add<std::int64_t>(layout_of<std::int64_t>(path, {}, {"1", description}),
+                      [get](auto& series, const Source& source) { series.append(get(source)); });
   }
   template <class Get>  // an enum class that counts up from 0 in the order of `names`
   void choice(const std::string& path, const std::vector<std::string>& names,
               const std::string& description, Get get) {
-    add(path, {}, file_.choices(path, names, {"1", description}),
-        [get](Series<std::uint8_t>& series, const Source& source) {
-          series.append(static_cast<std::uint8_t>(get(source)));
-        });
-  }
-
-  /// Paths and shapes of the rows of what has been declared.
-  const std::vector<std::pair<std::string, std::vector<hsize_t>>>& declared() const {
-    return declared_;
+    add<std::uint8_t>(layout_of_choices(path, names, {"1", description}),
+                      [get](auto& series, const Source& source) {
+                        series.append(static_cast<std::uint8_t>(get(source)));
+                      });
   }
 
   void append(const Source& source) {
-    for (Column& column : columns_) {
-      column.append(source);
+    for (const auto& append_to : appenders_) {
+      append_to(source);
     }
   }
-  void flush() {
-    for (Column& column : columns_) {
-      column.flush();
-    }
-  }
+  /// In the order of declaration.
+  const std::vector<std::shared_ptr<AnySeries>>& series() const { return series_; }
 
  private:
-  struct Column {
-    std::function<void(const Source&)> append;
-    std::function<void()> flush;
-  };
   template <class T, class Put>
-  void add(const std::string& path, const std::vector<hsize_t>& shape, Series<T> series, Put put) {
-    declared_.emplace_back(path, shape);
-    const auto shared = std::make_shared<Series<T>>(std::move(series));
-    columns_.push_back({[shared, put](const Source& source) { put(*shared, source); },
-                        [shared] { shared->flush(); }});
+  void add(SeriesLayout layout, Put put) {
+    if (!layout.meaning.sparse) {
+      layout.chunk_rows = chunk_rows_;
+    }
+    const auto series = std::make_shared<Series<T>>(std::move(layout));
+    series_.push_back(series);
+    appenders_.push_back([series, put](const Source& source) { put(*series, source); });
   }
 
-  Hdf5Writer& file_;
-  std::vector<std::pair<std::string, std::vector<hsize_t>>> declared_;
-  std::vector<Column> columns_;
+  hsize_t chunk_rows_;
+  std::vector<std::shared_ptr<AnySeries>> series_;
+  std::vector<std::function<void(const Source&)>> appenders_;
 };
 
+/// Frames are some 50 a second of simulated time, steps 500; a chunk is read and written as one.
+inline constexpr hsize_t frame_chunk_rows = 64, step_chunk_rows = 1024;
+
 /// Declares every dataset along the frames (log schema, rows along T).
-void declare_frames(const Model& model, Hdf5Writer& file, LogTable<Frame>& table);
+void declare_frames(const Model& model, LogTable<Frame>& table);
 
 /// Declares the datasets along the steps, /steps: few figures, but of every step.
-void declare_steps(Hdf5Writer& file, LogTable<LoggedStep>& table);
+void declare_steps(LogTable<LoggedStep>& table);
 
 /// Declares /contacts, a row for each contact with a force at a frame.
-void declare_contacts(Hdf5Writer& file, LogTable<BearingContact>& table);
+void declare_contacts(LogTable<BearingContact>& table);
 
 }  // namespace hagfish

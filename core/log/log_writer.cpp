@@ -1,159 +1,206 @@
 #include "core/log/log_writer.hpp"
 
-#include <fmt/chrono.h>
+#include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <map>
 
-#include "core/log/build_info.hpp"
+#include "core/log/disk_room.hpp"
 #include "core/log/log_frame.hpp"
-#include "core/log/log_status.hpp"
+#include "core/log/twin_file.hpp"
 
 namespace hagfish {
 namespace {
 
 namespace fs = std::filesystem;
 
-// Each save writes the whole log: no more often than this, s,
+// From one save to the next, s of wall time.
 constexpr double save_interval = 1;
-// and than this many times what the last save took, which bounds its share of the CPU time.
-constexpr double save_share = 100;
+// What a save may add besides rows and checkpoints: attributes and their heap, bytes.
+constexpr std::size_t attribute_room = 65536;
+// Checkpoints are some 50 kB each, and compress to a third.
+constexpr hsize_t checkpoint_chunk = 32768;
 
-std::string current_time() {
-  const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
-  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", now);
+/// Which bytes of /checkpoints/data are a checkpoint.
+struct CheckpointMark {
+  std::int64_t step = 0;  ///< the step that it precedes
+  std::int64_t end = 0;   ///< behind its last byte
+};
+
+void declare_checkpoints(LogTable<CheckpointMark>& t) {
+  t.index("/checkpoints/step", "index of the step before which the run stood so",
+          [](const CheckpointMark& mark) { return mark.step; });
+  t.index("/checkpoints/end", "where its bytes in /checkpoints/data end",
+          [](const CheckpointMark& mark) { return mark.end; });
 }
 
-void write_header(const LogHeader& header, Hdf5Writer& h5) {
-  h5.root_attribute("format", log_format);
-  h5.root_attribute("format_version", log_format_version);
-  h5.root_attribute("creator", "hagfish");
-  h5.root_attribute("creator_version", build_version());
-  h5.root_attribute("git_revision", build_revision());
-  h5.root_attribute("created", current_time());
-  h5.root_attribute("command", header.command);
-  h5.root_attribute("scene", header.scene);
-  h5.root_attribute("qp", header.qp);
-  h5.root_attribute("libraries", header.libraries);
-  h5.root_attribute("compiler", build_compiler());
-  h5.root_attribute("cpu", cpu_name());
-  h5.root_attribute("status", "running");
-  h5.root_attribute("warnings", "");
-  h5.group("/mjcf");
-  for (const auto& [name, text] : header.mjcf) {
-    h5.text("/mjcf/" + name, text);
-  }
+SeriesLayout checkpoint_bytes() {
+  SeriesLayout layout = layout_of<std::uint8_t>(
+      checkpoint_data, {}, {"1", "runs between two steps, one after the other, as bytes", true});
+  layout.chunk_rows = checkpoint_chunk;
+  return layout;
 }
 
-void write_model(const Model& model, Hdf5Writer& h5) {
-  const int n = model.body_count();
-  Eigen::VectorXd mass(n), length(n), radius(n);
-  for (int b = 0; b < n; ++b) {
-    mass[b] = model.bodies[b].mass;
-    length[b] = model.bodies[b].length;
-    radius[b] = model.bodies[b].radius;
+/// Sets the status of a log that cannot be saved any more; where that fails too, it stays.
+void mark_failed(const fs::path& file, const std::string& cause) {
+  if (reserve_room(file, attribute_room) != 0) {
+    return;
   }
-  Eigen::VectorXd lower = Eigen::VectorXd::Constant(model.nv(), -INFINITY);
-  Eigen::VectorXd upper = -lower;
-  const Eigen::Matrix2Xd ranges = hinge_ranges(model);
-  lower.tail(ranges.cols()) = ranges.row(0);
-  upper.tail(ranges.cols()) = ranges.row(1);
-  std::vector<std::string> joints, dofs;
-  for (const JointName& joint : joint_names(model)) {
-    joints.push_back(joint.joint);
-    dofs.insert(dofs.end(), joint.dofs.begin(), joint.dofs.end());
+  try {
+    Hdf5Writer h5(file);
+    h5.root_attribute("status", "failed: " + cause);
+    h5.close();
+  } catch (const FileError&) {  // what is told is why the log could not be saved
   }
-  h5.group("/model");
-  h5.numbers("/model/mass", mass, {"g", "mass of each body, head to tail"});
-  h5.numbers("/model/length", length, {"cm", "length of each body"});
-  h5.numbers("/model/radius", radius, {"cm", "radius of the skin at each body"});
-  h5.texts("/model/joint_name", joints);
-  h5.texts("/model/dof_name", dofs);
-  h5.numbers("/model/limit_lower", lower,
-             {"rad",
-              "lower joint limit, -inf where none; where the total angle of a joint is bounded "
-              "(bending_limit), what this leaves each hinge by itself"});
-  h5.numbers("/model/limit_upper", upper,
-             {"rad", "upper joint limit, +inf where none, as limit_lower"});
-  h5.numbers("/model/bending_limit", bending_limits(model),
-             {"rad",
-              "largest angle between the X axes of the two bodies of each joint, +inf where "
-              "its hinges have limits of their own or there are none"});
 }
 
 }  // namespace
 
 struct LogWriter::Contents {
   Contents(const Model& model, const Scene& scene)
-      : frames(h5),
-        steps(h5),
-        contacts(h5),
-        means(model.nv()),
+      : frames(frame_chunk_rows),
+        steps(step_chunk_rows),
+        contacts(step_chunk_rows),
+        marks(frame_chunk_rows),
+        bytes(std::make_shared<Series<std::uint8_t>>(checkpoint_bytes())),
+        log{RunningMeans(model.nv()), {}, {}},
         knot(scene.knot),
         h(scene.time.step),
-        stride(frame_stride(scene.time)) {
-    declare_frames(model, h5, frames);
-    declare_steps(h5, steps);
-    declare_contacts(h5, contacts);
-  }
-  void save(const fs::path& file) {
-    frames.flush();
-    steps.flush();
-    contacts.flush();
-    h5.save(file);
+        stride(frame_stride(scene.time)),
+        mark_stride(checkpoint_stride(scene.time)) {
+    declare_frames(model, frames);
+    declare_steps(steps);
+    declare_contacts(contacts);
+    declare_checkpoints(marks);
+    for (const auto& list : {frames.series(), steps.series(), contacts.series(), marks.series()}) {
+      series.insert(series.end(), list.begin(), list.end());
+    }
+    series.push_back(bytes);
   }
 
-  Hdf5Writer h5;
+  /// Brings FILE.part up to date; `sim` is the run after all that it then holds.
+  void save(const Simulation& sim) {
+    if (file->prepare()) {
+      std::ranges::for_each(series, [](const auto& s) { s->files_are_alike(); });
+    }
+    const std::vector<std::uint8_t> now = encode(sim, log);
+    std::size_t room = attribute_room + now.size();
+    for (const auto& s : series) {
+      room += s->room();
+    }
+    try {
+      Hdf5Writer h5(file->begin(room));
+      const Hdf5Reader newer(file->whole(), Origin::own);
+      std::ranges::for_each(series, [&](const auto& s) { s->write(newer, h5); });
+      h5.bytes(last_checkpoint, now);
+      for (const auto& [name, value] : attributes) {
+        h5.root_attribute(name, value);
+      }
+      h5.close();
+    } catch (...) {
+      file->abandon();
+      throw;
+    }
+    file->commit();
+    std::ranges::for_each(series, [](const auto& s) { s->saved(); });
+    any = true;
+  }
+
   LogTable<Frame> frames;
   LogTable<LoggedStep> steps;
   LogTable<BearingContact> contacts;
-  RunningMeans means;
+  LogTable<CheckpointMark> marks;
+  std::shared_ptr<Series<std::uint8_t>> bytes;     // of the checkpoints
+  std::vector<std::shared_ptr<AnySeries>> series;  // all of them
+  LogState log;
   KnotSettings knot;
   double h;
-  std::int64_t stride;  // steps a frame
+  std::int64_t stride;       // steps a frame
+  std::int64_t mark_stride;  // and a checkpoint
   std::int32_t frame_count = 0;
-  double next_save = save_interval;  // wall time, s
-  bool saved = false;                // with a step in it
-  Worst worst;
-  std::string warnings;
+  std::int64_t byte_count = 0;
+  std::map<std::string, std::string> attributes;  // of the root, to be set by the next save
+  std::optional<TwinFile> file;
+  double next_save = 0;  // wall time, s: the first step is saved at once
+  bool any = false;      // a step has been saved
 };
 
 std::int64_t frame_stride(const TimeSettings& time) {
   return std::max<std::int64_t>(1, std::llround(time.frame_interval / time.step));
 }
 
+std::int64_t checkpoint_stride(const TimeSettings& time) {
+  const auto frames = std::llround(time.checkpoint_interval / time.frame_interval);
+  return frame_stride(time) * std::max<std::int64_t>(1, frames);
+}
+
 LogWriter::LogWriter(const fs::path& file, bool replace, const LogHeader& header,
                      const Model& model, const Scene& scene)
-    : file_(file, replace) {
-  contents_ = std::make_unique<Contents>(model, scene);
-  write_header(header, contents_->h5);
-  write_model(model, contents_->h5);
-  contents_->save(file_.partial());
+    : output_(std::make_unique<OutputFile>(file, replaced_if(replace))),
+      contents_(std::make_unique<Contents>(model, scene)) {
+  Hdf5Writer h5;
+  write_header(header, h5);
+  write_model(model, h5);
+  for (const auto& series : contents_->series) {
+    series->create(h5);
+  }
+  h5.save(output_->partial());
+  contents_->file.emplace(output_->partial());
+}
+
+LogWriter::LogWriter(std::unique_ptr<OutputFile> output, const SavedRun& run)
+    : output_(std::move(output)),
+      contents_(std::make_unique<Contents>(run.model, run.resolved.scene)) {
+  Contents& c = *contents_;
+  const Hdf5Reader h5(output_->partial());
+  for (const auto& series : c.series) {
+    series->go_on(h5.shape(series->layout().path).at(0));
+  }
+  c.frame_count = static_cast<std::int32_t>(h5.shape("/trajectory/step").at(0));
+  c.byte_count = static_cast<std::int64_t>(h5.shape(checkpoint_data).at(0));
+  c.log = run.log;
+  c.attributes["status"] = "running";
+  c.attributes["resumed"] =
+      fmt::format("{}{}{}", run.resumed, run.resumed.empty() ? "" : ", ", run.sim.step);
+  c.next_save = run.wall_time + save_interval;
+  c.any = true;
+  c.file.emplace(output_->partial());
 }
 
 LogWriter::~LogWriter() {
-  if (contents_ && !contents_->saved) {
+  if (contents_ && !contents_->any) {
     std::error_code error;
-    fs::remove(file_.partial(), error);
+    fs::remove(output_->partial(), error);
   }
 }
 
-void LogWriter::write(const StepRecord& record, double wall_time) {
+void LogWriter::write(const StepRecord& record, const Simulation& sim, double wall_time) {
   Contents& c = *contents_;
   for (const std::string& warning : record.warnings) {
-    c.warnings += fmt::format("{}step {} (t = {:.4f} s): {}", c.warnings.empty() ? "" : "\n",
-                              record.step, record.time, warning);
-    c.h5.root_attribute("warnings", c.warnings);
+    c.log.warnings +=
+        fmt::format("{}step {} (t = {:.4f} s): {}", c.log.warnings.empty() ? "" : "\n", record.step,
+                    record.time, warning);
+    c.attributes["warnings"] = c.log.warnings;
   }
   const ThigmotaxisRows rows = thigmotaxis_rows_of(record.control, record.solution, c.h);
-  c.worst.take(record);
+  c.log.worst.take(record);
   c.steps.append({record, rows});
   if (record.step % c.stride == 0) {
     write_frame(record, rows, wall_time);
   }
   // The step that begins at a frame counts to the next one's means.
-  c.means.take(record, rows);
+  c.log.means.take(record, rows);
+  if (sim.step % c.mark_stride == 0) {
+    const std::vector<std::uint8_t> bytes = encode(sim, c.log);
+    c.byte_count += static_cast<std::int64_t>(bytes.size());
+    c.bytes->append_all(bytes);
+    c.marks.append({sim.step, c.byte_count});
+  }
+  if (wall_time >= c.next_save) {
+    c.save(sim);
+    c.next_save = wall_time + save_interval;
+  }
 }
 
 void LogWriter::write_frame(const StepRecord& record, const ThigmotaxisRows& rows,
@@ -162,7 +209,7 @@ void LogWriter::write_frame(const StepRecord& record, const ThigmotaxisRows& row
   const KnotVote knot = record.controller.knot_seen == record.time
                             ? record.controller.knot
                             : knot_type(record.moment.observation.kin.centre, c.knot);
-  c.frames.append({record, rows, c.means.close(), knot, c.worst, wall_time});
+  c.frames.append({record, rows, c.log.means.close(), knot, c.log.worst, wall_time});
   const StepSolution& step = record.solution;
   for (std::size_t i = 0; i < step.rows.size(); ++i) {
     const Row& row = step.rows[i];
@@ -172,31 +219,26 @@ void LogWriter::write_frame(const StepRecord& record, const ThigmotaxisRows& row
     }
   }
   ++c.frame_count;
-  c.worst = {};
-  if (wall_time >= c.next_save) {
-    const auto begin = std::chrono::steady_clock::now();
-    c.save(file_.partial());
-    c.saved = true;
-    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-    c.next_save = wall_time + std::max(save_interval, save_share * took.count());
-  }
+  c.log.worst = {};
 }
 
-void LogWriter::finish(const std::string& status) {
+void LogWriter::finish(const std::string& status, const Simulation& sim) {
+  Contents& c = *contents_;
   try {
-    contents_->h5.root_attribute("status", status);
-    contents_->save(file_.partial());
+    c.attributes["status"] = status;
+    c.save(sim);
   } catch (const std::exception& error) {
-    if (!contents_->saved) {
+    if (!c.any) {
       throw;
     }
     const bool full = dynamic_cast<const FileError*>(&error) != nullptr;
     const std::string cause = full ? error.what() : "out of memory";
-    set_status_in_place(file_.partial(), "failed: " + cause);
-    throw FileError(cause + "; " + file_.partial().string() + " has what was saved before");
+    c.file.reset();
+    mark_failed(output_->partial(), cause);
+    throw FileError(cause + "; " + output_->partial().string() + " has what was saved before");
   }
-  contents_->saved = true;
-  file_.publish();
+  c.file.reset();
+  output_->publish();
   contents_.reset();
 }
 

@@ -27,25 +27,48 @@ fs::path target_of(fs::path file) {
 
 }  // namespace
 
-OutputFile::OutputFile(const fs::path& file, bool replace)
+OutputFile::OutputFile(const fs::path& file, Existing existing)
     : file_(target_of(file)),
       partial_(file_.string() + ".part"),
       lock_(file_.string() + ".lock"),
-      replace_(replace) {
+      existing_(existing) {
   std::error_code error;
   if (fs::exists(file_, error) && !fs::is_regular_file(file_, error)) {
     throw FileError(file_.string() + ": is not a regular file");
   }
-  if (fs::exists(file_, error) && !replace) {
+  if (existing == Existing::refuse && fs::exists(file_, error)) {
     throw FileError(file_.string() + ": already exists (--force replaces it)");
   }
   take_lock();
-  if (fs::exists(partial_, error) && !replace) {
+  std::string reason = obstacle();
+  if (reason.empty() && existing == Existing::go_on && fs::exists(file_, error) &&
+      std::rename(file_.c_str(), partial_.c_str()) != 0) {
+    reason = file_.string() + ": cannot be renamed: " + std::strerror(errno);
+  }
+  if (!reason.empty()) {
     fs::remove(lock_, error);
     ::close(lock_descriptor_);
-    throw FileError(partial_.string() +
-                    ": left by a run that did not end; save it, or --force replaces it");
+    throw FileError(reason);
   }
+}
+
+std::string OutputFile::obstacle() const {
+  std::error_code error;
+  const bool whole = fs::exists(file_, error);
+  const bool part = fs::exists(partial_, error);
+  if (existing_ == Existing::refuse && part) {
+    return partial_.string() +
+           ": left by a process that did not end; `hagfish run --resume` goes on with a run, "
+           "--force "
+           "replaces it";
+  }
+  if (existing_ == Existing::go_on && whole && part) {
+    return partial_.string() + ": cannot be gone on with, as " + file_.string() + " exists";
+  }
+  if (existing_ == Existing::go_on && !whole && !part) {
+    return file_.string() + ": no such file";
+  }
+  return "";
 }
 
 /// A process that ends removes its lock file, so that the one just locked may be of no name any
@@ -80,7 +103,7 @@ OutputFile::~OutputFile() {
 }
 
 void OutputFile::publish() {
-  if (replace_) {
+  if (existing_ == Existing::replace) {
     if (std::rename(partial_.c_str(), file_.c_str()) == 0) {
       return;
     }

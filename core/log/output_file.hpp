@@ -2,20 +2,30 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "core/log/hdf5_error.hpp"
 
 namespace hagfish {
+
+/// What is to become of a FILE, or a FILE.part of a process that is gone, that exists.
+enum class Existing {
+  refuse,   ///< it stays
+  replace,  ///< it is replaced
+  go_on     ///< FILE.part is gone on with, or FILE, which becomes FILE.part
+};
+
+constexpr Existing replaced_if(bool force) { return force ? Existing::replace : Existing::refuse; }
 
 /// Reserves FILE while it lives. What is made goes to FILE.part, so that FILE is never half-written
 /// and what was made survives whatever ends the process; FILE.lock, locked by the kernel, tells a
 /// process at work from one that is gone. Symbolic links are followed and stay.
 class OutputFile {
  public:
-  /// Throws FileError where FILE is no regular file; where FILE, or FILE.part of a process that
-  /// is gone, exists and `replace` is not set; where another process is making FILE; or where its
-  /// folder cannot be written.
-  OutputFile(const std::filesystem::path& file, bool replace);
+  /// Throws FileError where FILE is no regular file; where it, or FILE.part, exists and is to be
+  /// refused, or both or none do and one is to be gone on with; where another process is making
+  /// FILE; or where its folder cannot be written.
+  OutputFile(const std::filesystem::path& file, Existing existing);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
@@ -28,9 +38,11 @@ class OutputFile {
 
  private:
   void take_lock();
+  /// What stands in the way, or an empty text.
+  std::string obstacle() const;
 
   std::filesystem::path file_, partial_, lock_;
-  bool replace_;
+  Existing existing_;
   int lock_descriptor_ = -1;
 };
 

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <stdexcept>
 #include <tuple>
 #include <utility>
 
@@ -30,8 +32,8 @@ class Attempt {
     record_.step = sim_.step;
     record_.time = time_of(sim_, scene_);
     record_.warnings.clear();
-    if (Status status = decide(model_, scene_, sim_.now, record_.time, sim_.controller,
-                               record_.control);
+    if (Status status =
+            decide(model_, scene_, sim_.now, record_.time, sim_.controller, record_.control);
         !status.ok()) {
       return status;
     }
@@ -207,6 +209,32 @@ Simulation start_from(const Model& model, const Scene& scene, const std::string&
   sim.ledger = open_ledger(model, sim.now);
   sim.momentum = open_momentum(model, sim.now);
   return sim;
+}
+
+void change_scene(const Model& model, const Scene& before, const Scene& scene, Simulation& sim) {
+  if (sim.now.state.q.size() != model.nq()) {
+    throw std::invalid_argument("the state is of a chain of another number of bodies");
+  }
+  const double frames = time_of(sim, before) / scene.time.frame_interval;
+  constexpr double rounding = 1e-9;  // of a number of frames that is whole
+  if (std::abs(frames - std::round(frames)) > rounding * std::max(1.0, frames)) {
+    throw std::invalid_argument(
+        fmt::format("its time, {:g} s, is no multiple of time.frame_interval, {:g} s",
+                    time_of(sim, before), scene.time.frame_interval));
+  }
+  sim.step = std::llround(time_of(sim, before) / scene.time.step);
+  sim.search = {};
+  observe(model, sim.now.state, scene, sim.search, sim.now.observation);
+  const EnergyLedger now = open_ledger(model, sim.now);
+  const Eigen::Vector3d now_momentum = linear_momentum(model, sim.now.observation.kin);
+  EnergyLedger& ledger = sim.ledger;
+  ledger.initial += now.initial - (ledger.kinetic + ledger.elastic + ledger.gravity);
+  ledger.kinetic = now.kinetic;
+  ledger.elastic = now.elastic;
+  ledger.gravity = now.gravity;
+  ledger.largest = std::max(ledger.largest, now.largest);
+  sim.momentum.initial += now_momentum - sim.momentum.momentum;
+  sim.momentum.momentum = now_momentum;
 }
 
 bool finished(const Simulation& sim, const Scene& scene) {

@@ -44,6 +44,12 @@ Simulation start(const Model& model, const Scene& scene, const std::string& back
 Simulation start_from(const Model& model, const Scene& scene, const std::string& back_end,
                       State state, ControllerState controller, std::int64_t step);
 
+/// Goes on in another scene of the same chain, with another time step at the same time: contacts
+/// are found anew, and energy and momentum that the change brings count as there from the start.
+/// Throws std::invalid_argument where the state is not of `model`, or its time no multiple of the
+/// frame interval.
+void change_scene(const Model& model, const Scene& before, const Scene& scene, Simulation& sim);
+
 inline double time_of(const Simulation& sim, const Scene& scene) {
   return static_cast<double>(sim.step) * scene.time.step;
 }
@@ -59,10 +65,10 @@ struct StepRecord {
   ControllerState controller;
   Control control;
   StepSolution solution;
-  EnergyLedger ledger;    ///< up to `time`
+  EnergyLedger ledger;      ///< up to `time`
   MomentumLedger momentum;  ///< up to `time`
-  double head_drift = 0;  ///< cm; 0 while the head is free
-  double crossing = 0;    ///< deepest overlap on the way to the next state, cm; 0 of a short way
+  double head_drift = 0;    ///< cm; 0 while the head is free
+  double crossing = 0;      ///< deepest overlap on the way to the next state, cm; 0 of a short way
   /// What this step gave rise to for the first time (guard.hpp).
   std::vector<std::string> warnings;
 };

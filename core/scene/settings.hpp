@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -204,6 +205,8 @@ struct KnotSettings {
 struct TimeSettings {
   double step = 0.002;            ///< h, s
   double frame_interval = 0.020;  ///< time between logged frames, s; a whole number of steps
+  /// Time between checkpoints in the log, from which a run can branch, rounded to whole frames, s.
+  double checkpoint_interval = 1;
   double duration = 30;           ///< the run ends here at the latest, s
   Phase until = Phase::free;      ///< the run ends with this phase
 };
@@ -232,10 +235,16 @@ struct GuardSettings {
 /// The sign of the body's writhe: which of its two mirror images a knot is.
 enum class Hand { any, right, left };
 
+/// A time of a run: by the clock, or after a phase has begun, as no two animals are as quick.
+struct RunTime {
+  std::optional<Phase> after;  ///< counted from its start; from that of the run where there is none
+  double time = 0;             ///< s; infinite for the run's end
+};
+
 /// A stretch of the run in which the knot has one type.
 struct KnotStretch {
-  std::string type;         ///< as knot_name() gives it
-  double from = 0, to = 0;  ///< s
+  std::string type;  ///< as knot_name() gives it
+  RunTime from, to;  ///< both included where they are times by the clock; else up to before `to`
 };
 
 /// What a run of the scene must show; `hagfish check` compares a log with it.
@@ -245,8 +254,10 @@ struct ExpectSettings {
   std::string knot;
   /// Knot type through time. Between the stretches, while it changes, any type will do.
   std::vector<KnotStretch> types;
-  Hand hand = Hand::any;              ///< of the knot until release
-  double slide_distance = 0;          ///< headward travel of the knot's head end while sliding, cm
+  Hand hand = Hand::any;  ///< of the knot until release
+  /// Headward travel of the knot's head end while sliding, cm; where the knot began nearer to its
+  /// release than that, all the way there, but half of this at least.
+  double slide_distance = 0;
   double reverse_distance = 0;        ///< tailward travel of its tail end on the way back, cm
   double speed_share = 0.95;          ///< of sliding steps that meet Eq. 6 without slack
   double penetration = 0.0015;        ///< deepest at any step, cm

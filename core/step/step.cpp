@@ -28,7 +28,9 @@ StepSolver::StepSolver(std::string back_end)
     : back_end_(std::move(back_end)), solver_(make_box_qp_solver(back_end_)) {}
 
 StepSolver::StepSolver(const StepSolver& other)
-    : warm(other.warm), back_end_(other.back_end_), solver_(make_box_qp_solver(back_end_)) {}
+    : warm(other.warm), back_end_(other.back_end_), solver_(make_box_qp_solver(back_end_)) {
+  stop_when(other.stop_);
+}
 
 StepSolver& StepSolver::operator=(const StepSolver& other) {
   if (this != &other) {
@@ -37,8 +39,14 @@ StepSolver& StepSolver::operator=(const StepSolver& other) {
       back_end_ = other.back_end_;
       solver_ = make_box_qp_solver(back_end_);
     }
+    stop_when(other.stop_);
   }
   return *this;
+}
+
+void StepSolver::stop_when(std::function<bool()> asked) {
+  stop_ = std::move(asked);
+  solver_->stop_when(stop_);
 }
 
 Status StepSolver::begin(const StepInput& in, StepSolution& step) {
@@ -96,7 +104,7 @@ Status StepSolver::constrained_motion(const StepInput& in, bool base_known, Step
       assemble_dual(in.model, in.observation.kin, scratch_.factor, others, step.base,
                     scratch_.base_centre_velocity, scratch_.columns, scratch_.qp);
       if (!solve_multipliers(step)) {
-        if (!release_all(step)) {
+        if (scratch_.solution.status == SolveStatus::stopped || !release_all(step)) {
           return describe_failure(in.model, scratch_.qp, step.rows, scratch_.solution);
         }
         base_known = false;

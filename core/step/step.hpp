@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -121,6 +122,10 @@ class StepSolver {
   /// begin and finish.
   Status solve(const StepInput& in, StepSolution& step);
 
+  /// A step ends, not ok (stopped), soon after `asked` returns true: it is called at each iteration
+  /// of the back end. Copies are asked the same.
+  void stop_when(std::function<bool()> asked);
+
   /// What the last step left for the next one.
   WarmStart warm;
 
@@ -138,6 +143,7 @@ class StepSolver {
   void keep_active(const StepSolution& step);
 
   std::string back_end_;
+  std::function<bool()> stop_;
   std::unique_ptr<BoxQpSolver> solver_;
   StepScratch scratch_;
 };

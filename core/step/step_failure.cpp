@@ -6,6 +6,9 @@ namespace hagfish {
 
 Status describe_failure(const Model& model, const BoxQp& qp, const std::vector<Row>& rows,
                         const BoxQpSolution& solution) {
+  if (solution.status == SolveStatus::stopped) {
+    return {Outcome::stopped, fmt::format("stopped while solving {} rows", qp.b.size())};
+  }
   std::vector<Eigen::Index> contradicting = solution.contradicting;
   if (contradicting.empty()) {
     const auto exact = make_box_qp_solver("active-set");

@@ -24,6 +24,11 @@ class WarmStart {
   /// The multiplier kept of a row, 0 where there is none.
   double multiplier(std::int64_t id) const;
   std::size_t size() const { return entries_.size(); }
+  /// All of it, for a checkpoint.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(entries_, before_);
+  }
 
  private:
   std::vector<Kept> entries_, before_;  // by id

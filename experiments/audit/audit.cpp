@@ -8,6 +8,7 @@
 
 #include "core/log/log_writer.hpp"
 #include "core/run/simulation.hpp"
+#include "experiments/audit/audit_checkpoints.hpp"
 #include "experiments/audit/audit_datasets.hpp"
 #include "experiments/audit/audit_forces.hpp"
 #include "experiments/audit/audit_forward_inverse.hpp"
@@ -97,7 +98,9 @@ Finding energy(const LogContents& log) {
                                get("work_limit") + get("work_head") + get("work_wall");
   const Eigen::ArrayXd error = get("integrator_error");
   const Eigen::ArrayXd dissipated = get("dissipated");
-  const double worst = largest((energy - energy[0] - works + dissipated - error).abs().eval());
+  // Running totals need not begin at 0: a branch goes on with those of its run.
+  const Eigen::ArrayXd balance = energy - works + dissipated - error;
+  const double worst = largest((balance - balance[0]).abs().eval());
   const double passed = std::max(dissipated.abs().maxCoeff(), works.abs().maxCoeff());
   const double relative = passed > 0 ? worst / passed : worst;
   Finding finding = judged_over(
@@ -197,6 +200,7 @@ std::vector<Finding> audit(const std::string& file) {
   findings.push_back(energy(log));
   findings.push_back(energy_gain(log));
   append(momentum(log));
+  findings.push_back(audit_checkpoints(log));
   return findings;
 }
 

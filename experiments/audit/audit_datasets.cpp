@@ -1,29 +1,12 @@
 #include "experiments/audit/audit_datasets.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include "core/log/log_frame.hpp"
 #include "core/log/log_writer.hpp"
+#include "experiments/audit/log_schema.hpp"
 
 namespace hagfish {
 namespace {
-
-/// Every dataset of a table, as the writer declares it, with `rows` rows.
-template <class Source>
-void check_table(const LogContents& log, const LogTable<Source>& table, hsize_t rows) {
-  for (const auto& [path, row_shape] : table.declared()) {
-    std::vector<hsize_t> shape{rows};
-    shape.insert(shape.end(), row_shape.begin(), row_shape.end());
-    if (log.h5.shape(path) != shape) {
-      throw FileError(fmt::format("{}: {} has the shape ({}), not ({})", log.h5.file(), path,
-                                  fmt::join(log.h5.shape(path), ", "), fmt::join(shape, ", ")));
-    }
-    if (log.h5.attribute(path, "unit").empty() || log.h5.attribute(path, "description").empty()) {
-      throw FileError(log.h5.file() + ": " + path + " has no unit or description");
-    }
-  }
-}
 
 void check_names(const LogContents& log) {
   std::vector<std::string> joints, dofs;
@@ -42,14 +25,6 @@ void check_names(const LogContents& log) {
 }  // namespace
 
 void check_datasets(const LogContents& log) {
-  // The writer says what there must be; nothing is written.
-  Hdf5Writer nowhere;
-  LogTable<Frame> frames(nowhere);
-  LogTable<LoggedStep> steps(nowhere);
-  LogTable<BearingContact> contacts(nowhere);
-  declare_frames(log.model, nowhere, frames);
-  declare_steps(nowhere, steps);
-  declare_contacts(nowhere, contacts);
   const hsize_t step_count = log.h5.shape("/steps/kkt").at(0);
   const auto stride = static_cast<hsize_t>(frame_stride(log.resolved.scene.time));
   const hsize_t covered = (log.time.size() - 1) * stride + 1;
@@ -57,9 +32,13 @@ void check_datasets(const LogContents& log) {
     throw FileError(fmt::format("{}: /steps has {} steps, {} frames make {} to {}", log.h5.file(),
                                 step_count, log.time.size(), covered, covered + stride - 1));
   }
-  check_table(log, frames, log.time.size());
-  check_table(log, steps, step_count);
-  check_table(log, contacts, log.h5.shape("/contacts/frame").at(0));
+  for (const DatasetForm& form : log_forms(log.h5, log.model)) {
+    check_form(log.h5, form);
+    const std::string& path = form.path;
+    if (log.h5.attribute(path, "unit").empty() || log.h5.attribute(path, "description").empty()) {
+      throw FileError(log.h5.file() + ": " + path + " has no unit or description");
+    }
+  }
   if (!log.h5.has("/model/bending_limit")) {
     throw FileError(log.h5.file() + ": has no /model/bending_limit");
   }

@@ -6,11 +6,17 @@
 #include <cmath>
 #include <optional>
 
+#include "core/input/run_time_text.hpp"
 #include "core/knot/knot.hpp"
 #include "core/knot/writhe.hpp"
 
 namespace hagfish {
 namespace {
+
+/// The last frame of a slide is this near to its end: 20 ms at some cm/s, cm of arc.
+constexpr double arrived_within = 0.2;
+/// Share of expect.slide_distance that every animal must slide.
+constexpr double least_slide = 0.5;
 
 Phase phase_at(const LogContents& log, std::size_t frame) {
   return static_cast<Phase>(log.phase[frame]);
@@ -45,19 +51,32 @@ Finding held(const LogContents& log, const std::vector<std::string>& type) {
                                           expected, kept, frames, lost));
 }
 
+/// When a time of the run came, s; infinite where it never did.
+double clock_of(const LogContents& log, const RunTime& time) {
+  if (!time.after) return time.time;
+  const int order = phase_order(*time.after);
+  for (std::size_t f = 0; f < log.time.size(); ++f) {
+    if (phase_order(phase_at(log, f)) >= order) return log.time[f] + time.time;
+  }
+  return INFINITY;
+}
+
 /// expect.types, where the run gets that far.
 std::vector<Finding> types_through_time(const LogContents& log,
                                         const std::vector<std::string>& type) {
   const Scene& scene = log.resolved.scene;
   std::vector<Finding> findings;
   for (const KnotStretch& stretch : scene.expect.types) {
-    if (scene.time.until != Phase::free && stretch.from > log.time.back()) {
+    const double from = clock_of(log, stretch.from), to = clock_of(log, stretch.to);
+    if (scene.time.until != Phase::free && from > log.time.back()) {
       continue;
     }
     std::int64_t frames = 0;
     std::int64_t kept = 0;
     for (std::size_t f = 0; f < type.size(); ++f) {
-      if (log.time[f] >= stretch.from && log.time[f] <= stretch.to) {
+      // At the very start of a phase the type may have changed already.
+      const bool before_end = stretch.to.after ? log.time[f] < to : log.time[f] <= to;
+      if (log.time[f] >= from && before_end) {
         ++frames;
         kept += type[f] == stretch.type ? 1 : 0;
       }
@@ -66,9 +85,15 @@ std::vector<Finding> types_through_time(const LogContents& log,
         frames > 0 ? fmt::format("{} at {} of {} frames", stretch.type, kept, frames)
                    : fmt::format("the log, of {:g} to {:g} s, has no frame to be a {}",
                                  log.time.front(), log.time.back(), stretch.type);
-    findings.push_back(
-        all_of("knot through time", kept, frames, "frames",
-               fmt::format("{} from {:g} to {:g} s", what, stretch.from, stretch.to)));
+    const auto told = [](const RunTime& time, double clock) {
+      const std::string text = run_time_text(time);
+      return time.after && std::isfinite(clock) ? fmt::format("{} ({:g} s)", text, clock)
+             : time.after || std::isinf(clock)  ? text
+                                                : text + " s";
+    };
+    findings.push_back(all_of(
+        "knot through time", kept, frames, "frames",
+        fmt::format("{} from {} to {}", what, told(stretch.from, from), told(stretch.to, to))));
   }
   return findings;
 }
@@ -97,18 +122,31 @@ Finding hand(const LogContents& log, const std::vector<SeenKnot>& seen,
           "writhe"};
 }
 
-/// How far an end of the knot moves tailward in one phase, cm; nothing where it is not seen.
-std::optional<double> travel(const LogContents& log, Phase phase, const char* end) {
+/// Where an end of the knot is at the first and last frame of a phase that show it, cm of arc.
+struct Way {
+  double first = 0, last = 0;
+};
+
+/// Nothing where no frame shows it.
+std::optional<Way> way(const LogContents& log, Phase phase, const char* end) {
   const std::vector<double> arc = log.h5.doubles(end);
-  std::optional<double> first;
-  double last = 0;
+  std::optional<Way> seen;
   for (std::size_t f = 0; f < arc.size(); ++f) {
     if (phase_at(log, f) == phase && !std::isnan(arc[f])) {
-      first = first.value_or(arc[f]);
-      last = arc[f];
+      seen = seen.value_or(Way{arc[f], arc[f]});
+      seen->last = arc[f];
     }
   }
-  return first ? std::optional(last - *first) : std::nullopt;
+  return seen;
+}
+
+/// The slide that is asked of an animal whose knot began to slide at `first`, cm of arc: that of
+/// the scene, or, where the knot was nearer to where it is released, all the way there; but half of
+/// that of the scene at least.
+double slide_asked(const Scene& scene, double first) {
+  const double asked = scene.expect.slide_distance;
+  const double there = first - scene.controller.release_at - arrived_within;
+  return std::clamp(there, least_slide * asked, asked);
 }
 
 /// "head" end of the knot moved "headward".
@@ -184,13 +222,18 @@ std::vector<Finding> audit_knot(const LogContents& log, const std::vector<SeenKn
     findings.push_back(hand(log, seen, type));
   }
   if (reaches(Phase::slide)) {
-    std::optional<double> slid = travel(log, Phase::slide, "/knot/head_end");
-    if (slid) slid = -*slid;
-    findings.push_back(moved(slide_criterion(expect, slid), "head", "headward"));
+    const std::optional<Way> slid = way(log, Phase::slide, "/knot/head_end");
+    ExpectSettings asked = expect;
+    if (slid) asked.slide_distance = slide_asked(scene, slid->first);
+    findings.push_back(
+        moved(slide_criterion(asked, slid ? std::optional(slid->first - slid->last) : std::nullopt),
+              "head", "headward"));
   }
   if (reaches(Phase::reverse) && scene.controller.leave_by == BodyEnd::tail) {
-    const std::optional<double> slid = travel(log, Phase::reverse, "/knot/tail_end");
-    findings.push_back(moved(reverse_criterion(expect, slid), "tail", "tailward"));
+    const std::optional<Way> slid = way(log, Phase::reverse, "/knot/tail_end");
+    findings.push_back(moved(
+        reverse_criterion(expect, slid ? std::optional(slid->last - slid->first) : std::nullopt),
+        "tail", "tailward"));
   }
   if (reaches(Phase::slide)) {
     findings.push_back(commanded_speed(log));

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/log/log_writer.hpp"
-#include "core/run/controller.hpp"
+#include "experiments/audit/log_schema.hpp"
 
 namespace hagfish {
 
@@ -20,54 +20,13 @@ LogContents::LogContents(const std::string& file) : h5(file) {
   }
   resolved = read_scene_text(h5.root_text("scene"), file + ": scene");
   model = make_hagfish(resolved.specimen, resolved.scene);
+  check_schema(h5, model, resolved.scene);
   time = h5.doubles("/trajectory/time");
   phase = h5.integers("/trajectory/phase");
   q = h5.rows("/trajectory/q");
   qdot = h5.rows("/trajectory/qdot");
   qdot_next = h5.rows("/trajectory/qdot_next");
-  if (time.empty()) {
-    throw FileError(file + ": holds no frames");
-  }
-  check_shapes();
   check_model();
-}
-
-void LogContents::check_shapes() const {
-  const hsize_t t = time.size();
-  const hsize_t n = model.body_count();
-  const hsize_t nq = model.nq();
-  const hsize_t nv = model.nv();
-  using Shape = std::vector<hsize_t>;
-  std::vector<std::pair<std::string, Shape>> wanted = {{"/trajectory/q", {t, nq}},
-                                                       {"/trajectory/qdot", {t, nv}},
-                                                       {"/trajectory/qdot_next", {t, nv}},
-                                                       {"/trajectory/position", {t, n, 3}},
-                                                       {"/trajectory/phase", {t}},
-                                                       {"/trajectory/step", {t}},
-                                                       {"/forces/tip", {t, 3}},
-                                                       {"/thigmotaxis/body_b", {t, 2}},
-                                                       {"/knot/determinant", {t}},
-                                                       {"/knot/v2", {t}},
-                                                       {"/knot/head_end", {t}},
-                                                       {"/knot/tail_end", {t}}};
-  for (const char* block : {"thigmotaxis", "contact", "limit", "head", "wall"}) {
-    wanted.push_back({std::string("/forces/") + block, {t, nv}});
-  }
-  for (const auto& [path, shape] : wanted) {
-    if (h5.shape(path) != shape) {
-      throw FileError(h5.file() + ": " + path + " does not have the shape of its model and frames");
-    }
-  }
-  for (const std::int64_t p : phase) {
-    if (p < 0 || p >= phase_count) {
-      throw FileError(fmt::format("{}: /trajectory/phase holds {}", h5.file(), p));
-    }
-  }
-  const std::vector<std::int64_t> step = h5.integers("/trajectory/step");
-  const auto steps = static_cast<std::int64_t>(h5.shape("/steps/eq6").at(0));
-  if (!std::is_sorted(step.begin(), step.end()) || step.back() - step.front() >= steps) {
-    throw FileError(h5.file() + ": /steps does not cover the frames");
-  }
 }
 
 void LogContents::check_model() const {

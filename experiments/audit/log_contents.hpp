@@ -14,7 +14,7 @@ namespace hagfish {
 /// What every reader of a log starts from.
 struct LogContents {
   /// Throws FileError where the file is not a log whose datasets fit the model that its own scene
-  /// makes: wrong shapes, or /model with another value, of which the first is named.
+  /// makes (log_schema.hpp), or where /model has another value, of which the first is named.
   explicit LogContents(const std::string& file);
   Hdf5Reader h5;
   ResolvedScene resolved;
@@ -24,7 +24,6 @@ struct LogContents {
   Hdf5Reader::Rows q, qdot, qdot_next;  ///< frames x nq, nv, nv
 
  private:
-  void check_shapes() const;
   void check_model() const;
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "core/input/input_text.hpp"
 #include "experiments/audit/audit.hpp"
 #include "experiments/program/commands.hpp"
 #include "experiments/program/csv.hpp"
@@ -23,15 +24,15 @@ int check_log(const std::string& file, CsvTable& table) {
   const std::vector<Finding> findings = audit(file);
   std::vector<std::string> unmet;
   for (const Finding& f : findings) {
-    fmt::print("{:<4} {:<24} {}\n", f.passed ? "ok" : "FAIL", f.name, f.text);
-    table.push_back({file, f.name, f.value, f.bound, f.unit, f.passed ? "yes" : "no"});
+    fmt::print("{:<4} {:<24} {}\n", f.passed ? "ok" : "FAIL", f.name, printable(f.text));
+    table.push_back({file, f.name, printable(f.value), f.bound, f.unit, f.passed ? "yes" : "no"});
     if (!f.passed) unmet.push_back(f.name);
   }
   if (unmet.empty()) {
     return exit_code::done;
   }
   std::fflush(stdout);
-  say("hagfish: {}: check failed: {}\n", file, fmt::join(unmet, ", "));
+  say("hagfish: {}: check failed: {}\n", printable(file), fmt::join(unmet, ", "));
   return exit_code::failed;
 }
 
@@ -41,7 +42,7 @@ int check(const CheckOptions& options) {
   int code = exit_code::done;
   for (const std::string& file : options.logs) {
     if (options.logs.size() > 1) {
-      fmt::print("{}{}:\n", &file == &options.logs[0] ? "" : "\n", file);
+      fmt::print("{}{}:\n", &file == &options.logs[0] ? "" : "\n", printable(file));
     }
     try {
       code = std::max(code, check_log(file, table));

@@ -11,6 +11,7 @@ namespace hagfish {
 /// In the order of `hagfish --help`.
 std::vector<Registrar> commands();
 void add_run(Program& program);
+void add_branch(Program& program);
 void add_scenes(Program& program);
 void add_record_qp(Program& program);
 void add_qp(Program& program);

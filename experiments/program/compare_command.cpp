@@ -19,7 +19,7 @@ struct CompareOptions {
 int run_compare(const CompareOptions& options, const std::string& typed) {
   const ResolvedScene resolved = scene_argument(options.scene, options.set);
   std::optional<OutputFile> file;
-  if (!options.out.empty()) file.emplace(options.out, options.force);
+  if (!options.out.empty()) file.emplace(options.out, replaced_if(options.force));
   Hdf5Writer h5;
   const bool passed = compare(resolved, h5);
   if (file) {

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "core/input/input_error.hpp"
+#include "core/input/input_text.hpp"
 #include "core/log/hdf5_error.hpp"
 
 namespace hagfish {
@@ -27,7 +28,7 @@ std::string reason(const std::exception& error) {
       is_one_of<std::runtime_error, std::domain_error, std::invalid_argument>(error);
   std::string text = (for_the_reader ? "" : "internal error: ") + std::string(error.what());
   std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
+  return printable(text);
 }
 
 }  // namespace hagfish

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/input/input_text.hpp"
 #include "core/run/controller.hpp"
 #include "experiments/audit/log_contents.hpp"
 #include "experiments/program/commands.hpp"
@@ -55,9 +56,9 @@ LogInfo read_info(const std::string& file) {
   info.file = file;
   for (const char* name : {"status", "created", "command", "creator_version", "git_revision",
                            "libraries", "compiler", "cpu"}) {
-    info.root.emplace_back(name, log.h5.root_text(name));
+    info.root.emplace_back(name, printable(log.h5.root_text(name)));
   }
-  info.title = log.resolved.scene.title;
+  info.title = printable(log.resolved.scene.title);
   info.bodies = log.model.body_count();
   info.velocities = log.model.nv();
   info.frames = log.time.size();
@@ -119,10 +120,12 @@ int info(const InfoOptions& options) {
       json.push_back(json_of(info));
       continue;
     }
-    if (options.logs.size() > 1) fmt::print("{}{}:\n", &file == &options.logs[0] ? "" : "\n", file);
+    if (options.logs.size() > 1)
+      fmt::print("{}{}:\n", &file == &options.logs[0] ? "" : "\n", printable(file));
     print_info(info);
   }
-  if (options.json) fmt::print("{}\n", json.dump(2));
+  if (options.json)
+    fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
   return exit_code::done;
 }
 

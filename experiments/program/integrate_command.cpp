@@ -27,7 +27,7 @@ std::vector<std::string> motion_names() {
 int run_integrate(const IntegrateOptions& options, const std::string& typed) {
   const ResolvedScene resolved = scene_argument(options.scene, options.set);
   const Motion& motion = *std::ranges::find(motions, options.motion, &Motion::name);
-  OutputFile file(options.out, options.force);
+  OutputFile file(options.out, replaced_if(options.force));
   Hdf5Writer h5;
   if (!integrate(resolved, motion, h5)) {
     return exit_code::failed;

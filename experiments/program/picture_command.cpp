@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "core/input/input_error.hpp"
+#include "core/input/input_text.hpp"
 #include "core/run/controller.hpp"
 #include "experiments/audit/log_contents.hpp"
 #include "experiments/program/commands.hpp"
@@ -88,8 +89,9 @@ int picture(const PictureOptions& options) {
   for (std::size_t k = 0; k < frames.size(); ++k) {
     const fs::path file = numbered(out, k, frames.size());
     write_png(renderer.render(geoms[k], views[k]), file);
-    table += fmt::format("{}\t{:.9g}\t{:.6f}\t{:.6f}\t{:.6f}\n", file.string(), log.time[frames[k]],
-                         views[k].low.x(), views[k].low.y(), 1 / views[k].scale);
+    table +=
+        fmt::format("{}\t{:.9g}\t{:.6f}\t{:.6f}\t{:.6f}\n", printable(file.string()),
+                    log.time[frames[k]], views[k].low.x(), views[k].low.y(), 1 / views[k].scale);
   }
   fmt::print("{}", table);
   return exit_code::done;

@@ -13,11 +13,12 @@ struct PlaybackOptions {
 };
 
 int run_playback(const PlaybackOptions& options, const std::string& typed) {
-  OutputFile file(options.out, options.force);
+  const LogContents log(options.log);
+  OutputFile file(options.out, replaced_if(options.force));
   Hdf5Writer h5;
   h5.root_attribute("log", options.log);
   h5.root_attribute("command", typed);
-  playback(LogContents(options.log), h5);
+  playback(log, h5);
   h5.save(file.partial());
   file.publish();
   return exit_code::done;

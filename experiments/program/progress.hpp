@@ -10,7 +10,8 @@ namespace hagfish {
 class Progress {
  public:
   /// Silent where `quiet`. On a terminal one line is redrawn; elsewhere a line now and then.
-  Progress(const Model& model, const Scene& scene, bool quiet);
+  /// `before`: wall time that the run took before, s.
+  Progress(const Model& model, const Scene& scene, bool quiet, double before = 0);
   ~Progress() { end(); }
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -20,7 +21,7 @@ class Progress {
   void warn(const StepRecord& record);
   /// Ends the line that is being redrawn.
   void end();
-  /// Wall time since construction, s.
+  /// Wall time that the run took so far, s.
   double elapsed() const;
 
  private:
@@ -32,8 +33,9 @@ class Progress {
   bool quiet_;
   bool terminal_;
   bool drawn_ = false;
+  double before_;
   std::chrono::steady_clock::time_point begin_;
-  double next_ = 0;  // wall time of the next line, s
+  double next_ = 0;  // elapsed() at the next line, s
   Phase phase_ = Phase::form;
   KnotInvariants type_;
 };

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/input/input_text.hpp"
 #include "experiments/program/commands.hpp"
 #include "experiments/program/csv.hpp"
 #include "experiments/program/suggestion.hpp"
@@ -68,7 +69,7 @@ int qp(const QpOptions& options) {
     try_csv(options.csv);
   }
   const QpReport report = measure(set, chosen(options), options.repeat);
-  print_qp_heading(options.set, report, options.repeat);
+  print_qp_heading(printable(options.set), report, options.repeat);
   print_qp_table(report);
   if (!options.csv.empty()) {
     write_csv(options.csv, csv_of(report));
@@ -82,10 +83,10 @@ int qp(const QpOptions& options) {
   }
   std::fflush(stdout);
   for (const std::string& failure : report.failures) {
-    say("hagfish: {}: {}\n", options.set, failure);
+    say("hagfish: {}\n", printable(options.set + ": " + failure));
   }
   if (const auto told = static_cast<int>(report.failures.size()); failures > told) {
-    say("hagfish: {}: and {} more failures\n", options.set, failures - told);
+    say("hagfish: {}: and {} more failures\n", printable(options.set), failures - told);
   }
   return exit_code::failed;
 }

@@ -27,8 +27,11 @@ bool standard_output_arrived() { return std::fflush(stdout) == 0 && std::ferror(
 
 void note_signals() {
   signalled = 0;
+  struct sigaction action {};
+  action.sa_handler = note;
+  action.sa_flags = SA_RESETHAND;
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-    std::signal(signal, note);
+    ::sigaction(signal, &action, nullptr);
   }
   for (const int signal : {SIGPIPE, SIGXFSZ}) {
     std::signal(signal, SIG_IGN);

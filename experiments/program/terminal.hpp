@@ -22,7 +22,8 @@ void open_standard_streams();
 bool standard_output_arrived();
 
 /// Has signals that would end the process (SIGINT, SIGTERM, SIGHUP) noted instead, for
-/// `interrupted` to tell, and failed writes (SIGPIPE, SIGXFSZ) reported as errors.
+/// `interrupted` to tell, a second one of a kind ends it, and failed writes (SIGPIPE, SIGXFSZ)
+/// reported as errors.
 void note_signals();
 bool interrupted();
 

@@ -180,7 +180,7 @@ StoredQp QpSetReader::read(std::size_t index) const {
 
 QpSetWriter::QpSetWriter(const fs::path& file, bool replace, const std::string& command,
                          const std::string& scene)
-    : file_(file, replace) {
+    : file_(file, replaced_if(replace)) {
   h5_.root_attribute("format", format);
   h5_.root_attribute("format_version", format_version);
   h5_.root_attribute("description",

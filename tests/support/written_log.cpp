@@ -8,6 +8,7 @@ namespace hagfish {
 void write_log(const std::filesystem::path& file, const ResolvedScene& scene, const Model& model,
                Simulation sim, int most_steps) {
   LogHeader header;
+  header.qp = "active-set";
   header.scene = scene_to_toml(scene.scene, scene.specimen);
   header.mjcf = mjcf_files(model, scene.scene.contact.least_arc, scene.scene.time.step);
   LogWriter log(file, true, header, model, scene.scene);
@@ -15,9 +16,9 @@ void write_log(const std::filesystem::path& file, const ResolvedScene& scene, co
   double wall_time = 0;
   for (int k = 0; k < most_steps && !finished(sim, scene.scene); ++k) {
     take_step(model, scene.scene, sim, record);
-    log.write(record, wall_time += 1e-4);
+    log.write(record, sim, wall_time += 1e-4);
   }
-  log.finish("complete");
+  log.finish("complete", sim);
 }
 
 }  // namespace hagfish

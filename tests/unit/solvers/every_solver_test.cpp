@@ -46,6 +46,25 @@ TEST_P(EverySolver, FindsKnownSolutions) {
   }
 }
 
+TEST_P(EverySolver, StopsWhenAskedToAndSolvesTheNextProblem) {
+  std::mt19937 random(5);
+  const KnownQp known = known_qp(random, 60, each_role(8));
+  int asked = 0;
+  bool stop = true;
+  solver->stop_when([&] {
+    ++asked;
+    return stop;
+  });
+  const Eigen::VectorXd nothing = Eigen::VectorXd::Zero(known.dual.b.size());
+  const BoxQpSolution solution = solver->solve(known.dual, nothing);
+  EXPECT_EQ(solution.status, SolveStatus::stopped) << solution.message;
+  EXPECT_GT(asked, 0);
+  EXPECT_LE(asked, 2) << "it goes on";
+  EXPECT_TRUE(solution.x.allFinite());
+  stop = false;
+  expect_solved(known.dual, solver->solve(known.dual, nothing));
+}
+
 TEST_P(EverySolver, FindsTheVelocityWhereMultipliersAreNotUnique) {
   std::mt19937 random(4);
   const std::vector<Role> roles = {Role::bilateral, Role::bilateral, Role::active,

@@ -81,6 +81,19 @@ TEST(SceneKnots, RefusesBadExpectations) {
             "s.toml:2: expect.types = ['0_1', 2, 1]: times must rise");
   EXPECT_EQ(scene_complaint("[expect]\ntypes = [['0_1', 0]]\n"),
             "s.toml:2: expect.types = ['0_1', 0]: stretch 1 must be [type, from, to]");
+  EXPECT_EQ(
+      scene_complaint(
+          "[expect]\ntypes = [['3_1', 'tighten', 'release'], ['0_1', 'free + 0.5', 'end']]\n"),
+      "no error");
+  EXPECT_EQ(scene_complaint("[expect]\ntypes = [['3_1', 'release', 'tighten']]\n"),
+            "s.toml:2: expect.types = ['3_1', 'release', 'tighten']: times must rise");
+  for (const std::string time :
+       {"later", "release +0.5", "release + x", "release + -1", "nan", ""}) {
+    EXPECT_EQ(scene_complaint("[expect]\ntypes = [['3_1', '" + time + "', 9]]\n"),
+              "s.toml:2: expect.types = ['3_1', '" + time +
+                  "', 9]: a time must be in s, a phase as in \"release\", later as in "
+                  "\"free + 0.5\", or \"end\"");
+  }
   EXPECT_EQ(scene_complaint("[expect]\nhand = 'both'\n"),
             "s.toml:2: expect.hand = 'both': must be one of \"any\", \"right\", \"left\"");
   EXPECT_EQ(scene_complaint("[controller]\nfree_from = 'form'\n"),

@@ -106,8 +106,8 @@ class Bits {
     add(votes, seed, interval, mirror);
   }
   void put(const TimeSettings& s) {
-    const auto& [step, frame_interval, duration, until] = s;
-    add(step, frame_interval, duration, until);
+    const auto& [step, frame_interval, checkpoint_interval, duration, until] = s;
+    add(step, frame_interval, checkpoint_interval, duration, until);
   }
   void put(const GuardSettings& s) {
     const auto& [action, penetration, limit_violation, speed, energy_gain, energy_action,
@@ -116,7 +116,7 @@ class Bits {
   }
   void put(const KnotStretch& s) {
     const auto& [type, from, to] = s;
-    add(type, from, to);
+    add(type, run_time_text(from), run_time_text(to));
   }
   void put(const ExpectSettings& s) {
     const auto& [knot, types, hand, slide_distance, reverse_distance, speed_share, penetration,

@@ -11,8 +11,8 @@
 
 #include "core/input/scene_reader.hpp"
 #include "core/log/hdf5_reader.hpp"
-#include "core/log/log_status.hpp"
 #include "core/log/log_writer.hpp"
+#include "tests/support/errors.hpp"
 #include "tests/support/random_chain.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -29,6 +29,7 @@ class LogTest : public testing::Test {
     scene.script.kind = ScriptSettings::Kind::force;
     scene.script.knots = {{0, {100, 200, 0}}, {1, {100, 200, 0}}};
     header.command = "test";
+    header.qp = "ipopt";
     header.scene = scene_to_toml(scene, table1_specimen());
     header.mjcf = {{"hagfish.xml", "<mujoco/>"}};
   }
@@ -36,11 +37,10 @@ class LogTest : public testing::Test {
   /// Steps and logs, each step in `wall_time` (s); returns the records' states.
   std::vector<State> write(LogWriter& log, int steps, double wall_time = 0) {
     std::vector<State> states;
-    Simulation sim = start(model, scene, "ipopt");
     for (int k = 0; k < steps; ++k) {
       const StepRecord record = take_step(model, scene, sim);
       states.push_back(record.moment.state);
-      log.write(record, wall_time * (k + 1));
+      log.write(record, sim, wall_time * (k + 1));
     }
     return states;
   }
@@ -49,6 +49,7 @@ class LogTest : public testing::Test {
   Scene scene = table1_scene(10);
   Model model = table1_hagfish(10);
   LogHeader header;
+  Simulation sim = start(model, scene, "ipopt");
 };
 
 struct Dataset {
@@ -109,7 +110,7 @@ TEST_F(LogTest, HoldsWhatTheContractNames) {
   const fs::path file = folder / "run.h5";
   LogWriter log(file, false, header, model, scene);
   write(log, 12);
-  log.finish("complete");
+  log.finish("complete", sim);
   const Hdf5Reader h5(file);
   const hsize_t t = 3;  // steps 0, 5 and 10 of 12 at one frame in 5
   const hsize_t n = 10;
@@ -139,7 +140,7 @@ TEST_F(LogTest, ReadsBackTheVeryStatesThatWereWritten) {
   const fs::path file = folder / "run.h5";
   LogWriter log(file, false, header, model, scene);
   const std::vector<State> states = write(log, 11);
-  log.finish("complete");
+  log.finish("complete", sim);
   const Hdf5Reader h5(file);
   const Hdf5Reader::Rows q = h5.rows("/trajectory/q");
   const Hdf5Reader::Rows qdot = h5.rows("/trajectory/qdot");
@@ -159,8 +160,9 @@ TEST_F(LogTest, TheSameRunTwiceGivesTheSameBytes) {
   for (std::string& file : files) {
     file = folder / ("run" + std::to_string(&file - files.data()) + ".h5");
     LogWriter log(file, false, header, model, scene);
+    sim = start(model, scene, "ipopt");
     write(log, 41);
-    log.finish("complete");
+    log.finish("complete", sim);
   }
   const Hdf5Reader a(files[0]);
   const Hdf5Reader b(files[1]);
@@ -185,7 +187,7 @@ TEST_F(LogTest, RefusesToReplaceUnlessAsked) {
   EXPECT_EQ(fs::file_size(file), 8u);
   LogWriter log(file, true, header, model, scene);
   write(log, 1);
-  log.finish("complete");
+  log.finish("complete", sim);
   EXPECT_GT(fs::file_size(file), 8u);
 }
 
@@ -201,28 +203,55 @@ TEST_F(LogTest, KeepsWhatWasSavedUnlessFinished) {
   EXPECT_EQ(Hdf5Reader(folder / "run.h5.part").root_text("status"), "running");
 }
 
-TEST_F(LogTest, AStatusIsSetInPlace) {
+TEST_F(LogTest, GoesOnWithALogAsIfNothingHadBeen) {
+  scene.time.checkpoint_interval = 0.02;
+  header.scene = scene_to_toml(scene, table1_specimen());
+  const fs::path whole = folder / "whole.h5";
+  {
+    LogWriter log(whole, false, header, model, scene);
+    write(log, 41, 0.01);
+    log.finish("complete", sim);
+  }
   const fs::path file = folder / "run.h5";
-  LogWriter log(file, false, header, model, scene);
-  write(log, 6);
-  log.finish("running");
-  const auto size = fs::file_size(file);
-  const std::string status = "failed: " + file.string() + ".part: cannot be written: No space left";
-  EXPECT_TRUE(set_status_in_place(file, status));
-  EXPECT_EQ(fs::file_size(file), size);
-  const Hdf5Reader h5(file);
-  EXPECT_EQ(h5.root_text("status"), status);
-  EXPECT_EQ(h5.shape("/trajectory/time"), std::vector<hsize_t>{2});
-  std::ofstream(folder / "other") << "no log";
-  EXPECT_FALSE(set_status_in_place(folder / "other", status));
-  EXPECT_EQ(fs::file_size(folder / "other"), 6u);
+  {
+    sim = start(model, scene, "ipopt");
+    LogWriter log(file, false, header, model, scene);
+    write(log, 23, 100);  // a save at each step; nothing finishes it
+  }
+  for (const int more : {0, 1, 7}) {
+    const SavedRun run = saved_run(Hdf5Reader(folder / "run.h5.part"));
+    sim = run.sim;
+    LogWriter log(std::make_unique<OutputFile>(file, Existing::go_on), run);
+    write(log, more, 1e6);
+  }
+  {
+    const SavedRun run = saved_run(Hdf5Reader(folder / "run.h5.part"));
+    EXPECT_EQ(run.sim.step, 31);
+    EXPECT_EQ(run.resumed, "23, 24");  // one that took no step left nothing
+    sim = run.sim;
+    LogWriter log(std::make_unique<OutputFile>(file, Existing::go_on), run);
+    write(log, 10);
+    log.finish("complete", sim);
+  }
+  const Hdf5Reader a(whole), b(file);
+  for (const char* path :
+       {"/trajectory/step", "/trajectory/q", "/trajectory/qdot", "/forces/limit",
+        "/mean/forces/limit", "/diagnostics/limit_violation", "/diagnostics/work_tip", "/steps/kkt",
+        "/steps/rows", "/checkpoints/step", "/checkpoints/end", "/checkpoints/data"}) {
+    const std::vector<double> x = a.doubles(path);
+    const std::vector<double> y = b.doubles(path);
+    ASSERT_EQ(x.size(), y.size()) << path;
+    EXPECT_EQ(std::memcmp(x.data(), y.data(), x.size() * sizeof(double)), 0) << path;
+  }
+  EXPECT_EQ(a.bytes("/checkpoints/last"), b.bytes("/checkpoints/last"));
+  EXPECT_EQ(error_of<FileError>([&] { saved_run(b); }), file.string() + ": the run is complete");
 }
 
 TEST_F(LogTest, AFlippedBitInAChunkIsRefused) {
   const fs::path file = folder / "run.h5";
   LogWriter log(file, false, header, model, scene);
   write(log, 6);
-  log.finish("complete");
+  log.finish("complete", sim);
   const H5::H5File h5(file.string(), H5F_ACC_RDONLY);
   hsize_t offset[2] = {0, 0};
   unsigned mask = 0;
@@ -245,7 +274,7 @@ TEST_F(LogTest, FailedRunsStayReadable) {
   const fs::path file = folder / "run.h5";
   LogWriter log(file, false, header, model, scene);
   write(log, 6);
-  log.finish("failed: solver failed at step 6");
+  log.finish("failed: solver failed at step 6", sim);
   const Hdf5Reader h5(file);
   EXPECT_EQ(h5.root_text("status"), "failed: solver failed at step 6");
   EXPECT_EQ(h5.shape("/trajectory/time"), std::vector<hsize_t>{2});
@@ -277,7 +306,7 @@ TEST_F(LogTest, AFullDiskIsOneLineAndKeepsWhatWasSaved) {
       } catch (const FileError& error) {
         cause = error.what();
       }
-      log.finish("failed: " + cause);
+      log.finish("failed: " + cause, sim);
     } catch (const FileError& error) {
       fprintf(stderr, "%s\n", error.what());
     }

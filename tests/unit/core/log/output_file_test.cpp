@@ -26,7 +26,7 @@ std::string text_of(const fs::path& file) {
 template <class Work>
 std::string complaint(const fs::path& file, bool replace, Work work) {
   try {
-    OutputFile output(file, replace);
+    OutputFile output(file, replaced_if(replace));
     work(output);
   } catch (const FileError& error) {
     return error.what();
@@ -47,7 +47,7 @@ class OutputFileTest : public testing::Test {
 
 TEST_F(OutputFileTest, GetsItsNameWhenItIsWhole) {
   {
-    OutputFile output(file, false);
+    OutputFile output(file, Existing::refuse);
     EXPECT_EQ(output.partial(), part);
     put(output.partial(), "whole");
     EXPECT_FALSE(fs::exists(file));
@@ -73,14 +73,15 @@ TEST_F(OutputFileTest, KeepsWhatIsThereUnlessAsked) {
 TEST_F(OutputFileTest, KeepsWhatACrashLeftUnlessAsked) {
   put(part, "680 frames");
   put(lock, "");  // of a process that is gone
-  EXPECT_EQ(complaint(file, false).find(part.string() + ": left by a run that did not end"), 0u);
+  EXPECT_EQ(complaint(file, false).find(part.string() + ": left by a process that did not end"),
+            0u);
   EXPECT_EQ(text_of(part), "680 frames");
   EXPECT_FALSE(fs::exists(lock));
   EXPECT_EQ(complaint(file, true), "nothing");
 }
 
 TEST_F(OutputFileTest, IsMadeByOneProcessAtATime) {
-  const OutputFile output(file, true);
+  const OutputFile output(file, Existing::replace);
   const pid_t child = fork();
   if (child == 0) {
     const bool refused =
@@ -96,7 +97,7 @@ TEST_F(OutputFileTest, IsMadeByOneProcessAtATime) {
 TEST_F(OutputFileTest, IsFreeOnceItsProcessWasKilled) {
   const pid_t child = fork();
   if (child == 0) {
-    const OutputFile output(file, false);
+    const OutputFile output(file, Existing::refuse);
     put(output.partial(), "half");
     kill(getpid(), SIGKILL);
   }
@@ -123,7 +124,7 @@ TEST_F(OutputFileTest, FollowsSymbolicLinks) {
   const fs::path link = folder / "link.h5";
   fs::create_symlink("run.h5", link);
   {
-    OutputFile output(link, false);
+    OutputFile output(link, Existing::refuse);
     put(output.partial(), "through the link");
     output.publish();
   }

@@ -16,48 +16,56 @@ namespace {
 namespace fs = std::filesystem;
 
 ResolvedScene living_scene(std::vector<std::string> set = {}) {
-  set.insert(set.end(), {"time.frame_interval=0.2", "knot.votes=5", "time.duration=19.5",
-                         "expect.types=[]"});
+  set.insert(set.end(), {"time.frame_interval=0.1", "knot.votes=5", "time.duration=15.5",
+                         "expect.types=[]", "expect.slide_distance=0.5",
+                         "controller.release_at=10.5"});
   return read_scene(std::string(HAGFISH_DATA_DIR) + "/living_overhand_free.toml", set);
 }
 
-/// A log of forming, tightening, sliding and release: with a knot that is let go half way.
+/// A log of every phase but the last: the knot is let go soon after it begins to slide.
 class AuditActive : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder = std::make_unique<TemporaryFolder>();
     file = *folder / "log.h5";
-    const ResolvedScene resolved = living_scene({"controller.release_at=7", "expect.slide_distance=3"});
+    const ResolvedScene resolved = living_scene();
     const Model model = make_hagfish(resolved.specimen, resolved.scene);
     write_log(file, resolved, model, start(model, resolved.scene, "active-set"),
               std::numeric_limits<int>::max());
   }
   static void TearDownTestSuite() { folder.reset(); }
 
-  /// Names and texts of all findings that fail.
+  /// Names and texts of all findings that fail, but that of the knot, which is still there.
   static std::string objections() {
     std::string text;
     for (const Finding& finding : audit(file)) {
-      text += finding.passed ? "" : finding.name + ": " + finding.text + "\n";
+      const bool expected = finding.name == "unknot at end";
+      text += finding.passed || expected ? "" : finding.name + ": " + finding.text + "\n";
     }
     return text;
   }
 
-  /// What the audit says while one entry of `path` (row by row) is off by `by`.
-  static std::string objections_to(const std::string& path, std::size_t entry, double by) {
-    const auto change = [&](std::vector<double>& values) { values.at(entry) += by; };
-    const auto before = rewrite<double>(file, path, H5::PredType::NATIVE_DOUBLE, change);
+  /// An entry of a dataset, row by row, and how far it is off.
+  struct Corruption {
+    std::string path;
+    std::size_t entry = 0;
+    double by = 0;
+  };
+  /// What the audit says while entries are off.
+  static std::string objections_to(const std::vector<Corruption>& corruptions) {
+    const auto add = [](const Corruption& c, double sign) {
+      rewrite<double>(file, c.path, H5::PredType::NATIVE_DOUBLE,
+                      [&](std::vector<double>& values) { values.at(c.entry) += sign * c.by; });
+    };
+    for (const Corruption& c : corruptions) add(c, 1);
     const std::string text = objections();
-    rewrite<double>(file, path, H5::PredType::NATIVE_DOUBLE,
-                    [&before](std::vector<double>& values) { values = before; });
+    for (const Corruption& c : corruptions) add(c, -1);
     return text;
   }
 
   /// What the audit says while the log claims to be of another scene.
   static std::string objections_with(const std::vector<std::string>& set) {
-    std::vector<std::string> all{"controller.release_at=7", "expect.slide_distance=3"};
-    all.insert(all.end(), set.begin(), set.end());
-    const ResolvedScene other = living_scene(all);
+    const ResolvedScene other = living_scene(set);
     const std::string before = write_scene(scene_to_toml(other.scene, other.specimen));
     const std::string text = objections();
     write_scene(before);
@@ -67,9 +75,10 @@ class AuditActive : public testing::Test {
     std::string before;
     H5::H5File h5(file.string(), H5F_ACC_RDWR);
     H5::Group root = h5.openGroup("/");
-    const H5::StrType type(H5::PredType::C_S1, H5T_VARIABLE);
-    root.openAttribute("scene").read(type, before);
+    const H5::Attribute attribute = root.openAttribute("scene");
+    attribute.read(attribute.getStrType(), before);
     root.removeAttr("scene");
+    const H5::StrType type(H5::PredType::C_S1, H5T_VARIABLE);
     root.createAttribute("scene", type, H5::DataSpace(H5S_SCALAR)).write(type, text);
     return before;
   }
@@ -95,31 +104,33 @@ TEST_F(AuditActive, WatchesTheMusclesInEveryPhase) {
   for (const Phase phase : {Phase::form, Phase::slide, Phase::release}) {
     const std::size_t entry = (first_frame(phase) + 3) * nv + 80;
     // A millionth of what muscles make, 1e5 dyn cm.
-    const std::string torque = objections_to("/forces/active", entry, 0.1);
-    EXPECT_NE(torque.find("/forces/active"), std::string::npos) << torque;
-    EXPECT_NE(torque.find("force balance"), std::string::npos) << torque;
+    const std::string torque =
+        objections_to({{"/forces/active", entry, 0.1}, {"/mean/forces/active", entry, 0.1}});
+    std::vector<std::string> watchers = {"/forces/active", "force balance", "balance of means"};
 #ifdef HAGFISH_MUJOCO
-    EXPECT_NE(torque.find("forward-inverse"), std::string::npos) << torque;
+    watchers.emplace_back("forward-inverse");
 #endif
-    const std::string rest = objections_to("/trajectory/q_ref", entry, 1e-6);
+    for (const std::string& watcher : watchers) {
+      EXPECT_NE(torque.find(watcher), std::string::npos) << watcher << " in " << torque;
+    }
+    const std::string rest = objections_to({{"/trajectory/q_ref", entry, 1e-6}});
     EXPECT_NE(rest.find(phase == Phase::slide ? "/forces/active" : "/trajectory/q_ref"),
               std::string::npos)
         << rest;
-    const std::string mean = objections_to("/mean/forces/active", entry, 0.1);
-    EXPECT_NE(mean.find("balance of means"), std::string::npos) << mean;
   }
-  // A force on the world, however small.
-  const std::string root = objections_to("/forces/active", 20 * nv + 2, 1e-9);
-  EXPECT_NE(root.find("shape of forces"), std::string::npos) << root;
 }
 
-TEST_F(AuditActive, WatchesTheLedgers) {
-  const std::string work = objections_to("/diagnostics/work_active", 60, 10);  // of 2e5 erg
-  EXPECT_NE(work.find("energy ledger"), std::string::npos) << work;
-  const std::string drag = objections_to("/diagnostics/impulse_drag", 60, 0.01);  // of 200 dyn s
-  EXPECT_NE(drag.find("momentum ledger"), std::string::npos) << drag;
-  const std::string outside = objections_to("/diagnostics/impulse_outside", 60, 1e-9);
-  EXPECT_NE(outside.find("nothing outside"), std::string::npos) << outside;
+TEST_F(AuditActive, WatchesTheLedgersAndTheWorld) {
+  const std::size_t nv = Hdf5Reader(file).shape("/forces/active")[1];
+  const std::string text = objections_to({{"/diagnostics/work_active", 60, 10},  // of 1e5 erg
+                                          {"/diagnostics/impulse_drag", 60, 0.01},  // of 100 dyn s
+                                          {"/diagnostics/impulse_outside", 60, 1e-9},
+                                          // A force on the world, however small.
+                                          {"/forces/active", 20 * nv + 2, 1e-9}});
+  for (const char* watcher :
+       {"energy ledger", "momentum ledger", "nothing outside", "shape of forces"}) {
+    EXPECT_NE(text.find(watcher), std::string::npos) << watcher << " in " << text;
+  }
 }
 
 TEST_F(AuditActive, SeesMusclesThatAreNotTheScenes) {

@@ -24,6 +24,10 @@ TEST(Failure, AMessageForTheReaderIsAllThatIsSaid) {
   EXPECT_EQ(reason(std::domain_error("knot: degenerate")), "knot: degenerate");
 }
 
+TEST(Failure, WhatATerminalWouldObeyIsShownAsBytes) {
+  EXPECT_EQ(reason(FileError("a.h5: \x1b[31mred\x07")), "a.h5: \\x1b[31mred\\x07");
+}
+
 TEST(Failure, WhatNobodyForesawIsAnInternalError) {
   EXPECT_EQ(reason(std::exception()), "internal error: std::exception");
   EXPECT_EQ(reason(std::out_of_range("row 7\nof 3")), "internal error: row 7 of 3") << "one line";

@@ -1,0 +1,44 @@
+#include "core/input/run_time_text.hpp"
+
+#include <charconv>
+#include <cmath>
+
+#include "core/input/toml_range.hpp"
+
+namespace hagfish {
+namespace {
+
+constexpr const char* end_of_run = "end";
+constexpr std::string_view plus = " + ";
+
+std::optional<double> number_of(std::string_view text) {
+  double x = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
+  const bool whole = error == std::errc() && end == text.data() + text.size();
+  return whole && std::isfinite(x) ? std::optional(x) : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<RunTime> run_time_called(const std::string& text) {
+  if (text == end_of_run) return RunTime{std::nullopt, INFINITY};
+  if (const auto seconds = number_of(text)) return RunTime{std::nullopt, *seconds};
+  const std::size_t at = text.find(plus);
+  const auto later =
+      at == text.npos ? std::optional(0.0) : number_of(text.substr(at + plus.size()));
+  for (int p = 0; p < phase_count; ++p) {
+    const auto phase = static_cast<Phase>(p);
+    if (later && *later >= 0 && text.substr(0, at) == phase_name(phase)) {
+      return RunTime{phase, *later};
+    }
+  }
+  return std::nullopt;
+}
+
+std::string run_time_text(const RunTime& time) {
+  if (!time.after) return std::isinf(time.time) ? end_of_run : shortest(time.time);
+  const std::string later = time.time == 0 ? "" : std::string(plus) + shortest(time.time);
+  return phase_name(*time.after) + later;
+}
+
+}  // namespace hagfish

@@ -1,0 +1,311 @@
+#include "core/log/checkpoint.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cereal/archives/binary.hpp>
+#include <cereal/types/array.hpp>
+#include <cereal/types/bitset.hpp>
+#include <cereal/types/optional.hpp>
+#include <cmath>
+#include <sstream>
+
+#include "core/log/hdf5_error.hpp"
+
+// Each struct is taken apart by a structured binding: one that gains a member does not compile
+// until the member is kept here too.
+namespace hagfish {
+namespace {
+
+/// Of the bytes' layout; raised with every change of what they hold.
+constexpr int layout = 1;
+/// No list of a run is longer; a damaged count must not ask for all memory.
+constexpr std::uint64_t most_entries = 1000000;
+
+void require(bool holds, const char* what) {
+  if (!holds) {
+    throw FileError(fmt::format("checkpoint: {}", what));
+  }
+}
+
+std::uint64_t count_of(cereal::BinaryInputArchive& archive) {
+  std::uint64_t count = 0;
+  archive(count);
+  require(count <= most_entries, "a list is too long");
+  return count;
+}
+
+}  // namespace
+}  // namespace hagfish
+
+namespace cereal {
+
+using hagfish::count_of;
+
+template <class Archive>
+void save(Archive& archive, const std::string& text) {
+  archive(std::uint64_t{text.size()}, binary_data(text.data(), text.size()));
+}
+inline void load(BinaryInputArchive& archive, std::string& text) {
+  text.resize(count_of(archive));
+  archive(binary_data(text.data(), text.size()));
+}
+
+template <class Archive, class T>
+void save(Archive& archive, const std::vector<T>& list) {
+  archive(std::uint64_t{list.size()});
+  for (const T& entry : list) {
+    archive(entry);
+  }
+}
+template <class T>
+void load(BinaryInputArchive& archive, std::vector<T>& list) {
+  list.clear();
+  for (std::uint64_t left = count_of(archive); left > 0; --left) {
+    archive(list.emplace_back());
+  }
+}
+
+template <class Archive, int rows>
+void save(Archive& archive, const Eigen::Matrix<double, rows, 1>& vector) {
+  archive(std::uint64_t(vector.size()),
+          binary_data(vector.data(), static_cast<std::size_t>(vector.size()) * sizeof(double)));
+}
+template <int rows>
+void load(BinaryInputArchive& archive, Eigen::Matrix<double, rows, 1>& vector) {
+  const auto size = static_cast<Eigen::Index>(count_of(archive));
+  hagfish::require(rows == Eigen::Dynamic || size == rows, "a vector has the wrong size");
+  vector.resize(size);
+  archive(binary_data(vector.data(), static_cast<std::size_t>(size) * sizeof(double)));
+}
+
+}  // namespace cereal
+
+namespace hagfish {
+
+template <class Archive>
+void serialize(Archive& archive, State& state) {
+  auto& [q, qdot] = state;
+  archive(q, qdot);
+}
+
+template <class Archive>
+void serialize(Archive& archive, Contact& contact) {
+  auto& [segment_a, segment_b, t_a, t_b, arc_a, arc_b, gap, normal, tangent_a, tangent_b] = contact;
+  archive(segment_a, segment_b, t_a, t_b, arc_a, arc_b, gap, normal, tangent_a, tangent_b);
+}
+
+template <class Archive>
+void serialize(Archive& archive, ContactSet& set) {
+  auto& [contacts, others, least_gap] = set;
+  archive(contacts, others, least_gap);
+}
+
+template <class Archive>
+void serialize(Archive& archive, Observation& observation) {
+  auto& [kin, segments, contact, penetration, limit_violation] = observation;  // two follow from q
+  archive(contact, penetration, limit_violation);
+}
+
+template <class Archive>
+void serialize(Archive& archive, ClosestPoints& closest) {
+  auto& [t_a, t_b, gap] = closest;
+  archive(t_a, t_b, gap);
+}
+
+template <class Archive>
+void serialize(Archive& archive, SegmentPair& pair) {
+  auto& [a, b, closest, clear_until] = pair;
+  archive(a, b, closest, clear_until);
+}
+
+template <class Archive>
+void serialize(Archive& archive, ContactSearch& search) {
+  auto& [candidates, segments, moved, looked, close] = search;  // the last two are scratch
+  archive(candidates, moved);
+}
+
+template <class Archive>
+void serialize(Archive& archive, KnotInvariants& type) {
+  auto& [determinant, v2] = type;
+  archive(determinant, v2);
+}
+
+template <class Archive>
+void serialize(Archive& archive, KnotVote& knot) {
+  auto& [type, agreement] = knot;
+  archive(type, agreement);
+}
+
+template <class Archive>
+void serialize(Archive& archive, PastKnot& past) {
+  auto& [type, from, to] = past;
+  archive(type, from, to);
+}
+
+template <class Archive>
+void serialize(Archive& archive, TrackedContact& tracked) {
+  auto& [contact, settled] = tracked;
+  archive(contact, settled);
+}
+
+template <class Archive>
+void serialize(Archive& archive, ControllerState& controller) {
+  auto& [phase, phase_start, loose, knot, knot_seen, knot_from, past, lost, first, last,
+         rest_shape] = controller;
+  archive(phase, phase_start, loose, knot, knot_seen, knot_from, past, lost, first, last,
+          rest_shape);
+}
+
+template <class Archive>
+void serialize(Archive& archive, WarmStart::Kept& kept) {
+  auto& [id, lambda, change] = kept;
+  archive(id, lambda, change);
+}
+
+template <class Archive>
+void serialize(Archive& archive, EnergyLedger& ledger) {
+  auto& [initial, kinetic, elastic, gravity, work_tip, work_active, work_of_kind, dissipated,
+         inertia, potential, coriolis, held, lowest_error, largest] = ledger;
+  archive(initial, kinetic, elastic, gravity, work_tip, work_active, work_of_kind, dissipated,
+          inertia, potential, coriolis, held, lowest_error, largest);
+}
+
+template <class Archive>
+void serialize(Archive& archive, MomentumLedger& ledger) {
+  auto& [initial, momentum, drag, outside, integrator] = ledger;
+  archive(initial, momentum, drag, outside, integrator);
+}
+
+template <class Archive>
+void serialize(Archive& archive, Watch& watch) {
+  auto& [warned, below_cap] = watch;
+  archive(warned, below_cap);
+}
+
+template <class Archive>
+void serialize(Archive& archive, Worst& worst) {
+  auto& [penetration, limit_violation, head_drift, kkt] = worst;
+  archive(penetration, limit_violation, head_drift, kkt);
+}
+
+template <class Archive>
+void serialize(Archive& archive, ConstraintForces& force) {
+  archive(force.of_kind);
+}
+
+template <class Archive>
+void serialize(Archive& archive, FrameMeans& means) {
+  auto& [force, active_torque, net_force, lambda, speed, slack] = means;
+  archive(force, active_torque, net_force, lambda, speed, slack);
+}
+
+template <class Archive>
+void serialize(Archive& archive, LogState& log) {
+  auto& [means, worst, warnings] = log;
+  archive(means, worst, warnings);
+}
+
+template <class Archive>
+void serialize(Archive& archive, Simulation& sim) {
+  auto& [step, now, search, controller, solver, ledger, momentum, watch, before] =
+      sim;  // the last is scratch
+  archive(step, now.state, now.observation, search, controller, solver.warm, ledger, momentum,
+          watch);
+}
+
+namespace {
+
+// What the program takes as an index, or as a size, must be one.
+
+bool fits(const Contact& contact, int bodies) {
+  const auto on_segment = [bodies](int segment, double t) {
+    return segment >= 0 && segment < bodies - 1 && t >= 0 && t <= 1;
+  };
+  const auto direction = [](const Eigen::Vector3d& v) {
+    constexpr double rounding = 1e-9;  // of a unit vector
+    return std::abs(v.norm() - 1) <= rounding;
+  };
+  return on_segment(contact.segment_a, contact.t_a) && on_segment(contact.segment_b, contact.t_b) &&
+         std::isfinite(contact.arc_a) && std::isfinite(contact.arc_b) &&
+         std::isfinite(contact.gap) && direction(contact.normal) && direction(contact.tangent_a) &&
+         direction(contact.tangent_b);
+}
+
+bool fits(const std::vector<Contact>& contacts, int bodies) {
+  return std::ranges::all_of(contacts, [&](const Contact& c) { return fits(c, bodies); });
+}
+
+bool fits(const TrackedContact& tracked, int bodies) {
+  return !tracked.contact || fits(*tracked.contact, bodies);
+}
+
+bool fits(const ContactSearch& search, int bodies) {
+  return static_cast<int>(search.moved.size()) == bodies - 1 &&
+         std::ranges::all_of(search.candidates, [&](const SegmentPair& pair) {
+           return pair.a >= 0 && pair.a < pair.b && pair.b < bodies - 1;
+         });
+}
+
+bool fits(const State& state, const Model& model) {
+  return state.q.size() == model.nq() && state.qdot.size() == model.nv() && state.q.allFinite() &&
+         state.qdot.allFinite();
+}
+
+void check(const Simulation& sim, const LogState& log, const Model& model) {
+  const int bodies = model.body_count();
+  require(sim.step >= 0, "a step before the first");
+  require(fits(sim.now.state, model), "a state that is not of its model");
+  require(fits(sim.now.observation.contact.contacts, bodies) &&
+              fits(sim.now.observation.contact.others, bodies) && fits(sim.search, bodies) &&
+              fits(sim.controller.first, bodies) && fits(sim.controller.last, bodies),
+          "a contact that is not on its animal");
+  require(static_cast<int>(sim.controller.phase) < phase_count, "an unknown phase");
+  const Eigen::Index rest = sim.controller.rest_shape.size();
+  require(rest == 0 || (rest == model.nv() && sim.controller.rest_shape.allFinite()),
+          "a rest shape that is not of its model");
+  require(log.means.size() == model.nv(), "means that are not of its model");
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> encode(const Simulation& sim, const LogState& log) {
+  std::ostringstream stream;
+  cereal::BinaryOutputArchive archive(stream);
+  archive(layout, sim, log);
+  const std::string bytes = stream.str();
+  return {bytes.begin(), bytes.end()};
+}
+
+Simulation decode(std::span<const std::uint8_t> bytes, const Model& model,
+                  const std::string& back_end, LogState& log) {
+  Simulation sim{.step = 0,
+                 .now = {},
+                 .search = {},
+                 .controller = {},
+                 .solver = StepSolver(back_end),
+                 .ledger = {},
+                 .momentum = {},
+                 .watch = {},
+                 .before = {}};
+  std::istringstream stream(std::string(bytes.begin(), bytes.end()));
+  try {
+    cereal::BinaryInputArchive archive(stream);
+    int found = 0;
+    archive(found);
+    require(found == layout, "made by another version of the program");
+    archive(sim, log);
+  } catch (const cereal::Exception&) {
+    require(false, "ends early");
+  }
+  require(stream.peek() == std::istringstream::traits_type::eof(), "does not end where it should");
+  check(sim, log, model);
+  Observation& seen = sim.now.observation;
+  update_positions(model, sim.now.state.q, seen.kin);
+  update_velocities(model, sim.now.state.qdot, seen.kin);
+  update_spline(model, seen.kin.centre, seen.segments);
+  sim.search.segments = seen.segments;
+  return sim;
+}
+
+}  // namespace hagfish

@@ -1,0 +1,81 @@
+#include "core/log/log_header.hpp"
+
+#include <fmt/chrono.h>
+
+#include <chrono>
+#include <cmath>
+#include <vector>
+
+#include "core/log/build_info.hpp"
+
+namespace hagfish {
+namespace {
+
+std::string current_time() {
+  const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", now);
+}
+
+}  // namespace
+
+void write_header(const LogHeader& header, Hdf5Writer& h5) {
+  h5.root_attribute("format", log_format);
+  h5.root_attribute("format_version", log_format_version);
+  h5.root_attribute("creator", "hagfish");
+  h5.root_attribute("creator_version", build_version());
+  h5.root_attribute("git_revision", build_revision());
+  h5.root_attribute("created", current_time());
+  h5.root_attribute("command", header.command);
+  h5.root_attribute("scene", header.scene);
+  h5.root_attribute("qp", header.qp);
+  h5.root_attribute("libraries", header.libraries);
+  h5.root_attribute("compiler", build_compiler());
+  h5.root_attribute("cpu", cpu_name());
+  h5.root_attribute("status", "running");
+  h5.root_attribute("warnings", "");
+  if (!header.branched_from.empty()) {
+    h5.root_attribute("branched_from", header.branched_from);
+  }
+  h5.group("/mjcf");
+  for (const auto& [name, text] : header.mjcf) {
+    h5.text("/mjcf/" + name, text);
+  }
+}
+
+void write_model(const Model& model, Hdf5Writer& h5) {
+  const int n = model.body_count();
+  Eigen::VectorXd mass(n), length(n), radius(n);
+  for (int b = 0; b < n; ++b) {
+    mass[b] = model.bodies[b].mass;
+    length[b] = model.bodies[b].length;
+    radius[b] = model.bodies[b].radius;
+  }
+  Eigen::VectorXd lower = Eigen::VectorXd::Constant(model.nv(), -INFINITY);
+  Eigen::VectorXd upper = -lower;
+  const Eigen::Matrix2Xd ranges = hinge_ranges(model);
+  lower.tail(ranges.cols()) = ranges.row(0);
+  upper.tail(ranges.cols()) = ranges.row(1);
+  std::vector<std::string> joints, dofs;
+  for (const JointName& joint : joint_names(model)) {
+    joints.push_back(joint.joint);
+    dofs.insert(dofs.end(), joint.dofs.begin(), joint.dofs.end());
+  }
+  h5.group("/model");
+  h5.numbers("/model/mass", mass, {"g", "mass of each body, head to tail"});
+  h5.numbers("/model/length", length, {"cm", "length of each body"});
+  h5.numbers("/model/radius", radius, {"cm", "radius of the skin at each body"});
+  h5.texts("/model/joint_name", joints);
+  h5.texts("/model/dof_name", dofs);
+  h5.numbers("/model/limit_lower", lower,
+             {"rad",
+              "lower joint limit, -inf where none; where the total angle of a joint is bounded "
+              "(bending_limit), what this leaves each hinge by itself"});
+  h5.numbers("/model/limit_upper", upper,
+             {"rad", "upper joint limit, +inf where none, as limit_lower"});
+  h5.numbers("/model/bending_limit", bending_limits(model),
+             {"rad",
+              "largest angle between the X axes of the two bodies of each joint, +inf where "
+              "its hinges have limits of their own or there are none"});
+}
+
+}  // namespace hagfish

@@ -1,0 +1,31 @@
+// What a log holds besides its run: how it came about, and its model.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "core/chain/model.hpp"
+#include "core/log/hdf5_writer.hpp"
+
+namespace hagfish {
+
+inline constexpr const char* log_format = "hagfish-log";
+inline constexpr int log_format_version = 1;
+
+/// How a log came about.
+struct LogHeader {
+  std::string command;  ///< as typed
+  std::string scene;    ///< fully resolved TOML
+  std::string qp;       ///< QP back end
+  std::string libraries;
+  std::map<std::string, std::string> mjcf;  ///< the mirrored model's files by name
+  std::string branched_from;                ///< of a branch: log, step and time; empty otherwise
+};
+
+/// Root attributes, and /mjcf.
+void write_header(const LogHeader& header, Hdf5Writer& h5);
+
+/// /model.
+void write_model(const Model& model, Hdf5Writer& h5);
+
+}  // namespace hagfish

@@ -1,0 +1,46 @@
+// A run as it stands in its log, to be gone on with.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "core/input/scene_reader.hpp"
+#include "core/log/checkpoint.hpp"
+#include "core/log/hdf5_reader.hpp"
+
+namespace hagfish {
+
+// Datasets of the checkpoints: all but the last one in one row of bytes.
+inline constexpr const char* checkpoint_data = "/checkpoints/data";
+inline constexpr const char* last_checkpoint = "/checkpoints/last";
+
+/// A run between two steps, as a log holds it.
+struct LoggedCheckpoint {
+  std::int64_t step = 0;  ///< that comes next
+  std::vector<std::uint8_t> bytes;
+};
+
+/// Those at intervals, in their order; the last one, where the log ends, is not among them. Throws
+/// FileError where the datasets do not fit each other.
+std::vector<LoggedCheckpoint> logged_checkpoints(const Hdf5Reader& h5);
+
+struct SavedRun {
+  ResolvedScene resolved;
+  Model model;
+  std::string qp;  ///< QP back end
+  Simulation sim;
+  LogState log;
+  double wall_time = 0;      ///< that the run took so far, to its last frame, s
+  std::string resumed;       ///< steps at which it was gone on with before, as a list
+  std::string git_revision;  ///< of the program that made the log
+};
+
+/// The run where its log ends. Throws FileError where `h5` is no log, is complete, or has no
+/// checkpoint that fits its scene.
+SavedRun saved_run(const Hdf5Reader& h5);
+
+/// The run as it stood at its last checkpoint up to `time` (s), of a log of whatever status.
+/// Throws FileError where there is none.
+SavedRun saved_run_at(const Hdf5Reader& h5, double time);
+
+}  // namespace hagfish

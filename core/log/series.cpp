@@ -1,0 +1,135 @@
+#include "core/log/series.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <numeric>
+#include <stdexcept>
+
+namespace hagfish {
+namespace {
+
+// A chunk that is not full is compressed again at each save, to another size and place. Where saves
+// are 7 frames apart, chunks of 64 rows of 200 numbers leave holes as large as a third of the file,
+// chunks of 8 rows a twentieth; that is this size, bytes.
+constexpr hsize_t compressed_chunk_size = 16384;
+// Room for an index node and the header of a dataset that grows, bytes.
+constexpr std::size_t index_size = 4096;
+
+std::size_t size_of(const std::vector<hsize_t>& shape) {
+  return std::accumulate(shape.begin(), shape.end(), hsize_t{1}, std::multiplies<>());
+}
+
+template <class T>
+H5::DataType stored_type();
+template <>
+H5::DataType stored_type<double>() {
+  return H5::PredType::NATIVE_DOUBLE;
+}
+template <>
+H5::DataType stored_type<std::int32_t>() {
+  return H5::PredType::NATIVE_INT32;
+}
+template <>
+H5::DataType stored_type<std::int64_t>() {
+  return H5::PredType::NATIVE_INT64;
+}
+template <>
+H5::DataType stored_type<std::uint8_t>() {
+  return H5::PredType::NATIVE_UINT8;
+}
+
+}  // namespace
+
+AnySeries::AnySeries(SeriesLayout layout, std::size_t value_size)
+    : layout_(std::move(layout)), row_size_(size_of(layout_.row_shape)), value_size_(value_size) {}
+
+std::size_t AnySeries::room() const {
+  const hsize_t chunk = layout_.chunk_rows;
+  // Compressed chunks may move as they fill.
+  const hsize_t begin = layout_.meaning.sparse ? first_ / chunk : (first_ + chunk - 1) / chunk;
+  const hsize_t end = (total_ + chunk - 1) / chunk;
+  return index_size + (end - begin) * chunk * row_size_ * value_size_;
+}
+
+void AnySeries::write(const Hdf5Reader& newer, Hdf5Writer& older) const {
+  hsize_t from = first_;
+  if (layout_.meaning.sparse) {
+    // Chunks that are full in the newer file.
+    const hsize_t begin = first_ / layout_.chunk_rows;
+    const hsize_t end = saved_ / layout_.chunk_rows;
+    if (begin < end) {
+      older.copy_chunks(newer, layout_, begin, end);
+      from = end * layout_.chunk_rows;
+    }
+  }
+  if (total_ > from) {
+    older.append(layout_, from, total_ - from, waiting(from - first_));
+  }
+}
+
+void AnySeries::saved() {
+  files_are_alike();
+  saved_ = total_;
+}
+
+void AnySeries::files_are_alike() {
+  forget(saved_ - first_);
+  first_ = saved_;
+}
+
+template <class T>
+void Series<T>::append(const T* row, std::size_t count) {
+  if (count != row_size()) {
+    throw std::logic_error("log row has the wrong size");
+  }
+  waiting_.insert(waiting_.end(), row, row + count);
+  count_rows(1);
+}
+
+template <class T>
+void Series<T>::append_all(const std::vector<T>& values) {
+  if (row_size() != 1) {
+    throw std::logic_error("log row has the wrong size");
+  }
+  waiting_.insert(waiting_.end(), values.begin(), values.end());
+  count_rows(values.size());
+}
+
+template <class T>
+void Series<T>::forget(std::size_t rows) {
+  waiting_.erase(waiting_.begin(),
+                 waiting_.begin() + static_cast<std::ptrdiff_t>(rows * row_size()));
+}
+
+template class Series<double>;
+template class Series<std::int32_t>;
+template class Series<std::int64_t>;
+template class Series<std::uint8_t>;
+
+template <class T>
+SeriesLayout layout_of(const std::string& path, const std::vector<hsize_t>& row_shape,
+                       const Meaning& meaning) {
+  const hsize_t row_bytes = size_of(row_shape) * sizeof(T);
+  const hsize_t rows = meaning.sparse ? std::max<hsize_t>(1, compressed_chunk_size / row_bytes) : 1;
+  return {path, row_shape, meaning, stored_type<T>(), rows};
+}
+template SeriesLayout layout_of<double>(const std::string&, const std::vector<hsize_t>&,
+                                        const Meaning&);
+template SeriesLayout layout_of<std::int32_t>(const std::string&, const std::vector<hsize_t>&,
+                                              const Meaning&);
+template SeriesLayout layout_of<std::int64_t>(const std::string&, const std::vector<hsize_t>&,
+                                              const Meaning&);
+template SeriesLayout layout_of<std::uint8_t>(const std::string&, const std::vector<hsize_t>&,
+                                              const Meaning&);
+
+SeriesLayout layout_of_choices(const std::string& path, const std::vector<std::string>& names,
+                               const Meaning& meaning) {
+  H5::EnumType type(H5::PredType::NATIVE_UINT8);
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    auto value = static_cast<std::uint8_t>(k);
+    type.insert(names[k], &value);
+  }
+  return {path, {}, meaning, type, 1};
+}
+
+}  // namespace hagfish

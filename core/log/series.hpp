@@ -1,0 +1,85 @@
+// Datasets that grow by rows while a run goes on, and the rows that wait to be saved.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "core/log/hdf5_reader.hpp"
+#include "core/log/hdf5_writer.hpp"
+
+namespace hagfish {
+
+/// A growing dataset of whatever type. It is saved to two files by turns (TwinFile), so rows wait
+/// until both have them: those from `first` on.
+class AnySeries {
+ public:
+  AnySeries(SeriesLayout layout, std::size_t value_size);
+  virtual ~AnySeries() = default;
+  AnySeries(const AnySeries&) = delete;
+  AnySeries& operator=(const AnySeries&) = delete;
+
+  const SeriesLayout& layout() const { return layout_; }
+  /// Creates the dataset in `file`, without rows.
+  void create(Hdf5Writer& file) const { file.create(layout_); }
+  /// Goes on behind `rows` that both files have; nothing has been appended yet.
+  void go_on(hsize_t rows) { first_ = saved_ = total_ = rows; }
+  /// Bytes that write() may add to a file.
+  std::size_t room() const;
+  /// Writes all that waits to `older`, the one of the two files that has fewer rows. What `newer`
+  /// has compressed already is not compressed again.
+  void write(const Hdf5Reader& newer, Hdf5Writer& older) const;
+  /// What was written is saved: now the other file has fewer rows.
+  void saved();
+  /// Both files have the rows of the one that had more.
+  void files_are_alike();
+
+ protected:
+  virtual const void* waiting(std::size_t skipped_rows) const = 0;
+  virtual void forget(std::size_t rows) = 0;  ///< the first ones that wait
+  std::size_t row_size() const { return row_size_; }
+  void count_rows(hsize_t rows) { total_ += rows; }
+
+ private:
+  SeriesLayout layout_;
+  std::size_t row_size_;    // values
+  std::size_t value_size_;  // bytes
+  hsize_t first_ = 0;       // that waits: rows of the file that has fewer
+  hsize_t saved_ = 0;       // rows of the file that has more
+  hsize_t total_ = 0;
+};
+
+/// The rows of a series of numbers.
+template <class T>
+class Series final : public AnySeries {
+ public:
+  explicit Series(SeriesLayout layout) : AnySeries(std::move(layout), sizeof(T)) {}
+  /// Appends one row; `count` must be the row's size.
+  void append(const T* row, std::size_t count);
+  void append(T value) { append(&value, 1); }
+  /// Appends rows of one value each.
+  void append_all(const std::vector<T>& values);
+
+ protected:
+  const void* waiting(std::size_t skipped_rows) const override {
+    return waiting_.data() + skipped_rows * row_size();
+  }
+  void forget(std::size_t rows) override;
+
+ private:
+  std::vector<T> waiting_;
+};
+
+/// The layout of a series of T, whose rows have `row_shape`; with one row a chunk, where it is not
+/// compressed.
+template <class T>
+SeriesLayout layout_of(const std::string& path, const std::vector<hsize_t>& row_shape,
+                       const Meaning& meaning);
+
+/// uint8 enumeration whose values count up from 0 in the order of `names`.
+SeriesLayout layout_of_choices(const std::string& path, const std::vector<std::string>& names,
+                               const Meaning& meaning);
+
+}  // namespace hagfish

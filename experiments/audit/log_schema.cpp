@@ -1,0 +1,200 @@
+#include "experiments/audit/log_schema.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+
+#include "core/log/log_frame.hpp"
+#include "core/log/log_writer.hpp"
+
+namespace hagfish {
+namespace {
+
+// What no animal comes to; figures of physics overflow long after these.
+constexpr double furthest_position = 1e6;  // of the head, cm
+constexpr double largest_angle = 1e3;      // of a hinge, rad
+constexpr double largest_velocity = 1e9;   // cm/s, rad/s
+/// Doubles count steps exactly up to here.
+constexpr std::int64_t most_steps = std::int64_t{1} << 53;
+/// The norm of the head's quaternion, 1 but for rounding, is at least this and at most one over it.
+constexpr double least_norm = 0.5;
+
+/// Datasets that no command goes without.
+constexpr const char* always_there[] = {"/trajectory/time",
+                                        "/trajectory/q",
+                                        "/trajectory/qdot",
+                                        "/trajectory/position",
+                                        "/trajectory/qdot_next",
+                                        "/trajectory/phase",
+                                        "/trajectory/step",
+                                        "/forces/tip",
+                                        "/forces/thigmotaxis",
+                                        "/forces/contact",
+                                        "/forces/limit",
+                                        "/forces/head",
+                                        "/forces/wall",
+                                        "/thigmotaxis/body_b",
+                                        "/knot/determinant",
+                                        "/knot/v2",
+                                        "/knot/head_end",
+                                        "/knot/tail_end",
+                                        "/steps/eq6",
+                                        "/diagnostics/wall_time",
+                                        "/steps/kkt"};
+
+[[noreturn]] void refuse(const Hdf5Reader& log, const std::string& what) {
+  throw FileError(log.file() + ": " + what);
+}
+
+const char* type_name(H5T_class_t type) {
+  switch (type) {
+    case H5T_FLOAT:
+      return "floating-point numbers";
+    case H5T_INTEGER:
+      return "whole numbers";
+    case H5T_ENUM:
+      return "an enumeration";
+    default:
+      return "something else";
+  }
+}
+
+hsize_t rows_of(const Hdf5Reader& log, const std::string& path) {
+  const std::vector<hsize_t> shape = log.shape(path);
+  if (shape.size() != 1) refuse(log, path + " is not a series");
+  return shape[0];
+}
+
+template <class Source>
+void add_forms(const LogTable<Source>& table, hsize_t rows, std::vector<DatasetForm>& forms) {
+  for (const auto& series : table.series()) {
+    const SeriesLayout& layout = series->layout();
+    std::vector<hsize_t> shape{rows};
+    shape.insert(shape.end(), layout.row_shape.begin(), layout.row_shape.end());
+    forms.push_back({layout.path, shape, layout.type.getClass()});
+  }
+}
+
+void check_memory(const Hdf5Reader& log, const std::vector<DatasetForm>& forms) {
+  double wanted = 0;
+  for (const DatasetForm& form : forms) {
+    wanted += std::accumulate(form.shape.begin(), form.shape.end(), double{sizeof(double)},
+                              std::multiplies<>());
+  }
+  const double there =
+      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  if (wanted > there) {
+    refuse(log, fmt::format("holds {:.3g} GB, more than the memory of this machine ({:.3g} GB)",
+                            1e-9 * wanted, 1e-9 * there));
+  }
+}
+
+void check_whole(const Hdf5Reader& log, const std::string& path, std::int64_t low,
+                 std::int64_t high) {
+  if (!log.has(path)) return;
+  for (const std::int64_t value : log.integers(path)) {
+    if (value < low || value > high) {
+      refuse(log, fmt::format("{} holds {}, not {} to {}", path, value, low, high));
+    }
+  }
+}
+
+void check_steps(const Hdf5Reader& log, const Scene& scene) {
+  const std::vector<std::int64_t> step = log.integers("/trajectory/step");
+  const std::int64_t stride = frame_stride(scene.time);
+  check_whole(log, "/trajectory/step", 0, most_steps);
+  for (std::size_t f = 1; f < step.size(); ++f) {
+    if (step[f] - step[f - 1] != stride) {
+      refuse(log, fmt::format("/trajectory/step goes from {} to {}, its scene has {} steps a frame",
+                              step[f - 1], step[f], stride));
+    }
+  }
+  if (step.back() - step.front() >= static_cast<std::int64_t>(rows_of(log, "/steps/kkt"))) {
+    refuse(log, "/steps does not cover the frames");
+  }
+  const std::vector<double> time = log.doubles("/trajectory/time");
+  for (std::size_t f = 0; f < time.size(); ++f) {
+    if (!std::isfinite(time[f]) || (f > 0 && time[f] <= time[f - 1])) {
+      refuse(log,
+             fmt::format("/trajectory/time holds {:g} s at frame {}: times must rise", time[f], f));
+    }
+  }
+}
+
+void check_motion(const Hdf5Reader& log) {
+  const auto within = [&log](const std::string& path, const auto& values, double most) {
+    for (const double value : values.reshaped()) {
+      if (!(std::abs(value) <= most)) {
+        refuse(log, fmt::format("{} holds {:g}, not a number up to {:g}", path, value, most));
+      }
+    }
+  };
+  const Hdf5Reader::Rows q = log.rows("/trajectory/q");
+  within("/trajectory/q", q.leftCols<3>(), furthest_position);
+  within("/trajectory/q", q.rightCols(q.cols() - 3), largest_angle);
+  for (Eigen::Index f = 0; f < q.rows(); ++f) {
+    const double norm = q.row(f).segment<4>(3).norm();
+    if (norm < least_norm || norm > 1 / least_norm) {
+      refuse(log, fmt::format("/trajectory/q has a quaternion of norm {:g} at frame {}", norm, f));
+    }
+  }
+  for (const char* path : {"/trajectory/qdot", "/trajectory/qdot_next"}) {
+    within(path, log.rows(path), largest_velocity);
+  }
+}
+
+}  // namespace
+
+std::vector<DatasetForm> log_forms(const Hdf5Reader& log, const Model& model) {
+  // The writer says what there must be; nothing is written.
+  LogTable<Frame> frames(frame_chunk_rows);
+  LogTable<LoggedStep> steps(step_chunk_rows);
+  LogTable<BearingContact> contacts(step_chunk_rows);
+  declare_frames(model, frames);
+  declare_steps(steps);
+  declare_contacts(contacts);
+  std::vector<DatasetForm> forms;
+  add_forms(frames, rows_of(log, "/trajectory/time"), forms);
+  add_forms(steps, rows_of(log, "/steps/kkt"), forms);
+  add_forms(contacts, rows_of(log, "/contacts/frame"), forms);
+  return forms;
+}
+
+void check_form(const Hdf5Reader& log, const DatasetForm& form) {
+  if (const H5T_class_t type = log.type(form.path); type != form.type) {
+    refuse(log,
+           fmt::format("{} holds {}, not {}", form.path, type_name(type), type_name(form.type)));
+  }
+  if (const std::vector<hsize_t> shape = log.shape(form.path); shape != form.shape) {
+    refuse(log, fmt::format("{} has the shape ({}), not ({}), that of its model and frames",
+                            form.path, fmt::join(shape, ", "), fmt::join(form.shape, ", ")));
+  }
+}
+
+void check_schema(const Hdf5Reader& log, const Model& model, const Scene& scene) {
+  const std::vector<DatasetForm> forms = log_forms(log, model);
+  for (const DatasetForm& form : forms) {
+    const bool needed = std::ranges::find(always_there, form.path) != std::end(always_there);
+    if (needed || log.has(form.path)) check_form(log, form);
+  }
+  if (rows_of(log, "/trajectory/time") == 0) refuse(log, "holds no frames");
+  check_memory(log, forms);
+  check_steps(log, scene);
+  check_motion(log);
+  const auto frames = static_cast<std::int64_t>(rows_of(log, "/trajectory/time"));
+  constexpr auto last_solve = static_cast<std::int64_t>(SolveKind::qp);
+  check_whole(log, "/trajectory/phase", 0, phase_count - 1);
+  check_whole(log, "/steps/solve", 0, last_solve);
+  check_whole(log, "/diagnostics/solve", 0, last_solve);
+  check_whole(log, "/contacts/frame", 0, frames - 1);
+  for (const char* path : {"/thigmotaxis/body_a", "/thigmotaxis/body_b"}) {
+    check_whole(log, path, -1, model.body_count() - 1);
+  }
+}
+
+}  // namespace hagfish

@@ -1,0 +1,69 @@
+#include "experiments/program/run_program.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <exception>
+#include <string>
+
+#include "core/input/input_text.hpp"
+#include "core/log/build_info.hpp"
+#include "experiments/program/commands.hpp"
+#include "experiments/program/failure.hpp"
+#include "experiments/program/suggestion.hpp"
+#include "experiments/program/terminal.hpp"
+
+namespace hagfish {
+namespace {
+
+std::string joined(int argc, char** argv) {
+  std::string text;
+  for (int i = 0; i < argc; ++i) {
+    text += (i > 0 ? " " : "") + std::string(argv[i]);
+  }
+  return text;
+}
+
+int dispatch(int argc, char** argv) {
+  Program program;
+  CLI::App& app = program.app;
+  program.typed = joined(argc, argv);
+  app.description("A hagfish that ties itself into a knot and slides it to its head.");
+  app.set_version_flag("--version", build_version() + " " + build_revision());
+  app.require_subcommand(1);
+  for (const auto& list : {commands(), mujoco_commands()}) {
+    for (const Registrar add : list) add(program);
+  }
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
+      return app.exit(error);  // help and version
+    }
+    say("hagfish: {}\n", printable(complaint(app, error)));
+    return exit_code::bad_input;
+  }
+  return program.code;
+}
+
+}  // namespace
+
+int run_program(int argc, char** argv) {
+  open_standard_streams();
+  try {
+    const int code = dispatch(argc, argv);
+    if (!standard_output_arrived()) {
+      say("hagfish: standard output cannot be written\n");
+      return exit_code::failed;
+    }
+    return code;
+  } catch (const std::exception& error) {
+    say("hagfish: {}\n", reason(error));
+    return is_bad_input(error) ? exit_code::bad_input : exit_code::failed;
+  } catch (...) {
+    say("hagfish: internal error: an exception of no standard kind\n");
+    return exit_code::failed;
+  }
+}
+
+}  // namespace hagfish

@@ -1,0 +1,30 @@
+// What the commands that make a log share: `run` and `branch`.
+#pragma once
+
+#include <string>
+
+#include "core/log/log_writer.hpp"
+#include "experiments/program/program.hpp"
+
+namespace hagfish {
+
+struct RunOptions {
+  std::string out;  ///< log to write
+  bool force = false;
+  bool quiet = false;
+  double step_limit = 60;  ///< wall time that a step may take, s
+};
+
+/// Adds --force, --quiet and --step-limit.
+void add_run_options(CLI::App& command, RunOptions& options);
+
+/// How the log of a run in `scene` came about, by the command line as `typed`.
+LogHeader log_header(const ResolvedScene& resolved, const Model& model, const std::string& qp,
+                     const std::string& typed);
+
+/// Steps until the scene is over, or something ends the run, and finishes the log. `before`: wall
+/// time that the run took before, s. Returns the program's exit code.
+int take_run(const Model& model, const Scene& scene, Simulation sim, const RunOptions& options,
+             LogWriter& log, double before = 0);
+
+}  // namespace hagfish

@@ -1,0 +1,125 @@
+// Checkpoints: a run goes on from its bytes as if nothing had been, and bytes that are not as they
+// should be are refused.
+#include "core/log/checkpoint.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "core/log/hdf5_error.hpp"
+#include "tests/support/errors.hpp"
+#include "tests/support/stored_states.hpp"
+
+namespace hagfish {
+namespace {
+
+struct Stage {
+  Model model;
+  Scene scene;
+  Simulation sim;
+  LogState log;
+
+  void steps(int count) {
+    for (int k = 0; k < count; ++k) {
+      const StepRecord record = take_step(model, scene, sim);
+      log.means.take(record, thigmotaxis_rows_of(record.control, record.solution, scene.time.step));
+      log.worst.take(record);
+    }
+  }
+  std::vector<std::uint8_t> bytes() const { return encode(sim, log); }
+};
+
+/// A run some steps after a stored state, its warm start and contact search in use.
+Stage stage(const StoredState& stored, const std::string& back_end) {
+  const ResolvedScene resolved = stored_scene();
+  Model model = make_hagfish(resolved.specimen, resolved.scene);
+  Simulation sim = resume(model, resolved.scene, stored, back_end);
+  LogState log{RunningMeans(model.nv()), {}, "step 3 (t = 0.006 s): a warning"};
+  Stage s{std::move(model), resolved.scene, std::move(sim), std::move(log)};
+  s.steps(5);
+  return s;
+}
+
+StoredState sliding() {
+  for (const StoredState& stored : stored_states()) {
+    if (stored.phase == Phase::slide) return stored;
+  }
+  throw std::runtime_error("no stored state slides");
+}
+
+class EveryPhase : public testing::TestWithParam<StoredState> {};
+
+TEST_P(EveryPhase, TheRunGoesOnBitByBit) {
+  for (const char* back_end : {"ipopt", "active-set"}) {
+    Stage whole = stage(GetParam(), back_end);
+    const std::vector<std::uint8_t> bytes = whole.bytes();
+    LogState log{RunningMeans(whole.model.nv()), {}, {}};
+    Simulation sim = decode(bytes, whole.model, back_end, log);
+    Stage resumed{whole.model, whole.scene, std::move(sim), std::move(log)};
+    EXPECT_EQ(resumed.bytes(), bytes);
+    for (int k = 0; k < 10; ++k) {
+      whole.steps(1);
+      resumed.steps(1);
+      // All that a step depends on or leaves, to the last bit.
+      ASSERT_EQ(resumed.bytes(), whole.bytes()) << back_end << ", step " << k;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(StoredStates, EveryPhase, testing::ValuesIn(stored_states()), name_of);
+
+class BadBytes : public testing::Test {
+ protected:
+  std::string refusal(const std::vector<std::uint8_t>& changed) {
+    return error_of<FileError>([&] {
+      LogState log{RunningMeans(s.model.nv()), {}, {}};
+      decode(changed, s.model, "active-set", log);
+    });
+  }
+  Stage s = stage(sliding(), "active-set");
+  std::vector<std::uint8_t> bytes = s.bytes();
+};
+
+TEST_F(BadBytes, TooFewOrTooManyAreRefused) {
+  for (const std::size_t size :
+       {std::size_t{0}, std::size_t{3}, std::size_t{100}, bytes.size() / 2, bytes.size() - 1}) {
+    std::vector<std::uint8_t> cut(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size));
+    EXPECT_NE(refusal(cut), "no error") << size;
+  }
+  bytes.push_back(0);
+  EXPECT_EQ(refusal(bytes), "checkpoint: does not end where it should");
+}
+
+TEST_F(BadBytes, AnotherLayoutOrAnotherAnimalIsRefused) {
+  std::vector<std::uint8_t> other = bytes;
+  ++other[0];
+  EXPECT_EQ(refusal(other), "checkpoint: made by another version of the program");
+  s.model = make_hagfish(stored_scene({"model.bodies=99"}).specimen,
+                         stored_scene({"model.bodies=99"}).scene);
+  EXPECT_EQ(refusal(bytes), "checkpoint: a state that is not of its model");
+}
+
+TEST_F(BadBytes, NoChangeOfAByteLeadsOutOfBounds) {
+  // Refused, or a run that a step does not crash: run under AddressSanitizer.
+  std::mt19937 random(1);
+  int refused = 0;
+  for (int k = 0; k < 500; ++k) {
+    std::vector<std::uint8_t> changed = bytes;
+    // Half of them where counts and indices are dense: behind the state.
+    const std::size_t state = 16 + 8 * (s.model.nq() + s.model.nv());
+    const std::size_t from = k % 2 == 0 ? 0 : state;
+    changed[from + random() % (changed.size() - from)] = static_cast<std::uint8_t>(random());
+    try {
+      LogState log{RunningMeans(s.model.nv()), {}, {}};
+      Simulation sim = decode(changed, s.model, "active-set", log);
+      take_step(s.model, s.scene, sim);
+    } catch (const FileError&) {
+      ++refused;
+    } catch (const StepError&) {
+    }
+  }
+  EXPECT_GT(refused, 0);
+}
+
+}  // namespace
+}  // namespace hagfish

@@ -1,0 +1,155 @@
+// Series: rows saved to two files by turns come out as those that were appended, whatever was
+// saved when.
+#include "core/log/series.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <random>
+
+#include "core/log/hdf5_reader.hpp"
+#include "core/log/twin_file.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace hagfish {
+namespace {
+
+using Shape = std::vector<hsize_t>;
+
+/// One series of each kind in a file that takes turns with its twin.
+class SeriesTest : public testing::Test {
+ protected:
+  SeriesTest() {
+    Hdf5Writer h5;
+    for (AnySeries* s : all) {
+      s->create(h5);
+    }
+    h5.save(file);
+    twin.emplace(file);
+  }
+
+  /// Row k of each.
+  void append(int k) {
+    std::vector<double> row(600);
+    std::iota(row.begin(), row.end(), 600.0 * k);
+    dense.append(row.data(), 6);
+    sparse.append(row.data(), row.size());
+    ints.append(-k);
+    longs.append(std::int64_t{k} << 33);
+    choices.append(static_cast<std::uint8_t>(k % 3));
+  }
+
+  void save() {
+    if (twin->prepare()) {
+      for (AnySeries* s : all) s->files_are_alike();
+    }
+    std::size_t room = 65536;
+    for (AnySeries* s : all) room += s->room();
+    const auto before = std::filesystem::file_size(file);
+    Hdf5Writer h5(twin->begin(room));
+    const Hdf5Reader newer(file);
+    for (AnySeries* s : all) s->write(newer, h5);
+    h5.close();
+    twin->commit();
+    EXPECT_LE(std::filesystem::file_size(file), before + 2 * room);  // of two saves
+    for (AnySeries* s : all) s->saved();
+  }
+
+  /// Rows 0 to `count` - 1 are in the file, and no others.
+  void expect_rows(int count) const {
+    const Hdf5Reader in(file);
+    const auto rows = static_cast<hsize_t>(count);
+    ASSERT_EQ(in.shape("/a/dense"), (Shape{rows, 2, 3}));
+    ASSERT_EQ(in.shape("/a/b/sparse"), (Shape{rows, 600}));
+    for (const char* path : {"/ints", "/longs", "/choices"}) {
+      ASSERT_EQ(in.shape(path), Shape{rows}) << path;
+    }
+    const auto dense_rows = in.rows("/a/dense");
+    const auto sparse_rows = in.rows("/a/b/sparse");
+    const auto small = in.integers("/ints");
+    const auto large = in.integers("/longs");
+    const auto chosen = in.integers("/choices");
+    for (int k = 0; k < count; ++k) {
+      EXPECT_EQ(dense_rows.row(k), Eigen::RowVectorXd::LinSpaced(6, 600 * k, 600 * k + 5)) << k;
+      EXPECT_EQ(sparse_rows.row(k), Eigen::RowVectorXd::LinSpaced(600, 600 * k, 600 * k + 599))
+          << k;
+      EXPECT_EQ(small[k], -k);
+      EXPECT_EQ(large[k], std::int64_t{k} << 33);
+      EXPECT_EQ(chosen[k], k % 3);
+    }
+  }
+
+  static SeriesLayout chunked(SeriesLayout layout) {
+    layout.chunk_rows = 7;
+    return layout;
+  }
+
+  TemporaryFolder folder;
+  std::filesystem::path file = folder / "a.h5";
+  Series<double> dense{chunked(layout_of<double>("/a/dense", {2, 3}, {"1", "rows of six"}))};
+  Series<double> sparse{layout_of<double>("/a/b/sparse", {600}, {"dyn", "compressed", true})};
+  Series<std::int32_t> ints{chunked(layout_of<std::int32_t>("/ints", {}, {"1", "ints"}))};
+  Series<std::int64_t> longs{layout_of<std::int64_t>("/longs", {}, {"1", "longs"})};
+  Series<std::uint8_t> choices{layout_of_choices("/choices", {"zero", "one", "two"}, {"1", "c"})};
+  std::vector<AnySeries*> all = {&dense, &sparse, &ints, &longs, &choices};
+  std::optional<TwinFile> twin;
+};
+
+TEST_F(SeriesTest, EverySaveHasAllRowsSoFar) {
+  expect_rows(0);
+  std::mt19937 random(1);
+  int count = 0;
+  for (int k = 0; k < 25; ++k) {
+    for (auto more = random() % 12; more > 0; --more) {
+      append(count++);
+    }
+    save();
+    expect_rows(count);
+  }
+}
+
+TEST_F(SeriesTest, ATwinThatIsLostIsMadeAnew) {
+  for (int k = 0; k < 30; ++k) {
+    append(k);
+    if (k % 4 == 0) save();
+    if (k % 12 == 0) twin->abandon();
+  }
+  save();
+  expect_rows(30);
+}
+
+TEST_F(SeriesTest, GoesOnBehindRowsThatAreThere) {
+  for (int k = 0; k < 10; ++k) append(k);
+  save();
+  Series<std::int32_t> more{ints.layout()};
+  more.go_on(Hdf5Reader(file).shape("/ints")[0]);
+  more.append(-10);
+  {
+    const Hdf5Reader newer(file);
+    twin->abandon();
+    twin->prepare();
+    Hdf5Writer h5(twin->begin(more.room()));
+    more.write(newer, h5);
+    h5.close();
+  }
+  twin->commit();
+  const std::vector<std::int64_t> values = Hdf5Reader(file).integers("/ints");
+  EXPECT_EQ(values.size(), 11u);
+  EXPECT_EQ(values.back(), -10);
+}
+
+TEST_F(SeriesTest, RefusesRowsOfAnotherSize) {
+  const std::vector<double> row(2);
+  EXPECT_THROW(dense.append(row.data(), row.size()), std::logic_error);
+  EXPECT_THROW(dense.append(1.0), std::logic_error);
+  EXPECT_THROW(dense.append_all(row), std::logic_error);
+}
+
+TEST_F(SeriesTest, UnitDescriptionAndNamesAreStored) {
+  const Hdf5Reader in(file);
+  EXPECT_EQ(in.attribute("/a/b/sparse", "unit"), "dyn");
+  EXPECT_EQ(in.attribute("/a/b/sparse", "description"), "compressed");
+}
+
+}  // namespace
+}  // namespace hagfish

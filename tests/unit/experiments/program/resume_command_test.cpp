@@ -1,0 +1,107 @@
+// `hagfish run --resume` and `branch` from outside.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "core/log/hdf5_reader.hpp"
+#include "tests/support/program_runs.hpp"
+
+namespace hagfish {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// 0.4 s of the run with a checkpoint each 0.1 s.
+const std::string short_run =
+    "run --quiet --qp active-set --set time.duration=0.4 --set time.checkpoint_interval=0.1 ";
+
+class ResumeTest : public ProgramTest {
+ protected:
+  Hdf5Reader log(const char* name) const { return Hdf5Reader(folder / name); }
+
+  /// Rows `from` on of `whole` are all rows of `part`, to the last bit.
+  static void expect_same_rows(const Hdf5Reader& whole, const Hdf5Reader& part,
+                               const std::string& path, Eigen::Index from) {
+    const Hdf5Reader::Rows a = whole.rows(path);
+    const Hdf5Reader::Rows b = part.rows(path);
+    ASSERT_EQ(a.rows() - from, b.rows()) << path;
+    EXPECT_EQ(a.bottomRows(b.rows()), b) << path;
+  }
+};
+
+TEST_F(ResumeTest, AnInterruptedRunGoesOn) {
+  const std::string quick = "run --quiet --preset quick --until form ";
+  ASSERT_EQ(run_program(quick + "--out whole.h5").code, 0);
+  // The step limit is as good as a signal, and strikes where rows are solved for.
+  const ProgramOutcome stopped = run_program(quick + "--step-limit 1e-9 --out a.h5");
+  EXPECT_EQ(stopped.code, 1) << stopped.output;
+  EXPECT_NE(stopped.output.find("the step took over --step-limit 1e-09 s at step "),
+            std::string::npos)
+      << stopped.output;
+  const ProgramOutcome resumed = run_program("run --quiet --resume a.h5");
+  EXPECT_EQ(resumed.code, 0) << resumed.output;
+  EXPECT_EQ(log("a.h5").root_text("status"), "complete");
+  EXPECT_TRUE(log("a.h5").has_root_attribute("resumed"));
+  for (const char* path : {"/trajectory/q", "/trajectory/qdot", "/steps/kkt"}) {
+    expect_same_rows(log("whole.h5"), log("a.h5"), path, 0);
+  }
+}
+
+TEST_F(ResumeTest, WhatCannotGoOnStaysAsItIs) {
+  ASSERT_EQ(run_program(short_run + "--out a.h5").code, 0);
+  const auto expect = [this](const std::string& arguments, const std::string& message) {
+    const ProgramOutcome outcome = run_program(arguments);
+    EXPECT_EQ(outcome.code, 2) << outcome.output;
+    EXPECT_EQ(outcome.output, "hagfish: " + message + "\n") << arguments;
+  };
+  expect("run --resume a.h5", "a.h5: the run is complete");
+  expect("run --resume none.h5.part", "none.h5: no such file");
+  expect("branch a.h5 --time 0.05 --out b.h5",
+         "a.h5: has no checkpoint up to 0.05 s; the first one is at 0.1 s");
+  expect("branch a.h5 --set model.bodies=50 --out b.h5",
+         "a.h5: cannot branch at 0.4 s: the state is of a chain of another number of bodies");
+  expect("branch a.h5 --time 0.1 --set time.step=0.03 --set time.frame_interval=0.03 --out b.h5",
+         "a.h5: cannot branch at 0.1 s: its time, 0.1 s, is no multiple of time.frame_interval, "
+         "0.03 s");
+  expect("branch a.h5 --out a.h5", "a.h5: already exists (--force replaces it)");
+  EXPECT_NE(run_program("run table1 --resume a.h5").output.find("--resume"), std::string::npos);
+  fs::copy_file(folder / "a.h5", folder / "a.h5.part");
+  EXPECT_EQ(run_program("run --resume a.h5.part").code, 2);
+  EXPECT_TRUE(fs::exists(folder / "a.h5"));
+  EXPECT_TRUE(fs::exists(folder / "a.h5.part"));
+}
+
+TEST_F(ResumeTest, ABranchWithoutChangesFollowsTheRun) {
+  ASSERT_EQ(run_program(short_run + "--out a.h5").code, 0);
+  const ProgramOutcome branch = run_program("branch a.h5 --time 0.25 --out b.h5 --quiet");
+  ASSERT_EQ(branch.code, 0) << branch.output;
+  EXPECT_EQ(log("b.h5").root_text("branched_from"), "a.h5, step 100, t = 0.2 s");
+  for (const char* path : {"/trajectory/q", "/trajectory/qdot", "/forces/limit", "/forces/head",
+                           "/diagnostics/work_tip", "/trajectory/time"}) {
+    expect_same_rows(log("a.h5"), log("b.h5"), path, 10);
+  }
+  expect_same_rows(log("a.h5"), log("b.h5"), "/steps/kkt", 100);
+}
+
+TEST_F(ResumeTest, ABranchTakesOtherSettings) {
+  ASSERT_EQ(run_program(short_run + "--out a.h5").code, 0);
+  const ProgramOutcome branch = run_program(
+      "branch a.h5 --time 0.2 --set model.bending_stiffness=1000 --set time.step=0.001 --set "
+      "time.duration=0.6 --out b.h5 --quiet");
+  ASSERT_EQ(branch.code, 0) << branch.output;
+  const Hdf5Reader b = log("b.h5");
+  EXPECT_EQ(b.integers("/trajectory/step").front(), 200);
+  EXPECT_EQ(b.doubles("/trajectory/time").front(), 0.2);
+  EXPECT_EQ(b.doubles("/trajectory/time").size(), 20u);
+  EXPECT_EQ(b.rows("/trajectory/q").row(0), log("a.h5").rows("/trajectory/q").row(10));
+  EXPECT_NE(b.root_text("scene").find("bending_stiffness = 1000"), std::string::npos);
+  // All but what a run so short cannot show.
+  const std::string check = run_program("check b.h5").output;
+  for (const char* finding : {"energy ledger", "force balance", "checkpoints"}) {
+    EXPECT_NE(check.find(std::string("\nok   ") + finding), std::string::npos) << check;
+  }
+}
+
+}  // namespace
+}  // namespace hagfish
