@@ -142,12 +142,12 @@ void controller_fields(Io& io, ControllerSettings& s) {
   io.number("acceleration", s.acceleration, positive());
   io.number("contact_gap", s.contact_gap, not_negative());
   io.number("hysteresis", s.hysteresis, not_negative());
-  io.number("tail_through", s.tail_through, not_negative());
+  io.length("tail_through", s.tail_through, not_negative());
   io.number("tighten_from", s.tighten_from, not_negative());
-  io.number("tight_span", s.tight_span, positive());
+  io.length("tight_span", s.tight_span, positive());
   io.number("tight_hold", s.tight_hold, not_negative());
   io.number("tighten_time", s.tighten_time, not_negative());
-  io.number("release_at", s.release_at, positive());
+  io.length("release_at", s.release_at, positive());
   io.number("untied_for", s.untied_for, not_negative());
   io.number("free_time", s.free_time, not_negative());
   io.template choice<BodyEnd>("leave_by", s.leave_by,
@@ -216,8 +216,8 @@ void expect_fields(Io& io, ExpectSettings& s) {
   for (const auto& [type, from, to] : stretches) s.types.push_back({type, time(from), time(to)});
   io.template choice<Hand>("hand", s.hand,
                            {{"any", Hand::any}, {"right", Hand::right}, {"left", Hand::left}});
-  io.number("slide_distance", s.slide_distance, not_negative());
-  io.number("reverse_distance", s.reverse_distance, not_negative());
+  io.length("slide_distance", s.slide_distance, not_negative());
+  io.length("reverse_distance", s.reverse_distance, not_negative());
   io.number("speed_share", s.speed_share, within(0, 1));
   io.number("penetration", s.penetration, not_negative());
   io.angle("limit_violation", s.limit_violation, not_negative());
@@ -244,11 +244,11 @@ void scene_fields(Io& io, Scene& s, ScriptFile& script) {
   io.table("constraints", [&](Io& t) { constraint_fields(t, s.constraints); });
   io.table("contact", [&](Io& t) {
     t.number("margin", s.contact.margin, not_negative());
-    t.number("least_arc", s.contact.least_arc, positive());
+    t.length("least_arc", s.contact.least_arc, positive());
   });
   io.table("wall", [&](Io& t) {
     t.boolean("present", s.wall.present);
-    t.number("neck", s.wall.neck, not_negative());
+    t.length("neck", s.wall.neck, not_negative());
   });
   io.table("start", [&](Io& t) { start_fields(t, s.start); });
   io.table("script", [&](Io& t) { script_fields(t, script); });

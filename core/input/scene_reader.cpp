@@ -363,6 +363,7 @@ ResolvedScene read(SceneSource source, const std::vector<std::string>& overrides
   ResolvedScene result;
   ScriptFile script;
   result.specimen = read_scene_specimen(root, sources, specimen_changes, result.scene.specimen);
+  root.set_body(result.specimen.length, mean_diameter(result.specimen));
   scene_fields(root, result.scene, script);
   root.finish();
   result.scene.script = resolve_script(root, script, result.specimen.length, sources);

@@ -37,6 +37,9 @@ class TableReader {
   /// `--set SHOWN=VALUE` from then on. Comes before any getter.
   void set(const Override& change, const std::string& shown);
 
+  /// Length and mean diameter of the animal, cm, for length() of this table and all in it.
+  void set_body(double length, double diameter);
+
   /// From here on an absent key is an error, reported by finish().
   void require_all();
 
@@ -52,6 +55,9 @@ class TableReader {
   void integer(std::string_view key, unsigned& value, const Range& range);
   /// A finite number; TOML integers count as numbers.
   void number(std::string_view key, double& value, const Range& range);
+  /// A length in cm: a number, or a string of a number and its unit, "0.2 L" of body lengths or
+  /// "12 D" of mean diameters, as set_body() has said. `range` is in either.
+  void length(std::string_view key, double& value, const Range& range);
   /// As number(), three in an array.
   void vector(std::string_view key, Eigen::Vector3d& value);
   /// As number(), one or more in an array.

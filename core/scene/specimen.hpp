@@ -31,4 +31,7 @@ struct Specimen {
 double profile(const std::vector<double>& station, const std::vector<double>& value,
                double fraction);
 
+/// Diameter of a circle of the circumference, its mean along the body, cm.
+double mean_diameter(const Specimen& specimen);
+
 }  // namespace hagfish
