@@ -6,8 +6,8 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 packages=(
   g++ cmake ninja-build pkg-config git ca-certificates  # to build
-  libeigen3-dev libfmt-dev libtoml11-dev libcli11-dev libcereal-dev   # C++ libraries
-  nlohmann-json3-dev
+  libeigen3-dev libfmt-dev libtoml11-dev libcli11-dev   # C++ libraries
+  nlohmann-json3-dev libfccp-dev libcereal-dev
   libhdf5-dev coinor-libipopt-dev libmujoco-dev
   libtinyxml2-dev                                       # what the MJCF in a log may say
   libegl-dev libgl1-mesa-dri libpng-dev                 # pictures, without a display

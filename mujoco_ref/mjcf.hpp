@@ -4,7 +4,8 @@
 // the two simulators share: bodies with their inertias, joints with limits, stiffness and damping,
 // the skin as frictionless capsules, and gravity. What is left out: water drag, which MuJoCo knows
 // only in other forms, limits on the total angle of a joint (the root document says so), since
-// MuJoCo limits hinges one by one, and all that belongs to a scene: head plate, script, controller.
+// MuJoCo limits hinges one by one, and all that belongs to a scene: head plate, script, the active
+// torques of muscles, controller.
 #pragma once
 
 #include <map>

@@ -76,6 +76,11 @@ Eigen::VectorXd drag_force(const Model& model, const Kinematics& kin, const Eige
   return generalised_force(model, kin, wrench);
 }
 
+Eigen::Vector3d drag_on_body(const Model& model, const Kinematics& kin, int body,
+                             const Eigen::Vector3d& velocity) {
+  return -(drag_at_centre(model, kin, body).linear * velocity);
+}
+
 double drag_power(const Model& model, const Kinematics& kin, int body, const Vector6d& twist,
                   const Eigen::Vector3d& velocity) {
   const double length = model.bodies[body].length;
@@ -146,6 +151,13 @@ void assemble_step_system(const Model& model, const State& state, const Kinemati
   if (tip.rate != 0) {
     system.op.inertia[last] +=
         point_operator(Eigen::Matrix3d::Zero(), h * tip.rate * Eigen::Matrix3d::Identity(), offset);
+  }
+}
+
+void add_active_torque(const ActiveTorque& torque, double h, StepSystem& system) {
+  if (torque.value.size() > 0) {
+    system.joint += h * torque.value;
+    system.op.diagonal += h * torque.rate;
   }
 }
 

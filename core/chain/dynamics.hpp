@@ -41,6 +41,14 @@ struct TipForce {
   double rate = 0;                                  ///< dyn s / cm
 };
 
+/// Torques that the animal's muscles make at its hinges: `value` minus `rate` times the hinges'
+/// rates at the end of the step. Both are empty where there are none; else of length nv, and 0 at
+/// the root: nothing holds on to the world.
+struct ActiveTorque {
+  Eigen::VectorXd value;  ///< dyn cm
+  Eigen::VectorXd rate;   ///< dyn cm s, not negative
+};
+
 /// One step's unconstrained problem H q̇* = M q̇0 + h f (paper, Eq. 1).
 struct StepSystem {
   StepOperator op;        ///< H = M + h D - h² K
@@ -55,12 +63,19 @@ void assemble_step_system(const Model& model, const State& state, const Kinemati
 StepSystem step_system(const Model& model, const State& state, const Kinematics& kin,
                        const TipForce& tip, double h);
 
+/// Adds active torques to the problem of a step of `h` (s): their rates to H's diagonal.
+void add_active_torque(const ActiveTorque& torque, double h, StepSystem& system);
+
 /// Kinetic energy of one body, erg, at `twist`, which moves its centre with `velocity`.
 double kinetic_energy(const Model& model, const Kinematics& kin, int body, const Vector6d& twist,
                       const Eigen::Vector3d& velocity);
 
 /// Of all bodies, at kin.twist.
 double kinetic_energy(const Model& model, const Kinematics& kin);
+
+/// Drag on one body whose centre moves with `velocity` (cm/s, world), dyn, world.
+Eigen::Vector3d drag_on_body(const Model& model, const Kinematics& kin, int body,
+                             const Eigen::Vector3d& velocity);
 
 /// Power that drag takes from one body, erg/s, at `twist`, which moves its centre with `velocity`.
 double drag_power(const Model& model, const Kinematics& kin, int body, const Vector6d& twist,

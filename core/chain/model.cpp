@@ -21,6 +21,27 @@ void set_hinge(Hinge& hinge, double limit, double stiffness, double damping) {
   hinge.damping = damping;
 }
 
+/// Passive stiffness and damping about one kind of axis, per length: dyn cm^2, dyn cm^2 s.
+struct Passive {
+  double stiffness = 0, damping = 0;
+};
+
+Passive bending_at(const Specimen& specimen, const ModelSettings& settings, double fraction) {
+  if (settings.passive == PassiveSource::scene) {
+    return {settings.bending_stiffness, settings.bending_damping};
+  }
+  return {profile(specimen.station, specimen.bending_stiffness, fraction),
+          profile(specimen.station, specimen.bending_damping, fraction)};
+}
+
+Passive twist_at(const Specimen& specimen, const ModelSettings& settings, double fraction) {
+  if (settings.passive == PassiveSource::scene) {
+    return {settings.twist_stiffness, settings.twist_damping};
+  }
+  return {profile(specimen.station, specimen.twist_stiffness, fraction),
+          profile(specimen.station, specimen.twist_damping, fraction)};
+}
+
 }  // namespace
 
 double Model::length() const {
@@ -132,6 +153,7 @@ Model make_hagfish(const Specimen& specimen, const Scene& scene) {
   model.gravity = scene.gravity;
   for (int b = 0; b < n; ++b) {
     const bool bend = b % 2 == 1;
+    const double fraction = static_cast<double>(b) / n;
     Body body;
     body.mass = specimen.mass * radius[b] * radius[b] * density[b] / whole;
     body.length = length;
@@ -142,8 +164,8 @@ Model make_hagfish(const Specimen& specimen, const Scene& scene) {
     } else if (bend) {
       append_body(model, body, {Axis::y, Axis::z});
       const double span = hinge_span(n, length, b);
-      const double measured =
-          profile(specimen.station, specimen.bending_limit, static_cast<double>(b) / n);
+      const double measured = profile(specimen.station, specimen.bending_limit, fraction);
+      const Passive passive = bending_at(specimen, settings, fraction);
       const double limit =
           std::min(settings.limit_scale * measured * 2 * length / specimen.bending_span,
                    settings.largest_limit);
@@ -153,13 +175,14 @@ Model make_hagfish(const Specimen& specimen, const Scene& scene) {
       }
       for (int k = 1; k <= 2; ++k) {
         set_hinge(model.hinges[model.hinges.size() - k], cone ? unbounded : limit,
-                  settings.bending_stiffness / span, settings.bending_damping / span);
+                  passive.stiffness / span, passive.damping / span);
       }
     } else {
       append_body(model, body, {Axis::x});
       const double span = hinge_span(n, length, b);
+      const Passive passive = twist_at(specimen, settings, fraction);
       set_hinge(model.hinges.back(), settings.limit_scale * specimen.twist_limit / n,
-                settings.twist_stiffness / span, settings.twist_damping / span);
+                passive.stiffness / span, passive.damping / span);
     }
   }
   return model;

@@ -2,7 +2,7 @@
 # data/ and puts its path in OUT. A change to data/ runs CMake again.
 function(hagfish_builtin_files OUT)
   set(data ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../../data)
-  file(GLOB files CONFIGURE_DEPENDS RELATIVE ${data} ${data}/*.toml ${data}/specimens/*.toml)
+  file(GLOB files CONFIGURE_DEPENDS RELATIVE ${data} ${data}/*.toml ${data}/specimens/*.toml ${data}/programs/*.csv)
   set(entries "")
   set(scenes "")
   foreach(file IN LISTS files)

@@ -20,11 +20,18 @@ namespace hagfish {
 
 enum class KnotUnit { unsaid, dyn, cm, body_length };
 
+/// A curvature program as a table: `times` x `stations` values each, a time after the other.
+struct ProgramTable {
+  std::vector<double> times, stations, bend_y, bend_z, twist;
+};
+
 /// A script as its file spells it: knots in rows [t, x, y, z], in `unit`.
 struct ScriptFile {
   ScriptSettings settings;  ///< all but the knots
   KnotUnit unit = KnotUnit::unsaid;
   std::vector<Eigen::Vector4d> rows;
+  std::string program;  ///< CSV file of a curvature program, or empty
+  ProgramTable curvature;
 };
 
 template <class Io>
@@ -39,9 +46,23 @@ void specimen_fields(Io& io, Specimen& s) {
   io.angle("twist_limit", s.twist_limit, positive());
 }
 
+/// What a specimen may leave out.
+template <class Io>
+void passive_fields(Io& io, Specimen& s) {
+  io.table("passive", [&s](Io& table) {
+    table.numbers("bending_stiffness", s.bending_stiffness, not_negative());
+    table.numbers("bending_damping", s.bending_damping, not_negative());
+    table.numbers("twist_stiffness", s.twist_stiffness, not_negative());
+    table.numbers("twist_damping", s.twist_damping, not_negative());
+  });
+}
+
 template <class Io>
 void model_fields(Io& io, ModelSettings& s) {
   io.integer("bodies", s.bodies, within(2, 400));
+  io.template choice<PassiveSource>(
+      "passive", s.passive,
+      {{"scene", PassiveSource::scene}, {"specimen", PassiveSource::specimen}});
   io.number("bending_stiffness", s.bending_stiffness, not_negative());
   io.number("bending_damping", s.bending_damping, not_negative());
   io.number("twist_stiffness", s.twist_stiffness, not_negative());
@@ -87,7 +108,8 @@ void script_fields(Io& io, ScriptFile& s) {
   using Kind = ScriptSettings::Kind;
   io.template choice<Kind>(
       "kind", s.settings.kind,
-      {{"none", Kind::none}, {"force", Kind::force}, {"position", Kind::position}});
+      {{"none", Kind::none}, {"force", Kind::force}, {"position", Kind::position},
+       {"curvature", Kind::curvature}});
   io.number("spring", s.settings.spring, not_negative());
   io.number("damper", s.settings.damper, not_negative());
   io.number("largest_force", s.settings.largest_force, not_negative());
@@ -96,6 +118,22 @@ void script_fields(Io& io, ScriptFile& s) {
   io.template choice<KnotUnit>(
       "unit", s.unit, {{"dyn", KnotUnit::dyn}, {"cm", KnotUnit::cm}, {"L", KnotUnit::body_length}});
   io.rows("knots", "knot", "t, x, y, z", s.rows);
+  io.string("program", s.program);
+  io.table("curvature", [&s](Io& table) {
+    table.numbers("times", s.curvature.times, not_negative());
+    table.numbers("stations", s.curvature.stations, within(0, 1));
+    table.numbers("bend_y", s.curvature.bend_y, any_number());
+    table.numbers("bend_z", s.curvature.bend_z, any_number());
+    table.numbers("twist", s.curvature.twist, any_number());
+  });
+}
+
+template <class Io>
+void active_fields(Io& io, ActiveSettings& s) {
+  io.number("stiffness", s.stiffness, not_negative());
+  io.number("tone_time", s.tone_time, not_negative());
+  io.number("relax_time", s.relax_time, not_negative());
+  io.number("capacity", s.capacity, not_negative());
 }
 
 template <class Io>
@@ -104,12 +142,12 @@ void controller_fields(Io& io, ControllerSettings& s) {
   io.number("acceleration", s.acceleration, positive());
   io.number("contact_gap", s.contact_gap, not_negative());
   io.number("hysteresis", s.hysteresis, not_negative());
-  io.number("tail_through", s.tail_through, not_negative());
+  io.length("tail_through", s.tail_through, not_negative());
   io.number("tighten_from", s.tighten_from, not_negative());
-  io.number("tight_span", s.tight_span, positive());
+  io.length("tight_span", s.tight_span, positive());
   io.number("tight_hold", s.tight_hold, not_negative());
   io.number("tighten_time", s.tighten_time, not_negative());
-  io.number("release_at", s.release_at, positive());
+  io.length("release_at", s.release_at, positive());
   io.number("untied_for", s.untied_for, not_negative());
   io.number("free_time", s.free_time, not_negative());
   io.template choice<BodyEnd>("leave_by", s.leave_by,
@@ -178,8 +216,8 @@ void expect_fields(Io& io, ExpectSettings& s) {
   for (const auto& [type, from, to] : stretches) s.types.push_back({type, time(from), time(to)});
   io.template choice<Hand>("hand", s.hand,
                            {{"any", Hand::any}, {"right", Hand::right}, {"left", Hand::left}});
-  io.number("slide_distance", s.slide_distance, not_negative());
-  io.number("reverse_distance", s.reverse_distance, not_negative());
+  io.length("slide_distance", s.slide_distance, not_negative());
+  io.length("reverse_distance", s.reverse_distance, not_negative());
   io.number("speed_share", s.speed_share, within(0, 1));
   io.number("penetration", s.penetration, not_negative());
   io.angle("limit_violation", s.limit_violation, not_negative());
@@ -206,14 +244,15 @@ void scene_fields(Io& io, Scene& s, ScriptFile& script) {
   io.table("constraints", [&](Io& t) { constraint_fields(t, s.constraints); });
   io.table("contact", [&](Io& t) {
     t.number("margin", s.contact.margin, not_negative());
-    t.number("least_arc", s.contact.least_arc, positive());
+    t.length("least_arc", s.contact.least_arc, positive());
   });
   io.table("wall", [&](Io& t) {
     t.boolean("present", s.wall.present);
-    t.number("neck", s.wall.neck, not_negative());
+    t.length("neck", s.wall.neck, not_negative());
   });
   io.table("start", [&](Io& t) { start_fields(t, s.start); });
   io.table("script", [&](Io& t) { script_fields(t, script); });
+  io.table("active", [&](Io& t) { active_fields(t, s.active); });
   io.table("controller", [&](Io& t) { controller_fields(t, s.controller); });
   io.table("knot", [&](Io& t) { knot_fields(t, s.knot); });
   io.table("time", [&](Io& t) { time_fields(t, s.time); });

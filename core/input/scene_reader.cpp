@@ -7,6 +7,7 @@
 
 #include "core/chain/model.hpp"
 #include "core/input/builtin_files.hpp"
+#include "core/input/curvature_csv.hpp"
 #include "core/input/input_text.hpp"
 #include "core/input/scene_base.hpp"
 #include "core/input/scene_fields.hpp"
@@ -21,6 +22,7 @@ constexpr std::string_view specimen_prefix = "specimen.";
 
 Specimen read_specimen_table(TableReader& table) {
   Specimen s;
+  passive_fields(table, s);
   table.require_all();
   specimen_fields(table, s);
   table.finish();
@@ -44,23 +46,23 @@ Specimen read_specimen_table(TableReader& table) {
   return s;
 }
 
-/// The text of the specimen file that the scene of `root` names, and its name in errors.
-std::pair<std::string, std::string> specimen_file(const TableReader& root, const std::string& name,
-                                                  const std::vector<SceneSource>& sources) {
-  const bool set = root.was_set("specimen");
-  const SceneSource& source =
-      *std::ranges::find(sources, root.file_of("specimen"), &SceneSource::name);
+/// The text of the file `name` that the scene has at the dotted `key`, and its name in errors.
+std::pair<std::string, std::string> named_file(const TableReader& root, const std::string& key,
+                                               const std::string& name,
+                                               const std::vector<SceneSource>& sources) {
+  const bool set = root.was_set(key);
+  const SceneSource& source = *std::ranges::find(sources, root.file_of(key), &SceneSource::name);
   if (set || source.file) {
     std::filesystem::path file = name;
     if (!set) file = source.file->parent_path() / file;
     try {
       return {read_text_file(file), file.string()};
     } catch (const InputError& error) {
-      root.fail("specimen", error.what());
+      root.fail(key, error.what());
     }
   }
   const auto text = builtin_file(name);
-  if (!text) root.fail("specimen", "no such built-in file");
+  if (!text) root.fail(key, "no such built-in file");
   return {std::string(*text), name + " (built in)"};
 }
 
@@ -74,7 +76,7 @@ Specimen read_scene_specimen(TableReader& root, const std::vector<SceneSource>& 
   }
   if (!root.has("specimen")) root.fail("specimen", "is missing: a file name or a table");
   root.string("specimen", name);
-  const auto [text, file] = specimen_file(root, name, sources);
+  const auto [text, file] = named_file(root, "specimen", name, sources);
   TableReader table(text, file);
   for (const auto& [key, value] : changes) {
     table.set({key.substr(specimen_prefix.size()), value}, key);
@@ -82,11 +84,74 @@ Specimen read_scene_specimen(TableReader& root, const std::vector<SceneSource>& 
   return read_specimen_table(table);
 }
 
+/// Checks `table`, [script.curvature], and turns it into a program.
+CurvatureProgram resolve_table(const TableReader& root, const ProgramTable& table) {
+  const auto rising = [&](const std::string& key, const std::vector<double>& values) {
+    if (values.empty()) root.fail("script.curvature", key + " is missing");
+    for (std::size_t i = 1; i < values.size(); ++i) {
+      if (values[i] <= values[i - 1]) {
+        root.fail_element("script.curvature." + key, i,
+                          "must rise; number " + std::to_string(i + 1) + " does not");
+      }
+    }
+  };
+  rising("times", table.times);
+  rising("stations", table.stations);
+  if (table.times[0] != 0 || table.times.size() < 2) {
+    root.fail("script.curvature.times", "must be two or more, the first 0");
+  }
+  const auto stations = static_cast<Eigen::Index>(table.stations.size());
+  CurvatureProgram program{table.times, table.stations, {}, {}};
+  program.value.assign(table.times.size(), Eigen::Matrix3Xd::Zero(3, stations));
+  const std::pair<const char*, const std::vector<double>&> rows[] = {
+      {"bend_y", table.bend_y}, {"bend_z", table.bend_z}, {"twist", table.twist}};
+  for (int i = 0; i < 3; ++i) {
+    const auto& [key, values] = rows[i];
+    if (values.size() != table.times.size() * table.stations.size()) {
+      root.fail("script.curvature." + std::string(key),
+                "must have times x stations values, " +
+                    std::to_string(table.times.size() * table.stations.size()));
+    }
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      program.value[k / table.stations.size()](
+          i, static_cast<Eigen::Index>(k % table.stations.size())) = values[k];
+    }
+  }
+  return program;
+}
+
+/// The reverse.
+ProgramTable program_table(const CurvatureProgram& program) {
+  ProgramTable table{program.time, program.station, {}, {}, {}};
+  for (const Eigen::Matrix3Xd& value : program.value) {
+    std::vector<double>* rows[] = {&table.bend_y, &table.bend_z, &table.twist};
+    for (int i = 0; i < 3; ++i) {
+      rows[i]->insert(rows[i]->end(), value.row(i).begin(), value.row(i).end());
+    }
+  }
+  return table;
+}
+
+CurvatureProgram resolve_program(const TableReader& root, const ScriptFile& file,
+                                 const std::vector<SceneSource>& sources) {
+  if (file.program.empty()) return resolve_table(root, file.curvature);
+  if (!file.curvature.times.empty()) {
+    root.fail("script.program", "script.curvature is given too");
+  }
+  const auto [text, name] = named_file(root, "script.program", file.program, sources);
+  return read_curvature_csv(text, name);
+}
+
 /// Checks `file` and turns it into the script it spells, for an animal of `length` (cm).
-ScriptSettings resolve_script(const TableReader& root, const ScriptFile& file, double length) {
+ScriptSettings resolve_script(const TableReader& root, const ScriptFile& file, double length,
+                              const std::vector<SceneSource>& sources) {
   using Kind = ScriptSettings::Kind;
   ScriptSettings script = file.settings;
   if (script.kind == Kind::none) return script;
+  if (script.kind == Kind::curvature) {
+    script.curvature = resolve_program(root, file, sources);
+    return script;
+  }
   const bool position = script.kind == Kind::position;
   if (file.unit != KnotUnit::unsaid && position == (file.unit == KnotUnit::dyn)) {
     root.fail("script.unit",
@@ -118,6 +183,10 @@ double normal(std::mt19937& random) {
 void draw_noise(ScriptSettings& script) {
   if (script.noise == 0) return;
   std::mt19937 random(script.noise_seed);
+  for (const Eigen::Matrix3Xd& value : script.curvature.value) {
+    Eigen::Matrix3Xd& noise = script.curvature.noise.emplace_back(3, value.cols());
+    for (double& coordinate : noise.reshaped()) coordinate = script.noise * normal(random);
+  }
   for (ScriptKnot& knot : script.knots) {
     for (double& coordinate : knot.noise) coordinate = script.noise * normal(random);
   }
@@ -130,8 +199,12 @@ void reflect(Scene& scene) {
     knot.value.y() *= -1;
     knot.noise.y() *= -1;
   }
+  // Turns about x and z change sign.
+  for (auto* values : {&scene.script.curvature.value, &scene.script.curvature.noise}) {
+    for (Eigen::Matrix3Xd& value : *values) value.bottomRows<2>() *= -1;
+  }
   for (auto* rows : {&scene.start.bend, &scene.start.bend_rate}) {
-    for (Eigen::Vector4d& row : *rows) {  // turns about x and z change sign
+    for (Eigen::Vector4d& row : *rows) {
       row[1] *= -1;
       row[3] *= -1;
     }
@@ -181,6 +254,38 @@ void check_start(const TableReader& root, const ResolvedScene& resolved) {
   check_length("start.qdot", start.qdot, model.nv());
   if (!start.q.empty() && Eigen::Vector4d::Map(start.q.data() + 3).isZero(0)) {
     root.fail("start.q", "numbers 4 to 7 are a quaternion and must not all be 0");
+  }
+}
+
+void check_passive(const TableReader& root, const ResolvedScene& resolved) {
+  const Specimen& s = resolved.specimen;
+  const std::size_t count = s.station.size();
+  for (const auto& [key, values] :
+       {std::pair("bending_stiffness", &s.bending_stiffness), {"bending_damping", &s.bending_damping},
+        {"twist_stiffness", &s.twist_stiffness}, {"twist_damping", &s.twist_damping}}) {
+    if (!values->empty() && values->size() != count) {
+      root.fail("specimen", "its passive." + std::string(key) +
+                                " must have as many values as station, " + std::to_string(count));
+    }
+    if (values->empty() && resolved.scene.model.passive == PassiveSource::specimen) {
+      root.fail("model.passive", "the specimen has no passive." + std::string(key));
+    }
+  }
+}
+
+void check_active(const TableReader& root, const Scene& scene) {
+  if (scene.script.kind != ScriptSettings::Kind::curvature) return;
+  const ActiveSettings& active = scene.active;
+  for (const auto& [key, value] : {std::pair("active.stiffness", active.stiffness),
+                                   {"active.tone_time", active.tone_time},
+                                   {"active.relax_time", active.relax_time},
+                                   {"active.capacity", active.capacity}}) {
+    if (value == 0) root.fail(key, "must be positive where a curvature program bends the animal");
+  }
+  const double end = scene.script.curvature.time.back();
+  if (end < scene.controller.tighten_from) {
+    root.fail("controller.tighten_from",
+              "the curvature program ends before, at " + shortest(end) + " s");
   }
 }
 
@@ -258,12 +363,15 @@ ResolvedScene read(SceneSource source, const std::vector<std::string>& overrides
   ResolvedScene result;
   ScriptFile script;
   result.specimen = read_scene_specimen(root, sources, specimen_changes, result.scene.specimen);
+  root.set_body(result.specimen.length, mean_diameter(result.specimen));
   scene_fields(root, result.scene, script);
   root.finish();
-  result.scene.script = resolve_script(root, script, result.specimen.length);
+  result.scene.script = resolve_script(root, script, result.specimen.length, sources);
   draw_noise(result.scene.script);
   if (result.scene.mirror) reflect(result.scene);
   check_start(root, result);
+  check_passive(root, result);
+  check_active(root, result.scene);
   check_times(root, result.scene.time);
   check_expectations(root, result.scene);
   return result;
@@ -298,9 +406,13 @@ std::string scene_to_toml(const Scene& scene, const Specimen& specimen) {
   for (const auto& knot : fields.script.knots) {
     script.rows.emplace_back(knot.time, knot.value.x(), knot.value.y(), knot.value.z());
   }
+  script.curvature = program_table(fields.script.curvature);
   TomlWriter writer;
   scene_fields(writer, fields, script);
-  writer.table("specimen", [&](TomlWriter& table) { specimen_fields(table, animal); });
+  writer.table("specimen", [&](TomlWriter& table) {
+    specimen_fields(table, animal);
+    passive_fields(table, animal);
+  });
   return writer.text();
 }
 

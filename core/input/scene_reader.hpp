@@ -1,7 +1,8 @@
 // Scene and specimen files: TOML, with every number checked. data/table1.toml shows each key.
 //
 // Keys are the names of the members of Scene (settings.hpp) and Specimen (specimen.hpp), in the
-// same units; angles are given in degrees under NAME_deg, or in rad under NAME_rad. A scene may
+// same units; angles are given in degrees under NAME_deg, or in rad under NAME_rad. Lengths along
+// the body may be shares of it ("0.2 L") or mean diameters ("12 D"). A scene may
 // name a base, another scene whose keys it inherits: a built-in scene's name, or a file that ends
 // in .toml, relative to the one that names it. Tables merge key by key, arrays replace. Keys absent
 // from all of these keep the defaults of settings.hpp; a specimen has no defaults. All functions

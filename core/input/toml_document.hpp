@@ -17,6 +17,7 @@ struct TomlDocument {
   toml::value root;
   std::set<std::string> bases;                ///< the files of inherited values
   std::map<std::string, Override> overrides;  ///< by path in this document; key is the shown one
+  double body_length = 0, body_diameter = 0;  ///< of the animal, cm: units of lengths
 
   /// Takes from `base` what this document does not have, table by table.
   void inherit(const TomlDocument& base);

@@ -1,6 +1,7 @@
 #include "core/input/toml_reader.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -183,7 +184,7 @@ bool TableReader::is_table(std::string_view key) const {
 }
 
 std::string TableReader::file_of(std::string_view key) const {
-  return impl_->document->file_of(impl_->peek(key));
+  return impl_->document->file_of(impl_->walk(std::string(key)));
 }
 
 bool TableReader::was_set(std::string_view key) const {
@@ -221,6 +222,30 @@ void TableReader::integer(std::string_view key, unsigned& value, const Range& ra
 void TableReader::number(std::string_view key, double& value, const Range& range) {
   const Impl::Place place = impl_->ask(key);
   if (place.value) value = impl_->checked(place, *place.value, range);
+}
+
+void TableReader::set_body(double length, double diameter) {
+  impl_->document->body_length = length;
+  impl_->document->body_diameter = diameter;
+}
+
+void TableReader::length(std::string_view key, double& value, const Range& range) {
+  const Impl::Place place = impl_->ask(key);
+  if (!place.value) return;
+  if (!place.value->is_string()) {
+    value = impl_->checked(place, *place.value, range);
+    return;
+  }
+  const std::string& text = place.value->as_string().str;
+  double number = 0;
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), number);
+  const std::string unit(read.ptr, text.data() + text.size() - read.ptr);
+  if (read.ec != std::errc() || (unit != " L" && unit != " D")) {
+    impl_->fail(place, "must be a number of cm, or as \"0.2 L\" or \"12 D\", of body lengths or mean "
+                       "diameters");
+  }
+  value = impl_->checked(place, toml::value(number), range) *
+          (unit == " L" ? impl_->document->body_length : impl_->document->body_diameter);
 }
 
 void TableReader::vector(std::string_view key, Eigen::Vector3d& value) {

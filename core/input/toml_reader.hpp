@@ -37,13 +37,16 @@ class TableReader {
   /// `--set SHOWN=VALUE` from then on. Comes before any getter.
   void set(const Override& change, const std::string& shown);
 
+  /// Length and mean diameter of the animal, cm, for length() of this table and all in it.
+  void set_body(double length, double diameter);
+
   /// From here on an absent key is an error, reported by finish().
   void require_all();
 
   bool has(std::string_view key) const;
   bool is_table(std::string_view key) const;
   bool was_set(std::string_view key) const;  ///< by set()
-  /// The file that the value at `key` was read from: this table's, or a base's.
+  /// The file that the value at the dotted `key` was read from: this table's, or a base's.
   std::string file_of(std::string_view key) const;
 
   void string(std::string_view key, std::string& value);
@@ -52,6 +55,9 @@ class TableReader {
   void integer(std::string_view key, unsigned& value, const Range& range);
   /// A finite number; TOML integers count as numbers.
   void number(std::string_view key, double& value, const Range& range);
+  /// A length in cm: a number, or a string of a number and its unit, "0.2 L" of body lengths or
+  /// "12 D" of mean diameters, as set_body() has said. `range` is in either.
+  void length(std::string_view key, double& value, const Range& range);
   /// As number(), three in an array.
   void vector(std::string_view key, Eigen::Vector3d& value);
   /// As number(), one or more in an array.

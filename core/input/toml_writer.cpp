@@ -75,6 +75,10 @@ void TomlWriter::number(std::string_view key, double value, const Range&) {
   line(key, number_text(value));
 }
 
+void TomlWriter::length(std::string_view key, double value, const Range& range) {
+  number(key, value, range);
+}
+
 void TomlWriter::vector(std::string_view key, const Eigen::Vector3d& value) {
   line(key, array_text(value));
 }

@@ -26,6 +26,8 @@ class TomlWriter {
   void integer(std::string_view key, int value, const Range& range);
   void integer(std::string_view key, unsigned value, const Range& range);
   void number(std::string_view key, double value, const Range& range);
+  /// In cm: a number that undoes a product with the body's length is not always there.
+  void length(std::string_view key, double value, const Range& range);
   void vector(std::string_view key, const Eigen::Vector3d& value);
   /// No line where there are none: the reader wants one or more.
   void numbers(std::string_view key, const std::vector<double>& value, const Range& range);

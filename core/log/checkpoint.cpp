@@ -151,9 +151,10 @@ void serialize(Archive& archive, TrackedContact& tracked) {
 
 template <class Archive>
 void serialize(Archive& archive, ControllerState& controller) {
-  auto& [phase, phase_start, loose, knot, knot_seen, knot_from, past, lost, first, last] =
-      controller;
-  archive(phase, phase_start, loose, knot, knot_seen, knot_from, past, lost, first, last);
+  auto& [phase, phase_start, loose, knot, knot_seen, knot_from, past, lost, first, last,
+         rest_shape] = controller;
+  archive(phase, phase_start, loose, knot, knot_seen, knot_from, past, lost, first, last,
+          rest_shape);
 }
 
 template <class Archive>
@@ -164,10 +165,16 @@ void serialize(Archive& archive, WarmStart::Kept& kept) {
 
 template <class Archive>
 void serialize(Archive& archive, EnergyLedger& ledger) {
-  auto& [initial, kinetic, elastic, gravity, work_tip, work_of_kind, dissipated, inertia, potential,
-         coriolis, held, lowest_error, largest] = ledger;
-  archive(initial, kinetic, elastic, gravity, work_tip, work_of_kind, dissipated, inertia,
-          potential, coriolis, held, lowest_error, largest);
+  auto& [initial, kinetic, elastic, gravity, work_tip, work_active, work_of_kind, dissipated,
+         inertia, potential, coriolis, held, lowest_error, largest] = ledger;
+  archive(initial, kinetic, elastic, gravity, work_tip, work_active, work_of_kind, dissipated,
+          inertia, potential, coriolis, held, lowest_error, largest);
+}
+
+template <class Archive>
+void serialize(Archive& archive, MomentumLedger& ledger) {
+  auto& [initial, momentum, drag, outside, integrator] = ledger;
+  archive(initial, momentum, drag, outside, integrator);
 }
 
 template <class Archive>
@@ -189,8 +196,8 @@ void serialize(Archive& archive, ConstraintForces& force) {
 
 template <class Archive>
 void serialize(Archive& archive, FrameMeans& means) {
-  auto& [force, net_force, lambda, speed, slack] = means;
-  archive(force, net_force, lambda, speed, slack);
+  auto& [force, active_torque, net_force, lambda, speed, slack] = means;
+  archive(force, active_torque, net_force, lambda, speed, slack);
 }
 
 template <class Archive>
@@ -201,9 +208,10 @@ void serialize(Archive& archive, LogState& log) {
 
 template <class Archive>
 void serialize(Archive& archive, Simulation& sim) {
-  auto& [step, now, search, controller, solver, ledger, watch, before] =
+  auto& [step, now, search, controller, solver, ledger, momentum, watch, before] =
       sim;  // the last is scratch
-  archive(step, now.state, now.observation, search, controller, solver.warm, ledger, watch);
+  archive(step, now.state, now.observation, search, controller, solver.warm, ledger, momentum,
+          watch);
 }
 
 namespace {
@@ -253,6 +261,9 @@ void check(const Simulation& sim, const LogState& log, const Model& model) {
               fits(sim.controller.first, bodies) && fits(sim.controller.last, bodies),
           "a contact that is not on its animal");
   require(static_cast<int>(sim.controller.phase) < phase_count, "an unknown phase");
+  const Eigen::Index rest = sim.controller.rest_shape.size();
+  require(rest == 0 || (rest == model.nv() && sim.controller.rest_shape.allFinite()),
+          "a rest shape that is not of its model");
   require(log.means.size() == model.nv(), "means that are not of its model");
 }
 
@@ -274,6 +285,7 @@ Simulation decode(std::span<const std::uint8_t> bytes, const Model& model,
                  .controller = {},
                  .solver = StepSolver(back_end),
                  .ledger = {},
+                 .momentum = {},
                  .watch = {},
                  .before = {}};
   std::istringstream stream(std::string(bytes.begin(), bytes.end()));

@@ -61,6 +61,8 @@ constexpr std::array<LoggedForce, row_kinds.size()> logged_forces = {
      {RowKind::head, "head clamp"},
      {RowKind::wall, "head plate"}}};
 
+constexpr const char* active_description = "active torque of the animal's muscles, 0 at the root";
+
 void declare_trajectory(const Model& model, LogTable<Frame>& t) {
   const hsize_t n = model.body_count();
   const hsize_t nq = model.nq();
@@ -84,6 +86,16 @@ void declare_trajectory(const Model& model, LogTable<Frame>& t) {
       "/trajectory/qdot_next", {nv},
       {rates, "velocity after the step that begins at the frame, to which its forces lead"},
       [](const Frame& f) -> const auto& { return f.record.solution.qdot; });
+  t.numbers(
+      "/trajectory/q_ref", {nv},
+      {"rad",
+       "rest shape of the step that begins at the frame: angles that the active torque pulls the "
+       "hinges to; 0 at the root and where no curvature program bends the animal",
+       true},
+      [none = Eigen::VectorXd(Eigen::VectorXd::Zero(model.nv()))](const Frame& f) -> const auto& {
+        const Eigen::VectorXd& rest = f.record.controller.rest_shape;
+        return rest.size() == 0 ? none : rest;
+      });
   t.numbers(
       "/trajectory/position", {n, 3}, {"cm", "body centres, world axes"},
       [](const Frame& f) -> const auto& { return f.record.moment.observation.kin.centre; });
@@ -118,6 +130,9 @@ void declare_forces(const Model& model, LogTable<Frame>& t) {
           return f.record.solution.force[kind];
         });
   }
+  t.numbers(
+      "/forces/active", {nv}, {"dyn, dyn·cm", active_description, true},
+      [](const Frame& f) -> const auto& { return f.record.solution.active_torque; });
   t.numbers(
       "/forces/tip", {3}, {"dyn", "scripted force on the last body, world axes"},
       [](const Frame& f) -> const auto& { return f.record.solution.tip; });
@@ -158,8 +173,12 @@ void declare_means(const Model& model, LogTable<Frame>& t) {
         [kind = force.kind](const Frame& f) -> const auto& { return f.mean.force[kind]; });
   }
   t.numbers(
+      "/mean/forces/active", {static_cast<hsize_t>(model.nv())},
+      {"dyn, dyn·cm", active_description + since, true},
+      [](const Frame& f) -> const auto& { return f.mean.active_torque; });
+  t.numbers(
       "/mean/forces/net", {static_cast<hsize_t>(model.nv())},
-      {"dyn, dyn·cm", "H (qdot_next - qdot*) / h, what the five add up to, from the motion" + since,
+      {"dyn, dyn·cm", "H (qdot_next - qdot*) / h, what the six add up to, from the motion" + since,
        true},
       [](const Frame& f) -> const auto& { return f.mean.net_force; });
   const auto row = [&](const char* name, const char* unit, const std::string& description,
@@ -220,6 +239,7 @@ void declare_energy(LogTable<Frame>& t) {
   energy("elastic_energy", "energy in the joint springs", &EnergyLedger::elastic);
   energy("gravity_energy", "potential energy, 0 at the world's origin", &EnergyLedger::gravity);
   energy("work_tip", "work of the scripted force so far", &EnergyLedger::work_tip);
+  energy("work_active", "work of the active torque so far", &EnergyLedger::work_active);
   for (const LoggedForce& force : logged_forces) {
     t.number(std::string("/diagnostics/work_") + row_kind_name(force.kind),
              {"erg", "work so far of: " + std::string(force.description)},
@@ -240,6 +260,25 @@ void declare_energy(LogTable<Frame>& t) {
            [](const Frame& f) { return f.record.ledger.integrator_error(); });
 }
 
+void declare_momentum(LogTable<Frame>& t) {
+  const auto vector = [&t](const char* name, const char* unit, const char* description,
+                           Eigen::Vector3d MomentumLedger::*member) {
+    t.numbers(
+        std::string("/diagnostics/") + name, {3},
+        {unit, description}, [member](const Frame& f) -> const auto& {
+          return f.record.momentum.*member;
+        });
+  };
+  vector("momentum", "g cm/s", "linear momentum of all bodies, world axes",
+         &MomentumLedger::momentum);
+  vector("impulse_drag", "dyn s", "impulse of drag so far, world axes", &MomentumLedger::drag);
+  vector("impulse_outside", "dyn s",
+         "impulse of tip, head clamp, head plate and gravity so far, world axes",
+         &MomentumLedger::outside);
+  vector("integrator_momentum", "g cm/s", "gained by the integrator so far, world axes",
+         &MomentumLedger::integrator);
+}
+
 }  // namespace
 
 void Worst::take(const StepRecord& record) {
@@ -257,6 +296,7 @@ void declare_frames(const Model& model, LogTable<Frame>& table) {
   declare_means(model, table);
   declare_diagnostics(table);
   declare_energy(table);
+  declare_momentum(table);
 }
 
 void declare_steps(LogTable<LoggedStep>& t) {

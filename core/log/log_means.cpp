@@ -11,6 +11,7 @@ void visit_vectors(Means& means, Visit visit) {
   for (auto& force : means.force.of_kind) {
     visit(force);
   }
+  visit(means.active_torque);
   visit(means.net_force);
 }
 
@@ -36,6 +37,7 @@ void RunningMeans::take(const StepRecord& record, const ThigmotaxisRows& rows) {
   for (const RowKind kind : row_kinds) {
     sum_.force[kind] += step.force[kind];
   }
+  sum_.active_torque += step.active_torque;
   sum_.net_force += step.net_force;
   for (int k = 0; k < 4; ++k) {
     if (rows.present[k]) {

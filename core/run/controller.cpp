@@ -191,8 +191,9 @@ bool clamps_head(const Scene& scene, Phase phase) {
   return scene.clamp_head && phase_order(phase) < phase_order(scene.controller.free_from);
 }
 
-Status decide(const Model& model, const Scene& scene, const Observation& observation, double time,
+Status decide(const Model& model, const Scene& scene, const Moment& now, double time,
               ControllerState& controller, Control& control) {
+  const Observation& observation = now.observation;
   follow_contacts(scene, observation, time, controller);
   // Half a step of slack: the time of a step is a product and may fall short by rounding.
   if (controller.phase != Phase::free &&
@@ -205,6 +206,7 @@ Status decide(const Model& model, const Scene& scene, const Observation& observa
   switch_by_span(model, scene, time, controller);
 
   control.tip = {};
+  control.active = {};
   control.thigmotaxis.clear();
   control.clamp_head = clamps_head(scene, controller.phase);
   const int last = model.body_count() - 1;
@@ -214,6 +216,11 @@ Status decide(const Model& model, const Scene& scene, const Observation& observa
                                kin.centre_velocity.col(last));
   } else if (controller.phase != Phase::free && controller.first.contact) {
     command_speeds(scene.controller, controller, control.thigmotaxis);
+  }
+  if (scene.script.kind == ScriptSettings::Kind::curvature) {
+    const Eigen::VectorXd& q = now.state.q;
+    move_rest_shape(model, scene, controller.phase, q, time, controller.rest_shape);
+    control.active = active_torque(model, scene, now.state, controller.rest_shape);
   }
   return {};
 }

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/knot/knot.hpp"
+#include "core/run/active_curvature.hpp"
 #include "core/run/script.hpp"
 #include "core/scene/phase.hpp"
 #include "core/step/step.hpp"
@@ -36,6 +37,9 @@ struct ControllerState {
   PastKnot past;     ///< the last one before it; an unknot where there was none
   std::string lost;  ///< where the scene only warns: how the knot was lost; empty before that
   TrackedContact first, last;
+  /// Angles that the muscles pull the hinges to, rad, nv, 0 at the root; empty where no curvature
+  /// program bends the animal.
+  Eigen::VectorXd rest_shape;
 };
 
 /// Where the knot begins and ends: arc length of the first and the last contact, cm.
@@ -51,7 +55,7 @@ bool clamps_head(const Scene& scene, Phase phase);
 /// (never_tied) where the script ends without the scene's knot, or with too little tail through it,
 /// and (knot_lost) where that knot goes before it may, unless the scene only warns. The message
 /// says which knot there is, since when.
-Status decide(const Model& model, const Scene& scene, const Observation& observation, double time,
+Status decide(const Model& model, const Scene& scene, const Moment& now, double time,
               ControllerState& controller, Control& control);
 
 }  // namespace hagfish

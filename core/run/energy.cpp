@@ -43,6 +43,7 @@ void book_step(const Model& model, const Kinematics& kin, const StepSolution& so
   const Eigen::VectorXd& v = solution.qdot;
   const int last = model.body_count() - 1;
   ledger.work_tip += t * solution.tip.dot(solution.centre_velocity.col(last));
+  ledger.work_active += t * solution.active_torque.dot(v);
   for (const RowKind kind : row_kinds) {
     ledger.work(kind) += t * solution.force[kind].dot(v);
   }

@@ -19,6 +19,7 @@ struct EnergyLedger {
   double initial = 0;  ///< kinetic + elastic + gravity at the start
   double kinetic = 0, elastic = 0, gravity = 0;
   double work_tip = 0;
+  double work_active = 0;  ///< of the muscles: of the active torque
   std::array<double, row_kinds.size()> work_of_kind{};  ///< of the constraint forces, by row kind
   double dissipated = 0;                                ///< by drag and joint damping
   /// -½ Δq̇' M Δq̇: what first-order steps lose when velocities change, inelastic impacts included;
@@ -36,7 +37,7 @@ struct EnergyLedger {
   double& work(RowKind kind) { return work_of_kind[static_cast<std::size_t>(kind)]; }
   double work(RowKind kind) const { return work_of_kind[static_cast<std::size_t>(kind)]; }
   double works() const {
-    return std::accumulate(work_of_kind.begin(), work_of_kind.end(), work_tip);
+    return std::accumulate(work_of_kind.begin(), work_of_kind.end(), work_tip + work_active);
   }
   double integrator_error() const {
     return integrator_inertia + integrator_potential + integrator_coriolis + integrator_held;

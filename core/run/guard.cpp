@@ -209,4 +209,47 @@ void guard_cap(const Model& model, const Kinematics& kin, const Scene& scene,
   }
 }
 
+void guard_muscles(const Model& model, const Scene& scene, const Eigen::VectorXd& rest_shape,
+                   const ActiveTorque& torque, double time, Watch& watch,
+                   std::vector<std::string>& warnings) {
+  if (rest_shape.size() == 0) {
+    return;
+  }
+  const auto warned = [&watch](Outcome outcome) {
+    return watch.warned.test(static_cast<std::size_t>(outcome));
+  };
+  if (!warned(Outcome::overbent)) {
+    const Eigen::Matrix2Xd ranges = hinge_ranges(model);
+    const auto angles = rest_shape.tail(ranges.cols()).transpose();
+    const Eigen::RowVectorXd past =
+        (ranges.row(0) - angles).cwiseMax(angles - ranges.row(1)).cwiseMax(0.0);
+    Eigen::Index k = 0;
+    if (past.maxCoeff(&k) > scene.guard.limit_violation) {
+      std::ignore = report(
+          Outcome::overbent,
+          fmt::format("the curvature program bends {} to {:.3g} deg at {:.2f} s, but its limits "
+                      "are {:.3g} and {:.3g} deg, which push back",
+                      dof_name(model, static_cast<int>(k) + root_dofs), angles[k] / degree,
+                      time + scene.time.step, ranges(0, k) / degree, ranges(1, k) / degree),
+          GuardAction::warn, watch, warnings);
+    }
+  }
+  if (!warned(Outcome::saturated)) {
+    const auto at_capacity = [&](Eigen::Index k) {
+      return torque.rate[k] == 0 && std::abs(torque.value[k]) >= scene.active.capacity;
+    };
+    for (Eigen::Index k = root_dofs; k < torque.value.size(); ++k) {
+      if (at_capacity(k)) {
+        std::ignore =
+            report(Outcome::saturated,
+                   fmt::format("{} takes all of active.capacity = {:g} dyn cm; a slower program, a "
+                               "softer body or more capacity would help",
+                               dof_name(model, static_cast<int>(k)), scene.active.capacity),
+                   GuardAction::warn, watch, warnings);
+        return;
+      }
+    }
+  }
+}
+
 }  // namespace hagfish

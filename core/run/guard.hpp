@@ -45,4 +45,11 @@ void guard_cap(const Model& model, const Kinematics& kin, const Scene& scene,
                const StepSolution& step, double time, Watch& watch,
                std::vector<std::string>& warnings);
 
+/// What the animal cannot do: warns, naming the joint, of a rest shape beyond a joint's limit by
+/// more than `guard.limit_violation`, and of muscles at their capacity. `rest_shape` and `torque`
+/// (nv) are those of the step from `time`.
+void guard_muscles(const Model& model, const Scene& scene, const Eigen::VectorXd& rest_shape,
+                   const ActiveTorque& torque, double time, Watch& watch,
+                   std::vector<std::string>& warnings);
+
 }  // namespace hagfish

@@ -18,6 +18,9 @@ Eigen::Vector3d tangent(const std::vector<ScriptKnot>& knots, std::size_t k) {
 }  // namespace
 
 double script_end(const ScriptSettings& script) {
+  if (script.kind == ScriptSettings::Kind::curvature) {
+    return script.curvature.time.back();
+  }
   return script.knots.empty() ? 0 : script.knots.back().time;
 }
 
@@ -45,10 +48,11 @@ Eigen::Vector3d script_value(const ScriptSettings& script, double time) {
 
 TipForce script_force(const ScriptSettings& script, double time, double h,
                       const Eigen::Vector3d& position, const Eigen::Vector3d& velocity) {
-  if (script.kind == ScriptSettings::Kind::none) {
+  using Kind = ScriptSettings::Kind;
+  if (script.kind == Kind::none || script.kind == Kind::curvature) {
     return {};
   }
-  if (script.kind == ScriptSettings::Kind::force) {
+  if (script.kind == Kind::force) {
     return {script_value(script, time), 0};
   }
   const TipForce implicit{script.spring * (script_value(script, time + h) - position),

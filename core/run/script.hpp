@@ -12,10 +12,11 @@ namespace hagfish {
 /// through time; constant outside.
 Eigen::Vector3d script_value(const ScriptSettings& script, double time);
 
-/// Time of the last knot, s; 0 without a script.
+/// Time of the last knot or of the curvature program's last shape, s; 0 without a script.
 double script_end(const ScriptSettings& script);
 
-/// The script's force on the last body for the step from `time` to `time + h`. A position script
+/// The script's force on the last body for the step from `time` to `time + h`; none of a curvature
+/// program. A position script
 /// pulls with a spring-damper towards its value at the end of the step, implicitly, up to
 /// largest_force, above which the force is constant within the step.
 /// `position`, `velocity`: the last body's centre, world, cm and cm/s.

@@ -32,8 +32,8 @@ class Attempt {
     record_.step = sim_.step;
     record_.time = time_of(sim_, scene_);
     record_.warnings.clear();
-    if (Status status = decide(model_, scene_, sim_.now.observation, record_.time, sim_.controller,
-                               record_.control);
+    if (Status status =
+            decide(model_, scene_, sim_.now, record_.time, sim_.controller, record_.control);
         !status.ok()) {
       return status;
     }
@@ -45,6 +45,8 @@ class Attempt {
     }
     const double travelled = looks_ahead() ? end_where_strands_meet() : h();
     sim_.solver.finish(in_, step_);
+    guard_muscles(model_, scene_, sim_.controller.rest_shape, record_.control.active, record_.time,
+                  sim_.watch, record_.warnings);
     guard_cap(model_, sim_.now.observation.kin, scene_, step_, record_.time, sim_.watch,
               record_.warnings);
     if (Status status =
@@ -62,6 +64,8 @@ class Attempt {
     record_.head_drift =
         record_.control.clamp_head ? head_drift(model_, sim_.now.observation.kin) : 0;
     record_.controller = sim_.controller;
+    record_.momentum = sim_.momentum;
+    book_momentum(model_, sim_.now.observation.kin, step_, next_, h(), sim_.momentum);
     std::swap(sim_.now, next_);
     ++sim_.step;
     return {};
@@ -198,10 +202,12 @@ Simulation start_from(const Model& model, const Scene& scene, const std::string&
                  .controller = std::move(controller),
                  .solver = StepSolver(back_end),
                  .ledger = {},
+                 .momentum = {},
                  .watch = {},
                  .before = {}};
   observe(model, sim.now.state, scene, sim.search, sim.now.observation);
   sim.ledger = open_ledger(model, sim.now);
+  sim.momentum = open_momentum(model, sim.now);
   return sim;
 }
 
@@ -220,12 +226,15 @@ void change_scene(const Model& model, const Scene& before, const Scene& scene, S
   sim.search = {};
   observe(model, sim.now.state, scene, sim.search, sim.now.observation);
   const EnergyLedger now = open_ledger(model, sim.now);
+  const Eigen::Vector3d now_momentum = linear_momentum(model, sim.now.observation.kin);
   EnergyLedger& ledger = sim.ledger;
   ledger.initial += now.initial - (ledger.kinetic + ledger.elastic + ledger.gravity);
   ledger.kinetic = now.kinetic;
   ledger.elastic = now.elastic;
   ledger.gravity = now.gravity;
   ledger.largest = std::max(ledger.largest, now.largest);
+  sim.momentum.initial += now_momentum - sim.momentum.momentum;
+  sim.momentum.momentum = now_momentum;
 }
 
 bool finished(const Simulation& sim, const Scene& scene) {

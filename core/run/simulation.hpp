@@ -8,6 +8,7 @@
 #include "core/run/controller.hpp"
 #include "core/run/energy.hpp"
 #include "core/run/guard.hpp"
+#include "core/run/momentum.hpp"
 
 namespace hagfish {
 
@@ -30,6 +31,7 @@ struct Simulation {
   ControllerState controller;
   StepSolver solver;
   EnergyLedger ledger;
+  MomentumLedger momentum;
   Watch watch;
   BeforeStep before;
 };
@@ -43,9 +45,9 @@ Simulation start_from(const Model& model, const Scene& scene, const std::string&
                       State state, ControllerState controller, std::int64_t step);
 
 /// Goes on in another scene of the same chain, with another time step at the same time: contacts
-/// are found anew, and energy that the change brings counts as there from the start. Throws
-/// std::invalid_argument where the state is not of `model`, or its time no multiple of the frame
-/// interval.
+/// are found anew, and energy and momentum that the change brings count as there from the start.
+/// Throws std::invalid_argument where the state is not of `model`, or its time no multiple of the
+/// frame interval.
 void change_scene(const Model& model, const Scene& before, const Scene& scene, Simulation& sim);
 
 inline double time_of(const Simulation& sim, const Scene& scene) {
@@ -63,9 +65,10 @@ struct StepRecord {
   ControllerState controller;
   Control control;
   StepSolution solution;
-  EnergyLedger ledger;    ///< up to `time`
-  double head_drift = 0;  ///< cm; 0 while the head is free
-  double crossing = 0;    ///< deepest overlap on the way to the next state, cm; 0 of a short way
+  EnergyLedger ledger;      ///< up to `time`
+  MomentumLedger momentum;  ///< up to `time`
+  double head_drift = 0;    ///< cm; 0 while the head is free
+  double crossing = 0;      ///< deepest overlap on the way to the next state, cm; 0 of a short way
   /// What this step gave rise to for the first time (guard.hpp).
   std::vector<std::string> warnings;
 };

@@ -21,9 +21,16 @@ enum class BendingLimit {
   cone  ///< the angle between the X axes of its two bodies
 };
 
+/// Where the body's passive stiffness and damping come from.
+enum class PassiveSource {
+  scene,    ///< ModelSettings, the same all along the body
+  specimen  ///< what is known of the animal, Specimen::bending_stiffness and so on
+};
+
 /// How the specimen becomes a chain. The passive terms are additions to the paper: it states none.
 struct ModelSettings {
   int bodies = 100;              ///< rigid bodies along the animal, 2 to 400
+  PassiveSource passive = PassiveSource::scene;
   double bending_stiffness = 0;  ///< flexural rigidity about each bending axis, dyn cm^2
   double bending_damping = 0;    ///< its rate form, dyn cm^2 s
   double twist_stiffness = 0;    ///< torsional rigidity, dyn cm^2
@@ -87,22 +94,48 @@ struct ScriptKnot {
   Eigen::Vector3d noise = Eigen::Vector3d::Zero();  ///< drawn on top of it, same unit
 };
 
-/// Scripted forward dynamics of knot forming (paper, 3.2), acting on the last body's centre.
+/// The shape that the animal gives itself through time: its curvature about Y and Z and its twist.
+/// Linear between times and between stations, constant outside.
+struct CurvatureProgram {
+  std::vector<double> time;     ///< s, rising; the first is 0
+  std::vector<double> station;  ///< share of the length from the head, 0 to 1, rising
+  /// For each time one column for each station: about Y, about Z, twist. In rad per body length,
+  /// curvature times length, so that animals of any length take the same shape.
+  std::vector<Eigen::Matrix3Xd> value;
+  std::vector<Eigen::Matrix3Xd> noise;  ///< drawn on top of it, the same unit; or empty
+};
+
+/// Scripted forward dynamics of knot forming (paper, 3.2): a force on the last body's centre, or
+/// the animal's own torques.
 struct ScriptSettings {
   enum class Kind {
     none,
-    force,    ///< the paper's: a force, linear between knots
-    position  ///< waypoints, Catmull-Rom through time, followed by a spring-damper
+    force,     ///< the paper's: a force, linear between knots
+    position,  ///< waypoints, Catmull-Rom through time, followed by a spring-damper
+    curvature  ///< the animal bends itself (addition): `curvature`, by ActiveSettings
   };
   Kind kind = Kind::none;
+  CurvatureProgram curvature;
   std::vector<ScriptKnot> knots;  ///< times rising; first one at 0
   double spring = 0;              ///< position script: dyn / cm, taken implicitly
   double damper = 0;              ///< position script: dyn s / cm, taken implicitly
   double largest_force = 0;       ///< position script: the spring-damper saturates here, dyn
-  /// Standard deviation of the normal noise on each coordinate of each knot, cm or dyn: no animal
-  /// does the same thing twice.
+  /// Standard deviation of the normal noise on each coordinate of each knot, cm or dyn, or on each
+  /// value of a curvature program, rad per body length: no animal does the same thing twice.
   double noise = 0;
   unsigned noise_seed = 1;  ///< which draw
+};
+
+/// How the animal's own torques bend it, where the script is a curvature program (addition): each
+/// hinge is pulled towards its angle in a rest shape. While the knot forms, the program is the rest
+/// shape; then muscle tone follows the shape that the knot takes, until release lets it go.
+struct ActiveSettings {
+  double stiffness = 0;   ///< towards the rest shape, B_a, dyn cm^2: per hinge, over hinge_span()
+  double tone_time = 0;   ///< time constant by which the rest shape follows the body, tau, s
+  double relax_time = 0;  ///< by which it becomes straight from release on, s
+  /// Torque of one hinge that the muscles can make, dyn cm: above it the torque is constant within
+  /// the step, and the run reports it.
+  double capacity = 0;
 };
 
 /// Commanded speeds of Eq. 6 at one contact, cm/s.
@@ -254,6 +287,7 @@ struct Scene {
   WallSettings wall;
   StartSettings start;
   ScriptSettings script;
+  ActiveSettings active;
   ControllerSettings controller;
   KnotSettings knot;
   TimeSettings time;

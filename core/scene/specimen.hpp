@@ -1,4 +1,5 @@
-// The measured animal: what Table 1 of the paper lists, and nothing of the simulation.
+// The measured animal: what Table 1 of the paper lists, its passive stiffness, and nothing of the
+// simulation.
 #pragma once
 
 #include <string>
@@ -6,7 +7,7 @@
 
 namespace hagfish {
 
-/// A measured specimen (paper, Table 1). Profiles are linear between stations and constant outside.
+/// A measured specimen (paper, Table 1; what that does not have, by other sources). Profiles are linear between stations and constant outside.
 struct Specimen {
   std::string name;
   double length = 0;            ///< head to tail, cm
@@ -20,10 +21,17 @@ struct Specimen {
   /// Measured on the whole body, rad. Each revolute joint may turn by this over the number of
   /// bodies to each side (Table 1), and every second joint is one.
   double twist_limit = 0;
+  /// How the dead body resists bending and twisting, at the stations; empty where it was never
+  /// measured and not guessed either. Flexural and torsional rigidity, dyn cm^2, and their rate
+  /// forms, dyn cm^2 s.
+  std::vector<double> bending_stiffness, bending_damping, twist_stiffness, twist_damping;
 };
 
 /// Value at `fraction` of the length of a profile given at `station`.
 double profile(const std::vector<double>& station, const std::vector<double>& value,
                double fraction);
+
+/// Diameter of a circle of the circumference, its mean along the body, cm.
+double mean_diameter(const Specimen& specimen);
 
 }  // namespace hagfish

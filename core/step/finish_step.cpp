@@ -46,7 +46,7 @@ double stationarity(const Model& model, const Kinematics& kin, double h, StepScr
   Eigen::VectorXd& change = scratch.change;  // H q̇
   multiply(model, kin, system.op, step.qdot, step.twist, scratch.wrench, change);
   scale = std::max(scale, change.lpNorm<Eigen::Infinity>());
-  step.net_force = (change - momentum) / h;
+  step.net_force = (change - momentum) / h + step.active_torque;
   step.force.total(scratch.impulse);
   scratch.impulse *= h;
   scale = std::max(scale, scratch.impulse.lpNorm<Eigen::Infinity>());
@@ -108,6 +108,12 @@ void StepSolver::keep_active(const StepSolution& step) {
 
 void StepSolver::finish(const StepInput& in, StepSolution& step) {
   scale_multipliers(scratch_, step);
+  const ActiveTorque& active = in.control.active;
+  if (active.value.size() > 0) {
+    step.active_torque = active.value - active.rate.cwiseProduct(step.qdot);
+  } else {
+    step.active_torque.setZero(in.model.nv());
+  }
   measure(in, step);
   keep_active(step);
   step.active = static_cast<int>((step.lambda.array() != 0).count());

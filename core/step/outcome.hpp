@@ -22,8 +22,10 @@ enum class Outcome : std::uint8_t {
   tunnelled,      ///< strands passed through each other: deeper at or between steps than any radius
   stopped,        ///< it was asked to, or took longer than it may
   not_applicable,  ///< the scene needs what the simulator in question does not have
+  overbent,        ///< a curvature program bends a joint further than it goes
+  saturated,       ///< muscles make all the torque that they can
 };
-inline constexpr int outcome_count = 14;
+inline constexpr int outcome_count = 16;
 /// "ok", "non-finite", "energy gain", ...
 const char* outcome_name(Outcome outcome);
 

@@ -55,6 +55,7 @@ Status StepSolver::begin(const StepInput& in, StepSolution& step) {
   }
   assemble_step_system(in.model, in.state, in.observation.kin, in.control.tip, in.scene.time.step,
                        step.system);
+  add_active_torque(in.control.active, in.scene.time.step, step.system);
   gather_rows(in, step.rows);
   prescribe_rows(warm, step.rows);
   step.kind = SolveKind::linear;

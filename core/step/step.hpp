@@ -26,6 +26,7 @@ struct Control {
   bool clamp_head = true;
   TipForce tip;
   std::vector<ThigmotaxisCommand> thigmotaxis;  ///< none, or first and last contact
+  ActiveTorque active = {};
 };
 
 /// All that a step depends on, but for the warm start.
@@ -60,6 +61,7 @@ struct StepSolution {
   Eigen::Matrix3Xd centre_velocity;  ///< of the bodies' centres at it, 3 x N, cm/s
   ConstraintForces force;
   Eigen::Vector3d tip = Eigen::Vector3d::Zero();  ///< tip force as applied, dyn, world
+  Eigen::VectorXd active_torque;  ///< active torque as applied, dyn cm, nv; 0 at the root
   SolveKind kind = SolveKind::linear;
   std::vector<Row> rows;        ///< rows that entered the problem, in the order of place_in_step
   Eigen::Index prescribed = 0;  ///< how many of them, the first, are prescribed
@@ -69,7 +71,8 @@ struct StepSolution {
   int iterations = 0;           ///< of the back end, all rounds together
   /// QP rounds: each adds violated rows and releases prescribed limits with λ < 0.
   int rounds = 0;
-  /// (H q̇ - g) / h: what the forces of all rows add up to, from the motion alone, nv.
+  /// (H q̇ - g) / h but for the active torque: what this and the forces of all rows add up to, from
+  /// the motion alone, nv.
   Eigen::VectorXd net_force;
   double stationarity = 0;  ///< |H q̇ - g - C'λ| over the largest of these three, infinity norms
   KktResiduals kkt;    ///< of the rows not prescribed, on the scale of all; the others are exact

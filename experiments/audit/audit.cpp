@@ -81,7 +81,8 @@ Eigen::ArrayXd mechanical_energy(const LogContents& log) {
 
 Finding energy_gain(const LogContents& log) {
   const Eigen::ArrayXd energy = mechanical_energy(log);
-  const Eigen::ArrayXd put_in = diagnostic(log, "work_tip") + diagnostic(log, "work_thigmotaxis");
+  const Eigen::ArrayXd put_in = diagnostic(log, "work_tip") + diagnostic(log, "work_active") +
+                                diagnostic(log, "work_thigmotaxis");
   EnergyGain gain(energy[0]);
   for (Eigen::Index f = 0; f < energy.size(); ++f) {
     gain.see(energy[f], put_in[f]);
@@ -93,7 +94,7 @@ Finding energy_gain(const LogContents& log) {
 Finding energy(const LogContents& log) {
   const auto get = [&](const char* name) { return diagnostic(log, name); };
   const Eigen::ArrayXd energy = mechanical_energy(log);
-  const Eigen::ArrayXd works = get("work_tip") + get("work_thigmotaxis") + get("work_contact") +
+  const Eigen::ArrayXd works = get("work_tip") + get("work_active") + get("work_thigmotaxis") + get("work_contact") +
                                get("work_limit") + get("work_head") + get("work_wall");
   const Eigen::ArrayXd error = get("integrator_error");
   const Eigen::ArrayXd dissipated = get("dissipated");
@@ -108,6 +109,39 @@ Finding energy(const LogContents& log) {
                               works[works.size() - 1], dissipated[dissipated.size() - 1],
                               error[error.size() - 1]);
   return finding;
+}
+
+/// What happens to linear momentum; where nothing holds or pulls the animal, that nothing does.
+std::vector<Finding> momentum(const LogContents& log) {
+  const auto get = [&log](const char* name) {
+    return log.h5.rows(std::string("/diagnostics/") + name);
+  };
+  const Hdf5Reader::Rows momentum = get("momentum");
+  const Hdf5Reader::Rows drag = get("impulse_drag");
+  const Hdf5Reader::Rows outside = get("impulse_outside");
+  const Hdf5Reader::Rows integrator = get("integrator_momentum");
+  const auto most = [](const Hdf5Reader::Rows& rows) {
+    return rows.allFinite() ? rows.cwiseAbs().maxCoeff() : INFINITY;
+  };
+  const Hdf5Reader::Rows off =
+      (momentum - drag - outside - integrator).rowwise() - momentum.row(0).eval();
+  const double passed = std::max({most(momentum), most(drag), most(outside)});
+  const double relative = passed > 0 ? most(off) / passed : most(off);
+  Finding finding = judged_over({"momentum ledger", relative, log.resolved.scene.expect.energy,
+                                 "of the momentum that passed"});
+  finding.text += fmt::format("; at most {:.3g} dyn s by drag, {:.3g} from outside, {:.3g} the "
+                              "integrator's own",
+                              most(drag), most(outside), most(integrator));
+  std::vector<Finding> findings{finding};
+  const Scene& scene = log.resolved.scene;
+  using Kind = ScriptSettings::Kind;
+  const bool free = !scene.clamp_head && !scene.wall.present && scene.gravity.isZero(0) &&
+                    (scene.script.kind == Kind::none || scene.script.kind == Kind::curvature);
+  if (free) {
+    findings.push_back(judged_over({"nothing outside", most(outside), 0, "dyn s"},
+                                   "no clamp, plate, gravity or tip force"));
+  }
+  return findings;
 }
 
 }  // namespace
@@ -165,6 +199,7 @@ std::vector<Finding> audit(const std::string& file) {
   findings.push_back(thigmotaxis_extent(log));
   findings.push_back(energy(log));
   findings.push_back(energy_gain(log));
+  append(momentum(log));
   findings.push_back(audit_checkpoints(log));
   return findings;
 }

@@ -15,10 +15,10 @@ namespace hagfish {
 
 namespace {
 
-/// All constraint forces of each frame, generalised.
-Hdf5Reader::Rows constraint_forces(const LogContents& log) {
+/// All forces of each frame but the tip's, generalised.
+Hdf5Reader::Rows generalised_forces(const LogContents& log) {
   Hdf5Reader::Rows sum = log.h5.rows("/forces/thigmotaxis");
-  for (const char* block : {"contact", "limit", "head", "wall"}) {
+  for (const char* block : {"contact", "limit", "head", "wall", "active"}) {
     sum += log.h5.rows(std::string("/forces/") + block);
   }
   return sum;
@@ -35,7 +35,7 @@ Finding audit_forward_inverse(const LogContents& log) {
     throw FileError(log.h5.file() + ": /mjcf is not the scene's model: " + difference);
   }
   use_core_rule(mirror);
-  const Hdf5Reader::Rows sum = constraint_forces(log);
+  const Hdf5Reader::Rows sum = generalised_forces(log);
   const Hdf5Reader::Rows tip = log.h5.rows("/forces/tip");
   double largest_error = 0;
   for (Eigen::Index f = 0; f < log.q.rows(); ++f) {

@@ -74,6 +74,7 @@ FrameAudit::FrameAudit(const LogContents& log)
       limit_violation_(log.h5.doubles("/steps/limit_violation")),
       head_drift_(log.h5.doubles("/steps/head_drift")),
       position_(log.h5.rows("/trajectory/position")),
+      momentum_(log.h5.rows("/diagnostics/momentum")),
       spline_a_(log.h5.rows("/thigmotaxis/spline_a")),
       spline_b_(log.h5.rows("/thigmotaxis/spline_b")),
       last_order_(phase_order(log.resolved.scene.start.phase)) {}
@@ -129,6 +130,8 @@ void FrameAudit::see_energy(const AuditedFrame& frame) {
                   elastic_energy(log_.model, frame.state.q));
   by_itself_.compare("/diagnostics/integrator_error", integrator_error_[f], integrator_[f]);
   from_q_.compare("/diagnostics/gravity_energy", gravity_[f], gravity_energy(log_.model, kin));
+  from_q_.compare("/diagnostics/momentum", momentum_.row(f).transpose(),
+                  linear_momentum(log_.model, kin));
 }
 
 void FrameAudit::see_bounds(const AuditedFrame& frame) {

@@ -76,14 +76,16 @@ def commands_for(kind, file, slow, overrides=()):
     """Every subcommand that reads such a file; `slow` ones too where asked."""
     if kind.startswith("log"):
         yield ["info", file]
-        yield ["check", file, "--csv", "check.csv"]
+        yield ["check", file, "--csv", "check.csv", "--force"]
         yield ["playback", file, "--out", "playback.h5", "--force"]
         yield ["branch", file, "--out", "branch.h5", "--quiet", "--force"]
         if slow:
             yield ["info", file, "--json"]
-            yield ["picture", file, "--out", "picture.png"]
+            yield ["picture", file, "--out", "picture.png", "--force"]
+            yield ["program", file, "--out", "program.csv", "--force", "--stations", "4", "--times", "3"]
+            yield ["branch", file, "--out", "branch.h5", "--force", "--quiet"]
     elif kind.startswith("qp"):
-        yield ["qp", file, "--repeat", "1", "--backend", "active-set", "--csv", "qp.csv"]
+        yield ["qp", file, "--repeat", "1", "--backend", "active-set", "--csv", "qp.csv", "--force"]
         if slow:
             yield ["qp", file, "--repeat", "1"]
     else:

@@ -34,7 +34,8 @@ class ControllerTest : public testing::Test {
   Scene scene = table1_scene();
   Model model = table1_hagfish();
   ControllerState state;
-  Observation observation;
+  Moment moment;
+  Observation& observation = moment.observation;
   double now = 0;
 
   ControllerTest() {
@@ -50,7 +51,8 @@ class ControllerTest : public testing::Test {
     scene.controller.release_at = 1.908;
     scene.knot.interval = 0.01;
     scene.time.step = 0.002;
-    observation.kin = kinematics(model, rest_state(model));
+    moment.state = rest_state(model);
+    observation.kin = kinematics(model, moment.state);
     observation.segments = spline(model, observation.kin.centre);
   }
 
@@ -66,7 +68,7 @@ class ControllerTest : public testing::Test {
   Control step(std::vector<Contact> contacts) {
     observation.contact.contacts = std::move(contacts);
     Control control;
-    const Status status = decide(model, scene, observation, now, state, control);
+    const Status status = decide(model, scene, moment, now, state, control);
     if (!status.ok()) throw StepError(status);
     now += scene.time.step;
     return control;

@@ -80,6 +80,7 @@ class Comparison {
     for (const RowKind kind : row_kinds) {
       same("force", s.force[kind].cwiseProduct(parity_).eval(), image.force[kind]);
     }
+    same("active torque", s.active_torque.cwiseProduct(parity_).eval(), image.active_torque);
     same("tip force", s.tip.cwiseProduct(flip).eval(), image.tip);
     same("stationarity", s.stationarity, image.stationarity);
     same("kkt", s.kkt.worst(), image.kkt.worst());
@@ -123,7 +124,7 @@ class Comparison {
 
   void ledger(const EnergyLedger& l, const EnergyLedger& image) {
     for (auto part : {&EnergyLedger::kinetic, &EnergyLedger::elastic, &EnergyLedger::gravity,
-                      &EnergyLedger::work_tip, &EnergyLedger::dissipated,
+                      &EnergyLedger::work_tip, &EnergyLedger::work_active, &EnergyLedger::dissipated,
                       &EnergyLedger::integrator_inertia, &EnergyLedger::integrator_potential,
                       &EnergyLedger::integrator_coriolis, &EnergyLedger::integrator_held}) {
       same("energy", l.*part, image.*part);
@@ -180,11 +181,11 @@ TEST_P(MirrorImage, IsTheReflectionOfTheRunToTheLastBit) {
 
 INSTANTIATE_TEST_SUITE_P(BuiltIn, MirrorImage,
                          testing::Values("table1", "figure_eight", "double_overhand", "three_twist",
-                                         "overhand_waypoints", "overhand_reverse"),
+                                         "overhand_waypoints", "overhand_reverse", "living_three_twist"),
                          [](const auto& scene) { return std::string(scene.param); });
 
 TEST(MirrorImageOf, NoiseAndGravityToo) {
-  for (const char* name : {"table1", "double_overhand"}) {
+  for (const char* name : {"table1", "double_overhand", "living_overhand"}) {
     expect_reflection(name, {"script.noise=0.2", "gravity=[3, 20, -5]"}, 7);
   }
 }

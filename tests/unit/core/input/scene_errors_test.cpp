@@ -132,7 +132,8 @@ TEST(SceneErrors, RefusesScriptsOutOfOrder) {
 TEST(SceneErrors, RefusesScriptsOfTheWrongKind) {
   const std::string knots = "knots = [[0, 1, 2, 3], [1, 1, 2, 3]]\n";
   EXPECT_EQ(scene_complaint("[script]\nkind = 'pull'\n"),
-            "s.toml:2: script.kind = 'pull': must be one of \"none\", \"force\", \"position\"");
+            "s.toml:2: script.kind = 'pull': must be one of \"none\", \"force\", \"position\", "
+            "\"curvature\"");
   EXPECT_EQ(scene_complaint("[script]\nkind = 'force'\nunit = 'L'\n" + knots),
             "s.toml:3: script.unit = 'L': forces are in \"dyn\"");
   EXPECT_EQ(scene_complaint("[script]\nkind = 'position'\nunit = 'dyn'\n" + knots),

@@ -47,6 +47,31 @@ TEST(SceneReader, WaypointFileIsInBodyLengths) {
   EXPECT_EQ(scene.script.knots[2].value, Eigen::Vector3d(0.849, 0.283, 0) * 42.4);
 }
 
+TEST(SceneReader, LengthsMayBeSharesOfTheBodyOrDiameters) {
+  // Of 40 cm; 5 and 4 cm around at a fifth from either end, linear between: 4.5 in the mean.
+  const auto [scene, specimen] = read_scene_text(
+      "[controller]\ntail_through = \"0.25 L\"\ntight_span = \"12 D\"\nrelease_at = 2\n"
+      "[contact]\nleast_arc = \"1.5 D\"\n" + plain_scene,
+      "s", {"wall.neck=0.1 L"});
+  EXPECT_EQ(scene.controller.tail_through, 10);
+  EXPECT_NEAR(scene.controller.tight_span, 12 * 4.5 / 3.14159265358979, 1e-12);
+  EXPECT_NEAR(scene.contact.least_arc, 1.5 * 4.5 / 3.14159265358979, 1e-13);
+  EXPECT_EQ(scene.controller.release_at, 2);
+  EXPECT_EQ(scene.wall.neck, 4);
+}
+
+TEST(SceneReader, TellsLengthsThatAreNone) {
+  const std::string wanted =
+      "must be a number of cm, or as \"0.2 L\" or \"12 D\", of body lengths or mean diameters";
+  for (const char* text : {"\"L\"", "\"0.2\"", "\"0.2 M\"", "\"0.2 L long\"", "\"\""}) {
+    const std::string complaint =
+        scene_complaint("[controller]\ntail_through = " + std::string(text) + "\n");
+    EXPECT_NE(complaint.find(wanted), std::string::npos) << complaint;
+  }
+  EXPECT_EQ(scene_complaint("[controller]\ntight_span = \"-1 L\"\n"),
+            "s.toml:2: controller.tight_span = \"-1 L\": must be positive");
+}
+
 TEST(SceneReader, OverridesReachSceneAndSpecimen) {
   const auto [scene, specimen] =
       read_scene(data + "/table1.toml",

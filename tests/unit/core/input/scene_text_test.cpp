@@ -23,9 +23,9 @@ class Bits {
   Bits(const Scene& scene, const Specimen& specimen) {
     // The name of the specimen's file is not written.
     const auto& [title, file, mirror, clamp_head, gravity, model, drag, constraints, contact, wall,
-                 start, script, controller, knot, time, guard, expect] = scene;
+                 start, script, active, controller, knot, time, guard, expect] = scene;
     add(title, mirror, clamp_head, gravity, model, drag, constraints, contact, wall, start, script,
-        controller, knot, time, guard, expect, specimen);
+        active, controller, knot, time, guard, expect, specimen);
   }
   bool operator==(const Bits&) const = default;
 
@@ -44,14 +44,14 @@ class Bits {
     put(values.size());
     for (const T& value : values) put(value);
   }
-  template <int size>
-  void put(const Eigen::Matrix<double, size, 1>& values) {
-    for (const double value : values) put(value);
+  template <int rows, int columns>
+  void put(const Eigen::Matrix<double, rows, columns>& values) {
+    for (const double value : values.reshaped()) put(value);
   }
   void put(const ModelSettings& s) {
-    const auto& [bodies, bending_stiffness, bending_damping, twist_stiffness, twist_damping,
+    const auto& [bodies, passive, bending_stiffness, bending_damping, twist_stiffness, twist_damping,
                  largest_limit, limit_scale, mass_ratio, bending_limit] = s;
-    add(bodies, bending_stiffness, bending_damping, twist_stiffness, twist_damping, largest_limit,
+    add(bodies, passive, bending_stiffness, bending_damping, twist_stiffness, twist_damping, largest_limit,
         limit_scale, mass_ratio, bending_limit);
   }
   void put(const DragSettings& s) {
@@ -74,9 +74,17 @@ class Bits {
     const auto& [time, value, noise] = s;
     add(time, value, noise);
   }
+  void put(const CurvatureProgram& s) {
+    const auto& [time, station, value, noise] = s;
+    add(time, station, value, noise);
+  }
   void put(const ScriptSettings& s) {
-    const auto& [kind, knots, spring, damper, largest_force, noise, noise_seed] = s;
-    add(kind, knots, spring, damper, largest_force, noise, noise_seed);
+    const auto& [kind, curvature, knots, spring, damper, largest_force, noise, noise_seed] = s;
+    add(kind, curvature, knots, spring, damper, largest_force, noise, noise_seed);
+  }
+  void put(const ActiveSettings& s) {
+    const auto& [stiffness, tone_time, relax_time, capacity] = s;
+    add(stiffness, tone_time, relax_time, capacity);
   }
   void put(const ThigmotaxisSpeeds& s) {
     const auto& [a, b] = s;
@@ -121,8 +129,10 @@ class Bits {
   }
   void put(const Specimen& s) {
     const auto& [name, length, mass, station, circumference, bending_limit, bending_span,
-                 twist_limit] = s;
-    add(name, length, mass, station, circumference, bending_limit, bending_span, twist_limit);
+                 twist_limit, bending_stiffness, bending_damping, twist_stiffness, twist_damping] =
+        s;
+    add(name, length, mass, station, circumference, bending_limit, bending_span, twist_limit,
+        bending_stiffness, bending_damping, twist_stiffness, twist_damping);
   }
 
   std::vector<std::uint64_t> bits_;
@@ -137,7 +147,8 @@ ResolvedScene odd_scene() {
   s.title = "odd \"title\"";
   s.clamp_head = false;
   s.gravity = {odd(), -odd(), odd()};
-  s.model = {7, odd(), odd(), odd(), odd(), odd(), odd(), odd(), BendingLimit::cone};
+  s.model = {7, PassiveSource::specimen, odd(), odd(), odd(), odd(), odd(), odd(), odd(),
+             BendingLimit::cone};
   s.drag = {odd(), odd()};
   s.constraints = {Activation::violated, odd()};
   s.contact = {odd(), odd()};
@@ -147,6 +158,7 @@ ResolvedScene odd_scene() {
   s.script.spring = odd();
   s.script.damper = odd();
   s.script.largest_force = odd();
+  s.active = {odd(), odd(), odd(), odd()};
   s.controller = {{odd(), odd()}, {odd(), odd()}, {odd(), odd()}, {odd(), odd()}, {odd(), odd()},
                   {odd(), odd()}, BodyEnd::tail,  Phase::tighten, odd(),          odd(),
                   odd(),          odd(),          odd(),          odd(),          odd(),
@@ -184,14 +196,16 @@ ResolvedScene odd_scene() {
   s.start.phase = Phase::slide;
   result.specimen = {
       "odd", 50 + odd(), odd(), {odd(), odd(), odd()}, {odd(), odd(), odd()}, {odd(), odd(), odd()},
-      odd(), odd()};
+      odd(), odd(), {odd(), odd(), odd()}, {odd(), odd(), odd()}, {odd(), odd(), odd()},
+      {odd(), odd(), odd()}};
   return result;
 }
 
 TEST(SceneText, ResolvedTextGivesTheSameScene) {
   for (const auto& [scene, specimen] : {odd_scene(), read_scene(data + "/table1.toml"),
                                         read_scene(data + "/overhand_waypoints.toml"),
-                                        read_scene(data + "/overhand_reverse.toml")}) {
+                                        read_scene(data + "/overhand_reverse.toml"),
+                                        read_scene(data + "/living_overhand_free.toml")}) {
     const std::string text = scene_to_toml(scene, specimen);
     const ResolvedScene again = read_scene_text(text, "resolved");
     EXPECT_TRUE(Bits(again.scene, again.specimen) == Bits(scene, specimen));
@@ -210,6 +224,13 @@ TEST(SceneText, ResolvedTextOfAMirroredNoisySceneGivesTheSameScene) {
   EXPECT_TRUE(Bits(again.scene, again.specimen) == Bits(scene, specimen));
   EXPECT_EQ(again.scene.expect.types.at(2).type, "5_1");
   EXPECT_EQ(scene_to_toml(again.scene, again.specimen), text);
+}
+
+TEST(SceneText, ResolvedTextOfAMirroredNoisyProgramGivesTheSameScene) {
+  const auto [scene, specimen] =
+      read_scene(data + "/living_three_twist.toml", {"mirror=true", "script.noise=0.3"});
+  const ResolvedScene again = read_scene_text(scene_to_toml(scene, specimen), "resolved");
+  EXPECT_TRUE(Bits(again.scene, again.specimen) == Bits(scene, specimen));
 }
 
 TEST(SceneText, DefaultsAreThoseOfSettings) {

@@ -48,6 +48,16 @@ struct BookedRun {
   StepSolver solver{"ipopt"};
 };
 
+/// Torques of muscles at every hinge, some stiff.
+ActiveTorque muscles(const Model& model) {
+  Random random(9);
+  ActiveTorque torque{random_entries(random, model.nv(), 500),
+                      random_entries(random, model.nv(), 50).cwiseAbs()};
+  torque.value.head<root_dofs>().setZero();
+  torque.rate.head<root_dofs>().setZero();
+  return torque;
+}
+
 /// Everything on: gravity, drag, stiffness, damping, limits, a head plate and a pulled tail.
 BookedRun busy_run(unsigned seed, double h) {
   Random random(seed);
@@ -67,11 +77,12 @@ TEST(Energy, LedgerClosesWithEveryKindOfForce) {
   for (const double h : {5e-4, 2e-3, 1e-2}) {
     BookedRun run = busy_run(1, h);
     for (int k = 0; k < 100; ++k) {
-      run.step({true, {{200, 300, -100}, 0}, {}});
+      run.step({true, {{200, 300, -100}, 0}, {}, muscles(run.model)});
     }
     // Rounding of 100 booked steps, each exact to some 1e-14 of what passes.
     EXPECT_LE(std::abs(run.ledger.imbalance()), 1e-11 * run.throughput()) << "h = " << h;
     EXPECT_NE(run.ledger.work_tip, 0);
+    EXPECT_NE(run.ledger.work_active, 0);
     EXPECT_NE(run.ledger.work(RowKind::limit), 0);
     EXPECT_GT(run.ledger.dissipated, 0);
   }

@@ -86,6 +86,31 @@ TEST(Guard, StopsAtSpeed) {
   message_of(Outcome::speed, guard_speed(velocity, guard));
 }
 
+TEST(Guard, TellsOnceWhatMusclesCannotDo) {
+  const Model model = table1_hagfish();
+  Scene scene = table1_scene();
+  scene.active.capacity = 1e5;
+  Eigen::VectorXd rest = Eigen::VectorXd::Zero(model.nv());
+  ActiveTorque torque{rest, Eigen::VectorXd::Ones(model.nv())};
+  Watch watch;
+  std::vector<std::string> warnings;
+  const auto look = [&] { guard_muscles(model, scene, rest, torque, 1, watch, warnings); };
+  torque.value[8] = 1e5;  // elastic: at the capacity by chance, not held there
+  rest[7] = model.hinges[1].upper + 0.01;  // within what a fitted program may pass a limit by
+  look();
+  EXPECT_TRUE(warnings.empty());
+  rest[7] = model.hinges[1].lower - 0.3;
+  torque.rate[8] = 0;
+  look();
+  look();
+  ASSERT_EQ(warnings.size(), 2u);
+  EXPECT_EQ(warnings[0].find("the curvature program bends " + dof_name(model, 7) + " to -"), 0u)
+      << warnings[0];
+  EXPECT_NE(warnings[0].find(" at 1.00 s"), std::string::npos) << warnings[0];
+  EXPECT_EQ(warnings[1].find(dof_name(model, 8) + " takes all of active.capacity = 100000"), 0u)
+      << warnings[1];
+}
+
 /// The knot with thigmotaxis rows at one of its contacts, twice, and three limits.
 struct CappedRow {
   CappedRow() {

@@ -46,6 +46,30 @@ TEST(Step, IsBilateralWhereOnlyTheHeadIsClamped) {
   EXPECT_LT(relative_error(step.qdot, paper.qdot), 1e-8);
 }
 
+TEST(Step, TakesActiveTorquesImplicitly) {
+  for (const unsigned seed : {95U, 96U}) {
+    Stage s = knotted(seed, 1);
+    Random random(seed);
+    ActiveTorque& active = s.control.active;
+    active.value = random_entries(random, s.model.nv(), 1e5);
+    active.rate = random_entries(random, s.model.nv(), 1e3).cwiseAbs();
+    active.value.head<root_dofs>().setZero();
+    active.rate.head<root_dofs>().setZero();
+    const StepSolution step = s.solve();
+    expect_optimal(s, step);
+    // The paper's step, dense, with the torques in f and their rates in D.
+    EXPECT_LT(relative_error(step.qdot, paper_velocity(s)), 1e-6);
+    const Eigen::VectorXd applied = active.value - active.rate.cwiseProduct(step.qdot);
+    EXPECT_EQ(step.active_torque, applied);
+    EXPECT_TRUE(step.active_torque.head<root_dofs>().isZero(0));
+    // What is left of the motion's force without it is the rows'.
+    EXPECT_LT(relative_error(step.net_force - applied, step.force.total()), 1e-8);
+    const Kinematics kin = kinematics(s.model, s.state);
+    const Eigen::MatrixXd h = dense(s.model, kin, step.system.op);
+    EXPECT_EQ(h, h.transpose());
+  }
+}
+
 TEST(Step, IsAQuadraticProgramWhereARowCanBind) {
   Stage s = knotted(91, 0.5);
   const StepSolution step = s.solve();

@@ -31,10 +31,12 @@ constexpr const char* named_by_themselves[] = {"/checkpoints/step",
                                                "/diagnostics/kinetic_energy",
                                                "/diagnostics/kkt_worst",
                                                "/diagnostics/limit_violation",
+                                               "/diagnostics/momentum",
                                                "/diagnostics/penetration",
                                                "/diagnostics/qp_time",
                                                "/diagnostics/rows",
                                                "/diagnostics/solve",
+                                               "/forces/active",
                                                "/forces/contact",
                                                "/forces/thigmotaxis",
                                                "/forces/tip",
@@ -63,6 +65,7 @@ constexpr const char* named_by_themselves[] = {"/checkpoints/step",
                                                "/thigmotaxis/slack",
                                                "/thigmotaxis/speed",
                                                "/trajectory/phase",
+                                               "/trajectory/q_ref",
                                                "/trajectory/position",
                                                "/trajectory/step",
                                                "/trajectory/time",
@@ -77,14 +80,17 @@ const std::map<std::string, std::string>& watchers() {
       watch[path] = path;
     }
     // By what is rebuilt from them, or summed with them.
-    for (const char* name : {"work_tip", "work_thigmotaxis", "work_contact", "work_limit",
+    for (const char* name : {"impulse_drag", "impulse_outside", "integrator_momentum"}) {
+      watch[std::string("/diagnostics/") + name] = "momentum ledger";
+    }
+    for (const char* name : {"work_tip", "work_active", "work_thigmotaxis", "work_contact", "work_limit",
                              "work_head", "work_wall", "dissipated"}) {
       watch[std::string("/diagnostics/") + name] = "energy ledger";
     }
     for (const char* name : {"inertia", "potential", "coriolis", "held"}) {
       watch[std::string("/diagnostics/integrator_") + name] = "/diagnostics/integrator_error";
     }
-    for (const char* name : {"thigmotaxis", "contact", "limit", "head", "wall", "net"}) {
+    for (const char* name : {"thigmotaxis", "contact", "limit", "head", "wall", "active", "net"}) {
       watch[std::string("/mean/forces/") + name] = "balance of means";
     }
     for (const char* name : {"kkt_stationarity", "kkt_primal", "kkt_complementarity"}) {

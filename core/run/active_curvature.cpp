@@ -1,0 +1,100 @@
+#include "core/run/active_curvature.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hagfish {
+namespace {
+
+/// Where `x` lies among rising `knots`: the one at or before it, and the share of the way to the
+/// next.
+struct Place {
+  std::size_t index = 0;
+  double share = 0;
+};
+
+Place place_among(const std::vector<double>& knots, double x) {
+  if (x <= knots.front() || knots.size() == 1) return {0, 0};
+  if (x >= knots.back()) return {knots.size() - 2, 1};
+  const auto next = std::ranges::upper_bound(knots, x);
+  const auto k = static_cast<std::size_t>(next - knots.begin()) - 1;
+  return {k, (x - knots[k]) / (knots[k + 1] - knots[k])};
+}
+
+/// The program's values at `time`, 3 x stations, rad per body length.
+Eigen::Matrix3Xd values_at(const CurvatureProgram& program, double time) {
+  const auto at = [&program](std::size_t k) -> Eigen::Matrix3Xd {
+    return program.noise.empty() ? program.value[k] : program.value[k] + program.noise[k];
+  };
+  const Place place = place_among(program.time, time);
+  if (place.share == 0) return at(place.index);
+  return (1 - place.share) * at(place.index) + place.share * at(place.index + 1);
+}
+
+/// Length of body that a hinge stands for, cm.
+double span_of(const Model& model, const Hinge& hinge) {
+  return hinge_span(model.body_count(), model.bodies[hinge.body].length, hinge.body);
+}
+
+}  // namespace
+
+Eigen::VectorXd program_shape(const Model& model, const CurvatureProgram& program, double time) {
+  const Eigen::Matrix3Xd values = values_at(program, time);
+  const double length = model.length();
+  Eigen::VectorXd shape = Eigen::VectorXd::Zero(model.nv());
+  for (std::size_t k = 0; k < model.hinges.size(); ++k) {
+    const Hinge& hinge = model.hinges[k];
+    const Place place =
+        place_among(program.station, static_cast<double>(hinge.body) / model.body_count());
+    // Columns are about Y, about Z, twist.
+    const int row = (static_cast<int>(hinge.axis) + 2) % 3;
+    const auto j = static_cast<Eigen::Index>(place.index);
+    double value = values(row, j);
+    if (place.share > 0) value += place.share * (values(row, j + 1) - values(row, j));
+    shape[root_dofs + static_cast<Eigen::Index>(k)] = span_of(model, hinge) / length * value;
+  }
+  return shape;
+}
+
+void move_rest_shape(const Model& model, const Scene& scene, Phase phase, const Eigen::VectorXd& q,
+                     double time, Eigen::VectorXd& rest) {
+  const double h = scene.time.step;
+  const auto count = static_cast<Eigen::Index>(model.hinges.size());
+  const auto angles = q.tail(count);
+  if (phase == Phase::form) {
+    rest = program_shape(model, scene.script.curvature, time + h);
+    return;
+  }
+  if (rest.size() == 0) {
+    rest = Eigen::VectorXd::Zero(model.nv());
+    rest.tail(count) = angles;
+  }
+  if (phase == Phase::release || phase == Phase::free) {
+    rest *= std::exp(-h / scene.active.relax_time);
+  } else {
+    const double kept = std::exp(-h / scene.active.tone_time);
+    rest.tail(count) = angles + kept * (rest.tail(count) - angles);
+  }
+}
+
+ActiveTorque active_torque(const Model& model, const Scene& scene, const State& state,
+                           const Eigen::VectorXd& rest) {
+  const double h = scene.time.step;
+  const double capacity = scene.active.capacity;
+  ActiveTorque torque{Eigen::VectorXd::Zero(model.nv()), Eigen::VectorXd::Zero(model.nv())};
+  for (int k = root_dofs; k < model.nv(); ++k) {
+    const Hinge& hinge = model.hinges[k - root_dofs];
+    const double stiffness = scene.active.stiffness / span_of(model, hinge);
+    const double value = stiffness * (rest[k] - state.q[k + 1]) + hinge.stiffness * rest[k];
+    const double expected = value - h * stiffness * state.qdot[k];
+    if (std::abs(expected) <= capacity) {
+      torque.value[k] = value;
+      torque.rate[k] = h * stiffness;
+    } else {
+      torque.value[k] = std::copysign(capacity, expected);
+    }
+  }
+  return torque;
+}
+
+}  // namespace hagfish

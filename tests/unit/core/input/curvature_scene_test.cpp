@@ -1,0 +1,131 @@
+// Curvature programs in scenes: from a CSV file or a table, with noise and mirror images, and what
+// is said of those that are wrong.
+#include <gtest/gtest.h>
+
+#include "core/input/builtin_files.hpp"
+#include "core/input/curvature_csv.hpp"
+#include "tests/support/plain_scene.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace hagfish {
+namespace {
+
+const std::string active =
+    "[active]\nstiffness = 2e5\ntone_time = 0.02\nrelax_time = 1\ncapacity = 2e5\n";
+const std::string table =
+    "[script]\nkind = 'curvature'\n[script.curvature]\ntimes = [0, 2]\nstations = [0, 0.5, 1]\n"
+    "bend_y = [1, 2, 3, 4, 5, 6]\nbend_z = [0, 0, 0, -1, -2, -3]\ntwist = [7, 7, 7, 8, 8, 8]\n";
+const std::string csv =
+    "time (s),station (L),bend_y (rad/L),bend_z (rad/L),twist (rad/L)\n"
+    "0,0,1,0,7\n0,0.5,2,0,7\n0,1,3,0,7\n2,0,4,-1,8\n2,0.5,5,-2,8\n2,1,6,-3,8\n";
+
+void expect_program(const CurvatureProgram& program) {
+  EXPECT_EQ(program.time, (std::vector<double>{0, 2}));
+  EXPECT_EQ(program.station, (std::vector<double>{0, 0.5, 1}));
+  ASSERT_EQ(program.value.size(), 2u);
+  Eigen::Matrix3d first, second;
+  first << 1, 2, 3, 0, 0, 0, 7, 7, 7;
+  second << 4, 5, 6, -1, -2, -3, 8, 8, 8;
+  EXPECT_EQ(program.value[0], first);
+  EXPECT_EQ(program.value[1], second);
+}
+
+CurvatureProgram program_of(const std::string& text, const std::vector<std::string>& set = {}) {
+  return read_scene_text(text + active + plain_scene, "s", set).scene.script.curvature;
+}
+
+TEST(CurvatureScene, ReadsATableOrAFileBesideTheScene) {
+  expect_program(program_of(table));
+  const TemporaryFolder folder;
+  folder.write("p.csv", csv);
+  const std::string scene = folder.write(
+      "s.toml", "[script]\nkind = 'curvature'\nprogram = 'p.csv'\n" + active + plain_scene);
+  expect_program(read_scene(scene).scene.script.curvature);
+  // A scene that builds on it in another folder: the file is beside the scene that names it.
+  std::filesystem::create_directory(folder / "below");
+  const std::string other = folder.write("below/t.toml", "base = '../s.toml'\n");
+  expect_program(read_scene(other).scene.script.curvature);
+}
+
+TEST(CurvatureScene, IsWrittenAsItIs) {
+  for (const std::string more : {"", "mirror = true\n"}) {
+    const ResolvedScene scene =
+        read_scene_text(more + table + active + plain_scene, "s", {"script.noise=0.1"});
+    const std::string text = scene_to_toml(scene.scene, scene.specimen);
+    const ResolvedScene again = read_scene_text(text, "again");
+    EXPECT_EQ(scene_to_toml(again.scene, again.specimen), text);
+    for (std::size_t k = 0; k < 2; ++k) {
+      EXPECT_EQ(again.scene.script.curvature.value[k], scene.scene.script.curvature.value[k]);
+      EXPECT_EQ(again.scene.script.curvature.noise[k], scene.scene.script.curvature.noise[k]);
+    }
+  }
+}
+
+TEST(CurvatureScene, NoiseIsDrawnByItsSeed) {
+  const auto noise = [](const std::string& seed) {
+    return program_of(table, {"script.noise=0.5", "script.noise_seed=" + seed}).noise;
+  };
+  EXPECT_EQ(noise("3")[1], noise("3")[1]);
+  EXPECT_NE(noise("3")[1], noise("4")[1]);
+  EXPECT_TRUE(program_of(table).noise.empty());
+  double sum = 0;
+  for (const Eigen::Matrix3Xd& at : noise("3")) sum += at.squaredNorm();
+  // 18 draws: a standard deviation of 0.5 is off by a third at most, two in three times.
+  EXPECT_NEAR(std::sqrt(sum / 18), 0.5, 0.25);
+}
+
+TEST(CurvatureScene, TheMirrorImageTurnsTheOtherWayAboutXAndZ) {
+  const CurvatureProgram plain = program_of(table);
+  const CurvatureProgram image = program_of("mirror = true\n" + table);
+  for (std::size_t k = 0; k < 2; ++k) {
+    EXPECT_EQ(image.value[k].row(0), plain.value[k].row(0));
+    EXPECT_EQ(image.value[k].bottomRows<2>(), -plain.value[k].bottomRows<2>());
+  }
+}
+
+TEST(CurvatureScene, BuiltInProgramsAreNoLargerThanTheirRounding) {
+  for (const char* name : {"overhand", "figure_eight", "double_overhand", "three_twist"}) {
+    const std::string file = std::string("programs/") + name + ".csv";
+    const std::string text(*builtin_file(file));
+    EXPECT_EQ(curvature_csv(read_curvature_csv(text, file)), text);
+  }
+}
+
+TEST(CurvatureScene, TellsWhatIsWrong) {
+  const auto complaint = [](const std::string& more, const std::vector<std::string>& set = {}) {
+    return scene_complaint(more, set);
+  };
+  EXPECT_EQ(complaint("[script]\nkind = 'curvature'\n" + active),
+            "s.toml: script.curvature: times is missing");
+  EXPECT_EQ(complaint(table + active, {"script.program=p.csv"}),
+            "s.toml: --set script.program=p.csv: script.curvature is given too");
+  EXPECT_EQ(complaint("[script]\nkind = 'curvature'\nprogram = 'gone.csv'\n" + active),
+            "s.toml:3: script.program = 'gone.csv': no such built-in file");
+  EXPECT_EQ(complaint("[script]\nkind = 'curvature'\n" + active, {"script.program=gone.csv"}),
+            "s.toml: --set script.program=gone.csv: gone.csv: no such file");
+  EXPECT_EQ(complaint(table + active, {"script.curvature.times=[0, 0]"}),
+            "s.toml: --set script.curvature.times=[0, 0]: must rise; number 2 does not");
+  EXPECT_EQ(complaint(table + active, {"script.curvature.times=[1, 2]"}),
+            "s.toml: --set script.curvature.times=[1, 2]: must be two or more, the first 0");
+  EXPECT_EQ(complaint(table + active, {"script.curvature.stations=[0, 0.6, 0.5]"}),
+            "s.toml: --set script.curvature.stations=[0, 0.6, 0.5]: must rise; number 3 does not");
+  EXPECT_EQ(
+      complaint(table + active, {"script.curvature.stations=[0, 2]"}),
+      "s.toml: --set script.curvature.stations=[0, 2]: number 2 must be from 0 to 1");
+  EXPECT_EQ(complaint(table + active, {"script.curvature.twist=[1]"}),
+            "s.toml: --set script.curvature.twist=[1]: must have times x stations values, 6");
+  EXPECT_EQ(complaint(table), "s.toml: active.stiffness: must be positive where a curvature "
+                              "program bends the animal");
+  EXPECT_EQ(complaint(table + active, {"active.stiffness=-1"}),
+            "s.toml: --set active.stiffness=-1: must not be negative");
+  EXPECT_EQ(complaint(table + active, {"active.capacity=0"}),
+            "s.toml: --set active.capacity=0: must be positive where a curvature program bends the "
+            "animal");
+  EXPECT_EQ(complaint(table + active, {"controller.tighten_from=3"}),
+            "s.toml: --set controller.tighten_from=3: the curvature program ends before, at 2 s");
+  EXPECT_EQ(complaint("[model]\npassive = 'specimen'\n"),
+            "s.toml:2: model.passive = 'specimen': the specimen has no passive.bending_stiffness");
+}
+
+}  // namespace
+}  // namespace hagfish

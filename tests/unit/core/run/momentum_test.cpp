@@ -1,0 +1,73 @@
+// The momentum ledger closes to rounding on any motion, and does not on a wrong one.
+#include "core/run/momentum.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/random_chain.hpp"
+
+namespace hagfish {
+namespace {
+
+/// A run of 20 bodies, pulled, clamped and falling where `held`, else free but for water.
+struct MomentumRun {
+  explicit MomentumRun(bool held) {
+    if (held) scene.gravity = {30, -200, 100};
+    scene.clamp_head = held;
+    scene.wall.present = held;
+    model = make_hagfish(table1_specimen(), scene);
+    Random random(11);
+    state = random_state(random, model, 0.2, 3);
+    if (held) {
+      state.q.head<7>() << 0, 0, 0, 1, 0, 0, 0;
+      state.qdot.head<6>().setZero();
+    }
+    control.clamp_head = held;
+    if (held) control.tip.value << 200, 300, -100;
+    ledger = open_momentum(model, {state, observe(model, state, scene)});
+  }
+  template <class Spoil>
+  void step(Spoil spoil) {
+    const Observation now = observe(model, state, scene);
+    StepSolution solution;
+    ASSERT_TRUE(solver.solve({model, scene, state, now, control}, solution).ok());
+    spoil(solution);
+    solution.twist = body_twists(model, now.kin, solution.qdot);
+    solution.centre_velocity = centre_velocities(now.kin, solution.twist);
+    const State next{advance(state.q, solution.qdot, scene.time.step), solution.qdot};
+    book_momentum(model, now.kin, solution, {next, observe(model, next, scene)}, scene.time.step,
+                  ledger);
+    state = next;
+  }
+  double imbalance() const {
+    const Eigen::Vector3d off =
+        ledger.momentum - ledger.initial - ledger.drag - ledger.outside - ledger.integrator;
+    return off.norm() / (ledger.momentum.norm() + ledger.drag.norm() + ledger.outside.norm());
+  }
+
+  Scene scene = table1_scene(20);
+  Model model;
+  State state;
+  Control control;
+  MomentumLedger ledger;
+  StepSolver solver{"active-set"};
+};
+
+TEST(Momentum, LedgerClosesHeldOrFree) {
+  for (const bool held : {true, false}) {
+    MomentumRun run(held);
+    for (int k = 0; k < 50; ++k) run.step([](StepSolution&) {});
+    EXPECT_LT(run.imbalance(), 1e-12) << held;  // rounding of 50 booked steps
+    EXPECT_GT(run.ledger.drag.norm(), 0);
+    EXPECT_EQ(run.ledger.outside.isZero(0), !held);
+  }
+}
+
+TEST(Momentum, LedgerSeesAForceThatNobodyBooked) {
+  MomentumRun run(false);
+  // A push on the whole animal, one part in a thousand of its speed.
+  for (int k = 0; k < 50; ++k) run.step([](StepSolution& s) { s.qdot.head<3>() *= 1.001; });
+  EXPECT_GT(run.imbalance(), 1e-6);
+}
+
+}  // namespace
+}  // namespace hagfish

@@ -1,0 +1,151 @@
+// The audit of a run in which the animal bends itself: what is logged of its muscles goes red when
+// it is false, and so does a log of muscles that are not the scene's.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <limits>
+#include <memory>
+
+#include "experiments/audit/audit.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tests/support/written_log.hpp"
+
+namespace hagfish {
+namespace {
+
+namespace fs = std::filesystem;
+
+ResolvedScene living_scene(std::vector<std::string> set = {}) {
+  set.insert(set.end(), {"time.frame_interval=0.1", "knot.votes=5", "time.duration=15.5",
+                         "expect.types=[]", "expect.slide_distance=0.5",
+                         "controller.release_at=10.5"});
+  return read_scene(std::string(HAGFISH_DATA_DIR) + "/living_overhand_free.toml", set);
+}
+
+/// A log of every phase but the last: the knot is let go soon after it begins to slide.
+class AuditActive : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder = std::make_unique<TemporaryFolder>();
+    file = *folder / "log.h5";
+    const ResolvedScene resolved = living_scene();
+    const Model model = make_hagfish(resolved.specimen, resolved.scene);
+    write_log(file, resolved, model, start(model, resolved.scene, "active-set"),
+              std::numeric_limits<int>::max());
+  }
+  static void TearDownTestSuite() { folder.reset(); }
+
+  /// Names and texts of all findings that fail, but that of the knot, which is still there.
+  static std::string objections() {
+    std::string text;
+    for (const Finding& finding : audit(file)) {
+      const bool expected = finding.name == "unknot at end";
+      text += finding.passed || expected ? "" : finding.name + ": " + finding.text + "\n";
+    }
+    return text;
+  }
+
+  /// An entry of a dataset, row by row, and how far it is off.
+  struct Corruption {
+    std::string path;
+    std::size_t entry = 0;
+    double by = 0;
+  };
+  /// What the audit says while entries are off.
+  static std::string objections_to(const std::vector<Corruption>& corruptions) {
+    const auto add = [](const Corruption& c, double sign) {
+      rewrite<double>(file, c.path, H5::PredType::NATIVE_DOUBLE,
+                      [&](std::vector<double>& values) { values.at(c.entry) += sign * c.by; });
+    };
+    for (const Corruption& c : corruptions) add(c, 1);
+    const std::string text = objections();
+    for (const Corruption& c : corruptions) add(c, -1);
+    return text;
+  }
+
+  /// What the audit says while the log claims to be of another scene.
+  static std::string objections_with(const std::vector<std::string>& set) {
+    const ResolvedScene other = living_scene(set);
+    const std::string before = write_scene(scene_to_toml(other.scene, other.specimen));
+    const std::string text = objections();
+    write_scene(before);
+    return text;
+  }
+  static std::string write_scene(const std::string& text) {
+    std::string before;
+    H5::H5File h5(file.string(), H5F_ACC_RDWR);
+    H5::Group root = h5.openGroup("/");
+    const H5::Attribute attribute = root.openAttribute("scene");
+    attribute.read(attribute.getStrType(), before);
+    root.removeAttr("scene");
+    const H5::StrType type(H5::PredType::C_S1, H5T_VARIABLE);
+    root.createAttribute("scene", type, H5::DataSpace(H5S_SCALAR)).write(type, text);
+    return before;
+  }
+
+  /// The first frame of a phase.
+  static std::size_t first_frame(Phase phase) {
+    const std::vector<std::int64_t> phases = Hdf5Reader(file).integers("/trajectory/phase");
+    return static_cast<std::size_t>(
+        std::ranges::find(phases, static_cast<std::int64_t>(phase)) - phases.begin());
+  }
+
+  static std::unique_ptr<TemporaryFolder> folder;
+  static fs::path file;
+};
+
+std::unique_ptr<TemporaryFolder> AuditActive::folder;
+fs::path AuditActive::file;
+
+TEST_F(AuditActive, AGoodLogIsGood) { EXPECT_EQ(objections(), ""); }
+
+TEST_F(AuditActive, WatchesTheMusclesInEveryPhase) {
+  const std::size_t nv = Hdf5Reader(file).shape("/forces/active")[1];
+  for (const Phase phase : {Phase::form, Phase::slide, Phase::release}) {
+    const std::size_t entry = (first_frame(phase) + 3) * nv + 80;
+    // A millionth of what muscles make, 1e5 dyn cm.
+    const std::string torque =
+        objections_to({{"/forces/active", entry, 0.1}, {"/mean/forces/active", entry, 0.1}});
+    std::vector<std::string> watchers = {"/forces/active", "force balance", "balance of means"};
+#ifdef HAGFISH_MUJOCO
+    watchers.emplace_back("forward-inverse");
+#endif
+    for (const std::string& watcher : watchers) {
+      EXPECT_NE(torque.find(watcher), std::string::npos) << watcher << " in " << torque;
+    }
+    const std::string rest = objections_to({{"/trajectory/q_ref", entry, 1e-6}});
+    EXPECT_NE(rest.find(phase == Phase::slide ? "/forces/active" : "/trajectory/q_ref"),
+              std::string::npos)
+        << rest;
+  }
+}
+
+TEST_F(AuditActive, WatchesTheLedgersAndTheWorld) {
+  const std::size_t nv = Hdf5Reader(file).shape("/forces/active")[1];
+  const std::string text = objections_to({{"/diagnostics/work_active", 60, 10},  // of 1e5 erg
+                                          {"/diagnostics/impulse_drag", 60, 0.01},  // of 100 dyn s
+                                          {"/diagnostics/impulse_outside", 60, 1e-9},
+                                          // A force on the world, however small.
+                                          {"/forces/active", 20 * nv + 2, 1e-9}});
+  for (const char* watcher :
+       {"energy ledger", "momentum ledger", "nothing outside", "shape of forces"}) {
+    EXPECT_NE(text.find(watcher), std::string::npos) << watcher << " in " << text;
+  }
+}
+
+TEST_F(AuditActive, SeesMusclesThatAreNotTheScenes) {
+  const std::pair<const char*, const char*> changes[] = {{"active.stiffness=2.001e5", "/forces/active"},
+                                                         {"active.capacity=1e5", "/forces/active"},
+                                                         {"active.tone_time=0.1", "muscle tone"},
+                                                         {"active.tone_time=0.001", "muscle tone"},
+                                                         {"active.relax_time=1.001", "/trajectory/q_ref"},
+                                                         {"script.noise=0.001", "/trajectory/q_ref"}};
+  for (const auto& [change, watcher] : changes) {
+    const std::string text = objections_with({change});
+    EXPECT_NE(text.find(watcher), std::string::npos) << change << ": " << text;
+  }
+  EXPECT_EQ(objections(), "");
+}
+
+}  // namespace
+}  // namespace hagfish
