@@ -39,7 +39,7 @@ TEST_F(ProgramTest, PictureRefusesBadInputInOneLine) {
   expect_refused("picture a.log", {"--out"});
   expect_refused("picture a.log --out /no/such/folder/a.png", {"/no/such/folder/a.png", "No such"});
   fs::create_directory(folder / "folder.png");
-  expect_refused("picture a.log --out folder.png", {"folder.png", "directory"});
+  expect_refused("picture a.log --out folder.png", {"folder.png", "not a regular file"});
   EXPECT_FALSE(fs::exists(folder / "a.png"));
 }
 

@@ -231,7 +231,7 @@ TEST_F(QpSetTest, RefusesWhatIsNoSet) {
     h5.createGroup("/qp");
     h5.createDataSet("/qp/0", H5::PredType::NATIVE_INT, H5::DataSpace(H5S_SCALAR));
   };
-  EXPECT_EQ(failure(no_group).rfind(file + ": cannot read attribute sequence of /qp/0: ", 0), 0u);
+  EXPECT_EQ(failure(no_group), file + ": /qp/0 is no group");
 }
 
 TEST_F(QpSetTest, KeepsAnExistingFileUnlessForced) {
