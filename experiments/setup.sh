@@ -24,7 +24,14 @@ done
 if ((${#missing[@]})); then
   echo "Installing Debian packages: ${missing[*]}"
   as_root=()
-  if ((EUID != 0)); then as_root=(sudo); fi
+  if ((EUID != 0)); then
+    if ! command -v sudo >/dev/null; then
+      echo "setup: these packages are missing, and there is no sudo; run as root:" >&2
+      echo "  apt-get update && apt-get install -y --no-install-recommends ${missing[*]}" >&2
+      exit 2
+    fi
+    as_root=(sudo)
+  fi
   log=$(mktemp)
   if ! { "${as_root[@]}" apt-get update &&
          "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \

@@ -11,7 +11,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/studies/common.sh"
 failed=0
 "$hagfish" run table1 --qp ipopt --out "$out/table1.h5" --force || failed=$?
 if ((failed == 2)); then exit "$failed"; fi
-"$hagfish" check "$out/table1.h5" --csv "$out/check.csv" | tee "$out/check.txt" || failed=$?
+"$hagfish" check "$out/table1.h5" --csv "$out/check.csv" --force | tee "$out/check.txt" || failed=$?
 
 echo "Drawing Figure 7"
 draw figure7.py "$out/table1.h5" "$hagfish" "$out/figure7.png"

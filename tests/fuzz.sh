@@ -8,4 +8,4 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 preset=${PRESET:-sanitize}
 PRESET=$preset bash experiments/setup.sh --target fork_server
-/usr/bin/python3 -B tests/fuzz/fuzz.py "build/$preset/tests/fork_server" --named "$@"
+/usr/bin/python3 -B tests/fuzz/fuzz.py "build/$preset/tests/fork_server" "$@"

@@ -100,7 +100,7 @@ void constraint_fields(Io& io, ConstraintSettings& s) {
   io.number("baumgarte_speed", s.baumgarte_speed, positive());
   io.number("tolerance", s.tolerance, not_negative());
   io.integer("corrections", s.corrections, within(0, 100));
-  io.number("stride", s.stride, positive());
+  io.number("stride", s.stride, at_least(1e-3));  // finer, a path is cut for ever
 }
 
 template <class Io>

@@ -40,6 +40,11 @@ inline Range within(double low, double high) {
   return {low, high, false, "must be from " + shortest(low) + " to " + shortest(high)};
 }
 
+/// `low` or more.
+inline Range at_least(double low) {
+  return {low, std::numeric_limits<double>::infinity(), false, "must be at least " + shortest(low)};
+}
+
 /// Between `low` and `high`, both excluded.
 inline Range inside(double low, double high) {
   return {low, high, true, "must be above " + shortest(low) + " and below " + shortest(high)};

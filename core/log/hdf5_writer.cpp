@@ -122,7 +122,8 @@ void Hdf5Writer::texts(const std::string& path, const std::vector<std::string>& 
   });
 }
 
-void Hdf5Writer::bytes(const std::string& path, const std::vector<std::uint8_t>& values) {
+void Hdf5Writer::bytes(const std::string& path, const std::vector<std::uint8_t>& values,
+                       const std::string& description) {
   const hsize_t size = values.size();
   guarded(name_, "write " + path, [&] {
     if (!h5_.nameExists(path)) {
@@ -130,7 +131,9 @@ void Hdf5Writer::bytes(const std::string& path, const std::vector<std::uint8_t>&
       H5::DSetCreatPropList storage;
       storage.setChunk(1, &bytes_chunk);
       storage.setFletcher32();
-      h5_.createDataSet(path, H5::PredType::NATIVE_UINT8, H5::DataSpace(1, &size, &most), storage);
+      H5::DataSet created = h5_.createDataSet(path, H5::PredType::NATIVE_UINT8,
+                                              H5::DataSpace(1, &size, &most), storage);
+      describe(created, {"1", description});
     }
     H5::DataSet set = h5_.openDataSet(path);
     set.extend(&size);

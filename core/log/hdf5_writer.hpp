@@ -54,7 +54,8 @@ class Hdf5Writer {
   void texts(const std::string& path, const std::vector<std::string>& values);
 
   /// Bytes of any number, in place of those that were there.
-  void bytes(const std::string& path, const std::vector<std::uint8_t>& values);
+  void bytes(const std::string& path, const std::vector<std::uint8_t>& values,
+             const std::string& description);
 
   /// A series without rows, in groups that are created with it.
   void create(const SeriesLayout& layout);

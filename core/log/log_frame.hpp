@@ -98,7 +98,7 @@ class LogTable {
     }
   }
   /// In the order of declaration.
-  const std::vector<std::shared_ptr<AnySeries>>& series() const { return series_; }
+  const SeriesList& series() const { return series_; }
 
  private:
   template <class T, class Put>
@@ -112,7 +112,7 @@ class LogTable {
   }
 
   hsize_t chunk_rows_;
-  std::vector<std::shared_ptr<AnySeries>> series_;
+  SeriesList series_;
   std::vector<std::function<void(const Source&)>> appenders_;
 };
 

@@ -79,6 +79,23 @@ struct LogWriter::Contents {
     series.push_back(bytes);
   }
 
+  /// Goes on behind the rows that `h5` has of `table`, and says how many those are.
+  static hsize_t go_on(const Hdf5Reader& h5, const SeriesList& table) {
+    const std::vector<hsize_t> first = h5.shape(table.front()->layout().path);
+    const hsize_t rows = first.empty() ? 0 : first[0];
+    for (const auto& s : table) {
+      const SeriesLayout& layout = s->layout();
+      std::vector<hsize_t> wanted{rows};
+      wanted.insert(wanted.end(), layout.row_shape.begin(), layout.row_shape.end());
+      if (h5.shape(layout.path) != wanted) {
+        throw FileError(fmt::format("{}: {} does not have the rows of {}", h5.file(), layout.path,
+                                    table.front()->layout().path));
+      }
+      s->go_on(rows);
+    }
+    return rows;
+  }
+
   /// Brings FILE.part up to date; `sim` is the run after all that it then holds.
   void save(const Simulation& sim) {
     if (file->prepare()) {
@@ -93,7 +110,7 @@ struct LogWriter::Contents {
       Hdf5Writer h5(file->begin(room));
       const Hdf5Reader newer(file->whole(), Origin::own);
       std::ranges::for_each(series, [&](const auto& s) { s->write(newer, h5); });
-      h5.bytes(last_checkpoint, now);
+      h5.bytes(last_checkpoint, now, "the run where the log ends, as bytes");
       for (const auto& [name, value] : attributes) {
         h5.root_attribute(name, value);
       }
@@ -111,8 +128,8 @@ struct LogWriter::Contents {
   LogTable<LoggedStep> steps;
   LogTable<BearingContact> contacts;
   LogTable<CheckpointMark> marks;
-  std::shared_ptr<Series<std::uint8_t>> bytes;     // of the checkpoints
-  std::vector<std::shared_ptr<AnySeries>> series;  // all of them
+  std::shared_ptr<Series<std::uint8_t>> bytes;  // of the checkpoints
+  SeriesList series;                            // all of them
   LogState log;
   KnotSettings knot;
   double h;
@@ -154,11 +171,13 @@ LogWriter::LogWriter(std::unique_ptr<OutputFile> output, const SavedRun& run)
       contents_(std::make_unique<Contents>(run.model, run.resolved.scene)) {
   Contents& c = *contents_;
   const Hdf5Reader h5(output_->partial());
-  for (const auto& series : c.series) {
-    series->go_on(h5.shape(series->layout().path).at(0));
-  }
-  c.frame_count = static_cast<std::int32_t>(h5.shape("/trajectory/step").at(0));
-  c.byte_count = static_cast<std::int64_t>(h5.shape(checkpoint_data).at(0));
+  const auto frame_rows = c.go_on(h5, c.frames.series());
+  c.go_on(h5, c.steps.series());
+  c.go_on(h5, c.contacts.series());
+  c.go_on(h5, c.marks.series());
+  const auto byte_rows = c.go_on(h5, {c.bytes});
+  c.frame_count = static_cast<std::int32_t>(frame_rows);
+  c.byte_count = static_cast<std::int64_t>(byte_rows);
   c.log = run.log;
   c.attributes["status"] = "running";
   c.attributes["resumed"] =

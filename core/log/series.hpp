@@ -51,6 +51,8 @@ class AnySeries {
   hsize_t total_ = 0;
 };
 
+using SeriesList = std::vector<std::shared_ptr<AnySeries>>;
+
 /// The rows of a series of numbers.
 template <class T>
 class Series final : public AnySeries {

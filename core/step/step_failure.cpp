@@ -2,7 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace hagfish {
+namespace {
+
+constexpr std::size_t most_named = 12;  ///< rows in a message
+
+}  // namespace
 
 Status describe_failure(const Model& model, const BoxQp& qp, const std::vector<Row>& rows,
                         const BoxQpSolution& solution) {
@@ -16,8 +23,11 @@ Status describe_failure(const Model& model, const BoxQp& qp, const std::vector<R
   }
   if (!contradicting.empty()) {
     std::string names;
-    for (const Eigen::Index i : contradicting) {
-      names += (names.empty() ? "" : "; ") + row_name(model, rows[i]);
+    for (std::size_t k = 0; k < std::min(contradicting.size(), most_named); ++k) {
+      names += (names.empty() ? "" : "; ") + row_name(model, rows[contradicting[k]]);
+    }
+    if (contradicting.size() > most_named) {
+      names += fmt::format("; and {} more", contradicting.size() - most_named);
     }
     return {Outcome::infeasible,
             fmt::format("rows contradict each other: {}; a start without overlap, a finite "

@@ -10,6 +10,7 @@
 #include "experiments/program/csv.hpp"
 #include "experiments/program/failure.hpp"
 #include "experiments/program/terminal.hpp"
+#include "experiments/program/text_file.hpp"
 
 namespace hagfish {
 namespace {
@@ -17,6 +18,7 @@ namespace {
 struct CheckOptions {
   std::vector<std::string> logs;
   std::string csv;  ///< findings as a file; none where empty
+  bool force = false;
 };
 
 /// Audits one log; its findings become rows of `table`. Returns an exit code.
@@ -37,7 +39,8 @@ int check_log(const std::string& file, CsvTable& table) {
 }
 
 int check(const CheckOptions& options) {
-  if (!options.csv.empty()) try_csv(options.csv);
+  std::optional<TextFile> csv;
+  if (!options.csv.empty()) csv.emplace(options.csv, options.force);
   CsvTable table{{"log", "criterion", "value", "bound", "unit", "met"}};
   int code = exit_code::done;
   for (const std::string& file : options.logs) {
@@ -54,7 +57,7 @@ int check(const CheckOptions& options) {
       code = exit_code::bad_input;
     }
   }
-  if (!options.csv.empty()) write_csv(options.csv, table);
+  if (csv) csv->write(csv_text(table));
   return code;
 }
 
@@ -67,6 +70,7 @@ void add_check(Program& program) {
   check_app->add_option("LOG", options->logs, "log files")->required();
   check_app->add_option("--csv", options->csv,
                         "file for the findings: log, criterion, value, bound, unit, met");
+  check_app->add_flag("--force", options->force, force_help);
   check_app->callback([options, &program] { program.code = check(*options); });
 }
 

@@ -1,12 +1,5 @@
 #include "experiments/program/csv.hpp"
 
-#include <fmt/os.h>
-
-#include <filesystem>
-#include <system_error>
-
-#include "core/log/hdf5_error.hpp"
-
 namespace hagfish {
 namespace {
 
@@ -22,16 +15,6 @@ std::string field(std::string text) {
 
 }  // namespace
 
-void write_text(const std::string& file, const std::string& text) {
-  try {
-    auto out = fmt::output_file(file);
-    out.print("{}", text);
-    out.close();
-  } catch (const std::system_error& error) {
-    throw FileError(file + ": cannot be written: " + error.code().message());
-  }
-}
-
 std::string csv_text(const CsvTable& table) {
   std::string text;
   for (const std::vector<std::string>& row : table) {
@@ -41,16 +24,6 @@ std::string csv_text(const CsvTable& table) {
     text += '\n';
   }
   return text;
-}
-
-void write_csv(const std::string& file, const CsvTable& table) {
-  write_text(file, csv_text(table));
-}
-
-void try_csv(const std::string& file) {
-  const std::string trial = file + ".part";
-  write_text(trial, "");
-  std::filesystem::remove(trial);
 }
 
 }  // namespace hagfish

@@ -1,10 +1,6 @@
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <stdexcept>
 
 #include "core/chain/model.hpp"
@@ -12,6 +8,7 @@
 #include "core/log/hdf5_error.hpp"
 #include "experiments/program/commands.hpp"
 #include "experiments/program/scene_argument.hpp"
+#include "experiments/program/text_file.hpp"
 #include "mujoco_ref/mjcf.hpp"
 #include "mujoco_ref/mujoco_model.hpp"
 
@@ -27,19 +24,6 @@ struct MjcfOptions {
   bool clamp = false;            ///< weld the head to the world
   bool force = false;            ///< replace existing files
 };
-
-void write_text(const fs::path& file, const std::string& text, bool replace) {
-  std::error_code error;
-  if (!replace && fs::exists(file, error)) {
-    throw FileError(file.string() + ": already exists (--force replaces it)");
-  }
-  std::ofstream out(file, std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) {
-    throw FileError(file.string() + ": cannot write: " + std::strerror(errno));
-  }
-}
 
 int mjcf(const MjcfOptions& options) {
   const ResolvedScene resolved = scene_argument(options.scene, options.set);
@@ -58,7 +42,7 @@ int mjcf(const MjcfOptions& options) {
     throw FileError(options.out + ": cannot make the folder: " + error.message());
   }
   for (const auto& [name, text] : files) {
-    write_text(fs::path(options.out) / name, text, options.force);
+    TextFile(fs::path(options.out) / name, options.force).write(text);
   }
   fmt::print("{}: {} bodies in {} files\n", (fs::path(options.out) / mjcf_root_file).string(),
              model.body_count(), files.size());

@@ -10,6 +10,7 @@
 #include "experiments/audit/log_contents.hpp"
 #include "experiments/program/commands.hpp"
 #include "experiments/program/picture.hpp"
+#include "experiments/program/text_file.hpp"
 #include "mujoco_ref/log_model.hpp"
 
 namespace hagfish {
@@ -19,7 +20,8 @@ namespace fs = std::filesystem;
 
 struct PictureOptions {
   std::string log;
-  std::string out;            ///< PNG to write; numbered where there are several times
+  std::string out;  ///< PNG to write; numbered where there are several times
+  bool force = false;
   std::vector<double> times;  ///< s; the last frame where empty
   double pitch = -70;         ///< of the view, degrees; see view_of in picture.hpp
   double yaw = 22;            ///< degrees
@@ -71,6 +73,12 @@ int picture(const PictureOptions& options) {
     if (!std::isfinite(angle)) throw InputError(fmt::format("{} {}: must be finite", name, angle));
   }
 
+  std::vector<std::unique_ptr<OutputFile>> files;
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    files.push_back(
+        std::make_unique<OutputFile>(numbered(out, k, frames.size()), replaced_if(options.force)));
+  }
+
   MujocoModel mirror = mujoco_model_of(log.h5);
   if (mirror.model()->nq != log.q.cols() || mirror.model()->nbody != log.model.body_count() + 1) {
     throw FileError(log.h5.file() + ": /mjcf is not the model of /trajectory");
@@ -88,7 +96,8 @@ int picture(const PictureOptions& options) {
   std::string table = "file\ttime_s\tleft_cm\tbottom_cm\tcm_per_pixel\n";
   for (std::size_t k = 0; k < frames.size(); ++k) {
     const fs::path file = numbered(out, k, frames.size());
-    write_png(renderer.render(geoms[k], views[k]), file);
+    write_png(renderer.render(geoms[k], views[k]), files[k]->partial());
+    files[k]->publish();
     table +=
         fmt::format("{}\t{:.9g}\t{:.6f}\t{:.6f}\t{:.6f}\n", printable(file.string()),
                     log.time[frames[k]], views[k].low.x(), views[k].low.y(), 1 / views[k].scale);
@@ -111,6 +120,7 @@ void add_picture(Program& program) {
       ->capture_default_str();
   picture_app->add_option("--yaw", options->yaw, "turn of the view about its vertical, degrees")
       ->capture_default_str();
+  picture_app->add_flag("--force", options->force, force_help);
   picture_app->callback([options, &program] { program.code = picture(*options); });
 }
 

@@ -4,12 +4,13 @@
 #include "experiments/audit/log_contents.hpp"
 #include "experiments/curvature/program_fit.hpp"
 #include "experiments/program/commands.hpp"
-#include "experiments/program/csv.hpp"
+#include "experiments/program/text_file.hpp"
 
 namespace hagfish {
 namespace {
 
 struct ProgramOptions {
+  bool force = false;  ///< replace an existing file
   std::string log, out;
   int stations = 20, times = 24;
   double until = 0;  ///< s; 0: to the end of forming
@@ -32,14 +33,15 @@ int make_program(const ProgramOptions& options) {
                                  options.log, frames, log.model.body_count(), frames,
                                  log.model.body_count() / 4));
   }
-  try_csv(options.out);
+  TextFile out(options.out, options.force);
   const ProgramFit fit =
       fit_program(log.model, time, log.q.topRows(frames), options.times, options.stations);
-  write_text(options.out, curvature_csv(fit.program));
-  fmt::print("{}: {} stations x {} times, {:g} s; rms error {:.2g} rad a hinge of {:.2g}, largest "
-             "{:.2g}\n",
-             options.out, options.stations, options.times, time.back(), fit.rms_error,
-             fit.rms_angle, fit.largest_error);
+  out.write(curvature_csv(fit.program));
+  fmt::print(
+      "{}: {} stations x {} times, {:g} s; rms error {:.2g} rad a hinge of {:.2g}, largest "
+      "{:.2g}\n",
+      options.out, options.stations, options.times, time.back(), fit.rms_error, fit.rms_angle,
+      fit.largest_error);
   return exit_code::done;
 }
 
@@ -48,7 +50,8 @@ int make_program(const ProgramOptions& options) {
 void add_program(Program& program) {
   const auto options = std::make_shared<ProgramOptions>();
   CLI::App* app = program.app.add_subcommand(
-      "program", "make a curvature program from the shapes of a log, so that the animal ties itself");
+      "program",
+      "make a curvature program from the shapes of a log, so that the animal ties itself");
   app->add_option("LOG", options->log, "log of a run from time 0 on")->required();
   app->add_option("--out", options->out, "CSV file to write")->required();
   app->add_option("--stations", options->stations, "along the body")
@@ -60,6 +63,7 @@ void add_program(Program& program) {
   app->add_option("--until", options->until,
                   "s; where not given, while the knot forms: what follows is the controller's")
       ->check(CLI::PositiveNumber);
+  app->add_flag("--force", options->force, force_help);
   app->callback([options, &program] { program.code = make_program(*options); });
 }
 

@@ -8,6 +8,7 @@
 #include "experiments/program/csv.hpp"
 #include "experiments/program/suggestion.hpp"
 #include "experiments/program/terminal.hpp"
+#include "experiments/program/text_file.hpp"
 #include "experiments/qp/qp_table.hpp"
 
 namespace hagfish {
@@ -19,6 +20,7 @@ struct QpOptions {
   std::vector<double> tolerances;      ///< of Ipopt, each in turn; its own where empty
   int repeat = 3;                      ///< times that each QP is solved
   std::string csv;                     ///< table as a file; none where empty
+  bool force = false;
 };
 
 std::vector<BackEnd> chosen(const QpOptions& options) {
@@ -65,14 +67,15 @@ CsvTable csv_of(const QpReport& report) {
 
 int qp(const QpOptions& options) {
   const QpSetReader set(options.set);
+  std::optional<TextFile> csv;
   if (!options.csv.empty()) {
-    try_csv(options.csv);
+    csv.emplace(options.csv, options.force);
   }
   const QpReport report = measure(set, chosen(options), options.repeat);
   print_qp_heading(printable(options.set), report, options.repeat);
   print_qp_table(report);
   if (!options.csv.empty()) {
-    write_csv(options.csv, csv_of(report));
+    csv->write(csv_text(csv_of(report)));
   }
   int failures = 0;
   for (const Performance& row : report.rows) {
@@ -110,6 +113,7 @@ void add_qp(Program& program) {
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   qp_app->add_option("--csv", options->csv, "file for the table");
+  qp_app->add_flag("--force", options->force, force_help);
   qp_app->callback([options, &program] { program.code = qp(*options); });
 }
 

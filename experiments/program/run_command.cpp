@@ -8,6 +8,7 @@
 #include "experiments/program/presets.hpp"
 #include "experiments/program/scene_argument.hpp"
 #include "experiments/program/scene_run.hpp"
+#include "experiments/program/scene_sense.hpp"
 #include "experiments/program/suggestion.hpp"
 #include "experiments/program/terminal.hpp"
 #include "solvers/box_qp.hpp"
@@ -36,6 +37,10 @@ int run_anew(NewRunOptions options, const std::string& typed) {
   const ResolvedScene resolved = scene_argument(options.scene, set);
   const Scene& scene = resolved.scene;
   const Model model = make_hagfish(resolved.specimen, scene);
+  check_sense(resolved, model, options.run.force);
+  for (const std::string& odd : odd_things(resolved)) {
+    say("hagfish: warning: {}\n", odd);
+  }
   const std::string qp = options.qp.empty() ? preset.qp : options.qp;
   if (options.run.out.empty()) {
     options.run.out = fs::path(options.scene).stem().string() + ".h5";

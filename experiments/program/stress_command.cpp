@@ -9,6 +9,7 @@
 #include "experiments/program/csv.hpp"
 #include "experiments/program/scene_argument.hpp"
 #include "experiments/program/suggestion.hpp"
+#include "experiments/program/text_file.hpp"
 
 namespace hagfish {
 namespace {
@@ -21,6 +22,7 @@ struct StressOptions {
   double cpu_limit = 60;           ///< s
   std::vector<std::string> set;    ///< KEY=VALUE overrides, after the method's
   std::string out;                 ///< CSV to write; standard output where empty
+  bool force = false;
 };
 
 CsvTable csv_of(const StressOptions& options, double step, const StressResult& result) {
@@ -36,16 +38,18 @@ CsvTable csv_of(const StressOptions& options, double step, const StressResult& r
 }
 
 int run_stress(const StressOptions& options) {
+  std::optional<TextFile> out;
+  if (!options.out.empty()) out.emplace(options.out, options.force);
   std::vector<std::string> set = stress_overrides(options.method, options.step);
   set.insert(set.end(), options.set.begin(), options.set.end());
   const ResolvedScene resolved = scene_argument(options.scene, set);
   const Model model = make_hagfish(resolved.specimen, resolved.scene);
   const StressResult result = stress(resolved.scene, model, options.method, options.cpu_limit);
   const CsvTable table = csv_of(options, resolved.scene.time.step, result);
-  if (options.out.empty()) {
-    fmt::print("{}", csv_text(table));
+  if (out) {
+    out->write(csv_text(table));
   } else {
-    write_csv(options.out, table);
+    fmt::print("{}", csv_text(table));
   }
   return exit_code::done;
 }
@@ -69,6 +73,7 @@ void add_stress(Program& program) {
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   stress_app->add_option("--out", options->out, "CSV to write (standard output)");
+  stress_app->add_flag("--force", options->force, force_help);
   stress_app->callback([options, &program] { program.code = run_stress(*options); });
 }
 

@@ -17,7 +17,7 @@ back_ends() {
   [[ -e $runs/$1.csv ]] && return
   "$hagfish" record-qp table1 --qp active-set --every 10 --out "$set" --force --quiet >"$runs/$1.txt"
   # A tolerance that a back end cannot reach fails, which the table counts.
-  "$hagfish" qp "$set" "${tolerances[@]}" --csv "$runs/$1.csv.new" >>"$runs/$1.txt" 2>&1 || (($? == 1))
+  "$hagfish" qp "$set" "${tolerances[@]}" --csv "$runs/$1.csv.new" --force >>"$runs/$1.txt" 2>&1 || (($? == 1))
   mv "$runs/$1.csv.new" "$runs/$1.csv"
 }
 export -f integrate back_ends

@@ -17,6 +17,7 @@ import mutations
 import named_cases
 
 LATE = 10  # s of CPU time; what takes longer counts as hung
+NAMED_SHARE = 0.4  # of the time at most, for the named cases
 SLOW = 10  # commands that draw or compare take part in one of so many cases
 SHORT = ["--set", "time.duration=0.1", "--set", "time.step=0.01", "--set", "time.frame_interval=0.02"]
 KINDS = ["log flip", "qp flip", "log change", "qp change", "toml", "scene"]
@@ -75,13 +76,16 @@ def commands_for(kind, file, slow, overrides=()):
     """Every subcommand that reads such a file; `slow` ones too where asked."""
     if kind.startswith("log"):
         yield ["info", file]
-        yield ["check", file, "--csv", "check.csv"]
+        yield ["check", file, "--csv", "check.csv", "--force"]
         yield ["playback", file, "--out", "playback.h5", "--force"]
+        yield ["branch", file, "--out", "branch.h5", "--quiet", "--force"]
         if slow:
             yield ["info", file, "--json"]
-            yield ["picture", file, "--out", "picture.png"]
+            yield ["picture", file, "--out", "picture.png", "--force"]
+            yield ["program", file, "--out", "program.csv", "--force", "--stations", "4", "--times", "3"]
+            yield ["branch", file, "--out", "branch.h5", "--force", "--quiet"]
     elif kind.startswith("qp"):
-        yield ["qp", file, "--repeat", "1", "--backend", "active-set", "--csv", "qp.csv"]
+        yield ["qp", file, "--repeat", "1", "--backend", "active-set", "--csv", "qp.csv", "--force"]
         if slow:
             yield ["qp", file, "--repeat", "1"]
     else:
@@ -152,11 +156,14 @@ class Worker:
                 self.faults.append(f"{name}: {found}\n    hagfish {shown}")
                 print(self.faults[-1], flush=True)
 
-    def named(self, number, workers):
-        for index, (name, change) in enumerate(named_cases.log_changes().items()):
-            if index % workers != number:
-                continue
+    def named(self, number, workers, seed, end):
+        """This worker's share of them, in an order by the seed, until the time is over."""
+        cases = list(named_cases.log_changes().items())
+        np.random.default_rng(seed).shuffle(cases)
+        for name, change in cases[number::workers]:
             for base in ("rest.h5", "slide.h5"):
+                if time.monotonic() > end:
+                    return
                 file = self.folder / "case.h5"
                 if named_cases.changed_log(self.paths[base], change, file):
                     self.take("log", f"{name}_{base[:-3]}", file.name, slow=name.startswith("mjcf"))
@@ -172,10 +179,10 @@ class Worker:
 
 
 def work(number, options, folder, bases, texts, results):
-    end = time.monotonic() + 60 * options.minutes
+    begin = time.monotonic()
+    end = begin + 60 * options.minutes
     worker = Worker(number, options, folder, bases, texts)
-    if options.named:
-        worker.named(number, options.jobs)
+    worker.named(number, options.jobs, options.seed, begin + NAMED_SHARE * (end - begin))
     wanted = {
         "log flip": 0.75 * options.flips, "qp flip": 0.25 * options.flips, "log change": options.changes / 3,
         "qp change": options.changes / 3, "toml": options.changes / 3, "scene": options.scenes,
@@ -223,7 +230,6 @@ def main():
     parser.add_argument("--flips", type=int, default=20000)
     parser.add_argument("--changes", type=int, default=1000)
     parser.add_argument("--scenes", type=int, default=1000)
-    parser.add_argument("--named", action="store_true", help="the named cases first")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--keep", default="out/fuzz", help="folder for inputs that found a fault")
     options = parser.parse_args()

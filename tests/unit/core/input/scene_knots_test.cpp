@@ -100,6 +100,8 @@ TEST(SceneKnots, RefusesBadExpectations) {
             "s.toml:2: controller.free_from = 'form': must be one of \"tighten\", \"slide\", "
             "\"release\", \"free\"");
   EXPECT_EQ(scene_complaint("mirror = 1\n"), "s.toml:1: mirror = 1: must be true or false");
+  EXPECT_EQ(scene_complaint("[constraints]\nstride = 1e-9\n"),
+            "s.toml:2: constraints.stride = 1e-9: must be at least 0.001");
   EXPECT_EQ(scene_complaint("[script]\nnoise = -1\n"),
             "s.toml:2: script.noise = -1: must not be negative");
 }

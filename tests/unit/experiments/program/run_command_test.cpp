@@ -67,6 +67,22 @@ TEST_F(ProgramTest, KeepsAnExistingLogUnlessForced) {
   EXPECT_GT(fs::file_size(folder / "a.h5"), 8u);
 }
 
+TEST_F(ProgramTest, EveryFileIsKeptUnlessForced) {
+  ASSERT_EQ(run_program(brief_run + "--out a.log").code, 0);
+  ASSERT_EQ(run_program("record-qp --set time.duration=0.02 --quiet --out a.qps").code, 0);
+  for (const std::string command :
+       {"check a.log --csv kept", "picture a.log --out kept.png", "qp a.qps --csv kept",
+        "program a.log --stations 4 --times 2 --out kept", "stress table1 --out kept",
+        "compare --out kept", "integrate --motion coil --out kept", "record-qp --out kept",
+        "playback a.log --out kept", "branch a.log --out kept"}) {
+    const fs::path file = folder / (command.ends_with(".png") ? "kept.png" : "kept");
+    std::ofstream(file) << "precious";
+    const ProgramOutcome kept = run_program(command);
+    EXPECT_EQ(kept.code, 2) << command << ": " << kept.output;
+    EXPECT_EQ(fs::file_size(file), 8u) << command;
+  }
+}
+
 TEST_F(ProgramTest, FullDiskIsOneLine) {
   // A limit on file size (blocks of 1024 bytes) with its signal ignored stands for a full disk.
   const ProgramOutcome full = run_program("run --quiet --set time.duration=2 --out a.h5",

@@ -1,0 +1,92 @@
+#include "experiments/program/scene_sense.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/input/input_error.hpp"
+#include "core/log/log_frame.hpp"
+
+namespace hagfish {
+namespace {
+
+constexpr double most_steps = 1e8;
+constexpr double most_bytes = 1e10;
+constexpr double water = 1;        // g/cm^3; animals are within some per cent of it
+constexpr double odd_ratio = 1.5;  // of densities, either way
+constexpr double densest = 22.6;   // osmium, g/cm^3
+constexpr double longest = 130;    // cm; the largest hagfish, Eptatretus goliath, has 127.5
+
+/// Mass over the volume of the skin.
+double density(const ResolvedScene& resolved) {
+  const Model model = make_hagfish(resolved.specimen, resolved.scene);
+  double volume = 0, mass = 0;
+  for (const Body& body : model.bodies) {
+    volume += std::numbers::pi * body.radius * body.radius * body.length;
+    mass += body.mass;
+  }
+  return mass / volume;
+}
+
+template <class Source>
+double row_bytes(const LogTable<Source>& table) {
+  double bytes = 0;
+  for (const auto& series : table.series()) {
+    const SeriesLayout& layout = series->layout();
+    double values = 1;
+    for (const hsize_t extent : layout.row_shape) values *= static_cast<double>(extent);
+    bytes += values * static_cast<double>(layout.type.getSize());
+  }
+  return bytes;
+}
+
+}  // namespace
+
+RunSize run_size(const Scene& scene, const Model& model) {
+  LogTable<Frame> frames(frame_chunk_rows);
+  LogTable<LoggedStep> steps(step_chunk_rows);
+  declare_frames(model, frames);
+  declare_steps(steps);
+  const double count = scene.time.duration / scene.time.step;
+  return {count, count * row_bytes(steps) +
+                     scene.time.duration / scene.time.frame_interval * row_bytes(frames)};
+}
+
+std::vector<std::string> odd_things(const ResolvedScene& scene) {
+  std::vector<std::string> odd;
+  const double dense = density(scene);
+  if (dense > odd_ratio * water || dense < water / odd_ratio) {
+    odd.push_back(fmt::format(
+        "specimen: a density of {:.3g} g/cm^3, where an animal's is near water's 1: scripts "
+        "for other animals may not tie it",
+        dense));
+  }
+  if (scene.specimen.length > longest) {
+    odd.push_back(
+        fmt::format("specimen.length = {:g} cm: the largest hagfish have {:g}: scripts for "
+                    "other animals may not tie it",
+                    scene.specimen.length, longest));
+  }
+  return odd;
+}
+
+void check_sense(const ResolvedScene& scene, const Model& model, bool force) {
+  if (const double dense = density(scene); dense > densest) {
+    throw InputError(
+        fmt::format("specimen: a density of {:.3g} g/cm^3: no matter has more than {:g}; mass is "
+                    "in g, lengths are "
+                    "in cm",
+                    dense, densest));
+  }
+  const RunSize size = run_size(scene.scene, model);
+  if (!force && (size.steps > most_steps || size.bytes > most_bytes)) {
+    throw InputError(fmt::format(
+        "time.duration = {:g} s at time.step = {:g} s: {:.3g} steps and up to {:.3g} GB of log "
+        "(--force runs it; at most {:g} steps and {:g} GB without)",
+        scene.scene.time.duration, scene.scene.time.step, size.steps, 1e-9 * size.bytes, most_steps,
+        1e-9 * most_bytes));
+  }
+}
+
+}  // namespace hagfish
