@@ -2,11 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <type_traits>
 #include <vector>
 
+#include "core/input/run_time_text.hpp"
 #include "tests/support/plain_scene.hpp"
 
 namespace hagfish {
@@ -172,12 +174,19 @@ ResolvedScene odd_scene() {
   s.constraints.stride = odd();
   s.guard = {GuardAction::warn, odd(), odd(), odd(), odd(), EnergyAction::stop, odd()};
   s.time.until = Phase::reverse;
-  s.expect = {"4_1",      {{"0_1", 0, odd()}, {"det=9,v2=2", odd(), odd()}},
-              Hand::left, odd(),
-              odd(),      odd(),
-              odd(),      odd(),
-              odd(),      odd(),
-              odd(),      odd()};
+  s.expect = {"4_1",
+              {{"0_1", {std::nullopt, 0}, {std::nullopt, odd()}},
+               {"det=9,v2=2", {Phase::tighten, odd()}, {std::nullopt, INFINITY}}},
+              Hand::left,
+              odd(),
+              odd(),
+              odd(),
+              odd(),
+              odd(),
+              odd(),
+              odd(),
+              odd(),
+              odd()};
   s.expect.energy = odd();
   s.expect.energy_gain = odd();
   s.start.bend = {{odd(), odd(), -odd(), odd()}, {odd(), odd(), odd(), odd()}};

@@ -39,7 +39,7 @@ TEST(TomlBounds, PartsOfAKeyAreCounted) {
 
 TEST(TomlBounds, StringsAndCommentsCountForNothing) {
   const std::string open = times(100, "["), dots = times(100, ".");
-  for (const std::string quiet :
+  for (const std::string& quiet :
        {"a = \"" + open + "\\\"" + open + dots + "\"", "a = '" + open + dots + "\\'",
         "# " + open + dots, "a = \"\"\"" + open + "\n\"\"" + open + "\\\"\"\"" + open + "\"\"\"",
         "a = '''" + open + "\n''" + open + dots + "'''", "a = \"\"\"" + open + "\"\"\"\"\""}) {

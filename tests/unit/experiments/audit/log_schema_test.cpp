@@ -92,7 +92,11 @@ TEST_F(LogSchema, WantsBodiesFramesAndKindsThatThereAre) {
   set<int>("/thigmotaxis/body_b", PredType::NATIVE_INT, 0, std::numeric_limits<int>::max());
   EXPECT_EQ(refusal(), "/thigmotaxis/body_b holds 2147483647, not -1 to 7");
   set<int>("/thigmotaxis/body_b", PredType::NATIVE_INT, 0, -1);
-  set<std::uint8_t>("/steps/solve", PredType::NATIVE_UINT8, 1, 3);
+  // HDF5 makes no enumeration of a number, so in its own type.
+  const H5::DataType solve =
+      H5::H5File(file, H5F_ACC_RDONLY).openDataSet("/steps/solve").getDataType();
+  rewrite<std::uint8_t>(file, "/steps/solve", solve,
+                        [](std::vector<std::uint8_t>& values) { values.at(1) = 3; });
   EXPECT_EQ(refusal(), "/steps/solve holds 3, not 0 to 2");
 }
 

@@ -23,7 +23,7 @@ TEST(SceneSense, TheMeasuredAnimalIsNotOdd) {
 TEST(SceneSense, DensitiesAndLengthsThatNoHagfishHas) {
   EXPECT_EQ(
       odd_things(stored_scene({"specimen.mass=160"})),
-      std::vector<std::string>{"specimen: a density of 1.71 g/cm^3, where an animal's is near "
+      std::vector<std::string>{"specimen: a density of 1.74 g/cm^3, where an animal's is near "
                                "water's 1: scripts for other animals may not tie it"});
   EXPECT_EQ(odd_things(stored_scene({"specimen.mass=20"})).size(), 1u);
   EXPECT_EQ(
