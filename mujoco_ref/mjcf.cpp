@@ -99,7 +99,8 @@ std::string root_file(const Model& model, double least_arc, double h) {
   const int rows = contacts + static_cast<int>(model.hinges.size());  // each contact is one row
   std::ostringstream out = number_stream();
   out << "<!-- Units: cm, g, s, rad. -->\n"
-         "<!-- The animal alone, without water drag, head plate, and what a scene does to the animal or has it do: "
+         "<!-- The animal alone, without water drag, head plate, and what a scene does to the "
+         "animal or has it do: "
          "the tip's force, the active torques of its muscles (their stiffness towards a rest shape "
          "that moves is no joint stiffness of MuJoCo's), thigmotaxis. -->\n";
   if (!model.cones.empty()) {

@@ -38,8 +38,8 @@ void append(const Sample& row, const std::string& name, unsigned line, Curvature
       fail(name, line, first ? "the first time must be 0" : "times must rise");
     }
     if (!first && at != stations) {
-      fail(name, line, fmt::format("time {:g} has {} of {} stations", program.time.back(), at,
-                                   stations));
+      fail(name, line,
+           fmt::format("time {:g} has {} of {} stations", program.time.back(), at, stations));
     }
     program.time.push_back(row.time);
     program.value.emplace_back(3, 0);

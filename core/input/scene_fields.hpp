@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/input/program_table.hpp"
 #include "core/input/run_time_text.hpp"
 #include "core/input/toml_range.hpp"
 #include "core/scene/settings.hpp"
@@ -19,11 +20,6 @@
 namespace hagfish {
 
 enum class KnotUnit { unsaid, dyn, cm, body_length };
-
-/// A curvature program as a table: `times` x `stations` values each, a time after the other.
-struct ProgramTable {
-  std::vector<double> times, stations, bend_y, bend_z, twist;
-};
 
 /// A script as its file spells it: knots in rows [t, x, y, z], in `unit`.
 struct ScriptFile {
@@ -106,10 +102,11 @@ void constraint_fields(Io& io, ConstraintSettings& s) {
 template <class Io>
 void script_fields(Io& io, ScriptFile& s) {
   using Kind = ScriptSettings::Kind;
-  io.template choice<Kind>(
-      "kind", s.settings.kind,
-      {{"none", Kind::none}, {"force", Kind::force}, {"position", Kind::position},
-       {"curvature", Kind::curvature}});
+  io.template choice<Kind>("kind", s.settings.kind,
+                           {{"none", Kind::none},
+                            {"force", Kind::force},
+                            {"position", Kind::position},
+                            {"curvature", Kind::curvature}});
   io.number("spring", s.settings.spring, not_negative());
   io.number("damper", s.settings.damper, not_negative());
   io.number("largest_force", s.settings.largest_force, not_negative());

@@ -9,6 +9,7 @@
 #include "core/input/builtin_files.hpp"
 #include "core/input/curvature_csv.hpp"
 #include "core/input/input_text.hpp"
+#include "core/input/program_table.hpp"
 #include "core/input/scene_base.hpp"
 #include "core/input/scene_fields.hpp"
 #include "core/input/toml_reader.hpp"
@@ -82,54 +83,6 @@ Specimen read_scene_specimen(TableReader& root, const std::vector<SceneSource>& 
     table.set({key.substr(specimen_prefix.size()), value}, key);
   }
   return read_specimen_table(table);
-}
-
-/// Checks `table`, [script.curvature], and turns it into a program.
-CurvatureProgram resolve_table(const TableReader& root, const ProgramTable& table) {
-  const auto rising = [&](const std::string& key, const std::vector<double>& values) {
-    if (values.empty()) root.fail("script.curvature", key + " is missing");
-    for (std::size_t i = 1; i < values.size(); ++i) {
-      if (values[i] <= values[i - 1]) {
-        root.fail_element("script.curvature." + key, i,
-                          "must rise; number " + std::to_string(i + 1) + " does not");
-      }
-    }
-  };
-  rising("times", table.times);
-  rising("stations", table.stations);
-  if (table.times[0] != 0 || table.times.size() < 2) {
-    root.fail("script.curvature.times", "must be two or more, the first 0");
-  }
-  const auto stations = static_cast<Eigen::Index>(table.stations.size());
-  CurvatureProgram program{table.times, table.stations, {}, {}};
-  program.value.assign(table.times.size(), Eigen::Matrix3Xd::Zero(3, stations));
-  const std::pair<const char*, const std::vector<double>&> rows[] = {
-      {"bend_y", table.bend_y}, {"bend_z", table.bend_z}, {"twist", table.twist}};
-  for (int i = 0; i < 3; ++i) {
-    const auto& [key, values] = rows[i];
-    if (values.size() != table.times.size() * table.stations.size()) {
-      root.fail("script.curvature." + std::string(key),
-                "must have times x stations values, " +
-                    std::to_string(table.times.size() * table.stations.size()));
-    }
-    for (std::size_t k = 0; k < values.size(); ++k) {
-      program.value[k / table.stations.size()](
-          i, static_cast<Eigen::Index>(k % table.stations.size())) = values[k];
-    }
-  }
-  return program;
-}
-
-/// The reverse.
-ProgramTable program_table(const CurvatureProgram& program) {
-  ProgramTable table{program.time, program.station, {}, {}, {}};
-  for (const Eigen::Matrix3Xd& value : program.value) {
-    std::vector<double>* rows[] = {&table.bend_y, &table.bend_z, &table.twist};
-    for (int i = 0; i < 3; ++i) {
-      rows[i]->insert(rows[i]->end(), value.row(i).begin(), value.row(i).end());
-    }
-  }
-  return table;
 }
 
 CurvatureProgram resolve_program(const TableReader& root, const ScriptFile& file,
@@ -260,9 +213,10 @@ void check_start(const TableReader& root, const ResolvedScene& resolved) {
 void check_passive(const TableReader& root, const ResolvedScene& resolved) {
   const Specimen& s = resolved.specimen;
   const std::size_t count = s.station.size();
-  for (const auto& [key, values] :
-       {std::pair("bending_stiffness", &s.bending_stiffness), {"bending_damping", &s.bending_damping},
-        {"twist_stiffness", &s.twist_stiffness}, {"twist_damping", &s.twist_damping}}) {
+  for (const auto& [key, values] : {std::pair("bending_stiffness", &s.bending_stiffness),
+                                    {"bending_damping", &s.bending_damping},
+                                    {"twist_stiffness", &s.twist_stiffness},
+                                    {"twist_damping", &s.twist_damping}}) {
     if (!values->empty() && values->size() != count) {
       root.fail("specimen", "its passive." + std::string(key) +
                                 " must have as many values as station, " + std::to_string(count));

@@ -241,8 +241,9 @@ void TableReader::length(std::string_view key, double& value, const Range& range
   const auto read = std::from_chars(text.data(), text.data() + text.size(), number);
   const std::string unit(read.ptr, text.data() + text.size() - read.ptr);
   if (read.ec != std::errc() || (unit != " L" && unit != " D")) {
-    impl_->fail(place, "must be a number of cm, or as \"0.2 L\" or \"12 D\", of body lengths or mean "
-                       "diameters");
+    impl_->fail(place,
+                "must be a number of cm, or as \"0.2 L\" or \"12 D\", of body lengths or mean "
+                "diameters");
   }
   value = impl_->checked(place, toml::value(number), range) *
           (unit == " L" ? impl_->document->body_length : impl_->document->body_diameter);

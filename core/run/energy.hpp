@@ -19,7 +19,7 @@ struct EnergyLedger {
   double initial = 0;  ///< kinetic + elastic + gravity at the start
   double kinetic = 0, elastic = 0, gravity = 0;
   double work_tip = 0;
-  double work_active = 0;  ///< of the muscles: of the active torque
+  double work_active = 0;                               ///< of the muscles: of the active torque
   std::array<double, row_kinds.size()> work_of_kind{};  ///< of the constraint forces, by row kind
   double dissipated = 0;                                ///< by drag and joint damping
   /// -½ Δq̇' M Δq̇: what first-order steps lose when velocities change, inelastic impacts included;

@@ -29,7 +29,7 @@ enum class PassiveSource {
 
 /// How the specimen becomes a chain. The passive terms are additions to the paper: it states none.
 struct ModelSettings {
-  int bodies = 100;              ///< rigid bodies along the animal, 2 to 400
+  int bodies = 100;  ///< rigid bodies along the animal, 2 to 400
   PassiveSource passive = PassiveSource::scene;
   double bending_stiffness = 0;  ///< flexural rigidity about each bending axis, dyn cm^2
   double bending_damping = 0;    ///< its rate form, dyn cm^2 s
@@ -207,8 +207,8 @@ struct TimeSettings {
   double frame_interval = 0.020;  ///< time between logged frames, s; a whole number of steps
   /// Time between checkpoints in the log, from which a run can branch, rounded to whole frames, s.
   double checkpoint_interval = 1;
-  double duration = 30;           ///< the run ends here at the latest, s
-  Phase until = Phase::free;      ///< the run ends with this phase
+  double duration = 30;       ///< the run ends here at the latest, s
+  Phase until = Phase::free;  ///< the run ends with this phase
 };
 
 enum class GuardAction { stop, warn };

@@ -7,7 +7,8 @@
 
 namespace hagfish {
 
-/// A measured specimen (paper, Table 1; what that does not have, by other sources). Profiles are linear between stations and constant outside.
+/// A measured specimen (paper, Table 1; what that does not have, by other sources). Profiles are
+/// linear between stations and constant outside.
 struct Specimen {
   std::string name;
   double length = 0;            ///< head to tail, cm

@@ -14,6 +14,7 @@
 #include "experiments/audit/audit_forward_inverse.hpp"
 #include "experiments/audit/audit_frames.hpp"
 #include "experiments/audit/audit_knot.hpp"
+#include "experiments/audit/audit_muscles.hpp"
 #include "experiments/audit/audit_steps.hpp"
 
 namespace hagfish {
@@ -94,8 +95,9 @@ Finding energy_gain(const LogContents& log) {
 Finding energy(const LogContents& log) {
   const auto get = [&](const char* name) { return diagnostic(log, name); };
   const Eigen::ArrayXd energy = mechanical_energy(log);
-  const Eigen::ArrayXd works = get("work_tip") + get("work_active") + get("work_thigmotaxis") + get("work_contact") +
-                               get("work_limit") + get("work_head") + get("work_wall");
+  const Eigen::ArrayXd works = get("work_tip") + get("work_active") + get("work_thigmotaxis") +
+                               get("work_contact") + get("work_limit") + get("work_head") +
+                               get("work_wall");
   const Eigen::ArrayXd error = get("integrator_error");
   const Eigen::ArrayXd dissipated = get("dissipated");
   // Running totals need not begin at 0: a branch goes on with those of its run.
@@ -129,9 +131,10 @@ std::vector<Finding> momentum(const LogContents& log) {
   const double relative = passed > 0 ? most(off) / passed : most(off);
   Finding finding = judged_over({"momentum ledger", relative, log.resolved.scene.expect.energy,
                                  "of the momentum that passed"});
-  finding.text += fmt::format("; at most {:.3g} dyn s by drag, {:.3g} from outside, {:.3g} the "
-                              "integrator's own",
-                              most(drag), most(outside), most(integrator));
+  finding.text += fmt::format(
+      "; at most {:.3g} dyn s by drag, {:.3g} from outside, {:.3g} the "
+      "integrator's own",
+      most(drag), most(outside), most(integrator));
   std::vector<Finding> findings{finding};
   const Scene& scene = log.resolved.scene;
   using Kind = ScriptSettings::Kind;
@@ -175,6 +178,7 @@ std::vector<Finding> audit(const std::string& file) {
   check_datasets(log);
   FrameAudit frames(log);
   ForceAudit forces(log);
+  MuscleAudit muscles(log);
   std::vector<SeenKnot> knots;
   double deepest = 0;
   double furthest = 0;
@@ -183,6 +187,7 @@ std::vector<Finding> audit(const std::string& file) {
     knots.push_back(see_knot(log, frame));
     frames.see(frame, knots.back().vote);
     forces.see(frame);
+    muscles.see(frame);
     deepest = worse(deepest, frame.observation.penetration);
     furthest = worse(furthest, frame.observation.limit_violation);
   }
@@ -195,6 +200,7 @@ std::vector<Finding> audit(const std::string& file) {
   append(frames.findings());
   append(audit_steps(log));
   append(forces.findings());
+  append(muscles.findings());
   findings.push_back(audit_forward_inverse(log));
   findings.push_back(thigmotaxis_extent(log));
   findings.push_back(energy(log));

@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/log/log_writer.hpp"
-#include "core/run/active_curvature.hpp"
 #include "core/run/script.hpp"
 
 namespace hagfish {
@@ -29,9 +27,6 @@ constexpr double mean_tolerance = 0.05;
 constexpr double mean_tolerance_growth = 1;     // 1/s
 constexpr double largest_mean_tolerance = 0.3;  // beyond it the finding would say nothing
 constexpr std::size_t least_means = 5;          // for a median
-/// The rest shape follows q at every step, which is known at frames: a median again, as a share of
-/// the way that the hinges made between two.
-constexpr double tone_tolerance = 0.1;
 
 /// The knot goes to the tail in this phase: both tangents turn.
 bool towards_tail(const Scene& scene, Phase phase) {
@@ -92,12 +87,6 @@ double mismatch(const Eigen::VectorXd& a, const Eigen::VectorXd& b, double least
   return !(a - b).allFinite() ? INFINITY : (off > 0 ? off / scale : 0);
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 }  // namespace
 
 ForceAudit::ForceAudit(const LogContents& log)
@@ -109,7 +98,6 @@ ForceAudit::ForceAudit(const LogContents& log)
       wall_(log.h5.rows("/forces/wall")),
       tip_(log.h5.rows("/forces/tip")),
       active_torque_(log.h5.rows("/forces/active")),
-      q_ref_(log.h5.rows("/trajectory/q_ref")),
       lambda_(log.h5.rows("/thigmotaxis/lambda")),
       command_(log.h5.rows("/thigmotaxis/command")),
       speed_(log.h5.rows("/thigmotaxis/speed")),
@@ -118,8 +106,8 @@ ForceAudit::ForceAudit(const LogContents& log)
       body_a_(log.h5.rows("/thigmotaxis/body_a")),
       body_b_(log.h5.rows("/thigmotaxis/body_b")),
       mean_{log.h5.rows("/mean/forces/thigmotaxis"), log.h5.rows("/mean/forces/contact"),
-            log.h5.rows("/mean/forces/limit"), log.h5.rows("/mean/forces/head"),
-            log.h5.rows("/mean/forces/wall"), log.h5.rows("/mean/forces/active")},
+            log.h5.rows("/mean/forces/limit"),       log.h5.rows("/mean/forces/head"),
+            log.h5.rows("/mean/forces/wall"),        log.h5.rows("/mean/forces/active")},
       mean_net_(log.h5.rows("/mean/forces/net")),
       mean_lambda_(log.h5.rows("/mean/thigmotaxis/lambda")),
       contact_frame_(log.h5.integers("/contacts/frame")),
@@ -135,8 +123,6 @@ void ForceAudit::see(const AuditedFrame& frame) {
   see_limits(frame);
   see_head(frame);
   see_tip(frame);
-  see_active(frame);
-  see_rest_shape(frame);
   see_balance(frame);
   if (frame.index > 0) {
     see_means(frame, columns);
@@ -310,71 +296,15 @@ void ForceAudit::see_tip(const AuditedFrame& frame) {
   from_rows_.compare("/forces/tip", tip_.row(frame.index).transpose(), tip.value - tip.rate * next);
 }
 
-void ForceAudit::see_active(const AuditedFrame& frame) {
-  const Scene& scene = log_.resolved.scene;
-  Eigen::VectorXd wanted = Eigen::VectorXd::Zero(log_.model.nv());
-  if (scene.script.kind == ScriptSettings::Kind::curvature) {
-    const ActiveTorque torque =
-        active_torque(log_.model, scene, frame.state, q_ref_.row(frame.index).transpose());
-    wanted = torque.value - torque.rate.cwiseProduct(frame.qdot_next);
-  }
-  const Eigen::VectorXd torque = active_torque_.row(frame.index);
-  from_rows_.compare("/forces/active", torque, wanted);
-  // Muscles hold on to nothing outside.
-  if (!torque.head<root_dofs>().isZero(0)) shape_.insert("/forces/active");
-}
-
-void ForceAudit::see_rest_shape(const AuditedFrame& frame) {
-  const Scene& scene = log_.resolved.scene;
-  const Eigen::Index f = frame.index;
-  const double h = scene.time.step;
-  const Eigen::VectorXd rest = q_ref_.row(f);
-  if (scene.script.kind != ScriptSettings::Kind::curvature) {
-    from_rows_.compare("/trajectory/q_ref", rest, Eigen::VectorXd::Zero(rest.size()));
-    return;
-  }
-  if (!rest.head<root_dofs>().isZero(0)) shape_.insert("/trajectory/q_ref");
-  if (frame.phase == Phase::form) {
-    from_rows_.compare("/trajectory/q_ref", rest,
-                       program_shape(log_.model, scene.script.curvature, log_.time[f] + h));
-    return;
-  }
-  if (f == 0 || static_cast<Phase>(log_.phase[f - 1]) == Phase::form) {
-    return;
-  }
-  const auto relaxes = [&](Eigen::Index frame_index) {
-    const auto phase = static_cast<Phase>(log_.phase[frame_index]);
-    return phase == Phase::release || phase == Phase::free;
-  };
-  const Eigen::VectorXd before = q_ref_.row(f - 1);
-  const auto steps = static_cast<double>(frame_stride(scene.time));
-  if (relaxes(f - 1)) {
-    from_rows_.compare("/trajectory/q_ref", rest,
-                       std::exp(-steps * h / scene.active.relax_time) * before);
-  } else if (!relaxes(f)) {
-    // From step to step e = q_ref - q becomes kept (e - Δq); between frames, as if Δq were even.
-    const double kept = std::exp(-h / scene.active.tone_time);
-    const double whole = std::pow(kept, steps);
-    const Eigen::Index count = rest.size() - root_dofs;
-    const Eigen::VectorXd now = log_.q.row(f).tail(count);
-    const Eigen::VectorXd way = now - log_.q.row(f - 1).tail(count).transpose();
-    const Eigen::VectorXd lag = before.tail(count) - log_.q.row(f - 1).tail(count).transpose();
-    const Eigen::VectorXd wanted =
-        now + whole * lag - kept * (1 - whole) / (1 - kept) / steps * way;
-    tone_deviation_.push_back((rest.tail(count) - wanted).norm() / way.norm());
-  }
-}
-
 void ForceAudit::see_balance(const AuditedFrame& frame) {
   const Eigen::Index f = frame.index;
   const Model& model = log_.model;
   const double h = log_.resolved.scene.time.step;
   const Kinematics& kin = frame.observation.kin;
   const StepSystem system = step_system(model, frame.state, kin, {tip_.row(f).transpose(), 0}, h);
-  const Eigen::VectorXd sum =
-      (thigmotaxis_.row(f) + contact_.row(f) + limit_.row(f) + head_.row(f) + wall_.row(f) +
-       active_torque_.row(f))
-          .transpose();
+  const Eigen::VectorXd sum = (thigmotaxis_.row(f) + contact_.row(f) + limit_.row(f) +
+                               head_.row(f) + wall_.row(f) + active_torque_.row(f))
+                                  .transpose();
   const Eigen::VectorXd given =
       generalised_force(model, kin, system.wrench) + system.joint + h * sum;
   imbalance_ = worse(imbalance_, mismatch(given, multiply(model, kin, system.op, frame.qdot_next)));
@@ -447,13 +377,9 @@ std::vector<Finding> ForceAudit::findings() const {
   const double tolerance =
       mean_tolerance + mean_tolerance_growth * log_.resolved.scene.time.frame_interval;
   if (mean_deviation_.size() >= least_means && tolerance <= largest_mean_tolerance) {
-    findings.push_back(judged_over({"means of f_thigmo", median(mean_deviation_), tolerance, "of scale"},
-                                   "median, against C' of the mean multipliers"));
-  }
-  if (tone_deviation_.size() >= least_means) {
-    findings.push_back(judged_over({"muscle tone", median(tone_deviation_), tone_tolerance,
-                                    "of the way between frames"},
-                                   "median of /trajectory/q_ref against its following q"));
+    findings.push_back(
+        judged_over({"means of f_thigmo", median(mean_deviation_), tolerance, "of scale"},
+                    "median, against C' of the mean multipliers"));
   }
   return findings;
 }

@@ -32,13 +32,11 @@ class ForceAudit {
   void see_cone(const AuditedFrame& frame, const BendingCone& cone, const Eigen::Vector2d& force);
   void see_head(const AuditedFrame& frame);
   void see_tip(const AuditedFrame& frame);
-  void see_active(const AuditedFrame& frame);
-  void see_rest_shape(const AuditedFrame& frame);
   void see_balance(const AuditedFrame& frame);
   void see_means(const AuditedFrame& frame, const Eigen::MatrixXd& columns);
 
   const LogContents& log_;
-  Hdf5Reader::Rows thigmotaxis_, contact_, limit_, head_, wall_, tip_, active_torque_, q_ref_;
+  Hdf5Reader::Rows thigmotaxis_, contact_, limit_, head_, wall_, tip_, active_torque_;
   Hdf5Reader::Rows lambda_, command_, speed_, spline_a_, spline_b_, body_a_, body_b_;
   std::array<Hdf5Reader::Rows, 6> mean_;  ///< thigmotaxis, contact, limit, head, wall, active
   Hdf5Reader::Rows mean_net_, mean_lambda_;
@@ -52,7 +50,6 @@ class ForceAudit {
   std::set<std::string> shape_;                ///< datasets with a force where there can be none
   Eigen::MatrixXd columns_before_;             ///< C_thigmo' of the frame before, nv x 4
   std::vector<double> mean_deviation_;         ///< of mean f_thigmo from C' of the mean λ, shares
-  std::vector<double> tone_deviation_;  ///< of q_ref that follows q, shares of the motion
 };
 
 }  // namespace hagfish

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "experiments/audit/audit.hpp"
 
@@ -12,6 +13,9 @@ namespace hagfish {
 /// Deviation up to which a logged number counts as the rebuilt one, of the dataset's largest: sums
 /// of a hundred bodies round differently on another machine, by 1e-13.
 inline constexpr double rebuilt_tolerance = 1e-9;
+
+/// The middle one; there must be some.
+double median(std::vector<double> values);
 
 class Rebuilt {
  public:

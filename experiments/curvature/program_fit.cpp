@@ -34,7 +34,8 @@ Eigen::MatrixXd time_shares(const Model& model, const std::vector<double>& frame
                             const std::vector<double>& times) {
   const CurvatureProgram one{{0}, {0}, {Eigen::Matrix3Xd::Ones(3, 1)}, {}};
   const double whole = program_shape(model, one, 0)[root_dofs];
-  CurvatureProgram unit{times, {0}, std::vector<Eigen::Matrix3Xd>(times.size(), Eigen::Matrix3Xd::Zero(3, 1)), {}};
+  CurvatureProgram unit{
+      times, {0}, std::vector<Eigen::Matrix3Xd>(times.size(), Eigen::Matrix3Xd::Zero(3, 1)), {}};
   Eigen::MatrixXd shares(static_cast<Eigen::Index>(frames.size()),
                          static_cast<Eigen::Index>(times.size()));
   for (Eigen::Index k = 0; k < shares.cols(); ++k) {
@@ -53,7 +54,8 @@ ProgramFit fit_program(const Model& model, const std::vector<double>& time,
                        const Eigen::MatrixXd& q, int times, int stations) {
   const auto frames = static_cast<Eigen::Index>(time.size());
   if (times < 2 || times > frames || stations < 2 || stations > model.body_count() / 4) {
-    throw std::invalid_argument("2 times to as many as frames, 2 stations to a quarter of the bodies");
+    throw std::invalid_argument(
+        "2 times to as many as frames, 2 stations to a quarter of the bodies");
   }
   ProgramFit fit;
   CurvatureProgram& program = fit.program;

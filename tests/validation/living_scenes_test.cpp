@@ -36,9 +36,8 @@ TEST(LivingScenes, NothingOutsideTakesPartWhereTheHeadIsFree) {
 
 /// The state at `time` of a clamped living scene from a start with `noise` (degrees).
 State state_at(const std::string& name, double time, double noise, unsigned seed) {
-  const ResolvedScene resolved =
-      scene_called(name, {"start.noise_deg=" + std::to_string(noise),
-                          "start.seed=" + std::to_string(seed)});
+  const ResolvedScene resolved = scene_called(
+      name, {"start.noise_deg=" + std::to_string(noise), "start.seed=" + std::to_string(seed)});
   const Model model = make_hagfish(resolved.specimen, resolved.scene);
   Simulation sim = start(model, resolved.scene, "active-set");
   StepRecord record;
@@ -57,8 +56,8 @@ TEST(LivingScenes, TheStartIsForgotten) {
     const auto apart = [&](double time) {
       return (centres(time, seed) - centres(time, 0)).colwise().norm().maxCoeff();
     };
-    EXPECT_GT(apart(0), 5);       // cm
-    EXPECT_LT(apart(17), 1e-3);   // the end of the program
+    EXPECT_GT(apart(0), 5);        // cm
+    EXPECT_LT(apart(17), 1e-3);    // the end of the program
     EXPECT_LT(apart(19.5), 1e-3);  // while the knot slides
   }
 }

@@ -123,10 +123,11 @@ class Comparison {
   }
 
   void ledger(const EnergyLedger& l, const EnergyLedger& image) {
-    for (auto part : {&EnergyLedger::kinetic, &EnergyLedger::elastic, &EnergyLedger::gravity,
-                      &EnergyLedger::work_tip, &EnergyLedger::work_active, &EnergyLedger::dissipated,
-                      &EnergyLedger::integrator_inertia, &EnergyLedger::integrator_potential,
-                      &EnergyLedger::integrator_coriolis, &EnergyLedger::integrator_held}) {
+    for (auto part :
+         {&EnergyLedger::kinetic, &EnergyLedger::elastic, &EnergyLedger::gravity,
+          &EnergyLedger::work_tip, &EnergyLedger::work_active, &EnergyLedger::dissipated,
+          &EnergyLedger::integrator_inertia, &EnergyLedger::integrator_potential,
+          &EnergyLedger::integrator_coriolis, &EnergyLedger::integrator_held}) {
       same("energy", l.*part, image.*part);
     }
     same("work", l.work_of_kind, image.work_of_kind);
@@ -181,7 +182,8 @@ TEST_P(MirrorImage, IsTheReflectionOfTheRunToTheLastBit) {
 
 INSTANTIATE_TEST_SUITE_P(BuiltIn, MirrorImage,
                          testing::Values("table1", "figure_eight", "double_overhand", "three_twist",
-                                         "overhand_waypoints", "overhand_reverse", "living_three_twist"),
+                                         "overhand_waypoints", "overhand_reverse",
+                                         "living_three_twist"),
                          [](const auto& scene) { return std::string(scene.param); });
 
 TEST(MirrorImageOf, NoiseAndGravityToo) {

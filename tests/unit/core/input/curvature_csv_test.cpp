@@ -8,8 +8,7 @@
 namespace hagfish {
 namespace {
 
-const std::string heading =
-    "time (s),station (L),bend_y (rad/L),bend_z (rad/L),twist (rad/L)\n";
+const std::string heading = "time (s),station (L),bend_y (rad/L),bend_z (rad/L),twist (rad/L)\n";
 
 std::string complaint(const std::string& text) {
   return error_of([&] { read_curvature_csv(text, "p.csv"); });
@@ -52,8 +51,7 @@ TEST(CurvatureCsv, TellsWhatIsWrong) {
   EXPECT_EQ(complaint(heading), "p.csv: a program needs two times or more");
   EXPECT_EQ(complaint(heading + "0,0,1,2,3\n"), "p.csv: a program needs two times or more");
   EXPECT_EQ(complaint(heading + "1,0,1,2,3\n"), "p.csv:2: the first time must be 0");
-  EXPECT_EQ(complaint(heading + "0,0,1,x,3\n"),
-            "p.csv:2: bend_z (rad/L) = x: must be a number");
+  EXPECT_EQ(complaint(heading + "0,0,1,x,3\n"), "p.csv:2: bend_z (rad/L) = x: must be a number");
   EXPECT_EQ(complaint(heading + "0,0,1,nan,3\n"),
             "p.csv:2: bend_z (rad/L) = nan: must be a number");
   EXPECT_EQ(complaint(heading + "0,0,1,,3\n"), "p.csv:2: bend_z (rad/L) = : must be a number");

@@ -109,13 +109,13 @@ TEST(CurvatureScene, TellsWhatIsWrong) {
             "s.toml: --set script.curvature.times=[1, 2]: must be two or more, the first 0");
   EXPECT_EQ(complaint(table + active, {"script.curvature.stations=[0, 0.6, 0.5]"}),
             "s.toml: --set script.curvature.stations=[0, 0.6, 0.5]: must rise; number 3 does not");
-  EXPECT_EQ(
-      complaint(table + active, {"script.curvature.stations=[0, 2]"}),
-      "s.toml: --set script.curvature.stations=[0, 2]: number 2 must be from 0 to 1");
+  EXPECT_EQ(complaint(table + active, {"script.curvature.stations=[0, 2]"}),
+            "s.toml: --set script.curvature.stations=[0, 2]: number 2 must be from 0 to 1");
   EXPECT_EQ(complaint(table + active, {"script.curvature.twist=[1]"}),
             "s.toml: --set script.curvature.twist=[1]: must have times x stations values, 6");
-  EXPECT_EQ(complaint(table), "s.toml: active.stiffness: must be positive where a curvature "
-                              "program bends the animal");
+  EXPECT_EQ(complaint(table),
+            "s.toml: active.stiffness: must be positive where a curvature "
+            "program bends the animal");
   EXPECT_EQ(complaint(table + active, {"active.stiffness=-1"}),
             "s.toml: --set active.stiffness=-1: must not be negative");
   EXPECT_EQ(complaint(table + active, {"active.capacity=0"}),

@@ -51,7 +51,8 @@ TEST(SceneReader, LengthsMayBeSharesOfTheBodyOrDiameters) {
   // Of 40 cm; 5 and 4 cm around at a fifth from either end, linear between: 4.5 in the mean.
   const auto [scene, specimen] = read_scene_text(
       "[controller]\ntail_through = \"0.25 L\"\ntight_span = \"12 D\"\nrelease_at = 2\n"
-      "[contact]\nleast_arc = \"1.5 D\"\n" + plain_scene,
+      "[contact]\nleast_arc = \"1.5 D\"\n" +
+          plain_scene,
       "s", {"wall.neck=0.1 L"});
   EXPECT_EQ(scene.controller.tail_through, 10);
   EXPECT_NEAR(scene.controller.tight_span, 12 * 4.5 / 3.14159265358979, 1e-12);

@@ -49,10 +49,10 @@ class Bits {
     for (const double value : values.reshaped()) put(value);
   }
   void put(const ModelSettings& s) {
-    const auto& [bodies, passive, bending_stiffness, bending_damping, twist_stiffness, twist_damping,
-                 largest_limit, limit_scale, mass_ratio, bending_limit] = s;
-    add(bodies, passive, bending_stiffness, bending_damping, twist_stiffness, twist_damping, largest_limit,
-        limit_scale, mass_ratio, bending_limit);
+    const auto& [bodies, passive, bending_stiffness, bending_damping, twist_stiffness,
+                 twist_damping, largest_limit, limit_scale, mass_ratio, bending_limit] = s;
+    add(bodies, passive, bending_stiffness, bending_damping, twist_stiffness, twist_damping,
+        largest_limit, limit_scale, mass_ratio, bending_limit);
   }
   void put(const DragSettings& s) {
     const auto& [normal, tangential] = s;
@@ -147,8 +147,8 @@ ResolvedScene odd_scene() {
   s.title = "odd \"title\"";
   s.clamp_head = false;
   s.gravity = {odd(), -odd(), odd()};
-  s.model = {7, PassiveSource::specimen, odd(), odd(), odd(), odd(), odd(), odd(), odd(),
-             BendingLimit::cone};
+  s.model = {7,     PassiveSource::specimen, odd(), odd(), odd(), odd(), odd(), odd(),
+             odd(), BendingLimit::cone};
   s.drag = {odd(), odd()};
   s.constraints = {Activation::violated, odd()};
   s.contact = {odd(), odd()};
@@ -194,18 +194,26 @@ ResolvedScene odd_scene() {
   s.start.noise = odd();
   s.start.seed = 4294967294u;
   s.start.phase = Phase::slide;
-  result.specimen = {
-      "odd", 50 + odd(), odd(), {odd(), odd(), odd()}, {odd(), odd(), odd()}, {odd(), odd(), odd()},
-      odd(), odd(), {odd(), odd(), odd()}, {odd(), odd(), odd()}, {odd(), odd(), odd()},
-      {odd(), odd(), odd()}};
+  result.specimen = {"odd",
+                     50 + odd(),
+                     odd(),
+                     {odd(), odd(), odd()},
+                     {odd(), odd(), odd()},
+                     {odd(), odd(), odd()},
+                     odd(),
+                     odd(),
+                     {odd(), odd(), odd()},
+                     {odd(), odd(), odd()},
+                     {odd(), odd(), odd()},
+                     {odd(), odd(), odd()}};
   return result;
 }
 
 TEST(SceneText, ResolvedTextGivesTheSameScene) {
-  for (const auto& [scene, specimen] : {odd_scene(), read_scene(data + "/table1.toml"),
-                                        read_scene(data + "/overhand_waypoints.toml"),
-                                        read_scene(data + "/overhand_reverse.toml"),
-                                        read_scene(data + "/living_overhand_free.toml")}) {
+  for (const auto& [scene, specimen] :
+       {odd_scene(), read_scene(data + "/table1.toml"),
+        read_scene(data + "/overhand_waypoints.toml"), read_scene(data + "/overhand_reverse.toml"),
+        read_scene(data + "/living_overhand_free.toml")}) {
     const std::string text = scene_to_toml(scene, specimen);
     const ResolvedScene again = read_scene_text(text, "resolved");
     EXPECT_TRUE(Bits(again.scene, again.specimen) == Bits(scene, specimen));

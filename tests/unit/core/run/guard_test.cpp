@@ -95,7 +95,7 @@ TEST(Guard, TellsOnceWhatMusclesCannotDo) {
   Watch watch;
   std::vector<std::string> warnings;
   const auto look = [&] { guard_muscles(model, scene, rest, torque, 1, watch, warnings); };
-  torque.value[8] = 1e5;  // elastic: at the capacity by chance, not held there
+  torque.value[8] = 1e5;                   // elastic: at the capacity by chance, not held there
   rest[7] = model.hinges[1].upper + 0.01;  // within what a fitted program may pass a limit by
   look();
   EXPECT_TRUE(warnings.empty());

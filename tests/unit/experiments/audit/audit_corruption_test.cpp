@@ -83,8 +83,8 @@ const std::map<std::string, std::string>& watchers() {
     for (const char* name : {"impulse_drag", "impulse_outside", "integrator_momentum"}) {
       watch[std::string("/diagnostics/") + name] = "momentum ledger";
     }
-    for (const char* name : {"work_tip", "work_active", "work_thigmotaxis", "work_contact", "work_limit",
-                             "work_head", "work_wall", "dissipated"}) {
+    for (const char* name : {"work_tip", "work_active", "work_thigmotaxis", "work_contact",
+                             "work_limit", "work_head", "work_wall", "dissipated"}) {
       watch[std::string("/diagnostics/") + name] = "energy ledger";
     }
     for (const char* name : {"inertia", "potential", "coriolis", "held"}) {

@@ -59,9 +59,8 @@ TEST(ProgramFit, IsTheNearestAndSaysHowFarItIs) {
     double sum = 0;
     double largest = 0;
     for (std::size_t f = 0; f < time.size(); ++f) {
-      const Eigen::VectorXd off =
-          (program_shape(model, program, time[f]).tail(149) -
-           q.row(static_cast<int>(f)).tail(149).transpose());
+      const Eigen::VectorXd off = (program_shape(model, program, time[f]).tail(149) -
+                                   q.row(static_cast<int>(f)).tail(149).transpose());
       sum += off.squaredNorm();
       largest = std::max(largest, off.lpNorm<Eigen::Infinity>());
     }

@@ -1,0 +1,98 @@
+#include "experiments/audit/audit_muscles.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+
+#include "core/log/log_writer.hpp"
+#include "core/run/active_curvature.hpp"
+
+namespace hagfish {
+namespace {
+
+/// The rest shape follows q at every step, which is known at frames: a median, as a share of the
+/// way that the hinges made between two.
+constexpr double tone_tolerance = 0.1;
+constexpr std::size_t least_frames = 5;  // for a median
+
+}  // namespace
+
+MuscleAudit::MuscleAudit(const LogContents& log)
+    : log_(log), torque_(log.h5.rows("/forces/active")), q_ref_(log.h5.rows("/trajectory/q_ref")) {}
+
+void MuscleAudit::see(const AuditedFrame& frame) {
+  see_torque(frame);
+  see_rest_shape(frame);
+}
+
+void MuscleAudit::see_torque(const AuditedFrame& frame) {
+  const Scene& scene = log_.resolved.scene;
+  Eigen::VectorXd wanted = Eigen::VectorXd::Zero(log_.model.nv());
+  if (scene.script.kind == ScriptSettings::Kind::curvature) {
+    const ActiveTorque torque =
+        active_torque(log_.model, scene, frame.state, q_ref_.row(frame.index).transpose());
+    wanted = torque.value - torque.rate.cwiseProduct(frame.qdot_next);
+  }
+  const Eigen::VectorXd torque = torque_.row(frame.index);
+  rebuilt_.compare("/forces/active", torque, wanted);
+  // Muscles hold on to nothing outside.
+  if (!torque.head<root_dofs>().isZero(0)) on_root_.insert("/forces/active");
+}
+
+void MuscleAudit::see_rest_shape(const AuditedFrame& frame) {
+  const Scene& scene = log_.resolved.scene;
+  const Eigen::Index f = frame.index;
+  const double h = scene.time.step;
+  const Eigen::VectorXd rest = q_ref_.row(f);
+  if (scene.script.kind != ScriptSettings::Kind::curvature) {
+    rebuilt_.compare("/trajectory/q_ref", rest, Eigen::VectorXd::Zero(rest.size()));
+    return;
+  }
+  if (!rest.head<root_dofs>().isZero(0)) on_root_.insert("/trajectory/q_ref");
+  if (frame.phase == Phase::form) {
+    rebuilt_.compare("/trajectory/q_ref", rest,
+                     program_shape(log_.model, scene.script.curvature, log_.time[f] + h));
+    return;
+  }
+  if (f == 0 || static_cast<Phase>(log_.phase[f - 1]) == Phase::form) {
+    return;
+  }
+  const auto relaxes = [&](Eigen::Index frame_index) {
+    const auto phase = static_cast<Phase>(log_.phase[frame_index]);
+    return phase == Phase::release || phase == Phase::free;
+  };
+  const Eigen::VectorXd before = q_ref_.row(f - 1);
+  const auto steps = static_cast<double>(frame_stride(scene.time));
+  if (relaxes(f - 1)) {
+    rebuilt_.compare("/trajectory/q_ref", rest,
+                     std::exp(-steps * h / scene.active.relax_time) * before);
+  } else if (!relaxes(f)) {
+    // From step to step e = q_ref - q becomes kept (e - Δq); between frames, as if Δq were even.
+    const double kept = std::exp(-h / scene.active.tone_time);
+    const double whole = std::pow(kept, steps);
+    const Eigen::Index count = rest.size() - root_dofs;
+    const Eigen::VectorXd now = log_.q.row(f).tail(count);
+    const Eigen::VectorXd way = now - log_.q.row(f - 1).tail(count).transpose();
+    const Eigen::VectorXd lag = before.tail(count) - log_.q.row(f - 1).tail(count).transpose();
+    const Eigen::VectorXd wanted =
+        now + whole * lag - kept * (1 - whole) / (1 - kept) / steps * way;
+    tone_deviation_.push_back((rest.tail(count) - wanted).norm() / way.norm());
+  }
+}
+
+std::vector<Finding> MuscleAudit::findings() const {
+  std::vector<Finding> findings{
+      rebuilt_.finding("muscles", "the scene's program, q, q_ref and q̇ after the step"),
+      judged({"muscles hold on to nothing", static_cast<double>(on_root_.size()), 0, "datasets"},
+             on_root_.empty() ? "root entries are 0"
+                              : fmt::format("act on the root: {}", fmt::join(on_root_, ", ")))};
+  if (tone_deviation_.size() >= least_frames) {
+    findings.push_back(judged_over(
+        {"muscle tone", median(tone_deviation_), tone_tolerance, "of the way between frames"},
+        "median of /trajectory/q_ref against its following q"));
+  }
+  return findings;
+}
+
+}  // namespace hagfish

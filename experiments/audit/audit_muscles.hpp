@@ -1,0 +1,33 @@
+// The part of an audit that recomputes what muscles do: the rest shape from the program, the body
+// and its past, and the torques towards it.
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "experiments/audit/audited_frame.hpp"
+#include "experiments/audit/rebuilt.hpp"
+
+namespace hagfish {
+
+class MuscleAudit {
+ public:
+  /// The log is referred to.
+  explicit MuscleAudit(const LogContents& log);
+  /// Frames in their order.
+  void see(const AuditedFrame& frame);
+  std::vector<Finding> findings() const;
+
+ private:
+  void see_torque(const AuditedFrame& frame);
+  void see_rest_shape(const AuditedFrame& frame);
+
+  const LogContents& log_;
+  Hdf5Reader::Rows torque_, q_ref_;
+  Rebuilt rebuilt_;
+  std::set<std::string> on_root_;       ///< datasets with an entry there, where nothing holds on
+  std::vector<double> tone_deviation_;  ///< of q_ref that follows q, shares of the motion
+};
+
+}  // namespace hagfish
