@@ -112,12 +112,12 @@ def draw(folder: Path, sweeps: dict[str, dict[str, list[tuple[float, Run]]]], ou
     for panel, (what, label) in zip(axes[1:], SWEEPS.items(), strict=True):
         for knot, runs in sweeps[what].items():
             look = plots.KNOTS[knot]
-            largest = [max(t for t in run.torque.values() if np.isfinite(t)) for _, run in runs]
+            largest = [run.torque["form"] for _, run in runs]
             panel.plot([value for value, _ in runs], largest, label=look.label, **look.style)
             lost = [(value, torque) for (value, run), torque in zip(runs, largest, strict=True) if run.outcome != "off"]
             panel.plot([v for v, _ in lost], [t for _, t in lost], color=look.colour, marker=look.marker, mfc="white", ls="")
         panel.axhline(CAPACITY, color=plots.GREY, ls="--", lw=0.8)
-        panel.set(xscale="log", yscale="log", xlabel=label, ylabel="largest torque of a hinge, dyn cm")
+        panel.set(xscale="log", yscale="log", xlabel=label, ylabel="largest torque of a hinge, forming, dyn cm")
     axes[1].legend(title="open: not tied, or not off\ndashed: a guess at the capacity")
     plots.save(figure, out)
 

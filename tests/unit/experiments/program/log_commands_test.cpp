@@ -57,6 +57,24 @@ TEST_F(LogCommandsTest, RunInfoAndCheck) {
   EXPECT_NE(check.output.find("ok   force balance"), std::string::npos) << check.output;
 }
 
+TEST_F(LogCommandsTest, AProgramMadeOfALogRuns) {
+  const std::string brief =
+      "run living_overhand --qp active-set --quiet --force --set time.duration=1 "
+      "--set time.step=0.01 --set expect.types=[] ";
+  const ProgramOutcome first = run_program(brief + "--out a.h5");
+  ASSERT_EQ(first.code, 0) << first.output;
+  const ProgramOutcome made = run_program("program a.h5 --out p.csv --stations 5 --times 6");
+  EXPECT_EQ(made.code, 0) << made.output;
+  EXPECT_EQ(made.output.find("p.csv: 5 stations x 6 times, "), 0u) << made.output;
+  EXPECT_NE(made.output.find("rms error "), std::string::npos) << made.output;
+  const ProgramOutcome again = run_program(
+      brief + "--out b.h5 --set script.program=p.csv --set controller.tighten_from=0.5");
+  EXPECT_EQ(again.code, 0) << again.output;
+  EXPECT_EQ(run_program("program a.h5 --out q.csv --stations 26").code, 2);
+  EXPECT_EQ(run_program("program none.h5 --out q.csv").code, 2);
+  EXPECT_FALSE(std::filesystem::exists(folder / "q.csv"));
+}
+
 TEST_F(LogCommandsTest, OfARunThatNeverTiesTellSo) {
   expect_told("--set time.duration=0.02 --set expect.hand=right", 0,
               {"FAIL knot held                never tied: no frame with a 3_1\n",
