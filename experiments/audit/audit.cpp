@@ -15,6 +15,7 @@
 #include "experiments/audit/audit_frames.hpp"
 #include "experiments/audit/audit_knot.hpp"
 #include "experiments/audit/audit_muscles.hpp"
+#include "experiments/audit/audit_rates.hpp"
 #include "experiments/audit/audit_steps.hpp"
 
 namespace hagfish {
@@ -179,6 +180,7 @@ std::vector<Finding> audit(const std::string& file) {
   FrameAudit frames(log);
   ForceAudit forces(log);
   MuscleAudit muscles(log);
+  RateAudit rates(log);
   std::vector<SeenKnot> knots;
   double deepest = 0;
   double furthest = 0;
@@ -188,6 +190,7 @@ std::vector<Finding> audit(const std::string& file) {
     frames.see(frame, knots.back().vote);
     forces.see(frame);
     muscles.see(frame);
+    rates.see(frame);
     deepest = worse(deepest, frame.observation.penetration);
     furthest = worse(furthest, frame.observation.limit_violation);
   }
@@ -206,6 +209,7 @@ std::vector<Finding> audit(const std::string& file) {
   findings.push_back(energy(log));
   findings.push_back(energy_gain(log));
   append(momentum(log));
+  append(rates.findings());
   findings.push_back(audit_checkpoints(log));
   return findings;
 }

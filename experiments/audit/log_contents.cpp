@@ -5,19 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/log/log_writer.hpp"
+#include "core/log/saved_run.hpp"
 #include "experiments/audit/log_schema.hpp"
 
 namespace hagfish {
 
 LogContents::LogContents(const std::string& file) : h5(file) {
-  if (h5.root_text("format") != log_format) {
-    throw FileError(file + ": not a " + log_format + " file");
-  }
-  if (h5.root_int("format_version") != log_format_version) {
-    throw FileError(fmt::format("{}: format version {}, this program reads {}", file,
-                                h5.root_int("format_version"), log_format_version));
-  }
+  require_log(h5);
   resolved = read_scene_text(h5.root_text("scene"), file + ": scene");
   model = make_hagfish(resolved.specimen, resolved.scene);
   check_schema(h5, model, resolved.scene);

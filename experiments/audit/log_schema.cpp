@@ -70,13 +70,10 @@ hsize_t rows_of(const Hdf5Reader& log, const std::string& path) {
   return shape[0];
 }
 
-template <class Source>
-void add_forms(const LogTable<Source>& table, hsize_t rows, std::vector<DatasetForm>& forms) {
-  for (const auto& series : table.series()) {
+void add_forms(const SeriesList& table, hsize_t rows, std::vector<DatasetForm>& forms) {
+  for (const auto& series : table) {
     const SeriesLayout& layout = series->layout();
-    std::vector<hsize_t> shape{rows};
-    shape.insert(shape.end(), layout.row_shape.begin(), layout.row_shape.end());
-    forms.push_back({layout.path, shape, layout.type.getClass()});
+    forms.push_back({layout.path, layout.shape(rows), layout.type.getClass()});
   }
 }
 
@@ -152,16 +149,10 @@ void check_motion(const Hdf5Reader& log) {
 
 std::vector<DatasetForm> log_forms(const Hdf5Reader& log, const Model& model) {
   // The writer says what there must be; nothing is written.
-  LogTable<Frame> frames(frame_chunk_rows);
-  LogTable<LoggedStep> steps(step_chunk_rows);
-  LogTable<BearingContact> contacts(step_chunk_rows);
-  declare_frames(model, frames);
-  declare_steps(steps);
-  declare_contacts(contacts);
   std::vector<DatasetForm> forms;
-  add_forms(frames, rows_of(log, "/trajectory/time"), forms);
-  add_forms(steps, rows_of(log, "/steps/kkt"), forms);
-  add_forms(contacts, rows_of(log, "/contacts/frame"), forms);
+  add_forms(frame_table(model).series(), rows_of(log, "/trajectory/time"), forms);
+  add_forms(step_table().series(), rows_of(log, "/steps/kkt"), forms);
+  add_forms(contact_table().series(), rows_of(log, "/contacts/frame"), forms);
   return forms;
 }
 

@@ -265,6 +265,27 @@ TEST_F(AuditCorruption, EachDatasetIsWatched) {
   EXPECT_EQ(objections(), "") << "the test did not mend what it corrupted";
 }
 
+TEST_F(AuditCorruption, ExchangedColumnsAreSeen) {
+  // In each pair both enter a ledger alike, which closes whichever is called which.
+  const std::pair<const char*, const char*> pairs[] = {
+      {"work_tip", "work_thigmotaxis"},          {"work_tip", "work_contact"},
+      {"work_active", "work_thigmotaxis"},       {"work_active", "work_limit"},
+      {"impulse_drag", "impulse_outside"},       {"impulse_drag", "integrator_momentum"},
+      {"impulse_outside", "integrator_momentum"}};
+  const auto exchange = [](const std::string& a, const std::string& b) {
+    const H5::H5File h5(file.string(), H5F_ACC_RDWR);
+    h5.move("/diagnostics/" + a, "/elsewhere");
+    h5.move("/diagnostics/" + b, "/diagnostics/" + a);
+    h5.move("/elsewhere", "/diagnostics/" + b);
+  };
+  for (const auto& [a, b] : pairs) {
+    exchange(a, b);
+    EXPECT_NE(objections(), "") << a << " and " << b;
+    exchange(a, b);
+  }
+  EXPECT_EQ(objections(), "") << "the test did not mend what it exchanged";
+}
+
 TEST_F(AuditCorruption, EachDatasetMustBeThere) {
   for (const auto& [path, watcher] : watchers()) {
     {

@@ -1,0 +1,101 @@
+#include "experiments/audit/audit_rates.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/log/log_writer.hpp"
+
+namespace hagfish {
+namespace {
+
+/// Forces and velocities are known as means from frame to frame, or at frames, so that a total
+/// grows otherwise by some hundredths of its growth, and by up to a third where rows switch within
+/// a frame. With another column's forces it is off by all of its growth or more.
+constexpr double growth_tolerance = 0.7;
+constexpr int least_frames = 5;  // to tell
+
+}  // namespace
+
+RateAudit::RateAudit(const LogContents& log)
+    : log_(log),
+      position_(log.h5.rows("/trajectory/position")),
+      tip_(log.h5.rows("/forces/tip")),
+      thigmotaxis_(log.h5.rows("/mean/forces/thigmotaxis")),
+      active_(log.h5.rows("/mean/forces/active")),
+      head_(log.h5.rows("/mean/forces/head")),
+      wall_(log.h5.rows("/mean/forces/wall")) {
+  for (const char* name : {"work_tip", "work_thigmotaxis", "work_active", "impulse_drag"}) {
+    const std::string path = std::string("/diagnostics/") + name;
+    growths_.push_back({name, log.h5.rows(path)});
+  }
+  outside_ = log.h5.rows("/diagnostics/impulse_outside");
+}
+
+void RateAudit::Growth::compare(Eigen::Index frame, const Eigen::VectorXd& wanted) {
+  const Eigen::VectorXd grew = total.row(frame) - total.row(frame - 1);
+  off += (grew - wanted).norm();
+  grown += grew.norm();
+}
+
+void RateAudit::see(const AuditedFrame& frame) {
+  const Eigen::Index f = frame.index;
+  if (f == 0) {
+    return;
+  }
+  const double elapsed = log_.time[f] - log_.time[f - 1];
+  const Eigen::VectorXd change = log_.q.row(f) - log_.q.row(f - 1);
+  Eigen::VectorXd way(log_.model.nv());
+  way << change.head<3>(),
+      0.5 * elapsed * (log_.qdot.row(f) + log_.qdot.row(f - 1)).segment<3>(3).transpose(),
+      change.tail(log_.model.nv() - root_dofs);
+  const Eigen::Index bodies = log_.model.body_count();
+  const Eigen::Matrix3Xd moved = (position_.row(f) - position_.row(f - 1)).reshaped(3, bodies);
+  const Eigen::Vector3d tip = 0.5 * (tip_.row(f) + tip_.row(f - 1));
+  Eigen::Vector3d drag = Eigen::Vector3d::Zero();
+  for (int b = 0; b < bodies; ++b) {
+    drag += drag_on_body(log_.model, frame.observation.kin, b, moved.col(b));
+  }
+  const auto one = [](double value) { return Eigen::VectorXd::Constant(1, value); };
+  growths_[0].compare(f, one(tip.dot(moved.col(bodies - 1))));
+  growths_[1].compare(f, one(thigmotaxis_.row(f).dot(way)));
+  growths_[2].compare(f, one(active_.row(f).dot(way)));
+  growths_[3].compare(f, drag);
+  see_outside(f, elapsed);
+}
+
+/// Of what pulls from outside all but the tip's force is known as a mean, and that one only acts
+/// while a script forms the knot.
+void RateAudit::see_outside(Eigen::Index f, double elapsed) {
+  if (static_cast<Phase>(log_.phase[f - 1]) == Phase::form &&
+      !(tip_.row(f - 1).isZero(0) && tip_.row(f).isZero(0))) {
+    return;
+  }
+  double mass = 0;
+  for (const Body& body : log_.model.bodies) {
+    mass += body.mass;
+  }
+  const Eigen::Vector3d force = (head_.row(f) + wall_.row(f)).head<3>();
+  const Eigen::VectorXd wanted = elapsed * (force + mass * log_.model.gravity);
+  const Eigen::VectorXd grew = outside_.row(f) - outside_.row(f - 1);
+  // What grows is a difference of totals.
+  rebuilt_.compare("/diagnostics/impulse_outside", grew, wanted,
+                   rebuilt_tolerance * outside_.cwiseAbs().maxCoeff());
+}
+
+std::vector<Finding> RateAudit::findings() const {
+  std::vector<Finding> findings{
+      rebuilt_.finding("impulse from outside", "means of head clamp and plate, and gravity")};
+  if (log_.q.rows() < least_frames) {
+    return findings;
+  }
+  for (const Growth& growth : growths_) {
+    // What never grew must not be made to.
+    const double share = growth.grown > 0 ? growth.off / growth.grown : growth.off;
+    findings.push_back(judged_over({growth.name, share, growth_tolerance, "of its growth"},
+                                   "as the forces and the motion from frame to frame make it"));
+  }
+  return findings;
+}
+
+}  // namespace hagfish

@@ -1,0 +1,37 @@
+// The part of an audit that holds running totals to the forces that make them. A ledger closes
+// whichever of its columns is called which; a total that takes another one's name shows here.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "experiments/audit/audited_frame.hpp"
+#include "experiments/audit/rebuilt.hpp"
+
+namespace hagfish {
+
+class RateAudit {
+ public:
+  /// The log is referred to.
+  explicit RateAudit(const LogContents& log);
+  /// Frames in their order.
+  void see(const AuditedFrame& frame);
+  std::vector<Finding> findings() const;
+
+ private:
+  /// A column of /diagnostics, and how far its growth is from what forces make of it.
+  struct Growth {
+    std::string name;
+    Hdf5Reader::Rows total;  ///< frames x 1 or 3
+    double off = 0, grown = 0;
+    void compare(Eigen::Index frame, const Eigen::VectorXd& wanted);
+  };
+  void see_outside(Eigen::Index frame, double elapsed);
+
+  const LogContents& log_;
+  Hdf5Reader::Rows position_, tip_, thigmotaxis_, active_, head_, wall_, outside_;
+  std::vector<Growth> growths_;
+  Rebuilt rebuilt_;
+};
+
+}  // namespace hagfish
