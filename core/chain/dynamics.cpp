@@ -78,7 +78,11 @@ Eigen::VectorXd drag_force(const Model& model, const Kinematics& kin, const Eige
 
 Eigen::Vector3d drag_on_body(const Model& model, const Kinematics& kin, int body,
                              const Eigen::Vector3d& velocity) {
-  return -(drag_at_centre(model, kin, body).linear * velocity);
+  // drag_at_centre without its matrices: each step asks this of every body.
+  const Eigen::Vector3d along = kin.rotation[body].col(0);
+  const Eigen::Vector3d forward = velocity.dot(along) * along;
+  return -model.bodies[body].length *
+         (model.drag.normal * (velocity - forward) + model.drag.tangential * forward);
 }
 
 double drag_power(const Model& model, const Kinematics& kin, int body, const Vector6d& twist,

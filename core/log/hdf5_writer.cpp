@@ -142,12 +142,9 @@ void Hdf5Writer::bytes(const std::string& path, const std::vector<std::uint8_t>&
 }
 
 void Hdf5Writer::create(const SeriesLayout& layout) {
-  std::vector<hsize_t> now{0};
-  std::vector<hsize_t> most{H5S_UNLIMITED};
-  std::vector<hsize_t> chunk{layout.chunk_rows};
-  for (std::vector<hsize_t>* shape : {&now, &most, &chunk}) {
-    shape->insert(shape->end(), layout.row_shape.begin(), layout.row_shape.end());
-  }
+  const std::vector<hsize_t> now = layout.shape(0);
+  const std::vector<hsize_t> most = layout.shape(H5S_UNLIMITED);
+  const std::vector<hsize_t> chunk = layout.shape(layout.chunk_rows);
   guarded(name_, "create " + layout.path, [&] {
     H5::DSetCreatPropList storage;
     storage.setChunk(static_cast<int>(chunk.size()), chunk.data());
@@ -168,12 +165,10 @@ void Hdf5Writer::create(const SeriesLayout& layout) {
 
 void Hdf5Writer::append(const SeriesLayout& layout, hsize_t first, hsize_t count,
                         const void* values) {
-  std::vector<hsize_t> extent{first + count};
-  std::vector<hsize_t> size{count};
-  std::vector<hsize_t> offset(layout.row_shape.size() + 1, 0);
+  const std::vector<hsize_t> extent = layout.shape(first + count);
+  const std::vector<hsize_t> size = layout.shape(count);
+  std::vector<hsize_t> offset(size.size(), 0);
   offset[0] = first;
-  extent.insert(extent.end(), layout.row_shape.begin(), layout.row_shape.end());
-  size.insert(size.end(), layout.row_shape.begin(), layout.row_shape.end());
   guarded(name_, "write " + layout.path, [&] {
     H5::DataSet set = h5_.openDataSet(layout.path);
     set.extend(extent.data());
@@ -186,8 +181,7 @@ void Hdf5Writer::append(const SeriesLayout& layout, hsize_t first, hsize_t count
 
 void Hdf5Writer::copy_chunks(const Hdf5Reader& from, const SeriesLayout& layout, hsize_t begin,
                              hsize_t end) {
-  std::vector<hsize_t> extent{end * layout.chunk_rows};
-  extent.insert(extent.end(), layout.row_shape.begin(), layout.row_shape.end());
+  const std::vector<hsize_t> extent = layout.shape(end * layout.chunk_rows);
   guarded(name_, "write " + layout.path, [&] {
     const H5::DataSet source = from.open(layout.path);
     const H5::DataSet target = h5_.openDataSet(layout.path);

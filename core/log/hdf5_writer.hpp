@@ -28,6 +28,13 @@ struct SeriesLayout {
   Meaning meaning;
   H5::DataType type;
   hsize_t chunk_rows = 1;
+
+  /// Extents of so many rows.
+  std::vector<hsize_t> shape(hsize_t rows) const {
+    std::vector<hsize_t> extent{rows};
+    extent.insert(extent.end(), row_shape.begin(), row_shape.end());
+    return extent;
+  }
 };
 
 /// A file being written.

@@ -9,6 +9,10 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
+// Frames are some 50 a second of simulated time, steps 500; a chunk is read and written as one.
+constexpr hsize_t frame_chunk_rows = 64;
+constexpr hsize_t step_chunk_rows = 1024;
+
 std::vector<std::string> phase_names() {
   std::vector<std::string> names;
   for (int k = 0; k < phase_count; ++k) {
@@ -288,7 +292,8 @@ void Worst::take(const StepRecord& record) {
   kkt = std::max(kkt, worst_residual(record.solution));
 }
 
-void declare_frames(const Model& model, LogTable<Frame>& table) {
+LogTable<Frame> frame_table(const Model& model) {
+  LogTable<Frame> table(frame_chunk_rows);
   declare_trajectory(model, table);
   declare_knot(table);
   declare_forces(model, table);
@@ -297,9 +302,11 @@ void declare_frames(const Model& model, LogTable<Frame>& table) {
   declare_diagnostics(table);
   declare_energy(table);
   declare_momentum(table);
+  return table;
 }
 
-void declare_steps(LogTable<LoggedStep>& t) {
+LogTable<LoggedStep> step_table() {
+  LogTable<LoggedStep> t(step_chunk_rows);
   t.choice("/steps/solve", solve_names(), "least that each step had to solve",
            [](const LoggedStep& s) { return s.record.solution.kind; });
   t.count("/steps/rows", "rows in the problem of each step",
@@ -331,9 +338,11 @@ void declare_steps(LogTable<LoggedStep>& t) {
            [](const LoggedStep& s) { return s.record.head_drift; });
   t.number("/steps/qp_time", {"s", "wall time in the QP back end, each step"},
            [](const LoggedStep& s) { return s.record.solution.qp_time; });
+  return t;
 }
 
-void declare_contacts(LogTable<BearingContact>& t) {
+LogTable<BearingContact> contact_table() {
+  LogTable<BearingContact> t(step_chunk_rows);
   t.count("/contacts/frame", "index along the frames of each contact with a force",
           [](const BearingContact& c) { return c.frame; });
   t.number("/contacts/spline_a",
@@ -349,6 +358,7 @@ void declare_contacts(LogTable<BearingContact>& t) {
   t.number("/contacts/force",
            {"dyn", "multiplier over h of the step at the frame, along the normal"},
            [](const BearingContact& c) { return c.force; });
+  return t;
 }
 
 }  // namespace hagfish

@@ -116,16 +116,13 @@ class LogTable {
   std::vector<std::function<void(const Source&)>> appenders_;
 };
 
-/// Frames are some 50 a second of simulated time, steps 500; a chunk is read and written as one.
-inline constexpr hsize_t frame_chunk_rows = 64, step_chunk_rows = 1024;
+/// Every dataset along the frames (log schema, rows along T).
+LogTable<Frame> frame_table(const Model& model);
 
-/// Declares every dataset along the frames (log schema, rows along T).
-void declare_frames(const Model& model, LogTable<Frame>& table);
+/// The datasets along the steps, /steps: few figures, but of every step.
+LogTable<LoggedStep> step_table();
 
-/// Declares the datasets along the steps, /steps: few figures, but of every step.
-void declare_steps(LogTable<LoggedStep>& table);
-
-/// Declares /contacts, a row for each contact with a force at a frame.
-void declare_contacts(LogTable<BearingContact>& table);
+/// /contacts, a row for each contact with a force at a frame.
+LogTable<BearingContact> contact_table();
 
 }  // namespace hagfish

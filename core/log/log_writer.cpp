@@ -21,6 +21,7 @@ constexpr double save_interval = 1;
 constexpr std::size_t attribute_room = 65536;
 // Checkpoints are some 50 kB each, and compress to a third.
 constexpr hsize_t checkpoint_chunk = 32768;
+constexpr hsize_t mark_chunk = 64;  // rows
 
 /// Which bytes of /checkpoints/data are a checkpoint.
 struct CheckpointMark {
@@ -28,11 +29,13 @@ struct CheckpointMark {
   std::int64_t end = 0;   ///< behind its last byte
 };
 
-void declare_checkpoints(LogTable<CheckpointMark>& t) {
+LogTable<CheckpointMark> checkpoint_table() {
+  LogTable<CheckpointMark> t(mark_chunk);
   t.index("/checkpoints/step", "index of the step before which the run stood so",
           [](const CheckpointMark& mark) { return mark.step; });
   t.index("/checkpoints/end", "where its bytes in /checkpoints/data end",
           [](const CheckpointMark& mark) { return mark.end; });
+  return t;
 }
 
 SeriesLayout checkpoint_bytes() {
@@ -59,41 +62,38 @@ void mark_failed(const fs::path& file, const std::string& cause) {
 
 struct LogWriter::Contents {
   Contents(const Model& model, const Scene& scene)
-      : frames(frame_chunk_rows),
-        steps(step_chunk_rows),
-        contacts(step_chunk_rows),
-        marks(frame_chunk_rows),
+      : frames(frame_table(model)),
+        steps(step_table()),
+        contacts(contact_table()),
+        marks(checkpoint_table()),
         bytes(std::make_shared<Series<std::uint8_t>>(checkpoint_bytes())),
         log{RunningMeans(model.nv()), {}, {}},
         knot(scene.knot),
         h(scene.time.step),
         stride(frame_stride(scene.time)),
         mark_stride(checkpoint_stride(scene.time)) {
-    declare_frames(model, frames);
-    declare_steps(steps);
-    declare_contacts(contacts);
-    declare_checkpoints(marks);
     for (const auto& list : {frames.series(), steps.series(), contacts.series(), marks.series()}) {
       series.insert(series.end(), list.begin(), list.end());
     }
     series.push_back(bytes);
   }
 
-  /// Goes on behind the rows that `h5` has of `table`, and says how many those are.
-  static hsize_t go_on(const Hdf5Reader& h5, const SeriesList& table) {
+  /// Goes on behind the rows that `h5` has of `table`.
+  static void go_on(const Hdf5Reader& h5, const SeriesList& table) {
     const std::vector<hsize_t> first = h5.shape(table.front()->layout().path);
     const hsize_t rows = first.empty() ? 0 : first[0];
     for (const auto& s : table) {
       const SeriesLayout& layout = s->layout();
-      std::vector<hsize_t> wanted{rows};
-      wanted.insert(wanted.end(), layout.row_shape.begin(), layout.row_shape.end());
-      if (h5.shape(layout.path) != wanted) {
+      if (h5.shape(layout.path) != layout.shape(rows)) {
         throw FileError(fmt::format("{}: {} does not have the rows of {}", h5.file(), layout.path,
                                     table.front()->layout().path));
       }
       s->go_on(rows);
     }
-    return rows;
+  }
+
+  std::int32_t frame_count() const {
+    return static_cast<std::int32_t>(frames.series().front()->rows());
   }
 
   /// Brings FILE.part up to date; `sim` is the run after all that it then holds.
@@ -133,10 +133,8 @@ struct LogWriter::Contents {
   LogState log;
   KnotSettings knot;
   double h;
-  std::int64_t stride;       // steps a frame
-  std::int64_t mark_stride;  // and a checkpoint
-  std::int32_t frame_count = 0;
-  std::int64_t byte_count = 0;
+  std::int64_t stride;                            // steps a frame
+  std::int64_t mark_stride;                       // and a checkpoint
   std::map<std::string, std::string> attributes;  // of the root, to be set by the next save
   std::optional<TwinFile> file;
   double next_save = 0;  // wall time, s: the first step is saved at once
@@ -170,14 +168,12 @@ LogWriter::LogWriter(std::unique_ptr<OutputFile> output, const SavedRun& run)
     : output_(std::move(output)),
       contents_(std::make_unique<Contents>(run.model, run.resolved.scene)) {
   Contents& c = *contents_;
-  const Hdf5Reader h5(output_->partial());
-  const auto frame_rows = c.go_on(h5, c.frames.series());
-  c.go_on(h5, c.steps.series());
-  c.go_on(h5, c.contacts.series());
-  c.go_on(h5, c.marks.series());
-  const auto byte_rows = c.go_on(h5, {c.bytes});
-  c.frame_count = static_cast<std::int32_t>(frame_rows);
-  c.byte_count = static_cast<std::int64_t>(byte_rows);
+  // Tried when the run was read from it.
+  const Hdf5Reader h5(output_->partial(), Origin::own);
+  for (const SeriesList& table :
+       {c.frames.series(), c.steps.series(), c.contacts.series(), c.marks.series(), {c.bytes}}) {
+    c.go_on(h5, table);
+  }
   c.log = run.log;
   c.attributes["status"] = "running";
   c.attributes["resumed"] =
@@ -212,9 +208,8 @@ void LogWriter::write(const StepRecord& record, const Simulation& sim, double wa
   c.log.means.take(record, rows);
   if (sim.step % c.mark_stride == 0) {
     const std::vector<std::uint8_t> bytes = encode(sim, c.log);
-    c.byte_count += static_cast<std::int64_t>(bytes.size());
     c.bytes->append_all(bytes);
-    c.marks.append({sim.step, c.byte_count});
+    c.marks.append({sim.step, static_cast<std::int64_t>(c.bytes->rows())});
   }
   if (wall_time >= c.next_save) {
     c.save(sim);
@@ -228,16 +223,16 @@ void LogWriter::write_frame(const StepRecord& record, const ThigmotaxisRows& row
   const KnotVote knot = record.controller.knot_seen == record.time
                             ? record.controller.knot
                             : knot_type(record.moment.observation.kin.centre, c.knot);
+  const std::int32_t frame = c.frame_count();
   c.frames.append({record, rows, c.log.means.close(), knot, c.log.worst, wall_time});
   const StepSolution& step = record.solution;
   for (std::size_t i = 0; i < step.rows.size(); ++i) {
     const Row& row = step.rows[i];
     const double force = step.lambda[static_cast<Eigen::Index>(i)] / c.h;
     if ((row.kind == RowKind::contact || row.kind == RowKind::wall) && force != 0) {
-      c.contacts.append({c.frame_count, row, force});
+      c.contacts.append({frame, row, force});
     }
   }
-  ++c.frame_count;
   c.log.worst = {};
 }
 

@@ -36,6 +36,8 @@ SavedRun run_of(const Hdf5Reader& h5, std::span<const std::uint8_t> bytes) {
           h5.root_text("git_revision")};
 }
 
+}  // namespace
+
 void require_log(const Hdf5Reader& h5) {
   if (h5.root_text("format") != log_format) {
     throw FileError(fmt::format("{}: not a {} file", h5.file(), log_format));
@@ -45,8 +47,6 @@ void require_log(const Hdf5Reader& h5) {
                                 h5.root_int("format_version"), log_format_version));
   }
 }
-
-}  // namespace
 
 SavedRun saved_run(const Hdf5Reader& h5) {
   require_log(h5);

@@ -14,6 +14,9 @@ namespace hagfish {
 inline constexpr const char* checkpoint_data = "/checkpoints/data";
 inline constexpr const char* last_checkpoint = "/checkpoints/last";
 
+/// Throws FileError where `h5` is no log, or of a format version that this program does not read.
+void require_log(const Hdf5Reader& h5);
+
 /// A run between two steps, as a log holds it.
 struct LoggedCheckpoint {
   std::int64_t step = 0;  ///< that comes next

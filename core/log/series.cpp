@@ -48,7 +48,7 @@ std::size_t AnySeries::room() const {
   // Compressed chunks may move as they fill.
   const hsize_t begin = layout_.meaning.sparse ? first_ / chunk : (first_ + chunk - 1) / chunk;
   const hsize_t end = (total_ + chunk - 1) / chunk;
-  return index_size + (end - begin) * chunk * row_size_ * value_size_;
+  return index_size + (end - begin) * chunk * row_bytes();
 }
 
 void AnySeries::write(const Hdf5Reader& newer, Hdf5Writer& older) const {

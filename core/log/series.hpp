@@ -24,6 +24,10 @@ class AnySeries {
   const SeriesLayout& layout() const { return layout_; }
   /// Creates the dataset in `file`, without rows.
   void create(Hdf5Writer& file) const { file.create(layout_); }
+  /// Of one row.
+  std::size_t row_bytes() const { return row_size_ * value_size_; }
+  /// Rows so far, saved or not.
+  hsize_t rows() const { return total_; }
   /// Goes on behind `rows` that both files have; nothing has been appended yet.
   void go_on(hsize_t rows) { first_ = saved_ = total_ = rows; }
   /// Bytes that write() may add to a file.

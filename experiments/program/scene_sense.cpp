@@ -29,28 +29,21 @@ double density(const ResolvedScene& resolved) {
   return mass / volume;
 }
 
-template <class Source>
-double row_bytes(const LogTable<Source>& table) {
-  double bytes = 0;
-  for (const auto& series : table.series()) {
-    const SeriesLayout& layout = series->layout();
-    double values = 1;
-    for (const hsize_t extent : layout.row_shape) values *= static_cast<double>(extent);
-    bytes += values * static_cast<double>(layout.type.getSize());
+double row_bytes(const SeriesList& table) {
+  std::size_t bytes = 0;
+  for (const auto& series : table) {
+    bytes += series->row_bytes();
   }
-  return bytes;
+  return static_cast<double>(bytes);
 }
 
 }  // namespace
 
 RunSize run_size(const Scene& scene, const Model& model) {
-  LogTable<Frame> frames(frame_chunk_rows);
-  LogTable<LoggedStep> steps(step_chunk_rows);
-  declare_frames(model, frames);
-  declare_steps(steps);
   const double count = scene.time.duration / scene.time.step;
-  return {count, count * row_bytes(steps) +
-                     scene.time.duration / scene.time.frame_interval * row_bytes(frames)};
+  return {count, count * row_bytes(step_table().series()) +
+                     scene.time.duration / scene.time.frame_interval *
+                         row_bytes(frame_table(model).series())};
 }
 
 std::vector<std::string> odd_things(const ResolvedScene& scene) {
