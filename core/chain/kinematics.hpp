@@ -25,6 +25,13 @@ struct Kinematics {
   Eigen::Vector3d centre_offset(int body) const { return centre.col(body) - reference; }
 };
 
+/// How the bodies move at some velocities: their twists (6 x N) and the velocities of their centres
+/// (3 x N, cm/s).
+struct BodyMotion {
+  const Matrix6Xd& twist;
+  const Eigen::Matrix3Xd& centre_velocity;
+};
+
 /// Positions and axes; does not touch the velocity fields.
 void update_positions(const Model& model, const Eigen::VectorXd& q, Kinematics& kin);
 

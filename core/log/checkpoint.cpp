@@ -18,7 +18,7 @@ namespace hagfish {
 namespace {
 
 /// Of the bytes' layout; raised with every change of what they hold.
-constexpr int layout = 1;
+constexpr int layout = 2;
 /// No list of a run is longer; a damaged count must not ask for all memory.
 constexpr std::uint64_t most_entries = 1000000;
 
@@ -208,10 +208,10 @@ void serialize(Archive& archive, LogState& log) {
 
 template <class Archive>
 void serialize(Archive& archive, Simulation& sim) {
-  auto& [step, now, search, controller, solver, ledger, momentum, watch, before] =
-      sim;  // the last is scratch
+  auto& [step, now, search, controller, solver, ledger, momentum, watch, half_change, midway,
+         before] = sim;  // the last two are storage
   archive(step, now.state, now.observation, search, controller, solver.warm, ledger, momentum,
-          watch);
+          watch, half_change);
 }
 
 namespace {
@@ -264,6 +264,9 @@ void check(const Simulation& sim, const LogState& log, const Model& model) {
   const Eigen::Index rest = sim.controller.rest_shape.size();
   require(rest == 0 || (rest == model.nv() && sim.controller.rest_shape.allFinite()),
           "a rest shape that is not of its model");
+  const Eigen::Index change = sim.half_change.size();
+  require(change == 0 || (change == model.nv() && sim.half_change.allFinite()),
+          "a change of velocity that is not of its model");
   require(log.means.size() == model.nv(), "means that are not of its model");
 }
 
@@ -287,6 +290,7 @@ Simulation decode(std::span<const std::uint8_t> bytes, const Model& model,
                  .ledger = {},
                  .momentum = {},
                  .watch = {},
+                 .half_change = {},
                  .before = {}};
   std::istringstream stream(std::string(bytes.begin(), bytes.end()));
   try {

@@ -89,7 +89,7 @@ void declare_trajectory(const Model& model, LogTable<Frame>& t) {
   t.numbers(
       "/trajectory/qdot_next", {nv},
       {rates, "velocity after the step that begins at the frame, to which its forces lead"},
-      [](const Frame& f) -> const auto& { return f.record.solution.qdot; });
+      [](const Frame& f) -> const auto& { return f.record.solution.next; });
   t.numbers(
       "/trajectory/q_ref", {nv},
       {"rad",

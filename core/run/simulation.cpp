@@ -26,7 +26,12 @@ class Attempt {
         record_(record),
         step_(record.solution),
         next_(record.moment),
-        in_{model, scene, sim.now.state, sim.now.observation, record.control} {}
+        in_{model,
+            scene,
+            sim.now.state,
+            sim.now.observation,
+            record.control,
+            scene.time.rule == TimeRule::euler ? nullptr : &sim.midway} {}
 
   Status take() {
     record_.step = sim_.step;
@@ -47,7 +52,7 @@ class Attempt {
     sim_.solver.finish(in_, step_);
     guard_muscles(model_, scene_, sim_.controller.rest_shape, record_.control.active, record_.time,
                   sim_.watch, record_.warnings);
-    guard_cap(model_, sim_.now.observation.kin, scene_, step_, record_.time, sim_.watch,
+    guard_cap(model_, in_.kin(), scene_, step_, record_.time, sim_.watch,
               record_.warnings);
     if (Status status =
             guard_state(model_, next_, record_.crossing, scene_, sim_.watch, record_.warnings);
@@ -55,7 +60,7 @@ class Attempt {
       return status;
     }
     record_.ledger = sim_.ledger;
-    book_step(model_, sim_.now.observation.kin, step_, next_, h(), travelled, sim_.ledger);
+    book_step(in_, step_, next_, travelled, sim_.ledger);
     if (Status status =
             guard_energy(model_, scene_, next_, sim_.ledger, sim_.watch, record_.warnings);
         !status.ok()) {
@@ -65,7 +70,8 @@ class Attempt {
         record_.control.clamp_head ? head_drift(model_, sim_.now.observation.kin) : 0;
     record_.controller = sim_.controller;
     record_.momentum = sim_.momentum;
-    book_momentum(model_, sim_.now.observation.kin, step_, next_, h(), sim_.momentum);
+    book_momentum(in_, step_, next_, sim_.momentum);
+    if (in_.midway != nullptr) sim_.half_change = step_.half_change;
     std::swap(sim_.now, next_);
     ++sim_.step;
     return {};
@@ -83,7 +89,7 @@ class Attempt {
   /// scene.constraints.corrections times. Where the rows added cannot all be met the step goes
   /// without them.
   Status solve() {
-    Status status = sim_.solver.begin(in_, step_);
+    Status status = begin();
     int corrections = looks_ahead() ? scene_.constraints.corrections : 0;
     for (int k = 0; status.ok(); ++k) {
       status = guard_speed(step_.centre_velocity, scene_.guard);
@@ -92,11 +98,39 @@ class Attempt {
       }
       if (!sim_.solver.resume(in_, step_).ok()) {
         corrections = 0;
-        status = sim_.solver.begin(in_, step_);
+        status = begin();
       }
     }
     return status;
   }
+
+  /// Solves the step where its equations hold: of the midpoint rule, again until its middle is where
+  /// the solution leads.
+  Status begin() {
+    if (in_.midway == nullptr) {
+      return sim_.solver.begin(in_, step_);
+    }
+    const State& now = sim_.now.state;
+    Eigen::VectorXd guess = now.qdot;
+    if (sim_.half_change.size() > 0) guess += sim_.half_change;
+    for (int pass = 1;; ++pass) {
+      place_midway(model_, now, guess, h(), sim_.midway);
+      if (Status status = sim_.solver.begin(in_, step_); !status.ok()) {
+        return status;
+      }
+      const double off = 0.5 * h() * (step_.qdot - guess).lpNorm<Eigen::Infinity>();
+      passes_ = pass;
+      if (!(off > scene_.time.settled)) {
+        return {};
+      }
+      if (pass == scene_.time.passes) {
+        if (getenv("PASSES")) fprintf(stderr, "unsettled %g at %g\n", off, record_.time);
+        return {};
+      }
+      guess = step_.qdot;
+    }
+  }
+  int passes_ = 0;
 
   /// Where the step's velocity leads within time `t` (s).
   void move(double t) {
@@ -108,7 +142,7 @@ class Attempt {
   /// is set, adds the rows that show it and returns true: the step is to be solved again.
   bool follow_path(bool correct) {
     const int count = path_samples(step_.centre_velocity, h(), scene_.constraints.stride);
-    next_.state.qdot = step_.qdot;
+    next_.state.qdot = step_.next;
     record_.crossing = 0;
     for (int i = 1; i <= count; ++i) {
       const double t = i < count ? h() * i / count : h();
@@ -204,6 +238,7 @@ Simulation start_from(const Model& model, const Scene& scene, const std::string&
                  .ledger = {},
                  .momentum = {},
                  .watch = {},
+                 .half_change = {},
                  .before = {}};
   observe(model, sim.now.state, scene, sim.search, sim.now.observation);
   sim.ledger = open_ledger(model, sim.now);

@@ -44,9 +44,11 @@ namespace {
 
 /// Eq. 1, H q̇* = M q̇0 + h f, with H = M + h D - h² K: springs, damping and drag are implicit.
 void paper_equation_1(const StepInput& in, PrimalQp& qp) {
-  const auto& [model, scene, state, observation, control] = in;
-  const Kinematics& kin = observation.kin;
-  const double h = scene.time.step;
+  const Model& model = in.model;
+  const State& state = in.state;
+  const Control& control = in.control;
+  const Kinematics& kin = in.kin();
+  const double h = in.scene.time.reach();
   const int nv = model.nv();
   Eigen::MatrixXd M = Eigen::MatrixXd::Zero(nv, nv);
   Eigen::MatrixXd D = M;
@@ -88,9 +90,10 @@ PrimalQp paper_problem(const StepInput& in, const std::vector<Row>& rows) {
     std::ranges::transform(of, values.begin(), member);
     return values;
   };
-  qp.G = dense_rows(in.model, in.observation.kin, bilateral);
+  qp.G = dense_rows(in.model, in.kin(), bilateral);
   qp.e = column(bilateral, &Row::rhs);
-  qp.C = dense_rows(in.model, in.observation.kin, unilateral);
+  qp.C = dense_rows(in.model, in.kin(), unilateral);
+  qp.g -= 0.5 * qp.C.transpose() * column(unilateral, &Row::steady);
   qp.d = column(unilateral, &Row::rhs);
   qp.cap = column(unilateral, &Row::upper);
   return qp;

@@ -40,6 +40,9 @@ struct Row {
   Eigen::Vector3d direction;  ///< unit, world
   SplineMix a, b;
   double rhs = 0;    ///< d, cm/s or rad/s
+  /// λ as expected from the steps before: half of it acts before the middle of the step (midpoint
+  /// rule). What is more is an impact's, which acts in full.
+  double steady = 0;
   double lower = 0;  ///< bounds on the multiplier λ, dyn s or dyn cm s
   double upper = std::numeric_limits<double>::infinity();
   /// A unit row whose velocity is prescribed, C q̇ = d; λ is its reaction.
@@ -113,9 +116,10 @@ void append_head_rows(const State& state, const ConstraintSettings& settings, do
 void append_limit_rows(const Model& model, const State& state, const ConstraintSettings& settings,
                        double h, const NearBinding& wanted, std::vector<Row>& rows);
 
-/// One row per contact, the exact rate of its gap.
+/// One row per contact, the exact rate of its gap: where it was found, or between the same points of
+/// the segments `at`.
 void append_contact_rows(const Model& model, const std::vector<Contact>& contacts,
-                         const ConstraintSettings& settings, double h, const NearBinding& wanted,
+                         const std::vector<SplineSegment>* at, const ConstraintSettings& settings, double h, const NearBinding& wanted,
                          std::vector<Row>& rows);
 
 /// One row per body behind the neck against the head plate.
@@ -134,6 +138,7 @@ struct ThigmotaxisCommand {
 /// asks for its commanded speed, but for no more than settings.acceleration makes in the step of
 /// the speed that it has now, where the bodies' centres move by `centre_velocity` (3 x N, cm/s).
 void append_thigmotaxis_rows(const Model& model, const std::vector<ThigmotaxisCommand>& commands,
+                             const std::vector<SplineSegment>* at,
                              const ControllerSettings& settings,
                              const Eigen::Matrix3Xd& centre_velocity, double h,
                              std::vector<Row>& rows);

@@ -14,6 +14,7 @@
 #include "core/chain/dynamics.hpp"
 #include "core/contact/observation.hpp"
 #include "core/step/dual_problem.hpp"
+#include "core/step/midway.hpp"
 #include "core/step/outcome.hpp"
 #include "core/step/rows.hpp"
 #include "core/step/warm_start.hpp"
@@ -36,6 +37,19 @@ struct StepInput {
   const State& state;
   const Observation& observation;  ///< of `state`
   const Control& control;
+  const Midway* midway = nullptr;  ///< where the step's equations hold; null: at `state`
+
+  /// What Eq. 1 and the rows are of.
+  const Kinematics& kin() const { return midway == nullptr ? observation.kin : midway->kin; }
+  const std::vector<SplineSegment>& segments() const {
+    return midway == nullptr ? observation.segments : midway->segments;
+  }
+  /// The motion there at the step's first velocity.
+  BodyMotion before() const {
+    return midway == nullptr
+               ? BodyMotion{observation.kin.twist, observation.kin.centre_velocity}
+               : BodyMotion{midway->twist, midway->centre_velocity};
+  }
 };
 
 /// Eq. 1, Eq. 3 (with limits as bilateral rows too) or Eq. 4.
@@ -56,7 +70,12 @@ struct ConstraintForces {
 
 struct StepSolution {
   Eigen::VectorXd base;  ///< q̇ with the reactions of prescribed rows, but no other rows, nv
-  Eigen::VectorXd qdot;  ///< new velocity, nv
+  Eigen::VectorXd qdot;  ///< velocity that meets the rows and by which the step moves, nv
+  Eigen::VectorXd next;  ///< velocity after the step, nv: by Euler's rule, qdot
+  Eigen::VectorXd felt;  ///< that springs, damping and drag act on, nv: qdot; midpoint: the mean
+                         ///< of the velocities before and after
+  Matrix6Xd felt_twist;  ///< of the bodies at it, 6 x N
+  Eigen::Matrix3Xd felt_centre_velocity;  ///< of their centres at it, 3 x N, cm/s
   Matrix6Xd twist;       ///< of the bodies at it, 6 x N
   Eigen::Matrix3Xd centre_velocity;  ///< of the bodies' centres at it, 3 x N, cm/s
   ConstraintForces force;
@@ -78,6 +97,9 @@ struct StepSolution {
   KktResiduals kkt;    ///< of the rows not prescribed, on the scale of all; the others are exact
   double qp_time = 0;  ///< s spent in the QP back end
   StepSystem system;   ///< Eq. 1 as assembled
+  /// Half of what steady forces change the velocity by, nv: the midpoint rule's guess at the next
+  /// step's; not used by Euler's rule.
+  Eigen::VectorXd half_change;
 };
 
 /// Storage for intermediate results. A step allocates nothing once all of it has grown to size.
@@ -95,7 +117,13 @@ struct StepScratch {
   BoxQpSolution solution;
   Matrix6Xd wrench;
   Eigen::VectorXd joint, impulse, change;
+  ArticulatedFactor free_factor;  ///< with nothing prescribed but the head
+  Matrix6Xd impact_twist;
+  Eigen::VectorXd impact;
 };
+
+/// Changes what is expected of a row, and by that the right-hand side of Eq. 1 (midpoint rule).
+void expect_force(const StepInput& in, double lambda, Row& row, StepSystem& system);
 
 /// Solves steps, one after the other. A step is begun, resumed as often as rows are added to its
 /// solution, and finished; or solved at once. Copies have a back end and storage of their own.
@@ -137,6 +165,8 @@ class StepSolver {
   void order_rows(const Model& model, StepSolution& step);
   Status base_motion(const StepInput& in, StepSolution& step);
   void set_velocity(const StepInput& in, StepSolution& step);
+  void expect_steady_forces(const StepInput& in, StepSolution& step);
+  void set_next_velocity(const StepInput& in, StepSolution& step);
   bool solve_multipliers(StepSolution& step);
   bool add_violated(const StepInput& in, StepSolution& step);
   void measure(const StepInput& in, StepSolution& step);

@@ -289,7 +289,7 @@ void ForceAudit::see_tip(const AuditedFrame& frame) {
   const int last = log_.model.body_count() - 1;
   TipForce tip;
   if (frame.phase == Phase::form) {
-    tip = script_force(scene.script, log_.time[frame.index], scene.time.step, kin.centre.col(last),
+    tip = script_force(scene.script, log_.time[frame.index], scene.time, kin.centre.col(last),
                        kin.centre_velocity.col(last));
   }
   const Eigen::Vector3d next = frame.next_velocity.col(last);
