@@ -25,7 +25,9 @@ Matrix6d drag_operator(const Model& model, const Kinematics& kin, int body);
 /// Drag as a generalised force (nv) at velocities `v` (nv).
 Eigen::VectorXd drag_force(const Model& model, const Kinematics& kin, const Eigen::VectorXd& v);
 
-/// M_m J̇ q̇ plus the gyroscopic wrench: the inertial wrench of each body at q̈ = 0 (6 x N).
+/// M_m J̇ q̇ plus the gyroscopic wrench: the inertial wrench of each body at q̈ = 0 (6 x N), where the
+/// bodies have the twists `felt_twist` (6 x N) and move as `kin` says.
+Matrix6Xd bias_wrench(const Model& model, const Kinematics& kin, const Matrix6Xd& felt_twist);
 Matrix6Xd bias_wrench(const Model& model, const Kinematics& kin);
 
 /// Gravity on each body (6 x N).
@@ -57,10 +59,10 @@ struct StepSystem {
   Eigen::VectorXd joint;  ///< right-hand side, joint part, nv (times s)
 };
 
-/// Assembles Eq. 1 at the positions of `kin`, whose velocities are those of the bias. The step
-/// starts with hinges at the angles of `q` (nq) and with the motion `before`; `h` (s) is how far
+/// Assembles Eq. 1 at the place of the step, `kin`, whose bodies move as the step does and as
+/// `motion` says. The step starts with hinges at the angles of `q` (nq); `h` (s) is how far into it
 /// its forces act.
-void assemble_step_system(const Model& model, const Eigen::VectorXd& q, const BodyMotion& before,
+void assemble_step_system(const Model& model, const Eigen::VectorXd& q, const StepMotion& motion,
                           const Kinematics& kin, const TipForce& tip, double h, StepSystem& system);
 /// The same of a step that starts where and as `kin` says.
 StepSystem step_system(const Model& model, const State& state, const Kinematics& kin,

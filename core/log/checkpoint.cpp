@@ -208,10 +208,10 @@ void serialize(Archive& archive, LogState& log) {
 
 template <class Archive>
 void serialize(Archive& archive, Simulation& sim) {
-  auto& [step, now, search, controller, solver, ledger, momentum, watch, half_change, midway,
-         before] = sim;  // the last two are storage
-  archive(step, now.state, now.observation, search, controller, solver.warm, ledger, momentum,
-          watch, half_change);
+  auto& [step, now, search, controller, solver, ledger, momentum, watch, midway, before] =
+      sim;  // the last two are storage
+  archive(step, now.state, now.observation, search, controller, solver.warm,
+          solver.warm.half_change, ledger, momentum, watch);
 }
 
 namespace {
@@ -264,8 +264,8 @@ void check(const Simulation& sim, const LogState& log, const Model& model) {
   const Eigen::Index rest = sim.controller.rest_shape.size();
   require(rest == 0 || (rest == model.nv() && sim.controller.rest_shape.allFinite()),
           "a rest shape that is not of its model");
-  const Eigen::Index change = sim.half_change.size();
-  require(change == 0 || (change == model.nv() && sim.half_change.allFinite()),
+  const Eigen::VectorXd& change = sim.solver.warm.half_change;
+  require(change.size() == 0 || (change.size() == model.nv() && change.allFinite()),
           "a change of velocity that is not of its model");
   require(log.means.size() == model.nv(), "means that are not of its model");
 }
@@ -290,7 +290,6 @@ Simulation decode(std::span<const std::uint8_t> bytes, const Model& model,
                  .ledger = {},
                  .momentum = {},
                  .watch = {},
-                 .half_change = {},
                  .before = {}};
   std::istringstream stream(std::string(bytes.begin(), bytes.end()));
   try {

@@ -105,6 +105,27 @@ void declare_trajectory(const Model& model, LogTable<Frame>& t) {
       [](const Frame& f) -> const auto& { return f.record.moment.observation.kin.centre; });
 }
 
+/// /midway: what the midpoint rule's equations are of.
+void declare_midway(const Model& model, LogTable<Frame>& t) {
+  const hsize_t nv = model.nv();
+  const auto velocity = [&](const char* name, const char* description, auto get) {
+    t.numbers(std::string("/midway/") + name, {nv}, {"cm/s, rad/s", description}, get);
+  };
+  velocity(
+      "moved",
+      "velocity that takes half a step from the frame to the middle of its step, where its "
+      "equations hold",
+      [](const Frame& f) -> const auto& { return f.record.solution.middle.moved; });
+  velocity(
+      "felt", "velocity that the bodies' inertia is taken to have there",
+      [](const Frame& f) -> const auto& { return f.record.solution.middle.felt; });
+  velocity(
+      "qdot",
+      "velocity by which the step moves, which meets the rows: impulses act on it in full, "
+      "steady forces by half; springs, damping and drag act at the mean of qdot and qdot_next",
+      [](const Frame& f) -> const auto& { return f.record.solution.qdot; });
+}
+
 void declare_knot(LogTable<Frame>& t) {
   t.count("/knot/determinant", "knot determinant: 1 unknot, 3 3_1, 5 4_1 or 5_1, 7 5_2",
           [](const Frame& f) { return f.knot.type.determinant; });
@@ -292,9 +313,10 @@ void Worst::take(const StepRecord& record) {
   kkt = std::max(kkt, worst_residual(record.solution));
 }
 
-LogTable<Frame> frame_table(const Model& model) {
+LogTable<Frame> frame_table(const Model& model, TimeRule rule) {
   LogTable<Frame> table(frame_chunk_rows);
   declare_trajectory(model, table);
+  if (rule == TimeRule::midpoint) declare_midway(model, table);
   declare_knot(table);
   declare_forces(model, table);
   declare_thigmotaxis(table);

@@ -23,8 +23,8 @@ EnergyLedger open_ledger(const Model& model, const Moment& now) {
   return ledger;
 }
 
-// The step solves M (v' - v) = h (f(x) - b) + C'λ, with what is felt, f(x) = f - D x - K (q + r x) + w,
-// and moves by t u. Euler's rule: u = x = v', r = h, M at the start. Midpoint: x = (v + v')/2,
+// The step solves M (v' - v) = h (f(x) - b) + C'λ, with what is felt, f(x) = f - D x - K (q + r x)
+// + w, and moves by t u. Euler's rule: u = x = v', r = h, M at the start. Midpoint: x = (v + v')/2,
 // r = h/2, M in the middle; u = x but for impacts. With y = (v + v')/2 and all at that place,
 //   T(v') - T(v) = y'MΔv = (t/h) u'MΔv + (y - (t/h) u)'MΔv,
 //   (t/h) u'MΔv = t u'(f - D x) + (t/h) u'C'λ - t u'K q - t r u'K x + t u'w - t u'b,
@@ -50,10 +50,9 @@ void book_step(const StepInput& in, const StepSolution& step, const Moment& next
   for (int k = root_dofs; k < model.nv(); ++k) {
     const Hinge& hinge = model.hinges[k - root_dofs];
     damped += hinge.damping * u[k] * step.felt[k];
-    stretch +=
-        hinge.stiffness * u[k] * (0.5 * t * u[k] - in.scene.time.reach() * step.felt[k]);
+    stretch += hinge.stiffness * u[k] * (0.5 * t * u[k] - in.scene.time.reach() * step.felt[k]);
   }
-  const BodyMotion before = in.before();
+  const StepMotion before = in.motion();
   double impulse = 0;  // (y - (t/h) u)'MΔv
   double moved = 0;    // T(v') - T(v) at the place of the step
   double fall = 0;     // work of gravity
@@ -63,7 +62,8 @@ void book_step(const StepInput& in, const StepSolution& step, const Moment& next
     const PointMotion by = motion_of(step.twist, step.centre_velocity, b);
     const PointMotion felt = motion_of(step.felt_twist, step.felt_centre_velocity, b);
     const bool euler = in.midway == nullptr;
-    const PointMotion fresh = euler ? by : PointMotion{2 * felt.twist - old.twist, 2 * felt.velocity - old.velocity};
+    const PointMotion fresh =
+        euler ? by : PointMotion{2 * felt.twist - old.twist, 2 * felt.velocity - old.velocity};
     const PointMotion change{fresh.twist - old.twist, fresh.velocity - old.velocity};
     const PointMotion mean{0.5 * (fresh.twist + old.twist), 0.5 * (fresh.velocity + old.velocity)};
     moved += inertia_product(model, kin, b, mean, change);

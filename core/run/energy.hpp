@@ -51,8 +51,8 @@ struct EnergyLedger {
 /// Opens the ledger at a moment.
 EnergyLedger open_ledger(const Model& model, const Moment& now);
 
-/// Books the step `in` from where the ledger stands, by its solution, to `next`, where it has led in
-/// the time `travelled` (s), 0 to h.
+/// Books the step `in` from where the ledger stands, by its solution, to `next`, where it has led
+/// in the time `travelled` (s), 0 to h.
 void book_step(const StepInput& in, const StepSolution& step, const Moment& next, double travelled,
                EnergyLedger& ledger);
 

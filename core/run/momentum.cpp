@@ -17,14 +17,14 @@ MomentumLedger open_momentum(const Model& model, const Moment& now) {
   return ledger;
 }
 
-// The root's linear rows of Eq. 1 say Σ m (v' - v) + h Σ bias = h Σ forces, with the velocities v, v'
-// of the bodies' centres before and after at the positions of the step's equations, and forces of rows
-// between two parts of the body, of joints and of muscles that add up to nothing.
+// The root's linear rows of Eq. 1 say Σ m (v' - v) + h Σ bias = h Σ forces, with the velocities v,
+// v' of the bodies' centres before and after at the positions of the step's equations, and forces
+// of rows between two parts of the body, of joints and of muscles that add up to nothing.
 void book_momentum(const StepInput& in, const StepSolution& step, const Moment& next,
                    MomentumLedger& ledger) {
   const Model& model = in.model;
   const double h = in.scene.time.step;
-  const BodyMotion before = in.before();
+  const StepMotion before = in.motion();
   Eigen::Vector3d change = Eigen::Vector3d::Zero();  // Σ m (v' - v)
   Eigen::Vector3d bias = Eigen::Vector3d::Zero();
   for (int b = 0; b < model.body_count(); ++b) {
@@ -35,8 +35,8 @@ void book_momentum(const StepInput& in, const StepSolution& step, const Moment& 
     ledger.drag += h * drag_on_body(model, in.kin(), b, felt);
     ledger.outside += h * model.bodies[b].mass * model.gravity;
   }
-  ledger.outside += h * (step.tip + step.force[RowKind::head].head<3>() +
-                         step.force[RowKind::wall].head<3>());
+  ledger.outside +=
+      h * (step.tip + step.force[RowKind::head].head<3>() + step.force[RowKind::wall].head<3>());
   const Eigen::Vector3d old = ledger.momentum;
   ledger.momentum = linear_momentum(model, next.observation.kin);
   ledger.integrator += ledger.momentum - old - change - h * bias;

@@ -26,12 +26,9 @@ class Attempt {
         record_(record),
         step_(record.solution),
         next_(record.moment),
-        in_{model,
-            scene,
-            sim.now.state,
-            sim.now.observation,
-            record.control,
-            scene.time.rule == TimeRule::euler ? nullptr : &sim.midway} {}
+        in_{model,          scene,
+            sim.now.state,  sim.now.observation,
+            record.control, scene.time.rule == TimeRule::euler ? nullptr : &sim.midway} {}
 
   Status take() {
     record_.step = sim_.step;
@@ -48,12 +45,18 @@ class Attempt {
     if (Status status = solve(); !status.ok()) {
       return status;
     }
+    if (step_.unsettled > 0) {
+      warn(
+          Outcome::unsettled,
+          fmt::format("after {} passes the middle of a step is known to {:.3g} rad/s or cm/s only, "
+                      "over time.settled = {:g}; a smaller time.step would help",
+                      scene_.time.passes, step_.unsettled, scene_.time.settled));
+    }
     const double travelled = looks_ahead() ? end_where_strands_meet() : h();
     sim_.solver.finish(in_, step_);
     guard_muscles(model_, scene_, sim_.controller.rest_shape, record_.control.active, record_.time,
                   sim_.watch, record_.warnings);
-    guard_cap(model_, in_.kin(), scene_, step_, record_.time, sim_.watch,
-              record_.warnings);
+    guard_cap(model_, in_.kin(), scene_, step_, record_.time, sim_.watch, record_.warnings);
     if (Status status =
             guard_state(model_, next_, record_.crossing, scene_, sim_.watch, record_.warnings);
         !status.ok()) {
@@ -71,7 +74,6 @@ class Attempt {
     record_.controller = sim_.controller;
     record_.momentum = sim_.momentum;
     book_momentum(in_, step_, next_, sim_.momentum);
-    if (in_.midway != nullptr) sim_.half_change = step_.half_change;
     std::swap(sim_.now, next_);
     ++sim_.step;
     return {};
@@ -89,7 +91,7 @@ class Attempt {
   /// scene.constraints.corrections times. Where the rows added cannot all be met the step goes
   /// without them.
   Status solve() {
-    Status status = begin();
+    Status status = sim_.solver.begin(in_, step_);
     int corrections = looks_ahead() ? scene_.constraints.corrections : 0;
     for (int k = 0; status.ok(); ++k) {
       status = guard_speed(step_.centre_velocity, scene_.guard);
@@ -98,39 +100,11 @@ class Attempt {
       }
       if (!sim_.solver.resume(in_, step_).ok()) {
         corrections = 0;
-        status = begin();
+        status = sim_.solver.begin(in_, step_);
       }
     }
     return status;
   }
-
-  /// Solves the step where its equations hold: of the midpoint rule, again until its middle is where
-  /// the solution leads.
-  Status begin() {
-    if (in_.midway == nullptr) {
-      return sim_.solver.begin(in_, step_);
-    }
-    const State& now = sim_.now.state;
-    Eigen::VectorXd guess = now.qdot;
-    if (sim_.half_change.size() > 0) guess += sim_.half_change;
-    for (int pass = 1;; ++pass) {
-      place_midway(model_, now, guess, h(), sim_.midway);
-      if (Status status = sim_.solver.begin(in_, step_); !status.ok()) {
-        return status;
-      }
-      const double off = 0.5 * h() * (step_.qdot - guess).lpNorm<Eigen::Infinity>();
-      passes_ = pass;
-      if (!(off > scene_.time.settled)) {
-        return {};
-      }
-      if (pass == scene_.time.passes) {
-        if (getenv("PASSES")) fprintf(stderr, "unsettled %g at %g\n", off, record_.time);
-        return {};
-      }
-      guess = step_.qdot;
-    }
-  }
-  int passes_ = 0;
 
   /// Where the step's velocity leads within time `t` (s).
   void move(double t) {
@@ -238,7 +212,6 @@ Simulation start_from(const Model& model, const Scene& scene, const std::string&
                  .ledger = {},
                  .momentum = {},
                  .watch = {},
-                 .half_change = {},
                  .before = {}};
   observe(model, sim.now.state, scene, sim.search, sim.now.observation);
   sim.ledger = open_ledger(model, sim.now);

@@ -33,9 +33,6 @@ struct Simulation {
   EnergyLedger ledger;
   MomentumLedger momentum;
   Watch watch;
-  /// Half of what the last step's steady forces changed the velocity by, nv: the midpoint rule's
-  /// guess at the next step's; empty before the first one.
-  Eigen::VectorXd half_change;
   Midway midway = {};  ///< storage
   BeforeStep before;
 };

@@ -11,16 +11,16 @@ namespace hagfish {
 
 /// The middle of a step, as far as it is known.
 struct Midway {
-  Eigen::VectorXd q;  ///< nq
-  /// At q; at the velocity by which the step is expected to move, which its bias is of.
-  Kinematics kin;
+  Eigen::VectorXd moved, felt;          ///< velocities by which the step moves, and on the mean, nv
+  Eigen::VectorXd q;                    ///< where `moved` leads in half a step, nq
+  Kinematics kin;                       ///< at q, of `moved` and `felt`
   std::vector<SplineSegment> segments;  ///< at q
   Matrix6Xd twist;                      ///< of the bodies at the step's first velocity, 6 x N
   Eigen::Matrix3Xd centre_velocity;     ///< of their centres at it, 3 x N, cm/s
+  Matrix6Xd felt_twist;                 ///< at `felt`, 6 x N
 };
 
-/// The middle of a step of `h` (s) from `state` that moves by the velocity `moved` (nv).
-void place_midway(const Model& model, const State& state, const Eigen::VectorXd& moved, double h,
-                  Midway& midway);
+/// Places the middle of a step of `h` (s) from `state` by midway.moved and midway.felt.
+void place_midway(const Model& model, const State& state, double h, Midway& midway);
 
 }  // namespace hagfish

@@ -39,7 +39,7 @@ void gather_rows(const StepInput& in, std::vector<Row>& rows) {
   }
   append_thigmotaxis_rows(in.model, in.control.thigmotaxis,
                           in.midway == nullptr ? nullptr : &in.midway->segments,
-                          in.scene.controller, in.before().centre_velocity, h, rows);
+                          in.scene.controller, in.motion().centre_velocity, h, rows);
   append_unilateral_rows(in, {in.state.qdot, centre_velocity, lazy_reach, lazy_reach}, rows);
 }
 

@@ -51,11 +51,40 @@ void StepSolver::stop_when(std::function<bool()> asked) {
 }
 
 Status StepSolver::begin(const StepInput& in, StepSolution& step) {
+  step.unsettled = 0;
+  if (in.midway == nullptr) {
+    return begin_here(in, step);
+  }
+  const TimeSettings& time = in.scene.time;
+  Midway& midway = *in.midway;
+  midway.moved = in.state.qdot;
+  if (warm.half_change.size() > 0) midway.moved += warm.half_change;
+  midway.felt = midway.moved;
+  for (int pass = 1;; ++pass) {
+    place_midway(in.model, in.state, time.step, midway);
+    if (Status status = begin_here(in, step); !status.ok()) {
+      return status;
+    }
+    const double off = (step.qdot - midway.moved).lpNorm<Eigen::Infinity>();
+    if (off <= time.settled) {
+      return {};
+    }
+    if (pass == time.passes) {
+      step.unsettled = off;
+      return {};
+    }
+    midway.moved = step.qdot;
+    midway.felt = 0.5 * (in.state.qdot + step.next);
+  }
+}
+
+/// Eq. 1 and the rows where in.midway is, or at in.state.
+Status StepSolver::begin_here(const StepInput& in, StepSolution& step) {
   if (!in.state.q.allFinite() || !in.state.qdot.allFinite()) {
     return {Outcome::non_finite, "non-finite state"};
   }
   const double reach = in.scene.time.reach();
-  assemble_step_system(in.model, in.state.q, in.before(), in.kin(), in.control.tip, reach,
+  assemble_step_system(in.model, in.state.q, in.motion(), in.kin(), in.control.tip, reach,
                        step.system);
   add_active_torque(in.control.active, reach, step.system);
   gather_rows(in, step.rows);
@@ -162,7 +191,7 @@ void StepSolver::set_next_velocity(const StepInput& in, StepSolution& step) {
     return;
   }
   const Kinematics& kin = in.kin();
-  step.half_change = step.qdot - in.state.qdot;
+  scratch_.half_change = step.qdot - in.state.qdot;
   bool any = false;
   scratch_.reaction.setZero(root_dofs);
   scratch_.wrench.setZero(6, in.model.body_count());
@@ -184,14 +213,14 @@ void StepSolver::set_next_velocity(const StepInput& in, StepSolution& step) {
     scratch_.free_factor.factorise(in.model, kin, step.system.op, scratch_.prescribed);
     scratch_.free_factor.solve(in.model, kin, scratch_.wrench, scratch_.joint, scratch_.impact,
                                scratch_.impact_twist, scratch_.reaction);
-    step.half_change -= scratch_.impact;
+    scratch_.half_change -= scratch_.impact;
   }
-  step.next = step.qdot + step.half_change;
+  step.next = step.qdot + scratch_.half_change;
   // A head that is held is so by half of its reaction before the middle.
   for (std::size_t i = 0, k = 0; i < step.rows.size(); ++i) {
     Row& row = step.rows[i];
     if (row.kind == RowKind::head) {
-      const double whole = step.lambda[i];
+      const double whole = step.lambda[i] - row.steady / 2;
       expect_force(in, 2 * (whole - scratch_.reaction[k++]), row, step.system);
       step.lambda[i] = whole + row.steady / 2;
     }

@@ -37,18 +37,21 @@ struct StepInput {
   const State& state;
   const Observation& observation;  ///< of `state`
   const Control& control;
-  const Midway* midway = nullptr;  ///< where the step's equations hold; null: at `state`
+  /// Where the step's equations hold, which `begin` finds: storage of the midpoint rule. Null: at
+  /// `state`, Euler's rule.
+  Midway* midway = nullptr;
 
   /// What Eq. 1 and the rows are of.
   const Kinematics& kin() const { return midway == nullptr ? observation.kin : midway->kin; }
   const std::vector<SplineSegment>& segments() const {
     return midway == nullptr ? observation.segments : midway->segments;
   }
-  /// The motion there at the step's first velocity.
-  BodyMotion before() const {
+  /// The motion there.
+  StepMotion motion() const {
+    const Kinematics& now = observation.kin;
     return midway == nullptr
-               ? BodyMotion{observation.kin.twist, observation.kin.centre_velocity}
-               : BodyMotion{midway->twist, midway->centre_velocity};
+               ? StepMotion{now.twist, now.centre_velocity, now.twist}
+               : StepMotion{midway->twist, midway->centre_velocity, midway->felt_twist};
   }
 };
 
@@ -76,8 +79,8 @@ struct StepSolution {
                          ///< of the velocities before and after
   Matrix6Xd felt_twist;  ///< of the bodies at it, 6 x N
   Eigen::Matrix3Xd felt_centre_velocity;  ///< of their centres at it, 3 x N, cm/s
-  Matrix6Xd twist;       ///< of the bodies at it, 6 x N
-  Eigen::Matrix3Xd centre_velocity;  ///< of the bodies' centres at it, 3 x N, cm/s
+  Matrix6Xd twist;                        ///< of the bodies at it, 6 x N
+  Eigen::Matrix3Xd centre_velocity;       ///< of the bodies' centres at it, 3 x N, cm/s
   ConstraintForces force;
   Eigen::Vector3d tip = Eigen::Vector3d::Zero();  ///< tip force as applied, dyn, world
   Eigen::VectorXd active_torque;  ///< active torque as applied, dyn cm, nv; 0 at the root
@@ -97,9 +100,12 @@ struct StepSolution {
   KktResiduals kkt;    ///< of the rows not prescribed, on the scale of all; the others are exact
   double qp_time = 0;  ///< s spent in the QP back end
   StepSystem system;   ///< Eq. 1 as assembled
-  /// Half of what steady forces change the velocity by, nv: the midpoint rule's guess at the next
-  /// step's; not used by Euler's rule.
-  Eigen::VectorXd half_change;
+  /// What another pass would still change the middle's velocity by, rad/s and cm/s, where that is
+  /// more than the scene permits; else 0 (midpoint rule).
+  double unsettled = 0;
+  struct {
+    Eigen::VectorXd moved, felt;
+  } middle;  ///< as in Midway, of the last pass
 };
 
 /// Storage for intermediate results. A step allocates nothing once all of it has grown to size.
@@ -119,7 +125,7 @@ struct StepScratch {
   Eigen::VectorXd joint, impulse, change;
   ArticulatedFactor free_factor;  ///< with nothing prescribed but the head
   Matrix6Xd impact_twist;
-  Eigen::VectorXd impact;
+  Eigen::VectorXd impact, half_change;
 };
 
 /// Changes what is expected of a row, and by that the right-hand side of Eq. 1 (midpoint rule).
@@ -137,8 +143,9 @@ class StepSolver {
   StepSolver& operator=(StepSolver&&) = default;
   ~StepSolver() = default;
 
-  /// Eq. 1, the rows, and Eq. 3 or 4: step.qdot is a velocity that meets all rows. Not ok where a
-  /// number is not finite, rows contradict each other or the back end fails.
+  /// Eq. 1, the rows, and Eq. 3 or 4: step.qdot is a velocity that meets all rows. By the midpoint
+  /// rule again, until the step's middle is where that leads. Not ok where a number is not finite,
+  /// rows contradict each other or the back end fails.
   Status begin(const StepInput& in, StepSolution& step);
 
   /// Eq. 3 or 4 again, after rows were added to step.rows. Status as above.
@@ -161,6 +168,7 @@ class StepSolver {
   const StepScratch& scratch() const { return scratch_; }
 
  private:
+  Status begin_here(const StepInput& in, StepSolution& step);
   Status constrained_motion(const StepInput& in, bool base_known, StepSolution& step);
   void order_rows(const Model& model, StepSolution& step);
   Status base_motion(const StepInput& in, StepSolution& step);

@@ -1,6 +1,7 @@
 // What a step leaves for the next one to start from.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <vector>
 
@@ -24,7 +25,10 @@ class WarmStart {
   /// The multiplier kept of a row, 0 where there is none.
   double multiplier(std::int64_t id) const;
   std::size_t size() const { return entries_.size(); }
-  /// All of it, for a checkpoint.
+  /// Half of what steady forces changed the velocity by, nv: by what the midpoint rule expects the
+  /// middle of the next step to differ. Empty before the first one.
+  Eigen::VectorXd half_change;
+  /// The multipliers, for a checkpoint.
   template <class Archive>
   void serialize(Archive& archive) {
     archive(entries_, before_);

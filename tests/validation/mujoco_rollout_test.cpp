@@ -53,7 +53,7 @@ TEST_P(MujocoRollout, MovesAlikeForOneSecond) {
   const State start = drawn_state(random, model, head, 0.1, 0.5);
   MujocoModel mirror = mirror_of(model, h, head);
   use_core_rule(mirror);
-  const std::vector<State> core = core_rollout(model, start, head, h, steps);
+  const std::vector<State> core = core_rollout(model, start, head, TimeRule::euler, h, steps);
   const std::vector<State> mujoco = mujoco_rollout(model, start, mirror, steps);
   double largest = 0;
   for (int i = 0; i < steps; ++i) {
@@ -87,7 +87,7 @@ TEST_P(MujocoRk4, IsApproachedAtFirstOrder) {
   const State reference = mujoco_rollout(model, start, mirror, 1000).back();
   const auto error = [&](double h) {
     const int steps = static_cast<int>(std::lround(time / h));
-    return centre_distance(model, core_rollout(model, start, head, h, steps).back(), reference);
+    return centre_distance(model, core_rollout(model, start, head, TimeRule::euler, h, steps).back(), reference);
   };
   const double coarse = error(0.002);
   const double middle = error(0.001);
