@@ -211,7 +211,7 @@ void serialize(Archive& archive, Simulation& sim) {
   auto& [step, now, search, controller, solver, ledger, momentum, watch, midway, before] =
       sim;  // the last two are storage
   archive(step, now.state, now.observation, search, controller, solver.warm,
-          solver.warm.half_change, ledger, momentum, watch);
+          solver.warm.half_change, solver.warm.half_before, ledger, momentum, watch);
 }
 
 namespace {
@@ -264,9 +264,10 @@ void check(const Simulation& sim, const LogState& log, const Model& model) {
   const Eigen::Index rest = sim.controller.rest_shape.size();
   require(rest == 0 || (rest == model.nv() && sim.controller.rest_shape.allFinite()),
           "a rest shape that is not of its model");
-  const Eigen::VectorXd& change = sim.solver.warm.half_change;
-  require(change.size() == 0 || (change.size() == model.nv() && change.allFinite()),
-          "a change of velocity that is not of its model");
+  for (const auto* change : {&sim.solver.warm.half_change, &sim.solver.warm.half_before}) {
+    require(change->size() == 0 || (change->size() == model.nv() && change->allFinite()),
+            "a change of velocity that is not of its model");
+  }
   require(log.means.size() == model.nv(), "means that are not of its model");
 }
 

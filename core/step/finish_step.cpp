@@ -116,6 +116,7 @@ void StepSolver::finish(const StepInput& in, StepSolution& step) {
     step.felt = 0.5 * (in.state.qdot + step.next);
     body_twists(in.model, in.kin(), step.felt, step.felt_twist);
     centre_velocities(in.kin(), step.felt_twist, step.felt_centre_velocity);
+    warm.half_before = warm.half_change;
     warm.half_change = scratch_.half_change;
     step.middle = {in.midway->moved, in.midway->felt};
   }

@@ -58,7 +58,9 @@ Status StepSolver::begin(const StepInput& in, StepSolution& step) {
   const TimeSettings& time = in.scene.time;
   Midway& midway = *in.midway;
   midway.moved = in.state.qdot;
-  if (warm.half_change.size() > 0) midway.moved += warm.half_change;
+  if (warm.half_before.size() > 0) {
+    midway.moved += 2 * warm.half_change - warm.half_before;
+  }
   midway.felt = midway.moved;
   for (int pass = 1;; ++pass) {
     place_midway(in.model, in.state, time.step, midway);

@@ -25,9 +25,10 @@ class WarmStart {
   /// The multiplier kept of a row, 0 where there is none.
   double multiplier(std::int64_t id) const;
   std::size_t size() const { return entries_.size(); }
-  /// Half of what steady forces changed the velocity by, nv: by what the midpoint rule expects the
-  /// middle of the next step to differ. Empty before the first one.
-  Eigen::VectorXd half_change;
+  /// Half of what steady forces changed the velocity by in the last step and in the one before, nv:
+  /// the midpoint rule extrapolates them to the middle of the next step. Empty where there was
+  /// none.
+  Eigen::VectorXd half_change, half_before;
   /// The multipliers, for a checkpoint.
   template <class Archive>
   void serialize(Archive& archive) {
