@@ -54,7 +54,7 @@ runs_of_all() {
     printf 'timed_run\t%s\t1\t%s\n' "ipopt_$knot" "living_$knot --qp ipopt"
     run_of "fine_$knot" "living_$knot --set time.step=0.002"
   done
-  local sweep="--set expect.types=[] --set time.duration=60"
+  local sweep="--set expect.types=[] --set time.duration=100"
   for knot in overhand figure_eight double_overhand three_twist; do
     for value in 4e2 4e3 3e4 2e5 4e5 1.2e6; do
       run_of "stiffness_${knot}_$value" "living_$knot $sweep" "$(stiffness $value)"
@@ -80,4 +80,6 @@ runs_of_all | work "$cores" "Living animals"
 
 echo "Drawing"
 draw living.py "$runs" "$out/living.csv" "$out/living.png" "$out/living.md"
+# The README states what its machine measured: where this one differs is said, and is no failure of the study.
+draw living_table.py "$runs" "$root/experiments/README.md" "$out/living_table.md" || (($? == 1))
 finish "$out/living.md"
