@@ -17,6 +17,7 @@ void add_record_qp(Program& program);
 void add_qp(Program& program);
 void add_info(Program& program);
 void add_check(Program& program);
+void add_export(Program& program);
 void add_program(Program& program);
 
 /// Those that need MuJoCo, which come after; none where the program is built without it.

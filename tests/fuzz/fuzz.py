@@ -81,6 +81,7 @@ def commands_for(kind, file, slow, overrides=()):
         yield ["branch", file, "--out", "branch.h5", "--quiet", "--force"]
         if slow:
             yield ["info", file, "--json"]
+            yield ["export", file, "--out", "tables", "--force"]
             yield ["picture", file, "--out", "picture.png", "--force"]
             yield ["program", file, "--out", "program.csv", "--force", "--stations", "4", "--times", "3"]
             yield ["branch", file, "--out", "branch.h5", "--force", "--quiet"]
