@@ -18,6 +18,7 @@ void add_qp(Program& program);
 void add_info(Program& program);
 void add_check(Program& program);
 void add_export(Program& program);
+void add_view(Program& program);
 void add_program(Program& program);
 
 /// Those that need MuJoCo, which come after; none where the program is built without it.

@@ -82,6 +82,7 @@ def commands_for(kind, file, slow, overrides=()):
         if slow:
             yield ["info", file, "--json"]
             yield ["export", file, "--out", "tables", "--force"]
+            yield ["view", file, "--out", "replay.html", "--force"]
             yield ["picture", file, "--out", "picture.png", "--force"]
             yield ["program", file, "--out", "program.csv", "--force", "--stations", "4", "--times", "3"]
             yield ["branch", file, "--out", "branch.h5", "--force", "--quiet"]
