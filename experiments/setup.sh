@@ -15,6 +15,7 @@ packages=(
   libgtest-dev libbenchmark-dev python3-pytest          # tests and benchmarks
   python3 python3-h5py python3-matplotlib               # figures
   libjs-three node-d3                                   # replays in a browser
+  ffmpeg                                                # films
   parallel                                              # sweeps
 )
 

@@ -109,7 +109,8 @@ class Plots {
   }
 
   /** Draws all anew, the maps by quantity `name` up to `scale`. */
-  draw(name, scale) {
+  draw(name, scale, label, unit) {
+    Object.assign(this, { quantity: name, label, unit });
     const width = Math.max(420, document.getElementById("plots").clientWidth - 28);
     const times = [d3.min(this.logs, (log) => log.time[0]), d3.max(this.logs, (log) => log.time[log.frames - 1])];
     for (const plot of this.all) plot.fit(width, times);
@@ -129,11 +130,10 @@ class Plots {
     const terms = this.logs.map((log) => Object.entries(log.energy).filter(([, values]) => values.some((v) => v !== 0)).map(([key, values]) => ({ name: key.replace("_energy", "").replace("work_", "work, "), values })));
     this.energy.scale(rangeOf(terms.flat().map((t) => t.values)), "erg", 4);
     this.logs.forEach((log, k) => this.energy.lines(log, terms[k], k > 0));
-    this.quantity = name;
   }
 
   drawMap(plot, log, name, scale) {
-    const { label, unit } = QUANTITIES[name], { arc, values } = log.field(name), n = arc.length, length = log.animal.length;
+    const { label, unit } = this, { arc, values } = log.field(name), n = arc.length, length = log.animal.length;
     plot.svg.select(".heading").text(`Along the body: ${label}, ${unit}${this.logs.length > 1 ? ", " + log.name : ""}`);
     plot.scale([0, length], "cm from the head", 4);
     const image = new ImageData(log.frames, n);
@@ -174,7 +174,7 @@ class Plots {
     const frames = this.logs.map((log) => log.frameAt(time)), log = this.logs[0], f = frames[0];
     this.logs.forEach((own, k) => {
       const { arc, values } = own.field(this.quantity), row = values.subarray(frames[k] * arc.length, (frames[k] + 1) * arc.length);
-      this.maps[k].move(time, `largest ${short(d3.max(row), QUANTITIES[this.quantity].unit)}`);
+      this.maps[k].move(time, `largest ${short(d3.max(row), this.unit)}`);
       this.stages[k].move(time, `${own.phaseName(frames[k])}, ${own.knotName(frames[k])}`);
     });
     const speeds = d3.range(4).map((k) => short(log.eq6.speed[4 * f + k], "").trim());

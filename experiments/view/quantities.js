@@ -1,5 +1,5 @@
 "use strict";
-// A log as typed arrays, and what the skin can be coloured by: values over frames and stations along the body.
+// A log as typed arrays; what the skin can be coloured by, and how.
 
 const TYPES = { f4: Float32Array, u1: Uint8Array, u4: Uint32Array, i2: Int16Array };
 
@@ -24,8 +24,7 @@ class Log {
     Object.assign(this, decodeAll(raw));
     this.frames = this.time.length;
     this.bodies = this.animal.radius.length;
-    this.hinges = this.animal.hinge_axis.length;
-    this.made = new Map();
+    this.quantities = this.quantities || {};
   }
 
   /** The frame nearest to a time, s. */
@@ -39,76 +38,15 @@ class Log {
   phaseName(frame) { return this.phases[this.phase[frame]]; }
   knotName(frame) { return this.knots[this.knot[frame]]; }
 
-  /** Values of a quantity: { arc: of its stations, cm; values: frames x stations }. */
-  field(name) {
-    if (!this.made.has(name)) this.made.set(name, QUANTITIES[name].of(this));
-    return this.made.get(name);
-  }
+  /** Values of a quantity over frames and stations: { arc: of the stations, cm; values }; 0 where the log has none of it. */
+  field(name) { return this.quantities[name] || { arc: [0, this.animal.length], values: new Float32Array(2 * this.frames) }; }
 }
 
-/** Size of what hinges have on each joint: bends about Y and Z together, or twist; over its length where `perLength`. */
-function ofJoints(log, rows, twist, perLength) {
-  const { hinge_axis: axis, hinge_arc: arc, hinge_span: span } = log.animal;
-  const joints = [];
-  for (let k = 0; k < log.hinges; ++k) {
-    const last = joints[joints.length - 1];
-    if ((axis[k] === 0) !== twist) continue;
-    if (last && arc[last[0]] === arc[k]) last.push(k);
-    else joints.push([k]);
-  }
-  const values = new Float32Array(log.frames * joints.length);
-  for (let f = 0; f < log.frames; ++f) {
-    joints.forEach((own, j) => {
-      const size = Math.hypot(...own.map((k) => rows[f * log.hinges + k] || 0));
-      values[f * joints.length + j] = perLength ? size / span[own[0]] : size;
-    });
-  }
-  return { arc: joints.map((own) => arc[own[0]]), values };
-}
+/** { name: { label, unit } } of all that some of the logs have. */
+function quantitiesOf(logs) { return Object.assign({}, ...logs.map((log) => log.quantities)); }
 
-const SPREAD = 0.5; // cm of body over which a contact's force is spread to be seen, standard deviation
-
-/** Forces of contacts along the body, dyn/cm. */
-function ofContacts(log) {
-  const { first, values: contacts } = log.contacts;
-  const arc = log.animal.arc, values = new Float32Array(log.frames * log.bodies);
-  for (let f = 0; f < log.frames; ++f) {
-    for (let c = first[f]; c < first[f + 1]; ++c) {
-      for (const place of [contacts[9 * c + 7], contacts[9 * c + 8]]) {
-        if (Number.isNaN(place)) continue; // the plate has no arc
-        for (let b = 0; b < log.bodies; ++b) {
-          const away = (arc[b] - place) / SPREAD;
-          if (Math.abs(away) < 4) values[f * log.bodies + b] += contacts[9 * c + 6] * Math.exp(-away * away / 2) / (SPREAD * Math.sqrt(2 * Math.PI));
-        }
-      }
-    }
-  }
-  return { arc: Array.from(arc), values };
-}
-
-const QUANTITIES = {
-  thigmotaxis: { label: "f_thigmo, bending", unit: "dyn cm", of: (log) => ofJoints(log, log.thigmotaxis, false, false) },
-  thigmotaxis_twist: { label: "f_thigmo, twisting", unit: "dyn cm", of: (log) => ofJoints(log, log.thigmotaxis, true, false) },
-  active: { label: "active torque, bending", unit: "dyn cm", of: (log) => ofJoints(log, log.active || new Float32Array(log.frames * log.hinges), false, false) },
-  curvature: { label: "curvature", unit: "rad/cm", of: (log) => ofJoints(log, log.angle, false, true) },
-  twist: { label: "twist", unit: "rad/cm", of: (log) => ofJoints(log, log.angle, true, true) },
-  contact: { label: "contact force per length", unit: "dyn/cm", of: ofContacts },
-};
-
-/** Quantities that some of the logs have. */
-function quantitiesOf(logs) {
-  return Object.keys(QUANTITIES).filter((name) => name !== "active" || logs.some((log) => log.active));
-}
-
-/** 0 to the value that one in a hundred of those above 0 exceeds, in all logs. */
-function scaleOf(logs, name) {
-  const some = [];
-  for (const log of logs) {
-    const { values } = log.field(name), stride = Math.max(1, Math.floor(values.length / 50000));
-    for (let k = 0; k < values.length; k += stride) if (values[k] > 0) some.push(values[k]);
-  }
-  return some.length ? d3.quantile(Float64Array.from(some).sort(), 0.99) : 1;
-}
+/** The largest colour's value for all logs. */
+const scaleOf = (logs, name) => d3.max(logs, (log) => log.quantities[name] ? log.quantities[name].scale : 0) || 1;
 
 /** 256 colours, told apart with any colour vision; red, green, blue from 0 to 1. */
 const COLOURS = d3.range(256).map((k) => {

@@ -8,6 +8,7 @@
 #include "core/input/input_text.hpp"
 #include "core/knot/knot.hpp"
 #include "core/run/controller.hpp"
+#include "experiments/export/body_quantity.hpp"
 #include "experiments/export/frame_contacts.hpp"
 
 namespace hagfish {
@@ -50,12 +51,6 @@ Json quantised(const Hdf5Reader::Rows& rows) {
   return {{"i2", base64(out)}, {"scale", scale}};
 }
 
-/// Columns of hinges, without the root's.
-Json hinge_rows(const LogContents& log, const std::string& path) {
-  const Hdf5Reader::Rows rows = log.h5.rows(path);
-  return quantised(rows.rightCols(rows.cols() - root_dofs));
-}
-
 Json float_rows(const LogContents& log, const std::string& path) {
   return floats(log.h5.rows(path).reshaped<Eigen::RowMajor>());
 }
@@ -64,25 +59,16 @@ Json float_rows(const LogContents& log, const std::string& path) {
 Json animal(const LogContents& log) {
   Json json;
   const Model& model = log.model;
-  std::vector<double> radius, arc, hinge_arc, span;
-  std::vector<std::uint8_t> axis;
+  std::vector<double> radius, arc;
   const double length = model.length() / model.body_count();
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     radius.push_back(model.bodies[b].radius);
     arc.push_back((static_cast<double>(b) + 0.5) * length);
   }
-  for (const Hinge& hinge : model.hinges) {
-    hinge_arc.push_back(hinge.body * length);
-    span.push_back(hinge_span(model.body_count(), length, hinge.body));
-    axis.push_back(static_cast<std::uint8_t>(hinge.axis));
-  }
   json["length"] = model.length();
   json["station"] = log.resolved.specimen.station;
   json["radius"] = floats(radius);
   json["arc"] = floats(arc);
-  json["hinge_arc"] = floats(hinge_arc);
-  json["hinge_span"] = floats(span);
-  json["hinge_axis"] = {{"u1", base64(axis)}};
   return json;
 }
 
@@ -143,11 +129,17 @@ Json view_data(const LogContents& log, const std::string& name) {
             {"time", floats(log.time)}};
   add_stages(log, json);
   json["position"] = float_rows(log, "/trajectory/position");
-  json["angle"] = quantised(log.q.rightCols(log.q.cols() - root_dofs - 1));
-  json["thigmotaxis"] = hinge_rows(log, "/mean/forces/thigmotaxis");
-  const Hdf5Reader::Rows active = log.h5.rows("/mean/forces/active");
-  const bool acts = (active.array().isFinite() && active.array() != 0).any();
-  if (acts) json["active"] = hinge_rows(log, "/mean/forces/active");
+  for (const std::string& quantity : body_quantity_names()) {
+    const BodyQuantity along = body_quantity(log, quantity);
+    // Torques of muscles, or any, that there are none of are not offered.
+    if (const double scale = colour_scale(along); scale > 0) {
+      json["quantities"][quantity] = {{"label", along.label},
+                                      {"unit", along.unit},
+                                      {"scale", scale},
+                                      {"arc", along.arc},
+                                      {"values", quantised(along.values)}};
+    }
+  }
   json["contacts"] = bearing_contacts(log);
   json["tip"] = float_rows(log, "/forces/tip");
   json["head"] = floats(

@@ -56,8 +56,10 @@ class Viewer {
     element("layout-label").style.display = logs.length > 1 ? "" : "none";
     for (const speed of SPEEDS) element("speed").add(new Option(`${speed} x`, speed, speed === 1, speed === 1));
     element("colour").add(new Option("none", ""));
-    for (const name of quantitiesOf(logs)) element("colour").add(new Option(QUANTITIES[name].label, name));
-    element("colour").value = logs.every((log) => log.active) ? "active" : "thigmotaxis";
+    this.quantities = quantitiesOf(logs);
+    for (const [name, { label }] of Object.entries(this.quantities)) element("colour").add(new Option(label, name));
+    const wanted = ["active", "thigmotaxis", "curvature"].find((name) => logs.every((log) => log.quantities[name]));
+    element("colour").value = wanted || "";
     for (const [kind, words] of Object.entries(ARROW_WORDS)) {
       if (!logs.some((log, k) => this.bodies[k].largest[kind] > 1e-6)) continue;
       const line = element("arrow-words").appendChild(document.createElement("div"));
@@ -149,11 +151,12 @@ class Viewer {
 
   recolour() {
     this.quantity = element("colour").value;
-    const mapped = this.quantity || quantitiesOf(this.logs)[0];
+    const mapped = this.quantity || Object.keys(this.quantities)[0] || "none";
     this.scale = scaleOf(this.logs, mapped);
-    this.plots.draw(mapped, this.scale);
+    const { label, unit } = this.quantities[mapped] || { label: "nothing to show", unit: "" };
+    this.plots.draw(mapped, this.scale, label, unit);
     element("legend").style.display = this.quantity ? "" : "none";
-    element("legend-title").textContent = `${QUANTITIES[mapped].label}, ${QUANTITIES[mapped].unit}`;
+    element("legend-title").textContent = `${label}, ${unit}`;
     element("legend-low").textContent = "0";
     element("legend-high").textContent = "≥ " + d3.format(".3~g")(this.scale);
     const context = element("legend-bar").getContext("2d");

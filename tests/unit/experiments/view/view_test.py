@@ -53,10 +53,27 @@ def test_the_page_holds_what_the_log_holds(run):
     assert [page["phases"][k] for k in decoded(page["phase"])] == [
         {v: k for k, v in h5py.check_enum_dtype(log["trajectory/phase"].dtype).items()}[int(p)] for p in log["trajectory/phase"]]
     assert np.all((np.array(page["knots"])[decoded(page["knot"])] == "3_1") == (log["knot/determinant"][()] == 3))
-    for name, path in (("thigmotaxis", "mean/forces/thigmotaxis"), ("angle", "trajectory/q")):
-        wanted = log[path][:, 6 if name == "thigmotaxis" else 7:]
-        np.testing.assert_allclose(decoded(page[name]).reshape(frames, -1), wanted, atol=np.nanmax(np.abs(wanted)) / 60000)
-    assert "active" not in page
+    axes = np.array([name.split("_")[-1] for name in log["model/dof_name"].asstr()[()][6:]])
+    force, angle = np.nan_to_num(log["mean/forces/thigmotaxis"][:, 6:]), log["trajectory/q"][:, 7:]
+    bend, twist = lambda rows: np.hypot(rows[:, axes == "y"], rows[:, axes == "z"]), lambda rows: np.abs(rows[:, axes == "twist"])
+    length, n = log["model/length"][0], len(log["model/length"])
+    spans = lambda joints: length * np.array([(n if j + 2 >= n else j + 1) - (0 if j <= 2 else j - 1) for j in joints])
+    odd, even = np.arange(1, n, 2), np.arange(2, n, 2)
+    y, z = angle[:, axes == "y"], angle[:, axes == "z"]
+    wanted = {"thigmotaxis": bend(force), "thigmotaxis-twist": twist(force), "twist": twist(angle) / spans(even),
+              "curvature": 2 * np.arcsin(np.sqrt(np.sin(y / 2) ** 2 + np.cos(y) * np.sin(z / 2) ** 2)) / spans(odd)}
+    for name, values in wanted.items():
+        own = page["quantities"][name]
+        np.testing.assert_allclose(decoded(own["values"]).reshape(frames, -1), values, atol=values.max() / 60000)
+        np.testing.assert_allclose(own["arc"], (even if "twist" in name else odd) * length)
+        above = np.sort(values[values > 0])
+        assert own["scale"] == pytest.approx(above[int(0.99 * (len(above) - 1))], rel=1e-3)
+    # Contacts, spread along the body, keep their sum: twice each, for its two strands.
+    along = decoded(page["quantities"]["contact"]["values"]).reshape(frames, -1)
+    sums = np.bincount(log["contacts/frame"][()], log["contacts/force"][()] * np.where(np.isnan(log["contacts/spline_b"][()]), 1, 2), frames)
+    inside = np.flatnonzero((sums > 0) & (log["trajectory/phase"][()] < 3))
+    np.testing.assert_allclose(along[inside].sum(axis=1) * length, sums[inside], rtol=0.02)
+    assert "active" not in page["quantities"]
     for name in ("speed", "slack", "lambda"):
         np.testing.assert_allclose(decoded(page["eq6"][name]), log[f"mean/thigmotaxis/{name}"][()].ravel(), rtol=1e-6)
     np.testing.assert_allclose(decoded(page["eq6"]["command"]), log["thigmotaxis/command"][()].ravel(), rtol=1e-6)
