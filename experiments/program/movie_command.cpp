@@ -18,6 +18,7 @@ namespace hagfish {
 namespace {
 
 constexpr double pictures_a_second = 25;
+constexpr double rounding = 1e-6;             // of a number of pictures
 constexpr double gif_pictures_a_second = 12.5;  // what takes palettes by the frame is large
 // One shadow, from a map of half the size: a third of the time.
 constexpr PictureQuality film_quality{1, 2048};
@@ -38,7 +39,7 @@ struct MovieOptions {
 std::vector<std::size_t> film_frames(const LogContents& log, double rate, double speed) {
   std::vector<std::size_t> frames;
   const double seconds = (log.time.back() - log.time.front()) / speed;
-  const double count = std::floor(seconds * rate) + 1;
+  const double count = std::floor(seconds * rate + rounding) + 1;
   constexpr double most = 1e6;
   if (count > most) {
     throw InputError(
