@@ -309,6 +309,10 @@ void ForceAudit::see_balance(const AuditedFrame& frame) {
                                   .transpose();
   const Eigen::VectorXd given =
       generalised_force(model, frame.kin, system.wrench) + system.joint + reach * sum;
+  if (log_.midpoint()) {
+    unsettled_ =
+        worse(unsettled_, (frame.qdot_moved - frame.midway.moved).lpNorm<Eigen::Infinity>());
+  }
   imbalance_ =
       worse(imbalance_, mismatch(given, multiply(model, frame.kin, system.op, frame.qdot_felt)));
   momentum_before_ = momentum_;
@@ -374,6 +378,11 @@ std::vector<Finding> ForceAudit::findings() const {
                     : fmt::format("act where they cannot, or pull: {}", fmt::join(shape, ", "))));
   findings.push_back(judged_over({"force balance", imbalance_, expect.force_balance, "of scale"},
                                  "H(q̇ - q̇*) - h Σ f recomputed at every frame"));
+  if (log_.midpoint()) {
+    findings.push_back(judged_over(
+        {"middle of steps", unsettled_, log_.resolved.scene.time.settled, "rad/s or cm/s"},
+        "/midway/moved against /midway/qdot at every frame"));
+  }
   findings.push_back(
       judged_over({"balance of means", mean_imbalance_, expect.force_balance, "of scale"},
                   "Σ /mean/forces against /mean/forces/net at every frame"));
