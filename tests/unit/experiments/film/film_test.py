@@ -51,7 +51,9 @@ def rms_of(text):
 
 def test_a_run_is_on_its_own_film(film):
     assert rms_of(hagfish(film, "against", "a.h5", "true.csv", "--as-is")) < 1e-4  # six digits of some 40 cm are written
-    said = hagfish(film, "against", "a.h5", "film.csv", "--csv", "off.csv")
+    before = set(film.iterdir())
+    said = hagfish(film, "against", "a.h5", "film.csv", "--csv", "off.csv", "--png", "off.png")
+    assert {path.name for path in set(film.iterdir()) - before} == {"off.csv", "off.png"}
     assert rms_of(said) == pytest.approx(NOISE * np.sqrt(3), rel=0.03)  # nothing but the noise
     off = table(film / "off.csv")
     assert np.sqrt(np.mean(off["distance_cm"] ** 2)) == pytest.approx(rms_of(said), rel=0.01)
