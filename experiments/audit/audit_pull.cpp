@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <numeric>
 
 #include "core/run/controller.hpp"
 #include "experiments/audit/expectations.hpp"
@@ -68,38 +68,43 @@ Finding figures(const LogContents& log) {
                          "means of clamp, head plate, rows of Eq. 6 and torques");
 }
 
+double mean(const std::vector<double>& values, std::size_t from, std::size_t to) {
+  const auto begin = values.begin();
+  return std::accumulate(begin + static_cast<std::ptrdiff_t>(from),
+                         begin + static_cast<std::ptrdiff_t>(to), 0.0) /
+         static_cast<double>(to - from);
+}
+
 /// What the pull is once it has settled.
 std::vector<Finding> settled(const LogContents& log, const std::vector<Eigen::Index>& frames) {
   const ExpectSettings& expect = log.resolved.scene.expect;
   const Hdf5Reader::Rows head = log.h5.rows("/mean/forces/head");
   const Hdf5Reader::Rows wall = log.h5.rows("/mean/forces/wall");
-  std::vector<double> pull, plate;
+  const Hdf5Reader::Rows drag = log.h5.rows("/diagnostics/impulse_drag");
+  std::vector<double> pull, plate, water;
   for (const Eigen::Index f : frames) {
     if (log.time[f] >= log.time[frames.front()] + expect.pull_settled) {
       pull.push_back(-head(f, 0));
       plate.push_back(wall(f, 0));
+      water.push_back((drag(f, 0) - drag(f - 1, 0)) / (log.time[f] - log.time[f - 1]));
     }
   }
-  if (pull.size() < least_frames) {
-    const std::string text =
-        fmt::format("the knot pulled for {:g} s",
-                    static_cast<double>(frames.size()) * log.resolved.scene.time.frame_interval);
-    return {{"pull", false, text + ", too short to settle", "", "", "N"}};
+  const std::size_t count = pull.size();
+  if (count < least_frames) {
+    return {{"pull", false, fmt::format("{} frames of a settled pull, too few to judge", count), "",
+             "", "N"}};
   }
-  const auto mean = [](auto begin, auto end) {
-    double sum = 0;
-    for (auto it = begin; it != end; ++it) sum += *it;
-    return sum / static_cast<double>(end - begin);
-  };
-  const auto middle = pull.begin() + static_cast<std::ptrdiff_t>(pull.size() / 2);
-  const double all = mean(pull.begin(), pull.end());
-  const std::string scope = fmt::format("{} frames", pull.size());
-  return {judged_over(pull_criterion(expect, all), scope),
-          judged_over(
-              pull_drift_criterion(expect, mean(pull.begin(), middle), mean(middle, pull.end())),
-              "later half against earlier"),
-          judged_over(pull_balance_criterion(expect, mean(plate.begin(), plate.end()), all),
-                      "mean force of the head plate against mean pull")};
+  const double all = mean(pull, 0, count);
+  const double of_plate = mean(plate, 0, count);
+  const double of_water = mean(water, 0, count);
+  return {
+      judged_over(pull_criterion(expect, all), fmt::format("{} frames", count)),
+      judged_over(
+          pull_drift_criterion(expect, mean(pull, 0, count / 2), mean(pull, count / 2, count)),
+          "later half against earlier"),
+      judged_over(pull_balance_criterion(expect, of_plate, of_water, all),
+                  fmt::format("the head plate's mean force is {:.3g} and the water's {:.3g} of it",
+                              of_plate / all, of_water / all))};
 }
 
 /// The pull ends where the food gives or the animal lets go, and not before. What it gives at is
@@ -146,8 +151,11 @@ std::vector<Finding> audit_pull(const LogContents& log) {
     findings.push_back({"pull", false, "the knot never pulled", "", "", "N"});
     return findings;
   }
-  const std::vector<Finding> more = settled(log, frames);
-  findings.insert(findings.end(), more.begin(), more.end());
+  // A pull that rises does not settle.
+  if (scene.food.cap.to == scene.food.cap.from) {
+    const std::vector<Finding> more = settled(log, frames);
+    findings.insert(findings.end(), more.begin(), more.end());
+  }
   findings.push_back(end(log, frames));
   return findings;
 }

@@ -30,7 +30,7 @@ ChainRun chain_round_a_post() {
     append_body(model, thin_rod(0.02, link), {Axis::z});
     model.hinges.back().damping = 0.1;  // dyn cm s
   }
-  model.drag = {.normal = 10, .tangential = 10};
+  model.drag = {.normal = 1, .tangential = 1};
   ChainRun run(model, bare_scene(0.002));
   // The joints that turn by the angle that a link takes on the post.
   const double turn = 2 * std::asin(link / 2 / post_radius);
@@ -76,7 +76,7 @@ class Capstan : public testing::Test {
   /// The pair of points beside each other, as far from the post, on the strand of the head and on
   /// the one that comes back.
   Contact strands() const {
-    int back = beside + 10;
+    int back = bodies / 2;  // on the post
     const Eigen::Matrix3Xd& centre = seen.kin.centre;
     for (int b = back; b < bodies - 2; ++b) {
       back = (centre.col(b) - centre.col(beside)).norm() <
@@ -100,12 +100,12 @@ class Capstan : public testing::Test {
     FAIL() << "does not come to rest";
   }
 
-  /// Forces of the post's rows, added up, dyn.
+  /// Force on the post, dyn.
   Eigen::Vector3d on_post() const {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (std::size_t i = 0; i < solution.rows.size(); ++i) {
       if (solution.rows[i].kind == RowKind::contact) {
-        sum += solution.lambda[static_cast<Eigen::Index>(i)] / run.scene.time.step *
+        sum -= solution.lambda[static_cast<Eigen::Index>(i)] / run.scene.time.step *
                solution.rows[i].direction;
       }
     }
@@ -120,27 +120,25 @@ class Capstan : public testing::Test {
   mutable int last_loaded = bodies;
 };
 
-// Shares of the tension: what bodies that still creep lose to drag.
-constexpr double tolerance = 1e-4;
+/// Of the tension: a link that touches the post beside its middle is not tangent to it there.
+constexpr double tolerance = link * link / (8 * post_radius * post_radius);
 
 TEST_F(Capstan, HandsOnAllOfThePull) {
   for (const double tension : {50.0, 200.0}) {
     settle(tension, 0);
     ASSERT_FALSE(HasFatalFailure());
     EXPECT_NEAR(pull(), tension, tolerance * tension);
-    EXPECT_NEAR(on_post().x(), -2 * tension, 2 * tolerance * tension);
+    EXPECT_NEAR(on_post().x(), -2 * tension, tolerance * tension);
   }
 }
 
 TEST_F(Capstan, IsAPulleyForThigmotaxis) {
   settle(50, 0);
-  for (const double cap : {50.0, 100.0}) {
+  for (const double cap : {50.0, 100.0}) {  // of each of two rows
     settle(0, cap);
     ASSERT_FALSE(HasFatalFailure());
-    const double sum = solution.force.total()[0];  // nothing is left of the momentum
-    EXPECT_NEAR(sum, 0, tolerance * cap);
-    EXPECT_NEAR(pull(), 2 * (2 * cap), 4 * tolerance * cap);
-    EXPECT_NEAR(on_post().x(), -4 * cap, 4 * tolerance * cap);
+    EXPECT_NEAR(pull(), 2 * (2 * cap), tolerance * 4 * cap);
+    EXPECT_NEAR(on_post().x(), -4 * cap, tolerance * 4 * cap);
   }
 }
 

@@ -1,0 +1,201 @@
+"""The pull of every knot: tables, a CSV of all runs, and a figure of what it depends on.
+
+Usage: leverage.py RUNS OUT.csv OUT.png OUT.md (writes a PDF beside).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+import audits
+import plots
+import tables
+from hagfish_log import HagfishLog, LogError
+from pulls import NEWTON, Pull, read_pull
+from script import run_script
+
+KNOTS = {"overhand": "3_1", "figure_eight": "4_1", "double_overhand": "5_1", "three_twist": "5_2"}
+BODIES = {"table1": "Table 1", "living": "living"}
+TOOTH_MUSCLE = 16.0  # N, clavatus of the tooth plate: Clark & Summers 2007, J. Exp. Biol. 210:3897
+CAPACITY = 2.7  # N cm, a guess: data/living_overhand.toml
+JUDGED = ("pull", "pull steady", "pull balance", "food", "knot held", "penetration")
+
+
+@dataclass
+class Run:
+    kind: str
+    body: str
+    knot: str
+    value: str
+    seed: int
+    outcome: str  # "pulled", or why not
+    pull: Pull | None  # of a run that pulled
+
+    @property
+    def pulled(self) -> bool:
+        return self.pull is not None
+
+
+def outcome_of(log: HagfishLog, unmet: list[str]) -> str:
+    status = str(log.attribute("status"))
+    if status != "complete":
+        return status.removeprefix("failed: ").split(" at step")[0].split(":")[0].split(",")[0]
+    if "knot held" in unmet:
+        return "knot lost"
+    if not log.in_phase("pull").size:
+        return "never at the head"
+    return "overlap" if "penetration" in unmet else "pulled"
+
+
+def read_run(path: Path) -> Run:
+    name = path.name.removesuffix(".check.csv")
+    kind, body, knot, value, seed = name.split("-")
+    log = HagfishLog(path.parent / f"{name}.h5")
+    outcome = outcome_of(log, audits.unmet(audits.read_findings(path)))
+    pull = read_pull(log) if outcome == "pulled" else None
+    if pull is not None and not pull.force.size:
+        outcome, pull = "too short", None
+    return Run(kind, body, KNOTS[knot], value, int(seed), outcome, pull)
+
+
+def chosen(runs: Iterable[Run], body: str, knot: str, *kinds: str, value: str | None = None) -> list[Run]:
+    return [run for run in runs if run.body == body and run.knot == knot and run.kind in kinds and value in (None, run.value)]
+
+
+def spread(values: list[float], digits: int = 2) -> str:
+    """Mean ± standard deviation."""
+    if not values:
+        return "none"
+    return f"{np.mean(values):.{digits}f}" + (f" ± {np.std(values, ddof=1):.{digits}f}" if len(values) > 1 else "")
+
+
+def starts_table(runs: list[Run]) -> list[str]:
+    rows = []
+    for body, label in BODIES.items():
+        for knot in KNOTS.values():
+            all_starts = chosen(runs, body, knot, "start")
+            pulls = [run.pull for run in all_starts if run.pull]
+            mirrored = [run.pull.mean for run in chosen(runs, body, knot, "mirror") if run.pull]
+            plain = [run.pull.mean for run in chosen(runs, body, knot, "plain") if run.pull]
+            same = "yes" if plain and mirrored == plain else "no"
+            rows.append([label, knot, f"{len(pulls)} of {len(all_starts)}", spread([p.mean for p in pulls], 3),
+                         spread([float(p.force.std()) for p in pulls], 3), spread([p.mean / p.sum for p in pulls]),
+                         spread([p.mean / p.rows.mean(axis=0).max() for p in pulls]),
+                         spread([float(p.torque.mean()) for p in pulls]), spread([p.mean / float(p.torque.mean()) for p in pulls]),
+                         spread([p.mean / p.estimate for p in pulls]),
+                         spread([float(np.linalg.norm(p.bearing[np.isfinite(p.bearing[:, 0])].mean(axis=0))) for p in pulls], 1), same])
+    return tables.markdown(["body", "knot", "pulled", "pull, N", "it swings by, N", "over the sum of the rows", "over the largest row",
+                            "largest torque, N cm", "pull over it, 1/cm", "over the rope estimate", "plate's force off the head by, cm",
+                            "mirror image the same"], rows)
+
+
+def sweep_table(runs: list[Run], kind: str, label: str) -> list[str]:
+    values = sorted({run.value for run in runs if run.kind == kind}, key=float)
+    rows = []
+    for body, name in BODIES.items():
+        for knot in KNOTS.values():
+            cells = []
+            for value in values:
+                there = chosen(runs, body, knot, kind, value=value)
+                pulled = [run.pull.mean for run in there if run.pull]
+                failed = sorted({run.outcome for run in there if not run.pull})
+                cells.append("; ".join(([" ".join(f"{pull:.3f}" for pull in pulled)] if pulled else []) + failed))
+            if any(cells):
+                rows.append([name, knot, *cells])
+    return tables.markdown(["body", "knot", *(f"{float(v):g}" for v in values)], rows)
+
+
+SWEEPS = {"cap": "largest force of a row, dyn", "speed": "commanded speed, cm/s", "stiffness": "flexural rigidity, dyn cm²",
+          "girth": "girth, times the animal's", "capacity": "capacity of a hinge's muscles, dyn cm", "step": "time step, s",
+          "bodies": "number of bodies"}
+
+
+def points(runs: list[Run], body: str, knot: str, kind: str) -> tuple[list[float], list[float]]:
+    found = sorted((float(run.value), run.pull.mean) for run in chosen(runs, body, knot, kind) if run.pull)
+    return [x for x, _ in found], [y for _, y in found]
+
+
+def draw_sweep(axes: plots.plt.Axes, runs: list[Run], kind: str, bodies: Iterable[str], base: float, scale: float = 1) -> None:
+    """Every run as a mark, lines through means; `base` is the value of the starts."""
+    for body in bodies:
+        for knot, look in plots.KNOTS.items():
+            x, y = points(runs, body, knot, kind)
+            start = [run.pull.mean for run in chosen(runs, body, knot, "start") if run.pull]
+            if kind != "cap" and start:
+                x, y = [*x, base], [*y, float(np.mean(start))]
+            x = [v * scale for v in x]
+            means = sorted({v: float(np.mean([b for a, b in zip(x, y, strict=True) if a == v])) for v in x}.items())
+            filled = body == "living"
+            axes.plot([v for v, _ in means], [m for _, m in means], color=look.colour, ls="-" if filled else "--", lw=1)
+            axes.plot(x, y, color=look.colour, marker=look.marker, ls="", ms=4, mfc=look.colour if filled else "white")
+
+
+def draw(runs: list[Run], out: Path) -> None:
+    figure, axes = plots.panels(2, 3, (11, 7), [
+        "the harder it slides, the harder it pulls", "what that asks of a joint", "against a frictionless rope",
+        "stiffness of the body", "girth", "time step"])
+    draw_sweep(axes[0], runs, "cap", BODIES, 0, 1 / NEWTON)
+    axes[0].axhline(TOOTH_MUSCLE, color=plots.GREY, ls=":", lw=1)
+    axes[0].text(0.012, TOOTH_MUSCLE * 0.8, "tooth muscle, 16 N", fontsize=7, color=plots.GREY, va="top")
+    axes[0].set(xscale="log", yscale="log", xlim=(0.008, 1.3), xlabel="largest force of each of the four rows, N", ylabel="pull, N")
+    for run in runs:
+        if run.pull:
+            look = plots.KNOTS[run.knot]
+            style = {"color": look.colour, "marker": look.marker, "ls": "", "ms": 3.5,
+                     "mfc": look.colour if run.body == "living" else "white"}
+            axes[1].plot(run.pull.torque.mean(), run.pull.mean, **style)
+            axes[2].plot(run.pull.estimate, run.pull.mean, **style)
+    axes[1].axvline(CAPACITY, color=plots.GREY, ls="--", lw=0.8)
+    axes[1].text(CAPACITY, 0.004, " a guess at\n the capacity", fontsize=7, color=plots.GREY)
+    axes[1].set(xscale="log", yscale="log", xlabel="largest torque of a joint, N cm", ylabel="pull, N", ylim=(0.003, None))
+    ends = [0.01, 5]
+    axes[2].plot(ends, ends, color=plots.GREY, lw=0.8, ls="--")
+    axes[2].text(1.6, 2.2, "rope", fontsize=7, color=plots.GREY, rotation=45)
+    axes[2].set(xscale="log", yscale="log", xlabel="estimate, sum of λ (1 - cos θ) / h, N", ylabel="pull, N", ylim=(0.003, None))
+    draw_sweep(axes[3], runs, "stiffness", ["living"], 2e5)
+    axes[3].set(xscale="log", xlabel=SWEEPS["stiffness"], ylabel="pull, N", ylim=(0, None))
+    draw_sweep(axes[4], runs, "girth", BODIES, 1)
+    axes[4].set(xlabel=SWEEPS["girth"], ylabel="pull, N", ylim=(0, None))
+    draw_sweep(axes[5], runs, "step", BODIES, 0.005, 1e3)
+    axes[5].set(xscale="log", xlabel="time step, ms", ylabel="pull, N", ylim=(0, None))
+    plots.plain_ticks(axes[5].xaxis, [1, 2, 5, 10])
+    handles = [axes[0].plot([], [], label=look.label, **look.style)[0] for look in plots.KNOTS.values()]
+    handles += [axes[0].plot([], [], color=plots.INK, marker="o", mfc=fill, ls=line, label=label)[0]
+                for fill, line, label in ((plots.INK, "-", "living body"), ("white", "--", "Table 1 body"))]
+    axes[3].legend(handles=handles, fontsize=7)
+    plots.save(figure, out)
+
+
+HEAD = ["kind", "body", "knot", "value", "seed", "outcome", "pull_N", "pull_sd_N", "plate_N", "rows_N", "largest_row_N",
+        "torque_mean_N_cm", "torque_largest_N_cm", "advantage_rows", "advantage_torque_1_cm", "estimate_N", "turn_first", "turn_last"]
+
+
+def csv_row(run: Run) -> list[str | float]:
+    if not run.pull:
+        return [run.kind, run.body, run.knot, run.value, run.seed, run.outcome, *[""] * (len(HEAD) - 6)]
+    p = run.pull
+    torque = float(p.torque.mean())
+    return [run.kind, run.body, run.knot, run.value, run.seed, run.outcome, p.mean, float(p.force.std()), float(p.plate.mean()), p.sum,
+            float(p.rows.mean(axis=0).max()), torque, float(p.torque.max()), p.mean / p.sum, p.mean / torque, p.estimate,
+            *map(float, p.turn.mean(axis=0))]
+
+
+def main(folder: Path, table: Path, out: Path, page: Path) -> None:
+    runs = [read_run(path) for path in sorted(folder.glob("*-*-*-*-*.check.csv"))]
+    if not any(run.pulled for run in runs):
+        raise LogError(f"{folder}: holds no run that pulled")
+    tables.write_csv(table, HEAD, [csv_row(run) for run in runs],
+                     ["means over the settled pull; estimate: sum of lambda (1 - cos theta) / h"])
+    draw(runs, out)
+    lines = ["# Leverage", "", "Pulls in N, means over the settled pull; ± is the standard deviation over starts.", "", *starts_table(runs)]
+    for kind, label in SWEEPS.items():
+        lines += [f"## By {label}", "", *sweep_table(runs, kind, label)]
+    tables.write_page(page, lines)
+
+
+if __name__ == "__main__":
+    run_script(__doc__, ["RUNS", "OUT.csv", "OUT.png", "OUT.md"], main)
