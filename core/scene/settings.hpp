@@ -286,7 +286,7 @@ struct ExpectSettings {
   double pull = 0;                    ///< mean pull at the food, N
   double pull_settled = 1;            ///< of all of the pull but its first part, this long, s
   double pull_drift = 0.4;            ///< between the halves of that, of its mean
-  double pull_balance = 0.005;        ///< of what head plate and water push from it, of it
+  double pull_balance = 0.005;        ///< of the mean force of the head plate from it, of it
   double speed_share = 0.95;          ///< of sliding steps that meet Eq. 6 without slack
   double penetration = 0.0015;        ///< deepest at any step, cm
   double limit_violation = 1.745e-5;  ///< largest at any step, rad (0.001 degrees)

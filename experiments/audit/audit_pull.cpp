@@ -97,14 +97,13 @@ std::vector<Finding> settled(const LogContents& log, const std::vector<Eigen::In
   const double all = mean(pull, 0, count);
   const double of_plate = mean(plate, 0, count);
   const double of_water = mean(water, 0, count);
-  return {
-      judged_over(pull_criterion(expect, all), fmt::format("{} frames", count)),
-      judged_over(
-          pull_drift_criterion(expect, mean(pull, 0, count / 2), mean(pull, count / 2, count)),
-          "later half against earlier"),
-      judged_over(pull_balance_criterion(expect, of_plate, of_water, all),
-                  fmt::format("the head plate's mean force is {:.3g} and the water's {:.3g} of it",
-                              of_plate / all, of_water / all))};
+  return {judged_over(pull_criterion(expect, all), fmt::format("{} frames", count)),
+          judged_over(
+              pull_drift_criterion(expect, mean(pull, 0, count / 2), mean(pull, count / 2, count)),
+              "later half against earlier"),
+          judged_over(pull_balance_criterion(expect, of_plate, all),
+                      fmt::format("head plate against head; the water pushes {:.2g} of it along x",
+                                  of_water / all))};
 }
 
 /// The pull ends where the food gives or the animal lets go, and not before. What it gives at is

@@ -47,9 +47,8 @@ Criterion pull_drift_criterion(const ExpectSettings& expect, double earlier, dou
   return {"pull steady", drift, expect.pull_drift, "of its mean"};
 }
 
-Criterion pull_balance_criterion(const ExpectSettings& expect, double plate, double water,
-                                 double pull) {
-  return {"pull balance", std::abs(plate + water - pull) / std::abs(pull), expect.pull_balance,
+Criterion pull_balance_criterion(const ExpectSettings& expect, double plate, double pull) {
+  return {"pull balance", std::abs(plate - pull) / std::abs(pull), expect.pull_balance,
           "of the pull"};
 }
 

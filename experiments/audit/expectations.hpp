@@ -41,10 +41,8 @@ Criterion reverse_criterion(const ExpectSettings& expect, std::optional<double> 
 Criterion pull_criterion(const ExpectSettings& expect, double mean);
 /// Mean of the later half of the pull less that of the earlier one, dyn, of their mean.
 Criterion pull_drift_criterion(const ExpectSettings& expect, double earlier, double later);
-/// What the mean forces of head plate and water on the animal, along x, differ by from the mean
-/// pull, of that; all in dyn.
-Criterion pull_balance_criterion(const ExpectSettings& expect, double plate, double water,
-                                 double pull);
+/// Mean force of the head plate less the mean pull, of the latter, both in dyn.
+Criterion pull_balance_criterion(const ExpectSettings& expect, double plate, double pull);
 /// Sliding steps that meet Eq. 6 without slack, of all sliding steps; judged in %.
 Criterion eq6_criterion(const ExpectSettings& expect, std::int64_t met, std::int64_t steps);
 
