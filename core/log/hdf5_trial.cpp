@@ -3,10 +3,12 @@
 #include <fcntl.h>
 #include <hdf5.h>
 #include <sys/resource.h>
+#include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <cmath>
 #include <csignal>
 #include <cstring>
 #include <string>
@@ -17,8 +19,9 @@
 namespace hagfish {
 namespace {
 
-constexpr rlim_t least_time = 2;                          // of CPU, s; a log of 20 MB takes 0.02 s
-constexpr std::uintmax_t bytes_each_second = 20'000'000;  // one more second for each
+// CPU time, s; a log of 20 MB takes 0.02 s.
+constexpr double least_time = 0.5;
+constexpr double bytes_each_second = 2e7;                   // one more second for each
 constexpr std::size_t largest_read = std::size_t{1} << 30;  // of one dataset, bytes
 
 /// What is there of `count` values of `type`, by `read`, thrown away. The caller goes without what
@@ -75,13 +78,17 @@ herr_t read_object(hid_t file, const char* name, const H5O_info_t* info, void* /
 }
 
 /// What the other process does, and its end.
-[[noreturn]] void read_all(const std::string& file, rlim_t time) {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) {
+[[noreturn]] void read_all(const std::string& file, double time) {
+  for (const int signal :
+       {SIGINT, SIGTERM, SIGHUP, SIGPROF, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) {
     std::signal(signal, SIG_DFL);
   }
-  const rlimit no_core{0, 0}, cpu{time, time + 1};
+  const rlimit no_core{0, 0};
   setrlimit(RLIMIT_CORE, &no_core);
-  setrlimit(RLIMIT_CPU, &cpu);
+  const double whole = std::floor(time);
+  const itimerval end{{0, 0},
+                      {static_cast<time_t>(whole), static_cast<suseconds_t>(1e6 * (time - whole))}};
+  setitimer(ITIMER_PROF, &end, nullptr);  // SIGPROF
   // Nobody is to read what a crash has to say.
   const int nowhere = ::open("/dev/null", O_WRONLY);
   ::dup2(nowhere, STDOUT_FILENO);
@@ -100,7 +107,8 @@ herr_t read_object(hid_t file, const char* name, const H5O_info_t* info, void* /
 }  // namespace
 
 void try_hdf5(const std::filesystem::path& file) {
-  const rlim_t time = least_time + std::filesystem::file_size(file) / bytes_each_second;
+  const double time =
+      least_time + static_cast<double>(std::filesystem::file_size(file)) / bytes_each_second;
   const pid_t child = ::fork();
   if (child == 0) read_all(file.string(), time);
   int status = 0;
@@ -111,8 +119,7 @@ void try_hdf5(const std::filesystem::path& file) {
     throw FileError(file.string() + ": cannot start a process to read it: " + std::strerror(errno));
   }
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
-  const bool endless =
-      WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL);
+  const bool endless = WIFSIGNALED(status) && WTERMSIG(status) == SIGPROF;
   throw FileError(file.string() + ": the file is damaged: HDF5 " +
                   (endless ? "comes to no end reading it" : "crashes reading it"));
 }

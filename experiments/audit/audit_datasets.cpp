@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/log/log_writer.hpp"
+#include "core/log/saved_run.hpp"
 #include "experiments/audit/log_schema.hpp"
 
 namespace hagfish {
@@ -22,6 +23,12 @@ void check_names(const LogContents& log) {
   }
 }
 
+void check_words(const Hdf5Reader& h5, const std::string& path) {
+  if (h5.attribute(path, "unit").empty() || h5.attribute(path, "description").empty()) {
+    throw FileError(h5.file() + ": " + path + " has no unit or description");
+  }
+}
+
 }  // namespace
 
 void check_datasets(const LogContents& log) {
@@ -34,10 +41,11 @@ void check_datasets(const LogContents& log) {
   }
   for (const DatasetForm& form : log_forms(log.h5, log.model)) {
     check_form(log.h5, form);
-    const std::string& path = form.path;
-    if (log.h5.attribute(path, "unit").empty() || log.h5.attribute(path, "description").empty()) {
-      throw FileError(log.h5.file() + ": " + path + " has no unit or description");
-    }
+    check_words(log.h5, form.path);
+  }
+  for (const char* path :
+       {"/checkpoints/step", "/checkpoints/end", checkpoint_data, last_checkpoint}) {
+    check_words(log.h5, path);
   }
   if (!log.h5.has("/model/bending_limit")) {
     throw FileError(log.h5.file() + ": has no /model/bending_limit");

@@ -2,8 +2,10 @@
 
 #include <limits>
 
+#include "experiments/audit/log_schema.hpp"
 #include "experiments/program/commands.hpp"
 #include "experiments/program/scene_run.hpp"
+#include "experiments/program/scene_sense.hpp"
 
 namespace hagfish {
 namespace {
@@ -18,11 +20,13 @@ struct BranchOptions {
 int branch(const BranchOptions& options, const std::string& typed) {
   const Hdf5Reader h5(options.log);
   SavedRun run = saved_run_at(h5, options.time);
+  check_schema(h5, run.model, run.resolved.scene);
   const double time = time_of(run.sim, run.resolved.scene);
   if (!options.set.empty()) {
     const ResolvedScene resolved =
         read_scene_text(h5.root_text("scene"), options.log + ": scene", options.set);
     run.model = make_hagfish(resolved.specimen, resolved.scene);
+    check_sense(resolved, run.model, options.run.force);
     try {
       change_scene(run.model, run.resolved.scene, resolved.scene, run.sim);
     } catch (const std::invalid_argument& error) {

@@ -5,6 +5,7 @@
 #include "experiments/program/commands.hpp"
 #include "experiments/program/progress.hpp"
 #include "experiments/program/scene_argument.hpp"
+#include "experiments/program/scene_sense.hpp"
 #include "experiments/program/suggestion.hpp"
 #include "experiments/program/terminal.hpp"
 #include "experiments/qp/qp_set.hpp"
@@ -69,12 +70,14 @@ int record_qp(const RecordQpOptions& options, const std::string& typed) {
   const ResolvedScene resolved = scene_argument(options.scene, options.set);
   const Scene& scene = resolved.scene;
   const Model model = make_hagfish(resolved.specimen, scene);
+  check_sense(resolved, model, options.force);
   QpSetWriter set(options.out, options.force, typed, scene_to_toml(scene, resolved.specimen));
   Recorder recorder(options, model, scene, set);
   Progress progress(model, scene, options.quiet);
   note_signals();
   std::string failure;
   Simulation sim = start(model, scene, options.qp);
+  sim.solver.stop_when(interrupted);
   while (failure.empty() && !finished(sim, scene)) {
     if (interrupted()) {
       failure = fmt::format("interrupted at step {}", sim.step);
@@ -86,8 +89,9 @@ int record_qp(const RecordQpOptions& options, const std::string& typed) {
       recorder.take(record, warm);
       progress.show(record);
     } catch (const StepError& error) {
-      failure =
-          fmt::format("{} at step {} (t = {:.4f} s)", error.what(), sim.step, time_of(sim, scene));
+      failure = fmt::format("{} at step {} (t = {:.4f} s)",
+                            error.outcome() == Outcome::stopped ? "interrupted" : error.what(),
+                            sim.step, time_of(sim, scene));
     }
   }
   progress.end();

@@ -4,6 +4,7 @@
 
 #include "core/log/build_info.hpp"
 #include "core/log/hdf5_error.hpp"
+#include "experiments/audit/log_schema.hpp"
 #include "experiments/program/commands.hpp"
 #include "experiments/program/presets.hpp"
 #include "experiments/program/scene_argument.hpp"
@@ -38,9 +39,6 @@ int run_anew(NewRunOptions options, const std::string& typed) {
   const Scene& scene = resolved.scene;
   const Model model = make_hagfish(resolved.specimen, scene);
   check_sense(resolved, model, options.run.force);
-  for (const std::string& odd : odd_things(resolved)) {
-    say("hagfish: warning: {}\n", odd);
-  }
   const std::string qp = options.qp.empty() ? preset.qp : options.qp;
   if (options.run.out.empty()) {
     options.run.out = fs::path(options.scene).stem().string() + ".h5";
@@ -60,7 +58,9 @@ int resume(NewRunOptions options) {
   options.run.out = without_part(options.resume);
   const std::string part = options.run.out + ".part";
   // Read before anything is renamed: what cannot be gone on with stays as it is.
-  const SavedRun run = saved_run(Hdf5Reader(fs::exists(part) ? part : options.run.out));
+  const Hdf5Reader h5(fs::exists(part) ? part : options.run.out);
+  const SavedRun run = saved_run(h5);
+  check_schema(h5, run.model, run.resolved.scene);
   auto output = std::make_unique<OutputFile>(options.run.out, Existing::go_on);
   LogWriter log(std::move(output), run);
   if (run.git_revision != build_revision()) {

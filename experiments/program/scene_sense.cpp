@@ -7,6 +7,7 @@
 
 #include "core/input/input_error.hpp"
 #include "core/log/log_frame.hpp"
+#include "experiments/program/terminal.hpp"
 
 namespace hagfish {
 namespace {
@@ -79,6 +80,9 @@ void check_sense(const ResolvedScene& scene, const Model& model, bool force) {
         "(--force runs it; at most {:g} steps and {:g} GB without)",
         scene.scene.time.duration, scene.scene.time.step, size.steps, 1e-9 * size.bytes, most_steps,
         1e-9 * most_bytes));
+  }
+  for (const std::string& odd : odd_things(scene)) {
+    say("hagfish: warning: {}\n", odd);
   }
 }
 

@@ -20,7 +20,7 @@ RunSize run_size(const Scene& scene, const Model& model);
 std::vector<std::string> odd_things(const ResolvedScene& scene);
 
 /// Throws InputError where a run cannot be meant: matter denser than any; or, without `force`, more
-/// than 1e8 steps or 10 GB of log.
+/// than 1e8 steps or 10 GB of log. Warns of odd things on standard error.
 void check_sense(const ResolvedScene& scene, const Model& model, bool force);
 
 }  // namespace hagfish

@@ -51,6 +51,7 @@ double cpu_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 bool run_in_core(const Model& model, const Scene& scene, const char* qp,
                  const std::function<bool()>& out_of_time, StressJudge& judge) {
   Simulation sim = start(model, scene, qp);
+  sim.solver.stop_when(out_of_time);
   StepRecord record;
   while (!finished(sim, scene)) {
     if (out_of_time()) {
@@ -64,6 +65,7 @@ bool run_in_core(const Model& model, const Scene& scene, const char* qp,
     try {
       take_step(model, scene, sim, record);
     } catch (const StepError& error) {
+      if (error.outcome() == Outcome::stopped) return false;
       // A guard refused where the step led: that is in the record, while the simulation stayed.
       if (error.outcome() == Outcome::penetration || error.outcome() == Outcome::limits) {
         see(sim.now.state, record.moment, sim.ledger);

@@ -19,8 +19,12 @@ import named_cases
 LATE = 10  # s of CPU time; what takes longer counts as hung
 NAMED_SHARE = 0.4  # of the time at most, for the named cases
 SLOW = 10  # commands that draw or compare take part in one of so many cases
-SHORT = ["--set", "time.duration=0.1", "--set", "time.step=0.01", "--set", "time.frame_interval=0.02"]
-KINDS = ["log flip", "qp flip", "log change", "qp change", "toml", "scene"]
+SHORT = [
+    part
+    for value in ("duration=0.1", "step=0.01", "frame_interval=0.02", "checkpoint_interval=0.04")
+    for part in ("--set", "time." + value)
+]
+KINDS = ["log flip", "qp flip", "log change", "qp change", "toml", "csv", "scene"]
 BASES = {
     "rest.h5": ["run", "table1", "--qp", "active-set", "--quiet", "--set", "model.bodies=8", *SHORT],
     "slide.h5": ["run", "SCENES/knot_into_head.toml", "--qp", "active-set", "--quiet", *SHORT],
@@ -83,7 +87,7 @@ def commands_for(kind, file, slow, overrides=()):
             yield ["info", file, "--json"]
             yield ["picture", file, "--out", "picture.png", "--force"]
             yield ["program", file, "--out", "program.csv", "--force", "--stations", "4", "--times", "3"]
-            yield ["branch", file, "--out", "branch.h5", "--force", "--quiet"]
+        yield ["run", "--resume", file, "--quiet"]  # last, as it goes on in the file itself
     elif kind.startswith("qp"):
         yield ["qp", file, "--repeat", "1", "--backend", "active-set", "--csv", "qp.csv", "--force"]
         if slow:
@@ -110,6 +114,7 @@ class Worker:
         self.paths = bases
         self.blocks = {name: mutations.used_blocks(data) for name, data in self.bases.items()}
         self.texts = texts
+        self.program = (pathlib.Path(options.source) / "data/programs/overhand.csv").read_text()
         self.cases = dict.fromkeys(["named", *KINDS], 0)
         self.commands = 0
         self.faults = []
@@ -120,7 +125,11 @@ class Worker:
 
     def make(self, kind):
         """A case of `kind` as a file; nothing where a change does not apply."""
-        file = self.folder / ("case.toml" if kind == "toml" else "case.h5")
+        file = self.folder / ("case.h5" if kind not in ("toml", "csv") else "case.toml")
+        if kind == "csv":
+            (self.folder / "case.csv").write_bytes(mutations.mutated_csv(self.program, self.random))
+            file.write_text('base = "living_overhand"\n[script]\nprogram = "case.csv"\n')
+            return file.name
         if kind == "scene":
             return "table1"
         if kind == "toml":
@@ -138,7 +147,7 @@ class Worker:
     def take(self, kind, name, file, slow, overrides=()):
         self.cases[kind if kind in self.cases else "named"] += 1
         for arguments in commands_for(kind, file, slow, overrides):
-            if arguments[0] == "integrate" and kind == "toml":
+            if arguments[0] == "integrate" and kind in ("toml", "csv"):
                 continue  # of whatever number of bodies, for minutes
             status, output = self.server.run(arguments)
             self.commands += 1
@@ -185,7 +194,7 @@ def work(number, options, folder, bases, texts, results):
     worker.named(number, options.jobs, options.seed, begin + NAMED_SHARE * (end - begin))
     wanted = {
         "log flip": 0.75 * options.flips, "qp flip": 0.25 * options.flips, "log change": options.changes / 3,
-        "qp change": options.changes / 3, "toml": options.changes / 3, "scene": options.scenes,
+        "qp change": options.changes / 3, "toml": options.changes / 6, "csv": options.changes / 6, "scene": options.scenes,
     }  # fmt: skip
     wanted = {kind: int(np.ceil(count / options.jobs)) for kind, count in wanted.items()}
     tries = 0
@@ -215,6 +224,12 @@ def make_bases(options, folder):
                 old.copy(key, new)
             for key, value in old.attrs.items():
                 new.attrs[key] = value
+            if name == "slide.h5":
+                # As if it had been stopped halfway, so that it can be gone on with.
+                new.attrs["status"] = "failed: interrupted at step 10"
+                scene = new.attrs["scene"]
+                assert "duration = 0.1\n" in scene
+                new.attrs["scene"] = scene.replace("duration = 0.1\n", "duration = 0.15\n")
         bases["whole_" + name] = server.folder / name
     data = pathlib.Path(options.source) / "data"
     texts = [f.read_text() for f in [*data.glob("*.toml"), *scenes.glob("*.toml")] if f.name != "presets.toml"]

@@ -181,6 +181,31 @@ def mutated_text(text, random):
     return "\n".join(lines)
 
 
+def mutated_csv(text, random):
+    """A curvature program with one to six cells, lines or columns changed."""
+    rows = [line.split(",") for line in text.rstrip("\n").split("\n")]
+    for _ in range(random.integers(1, 7)):
+        at = int(random.integers(len(rows))) if random.random() < 0.9 else 0
+        kind = random.integers(8)
+        if kind <= 3 and rows[at]:
+            word = random.choice(["1e308", "-1e9", "1e-300", "nan", "inf", "", '"', "x", "0x1", "1,5", "#", "9" * 400, "3.0"])
+            rows[at][int(random.integers(len(rows[at])))] = str(word)
+        elif kind == 4:
+            rows[at : at + int(random.integers(1, 30))] = []
+        elif kind == 5:
+            rows.insert(at, list(rows[int(random.integers(len(rows)))]))
+        elif kind == 6:
+            column = int(random.integers(5))
+            rows = [row[:column] + row[column + 1 :] for row in rows]
+        else:
+            rows[at].append("y" * int(random.choice([1, 100, 100000])))
+        rows = rows or [[""]]
+    data = bytearray("\n".join(",".join(row) for row in rows).encode())
+    if random.random() < 0.3 and data:
+        data[int(random.integers(len(data)))] = int(random.integers(256))
+    return bytes(data)
+
+
 def extreme_overrides(random):
     """`--set` values that the reader of scenes accepts, far from any animal, for a run of some steps."""
     low, high = 1e-12, 1e12

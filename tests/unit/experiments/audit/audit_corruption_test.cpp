@@ -392,5 +392,19 @@ TEST_F(AuditCorruption, NamesThatAreNotTheModels) {
   }
 }
 
+TEST_F(AuditCorruption, NumbersWithoutUnitOrDescription) {
+  for (const char* path : {"/trajectory/q", "/checkpoints/data", "/checkpoints/last"}) {
+    for (const char* word : {"unit", "description"}) {
+      const auto rename = [&](const char* from, const char* to) {
+        H5::H5File(file.string(), H5F_ACC_RDWR).openDataSet(path).renameAttr(from, to);
+      };
+      rename(word, "elsewhere");
+      const std::string found = objections();
+      EXPECT_NE(found.find(std::string(word) + " of " + path), std::string::npos) << found;
+      rename("elsewhere", word);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace hagfish
