@@ -168,8 +168,8 @@ void switch_by_span(const Model& model, const Scene& scene, double time,
 /// their time; the first one counts once it is of the pull alone.
 bool food_gives(const Scene& scene, double time, PullSum& pull) {
   const double h = scene.time.step;
-  const long long window = std::max(1LL, std::llround(scene.food.average / h));
-  if (std::llround(time / h) % window != 0) {
+  const double window = std::max(1.0, std::round(scene.food.average / h));  // in steps
+  if (std::fmod(std::round(time / h), window) != 0) {
     return false;
   }
   const bool gives =

@@ -15,14 +15,13 @@ import audits
 import plots
 import tables
 from hagfish_log import HagfishLog, LogError
-from pulls import NEWTON, Pull, read_pull
+from pulls import NEWTON, Pull, read_pull, read_strand, settled
 from script import run_script
 
 KNOTS = {"overhand": "3_1", "figure_eight": "4_1", "double_overhand": "5_1", "three_twist": "5_2"}
 BODIES = {"table1": "Table 1", "living": "living"}
 TOOTH_MUSCLE = 16.0  # N, clavatus of the tooth plate: Clark & Summers 2007, J. Exp. Biol. 210:3897
 CAPACITY = 2.7  # N cm, a guess: data/living_overhand.toml
-JUDGED = ("pull", "pull steady", "pull balance", "food", "knot held", "penetration")
 
 
 @dataclass
@@ -34,10 +33,8 @@ class Run:
     seed: int
     outcome: str  # "pulled", or why not
     pull: Pull | None  # of a run that pulled
-
-    @property
-    def pulled(self) -> bool:
-        return self.pull is not None
+    overlap: float  # deepest at any step, cm
+    deep: bool  # deeper than the scene allows
 
 
 def outcome_of(log: HagfishLog, unmet: list[str]) -> str:
@@ -46,20 +43,19 @@ def outcome_of(log: HagfishLog, unmet: list[str]) -> str:
         return status.removeprefix("failed: ").split(" at step")[0].split(":")[0].split(",")[0]
     if "knot held" in unmet:
         return "knot lost"
-    if not log.in_phase("pull").size:
-        return "never at the head"
-    return "overlap" if "penetration" in unmet else "pulled"
+    return "pulled" if log.in_phase("pull").size else "never at the head"
 
 
 def read_run(path: Path) -> Run:
     name = path.name.removesuffix(".check.csv")
     kind, body, knot, value, seed = name.split("-")
     log = HagfishLog(path.parent / f"{name}.h5")
-    outcome = outcome_of(log, audits.unmet(audits.read_findings(path)))
+    unmet = audits.unmet(audits.read_findings(path))
+    outcome = outcome_of(log, unmet)
     pull = read_pull(log) if outcome == "pulled" else None
     if pull is not None and not pull.force.size:
         outcome, pull = "too short", None
-    return Run(kind, body, KNOTS[knot], value, int(seed), outcome, pull)
+    return Run(kind, body, KNOTS[knot], value, int(seed), outcome, pull, float(log["/steps/penetration"].max()), "penetration" in unmet)
 
 
 def chosen(runs: Iterable[Run], body: str, knot: str, *kinds: str, value: str | None = None) -> list[Run]:
@@ -86,11 +82,25 @@ def starts_table(runs: list[Run]) -> list[str]:
                          spread([float(p.force.std()) for p in pulls], 3), spread([p.mean / p.sum for p in pulls]),
                          spread([p.mean / p.rows.mean(axis=0).max() for p in pulls]),
                          spread([float(p.torque.mean()) for p in pulls]), spread([p.mean / float(p.torque.mean()) for p in pulls]),
-                         spread([p.mean / p.estimate for p in pulls]),
+                         spread([p.mean / p.estimate for p in pulls]), f"{max((run.overlap for run in all_starts), default=np.nan):.4f}",
                          spread([float(np.linalg.norm(p.bearing[np.isfinite(p.bearing[:, 0])].mean(axis=0))) for p in pulls], 1), same])
     return tables.markdown(["body", "knot", "pulled", "pull, N", "it swings by, N", "over the sum of the rows", "over the largest row",
-                            "largest torque, N cm", "pull over it, 1/cm", "over the rope estimate", "plate's force off the head by, cm",
+                            "largest torque, N cm", "pull over it, 1/cm", "over the rope estimate", "deepest overlap, cm", "plate's force off the head by, cm",
                             "mirror image the same"], rows)
+
+
+def work_table(folder: Path) -> list[str]:
+    """What a slip of the whole body along itself would cost and yield, were the knot to keep its shape."""
+    rows = []
+    for body, label in BODIES.items():
+        for scene, knot in KNOTS.items():
+            path = folder / f"plain-{body}-{scene}-0-1.h5"
+            if not path.is_file() or not settled(log := HagfishLog(path)).size:
+                continue
+            pull, work = read_pull(log).mean, read_strand(log).work
+            rows.append([label, knot, f"{pull:.3f}", *(f"{work[key]:.3f}" for key in ("rows", "contacts", "plate")),
+                         f"{pull - sum(work.values()):.3f}"])
+    return tables.markdown(["body", "knot", "pull", "rows of Eq. 6", "contacts", "head plate", "left to bending, limits, muscles"], rows)
 
 
 def sweep_table(runs: list[Run], kind: str, label: str) -> list[str]:
@@ -101,9 +111,9 @@ def sweep_table(runs: list[Run], kind: str, label: str) -> list[str]:
             cells = []
             for value in values:
                 there = chosen(runs, body, knot, kind, value=value)
-                pulled = [run.pull.mean for run in there if run.pull]
+                pulled = [f"{run.pull.mean:.3f}" + "*" * run.deep for run in there if run.pull]
                 failed = sorted({run.outcome for run in there if not run.pull})
-                cells.append("; ".join(([" ".join(f"{pull:.3f}" for pull in pulled)] if pulled else []) + failed))
+                cells.append("; ".join([" ".join(pulled)] * bool(pulled) + failed))
             if any(cells):
                 rows.append([name, knot, *cells])
     return tables.markdown(["body", "knot", *(f"{float(v):g}" for v in values)], rows)
@@ -171,27 +181,29 @@ def draw(runs: list[Run], out: Path) -> None:
 
 
 HEAD = ["kind", "body", "knot", "value", "seed", "outcome", "pull_N", "pull_sd_N", "plate_N", "rows_N", "largest_row_N",
-        "torque_mean_N_cm", "torque_largest_N_cm", "advantage_rows", "advantage_torque_1_cm", "estimate_N", "turn_first", "turn_last"]
+        "torque_mean_N_cm", "torque_largest_N_cm", "advantage_rows", "advantage_torque_1_cm", "estimate_N", "turn_first", "turn_last",
+        "deepest_overlap_cm"]
 
 
 def csv_row(run: Run) -> list[str | float]:
     if not run.pull:
-        return [run.kind, run.body, run.knot, run.value, run.seed, run.outcome, *[""] * (len(HEAD) - 6)]
+        return [run.kind, run.body, run.knot, run.value, run.seed, run.outcome, *[""] * (len(HEAD) - 7), run.overlap]
     p = run.pull
     torque = float(p.torque.mean())
     return [run.kind, run.body, run.knot, run.value, run.seed, run.outcome, p.mean, float(p.force.std()), float(p.plate.mean()), p.sum,
             float(p.rows.mean(axis=0).max()), torque, float(p.torque.max()), p.mean / p.sum, p.mean / torque, p.estimate,
-            *map(float, p.turn.mean(axis=0))]
+            *map(float, p.turn.mean(axis=0)), run.overlap]
 
 
 def main(folder: Path, table: Path, out: Path, page: Path) -> None:
     runs = [read_run(path) for path in sorted(folder.glob("*-*-*-*-*.check.csv"))]
-    if not any(run.pulled for run in runs):
+    if not any(run.pull for run in runs):
         raise LogError(f"{folder}: holds no run that pulled")
     tables.write_csv(table, HEAD, [csv_row(run) for run in runs],
                      ["means over the settled pull; estimate: sum of lambda (1 - cos theta) / h"])
     draw(runs, out)
-    lines = ["# Leverage", "", "Pulls in N, means over the settled pull; ± is the standard deviation over starts.", "", *starts_table(runs)]
+    lines = ["# Leverage", "", "Pulls in N, means over the settled pull; ± is the standard deviation over starts; * overlaps deeper than its scene allows.", "", *starts_table(runs)]
+    lines += ["## Work, N cm for each cm that the head is drawn in", "", *work_table(folder)]
     for kind, label in SWEEPS.items():
         lines += [f"## By {label}", "", *sweep_table(runs, kind, label)]
     tables.write_page(page, lines)

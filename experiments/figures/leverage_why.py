@@ -14,7 +14,7 @@ from hagfish_log import HagfishLog
 from pulls import Strand, read_pull, read_strand, settled
 from script import run_script
 
-SHOWN = {"3_1": "start-table1-overhand-0-1", "4_1": "start-table1-figure_eight-0-1", "4_1 living": "start-living-figure_eight-0-1"}
+SHOWN = {"3_1": "plain-table1-overhand-0-1", "4_1": "plain-table1-figure_eight-0-1", "4_1 living": "plain-living-figure_eight-0-1"}
 
 
 def draw_pulley(axes: plots.plt.Axes) -> None:

@@ -99,6 +99,7 @@ class Strand:
     contact: np.ndarray  # size of the mean contact force on a body, N
     thigmotaxis: np.ndarray  # along the body's tangent, to the tail, N
     plate: np.ndarray  # N
+    work: dict[str, float]  # of each force, N cm for each cm that the body slips along itself: "rows", "contacts", "plate"
 
 
 def read_strand(log: HagfishLog) -> Strand:
@@ -132,11 +133,13 @@ def read_strand(log: HagfishLog) -> Strand:
             t_a, t_b = slope_a[k] @ position[frame], slope_b[k] @ position[frame]
             push = value[frame, 2 * place] * t_a / np.linalg.norm(t_a) - value[frame, 2 * place + 1] * t_b / np.linalg.norm(t_b)
             thigmotaxis[frame] += np.outer(point_a[k] - point_b[k], push)
+    along = lambda force: float((force * tangent).sum(axis=(1, 2)).mean()) / NEWTON
     behind = np.cumsum((contact + thigmotaxis + plate)[:, ::-1], axis=1)[:, ::-1]
     length = log["/model/length"]
     return Strand(np.cumsum(length) - 0.5 * length, (behind * tangent).sum(axis=2).mean(axis=0) / NEWTON,
                   np.linalg.norm(contact, axis=2).mean(axis=0) / NEWTON,
-                  (thigmotaxis * tangent).sum(axis=2).mean(axis=0) / NEWTON, plate[:, :, 0].mean(axis=0) / NEWTON)
+                  (thigmotaxis * tangent).sum(axis=2).mean(axis=0) / NEWTON, plate[:, :, 0].mean(axis=0) / NEWTON,
+                  {"rows": along(thigmotaxis), "contacts": along(contact), "plate": along(plate)})
 
 
 def open_pull(path: Path) -> Pull:
