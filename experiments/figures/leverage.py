@@ -103,52 +103,50 @@ def work_table(folder: Path) -> list[str]:
     return tables.markdown(["body", "knot", "pull", "rows of Eq. 6", "contacts", "head plate", "left to bending, limits, muscles"], rows)
 
 
-def sweep_table(runs: list[Run], kind: str, label: str) -> list[str]:
-    values = sorted({run.value for run in runs if run.kind == kind}, key=float)
-    rows = []
-    for body, name in BODIES.items():
-        for knot in KNOTS.values():
-            cells = []
-            for value in values:
-                there = chosen(runs, body, knot, kind, value=value)
-                pulled = [f"{run.pull.mean:.3f}" + "*" * run.deep for run in there if run.pull]
-                failed = sorted({run.outcome for run in there if not run.pull})
-                cells.append("; ".join([" ".join(pulled)] * bool(pulled) + failed))
-            if any(cells):
-                rows.append([name, knot, *cells])
-    return tables.markdown(["body", "knot", *(f"{float(v):g}" for v in values)], rows)
-
-
 SWEEPS = {"cap": "largest force of a row, dyn", "speed": "commanded speed, cm/s", "stiffness": "flexural rigidity, dyn cm²",
           "girth": "girth, times the animal's", "capacity": "capacity of a hinge's muscles, dyn cm", "step": "time step, s",
           "bodies": "number of bodies"}
+# What the starts have, by body.
+BASE = {"cap": {"table1": 5e3, "living": 3e4}, "speed": {"table1": 2.0, "living": 1.0}, "stiffness": {"living": 2e5},
+        "girth": {"table1": 1.0, "living": 1.0}, "capacity": {"living": 2.7e5}, "step": {"table1": 0.005, "living": 0.005},
+        "bodies": {"table1": 100.0, "living": 100.0}}
 
 
-def points(runs: list[Run], body: str, knot: str, kind: str) -> tuple[list[float], list[float]]:
-    found = sorted((float(run.value), run.pull.mean) for run in chosen(runs, body, knot, kind) if run.pull)
-    return [x for x, _ in found], [y for _, y in found]
+def points(runs: list[Run], body: str, knot: str, kind: str) -> list[tuple[float, float]]:
+    """Value and pull, N, of the runs that pulled, and the mean of the starts."""
+    found = [(float(run.value), run.pull.mean) for run in chosen(runs, body, knot, kind) if run.pull]
+    starts = [run.pull.mean for run in chosen(runs, body, knot, "start") if run.pull]
+    return sorted(found + [(BASE[kind][body], float(np.mean(starts)))] * bool(starts))
 
 
-def draw_sweep(axes: plots.plt.Axes, runs: list[Run], kind: str, bodies: Iterable[str], base: float, scale: float = 1) -> None:
-    """Every run as a mark, lines through means; `base` is the value of the starts."""
-    for body in bodies:
+def sweep_table(runs: list[Run], kind: str) -> list[str]:
+    values = sorted({float(run.value) for run in runs if run.kind == kind} | set(BASE[kind].values()))
+    rows = []
+    for body in BASE[kind]:
+        for knot in KNOTS.values():
+            there = chosen(runs, body, knot, kind)
+            pulls = dict(points(runs, body, knot, kind))
+            deep = {float(run.value) for run in there if run.deep}
+            failed = {float(run.value): run.outcome for run in there if not run.pull}
+            cells = [f"{pulls[v]:.3f}" + "*" * (v in deep) if v in pulls else failed.get(v, "") for v in values]
+            rows.append([BODIES[body], knot, *cells])
+    return tables.markdown(["body", "knot", *(f"{v:g}" for v in values)], rows)
+
+
+def draw_sweep(axes: plots.plt.Axes, runs: list[Run], kind: str, scale: float = 1) -> None:
+    for body in BASE[kind]:
         for knot, look in plots.KNOTS.items():
-            x, y = points(runs, body, knot, kind)
-            start = [run.pull.mean for run in chosen(runs, body, knot, "start") if run.pull]
-            if kind != "cap" and start:
-                x, y = [*x, base], [*y, float(np.mean(start))]
-            x = [v * scale for v in x]
-            means = sorted({v: float(np.mean([b for a, b in zip(x, y, strict=True) if a == v])) for v in x}.items())
-            filled = body == "living"
-            axes.plot([v for v, _ in means], [m for _, m in means], color=look.colour, ls="-" if filled else "--", lw=1)
-            axes.plot(x, y, color=look.colour, marker=look.marker, ls="", ms=4, mfc=look.colour if filled else "white")
+            found = points(runs, body, knot, kind)
+            living = body == "living"
+            axes.plot([x * scale for x, _ in found], [y for _, y in found], color=look.colour, marker=look.marker, lw=1, ms=4,
+                      ls="-" if living else "--", mfc=look.colour if living else "white")
 
 
 def draw(runs: list[Run], out: Path) -> None:
     figure, axes = plots.panels(2, 3, (11, 7), [
         "the harder it slides, the harder it pulls", "what that asks of a joint", "against a frictionless rope",
         "stiffness of the body", "girth", "time step"])
-    draw_sweep(axes[0], runs, "cap", BODIES, 0, 1 / NEWTON)
+    draw_sweep(axes[0], runs, "cap", 1 / NEWTON)
     axes[0].axhline(TOOTH_MUSCLE, color=plots.GREY, ls=":", lw=1)
     axes[0].text(0.012, TOOTH_MUSCLE * 0.8, "tooth muscle, 16 N", fontsize=7, color=plots.GREY, va="top")
     axes[0].set(xscale="log", yscale="log", xlim=(0.008, 1.3), xlabel="largest force of each of the four rows, N", ylabel="pull, N")
@@ -166,13 +164,13 @@ def draw(runs: list[Run], out: Path) -> None:
     axes[2].plot(ends, ends, color=plots.GREY, lw=0.8, ls="--")
     axes[2].text(1.6, 2.2, "rope", fontsize=7, color=plots.GREY, rotation=45)
     axes[2].set(xscale="log", yscale="log", xlabel="estimate, sum of λ (1 - cos θ) / h, N", ylabel="pull, N", ylim=(0.003, None))
-    draw_sweep(axes[3], runs, "stiffness", ["living"], 2e5)
+    draw_sweep(axes[3], runs, "stiffness")
     axes[3].set(xscale="log", xlabel=SWEEPS["stiffness"], ylabel="pull, N", ylim=(0, None))
-    draw_sweep(axes[4], runs, "girth", BODIES, 1)
+    draw_sweep(axes[4], runs, "girth")
     axes[4].set(xlabel=SWEEPS["girth"], ylabel="pull, N", ylim=(0, None))
-    draw_sweep(axes[5], runs, "step", BODIES, 0.005, 1e3)
+    draw_sweep(axes[5], runs, "step", 1e3)
     axes[5].set(xscale="log", xlabel="time step, ms", ylabel="pull, N", ylim=(0, None))
-    plots.plain_ticks(axes[5].xaxis, [1, 2, 5, 10])
+    plots.plain_ticks(axes[5].xaxis, [2, 5, 10])
     handles = [axes[0].plot([], [], label=look.label, **look.style)[0] for look in plots.KNOTS.values()]
     handles += [axes[0].plot([], [], color=plots.INK, marker="o", mfc=fill, ls=line, label=label)[0]
                 for fill, line, label in ((plots.INK, "-", "living body"), ("white", "--", "Table 1 body"))]
@@ -205,7 +203,7 @@ def main(folder: Path, table: Path, out: Path, page: Path) -> None:
     lines = ["# Leverage", "", "Pulls in N, means over the settled pull; ± is the standard deviation over starts; * overlaps deeper than its scene allows.", "", *starts_table(runs)]
     lines += ["## Work, N cm for each cm that the head is drawn in", "", *work_table(folder)]
     for kind, label in SWEEPS.items():
-        lines += [f"## By {label}", "", *sweep_table(runs, kind, label)]
+        lines += [f"## By {label}", "", *sweep_table(runs, kind)]
     tables.write_page(page, lines)
 
 

@@ -43,14 +43,14 @@ runs_of_all() {
   sweep start 0 8 "table1 living"
   sweep plain 0 1 "table1 living" --set start.noise_deg=0 --set time.frame_interval=0.02
   sweep mirror 0 1 "table1 living" --set start.noise_deg=0 --set time.frame_interval=0.02 --set mirror=true
-  for value in 1e3 2e3 5e3 1e4 2e4 5e4 1e5 1e9; do sweep cap $value 2 table1 "$(cap $value)"; done
-  for value in 1e4 2e4 5e4 1e5 2e5; do sweep cap $value 2 living "$(cap $value)"; done
-  for value in 4e2 4e3 3e4 4e5 1.2e6; do sweep stiffness $value 2 living "$(stiffness $value)"; done
-  for value in 0.8 0.9 1.1 1.2; do sweep girth $value 2 "table1 living" "$(girth $value)"; done
-  for value in 0.002 0.01; do sweep step $value 2 "table1 living" --set time.step=$value; done
-  for value in 0.5 1 2 4; do sweep speed $value 2 "table1 living" "$(speed $value)"; done
-  for value in 60 150; do sweep bodies $value 2 "table1 living" --set model.bodies=$value; done
-  for value in 1.35e5 5.4e5 1.08e6; do sweep capacity $value 2 living --set active.capacity=$value; done
+  for value in 1e3 2e3 1e4 2e4 5e4 1e5 1e9; do sweep cap $value 1 table1 "$(cap $value)"; done
+  for value in 1e4 2e4 5e4 1e5 2e5; do sweep cap $value 1 living "$(cap $value)"; done
+  for value in 4e2 4e3 3e4 4e5 1.2e6; do sweep stiffness $value 1 living "$(stiffness $value)"; done
+  for value in 0.8 1.2; do sweep girth $value 1 "table1 living" "$(girth $value)"; done
+  for value in 0.002 0.01; do sweep step $value 1 "table1 living" --set time.step=$value; done
+  for value in 0.5 4; do sweep speed $value 1 "table1 living" "$(speed $value)"; done
+  for value in 60 150; do sweep bodies $value 1 "table1 living" --set model.bodies=$value; done
+  for value in 1.35e5 5.4e5; do sweep capacity $value 1 living --set active.capacity=$value; done
 }
 runs_of_all | work "$cores" "Leverage"
 

@@ -23,9 +23,9 @@ class Bits {
   Bits(const Scene& scene, const Specimen& specimen) {
     // The name of the specimen's file is not written.
     const auto& [title, file, mirror, clamp_head, gravity, model, drag, constraints, contact, wall,
-                 start, script, active, controller, knot, time, guard, expect] = scene;
+                 start, script, active, controller, food, knot, time, guard, expect] = scene;
     add(title, mirror, clamp_head, gravity, model, drag, constraints, contact, wall, start, script,
-        active, controller, knot, time, guard, expect, specimen);
+        active, controller, food, knot, time, guard, expect, specimen);
   }
   bool operator==(const Bits&) const = default;
 
