@@ -12,6 +12,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "core/input/input_error.hpp"
 #include "core/log/hdf5_error.hpp"
 
 namespace hagfish {
@@ -25,7 +26,7 @@ constexpr double lens = 50;    // distance of the camera, in extents of the mode
 constexpr double reach = 1.5;  // of the clipping planes to either side of the middle, likewise
 
 [[noreturn]] void fail(const std::string& step, const std::string& reason) {
-  throw std::runtime_error(fmt::format("no off-screen OpenGL: {}: {}", step, reason));
+  throw InputError(fmt::format("no off-screen OpenGL: {}: {}", step, reason));
 }
 
 void check_egl(bool done, const std::string& step) {
@@ -73,7 +74,8 @@ struct DeleteModel {
 using ModelCopy = std::unique_ptr<mjModel, DeleteModel>;
 
 /// `model` with the settings of the renderer.
-ModelCopy with_settings(const mjModel& model, int width, int height) {
+ModelCopy with_settings(const mjModel& model, int width, int height,
+                        const PictureQuality& quality) {
   if (width > largest_side || height > largest_side) {
     throw std::runtime_error(fmt::format("picture of {} x {} px: more than {} px on a side", width,
                                          height, largest_side));
@@ -87,7 +89,7 @@ ModelCopy with_settings(const mjModel& model, int width, int height) {
   // A silhouette of 32 corners is within 0.5 % of the radius.
   visual.quality.numslices = 32;
   visual.quality.numstacks = 12;
-  visual.quality.shadowsize = 4096;
+  visual.quality.shadowsize = quality.shadow_size;
   // The shadow map is a square about what is shown, to this many extents either side: enough for
   // the straight animal with the head plate, and no texel wasted.
   visual.map.shadowclip = 0.6f;
@@ -113,9 +115,8 @@ mjvLight& add_light(mjvScene& scene, const Vector3d& middle, const Vector3d& fro
 
 /// A ring of lights above the viewer's left shoulder, whose shadows overlap to a soft one, and a
 /// weak one without shadow from the other side.
-void set_lights(mjvScene& scene, const View& view, const Vector3d& middle, double far) {
-  constexpr int ring = 3;
-  constexpr double spread = 0.12;  // of the ring, of the unit distance
+void set_lights(mjvScene& scene, const View& view, const Vector3d& middle, double far, int ring) {
+  const double spread = ring > 1 ? 0.12 : 0;  // of the ring, of the unit distance
   const auto from = [&](double right, double up, double toward) {
     return Vector3d((right * view.right + up * view.up + toward * view.toward()).normalized());
   };
@@ -163,18 +164,23 @@ mjvGeom backdrop(const View& view, const Vector3d& middle, double extent) {
   return geom;
 }
 
-/// The point of the middle of the window at half the depth of the geoms' centres.
-Vector3d middle_of(const std::vector<mjvGeom>& geoms, const View& view) {
+/// The point of the middle of the window at half the depth of the geoms' centres and the skin.
+Vector3d middle_of(const std::vector<mjvGeom>& geoms, const View& view, const Skin* skin) {
   double low = INFINITY, high = -INFINITY;
-  for (const mjvGeom& geom : geoms) {
-    const double depth =
-        Eigen::Map<const Eigen::Vector3f>(geom.pos).cast<double>().dot(view.toward());
+  const auto see = [&](const Vector3d& place) {
+    const double depth = place.dot(view.toward());
     low = std::min(low, depth);
     high = std::max(high, depth);
+  };
+  for (const mjvGeom& geom : geoms) {
+    see(Eigen::Map<const Eigen::Vector3f>(geom.pos).cast<double>());
+  }
+  for (Eigen::Index k = 0; skin != nullptr && k < skin->point.cols(); ++k) {
+    see(skin->point.col(k).cast<double>());
   }
   const Eigen::Vector2d half = 0.5 / view.scale * Eigen::Vector2d(view.width, view.height);
   const Eigen::Vector2d centre = view.low + half;
-  const double depth = geoms.empty() ? 0 : 0.5 * (low + high);
+  const double depth = low <= high ? 0.5 * (low + high) : 0;
   return centre.x() * view.right + centre.y() * view.up + depth * view.toward();
 }
 
@@ -191,25 +197,52 @@ class Scene3d {
   mjvScene scene;
 };
 
+/// Puts the skin's points, normals and colours where the renderer takes them from.
+void set_skin(const Skin& skin, mjModel& model, mjrContext& context, mjvScene& scene) {
+  const bool fits = model.nskin == 1 && model.ntex == 1 && model.nskinvert == skin.point.cols() &&
+                    model.tex_width[0] == skin.rings();
+  if (!fits) throw std::invalid_argument("the renderer was made for another skin");
+  Eigen::Map<Eigen::Matrix3Xf>(scene.skinvert, 3, skin.point.cols()) = skin.point;
+  Eigen::Map<Eigen::Matrix3Xf>(scene.skinnormal, 3, skin.normal.cols()) = skin.normal;
+  mjtByte* pixel = model.tex_rgb;
+  for (int row = 0; row < model.tex_height[0]; ++row) {
+    for (const auto& colour : skin.colour) pixel = std::ranges::copy(colour, pixel).out;
+  }
+  mjr_uploadTexture(&model, &context, 0);
+  mjvGeom& geom = scene.geoms[scene.ngeom++];
+  const float white[] = {1, 1, 1, 1};
+  mjv_initGeom(&geom, mjGEOM_SKIN, nullptr, nullptr, nullptr, white);
+  geom.objtype = mjOBJ_SKIN;
+  geom.objid = 0;
+  geom.texid = 0;
+  geom.texcoord = 1;
+  geom.texrepeat[0] = geom.texrepeat[1] = 1;
+  geom.specular = skin.specular;
+  geom.shininess = 0.35f;
+}
+
 }  // namespace
 
 struct OffscreenRenderer::Parts {
-  Parts(const mjModel& of, int width, int height) : model(with_settings(of, width, height)) {
+  Parts(const mjModel& of, int width, int height, const PictureQuality& wanted)
+      : quality(wanted), model(with_settings(of, width, height, wanted)) {
     mjr_defaultContext(&context);
-    mjr_makeContext(model.get(), &context, mjFONTSCALE_100);
+    mjr_makeContext(model.get(), &context, mjFONTSCALE_150);
     mjr_setBuffer(mjFB_OFFSCREEN, &context);
   }
   ~Parts() { mjr_freeContext(&context); }
   Parts(const Parts&) = delete;
   Parts& operator=(const Parts&) = delete;
 
+  PictureQuality quality;
   EglContext egl;
   ModelCopy model;
   mjrContext context;
 };
 
-OffscreenRenderer::OffscreenRenderer(const mjModel& model, int width, int height)
-    : parts_(std::make_unique<Parts>(model, width, height)) {
+OffscreenRenderer::OffscreenRenderer(const mjModel& model, int width, int height,
+                                     const PictureQuality& quality)
+    : parts_(std::make_unique<Parts>(model, width, height, quality)) {
   if (parts_->context.currentBuffer != mjFB_OFFSCREEN)
     fail("mjr_setBuffer", "no off-screen buffer");
 }
@@ -217,6 +250,16 @@ OffscreenRenderer::OffscreenRenderer(const mjModel& model, int width, int height
 OffscreenRenderer::~OffscreenRenderer() = default;
 
 Image OffscreenRenderer::render(const std::vector<mjvGeom>& geoms, const View& view) {
+  return draw(geoms, view, nullptr, "");
+}
+
+Image OffscreenRenderer::render(const std::vector<mjvGeom>& geoms, const View& view,
+                                const Skin& skin, const std::string& words) {
+  return draw(geoms, view, &skin, words);
+}
+
+Image OffscreenRenderer::draw(const std::vector<mjvGeom>& geoms, const View& view, const Skin* skin,
+                              const std::string& words) {
   mjrContext& context = parts_->context;
   if (view.width > context.offWidth || view.height > context.offHeight) {
     throw std::runtime_error(fmt::format("picture of {} x {} px: the renderer goes to {} x {}",
@@ -224,17 +267,21 @@ Image OffscreenRenderer::render(const std::vector<mjvGeom>& geoms, const View& v
                                          context.offHeight));
   }
   const double extent = parts_->model->stat.extent;
-  const Vector3d middle = middle_of(geoms, view);
-  Scene3d holder(*parts_->model, static_cast<int>(geoms.size()) + 1);
+  const Vector3d middle = middle_of(geoms, view, skin);
+  Scene3d holder(*parts_->model, static_cast<int>(geoms.size()) + 2);
   mjvScene& scene = holder.scene;
   scene.geoms[0] = backdrop(view, middle, extent);
   std::copy(geoms.begin(), geoms.end(), scene.geoms + 1);
   scene.ngeom = static_cast<int>(geoms.size()) + 1;
+  if (skin != nullptr) set_skin(*skin, *parts_->model, context, scene);
   set_camera(scene, view, middle, extent);
-  set_lights(scene, view, middle, lens * extent);
+  set_lights(scene, view, middle, lens * extent, parts_->quality.shadows);
 
   const mjrRect whole{0, 0, view.width, view.height};
   mjr_render(whole, &scene, &context);
+  if (!words.empty()) {
+    mjr_overlay(mjFONT_NORMAL, mjGRID_BOTTOMLEFT, whole, words.c_str(), nullptr, &context);
+  }
   Image image{view.width, view.height, {}};
   image.rgb.resize(3 * static_cast<std::size_t>(view.width) * view.height);
   mjr_readPixels(image.rgb.data(), nullptr, whole, &context);

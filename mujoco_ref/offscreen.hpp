@@ -8,7 +8,10 @@
 #include <Eigen/Geometry>
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <vector>
+
+#include "mujoco_ref/skin_model.hpp"
 
 namespace hagfish {
 
@@ -33,21 +36,35 @@ struct View {
   Eigen::Vector3d toward() const { return right.cross(up); }  ///< from the scene to the viewer
 };
 
+/// What a picture costs: with the software renderer most of it goes to shadows.
+struct PictureQuality {
+  int shadows = 3;         ///< lights with a shadow, in a ring so that theirs overlap to a soft one
+  int shadow_size = 4096;  ///< of their shadow maps, px
+};
+
 /// One OpenGL context for any number of pictures. Keep one at a time, in the thread that made it.
 class OffscreenRenderer {
  public:
   /// For pictures of at most `width` x `height` px (8192 either way) of things about as large as
-  /// `model`, whose own settings for pictures are not used. Throws std::runtime_error, one line
-  /// with the step that failed and EGL's or MuJoCo's reason.
-  OffscreenRenderer(const mjModel& model, int width, int height);
+  /// `model`, whose own settings for pictures are not used. Throws InputError, one line with the step
+  /// that failed and EGL's or MuJoCo's reason, where this machine has no OpenGL for it, and
+  /// std::runtime_error beyond that size.
+  OffscreenRenderer(const mjModel& model, int width, int height,
+                    const PictureQuality& quality = {});
   ~OffscreenRenderer();
 
-  /// Draws `geoms` (mjv_initGeom, cm) before white, with soft shadows. Throws std::runtime_error
-  /// where the view is larger than what the renderer was made for.
+  /// Draws `geoms` (mjv_initGeom, cm) before white, with shadows. Throws std::runtime_error where
+  /// the view is larger than what the renderer was made for.
   Image render(const std::vector<mjvGeom>& geoms, const View& view);
+  /// The same with a skin of as many points as skin_model() made the renderer's model for (else
+  /// std::invalid_argument), and a line of text in the lower left corner unless it is empty.
+  Image render(const std::vector<mjvGeom>& geoms, const View& view, const Skin& skin,
+               const std::string& words = "");
 
  private:
   struct Parts;
+  Image draw(const std::vector<mjvGeom>& geoms, const View& view, const Skin* skin,
+             const std::string& words);
   std::unique_ptr<Parts> parts_;
 };
 

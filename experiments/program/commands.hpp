@@ -17,11 +17,14 @@ void add_record_qp(Program& program);
 void add_qp(Program& program);
 void add_info(Program& program);
 void add_check(Program& program);
+void add_export(Program& program);
+void add_view(Program& program);
 void add_program(Program& program);
 
 /// Those that need MuJoCo, which come after; none where the program is built without it.
 std::vector<Registrar> mujoco_commands();
 void add_picture(Program& program);
+void add_movie(Program& program);
 void add_mjcf(Program& program);
 void add_compare(Program& program);
 void add_integrate(Program& program);

@@ -4,7 +4,7 @@ namespace hagfish {
 
 std::vector<Registrar> mujoco_commands() {
 #ifdef HAGFISH_MUJOCO
-  return {add_picture, add_mjcf, add_compare, add_integrate, add_playback, add_stress};
+  return {add_picture, add_movie, add_mjcf, add_compare, add_integrate, add_playback, add_stress};
 #else
   return {};
 #endif

@@ -21,8 +21,8 @@ namespace fs = std::filesystem;
 
 struct NewRunOptions {
   std::string scene = default_scene;  ///< a built-in scene's name or a file
-  std::string preset;                 ///< settings by name (presets.hpp); none where empty
-  std::string qp;                     ///< QP back end; the preset's, or Ipopt, where empty
+  std::string preset = "default";     ///< settings by name (presets.hpp)
+  std::string qp;                     ///< QP back end; the preset's where empty
   std::vector<std::string> set;       ///< KEY=VALUE overrides, after the preset's
   std::string until;                  ///< ends with this phase: time.until; the scene's where empty
   std::string resume;                 ///< log of a run to go on with, instead of all these
@@ -30,8 +30,7 @@ struct NewRunOptions {
 };
 
 int run_anew(NewRunOptions options, const std::string& typed) {
-  const Preset preset = options.preset.empty() ? Preset{"", box_qp_solver_names().front(), {}}
-                                               : preset_called(options.preset);
+  const Preset preset = preset_called(options.preset);
   std::vector<std::string> set = preset.set;
   set.insert(set.end(), options.set.begin(), options.set.end());
   if (!options.until.empty()) set.push_back("time.until=" + options.until);
@@ -79,9 +78,9 @@ void add_run(Program& program) {
   std::vector<CLI::Option*> of_new;
   of_new.push_back(run->add_option("SCENE", options->scene, scene_help)->capture_default_str());
   of_new.push_back(run->add_option("--out", options->run.out, "log to write (SCENE.h5)"));
-  of_new.push_back(
-      run->add_option("--preset", options->preset, "settings by name (the scene's, and Ipopt)")
-          ->check(one_of(preset_names())));
+  of_new.push_back(run->add_option("--preset", options->preset, "settings by name")
+                       ->check(one_of(preset_names()))
+                       ->capture_default_str());
   of_new.push_back(run->add_option("--qp", options->qp, "QP back end, instead of the preset's")
                        ->check(one_of(box_qp_solver_names())));
   of_new.push_back(run->add_option("--set", options->set, set_help)->allow_extra_args(false));

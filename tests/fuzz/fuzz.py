@@ -85,6 +85,8 @@ def commands_for(kind, file, slow, overrides=()):
         yield ["branch", file, "--out", "branch.h5", "--quiet", "--force"]
         if slow:
             yield ["info", file, "--json"]
+            yield ["export", file, "--out", "tables", "--force"]
+            yield ["view", file, "--out", "replay.html", "--force"]
             yield ["picture", file, "--out", "picture.png", "--force"]
             yield ["program", file, "--out", "program.csv", "--force", "--stations", "4", "--times", "3"]
         yield ["run", "--resume", file, "--quiet"]  # last, as it goes on in the file itself

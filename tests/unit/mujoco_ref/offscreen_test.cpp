@@ -11,7 +11,7 @@
 #include <numbers>
 
 #include "core/log/hdf5_error.hpp"
-#include "experiments/program/picture.hpp"
+#include "experiments/picture/picture.hpp"
 #include "mujoco_ref/mjcf.hpp"
 #include "mujoco_ref/mujoco_model.hpp"
 #include "tests/support/random_chain.hpp"
@@ -185,30 +185,42 @@ TEST_F(OffscreenTest, PngHoldsTheImageAndNamesWhatCannotBeWritten) {
   }
 }
 
+/// The Table 1 animal, straight.
+Skin straight_skin(const Model& model) {
+  Kinematics kin;
+  update_positions(model, rest_state(model).q, kin);
+  return skin_of(model, table1_specimen(), kin.centre);
+}
+
 TEST(PictureTest, SkinRunsHeadToTailWithRingsAtTheStations) {
   const Model model = table1_hagfish();
   const Specimen specimen = table1_specimen();
-  Kinematics kin;
-  update_positions(model, rest_state(model).q, kin);
-  const std::vector<mjvGeom> geoms = skin_geoms(model, specimen, kin.centre);
-  // Spheres from the first body's centre to the last one's, closer than a tenth of the radius.
-  EXPECT_NEAR(geoms.front().pos[0], 0.212, 0.06);
-  EXPECT_NEAR(geoms.back().pos[0], 42.4 - 0.212, 0.06);
-  for (std::size_t g = 0; g < geoms.size(); ++g) {
-    const double x = geoms[g].pos[0], fraction = x / 42.4;
+  const Skin skin = straight_skin(model);
+  ASSERT_EQ(skin.rings(), skin_rings(model));
+  ASSERT_EQ(skin.point.cols(), skin.rings() * skin.sides);
+  // Round ends, by the radius beyond the outermost bodies' centres.
+  EXPECT_NEAR(skin.point(0, 0), 0.212 - model.bodies.front().radius, 1e-5);
+  EXPECT_NEAR(skin.point(0, skin.point.cols() - 1), 42.4 - 0.212 + model.bodies.back().radius,
+              1e-5);
+  for (int k = 0; k < skin.rings(); ++k) {
+    const auto ring = skin.point.middleCols(k * skin.sides, skin.sides);
+    const auto normal = skin.normal.middleCols(k * skin.sides, skin.sides);
+    EXPECT_NEAR((normal.colwise().norm().array() - 1).abs().maxCoeff(), 0, 1e-6);
+    const double x = ring.row(0).mean(), fraction = x / 42.4;
+    if (x < 0.212 || x > 42.4 - 0.212) continue;  // of the round ends
     // Linear between bodies, the radius cuts the profile's corner at a station: 0.0026 cm at most
     // (0.0244 cm per cm over a quarter of a body).
-    EXPECT_NEAR(
-        geoms[g].size[0],
-        profile(specimen.station, specimen.circumference, fraction) / (2 * std::numbers::pi), 3e-3);
-    if (g > 0) {
-      EXPECT_LT(x - geoms[g - 1].pos[0], 0.1 * geoms[g].size[0]);
-    }
+    const double radius =
+        profile(specimen.station, specimen.circumference, fraction) / (2 * std::numbers::pi);
+    EXPECT_NEAR((ring.bottomRows<2>().colwise().norm().array() - radius).abs().maxCoeff(), 0, 3e-3);
+    // Outward.
+    EXPECT_GT(
+        (normal.bottomRows<2>().cwiseProduct(ring.bottomRows<2>())).colwise().sum().minCoeff(), 0);
     double nearest = INFINITY;
     for (const double station : specimen.station) {
       nearest = std::min(nearest, std::abs(x - 42.4 * station));
     }
-    const bool dark = geoms[g].rgba[0] < 0.5f;
+    const bool dark = skin.colour[k][0] < 128;
     // a ring is 0.26 cm wide; at its edge either colour is right
     if (nearest < 0.12) {
       EXPECT_TRUE(dark) << x;
@@ -218,9 +230,59 @@ TEST(PictureTest, SkinRunsHeadToTailWithRingsAtTheStations) {
   }
 }
 
+TEST(PictureTest, ColoursRunFromDarkToBrightWithTheQuantity) {
+  const Model model = table1_hagfish();
+  Skin skin = straight_skin(model);
+  // From 0 at the head to more than the scale at the tail.
+  paint(model, table1_specimen(), {0, 42.4}, Eigen::Vector2d(0, 2), 1, skin);
+  EXPECT_EQ(skin.colour.back(), (std::array<unsigned char, 3>{253, 231, 37}));  // viridis' last
+  EXPECT_LT(skin.colour.front()[0], 80);
+  EXPECT_EQ(skin.colour[skin.rings() / 4 + 10][1] > skin.colour[20][1], true);
+  paint(model, table1_specimen(), {0, 42.4}, Eigen::Vector2d(0, 0), 0, skin);
+  EXPECT_EQ(skin.colour[1], (std::array<unsigned char, 3>{68, 1, 84}));  // and its first
+}
+
+TEST(PictureTest, ASkinIsDrawnWhereItIsInItsColours) {
+  const Model model = table1_hagfish();
+  Skin skin = straight_skin(model);
+  for (auto& colour : skin.colour) colour = {0, 200, 0};
+  const MujocoModel scene = skin_model(skin.rings(), skin.sides, 42.4);
+  View view = turned_view(0, 0);
+  Shown shown;
+  shown.add(view, skin);
+  fit(shown, 424, 100, view);
+  OffscreenRenderer renderer(*scene.model(), 424, 100);
+  const Image image = renderer.render({}, view, skin);
+  const auto pixel = [&](double x, double y) {
+    const int column = static_cast<int>((x - view.low.x()) * view.scale);
+    const int row = image.height - 1 - static_cast<int>((y - view.low.y()) * view.scale);
+    const unsigned char* rgb =
+        &image.rgb[3 * (static_cast<std::size_t>(row) * image.width + column)];
+    return Pixel{rgb[0], rgb[1], rgb[2]};
+  };
+  for (const double x : {0.5, 10.0, 30.0, 42.0}) {
+    EXPECT_GT(pixel(x, 0)[1], pixel(x, 0)[0] + 40) << x;
+    EXPECT_EQ(pixel(x, 2), white) << x;
+    EXPECT_EQ(pixel(x, -2), white) << x;
+  }
+  EXPECT_NE(renderer.render({}, view, skin, "some words").rgb, image.rgb);
+  EXPECT_EQ(renderer.render({}, view, skin).rgb, image.rgb);
+  EXPECT_THROW(OffscreenRenderer(*skin_model(5, 8, 1).model(), 424, 100).render({}, view, skin),
+               std::invalid_argument);
+}
+
+/// The window about the head plate alone.
+View plate_view(double pitch, double yaw) {
+  View view = turned_view(pitch, yaw);
+  Shown shown;
+  shown.add(view, plate_geom(true));
+  fit(shown, view);
+  return view;
+}
+
 TEST(PictureTest, TheWindowHoldsWhatIsShown) {
   // The plate alone, seen along its own axes: 0.5 cm by 5.2 cm behind x = 0.
-  const View view = view_of({plate_geom(true)}, 0, 0);
+  const View view = plate_view(0, 0);
   EXPECT_TRUE(view.right.isApprox(Eigen::Vector3d::UnitX()));
   EXPECT_TRUE(view.up.isApprox(Eigen::Vector3d::UnitY()));
   EXPECT_TRUE(view.toward().isApprox(Eigen::Vector3d::UnitZ()));
@@ -232,8 +294,16 @@ TEST(PictureTest, TheWindowHoldsWhatIsShown) {
   EXPECT_NEAR(view.width / view.scale, 0.5 + 0.1, 0.1);
   EXPECT_NEAR(view.height / view.scale, 5.2 + 0.1, 0.1);
   // Turned by 90° about X the picture's up is -Z; by 90° about the vertical its right is -Z.
-  EXPECT_TRUE(view_of({plate_geom(true)}, 90, 0).up.isApprox(-Eigen::Vector3d::UnitZ()));
-  EXPECT_TRUE(view_of({plate_geom(true)}, 0, 90).right.isApprox(-Eigen::Vector3d::UnitZ()));
+  EXPECT_TRUE(plate_view(90, 0).up.isApprox(-Eigen::Vector3d::UnitZ()));
+  EXPECT_TRUE(plate_view(0, 90).right.isApprox(-Eigen::Vector3d::UnitZ()));
+  // In a window of a given size it stands in the middle, as large as it can be.
+  View wide = turned_view(0, 0);
+  Shown shown;
+  shown.add(wide, plate_geom(true));
+  fit(shown, 600, 108, wide);
+  EXPECT_NEAR(wide.scale, 100 / 5.2, 0.01);  // 4 px of margin above and below
+  EXPECT_NEAR(wide.low.x() + 300 / wide.scale, -0.25, 1e-9);
+  EXPECT_EQ(wide.width, 600);
 }
 
 }  // namespace

@@ -57,8 +57,9 @@ TEST_F(CommandLine, ASlipIsToldTheNameMeant) {
 TEST_F(CommandLine, EveryCommandHelpsAndListsItself) {
   const ProgramOutcome all = run_program("--help");
   EXPECT_EQ(all.code, 0);
-  for (const char* command : {"run", "scenes", "record-qp", "qp", "info", "check", "picture",
-                              "mjcf", "compare", "integrate", "playback", "stress"}) {
+  for (const char* command :
+       {"run", "scenes", "record-qp", "qp", "info", "check", "export", "view", "picture", "movie",
+        "mjcf", "compare", "integrate", "playback", "stress"}) {
     EXPECT_NE(all.output.find(std::string("\n  ") + command + " "), std::string::npos) << command;
     EXPECT_EQ(run_program(std::string(command) + " --help").code, 0) << command;
   }

@@ -1,8 +1,13 @@
 // `hagfish picture` from outside.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
 #include <string>
+#include <utility>
 
 #include "tests/support/program_runs.hpp"
 
@@ -27,6 +32,37 @@ TEST_F(ProgramTest, PictureDrawsTheFramesAsked) {
   EXPECT_TRUE(fs::exists(folder / "two_1.png") && fs::exists(folder / "two_2.png"));
 }
 
+/// Width and height of a PNG, which its header has in 8 bytes from byte 16 on.
+std::pair<int, int> size_of(const fs::path& png) {
+  std::ifstream file(png, std::ios::binary);
+  std::array<unsigned char, 24> head{};
+  file.read(static_cast<char*>(static_cast<void*>(head.data())), head.size());
+  const auto number = [&head](int at) {
+    return (head[at] << 24) | (head[at + 1] << 16) | (head[at + 2] << 8) | head[at + 3];
+  };
+  return {number(16), number(20)};
+}
+
+TEST_F(ProgramTest, PicturesOfASizeAreFramesOfAFilm) {
+  ASSERT_EQ(run_program("run --quiet --set time.duration=0.25 --out a.h5").code, 0);
+  std::string times;
+  for (int k = 0; k < 11; ++k) times += " --time " + std::to_string(0.02 * k);
+  const ProgramOutcome made =
+      run_program("picture a.h5 --out f.png --size 320x180 --colour curvature" + times);
+  EXPECT_EQ(made.code, 0) << made.output;
+  for (const char* name : {"f_01.png", "f_02.png", "f_11.png"}) {
+    EXPECT_EQ(size_of(folder / name), std::pair(320, 180)) << name;
+  }
+  // One window: the last three fields of each line, the corner and the scale, are the same.
+  std::istringstream lines(made.output);
+  std::set<std::string> windows;
+  std::string line;
+  std::getline(lines, line);
+  while (std::getline(lines, line))
+    windows.insert(line.substr(line.find('\t', line.find('\t') + 1)));
+  EXPECT_EQ(windows.size(), 1u) << made.output;
+}
+
 TEST_F(ProgramTest, PictureRefusesBadInputInOneLine) {
   ASSERT_EQ(run_program(brief_run + "--out a.h5").code, 0);
   fs::rename(folder / "a.h5", folder / "a.log");  // expect_refused looks for logs left behind
@@ -35,6 +71,11 @@ TEST_F(ProgramTest, PictureRefusesBadInputInOneLine) {
   expect_refused("picture a.log --out a.png --time -1", {"a.log", "--time -1"});
   expect_refused("picture a.log --out a.png --time nan", {"a.log", "--time nan"});
   expect_refused("picture a.log --out a.png --pitch inf", {"--pitch", "inf"});
+  for (const char* size :
+       {"1280", "1280x", "x720", "1280x720x1", "15x720", "1280x9000", "-20x20"}) {
+    expect_refused("picture a.log --out a.png --size " + std::string(size), {"--size", "px"});
+  }
+  expect_refused("picture a.log --out a.png --colour hue", {"--colour", "hue", "curvature"});
   expect_refused("picture a.log --out a.jpg", {"a.jpg", "--out", ".png"});
   expect_refused("picture a.log", {"--out"});
   expect_refused("picture a.log --out /no/such/folder/a.png", {"/no/such/folder/a.png", "No such"});

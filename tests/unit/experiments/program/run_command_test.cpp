@@ -21,7 +21,7 @@ TEST_F(ProgramTest, APresetComesBeforeSetAndQp) {
     const LogContents log((folder / "a.h5").string());
     return std::pair(log.resolved.scene.time.step, log.h5.root_text("qp"));
   };
-  EXPECT_EQ(written(""), std::pair(0.002, std::string("ipopt")));
+  EXPECT_EQ(written(""), std::pair(0.002, std::string("active-set")));
   EXPECT_EQ(written("--preset default"), std::pair(0.002, std::string("active-set")));
   EXPECT_EQ(written("--preset quick"), std::pair(0.02, std::string("active-set")));
   EXPECT_EQ(written("--preset quick --set time.step=0.01").first, 0.01);

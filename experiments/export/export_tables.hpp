@@ -1,0 +1,21 @@
+// The tables that `hagfish export` makes of a log: a row a frame and station.
+#pragma once
+
+#include <vector>
+
+#include "experiments/audit/log_contents.hpp"
+#include "experiments/export/export_table.hpp"
+
+namespace hagfish {
+
+/// midline, curvature, knot, contacts: where the body is, recomputed from q.
+std::vector<ExportTable> shape_tables(const LogContents& log, bool si);
+
+/// torques, eq6, head, energy: what the log has of forces, as means since the frame before, and
+/// what it leaves to be computed, the springs.
+std::vector<ExportTable> force_tables(const LogContents& log, bool si);
+
+/// summary: one row.
+ExportTable summary_table(const LogContents& log, bool si);
+
+}  // namespace hagfish

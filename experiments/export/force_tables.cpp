@@ -1,0 +1,148 @@
+#include <algorithm>
+#include <utility>
+
+#include "core/chain/dynamics.hpp"
+#include "experiments/export/export_tables.hpp"
+
+namespace hagfish {
+namespace {
+
+using namespace export_unit;
+
+const ExportColumn frame_column{"frame", none, "index of the frame, from 0"};
+const ExportColumn time_column{"time", second, "simulated time"};
+const std::string mean = "; mean since the frame before";
+
+/// The datasets of /mean/forces that act on hinges, and the column of each.
+constexpr std::pair<const char*, const char*> torque_kinds[] = {
+    {"active", "of the animal's muscles"},
+    {"thigmotaxis", "f_thigmo, what slides the knot (Eq. 8)"},
+    {"contact", "of self-contact"},
+    {"limit", "of joint limits"},
+    {"wall", "of the head plate"}};
+
+ExportTable torque_table(const LogContents& log, bool si) {
+  std::vector<ExportColumn> columns{
+      frame_column,
+      time_column,
+      {"joint", none, "by the body behind it"},
+      {"axis", none, "bend_y, bend_z or twist, about the body's own Y, Z or X axis"},
+      {"s", centimetre, "arc length of the joint from the head's end at rest"},
+      {"angle", radian, "of the hinge at the frame"},
+      {"spring", torque, "of the body's own stiffness, at the frame"}};
+  for (const auto& [kind, meaning] : torque_kinds) {
+    columns.push_back({kind, torque, meaning + mean});
+  }
+  ExportTable table("torques.csv", columns, si);
+  std::vector<Hdf5Reader::Rows> kinds;
+  for (const auto& [kind, meaning] : torque_kinds) {
+    kinds.push_back(log.h5.rows(std::string("/mean/forces/") + kind));
+  }
+  constexpr const char* axes[] = {"twist", "bend_y", "bend_z"};
+  const double length = log.model.length() / log.model.body_count();
+  for (Eigen::Index f = 0; f < log.q.rows(); ++f) {
+    const Eigen::VectorXd q = log.q.row(f);
+    const Eigen::VectorXd spring = stiffness_force(log.model, q);
+    for (std::size_t k = 0; k < log.model.hinges.size(); ++k) {
+      const Hinge& hinge = log.model.hinges[k];
+      const auto dof = root_dofs + static_cast<Eigen::Index>(k);
+      std::vector<ExportTable::Cell> row{std::int64_t{f},
+                                         log.time[f],
+                                         std::int64_t{hinge.body},
+                                         std::string(axes[static_cast<int>(hinge.axis)]),
+                                         hinge.body * length,
+                                         q[dof + 1],
+                                         spring[dof]};
+      for (const Hdf5Reader::Rows& rows : kinds) row.emplace_back(rows(f, dof));
+      table.add(row);
+    }
+  }
+  return table;
+}
+
+ExportTable eq6_table(const LogContents& log, bool si) {
+  ExportTable table(
+      "eq6.csv",
+      {frame_column,
+       time_column,
+       {"contact", none, "first or last along the body, counted from the head"},
+       {"strand", none, "a nearer the head, b nearer the tail"},
+       {"command", speed, "right side of Eq. 6 at the frame; empty where it asks for nothing"},
+       {"speed", speed, "left side of Eq. 6" + mean},
+       {"shortfall", speed, "of the command" + mean},
+       {"multiplier", force, "lambda / h" + mean}},
+      si);
+  const Hdf5Reader::Rows command = log.h5.rows("/thigmotaxis/command");
+  const Hdf5Reader::Rows speeds = log.h5.rows("/mean/thigmotaxis/speed");
+  const Hdf5Reader::Rows slack = log.h5.rows("/mean/thigmotaxis/slack");
+  const Hdf5Reader::Rows lambda = log.h5.rows("/mean/thigmotaxis/lambda");
+  for (Eigen::Index f = 0; f < command.rows(); ++f) {
+    for (int k = 0; k < 4; ++k) {
+      table.add({std::int64_t{f}, log.time[f], std::string(k < 2 ? "first" : "last"),
+                 std::string(k % 2 == 0 ? "a" : "b"), command(f, k), speeds(f, k), slack(f, k),
+                 lambda(f, k)});
+    }
+  }
+  return table;
+}
+
+ExportTable head_table(const LogContents& log, bool si) {
+  ExportTable table(
+      "head.csv",
+      {frame_column,
+       time_column,
+       {"force_x", force, "of what clamps the head, on the animal, world" + mean},
+       {"force_y", force, "the same along y"},
+       {"force_z", force, "the same along z"},
+       {"torque_x", torque,
+        "of what clamps the head, on the animal, about the head's end, its axes" + mean},
+       {"torque_y", torque, "the same about y"},
+       {"torque_z", torque, "the same about z"},
+       {"plate_force_x", force,
+        "of the head plate, on the animal, along x: what the knot pushes against" + mean}},
+      si);
+  const Hdf5Reader::Rows head = log.h5.rows("/mean/forces/head");
+  const Hdf5Reader::Rows wall = log.h5.rows("/mean/forces/wall");
+  for (Eigen::Index f = 0; f < head.rows(); ++f) {
+    table.add({std::int64_t{f}, log.time[f], head(f, 0), head(f, 1), head(f, 2), head(f, 3),
+               head(f, 4), head(f, 5), wall(f, 0)});
+  }
+  return table;
+}
+
+ExportTable energy_table(const LogContents& log, bool si) {
+  constexpr std::pair<const char*, const char*> terms[] = {
+      {"kinetic_energy", "at the frame"},
+      {"elastic_energy", "in the joint springs, at the frame"},
+      {"gravity_energy", "at the frame, 0 at the world's origin"},
+      {"work_tip", "of the scripted force on the tail, so far"},
+      {"work_active", "of the muscles, so far"},
+      {"work_thigmotaxis", "of f_thigmo, so far"},
+      {"work_contact", "of self-contact, so far"},
+      {"work_limit", "of joint limits, so far"},
+      {"work_head", "of the head clamp, so far"},
+      {"work_wall", "of the head plate, so far"},
+      {"dissipated", "lost to water drag and joint damping, so far"},
+      {"integrator_error", "gained by the integrator itself, so far"}};
+  std::vector<ExportColumn> columns{frame_column, time_column};
+  std::vector<std::vector<double>> values;
+  for (const auto& [name, meaning] : terms) {
+    columns.push_back({name, energy, meaning});
+    values.push_back(log.h5.doubles(std::string("/diagnostics/") + name));
+  }
+  ExportTable table("energy.csv", columns, si);
+  for (std::size_t f = 0; f < log.time.size(); ++f) {
+    std::vector<ExportTable::Cell> row{static_cast<std::int64_t>(f), log.time[f]};
+    for (const std::vector<double>& term : values) row.emplace_back(term[f]);
+    table.add(row);
+  }
+  return table;
+}
+
+}  // namespace
+
+std::vector<ExportTable> force_tables(const LogContents& log, bool si) {
+  return {torque_table(log, si), eq6_table(log, si), head_table(log, si), energy_table(log, si)};
+}
+
+}  // namespace hagfish

@@ -1,0 +1,38 @@
+// The contacts of a frame: those that bear, with the forces that the log has of them, and those
+// that a search finds to be near without bearing.
+#pragma once
+
+#include <vector>
+
+#include "experiments/audit/audited_frame.hpp"
+
+namespace hagfish {
+
+struct FrameContact {
+  bool plate = false;      ///< of the body with the head plate, else of two strands
+  double arc_a = 0;        ///< arc length from the head, cm; of the strand nearer the head
+  double arc_b = 0;        ///< of the other one; nan of the plate
+  double gap = 0;          ///< cm
+  Eigen::Vector3d point;   ///< in the middle of the gap, world, cm
+  Eigen::Vector3d normal;  ///< unit, world: the way that strand a is pushed
+  double force = 0;        ///< of the step at the frame, dyn; 0 where it does not bear
+};
+
+/// What a log holds of its contacts, by frame.
+class FrameContacts {
+ public:
+  /// The log is referred to. Throws FileError where a contact lies beyond the animal's ends.
+  explicit FrameContacts(const LogContents& log);
+  /// From head to tail by strand a, the plate's among them.
+  std::vector<FrameContact> at(const AuditedFrame& frame) const;
+
+ private:
+  struct Bearing {
+    double a = 0, b = 0;  ///< spline parameters; b is nan of the plate
+    double force = 0;
+  };
+  const LogContents& log_;
+  std::vector<std::vector<Bearing>> bearing_;  ///< by frame
+};
+
+}  // namespace hagfish

@@ -1,0 +1,157 @@
+#include <cmath>
+
+#include "core/chain/bending.hpp"
+#include "core/knot/knot.hpp"
+#include "core/knot/writhe.hpp"
+#include "experiments/export/export_tables.hpp"
+#include "experiments/export/frame_contacts.hpp"
+
+namespace hagfish {
+namespace {
+
+using namespace export_unit;
+
+const ExportColumn frame_column{"frame", none, "index of the frame, from 0"};
+const ExportColumn time_column{"time", second, "simulated time"};
+
+ExportTable midline_table(bool si) {
+  return {"midline.csv",
+          {frame_column,
+           time_column,
+           {"point", none,
+            "0 the head's end, 1 to N the middles of the N bodies, N + 1 the tail's end"},
+           {"s", centimetre, "arc length from the head's end at rest"},
+           {"x", centimetre, "place, world axes: the head is clamped at 0, the body lies along +x"},
+           {"y", centimetre, "place"},
+           {"z", centimetre, "place"},
+           {"radius", centimetre, "of the skin"}},
+          si};
+}
+
+void add_midline(const LogContents& log, const AuditedFrame& frame, ExportTable& table) {
+  const Kinematics& kin = frame.observation.kin;
+  const std::vector<Body>& bodies = log.model.bodies;
+  const std::size_t count = bodies.size();
+  const auto add = [&](std::size_t point, double s, const Eigen::Vector3d& x, double radius) {
+    table.add({std::int64_t{frame.index}, log.time[frame.index], static_cast<std::int64_t>(point),
+               s, x.x(), x.y(), x.z(), radius});
+  };
+  add(0, 0, kin.origin.col(0), bodies.front().radius);
+  double s = 0;
+  for (std::size_t b = 0; b < count; ++b) {
+    add(b + 1, s + 0.5 * bodies[b].length, kin.centre.col(static_cast<Eigen::Index>(b)),
+        bodies[b].radius);
+    s += bodies[b].length;
+  }
+  const auto last = static_cast<Eigen::Index>(count) - 1;
+  add(count + 1, s, 2 * kin.centre.col(last) - kin.origin.col(last), bodies.back().radius);
+}
+
+ExportTable curvature_table(bool si) {
+  return {"curvature.csv",
+          {frame_column,
+           time_column,
+           {"joint", none, "a joint that bends, by the body behind it"},
+           {"s", centimetre, "arc length from the head's end at rest"},
+           {"bend_y", per_length,
+            "turn about the body's Y axis, over the length of body that the joint stands for"},
+           {"bend_z", per_length, "the same about its Z axis"},
+           {"curvature", per_length, "total bend of both, over the same length"},
+           {"twist", per_length,
+            "turn of the twisting joints on both sides, over the length that they stand for"}},
+          si};
+}
+
+/// Hinges of each joint (body), head to tail, with the first velocity of each.
+void add_curvature(const LogContents& log, const AuditedFrame& frame, ExportTable& table) {
+  const Model& model = log.model;
+  const int n = model.body_count();
+  const double length = model.length() / n;
+  for (int b = 1; b < n; ++b) {
+    const Body& body = model.bodies[b];
+    if (body.dofs != 2) continue;
+    const double y = frame.state.q[body.first_dof + 1];
+    const double z = frame.state.q[body.first_dof + 2];
+    const double span = hinge_span(n, length, b);
+    double turn = 0, along = 0;
+    for (const int beside : {b - 1, b + 1}) {
+      if (beside < 1 || beside >= n || model.bodies[beside].dofs != 1) continue;
+      turn += frame.state.q[model.bodies[beside].first_dof + 1];
+      along += hinge_span(n, length, beside);
+    }
+    table.add({std::int64_t{frame.index}, log.time[frame.index], std::int64_t{b}, b * length,
+               y / span, z / span, total_bend(y, z).angle / span, along > 0 ? turn / along : NAN});
+  }
+}
+
+ExportTable knot_table(bool si) {
+  return {"knot.csv",
+          {frame_column,
+           time_column,
+           {"phase", none, "form, tighten, slide, reverse, release, free"},
+           {"knot", none, "knot type of the centreline; 0_1 is no knot"},
+           {"determinant", none, "knot determinant"},
+           {"v2", none, "Vassiliev invariant of order 2"},
+           {"agreement", none, "share of the projections that agree on the type"},
+           {"writhe", none, "of the open centreline: above 0 right-handed, below left-handed"},
+           {"head_end", centimetre, "arc length from the head of the first contact"},
+           {"tail_end", centimetre, "arc length from the head of the last contact"},
+           {"span", centimetre, "length of body between them"}},
+          si};
+}
+
+ExportTable contact_table_of(bool si) {
+  return {"contacts.csv",
+          {frame_column,
+           time_column,
+           {"kind", none, "self: two strands of the body; plate: the body and the head plate"},
+           {"s_a", centimetre, "arc length of the point on the strand nearer the head"},
+           {"s_b", centimetre, "arc length of the point on the strand nearer the tail"},
+           {"gap", centimetre, "between the skins; below 0 they overlap"},
+           {"x", centimetre, "place of the contact, in the middle of the gap"},
+           {"y", centimetre, "place"},
+           {"z", centimetre, "place"},
+           {"normal_x", none, "unit vector along which strand a is pushed"},
+           {"normal_y", none, "unit vector"},
+           {"normal_z", none, "unit vector"},
+           {"force", force,
+            "along the normal, of the step at the frame; 0 where the skins are near but do not "
+            "press"}},
+          si};
+}
+
+void add_contacts(const LogContents& log, const FrameContacts& contacts, const AuditedFrame& frame,
+                  ExportTable& table) {
+  for (const FrameContact& c : contacts.at(frame)) {
+    table.add({std::int64_t{frame.index}, log.time[frame.index],
+               std::string(c.plate ? "plate" : "self"), c.arc_a, c.arc_b, c.gap, c.point.x(),
+               c.point.y(), c.point.z(), c.normal.x(), c.normal.y(), c.normal.z(), c.force});
+  }
+}
+
+}  // namespace
+
+std::vector<ExportTable> shape_tables(const LogContents& log, bool si) {
+  ExportTable midline = midline_table(si), curvature = curvature_table(si), knot = knot_table(si),
+              contacts = contact_table_of(si);
+  const FrameContacts of_frame(log);
+  const std::vector<std::int64_t> determinant = log.h5.integers("/knot/determinant");
+  const std::vector<std::int64_t> v2 = log.h5.integers("/knot/v2");
+  const std::vector<double> agreement = log.h5.doubles("/knot/agreement");
+  const std::vector<double> head_end = log.h5.doubles("/knot/head_end");
+  const std::vector<double> tail_end = log.h5.doubles("/knot/tail_end");
+  for (std::size_t f = 0; f < log.time.size(); ++f) {
+    const AuditedFrame frame(log, static_cast<Eigen::Index>(f));
+    add_midline(log, frame, midline);
+    add_curvature(log, frame, curvature);
+    const KnotInvariants type{static_cast<int>(determinant[f]), static_cast<int>(v2[f])};
+    knot.add({static_cast<std::int64_t>(f), log.time[f], std::string(phase_name(frame.phase)),
+              knot_name(type), determinant[f], v2[f], agreement[f],
+              writhe(frame.observation.kin.centre), head_end[f], tail_end[f],
+              tail_end[f] - head_end[f]});
+    add_contacts(log, of_frame, frame, contacts);
+  }
+  return {midline, curvature, knot, contacts};
+}
+
+}  // namespace hagfish

@@ -1,0 +1,56 @@
+// Frames of a log as pictures, one after another from one renderer.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/audit/log_contents.hpp"
+#include "experiments/export/body_quantity.hpp"
+#include "experiments/picture/picture.hpp"
+
+namespace hagfish {
+
+/// Width and height, px.
+struct PictureSize {
+  int width = 0, height = 0;
+};
+
+/// "1280x720". Throws InputError, naming `option`, for anything else and beyond 16 to 8192 px.
+PictureSize picture_size(const std::string& text, const std::string& option);
+
+/// The frame whose time is nearest. Throws InputError outside the log.
+std::size_t frame_at(const LogContents& log, double time);
+
+/// What is to be seen of the frames of a log, which is referred to.
+class FramePictures {
+ public:
+  /// Coloured by a quantity of the body where it is not empty (body_quantity.hpp). Throws
+  /// InputError for angles (degrees, as turned_view) that are no numbers.
+  FramePictures(const LogContents& log, double pitch, double yaw, const std::string& quantity = "");
+
+  /// Adds a frame to what the window must show.
+  void add(std::size_t frame, Shown& shown) const;
+  /// The view, its window not set.
+  const View& view() const { return view_; }
+  /// A renderer for windows up to this size.
+  std::unique_ptr<OffscreenRenderer> renderer(PictureSize size,
+                                              const PictureQuality& quality) const;
+  Image draw(OffscreenRenderer& renderer, std::size_t frame, const View& view,
+             const std::string& words = "") const;
+  /// "f_thigmo, bending: 0 to 934 dyn cm", of the colours; empty without.
+  std::string colour_words() const;
+
+ private:
+  Skin skin(std::size_t frame) const;
+  std::vector<mjvGeom> plate(std::size_t frame) const;
+
+  const LogContents& log_;
+  View view_;
+  std::optional<BodyQuantity> quantity_;
+  double scale_ = 0;
+  MujocoModel model_;
+};
+
+}  // namespace hagfish

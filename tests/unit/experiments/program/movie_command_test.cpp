@@ -1,0 +1,81 @@
+// `hagfish movie` from outside.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+#include "tests/support/program_runs.hpp"
+
+namespace hagfish {
+namespace {
+
+namespace fs = std::filesystem;
+
+class MovieTest : public ProgramTest {
+ protected:
+  void SetUp() override {
+    if (std::system("command -v ffprobe >/dev/null") != 0) GTEST_SKIP() << "no ffmpeg here";
+    // Frames from 0 to 1 s, as the last step begins there.
+    ASSERT_EQ(run_program("run --preset quick --quiet --set time.duration=1.03 --out a.h5").code,
+              0);
+    fs::rename(folder / "a.h5", folder / "a.log");  // expect_refused looks for logs left behind
+  }
+
+  /// Width, height, pictures.
+  std::string probe(const std::string& film) const {
+    const std::string command =
+        "ffprobe -v error -count_frames -select_streams v:0 -show_entries "
+        "stream=width,height,nb_read_frames -of csv=p=0 '" +
+        (folder / film).string() + "'";
+    FILE* pipe = popen(command.c_str(), "r");
+    std::string text(100, ' ');
+    text.resize(fread(text.data(), 1, text.size(), pipe));
+    pclose(pipe);
+    return text;
+  }
+};
+
+TEST_F(MovieTest, HasAPictureForEachMomentOfItsSize) {
+  const ProgramOutcome film = run_program("movie a.log --out a.mp4 --size 320x180");
+  EXPECT_EQ(film.code, 0) << film.output;
+  EXPECT_EQ(film.output, "a.mp4: 26 pictures, 1.0 s\n");
+  EXPECT_EQ(probe("a.mp4"), "320,180,26\n");
+  EXPECT_EQ(run_program("movie a.log --out b.mp4 --size 320x180 --speed 0.5 --colour contact").code,
+            0);
+  EXPECT_EQ(probe("b.mp4"), "320,180,51\n");
+  EXPECT_EQ(run_program("movie a.log --out c.gif --size 161x91 --speed 2").code, 0);
+  EXPECT_EQ(probe("c.gif"), "161,91,7\n");
+  for (const auto& entry : fs::directory_iterator(folder.path())) {
+    EXPECT_TRUE(entry.path().extension() == ".mp4" || entry.path().extension() == ".gif" ||
+                entry.path().extension() == ".log")
+        << entry.path() << " left behind";
+  }
+}
+
+TEST_F(MovieTest, RefusesBadInputInOneLine) {
+  expect_refused("movie a.log --out a.avi", {"a.avi", ".mp4 or .gif"});
+  expect_refused("movie a.log --out a.mp4 --size 321x180", {"--size 321x180", "even"});
+  expect_refused("movie a.log --out a.mp4 --size big", {"--size big"});
+  expect_refused("movie a.log --out a.mp4 --speed 0", {"--speed"});
+  expect_refused("movie a.log --out a.mp4 --speed 1e-9", {"--speed", "pictures"});
+  expect_refused("movie none.h5 --out a.mp4", {"none.h5", "no such file"});
+  expect_refused("movie a.log --out /no/such/a.mp4", {"/no/such/a.mp4"});
+  const ProgramOutcome without = run_program("movie a.log --out a.mp4", "PATH=/no/such/folder");
+  EXPECT_EQ(without.code, 2);
+  EXPECT_EQ(without.output,
+            "hagfish: no ffmpeg: a film needs it (Debian: apt-get install ffmpeg)\n");
+  EXPECT_FALSE(fs::exists(folder / "a.mp4"));
+}
+
+TEST_F(MovieTest, WithoutOpenGlItIsOneLine) {
+  const ProgramOutcome film =
+      run_program("movie a.log --out a.mp4", "__EGL_VENDOR_LIBRARY_FILENAMES=/no/such/vendor.json");
+  EXPECT_EQ(film.code, 2);
+  EXPECT_EQ(film.output.find("hagfish: no off-screen OpenGL: "), 0u) << film.output;
+  EXPECT_FALSE(fs::exists(folder / "a.mp4"));
+  EXPECT_FALSE(fs::exists(folder / "a.mp4.part"));
+}
+
+}  // namespace
+}  // namespace hagfish

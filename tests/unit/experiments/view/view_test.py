@@ -1,0 +1,177 @@
+"""`hagfish view`: what the page holds against the log, and the page in a headless Chromium, where there is one."""
+
+from __future__ import annotations
+
+import base64
+import json
+import sys
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(Path(__file__).parents[3] / "support"))
+
+from browser import CHROMIUM, Browser  # noqa: E402
+from program import hagfish, refused  # noqa: E402
+
+TYPES = {"f4": "<f4", "i2": "<i2", "u1": "u1", "u4": "<u4"}
+PLACE = 1e-4  # cm, of the log's
+needs_chromium = pytest.mark.skipif(CHROMIUM is None, reason="no chromium here")
+
+
+def decoded(packed):
+    kind = next(name for name in TYPES if name in packed)
+    values = np.frombuffer(base64.b64decode(packed[kind]), TYPES[kind])
+    return np.where(values == -32768, np.nan, values * packed["scale"]) if kind == "i2" else values
+
+
+def logs_of(page):
+    text = page.read_text()
+    start = text.index("const LOGS=") + len("const LOGS=")
+    return json.JSONDecoder().raw_decode(text, start)[0]
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("view")
+    hagfish(folder, "run", "table1", "--preset", "quick", "--quiet", "--out", "a.h5")
+    hagfish(folder, "run", "living_overhand", "--preset", "quick", "--quiet", "--set", "time.duration=3", "--set", "expect.types=[]",
+            "--out", "b.h5")
+    hagfish(folder, "view", "a.h5", "--out", "a.html")
+    hagfish(folder, "view", "a.h5", "b.h5", "--out", "both.html")
+    return folder
+
+
+def test_the_page_holds_what_the_log_holds(run):
+    (page,), log = logs_of(run / "a.html"), h5py.File(run / "a.h5")
+    frames = len(log["trajectory/time"])
+    np.testing.assert_allclose(decoded(page["position"]).reshape(frames, -1, 3), log["trajectory/position"][()], atol=PLACE)
+    np.testing.assert_allclose(decoded(page["time"]), log["trajectory/time"][()], rtol=1e-6)
+    assert [page["phases"][k] for k in decoded(page["phase"])] == [
+        {v: k for k, v in h5py.check_enum_dtype(log["trajectory/phase"].dtype).items()}[int(p)] for p in log["trajectory/phase"]]
+    assert np.all((np.array(page["knots"])[decoded(page["knot"])] == "3_1") == (log["knot/determinant"][()] == 3))
+    axes = np.array([name.split("_")[-1] for name in log["model/dof_name"].asstr()[()][6:]])
+    force, angle = np.nan_to_num(log["mean/forces/thigmotaxis"][:, 6:]), log["trajectory/q"][:, 7:]
+    bend, twist = lambda rows: np.hypot(rows[:, axes == "y"], rows[:, axes == "z"]), lambda rows: np.abs(rows[:, axes == "twist"])
+    length, n = log["model/length"][0], len(log["model/length"])
+    spans = lambda joints: length * np.array([(n if j + 2 >= n else j + 1) - (0 if j <= 2 else j - 1) for j in joints])
+    odd, even = np.arange(1, n, 2), np.arange(2, n, 2)
+    y, z = angle[:, axes == "y"], angle[:, axes == "z"]
+    wanted = {"thigmotaxis": bend(force), "thigmotaxis-twist": twist(force), "twist": twist(angle) / spans(even),
+              "curvature": 2 * np.arcsin(np.sqrt(np.sin(y / 2) ** 2 + np.cos(y) * np.sin(z / 2) ** 2)) / spans(odd)}
+    for name, values in wanted.items():
+        own = page["quantities"][name]
+        np.testing.assert_allclose(decoded(own["values"]).reshape(frames, -1), values, atol=values.max() / 60000)
+        np.testing.assert_allclose(own["arc"], (even if "twist" in name else odd) * length)
+        above = np.sort(values[values > 0])
+        assert own["scale"] == pytest.approx(above[int(0.99 * (len(above) - 1))], rel=1e-3)
+    # Contacts, spread along the body, keep their sum: twice each, for its two strands.
+    along = decoded(page["quantities"]["contact"]["values"]).reshape(frames, -1)
+    sums = np.bincount(log["contacts/frame"][()], log["contacts/force"][()] * np.where(np.isnan(log["contacts/spline_b"][()]), 1, 2), frames)
+    inside = np.flatnonzero((sums > 0) & np.isin(log["trajectory/phase"][()], (1, 2)))  # of the tail's end some falls off
+    np.testing.assert_allclose(along[inside].sum(axis=1) * length, sums[inside], rtol=0.02)
+    assert "active" not in page["quantities"]
+    for name in ("speed", "slack", "lambda"):
+        np.testing.assert_allclose(decoded(page["eq6"][name]), log[f"mean/thigmotaxis/{name}"][()].ravel(), rtol=1e-6)
+    np.testing.assert_allclose(decoded(page["eq6"]["command"]), log["thigmotaxis/command"][()].ravel(), rtol=1e-6)
+    np.testing.assert_allclose(decoded(page["head"]).reshape(frames, 6), log["mean/forces/head"][:, :6], rtol=1e-6, atol=1e-30)
+    np.testing.assert_allclose(decoded(page["plate_force"]), log["mean/forces/wall"][:, 0], rtol=1e-6)
+    np.testing.assert_allclose(decoded(page["tip"]), log["forces/tip"][()].ravel(), rtol=1e-6)
+    for name, values in page["energy"].items():
+        np.testing.assert_allclose(decoded(values), log[f"diagnostics/{name}"][()], rtol=1e-6)
+    for end in ("head_end", "tail_end"):
+        np.testing.assert_allclose(decoded(page[end]), log[f"knot/{end}"][()], rtol=1e-6)
+    first, contacts = decoded(page["contacts"]["first"]), decoded(page["contacts"]["values"]).reshape(-1, 9)
+    np.testing.assert_array_equal(np.diff(first), np.bincount(log["contacts/frame"][()], minlength=frames))
+    np.testing.assert_allclose(np.sort(contacts[:, 6]), np.sort(log["contacts/force"][()]), rtol=1e-6)
+    np.testing.assert_allclose(np.linalg.norm(contacts[:, 3:6], axis=1), 1, rtol=1e-6)
+
+
+def test_it_is_one_file_that_asks_for_nothing(run):
+    text = (run / "a.html").read_text()
+    assert len(text) < 5e6
+    assert "default-src 'none'" in text
+    for tag in ("<script src", "<link rel=\"stylesheet", "<img", "@import", "<iframe"):
+        assert tag not in text, tag
+
+
+def test_texts_of_a_log_stay_texts(run, tmp_path):
+    hagfish(tmp_path, "run", "table1", "--preset", "quick", "--quiet", "--set", "time.duration=0.1", "--set",
+            'title="</script><script>document.title=1</script>"', "--out", "a.h5")
+    hagfish(tmp_path, "view", "a.h5")
+    text = (tmp_path / "replay.html").read_text()
+    assert "document.title=1</script>" not in text
+    assert logs_of(tmp_path / "replay.html")[0]["title"] == "</script><script>document.title=1</script>"
+
+
+def test_bad_input_is_one_line(run):
+    refused(run, "view", "none.h5", "--out", "x.html", parts=("none.h5", "no such file"))
+    refused(run, "view", "a.h5", "--out", "a.html", parts=("a.html", "--force"))
+    refused(run, "view", "a.h5", "--out", "/no/folder/x.html", parts=("/no/folder/x.html",))
+    refused(run, "view", "a.h5", "b.h5", "a.h5", "--out", "x.html")
+
+
+@pytest.fixture(scope="module")
+def browser(tmp_path_factory):
+    one = Browser(tmp_path_factory.mktemp("browser"))
+    yield one
+    one.close()
+
+
+COLOURS_ON_CANVAS = """(() => {
+  viewer.render();
+  const gl = viewer.renderer.getContext(), w = gl.drawingBufferWidth, h = gl.drawingBufferHeight, px = new Uint8Array(4 * w * h);
+  gl.readPixels(0, 0, w, h, gl.RGBA, gl.UNSIGNED_BYTE, px);
+  const seen = new Set();
+  for (let k = 0; k < px.length; k += 4) seen.add((px[k] << 16) | (px[k + 1] << 8) | px[k + 2]);
+  return seen.size;
+})()"""
+
+
+@needs_chromium
+def test_the_page_replays_the_log(run, browser):
+    log = h5py.File(run / "a.h5")
+    browser.open(run / "a.html")
+    own = (run / "a.html").as_uri()
+    assert [url for url in browser.requests if url != own and not url.startswith("data:")] == []
+    assert browser.errors == []
+    assert browser.run(COLOURS_ON_CANVAS) > 100
+    time, knotted = log["trajectory/time"][()], log["knot/determinant"][()] == 3
+    for frame in (0, int(np.flatnonzero(knotted)[5]), len(time) - 1):
+        browser.run(f"(() => {{ const s = document.getElementById('scrub'); s.value = {frame}; s.dispatchEvent(new Event('input')); }})()")
+        now = browser.run("document.getElementById('now').textContent")
+        assert f"t = {time[frame]:.2f} s" in now
+        assert ("knot 3_1" if knotted[frame] else "no knot") in now
+        # What is drawn is where the log has it: the skin's rings are about the spline's points.
+        centre = browser.run("(() => { const b = viewer.bodies[0], p = b.geometry.attributes.position.array, m = [0, 0, 0], k = CAP_RINGS + 2 * 30;"
+                             "for (let s = 0; s < SIDES; ++s) for (let i = 0; i < 3; ++i) m[i] += p[3 * (k * SIDES + s) + i] / SIDES; return m; })()")
+        np.testing.assert_allclose(centre, log["trajectory/position"][frame, 30], atol=PLACE)
+    browser.press("Home")
+    assert browser.run("viewer.shown[0]") == 0
+    browser.press("ArrowRight")
+    assert browser.run("viewer.shown[0]") == 1
+    for _ in range(len(browser.run("Array.from(document.getElementById('colour').options).map(o => o.value)"))):
+        browser.press("c")
+        assert browser.run(COLOURS_ON_CANVAS) > 50
+    browser.press(" ")
+    # However slowly this machine draws, it comes to the next frames.
+    browser.run("new Promise(done => { const look = () => viewer.shown[0] > 1 ? done() : setTimeout(look, 50); look(); })")
+    browser.press(" ")
+    assert browser.run("viewer.playing") is False
+    assert browser.errors == []
+
+
+@needs_chromium
+def test_two_logs_beside_and_over_each_other(run, browser):
+    browser.open(run / "both.html")
+    browser.run("viewer.seek(2)")
+    assert browser.run(COLOURS_ON_CANVAS) > 100
+    assert browser.run("viewer.shown.map((f, k) => viewer.logs[k].time[f])") == pytest.approx([2, 2])
+    assert browser.run("viewer.ghost.group.visible") is False
+    browser.press("o")
+    assert browser.run("viewer.ghost.group.visible") is True
+    assert browser.run(COLOURS_ON_CANVAS) > 100
+    assert browser.errors == []
