@@ -112,9 +112,9 @@ BASE = {"cap": {"table1": 5e3, "living": 3e4}, "speed": {"table1": 2.0, "living"
         "bodies": {"table1": 100.0, "living": 100.0}}
 
 
-def points(runs: list[Run], body: str, knot: str, kind: str) -> list[tuple[float, float]]:
-    """Value and pull, N, of the runs that pulled, and the mean of the starts."""
-    found = [(float(run.value), run.pull.mean) for run in chosen(runs, body, knot, kind) if run.pull]
+def points(runs: list[Run], body: str, knot: str, kind: str, deep: bool = True) -> list[tuple[float, float]]:
+    """Value and pull, N, of the runs that pulled, and the mean of the starts; those that overlap too deep if `deep`."""
+    found = [(float(run.value), run.pull.mean) for run in chosen(runs, body, knot, kind) if run.pull and (deep or not run.deep)]
     starts = [run.pull.mean for run in chosen(runs, body, knot, "start") if run.pull]
     return sorted(found + [(BASE[kind][body], float(np.mean(starts)))] * bool(starts))
 
@@ -136,8 +136,11 @@ def sweep_table(runs: list[Run], kind: str) -> list[str]:
 def draw_sweep(axes: plots.plt.Axes, runs: list[Run], kind: str, scale: float = 1) -> None:
     for body in BASE[kind]:
         for knot, look in plots.KNOTS.items():
-            found = points(runs, body, knot, kind)
+            found = points(runs, body, knot, kind, deep=False)
             living = body == "living"
+            for run in chosen(runs, body, knot, kind):
+                if run.pull and run.deep:
+                    axes.plot(float(run.value) * scale, run.pull.mean, color=look.colour, marker="x", ms=4)
             axes.plot([x * scale for x, _ in found], [y for _, y in found], color=look.colour, marker=look.marker, lw=1, ms=4,
                       ls="-" if living else "--", mfc=look.colour if living else "white")
 
@@ -148,13 +151,15 @@ def draw(runs: list[Run], out: Path) -> None:
         "stiffness of the body", "girth", "time step"])
     draw_sweep(axes[0], runs, "cap", 1 / NEWTON)
     axes[0].axhline(TOOTH_MUSCLE, color=plots.GREY, ls=":", lw=1)
-    axes[0].text(0.012, TOOTH_MUSCLE * 0.8, "tooth muscle, 16 N", fontsize=7, color=plots.GREY, va="top")
-    axes[0].set(xscale="log", yscale="log", xlim=(0.008, 1.3), xlabel="largest force of each of the four rows, N", ylabel="pull, N")
+    axes[0].text(2.4, TOOTH_MUSCLE * 1.1, "tooth muscle, 16 N", fontsize=7, color=plots.GREY, va="bottom", ha="right")
+    axes[0].set(xscale="log", yscale="log", xlim=(0.008, 2.6), ylim=(0.01, 40), xlabel="largest force of each of the four rows, N", ylabel="pull, N")
     for run in runs:
         if run.pull:
             look = plots.KNOTS[run.knot]
             style = {"color": look.colour, "marker": look.marker, "ls": "", "ms": 3.5,
                      "mfc": look.colour if run.body == "living" else "white"}
+            if run.deep:
+                style["marker"] = "x"
             axes[1].plot(run.pull.torque.mean(), run.pull.mean, **style)
             axes[2].plot(run.pull.estimate, run.pull.mean, **style)
     axes[1].axvline(CAPACITY, color=plots.GREY, ls="--", lw=0.8)
@@ -167,14 +172,15 @@ def draw(runs: list[Run], out: Path) -> None:
     draw_sweep(axes[3], runs, "stiffness")
     axes[3].set(xscale="log", xlabel=SWEEPS["stiffness"], ylabel="pull, N", ylim=(0, None))
     draw_sweep(axes[4], runs, "girth")
-    axes[4].set(xlabel=SWEEPS["girth"], ylabel="pull, N", ylim=(0, None))
+    axes[4].set(xlabel=SWEEPS["girth"], ylabel="pull, N", ylim=(0, None), xticks=[0.8, 1, 1.2])
     draw_sweep(axes[5], runs, "step", 1e3)
     axes[5].set(xscale="log", xlabel="time step, ms", ylabel="pull, N", ylim=(0, None))
     plots.plain_ticks(axes[5].xaxis, [2, 5, 10])
     handles = [axes[0].plot([], [], label=look.label, **look.style)[0] for look in plots.KNOTS.values()]
     handles += [axes[0].plot([], [], color=plots.INK, marker="o", mfc=fill, ls=line, label=label)[0]
                 for fill, line, label in ((plots.INK, "-", "living body"), ("white", "--", "Table 1 body"))]
-    axes[3].legend(handles=handles, fontsize=7)
+    handles.append(axes[0].plot([], [], color=plots.INK, marker="x", ls="", label="overlaps too deep")[0])
+    axes[0].legend(handles=handles, fontsize=6.5, loc="upper left", bbox_to_anchor=(0.0, 0.9))
     plots.save(figure, out)
 
 
