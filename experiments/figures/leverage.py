@@ -55,7 +55,8 @@ def read_run(path: Path) -> Run:
     pull = read_pull(log) if outcome == "pulled" else None
     if pull is not None and not pull.force.size:
         outcome, pull = "too short", None
-    return Run(kind, body, KNOTS[knot], value, int(seed), outcome, pull, float(log["/steps/penetration"].max()), "penetration" in unmet)
+    deepest = float(log["/steps/penetration"].max())
+    return Run(kind, body, KNOTS[knot], value, int(seed), outcome, pull, deepest, "penetration" in unmet)
 
 
 def chosen(runs: Iterable[Run], body: str, knot: str, *kinds: str, value: str | None = None) -> list[Run]:
@@ -78,15 +79,16 @@ def starts_table(runs: list[Run]) -> list[str]:
             mirrored = [run.pull.mean for run in chosen(runs, body, knot, "mirror") if run.pull]
             plain = [run.pull.mean for run in chosen(runs, body, knot, "plain") if run.pull]
             same = "yes" if plain and mirrored == plain else "no"
-            rows.append([label, knot, f"{len(pulls)} of {len(all_starts)}", spread([p.mean for p in pulls], 3),
-                         spread([float(p.force.std()) for p in pulls], 3), spread([p.mean / p.sum for p in pulls]),
-                         spread([p.mean / p.rows.mean(axis=0).max() for p in pulls]),
-                         spread([float(p.torque.mean()) for p in pulls]), spread([p.mean / float(p.torque.mean()) for p in pulls]),
-                         spread([p.mean / p.estimate for p in pulls]), f"{max((run.overlap for run in all_starts), default=np.nan):.4f}",
-                         spread([float(np.linalg.norm(p.bearing[np.isfinite(p.bearing[:, 0])].mean(axis=0))) for p in pulls], 1), same])
-    return tables.markdown(["body", "knot", "pulled", "pull, N", "it swings by, N", "over the sum of the rows", "over the largest row",
-                            "largest torque, N cm", "pull over it, 1/cm", "over the rope estimate", "deepest overlap, cm", "plate's force off the head by, cm",
-                            "mirror image the same"], rows)
+            of_each = lambda figure, digits=2: spread([float(figure(pull)) for pull in pulls], digits)
+            deepest = max((run.overlap for run in all_starts), default=np.nan)
+            rows.append([label, knot, f"{len(pulls)} of {len(all_starts)}", of_each(lambda p: p.mean, 3),
+                         of_each(lambda p: p.force.std(), 3), of_each(lambda p: p.mean / p.sum),
+                         of_each(lambda p: p.mean / p.rows.mean(axis=0).max()), of_each(lambda p: p.torque.mean()),
+                         of_each(lambda p: p.mean / p.torque.mean()), of_each(lambda p: p.mean / p.estimate),
+                         of_each(lambda p: np.linalg.norm(np.nanmean(p.bearing, axis=0)), 1), f"{deepest:.4f}", same])
+    return tables.markdown(["body", "knot", "pulled", "pull, N", "it swings by, N", "over the sum of the rows",
+                            "over the largest row", "largest torque, N cm", "pull over it, 1/cm", "over the rope estimate",
+                            "plate's force off the head by, cm", "deepest overlap, cm", "mirror image the same"], rows)
 
 
 def work_table(folder: Path) -> list[str]:
@@ -100,7 +102,8 @@ def work_table(folder: Path) -> list[str]:
             pull, work = read_pull(log).mean, read_strand(log).work
             rows.append([label, knot, f"{pull:.3f}", *(f"{work[key]:.3f}" for key in ("rows", "contacts", "plate")),
                          f"{pull - sum(work.values()):.3f}"])
-    return tables.markdown(["body", "knot", "pull", "rows of Eq. 6", "contacts", "head plate", "left to bending, limits, muscles"], rows)
+    head = ["body", "knot", "pull", "rows of Eq. 6", "contacts", "head plate", "left to bending, limits, muscles"]
+    return tables.markdown(head, rows)
 
 
 SWEEPS = {"cap": "largest force of a row, dyn", "speed": "commanded speed, cm/s", "stiffness": "flexural rigidity, dyn cm²",
@@ -152,7 +155,8 @@ def draw(runs: list[Run], out: Path) -> None:
     draw_sweep(axes[0], runs, "cap", 1 / NEWTON)
     axes[0].axhline(TOOTH_MUSCLE, color=plots.GREY, ls=":", lw=1)
     axes[0].text(2.4, TOOTH_MUSCLE * 1.1, "tooth muscle, 16 N", fontsize=7, color=plots.GREY, va="bottom", ha="right")
-    axes[0].set(xscale="log", yscale="log", xlim=(0.008, 2.6), ylim=(0.01, 40), xlabel="largest force of each of the four rows, N", ylabel="pull, N")
+    axes[0].set(xscale="log", yscale="log", xlim=(0.008, 2.6), ylim=(0.01, 40), ylabel="pull, N",
+                xlabel="largest force of each of the four rows, N")
     for run in runs:
         if run.pull:
             look = plots.KNOTS[run.knot]
@@ -185,8 +189,8 @@ def draw(runs: list[Run], out: Path) -> None:
 
 
 HEAD = ["kind", "body", "knot", "value", "seed", "outcome", "pull_N", "pull_sd_N", "plate_N", "rows_N", "largest_row_N",
-        "torque_mean_N_cm", "torque_largest_N_cm", "advantage_rows", "advantage_torque_1_cm", "estimate_N", "turn_first", "turn_last",
-        "deepest_overlap_cm"]
+        "torque_mean_N_cm", "torque_largest_N_cm", "advantage_rows", "advantage_torque_1_cm", "estimate_N", "turn_first",
+        "turn_last", "deepest_overlap_cm"]
 
 
 def csv_row(run: Run) -> list[str | float]:
@@ -194,9 +198,9 @@ def csv_row(run: Run) -> list[str | float]:
         return [run.kind, run.body, run.knot, run.value, run.seed, run.outcome, *[""] * (len(HEAD) - 7), run.overlap]
     p = run.pull
     torque = float(p.torque.mean())
-    return [run.kind, run.body, run.knot, run.value, run.seed, run.outcome, p.mean, float(p.force.std()), float(p.plate.mean()), p.sum,
-            float(p.rows.mean(axis=0).max()), torque, float(p.torque.max()), p.mean / p.sum, p.mean / torque, p.estimate,
-            *map(float, p.turn.mean(axis=0)), run.overlap]
+    return [run.kind, run.body, run.knot, run.value, run.seed, run.outcome, p.mean, float(p.force.std()),
+            float(p.plate.mean()), p.sum, float(p.rows.mean(axis=0).max()), torque, float(p.torque.max()), p.mean / p.sum,
+            p.mean / torque, p.estimate, *map(float, p.turn.mean(axis=0)), run.overlap]
 
 
 def main(folder: Path, table: Path, out: Path, page: Path) -> None:
@@ -206,7 +210,8 @@ def main(folder: Path, table: Path, out: Path, page: Path) -> None:
     tables.write_csv(table, HEAD, [csv_row(run) for run in runs],
                      ["means over the settled pull; estimate: sum of lambda (1 - cos theta) / h"])
     draw(runs, out)
-    lines = ["# Leverage", "", "Pulls in N, means over the settled pull; ± is the standard deviation over starts; * overlaps deeper than its scene allows.", "", *starts_table(runs)]
+    note = "Pulls in N, means over the settled pull; ± is the standard deviation over starts; * overlaps too deep for its scene."
+    lines = ["# Leverage", "", note, "", *starts_table(runs)]
     lines += ["## Work, N cm for each cm that the head is drawn in", "", *work_table(folder)]
     for kind, label in SWEEPS.items():
         lines += [f"## By {label}", "", *sweep_table(runs, kind)]
