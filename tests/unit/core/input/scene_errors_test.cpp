@@ -124,7 +124,7 @@ TEST(SceneErrors, RefusesFoodThatCannotBePulled) {
   EXPECT_EQ(scene_complaint("[food]\nhold = -1\n"),
             "s.toml:2: food.hold = -1: must not be negative");
   const std::string food = "[food]\nhold = 2\ncap = { from = 10, to = 20, time = 1 }\n";
-  EXPECT_EQ(scene_complaint(food), "none");
+  EXPECT_EQ(scene_complaint(food), "no error");
   EXPECT_EQ(scene_complaint(food + "[wall]\npresent = false\n"),
             "s.toml:2: food.hold = 2: without a head plate (wall.present) the knot presses against "
             "nothing");

@@ -15,35 +15,34 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Pulls for 2 s, with a cap that rises in the first of them.
+/// Pulls for 2 s.
 ResolvedScene pulling_scene(std::vector<std::string> set = {}) {
-  const std::vector<std::string> all = {"time.step=0.005",
-                                        "time.frame_interval=0.1",
-                                        "food.average=0.1",
-                                        "knot.votes=5",
-                                        "food.hold=2",
-                                        "food.cap.from=4000",
-                                        "food.cap.time=1",
-                                        "expect.pull=0.03",
-                                        "expect.pull_balance=0.2",
-                                        "expect.pull_drift=1"};
+  const std::vector<std::string> all = {"time.step=0.005",        "time.frame_interval=0.1",
+                                        "food.average=0.1",       "food.hold=2",
+                                        "knot.votes=5",           "expect.pull=0.03",
+                                        "expect.pull_drift=1",    "expect.pull_settled=0.5",
+                                        "expect.pull_balance=0.2"};
   set.insert(set.begin(), all.begin(), all.end());
   return read_scene(std::string(HAGFISH_DATA_DIR) + "/pull_overhand.toml", set);
 }
+/// The cap rises in the first second.
+const std::vector<std::string> rising = {"food.cap.from=4000", "food.cap.time=1"};
 
 class AuditPull : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder = std::make_unique<TemporaryFolder>();
-    file = *folder / "log.h5";
-    const ResolvedScene resolved = pulling_scene();
-    const Model model = make_hagfish(resolved.specimen, resolved.scene);
-    write_log(file, resolved, model, start(model, resolved.scene, "active-set"),
-              std::numeric_limits<int>::max());
+    const auto write = [](const fs::path& to, const ResolvedScene& resolved) {
+      const Model model = make_hagfish(resolved.specimen, resolved.scene);
+      write_log(to, resolved, model, start(model, resolved.scene, "active-set"),
+                std::numeric_limits<int>::max());
+    };
+    write(file = *folder / "log.h5", pulling_scene());
+    write(rising_file = *folder / "rising.h5", pulling_scene(rising));
   }
   static void TearDownTestSuite() { folder.reset(); }
 
-  static std::string objections() {
+  static std::string objections(const fs::path& file) {
     std::string text;
     for (const Finding& finding : audit(file)) {
       text += finding.passed ? "" : finding.name + ": " + finding.text + "\n";
@@ -52,14 +51,14 @@ class AuditPull : public testing::Test {
   }
 
   /// What the audit says while the log claims to be of another scene.
-  static std::string objections_with(const std::string& set) {
-    const ResolvedScene other = pulling_scene({set});
-    const std::string before = write_scene(scene_to_toml(other.scene, other.specimen));
-    const std::string text = objections();
-    write_scene(before);
+  static std::string objections_with(const fs::path& file, const std::vector<std::string>& set) {
+    const ResolvedScene other = pulling_scene(set);
+    const std::string before = write_scene(file, scene_to_toml(other.scene, other.specimen));
+    const std::string text = objections(file);
+    write_scene(file, before);
     return text;
   }
-  static std::string write_scene(const std::string& text) {
+  static std::string write_scene(const fs::path& file, const std::string& text) {
     std::string before;
     H5::H5File h5(file.string(), H5F_ACC_RDWR);
     H5::Group root = h5.openGroup("/");
@@ -72,13 +71,16 @@ class AuditPull : public testing::Test {
   }
 
   static std::unique_ptr<TemporaryFolder> folder;
-  static fs::path file;
+  static fs::path file, rising_file;
 };
 
 std::unique_ptr<TemporaryFolder> AuditPull::folder;
-fs::path AuditPull::file;
+fs::path AuditPull::file, AuditPull::rising_file;
 
-TEST_F(AuditPull, AGoodLogIsGood) { EXPECT_EQ(objections(), ""); }
+TEST_F(AuditPull, GoodLogsAreGood) {
+  EXPECT_EQ(objections(file), "");
+  EXPECT_EQ(objections(rising_file), "");
+}
 
 TEST_F(AuditPull, WatchesEachFigureWherePulledAndWhereNot) {
   for (const char* path : {"/pull/force", "/pull/plate", "/pull/bearing", "/pull/torque",
@@ -95,28 +97,36 @@ TEST_F(AuditPull, WatchesEachFigureWherePulledAndWhereNot) {
         }
       };
       const auto before = rewrite<double>(file, path, H5::PredType::NATIVE_DOUBLE, change);
-      EXPECT_NE(objections().find(path), std::string::npos) << objections();
+      EXPECT_NE(objections(file).find(path), std::string::npos) << objections(file);
       rewrite<double>(file, path, H5::PredType::NATIVE_DOUBLE, [&](auto& v) { v = before; });
     }
   }
-  EXPECT_EQ(objections(), "") << "the test did not mend what it changed";
+  EXPECT_EQ(objections(file), "") << "the test did not mend what it changed";
 }
 
 TEST_F(AuditPull, SeesFoodAndBoundsThatAreNotTheScenes) {
   const std::pair<const char*, const char*> changes[] = {
-      {"food.cap.from=3000", "/thigmotaxis/cap"},
-      {"food.cap.to=6000", "/thigmotaxis/cap"},
       {"food.strength=0.01", "food: "},
       {"food.hold=5", "food: "},
       {"expect.pull=1", "pull: "},
       {"expect.pull_drift=0", "pull steady: "},
       {"expect.pull_balance=0", "pull balance: "},
-      {"expect.pull_settled=1.9", "too short"}};
+      {"expect.pull_settled=1.9", "too few"}};
   for (const auto& [change, watcher] : changes) {
-    const std::string text = objections_with(change);
+    const std::string text = objections_with(file, {change});
     EXPECT_NE(text.find(watcher), std::string::npos) << change << ": " << text;
   }
-  EXPECT_EQ(objections(), "");
+  EXPECT_EQ(objections(file), "");
+}
+
+TEST_F(AuditPull, SeesACapThatIsNotTheScenes) {
+  for (const char* change : {"food.cap.from=3900", "food.cap.to=5100", "food.cap.time=1.5"}) {
+    std::vector<std::string> set = rising;
+    set.emplace_back(change);
+    const std::string text = objections_with(rising_file, set);
+    EXPECT_NE(text.find("/thigmotaxis/cap"), std::string::npos) << change << ": " << text;
+  }
+  EXPECT_NE(objections_with(file, rising).find("/thigmotaxis/cap"), std::string::npos);
 }
 
 }  // namespace
