@@ -1,16 +1,20 @@
-"""The animal that ties itself: torques and where their work goes, noisy starts, and sweeps of stiffness, drag and haste.
+"""The animal that ties itself: torques and where their work goes, noisy starts, other animals, the paper's claims, and sweeps
+of stiffness, drag and haste.
 
 Usage: living.py RUNS OUT.csv OUT.png OUT.md (writes a PDF beside).
 """
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 import audits
+import claim_row
+import claims
 import plots
 import tables
 from hagfish_log import HagfishLog, LogError
@@ -42,6 +46,8 @@ def outcome_of(log: HagfishLog, unmet: list[str]) -> str:
     status = str(log.attribute("status"))
     if status != "complete":
         return status.removeprefix("failed: ").split(" at step")[0]
+    if not log.in_phase("tighten").size:
+        return "not tied in time"
     return "knot lost" if "knot held" in unmet else "still tied" if "unknot at end" in unmet else "off"
 
 
@@ -76,32 +82,81 @@ def likeness(log: HagfishLog, other: HagfishLog) -> float:
     return float(np.median(rows)) if rows else np.nan
 
 
+def names_of(folder: Path, kind: str, scene: str) -> list[str]:
+    """All runs KIND_SCENE_VALUE."""
+    return sorted(path.name.removesuffix(".check.csv") for path in folder.glob(f"{kind}_{scene}_*.check.csv"))
+
+
+@dataclass
+class Starts:
+    """What noisy starts of one scene came to, beside the undisturbed run."""
+
+    noise: float  # degrees on every hinge
+    count: int
+    off: int  # tied, kept the knot, and it came off
+    far: int  # slid within 10 % of the undisturbed run
+    met: list[float]  # share of sliding steps that meet Eq. 6
+    apart: list[float]  # hinges, at the end of forming, rad
+    alike: list[float]  # median correlation of f_thigmo
+
+
+def read_starts(folder: Path, head: str, scene: str) -> Starts:
+    plain = HagfishLog(folder / f"{head}_{scene}.h5")
+    travel = read_slide(folder, f"{head}_{scene}").travel
+    end = plain.in_phase("form")[-1]
+    result = Starts(0, 0, 0, 0, [], [], [])
+    for name in names_of(folder, f"{head}start", scene):
+        run = read_run(folder, name, KNOTS[scene])
+        log = HagfishLog(folder / f"{name}.h5")
+        start = log.scene()["start"]
+        result.noise = np.degrees(float(start.get("noise_rad", np.radians(start.get("noise_deg", 0)))))
+        result.count += 1
+        result.off += run.outcome == "off"
+        result.far += abs(run.travel - travel) <= 0.1 * travel
+        result.met.append(run.met)
+        result.apart.append(shape_apart(plain, log)[1][min(end, log.frames - 1)])
+        result.alike.append(likeness(plain, log))
+    return result
+
+
 def starts_table(folder: Path) -> list[str]:
     rows = []
     for head in ("held", "free"):
         for scene, knot in KNOTS.items():
-            plain = HagfishLog(folder / f"{head}_{scene}.h5")
-            travel = read_slide(folder, f"{head}_{scene}").travel
-            end = plain.in_phase("form")[-1]
-            off = far = 0
-            apart, alike = [], []
-            paths = sorted(folder.glob(f"{head}start_{scene}_*.check.csv"))
-            for path in paths:
-                run = read_run(folder, path.name.removesuffix(".check.csv"), knot)
-                log = HagfishLog(folder / f"{run.name}.h5")
-                off += run.outcome == "off"
-                far += abs(run.travel - travel) <= 0.1 * travel
-                apart.append(shape_apart(plain, log)[1][min(end, log.frames - 1)])
-                alike.append(likeness(plain, log))
-            noise = np.degrees(float(log.scene()["start"].get("noise_rad", np.radians(log.scene()["start"].get("noise_deg", 0)))))
-            rows.append([head, knot, f"{noise:g}", f"{off} of {len(paths)}", f"{far} of {len(paths)}", f"{max(apart):.1e}",
-                         f"{np.nanmin(alike):.4f}"])
-    return tables.markdown(["head", "knot", "noise, deg", "tied, kept, off", "slide within 10 % of the undisturbed one",
-                            "hinges apart at the end of forming, rad", "likeness of f_thigmo, least of the medians"], rows)
+            starts = read_starts(folder, head, scene)
+            rows.append([head, knot, f"{starts.noise:g}", f"{starts.off} of {starts.count}", f"{starts.far} of {starts.count}",
+                         f"{100 * np.nanmin(starts.met):.0f}", f"{max(starts.apart):.1e}", f"{np.nanmin(starts.alike):.4f}",
+                         f"{np.nanmedian(starts.alike):.4f}"])
+    return tables.markdown(["head", "knot", "noise, deg", "tied, kept, off", "slide within 10 % of the undisturbed one", "Eq. 6 met, least, %",
+                            "hinges apart at the end of forming, rad", "likeness of f_thigmo, least of the medians", "median of them"], rows)
+
+
+def claims_table(folder: Path) -> list[str]:
+    """Verdicts and measures of claim_row.py over starts with a degree of noise."""
+    rows = []
+    for scene, knot in KNOTS.items():
+        judged, others = [], Counter()
+        for name in names_of(folder, "claims", scene):
+            log = HagfishLog(folder / f"{name}.h5")
+            outcome = claim_row.outcome_of(log)
+            try:
+                judged.append(dict(zip(claim_row.HEADING, claim_row.judged(log), strict=True)) if outcome == "slid" else None)
+            except LogError:
+                judged.append(None)
+                outcome = "hardly slid"
+            if judged[-1] is None:
+                others[outcome] += 1
+        own = [row for row in judged if row]
+        counts = [" / ".join(str(sum(row[name] == verdict for row in own)) for verdict in plots.VERDICTS) for name in claims.NAMES]
+        spread = lambda what: "{1:.3g} ({0:.3g} to {2:.3g})".format(*np.percentile([row[what] for row in own], [0, 50, 100])) if own else ""
+        rows.append([knot, f"{len(own)} of {len(judged)}", *counts, *map(spread, claim_row.MEASURES[1:]),
+                     ", ".join(f"{what}: {count}" for what, count in others.items())])
+    return tables.markdown(["knot", "slid", *claims.NAMES, "beyond, dyn cm", "near over far", "roughness along the body", "in time",
+                            "Fourier modes for 95 %", "what else became of it"], rows)
 
 
 def draw(folder: Path, sweeps: dict[str, dict[str, list[tuple[float, Run]]]], out: Path) -> None:
-    figure, axes = plots.panels(2, 2, (10, 7), ["what a noisy start leaves behind", *(f"torque: {what}" for what in SWEEPS)])
+    figure, axes = plots.panels(2, 2, (10, 7), ["what a noisy start leaves behind", *(f"largest torque, by {what}" for what in SWEEPS)])
     for scene, knot in KNOTS.items():
         look = plots.KNOTS[knot]
         plain = HagfishLog(folder / f"held_{scene}.h5")
@@ -117,8 +172,12 @@ def draw(folder: Path, sweeps: dict[str, dict[str, list[tuple[float, Run]]]], ou
             lost = [(value, torque) for (value, run), torque in zip(runs, largest, strict=True) if run.outcome != "off"]
             panel.plot([v for v, _ in lost], [t for _, t in lost], color=look.colour, marker=look.marker, mfc="white", ls="")
         panel.axhline(CAPACITY, color=plots.GREY, ls="--", lw=0.8)
-        panel.set(xscale="log", yscale="log", xlabel=label, ylabel="largest torque of a hinge, forming, dyn cm")
-    axes[1].legend(title="open: not tied, or not off\ndashed: a guess at the capacity")
+        panel.set(xscale="log", xlabel=label, ylabel="of a hinge while the knot forms, dyn cm", ylim=(0, 1.1 * CAPACITY))
+        panel.ticklabel_format(axis="y", style="sci", scilimits=(5, 5))
+        if what != "stiffness":
+            plots.plain_ticks(panel.xaxis, [value for value, _ in next(iter(sweeps[what].values()))])
+    axes[1].set(yscale="log", ylim=(1e4, 5e5))
+    axes[2].legend(title="open: not tied, or not off\ndashed: a guess at the capacity", loc="lower left", ncol=2)
     plots.save(figure, out)
 
 
@@ -132,22 +191,26 @@ def run_rows(named: list[tuple[str, Run]]) -> list[list[str]]:
 def main(folder: Path, table: Path, out: Path, page: Path) -> None:
     if not list(folder.glob("held_*.check.csv")):
         raise LogError(f"{folder}: holds no run held_*")
+    value_of = lambda name: name.rsplit("_", 1)[1]
+    runs_of = lambda kind, scene: [(value_of(name), read_run(folder, name, KNOTS[scene])) for name in names_of(folder, kind, scene)]
     scenes = [(kind, read_run(folder, f"{kind}_{scene}", knot))
               for kind in ("held", "free", "ipopt", "fine") for scene, knot in KNOTS.items()]
-    sweeps = {what: {knot: sorted((float(path.name.removesuffix(".check.csv").rsplit("_", 1)[1]),
-                                   read_run(folder, path.name.removesuffix(".check.csv"), knot))
-                                  for path in folder.glob(f"{what}_{scene}_*.check.csv"))
+    sweeps = {what: {knot: sorted(((float(value), run) for value, run in runs_of(what, scene)), key=lambda each: each[0])
                      for scene, knot in KNOTS.items()} for what in SWEEPS}
     of_sweeps = [(f"{what} {value:g}", run) for what, knots in sweeps.items() for runs in knots.values() for value, run in runs]
+    both = [(value.replace("-", " "), run) for scene in KNOTS for value, run in runs_of("both", scene)]
+    animals = [(f"animal {value}", run) for scene in KNOTS for value, run in sorted(runs_of("animal", scene), key=lambda each: int(each[0]))]
     draw(folder, sweeps, out)
     head = ["run", "knot", "outcome", "slide, cm", "Eq. 6 met, %", "λ/h, median, dyn", "deepest overlap, cm",
             "torque forming, dyn cm", "torque sliding, dyn cm", "work of muscles, erg", "of thigmotaxis, erg",
             "to water and damping, erg", "stored, erg"]
-    tables.write_csv(table, head, run_rows(scenes + of_sweeps))
+    tables.write_csv(table, head, run_rows(scenes + of_sweeps + both + animals))
     tables.write_page(page, [
         "# The animal ties itself", "", "`ipopt`: that back end; `fine`: h = 2 ms instead of 5. Works are until release.", "",
-        *tables.markdown(head, run_rows(scenes)), "## Noisy starts", "", *starts_table(folder), "## Sweeps", "",
-        *tables.markdown(head, run_rows(of_sweeps))])
+        *tables.markdown(head, run_rows(scenes)), "## Noisy starts", "", *starts_table(folder), "## Other animals", "",
+        *tables.markdown(head, run_rows(animals)), "## The paper's claims, starts with a degree of noise", "",
+        "Verdicts: agrees / undecided / disagrees, of the runs that slid to the head.", "", *claims_table(folder), "## Sweeps", "",
+        *tables.markdown(head, run_rows(of_sweeps)), "## Two things at once", "", *tables.markdown(head, run_rows(both))])
 
 
 if __name__ == "__main__":

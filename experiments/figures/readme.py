@@ -46,12 +46,12 @@ def table(findings: list[audits.Finding]) -> list[str]:
         for name, (words, required) in ROWS.items()])
 
 
-def stated(readme: Path) -> list[str]:
+def stated(readme: Path, begin: str = BEGIN, end: str = END) -> list[str]:
     """The lines between the markers."""
     text = readme.read_text(encoding="utf-8")
-    if text.count(BEGIN) != 1 or text.count(END) != 1:
-        raise LogError(f"{readme}: does not have the lines {BEGIN} and {END} once each")
-    return text.split(BEGIN)[1].split(END)[0].strip().splitlines()
+    if text.count(begin) != 1 or text.count(end) != 1:
+        raise LogError(f"{readme}: does not have the lines {begin} and {end} once each")
+    return text.split(begin)[1].split(end)[0].strip().splitlines()
 
 
 def same(stated_row: str, row: str) -> bool:

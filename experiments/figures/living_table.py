@@ -1,0 +1,76 @@
+"""The table of experiments/README.md of the animal that ties itself: written anew from the study's runs, and compared.
+
+Usage: living_table.py RUNS README.md OUT.md. OUT.md is what belongs between the README's markers; exits 1, naming each row, where
+the README says something else.
+"""
+
+from __future__ import annotations
+
+import re
+import sys
+from pathlib import Path
+
+import living
+import readme
+import tables
+from hagfish_log import HagfishLog
+from script import run_script
+
+BEGIN, END = "<!-- living: living_table.py writes this -->", "<!-- end of living -->"
+SHARE = 0.05  # by which a figure may differ on another machine: knots of stiff bodies hop a little from contact to contact
+NUMBER = re.compile(r"\d+\.?\d*(?:e[+-]?\d+)?")
+
+
+def short(value: float) -> str:
+    return f"{value:.1e}".replace("e+0", "e")
+
+
+def table(folder: Path) -> list[str]:
+    of = lambda kind: [living.read_run(folder, f"{kind}_{scene}", knot) for scene, knot in living.KNOTS.items()]
+    starts = lambda head: [living.read_starts(folder, head, scene) for scene in living.KNOTS]
+    held, free = of("held"), of("free")
+    animals = [[living.read_run(folder, name, knot) for name in living.names_of(folder, "animal", scene)]
+               for scene, knot in living.KNOTS.items()]
+    programs = [HagfishLog(folder / f"held_{scene}.h5").scene()["script"]["curvature"] for scene in living.KNOTS]
+    slid = lambda run: f"{run.travel:.1f}; {100 * run.met:.0f}"
+    off = lambda runs: [f"{one.off}; {one.far}" for one in runs]
+    return tables.markdown(["h = 5 ms, `active-set`", *living.KNOTS.values()], [
+        ["clamped: slide, cm; sliding steps that meet Eq. 6, %", *map(slid, held)],
+        ["free, no plate: slide, cm; Eq. 6, %", *map(slid, free)],
+        ["deepest penetration at any step, release included, cm",
+         *(f"{max(a.penetration, b.penetration):.4f}" for a, b in zip(held, free))],
+        ["sum of the four λ/h while sliding, clamped, median, dyn", *(short(run.force) for run in held)],
+        ["largest torque of a hinge, forming; sliding, dyn cm",
+         *(f"{short(run.torque['form'])}; {short(run.torque['slide'])}" for run in held)],
+        ["values of the program: stations x times", *(f"{len(each['stations'])} x {len(each['times'])}" for each in programs)],
+        ["of 20 starts with 3 degrees (3_1: 5) of noise on every hinge, clamped: tied, kept and off; slide within 10 %",
+         *off(starts("held"))],
+        ["free: tied, kept and off; slide within 10 %", *off(starts("free"))],
+        ["of 10 other animals, clamped: tied, kept and off", *(str(sum(run.outcome == "off" for run in each)) for each in animals)],
+        ["sliding steps of these that meet Eq. 6, %: median, least",
+         *("{:.0f}, {:.0f}".format(*(100 * pick([run.met for run in each if run.outcome == "off"])
+                                     for pick in (living.np.median, min))) for each in animals)]])
+
+
+def same(stated: str, row: str) -> bool:
+    """Whether two rows say the same: words to the letter, figures to SHARE."""
+    if NUMBER.sub("#", stated) != NUMBER.sub("#", row):
+        return False
+    pairs = [(float(a), float(b)) for a, b in zip(NUMBER.findall(stated), NUMBER.findall(row))]
+    return all(abs(a - b) <= SHARE * max(a, b) for a, b in pairs)
+
+
+def main(folder: Path, page: Path, out: Path) -> None:
+    lines = table(folder)
+    tables.write_page(out, lines)
+    old, new = readme.stated(page, BEGIN, END), lines[:-1]
+    differ = [f"has {a!r} where the runs have {b!r}" for a, b in zip(old, new) if not same(a, b)]
+    if len(old) != len(new):
+        differ.append(f"has {len(old)} lines where the runs have {len(new)}")
+    if differ:
+        print("\n".join(f"{page.name} {words}" for words in differ), f"{out} is the table as it is now.", sep="\n", file=sys.stderr)
+        sys.exit(1)
+
+
+if __name__ == "__main__":
+    run_script(__doc__, ["RUNS", "README.md", "OUT.md"], main)

@@ -1,0 +1,56 @@
+"""Settings of other animals, drawn at random: a line each, `--set KEY=VALUE ...`. Usage: animals.py COUNT
+
+The Pacific hagfish of data/specimens is made 25 to 60 cm long, each circumference and bending limit and the twisting limit are
+changed by up to 20 %, and it has 60 to 200 bodies. Mass goes with volume. Muscles and passive stiffness go with the fourth
+power of the diameter, as that of rods of one material does; capacity, area times arm, with the third.
+"""
+
+from __future__ import annotations
+
+import random
+import sys
+import tomllib
+from pathlib import Path
+
+DATA = Path(__file__).parents[2] / "data"
+FIRST_SEED = 1000
+
+
+def volume(circumference: list[float], station: list[float], length: float) -> float:
+    """But for a factor: between stations cones, outside of them cylinders."""
+    ends = station[0] * circumference[0] ** 2 + (1 - station[-1]) * circumference[-1] ** 2
+    cones = sum((b - a) * (c * c + c * d + d * d) / 3
+                for a, b, c, d in zip(station, station[1:], circumference, circumference[1:]))
+    return (ends + cones) * length
+
+
+def settings(seed: int) -> dict[str, object]:
+    own = tomllib.loads((DATA / "specimens/pacific_hagfish.toml").read_text(encoding="utf-8"))
+    active = tomllib.loads((DATA / "living_overhand.toml").read_text(encoding="utf-8"))["active"]
+    draw = random.Random(seed)
+    changed = lambda values: [value * draw.uniform(0.8, 1.2) for value in values]
+    length = draw.uniform(25, 60)
+    scale = length / own["length"]
+    circumference = [scale * value for value in changed(own["circumference"])]
+    thicker = sum(circumference) / sum(own["circumference"])
+    return {
+        "specimen.length": length,
+        "specimen.mass": own["mass"] * volume(circumference, own["station"], length)
+        / volume(own["circumference"], own["station"], own["length"]),
+        "specimen.circumference": circumference,
+        "specimen.bending_limit_deg": changed(own["bending_limit_deg"]),
+        "specimen.twist_limit_deg": changed([own["twist_limit_deg"]])[0],
+        "specimen.bending_span": own["bending_span"] * scale,
+        "model.bodies": draw.randrange(60, 201),
+        "active.stiffness": active["stiffness"] * thicker**4,
+        "active.capacity": active["capacity"] * thicker**3,
+    } | {f"specimen.passive.{key}": [value * thicker**4 for value in values] for key, values in own["passive"].items()}
+
+
+def main(count: int) -> None:
+    for animal in range(count):
+        print(*(f"--set {key}={str(value).replace(' ', '')}" for key, value in settings(FIRST_SEED + animal).items()))
+
+
+if __name__ == "__main__":
+    main(int(sys.argv[1]))
