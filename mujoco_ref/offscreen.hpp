@@ -46,8 +46,8 @@ struct PictureQuality {
 class OffscreenRenderer {
  public:
   /// For pictures of at most `width` x `height` px (8192 either way) of things about as large as
-  /// `model`, whose own settings for pictures are not used. Throws InputError, one line with the step
-  /// that failed and EGL's or MuJoCo's reason, where this machine has no OpenGL for it, and
+  /// `model`, whose own settings for pictures are not used. Throws InputError, one line with the
+  /// step that failed and EGL's or MuJoCo's reason, where this machine has no OpenGL for it, and
   /// std::runtime_error beyond that size.
   OffscreenRenderer(const mjModel& model, int width, int height,
                     const PictureQuality& quality = {});

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/log/build_info.hpp"
+#include "core/log/coordinate_names.hpp"
 
 namespace hagfish {
 namespace {
@@ -66,6 +67,7 @@ void write_model(const Model& model, Hdf5Writer& h5) {
   h5.numbers("/model/radius", radius, {"cm", "radius of the skin at each body"});
   h5.texts("/model/joint_name", joints);
   h5.texts("/model/dof_name", dofs);
+  h5.texts("/model/coordinate_name", coordinate_names(model));
   h5.numbers("/model/limit_lower", lower,
              {"rad",
               "lower joint limit, -inf where none; where the total angle of a joint is bounded "

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/log/coordinate_names.hpp"
 #include "core/log/log_writer.hpp"
 #include "core/log/saved_run.hpp"
 #include "experiments/audit/log_schema.hpp"
@@ -15,8 +16,9 @@ void check_names(const LogContents& log) {
     joints.push_back(joint.joint);
     dofs.insert(dofs.end(), joint.dofs.begin(), joint.dofs.end());
   }
-  for (const auto& [path, names] :
-       {std::pair("/model/joint_name", joints), {"/model/dof_name", dofs}}) {
+  for (const auto& [path, names] : {std::pair("/model/joint_name", joints),
+                                    {"/model/dof_name", dofs},
+                                    {"/model/coordinate_name", coordinate_names(log.model)}}) {
     if (log.h5.texts(path) != names) {
       throw FileError(log.h5.file() + ": " + path + " does not name the joints of its model");
     }

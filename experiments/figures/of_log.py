@@ -6,6 +6,7 @@ Usage: of_log.py LOG.h5 HAGFISH OUT_FOLDER, where HAGFISH is the program.
 
 from __future__ import annotations
 
+import contextlib
 import subprocess
 from collections.abc import Callable
 from pathlib import Path
@@ -18,23 +19,43 @@ from hagfish_log import HagfishLog, LogError
 from script import run_script
 
 
+def audited(path: Path, hagfish: Path, check: Path) -> str:
+    """Writes what `hagfish check` finds; why it cannot, where it cannot."""
+    done = subprocess.run([hagfish, "check", path, "--csv", check, "--force"], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    if done.returncode < 2:
+        return ""
+    check.unlink(missing_ok=True)
+    return done.stderr.strip().removeprefix("hagfish: ")
+
+
+def claims(path: Path, folder: Path) -> None:
+    with (folder / "claims.txt").open("w") as words, contextlib.redirect_stdout(words):
+        figure8.main(path, folder / "figure8.png", folder / "claims.png")
+
+
+def summarise(path: Path, hagfish: Path, folder: Path) -> None:
+    if why := audited(path, hagfish, folder / "check.csv"):
+        raise LogError(f"the log cannot be audited: {why}")
+    summary.main(path, folder / "check.csv", folder / "summary.md")
+
+
 def main(path: Path, hagfish: Path, folder: Path) -> None:
     HagfishLog(path)  # what is no log ends it here
     folder.mkdir(parents=True, exist_ok=True)
-    check = folder / "check.csv"
-    subprocess.run([hagfish, "check", path, "--csv", check, "--force"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    drawings: list[tuple[str, Callable[[], None]]] = [
-        ("overview.png", lambda: overview.main(path, folder / "overview.png")),
-        ("figure7.png", lambda: figure7.main(path, hagfish, folder / "figure7.png")),
-        ("figure8.png and claims.png", lambda: figure8.main(path, folder / "figure8.png", folder / "claims.png")),
-        ("summary.md", lambda: summary.main(path, check, folder / "summary.md"))]
-    for name, draw in drawings:
+    drawings: list[tuple[tuple[str, ...], Callable[[], None]]] = [
+        (("overview.png",), lambda: overview.main(path, folder / "overview.png")),
+        (("figure7.png",), lambda: figure7.main(path, hagfish, folder / "figure7.png")),
+        (("figure8.png", "claims.png", "claims.txt"), lambda: claims(path, folder)),
+        (("summary.md", "check.csv"), lambda: summarise(path, hagfish, folder))]
+    for names, draw in drawings:
         try:
             draw()
         except LogError as error:
-            print(f"{name}: left out: {error}")
+            if "claims.txt" in names:
+                (folder / "claims.txt").unlink(missing_ok=True)
+            print(f"{names[0]}: left out: {error}")
         else:
-            print(f"{folder / name.split(' ')[0]}" if " and " not in name else f"{folder / 'figure8.png'}, {folder / 'claims.png'}")
+            print(", ".join(str(folder / name) for name in names))
 
 
 if __name__ == "__main__":

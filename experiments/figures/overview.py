@@ -49,8 +49,10 @@ def mark_phases(panels: Any, log: HagfishLog) -> None:
         for axes in panels:
             axes.axvline(time[at], color=plots.GREY, lw=0.7, zorder=0.5)
         place = max(time[at], last)
-        panels[0].annotate(phase[at], (place, 1), xycoords=("data", "axes fraction"), xytext=(3, -3), textcoords="offset points", va="top", fontsize=7, color="white")
-        last = place + 0.06 * (time[-1] - time[0])
+        late = place > time[-1] - 0.05 * (time[-1] - time[0])
+        panels[0].annotate(phase[at], (time[-1] if late else place, 1), xycoords=("data", "axes fraction"), xytext=(-2 if late else 3, -3),
+                           textcoords="offset points", ha="right" if late else "left", va="top", fontsize=7, color="white")
+        last = place + 0.05 * (time[-1] - time[0])
 
 
 def draw_lines(axes: Any, time: np.ndarray, lines: dict[str, np.ndarray], label: str) -> None:

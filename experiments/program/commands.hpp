@@ -19,7 +19,11 @@ void add_info(Program& program);
 void add_check(Program& program);
 void add_export(Program& program);
 void add_view(Program& program);
+void add_figures(Program& program);
 void add_program(Program& program);
+void add_midlines(Program& program);
+void add_against(Program& program);
+void add_specimen(Program& program);
 
 /// Those that need MuJoCo, which come after; none where the program is built without it.
 std::vector<Registrar> mujoco_commands();

@@ -18,7 +18,7 @@ namespace hagfish {
 namespace {
 
 constexpr double pictures_a_second = 25;
-constexpr double rounding = 1e-6;             // of a number of pictures
+constexpr double rounding = 1e-6;               // of a number of pictures
 constexpr double gif_pictures_a_second = 12.5;  // what takes palettes by the frame is large
 // One shadow, from a map of half the size: a third of the time.
 constexpr PictureQuality film_quality{1, 2048};

@@ -50,6 +50,7 @@ constexpr const char* named_by_themselves[] = {"/checkpoints/step",
                                                "/mean/thigmotaxis/slack",
                                                "/mean/thigmotaxis/speed",
                                                "/model/bending_limit",
+                                               "/model/coordinate_name",
                                                "/model/dof_name",
                                                "/model/joint_name",
                                                "/model/length",
@@ -252,7 +253,8 @@ TEST_F(AuditCorruption, EachDatasetIsWatched) {
     if (path.starts_with("/mjcf/")) {
       continue;  // text: AuditTest.RefusesAModelThatIsNotTheScenes
     }
-    if (path == "/model/joint_name" || path == "/model/dof_name") {
+    if (path == "/model/joint_name" || path == "/model/dof_name" ||
+        path == "/model/coordinate_name") {
       continue;  // text: NamesThatAreNotTheModels
     }
     const auto watcher = watchers().find(path);
@@ -385,7 +387,7 @@ TEST_F(AuditCorruption, NamesThatAreNotTheModels) {
     set.write(names.data(), text);
     H5::DataSet::vlenReclaim(names.data(), text, set.getSpace());
   };
-  for (const char* path : {"/model/joint_name", "/model/dof_name"}) {
+  for (const char* path : {"/model/joint_name", "/model/dof_name", "/model/coordinate_name"}) {
     exchange_names(path);
     EXPECT_NE(objections().find(path), std::string::npos) << objections();
     exchange_names(path);

@@ -1,0 +1,45 @@
+"""How far a run is from a film, by time and along the body: draws what `hagfish against --csv` writes.
+
+Usage: against.py DISTANCES.csv OUT.png.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+import plots
+from script import run_script
+from tables import read_csv
+
+BINS = 50  # along the body
+
+
+def main(table: Path, out: Path) -> None:
+    rows = read_csv(table, ("time_s", "s_cm", "distance_cm"))
+    time, arc, off = (np.array([float(row[name]) for row in rows]) for name in ("time_s", "s_cm", "distance_cm"))
+    times, at = np.unique(time, return_inverse=True)
+    bounds = np.linspace(0, max(arc.max(), 1e-9), BINS + 1)
+    place = np.clip(np.searchsorted(bounds, arc, side="right") - 1, 0, BINS - 1)
+    sums, counts = np.zeros((times.size, BINS)), np.zeros((times.size, BINS))
+    np.add.at(sums, (at, place), off ** 2)
+    np.add.at(counts, (at, place), 1)
+    rms = lambda axis: np.sqrt(sums.sum(axis=axis) / np.maximum(counts.sum(axis=axis), 1))
+    middle = (bounds[1:] + bounds[:-1]) / 2
+    figure, (by_time, along, both) = plots.panels(3, 1, (7.5, 8), ["by time", "along the body", "by time and along the body"])
+    by_time.plot(times, rms(1), color=plots.BLUE)
+    by_time.set(xlabel="time, s", ylabel="distance, rms, cm", ylim=(0, None))
+    along.plot(middle[counts.sum(axis=0) > 0], rms(0)[counts.sum(axis=0) > 0], color=plots.BLUE)
+    along.set(xlabel="arc length, cm: head on the left, tail on the right", ylabel="distance, rms, cm", ylim=(0, None))
+    shown = np.ma.masked_where(counts == 0, np.sqrt(sums / np.maximum(counts, 1)))
+    edges = np.r_[times, 2 * times[-1] - times[-2]] if times.size > 1 else np.r_[times, times + 1]
+    image = both.pcolormesh(edges, bounds, shown.T, cmap="viridis", vmin=0, rasterized=True)
+    both.grid(visible=False)
+    both.set(xlabel="time, s", ylabel="cm from the head")
+    figure.colorbar(image, ax=both, label="distance, cm")
+    figure.savefig(out, dpi=plots.DPI)  # no PDF beside: the program asked for one file
+
+
+if __name__ == "__main__":
+    run_script(__doc__, ["DISTANCES.csv", "OUT.png"], main)

@@ -1,0 +1,199 @@
+#include "experiments/film/film.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <optional>
+#include <sstream>
+
+#include "core/input/input_error.hpp"
+#include "core/input/input_text.hpp"
+#include "core/input/regular_file.hpp"
+#include "core/log/hdf5_error.hpp"
+
+#define CSV_IO_NO_THREAD
+#include <libfccp/csv.h>
+
+namespace hagfish {
+namespace {
+
+constexpr std::size_t least_points = 5;
+constexpr std::uintmax_t most_bytes = std::uintmax_t{1} << 30;
+
+using Reader = io::CSVReader<5, io::trim_chars<' ', '\t'>, io::double_quote_escape<',', '"'>,
+                             io::throw_on_overflow, io::single_line_comment<'#'>>;
+
+/// A column of lengths: its name with its unit, and cm in one of it.
+struct LengthColumn {
+  std::string name;
+  double cm = 1;
+};
+
+class Heading {
+ public:
+  Heading(const std::string& text, std::string file, double pixels_per_cm)
+      : file_(std::move(file)), pixels_per_cm_(pixels_per_cm) {
+    std::istringstream lines(text);
+    std::string line;
+    while (std::getline(lines, line) && line.starts_with('#')) {
+    }
+    std::istringstream fields(line);
+    for (std::string field; std::getline(fields, field, ',');) {
+      field.erase(std::remove_if(field.begin(), field.end(),
+                                 [](char c) { return c == '"' || c == '\r' || c == ' '; }),
+                  field.end());
+      names_.push_back(field);
+    }
+  }
+  bool has(const std::string& name) const {
+    return std::ranges::find(names_, name) != names_.end();
+  }
+  [[noreturn]] void fail(const std::string& why) const { throw_input_error(file_ + ": " + why); }
+
+  /// `name` in one of the units of length; nothing where it is in none.
+  std::optional<LengthColumn> length(const std::string& name) const {
+    for (const auto& [unit, cm] : {std::pair{"cm", 1.0}, {"mm", 0.1}, {"m", 100.0}}) {
+      if (has(name + "_" + unit)) return LengthColumn{name + "_" + unit, cm};
+    }
+    if (has(name + "_px")) {
+      if (pixels_per_cm_ <= 0) fail(name + "_px: pixels need --scale, px/cm");
+      return LengthColumn{name + "_px", 1 / pixels_per_cm_};
+    }
+    if (has(name)) fail("column " + name + ": has no unit: " + name + "_cm, _mm, _m or _px");
+    return std::nullopt;
+  }
+  LengthColumn needed(const std::string& name) const {
+    const auto column = length(name);
+    if (!column) fail("no column " + name + "_cm (or _mm, _m, _px)");
+    return *column;
+  }
+
+ private:
+  std::string file_;
+  double pixels_per_cm_;
+  std::vector<std::string> names_;
+};
+
+std::string whole_text(const std::string& file) {
+  if (const std::string why = unreadable(file); !why.empty()) throw FileError(file + ": " + why);
+  std::error_code error;
+  if (std::filesystem::file_size(file, error) > most_bytes || error) {
+    throw FileError(file + ": larger than 1 GiB");
+  }
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  if (!stream) throw FileError(file + ": cannot be read");
+  return text.str();
+}
+
+/// Shares of the length: by s where there is one, else by the way along the points.
+/// Returns the length of the polygon, cm.
+double place_points(const Heading& heading, bool by_arc, FilmFrame& frame) {
+  const auto n = static_cast<std::size_t>(frame.point.cols());
+  const auto fail = [&](const std::string& why) {
+    heading.fail(fmt::format("time {:g} s: {}", frame.time, why));
+  };
+  if (n < least_points) fail(fmt::format("{} points; a midline needs {}", n, least_points));
+  for (std::size_t k = 1; k < n; ++k) {
+    if (!(frame.place[k] > frame.place[k - 1])) fail("points must rise from head to tail");
+  }
+  double way = 0;
+  std::vector<double> ways{0};
+  for (Eigen::Index k = 1; k < frame.point.cols(); ++k) {
+    ways.push_back(way += (frame.point.col(k) - frame.point.col(k - 1)).norm());
+  }
+  if (!(way > 0)) fail("all points are in one place");
+  if (!by_arc) {
+    for (std::size_t k = 0; k < n; ++k) frame.place[k] = ways[k] / way;
+  }
+  return way;
+}
+
+}  // namespace
+
+Film read_film(const std::string& file, double pixels_per_cm) {
+  const std::string text = whole_text(file);
+  const Heading heading(text, file, pixels_per_cm);
+  if (!heading.has("time_s")) heading.fail("no column time_s");
+  const auto arc = heading.length("s");
+  if (!arc && !heading.has("point")) heading.fail("no column s_cm or point");
+  const LengthColumn x = heading.needed("x"), y = heading.needed("y");
+  const auto z = heading.length("z");
+  const std::string order = arc ? arc->name : "point";
+  Film film;
+  film.planar = !z;
+  double longest = 0;
+  std::vector<std::vector<Eigen::Vector3d>> points;
+  try {
+    std::istringstream stream(text);
+    Reader reader(file, stream);
+    reader.read_header(io::ignore_extra_column | (z ? 0 : io::ignore_missing_column), "time_s",
+                       order, x.name, y.name, z ? z->name : "z_cm");
+    const std::string names[] = {"time_s", order, x.name, y.name, z ? z->name : "z_cm"};
+    char zero[] = "0";
+    char* field[5] = {zero, zero, zero, zero, zero};
+    while (reader.read_row(field[0], field[1], field[2], field[3], field[4])) {
+      double number[5];
+      for (int i = 0; i < 5; ++i) {
+        const char* end = field[i] + std::strlen(field[i]);
+        const auto read = std::from_chars(field[i], end, number[i]);
+        if (read.ec != std::errc() || read.ptr != end || !std::isfinite(number[i])) {
+          throw_input_error(fmt::format("{}:{}: {} = {}: must be a number", file,
+                                        reader.get_file_line(), names[i], shortened(field[i])));
+        }
+      }
+      if (film.frames.empty() || number[0] != film.frames.back().time) {
+        if (!film.frames.empty() && number[0] < film.frames.back().time) {
+          throw_input_error(fmt::format("{}:{}: times must rise", file, reader.get_file_line()));
+        }
+        film.frames.push_back({number[0], {}, {}});
+        points.emplace_back();
+      }
+      film.frames.back().place.push_back(number[1]);
+      points.back().emplace_back(x.cm * number[2], y.cm * number[3], z ? z->cm * number[4] : 0);
+      longest = std::max(longest, number[1]);
+    }
+  } catch (const io::error::base& error) {
+    throw_input_error(file + ": " + error.what());
+  }
+  if (film.frames.size() < 2) heading.fail("midlines of two times or more are needed");
+  for (std::size_t f = 0; f < film.frames.size(); ++f) {
+    FilmFrame& frame = film.frames[f];
+    frame.point.resize(3, static_cast<Eigen::Index>(points[f].size()));
+    for (std::size_t k = 0; k < points[f].size(); ++k) {
+      frame.point.col(static_cast<Eigen::Index>(k)) = points[f][k];
+    }
+    const double way = place_points(heading, arc.has_value(), frame);
+    film.length = std::max(film.length, arc ? arc->cm * longest : way);
+    if (!arc) continue;
+    if (frame.place[0] < 0) heading.fail(arc->name + " is below 0");
+    for (double& place : frame.place) place /= longest;
+  }
+  return film;
+}
+
+Eigen::Vector3d point_on(const Model& model, const Kinematics& kin, double place) {
+  const double at = place * model.body_count();
+  const int body = std::clamp(static_cast<int>(at), 0, model.body_count() - 1);
+  return kin.origin.col(body) + (at - body) * model.bodies[body].length * kin.rotation[body].col(0);
+}
+
+RigidMotion nearest_motion(const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to) {
+  const Eigen::Vector3d a = from.rowwise().mean(), b = to.rowwise().mean();
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd((to.colwise() - b) * (from.colwise() - a).transpose(),
+                                              Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::Vector3d sign = Eigen::Vector3d::Ones();
+  sign[2] = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
+  RigidMotion motion;
+  motion.rotation = svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose();
+  motion.shift = b - motion.rotation * a;
+  return motion;
+}
+
+}  // namespace hagfish

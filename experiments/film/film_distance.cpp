@@ -1,0 +1,89 @@
+#include "experiments/film/film_distance.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/input/input_error.hpp"
+
+namespace hagfish {
+namespace {
+
+/// Of times, in frames of the log: a film made from a log has its times rounded.
+constexpr double rounding = 1e-6;
+
+/// The log's points at the places of a film's frame.
+Eigen::Matrix3Xd points_at(const LogContents& log, std::size_t frame, const FilmFrame& film) {
+  Kinematics kin;
+  update_positions(log.model, log.q.row(static_cast<Eigen::Index>(frame)).transpose(), kin);
+  Eigen::Matrix3Xd points(3, film.point.cols());
+  for (Eigen::Index k = 0; k < points.cols(); ++k) {
+    points.col(k) = point_on(log.model, kin, film.place[k]);
+  }
+  return points;
+}
+
+}  // namespace
+
+double FilmDistance::rms() const {
+  double sum = 0, count = 0;
+  for (const std::vector<double>& frame : off) {
+    for (const double x : frame) sum += x * x;
+    count += static_cast<double>(frame.size());
+  }
+  return std::sqrt(sum / count);
+}
+
+std::vector<double> FilmDistance::rms_by_time() const {
+  std::vector<double> rms;
+  for (const std::vector<double>& frame : off) {
+    double sum = 0;
+    for (const double x : frame) sum += x * x;
+    rms.push_back(std::sqrt(sum / static_cast<double>(frame.size())));
+  }
+  return rms;
+}
+
+FilmDistance film_distance(const LogContents& log, const Film& film, bool aligned) {
+  std::vector<const FilmFrame*> common;
+  std::vector<Eigen::Matrix3Xd> own;
+  Eigen::Index count = 0;
+  const double begin = log.time.front(), end = log.time.back();
+  const double little = rounding * log.resolved.scene.time.frame_interval;
+  for (const FilmFrame& frame : film.frames) {
+    if (frame.time < begin - little || frame.time > end + little) continue;
+    const auto after = static_cast<std::size_t>(
+        std::ranges::lower_bound(log.time, frame.time - little) - log.time.begin());
+    const std::size_t b = std::min(after, log.time.size() - 1);
+    Eigen::Matrix3Xd points = points_at(log, b, frame);
+    if (b > 0 && log.time[b] > frame.time + little) {
+      const double share = (log.time[b] - frame.time) / (log.time[b] - log.time[b - 1]);
+      points = ((1 - share) * points + share * points_at(log, b - 1, frame)).eval();
+    }
+    common.push_back(&frame);
+    own.push_back(points);
+    count += points.cols();
+  }
+  if (common.empty()) {
+    throw InputError(log.h5.file() + ": the film has no time of the log's");
+  }
+  Eigen::Matrix3Xd from(3, count), to(3, count);
+  Eigen::Index at = 0;
+  for (std::size_t f = 0; f < common.size(); ++f) {
+    from.middleCols(at, own[f].cols()) = common[f]->point;
+    to.middleCols(at, own[f].cols()) = own[f];
+    at += own[f].cols();
+  }
+  const RigidMotion motion = aligned ? nearest_motion(from, to) : RigidMotion{};
+  FilmDistance distance;
+  const double length = log.model.length();
+  for (std::size_t f = 0; f < common.size(); ++f) {
+    distance.time.push_back(common[f]->time);
+    const Eigen::RowVectorXd off = (own[f] - motion.of(common[f]->point)).colwise().norm();
+    distance.off.emplace_back(off.begin(), off.end());
+    std::vector<double>& arc = distance.arc.emplace_back();
+    for (const double place : common[f]->place) arc.push_back(place * length);
+  }
+  return distance;
+}
+
+}  // namespace hagfish

@@ -1,0 +1,68 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "experiments/film/film_distance.hpp"
+#include "experiments/program/commands.hpp"
+#include "experiments/program/csv.hpp"
+#include "experiments/program/scripts.hpp"
+#include "experiments/program/text_file.hpp"
+
+namespace hagfish {
+namespace {
+
+struct AgainstOptions {
+  std::string log, film, csv, png;
+  double scale = 0;  ///< of pixels, px/cm
+  bool as_is = false, force = false;
+};
+
+CsvTable table_of(const FilmDistance& distance) {
+  CsvTable table{{"time_s", "s_cm", "distance_cm"}};
+  for (std::size_t f = 0; f < distance.time.size(); ++f) {
+    for (std::size_t k = 0; k < distance.off[f].size(); ++k) {
+      table.push_back({fmt::format("{:.9g}", distance.time[f]),
+                       fmt::format("{:.6g}", distance.arc[f][k]),
+                       fmt::format("{:.6g}", distance.off[f][k])});
+    }
+  }
+  return table;
+}
+
+int against(const AgainstOptions& options) {
+  std::optional<TextFile> csv;
+  if (!options.csv.empty()) csv.emplace(options.csv, options.force);
+  const LogContents log(options.log);
+  const Film film = read_film(options.film, options.scale);
+  const FilmDistance distance = film_distance(log, film, !options.as_is);
+  const std::vector<double> by_time = distance.rms_by_time();
+  const auto worst = std::ranges::max_element(by_time) - by_time.begin();
+  fmt::print("{}: {:.3g} cm from {} (rms of {} midlines{}); the worst, at {:g} s, {:.3g} cm\n",
+             options.log, distance.rms(), options.film, by_time.size(),
+             options.as_is ? "" : ", the film moved as a whole", distance.time[worst],
+             by_time[worst]);
+  const std::string text = csv_text(table_of(distance));
+  if (!options.png.empty()) draw_from_text("against.py", text, options.png, options.force);
+  if (csv) csv->write(text);
+  return exit_code::done;
+}
+
+}  // namespace
+
+void add_against(Program& program) {
+  const auto options = std::make_shared<AgainstOptions>();
+  CLI::App* app = program.app.add_subcommand(
+      "against", "say how far a run is from midlines digitised from a film");
+  app->add_option("LOG", options->log, "log file")->required();
+  app->add_option("CSV", options->film, "midlines, as `hagfish midlines` takes them")->required();
+  app->add_option("--scale", options->scale, "pixels in a cm, for columns in px")
+      ->check(CLI::PositiveNumber);
+  app->add_flag("--as-is", options->as_is, "the film's axes are the log's: do not move it");
+  app->add_option("--csv", options->csv, "file for every distance: time, arc length, distance");
+  app->add_option("--png", options->png, "figure: distance by time and along the body");
+  app->add_flag("--force", options->force, force_help);
+  app->callback([options, &program] { program.code = against(*options); });
+}
+
+}  // namespace hagfish

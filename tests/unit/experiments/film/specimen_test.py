@@ -1,0 +1,62 @@
+"""`hagfish specimen`: an animal from what was measured, and a scene in which it ties its knot."""
+
+from __future__ import annotations
+
+import sys
+import tomllib
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(Path(__file__).parents[3] / "support"))
+
+from program import hagfish, refused, table  # noqa: E402
+
+ANIMAL = ["--length", 35, "--mass", 45, "--circumference", "4.6,4.4,4.4,3.2", "--bending", "25,80,50,55", "--twist", 60]
+
+
+def test_it_writes_what_was_measured_and_works_out_the_rest(tmp_path):
+    said = hagfish(tmp_path, "specimen", *ANIMAL, "--out", "mine.toml", "--name", 'a "good" one')
+    with (tmp_path / "mine.toml").open("rb") as file:
+        mine = tomllib.load(file)
+    assert mine["name"] == 'a "good" one'
+    assert (mine["length"], mine["mass"], mine["twist_limit_deg"]) == (35, 45, 60)
+    assert mine["circumference"] == [4.6, 4.4, 4.4, 3.2] and mine["bending_limit_deg"] == [25, 80, 50, 55]
+    assert mine["bending_span"] == pytest.approx(2 * 35 / 100)
+    # Round cross-sections, linear between stations and constant outside.
+    s = (np.arange(1000) + 0.5) / 1000
+    around = np.interp(s, mine["station"], mine["circumference"])
+    assert f"{45 / np.mean(around ** 2 / (4 * np.pi) * 35):.3g} g/cm^3" in said
+    assert "plausible" in said and "ODD" not in said
+
+
+def test_what_is_odd_is_said(tmp_path):
+    said = hagfish(tmp_path, "specimen", "--length", 35, "--mass", 450, "--circumference", "14,14", "--bending", "25,95",
+                   "--station", "0.3,0.7", "--twist", 60, "--out", "odd.toml")
+    assert "slenderness" in said and said.count("ODD") == 2
+    assert "95 degrees at 0.7 L: a joint bends by 85 at most" in said
+
+
+def test_bad_measures_are_one_line(tmp_path):
+    at = lambda k, value: [*ANIMAL[:k], value, *ANIMAL[k + 1:], "--out", "x.toml"]
+    refused(tmp_path, "specimen", *at(1, -3), parts=("--length",))
+    refused(tmp_path, "specimen", *at(5, "4.6,4.4"), parts=("--circumference", "2 values for 4"))
+    refused(tmp_path, "specimen", *at(7, "25,80,50,0"), parts=("--bending 0",))
+    refused(tmp_path, "specimen", *ANIMAL, "--station", "0.2,0.4,0.3,0.8", "--out", "x.toml", parts=("--station 0.3",))
+    refused(tmp_path, "specimen", *ANIMAL, "--out", "/no/folder/x.toml", parts=("/no/folder/x.toml",))
+
+
+def test_its_scene_ties_the_knot_and_judges_by_its_size(tmp_path):
+    hagfish(tmp_path, "specimen", *ANIMAL, "--out", "mine.toml", "--scene-out", "knot.toml", "--name", "mine")
+    hagfish(tmp_path, "run", "knot.toml", "--quiet", "--out", "a.h5")
+    log = h5py.File(tmp_path / "a.h5")
+    assert log.attrs["status"] == "complete" and 3 in log["knot/determinant"][()]
+    scene = tomllib.loads(log.attrs["scene"])
+    assert scene["expect"]["slide_distance"] == pytest.approx(0.2 * 35)
+    hagfish(tmp_path, "check", "a.h5")
+    hagfish(tmp_path, "export", "a.h5", "--out", "a")
+    summary = table(tmp_path / "a/summary.csv")
+    assert summary["specimen"][0] == "mine" and summary["length_cm"][0] == 35
