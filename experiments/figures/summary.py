@@ -83,8 +83,13 @@ def limits(log: HagfishLog, kind: str) -> tuple[np.ndarray, np.ndarray]:
     return log.joint_arc()[joint[own]], np.degrees(log["/model/limit_upper"][dof[own]])
 
 
+def is_the_paper_s(log: HagfishLog) -> bool:
+    """Whether the animal is the one of the paper's Table 1, by length and mass."""
+    return all(setting(log, "specimen", key) == float(PAPER_SPECIMEN[key][1]) for key in ("length", "mass"))
+
+
 def table_one(log: HagfishLog) -> list[str]:
-    """Specimen values and speeds: the paper's, the scene's, and what the run measured."""
+    """Specimen values and speeds: the scene's and what the run measured, and the paper's where it is of this animal."""
     rows = []
     for key, (name, paper, unit) in PAPER_SPECIMEN.items():
         measured = {"length": log["/model/length"].sum(), "mass": log["/model/mass"].sum()}.get(key)
@@ -104,7 +109,11 @@ def table_one(log: HagfishLog) -> list[str]:
         median = figures(np.round(np.median(speed, axis=0), 3)) if len(speed) else "no frames"
         rows.append([f"v_a, v_b ({'tightening' if phase == 'tighten' else 'sliding'}, {end})", figures(paper_speeds),
                      figures(commanded(log, phase)[columns]), median, "cm/s"])
-    return ["## Table 1", "", *markdown(["Data", "Paper", "Scene", f"Model, or median of means over {interval(log)}", "Units"], rows)]
+    heading = ["Data", "Paper", "Scene", f"Model, or median of means over {interval(log)}", "Units"]
+    if is_the_paper_s(log):
+        return ["## Table 1", "", *markdown(heading, rows)]
+    name = log.scene()["specimen"].get("name", "the animal")
+    return [f"## {name}", "", *markdown([heading[0], *heading[2:]], [[row[0], *row[2:]] for row in rows])]
 
 
 def knot_types(log: HagfishLog, frames: np.ndarray) -> dict[str, int]:

@@ -64,3 +64,14 @@ def test_a_page_of_a_whole_run_and_of_one_that_never_tied(content, log, tmp_path
     content.data["trajectory/phase"][:] = 0
     summary.main(log().path, check, page)
     assert "| slide | not reached |" in page.read_text()
+
+
+def test_only_the_paper_s_animal_is_held_against_the_paper(content, log):
+    assert summary.table_one(log())[0] == "## the animal"
+    assert not any("42.4" in line or "Paper" in line for line in summary.table_one(log()))
+    scene = content.attributes["scene"]
+    content.attributes["scene"] = scene.replace("length = 41.0", 'name = "mine"\nlength = 35.0')
+    assert summary.table_one(log())[0] == "## mine"
+    content.attributes["scene"] = scene.replace("length = 41.0", "length = 42.4")
+    assert summary.table_one(log())[0] == "## Table 1"
+    assert any("| Paper |" in line for line in summary.table_one(log()))
