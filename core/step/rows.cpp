@@ -248,7 +248,7 @@ void append_thigmotaxis_rows(const Model& model, const std::vector<ThigmotaxisCo
                              std::vector<Row>& rows) {
   const double gain = settings.acceleration * h;
   for (std::size_t place = 0; place < commands.size(); ++place) {
-    const auto& [contact, speed, towards] = commands[place];
+    const auto& [contact, speed, towards, effort] = commands[place];
     const double sense = towards == BodyEnd::head ? 1 : -1;
     for (const bool along_a : {true, false}) {
       // Eq. 6: t_a' (ẋ_a - ẋ_b) >= v_a and t_b' (ẋ_b - ẋ_a) >= v_b.
@@ -259,7 +259,7 @@ void append_thigmotaxis_rows(const Model& model, const std::vector<ThigmotaxisCo
       set_points(row, contact, on_a, model.body_count());
       const double now = relative_velocity(row, centre_velocity);
       row.rhs = std::min(along_a ? speed.a : speed.b, now + gain);
-      row.upper = settings.cap * h;  // the soft row: its L1 slack is this bound's dual
+      row.upper = effort * settings.cap * h;  // the soft row: its L1 slack is this bound's dual
     }
   }
 }

@@ -67,6 +67,9 @@ void expect_whole(const ResolvedScene& resolved) {
     phases.insert(phases.begin() + 3, Phase::reverse);
     EXPECT_GE(seen.tail_end_at_release, 40);  // of 42.4 cm
   }
+  if (resolved.scene.food.hold > 0) {
+    phases.insert(phases.begin() + 3, Phase::pull);
+  }
   EXPECT_EQ(seen.phases, phases);
   EXPECT_TRUE(seen.held);
   EXPECT_EQ(seen.last_type, KnotInvariants{});
@@ -93,6 +96,14 @@ INSTANTIATE_TEST_SUITE_P(BuiltIn, KnotScenes,
                                          "living_double_overhand", "living_three_twist",
                                          "living_overhand_free", "living_figure_eight_free",
                                          "living_double_overhand_free", "living_three_twist_free"),
+                         scene_name);
+
+INSTANTIATE_TEST_SUITE_P(Pull, KnotScenes,
+                         testing::Values("pull_overhand", "pull_figure_eight",
+                                         "pull_double_overhand", "pull_three_twist",
+                                         "pull_living_overhand", "pull_living_figure_eight",
+                                         "pull_living_double_overhand", "pull_living_three_twist",
+                                         "pull_morsel"),
                          scene_name);
 
 TEST(KnotScenesWithCones, TieHoldSlideAndComeOff) {
