@@ -167,6 +167,18 @@ void controller_fields(Io& io, ControllerSettings& s) {
 }
 
 template <class Io>
+void food_fields(Io& io, FoodSettings& s) {
+  io.number("hold", s.hold, not_negative());
+  io.number("strength", s.strength, positive());
+  io.number("average", s.average, positive());
+  io.table("cap", [&s](Io& table) {
+    table.number("from", s.cap.from, not_negative());
+    table.number("to", s.cap.to, not_negative());
+    table.number("time", s.cap.time, not_negative());
+  });
+}
+
+template <class Io>
 void knot_fields(Io& io, KnotSettings& s) {
   io.integer("votes", s.votes, within(1, 10000));
   io.integer("seed", s.seed, any_number());
@@ -183,9 +195,10 @@ void time_fields(Io& io, TimeSettings& s) {
   io.number("frame_interval", s.frame_interval, positive());
   io.number("checkpoint_interval", s.checkpoint_interval, positive());
   io.number("duration", s.duration, positive());
-  io.template choice<Phase>("until", s.until,
-                            {named(Phase::form), named(Phase::tighten), named(Phase::slide),
-                             named(Phase::reverse), named(Phase::release), named(Phase::free)});
+  io.template choice<Phase>(
+      "until", s.until,
+      {named(Phase::form), named(Phase::tighten), named(Phase::slide), named(Phase::pull),
+       named(Phase::reverse), named(Phase::release), named(Phase::free)});
 }
 
 template <class Io>
@@ -219,6 +232,10 @@ void expect_fields(Io& io, ExpectSettings& s) {
                            {{"any", Hand::any}, {"right", Hand::right}, {"left", Hand::left}});
   io.length("slide_distance", s.slide_distance, not_negative());
   io.length("reverse_distance", s.reverse_distance, not_negative());
+  io.number("pull", s.pull, not_negative());
+  io.number("pull_settled", s.pull_settled, not_negative());
+  io.number("pull_drift", s.pull_drift, not_negative());
+  io.number("pull_balance", s.pull_balance, not_negative());
   io.number("speed_share", s.speed_share, within(0, 1));
   io.number("penetration", s.penetration, not_negative());
   io.angle("limit_violation", s.limit_violation, not_negative());
@@ -255,6 +272,7 @@ void scene_fields(Io& io, Scene& s, ScriptFile& script) {
   io.table("script", [&](Io& t) { script_fields(t, script); });
   io.table("active", [&](Io& t) { active_fields(t, s.active); });
   io.table("controller", [&](Io& t) { controller_fields(t, s.controller); });
+  io.table("food", [&](Io& t) { food_fields(t, s.food); });
   io.table("knot", [&](Io& t) { knot_fields(t, s.knot); });
   io.table("time", [&](Io& t) { time_fields(t, s.time); });
   io.table("guard", [&](Io& t) { guard_fields(t, s.guard); });

@@ -243,6 +243,28 @@ void check_active(const TableReader& root, const Scene& scene) {
   }
 }
 
+void check_food(const TableReader& root, const Scene& scene) {
+  const FoodSettings& food = scene.food;
+  if (food.hold == 0) return;
+  const Phase free_from = scene.controller.free_from;
+  if (!scene.clamp_head)
+    root.fail("food.hold", "no food holds a head that is not clamped (clamp_head)");
+  if (phase_order(free_from) <= phase_order(Phase::pull)) {
+    root.fail("food.hold", "no food holds a head that is free from \"" +
+                               std::string(phase_name(free_from)) + "\" on (controller.free_from)");
+  }
+  if (!scene.wall.present) {
+    root.fail("food.hold", "without a head plate (wall.present) the knot presses against nothing");
+  }
+  if (scene.controller.leave_by == BodyEnd::tail) {
+    root.fail("food.hold", "a knot that pulls cannot turn back (controller.leave_by)");
+  }
+  if (food.cap.from == 0) root.fail("food.cap.from", "must be positive where there is food");
+  if (food.cap.to < food.cap.from) {
+    root.fail("food.cap.to", "must not be less than food.cap.from, " + shortest(food.cap.from));
+  }
+}
+
 void check_times(const TableReader& root, const TimeSettings& time) {
   const std::string step = "must not be less than time.step, " + shortest(time.step);
   if (time.frame_interval < time.step) root.fail("time.frame_interval", step);
@@ -326,6 +348,7 @@ ResolvedScene read(SceneSource source, const std::vector<std::string>& overrides
   check_start(root, result);
   check_passive(root, result);
   check_active(root, result.scene);
+  check_food(root, result.scene);
   check_times(root, result.scene.time);
   check_expectations(root, result.scene);
   return result;

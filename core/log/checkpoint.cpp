@@ -18,7 +18,7 @@ namespace hagfish {
 namespace {
 
 /// Of the bytes' layout; raised with every change of what they hold.
-constexpr int layout = 2;
+constexpr int layout = 3;
 /// No list of a run is longer; a damaged count must not ask for all memory.
 constexpr std::uint64_t most_entries = 1000000;
 
@@ -150,10 +150,16 @@ void serialize(Archive& archive, TrackedContact& tracked) {
 }
 
 template <class Archive>
+void serialize(Archive& archive, PullSum& pull) {
+  auto& [sum, steps] = pull;
+  archive(sum, steps);
+}
+
+template <class Archive>
 void serialize(Archive& archive, ControllerState& controller) {
-  auto& [phase, phase_start, loose, knot, knot_seen, knot_from, past, lost, first, last,
+  auto& [phase, phase_start, loose, knot, knot_seen, knot_from, past, lost, first, last, pull,
          rest_shape] = controller;
-  archive(phase, phase_start, loose, knot, knot_seen, knot_from, past, lost, first, last,
+  archive(phase, phase_start, loose, knot, knot_seen, knot_from, past, lost, first, last, pull,
           rest_shape);
 }
 
@@ -196,8 +202,8 @@ void serialize(Archive& archive, ConstraintForces& force) {
 
 template <class Archive>
 void serialize(Archive& archive, FrameMeans& means) {
-  auto& [force, active_torque, net_force, lambda, speed, slack] = means;
-  archive(force, active_torque, net_force, lambda, speed, slack);
+  auto& [force, active_torque, net_force, lambda, speed, slack, pulls] = means;
+  archive(force, active_torque, net_force, lambda, speed, slack, pulls);
 }
 
 template <class Archive>

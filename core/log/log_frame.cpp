@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/log/pull_figures.hpp"
+
 namespace hagfish {
 namespace {
 
@@ -36,6 +38,11 @@ std::array<int, 2> bodies(const Frame& frame, int (Contact::*body)() const) {
     pair[k] = (frame.record.control.thigmotaxis[k].contact.*body)();
   }
   return pair;
+}
+
+PullFigures pull_figures_of(const Frame& frame) {
+  const bool pulls = frame.mean.pulls && frame.record.controller.phase == Phase::pull;
+  return pulls ? pull_figures(frame.mean) : PullFigures{};
 }
 
 /// Spline parameters of the contacts that the controller follows, [first, last].
@@ -186,6 +193,8 @@ void declare_thigmotaxis(LogTable<Frame>& t) {
   t.numbers(
       "/thigmotaxis/slack", {4}, {"cm/s", order + "shortfall of the command, nan where no row"},
       [](const Frame& f) -> const auto& { return f.thigmotaxis.slack; });
+  t.number("/thigmotaxis/cap", {"dyn", "largest multiplier over h of a row; nan where no row"},
+           [](const Frame& f) { return f.thigmotaxis.cap; });
 }
 
 /// /mean: what stands in the snapshots' groups, as means.
@@ -218,6 +227,30 @@ void declare_means(const Model& model, LogTable<Frame>& t) {
   row("speed", "cm/s", "left side of Eq. 6 where there was a row, else nan", &FrameMeans::speed);
   row("slack", "cm/s", "shortfall of the command where there was a row, else nan",
       &FrameMeans::slack);
+}
+
+/// /pull: what the head's pull at food comes to, of the means above.
+void declare_pull(LogTable<Frame>& t) {
+  const std::string when =
+      ", mean over the steps since the frame before; nan unless this frame and that one are of the "
+      "pull";
+  const auto number = [&](const char* name, const char* unit, const char* description,
+                          double PullFigures::*member) {
+    t.number(std::string("/pull/") + name, {unit, description + when},
+             [member](const Frame& f) { return pull_figures_of(f).*member; });
+  };
+  number("force", "dyn", "pull of the head at the food: the head clamp's force, along -x",
+         &PullFigures::force);
+  number("plate", "dyn", "force of the head plate on the knot, along +x", &PullFigures::plate);
+  t.numbers("/pull/bearing", {2},
+            {"cm", "y and z of the point of the head plate at which its force acts" + when},
+            [](const Frame& f) { return pull_figures_of(f).bearing; });
+  number("torque", "dyn·cm", "largest torque of a hinge, active and f_thigmo",
+         &PullFigures::torque);
+  number("advantage_rows", "1", "pull over the sum of the multipliers over h of the rows of Eq. 6",
+         &PullFigures::advantage_rows);
+  number("advantage_torque", "1/cm", "pull over the largest torque of a hinge",
+         &PullFigures::advantage_torque);
 }
 
 void declare_diagnostics(LogTable<Frame>& t) {
@@ -321,6 +354,7 @@ LogTable<Frame> frame_table(const Model& model, TimeRule rule) {
   declare_forces(model, table);
   declare_thigmotaxis(table);
   declare_means(model, table);
+  declare_pull(table);
   declare_diagnostics(table);
   declare_energy(table);
   declare_momentum(table);

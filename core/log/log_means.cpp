@@ -27,12 +27,14 @@ void RunningMeans::clear() {
   sum_.lambda = {};
   sum_.speed = {};
   sum_.slack = {};
+  sum_.pulls = false;
   with_row_ = {};
   steps_ = 0;
 }
 
 void RunningMeans::take(const StepRecord& record, const ThigmotaxisRows& rows) {
   const StepSolution& step = record.solution;
+  sum_.pulls = steps_ == 0 ? record.controller.phase == Phase::pull : sum_.pulls;
   ++steps_;
   for (const RowKind kind : row_kinds) {
     sum_.force[kind] += step.force[kind];

@@ -45,6 +45,7 @@ ThigmotaxisRows thigmotaxis_rows_of(const Control& control, const StepSolution& 
     rows.speed[place] = solution.excess[index] + row.rhs;
     rows.slack[place] = std::max(rows.command[place] - rows.speed[place], 0.0);
     rows.met = rows.met && meets_command(rows.slack[place], rows.command[place]);
+    rows.cap = row.upper / h;
     rows.any = true;
   }
   rows.met = rows.met && rows.any;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 
 #include "core/step/step.hpp"
 
@@ -16,6 +17,7 @@ struct ThigmotaxisRows {
   /// Shortfall of the command, whether by controller.cap or controller.acceleration, cm/s; nan
   /// where no row.
   std::array<double, 4> slack{};
+  double cap = std::numeric_limits<double>::quiet_NaN();  ///< of their λ / h, dyn; nan: no row
   bool any = false;
   bool met = false;  ///< all rows at their commanded speed without slack
 };

@@ -151,7 +151,12 @@ void switch_by_span(const Model& model, const Scene& scene, double time,
     enter(controller, Phase::slide, time);
   }
   if (controller.phase == Phase::slide && span && span->head_end <= settings.release_at) {
-    enter(controller, settings.leave_by == BodyEnd::head ? Phase::release : Phase::reverse, time);
+    enter(controller,
+          scene.food.hold > 0                  ? Phase::pull
+          : settings.leave_by == BodyEnd::head ? Phase::release
+                                               : Phase::reverse,
+          time);
+    controller.pull = {};
   }
   if (controller.phase == Phase::reverse && span &&
       model.length() - span->tail_end <= settings.release_at) {
@@ -159,13 +164,31 @@ void switch_by_span(const Model& model, const Scene& scene, double time,
   }
 }
 
+/// The food gives where a mean of the pull passes its strength. Means end at whole multiples of
+/// their time; the first one counts once it is of the pull alone.
+bool food_gives(const Scene& scene, double time, PullSum& pull) {
+  const double h = scene.time.step;
+  const double window = std::max(1.0, std::round(scene.food.average / h));  // in steps
+  if (std::fmod(std::round(time / h), window) != 0) {
+    return false;
+  }
+  const bool gives =
+      pull.steps == window && pull.sum > scene.food.strength * dyn_per_newton * pull.steps;
+  pull = {};
+  return gives;
+}
+
 /// Commanded speeds at the first and the last contact.
-void command_speeds(const ControllerSettings& settings, const ControllerState& controller,
+void command_speeds(const Scene& scene, double time, const ControllerState& controller,
                     std::vector<ThigmotaxisCommand>& commands) {
+  const ControllerSettings& settings = scene.controller;
+  const double effort = controller.phase == Phase::pull
+                            ? scene.food.cap.at(time - controller.phase_start) / settings.cap
+                            : 1;
   const auto command = [&](const ThigmotaxisSpeeds& first, const ThigmotaxisSpeeds& last,
                            BodyEnd towards) {
-    commands.push_back({*controller.first.contact, first, towards});
-    commands.push_back({*controller.last.contact, last, towards});
+    commands.push_back({*controller.first.contact, first, towards, effort});
+    commands.push_back({*controller.last.contact, last, towards, effort});
   };
   const bool back = controller.phase == Phase::reverse ||
                     (controller.phase == Phase::release && settings.leave_by == BodyEnd::tail);
@@ -191,6 +214,13 @@ bool clamps_head(const Scene& scene, Phase phase) {
   return scene.clamp_head && phase_order(phase) < phase_order(scene.controller.free_from);
 }
 
+void note_pull(const StepSolution& step, ControllerState& controller) {
+  if (controller.phase == Phase::pull) {
+    controller.pull.sum += pull_of(step.force[RowKind::head]);
+    ++controller.pull.steps;
+  }
+}
+
 Status decide(const Model& model, const Scene& scene, const Moment& now, double time,
               ControllerState& controller, Control& control) {
   const Observation& observation = now.observation;
@@ -204,6 +234,12 @@ Status decide(const Model& model, const Scene& scene, const Moment& now, double 
     }
   }
   switch_by_span(model, scene, time, controller);
+  // Half a step of slack, as above.
+  if (controller.phase == Phase::pull &&
+      (food_gives(scene, time, controller.pull) ||
+       time + 0.5 * scene.time.step >= controller.phase_start + scene.food.hold)) {
+    enter(controller, Phase::release, time);
+  }
 
   control.tip = {};
   control.active = {};
@@ -215,7 +251,7 @@ Status decide(const Model& model, const Scene& scene, const Moment& now, double 
     control.tip = script_force(scene.script, time, scene.time, kin.centre.col(last),
                                kin.centre_velocity.col(last));
   } else if (controller.phase != Phase::free && controller.first.contact) {
-    command_speeds(scene.controller, controller, control.thigmotaxis);
+    command_speeds(scene, time, controller, control.thigmotaxis);
   }
   if (scene.script.kind == ScriptSettings::Kind::curvature) {
     const Eigen::VectorXd& q = now.state.q;

@@ -27,6 +27,12 @@ struct PastKnot {
   double from = 0, to = 0;
 };
 
+/// The pull at the food since a mean of it was last taken.
+struct PullSum {
+  double sum = 0;  ///< of the steps' pulls, dyn
+  int steps = 0;
+};
+
 struct ControllerState {
   Phase phase = Phase::form;
   double phase_start = 0;  ///< s
@@ -37,6 +43,7 @@ struct ControllerState {
   PastKnot past;     ///< the last one before it; an unknot where there was none
   std::string lost;  ///< where the scene only warns: how the knot was lost; empty before that
   TrackedContact first, last;
+  PullSum pull;
   /// Angles that the muscles pull the hinges to, rad, nv, 0 at the root; empty where no curvature
   /// program bends the animal.
   Eigen::VectorXd rest_shape;
@@ -50,6 +57,13 @@ std::optional<KnotSpan> knot_span(const ControllerState& controller);
 
 /// Whether the head is clamped in a phase.
 bool clamps_head(const Scene& scene, Phase phase);
+
+/// How hard the head pulls at what clamps it, away from it along +x, by the head clamp's
+/// generalised force (nv), dyn.
+inline double pull_of(const Eigen::VectorXd& head) { return -head[0]; }
+
+/// Adds the pull of a step as solved, where the knot pulls.
+void note_pull(const StepSolution& step, ControllerState& controller);
 
 /// Follows the contacts, switches phases and says what the step from `time` shall do. Not ok
 /// (never_tied) where the script ends without the scene's knot, or with too little tail through it,

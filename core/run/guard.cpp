@@ -174,7 +174,7 @@ Status guard_energy(const Model& model, const Scene& scene, Moment& moment, Ener
   return status;
 }
 
-void guard_cap(const Model& model, const Kinematics& kin, const Scene& scene,
+void guard_cap(const Model& model, const Kinematics& kin, const Scene& scene, Phase phase,
                const StepSolution& step, double time, Watch& watch,
                std::vector<std::string>& warnings) {
   std::vector<double>& below = watch.below_cap;
@@ -185,7 +185,7 @@ void guard_cap(const Model& model, const Kinematics& kin, const Scene& scene,
   }
   for (std::size_t place = 0; place < below.size(); ++place) {
     const auto at_cap = [&](const Row& row) {
-      return row.kind == RowKind::thigmotaxis && place_of(row) == place &&
+      return phase != Phase::pull && row.kind == RowKind::thigmotaxis && place_of(row) == place &&
              step.lambda[&row - step.rows.data()] >= row.upper;
     };
     const auto found = std::ranges::find_if(step.rows, at_cap);

@@ -40,8 +40,9 @@ Status guard_energy(const Model& model, const Scene& scene, Moment& moment, Ener
                     Watch& watch, std::vector<std::string>& warnings);
 
 /// A thigmotaxis row whose force has been at its cap for longer than the scene permits: warns and
-/// names the rows that resist it most. `kin` is that of the step's start.
-void guard_cap(const Model& model, const Kinematics& kin, const Scene& scene,
+/// names the rows that resist it most; not in the phase `pull`, where rows give all they may. `kin`
+/// is that of the step's start.
+void guard_cap(const Model& model, const Kinematics& kin, const Scene& scene, Phase phase,
                const StepSolution& step, double time, Watch& watch,
                std::vector<std::string>& warnings);
 

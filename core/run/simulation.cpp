@@ -54,9 +54,11 @@ class Attempt {
     }
     const double travelled = looks_ahead() ? end_where_strands_meet() : h();
     sim_.solver.finish(in_, step_);
+    note_pull(step_, sim_.controller);
     guard_muscles(model_, scene_, sim_.controller.rest_shape, record_.control.active, record_.time,
                   sim_.watch, record_.warnings);
-    guard_cap(model_, in_.kin(), scene_, step_, record_.time, sim_.watch, record_.warnings);
+    guard_cap(model_, in_.kin(), scene_, sim_.controller.phase, step_, record_.time, sim_.watch,
+              record_.warnings);
     if (Status status =
             guard_state(model_, next_, record_.crossing, scene_, sim_.watch, record_.warnings);
         !status.ok()) {

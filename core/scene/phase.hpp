@@ -5,20 +5,20 @@
 
 namespace hagfish {
 
-/// `reverse` comes between slide and release where the knot leaves by the tail; its number is the
-/// last one because logs hold these numbers.
-enum class Phase : std::uint8_t { form, tighten, slide, release, free, reverse };
-inline constexpr int phase_count = 6;
+/// Between slide and release come `reverse`, where the knot leaves by the tail, or `pull`, where
+/// the head pulls at food; their numbers are the last ones because logs hold these numbers.
+enum class Phase : std::uint8_t { form, tighten, slide, release, free, reverse, pull };
+inline constexpr int phase_count = 7;
 
 constexpr const char* phase_name(Phase phase) {
-  constexpr const char* names[phase_count] = {"form",    "tighten", "slide",
-                                              "release", "free",    "reverse"};
+  constexpr const char* names[phase_count] = {"form", "tighten", "slide", "release",
+                                              "free", "reverse", "pull"};
   return names[static_cast<int>(phase)];
 }
 
-/// Place of a phase in time: form, tighten, slide, reverse, release, free.
+/// Place of a phase in time: form, tighten, slide, pull, reverse, release, free.
 constexpr int phase_order(Phase phase) {
-  constexpr int order[phase_count] = {0, 1, 2, 4, 5, 3};
+  constexpr int order[phase_count] = {0, 1, 2, 5, 6, 4, 3};
   return order[static_cast<int>(phase)];
 }
 

@@ -179,6 +179,30 @@ struct ControllerSettings {
   double free_time = 1.0;  ///< run on this long after the knot is gone, s
 };
 
+inline constexpr double dyn_per_newton = 1e5;
+
+/// A number that rises, or stays.
+struct Ramp {
+  double from = 0, to = 0;
+  double time = 0;  ///< from the one to the other, s
+
+  double at(double since) const {  ///< s after its start
+    return since < time ? from + (to - from) * (since / time) : to;
+  }
+};
+
+/// Food in the mouth that is held fast (addition): it is the head's clamp. Once the knot has slid
+/// to the head, sliding goes on: the knot is pressed against the head plate, and the head pulls,
+/// until the food gives or the animal lets go of it.
+struct FoodSettings {
+  double hold = 0;         ///< the animal lets go after this long, s; 0: there is no food
+  double strength = 1000;  ///< the food gives where the pull passes this, N
+  double average = 0.02;   ///< as a mean over this time, s
+  /// Largest lambda / h of a thigmotaxis row while pulling, in place of ControllerSettings::cap,
+  /// dyn.
+  Ramp cap;
+};
+
 /// How the body lies and moves at time 0: straight and at rest where nothing is said.
 struct StartSettings {
   /// Bend of the body [station, about x, y, z], rad per cm of body, linear between stations (0 head
@@ -273,6 +297,10 @@ struct ExpectSettings {
   /// release than that, all the way there, but half of this at least.
   double slide_distance = 0;
   double reverse_distance = 0;        ///< tailward travel of its tail end on the way back, cm
+  double pull = 0;                    ///< mean pull at the food, N
+  double pull_settled = 1;            ///< of all of the pull but its first part, this long, s
+  double pull_drift = 0.4;            ///< between the halves of that, of its mean
+  double pull_balance = 0.005;        ///< of the mean force of the head plate from it, of it
   double speed_share = 0.95;          ///< of sliding steps that meet Eq. 6 without slack
   double penetration = 0.0015;        ///< deepest at any step, cm
   double limit_violation = 1.745e-5;  ///< largest at any step, rad (0.001 degrees)
@@ -303,6 +331,7 @@ struct Scene {
   ScriptSettings script;
   ActiveSettings active;
   ControllerSettings controller;
+  FoodSettings food;
   KnotSettings knot;
   TimeSettings time;
   GuardSettings guard;

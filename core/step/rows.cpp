@@ -260,7 +260,7 @@ void append_thigmotaxis_rows(const Model& model, const std::vector<ThigmotaxisCo
                              std::vector<Row>& rows) {
   const double gain = settings.acceleration * h;
   for (std::size_t place = 0; place < commands.size(); ++place) {
-    const auto& [found, speed, towards] = commands[place];
+    const auto& [found, speed, towards, effort] = commands[place];
     const Contact contact = placed(found, at);
     const double sense = towards == BodyEnd::head ? 1 : -1;
     for (const bool along_a : {true, false}) {
@@ -272,7 +272,7 @@ void append_thigmotaxis_rows(const Model& model, const std::vector<ThigmotaxisCo
       set_points(row, contact, on_a, model.body_count());
       const double now = relative_velocity(row, centre_velocity);
       row.rhs = std::min(along_a ? speed.a : speed.b, now + gain);
-      row.upper = settings.cap * h;  // the soft row: its L1 slack is this bound's dual
+      row.upper = effort * settings.cap * h;  // the soft row: its L1 slack is this bound's dual
     }
   }
 }

@@ -132,11 +132,13 @@ struct ThigmotaxisCommand {
   Contact contact;
   ThigmotaxisSpeeds speed;
   BodyEnd towards = BodyEnd::head;  ///< where the knot shall go: to the tail, both tangents turn
+  double effort = 1;                ///< of ControllerSettings::cap, what bounds its rows
 };
 
-/// Eq. 6 at the first and the last contact: rows t_a, t_b of each. settings.cap bounds λ / h; a row
-/// asks for its commanded speed, but for no more than settings.acceleration makes in the step of
-/// the speed that it has now, where the bodies' centres move by `centre_velocity` (3 x N, cm/s).
+/// Eq. 6 at the first and the last contact: rows t_a, t_b of each. settings.cap times the command's
+/// effort bounds λ / h; a row asks for its commanded speed, but for no more than
+/// settings.acceleration makes in the step of the speed that it has now, where the bodies' centres
+/// move by `centre_velocity` (3 x N, cm/s).
 void append_thigmotaxis_rows(const Model& model, const std::vector<ThigmotaxisCommand>& commands,
                              const std::vector<SplineSegment>* at,
                              const ControllerSettings& settings,

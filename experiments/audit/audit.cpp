@@ -15,6 +15,7 @@
 #include "experiments/audit/audit_frames.hpp"
 #include "experiments/audit/audit_knot.hpp"
 #include "experiments/audit/audit_muscles.hpp"
+#include "experiments/audit/audit_pull.hpp"
 #include "experiments/audit/audit_rates.hpp"
 #include "experiments/audit/audit_steps.hpp"
 
@@ -206,6 +207,7 @@ std::vector<Finding> audit(const std::string& file) {
   append(audit_steps(log));
   append(forces.findings());
   append(muscles.findings());
+  append(audit_pull(log));
   findings.push_back(forward_inverse.finding());
   findings.push_back(thigmotaxis_extent(log));
   findings.push_back(energy(log));

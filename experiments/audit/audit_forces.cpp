@@ -115,6 +115,7 @@ ForceAudit::ForceAudit(const LogContents& log)
       mean_lambda_(log.h5.rows("/mean/thigmotaxis/lambda")),
       contact_frame_(log.h5.integers("/contacts/frame")),
       active_(log.h5.integers("/diagnostics/active")),
+      cap_(log.h5.doubles("/thigmotaxis/cap")),
       contact_a_(log.h5.doubles("/contacts/spline_a")),
       contact_b_(log.h5.doubles("/contacts/spline_b")),
       contact_force_(log.h5.doubles("/contacts/force")) {}
@@ -168,6 +169,7 @@ Eigen::MatrixXd ForceAudit::see_thigmotaxis(const AuditedFrame& frame) {
   const Eigen::Vector4d commanded = commands(scene, frame.phase);
   const double sense = towards_tail(scene, frame.phase) ? -1 : 1;
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(model.nv(), 4);
+  see_cap(frame, on_spline(model, spline_a_(f, 0)) && !std::isnan(commanded[0]));
   for (int place = 0; place < 2; ++place) {
     const double a = spline_a_(f, place);
     const double b = spline_b_(f, place);
@@ -189,6 +191,7 @@ Eigen::MatrixXd ForceAudit::see_thigmotaxis(const AuditedFrame& frame) {
           model, along == 0 ? sense * contact.tangent_a : -sense * contact.tangent_b, a, b);
       const double speed = row_velocity(row, frame.moved_velocity, frame.qdot_moved);
       from_rows_.compare("/thigmotaxis/speed", speed_(f, k), speed);
+      const double cap = cap_[f];
       // A row below its cap is met, with a force exactly: at its command, or on the way to it.
       const double asked =
           std::min(commanded[k], row_velocity(row, frame.motion.centre_velocity, frame.state.qdot) +
@@ -196,16 +199,33 @@ Eigen::MatrixXd ForceAudit::see_thigmotaxis(const AuditedFrame& frame) {
       if (lambda_(f, k) < 0) {
         shape_.insert("/thigmotaxis/lambda");
       }
-      if (lambda_(f, k) < (1 - cap_tolerance) * scene.controller.cap) {
+      if (lambda_(f, k) < (1 - cap_tolerance) * cap) {
         ask_miss_ = worse(ask_miss_, lambda_(f, k) > 0 ? std::abs(speed - asked) : asked - speed);
       }
-      most_ = worse(most_, lambda_(f, k) / scene.controller.cap);
+      most_ = worse(most_, lambda_(f, k) / cap);
       columns.col(k) = force_of(model, kin, row, 1);
     }
   }
   from_rows_.compare("/forces/thigmotaxis", thigmotaxis_.row(f).transpose(),
                      columns * lambda_.row(f).transpose());
   return columns;
+}
+
+void ForceAudit::see_cap(const AuditedFrame& frame, bool rows) {
+  const Eigen::Index f = frame.index;
+  const Scene& scene = log_.resolved.scene;
+  if (frame.phase != Phase::pull) {
+    pull_from_ = log_.time[f];
+    from_rows_.compare("/thigmotaxis/cap", cap_[f], rows ? scene.controller.cap : NAN);
+    return;
+  }
+  // The pull began after the last frame before it; of a log that begins with it, at any time.
+  const Ramp& cap = scene.food.cap;
+  const double frame_time = scene.time.frame_interval;
+  const double least = std::isnan(pull_from_) ? 0 : log_.time[f] - pull_from_ - frame_time;
+  const double most = std::isnan(pull_from_) ? INFINITY : log_.time[f] - pull_from_;
+  from_rows_.compare("/thigmotaxis/cap", cap_[f],
+                     rows ? std::clamp(cap_[f], cap.at(least), cap.at(most)) : NAN);
 }
 
 void ForceAudit::see_contacts(const AuditedFrame& frame) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <set>
 #include <string>
 #include <vector>
@@ -26,6 +27,8 @@ class ForceAudit {
   /// Hinges and cones with a force.
   std::int64_t bearing_limits(const AuditedFrame& frame) const;
   std::int64_t bearing_cones(const AuditedFrame& frame) const;
+  /// The bound on the forces of rows, where there are `rows`.
+  void see_cap(const AuditedFrame& frame, bool rows);
   void see_contacts(const AuditedFrame& frame);
   void see_limits(const AuditedFrame& frame);
   /// `force` on the two hinges of a cone's joint, dyn cm.
@@ -41,7 +44,8 @@ class ForceAudit {
   std::array<Hdf5Reader::Rows, 6> mean_;  ///< thigmotaxis, contact, limit, head, wall, active
   Hdf5Reader::Rows mean_net_, mean_lambda_;
   std::vector<std::int64_t> contact_frame_, active_;
-  std::vector<double> contact_a_, contact_b_, contact_force_;
+  std::vector<double> cap_, contact_a_, contact_b_, contact_force_;
+  double pull_from_ = NAN;        ///< time of the last frame before the pull, s
   std::size_t next_contact_ = 0;  ///< first one of frames not seen yet
   Rebuilt from_rows_;
   double imbalance_ = 0, unsettled_ = 0, mean_imbalance_ = 0, limit_miss_ = 0, cone_miss_ = 0,

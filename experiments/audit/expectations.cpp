@@ -38,6 +38,20 @@ Criterion reverse_criterion(const ExpectSettings& expect, std::optional<double> 
   return {"reverse", travel.value_or(NAN), expect.reverse_distance, "cm", true};
 }
 
+Criterion pull_criterion(const ExpectSettings& expect, double mean) {
+  return {"pull", mean / dyn_per_newton, expect.pull, "N", true};
+}
+
+Criterion pull_drift_criterion(const ExpectSettings& expect, double earlier, double later) {
+  const double drift = std::abs(later - earlier) / std::abs(0.5 * (earlier + later));
+  return {"pull steady", drift, expect.pull_drift, "of its mean"};
+}
+
+Criterion pull_balance_criterion(const ExpectSettings& expect, double plate, double pull) {
+  return {"pull balance", std::abs(plate - pull) / std::abs(pull), expect.pull_balance,
+          "of the pull"};
+}
+
 Criterion eq6_criterion(const ExpectSettings& expect, std::int64_t met, std::int64_t steps) {
   const double share = steps > 0 ? static_cast<double>(met) / static_cast<double>(steps) : NAN;
   return {"Eq. 6", share / percent, expect.speed_share / percent, "% of sliding steps", true};

@@ -37,6 +37,12 @@ Criterion energy_gain_criterion(const ExpectSettings& expect, double largest);
 Criterion slide_criterion(const ExpectSettings& expect, std::optional<double> travel);
 /// Tailward travel of its tail end on the way back, cm; likewise.
 Criterion reverse_criterion(const ExpectSettings& expect, std::optional<double> travel);
+/// Mean pull at the food, dyn; judged in N.
+Criterion pull_criterion(const ExpectSettings& expect, double mean);
+/// Mean of the later half of the pull less that of the earlier one, dyn, of their mean.
+Criterion pull_drift_criterion(const ExpectSettings& expect, double earlier, double later);
+/// Mean force of the head plate less the mean pull, of the latter, both in dyn.
+Criterion pull_balance_criterion(const ExpectSettings& expect, double plate, double pull);
 /// Sliding steps that meet Eq. 6 without slack, of all sliding steps; judged in %.
 Criterion eq6_criterion(const ExpectSettings& expect, std::int64_t met, std::int64_t steps);
 

@@ -30,7 +30,7 @@ LEAST_WIDTH = 17.5  # of a panel, cm: room for its caption
 LEAST_TRAVEL = 1.0  # of the knot's head end for pictures of it on its way, cm
 WORD = (0.22, 0.10)  # inches that "head" or "tail" takes
 BACKGROUND = 0.98  # of a pixel's colour, where nothing is drawn
-WORDS = {"form": "knot forming", "tighten": "tightening", "slide": "sliding", "reverse": "sliding back",
+WORDS = {"form": "knot forming", "tighten": "tightening", "slide": "sliding", "pull": "pulling", "reverse": "sliding back",
          "release": "released", "free": "free"}
 
 

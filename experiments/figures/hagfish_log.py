@@ -14,7 +14,7 @@ import numpy as np
 
 FORMAT = "hagfish-log"
 VERSION = 1
-FRAME_GROUPS = ("trajectory", "forces", "thigmotaxis", "mean", "knot", "diagnostics")
+FRAME_GROUPS = ("trajectory", "forces", "thigmotaxis", "mean", "pull", "knot", "diagnostics")
 
 
 class LogError(Exception):
@@ -100,7 +100,7 @@ class HagfishLog:
         return np.array([by_value[int(value)] for value in self[path]])
 
     def in_phase(self, phase: str) -> np.ndarray:
-        """Indices of the frames of one phase: form, tighten, slide, reverse, release, free."""
+        """Indices of the frames of one phase: form, tighten, slide, pull, reverse, release, free."""
         return np.flatnonzero(self.labels("/trajectory/phase") == phase)
 
     def intervals_in(self, phase: str) -> np.ndarray:

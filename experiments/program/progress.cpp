@@ -65,6 +65,9 @@ double Progress::estimated_end(const StepRecord& record) const {
     case Phase::slide:
       end = record.time + slide(span ? span->head_end : 0);
       break;
+    case Phase::pull:
+      end = start + scene_.food.hold + after;
+      break;
     case Phase::reverse:
       end = record.time + way(model_.length() - (span ? span->tail_end : 0), c.reverse_head.a) +
             after;

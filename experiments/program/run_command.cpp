@@ -84,9 +84,9 @@ void add_run(Program& program) {
   of_new.push_back(run->add_option("--qp", options->qp, "QP back end, instead of the preset's")
                        ->check(one_of(box_qp_solver_names())));
   of_new.push_back(run->add_option("--set", options->set, set_help)->allow_extra_args(false));
-  of_new.push_back(
-      run->add_option("--until", options->until,
-                      "stop when this phase has ended: form, tighten, slide, reverse, release"));
+  of_new.push_back(run->add_option(
+      "--until", options->until,
+      "stop when this phase has ended: form, tighten, slide, pull, reverse, release"));
   CLI::Option* resumed =
       run->add_option("--resume", options->resume,
                       "go on with this log, F.h5.part or F.h5, of a run that did not end");

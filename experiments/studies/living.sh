@@ -11,14 +11,6 @@ source "$(dirname "${BASH_SOURCE[0]}")/study.sh"
 declare -A noise=([overhand]=5 [figure_eight]=3 [double_overhand]=3 [three_twist]=3) # degrees
 declare -A end=([overhand]=11.8 [figure_eight]=13.5 [double_overhand]=17 [three_twist]=17) # of the program, s
 
-# Flexural rigidity $1 (dyn cm^2), and with it what the specimen file has in proportion to it.
-stiffness() {
-  awk -v b="$1" 'BEGIN {
-    split("bending_stiffness 1 bending_damping 0.015 twist_stiffness 0.65 twist_damping 0.01", f, " ")
-    for (i = 1; i < 8; i += 2)
-      printf "--set specimen.passive.%s=[%g,%g,%g,%g] ", f[i], b * f[i + 1], b * f[i + 1], b * f[i + 1], b * f[i + 1]
-  }'
-}
 # The water's drag, times $1.
 drag() { awk -v d="$1" 'BEGIN { printf "--set drag.normal=%g --set drag.tangential=%g", 9.434 * d, 2.358 * d }'; }
 # The program of $1 at $2 times its speed.

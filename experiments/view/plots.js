@@ -3,7 +3,7 @@
 
 const LEFT = 76, RIGHT = 132, INK = ["#0072b2", "#d55e00", "#000000", "#cc79a7", "#e69f00", "#56b4e9"];
 const DASHES = ["", "6 3", "2 3", "8 3 2 3", "1 3", "12 4"]; // so that no line is told by its colour alone
-const PHASE_INK = { form: "#e8e8e8", tighten: "#c9dff0", slide: "#f6dfb5", release: "#dddddd", free: "#f4f4f4", reverse: "#e6d3e3" };
+const PHASE_INK = { form: "#e8e8e8", tighten: "#c9dff0", slide: "#f6dfb5", release: "#dddddd", free: "#f4f4f4", reverse: "#e6d3e3", pull: "#f2c4bb" };
 
 /** Stretches of frames with one name. */
 function stretches(log, nameAt) {

@@ -67,6 +67,9 @@ void expect_whole(const ResolvedScene& resolved) {
     phases.insert(phases.begin() + 3, Phase::reverse);
     EXPECT_GE(seen.tail_end_at_release, 40);  // of 42.4 cm
   }
+  if (resolved.scene.food.hold > 0) {
+    phases.insert(phases.begin() + 3, Phase::pull);
+  }
   EXPECT_EQ(seen.phases, phases);
   EXPECT_TRUE(seen.held);
   EXPECT_EQ(seen.last_type, KnotInvariants{});
@@ -102,6 +105,14 @@ TEST(KnotScenesByTheMidpointRule, TieHoldSlideAndComeOff) {
     expect_whole(scene_called(scene, {"time.rule=midpoint"}));
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Pull, KnotScenes,
+                         testing::Values("pull_overhand", "pull_figure_eight",
+                                         "pull_double_overhand", "pull_three_twist",
+                                         "pull_living_overhand", "pull_living_figure_eight",
+                                         "pull_living_double_overhand", "pull_living_three_twist",
+                                         "pull_morsel"),
+                         scene_name);
 
 TEST(KnotScenesWithCones, TieHoldSlideAndComeOff) {
   expect_whole(scene_called("table1", {"model.bending_limit=cone"}));

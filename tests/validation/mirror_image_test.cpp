@@ -111,6 +111,7 @@ class Comparison {
   void controller(const ControllerState& c, const ControllerState& image) {
     same("phase", c.phase, image.phase);
     same("phase start", c.phase_start, image.phase_start);
+    same("pull", c.pull.sum, image.pull.sum);
     same("knot", c.knot.type, image.knot.type);
     same("agreement", c.knot.agreement, image.knot.agreement);
     same("knot from", c.knot_from, image.knot_from);
@@ -183,7 +184,7 @@ TEST_P(MirrorImage, IsTheReflectionOfTheRunToTheLastBit) {
 INSTANTIATE_TEST_SUITE_P(BuiltIn, MirrorImage,
                          testing::Values("table1", "figure_eight", "double_overhand", "three_twist",
                                          "overhand_waypoints", "overhand_reverse",
-                                         "living_three_twist"),
+                                         "pull_figure_eight", "living_three_twist"),
                          [](const auto& scene) { return std::string(scene.param); });
 
 TEST(MirrorImageOf, NoiseAndGravityToo) {

@@ -116,6 +116,33 @@ TEST(SceneErrors, RefusesStartsThatDoNotFit) {
             "\"release\", \"free\"");
 }
 
+TEST(SceneErrors, RefusesFoodThatCannotBePulled) {
+  EXPECT_EQ(scene_complaint("[food]\nstrength = 0\n"),
+            "s.toml:2: food.strength = 0: must be positive");
+  EXPECT_EQ(scene_complaint("[food]\nstrength = -0.5\n"),
+            "s.toml:2: food.strength = -0.5: must be positive");
+  EXPECT_EQ(scene_complaint("[food]\nhold = -1\n"),
+            "s.toml:2: food.hold = -1: must not be negative");
+  const std::string food = "[food]\nhold = 2\ncap = { from = 10, to = 20, time = 1 }\n";
+  EXPECT_EQ(scene_complaint(food), "no error");
+  EXPECT_EQ(scene_complaint(food + "[wall]\npresent = false\n"),
+            "s.toml:2: food.hold = 2: without a head plate (wall.present) the knot presses against "
+            "nothing");
+  EXPECT_EQ(scene_complaint("clamp_head = false\n" + food),
+            "s.toml:3: food.hold = 2: no food holds a head that is not clamped (clamp_head)");
+  EXPECT_EQ(scene_complaint(food + "[controller]\nfree_from = 'slide'\n"),
+            "s.toml:2: food.hold = 2: no food holds a head that is free from \"slide\" on "
+            "(controller.free_from)");
+  EXPECT_EQ(scene_complaint(food + "[controller]\nleave_by = 'tail'\n"),
+            "s.toml:2: food.hold = 2: a knot that pulls cannot turn back (controller.leave_by)");
+  EXPECT_EQ(scene_complaint("[food]\nhold = 2\n"),
+            "s.toml: food.cap.from: must be positive where there is food");
+  EXPECT_EQ(scene_complaint("[food]\nhold = 2\ncap = { from = 20, to = 10, time = 1 }\n"),
+            "s.toml:3: food.cap.to = 10: must not be less than food.cap.from, 20");
+  EXPECT_EQ(scene_complaint("[food]\ncap = { from = 20, to = 10, time = -1 }\n"),
+            "s.toml:2: food.cap.time = -1: must not be negative");
+}
+
 TEST(SceneErrors, RefusesScriptsOutOfOrder) {
   EXPECT_EQ(scene_complaint(script("[0, 1, 2, 3],\n[1, 1, 2, 3],\n[1, 4, 5, 6],\n")),
             "s.toml:6: script.knots = [1, 4, 5, 6]: knot 3 must be later than the one before it");

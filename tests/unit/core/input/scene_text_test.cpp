@@ -23,9 +23,9 @@ class Bits {
   Bits(const Scene& scene, const Specimen& specimen) {
     // The name of the specimen's file is not written.
     const auto& [title, file, mirror, clamp_head, gravity, model, drag, constraints, contact, wall,
-                 start, script, active, controller, knot, time, guard, expect] = scene;
+                 start, script, active, controller, food, knot, time, guard, expect] = scene;
     add(title, mirror, clamp_head, gravity, model, drag, constraints, contact, wall, start, script,
-        active, controller, knot, time, guard, expect, specimen);
+        active, controller, food, knot, time, guard, expect, specimen);
   }
   bool operator==(const Bits&) const = default;
 
@@ -99,6 +99,14 @@ class Bits {
         free_from, cap, acceleration, contact_gap, hysteresis, tail_through, tighten_from,
         tight_span, tight_hold, tighten_time, release_at, untied_for, free_time);
   }
+  void put(const Ramp& s) {
+    const auto& [from, to, time] = s;
+    add(from, to, time);
+  }
+  void put(const FoodSettings& s) {
+    const auto& [hold, strength, average, cap] = s;
+    add(hold, strength, average, cap);
+  }
   void put(const StartSettings& s) {
     const auto& [bend, bend_rate, spin, q, qdot, noise, seed, phase] = s;
     add(bend, bend_rate, spin, q, qdot, noise, seed, phase);
@@ -122,11 +130,12 @@ class Bits {
     add(type, run_time_text(from), run_time_text(to));
   }
   void put(const ExpectSettings& s) {
-    const auto& [knot, types, hand, slide_distance, reverse_distance, speed_share, penetration,
-                 limit_violation, head_drift, kkt, force_balance, forward_inverse, energy,
-                 energy_gain] = s;
-    add(knot, types, hand, slide_distance, reverse_distance, speed_share, penetration,
-        limit_violation, head_drift, kkt, force_balance, forward_inverse, energy, energy_gain);
+    const auto& [knot, types, hand, slide_distance, reverse_distance, pull, pull_settled,
+                 pull_drift, pull_balance, speed_share, penetration, limit_violation, head_drift,
+                 kkt, force_balance, forward_inverse, energy, energy_gain] = s;
+    add(knot, types, hand, slide_distance, reverse_distance, pull, pull_settled, pull_drift,
+        pull_balance, speed_share, penetration, limit_violation, head_drift, kkt, force_balance,
+        forward_inverse, energy, energy_gain);
   }
   void put(const Specimen& s) {
     const auto& [name, length, mass, station, circumference, bending_limit, bending_span,
@@ -191,6 +200,11 @@ ResolvedScene odd_scene() {
               odd(),
               odd(),
               odd()};
+  s.expect.pull = odd();
+  s.expect.pull_settled = odd();
+  s.expect.pull_drift = odd();
+  s.expect.pull_balance = odd();
+  s.food = {0, odd(), odd(), {odd(), odd(), odd()}};  // none, as the head is free
   s.expect.energy = odd();
   s.expect.energy_gain = odd();
   s.start.bend = {{odd(), odd(), -odd(), odd()}, {odd(), odd(), odd(), odd()}};
@@ -217,7 +231,7 @@ TEST(SceneText, ResolvedTextGivesTheSameScene) {
   for (const auto& [scene, specimen] :
        {odd_scene(), read_scene(data + "/table1.toml"),
         read_scene(data + "/overhand_waypoints.toml"), read_scene(data + "/overhand_reverse.toml"),
-        read_scene(data + "/living_overhand_free.toml")}) {
+        read_scene(data + "/pull_morsel.toml"), read_scene(data + "/living_overhand_free.toml")}) {
     const std::string text = scene_to_toml(scene, specimen);
     const ResolvedScene again = read_scene_text(text, "resolved");
     EXPECT_TRUE(Bits(again.scene, again.specimen) == Bits(scene, specimen));

@@ -68,6 +68,15 @@ TEST_P(EveryPhase, TheRunGoesOnBitByBit) {
 
 INSTANTIATE_TEST_SUITE_P(StoredStates, EveryPhase, testing::ValuesIn(stored_states()), name_of);
 
+TEST(Checkpoint, KeepsThePullSoFar) {
+  Stage s = stage(sliding(), "active-set");
+  s.sim.controller.pull = {1234.5, 3};
+  LogState log{RunningMeans(s.model.nv()), {}, {}};
+  const Simulation again = decode(s.bytes(), s.model, "active-set", log);
+  EXPECT_EQ(again.controller.pull.sum, 1234.5);
+  EXPECT_EQ(again.controller.pull.steps, 3);
+}
+
 class BadBytes : public testing::Test {
  protected:
   std::string refusal(const std::vector<std::uint8_t>& changed) {

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/log/log_means.hpp"
 #include "tests/support/stored_states.hpp"
 
@@ -53,6 +55,23 @@ TEST_F(ThigmotaxisRowsTest, ColumnsAreThoseOfTheirContact) {
     }
   }
   EXPECT_TRUE(rows.any);
+  EXPECT_DOUBLE_EQ(rows.cap, scene.controller.cap);
+}
+
+TEST_F(ThigmotaxisRowsTest, TheCapIsThatOfTheCommand) {
+  StepRecord record = take_step(model, scene, sim);
+  for (ThigmotaxisCommand& command : record.control.thigmotaxis) {
+    command.effort = 0.25;
+    command.speed = {100, 100};  // more than there is force for
+  }
+  const Moment& now = record.moment;
+  StepSolution step;
+  ASSERT_TRUE(
+      sim.solver.solve({model, scene, now.state, now.observation, record.control}, step).ok());
+  const ThigmotaxisRows rows = thigmotaxis_rows_of(record.control, step, scene.time.step);
+  EXPECT_DOUBLE_EQ(rows.cap, 0.25 * scene.controller.cap);
+  EXPECT_NEAR(*std::ranges::max_element(rows.lambda), rows.cap, 1e-9 * rows.cap);
+  EXPECT_TRUE(std::isnan(thigmotaxis_rows_of({}, {}, scene.time.step).cap));
 }
 
 TEST_F(ThigmotaxisRowsTest, MoreContactsThanALogHoldsAreRefusedByName) {

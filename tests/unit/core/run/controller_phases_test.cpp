@@ -166,6 +166,58 @@ TEST_F(ControllerPhases, TurnsBackAtTheHeadAndReleasesNearTheTail) {
   EXPECT_THROW(step({contact(5, 30)}), StepError);
 }
 
+TEST_F(ControllerPhases, PullsAtFoodUntilItLetsGo) {
+  scene.controller.cap = 400;
+  scene.food.hold = 1;
+  scene.food.cap = {100, 300, 0.5};
+  start_in(Phase::slide);
+  EXPECT_EQ(step({contact(1.95, 20)}).thigmotaxis.at(0).effort, 1);
+  const double since = now;
+  Control control = step({contact(1.9, 20)});
+  EXPECT_EQ(state.phase, Phase::pull);
+  EXPECT_TRUE(control.clamp_head);
+  ASSERT_EQ(control.thigmotaxis.size(), 2U);
+  for (const ThigmotaxisCommand& command : control.thigmotaxis) {
+    EXPECT_EQ(command.speed.a, 2);
+    EXPECT_EQ(command.towards, BodyEnd::head);
+    EXPECT_EQ(command.effort, 0.25);
+  }
+  now = since + 0.25;
+  EXPECT_NEAR(step({contact(1.9, 20)}).thigmotaxis.at(1).effort, 0.5, 1e-12);
+  now = since + 0.75;
+  EXPECT_EQ(step({contact(1.9, 20)}).thigmotaxis.at(1).effort, 0.75);
+  now = since + 0.996;
+  step({contact(1.9, 20)});
+  EXPECT_EQ(state.phase, Phase::pull);
+  now = since + 1;
+  control = step({contact(1.9, 20)});
+  EXPECT_EQ(state.phase, Phase::release);
+  EXPECT_FALSE(control.clamp_head);
+  EXPECT_EQ(control.thigmotaxis.at(0).effort, 1);
+}
+
+TEST_F(ControllerPhases, FoodGivesWhereTheMeanPullPassesItsStrength) {
+  scene.food = {.hold = 1, .strength = 0.5, .average = 0.01, .cap = {100, 100, 0}};  // 5 steps
+  now = 0.004;
+  start_in(Phase::slide);
+  StepSolution solution;
+  const auto pull = [&](double newton) {
+    step({contact(1.9, 20)});
+    solution.force[RowKind::head] = Eigen::VectorXd::Zero(model.nv());
+    solution.force[RowKind::head][0] = -newton * dyn_per_newton;
+    note_pull(solution, state);
+  };
+  // From 0.004 to 0.01 s: a mean of the pull alone, but not over its whole time.
+  for (int k = 0; k < 3; ++k) pull(2);
+  // A step above, and a mean at the strength, are not enough.
+  for (const double newton : {0.5, 0.6, 0.4, 0.5, 0.5}) pull(newton);
+  for (const double newton : {0.5, 0.6, 0.4, 0.5, 0.51}) pull(newton);
+  EXPECT_EQ(state.phase, Phase::pull);
+  EXPECT_FALSE(step({contact(1.9, 20)}).clamp_head);
+  EXPECT_EQ(state.phase, Phase::release);
+  EXPECT_NEAR(now, 0.032, 1e-12);
+}
+
 TEST_F(ControllerPhases, AKnotIsGoneOnceItHasBeenForAWhile) {
   scene.controller.untied_for = 0.1;
   start_in(Phase::release);

@@ -131,12 +131,13 @@ struct CappedRow {
     step.lambda << 3, 10, 0, 9, 5, 7, 1;  // the second one is at the cap
     step.excess = Eigen::VectorXd::Constant(7, -0.5);
   }
-  void look(double time) { guard_cap(model, now.kin, scene, step, time, watch, warnings); }
+  void look(double time) { guard_cap(model, now.kin, scene, phase, step, time, watch, warnings); }
 
   Model model = table1_hagfish();
   Scene scene = table1_scene();
   Observation now;
   StepSolution step;
+  Phase phase = Phase::slide;
   Watch watch;
   std::vector<std::string> warnings;
 };
@@ -181,6 +182,21 @@ TEST(Guard, ARowBelowItsCapForAStepStartsAnew) {
     capped.look(0.02 * k);
   }
   EXPECT_TRUE(capped.warnings.empty());
+}
+
+TEST(Guard, AKnotThatPullsGivesAllItMay) {
+  CappedRow capped;
+  capped.phase = Phase::pull;
+  for (int k = 0; k < 10; ++k) {
+    capped.look(0.02 * k);
+  }
+  EXPECT_TRUE(capped.warnings.empty());
+  capped.phase = Phase::release;  // which counts from here
+  capped.look(0.2);
+  capped.look(0.25);
+  EXPECT_TRUE(capped.warnings.empty());
+  capped.look(0.31);
+  EXPECT_EQ(capped.warnings.size(), 1u);
 }
 
 TEST(Guard, WatchesTheCapOfAnyNumberOfContacts) {

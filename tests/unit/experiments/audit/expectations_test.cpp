@@ -18,6 +18,9 @@ ExpectSettings expected() {
   expect.slide_distance = 9;
   expect.reverse_distance = 11;
   expect.speed_share = 0.75;
+  expect.pull = 0.3125;
+  expect.pull_drift = 0.4;
+  expect.pull_balance = 0.03125;
   return expect;
 }
 
@@ -32,6 +35,9 @@ TEST(Expectations, HoldEachFigureAgainstItsOwnBound) {
         {energy_gain_criterion(e, 0.0625), energy_gain_criterion(e, 0.0626)},
         {slide_criterion(e, 9), slide_criterion(e, 8.99)},
         {reverse_criterion(e, 11), reverse_criterion(e, 10.99)},
+        {pull_criterion(e, 31250), pull_criterion(e, 31249)},
+        {pull_drift_criterion(e, 80, 120), pull_drift_criterion(e, 120.1, 80)},
+        {pull_balance_criterion(e, 33, 32), pull_balance_criterion(e, 30.9, 32)},
         {eq6_criterion(e, 3, 4), eq6_criterion(e, 29, 40)}}) {
     EXPECT_TRUE(at.met()) << at.name;
     EXPECT_DOUBLE_EQ(at.value, at.bound) << at.name;
@@ -46,6 +52,7 @@ TEST(Expectations, WhatDidNotHappenIsNotMet) {
   EXPECT_FALSE(reverse_criterion(e, std::nullopt).met());
   EXPECT_FALSE(eq6_criterion(e, 0, 0).met());
   EXPECT_FALSE(penetration_criterion(e, NAN).met());
+  EXPECT_FALSE(pull_balance_criterion(e, 0, 0).met());
 }
 
 TEST(EnergyGainTest, IsWhatExceedsStartAndInput) {

@@ -18,7 +18,7 @@ from hagfish_log import HagfishLog  # noqa: E402
 
 BODIES, LENGTH = 41, 41.0  # 1 cm each
 STEP, STEPS = 0.002, 10  # s, steps from frame to frame
-PHASES = {"form": 0, "tighten": 1, "slide": 2, "release": 3, "free": 4, "reverse": 5}
+PHASES = {"form": 0, "tighten": 1, "slide": 2, "release": 3, "free": 4, "reverse": 5, "pull": 6}
 SOLVES = {"linear": 0, "kkt": 1, "qp": 2}
 FRAMES = {"form": 6, "tighten": 10, "slide": 61, "release": 5, "free": 5}  # of each phase
 SPEED = 5.0  # cm/s, of the knot's head end while it slides: 6 cm in 60 intervals

@@ -1,0 +1,162 @@
+#include "experiments/audit/audit_pull.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/run/controller.hpp"
+#include "experiments/audit/expectations.hpp"
+#include "experiments/audit/rebuilt.hpp"
+
+namespace hagfish {
+namespace {
+
+constexpr std::size_t least_frames = 4;  // for two halves of a pull
+
+bool pulls(const LogContents& log, Eigen::Index frame) {
+  return static_cast<Phase>(log.phase[frame]) == Phase::pull;
+}
+
+/// Frames of the pull whose frame before is of it too: all steps between them are.
+std::vector<Eigen::Index> intervals(const LogContents& log) {
+  std::vector<Eigen::Index> frames;
+  for (Eigen::Index f = 1; f < log.q.rows(); ++f) {
+    if (pulls(log, f - 1) && pulls(log, f)) {
+      frames.push_back(f);
+    }
+  }
+  return frames;
+}
+
+/// /pull from the means of what it is made of.
+Finding figures(const LogContents& log) {
+  const Hdf5Reader::Rows head = log.h5.rows("/mean/forces/head");
+  const Hdf5Reader::Rows wall = log.h5.rows("/mean/forces/wall");
+  const Hdf5Reader::Rows torque =
+      log.h5.rows("/mean/forces/active") + log.h5.rows("/mean/forces/thigmotaxis");
+  const Eigen::VectorXd rows = log.h5.rows("/mean/thigmotaxis/lambda").rowwise().sum();
+  const Hdf5Reader::Rows bearing = log.h5.rows("/pull/bearing");
+  std::vector<bool> of_pull(log.time.size(), false);
+  for (const Eigen::Index f : intervals(log)) {
+    of_pull[f] = true;
+  }
+  Rebuilt rebuilt;
+  const auto compare = [&](const char* name, const auto& wanted) {
+    const std::string path = std::string("/pull/") + name;
+    const std::vector<double> logged = log.h5.doubles(path);
+    for (std::size_t f = 0; f < logged.size(); ++f) {
+      rebuilt.compare(path, logged[f], of_pull[f] ? wanted(static_cast<Eigen::Index>(f)) : NAN);
+    }
+  };
+  const auto over = [](double a, double b) { return b > 0 ? a / b : NAN; };
+  const auto most = [&](Eigen::Index f) {
+    return torque.row(f).tail(torque.cols() - root_dofs).cwiseAbs().maxCoeff();
+  };
+  compare("force", [&](Eigen::Index f) { return -head(f, 0); });
+  compare("plate", [&](Eigen::Index f) { return wall(f, 0); });
+  compare("torque", most);
+  compare("advantage_rows", [&](Eigen::Index f) { return over(-head(f, 0), rows[f]); });
+  compare("advantage_torque", [&](Eigen::Index f) { return over(-head(f, 0), most(f)); });
+  for (Eigen::Index f = 0; f < bearing.rows(); ++f) {
+    const bool on = of_pull[f] && wall(f, 0) > 0;
+    rebuilt.compare("/pull/bearing", bearing(f, 0), on ? -wall(f, 5) / wall(f, 0) : NAN);
+    rebuilt.compare("/pull/bearing", bearing(f, 1), on ? wall(f, 4) / wall(f, 0) : NAN);
+  }
+  return rebuilt.finding("figures of the pull",
+                         "means of clamp, head plate, rows of Eq. 6 and torques");
+}
+
+double mean(const std::vector<double>& values, std::size_t from, std::size_t to) {
+  const auto begin = values.begin();
+  return std::accumulate(begin + static_cast<std::ptrdiff_t>(from),
+                         begin + static_cast<std::ptrdiff_t>(to), 0.0) /
+         static_cast<double>(to - from);
+}
+
+/// What the pull is once it has settled.
+std::vector<Finding> settled(const LogContents& log, const std::vector<Eigen::Index>& frames) {
+  const ExpectSettings& expect = log.resolved.scene.expect;
+  const Hdf5Reader::Rows head = log.h5.rows("/mean/forces/head");
+  const Hdf5Reader::Rows wall = log.h5.rows("/mean/forces/wall");
+  const Hdf5Reader::Rows drag = log.h5.rows("/diagnostics/impulse_drag");
+  std::vector<double> pull, plate, water;
+  for (const Eigen::Index f : frames) {
+    if (log.time[f] >= log.time[frames.front()] + expect.pull_settled) {
+      pull.push_back(-head(f, 0));
+      plate.push_back(wall(f, 0));
+      water.push_back((drag(f, 0) - drag(f - 1, 0)) / (log.time[f] - log.time[f - 1]));
+    }
+  }
+  const std::size_t count = pull.size();
+  if (count < least_frames) {
+    return {{"pull", false, fmt::format("{} frames of a settled pull, too few to judge", count), "",
+             "", "N"}};
+  }
+  const double all = mean(pull, 0, count);
+  const double of_plate = mean(plate, 0, count);
+  const double of_water = mean(water, 0, count);
+  return {judged_over(pull_criterion(expect, all), fmt::format("{} frames", count)),
+          judged_over(
+              pull_drift_criterion(expect, mean(pull, 0, count / 2), mean(pull, count / 2, count)),
+              "later half against earlier"),
+          judged_over(pull_balance_criterion(expect, of_plate, all),
+                      fmt::format("head plate against head; the water pushes {:.2g} of it along x",
+                                  of_water / all))};
+}
+
+/// The pull ends where the food gives or the animal lets go, and not before. What it gives at is
+/// known where means of the log are those by which it does.
+Finding end(const LogContents& log, const std::vector<Eigen::Index>& frames) {
+  const FoodSettings& food = log.resolved.scene.food;
+  const TimeSettings& time = log.resolved.scene.time;
+  const Hdf5Reader::Rows head = log.h5.rows("/mean/forces/head");
+  const auto of_mean = [&](Eigen::Index f) { return -head(f, 0) / dyn_per_newton; };
+  double most = -INFINITY;
+  for (const Eigen::Index f : frames) {
+    most = std::max(most, of_mean(f));
+  }
+  const Eigen::Index last = frames.back();
+  const double lasted = log.time[last] - log.time[frames.front()];
+  const bool known = std::abs(food.average - time.frame_interval) < 0.5 * time.step;
+  const bool over = last + 1 < log.q.rows();
+  // The pull may begin two frames before its first whole interval's end, and end one after the
+  // last.
+  const bool let_go = over && lasted + 3 * time.frame_interval >= food.hold;
+  const bool gave = over && !let_go;
+  const double at = gave ? of_mean(last + 1) : most;
+  const bool right = !known || (most <= food.strength && (!gave || at > food.strength));
+  const std::string text =
+      fmt::format("{} after {:.2f} s; largest mean of {:g} s before {:.4g} N, strength {:g} N{}",
+                  gave   ? fmt::format("gave at {:.4g} N", at)
+                  : over ? "let go"
+                         : "still held",
+                  lasted, time.frame_interval, most, food.strength,
+                  known ? "" : "; means of food.average are not in the log");
+  return {"food", right, text, fmt::format("{}", at), fmt::format("{}", food.strength), "N"};
+}
+
+}  // namespace
+
+std::vector<Finding> audit_pull(const LogContents& log) {
+  std::vector<Finding> findings{figures(log)};
+  const Scene& scene = log.resolved.scene;
+  if (scene.food.hold == 0 || phase_order(scene.time.until) < phase_order(Phase::pull)) {
+    return findings;
+  }
+  const std::vector<Eigen::Index> frames = intervals(log);
+  if (frames.empty()) {
+    findings.push_back({"pull", false, "the knot never pulled", "", "", "N"});
+    return findings;
+  }
+  // A pull that rises does not settle.
+  if (scene.food.cap.to == scene.food.cap.from) {
+    const std::vector<Finding> more = settled(log, frames);
+    findings.insert(findings.end(), more.begin(), more.end());
+  }
+  findings.push_back(end(log, frames));
+  return findings;
+}
+
+}  // namespace hagfish

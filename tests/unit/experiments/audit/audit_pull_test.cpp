@@ -1,0 +1,133 @@
+// The audit of a run that pulls at food: what is logged of the pull goes red when it is false, and
+// so does a log of food that is not the scene's.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <limits>
+#include <memory>
+
+#include "experiments/audit/audit.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tests/support/written_log.hpp"
+
+namespace hagfish {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Pulls for 2 s.
+ResolvedScene pulling_scene(std::vector<std::string> set = {}) {
+  const std::vector<std::string> all = {"time.step=0.005",        "time.frame_interval=0.1",
+                                        "food.average=0.1",       "food.hold=2",
+                                        "knot.votes=5",           "expect.pull=0.03",
+                                        "expect.pull_drift=1",    "expect.pull_settled=0.5",
+                                        "expect.pull_balance=0.2"};
+  set.insert(set.begin(), all.begin(), all.end());
+  return read_scene(std::string(HAGFISH_DATA_DIR) + "/pull_overhand.toml", set);
+}
+/// The cap rises in the first second.
+const std::vector<std::string> rising = {"food.cap.from=4000", "food.cap.time=1"};
+
+class AuditPull : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder = std::make_unique<TemporaryFolder>();
+    const auto write = [](const fs::path& to, const ResolvedScene& resolved) {
+      const Model model = make_hagfish(resolved.specimen, resolved.scene);
+      write_log(to, resolved, model, start(model, resolved.scene, "active-set"),
+                std::numeric_limits<int>::max());
+    };
+    write(file = *folder / "log.h5", pulling_scene());
+    write(rising_file = *folder / "rising.h5", pulling_scene(rising));
+  }
+  static void TearDownTestSuite() { folder.reset(); }
+
+  static std::string objections(const fs::path& file) {
+    std::string text;
+    for (const Finding& finding : audit(file)) {
+      text += finding.passed ? "" : finding.name + ": " + finding.text + "\n";
+    }
+    return text;
+  }
+
+  /// What the audit says while the log claims to be of another scene.
+  static std::string objections_with(const fs::path& file, const std::vector<std::string>& set) {
+    const ResolvedScene other = pulling_scene(set);
+    const std::string before = write_scene(file, scene_to_toml(other.scene, other.specimen));
+    const std::string text = objections(file);
+    write_scene(file, before);
+    return text;
+  }
+  static std::string write_scene(const fs::path& file, const std::string& text) {
+    std::string before;
+    H5::H5File h5(file.string(), H5F_ACC_RDWR);
+    H5::Group root = h5.openGroup("/");
+    const H5::Attribute attribute = root.openAttribute("scene");
+    attribute.read(attribute.getStrType(), before);
+    root.removeAttr("scene");
+    const H5::StrType type(H5::PredType::C_S1, H5T_VARIABLE);
+    root.createAttribute("scene", type, H5::DataSpace(H5S_SCALAR)).write(type, text);
+    return before;
+  }
+
+  static std::unique_ptr<TemporaryFolder> folder;
+  static fs::path file, rising_file;
+};
+
+std::unique_ptr<TemporaryFolder> AuditPull::folder;
+fs::path AuditPull::file, AuditPull::rising_file;
+
+TEST_F(AuditPull, GoodLogsAreGood) {
+  EXPECT_EQ(objections(file), "");
+  EXPECT_EQ(objections(rising_file), "");
+}
+
+TEST_F(AuditPull, WatchesEachFigureWherePulledAndWhereNot) {
+  for (const char* path : {"/pull/force", "/pull/plate", "/pull/bearing", "/pull/torque",
+                           "/pull/advantage_rows", "/pull/advantage_torque", "/thigmotaxis/cap"}) {
+    for (const bool pulled : {true, false}) {
+      const auto change = [pulled](std::vector<double>& values) {
+        const auto number = std::ranges::find_if(values, [](double v) { return std::isfinite(v); });
+        ASSERT_NE(number, values.end());
+        // A number off by a millionth; or one where there is none, at the first frame.
+        if (pulled) {
+          *number *= 1 + 1e-6;
+        } else {
+          values.front() = 1;
+        }
+      };
+      const auto before = rewrite<double>(file, path, H5::PredType::NATIVE_DOUBLE, change);
+      EXPECT_NE(objections(file).find(path), std::string::npos) << objections(file);
+      rewrite<double>(file, path, H5::PredType::NATIVE_DOUBLE, [&](auto& v) { v = before; });
+    }
+  }
+  EXPECT_EQ(objections(file), "") << "the test did not mend what it changed";
+}
+
+TEST_F(AuditPull, SeesFoodAndBoundsThatAreNotTheScenes) {
+  const std::pair<const char*, const char*> changes[] = {
+      {"food.strength=0.01", "food: "},
+      {"food.hold=5", "food: "},
+      {"expect.pull=1", "pull: "},
+      {"expect.pull_drift=0", "pull steady: "},
+      {"expect.pull_balance=0", "pull balance: "},
+      {"expect.pull_settled=1.9", "too few"}};
+  for (const auto& [change, watcher] : changes) {
+    const std::string text = objections_with(file, {change});
+    EXPECT_NE(text.find(watcher), std::string::npos) << change << ": " << text;
+  }
+  EXPECT_EQ(objections(file), "");
+}
+
+TEST_F(AuditPull, SeesACapThatIsNotTheScenes) {
+  for (const char* change : {"food.cap.from=3900", "food.cap.to=5100", "food.cap.time=1.5"}) {
+    std::vector<std::string> set = rising;
+    set.emplace_back(change);
+    const std::string text = objections_with(rising_file, set);
+    EXPECT_NE(text.find("/thigmotaxis/cap"), std::string::npos) << change << ": " << text;
+  }
+  EXPECT_NE(objections_with(file, rising).find("/thigmotaxis/cap"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace hagfish

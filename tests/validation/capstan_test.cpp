@@ -1,0 +1,146 @@
+// A frictionless capstan and the pulley that thigmotaxis makes of it, by hand: a chain without
+// stiffness lies half round a post and comes back beside itself. The post is rows of this test, as
+// the simulator has none. A pull F at the loose end is the pull at the head: no friction takes any
+// of it. Forces of Eq. 6 between the two strands, which run in opposite directions, count twice:
+// of each, one half pulls the head's strand and the other one the strand that comes back, which the
+// post hands on. That is sum λ (1 - cos θ) / h of experiments/leverage.md, with θ = 180 degrees.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/support/chain_runs.hpp"
+
+namespace hagfish {
+namespace {
+
+constexpr double link = 0.4;                     // cm
+constexpr double post_radius = 3;                // cm, to the chain's middle line
+const Eigen::Vector3d post(12, post_radius, 0);  // cm; its axis is along Z
+constexpr int bodies = 86;                       // 12 cm to the post, 9.4 round it, 13 back
+constexpr double reach = 0.1;                    // cm: links this near to the post may touch it
+constexpr int beside = 12;                       // body at which the strands push each other
+constexpr double still = 1e-6;                   // cm/s, of all bodies that carry a force
+
+/// Heavy drag and light links: it comes to rest within some tenths of a second.
+ChainRun chain_round_a_post() {
+  Model model;
+  append_root(model, link);
+  for (int b = 1; b < bodies; ++b) {
+    append_body(model, thin_rod(0.02, link), {Axis::z});
+    model.hinges.back().damping = 0.1;  // dyn cm s
+  }
+  model.drag = {.normal = 1, .tangential = 1};
+  ChainRun run(model, bare_scene(0.002));
+  // The joints that turn by the angle that a link takes on the post.
+  const double turn = 2 * std::asin(link / 2 / post_radius);
+  const int first = static_cast<int>(post.x() / link);
+  const int count = static_cast<int>(std::round(std::numbers::pi / turn));
+  run.state.q.segment(7 + first - 1, count).setConstant(std::numbers::pi / count);
+  return run;
+}
+
+class Capstan : public testing::Test {
+ protected:
+  /// A step with a pull of `tip` (dyn) along -X at the loose end, and rows of Eq. 6 that ask for
+  /// more than their `cap` (dyn) gives between the two strands.
+  void step(double tip, double cap) {
+    const Scene& scene = run.scene;
+    Control control;
+    control.tip.value.x() = -tip;
+    seen = observe(run.model, run.state, scene);
+    run.scene.controller.cap = std::max(cap, 1e-9);
+    if (cap > 0) {
+      control.thigmotaxis.push_back({strands(), {1e3, 1e3}});
+    }
+    const StepInput in{run.model, scene, run.state, seen, control};
+    ASSERT_TRUE(solver.begin(in, solution).ok());
+    for (int b = 0; b < bodies; ++b) {
+      const Eigen::Vector3d away = seen.kin.centre.col(b) - post;
+      const double gap = away.norm() - post_radius;
+      if (gap < reach) {
+        Row& row = solution.rows.emplace_back();
+        row.kind = RowKind::contact;
+        row.id = 1'000'000'000'000 + b;
+        row.direction = away.normalized();
+        row.a = {b, 1, {1}, static_cast<double>(b)};
+        row.rhs = -gap / scene.time.step;
+      }
+    }
+    ASSERT_TRUE(solver.resume(in, solution).ok());
+    solver.finish(in, solution);
+    run.state.qdot = solution.qdot;
+    run.state.q = advance(run.state.q, run.state.qdot, scene.time.step);
+  }
+
+  /// The pair of points beside each other, as far from the post, on the strand of the head and on
+  /// the one that comes back.
+  Contact strands() const {
+    int back = bodies / 2;  // on the post
+    const Eigen::Matrix3Xd& centre = seen.kin.centre;
+    for (int b = back; b < bodies - 2; ++b) {
+      back = (centre.col(b) - centre.col(beside)).norm() <
+                     (centre.col(back) - centre.col(beside)).norm()
+                 ? b
+                 : back;
+    }
+    last_loaded = back + 2;
+    return contact_at(seen.segments, beside, 0, back, 0);
+  }
+
+  /// Steps until all bodies up to `last_loaded` are at rest.
+  void settle(double tip, double cap) {
+    for (int k = 0; k < 20000; ++k) {
+      step(tip, cap);
+      if (HasFatalFailure()) return;
+      if (k > 100 && solution.centre_velocity.leftCols(last_loaded).cwiseAbs().maxCoeff() < still) {
+        return;
+      }
+    }
+    FAIL() << "does not come to rest";
+  }
+
+  /// Force on the post, dyn.
+  Eigen::Vector3d on_post() const {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i < solution.rows.size(); ++i) {
+      if (solution.rows[i].kind == RowKind::contact) {
+        sum -= solution.lambda[static_cast<Eigen::Index>(i)] / run.scene.time.step *
+               solution.rows[i].direction;
+      }
+    }
+    return sum;
+  }
+  double pull() const { return -solution.force[RowKind::head][0]; }
+
+  ChainRun run = chain_round_a_post();
+  StepSolver solver{"active-set"};
+  StepSolution solution;
+  Observation seen;
+  mutable int last_loaded = bodies;
+};
+
+/// Of the tension: a link that touches the post beside its middle is not tangent to it there.
+constexpr double tolerance = link * link / (8 * post_radius * post_radius);
+
+TEST_F(Capstan, HandsOnAllOfThePull) {
+  for (const double tension : {50.0, 200.0}) {
+    settle(tension, 0);
+    ASSERT_FALSE(HasFatalFailure());
+    EXPECT_NEAR(pull(), tension, tolerance * tension);
+    EXPECT_NEAR(on_post().x(), -2 * tension, tolerance * tension);
+  }
+}
+
+TEST_F(Capstan, IsAPulleyForThigmotaxis) {
+  settle(50, 0);
+  for (const double cap : {50.0, 100.0}) {  // of each of two rows
+    settle(0, cap);
+    ASSERT_FALSE(HasFatalFailure());
+    EXPECT_NEAR(pull(), 2 * (2 * cap), tolerance * 4 * cap);
+    EXPECT_NEAR(on_post().x(), -4 * cap, tolerance * 4 * cap);
+  }
+}
+
+}  // namespace
+}  // namespace hagfish
