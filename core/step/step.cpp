@@ -71,9 +71,13 @@ Status StepSolver::begin(const StepInput& in, StepSolution& step) {
     if (off <= time.settled) {
       return {};
     }
-    if (pass == time.passes) {
+    if (pass >= time.passes) {
+      // Passes that do not settle may run away: the step is taken as from its own first velocity.
+      midway.moved = midway.felt = in.state.qdot;
+      place_midway(in.model, in.state, time.step, midway);
+      const Status status = begin_here(in, step);
       step.unsettled = off;
-      return {};
+      return status;
     }
     midway.moved = step.qdot;
     midway.felt = 0.5 * (in.state.qdot + step.next);
