@@ -1,5 +1,6 @@
 #include "mujoco_ref/forward_inverse.hpp"
 
+#include "core/chain/dynamics.hpp"
 #include "mujoco_ref/mirror.hpp"
 
 namespace hagfish {
@@ -14,6 +15,25 @@ Eigen::VectorXd driven_velocity(const Model& model, const State& state,
   mju_copy3(d.xfrc_applied + 6 * static_cast<std::ptrdiff_t>(model.body_count()), tip.data());
   mj_step(mirror.model(), mirror.data());
   return state_of(model, mirror).qdot;
+}
+
+Eigen::VectorXd midway_force(const Model& model, const State& start, const Midway& midway,
+                             double reach, MujocoModel& mirror) {
+  mjData& d = *mirror.data();
+  set_state(model, {midway.q, midway.moved}, mirror);
+  mj_forward(mirror.model(), &d);
+  const Eigen::Index moving = mirror.model()->nv;
+  const Eigen::VectorXd behind = (start.qdot - midway.moved).tail(moving);
+  Eigen::VectorXd momentum(moving);
+  mj_mulM(mirror.model(), &d, momentum.data(), behind.data());
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(model.nv());
+  force.tail(moving) = momentum / reach;
+  force += stiffness_force(model, start.q) - stiffness_force(model, midway.q);
+  Kinematics kin = midway.kin;
+  const Matrix6Xd bias = bias_wrench(model, kin, midway.felt_twist);
+  update_velocities(model, midway.moved, kin);
+  force += generalised_force(model, kin, bias_wrench(model, kin, kin.twist) - bias);
+  return force;
 }
 
 }  // namespace hagfish

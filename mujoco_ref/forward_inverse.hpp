@@ -5,6 +5,7 @@
 
 #include "core/chain/model.hpp"
 #include "core/chain/state.hpp"
+#include "core/step/midway.hpp"
 #include "mujoco_ref/mujoco_model.hpp"
 
 namespace hagfish {
@@ -15,5 +16,12 @@ namespace hagfish {
 Eigen::VectorXd driven_velocity(const Model& model, const State& state,
                                 const Eigen::VectorXd& force, const Eigen::Vector3d& tip,
                                 MujocoModel& mirror);
+
+/// What makes driven_velocity from the middle of a step, as `midway` places it, take the first half
+/// of the midpoint rule's step, `reach` (s), to the mean of the velocities before and after it
+/// (nv): the momentum of the step's start, the springs at its start, and the bias of a body that
+/// moves by one velocity and has another.
+Eigen::VectorXd midway_force(const Model& model, const State& start, const Midway& midway,
+                             double reach, MujocoModel& mirror);
 
 }  // namespace hagfish

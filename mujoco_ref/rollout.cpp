@@ -19,9 +19,10 @@ Model smooth(Model model) {
   return model;
 }
 
-std::vector<State> core_rollout(const Model& model, const State& start, Head head, double h,
-                                int steps) {
+std::vector<State> core_rollout(const Model& model, const State& start, Head head, TimeRule rule,
+                                double h, int steps) {
   Scene scene;
+  scene.time.rule = rule;
   scene.time.step = h;
   scene.wall.present = false;
   Control control;
@@ -29,16 +30,18 @@ std::vector<State> core_rollout(const Model& model, const State& start, Head hea
   StepSolver solver("active-set");  // no row needs it
   StepSolution step;
   Observation observation;  // without contacts
+  Midway midway;
   std::vector<State> states;
   State state = start;
   for (int i = 0; i < steps; ++i) {
     observation.kin = kinematics(model, state);
-    if (const Status status = solver.solve({model, scene, state, observation, control}, step);
-        !status.ok()) {
+    const StepInput in{model,       scene,   state,
+                       observation, control, rule == TimeRule::euler ? nullptr : &midway};
+    if (const Status status = solver.solve(in, step); !status.ok()) {
       throw StepError(status);
     }
-    state.qdot = step.qdot;
-    state.q = advance(state.q, state.qdot, h);
+    state.q = advance(state.q, step.qdot, h);
+    state.qdot = step.next;
     states.push_back(state);
   }
   return states;

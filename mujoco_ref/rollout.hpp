@@ -16,8 +16,8 @@ Model smooth(Model model);
 
 /// States after each of `steps` steps of h (s) of the core from `start`: Eq. 1, Eq. 3 where the
 /// head is clamped, and Eq. 2. Wants a smooth model. Throws StepError.
-std::vector<State> core_rollout(const Model& model, const State& start, Head head, double h,
-                                int steps);
+std::vector<State> core_rollout(const Model& model, const State& start, Head head, TimeRule rule,
+                                double h, int steps);
 
 /// The same in MuJoCo, by the rule and timestep that `mirror` is set to. Throws StepError where
 /// MuJoCo finds its state bad, which it would otherwise reset and go on.

@@ -34,16 +34,19 @@ CentreOperator drag_at_centre(const Model& model, const Kinematics& kin, int bod
           length * model.drag.normal * across + length * model.drag.tangential * forward};
 }
 
-/// Inertial wrench of one body at q̈ = 0, about its centre, from its `angular` inertia there.
-Vector6d bias_at_centre(const Model& model, const Kinematics& kin, const Eigen::Matrix3d& angular,
-                        int body) {
+/// Inertial wrench of one body at q̈ = 0, about its centre, from its `angular` inertia there: the
+/// rate of its momentum at `felt_twist` as it moves by kin.twist.
+Vector6d bias_at_centre(const Model& model, const Kinematics& kin, const Matrix6Xd& felt_twist,
+                        const Eigen::Matrix3d& angular, int body) {
   const Vector6d bias = kin.bias_twist.col(body);
-  const Eigen::Vector3d spin = kin.twist.col(body).head<3>();
+  const Eigen::Vector3d turn = kin.twist.col(body).head<3>();
+  const Eigen::Vector3d spin = felt_twist.col(body).head<3>();
   const Eigen::Vector3d momentum = angular * spin;
   const Eigen::Vector3d acceleration =
       point_velocity(bias, kin.centre_offset(body)) + spin.cross(kin.centre_velocity.col(body));
   Vector6d wrench;
-  wrench << angular * bias.head<3>() + spin.cross(momentum), model.bodies[body].mass * acceleration;
+  wrench << angular * (bias.head<3>() - turn.cross(spin)) + turn.cross(momentum),
+      model.bodies[body].mass * acceleration;
   return wrench;
 }
 
@@ -85,22 +88,37 @@ Eigen::Vector3d drag_on_body(const Model& model, const Kinematics& kin, int body
          (model.drag.normal * (velocity - forward) + model.drag.tangential * forward);
 }
 
-double drag_power(const Model& model, const Kinematics& kin, int body, const Vector6d& twist,
-                  const Eigen::Vector3d& velocity) {
+double drag_power(const Model& model, const Kinematics& kin, int body, const PointMotion& over,
+                  const PointMotion& at) {
   const double length = model.bodies[body].length;
   const Eigen::Vector3d along = kin.rotation[body].col(0);
-  const double forward = velocity.dot(along);
-  const double sideways = (velocity - forward * along).squaredNorm();
-  const double turning = twist.head<3>().cross(along).squaredNorm();
+  const double forward = over.velocity.dot(along) * at.velocity.dot(along);
+  const double sideways = over.velocity.dot(at.velocity) - forward;
+  const Eigen::Vector3d spin = over.twist.head<3>(), other = at.twist.head<3>();
+  const double turning = spin.dot(other) - spin.dot(along) * other.dot(along);
   return length * (model.drag.normal * (sideways + turning * length * length / 12) +
-                   model.drag.tangential * forward * forward);
+                   model.drag.tangential * forward);
+}
+
+double inertia_product(const Model& model, const Kinematics& kin, int body, const PointMotion& a,
+                       const PointMotion& b) {
+  const Eigen::Matrix3d& r = kin.rotation[body];
+  const Eigen::Vector3d rate_a = r.transpose() * a.twist.head<3>();
+  const Eigen::Vector3d rate_b = r.transpose() * b.twist.head<3>();
+  return model.bodies[body].mass * a.velocity.dot(b.velocity) +
+         rate_a.cwiseProduct(rate_b).dot(model.bodies[body].inertia);
 }
 
 Matrix6Xd bias_wrench(const Model& model, const Kinematics& kin) {
+  return bias_wrench(model, kin, kin.twist);
+}
+
+Matrix6Xd bias_wrench(const Model& model, const Kinematics& kin, const Matrix6Xd& felt_twist) {
   Matrix6Xd wrench(6, kin.twist.cols());
   for (int b = 0; b < model.body_count(); ++b) {
-    wrench.col(b) = about_reference(bias_at_centre(model, kin, angular_inertia(model, kin, b), b),
-                                    kin.centre_offset(b));
+    wrench.col(b) =
+        about_reference(bias_at_centre(model, kin, felt_twist, angular_inertia(model, kin, b), b),
+                        kin.centre_offset(b));
   }
   return wrench;
 }
@@ -121,8 +139,9 @@ Eigen::VectorXd stiffness_force(const Model& model, const Eigen::VectorXd& q) {
   return force;
 }
 
-void assemble_step_system(const Model& model, const State& state, const Kinematics& kin,
-                          const TipForce& tip, double h, StepSystem& system) {
+void assemble_step_system(const Model& model, const Eigen::VectorXd& q, const StepMotion& motion,
+                          const Kinematics& kin, const TipForce& tip, double h,
+                          StepSystem& system) {
   const int n = model.body_count();
   system.bias.resize(6, n);
   system.op.inertia.resize(n);
@@ -136,17 +155,17 @@ void assemble_step_system(const Model& model, const State& state, const Kinemati
     const CentreOperator drag = drag_at_centre(model, kin, b);
     system.op.inertia[b] = point_operator(
         angular + h * drag.angular, mass * Eigen::Matrix3d::Identity() + h * drag.linear, offset);
-    const Vector6d bias = bias_at_centre(model, kin, angular, b);
+    const Vector6d bias = bias_at_centre(model, kin, motion.felt_twist, angular, b);
     system.bias.col(b) = bias;
     Vector6d momentum;
-    momentum << angular * kin.twist.col(b).head<3>() - h * bias.head<3>(),
-        mass * kin.centre_velocity.col(b) + h * (mass * model.gravity - bias.tail<3>());
+    momentum << angular * motion.twist.col(b).head<3>() - h * bias.head<3>(),
+        mass * motion.centre_velocity.col(b) + h * (mass * model.gravity - bias.tail<3>());
     system.wrench.col(b) = about_reference(momentum, offset);
   }
   for (int k = root_dofs; k < model.nv(); ++k) {
     const Hinge& hinge = model.hinges[k - root_dofs];
     system.op.diagonal[k] = h * hinge.damping + h * h * hinge.stiffness;
-    system.joint[k] = -h * hinge.stiffness * state.q[k + 1];
+    system.joint[k] = -h * hinge.stiffness * q[k + 1];
   }
 
   const int last = n - 1;
@@ -168,7 +187,8 @@ void add_active_torque(const ActiveTorque& torque, double h, StepSystem& system)
 StepSystem step_system(const Model& model, const State& state, const Kinematics& kin,
                        const TipForce& tip, double h) {
   StepSystem system;
-  assemble_step_system(model, state, kin, tip, h, system);
+  assemble_step_system(model, state.q, {kin.twist, kin.centre_velocity, kin.twist}, kin, tip, h,
+                       system);
   return system;
 }
 

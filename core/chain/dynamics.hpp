@@ -25,7 +25,9 @@ Matrix6d drag_operator(const Model& model, const Kinematics& kin, int body);
 /// Drag as a generalised force (nv) at velocities `v` (nv).
 Eigen::VectorXd drag_force(const Model& model, const Kinematics& kin, const Eigen::VectorXd& v);
 
-/// M_m J̇ q̇ plus the gyroscopic wrench: the inertial wrench of each body at q̈ = 0 (6 x N).
+/// M_m J̇ q̇ plus the gyroscopic wrench: the inertial wrench of each body at q̈ = 0 (6 x N), where the
+/// bodies have the twists `felt_twist` (6 x N) and move as `kin` says.
+Matrix6Xd bias_wrench(const Model& model, const Kinematics& kin, const Matrix6Xd& felt_twist);
 Matrix6Xd bias_wrench(const Model& model, const Kinematics& kin);
 
 /// Gravity on each body (6 x N).
@@ -57,9 +59,12 @@ struct StepSystem {
   Eigen::VectorXd joint;  ///< right-hand side, joint part, nv (times s)
 };
 
-/// Assembles Eq. 1 at `state`; `kin` has positions and velocities.
-void assemble_step_system(const Model& model, const State& state, const Kinematics& kin,
-                          const TipForce& tip, double h, StepSystem& system);
+/// Assembles Eq. 1 at the place of the step, `kin`, whose bodies move as the step does and as
+/// `motion` says. The step starts with hinges at the angles of `q` (nq); `h` (s) is how far into it
+/// its forces act.
+void assemble_step_system(const Model& model, const Eigen::VectorXd& q, const StepMotion& motion,
+                          const Kinematics& kin, const TipForce& tip, double h, StepSystem& system);
+/// The same of a step that starts where and as `kin` says.
 StepSystem step_system(const Model& model, const State& state, const Kinematics& kin,
                        const TipForce& tip, double h);
 
@@ -77,9 +82,19 @@ double kinetic_energy(const Model& model, const Kinematics& kin);
 Eigen::Vector3d drag_on_body(const Model& model, const Kinematics& kin, int body,
                              const Eigen::Vector3d& velocity);
 
-/// Power that drag takes from one body, erg/s, at `twist`, which moves its centre with `velocity`.
-double drag_power(const Model& model, const Kinematics& kin, int body, const Vector6d& twist,
-                  const Eigen::Vector3d& velocity);
+/// How one body moves: its twist, and the velocity of its centre at it, cm/s.
+struct PointMotion {
+  Vector6d twist;
+  Eigen::Vector3d velocity;
+};
+
+/// Power over one motion of a body against the drag that it has at another one, erg/s: symmetric.
+double drag_power(const Model& model, const Kinematics& kin, int body, const PointMotion& over,
+                  const PointMotion& at);
+
+/// a' M b of one body, erg: symmetric; twice its kinetic energy where both are the same.
+double inertia_product(const Model& model, const Kinematics& kin, int body, const PointMotion& a,
+                       const PointMotion& b);
 
 /// Energy in the joint springs, erg.
 double elastic_energy(const Model& model, const Eigen::VectorXd& q);

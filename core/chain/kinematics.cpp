@@ -60,20 +60,24 @@ void update_positions(const Model& model, const Eigen::VectorXd& q, Kinematics& 
 }
 
 void update_velocities(const Model& model, const Eigen::VectorXd& qdot, Kinematics& kin) {
+  update_velocities(model, qdot, qdot, kin);
+}
+
+void update_velocities(const Model& model, const Eigen::VectorXd& moved,
+                       const Eigen::VectorXd& felt, Kinematics& kin) {
   const int n = model.body_count();
   kin.twist.resize(6, n);
   kin.bias_twist.resize(6, n);
-  Vector6d twist = kin.axis.leftCols<root_dofs>() * qdot.head<root_dofs>();
+  Vector6d twist = kin.axis.leftCols<root_dofs>() * moved.head<root_dofs>();
   // The root's translation axes stand still; its rotation axes turn and move with the body.
-  Vector6d bias = cross_motion(twist, Vector6d(kin.axis.middleCols<3>(3) * qdot.segment<3>(3)));
+  Vector6d bias = cross_motion(twist, Vector6d(kin.axis.middleCols<3>(3) * felt.segment<3>(3)));
   kin.twist.col(0) = twist;
   kin.bias_twist.col(0) = bias;
   for (int b = 1; b < n; ++b) {
     const Body& body = model.bodies[b];
     for (int k = body.first_dof; k < body.first_dof + body.dofs; ++k) {
-      const Vector6d turn = kin.axis.col(k) * qdot[k];
-      bias += cross_motion(twist, turn);
-      twist += turn;
+      bias += cross_motion(twist, Vector6d(kin.axis.col(k) * felt[k]));
+      twist += kin.axis.col(k) * moved[k];
     }
     kin.twist.col(b) = twist;
     kin.bias_twist.col(b) = bias;

@@ -25,11 +25,23 @@ struct Kinematics {
   Eigen::Vector3d centre_offset(int body) const { return centre.col(body) - reference; }
 };
 
+/// What Eq. 1 needs to know of the motion at the place of its step.
+struct StepMotion {
+  const Matrix6Xd& twist;                   ///< of the bodies at the step's first velocity, 6 x N
+  const Eigen::Matrix3Xd& centre_velocity;  ///< of their centres at it, 3 x N, cm/s
+  const Matrix6Xd& felt_twist;              ///< at what they have on the mean, 6 x N
+};
+
 /// Positions and axes; does not touch the velocity fields.
 void update_positions(const Model& model, const Eigen::VectorXd& q, Kinematics& kin);
 
 /// Twists and bias twists; after update_positions.
 void update_velocities(const Model& model, const Eigen::VectorXd& qdot, Kinematics& kin);
+/// The same where bodies move by `moved`, but have the velocities `felt` (nv both) on the mean
+/// while they do (midpoint rule): bias_twist is the rate of J along `moved`, times `felt`; the rest
+/// is of `moved`.
+void update_velocities(const Model& model, const Eigen::VectorXd& moved,
+                       const Eigen::VectorXd& felt, Kinematics& kin);
 
 Kinematics kinematics(const Model& model, const State& state);
 

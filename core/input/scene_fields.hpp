@@ -187,7 +187,11 @@ void knot_fields(Io& io, KnotSettings& s) {
 
 template <class Io>
 void time_fields(Io& io, TimeSettings& s) {
+  io.template choice<TimeRule>("rule", s.rule,
+                               {{"euler", TimeRule::euler}, {"midpoint", TimeRule::midpoint}});
   io.number("step", s.step, positive());
+  io.number("settled", s.settled, positive());
+  io.integer("passes", s.passes, within(1, 1000));
   io.number("frame_interval", s.frame_interval, positive());
   io.number("checkpoint_interval", s.checkpoint_interval, positive());
   io.number("duration", s.duration, positive());

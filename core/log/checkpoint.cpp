@@ -18,7 +18,7 @@ namespace hagfish {
 namespace {
 
 /// Of the bytes' layout; raised with every change of what they hold.
-constexpr int layout = 2;
+constexpr int layout = 3;
 /// No list of a run is longer; a damaged count must not ask for all memory.
 constexpr std::uint64_t most_entries = 1000000;
 
@@ -214,10 +214,10 @@ void serialize(Archive& archive, LogState& log) {
 
 template <class Archive>
 void serialize(Archive& archive, Simulation& sim) {
-  auto& [step, now, search, controller, solver, ledger, momentum, watch, before] =
-      sim;  // the last is scratch
-  archive(step, now.state, now.observation, search, controller, solver.warm, ledger, momentum,
-          watch);
+  auto& [step, now, search, controller, solver, ledger, momentum, watch, midway, before] =
+      sim;  // the last two are storage
+  archive(step, now.state, now.observation, search, controller, solver.warm,
+          solver.warm.half_change, solver.warm.half_before, ledger, momentum, watch);
 }
 
 namespace {
@@ -270,6 +270,10 @@ void check(const Simulation& sim, const LogState& log, const Model& model) {
   const Eigen::Index rest = sim.controller.rest_shape.size();
   require(rest == 0 || (rest == model.nv() && sim.controller.rest_shape.allFinite()),
           "a rest shape that is not of its model");
+  for (const auto* change : {&sim.solver.warm.half_change, &sim.solver.warm.half_before}) {
+    require(change->size() == 0 || (change->size() == model.nv() && change->allFinite()),
+            "a change of velocity that is not of its model");
+  }
   require(log.means.size() == model.nv(), "means that are not of its model");
 }
 

@@ -96,7 +96,7 @@ void declare_trajectory(const Model& model, LogTable<Frame>& t) {
   t.numbers(
       "/trajectory/qdot_next", {nv},
       {rates, "velocity after the step that begins at the frame, to which its forces lead"},
-      [](const Frame& f) -> const auto& { return f.record.solution.qdot; });
+      [](const Frame& f) -> const auto& { return f.record.solution.next; });
   t.numbers(
       "/trajectory/q_ref", {nv},
       {"rad",
@@ -110,6 +110,27 @@ void declare_trajectory(const Model& model, LogTable<Frame>& t) {
   t.numbers(
       "/trajectory/position", {n, 3}, {"cm", "body centres, world axes"},
       [](const Frame& f) -> const auto& { return f.record.moment.observation.kin.centre; });
+}
+
+/// /midway: what the midpoint rule's equations are of.
+void declare_midway(const Model& model, LogTable<Frame>& t) {
+  const hsize_t nv = model.nv();
+  const auto velocity = [&](const char* name, const char* description, auto get) {
+    t.numbers(std::string("/midway/") + name, {nv}, {"cm/s, rad/s", description}, get);
+  };
+  velocity(
+      "moved",
+      "velocity that takes half a step from the frame to the middle of its step, where its "
+      "equations hold",
+      [](const Frame& f) -> const auto& { return f.record.solution.middle.moved; });
+  velocity(
+      "felt", "velocity that the bodies' inertia is taken to have there",
+      [](const Frame& f) -> const auto& { return f.record.solution.middle.felt; });
+  velocity(
+      "qdot",
+      "velocity by which the step moves, which meets the rows: impulses act on it in full, "
+      "steady forces by half; springs, damping and drag act at the mean of qdot and qdot_next",
+      [](const Frame& f) -> const auto& { return f.record.solution.qdot; });
 }
 
 void declare_knot(LogTable<Frame>& t) {
@@ -325,9 +346,10 @@ void Worst::take(const StepRecord& record) {
   kkt = std::max(kkt, worst_residual(record.solution));
 }
 
-LogTable<Frame> frame_table(const Model& model) {
+LogTable<Frame> frame_table(const Model& model, TimeRule rule) {
   LogTable<Frame> table(frame_chunk_rows);
   declare_trajectory(model, table);
+  if (rule == TimeRule::midpoint) declare_midway(model, table);
   declare_knot(table);
   declare_forces(model, table);
   declare_thigmotaxis(table);

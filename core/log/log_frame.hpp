@@ -117,7 +117,7 @@ class LogTable {
 };
 
 /// Every dataset along the frames (log schema, rows along T).
-LogTable<Frame> frame_table(const Model& model);
+LogTable<Frame> frame_table(const Model& model, TimeRule rule);
 
 /// The datasets along the steps, /steps: few figures, but of every step.
 LogTable<LoggedStep> step_table();

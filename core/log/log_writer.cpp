@@ -62,7 +62,7 @@ void mark_failed(const fs::path& file, const std::string& cause) {
 
 struct LogWriter::Contents {
   Contents(const Model& model, const Scene& scene)
-      : frames(frame_table(model)),
+      : frames(frame_table(model, scene.time.rule)),
         steps(step_table()),
         contacts(contact_table()),
         marks(checkpoint_table()),

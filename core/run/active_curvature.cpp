@@ -62,7 +62,7 @@ void move_rest_shape(const Model& model, const Scene& scene, Phase phase, const 
   const auto count = static_cast<Eigen::Index>(model.hinges.size());
   const auto angles = q.tail(count);
   if (phase == Phase::form) {
-    rest = program_shape(model, scene.script.curvature, time + h);
+    rest = program_shape(model, scene.script.curvature, time + scene.time.reach());
     return;
   }
   if (rest.size() == 0) {
@@ -79,7 +79,7 @@ void move_rest_shape(const Model& model, const Scene& scene, Phase phase, const 
 
 ActiveTorque active_torque(const Model& model, const Scene& scene, const State& state,
                            const Eigen::VectorXd& rest) {
-  const double h = scene.time.step;
+  const double h = scene.time.reach();
   const double capacity = scene.active.capacity;
   ActiveTorque torque{Eigen::VectorXd::Zero(model.nv()), Eigen::VectorXd::Zero(model.nv())};
   for (int k = root_dofs; k < model.nv(); ++k) {

@@ -248,7 +248,7 @@ Status decide(const Model& model, const Scene& scene, const Moment& now, double 
   const int last = model.body_count() - 1;
   const Kinematics& kin = observation.kin;
   if (controller.phase == Phase::form) {
-    control.tip = script_force(scene.script, time, scene.time.step, kin.centre.col(last),
+    control.tip = script_force(scene.script, time, scene.time, kin.centre.col(last),
                                kin.centre_velocity.col(last));
   } else if (controller.phase != Phase::free && controller.first.contact) {
     command_speeds(scene, time, controller, control.thigmotaxis);

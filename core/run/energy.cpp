@@ -9,16 +9,8 @@ void set_energies(const Model& model, const Moment& now, EnergyLedger& ledger) {
   ledger.gravity = gravity_energy(model, now.observation.kin);
 }
 
-/// Power lost to drag and damping at the step's velocity, erg/s.
-double dissipation(const Model& model, const Kinematics& kin, const StepSolution& solution) {
-  double power = 0;
-  for (int b = 0; b < model.body_count(); ++b) {
-    power += drag_power(model, kin, b, solution.twist.col(b), solution.centre_velocity.col(b));
-  }
-  for (int k = root_dofs; k < model.nv(); ++k) {
-    power += model.hinges[k - root_dofs].damping * solution.qdot[k] * solution.qdot[k];
-  }
-  return power;
+PointMotion motion_of(const Matrix6Xd& twist, const Eigen::Matrix3Xd& velocity, int body) {
+  return {twist.col(body), velocity.col(body)};
 }
 
 }  // namespace
@@ -31,48 +23,65 @@ EnergyLedger open_ledger(const Model& model, const Moment& now) {
   return ledger;
 }
 
-// The step solves M Δv = h (f - D v - K (q0 + h v) + w - b), Δv = v - v0, with the forces f,
-// gravity w and the bias b of inertia, then moves by t v. With all forms of energy at their places,
-//   T(q0, v) - T(q0, v0) = v'MΔv - ½ Δv'MΔv,    v'MΔv = (t/h) v'MΔv + (1 - t/h) v'MΔv,
-//   (t/h) v'MΔv = t v'(f - D v) - t v'K q0 - t h v'K v + t v'w - t v'b,
-//   V(q0 + t v) - V(q0) = t v'K q0 + ½ t² v'K v   of the springs.
-// Their sum is works less dissipation, t v'(f - D v), and the integrator's own terms below.
-void book_step(const Model& model, const Kinematics& kin, const StepSolution& solution,
-               const Moment& next, double h, double travelled, EnergyLedger& ledger) {
+// The step solves M (v' - v) = h (f(x) - b) + C'λ, with what is felt, f(x) = f - D x - K (q + r x)
+// + w, and moves by t u. Euler's rule: u = x = v', r = h, M at the start. Midpoint: x = (v + v')/2,
+// r = h/2, M in the middle; u = x but for impacts. With y = (v + v')/2 and all at that place,
+//   T(v') - T(v) = y'MΔv = (t/h) u'MΔv + (y - (t/h) u)'MΔv,
+//   (t/h) u'MΔv = t u'(f - D x) + (t/h) u'C'λ - t u'K q - t r u'K x + t u'w - t u'b,
+//   V(q + t u) - V(q) = t u'K q + ½ t² u'K u   of the springs.
+// Their sum is works less dissipation and the integrator's own terms below, with what T changes by
+// on the way to that place and from there.
+void book_step(const StepInput& in, const StepSolution& step, const Moment& next, double travelled,
+               EnergyLedger& ledger) {
+  const Model& model = in.model;
+  const Kinematics& kin = in.kin();
   const double t = travelled;
-  const Eigen::VectorXd& v = solution.qdot;
+  const double h = in.scene.time.step;
+  const Eigen::VectorXd& u = step.qdot;
   const int last = model.body_count() - 1;
-  ledger.work_tip += t * solution.tip.dot(solution.centre_velocity.col(last));
-  ledger.work_active += t * solution.active_torque.dot(v);
+  ledger.work_tip += t * step.tip.dot(step.centre_velocity.col(last));
+  ledger.work_active += t * step.active_torque.dot(u);
   for (const RowKind kind : row_kinds) {
-    ledger.work(kind) += t * solution.force[kind].dot(v);
+    ledger.work(kind) += t * step.force[kind].dot(u);
   }
-  ledger.dissipated += t * dissipation(model, kin, solution);
 
-  double stretch = 0;  // v'K v
+  double damped = 0;   // u'D x
+  double stretch = 0;  // ½ t u'K u - r u'K x
   for (int k = root_dofs; k < model.nv(); ++k) {
-    stretch += model.hinges[k - root_dofs].stiffness * v[k] * v[k];
+    const Hinge& hinge = model.hinges[k - root_dofs];
+    damped += hinge.damping * u[k] * step.felt[k];
+    stretch += hinge.stiffness * u[k] * (0.5 * t * u[k] - in.scene.time.reach() * step.felt[k]);
   }
-  double change = 0;  // kinetic energy of the change of velocity
-  double moved = 0;   // and of the new one, before the bodies move
-  double fall = 0;    // work of gravity
-  double bias = 0;    // and of what inertia asks for
+  const StepMotion before = in.motion();
+  double impulse = 0;  // (y - (t/h) u)'MΔv
+  double moved = 0;    // T(v') - T(v) at the place of the step
+  double fall = 0;     // work of gravity
+  double bias = 0;     // and of what inertia asks for
   for (int b = 0; b < model.body_count(); ++b) {
-    const Vector6d now = solution.twist.col(b);
-    const Eigen::Vector3d velocity = solution.centre_velocity.col(b);
-    change += kinetic_energy(model, kin, b, now - kin.twist.col(b),
-                             velocity - kin.centre_velocity.col(b));
-    moved += kinetic_energy(model, kin, b, now, velocity);
-    fall += t * model.bodies[b].mass * model.gravity.dot(velocity);
-    bias += t * (solution.system.bias.col(b).head<3>().dot(now.head<3>()) +
-                 solution.system.bias.col(b).tail<3>().dot(velocity));
+    const PointMotion old = motion_of(before.twist, before.centre_velocity, b);
+    const PointMotion by = motion_of(step.twist, step.centre_velocity, b);
+    const PointMotion felt = motion_of(step.felt_twist, step.felt_centre_velocity, b);
+    const bool euler = in.midway == nullptr;
+    const PointMotion fresh =
+        euler ? by : PointMotion{2 * felt.twist - old.twist, 2 * felt.velocity - old.velocity};
+    const PointMotion change{fresh.twist - old.twist, fresh.velocity - old.velocity};
+    const PointMotion mean{0.5 * (fresh.twist + old.twist), 0.5 * (fresh.velocity + old.velocity)};
+    moved += inertia_product(model, kin, b, mean, change);
+    impulse += inertia_product(model, kin, b,
+                               {mean.twist - t / h * by.twist, mean.velocity - t / h * by.velocity},
+                               change);
+    damped += drag_power(model, kin, b, by, felt);
+    fall += t * model.bodies[b].mass * model.gravity.dot(by.velocity);
+    bias += t * (step.system.bias.col(b).head<3>().dot(by.twist.head<3>()) +
+                 step.system.bias.col(b).tail<3>().dot(by.velocity));
   }
-  const double impulse_work = moved - ledger.kinetic + change;  // v'MΔv
-  const double before = gravity_energy(model, kin);
+  ledger.dissipated += t * damped;
+  const double kinetic = ledger.kinetic;
+  const double gravity = ledger.gravity;
   set_energies(model, next, ledger);
-  ledger.integrator_inertia += (1 - t / h) * impulse_work - change;
-  ledger.integrator_potential += (0.5 * t - h) * t * stretch + fall + ledger.gravity - before;
-  ledger.integrator_coriolis += ledger.kinetic - moved - bias;
+  ledger.integrator_inertia += impulse;
+  ledger.integrator_potential += t * stretch + fall + ledger.gravity - gravity;
+  ledger.integrator_coriolis += ledger.kinetic - kinetic - moved - bias;
 }
 
 }  // namespace hagfish

@@ -51,9 +51,9 @@ struct EnergyLedger {
 /// Opens the ledger at a moment.
 EnergyLedger open_ledger(const Model& model, const Moment& now);
 
-/// Books the step from `kin`, where the ledger stands, by `solution`, solved for length h (s), to
-/// `next`, where its velocity has led in the time `travelled` (s), 0 to h.
-void book_step(const Model& model, const Kinematics& kin, const StepSolution& solution,
-               const Moment& next, double h, double travelled, EnergyLedger& ledger);
+/// Books the step `in` from where the ledger stands, by its solution, to `next`, where it has led
+/// in the time `travelled` (s), 0 to h.
+void book_step(const StepInput& in, const StepSolution& step, const Moment& next, double travelled,
+               EnergyLedger& ledger);
 
 }  // namespace hagfish

@@ -17,24 +17,29 @@ MomentumLedger open_momentum(const Model& model, const Moment& now) {
   return ledger;
 }
 
-// The root's linear rows of Eq. 1 say Σ m (v - v0) + h Σ bias = h Σ forces, with the velocities v
-// of the bodies' centres at the new q̇ and the old positions, and forces of rows between two
-// parts of the body, of joints and of muscles that add up to nothing.
-void book_momentum(const Model& model, const Kinematics& kin, const StepSolution& solution,
-                   const Moment& next, double h, MomentumLedger& ledger) {
-  Eigen::Vector3d before_moving = Eigen::Vector3d::Zero();  // Σ m v
+// The root's linear rows of Eq. 1 say Σ m (v' - v) + h Σ bias = h Σ forces, with the velocities v,
+// v' of the bodies' centres before and after at the positions of the step's equations, and forces
+// of rows between two parts of the body, of joints and of muscles that add up to nothing.
+void book_momentum(const StepInput& in, const StepSolution& step, const Moment& next,
+                   MomentumLedger& ledger) {
+  const Model& model = in.model;
+  const double h = in.scene.time.step;
+  const StepMotion before = in.motion();
+  Eigen::Vector3d change = Eigen::Vector3d::Zero();  // Σ m (v' - v)
   Eigen::Vector3d bias = Eigen::Vector3d::Zero();
   for (int b = 0; b < model.body_count(); ++b) {
-    const Eigen::Vector3d velocity = solution.centre_velocity.col(b);
-    before_moving += model.bodies[b].mass * velocity;
-    bias += solution.system.bias.col(b).tail<3>();
-    ledger.drag += h * drag_on_body(model, kin, b, velocity);
+    const Eigen::Vector3d felt = step.felt_centre_velocity.col(b);
+    const double share = in.midway == nullptr ? 1 : 2;
+    change += share * model.bodies[b].mass * (felt - before.centre_velocity.col(b));
+    bias += step.system.bias.col(b).tail<3>();
+    ledger.drag += h * drag_on_body(model, in.kin(), b, felt);
     ledger.outside += h * model.bodies[b].mass * model.gravity;
   }
-  ledger.outside += h * (solution.tip + solution.force[RowKind::head].head<3>() +
-                         solution.force[RowKind::wall].head<3>());
+  ledger.outside +=
+      h * (step.tip + step.force[RowKind::head].head<3>() + step.force[RowKind::wall].head<3>());
+  const Eigen::Vector3d old = ledger.momentum;
   ledger.momentum = linear_momentum(model, next.observation.kin);
-  ledger.integrator += ledger.momentum - before_moving - h * bias;
+  ledger.integrator += ledger.momentum - old - change - h * bias;
 }
 
 }  // namespace hagfish

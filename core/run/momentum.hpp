@@ -29,8 +29,8 @@ Eigen::Vector3d linear_momentum(const Model& model, const Kinematics& kin);
 /// Opens the ledger at a moment.
 MomentumLedger open_momentum(const Model& model, const Moment& now);
 
-/// Books the step of `h` (s) from `kin`, where the ledger stands, by `solution` to `next`.
-void book_momentum(const Model& model, const Kinematics& kin, const StepSolution& solution,
-                   const Moment& next, double h, MomentumLedger& ledger);
+/// Books the step `in` from where the ledger stands, by its solution, to `next`.
+void book_momentum(const StepInput& in, const StepSolution& step, const Moment& next,
+                   MomentumLedger& ledger);
 
 }  // namespace hagfish

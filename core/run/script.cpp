@@ -46,15 +46,16 @@ Eigen::Vector3d script_value(const ScriptSettings& script, double time) {
          (3 * u2 - 2 * u3) * at(knots[k + 1]) + (u3 - u2) * span * tangent(knots, k + 1);
 }
 
-TipForce script_force(const ScriptSettings& script, double time, double h,
+TipForce script_force(const ScriptSettings& script, double time, const TimeSettings& step,
                       const Eigen::Vector3d& position, const Eigen::Vector3d& velocity) {
   using Kind = ScriptSettings::Kind;
   if (script.kind == Kind::none || script.kind == Kind::curvature) {
     return {};
   }
   if (script.kind == Kind::force) {
-    return {script_value(script, time), 0};
+    return {script_value(script, step.rule == TimeRule::euler ? time : time + step.reach()), 0};
   }
+  const double h = step.reach();
   const TipForce implicit{script.spring * (script_value(script, time + h) - position),
                           h * script.spring + script.damper};
   const Eigen::Vector3d expected = implicit.value - implicit.rate * velocity;

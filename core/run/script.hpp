@@ -15,12 +15,11 @@ Eigen::Vector3d script_value(const ScriptSettings& script, double time);
 /// Time of the last knot or of the curvature program's last shape, s; 0 without a script.
 double script_end(const ScriptSettings& script);
 
-/// The script's force on the last body for the step from `time` to `time + h`; none of a curvature
-/// program. A position script
-/// pulls with a spring-damper towards its value at the end of the step, implicitly, up to
-/// largest_force, above which the force is constant within the step.
-/// `position`, `velocity`: the last body's centre, world, cm and cm/s.
-TipForce script_force(const ScriptSettings& script, double time, double h,
+/// The script's force on the last body for the step from `time`; none of a curvature program. A
+/// position script pulls with a spring-damper towards its value where the step's forces act
+/// (TimeSettings::reach), implicitly, up to largest_force, above which the force is constant within
+/// the step. `position`, `velocity`: the last body's centre, world, cm and cm/s.
+TipForce script_force(const ScriptSettings& script, double time, const TimeSettings& step,
                       const Eigen::Vector3d& position, const Eigen::Vector3d& velocity);
 
 }  // namespace hagfish

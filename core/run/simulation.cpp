@@ -26,7 +26,9 @@ class Attempt {
         record_(record),
         step_(record.solution),
         next_(record.moment),
-        in_{model, scene, sim.now.state, sim.now.observation, record.control} {}
+        in_{model,          scene,
+            sim.now.state,  sim.now.observation,
+            record.control, scene.time.rule == TimeRule::euler ? nullptr : &sim.midway} {}
 
   Status take() {
     record_.step = sim_.step;
@@ -43,20 +45,27 @@ class Attempt {
     if (Status status = solve(); !status.ok()) {
       return status;
     }
+    if (step_.unsettled > 0) {
+      warn(
+          Outcome::unsettled,
+          fmt::format("after {} passes the middle of a step is known to {:.3g} rad/s or cm/s only, "
+                      "over time.settled = {:g}; a smaller time.step would help",
+                      scene_.time.passes, step_.unsettled, scene_.time.settled));
+    }
     const double travelled = looks_ahead() ? end_where_strands_meet() : h();
     sim_.solver.finish(in_, step_);
     note_pull(step_, sim_.controller);
     guard_muscles(model_, scene_, sim_.controller.rest_shape, record_.control.active, record_.time,
                   sim_.watch, record_.warnings);
-    guard_cap(model_, sim_.now.observation.kin, scene_, sim_.controller.phase, step_, record_.time,
-              sim_.watch, record_.warnings);
+    guard_cap(model_, in_.kin(), scene_, sim_.controller.phase, step_, record_.time, sim_.watch,
+              record_.warnings);
     if (Status status =
             guard_state(model_, next_, record_.crossing, scene_, sim_.watch, record_.warnings);
         !status.ok()) {
       return status;
     }
     record_.ledger = sim_.ledger;
-    book_step(model_, sim_.now.observation.kin, step_, next_, h(), travelled, sim_.ledger);
+    book_step(in_, step_, next_, travelled, sim_.ledger);
     if (Status status =
             guard_energy(model_, scene_, next_, sim_.ledger, sim_.watch, record_.warnings);
         !status.ok()) {
@@ -66,7 +75,7 @@ class Attempt {
         record_.control.clamp_head ? head_drift(model_, sim_.now.observation.kin) : 0;
     record_.controller = sim_.controller;
     record_.momentum = sim_.momentum;
-    book_momentum(model_, sim_.now.observation.kin, step_, next_, h(), sim_.momentum);
+    book_momentum(in_, step_, next_, sim_.momentum);
     std::swap(sim_.now, next_);
     ++sim_.step;
     return {};
@@ -109,7 +118,7 @@ class Attempt {
   /// is set, adds the rows that show it and returns true: the step is to be solved again.
   bool follow_path(bool correct) {
     const int count = path_samples(step_.centre_velocity, h(), scene_.constraints.stride);
-    next_.state.qdot = step_.qdot;
+    next_.state.qdot = step_.next;
     record_.crossing = 0;
     for (int i = 1; i <= count; ++i) {
       const double t = i < count ? h() * i / count : h();

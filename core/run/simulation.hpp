@@ -33,6 +33,7 @@ struct Simulation {
   EnergyLedger ledger;
   MomentumLedger momentum;
   Watch watch;
+  Midway midway = {};  ///< storage
   BeforeStep before;
 };
 

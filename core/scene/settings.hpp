@@ -226,13 +226,27 @@ struct KnotSettings {
   bool mirror = false;       ///< tries the directions' mirror images, y to -y: see Scene::mirror
 };
 
+/// The rule of a step in time (core/README.md, "Steps in time").
+enum class TimeRule {
+  euler,    ///< the paper's: linearly implicit, of first order
+  midpoint  ///< forces in the middle of the step, of second order; impulses act in full
+};
+
 struct TimeSettings {
-  double step = 0.002;            ///< h, s
+  TimeRule rule = TimeRule::euler;
+  double step = 0.002;  ///< h, s
+  /// The middle of a step has settled once another pass changes the velocity by no more than this:
+  /// rad/s of each hinge, and cm/s and rad/s of the root.
+  double settled = 0.01;
+  int passes = 20;                ///< to settle in at most
   double frame_interval = 0.020;  ///< time between logged frames, s; a whole number of steps
   /// Time between checkpoints in the log, from which a run can branch, rounded to whole frames, s.
   double checkpoint_interval = 1;
   double duration = 30;       ///< the run ends here at the latest, s
   Phase until = Phase::free;  ///< the run ends with this phase
+
+  /// How far into a step its forces act, s.
+  double reach() const { return rule == TimeRule::euler ? step : step / 2; }
 };
 
 enum class GuardAction { stop, warn };

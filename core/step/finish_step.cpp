@@ -74,7 +74,7 @@ void scale_multipliers(StepScratch& scratch, const StepSolution& step) {
 
 /// Forces and residuals on the primal side: q̇ against H, and the rows' excess C q̇ - d.
 void StepSolver::measure(const StepInput& in, StepSolution& step) {
-  const Kinematics& kin = in.observation.kin;
+  const Kinematics& kin = in.kin();
   const double h = in.scene.time.step;
   const auto m = static_cast<Eigen::Index>(step.rows.size());
   step.excess.resize(m);
@@ -108,9 +108,21 @@ void StepSolver::keep_active(const StepSolution& step) {
 
 void StepSolver::finish(const StepInput& in, StepSolution& step) {
   scale_multipliers(scratch_, step);
+  if (in.midway == nullptr) {
+    step.felt = step.qdot;
+    step.felt_twist = step.twist;
+    step.felt_centre_velocity = step.centre_velocity;
+  } else {
+    step.felt = 0.5 * (in.state.qdot + step.next);
+    body_twists(in.model, in.kin(), step.felt, step.felt_twist);
+    centre_velocities(in.kin(), step.felt_twist, step.felt_centre_velocity);
+    warm.half_before = warm.half_change;
+    warm.half_change = scratch_.half_change;
+    step.middle = {in.midway->moved, in.midway->felt};
+  }
   const ActiveTorque& active = in.control.active;
   if (active.value.size() > 0) {
-    step.active_torque = active.value - active.rate.cwiseProduct(step.qdot);
+    step.active_torque = active.value - active.rate.cwiseProduct(step.felt);
   } else {
     step.active_torque.setZero(in.model.nv());
   }
@@ -118,7 +130,7 @@ void StepSolver::finish(const StepInput& in, StepSolution& step) {
   keep_active(step);
   step.active = static_cast<int>((step.lambda.array() != 0).count());
   const int last = in.model.body_count() - 1;
-  step.tip = in.control.tip.value - in.control.tip.rate * step.centre_velocity.col(last);
+  step.tip = in.control.tip.value - in.control.tip.rate * step.felt_centre_velocity.col(last);
 }
 
 }  // namespace hagfish

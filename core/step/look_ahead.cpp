@@ -12,12 +12,14 @@ auto known(std::int64_t id, std::vector<Row>& rows) {
   return std::ranges::find(rows, id, &Row::id);
 }
 
-/// Adds `row`, or replaces the one of its id in place, so that it keeps its multiplier.
-void put(const Row& row, std::vector<Row>& rows) {
-  const auto place = known(row.id, rows);
-  if (place == rows.end()) {
-    rows.push_back(row);
+/// Adds `row`, or replaces the one of its id in place, so that it keeps its multiplier; no part of
+/// that is expected any more, as it is between other points.
+void put(const StepInput& in, const Row& row, StepSolution& step) {
+  const auto place = known(row.id, step.rows);
+  if (place == step.rows.end()) {
+    step.rows.push_back(row);
   } else {
+    expect_force(in, 0, *place, step.system);
     *place = row;
   }
 }
@@ -47,7 +49,7 @@ bool add_missed_rows(const StepInput& in, const Observation& there, double t, St
       // At great speeds what the linear row misses grows beyond all sense; rows that ask strands to
       // part by more than they may move between samples only contradict each other.
       row.rhs = std::min(goal - gap_now - missed * (h / t) * (h / t), settings.stride) / h;
-      put(row, step.rows);
+      put(in, row, step);
       any = true;
     }
   };
@@ -56,7 +58,13 @@ bool add_missed_rows(const StepInput& in, const Observation& there, double t, St
       if (contact.gap < -tolerance) {
         const Contact before = contact_at(now.segments, contact.segment_a, contact.t_a,
                                           contact.segment_b, contact.t_b);
-        check(before.gap, contact.gap, [&] { return contact_row(in.model, before); });
+        check(before.gap, contact.gap, [&] {
+          return contact_row(in.model,
+                             in.midway == nullptr
+                                 ? before
+                                 : contact_at(in.segments(), contact.segment_a, contact.t_a,
+                                              contact.segment_b, contact.t_b));
+        });
       }
     }
   }

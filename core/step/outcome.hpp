@@ -24,8 +24,9 @@ enum class Outcome : std::uint8_t {
   not_applicable,  ///< the scene needs what the simulator in question does not have
   overbent,        ///< a curvature program bends a joint further than it goes
   saturated,       ///< muscles make all the torque that they can
+  unsettled,       ///< the middle of a step is not known well enough
 };
-inline constexpr int outcome_count = 16;
+inline constexpr int outcome_count = 17;
 /// "ok", "non-finite", "energy gain", ...
 const char* outcome_name(Outcome outcome);
 

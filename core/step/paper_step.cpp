@@ -44,15 +44,18 @@ namespace {
 
 /// Eq. 1, H q̇* = M q̇0 + h f, with H = M + h D - h² K: springs, damping and drag are implicit.
 void paper_equation_1(const StepInput& in, PrimalQp& qp) {
-  const auto& [model, scene, state, observation, control] = in;
-  const Kinematics& kin = observation.kin;
-  const double h = scene.time.step;
+  const Model& model = in.model;
+  const State& state = in.state;
+  const Control& control = in.control;
+  const Kinematics& kin = in.kin();
+  const double h = in.scene.time.reach();
   const int nv = model.nv();
   Eigen::MatrixXd M = Eigen::MatrixXd::Zero(nv, nv);
   Eigen::MatrixXd D = M;
   Eigen::MatrixXd K = M;
   Eigen::VectorXd f = stiffness_force(model, state.q);
-  const Matrix6Xd on_bodies = gravity_wrench(model, kin) - bias_wrench(model, kin);
+  const Matrix6Xd on_bodies =
+      gravity_wrench(model, kin) - bias_wrench(model, kin, in.motion().felt_twist);
   for (int b = 0; b < model.body_count(); ++b) {
     const Matrix6Xd J = body_jacobian(model, kin, b);
     M += J.transpose() * body_inertia(model, kin, b) * J;
@@ -88,9 +91,10 @@ PrimalQp paper_problem(const StepInput& in, const std::vector<Row>& rows) {
     std::ranges::transform(of, values.begin(), member);
     return values;
   };
-  qp.G = dense_rows(in.model, in.observation.kin, bilateral);
+  qp.G = dense_rows(in.model, in.kin(), bilateral);
   qp.e = column(bilateral, &Row::rhs);
-  qp.C = dense_rows(in.model, in.observation.kin, unilateral);
+  qp.C = dense_rows(in.model, in.kin(), unilateral);
+  qp.g -= 0.5 * qp.C.transpose() * column(unilateral, &Row::steady);
   qp.d = column(unilateral, &Row::rhs);
   qp.cap = column(unilateral, &Row::upper);
   return qp;

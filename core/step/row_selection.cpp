@@ -19,10 +19,11 @@ void append_unilateral_rows(const StepInput& in, const NearBinding& wanted,
                             std::vector<Row>& rows) {
   const ConstraintSettings& settings = in.scene.constraints;
   const double h = in.scene.time.step;
-  append_contact_rows(in.model, in.observation.contact.contacts, settings, h, wanted, rows);
+  const std::vector<SplineSegment>* at = in.midway == nullptr ? nullptr : &in.midway->segments;
+  append_contact_rows(in.model, in.observation.contact.contacts, at, settings, h, wanted, rows);
   const NearBinding others{wanted.v, wanted.centre_velocity, std::min(wanted.slack, 0.0),
                            std::min(wanted.slack_at_rest, 0.0)};
-  append_contact_rows(in.model, in.observation.contact.others, settings, h, others, rows);
+  append_contact_rows(in.model, in.observation.contact.others, at, settings, h, others, rows);
   append_limit_rows(in.model, in.state, settings, h, wanted, rows);
   append_wall_rows(in.model, in.observation.kin, in.scene.wall, settings, h, wanted, rows);
 }
@@ -36,8 +37,9 @@ void gather_rows(const StepInput& in, std::vector<Row>& rows) {
   if (in.control.clamp_head) {
     append_head_rows(in.state, in.scene.constraints, h, rows);
   }
-  append_thigmotaxis_rows(in.model, in.control.thigmotaxis, in.scene.controller, centre_velocity, h,
-                          rows);
+  append_thigmotaxis_rows(in.model, in.control.thigmotaxis,
+                          in.midway == nullptr ? nullptr : &in.midway->segments,
+                          in.scene.controller, in.motion().centre_velocity, h, rows);
   append_unilateral_rows(in, {in.state.qdot, centre_velocity, lazy_reach, lazy_reach}, rows);
 }
 

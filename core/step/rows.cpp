@@ -214,16 +214,27 @@ void append_limit_rows(const Model& model, const State& state, const ConstraintS
   append_cone_rows(model, state, settings, h, wanted, rows);
 }
 
+namespace {
+
+/// `contact` between the same points of the segments `at`, if there are any.
+Contact placed(const Contact& contact, const std::vector<SplineSegment>* at) {
+  return at == nullptr
+             ? contact
+             : contact_at(*at, contact.segment_a, contact.t_a, contact.segment_b, contact.t_b);
+}
+
+}  // namespace
+
 void append_contact_rows(const Model& model, const std::vector<Contact>& contacts,
-                         const ConstraintSettings& settings, double h, const NearBinding& wanted,
-                         std::vector<Row>& rows) {
+                         const std::vector<SplineSegment>* at, const ConstraintSettings& settings,
+                         double h, const NearBinding& wanted, std::vector<Row>& rows) {
   for (const Contact& contact : contacts) {
     const std::optional<double> rhs =
         unilateral(contact.gap, settings, h, settings.baumgarte_speed);
     if (!rhs) {
       continue;
     }
-    Row& row = rows.emplace_back(contact_row(model, contact));
+    Row& row = rows.emplace_back(contact_row(model, placed(contact, at)));
     row.rhs = *rhs;
     if (!wanted(row_velocity(row, wanted.centre_velocity, wanted.v), row.rhs)) {
       rows.pop_back();
@@ -243,12 +254,14 @@ void append_wall_rows(const Model& model, const Kinematics& kin, const WallSetti
 }
 
 void append_thigmotaxis_rows(const Model& model, const std::vector<ThigmotaxisCommand>& commands,
+                             const std::vector<SplineSegment>* at,
                              const ControllerSettings& settings,
                              const Eigen::Matrix3Xd& centre_velocity, double h,
                              std::vector<Row>& rows) {
   const double gain = settings.acceleration * h;
   for (std::size_t place = 0; place < commands.size(); ++place) {
-    const auto& [contact, speed, towards, effort] = commands[place];
+    const auto& [found, speed, towards, effort] = commands[place];
+    const Contact contact = placed(found, at);
     const double sense = towards == BodyEnd::head ? 1 : -1;
     for (const bool along_a : {true, false}) {
       // Eq. 6: t_a' (ẋ_a - ẋ_b) >= v_a and t_b' (ẋ_b - ẋ_a) >= v_b.

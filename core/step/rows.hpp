@@ -39,7 +39,10 @@ struct Row {
   /// C q̇ = direction . (ẋ_a - ẋ_b), each point a mix of body centres; `b` may have none.
   Eigen::Vector3d direction;  ///< unit, world
   SplineMix a, b;
-  double rhs = 0;    ///< d, cm/s or rad/s
+  double rhs = 0;  ///< d, cm/s or rad/s
+  /// λ as expected from the steps before: half of it acts before the middle of the step (midpoint
+  /// rule). What is more is an impact's, which acts in full.
+  double steady = 0;
   double lower = 0;  ///< bounds on the multiplier λ, dyn s or dyn cm s
   double upper = std::numeric_limits<double>::infinity();
   /// A unit row whose velocity is prescribed, C q̇ = d; λ is its reaction.
@@ -113,10 +116,11 @@ void append_head_rows(const State& state, const ConstraintSettings& settings, do
 void append_limit_rows(const Model& model, const State& state, const ConstraintSettings& settings,
                        double h, const NearBinding& wanted, std::vector<Row>& rows);
 
-/// One row per contact, the exact rate of its gap.
+/// One row per contact, the exact rate of its gap: where it was found, or between the same points
+/// of the segments `at`.
 void append_contact_rows(const Model& model, const std::vector<Contact>& contacts,
-                         const ConstraintSettings& settings, double h, const NearBinding& wanted,
-                         std::vector<Row>& rows);
+                         const std::vector<SplineSegment>* at, const ConstraintSettings& settings,
+                         double h, const NearBinding& wanted, std::vector<Row>& rows);
 
 /// One row per body behind the neck against the head plate.
 void append_wall_rows(const Model& model, const Kinematics& kin, const WallSettings& wall,
@@ -136,6 +140,7 @@ struct ThigmotaxisCommand {
 /// settings.acceleration makes in the step of the speed that it has now, where the bodies' centres
 /// move by `centre_velocity` (3 x N, cm/s).
 void append_thigmotaxis_rows(const Model& model, const std::vector<ThigmotaxisCommand>& commands,
+                             const std::vector<SplineSegment>* at,
                              const ControllerSettings& settings,
                              const Eigen::Matrix3Xd& centre_velocity, double h,
                              std::vector<Row>& rows);

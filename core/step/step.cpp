@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <span>
 #include <stdexcept>
 
@@ -50,14 +51,53 @@ void StepSolver::stop_when(std::function<bool()> asked) {
 }
 
 Status StepSolver::begin(const StepInput& in, StepSolution& step) {
+  step.unsettled = 0;
+  if (in.midway == nullptr) {
+    return begin_here(in, step);
+  }
+  const TimeSettings& time = in.scene.time;
+  Midway& midway = *in.midway;
+  midway.moved = in.state.qdot;
+  if (warm.half_before.size() > 0) {
+    midway.moved += 2 * warm.half_change - warm.half_before;
+  }
+  midway.felt = midway.moved;
+  for (int pass = 1;; ++pass) {
+    place_midway(in.model, in.state, time.step, midway);
+    if (Status status = begin_here(in, step); !status.ok()) {
+      return status;
+    }
+    const double off = (step.qdot - midway.moved).lpNorm<Eigen::Infinity>();
+    if (off <= time.settled) {
+      return {};
+    }
+    if (pass >= time.passes) {
+      // Passes that do not settle may run away: the step is taken as from its own first velocity.
+      midway.moved = midway.felt = in.state.qdot;
+      place_midway(in.model, in.state, time.step, midway);
+      const Status status = begin_here(in, step);
+      step.unsettled = off;
+      return status;
+    }
+    midway.moved = step.qdot;
+    midway.felt = 0.5 * (in.state.qdot + step.next);
+  }
+}
+
+/// Eq. 1 and the rows where in.midway is, or at in.state.
+Status StepSolver::begin_here(const StepInput& in, StepSolution& step) {
   if (!in.state.q.allFinite() || !in.state.qdot.allFinite()) {
     return {Outcome::non_finite, "non-finite state"};
   }
-  assemble_step_system(in.model, in.state, in.observation.kin, in.control.tip, in.scene.time.step,
+  const double reach = in.scene.time.reach();
+  assemble_step_system(in.model, in.state.q, in.motion(), in.kin(), in.control.tip, reach,
                        step.system);
-  add_active_torque(in.control.active, in.scene.time.step, step.system);
+  add_active_torque(in.control.active, reach, step.system);
   gather_rows(in, step.rows);
   prescribe_rows(warm, step.rows);
+  if (in.midway != nullptr) {
+    expect_steady_forces(in, step);
+  }
   step.kind = SolveKind::linear;
   step.iterations = 0;
   step.rounds = 0;
@@ -66,6 +106,7 @@ Status StepSolver::begin(const StepInput& in, StepSolution& step) {
   bool base_known = false;
   if (step.rows.empty()) {
     if (Status status = base_motion(in, step); !status.ok() || !add_violated(in, step)) {
+      set_next_velocity(in, step);
       return status;
     }
     base_known = true;
@@ -75,7 +116,8 @@ Status StepSolver::begin(const StepInput& in, StepSolution& step) {
 }
 
 Status StepSolver::resume(const StepInput& in, StepSolution& step) {
-  return constrained_motion(in, true, step);
+  // Of the midpoint rule, rows between other points change what is expected.
+  return constrained_motion(in, in.midway == nullptr, step);
 }
 
 Status StepSolver::solve(const StepInput& in, StepSolution& step) {
@@ -101,7 +143,7 @@ Status StepSolver::constrained_motion(const StepInput& in, bool base_known, Step
     if (!others.empty()) {
       step.lambda.conservativeResize(static_cast<Eigen::Index>(step.rows.size()));
       step.lambda.tail(scratch_.start.size()) = scratch_.start;
-      assemble_dual(in.model, in.observation.kin, scratch_.factor, others, step.base,
+      assemble_dual(in.model, in.kin(), scratch_.factor, others, step.base,
                     scratch_.base_centre_velocity, scratch_.columns, scratch_.qp);
       if (!solve_multipliers(step)) {
         if (scratch_.solution.status == SolveStatus::stopped || !release_all(step)) {
@@ -118,7 +160,77 @@ Status StepSolver::constrained_motion(const StepInput& in, bool base_known, Step
   if (!step.qdot.allFinite()) {
     return {Outcome::non_finite, "non-finite velocity"};
   }
+  set_next_velocity(in, step);
   return {};
+}
+
+void expect_force(const StepInput& in, double lambda, Row& row, StepSystem& system) {
+  if (lambda != row.steady) {
+    add_row(row, in.kin(), (row.steady - lambda) / 2, system.wrench, system.joint);
+    row.steady = lambda;
+  }
+}
+
+/// Rows that had a force in both of the last two steps are expected to have the smaller one again:
+/// half of it acts before the middle of the step, as all steady forces do. What is more is an
+/// impact's, which acts in full.
+void StepSolver::expect_steady_forces(const StepInput& in, StepSolution& step) {
+  for (Row& row : step.rows) {
+    const WarmStart::Kept* kept = row.kind == RowKind::head ? nullptr : warm.find(row.id);
+    if (kept == nullptr) {
+      continue;
+    }
+    const double before = kept->lambda - kept->change;
+    if (kept->lambda * before > 0) {
+      const bool fell = std::abs(kept->lambda) < std::abs(before);
+      expect_force(in, fell ? kept->lambda : before, row, step.system);
+    }
+  }
+}
+
+/// The velocity after the step: Euler's is the one that it moves by. The midpoint's is
+/// v' = 2 w - v - δ, with w the velocity that it moves by and δ = H⁻¹C'(λ - λ_steady), what impacts
+/// add to it.
+void StepSolver::set_next_velocity(const StepInput& in, StepSolution& step) {
+  if (in.midway == nullptr) {
+    step.next = step.qdot;
+    return;
+  }
+  const Kinematics& kin = in.kin();
+  scratch_.half_change = step.qdot - in.state.qdot;
+  bool any = false;
+  scratch_.reaction.setZero(root_dofs);
+  scratch_.wrench.setZero(6, in.model.body_count());
+  scratch_.joint.setZero(in.model.nv());
+  for (std::size_t i = 0; i < step.rows.size(); ++i) {
+    const Row& row = step.rows[i];
+    const double impact = step.lambda[i] - row.steady;
+    if (row.kind != RowKind::head && impact != 0) {
+      add_row(row, kin, impact, scratch_.wrench, scratch_.joint);
+      any = true;
+    }
+  }
+  if (any) {
+    // With the head held, if it is: then all of it is a reaction.
+    scratch_.prescribed.clear();
+    for (const Row& row : step.rows) {
+      if (row.kind == RowKind::head) scratch_.prescribed.push_back({row.dof, 0});
+    }
+    scratch_.free_factor.factorise(in.model, kin, step.system.op, scratch_.prescribed);
+    scratch_.free_factor.solve(in.model, kin, scratch_.wrench, scratch_.joint, scratch_.impact,
+                               scratch_.impact_twist, scratch_.reaction);
+    scratch_.half_change -= scratch_.impact;
+  }
+  step.next = step.qdot + scratch_.half_change;
+  // A head that is held is so by half of its reaction before the middle.
+  for (std::size_t i = 0, k = 0; i < step.rows.size(); ++i) {
+    Row& row = step.rows[i];
+    if (row.kind == RowKind::head) {
+      const double whole = step.lambda[i] - row.steady / 2;
+      expect_force(in, 2 * (whole - scratch_.reaction[k++]), row, step.system);
+      step.lambda[i] = whole + row.steady / 2;
+    }
+  }
 }
 
 /// Sorts the rows by their places, prescribed ones first, and gathers the multipliers to start
@@ -151,7 +263,7 @@ void StepSolver::order_rows(const Model& model, StepSolution& step) {
 Status StepSolver::base_motion(const StepInput& in, StepSolution& step) {
   prescribed_velocities(step, scratch_.prescribed);
   try {
-    scratch_.factor.factorise(in.model, in.observation.kin, step.system.op, scratch_.prescribed);
+    scratch_.factor.factorise(in.model, in.kin(), step.system.op, scratch_.prescribed);
   } catch (const std::domain_error& error) {
     return {Outcome::non_finite, error.what()};
   }
@@ -168,7 +280,7 @@ Status StepSolver::base_motion(const StepInput& in, StepSolution& step) {
 /// q̇ = H⁻¹ (g + C'λ) with the λ of the rows that are not prescribed; with it the bodies' twists and
 /// the λ of those that are.
 void StepSolver::set_velocity(const StepInput& in, StepSolution& step) {
-  const Kinematics& kin = in.observation.kin;
+  const Kinematics& kin = in.kin();
   scratch_.wrench = step.system.wrench;
   scratch_.joint = step.system.joint;
   for (auto i = static_cast<std::size_t>(step.prescribed); i < step.rows.size(); ++i) {

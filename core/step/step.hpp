@@ -14,6 +14,7 @@
 #include "core/chain/dynamics.hpp"
 #include "core/contact/observation.hpp"
 #include "core/step/dual_problem.hpp"
+#include "core/step/midway.hpp"
 #include "core/step/outcome.hpp"
 #include "core/step/rows.hpp"
 #include "core/step/warm_start.hpp"
@@ -36,6 +37,22 @@ struct StepInput {
   const State& state;
   const Observation& observation;  ///< of `state`
   const Control& control;
+  /// Where the step's equations hold, which `begin` finds: storage of the midpoint rule. Null: at
+  /// `state`, Euler's rule.
+  Midway* midway = nullptr;
+
+  /// What Eq. 1 and the rows are of.
+  const Kinematics& kin() const { return midway == nullptr ? observation.kin : midway->kin; }
+  const std::vector<SplineSegment>& segments() const {
+    return midway == nullptr ? observation.segments : midway->segments;
+  }
+  /// The motion there.
+  StepMotion motion() const {
+    const Kinematics& now = observation.kin;
+    return midway == nullptr
+               ? StepMotion{now.twist, now.centre_velocity, now.twist}
+               : StepMotion{midway->twist, midway->centre_velocity, midway->felt_twist};
+  }
 };
 
 /// Eq. 1, Eq. 3 (with limits as bilateral rows too) or Eq. 4.
@@ -56,9 +73,14 @@ struct ConstraintForces {
 
 struct StepSolution {
   Eigen::VectorXd base;  ///< q̇ with the reactions of prescribed rows, but no other rows, nv
-  Eigen::VectorXd qdot;  ///< new velocity, nv
-  Matrix6Xd twist;       ///< of the bodies at it, 6 x N
-  Eigen::Matrix3Xd centre_velocity;  ///< of the bodies' centres at it, 3 x N, cm/s
+  Eigen::VectorXd qdot;  ///< velocity that meets the rows and by which the step moves, nv
+  Eigen::VectorXd next;  ///< velocity after the step, nv: by Euler's rule, qdot
+  Eigen::VectorXd felt;  ///< that springs, damping and drag act on, nv: qdot; midpoint: the mean
+                         ///< of the velocities before and after
+  Matrix6Xd felt_twist;  ///< of the bodies at it, 6 x N
+  Eigen::Matrix3Xd felt_centre_velocity;  ///< of their centres at it, 3 x N, cm/s
+  Matrix6Xd twist;                        ///< of the bodies at it, 6 x N
+  Eigen::Matrix3Xd centre_velocity;       ///< of the bodies' centres at it, 3 x N, cm/s
   ConstraintForces force;
   Eigen::Vector3d tip = Eigen::Vector3d::Zero();  ///< tip force as applied, dyn, world
   Eigen::VectorXd active_torque;  ///< active torque as applied, dyn cm, nv; 0 at the root
@@ -78,6 +100,12 @@ struct StepSolution {
   KktResiduals kkt;    ///< of the rows not prescribed, on the scale of all; the others are exact
   double qp_time = 0;  ///< s spent in the QP back end
   StepSystem system;   ///< Eq. 1 as assembled
+  /// What another pass would still change the middle's velocity by, rad/s and cm/s, where that is
+  /// more than the scene permits; else 0 (midpoint rule).
+  double unsettled = 0;
+  struct {
+    Eigen::VectorXd moved, felt;
+  } middle;  ///< as in Midway, of the last pass
 };
 
 /// Storage for intermediate results. A step allocates nothing once all of it has grown to size.
@@ -95,7 +123,13 @@ struct StepScratch {
   BoxQpSolution solution;
   Matrix6Xd wrench;
   Eigen::VectorXd joint, impulse, change;
+  ArticulatedFactor free_factor;  ///< with nothing prescribed but the head
+  Matrix6Xd impact_twist;
+  Eigen::VectorXd impact, half_change;
 };
+
+/// Changes what is expected of a row, and by that the right-hand side of Eq. 1 (midpoint rule).
+void expect_force(const StepInput& in, double lambda, Row& row, StepSystem& system);
 
 /// Solves steps, one after the other. A step is begun, resumed as often as rows are added to its
 /// solution, and finished; or solved at once. Copies have a back end and storage of their own.
@@ -109,8 +143,9 @@ class StepSolver {
   StepSolver& operator=(StepSolver&&) = default;
   ~StepSolver() = default;
 
-  /// Eq. 1, the rows, and Eq. 3 or 4: step.qdot is a velocity that meets all rows. Not ok where a
-  /// number is not finite, rows contradict each other or the back end fails.
+  /// Eq. 1, the rows, and Eq. 3 or 4: step.qdot is a velocity that meets all rows. By the midpoint
+  /// rule again, until the step's middle is where that leads. Not ok where a number is not finite,
+  /// rows contradict each other or the back end fails.
   Status begin(const StepInput& in, StepSolution& step);
 
   /// Eq. 3 or 4 again, after rows were added to step.rows. Status as above.
@@ -133,10 +168,13 @@ class StepSolver {
   const StepScratch& scratch() const { return scratch_; }
 
  private:
+  Status begin_here(const StepInput& in, StepSolution& step);
   Status constrained_motion(const StepInput& in, bool base_known, StepSolution& step);
   void order_rows(const Model& model, StepSolution& step);
   Status base_motion(const StepInput& in, StepSolution& step);
   void set_velocity(const StepInput& in, StepSolution& step);
+  void expect_steady_forces(const StepInput& in, StepSolution& step);
+  void set_next_velocity(const StepInput& in, StepSolution& step);
   bool solve_multipliers(StepSolution& step);
   bool add_violated(const StepInput& in, StepSolution& step);
   void measure(const StepInput& in, StepSolution& step);

@@ -1,6 +1,7 @@
 // What a step leaves for the next one to start from.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <vector>
 
@@ -24,7 +25,11 @@ class WarmStart {
   /// The multiplier kept of a row, 0 where there is none.
   double multiplier(std::int64_t id) const;
   std::size_t size() const { return entries_.size(); }
-  /// All of it, for a checkpoint.
+  /// Half of what steady forces changed the velocity by in the last step and in the one before, nv:
+  /// the midpoint rule extrapolates them to the middle of the next step. Empty where there was
+  /// none.
+  Eigen::VectorXd half_change, half_before;
+  /// The multipliers, for a checkpoint.
   template <class Archive>
   void serialize(Archive& archive) {
     archive(entries_, before_);

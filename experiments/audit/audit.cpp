@@ -182,6 +182,7 @@ std::vector<Finding> audit(const std::string& file) {
   ForceAudit forces(log);
   MuscleAudit muscles(log);
   RateAudit rates(log);
+  ForwardInverseAudit forward_inverse(log);
   std::vector<SeenKnot> knots;
   double deepest = 0;
   double furthest = 0;
@@ -192,6 +193,7 @@ std::vector<Finding> audit(const std::string& file) {
     forces.see(frame);
     muscles.see(frame);
     rates.see(frame);
+    forward_inverse.see(frame);
     deepest = worse(deepest, frame.observation.penetration);
     furthest = worse(furthest, frame.observation.limit_violation);
   }
@@ -206,7 +208,7 @@ std::vector<Finding> audit(const std::string& file) {
   append(forces.findings());
   append(muscles.findings());
   append(audit_pull(log));
-  findings.push_back(audit_forward_inverse(log));
+  findings.push_back(forward_inverse.finding());
   findings.push_back(thigmotaxis_extent(log));
   findings.push_back(energy(log));
   findings.push_back(energy_gain(log));

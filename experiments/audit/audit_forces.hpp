@@ -48,8 +48,8 @@ class ForceAudit {
   double pull_from_ = NAN;        ///< time of the last frame before the pull, s
   std::size_t next_contact_ = 0;  ///< first one of frames not seen yet
   Rebuilt from_rows_;
-  double imbalance_ = 0, mean_imbalance_ = 0, limit_miss_ = 0, cone_miss_ = 0, cone_turn_ = 0,
-         ask_miss_ = 0, most_ = 0;
+  double imbalance_ = 0, unsettled_ = 0, mean_imbalance_ = 0, limit_miss_ = 0, cone_miss_ = 0,
+         cone_turn_ = 0, ask_miss_ = 0, most_ = 0;
   double momentum_ = 0, momentum_before_ = 0;  ///< largest over h, at this frame and the one before
   std::set<std::string> shape_;                ///< datasets with a force where there can be none
   Eigen::MatrixXd columns_before_;             ///< C_thigmo' of the frame before, nv x 4

@@ -24,41 +24,69 @@ Hdf5Reader::Rows generalised_forces(const LogContents& log) {
   return sum;
 }
 
-}  // namespace
-
-Finding audit_forward_inverse(const LogContents& log) {
-  const Model& model = log.model;
+MujocoModel mirror_of(const LogContents& log) {
+  const TimeSettings& time = log.resolved.scene.time;
   MujocoModel mirror = mujoco_model_of(log.h5);
-  const std::string difference =
-      first_difference(*mirror.model(), model, log.resolved.scene.time.step);
+  const std::string difference = first_difference(*mirror.model(), log.model, time.step);
   if (!difference.empty()) {
     throw FileError(log.h5.file() + ": /mjcf is not the scene's model: " + difference);
   }
+  mirror.model()->opt.timestep = time.reach();
   use_core_rule(mirror);
-  const Hdf5Reader::Rows sum = generalised_forces(log);
-  const Hdf5Reader::Rows tip = log.h5.rows("/forces/tip");
+  return mirror;
+}
+
+}  // namespace
+
+struct ForwardInverseAudit::Driven {
+  const LogContents& log;
+  MujocoModel mirror;
+  Hdf5Reader::Rows sum, tip;
   double largest_error = 0;
-  for (Eigen::Index f = 0; f < log.q.rows(); ++f) {
-    const State state{log.q.row(f), log.qdot.row(f)};
-    const Eigen::VectorXd next = log.qdot_next.row(f);
-    const Kinematics kin = kinematics(model, state);
-    const Eigen::VectorXd force = sum.row(f).transpose() + drag_force(model, kin, next);
-    const Eigen::VectorXd driven = driven_velocity(model, state, force, tip.row(f), mirror);
-    const double off =
-        (driven - next).allFinite() ? (driven - next).lpNorm<Eigen::Infinity>() : INFINITY;
-    largest_error = worse(largest_error, off > 0 ? off / next.lpNorm<Eigen::Infinity>() : off);
+};
+
+ForwardInverseAudit::ForwardInverseAudit(const LogContents& log)
+    : driven_(std::make_unique<Driven>(
+          Driven{log, mirror_of(log), generalised_forces(log), log.h5.rows("/forces/tip")})) {}
+
+void ForwardInverseAudit::see(const AuditedFrame& frame) {
+  auto& [log, mirror, sum, tip, largest_error] = *driven_;
+  const Eigen::Index f = frame.index;
+  State from = frame.state;
+  Eigen::VectorXd force =
+      sum.row(f).transpose() + drag_force(log.model, frame.kin, frame.qdot_felt);
+  if (log.midpoint()) {
+    from = {frame.midway.q, frame.midway.moved};
+    force +=
+        midway_force(log.model, frame.state, frame.midway, log.resolved.scene.time.reach(), mirror);
   }
-  return judged_over(
-      {"forward-inverse", largest_error, log.resolved.scene.expect.forward_inverse, "of q̇"},
-      "MuJoCo's step under the logged forces at every frame");
+  const Eigen::VectorXd driven = driven_velocity(log.model, from, force, tip.row(f), mirror);
+  const Eigen::VectorXd& wanted = frame.qdot_felt;
+  const double off =
+      (driven - wanted).allFinite() ? (driven - wanted).lpNorm<Eigen::Infinity>() : INFINITY;
+  largest_error = worse(largest_error, off > 0 ? off / wanted.lpNorm<Eigen::Infinity>() : off);
+}
+
+Finding ForwardInverseAudit::finding() const {
+  return judged_over({"forward-inverse", driven_->largest_error,
+                      driven_->log.resolved.scene.expect.forward_inverse, "of q̇"},
+                     "MuJoCo's step under the logged forces at every frame");
 }
 
 #else
 
-Finding audit_forward_inverse(const LogContents& /*log*/) {
+struct ForwardInverseAudit::Driven {};
+
+ForwardInverseAudit::ForwardInverseAudit(const LogContents& /*log*/) {}
+
+void ForwardInverseAudit::see(const AuditedFrame& /*frame*/) {}
+
+Finding ForwardInverseAudit::finding() const {
   return {"forward-inverse", true, "not judged: this program is built without MuJoCo", "", "", ""};
 }
 
 #endif
+
+ForwardInverseAudit::~ForwardInverseAudit() = default;
 
 }  // namespace hagfish

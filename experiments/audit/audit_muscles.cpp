@@ -32,7 +32,7 @@ void MuscleAudit::see_torque(const AuditedFrame& frame) {
   if (scene.script.kind == ScriptSettings::Kind::curvature) {
     const ActiveTorque torque =
         active_torque(log_.model, scene, frame.state, q_ref_.row(frame.index).transpose());
-    wanted = torque.value - torque.rate.cwiseProduct(frame.qdot_next);
+    wanted = torque.value - torque.rate.cwiseProduct(frame.qdot_felt);
   }
   const Eigen::VectorXd torque = torque_.row(frame.index);
   rebuilt_.compare("/forces/active", torque, wanted);
@@ -51,8 +51,9 @@ void MuscleAudit::see_rest_shape(const AuditedFrame& frame) {
   }
   if (!rest.head<root_dofs>().isZero(0)) on_root_.insert("/trajectory/q_ref");
   if (frame.phase == Phase::form) {
-    rebuilt_.compare("/trajectory/q_ref", rest,
-                     program_shape(log_.model, scene.script.curvature, log_.time[f] + h));
+    rebuilt_.compare(
+        "/trajectory/q_ref", rest,
+        program_shape(log_.model, scene.script.curvature, log_.time[f] + scene.time.reach()));
     return;
   }
   if (f == 0 || static_cast<Phase>(log_.phase[f - 1]) == Phase::form) {

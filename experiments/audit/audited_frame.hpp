@@ -11,21 +11,24 @@
 namespace hagfish {
 
 struct AuditedFrame {
-  AuditedFrame(const LogContents& log, Eigen::Index frame)
-      : index(frame),
-        phase(static_cast<Phase>(log.phase[frame])),
-        state{log.q.row(frame), log.qdot.row(frame)},
-        qdot_next(log.qdot_next.row(frame)),
-        observation(observe(log.model, state, log.resolved.scene)),
-        next_velocity(centre_velocities(observation.kin,
-                                        body_twists(log.model, observation.kin, qdot_next))) {}
+  AuditedFrame(const LogContents& log, Eigen::Index frame);
+  AuditedFrame(const AuditedFrame&) = delete;
+  AuditedFrame& operator=(const AuditedFrame&) = delete;
 
   Eigen::Index index;
   Phase phase;
   State state;
-  Eigen::VectorXd qdot_next;
-  Observation observation;         ///< observed again from the logged state
-  Eigen::Matrix3Xd next_velocity;  ///< of the bodies' centres at qdot_next, 3 x N, cm/s
+  Observation observation;  ///< observed again from the logged state
+
+  // The step that begins at the frame.
+  Midway midway;                                   ///< by the midpoint rule
+  const Kinematics& kin;                           ///< of the place where its equations hold
+  const std::vector<SplineSegment>& segments;      ///< there
+  StepMotion motion;                               ///< there
+  Eigen::VectorXd qdot_next;                       ///< after it
+  Eigen::VectorXd qdot_moved;                      ///< by which it moves
+  Eigen::VectorXd qdot_felt;                       ///< that springs, damping and drag act on
+  Eigen::Matrix3Xd moved_velocity, felt_velocity;  ///< of the bodies' centres at these, 3 x N, cm/s
 };
 
 /// Whether a logged spline parameter lies on the animal.

@@ -20,6 +20,11 @@ LogContents::LogContents(const std::string& file) : h5(file) {
   q = h5.rows("/trajectory/q");
   qdot = h5.rows("/trajectory/qdot");
   qdot_next = h5.rows("/trajectory/qdot_next");
+  if (midpoint()) {
+    middle_moved = h5.rows("/midway/moved");
+    middle_felt = h5.rows("/midway/felt");
+    qdot_moved = h5.rows("/midway/qdot");
+  }
   check_model();
 }
 

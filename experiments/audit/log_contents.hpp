@@ -22,6 +22,10 @@ struct LogContents {
   std::vector<double> time;             ///< s
   std::vector<std::int64_t> phase;      ///< as Phase
   Hdf5Reader::Rows q, qdot, qdot_next;  ///< frames x nq, nv, nv
+  /// /midway, frames x nv each; empty of logs by Euler's rule, where they would be qdot and
+  /// qdot_next.
+  Hdf5Reader::Rows middle_moved, middle_felt, qdot_moved;
+  bool midpoint() const { return resolved.scene.time.rule == TimeRule::midpoint; }
 
  private:
   void check_model() const;

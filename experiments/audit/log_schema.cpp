@@ -140,17 +140,18 @@ void check_motion(const Hdf5Reader& log) {
       refuse(log, fmt::format("/trajectory/q has a quaternion of norm {:g} at frame {}", norm, f));
     }
   }
-  for (const char* path : {"/trajectory/qdot", "/trajectory/qdot_next"}) {
-    within(path, log.rows(path), largest_velocity);
+  for (const char* path : {"/trajectory/qdot", "/trajectory/qdot_next", "/midway/moved",
+                           "/midway/felt", "/midway/qdot"}) {
+    if (log.has(path)) within(path, log.rows(path), largest_velocity);
   }
 }
 
 }  // namespace
 
-std::vector<DatasetForm> log_forms(const Hdf5Reader& log, const Model& model) {
+std::vector<DatasetForm> log_forms(const Hdf5Reader& log, const Model& model, TimeRule rule) {
   // The writer says what there must be; nothing is written.
   std::vector<DatasetForm> forms;
-  add_forms(frame_table(model).series(), rows_of(log, "/trajectory/time"), forms);
+  add_forms(frame_table(model, rule).series(), rows_of(log, "/trajectory/time"), forms);
   add_forms(step_table().series(), rows_of(log, "/steps/kkt"), forms);
   add_forms(contact_table().series(), rows_of(log, "/contacts/frame"), forms);
   return forms;
@@ -168,9 +169,10 @@ void check_form(const Hdf5Reader& log, const DatasetForm& form) {
 }
 
 void check_schema(const Hdf5Reader& log, const Model& model, const Scene& scene) {
-  const std::vector<DatasetForm> forms = log_forms(log, model);
+  const std::vector<DatasetForm> forms = log_forms(log, model, scene.time.rule);
   for (const DatasetForm& form : forms) {
-    const bool needed = std::ranges::find(always_there, form.path) != std::end(always_there);
+    const bool needed = form.path.starts_with("/midway/") ||
+                        std::ranges::find(always_there, form.path) != std::end(always_there);
     if (needed || log.has(form.path)) check_form(log, form);
   }
   if (rows_of(log, "/trajectory/time") == 0) refuse(log, "holds no frames");

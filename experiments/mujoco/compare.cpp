@@ -106,7 +106,7 @@ void compare_rollouts(const Model& model, Head head, double h, const Comparison&
   const State start = start_of(motions.front(), model);
   MujocoModel mirror = mirror_of(model, h, head);
   use_core_rule(mirror);
-  const std::vector<State> core = core_rollout(model, start, head, h, steps);
+  const std::vector<State> core = core_rollout(model, start, head, TimeRule::euler, h, steps);
   const std::vector<State> mujoco = mujoco_rollout(model, start, mirror, steps);
   Eigen::VectorXd time(steps), velocity(steps), distance(steps);
   for (int i = 0; i < steps; ++i) {
@@ -130,7 +130,7 @@ State end_of(const Rule& rule, const Model& model, const State& start, Head head
              double time) {
   const int steps = static_cast<int>(std::lround(time / h));
   if (rule.integrator == core_rule.integrator) {
-    return core_rollout(model, start, head, h, steps).back();
+    return core_rollout(model, start, head, TimeRule::euler, h, steps).back();
   }
   MujocoModel mirror = mirror_of(model, h, head);
   mirror.model()->opt.integrator = rule.integrator;

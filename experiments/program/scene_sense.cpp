@@ -44,7 +44,7 @@ RunSize run_size(const Scene& scene, const Model& model) {
   const double count = scene.time.duration / scene.time.step;
   return {count, count * row_bytes(step_table().series()) +
                      scene.time.duration / scene.time.frame_interval *
-                         row_bytes(frame_table(model).series())};
+                         row_bytes(frame_table(model, scene.time.rule).series())};
 }
 
 std::vector<std::string> odd_things(const ResolvedScene& scene) {

@@ -72,7 +72,8 @@ bool run_in_mujoco(const Model& model, const Scene& scene, const State& start, i
     }
     const Kinematics& kin = observation.kin;
     const Eigen::Vector3d velocity = kin.centre_velocity.col(last);
-    const TipForce tip = script_force(scene.script, i * h, h, kin.centre.col(last), velocity);
+    const TipForce tip =
+        script_force(scene.script, i * h, scene.time, kin.centre.col(last), velocity);
     const Eigen::Vector3d pull = tip.value - tip.rate * velocity;
     const Eigen::VectorXd force = applied_force(model, state, kin, pull);
     const int nv = mirror.model()->nv;

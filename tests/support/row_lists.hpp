@@ -36,8 +36,8 @@ inline std::vector<Row> contact_rows(const Model& model, const ContactSet& conta
                                      const ConstraintSettings& settings, double h) {
   std::vector<Row> rows;
   const AllRows all(model);
-  append_contact_rows(model, contacts.contacts, settings, h, all.wanted, rows);
-  append_contact_rows(model, contacts.others, settings, h, all.wanted, rows);
+  append_contact_rows(model, contacts.contacts, nullptr, settings, h, all.wanted, rows);
+  append_contact_rows(model, contacts.others, nullptr, settings, h, all.wanted, rows);
   return rows;
 }
 
@@ -54,7 +54,7 @@ inline std::vector<Row> thigmotaxis_rows(const Model& model,
                                          const ControllerSettings& settings,
                                          const Eigen::Matrix3Xd& centre_velocity, double h) {
   std::vector<Row> rows;
-  append_thigmotaxis_rows(model, commands, settings, centre_velocity, h, rows);
+  append_thigmotaxis_rows(model, commands, nullptr, settings, centre_velocity, h, rows);
   return rows;
 }
 

@@ -98,6 +98,14 @@ INSTANTIATE_TEST_SUITE_P(BuiltIn, KnotScenes,
                                          "living_double_overhand_free", "living_three_twist_free"),
                          scene_name);
 
+TEST(KnotScenesByTheMidpointRule, TieHoldSlideAndComeOff) {
+  for (const char* scene :
+       {"table1", "figure_eight", "living_overhand_free", "living_three_twist"}) {
+    SCOPED_TRACE(scene);
+    expect_whole(scene_called(scene, {"time.rule=midpoint"}));
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Pull, KnotScenes,
                          testing::Values("pull_overhand", "pull_figure_eight",
                                          "pull_double_overhand", "pull_three_twist",

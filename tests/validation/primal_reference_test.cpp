@@ -19,7 +19,7 @@ constexpr double far = 5;
 
 /// The rows of a step from their makers, and not from the step's own list.
 std::vector<Row> all_rows_of(const StepInput& in, const Eigen::VectorXd& base) {
-  const auto& [model, scene, state, now, control] = in;
+  const auto& [model, scene, state, now, control, midway] = in;
   const double h = scene.time.step;
   std::vector<Row> rows =
       thigmotaxis_rows(model, control.thigmotaxis, scene.controller, now.kin.centre_velocity, h);

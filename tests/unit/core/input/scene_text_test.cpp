@@ -116,8 +116,9 @@ class Bits {
     add(votes, seed, interval, mirror);
   }
   void put(const TimeSettings& s) {
-    const auto& [step, frame_interval, checkpoint_interval, duration, until] = s;
-    add(step, frame_interval, checkpoint_interval, duration, until);
+    const auto& [rule, step, settled, passes, frame_interval, checkpoint_interval, duration,
+                 until] = s;
+    add(rule, step, settled, passes, frame_interval, checkpoint_interval, duration, until);
   }
   void put(const GuardSettings& s) {
     const auto& [action, penetration, limit_violation, speed, energy_gain, energy_action,
@@ -174,7 +175,10 @@ ResolvedScene odd_scene() {
                   odd(),          odd(),          odd(),          odd(),          odd()};
   s.knot = {3, 4294967295u, odd()};
   s.controller.contact_gap = s.contact.margin / 3;
+  s.time.rule = TimeRule::midpoint;
   s.time.step = odd();
+  s.time.settled = odd();
+  s.time.passes = 7;
   s.time.frame_interval = 3 * s.time.step;
   s.time.duration = 7 * s.time.step;
   s.constraints.baumgarte_speed = odd();

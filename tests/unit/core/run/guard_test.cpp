@@ -121,8 +121,8 @@ struct CappedRow {
     step.system = step_system(model, state, now.kin, {}, scene.time.step);
     const Contact& contact = now.contact.contacts.at(0);
     scene.controller.cap = 10;
-    append_thigmotaxis_rows(model, {{contact, {1, 1}}, {contact, {1, 1}}}, scene.controller,
-                            now.kin.centre_velocity, 1, step.rows);
+    append_thigmotaxis_rows(model, {{contact, {1, 1}}, {contact, {1, 1}}}, nullptr,
+                            scene.controller, now.kin.centre_velocity, 1, step.rows);
     const std::vector<Row> limits = limit_rows(model, state, scene.constraints, 1);
     step.rows.insert(step.rows.end(), limits.begin() + 20, limits.begin() + 23);
     step.qdot = Eigen::VectorXd::Zero(model.nv());
@@ -204,7 +204,7 @@ TEST(Guard, WatchesTheCapOfAnyNumberOfContacts) {
   const Contact& contact = capped.now.contact.contacts.at(0);
   capped.step.rows.clear();
   append_thigmotaxis_rows(capped.model, std::vector(5, ThigmotaxisCommand{contact, {1, 1}}),
-                          capped.scene.controller, capped.now.kin.centre_velocity, 1,
+                          nullptr, capped.scene.controller, capped.now.kin.centre_velocity, 1,
                           capped.step.rows);
   capped.step.lambda = Eigen::VectorXd::Zero(10);
   capped.step.lambda[9] = 10;

@@ -7,6 +7,12 @@
 namespace hagfish {
 namespace {
 
+TimeSettings steps_of(double h) {
+  TimeSettings time;
+  time.step = h;
+  return time;
+}
+
 using Eigen::Vector3d;
 
 // A handful of products of numbers of one size.
@@ -96,13 +102,13 @@ TEST(Script, EndsAtItsLastKnot) {
 }
 
 TEST(ScriptForce, IsNoneWithoutAScript) {
-  const TipForce tip = script_force({}, 1, 0.002, {1, 2, 3}, {4, 5, 6});
+  const TipForce tip = script_force({}, 1, steps_of(0.002), {1, 2, 3}, {4, 5, 6});
   EXPECT_EQ(tip.value, Vector3d::Zero());
   EXPECT_EQ(tip.rate, 0);
 }
 
 TEST(ScriptForce, OfForcesIsTheValueNow) {
-  const TipForce tip = script_force(force, 1.1, 0.002, {1, 2, 3}, {4, 5, 6});
+  const TipForce tip = script_force(force, 1.1, steps_of(0.002), {1, 2, 3}, {4, 5, 6});
   EXPECT_EQ(tip.value, script_value(force, 1.1));
   EXPECT_EQ(tip.rate, 0);
 }
@@ -110,22 +116,35 @@ TEST(ScriptForce, OfForcesIsTheValueNow) {
 TEST(ScriptForce, OfPositionsIsASpringDamperAtTheEndOfTheStep) {
   const double h = 0.002;
   const Vector3d at = script_value(position, 1.1) + Vector3d(0.1, 0, -0.05);
-  const TipForce tip = script_force(position, 1.1, h, at, {1, 2, 0});
+  const TipForce tip = script_force(position, 1.1, steps_of(h), at, {1, 2, 0});
   // With the end velocity w the force shall be kp (target(t + h) - at - h w) - kd w.
   const Vector3d w(0.7, -0.3, 2);
   const Vector3d expected = 3000 * (script_value(position, 1.1 + h) - at - h * w) - 20 * w;
   EXPECT_LT((tip.value - tip.rate * w - expected).norm(), 1000 * rounding);
 }
 
+TEST(ScriptForce, OfTheMidpointRuleActsInTheMiddle) {
+  const double h = 0.002;
+  TimeSettings time = steps_of(h);
+  time.rule = TimeRule::midpoint;
+  EXPECT_EQ(script_force(force, 1.1, time, {}, {}).value, script_value(force, 1.1 + h / 2));
+  const Vector3d at = script_value(position, 1.1) + Vector3d(0.1, 0, -0.05);
+  const TipForce tip = script_force(position, 1.1, time, at, {1, 2, 0});
+  const Vector3d w(0.7, -0.3, 2);
+  const Vector3d expected = 3000 * (script_value(position, 1.1 + h / 2) - at - h / 2 * w) - 20 * w;
+  EXPECT_LT((tip.value - tip.rate * w - expected).norm(), 1000 * rounding);
+}
+
 TEST(ScriptForce, SaturatesAtTheLargestForce) {
   const Vector3d far(100, 0, 0);
-  const TipForce tip = script_force(position, 3, 0.002, far, Vector3d::Zero());
+  const TipForce tip = script_force(position, 3, steps_of(0.002), far, Vector3d::Zero());
   EXPECT_EQ(tip.rate, 0);
   EXPECT_NEAR(tip.value.norm(), 1200, 1200 * rounding);
   EXPECT_LT((tip.value.normalized() + Vector3d::UnitX()).norm(), rounding);
   // Just below, just above: one force, whether implicit or saturated.
   for (const double reach : {0.3999, 0.4001}) {
-    const TipForce near = script_force(position, 3, 0.002, {reach, 0, 0}, Vector3d::Zero());
+    const TipForce near =
+        script_force(position, 3, steps_of(0.002), {reach, 0, 0}, Vector3d::Zero());
     EXPECT_NEAR(near.value.norm(), 1200, 0.4);
     EXPECT_EQ(near.rate == 0, reach > 0.4);
   }

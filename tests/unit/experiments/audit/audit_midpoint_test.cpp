@@ -1,0 +1,61 @@
+// The audit of a run by the midpoint rule: it closes, and what is logged of the middle of its steps
+// goes red when it is false.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <limits>
+#include <memory>
+
+#include "experiments/audit/audit.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tests/support/written_log.hpp"
+
+namespace hagfish {
+namespace {
+
+class AuditMidpoint : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder = std::make_unique<TemporaryFolder>();
+    file = *folder / "log.h5";
+    const ResolvedScene resolved =
+        read_scene(std::string(HAGFISH_DATA_DIR) + "/table1.toml",
+                   {"time.rule=midpoint", "time.step=0.01", "time.frame_interval=0.2",
+                    "time.checkpoint_interval=6", "knot.votes=5", "expect.slide_distance=8"});
+    const Model model = make_hagfish(resolved.specimen, resolved.scene);
+    write_log(file, resolved, model, start(model, resolved.scene, "active-set"),
+              std::numeric_limits<int>::max());
+  }
+  static void TearDownTestSuite() { folder.reset(); }
+
+  static std::string objections() {
+    std::string text;
+    for (const Finding& finding : audit(file)) {
+      text += finding.passed ? "" : finding.name + ": " + finding.text + "\n";
+    }
+    return text;
+  }
+
+  static inline std::unique_ptr<TemporaryFolder> folder;
+  static inline std::filesystem::path file;
+};
+
+TEST_F(AuditMidpoint, Closes) { EXPECT_EQ(objections(), ""); }
+
+TEST_F(AuditMidpoint, SeesAFalseMiddle) {
+  for (const auto& [path, finding] : {std::pair("/midway/moved", "force balance"),
+                                      {"/midway/felt", "force balance"},
+                                      {"/midway/qdot", "middle of steps"}}) {
+    const auto before =
+        rewrite<double>(file, path, H5::PredType::NATIVE_DOUBLE, [](std::vector<double>& values) {
+          for (double& value : values) value *= 1.05;
+        });
+    const std::string found = objections();
+    EXPECT_NE(found.find(finding), std::string::npos) << path << ": " << found;
+    rewrite<double>(file, path, H5::PredType::NATIVE_DOUBLE,
+                    [&before](std::vector<double>& values) { values = before; });
+  }
+}
+
+}  // namespace
+}  // namespace hagfish
