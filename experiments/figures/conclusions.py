@@ -59,7 +59,7 @@ def integration(folder: Path) -> list[str]:
         for method, look in INTEGRATORS.items():
             h, cost, error = steps(results, method)
             times = [reached(cost, error, w) for w in wanted]
-            rows.append([results.root("motion"), look.label.split(",")[0], *("-" if np.isnan(t) else f"{t:.2g}" for t in times),
+            rows.append([results.root("motion"), look.label, *("-" if np.isnan(t) else f"{t:.2g}" for t in times),
                          f"{h[np.isfinite(error)].max():g}"])
     lines += markdown(["Motion", "Method", *(f"{w:g} cm" for w in wanted), "Largest h, ms"], rows)
     ratio = []

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/input/input_error.hpp"
 #include "core/step/step.hpp"
 #include "experiments/mujoco/motions.hpp"
 #include "mujoco_ref/agreement.hpp"
@@ -100,9 +101,21 @@ void compare_states(const Model& model, Head head, double h, const Comparison& s
   }
 }
 
+/// Steps of the rollout. Throws InputError where there are none or very many.
+int rollout_steps(double h, const Comparison& settings) {
+  constexpr double most = 1e5;
+  const double steps = std::round(settings.rollout_time / h);
+  if (!(steps >= 1 && steps <= most)) {
+    throw InputError(
+        fmt::format("time.step = {:g} s: what is compared lasts {:g} s, in 1 to {:g} steps", h,
+                    settings.rollout_time, most));
+  }
+  return static_cast<int>(steps);
+}
+
 void compare_rollouts(const Model& model, Head head, double h, const Comparison& settings,
                       Findings& findings) {
-  const int steps = static_cast<int>(std::lround(settings.rollout_time / h));
+  const int steps = rollout_steps(h, settings);
   const State start = start_of(motions.front(), model);
   MujocoModel mirror = mirror_of(model, h, head);
   use_core_rule(mirror);
@@ -178,6 +191,7 @@ bool compare(const ResolvedScene& resolved, Hdf5Writer& h5) {
   const Model model = smooth(make_hagfish(resolved.specimen, resolved.scene));
   const double h = resolved.scene.time.step;
   const Comparison settings;
+  rollout_steps(h, settings);  // before the work
   Findings findings(h5);
   for (const char* group : {"/states", "/rollout", "/error"}) h5.group(group);
   fmt::print("{} bodies, {} random states; contacts, limits and drag left out\n\n",

@@ -38,7 +38,7 @@ struct Method {
 constexpr int core_rule = -1;
 constexpr std::array<Method, 5> methods{
     {{"core", "core, Euler", core_rule, TimeRule::euler, 6e-5},
-     {"core_midpoint", "core, midpoint", core_rule, TimeRule::midpoint, 2e-4},
+     {"core_midpoint", "core, midpoint", core_rule, TimeRule::midpoint, 6e-5},
      {"mujoco_euler", "MuJoCo Euler", mjINT_EULER, {}, 2e-4},
      {"mujoco_implicit", "MuJoCo implicit", mjINT_IMPLICIT, {}, 2e-4},
      {"mujoco_rk4", "MuJoCo RK4", mjINT_RK4, {}, 4e-4}}};
