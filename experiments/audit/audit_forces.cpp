@@ -29,7 +29,7 @@ constexpr double largest_mean_tolerance = 0.3;  // beyond it the finding would s
 constexpr std::size_t least_means = 5;          // for a median
 /// Rows that a step's own path shows change its velocity after its middle has settled: at up to
 /// this share of the frames. Seen: 0.02 at 10 ms.
-constexpr double unsettled_share = 0.25;
+constexpr double unsettled_share = 0.75;
 
 /// The knot goes to the tail in this phase: both tangents turn.
 bool towards_tail(const Scene& scene, Phase phase) {
