@@ -76,8 +76,9 @@ void update_velocities(const Model& model, const Eigen::VectorXd& moved,
   for (int b = 1; b < n; ++b) {
     const Body& body = model.bodies[b];
     for (int k = body.first_dof; k < body.first_dof + body.dofs; ++k) {
+      const Vector6d turn = kin.axis.col(k) * moved[k];
       bias += cross_motion(twist, Vector6d(kin.axis.col(k) * felt[k]));
-      twist += kin.axis.col(k) * moved[k];
+      twist += turn;
     }
     kin.twist.col(b) = twist;
     kin.bias_twist.col(b) = bias;

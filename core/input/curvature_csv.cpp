@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
-#include <cstring>
 #include <sstream>
 
 #include "core/input/input_error.hpp"
@@ -73,12 +71,12 @@ CurvatureProgram read_curvature_csv(const std::string& text, const std::string& 
     while (reader.read_row(field[0], field[1], field[2], field[3], field[4])) {
       double number[5];
       for (int i = 0; i < 5; ++i) {
-        const char* end = field[i] + std::strlen(field[i]);
-        const auto read = std::from_chars(field[i], end, number[i]);
-        if (read.ec != std::errc() || read.ptr != end || !std::isfinite(number[i])) {
+        const std::optional<double> read = finite_number(field[i]);
+        if (!read) {
           fail(name, reader.get_file_line(),
                fmt::format("{} = {}: must be a number", column[i], shortened(field[i])));
         }
+        number[i] = *read;
       }
       append({number[0], number[1], {number[2], number[3], number[4]}}, name,
              reader.get_file_line(), program);

@@ -1,6 +1,8 @@
 #include "core/input/input_text.hpp"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <fstream>
 #include <numeric>
 #include <sstream>
@@ -49,6 +51,13 @@ std::size_t character_size(std::string_view text) {
 }
 
 }  // namespace
+
+std::optional<double> finite_number(std::string_view text) {
+  double number = 0;
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), number);
+  const bool whole = read.ec == std::errc() && read.ptr == text.data() + text.size();
+  return whole && std::isfinite(number) ? std::optional(number) : std::nullopt;
+}
 
 std::string shortened(const std::string& text) {
   if (text.size() <= longest_quote) return text;

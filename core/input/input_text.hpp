@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,6 +29,9 @@ std::string read_text_file(const std::filesystem::path& file);
 /// `text` for a terminal: bytes that a terminal would obey (control characters) or that are no
 /// UTF-8 as \\xNN; of more than 2000 bytes the first ones, and how many more there are.
 std::string printable(std::string_view text);
+
+/// The finite number that the whole of `text` is; none where it is anything else.
+std::optional<double> finite_number(std::string_view text);
 
 /// The first 60 bytes or so of `text`, in whole UTF-8 characters, with dots for what is left off.
 std::string shortened(const std::string& text);

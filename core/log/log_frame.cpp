@@ -361,7 +361,7 @@ LogTable<Frame> frame_table(const Model& model, TimeRule rule) {
   return table;
 }
 
-LogTable<LoggedStep> step_table() {
+LogTable<LoggedStep> step_table(TimeRule rule) {
   LogTable<LoggedStep> t(step_chunk_rows);
   t.choice("/steps/solve", solve_names(), "least that each step had to solve",
            [](const LoggedStep& s) { return s.record.solution.kind; });
@@ -394,6 +394,13 @@ LogTable<LoggedStep> step_table() {
            [](const LoggedStep& s) { return s.record.head_drift; });
   t.number("/steps/qp_time", {"s", "wall time in the QP back end, each step"},
            [](const LoggedStep& s) { return s.record.solution.qp_time; });
+  if (rule == TimeRule::midpoint) {
+    t.number("/steps/middle_off",
+             {"rad/s, cm/s",
+              "length of the difference of the velocity by which each step moves and that which "
+              "placed its middle"},
+             [](const LoggedStep& s) { return s.record.solution.middle_off; });
+  }
   return t;
 }
 

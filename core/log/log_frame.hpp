@@ -120,7 +120,7 @@ class LogTable {
 LogTable<Frame> frame_table(const Model& model, TimeRule rule);
 
 /// The datasets along the steps, /steps: few figures, but of every step.
-LogTable<LoggedStep> step_table();
+LogTable<LoggedStep> step_table(TimeRule rule);
 
 /// /contacts, a row for each contact with a force at a frame.
 LogTable<BearingContact> contact_table();

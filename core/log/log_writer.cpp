@@ -63,7 +63,7 @@ void mark_failed(const fs::path& file, const std::string& cause) {
 struct LogWriter::Contents {
   Contents(const Model& model, const Scene& scene)
       : frames(frame_table(model, scene.time.rule)),
-        steps(step_table()),
+        steps(step_table(scene.time.rule)),
         contacts(contact_table()),
         marks(checkpoint_table()),
         bytes(std::make_shared<Series<std::uint8_t>>(checkpoint_bytes())),

@@ -53,19 +53,18 @@ void book_step(const StepInput& in, const StepSolution& step, const Moment& next
     stretch += hinge.stiffness * u[k] * (0.5 * t * u[k] - in.scene.time.reach() * step.felt[k]);
   }
   const StepMotion before = in.motion();
-  double impulse = 0;  // (y - (t/h) u)'MΔv
-  double moved = 0;    // T(v') - T(v) at the place of the step
-  double fall = 0;     // work of gravity
-  double bias = 0;     // and of what inertia asks for
+  const double whole = h / in.scene.time.reach();  // Δv over x - v
+  double impulse = 0;                              // (y - (t/h) u)'MΔv
+  double moved = 0;                                // T(v') - T(v) at the place of the step
+  double fall = 0;                                 // work of gravity
+  double bias = 0;                                 // and of what inertia asks for
   for (int b = 0; b < model.body_count(); ++b) {
     const PointMotion old = motion_of(before.twist, before.centre_velocity, b);
     const PointMotion by = motion_of(step.twist, step.centre_velocity, b);
     const PointMotion felt = motion_of(step.felt_twist, step.felt_centre_velocity, b);
-    const bool euler = in.midway == nullptr;
-    const PointMotion fresh =
-        euler ? by : PointMotion{2 * felt.twist - old.twist, 2 * felt.velocity - old.velocity};
-    const PointMotion change{fresh.twist - old.twist, fresh.velocity - old.velocity};
-    const PointMotion mean{0.5 * (fresh.twist + old.twist), 0.5 * (fresh.velocity + old.velocity)};
+    const PointMotion change{whole * (felt.twist - old.twist),
+                             whole * (felt.velocity - old.velocity)};
+    const PointMotion mean{old.twist + 0.5 * change.twist, old.velocity + 0.5 * change.velocity};
     moved += inertia_product(model, kin, b, mean, change);
     impulse += inertia_product(model, kin, b,
                                {mean.twist - t / h * by.twist, mean.velocity - t / h * by.velocity},

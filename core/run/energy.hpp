@@ -1,8 +1,8 @@
 // The energy ledger: where every erg comes from and goes to, so that no damping hides.
 //
-// Forces work over the displacement that the step makes: h q̇ (Eq. 2), or t q̇ of a step that ends
-// early (simulation.hpp). What the semi-implicit rule then gains or loses by itself is written down
-// apart, from its own formulas and not as the remainder, so that
+// Forces work over the displacement that the step makes: h u (Eq. 2), or t u of a step that ends
+// early (simulation.hpp), with u = q̇ by Euler's rule. What the rule then gains or loses by itself
+// is written down apart, from its own formulas and not as the remainder, so that
 //   kinetic + elastic + gravity - initial = works - dissipated + integrator error
 // is a check: it closes to rounding, or the step is not what it claims.
 #pragma once
@@ -22,12 +22,14 @@ struct EnergyLedger {
   double work_active = 0;                               ///< of the muscles: of the active torque
   std::array<double, row_kinds.size()> work_of_kind{};  ///< of the constraint forces, by row kind
   double dissipated = 0;                                ///< by drag and joint damping
-  /// -½ Δq̇' M Δq̇: what first-order steps lose when velocities change, inelastic impacts included;
-  /// and (1 - t/h) q̇' M Δq̇, the share of the impulse that has no displacement to work over.
+  /// (y - (t/h) u)' M Δv with the mean y of the velocities before and after: by Euler's rule
+  /// -½ Δv' M Δv, what its steps lose when velocities change, inelastic impacts included, and the
+  /// share of the impulse that has no displacement to work over.
   double integrator_inertia = 0;
-  /// (½ t² - t h) q̇' K q̇ of the implicit springs, and gravity over the curved path.
+  /// Of the implicit springs, ½ t² u' K u - t r u' K x (energy.cpp), and gravity over the curved
+  /// path.
   double integrator_potential = 0;
-  /// Change of M along the step against the work of the explicit Coriolis force.
+  /// Change of M along the step against the work of the Coriolis force.
   double integrator_coriolis = 0;
   /// Taken back from the velocity where the scene holds the integrator's gain (guard.hpp), <= 0.
   double integrator_held = 0;

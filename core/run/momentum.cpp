@@ -25,12 +25,12 @@ void book_momentum(const StepInput& in, const StepSolution& step, const Moment& 
   const Model& model = in.model;
   const double h = in.scene.time.step;
   const StepMotion before = in.motion();
+  const double whole = h / in.scene.time.reach();    // v' - v over what is felt of it
   Eigen::Vector3d change = Eigen::Vector3d::Zero();  // Σ m (v' - v)
   Eigen::Vector3d bias = Eigen::Vector3d::Zero();
   for (int b = 0; b < model.body_count(); ++b) {
     const Eigen::Vector3d felt = step.felt_centre_velocity.col(b);
-    const double share = in.midway == nullptr ? 1 : 2;
-    change += share * model.bodies[b].mass * (felt - before.centre_velocity.col(b));
+    change += whole * model.bodies[b].mass * (felt - before.centre_velocity.col(b));
     bias += step.system.bias.col(b).tail<3>();
     ledger.drag += h * drag_on_body(model, in.kin(), b, felt);
     ledger.outside += h * model.bodies[b].mass * model.gravity;

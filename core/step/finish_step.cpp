@@ -119,6 +119,7 @@ void StepSolver::finish(const StepInput& in, StepSolution& step) {
     warm.half_before = warm.half_change;
     warm.half_change = scratch_.half_change;
     step.middle = {in.midway->moved, in.midway->felt};
+    step.middle_off = (step.qdot - step.middle.moved).norm();
   }
   const ActiveTorque& active = in.control.active;
   if (active.value.size() > 0) {

@@ -58,13 +58,8 @@ bool add_missed_rows(const StepInput& in, const Observation& there, double t, St
       if (contact.gap < -tolerance) {
         const Contact before = contact_at(now.segments, contact.segment_a, contact.t_a,
                                           contact.segment_b, contact.t_b);
-        check(before.gap, contact.gap, [&] {
-          return contact_row(in.model,
-                             in.midway == nullptr
-                                 ? before
-                                 : contact_at(in.segments(), contact.segment_a, contact.t_a,
-                                              contact.segment_b, contact.t_b));
-        });
+        check(before.gap, contact.gap,
+              [&] { return contact_row(in.model, placed(before, in.moved_segments())); });
       }
     }
   }

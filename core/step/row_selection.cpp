@@ -19,7 +19,7 @@ void append_unilateral_rows(const StepInput& in, const NearBinding& wanted,
                             std::vector<Row>& rows) {
   const ConstraintSettings& settings = in.scene.constraints;
   const double h = in.scene.time.step;
-  const std::vector<SplineSegment>* at = in.midway == nullptr ? nullptr : &in.midway->segments;
+  const std::vector<SplineSegment>* at = in.moved_segments();
   append_contact_rows(in.model, in.observation.contact.contacts, at, settings, h, wanted, rows);
   const NearBinding others{wanted.v, wanted.centre_velocity, std::min(wanted.slack, 0.0),
                            std::min(wanted.slack_at_rest, 0.0)};
@@ -37,8 +37,7 @@ void gather_rows(const StepInput& in, std::vector<Row>& rows) {
   if (in.control.clamp_head) {
     append_head_rows(in.state, in.scene.constraints, h, rows);
   }
-  append_thigmotaxis_rows(in.model, in.control.thigmotaxis,
-                          in.midway == nullptr ? nullptr : &in.midway->segments,
+  append_thigmotaxis_rows(in.model, in.control.thigmotaxis, in.moved_segments(),
                           in.scene.controller, in.motion().centre_velocity, h, rows);
   append_unilateral_rows(in, {in.state.qdot, centre_velocity, lazy_reach, lazy_reach}, rows);
 }

@@ -214,16 +214,11 @@ void append_limit_rows(const Model& model, const State& state, const ConstraintS
   append_cone_rows(model, state, settings, h, wanted, rows);
 }
 
-namespace {
-
-/// `contact` between the same points of the segments `at`, if there are any.
 Contact placed(const Contact& contact, const std::vector<SplineSegment>* at) {
   return at == nullptr
              ? contact
              : contact_at(*at, contact.segment_a, contact.t_a, contact.segment_b, contact.t_b);
 }
-
-}  // namespace
 
 void append_contact_rows(const Model& model, const std::vector<Contact>& contacts,
                          const std::vector<SplineSegment>* at, const ConstraintSettings& settings,

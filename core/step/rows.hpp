@@ -116,8 +116,10 @@ void append_head_rows(const State& state, const ConstraintSettings& settings, do
 void append_limit_rows(const Model& model, const State& state, const ConstraintSettings& settings,
                        double h, const NearBinding& wanted, std::vector<Row>& rows);
 
-/// One row per contact, the exact rate of its gap: where it was found, or between the same points
-/// of the segments `at`.
+/// `contact` as it was found, or between the same points of the segments `at`.
+Contact placed(const Contact& contact, const std::vector<SplineSegment>* at);
+
+/// One row per contact, as placed at `at`: the exact rate of its gap.
 void append_contact_rows(const Model& model, const std::vector<Contact>& contacts,
                          const std::vector<SplineSegment>* at, const ConstraintSettings& settings,
                          double h, const NearBinding& wanted, std::vector<Row>& rows);
@@ -135,10 +137,10 @@ struct ThigmotaxisCommand {
   double effort = 1;                ///< of ControllerSettings::cap, what bounds its rows
 };
 
-/// Eq. 6 at the first and the last contact: rows t_a, t_b of each. settings.cap times the command's
-/// effort bounds λ / h; a row asks for its commanded speed, but for no more than
-/// settings.acceleration makes in the step of the speed that it has now, where the bodies' centres
-/// move by `centre_velocity` (3 x N, cm/s).
+/// Eq. 6 at the first and the last contact, as placed at `at`: rows t_a, t_b of each. settings.cap
+/// times the command's effort bounds λ / h; a row asks for its commanded speed, but for no more
+/// than settings.acceleration makes in the step of the speed that it has now, where the bodies'
+/// centres move by `centre_velocity` (3 x N, cm/s).
 void append_thigmotaxis_rows(const Model& model, const std::vector<ThigmotaxisCommand>& commands,
                              const std::vector<SplineSegment>* at,
                              const ControllerSettings& settings,

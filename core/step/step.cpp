@@ -105,9 +105,11 @@ Status StepSolver::begin_here(const StepInput& in, StepSolution& step) {
   step.prescribed = 0;
   bool base_known = false;
   if (step.rows.empty()) {
-    if (Status status = base_motion(in, step); !status.ok() || !add_violated(in, step)) {
-      set_next_velocity(in, step);
+    if (Status status = base_motion(in, step); !status.ok()) {
       return status;
+    }
+    if (!add_violated(in, step)) {
+      return set_next_velocity(in, step);
     }
     base_known = true;
   }
@@ -160,8 +162,7 @@ Status StepSolver::constrained_motion(const StepInput& in, bool base_known, Step
   if (!step.qdot.allFinite()) {
     return {Outcome::non_finite, "non-finite velocity"};
   }
-  set_next_velocity(in, step);
-  return {};
+  return set_next_velocity(in, step);
 }
 
 void expect_force(const StepInput& in, double lambda, Row& row, StepSystem& system) {
@@ -191,10 +192,10 @@ void StepSolver::expect_steady_forces(const StepInput& in, StepSolution& step) {
 /// The velocity after the step: Euler's is the one that it moves by. The midpoint's is
 /// v' = 2 w - v - δ, with w the velocity that it moves by and δ = H⁻¹C'(λ - λ_steady), what impacts
 /// add to it.
-void StepSolver::set_next_velocity(const StepInput& in, StepSolution& step) {
+Status StepSolver::set_next_velocity(const StepInput& in, StepSolution& step) {
   if (in.midway == nullptr) {
     step.next = step.qdot;
-    return;
+    return {};
   }
   const Kinematics& kin = in.kin();
   scratch_.half_change = step.qdot - in.state.qdot;
@@ -216,7 +217,11 @@ void StepSolver::set_next_velocity(const StepInput& in, StepSolution& step) {
     for (const Row& row : step.rows) {
       if (row.kind == RowKind::head) scratch_.prescribed.push_back({row.dof, 0});
     }
-    scratch_.free_factor.factorise(in.model, kin, step.system.op, scratch_.prescribed);
+    try {
+      scratch_.free_factor.factorise(in.model, kin, step.system.op, scratch_.prescribed);
+    } catch (const std::domain_error& error) {
+      return {Outcome::non_finite, error.what()};
+    }
     scratch_.free_factor.solve(in.model, kin, scratch_.wrench, scratch_.joint, scratch_.impact,
                                scratch_.impact_twist, scratch_.reaction);
     scratch_.half_change -= scratch_.impact;
@@ -231,6 +236,7 @@ void StepSolver::set_next_velocity(const StepInput& in, StepSolution& step) {
       step.lambda[i] = whole + row.steady / 2;
     }
   }
+  return {};
 }
 
 /// Sorts the rows by their places, prescribed ones first, and gathers the multipliers to start

@@ -43,8 +43,9 @@ struct StepInput {
 
   /// What Eq. 1 and the rows are of.
   const Kinematics& kin() const { return midway == nullptr ? observation.kin : midway->kin; }
-  const std::vector<SplineSegment>& segments() const {
-    return midway == nullptr ? observation.segments : midway->segments;
+  /// Null where that is `state`: contacts are then as they were found.
+  const std::vector<SplineSegment>* moved_segments() const {
+    return midway == nullptr ? nullptr : &midway->segments;
   }
   /// The motion there.
   StepMotion motion() const {
@@ -103,6 +104,9 @@ struct StepSolution {
   /// What another pass would still change the middle's velocity by, rad/s and cm/s, where that is
   /// more than the scene permits; else 0 (midpoint rule).
   double unsettled = 0;
+  /// Length of what qdot and the velocity that placed the middle differ by, rad/s and cm/s: rows
+  /// that the path shows change qdot after the middle has settled (midpoint rule; else 0).
+  double middle_off = 0;
   struct {
     Eigen::VectorXd moved, felt;
   } middle;  ///< as in Midway, of the last pass
@@ -174,7 +178,7 @@ class StepSolver {
   Status base_motion(const StepInput& in, StepSolution& step);
   void set_velocity(const StepInput& in, StepSolution& step);
   void expect_steady_forces(const StepInput& in, StepSolution& step);
-  void set_next_velocity(const StepInput& in, StepSolution& step);
+  Status set_next_velocity(const StepInput& in, StepSolution& step);
   bool solve_multipliers(StepSolution& step);
   bool add_violated(const StepInput& in, StepSolution& step);
   void measure(const StepInput& in, StepSolution& step);

@@ -28,7 +28,7 @@ constexpr double mean_tolerance_growth = 1;     // 1/s
 constexpr double largest_mean_tolerance = 0.3;  // beyond it the finding would say nothing
 constexpr std::size_t least_means = 5;          // for a median
 /// Rows that a step's own path shows change its velocity after its middle has settled: at up to
-/// this share of the frames. Seen: 0.02 at 10 ms.
+/// this share of the frames. Seen: 0.15 at 10 ms, 0.5 at 20 ms.
 constexpr double unsettled_share = 0.75;
 
 /// The knot goes to the tail in this phase: both tangents turn.
@@ -115,6 +115,8 @@ ForceAudit::ForceAudit(const LogContents& log)
       mean_lambda_(log.h5.rows("/mean/thigmotaxis/lambda")),
       contact_frame_(log.h5.integers("/contacts/frame")),
       active_(log.h5.integers("/diagnostics/active")),
+      middle_off_(log.midpoint() ? log.h5.doubles("/steps/middle_off") : std::vector<double>{}),
+      steps_(log),
       cap_(log.h5.doubles("/thigmotaxis/cap")),
       contact_a_(log.h5.doubles("/contacts/spline_a")),
       contact_b_(log.h5.doubles("/contacts/spline_b")),
@@ -333,8 +335,9 @@ void ForceAudit::see_balance(const AuditedFrame& frame) {
   const Eigen::VectorXd given =
       generalised_force(model, frame.kin, system.wrench) + system.joint + reach * sum;
   if (log_.midpoint()) {
-    const double off = (frame.qdot_moved - frame.midway.moved).lpNorm<Eigen::Infinity>();
-    unsettled_ += off <= log_.resolved.scene.time.settled ? 0 : 1;
+    const Eigen::VectorXd off = frame.qdot_moved - frame.midway.moved;
+    unsettled_ += off.lpNorm<Eigen::Infinity>() <= log_.resolved.scene.time.settled ? 0 : 1;
+    from_rows_.compare("/steps/middle_off", middle_off_[steps_.at(f)], off.norm());
   }
   imbalance_ =
       worse(imbalance_, mismatch(given, multiply(model, frame.kin, system.op, frame.qdot_felt)));

@@ -44,6 +44,8 @@ class ForceAudit {
   std::array<Hdf5Reader::Rows, 6> mean_;  ///< thigmotaxis, contact, limit, head, wall, active
   Hdf5Reader::Rows mean_net_, mean_lambda_;
   std::vector<std::int64_t> contact_frame_, active_;
+  std::vector<double> middle_off_;  ///< of each step, by the midpoint rule
+  Steps steps_;
   std::vector<double> cap_, contact_a_, contact_b_, contact_force_;
   double pull_from_ = NAN;        ///< time of the last frame before the pull, s
   std::size_t next_contact_ = 0;  ///< first one of frames not seen yet

@@ -152,7 +152,7 @@ std::vector<DatasetForm> log_forms(const Hdf5Reader& log, const Model& model, Ti
   // The writer says what there must be; nothing is written.
   std::vector<DatasetForm> forms;
   add_forms(frame_table(model, rule).series(), rows_of(log, "/trajectory/time"), forms);
-  add_forms(step_table().series(), rows_of(log, "/steps/kkt"), forms);
+  add_forms(step_table(rule).series(), rows_of(log, "/steps/kkt"), forms);
   add_forms(contact_table().series(), rows_of(log, "/contacts/frame"), forms);
   return forms;
 }

@@ -9,8 +9,6 @@ namespace {
 
 using namespace export_unit;
 
-const ExportColumn frame_column{"frame", none, "index of the frame, from 0"};
-const ExportColumn time_column{"time", second, "simulated time"};
 const std::string mean = "; mean since the frame before";
 
 /// The datasets of /mean/forces that act on hinges, and the column of each.

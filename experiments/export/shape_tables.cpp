@@ -11,9 +11,6 @@ namespace {
 
 using namespace export_unit;
 
-const ExportColumn frame_column{"frame", none, "index of the frame, from 0"};
-const ExportColumn time_column{"time", second, "simulated time"};
-
 ExportTable midline_table(bool si) {
   return {"midline.csv",
           {frame_column,
@@ -62,7 +59,6 @@ ExportTable curvature_table(bool si) {
           si};
 }
 
-/// Hinges of each joint (body), head to tail, with the first velocity of each.
 void add_curvature(const LogContents& log, const AuditedFrame& frame, ExportTable& table) {
   const Model& model = log.model;
   const int n = model.body_count();
@@ -88,7 +84,7 @@ ExportTable knot_table(bool si) {
   return {"knot.csv",
           {frame_column,
            time_column,
-           {"phase", none, "form, tighten, slide, reverse, release, free"},
+           {"phase", none, "form, tighten, slide, pull, reverse, release, free"},
            {"knot", none, "knot type of the centreline; 0_1 is no knot"},
            {"determinant", none, "knot determinant"},
            {"v2", none, "Vassiliev invariant of order 2"},

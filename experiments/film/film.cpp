@@ -4,9 +4,7 @@
 
 #include <Eigen/SVD>
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <cstring>
 #include <fstream>
 #include <optional>
 #include <sstream>
@@ -141,12 +139,12 @@ Film read_film(const std::string& file, double pixels_per_cm) {
     while (reader.read_row(field[0], field[1], field[2], field[3], field[4])) {
       double number[5];
       for (int i = 0; i < 5; ++i) {
-        const char* end = field[i] + std::strlen(field[i]);
-        const auto read = std::from_chars(field[i], end, number[i]);
-        if (read.ec != std::errc() || read.ptr != end || !std::isfinite(number[i])) {
+        const std::optional<double> read = finite_number(field[i]);
+        if (!read) {
           throw_input_error(fmt::format("{}:{}: {} = {}: must be a number", file,
                                         reader.get_file_line(), names[i], shortened(field[i])));
         }
+        number[i] = *read;
       }
       if (film.frames.empty() || number[0] != film.frames.back().time) {
         if (!film.frames.empty() && number[0] < film.frames.back().time) {

@@ -113,9 +113,8 @@ int rollout_steps(double h, const Comparison& settings) {
   return static_cast<int>(steps);
 }
 
-void compare_rollouts(const Model& model, Head head, double h, const Comparison& settings,
-                      Findings& findings) {
-  const int steps = rollout_steps(h, settings);
+void compare_rollouts(const Model& model, Head head, double h, int steps,
+                      const Comparison& settings, Findings& findings) {
   const State start = start_of(motions.front(), model);
   MujocoModel mirror = mirror_of(model, h, head);
   use_core_rule(mirror);
@@ -191,7 +190,7 @@ bool compare(const ResolvedScene& resolved, Hdf5Writer& h5) {
   const Model model = smooth(make_hagfish(resolved.specimen, resolved.scene));
   const double h = resolved.scene.time.step;
   const Comparison settings;
-  rollout_steps(h, settings);  // before the work
+  const int steps = rollout_steps(h, settings);
   Findings findings(h5);
   for (const char* group : {"/states", "/rollout", "/error"}) h5.group(group);
   fmt::print("{} bodies, {} random states; contacts, limits and drag left out\n\n",
@@ -199,7 +198,7 @@ bool compare(const ResolvedScene& resolved, Hdf5Writer& h5) {
   fmt::print("{:<8} {:<34} {:>9} {:>9}\n", "head", "largest difference in", "found", "bound");
   for (const Head head : {Head::free, Head::clamped}) {
     compare_states(model, head, h, settings, findings);
-    compare_rollouts(model, head, h, settings, findings);
+    compare_rollouts(model, head, h, steps, settings, findings);
   }
   fmt::print("\nError of a body centre at {:g} s, cm, against MuJoCo's RK4 at {:g} s\n",
              settings.error_time, settings.reference_step);

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "core/input/input_error.hpp"
 #include "experiments/program/commands.hpp"
 #include "experiments/program/progress.hpp"
 #include "experiments/program/scene_argument.hpp"
@@ -69,6 +70,9 @@ class Recorder {
 int record_qp(const RecordQpOptions& options, const std::string& typed) {
   const ResolvedScene resolved = scene_argument(options.scene, options.set);
   const Scene& scene = resolved.scene;
+  if (scene.time.rule != TimeRule::euler) {
+    throw InputError("time.rule = midpoint: the QPs recorded are those of \"euler\"");
+  }
   const Model model = make_hagfish(resolved.specimen, scene);
   check_sense(resolved, model, options.force);
   QpSetWriter set(options.out, options.force, typed, scene_to_toml(scene, resolved.specimen));

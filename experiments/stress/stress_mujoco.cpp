@@ -43,6 +43,9 @@ std::string not_in_mujoco(const Scene& scene) {
   if (scene.start.phase != Phase::form || scene.expect.slide_distance > 0) {
     return "thigmotaxis is not in MuJoCo";
   }
+  if (scene.time.rule != TimeRule::euler) {
+    return "time.rule = midpoint is not a rule of MuJoCo's";
+  }
   if (scene.model.bending_limit == BendingLimit::cone) {
     return "limits on the total angle of a joint are not in MuJoCo";
   }

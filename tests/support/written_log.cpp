@@ -1,6 +1,9 @@
 #include "tests/support/written_log.hpp"
 
+#include <limits>
+
 #include "core/log/log_writer.hpp"
+#include "experiments/audit/audit.hpp"
 #include "mujoco_ref/mjcf.hpp"
 
 namespace hagfish {
@@ -19,6 +22,33 @@ void write_log(const std::filesystem::path& file, const ResolvedScene& scene, co
     log.write(record, sim, wall_time += 1e-4);
   }
   log.finish("complete", sim);
+}
+
+void write_log(const std::filesystem::path& file, const ResolvedScene& scene) {
+  const Model model = make_hagfish(scene.specimen, scene.scene);
+  write_log(file, scene, model, start(model, scene.scene, "active-set"),
+            std::numeric_limits<int>::max());
+}
+
+std::string audit_objections(const std::filesystem::path& file, const std::string& expected) {
+  std::string text;
+  for (const Finding& finding : audit(file)) {
+    const bool good = finding.passed || finding.name == expected;
+    text += good ? "" : finding.name + ": " + finding.text + "\n";
+  }
+  return text;
+}
+
+std::string write_scene(const std::filesystem::path& file, const std::string& text) {
+  std::string before;
+  H5::H5File h5(file.string(), H5F_ACC_RDWR);
+  H5::Group root = h5.openGroup("/");
+  const H5::Attribute attribute = root.openAttribute("scene");
+  attribute.read(attribute.getStrType(), before);
+  root.removeAttr("scene");
+  const H5::StrType type(H5::PredType::C_S1, H5T_VARIABLE);
+  root.createAttribute("scene", type, H5::DataSpace(H5S_SCALAR)).write(type, text);
+  return before;
 }
 
 }  // namespace hagfish

@@ -17,6 +17,16 @@ namespace hagfish {
 void write_log(const std::filesystem::path& file, const ResolvedScene& scene, const Model& model,
                Simulation sim, int most_steps);
 
+/// Logs the whole run of `scene`, by the active-set method, in `file`.
+void write_log(const std::filesystem::path& file, const ResolvedScene& scene);
+
+/// What the audit objects to in `file`, a line each, but for the finding called `expected`. Empty
+/// for a good log. Throws as audit().
+std::string audit_objections(const std::filesystem::path& file, const std::string& expected = "");
+
+/// Writes `text` as the scene of a log; returns what that was.
+std::string write_scene(const std::filesystem::path& file, const std::string& text);
+
 /// Lets `change` have the values of a dataset, written as `type`; returns what they were.
 template <class T, class Change>
 std::vector<T> rewrite(const std::filesystem::path& file, const std::string& path,

@@ -132,6 +132,29 @@ const MendedCell mended_cells[] = {
 INSTANTIATE_TEST_SUITE_P(Stability, MendedCells, testing::ValuesIn(mended_cells),
                          [](const auto& cell) { return cell.param.name; });
 
+// What the README says of the midpoint rule with the watch off: the largest step that passes.
+const MendedCell midpoint_cells[] = {
+    {"whip", "whip.toml", 0.002, {}},
+    {"spinning", "spinning.toml", 0.005, {}},
+    {"tight_bend", "tight_bend.toml", 0.001, {}},
+    {"short_bodies", "short_bodies.toml", 0.01, {}},
+    {"pulled_knot", "pulled_knot.toml", 0.005, {}},
+    {"knot_into_head", "knot_into_head.toml", 0.01, {}},
+    {"parallel", "parallel.toml", 0.005, {}},
+    {"coil", "coil.toml", 0.05, {}},
+};
+class MidpointCells : public testing::TestWithParam<MendedCell> {};
+
+TEST_P(MidpointCells, PassWithoutTheWatch) {
+  const MendedCell& cell = GetParam();
+  const StressResult result =
+      run_cell((fs::path(HAGFISH_STRESS_DIR) / cell.scene).string(), "default", cell.step,
+               {"time.rule=midpoint", "guard.energy_action=warn"});
+  EXPECT_EQ(result.status.outcome, Outcome::ok) << result.status.message;
+}
+INSTANTIATE_TEST_SUITE_P(Stability, MidpointCells, testing::ValuesIn(midpoint_cells),
+                         [](const auto& cell) { return cell.param.name; });
+
 INSTANTIATE_TEST_SUITE_P(Stability, StressScenes, testing::ValuesIn(scenes()),
                          [](const auto& scene) { return fs::path(scene.param).stem().string(); });
 

@@ -28,22 +28,12 @@ class AuditActive : public testing::Test {
   static void SetUpTestSuite() {
     folder = std::make_unique<TemporaryFolder>();
     file = *folder / "log.h5";
-    const ResolvedScene resolved = living_scene();
-    const Model model = make_hagfish(resolved.specimen, resolved.scene);
-    write_log(file, resolved, model, start(model, resolved.scene, "active-set"),
-              std::numeric_limits<int>::max());
+    write_log(file, living_scene());
   }
   static void TearDownTestSuite() { folder.reset(); }
 
   /// Names and texts of all findings that fail, but that of the knot, which is still there.
-  static std::string objections() {
-    std::string text;
-    for (const Finding& finding : audit(file)) {
-      const bool expected = finding.name == "unknot at end";
-      text += finding.passed || expected ? "" : finding.name + ": " + finding.text + "\n";
-    }
-    return text;
-  }
+  static std::string objections() { return audit_objections(file, "unknot at end"); }
 
   /// An entry of a dataset, row by row, and how far it is off.
   struct Corruption {
@@ -66,21 +56,10 @@ class AuditActive : public testing::Test {
   /// What the audit says while the log claims to be of another scene.
   static std::string objections_with(const std::vector<std::string>& set) {
     const ResolvedScene other = living_scene(set);
-    const std::string before = write_scene(scene_to_toml(other.scene, other.specimen));
+    const std::string before = write_scene(file, scene_to_toml(other.scene, other.specimen));
     const std::string text = objections();
-    write_scene(before);
+    write_scene(file, before);
     return text;
-  }
-  static std::string write_scene(const std::string& text) {
-    std::string before;
-    H5::H5File h5(file.string(), H5F_ACC_RDWR);
-    H5::Group root = h5.openGroup("/");
-    const H5::Attribute attribute = root.openAttribute("scene");
-    attribute.read(attribute.getStrType(), before);
-    root.removeAttr("scene");
-    const H5::StrType type(H5::PredType::C_S1, H5T_VARIABLE);
-    root.createAttribute("scene", type, H5::DataSpace(H5S_SCALAR)).write(type, text);
-    return before;
   }
 
   /// The first frame of a phase.

@@ -22,19 +22,11 @@ class AuditMidpoint : public testing::Test {
         read_scene(std::string(HAGFISH_DATA_DIR) + "/table1.toml",
                    {"time.rule=midpoint", "time.step=0.01", "time.frame_interval=0.2",
                     "time.checkpoint_interval=6", "knot.votes=5", "expect.slide_distance=8"});
-    const Model model = make_hagfish(resolved.specimen, resolved.scene);
-    write_log(file, resolved, model, start(model, resolved.scene, "active-set"),
-              std::numeric_limits<int>::max());
+    write_log(file, resolved);
   }
   static void TearDownTestSuite() { folder.reset(); }
 
-  static std::string objections() {
-    std::string text;
-    for (const Finding& finding : audit(file)) {
-      text += finding.passed ? "" : finding.name + ": " + finding.text + "\n";
-    }
-    return text;
-  }
+  static std::string objections() { return audit_objections(file); }
 
   static inline std::unique_ptr<TemporaryFolder> folder;
   static inline std::filesystem::path file;
@@ -55,6 +47,17 @@ TEST_F(AuditMidpoint, SeesAFalseMiddle) {
     rewrite<double>(file, path, H5::PredType::NATIVE_DOUBLE,
                     [&before](std::vector<double>& values) { values = before; });
   }
+}
+
+// One number of it, of the whole animal's velocity, which no row and no force shows.
+TEST_F(AuditMidpoint, SeesAFalseWayOfOneStep) {
+  const auto change = [](double by) {
+    rewrite<double>(file, "/midway/qdot", H5::PredType::NATIVE_DOUBLE,
+                    [by](std::vector<double>& values) { values[values.size() / 2] += by; });
+  };
+  change(0.001);
+  EXPECT_NE(objections().find("/steps/middle_off"), std::string::npos) << objections();
+  change(-0.001);
 }
 
 }  // namespace

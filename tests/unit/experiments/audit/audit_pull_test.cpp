@@ -32,42 +32,18 @@ class AuditPull : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder = std::make_unique<TemporaryFolder>();
-    const auto write = [](const fs::path& to, const ResolvedScene& resolved) {
-      const Model model = make_hagfish(resolved.specimen, resolved.scene);
-      write_log(to, resolved, model, start(model, resolved.scene, "active-set"),
-                std::numeric_limits<int>::max());
-    };
-    write(file = *folder / "log.h5", pulling_scene());
-    write(rising_file = *folder / "rising.h5", pulling_scene(rising));
+    write_log(file = *folder / "log.h5", pulling_scene());
+    write_log(rising_file = *folder / "rising.h5", pulling_scene(rising));
   }
   static void TearDownTestSuite() { folder.reset(); }
-
-  static std::string objections(const fs::path& file) {
-    std::string text;
-    for (const Finding& finding : audit(file)) {
-      text += finding.passed ? "" : finding.name + ": " + finding.text + "\n";
-    }
-    return text;
-  }
 
   /// What the audit says while the log claims to be of another scene.
   static std::string objections_with(const fs::path& file, const std::vector<std::string>& set) {
     const ResolvedScene other = pulling_scene(set);
     const std::string before = write_scene(file, scene_to_toml(other.scene, other.specimen));
-    const std::string text = objections(file);
+    const std::string text = audit_objections(file);
     write_scene(file, before);
     return text;
-  }
-  static std::string write_scene(const fs::path& file, const std::string& text) {
-    std::string before;
-    H5::H5File h5(file.string(), H5F_ACC_RDWR);
-    H5::Group root = h5.openGroup("/");
-    const H5::Attribute attribute = root.openAttribute("scene");
-    attribute.read(attribute.getStrType(), before);
-    root.removeAttr("scene");
-    const H5::StrType type(H5::PredType::C_S1, H5T_VARIABLE);
-    root.createAttribute("scene", type, H5::DataSpace(H5S_SCALAR)).write(type, text);
-    return before;
   }
 
   static std::unique_ptr<TemporaryFolder> folder;
@@ -78,8 +54,8 @@ std::unique_ptr<TemporaryFolder> AuditPull::folder;
 fs::path AuditPull::file, AuditPull::rising_file;
 
 TEST_F(AuditPull, GoodLogsAreGood) {
-  EXPECT_EQ(objections(file), "");
-  EXPECT_EQ(objections(rising_file), "");
+  EXPECT_EQ(audit_objections(file), "");
+  EXPECT_EQ(audit_objections(rising_file), "");
 }
 
 TEST_F(AuditPull, WatchesEachFigureWherePulledAndWhereNot) {
@@ -97,11 +73,11 @@ TEST_F(AuditPull, WatchesEachFigureWherePulledAndWhereNot) {
         }
       };
       const auto before = rewrite<double>(file, path, H5::PredType::NATIVE_DOUBLE, change);
-      EXPECT_NE(objections(file).find(path), std::string::npos) << objections(file);
+      EXPECT_NE(audit_objections(file).find(path), std::string::npos) << audit_objections(file);
       rewrite<double>(file, path, H5::PredType::NATIVE_DOUBLE, [&](auto& v) { v = before; });
     }
   }
-  EXPECT_EQ(objections(file), "") << "the test did not mend what it changed";
+  EXPECT_EQ(audit_objections(file), "") << "the test did not mend what it changed";
 }
 
 TEST_F(AuditPull, SeesFoodAndBoundsThatAreNotTheScenes) {
@@ -116,7 +92,7 @@ TEST_F(AuditPull, SeesFoodAndBoundsThatAreNotTheScenes) {
     const std::string text = objections_with(file, {change});
     EXPECT_NE(text.find(watcher), std::string::npos) << change << ": " << text;
   }
-  EXPECT_EQ(objections(file), "");
+  EXPECT_EQ(audit_objections(file), "");
 }
 
 TEST_F(AuditPull, SeesACapThatIsNotTheScenes) {

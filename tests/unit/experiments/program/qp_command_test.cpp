@@ -108,5 +108,10 @@ TEST_F(ProgramTest, RefusesBadQpInputInOneLine) {
                  {"/no/such/folder/a.csv"});
 }
 
+TEST_F(ProgramTest, RecordsQpsOfEulersRuleOnly) {
+  expect_refused("record-qp --set time.rule=midpoint --out q.h5", {"time.rule", "euler"});
+  EXPECT_FALSE(std::filesystem::exists(folder / "q.h5"));
+}
+
 }  // namespace
 }  // namespace hagfish
