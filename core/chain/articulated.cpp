@@ -84,9 +84,16 @@ void ArticulatedFactor::factorise(const Model& model, const Kinematics& kin, con
 void ArticulatedFactor::solve(const Model& model, const Kinematics& kin, const Matrix6Xd& wrench,
                               const Eigen::VectorXd& joint, Eigen::VectorXd& v, Matrix6Xd& twist,
                               Eigen::VectorXd& reaction) const {
+  solve(model, kin, wrench, joint, prescribed_, v, twist, reaction);
+}
+
+void ArticulatedFactor::solve(const Model& model, const Kinematics& kin, const Matrix6Xd& wrench,
+                              const Eigen::VectorXd& joint,
+                              std::span<const PrescribedVelocity> prescribed, Eigen::VectorXd& v,
+                              Matrix6Xd& twist, Eigen::VectorXd& reaction) const {
   v.resize(model.nv());
   twist.resize(6, model.body_count());
-  const auto count = static_cast<Eigen::Index>(prescribed_.size());
+  const auto count = static_cast<Eigen::Index>(prescribed.size());
   reaction.resize(count);
   Eigen::Index next = count;
   Vector6d sum = Vector6d::Zero();
@@ -96,10 +103,10 @@ void ArticulatedFactor::solve(const Model& model, const Kinematics& kin, const M
     for (int k = body.first_dof + body.dofs - 1; k >= body.first_dof; --k) {
       const double force = joint[k] + kin.axis.col(k).dot(sum);
       v[k] = force * inverse_pivot_[k];
-      if (next > 0 && prescribed_[next - 1].dof == k) {
+      if (next > 0 && prescribed[next - 1].dof == k) {
         --next;
         reaction[next] = -force;
-        v[k] = prescribed_[next].value;
+        v[k] = prescribed[next].value;
       }
       sum -= weighted_.col(k) * v[k];
     }
@@ -110,7 +117,7 @@ void ArticulatedFactor::solve(const Model& model, const Kinematics& kin, const M
     for (int k = body.first_dof; k < body.first_dof + body.dofs; ++k) {
       const double force = weighted_.col(k).dot(moved);
       v[k] -= force * inverse_pivot_[k];
-      if (next < count && prescribed_[next].dof == k) {
+      if (next < count && prescribed[next].dof == k) {
         reaction[next] += force + pivot_[k] * v[k];
         ++next;
       }

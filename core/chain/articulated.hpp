@@ -95,6 +95,10 @@ class ArticulatedFactor {
              Eigen::VectorXd& reaction) const;
   Eigen::VectorXd solve(const Model& model, const Kinematics& kin, const Matrix6Xd& wrench,
                         const Eigen::VectorXd& joint) const;
+  /// The same where the prescribed velocities have the values of `prescribed`.
+  void solve(const Model& model, const Kinematics& kin, const Matrix6Xd& wrench,
+             const Eigen::VectorXd& joint, std::span<const PrescribedVelocity> prescribed,
+             Eigen::VectorXd& v, Matrix6Xd& twist, Eigen::VectorXd& reaction) const;
 
   /// Turns C' in `columns` into Y: half of a solve, since the recursion factors H⁻¹ = L'L.
   /// Prescribed velocities do not answer to a force.

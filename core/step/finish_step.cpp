@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/step/next_velocity.hpp"
 #include "core/step/step.hpp"
 
 namespace hagfish {
@@ -34,21 +35,21 @@ void sum_forces(RowKind kind, const Model& model, const Kinematics& kin, double 
   }
 }
 
-/// step.net_force, and |H q̇ - g - C'λ| over the largest of the three: forces alone may be nothing
-/// but rounding.
-double stationarity(const Model& model, const Kinematics& kin, double h, StepScratch& scratch,
+/// step.net_force, and |H x - g - C'λ r / h| (x: felt; by Euler's rule q̇, r = h) over the largest
+/// of the three: forces alone may be nothing but rounding.
+double stationarity(const Model& model, const Kinematics& kin, double reach, StepScratch& scratch,
                     StepSolution& step) {
   const StepSystem& system = step.system;
   Eigen::VectorXd& momentum = scratch.joint;  // g, then with C'λ
   generalised_force(model, kin, system.wrench, momentum);
   momentum += system.joint;
   double scale = momentum.lpNorm<Eigen::Infinity>();
-  Eigen::VectorXd& change = scratch.change;  // H q̇
-  multiply(model, kin, system.op, step.qdot, step.twist, scratch.wrench, change);
+  Eigen::VectorXd& change = scratch.change;  // H x
+  multiply(model, kin, system.op, step.felt, step.felt_twist, scratch.wrench, change);
   scale = std::max(scale, change.lpNorm<Eigen::Infinity>());
-  step.net_force = (change - momentum) / h + step.active_torque;
+  step.net_force = (change - momentum) / reach + step.active_torque;
   step.force.total(scratch.impulse);
-  scratch.impulse *= h;
+  scratch.impulse *= reach;
   scale = std::max(scale, scratch.impulse.lpNorm<Eigen::Infinity>());
   momentum += scratch.impulse;
   change -= momentum;
@@ -72,10 +73,8 @@ void scale_multipliers(StepScratch& scratch, const StepSolution& step) {
 
 }  // namespace
 
-/// Forces and residuals on the primal side: q̇ against H, and the rows' excess C q̇ - d.
-void StepSolver::measure(const StepInput& in, StepSolution& step) {
-  const Kinematics& kin = in.kin();
-  const double h = in.scene.time.step;
+/// Residuals of Eq. 4 and of the rows' excess C q̇ - d.
+void StepSolver::measure_rows(StepSolution& step) {
   const auto m = static_cast<Eigen::Index>(step.rows.size());
   step.excess.resize(m);
   for (Eigen::Index i = 0; i < m; ++i) {
@@ -87,10 +86,6 @@ void StepSolver::measure(const StepInput& in, StepSolution& step) {
   step.kkt = others == 0 ? KktResiduals{}
                          : kkt_residuals(scratch_.qp, step.lambda.tail(others),
                                          step.excess.tail(others), beta);
-  for (const RowKind kind : row_kinds) {
-    sum_forces(kind, in.model, kin, h, scratch_, step);
-  }
-  step.stationarity = stationarity(in.model, kin, h, scratch_, step);
 }
 
 /// Keeps the multipliers of the rows with a force for the next step.
@@ -108,6 +103,8 @@ void StepSolver::keep_active(const StepSolution& step) {
 
 void StepSolver::finish(const StepInput& in, StepSolution& step) {
   scale_multipliers(scratch_, step);
+  measure_rows(step);
+  keep_active(step);
   if (in.midway == nullptr) {
     step.felt = step.qdot;
     step.felt_twist = step.twist;
@@ -118,6 +115,7 @@ void StepSolver::finish(const StepInput& in, StepSolution& step) {
     centre_velocities(in.kin(), step.felt_twist, step.felt_centre_velocity);
     warm.half_before = warm.half_change;
     warm.half_change = scratch_.half_change;
+    end_half(step);
     step.middle = {in.midway->moved, in.midway->felt};
     step.middle_off = (step.qdot - step.middle.moved).norm();
   }
@@ -127,8 +125,10 @@ void StepSolver::finish(const StepInput& in, StepSolution& step) {
   } else {
     step.active_torque.setZero(in.model.nv());
   }
-  measure(in, step);
-  keep_active(step);
+  for (const RowKind kind : row_kinds) {
+    sum_forces(kind, in.model, in.kin(), in.scene.time.step, scratch_, step);
+  }
+  step.stationarity = stationarity(in.model, in.kin(), in.scene.time.reach(), scratch_, step);
   step.active = static_cast<int>((step.lambda.array() != 0).count());
   const int last = in.model.body_count() - 1;
   step.tip = in.control.tip.value - in.control.tip.rate * step.felt_centre_velocity.col(last);

@@ -12,14 +12,12 @@ auto known(std::int64_t id, std::vector<Row>& rows) {
   return std::ranges::find(rows, id, &Row::id);
 }
 
-/// Adds `row`, or replaces the one of its id in place, so that it keeps its multiplier; no part of
-/// that is expected any more, as it is between other points.
-void put(const StepInput& in, const Row& row, StepSolution& step) {
+/// Adds `row`, or replaces the one of its id in place, so that it keeps its multiplier.
+void put(const Row& row, StepSolution& step) {
   const auto place = known(row.id, step.rows);
   if (place == step.rows.end()) {
     step.rows.push_back(row);
   } else {
-    expect_force(in, 0, *place, step.system);
     *place = row;
   }
 }
@@ -49,7 +47,7 @@ bool add_missed_rows(const StepInput& in, const Observation& there, double t, St
       // At great speeds what the linear row misses grows beyond all sense; rows that ask strands to
       // part by more than they may move between samples only contradict each other.
       row.rhs = std::min(goal - gap_now - missed * (h / t) * (h / t), settings.stride) / h;
-      put(in, row, step);
+      put(row, step);
       any = true;
     }
   };

@@ -94,7 +94,6 @@ PrimalQp paper_problem(const StepInput& in, const std::vector<Row>& rows) {
   qp.G = dense_rows(in.model, in.kin(), bilateral);
   qp.e = column(bilateral, &Row::rhs);
   qp.C = dense_rows(in.model, in.kin(), unilateral);
-  qp.g -= 0.5 * qp.C.transpose() * column(unilateral, &Row::steady);
   qp.d = column(unilateral, &Row::rhs);
   qp.cap = column(unilateral, &Row::upper);
   return qp;

@@ -40,9 +40,9 @@ struct Row {
   Eigen::Vector3d direction;  ///< unit, world
   SplineMix a, b;
   double rhs = 0;  ///< d, cm/s or rad/s
-  /// λ as expected from the steps before: half of it acts before the middle of the step (midpoint
-  /// rule). What is more is an impact's, which acts in full.
-  double steady = 0;
+  /// The part of λ that is an impact's and acts at once; half of the rest acts before the middle of
+  /// the step (midpoint rule, next_velocity.cpp).
+  double impact = 0;
   double lower = 0;  ///< bounds on the multiplier λ, dyn s or dyn cm s
   double upper = std::numeric_limits<double>::infinity();
   /// A unit row whose velocity is prescribed, C q̇ = d; λ is its reaction.

@@ -6,6 +6,7 @@
 #include <span>
 #include <stdexcept>
 
+#include "core/step/next_velocity.hpp"
 #include "core/step/prescribed_rows.hpp"
 #include "core/step/row_selection.hpp"
 #include "core/step/step_failure.hpp"
@@ -96,7 +97,7 @@ Status StepSolver::begin_here(const StepInput& in, StepSolution& step) {
   gather_rows(in, step.rows);
   prescribe_rows(warm, step.rows);
   if (in.midway != nullptr) {
-    expect_steady_forces(in, step);
+    begin_half(step.rows);
   }
   step.kind = SolveKind::linear;
   step.iterations = 0;
@@ -118,8 +119,7 @@ Status StepSolver::begin_here(const StepInput& in, StepSolution& step) {
 }
 
 Status StepSolver::resume(const StepInput& in, StepSolution& step) {
-  // Of the midpoint rule, rows between other points change what is expected.
-  return constrained_motion(in, in.midway == nullptr, step);
+  return constrained_motion(in, true, step);
 }
 
 Status StepSolver::solve(const StepInput& in, StepSolution& step) {
@@ -163,80 +163,6 @@ Status StepSolver::constrained_motion(const StepInput& in, bool base_known, Step
     return {Outcome::non_finite, "non-finite velocity"};
   }
   return set_next_velocity(in, step);
-}
-
-void expect_force(const StepInput& in, double lambda, Row& row, StepSystem& system) {
-  if (lambda != row.steady) {
-    add_row(row, in.kin(), (row.steady - lambda) / 2, system.wrench, system.joint);
-    row.steady = lambda;
-  }
-}
-
-/// Rows that had a force in both of the last two steps are expected to have the smaller one again:
-/// half of it acts before the middle of the step, as all steady forces do. What is more is an
-/// impact's, which acts in full.
-void StepSolver::expect_steady_forces(const StepInput& in, StepSolution& step) {
-  for (Row& row : step.rows) {
-    const WarmStart::Kept* kept = row.kind == RowKind::head ? nullptr : warm.find(row.id);
-    if (kept == nullptr) {
-      continue;
-    }
-    const double before = kept->lambda - kept->change;
-    if (kept->lambda * before > 0) {
-      const bool fell = std::abs(kept->lambda) < std::abs(before);
-      expect_force(in, fell ? kept->lambda : before, row, step.system);
-    }
-  }
-}
-
-/// The velocity after the step: Euler's is the one that it moves by. The midpoint's is
-/// v' = 2 w - v - δ, with w the velocity that it moves by and δ = H⁻¹C'(λ - λ_steady), what impacts
-/// add to it.
-Status StepSolver::set_next_velocity(const StepInput& in, StepSolution& step) {
-  if (in.midway == nullptr) {
-    step.next = step.qdot;
-    return {};
-  }
-  const Kinematics& kin = in.kin();
-  scratch_.half_change = step.qdot - in.state.qdot;
-  bool any = false;
-  scratch_.reaction.setZero(root_dofs);
-  scratch_.wrench.setZero(6, in.model.body_count());
-  scratch_.joint.setZero(in.model.nv());
-  for (std::size_t i = 0; i < step.rows.size(); ++i) {
-    const Row& row = step.rows[i];
-    const double impact = step.lambda[i] - row.steady;
-    if (row.kind != RowKind::head && impact != 0) {
-      add_row(row, kin, impact, scratch_.wrench, scratch_.joint);
-      any = true;
-    }
-  }
-  if (any) {
-    // With the head held, if it is: then all of it is a reaction.
-    scratch_.prescribed.clear();
-    for (const Row& row : step.rows) {
-      if (row.kind == RowKind::head) scratch_.prescribed.push_back({row.dof, 0});
-    }
-    try {
-      scratch_.free_factor.factorise(in.model, kin, step.system.op, scratch_.prescribed);
-    } catch (const std::domain_error& error) {
-      return {Outcome::non_finite, error.what()};
-    }
-    scratch_.free_factor.solve(in.model, kin, scratch_.wrench, scratch_.joint, scratch_.impact,
-                               scratch_.impact_twist, scratch_.reaction);
-    scratch_.half_change -= scratch_.impact;
-  }
-  step.next = step.qdot + scratch_.half_change;
-  // A head that is held is so by half of its reaction before the middle.
-  for (std::size_t i = 0, k = 0; i < step.rows.size(); ++i) {
-    Row& row = step.rows[i];
-    if (row.kind == RowKind::head) {
-      const double whole = step.lambda[i] - row.steady / 2;
-      expect_force(in, 2 * (whole - scratch_.reaction[k++]), row, step.system);
-      step.lambda[i] = whole + row.steady / 2;
-    }
-  }
-  return {};
 }
 
 /// Sorts the rows by their places, prescribed ones first, and gathers the multipliers to start

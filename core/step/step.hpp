@@ -127,13 +127,16 @@ struct StepScratch {
   BoxQpSolution solution;
   Matrix6Xd wrench;
   Eigen::VectorXd joint, impulse, change;
-  ArticulatedFactor free_factor;  ///< with nothing prescribed but the head
-  Matrix6Xd impact_twist;
+  // Of the velocity after the step (midpoint rule).
+  std::vector<std::size_t> held;          ///< prescribed rows, and
+  std::vector<PrescribedVelocity> jumps;  ///< what their velocities change by
+  std::vector<std::size_t> hit;           ///< other rows with an impact
+  std::vector<double> hit_A, hit_b;       ///< Eq. 4 of those
+  ArticulatedFactor free_factor;          ///< with limits that would pull let go
   Eigen::VectorXd impact, half_change;
+  Matrix6Xd impact_twist;
+  Eigen::Matrix3Xd impact_centre_velocity;
 };
-
-/// Changes what is expected of a row, and by that the right-hand side of Eq. 1 (midpoint rule).
-void expect_force(const StepInput& in, double lambda, Row& row, StepSystem& system);
 
 /// Solves steps, one after the other. A step is begun, resumed as often as rows are added to its
 /// solution, and finished; or solved at once. Copies have a back end and storage of their own.
@@ -177,11 +180,14 @@ class StepSolver {
   void order_rows(const Model& model, StepSolution& step);
   Status base_motion(const StepInput& in, StepSolution& step);
   void set_velocity(const StepInput& in, StepSolution& step);
-  void expect_steady_forces(const StepInput& in, StepSolution& step);
+  bool find_impacts(const StepInput& in, StepSolution& step);
+  void solve_impacts(StepSolution& step);
+  void respond(const StepInput& in, const ArticulatedFactor& factor, StepSolution& step);
+  bool release_held(const StepInput& in, StepSolution& step);
   Status set_next_velocity(const StepInput& in, StepSolution& step);
   bool solve_multipliers(StepSolution& step);
   bool add_violated(const StepInput& in, StepSolution& step);
-  void measure(const StepInput& in, StepSolution& step);
+  void measure_rows(StepSolution& step);
   void keep_active(const StepSolution& step);
 
   std::string back_end_;

@@ -1,0 +1,161 @@
+// The velocity after a step of the midpoint rule (core/README.md, "Steps in time").
+#include "core/step/next_velocity.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <stdexcept>
+
+#include "core/step/step.hpp"
+
+namespace hagfish {
+namespace {
+
+/// Rows that repeat each other leave their Eq. 4 singular: this share of its largest diagonal entry
+/// is added, which changes impacts by as little.
+constexpr double least_pivot = 1e-10;
+
+bool pushes(const Row& row, double lambda) {
+  return lambda != 0 && lambda > row.lower && lambda < row.upper;
+}
+
+}  // namespace
+
+void begin_half(std::vector<Row>& rows) {
+  for (Row& row : rows) {
+    row.lower /= 2;
+    row.upper /= 2;
+  }
+}
+
+void end_half(StepSolution& step) {
+  for (std::size_t i = 0; i < step.rows.size(); ++i) {
+    Row& row = step.rows[i];
+    row.lower *= 2;
+    row.upper *= 2;
+    step.lambda[i] = 2 * step.lambda[i] - row.impact;
+  }
+}
+
+/// Rows that push: a force that begins or stays stops what comes, so that the step ends with the
+/// velocities that they ask for. Prescribed ones go into scratch_.held and .jumps, the others into
+/// scratch_.hit, with what their velocities change by. False where none changes.
+bool StepSolver::find_impacts(const StepInput& in, StepSolution& step) {
+  bool any = false;
+  scratch_.held.clear();
+  scratch_.jumps.clear();
+  scratch_.hit.clear();
+  scratch_.hit_b.clear();
+  for (std::size_t i = 0; i < step.rows.size(); ++i) {
+    Row& row = step.rows[i];
+    row.impact = 0;
+    if (!row.prescribed && !pushes(row, step.lambda[static_cast<Eigen::Index>(i)])) continue;
+    const double change = row.rhs - row_velocity(row, in.midway->centre_velocity, in.state.qdot);
+    any = any || change != 0;
+    if (row.prescribed) {
+      scratch_.held.push_back(i);
+      scratch_.jumps.push_back({row.dof, row.sign * change});
+    } else {
+      scratch_.hit.push_back(i);
+      scratch_.hit_b.push_back(change);
+    }
+  }
+  return any;
+}
+
+/// Impacts of the rows scratch_.hit: A_hit μ = b, of the same A as Eq. 4, and no force that the
+/// row may not have.
+void StepSolver::solve_impacts(StepSolution& step) {
+  const auto m = static_cast<Eigen::Index>(scratch_.hit.size());
+  scratch_.hit_A.resize(static_cast<std::size_t>(m * m));
+  Eigen::Map<Eigen::MatrixXd> A(scratch_.hit_A.data(), m, m);
+  Eigen::Map<Eigen::VectorXd> impact(scratch_.hit_b.data(), m);
+  const auto first = static_cast<std::size_t>(step.prescribed);
+  for (Eigen::Index j = 0; j < m; ++j) {
+    for (Eigen::Index i = j; i < m; ++i) {
+      A(i, j) = scratch_.qp.A(static_cast<Eigen::Index>(scratch_.hit[i] - first),
+                              static_cast<Eigen::Index>(scratch_.hit[j] - first));
+    }
+  }
+  A.diagonal().array() += least_pivot * A.diagonal().maxCoeff();
+  Eigen::Ref<Eigen::MatrixXd> in_place(A);
+  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(in_place);
+  factor.solveInPlace(impact);
+  for (Eigen::Index k = 0; k < m; ++k) {
+    Row& row = step.rows[scratch_.hit[k]];
+    const double lambda = 2 * step.lambda[static_cast<Eigen::Index>(scratch_.hit[k])];
+    row.impact = std::clamp(impact[k], lambda - 2 * row.upper, lambda - 2 * row.lower);
+  }
+}
+
+/// What the velocity changes by in the impacts of the rows scratch_.hit and the jumps of the held
+/// ones, and the impacts of those.
+void StepSolver::respond(const StepInput& in, const ArticulatedFactor& factor, StepSolution& step) {
+  factor.solve(in.model, in.kin(), scratch_.wrench, scratch_.joint, scratch_.jumps, scratch_.impact,
+               scratch_.impact_twist, scratch_.reaction);
+  for (std::size_t k = 0; k < scratch_.held.size(); ++k) {
+    Row& row = step.rows[scratch_.held[k]];
+    row.impact = row.sign * scratch_.reaction[static_cast<Eigen::Index>(k)];
+  }
+}
+
+/// Held limits that would pull over the whole step are let go, with no force; whether there were
+/// any.
+bool StepSolver::release_held(const StepInput& in, StepSolution& step) {
+  std::size_t left = 0;
+  for (std::size_t k = 0; k < scratch_.held.size(); ++k) {
+    Row& row = step.rows[scratch_.held[k]];
+    const double lambda = 2 * step.lambda[static_cast<Eigen::Index>(scratch_.held[k])];
+    if (lambda - row.impact < 2 * row.lower) {
+      row.impact = lambda - 2 * row.lower;
+      add_row(row, in.kin(), row.impact, scratch_.wrench, scratch_.joint);
+    } else {
+      scratch_.held[left] = scratch_.held[k];
+      scratch_.jumps[left++] = scratch_.jumps[k];
+    }
+  }
+  const bool any = left < scratch_.held.size();
+  scratch_.held.resize(left);
+  scratch_.jumps.resize(left);
+  return any;
+}
+
+Status StepSolver::set_next_velocity(const StepInput& in, StepSolution& step) {
+  step.next = step.qdot;
+  if (in.midway == nullptr) {
+    return {};
+  }
+  scratch_.half_change = step.qdot - in.state.qdot;
+  if (find_impacts(in, step)) {
+    const Kinematics& kin = in.kin();
+    scratch_.wrench.setZero(6, in.model.body_count());
+    scratch_.joint.setZero(in.model.nv());
+    if (!scratch_.hit.empty()) {
+      if (std::ranges::any_of(scratch_.jumps, [](const auto& jump) { return jump.value != 0; })) {
+        respond(in, scratch_.factor, step);
+        centre_velocities(kin, scratch_.impact_twist, scratch_.impact_centre_velocity);
+        for (std::size_t k = 0; k < scratch_.hit.size(); ++k) {
+          scratch_.hit_b[k] -= row_velocity(step.rows[scratch_.hit[k]],
+                                            scratch_.impact_centre_velocity, scratch_.impact);
+        }
+      }
+      solve_impacts(step);
+      for (const std::size_t i : scratch_.hit) {
+        add_row(step.rows[i], kin, step.rows[i].impact, scratch_.wrench, scratch_.joint);
+      }
+    }
+    respond(in, scratch_.factor, step);
+    try {
+      while (release_held(in, step)) {
+        scratch_.free_factor.factorise(in.model, kin, step.system.op, scratch_.jumps);
+        respond(in, scratch_.free_factor, step);
+      }
+    } catch (const std::domain_error& error) {
+      return {Outcome::non_finite, error.what()};
+    }
+    scratch_.half_change -= scratch_.impact;
+  }
+  step.next += scratch_.half_change;
+  return {};
+}
+
+}  // namespace hagfish
