@@ -77,11 +77,12 @@ void move_rest_shape(const Model& model, const Scene& scene, Phase phase, const 
   }
 }
 
-ActiveTorque active_torque(const Model& model, const Scene& scene, const State& state,
-                           const Eigen::VectorXd& rest) {
+void active_torque(const Model& model, const Scene& scene, const State& state,
+                   const Eigen::VectorXd& rest, ActiveTorque& torque) {
   const double h = scene.time.reach();
   const double capacity = scene.active.capacity;
-  ActiveTorque torque{Eigen::VectorXd::Zero(model.nv()), Eigen::VectorXd::Zero(model.nv())};
+  torque.value.setZero(model.nv());
+  torque.rate.setZero(model.nv());
   for (int k = root_dofs; k < model.nv(); ++k) {
     const Hinge& hinge = model.hinges[k - root_dofs];
     const double stiffness = scene.active.stiffness / span_of(model, hinge);
@@ -94,6 +95,12 @@ ActiveTorque active_torque(const Model& model, const Scene& scene, const State& 
       torque.value[k] = std::copysign(capacity, expected);
     }
   }
+}
+
+ActiveTorque active_torque(const Model& model, const Scene& scene, const State& state,
+                           const Eigen::VectorXd& rest) {
+  ActiveTorque torque;
+  active_torque(model, scene, state, rest, torque);
   return torque;
 }
 

@@ -127,6 +127,9 @@ void StepSolver::finish(const StepInput& in, StepSolution& step) {
   } else {
     step.active_torque.setZero(in.model.nv());
   }
+  if (const ActiveTorque& torque = in.control.torque; torque.value.size() > 0) {
+    step.active_torque += torque.value - torque.rate.cwiseProduct(step.felt);
+  }
   measure(in, step);
   keep_active(step);
   step.active = static_cast<int>((step.lambda.array() != 0).count());
