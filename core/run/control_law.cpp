@@ -124,7 +124,7 @@ void knot_speed_law(const Situation& at, Eigen::VectorXd& memory, Control& contr
   const KnotSpeedSettings& loop = at.scene.controller.knot_speed;
   const double h = at.scene.time.step;
   const double arc = control.thigmotaxis[0].contact.arc_a;
-  if (memory.size() == 0) {
+  if (memory.size() != 2) {
     memory = Eigen::Vector2d(arc + loop.filter * loop.target, 1);
   }
   double& smooth = memory[0];
