@@ -21,14 +21,15 @@ Place place_among(const std::vector<double>& knots, double x) {
   return {k, (x - knots[k]) / (knots[k + 1] - knots[k])};
 }
 
-/// One of the program's values at a place among its times, rad per body length.
+/// One of the program's values at a place among its times, rad per body length. Fused here and
+/// below as written, not as a compiler likes, so that runs repeat.
 double value_at(const CurvatureProgram& program, const Place& when, int row, Eigen::Index station) {
   const auto at = [&](std::size_t k) {
     const double value = program.value[k](row, station);
     return program.noise.empty() ? value : value + program.noise[k](row, station);
   };
   if (when.share == 0) return at(when.index);
-  return (1 - when.share) * at(when.index) + when.share * at(when.index + 1);
+  return std::fma(when.share, at(when.index + 1), (1 - when.share) * at(when.index));
 }
 
 /// Length of body that a hinge stands for, cm.
@@ -51,7 +52,7 @@ void set_program_shape(const Model& model, const CurvatureProgram& program, doub
     const auto j = static_cast<Eigen::Index>(place.index);
     double value = value_at(program, when, row, j);
     if (place.share > 0) {
-      value += place.share * (value_at(program, when, row, j + 1) - value);
+      value = std::fma(place.share, value_at(program, when, row, j + 1) - value, value);
     }
     shape[root_dofs + static_cast<Eigen::Index>(k)] = span_of(model, hinge) / length * value;
   }

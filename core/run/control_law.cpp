@@ -149,9 +149,9 @@ void named_law(const Situation& at, Eigen::VectorXd& memory, Control& control) {
     case LawName::own:
       break;
   }
-  throw std::invalid_argument(
-      "controller.law = \"own\": the law is of the C++ or Python program that runs the scene, and "
-      "this one has none");
+  throw std::invalid_argument(R"(controller.law = "own")"
+                              ": the law is of the C++ or Python program that runs the scene, and "
+                              "this one has none");
 }
 
 void check_control(const Model& model, const Control& control) {

@@ -235,7 +235,7 @@ void command(const Model& model, const Scene& scene, const Moment& now, double t
   } else if (scene.controller.law == LawName::own) {
     own(at, controller.memory, control);
   } else {
-    throw std::invalid_argument("the run has a law of its own: controller.law must be \"own\"");
+    throw std::invalid_argument(R"(the run has a law of its own: controller.law must be "own")");
   }
   check_control(model, control);
   controller.rest_shape = control.rest_shape;

@@ -69,7 +69,7 @@ void require_named_law(const Scene& scene, const std::string& where) {
   if (scene.controller.law == LawName::own) {
     throw InputError(
         where +
-        "controller.law = \"own\": the law is of the C++ or Python program that runs the scene");
+        R"(controller.law = "own": the law is of the C++ or Python program that runs the scene)");
   }
 }
 

@@ -24,14 +24,14 @@ KnotEnd end_called(const std::string& name) {
   for (const KnotEnd end : {KnotEnd::first, KnotEnd::last, KnotEnd::neither}) {
     if (name == name_of(end)) return end;
   }
-  throw py::value_error("end = \"" + name + "\": \"first\", \"last\" or \"neither\"");
+  throw py::value_error("end = " + name + R"(: "first", "last" or "neither")");
 }
 
 const char* name_of(BodyEnd end) { return end == BodyEnd::head ? "head" : "tail"; }
 
 BodyEnd body_end_called(const std::string& name) {
   if (name != "head" && name != "tail") {
-    throw py::value_error("towards = \"" + name + "\": \"head\" or \"tail\"");
+    throw py::value_error("towards = " + name + R"(: "head" or "tail")");
   }
   return name == "head" ? BodyEnd::head : BodyEnd::tail;
 }

@@ -110,7 +110,7 @@ void PythonSimulation::step_by(PythonControl& asked) {
   if (log_ && resolved.scene.controller.law != LawName::own) {
     throw std::invalid_argument(
         "a step was given a control, but the log says that the scene's law has it: "
-        "set={\"controller.law\": \"own\"}");
+        R"(set={"controller.law": "own"})");
   }
   asked.end();
   scene_.controller.law = LawName::own;
@@ -158,8 +158,8 @@ void run_until(PythonSimulation& run, const py::object& self, const py::object& 
         return;
       }
     }
-    throw py::value_error("until = \"" + name +
-                          "\": form, tighten, slide, pull, reverse, release or free");
+    throw py::value_error("until = " + name +
+                          ": form, tighten, slide, pull, reverse, release or free");
   } else if (PyCallable_Check(until.ptr()) != 0) {
     run.run_while([&] {
       const py::gil_scoped_acquire gil;

@@ -10,7 +10,7 @@ import numpy as np
 import hagfish
 
 SECONDS = 1.5  # of each try
-EFFORT = 5e-5  # cm that 1 dyn cm s of effort costs: |f_thigmo| averaged along the body, over time
+EFFORT = 5e-3  # cm that 1 dyn cm s of effort costs: |f_thigmo| averaged along the body, over time
 LARGEST = 5.0  # cm/s
 
 

@@ -105,7 +105,7 @@ def test_bad_input_is_told_in_the_programs_line(program, tmp_path):
     with pytest.raises(hagfish.FileError) as raised:
         hagfish.Simulation("table1", log=log)
     assert program("run", "table1", "--out", log) == (2, f"hagfish: {raised.value}")
-    with pytest.raises(ValueError, match='until = "knot"'):
+    with pytest.raises(ValueError, match="until = knot: form"):
         hagfish.Simulation("table1").run(until="knot")
 
 
