@@ -14,6 +14,7 @@ packages=(
   libqhull-dev libgl-dev libopengl-dev                  # named by MuJoCo's CMake file, but not by its package
   libgtest-dev libbenchmark-dev python3-pytest          # tests and benchmarks
   python3 python3-h5py python3-matplotlib               # figures
+  pybind11-dev python3-dev python3-xarray               # the Python module, and logs in it
   libjs-three node-d3                                   # replays in a browser
   ffmpeg                                                # films
   parallel                                              # sweeps

@@ -135,6 +135,11 @@ void active_fields(Io& io, ActiveSettings& s) {
 
 template <class Io>
 void controller_fields(Io& io, ControllerSettings& s) {
+  io.template choice<LawName>("law", s.law,
+                              {{"paper", LawName::paper},
+                               {"all_contacts", LawName::all_contacts},
+                               {"knot_speed", LawName::knot_speed},
+                               {"own", LawName::own}});
   io.number("cap", s.cap, positive());
   io.number("acceleration", s.acceleration, positive());
   io.number("contact_gap", s.contact_gap, not_negative());
@@ -164,6 +169,12 @@ void controller_fields(Io& io, ControllerSettings& s) {
   speeds("slide_tail", s.slide_tail);
   speeds("reverse_head", s.reverse_head);
   speeds("reverse_tail", s.reverse_tail);
+  io.table("knot_speed", [&s](Io& table) {
+    table.number("target", s.knot_speed.target, not_negative());
+    table.number("gain", s.knot_speed.gain, not_negative());
+    table.number("filter", s.knot_speed.filter, not_negative());
+    table.number("most", s.knot_speed.most, positive());
+  });
 }
 
 template <class Io>

@@ -243,6 +243,18 @@ void check_active(const TableReader& root, const Scene& scene) {
   }
 }
 
+void check_law(const TableReader& root, const ControllerSettings& controller) {
+  if (controller.law != LawName::knot_speed) return;
+  const KnotSpeedSettings& loop = controller.knot_speed;
+  for (const auto& [key, value] :
+       {std::pair("target", loop.target), {"gain", loop.gain}, {"filter", loop.filter}}) {
+    if (value == 0) {
+      root.fail("controller.knot_speed." + std::string(key),
+                "must be positive where controller.law = \"knot_speed\"");
+    }
+  }
+}
+
 void check_food(const TableReader& root, const Scene& scene) {
   const FoodSettings& food = scene.food;
   if (food.hold == 0) return;
@@ -348,6 +360,7 @@ ResolvedScene read(SceneSource source, const std::vector<std::string>& overrides
   check_start(root, result);
   check_passive(root, result);
   check_active(root, result.scene);
+  check_law(root, result.scene.controller);
   check_food(root, result.scene);
   check_times(root, result.scene.time);
   check_expectations(root, result.scene);

@@ -18,7 +18,7 @@ namespace hagfish {
 namespace {
 
 /// Of the bytes' layout; raised with every change of what they hold.
-constexpr int layout = 3;
+constexpr int layout = 4;
 /// No list of a run is longer; a damaged count must not ask for all memory.
 constexpr std::uint64_t most_entries = 1000000;
 
@@ -158,9 +158,9 @@ void serialize(Archive& archive, PullSum& pull) {
 template <class Archive>
 void serialize(Archive& archive, ControllerState& controller) {
   auto& [phase, phase_start, loose, knot, knot_seen, knot_from, past, lost, first, last, pull,
-         rest_shape] = controller;
+         rest_shape, memory] = controller;
   archive(phase, phase_start, loose, knot, knot_seen, knot_from, past, lost, first, last, pull,
-          rest_shape);
+          rest_shape, memory);
 }
 
 template <class Archive>
@@ -184,9 +184,15 @@ void serialize(Archive& archive, MomentumLedger& ledger) {
 }
 
 template <class Archive>
+void serialize(Archive& archive, CapWatch& row) {
+  auto& [id, since] = row;
+  archive(id, since);
+}
+
+template <class Archive>
 void serialize(Archive& archive, Watch& watch) {
-  auto& [warned, below_cap] = watch;
-  archive(warned, below_cap);
+  auto& [warned, capped] = watch;
+  archive(warned, capped);
 }
 
 template <class Archive>
@@ -214,8 +220,8 @@ void serialize(Archive& archive, LogState& log) {
 
 template <class Archive>
 void serialize(Archive& archive, Simulation& sim) {
-  auto& [step, now, search, controller, solver, ledger, momentum, watch, midway, before] =
-      sim;  // the last two are storage
+  auto& [step, now, search, controller, solver, ledger, momentum, watch, midway, before, law] =
+      sim;  // the last are storage and code
   archive(step, now.state, now.observation, search, controller, solver.warm,
           solver.warm.half_change, solver.warm.half_before, ledger, momentum, watch);
 }
@@ -267,6 +273,7 @@ void check(const Simulation& sim, const LogState& log, const Model& model) {
               fits(sim.controller.first, bodies) && fits(sim.controller.last, bodies),
           "a contact that is not on its animal");
   require(static_cast<int>(sim.controller.phase) < phase_count, "an unknown phase");
+  require(sim.controller.memory.allFinite(), "a memory that is not finite");
   const Eigen::Index rest = sim.controller.rest_shape.size();
   require(rest == 0 || (rest == model.nv() && sim.controller.rest_shape.allFinite()),
           "a rest shape that is not of its model");

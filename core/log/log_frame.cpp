@@ -33,9 +33,10 @@ double worst_residual(const StepSolution& s) { return std::max(s.kkt.worst(), s.
 /// Bodies of the thigmotaxis contacts, [first, last].
 std::array<int, 2> bodies(const Frame& frame, int (Contact::*body)() const) {
   std::array<int, 2> pair{-1, -1};
-  const std::size_t count = std::min(pair.size(), frame.record.control.thigmotaxis.size());
-  for (std::size_t k = 0; k < count; ++k) {
-    pair[k] = (frame.record.control.thigmotaxis[k].contact.*body)();
+  for (const ThigmotaxisCommand& command : frame.record.control.thigmotaxis) {
+    if (command.end != KnotEnd::neither) {
+      pair[static_cast<std::size_t>(command.end)] = (command.contact.*body)();
+    }
   }
   return pair;
 }
@@ -197,6 +198,34 @@ void declare_thigmotaxis(LogTable<Frame>& t) {
            [](const Frame& f) { return f.thigmotaxis.cap; });
 }
 
+/// /control: what a run's own law asks for, as far as nothing else says it.
+void declare_control(const Model& model, LogTable<Frame>& t) {
+  const hsize_t nv = model.nv();
+  t.count("/control/clamp_head", "whether the head is clamped: 1, or 0",
+          [](const Frame& f) { return f.record.control.clamp_head ? 1 : 0; });
+  t.numbers(
+      "/control/tip", {3}, {"dyn", "force on the last body asked for, at rest, world axes"},
+      [](const Frame& f) -> const auto& { return f.record.control.tip.value; });
+  t.number("/control/tip_rate", {"dyn s/cm", "what the force loses by the last body's velocity"},
+           [](const Frame& f) { return f.record.control.tip.rate; });
+  t.count("/control/has_rest_shape", "whether muscles pull to /trajectory/q_ref: 1, or 0",
+          [](const Frame& f) { return f.record.control.rest_shape.size() > 0 ? 1 : 0; });
+  const auto torque = [&](const char* name, const char* unit, const char* description,
+                          Eigen::VectorXd ActiveTorque::*member) {
+    t.numbers(
+        std::string("/control/") + name, {nv}, {unit, description, true}, [
+          member, none = Eigen::VectorXd(Eigen::VectorXd::Zero(model.nv()))
+        ](const Frame& f) -> const auto& {
+          const Eigen::VectorXd& values = f.record.control.torque.*member;
+          return values.size() == 0 ? none : values;
+        });
+  };
+  torque("torque", "dyn·cm",
+         "torques of the hinges asked for, at rest, besides those towards the rest shape",
+         &ActiveTorque::value);
+  torque("torque_rate", "dyn·cm·s", "what they lose by the hinges' rates", &ActiveTorque::rate);
+}
+
 /// /mean: what stands in the snapshots' groups, as means.
 void declare_means(const Model& model, LogTable<Frame>& t) {
   const std::string since = ", mean over the steps since the frame before; nan at the first frame";
@@ -346,13 +375,14 @@ void Worst::take(const StepRecord& record) {
   kkt = std::max(kkt, worst_residual(record.solution));
 }
 
-LogTable<Frame> frame_table(const Model& model, TimeRule rule) {
+LogTable<Frame> frame_table(const Model& model, const Scene& scene) {
   LogTable<Frame> table(frame_chunk_rows);
   declare_trajectory(model, table);
-  if (rule == TimeRule::midpoint) declare_midway(model, table);
+  if (scene.time.rule == TimeRule::midpoint) declare_midway(model, table);
   declare_knot(table);
   declare_forces(model, table);
   declare_thigmotaxis(table);
+  if (scene.controller.law == LawName::own) declare_control(model, table);
   declare_means(model, table);
   declare_pull(table);
   declare_diagnostics(table);
@@ -361,7 +391,7 @@ LogTable<Frame> frame_table(const Model& model, TimeRule rule) {
   return table;
 }
 
-LogTable<LoggedStep> step_table(TimeRule rule) {
+LogTable<LoggedStep> step_table(const Scene& scene) {
   LogTable<LoggedStep> t(step_chunk_rows);
   t.choice("/steps/solve", solve_names(), "least that each step had to solve",
            [](const LoggedStep& s) { return s.record.solution.kind; });
@@ -384,6 +414,13 @@ LogTable<LoggedStep> step_table(TimeRule rule) {
   row("lambda", "dyn", "multiplier over h of each step", &ThigmotaxisRows::lambda);
   row("speed", "cm/s", "left side of Eq. 6, nan where no row", &ThigmotaxisRows::speed);
   row("slack", "cm/s", "shortfall of the command, nan where no row", &ThigmotaxisRows::slack);
+  if (has_row_table(scene)) {
+    t.count("/steps/thigmotaxis_others", "rows of Eq. 6 at other contacts than first and last",
+            [](const LoggedStep& s) { return s.thigmotaxis.others; });
+    t.number("/steps/thigmotaxis_others_slack",
+             {"cm/s", "largest shortfall of the command of these rows, nan where none"},
+             [](const LoggedStep& s) { return s.thigmotaxis.others_slack; });
+  }
   t.number("/steps/kkt", {"1", "largest KKT residual of each step"},
            [](const LoggedStep& s) { return worst_residual(s.record.solution); });
   t.number("/steps/penetration", {"cm", "deepest at each step's start"},
@@ -394,7 +431,7 @@ LogTable<LoggedStep> step_table(TimeRule rule) {
            [](const LoggedStep& s) { return s.record.head_drift; });
   t.number("/steps/qp_time", {"s", "wall time in the QP back end, each step"},
            [](const LoggedStep& s) { return s.record.solution.qp_time; });
-  if (rule == TimeRule::midpoint) {
+  if (scene.time.rule == TimeRule::midpoint) {
     t.number("/steps/middle_off",
              {"rad/s, cm/s",
               "length of the difference of the velocity by which each step moves and that which "
@@ -421,6 +458,34 @@ LogTable<BearingContact> contact_table() {
   t.number("/contacts/force",
            {"dyn", "multiplier over h of the step at the frame, along the normal"},
            [](const BearingContact& c) { return c.force; });
+  return t;
+}
+
+LogTable<FrameRow> row_table() {
+  LogTable<FrameRow> t(step_chunk_rows);
+  const std::string which = " of each row of Eq. 6 at a frame";
+  t.count("/eq6/frame", "index along the frames" + which,
+          [](const FrameRow& r) { return r.frame; });
+  t.count("/eq6/end", "0 the knot's first contact, 1 its last one, 2 neither",
+          [](const FrameRow& r) { return static_cast<int>(r.row.end); });
+  t.count("/eq6/along", "0 along t_a, 1 along t_b",
+          [](const FrameRow& r) { return r.row.along_a ? 0 : 1; });
+  t.count("/eq6/towards", "the knot is to go: 1 to the head; -1 to the tail, both tangents turn",
+          [](const FrameRow& r) { return r.row.towards == BodyEnd::head ? 1 : -1; });
+  const auto number = [&t](const char* name, const char* unit, const std::string& description,
+                           double ThigmotaxisRow::*member) {
+    t.number(std::string("/eq6/") + name, {unit, description},
+             [member](const FrameRow& r) { return r.row.*member; });
+  };
+  number("spline_a", "1", "spline parameter on the strand nearer the head, segment + t",
+         &ThigmotaxisRow::spline_a);
+  number("spline_b", "1", "spline parameter on the strand nearer the tail",
+         &ThigmotaxisRow::spline_b);
+  number("command", "cm/s", "right side" + which, &ThigmotaxisRow::command);
+  number("cap", "dyn", "largest multiplier over h" + which, &ThigmotaxisRow::cap);
+  number("lambda", "dyn", "multiplier over h" + which, &ThigmotaxisRow::lambda);
+  number("speed", "cm/s", "left side" + which, &ThigmotaxisRow::speed);
+  number("slack", "cm/s", "shortfall of the command" + which, &ThigmotaxisRow::slack);
   return t;
 }
 

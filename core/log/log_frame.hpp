@@ -44,6 +44,12 @@ struct BearingContact {
   double force = 0;        ///< λ / h, dyn
 };
 
+/// A row of Eq. 6 of the step at a frame.
+struct FrameRow {
+  std::int32_t frame = 0;  ///< index along the frames
+  ThigmotaxisRow row;
+};
+
 /// Datasets that grow together. Each is declared in one place: path, shape, unit, meaning, and how
 /// a row of it follows from `Source`.
 template <class Source>
@@ -116,11 +122,18 @@ class LogTable {
   std::vector<std::function<void(const Source&)>> appenders_;
 };
 
-/// Every dataset along the frames (log schema, rows along T).
-LogTable<Frame> frame_table(const Model& model, TimeRule rule);
+/// Every dataset along the frames (log schema, rows along T). Of a law other than the paper's what
+/// it asks for does not all follow from the scene: /control holds it where the law is the run's
+/// own.
+LogTable<Frame> frame_table(const Model& model, const Scene& scene);
 
 /// The datasets along the steps, /steps: few figures, but of every step.
-LogTable<LoggedStep> step_table(TimeRule rule);
+LogTable<LoggedStep> step_table(const Scene& scene);
+
+/// /eq6, a row for each row of Eq. 6 at a frame, at whatever contact. Empty of the paper's law,
+/// whose rows are those of /thigmotaxis.
+LogTable<FrameRow> row_table();
+inline bool has_row_table(const Scene& scene) { return scene.controller.law != LawName::paper; }
 
 /// /contacts, a row for each contact with a force at a frame.
 LogTable<BearingContact> contact_table();

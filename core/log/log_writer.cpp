@@ -62,9 +62,11 @@ void mark_failed(const fs::path& file, const std::string& cause) {
 
 struct LogWriter::Contents {
   Contents(const Model& model, const Scene& scene)
-      : frames(frame_table(model, scene.time.rule)),
-        steps(step_table(scene.time.rule)),
+      : frames(frame_table(model, scene)),
+        steps(step_table(scene)),
         contacts(contact_table()),
+        rows(row_table()),
+        with_rows(has_row_table(scene)),
         marks(checkpoint_table()),
         bytes(std::make_shared<Series<std::uint8_t>>(checkpoint_bytes())),
         log{RunningMeans(model.nv()), {}, {}},
@@ -72,10 +74,11 @@ struct LogWriter::Contents {
         h(scene.time.step),
         stride(frame_stride(scene.time)),
         mark_stride(checkpoint_stride(scene.time)) {
-    for (const auto& list : {frames.series(), steps.series(), contacts.series(), marks.series()}) {
+    tables = {frames.series(), steps.series(), contacts.series(), marks.series(), {bytes}};
+    if (with_rows) tables.push_back(rows.series());
+    for (const auto& list : tables) {
       series.insert(series.end(), list.begin(), list.end());
     }
-    series.push_back(bytes);
   }
 
   /// Goes on behind the rows that `h5` has of `table`.
@@ -127,8 +130,11 @@ struct LogWriter::Contents {
   LogTable<Frame> frames;
   LogTable<LoggedStep> steps;
   LogTable<BearingContact> contacts;
+  LogTable<FrameRow> rows;
+  bool with_rows;  // the log has that table
   LogTable<CheckpointMark> marks;
   std::shared_ptr<Series<std::uint8_t>> bytes;  // of the checkpoints
+  std::vector<SeriesList> tables;               // lists that have as many rows each
   SeriesList series;                            // all of them
   LogState log;
   KnotSettings knot;
@@ -170,8 +176,7 @@ LogWriter::LogWriter(std::unique_ptr<OutputFile> output, const SavedRun& run)
   Contents& c = *contents_;
   // Tried when the run was read from it.
   const Hdf5Reader h5(output_->partial(), Origin::own);
-  for (const SeriesList& table :
-       {c.frames.series(), c.steps.series(), c.contacts.series(), c.marks.series(), {c.bytes}}) {
+  for (const SeriesList& table : c.tables) {
     c.go_on(h5, table);
   }
   c.log = run.log;
@@ -231,6 +236,9 @@ void LogWriter::write_frame(const StepRecord& record, const ThigmotaxisRows& row
     const double force = step.lambda[static_cast<Eigen::Index>(i)] / c.h;
     if ((row.kind == RowKind::contact || row.kind == RowKind::wall) && force != 0) {
       c.contacts.append({frame, row, force});
+    }
+    if (row.kind == RowKind::thigmotaxis && c.with_rows) {
+      c.rows.append({frame, thigmotaxis_row(record.control, step, i, c.h)});
     }
   }
   c.log.worst = {};

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
 namespace hagfish {
 namespace {
@@ -19,6 +18,25 @@ bool meets_command(double slack, double command) {
   return slack <= slack_tolerance * std::max(1.0, std::abs(command));
 }
 
+ThigmotaxisRow thigmotaxis_row(const Control& control, const StepSolution& solution, std::size_t i,
+                               double h) {
+  const Row& row = solution.rows[i];
+  const ThigmotaxisCommand& of = control.thigmotaxis[static_cast<std::size_t>(row.command)];
+  const auto index = static_cast<Eigen::Index>(i);
+  ThigmotaxisRow r;
+  r.end = of.end;
+  r.along_a = along_a(row);
+  r.towards = of.towards;
+  r.spline_a = row.a.parameter;
+  r.spline_b = row.b.parameter;
+  r.command = r.along_a ? of.speed.a : of.speed.b;
+  r.cap = row.upper / h;
+  r.lambda = solution.lambda[index] / h;
+  r.speed = solution.excess[index] + row.rhs;
+  r.slack = std::max(r.command - r.speed, 0.0);
+  return r;
+}
+
 ThigmotaxisRows thigmotaxis_rows_of(const Control& control, const StepSolution& solution,
                                     double h) {
   ThigmotaxisRows rows;
@@ -27,26 +45,25 @@ ThigmotaxisRows thigmotaxis_rows_of(const Control& control, const StepSolution& 
   rows.slack.fill(nan);
   rows.met = true;
   for (std::size_t i = 0; i < solution.rows.size(); ++i) {
-    const Row& row = solution.rows[i];
-    if (row.kind != RowKind::thigmotaxis) {
+    if (solution.rows[i].kind != RowKind::thigmotaxis) {
       continue;
     }
-    const auto place = static_cast<std::size_t>(thigmotaxis_place(row));
-    if (place >= rows.lambda.size()) {
-      throw std::invalid_argument(
-          "controller commands thigmotaxis at more than two contacts, of which a log holds the "
-          "first and the last");
-    }
-    const auto index = static_cast<Eigen::Index>(i);
-    rows.present[place] = true;
-    rows.lambda[place] = solution.lambda[index] / h;
-    const ThigmotaxisSpeeds& speed = control.thigmotaxis[place / 2].speed;
-    rows.command[place] = place % 2 == 0 ? speed.a : speed.b;
-    rows.speed[place] = solution.excess[index] + row.rhs;
-    rows.slack[place] = std::max(rows.command[place] - rows.speed[place], 0.0);
-    rows.met = rows.met && meets_command(rows.slack[place], rows.command[place]);
-    rows.cap = row.upper / h;
+    const ThigmotaxisRow row = thigmotaxis_row(control, solution, i, h);
+    const bool other = row.end == KnotEnd::neither;
     rows.any = true;
+    rows.met = rows.met && meets_command(row.slack, other ? 0 : row.command);
+    if (other) {
+      ++rows.others;
+      rows.others_slack = std::fmax(rows.others_slack, row.slack);
+      continue;
+    }
+    const std::size_t place = 2 * static_cast<std::size_t>(row.end) + (row.along_a ? 0 : 1);
+    rows.present[place] = true;
+    rows.lambda[place] = row.lambda;
+    rows.command[place] = row.command;
+    rows.speed[place] = row.speed;
+    rows.slack[place] = row.slack;
+    rows.cap = row.cap;
   }
   rows.met = rows.met && rows.any;
   return rows;

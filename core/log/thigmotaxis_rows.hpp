@@ -8,22 +8,40 @@
 
 namespace hagfish {
 
-/// The four rows of Eq. 6: first t_a, first t_b, last t_a, last t_b.
+/// One row of Eq. 6.
+struct ThigmotaxisRow {
+  KnotEnd end = KnotEnd::neither;
+  bool along_a = true;                ///< along t_a, not t_b
+  BodyEnd towards = BodyEnd::head;    ///< as commanded
+  double spline_a = 0, spline_b = 0;  ///< spline parameters, segment + t
+  double command = 0;                 ///< right side of Eq. 6, cm/s
+  double cap = 0;                     ///< of its λ / h, dyn
+  double lambda = 0;                  ///< over h, dyn
+  double speed = 0;                   ///< left side of Eq. 6 at the solution, cm/s
+  /// Shortfall of the command, whether by controller.cap or controller.acceleration, cm/s.
+  double slack = 0;
+};
+
+/// Row `i` of a step as solved with `control`, which is of kind thigmotaxis.
+ThigmotaxisRow thigmotaxis_row(const Control& control, const StepSolution& solution, std::size_t i,
+                               double h);
+
+/// The four rows of Eq. 6 at the knot's ends: first t_a, first t_b, last t_a, last t_b; and what
+/// there is of others.
 struct ThigmotaxisRows {
   std::array<bool, 4> present{};
   std::array<double, 4> lambda{};   ///< over h, dyn; 0 where there is no row
   std::array<double, 4> command{};  ///< right side of Eq. 6, cm/s; nan where no row
   std::array<double, 4> speed{};    ///< left side of Eq. 6 at the solution, cm/s; nan where no row
-  /// Shortfall of the command, whether by controller.cap or controller.acceleration, cm/s; nan
-  /// where no row.
-  std::array<double, 4> slack{};
+  std::array<double, 4> slack{};    ///< cm/s; nan where no row
   double cap = std::numeric_limits<double>::quiet_NaN();  ///< of their λ / h, dyn; nan: no row
+  int others = 0;                                         ///< rows at other contacts
+  double others_slack = std::numeric_limits<double>::quiet_NaN();  ///< the largest of theirs, cm/s
   bool any = false;
-  bool met = false;  ///< all rows at their commanded speed without slack
+  /// All rows at their commanded speed without slack; others to within that of a command of 0.
+  bool met = false;
 };
 
-/// Throws std::invalid_argument where the step commands more than two contacts: a log holds those
-/// of the first and the last one.
 ThigmotaxisRows thigmotaxis_rows_of(const Control& control, const StepSolution& solution, double h);
 
 /// Whether a row counts as met: its slack against its command, both cm/s.

@@ -21,14 +21,15 @@ Place place_among(const std::vector<double>& knots, double x) {
   return {k, (x - knots[k]) / (knots[k + 1] - knots[k])};
 }
 
-/// The program's values at `time`, 3 x stations, rad per body length.
-Eigen::Matrix3Xd values_at(const CurvatureProgram& program, double time) {
-  const auto at = [&program](std::size_t k) -> Eigen::Matrix3Xd {
-    return program.noise.empty() ? program.value[k] : program.value[k] + program.noise[k];
+/// One of the program's values at a place among its times, rad per body length. Fused here and
+/// below as written, not as a compiler likes, so that runs repeat.
+double value_at(const CurvatureProgram& program, const Place& when, int row, Eigen::Index station) {
+  const auto at = [&](std::size_t k) {
+    const double value = program.value[k](row, station);
+    return program.noise.empty() ? value : value + program.noise[k](row, station);
   };
-  const Place place = place_among(program.time, time);
-  if (place.share == 0) return at(place.index);
-  return (1 - place.share) * at(place.index) + place.share * at(place.index + 1);
+  if (when.share == 0) return at(when.index);
+  return std::fma(when.share, at(when.index + 1), (1 - when.share) * at(when.index));
 }
 
 /// Length of body that a hinge stands for, cm.
@@ -36,12 +37,12 @@ double span_of(const Model& model, const Hinge& hinge) {
   return hinge_span(model.body_count(), model.bodies[hinge.body].length, hinge.body);
 }
 
-}  // namespace
-
-Eigen::VectorXd program_shape(const Model& model, const CurvatureProgram& program, double time) {
-  const Eigen::Matrix3Xd values = values_at(program, time);
+/// The program's shape into `shape` (nv).
+void set_program_shape(const Model& model, const CurvatureProgram& program, double time,
+                       Eigen::VectorXd& shape) {
+  const Place when = place_among(program.time, time);
   const double length = model.length();
-  Eigen::VectorXd shape = Eigen::VectorXd::Zero(model.nv());
+  shape.setZero(model.nv());
   for (std::size_t k = 0; k < model.hinges.size(); ++k) {
     const Hinge& hinge = model.hinges[k];
     const Place place =
@@ -49,10 +50,19 @@ Eigen::VectorXd program_shape(const Model& model, const CurvatureProgram& progra
     // Columns are about Y, about Z, twist.
     const int row = (static_cast<int>(hinge.axis) + 2) % 3;
     const auto j = static_cast<Eigen::Index>(place.index);
-    double value = values(row, j);
-    if (place.share > 0) value += place.share * (values(row, j + 1) - values(row, j));
+    double value = value_at(program, when, row, j);
+    if (place.share > 0) {
+      value = std::fma(place.share, value_at(program, when, row, j + 1) - value, value);
+    }
     shape[root_dofs + static_cast<Eigen::Index>(k)] = span_of(model, hinge) / length * value;
   }
+}
+
+}  // namespace
+
+Eigen::VectorXd program_shape(const Model& model, const CurvatureProgram& program, double time) {
+  Eigen::VectorXd shape;
+  set_program_shape(model, program, time, shape);
   return shape;
 }
 
@@ -62,7 +72,7 @@ void move_rest_shape(const Model& model, const Scene& scene, Phase phase, const 
   const auto count = static_cast<Eigen::Index>(model.hinges.size());
   const auto angles = q.tail(count);
   if (phase == Phase::form) {
-    rest = program_shape(model, scene.script.curvature, time + scene.time.reach());
+    set_program_shape(model, scene.script.curvature, time + scene.time.reach(), rest);
     return;
   }
   if (rest.size() == 0) {
@@ -77,11 +87,12 @@ void move_rest_shape(const Model& model, const Scene& scene, Phase phase, const 
   }
 }
 
-ActiveTorque active_torque(const Model& model, const Scene& scene, const State& state,
-                           const Eigen::VectorXd& rest) {
+void active_torque(const Model& model, const Scene& scene, const State& state,
+                   const Eigen::VectorXd& rest, ActiveTorque& torque) {
   const double h = scene.time.reach();
   const double capacity = scene.active.capacity;
-  ActiveTorque torque{Eigen::VectorXd::Zero(model.nv()), Eigen::VectorXd::Zero(model.nv())};
+  torque.value.setZero(model.nv());
+  torque.rate.setZero(model.nv());
   for (int k = root_dofs; k < model.nv(); ++k) {
     const Hinge& hinge = model.hinges[k - root_dofs];
     const double stiffness = scene.active.stiffness / span_of(model, hinge);
@@ -94,6 +105,12 @@ ActiveTorque active_torque(const Model& model, const Scene& scene, const State& 
       torque.value[k] = std::copysign(capacity, expected);
     }
   }
+}
+
+ActiveTorque active_torque(const Model& model, const Scene& scene, const State& state,
+                           const Eigen::VectorXd& rest) {
+  ActiveTorque torque;
+  active_torque(model, scene, state, rest, torque);
   return torque;
 }
 

@@ -30,6 +30,8 @@ void move_rest_shape(const Model& model, const Scene& scene, Phase phase, const 
 ///   u = k_a (q_ref - q - h q̇) + k q_ref,
 /// linearly implicit as the passive spring is. Where this, at the velocity of `state`, is beyond
 /// the capacity, the torque is the capacity and constant within the step.
+void active_torque(const Model& model, const Scene& scene, const State& state,
+                   const Eigen::VectorXd& rest, ActiveTorque& torque);
 ActiveTorque active_torque(const Model& model, const Scene& scene, const State& state,
                            const Eigen::VectorXd& rest);
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace hagfish {
 namespace {
@@ -178,29 +179,6 @@ bool food_gives(const Scene& scene, double time, PullSum& pull) {
   return gives;
 }
 
-/// Commanded speeds at the first and the last contact.
-void command_speeds(const Scene& scene, double time, const ControllerState& controller,
-                    std::vector<ThigmotaxisCommand>& commands) {
-  const ControllerSettings& settings = scene.controller;
-  const double effort = controller.phase == Phase::pull
-                            ? scene.food.cap.at(time - controller.phase_start) / settings.cap
-                            : 1;
-  const auto command = [&](const ThigmotaxisSpeeds& first, const ThigmotaxisSpeeds& last,
-                           BodyEnd towards) {
-    commands.push_back({*controller.first.contact, first, towards, effort});
-    commands.push_back({*controller.last.contact, last, towards, effort});
-  };
-  const bool back = controller.phase == Phase::reverse ||
-                    (controller.phase == Phase::release && settings.leave_by == BodyEnd::tail);
-  if (controller.phase == Phase::tighten) {
-    command(settings.tighten_head, settings.tighten_tail, BodyEnd::head);
-  } else if (back) {
-    command(settings.reverse_head, settings.reverse_tail, BodyEnd::tail);
-  } else {
-    command(settings.slide_head, settings.slide_tail, BodyEnd::head);
-  }
-}
-
 }  // namespace
 
 std::optional<KnotSpan> knot_span(const ControllerState& controller) {
@@ -221,8 +199,8 @@ void note_pull(const StepSolution& step, ControllerState& controller) {
   }
 }
 
-Status decide(const Model& model, const Scene& scene, const Moment& now, double time,
-              ControllerState& controller, Control& control) {
+Status follow(const Model& model, const Scene& scene, const Moment& now, double time,
+              ControllerState& controller) {
   const Observation& observation = now.observation;
   follow_contacts(scene, observation, time, controller);
   // Half a step of slack: the time of a step is a product and may fall short by rounding.
@@ -240,25 +218,41 @@ Status decide(const Model& model, const Scene& scene, const Moment& now, double 
        time + 0.5 * scene.time.step >= controller.phase_start + scene.food.hold)) {
     enter(controller, Phase::release, time);
   }
-
-  control.tip = {};
-  control.active = {};
-  control.thigmotaxis.clear();
-  control.clamp_head = clamps_head(scene, controller.phase);
-  const int last = model.body_count() - 1;
-  const Kinematics& kin = observation.kin;
-  if (controller.phase == Phase::form) {
-    control.tip = script_force(scene.script, time, scene.time, kin.centre.col(last),
-                               kin.centre_velocity.col(last));
-  } else if (controller.phase != Phase::free && controller.first.contact) {
-    command_speeds(scene, time, controller, control.thigmotaxis);
-  }
-  if (scene.script.kind == ScriptSettings::Kind::curvature) {
-    const Eigen::VectorXd& q = now.state.q;
-    move_rest_shape(model, scene, controller.phase, q, time, controller.rest_shape);
-    control.active = active_torque(model, scene, now.state, controller.rest_shape);
-  }
   return {};
+}
+
+void command(const Model& model, const Scene& scene, const Moment& now, double time,
+             const ControlLaw& own, ControllerState& controller, Control& control) {
+  control.clamp_head = clamps_head(scene, controller.phase);
+  control.tip = {};
+  control.thigmotaxis.clear();
+  control.torque.value.setZero();
+  control.torque.rate.setZero();
+  control.rest_shape = controller.rest_shape;
+  const Situation at{model, scene, now, time, controller};
+  if (!own) {
+    named_law(at, controller.memory, control);
+  } else if (scene.controller.law == LawName::own) {
+    own(at, controller.memory, control);
+  } else {
+    throw std::invalid_argument(R"(the run has a law of its own: controller.law must be "own")");
+  }
+  check_control(model, control);
+  controller.rest_shape = control.rest_shape;
+  if (control.rest_shape.size() > 0) {
+    active_torque(model, scene, now.state, control.rest_shape, control.active);
+  } else {
+    control.active = {};
+  }
+}
+
+Status decide(const Model& model, const Scene& scene, const Moment& now, double time,
+              ControllerState& controller, Control& control, const ControlLaw& own) {
+  Status status = follow(model, scene, now, time, controller);
+  if (status.ok()) {
+    command(model, scene, now, time, own, controller, control);
+  }
+  return status;
 }
 
 }  // namespace hagfish

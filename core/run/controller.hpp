@@ -1,5 +1,6 @@
 // The controller (paper, 3.2): forms the knot by script, then tightens and slides it by positive
-// thigmotaxis, then lets the head go. It switches by knot type and knot span, never by eye.
+// thigmotaxis, then lets the head go. It switches by knot type and knot span, never by eye; what is
+// done in each phase is a control law's (control_law.hpp).
 #pragma once
 
 #include <limits>
@@ -7,6 +8,7 @@
 
 #include "core/knot/knot.hpp"
 #include "core/run/active_curvature.hpp"
+#include "core/run/control_law.hpp"
 #include "core/run/script.hpp"
 #include "core/scene/phase.hpp"
 #include "core/step/step.hpp"
@@ -44,9 +46,8 @@ struct ControllerState {
   std::string lost;  ///< where the scene only warns: how the knot was lost; empty before that
   TrackedContact first, last;
   PullSum pull;
-  /// Angles that the muscles pull the hinges to, rad, nv, 0 at the root; empty where no curvature
-  /// program bends the animal.
-  Eigen::VectorXd rest_shape;
+  Eigen::VectorXd rest_shape;  ///< as last commanded (Control), nv or empty
+  Eigen::VectorXd memory;      ///< of the control law
 };
 
 /// Where the knot begins and ends: arc length of the first and the last contact, cm.
@@ -65,11 +66,21 @@ inline double pull_of(const Eigen::VectorXd& head) { return -head[0]; }
 /// Adds the pull of a step as solved, where the knot pulls.
 void note_pull(const StepSolution& step, ControllerState& controller);
 
-/// Follows the contacts, switches phases and says what the step from `time` shall do. Not ok
+/// Follows the contacts and switches phases at the start of the step from `time`. Not ok
 /// (never_tied) where the script ends without the scene's knot, or with too little tail through it,
 /// and (knot_lost) where that knot goes before it may, unless the scene only warns. The message
 /// says which knot there is, since when.
+Status follow(const Model& model, const Scene& scene, const Moment& now, double time,
+              ControllerState& controller);
+
+/// What that step shall do, by `own` law or, where there is none, by the one that the scene names.
+/// Throws what the law does, and std::invalid_argument where the scene's law and `own` do not fit,
+/// or the control is none (check_control).
+void command(const Model& model, const Scene& scene, const Moment& now, double time,
+             const ControlLaw& own, ControllerState& controller, Control& control);
+
+/// Both, one after the other.
 Status decide(const Model& model, const Scene& scene, const Moment& now, double time,
-              ControllerState& controller, Control& control);
+              ControllerState& controller, Control& control, const ControlLaw& own = {});
 
 }  // namespace hagfish

@@ -78,10 +78,6 @@ std::string opponents(const Model& model, const Kinematics& kin, const StepSolut
   return names.empty() ? "no row" : names;
 }
 
-std::size_t place_of(const Row& thigmotaxis) {
-  return static_cast<std::size_t>(thigmotaxis_place(thigmotaxis));
-}
-
 }  // namespace
 
 Status report(Outcome outcome, const std::string& message, GuardAction action, Watch& watch,
@@ -177,27 +173,28 @@ Status guard_energy(const Model& model, const Scene& scene, Moment& moment, Ener
 void guard_cap(const Model& model, const Kinematics& kin, const Scene& scene, Phase phase,
                const StepSolution& step, double time, Watch& watch,
                std::vector<std::string>& warnings) {
-  std::vector<double>& below = watch.below_cap;
+  const auto at_cap = [&](const Row& row) {
+    return phase != Phase::pull && row.kind == RowKind::thigmotaxis &&
+           step.lambda[&row - step.rows.data()] >= row.upper;
+  };
+  std::vector<CapWatch>& capped = watch.capped;
+  std::erase_if(capped, [&](const CapWatch& one) {
+    const auto row = std::ranges::find(step.rows, one.id, &Row::id);
+    return row == step.rows.end() || !at_cap(*row);
+  });
   for (const Row& row : step.rows) {
-    if (row.kind == RowKind::thigmotaxis) {
-      below.resize(std::max(below.size(), place_of(row) + 1), time);
-    }
-  }
-  for (std::size_t place = 0; place < below.size(); ++place) {
-    const auto at_cap = [&](const Row& row) {
-      return phase != Phase::pull && row.kind == RowKind::thigmotaxis && place_of(row) == place &&
-             step.lambda[&row - step.rows.data()] >= row.upper;
-    };
-    const auto found = std::ranges::find_if(step.rows, at_cap);
-    if (found == step.rows.end()) {
-      below[place] = time;
+    if (!at_cap(row)) {
       continue;
     }
-    const Row& row = *found;
-    const Eigen::Index i = found - step.rows.begin();
+    const auto one = std::ranges::find(capped, row.id, &CapWatch::id);
+    if (one == capped.end()) {
+      capped.push_back({row.id, time});
+      continue;
+    }
     // Naming the opponents takes a factorisation: once.
-    if (time - below[place] > scene.guard.capped_time &&
+    if (time - one->since > scene.guard.capped_time &&
         !watch.warned.test(static_cast<std::size_t>(Outcome::capped))) {
+      const Eigen::Index i = &row - step.rows.data();
       std::ignore = report(
           Outcome::capped,
           fmt::format("{} has been at controller.cap = {:g} dyn for {:g} s and falls {:.3g} cm/s "

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <bitset>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -11,12 +12,16 @@
 
 namespace hagfish {
 
+/// Since when a thigmotaxis row has been at its cap.
+struct CapWatch {
+  std::int64_t id = 0;  ///< Row::id
+  double since = 0;     ///< s
+};
+
 /// What a run remembers of its watches.
 struct Watch {
   std::bitset<outcome_count> warned;  ///< warnings given: each cause once a run
-  /// When each thigmotaxis row was last below its cap or not there, s: by thigmotaxis_place, as far
-  /// as rows have been seen.
-  std::vector<double> below_cap;
+  std::vector<CapWatch> capped;       ///< the thigmotaxis rows at their caps, by id
 };
 
 /// A status of this outcome and message where the scene stops at it; else ok, and the message is

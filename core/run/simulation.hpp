@@ -35,6 +35,7 @@ struct Simulation {
   Watch watch;
   Midway midway = {};  ///< storage
   BeforeStep before;
+  ControlLaw law = {};  ///< of its own, where the scene says so (control_law.hpp); else empty
 };
 
 /// As the scene starts, at time 0. `back_end`: one of box_qp_solver_names(); throws

@@ -147,8 +147,27 @@ struct ThigmotaxisSpeeds {
 /// The end of the animal by which the knot leaves it.
 enum class BodyEnd { head, tail };
 
+/// By what law the animal is controlled in each phase (core/run/control_law.hpp).
+enum class LawName {
+  paper,         ///< thigmotaxis at the first and the last contact, at the commanded speeds
+  all_contacts,  ///< addition: at every contact, as a knot that keeps its shape slides
+  knot_speed,    ///< addition: the paper's, its speeds scaled until the knot has the speed wanted
+  own            ///< of the program that runs the scene
+};
+
+/// The loop of LawName::knot_speed: s' = gain (1 - v / target) for the scale s of the commanded
+/// speeds, with v the knot's speed.
+struct KnotSpeedSettings {
+  double target = 0;  ///< of the knot's leading end along the body, cm/s
+  double gain = 0;    ///< 1/s
+  double filter = 0;  ///< time constant by which the end's place is smoothed to tell its speed, s
+  double most = 1;    ///< largest s; the least is 0
+};
+
 /// The thigmotaxis controller (paper, 3.2, Eq. 6) and its switches between phases.
 struct ControllerSettings {
+  LawName law = LawName::paper;
+  KnotSpeedSettings knot_speed;
   ThigmotaxisSpeeds tighten_head, tighten_tail;  ///< first and last contact while tightening
   ThigmotaxisSpeeds slide_head, slide_tail;      ///< first and last contact while sliding
   /// The same on the way back to the tail. Eq. 6 bounds speeds from below, so that v < 0 asks for

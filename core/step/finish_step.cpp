@@ -125,6 +125,9 @@ void StepSolver::finish(const StepInput& in, StepSolution& step) {
   } else {
     step.active_torque.setZero(in.model.nv());
   }
+  if (const ActiveTorque& torque = in.control.torque; torque.value.size() > 0) {
+    step.active_torque += torque.value - torque.rate.cwiseProduct(step.felt);
+  }
   for (const RowKind kind : row_kinds) {
     sum_forces(kind, in.model, in.kin(), in.scene.time.step, scratch_, step);
   }

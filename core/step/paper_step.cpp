@@ -69,9 +69,11 @@ void paper_equation_1(const StepInput& in, PrimalQp& qp) {
   const Eigen::Matrix3Xd J = centre_jacobian(model, kin, model.body_count() - 1);
   D += control.tip.rate * J.transpose() * J;
   f += J.transpose() * control.tip.value;
-  if (control.active.value.size() > 0) {
-    D += control.active.rate.asDiagonal();
-    f += control.active.value;
+  for (const ActiveTorque* torque : {&control.active, &control.torque}) {
+    if (torque->value.size() > 0) {
+      D += torque->rate.asDiagonal();
+      f += torque->value;
+    }
   }
   qp.H = M + h * D - h * h * K;
   qp.g = M * state.qdot + h * f;

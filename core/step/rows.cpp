@@ -20,6 +20,18 @@ std::int64_t row_id(RowKind kind, int first, int second) {
          second;
 }
 
+/// The first number of a thigmotaxis row's id: 0 and 1 for the knot's first and last contact, from
+/// here on its segment a.
+constexpr int first_segment = 2;
+
+std::int64_t thigmotaxis_id(const ThigmotaxisCommand& command, bool on_a) {
+  const int along = on_a ? 0 : 1;
+  return command.end == KnotEnd::neither
+             ? row_id(RowKind::thigmotaxis, first_segment + command.contact.segment_a,
+                      2 * command.contact.segment_b + along)
+             : row_id(RowKind::thigmotaxis, static_cast<int>(command.end), along);
+}
+
 /// Relative motion along `direction` of the two spline points of a contact.
 void set_points(Row& row, const Contact& contact, const Eigen::Vector3d& direction, int bodies) {
   row.direction = direction;
@@ -75,8 +87,11 @@ std::string row_name(const Model& model, const Row& row) {
     case RowKind::wall:
       return "head plate at body " + std::to_string(first);
     case RowKind::thigmotaxis:
-      return std::string(first == 0 ? "first" : "last") + " thigmotaxis contact, along " +
-             (second == 0 ? "t_a" : "t_b");
+      return (first < first_segment
+                  ? std::string(first == 0 ? "first" : "last") + " thigmotaxis contact"
+                  : "thigmotaxis of bodies " + std::to_string(first - first_segment) + " and " +
+                        std::to_string(second / 2)) +
+             (along_a(row) ? ", along t_a" : ", along t_b");
   }
   return "row";
 }
@@ -93,9 +108,7 @@ int place_in_step(const Model& model, const Row& row) {
   return -last.first_dof - last.dofs;
 }
 
-int thigmotaxis_place(const Row& row) {
-  return static_cast<int>(2 * ((row.id >> 20) & 0xfffff) + (row.id & 0xfffff));
-}
+bool along_a(const Row& row) { return row.id % 2 == 0; }
 
 double row_velocity(const Row& row, const Eigen::Matrix3Xd& centre_velocity,
                     const Eigen::VectorXd& v) {
@@ -254,20 +267,22 @@ void append_thigmotaxis_rows(const Model& model, const std::vector<ThigmotaxisCo
                              const Eigen::Matrix3Xd& centre_velocity, double h,
                              std::vector<Row>& rows) {
   const double gain = settings.acceleration * h;
-  for (std::size_t place = 0; place < commands.size(); ++place) {
-    const auto& [found, speed, towards, effort] = commands[place];
-    const Contact contact = placed(found, at);
-    const double sense = towards == BodyEnd::head ? 1 : -1;
-    for (const bool along_a : {true, false}) {
+  for (std::size_t k = 0; k < commands.size(); ++k) {
+    const ThigmotaxisCommand& command = commands[k];
+    const Contact contact = placed(command.contact, at);
+    const double sense = command.towards == BodyEnd::head ? 1 : -1;
+    for (const bool on_a : {true, false}) {
       // Eq. 6: t_a' (ẋ_a - ẋ_b) >= v_a and t_b' (ẋ_b - ẋ_a) >= v_b.
-      const Eigen::Vector3d on_a = sense * (along_a ? contact.tangent_a : -contact.tangent_b);
+      const Eigen::Vector3d way = sense * (on_a ? contact.tangent_a : -contact.tangent_b);
       Row& row = rows.emplace_back();
       row.kind = RowKind::thigmotaxis;
-      row.id = row_id(RowKind::thigmotaxis, static_cast<int>(place), along_a ? 0 : 1);
-      set_points(row, contact, on_a, model.body_count());
+      row.id = thigmotaxis_id(command, on_a);
+      row.command = static_cast<int>(k);
+      set_points(row, contact, way, model.body_count());
       const double now = relative_velocity(row, centre_velocity);
-      row.rhs = std::min(along_a ? speed.a : speed.b, now + gain);
-      row.upper = effort * settings.cap * h;  // the soft row: its L1 slack is this bound's dual
+      row.rhs = std::min(on_a ? command.speed.a : command.speed.b, now + gain);
+      row.upper =
+          command.effort * settings.cap * h;  // the soft row: its L1 slack is this bound's dual
     }
   }
 }

@@ -34,8 +34,10 @@ struct Row {
   double sign = 1;    ///< of a unit row +1 or -1
   double beside = 0;  ///< of a unit row 0
   /// Same from step to step for the same physical constraint: limits by dof and side, cones by dof
-  /// and which of their rows in the step, contacts by segments, thigmotaxis by place and tangent.
+  /// and which of their rows in the step, contacts by segments, thigmotaxis by the knot's end or by
+  /// segments, and tangent.
   std::int64_t id = 0;
+  int command = -1;  ///< of a thigmotaxis row: the index of its command
   /// C q̇ = direction . (ẋ_a - ẋ_b), each point a mix of body centres; `b` may have none.
   Eigen::Vector3d direction;  ///< unit, world
   SplineMix a, b;
@@ -71,8 +73,8 @@ std::string row_name(const Model& model, const Row& row);
 /// of the dual problem their staircase.
 int place_in_step(const Model& model, const Row& row);
 
-/// 0 to 3 for a thigmotaxis row: first contact t_a, t_b, last contact t_a, t_b.
-int thigmotaxis_place(const Row& row);
+/// Whether a thigmotaxis row is along t_a; else it is along t_b.
+bool along_a(const Row& row);
 
 /// C v of one row at velocities `v` (nv), which move the bodies' centres by `centre_velocity`
 /// (3 x N).
@@ -129,18 +131,23 @@ void append_wall_rows(const Model& model, const Kinematics& kin, const WallSetti
                       const ConstraintSettings& settings, double h, const NearBinding& wanted,
                       std::vector<Row>& rows);
 
+/// Which contact of a knot: its first or last one, as the controller follows them, or another.
+enum class KnotEnd : std::uint8_t { first, last, neither };
+
 /// Commanded sliding at one contact.
 struct ThigmotaxisCommand {
   Contact contact;
   ThigmotaxisSpeeds speed;
   BodyEnd towards = BodyEnd::head;  ///< where the knot shall go: to the tail, both tangents turn
   double effort = 1;                ///< of ControllerSettings::cap, what bounds its rows
+  KnotEnd end = KnotEnd::neither;   ///< what tells its rows from others from step to step
 };
 
-/// Eq. 6 at the first and the last contact, as placed at `at`: rows t_a, t_b of each. settings.cap
-/// times the command's effort bounds λ / h; a row asks for its commanded speed, but for no more
-/// than settings.acceleration makes in the step of the speed that it has now, where the bodies'
-/// centres move by `centre_velocity` (3 x N, cm/s).
+/// Eq. 6 at the contacts commanded, as placed at `at`: rows t_a, t_b of each. settings.cap times
+/// the command's effort bounds λ / h; a row asks for its commanded speed, but for no more than
+/// settings.acceleration makes in the step of the speed that it has now, where the bodies' centres
+/// move by `centre_velocity` (3 x N, cm/s). No two commands are of the same end or, of neither, of
+/// the same segments.
 void append_thigmotaxis_rows(const Model& model, const std::vector<ThigmotaxisCommand>& commands,
                              const std::vector<SplineSegment>* at,
                              const ControllerSettings& settings,

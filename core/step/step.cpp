@@ -94,6 +94,7 @@ Status StepSolver::begin_here(const StepInput& in, StepSolution& step) {
   assemble_step_system(in.model, in.state.q, in.motion(), in.kin(), in.control.tip, reach,
                        step.system);
   add_active_torque(in.control.active, reach, step.system);
+  add_active_torque(in.control.torque, reach, step.system);
   gather_rows(in, step.rows);
   prescribe_rows(warm, step.rows);
   if (in.midway != nullptr) {

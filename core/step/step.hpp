@@ -26,8 +26,11 @@ namespace hagfish {
 struct Control {
   bool clamp_head = true;
   TipForce tip;
-  std::vector<ThigmotaxisCommand> thigmotaxis;  ///< none, or first and last contact
-  ActiveTorque active = {};
+  std::vector<ThigmotaxisCommand> thigmotaxis;  ///< rows of Eq. 6 at any number of contacts
+  /// Angles that muscles pull the hinges to, rad, nv, 0 at the root; empty where they do not.
+  Eigen::VectorXd rest_shape;
+  ActiveTorque torque;  ///< torques asked for besides; empty, or 0, where none are
+  ActiveTorque active;  ///< towards the rest shape, which follows from it (active_curvature.hpp)
 };
 
 /// All that a step depends on, but for the warm start.
@@ -84,7 +87,8 @@ struct StepSolution {
   Eigen::Matrix3Xd centre_velocity;       ///< of the bodies' centres at it, 3 x N, cm/s
   ConstraintForces force;
   Eigen::Vector3d tip = Eigen::Vector3d::Zero();  ///< tip force as applied, dyn, world
-  Eigen::VectorXd active_torque;  ///< active torque as applied, dyn cm, nv; 0 at the root
+  /// Active torque as applied, towards the rest shape and besides, dyn cm, nv; 0 at the root.
+  Eigen::VectorXd active_torque;
   SolveKind kind = SolveKind::linear;
   std::vector<Row> rows;        ///< rows that entered the problem, in the order of place_in_step
   Eigen::Index prescribed = 0;  ///< how many of them, the first, are prescribed

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/log/log_frame.hpp"
 #include "core/log/log_writer.hpp"
 #include "core/run/simulation.hpp"
 #include "experiments/audit/audit_checkpoints.hpp"
@@ -58,10 +59,19 @@ Finding thigmotaxis_extent(const LogContents& log) {
   const Model& model = log.model;
   const Hdf5Reader::Rows force = log.h5.rows("/forces/thigmotaxis");
   const Hdf5Reader::Rows body_b = log.h5.rows("/thigmotaxis/body_b");
+  // Without rows, -1, there must be no force at all.
+  Eigen::VectorXd furthest = body_b.rowwise().maxCoeff();
+  if (has_row_table(log.resolved.scene)) {
+    const std::vector<std::int64_t> frame = log.h5.integers("/eq6/frame");
+    const std::vector<double> spline_b = log.h5.doubles("/eq6/spline_b");
+    for (std::size_t i = 0; i < frame.size(); ++i) {
+      double& most = furthest[frame[i]];
+      most = std::max(most, std::floor(spline_b[i] + 0.5));
+    }
+  }
   double beyond = 0;
   for (Eigen::Index f = 0; f < force.rows(); ++f) {
-    // Without rows, -1, there must be no force at all.
-    const int last = static_cast<int>(body_b.row(f).maxCoeff());
+    const int last = static_cast<int>(furthest[f]);
     for (int b = last < 0 ? 0 : last + spline_reach + 1; b < model.body_count(); ++b) {
       const Body& body = model.bodies[b];
       for (int k = body.first_dof; k < body.first_dof + body.dofs; ++k) {
@@ -140,7 +150,8 @@ std::vector<Finding> momentum(const LogContents& log) {
   std::vector<Finding> findings{finding};
   const Scene& scene = log.resolved.scene;
   using Kind = ScriptSettings::Kind;
-  const bool free = !scene.clamp_head && !scene.wall.present && scene.gravity.isZero(0) &&
+  const bool free = !log.own_law() && !scene.clamp_head && !scene.wall.present &&
+                    scene.gravity.isZero(0) &&
                     (scene.script.kind == Kind::none || scene.script.kind == Kind::curvature);
   if (free) {
     findings.push_back(judged_over({"nothing outside", most(outside), 0, "dyn s"},

@@ -41,7 +41,7 @@ void check_datasets(const LogContents& log) {
     throw FileError(fmt::format("{}: /steps has {} steps, {} frames make {} to {}", log.h5.file(),
                                 step_count, log.time.size(), covered, covered + stride - 1));
   }
-  for (const DatasetForm& form : log_forms(log.h5, log.model, log.resolved.scene.time.rule)) {
+  for (const DatasetForm& form : log_forms(log.h5, log.model, log.resolved.scene)) {
     check_form(log.h5, form);
     check_words(log.h5, form.path);
   }

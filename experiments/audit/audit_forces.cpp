@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/run/script.hpp"
+#include "experiments/audit/row_force.hpp"
 
 namespace hagfish {
 namespace {
@@ -18,9 +19,6 @@ constexpr double limit_tolerance = 1e-8;
 /// force that far turned from the bend.
 constexpr double cone_tolerance = 2e-5;
 constexpr double cone_turn_tolerance = 0.1;
-/// Speeds of rows are met to 1e-8 of the largest in the step, some 10 cm/s (Ipopt).
-constexpr double ask_tolerance = 1e-5;  // cm/s
-constexpr double cap_tolerance = 1e-6;
 /// Mean f_thigmo is not C' of the mean multipliers exactly, as the knot moves between two frames:
 /// the median, which grows with the time between them, tells a wrong column, sign or window.
 constexpr double mean_tolerance = 0.05;
@@ -30,56 +28,6 @@ constexpr std::size_t least_means = 5;          // for a median
 /// Rows that a step's own path shows change its velocity after its middle has settled: at up to
 /// this share of the frames. Seen: 0.15 at 10 ms, 0.5 at 20 ms.
 constexpr double unsettled_share = 0.75;
-
-/// The knot goes to the tail in this phase: both tangents turn.
-bool towards_tail(const Scene& scene, Phase phase) {
-  return phase == Phase::reverse ||
-         (phase == Phase::release && scene.controller.leave_by == BodyEnd::tail);
-}
-
-/// Commanded speeds of a phase: first t_a, first t_b, last t_a, last t_b, cm/s; nan without rows.
-Eigen::Vector4d commands(const Scene& scene, Phase phase) {
-  const ControllerSettings& c = scene.controller;
-  const auto four = [](const ThigmotaxisSpeeds& first, const ThigmotaxisSpeeds& last) {
-    return Eigen::Vector4d(first.a, first.b, last.a, last.b);
-  };
-  if (phase == Phase::form || phase == Phase::free) {
-    return Eigen::Vector4d::Constant(NAN);
-  }
-  if (phase == Phase::tighten) {
-    return four(c.tighten_head, c.tighten_tail);
-  }
-  return towards_tail(scene, phase) ? four(c.reverse_head, c.reverse_tail)
-                                    : four(c.slide_head, c.slide_tail);
-}
-
-/// Relative motion of two spline points along `direction`, by their spline parameters; without the
-/// second one, of the first alone.
-Row motion_row(const Model& model, const Eigen::Vector3d& direction, double a, double b) {
-  const auto mix = [&model](double parameter) {
-    const auto [segment, t] = spline_point(model, parameter);
-    return spline_mix(segment, t, model.body_count());
-  };
-  Row row;
-  row.direction = direction;
-  row.a = mix(a);
-  row.b = std::isnan(b) ? SplineMix{} : mix(b);
-  return row;
-}
-
-Contact contact_of(const LogContents& log, const AuditedFrame& frame, double a, double b) {
-  const auto [segment_a, t_a] = spline_point(log.model, a);
-  const auto [segment_b, t_b] = spline_point(log.model, b);
-  return contact_at(frame.segments, segment_a, t_a, segment_b, t_b);
-}
-
-/// C' λ of one row, generalised.
-Eigen::VectorXd force_of(const Model& model, const Kinematics& kin, const Row& row, double lambda) {
-  Matrix6Xd wrench = Matrix6Xd::Zero(6, model.body_count());
-  Eigen::VectorXd joint = Eigen::VectorXd::Zero(model.nv());
-  add_row(row, kin, lambda, wrench, joint);
-  return generalised_force(model, kin, wrench);
-}
 
 /// |a - b| over the largest of both and of `least_scale`, in infinity norms; infinite where one is
 /// no number.
@@ -94,6 +42,7 @@ double mismatch(const Eigen::VectorXd& a, const Eigen::VectorXd& b, double least
 
 ForceAudit::ForceAudit(const LogContents& log)
     : log_(log),
+      rows_(log),
       thigmotaxis_(log.h5.rows("/forces/thigmotaxis")),
       contact_(log.h5.rows("/forces/contact")),
       limit_(log.h5.rows("/forces/limit")),
@@ -101,13 +50,6 @@ ForceAudit::ForceAudit(const LogContents& log)
       wall_(log.h5.rows("/forces/wall")),
       tip_(log.h5.rows("/forces/tip")),
       active_torque_(log.h5.rows("/forces/active")),
-      lambda_(log.h5.rows("/thigmotaxis/lambda")),
-      command_(log.h5.rows("/thigmotaxis/command")),
-      speed_(log.h5.rows("/thigmotaxis/speed")),
-      spline_a_(log.h5.rows("/thigmotaxis/spline_a")),
-      spline_b_(log.h5.rows("/thigmotaxis/spline_b")),
-      body_a_(log.h5.rows("/thigmotaxis/body_a")),
-      body_b_(log.h5.rows("/thigmotaxis/body_b")),
       mean_{log.h5.rows("/mean/forces/thigmotaxis"), log.h5.rows("/mean/forces/contact"),
             log.h5.rows("/mean/forces/limit"),       log.h5.rows("/mean/forces/head"),
             log.h5.rows("/mean/forces/wall"),        log.h5.rows("/mean/forces/active")},
@@ -117,13 +59,19 @@ ForceAudit::ForceAudit(const LogContents& log)
       active_(log.h5.integers("/diagnostics/active")),
       middle_off_(log.midpoint() ? log.h5.doubles("/steps/middle_off") : std::vector<double>{}),
       steps_(log),
-      cap_(log.h5.doubles("/thigmotaxis/cap")),
       contact_a_(log.h5.doubles("/contacts/spline_a")),
       contact_b_(log.h5.doubles("/contacts/spline_b")),
-      contact_force_(log.h5.doubles("/contacts/force")) {}
+      contact_force_(log.h5.doubles("/contacts/force")) {
+  if (log.resolved.scene.controller.law == LawName::own) {
+    asked_tip_ = log.h5.rows("/control/tip");
+    asked_tip_rate_ = log.h5.doubles("/control/tip_rate");
+  }
+}
 
 void ForceAudit::see(const AuditedFrame& frame) {
-  const Eigen::MatrixXd columns = see_thigmotaxis(frame);
+  const Eigen::Index f = frame.index;
+  const ThigmotaxisAudit::Rows rows = rows_.see(frame, from_rows_, shape_);
+  from_rows_.compare("/forces/thigmotaxis", thigmotaxis_.row(f).transpose(), rows.force);
   const std::size_t first_contact = next_contact_;
   see_contacts(frame);
   see_limits(frame);
@@ -131,14 +79,11 @@ void ForceAudit::see(const AuditedFrame& frame) {
   see_tip(frame);
   see_balance(frame);
   if (frame.index > 0) {
-    see_means(frame, columns);
+    see_means(frame, rows);
   }
-  columns_before_ = columns;
-  const Eigen::Index f = frame.index;
-  const auto count = [f](const Hdf5Reader::Rows& rows) {
-    return static_cast<std::int64_t>((rows.row(f).array() != 0).count());
-  };
-  const std::int64_t bearing = count(lambda_) + bearing_limits(frame) + count(head_) +
+  rows_before_ = rows;
+  const std::int64_t head = (head_.row(f).array() != 0).count();
+  const std::int64_t bearing = rows.bearing + bearing_limits(frame) + head +
                                static_cast<std::int64_t>(next_contact_ - first_contact);
   // A cone that bears may be followed by one more tangent a correction.
   const std::int64_t most =
@@ -163,73 +108,6 @@ std::int64_t ForceAudit::bearing_cones(const AuditedFrame& frame) const {
   });
 }
 
-Eigen::MatrixXd ForceAudit::see_thigmotaxis(const AuditedFrame& frame) {
-  const Eigen::Index f = frame.index;
-  const Model& model = log_.model;
-  const Scene& scene = log_.resolved.scene;
-  const Kinematics& kin = frame.kin;
-  const Eigen::Vector4d commanded = commands(scene, frame.phase);
-  const double sense = towards_tail(scene, frame.phase) ? -1 : 1;
-  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(model.nv(), 4);
-  see_cap(frame, on_spline(model, spline_a_(f, 0)) && !std::isnan(commanded[0]));
-  for (int place = 0; place < 2; ++place) {
-    const double a = spline_a_(f, place);
-    const double b = spline_b_(f, place);
-    const bool rows = on_spline(model, a) && on_spline(model, b) && !std::isnan(commanded[0]);
-    const auto nearest = [rows](double s) { return rows ? std::floor(s + 0.5) : -1; };
-    from_rows_.compare("/thigmotaxis/body_a", body_a_(f, place), nearest(a));
-    from_rows_.compare("/thigmotaxis/body_b", body_b_(f, place), nearest(b));
-    for (const int along : {0, 1}) {
-      const int k = 2 * place + along;
-      from_rows_.compare("/thigmotaxis/command", command_(f, k), rows ? commanded[k] : NAN);
-      if (!rows) {
-        from_rows_.compare("/thigmotaxis/speed", speed_(f, k), NAN);
-        from_rows_.compare("/thigmotaxis/lambda", lambda_(f, k), 0);
-        continue;
-      }
-      // Eq. 6: t_a' (ẋ_a - ẋ_b) >= v_a and t_b' (ẋ_b - ẋ_a) >= v_b.
-      const Contact contact = contact_of(log_, frame, a, b);
-      const Row row = motion_row(
-          model, along == 0 ? sense * contact.tangent_a : -sense * contact.tangent_b, a, b);
-      const double speed = row_velocity(row, frame.moved_velocity, frame.qdot_moved);
-      from_rows_.compare("/thigmotaxis/speed", speed_(f, k), speed);
-      const double cap = cap_[f];
-      // A row below its cap is met, with a force exactly: at its command, or on the way to it.
-      const double asked =
-          std::min(commanded[k], row_velocity(row, frame.motion.centre_velocity, frame.state.qdot) +
-                                     scene.controller.acceleration * scene.time.step);
-      if (lambda_(f, k) < 0) {
-        shape_.insert("/thigmotaxis/lambda");
-      }
-      if (lambda_(f, k) < (1 - cap_tolerance) * cap) {
-        ask_miss_ = worse(ask_miss_, lambda_(f, k) > 0 ? std::abs(speed - asked) : asked - speed);
-      }
-      most_ = worse(most_, lambda_(f, k) / cap);
-      columns.col(k) = force_of(model, kin, row, 1);
-    }
-  }
-  from_rows_.compare("/forces/thigmotaxis", thigmotaxis_.row(f).transpose(),
-                     columns * lambda_.row(f).transpose());
-  return columns;
-}
-
-void ForceAudit::see_cap(const AuditedFrame& frame, bool rows) {
-  const Eigen::Index f = frame.index;
-  const Scene& scene = log_.resolved.scene;
-  if (frame.phase != Phase::pull) {
-    pull_from_ = log_.time[f];
-    from_rows_.compare("/thigmotaxis/cap", cap_[f], rows ? scene.controller.cap : NAN);
-    return;
-  }
-  // The pull began after the last frame before it; of a log that begins with it, at any time.
-  const Ramp& cap = scene.food.cap;
-  const double frame_time = scene.time.frame_interval;
-  const double least = std::isnan(pull_from_) ? 0 : log_.time[f] - pull_from_ - frame_time;
-  const double most = std::isnan(pull_from_) ? INFINITY : log_.time[f] - pull_from_;
-  from_rows_.compare("/thigmotaxis/cap", cap_[f],
-                     rows ? std::clamp(cap_[f], cap.at(least), cap.at(most)) : NAN);
-}
-
 void ForceAudit::see_contacts(const AuditedFrame& frame) {
   const Model& model = log_.model;
   Eigen::VectorXd contact = Eigen::VectorXd::Zero(model.nv());
@@ -245,7 +123,7 @@ void ForceAudit::see_contacts(const AuditedFrame& frame) {
       continue;
     }
     const Eigen::Vector3d normal =
-        of_wall ? Eigen::Vector3d::UnitX().eval() : contact_of(log_, frame, a, b).normal;
+        of_wall ? Eigen::Vector3d::UnitX().eval() : contact_of(model, frame.segments, a, b).normal;
     (of_wall ? wall : contact) +=
         force_of(model, frame.kin, motion_row(model, normal, a, b), force);
   }
@@ -301,8 +179,7 @@ void ForceAudit::see_cone(const AuditedFrame& frame, const BendingCone& cone,
 
 void ForceAudit::see_head(const AuditedFrame& frame) {
   const Eigen::VectorXd force = head_.row(frame.index);
-  const bool clamped = clamps_head(log_.resolved.scene, frame.phase);
-  const Eigen::Index first_free = clamped ? root_dofs : 0;
+  const Eigen::Index first_free = frame.clamped ? root_dofs : 0;
   if ((force.tail(force.size() - first_free).array() != 0).any()) {
     shape_.insert("/forces/head");
   }
@@ -313,7 +190,9 @@ void ForceAudit::see_tip(const AuditedFrame& frame) {
   const Kinematics& kin = frame.observation.kin;
   const int last = log_.model.body_count() - 1;
   TipForce tip;
-  if (frame.phase == Phase::form) {
+  if (scene.controller.law == LawName::own) {
+    tip = {asked_tip_.row(frame.index).transpose(), asked_tip_rate_[frame.index]};
+  } else if (frame.phase == Phase::form) {
     tip = script_force(scene.script, log_.time[frame.index], scene.time, kin.centre.col(last),
                        kin.centre_velocity.col(last));
   }
@@ -345,9 +224,9 @@ void ForceAudit::see_balance(const AuditedFrame& frame) {
   momentum_ = given.lpNorm<Eigen::Infinity>() / log_.resolved.scene.time.step;
 }
 
-void ForceAudit::see_means(const AuditedFrame& frame, const Eigen::MatrixXd& columns) {
+void ForceAudit::see_means(const AuditedFrame& frame, const ThigmotaxisAudit::Rows& rows) {
   const Eigen::Index f = frame.index;
-  const auto row = [f](const Hdf5Reader::Rows& rows) -> Eigen::VectorXd { return rows.row(f); };
+  const auto row = [f](const Hdf5Reader::Rows& of) -> Eigen::VectorXd { return of.row(f); };
   const auto& [thigmotaxis, contact, limit, head, wall, active] = mean_;
   const Eigen::VectorXd sum =
       row(thigmotaxis) + row(contact) + row(limit) + row(head) + row(wall) + row(active);
@@ -370,9 +249,14 @@ void ForceAudit::see_means(const AuditedFrame& frame, const Eigen::MatrixXd& col
   ask("/mean/forces/thigmotaxis", internal(row(thigmotaxis)));
   ask("/mean/forces/contact", internal(row(contact)));
   ask("/mean/forces/wall", (row(wall).array() == 0).all() || row(wall)[0] > 0);
-  const Eigen::VectorXd expected =
-      0.5 * (columns + columns_before_) * mean_lambda_.row(f).transpose();
-  if ((columns.array() != 0).any() && (columns_before_.array() != 0).any()) {
+  // Multipliers of rows at other contacts, which come and go, are not known as means.
+  if (rows.others || rows_before_.others) {
+    return;
+  }
+  const Eigen::MatrixXd& columns = rows.columns;
+  const Eigen::MatrixXd& before = rows_before_.columns;
+  const Eigen::VectorXd expected = 0.5 * (columns + before) * mean_lambda_.row(f).transpose();
+  if ((columns.array() != 0).any() && (before.array() != 0).any()) {
     mean_deviation_.push_back(mismatch(row(thigmotaxis), expected));
   }
 }
@@ -392,10 +276,9 @@ std::vector<Finding> ForceAudit::findings() const {
         {"cones push back", cone_turn_, cone_turn_tolerance, "rad from the way the joint bends"},
         "/forces/limit"));
   }
-  findings.push_back(judged_over({"thigmotaxis as asked", ask_miss_, ask_tolerance, "cm/s"},
-                                 "rows below their cap"));
-  findings.push_back(judged_over({"thigmotaxis cap", most_, 1 + cap_tolerance, "of controller.cap"},
-                                 "largest multiplier"));
+  for (const Finding& finding : rows_.findings()) {
+    findings.push_back(finding);
+  }
   std::set<std::string> shape = shape_;
   if (next_contact_ != contact_frame_.size()) shape.insert("/contacts/frame");
   findings.push_back(judged(

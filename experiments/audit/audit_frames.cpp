@@ -145,9 +145,8 @@ void FrameAudit::see_bounds(const AuditedFrame& frame) {
   from_q_.compare("/steps/penetration", penetration_[step], s.penetration, search_tolerance);
   from_q_.compare("/steps/limit_violation", limit_violation_[step], s.limit_violation,
                   nothing_but_rounding);
-  const bool clamped = clamps_head(log_.resolved.scene, frame.phase);
   from_q_.compare("/steps/head_drift", head_drift_[step],
-                  clamped ? head_drift(log_.model, s.kin) : 0, nothing_but_rounding);
+                  frame.clamped ? head_drift(log_.model, s.kin) : 0, nothing_but_rounding);
 }
 
 std::vector<Finding> FrameAudit::findings() const {

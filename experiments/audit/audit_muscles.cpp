@@ -19,7 +19,13 @@ constexpr std::size_t least_frames = 5;  // for a median
 }  // namespace
 
 MuscleAudit::MuscleAudit(const LogContents& log)
-    : log_(log), torque_(log.h5.rows("/forces/active")), q_ref_(log.h5.rows("/trajectory/q_ref")) {}
+    : log_(log), torque_(log.h5.rows("/forces/active")), q_ref_(log.h5.rows("/trajectory/q_ref")) {
+  if (log.own_law()) {
+    asked_ = log.h5.rows("/control/torque");
+    asked_rate_ = log.h5.rows("/control/torque_rate");
+    has_rest_shape_ = log.h5.integers("/control/has_rest_shape");
+  }
+}
 
 void MuscleAudit::see(const AuditedFrame& frame) {
   see_torque(frame);
@@ -28,13 +34,19 @@ void MuscleAudit::see(const AuditedFrame& frame) {
 
 void MuscleAudit::see_torque(const AuditedFrame& frame) {
   const Scene& scene = log_.resolved.scene;
+  const Eigen::Index f = frame.index;
   Eigen::VectorXd wanted = Eigen::VectorXd::Zero(log_.model.nv());
-  if (scene.script.kind == ScriptSettings::Kind::curvature) {
-    const ActiveTorque torque =
-        active_torque(log_.model, scene, frame.state, q_ref_.row(frame.index).transpose());
-    wanted = torque.value - torque.rate.cwiseProduct(frame.qdot_felt);
+  const auto add = [&](const ActiveTorque& torque) {
+    wanted += torque.value - torque.rate.cwiseProduct(frame.qdot_felt);
+  };
+  if (log_.own_law() ? has_rest_shape_[static_cast<std::size_t>(f)] != 0
+                     : scene.script.kind == ScriptSettings::Kind::curvature) {
+    add(active_torque(log_.model, scene, frame.state, q_ref_.row(f).transpose()));
   }
-  const Eigen::VectorXd torque = torque_.row(frame.index);
+  if (log_.own_law()) {
+    add({asked_.row(f).transpose(), asked_rate_.row(f).transpose()});
+  }
+  const Eigen::VectorXd torque = torque_.row(f);
   rebuilt_.compare("/forces/active", torque, wanted);
   // Muscles hold on to nothing outside.
   if (!torque.head<root_dofs>().isZero(0)) on_root_.insert("/forces/active");
@@ -45,6 +57,10 @@ void MuscleAudit::see_rest_shape(const AuditedFrame& frame) {
   const Eigen::Index f = frame.index;
   const double h = scene.time.step;
   const Eigen::VectorXd rest = q_ref_.row(f);
+  if (log_.own_law()) {
+    if (!rest.head<root_dofs>().isZero(0)) on_root_.insert("/trajectory/q_ref");
+    return;
+  }
   if (scene.script.kind != ScriptSettings::Kind::curvature) {
     rebuilt_.compare("/trajectory/q_ref", rest, Eigen::VectorXd::Zero(rest.size()));
     return;

@@ -25,6 +25,8 @@ class MuscleAudit {
 
   const LogContents& log_;
   Hdf5Reader::Rows torque_, q_ref_;
+  Hdf5Reader::Rows asked_, asked_rate_;       ///< besides, by a law of the run's own
+  std::vector<std::int64_t> has_rest_shape_;  ///< likewise
   Rebuilt rebuilt_;
   std::set<std::string> on_root_;       ///< datasets with an entry there, where nothing holds on
   std::vector<double> tone_deviation_;  ///< of q_ref that follows q, shares of the motion

@@ -65,10 +65,11 @@ void RateAudit::see(const AuditedFrame& frame) {
 }
 
 /// Of what pulls from outside all but the tip's force is known as a mean, and that one only acts
-/// while a script forms the knot.
+/// while a script forms the knot, or by a law of the run's own at any time.
 void RateAudit::see_outside(Eigen::Index f, double elapsed) {
-  if (static_cast<Phase>(log_.phase[f - 1]) == Phase::form &&
-      !(tip_.row(f - 1).isZero(0) && tip_.row(f).isZero(0))) {
+  const bool pulled = !(tip_.row(f - 1).isZero(0) && tip_.row(f).isZero(0));
+  if (log_.own_law() ? !tip_.isZero(0)
+                     : static_cast<Phase>(log_.phase[f - 1]) == Phase::form && pulled) {
     return;
   }
   double mass = 0;

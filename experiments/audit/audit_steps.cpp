@@ -7,6 +7,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "core/log/log_frame.hpp"
 #include "core/log/thigmotaxis_rows.hpp"
 #include "experiments/audit/audited_frame.hpp"
 #include "experiments/audit/rebuilt.hpp"
@@ -17,20 +18,56 @@ namespace {
 /// A slack of nothing but rounding has no scale of its own, cm/s.
 constexpr double slack_tolerance = 1e-9;
 
+/// What each step says of rows at other contacts than the knot's ends; nothing of the paper's law.
+struct OtherRows {
+  explicit OtherRows(const LogContents& log) {
+    if (!has_row_table(log.resolved.scene)) return;
+    count = log.h5.integers("/steps/thigmotaxis_others");
+    slack = log.h5.doubles("/steps/thigmotaxis_others_slack");
+  }
+  /// How many a step has, and their largest slack.
+  std::int64_t at(Eigen::Index step) const { return count.empty() ? 0 : count[step]; }
+  std::vector<std::int64_t> count;
+  std::vector<double> slack;
+};
+
+/// These at frames, from /eq6.
+void rebuild_others(const LogContents& log, const Steps& steps, Rebuilt& rebuilt) {
+  const OtherRows others(log);
+  if (others.count.empty()) return;
+  std::vector<std::int64_t> count(log.time.size(), 0);
+  std::vector<double> most(log.time.size(), NAN);
+  const std::vector<std::int64_t> frame = log.h5.integers("/eq6/frame");
+  const std::vector<std::int64_t> end = log.h5.integers("/eq6/end");
+  const std::vector<double> slack = log.h5.doubles("/eq6/slack");
+  for (std::size_t i = 0; i < frame.size(); ++i) {
+    if (end[i] == static_cast<std::int64_t>(KnotEnd::neither)) {
+      ++count[frame[i]];
+      most[frame[i]] = std::fmax(most[frame[i]], slack[i]);
+    }
+  }
+  for (std::size_t f = 0; f < count.size(); ++f) {
+    const Eigen::Index s = steps.at(static_cast<Eigen::Index>(f));
+    rebuilt.compare_exactly("/steps/thigmotaxis_others", others.count[s], count[f]);
+    rebuilt.compare("/steps/thigmotaxis_others_slack", others.slack[s], most[f], slack_tolerance);
+  }
+}
+
 /// /steps/eq6 from each step's slack, against the command of the frame before or after it: a phase
 /// may end in between.
 void rebuild_eq6(const LogContents& log, const Steps& steps, Rebuilt& rebuilt) {
   const std::vector<std::int64_t> eq6 = log.h5.integers("/steps/eq6");
+  const OtherRows others(log);
   const Hdf5Reader::Rows slack = log.h5.rows("/steps/thigmotaxis_slack");
   const Hdf5Reader::Rows command = log.h5.rows("/thigmotaxis/command");
   const auto verdict = [&](Eigen::Index s, Eigen::Index frame) -> std::int64_t {
-    int met = std::isnan(slack(s, 0)) ? -1 : 1;
+    int met = slack.row(s).array().isNaN().all() && others.at(s) == 0 ? -1 : 1;
     for (int k = 0; k < 4 && met == 1; ++k) {
       // Without rows at that frame the tolerance is that of 1 cm/s.
-      const double asked = command(frame, k);
-      met = meets_command(slack(s, k), std::isnan(asked) ? 0 : asked) ? 1 : 0;
+      const double asked = std::isnan(command(frame, k)) ? 0 : command(frame, k);
+      met = std::isnan(slack(s, k)) || meets_command(slack(s, k), asked) ? 1 : 0;
     }
-    return met;
+    return met == 1 && others.at(s) > 0 && !meets_command(others.slack[s], 0) ? 0 : met;
   };
   for (Eigen::Index s = 0; s < slack.rows(); ++s) {
     const Eigen::Index before = s / steps.stride;
@@ -165,6 +202,7 @@ std::vector<Finding> audit_steps(const LogContents& log) {
   const Steps steps(log);
   Rebuilt rebuilt;
   rebuild_eq6(log, steps, rebuilt);
+  rebuild_others(log, steps, rebuilt);
   rebuild_thigmotaxis(log, steps, rebuilt);
   rebuild_worst(log, steps, rebuilt);
   rebuild_solver(log, steps, rebuilt);

@@ -18,6 +18,7 @@ Midway midway_of(const LogContents& log, const State& state, Eigen::Index frame)
 AuditedFrame::AuditedFrame(const LogContents& log, Eigen::Index frame)
     : index(frame),
       phase(static_cast<Phase>(log.phase[frame])),
+      clamped(log.clamped(frame)),
       state{log.q.row(frame), log.qdot.row(frame)},
       observation(observe(log.model, state, log.resolved.scene)),
       midway(midway_of(log, state, frame)),

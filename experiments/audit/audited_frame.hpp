@@ -17,6 +17,7 @@ struct AuditedFrame {
 
   Eigen::Index index;
   Phase phase;
+  bool clamped;  ///< the head is
   State state;
   Observation observation;  ///< observed again from the logged state
 

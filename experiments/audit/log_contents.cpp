@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/log/saved_run.hpp"
+#include "core/run/controller.hpp"
 #include "experiments/audit/log_schema.hpp"
 
 namespace hagfish {
@@ -25,7 +26,13 @@ LogContents::LogContents(const std::string& file) : h5(file) {
     middle_felt = h5.rows("/midway/felt");
     qdot_moved = h5.rows("/midway/qdot");
   }
+  if (own_law()) clamp_head = h5.integers("/control/clamp_head");
   check_model();
+}
+
+bool LogContents::clamped(Eigen::Index frame) const {
+  const auto f = static_cast<std::size_t>(frame);
+  return own_law() ? clamp_head[f] != 0 : clamps_head(resolved.scene, static_cast<Phase>(phase[f]));
 }
 
 void LogContents::check_model() const {

@@ -148,12 +148,15 @@ void check_motion(const Hdf5Reader& log) {
 
 }  // namespace
 
-std::vector<DatasetForm> log_forms(const Hdf5Reader& log, const Model& model, TimeRule rule) {
+std::vector<DatasetForm> log_forms(const Hdf5Reader& log, const Model& model, const Scene& scene) {
   // The writer says what there must be; nothing is written.
   std::vector<DatasetForm> forms;
-  add_forms(frame_table(model, rule).series(), rows_of(log, "/trajectory/time"), forms);
-  add_forms(step_table(rule).series(), rows_of(log, "/steps/kkt"), forms);
+  add_forms(frame_table(model, scene).series(), rows_of(log, "/trajectory/time"), forms);
+  add_forms(step_table(scene).series(), rows_of(log, "/steps/kkt"), forms);
   add_forms(contact_table().series(), rows_of(log, "/contacts/frame"), forms);
+  if (has_row_table(scene)) {
+    add_forms(row_table().series(), rows_of(log, "/eq6/frame"), forms);
+  }
   return forms;
 }
 
@@ -169,9 +172,10 @@ void check_form(const Hdf5Reader& log, const DatasetForm& form) {
 }
 
 void check_schema(const Hdf5Reader& log, const Model& model, const Scene& scene) {
-  const std::vector<DatasetForm> forms = log_forms(log, model, scene.time.rule);
+  const std::vector<DatasetForm> forms = log_forms(log, model, scene);
   for (const DatasetForm& form : forms) {
-    const bool needed = form.path.starts_with("/midway/") ||
+    const bool needed = form.path.starts_with("/midway/") || form.path.starts_with("/eq6/") ||
+                        form.path.starts_with("/control/") ||
                         std::ranges::find(always_there, form.path) != std::end(always_there);
     if (needed || log.has(form.path)) check_form(log, form);
   }
@@ -185,6 +189,10 @@ void check_schema(const Hdf5Reader& log, const Model& model, const Scene& scene)
   check_whole(log, "/steps/solve", 0, last_solve);
   check_whole(log, "/diagnostics/solve", 0, last_solve);
   check_whole(log, "/contacts/frame", 0, frames - 1);
+  check_whole(log, "/eq6/frame", 0, frames - 1);
+  check_whole(log, "/eq6/end", 0, 2);
+  check_whole(log, "/eq6/along", 0, 1);
+  check_whole(log, "/eq6/towards", -1, 1);
   for (const char* path : {"/thigmotaxis/body_a", "/thigmotaxis/body_b"}) {
     check_whole(log, path, -1, model.body_count() - 1);
   }

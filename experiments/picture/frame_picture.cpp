@@ -70,9 +70,8 @@ Skin FramePictures::skin(std::size_t frame) const {
 }
 
 std::vector<mjvGeom> FramePictures::plate(std::size_t frame) const {
-  const Scene& scene = log_.resolved.scene;
-  if (!scene.wall.present) return {};
-  return {plate_geom(clamps_head(scene, static_cast<Phase>(log_.phase[frame])))};
+  if (!log_.resolved.scene.wall.present) return {};
+  return {plate_geom(log_.clamped(static_cast<Eigen::Index>(frame)))};
 }
 
 void FramePictures::add(std::size_t frame, Shown& shown) const {

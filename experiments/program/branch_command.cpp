@@ -21,6 +21,7 @@ int branch(const BranchOptions& options, const std::string& typed) {
   const Hdf5Reader h5(options.log);
   SavedRun run = saved_run_at(h5, options.time);
   check_schema(h5, run.model, run.resolved.scene);
+  require_named_law(run.resolved.scene, options.log + ": ");
   const double time = time_of(run.sim, run.resolved.scene);
   if (!options.set.empty()) {
     const ResolvedScene resolved =

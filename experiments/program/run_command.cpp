@@ -57,9 +57,11 @@ int resume(NewRunOptions options) {
   options.run.out = without_part(options.resume);
   const std::string part = options.run.out + ".part";
   // Read before anything is renamed: what cannot be gone on with stays as it is.
-  const Hdf5Reader h5(fs::exists(part) ? part : options.run.out);
+  const std::string part_or_whole = fs::exists(part) ? part : options.run.out;
+  const Hdf5Reader h5(part_or_whole);
   const SavedRun run = saved_run(h5);
   check_schema(h5, run.model, run.resolved.scene);
+  require_named_law(run.resolved.scene, part_or_whole + ": ");
   auto output = std::make_unique<OutputFile>(options.run.out, Existing::go_on);
   LogWriter log(std::move(output), run);
   if (run.git_revision != build_revision()) {

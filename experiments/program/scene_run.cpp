@@ -5,11 +5,9 @@
 #include <chrono>
 
 #include "core/input/input_text.hpp"
-#include "core/log/build_info.hpp"
 #include "experiments/program/failure.hpp"
 #include "experiments/program/progress.hpp"
 #include "experiments/program/terminal.hpp"
-#include "mujoco_ref/mjcf.hpp"
 
 namespace hagfish {
 namespace {
@@ -68,18 +66,6 @@ void add_run_options(CLI::App& command, RunOptions& options) {
   command.add_option("--step-limit", options.step_limit, "wall time that a step may take, s")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-}
-
-LogHeader log_header(const ResolvedScene& resolved, const Model& model, const std::string& qp,
-                     const std::string& typed) {
-  const Scene& scene = resolved.scene;
-  LogHeader header;
-  header.command = typed;
-  header.scene = scene_to_toml(scene, resolved.specimen);
-  header.qp = qp;
-  header.libraries = build_libraries();
-  header.mjcf = mjcf_files(model, scene.contact.least_arc, scene.time.step);
-  return header;
 }
 
 int take_run(const Model& model, const Scene& scene, Simulation sim, const RunOptions& options,

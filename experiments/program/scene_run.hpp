@@ -5,6 +5,7 @@
 
 #include "core/log/log_writer.hpp"
 #include "experiments/program/program.hpp"
+#include "experiments/program/run_header.hpp"
 
 namespace hagfish {
 
@@ -17,10 +18,6 @@ struct RunOptions {
 
 /// Adds --force, --quiet and --step-limit.
 void add_run_options(CLI::App& command, RunOptions& options);
-
-/// How the log of a run in `scene` came about, by the command line as `typed`.
-LogHeader log_header(const ResolvedScene& resolved, const Model& model, const std::string& qp,
-                     const std::string& typed);
 
 /// Steps until the scene is over, or something ends the run, and finishes the log. `before`: wall
 /// time that the run took before, s. Returns the program's exit code.

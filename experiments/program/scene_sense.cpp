@@ -42,9 +42,9 @@ double row_bytes(const SeriesList& table) {
 
 RunSize run_size(const Scene& scene, const Model& model) {
   const double count = scene.time.duration / scene.time.step;
-  return {count, count * row_bytes(step_table(scene.time.rule).series()) +
+  return {count, count * row_bytes(step_table(scene).series()) +
                      scene.time.duration / scene.time.frame_interval *
-                         row_bytes(frame_table(model, scene.time.rule).series())};
+                         row_bytes(frame_table(model, scene).series())};
 }
 
 std::vector<std::string> odd_things(const ResolvedScene& scene) {
@@ -65,7 +65,16 @@ std::vector<std::string> odd_things(const ResolvedScene& scene) {
   return odd;
 }
 
+void require_named_law(const Scene& scene, const std::string& where) {
+  if (scene.controller.law == LawName::own) {
+    throw InputError(
+        where +
+        R"(controller.law = "own": the law is of the C++ or Python program that runs the scene)");
+  }
+}
+
 void check_sense(const ResolvedScene& scene, const Model& model, bool force) {
+  require_named_law(scene.scene, "");
   if (const double dense = density(scene); dense > densest) {
     throw InputError(
         fmt::format("specimen: a density of {:.3g} g/cm^3: no matter has more than {:g}; mass is "

@@ -80,7 +80,7 @@ void add_stages(const LogContents& log, Json& json) {
   std::vector<std::uint8_t> phase, knot, clamped;
   for (std::size_t f = 0; f < log.time.size(); ++f) {
     phase.push_back(static_cast<std::uint8_t>(log.phase[f]));
-    clamped.push_back(clamps_head(log.resolved.scene, static_cast<Phase>(log.phase[f])) ? 1 : 0);
+    clamped.push_back(log.clamped(static_cast<Eigen::Index>(f)) ? 1 : 0);
     const std::string name = knot_name({static_cast<int>(determinant[f]), static_cast<int>(v2[f])});
     auto found = std::ranges::find(knots, name);
     // A log of no sense may have any number of types: one byte names the first 255.

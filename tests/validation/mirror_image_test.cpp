@@ -184,6 +184,7 @@ TEST_P(MirrorImage, IsTheReflectionOfTheRunToTheLastBit) {
 INSTANTIATE_TEST_SUITE_P(BuiltIn, MirrorImage,
                          testing::Values("table1", "figure_eight", "double_overhand", "three_twist",
                                          "overhand_waypoints", "overhand_reverse",
+                                         "thigmotaxis_everywhere", "double_overhand_paced",
                                          "pull_figure_eight", "living_three_twist"),
                          [](const auto& scene) { return std::string(scene.param); });
 

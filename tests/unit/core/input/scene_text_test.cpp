@@ -90,14 +90,18 @@ class Bits {
     const auto& [a, b] = s;
     add(a, b);
   }
+  void put(const KnotSpeedSettings& s) {
+    const auto& [target, gain, filter, most] = s;
+    add(target, gain, filter, most);
+  }
   void put(const ControllerSettings& s) {
-    const auto& [tighten_head, tighten_tail, slide_head, slide_tail, reverse_head, reverse_tail,
-                 leave_by, free_from, cap, acceleration, contact_gap, hysteresis, tail_through,
-                 tighten_from, tight_span, tight_hold, tighten_time, release_at, untied_for,
-                 free_time] = s;
-    add(tighten_head, tighten_tail, slide_head, slide_tail, reverse_head, reverse_tail, leave_by,
-        free_from, cap, acceleration, contact_gap, hysteresis, tail_through, tighten_from,
-        tight_span, tight_hold, tighten_time, release_at, untied_for, free_time);
+    const auto& [law, knot_speed, tighten_head, tighten_tail, slide_head, slide_tail, reverse_head,
+                 reverse_tail, leave_by, free_from, cap, acceleration, contact_gap, hysteresis,
+                 tail_through, tighten_from, tight_span, tight_hold, tighten_time, release_at,
+                 untied_for, free_time] = s;
+    add(law, knot_speed, tighten_head, tighten_tail, slide_head, slide_tail, reverse_head,
+        reverse_tail, leave_by, free_from, cap, acceleration, contact_gap, hysteresis, tail_through,
+        tighten_from, tight_span, tight_hold, tighten_time, release_at, untied_for, free_time);
   }
   void put(const Ramp& s) {
     const auto& [from, to, time] = s;
@@ -169,10 +173,28 @@ ResolvedScene odd_scene() {
   s.script.damper = odd();
   s.script.largest_force = odd();
   s.active = {odd(), odd(), odd(), odd()};
-  s.controller = {{odd(), odd()}, {odd(), odd()}, {odd(), odd()}, {odd(), odd()}, {odd(), odd()},
-                  {odd(), odd()}, BodyEnd::tail,  Phase::tighten, odd(),          odd(),
-                  odd(),          odd(),          odd(),          odd(),          odd(),
-                  odd(),          odd(),          odd(),          odd(),          odd()};
+  s.controller = {LawName::knot_speed,
+                  {odd(), odd(), odd(), odd()},
+                  {odd(), odd()},
+                  {odd(), odd()},
+                  {odd(), odd()},
+                  {odd(), odd()},
+                  {odd(), odd()},
+                  {odd(), odd()},
+                  BodyEnd::tail,
+                  Phase::tighten,
+                  odd(),
+                  odd(),
+                  odd(),
+                  odd(),
+                  odd(),
+                  odd(),
+                  odd(),
+                  odd(),
+                  odd(),
+                  odd(),
+                  odd(),
+                  odd()};
   s.knot = {3, 4294967295u, odd()};
   s.controller.contact_gap = s.contact.margin / 3;
   s.time.rule = TimeRule::midpoint;

@@ -77,6 +77,27 @@ TEST(Checkpoint, KeepsThePullSoFar) {
   EXPECT_EQ(again.controller.pull.steps, 3);
 }
 
+TEST(Checkpoint, KeepsTheMemoryOfTheControlLaw) {
+  const ResolvedScene resolved =
+      stored_scene({"controller.law=knot_speed", "controller.knot_speed.target=2",
+                    "controller.knot_speed.gain=3", "controller.knot_speed.filter=0.1",
+                    "controller.knot_speed.most=2"});
+  const Model model = make_hagfish(resolved.specimen, resolved.scene);
+  Stage whole{model,
+              resolved.scene,
+              resume(model, resolved.scene, sliding()),
+              {RunningMeans(model.nv()), {}, ""}};
+  whole.steps(5);
+  LogState log{RunningMeans(model.nv()), {}, {}};
+  Simulation sim = decode(whole.bytes(), model, "active-set", log);
+  ASSERT_EQ(sim.controller.memory.size(), 2);
+  EXPECT_EQ(sim.controller.memory, whole.sim.controller.memory);
+  Stage resumed{model, resolved.scene, std::move(sim), std::move(log)};
+  whole.steps(20);
+  resumed.steps(20);
+  EXPECT_EQ(resumed.bytes(), whole.bytes());
+}
+
 class BadBytes : public testing::Test {
  protected:
   std::string refusal(const std::vector<std::uint8_t>& changed) {

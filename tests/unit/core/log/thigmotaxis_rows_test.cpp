@@ -74,20 +74,55 @@ TEST_F(ThigmotaxisRowsTest, TheCapIsThatOfTheCommand) {
   EXPECT_TRUE(std::isnan(thigmotaxis_rows_of({}, {}, scene.time.step).cap));
 }
 
-TEST_F(ThigmotaxisRowsTest, MoreContactsThanALogHoldsAreRefusedByName) {
+TEST_F(ThigmotaxisRowsTest, RowsAtOtherContactsLeaveThoseOfTheEndsInTheirColumns) {
   StepRecord record = take_step(model, scene, sim);
-  Control& control = record.control;
-  control.thigmotaxis.push_back(control.thigmotaxis.front());
-  StepSolution step;
-  // The step itself takes any number.
   const Moment& now = record.moment;
-  ASSERT_TRUE(sim.solver.solve({model, scene, now.state, now.observation, control}, step).ok());
-  try {
-    thigmotaxis_rows_of(control, step, scene.time.step);
-    FAIL() << "took three contacts";
-  } catch (const std::invalid_argument& error) {
-    EXPECT_NE(std::string(error.what()).find("more than two contacts"), std::string::npos);
+  Control& control = record.control;
+  const std::vector<ThigmotaxisCommand> ends = control.thigmotaxis;
+  control.thigmotaxis.clear();
+  const auto is_of = [](const Contact& a, const Contact& b) {
+    return a.segment_a == b.segment_a && a.segment_b == b.segment_b;
+  };
+  for (const Contact& c : now.observation.contact.contacts) {
+    if (!is_of(c, ends[0].contact) && !is_of(c, ends[1].contact)) {
+      control.thigmotaxis.push_back({c, {50, -7}});
+    }
   }
+  const auto others = static_cast<int>(control.thigmotaxis.size());
+  ASSERT_GE(others, 2);
+  control.thigmotaxis.insert(control.thigmotaxis.end(), ends.begin(), ends.end());
+  StepSolution step;
+  ASSERT_TRUE(sim.solver.solve({model, scene, now.state, now.observation, control}, step).ok());
+  const ThigmotaxisRows rows = thigmotaxis_rows_of(control, step, scene.time.step);
+  EXPECT_EQ(rows.command, (std::array<double, 4>{0.5, 1, 3, 4}));
+  EXPECT_EQ(rows.others, 2 * others);
+  EXPECT_FALSE(rows.met) << "50 cm/s are out of reach";
+  // Each row by its contact, from the solution's velocity.
+  double worst = 0;
+  int seen = 0;
+  for (std::size_t i = 0; i < step.rows.size(); ++i) {
+    if (step.rows[i].kind != RowKind::thigmotaxis) continue;
+    const ThigmotaxisRow row = thigmotaxis_row(control, step, i, scene.time.step);
+    if (row.end != KnotEnd::neither) continue;
+    ++seen;
+    EXPECT_EQ(row.command, row.along_a ? 50 : -7);
+    const auto command = std::ranges::find_if(control.thigmotaxis, [&](const auto& c) {
+      return c.contact.segment_a + c.contact.t_a == row.spline_a &&
+             c.contact.segment_b + c.contact.t_b == row.spline_b;
+    });
+    ASSERT_NE(command, control.thigmotaxis.end());
+    const Contact& c = command->contact;
+    const Row along{.dof = -1,
+                    .direction = row.along_a ? c.tangent_a : -c.tangent_b,
+                    .a = spline_mix(c.segment_a, c.t_a, model.body_count()),
+                    .b = spline_mix(c.segment_b, c.t_b, model.body_count())};
+    const double speed = row_velocity(along, step.centre_velocity, step.qdot);
+    EXPECT_NEAR(row.speed, speed, 1e-12 * (1 + std::abs(speed)));
+    EXPECT_NEAR(row.slack, std::max(0.0, row.command - speed), 1e-11);
+    worst = std::max(worst, row.slack);
+  }
+  EXPECT_EQ(seen, rows.others);
+  EXPECT_DOUBLE_EQ(rows.others_slack, worst);
 }
 
 TEST_F(ThigmotaxisRowsTest, MeansAreThoseOfTheSteps) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/run/simulation.hpp"
 #include "core/step/paper_step.hpp"
 #include "tests/support/random_chain.hpp"
@@ -121,8 +123,10 @@ struct CappedRow {
     step.system = step_system(model, state, now.kin, {}, scene.time.step);
     const Contact& contact = now.contact.contacts.at(0);
     scene.controller.cap = 10;
-    append_thigmotaxis_rows(model, {{contact, {1, 1}}, {contact, {1, 1}}}, nullptr,
-                            scene.controller, now.kin.centre_velocity, 1, step.rows);
+    append_thigmotaxis_rows(model,
+                            {{contact, {1, 1}, BodyEnd::head, 1, KnotEnd::first},
+                             {contact, {1, 1}, BodyEnd::head, 1, KnotEnd::last}},
+                            nullptr, scene.controller, now.kin.centre_velocity, 1, step.rows);
     const std::vector<Row> limits = limit_rows(model, state, scene.constraints, 1);
     step.rows.insert(step.rows.end(), limits.begin() + 20, limits.begin() + 23);
     step.qdot = Eigen::VectorXd::Zero(model.nv());
@@ -201,21 +205,34 @@ TEST(Guard, AKnotThatPullsGivesAllItMay) {
 
 TEST(Guard, WatchesTheCapOfAnyNumberOfContacts) {
   CappedRow capped;
-  const Contact& contact = capped.now.contact.contacts.at(0);
+  std::vector<ThigmotaxisCommand> commands;
+  for (const Contact& contact : capped.now.contact.contacts) commands.push_back({contact, {1, 1}});
+  ASSERT_GE(commands.size(), 3u);
   capped.step.rows.clear();
-  append_thigmotaxis_rows(capped.model, std::vector(5, ThigmotaxisCommand{contact, {1, 1}}),
-                          nullptr, capped.scene.controller, capped.now.kin.centre_velocity, 1,
-                          capped.step.rows);
-  capped.step.lambda = Eigen::VectorXd::Zero(10);
-  capped.step.lambda[9] = 10;
-  capped.step.excess = Eigen::VectorXd::Constant(10, -0.5);
+  append_thigmotaxis_rows(capped.model, commands, nullptr, capped.scene.controller,
+                          capped.now.kin.centre_velocity, 1, capped.step.rows);
+  const auto count = static_cast<Eigen::Index>(capped.step.rows.size());
+  capped.step.lambda = Eigen::VectorXd::Zero(count);
+  capped.step.excess = Eigen::VectorXd::Constant(count, -0.5);
+  const Contact& last = commands.back().contact;
+  // One row stays at its cap, another is at it now and then.
   for (const double time : {0.0, 0.05, 0.11}) {
+    capped.step.lambda[count - 1] = 10;
+    capped.step.lambda[0] = time == 0.05 ? 0 : 10;
+    // In another order from step to step, as rows of contacts that come and go.
+    std::ranges::rotate(capped.step.rows, capped.step.rows.begin() + 2);
+    std::rotate(capped.step.lambda.begin(), capped.step.lambda.begin() + 2,
+                capped.step.lambda.end());
     capped.look(time);
+    std::ranges::rotate(capped.step.rows, capped.step.rows.end() - 2);
+    std::rotate(capped.step.lambda.begin(), capped.step.lambda.end() - 2, capped.step.lambda.end());
   }
   ASSERT_EQ(capped.warnings.size(), 1u);
-  EXPECT_EQ(capped.watch.below_cap.size(), 10u);
-  EXPECT_EQ(capped.watch.below_cap[8], 0.11);
-  EXPECT_EQ(capped.watch.below_cap[9], 0);
+  EXPECT_EQ(capped.warnings[0].find("thigmotaxis of bodies " + std::to_string(last.segment_a) +
+                                    " and " + std::to_string(last.segment_b) + ", along t_b has"),
+            0u)
+      << capped.warnings[0];
+  EXPECT_EQ(capped.watch.capped.size(), 2u);
 }
 
 /// A body bent evenly that turns about its root without damping: explicit Coriolis forces feed it.

@@ -48,13 +48,17 @@ void expect_same(const Simulation& a, const Simulation& b) {
   EXPECT_EQ(c.knot_seen, d.knot_seen);
   EXPECT_EQ(c.knot_from, d.knot_from);
   EXPECT_EQ(c.lost, d.lost);
+  EXPECT_EQ(c.memory, d.memory);
+  EXPECT_EQ(c.rest_shape, d.rest_shape);
   EXPECT_EQ(c.first.settled, d.first.settled);
   EXPECT_EQ(c.last.settled, d.last.settled);
   EXPECT_TRUE(same(c.first.contact, d.first.contact) && same(c.last.contact, d.last.contact));
 
   EXPECT_EQ(std::memcmp(&a.ledger, &b.ledger, sizeof(EnergyLedger)), 0);
   EXPECT_EQ(a.watch.warned, b.watch.warned);
-  EXPECT_EQ(a.watch.below_cap, b.watch.below_cap);
+  EXPECT_TRUE(std::ranges::equal(
+      a.watch.capped, b.watch.capped,
+      [](const CapWatch& s, const CapWatch& t) { return s.id == t.id && s.since == t.since; }));
   EXPECT_EQ(a.solver.warm.size(), b.solver.warm.size());
 
   EXPECT_EQ(a.search.moved, b.search.moved);

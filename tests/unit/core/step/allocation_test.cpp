@@ -72,12 +72,16 @@ TEST_F(Allocation, CountersSeeEigenAndTheStandardLibrary) {
   EXPECT_EQ(requests - between, 1) << other.front();
 }
 
-class AllocationOfRows : public Allocation, public testing::WithParamInterface<BendingLimit> {};
+class AllocationOfRows : public Allocation,
+                         public testing::WithParamInterface<std::pair<BendingLimit, LawName>> {};
 
 TEST_P(AllocationOfRows, NoneInAStepWithAsManyRowsAsTheLastOne) {
   // Arrays by row keep their storage as long as the numbers of rows and of prescribed ones stay;
   // lists keep what they have grown to, so that the same steps, taken again, need no more.
-  start("slide", GetParam());
+  const auto [limit, law] = GetParam();
+  scene.controller.law = law;
+  scene.controller.knot_speed = {2, 1, 0.1, 2};
+  start("slide", limit);
   for (int k = 0; k < 300; ++k) step();
   const Simulation middle = sim;
   for (int k = 0; k < 100; ++k) step();
@@ -99,7 +103,10 @@ TEST_P(AllocationOfRows, NoneInAStepWithAsManyRowsAsTheLastOne) {
 }
 
 INSTANTIATE_TEST_SUITE_P(BendingLimits, AllocationOfRows,
-                         testing::Values(BendingLimit::box, BendingLimit::cone));
+                         testing::Values(std::pair(BendingLimit::box, LawName::paper),
+                                         std::pair(BendingLimit::cone, LawName::paper),
+                                         std::pair(BendingLimit::box, LawName::all_contacts),
+                                         std::pair(BendingLimit::box, LawName::knot_speed)));
 
 TEST_F(Allocation, NoneInAStepWithoutConstraints) {
   scene.wall.present = false;

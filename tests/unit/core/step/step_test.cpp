@@ -67,6 +67,16 @@ TEST(Step, TakesActiveTorquesImplicitly) {
     const Kinematics kin = kinematics(s.model, s.state);
     const Eigen::MatrixXd h = dense(s.model, kin, step.system.op);
     EXPECT_EQ(h, h.transpose());
+    // Torques asked for besides are the same, and join them.
+    Stage twice = s;
+    twice.control.torque = active;
+    active.value *= 2;
+    active.rate *= 2;
+    const StepSolution both = twice.solve();
+    const StepSolution doubled = s.solve();
+    EXPECT_LT(relative_error(both.qdot, doubled.qdot), 1e-12);
+    EXPECT_LT(relative_error(both.active_torque, doubled.active_torque), 1e-12);
+    EXPECT_LT(relative_error(twice.solve().qdot, paper_velocity(twice)), 1e-6);
   }
 }
 

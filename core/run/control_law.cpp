@@ -1,0 +1,188 @@
+#include "core/run/control_law.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "core/run/controller.hpp"
+
+namespace hagfish {
+namespace {
+
+/// The knot leaves, or has left, by the tail in this phase.
+bool goes_back(const Situation& at) {
+  const Phase phase = at.so_far.phase;
+  return phase == Phase::reverse ||
+         (phase == Phase::release && at.scene.controller.leave_by == BodyEnd::tail);
+}
+
+/// Commanded speeds at the first and the last contact.
+void command_speeds(const Situation& at, std::vector<ThigmotaxisCommand>& commands) {
+  const ControllerSettings& settings = at.scene.controller;
+  const ControllerState& so_far = at.so_far;
+  const double effort = so_far.phase == Phase::pull
+                            ? at.scene.food.cap.at(at.time - so_far.phase_start) / settings.cap
+                            : 1;
+  const auto command = [&](const ThigmotaxisSpeeds& first, const ThigmotaxisSpeeds& last,
+                           BodyEnd towards) {
+    commands.push_back({*so_far.first.contact, first, towards, effort, KnotEnd::first});
+    commands.push_back({*so_far.last.contact, last, towards, effort, KnotEnd::last});
+  };
+  if (so_far.phase == Phase::tighten) {
+    command(settings.tighten_head, settings.tighten_tail, BodyEnd::head);
+  } else if (goes_back(at)) {
+    command(settings.reverse_head, settings.reverse_tail, BodyEnd::tail);
+  } else {
+    command(settings.slide_head, settings.slide_tail, BodyEnd::head);
+  }
+}
+
+bool same_segments(const Contact& x, const Contact& y) {
+  return x.segment_a == y.segment_a && x.segment_b == y.segment_b;
+}
+
+void check_torque(const Model& model, const char* name, const Eigen::VectorXd& v) {
+  if (v.size() != 0 && v.size() != model.nv()) {
+    throw std::invalid_argument(fmt::format("control: {} has {} numbers, the animal has {} dofs",
+                                            name, v.size(), model.nv()));
+  }
+  if (!v.allFinite()) {
+    throw std::invalid_argument(fmt::format("control: {} holds a number that is not finite", name));
+  }
+  if (v.size() > 0 && !v.head<root_dofs>().isZero(0)) {
+    throw std::invalid_argument(fmt::format(
+        "control: {} acts on the root: its first {} numbers must be 0", name, root_dofs));
+  }
+}
+
+void check_command(const Model& model, const ThigmotaxisCommand& command) {
+  const Contact& c = command.contact;
+  const int segments = model.body_count() - 1;
+  const auto on_body = [segments](int segment, double t) {
+    return segment >= 0 && segment < segments && t >= 0 && t <= 1;
+  };
+  constexpr double rounding = 1e-9;  // of a unit vector
+  const auto unit = [](const Eigen::Vector3d& v) { return std::abs(v.norm() - 1) <= rounding; };
+  if (!on_body(c.segment_a, c.t_a) || !on_body(c.segment_b, c.t_b) || !unit(c.tangent_a) ||
+      !unit(c.tangent_b)) {
+    throw std::invalid_argument("control: thigmotaxis at a contact that is not on the body");
+  }
+  if (!std::isfinite(command.speed.a) || !std::isfinite(command.speed.b) ||
+      !std::isfinite(command.effort) || command.effort < 0) {
+    throw std::invalid_argument(fmt::format(
+        "control: thigmotaxis of bodies {} and {}: speeds {:g} and {:g} cm/s with an effort of "
+        "{:g}, which must be finite and not negative",
+        c.body_a(), c.body_b(), command.speed.a, command.speed.b, command.effort));
+  }
+}
+
+}  // namespace
+
+void paper_law(const Situation& at, Control& control) {
+  const auto& [model, scene, now, time, so_far] = at;
+  const int last = model.body_count() - 1;
+  const Kinematics& kin = now.observation.kin;
+  if (so_far.phase == Phase::form) {
+    control.tip = script_force(scene.script, time, scene.time, kin.centre.col(last),
+                               kin.centre_velocity.col(last));
+  } else if (so_far.phase != Phase::free && so_far.first.contact) {
+    command_speeds(at, control.thigmotaxis);
+  }
+  if (scene.script.kind == ScriptSettings::Kind::curvature) {
+    move_rest_shape(model, scene, so_far.phase, now.state.q, time, control.rest_shape);
+  }
+}
+
+void all_contacts_law(const Situation& at, Control& control) {
+  paper_law(at, control);
+  if (control.thigmotaxis.empty() || at.so_far.phase == Phase::tighten) {
+    return;
+  }
+  const ThigmotaxisCommand first = control.thigmotaxis[0];
+  const Contact& last = control.thigmotaxis[1].contact;
+  for (const Contact& contact : at.now.observation.contact.contacts) {
+    if (contact.gap > at.scene.controller.contact_gap || same_segments(contact, first.contact) ||
+        same_segments(contact, last)) {
+      continue;
+    }
+    const double share = 1 - contact.tangent_a.dot(contact.tangent_b);
+    control.thigmotaxis.push_back({contact,
+                                   {share * first.speed.a, share * first.speed.b},
+                                   first.towards,
+                                   first.effort,
+                                   KnotEnd::neither});
+  }
+}
+
+void knot_speed_law(const Situation& at, Eigen::VectorXd& memory, Control& control) {
+  paper_law(at, control);
+  if (at.so_far.phase != Phase::slide || control.thigmotaxis.empty()) {
+    return;
+  }
+  const KnotSpeedSettings& loop = at.scene.controller.knot_speed;
+  const double h = at.scene.time.step;
+  const double arc = control.thigmotaxis[0].contact.arc_a;
+  if (memory.size() != 2) {
+    memory = Eigen::Vector2d(arc + loop.filter * loop.target, 1);
+  }
+  double& smooth = memory[0];
+  double& scale = memory[1];
+  smooth += (1 - std::exp(-h / loop.filter)) * (arc - smooth);
+  const double speed = (smooth - arc) / loop.filter;  // towards the head
+  scale = std::clamp(scale + h * loop.gain * (1 - speed / loop.target), 0.0, loop.most);
+  for (ThigmotaxisCommand& command : control.thigmotaxis) {
+    command.speed.a *= scale;
+    command.speed.b *= scale;
+  }
+}
+
+void named_law(const Situation& at, Eigen::VectorXd& memory, Control& control) {
+  switch (at.scene.controller.law) {
+    case LawName::paper:
+      return paper_law(at, control);
+    case LawName::all_contacts:
+      return all_contacts_law(at, control);
+    case LawName::knot_speed:
+      return knot_speed_law(at, memory, control);
+    case LawName::own:
+      break;
+  }
+  throw std::invalid_argument(R"(controller.law = "own")"
+                              ": the law is of the C++ or Python program that runs the scene, and "
+                              "this one has none");
+}
+
+void check_control(const Model& model, const Control& control) {
+  check_torque(model, "rest_shape", control.rest_shape);
+  check_torque(model, "torque", control.torque.value);
+  check_torque(model, "torque's rate", control.torque.rate);
+  if (control.torque.rate.size() != control.torque.value.size()) {
+    throw std::invalid_argument("control: torque and its rate differ in length");
+  }
+  if ((control.torque.rate.array() < 0).any() || !(control.tip.rate >= 0)) {
+    throw std::invalid_argument("control: a rate is negative, which would feed what it damps");
+  }
+  if (!control.tip.value.allFinite() || !std::isfinite(control.tip.rate)) {
+    throw std::invalid_argument("control: the tip force is not finite");
+  }
+  const std::vector<ThigmotaxisCommand>& commands = control.thigmotaxis;
+  for (std::size_t i = 0; i < commands.size(); ++i) {
+    check_command(model, commands[i]);
+    for (std::size_t j = 0; j < i; ++j) {
+      if (commands[i].end == commands[j].end &&
+          (commands[i].end != KnotEnd::neither ||
+           same_segments(commands[i].contact, commands[j].contact))) {
+        throw std::invalid_argument(
+            fmt::format("control: two commands of thigmotaxis {}",
+                        commands[i].end == KnotEnd::neither
+                            ? fmt::format("at bodies {} and {}", commands[i].contact.body_a(),
+                                          commands[i].contact.body_b())
+                            : "at one end of the knot"));
+      }
+    }
+  }
+}
+
+}  // namespace hagfish

@@ -1,0 +1,251 @@
+#include "experiments/audit/audit_thigmotaxis.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "core/log/log_frame.hpp"
+#include "experiments/audit/row_force.hpp"
+
+namespace hagfish {
+namespace {
+
+/// Speeds of rows are met to 1e-8 of the largest in the step, some 10 cm/s (Ipopt).
+constexpr double ask_tolerance = 1e-5;  // cm/s
+constexpr double cap_tolerance = 1e-6;
+/// A slack of nothing but rounding has no scale of its own, cm/s.
+constexpr double slack_tolerance = 1e-9;
+
+/// The knot goes to the tail in this phase: both tangents turn.
+bool towards_tail(const Scene& scene, Phase phase) {
+  return phase == Phase::reverse ||
+         (phase == Phase::release && scene.controller.leave_by == BodyEnd::tail);
+}
+
+/// Commanded speeds of a phase: first t_a, first t_b, last t_a, last t_b, cm/s; nan without rows.
+Eigen::Vector4d commands(const Scene& scene, Phase phase) {
+  const ControllerSettings& c = scene.controller;
+  const auto four = [](const ThigmotaxisSpeeds& first, const ThigmotaxisSpeeds& last) {
+    return Eigen::Vector4d(first.a, first.b, last.a, last.b);
+  };
+  if (phase == Phase::form || phase == Phase::free) {
+    return Eigen::Vector4d::Constant(NAN);
+  }
+  if (phase == Phase::tighten) {
+    return four(c.tighten_head, c.tighten_tail);
+  }
+  return towards_tail(scene, phase) ? four(c.reverse_head, c.reverse_tail)
+                                    : four(c.slide_head, c.slide_tail);
+}
+
+}  // namespace
+
+ThigmotaxisAudit::ThigmotaxisAudit(const LogContents& log)
+    : log_(log),
+      table_(has_row_table(log.resolved.scene)),
+      lambda_(log.h5.rows("/thigmotaxis/lambda")),
+      command_(log.h5.rows("/thigmotaxis/command")),
+      speed_(log.h5.rows("/thigmotaxis/speed")),
+      spline_a_(log.h5.rows("/thigmotaxis/spline_a")),
+      spline_b_(log.h5.rows("/thigmotaxis/spline_b")),
+      body_a_(log.h5.rows("/thigmotaxis/body_a")),
+      body_b_(log.h5.rows("/thigmotaxis/body_b")),
+      cap_(log.h5.doubles("/thigmotaxis/cap")) {
+  if (!table_) {
+    return;
+  }
+  const auto integers = [&log](const char* name) {
+    return log.h5.integers(std::string("/eq6/") + name);
+  };
+  const auto doubles = [&log](const char* name) {
+    return log.h5.doubles(std::string("/eq6/") + name);
+  };
+  frame_ = integers("frame");
+  end_ = integers("end");
+  along_ = integers("along");
+  towards_ = integers("towards");
+  row_a_ = doubles("spline_a");
+  row_b_ = doubles("spline_b");
+  row_command_ = doubles("command");
+  row_cap_ = doubles("cap");
+  row_lambda_ = doubles("lambda");
+  row_speed_ = doubles("speed");
+  row_slack_ = doubles("slack");
+}
+
+ThigmotaxisAudit::Rows ThigmotaxisAudit::see(const AuditedFrame& frame, Rebuilt& rebuilt,
+                                             std::set<std::string>& shape) {
+  const Model& model = log_.model;
+  const Scene& scene = log_.resolved.scene;
+  const double cap_of_rows = cap_of_scene(frame, cap_[frame.index]);
+  std::vector<LoggedRow> rows;
+  if (table_) {
+    rows = rows_of_table(frame, rebuilt, shape);
+    see_commands(frame, rows, cap_of_rows, rebuilt);
+    see_ends(frame, rows, rebuilt);
+  } else {
+    rows = rows_at_ends(frame, rebuilt);
+    rebuilt.compare("/thigmotaxis/cap", cap_[frame.index], rows.empty() ? NAN : cap_of_rows);
+  }
+  Rows seen{Eigen::MatrixXd::Zero(model.nv(), 4), Eigen::VectorXd::Zero(model.nv())};
+  const std::string group = table_ ? "/eq6/" : "/thigmotaxis/";
+  for (const LoggedRow& r : rows) {
+    // Eq. 6: t_a' (ẋ_a - ẋ_b) >= v_a and t_b' (ẋ_b - ẋ_a) >= v_b.
+    const Contact contact = contact_of(model, frame.segments, r.spline_a, r.spline_b);
+    const Row row =
+        motion_row(model, r.along == 0 ? r.sense * contact.tangent_a : -r.sense * contact.tangent_b,
+                   r.spline_a, r.spline_b);
+    const double speed = row_velocity(row, frame.moved_velocity, frame.qdot_moved);
+    rebuilt.compare(group + "speed", r.speed, speed);
+    // A row below its cap is met, with a force exactly: at its command, or on the way to it.
+    const double asked =
+        std::min(r.command, row_velocity(row, frame.motion.centre_velocity, frame.state.qdot) +
+                                scene.controller.acceleration * scene.time.step);
+    if (r.lambda < 0) {
+      shape.insert(group + "lambda");
+    }
+    if (r.lambda < (1 - cap_tolerance) * r.cap) {
+      ask_miss_ = worse(ask_miss_, r.lambda > 0 ? std::abs(speed - asked) : asked - speed);
+    }
+    most_ = worse(most_, r.lambda == 0 ? 0 : r.lambda / r.cap);
+    const Eigen::VectorXd column = force_of(model, frame.kin, row, 1);
+    seen.force += r.lambda * column;
+    seen.bearing += r.lambda != 0 ? 1 : 0;
+    if (r.end == KnotEnd::neither) {
+      seen.others = true;
+    } else {
+      seen.columns.col(r.place()) = column;
+    }
+  }
+  return seen;
+}
+
+std::vector<ThigmotaxisAudit::LoggedRow> ThigmotaxisAudit::rows_at_ends(const AuditedFrame& frame,
+                                                                        Rebuilt& rebuilt) const {
+  const Eigen::Index f = frame.index;
+  const Scene& scene = log_.resolved.scene;
+  const Eigen::Vector4d commanded = commands(scene, frame.phase);
+  std::vector<LoggedRow> rows;
+  for (const KnotEnd end : {KnotEnd::first, KnotEnd::last}) {
+    const auto place = static_cast<Eigen::Index>(end);
+    const double a = spline_a_(f, place);
+    const double b = spline_b_(f, place);
+    const bool there =
+        on_spline(log_.model, a) && on_spline(log_.model, b) && !std::isnan(commanded[0]);
+    const auto nearest = [there](double s) { return there ? std::floor(s + 0.5) : -1; };
+    rebuilt.compare("/thigmotaxis/body_a", body_a_(f, place), nearest(a));
+    rebuilt.compare("/thigmotaxis/body_b", body_b_(f, place), nearest(b));
+    for (const int along : {0, 1}) {
+      const Eigen::Index k = 2 * place + along;
+      rebuilt.compare("/thigmotaxis/command", command_(f, k), there ? commanded[k] : NAN);
+      if (!there) {
+        rebuilt.compare("/thigmotaxis/speed", speed_(f, k), NAN);
+        rebuilt.compare("/thigmotaxis/lambda", lambda_(f, k), 0);
+        continue;
+      }
+      rows.push_back({end, along, towards_tail(scene, frame.phase) ? -1.0 : 1.0, a, b, commanded[k],
+                      cap_[f], lambda_(f, k), speed_(f, k)});
+    }
+  }
+  return rows;
+}
+
+std::vector<ThigmotaxisAudit::LoggedRow> ThigmotaxisAudit::rows_of_table(
+    const AuditedFrame& frame, Rebuilt& rebuilt, std::set<std::string>& shape) {
+  std::vector<LoggedRow> rows;
+  for (; next_row_ < frame_.size() && frame_[next_row_] == frame.index; ++next_row_) {
+    const std::size_t i = next_row_;
+    if (!on_spline(log_.model, row_a_[i]) || !on_spline(log_.model, row_b_[i]) ||
+        !std::isfinite(row_command_[i]) || std::abs(towards_[i]) != 1) {
+      shape.insert("/eq6");
+      continue;
+    }
+    rows.push_back({static_cast<KnotEnd>(end_[i]), static_cast<int>(along_[i]),
+                    static_cast<double>(towards_[i]), row_a_[i], row_b_[i], row_command_[i],
+                    row_cap_[i], row_lambda_[i], row_speed_[i]});
+    rebuilt.compare("/eq6/slack", row_slack_[i], std::max(0.0, row_command_[i] - row_speed_[i]),
+                    slack_tolerance);
+  }
+  // Rows of frames that come later, or never.
+  if (next_row_ < frame_.size() &&
+      (frame_[next_row_] < frame.index || frame.index + 1 == log_.q.rows())) {
+    shape.insert("/eq6/frame");
+  }
+  return rows;
+}
+
+void ThigmotaxisAudit::see_commands(const AuditedFrame& frame, const std::vector<LoggedRow>& rows,
+                                    double cap, Rebuilt& rebuilt) const {
+  const Scene& scene = log_.resolved.scene;
+  if (scene.controller.law == LawName::own) {
+    return;
+  }
+  const bool scaled = scene.controller.law == LawName::knot_speed && frame.phase == Phase::slide;
+  const Eigen::Vector4d commanded = commands(scene, frame.phase);
+  std::optional<double> scale;  // the same of all rows
+  for (const LoggedRow& r : rows) {
+    double wanted = commanded[r.end == KnotEnd::neither ? r.along : r.place()];
+    if (r.end == KnotEnd::neither) {
+      const Contact contact =
+          contact_of(log_.model, frame.observation.segments, r.spline_a, r.spline_b);
+      wanted *= 1 - contact.tangent_a.dot(contact.tangent_b);
+    }
+    if (scaled && wanted != 0) {
+      scale = scale.value_or(std::clamp(r.command / wanted, 0.0, scene.controller.knot_speed.most));
+      wanted *= *scale;
+    }
+    rebuilt.compare("/eq6/command", r.command, wanted);
+    rebuilt.compare("/eq6/cap", r.cap, cap);
+    rebuilt.compare_exactly("/eq6/towards", std::llround(r.sense),
+                            towards_tail(scene, frame.phase) ? -1 : 1);
+  }
+}
+
+void ThigmotaxisAudit::see_ends(const AuditedFrame& frame, const std::vector<LoggedRow>& rows,
+                                Rebuilt& rebuilt) const {
+  const Eigen::Index f = frame.index;
+  const bool own = log_.resolved.scene.controller.law == LawName::own;
+  const bool commanded = !std::isnan(commands(log_.resolved.scene, frame.phase)[0]);
+  double cap = NAN;
+  for (const LoggedRow& r : rows) {
+    cap = r.end == KnotEnd::neither ? cap : r.cap;
+  }
+  rebuilt.compare("/thigmotaxis/cap", cap_[f], cap);
+  for (Eigen::Index k = 0; k < 4; ++k) {
+    const auto row = std::ranges::find_if(
+        rows, [k](const LoggedRow& r) { return r.end != KnotEnd::neither && r.place() == k; });
+    const bool there = row != rows.end();
+    const auto nearest = [there](double s) { return there ? std::floor(s + 0.5) : -1; };
+    rebuilt.compare("/thigmotaxis/body_a", body_a_(f, k / 2), nearest(there ? row->spline_a : NAN));
+    rebuilt.compare("/thigmotaxis/body_b", body_b_(f, k / 2), nearest(there ? row->spline_b : NAN));
+    rebuilt.compare("/thigmotaxis/command", command_(f, k), there ? row->command : NAN);
+    rebuilt.compare("/thigmotaxis/speed", speed_(f, k), there ? row->speed : NAN);
+    rebuilt.compare("/thigmotaxis/lambda", lambda_(f, k), there ? row->lambda : 0);
+    if (!own) {
+      const bool wanted = commanded && on_spline(log_.model, spline_a_(f, k / 2));
+      rebuilt.compare_exactly("/eq6/end", there ? 1 : 0, wanted ? 1 : 0);
+    }
+  }
+}
+
+double ThigmotaxisAudit::cap_of_scene(const AuditedFrame& frame, double logged) {
+  const Scene& scene = log_.resolved.scene;
+  if (frame.phase != Phase::pull) {
+    pull_from_ = log_.time[frame.index];
+    return scene.controller.cap;
+  }
+  // The pull began after the last frame before it; of a log that begins with it, at any time.
+  const Ramp& cap = scene.food.cap;
+  const double frame_time = scene.time.frame_interval;
+  const bool known = !std::isnan(pull_from_);
+  const double since = known ? log_.time[frame.index] - pull_from_ : INFINITY;
+  return std::clamp(logged, cap.at(known ? since - frame_time : 0), cap.at(since));
+}
+
+std::vector<Finding> ThigmotaxisAudit::findings() const {
+  return {judged_over({"thigmotaxis as asked", ask_miss_, ask_tolerance, "cm/s"},
+                      "rows below their cap"),
+          judged_over({"thigmotaxis cap", most_, 1 + cap_tolerance, "of controller.cap"},
+                      "largest multiplier")};
+}
+
+}  // namespace hagfish

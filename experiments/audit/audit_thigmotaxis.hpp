@@ -1,0 +1,67 @@
+// The part of an audit that rebuilds the rows of Eq. 6: what they were asked for, what they gave
+// and with what force.
+#pragma once
+
+#include <cmath>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "experiments/audit/audited_frame.hpp"
+#include "experiments/audit/rebuilt.hpp"
+
+namespace hagfish {
+
+class ThigmotaxisAudit {
+ public:
+  /// The log is referred to.
+  explicit ThigmotaxisAudit(const LogContents& log);
+
+  /// What the rows of a frame come to.
+  struct Rows {
+    Eigen::MatrixXd columns;   ///< C' of those at the knot's ends, nv x 4, zero where there is none
+    Eigen::VectorXd force;     ///< of all, generalised, nv
+    std::int64_t bearing = 0;  ///< how many have a force
+    bool others = false;       ///< some are at other contacts
+  };
+  /// Frames in their order. Datasets go to `rebuilt`; those with a force that pulls to `shape`.
+  Rows see(const AuditedFrame& frame, Rebuilt& rebuilt, std::set<std::string>& shape);
+
+  /// "thigmotaxis as asked" and "thigmotaxis cap".
+  std::vector<Finding> findings() const;
+
+ private:
+  /// A row of Eq. 6 as the log has it.
+  struct LoggedRow {
+    KnotEnd end = KnotEnd::neither;
+    int along = 0;     ///< 0 t_a, 1 t_b
+    double sense = 1;  ///< of both tangents
+    double spline_a = 0, spline_b = 0, command = 0, cap = 0, lambda = 0, speed = 0;
+    int place() const { return 2 * static_cast<int>(end) + along; }
+  };
+  /// The rows of a frame, from /thigmotaxis by the paper's law, else from /eq6.
+  std::vector<LoggedRow> rows_at_ends(const AuditedFrame& frame, Rebuilt& rebuilt) const;
+  std::vector<LoggedRow> rows_of_table(const AuditedFrame& frame, Rebuilt& rebuilt,
+                                       std::set<std::string>& shape);
+  /// What the scene's law has the rows of a frame ask for.
+  void see_commands(const AuditedFrame& frame, const std::vector<LoggedRow>& rows, double cap,
+                    Rebuilt& rebuilt) const;
+  /// /thigmotaxis against the rows at the knot's ends.
+  void see_ends(const AuditedFrame& frame, const std::vector<LoggedRow>& rows,
+                Rebuilt& rebuilt) const;
+  /// The bound on the forces of rows that the scene has, dyn: in the phase `pull`, in which it
+  /// rises, the one nearest to what was logged.
+  double cap_of_scene(const AuditedFrame& frame, double logged);
+
+  const LogContents& log_;
+  bool table_;  ///< the rows are those of /eq6
+  Hdf5Reader::Rows lambda_, command_, speed_, spline_a_, spline_b_, body_a_, body_b_;
+  std::vector<double> cap_;
+  std::vector<std::int64_t> frame_, end_, along_, towards_;  ///< /eq6
+  std::vector<double> row_a_, row_b_, row_command_, row_cap_, row_lambda_, row_speed_, row_slack_;
+  std::size_t next_row_ = 0;  ///< first one of frames not seen yet
+  double pull_from_ = NAN;    ///< time of the last frame before the pull, s
+  double ask_miss_ = 0, most_ = 0;
+};
+
+}  // namespace hagfish

@@ -1,0 +1,33 @@
+#include "experiments/audit/row_force.hpp"
+
+#include <cmath>
+
+namespace hagfish {
+
+Row motion_row(const Model& model, const Eigen::Vector3d& direction, double a, double b) {
+  const auto mix = [&model](double parameter) {
+    const auto [segment, t] = spline_point(model, parameter);
+    return spline_mix(segment, t, model.body_count());
+  };
+  Row row;
+  row.direction = direction;
+  row.a = mix(a);
+  row.b = std::isnan(b) ? SplineMix{} : mix(b);
+  return row;
+}
+
+Contact contact_of(const Model& model, const std::vector<SplineSegment>& segments, double a,
+                   double b) {
+  const auto [segment_a, t_a] = spline_point(model, a);
+  const auto [segment_b, t_b] = spline_point(model, b);
+  return contact_at(segments, segment_a, t_a, segment_b, t_b);
+}
+
+Eigen::VectorXd force_of(const Model& model, const Kinematics& kin, const Row& row, double lambda) {
+  Matrix6Xd wrench = Matrix6Xd::Zero(6, model.body_count());
+  Eigen::VectorXd joint = Eigen::VectorXd::Zero(model.nv());
+  add_row(row, kin, lambda, wrench, joint);
+  return generalised_force(model, kin, wrench);
+}
+
+}  // namespace hagfish

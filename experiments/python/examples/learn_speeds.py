@@ -1,0 +1,62 @@
+"""Learns the four speeds of Eq. 6, at the first and the last contact, by random search: far at little effort.
+
+    PYTHONPATH=build/release/experiments/python python3 experiments/python/examples/learn_speeds.py --tries 60
+"""
+
+import argparse
+
+import numpy as np
+
+import hagfish
+
+SECONDS = 1.5  # of each try
+EFFORT = 5e-3  # cm that 1 dyn cm s of effort costs: |f_thigmo| averaged along the body, over time
+LARGEST = 5.0  # cm/s
+
+
+class Gait:
+    """A law that slides at four speeds, cm/s, and notes its effort."""
+
+    def __init__(self, speeds: np.ndarray) -> None:
+        self.speeds = speeds
+        self.effort = 0.0  # dyn cm s
+
+    def __call__(self, sim: hagfish.Simulation, control: hagfish.Control) -> None:
+        for command, (a, b) in zip(control.commands, self.speeds.reshape(2, 2), strict=True):
+            command.a, command.b = float(a), float(b)
+        self.effort += sim.h * np.abs(sim.forces["thigmotaxis"][6:]).mean()
+
+
+def score(tied: hagfish.Simulation, speeds: np.ndarray) -> tuple[float, float]:
+    """What a gait comes to from where the knot is tied, and how far it slides; both in cm."""
+    gait = Gait(speeds)
+    sim = tied.copy(law=gait)
+    try:
+        sim.run(until=tied.time + SECONDS)
+    except hagfish.StepError:  # the knot was lost
+        return -np.inf, 0.0
+    if sim.phase != "slide":  # it was slid all the way, or came off
+        return -np.inf, 0.0
+    slid = tied.head_end - sim.head_end
+    return slid - EFFORT * gait.effort, slid
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--tries", type=int, default=60)
+    tries = parser.parse_args().tries
+    random = np.random.default_rng(1)
+    tied = hagfish.Simulation("table1", set={"time.step": 0.005}).run(until="tighten")
+    best = np.full(4, 2.0)  # as the paper's
+    most, slid = score(tied, best)
+    print(f"{'start':>5}: {most:5.2f} cm, slid {slid:.2f} cm at {best.round(2)} cm/s")
+    for k in range(1, tries + 1):
+        speeds = np.clip(best + random.normal(0, 0.5, 4), 0, LARGEST)
+        reached, slid = score(tied, speeds)
+        if reached > most:
+            most, best = reached, speeds
+            print(f"{k:5}: {most:5.2f} cm, slid {slid:.2f} cm at {best.round(2)} cm/s")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,33 @@
+"""Hagfish that tie themselves into knots, simulated: runs, control laws of your own, and logs.
+
+    import hagfish
+    sim = hagfish.Simulation("table1", set={"time.step": 0.005})
+    sim.run(until="form")
+    print(sim.knot, sim.time)
+"""
+
+from ._core import (
+    Command,
+    Contact,
+    Control,
+    FileError,
+    InputError,
+    Simulation,
+    StepError,
+    revision,
+    scenes,
+)
+from .log import Log
+
+__all__ = [
+    "Command",
+    "Contact",
+    "Control",
+    "FileError",
+    "InputError",
+    "Log",
+    "Simulation",
+    "StepError",
+    "revision",
+    "scenes",
+]

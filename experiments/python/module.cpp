@@ -1,0 +1,35 @@
+// The compiled part of `import hagfish`.
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include "core/input/builtin_files.hpp"
+#include "core/input/input_error.hpp"
+#include "core/log/build_info.hpp"
+#include "core/log/hdf5_error.hpp"
+#include "core/step/outcome.hpp"
+#include "experiments/python/python_control.hpp"
+#include "experiments/python/python_simulation.hpp"
+
+namespace py = pybind11;
+
+PYBIND11_MODULE(_core, module) {
+  using namespace hagfish;
+  py::register_exception<InputError>(module, "InputError", PyExc_ValueError);
+  py::register_exception<FileError>(module, "FileError", PyExc_OSError);
+  // Kept for the life of the interpreter, as pybind11 keeps its own exceptions.
+  static const py::handle step_error =
+      py::exception<StepError>(module, "StepError", PyExc_RuntimeError).release();
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown) std::rethrow_exception(thrown);
+    } catch (const StepError& error) {
+      py::object raised = step_error(error.what());
+      raised.attr("outcome") = outcome_name(error.outcome());
+      PyErr_SetObject(step_error.ptr(), raised.ptr());
+    }
+  });
+  declare_controls(module);
+  declare_simulation(module);
+  module.def("scenes", &builtin_scene_names, "Names of the built-in scenes.");
+  module.attr("revision") = build_revision();
+}

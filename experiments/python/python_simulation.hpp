@@ -1,0 +1,78 @@
+// A run as Python sees it.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <chrono>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/input/scene_reader.hpp"
+#include "core/log/log_writer.hpp"
+#include "core/run/simulation.hpp"
+#include "experiments/python/python_control.hpp"
+
+namespace hagfish {
+
+/// How a run is begun: as `hagfish run` takes it.
+struct PythonRun {
+  std::string scene;             ///< a built-in scene's name or a file
+  std::vector<std::string> set;  ///< KEY=VALUE overrides
+  std::string qp;                ///< QP back end
+  pybind11::object law;          ///< callable(simulation, control), or None
+  std::string log;               ///< to write; empty: none
+  bool force = false;            ///< replaces a log that is there
+  std::string command;           ///< as the log has it
+};
+
+class PythonSimulation {
+ public:
+  /// Throws InputError, FileError, std::invalid_argument.
+  explicit PythonSimulation(const PythonRun& run);
+  /// Goes on independently, without a log; by `law` where that is not None.
+  PythonSimulation(const PythonSimulation& other, const pybind11::object& law);
+  PythonSimulation(const PythonSimulation&) = delete;
+  PythonSimulation& operator=(const PythonSimulation&) = delete;
+
+  /// A step by the run's law. Throws StepError, FileError and what the law throws.
+  void step();
+  /// A step as `asked` says, which a log must expect: the scene's law is then "own".
+  void step_by(PythonControl& asked);
+  /// Steps while `wanted`, asked without the GIL, says so and the scene is not over; a signal to
+  /// Python ends them with what it raises.
+  void run_while(const std::function<bool()>& wanted);
+  /// Ends the log, "complete" where the scene is over.
+  void close();
+  bool over() const { return finished(sim, resolved.scene); }
+  double time() const { return time_of(sim, resolved.scene); }
+
+  ResolvedScene resolved;
+  const Model model;
+  Simulation sim;
+  StepRecord record;
+  // What `sim` has, which there moves about: storage of views.
+  Eigen::VectorXd q, qdot;
+  Eigen::Matrix3Xd position, velocity;
+  PythonControl control;  ///< of the record
+
+ private:
+  void hold_views();
+  void take_law();
+  void take();
+  void show();
+  void ask_python();
+
+  Scene scene_;  ///< the resolved one, but for a law that a step brings
+  pybind11::object law_;
+  std::optional<LogWriter> log_;
+  bool closed_ = false;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  std::string failure_;  ///< of the last step
+};
+
+/// Declares Simulation in `module`.
+void declare_simulation(pybind11::module_& module);
+
+}  // namespace hagfish

@@ -1,0 +1,178 @@
+// Control laws: what they ask for, by hand; laws and controls that do not fit are refused.
+#include "core/run/control_law.hpp"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "tests/support/controller_fixture.hpp"
+#include "tests/support/errors.hpp"
+
+namespace hagfish {
+namespace {
+
+class ControlLaws : public ControllerTest {
+ protected:
+  ControlLaws() {
+    start_in(Phase::slide);
+    scene.controller.slide_head = {2, 3};
+    scene.controller.slide_tail = {4, 5};
+  }
+  /// Touching, with tangents at an angle (rad).
+  static Contact crossing(double arc_a, double arc_b, double angle, double gap = 0) {
+    Contact c = contact(arc_a, arc_b, gap);
+    c.tangent_b = {0, std::cos(angle), std::sin(angle)};  // tangent_a is along Y
+    return c;
+  }
+  std::string refusal() {
+    return error_of<std::invalid_argument>([&] { check_control(model, control); });
+  }
+  Control control;
+};
+
+TEST_F(ControlLaws, ThePaperCommandsTheEndsOfTheKnot) {
+  const Control c = step({contact(5, 20), contact(9, 30), contact(12, 25)});
+  ASSERT_EQ(c.thigmotaxis.size(), 2u);
+  EXPECT_EQ(c.thigmotaxis[0].end, KnotEnd::first);
+  EXPECT_EQ(c.thigmotaxis[0].contact.arc_a, 5);
+  EXPECT_EQ(c.thigmotaxis[1].end, KnotEnd::last);
+  EXPECT_EQ(c.thigmotaxis[1].contact.arc_b, 30);
+}
+
+TEST_F(ControlLaws, AllContactsAskWhatAKnotOfConstantShapeGives) {
+  scene.controller.law = LawName::all_contacts;
+  const double angle = 0.7;
+  const Control c = step({contact(5, 20), crossing(7, 22, angle), crossing(8, 23, angle, 0.06),
+                          contact(9, 30), crossing(12, 25, M_PI)});
+  ASSERT_EQ(c.thigmotaxis.size(), 4u);  // one of five does not touch
+  for (const std::size_t k : {std::size_t{2}, std::size_t{3}}) {
+    const ThigmotaxisCommand& other = c.thigmotaxis[k];
+    EXPECT_EQ(other.end, KnotEnd::neither);
+    // Both strands run along themselves at v: the left sides of Eq. 6 of that motion.
+    const Contact& at = other.contact;
+    for (const double v : {2.0, 3.0}) {
+      const Eigen::Vector3d apart = v * at.tangent_a - v * at.tangent_b;
+      const double left = v == 2 ? at.tangent_a.dot(apart) : at.tangent_b.dot(-apart);
+      EXPECT_NEAR(v == 2 ? other.speed.a : other.speed.b, left, 1e-12);
+    }
+  }
+  start_in(Phase::tighten);
+  EXPECT_EQ(step({contact(5, 20), crossing(7, 22, angle), contact(9, 30)}).thigmotaxis.size(), 2u);
+}
+
+/// A knot that slides at `share` of the speed that it is told settles at the target as the
+/// first-order loop does: s = 1/share + (1 - 1/share) exp(-gain share t).
+TEST_F(ControlLaws, KnotSpeedSettlesAtItsTarget) {
+  const double target = 2, share = 1.6;
+  scene.controller.law = LawName::knot_speed;
+  scene.controller.knot_speed = {target, 0.5, 0.01, 3};
+  scene.controller.release_at = 0.1;
+  double arc = 30;
+  double scale = 1;
+  for (int k = 0; k < 3000; ++k) {
+    const double t = now;
+    const Control c = step({contact(arc, 35)});
+    scale = c.thigmotaxis.at(0).speed.a / 2;
+    EXPECT_EQ(c.thigmotaxis.at(1).speed.b, 5 * scale);
+    // The filter lags by 10 ms, the command by a step.
+    const double wanted = 1 / share + (1 - 1 / share) * std::exp(-0.5 * share * t);
+    ASSERT_NEAR(scale, wanted, 0.006) << t;
+    arc -= share * scale * target * scene.time.step;
+  }
+  EXPECT_NEAR(scale, 1 / share, 0.003);
+  // A knot that does not move has all that there is, one that runs away nothing.
+  for (int k = 0; k < 4000; ++k) step({contact(arc, 35)});
+  EXPECT_EQ(step({contact(arc, 35)}).thigmotaxis.at(0).speed.a, 2 * 3);
+  for (int k = 0; k < 1200; ++k) step({contact(arc -= 0.01, 35)});
+  EXPECT_EQ(step({contact(arc, 35)}).thigmotaxis.at(0).speed.a, 0);
+}
+
+TEST_F(ControlLaws, AMemoryOfAnotherLawIsForgotten) {
+  scene.controller.law = LawName::knot_speed;
+  scene.controller.knot_speed = {2, 1, 0.1, 2};
+  state.memory = Eigen::VectorXd::Constant(1, 77);
+  step({contact(5, 30)});
+  ASSERT_EQ(state.memory.size(), 2);
+  EXPECT_NEAR(state.memory[1], 1, 0.01);
+}
+
+TEST_F(ControlLaws, TheRunsOwnHasAMemoryAndIsAskedForEachStep) {
+  scene.controller.law = LawName::own;
+  const ControlLaw own = [&](const Situation& at, Eigen::VectorXd& memory, Control& c) {
+    EXPECT_EQ(c.thigmotaxis.size(), 0u);
+    EXPECT_EQ(c.tip.value, Eigen::Vector3d::Zero());
+    EXPECT_TRUE(c.clamp_head);
+    memory.conservativeResize(memory.size() + 1);
+    memory[memory.size() - 1] = at.time;
+    c.torque.value = c.torque.rate = Eigen::VectorXd::Zero(at.model.nv());
+    c.torque.value[9] = 7;
+    c.rest_shape = c.torque.value / 70;
+  };
+  scene.active = {100, 1, 1, 1e6};
+  observation.contact.contacts = {contact(5, 30)};
+  for (const double time : {0.0, 0.002, 0.004}) {
+    ASSERT_TRUE(decide(model, scene, moment, time, state, control, own).ok());
+    EXPECT_EQ(control.torque.value[9], 7);
+    EXPECT_EQ(control.rest_shape[9], 0.1);
+    const ActiveTorque towards = active_torque(model, scene, moment.state, control.rest_shape);
+    EXPECT_EQ(control.active.value, towards.value);
+    EXPECT_GT(control.active.value[9], 0);
+  }
+  EXPECT_EQ(state.memory, Eigen::Vector3d(0, 0.002, 0.004));
+}
+
+TEST_F(ControlLaws, LawAndSceneMustAgree) {
+  const auto complaint_of = [&](const ControlLaw& own) {
+    return error_of<std::invalid_argument>(
+        [&] { static_cast<void>(decide(model, scene, moment, now, state, control, own)); });
+  };
+  observation.contact.contacts = {contact(5, 30)};
+  const ControlLaw own = [](const Situation&, Eigen::VectorXd&, Control&) {};
+  EXPECT_NE(complaint_of(own).find("controller.law must be \"own\""), std::string::npos);
+  scene.controller.law = LawName::own;
+  EXPECT_NE(complaint_of({}).find("this one has none"), std::string::npos);
+}
+
+TEST_F(ControlLaws, AControlThatIsNoneIsRefusedByName) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(refusal(), "no error");
+  const auto expect = [&](const char* part) {
+    EXPECT_NE(refusal().find(part), std::string::npos) << refusal();
+    control = {};
+  };
+  control.rest_shape.setZero(7);
+  expect("rest_shape has 7 numbers");
+  control.torque.value.setZero(model.nv());
+  expect("torque and its rate differ in length");
+  control.torque.value = control.torque.rate = Eigen::VectorXd::Unit(model.nv(), 3);
+  expect("torque acts on the root");
+  control.torque.value = control.torque.rate = nan * Eigen::VectorXd::Ones(model.nv());
+  expect("not finite");
+  control.torque.value = control.torque.rate = -Eigen::VectorXd::Unit(model.nv(), 8);
+  expect("rate is negative");
+  control.tip.rate = -1;
+  expect("rate is negative");
+  control.tip.value.x() = nan;
+  expect("tip force is not finite");
+  const Contact there = contact(5, 30);
+  control.thigmotaxis = {{there, {1, nan}}};
+  expect("speeds 1 and nan");
+  control.thigmotaxis = {{there, {1, 1}, BodyEnd::head, -0.5}};
+  expect("effort of -0.5");
+  control.thigmotaxis = {{there, {1, 1}}, {there, {2, 2}}};
+  expect("two commands of thigmotaxis at bodies 11 and 70");
+  control.thigmotaxis = {{there, {1, 1}, BodyEnd::head, 1, KnotEnd::last},
+                         {contact(7, 20), {2, 2}, BodyEnd::head, 1, KnotEnd::last}};
+  expect("at one end of the knot");
+  control.thigmotaxis = {{there, {1, 1}}};
+  control.thigmotaxis[0].contact.segment_b = model.body_count() - 1;
+  expect("not on the body");
+  // The knot's ends and another command may share a contact.
+  control.thigmotaxis = {{there, {1, 1}, BodyEnd::head, 1, KnotEnd::first},
+                         {there, {1, 1}, BodyEnd::head, 1, KnotEnd::last},
+                         {there, {1, 1}}};
+  EXPECT_EQ(refusal(), "no error");
+}
+
+}  // namespace
+}  // namespace hagfish

@@ -1,0 +1,194 @@
+"""Control laws in Python: what they ask for is what is done, logged and audited."""
+
+import hagfish
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose, assert_array_equal
+
+FAST = {"time.step": 0.01}
+
+
+@pytest.fixture(scope="session")
+def tied():
+    return hagfish.Simulation("table1", set=FAST).run(until="tighten")
+
+
+def test_the_papers_control_unchanged_is_the_papers_run(tmp_path, differences):
+    with hagfish.Simulation("table1", set=FAST, log=tmp_path / "paper.h5") as sim:
+        sim.run()
+    with hagfish.Simulation("table1", set=FAST, law=lambda s, c: None, log=tmp_path / "own.h5") as sim:
+        sim.run()
+    added = differences(tmp_path / "paper.h5", tmp_path / "own.h5")
+    assert {name.split("/")[0] for name in added} == {"control", "eq6", "steps"}
+    assert {name for name in added if name.startswith("steps")} == {
+        "steps/thigmotaxis_others",
+        "steps/thigmotaxis_others_slack",
+    }
+
+
+def test_everything_that_a_law_asks_for_is_logged_and_audited(tmp_path, verdicts):
+    amplitude = np.random.default_rng(7).normal(0, 50, 149)  # dyn cm; the springs have some hundreds
+    asked = []
+
+    def law(sim, control):
+        if sim.phase == "form":
+            return
+        torque = np.zeros(sim.nv)
+        torque[6:] = amplitude * np.sin(3 * sim.time)
+        control.torque = torque
+        control.torque_rate[6:] = 3.0  # dyn cm s
+        control.tip = (20, -30, 40)
+        control.tip_rate = 5.0
+        ends = [(c.contact.body_a, c.contact.body_b) for c in control.commands]
+        for contact in sim.contacts:
+            if contact.gap < 0.02 and (contact.body_a, contact.body_b) not in ends:
+                control.commands.append(hagfish.Command(contact, 0.7, 0.3, effort=0.5))
+        asked.append((torque, len(control.commands)))
+
+    log = tmp_path / "all.h5"
+    with hagfish.Simulation("table1", set={**FAST, "active.stiffness": 1.0}, law=law, log=log) as sim:
+        sim.run(until=lambda s: s.phase == "slide" and s.time > 12.5)
+        felt = sim.qdot.copy()
+        torque = sim.forces["active"]
+        assert_allclose(torque[6:], (asked[-1][0] - 3.0 * felt)[6:], rtol=0, atol=1e-9)
+        assert_array_equal(torque[:6], 0)
+    # Not run to its end, so that it has not slid.
+    assert verdicts(log) <= {"status", "slide", "unknot at end", "knot through time", "Eq. 6"}
+    frames = hagfish.Log(log)
+    rows = np.bincount(frames["eq6/frame"], minlength=len(frames.time))
+    assert rows.max() > 4 and set(frames["eq6/end"]) == {0, 1, 2}
+    others = frames["eq6/end"] == 2
+    assert_allclose(frames["eq6/cap"][others], 500)
+    assert set(frames["eq6/command"][others]) == {0.7, 0.3}
+    assert rows[frames["trajectory/time"].searchsorted(sim.time - 2 * sim.h)] == 2 * asked[-2][1]
+
+
+def test_a_rest_shape_bends_the_animal(tmp_path, verdicts):
+    stiff = {"stiffness": 1e5, "capacity": 1e6, "tone_time": 0.1, "relax_time": 1}
+    settings = {**FAST, "time.duration": 2, "clamp_head": False, "wall.present": False, "script.kind": "none"}
+    settings |= {f"active.{key}": value for key, value in stiff.items()}
+    wanted = 0.05  # rad
+
+    def bend(sim, control):
+        shape = np.zeros(sim.nv)
+        shape[6:] = [wanted if name.endswith("bend_y") else 0 for name in sim.dof_names[6:]]
+        control.clear()
+        control.clamp_head = False
+        control.rest_shape = shape
+
+    log = tmp_path / "bend.h5"
+    with hagfish.Simulation("table1", set=settings, law=bend, log=log) as sim:
+        sim.run()
+        bends = [k for k, name in enumerate(sim.dof_names) if name.endswith("bend_y")]
+        middle = sim.q[np.array(bends[10:-10]) + 1]
+    assert_allclose(middle, wanted, atol=0.02)  # not at rest yet
+    assert verdicts(log) <= {"knot held", "hand", "slide", "knot through time", "unknot at end", "Eq. 6"}
+
+
+def test_a_control_given_to_a_step_is_what_is_done():
+    sim = hagfish.Simulation("table1", set=FAST)
+    control = sim.control()
+    control.torque[10] = 50
+    control.tip = (0, 100, 0)
+    sim.step(control)
+    assert sim.forces["active"][10] == 50
+    assert_array_equal(sim.forces["tip"], (0, 100, 0))
+    assert sim.forces["head"].any()
+    control.clamp_head = False
+    sim.step(control)
+    assert not sim.forces["head"].any()
+    sim.step()  # by the scene again
+    assert sim.forces["active"][10] == 0
+    assert sim.forces["tip"][1] != 100
+
+
+def test_a_log_that_expects_the_papers_law_takes_no_other_control(tmp_path):
+    with hagfish.Simulation("table1", set=FAST, log=tmp_path / "paper.h5") as sim:
+        with pytest.raises(ValueError, match="controller.law"):
+            sim.step(sim.control())
+        sim.step()
+    own = {**FAST, "controller.law": "own"}
+    with hagfish.Simulation("table1", set=own, log=tmp_path / "own.h5") as sim:
+        sim.step(sim.control())
+        with pytest.raises(ValueError, match='controller.law = "own"'):
+            sim.step()
+
+
+def refused(law, tied):
+    sim = tied.copy(law=law)
+    q = sim.q.copy()
+    with pytest.raises(ValueError) as raised:
+        sim.step()
+    assert sim.steps == tied.steps
+    assert_array_equal(sim.q, q)
+    return str(raised.value)
+
+
+def test_a_control_that_is_none_is_refused_in_a_line(tied):
+    def root(sim, control):
+        control.torque[2] = 1
+
+    def nan(sim, control):
+        control.torque[20] = np.nan
+
+    def short(sim, control):
+        control.torque = np.zeros(3)
+
+    def damping(sim, control):
+        control.torque_rate[30] = -1
+
+    def twice(sim, control):
+        control.commands += control.commands
+
+    def effort(sim, control):
+        control.commands[0].effort = -1
+
+    assert "torque acts on the root" in refused(root, tied)
+    assert "not finite" in refused(nan, tied)
+    assert f"3 numbers, where the animal has {tied.nv} velocities" in refused(short, tied)
+    assert "rate is negative" in refused(damping, tied)
+    assert "two commands of thigmotaxis at one end of the knot" in refused(twice, tied)
+    assert "effort of -1" in refused(effort, tied)
+
+
+def test_what_a_law_raises_comes_through(tied):
+    class Own(Exception):
+        pass
+
+    def law(sim, control):
+        if sim.steps > tied.steps + 2:
+            raise Own("enough")
+
+    sim = tied.copy(law=law)
+    with pytest.raises(Own, match="enough"):
+        sim.run()
+    assert sim.steps == tied.steps + 3
+
+
+def test_a_laws_memory_is_as_it_was_where_a_step_fails(tied):
+    def law(sim, control):
+        sim.memory = np.append(sim.memory, 1.0)
+        if len(sim.memory) == 3:
+            control.torque[0] = 1
+
+    sim = tied.copy(law=law)
+    sim.step()
+    sim.step()
+    with pytest.raises(ValueError):
+        sim.step()
+    assert_array_equal(sim.memory, [1, 1])
+
+
+def test_the_program_refuses_a_law_that_it_does_not_have(tmp_path, program):
+    own = {**FAST, "controller.law": "own", "time.checkpoint_interval": 0.02}
+    log = tmp_path / "own.h5"
+    with hagfish.Simulation("table1", set=own, log=log) as sim:
+        for _ in range(5):
+            sim.step(sim.control())
+    line = 'controller.law = "own": the law is of the C++ or Python program that runs the scene'
+    scene = tmp_path / "own.toml"
+    scene.write_text(sim.scene)
+    assert program("run", scene, "--out", tmp_path / "x.h5") == (2, f"hagfish: {line}")
+    assert program("run", "--resume", log) == (2, f"hagfish: {log}: {line}")
+    assert program("branch", log, "--out", tmp_path / "x.h5") == (2, f"hagfish: {log}: {line}")
+    assert not (tmp_path / "x.h5").exists()

@@ -1,0 +1,101 @@
+"""Logs in Python, the type stubs, the examples and the installed package."""
+
+import ast
+import inspect
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import hagfish
+import numpy as np
+import pytest
+
+ROOT = Path(__file__).parents[4]
+EXAMPLES = ROOT / "experiments/python/examples"
+
+
+@pytest.fixture(scope="session")
+def log(tmp_path_factory):
+    file = tmp_path_factory.mktemp("log") / "short.h5"
+    with hagfish.Simulation("table1", set={"time.step": 0.01, "time.duration": 0.5}, log=file) as sim:
+        sim.run()
+    return hagfish.Log(file)
+
+
+def test_a_logs_datasets_are_arrays(log):
+    assert log.time[-1] == pytest.approx(0.48)
+    assert log["trajectory/q"].shape == (len(log.time), 7 + log["model/dof_name"].size - 6)
+    assert log.phase == ["form"] * len(log.time)
+    assert "mean/forces/thigmotaxis" in log.names
+    with pytest.raises(ValueError, match="not a hagfish-log"):
+        import h5py
+
+        other = Path(log.file.filename).with_name("other.h5")
+        with h5py.File(other, "w") as file:
+            file.attrs["format"] = "else"
+        hagfish.Log(other)
+
+
+def test_xarrays_have_named_axes_and_units(log):
+    force = log.array("mean/forces/thigmotaxis")
+    assert force.dims == ("time", "nv")
+    assert force.sel(nv="j01_bend_y").shape == log.time.shape
+    assert "dyn" in force.attrs["unit"]
+    assert log.array("trajectory/q").sel(nq="root_x").shape == log.time.shape
+    assert log.array("trajectory/position").dims == ("time", "body", "axis_2")
+
+
+def declared(stub: ast.ClassDef):
+    return {node.name for node in stub.body if isinstance(node, ast.FunctionDef)} | {
+        node.target.id for node in stub.body if isinstance(node, ast.AnnAssign)
+    }
+
+
+def test_stubs_name_what_there_is():
+    stub = ast.parse((Path(hagfish.__file__).with_name("__init__.pyi")).read_text())
+    classes = {node.name: node for node in stub.body if isinstance(node, ast.ClassDef)}
+    functions = {node.name for node in stub.body if isinstance(node, ast.FunctionDef)}
+    assert set(hagfish.__all__) == classes.keys() | functions | {"Log", "revision"}
+    own = {"Simulation", "Control", "Command", "Contact"}
+    for name in own:
+        there = {n for n in vars(getattr(hagfish, name)) if not n.startswith("_")}
+        assert {n for n in declared(classes[name]) if not n.startswith("_")} == there, name
+
+
+def test_what_there_is_says_what_it_is():
+    for name in ("Simulation", "Control", "Command", "Contact"):
+        for member, value in vars(getattr(hagfish, name)).items():
+            plain = member in ("contact", "towards", "end", "bodies", "nq", "nv")
+            assert member.startswith("_") or plain or inspect.getdoc(value), f"{name}.{member}"
+
+
+def run(script, *arguments):
+    return subprocess.run(
+        [sys.executable, EXAMPLES / script, *map(str, arguments)], capture_output=True, text=True, check=True
+    ).stdout.splitlines()
+
+
+def test_the_example_of_a_law(tmp_path, verdicts):
+    told = run("own_controller.py", tmp_path / "strokes.h5")
+    assert "a 3_1" in told[0]
+    assert float(told[-1].split()[1]) > 5
+    assert verdicts(tmp_path / "strokes.h5") <= {"Eq. 6"}
+    assert len((EXAMPLES / "own_controller.py").read_text().splitlines()) <= 34
+
+
+def test_the_example_that_learns(tmp_path):
+    told = run("learn_speeds.py", "--tries", "6")
+    reached = [float(line.split(":")[1].split()[0]) for line in told]
+    assert reached == sorted(reached)
+
+
+def test_the_installed_package_is_whole(tmp_path):
+    build = Path(os.environ["HAGFISH_BUILD"])
+    subprocess.run(["cmake", "--install", build, "--prefix", tmp_path], check=True, capture_output=True)
+    (package,) = tmp_path.glob("lib/**/dist-packages")
+    code = "import hagfish; print(hagfish.__file__); hagfish.Simulation('table1').step()"
+    environment = os.environ | {"PYTHONPATH": str(package)}
+    told = subprocess.run([sys.executable, "-B", "-c", code], env=environment, capture_output=True, text=True, check=True)
+    assert told.stdout.strip() == str(package / "hagfish/__init__.py")
+    assert np.all([(package / "hagfish" / name).exists() for name in ("__init__.pyi", "py.typed", "log.py")])

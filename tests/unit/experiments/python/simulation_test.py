@@ -1,0 +1,136 @@
+"""Runs in Python: the same as the program's, arrays that show the present, errors by the same line."""
+
+import threading
+
+import hagfish
+import numpy as np
+import pytest
+from numpy.testing import assert_array_equal
+
+FAST = {"time.step": 0.01}
+
+
+@pytest.fixture(scope="session")
+def tied():
+    """Where the knot of the Table 1 scene begins to slide. To be copied."""
+    return hagfish.Simulation("table1", set=FAST).run(until="tighten")
+
+
+def test_a_run_is_that_of_the_program(tmp_path, program, differences):
+    with hagfish.Simulation("table1", set={"time.step": 0.005, "wall.neck": "0.07 L"}, log=tmp_path / "a.h5") as sim:
+        sim.run(until=2.0)  # in parts of each kind
+        sim.run(until=lambda s: s.knot == "3_1")
+        sim.run(until="tighten")
+        while not sim.finished:
+            sim.step()
+    set_too = ("--set", "time.step=0.005", "--set", "wall.neck=0.07 L")
+    assert program("run", "table1", *set_too, "--out", tmp_path / "b.h5", "--quiet") == (0, "")
+    assert differences(tmp_path / "a.h5", tmp_path / "b.h5") == []
+    with hagfish.Log(tmp_path / "a.h5") as a, hagfish.Log(tmp_path / "b.h5") as b:
+        assert a.attribute("scene") == b.attribute("scene")
+        assert a.status == b.status == "complete"
+
+
+def test_arrays_are_views_that_show_the_present(tmp_path):
+    log = tmp_path / "views.h5"
+    with hagfish.Simulation("table1", set=FAST, log=log) as sim:
+        q, qdot, position, force = sim.q, sim.qdot, sim.position, sim.forces
+        assert [a.shape for a in (q, qdot, position)] == [(sim.nq,), (sim.nv,), (sim.bodies, 3)]
+        assert not any(a.flags.owndata or a.flags.writeable for a in (q, qdot, position, *force.values()))
+        places = [a.ctypes.data for a in (q, qdot, position, force["active"], force["thigmotaxis"])]
+        seen = []
+        for _ in range(6):
+            seen.append((q.copy(), qdot.copy(), position.copy()))
+            sim.step()
+            assert_array_equal(sim.q, q)
+            now = (sim.q, sim.qdot, sim.position, sim.forces["active"], sim.forces["thigmotaxis"])
+            assert [a.ctypes.data for a in now] == places
+        tip = sim.forces["tip"].copy()
+        with pytest.raises(ValueError, match="read-only"):
+            q[0] = 1
+    frames = hagfish.Log(log)
+    assert_array_equal(frames["trajectory/q"], [s[0] for s in seen[::2]])  # frames are two steps apart
+    assert_array_equal(frames["trajectory/qdot"], [s[1] for s in seen[::2]])
+    assert_array_equal(frames["trajectory/position"], [s[2] for s in seen[::2]])
+    assert tip.any()
+
+
+def test_a_view_outlives_the_name_of_its_simulation():
+    sim = hagfish.Simulation("table1", set=FAST)
+    q = sim.q
+    rest = q.copy()
+    del sim
+    assert_array_equal(q, rest)
+
+
+def test_the_knot_its_ends_and_contacts(tied):
+    assert (tied.phase, tied.knot) == ("slide", "3_1")
+    first, last = tied.first_contact, tied.last_contact
+    assert (tied.head_end, tied.tail_end) == (first.arc_a, last.arc_b)
+    assert len(tied.contacts) > 3
+    for contact in tied.contacts:
+        a, b = (tied.position[round(s)] for s in (contact.spline_a, contact.spline_b))
+        assert (contact.body_a, contact.body_b) == (int(contact.spline_a + 0.5), int(contact.spline_b + 0.5))
+        assert (a - b) @ contact.normal > 0.9 * np.linalg.norm(a - b)
+        assert np.linalg.norm(contact.tangent_a) == pytest.approx(1)
+
+
+def test_copies_go_on_independently_and_alike(tied):
+    before = tied.q.copy()
+    one, two = tied.copy(), tied.copy()
+    one.run(until=tied.time + 0.1)
+    assert_array_equal(tied.q, before)
+    two.run(until=tied.time + 0.1)
+    assert_array_equal(one.q, two.q)
+
+
+def test_the_energy_ledger_closes(tied):
+    e = tied.energy
+    works = sum(value for name, value in e.items() if name.startswith("work_"))
+    left = e["kinetic"] + e["elastic"] + e["gravity"] - works + e["dissipated"] - e["integrator_error"]
+    assert abs(left) < 1e-9 * e["dissipated"]
+
+
+def test_bad_input_is_told_in_the_programs_line(program, tmp_path):
+    for key, value in (("time.step", -1), ("time.stp", 0.01), ("controller.law", "mine")):
+        with pytest.raises(hagfish.InputError) as raised:
+            hagfish.Simulation("table1", set={key: value})
+        out = ("--out", tmp_path / "none.h5")
+        assert program("run", "table1", "--set", f"{key}={value}", *out) == (2, f"hagfish: {raised.value}")
+    with pytest.raises(hagfish.InputError) as raised:
+        hagfish.Simulation("tabel1")
+    assert program("run", "tabel1") == (2, f"hagfish: {raised.value}")
+    log = tmp_path / "there.h5"
+    log.write_text("not to be replaced")
+    with pytest.raises(hagfish.FileError) as raised:
+        hagfish.Simulation("table1", log=log)
+    assert program("run", "table1", "--out", log) == (2, f"hagfish: {raised.value}")
+    with pytest.raises(ValueError, match="until = knot: form"):
+        hagfish.Simulation("table1").run(until="knot")
+
+
+def test_a_step_that_cannot_be_taken_leaves_the_run_as_it_was(tmp_path):
+    sim = hagfish.Simulation("table1", set={**FAST, "guard.speed": 1.0}, log=tmp_path / "fast.h5")
+    with pytest.raises(hagfish.StepError, match="guard.speed = 1 cm/s") as raised:
+        sim.run()
+    assert raised.value.outcome == "speed"
+    steps, q = sim.steps, sim.q.copy()
+    with pytest.raises(hagfish.StepError):
+        sim.step()
+    assert sim.steps == steps
+    assert_array_equal(sim.q, q)
+    sim.close()
+    with hagfish.Log(tmp_path / "fast.h5") as log:
+        assert log.status.startswith("failed: body ") and f"at step {steps} (t = " in log.status
+    with pytest.raises(ValueError, match="closed"):
+        sim.step()
+
+
+def test_other_threads_go_on_while_it_steps(tied):
+    sim = tied.copy()
+    worker = threading.Thread(target=sim.run)
+    worker.start()
+    seen = set()
+    while worker.is_alive():
+        seen.add(sim.steps)
+    assert seen - {tied.steps, sim.steps}  # on the way
