@@ -1,8 +1,8 @@
 #include "experiments/sweep/grid.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
+#include <cstdint>
 #include <numeric>
 
 #include "core/input/input_text.hpp"
@@ -85,14 +85,12 @@ std::string grid_identity(const Grid& grid) {
   const std::string first = scene_text(places);
   for (std::size_t a = 0; a < grid.axes.size(); ++a) {
     const GridAxis& axis = grid.axes[a];
-    text += fmt::format("# axis {}: {}\n", a + 1, fmt::join(axis.keys, ", "));
     for (places[a] = 0; places[a] < axis.size(); ++places[a]) {
-      text += "# ";
-      for (const std::vector<std::string>& of_key : axis.values) {
-        text += of_key[places[a]] + ", ";
+      text += fmt::format("# axis {}: ", a + 1);
+      for (std::size_t k = 0; k < axis.keys.size(); ++k) {
+        text += fmt::format("{} = {}, ", axis.keys[k], axis.values[k][places[a]]);
       }
-      if (!is_seed(axis)) text += fmt::format("scene {:016x}", checksum(scene_text(places)));
-      text += '\n';
+      text += is_seed(axis) ? "\n" : fmt::format("scene {:016x}\n", checksum(scene_text(places)));
     }
     places[a] = 0;
   }

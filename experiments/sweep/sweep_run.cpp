@@ -70,9 +70,10 @@ std::optional<SweepRun> run_for_summary(const ResolvedScene& resolved,
   KeptLog kept(log, resolved, model);
   RunFigures figures(model, scene);
   const double begin = thread_cpu_time();
-  double step_begin = begin;
   std::string outcome = outcome_name(Outcome::ok), message;
   Simulation sim = start(model, scene, sweep_qp);
+  double step_begin = thread_cpu_time();
+  double cpu_time = step_begin - begin;
   sim.solver.stop_when(
       [&] { return interrupted() || thread_cpu_time() - step_begin > step_cpu_limit; });
   StepRecord record;
@@ -81,6 +82,7 @@ std::optional<SweepRun> run_for_summary(const ResolvedScene& resolved,
     step_begin = thread_cpu_time();
     try {
       take_step(model, scene, sim, record);
+      cpu_time += thread_cpu_time() - step_begin;
     } catch (const StepError& error) {
       if (interrupted()) return std::nullopt;
       outcome = outcome_name(error.outcome());
@@ -96,7 +98,6 @@ std::optional<SweepRun> run_for_summary(const ResolvedScene& resolved,
     figures.see(record);
     kept.write(record, sim, step_begin - begin);
   }
-  const double cpu_time = thread_cpu_time() - begin;
   const std::string at = fmt::format("{} at step {}", message, sim.step);
   kept.finish(message.empty() ? "complete" : "failed: " + at, sim);
   return SweepRun{figures.summary(outcome, message.empty() ? "" : at), cpu_time};
