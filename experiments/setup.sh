@@ -16,8 +16,11 @@ packages=(
   python3 python3-h5py python3-matplotlib               # figures
   libjs-three node-d3                                   # replays in a browser
   ffmpeg                                                # films
-  parallel                                              # sweeps
+  parallel                                              # jobs of studies that are no grids
 )
+if [[ -n ${HAGFISH_CLUSTER-} ]]; then
+  packages+=(snakemake slurmctld slurmd slurm-client munge time) # sweeps on a cluster, and a cluster to try them on
+fi
 
 missing=()
 for package in "${packages[@]}"; do
