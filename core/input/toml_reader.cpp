@@ -8,6 +8,7 @@
 #include <map>
 #include <numbers>
 #include <sstream>
+#include <tuple>
 #include <utility>
 
 #include "core/input/toml_document.hpp"
@@ -325,11 +326,16 @@ void TableReader::values(std::string_view key, std::vector<std::string>& value) 
 }
 
 std::vector<std::string> TableReader::keys() const {
-  std::vector<std::string> names;
+  using Place = std::tuple<std::uint_least32_t, std::uint_least32_t, std::string>;
+  std::vector<Place> places;
   if (impl_->table) {
-    for (const auto& entry : impl_->table->as_table()) names.push_back(entry.first);
+    for (const auto& [key, value] : impl_->table->as_table()) {
+      places.emplace_back(value.location().line(), value.location().column(), key);
+    }
   }
-  std::ranges::sort(names);
+  std::ranges::sort(places);
+  std::vector<std::string> names;
+  for (const Place& place : places) names.push_back(std::get<std::string>(place));
   return names;
 }
 

@@ -74,7 +74,7 @@ class TableReader {
   /// An array of one or more values of any kind, each as text that an override takes: numbers as
   /// their shortest text, strings bare, arrays of all these in brackets.
   void values(std::string_view key, std::vector<std::string>& value);
-  /// Keys of this table, sorted.
+  /// Keys of this table, in the order in which the file has their values.
   std::vector<std::string> keys() const;
   /// An angle in rad, read from NAME_deg or NAME_rad; `range` is in degrees.
   void angle(std::string_view name, double& value, const Range& range);

@@ -11,12 +11,14 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from matplotlib.colors import LogNorm, Normalize
 
 import plots
 from script import run_script
-from sweep_columns import FIGURES, SweepTable, read_sweep
+from sweep_columns import SweepTable, read_sweep
 
 SEED = "start.seed"
+PASSED = "share of runs that come to their end and meet all that is expected"
 MAPPED = ["slide_distance_cm", "sliding_force_dyn", "work_thigmotaxis_erg", "eq6_percent", "penetration_cm"]
 MOST_TICKS = 8
 MOST_COLUMNS = 6  # maps side by side: places of the third axis
@@ -46,8 +48,7 @@ def mapped(values: np.ndarray, row: np.ndarray, column: np.ndarray, chosen: np.n
 
 def draw_map(axes: Any, values: np.ndarray, names: tuple[list[str], list[str]], keys: tuple[str, str], limits: tuple[float, float]) -> Any:
     low, high = limits
-    log = low > 0 and high / low > LOG_RATIO
-    scale = plots.plt.matplotlib.colors.LogNorm(low, high) if log else plots.plt.Normalize(low, high if high > low else low + 1)
+    scale = LogNorm(low, high) if 0 < LOG_RATIO * low < high else Normalize(low, high if high > low else low + 1)
     image = axes.imshow(values, norm=scale, origin="lower", aspect="auto", cmap="viridis", interpolation="nearest")
     axes.set_facecolor(plots.GRID)
     axes.grid(False)
@@ -75,22 +76,22 @@ def draw_maps(table: SweepTable) -> list[str]:
     place = [np.array([own.index(value) for value in axes[key]]) for key, own in zip(keys, names)]
     place += [np.zeros(len(table.passed), dtype=int)] * (3 - len(keys))
     keys += [""] * (3 - len(keys))
-    measures = {"share of runs that pass": table.passed.astype(float)}
-    measures |= {f"{FIGURES[name][1]}, {FIGURES[name][0]}": table.figures[name] for name in MAPPED
-                 if np.isfinite(table.figures[name]).any()}
+    measures = {PASSED: table.passed.astype(float)}
+    measures |= {name: np.where(table.figures[name] == 0, np.nan, table.figures[name]) for name in MAPPED}
     images, shown = [], min(len(names[2]), MOST_COLUMNS)
     for title, values in measures.items():
-        maps = [mapped(values, place[0], place[1], place[2] == k, values is measures["share of runs that pass"])
-                for k in range(shown)]
+        if not np.isfinite(values).any():
+            continue
+        maps = [mapped(values, place[0], place[1], place[2] == k, title == PASSED) for k in range(shown)]
         known = np.concatenate([m[np.isfinite(m)] for m in maps])
-        limits = (0.0, 1.0) if title.startswith("share") else (float(known.min()), float(known.max()))
+        limits = (0.0, 1.0) if title == PASSED else (float(known.min()), float(known.max()))
         titles = [f"{keys[2]} = {short(name)}" if keys[2] else "" for name in names[2][:shown]]
         figure, panels = plots.panels(1, shown, (1.6 + 2.9 * shown, 3.2), titles, sharey=True)
         for panel, own in zip(panels, maps):
             image = draw_map(panel, own, (names[0], names[1]), (keys[0], keys[1]), limits)
             panel.label_outer()
         figure.colorbar(image, ax=list(panels))
-        figure.suptitle(title if title.startswith("share") else f"{title} (median)", fontsize=9.5)
+        figure.suptitle(title if title == PASSED else f"{title}, median", fontsize=9.5)
         buffer = io.BytesIO()
         figure.savefig(buffer, format="png", dpi=110)
         plots.plt.close(figure)
@@ -116,7 +117,7 @@ def write_sweep_page(table: SweepTable, out: Path) -> None:
 td, th {{ text-align: left; padding: .2em .8em; border-bottom: 1px solid #ddd }} img {{ max-width: 100% }}</style></head><body>
 <h1>Sweep of {cells} runs</h1>
 <p>{int(table.passed.sum())} came to their end and meet all that their scenes expect. Maps are over the first two axes, a panel for
-each place of the third, of all runs there; grey where none has the figure.</p>
+each place of the third, of all runs there; grey where none has the figure, or all have 0.</p>
 <table><tr><th>setting</th><th>values</th></tr>{settings}</table>
 {counts("outcome", stopped)}{counts("came to its end, but does not meet", unmet) if unmet else ""}{images}</body></html>
 """

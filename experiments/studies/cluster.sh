@@ -8,7 +8,7 @@ set -euo pipefail
 export HAGFISH_CLUSTER=1 # has setup.sh install Snakemake and Slurm
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 source "$root/experiments/cluster/one_node_slurm.sh"
-grid=$root/experiments/studies/grids/cluster.toml
+grid=$grids/cluster.toml
 
 # Sockets have short names.
 slurm=$(mktemp -d)

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "core/input/input_text.hpp"
 #include "core/input/toml_reader.hpp"
@@ -38,21 +37,26 @@ std::vector<std::string> read_range(TableReader& table) {
   return values;
 }
 
-/// Lists and ranges of `table` and the tables in it, by dotted key: "model.bodies" may stand in
-/// quotes or not.
-void read_values(TableReader& table, const std::string& path,
-                 std::map<std::string, std::vector<std::string>>& found) {
+/// Adds lists and ranges of `table` and the tables in it to `axis`, by dotted key: "model.bodies"
+/// may stand in quotes or not.
+void read_values(TableReader& table, const std::string& path, GridAxis& axis) {
+  const auto add = [&axis](const std::string& key, const std::vector<std::string>& values) {
+    axis.keys.push_back(key);
+    axis.values.push_back(values);
+  };
   for (const std::string& key : table.keys()) {
     const std::string full = path + (path.empty() ? "" : ".") + key;
     if (!table.is_table(key)) {
-      table.values(key, found[full]);
+      std::vector<std::string> values;
+      table.values(key, values);
+      add(full, values);
       continue;
     }
     table.table(key, [&](TableReader& inner) {
       if (inner.has("count")) {
-        found[full] = read_range(inner);
+        add(full, read_range(inner));
       } else {
-        read_values(inner, full, found);
+        read_values(inner, full, axis);
       }
     });
   }
@@ -60,15 +64,13 @@ void read_values(TableReader& table, const std::string& path,
 
 /// Without keys where the table has none.
 GridAxis read_axis(TableReader& table) {
-  std::map<std::string, std::vector<std::string>> found;
-  read_values(table, "", found);
   GridAxis axis;
-  for (const auto& [key, values] : found) {
-    axis.keys.push_back(key);
-    axis.values.push_back(values);
-    if (values.size() != axis.size()) {
-      table.fail(key, fmt::format("has {} values, {} has {}: keys of one axis change together",
-                                  values.size(), axis.keys.front(), axis.size()));
+  read_values(table, "", axis);
+  for (std::size_t k = 0; k < axis.keys.size(); ++k) {
+    if (const std::size_t count = axis.values[k].size(); count != axis.size()) {
+      table.fail(axis.keys[k],
+                 fmt::format("has {} values, {} has {}: keys of one axis change together", count,
+                             axis.keys.front(), axis.size()));
     }
   }
   return axis;
