@@ -87,22 +87,23 @@ bool overlap(const std::string& a, const std::string& b) {
   return x.starts_with(y) || y.starts_with(x);
 }
 
-void check_keys(const TableReader& root, const Grid& grid) {
+/// Each key stands once. The axis of seeds, where there is one, is the last.
+void check_keys(const TableReader& root, const Grid& grid, bool has_seeds) {
   std::vector<std::pair<std::string, std::string>> seen;  // key, and where it stands
   for (const std::string& assignment : grid.set) {
     seen.emplace_back(parse_override(assignment).key, "set");
   }
   for (std::size_t a = 0; a < grid.axes.size(); ++a) {
-    const std::string place = fmt::format("axis {}", a + 1);
+    const bool seeds = has_seeds && a + 1 == grid.axes.size();
     for (const std::string& key : grid.axes[a].keys) {
       for (const auto& [other, where] : seen) {
-        if (overlap(key, other)) {
-          root.fail_element("axis", a,
-                            fmt::format("{} is set by {} too", key,
-                                        other == key ? where : other + " of " + where));
-        }
+        if (!overlap(key, other)) continue;
+        const std::string why =
+            fmt::format("{} is set by {} too", key, other == key ? where : other + " of " + where);
+        if (seeds) root.fail("seeds", why);
+        root.fail_element("axis", a, why);
       }
-      seen.emplace_back(key, place);
+      seen.emplace_back(key, fmt::format("axis {}", a + 1));
     }
   }
 }
@@ -163,7 +164,7 @@ Grid read_grid(const std::filesystem::path& file) {
       for (std::string& name : axis.values[k]) name = beside(file, name);
     }
   }
-  check_keys(root, grid);
+  check_keys(root, grid, seeds > 0);
   if (!has_scene) root.fail("scene", "is missing");
   if (cells > most_cells) {
     root.fail("axis", fmt::format("makes {:g} cells; at most {:g}", cells, most_cells));

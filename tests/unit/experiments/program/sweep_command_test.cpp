@@ -140,7 +140,7 @@ scene = "table1"
 keep = "failed"
 set = ["time.step=0.02", "time.duration=0.2", "expect.knot=''", "expect.types=[]"]
 [[axis]]
-"guard.speed" = [10000, 2]
+"guard.speed" = [10000, 4]
 )");
   sweep("fails.toml --out o");
   const std::vector<Row> rows = rows_of(folder / "o/table.csv");
@@ -177,7 +177,6 @@ keep = "all"
 set = ["time.step=0.02", "food.strength=100"]
 [[axis]]
 scene = ["table1", "overhand_reverse", "pull_overhand", "table1"]
-"model.limit_scale" = [0.9, 1, 1, 1]
 "time.duration" = [25, 25, 25, 5]
 )");
   sweep("runs.toml --out o");
@@ -193,16 +192,16 @@ scene = ["table1", "overhand_reverse", "pull_overhand", "table1"]
       if (row.at(name).empty() || logged.empty()) {
         EXPECT_EQ(row.at(name), logged) << name << " of " << log;
       } else {
-        // The export has nine digits; places observed again are the same to 1e-9.
+        // The export has nine digits; imbalances of ledgers are rounding.
         const double value = std::stod(row.at(name)), wanted = std::stod(logged);
-        EXPECT_NEAR(value, wanted, 2e-9 * std::max(1.0, std::abs(wanted))) << name << " of " << log;
+        EXPECT_NEAR(value, wanted, 1e-8 * std::abs(wanted) + 1e-12) << name << " of " << log;
       }
     };
     const Row summary = rows_of(folder / "e/summary.csv").at(0);
     EXPECT_EQ(row.at("knot"), summary.at("knot")) << log;
     int compared = 0;
     for (const auto& [name, value] : summary) {
-      if (name != "knot" && row.contains(name)) {
+      if (name != "knot" && name != "scene" && row.contains(name)) {
         expect_same(name, value);
         ++compared;
       }

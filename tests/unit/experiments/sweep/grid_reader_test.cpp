@@ -73,6 +73,7 @@ scene = "table1"
 }
 
 TEST_F(GridTest, AnyValueOfASceneMayChange) {
+  folder.write("own.toml", "base = 'table1'\n[model]\nbodies = 50\n");
   const Grid grid = read(R"(
 [[axis]]
 scene = ["table1", "own.toml"]
@@ -81,7 +82,6 @@ scene = ["table1", "own.toml"]
 "wall.present" = [true, false]
 "title" = ["one, two", "true story"]
 )");
-  folder.write("own.toml", "base = 'table1'\n[model]\nbodies = 50\n");
   const ResolvedScene last = scene_at(grid, grid.places(3));
   EXPECT_EQ(last.scene.model.bodies, 50);
   EXPECT_EQ(last.scene.script.knots[1].time, 2);
