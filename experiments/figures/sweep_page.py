@@ -18,7 +18,7 @@ from script import run_script
 from sweep_columns import SweepTable, read_sweep
 
 SEED = "start.seed"
-PASSED = "share of runs that come to their end and meet all that is expected"
+PASSED = "share of runs that meet all that is expected"
 MAPPED = ["slide_distance_cm", "sliding_force_dyn", "work_thigmotaxis_erg", "eq6_percent", "penetration_cm"]
 MOST_TICKS = 8
 MOST_COLUMNS = 6  # maps side by side: places of the third axis

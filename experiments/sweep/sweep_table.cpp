@@ -1,6 +1,5 @@
 #include "experiments/sweep/sweep_table.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -11,7 +10,6 @@
 #include <fstream>
 #include <iterator>
 #include <sstream>
-#include <string_view>
 #include <utility>
 
 #include "core/input/input_text.hpp"
@@ -27,24 +25,6 @@ constexpr const char* identity_name = "sweep.toml";
 
 [[noreturn]] void throw_system_error(const fs::path& file, const char* what) {
   throw FileError(file.string() + ": cannot be " + what + ": " + std::strerror(errno));
-}
-
-/// Writes all of `text` behind what `file` holds: a kill leaves whole lines but for the last one.
-void append(const fs::path& file, std::string_view text) {
-  const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-  if (descriptor < 0) throw_system_error(file, "opened");
-  while (!text.empty()) {
-    const ssize_t written = ::write(descriptor, text.data(), text.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) {
-      const int reason = errno;
-      ::close(descriptor);
-      errno = reason;
-      throw_system_error(file, "written");
-    }
-    text.remove_prefix(static_cast<std::size_t>(written));
-  }
-  ::close(descriptor);
 }
 
 std::string text_of(const fs::path& file) {
@@ -96,7 +76,7 @@ void claim_folder(const fs::path& folder, const std::string& identity) {
     // By a link, which one process of several makes, with all of the text.
     const fs::path own = fmt::format("{}.{}.new", file.string(), ::getpid());
     fs::remove(own, error);
-    append(own, identity);
+    AppendedFile(own).add(identity);
     const bool made = ::link(own.c_str(), file.c_str()) == 0 || errno == EEXIST;
     const int reason = errno;
     fs::remove(own, error);
@@ -125,11 +105,8 @@ SweepTable::SweepTable(const fs::path& folder, const SweepPart& part, std::size_
   }
   const bool begun = fs::exists(table_.string() + ".part", error);
   file_ = std::make_unique<OutputFile>(table_, begun ? Existing::go_on : Existing::refuse);
-  if (begun) {
-    read_rows();
-  } else {
-    append(file_->partial(), "");
-  }
+  if (begun) read_rows();
+  rows_ = std::make_unique<AppendedFile>(file_->partial());
 }
 
 /// What a kill left of a last line is cut off.
@@ -166,7 +143,7 @@ void SweepTable::add(std::size_t cell, const std::vector<std::string>& fields, d
   std::vector<std::string> row{std::to_string(cell)};
   row.insert(row.end(), fields.begin(), fields.end());
   row.push_back(fmt::format("{:.4f}", cpu_time));
-  append(file_->partial(), csv_text({row}));
+  rows_->add(csv_text({row}));
 }
 
 void SweepTable::finish() {
@@ -190,7 +167,7 @@ void SweepTable::finish() {
   const fs::path sorted = partial.string() + ".new";
   std::error_code error;
   fs::remove(sorted, error);
-  append(sorted, table);
+  AppendedFile(sorted).add(table);
   if (std::rename(sorted.c_str(), table_.c_str()) != 0) throw_system_error(table_, "named");
   fs::remove(partial, error);
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/log/output_file.hpp"
+#include "experiments/sweep/appended_file.hpp"
 #include "experiments/sweep/grid.hpp"
 
 namespace hagfish {
@@ -51,7 +52,8 @@ class SweepTable {
   std::vector<std::size_t> cells_;  ///< of the part
   std::string heading_;
   std::unique_ptr<OutputFile> file_;  ///< none where the table is whole
-  std::vector<std::size_t> done_;     ///< sorted when read
+  std::unique_ptr<AppendedFile> rows_;
+  std::vector<std::size_t> done_;  ///< sorted when read
 };
 
 }  // namespace hagfish
