@@ -45,7 +45,7 @@ void read_values(TableReader& table, const std::string& path, GridAxis& axis) {
     axis.values.push_back(values);
   };
   for (const std::string& key : table.keys()) {
-    const std::string full = path + (path.empty() ? "" : ".") + key;
+    const std::string full = path.empty() ? key : fmt::format("{}.{}", path, key);
     if (!table.is_table(key)) {
       std::vector<std::string> values;
       table.values(key, values);
@@ -98,8 +98,9 @@ void check_keys(const TableReader& root, const Grid& grid, bool has_seeds) {
     for (const std::string& key : grid.axes[a].keys) {
       for (const auto& [other, where] : seen) {
         if (!overlap(key, other)) continue;
-        const std::string why =
-            fmt::format("{} is set by {} too", key, other == key ? where : other + " of " + where);
+        const std::string why = other == key
+                                    ? fmt::format("{} is set by {} too", key, where)
+                                    : fmt::format("{} is set by {} of {} too", key, other, where);
         if (seeds) root.fail("seeds", why);
         root.fail_element("axis", a, why);
       }

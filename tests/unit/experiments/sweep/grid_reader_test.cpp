@@ -137,6 +137,11 @@ TEST_F(GridTest, IdentityIsOfWhatMakesTheRows) {
   EXPECT_NE(identity, grid_identity(read("set = ['time.step=0.02']\n" + text)));
   folder.write("own.toml", "base = 'table1'\n[drag]\nnormal = 9\n");
   EXPECT_NE(identity, grid_identity(read(text)));
+  // Also of a scene that the first cell does not have.
+  const std::string two = "[[axis]]\nscene = ['table1', 'own.toml']\n";
+  const std::string before = grid_identity(read(two));
+  folder.write("own.toml", "base = 'table1'\n[drag]\nnormal = 8\n");
+  EXPECT_NE(before, grid_identity(read(two)));
 }
 
 }  // namespace
