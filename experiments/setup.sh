@@ -17,8 +17,11 @@ packages=(
   pybind11-dev python3-dev python3-xarray               # the Python module, and logs in it
   libjs-three node-d3                                   # replays in a browser
   ffmpeg                                                # films
-  parallel                                              # sweeps
+  parallel                                              # jobs of studies that are no grids
 )
+if [[ -n ${HAGFISH_CLUSTER-} ]]; then
+  packages+=(snakemake slurmctld slurmd slurm-client munge time) # sweeps on a cluster, and a cluster to try them on
+fi
 
 missing=()
 for package in "${packages[@]}"; do

@@ -8,6 +8,7 @@
 #include <map>
 #include <numbers>
 #include <sstream>
+#include <tuple>
 #include <utility>
 
 #include "core/input/toml_document.hpp"
@@ -143,6 +144,20 @@ struct TableReader::Impl {
       numbers.push_back(checked({place.key, place.value, place.subject + which}, element, range));
     }
     return numbers;
+  }
+
+  /// As an override has it; a string in quotes only where it is `inside` an array.
+  std::string override_text(const Place& place, const toml::value& value, bool inside) const {
+    if (value.is_string()) return inside ? toml::format(value) : value.as_string().str;
+    if (value.is_boolean()) return value.as_boolean() ? "true" : "false";
+    if (value.is_integer()) return std::to_string(integral(place, value));
+    if (value.is_floating()) return shortest(checked(place, value, any_number()));
+    if (!value.is_array()) fail(place, "must be a number, a text, true or false, or an array");
+    std::string text;
+    for (const auto& element : value.as_array()) {
+      text += (text.empty() ? "" : ", ") + override_text(place, element, true);
+    }
+    return "[" + text + "]";
   }
 
   template <class Integer>
@@ -298,6 +313,32 @@ void TableReader::text_rows(std::string_view key, std::string_view noun, std::st
   }
 }
 
+void TableReader::values(std::string_view key, std::vector<std::string>& value) {
+  const Impl::Place place = impl_->ask(key);
+  if (!place.value) return;
+  if (!place.value->is_array()) impl_->fail(place, "must be an array");
+  if (place.value->as_array().empty()) impl_->fail(place, "holds no value");
+  value.clear();
+  for (const auto& element : place.value->as_array()) {
+    const std::string which = "value " + std::to_string(value.size() + 1) + " ";
+    value.push_back(impl_->override_text({place.key, place.value, which}, element, false));
+  }
+}
+
+std::vector<std::string> TableReader::keys() const {
+  using Place = std::tuple<std::uint_least32_t, std::uint_least32_t, std::string>;
+  std::vector<Place> places;
+  if (impl_->table) {
+    for (const auto& [key, value] : impl_->table->as_table()) {
+      places.emplace_back(value.location().line(), value.location().column(), key);
+    }
+  }
+  std::ranges::sort(places);
+  std::vector<std::string> names;
+  for (const Place& place : places) names.push_back(std::get<std::string>(place));
+  return names;
+}
+
 void TableReader::angle(std::string_view name, double& value, const Range& range) {
   const auto [place, unit] = impl_->ask_angle(name);
   if (place.value) value = impl_->checked(place, *place.value, in_unit(range, unit)) * unit;
@@ -331,6 +372,22 @@ TableReader TableReader::open(std::string_view key) {
   child->table = place.value;
   child->path = join_keys(impl_->path, key);
   return TableReader(std::move(child));
+}
+
+std::vector<TableReader> TableReader::open_all(std::string_view key) {
+  std::vector<TableReader> children;
+  const Impl::Place place = impl_->ask(key);
+  if (!place.value) return children;
+  if (!place.value->is_array()) impl_->fail(place, "must be an array of tables");
+  for (const auto& element : place.value->as_array()) {
+    if (!element.is_table()) impl_->fail(place, "must be an array of tables");
+    auto child = std::make_unique<Impl>();
+    child->document = impl_->document;
+    child->table = &element;
+    child->path = join_keys(impl_->path, key) + " " + std::to_string(children.size() + 1);
+    children.push_back(TableReader(std::move(child)));
+  }
+  return children;
 }
 
 void TableReader::finish() const {

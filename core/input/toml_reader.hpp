@@ -1,8 +1,9 @@
 // A checked layer over a TOML parser: every value is read by name, type and range, and every
 // error is an InputError of one line, `FILE:LINE: KEY = VALUE: why`.
 //
-// TableReader and TomlWriter (toml_writer.hpp) have the same functions, so that one list of fields
-// (scene_fields.hpp) serves to read and to write. No key may be read twice from one TableReader.
+// TableReader and TomlWriter (toml_writer.hpp) have the same functions for what a scene holds, so
+// that one list of fields (scene_fields.hpp) serves to read and to write. No key may be read twice
+// from one TableReader.
 #pragma once
 
 #include <Eigen/Core>
@@ -70,6 +71,11 @@ class TableReader {
   /// place is taken as its shortest text.
   void text_rows(std::string_view key, std::string_view noun, std::string_view form,
                  std::vector<std::array<std::string, 3>>& value);
+  /// An array of one or more values of any kind, each as text that an override takes: numbers as
+  /// their shortest text, strings bare, arrays of all these in brackets.
+  void values(std::string_view key, std::vector<std::string>& value);
+  /// Keys of this table, in the order in which the file has their values.
+  std::vector<std::string> keys() const;
   /// An angle in rad, read from NAME_deg or NAME_rad; `range` is in degrees.
   void angle(std::string_view name, double& value, const Range& range);
   /// As angle(), one or more in an array.
@@ -92,6 +98,16 @@ class TableReader {
     child.finish();
   }
 
+  /// Reads each table of the array of tables `key` with `read(TableReader&)`; none where it is
+  /// absent. Errors count them from 1.
+  template <class Read>
+  void tables(std::string_view key, Read read) {
+    for (TableReader& child : open_all(key)) {
+      read(child);
+      child.finish();
+    }
+  }
+
   /// Ends the reading: throws InputError for a key that was not read (with the nearest one that
   /// was), then for the first required key that is absent.
   void finish() const;
@@ -106,6 +122,7 @@ class TableReader {
   struct Impl;
   explicit TableReader(std::unique_ptr<Impl> impl);
   TableReader open(std::string_view key);
+  std::vector<TableReader> open_all(std::string_view key);
   std::optional<std::size_t> choice_index(std::string_view key,
                                           const std::vector<std::string_view>& names);
 

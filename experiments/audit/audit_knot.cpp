@@ -122,31 +122,17 @@ Finding hand(const LogContents& log, const std::vector<SeenKnot>& seen,
           "writhe"};
 }
 
-/// Where an end of the knot is at the first and last frame of a phase that show it, cm of arc.
-struct Way {
-  double first = 0, last = 0;
-};
-
 /// Nothing where no frame shows it.
-std::optional<Way> way(const LogContents& log, Phase phase, const char* end) {
+std::optional<KnotWay> way(const LogContents& log, Phase phase, const char* end) {
   const std::vector<double> arc = log.h5.doubles(end);
-  std::optional<Way> seen;
+  std::optional<KnotWay> seen;
   for (std::size_t f = 0; f < arc.size(); ++f) {
     if (phase_at(log, f) == phase && !std::isnan(arc[f])) {
-      seen = seen.value_or(Way{arc[f], arc[f]});
+      seen = seen.value_or(KnotWay{arc[f], arc[f]});
       seen->last = arc[f];
     }
   }
   return seen;
-}
-
-/// The slide that is asked of an animal whose knot began to slide at `first`, cm of arc: that of
-/// the scene, or, where the knot was nearer to where it is released, all the way there; but half of
-/// that of the scene at least.
-double slide_asked(const Scene& scene, double first) {
-  const double asked = scene.expect.slide_distance;
-  const double there = first - scene.controller.release_at - arrived_within;
-  return std::clamp(there, least_slide * asked, asked);
 }
 
 /// "head" end of the knot moved "headward".
@@ -188,6 +174,22 @@ SeenKnot see_knot(const LogContents& log, const AuditedFrame& frame) {
   return {knot_type(centre, log.resolved.scene.knot), holds_knot(frame.phase) ? writhe(centre) : 0};
 }
 
+Criterion slide_found(const Scene& scene, const std::optional<KnotWay>& head_end) {
+  if (!head_end) {
+    return slide_criterion(scene.expect, std::nullopt);
+  }
+  ExpectSettings asked = scene.expect;
+  const double there = head_end->first - scene.controller.release_at - arrived_within;
+  asked.slide_distance =
+      std::clamp(there, least_slide * asked.slide_distance, asked.slide_distance);
+  return slide_criterion(asked, head_end->first - head_end->last);
+}
+
+Criterion reverse_found(const Scene& scene, const std::optional<KnotWay>& tail_end) {
+  return reverse_criterion(
+      scene.expect, tail_end ? std::optional(tail_end->last - tail_end->first) : std::nullopt);
+}
+
 std::vector<Finding> audit_knot(const LogContents& log, const std::vector<SeenKnot>& seen) {
   const Scene& scene = log.resolved.scene;
   const ExpectSettings& expect = scene.expect;
@@ -222,18 +224,12 @@ std::vector<Finding> audit_knot(const LogContents& log, const std::vector<SeenKn
     findings.push_back(hand(log, seen, type));
   }
   if (reaches(Phase::slide)) {
-    const std::optional<Way> slid = way(log, Phase::slide, "/knot/head_end");
-    ExpectSettings asked = expect;
-    if (slid) asked.slide_distance = slide_asked(scene, slid->first);
     findings.push_back(
-        moved(slide_criterion(asked, slid ? std::optional(slid->first - slid->last) : std::nullopt),
-              "head", "headward"));
+        moved(slide_found(scene, way(log, Phase::slide, "/knot/head_end")), "head", "headward"));
   }
   if (reaches(Phase::reverse) && scene.controller.leave_by == BodyEnd::tail) {
-    const std::optional<Way> slid = way(log, Phase::reverse, "/knot/tail_end");
-    findings.push_back(moved(
-        reverse_criterion(expect, slid ? std::optional(slid->last - slid->first) : std::nullopt),
-        "tail", "tailward"));
+    findings.push_back(moved(reverse_found(scene, way(log, Phase::reverse, "/knot/tail_end")),
+                             "tail", "tailward"));
   }
   if (reaches(Phase::slide)) {
     findings.push_back(commanded_speed(log));

@@ -68,11 +68,11 @@ Finding figures(const LogContents& log) {
                          "means of clamp, head plate, rows of Eq. 6 and torques");
 }
 
-double mean(const std::vector<double>& values, std::size_t from, std::size_t to) {
-  const auto begin = values.begin();
-  return std::accumulate(begin + static_cast<std::ptrdiff_t>(from),
-                         begin + static_cast<std::ptrdiff_t>(to), 0.0) /
-         static_cast<double>(to - from);
+double mean(const std::vector<PullMeans>& means, double PullMeans::*what, std::size_t from,
+            std::size_t to) {
+  double sum = 0;
+  for (std::size_t k = from; k < to; ++k) sum += means[k].*what;
+  return sum / static_cast<double>(to - from);
 }
 
 /// What the pull is once it has settled.
@@ -81,29 +81,26 @@ std::vector<Finding> settled(const LogContents& log, const std::vector<Eigen::In
   const Hdf5Reader::Rows head = log.h5.rows("/mean/forces/head");
   const Hdf5Reader::Rows wall = log.h5.rows("/mean/forces/wall");
   const Hdf5Reader::Rows drag = log.h5.rows("/diagnostics/impulse_drag");
-  std::vector<double> pull, plate, water;
+  std::vector<PullMeans> all;
   for (const Eigen::Index f : frames) {
-    if (log.time[f] >= log.time[frames.front()] + expect.pull_settled) {
-      pull.push_back(-head(f, 0));
-      plate.push_back(wall(f, 0));
-      water.push_back((drag(f, 0) - drag(f - 1, 0)) / (log.time[f] - log.time[f - 1]));
-    }
+    all.push_back({log.time[f], -head(f, 0), wall(f, 0),
+                   (drag(f, 0) - drag(f - 1, 0)) / (log.time[f] - log.time[f - 1])});
   }
-  const std::size_t count = pull.size();
-  if (count < least_frames) {
+  const std::vector<PullMeans> part = settled_part(expect, all);
+  const std::size_t count = part.size();
+  const std::vector<Criterion> criteria = pull_criteria(expect, part);
+  if (criteria.empty()) {
     return {{"pull", false, fmt::format("{} frames of a settled pull, too few to judge", count), "",
              "", "N"}};
   }
-  const double all = mean(pull, 0, count);
-  const double of_plate = mean(plate, 0, count);
-  const double of_water = mean(water, 0, count);
-  return {judged_over(pull_criterion(expect, all), fmt::format("{} frames", count)),
-          judged_over(
-              pull_drift_criterion(expect, mean(pull, 0, count / 2), mean(pull, count / 2, count)),
-              "later half against earlier"),
-          judged_over(pull_balance_criterion(expect, of_plate, all),
-                      fmt::format("head plate against head; the water pushes {:.2g} of it along x",
-                                  of_water / all))};
+  const double of_water =
+      mean(part, &PullMeans::water, 0, count) / mean(part, &PullMeans::force, 0, count);
+  return {
+      judged_over(criteria[0], fmt::format("{} frames", count)),
+      judged_over(criteria[1], "later half against earlier"),
+      judged_over(criteria[2], fmt::format("head plate against head; the water pushes {:.2g} of "
+                                           "it along x",
+                                           of_water))};
 }
 
 /// The pull ends where the food gives or the animal lets go, and not before. What it gives at is
@@ -139,10 +136,40 @@ Finding end(const LogContents& log, const std::vector<Eigen::Index>& frames) {
 
 }  // namespace
 
+bool pulls_at_food(const Scene& scene) {
+  return scene.food.hold != 0 && phase_order(scene.time.until) >= phase_order(Phase::pull);
+}
+
+bool settles(const Scene& scene) { return scene.food.cap.to == scene.food.cap.from; }
+
+std::vector<PullMeans> settled_part(const ExpectSettings& expect,
+                                    const std::vector<PullMeans>& pull) {
+  std::vector<PullMeans> part;
+  for (const PullMeans& means : pull) {
+    if (means.time >= pull.front().time + expect.pull_settled) part.push_back(means);
+  }
+  return part;
+}
+
+std::vector<Criterion> pull_criteria(const ExpectSettings& expect,
+                                     const std::vector<PullMeans>& settled) {
+  const std::size_t count = settled.size();
+  if (count < least_frames) {
+    return {};
+  }
+  const auto force = [&](std::size_t from, std::size_t to) {
+    return mean(settled, &PullMeans::force, from, to);
+  };
+  const double all = force(0, count);
+  return {pull_criterion(expect, all),
+          pull_drift_criterion(expect, force(0, count / 2), force(count / 2, count)),
+          pull_balance_criterion(expect, mean(settled, &PullMeans::plate, 0, count), all)};
+}
+
 std::vector<Finding> audit_pull(const LogContents& log) {
   std::vector<Finding> findings{figures(log)};
   const Scene& scene = log.resolved.scene;
-  if (scene.food.hold == 0 || phase_order(scene.time.until) < phase_order(Phase::pull)) {
+  if (!pulls_at_food(scene)) {
     return findings;
   }
   const std::vector<Eigen::Index> frames = intervals(log);
@@ -150,8 +177,7 @@ std::vector<Finding> audit_pull(const LogContents& log) {
     findings.push_back({"pull", false, "the knot never pulled", "", "", "N"});
     return findings;
   }
-  // A pull that rises does not settle.
-  if (scene.food.cap.to == scene.food.cap.from) {
+  if (settles(scene)) {
     const std::vector<Finding> more = settled(log, frames);
     findings.insert(findings.end(), more.begin(), more.end());
   }

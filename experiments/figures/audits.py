@@ -33,11 +33,3 @@ def read_findings(path: Path) -> list[Finding]:
 def unmet(findings: list[Finding]) -> list[str]:
     """Criteria that failed."""
     return [finding.criterion for finding in findings if not finding.met]
-
-
-def bound_on(findings: list[Finding], criterion: str) -> float:
-    """The bound on a figure."""
-    for finding in findings:
-        if finding.criterion == criterion:
-            return float(finding.bound)
-    raise LogError(f"the audit has no bound on {criterion}")

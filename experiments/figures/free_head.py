@@ -1,6 +1,6 @@
 """Tightening and sliding with the head free (no clamp, no plate), beside the same with the head held.
 
-Usage: free_head.py RUNS OUT.csv OUT.png OUT.md (writes a PDF beside).
+Usage: free_head.py SWEEPS OUT.csv OUT.png OUT.md (writes a PDF beside), where SWEEPS holds held, free and forming.
 """
 
 from __future__ import annotations
@@ -13,15 +13,15 @@ import plots
 import tables
 from hagfish_log import HagfishLog
 from script import run_script
-from slides import FORCE_COLUMNS, MEAN, SLACK_COLUMN, draw_over_speed, read_slides
+from slides import FORCE_COLUMNS, MEAN, SLACK_COLUMN, draw_over_speed, log_of, read_slides
 
 SHOWN = 2.0  # cm/s, the commanded speed of the paths drawn
 HELD = {"ls": ":", "ms": 3.5, "alpha": 0.7}
 
 
-def head_path(folder: Path, name: str) -> tuple[np.ndarray, np.ndarray]:
+def head_path(path: Path) -> tuple[np.ndarray, np.ndarray]:
     """How far the head is from where it was held, cm, from tightening until the knot is off."""
-    log = HagfishLog(folder / f"{name}.h5")
+    log = HagfishLog(path)
     frames = np.concatenate([log.in_phase(phase) for phase in ("tighten", "slide", "release")])
     head = log["/trajectory/q"][:, :3]
     time = log["/trajectory/time"][frames]
@@ -29,8 +29,8 @@ def head_path(folder: Path, name: str) -> tuple[np.ndarray, np.ndarray]:
 
 
 def main(folder: Path, table: Path, out: Path, page: Path) -> None:
-    sets = {"held": read_slides(folder, "held"), "free": read_slides(folder, "free")}
-    forming = read_slides(folder, "forming")
+    sets = {name: read_slides(folder / name) for name in ("held", "free")}
+    forming = read_slides(folder / "forming")
     all_slides = [(head, s) for head, slides in sets.items() for s in slides]
     tables.write_csv(table, ["head", "knot", "commanded_cm_s", "measured_cm_s", "travel_cm", *FORCE_COLUMNS, SLACK_COLUMN,
                              "steps_met", "penetration_cm", "knot_held", "failure"],
@@ -41,7 +41,7 @@ def main(folder: Path, table: Path, out: Path, page: Path) -> None:
                                                                      "speed (open: knot lost)", "force"])
     for s in sets["free"]:
         if s.commanded == SHOWN:
-            look, (time, away) = plots.KNOTS[s.knot], head_path(folder, s.name)
+            look, (time, away) = plots.KNOTS[s.knot], head_path(log_of(folder / "free", s.name))
             paths.plot(time, away, label=look.label, markevery=[-1], **look.style)
     paths.set(xlabel="time since the head is free, s", ylabel="head from where it was held, cm")
     paths.legend(loc="upper left")
@@ -66,4 +66,4 @@ def main(folder: Path, table: Path, out: Path, page: Path) -> None:
 
 
 if __name__ == "__main__":
-    run_script(__doc__, ["RUNS", "OUT.csv", "OUT.png", "OUT.md"], main)
+    run_script(__doc__, ["SWEEPS", "OUT.csv", "OUT.png", "OUT.md"], main)

@@ -1,6 +1,6 @@
 """The knot slid back to the tail, beside its way to the head at the same commanded speed.
 
-Usage: reverse.py RUNS OUT.csv OUT.png OUT.md (writes a PDF beside).
+Usage: reverse.py SWEEP OUT.csv OUT.png OUT.md (writes a PDF beside).
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ def compare(axes: Any, back: list[Slide], there: list[Slide], what: str) -> None
 
 
 def main(folder: Path, table: Path, out: Path, page: Path) -> None:
-    back, there = read_slides(folder, "reverse", "reverse"), read_slides(folder, "reverse", "slide")
+    back, there = read_slides(folder, "reverse"), read_slides(folder, "slide")
     seconds = lambda s: float(s.time[-1]) if s.time.size else np.nan
     tables.write_csv(table, ["knot", "commanded_cm_s", "measured_cm_s", "travel_cm", "seconds", *FORCE_COLUMNS, SLACK_COLUMN,
                              "steps_met", "penetration_cm", "knot_held", "failure"],
@@ -69,4 +69,4 @@ def main(folder: Path, table: Path, out: Path, page: Path) -> None:
 
 
 if __name__ == "__main__":
-    run_script(__doc__, ["RUNS", "OUT.csv", "OUT.png", "OUT.md"], main)
+    run_script(__doc__, ["SWEEP", "OUT.csv", "OUT.png", "OUT.md"], main)

@@ -1,6 +1,6 @@
-"""Slides of the studies of knots: what was commanded and what came of it, from the runs of experiments/*.sh.
+"""Slides of the studies of knots: what was commanded and what came of it.
 
-A run is NAME.h5 (its log) and NAME.check.csv (its audit), where NAME is KIND_SCENE_VALUE.
+A run is a cell of a sweep that kept its logs, or NAME.h5 (its log) with NAME.check.csv (its audit).
 """
 
 from __future__ import annotations
@@ -14,10 +14,11 @@ import numpy as np
 
 import audits
 import plots
-from hagfish_log import HagfishLog, LogError
+from hagfish_log import HagfishLog
 from means import WINDOW, read_means
 from study import failure_of
 from summary import step_phases
+from sweep_columns import read_sweep
 
 LEAST_FRAMES = 5  # of a slide with a speed
 AT_CAP = 0.999  # of the cap, a multiplier that is at it
@@ -31,7 +32,7 @@ SLACK_COLUMN = f"slack_median_of_{1000 * WINDOW:g}_ms_means_cm_s"
 class Slide:
     """One phase of one run in which the knot slides; cm, s, dyn. Forces are means over WINDOW."""
 
-    name: str  # of the run
+    name: str  # of the run: the file of its log, without .h5
     knot: str  # expected type
     commanded: float  # speed, cm/s
     speed: float  # of the knot's leading end, a line through its places; nan where it never slid
@@ -56,7 +57,11 @@ def unmet_of(folder: Path, name: str) -> list[str]:
 
 
 def read_slide(folder: Path, name: str, phase: str = "slide") -> Slide:
-    log = HagfishLog(folder / f"{name}.h5")
+    return slide_of(HagfishLog(folder / f"{name}.h5"), name, unmet_of(folder, name), phase)
+
+
+def slide_of(log: HagfishLog, name: str, unmet: list[str], phase: str) -> Slide:
+    """`unmet`: criteria of the scene that the run does not meet, as `hagfish check` and `hagfish sweep` name them."""
     scene = log.scene()
     end = "head" if phase == "slide" else "tail"
     frames = log.in_phase(phase)
@@ -70,8 +75,6 @@ def read_slide(folder: Path, name: str, phase: str = "slide") -> Slide:
     some = moved and means.end.size > 0
     steps = step_phases(log) == phase
     at_cap = log["/steps/thigmotaxis_lambda"][steps] >= AT_CAP * scene["controller"]["cap"]
-    findings = audits.read_findings(folder / f"{name}.check.csv")
-    unmet = audits.unmet(findings)
     ended = str(log.attribute("status")) == "complete" and "unknot at end" not in unmet
     commanded = float(scene["controller"][f"{phase}_head"]["a"])
     return Slide(name, scene["expect"]["knot"], commanded, sign * slope, sign * travel,
@@ -80,17 +83,21 @@ def read_slide(folder: Path, name: str, phase: str = "slide") -> Slide:
                  float(np.nanmedian(np.fmax.reduce(means.slack, axis=1))) if some else np.nan,
                  float((log["/steps/eq6"][steps] == 1).mean()) if steps.any() else np.nan,
                  float(log["/steps/penetration"][steps].max()) if steps.any() else np.nan,
-                 audits.bound_on(findings, "penetration"),
+                 float(scene["expect"]["penetration"]),
                  "knot held" not in unmet, "" if ended else failure_of(log, unmet),
                  time - time[0] if moved else time, log["/knot/head_end"][frames], log["/knot/tail_end"][frames])
 
 
-def read_slides(folder: Path, kind: str, phase: str = "slide") -> list[Slide]:
-    """All runs called KIND_..., by knot and speed."""
-    names = [path.name.removesuffix(".check.csv") for path in folder.glob(f"{kind}_*.check.csv")]
-    if not names:
-        raise LogError(f"{folder}: holds no run {kind}_*")
-    return sorted((read_slide(folder, name, phase) for name in names), key=lambda s: (s.knot, s.commanded))
+def read_slides(folder: Path, phase: str = "slide") -> list[Slide]:
+    """All runs of a sweep that kept its logs, by knot and speed."""
+    unmet = read_sweep(folder / "table.csv").texts["unmet"]
+    slides = [slide_of(HagfishLog(log_of(folder, str(cell))), str(cell), text.split("; "), phase) for cell, text in enumerate(unmet)]
+    return sorted(slides, key=lambda s: (s.knot, s.commanded))
+
+
+def log_of(folder: Path, name: str) -> Path:
+    """The log of a cell of a sweep."""
+    return folder / "logs" / f"{name}.h5"
 
 
 def of_knot(slides: list[Slide], knot: str) -> list[Slide]:

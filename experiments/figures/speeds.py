@@ -1,5 +1,5 @@
 """Commanded against measured speed of a sliding knot, with the force, the slack of Eq. 6 and the penetration that come of
-it. Usage: speeds.py RUNS OUT.csv OUT.png OUT.md (writes a PDF beside).
+it. Usage: speeds.py SWEEP OUT.csv OUT.png OUT.md (writes a PDF beside).
 """
 
 from __future__ import annotations
@@ -59,7 +59,7 @@ def limits(slides: list[Slide]) -> list[str]:
 
 
 def main(folder: Path, table: Path, out: Path, page: Path) -> None:
-    slides = read_slides(folder, "speed")
+    slides = read_slides(folder)
     heading = ["knot", "commanded_cm_s", "measured_cm_s", "travel_cm", *FORCE_COLUMNS, "rows_at_cap", SLACK_COLUMN,
                "steps_met", "penetration_cm", "knot_held", "failure"]
     tables.write_csv(table, heading, [[s.knot, s.commanded, s.speed, s.travel, s.force, s.peak, s.capped, s.slack, s.met,
@@ -74,4 +74,4 @@ def main(folder: Path, table: Path, out: Path, page: Path) -> None:
 
 
 if __name__ == "__main__":
-    run_script(__doc__, ["RUNS", "OUT.csv", "OUT.png", "OUT.md"], main)
+    run_script(__doc__, ["SWEEP", "OUT.csv", "OUT.png", "OUT.md"], main)

@@ -13,6 +13,7 @@ std::vector<Registrar> commands();
 void add_run(Program& program);
 void add_branch(Program& program);
 void add_scenes(Program& program);
+void add_sweep(Program& program);
 void add_record_qp(Program& program);
 void add_qp(Program& program);
 void add_info(Program& program);

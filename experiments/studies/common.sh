@@ -1,9 +1,11 @@
 # shellcheck shell=bash
 # Sourced by table1.sh and the studies, not run: sets up and builds, and makes the output folder, the script's argument or
-# out/ with the script's name. Comes after targets=(...), what to build besides the program, if anything. Leaves root, out
-# and hagfish (the program). When the script ends, in whatever way, it says how long it took; building counts, and what an
-# earlier run of it left does not.
+# out/ with the script's name. Comes after targets=(...), what to build besides the program, if anything. Leaves root, grids,
+# out and hagfish (the program). When the script ends, in whatever way, it says how long it took; building counts, and what an
+# earlier run of it left does not. Grids of `hagfish sweep` are in $grids.
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+# shellcheck disable=SC2034 # for the studies
+grids=$root/experiments/studies/grids
 out=${1:-$root/out/$(basename "$0" .sh)}
 elapsed() {
   echo

@@ -4,9 +4,12 @@ import numpy as np
 import pytest
 
 import means
+import slides
 import study
-from conftest import SPEED, STEP, STEPS
+from conftest import KNOT, SPEED, STEP, STEPS
 from hagfish_log import LogError
+from sweep_columns import FIGURES, TEXTS
+from tables import write_csv
 
 INTERVAL = STEP * STEPS
 
@@ -80,3 +83,43 @@ def test_a_complete_run_may_have_failed(content, log):
     assert study.failure_of(log(), []) == "the knot never slid"
     content.data["trajectory/phase"][:] = 0
     assert study.failure_of(log(), []) == "the knot was never ready to tighten"
+
+
+@pytest.fixture
+def sweep(content, tmp_path):
+    """A sweep of one run that fails the bound on penetration."""
+    def write(unmet="penetration"):
+        write_csv(tmp_path / "table.csv", ["cell", *TEXTS, *FIGURES], [[0, "ok", unmet, "", "3_1", *[1.0] * len(FIGURES)]])
+        (tmp_path / "logs").mkdir()
+        content.write(tmp_path / "logs/0.h5")
+        return slides.read_slides(tmp_path)
+    return write
+
+
+def test_a_slide_as_commanded_and_as_measured(sweep):
+    (slide,) = sweep()
+    assert (slide.name, slide.knot, slide.commanded, slide.allowed) == ("0", "3_1", 2.0, 0.0015)
+    assert slide.speed == pytest.approx(SPEED, rel=1e-9)  # the knot outruns its command
+    assert slide.travel == pytest.approx(6, rel=1e-9)
+    assert (slide.force, slide.peak, slide.capped, slide.slack, slide.met) == (200, 200, 0, 0, 1)
+    assert slide.held and not slide.failure
+    np.testing.assert_allclose(slide.tail_end - slide.head_end, KNOT, rtol=1e-12)
+
+
+def test_a_slide_of_a_knot_that_was_lost(sweep):
+    (slide,) = sweep("knot held; unknot at end")
+    assert not slide.held and slide.failure == "the knot was lost early"
+
+
+def test_a_slide_at_its_cap_that_ends_in_failure(content, sweep):
+    content.data["steps/thigmotaxis_lambda"][160:465] = 1000.0  # half of 610 sliding steps
+    content.data["steps/eq6"][160:465] = 0
+    content.attributes["status"] = "failed: tunnelled at step 7"
+    (slide,) = sweep()
+    assert (slide.capped, slide.met, slide.failure) == (0.5, 0.5, "tunnelled")
+
+
+def test_what_is_no_sweep(tmp_path):
+    write_csv(tmp_path / "table.csv", ["log", "figure"], [["a.h5", 1]])
+    with pytest.raises(LogError, match="is not a table of hagfish sweep"):
+        slides.read_slides(tmp_path)

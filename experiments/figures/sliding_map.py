@@ -1,0 +1,113 @@
+"""Where sliding works and what it costs, over bending stiffness and commanded speed: the grid of experiments/studies/sliding.sh.
+
+Usage: sliding_map.py TABLE.csv OUT.png OUT.md (writes a PDF beside).
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import plots
+import tables
+from script import run_script
+from sweep_columns import SweepTable, read_sweep
+
+STIFFNESS, SPEED = "model.bending_stiffness", "controller.slide_head.a"
+LOOKS = [plots.Look("", plots.BLUE, "o"), plots.Look("", plots.ORANGE, "s"), plots.Look("", plots.PURPLE, "D")]
+ARRIVED = "release_from_s"
+
+
+@dataclass
+class Place:
+    """All starts at one stiffness (dyn cm^2) and speed (cm/s); figures are of those that came to the head."""
+
+    stiffness: float
+    speed: float
+    starts: int
+    tied: int
+    arrived: int
+    passed: int
+    force: np.ndarray  # quartiles, dyn
+    work: np.ndarray  # of f_thigmo for each cm of slide, erg/cm
+    measured: np.ndarray  # speed, cm/s
+    unmet: str  # bounds that those at the head most often missed, and how many did
+
+
+def quartiles(values: np.ndarray) -> np.ndarray:
+    known = values[np.isfinite(values)]
+    return np.percentile(known, [25, 50, 75]) if known.size else np.full(3, np.nan)
+
+
+def most_unmet(unmet: list[str], chosen: np.ndarray) -> str:
+    counts = Counter(name for text, own in zip(unmet, chosen) if own and text for name in text.split("; "))
+    return ", ".join(f"{name}: {count}" for name, count in counts.most_common(2))
+
+
+def places_of(table: SweepTable) -> list[Place]:
+    stiffness, speed = (np.array([float(value) for value in table.axes[key]]) for key in (STIFFNESS, SPEED))
+    figures = table.figures
+    found = []
+    for k, v in sorted({(k, v) for k, v in zip(stiffness, speed)}):
+        here = (stiffness == k) & (speed == v)
+        arrived = here & np.isfinite(figures[ARRIVED])
+        found.append(Place(k, v, int(here.sum()), int((here & np.isfinite(figures["tighten_from_s"])).sum()), int(arrived.sum()),
+                           int((here & table.passed).sum()), quartiles(figures["sliding_force_dyn"][arrived]),
+                           quartiles((figures["work_thigmotaxis_erg"] / figures["slide_distance_cm"])[arrived]),
+                           quartiles(figures["slide_speed_cm_per_s"][arrived]), most_unmet(table.texts["unmet"], arrived)))
+    return found
+
+
+def draw_quartiles(axes: Any, own: list[Place], measure: str, look: plots.Look, label: str) -> None:
+    x, y = np.array([p.stiffness for p in own]), np.array([getattr(p, measure) for p in own])
+    axes.fill_between(x, y[:, 0], y[:, 2], color=look.colour, alpha=0.25, lw=0)
+    axes.plot(x, y[:, 1], **(look.style | {"ms": 3}))
+    last = np.flatnonzero(np.isfinite(y[:, 1]))[-1]
+    axes.annotate(label, (x[last], y[last, 1]), xytext=(6, 0), textcoords="offset points", va="center", fontsize=8, color=look.colour)
+
+
+def draw(places: list[Place], out: Path) -> None:
+    figure, (works, force, work) = plots.panels(1, 3, (11.0, 3.9), ["where it works", "force", "work"], sharex=True)
+    for look, v in zip(LOOKS, sorted({p.speed for p in places})):
+        own = [p for p in places if p.speed == v]
+        x = [p.stiffness for p in own]
+        works.plot(x, [100 * p.arrived / p.starts for p in own], ls=":", color=look.colour)
+        works.plot(x, [100 * p.passed / p.starts for p in own], **(look.style | {"ms": 3}))
+        draw_quartiles(force, own, "force", look, f"{v:g} cm/s")
+        draw_quartiles(work, own, "work", look, f"{v:g} cm/s")
+    works.plot([], [], ls=":", color=plots.INK, label="knot at the head")
+    works.plot([], [], ls="-", color=plots.INK, label="and every bound met")
+    works.set(xscale="log", ylabel="starts, %", ylim=(-4, 104))
+    works.legend(loc="lower left", bbox_to_anchor=(0.0, 0.06), fontsize=7)
+    force.set(yscale="log", ylabel="sum of the four $\\lambda/h$ while sliding, dyn\n(median and quartiles of starts)")
+    work.set(yscale="log", ylabel="work of $f_{thigmo}$, erg for each cm of slide")
+    for axes in (works, force, work):
+        axes.set_xlabel("bending stiffness, dyn cm$^2$")
+    plots.save(figure, out)
+
+
+def number(values: np.ndarray) -> str:
+    return f"{values[1]:.3g}" if np.isfinite(values[1]) else ""
+
+
+def page(places: list[Place]) -> list[str]:
+    rows = [[f"{p.stiffness:.3g}", f"{p.speed:g}", *(f"{count} of {p.starts}" for count in (p.tied, p.arrived, p.passed)),
+             p.unmet, number(p.force), number(p.work), number(p.measured)] for p in places]
+    return ["# Where sliding works and what it costs", "",
+            "Overhand knots tied by waypoints, h = 20 ms; medians are of starts whose knot came to the head.", "",
+            *tables.markdown(["bending stiffness, dyn cm²", "commanded, cm/s", "tied", "came to the head", "and met every bound",
+                              "bounds not met", "sliding force, dyn", "work of f_thigmo, erg/cm", "measured, cm/s"], rows)]
+
+
+def main(table: Path, out: Path, text: Path) -> None:
+    places = places_of(read_sweep(table))
+    draw(places, out)
+    tables.write_page(text, page(places))
+
+
+if __name__ == "__main__":
+    run_script(__doc__, ["TABLE.csv", "OUT.png", "OUT.md"], main)

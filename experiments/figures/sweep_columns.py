@@ -1,0 +1,76 @@
+"""What the columns of a table of `hagfish sweep` are, and the table itself, read by columns."""
+
+from __future__ import annotations
+
+import csv
+from array import array
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from hagfish_log import LogError
+
+TEXTS = {"outcome": "ok where the run came to its end, else why it stopped", "unmet": "criteria of [expect] that it does not meet",
+         "message": "why it stopped", "knot": "type at the start of tightening, or at the end where it never tightened"}
+FIGURES = {  # unit, meaning
+    "duration_s": ("s", "simulated"),
+    "tighten_from_s": ("s", "start of tightening"),
+    "slide_from_s": ("s", "start of the slide"),
+    "release_from_s": ("s", "when the head was let go"),
+    "free_from_s": ("s", "when the knot was gone"),
+    "slide_distance_cm": ("cm", "way of the knot's head end while it slides, to the head"),
+    "slide_speed_cm_per_s": ("cm/s", "that way over its time"),
+    "sliding_force_dyn": ("dyn", "sum of the four multipliers of Eq. 6: median over the slide of means from frame to frame"),
+    "largest_thigmotaxis_dyn_cm": ("dyn cm", "f_thigmo of any hinge, mean from frame to frame"),
+    "largest_active_dyn_cm": ("dyn cm", "torque of the muscles at any hinge, likewise"),
+    "pull_N": ("N", "mean pull at food, once settled"),
+    "penetration_cm": ("cm", "deepest overlap of skins at any step"),
+    "limit_violation_rad": ("rad", "furthest past a joint limit at any step"),
+    "head_drift_cm": ("cm", "largest way of the clamped head at any step"),
+    "kkt": ("1", "largest scaled KKT residual of any step"),
+    "eq6_percent": ("%", "sliding steps that meet Eq. 6 without slack"),
+    "energy_ledger": ("1", "imbalance of the energy ledger, of the energy that passed"),
+    "energy_gain": ("1", "mechanical energy above what there was and was put in, share of that"),
+    "momentum_ledger": ("1", "imbalance of the momentum ledger, of the momentum that passed"),
+    "work_tip_erg": ("erg", "of the scripted force on the tail, in all"),
+    "work_active_erg": ("erg", "of the muscles, in all"),
+    "work_thigmotaxis_erg": ("erg", "of f_thigmo, in all"),
+    "dissipated_erg": ("erg", "lost to water drag and joint damping, in all"),
+}
+
+
+@dataclass
+class SweepTable:
+    """Columns, a value a cell; nan where a run has no such figure."""
+
+    axes: dict[str, list[str]]  # settings, as the grid has them
+    texts: dict[str, list[str]]
+    figures: dict[str, np.ndarray]
+
+    @property
+    def passed(self) -> np.ndarray:
+        """Runs that came to their end and met all that their scene expects."""
+        return np.array([outcome == "ok" and not unmet for outcome, unmet in zip(self.texts["outcome"], self.texts["unmet"])])
+
+
+def read_sweep(path: Path) -> SweepTable:
+    with path.open(newline="", encoding="utf-8") as file:
+        rows = csv.reader(file)
+        heading = next(rows, [])
+        if heading[:1] != ["cell"] or heading[-len(FIGURES) - len(TEXTS):] != [*TEXTS, *FIGURES]:
+            raise LogError(f"{path}: is not a table of hagfish sweep, or of another version")
+        first = len(heading) - len(FIGURES)
+        words: list[list[str]] = [[] for _ in heading[:first]]
+        numbers = [array("d") for _ in FIGURES]
+        known: dict[str, str] = {}  # each text is kept once
+        for row in rows:
+            for column, text in zip(words, row):
+                column.append(known.setdefault(text, text))
+            for numbers_of, text in zip(numbers, row[first:]):
+                numbers_of.append(float(text) if text else np.nan)
+    if not words[0]:
+        raise LogError(f"{path}: holds no rows")
+    named = dict(zip(heading, words))
+    return SweepTable({key: named[key] for key in heading[1:first - len(TEXTS)]}, {key: named[key] for key in TEXTS},
+                      {key: np.frombuffer(values) for key, values in zip(FIGURES, numbers)})

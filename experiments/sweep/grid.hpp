@@ -1,0 +1,49 @@
+// A grid of runs: scenes and settings along axes, of which each combination is a cell.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "core/input/scene_reader.hpp"
+
+namespace hagfish {
+
+/// Settings that change together, as often as an axis has places.
+struct GridAxis {
+  std::vector<std::string> keys;                 ///< dotted; "scene" is the scene itself
+  std::vector<std::vector<std::string>> values;  ///< of each key, at each place; as --set has them
+  std::size_t size() const { return values.front().size(); }
+};
+
+inline constexpr const char* scene_key = "scene";
+/// An axis that only draws anew.
+inline bool is_seed(const GridAxis& axis) { return axis.keys.front() == "start.seed"; }
+
+enum class KeptLogs { none, failed, all };
+
+struct Grid {
+  std::string file;  ///< its name in errors
+  std::string scene;
+  std::vector<std::string> set;  ///< KEY=VALUE of every cell
+  std::vector<GridAxis> axes;    ///< of the product; the last one changes first
+  KeptLogs keep = KeptLogs::none;
+
+  /// Number of cells.
+  std::size_t size() const;
+  /// Place of `cell`, below size(), on each axis.
+  std::vector<std::size_t> places(std::size_t cell) const;
+  /// Keys of all axes, one after the other, and their values at `places`.
+  std::vector<std::string> keys() const;
+  std::vector<std::string> values(const std::vector<std::size_t>& places) const;
+};
+
+/// Scene and animal at `places`. Throws InputError, naming the grid's file.
+ResolvedScene scene_at(const Grid& grid, const std::vector<std::size_t>& places);
+
+/// What makes the rows of a grid what they are: the program, the axes, and each scene that they
+/// lead to as far as one axis at a time leaves the first cell. Lines of text; the same text, the
+/// same rows. Throws InputError as scene_at.
+std::string grid_identity(const Grid& grid);
+
+}  // namespace hagfish

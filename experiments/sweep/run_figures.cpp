@@ -1,0 +1,283 @@
+#include "experiments/sweep/run_figures.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/input/toml_range.hpp"
+#include "core/log/log_writer.hpp"
+#include "experiments/audit/rebuilt.hpp"
+
+namespace hagfish {
+namespace {
+
+constexpr double nan = RunSummary::none;
+
+double total(const EnergyLedger& ledger) {
+  return ledger.kinetic + ledger.elastic + ledger.gravity;
+}
+
+double put_in(const EnergyLedger& ledger) {
+  return ledger.work_tip + ledger.work_active + ledger.work(RowKind::thigmotaxis);
+}
+
+double balance(const EnergyLedger& ledger) {
+  return total(ledger) - ledger.works() + ledger.dissipated - ledger.integrator_error();
+}
+
+Eigen::Vector3d balance(const MomentumLedger& ledger) {
+  return ledger.momentum - ledger.drag - ledger.outside - ledger.integrator;
+}
+
+double most(const Eigen::Vector3d& v) { return v.allFinite() ? v.cwiseAbs().maxCoeff() : INFINITY; }
+
+/// Largest of the hinges; not of the first frame, whose means are nan.
+double largest_hinge(const Eigen::VectorXd& force) {
+  const double largest = force.tail(force.size() - root_dofs).cwiseAbs().maxCoeff();
+  return std::isnan(largest) ? 0 : largest;
+}
+
+/// None of a body that is past having a type: one that touches itself, or is too tangled.
+std::string type_name(const Eigen::Matrix3Xd& centreline, const KnotSettings& settings) {
+  try {
+    return knot_name(knot_type(centreline, settings).type);
+  } catch (const std::domain_error&) {
+    return "";
+  } catch (const std::overflow_error&) {
+    return "";
+  }
+}
+
+/// Imbalance over what passed, or by itself where nothing did.
+double share(double off, double passed) { return passed > 0 ? off / passed : off; }
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::string>> RunSummary::fields() const {
+  const auto number = [](double value) {
+    return std::isfinite(value) ? shortest(value + 0.0) : std::string();  // no -0
+  };
+  return {{"outcome", outcome},
+          {"unmet", unmet},
+          {"message", message},
+          {"knot", knot},
+          {"duration_s", number(duration)},
+          {"tighten_from_s", number(tighten_from)},
+          {"slide_from_s", number(slide_from)},
+          {"release_from_s", number(release_from)},
+          {"free_from_s", number(free_from)},
+          {"slide_distance_cm", number(slide_distance)},
+          {"slide_speed_cm_per_s", number(slide_speed)},
+          {"sliding_force_dyn", number(sliding_force)},
+          {"largest_thigmotaxis_dyn_cm", number(largest_thigmotaxis)},
+          {"largest_active_dyn_cm", number(largest_active)},
+          {"pull_N", number(pull)},
+          {"penetration_cm", number(penetration)},
+          {"limit_violation_rad", number(limit_violation)},
+          {"head_drift_cm", number(head_drift)},
+          {"kkt", number(kkt)},
+          {"eq6_percent", number(eq6)},
+          {"energy_ledger", number(energy_ledger)},
+          {"energy_gain", number(energy_gain)},
+          {"momentum_ledger", number(momentum_ledger)},
+          {"work_tip_erg", number(work_tip)},
+          {"work_active_erg", number(work_active)},
+          {"work_thigmotaxis_erg", number(work_thigmotaxis)},
+          {"dissipated_erg", number(dissipated)}};
+}
+
+RunFigures::RunFigures(const Model& model, const Scene& scene)
+    : model_(model), scene_(scene), means_(model.nv()), stride_(frame_stride(scene.time)) {}
+
+void RunFigures::see(const StepRecord& record) {
+  const ThigmotaxisRows rows =
+      thigmotaxis_rows_of(record.control, record.solution, scene_.time.step);
+  const Observation& seen = record.moment.observation;
+  penetration_ = worse(penetration_, seen.penetration);
+  limit_violation_ = worse(limit_violation_, seen.limit_violation);
+  head_drift_ = worse(head_drift_, record.head_drift);
+  kkt_ = worse(kkt_, std::max(record.solution.kkt.worst(), record.solution.stationarity));
+  lost_ = lost_ || !record.controller.lost.empty();
+  if (record.step % stride_ == 0) {
+    see_frame(record);
+  }
+  // The step that begins at a frame counts to what follows it.
+  means_.take(record, rows);
+  const Phase phase = frames_.back().phase;
+  if (phase == Phase::slide || phase == Phase::reverse) {
+    ++eq6_steps_since_;
+    eq6_met_since_ += rows.any && rows.met ? 1 : 0;
+  }
+}
+
+void RunFigures::see_frame(const StepRecord& record) {
+  const FrameMeans& mean = means_.close();
+  const std::optional<KnotSpan> span = knot_span(record.controller);
+  const Phase phase = record.controller.phase;
+  if (phase == Phase::tighten && !stretch(phase).reached) {
+    tightened_ = type_name(record.moment.observation.kin.centre, scene_.knot);
+  }
+  frames_.push_back({record.time, phase, span ? span->head_end : nan, span ? span->tail_end : nan,
+                     std::accumulate(mean.lambda.begin(), mean.lambda.end(), 0.0),
+                     pull_of(mean.force[RowKind::head]), mean.force[RowKind::wall][0]});
+  last_centreline_ = record.moment.observation.kin.centre;
+  largest_thigmotaxis_ =
+      std::max(largest_thigmotaxis_, largest_hinge(mean.force[RowKind::thigmotaxis]));
+  largest_active_ = std::max(largest_active_, largest_hinge(mean.active_torque));
+  eq6_met_ += std::exchange(eq6_met_since_, 0);
+  eq6_steps_ += std::exchange(eq6_steps_since_, 0);
+  see_ledgers(record);
+}
+
+void RunFigures::see_ledgers(const StepRecord& record) {
+  const MomentumLedger& momentum = record.momentum;
+  ledger_ = record.ledger;
+  if (frames_.size() == 1) {
+    gain_ = EnergyGain(total(ledger_));
+    first_balance_ = balance(ledger_);
+    first_momentum_ = momentum.momentum;
+  }
+  gain_.see(total(ledger_), put_in(ledger_));
+  imbalance_ = worse(imbalance_, std::abs(balance(ledger_) - first_balance_));
+  worked_ = std::max(worked_, std::abs(ledger_.works()));
+  dissipated_ = std::max(dissipated_, std::abs(ledger_.dissipated));
+  momentum_off_ = worse(momentum_off_, most(balance(momentum) - first_momentum_));
+  momentum_passed_ = std::max(
+      {momentum_passed_, most(momentum.momentum), most(momentum.drag), most(momentum.outside)});
+}
+
+RunFigures::Stretch RunFigures::stretch(Phase phase) const {
+  Stretch found;
+  for (std::size_t f = 0; f < frames_.size(); ++f) {
+    if (frames_[f].phase != phase) continue;
+    if (!found.reached) found.first = f;
+    found.last = f;
+    found.reached = true;
+  }
+  return found;
+}
+
+bool RunFigures::reaches(Phase phase) const {
+  return phase_order(scene_.time.until) >= phase_order(phase) &&
+         phase_order(scene_.start.phase) <= phase_order(phase);
+}
+
+RunSummary RunFigures::summary(const std::string& outcome, const std::string& message) const {
+  RunSummary run;
+  run.outcome = outcome;
+  run.message = message;
+  if (frames_.empty()) {
+    return run;
+  }
+  const auto from = [&](Phase phase) {
+    const Stretch found = stretch(phase);
+    return found.reached ? frames_[found.first].time : nan;
+  };
+  const Stretch slide = stretch(Phase::slide);
+  run.knot = stretch(Phase::tighten).reached ? tightened_ : type_at_end();
+  run.duration = frames_.back().time - frames_.front().time;
+  run.tighten_from = from(Phase::tighten);
+  run.slide_from = from(Phase::slide);
+  run.release_from = from(Phase::release);
+  run.free_from = from(Phase::free);
+  if (slide.reached) {
+    const Seen &first = frames_[slide.first], &last = frames_[slide.last];
+    run.slide_distance = first.head_end - last.head_end;
+    run.slide_speed = last.time > first.time ? run.slide_distance / (last.time - first.time) : nan;
+    std::vector<double> sums;
+    for (std::size_t f = slide.first + 1; f <= slide.last; ++f) sums.push_back(frames_[f].rows);
+    run.sliding_force = sums.empty() ? nan : median(sums);
+  }
+  run.largest_thigmotaxis = largest_thigmotaxis_;
+  run.largest_active = largest_active_;
+  run.penetration = penetration_;
+  run.limit_violation = limit_violation_;
+  run.head_drift = head_drift_;
+  run.kkt = kkt_;
+  run.eq6 = eq6_criterion(scene_.expect, eq6_met_, eq6_steps_).value;
+  run.energy_ledger = share(imbalance_, std::max(worked_, dissipated_));
+  run.energy_gain = gain_.largest();
+  run.momentum_ledger = share(momentum_off_, momentum_passed_);
+  run.work_tip = ledger_.work_tip;
+  run.work_active = ledger_.work_active;
+  run.work_thigmotaxis = ledger_.work(RowKind::thigmotaxis);
+  run.dissipated = ledger_.dissipated;
+  if (const auto judged = pull_criteria(scene_.expect, settled_part(scene_.expect, pull()));
+      !judged.empty()) {
+    run.pull = judged.front().value;
+  }
+  run.unmet = fmt::format("{}", fmt::join(unmet(run), "; "));
+  return run;
+}
+
+std::string RunFigures::type_at_end() const { return type_name(last_centreline_, scene_.knot); }
+
+std::optional<KnotWay> RunFigures::way(Phase phase, double Seen::*end) const {
+  std::optional<KnotWay> seen;
+  for (const Seen& frame : frames_) {
+    if (frame.phase == phase && !std::isnan(frame.*end)) {
+      seen = {seen ? seen->first : frame.*end, frame.*end};
+    }
+  }
+  return seen;
+}
+
+std::vector<PullMeans> RunFigures::pull() const {
+  std::vector<PullMeans> means;
+  for (std::size_t f = 1; f < frames_.size(); ++f) {
+    if (frames_[f - 1].phase == Phase::pull && frames_[f].phase == Phase::pull) {
+      means.push_back({frames_[f].time, frames_[f].pull, frames_[f].plate});
+    }
+  }
+  return means;
+}
+
+std::vector<Criterion> RunFigures::criteria(const RunSummary& run) const {
+  const ExpectSettings& expect = scene_.expect;
+  std::vector<Criterion> judged = {penetration_criterion(expect, run.penetration),
+                                   limits_criterion(expect, run.limit_violation),
+                                   head_drift_criterion(expect, run.head_drift),
+                                   kkt_criterion(expect, run.kkt),
+                                   {"energy ledger", run.energy_ledger, expect.energy, ""},
+                                   energy_gain_criterion(expect, run.energy_gain),
+                                   {"momentum ledger", run.momentum_ledger, expect.energy, ""}};
+  if (!expect.knot.empty() && reaches(Phase::slide)) {
+    judged.push_back(slide_found(scene_, way(Phase::slide, &Seen::head_end)));
+    judged.push_back(eq6_criterion(expect, eq6_met_, eq6_steps_));
+  }
+  if (!expect.knot.empty() && reaches(Phase::reverse) &&
+      scene_.controller.leave_by == BodyEnd::tail) {
+    judged.push_back(reverse_found(scene_, way(Phase::reverse, &Seen::tail_end)));
+  }
+  return judged;
+}
+
+std::vector<std::string> RunFigures::unmet(const RunSummary& run) const {
+  std::vector<std::string> names;
+  const auto judge = [&names](const std::string& name, bool met) {
+    if (!met) names.push_back(name);
+  };
+  if (!scene_.expect.knot.empty()) {
+    if (reaches(Phase::tighten)) {
+      judge("knot held", stretch(Phase::tighten).reached && !lost_ &&
+                             run.outcome != outcome_name(Outcome::knot_lost));
+    }
+    if (reaches(Phase::free)) {
+      judge("unknot at end", frames_.back().phase == Phase::free && type_at_end() == knot_name({}));
+    }
+  }
+  for (const Criterion& criterion : criteria(run)) judge(criterion.name, criterion.met());
+  if (pulls_at_food(scene_)) {
+    const auto judged = pull_criteria(scene_.expect, settled_part(scene_.expect, pull()));
+    judge("pull", settles(scene_) ? !judged.empty() : !pull().empty());
+    if (settles(scene_)) {
+      for (const Criterion& criterion : judged) judge(criterion.name, criterion.met());
+    }
+  }
+  return names;
+}
+
+}  // namespace hagfish

@@ -1,0 +1,96 @@
+// What a run comes to, from its steps as they are taken, without a log: the figures of `hagfish
+// export`'s summary and those that `hagfish check` holds against the scene's [expect], at the same
+// steps and frames. A test compares them with both.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/log/log_means.hpp"
+#include "core/run/simulation.hpp"
+#include "experiments/audit/audit_knot.hpp"
+#include "experiments/audit/audit_pull.hpp"
+#include "experiments/audit/expectations.hpp"
+
+namespace hagfish {
+
+/// Figures of one run; nan where it has none.
+struct RunSummary {
+  static constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  std::string outcome;     ///< "ok" of a run that came to its end, else as outcome_name has it
+  std::string unmet;       ///< criteria of [expect] that it does not meet, joined by "; "
+  std::string message;     ///< why it stopped
+  std::string knot;        ///< type at the start of tightening, or at the end
+  double duration = none;  // s
+  double tighten_from = none, slide_from = none, release_from = none, free_from = none;  // s
+  double slide_distance = none, slide_speed = none;                                      // cm, cm/s
+  double sliding_force = none;                                                           // dyn
+  double largest_thigmotaxis = none, largest_active = none;                              // dyn cm
+  double pull = none;                                                                    // N
+  double penetration = none, limit_violation = none;                                     // cm, rad
+  double head_drift = none, kkt = none;                                                  // cm, 1
+  double eq6 = none;                                                                     // %
+  double energy_ledger = none, energy_gain = none, momentum_ledger = none;               // 1
+  double work_tip = none, work_active = none, work_thigmotaxis = none, dissipated = none;  // erg
+
+  /// Headings, with units, and fields: numbers are the shortest that read back as the same double.
+  std::vector<std::pair<std::string, std::string>> fields() const;
+};
+
+/// Watches a run step by step.
+class RunFigures {
+ public:
+  /// Both are referred to.
+  RunFigures(const Model& model, const Scene& scene);
+  /// Each step, in order, from step 0.
+  void see(const StepRecord& record);
+  /// How the run ended: "ok" or the outcome by name, and why.
+  RunSummary summary(const std::string& outcome, const std::string& message) const;
+
+ private:
+  /// A frame of the log that there could be.
+  struct Seen {
+    double time = 0;  // s
+    Phase phase = Phase::form;
+    double head_end = 0, tail_end = 0;  // cm of arc; nan without contacts
+    double rows = 0;                    // sum of the four mean λ / h, dyn
+    double pull = 0, plate = 0;         // means, dyn
+  };
+  struct Stretch {
+    std::size_t first = 0, last = 0;  // indices along the frames
+    bool reached = false;
+  };
+
+  void see_frame(const StepRecord& record);
+  void see_ledgers(const StepRecord& record);
+  Stretch stretch(Phase phase) const;
+  bool reaches(Phase phase) const;
+  std::optional<KnotWay> way(Phase phase, double Seen::*end) const;
+  std::vector<Criterion> criteria(const RunSummary& run) const;
+  std::vector<PullMeans> pull() const;
+  std::string type_at_end() const;
+  std::vector<std::string> unmet(const RunSummary& run) const;
+
+  const Model& model_;
+  const Scene& scene_;
+  RunningMeans means_;
+  std::int64_t stride_;  // steps a frame
+  std::vector<Seen> frames_;
+  std::string tightened_;             // type at the first frame of tightening
+  Eigen::Matrix3Xd last_centreline_;  // at the last frame
+  bool lost_ = false;
+  double penetration_ = 0, limit_violation_ = 0, head_drift_ = 0, kkt_ = 0;
+  double largest_thigmotaxis_ = 0, largest_active_ = 0;
+  std::int64_t eq6_met_ = 0, eq6_steps_ = 0;              // of slides, up to the last frame
+  std::int64_t eq6_met_since_ = 0, eq6_steps_since_ = 0;  // and since
+  double first_balance_ = 0, imbalance_ = 0, worked_ = 0, dissipated_ = 0;
+  Eigen::Vector3d first_momentum_ = Eigen::Vector3d::Zero();
+  double momentum_off_ = 0, momentum_passed_ = 0;
+  EnergyGain gain_{0};
+  EnergyLedger ledger_;
+};
+
+}  // namespace hagfish

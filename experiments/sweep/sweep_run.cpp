@@ -1,0 +1,106 @@
+#include "experiments/sweep/sweep_run.hpp"
+
+#include <fmt/format.h>
+
+#include <ctime>
+#include <new>
+
+#include "core/log/build_info.hpp"
+#include "core/log/log_writer.hpp"
+#include "experiments/program/failure.hpp"
+#include "experiments/sweep/sweep.hpp"
+#include "mujoco_ref/mjcf.hpp"
+
+namespace hagfish {
+namespace {
+
+/// The log of one run, where there is one to be written.
+class KeptLog {
+ public:
+  KeptLog(const std::optional<SweepLog>& log, const ResolvedScene& resolved, const Model& model)
+      : log_(log) {
+    if (!log_) return;
+    const Scene& scene = resolved.scene;
+    const std::scoped_lock lock(log_->hdf5);
+    LogHeader header;
+    header.command = log_->typed;
+    header.scene = scene_to_toml(scene, resolved.specimen);
+    header.qp = sweep_qp;
+    header.libraries = build_libraries();
+    header.mjcf = mjcf_files(model, scene.contact.least_arc, scene.time.step);
+    writer_ = std::make_unique<LogWriter>(log_->file, true, header, model, scene);
+  }
+  ~KeptLog() {
+    if (!writer_) return;
+    const std::scoped_lock lock(log_->hdf5);
+    writer_.reset();
+  }
+  KeptLog(const KeptLog&) = delete;
+  KeptLog& operator=(const KeptLog&) = delete;
+
+  void write(const StepRecord& record, const Simulation& sim, double time) {
+    if (!writer_) return;
+    const std::scoped_lock lock(log_->hdf5);
+    writer_->write(record, sim, time);
+  }
+  void finish(const std::string& status, const Simulation& sim) {
+    if (!writer_) return;
+    const std::scoped_lock lock(log_->hdf5);
+    writer_->finish(status, sim);
+  }
+
+ private:
+  const std::optional<SweepLog>& log_;
+  std::unique_ptr<LogWriter> writer_;
+};
+
+}  // namespace
+
+double thread_cpu_time() {
+  timespec time{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+std::optional<SweepRun> run_for_summary(const ResolvedScene& resolved,
+                                        const std::function<bool()>& interrupted,
+                                        const std::optional<SweepLog>& log) {
+  const Scene& scene = resolved.scene;
+  const Model model = make_hagfish(resolved.specimen, scene);
+  KeptLog kept(log, resolved, model);
+  RunFigures figures(model, scene);
+  const double begin = thread_cpu_time();
+  std::string outcome = outcome_name(Outcome::ok), message;
+  Simulation sim = start(model, scene, sweep_qp);
+  double step_begin = thread_cpu_time();
+  double cpu_time = step_begin - begin;
+  sim.solver.stop_when(
+      [&] { return interrupted() || thread_cpu_time() - step_begin > step_cpu_limit; });
+  StepRecord record;
+  while (!finished(sim, scene) && message.empty()) {
+    if (interrupted()) return std::nullopt;
+    step_begin = thread_cpu_time();
+    try {
+      take_step(model, scene, sim, record);
+      cpu_time += thread_cpu_time() - step_begin;
+    } catch (const StepError& error) {
+      if (interrupted()) return std::nullopt;
+      outcome = outcome_name(error.outcome());
+      message = error.what();
+      continue;
+    } catch (const std::bad_alloc&) {
+      throw;  // of no meaning for the cell
+    } catch (const std::exception& error) {
+      outcome = "error";
+      message = reason(error);
+      continue;
+    }
+    figures.see(record);
+    kept.write(record, sim, step_begin - begin);
+  }
+  const std::string at = fmt::format("{} at step {}", message, sim.step);
+  kept.finish(message.empty() ? "complete" : "failed: " + at, sim);
+  return SweepRun{figures.summary(outcome, message.empty() ? "" : at), cpu_time};
+}
+
+}  // namespace hagfish
