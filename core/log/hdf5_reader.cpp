@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "core/input/regular_file.hpp"
-#include "core/log/hdf5_trial.hpp"
+#include "core/log/hdf5_copy.hpp"
 
 namespace hagfish {
 namespace {
@@ -82,8 +82,11 @@ Hdf5Reader::Hdf5Reader(const std::filesystem::path& file, Origin origin) : file_
     throw FileError(file_ + ": " + why);
   }
   file_size_ = std::filesystem::file_size(file);
-  if (origin == Origin::anywhere) try_hdf5(file);
-  guarded(file_, "read as HDF5", [&] { h5_ = H5::H5File(file_, H5F_ACC_RDONLY); });
+  if (origin == Origin::anywhere) {
+    h5_ = open_hdf5_copy(file);
+  } else {
+    guarded(file_, "read as HDF5", [&] { h5_ = H5::H5File(file_, H5F_ACC_RDONLY); });
+  }
 }
 
 H5::DataSet Hdf5Reader::open(const std::string& path) const {

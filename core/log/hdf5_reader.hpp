@@ -17,14 +17,15 @@
 
 namespace hagfish {
 
-/// Who wrote a file. What this process wrote just now needs no trial (hdf5_trial.hpp).
+/// Who wrote a file. What this process wrote just now is read as it is, all else as a copy of it
+/// (hdf5_copy.hpp).
 enum class Origin { anywhere, own };
 
 /// A file being read.
 class Hdf5Reader {
  public:
   /// Throws FileError where the file is missing, not a regular one, unreadable, not HDF5, or such
-  /// that HDF5 crashes on it or comes to no end (hdf5_trial.hpp).
+  /// that HDF5 crashes on it or comes to no end (hdf5_copy.hpp).
   explicit Hdf5Reader(const std::filesystem::path& file, Origin origin = Origin::anywhere);
   bool has(const std::string& path) const;
   /// Attributes of the file: one text, one whole number.

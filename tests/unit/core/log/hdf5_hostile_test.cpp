@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <cstdint>
+#include <fstream>
 #include <functional>
+#include <iterator>
 
 #include "core/log/hdf5_reader.hpp"
-#include "core/log/hdf5_trial.hpp"
 #include "tests/support/errors.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -171,6 +173,35 @@ TEST_F(HostileHdf5, AFileThatHdf5CrashesOnEndsInOneLine) {
     h5.createDataSet("x", number(), space, itself);
   });
   EXPECT_EQ(refusal_of("/x"), "the numbers of /x are in another file");
+}
+
+// HDF5 1.10 copies a text of whatever length its heap says to where there is room for as much as
+// its attribute says: over its own memory, to be found out at some time later.
+TEST_F(HostileHdf5, ATextOfFalseLengthSpoilsNoMemory) {
+  const std::string words = "the words of an attribute";
+  make([&](H5::H5File& h5) {
+    const H5::StrType text(H5::PredType::C_S1, H5T_VARIABLE);
+    h5.openGroup("/").createAttribute("words", text, H5::DataSpace()).write(text, words);
+    const std::vector<char> more(200000, 'x');  // to be copied from
+    const hsize_t size = more.size();
+    h5.createDataSet("more", H5::PredType::NATIVE_CHAR, H5::DataSpace(1, &size))
+        .write(more.data(), H5::PredType::NATIVE_CHAR);
+  });
+  const auto patch = [&](std::uint64_t length) {
+    std::fstream raw(file, std::ios::in | std::ios::out | std::ios::binary);
+    const std::string bytes((std::istreambuf_iterator<char>(raw)), {});
+    const std::size_t at = bytes.find(words);
+    ASSERT_NE(at, std::string::npos);
+    raw.seekp(at - sizeof length);  // Global Heap Object, HDF5 File Format Specification III.E
+    raw.write(reinterpret_cast<const char*>(&length), sizeof length);
+  };
+  for (const std::uint64_t length : {5000, 60000, 1000000}) {
+    patch(length);
+    // Whatever it says: this process goes on.
+    error_of<FileError>([&] { Hdf5Reader(file).root_text("words"); });
+  }
+  patch(words.size());
+  EXPECT_EQ(Hdf5Reader(file).root_text("words"), words);
 }
 
 }  // namespace

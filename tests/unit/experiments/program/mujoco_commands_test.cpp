@@ -33,7 +33,7 @@ TEST_F(ProgramTest, ComparesWithMujoco) {
   fs::remove(folder / "compare.h5");
   expect_refused("compare --set model.bodies=1", {"model.bodies"});
   // Steps longer than what is compared, and steps without end.
-  for (const std::string step : {"3", "1e-7"}) {
+  for (const std::string step : {"3", "1e-07"}) {
     expect_refused("compare --set model.bodies=3 --set time.frame_interval=3 --set time.step=" +
                        step + " --out compare.h5",
                    {"time.step = " + step, "in 1 to 100000 steps"});
