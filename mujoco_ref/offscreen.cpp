@@ -221,6 +221,39 @@ void set_skin(const Skin& skin, mjModel& model, mjrContext& context, mjvScene& s
   geom.shininess = 0.35f;
 }
 
+// Of a colour bar, px: its own size at most, the distance of its parts, and of letters above their
+// line.
+constexpr int bar_width = 340, bar_height = 16, bar_gap = 12, letter_height = 16;
+
+/// Words that begin at (left, bottom), px; `align` of their width further left.
+void draw_words(const std::string& words, int left, int bottom, double align, const View& view,
+                const mjrContext& context) {
+  int wide = 0;
+  for (const char c : words) wide += context.charWidth[static_cast<unsigned char>(c)];
+  const double x = std::max(0.0, left - align * wide);
+  mjr_text(mjFONT_NORMAL, words.c_str(), &context, static_cast<float>(x / view.width),
+           static_cast<float>(static_cast<double>(bottom) / view.height), 0, 0, 0);
+}
+
+/// After mjr_render() alone: words go by its window, which the colours change.
+void draw_bar(const ColourBar& bar, const View& view, const mjrContext& context) {
+  const int wide = std::min(bar_width, view.width * 2 / 5);  // beside the words of a film
+  const int left = view.width - bar_gap - wide;
+  const int bottom = bar_gap + letter_height + bar_gap / 2;
+  const auto say = [&](const std::string& words, int at, int above, double align) {
+    draw_words(words, at, above, align, view, context);
+  };
+  say(bar.least, left, bar_gap / 2, 0);
+  say(bar.most, left + wide, bar_gap / 2, 1);
+  say(bar.title, left + wide, bottom + bar_height + bar_gap / 2, 1);
+  const auto count = static_cast<int>(bar.colour.size());
+  for (int x = 0; x < wide; ++x) {
+    const auto& c = bar.colour[static_cast<std::size_t>(x * count / wide)];
+    mjr_rectangle({left + x, bottom, 1, bar_height}, c[0] / 255.0f, c[1] / 255.0f, c[2] / 255.0f,
+                  1);
+  }
+}
+
 }  // namespace
 
 struct OffscreenRenderer::Parts {
@@ -250,16 +283,16 @@ OffscreenRenderer::OffscreenRenderer(const mjModel& model, int width, int height
 OffscreenRenderer::~OffscreenRenderer() = default;
 
 Image OffscreenRenderer::render(const std::vector<mjvGeom>& geoms, const View& view) {
-  return draw(geoms, view, nullptr, "");
+  return draw(geoms, view, nullptr, "", nullptr);
 }
 
 Image OffscreenRenderer::render(const std::vector<mjvGeom>& geoms, const View& view,
-                                const Skin& skin, const std::string& words) {
-  return draw(geoms, view, &skin, words);
+                                const Skin& skin, const std::string& words, const ColourBar* bar) {
+  return draw(geoms, view, &skin, words, bar);
 }
 
 Image OffscreenRenderer::draw(const std::vector<mjvGeom>& geoms, const View& view, const Skin* skin,
-                              const std::string& words) {
+                              const std::string& words, const ColourBar* bar) {
   mjrContext& context = parts_->context;
   if (view.width > context.offWidth || view.height > context.offHeight) {
     throw std::runtime_error(fmt::format("picture of {} x {} px: the renderer goes to {} x {}",
@@ -279,6 +312,7 @@ Image OffscreenRenderer::draw(const std::vector<mjvGeom>& geoms, const View& vie
 
   const mjrRect whole{0, 0, view.width, view.height};
   mjr_render(whole, &scene, &context);
+  if (bar != nullptr) draw_bar(*bar, view, context);
   if (!words.empty()) {
     mjr_overlay(mjFONT_NORMAL, mjGRID_BOTTOMLEFT, whole, words.c_str(), nullptr, &context);
   }

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -42,6 +43,14 @@ struct PictureQuality {
   int shadow_size = 4096;  ///< of their shadow maps, px
 };
 
+/// What the colours of a skin stand for: drawn as a bar in the lower right corner.
+struct ColourBar {
+  std::vector<std::array<unsigned char, 3>> colour;  ///< from the least value to the largest
+  std::string title, least, most;                    ///< above it, and below its ends
+};
+/// Height of the lower edge of a picture that a bar and its words take, px.
+inline constexpr int colour_bar_room = 76;
+
 /// One OpenGL context for any number of pictures. Keep one at a time, in the thread that made it.
 class OffscreenRenderer {
  public:
@@ -57,14 +66,15 @@ class OffscreenRenderer {
   /// the view is larger than what the renderer was made for.
   Image render(const std::vector<mjvGeom>& geoms, const View& view);
   /// The same with a skin of as many points as skin_model() made the renderer's model for (else
-  /// std::invalid_argument), and a line of text in the lower left corner unless it is empty.
+  /// std::invalid_argument), a line of text in the lower left corner unless it is empty, and the
+  /// bar, if any.
   Image render(const std::vector<mjvGeom>& geoms, const View& view, const Skin& skin,
-               const std::string& words = "");
+               const std::string& words = "", const ColourBar* bar = nullptr);
 
  private:
   struct Parts;
   Image draw(const std::vector<mjvGeom>& geoms, const View& view, const Skin* skin,
-             const std::string& words);
+             const std::string& words, const ColourBar* bar);
   std::unique_ptr<Parts> parts_;
 };
 

@@ -1,5 +1,7 @@
 #include "core/log/hdf5_writer.hpp"
 
+#include <hdf5_hl.h>
+
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -27,6 +29,9 @@ void text_attribute(H5::H5Object& object, const std::string& name, const std::st
   }
   object.createAttribute(name, text_type(), H5::DataSpace(H5S_SCALAR)).write(text_type(), value);
 }
+
+/// The last part of a path.
+std::string name_of(const std::string& path) { return path.substr(path.rfind('/') + 1); }
 
 void describe(H5::DataSet& set, const Meaning& meaning) {
   text_attribute(set, "unit", meaning.unit);
@@ -141,6 +146,31 @@ void Hdf5Writer::bytes(const std::string& path, const std::vector<std::uint8_t>&
   });
 }
 
+void Hdf5Writer::make_labels(const std::string& path) {
+  guarded(name_, "make labels of " + path, [&] {
+    const H5::DataSet set = h5_.openDataSet(path);
+    if (H5DSset_scale(set.getId(), name_of(path).c_str()) < 0) {
+      throw H5::DataSetIException("H5DSset_scale", "no scale");
+    }
+  });
+}
+
+void Hdf5Writer::label(const std::string& path, const std::vector<std::string>& labels) {
+  guarded(name_, "label " + path, [&] {
+    const H5::DataSet set = h5_.openDataSet(path);
+    for (std::size_t axis = 0; axis < labels.size(); ++axis) {
+      // Labels label themselves.
+      if (labels[axis].empty() || labels[axis] == path) continue;
+      const H5::DataSet scale = h5_.openDataSet(labels[axis]);
+      if (H5DSattach_scale(set.getId(), scale.getId(), static_cast<unsigned>(axis)) < 0) {
+        throw H5::DataSetIException("H5DSattach_scale", "not attached");
+      }
+      const std::string here = path.substr(0, path.rfind('/') + 1) + name_of(labels[axis]);
+      if (!h5_.nameExists(here)) h5_.link(labels[axis], here);
+    }
+  });
+}
+
 void Hdf5Writer::create(const SeriesLayout& layout) {
   const std::vector<hsize_t> now = layout.shape(0);
   const std::vector<hsize_t> most = layout.shape(H5S_UNLIMITED);
@@ -148,7 +178,7 @@ void Hdf5Writer::create(const SeriesLayout& layout) {
   guarded(name_, "create " + layout.path, [&] {
     H5::DSetCreatPropList storage;
     storage.setChunk(static_cast<int>(chunk.size()), chunk.data());
-    if (layout.meaning.sparse) {
+    if (layout.meaning.packed) {
       storage.setShuffle();
       storage.setDeflate(deflate_level);
     }
@@ -156,10 +186,14 @@ void Hdf5Writer::create(const SeriesLayout& layout) {
     H5::LinkCreatPropList groups;
     groups.setCreateIntermediateGroup(true);
     H5::DataSet set =
-        h5_.createDataSet(layout.path, layout.type,
+        h5_.createDataSet(layout.path, layout.single ? H5::PredType::NATIVE_FLOAT : layout.type,
                           H5::DataSpace(static_cast<int>(now.size()), now.data(), most.data()),
                           storage, H5::DSetAccPropList::DEFAULT, groups);
     describe(set, layout.meaning);
+    if (layout.resolution > 0) {
+      set.createAttribute("resolution", H5::PredType::NATIVE_DOUBLE, H5::DataSpace(H5S_SCALAR))
+          .write(H5::PredType::NATIVE_DOUBLE, &layout.resolution);
+    }
   });
 }
 

@@ -18,7 +18,14 @@ namespace hagfish {
 struct Meaning {
   std::string unit;
   std::string description;
-  bool sparse = false;  ///< mostly zeros, which are worth compressing; motion is not
+  bool packed = false;  ///< worth compressing: mostly zeros, or alike in time; motion is not
+};
+
+/// An axis of a dataset: its extent, and the path of the dataset that labels it (its dimension
+/// scale), empty where nothing does.
+struct LabelledAxis {
+  hsize_t size = 0;
+  std::string labels;
 };
 
 /// A dataset that grows by rows of fixed shape: stored in chunks with a checksum each.
@@ -28,6 +35,10 @@ struct SeriesLayout {
   Meaning meaning;
   H5::DataType type;
   hsize_t chunk_rows = 1;
+  bool single = false;    ///< doubles are stored as floats
+  double resolution = 0;  ///< doubles are rounded to multiples of it; 0 for none
+  std::vector<std::string>
+      labels;  ///< of each axis, as LabelledAxis::labels; none where nothing does
 
   /// Extents of so many rows.
   std::vector<hsize_t> shape(hsize_t rows) const {
@@ -59,6 +70,12 @@ class Hdf5Writer {
   void attribute(const std::string& path, const std::string& name, std::int64_t value);
   void text(const std::string& path, const std::string& value);
   void texts(const std::string& path, const std::vector<std::string>& values);
+
+  /// Makes a dataset the labels of others' axes (a dimension scale), by the last part of its path.
+  void make_labels(const std::string& path);
+  /// Labels the axes of a dataset, in their order; an empty text leaves one as it is. In the
+  /// dataset's group the labels get their own name again, by which netCDF's readers find them.
+  void label(const std::string& path, const std::vector<std::string>& labels);
 
   /// Bytes of any number, in place of those that were there.
   void bytes(const std::string& path, const std::vector<std::uint8_t>& values,

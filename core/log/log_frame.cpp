@@ -14,6 +14,15 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 // Frames are some 50 a second of simulated time, steps 500; a chunk is read and written as one.
 constexpr hsize_t frame_chunk_rows = 64;
 constexpr hsize_t step_chunk_rows = 1024;
+// Of logs below LogLevel::full, all of which is compressed.
+constexpr hsize_t packed_frames = 256;
+
+const LabelledAxis space{3, axis_labels};
+const LabelledAxis on_plate{2, plate_labels};
+const LabelledAxis both_contacts{2, contact_labels};
+const LabelledAxis strands{4, strand_labels};
+
+LabelledAxis dofs_of(const Model& model) { return {static_cast<hsize_t>(model.nv()), dof_labels}; }
 
 std::vector<std::string> phase_names() {
   std::vector<std::string> names;
@@ -76,9 +85,9 @@ constexpr std::array<LoggedForce, row_kinds.size()> logged_forces = {
 constexpr const char* active_description = "active torque of the animal's muscles, 0 at the root";
 
 void declare_trajectory(const Model& model, LogTable<Frame>& t) {
-  const hsize_t n = model.body_count();
-  const hsize_t nq = model.nq();
-  const hsize_t nv = model.nv();
+  const LabelledAxis n{static_cast<hsize_t>(model.body_count()), body_labels};
+  const LabelledAxis nq{static_cast<hsize_t>(model.nq()), coordinate_labels};
+  const LabelledAxis nv = dofs_of(model);
   const std::string rates = "cm/s, rad/s";
   t.index("/trajectory/step", "index of the step that begins at the frame",
           [](const Frame& f) { return f.record.step; });
@@ -109,13 +118,13 @@ void declare_trajectory(const Model& model, LogTable<Frame>& t) {
         return rest.size() == 0 ? none : rest;
       });
   t.numbers(
-      "/trajectory/position", {n, 3}, {"cm", "body centres, world axes"},
+      "/trajectory/position", {n, space}, {"cm", "body centres, world axes"},
       [](const Frame& f) -> const auto& { return f.record.moment.observation.kin.centre; });
 }
 
 /// /midway: what the midpoint rule's equations are of.
 void declare_midway(const Model& model, LogTable<Frame>& t) {
-  const hsize_t nv = model.nv();
+  const LabelledAxis nv = dofs_of(model);
   const auto velocity = [&](const char* name, const char* description, auto get) {
     t.numbers(std::string("/midway/") + name, {nv}, {"cm/s, rad/s", description}, get);
   };
@@ -154,7 +163,7 @@ void declare_knot(LogTable<Frame>& t) {
 }
 
 void declare_forces(const Model& model, LogTable<Frame>& t) {
-  const hsize_t nv = model.nv();
+  const LabelledAxis nv = dofs_of(model);
   for (const LoggedForce& force : logged_forces) {
     t.numbers(
         std::string("/forces/") + row_kind_name(force.kind), {nv},
@@ -167,7 +176,7 @@ void declare_forces(const Model& model, LogTable<Frame>& t) {
       "/forces/active", {nv}, {"dyn, dyn·cm", active_description, true},
       [](const Frame& f) -> const auto& { return f.record.solution.active_torque; });
   t.numbers(
-      "/forces/tip", {3}, {"dyn", "scripted force on the last body, world axes"},
+      "/forces/tip", {space}, {"dyn", "scripted force on the last body, world axes"},
       [](const Frame& f) -> const auto& { return f.record.solution.tip; });
 }
 
@@ -178,21 +187,24 @@ void declare_thigmotaxis(LogTable<Frame>& t) {
          [](const Frame& f) { return bodies(f, &Contact::body_b); });
   const std::string parameter =
       " of the [first, last] contact followed, segment + t in bodies from the head; nan where none";
-  t.numbers("/thigmotaxis/spline_a", {2}, {"1", "spline parameter on the strand a" + parameter},
+  t.numbers("/thigmotaxis/spline_a", {both_contacts},
+            {"1", "spline parameter on the strand a" + parameter},
             [](const Frame& f) { return followed(f, &Contact::segment_a, &Contact::t_a); });
-  t.numbers("/thigmotaxis/spline_b", {2}, {"1", "spline parameter on the strand b" + parameter},
+  t.numbers("/thigmotaxis/spline_b", {both_contacts},
+            {"1", "spline parameter on the strand b" + parameter},
             [](const Frame& f) { return followed(f, &Contact::segment_b, &Contact::t_b); });
   t.numbers(
-      "/thigmotaxis/command", {4}, {"cm/s", order + "right side of Eq. 6, nan where no row"},
+      "/thigmotaxis/command", {strands}, {"cm/s", order + "right side of Eq. 6, nan where no row"},
       [](const Frame& f) -> const auto& { return f.thigmotaxis.command; });
   t.numbers(
-      "/thigmotaxis/lambda", {4}, {"dyn", order + "multiplier over h, 0 where no row"},
+      "/thigmotaxis/lambda", {strands}, {"dyn", order + "multiplier over h, 0 where no row"},
       [](const Frame& f) -> const auto& { return f.thigmotaxis.lambda; });
   t.numbers(
-      "/thigmotaxis/speed", {4}, {"cm/s", order + "left side of Eq. 6, nan where no row"},
+      "/thigmotaxis/speed", {strands}, {"cm/s", order + "left side of Eq. 6, nan where no row"},
       [](const Frame& f) -> const auto& { return f.thigmotaxis.speed; });
   t.numbers(
-      "/thigmotaxis/slack", {4}, {"cm/s", order + "shortfall of the command, nan where no row"},
+      "/thigmotaxis/slack", {strands},
+      {"cm/s", order + "shortfall of the command, nan where no row"},
       [](const Frame& f) -> const auto& { return f.thigmotaxis.slack; });
   t.number("/thigmotaxis/cap", {"dyn", "largest multiplier over h of a row; nan where no row"},
            [](const Frame& f) { return f.thigmotaxis.cap; });
@@ -200,11 +212,10 @@ void declare_thigmotaxis(LogTable<Frame>& t) {
 
 /// /control: what a run's own law asks for, as far as nothing else says it.
 void declare_control(const Model& model, LogTable<Frame>& t) {
-  const hsize_t nv = model.nv();
   t.count("/control/clamp_head", "whether the head is clamped: 1, or 0",
           [](const Frame& f) { return f.record.control.clamp_head ? 1 : 0; });
   t.numbers(
-      "/control/tip", {3}, {"dyn", "force on the last body asked for, at rest, world axes"},
+      "/control/tip", {space}, {"dyn", "force on the last body asked for, at rest, world axes"},
       [](const Frame& f) -> const auto& { return f.record.control.tip.value; });
   t.number("/control/tip_rate", {"dyn s/cm", "what the force loses by the last body's velocity"},
            [](const Frame& f) { return f.record.control.tip.rate; });
@@ -213,7 +224,7 @@ void declare_control(const Model& model, LogTable<Frame>& t) {
   const auto torque = [&](const char* name, const char* unit, const char* description,
                           Eigen::VectorXd ActiveTorque::*member) {
     t.numbers(
-        std::string("/control/") + name, {nv}, {unit, description, true}, [
+        std::string("/control/") + name, {dofs_of(model)}, {unit, description, true}, [
           member, none = Eigen::VectorXd(Eigen::VectorXd::Zero(model.nv()))
         ](const Frame& f) -> const auto& {
           const Eigen::VectorXd& values = f.record.control.torque.*member;
@@ -231,23 +242,22 @@ void declare_means(const Model& model, LogTable<Frame>& t) {
   const std::string since = ", mean over the steps since the frame before; nan at the first frame";
   for (const LoggedForce& force : logged_forces) {
     t.numbers(
-        std::string("/mean/forces/") + row_kind_name(force.kind),
-        {static_cast<hsize_t>(model.nv())}, {"dyn, dyn·cm", force.description + since, true},
+        std::string("/mean/forces/") + row_kind_name(force.kind), {dofs_of(model)},
+        {"dyn, dyn·cm", force.description + since, true},
         [kind = force.kind](const Frame& f) -> const auto& { return f.mean.force[kind]; });
   }
   t.numbers(
-      "/mean/forces/active", {static_cast<hsize_t>(model.nv())},
-      {"dyn, dyn·cm", active_description + since, true},
+      "/mean/forces/active", {dofs_of(model)}, {"dyn, dyn·cm", active_description + since, true},
       [](const Frame& f) -> const auto& { return f.mean.active_torque; });
   t.numbers(
-      "/mean/forces/net", {static_cast<hsize_t>(model.nv())},
+      "/mean/forces/net", {dofs_of(model)},
       {"dyn, dyn·cm", "H (qdot_next - qdot*) / h, what the six add up to, from the motion" + since,
        true},
       [](const Frame& f) -> const auto& { return f.mean.net_force; });
   const auto row = [&](const char* name, const char* unit, const std::string& description,
                        std::array<double, 4> FrameMeans::*member) {
     t.numbers(
-        std::string("/mean/thigmotaxis/") + name, {4},
+        std::string("/mean/thigmotaxis/") + name, {strands},
         {unit, order + description + since}, [member](const Frame& f) -> const auto& {
           return f.mean.*member;
         });
@@ -271,7 +281,7 @@ void declare_pull(LogTable<Frame>& t) {
   number("force", "dyn", "pull of the head at the food: the head clamp's force, along -x",
          &PullFigures::force);
   number("plate", "dyn", "force of the head plate on the knot, along +x", &PullFigures::plate);
-  t.numbers("/pull/bearing", {2},
+  t.numbers("/pull/bearing", {on_plate},
             {"cm", "y and z of the point of the head plate at which its force acts" + when},
             [](const Frame& f) { return pull_figures_of(f).bearing; });
   number("torque", "dyn·cm", "largest torque of a hinge, active and f_thigmo",
@@ -351,7 +361,7 @@ void declare_momentum(LogTable<Frame>& t) {
   const auto vector = [&t](const char* name, const char* unit, const char* description,
                            Eigen::Vector3d MomentumLedger::*member) {
     t.numbers(
-        std::string("/diagnostics/") + name, {3},
+        std::string("/diagnostics/") + name, {space},
         {unit, description}, [member](const Frame& f) -> const auto& {
           return f.record.momentum.*member;
         });
@@ -375,8 +385,9 @@ void Worst::take(const StepRecord& record) {
   kkt = std::max(kkt, worst_residual(record.solution));
 }
 
-LogTable<Frame> frame_table(const Model& model, const Scene& scene) {
-  LogTable<Frame> table(frame_chunk_rows);
+LogTable<Frame> frame_table(const Model& model, const Scene& scene, LogLevel level) {
+  const bool full = level == LogLevel::full;
+  LogTable<Frame> table({level, frame_labels, full ? frame_chunk_rows : packed_frames, !full});
   declare_trajectory(model, table);
   if (scene.time.rule == TimeRule::midpoint) declare_midway(model, table);
   declare_knot(table);
@@ -391,8 +402,10 @@ LogTable<Frame> frame_table(const Model& model, const Scene& scene) {
   return table;
 }
 
-LogTable<LoggedStep> step_table(const Scene& scene) {
-  LogTable<LoggedStep> t(step_chunk_rows);
+LogTable<LoggedStep> step_table(const Scene& scene, LogLevel level) {
+  LogTable<LoggedStep> t({level, step_labels, step_chunk_rows, true});
+  t.number("/steps/time", {"s", "simulated time at which each step begins"},
+           [](const LoggedStep& s) { return s.record.time; });
   t.choice("/steps/solve", solve_names(), "least that each step had to solve",
            [](const LoggedStep& s) { return s.record.solution.kind; });
   t.count("/steps/rows", "rows in the problem of each step",
@@ -406,8 +419,8 @@ LogTable<LoggedStep> step_table(const Scene& scene) {
   const auto row = [&t](const char* name, const char* unit, const std::string& description,
                         std::array<double, 4> ThigmotaxisRows::*member) {
     t.numbers(
-        std::string("/steps/thigmotaxis_") + name, {4},
-        {unit, order + description, true}, [member](const LoggedStep& s) -> const auto& {
+        std::string("/steps/thigmotaxis_") + name, {strands},
+        {unit, order + description}, [member](const LoggedStep& s) -> const auto& {
           return s.thigmotaxis.*member;
         });
   };
@@ -441,8 +454,9 @@ LogTable<LoggedStep> step_table(const Scene& scene) {
   return t;
 }
 
-LogTable<BearingContact> contact_table() {
-  LogTable<BearingContact> t(step_chunk_rows);
+LogTable<BearingContact> contact_table(LogLevel level) {
+  LogTable<BearingContact> t(
+      {level, contact_frame_labels, step_chunk_rows, level != LogLevel::full});
   t.count("/contacts/frame", "index along the frames of each contact with a force",
           [](const BearingContact& c) { return c.frame; });
   t.number("/contacts/spline_a",
@@ -461,8 +475,8 @@ LogTable<BearingContact> contact_table() {
   return t;
 }
 
-LogTable<FrameRow> row_table() {
-  LogTable<FrameRow> t(step_chunk_rows);
+LogTable<FrameRow> row_table(LogLevel level) {
+  LogTable<FrameRow> t({level, row_frame_labels, step_chunk_rows, level != LogLevel::full});
   const std::string which = " of each row of Eq. 6 at a frame";
   t.count("/eq6/frame", "index along the frames" + which,
           [](const FrameRow& r) { return r.frame; });

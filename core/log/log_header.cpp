@@ -8,6 +8,7 @@
 
 #include "core/log/build_info.hpp"
 #include "core/log/coordinate_names.hpp"
+#include "core/log/log_frame.hpp"
 
 namespace hagfish {
 namespace {
@@ -27,6 +28,7 @@ void write_header(const LogHeader& header, Hdf5Writer& h5) {
   h5.root_attribute("git_revision", build_revision());
   h5.root_attribute("created", current_time());
   h5.root_attribute("command", header.command);
+  h5.root_attribute("log_level", log_level_name(header.level));
   h5.root_attribute("scene", header.scene);
   h5.root_attribute("qp", header.qp);
   h5.root_attribute("libraries", header.libraries);
@@ -38,9 +40,29 @@ void write_header(const LogHeader& header, Hdf5Writer& h5) {
     h5.root_attribute("branched_from", header.branched_from);
   }
   h5.group("/mjcf");
+  if (header.level == LogLevel::summary) return;  // without q there is nothing to replay
   for (const auto& [name, text] : header.mjcf) {
     h5.text("/mjcf/" + name, text);
   }
+}
+
+Eigen::VectorXd body_arcs(const Model& model) {
+  Eigen::VectorXd arc(model.body_count());
+  double end = 0;
+  for (int b = 0; b < model.body_count(); ++b) {
+    arc[b] = end + 0.5 * model.bodies[b].length;
+    end += model.bodies[b].length;
+  }
+  return arc;
+}
+
+const std::vector<std::pair<const char*, std::vector<std::string>>>& axis_names() {
+  static const std::vector<std::pair<const char*, std::vector<std::string>>> names = {
+      {axis_labels, {"x", "y", "z"}},
+      {plate_labels, {"y", "z"}},
+      {contact_labels, {"first", "last"}},
+      {strand_labels, {"first_a", "first_b", "last_a", "last_b"}}};
+  return names;
 }
 
 void write_model(const Model& model, Hdf5Writer& h5) {
@@ -62,12 +84,21 @@ void write_model(const Model& model, Hdf5Writer& h5) {
     dofs.insert(dofs.end(), joint.dofs.begin(), joint.dofs.end());
   }
   h5.group("/model");
+  h5.numbers(body_labels, body_arcs(model),
+             {"cm", "arc length of each body's middle from the head's end at rest"});
   h5.numbers("/model/mass", mass, {"g", "mass of each body, head to tail"});
   h5.numbers("/model/length", length, {"cm", "length of each body"});
   h5.numbers("/model/radius", radius, {"cm", "radius of the skin at each body"});
-  h5.texts("/model/joint_name", joints);
-  h5.texts("/model/dof_name", dofs);
-  h5.texts("/model/coordinate_name", coordinate_names(model));
+  h5.texts(joint_labels, joints);
+  h5.texts(dof_labels, dofs);
+  h5.texts(coordinate_labels, coordinate_names(model));
+  for (const auto& [path, names] : axis_names()) {
+    h5.texts(path, names);
+    h5.make_labels(path);
+  }
+  for (const char* path : {body_labels, joint_labels, dof_labels, coordinate_labels}) {
+    h5.make_labels(path);
+  }
   h5.numbers("/model/limit_lower", lower,
              {"rad",
               "lower joint limit, -inf where none; where the total angle of a joint is bounded "
@@ -78,6 +109,13 @@ void write_model(const Model& model, Hdf5Writer& h5) {
              {"rad",
               "largest angle between the X axes of the two bodies of each joint, +inf where "
               "its hinges have limits of their own or there are none"});
+  for (const char* path : {"/model/mass", "/model/length", "/model/radius"}) {
+    h5.label(path, {body_labels});
+  }
+  for (const char* path : {"/model/limit_lower", "/model/limit_upper"}) {
+    h5.label(path, {dof_labels});
+  }
+  h5.label("/model/bending_limit", {joint_labels});
 }
 
 }  // namespace hagfish

@@ -6,6 +6,7 @@
 
 #include "core/chain/model.hpp"
 #include "core/log/hdf5_writer.hpp"
+#include "core/log/log_level.hpp"
 
 namespace hagfish {
 
@@ -19,13 +20,20 @@ struct LogHeader {
   std::string qp;       ///< QP back end
   std::string libraries;
   std::map<std::string, std::string> mjcf;  ///< the mirrored model's files by name
-  std::string branched_from;                ///< of a branch: log, step and time; empty otherwise
+  LogLevel level = LogLevel::full;
+  std::string branched_from;  ///< of a branch: log, step and time; empty otherwise
 };
 
 /// Root attributes, and /mjcf.
 void write_header(const LogHeader& header, Hdf5Writer& h5);
 
-/// /model.
+/// Arc length of each body's middle from the head's end at rest, cm (N).
+Eigen::VectorXd body_arcs(const Model& model);
+
+/// Names of what other axes than coordinates, velocities and bodies count: path and names.
+const std::vector<std::pair<const char*, std::vector<std::string>>>& axis_names();
+
+/// /model, and labels of the axes of what stands along bodies and velocities.
 void write_model(const Model& model, Hdf5Writer& h5);
 
 }  // namespace hagfish

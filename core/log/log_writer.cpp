@@ -29,8 +29,8 @@ struct CheckpointMark {
   std::int64_t end = 0;   ///< behind its last byte
 };
 
-LogTable<CheckpointMark> checkpoint_table() {
-  LogTable<CheckpointMark> t(mark_chunk);
+LogTable<CheckpointMark> checkpoint_table(LogLevel level) {
+  LogTable<CheckpointMark> t({.level = level, .labels = "", .chunk_rows = mark_chunk});
   t.index("/checkpoints/step", "index of the step before which the run stood so",
           [](const CheckpointMark& mark) { return mark.step; });
   t.index("/checkpoints/end", "where its bytes in /checkpoints/data end",
@@ -43,6 +43,17 @@ SeriesLayout checkpoint_bytes() {
       checkpoint_data, {}, {"1", "runs between two steps, one after the other, as bytes", true});
   layout.chunk_rows = checkpoint_chunk;
   return layout;
+}
+
+/// Names the axes of series that are there.
+void label_series(const SeriesList& series, Hdf5Writer& h5) {
+  const auto each = [&](auto visit) {
+    for (const auto& s : series) visit(s->layout());
+  };
+  each([&](const SeriesLayout& s) {
+    if (!s.labels.empty() && s.labels[0] == s.path) h5.make_labels(s.path);
+  });
+  each([&](const SeriesLayout& s) { h5.label(s.path, s.labels); });
 }
 
 /// Sets the status of a log that cannot be saved any more; where that fails too, it stays.
@@ -61,21 +72,23 @@ void mark_failed(const fs::path& file, const std::string& cause) {
 }  // namespace
 
 struct LogWriter::Contents {
-  Contents(const Model& model, const Scene& scene)
-      : frames(frame_table(model, scene)),
-        steps(step_table(scene)),
-        contacts(contact_table()),
-        rows(row_table()),
+  Contents(const Model& model, const Scene& scene, LogLevel held)
+      : level(held),
+        frames(frame_table(model, scene, held)),
+        steps(step_table(scene, held)),
+        contacts(contact_table(held)),
+        rows(row_table(held)),
         with_rows(has_row_table(scene)),
-        marks(checkpoint_table()),
+        marks(checkpoint_table(held)),
         bytes(std::make_shared<Series<std::uint8_t>>(checkpoint_bytes())),
         log{RunningMeans(model.nv()), {}, {}},
         knot(scene.knot),
         h(scene.time.step),
         stride(frame_stride(scene.time)),
         mark_stride(checkpoint_stride(scene.time)) {
-    tables = {frames.series(), steps.series(), contacts.series(), marks.series(), {bytes}};
+    tables = {frames.series(), steps.series(), contacts.series(), marks.series()};
     if (with_rows) tables.push_back(rows.series());
+    if (holds(level, checkpoint_data)) tables.push_back({bytes});
     for (const auto& list : tables) {
       series.insert(series.end(), list.begin(), list.end());
     }
@@ -83,6 +96,7 @@ struct LogWriter::Contents {
 
   /// Goes on behind the rows that `h5` has of `table`.
   static void go_on(const Hdf5Reader& h5, const SeriesList& table) {
+    if (table.empty()) return;
     const std::vector<hsize_t> first = h5.shape(table.front()->layout().path);
     const hsize_t rows = first.empty() ? 0 : first[0];
     for (const auto& s : table) {
@@ -127,6 +141,7 @@ struct LogWriter::Contents {
     any = true;
   }
 
+  LogLevel level;
   LogTable<Frame> frames;
   LogTable<LoggedStep> steps;
   LogTable<BearingContact> contacts;
@@ -159,20 +174,22 @@ std::int64_t checkpoint_stride(const TimeSettings& time) {
 LogWriter::LogWriter(const fs::path& file, bool replace, const LogHeader& header,
                      const Model& model, const Scene& scene)
     : output_(std::make_unique<OutputFile>(file, replaced_if(replace))),
-      contents_(std::make_unique<Contents>(model, scene)) {
+      contents_(std::make_unique<Contents>(model, scene, header.level)) {
   Hdf5Writer h5;
   write_header(header, h5);
   write_model(model, h5);
+  h5.group("/checkpoints");
   for (const auto& series : contents_->series) {
     series->create(h5);
   }
+  label_series(contents_->series, h5);
   h5.save(output_->partial());
   contents_->file.emplace(output_->partial());
 }
 
 LogWriter::LogWriter(std::unique_ptr<OutputFile> output, const SavedRun& run)
     : output_(std::move(output)),
-      contents_(std::make_unique<Contents>(run.model, run.resolved.scene)) {
+      contents_(std::make_unique<Contents>(run.model, run.resolved.scene, run.level)) {
   Contents& c = *contents_;
   // Tried when the run was read from it.
   const Hdf5Reader h5(output_->partial(), Origin::own);
@@ -211,7 +228,7 @@ void LogWriter::write(const StepRecord& record, const Simulation& sim, double wa
   }
   // The step that begins at a frame counts to the next one's means.
   c.log.means.take(record, rows);
-  if (sim.step % c.mark_stride == 0) {
+  if (sim.step % c.mark_stride == 0 && holds(c.level, checkpoint_data)) {
     const std::vector<std::uint8_t> bytes = encode(sim, c.log);
     c.bytes->append_all(bytes);
     c.marks.append({sim.step, static_cast<std::int64_t>(c.bytes->rows())});

@@ -29,6 +29,7 @@ SavedRun run_of(const Hdf5Reader& h5, std::span<const std::uint8_t> bytes) {
   return {std::move(resolved),
           std::move(model),
           qp,
+          level_of(h5),
           std::move(sim),
           std::move(log),
           wall_time.empty() ? 0 : wall_time.back(),
@@ -45,6 +46,24 @@ void require_log(const Hdf5Reader& h5) {
   if (h5.root_int("format_version") != log_format_version) {
     throw FileError(fmt::format("{}: format version {}, this program reads {}", h5.file(),
                                 h5.root_int("format_version"), log_format_version));
+  }
+}
+
+LogLevel level_of(const Hdf5Reader& h5) {
+  if (!h5.has_root_attribute("log_level")) return LogLevel::full;
+  try {
+    return log_level_called(h5.root_text("log_level"));
+  } catch (const std::invalid_argument& error) {
+    throw FileError(fmt::format("{}: attribute log_level: {}", h5.file(), error.what()));
+  }
+}
+
+void require_level(const Hdf5Reader& h5, LogLevel least) {
+  if (const LogLevel level = level_of(h5); level < least) {
+    throw FileError(
+        fmt::format("{}: logged with --log {}, which leaves out what this needs: run it "
+                    "with --log {}",
+                    h5.file(), log_level_name(level), log_level_name(least)));
   }
 }
 
@@ -77,6 +96,7 @@ std::vector<LoggedCheckpoint> logged_checkpoints(const Hdf5Reader& h5) {
 
 SavedRun saved_run_at(const Hdf5Reader& h5, double time) {
   require_log(h5);
+  require_level(h5, LogLevel::full);
   const double h = read_scene_text(h5.root_text("scene"), h5.file() + ": scene").scene.time.step;
   const std::vector<LoggedCheckpoint> all = logged_checkpoints(h5);
   // Half a step of slack: the time of a step is a product and may come out larger by rounding.

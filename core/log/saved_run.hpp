@@ -7,6 +7,7 @@
 #include "core/input/scene_reader.hpp"
 #include "core/log/checkpoint.hpp"
 #include "core/log/hdf5_reader.hpp"
+#include "core/log/log_level.hpp"
 
 namespace hagfish {
 
@@ -16,6 +17,13 @@ inline constexpr const char* last_checkpoint = "/checkpoints/last";
 
 /// Throws FileError where `h5` is no log, or of a format version that this program does not read.
 void require_log(const Hdf5Reader& h5);
+
+/// How much of its run a log holds; all, where it does not say. Throws FileError where it says what
+/// is no level.
+LogLevel level_of(const Hdf5Reader& h5);
+
+/// Throws FileError where the log holds less than `least`.
+void require_level(const Hdf5Reader& h5, LogLevel least);
 
 /// A run between two steps, as a log holds it.
 struct LoggedCheckpoint {
@@ -30,7 +38,8 @@ std::vector<LoggedCheckpoint> logged_checkpoints(const Hdf5Reader& h5);
 struct SavedRun {
   ResolvedScene resolved;
   Model model;
-  std::string qp;  ///< QP back end
+  std::string qp;                   ///< QP back end
+  LogLevel level = LogLevel::full;  ///< of its log
   Simulation sim;
   LogState log;
   double wall_time = 0;      ///< that the run took so far, to its last frame, s

@@ -1,6 +1,7 @@
 #include "core/log/series.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <numeric>
 #include <stdexcept>
@@ -46,14 +47,14 @@ AnySeries::AnySeries(SeriesLayout layout, std::size_t value_size)
 std::size_t AnySeries::room() const {
   const hsize_t chunk = layout_.chunk_rows;
   // Compressed chunks may move as they fill.
-  const hsize_t begin = layout_.meaning.sparse ? first_ / chunk : (first_ + chunk - 1) / chunk;
+  const hsize_t begin = layout_.meaning.packed ? first_ / chunk : (first_ + chunk - 1) / chunk;
   const hsize_t end = (total_ + chunk - 1) / chunk;
   return index_size + (end - begin) * chunk * row_bytes();
 }
 
 void AnySeries::write(const Hdf5Reader& newer, Hdf5Writer& older) const {
   hsize_t from = first_;
-  if (layout_.meaning.sparse) {
+  if (layout_.meaning.packed) {
     // Chunks that are full in the newer file.
     const hsize_t begin = first_ / layout_.chunk_rows;
     const hsize_t end = saved_ / layout_.chunk_rows;
@@ -83,6 +84,12 @@ void Series<T>::append(const T* row, std::size_t count) {
     throw std::logic_error("log row has the wrong size");
   }
   waiting_.insert(waiting_.end(), row, row + count);
+  if constexpr (std::is_same_v<T, double>) {
+    if (const double unit = layout().resolution; unit > 0) {
+      std::for_each(waiting_.end() - static_cast<std::ptrdiff_t>(count), waiting_.end(),
+                    [unit](double& value) { value = std::round(value / unit) * unit; });
+    }
+  }
   count_rows(1);
 }
 
@@ -107,11 +114,22 @@ template class Series<std::int64_t>;
 template class Series<std::uint8_t>;
 
 template <class T>
+void pack(SeriesLayout& layout) {
+  layout.meaning.packed = true;
+  layout.chunk_rows =
+      std::max<hsize_t>(1, compressed_chunk_size / (size_of(layout.row_shape) * sizeof(T)));
+}
+template void pack<double>(SeriesLayout&);
+template void pack<std::int32_t>(SeriesLayout&);
+template void pack<std::int64_t>(SeriesLayout&);
+template void pack<std::uint8_t>(SeriesLayout&);
+
+template <class T>
 SeriesLayout layout_of(const std::string& path, const std::vector<hsize_t>& row_shape,
                        const Meaning& meaning) {
-  const hsize_t row_bytes = size_of(row_shape) * sizeof(T);
-  const hsize_t rows = meaning.sparse ? std::max<hsize_t>(1, compressed_chunk_size / row_bytes) : 1;
-  return {path, row_shape, meaning, stored_type<T>(), rows};
+  SeriesLayout layout{path, row_shape, meaning, stored_type<T>(), 1, false, 0, {}};
+  if (meaning.packed) pack<T>(layout);
+  return layout;
 }
 template SeriesLayout layout_of<double>(const std::string&, const std::vector<hsize_t>&,
                                         const Meaning&);
@@ -129,7 +147,7 @@ SeriesLayout layout_of_choices(const std::string& path, const std::vector<std::s
     auto value = static_cast<std::uint8_t>(k);
     type.insert(names[k], &value);
   }
-  return {path, {}, meaning, type, 1};
+  return {path, {}, meaning, type, 1, false, 0, {}};
 }
 
 }  // namespace hagfish

@@ -78,11 +78,15 @@ class Series final : public AnySeries {
   std::vector<T> waiting_;
 };
 
-/// The layout of a series of T, whose rows have `row_shape`; with one row a chunk, where it is not
-/// compressed.
+/// The layout of a series of T, whose rows have `row_shape`; with one row a chunk, where its
+/// meaning does not ask for more.
 template <class T>
 SeriesLayout layout_of(const std::string& path, const std::vector<hsize_t>& row_shape,
                        const Meaning& meaning);
+
+/// Stores a series of T compressed, in chunks of a size that suits that.
+template <class T>
+void pack(SeriesLayout& layout);
 
 /// uint8 enumeration whose values count up from 0 in the order of `names`.
 SeriesLayout layout_of_choices(const std::string& path, const std::vector<std::string>& names,

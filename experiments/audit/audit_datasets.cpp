@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/log/coordinate_names.hpp"
+#include "core/log/log_frame.hpp"
 #include "core/log/log_writer.hpp"
 #include "core/log/saved_run.hpp"
 #include "experiments/audit/log_schema.hpp"
@@ -21,6 +22,11 @@ void check_names(const LogContents& log) {
                                     {"/model/coordinate_name", coordinate_names(log.model)}}) {
     if (log.h5.texts(path) != names) {
       throw FileError(log.h5.file() + ": " + path + " does not name the joints of its model");
+    }
+  }
+  for (const auto& [path, names] : axis_names()) {
+    if (log.h5.texts(path) != names) {
+      throw FileError(log.h5.file() + ": " + path + " does not hold the names of its axis");
     }
   }
 }

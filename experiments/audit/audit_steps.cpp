@@ -161,6 +161,16 @@ void rebuild_solver(const LogContents& log, const Steps& steps, Rebuilt& rebuilt
   }
 }
 
+/// /steps/time from the step and its index, as the run makes it.
+void rebuild_time(const LogContents& log, const Steps& steps, Rebuilt& rebuilt) {
+  const std::vector<double> time = log.h5.doubles("/steps/time");
+  for (std::size_t s = 0; s < time.size(); ++s) {
+    const double wanted = static_cast<double>(steps.first + static_cast<std::int64_t>(s)) *
+                          log.resolved.scene.time.step;
+    rebuilt.compare("/steps/time", time[s], wanted);
+  }
+}
+
 /// Figures that cannot be below zero, or that must not fall.
 Finding plausible(const LogContents& log) {
   std::vector<std::string> failed;
@@ -206,6 +216,7 @@ std::vector<Finding> audit_steps(const LogContents& log) {
   rebuild_thigmotaxis(log, steps, rebuilt);
   rebuild_worst(log, steps, rebuilt);
   rebuild_solver(log, steps, rebuilt);
+  rebuild_time(log, steps, rebuilt);
   return {rebuilt.finding("steps and frames", "every step"), plausible(log)};
 }
 

@@ -15,6 +15,13 @@ Midway midway_of(const LogContents& log, const State& state, Eigen::Index frame)
 
 }  // namespace
 
+ShownFrame::ShownFrame(const LogContents& log, Eigen::Index frame)
+    : index(frame),
+      phase(static_cast<Phase>(log.phase[frame])),
+      q(log.q.row(frame)),
+      observation(
+          observe(log.model, {q, Eigen::VectorXd::Zero(log.model.nv())}, log.resolved.scene)) {}
+
 AuditedFrame::AuditedFrame(const LogContents& log, Eigen::Index frame)
     : index(frame),
       phase(static_cast<Phase>(log.phase[frame])),

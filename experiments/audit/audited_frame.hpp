@@ -10,6 +10,16 @@
 
 namespace hagfish {
 
+/// One frame without its velocities, which logs below LogLevel::full do not have.
+struct ShownFrame {
+  ShownFrame(const LogContents& log, Eigen::Index frame);
+
+  Eigen::Index index;
+  Phase phase;
+  Eigen::VectorXd q;
+  Observation observation;  ///< at rest there
+};
+
 struct AuditedFrame {
   AuditedFrame(const LogContents& log, Eigen::Index frame);
   AuditedFrame(const AuditedFrame&) = delete;

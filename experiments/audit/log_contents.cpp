@@ -5,23 +5,31 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/log/log_frame.hpp"
+#include "core/log/log_header.hpp"
 #include "core/log/saved_run.hpp"
 #include "core/run/controller.hpp"
 #include "experiments/audit/log_schema.hpp"
 
 namespace hagfish {
 
-LogContents::LogContents(const std::string& file) : h5(file) {
+LogContents::LogContents(const std::string& file, LogLevel least) : h5(file) {
   require_log(h5);
+  require_level(h5, least);
   resolved = read_scene_text(h5.root_text("scene"), file + ": scene");
   model = make_hagfish(resolved.specimen, resolved.scene);
   check_schema(h5, model, resolved.scene);
   time = h5.doubles("/trajectory/time");
   phase = h5.integers("/trajectory/phase");
-  q = h5.rows("/trajectory/q");
-  qdot = h5.rows("/trajectory/qdot");
-  qdot_next = h5.rows("/trajectory/qdot_next");
-  if (midpoint()) {
+  const LogLevel level = level_of(h5);
+  if (level >= LogLevel::frames) {
+    q = h5.rows("/trajectory/q");
+  }
+  if (level == LogLevel::full) {
+    qdot = h5.rows("/trajectory/qdot");
+    qdot_next = h5.rows("/trajectory/qdot_next");
+  }
+  if (level == LogLevel::full && midpoint()) {
     middle_moved = h5.rows("/midway/moved");
     middle_felt = h5.rows("/midway/felt");
     qdot_moved = h5.rows("/midway/qdot");
@@ -64,6 +72,11 @@ void LogContents::check_model() const {
         [&](std::size_t k) { return ranges(0, static_cast<Eigen::Index>(k)); });
   check("limit_upper", "hinge", root_dofs, hinges,
         [&](std::size_t k) { return ranges(1, static_cast<Eigen::Index>(k)); });
+  if (h5.has(body_labels)) {  // older logs label no axes
+    const Eigen::VectorXd arcs = body_arcs(model);
+    check("arc", "body", 0, bodies.size(),
+          [&](std::size_t b) { return arcs[static_cast<Eigen::Index>(b)]; });
+  }
   if (h5.has("/model/bending_limit")) {  // logs older than cones say nothing of them
     const Eigen::VectorXd limits = bending_limits(model);
     check("bending_limit", "joint", 0, bodies.size(),

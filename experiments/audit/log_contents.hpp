@@ -8,20 +8,23 @@
 #include "core/chain/model.hpp"
 #include "core/input/scene_reader.hpp"
 #include "core/log/hdf5_reader.hpp"
+#include "core/log/log_level.hpp"
 
 namespace hagfish {
 
 /// What every reader of a log starts from.
 struct LogContents {
   /// Throws FileError where the file is not a log whose datasets fit the model that its own scene
-  /// makes (log_schema.hpp), or where /model has another value, of which the first is named.
-  explicit LogContents(const std::string& file);
+  /// makes (log_schema.hpp), where /model has another value, of which the first is named, or where
+  /// the log holds less than `least`.
+  explicit LogContents(const std::string& file, LogLevel least = LogLevel::full);
   Hdf5Reader h5;
   ResolvedScene resolved;
-  Model model;                          ///< that the scene makes
-  std::vector<double> time;             ///< s
-  std::vector<std::int64_t> phase;      ///< as Phase
-  Hdf5Reader::Rows q, qdot, qdot_next;  ///< frames x nq, nv, nv
+  Model model;                      ///< that the scene makes
+  std::vector<double> time;         ///< s
+  std::vector<std::int64_t> phase;  ///< as Phase
+  /// Frames x nq, nv, nv. Below LogLevel::frames there is no q, below full neither velocity.
+  Hdf5Reader::Rows q, qdot, qdot_next;
   /// /midway, frames x nv each; empty of logs by Euler's rule, where they would be qdot and
   /// qdot_next.
   Hdf5Reader::Rows middle_moved, middle_felt, qdot_moved;

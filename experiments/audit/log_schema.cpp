@@ -11,6 +11,7 @@
 
 #include "core/log/log_frame.hpp"
 #include "core/log/log_writer.hpp"
+#include "core/log/saved_run.hpp"
 
 namespace hagfish {
 namespace {
@@ -111,7 +112,8 @@ void check_steps(const Hdf5Reader& log, const Scene& scene) {
                               step[f - 1], step[f], stride));
     }
   }
-  if (step.back() - step.front() >= static_cast<std::int64_t>(rows_of(log, "/steps/kkt"))) {
+  if (holds(level_of(log), "/steps/kkt") &&
+      step.back() - step.front() >= static_cast<std::int64_t>(rows_of(log, "/steps/kkt"))) {
     refuse(log, "/steps does not cover the frames");
   }
   const std::vector<double> time = log.doubles("/trajectory/time");
@@ -150,13 +152,15 @@ void check_motion(const Hdf5Reader& log) {
 
 std::vector<DatasetForm> log_forms(const Hdf5Reader& log, const Model& model, const Scene& scene) {
   // The writer says what there must be; nothing is written.
+  const LogLevel level = level_of(log);
   std::vector<DatasetForm> forms;
-  add_forms(frame_table(model, scene).series(), rows_of(log, "/trajectory/time"), forms);
-  add_forms(step_table(scene).series(), rows_of(log, "/steps/kkt"), forms);
-  add_forms(contact_table().series(), rows_of(log, "/contacts/frame"), forms);
-  if (has_row_table(scene)) {
-    add_forms(row_table().series(), rows_of(log, "/eq6/frame"), forms);
-  }
+  const auto add = [&](const SeriesList& table, const char* counted) {
+    if (holds(level, counted)) add_forms(table, rows_of(log, counted), forms);
+  };
+  add(frame_table(model, scene, level).series(), "/trajectory/time");
+  add(step_table(scene, level).series(), "/steps/kkt");
+  add(contact_table(level).series(), "/contacts/frame");
+  if (has_row_table(scene)) add(row_table(level).series(), "/eq6/frame");
   return forms;
 }
 
@@ -182,7 +186,7 @@ void check_schema(const Hdf5Reader& log, const Model& model, const Scene& scene)
   if (rows_of(log, "/trajectory/time") == 0) refuse(log, "holds no frames");
   check_memory(log, forms);
   check_steps(log, scene);
-  check_motion(log);
+  if (holds(level_of(log), "/trajectory/q")) check_motion(log);
   const auto frames = static_cast<std::int64_t>(rows_of(log, "/trajectory/time"));
   constexpr auto last_solve = static_cast<std::int64_t>(SolveKind::qp);
   check_whole(log, "/trajectory/phase", 0, phase_count - 1);

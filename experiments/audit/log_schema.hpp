@@ -19,8 +19,8 @@ struct DatasetForm {
 };
 
 /// Every dataset along frames, steps and contacts as the writer of logs declares it, with the rows
-/// that this log has of each: those of /trajectory/time, /steps/kkt and /contacts/frame. Throws
-/// FileError where one of these is missing or no series.
+/// that this log has of each: those of /trajectory/time, /steps/kkt and /contacts/frame, where its
+/// level has them. Throws FileError where one of these is missing or no series.
 std::vector<DatasetForm> log_forms(const Hdf5Reader& log, const Model& model, const Scene& scene);
 
 /// Throws FileError where the log has no such dataset or one of another type or shape.

@@ -36,7 +36,7 @@ FrameContacts::FrameContacts(const LogContents& log) : log_(log), bearing_(log.t
   }
 }
 
-std::vector<FrameContact> FrameContacts::at(const AuditedFrame& frame) const {
+std::vector<FrameContact> FrameContacts::at(const ShownFrame& frame) const {
   const std::vector<SplineSegment>& segments = frame.observation.segments;
   std::vector<FrameContact> found;
   for (const Bearing& one : bearing_[static_cast<std::size_t>(frame.index)]) {

@@ -24,7 +24,7 @@ class FrameContacts {
   /// The log is referred to. Throws FileError where a contact lies beyond the animal's ends.
   explicit FrameContacts(const LogContents& log);
   /// From head to tail by strand a, the plate's among them.
-  std::vector<FrameContact> at(const AuditedFrame& frame) const;
+  std::vector<FrameContact> at(const ShownFrame& frame) const;
 
  private:
   struct Bearing {

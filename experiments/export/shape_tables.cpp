@@ -25,7 +25,7 @@ ExportTable midline_table(bool si) {
           si};
 }
 
-void add_midline(const LogContents& log, const AuditedFrame& frame, ExportTable& table) {
+void add_midline(const LogContents& log, const ShownFrame& frame, ExportTable& table) {
   const Kinematics& kin = frame.observation.kin;
   const std::vector<Body>& bodies = log.model.bodies;
   const std::size_t count = bodies.size();
@@ -59,20 +59,20 @@ ExportTable curvature_table(bool si) {
           si};
 }
 
-void add_curvature(const LogContents& log, const AuditedFrame& frame, ExportTable& table) {
+void add_curvature(const LogContents& log, const ShownFrame& frame, ExportTable& table) {
   const Model& model = log.model;
   const int n = model.body_count();
   const double length = model.length() / n;
   for (int b = 1; b < n; ++b) {
     const Body& body = model.bodies[b];
     if (body.dofs != 2) continue;
-    const double y = frame.state.q[body.first_dof + 1];
-    const double z = frame.state.q[body.first_dof + 2];
+    const double y = frame.q[body.first_dof + 1];
+    const double z = frame.q[body.first_dof + 2];
     const double span = hinge_span(n, length, b);
     double turn = 0, along = 0;
     for (const int beside : {b - 1, b + 1}) {
       if (beside < 1 || beside >= n || model.bodies[beside].dofs != 1) continue;
-      turn += frame.state.q[model.bodies[beside].first_dof + 1];
+      turn += frame.q[model.bodies[beside].first_dof + 1];
       along += hinge_span(n, length, beside);
     }
     table.add({std::int64_t{frame.index}, log.time[frame.index], std::int64_t{b}, b * length,
@@ -116,7 +116,7 @@ ExportTable contact_table_of(bool si) {
           si};
 }
 
-void add_contacts(const LogContents& log, const FrameContacts& contacts, const AuditedFrame& frame,
+void add_contacts(const LogContents& log, const FrameContacts& contacts, const ShownFrame& frame,
                   ExportTable& table) {
   for (const FrameContact& c : contacts.at(frame)) {
     table.add({std::int64_t{frame.index}, log.time[frame.index],
@@ -137,7 +137,7 @@ std::vector<ExportTable> shape_tables(const LogContents& log, bool si) {
   const std::vector<double> head_end = log.h5.doubles("/knot/head_end");
   const std::vector<double> tail_end = log.h5.doubles("/knot/tail_end");
   for (std::size_t f = 0; f < log.time.size(); ++f) {
-    const AuditedFrame frame(log, static_cast<Eigen::Index>(f));
+    const ShownFrame frame(log, static_cast<Eigen::Index>(f));
     add_midline(log, frame, midline);
     add_curvature(log, frame, curvature);
     const KnotInvariants type{static_cast<int>(determinant[f]), static_cast<int>(v2[f])};

@@ -33,7 +33,8 @@ def open_hdf5(path: Path) -> h5py.File:
 def dataset_of(file: h5py.File, path: str) -> h5py.Dataset:
     found = file.get(path)
     if not isinstance(found, h5py.Dataset):
-        raise LogError(f"{file.filename}: no dataset {path}")
+        level = file.attrs.get("log_level", "full")
+        raise LogError(f"{file.filename}: no dataset {path}" + ("" if level == "full" else f": logged with --log {level}, not full"))
     return found
 
 

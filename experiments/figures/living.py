@@ -24,6 +24,7 @@ from slides import read_slide
 KNOTS = {"overhand": "3_1", "figure_eight": "4_1", "double_overhand": "5_1", "three_twist": "5_2"}
 SWEEPS = {"stiffness": "flexural rigidity, dyn cm²", "drag": "drag, times that of the scenes", "haste": "speed of the program"}
 CAPACITY = 2.7e5  # dyn cm, a guess: data/living_overhand.toml
+MARKER_EVERY = 0.1  # of the length of a line
 PHASES = ("form", "tighten", "slide", "release")
 
 
@@ -156,12 +157,12 @@ def claims_table(folder: Path) -> list[str]:
 
 
 def draw(folder: Path, sweeps: dict[str, dict[str, list[tuple[float, Run]]]], out: Path) -> None:
-    figure, axes = plots.panels(2, 2, (10, 7), ["what a noisy start leaves behind", *(f"largest torque, by {what}" for what in SWEEPS)])
+    figure, axes = plots.panels(2, 2, (10, 7), ["what a noisy start leaves behind", *(f"torque by {what}" for what in SWEEPS)])
     for scene, knot in KNOTS.items():
         look = plots.KNOTS[knot]
         plain = HagfishLog(folder / f"held_{scene}.h5")
         time, apart = shape_apart(plain, HagfishLog(folder / f"heldstart_{scene}_1.h5"))
-        axes[0].plot(time, np.maximum(apart, 1e-12), color=look.colour, label=look.label)
+        axes[0].plot(time, np.maximum(apart, 1e-12), label=look.label, markevery=MARKER_EVERY, **look.style)
     axes[0].set(yscale="log", xlabel="time, s", ylabel="largest difference of a hinge's angle, rad")
     axes[0].legend()
     for panel, (what, label) in zip(axes[1:], SWEEPS.items(), strict=True):
@@ -172,7 +173,7 @@ def draw(folder: Path, sweeps: dict[str, dict[str, list[tuple[float, Run]]]], ou
             lost = [(value, torque) for (value, run), torque in zip(runs, largest, strict=True) if run.outcome != "off"]
             panel.plot([v for v, _ in lost], [t for _, t in lost], color=look.colour, marker=look.marker, mfc="white", ls="")
         panel.axhline(CAPACITY, color=plots.GREY, ls="--", lw=0.8)
-        panel.set(xscale="log", xlabel=label, ylabel="of a hinge while the knot forms, dyn cm", ylim=(0, 1.1 * CAPACITY))
+        panel.set(xscale="log", xlabel=label, ylabel="largest torque of a hinge\nwhile the knot forms, dyn cm", ylim=(0, 1.1 * CAPACITY))
         panel.ticklabel_format(axis="y", style="sci", scilimits=(5, 5))
         if what != "stiffness":
             plots.plain_ticks(panel.xaxis, [value for value, _ in next(iter(sweeps[what].values()))])

@@ -19,6 +19,7 @@ ROWS = {"first contact, $t_a$": "-", "first contact, $t_b$": "--", "last contact
 ENERGIES = {"kinetic_energy": "kinetic", "elastic_energy": "elastic", "work_tip": "work of the script", "work_active": "work of muscles",
             "work_thigmotaxis": "work of f_thigmo", "dissipated": "dissipated"}
 LARGE = 99  # percentile at which colours saturate
+PHASE_WIDTH = 0.07  # of the time shown: what the name of a phase takes
 
 
 def of_joints(log: HagfishLog, rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -44,24 +45,26 @@ def mark_phases(panels: Any, log: HagfishLog) -> None:
     """A line where each phase begins, named in the first panel, which is dark."""
     phase, time = log.labels("/trajectory/phase"), log["/trajectory/time"]
     starts = np.flatnonzero(np.r_[True, phase[1:] != phase[:-1]])
-    last = -np.inf
+    width, last, line = PHASE_WIDTH * (time[-1] - time[0]), -np.inf, 0
     for at in starts:
         for axes in panels:
             axes.axvline(time[at], color=plots.GREY, lw=0.7, zorder=0.5)
-        place = max(time[at], last)
-        late = place > time[-1] - 0.05 * (time[-1] - time[0])
-        panels[0].annotate(phase[at], (time[-1] if late else place, 1), xycoords=("data", "axes fraction"), xytext=(-2 if late else 3, -3),
-                           textcoords="offset points", ha="right" if late else "left", va="top", fontsize=7, color="white")
-        last = place + 0.05 * (time[-1] - time[0])
+        late = time[at] > time[-1] - width
+        place = time[-1] - width if late else time[at]
+        line = line + 1 if place < last + width else 0  # below the name that it would run into
+        panels[0].annotate(phase[at], (time[-1] if late else place, 1), xycoords=("data", "axes fraction"),
+                           xytext=(-2 if late else 3, -3 - 9 * line), textcoords="offset points", ha="right" if late else "left", va="top",
+                           fontsize=7, color="white")
+        last = place
 
 
-def draw_lines(axes: Any, time: np.ndarray, lines: dict[str, np.ndarray], label: str) -> None:
+def draw_lines(axes: Any, time: np.ndarray, lines: dict[str, np.ndarray], label: str, columns: int = 3) -> None:
     colours = (plots.BLUE, plots.VERMILION, plots.INK, plots.PURPLE, plots.ORANGE, plots.GREY)
     for (name, values), colour, style in zip(lines.items(), colours, ("-", "--", ":", "-.", (0, (6, 1, 1, 1, 1, 1)), (0, (1, 3)))):
         axes.plot(time, values, color=colour, ls=style, label=name)
     axes.set_ylabel(label)
     axes.margins(y=0.15)
-    axes.legend(loc="upper left", ncol=3)
+    axes.legend(loc="upper left", ncol=columns)
 
 
 def main(path: Path, out: Path) -> None:
@@ -77,7 +80,7 @@ def main(path: Path, out: Path) -> None:
     # q has one coordinate more than q̇ has velocities, the root's quaternion.
     _, angle = of_joints(log, log["/trajectory/q"][:, 1:])
     draw_map(panels[1], log, arc, angle / (2 * np.median(log["/model/length"])), "rad/cm")
-    draw_lines(panels[2], time, dict(zip(ROWS, log["/mean/thigmotaxis/speed"].T)), "cm/s")
+    draw_lines(panels[2], time, dict(zip(ROWS, log["/mean/thigmotaxis/speed"].T)), "cm/s", columns=1)  # there are none while the knot forms
     draw_lines(panels[3], time, {"clamp": np.linalg.norm(log["/mean/forces/head"][:, :3], axis=1), "plate": log["/mean/forces/wall"][:, 0]}, "dyn")
     terms = {name: log[f"/diagnostics/{key}"] for key, name in ENERGIES.items()}
     draw_lines(panels[4], time, {name: values for name, values in terms.items() if np.any(values != 0)}, "erg")

@@ -22,10 +22,16 @@ from study import FORCE_WINDOW, Run, pareto, path_error, read_runs
 from tables import write_csv
 
 REFERENCE = "whole_100_0.0005_speculative_active-set"
-# Body counts from light to dark, and Paul Tol's muted colours for those that tie.
-COLOURS = {25: "#999999", 35: "#ddcc77", 50: "#44aa99", 70: "#88ccee", 100: "#332288", 140: "#cc6677", 200: "#882255"}
-MARKERS = {"active-set": "o", "ipopt": "s"}
+# Body counts, told apart by marker too; Paul Tol's muted colours for those that tie.
+LOOKS = {25: ("#999999", "x"), 35: ("#ddcc77", "v"), 50: ("#44aa99", "s"), 70: ("#88ccee", "^"), 100: ("#332288", "o"),
+         140: ("#cc6677", "D"), 200: ("#882255", "P")}
+# Columns, and which runs each shows.
+METHODS = {"active-set": lambda run: run.qp == "active-set" and run.activation == "speculative",
+           "violated rows": lambda run: run.qp == "active-set" and run.activation == "violated",
+           "Ipopt": lambda run: run.qp == "ipopt"}
 LABELS_APART = 1.2  # ratio of times
+FAILURE_TICKS = (0.05, 0.1, 0.2, 0.5)  # s
+TIMES_BEYOND = (0.5, 1.5)  # of the shortest and longest time: room for the step beside it
 CHANCE_STEPS = (0.0005, 0.002)  # s, of the starts that differ by rounding: the reference's and the default
 BELOW_CHANCE = 5  # a panel ends at this part of chance
 AT_EDGE = 1.2  # times the end of a panel, where a preset is drawn that is below
@@ -93,30 +99,55 @@ def series(runs: list[Run]) -> list[list[Run]]:
     return [sorted(group, key=lambda run: run.step) for group in groups.values()]
 
 
-def draw(axes: Any, runs: list[Run], presets: list[Run], reference: Run, what: str, floor: float) -> None:
-    done = [run for run in runs if not run.failure]
-    for group in series(done):
+def draw(axes: Any, runs: list[Run], reference: Run, what: str) -> None:
+    """A line for each body count, over its steps."""
+    for group in series([run for run in runs if not run.failure]):
         group = [run for run in group if run is not reference or what == "penetration"]
-        first = group[0]
-        colour, spec = COLOURS[first.bodies], first.activation == "speculative"
-        axes.loglog([run.cpu for run in group], [errors(run, reference)[what] for run in group],
-                    MARKERS[first.qp] + ("-" if spec else ":"), color=colour, ms=4, lw=0.9,
-                    mfc=colour if spec else "white", alpha=0.9)
-    front = front_of(runs, reference, what, floor)
+        if not group:
+            continue
+        colour, marker = LOOKS[group[0].bodies]
+        filled = group[0].activation == "speculative"
+        axes.loglog([run.cpu for run in group], [errors(run, reference)[what] for run in group], marker=marker,
+                    ls="-" if filled else ":", color=colour, ms=4.5, lw=0.9, mfc=colour if filled else "white")
+
+
+def draw_front(axes: Any, front: list[Run], own: list[Run], reference: Run, what: str) -> None:
+    """Of all runs; steps stand at those that the panel shows."""
     points = [(run.cpu, errors(run, reference)[what]) for run in front]
-    axes.step(*zip(*points), where="post", color=INK, lw=2.2, alpha=0.35, zorder=0)
-    labelled = 0.0
+    axes.step(*zip(*points), where="post", color=INK, lw=2.2, alpha=0.25, zorder=0)
+    last, shown = 0.0, {run.name for run in own}
     for run, point in zip(front, points):
-        if point[0] > LABELS_APART * labelled:
-            axes.annotate(f"{1e3 * run.step:g}", point, (-3, -3), textcoords="offset points", fontsize=7.5, ha="right",
-                          va="top", color=COLOURS[run.bodies], fontweight="bold")
-            labelled = point[0]
+        if run.name in shown and point[0] > LABELS_APART * last:
+            axes.annotate(f"{1e3 * run.step:g}", point, (-3, -3), textcoords="offset points", fontsize=7, ha="right",
+                          va="top", color=LOOKS[run.bodies][0], fontweight="bold")
+            last = point[0]
+
+
+def draw_presets(axes: Any, presets: list[Run], reference: Run, what: str, floor: float) -> None:
     for run in presets:
         point = (run.cpu, max(errors(run, reference)[what], AT_EDGE * floor / BELOW_CHANCE))
-        axes.plot(*point, "*", ms=13, mfc=plots.YELLOW, mec=INK, zorder=5)
-        axes.annotate(run.name.removeprefix("preset_"), point, (5, 8), textcoords="offset points", fontsize=8.5,
-                      fontweight="bold", bbox={"fc": "white", "ec": "none", "pad": 0.5, "alpha": 0.8}, zorder=6)
-    axes.set(xlabel="CPU time of the run, s", ylabel=PANELS[what][1])
+        axes.plot(*point, "*", ms=11, mfc=plots.YELLOW, mec=INK, zorder=5)
+        axes.annotate(run.name.removeprefix("preset_"), point, (5, 6), textcoords="offset points", fontsize=8,
+                      bbox={"fc": "white", "ec": "none", "pad": 0.5, "alpha": 0.8}, zorder=6)
+
+
+def draw_row(row: Any, runs: list[Run], presets: list[Run], reference: Run, what: str, floor: Chance) -> None:
+    """One measure: a panel for each of METHODS, the front of all runs behind."""
+    chance, front = floor.of(what), front_of(runs, reference, what, floor.of(what))
+    times = [run.cpu for run in runs if not run.failure]
+    for axes, (words, belongs) in zip(row, METHODS.items()):
+        own = [run for run in runs if belongs(run)]
+        draw(axes, own, reference, what)
+        draw_front(axes, front, own, reference, what)
+        axes.set_xlim(TIMES_BEYOND[0] * min(times), TIMES_BEYOND[1] * max(times))
+        if axes is row[0]:
+            draw_presets(axes, presets, reference, what, chance)
+        if chance:
+            axes.set_ylim(bottom=chance / BELOW_CHANCE)
+            axes.axhspan(axes.get_ylim()[0], chance, color="#eeeeee", zorder=-1)
+            axes.text(0.98, 0.02, f"chance, {floor.starts} starts", transform=axes.transAxes, ha="right", va="bottom",
+                      fontsize=7.5, color=GREY)
+    row[0].set_ylabel(PANELS[what][1])
 
 
 def draw_failures(axes: Any, runs: list[Run]) -> None:
@@ -125,24 +156,24 @@ def draw_failures(axes: Any, runs: list[Run]) -> None:
     for row, words in enumerate(causes):
         own = [run for run in runs if run.failure == words]
         axes.scatter([run.cpu for run in own], [row] * len(own), marker="x", s=22,
-                     c=[COLOURS[run.bodies] for run in own])
+                     c=[LOOKS[run.bodies][0] for run in own])
         sizes = ", ".join(str(n) for n in sorted({run.bodies for run in own}))
         count = f"{len(own)} runs" if len(own) > 1 else "one run"
-        axes.text(0.02, row + 0.12, f"{words}: {count}, {sizes} bodies", fontsize=8,
+        axes.text(0.02, row + 0.18, f"{words}: {count}, {sizes} bodies", fontsize=8,
                   transform=axes.get_yaxis_transform())
     axes.set_yticks([])
     axes.set_ylim(-0.5, len(causes) - 0.3)
     axes.set_xscale("log")
+    plots.plain_ticks(axes.xaxis, FAILURE_TICKS)
     axes.set_xlabel("CPU time until then, s")
 
 
 def legend(figure: Any) -> None:
-    lines = [Line2D([], [], color=colour, lw=2, label=f"{bodies} bodies") for bodies, colour in COLOURS.items()]
-    lines += [Line2D([], [], color=GREY, marker=marker, lw=0.9, ms=5, label=qp) for qp, marker in MARKERS.items()]
-    lines += [Line2D([], [], color=GREY, marker="o", ls=":", mfc="white", lw=0.9, ms=5, label="violated rows only"),
-              Line2D([], [], color=INK, lw=2.2, alpha=0.35, label="Pareto front, h in ms"),
-              Line2D([], [], color=INK, marker="*", ls="", mfc=plots.YELLOW, ms=11, label="preset, timed alone (lower edge: less)")]
-    figure.legend(handles=lines, loc="upper center", ncols=6, fontsize=8, frameon=False)
+    lines = [Line2D([], [], color=colour, marker=marker, lw=0.9, ms=5, label=f"{bodies} bodies") for bodies, (colour, marker) in LOOKS.items()]
+    lines += [Line2D([], [], color=GREY, ls=":", marker="o", mfc="white", lw=0.9, ms=5, label="violated rows only"),
+              Line2D([], [], color=INK, lw=2.2, alpha=0.25, label="Pareto front of all, h in ms"),
+              Line2D([], [], color=INK, marker="*", ls="", mfc=plots.YELLOW, ms=10, label="preset, timed alone (lower edge: less)")]
+    figure.legend(handles=lines, loc="upper center", ncols=5, fontsize=8, frameon=False)
 
 
 def rows_of(runs: list[Run], reference: Run, floor: Chance) -> tuple[list[str], list[list[Any]]]:
@@ -163,17 +194,22 @@ def main(folder: Path, csv: Path, png: Path) -> None:
     reference = reference_of(runs)
     floor = chance(folder, reference.step)
     write_csv(csv, *rows_of(runs, reference, floor))
-    figure, panels = plots.panels(2, 2, (11, 8.6), [*(title for title, _ in PANELS.values()), "runs that failed"])
-    figure.get_layout_engine().set(rect=(0, 0, 1, 0.94))
-    presets = read_runs(folder, "preset")
-    for panel, what in zip(panels, PANELS):
-        draw(panel, runs, presets, reference, what, floor.of(what))
-        if floor.of(what):
-            panel.set_ylim(bottom=floor.of(what) / BELOW_CHANCE)
-            panel.axhspan(panel.get_ylim()[0], floor.of(what), color="#eeeeee", zorder=-1)
-            panel.text(0.99, floor.of(what) * 0.93, f"chance, {floor.starts} starts", transform=panel.get_yaxis_transform(),
-                       ha="right", va="top", fontsize=8, color=GREY)
-    draw_failures(panels[3], runs)
+    figure = plots.plt.figure(figsize=(10, 11.5), layout="constrained")
+    figure.get_layout_engine().set(rect=(0, 0, 1, 0.955))
+    grid = figure.add_gridspec(len(PANELS) + 1, len(METHODS), height_ratios=[1] * len(PANELS) + [0.75])
+    presets, first, lettered = read_runs(folder, "preset"), None, []
+    for place, what in enumerate(PANELS):
+        row: list[Any] = []
+        for column in range(len(METHODS)):
+            row.append(figure.add_subplot(grid[place, column], sharex=first, sharey=row[0] if row else None))
+            first = first or row[0]
+            row[-1].tick_params(labelleft=column == 0)
+            row[-1].set_xlabel("CPU time of the run, s" if place == len(PANELS) - 1 else "")
+        draw_row(row, runs, presets, reference, what, floor)
+        lettered += [(axes, f"{PANELS[what][0]}, {words}") for axes, words in zip(row, METHODS)]
+    failed = figure.add_subplot(grid[-1, :])
+    draw_failures(failed, runs)
+    plots.name_panels(*zip(*lettered, (failed, "runs that failed")))
     legend(figure)
     plots.save(figure, png)
 

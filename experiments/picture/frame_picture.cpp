@@ -54,6 +54,8 @@ FramePictures::FramePictures(const LogContents& log, double pitch, double yaw,
   if (!quantity.empty()) {
     quantity_ = body_quantity(log, quantity);
     scale_ = colour_scale(*quantity_);
+    bar_ = ColourBar{colour_steps(), fmt::format("{}, {}", quantity_->label, quantity_->unit), "0",
+                     scale_ > 0 ? fmt::format("{:.3g} or more", scale_) : "0 throughout"};
   }
 }
 
@@ -86,12 +88,18 @@ std::unique_ptr<OffscreenRenderer> FramePictures::renderer(PictureSize size,
 
 Image FramePictures::draw(OffscreenRenderer& renderer, std::size_t frame, const View& view,
                           const std::string& words) const {
-  return renderer.render(plate(frame), view, skin(frame), words);
+  return renderer.render(plate(frame), view, skin(frame), words, bar_ ? &*bar_ : nullptr);
 }
 
-std::string FramePictures::colour_words() const {
-  return quantity_ ? fmt::format("{}: 0 to {:.3g} {}", quantity_->label, scale_, quantity_->unit)
-                   : "";
+void FramePictures::fit(const Shown& shown, std::optional<PictureSize> size, View& view) const {
+  int room = bar_ ? colour_bar_room : 0;
+  if (size) {
+    room = std::min(room, size->height / 3);  // small ones are for what they show
+    hagfish::fit(shown, size->width, size->height - room, view);
+  } else {
+    hagfish::fit(shown, view);
+  }
+  add_room(room, view);
 }
 
 }  // namespace hagfish

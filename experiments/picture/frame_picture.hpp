@@ -39,8 +39,9 @@ class FramePictures {
                                               const PictureQuality& quality) const;
   Image draw(OffscreenRenderer& renderer, std::size_t frame, const View& view,
              const std::string& words = "") const;
-  /// "f_thigmo, bending: 0 to 934 dyn cm", of the colours; empty without.
-  std::string colour_words() const;
+  /// The window of what is shown and little more, of 80 px/cm; or `size`, at the scale at which it
+  /// fits. With room for the colour bar, where there is one.
+  void fit(const Shown& shown, std::optional<PictureSize> size, View& view) const;
 
  private:
   Skin skin(std::size_t frame) const;
@@ -50,6 +51,7 @@ class FramePictures {
   View view_;
   std::optional<BodyQuantity> quantity_;
   double scale_ = 0;
+  std::optional<ColourBar> bar_;
   MujocoModel model_;
 };
 

@@ -144,6 +144,13 @@ void paint(const Model& model, const Specimen& specimen, const std::vector<doubl
   }
 }
 
+std::vector<std::array<unsigned char, 3>> colour_steps() {
+  constexpr int steps = 256;
+  std::vector<Rgb> colours;
+  for (int k = 0; k < steps; ++k) colours.push_back(colour_of(k / (steps - 1.0)));
+  return colours;
+}
+
 mjvGeom plate_geom(bool holds_head) {
   const Vector3d half = 0.5 * plate_size;
   // Of the geom's axes Z is the world's X.
@@ -197,6 +204,11 @@ void fit(const Shown& shown, View& view) {
   view.low = corner / own_scale;
   view.width = size.x();
   view.height = size.y();
+}
+
+void add_room(int room, View& view) {
+  view.low.y() -= room / view.scale;
+  view.height += room;
 }
 
 void fit(const Shown& shown, int width, int height, View& view) {

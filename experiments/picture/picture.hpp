@@ -2,6 +2,7 @@
 // renderer takes them, and through which window.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "core/chain/model.hpp"
@@ -24,6 +25,9 @@ Skin skin_of(const Model& model, const Specimen& specimen, const Eigen::Matrix3X
 void paint(const Model& model, const Specimen& specimen, const std::vector<double>& arc,
            const Eigen::VectorXd& value, double scale, Skin& skin);
 
+/// The colours of paint() from 0 to its scale, even.
+std::vector<std::array<unsigned char, 3>> colour_steps();
+
 /// The head plate behind the plane x = 0; pale where it does not hold the head.
 mjvGeom plate_geom(bool holds_head);
 
@@ -41,6 +45,8 @@ struct Shown {
 
 /// Sets the window to what is shown and little more, at 80 px/cm.
 void fit(const Shown& shown, View& view);
+/// Adds `room` px below, for what is written there.
+void add_room(int room, View& view);
 /// Sets it to `width` x `height` px, at the scale at which what is shown just fits, in the middle.
 void fit(const Shown& shown, int width, int height, View& view);
 

@@ -33,18 +33,18 @@ CsvTable table_of(const FilmDistance& distance) {
 int against(const AgainstOptions& options) {
   std::optional<TextFile> csv;
   if (!options.csv.empty()) csv.emplace(options.csv, options.force);
-  const LogContents log(options.log);
+  const LogContents log(options.log, LogLevel::frames);
   const Film film = read_film(options.film, options.scale);
   const FilmDistance distance = film_distance(log, film, !options.as_is);
   const std::vector<double> by_time = distance.rms_by_time();
   const auto worst = std::ranges::max_element(by_time) - by_time.begin();
+  const std::string text = csv_text(table_of(distance));
+  if (!options.png.empty()) draw_from_text("against.py", text, options.png, options.force);
+  if (csv) csv->write(text);
   fmt::print("{}: {:.3g} cm from {} (rms of {} midlines{}); the worst, at {:g} s, {:.3g} cm\n",
              options.log, distance.rms(), options.film, by_time.size(),
              options.as_is ? "" : ", the film moved as a whole", distance.time[worst],
              by_time[worst]);
-  const std::string text = csv_text(table_of(distance));
-  if (!options.png.empty()) draw_from_text("against.py", text, options.png, options.force);
-  if (csv) csv->write(text);
   return exit_code::done;
 }
 

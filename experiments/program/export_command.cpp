@@ -24,7 +24,7 @@ struct ExportOptions {
 };
 
 int export_log(const ExportOptions& options) {
-  const LogContents log(options.log);
+  const LogContents log(options.log, LogLevel::frames);
   std::error_code error;
   const bool made = fs::create_directories(options.out, error);
   if (error) throw FileError(options.out + ": cannot make the folder: " + error.message());

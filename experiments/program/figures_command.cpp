@@ -13,7 +13,8 @@ struct FiguresOptions {
 };
 
 int figures(const FiguresOptions& options) {
-  const LogContents log(options.log);  // what is wrong with it is said here, in one line
+  const LogContents log(options.log,
+                        LogLevel::frames);  // what is wrong with it is said here, in one line
   const std::filesystem::path file = options.log;
   const std::string out = options.out.empty()
                               ? (file.parent_path() / (file.stem().string() + "_figures")).string()

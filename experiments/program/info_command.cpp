@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/input/input_text.hpp"
+#include "core/log/saved_run.hpp"
 #include "core/run/controller.hpp"
 #include "experiments/audit/log_contents.hpp"
 #include "experiments/program/commands.hpp"
@@ -50,19 +51,27 @@ std::vector<PhaseStart> phase_starts(const LogContents& log) {
   return starts;
 }
 
+/// Of a log that does not hold each step, those up to its last frame.
+std::size_t step_count(const LogContents& log) {
+  if (level_of(log.h5) == LogLevel::full) return log.h5.shape("/steps/kkt").at(0);
+  const std::vector<std::int64_t> step = log.h5.integers("/trajectory/step");
+  return static_cast<std::size_t>(step.back() - step.front() + 1);
+}
+
 LogInfo read_info(const std::string& file) {
-  const LogContents log(file);
+  const LogContents log(file, LogLevel::summary);
   LogInfo info;
   info.file = file;
   for (const char* name : {"status", "created", "command", "creator_version", "git_revision",
                            "libraries", "compiler", "cpu"}) {
     info.root.emplace_back(name, printable(log.h5.root_text(name)));
   }
+  info.root.emplace_back("log_level", log_level_name(level_of(log.h5)));
   info.title = printable(log.resolved.scene.title);
   info.bodies = log.model.body_count();
   info.velocities = log.model.nv();
   info.frames = log.time.size();
-  info.steps = log.h5.shape("/steps/kkt").at(0);
+  info.steps = step_count(log);
   info.first = log.time.front();
   info.last = log.time.back();
   info.step = log.resolved.scene.time.step;

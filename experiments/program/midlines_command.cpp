@@ -46,6 +46,9 @@ int midlines(const MidlinesOptions& options) {
       options.out, options.stations, options.times, fit.program.time.back(), frames,
       film.planar ? "two dimensions" : "three dimensions", fit.rms,
       film.frames[static_cast<std::size_t>(worst - fit.rms_at.begin())].time, *worst);
+  fmt::print(
+      "hagfish run {} --set script.program={} --set controller.tighten_from={:g} --until form\n",
+      options.scene, options.out, fit.program.time.back());
   return exit_code::done;
 }
 

@@ -66,7 +66,7 @@ int movie(const MovieOptions& options) {
     throw InputError("--size " + options.size + ": films need even numbers");
   }
   require_ffmpeg();
-  const LogContents log(options.log);
+  const LogContents log(options.log, LogLevel::frames);
   const double rate = format == FilmFormat::gif ? gif_pictures_a_second : pictures_a_second;
   const std::vector<std::size_t> frames = film_frames(log, rate, options.speed);
   const FramePictures pictures(log, options.pitch, options.yaw, options.colour);
@@ -77,7 +77,7 @@ int movie(const MovieOptions& options) {
        k += std::max<std::size_t>(1, frames.size() / window_frames)) {
     pictures.add(frames[k], shown);
   }
-  fit(shown, size.width, size.height, view);
+  pictures.fit(shown, size, view);
   const std::vector<std::int64_t> determinant = log.h5.integers("/knot/determinant");
   const std::vector<std::int64_t> v2 = log.h5.integers("/knot/v2");
   const bool progress = !options.quiet && ::isatty(STDERR_FILENO) != 0;
@@ -86,12 +86,10 @@ int movie(const MovieOptions& options) {
   try {
     const auto renderer = pictures.renderer(size, film_quality);
     FilmEncoder film(file.partial(), format, size.width, size.height, rate);
-    const std::string colours = pictures.colour_words();
     for (std::size_t k = 0; k < frames.size(); ++k) {
       if (interrupted()) throw std::runtime_error(options.out + ": interrupted");
-      const std::string words = words_of(log, determinant, v2, frames[k]);
-      film.add(pictures.draw(*renderer, frames[k], view,
-                             colours.empty() ? words : words + "   " + colours));
+      film.add(
+          pictures.draw(*renderer, frames[k], view, words_of(log, determinant, v2, frames[k])));
       if (progress) say("\r{}: picture {} of {}", options.out, k + 1, frames.size());
     }
     film.finish();

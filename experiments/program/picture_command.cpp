@@ -43,20 +43,19 @@ std::vector<View> views_of(const FramePictures& pictures, const std::vector<std:
   for (std::size_t k = 0; k < frames.size(); ++k) {
     Shown own;
     pictures.add(frames[k], own);
-    fit(own, views[k]);
+    pictures.fit(own, std::nullopt, views[k]);
     all.low = all.low.min(own.low);
     all.high = all.high.max(own.high);
   }
   if (!size.empty()) {
-    const auto [width, height] = picture_size(size, "--size");
-    for (View& view : views) fit(all, width, height, view);
+    for (View& view : views) pictures.fit(all, picture_size(size, "--size"), view);
   }
   return views;
 }
 
 /// Prints a table: for each picture its file, time, lower left corner and scale.
 int picture(const PictureOptions& options) {
-  const LogContents log(options.log);
+  const LogContents log(options.log, LogLevel::frames);
   std::vector<std::size_t> frames;
   for (const double time : options.times) frames.push_back(frame_at(log, time));
   if (frames.empty()) frames.push_back(log.time.size() - 1);

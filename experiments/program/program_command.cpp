@@ -17,7 +17,7 @@ struct ProgramOptions {
 };
 
 int make_program(const ProgramOptions& options) {
-  const LogContents log(options.log);
+  const LogContents log(options.log, LogLevel::frames);
   const auto taken = [&](std::size_t f) {
     return options.until > 0 ? log.time[f] <= options.until
                              : log.phase[f] == static_cast<int>(Phase::form);

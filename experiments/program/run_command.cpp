@@ -25,7 +25,8 @@ struct NewRunOptions {
   std::string qp;                     ///< QP back end; the preset's where empty
   std::vector<std::string> set;       ///< KEY=VALUE overrides, after the preset's
   std::string until;                  ///< ends with this phase: time.until; the scene's where empty
-  std::string resume;                 ///< log of a run to go on with, instead of all these
+  std::string level = log_level_name(LogLevel::full);  ///< how much is logged
+  std::string resume;  ///< log of a run to go on with, instead of all these
   RunOptions run;
 };
 
@@ -42,8 +43,9 @@ int run_anew(NewRunOptions options, const std::string& typed) {
   if (options.run.out.empty()) {
     options.run.out = fs::path(options.scene).stem().string() + ".h5";
   }
-  LogWriter log(options.run.out, options.run.force, log_header(resolved, model, qp, typed), model,
-                scene);
+  LogHeader header = log_header(resolved, model, qp, typed);
+  header.level = log_level_called(options.level);
+  LogWriter log(options.run.out, options.run.force, header, model, scene);
   return take_run(model, scene, start(model, scene, qp), options.run, log);
 }
 
@@ -89,6 +91,11 @@ void add_run(Program& program) {
   of_new.push_back(run->add_option(
       "--until", options->until,
       "stop when this phase has ended: form, tighten, slide, pull, reverse, release"));
+  of_new.push_back(run->add_option("--log", options->level,
+                                   "how much is logged: summary, frames (figures, tables, films) "
+                                   "or full (audit, branches)")
+                       ->check(one_of(log_level_names()))
+                       ->capture_default_str());
   CLI::Option* resumed =
       run->add_option("--resume", options->resume,
                       "go on with this log, F.h5.part or F.h5, of a run that did not end");

@@ -42,9 +42,9 @@ double row_bytes(const SeriesList& table) {
 
 RunSize run_size(const Scene& scene, const Model& model) {
   const double count = scene.time.duration / scene.time.step;
-  return {count, count * row_bytes(step_table(scene).series()) +
+  return {count, count * row_bytes(step_table(scene, LogLevel::full).series()) +
                      scene.time.duration / scene.time.frame_interval *
-                         row_bytes(frame_table(model, scene).series())};
+                         row_bytes(frame_table(model, scene, LogLevel::full).series())};
 }
 
 std::vector<std::string> odd_things(const ResolvedScene& scene) {

@@ -22,7 +22,8 @@ int view(const ViewOptions& options) {
   TextFile out(options.out, options.force);
   std::vector<nlohmann::ordered_json> logs;
   for (const std::string& file : options.logs) {
-    logs.push_back(view_data(LogContents(file), fs::path(file).filename().string()));
+    logs.push_back(
+        view_data(LogContents(file, LogLevel::frames), fs::path(file).filename().string()));
   }
   const std::string page = view_page(logs);
   out.write(page);
