@@ -117,11 +117,11 @@ Diagram project(const Eigen::Matrix3Xd& view) {
   Diagram diagram;
   for (int i = 0; i + 2 < count; ++i) {
     const int end = i == 0 ? count - 1 : count;  // the last edge ends where the first one starts
-    const auto later = Eigen::seq(i + 2, end - 1);
-    apart(later) = (boxes.left(later) - boxes.right[i])
-                       .max(boxes.left[i] - boxes.right(later))
-                       .max(boxes.bottom(later) - boxes.top[i])
-                       .max(boxes.bottom[i] - boxes.top(later));
+    const auto later = [&](auto& of) { return of.segment(i + 2, end - i - 2); };
+    later(apart) = (later(boxes.left) - boxes.right[i])
+                       .max(boxes.left[i] - later(boxes.right))
+                       .max(later(boxes.bottom) - boxes.top[i])
+                       .max(boxes.bottom[i] - later(boxes.top));
     near.clear();
     for (int first = i + 2; first < end; first += batch) {
       if (apart.segment<batch>(first).minCoeff() <= tolerance) {
