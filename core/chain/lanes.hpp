@@ -28,14 +28,6 @@ inline Lanes lanes_of(const LaneValues& values) {
 /// The same number in all lanes.
 inline Lanes lanes_of(double value) { return Lanes{} + value; }
 
-inline bool any(const LaneMask& mask) {
-  std::int64_t bits = 0;
-  for (int k = 0; k < lane_count; ++k) {
-    bits |= mask[k];
-  }
-  return bits != 0;
-}
-
 /// The same in single precision: twice as many.
 inline constexpr int float_lane_count = 2 * lane_count;
 using FloatLanes = float __attribute__((vector_size(float_lane_count * sizeof(float))));
@@ -47,6 +39,15 @@ inline FloatLanes lanes_of(const FloatLaneValues& values) {
   FloatLanes lanes;
   std::memcpy(&lanes, values.data(), sizeof lanes);
   return lanes;
+}
+
+template <class Mask>
+bool any(const Mask& mask) {
+  auto bits = mask[0];
+  for (std::size_t k = 1; k < sizeof mask / sizeof bits; ++k) {
+    bits |= mask[k];
+  }
+  return bits != 0;
 }
 
 inline Lanes least(const Lanes& x, const Lanes& y) { return x < y ? x : y; }

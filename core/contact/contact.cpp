@@ -16,9 +16,11 @@ double displacement(const SplineSegment& before, const SplineSegment& now) {
   const Eigen::Vector3d d1 = now.c1 - before.c1;
   const Eigen::Vector3d d2 = now.c2 - before.c2;
   const Eigen::Vector3d d3 = now.c3 - before.c3;
+  constexpr double third = 1.0 / 3;
+  const Eigen::Vector3d first = d0 + third * d1;
   return std::sqrt(
-      std::max({d0.squaredNorm(), (d0 + d1 / 3).squaredNorm(),
-                (d0 + 2 * d1 / 3 + d2 / 3).squaredNorm(), (d0 + d1 + d2 + d3).squaredNorm()}));
+      std::max({d0.squaredNorm(), first.squaredNorm(), (first + third * (d1 + d2)).squaredNorm(),
+                (d0 + d1 + d2 + d3).squaredNorm()}));
 }
 
 void find_candidates(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
@@ -57,10 +59,13 @@ void update_candidates(const std::vector<SplineSegment>& segments, const Contact
 /// Computes the closest points of the candidates that are due; lists those within the margin.
 void evaluate(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
               int samples, ContactSearch& search) {
-  search.scratch.queries.clear();
-  for (const int index : search.scratch.due) {
-    const SegmentPair& pair = search.candidates[index];
-    search.scratch.queries.push_back({&segments[pair.a], &segments[pair.b], pair.closest});
+  search.scratch.queries.resize(search.scratch.due.size());
+  for (std::size_t k = 0; k < search.scratch.due.size(); ++k) {
+    const SegmentPair& pair = search.candidates[search.scratch.due[k]];
+    ClosestPointsQuery& query = search.scratch.queries[k];
+    query.a = &segments[pair.a];
+    query.b = &segments[pair.b];
+    query.guess = pair.closest;
   }
   search.scratch.closest_points.answer(samples, search.scratch.queries);
   for (std::size_t k = 0; k < search.scratch.due.size(); ++k) {
@@ -186,16 +191,20 @@ void find_contacts(const std::vector<SplineSegment>& segments, const ContactSett
   scratch.known.assign(search.candidates.size(), CandidateState::unknown);
   scratch.close.clear();
   scratch.due.clear();
-  scratch.first.assign(1, 0);
+  scratch.first.resize(segments.size() + 1);
+  int a = 0;
   for (std::size_t i = 0; i < search.candidates.size(); ++i) {
     const SegmentPair& pair = search.candidates[i];
-    scratch.first.resize(pair.a + 1, static_cast<int>(i));
+    for (; a <= pair.a; ++a) {
+      scratch.first[a] = static_cast<int>(i);
+    }
     if (search.moved_by(pair) >= pair.clear_until) {
       scratch.known[i] = CandidateState::due;
       scratch.due.push_back(static_cast<int>(i));
     }
   }
-  scratch.first.resize(segments.size() + 1, static_cast<int>(search.candidates.size()));
+  std::fill(scratch.first.begin() + a, scratch.first.end(),
+            static_cast<int>(search.candidates.size()));
   evaluate_with_neighbours(segments, settings, search);
   set.contacts.clear();
   set.others.clear();
