@@ -41,10 +41,9 @@ inline FloatLanes lanes_of(const FloatLaneValues& values) {
   return lanes;
 }
 
-template <class Mask>
-bool any(const Mask& mask) {
-  auto bits = mask[0];
-  for (std::size_t k = 1; k < sizeof mask / sizeof bits; ++k) {
+inline bool any(const LaneMask& mask) {
+  std::int64_t bits = 0;
+  for (int k = 0; k < lane_count; ++k) {
     bits |= mask[k];
   }
   return bits != 0;

@@ -13,8 +13,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/chain/lanes.hpp"
-
 namespace hagfish {
 namespace {
 
@@ -22,8 +20,6 @@ namespace {
 /// farther than that from each other's line cross at a sine of at least as much, and then the place
 /// of the crossing is rounded by less than a fifth of it: no decision made depends on rounding.
 constexpr double generic = 1e-7;
-/// The same for boxes in single precision, which is rounded by 1.2e-7 of the polygon's size.
-constexpr double box_rounding = 1e-6;
 
 /// Where two edges of the projection cross.
 struct Meeting {
@@ -46,14 +42,9 @@ struct Diagram {
   std::vector<int> sign;  ///< by crossing, whether left or not
 };
 
-/// A bounding rectangle of a projected edge.
-struct Box {
-  double left, right, bottom, top;
-};
-
-/// The same of many edges, in the lanes of registers, and rounded.
-struct BoxLanes {
-  FloatLanes left, right, bottom, top;
+/// Bounding rectangles of the projected edges.
+struct Boxes {
+  Eigen::ArrayXd left, right, bottom, top;
 };
 
 [[noreturn]] void throw_degenerate() {
@@ -103,74 +94,42 @@ std::optional<Meeting> meet(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                  .sign = volume > 0 ? -1 : 1};
 }
 
-Box box_of_edge(const Eigen::Matrix3Xd& view, int edge) {
-  const auto from = view.col(edge);
-  const auto to = view.col((edge + 1) % static_cast<int>(view.cols()));
-  return {std::min(from.x(), to.x()), std::max(from.x(), to.x()), std::min(from.y(), to.y()),
-          std::max(from.y(), to.y())};
-}
-
-/// The gap between two boxes along that axis where it is larger; negative where they overlap.
-double apart(const Box& a, const Box& b) {
-  return std::max({b.left - a.right, a.left - b.right, b.bottom - a.top, a.bottom - b.top});
-}
-
-std::vector<BoxLanes> in_lanes(const std::vector<Box>& boxes) {
-  constexpr float nowhere = std::numeric_limits<float>::infinity();
-  std::vector<BoxLanes> lanes;
-  for (std::size_t first = 0; first < boxes.size(); first += float_lane_count) {
-    FloatLaneValues left, right, bottom, top;
-    for (auto* low : {&left, &bottom}) low->fill(nowhere);
-    for (auto* high : {&right, &top}) high->fill(-nowhere);
-    for (std::size_t k = 0; k < std::min<std::size_t>(float_lane_count, boxes.size() - first);
-         ++k) {
-      const Box& box = boxes[first + k];
-      left[k] = static_cast<float>(box.left);
-      right[k] = static_cast<float>(box.right);
-      bottom[k] = static_cast<float>(box.bottom);
-      top[k] = static_cast<float>(box.top);
-    }
-    lanes.push_back({lanes_of(left), lanes_of(right), lanes_of(bottom), lanes_of(top)});
-  }
-  return lanes;
-}
-
-/// Edges of `boxes` from `first` to before `end` whose boxes are within `tolerance` of that of
-/// `edge`, rising.
-void find_near(const std::vector<Box>& boxes, const std::vector<BoxLanes>& lanes, int edge,
-               int first, int end, double tolerance, std::vector<int>& near) {
-  near.clear();
-  const BoxLanes& of = lanes[edge / float_lane_count];
-  const int lane = edge % float_lane_count;
-  const float left = of.left[lane], right = of.right[lane];
-  const float bottom = of.bottom[lane], top = of.top[lane];
-  const auto most = static_cast<float>(box_rounding / generic * tolerance);
-  for (int block = first / float_lane_count; block * float_lane_count < end; ++block) {
-    const BoxLanes& other = lanes[block];
-    const FloatLaneMask close = (other.left - right <= most) & (left - other.right <= most) &
-                                (other.bottom - top <= most) & (bottom - other.top <= most);
-    if (!any(close)) continue;
-    const int last = std::min(end, (block + 1) * float_lane_count);
-    for (int j = std::max(first, block * float_lane_count); j < last; ++j) {
-      if (close[j % float_lane_count] != 0 && apart(boxes[edge], boxes[j]) <= tolerance) {
-        near.push_back(j);
-      }
-    }
-  }
+Boxes boxes_of_edges(const Eigen::Matrix3Xd& view) {
+  const Eigen::Index count = view.cols();
+  Eigen::ArrayX2d ends(count + 1, 2);
+  ends.topRows(count) = view.topRows<2>().transpose();
+  ends.row(count) = ends.row(0);
+  const auto from = ends.topRows(count);
+  const auto to = ends.bottomRows(count);
+  return {from.col(0).min(to.col(0)), from.col(0).max(to.col(0)), from.col(1).min(to.col(1)),
+          from.col(1).max(to.col(1))};
 }
 
 /// Diagram of the closed polygon `view` (3 x n) seen along its third axis.
 Diagram project(const Eigen::Matrix3Xd& view) {
   const int count = static_cast<int>(view.cols());
   const double tolerance = generic * view.colwise().norm().maxCoeff();
-  std::vector<Box> boxes(count);
-  for (int i = 0; i < count; ++i) boxes[i] = box_of_edge(view, i);
-  const std::vector<BoxLanes> lanes = in_lanes(boxes);
+  const Boxes boxes = boxes_of_edges(view);
+  constexpr int batch = 8;  // edges tested together: few cross
+  Eigen::ArrayXd apart =
+      Eigen::ArrayXd::Constant(count + batch, std::numeric_limits<double>::infinity());
   std::vector<int> near;
   Diagram diagram;
   for (int i = 0; i + 2 < count; ++i) {
     const int end = i == 0 ? count - 1 : count;  // the last edge ends where the first one starts
-    find_near(boxes, lanes, i, i + 2, end, tolerance, near);
+    const auto later = Eigen::seq(i + 2, end - 1);
+    apart(later) = (boxes.left(later) - boxes.right[i])
+                       .max(boxes.left[i] - boxes.right(later))
+                       .max(boxes.bottom(later) - boxes.top[i])
+                       .max(boxes.bottom[i] - boxes.top(later));
+    near.clear();
+    for (int first = i + 2; first < end; first += batch) {
+      if (apart.segment<batch>(first).minCoeff() <= tolerance) {
+        for (int j = first; j < std::min(first + batch, end); ++j) {
+          if (apart[j] <= tolerance) near.push_back(j);
+        }
+      }
+    }
     for (const int j : near) {
       const auto meeting =
           meet(view.col(i), view.col(i + 1), view.col(j), view.col((j + 1) % count), tolerance);
