@@ -34,18 +34,68 @@ CentreOperator drag_at_centre(const Model& model, const Kinematics& kin, int bod
           length * model.drag.normal * across + length * model.drag.tangential * forward};
 }
 
-/// Inertial wrench of one body at q̈ = 0, about its centre, from its `angular` inertia there: the
-/// rate of its momentum at `felt_twist` as it moves by kin.twist.
+/// A symmetric operator about a body's centre: plain 1 + along aa' + side ss', with a and s the
+/// body's X and Y axes. Inertia and drag have this form, in which a step assembles and applies
+/// them: body_inertia and drag_operator, as matrices, are what the tests hold that to.
+struct AxisOperator {
+  double plain = 0, along = 0, side = 0;
+
+  Eigen::Vector3d times(const Eigen::Matrix3d& axes, const Eigen::Vector3d& v) const {
+    return plain * v + along * axes.col(0).dot(v) * axes.col(0) +
+           side * axes.col(1).dot(v) * axes.col(1);
+  }
+};
+
+AxisOperator inertia_about_centre(const Body& body) {
+  const Eigen::Vector3d& i = body.inertia;
+  return {i.z(), i.x() - i.z(), i.y() - i.z()};
+}
+
+/// As point_operator of both about the centre, which is at `offset` from O; `linear` has no side.
+Matrix6d centre_operator(const AxisOperator& angular, const AxisOperator& linear,
+                         const Eigen::Matrix3d& axes, const Eigen::Vector3d& offset) {
+  const Eigen::Vector3d a = axes.col(0);
+  const Eigen::Vector3d s = axes.col(1);
+  const Eigen::Vector3d c = offset.cross(a);
+  const Eigen::Vector3d along = angular.along * a;
+  const Eigen::Vector3d side = angular.side * s;
+  const Eigen::Vector3d lever = linear.along * c;
+  const Eigen::Vector3d first = linear.plain * offset;
+  const Eigen::Vector3d forward = linear.along * a;
+  const double plain = angular.plain + first.dot(offset);
+  Matrix6d m;
+  for (int j = 0; j < 3; ++j) {
+    for (int i = 0; i <= j; ++i) {
+      m(i, j) = along[i] * a[j] + side[i] * s[j] - first[i] * offset[j] + lever[i] * c[j] +
+                (i == j ? plain : 0);
+      m(j, i) = m(i, j);
+      m(3 + i, 3 + j) = forward[i] * a[j] + (i == j ? linear.plain : 0);
+      m(3 + j, 3 + i) = m(3 + i, 3 + j);
+    }
+  }
+  Eigen::Matrix3d moment;  // [offset] linear
+  moment << lever[0] * a[0], lever[0] * a[1] - first[2], lever[0] * a[2] + first[1],
+      lever[1] * a[0] + first[2], lever[1] * a[1], lever[1] * a[2] - first[0],
+      lever[2] * a[0] - first[1], lever[2] * a[1] + first[0], lever[2] * a[2];
+  m.topRightCorner<3, 3>() = moment;
+  m.bottomLeftCorner<3, 3>() = moment.transpose();
+  return m;
+}
+
+/// Inertial wrench of one body at q̈ = 0, about its centre: the rate of its momentum at
+/// `felt_twist` as it moves by kin.twist.
 Vector6d bias_at_centre(const Model& model, const Kinematics& kin, const Matrix6Xd& felt_twist,
-                        const Eigen::Matrix3d& angular, int body) {
+                        int body) {
+  const AxisOperator inertia = inertia_about_centre(model.bodies[body]);
+  const Eigen::Matrix3d& axes = kin.rotation[body];
   const Vector6d bias = kin.bias_twist.col(body);
   const Eigen::Vector3d turn = kin.twist.col(body).head<3>();
   const Eigen::Vector3d spin = felt_twist.col(body).head<3>();
-  const Eigen::Vector3d momentum = angular * spin;
+  const Eigen::Vector3d momentum = inertia.times(axes, spin);
   const Eigen::Vector3d acceleration =
       point_velocity(bias, kin.centre_offset(body)) + spin.cross(kin.centre_velocity.col(body));
   Vector6d wrench;
-  wrench << angular * (bias.head<3>() - turn.cross(spin)) + turn.cross(momentum),
+  wrench << inertia.times(axes, bias.head<3>() - turn.cross(spin)) + turn.cross(momentum),
       model.bodies[body].mass * acceleration;
   return wrench;
 }
@@ -100,13 +150,11 @@ double drag_power(const Model& model, const Kinematics& kin, int body, const Poi
                    model.drag.tangential * forward);
 }
 
-double inertia_product(const Model& model, const Kinematics& kin, int body, const PointMotion& a,
-                       const PointMotion& b) {
-  const Eigen::Matrix3d& r = kin.rotation[body];
-  const Eigen::Vector3d rate_a = r.transpose() * a.twist.head<3>();
-  const Eigen::Vector3d rate_b = r.transpose() * b.twist.head<3>();
-  return model.bodies[body].mass * a.velocity.dot(b.velocity) +
-         rate_a.cwiseProduct(rate_b).dot(model.bodies[body].inertia);
+BodyMomentum body_momentum(const Model& model, const Kinematics& kin, int body,
+                           const PointMotion& motion) {
+  const Body& of = model.bodies[body];
+  return {inertia_about_centre(of).times(kin.rotation[body], motion.twist.head<3>()),
+          of.mass * motion.velocity};
 }
 
 Matrix6Xd bias_wrench(const Model& model, const Kinematics& kin) {
@@ -117,8 +165,7 @@ Matrix6Xd bias_wrench(const Model& model, const Kinematics& kin, const Matrix6Xd
   Matrix6Xd wrench(6, kin.twist.cols());
   for (int b = 0; b < model.body_count(); ++b) {
     wrench.col(b) =
-        about_reference(bias_at_centre(model, kin, felt_twist, angular_inertia(model, kin, b), b),
-                        kin.centre_offset(b));
+        about_reference(bias_at_centre(model, kin, felt_twist, b), kin.centre_offset(b));
   }
   return wrench;
 }
@@ -149,17 +196,23 @@ void assemble_step_system(const Model& model, const Eigen::VectorXd& q, const St
   system.wrench.resize(6, n);
   system.joint.setZero(model.nv());
   for (int b = 0; b < n; ++b) {
-    const double mass = model.bodies[b].mass;
+    const Body& body = model.bodies[b];
     const Eigen::Vector3d offset = kin.centre_offset(b);
-    const Eigen::Matrix3d angular = angular_inertia(model, kin, b);
-    const CentreOperator drag = drag_at_centre(model, kin, b);
-    system.op.inertia[b] = point_operator(
-        angular + h * drag.angular, mass * Eigen::Matrix3d::Identity() + h * drag.linear, offset);
-    const Vector6d bias = bias_at_centre(model, kin, motion.felt_twist, angular, b);
+    const Eigen::Matrix3d& axes = kin.rotation[b];
+    const AxisOperator inertia = inertia_about_centre(body);
+    // Drag as drag_at_centre has it.
+    const double sideways = h * body.length * model.drag.normal;
+    const double forward = h * body.length * model.drag.tangential;
+    const double turning = sideways * body.length * body.length / 12;
+    system.op.inertia[b] =
+        centre_operator({inertia.plain + turning, inertia.along - turning, inertia.side},
+                        {body.mass + sideways, forward - sideways}, axes, offset);
+    const Vector6d bias = bias_at_centre(model, kin, motion.felt_twist, b);
     system.bias.col(b) = bias;
     Vector6d momentum;
-    momentum << angular * motion.twist.col(b).head<3>() - h * bias.head<3>(),
-        mass * motion.centre_velocity.col(b) + h * (mass * model.gravity - bias.tail<3>());
+    momentum << inertia.times(axes, motion.twist.col(b).head<3>()) - h * bias.head<3>(),
+        body.mass * motion.centre_velocity.col(b) +
+            h * (body.mass * model.gravity - bias.tail<3>());
     system.wrench.col(b) = about_reference(momentum, offset);
   }
   for (int k = root_dofs; k < model.nv(); ++k) {

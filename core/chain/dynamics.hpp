@@ -92,9 +92,17 @@ struct PointMotion {
 double drag_power(const Model& model, const Kinematics& kin, int body, const PointMotion& over,
                   const PointMotion& at);
 
-/// a' M b of one body, erg: symmetric; twice its kinetic energy where both are the same.
-double inertia_product(const Model& model, const Kinematics& kin, int body, const PointMotion& a,
-                       const PointMotion& b);
+/// How much momentum one body has: angular about its centre, g cm²/s, and linear, g cm/s.
+struct BodyMomentum {
+  Eigen::Vector3d angular, linear;
+
+  /// Over a motion, erg: twice the kinetic energy over the same motion.
+  double times(const PointMotion& motion) const {
+    return angular.dot(motion.twist.head<3>()) + linear.dot(motion.velocity);
+  }
+};
+BodyMomentum body_momentum(const Model& model, const Kinematics& kin, int body,
+                           const PointMotion& motion);
 
 /// Energy in the joint springs, erg.
 double elastic_energy(const Model& model, const Eigen::VectorXd& q);

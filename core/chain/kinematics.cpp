@@ -3,18 +3,28 @@
 namespace hagfish {
 namespace {
 
-Eigen::Matrix3d turned(const Eigen::Matrix3d& frame, Axis axis, double angle) {
-  // Only two columns change: cheaper than a product of matrices, and less rounding.
-  const int a = static_cast<int>(axis);
-  const int b = (a + 1) % 3;
-  const int c = (a + 2) % 3;
+/// Turns `frame` about its column `axis`: only the other two change, which is cheaper than a
+/// product of matrices, and less rounding.
+template <int axis>
+void turn(double cosine, double sine, Eigen::Matrix3d& frame) {
+  constexpr int b = (axis + 1) % 3;
+  constexpr int c = (axis + 2) % 3;
+  const Eigen::Vector3d before = frame.col(b);
+  frame.col(b) = cosine * before + sine * frame.col(c);
+  frame.col(c) = cosine * frame.col(c) - sine * before;
+}
+
+void turn(Axis axis, double angle, Eigen::Matrix3d& frame) {
   const double cosine = std::cos(angle);
   const double sine = std::sin(angle);
-  Eigen::Matrix3d result;
-  result.col(a) = frame.col(a);
-  result.col(b) = cosine * frame.col(b) + sine * frame.col(c);
-  result.col(c) = cosine * frame.col(c) - sine * frame.col(b);
-  return result;
+  switch (axis) {
+    case Axis::x:
+      return turn<0>(cosine, sine, frame);
+    case Axis::y:
+      return turn<1>(cosine, sine, frame);
+    case Axis::z:
+      return turn<2>(cosine, sine, frame);
+  }
 }
 
 }  // namespace
@@ -39,7 +49,7 @@ void update_positions(const Model& model, const Eigen::VectorXd& q, Kinematics& 
       for (int k = body.first_dof; k < body.first_dof + body.dofs; ++k) {
         const Axis axis = model.hinges[k - root_dofs].axis;
         kin.axis.col(k).head<3>() = frame.col(static_cast<int>(axis));
-        frame = turned(frame, axis, q[k + 1]);
+        turn(axis, q[k + 1], frame);
       }
       kin.rotation[b] = frame;
     }

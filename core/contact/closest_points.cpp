@@ -1,18 +1,16 @@
 #include "core/contact/closest_points.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
-#include <utility>
+
+#include "core/chain/lanes.hpp"
 
 namespace hagfish {
 namespace {
 
-// Samples per segment of the grid that starts are taken from: it must resolve the basins of the
-// minima. Eight fill a vector register.
-constexpr int samples = 8;
 constexpr int iteration_limit = 50;
 // Times that a step is halved for the gap to fall, to some 1e-4 of it.
 constexpr int cut_limit = 14;
@@ -21,174 +19,323 @@ constexpr int cut_limit = 14;
 constexpr double whole_step_tolerance = 1e-4;
 // A step that was cut leaves an error of about its own size.
 constexpr double cut_step_tolerance = 1e-7;
+// A Hessian below this share of its positive part is taken as singular.
+constexpr double least_share = 1e-12;
+// Samples of a segment are at most so far apart, cm, and at least 3: they must resolve the basins
+// of the minima, which are as wide as the body bends.
+constexpr double sample_spacing = 0.06;
 
-/// A pair of points on its way down.
-struct Iterate {
-  double t_a, t_b;
-  Eigen::Vector3d apart;  ///< x_b - x_a
-  double distance;        ///< |apart|
-  double gap;
+// Single precision is enough to choose starts, in half the time.
+using SampleLanes = FloatLanes;
+constexpr int sample_lanes = float_lane_count;
+
+/// Sampled points and radii of a segment in each lane.
+struct SampledSegments {
+  std::array<std::array<SampleLanes, 3>, most_samples> point;
+  std::array<SampleLanes, most_samples> radius;
 };
 
-Iterate iterate_at(const SplineSegment& a, const SplineSegment& b, double t_a, double t_b) {
-  const Eigen::Vector3d apart = b.point(t_b) - a.point(t_a);
-  const double distance = apart.norm();
+/// `of(k)` is the segment of lane k and the origin that it is seen from.
+template <class Of>
+void sample_segments(int count, int samples, Of of, SampledSegments& sampled) {
+  std::array<std::array<FloatLaneValues, 3>, 4> c{};
+  FloatLaneValues r0{}, r1{};
+  for (int k = 0; k < count; ++k) {
+    const auto& [s, origin] = of(k);
+    for (int i = 0; i < 3; ++i) {
+      c[0][i][k] = static_cast<float>(s.c0[i] - origin[i]);
+      c[1][i][k] = static_cast<float>(s.c1[i]);
+      c[2][i][k] = static_cast<float>(s.c2[i]);
+      c[3][i][k] = static_cast<float>(s.c3[i]);
+    }
+    r0[k] = static_cast<float>(s.r0);
+    r1[k] = static_cast<float>(s.r1);
+  }
+  for (int j = 0; j < samples; ++j) {
+    const float t = static_cast<float>(j) / static_cast<float>(samples - 1);
+    for (int i = 0; i < 3; ++i) {
+      sampled.point[j][i] =
+          lanes_of(c[0][i]) +
+          t * (lanes_of(c[1][i]) + t * (lanes_of(c[2][i]) + t * lanes_of(c[3][i])));
+    }
+    sampled.radius[j] = lanes_of(r0) + t * lanes_of(r1);
+  }
+}
+
+/// Local minima of the gap on the grid, one in each basin that it resolves: bit 8 i + j for sample
+/// i of a and j of b.
+std::array<std::uint64_t, sample_lanes> basins(const SampledSegments& a, const SampledSegments& b,
+                                               int samples) {
+  // With a border of infinite gap.
+  constexpr int side = most_samples + 2;
+  std::array<std::array<SampleLanes, side>, side> gap, lowest;  // of three along b
+  const SampleLanes infinite = SampleLanes{} + std::numeric_limits<float>::infinity();
+  for (int j = 0; j < samples + 2; ++j) {
+    gap[0][j] = gap[samples + 1][j] = infinite;
+    lowest[0][j] = lowest[samples + 1][j] = infinite;
+  }
+  for (int i = 0; i < samples; ++i) {
+    auto& row = gap[i + 1];
+    row[0] = row[samples + 1] = infinite;
+    for (int j = 0; j < samples; ++j) {
+      const SampleLanes x = b.point[j][0] - a.point[i][0];
+      const SampleLanes y = b.point[j][1] - a.point[i][1];
+      const SampleLanes z = b.point[j][2] - a.point[i][2];
+      row[j + 1] = root(x * x + y * y + z * z) - (b.radius[j] + a.radius[i]);
+    }
+    for (int j = 1; j <= samples; ++j) {
+      lowest[i + 1][j] = least(least(row[j - 1], row[j]), row[j + 1]);
+    }
+  }
+  std::array<FloatLaneMask, 2> found{};  // upper and lower half of the samples of a
+  for (int i = 0; i < samples; ++i) {
+    for (int j = 0; j < samples; ++j) {
+      const SampleLanes around =
+          least(least(lowest[i][j + 1], lowest[i + 1][j + 1]), lowest[i + 2][j + 1]);
+      const auto bit = static_cast<std::int32_t>(1U << (8 * (i % 4) + j));
+      found[i / 4] |= (gap[i + 1][j + 1] <= around) & (FloatLaneMask{} + bit);
+    }
+  }
+  std::array<std::uint64_t, sample_lanes> bits{};
+  for (int k = 0; k < sample_lanes; ++k) {
+    bits[k] = static_cast<std::uint32_t>(found[0][k]) |
+              static_cast<std::uint64_t>(static_cast<std::uint32_t>(found[1][k])) << 32;
+  }
+  return bits;
+}
+
+/// A segment in each lane.
+struct LaneSegments {
+  LaneVector c0, c1, c2, c3;
+  Lanes r0, r1;
+
+  /// `of(k)` is that of lane k.
+  template <class Of>
+  explicit LaneSegments(Of of) {
+    std::array<std::array<LaneValues, 3>, 4> c;
+    LaneValues first, slope;
+    for (int k = 0; k < lane_count; ++k) {
+      const SplineSegment& s = of(k);
+      for (int i = 0; i < 3; ++i) {
+        c[0][i][k] = s.c0[i];
+        c[1][i][k] = s.c1[i];
+        c[2][i][k] = s.c2[i];
+        c[3][i][k] = s.c3[i];
+      }
+      first[k] = s.r0;
+      slope[k] = s.r1;
+    }
+    const auto vector = [](const std::array<LaneValues, 3>& v) {
+      return LaneVector{lanes_of(v[0]), lanes_of(v[1]), lanes_of(v[2])};
+    };
+    c0 = vector(c[0]);
+    c1 = vector(c[1]);
+    c2 = vector(c[2]);
+    c3 = vector(c[3]);
+    r0 = lanes_of(first);
+    r1 = lanes_of(slope);
+  }
+  LaneVector point(const Lanes& t) const { return c0 + t * (c1 + t * (c2 + t * c3)); }
+  LaneVector slope(const Lanes& t) const { return c1 + t * (2 * c2 + (3 * t) * c3); }
+  LaneVector bend(const Lanes& t) const { return 2 * c2 + (6 * t) * c3; }
+  Lanes radius(const Lanes& t) const { return r0 + t * r1; }
+};
+
+/// Pairs of points on their way down.
+struct Iterate {
+  Lanes t_a, t_b;
+  LaneVector apart;  ///< x_b - x_a
+  Lanes distance;    ///< |apart|
+  Lanes gap;
+};
+
+Iterate iterate_at(const LaneSegments& a, const LaneSegments& b, const Lanes& t_a,
+                   const Lanes& t_b) {
+  const LaneVector apart = b.point(t_b) - a.point(t_a);
+  const Lanes distance = root(dot(apart, apart));
   return {t_a, t_b, apart, distance, distance - a.radius(t_a) - b.radius(t_b)};
 }
 
-// Single precision is enough to choose starts, in half the time.
-using Samples = Eigen::Array<float, samples, 1>;
+/// Where `which`, the iterate becomes `next`.
+void move(const LaneMask& which, const Iterate& next, Iterate& at) {
+  at.t_a = which ? next.t_a : at.t_a;
+  at.t_b = which ? next.t_b : at.t_b;
+  at.apart = {which ? next.apart.x : at.apart.x, which ? next.apart.y : at.apart.y,
+              which ? next.apart.z : at.apart.z};
+  at.distance = which ? next.distance : at.distance;
+  at.gap = which ? next.gap : at.gap;
+}
 
-/// Local minima of the gap on the grid: one in each basin that the grid resolves.
-struct Starts {
-  std::array<std::pair<double, double>, samples * samples> at;  ///< t_a, t_b
-  int count = 0;
+struct Direction {
+  Lanes a, b;       ///< step of each parameter, 0 where it is not free
+  LaneMask moving;  ///< where one at least is free
 };
 
-/// The sampled points of a segment, by coordinate, from `origin`.
-std::array<Samples, 3> sampled_points(const SplineSegment& s, const Samples& t,
-                                      const Eigen::Vector3d& origin) {
-  const Eigen::Vector3f c0 = (s.c0 - origin).cast<float>();
-  const Eigen::Vector3f c1 = s.c1.cast<float>();
-  const Eigen::Vector3f c2 = s.c2.cast<float>();
-  const Eigen::Vector3f c3 = s.c3.cast<float>();
-  std::array<Samples, 3> points;
-  for (int k = 0; k < 3; ++k) {
-    points[k] = c0[k] + t * (c1[k] + t * (c2[k] + t * c3[k]));
-  }
-  return points;
+/// The Newton direction on the free parameters, downhill. A parameter on its bound is free where
+/// the gap falls inwards.
+Direction direction(const LaneSegments& a, const LaneSegments& b, const Iterate& at) {
+  const Lanes zero{};
+  const Lanes one = lanes_of(1);
+  const Lanes inverse = one / at.distance;
+  const LaneVector n = inverse * at.apart;
+  const LaneVector xa = a.slope(at.t_a);
+  const LaneVector xb = b.slope(at.t_b);
+  const Lanes an = dot(xa, n);
+  const Lanes bn = dot(xb, n);
+  // Eq. 5 over the distance, with the taper of the body.
+  const Lanes ga = -an - a.r1;
+  const Lanes gb = bn - b.r1;
+  const LaneMask free_a = ~(((at.t_a <= zero) & (ga >= zero)) | ((at.t_a >= one) & (ga <= zero)));
+  const LaneMask free_b = ~(((at.t_b <= zero) & (gb >= zero)) | ((at.t_b >= one) & (gb <= zero)));
+  // The Hessian over the part of its diagonal that is always positive.
+  const Lanes width_a = one / (dot(xa, xa) * inverse);
+  const Lanes width_b = one / (dot(xb, xb) * inverse);
+  const Lanes width = root(width_a * width_b);
+  const Lanes haa = one - (an * an * inverse + dot(a.bend(at.t_a), n)) * width_a;
+  const Lanes hbb = one - (bn * bn * inverse - dot(b.bend(at.t_b), n)) * width_b;
+  const Lanes hab = -(dot(xa, xb) - an * bn) * inverse * width;
+  // Where it is indefinite, the gap falls from a crest towards both ends of a valley, the faster
+  // the further off. |H|, with its eigenvalues m ± r made positive, doubles that distance at each
+  // step: it is (m H + (r² - m²) 1) / r.
+  const Lanes determinant = haa * hbb - hab * hab;
+  const Lanes mean = 0.5 * (haa + hbb);
+  const Lanes inverse_radius = one / root(mean * mean - determinant);
+  const LaneMask crest = determinant < lanes_of(-least_share);
+  const Lanes turn = crest ? mean * inverse_radius : one;
+  const Lanes lift = crest ? -determinant * inverse_radius : zero;
+  const LaneMask regular = crest | ((haa > zero) & (determinant > lanes_of(least_share)));
+  const Lanes maa = regular ? turn * haa + lift : 2 * one;  // else Gauss-Newton, at half its step
+  const Lanes mbb = regular ? turn * hbb + lift : 2 * one;
+  const Lanes mab = regular ? turn * hab : zero;
+  const LaneMask both = free_a & free_b;
+  const Lanes alone = magnitude(free_a ? haa : hbb);
+  const Lanes divisor = both ? maa * mbb - mab * mab : alone;
+  const Lanes share = divisor > lanes_of(least_share) ? one / divisor : one;
+  const Lanes step_a = share * (both ? mab * width * gb - mbb * width_a * ga : -width_a * ga);
+  const Lanes step_b = share * (both ? mab * width * ga - maa * width_b * gb : -width_b * gb);
+  return {free_a ? step_a : zero, free_b ? step_b : zero, free_a | free_b};
 }
 
-Samples sampled_radii(const SplineSegment& s, const Samples& t) {
-  return static_cast<float>(s.r0) + t * static_cast<float>(s.r1);
-}
-
-Starts starts_of(const SplineSegment& a, const SplineSegment& b) {
-  static const Samples t = Samples::LinSpaced(0, 1);
-  const std::array<Samples, 3> points_a = sampled_points(a, t, a.c0);
-  const std::array<Samples, 3> points_b = sampled_points(b, t, a.c0);
-  const Samples radii_a = sampled_radii(a, t);
-  const Samples radii_b = sampled_radii(b, t);
-  // With a border of infinite gap.
-  Eigen::Array<float, samples + 2, samples + 2> gap;
-  gap.setConstant(std::numeric_limits<float>::infinity());
-  for (int i = 0; i < samples; ++i) {
-    gap.col(i + 1).segment<samples>(1) =
-        ((points_b[0] - points_a[0][i]).square() + (points_b[1] - points_a[1][i]).square() +
-         (points_b[2] - points_a[2][i]).square())
-            .sqrt() -
-        (radii_b + radii_a[i]);
-  }
-  Eigen::Array<float, samples, samples + 2> lowest;  // of three along b, then of nine
-  lowest = gap.topRows<samples>().min(gap.middleRows<samples>(1)).min(gap.bottomRows<samples>());
-  Starts starts;
-  for (int i = 0; i < samples; ++i) {
-    const Samples least = lowest.col(i).min(lowest.col(i + 1)).min(lowest.col(i + 2));
-    const Samples own = gap.col(i + 1).segment<samples>(1);
-    if ((own - least).minCoeff() > 0) {
-      continue;
-    }
-    for (int j = 0; j < samples; ++j) {
-      if (own[j] <= least[j]) {
-        starts.at[starts.count++] = {t[i], t[j]};
-      }
-    }
-  }
-  return starts;
-}
-
-/// A Newton direction on the free parameters; `g` is the gradient, `h` the Hessian, `safe` its
-/// positive part.
-Eigen::Vector2d direction(const Eigen::Vector2d& g, const Eigen::Matrix2d& h,
-                          const Eigen::Matrix2d& safe, bool free_a, bool free_b) {
-  if (free_a && free_b) {
-    const double determinant = h.determinant();
-    if (h(0, 0) > 0 && determinant > 1e-12 * safe(0, 0) * safe(1, 1)) {
-      return -Eigen::Vector2d(h(1, 1) * g[0] - h(0, 1) * g[1], h(0, 0) * g[1] - h(1, 0) * g[0]) /
-             determinant;
-    }
-    return {-g[0] / (2 * safe(0, 0)), -g[1] / (2 * safe(1, 1))};
-  }
-  const int k = free_a ? 0 : 1;
-  Eigen::Vector2d step = Eigen::Vector2d::Zero();
-  step[k] = -g[k] / (h(k, k) > 1e-12 * safe(k, k) ? h(k, k) : safe(k, k));
-  return step;
-}
-
-/// Safeguarded Newton from `start`.
-Iterate descend(const SplineSegment& a, const SplineSegment& b, Iterate at) {
+/// Safeguarded Newton from `at`.
+void descend_lanes(const LaneSegments& a, const LaneSegments& b, Iterate& at) {
+  const Lanes zero{};
+  const Lanes one = lanes_of(1);
+  LaneMask active = zero == zero;
   for (int iteration = 0; iteration < iteration_limit; ++iteration) {
-    if (!(at.distance > 0)) {
-      break;  // the centrelines cross: the gap is as low as it gets
-    }
-    const Eigen::Vector3d n = at.apart / at.distance;
-    const Eigen::Vector3d xa = a.slope(at.t_a);
-    const Eigen::Vector3d xb = b.slope(at.t_b);
-    const double an = xa.dot(n);
-    const double bn = xb.dot(n);
-    // Eq. 5 over the distance, with the taper of the body.
-    const Eigen::Vector2d g(-an - a.r1, bn - b.r1);
-    const bool free_a = !(at.t_a <= 0 && g[0] >= 0) && !(at.t_a >= 1 && g[0] <= 0);
-    const bool free_b = !(at.t_b <= 0 && g[1] >= 0) && !(at.t_b >= 1 && g[1] <= 0);
-    if (!free_a && !free_b) {
-      break;
-    }
-    const double inverse = 1 / at.distance;
-    Eigen::Matrix2d h;
-    h(0, 0) = -a.bend(at.t_a).dot(n) + (xa.squaredNorm() - an * an) * inverse;
-    h(1, 1) = b.bend(at.t_b).dot(n) + (xb.squaredNorm() - bn * bn) * inverse;
-    h(0, 1) = h(1, 0) = -(xa.dot(xb) - an * bn) * inverse;
-    const Eigen::Matrix2d safe =
-        Eigen::Vector2d(xa.squaredNorm() * inverse, xb.squaredNorm() * inverse).asDiagonal();
-    const Eigen::Vector2d step = direction(g, h, safe, free_a, free_b);
-
-    bool last = true;
+    active &= at.distance > zero;  // else the centrelines cross: the gap is as low as it gets
+    const Direction step = direction(a, b, at);
+    active &= step.moving;
+    LaneMask searching = active;
+    LaneMask last = active;
     double length = 1;
-    for (int cut = 0; cut < cut_limit; ++cut, length *= 0.5) {
-      const double t_a = std::clamp(at.t_a + length * step[0], 0.0, 1.0);
-      const double t_b = std::clamp(at.t_b + length * step[1], 0.0, 1.0);
-      const bool small = std::abs(t_a - at.t_a) + std::abs(t_b - at.t_b) <=
-                         (cut == 0 ? whole_step_tolerance : cut_step_tolerance);
+    for (int cut = 0; cut < cut_limit && any(searching); ++cut, length *= 0.5) {
+      const Lanes t_a = least(largest(at.t_a + length * step.a, zero), one);
+      const Lanes t_b = least(largest(at.t_b + length * step.b, zero), one);
+      const double tolerance = cut == 0 ? whole_step_tolerance : cut_step_tolerance;
+      const LaneMask small =
+          magnitude(t_a - at.t_a) + magnitude(t_b - at.t_b) <= lanes_of(tolerance);
       const Iterate next = iterate_at(a, b, t_a, t_b);
-      if (next.gap < at.gap) {
-        last = small;
-        at = next;
-        break;
-      }
-      if (small) {
-        break;
-      }
+      const LaneMask lower = searching & (next.gap < at.gap);
+      move(lower, next, at);
+      last &= ~lower | small;
+      searching &= ~(lower | small);
     }
-    if (last) {
-      break;
+    active &= ~last;
+    if (!any(active)) {
+      return;
     }
   }
-  return at;
 }
 
 }  // namespace
 
+int samples_along(double length) {
+  return std::clamp(static_cast<int>(std::ceil(length / sample_spacing)) + 1, 3, most_samples);
+}
+
+void ClosestPointsSearch::answer(int samples, std::span<ClosestPointsQuery> queries) {
+  descents_.clear();
+  for (std::size_t first = 0; first < queries.size(); first += sample_lanes) {
+    sample(samples, queries, first);
+  }
+  for (ClosestPointsQuery& query : queries) {
+    query.closest = {0, 0, std::numeric_limits<double>::infinity()};
+  }
+  for (std::size_t first = 0; first < descents_.size(); first += lane_count) {
+    descend(queries, first);
+  }
+}
+
+/// Lists the starts of a batch of queries.
+void ClosestPointsSearch::sample(int samples, std::span<const ClosestPointsQuery> queries,
+                                 std::size_t first) {
+  const int count = static_cast<int>(std::min<std::size_t>(sample_lanes, queries.size() - first));
+  struct Seen {
+    const SplineSegment& segment;
+    const Eigen::Vector3d& from;
+  };
+  SampledSegments a, b;
+  const auto query = [&](int k) -> const ClosestPointsQuery& { return queries[first + k]; };
+  sample_segments(
+      count, samples,
+      [&](int k) {
+        return Seen{*query(k).a, query(k).a->c0};
+      },
+      a);
+  sample_segments(
+      count, samples,
+      [&](int k) {
+        return Seen{*query(k).b, query(k).a->c0};
+      },
+      b);
+  const auto found = basins(a, b, samples);
+  for (int k = 0; k < count; ++k) {
+    const bool single = std::has_single_bit(found[k]);
+    for (std::uint64_t bits = found[k]; bits != 0; bits &= bits - 1) {
+      const int bit = std::countr_zero(bits);
+      Descent& descent = descents_.emplace_back();
+      descent.query = first + k;
+      descent.t_a = static_cast<double>(bit / 8) / (samples - 1);
+      descent.t_b = static_cast<double>(bit % 8) / (samples - 1);
+      const bool guessed = single && query(k).guess;
+      descent.guess_a = guessed ? query(k).guess->t_a : descent.t_a;
+      descent.guess_b = guessed ? query(k).guess->t_b : descent.t_b;
+    }
+  }
+}
+
+/// Goes down from a batch of starts, each from the lower one of it and its guess.
+void ClosestPointsSearch::descend(std::span<ClosestPointsQuery> queries, std::size_t first) const {
+  const int count = static_cast<int>(std::min<std::size_t>(lane_count, descents_.size() - first));
+  const auto descent = [&](int k) -> const Descent& {
+    return descents_[first + std::min(k, count - 1)];  // spare lanes go along
+  };
+  const LaneSegments a([&](int k) -> const auto& { return *queries[descent(k).query].a; });
+  const LaneSegments b([&](int k) -> const auto& { return *queries[descent(k).query].b; });
+  LaneValues t_a, t_b, guess_a, guess_b;
+  for (int k = 0; k < lane_count; ++k) {
+    t_a[k] = descent(k).t_a;
+    t_b[k] = descent(k).t_b;
+    guess_a[k] = descent(k).guess_a;
+    guess_b[k] = descent(k).guess_b;
+  }
+  Iterate at = iterate_at(a, b, lanes_of(t_a), lanes_of(t_b));
+  const Iterate guessed = iterate_at(a, b, lanes_of(guess_a), lanes_of(guess_b));
+  move(guessed.gap < at.gap, guessed, at);
+  descend_lanes(a, b, at);
+  for (int k = 0; k < count; ++k) {
+    ClosestPoints& closest = queries[descents_[first + k].query].closest;
+    if (at.gap[k] < closest.gap) {
+      closest = {at.t_a[k], at.t_b[k], at.gap[k]};
+    }
+  }
+}
+
 ClosestPoints closest_points(const SplineSegment& a, const SplineSegment& b,
                              const std::optional<ClosestPoints>& guess) {
-  const Starts starts = starts_of(a, b);
-  const auto start = [&](int k) {
-    return iterate_at(a, b, starts.at[k].first, starts.at[k].second);
-  };
-  Iterate first = start(0);
-  if (guess && starts.count == 1) {
-    const Iterate guessed = iterate_at(a, b, guess->t_a, guess->t_b);
-    if (guessed.gap < first.gap) {
-      first = guessed;
-    }
-  }
-  Iterate best = descend(a, b, first);
-  for (int k = 1; k < starts.count; ++k) {
-    const Iterate other = descend(a, b, start(k));
-    if (other.gap < best.gap) {
-      best = other;
-    }
-  }
-  return {best.t_a, best.t_b, best.gap};
+  ClosestPointsQuery query{&a, &b, guess};
+  ClosestPointsSearch().answer(most_samples, {&query, 1});
+  return query.closest;
 }
 
 }  // namespace hagfish

@@ -16,9 +16,11 @@ double displacement(const SplineSegment& before, const SplineSegment& now) {
   const Eigen::Vector3d d1 = now.c1 - before.c1;
   const Eigen::Vector3d d2 = now.c2 - before.c2;
   const Eigen::Vector3d d3 = now.c3 - before.c3;
+  constexpr double third = 1.0 / 3;
+  const Eigen::Vector3d first = d0 + third * d1;
   return std::sqrt(
-      std::max({d0.squaredNorm(), (d0 + d1 / 3).squaredNorm(),
-                (d0 + 2 * d1 / 3 + d2 / 3).squaredNorm(), (d0 + d1 + d2 + d3).squaredNorm()}));
+      std::max({d0.squaredNorm(), first.squaredNorm(), (first + third * (d1 + d2)).squaredNorm(),
+                (d0 + d1 + d2 + d3).squaredNorm()}));
 }
 
 void find_candidates(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
@@ -54,25 +56,45 @@ void update_candidates(const std::vector<SplineSegment>& segments, const Contact
   search.segments = segments;
 }
 
-/// Computes the closest points of a candidate; lists it where they are within the margin.
+/// Computes the closest points of the candidates that are due; lists those within the margin.
 void evaluate(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
-              int index, ContactSearch& search) {
-  SegmentPair& pair = search.candidates[index];
-  pair.closest = closest_points(segments[pair.a], segments[pair.b], pair.closest);
-  pair.clear_until = search.moved_by(pair) + pair.closest->gap - settings.margin;
-  search.looked[index] = 1;
-  if (pair.closest->gap <= settings.margin) {
-    search.close.push_back(index);
+              int samples, ContactSearch& search) {
+  search.scratch.queries.resize(search.scratch.due.size());
+  for (std::size_t k = 0; k < search.scratch.due.size(); ++k) {
+    const SegmentPair& pair = search.candidates[search.scratch.due[k]];
+    ClosestPointsQuery& query = search.scratch.queries[k];
+    query.a = &segments[pair.a];
+    query.b = &segments[pair.b];
+    query.guess = pair.closest;
+  }
+  search.scratch.closest_points.answer(samples, search.scratch.queries);
+  for (std::size_t k = 0; k < search.scratch.due.size(); ++k) {
+    const int index = search.scratch.due[k];
+    SegmentPair& pair = search.candidates[index];
+    pair.closest = search.scratch.queries[k].closest;
+    search.scratch.known[index] = CandidateState::evaluated;
+    pair.clear_until = search.moved_by(pair) + pair.closest->gap - settings.margin;
+    if (pair.closest->gap <= settings.margin) {
+      search.scratch.close.push_back(index);
+    }
   }
 }
 
 /// The candidate of two segments, -1 where they are none.
 int find_candidate(const ContactSearch& search, int a, int b) {
-  const auto it = std::lower_bound(
-      search.candidates.begin(), search.candidates.end(), std::pair(a, b),
-      [](const SegmentPair& pair, const auto& key) { return std::pair(pair.a, pair.b) < key; });
-  const bool found = it != search.candidates.end() && it->a == a && it->b == b;
-  return found ? static_cast<int>(it - search.candidates.begin()) : -1;
+  if (a < 0 || a + 1 >= static_cast<int>(search.scratch.first.size())) {
+    return -1;
+  }
+  // Partners of a segment mostly follow each other.
+  const auto first = search.candidates.begin() + search.scratch.first[a];
+  const auto last = search.candidates.begin() + search.scratch.first[a + 1];
+  auto it = first == last || b < first->b
+                ? last
+                : first + std::min<std::ptrdiff_t>(b - first->b, last - first - 1);
+  while (it != last && it->b > b) {
+    --it;
+  }
+  return it != last && it->b == b ? static_cast<int>(it - search.candidates.begin()) : -1;
 }
 
 // A minimum on the border of two segments is found from both, with gaps that differ by rounding,
@@ -82,30 +104,63 @@ constexpr double same_gap = 1e-9;
 /// Which neighbour shares the border that `t` lies on: -1, +1, or 0 inside the segment.
 int across(double t) { return t <= 0 ? -1 : (t >= 1 ? 1 : 0); }
 
-/// A minimum inside both segments always counts; one on a border counts unless the gap decreases
-/// beyond it, and only for the first of the pairs that find it.
-bool is_local_minimum(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
-                      int index, ContactSearch& search) {
-  const SegmentPair& own = search.candidates[index];
+/// Visits the candidates that share the border, or the corner, where the closest points of one lie,
+/// until `visit(other)` returns false.
+template <class Visit>
+void visit_across(const ContactSearch& search, const SegmentPair& own, Visit visit) {
   const int step_a = across(own.closest->t_a);
   const int step_b = across(own.closest->t_b);
   for (const auto& [da, db] : {std::pair(step_a, 0), {0, step_b}, {step_a, step_b}}) {
-    if (da == 0 && db == 0) {
-      continue;
-    }
-    const int other = find_candidate(search, own.a + da, own.b + db);
-    if (other < 0) {
-      continue;
-    }
-    if (search.looked[other] == 0) {
-      evaluate(segments, settings, other, search);
-    }
-    const double lower_by = own.closest->gap - search.candidates[other].closest->gap;
-    if (lower_by > same_gap || (lower_by >= -same_gap && other < index)) {
-      return false;
+    const int other = da == 0 && db == 0 ? -1 : find_candidate(search, own.a + da, own.b + db);
+    if (other >= 0 && !visit(other)) {
+      return;
     }
   }
-  return true;
+}
+
+/// A minimum inside both segments always counts; one on a border counts unless the gap decreases
+/// beyond it, and only for the first of the pairs that find it. Neighbours that this search has not
+/// evaluated are left out.
+bool is_local_minimum(const ContactSearch& search, int index) {
+  const SegmentPair& own = search.candidates[index];
+  bool lowest = search.scratch.known[index] != CandidateState::beaten;
+  visit_across(search, own, [&](int other) {
+    if (search.scratch.known[other] >= CandidateState::evaluated) {
+      const double lower_by = own.closest->gap - search.candidates[other].closest->gap;
+      lowest = lowest && lower_by <= same_gap && (lower_by < -same_gap || other > index);
+    }
+    return lowest;
+  });
+  return lowest;
+}
+
+/// Evaluates the candidates that are due, and all neighbours that it takes to tell which of those
+/// within the margin are minima.
+void evaluate_with_neighbours(const std::vector<SplineSegment>& segments,
+                              const ContactSettings& settings, ContactSearch& search) {
+  double longest = 0;
+  for (const SplineSegment& segment : segments) {
+    longest = std::max(longest, segment.s1);
+  }
+  const int samples = samples_along(longest);
+  for (std::size_t seen = 0; !search.scratch.due.empty();) {
+    evaluate(segments, settings, samples, search);
+    search.scratch.due.clear();
+    for (; seen < search.scratch.close.size(); ++seen) {
+      const int index = search.scratch.close[seen];
+      if (!is_local_minimum(search, index)) {
+        search.scratch.known[index] = CandidateState::beaten;
+        continue;
+      }
+      visit_across(search, search.candidates[index], [&](int other) {
+        if (search.scratch.known[other] == CandidateState::unknown) {
+          search.scratch.known[other] = CandidateState::due;
+          search.scratch.due.push_back(other);
+        }
+        return true;
+      });
+    }
+  }
 }
 
 }  // namespace
@@ -132,20 +187,30 @@ Contact contact_at(const std::vector<SplineSegment>& segments, int segment_a, do
 void find_contacts(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
                    double near, ContactSearch& search, ContactSet& set) {
   update_candidates(segments, settings, search);
-  search.looked.assign(search.candidates.size(), 0);
-  search.close.clear();
+  ContactScratch& scratch = search.scratch;
+  scratch.known.assign(search.candidates.size(), CandidateState::unknown);
+  scratch.close.clear();
+  scratch.due.clear();
+  scratch.first.resize(segments.size() + 1);
+  int a = 0;
   for (std::size_t i = 0; i < search.candidates.size(); ++i) {
-    if (search.moved_by(search.candidates[i]) >= search.candidates[i].clear_until) {
-      evaluate(segments, settings, static_cast<int>(i), search);
+    const SegmentPair& pair = search.candidates[i];
+    for (; a <= pair.a; ++a) {
+      scratch.first[a] = static_cast<int>(i);
+    }
+    if (search.moved_by(pair) >= pair.clear_until) {
+      scratch.known[i] = CandidateState::due;
+      scratch.due.push_back(static_cast<int>(i));
     }
   }
+  std::fill(scratch.first.begin() + a, scratch.first.end(),
+            static_cast<int>(search.candidates.size()));
+  evaluate_with_neighbours(segments, settings, search);
   set.contacts.clear();
   set.others.clear();
   set.least_gap = settings.margin;
-  // By index, as the list grows: neighbours that a pair is compared with are evaluated too.
-  for (std::size_t k = 0; k < search.close.size(); ++k) {
-    const int index = search.close[k];
-    const bool minimum = is_local_minimum(segments, settings, index, search);
+  for (const int index : search.scratch.close) {
+    const bool minimum = is_local_minimum(search, index);
     SegmentPair& pair = search.candidates[index];
     const double gap = pair.closest->gap;
     set.least_gap = std::min(set.least_gap, gap);

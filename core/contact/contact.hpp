@@ -46,6 +46,20 @@ struct SegmentPair {
   double clear_until = 0;
 };
 
+/// What a search knows of a candidate, so far: beaten is one beside which another has a smaller
+/// gap.
+enum class CandidateState : char { unknown, due, evaluated, beaten };
+
+/// Storage of one search.
+struct ContactScratch {
+  std::vector<int> first;                   ///< of each segment, where its candidates begin
+  std::vector<CandidateState> known;        ///< of each candidate
+  std::vector<int> due;                     ///< indices of candidates to evaluate next
+  std::vector<int> close;                   ///< of those evaluated that are within the margin
+  std::vector<ClosestPointsQuery> queries;  ///< of those that are due
+  ClosestPointsSearch closest_points;
+};
+
 /// What a search for contacts keeps for the next one with the same settings. Pairs are skipped as
 /// long as they cannot have moved close enough. A new minimum is found at once where strands touch
 /// or come within the margin, but beside another minimum, with a positive gap, perhaps some steps
@@ -54,8 +68,7 @@ struct ContactSearch {
   std::vector<SegmentPair> candidates;  ///< sorted
   std::vector<SplineSegment> segments;  ///< of the last search
   std::vector<double> moved;            ///< at most, by each since the candidates were found, cm
-  std::vector<char> looked;             ///< which candidates this search has evaluated
-  std::vector<int> close;               ///< indices of those of them that are within the margin
+  ContactScratch scratch;
 
   double moved_by(const SegmentPair& pair) const { return moved[pair.a] + moved[pair.b]; }
 };

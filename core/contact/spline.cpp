@@ -1,6 +1,7 @@
 #include "core/contact/spline.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace hagfish {
 
@@ -52,9 +53,11 @@ void update_spline(const Model& model, const Eigen::Matrix3Xd& centre,
     arc += s.s1;
     // A cubic lies in the hull of its Bézier points, two of which are the ends.
     s.middle = 0.5 * (p1 + p2);
-    const Eigen::Vector3d b1 = p1 + (p2 - p0) / 6;
-    const Eigen::Vector3d b2 = p2 - (p3 - p1) / 6;
-    s.bound = std::max({(p1 - s.middle).norm(), (b1 - s.middle).norm(), (b2 - s.middle).norm()}) +
+    constexpr double sixth = 1.0 / 6;
+    const Eigen::Vector3d b1 = p1 + sixth * (p2 - p0);
+    const Eigen::Vector3d b2 = p2 - sixth * (p3 - p1);
+    s.bound = std::sqrt(std::max({(p1 - s.middle).squaredNorm(), (b1 - s.middle).squaredNorm(),
+                                  (b2 - s.middle).squaredNorm()})) +
               std::max(s.r0, s.r0 + s.r1);
   }
 }

@@ -121,7 +121,7 @@ void serialize(Archive& archive, SegmentPair& pair) {
 
 template <class Archive>
 void serialize(Archive& archive, ContactSearch& search) {
-  auto& [candidates, segments, moved, looked, close] = search;  // the last two are scratch
+  auto& [candidates, segments, moved, scratch] = search;  // segments are those of the observation
   archive(candidates, moved);
 }
 
@@ -254,6 +254,9 @@ bool fits(const TrackedContact& tracked, int bodies) {
 
 bool fits(const ContactSearch& search, int bodies) {
   return static_cast<int>(search.moved.size()) == bodies - 1 &&
+         std::ranges::is_sorted(
+             search.candidates, {},
+             [](const SegmentPair& pair) { return std::pair(pair.a, pair.b); }) &&
          std::ranges::all_of(search.candidates, [&](const SegmentPair& pair) {
            return pair.a >= 0 && pair.a < pair.b && pair.b < bodies - 1;
          });

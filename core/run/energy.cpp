@@ -65,10 +65,9 @@ void book_step(const StepInput& in, const StepSolution& step, const Moment& next
     const PointMotion change{whole * (felt.twist - old.twist),
                              whole * (felt.velocity - old.velocity)};
     const PointMotion mean{old.twist + 0.5 * change.twist, old.velocity + 0.5 * change.velocity};
-    moved += inertia_product(model, kin, b, mean, change);
-    impulse += inertia_product(model, kin, b,
-                               {mean.twist - t / h * by.twist, mean.velocity - t / h * by.velocity},
-                               change);
+    const BodyMomentum gained = body_momentum(model, kin, b, change);
+    moved += gained.times(mean);
+    impulse += gained.times({mean.twist - t / h * by.twist, mean.velocity - t / h * by.velocity});
     damped += drag_power(model, kin, b, by, felt);
     fall += t * model.bodies[b].mass * model.gravity.dot(by.velocity);
     bias += t * (step.system.bias.col(b).head<3>().dot(by.twist.head<3>()) +

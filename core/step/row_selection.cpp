@@ -8,7 +8,7 @@ namespace {
 
 /// A row is left out at first where rest and the last step's velocity keep this much clear of it,
 /// cm/s or rad/s. Only speed depends on it: rows left out are checked after the solve.
-constexpr double lazy_reach = 0.1;
+constexpr double lazy_reach = 0.03;
 /// A row left out counts as violated below this, cm/s or rad/s: at h = 2 ms, 2e-11 cm or rad.
 constexpr double lazy_tolerance = 1e-8;
 constexpr double nowhere = -std::numeric_limits<double>::infinity();

@@ -177,8 +177,15 @@ namespace {
 
 void append_hinge_rows(const Model& model, const State& state, const ConstraintSettings& settings,
                        double h, const NearBinding& wanted, std::vector<Row>& rows) {
+  // Most hinges are clear of both sides by this.
+  const double reach = std::max(wanted.slack, wanted.slack_at_rest);
+  const double clear = h * (reach + 1e-9 * std::abs(reach));  // beyond rounding
   for (int k = root_dofs; k < model.nv(); ++k) {
     const Hinge& hinge = model.hinges[k - root_dofs];
+    const double least_gap = std::min(state.q[k + 1] - hinge.lower, hinge.upper - state.q[k + 1]);
+    if (least_gap >= 0 && least_gap - h * std::abs(wanted.v[k]) > clear && least_gap > clear) {
+      continue;
+    }
     // The nearer side first: an order that a mirror image, which swaps the sides, keeps.
     const double nearer = state.q[k + 1] - hinge.lower <= hinge.upper - state.q[k + 1] ? 1 : -1;
     for (const double sign : {nearer, -nearer}) {

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "tests/support/closest_points_reference.hpp"
 #include "tests/support/random_chain.hpp"
 
 namespace hagfish {
@@ -187,6 +188,35 @@ TEST(ClosestPoints, OfWildStrandsSeldomLieInAnotherBasin) {
   // can bend so; the bound keeps the share from growing.
   const Misses missed = misses(pairs_of(wild_pair, 63, 10000), 40);
   EXPECT_LE(missed.count, 120) << "worst by " << missed.worst << " cm";
+}
+
+TEST(ClosestPoints, OfManyPairsAtOnceAreThoseOfEachAlone) {
+  // Lanes do not mix: to the last bit, wherever a pair stands among others and however many there
+  // are.
+  const std::vector<Pair> pairs = pairs_of(body_pair, 65, 203);
+  std::vector<ClosestPointsQuery> queries;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    ClosestPointsQuery& query = queries.emplace_back();
+    query.a = &pairs[k].first;
+    query.b = &pairs[k].second;
+    if (k % 3 == 0) query.guess = ClosestPoints{0.3, 0.6, 0};
+  }
+  ClosestPointsSearch search;
+  search.answer(most_samples, queries);
+  for (const ClosestPointsQuery& query : queries) {
+    const ClosestPoints alone = closest_points(*query.a, *query.b, query.guess);
+    EXPECT_EQ(query.closest.t_a, alone.t_a);
+    EXPECT_EQ(query.closest.t_b, alone.t_b);
+    EXPECT_EQ(query.closest.gap, alone.gap);
+  }
+}
+
+TEST(ClosestPoints, HaveTheGapThatThePlainVersionFinds) {
+  // Both are at the minimum to rounding of gaps of 1 cm, along valleys to the square of the last
+  // step, 1e-4.
+  for (const auto& [a, b] : pairs_of(body_pair, 66, 5000)) {
+    EXPECT_NEAR(closest_points(a, b).gap, closest_points_reference(a, b).gap, 1e-11);
+  }
 }
 
 TEST(ClosestPoints, SolveEquationFiveOfThePaper) {

@@ -1,0 +1,94 @@
+// Numbers that are worked on side by side, one in each lane of a vector register: eight doubles
+// with AVX-512, two without any flag. By the vector extensions of GCC and Clang; lanes do not mix,
+// so that their number changes no result.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <cstring>
+
+namespace hagfish {
+
+/// Doubles in a register of the processor that the code is compiled for.
+inline constexpr int lane_count = Eigen::internal::packet_traits<double>::size;
+
+using Lanes = double __attribute__((vector_size(lane_count * sizeof(double))));
+/// All bits of a lane are set where a comparison holds: `mask ? x : y` chooses lane by lane.
+using LaneMask = std::int64_t __attribute__((vector_size(lane_count * sizeof(double))));
+
+/// One number for each lane, to be set one by one: faster than lanes themselves.
+using LaneValues = std::array<double, lane_count>;
+
+inline Lanes lanes_of(const LaneValues& values) {
+  Lanes lanes;
+  std::memcpy(&lanes, values.data(), sizeof lanes);
+  return lanes;
+}
+/// The same number in all lanes.
+inline Lanes lanes_of(double value) { return Lanes{} + value; }
+
+/// The same in single precision: twice as many.
+inline constexpr int float_lane_count = 2 * lane_count;
+using FloatLanes = float __attribute__((vector_size(float_lane_count * sizeof(float))));
+using FloatLaneMask = std::int32_t __attribute__((vector_size(float_lane_count * sizeof(float))));
+
+using FloatLaneValues = std::array<float, float_lane_count>;
+
+inline FloatLanes lanes_of(const FloatLaneValues& values) {
+  FloatLanes lanes;
+  std::memcpy(&lanes, values.data(), sizeof lanes);
+  return lanes;
+}
+
+inline bool any(const LaneMask& mask) {
+  std::int64_t bits = 0;
+  for (int k = 0; k < lane_count; ++k) {
+    bits |= mask[k];
+  }
+  return bits != 0;
+}
+
+inline Lanes least(const Lanes& x, const Lanes& y) { return x < y ? x : y; }
+inline FloatLanes least(const FloatLanes& x, const FloatLanes& y) { return x < y ? x : y; }
+inline Lanes largest(const Lanes& x, const Lanes& y) { return x > y ? x : y; }
+inline Lanes magnitude(const Lanes& x) { return largest(x, -x); }
+
+/// To rounding; 0 below the smallest normal number.
+inline Lanes root(const Lanes& x) {
+  Eigen::Array<double, lane_count, 1> values;
+  std::memcpy(values.data(), &x, sizeof x);
+  values = values.sqrt().eval();
+  Lanes result;
+  std::memcpy(&result, values.data(), sizeof x);
+  return result;
+}
+inline FloatLanes root(const FloatLanes& x) {
+  Eigen::Array<float, float_lane_count, 1> values;
+  std::memcpy(values.data(), &x, sizeof x);
+  values = values.sqrt().eval();
+  FloatLanes result;
+  std::memcpy(&result, values.data(), sizeof x);
+  return result;
+}
+
+/// A vector of space in each lane.
+struct LaneVector {
+  Lanes x, y, z;
+};
+
+inline LaneVector operator+(const LaneVector& a, const LaneVector& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+inline LaneVector operator-(const LaneVector& a, const LaneVector& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+inline LaneVector operator*(const Lanes& s, const LaneVector& a) {
+  return {s * a.x, s * a.y, s * a.z};
+}
+inline LaneVector operator*(double s, const LaneVector& a) { return {s * a.x, s * a.y, s * a.z}; }
+inline Lanes dot(const LaneVector& a, const LaneVector& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+}  // namespace hagfish
