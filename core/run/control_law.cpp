@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "core/run/controller.hpp"
+#include "core/run/reduced_basis.hpp"
 
 namespace hagfish {
 namespace {
@@ -140,7 +141,8 @@ void knot_speed_law(const Situation& at, Eigen::VectorXd& memory, Control& contr
   }
 }
 
-void named_law(const Situation& at, Eigen::VectorXd& memory, Control& control) {
+void named_law(const Situation& at, Eigen::VectorXd& memory, Control& control,
+               ReducedBasisStorage& storage) {
   switch (at.scene.controller.law) {
     case LawName::paper:
       return paper_law(at, control);
@@ -148,6 +150,8 @@ void named_law(const Situation& at, Eigen::VectorXd& memory, Control& control) {
       return all_contacts_law(at, control);
     case LawName::knot_speed:
       return knot_speed_law(at, memory, control);
+    case LawName::reduced_basis:
+      return reduced_basis_law(at, memory, control, storage);
     case LawName::own:
       break;
   }

@@ -179,7 +179,7 @@ void check_schema(const Hdf5Reader& log, const Model& model, const Scene& scene)
   const std::vector<DatasetForm> forms = log_forms(log, model, scene);
   for (const DatasetForm& form : forms) {
     const bool needed = form.path.starts_with("/midway/") || form.path.starts_with("/eq6/") ||
-                        form.path.starts_with("/control/") ||
+                        form.path.starts_with("/control/") || form.path.starts_with("/basis/") ||
                         std::ranges::find(always_there, form.path) != std::end(always_there);
     if (needed || log.has(form.path)) check_form(log, form);
   }

@@ -110,7 +110,7 @@ TEST_F(ControlLaws, TheRunsOwnHasAMemoryAndIsAskedForEachStep) {
   scene.active = {100, 1, 1, 1e6};
   observation.contact.contacts = {contact(5, 30)};
   for (const double time : {0.0, 0.002, 0.004}) {
-    ASSERT_TRUE(decide(model, scene, moment, time, state, control, own).ok());
+    ASSERT_TRUE(decide(model, scene, moment, time, storage, state, control, own).ok());
     EXPECT_EQ(control.torque.value[9], 7);
     EXPECT_EQ(control.rest_shape[9], 0.1);
     const ActiveTorque towards = active_torque(model, scene, moment.state, control.rest_shape);
@@ -122,8 +122,9 @@ TEST_F(ControlLaws, TheRunsOwnHasAMemoryAndIsAskedForEachStep) {
 
 TEST_F(ControlLaws, LawAndSceneMustAgree) {
   const auto complaint_of = [&](const ControlLaw& own) {
-    return error_of<std::invalid_argument>(
-        [&] { static_cast<void>(decide(model, scene, moment, now, state, control, own)); });
+    return error_of<std::invalid_argument>([&] {
+      static_cast<void>(decide(model, scene, moment, now, storage, state, control, own));
+    });
   };
   observation.contact.contacts = {contact(5, 30)};
   const ControlLaw own = [](const Situation&, Eigen::VectorXd&, Control&) {};
