@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "core/run/controller.hpp"
+#include "core/run/muscle_law.hpp"
 
 namespace hagfish {
 namespace {
@@ -146,6 +147,8 @@ void named_law(const Situation& at, Eigen::VectorXd& memory, Control& control) {
       return all_contacts_law(at, control);
     case LawName::knot_speed:
       return knot_speed_law(at, memory, control);
+    case LawName::muscles:
+      return muscle_law(at, memory, control);
     case LawName::own:
       break;
   }
