@@ -1,5 +1,7 @@
 #include "core/muscle/activation.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace hagfish {
@@ -26,7 +28,9 @@ void ActivationSolver::solve(const Model& model, const Kinematics& kin,
     qp_.A.diagonal().array() += 1;
     qp_.b.noalias() = weight * give_.transpose() * wanted;
     qp_.lower.setZero(group.count);
-    qp_.upper.setOnes(group.count);
+    // The objective at a = 0 is w |torque|^2, so that no a is beyond this: bounds that are far away
+    // on the scale of a small torque cost digits.
+    qp_.upper.setConstant(group.count, std::min(1.0, std::sqrt(weight) * wanted.norm()));
     solver_.solve(qp_, qp_.lower, solution_);
     if (solution_.status != SolveStatus::solved) {
       throw std::logic_error("activations: " + solution_.message);

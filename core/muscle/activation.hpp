@@ -14,18 +14,18 @@ struct MuscleEffort {
   Eigen::VectorXd residual;    ///< torque - R a F_max, dyn cm, nv; 0 at the root
 };
 
-/// w of `least_activations` is this over the square of what the joint's muscles give at full
-/// activation, each taken for itself: torques are met to 1e-6 of that where muscles are strong
-/// enough, and among activations that meet them 1/2 |a|^2 still counts.
+/// w of the problem below is this over the square of what the joint's muscles give at full
+/// activation, |R F_max|^2: where they are strong enough, torques are met to 1e-6 of that, and
+/// among activations that meet them 1/2 |a|^2 still counts.
 inline constexpr double residual_weight = 1e6;
 
 /// min 1/2 |a|^2 + w |R a F_max - torque|^2 with 0 <= a <= 1, joint by joint, since no muscle
 /// crosses two. A box QP each, in the activations. Keeps its storage.
 class ActivationSolver {
  public:
-  /// Of `torque` (nv, dyn cm), what its root entries are does not matter, in the shape of `kin`.
-  /// Throws std::logic_error where the back end fails, which it does for no finite torque, and
-  /// std::invalid_argument for a torque that is not finite.
+  /// Of `torque` (nv, dyn cm; its root entries do not matter) in the shape of `kin`. Throws
+  /// std::invalid_argument for a torque that is not finite, and std::logic_error where the back end
+  /// fails.
   void solve(const Model& model, const Kinematics& kin, const Eigen::VectorXd& torque,
              MuscleEffort& effort);
 

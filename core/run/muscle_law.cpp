@@ -4,6 +4,7 @@
 
 #include "core/muscle/activation.hpp"
 #include "core/run/active_curvature.hpp"
+#include "core/run/controller.hpp"
 
 namespace hagfish {
 namespace {
@@ -38,7 +39,11 @@ void muscle_law(const Situation& at, Eigen::VectorXd& memory, Control& control) 
     memory.head(model.nv()) = control.rest_shape;
   }
   MuscleEffort wanted;
-  ActivationSolver().solve(model, now.observation.kin, torques_of(at, control), wanted);
+  if (so_far.phase == Phase::free) {
+    wanted.activation.setZero(count);
+  } else {
+    ActivationSolver().solve(model, now.observation.kin, torques_of(at, control), wanted);
+  }
   auto activation = memory.tail(count);
   const double kept = std::exp(-scene.time.step / scene.muscle.activation_time);
   activation = wanted.activation + kept * (activation - wanted.activation);
