@@ -40,6 +40,50 @@ void write_hinge(std::ostream& out, const Hinge& hinge, const std::string& name)
       << hinge.damping << "\"/>\n";
 }
 
+/// Lines of muscles begin and end at sites.
+std::string site_name(const Muscle& muscle, std::size_t line, const char* end) {
+  return muscle.name + '_' + std::to_string(line) + '_' + end;
+}
+
+void write_sites(std::ostream& out, const Model& model, int body) {
+  for (const Muscle& muscle : model.muscles) {
+    for (std::size_t k = 0; k < muscle.lines.size(); ++k) {
+      const MuscleLine& line = muscle.lines[k];
+      if (muscle.body - 1 == body) {
+        out << "<site name=\"" << site_name(muscle, k, "head") << "\" pos=\""
+            << line.head.transpose() << "\"/>\n";
+      } else if (muscle.body == body) {
+        out << "<site name=\"" << site_name(muscle, k, "tail") << "\" pos=\""
+            << line.tail.transpose() << "\"/>\n";
+      }
+    }
+  }
+}
+
+/// A tendon for each muscle, whose length is the sum of its lines', and an actuator on it that
+/// pulls with F_max times its control, 0 to 1.
+void write_muscles(std::ostream& out, const Model& model) {
+  if (model.muscles.empty()) return;
+  out << "<tendon>\n";
+  for (const Muscle& muscle : model.muscles) {
+    out << "<spatial name=\"" << muscle.name << "\">\n";
+    for (std::size_t k = 0; k < muscle.lines.size(); ++k) {
+      if (k > 0) out << "<pulley divisor=\"1\"/>\n";
+      for (const char* end : {"head", "tail"}) {
+        out << "<site site=\"" << site_name(muscle, k, end) << "\"/>\n";
+      }
+    }
+    out << "</spatial>\n";
+  }
+  out << "</tendon>\n"
+         "<actuator>\n";
+  for (const Muscle& muscle : model.muscles) {
+    out << "<general name=\"" << muscle.name << "\" tendon=\"" << muscle.name
+        << "\" ctrllimited=\"true\" ctrlrange=\"0 1\" gainprm=\"" << -muscle.force << "\"/>\n";
+  }
+  out << "</actuator>\n";
+}
+
 /// Everything in the element of body `b` but the body that hangs on it, and not its end.
 void open_body(std::ostream& out, const Model& model, int b, const JointName& names, Head head) {
   const Body& body = model.bodies[b];
@@ -58,6 +102,7 @@ void open_body(std::ostream& out, const Model& model, int b, const JointName& na
   if (body.radius > 0) {
     out << "<geom fromto=\"0 0 0 " << body.length << " 0 0\" size=\"" << body.radius << "\"/>\n";
   }
+  write_sites(out, model, b);
 }
 
 /// The bodies from `first` on, nested, as far as one file goes; the rest is included.
@@ -122,8 +167,9 @@ std::string root_file(const Model& model, double least_arc, double h) {
          "</worldbody>\n"
          "<contact>\n";
   write_excludes(out, model, least_arc);
-  out << "</contact>\n"
-         "</mujoco>\n";
+  out << "</contact>\n";
+  write_muscles(out, model);
+  out << "</mujoco>\n";
   return out.str();
 }
 

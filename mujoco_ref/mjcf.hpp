@@ -5,7 +5,8 @@
 // the skin as frictionless capsules, and gravity. What is left out: water drag, which MuJoCo knows
 // only in other forms, limits on the total angle of a joint (the root document says so), since
 // MuJoCo limits hinges one by one, and all that belongs to a scene: head plate, script, the active
-// torques of muscles, controller.
+// torques of muscles, controller. Muscles, where the model has them, are spatial tendons with
+// general actuators, whose controls are activations: 0 but where someone sets them.
 #pragma once
 
 #include <map>

@@ -9,6 +9,8 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "core/chain/muscle_paths.hpp"
+
 namespace hagfish {
 namespace {
 
@@ -184,6 +186,9 @@ Model make_hagfish(const Specimen& specimen, const Scene& scene) {
       set_hinge(model.hinges.back(), settings.limit_scale * specimen.twist_limit / n,
                 passive.stiffness / span, passive.damping / span);
     }
+  }
+  if (scene.muscle.present) {
+    model.muscles = muscles_of(specimen, model);
   }
   return model;
 }

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/chain/muscle.hpp"
 #include "core/scene/settings.hpp"
 #include "core/scene/specimen.hpp"
 
@@ -46,6 +47,7 @@ struct Model {
   std::vector<Body> bodies;   ///< head to tail
   std::vector<Hinge> hinges;  ///< head to tail; hinge k has velocity 6 + k and coordinate 7 + k
   std::vector<BendingCone> cones;  ///< head to tail; none where each hinge has its own limit
+  std::vector<Muscle> muscles;     ///< by joint, head to tail; none but where the scene has them
   DragSettings drag;
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< cm / s^2
 

@@ -54,6 +54,17 @@ void passive_fields(Io& io, Specimen& s) {
 }
 
 template <class Io>
+void muscle_tissue_fields(Io& io, Specimen& s) {
+  io.table("muscle", [&tissue = s.muscle](Io& table) {
+    table.numbers("longitudinal_area", tissue.longitudinal_area, positive());
+    table.numbers("oblique_area", tissue.oblique_area, positive());
+    table.number("stress", tissue.stress, not_negative());
+    table.number("radius_share", tissue.radius_share, within(0, 1));
+    table.angle("oblique_angle", tissue.oblique_angle, within(0, 80));
+  });
+}
+
+template <class Io>
 void model_fields(Io& io, ModelSettings& s) {
   io.integer("bodies", s.bodies, within(2, 400));
   io.template choice<PassiveSource>(
@@ -154,12 +165,19 @@ void reduced_basis_fields(Io& io, ReducedBasisSettings& s) {
 }
 
 template <class Io>
+void muscle_fields(Io& io, MuscleSettings& s) {
+  io.boolean("present", s.present);
+  io.number("activation_time", s.activation_time, not_negative());
+}
+
+template <class Io>
 void controller_fields(Io& io, ControllerSettings& s) {
   io.template choice<LawName>("law", s.law,
                               {{"paper", LawName::paper},
                                {"all_contacts", LawName::all_contacts},
                                {"knot_speed", LawName::knot_speed},
                                {"reduced_basis", LawName::reduced_basis},
+                               {"muscles", LawName::muscles},
                                {"own", LawName::own}});
   io.number("cap", s.cap, positive());
   io.number("acceleration", s.acceleration, positive());
@@ -304,6 +322,7 @@ void scene_fields(Io& io, Scene& s, ScriptFile& script) {
   io.table("start", [&](Io& t) { start_fields(t, s.start); });
   io.table("script", [&](Io& t) { script_fields(t, script); });
   io.table("active", [&](Io& t) { active_fields(t, s.active); });
+  io.table("muscle", [&](Io& t) { muscle_fields(t, s.muscle); });
   io.table("controller", [&](Io& t) { controller_fields(t, s.controller); });
   io.table("food", [&](Io& t) { food_fields(t, s.food); });
   io.table("knot", [&](Io& t) { knot_fields(t, s.knot); });

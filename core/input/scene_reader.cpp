@@ -25,6 +25,7 @@ constexpr std::string_view specimen_prefix = "specimen.";
 Specimen read_specimen_table(TableReader& table) {
   Specimen s;
   passive_fields(table, s);
+  muscle_tissue_fields(table, s);
   table.require_all();
   specimen_fields(table, s);
   table.finish();
@@ -271,6 +272,37 @@ void check_active(const TableReader& root, const Scene& scene) {
   }
 }
 
+void check_muscles(const TableReader& root, const ResolvedScene& resolved) {
+  const MuscleSettings& settings = resolved.scene.muscle;
+  const MuscleTissue& tissue = resolved.specimen.muscle;
+  const std::size_t count = resolved.specimen.station.size();
+  for (const auto& [key, area] : {std::pair("longitudinal_area", &tissue.longitudinal_area),
+                                  {"oblique_area", &tissue.oblique_area}}) {
+    if (!area->empty() && area->size() != count) {
+      root.fail("specimen", "its muscle." + std::string(key) +
+                                " must have as many values as station, " + std::to_string(count));
+    }
+    if (settings.present && area->empty()) {
+      root.fail("muscle.present", "the specimen has no muscle." + std::string(key));
+    }
+  }
+  for (const auto& [key, value] : {std::pair("stress", tissue.stress),
+                                   {"radius_share", tissue.radius_share},
+                                   {"oblique_angle", tissue.oblique_angle}}) {
+    if (settings.present && value == 0) {
+      root.fail("muscle.present",
+                "the specimen's muscle." + std::string(key) + " is 0 or missing, must be positive");
+    }
+  }
+  if (resolved.scene.controller.law != LawName::muscles) return;
+  if (!settings.present) {
+    root.fail("muscle.present", "must be true where controller.law = \"muscles\"");
+  }
+  if (settings.activation_time == 0) {
+    root.fail("muscle.activation_time", "must be positive where controller.law = \"muscles\"");
+  }
+}
+
 void check_law(const TableReader& root, const ControllerSettings& controller) {
   if (controller.law != LawName::knot_speed) return;
   const KnotSpeedSettings& loop = controller.knot_speed;
@@ -418,6 +450,7 @@ ResolvedScene read(SceneSource source, const std::vector<std::string>& overrides
   check_start(root, result);
   check_passive(root, result);
   check_active(root, result.scene);
+  check_muscles(root, result);
   check_law(root, result.scene.controller);
   check_basis(root, result.scene.controller);
   check_food(root, result.scene);
@@ -461,6 +494,7 @@ std::string scene_to_toml(const Scene& scene, const Specimen& specimen) {
   writer.table("specimen", [&](TomlWriter& table) {
     specimen_fields(table, animal);
     passive_fields(table, animal);
+    if (!animal.muscle.longitudinal_area.empty()) muscle_tissue_fields(table, animal);
   });
   return writer.text();
 }

@@ -293,6 +293,27 @@ void declare_means(const Model& model, LogTable<Frame>& t) {
       &FrameMeans::slack);
 }
 
+/// /muscle: what muscles have to do for the torques, and what they did.
+void declare_muscles(const Model& model, const Scene& scene, LogTable<Frame>& t) {
+  const LabelledAxis muscles{static_cast<hsize_t>(model.muscles.size()), muscle_labels};
+  const std::string since =
+      " for the mean of u + f_thigmo over the steps since the frame before, at the frame's q; nan "
+      "at the first frame";
+  t.numbers(
+      "/muscle/activation", {muscles}, {"1", "least activations, 0 to 1," + since},
+      [](const Frame& f) -> const auto& { return f.muscles.effort.activation; });
+  t.numbers(
+      "/muscle/residual", {dofs_of(model)},
+      {"dyn, dyn·cm", "what they fall short of, torque - R a F_max, 0 at the root," + since},
+      [](const Frame& f) -> const auto& { return f.muscles.effort.residual; });
+  if (scene.controller.law == LawName::muscles) {
+    t.numbers(
+        "/muscle/driven", {muscles},
+        {"1", "activations, 0 to 1, that move the animal in the step that begins at the frame"},
+        [](const Frame& f) -> const auto& { return f.muscles.driven; });
+  }
+}
+
 /// /pull: what the head's pull at food comes to, of the means above.
 void declare_pull(LogTable<Frame>& t) {
   const std::string when =
@@ -421,6 +442,7 @@ LogTable<Frame> frame_table(const Model& model, const Scene& scene, LogLevel lev
   if (scene.controller.law == LawName::own) declare_control(model, table);
   if (scene.controller.law == LawName::reduced_basis) declare_basis(scene, table);
   declare_means(model, table);
+  if (scene.muscle.present) declare_muscles(model, scene, table);
   declare_pull(table);
   declare_diagnostics(table);
   declare_energy(table);

@@ -11,6 +11,7 @@
 #include "core/log/log_means.hpp"
 #include "core/log/series.hpp"
 #include "core/log/thigmotaxis_rows.hpp"
+#include "core/muscle/activation.hpp"
 #include "core/run/simulation.hpp"
 
 namespace hagfish {
@@ -24,6 +25,12 @@ struct Worst {
   void take(const StepRecord& record);
 };
 
+/// What the muscles have to do between two frames of the log, and what they did.
+struct FrameMuscles {
+  MuscleEffort effort;     ///< of the means since the frame before; nan at the first frame
+  Eigen::VectorXd driven;  ///< of LawName::muscles: activations of the step; else empty
+};
+
 struct Frame {
   const StepRecord& record;
   const ThigmotaxisRows& thigmotaxis;
@@ -31,6 +38,7 @@ struct Frame {
   KnotVote knot;
   Worst worst;
   double wall_time = 0;  ///< s
+  const FrameMuscles& muscles;
 };
 
 /// What is logged of every step.
@@ -54,6 +62,7 @@ struct FrameRow {
 // Labels of axes, in /model and along the rows.
 inline constexpr const char* joint_labels = "/model/joint_name";
 inline constexpr const char* dof_labels = "/model/dof_name";
+inline constexpr const char* muscle_labels = "/model/muscle_name";
 inline constexpr const char* coordinate_labels = "/model/coordinate_name";
 inline constexpr const char* body_labels = "/model/arc";
 inline constexpr const char* axis_labels = "/model/axis_name";

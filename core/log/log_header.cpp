@@ -65,6 +65,22 @@ const std::vector<std::pair<const char*, std::vector<std::string>>>& axis_names(
   return names;
 }
 
+/// Which muscles there are, and how strong.
+void write_muscles(const Model& model, Hdf5Writer& h5) {
+  std::vector<std::string> names;
+  Eigen::VectorXd force(static_cast<Eigen::Index>(model.muscles.size()));
+  for (const Muscle& muscle : model.muscles) {
+    force[static_cast<Eigen::Index>(names.size())] =
+        muscle.force * static_cast<double>(muscle.lines.size());
+    names.push_back(muscle.name);
+  }
+  h5.texts(muscle_labels, names);
+  h5.make_labels(muscle_labels);
+  h5.numbers("/model/muscle_force", force,
+             {"dyn", "largest force of each muscle, all of its lines together"});
+  h5.label("/model/muscle_force", {muscle_labels});
+}
+
 void write_model(const Model& model, Hdf5Writer& h5) {
   const int n = model.body_count();
   Eigen::VectorXd mass(n), length(n), radius(n);
@@ -92,6 +108,7 @@ void write_model(const Model& model, Hdf5Writer& h5) {
   h5.texts(joint_labels, joints);
   h5.texts(dof_labels, dofs);
   h5.texts(coordinate_labels, coordinate_names(model));
+  if (!model.muscles.empty()) write_muscles(model, h5);
   for (const auto& [path, names] : axis_names()) {
     h5.texts(path, names);
     h5.make_labels(path);

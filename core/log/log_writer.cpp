@@ -9,6 +9,7 @@
 #include "core/log/disk_room.hpp"
 #include "core/log/log_frame.hpp"
 #include "core/log/twin_file.hpp"
+#include "core/run/muscle_law.hpp"
 
 namespace hagfish {
 namespace {
@@ -72,8 +73,10 @@ void mark_failed(const fs::path& file, const std::string& cause) {
 }  // namespace
 
 struct LogWriter::Contents {
-  Contents(const Model& model, const Scene& scene, LogLevel held)
-      : level(held),
+  Contents(const Model& of, const Scene& scene, LogLevel held)
+      : model(of),
+        law(scene.controller.law),
+        level(held),
         frames(frame_table(model, scene, held)),
         steps(step_table(scene, held)),
         contacts(contact_table(held)),
@@ -113,6 +116,20 @@ struct LogWriter::Contents {
     return static_cast<std::int32_t>(frames.series().front()->rows());
   }
 
+  /// The muscles' part of a frame.
+  void see_muscles(const StepRecord& record, const FrameMeans& mean) {
+    const Eigen::VectorXd torque = mean.active_torque + mean.force[RowKind::thigmotaxis];
+    if (torque.allFinite()) {
+      activations.solve(model, record.moment.observation.kin, torque, muscles.effort);
+    } else {
+      muscles.effort.activation.setConstant(static_cast<Eigen::Index>(model.muscles.size()), NAN);
+      muscles.effort.residual.setConstant(model.nv(), NAN);
+    }
+    if (law == LawName::muscles) {
+      muscles.driven = activations_in(model, record.controller.memory);
+    }
+  }
+
   /// Brings FILE.part up to date; `sim` is the run after all that it then holds.
   void save(const Simulation& sim) {
     if (file->prepare()) {
@@ -141,6 +158,8 @@ struct LogWriter::Contents {
     any = true;
   }
 
+  Model model;
+  LawName law;
   LogLevel level;
   LogTable<Frame> frames;
   LogTable<LoggedStep> steps;
@@ -152,6 +171,8 @@ struct LogWriter::Contents {
   std::vector<SeriesList> tables;               // lists that have as many rows each
   SeriesList series;                            // all of them
   LogState log;
+  ActivationSolver activations;
+  FrameMuscles muscles;
   KnotSettings knot;
   double h;
   std::int64_t stride;                            // steps a frame
@@ -246,7 +267,9 @@ void LogWriter::write_frame(const StepRecord& record, const ThigmotaxisRows& row
                             ? record.controller.knot
                             : knot_type(record.moment.observation.kin.centre, c.knot);
   const std::int32_t frame = c.frame_count();
-  c.frames.append({record, rows, c.log.means.close(), knot, c.log.worst, wall_time});
+  const FrameMeans& mean = c.log.means.close();
+  if (!c.model.muscles.empty()) c.see_muscles(record, mean);
+  c.frames.append({record, rows, mean, knot, c.log.worst, wall_time, c.muscles});
   const StepSolution& step = record.solution;
   for (std::size_t i = 0; i < step.rows.size(); ++i) {
     const Row& row = step.rows[i];

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "core/run/controller.hpp"
+#include "core/run/muscle_law.hpp"
 #include "core/run/reduced_basis.hpp"
 
 namespace hagfish {
@@ -152,6 +153,8 @@ void named_law(const Situation& at, Eigen::VectorXd& memory, Control& control,
       return knot_speed_law(at, memory, control);
     case LawName::reduced_basis:
       return reduced_basis_law(at, memory, control, storage);
+    case LawName::muscles:
+      return muscle_law(at, memory, control);
     case LawName::own:
       break;
   }

@@ -138,6 +138,13 @@ struct ActiveSettings {
   double capacity = 0;
 };
 
+/// Muscles that make the animal's torques (addition; core/chain/muscle_paths.hpp).
+struct MuscleSettings {
+  bool present = false;  ///< the specimen's: the activations that the torques take are logged
+  /// Of the first-order dynamics by which a muscle follows its excitation, s (LawName::muscles).
+  double activation_time = 0;
+};
+
 /// Commanded speeds of Eq. 6 at one contact, cm/s.
 struct ThigmotaxisSpeeds {
   double a = 0;  ///< row along t_a, the tangent of the strand nearer the head
@@ -153,6 +160,7 @@ enum class LawName {
   all_contacts,   ///< addition: at every contact, as a knot that keeps its shape slides
   knot_speed,     ///< addition: the paper's, its speeds scaled until the knot has the speed wanted
   reduced_basis,  ///< addition: a few numbers times fixed shapes of torque slide the knot
+  muscles,        ///< addition: activations alone, without rows of Eq. 6 (core/muscle)
   own             ///< of the program that runs the scene
 };
 
@@ -386,6 +394,7 @@ struct Scene {
   StartSettings start;
   ScriptSettings script;
   ActiveSettings active;
+  MuscleSettings muscle;
   ControllerSettings controller;
   FoodSettings food;
   KnotSettings knot;

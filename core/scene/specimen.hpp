@@ -7,6 +7,17 @@
 
 namespace hagfish {
 
+/// What the body's muscles are made of, where that is known or guessed: lists at the stations.
+struct MuscleTissue {
+  /// Cross-section of the fibres along the body on each of four sides, left, right, dorsal and
+  /// ventral, cm^2. Empty where nothing is said of muscles.
+  std::vector<double> longitudinal_area;
+  std::vector<double> oblique_area;  ///< of the oblique fibres of each hand, across them, cm^2
+  double stress = 0;                 ///< largest of the fibres, dyn / cm^2
+  double radius_share = 0;           ///< where they lie, of the skin's radius
+  double oblique_angle = 0;          ///< of the oblique fibres to the body's axis, rad
+};
+
 /// A measured specimen (paper, Table 1; what that does not have, by other sources). Profiles are
 /// linear between stations and constant outside.
 struct Specimen {
@@ -26,6 +37,7 @@ struct Specimen {
   /// measured and not guessed either. Flexural and torsional rigidity, dyn cm^2, and their rate
   /// forms, dyn cm^2 s.
   std::vector<double> bending_stiffness, bending_damping, twist_stiffness, twist_damping;
+  MuscleTissue muscle;
 };
 
 /// Value at `fraction` of the length of a profile given at `station`.

@@ -9,6 +9,7 @@
 #include "core/log/log_frame.hpp"
 #include "core/log/log_writer.hpp"
 #include "core/run/simulation.hpp"
+#include "experiments/audit/audit_activation.hpp"
 #include "experiments/audit/audit_checkpoints.hpp"
 #include "experiments/audit/audit_datasets.hpp"
 #include "experiments/audit/audit_forces.hpp"
@@ -192,6 +193,7 @@ std::vector<Finding> audit(const std::string& file) {
   FrameAudit frames(log);
   ForceAudit forces(log);
   MuscleAudit muscles(log);
+  ActivationAudit activations(log);
   RateAudit rates(log);
   ForwardInverseAudit forward_inverse(log);
   std::vector<SeenKnot> knots;
@@ -203,6 +205,7 @@ std::vector<Finding> audit(const std::string& file) {
     frames.see(frame, knots.back().vote);
     forces.see(frame);
     muscles.see(frame);
+    activations.see(frame);
     rates.see(frame);
     forward_inverse.see(frame);
     deepest = worse(deepest, frame.observation.penetration);
@@ -218,6 +221,7 @@ std::vector<Finding> audit(const std::string& file) {
   append(audit_steps(log));
   append(forces.findings());
   append(muscles.findings());
+  append(activations.findings());
   append(audit_pull(log));
   findings.push_back(forward_inverse.finding());
   findings.push_back(thigmotaxis_extent(log));

@@ -40,9 +40,15 @@ void MuscleAudit::see(const AuditedFrame& frame) {
 void MuscleAudit::see_torque(const AuditedFrame& frame) {
   const Scene& scene = log_.resolved.scene;
   const Eigen::Index f = frame.index;
+  const Eigen::VectorXd torque = torque_.row(f);
+  // Muscles hold on to nothing outside.
+  if (!torque.head<root_dofs>().isZero(0)) on_root_.insert("/forces/active");
+  if (scene.controller.law == LawName::muscles) {
+    return;  // by activations: ActivationAudit
+  }
   Eigen::VectorXd wanted = Eigen::VectorXd::Zero(log_.model.nv());
-  const auto add = [&](const ActiveTorque& torque) {
-    wanted += torque.value - torque.rate.cwiseProduct(frame.qdot_felt);
+  const auto add = [&](const ActiveTorque& asked) {
+    wanted += asked.value - asked.rate.cwiseProduct(frame.qdot_felt);
   };
   if (log_.own_law() ? has_rest_shape_[static_cast<std::size_t>(f)] != 0
                      : scene.script.kind == ScriptSettings::Kind::curvature) {
@@ -52,10 +58,7 @@ void MuscleAudit::see_torque(const AuditedFrame& frame) {
     add({asked_.row(f).transpose(), asked_rate_.row(f).transpose()});
   }
   if (amplitude_.rows() > 0) wanted += see_basis(frame);
-  const Eigen::VectorXd torque = torque_.row(f);
   rebuilt_.compare("/forces/active", torque, wanted);
-  // Muscles hold on to nothing outside.
-  if (!torque.head<root_dofs>().isZero(0)) on_root_.insert("/forces/active");
 }
 
 Eigen::VectorXd MuscleAudit::see_basis(const AuditedFrame& frame) {
@@ -81,7 +84,8 @@ void MuscleAudit::see_rest_shape(const AuditedFrame& frame) {
     if (!rest.head<root_dofs>().isZero(0)) on_root_.insert("/trajectory/q_ref");
     return;
   }
-  if (scene.script.kind != ScriptSettings::Kind::curvature) {
+  if (scene.script.kind != ScriptSettings::Kind::curvature ||
+      scene.controller.law == LawName::muscles) {
     rebuilt_.compare("/trajectory/q_ref", rest, Eigen::VectorXd::Zero(rest.size()));
     return;
   }

@@ -204,7 +204,8 @@ void ThigmotaxisAudit::see_ends(const AuditedFrame& frame, const std::vector<Log
                                 Rebuilt& rebuilt) const {
   const Eigen::Index f = frame.index;
   const bool own = log_.resolved.scene.controller.law == LawName::own;
-  const bool commanded = !std::isnan(commands(log_.resolved.scene, frame.phase)[0]);
+  const bool commanded = log_.resolved.scene.controller.law != LawName::muscles &&
+                         !std::isnan(commands(log_.resolved.scene, frame.phase)[0]);
   double cap = NAN;
   for (const LoggedRow& r : rows) {
     cap = r.end == KnotEnd::neither ? cap : r.cap;

@@ -148,6 +148,18 @@ void check_motion(const Hdf5Reader& log) {
   }
 }
 
+/// Muscles pull by 0 to all of their force; nan where there is no mean yet.
+void check_activations(const Hdf5Reader& log) {
+  for (const char* path : {"/muscle/activation", "/muscle/driven"}) {
+    if (!log.has(path)) continue;
+    for (const double a : log.rows(path).reshaped()) {
+      if (a < 0 || a > 1) {
+        refuse(log, fmt::format("{} holds {:g}, not an activation from 0 to 1", path, a));
+      }
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<DatasetForm> log_forms(const Hdf5Reader& log, const Model& model, const Scene& scene) {
@@ -180,6 +192,7 @@ void check_schema(const Hdf5Reader& log, const Model& model, const Scene& scene)
   for (const DatasetForm& form : forms) {
     const bool needed = form.path.starts_with("/midway/") || form.path.starts_with("/eq6/") ||
                         form.path.starts_with("/control/") || form.path.starts_with("/basis/") ||
+                        form.path.starts_with("/muscle/") ||
                         std::ranges::find(always_there, form.path) != std::end(always_there);
     if (needed || log.has(form.path)) check_form(log, form);
   }
@@ -187,6 +200,7 @@ void check_schema(const Hdf5Reader& log, const Model& model, const Scene& scene)
   check_memory(log, forms);
   check_steps(log, scene);
   if (holds(level_of(log), "/trajectory/q")) check_motion(log);
+  check_activations(log);
   const auto frames = static_cast<std::int64_t>(rows_of(log, "/trajectory/time"));
   constexpr auto last_solve = static_cast<std::int64_t>(SolveKind::qp);
   check_whole(log, "/trajectory/phase", 0, phase_count - 1);

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <numbers>
 #include <stdexcept>
 
 #include "core/chain/bending.hpp"
+#include "core/chain/muscle_paths.hpp"
 #include "core/contact/spline.hpp"
 #include "experiments/audit/audited_frame.hpp"
 
@@ -57,6 +59,20 @@ void fill_torque(const LogContents& log, const std::string& dataset, Turn turn,
   });
 }
 
+void fill_activation(const LogContents& log, BodyQuantity& quantity) {
+  const Hdf5Reader::Rows rows = log.h5.rows("/muscle/activation");
+  std::map<int, MuscleGroup> groups;  // by the first velocity of their joint
+  for (MuscleGroup g = muscle_group(log.model, 0); g.count > 0;
+       g = muscle_group(log.model, g.first + g.count)) {
+    groups[log.model.bodies[log.model.muscles[g.first].body].first_dof] = g;
+  }
+  fill(log, Turn::bend, quantity, [&](Eigen::Index f, const Body& joint, double /*span*/) {
+    const MuscleGroup& group = groups.at(joint.first_dof);
+    const double most = rows.row(f).segment(group.first, group.count).maxCoeff();
+    return std::isfinite(most) ? most : 0;  // of the first frame there is no mean
+  });
+}
+
 void fill_shape(const LogContents& log, Turn turn, BodyQuantity& quantity) {
   fill(log, turn, quantity, [&](Eigen::Index f, const Body& joint, double span) {
     const double first = log.q(f, joint.first_dof + 1);
@@ -92,7 +108,12 @@ void fill_contact(const LogContents& log, BodyQuantity& quantity) {
 }  // namespace
 
 std::vector<std::string> body_quantity_names() {
-  return {"thigmotaxis", "thigmotaxis-twist", "active", "curvature", "twist", "contact"};
+  return {"thigmotaxis", "thigmotaxis-twist", "active", "activation", "curvature", "twist",
+          "contact"};
+}
+
+bool has_quantity(const LogContents& log, const std::string& name) {
+  return name != "activation" || !log.model.muscles.empty();
 }
 
 BodyQuantity body_quantity(const LogContents& log, const std::string& name) {
@@ -107,6 +128,9 @@ BodyQuantity body_quantity(const LogContents& log, const std::string& name) {
   } else if (name == "active") {
     quantity = made("active torque, bending", "dyn cm");
     fill_torque(log, "/mean/forces/active", Turn::bend, quantity);
+  } else if (name == "activation") {
+    quantity = made("largest activation of a bending joint", "1");
+    fill_activation(log, quantity);
   } else if (name == "curvature" || name == "twist") {
     const Turn turn = name == "curvature" ? Turn::bend : Turn::twist;
     quantity = made(name.c_str(), "rad/cm");

@@ -58,6 +58,29 @@ ExportTable torque_table(const LogContents& log, bool si) {
   return table;
 }
 
+ExportTable muscle_table(const LogContents& log, bool si) {
+  ExportTable table("muscles.csv",
+                    {frame_column,
+                     time_column,
+                     {"muscle", none, "its joint, by the body behind it, and place"},
+                     {"s", centimetre, "arc length of the joint from the head's end at rest"},
+                     {"activation", none,
+                      "0 to 1, the least for the mean of u + f_thigmo since the frame before"},
+                     {"force", force, "of all its lines together"}},
+                    si);
+  const Hdf5Reader::Rows activation = log.h5.rows("/muscle/activation");
+  const std::vector<double> most = log.h5.doubles("/model/muscle_force");
+  const double length = log.model.length() / log.model.body_count();
+  for (Eigen::Index f = 0; f < activation.rows(); ++f) {
+    for (std::size_t m = 0; m < log.model.muscles.size(); ++m) {
+      const Muscle& muscle = log.model.muscles[m];
+      const double a = activation(f, static_cast<Eigen::Index>(m));
+      table.add({std::int64_t{f}, log.time[f], muscle.name, muscle.body * length, a, a * most[m]});
+    }
+  }
+  return table;
+}
+
 ExportTable eq6_table(const LogContents& log, bool si) {
   ExportTable table(
       "eq6.csv",
@@ -140,7 +163,10 @@ ExportTable energy_table(const LogContents& log, bool si) {
 }  // namespace
 
 std::vector<ExportTable> force_tables(const LogContents& log, bool si) {
-  return {torque_table(log, si), eq6_table(log, si), head_table(log, si), energy_table(log, si)};
+  std::vector<ExportTable> tables{torque_table(log, si), eq6_table(log, si), head_table(log, si),
+                                  energy_table(log, si)};
+  if (!log.model.muscles.empty()) tables.push_back(muscle_table(log, si));
+  return tables;
 }
 
 }  // namespace hagfish

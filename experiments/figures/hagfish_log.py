@@ -14,7 +14,7 @@ import numpy as np
 
 FORMAT = "hagfish-log"
 VERSION = 1
-FRAME_GROUPS = ("trajectory", "forces", "thigmotaxis", "mean", "pull", "knot", "diagnostics")
+FRAME_GROUPS = ("trajectory", "forces", "thigmotaxis", "mean", "muscle", "pull", "knot", "diagnostics")
 
 
 class LogError(Exception):

@@ -1,4 +1,4 @@
-"""All figures of one log: overview, Figures 7 and 8, the paper's claims, and the summary. What a log does not show, as where
+"""All figures of one log: overview, Figures 7 and 8, the paper's claims, activations, and the summary. What a log does not show, as where
 the knot never slid, is said in one line and left out. `hagfish figures` calls this.
 
 Usage: of_log.py LOG.h5 HAGFISH OUT_FOLDER, where HAGFISH is the program.
@@ -13,6 +13,7 @@ from pathlib import Path
 
 import figure7
 import figure8
+import muscles
 import overview
 import summary
 from hagfish_log import HagfishLog, LogError
@@ -40,13 +41,15 @@ def summarise(path: Path, hagfish: Path, folder: Path) -> None:
 
 
 def main(path: Path, hagfish: Path, folder: Path) -> None:
-    HagfishLog(path)  # what is no log ends it here
+    log = HagfishLog(path)  # what is no log ends it here
     folder.mkdir(parents=True, exist_ok=True)
     drawings: list[tuple[tuple[str, ...], Callable[[], None]]] = [
         (("overview.png",), lambda: overview.main(path, folder / "overview.png")),
         (("figure7.png",), lambda: figure7.main(path, hagfish, folder / "figure7.png")),
         (("figure8.png", "claims.png", "claims.txt"), lambda: claims(path, folder)),
         (("summary.md", "check.csv"), lambda: summarise(path, hagfish, folder))]
+    if log.scene().get("muscle", {}).get("present"):
+        drawings.append((("muscles.png",), lambda: muscles.main(path, folder / "muscles.png")))
     for names, draw in drawings:
         try:
             draw()

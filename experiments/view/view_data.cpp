@@ -130,6 +130,7 @@ Json view_data(const LogContents& log, const std::string& name) {
   add_stages(log, json);
   json["position"] = float_rows(log, "/trajectory/position");
   for (const std::string& quantity : body_quantity_names()) {
+    if (!has_quantity(log, quantity)) continue;
     const BodyQuantity along = body_quantity(log, quantity);
     // Torques of muscles, or any, that there are none of are not offered.
     if (const double scale = colour_scale(along); scale > 0) {

@@ -23,9 +23,10 @@ class Bits {
   Bits(const Scene& scene, const Specimen& specimen) {
     // The name of the specimen's file is not written.
     const auto& [title, file, mirror, clamp_head, gravity, model, drag, constraints, contact, wall,
-                 start, script, active, controller, food, knot, time, guard, expect] = scene;
+                 start, script, active, muscle, controller, food, knot, time, guard, expect] =
+        scene;
     add(title, mirror, clamp_head, gravity, model, drag, constraints, contact, wall, start, script,
-        active, controller, food, knot, time, guard, expect, specimen);
+        active, muscle, controller, food, knot, time, guard, expect, specimen);
   }
   bool operator==(const Bits&) const = default;
 
@@ -143,10 +144,18 @@ class Bits {
   }
   void put(const Specimen& s) {
     const auto& [name, length, mass, station, circumference, bending_limit, bending_span,
-                 twist_limit, bending_stiffness, bending_damping, twist_stiffness, twist_damping] =
-        s;
+                 twist_limit, bending_stiffness, bending_damping, twist_stiffness, twist_damping,
+                 muscle] = s;
     add(name, length, mass, station, circumference, bending_limit, bending_span, twist_limit,
-        bending_stiffness, bending_damping, twist_stiffness, twist_damping);
+        bending_stiffness, bending_damping, twist_stiffness, twist_damping, muscle);
+  }
+  void put(const MuscleTissue& s) {
+    const auto& [longitudinal_area, oblique_area, stress, radius_share, oblique_angle] = s;
+    add(longitudinal_area, oblique_area, stress, radius_share, oblique_angle);
+  }
+  void put(const MuscleSettings& s) {
+    const auto& [present, activation_time] = s;
+    add(present, activation_time);
   }
 
   std::vector<std::uint64_t> bits_;
@@ -173,6 +182,7 @@ ResolvedScene odd_scene() {
   s.script.damper = odd();
   s.script.largest_force = odd();
   s.active = {odd(), odd(), odd(), odd()};
+  s.muscle = {true, odd()};
   s.controller = {LawName::knot_speed,
                   {odd(), odd(), odd(), odd()},
                   {odd(), odd()},
@@ -245,7 +255,8 @@ ResolvedScene odd_scene() {
                      {odd(), odd(), odd()},
                      {odd(), odd(), odd()},
                      {odd(), odd(), odd()},
-                     {odd(), odd(), odd()}};
+                     {odd(), odd(), odd()},
+                     {{odd(), odd(), odd()}, {odd(), odd(), odd()}, odd(), odd(), odd()}};
   return result;
 }
 

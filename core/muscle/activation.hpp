@@ -1,0 +1,39 @@
+// The activations that give torques: the inverse problem of muscles.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "core/chain/muscle_paths.hpp"
+#include "solvers/active_set.hpp"
+
+namespace hagfish {
+
+/// What the muscles can give of a torque.
+struct MuscleEffort {
+  Eigen::VectorXd activation;  ///< a, of each of Model::muscles, 0 to 1
+  Eigen::VectorXd residual;    ///< torque - R a F_max, dyn cm, nv; 0 at the root
+};
+
+/// w of the problem below is this over the square of what the joint's muscles give at full
+/// activation, |R F_max|^2: where they are strong enough, torques are met to 1e-6 of that, and
+/// among activations that meet them 1/2 |a|^2 still counts.
+inline constexpr double residual_weight = 1e6;
+
+/// min 1/2 |a|^2 + w |R a F_max - torque|^2 with 0 <= a <= 1, joint by joint, since no muscle
+/// crosses two. A box QP each, in the activations. Keeps its storage.
+class ActivationSolver {
+ public:
+  /// Of `torque` (nv, dyn cm; its root entries do not matter) in the shape of `kin`. Throws
+  /// std::invalid_argument for a torque that is not finite, and std::logic_error where the back end
+  /// fails.
+  void solve(const Model& model, const Kinematics& kin, const Eigen::VectorXd& torque,
+             MuscleEffort& effort);
+
+ private:
+  ActiveSetBoxQp solver_;
+  BoxQp qp_;
+  BoxQpSolution solution_;
+  Eigen::MatrixXd give_;  ///< R F_max of one joint, hinges x muscles
+};
+
+}  // namespace hagfish

@@ -1,0 +1,89 @@
+"""What a log says of muscles: activations, of means from frame to frame, by place and by phase."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from hagfish_log import HagfishLog, LogError
+
+PAIRS = (("left", "right"), ("dorsal", "ventral"), ("right_handed", "left_handed"))
+# Means over 20 ms still hold what single steps do where a contact becomes the first or last one: peaks are this quantile of all
+# muscles and frames.
+PEAK = 0.999
+
+
+class Muscles:
+    """Of one log. `activation` is frames x muscles; the first frame has no means and is 0."""
+
+    def __init__(self, log: HagfishLog) -> None:
+        self.log = log
+        self.activation = np.nan_to_num(log["/muscle/activation"])
+        self.residual = np.nan_to_num(log["/muscle/residual"])
+        self.force = log["/model/muscle_force"]
+        names = [name.split("_", 1) for name in log.strings("/model/muscle_name")]
+        self.joint = np.array([int(joint[1:]) for joint, _ in names])
+        self.place = np.array([place for _, place in names])
+        self.bends = np.isin(self.place, ("left", "right", "dorsal", "ventral"))
+        self.arc = log.joint_arc()[self.joint]
+        self.time = log["/trajectory/time"]
+
+    def map(self, bends: bool) -> tuple[np.ndarray, np.ndarray]:
+        """Arc length of the joints that bend, or twist, and the largest activation of each one's muscles in each frame."""
+        joints = np.unique(self.joint[self.bends == bends])
+        most = [self.activation[:, self.joint == joint].max(axis=1) for joint in joints]
+        return self.log.joint_arc()[joints], np.stack(most, axis=1)
+
+    def antagonists(self, frames: np.ndarray) -> float:
+        """Share of all muscle force that the weaker one of a pair makes."""
+        weaker = whole = 0.0
+        for a, b in PAIRS:
+            forces = [self.activation[frames][:, self.place == place] * self.force[self.place == place] for place in (a, b)]
+            weaker += float(np.minimum(*forces).sum())
+            whole += float(forces[0].sum() + forces[1].sum())
+        return weaker / whole if whole else np.nan
+
+    def torque(self) -> np.ndarray:
+        """u + f_thigmo at the hinges, frames x velocities, 0 at the root."""
+        torque = np.nan_to_num(self.log["/mean/forces/active"] + self.log["/mean/forces/thigmotaxis"])
+        torque[:, :6] = 0
+        return torque
+
+    def of(self, frames: np.ndarray) -> Effort:
+        if not frames.size:
+            raise LogError(f"{self.log.path}: has no frames of that phase")
+        a = self.activation[frames]
+        short = np.abs(self.residual[frames]).max(axis=1)
+        return Effort(peak=float(np.quantile(a, PEAK)), largest=float(a.max()), mean=float(a.mean()), antagonists=self.antagonists(frames),
+                      residual=float(short.max()), short=float((short > 0.01 * np.abs(self.torque()[frames]).max()).mean()),
+                      seconds=float(self.time[frames[-1]] - self.time[frames[0] - 1]))
+
+    def pair_off(self, frames: np.ndarray) -> tuple[float, float]:
+        """How far one pair of constant arms for each axis, those of the straight body, is from the lines of the bending joints:
+        median and largest difference of a joint's largest activation, over the larger of the two, where that is above 0.01."""
+        share = float(self.log.scene()["specimen"]["muscle"]["radius_share"])
+        index, joint, kind = self.log.hinges()
+        torque = np.abs(self.torque()[frames])
+        joints, lines = np.unique(self.joint[self.bends]), []
+        for one in joints:
+            strength = self.force[(self.joint == one) & (self.place == "left")][0] * share * self.log["/model/radius"][one]
+            bend = [index[(joint == one) & (kind == axis)][0] for axis in ("bend_y", "bend_z")]
+            lines.append(np.minimum(torque[:, bend] / strength, 1).max(axis=1))
+        pair, own = np.stack(lines, axis=1), self.map(True)[1][frames]
+        size = np.maximum(pair, own)
+        off = (np.abs(pair - own) / np.maximum(size, 1e-300))[size > 0.01]
+        return (float(np.median(off)), float(off.max())) if off.size else (np.nan, np.nan)
+
+
+@dataclass
+class Effort:
+    """Of some frames."""
+
+    peak: float  # quantile PEAK of all activations
+    largest: float
+    mean: float
+    antagonists: float
+    residual: float  # largest of a hinge, dyn cm
+    short: float  # share of frames in which a hinge lacks more than 1 % of the largest torque
+    seconds: float

@@ -1,0 +1,69 @@
+// The law that moves the animal by activations: what it leaves of the paper's control, and the lag
+// of its muscles.
+#include "core/run/muscle_law.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/muscle/activation.hpp"
+#include "tests/support/muscled_hagfish.hpp"
+#include "tests/support/stored_states.hpp"
+
+namespace hagfish {
+namespace {
+
+class MuscleLaw : public testing::Test {
+ protected:
+  MuscleLaw() {
+    scene.muscle = {true, 0.1};
+    scene.controller.law = LawName::muscles;
+    model = make_hagfish(muscled_specimen(), scene);
+    sim = resume(model, scene, stored_states().at(3));  // the slide
+    // Contacts are followed, and the paper's control of the same step known.
+    Scene paper = scene;
+    paper.controller.law = LawName::paper;
+    Simulation other = sim;
+    reference = take_step(model, paper, other);
+  }
+
+  Scene scene = stored_scene().scene;
+  Model model;
+  Simulation sim = hagfish::start(table1_hagfish(), scene, "active-set");
+  StepRecord reference;
+};
+
+TEST_F(MuscleLaw, FollowsWhatThePaperAsksForByItsDynamicsAlone) {
+  ASSERT_EQ(reference.control.thigmotaxis.size(), 2u);
+  MuscleEffort wanted;
+  ActivationSolver().solve(
+      model, sim.now.observation.kin,
+      reference.solution.active_torque + reference.solution.force[RowKind::thigmotaxis], wanted);
+  ASSERT_GT(wanted.activation.maxCoeff(), 1e-4);
+  const StepRecord record = take_step(model, scene, sim);
+  EXPECT_TRUE(record.control.thigmotaxis.empty());
+  EXPECT_EQ(record.control.rest_shape.size(), 0);
+  EXPECT_TRUE(record.solution.force[RowKind::thigmotaxis].isZero(0));
+  const Eigen::VectorXd first = activations_in(model, record.controller.memory);
+  const double gone = 1 - std::exp(-scene.time.step / 0.1);
+  // The paper's step was solved from another warm start.
+  EXPECT_NEAR((first - gone * wanted.activation).lpNorm<Eigen::Infinity>(), 0,
+              1e-7 * wanted.activation.maxCoeff());
+  Eigen::VectorXd torque;
+  muscle_torque(model, record.moment.observation.kin, first, torque);
+  EXPECT_EQ(record.solution.active_torque, torque);
+  // Later they stay between 0 and 1, and what they do follows from state and memory.
+  for (int k = 0; k < 20; ++k) take_step(model, scene, sim);
+  Simulation copy = sim;
+  copy.solver.warm = {};
+  Control one, two;
+  decide(model, scene, sim.now, time_of(sim, scene), sim.controller, one);
+  decide(model, scene, copy.now, time_of(copy, scene), copy.controller, two);
+  EXPECT_EQ(one.torque.value, two.torque.value);
+  const Eigen::VectorXd later = activations_in(model, sim.controller.memory);
+  EXPECT_GE(later.minCoeff(), 0);
+  EXPECT_LE(later.maxCoeff(), 1);
+}
+
+}  // namespace
+}  // namespace hagfish
