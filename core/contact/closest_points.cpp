@@ -220,7 +220,7 @@ Direction direction(const LaneSegments& a, const LaneSegments& b, const Iterate&
 void descend_lanes(const LaneSegments& a, const LaneSegments& b, Iterate& at) {
   const Lanes zero{};
   const Lanes one = lanes_of(1);
-  LaneMask active = zero == zero;
+  LaneMask active = at.distance >= zero;
   for (int iteration = 0; iteration < iteration_limit; ++iteration) {
     active &= at.distance > zero;  // else the centrelines cross: the gap is as low as it gets
     const Direction step = direction(a, b, at);
@@ -228,7 +228,7 @@ void descend_lanes(const LaneSegments& a, const LaneSegments& b, Iterate& at) {
     LaneMask searching = active;
     LaneMask last = active;
     double length = 1;
-    for (int cut = 0; cut < cut_limit && any(searching); ++cut, length *= 0.5) {
+    for (int cut = 0; cut < cut_limit && any(searching); ++cut) {
       const Lanes t_a = least(largest(at.t_a + length * step.a, zero), one);
       const Lanes t_b = least(largest(at.t_b + length * step.b, zero), one);
       const double tolerance = cut == 0 ? whole_step_tolerance : cut_step_tolerance;
@@ -239,6 +239,7 @@ void descend_lanes(const LaneSegments& a, const LaneSegments& b, Iterate& at) {
       move(lower, next, at);
       last &= ~lower | small;
       searching &= ~(lower | small);
+      length *= 0.5;
     }
     active &= ~last;
     if (!any(active)) {
@@ -293,10 +294,12 @@ void ClosestPointsSearch::sample(int samples, std::span<const ClosestPointsQuery
     const bool single = std::has_single_bit(found[k]);
     for (std::uint64_t bits = found[k]; bits != 0; bits &= bits - 1) {
       const int bit = std::countr_zero(bits);
+      const int i = bit / most_samples;
+      const int j = bit % most_samples;
       Descent& descent = descents_.emplace_back();
       descent.query = first + k;
-      descent.t_a = static_cast<double>(bit / 8) / (samples - 1);
-      descent.t_b = static_cast<double>(bit % 8) / (samples - 1);
+      descent.t_a = static_cast<double>(i) / (samples - 1);
+      descent.t_b = static_cast<double>(j) / (samples - 1);
       const bool guessed = single && query(k).guess;
       descent.guess_a = guessed ? query(k).guess->t_a : descent.t_a;
       descent.guess_b = guessed ? query(k).guess->t_b : descent.t_b;

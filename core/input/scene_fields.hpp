@@ -145,6 +145,26 @@ void active_fields(Io& io, ActiveSettings& s) {
 }
 
 template <class Io>
+void reduced_basis_fields(Io& io, ReducedBasisSettings& s) {
+  io.template choice<BasisFrame>("frame", s.frame,
+                                 {{"body", BasisFrame::body}, {"knot", BasisFrame::knot}});
+  io.length("margin", s.margin, not_negative());
+  io.number("smooth", s.smooth, not_negative());
+  io.integer("cosines", s.cosines, within(0, 100));
+  io.string("file", s.file);
+  io.numbers("stations", s.stations, not_negative());
+  io.numbers("bend_y", s.bend_y, any_number());
+  io.numbers("bend_z", s.bend_z, any_number());
+  io.numbers("twist", s.twist, any_number());
+  io.number("period", s.period, not_negative());
+  io.number("filter", s.filter, not_negative());
+  io.number("softness", s.softness, not_negative());
+  io.number("most", s.most, not_negative());
+  io.numbers("places", s.places, not_negative());
+  io.numbers("played", s.played, any_number());
+}
+
+template <class Io>
 void muscle_fields(Io& io, MuscleSettings& s) {
   io.boolean("present", s.present);
   io.number("activation_time", s.activation_time, not_negative());
@@ -156,6 +176,7 @@ void controller_fields(Io& io, ControllerSettings& s) {
                               {{"paper", LawName::paper},
                                {"all_contacts", LawName::all_contacts},
                                {"knot_speed", LawName::knot_speed},
+                               {"reduced_basis", LawName::reduced_basis},
                                {"muscles", LawName::muscles},
                                {"own", LawName::own}});
   io.number("cap", s.cap, positive());
@@ -193,6 +214,7 @@ void controller_fields(Io& io, ControllerSettings& s) {
     table.number("filter", s.knot_speed.filter, not_negative());
     table.number("most", s.knot_speed.most, positive());
   });
+  io.table("reduced_basis", [&s](Io& table) { reduced_basis_fields(table, s.reduced_basis); });
 }
 
 template <class Io>

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "core/chain/model.hpp"
+#include "core/input/basis_csv.hpp"
 #include "core/input/builtin_files.hpp"
 #include "core/input/curvature_csv.hpp"
 #include "core/input/input_text.hpp"
@@ -94,6 +95,33 @@ CurvatureProgram resolve_program(const TableReader& root, const ScriptFile& file
   }
   const auto [text, name] = named_file(root, "script.program", file.program, sources);
   return read_curvature_csv(text, name);
+}
+
+/// Reads the file of learned shapes that `basis` names, and checks shapes given in place of it.
+void resolve_basis(const TableReader& root, double length, const std::vector<SceneSource>& sources,
+                   ReducedBasisSettings& basis) {
+  const std::string table = "controller.reduced_basis.";
+  if (!basis.file.empty()) {
+    if (basis.cosines > 0) root.fail(table + "file", "controller.reduced_basis.cosines is set too");
+    if (!basis.stations.empty()) {
+      root.fail(table + "file", "controller.reduced_basis.stations is given too");
+    }
+    const auto [text, name] = named_file(root, table + "file", basis.file, sources);
+    read_basis_csv(text, name, length, basis);
+    basis.file.clear();
+  }
+  const std::size_t count = basis.stations.size();
+  for (std::size_t i = 1; i < count; ++i) {
+    if (basis.stations[i] <= basis.stations[i - 1]) {
+      root.fail_element(table + "stations", i, "must rise");
+    }
+  }
+  const std::size_t size = basis.bend_y.size();
+  if (count == 1 || (count == 0 ? size > 0 : size == 0 || size % count != 0)) {
+    root.fail(table + "bend_y", "must have shapes x stations values, of two stations or more");
+  }
+  if (basis.bend_z.size() != size) root.fail(table + "bend_z", "must be as long as bend_y");
+  if (basis.twist.size() != size) root.fail(table + "twist", "must be as long as bend_y");
 }
 
 /// Checks `file` and turns it into the script it spells, for an animal of `length` (cm).
@@ -287,6 +315,35 @@ void check_law(const TableReader& root, const ControllerSettings& controller) {
   }
 }
 
+void check_basis(const TableReader& root, const ControllerSettings& controller) {
+  if (controller.law != LawName::reduced_basis) return;
+  const ReducedBasisSettings& basis = controller.reduced_basis;
+  const std::string table = "controller.reduced_basis.";
+  const std::string where = " where controller.law = \"reduced_basis\"";
+  if ((basis.cosines > 0) != basis.stations.empty()) {
+    root.fail(table + "cosines", "must be positive, or shapes be given by file, not both," + where);
+  }
+  if (basis.most == 0) root.fail(table + "most", "must be positive" + where);
+  if (basis.places.empty()) {
+    for (const auto& [key, value] :
+         {std::pair("period", basis.period), {"softness", basis.softness}}) {
+      if (value == 0) root.fail(table + key, "must be positive" + where);
+    }
+    if (!basis.played.empty()) root.fail(table + "played", "has no places");
+    return;
+  }
+  for (std::size_t i = 1; i < basis.places.size(); ++i) {
+    if (basis.places[i] <= basis.places[i - 1]) {
+      root.fail_element(table + "places", i, "must rise");
+    }
+  }
+  const std::size_t size = basis.places.size() * static_cast<std::size_t>(basis_size(basis));
+  if (basis.places.size() < 2 || basis.played.size() != size) {
+    root.fail(table + "played", "must have places x shapes values, " + std::to_string(size) +
+                                    ", of two places or more");
+  }
+}
+
 void check_food(const TableReader& root, const Scene& scene) {
   const FoodSettings& food = scene.food;
   if (food.hold == 0) return;
@@ -388,12 +445,14 @@ ResolvedScene read(SceneSource source, const std::vector<std::string>& overrides
   root.finish();
   result.scene.script = resolve_script(root, script, result.specimen.length, sources);
   draw_noise(result.scene.script);
+  resolve_basis(root, result.specimen.length, sources, result.scene.controller.reduced_basis);
   if (result.scene.mirror) reflect(result.scene);
   check_start(root, result);
   check_passive(root, result);
   check_active(root, result.scene);
   check_muscles(root, result);
   check_law(root, result.scene.controller);
+  check_basis(root, result.scene.controller);
   check_food(root, result.scene);
   check_times(root, result.scene.time);
   check_expectations(root, result.scene);

@@ -237,6 +237,31 @@ void declare_control(const Model& model, LogTable<Frame>& t) {
   torque("torque_rate", "dyn·cm·s", "what they lose by the hinges' rates", &ActiveTorque::rate);
 }
 
+/// /basis: the numbers by which the law reduced_basis slides the knot.
+void declare_basis(const Scene& scene, LogTable<Frame>& t) {
+  const auto numbers = [&](const char* name, int size, const Meaning& meaning, auto get) {
+    t.numbers(std::string("/basis/") + name, {{static_cast<hsize_t>(size), ""}}, meaning,
+              [size, get](const Frame& f) {
+                const Eigen::VectorXd& memory = f.record.controller.memory;
+                ReducedBasisMemory unpacked;
+                if (memory.size() == 0)
+                  return Eigen::VectorXd(Eigen::VectorXd::Constant(size, NAN));
+                unpack(memory, unpacked);
+                return Eigen::VectorXd(get(unpacked));
+              });
+  };
+  numbers("amplitude", basis_size(scene.controller.reduced_basis),
+          {"dyn·cm", "a of u = B a, torques in place of Eq. 6; nan but in the slide"},
+          [](const ReducedBasisMemory& m) { return m.now; });
+  numbers("window", 2,
+          {"cm",
+           "first and last contact of the knot, smoothed, between which with a margin the "
+           "shapes lie that travel with it; nan but in the slide"},
+          [](const ReducedBasisMemory& m) {
+            return Eigen::Vector2d(m.window.head_end, m.window.tail_end);
+          });
+}
+
 /// /mean: what stands in the snapshots' groups, as means.
 void declare_means(const Model& model, LogTable<Frame>& t) {
   const std::string since = ", mean over the steps since the frame before; nan at the first frame";
@@ -415,6 +440,7 @@ LogTable<Frame> frame_table(const Model& model, const Scene& scene, LogLevel lev
   declare_forces(model, table);
   declare_thigmotaxis(table);
   if (scene.controller.law == LawName::own) declare_control(model, table);
+  if (scene.controller.law == LawName::reduced_basis) declare_basis(scene, table);
   declare_means(model, table);
   if (scene.muscle.present) declare_muscles(model, scene, table);
   declare_pull(table);

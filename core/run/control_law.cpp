@@ -8,6 +8,7 @@
 
 #include "core/run/controller.hpp"
 #include "core/run/muscle_law.hpp"
+#include "core/run/reduced_basis.hpp"
 
 namespace hagfish {
 namespace {
@@ -125,13 +126,15 @@ void knot_speed_law(const Situation& at, Eigen::VectorXd& memory, Control& contr
   const KnotSpeedSettings& loop = at.scene.controller.knot_speed;
   const double h = at.scene.time.step;
   const double arc = control.thigmotaxis[0].contact.arc_a;
+  const double kept = std::exp(-h / loop.filter);
+  const double lag = h * kept / (1 - kept);  // of the smoothed place, where the speed is steady, s
   if (memory.size() != 2) {
-    memory = Eigen::Vector2d(arc + loop.filter * loop.target, 1);
+    memory = Eigen::Vector2d(arc + (lag + h) * loop.target, 1);
   }
   double& smooth = memory[0];
   double& scale = memory[1];
-  smooth += (1 - std::exp(-h / loop.filter)) * (arc - smooth);
-  const double speed = (smooth - arc) / loop.filter;  // towards the head
+  smooth = arc + kept * (smooth - arc);
+  const double speed = (smooth - arc) / lag;  // towards the head
   scale = std::clamp(scale + h * loop.gain * (1 - speed / loop.target), 0.0, loop.most);
   for (ThigmotaxisCommand& command : control.thigmotaxis) {
     command.speed.a *= scale;
@@ -139,7 +142,8 @@ void knot_speed_law(const Situation& at, Eigen::VectorXd& memory, Control& contr
   }
 }
 
-void named_law(const Situation& at, Eigen::VectorXd& memory, Control& control) {
+void named_law(const Situation& at, Eigen::VectorXd& memory, Control& control,
+               ReducedBasisStorage& storage) {
   switch (at.scene.controller.law) {
     case LawName::paper:
       return paper_law(at, control);
@@ -147,6 +151,8 @@ void named_law(const Situation& at, Eigen::VectorXd& memory, Control& control) {
       return all_contacts_law(at, control);
     case LawName::knot_speed:
       return knot_speed_law(at, memory, control);
+    case LawName::reduced_basis:
+      return reduced_basis_law(at, memory, control, storage);
     case LawName::muscles:
       return muscle_law(at, memory, control);
     case LawName::own:

@@ -222,7 +222,8 @@ Status follow(const Model& model, const Scene& scene, const Moment& now, double 
 }
 
 void command(const Model& model, const Scene& scene, const Moment& now, double time,
-             const ControlLaw& own, ControllerState& controller, Control& control) {
+             const ControlLaw& own, ReducedBasisStorage& storage, ControllerState& controller,
+             Control& control) {
   control.clamp_head = clamps_head(scene, controller.phase);
   control.tip = {};
   control.thigmotaxis.clear();
@@ -231,7 +232,7 @@ void command(const Model& model, const Scene& scene, const Moment& now, double t
   control.rest_shape = controller.rest_shape;
   const Situation at{model, scene, now, time, controller};
   if (!own) {
-    named_law(at, controller.memory, control);
+    named_law(at, controller.memory, control, storage);
   } else if (scene.controller.law == LawName::own) {
     own(at, controller.memory, control);
   } else {
@@ -247,10 +248,11 @@ void command(const Model& model, const Scene& scene, const Moment& now, double t
 }
 
 Status decide(const Model& model, const Scene& scene, const Moment& now, double time,
-              ControllerState& controller, Control& control, const ControlLaw& own) {
+              ReducedBasisStorage& storage, ControllerState& controller, Control& control,
+              const ControlLaw& own) {
   Status status = follow(model, scene, now, time, controller);
   if (status.ok()) {
-    command(model, scene, now, time, own, controller, control);
+    command(model, scene, now, time, own, storage, controller, control);
   }
   return status;
 }

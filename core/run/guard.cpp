@@ -174,7 +174,7 @@ void guard_cap(const Model& model, const Kinematics& kin, const Scene& scene, Ph
                const StepSolution& step, double time, Watch& watch,
                std::vector<std::string>& warnings) {
   const auto at_cap = [&](const Row& row) {
-    return phase != Phase::pull && row.kind == RowKind::thigmotaxis &&
+    return phase != Phase::pull && row.kind == RowKind::thigmotaxis && row.upper > 0 &&
            step.lambda[&row - step.rows.data()] >= row.upper;
   };
   std::vector<CapWatch>& capped = watch.capped;

@@ -34,8 +34,8 @@ class Attempt {
     record_.step = sim_.step;
     record_.time = time_of(sim_, scene_);
     record_.warnings.clear();
-    if (Status status = decide(model_, scene_, sim_.now, record_.time, sim_.controller,
-                               record_.control, sim_.law);
+    if (Status status = decide(model_, scene_, sim_.now, record_.time, sim_.reduced_basis,
+                               sim_.controller, record_.control, sim_.law);
         !status.ok()) {
       return status;
     }

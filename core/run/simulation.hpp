@@ -9,6 +9,7 @@
 #include "core/run/energy.hpp"
 #include "core/run/guard.hpp"
 #include "core/run/momentum.hpp"
+#include "core/run/reduced_basis.hpp"
 
 namespace hagfish {
 
@@ -35,6 +36,7 @@ struct Simulation {
   Watch watch;
   Midway midway = {};  ///< storage
   BeforeStep before;
+  ReducedBasisStorage reduced_basis = {};  ///< storage
   ControlLaw law = {};  ///< of its own, where the scene says so (control_law.hpp); else empty
 };
 

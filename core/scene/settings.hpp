@@ -156,11 +156,12 @@ enum class BodyEnd { head, tail };
 
 /// By what law the animal is controlled in each phase (core/run/control_law.hpp).
 enum class LawName {
-  paper,         ///< thigmotaxis at the first and the last contact, at the commanded speeds
-  all_contacts,  ///< addition: at every contact, as a knot that keeps its shape slides
-  knot_speed,    ///< addition: the paper's, its speeds scaled until the knot has the speed wanted
-  muscles,       ///< addition: activations alone, without rows of Eq. 6 (core/muscle)
-  own            ///< of the program that runs the scene
+  paper,          ///< thigmotaxis at the first and the last contact, at the commanded speeds
+  all_contacts,   ///< addition: at every contact, as a knot that keeps its shape slides
+  knot_speed,     ///< addition: the paper's, its speeds scaled until the knot has the speed wanted
+  reduced_basis,  ///< addition: a few numbers times fixed shapes of torque slide the knot
+  muscles,        ///< addition: activations alone, without rows of Eq. 6 (core/muscle)
+  own             ///< of the program that runs the scene
 };
 
 /// The loop of LawName::knot_speed: s' = gain (1 - v / target) for the scale s of the commanded
@@ -172,10 +173,46 @@ struct KnotSpeedSettings {
   double most = 1;    ///< largest s; the least is 0
 };
 
+/// What the shapes of a reduced basis lie along.
+enum class BasisFrame {
+  body,  ///< the animal, from head to tail
+  knot   ///< the body from a margin before the knot's first contact to one behind its last: a
+         ///< window that travels with the knot
+};
+
+/// The torques u = B a of LawName::reduced_basis: few numbers a, dyn cm, times shapes along the
+/// body, the columns of B, with no unit. Shapes are cosines, or learned ones of a file.
+struct ReducedBasisSettings {
+  BasisFrame frame = BasisFrame::knot;
+  double margin = 0;  ///< of the knot's window, cm of arc
+  double smooth = 0;  ///< time constant by which the window follows the two contacts, s
+  int cosines = 0;    ///< for bending about Y, about Z and twist each; 0: the shapes are learned
+  std::string file;   ///< of learned shapes, as a scene names it; empty once they are read
+  std::vector<double> stations;  ///< rising: cm of arc, or shares of the window from 0 to 1
+  /// One shape after the other at all stations, linear between them and zero outside.
+  std::vector<double> bend_y, bend_z, twist;
+  double period = 0;  ///< between two findings of a, s: rounded to whole steps, one at least
+  double filter = 0;  ///< time constant by which the torques follow a, s
+  /// How far Eq. 6 may be missed for a smaller |a|: added to the diagonal of the problem in its
+  /// multipliers, as a share of the largest entry there.
+  double softness = 0;
+  double most = 0;  ///< bound on |u| of any hinge, by which all of a is scaled down, dyn cm
+  /// Open loop: a of each place of the knot's head end (cm of arc, rising), one place after the
+  /// other, linear between them. No model is asked then. Empty: a is found.
+  std::vector<double> places, played;
+};
+
+/// How many numbers a has.
+inline int basis_size(const ReducedBasisSettings& basis) {
+  return basis.cosines > 0 ? 3 * basis.cosines
+                           : static_cast<int>(basis.bend_y.size() / basis.stations.size());
+}
+
 /// The thigmotaxis controller (paper, 3.2, Eq. 6) and its switches between phases.
 struct ControllerSettings {
   LawName law = LawName::paper;
   KnotSpeedSettings knot_speed;
+  ReducedBasisSettings reduced_basis;
   ThigmotaxisSpeeds tighten_head, tighten_tail;  ///< first and last contact while tightening
   ThigmotaxisSpeeds slide_head, slide_tail;      ///< first and last contact while sliding
   /// The same on the way back to the tail. Eq. 6 bounds speeds from below, so that v < 0 asks for

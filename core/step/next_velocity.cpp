@@ -62,28 +62,53 @@ bool StepSolver::find_impacts(const StepInput& in, StepSolution& step) {
   return any;
 }
 
-/// Impacts of the rows scratch_.hit: A_hit μ = b, of the same A as Eq. 4, and no force that the
-/// row may not have.
-void StepSolver::solve_impacts(StepSolution& step) {
+/// Solves A_hit μ = scratch_.hit_b, of the same A as Eq. 4, into scratch_.hit_x.
+void StepSolver::solve_hit(const StepSolution& step) {
   const auto m = static_cast<Eigen::Index>(scratch_.hit.size());
   scratch_.hit_A.resize(static_cast<std::size_t>(m * m));
+  scratch_.hit_x = scratch_.hit_b;
   Eigen::Map<Eigen::MatrixXd> A(scratch_.hit_A.data(), m, m);
-  Eigen::Map<Eigen::VectorXd> impact(scratch_.hit_b.data(), m);
-  const auto first = static_cast<std::size_t>(step.prescribed);
   for (Eigen::Index j = 0; j < m; ++j) {
-    for (Eigen::Index i = j; i < m; ++i) {
-      A(i, j) = scratch_.qp.A(static_cast<Eigen::Index>(scratch_.hit[i] - first),
-                              static_cast<Eigen::Index>(scratch_.hit[j] - first));
-    }
+    for (Eigen::Index i = j; i < m; ++i) A(i, j) = coupling(step, i, scratch_.hit[j]);
   }
   A.diagonal().array() += least_pivot * A.diagonal().maxCoeff();
   Eigen::Ref<Eigen::MatrixXd> in_place(A);
   const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(in_place);
-  factor.solveInPlace(impact);
-  for (Eigen::Index k = 0; k < m; ++k) {
-    Row& row = step.rows[scratch_.hit[k]];
-    const double lambda = 2 * step.lambda[static_cast<Eigen::Index>(scratch_.hit[k])];
-    row.impact = std::clamp(impact[k], lambda - 2 * row.upper, lambda - 2 * row.lower);
+  Eigen::Map<Eigen::VectorXd> x(scratch_.hit_x.data(), m);
+  factor.solveInPlace(x);
+}
+
+/// A of the rows scratch_.hit[i] and `row`.
+double StepSolver::coupling(const StepSolution& step, Eigen::Index i, std::size_t row) const {
+  const auto first = static_cast<std::size_t>(step.prescribed);
+  return scratch_.qp.A(static_cast<Eigen::Index>(scratch_.hit[i] - first),
+                       static_cast<Eigen::Index>(row - first));
+}
+
+/// Impacts of the rows scratch_.hit. Those that would have a force that they may not have keep the
+/// bound, and the others are solved again. Adds all to scratch_.wrench and scratch_.joint.
+void StepSolver::solve_impacts(const StepInput& in, StepSolution& step) {
+  for (bool again = true; again && !scratch_.hit.empty();) {
+    again = false;
+    solve_hit(step);
+    for (std::size_t k = scratch_.hit.size(); k-- > 0;) {
+      const std::size_t i = scratch_.hit[k];
+      Row& row = step.rows[i];
+      const double lambda = 2 * step.lambda[static_cast<Eigen::Index>(i)];
+      row.impact = std::clamp(scratch_.hit_x[k], lambda - 2 * row.upper, lambda - 2 * row.lower);
+      if (row.impact == scratch_.hit_x[k]) continue;
+      again = true;
+      scratch_.hit.erase(scratch_.hit.begin() + static_cast<std::ptrdiff_t>(k));
+      scratch_.hit_x.erase(scratch_.hit_x.begin() + static_cast<std::ptrdiff_t>(k));
+      scratch_.hit_b.erase(scratch_.hit_b.begin() + static_cast<std::ptrdiff_t>(k));
+      for (std::size_t j = 0; j < scratch_.hit.size(); ++j) {
+        scratch_.hit_b[j] -= coupling(step, static_cast<Eigen::Index>(j), i) * row.impact;
+      }
+      add_row(row, in.kin(), row.impact, scratch_.wrench, scratch_.joint);
+    }
+  }
+  for (const std::size_t i : scratch_.hit) {
+    add_row(step.rows[i], in.kin(), step.rows[i].impact, scratch_.wrench, scratch_.joint);
   }
 }
 
@@ -138,10 +163,7 @@ Status StepSolver::set_next_velocity(const StepInput& in, StepSolution& step) {
                                             scratch_.impact_centre_velocity, scratch_.impact);
         }
       }
-      solve_impacts(step);
-      for (const std::size_t i : scratch_.hit) {
-        add_row(step.rows[i], kin, step.rows[i].impact, scratch_.wrench, scratch_.joint);
-      }
+      solve_impacts(in, step);
     }
     respond(in, scratch_.factor, step);
     try {

@@ -132,11 +132,11 @@ struct StepScratch {
   Matrix6Xd wrench;
   Eigen::VectorXd joint, impulse, change;
   // Of the velocity after the step (midpoint rule).
-  std::vector<std::size_t> held;          ///< prescribed rows, and
-  std::vector<PrescribedVelocity> jumps;  ///< what their velocities change by
-  std::vector<std::size_t> hit;           ///< other rows with an impact
-  std::vector<double> hit_A, hit_b;       ///< Eq. 4 of those
-  ArticulatedFactor free_factor;          ///< with limits that would pull let go
+  std::vector<std::size_t> held;            ///< prescribed rows, and
+  std::vector<PrescribedVelocity> jumps;    ///< what their velocities change by
+  std::vector<std::size_t> hit;             ///< other rows with an impact
+  std::vector<double> hit_A, hit_b, hit_x;  ///< Eq. 4 of those, and its answer
+  ArticulatedFactor free_factor;            ///< with limits that would pull let go
   Eigen::VectorXd impact, half_change;
   Matrix6Xd impact_twist;
   Eigen::Matrix3Xd impact_centre_velocity;
@@ -185,7 +185,9 @@ class StepSolver {
   Status base_motion(const StepInput& in, StepSolution& step);
   void set_velocity(const StepInput& in, StepSolution& step);
   bool find_impacts(const StepInput& in, StepSolution& step);
-  void solve_impacts(StepSolution& step);
+  double coupling(const StepSolution& step, Eigen::Index i, std::size_t row) const;
+  void solve_hit(const StepSolution& step);
+  void solve_impacts(const StepInput& in, StepSolution& step);
   void respond(const StepInput& in, const ArticulatedFactor& factor, StepSolution& step);
   bool release_held(const StepInput& in, StepSolution& step);
   Status set_next_velocity(const StepInput& in, StepSolution& step);

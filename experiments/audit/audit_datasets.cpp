@@ -55,8 +55,8 @@ void check_datasets(const LogContents& log) {
        {"/checkpoints/step", "/checkpoints/end", checkpoint_data, last_checkpoint}) {
     check_words(log.h5, path);
   }
-  if (!log.h5.has("/model/bending_limit")) {
-    throw FileError(log.h5.file() + ": has no /model/bending_limit");
+  for (const char* path : {"/model/bending_limit", body_labels}) {
+    if (!log.h5.has(path)) throw FileError(log.h5.file() + ": has no " + path);
   }
   check_names(log);
 }

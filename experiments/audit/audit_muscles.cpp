@@ -7,6 +7,7 @@
 
 #include "core/log/log_writer.hpp"
 #include "core/run/active_curvature.hpp"
+#include "core/run/reduced_basis.hpp"
 
 namespace hagfish {
 namespace {
@@ -24,6 +25,10 @@ MuscleAudit::MuscleAudit(const LogContents& log)
     asked_ = log.h5.rows("/control/torque");
     asked_rate_ = log.h5.rows("/control/torque_rate");
     has_rest_shape_ = log.h5.integers("/control/has_rest_shape");
+  }
+  if (log.resolved.scene.controller.law == LawName::reduced_basis) {
+    amplitude_ = log.h5.rows("/basis/amplitude");
+    window_ = log.h5.rows("/basis/window");
   }
 }
 
@@ -52,7 +57,22 @@ void MuscleAudit::see_torque(const AuditedFrame& frame) {
   if (log_.own_law()) {
     add({asked_.row(f).transpose(), asked_rate_.row(f).transpose()});
   }
+  if (amplitude_.rows() > 0) wanted += see_basis(frame);
   rebuilt_.compare("/forces/active", torque, wanted);
+}
+
+Eigen::VectorXd MuscleAudit::see_basis(const AuditedFrame& frame) {
+  const Eigen::VectorXd amplitude = amplitude_.row(frame.index);
+  const Eigen::VectorXd window = window_.row(frame.index);
+  if (frame.phase != Phase::slide) {
+    rebuilt_.compare("/basis/amplitude", amplitude,
+                     Eigen::VectorXd::Constant(amplitude.size(), NAN));
+    rebuilt_.compare("/basis/window", window, Eigen::VectorXd::Constant(window.size(), NAN));
+    return Eigen::VectorXd::Zero(log_.model.nv());
+  }
+  Eigen::MatrixXd shapes;
+  basis_shapes(log_.model, log_.resolved.scene, {window[0], window[1]}, shapes);
+  return shapes * amplitude;
 }
 
 void MuscleAudit::see_rest_shape(const AuditedFrame& frame) {

@@ -22,11 +22,14 @@ class MuscleAudit {
  private:
   void see_torque(const AuditedFrame& frame);
   void see_rest_shape(const AuditedFrame& frame);
+  /// What a reduced basis asks of the hinges, dyn cm, nv.
+  Eigen::VectorXd see_basis(const AuditedFrame& frame);
 
   const LogContents& log_;
   Hdf5Reader::Rows torque_, q_ref_;
   Hdf5Reader::Rows asked_, asked_rate_;       ///< besides, by a law of the run's own
   std::vector<std::int64_t> has_rest_shape_;  ///< likewise
+  Hdf5Reader::Rows amplitude_, window_;       ///< of a reduced basis
   Rebuilt rebuilt_;
   std::set<std::string> on_root_;       ///< datasets with an entry there, where nothing holds on
   std::vector<double> tone_deviation_;  ///< of q_ref that follows q, shares of the motion

@@ -232,7 +232,9 @@ double ThigmotaxisAudit::cap_of_scene(const AuditedFrame& frame, double logged) 
   const Scene& scene = log_.resolved.scene;
   if (frame.phase != Phase::pull) {
     pull_from_ = log_.time[frame.index];
-    return scene.controller.cap;
+    const bool torques =
+        scene.controller.law == LawName::reduced_basis && frame.phase == Phase::slide;
+    return torques ? 0 : scene.controller.cap;
   }
   // The pull began after the last frame before it; of a log that begins with it, at any time.
   const Ramp& cap = scene.food.cap;

@@ -10,7 +10,14 @@ import numpy as np
 
 STEPS, BATCHES = 2000, 25
 # A short animal at rest, whose steps are short beside what is measured.
-SET = {"model.bodies": 10, "script.kind": "none", "time.duration": 1e4, "knot.interval": 1e4, "expect.knot": "", "expect.types": []}
+SET = {
+    "model.bodies": 10,
+    "script.kind": "none",
+    "time.duration": 1e4,
+    "knot.interval": 1e4,
+    "expect.knot": "",
+    "expect.types": [],
+}
 
 
 def nothing(sim: hagfish.Simulation, control: hagfish.Control) -> None:

@@ -98,6 +98,16 @@ def body_counts(runs: list[Run], reference: Run) -> list[str]:
     return markdown(["Bodies", "CPU, s", "Head end of the knot off, cm", "Sliding force, dyn", "Penetration, cm"], rows)
 
 
+def midpoint(done: list[Run], reference: Run) -> list[str]:
+    """A row for each step of the midpoint rule at 100 bodies."""
+    rows = []
+    for run in sorted((run for run in done if run.bodies == 100 and run.rule == "midpoint"), key=lambda run: run.step):
+        off = path_error(run, reference)
+        rows.append([f"{1e3 * run.step:g}", f"{run.cpu:.2f}", "0 (reference)" if run is reference else f"{off[0]:.2f} ({off[1]:.2f})",
+                     f"{run.force:.0f}", f"{run.penetration:.5f}"])
+    return markdown(["h, ms", "CPU, s", "Head end of the knot off, cm", "Sliding force, dyn", "Penetration, cm"], rows)
+
+
 def whole(folder: Path) -> list[str]:
     runs = read_runs(folder, "whole")
     reference = reference_of(runs)
@@ -107,28 +117,28 @@ def whole(folder: Path) -> list[str]:
              f"{reference.bodies} bodies at {1e3 * reference.step:g} ms, at like times since the slide began: rms over the slide, and "
              f"largest at any frame in brackets. The sliding force is the sum of the four λ/h: median of its means over "
              f"{1000 * FORCE_WINDOW:g} ms.", ""]
-    shown = [run for run in done if run.bodies == 100 and run.activation == "speculative" and run.qp == "active-set"]
+    usual = [run for run in done if run.activation == "speculative" and run.qp == "active-set" and run.rule == "euler"]
     twins = {(run.step, run.bodies, run.activation): run for run in done if run.qp == "ipopt"}
     rows = []
-    for run in sorted(shown, key=lambda run: run.step):
+    for run in sorted((run for run in usual if run.bodies == 100), key=lambda run: run.step):
         twin, off = twins.get((run.step, run.bodies, run.activation)), path_error(run, reference)
         rows.append([f"{1e3 * run.step:g}", f"{run.cpu:.2f}", f"{twin.cpu:.1f}" if twin else "", "0 (reference)" if run is reference
                      else f"{off[0]:.2f} ({off[1]:.2f})", f"{run.force:.0f}", f"{run.penetration:.5f}"])
     lines += markdown(["h, ms", "CPU, s (active-set)", "CPU, s (Ipopt)", "Head end of the knot off, cm", "Sliding force, dyn",
                     "Penetration, cm"], rows)
-    lines += ["Speculative rows, active-set; errors at 5 ms and finer, the rest at 2 ms:", "",
-              *body_counts([run for run in done if run.activation == "speculative" and run.qp == "active-set"], reference)]
+    lines += ["By the midpoint rule:", "", *midpoint(done, reference)]
+    lines += ["Speculative rows, active-set; errors at 5 ms and finer, the rest at 2 ms:", "", *body_counts(usual, reference)]
     found = [(step, chance(folder, step)) for step in CHANCE_STEPS]
     lines += ["- Chance: starts that differ by rounding alone come apart by up to "
               + "; ".join(f"{c.position:.2f} cm (knot's head end, rms over the slide), {c.pointwise:.2f} cm (at any frame) and "
                           f"{c.force:.1f} % of the sliding force (standard deviation {c.force_spread:.1f} %) at h = {1e3 * step:g} ms, "
                           f"{c.starts} starts" for step, c in found) + ". No smaller difference means more accuracy."]
-    both = [(run, twins[key]) for run in done if run.qp == "active-set" and (key := (run.step, run.bodies, run.activation)) in twins]
+    both = [(run, twins[key]) for run in done if run.qp == "active-set" and run.rule == "euler" and (key := (run.step, run.bodies, run.activation)) in twins]
     ratios = [twin.cpu / run.cpu for run, twin in both]
     lines += [f"- Ipopt takes {min(ratios):.0f} to {max(ratios):.0f} times the CPU time of active-set for the whole run."]
     pairs = [(run.penetration, other.penetration) for run in done for other in done
              if run.activation == "violated" and other.activation == "speculative"
-             and (run.step, run.bodies, run.qp) == (other.step, other.bodies, other.qp)]
+             and (run.step, run.bodies, run.qp, run.rule) == (other.step, other.bodies, other.qp, other.rule)]
     lines.append(f"- Violated rows only: {np.median([a / b for a, b in pairs]):.1f} times the penetration of speculative rows "
                  f"({min(a / b for a, b in pairs):.1f} to {max(a / b for a, b in pairs):.1f}), and joint limits are passed.")
     for words in sorted({run.failure for run in runs if run.failure}):
@@ -140,7 +150,8 @@ def whole(folder: Path) -> list[str]:
     for what, words in (("position", "position of the knot"), ("penetration", "penetration")):
         front = front_of(runs, reference, what, floor.of(what))
         names = [f"{run.bodies} bodies at {1e3 * run.step:g} ms{'' if run.activation == 'speculative' else ', violated'}"
-                 f"{'' if run.qp == 'active-set' else ', Ipopt'} ({run.cpu:.2f} s)" for run in front]
+                 f"{'' if run.qp == 'active-set' else ', Ipopt'}{'' if run.rule == 'euler' else ', midpoint'} ({run.cpu:.2f} s)"
+                 for run in front]
         lines.append(f"- Pareto front in CPU time and {words}: {'; '.join(names)}.")
     return [*lines, ""]
 

@@ -29,9 +29,10 @@ LOOKS = {"ok": ("", "#e8f4f0"), "energy gain": ("E", "#ee8866"), "non-finite": (
          "knot lost": ("K", "#ddaa33"), "speed": ("V", "#cc6677"), "crashed": ("X", "#ff0000"),
          "not applicable": ("-", "#ffffff")}
 DARK = {"non-finite", "tunnelled", "solver failed"}
-METHODS = ["default", "violated", "baumgarte_0.2", "baumgarte_1", "hard_thigmotaxis", "ipopt", "mujoco_euler",
+METHODS = ["default", "no_watch", "midpoint", "violated", "baumgarte_0.2", "baumgarte_1", "hard_thigmotaxis", "ipopt", "mujoco_euler",
            "mujoco_implicit", "mujoco_rk4"]
-TITLES = {"baumgarte_0.2": "Baumgarte 0.2", "baumgarte_1": "Baumgarte 1", "hard_thigmotaxis": "hard Eq. 6",
+TITLES = {"no_watch": "no watch", "midpoint": "midpoint, no watch", "baumgarte_0.2": "Baumgarte 0.2",
+          "baumgarte_1": "Baumgarte 1", "hard_thigmotaxis": "hard Eq. 6",
           "ipopt": "Ipopt", "mujoco_euler": "MuJoCo Euler", "mujoco_implicit": "MuJoCo implicit",
           "mujoco_rk4": "MuJoCo RK4"}
 SCENES = {"whip": "fast undamped whip", "spinning": "spin near 90°", "coil": "coil from its limits",

@@ -29,6 +29,7 @@ class Run:
     bodies: int
     qp: str
     activation: str
+    rule: str  # "euler" or "midpoint"
     scene: str  # built-in scene's name
     failure: str  # why the knot did not slide to the head; empty where it did
     unmet: list[str]  # what the audit names, the penetration aside
@@ -77,7 +78,7 @@ def read_run(folder: Path, name: str) -> Run:
     force = read_means(log, "slide", FORCE_WINDOW).total
     head_end = log["/knot/head_end"][known]
     return Run(name, min(cpu), scene["time"]["step"], scene["model"]["bodies"], str(log.attribute("qp")),
-               scene["constraints"]["activation"], str(log.attribute("command")).split(" run ")[1].split()[0],
+               scene["constraints"]["activation"], scene["time"]["rule"], str(log.attribute("command")).split(" run ")[1].split()[0],
                failure_of(log, unmet), [what for what in unmet if what != "penetration"],
                float(log["/steps/penetration"].max()), float(head_end[0] - head_end[-1]) if known.size else np.nan,
                start("tighten"), start("slide"), float(np.median(force)) if force.size else np.nan,

@@ -1,5 +1,5 @@
 """Whole runs of the Table 1 scene: where the knot is, how hard it is pushed and how deep skins overlap, against CPU
-time, over step, body count, back end and activation. The reference is 100 bodies at 0.5 ms.
+time, over step, body count, rule, back end and activation. The reference is 100 bodies at 0.5 ms by the midpoint rule.
 
 Usage: whole_runs.py RUNS OUT.csv OUT.png (writes a PDF beside).
 """
@@ -21,12 +21,13 @@ from script import run_script
 from study import FORCE_WINDOW, Run, pareto, path_error, read_runs
 from tables import write_csv
 
-REFERENCE = "whole_100_0.0005_speculative_active-set"
+REFERENCE = "whole_100_0.0005_midpoint_active-set"
 # Body counts, told apart by marker too; Paul Tol's muted colours for those that tie.
 LOOKS = {25: ("#999999", "x"), 35: ("#ddcc77", "v"), 50: ("#44aa99", "s"), 70: ("#88ccee", "^"), 100: ("#332288", "o"),
          140: ("#cc6677", "D"), 200: ("#882255", "P")}
 # Columns, and which runs each shows.
-METHODS = {"active-set": lambda run: run.qp == "active-set" and run.activation == "speculative",
+METHODS = {"Euler": lambda run: run.qp == "active-set" and run.activation == "speculative" and run.rule == "euler",
+           "midpoint": lambda run: run.rule == "midpoint",
            "violated rows": lambda run: run.qp == "active-set" and run.activation == "violated",
            "Ipopt": lambda run: run.qp == "ipopt"}
 LABELS_APART = 1.2  # ratio of times
@@ -95,7 +96,7 @@ def series(runs: list[Run]) -> list[list[Run]]:
     """Runs that differ by their step alone, by rising step."""
     groups: dict[Any, list[Run]] = {}
     for run in runs:
-        groups.setdefault((run.bodies, run.qp, run.activation, run.scene), []).append(run)
+        groups.setdefault((run.bodies, run.qp, run.activation, run.rule, run.scene), []).append(run)
     return [sorted(group, key=lambda run: run.step) for group in groups.values()]
 
 
@@ -177,11 +178,11 @@ def legend(figure: Any) -> None:
 
 
 def rows_of(runs: list[Run], reference: Run, floor: Chance) -> tuple[list[str], list[list[Any]]]:
-    heading = ["scene", "bodies", "h_ms", "activation", "back_end", "cpu_s", "outcome", "position_error_rms_cm",
+    heading = ["scene", "bodies", "h_ms", "rule", "activation", "back_end", "cpu_s", "outcome", "position_error_rms_cm",
                "position_error_largest_cm", "tail_end_error_rms_cm", "slide_start_s", "slide_cm",
                f"force_median_of_{1000 * FORCE_WINDOW:g}_ms_means_dyn", "force_mean_dyn", "penetration_cm", "audit_fails", "on_front"]
     fronts = {what: {run.name for run in front_of(runs, reference, what, floor.of(what))} for what in PANELS}
-    rows = [[run.scene, run.bodies, 1e3 * run.step, run.activation, run.qp, run.cpu,
+    rows = [[run.scene, run.bodies, 1e3 * run.step, run.rule, run.activation, run.qp, run.cpu,
              run.failure or ("reference" if run is reference else "knot slid to the head"),
              *path_error(run, reference), path_error(run, reference, "tail_end")[0], run.slide_at, run.slide, run.force,
              run.force_mean, run.penetration, "; ".join(run.unmet),
@@ -194,7 +195,7 @@ def main(folder: Path, csv: Path, png: Path) -> None:
     reference = reference_of(runs)
     floor = chance(folder, reference.step)
     write_csv(csv, *rows_of(runs, reference, floor))
-    figure = plots.plt.figure(figsize=(10, 11.5), layout="constrained")
+    figure = plots.plt.figure(figsize=(12, 11.5), layout="constrained")
     figure.get_layout_engine().set(rect=(0, 0, 1, 0.955))
     grid = figure.add_gridspec(len(PANELS) + 1, len(METHODS), height_ratios=[1] * len(PANELS) + [0.75])
     presets, first, lettered = read_runs(folder, "preset"), None, []

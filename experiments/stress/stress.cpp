@@ -21,20 +21,23 @@ constexpr int core_rule = -1;
 /// How a cell's steps are taken.
 struct StressMethod {
   const char* name;
-  int integrator;      ///< MuJoCo's, or core_rule
-  const char* qp;      ///< back end of the core
-  const char* change;  ///< KEY=VALUE of the scene; none where empty
+  int integrator;                      ///< MuJoCo's, or core_rule
+  const char* qp;                      ///< back end of the core
+  std::array<const char*, 2> changes;  ///< KEY=VALUE of the scene; none where empty
 };
-constexpr std::array<StressMethod, 9> methods{
-    {{"default", core_rule, active_set, ""},
-     {"violated", core_rule, active_set, "constraints.activation=violated"},
-     {"baumgarte_0.2", core_rule, active_set, "constraints.baumgarte=0.2"},
-     {"baumgarte_1", core_rule, active_set, "constraints.baumgarte=1"},
-     {"hard_thigmotaxis", core_rule, active_set, "controller.cap=1e9"},
-     {"ipopt", core_rule, "ipopt", ""},
-     {"mujoco_euler", mjINT_EULER, "", ""},
-     {"mujoco_implicit", mjINT_IMPLICIT, "", ""},
-     {"mujoco_rk4", mjINT_RK4, "", ""}}};
+constexpr const char* unwatched = "guard.energy_action=warn";
+constexpr std::array<StressMethod, 11> methods{
+    {{"default", core_rule, active_set, {"", ""}},
+     {"no_watch", core_rule, active_set, {unwatched, ""}},
+     {"midpoint", core_rule, active_set, {"time.rule=midpoint", unwatched}},
+     {"violated", core_rule, active_set, {"constraints.activation=violated", ""}},
+     {"baumgarte_0.2", core_rule, active_set, {"constraints.baumgarte=0.2", ""}},
+     {"baumgarte_1", core_rule, active_set, {"constraints.baumgarte=1", ""}},
+     {"hard_thigmotaxis", core_rule, active_set, {"controller.cap=1e9", ""}},
+     {"ipopt", core_rule, "ipopt", {"", ""}},
+     {"mujoco_euler", mjINT_EULER, "", {"", ""}},
+     {"mujoco_implicit", mjINT_IMPLICIT, "", {"", ""}},
+     {"mujoco_rk4", mjINT_RK4, "", {"", ""}}}};
 
 const StressMethod& method_called(const std::string& name) {
   const auto* found = std::find_if(methods.begin(), methods.end(),
@@ -113,8 +116,8 @@ std::vector<std::string> stress_methods() {
 
 std::vector<std::string> stress_overrides(const std::string& method, double step) {
   std::vector<std::string> set;
-  if (const std::string change = method_called(method).change; !change.empty()) {
-    set.push_back(change);
+  for (const std::string change : method_called(method).changes) {
+    if (!change.empty()) set.push_back(change);
   }
   if (step > 0) {
     set.push_back(fmt::format("time.step={}", step));

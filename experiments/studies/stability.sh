@@ -42,7 +42,7 @@ steps="0.2 0.5 1 2 5 10 20 50" # ms
 coarse="1 2 5 10 20 50"        # where a step is slow
 few="1 5 20"                   # of level sweeps
 mujoco="mujoco_euler mujoco_implicit mujoco_rk4"
-rows="default violated baumgarte_0.2 baumgarte_1"
+rows="default no_watch midpoint violated baumgarte_0.2 baumgarte_1"
 
 # line SCENE LEVEL STEPS METHODS [SETTINGS]
 line() {
@@ -62,7 +62,9 @@ close_in() { echo "start.bend_rate=[[0.54,0,0,0],[0.5401,0,$1,0],[0.62,0,$1,0],[
 list() {
   local scene level
   # Whole grids.
-  for scene in whip spinning stiff_joints stiff_tip mass_ratio; do line $scene "as is" "$steps" "default $mujoco"; done
+  for scene in whip spinning stiff_joints stiff_tip mass_ratio; do
+    line $scene "as is" "$steps" "default no_watch midpoint $mujoco"
+  done
   for scene in coil tight_limits redundant pulled_knot closing overlap tight_bend; do
     line $scene "as is" "$steps" "$rows $mujoco"
     line $scene "as is" "$coarse" ipopt

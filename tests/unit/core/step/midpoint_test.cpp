@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <iostream>
+#include <string>
 
 #include "core/input/scene_reader.hpp"
 #include "core/run/simulation.hpp"
@@ -37,9 +39,8 @@ struct MidpointStage {
 // mean and half of what impacts add, from the dense matrices of the paper's Eq. 1.
 TEST(Midpoint, MeetsItsEquationsInAKnot) {
   MidpointStage run(knotted(1, 3));
-  bool kept = false, hit = false;
+  int pushing = 0;
   for (int k = 0; k < 4; ++k) {
-    const WarmStart before = run.stage.solver.warm;
     run.step([&](const StepInput& in, const StepSolution& step) {
       const Eigen::MatrixXd c = dense_rows(in.model, in.kin(), step.rows);
       const auto m = static_cast<Eigen::Index>(step.rows.size());
@@ -56,24 +57,19 @@ TEST(Midpoint, MeetsItsEquationsInAKnot) {
       EXPECT_LT((paper.H * mean - paper.g - half).lpNorm<Eigen::Infinity>(), 1e-10 * scale) << k;
       const Eigen::VectorXd moved = paper.H * (step.qdot - mean) - 0.5 * c.transpose() * impact;
       EXPECT_LT(moved.lpNorm<Eigen::Infinity>(), 1e-10 * scale) << k;
-      // A row that has just begun to push ends with the velocity that it asks for; one that pushed
-      // before is mirrored about that.
+      // A row that pushes ends with the velocity that it asks for.
       for (Eigen::Index i = 0; i < m; ++i) {
         const Row& row = step.rows[i];
-        const double whole = lambda[i];
-        const bool bound = std::abs(whole - row.lower) < 1e-9 * std::abs(whole) ||
-                           std::abs(whole - row.upper) < 1e-9 * std::abs(whole);
-        if (whole == 0 || bound) continue;
-        const WarmStart::Kept* last = before.find(row.id);
-        const double start = c.row(i).dot(in.state.qdot), end = c.row(i).dot(step.next);
-        const double expected = last == nullptr ? row.rhs : row.rhs - (start - last->rhs);
+        const double size = 1e-9 * std::abs(lambda[i]);
+        if (lambda[i] == 0 || lambda[i] - row.lower < size || row.upper - lambda[i] < size)
+          continue;
         // To the shift of the impacts' diagonal, times speeds of some 10.
-        EXPECT_NEAR(end, expected, 1e-6) << k << " row " << i;
-        (last == nullptr ? hit : kept) = true;
+        EXPECT_NEAR(c.row(i).dot(step.next), row.rhs, 1e-6) << k << " row " << i;
+        ++pushing;
       }
     });
   }
-  EXPECT_TRUE(kept && hit) << "both kinds must be there";
+  EXPECT_GT(pushing, 10);
 }
 
 // Rows that carry a load from the first step on leave no velocity: what moves nothing stays so.
@@ -124,6 +120,53 @@ TEST(Midpoint, HoldsTheWhip) {
   }
   EXPECT_LT(furthest, 0.05 * sim.ledger.initial);  // seen: 0.028
   EXPECT_LT(std::abs(sim.ledger.imbalance()), 1e-10 * sim.ledger.initial);
+}
+
+/// Angular and linear momentum about the world's origin.
+Vector6d momentum(const Model& model, const State& state) {
+  Kinematics kin;
+  update_positions(model, state.q, kin);
+  update_velocities(model, state.qdot, kin);
+  Vector6d sum = Vector6d::Zero();
+  for (int b = 0; b < model.body_count(); ++b) {
+    sum += body_inertia(model, kin, b) * kin.twist.col(b);
+  }
+  return sum;
+}
+
+/// Largest change of the momentum of a free body without drag, that spins with its middle bent to
+/// near 90 degrees, over the momentum it has, in 2 s of steps of `h`: angular, linear.
+Eigen::Vector2d lost_momentum(const std::string& rule, double h) {
+  const ResolvedScene resolved = read_scene(
+      HAGFISH_STRESS_DIR "/spinning.toml",
+      {"time.rule=" + rule, "time.step=" + std::to_string(h), "drag.normal=0", "drag.tangential=0",
+       "guard.energy_action=warn", "wall.present=false", "start.spin=[1,0.5,0.2]"});
+  const Model model = make_hagfish(resolved.specimen, resolved.scene);
+  Simulation sim = start(model, resolved.scene, "active-set");
+  const Vector6d begin = momentum(model, sim.now.state);
+  Eigen::Vector2d worst(0, 0);
+  StepRecord record;
+  while (time_of(sim, resolved.scene) < 2) {
+    take_step(model, resolved.scene, sim, record);
+    const Vector6d off = momentum(model, sim.now.state) - begin;
+    worst = worst.cwiseMax(Eigen::Vector2d(off.head<3>().norm() / begin.head<3>().norm(),
+                                           off.tail<3>().norm() / begin.tail<3>().norm()));
+  }
+  return worst;
+}
+
+// The rule conserves neither exactly, but to second order; Euler's to first.
+TEST(Midpoint, ConservesMomentumToSecondOrder) {
+  const Eigen::Vector2d coarse = lost_momentum("midpoint", 0.002);
+  const Eigen::Vector2d fine = lost_momentum("midpoint", 0.001);
+  const Eigen::Vector2d euler = lost_momentum("euler", 0.001);
+  for (int k = 0; k < 2; ++k) {
+    std::cout << "[ FIGURE   ] " << (k == 0 ? "angular" : "linear") << " momentum lost: midpoint "
+              << coarse[k] << " at 2 ms, " << fine[k] << " at 1 ms; Euler " << euler[k]
+              << " at 1 ms\n";
+    EXPECT_LT(fine[k], coarse[k] / 3.2) << k;  // 4 in the limit
+    EXPECT_LT(fine[k], 0.1 * euler[k]) << k;
+  }
 }
 
 // A second pass only where the first one's guess was poor; what does not settle is said.

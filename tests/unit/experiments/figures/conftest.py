@@ -27,6 +27,7 @@ LAST_BODY = 30  # of any row of Eq. 6 while sliding
 SCENE = """
 [time]
 step = 0.002
+rule = "euler"
 [model]
 bodies = 41
 [constraints]

@@ -105,6 +105,7 @@ TEST_F(GridTest, RefusesBadGridsInOneLine) {
   expect_refused(axis("'food.cap' = [1]\n'food.cap.from' = [1]"), {"food.cap"});
   expect_refused("set = ['time.step=0.01']\n" + axis("'time.step' = [0.02]"),
                  {"time.step", "set too"});
+  expect_refused("set = ['time.step']\n" + axis("'model.bodies' = [50]"), {":1", "KEY=VALUE"});
   expect_refused("seeds = 2\n" + axis("'start.seed' = [1]"), {"start.seed"});
   expect_refused(axis("'model.bodies' = [50]\n'time.step' = [0.01, 0.02]"),
                  {"time.step", "2 values", "model.bodies has 1"});
@@ -123,10 +124,13 @@ TEST_F(GridTest, RefusesBadGridsInOneLine) {
   expect_refused("scene = 'table2'\nseeds = 1\n", {"table2", "table1"});
   expect_refused(scene + "seed = 1\n", {"seed", "did you mean seeds"});
   std::string large = scene;
-  for (const char* key : {"drag.normal", "drag.tangential"}) {
-    large += std::string("[[axis]]\n'") + key + "' = { from = 1, to = 2, count = 100000 }\n";
+  for (const char* key : {"drag.normal", "drag.tangential", "model.limit_scale"}) {
+    large += std::string("[[axis]]\n'") + key + "' = { from = 1, to = 2, count = 10000 }\n";
   }
-  expect_refused(large, {"1e+10 cells"});
+  expect_refused(large, {"1e+12 cells"});
+  std::string many = "'drag.normal' = [";
+  for (int k = 0; k <= 10000; ++k) many += "1,";
+  expect_refused(axis(many + "1]"), {"drag.normal", "more than 10000"});
 }
 
 TEST_F(GridTest, IdentityIsOfWhatMakesTheRows) {

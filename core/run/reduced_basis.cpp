@@ -1,0 +1,254 @@
+#include "core/run/reduced_basis.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+
+namespace hagfish {
+namespace {
+
+constexpr Eigen::Index head = 3;  // numbers of the memory before the amplitudes
+
+/// Where `x` lies among rising `knots`, as an index that may be broken; less than 0 or more than
+/// the last index outside.
+double place_among(const std::vector<double>& knots, double x) {
+  if (x < knots.front()) return -1;
+  if (x > knots.back()) return static_cast<double>(knots.size());
+  const auto next = std::ranges::upper_bound(knots, x);
+  if (next == knots.end()) return static_cast<double>(knots.size()) - 1;
+  const auto k = next - knots.begin() - 1;
+  return static_cast<double>(k) + (x - knots[k]) / (knots[k + 1] - knots[k]);
+}
+
+/// values[offset + stride i] at the broken index `place` <= last.
+double value_at(const std::vector<double>& values, std::size_t offset, std::size_t stride,
+                double place, std::size_t last) {
+  const auto i = std::min(static_cast<std::size_t>(place), last - 1);
+  const double share = place - static_cast<double>(i);
+  return std::fma(share, values[offset + stride * (i + 1)],
+                  (1 - share) * values[offset + stride * i]);
+}
+
+/// Of all shapes, the part about the axis of `hinge` at `x`: cm of arc, or a share of the window.
+void set_shapes(const ReducedBasisSettings& basis, const Hinge& hinge, double sign, double x,
+                Eigen::MatrixXd::RowXpr shapes) {
+  // Columns are about Y, about Z, twist.
+  const int axis = (static_cast<int>(hinge.axis) + 2) % 3;
+  if (basis.cosines > 0) {
+    for (int j = 0; j < basis.cosines; ++j) {
+      shapes[axis * basis.cosines + j] = sign * std::cos(std::numbers::pi * j * x);
+    }
+    return;
+  }
+  const std::size_t count = basis.stations.size();
+  const double place = place_among(basis.stations, x);
+  if (place < 0 || place > static_cast<double>(count) - 1) return;
+  const std::vector<double>& values =
+      axis == 0 ? basis.bend_y : (axis == 1 ? basis.bend_z : basis.twist);
+  for (Eigen::Index j = 0; j < shapes.size(); ++j) {
+    shapes[j] = sign * value_at(values, static_cast<std::size_t>(j) * count, 1, place, count - 1);
+  }
+}
+
+/// The torque towards the rest shape of the step to come, on the mean over `steps` such steps, in
+/// which the hinges move evenly and tone follows them. The passive spring is fed forward, so that
+/// what it does over the one long step is taken back.
+void mean_tone_torque(const Situation& at, double steps, const Eigen::VectorXd& rest,
+                      ActiveTorque& torque) {
+  const Model& model = at.model;
+  const double h = at.scene.time.step;
+  const double kept = std::exp(-h / at.scene.active.tone_time);
+  const double left = (1 - std::pow(kept, steps)) / (steps * (1 - kept));
+  const double lag = h + h * kept / (1 - kept) * (1 - left);
+  torque.value.setZero(model.nv());
+  torque.rate.setZero(model.nv());
+  for (int d = root_dofs; d < model.nv(); ++d) {
+    const Hinge& hinge = model.hinges[d - root_dofs];
+    const double active =
+        at.scene.active.stiffness /
+        hinge_span(model.body_count(), model.bodies[hinge.body].length, hinge.body);
+    const double all = active + hinge.stiffness;
+    const double angle = at.now.state.q[d + 1];
+    torque.value[d] = all * left * (rest[d] - angle) + hinge.stiffness * angle;
+    torque.rate[d] = all * lag - hinge.stiffness * steps * h;
+  }
+}
+
+/// The paper's step from `at`, but one period long: what bears in it is held below.
+void look_forward(const Situation& at, const Control& control, double steps,
+                  ReducedBasisStorage& s) {
+  s.scene = at.scene;
+  s.scene.time.step = steps * at.scene.time.step;
+  s.scene.time.rule = TimeRule::euler;
+  s.control = control;
+  if (control.rest_shape.size() > 0) {
+    mean_tone_torque(at, steps, control.rest_shape, s.control.active);
+  }
+  s.solver.warm.begin();  // twice: nothing of other steps
+  s.solver.warm.begin();
+  const StepInput in{at.model, s.scene, at.now.state, at.now.observation, s.control};
+  if (const Status status = s.solver.begin(in, s.step); !status.ok()) throw StepError(status);
+}
+
+/// Eq. 6 after that step, with the rows that bear held: gain a >= shortfall.
+void set_gain(const Situation& at, ReducedBasisStorage& s) {
+  const StepSolution& step = s.step;
+  const StepScratch& scratch = s.solver.scratch();
+  const Eigen::MatrixXd& A = scratch.qp.A;
+  const auto row_of = [&](Eigen::Index i) -> const Row& { return step.rows[step.prescribed + i]; };
+  s.held.clear();
+  s.asked.clear();
+  for (Eigen::Index i = 0; i < scratch.qp.b.size(); ++i) {
+    if (row_of(i).kind == RowKind::thigmotaxis) {
+      s.asked.push_back(i);
+    } else if (step.lambda[step.prescribed + i] != 0) {
+      s.held.push_back(i);
+    }
+  }
+  const auto held = static_cast<Eigen::Index>(s.held.size());
+  const auto asked = static_cast<Eigen::Index>(s.asked.size());
+  s.held_A.resize(held, held);
+  s.share.resize(held, asked);
+  for (Eigen::Index c = 0; c < held; ++c) {
+    for (Eigen::Index d = 0; d < held; ++d) s.held_A(c, d) = A(s.held[c], s.held[d]);
+    for (Eigen::Index t = 0; t < asked; ++t) s.share(c, t) = A(s.held[c], s.asked[t]);
+  }
+  if (held > 0) {
+    s.held_factor.compute(s.held_A);
+    s.held_factor.solveInPlace(s.share);
+  }
+  s.still = scratch.prescribed;
+  for (PrescribedVelocity& velocity : s.still) velocity.value = 0;
+  const Kinematics& kin = at.now.observation.kin;
+  s.gain.resize(asked, s.shapes.cols());
+  s.shortfall.resize(asked);
+  for (Eigen::Index t = 0; t < asked; ++t) {
+    // H⁻¹ is symmetric: how the hinges answer to the row is how the row answers to them.
+    s.wrench.setZero(6, at.model.body_count());
+    s.joint.setZero(at.model.nv());
+    add_row(row_of(s.asked[t]), kin, 1, s.wrench, s.joint);
+    s.shortfall[t] = scratch.qp.b[s.asked[t]];
+    for (Eigen::Index c = 0; c < held; ++c) {
+      add_row(row_of(s.held[c]), kin, -s.share(c, t), s.wrench, s.joint);
+      s.shortfall[t] -= s.share(c, t) * scratch.qp.b[s.held[c]];
+    }
+    scratch.factor.solve(at.model, kin, s.wrench, s.joint, s.still, s.velocity, s.twist,
+                         s.reaction);
+    s.gain.row(t).noalias() = s.scene.time.step * s.velocity.transpose() * s.shapes;
+  }
+}
+
+/// The least |a| with gain a >= shortfall, softly, and within the bound on the torques: the dual is
+/// a box QP of as many multipliers as Eq. 6 has rows.
+void find_least(const ReducedBasisSettings& basis, ReducedBasisStorage& s, Eigen::VectorXd& a) {
+  BoxQp& qp = s.qp;
+  qp.A.noalias() = s.gain * s.gain.transpose();
+  qp.A.diagonal().array() += basis.softness * qp.A.diagonal().maxCoeff();
+  qp.b = s.shortfall;
+  qp.lower.setZero(qp.b.size());
+  qp.upper.setConstant(qp.b.size(), std::numeric_limits<double>::infinity());
+  s.start.setZero(qp.b.size());
+  s.back_end->solve(qp, s.start, s.solution);
+  if (s.solution.status != SolveStatus::solved) {
+    throw StepError({Outcome::solver_failed, "the numbers of the reduced basis: " +
+                                                 std::string(status_name(s.solution.status))});
+  }
+  a.noalias() = s.gain.transpose() * s.solution.x;
+  s.joint.noalias() = s.shapes * a;
+  const double largest = s.joint.lpNorm<Eigen::Infinity>();
+  if (largest > basis.most) a *= basis.most / largest;
+}
+
+/// a as played at the knot's place.
+void play(const ReducedBasisSettings& basis, double head_end, Eigen::VectorXd& a) {
+  const std::size_t count = basis.places.size();
+  const double x = std::clamp(head_end, basis.places.front(), basis.places.back());
+  const double place = place_among(basis.places, x);
+  const auto size = static_cast<std::size_t>(a.size());
+  for (std::size_t j = 0; j < size; ++j) {
+    a[static_cast<Eigen::Index>(j)] = value_at(basis.played, j, size, place, count - 1);
+  }
+}
+
+void begin(const ReducedBasisSettings& basis, double time, const KnotSpan& window,
+           ReducedBasisMemory& memory) {
+  memory.next = time;
+  memory.window = window;
+  memory.aim.setZero(basis_size(basis));
+  memory.now.setZero(basis_size(basis));
+}
+
+/// How far a first-order filter follows in a step.
+double follows(double h, double time_constant) {
+  return time_constant > 0 ? 1 - std::exp(-h / time_constant) : 1;
+}
+
+}  // namespace
+
+void basis_shapes(const Model& model, const Scene& scene, const KnotSpan& window,
+                  Eigen::MatrixXd& shapes) {
+  const ReducedBasisSettings& basis = scene.controller.reduced_basis;
+  shapes.setZero(model.nv(), basis_size(basis));
+  const double length = model.length();
+  const bool knot = basis.frame == BasisFrame::knot;
+  const double from = knot ? window.head_end - basis.margin : 0;
+  const double to = knot ? window.tail_end + basis.margin : length;
+  for (std::size_t k = 0; k < model.hinges.size(); ++k) {
+    const Hinge& hinge = model.hinges[k];
+    const double arc = length * hinge.body / model.body_count();
+    if (arc < from || arc > to) continue;
+    const bool share = knot || basis.cosines > 0;
+    set_shapes(basis, hinge, scene.mirror && hinge.axis != Axis::y ? -1 : 1,
+               share ? (arc - from) / (to - from) : arc,
+               shapes.row(root_dofs + static_cast<Eigen::Index>(k)));
+  }
+}
+
+void unpack(const Eigen::VectorXd& memory, ReducedBasisMemory& unpacked) {
+  const Eigen::Index size = (memory.size() - head) / 2;
+  unpacked.next = memory[0];
+  unpacked.window = {memory[1], memory[2]};
+  unpacked.aim = memory.segment(head, size);
+  unpacked.now = memory.tail(size);
+}
+
+void reduced_basis_law(const Situation& at, Eigen::VectorXd& memory, Control& control,
+                       ReducedBasisStorage& storage) {
+  paper_law(at, control);
+  if (at.so_far.phase != Phase::slide || control.thigmotaxis.empty()) {
+    memory.resize(0);
+    return;
+  }
+  const ReducedBasisSettings& basis = at.scene.controller.reduced_basis;
+  const double h = at.scene.time.step;
+  const KnotSpan span = *knot_span(at.so_far);
+  ReducedBasisMemory& m = storage.memory;
+  if (memory.size() == 0) {
+    begin(basis, at.time, span, m);
+  } else {
+    unpack(memory, m);
+  }
+  const double share = follows(h, basis.smooth);
+  m.window.head_end += share * (span.head_end - m.window.head_end);
+  m.window.tail_end += share * (span.tail_end - m.window.tail_end);
+  basis_shapes(at.model, at.scene, m.window, storage.shapes);
+  if (!basis.places.empty()) {
+    play(basis, m.window.head_end, m.aim);
+  } else if (at.time + 0.5 * h >= m.next) {
+    const double steps = std::max(1.0, std::round(basis.period / h));
+    m.next += steps * h;
+    look_forward(at, control, steps, storage);
+    set_gain(at, storage);
+    find_least(basis, storage, m.aim);
+  }
+  m.now += follows(h, basis.filter) * (m.aim - m.now);
+  control.torque.value.noalias() = storage.shapes * m.now;
+  control.torque.rate.setZero(at.model.nv());
+  for (ThigmotaxisCommand& command : control.thigmotaxis) command.effort = 0;
+  memory.resize(head + 2 * m.now.size());
+  memory << m.next, m.window.head_end, m.window.tail_end, m.aim, m.now;
+}
+
+}  // namespace hagfish

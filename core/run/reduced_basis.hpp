@@ -1,0 +1,72 @@
+// Few numbers slide a knot (addition): the paper closes with the conjecture that a few basis
+// functions may do, since the sliding force is smooth along the body. In place of the rows of Eq. 6
+// stand torques u = B a of few shapes along the body, with numbers a that are found now and then
+// from a model of the next moments, or played by the knot's place alone.
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "core/run/controller.hpp"
+#include "solvers/box_qp.hpp"
+
+namespace hagfish {
+
+/// What the law keeps from step to step: its `memory`, by name.
+struct ReducedBasisMemory {
+  double next = 0;           ///< time at which a is found again, s
+  KnotSpan window;           ///< of the knot, smoothed and without its margin, cm of arc
+  Eigen::VectorXd aim, now;  ///< a as last found, and as the torques have it, dyn cm
+};
+
+/// The shapes of the scene's basis at the hinges, nv x basis_size, 0 at the root, where the knot
+/// has `window`. Those about Z and of twist change sign with Scene::mirror.
+void basis_shapes(const Model& model, const Scene& scene, const KnotSpan& window,
+                  Eigen::MatrixXd& shapes);
+
+/// Storage of reduced_basis_law. What it holds does not matter from one step to the next, so that
+/// copies begin empty.
+struct ReducedBasisStorage {
+  ReducedBasisStorage() = default;
+  ReducedBasisStorage(const ReducedBasisStorage& /*other*/) : ReducedBasisStorage() {}
+  ReducedBasisStorage& operator=(const ReducedBasisStorage& /*other*/) { return *this; }
+  ReducedBasisStorage(ReducedBasisStorage&&) = default;
+  ReducedBasisStorage& operator=(ReducedBasisStorage&&) = default;
+  ~ReducedBasisStorage() = default;
+
+  ReducedBasisMemory memory;
+  Eigen::MatrixXd shapes;
+  // One long step of the period, as the model of the next moments.
+  Scene scene;
+  Control control;
+  StepSolver solver{"active-set"};
+  StepSolution step;
+  // Eq. 6 after it as a function of a.
+  std::vector<Eigen::Index> held, asked;  ///< rows: those that bear, those of Eq. 6
+  std::vector<PrescribedVelocity> still;
+  Eigen::MatrixXd held_A, share;  ///< Eq. 4 of rows held; what they bear of a unit row of Eq. 6
+  Eigen::LDLT<Eigen::MatrixXd> held_factor;
+  Matrix6Xd wrench, twist;
+  Eigen::VectorXd joint, velocity, reaction;
+  Eigen::MatrixXd gain;       ///< cm/s of each row by a unit of each of a
+  Eigen::VectorXd shortfall;  ///< of each row where a is 0, cm/s
+  BoxQp qp;
+  Eigen::VectorXd start;
+  BoxQpSolution solution;
+  std::unique_ptr<BoxQpSolver> back_end = make_box_qp_solver("active-set");
+};
+
+/// The paper's law but for the slide, where torques u = B a take the place of the forces of Eq. 6:
+/// its rows stay, with no effort, so that the run shows how far they are met. Each period a is the
+/// least that meets Eq. 6 at the end of one linearly implicit step of that length through the O(n)
+/// model, with the contacts and limits held that bear in it where the paper's law has its way.
+/// `memory` holds a ReducedBasisMemory in the slide, else nothing.
+void reduced_basis_law(const Situation& at, Eigen::VectorXd& memory, Control& control,
+                       ReducedBasisStorage& storage);
+
+/// What `memory` of the law holds. It is not empty.
+void unpack(const Eigen::VectorXd& memory, ReducedBasisMemory& unpacked);
+
+}  // namespace hagfish
