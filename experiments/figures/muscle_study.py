@@ -91,7 +91,7 @@ def stiffness(folder: Path, out: Path) -> None:
             frames = np.flatnonzero(np.isin(log.labels("/trajectory/phase"), ("form", "tighten", "slide")))[1:]
             effort = muscles.of(frames)
             tied = log.in_phase("slide").size > 0
-            points.append((value, max(effort.lines, effort.obliques), 100 * effort.short, tied))
+            points.append((value / 1e5, max(effort.lines, effort.obliques), 100 * effort.short, tied))
         for axes, column in zip(panels, (1, 2)):
             x, y = [p[0] for p in points], [p[column] for p in points]
             axes.plot(x, y, label=plots.KNOTS[knot].label, **plots.KNOTS[knot].style)
@@ -100,8 +100,8 @@ def stiffness(folder: Path, out: Path) -> None:
     panels[0].plot([], [], "x", ms=10, color=plots.VERMILION, label="does not tie")
     for axes, name in zip(panels, ("activation", "% of frames")):
         axes.set_xscale("log")
-        plots.plain_ticks(axes.xaxis, (4e4, 1e5, 2e5, 3e5, 4e5, 6e5, 8e5))
-        axes.set(xlabel="flexural rigidity EI, dyn cm²", ylabel=name)
+        plots.plain_ticks(axes.xaxis, (0.4, 1, 2, 3, 4, 6, 8))
+        axes.set(xlabel="flexural rigidity EI, $10^5$ dyn cm²", ylabel=name)
     panels[0].legend()
     plots.save(figure, out)
 
