@@ -56,8 +56,7 @@ void ActivationAudit::see_driven(const AuditedFrame& frame) {
   for (Eigen::Index m = 0; m < driven_.cols(); ++m) {
     const double before = driven_(f - 1, m);
     const double way = driven_(f, m) - before;
-    const double most = (1 - kept) * (way > 0 ? 1 - before : before);
-    fastest_ = worse(fastest_, std::abs(way) <= rounding ? 0 : std::abs(way) / most);
+    beyond_ = worse(beyond_, std::abs(way) - (1 - kept) * (way > 0 ? 1 - before : before));
   }
 }
 
@@ -66,8 +65,8 @@ std::vector<Finding> ActivationAudit::findings() const {
   std::vector<Finding> findings{
       rebuilt_.finding("activations", "means of u + f_thigmo, q and the specimen's muscles")};
   if (driven_.size() > 0) {
-    findings.push_back(judged_over(
-        {"activation dynamics", fastest_, 1 + rounding, "of the fastest"}, "between frames"));
+    findings.push_back(judged_over({"activation dynamics", beyond_, rounding, "1"},
+                                   "between frames, past the fastest"));
   }
   return findings;
 }

@@ -28,7 +28,7 @@ class ActivationAudit {
   MuscleEffort effort_;    ///< storage
   Eigen::VectorXd given_;  ///< R a F_max, storage
   Rebuilt rebuilt_;
-  double fastest_ = 0;  ///< way of an activation between two frames, of what the dynamics permit
+  double beyond_ = 0;  ///< way of an activation between two frames, past what the dynamics permit
 };
 
 }  // namespace hagfish

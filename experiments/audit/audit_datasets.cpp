@@ -24,6 +24,13 @@ void check_names(const LogContents& log) {
       throw FileError(log.h5.file() + ": " + path + " does not name the joints of its model");
     }
   }
+  if (!log.model.muscles.empty()) {
+    std::vector<std::string> names;
+    for (const Muscle& muscle : log.model.muscles) names.push_back(muscle.name);
+    if (log.h5.texts(muscle_labels) != names) {
+      throw FileError(log.h5.file() + ": " + muscle_labels + " does not name its muscles");
+    }
+  }
   for (const auto& [path, names] : axis_names()) {
     if (log.h5.texts(path) != names) {
       throw FileError(log.h5.file() + ": " + path + " does not hold the names of its axis");

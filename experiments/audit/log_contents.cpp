@@ -72,6 +72,11 @@ void LogContents::check_model() const {
         [&](std::size_t k) { return ranges(0, static_cast<Eigen::Index>(k)); });
   check("limit_upper", "hinge", root_dofs, hinges,
         [&](std::size_t k) { return ranges(1, static_cast<Eigen::Index>(k)); });
+  if (!model.muscles.empty()) {
+    check("muscle_force", "muscle", 0, model.muscles.size(), [&](std::size_t m) {
+      return model.muscles[m].force * static_cast<double>(model.muscles[m].lines.size());
+    });
+  }
   if (h5.has(body_labels)) {  // older logs label no axes
     const Eigen::VectorXd arcs = body_arcs(model);
     check("arc", "body", 0, bodies.size(),

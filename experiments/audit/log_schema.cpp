@@ -152,7 +152,8 @@ void check_motion(const Hdf5Reader& log) {
 void check_activations(const Hdf5Reader& log) {
   for (const char* path : {"/muscle/activation", "/muscle/driven"}) {
     if (!log.has(path)) continue;
-    for (const double a : log.rows(path).reshaped()) {
+    const Hdf5Reader::Rows activations = log.rows(path);
+    for (const double a : activations.reshaped()) {
       if (a < 0 || a > 1) {
         refuse(log, fmt::format("{} holds {:g}, not an activation from 0 to 1", path, a));
       }

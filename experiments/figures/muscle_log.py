@@ -12,6 +12,7 @@ PAIRS = (("left", "right"), ("dorsal", "ventral"), ("right_handed", "left_handed
 # Means over 20 ms still hold what single steps do where a contact becomes the first or last one: peaks are this quantile of all
 # muscles and frames.
 PEAK = 0.999
+SHORT = 0.01
 
 
 class Muscles:
@@ -55,8 +56,9 @@ class Muscles:
             raise LogError(f"{self.log.path}: has no frames of that phase")
         a = self.activation[frames]
         short = np.abs(self.residual[frames]).max(axis=1)
-        return Effort(peak=float(np.quantile(a, PEAK)), largest=float(a.max()), mean=float(a.mean()), antagonists=self.antagonists(frames),
-                      residual=float(short.max()), short=float((short > 0.01 * np.abs(self.torque()[frames]).max()).mean()),
+        return Effort(lines=float(np.quantile(a[:, self.bends], PEAK)), obliques=float(np.quantile(a[:, ~self.bends], PEAK)),
+                      mean=float(a.mean()), antagonists=self.antagonists(frames), residual=float(short.max()),
+                      short=float((short > SHORT * np.abs(self.torque()[frames]).max()).mean()),
                       seconds=float(self.time[frames[-1]] - self.time[frames[0] - 1]))
 
     def pair_off(self, frames: np.ndarray) -> tuple[float, float]:
@@ -80,10 +82,10 @@ class Muscles:
 class Effort:
     """Of some frames."""
 
-    peak: float  # quantile PEAK of all activations
-    largest: float
+    lines: float  # quantile PEAK of the activations of lines along the body
+    obliques: float  # of oblique families
     mean: float
     antagonists: float
     residual: float  # largest of a hinge, dyn cm
-    short: float  # share of frames in which a hinge lacks more than 1 % of the largest torque
+    short: float  # share of frames in which a hinge lacks more than SHORT of the largest torque
     seconds: float

@@ -27,14 +27,14 @@ def draw_map(axes: plt.Axes, muscles: Muscles, bends: bool) -> None:
     log = muscles.log
     arc, activation = muscles.map(bends)
     axes.grid(visible=False)
-    image = axes.pcolormesh(edges(muscles.time), edges(arc), activation.T, cmap="viridis", vmin=0, vmax=1 if bends else None, rasterized=True)
+    image = axes.pcolormesh(edges(muscles.time), edges(arc), activation.T, cmap="viridis", vmin=0, vmax=1, rasterized=True)
     axes.plot(muscles.time, log["/knot/head_end"], color="white", lw=0.9, label="knot, head end")
     axes.plot(muscles.time, log["/knot/tail_end"], color="white", lw=0.9, ls="--", label="knot, tail end")
     axes.set(ylabel="arc length from the head, cm", xlabel="time, s", ylim=(arc[-1], arc[0]))
     legend = axes.legend(loc="lower left", fontsize=7, framealpha=0.35, facecolor="black")
     for text in legend.get_texts():
         text.set_color("white")
-    axes.figure.colorbar(image, ax=axes, pad=0.02, fraction=0.05, label="largest activation of a joint")
+    axes.figure.colorbar(image, ax=axes, pad=0.02, fraction=0.05, label="largest activation of a joint's muscles")
 
 
 def main(path: Path, out: Path) -> None:
@@ -49,8 +49,8 @@ def main(path: Path, out: Path) -> None:
     below.plot(muscles.time, muscles.activation.mean(axis=1), color=plots.BLUE, label="mean activation")
     every = np.array([muscles.antagonists(np.array([f])) for f in range(log.frames)])
     below.plot(muscles.time, every, color=plots.INK, lw=0.8, ls=":", label="antagonists' share of the force")
-    below.set(xlabel="time, s", ylabel="share", ylim=(0, 1.15))
-    below.legend(loc="upper left", ncols=3)
+    below.set(xlabel="time, s", ylabel="share", ylim=(0, 1.3))
+    below.legend(loc="center left")
     for axes in panels:
         for _, start in phases(log)[1:]:
             axes.axvline(start, color=plots.GREY if axes is below else "white", lw=0.6, ls="-.")
@@ -58,7 +58,7 @@ def main(path: Path, out: Path) -> None:
     marks = phases(log) + [("", muscles.time[-1])]
     for (name, start), (_, end) in zip(marks, marks[1:]):
         if end - start > least:
-            below.text((start + end) / 2, 1.02 if end - start < 3 * least else 0.86, name, ha="center", fontsize=7.5, color=plots.GREY)
+            below.text((start + end) / 2, 1.17, name, ha="center", fontsize=7.5, color=plots.GREY)
     plots.save(figure, out)
 
 

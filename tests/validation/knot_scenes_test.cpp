@@ -93,10 +93,11 @@ INSTANTIATE_TEST_SUITE_P(BuiltIn, KnotScenes,
                          testing::Values("figure_eight", "double_overhand", "three_twist",
                                          "overhand_reverse", "overhand_free_head", "overhand_fast",
                                          "thigmotaxis_everywhere", "double_overhand_paced",
-                                         "living_overhand", "living_figure_eight",
-                                         "living_double_overhand", "living_three_twist",
-                                         "living_overhand_free", "living_figure_eight_free",
-                                         "living_double_overhand_free", "living_three_twist_free"),
+                                         "muscles_forward", "living_overhand",
+                                         "living_figure_eight", "living_double_overhand",
+                                         "living_three_twist", "living_overhand_free",
+                                         "living_figure_eight_free", "living_double_overhand_free",
+                                         "living_three_twist_free"),
                          scene_name);
 
 TEST(KnotScenesByTheMidpointRule, TieHoldSlideAndComeOff) {
