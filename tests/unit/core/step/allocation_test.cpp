@@ -85,8 +85,10 @@ TEST_F(Allocation, NoneInALawThatLooksForwardAsFarAsBefore) {
   Control control;
   ReducedBasisStorage storage;
   const auto asked_at = [&](double time) {
+    control.thigmotaxis.clear();  // as a law finds them
+    control.torque.value.setZero();
+    control.torque.rate.setZero();
     const int before = requests;
-    control.thigmotaxis.clear();
     reduced_basis_law({model, scene, sim.now, time, sim.controller}, memory, control, storage);
     return requests - before;
   };
