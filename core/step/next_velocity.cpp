@@ -20,35 +20,33 @@ bool pushes(const Row& row, double lambda) {
 
 }  // namespace
 
-void begin_half(std::vector<Row>& rows) {
-  for (Row& row : rows) {
-    row.lower /= 2;
-    row.upper /= 2;
-  }
-}
-
 void end_half(StepSolution& step) {
   for (std::size_t i = 0; i < step.rows.size(); ++i) {
-    Row& row = step.rows[i];
-    row.lower *= 2;
-    row.upper *= 2;
-    step.lambda[i] = 2 * step.lambda[i] - row.impact;
+    step.lambda[i] = 2 * step.lambda[i] - step.rows[i].impact;
   }
 }
 
 /// Rows that push: a force that begins or stays stops what comes, so that the step ends with the
 /// velocities that they ask for. Prescribed ones go into scratch_.held and .jumps, the others into
-/// scratch_.hit, with what their velocities change by. False where none changes.
+/// scratch_.hit, with what their velocities change by. What a row at its upper bound has acts at
+/// once: scratch_.full. False where no velocity changes.
 bool StepSolver::find_impacts(const StepInput& in, StepSolution& step) {
   bool any = false;
   scratch_.held.clear();
   scratch_.jumps.clear();
+  scratch_.full.clear();
   scratch_.hit.clear();
   scratch_.hit_b.clear();
   for (std::size_t i = 0; i < step.rows.size(); ++i) {
     Row& row = step.rows[i];
+    const double lambda = step.lambda[static_cast<Eigen::Index>(i)];
     row.impact = 0;
-    if (!row.prescribed && !pushes(row, step.lambda[static_cast<Eigen::Index>(i)])) continue;
+    if (lambda >= row.upper) {
+      row.impact = lambda;
+      scratch_.full.push_back(i);
+      any = true;
+    }
+    if (!row.prescribed && !pushes(row, lambda)) continue;
     const double change = row.rhs - row_velocity(row, in.midway->centre_velocity, in.state.qdot);
     any = any || change != 0;
     if (row.prescribed) {
@@ -95,7 +93,7 @@ void StepSolver::solve_impacts(const StepInput& in, StepSolution& step) {
       const std::size_t i = scratch_.hit[k];
       Row& row = step.rows[i];
       const double lambda = 2 * step.lambda[static_cast<Eigen::Index>(i)];
-      row.impact = std::clamp(scratch_.hit_x[k], lambda - 2 * row.upper, lambda - 2 * row.lower);
+      row.impact = std::clamp(scratch_.hit_x[k], lambda - row.upper, lambda - row.lower);
       if (row.impact == scratch_.hit_x[k]) continue;
       again = true;
       scratch_.hit.erase(scratch_.hit.begin() + static_cast<std::ptrdiff_t>(k));
@@ -130,8 +128,8 @@ bool StepSolver::release_held(const StepInput& in, StepSolution& step) {
   for (std::size_t k = 0; k < scratch_.held.size(); ++k) {
     Row& row = step.rows[scratch_.held[k]];
     const double lambda = 2 * step.lambda[static_cast<Eigen::Index>(scratch_.held[k])];
-    if (lambda - row.impact < 2 * row.lower) {
-      row.impact = lambda - 2 * row.lower;
+    if (lambda - row.impact < row.lower) {
+      row.impact = lambda - row.lower;
       add_row(row, in.kin(), row.impact, scratch_.wrench, scratch_.joint);
     } else {
       scratch_.held[left] = scratch_.held[k];
@@ -154,8 +152,12 @@ Status StepSolver::set_next_velocity(const StepInput& in, StepSolution& step) {
     const Kinematics& kin = in.kin();
     scratch_.wrench.setZero(6, in.model.body_count());
     scratch_.joint.setZero(in.model.nv());
+    for (const std::size_t i : scratch_.full) {
+      add_row(step.rows[i], kin, step.rows[i].impact, scratch_.wrench, scratch_.joint);
+    }
     if (!scratch_.hit.empty()) {
-      if (std::ranges::any_of(scratch_.jumps, [](const auto& jump) { return jump.value != 0; })) {
+      if (!scratch_.full.empty() ||
+          std::ranges::any_of(scratch_.jumps, [](const auto& jump) { return jump.value != 0; })) {
         respond(in, scratch_.factor, step);
         centre_velocities(kin, scratch_.impact_twist, scratch_.impact_centre_velocity);
         for (std::size_t k = 0; k < scratch_.hit.size(); ++k) {

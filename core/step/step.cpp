@@ -6,7 +6,6 @@
 #include <span>
 #include <stdexcept>
 
-#include "core/step/next_velocity.hpp"
 #include "core/step/prescribed_rows.hpp"
 #include "core/step/row_selection.hpp"
 #include "core/step/step_failure.hpp"
@@ -97,9 +96,6 @@ Status StepSolver::begin_here(const StepInput& in, StepSolution& step) {
   add_active_torque(in.control.torque, reach, step.system);
   gather_rows(in, step.rows);
   prescribe_rows(warm, step.rows);
-  if (in.midway != nullptr) {
-    begin_half(step.rows);
-  }
   step.kind = SolveKind::linear;
   step.iterations = 0;
   step.rounds = 0;

@@ -134,6 +134,7 @@ struct StepScratch {
   // Of the velocity after the step (midpoint rule).
   std::vector<std::size_t> held;            ///< prescribed rows, and
   std::vector<PrescribedVelocity> jumps;    ///< what their velocities change by
+  std::vector<std::size_t> full;            ///< rows at their upper bound
   std::vector<std::size_t> hit;             ///< other rows with an impact
   std::vector<double> hit_A, hit_b, hit_x;  ///< Eq. 4 of those, and its answer
   ArticulatedFactor free_factor;            ///< with limits that would pull let go

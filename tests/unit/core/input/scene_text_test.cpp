@@ -95,14 +95,21 @@ class Bits {
     const auto& [target, gain, filter, most] = s;
     add(target, gain, filter, most);
   }
+  void put(const ReducedBasisSettings& s) {
+    const auto& [frame, margin, smooth, cosines, file, stations, bend_y, bend_z, twist, period,
+                 filter, softness, most, places, played] = s;
+    add(frame, margin, smooth, cosines, file, stations, bend_y, bend_z, twist, period, filter,
+        softness, most, places, played);
+  }
   void put(const ControllerSettings& s) {
-    const auto& [law, knot_speed, tighten_head, tighten_tail, slide_head, slide_tail, reverse_head,
-                 reverse_tail, leave_by, free_from, cap, acceleration, contact_gap, hysteresis,
-                 tail_through, tighten_from, tight_span, tight_hold, tighten_time, release_at,
-                 untied_for, free_time] = s;
-    add(law, knot_speed, tighten_head, tighten_tail, slide_head, slide_tail, reverse_head,
-        reverse_tail, leave_by, free_from, cap, acceleration, contact_gap, hysteresis, tail_through,
-        tighten_from, tight_span, tight_hold, tighten_time, release_at, untied_for, free_time);
+    const auto& [law, knot_speed, reduced_basis, tighten_head, tighten_tail, slide_head, slide_tail,
+                 reverse_head, reverse_tail, leave_by, free_from, cap, acceleration, contact_gap,
+                 hysteresis, tail_through, tighten_from, tight_span, tight_hold, tighten_time,
+                 release_at, untied_for, free_time] = s;
+    add(law, knot_speed, reduced_basis, tighten_head, tighten_tail, slide_head, slide_tail,
+        reverse_head, reverse_tail, leave_by, free_from, cap, acceleration, contact_gap, hysteresis,
+        tail_through, tighten_from, tight_span, tight_hold, tighten_time, release_at, untied_for,
+        free_time);
   }
   void put(const Ramp& s) {
     const auto& [from, to, time] = s;
@@ -185,6 +192,21 @@ ResolvedScene odd_scene() {
   s.muscle = {true, odd()};
   s.controller = {LawName::knot_speed,
                   {odd(), odd(), odd(), odd()},
+                  {BasisFrame::body,
+                   odd(),
+                   odd(),
+                   0,
+                   "",
+                   {odd(), odd()},
+                   {odd(), odd()},
+                   {odd(), odd()},
+                   {odd(), odd()},
+                   odd(),
+                   odd(),
+                   odd(),
+                   odd(),
+                   {odd(), odd()},
+                   {odd(), odd()}},
                   {odd(), odd()},
                   {odd(), odd()},
                   {odd(), odd()},

@@ -98,6 +98,27 @@ TEST(Checkpoint, KeepsTheMemoryOfTheControlLaw) {
   EXPECT_EQ(resumed.bytes(), whole.bytes());
 }
 
+TEST(Checkpoint, ALawThatLooksForwardGoesOnToTheLastBit) {
+  const ResolvedScene resolved =
+      stored_scene({"controller.law=reduced_basis", "controller.reduced_basis.cosines=3",
+                    "controller.reduced_basis.period=0.01", "controller.reduced_basis.softness=0.1",
+                    "controller.reduced_basis.most=1e4"});
+  const Model model = make_hagfish(resolved.specimen, resolved.scene);
+  Stage whole{model,
+              resolved.scene,
+              resume(model, resolved.scene, sliding()),
+              {RunningMeans(model.nv()), {}, ""}};
+  whole.steps(5);
+  LogState log{RunningMeans(model.nv()), {}, {}};
+  Simulation sim = decode(whole.bytes(), model, "active-set", log);
+  ASSERT_EQ(sim.controller.memory.size(), 3 + 2 * 9);
+  EXPECT_EQ(sim.controller.memory, whole.sim.controller.memory);
+  Stage resumed{model, resolved.scene, std::move(sim), std::move(log)};
+  whole.steps(20);
+  resumed.steps(20);
+  EXPECT_EQ(resumed.bytes(), whole.bytes());
+}
+
 class BadBytes : public testing::Test {
  protected:
   std::string refusal(const std::vector<std::uint8_t>& changed) {

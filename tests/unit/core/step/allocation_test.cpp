@@ -72,6 +72,33 @@ TEST_F(Allocation, CountersSeeEigenAndTheStandardLibrary) {
   EXPECT_EQ(requests - between, 1) << other.front();
 }
 
+TEST_F(Allocation, NoneInALawThatLooksForwardAsFarAsBefore) {
+  scene.controller.law = LawName::reduced_basis;
+  ReducedBasisSettings& basis = scene.controller.reduced_basis;
+  basis.cosines = 3;
+  basis.period = 0.004;
+  basis.softness = 0.1;
+  basis.most = 1e4;
+  start("slide");
+  step();
+  Eigen::VectorXd memory;
+  Control control;
+  ReducedBasisStorage storage;
+  const auto asked_at = [&](double time) {
+    control.thigmotaxis.clear();  // as a law finds them
+    control.torque.value.setZero();
+    control.torque.rate.setZero();
+    const int before = requests;
+    reduced_basis_law({model, scene, sim.now, time, sim.controller}, memory, control, storage);
+    return requests - before;
+  };
+  EXPECT_GT(asked_at(0), 0);
+  const Eigen::VectorXd first = control.torque.value;
+  asked_at(0.004);
+  EXPECT_EQ(asked_at(0.008), 0);
+  EXPECT_EQ(control.torque.value, first);  // the same moment, looked at in the same way
+}
+
 class AllocationOfRows : public Allocation,
                          public testing::WithParamInterface<std::pair<BendingLimit, LawName>> {};
 

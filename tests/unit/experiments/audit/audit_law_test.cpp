@@ -181,5 +181,25 @@ TEST_F(AuditLaw, OfTheKnotsSpeedAllRowsHaveOneScale) {
   EXPECT_NE(text.find("/eq6/command"), std::string::npos) << text;
 }
 
+TEST_F(AuditLaw, OfAReducedBasisTorquesAreItsShapesTimesItsNumbers) {
+  write(scene_of("reduced_basis",
+                 {"controller.reduced_basis.cosines=3", "controller.reduced_basis.margin=1",
+                  "controller.reduced_basis.period=0.01", "controller.reduced_basis.softness=0.1",
+                  "controller.reduced_basis.most=1e4"}),
+        {});
+  const std::string good = objections();
+  for (const char* wrong : {"forces of rows", "muscles", "balance", "cap", "checkpoints"}) {
+    EXPECT_EQ(good.find(wrong), std::string::npos) << good;
+  }
+  for (const char* path : {"/basis/amplitude", "/basis/window"}) {
+    const std::string text = objections_to<double>(
+        path, [](double v) { return std::abs(v) > 1e-3; }, [](double v) { return 1.01 * v; });
+    EXPECT_NE(text.find("/forces/active"), std::string::npos) << path << ": " << text;
+  }
+  const std::string capped = objections_to<double>(
+      "/eq6/cap", [](double v) { return v == 0; }, [](double) { return 1.0; });
+  EXPECT_NE(capped.find("/eq6/cap"), std::string::npos) << capped;
+}
+
 }  // namespace
 }  // namespace hagfish
