@@ -42,8 +42,8 @@ TEST_P(MjcfMuscles, MakeTheTorquesOfTheCore) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Heads, MjcfMuscles, testing::Values(Head::free, Head::clamped),
-                         [](const auto& info) {
-                           return info.param == Head::free ? "free" : "clamped";
+                         [](const auto& head) {
+                           return head.param == Head::free ? "free" : "clamped";
                          });
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Muscles in scenes and specimens: what is said of those that are wrong or missing, one line each.
 #include <gtest/gtest.h>
 
+#include "core/chain/model.hpp"
 #include "tests/support/plain_scene.hpp"
 
 namespace hagfish {

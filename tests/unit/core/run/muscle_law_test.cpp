@@ -56,10 +56,10 @@ TEST_F(MuscleLaw, FollowsWhatThePaperAsksForByItsDynamicsAlone) {
   for (int k = 0; k < 20; ++k) take_step(model, scene, sim);
   Simulation copy = sim;
   copy.solver.warm = {};
-  Control one, two;
-  decide(model, scene, sim.now, time_of(sim, scene), sim.controller, one);
-  decide(model, scene, copy.now, time_of(copy, scene), copy.controller, two);
-  EXPECT_EQ(one.torque.value, two.torque.value);
+  StepRecord one, two;
+  take_step(model, scene, sim, one);
+  take_step(model, scene, copy, two);
+  EXPECT_EQ(one.control.torque.value, two.control.torque.value);
   const Eigen::VectorXd later = activations_in(model, sim.controller.memory);
   EXPECT_GE(later.minCoeff(), 0);
   EXPECT_LE(later.maxCoeff(), 1);

@@ -80,7 +80,7 @@ TEST_P(AuditActivation, WatchesWhatMusclesDo) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Laws, AuditActivation, testing::Values("paper", "muscles"),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& law) { return law.param; });
 
 }  // namespace
 }  // namespace hagfish
