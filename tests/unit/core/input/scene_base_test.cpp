@@ -103,7 +103,7 @@ TEST(SceneBase, UnknownOnesAreTold) {
   EXPECT_EQ(complaint(scene),
             scene + ":2: base = 'tabel1': no such built-in scene; did you mean table1?");
   EXPECT_EQ(complaint(with_base("'presets'")),
-            scene + ":2: base = 'presets': no such built-in scene; did you mean table1?");
+            scene + ":2: base = 'presets': no such built-in scene; did you mean muscles?");
   EXPECT_EQ(
       complaint(with_base("'gone.toml'")),
       scene + ":2: base = 'gone.toml': " + (folder / "gone.toml").string() + ": no such file");
