@@ -29,9 +29,13 @@ int export_log(const ExportOptions& options) {
   const bool made = fs::create_directories(options.out, error);
   if (error) throw FileError(options.out + ": cannot make the folder: " + error.message());
   try {
+    std::vector<std::string> names(std::begin(table_files), std::end(table_files));
+    if (!log.model.muscles.empty()) {
+      names.insert(std::ranges::find(names, "summary.csv"), "muscles.csv");
+    }
     // All are reserved before the first is written.
     std::vector<std::unique_ptr<TextFile>> files;
-    for (const char* name : table_files) {
+    for (const std::string& name : names) {
       files.push_back(std::make_unique<TextFile>(fs::path(options.out) / name, options.force));
     }
     std::vector<ExportTable> tables = shape_tables(log, options.si);
@@ -39,7 +43,7 @@ int export_log(const ExportOptions& options) {
     tables.push_back(summary_table(log, options.si));
     CsvTable dictionary{{"file", "column", "unit", "meaning"}};
     for (std::size_t k = 0; k < tables.size(); ++k) {
-      if (tables[k].name() != table_files[k]) throw std::logic_error("tables in another order");
+      if (tables[k].name() != names[k]) throw std::logic_error("tables in another order");
       tables[k].describe(dictionary);
       files[k]->write(tables[k].csv());
     }

@@ -97,6 +97,7 @@ TEST(MusclePaths, OfAStraightBodyAreThoseOfTheSpecimen) {
   EXPECT_EQ(muscle_group(model, left + 4).count, 2);
   EXPECT_EQ(muscle_group(model, 298).count, 0);
   // 0.5 cm^2 of 100 kPa near the station that has them.
+  ASSERT_EQ(model.muscles[6 * 10].name, "j21_left");
   EXPECT_NEAR(model.muscles[6 * 10].force, 0.5e6, 5e3);
 }
 

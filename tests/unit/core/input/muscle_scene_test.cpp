@@ -27,10 +27,9 @@ TEST(MuscleScene, RefusesWhatIsNoMuscle) {
   const std::string text = present + plain_scene + muscle;
   EXPECT_EQ(complaint(text, {"specimen.muscle.longitudinal_area=[0.5, 0]"}),
             "s: --set specimen.muscle.longitudinal_area=[0.5, 0]: number 2 must be positive");
-  EXPECT_EQ(
-      complaint(text, {"specimen.muscle.oblique_area=[0.5]"}),
-      "s: --set specimen.muscle.oblique_area=[0.5]: specimen: its muscle.oblique_area must have as "
-      "many values as station, 2");
+  EXPECT_EQ(complaint(text, {"specimen.muscle.oblique_area=[0.5]"}),
+            "s: --set specimen.muscle.oblique_area=[0.5]: specimen: its muscle.oblique_area must "
+            "have as many values as station, 2");
   EXPECT_EQ(complaint(text, {"specimen.muscle.stress=0"}),
             "s:2: muscle.present = true: the specimen's muscle.stress is 0 or missing, must be "
             "positive");

@@ -206,3 +206,17 @@ def test_bad_input_is_one_line(run, tmp_path):
     refused(tmp_path, "export", "b.h5", "--out", "x", parts=("b.h5", "/mean/forces/"))
     (tmp_path / "half.h5").write_bytes((folder / "a.h5").read_bytes()[:100_000])
     refused(tmp_path, "export", "half.h5", "--out", "x", parts=("half.h5",))
+
+
+def test_muscles(tmp_path):
+    """Of a scene that has them, beside the other tables; the force is what the log's activation makes of the largest."""
+    hagfish(tmp_path, "run", "muscles", "--set", "time.step=0.02", "--set", "time.duration=0.2", "--quiet", "--out", "a.h5")
+    hagfish(tmp_path, "export", "a.h5", "--out", "t")
+    assert {path.stem for path in (tmp_path / "t").iterdir()} == {*FILES, "muscles", "dictionary"}
+    log, t = h5py.File(tmp_path / "a.h5"), table(tmp_path / "t" / "muscles.csv")
+    activation, most = log["muscle/activation"][()], log["model/muscle_force"][()]
+    same(t["activation"], activation.ravel())
+    same(t["force_dyn"], (activation * most).ravel())
+    names = log["model/muscle_name"].asstr()[()]
+    joint = np.array([int(name[1:].split("_")[0]) for name in names])
+    same(t["s_cm"], np.tile(joint * log["model/length"][0], len(activation)))
