@@ -18,7 +18,7 @@ namespace hagfish {
 namespace {
 
 /// Of the bytes' layout; raised with every change of what they hold.
-constexpr int layout = 4;
+constexpr int layout = 5;
 /// No list of a run is longer; a damaged count must not ask for all memory.
 constexpr std::uint64_t most_entries = 1000000;
 
@@ -224,7 +224,8 @@ void serialize(Archive& archive, Simulation& sim) {
          reduced_basis,
          law] = sim;  // the last are storage and code
   archive(step, now.state, now.observation, search, controller, solver.warm,
-          solver.warm.half_change, solver.warm.half_before, ledger, momentum, watch);
+          solver.warm.half_change, solver.warm.half_before, solver.warm.remaining, ledger, momentum,
+          watch);
 }
 
 namespace {
@@ -285,6 +286,8 @@ void check(const Simulation& sim, const LogState& log, const Model& model) {
     require(change->size() == 0 || (change->size() == model.nv() && change->allFinite()),
             "a change of velocity that is not of its model");
   }
+  require(sim.solver.warm.remaining > 0 && std::isfinite(sim.solver.warm.remaining),
+          "a share of passes that is none");
   require(log.means.size() == model.nv(), "means that are not of its model");
 }
 

@@ -2,10 +2,13 @@
 
 #include <hdf5_hl.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <functional>
+#include <numeric>
 
 namespace hagfish {
 namespace {
@@ -16,6 +19,10 @@ constexpr int deflate_level = 1;
 constexpr hsize_t bytes_chunk = 16384;
 // By which the file grows in memory, bytes.
 constexpr std::size_t memory_increment = std::size_t{1} << 16;
+
+bool all_zero(const char* bytes, std::size_t count) {
+  return count == 0 || (bytes[0] == 0 && std::memcmp(bytes, bytes + 1, count - 1) == 0);
+}
 
 H5::StrType text_type() {
   H5::StrType type(H5::PredType::C_S1, H5T_VARIABLE);
@@ -199,17 +206,37 @@ void Hdf5Writer::create(const SeriesLayout& layout) {
 
 void Hdf5Writer::append(const SeriesLayout& layout, hsize_t first, hsize_t count,
                         const void* values) {
-  const std::vector<hsize_t> extent = layout.shape(first + count);
-  const std::vector<hsize_t> size = layout.shape(count);
-  std::vector<hsize_t> offset(size.size(), 0);
-  offset[0] = first;
+  const hsize_t end = first + count;
+  const std::vector<hsize_t> extent = layout.shape(end);
+  const hsize_t row_bytes =
+      std::accumulate(layout.row_shape.begin(), layout.row_shape.end(),
+                      static_cast<hsize_t>(layout.type.getSize()), std::multiplies<>());
+  const auto row = [&](hsize_t i) {
+    return static_cast<const char*>(values) + (i - first) * row_bytes;
+  };
   guarded(name_, "write " + layout.path, [&] {
     H5::DataSet set = h5_.openDataSet(layout.path);
     set.extend(extent.data());
     const H5::DataSpace space = set.getSpace();
-    space.selectHyperslab(H5S_SELECT_SET, size.data(), offset.data());
-    set.write(values, layout.type, H5::DataSpace(static_cast<int>(size.size()), size.data()),
-              space);
+    const auto write = [&](hsize_t from, hsize_t to) {
+      const std::vector<hsize_t> size = layout.shape(to - from);
+      std::vector<hsize_t> offset(size.size(), 0);
+      offset[0] = from;
+      space.selectHyperslab(H5S_SELECT_SET, size.data(), offset.data());
+      set.write(row(from), layout.type, H5::DataSpace(static_cast<int>(size.size()), size.data()),
+                space);
+    };
+    // Rows without a chunk of their own read as 0: most forces are 0 for whole phases.
+    hsize_t from = first;
+    for (hsize_t at = first; at < end;) {
+      const hsize_t next = std::min(end, (at / layout.chunk_rows + 1) * layout.chunk_rows);
+      if (all_zero(row(at), (next - at) * row_bytes)) {
+        if (from < at) write(from, at);
+        from = next;
+      }
+      at = next;
+    }
+    if (from < end) write(from, end);
   });
 }
 
@@ -225,8 +252,12 @@ void Hdf5Writer::copy_chunks(const Hdf5Reader& from, const SeriesLayout& layout,
     for (hsize_t chunk = begin; chunk < end; ++chunk) {
       offset[0] = chunk * layout.chunk_rows;
       hsize_t size = 0;
+      haddr_t place = HADDR_UNDEF;
+      unsigned skipped = 0;  // filters
       std::uint32_t filters = 0;
-      bool done = H5Dget_chunk_storage_size(source.getId(), offset.data(), &size) >= 0;
+      bool done =
+          H5Dget_chunk_info_by_coord(source.getId(), offset.data(), &skipped, &place, &size) >= 0;
+      if (done && place == HADDR_UNDEF) continue;  // all of it is 0
       stored.resize(size);
       done =
           done &&

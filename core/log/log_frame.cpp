@@ -74,13 +74,14 @@ const std::string order = "first t_a, first t_b, last t_a, last t_b: ";
 struct LoggedForce {
   RowKind kind;
   const char* description;
+  bool packed;  ///< mostly zeros in its rows
 };
 constexpr std::array<LoggedForce, row_kinds.size()> logged_forces = {
-    {{RowKind::thigmotaxis, "f_thigmo = C_thigmo' lambda_thigmo / h (Eq. 8)"},
-     {RowKind::contact, "self-contact"},
-     {RowKind::limit, "joint limits"},
-     {RowKind::head, "head clamp"},
-     {RowKind::wall, "head plate"}}};
+    {{RowKind::thigmotaxis, "f_thigmo = C_thigmo' lambda_thigmo / h (Eq. 8)", false},
+     {RowKind::contact, "self-contact", false},
+     {RowKind::limit, "joint limits", true},
+     {RowKind::head, "head clamp", true},
+     {RowKind::wall, "head plate", true}}};
 
 constexpr const char* active_description = "active torque of the animal's muscles, 0 at the root";
 
@@ -167,7 +168,7 @@ void declare_forces(const Model& model, LogTable<Frame>& t) {
   for (const LoggedForce& force : logged_forces) {
     t.numbers(
         std::string("/forces/") + row_kind_name(force.kind), {nv},
-        {"dyn, dyn·cm", force.description, true},
+        {"dyn, dyn·cm", force.description, force.packed},
         [kind = force.kind](const Frame& f) -> const auto& {
           return f.record.solution.force[kind];
         });
@@ -268,7 +269,7 @@ void declare_means(const Model& model, LogTable<Frame>& t) {
   for (const LoggedForce& force : logged_forces) {
     t.numbers(
         std::string("/mean/forces/") + row_kind_name(force.kind), {dofs_of(model)},
-        {"dyn, dyn·cm", force.description + since, true},
+        {"dyn, dyn·cm", force.description + since, force.packed},
         [kind = force.kind](const Frame& f) -> const auto& { return f.mean.force[kind]; });
   }
   t.numbers(
@@ -276,8 +277,7 @@ void declare_means(const Model& model, LogTable<Frame>& t) {
       [](const Frame& f) -> const auto& { return f.mean.active_torque; });
   t.numbers(
       "/mean/forces/net", {dofs_of(model)},
-      {"dyn, dyn·cm", "H (qdot_next - qdot*) / h, what the six add up to, from the motion" + since,
-       true},
+      {"dyn, dyn·cm", "H (qdot_next - qdot*) / h, what the six add up to, from the motion" + since},
       [](const Frame& f) -> const auto& { return f.mean.net_force; });
   const auto row = [&](const char* name, const char* unit, const std::string& description,
                        std::array<double, 4> FrameMeans::*member) {
@@ -498,6 +498,13 @@ LogTable<LoggedStep> step_table(const Scene& scene, LogLevel level) {
               "length of the difference of the velocity by which each step moves and that which "
               "placed its middle"},
              [](const LoggedStep& s) { return s.record.solution.middle_off; });
+    t.count("/steps/passes", "passes that found the middle of each step",
+            [](const LoggedStep& s) { return s.record.solution.passes; });
+    t.number("/steps/remaining",
+             {"1",
+              "what further passes would change, over what the last one did: measured where there "
+              "were two, else the step before's to the power of 0.9"},
+             [](const LoggedStep& s) { return s.record.solution.remaining; });
   }
   return t;
 }

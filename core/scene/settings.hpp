@@ -299,9 +299,9 @@ enum class TimeRule {
 struct TimeSettings {
   TimeRule rule = TimeRule::euler;
   double step = 0.002;  ///< h, s
-  /// The middle of a step has settled once another pass changes the velocity by no more than this:
-  /// rad/s of each hinge, and cm/s and rad/s of the root.
-  double settled = 0.01;
+  /// The middle of a step has settled once further passes change the velocity by no more than this,
+  /// as far as can be told: rad/s of each hinge, and cm/s and rad/s of the root.
+  double settled = 0.001;
   int passes = 20;                ///< to settle in at most
   double frame_interval = 0.020;  ///< time between logged frames, s; a whole number of steps
   /// Time between checkpoints in the log, from which a run can branch, rounded to whole frames, s.

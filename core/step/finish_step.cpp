@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/step/next_velocity.hpp"
 #include "core/step/step.hpp"
 
 namespace hagfish {
@@ -71,6 +70,14 @@ void scale_multipliers(StepScratch& scratch, const StepSolution& step) {
   scaled.array() *= step.lambda.array().abs();
 }
 
+/// Turns the multipliers of the velocity by which the step moves into those of its whole force
+/// (core/README.md, "Steps in time").
+void end_half(StepSolution& step) {
+  for (std::size_t i = 0; i < step.rows.size(); ++i) {
+    step.lambda[i] = 2 * step.lambda[i] - step.rows[i].impact;
+  }
+}
+
 }  // namespace
 
 /// Residuals of Eq. 4 and of the rows' excess C q̇ - d.
@@ -115,6 +122,7 @@ void StepSolver::finish(const StepInput& in, StepSolution& step) {
     centre_velocities(in.kin(), step.felt_twist, step.felt_centre_velocity);
     warm.half_before = warm.half_change;
     warm.half_change = scratch_.half_change;
+    warm.remaining = step.remaining;
     end_half(step);
     step.middle = {in.midway->moved, in.midway->felt};
     step.middle_off = (step.qdot - step.middle.moved).norm();

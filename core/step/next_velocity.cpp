@@ -1,6 +1,4 @@
 // The velocity after a step of the midpoint rule (core/README.md, "Steps in time").
-#include "core/step/next_velocity.hpp"
-
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <stdexcept>
@@ -19,12 +17,6 @@ bool pushes(const Row& row, double lambda) {
 }
 
 }  // namespace
-
-void end_half(StepSolution& step) {
-  for (std::size_t i = 0; i < step.rows.size(); ++i) {
-    step.lambda[i] = 2 * step.lambda[i] - step.rows[i].impact;
-  }
-}
 
 /// Rows that push: a force that begins or stays stops what comes, so that the step ends with the
 /// velocities that they ask for. Prescribed ones go into scratch_.held and .jumps, the others into

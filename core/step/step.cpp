@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <stdexcept>
 
@@ -11,6 +12,13 @@
 #include "core/step/step_failure.hpp"
 
 namespace hagfish {
+namespace {
+
+/// Less than this of a pass's change is never taken to remain.
+constexpr double least_remaining = 1e-3;
+constexpr double unlimited = std::numeric_limits<double>::infinity();
+
+}  // namespace
 
 void ConstraintForces::total(Eigen::VectorXd& sum) const {
   sum = of_kind[0];
@@ -52,6 +60,8 @@ void StepSolver::stop_when(std::function<bool()> asked) {
 
 Status StepSolver::begin(const StepInput& in, StepSolution& step) {
   step.unsettled = 0;
+  step.remaining = 1;
+  step.passes = 0;
   if (in.midway == nullptr) {
     return begin_here(in, step);
   }
@@ -62,21 +72,30 @@ Status StepSolver::begin(const StepInput& in, StepSolution& step) {
     midway.moved += 2 * warm.half_change - warm.half_before;
   }
   midway.felt = midway.moved;
+  step.remaining = guessed_remaining(warm.remaining);
+  double before = 0;  // what the last pass changed
   for (int pass = 1;; ++pass) {
+    step.passes = pass;
     place_midway(in.model, in.state, time.step, midway);
     if (Status status = begin_here(in, step); !status.ok()) {
       return status;
     }
     const double off = (step.qdot - midway.moved).lpNorm<Eigen::Infinity>();
-    if (off <= time.settled) {
+    if (pass > 1) {
+      // Changes fall by a share θ each: what is left is off (θ + θ² + ...) = off θ / (1 - θ).
+      step.remaining = off < before ? std::max(off / (before - off), least_remaining) : unlimited;
+    }
+    if (off == 0 || step.remaining * off <= time.settled) {
       return {};
     }
+    before = off;
     if (pass >= time.passes) {
       // Passes that do not settle may run away: the step is taken as from its own first velocity.
       midway.moved = midway.felt = in.state.qdot;
       place_midway(in.model, in.state, time.step, midway);
       const Status status = begin_here(in, step);
       step.unsettled = off;
+      step.remaining = 1;
       return status;
     }
     midway.moved = step.qdot;

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -75,6 +76,11 @@ struct ConstraintForces {
   Eigen::VectorXd total() const;
 };
 
+/// What a step takes `remaining` (StepSolution) as from the one before: the measure of a step fades
+/// towards 1 by this power, so that it is taken anew each ten steps or so (after Hairer and Wanner,
+/// Solving Ordinary Differential Equations II, IV.8).
+inline double guessed_remaining(double before) { return std::pow(before, 0.9); }
+
 struct StepSolution {
   Eigen::VectorXd base;  ///< q̇ with the reactions of prescribed rows, but no other rows, nv
   Eigen::VectorXd qdot;  ///< velocity that meets the rows and by which the step moves, nv
@@ -105,9 +111,13 @@ struct StepSolution {
   KktResiduals kkt;    ///< of the rows not prescribed, on the scale of all; the others are exact
   double qp_time = 0;  ///< s spent in the QP back end
   StepSystem system;   ///< Eq. 1 as assembled
-  /// What another pass would still change the middle's velocity by, rad/s and cm/s, where that is
-  /// more than the scene permits; else 0 (midpoint rule).
+  /// What the last pass changed the middle's velocity by, rad/s and cm/s, where that does not
+  /// settle in the passes that the scene permits; else 0 (midpoint rule).
   double unsettled = 0;
+  /// What all further passes would change, over what the last one did: as measured in this step
+  /// where it took two, else as guessed from those before; 1 where unknown (midpoint rule).
+  double remaining = 1;
+  int passes = 0;  ///< that found the step's middle; 0 by Euler's rule
   /// Length of what qdot and the velocity that placed the middle differ by, rad/s and cm/s: rows
   /// that the path shows change qdot after the middle has settled (midpoint rule; else 0).
   double middle_off = 0;

@@ -29,6 +29,7 @@ class WarmStart {
   /// the midpoint rule extrapolates them to the middle of the next step. Empty where there was
   /// none.
   Eigen::VectorXd half_change, half_before;
+  double remaining = 1;  ///< of the last step (StepSolution)
   /// The multipliers, for a checkpoint.
   template <class Archive>
   void serialize(Archive& archive) {

@@ -38,6 +38,21 @@ double mismatch(const Eigen::VectorXd& a, const Eigen::VectorXd& b, double least
   return !(a - b).allFinite() ? INFINITY : (off > 0 ? off / scale : 0);
 }
 
+/// Steps of the midpoint rule whose number of passes and `remaining` contradict each other.
+double false_passes(const LogContents& log, const std::vector<double>& remaining) {
+  constexpr double rounding = 1e-12;
+  const std::vector<std::int64_t> passes = log.h5.integers("/steps/passes");
+  double count = 0;
+  for (std::size_t k = 1; k < remaining.size(); ++k) {
+    const double guess = guessed_remaining(remaining[k - 1]);
+    const bool guessed = std::abs(remaining[k] - guess) <= rounding * guess;
+    // One that did not settle counts as unknown, 1, which is also what is guessed after such a one.
+    const bool unknown = remaining[k] == 1 && passes[k] == log.resolved.scene.time.passes;
+    count += passes[k] >= 1 && (guessed == (passes[k] == 1) || unknown) ? 0 : 1;
+  }
+  return count;
+}
+
 }  // namespace
 
 ForceAudit::ForceAudit(const LogContents& log)
@@ -58,6 +73,7 @@ ForceAudit::ForceAudit(const LogContents& log)
       contact_frame_(log.h5.integers("/contacts/frame")),
       active_(log.h5.integers("/diagnostics/active")),
       middle_off_(log.midpoint() ? log.h5.doubles("/steps/middle_off") : std::vector<double>{}),
+      remaining_(log.midpoint() ? log.h5.doubles("/steps/remaining") : std::vector<double>{}),
       steps_(log),
       contact_a_(log.h5.doubles("/contacts/spline_a")),
       contact_b_(log.h5.doubles("/contacts/spline_b")),
@@ -215,8 +231,10 @@ void ForceAudit::see_balance(const AuditedFrame& frame) {
       generalised_force(model, frame.kin, system.wrench) + system.joint + reach * sum;
   if (log_.midpoint()) {
     const Eigen::VectorXd off = frame.qdot_moved - frame.midway.moved;
-    unsettled_ += off.lpNorm<Eigen::Infinity>() <= log_.resolved.scene.time.settled ? 0 : 1;
-    from_rows_.compare("/steps/middle_off", middle_off_[steps_.at(f)], off.norm());
+    const std::size_t step = steps_.at(f);
+    const double left = remaining_[step] * off.lpNorm<Eigen::Infinity>();
+    unsettled_ += left <= log_.resolved.scene.time.settled ? 0 : 1;
+    from_rows_.compare("/steps/middle_off", middle_off_[step], off.norm());
   }
   imbalance_ =
       worse(imbalance_, mismatch(given, multiply(model, frame.kin, system.op, frame.qdot_felt)));
@@ -291,6 +309,9 @@ std::vector<Finding> ForceAudit::findings() const {
     const double share = unsettled_ / static_cast<double>(log_.q.rows());
     findings.push_back(judged_over({"middle of steps", share, unsettled_share, "of the frames"},
                                    "further from where /midway/qdot leads than time.settled"));
+    findings.push_back(
+        judged({"passes of steps", false_passes(log_, remaining_), 0, "steps"},
+               "/steps/remaining is guessed where there was one pass, and only there"));
   }
   findings.push_back(
       judged_over({"balance of means", mean_imbalance_, expect.force_balance, "of scale"},

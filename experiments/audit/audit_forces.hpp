@@ -40,7 +40,7 @@ class ForceAudit {
   std::array<Hdf5Reader::Rows, 6> mean_;  ///< thigmotaxis, contact, limit, head, wall, active
   Hdf5Reader::Rows mean_net_, mean_lambda_;
   std::vector<std::int64_t> contact_frame_, active_;
-  std::vector<double> middle_off_;  ///< of each step, by the midpoint rule
+  std::vector<double> middle_off_, remaining_;  ///< of each step, by the midpoint rule
   Steps steps_;
   Hdf5Reader::Rows asked_tip_;  ///< by a law of the run's own
   std::vector<double> asked_tip_rate_;

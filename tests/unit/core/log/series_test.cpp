@@ -108,6 +108,45 @@ TEST_F(SeriesTest, EverySaveHasAllRowsSoFar) {
   }
 }
 
+// Chunks of zeros are not written: the rows read as 0 wherever saves fall, and take no room.
+TEST_F(SeriesTest, RowsOfZerosComeBack) {
+  std::mt19937 random(2);
+  std::vector<double> expected;
+  bool zero = true;
+  for (int k = 0; k < 200; ++k) {
+    if (random() % 9 == 0) zero = !zero;
+    std::vector<double> row(600, zero ? 0.0 : k);
+    expected.push_back(row[0]);
+    dense.append(row.data(), 6);
+    sparse.append(row.data(), row.size());
+    if (random() % 5 == 0) save();
+  }
+  save();
+  save();
+  const Hdf5Reader in(file);
+  for (const char* path : {"/a/dense", "/a/b/sparse"}) {
+    const Hdf5Reader::Rows rows = in.rows(path);
+    ASSERT_EQ(rows.rows(), static_cast<Eigen::Index>(expected.size()));
+    for (Eigen::Index k = 0; k < rows.rows(); ++k) {
+      EXPECT_TRUE((rows.row(k).array() == expected[static_cast<std::size_t>(k)]).all())
+          << path << " " << k;
+    }
+  }
+}
+
+TEST_F(SeriesTest, ZerosTakeNoRoom) {
+  constexpr int rows = 7000;  // of six numbers
+  const auto size_after = [&](double value) {
+    const std::vector<double> row(6, value);
+    for (int k = 0; k < rows; ++k) dense.append(row.data(), row.size());
+    save();
+    return std::filesystem::file_size(file);
+  };
+  const auto zeros = size_after(0);
+  EXPECT_LE(zeros, rows * 6 * sizeof(double) / 2);
+  EXPECT_GE(size_after(1), zeros + rows * 6 * sizeof(double));
+}
+
 TEST_F(SeriesTest, ATwinThatIsLostIsMadeAnew) {
   for (int k = 0; k < 30; ++k) {
     append(k);

@@ -170,6 +170,46 @@ TEST(Midpoint, ConservesMomentumToSecondOrder) {
   }
 }
 
+/// The largest difference of a step's velocity from that of more passes, over time.settled, in
+/// `duration` (s) of a stress scene at 2 ms; and the passes of a step, by the rule and by as many
+/// as it takes.
+struct Settling {
+  double worst = 0;
+  double passes = 0, all_passes = 0;
+};
+Settling settling_of(const std::string& name, double duration) {
+  const ResolvedScene resolved =
+      read_scene(HAGFISH_STRESS_DIR "/" + name + ".toml",
+                 {"time.rule=midpoint", "time.step=0.002", "guard.energy_action=warn"});
+  const Model model = make_hagfish(resolved.specimen, resolved.scene);
+  Scene patient = resolved.scene;
+  patient.time.settled = 1e-9;
+  Simulation sim = start(model, resolved.scene, "active-set");
+  StepRecord record, settled;
+  Settling seen;
+  while (time_of(sim, resolved.scene) < duration) {
+    Simulation twin = sim;
+    take_step(model, patient, twin, settled);
+    take_step(model, resolved.scene, sim, record);
+    const double off = (record.solution.qdot - settled.solution.qdot).lpNorm<Eigen::Infinity>();
+    seen.worst = std::max(seen.worst, off / resolved.scene.time.settled);
+    seen.passes += record.solution.passes;
+    seen.all_passes += settled.solution.passes;
+  }
+  std::cout << "[ FIGURE   ] " << name << ": off by " << seen.worst
+            << " times time.settled; passes " << seen.passes << " of " << seen.all_passes << "\n";
+  return seen;
+}
+
+// The share of a pass's change that remains is a guess from the steps before, and good to a factor.
+TEST(Midpoint, KnowsWhatFurtherPassesWouldChange) {
+  for (const char* name : {"whip", "spinning", "coil"}) {
+    const Settling seen = settling_of(name, 1);
+    EXPECT_LE(seen.worst, 3) << name;
+    EXPECT_LE(seen.passes, 0.7 * seen.all_passes) << name;
+  }
+}
+
 // A second pass only where the first one's guess was poor; what does not settle is said.
 TEST(Midpoint, SaysWhatDoesNotSettle) {
   MidpointStage run(knotted(1, 3));
