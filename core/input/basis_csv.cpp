@@ -26,7 +26,8 @@ std::string objection(const Sample& sample, const ReducedBasisSettings& basis) {
     const bool rises = count == 0 ? sample.station == 0 : sample.station > basis.stations.back();
     return rises ? "" : "stations must rise from 0";
   }
-  if (count == 0 || sample.shape != static_cast<double>(read / count) + 1) {
+  const std::size_t shape = count == 0 ? 0 : read / count + 1;
+  if (count == 0 || sample.shape != static_cast<double>(shape)) {
     return "shapes must be 1, 2, 3, ..., each with all stations";
   }
   return sample.station == basis.stations[read % count]

@@ -52,8 +52,8 @@ TipForce script_force(const ScriptSettings& script, double time, const TimeSetti
     return {script_value(script, step.rule == TimeRule::euler ? time : time + step.reach()), 0};
   }
   const double h = step.reach();
-  const TipForce implicit{script.spring * (script_value(script, time + h) - position),
-                          h * script.spring + script.damper};
+  TipForce implicit{script.spring * (script_value(script, time + h) - position),
+                    h * script.spring + script.damper};
   const Eigen::Vector3d expected = implicit.value - implicit.rate * velocity;
   const double size = expected.norm();
   if (size <= script.largest_force) {
