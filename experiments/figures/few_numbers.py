@@ -106,6 +106,20 @@ def animals(table: SweepTable) -> list[list[str]]:
     return rows
 
 
+def free_head(table: SweepTable) -> list[list[str]]:
+    """Shares of the way by the paper's law, by how often numbers are found: 0 also where the knot is lost."""
+    scene, numbers, way = np.array([name.removesuffix("_free") for name in table.axes["scene"]]), numbers_of(table), held_way(table)
+    period = np.array(table.axes["controller.reduced_basis.period"], dtype=float)
+    rows = []
+    for count in sorted(set(numbers[numbers > 0])):
+        row = [f"{count} numbers"]
+        for one in SCENES:
+            full = np.median(way[(scene == one) & (numbers == 0)])
+            row.append(", ".join(f"{way[(scene == one) & (numbers == count) & (period == each)][0] / full:.2f}" for each in sorted(set(period))))
+        rows.append(row)
+    return rows
+
+
 def basis_torque(log: HagfishLog) -> np.ndarray:
     """u = B a at the hinges, frames x hinges, dyn cm; nan outside of the slide. Of cosines in the knot's window."""
     basis = log.scene()["controller"]["reduced_basis"]
@@ -211,6 +225,9 @@ def work(folder: Path, png: Path, page: Path) -> None:
     lines += tables.markdown(["all the way", *knots], starts(read_sweep(folder / "starts/table.csv"))
                              + animals(read_sweep(folder / "animals/table.csv")))
     lines += tables.markdown(["effort in the knot's window, each 100 ms", *knots], rows)
+    free = read_sweep(folder / "free/table.csv")
+    each = ", ".join(f"{1000 * float(value):g}" for value in sorted(set(free.axes["controller.reduced_basis.period"]), key=float))
+    lines += tables.markdown([f"free head: share of the way, each {each} ms", *knots], free_head(free))
     for name, words in {"played": "played by the knot's place", "learned": "learned shapes"}.items():
         lines += tables.markdown([f"{words}: share of the way; s", *knots], transfers(runs, name))
     tables.write_page(page, lines)

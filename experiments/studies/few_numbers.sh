@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # How few numbers slide a knot, in which frame, how often found (grids/few_numbers.toml), twenty starts of each
-# (grids/few_numbers_starts.toml), ten other animals (grids/few_numbers_animals.toml and animals.py), what they take against f_thigmo,
-# and, for each knot, numbers played by its place and shapes learned from f_thigmo, at other steps and bodies and mirrored too. Leaves
-# tables, few_numbers.png and few_numbers.md.
+# (grids/few_numbers_starts.toml), a free head (grids/few_numbers_free.toml), ten other animals (grids/few_numbers_animals.toml and
+# animals.py), what they take against f_thigmo, and, for each knot, numbers played by its place and shapes learned from f_thigmo, at
+# other steps and bodies and mirrored too. Leaves tables, few_numbers.png and few_numbers.md.
 #   bash experiments/studies/few_numbers.sh [OUTPUT_FOLDER]     default: out/few_numbers
 # Stopped, it goes on where it was; logs that are there already are not made again.
 set -euo pipefail
@@ -10,6 +10,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 "$hagfish" sweep "$grids/few_numbers.toml" --out "$out/numbers"
 "$hagfish" sweep "$grids/few_numbers_starts.toml" --out "$out/starts"
+"$hagfish" sweep "$grids/few_numbers_free.toml" --out "$out/free"
 {
   cat "$grids/few_numbers_animals.toml"
   /usr/bin/python3 "$root/experiments/studies/animals.py" 10 axis
@@ -34,7 +35,7 @@ numbers=(--set controller.law=reduced_basis --set expect.speed_share=0)
 for setting in frame=knot margin=2 smooth=0.1 period=0.1 softness=0.03 most=1e5; do numbers+=(--set "controller.reduced_basis.$setting"); done
 python() { /usr/bin/python3 "$root/experiments/curvature/$1" "${@:2}"; }
 declare -A enough=([overhand]=3 [figure_eight]=3 [double_overhand]=6 [three_twist]=3) # cosines
-declare -A modes=([overhand]=2 [figure_eight]=8 [double_overhand]=8 [three_twist]=8) # learned
+declare -A modes=([overhand]=2 [figure_eight]=6 [double_overhand]=6 [three_twist]=6) # learned
 for knot in overhand figure_eight double_overhand three_twist; do
   run_of "paper_$knot" "living_$knot"
   for cosines in 1 2 3 4 6; do
