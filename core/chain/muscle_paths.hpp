@@ -19,6 +19,9 @@ namespace hagfish {
 /// left_handed. The animal's left is -y, its back is +z.
 std::vector<Muscle> muscles_of(const Specimen& specimen, const Model& model);
 
+/// Of one joint.
+inline constexpr int most_muscles = 4;
+
 /// Muscles of one joint: [first, first + count) of Model::muscles.
 struct MuscleGroup {
   int first = 0, count = 0;

@@ -3,19 +3,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <sstream>
 
-#include "core/input/input_error.hpp"
 #include "core/input/input_text.hpp"
-
-#define CSV_IO_NO_THREAD
-#include <libfccp/csv.h>
+#include "core/input/number_csv.hpp"
 
 namespace hagfish {
 namespace {
-
-using Reader = io::CSVReader<5, io::trim_chars<' ', '\t'>, io::double_quote_escape<',', '"'>,
-                             io::throw_on_overflow, io::single_line_comment<'#'>>;
 
 /// A station may be off by what a file rounds, as a share of the length.
 constexpr double rounding = 1e-4;
@@ -33,7 +26,8 @@ std::string objection(const Sample& sample, const ReducedBasisSettings& basis) {
     const bool rises = count == 0 ? sample.station == 0 : sample.station > basis.stations.back();
     return rises ? "" : "stations must rise from 0";
   }
-  if (count == 0 || sample.shape != static_cast<double>(read / count) + 1) {
+  const std::size_t shape = count == 0 ? 0 : read / count + 1;
+  if (count == 0 || sample.shape != static_cast<double>(shape)) {
     return "shapes must be 1, 2, 3, ..., each with all stations";
   }
   return sample.station == basis.stations[read % count]
@@ -46,35 +40,19 @@ std::string objection(const Sample& sample, const ReducedBasisSettings& basis) {
 void read_basis_csv(const std::string& text, const std::string& name, double length,
                     ReducedBasisSettings& basis) {
   const bool window = basis.frame == BasisFrame::knot;
-  const auto& column = basis_columns;
-  try {
-    std::istringstream stream(text);
-    Reader reader(name, stream);
-    reader.read_header(io::ignore_extra_column, column[0],
-                       window ? window_station_column : column[1], column[2], column[3], column[4]);
-    char* field[5];
-    while (reader.read_row(field[0], field[1], field[2], field[3], field[4])) {
-      double number[5];
-      for (int i = 0; i < 5; ++i) {
-        const std::optional<double> value = finite_number(field[i]);
-        if (!value) {
-          throw_input_error(fmt::format("{}:{}: {} = {}: must be a number", name,
-                                        reader.get_file_line(), column[i], shortened(field[i])));
-        }
-        number[i] = *value;
-      }
-      const Sample sample{number[0], number[1], number[2], number[3], number[4]};
-      if (const std::string why = objection(sample, basis); !why.empty()) {
-        throw_input_error(fmt::format("{}:{}: {}", name, reader.get_file_line(), why));
-      }
-      if (sample.shape == 1) basis.stations.push_back(sample.station);
-      basis.bend_y.push_back(sample.bend_y);
-      basis.bend_z.push_back(sample.bend_z);
-      basis.twist.push_back(sample.twist);
-    }
-  } catch (const io::error::base& error) {
-    throw_input_error(name + ": " + error.what());
-  }
+  const std::array<std::string, 5> columns{basis_columns[0],
+                                           window ? window_station_column : basis_columns[1],
+                                           basis_columns[2], basis_columns[3], basis_columns[4]};
+  read_number_csv<5>(text, name, columns, [&](const std::array<double, 5>& row) {
+    const Sample sample{row[0], row[1], row[2], row[3], row[4]};
+    std::string why = objection(sample, basis);
+    if (!why.empty()) return why;
+    if (sample.shape == 1) basis.stations.push_back(sample.station);
+    basis.bend_y.push_back(sample.bend_y);
+    basis.bend_z.push_back(sample.bend_z);
+    basis.twist.push_back(sample.twist);
+    return why;
+  });
   if (basis.stations.size() < 2) throw_input_error(name + ": a basis needs two stations or more");
   if (basis.bend_y.size() % basis.stations.size() != 0) {
     throw_input_error(name + ": its last shape has not all stations");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 
 #include "core/chain/muscle_paths.hpp"
 #include "solvers/active_set.hpp"
@@ -30,10 +31,13 @@ class ActivationSolver {
              MuscleEffort& effort);
 
  private:
-  ActiveSetBoxQp solver_;
-  BoxQp qp_;
-  BoxQpSolution solution_;
-  Eigen::MatrixXd give_;  ///< R F_max of one joint, hinges x muscles
+  struct Joint {
+    ActiveSetBoxQp solver;
+    BoxQp qp;
+    BoxQpSolution solution;
+    Eigen::MatrixXd give;  ///< R F_max, hinges x muscles
+  };
+  std::array<Joint, most_muscles + 1> joints_;  ///< by the number of muscles
 };
 
 }  // namespace hagfish

@@ -13,6 +13,8 @@ namespace hagfish {
 
 /// The program's shape at `time` (s), noise and all: the hinges' angles, rad, nv, 0 at the root. A
 /// hinge takes the share of the body that it stands for (hinge_span).
+void program_shape(const Model& model, const CurvatureProgram& program, double time,
+                   Eigen::VectorXd& shape);
 Eigen::VectorXd program_shape(const Model& model, const CurvatureProgram& program, double time);
 
 /// Moves `rest` (nv, rad; empty before the first step) to what it is for the step from `time` (s),
@@ -27,11 +29,13 @@ void move_rest_shape(const Model& model, const Scene& scene, Phase phase, const 
 
 /// The torques for a step from `state`, with k_a = stiffness / hinge_span of each hinge and k its
 /// passive stiffness, which is fed forward since it pulls to straight:
-///   u = k_a (q_ref - q - h q̇) + k q_ref,
-/// linearly implicit as the passive spring is. Where this, at the velocity of `state`, is beyond
-/// the capacity, the torque is the capacity and constant within the step.
-void active_torque(const Model& model, const Scene& scene, const State& state,
-                   const Eigen::VectorXd& rest, ActiveTorque& torque);
+///   u = k_a (q_ref - q - t q̇) + k q_ref,
+/// linearly implicit as the passive spring is; t (s) is how far `ahead` the hinges are looked at.
+/// Where this, at the velocity of `state`, is beyond the capacity, the torque is the capacity and
+/// constant within the step.
+void active_torque(const Model& model, const ActiveSettings& active, const State& state,
+                   const Eigen::VectorXd& rest, double ahead, ActiveTorque& torque);
+/// Those at the step's reach, h or half of it, which the step takes.
 ActiveTorque active_torque(const Model& model, const Scene& scene, const State& state,
                            const Eigen::VectorXd& rest);
 

@@ -7,8 +7,7 @@
 #include <stdexcept>
 
 #include "core/run/controller.hpp"
-#include "core/run/muscle_law.hpp"
-#include "core/run/reduced_basis.hpp"
+#include "core/run/law_storage.hpp"
 
 namespace hagfish {
 namespace {
@@ -143,7 +142,7 @@ void knot_speed_law(const Situation& at, Eigen::VectorXd& memory, Control& contr
 }
 
 void named_law(const Situation& at, Eigen::VectorXd& memory, Control& control,
-               ReducedBasisStorage& storage) {
+               LawStorage& storage) {
   switch (at.scene.controller.law) {
     case LawName::paper:
       return paper_law(at, control);
@@ -152,9 +151,9 @@ void named_law(const Situation& at, Eigen::VectorXd& memory, Control& control,
     case LawName::knot_speed:
       return knot_speed_law(at, memory, control);
     case LawName::reduced_basis:
-      return reduced_basis_law(at, memory, control, storage);
+      return reduced_basis_law(at, memory, control, storage.reduced_basis);
     case LawName::muscles:
-      return muscle_law(at, memory, control);
+      return muscle_law(at, memory, control, storage.muscles);
     case LawName::own:
       break;
   }

@@ -22,7 +22,7 @@
 namespace hagfish {
 
 struct ControllerState;
-struct ReducedBasisStorage;
+struct LawStorage;
 
 /// What a control law sees of a run at the start of a step.
 struct Situation {
@@ -55,10 +55,8 @@ void all_contacts_law(const Situation& at, Control& control);
 /// KnotSpeedSettings (addition). `memory`: smoothed arc length of the head end, cm; scale.
 void knot_speed_law(const Situation& at, Eigen::VectorXd& memory, Control& control);
 
-/// By the law that the scene names, which is not its own. `storage` is the reduced basis's
-/// (reduced_basis.hpp).
-void named_law(const Situation& at, Eigen::VectorXd& memory, Control& control,
-               ReducedBasisStorage& storage);
+/// By the law that the scene names, which is not its own, in `storage` (law_storage.hpp).
+void named_law(const Situation& at, Eigen::VectorXd& memory, Control& control, LawStorage& storage);
 
 /// Throws std::invalid_argument in one line where `control` is none for a step of `model`: a vector
 /// of another length or with an entry at the root, a number that is not finite, a contact off the

@@ -222,7 +222,7 @@ Status follow(const Model& model, const Scene& scene, const Moment& now, double 
 }
 
 void command(const Model& model, const Scene& scene, const Moment& now, double time,
-             const ControlLaw& own, ReducedBasisStorage& storage, ControllerState& controller,
+             const ControlLaw& own, LawStorage& storage, ControllerState& controller,
              Control& control) {
   control.clamp_head = clamps_head(scene, controller.phase);
   control.tip = {};
@@ -241,14 +241,15 @@ void command(const Model& model, const Scene& scene, const Moment& now, double t
   check_control(model, control);
   controller.rest_shape = control.rest_shape;
   if (control.rest_shape.size() > 0) {
-    active_torque(model, scene, now.state, control.rest_shape, control.active);
+    active_torque(model, scene.active, now.state, control.rest_shape, scene.time.reach(),
+                  control.active);
   } else {
     control.active = {};
   }
 }
 
 Status decide(const Model& model, const Scene& scene, const Moment& now, double time,
-              ReducedBasisStorage& storage, ControllerState& controller, Control& control,
+              LawStorage& storage, ControllerState& controller, Control& control,
               const ControlLaw& own) {
   Status status = follow(model, scene, now, time, controller);
   if (status.ok()) {

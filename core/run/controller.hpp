@@ -77,12 +77,12 @@ Status follow(const Model& model, const Scene& scene, const Moment& now, double 
 /// Throws what the law does, and std::invalid_argument where the scene's law and `own` do not fit,
 /// or the control is none (check_control).
 void command(const Model& model, const Scene& scene, const Moment& now, double time,
-             const ControlLaw& own, ReducedBasisStorage& storage, ControllerState& controller,
+             const ControlLaw& own, LawStorage& storage, ControllerState& controller,
              Control& control);
 
 /// Both, one after the other.
 Status decide(const Model& model, const Scene& scene, const Moment& now, double time,
-              ReducedBasisStorage& storage, ControllerState& controller, Control& control,
+              LawStorage& storage, ControllerState& controller, Control& control,
               const ControlLaw& own = {});
 
 }  // namespace hagfish

@@ -2,54 +2,60 @@
 
 #include <cmath>
 
-#include "core/muscle/activation.hpp"
 #include "core/run/active_curvature.hpp"
 #include "core/run/controller.hpp"
 
 namespace hagfish {
 namespace {
 
-/// Torques of the hinges that the paper's law, whose control this is, takes in a step, dyn cm, nv.
-Eigen::VectorXd torques_of(const Situation& at, const Control& control) {
-  Midway midway;
-  const StepInput in{at.model,     at.scene,
-                     at.now.state, at.now.observation,
-                     control,      at.scene.time.rule == TimeRule::euler ? nullptr : &midway};
-  StepSolver solver("active-set");
-  StepSolution step;
-  if (Status status = solver.solve(in, step); !status.ok()) {
-    throw StepError(status);
-  }
-  return step.active_torque + step.force[RowKind::thigmotaxis];
-}
-
-}  // namespace
-
-void muscle_law(const Situation& at, Eigen::VectorXd& memory, Control& control) {
+/// The paper's law's control of the step from `at`, whose own rest shape is in `memory`.
+void paper_control(const Situation& at, const Eigen::VectorXd& memory, const Control& given,
+                   Eigen::VectorXd& shape_ahead, Control& control) {
   const auto& [model, scene, now, time, so_far] = at;
-  const auto count = static_cast<Eigen::Index>(model.muscles.size());
+  control.clamp_head = given.clamp_head;
+  control.tip = given.tip;
+  control.thigmotaxis.clear();
   if (memory.size() == 0) {
-    memory.setZero(model.nv() + count);
+    control.rest_shape.resize(0);
   } else {
     control.rest_shape = memory.head(model.nv());
   }
   paper_law(at, control);
-  if (control.rest_shape.size() > 0) {
-    active_torque(model, scene, now.state, control.rest_shape, control.active);
-    memory.head(model.nv()) = control.rest_shape;
+  if (control.rest_shape.size() == 0) return;
+  double ahead = scene.time.reach();
+  if (so_far.phase == Phase::form) {
+    ahead += scene.muscle.activation_time;
+    program_shape(model, scene.script.curvature, time + ahead, shape_ahead);
   }
-  MuscleEffort wanted;
-  if (so_far.phase == Phase::free) {
+  active_torque(model, scene.active, now.state,
+                so_far.phase == Phase::form ? shape_ahead : control.rest_shape, ahead,
+                control.active);
+}
+
+}  // namespace
+
+void muscle_law(const Situation& at, Eigen::VectorXd& memory, Control& control,
+                MuscleStorage& storage) {
+  const Model& model = at.model;
+  const auto count = static_cast<Eigen::Index>(model.muscles.size());
+  UntakenStep& paper = storage.paper;
+  paper_control(at, memory, control, storage.shape_ahead, paper.control);
+  control.tip = paper.control.tip;
+  if (memory.size() == 0) memory.setZero(model.nv() + count);
+  if (paper.control.rest_shape.size() > 0) memory.head(model.nv()) = paper.control.rest_shape;
+  const Kinematics& kin = at.now.observation.kin;
+  MuscleEffort& wanted = storage.wanted;
+  if (phase_order(at.so_far.phase) >= phase_order(Phase::release)) {
     wanted.activation.setZero(count);
   } else {
-    ActivationSolver().solve(model, now.observation.kin, torques_of(at, control), wanted);
+    solve_untaken(at, at.scene, paper);
+    storage.torque = paper.step.active_torque + paper.step.force[RowKind::thigmotaxis];
+    storage.activations.solve(model, kin, storage.torque, wanted);
   }
   auto activation = memory.tail(count);
-  const double kept = std::exp(-scene.time.step / scene.muscle.activation_time);
+  const double kept = std::exp(-at.scene.time.step / at.scene.muscle.activation_time);
   activation = wanted.activation + kept * (activation - wanted.activation);
-  control.rest_shape.resize(0);
-  control.thigmotaxis.clear();
-  muscle_torque(model, now.observation.kin, activation, control.torque.value);
+  muscle_torque(model, kin, activation, control.torque.value);
   control.torque.rate.setZero(model.nv());
 }
 

@@ -6,30 +6,12 @@
 #include <numbers>
 #include <string>
 
+#include "core/scene/interpolation.hpp"
+
 namespace hagfish {
 namespace {
 
 constexpr Eigen::Index head = 3;  // numbers of the memory before the amplitudes
-
-/// Where `x` lies among rising `knots`, as an index that may be broken; less than 0 or more than
-/// the last index outside.
-double place_among(const std::vector<double>& knots, double x) {
-  if (x < knots.front()) return -1;
-  if (x > knots.back()) return static_cast<double>(knots.size());
-  const auto next = std::ranges::upper_bound(knots, x);
-  if (next == knots.end()) return static_cast<double>(knots.size()) - 1;
-  const auto k = next - knots.begin() - 1;
-  return static_cast<double>(k) + (x - knots[k]) / (knots[k + 1] - knots[k]);
-}
-
-/// values[offset + stride i] at the broken index `place` <= last.
-double value_at(const std::vector<double>& values, std::size_t offset, std::size_t stride,
-                double place, std::size_t last) {
-  const auto i = std::min(static_cast<std::size_t>(place), last - 1);
-  const double share = place - static_cast<double>(i);
-  return std::fma(share, values[offset + stride * (i + 1)],
-                  (1 - share) * values[offset + stride * i]);
-}
 
 /// Of all shapes, the part about the axis of `hinge` at `x`: cm of arc, or a share of the window.
 void set_shapes(const ReducedBasisSettings& basis, const Hinge& hinge, double sign, double x,
@@ -42,13 +24,14 @@ void set_shapes(const ReducedBasisSettings& basis, const Hinge& hinge, double si
     }
     return;
   }
+  if (x < basis.stations.front() || x > basis.stations.back()) return;
   const std::size_t count = basis.stations.size();
-  const double place = place_among(basis.stations, x);
-  if (place < 0 || place > static_cast<double>(count) - 1) return;
+  const TablePlace place = place_among(basis.stations, x);
   const std::vector<double>& values =
       axis == 0 ? basis.bend_y : (axis == 1 ? basis.bend_z : basis.twist);
   for (Eigen::Index j = 0; j < shapes.size(); ++j) {
-    shapes[j] = sign * value_at(values, static_cast<std::size_t>(j) * count, 1, place, count - 1);
+    const std::size_t first = static_cast<std::size_t>(j) * count;
+    shapes[j] = sign * value_at(place, [&](std::size_t k) { return values[first + k]; });
   }
 }
 
@@ -79,23 +62,25 @@ void mean_tone_torque(const Situation& at, double steps, const Eigen::VectorXd& 
 /// The paper's step from `at`, but one period long: what bears in it is held below.
 void look_forward(const Situation& at, const Control& control, double steps,
                   ReducedBasisStorage& s) {
+  UntakenStep& ahead = s.ahead;
   s.scene = at.scene;
   s.scene.time.step = steps * at.scene.time.step;
   s.scene.time.rule = TimeRule::euler;
-  s.control = control;
+  ahead.control.clamp_head = control.clamp_head;
+  ahead.control.tip = control.tip;
+  ahead.control.thigmotaxis = control.thigmotaxis;
   if (control.rest_shape.size() > 0) {
-    mean_tone_torque(at, steps, control.rest_shape, s.control.active);
+    mean_tone_torque(at, steps, control.rest_shape, ahead.control.active);
+  } else {
+    ahead.control.active = {};
   }
-  s.solver.warm.begin();  // twice: nothing of other steps
-  s.solver.warm.begin();
-  const StepInput in{at.model, s.scene, at.now.state, at.now.observation, s.control};
-  if (const Status status = s.solver.begin(in, s.step); !status.ok()) throw StepError(status);
+  begin_untaken(at, s.scene, ahead);
 }
 
 /// Eq. 6 after that step, with the rows that bear held: gain a >= shortfall.
 void set_gain(const Situation& at, ReducedBasisStorage& s) {
-  const StepSolution& step = s.step;
-  const StepScratch& scratch = s.solver.scratch();
+  const StepSolution& step = s.ahead.step;
+  const StepScratch& scratch = s.ahead.solver.scratch();
   const Eigen::MatrixXd& A = scratch.qp.A;
   const auto row_of = [&](Eigen::Index i) -> const Row& { return step.rows[step.prescribed + i]; };
   s.held.clear();
@@ -163,12 +148,11 @@ void find_least(const ReducedBasisSettings& basis, ReducedBasisStorage& s, Eigen
 
 /// a as played at the knot's place.
 void play(const ReducedBasisSettings& basis, double head_end, Eigen::VectorXd& a) {
-  const std::size_t count = basis.places.size();
-  const double x = std::clamp(head_end, basis.places.front(), basis.places.back());
-  const double place = place_among(basis.places, x);
+  const TablePlace place = place_among(basis.places, head_end);
   const auto size = static_cast<std::size_t>(a.size());
   for (std::size_t j = 0; j < size; ++j) {
-    a[static_cast<Eigen::Index>(j)] = value_at(basis.played, j, size, place, count - 1);
+    a[static_cast<Eigen::Index>(j)] =
+        value_at(place, [&](std::size_t k) { return basis.played[size * k + j]; });
   }
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/run/controller.hpp"
+#include "core/run/untaken_step.hpp"
 #include "solvers/box_qp.hpp"
 
 namespace hagfish {
@@ -26,23 +27,13 @@ struct ReducedBasisMemory {
 void basis_shapes(const Model& model, const Scene& scene, const KnotSpan& window,
                   Eigen::MatrixXd& shapes);
 
-/// Storage of reduced_basis_law. What it holds does not matter from one step to the next, so that
-/// copies begin empty.
+/// Storage of reduced_basis_law.
 struct ReducedBasisStorage {
-  ReducedBasisStorage() = default;
-  ReducedBasisStorage(const ReducedBasisStorage& /*other*/) : ReducedBasisStorage() {}
-  ReducedBasisStorage& operator=(const ReducedBasisStorage& /*other*/) { return *this; }
-  ReducedBasisStorage(ReducedBasisStorage&&) = default;
-  ReducedBasisStorage& operator=(ReducedBasisStorage&&) = default;
-  ~ReducedBasisStorage() = default;
-
   ReducedBasisMemory memory;
   Eigen::MatrixXd shapes;
   // One long step of the period, as the model of the next moments.
   Scene scene;
-  Control control;
-  StepSolver solver{"active-set"};
-  StepSolution step;
+  UntakenStep ahead;
   // Eq. 6 after it as a function of a.
   std::vector<Eigen::Index> held, asked;  ///< rows: those that bear, those of Eq. 6
   std::vector<PrescribedVelocity> still;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/scene/interpolation.hpp"
+
 namespace hagfish {
 namespace {
 
@@ -26,17 +28,11 @@ double script_end(const ScriptSettings& script) {
 
 Eigen::Vector3d script_value(const ScriptSettings& script, double time) {
   const std::vector<ScriptKnot>& knots = script.knots;
-  if (time <= knots.front().time) {
-    return at(knots.front());
+  const auto [k, u] = place_among(knots, time, &ScriptKnot::time);
+  if (u == 0) {
+    return at(knots[k]);
   }
-  if (time >= knots.back().time) {
-    return at(knots.back());
-  }
-  const auto next = std::upper_bound(knots.begin(), knots.end(), time,
-                                     [](double t, const ScriptKnot& k) { return t < k.time; });
-  const auto k = static_cast<std::size_t>(next - knots.begin()) - 1;
   const double span = knots[k + 1].time - knots[k].time;
-  const double u = (time - knots[k].time) / span;
   if (script.kind == ScriptSettings::Kind::force) {
     return (1 - u) * at(knots[k]) + u * at(knots[k + 1]);
   }
@@ -56,8 +52,8 @@ TipForce script_force(const ScriptSettings& script, double time, const TimeSetti
     return {script_value(script, step.rule == TimeRule::euler ? time : time + step.reach()), 0};
   }
   const double h = step.reach();
-  const TipForce implicit{script.spring * (script_value(script, time + h) - position),
-                          h * script.spring + script.damper};
+  TipForce implicit{script.spring * (script_value(script, time + h) - position),
+                    h * script.spring + script.damper};
   const Eigen::Vector3d expected = implicit.value - implicit.rate * velocity;
   const double size = expected.norm();
   if (size <= script.largest_force) {

@@ -34,7 +34,7 @@ class Attempt {
     record_.step = sim_.step;
     record_.time = time_of(sim_, scene_);
     record_.warnings.clear();
-    if (Status status = decide(model_, scene_, sim_.now, record_.time, sim_.reduced_basis,
+    if (Status status = decide(model_, scene_, sim_.now, record_.time, sim_.law_storage,
                                sim_.controller, record_.control, sim_.law);
         !status.ok()) {
       return status;

@@ -8,8 +8,8 @@
 #include "core/run/controller.hpp"
 #include "core/run/energy.hpp"
 #include "core/run/guard.hpp"
+#include "core/run/law_storage.hpp"
 #include "core/run/momentum.hpp"
-#include "core/run/reduced_basis.hpp"
 
 namespace hagfish {
 
@@ -36,7 +36,7 @@ struct Simulation {
   Watch watch;
   Midway midway = {};  ///< storage
   BeforeStep before;
-  ReducedBasisStorage reduced_basis = {};  ///< storage
+  LawStorage law_storage = {};
   ControlLaw law = {};  ///< of its own, where the scene says so (control_law.hpp); else empty
 };
 

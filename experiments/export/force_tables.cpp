@@ -66,16 +66,26 @@ ExportTable muscle_table(const LogContents& log, bool si) {
                      {"s", centimetre, "arc length of the joint from the head's end at rest"},
                      {"activation", none,
                       "0 to 1, the least for the mean of u + f_thigmo since the frame before"},
-                     {"force", force, "of all its lines together"}},
+                     {"force", force, "of all its lines together"},
+                     {"shortfall", torque,
+                      "what the muscles of its joint lack of that mean, at the hinge that lacks "
+                      "most"}},
                     si);
   const Hdf5Reader::Rows activation = log.h5.rows("/muscle/activation");
+  const Hdf5Reader::Rows residual = log.h5.rows("/muscle/residual");
   const std::vector<double> most = log.h5.doubles("/model/muscle_force");
   const double length = log.model.length() / log.model.body_count();
   for (Eigen::Index f = 0; f < activation.rows(); ++f) {
     for (std::size_t m = 0; m < log.model.muscles.size(); ++m) {
       const Muscle& muscle = log.model.muscles[m];
       const double a = activation(f, static_cast<Eigen::Index>(m));
-      table.add({std::int64_t{f}, log.time[f], muscle.name, muscle.body * length, a, a * most[m]});
+      const Body& body = log.model.bodies[muscle.body];
+      const double lacks = residual.row(f)
+                               .segment(body.first_dof, body.dofs)
+                               .cwiseAbs()
+                               .maxCoeff<Eigen::PropagateNaN>();
+      table.add(
+          {std::int64_t{f}, log.time[f], muscle.name, muscle.body * length, a, a * most[m], lacks});
     }
   }
   return table;

@@ -1,21 +1,26 @@
-"""How few numbers slide each knot, in which frame, how often found. Usage: few_numbers.py TABLE.csv OUT.png OUT.md (writes a PDF
-beside). TABLE is that of experiments/studies/grids/few_numbers.toml.
+"""How few numbers slide each knot, in which frame, how often found, what they take against f_thigmo; other animals, numbers played by
+the knot's place, and learned shapes. Usage: few_numbers.py FOLDER OUT.png OUT.md (writes a PDF beside). FOLDER is what
+experiments/studies/few_numbers.sh leaves.
 """
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 import plots
 import tables
-from hagfish_log import LogError
+from hagfish_log import HagfishLog, LogError
+from means import effort_per_cm, read_means
 from script import run_script
 from sweep_columns import SweepTable, read_sweep
 
 SCENES = {"living_overhand": "3_1", "living_figure_eight": "4_1", "living_double_overhand": "5_1", "living_three_twist": "5_2"}
 FRAMES = {"knot": "in the knot's window", "body": "along the body"}
+NUMBERS = (3, 6, 9, 12, 18)
+TRANSFERS = {"": "as found", "_start": "3 degrees of noise at the start", "_step": "h = 2 ms", "_bodies": "60 bodies", "_mirror": "mirrored"}
 ENOUGH = 0.9  # of the way by the paper's law
 COLOURS = [plots.GREY, plots.BLUE, plots.ORANGE, plots.VERMILION]
 MARKERS = "osD^"
@@ -28,10 +33,9 @@ class Grid:
         axes = table.axes
         self.scene, self.frame = np.array(axes["scene"]), np.array(axes["controller.reduced_basis.frame"])
         self.period = np.array(axes["controller.reduced_basis.period"], dtype=float)
-        self.numbers = 3 * np.array(axes["controller.reduced_basis.cosines"], dtype=int)
-        self.reduced = np.array(axes["controller.law"]) == "reduced_basis"
-        held = np.array(table.texts["outcome"]) == "ok"
-        distance = np.where(held, np.nan_to_num(table.figures["slide_distance_cm"]), 0)
+        self.numbers = numbers_of(table)
+        self.reduced = self.numbers > 0
+        distance = held_way(table)
         self.share = np.full(len(distance), np.nan)
         for scene in SCENES:
             of = self.scene == scene
@@ -62,36 +66,172 @@ class Grid:
         return least or "-"
 
 
-def draw(grid: Grid, out: Path) -> None:
+def numbers_of(table: SweepTable) -> np.ndarray:
+    """Of each cell; 0 by the paper's law."""
+    reduced = np.array(table.axes["controller.law"]) == "reduced_basis"
+    return 3 * np.array(table.axes["controller.reduced_basis.cosines"], dtype=int) * reduced
+
+
+def held_way(table: SweepTable) -> np.ndarray:
+    """Way of the knot's head end, cm; 0 where the knot is lost or never tied."""
+    held = np.array(table.texts["outcome"]) == "ok"
+    return np.where(held, np.nan_to_num(table.figures["slide_distance_cm"]), 0)
+
+
+def starts(table: SweepTable) -> list[list[str]]:
+    scene, numbers, way = np.array(table.axes["scene"]), numbers_of(table), held_way(table)
+    rows = []
+    for count in sorted(set(numbers[numbers > 0])):
+        row = [f"starts that {count} numbers slide"]
+        for one in SCENES:
+            full = np.median(way[(scene == one) & (numbers == 0)])
+            ways = way[(scene == one) & (numbers == count)]
+            row.append(f"{(ways >= ENOUGH * full).sum()} of {len(ways)}")
+        rows.append(row)
+    return rows
+
+
+def animals(table: SweepTable) -> list[list[str]]:
+    """Of the animals that the paper's law slides, how many numbers slide as far, and the shares of the way."""
+    scene, numbers, way = np.array(table.axes["scene"]), numbers_of(table), held_way(table)
+    animal = np.array(table.axes["specimen.length"])
+    rows: list[list[str]] = []
+    for count in sorted(set(numbers[numbers > 0])):
+        row = [f"other animals that {count} numbers slide; share of the way: median, least"]
+        for one in SCENES:
+            full = {a: way[(scene == one) & (numbers == 0) & (animal == a)][0] for a in sorted(set(animal))}
+            shares = np.array([way[(scene == one) & (numbers == count) & (animal == a)][0] / full[a] for a in full if full[a] > 0])
+            row.append(f"{(shares >= ENOUGH).sum()} of {len(shares)}; {np.median(shares):.2f}, {shares.min():.2f}")
+        rows.append(row)
+    return rows
+
+
+def free_head(table: SweepTable) -> list[list[str]]:
+    """Shares of the way by the paper's law, by how often numbers are found: 0 also where the knot is lost."""
+    scene, numbers, way = np.array([name.removesuffix("_free") for name in table.axes["scene"]]), numbers_of(table), held_way(table)
+    period = np.array(table.axes["controller.reduced_basis.period"], dtype=float)
+    rows = []
+    for count in sorted(set(numbers[numbers > 0])):
+        row = [f"{count} numbers"]
+        for one in SCENES:
+            full = np.median(way[(scene == one) & (numbers == 0)])
+            row.append(", ".join(f"{way[(scene == one) & (numbers == count) & (period == each)][0] / full:.2f}" for each in sorted(set(period))))
+        rows.append(row)
+    return rows
+
+
+def basis_torque(log: HagfishLog) -> np.ndarray:
+    """u = B a at the hinges, frames x hinges, dyn cm; nan outside of the slide. Of cosines in the knot's window."""
+    basis = log.scene()["controller"]["reduced_basis"]
+    _, joint, kind = log.hinges()
+    arc = log.joint_arc()[joint]
+    window, numbers = log["/basis/window"], log["/basis/amplitude"]
+    first, last = window[:, :1] - basis["margin"], window[:, 1:] + basis["margin"]
+    share = (arc - first) / (last - first)
+    count = int(basis["cosines"])
+    torque = np.zeros(share.shape)
+    for axis, name in enumerate(("bend_y", "bend_z", "twist")):
+        own = kind == name
+        for j in range(count):
+            torque[:, own] += numbers[:, [axis * count + j]] * np.cos(np.pi * j * share[:, own])
+    return np.where((share >= 0) & (share <= 1), torque, 0 * window[:, :1])
+
+
+class Run:
+    """One log of the study."""
+
+    def __init__(self, path: Path) -> None:
+        log = HagfishLog(path)
+        frames = log.in_phase("slide")
+        self.ok = log.attribute("status") == "complete" and frames.size > 1
+        self.way = self.seconds = self.effort = np.nan
+        if not self.ok:
+            return
+        end, time = log["/knot/head_end"][frames], log["/trajectory/time"][frames]
+        self.way, self.seconds = float(end[0] - end[-1]), float(time[-1] - time[0])
+        means = read_means(log)
+        if path.stem.startswith("numbers_"):
+            means = replace(means, force=basis_torque(log)[means.end])
+        self.effort = effort_per_cm(log, means)
+
+
+def efforts(runs: dict[str, Run]) -> tuple[list[list[str]], dict[str, list[tuple[int, float, bool]]]]:
+    """Rows of the table; for each scene the effort over that of f_thigmo, by numbers, and whether they slide all the way."""
+    rows = [["f_thigmo of the paper's law, dyn s for each cm", *(f"{runs[f'paper_{short(s)}'].effort:.0f}" for s in SCENES)]]
+    points: dict[str, list[tuple[int, float, bool]]] = {scene: [] for scene in SCENES}
+    for count in NUMBERS:
+        row = [f"{count} numbers, over that"]
+        for scene in SCENES:
+            paper, own = runs[f"paper_{short(scene)}"], runs[f"numbers_{short(scene)}_{count}"]
+            all_the_way = own.ok and own.way >= ENOUGH * paper.way
+            row.append(f"{own.effort / paper.effort:.2f}" if all_the_way else "-")
+            if all_the_way:
+                points[scene].append((count, own.effort / paper.effort, all_the_way))
+        rows.append(row)
+    return rows, points
+
+
+def short(scene: str) -> str:
+    return scene.removeprefix("living_")
+
+
+def transfers(runs: dict[str, Run], name: str) -> list[list[str]]:
+    rows = []
+    for suffix, words in TRANSFERS.items():
+        row = [words]
+        for scene in SCENES:
+            own, paper = runs[f"{name}_{short(scene)}{suffix}"], runs[f"paper_{short(scene)}"]
+            row.append(f"{own.way / paper.way:.2f}; {own.seconds:.1f}" if own.ok else "lost")
+        rows.append(row)
+    return rows
+
+
+def draw(grid: Grid, points: dict[str, list[tuple[int, float, bool]]], out: Path) -> None:
     names = [plots.KNOTS[knot].label for knot in SCENES.values()]
-    figure, panels = plots.panels(2, 4, (11, 5), names + [""] * 4, sharex=True, sharey=True)
-    panels = np.array(panels).reshape(2, 4)
+    figure, panels = plots.panels(3, 4, (11, 7.2), names + [""] * 8, sharex=True)
+    panels = np.array(panels).reshape(3, 4)
     for row, (frame, words) in enumerate(FRAMES.items()):
         for column, scene in enumerate(SCENES):
             axes = panels[row, column]
             for colour, marker, period in zip(COLOURS, MARKERS, grid.periods()):
-                points = [(count, share) for count in grid.counts() for share in grid.shares(scene, frame, period, count)]
+                found = [(count, share) for count in grid.counts() for share in grid.shares(scene, frame, period, count)]
                 mean = [np.mean(grid.shares(scene, frame, period, count)) if len(grid.shares(scene, frame, period, count)) else np.nan
                         for count in grid.counts()]
                 axes.plot(grid.counts(), np.clip(mean, 0, None), color=colour, lw=1)
-                axes.plot(*np.clip(np.array(points).T, 0, None), marker, color=colour, ms=4, label=f"{1000 * period:g} ms")
+                axes.plot(*np.clip(np.array(found).T, 0, None), marker, color=colour, ms=4, label=f"{1000 * period:g} ms")
             axes.axhline(ENOUGH, color=plots.GREY, lw=0.8, ls="--", zorder=0)
-            axes.set_xticks(grid.counts())
-            if row == 1:
-                axes.set_xlabel("numbers")
+            axes.set_ylim(-0.05, 1.3)
         panels[row, 0].set_ylabel(f"share of the full way,\nshapes {words}")
+    most = max(value for of in points.values() for _, value, _ in of)
+    for column, scene in enumerate(SCENES):
+        axes = panels[2, column]
+        axes.plot(*np.array([point[:2] for point in points[scene]]).T, "o-", color=COLOURS[1], ms=4)
+        axes.axhline(1, color=plots.GREY, lw=0.8, ls="--", zorder=0)
+        axes.set(xlabel="numbers", xticks=grid.counts(), ylim=(0, 1.1 * max(most, 1)))
+    panels[2, 0].set_ylabel("effort for each cm,\nover that of $f_{thigmo}$")
     panels[0, 0].legend(title="found each", fontsize=7)
     plots.save(figure, out)
 
 
-def work(source: Path, png: Path, page: Path) -> None:
-    grid = Grid(read_sweep(source))
-    draw(grid, png)
-    head = ["least numbers from which on all slide", *(f"{knot}" for knot in SCENES.values())]
-    rows = [[f"{words}, each {1000 * period:g} ms", *(grid.least(scene, frame, period) for scene in SCENES)]
-            for frame, words in FRAMES.items() for period in grid.periods()]
-    tables.write_page(page, tables.markdown(head, rows))
+def work(folder: Path, png: Path, page: Path) -> None:
+    grid = Grid(read_sweep(folder / "numbers/table.csv"))
+    runs = {path.stem: Run(path) for path in sorted((folder / "runs").glob("*.h5"))}
+    rows, points = efforts(runs)
+    draw(grid, points, png)
+    knots = list(SCENES.values())
+    least = [[f"{words}, each {1000 * period:g} ms", *(grid.least(scene, frame, period) for scene in SCENES)]
+             for frame, words in FRAMES.items() for period in grid.periods()]
+    lines = ["# Few numbers", "", *tables.markdown(["least numbers from which on all slide", *knots], least)]
+    lines += tables.markdown(["all the way", *knots], starts(read_sweep(folder / "starts/table.csv"))
+                             + animals(read_sweep(folder / "animals/table.csv")))
+    lines += tables.markdown(["effort in the knot's window, each 100 ms", *knots], rows)
+    free = read_sweep(folder / "free/table.csv")
+    each = ", ".join(f"{1000 * float(value):g}" for value in sorted(set(free.axes["controller.reduced_basis.period"]), key=float))
+    lines += tables.markdown([f"free head: share of the way, each {each} ms", *knots], free_head(free))
+    for name, words in {"played": "played by the knot's place", "learned": "learned shapes"}.items():
+        lines += tables.markdown([f"{words}: share of the way; s", *knots], transfers(runs, name))
+    tables.write_page(page, lines)
 
 
 if __name__ == "__main__":
-    run_script(__doc__, ["TABLE.csv", "OUT.png", "OUT.md"], work)
+    run_script(__doc__, ["FOLDER", "OUT.png", "OUT.md"], work)

@@ -11,20 +11,15 @@
 
 #include "core/input/input_error.hpp"
 #include "core/input/input_text.hpp"
+#include "core/input/number_csv.hpp"
 #include "core/input/regular_file.hpp"
 #include "core/log/hdf5_error.hpp"
-
-#define CSV_IO_NO_THREAD
-#include <libfccp/csv.h>
 
 namespace hagfish {
 namespace {
 
 constexpr std::size_t least_points = 5;
 constexpr std::uintmax_t most_bytes = std::uintmax_t{1} << 30;
-
-using Reader = io::CSVReader<5, io::trim_chars<' ', '\t'>, io::double_quote_escape<',', '"'>,
-                             io::throw_on_overflow, io::single_line_comment<'#'>>;
 
 /// A column of lengths: its name with its unit, and cm in one of it.
 struct LengthColumn {
@@ -128,37 +123,26 @@ Film read_film(const std::string& file, double pixels_per_cm) {
   film.planar = !z;
   double longest = 0;
   std::vector<std::vector<Eigen::Vector3d>> points;
-  try {
-    std::istringstream stream(text);
-    Reader reader(file, stream);
-    reader.read_header(io::ignore_extra_column | (z ? 0 : io::ignore_missing_column), "time_s",
-                       order, x.name, y.name, z ? z->name : "z_cm");
-    const std::string names[] = {"time_s", order, x.name, y.name, z ? z->name : "z_cm"};
-    char zero[] = "0";
-    char* field[5] = {zero, zero, zero, zero, zero};
-    while (reader.read_row(field[0], field[1], field[2], field[3], field[4])) {
-      double number[5];
-      for (int i = 0; i < 5; ++i) {
-        const std::optional<double> read = finite_number(field[i]);
-        if (!read) {
-          throw_input_error(fmt::format("{}:{}: {} = {}: must be a number", file,
-                                        reader.get_file_line(), names[i], shortened(field[i])));
-        }
-        number[i] = *read;
-      }
-      if (film.frames.empty() || number[0] != film.frames.back().time) {
-        if (!film.frames.empty() && number[0] < film.frames.back().time) {
-          throw_input_error(fmt::format("{}:{}: times must rise", file, reader.get_file_line()));
-        }
-        film.frames.push_back({number[0], {}, {}});
-        points.emplace_back();
-      }
-      film.frames.back().place.push_back(number[1]);
-      points.back().emplace_back(x.cm * number[2], y.cm * number[3], z ? z->cm * number[4] : 0);
-      longest = std::max(longest, number[1]);
+  const auto take = [&](double time, double place, const Eigen::Vector3d& point) -> std::string {
+    if (film.frames.empty() || time != film.frames.back().time) {
+      if (!film.frames.empty() && time < film.frames.back().time) return "times must rise";
+      film.frames.push_back({time, {}, {}});
+      points.emplace_back();
     }
-  } catch (const io::error::base& error) {
-    throw_input_error(file + ": " + error.what());
+    film.frames.back().place.push_back(place);
+    points.back().push_back(point);
+    longest = std::max(longest, place);
+    return {};
+  };
+  if (z) {
+    read_number_csv<5>(
+        text, file, {"time_s", order, x.name, y.name, z->name}, [&](const auto& row) {
+          return take(row[0], row[1], {x.cm * row[2], y.cm * row[3], z->cm * row[4]});
+        });
+  } else {
+    read_number_csv<4>(text, file, {"time_s", order, x.name, y.name}, [&](const auto& row) {
+      return take(row[0], row[1], {x.cm * row[2], y.cm * row[3], 0});
+    });
   }
   if (film.frames.size() < 2) heading.fail("midlines of two times or more are needed");
   for (std::size_t f = 0; f < film.frames.size(); ++f) {

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/contact/spline.hpp"
+#include "core/scene/interpolation.hpp"
 
 namespace hagfish {
 namespace {
@@ -134,11 +135,9 @@ void paint(const Model& model, const Specimen& specimen, const std::vector<doubl
   for (int k = 0; k < skin.rings(); ++k) {
     const Ring ring = ring_at(k, model.body_count() - 1);
     const double place = (ring.segment + ring.t + 0.5) * own;
-    const auto next = std::ranges::lower_bound(arc, place) - arc.begin();
-    const auto b = std::min<std::ptrdiff_t>(next, std::ssize(arc) - 1);
-    const auto a = std::max<std::ptrdiff_t>(next - 1, 0);
-    const double share = a == b ? 0 : (place - arc[a]) / (arc[b] - arc[a]);
-    const double here = (1 - share) * value[a] + share * value[b];
+    const double here = value_at(place_among(arc, place), [&](std::size_t j) {
+      return value[static_cast<Eigen::Index>(j)];
+    });
     skin.colour[k] =
         shaded(colour_of(scale > 0 ? here / scale : 0), is_measured(specimen, length, place));
   }

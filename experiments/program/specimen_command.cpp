@@ -115,6 +115,17 @@ std::string toml_of(const SpecimenOptions& options, const Specimen& animal, cons
     }
     return list(own);
   };
+  const auto muscle = [&](const std::vector<double>& area) {
+    std::vector<std::string> own;
+    for (std::size_t k = 0; k < animal.station.size(); ++k) {
+      const double station = animal.station[k];
+      const double thicker =
+          animal.circumference[k] / profile(base.station, base.circumference, station);
+      own.push_back(
+          fmt::format("{:.3g}", thicker * thicker * profile(base.station, area, station)));
+    }
+    return fmt::format("[{}]", fmt::join(own, ", "));
+  };
   std::string quoted;
   for (const char c : animal.name)
     quoted += c == '"' || c == '\\' ? std::string{'\\', c} : std::string{c};
@@ -133,11 +144,22 @@ std::string toml_of(const SpecimenOptions& options, const Specimen& animal, cons
       "bending_stiffness = {}  # EI, dyn cm^2\n"
       "bending_damping = {}  # dyn cm^2 s\n"
       "twist_stiffness = {}  # GJ, dyn cm^2\n"
-      "twist_damping = {}  # dyn cm^2 s\n",
+      "twist_damping = {}  # dyn cm^2 s\n\n"
+      "# Guess: those of the {}, areas by the square of the diameter at each station, depth by "
+      "the\n"
+      "# radius.\n"
+      "[muscle]\n"
+      "longitudinal_area = {}  # cm^2 on each of four sides\n"
+      "oblique_area = {}  # cm^2 of each hand\n"
+      "stress = {}  # dyn cm^-2, largest\n"
+      "radius_share = {}  # of the radius of the skin\n"
+      "oblique_angle_deg = {:.6g}  # to the body's axis\n",
       quoted, animal.length, animal.mass, list(animal.station), list(animal.circumference),
       list(options.bending), options.twist, animal.bending_span, paper_bodies, base.name,
       scaled(base.bending_stiffness), scaled(base.bending_damping), scaled(base.twist_stiffness),
-      scaled(base.twist_damping));
+      scaled(base.twist_damping), base.name, muscle(base.muscle.longitudinal_area),
+      muscle(base.muscle.oblique_area), base.muscle.stress, base.muscle.radius_share,
+      base.muscle.oblique_angle / degree);
 }
 
 int specimen(const SpecimenOptions& options) {

@@ -1,4 +1,6 @@
-"""Settings of other animals, drawn at random: a line each, `--set KEY=VALUE ...`. Usage: animals.py COUNT
+"""Settings of other animals, drawn at random: a line each, `--set KEY=VALUE ...`, or all as an axis of `hagfish sweep`.
+
+Usage: animals.py COUNT [axis]
 
 The Pacific hagfish of data/specimens is made 25 to 60 cm long, each circumference and bending limit and the twisting limit are
 changed by up to 20 %, and it has 60 to 200 bodies. Mass goes with volume. Muscles and passive stiffness go with the fourth
@@ -47,10 +49,16 @@ def settings(seed: int) -> dict[str, object]:
     } | {f"specimen.passive.{key}": [value * thicker**4 for value in values] for key, values in own["passive"].items()}
 
 
-def main(count: int) -> None:
-    for animal in range(count):
-        print(*(f"--set {key}={str(value).replace(' ', '')}" for key, value in settings(FIRST_SEED + animal).items()))
+def main(count: int, axis: bool) -> None:
+    animals = [settings(FIRST_SEED + animal) for animal in range(count)]
+    if axis:
+        print("[[axis]]")
+        for key in animals[0]:
+            print(f'"{key}" = {[animal[key] for animal in animals]}')
+        return
+    for animal in animals:
+        print(*(f"--set {key}={str(value).replace(' ', '')}" for key, value in animal.items()))
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]))
+    main(int(sys.argv[1]), sys.argv[2:] == ["axis"])

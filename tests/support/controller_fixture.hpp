@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/run/reduced_basis.hpp"
+#include "core/run/law_storage.hpp"
 #include "core/step/outcome.hpp"
 #include "tests/support/random_chain.hpp"
 
@@ -34,7 +34,7 @@ class ControllerTest : public testing::Test {
   Scene scene = table1_scene();
   Model model = table1_hagfish();
   ControllerState state;
-  ReducedBasisStorage storage;
+  LawStorage storage;
   Moment moment;
   Observation& observation = moment.observation;
   double now = 0;

@@ -100,6 +100,17 @@ INSTANTIATE_TEST_SUITE_P(BuiltIn, KnotScenes,
                                          "living_three_twist_free"),
                          scene_name);
 
+/// What muscles that lag behind a stiff spring do must not hang on the step's own damping.
+TEST(KnotScenesByActivations, TieHoldSlideAndComeOffAtAnyStep) {
+  for (const char* step : {"0.005", "0.002"}) {
+    SCOPED_TRACE(step);
+    expect_whole(
+        scene_called("living_figure_eight",
+                     {"muscle.present=true", "controller.law=muscles", "muscle.activation_time=0.1",
+                      "expect.speed_share=0", std::string("time.step=") + step}));
+  }
+}
+
 TEST(KnotScenesByTheMidpointRule, TieHoldSlideAndComeOff) {
   for (const char* scene :
        {"table1", "figure_eight", "living_overhand_free", "living_three_twist"}) {

@@ -65,5 +65,53 @@ TEST_F(MuscleLaw, FollowsWhatThePaperAsksForByItsDynamicsAlone) {
   EXPECT_LE(later.maxCoeff(), 1);
 }
 
+/// While the knot forms: what the spring towards the program will be when the muscles answer.
+TEST_F(MuscleLaw, AsksAheadOfItsLagWhileTheKnotForms) {
+  constexpr double lag = 0.1, turn = 3;  // s; of the whole body at 1 s, rad
+  scene.script.kind = ScriptSettings::Kind::curvature;
+  scene.script.curvature = {
+      {0, 1}, {0, 1}, {Eigen::Matrix3Xd::Zero(3, 2), Eigen::Matrix3Xd::Constant(3, 2, turn)}, {}};
+  scene.active = {500, 0.01, 1, 1e9};
+  scene.start.phase = Phase::form;
+  State state = sim.now.state;  // bent, and moving
+  sim = start_from(model, scene, "active-set", state, {}, 100);
+  Scene own = scene;
+  own.controller.law = LawName::own;
+  Simulation other = sim;
+  other.law = [&](const Situation& at, Eigen::VectorXd& /*memory*/, Control& control) {
+    control.torque.value.setZero(model.nv());
+    control.torque.rate.setZero(model.nv());
+    const double ahead = scene.time.step + lag;
+    for (int k = root_dofs; k < model.nv(); ++k) {
+      const Hinge& hinge = model.hinges[k - root_dofs];
+      const double span =
+          hinge_span(model.body_count(), model.bodies[hinge.body].length, hinge.body);
+      const double shape = (at.time + ahead) * turn * span / model.length();
+      const double stiffness = scene.active.stiffness / span;
+      control.torque.value[k] = stiffness * (shape - state.q[k + 1]) + hinge.stiffness * shape;
+      control.torque.rate[k] = stiffness * ahead;
+    }
+  };
+  const StepRecord asked = take_step(model, own, other);
+  MuscleEffort wanted;
+  ActivationSolver().solve(model, sim.now.observation.kin, asked.solution.active_torque, wanted);
+  const StepRecord record = take_step(model, scene, sim);
+  const double gone = 1 - std::exp(-scene.time.step / lag);
+  EXPECT_NEAR((activations_in(model, record.controller.memory) - gone * wanted.activation)
+                  .lpNorm<Eigen::Infinity>(),
+              0, 1e-7 * gone * wanted.activation.maxCoeff());
+}
+
+TEST_F(MuscleLaw, ExcitesNothingFromReleaseOn) {
+  for (int k = 0; k < 20; ++k) take_step(model, scene, sim);
+  const Eigen::VectorXd before = activations_in(model, sim.controller.memory);
+  ASSERT_GT(before.maxCoeff(), 1e-4);
+  sim.controller.phase = Phase::release;
+  take_step(model, scene, sim);
+  const Eigen::VectorXd after = std::exp(-scene.time.step / 0.1) * before;
+  EXPECT_LE((activations_in(model, sim.controller.memory) - after).lpNorm<Eigen::Infinity>(),
+            1e-15);
+}
+
 }  // namespace
 }  // namespace hagfish

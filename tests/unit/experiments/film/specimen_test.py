@@ -13,6 +13,8 @@ import pytest
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).parents[3] / "support"))
 
+DATA = Path(__file__).parents[4] / "data"
+
 from program import hagfish, refused, table  # noqa: E402
 
 ANIMAL = ["--length", 35, "--mass", 45, "--circumference", "4.6,4.4,4.4,3.2", "--bending", "25,80,50,55", "--twist", 60]
@@ -31,6 +33,14 @@ def test_it_writes_what_was_measured_and_works_out_the_rest(tmp_path):
     around = np.interp(s, mine["station"], mine["circumference"])
     assert f"{45 / np.mean(around ** 2 / (4 * np.pi) * 35):.3g} g/cm^3" in said
     assert "plausible" in said and "ODD" not in said
+    # Muscles: those of the specimen file by the cross-section, where they were measured; the rest as it is.
+    with (DATA / "specimens/pacific_hagfish.toml").open("rb") as file:
+        other = tomllib.load(file)
+    share = (np.array(mine["circumference"]) / other["circumference"]) ** 2
+    for area in ("longitudinal_area", "oblique_area"):
+        assert mine["muscle"][area] == pytest.approx(share * other["muscle"][area], rel=5e-3)  # three digits
+    for key in ("stress", "radius_share", "oblique_angle_deg"):
+        assert mine["muscle"][key] == pytest.approx(other["muscle"][key])
 
 
 def test_what_is_odd_is_said(tmp_path):
@@ -60,3 +70,11 @@ def test_its_scene_ties_the_knot_and_judges_by_its_size(tmp_path):
     hagfish(tmp_path, "export", "a.h5", "--out", "a")
     summary = table(tmp_path / "a/summary.csv")
     assert summary["specimen"][0] == "mine" and summary["length_cm"][0] == 35
+
+
+def test_it_has_muscles(tmp_path):
+    hagfish(tmp_path, "specimen", *ANIMAL, "--out", "mine.toml", "--scene-out", "knot.toml")
+    hagfish(tmp_path, "run", "knot.toml", "--set", "muscle.present=true", "--quiet", "--out", "a.h5")
+    activation = h5py.File(tmp_path / "a.h5")["muscle/activation"][1:]
+    assert 0.1 < activation.max() <= 1
+    hagfish(tmp_path, "check", "a.h5")

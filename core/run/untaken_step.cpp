@@ -1,0 +1,31 @@
+#include "core/run/untaken_step.hpp"
+
+namespace hagfish {
+namespace {
+
+StepInput input_of(const Situation& at, const Scene& scene, UntakenStep& untaken) {
+  return {at.model,        scene,
+          at.now.state,    at.now.observation,
+          untaken.control, scene.time.rule == TimeRule::euler ? nullptr : &untaken.midway};
+}
+
+}  // namespace
+
+void begin_untaken(const Situation& at, const Scene& scene, UntakenStep& untaken) {
+  WarmStart& warm = untaken.solver.warm;
+  warm.begin();  // twice: nothing of other steps
+  warm.begin();
+  warm.half_change.resize(0);
+  warm.half_before.resize(0);
+  if (const Status status = untaken.solver.begin(input_of(at, scene, untaken), untaken.step);
+      !status.ok()) {
+    throw StepError(status);
+  }
+}
+
+void solve_untaken(const Situation& at, const Scene& scene, UntakenStep& untaken) {
+  begin_untaken(at, scene, untaken);
+  untaken.solver.finish(input_of(at, scene, untaken), untaken.step);
+}
+
+}  // namespace hagfish

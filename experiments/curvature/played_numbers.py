@@ -1,0 +1,60 @@
+"""The numbers by which a knot was slid in a run (controller.law = "reduced_basis"), as a profile of the knot's place: their means
+about PLACES (8) places along the way. Usage: played_numbers.py LOG.h5 OUT.toml [PLACES] --base SCENE
+
+OUT is a scene, based on SCENE, a built-in one or a file beside OUT, with `controller.reduced_basis.places` and `played`.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "figures"))
+from hagfish_log import LogError, dataset_of, open_hdf5, values_of  # noqa: E402
+
+
+def numbers_in_slide(log: h5py.File) -> tuple[np.ndarray, np.ndarray]:
+    """Of the frames of the slide the head end of the window (cm) and the numbers (dyn cm)."""
+    if "basis" not in log:
+        raise LogError(f"{log.filename}: no numbers slide its knot")
+    place = values_of(dataset_of(log, "/basis/window"))[:, 0]
+    numbers = values_of(dataset_of(log, "/basis/amplitude"))
+    known = np.isfinite(place) & np.isfinite(numbers).all(axis=1)
+    if known.sum() < 2:
+        raise LogError(f"{log.filename}: the knot never slides")
+    return place[known], numbers[known]
+
+
+def profile(place: np.ndarray, numbers: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Places evenly along the way, and at each the mean of the numbers of the frames that lie nearest to it; where there are
+    none, as where the knot hops, the line between its neighbours."""
+    places = np.linspace(place.min(), place.max(), count)
+    nearest = np.abs(place[:, None] - places).argmin(axis=1)
+    filled = np.unique(nearest)
+    means = np.stack([numbers[nearest == k].mean(axis=0) for k in filled])
+    return places, np.stack([np.interp(places, places[filled], column) for column in means.T], axis=1)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("log", type=Path)
+    parser.add_argument("out", type=Path)
+    parser.add_argument("places", type=int, nargs="?", default=8)
+    parser.add_argument("--base", required=True)
+    of = parser.parse_args()
+    try:
+        with open_hdf5(of.log) as log:
+            places, played = profile(*numbers_in_slide(log), of.places)
+    except LogError as error:
+        parser.error(str(error))
+    rows = "\n".join("  " + ", ".join(f"{a:.0f}.0" for a in row) + "," for row in played)
+    of.out.write_text(f'base = "{of.base}"\n\n[controller.reduced_basis]\nplaces = [{", ".join(f"{x:.3f}" for x in places)}]  # cm of arc\n'
+                      f"played = [  # dyn cm\n{rows}\n]\n", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,72 @@
+"""What the study of few numbers reads from logs: the torques of the numbers, and profiles of them by the knot's place."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+ROOT = Path(__file__).parents[4]
+sys.dont_write_bytecode = True
+sys.path[:0] = [str(ROOT / "tests/support"), str(ROOT / "experiments/figures"), str(ROOT / "experiments/curvature")]
+
+from few_numbers import basis_torque  # noqa: E402
+from hagfish_log import HagfishLog  # noqa: E402
+from played_numbers import profile  # noqa: E402
+from program import hagfish  # noqa: E402
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("few")
+    hagfish(folder, "run", "few_numbers", "--set", "time.duration=14.5", "--quiet", "--out", "a.h5")
+    return folder
+
+
+def test_torques_of_the_numbers_are_what_the_run_took_beside_tone(folder):
+    log = HagfishLog(folder / "a.h5")
+    hinges, joint, kind = log.hinges()
+    n, length = len(log["/model/length"]), log["/model/length"][0]
+    span = np.array([((n if j + 2 >= n else j + 1) - (0 if j <= 2 else j - 1)) * length for j in joint])
+    scene = log.scene()
+    passive = scene["specimen"]["passive"]  # the same at all stations
+    stiffness = np.where(kind == "twist", passive["twist_stiffness"][0], passive["bending_stiffness"][0]) / span
+    rest, q = log["/trajectory/q_ref"][:, hinges], log["/trajectory/q"][:, 7:]
+    after = q + scene["time"]["step"] * log["/trajectory/qdot_next"][:, hinges]
+    tone = scene["active"]["stiffness"] / span * (rest - after) + stiffness * rest
+    frames = log.in_phase("slide")
+    assert frames.size > 20
+    wanted = (log["/forces/active"][:, hinges] - tone)[frames]
+    assert np.abs(wanted).max() > 100
+    np.testing.assert_allclose(basis_torque(log)[frames], wanted, rtol=0, atol=1e-9 * np.abs(log["/forces/active"]).max())
+
+
+def test_a_profile_is_of_means_by_place():
+    place = np.array([10.0, 9.9, 6.1, 6.0, 2.0])  # hops over 8 and 4
+    places, numbers = profile(place, np.array([[1.0, 0], [3, 0], [5, 1], [7, 1], [8, 4]]), 5)
+    np.testing.assert_allclose(places, [2, 4, 6, 8, 10])
+    np.testing.assert_allclose(numbers, [[8, 4], [7, 2.5], [6, 1], [4, 0.5], [2, 0]])
+
+
+def test_a_profile_is_a_scene_that_plays_it(folder):
+    script = [sys.executable, str(ROOT / "experiments/curvature/played_numbers.py")]
+    subprocess.run([*script, "a.h5", "b.toml", "4", "--base", "few_numbers"], cwd=folder, check=True)
+    hagfish(folder, "run", "b.toml", "--set", "time.duration=13.5", "--quiet", "--out", "b.h5")
+    basis = tomllib.loads((folder / "b.toml").read_text())["controller"]["reduced_basis"]
+    log = HagfishLog(folder / "b.h5")
+    frame = log.in_phase("slide")[10]
+    played = np.reshape(basis["played"], (4, 9))
+    now = np.array([np.interp(log["/basis/window"][frame, 0], basis["places"], column) for column in played.T])
+    np.testing.assert_allclose(log["/basis/amplitude"][frame], now, rtol=1e-9)
+
+
+def test_a_log_without_numbers_is_one_line(folder):
+    hagfish(folder, "run", "table1", "--set", "time.step=0.02", "--set", "time.duration=0.2", "--quiet", "--out", "c.h5")
+    script = [sys.executable, str(ROOT / "experiments/curvature/played_numbers.py")]
+    done = subprocess.run([*script, "c.h5", "c.toml", "--base", "table1"], cwd=folder, capture_output=True, text=True)
+    assert done.returncode == 2 and "c.h5: no numbers slide its knot" in done.stderr
+    assert not (folder / "c.toml").exists()
