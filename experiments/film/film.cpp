@@ -22,6 +22,8 @@ namespace {
 
 constexpr std::size_t least_points = 5;
 constexpr std::uintmax_t most_bytes = std::uintmax_t{1} << 30;
+/// Of a film, s or cm, and the least length of its animal, cm: what is fitted squares their ratio.
+constexpr double largest_number = 1e9, least_length = 1e-9;
 
 using Reader = io::CSVReader<5, io::trim_chars<' ', '\t'>, io::double_quote_escape<',', '"'>,
                              io::throw_on_overflow, io::single_line_comment<'#'>>;
@@ -134,17 +136,19 @@ Film read_film(const std::string& file, double pixels_per_cm) {
     reader.read_header(io::ignore_extra_column | (z ? 0 : io::ignore_missing_column), "time_s",
                        order, x.name, y.name, z ? z->name : "z_cm");
     const std::string names[] = {"time_s", order, x.name, y.name, z ? z->name : "z_cm"};
+    const double units[] = {1, arc ? arc->cm : 1, x.cm, y.cm, z ? z->cm : 1};
     char zero[] = "0";
     char* field[5] = {zero, zero, zero, zero, zero};
     while (reader.read_row(field[0], field[1], field[2], field[3], field[4])) {
       double number[5];
       for (int i = 0; i < 5; ++i) {
         const std::optional<double> read = finite_number(field[i]);
-        if (!read) {
-          throw_input_error(fmt::format("{}:{}: {} = {}: must be a number", file,
-                                        reader.get_file_line(), names[i], shortened(field[i])));
+        number[i] = units[i] * read.value_or(NAN);
+        if (!(std::abs(number[i]) <= largest_number)) {
+          throw_input_error(fmt::format("{}:{}: {} = {}: must be a number, of at most {:g} s or cm",
+                                        file, reader.get_file_line(), names[i], shortened(field[i]),
+                                        largest_number));
         }
-        number[i] = *read;
       }
       if (film.frames.empty() || number[0] != film.frames.back().time) {
         if (!film.frames.empty() && number[0] < film.frames.back().time) {
@@ -154,7 +158,7 @@ Film read_film(const std::string& file, double pixels_per_cm) {
         points.emplace_back();
       }
       film.frames.back().place.push_back(number[1]);
-      points.back().emplace_back(x.cm * number[2], y.cm * number[3], z ? z->cm * number[4] : 0);
+      points.back().emplace_back(number[2], number[3], number[4]);
       longest = std::max(longest, number[1]);
     }
   } catch (const io::error::base& error) {
@@ -168,11 +172,12 @@ Film read_film(const std::string& file, double pixels_per_cm) {
       frame.point.col(static_cast<Eigen::Index>(k)) = points[f][k];
     }
     const double way = place_points(heading, arc.has_value(), frame);
-    film.length = std::max(film.length, arc ? arc->cm * longest : way);
+    film.length = std::max(film.length, arc ? longest : way);
     if (!arc) continue;
     if (frame.place[0] < 0) heading.fail(arc->name + " is below 0");
     for (double& place : frame.place) place /= longest;
   }
+  if (film.length < least_length) heading.fail(fmt::format("an animal {:g} cm long", film.length));
   return film;
 }
 
