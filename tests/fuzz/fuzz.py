@@ -24,8 +24,8 @@ NAMED_SHARE = 0.4  # of the time at most, for the named cases
 WHOLE = {"log flip": 60}  # one in so many flips goes through all quick commands, the others through one each
 SLOW = {"log flip": 150}  # commands that draw, compare or start others take part in one of so many cases;
 SLOW_OF_OTHERS = 10  # of other kinds
-REPORT = 500  # cases between lines that say how far it is
-PATIENCE = {"figures": 60}  # s: they start the program and Python themselves
+REPORT = 60  # s between lines that say how far it is
+PATIENCE = {"figures": 60, "integrate": 60}  # s: Python and the program again; a study of CPU times
 KINDS = ["log flip", "qp flip", "log change", "qp change", "toml", "grid", "csv", "film", "scene", "options"]
 BASES = {
     "rest.h5": ["run", "muscles", "--qp", "active-set", "--quiet", *commands.SMALL, *commands.SHORT],
@@ -73,7 +73,7 @@ class Server:
         environment["ASAN_OPTIONS"] = "detect_leaks=0:allocator_may_return_null=1:max_allocation_size_mb=8000"
         environment["UBSAN_OPTIONS"] = "halt_on_error=1:print_stacktrace=1"
         self.process = subprocess.Popen(
-            [program], stdin=subprocess.PIPE, stdout=subprocess.PIPE, cwd=folder, env=environment, text=True
+            [program], stdin=subprocess.PIPE, stdout=subprocess.PIPE, cwd=folder, env=environment, encoding="utf-8", errors="surrogateescape"
         )
 
     def run(self, arguments, seconds=LATE):
@@ -220,9 +220,9 @@ class Worker:
     def take(self, kind, name, file, cut=()):
         """Whether the first command accepted the case."""
         accepted = None
-        kept = file
-        if (self.folder / file).exists():
-            kept = self.keep / f"{name}{pathlib.Path(file).suffix}"
+        # As they are now: to go on with a log changes it.
+        inputs = {path.name.replace("case", name, 1): path.read_bytes() for path in self.folder.glob("case*") if path.is_file()}
+        kept = self.keep / f"{name}{pathlib.Path(file).suffix}" if file.startswith("case") else file
         for arguments in self.commands_for(kind, file, cut):
             shutil.rmtree(self.folder / "sweep", ignore_errors=True)
             begin = time.monotonic()
@@ -234,13 +234,11 @@ class Worker:
             found = fault(status, *told) or self.left_behind(status)
             if found:
                 shown = " ".join(shlex.quote(a if a != file else str(kept)) for a in arguments)
-                self.faults.append(f"{name}: {found}\n    hagfish {shown}")
+                self.faults.append(f"{name}: {found}\n    hagfish {shown}".encode("utf-8", "backslashreplace").decode())
                 print(self.faults[-1], flush=True)
-                if kept != file:
-                    self.keep.mkdir(parents=True, exist_ok=True)
-                    for part in self.folder.glob("case*"):
-                        if part.is_file():
-                            shutil.copyfile(part, kept.with_name(part.name.replace("case", name, 1)))
+                self.keep.mkdir(parents=True, exist_ok=True)
+                for kept_as, data in inputs.items():
+                    (self.keep / kept_as).write_bytes(data)
         self.cases[kind if kind in self.cases else "named"] += 1
         return accepted
 
@@ -291,7 +289,7 @@ def work(number, options, folder, bases, texts, results):
         "film": 0.1 * options.changes, "scene": options.scenes, "options": options.options,
     }  # fmt: skip
     wanted = {kind: int(np.ceil(count / options.jobs)) for kind, count in wanted.items()}
-    tries = 0
+    tries, told = 0, begin
     while time.monotonic() < end:
         # The kind that is furthest behind, so that a short run has some of each.
         left = {kind: 1 - worker.cases[kind] / count for kind, count in wanted.items() if worker.cases[kind] < count}
@@ -299,8 +297,9 @@ def work(number, options, folder, bases, texts, results):
             break
         worker.one(max(left, key=left.get), tries)
         tries += 1
-        if tries % REPORT == 0:
-            print(f"{time.monotonic() - begin:.0f} s: {sum(worker.seen.values())} commands, {worker.cases}", flush=True)
+        if time.monotonic() > told + REPORT:
+            told = time.monotonic()
+            print(f"{told - begin:.0f} s: {sum(worker.seen.values())} commands, {worker.cases}", flush=True)
     results.put((worker.cases, worker.seen, worker.longest, worker.faults))
 
 
