@@ -135,7 +135,9 @@ def extreme_options(known, random):
     for _ in range(int(random.integers(1, 4))):
         option = str(random.choice(known[name])) if known[name] else None
         if option is None or random.random() < 0.1:
-            arguments.append(str(random.choice(["--no-such", "-", "--", "x\x1b[31m", "", "-1", "--help=1"])))
+            # No words beside: of several logs, each has its line.
+            words = ["--no-such", "--", "--help=1", "-x", "--\x1b[31m"]
+            arguments.append(str(random.choice(words if name in ("info", "check") else [*words, "-", "x\x1b[31m", "", "-1"])))
             continue
         writes = option in ("--out", "--csv", "--png", "--scene-out")
         value = str(random.choice(OUT if writes else VALUES))
