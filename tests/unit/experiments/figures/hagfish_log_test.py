@@ -69,7 +69,7 @@ def test_a_damaged_log_is_one_line(log, what, by):
     assert "\n" not in str(told.value) and path.name in str(told.value)
 
 
-@pytest.mark.parametrize("name", ["trajectory/q", "trajectory/time", "model/dof_name", "trajectory/phase"])
+@pytest.mark.parametrize("name", ["knot/head_end", "trajectory/time", "model/dof_name", "trajectory/phase"])
 def test_a_damaged_dataset_is_one_line(log, name):
     path = log().path
     with h5py.File(path) as file:
