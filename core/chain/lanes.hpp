@@ -20,11 +20,18 @@ using LaneMask = std::int64_t __attribute__((vector_size(lane_count * sizeof(dou
 /// One number for each lane, to be set one by one: faster than lanes themselves.
 using LaneValues = std::array<double, lane_count>;
 
-inline Lanes lanes_of(const LaneValues& values) {
-  Lanes lanes;
-  std::memcpy(&lanes, values.data(), sizeof lanes);
-  return lanes;
+namespace detail {
+/// The same bytes as another type.
+template <class To, class From>
+To bits_as(const From& from) {
+  static_assert(sizeof(To) == sizeof(From));
+  To to;
+  std::memcpy(static_cast<void*>(&to), &from, sizeof to);
+  return to;
 }
+}  // namespace detail
+
+inline Lanes lanes_of(const LaneValues& values) { return detail::bits_as<Lanes>(values); }
 /// The same number in all lanes.
 inline Lanes lanes_of(double value) { return Lanes{} + value; }
 
@@ -36,9 +43,7 @@ using FloatLaneMask = std::int32_t __attribute__((vector_size(float_lane_count *
 using FloatLaneValues = std::array<float, float_lane_count>;
 
 inline FloatLanes lanes_of(const FloatLaneValues& values) {
-  FloatLanes lanes;
-  std::memcpy(&lanes, values.data(), sizeof lanes);
-  return lanes;
+  return detail::bits_as<FloatLanes>(values);
 }
 
 inline bool any(const LaneMask& mask) {
@@ -56,20 +61,12 @@ inline Lanes magnitude(const Lanes& x) { return largest(x, -x); }
 
 /// To rounding; 0 below the smallest normal number.
 inline Lanes root(const Lanes& x) {
-  Eigen::Array<double, lane_count, 1> values;
-  std::memcpy(values.data(), &x, sizeof x);
-  values = values.sqrt().eval();
-  Lanes result;
-  std::memcpy(&result, values.data(), sizeof x);
-  return result;
+  using Values = Eigen::Array<double, lane_count, 1>;
+  return detail::bits_as<Lanes>(Values(detail::bits_as<Values>(x).sqrt()));
 }
 inline FloatLanes root(const FloatLanes& x) {
-  Eigen::Array<float, float_lane_count, 1> values;
-  std::memcpy(values.data(), &x, sizeof x);
-  values = values.sqrt().eval();
-  FloatLanes result;
-  std::memcpy(&result, values.data(), sizeof x);
-  return result;
+  using Values = Eigen::Array<float, float_lane_count, 1>;
+  return detail::bits_as<FloatLanes>(Values(detail::bits_as<Values>(x).sqrt()));
 }
 
 /// A vector of space in each lane.

@@ -88,7 +88,6 @@ herr_t copy_member(hid_t from, const char* name, const H5L_info_t* link, void* d
 
 /// Writes the image of the open file `h5` to `descriptor`. False where there is no room.
 bool write_image(hid_t h5, int descriptor) {
-  H5Fflush(h5, H5F_SCOPE_LOCAL);
   const ssize_t size = H5Fget_file_image(h5, nullptr, 0);
   std::vector<char> image(std::max<ssize_t>(size, 0));
   bool whole = size > 0 && H5Fget_file_image(h5, image.data(), image.size()) == size;
@@ -111,6 +110,7 @@ bool write_image(hid_t h5, int descriptor) {
     const hid_t to = H5Fcreate("copy", H5F_ACC_TRUNC, H5P_DEFAULT, in_memory);
     const hid_t root = H5Gopen2(from, "/", H5P_DEFAULT), root_copy = H5Gopen2(to, "/", H5P_DEFAULT);
     copy_members(root, {root_copy, 0});
+    H5Fflush(to, H5F_SCOPE_LOCAL);
     ::_exit(write_image(to, descriptor) ? copied : no_room);
   } catch (const std::exception&) {
     ::_exit(no_room);
@@ -206,6 +206,17 @@ H5::H5File open_hdf5_copy(const std::filesystem::path& path) {
   return guarded(file, "read as HDF5", [&] {
     return H5::H5File(name, H5F_ACC_RDONLY, H5::FileCreatPropList::DEFAULT, in_memory);
   });
+}
+
+void save_hdf5(const H5::H5File& copy, const std::filesystem::path& file) {
+  const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  const bool whole = descriptor >= 0 && write_image(copy.getId(), descriptor);
+  const int error = errno;
+  if (descriptor >= 0) ::close(descriptor);
+  if (!whole) {
+    ::unlink(file.c_str());
+    throw FileError(file.string() + ": cannot be written: " + std::strerror(error));
+  }
 }
 
 }  // namespace hagfish

@@ -16,4 +16,7 @@ namespace hagfish {
 /// no room, or where the file is not HDF5.
 H5::H5File open_hdf5_copy(const std::filesystem::path& file);
 
+/// Writes such a copy to `file`. Throws FileError, and leaves none, where that fails.
+void save_hdf5(const H5::H5File& copy, const std::filesystem::path& file);
+
 }  // namespace hagfish

@@ -89,6 +89,8 @@ Hdf5Reader::Hdf5Reader(const std::filesystem::path& file, Origin origin) : file_
   }
 }
 
+void Hdf5Reader::write_to(const std::filesystem::path& file) const { save_hdf5(h5_, file); }
+
 H5::DataSet Hdf5Reader::open(const std::string& path) const {
   if (!has(path)) {
     throw FileError(file_ + ": has no " + path);

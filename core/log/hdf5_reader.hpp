@@ -55,6 +55,8 @@ class Hdf5Reader {
   /// Throws FileError where there is none.
   H5::DataSet open(const std::string& path) const;
   const std::string& file() const { return file_; }
+  /// Writes what is read to a file of another name. Throws FileError where that cannot be written.
+  void write_to(const std::filesystem::path& file) const;
 
  private:
   bool holds(const std::string& path) const;

@@ -59,6 +59,7 @@ struct FrameRow {
   std::int32_t frame = 0;  ///< index along the frames
   ThigmotaxisRow row;
 };
+
 // Labels of axes, in /model and along the rows.
 inline constexpr const char* joint_labels = "/model/joint_name";
 inline constexpr const char* dof_labels = "/model/dof_name";

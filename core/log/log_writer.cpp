@@ -208,15 +208,16 @@ LogWriter::LogWriter(const fs::path& file, bool replace, const LogHeader& header
   contents_->file.emplace(output_->partial());
 }
 
-LogWriter::LogWriter(std::unique_ptr<OutputFile> output, const SavedRun& run)
-    : output_(std::move(output)),
-      contents_(std::make_unique<Contents>(run.model, run.resolved.scene, run.level)) {
+LogWriter::LogWriter(const fs::path& file, const SavedRun& run, const Hdf5Reader& read)
+    : contents_(std::make_unique<Contents>(run.model, run.resolved.scene, run.level)) {
   Contents& c = *contents_;
-  // Tried when the run was read from it.
-  const Hdf5Reader h5(output_->partial(), Origin::own);
   for (const SeriesList& table : c.tables) {
-    c.go_on(h5, table);
+    c.go_on(read, table);
   }
+  output_ = std::make_unique<OutputFile>(file, Existing::go_on);
+  const fs::path next = output_->partial().string() + ".next";
+  read.write_to(next);
+  fs::rename(next, output_->partial());
   c.log = run.log;
   c.attributes["status"] = "running";
   c.attributes["resumed"] =

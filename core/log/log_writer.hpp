@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/log/checkpoint.hpp"
+#include "core/log/hdf5_reader.hpp"
 #include "core/log/log_header.hpp"
 #include "core/log/output_file.hpp"
 #include "core/log/saved_run.hpp"
@@ -24,8 +25,10 @@ class LogWriter {
   /// be written.
   LogWriter(const std::filesystem::path& file, bool replace, const LogHeader& header,
             const Model& model, const Scene& scene);
-  /// Goes on with the log of `run`, which `output` has reserved.
-  LogWriter(std::unique_ptr<OutputFile> output, const SavedRun& run);
+  /// Goes on with FILE, the log of `run`, as it was `read`: FILE.part becomes what was read, as
+  /// HDF5 may crash on what it was read from. Throws FileError as OutputFile, or where the log
+  /// lacks rows; then it stays as it is.
+  LogWriter(const std::filesystem::path& file, const SavedRun& run, const Hdf5Reader& read);
   /// Without finish(), FILE.part stays as it was last saved, but for one without any step.
   ~LogWriter();
   LogWriter(const LogWriter&) = delete;

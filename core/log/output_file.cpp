@@ -32,6 +32,7 @@ OutputFile::OutputFile(const fs::path& file, Existing existing)
       partial_(file_.string() + ".part"),
       lock_(file_.string() + ".lock"),
       existing_(existing) {
+  if (!file_.has_filename()) throw FileError("'" + file_.string() + "': names no file to write");
   std::error_code error;
   if (fs::exists(file_, error) && !fs::is_regular_file(file_, error)) {
     throw FileError(file_.string() + ": is not a regular file");

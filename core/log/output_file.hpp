@@ -22,9 +22,9 @@ constexpr Existing replaced_if(bool force) { return force ? Existing::replace : 
 /// process at work from one that is gone. Symbolic links are followed and stay.
 class OutputFile {
  public:
-  /// Throws FileError where FILE is no regular file; where it, or FILE.part, exists and is to be
-  /// refused, or both or none do and one is to be gone on with; where another process is making
-  /// FILE; or where its folder cannot be written.
+  /// Throws FileError where FILE is no name or that of no regular file; where it, or FILE.part,
+  /// exists and is to be refused, or both or none do and one is to be gone on with; where another
+  /// process is making FILE; or where its folder cannot be written.
   OutputFile(const std::filesystem::path& file, Existing existing);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;

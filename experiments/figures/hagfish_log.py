@@ -5,7 +5,9 @@ What is missing, unreadable, foreign or without frames is a LogError.
 
 from __future__ import annotations
 
+import contextlib
 import tomllib
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +23,15 @@ class LogError(Exception):
     """An input cannot be used; the message is one line that names the file."""
 
 
+@contextlib.contextmanager
+def reading(what: str) -> Iterator[None]:
+    """Makes whatever h5py and numpy raise of damaged data a LogError."""
+    try:
+        yield
+    except (OSError, RuntimeError, LookupError, ValueError, TypeError) as error:
+        raise LogError(f"{what} cannot be read ({' '.join(str(error).split())})") from None
+
+
 def open_hdf5(path: Path) -> h5py.File:
     if not path.is_file():
         raise LogError(f"{path}: no such file")
@@ -31,7 +42,8 @@ def open_hdf5(path: Path) -> h5py.File:
 
 
 def dataset_of(file: h5py.File, path: str) -> h5py.Dataset:
-    found = file.get(path)
+    with reading(f"{file.filename}: {path}"):
+        found = file.get(path)
     if not isinstance(found, h5py.Dataset):
         level = file.attrs.get("log_level", "full")
         raise LogError(f"{file.filename}: no dataset {path}" + ("" if level == "full" else f": logged with --log {level}, not full"))
@@ -39,10 +51,8 @@ def dataset_of(file: h5py.File, path: str) -> h5py.Dataset:
 
 
 def values_of(dataset: h5py.Dataset, rows: slice | tuple[()] = ()) -> np.ndarray:
-    try:
+    with reading(f"{dataset.file.filename}: {dataset.name}"):
         return dataset[rows]
-    except OSError as error:  # a damaged file
-        raise LogError(f"{dataset.file.filename}: {dataset.name} cannot be read ({error})") from None
 
 
 class HagfishLog:
@@ -58,10 +68,12 @@ class HagfishLog:
         self._file = open_hdf5(path)
         if self.attribute("format") != FORMAT:
             raise LogError(f"{path}: not a {FORMAT} file (its format is {self.attribute('format')!r})")
-        version = int(self.attribute("format_version"))
+        with reading(f"{path}: the root attribute 'format_version'"):
+            version = int(self.attribute("format_version"))
         if version != VERSION:
             raise LogError(f"{path}: {FORMAT} version {version}; this script reads version {VERSION}")
-        self.frames = min((dataset.shape[0] for dataset in self._along_time()), default=0)
+        with reading(f"{path}: its list of datasets"):
+            self.frames = min((dataset.shape[0] for dataset in self._along_time()), default=0)
         if self.frames == 0:
             raise LogError(f"{path}: holds no frames (status: {self.attribute('status')})")
 
@@ -76,10 +88,11 @@ class HagfishLog:
 
     def attribute(self, name: str) -> Any:
         """A root attribute."""
-        if name not in self._file.attrs:
-            raise LogError(f"{self.path}: no root attribute '{name}', so not a {FORMAT} file")
-        value = self._file.attrs[name]
-        return value.decode() if isinstance(value, bytes) else value
+        with reading(f"{self.path}: the root attribute '{name}'"):
+            value = self._file.attrs.get(name)
+            if value is None:
+                raise LogError(f"{self.path}: no root attribute '{name}', so not a {FORMAT} file")
+            return value.decode() if isinstance(value, bytes) else value
 
     def __getitem__(self, path: str) -> np.ndarray:
         if path not in self._read:
@@ -90,15 +103,17 @@ class HagfishLog:
 
     def strings(self, path: str) -> list[str]:
         """A dataset of strings, such as /model/dof_name."""
-        return [str(text) for text in dataset_of(self._file, path).asstr()[()]]
+        with reading(f"{self.path}: {path}"):
+            return [str(text) for text in dataset_of(self._file, path).asstr()[()]]
 
     def labels(self, path: str) -> np.ndarray:
         """An enumerated dataset along time as its words: /trajectory/phase, /diagnostics/solve."""
-        words = h5py.check_enum_dtype(dataset_of(self._file, path).dtype)
-        if words is None:
-            raise LogError(f"{self.path}: {path} is not an enumeration")
-        by_value = {value: word for word, value in words.items()}
-        return np.array([by_value[int(value)] for value in self[path]])
+        with reading(f"{self.path}: {path}"):
+            words = h5py.check_enum_dtype(dataset_of(self._file, path).dtype)
+            if words is None:
+                raise LogError(f"{self.path}: {path} is not an enumeration")
+            by_value = {value: word for word, value in words.items()}
+            return np.array([by_value[int(value)] for value in self[path]])
 
     def in_phase(self, phase: str) -> np.ndarray:
         """Indices of the frames of one phase: form, tighten, slide, pull, reverse, release, free."""
@@ -112,10 +127,8 @@ class HagfishLog:
 
     def scene(self) -> dict[str, Any]:
         """The resolved scene."""
-        try:
+        with reading(f"{self.path}: the root attribute 'scene'"):
             return tomllib.loads(self.attribute("scene"))
-        except tomllib.TOMLDecodeError as error:
-            raise LogError(f"{self.path}: the root attribute 'scene' is not TOML ({error})") from None
 
     def joint_arc(self) -> np.ndarray:
         """Arc length from the head of each joint at rest, cm (J): joint j is the front of body j."""
@@ -127,8 +140,9 @@ class HagfishLog:
         is 'twist', 'bend_y' or 'bend_z'."""
         names = self.strings("/model/dof_name")
         index = np.array([i for i, name in enumerate(names) if not name.startswith("root")])
-        joint = np.array([int(names[i].split("_", 1)[0].lstrip("j")) for i in index])
-        kind = np.array([names[i].split("_", 1)[1] for i in index])
+        with reading(f"{self.path}: /model/dof_name"):
+            joint = np.array([int(names[i].split("_", 1)[0].lstrip("j")) for i in index])
+            kind = np.array([names[i].split("_", 1)[1] for i in index])
         return index, joint, kind
 
 

@@ -1,7 +1,7 @@
 """All figures of one log: overview, Figures 7 and 8, the paper's claims, activations, and the summary. What a log does not show, as where
 the knot never slid, is said in one line and left out. `hagfish figures` calls this.
 
-Usage: of_log.py LOG.h5 HAGFISH OUT_FOLDER, where HAGFISH is the program.
+Usage: of_log.py LOG HAGFISH OUT_FOLDER, where HAGFISH is the program.
 """
 
 from __future__ import annotations
@@ -62,4 +62,4 @@ def main(path: Path, hagfish: Path, folder: Path) -> None:
 
 
 if __name__ == "__main__":
-    run_script(__doc__, ["LOG.h5", "HAGFISH", "OUT_FOLDER"], main)
+    run_script(__doc__, ["LOG", "HAGFISH", "OUT_FOLDER"], main)

@@ -20,6 +20,8 @@ namespace {
 
 constexpr std::size_t least_points = 5;
 constexpr std::uintmax_t most_bytes = std::uintmax_t{1} << 30;
+/// Of a film, s or cm, and the least length of its animal, cm: what is fitted squares their ratio.
+constexpr double largest_number = 1e9, least_length = 1e-9;
 
 /// A column of lengths: its name with its unit, and cm in one of it.
 struct LengthColumn {
@@ -121,9 +123,15 @@ Film read_film(const std::string& file, double pixels_per_cm) {
   const std::string order = arc ? arc->name : "point";
   Film film;
   film.planar = !z;
+  const double unit = arc ? arc->cm : 1;
   double longest = 0;
   std::vector<std::vector<Eigen::Vector3d>> points;
   const auto take = [&](double time, double place, const Eigen::Vector3d& point) -> std::string {
+    const double largest =
+        std::max({std::abs(time), std::abs(place), point.lpNorm<Eigen::Infinity>()});
+    if (largest > largest_number) {
+      return fmt::format("{:g}: must be of at most {:g} s or cm", largest, largest_number);
+    }
     if (film.frames.empty() || time != film.frames.back().time) {
       if (!film.frames.empty() && time < film.frames.back().time) return "times must rise";
       film.frames.push_back({time, {}, {}});
@@ -137,11 +145,11 @@ Film read_film(const std::string& file, double pixels_per_cm) {
   if (z) {
     read_number_csv<5>(
         text, file, {"time_s", order, x.name, y.name, z->name}, [&](const auto& row) {
-          return take(row[0], row[1], {x.cm * row[2], y.cm * row[3], z->cm * row[4]});
+          return take(row[0], unit * row[1], {x.cm * row[2], y.cm * row[3], z->cm * row[4]});
         });
   } else {
     read_number_csv<4>(text, file, {"time_s", order, x.name, y.name}, [&](const auto& row) {
-      return take(row[0], row[1], {x.cm * row[2], y.cm * row[3], 0});
+      return take(row[0], unit * row[1], {x.cm * row[2], y.cm * row[3], 0});
     });
   }
   if (film.frames.size() < 2) heading.fail("midlines of two times or more are needed");
@@ -152,11 +160,12 @@ Film read_film(const std::string& file, double pixels_per_cm) {
       frame.point.col(static_cast<Eigen::Index>(k)) = points[f][k];
     }
     const double way = place_points(heading, arc.has_value(), frame);
-    film.length = std::max(film.length, arc ? arc->cm * longest : way);
+    film.length = std::max(film.length, arc ? longest : way);
     if (!arc) continue;
     if (frame.place[0] < 0) heading.fail(arc->name + " is below 0");
     for (double& place : frame.place) place /= longest;
   }
+  if (film.length < least_length) heading.fail(fmt::format("an animal {:g} cm long", film.length));
   return film;
 }
 

@@ -49,7 +49,9 @@ FramePictures::FramePictures(const LogContents& log, double pitch, double yaw,
       view_(turned_view(pitch, yaw)),
       model_(skin_model(skin_rings(log.model), skin_sides, log.model.length())) {
   for (const auto& [name, angle] : {std::pair{"--pitch", pitch}, {"--yaw", yaw}}) {
-    if (!std::isfinite(angle)) throw InputError(fmt::format("{} {}: must be finite", name, angle));
+    if (!(std::abs(angle) <= 360)) {
+      throw InputError(fmt::format("{} {:g}: must be from -360 to 360 degrees", name, angle));
+    }
   }
   if (!quantity.empty()) {
     quantity_ = body_quantity(log, quantity);

@@ -6,6 +6,7 @@
 #include "experiments/film/film_distance.hpp"
 #include "experiments/program/commands.hpp"
 #include "experiments/program/csv.hpp"
+#include "experiments/program/number_options.hpp"
 #include "experiments/program/scripts.hpp"
 #include "experiments/program/text_file.hpp"
 
@@ -57,7 +58,7 @@ void add_against(Program& program) {
   app->add_option("LOG", options->log, "log file")->required();
   app->add_option("CSV", options->film, "midlines, as `hagfish midlines` takes them")->required();
   app->add_option("--scale", options->scale, "pixels in a cm, for columns in px")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   app->add_flag("--as-is", options->as_is, "the film's axes are the log's: do not move it");
   app->add_option("--csv", options->csv, "file for every distance: time, arc length, distance");
   app->add_option("--png", options->png, "figure: distance by time and along the body");

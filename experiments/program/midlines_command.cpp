@@ -6,6 +6,7 @@
 #include "core/input/input_error.hpp"
 #include "experiments/film/film_fit.hpp"
 #include "experiments/program/commands.hpp"
+#include "experiments/program/number_options.hpp"
 #include "experiments/program/scene_argument.hpp"
 #include "experiments/program/text_file.hpp"
 
@@ -38,6 +39,9 @@ int midlines(const MidlinesOptions& options) {
   }
   const FilmFit fit = fit_film(model, film, options.free_head ? FilmHead::free : FilmHead::still,
                                options.times, options.stations);
+  if (fit.rms_at.empty()) {
+    throw InputError(options.film + ": no shape can be computed from its numbers");
+  }
   out.write(curvature_csv(fit.program));
   const auto worst = std::ranges::max_element(fit.rms_at);
   fmt::print(
@@ -65,14 +69,14 @@ void add_midlines(Program& program) {
   app->add_option("--scene", options->scene, "whose animal it is for: " + std::string(scene_help))
       ->capture_default_str();
   app->add_option("--scale", options->scale, "pixels in a cm, for columns in px")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   app->add_option("--until", options->until, "s; where not given, to the end of the film")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   app->add_option("--stations", options->stations, "along the body")
-      ->check(CLI::Range(2, 100))
+      ->check(from_to(2, 100))
       ->capture_default_str();
   app->add_option("--times", options->times, "from the film's first midline to its last")
-      ->check(CLI::Range(2, 1000))
+      ->check(from_to(2, 1000))
       ->capture_default_str();
   app->add_flag("--free-head", options->free_head,
                 "the film's head moves; else it is clamped, at one place and turned one way");

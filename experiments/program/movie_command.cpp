@@ -10,6 +10,7 @@
 #include "experiments/picture/encoder.hpp"
 #include "experiments/picture/frame_picture.hpp"
 #include "experiments/program/commands.hpp"
+#include "experiments/program/number_options.hpp"
 #include "experiments/program/suggestion.hpp"
 #include "experiments/program/terminal.hpp"
 #include "experiments/program/text_file.hpp"
@@ -114,7 +115,7 @@ void add_movie(Program& program) {
   app->add_option("--out", options->out, "F.mp4 or F.gif to write")->required();
   app->add_option("--size", options->size, "WIDTHxHEIGHT, px")->capture_default_str();
   app->add_option("--speed", options->speed, "simulated seconds a second of film")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   app->add_option("--colour", options->colour, "colour the body by a quantity (its own colour)")
       ->check(one_of(body_quantity_names()));

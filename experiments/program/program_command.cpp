@@ -4,6 +4,7 @@
 #include "experiments/audit/log_contents.hpp"
 #include "experiments/curvature/program_fit.hpp"
 #include "experiments/program/commands.hpp"
+#include "experiments/program/number_options.hpp"
 #include "experiments/program/text_file.hpp"
 
 namespace hagfish {
@@ -55,14 +56,14 @@ void add_program(Program& program) {
   app->add_option("LOG", options->log, "log of a run from time 0 on")->required();
   app->add_option("--out", options->out, "CSV file to write")->required();
   app->add_option("--stations", options->stations, "along the body")
-      ->check(CLI::Range(2, 100))
+      ->check(from_to(2, 100))
       ->capture_default_str();
   app->add_option("--times", options->times, "from 0 to the end of forming")
-      ->check(CLI::Range(2, 1000))
+      ->check(from_to(2, 1000))
       ->capture_default_str();
   app->add_option("--until", options->until,
                   "s; where not given, while the knot forms: what follows is the controller's")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   app->add_flag("--force", options->force, force_help);
   app->callback([options, &program] { program.code = make_program(*options); });
 }

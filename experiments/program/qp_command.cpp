@@ -6,6 +6,7 @@
 #include "core/input/input_text.hpp"
 #include "experiments/program/commands.hpp"
 #include "experiments/program/csv.hpp"
+#include "experiments/program/number_options.hpp"
 #include "experiments/program/suggestion.hpp"
 #include "experiments/program/terminal.hpp"
 #include "experiments/program/text_file.hpp"
@@ -107,10 +108,10 @@ void add_qp(Program& program) {
   qp_app
       ->add_option("--tolerance", options->tolerances,
                    "of Ipopt's own stopping, repeatable: measures each (1e-9)")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->allow_extra_args(false);
   qp_app->add_option("--repeat", options->repeat, "times that each QP is solved")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   qp_app->add_option("--csv", options->csv, "file for the table");
   qp_app->add_flag("--force", options->force, force_help);

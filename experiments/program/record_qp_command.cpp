@@ -4,6 +4,7 @@
 
 #include "core/input/input_error.hpp"
 #include "experiments/program/commands.hpp"
+#include "experiments/program/number_options.hpp"
 #include "experiments/program/progress.hpp"
 #include "experiments/program/scene_argument.hpp"
 #include "experiments/program/scene_sense.hpp"
@@ -126,7 +127,7 @@ void add_record_qp(Program& program) {
       ->capture_default_str();
   record->add_option("--set", options->set, set_help)->allow_extra_args(false);
   record->add_option("--every", options->every, "steps from one saved to the next")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   record->add_flag("--primal", options->primal, "save {H, g, G, e, C, d}, not {A, b, l, u}");
   record->add_flag("--force", options->force, "replace an existing file");

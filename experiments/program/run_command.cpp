@@ -64,8 +64,7 @@ int resume(NewRunOptions options) {
   const SavedRun run = saved_run(h5);
   check_schema(h5, run.model, run.resolved.scene);
   require_named_law(run.resolved.scene, part_or_whole + ": ");
-  auto output = std::make_unique<OutputFile>(options.run.out, Existing::go_on);
-  LogWriter log(std::move(output), run);
+  LogWriter log(options.run.out, run, h5);
   if (run.git_revision != build_revision()) {
     say("hagfish: {}: begun by revision {}, gone on with by {}: from here on not bit by bit the "
         "same\n",

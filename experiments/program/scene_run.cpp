@@ -6,6 +6,7 @@
 
 #include "core/input/input_text.hpp"
 #include "experiments/program/failure.hpp"
+#include "experiments/program/number_options.hpp"
 #include "experiments/program/progress.hpp"
 #include "experiments/program/terminal.hpp"
 
@@ -64,7 +65,7 @@ void add_run_options(CLI::App& command, RunOptions& options) {
   command.add_flag("--force", options.force, "replace an existing log");
   command.add_flag("--quiet", options.quiet, "no progress");
   command.add_option("--step-limit", options.step_limit, "wall time that a step may take, s")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
 }
 

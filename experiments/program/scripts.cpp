@@ -62,9 +62,11 @@ int run_script(const std::string& script, const std::vector<std::string>& argume
                      " has no h5py or matplotlib: figures need them (Debian: apt-get install "
                      "python3-h5py python3-matplotlib)");
   }
-  std::vector<std::string> list{python, "-B", file.string()};
+  std::vector<std::string> list{python, "-B", file.string(), "--"};
   list.insert(list.end(), arguments.begin(), arguments.end());
-  return run(list, false);
+  const int code = run(list, false);
+  if (code < 0) throw std::runtime_error(script + ": Python was ended by a signal");
+  return code;
 }
 
 void draw_from_text(const std::string& script, const std::string& text, const std::string& out,

@@ -9,7 +9,8 @@ namespace hagfish {
 
 /// Runs SCRIPT of experiments/figures, or of share/hagfish/figures of an installed program, with
 /// Debian's python3. Returns its exit code. Throws InputError, one line, where there is no such
-/// script, no python3, or none that has h5py and matplotlib.
+/// script, no python3, or none that has h5py and matplotlib; std::runtime_error where a signal ends
+/// it.
 int run_script(const std::string& script, const std::vector<std::string>& arguments);
 
 /// Lets SCRIPT draw `out` (a PNG) from a text, as SCRIPT TEXT_FILE OUT.png. Throws as run_script,

@@ -9,6 +9,7 @@
 
 #include "core/input/input_error.hpp"
 #include "experiments/program/commands.hpp"
+#include "experiments/program/number_options.hpp"
 #include "experiments/program/scene_argument.hpp"
 #include "experiments/program/text_file.hpp"
 
@@ -208,15 +209,13 @@ void add_specimen(Program& program) {
   };
   app->add_option("--length", options->length, "head to tail, cm")
       ->required()
-      ->check(CLI::Range(1.0, 1000.0));
-  app->add_option("--mass", options->mass, "whole body, g")
-      ->required()
-      ->check(CLI::Range(1e-3, 1e6));
+      ->check(from_to(1.0, 1000.0));
+  app->add_option("--mass", options->mass, "whole body, g")->required()->check(from_to(1e-3, 1e6));
   list("--circumference", options->circumference, "at the stations, cm")->required();
   list("--bending", options->bending, "bending limits at the stations, degrees")->required();
   app->add_option("--twist", options->twist, "twisting limit of the whole body, degrees")
       ->required()
-      ->check(CLI::Range(0.0, 3600.0));
+      ->check(from_to(0.0, 3600.0));
   list("--station", options->station, "where they were measured, shares of the length")
       ->capture_default_str();
   app->add_option("--name", options->name, "what the animal is called")->capture_default_str();

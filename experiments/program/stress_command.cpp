@@ -7,6 +7,7 @@
 
 #include "experiments/program/commands.hpp"
 #include "experiments/program/csv.hpp"
+#include "experiments/program/number_options.hpp"
 #include "experiments/program/scene_argument.hpp"
 #include "experiments/program/suggestion.hpp"
 #include "experiments/program/text_file.hpp"
@@ -65,12 +66,12 @@ void add_stress(Program& program) {
       ->check(one_of(stress_methods()))
       ->capture_default_str();
   stress_app->add_option("--step", options->step, "time step, s (the scene's)")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   stress_app->add_option("--level", options->level, "what the row calls the scene's level")
       ->capture_default_str();
   stress_app->add_option("--set", options->set, set_help)->allow_extra_args(false);
   stress_app->add_option("--cpu-limit", options->cpu_limit, "the run is capped after this, s")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   stress_app->add_option("--out", options->out, "CSV to write (standard output)");
   stress_app->add_flag("--force", options->force, force_help);

@@ -7,6 +7,7 @@
 #include "core/input/input_text.hpp"
 #include "experiments/program/commands.hpp"
 #include "experiments/program/failure.hpp"
+#include "experiments/program/number_options.hpp"
 #include "experiments/program/terminal.hpp"
 #include "experiments/sweep/grid_reader.hpp"
 #include "experiments/sweep/sweep.hpp"
@@ -86,7 +87,7 @@ void add_sweep(Program& program) {
   app->add_option("--part", arguments->part, "I/N: the I-th of N parts of the cells")
       ->capture_default_str();
   app->add_option("--threads", arguments->threads, "runs side by side (one a core)")
-      ->check(CLI::Range(1, most_threads));
+      ->check(from_to(1, most_threads));
   app->add_flag("--quiet", arguments->quiet, "no progress");
   app->callback([arguments, &program] { program.code = sweep(*arguments, program.typed); });
 }

@@ -2,8 +2,9 @@
 // start would cost more than most commands do, above all with sanitizers.
 //
 // Each line of standard input is a job: seconds of CPU time it may take, then the arguments,
-// between tabs. Its output, standard and error, goes to `out.txt` in the working folder. The answer
-// is a line: the exit code, or minus the signal that ended it, or "late".
+// between tabs. Its output goes to `out.txt` and `error.txt` in the working folder. The answer is a
+// line: the exit code, or minus the signal that ended it, or "late". With arguments it is the
+// program itself: the scripts that a command starts call that by its name.
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/resource.h>
@@ -28,11 +29,13 @@ constexpr double patience = 12;
 [[noreturn]] void run_job(std::vector<std::string> arguments, double seconds) {
   const rlimit time{static_cast<rlim_t>(seconds), static_cast<rlim_t>(seconds) + 1};
   ::setrlimit(RLIMIT_CPU, &time);
+  ::setpgid(0, 0);  // whom it starts ends with it
   const int out = ::open("out.txt", O_WRONLY | O_CREAT | O_TRUNC, 0644);
+  const int error = ::open("error.txt", O_WRONLY | O_CREAT | O_TRUNC, 0644);
   const int in = ::open("/dev/null", O_RDONLY);
   ::dup2(in, STDIN_FILENO);
   ::dup2(out, STDOUT_FILENO);
-  ::dup2(out, STDERR_FILENO);
+  ::dup2(error, STDERR_FILENO);
   std::vector<char*> argv;
   for (std::string& argument : arguments) argv.push_back(argument.data());
   argv.push_back(nullptr);
@@ -47,7 +50,7 @@ std::string await(pid_t child, double seconds) {
   pollfd ended{handle, POLLIN, 0};
   const bool late = ::poll(&ended, 1, static_cast<int>(1e3 * patience * seconds)) == 0;
   ::close(handle);
-  if (late) ::kill(child, SIGKILL);
+  if (late) ::kill(-child, SIGKILL);
   int status = 0;
   ::waitpid(child, &status, 0);
   if (late || (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)) return "late";
@@ -56,7 +59,8 @@ std::string await(pid_t child, double seconds) {
 
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
+  if (argc > 1) return hagfish::run_program(argc, argv);
   for (std::string line; std::getline(std::cin, line);) {
     std::istringstream fields(line);
     std::string field;

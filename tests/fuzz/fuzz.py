@@ -1,9 +1,11 @@
 """Gives the program hostile, damaged and extreme input, through every subcommand. See tests/fuzz.sh."""
 
 import argparse
+import collections
 import multiprocessing
 import os
 import pathlib
+import shlex
 import shutil
 import subprocess
 import sys
@@ -13,23 +15,25 @@ import time
 import h5py
 import numpy as np
 
+import commands
 import mutations
 import named_cases
 
 LATE = 10  # s of CPU time; what takes longer counts as hung
 NAMED_SHARE = 0.4  # of the time at most, for the named cases
-SLOW = 10  # commands that draw or compare take part in one of so many cases
-SHORT = [
-    part
-    for value in ("duration=0.1", "step=0.01", "frame_interval=0.02", "checkpoint_interval=0.04")
-    for part in ("--set", "time." + value)
-]
-KINDS = ["log flip", "qp flip", "log change", "qp change", "toml", "csv", "scene"]
+WHOLE = {"log flip": 60}  # one in so many flips goes through all quick commands, the others through one each
+SLOW = {"log flip": 150}  # commands that draw, compare or start others take part in one of so many cases;
+SLOW_OF_OTHERS = 10  # of other kinds
+REPORT = 60  # s between lines that say how far it is
+PATIENCE = {"figures": 60, "integrate": 60, "compare": 60}  # s: Python and the program again; many steps by design
+KINDS = ["log flip", "qp flip", "log change", "qp change", "toml", "grid", "csv", "film", "scene", "options"]
 BASES = {
-    "rest.h5": ["run", "table1", "--qp", "active-set", "--quiet", "--set", "model.bodies=8", *SHORT],
-    "slide.h5": ["run", "SCENES/knot_into_head.toml", "--qp", "active-set", "--quiet", *SHORT],
-    "box.qp.h5": ["record-qp", "SCENES/redundant.toml", "--qp", "active-set", "--quiet", *SHORT],
-    "primal.qp.h5": ["record-qp", "SCENES/redundant.toml", "--primal", "--qp", "active-set", "--quiet", *SHORT],
+    "rest.h5": ["run", "muscles", "--qp", "active-set", "--quiet", *commands.SMALL, *commands.SHORT],
+    "slide.h5": ["run", "SCENES/knot_into_head.toml", "--qp", "active-set", "--quiet", *commands.SHORT],
+    "box.qp.h5": ["record-qp", "SCENES/redundant.toml", "--qp", "active-set", "--quiet", *commands.SMALL, *commands.SHORT],
+    "primal.qp.h5": [
+        "record-qp", "SCENES/redundant.toml", "--primal", "--qp", "active-set", "--quiet", *commands.SMALL, *commands.SHORT,
+    ],
 }
 
 
@@ -37,22 +41,25 @@ def is_clean(text):
     return all(c in "\n\t" or (ord(c) >= 32 and not 127 <= ord(c) < 160) for c in text)
 
 
-def fault(status, output):
+def fault(status, output, error):
     """What is wrong with how a command ended, or nothing."""
-    text = output.decode("utf-8", "replace")
+    error = error.decode("utf-8", "replace")
+    text = output.decode("utf-8", "replace") + error
     if status == "late":
         return "took longer than 10 s"
     if status not in ("0", "1", "2", "3"):
         return "ended with " + status + " " + " ".join(line for line in text.split("\n") if "ERROR" in line)[:300]
-    for word in ("internal error", "runtime error:", "Sanitizer", "Press Enter"):
+    for word in ("internal error", "runtime error:", "Sanitizer", "Press Enter", "Traceback"):
         if word in text:
             return next(line for line in text.split("\n") if word in line)[:300]
     if not is_clean(text):
         return "printed control characters"
     if len(text) > 100000 or max(map(len, text.split("\n"))) > 5000:
         return "printed too much"
-    if status == "2" and len(text.strip().split("\n")[-1].split("\n")) != 1:
-        return "more than one line"
+    if status == "2" and (error.count("\n") != 1 or not error.strip()):
+        return f"{error.count(chr(10))} lines of what is wrong with its input: {error[-300:]!r}"
+    if status == "1" and not text.strip():
+        return "failed and does not say why"
     return None
 
 
@@ -66,48 +73,61 @@ class Server:
         environment["ASAN_OPTIONS"] = "detect_leaks=0:allocator_may_return_null=1:max_allocation_size_mb=8000"
         environment["UBSAN_OPTIONS"] = "halt_on_error=1:print_stacktrace=1"
         self.process = subprocess.Popen(
-            [program], stdin=subprocess.PIPE, stdout=subprocess.PIPE, cwd=folder, env=environment, text=True
+            [program], stdin=subprocess.PIPE, stdout=subprocess.PIPE, cwd=folder, env=environment, encoding="utf-8", errors="surrogateescape"
         )
 
     def run(self, arguments, seconds=LATE):
         self.process.stdin.write("\t".join([str(seconds), *arguments]) + "\n")
         self.process.stdin.flush()
         status = self.process.stdout.readline().strip()
-        return status, (self.folder / "out.txt").read_bytes()
+        return status, *((self.folder / name).read_bytes() for name in ("out.txt", "error.txt"))
 
 
-def commands_for(kind, file, slow, overrides=()):
-    """Every subcommand that reads such a file; `slow` ones too where asked."""
-    if kind.startswith("log"):
-        yield ["info", file]
-        yield ["check", file, "--csv", "check.csv", "--force"]
-        yield ["playback", file, "--out", "playback.h5", "--force"]
-        yield ["branch", file, "--out", "branch.h5", "--quiet", "--force"]
-        if slow:
-            yield ["info", file, "--json"]
-            yield ["export", file, "--out", "tables", "--force"]
-            yield ["view", file, "--out", "replay.html", "--force"]
-            yield ["picture", file, "--out", "picture.png", "--force"]
-            yield ["program", file, "--out", "program.csv", "--force", "--stations", "4", "--times", "3"]
-        yield ["run", "--resume", file, "--quiet"]  # last, as it goes on in the file itself
-    elif kind.startswith("qp"):
-        yield ["qp", file, "--repeat", "1", "--backend", "active-set", "--csv", "qp.csv", "--force"]
-        if slow:
-            yield ["qp", file, "--repeat", "1"]
-    else:
-        cut = list(overrides) if kind == "scene" else SHORT + ["--set", "model.bodies=8"]
-        yield ["run", file, "--qp", "active-set", "--quiet", "--out", "run.h5", "--force", *cut]
-        yield ["record-qp", file, "--qp", "active-set", "--quiet", "--out", "qp.h5", "--force", *cut]
-        yield ["mjcf", file, "--out", "mjcf", "--force", *cut]
-        yield ["stress", file, "--cpu-limit", "3", *cut]
-        if slow:
-            yield ["run", file, "--qp", "ipopt", "--quiet", "--out", "run.h5", "--force", *cut]
-            yield ["compare", file, "--out", "compare.h5", "--force", *cut]
-            yield ["integrate", file, "--out", "integrate.h5", "--force", *cut]
+BASIS = "shape,station (cm),bend_y (1),bend_z (1),twist (1)\n" + "".join(
+    f"{shape},{station},{shape * station / 42.4},{0.5 - shape},{0.1}\n" for shape in (1, 2) for station in (0, 10.6, 21.2, 31.8, 42.4)
+)
+BASIS_SCENE = """base = "few_numbers"
+[controller.reduced_basis]
+frame = "body"
+cosines = 0
+file = "case.csv"
+"""
+PROGRAM_SCENE = 'base = "living_overhand"\n[script]\nprogram = "case.csv"\n'
+GRID = """scene = "table1"
+keep = "failed"
+seeds = 2
+[[axis]]
+"model.limit_scale" = { from = 0.75, to = 1.2, count = 2 }
+[[axis]]
+"model.bending_stiffness" = { from = 40, to = 4000, count = 2, scale = "log" }
+"drag.normal" = [0.1, 10]
+[[axis]]
+controller.law = ["paper", "all_contacts"]
+start.noise_deg = [0.1, 1e-3]
+"""
+
+
+def film_text(log):
+    """A film of a log: every third of its bodies' centres."""
+    lines = ["time_s,s_cm,x_cm,y_cm,z_cm"]
+    with h5py.File(log) as file:
+        place = np.cumsum(file["model/length"][()]) - file["model/length"][()] / 2
+        for time_s, points in zip(file["trajectory/time"][()], file["trajectory/position"][()]):
+            lines += [f"{time_s:.6g},{s:.6g}," + ",".join(f"{x:.6g}" for x in p) for s, p in list(zip(place, points))[::3]]
+    return "\n".join(lines) + "\n"
+
+
+def known_options(server):
+    """Options of every subcommand; each of them must be one that this program gives its cases to."""
+    names = commands.subcommands(server.run(["--help"])[1].decode())
+    if set(names) != set(commands.GOOD):
+        sys.exit(f"fuzz: subcommands that tests/fuzz/commands.py has, or the program, but not both: {set(names) ^ set(commands.GOOD)}")
+    return {name: commands.options(server.run([name, "--help"])[1].decode()) for name in names}
 
 
 class Worker:
     def __init__(self, number, options, folder, bases, texts):
+        self.number = number
         self.random = np.random.default_rng([options.seed, number])
         self.keep = pathlib.Path(options.keep)
         self.folder = folder / f"w{number}"
@@ -116,26 +136,54 @@ class Worker:
         self.paths = bases
         self.blocks = {name: mutations.used_blocks(data) for name, data in self.bases.items()}
         self.texts = texts
-        self.program = (pathlib.Path(options.source) / "data/programs/overhand.csv").read_text()
+        self.source = pathlib.Path(options.source)
+        self.program = (self.source / "data/programs/overhand.csv").read_text()
+        self.film = film_text(bases["whole_slide.h5"])
         self.cases = dict.fromkeys(["named", *KINDS], 0)
-        self.commands = 0
+        self.seen = collections.Counter()  # of (subcommand, how it ended)
+        self.longest = {}  # s of wall time, by subcommand
         self.faults = []
+        self.known = known_options(self.server)
+        self.lay_out()
+
+    def lay_out(self):
+        """The good files that commands take beside the case."""
+        shutil.copyfile(self.paths["whole_rest.h5"], self.folder / "good.h5")
+        shutil.copyfile(self.paths["box.qp.h5"], self.folder / "good.qp.h5")
+        (self.folder / "film.csv").write_text(self.film)
+        (self.folder / "small.toml").write_text('base = "living_overhand"\n[model]\nbodies = 20\n')
+        (self.folder / "scene_grid.toml").write_text(commands.grid_text("table1", commands.SHORT + commands.SMALL))
+        for file in (self.source / "experiments/stability").glob("*.toml"):
+            shutil.copyfile(file, self.folder / file.name)
+        for folder in ("programs", "specimens"):
+            shutil.copytree(self.source / "data" / folder, self.folder / folder, dirs_exist_ok=True)
 
     def base(self, kind):
         names = [n for n in self.bases if n.endswith(".qp.h5") == kind.startswith("qp")]
         return names[self.random.integers(len(names))]
 
     def make(self, kind):
-        """A case of `kind` as a file; nothing where a change does not apply."""
-        file = self.folder / ("case.h5" if kind not in ("toml", "csv") else "case.toml")
+        """A case of `kind` as a file, and overrides of it; nothing where a change does not apply."""
+        file = self.folder / ("case.h5" if kind.split()[0] in ("log", "qp") else "case.toml")
+        cut = commands.SHORT + commands.SMALL
         if kind == "csv":
-            (self.folder / "case.csv").write_bytes(mutations.mutated_csv(self.program, self.random))
-            file.write_text('base = "living_overhand"\n[script]\nprogram = "case.csv"\n')
-            return file.name
-        if kind == "scene":
-            return "table1"
-        if kind == "toml":
+            shapes = self.random.random() < 0.3
+            (self.folder / "case.csv").write_bytes(mutations.mutated_csv(BASIS if shapes else self.program, self.random))
+            file.write_text(BASIS_SCENE if shapes else PROGRAM_SCENE)
+        elif kind == "film":
+            file = self.folder / "case.csv"
+            file.write_bytes(mutations.mutated_csv(self.film, self.random))
+        elif kind == "scene":
+            scene = mutations.EXTREME_SCENES[self.random.integers(len(mutations.EXTREME_SCENES))]
+            return scene, mutations.extreme_overrides(self.random, any_bodies="." not in scene)
+        elif kind == "grid":
+            text = f'set = [{", ".join(repr(v) for v in cut[1::2])}]\n' + mutations.mutated_text(GRID, self.random)
+            file.write_bytes(text.encode("utf-8", "surrogateescape"))
+        elif kind == "toml":
             text = mutations.mutated_text(self.texts[self.random.integers(len(self.texts))], self.random)
+            if text.count("circumference") and "[model]" not in text:
+                (self.folder / "case_specimen.toml").write_bytes(text.encode("utf-8", "surrogateescape"))
+                text = 'base = "muscles"\nspecimen = "case_specimen.toml"\n'
             file.write_bytes(text.encode("utf-8", "surrogateescape"))
         elif kind.endswith("flip"):
             base = self.base(kind)
@@ -144,28 +192,65 @@ class Worker:
             self.paths[self.base(kind)], lambda log: mutations.structured(log, self.random), file
         ):
             return None
-        return file.name
+        return file.name, cut
 
-    def take(self, kind, name, file, slow, overrides=()):
-        self.cases[kind if kind in self.cases else "named"] += 1
-        for arguments in commands_for(kind, file, slow, overrides):
-            if arguments[0] == "integrate" and kind in ("toml", "csv"):
-                continue  # of whatever number of bodies, for minutes
-            status, output = self.server.run(arguments)
-            self.commands += 1
-            found = fault(status, output)
-            if (self.folder / "MUJOCO_LOG.TXT").exists():
-                found = found or "wrote MUJOCO_LOG.TXT"
-                (self.folder / "MUJOCO_LOG.TXT").unlink()
+    def commands_for(self, kind, file, cut):
+        """The commands that this case goes through."""
+        count = self.cases[kind if kind in self.cases else "named"]
+        if kind == "options":
+            return [commands.extreme_options(self.known, self.random)]
+        if kind.startswith("log"):
+            quick, slow = commands.of_log(file)
+        elif kind.startswith("qp"):
+            quick, slow = commands.of_qps(file, commands.BACK_ENDS[count % len(commands.BACK_ENDS)])
+        elif kind == "grid":
+            quick, slow = commands.of_grid(file)
+        elif kind == "film":
+            quick, slow = commands.of_film(file)
+        else:
+            # Smooth motions take minutes of as many bodies as a file may ask for.
+            quick, slow = commands.of_scene(file, cut, whole=kind == "scene" and "." not in file)
+            (self.folder / "scene_grid.toml").write_text(commands.grid_text(file, cut))
+        every = SLOW.get(kind, SLOW_OF_OTHERS)
+        slow = slow[count // every % len(slow)] if slow and count % every == 0 else None
+        if count % WHOLE.get(kind, 1) != 0:
+            quick = [quick[count % len(quick)]] if slow is None else []
+        return ([slow] if slow else []) + quick
+
+    def take(self, kind, name, file, cut=()):
+        """Whether the first command accepted the case."""
+        accepted = None
+        # As they are now: to go on with a log changes it.
+        inputs = {path.name.replace("case", name, 1): path.read_bytes() for path in self.folder.glob("case*") if path.is_file()}
+        kept = self.keep / f"{name}{pathlib.Path(file).suffix}" if file.startswith("case") else file
+        for arguments in self.commands_for(kind, file, cut):
+            shutil.rmtree(self.folder / "sweep", ignore_errors=True)
+            begin = time.monotonic()
+            status, *told = self.server.run(arguments, PATIENCE.get(arguments[0], LATE))
+            took = time.monotonic() - begin
+            self.longest[arguments[0]] = max(took, self.longest.get(arguments[0], 0))
+            self.seen[arguments[0], status] += 1
+            accepted = status != "2" if accepted is None else accepted
+            found = fault(status, *told) or self.left_behind(status)
             if found:
-                kept = file
-                if (self.folder / file).exists():
-                    kept = self.keep / f"{name}{pathlib.Path(file).suffix}"
-                    self.keep.mkdir(parents=True, exist_ok=True)
-                    shutil.copyfile(self.folder / file, kept)
-                shown = " ".join(a if a != file else str(kept) for a in arguments)
-                self.faults.append(f"{name}: {found}\n    hagfish {shown}")
+                shown = " ".join(shlex.quote(a if a != file else str(kept)) for a in arguments)
+                self.faults.append(f"{name}: {found}\n    hagfish {shown}".encode("utf-8", "backslashreplace").decode())
                 print(self.faults[-1], flush=True)
+                self.keep.mkdir(parents=True, exist_ok=True)
+                for kept_as, data in inputs.items():
+                    (self.keep / kept_as).write_bytes(data)
+        self.cases[kind if kind in self.cases else "named"] += 1
+        return accepted
+
+    def left_behind(self, status):
+        """What a command left that it must not: after bad input, no part of what it would have written."""
+        found = None
+        for path in self.folder.iterdir():
+            if path.name == "MUJOCO_LOG.TXT" or (".part" in path.name and status == "2"):
+                found = "wrote " + path.name
+            if path.name == "MUJOCO_LOG.TXT" or ".part" in path.name:
+                shutil.rmtree(path) if path.is_dir() else path.unlink()
+        return found
 
     def named(self, number, workers, seed, end):
         """This worker's share of them, in an order by the seed, until the time is over."""
@@ -177,16 +262,20 @@ class Worker:
                     return
                 file = self.folder / "case.h5"
                 if named_cases.changed_log(self.paths[base], change, file):
-                    self.take("log", f"{name}_{base[:-3]}", file.name, slow=name.startswith("mjcf"))
+                    self.take("log", f"{name}_{base[:-3]}", file.name)
 
     def one(self, kind, count):
-        file = self.make(kind)
-        if file is None:
-            return False
-        overrides = mutations.extreme_overrides(self.random) if kind == "scene" else ()
-        name = f"{kind.replace(' ', '_')}_{id(self) % 1000}_{count}"
-        self.take(kind, name, file, self.random.integers(SLOW) == 0, overrides)
-        return True
+        if kind == "options":
+            self.lay_out()
+            made = ("", ())
+        else:
+            made = self.make(kind)
+        if made is None:
+            return
+        name = f"{kind.replace(' ', '_')}_{self.number}_{count}"
+        accepted = self.take(kind, name, *made)
+        if kind == "scene" and not accepted:
+            self.cases[kind] -= 1  # those count that the reader takes
 
 
 def work(number, options, folder, bases, texts, results):
@@ -195,11 +284,12 @@ def work(number, options, folder, bases, texts, results):
     worker = Worker(number, options, folder, bases, texts)
     worker.named(number, options.jobs, options.seed, begin + NAMED_SHARE * (end - begin))
     wanted = {
-        "log flip": 0.75 * options.flips, "qp flip": 0.25 * options.flips, "log change": options.changes / 3,
-        "qp change": options.changes / 3, "toml": options.changes / 6, "csv": options.changes / 6, "scene": options.scenes,
+        "log flip": 0.75 * options.flips, "qp flip": 0.25 * options.flips, "log change": 0.3 * options.changes,
+        "qp change": 0.2 * options.changes, "toml": 0.2 * options.changes, "grid": 0.1 * options.changes, "csv": 0.1 * options.changes,
+        "film": 0.1 * options.changes, "scene": options.scenes, "options": options.options,
     }  # fmt: skip
     wanted = {kind: int(np.ceil(count / options.jobs)) for kind, count in wanted.items()}
-    tries = 0
+    tries, told = 0, begin
     while time.monotonic() < end:
         # The kind that is furthest behind, so that a short run has some of each.
         left = {kind: 1 - worker.cases[kind] / count for kind, count in wanted.items() if worker.cases[kind] < count}
@@ -207,7 +297,10 @@ def work(number, options, folder, bases, texts, results):
             break
         worker.one(max(left, key=left.get), tries)
         tries += 1
-    results.put((worker.cases, worker.commands, worker.faults))
+        if time.monotonic() > told + REPORT:
+            told = time.monotonic()
+            print(f"{told - begin:.0f} s: {sum(worker.seen.values())} commands, {worker.cases}", flush=True)
+    results.put((worker.cases, worker.seen, worker.longest, worker.faults))
 
 
 def make_bases(options, folder):
@@ -216,9 +309,9 @@ def make_bases(options, folder):
     bases = {}
     for name, arguments in BASES.items():
         full = [a.replace("SCENES", str(scenes)) for a in arguments] + ["--out", name, "--force"]
-        status, output = server.run(full, 60)
+        status, _, error = server.run(full, 60)
         if status != "0":
-            sys.exit(f"fuzz: {' '.join(full)}: {status}: {output.decode()}")
+            sys.exit(f"fuzz: {' '.join(full)}: {status}: {error.decode()}")
         # Only what is used: a file of its own length holds less room for nothing.
         bases[name] = server.folder / ("small_" + name)
         with h5py.File(server.folder / name) as old, h5py.File(bases[name], "w") as new:
@@ -234,7 +327,8 @@ def make_bases(options, folder):
                 new.attrs["scene"] = scene.replace("duration = 0.1\n", "duration = 0.15\n")
         bases["whole_" + name] = server.folder / name
     data = pathlib.Path(options.source) / "data"
-    texts = [f.read_text() for f in [*data.glob("*.toml"), *scenes.glob("*.toml")] if f.name != "presets.toml"]
+    files = [*data.glob("*.toml"), *scenes.glob("*.toml"), *5 * list((data / "specimens").glob("*.toml"))]
+    texts = [f.read_text() for f in sorted(files) if f.name != "presets.toml"]
     return bases, texts
 
 
@@ -247,6 +341,7 @@ def main():
     parser.add_argument("--flips", type=int, default=20000)
     parser.add_argument("--changes", type=int, default=1000)
     parser.add_argument("--scenes", type=int, default=1000)
+    parser.add_argument("--options", type=int, default=1000)
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--keep", default="out/fuzz", help="folder for inputs that found a fault")
     options = parser.parse_args()
@@ -266,9 +361,13 @@ def main():
         for worker in workers:
             worker.join()
     cases = {kind: sum(d[0][kind] for d in done) for kind in done[0][0]}
-    faults = [f for d in done for f in d[2]]
+    seen = sum((d[1] for d in done), collections.Counter())
+    faults = [f for d in done for f in d[3]]
+    for name in sorted({name for name, _ in seen}):
+        ends = ", ".join(f"{count} ended with {status}" for (of, status), count in sorted(seen.items()) if of == name)
+        print(f"{name}: {ends}; the longest took {max(d[2].get(name, 0) for d in done):.1f} s")
     print(f"seed {options.seed}:", ", ".join(f"{count} {kind}" for kind, count in cases.items()), "cases,", end=" ")
-    print(sum(d[1] for d in done), "commands,", len(faults), "faults")
+    print(sum(seen.values()), "commands,", len(faults), "faults")
     return 1 if faults else 0
 
 

@@ -217,6 +217,7 @@ def log_changes():
         "steps_short": lambda log: [
             put(log, f"steps/{name}", log[f"steps/{name}"][:1]) for name in list(log["steps"])
         ],
+        "steps_no_rows": lambda log: log.__delitem__("steps/rows"),
         "steps_empty": lambda log: [
             put(log, f"steps/{name}", log[f"steps/{name}"][:0]) for name in list(log["steps"])
         ],

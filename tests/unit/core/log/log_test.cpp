@@ -219,17 +219,19 @@ TEST_F(LogTest, GoesOnWithALogAsIfNothingHadBeen) {
     write(log, 23, 100);  // a save at each step; nothing finishes it
   }
   for (const int more : {0, 1, 7}) {
-    const SavedRun run = saved_run(Hdf5Reader(folder / "run.h5.part"));
+    const Hdf5Reader part(folder / "run.h5.part");
+    const SavedRun run = saved_run(part);
     sim = run.sim;
-    LogWriter log(std::make_unique<OutputFile>(file, Existing::go_on), run);
+    LogWriter log(file, run, part);
     write(log, more, 1e6);
   }
   {
-    const SavedRun run = saved_run(Hdf5Reader(folder / "run.h5.part"));
+    const Hdf5Reader part(folder / "run.h5.part");
+    const SavedRun run = saved_run(part);
     EXPECT_EQ(run.sim.step, 31);
     EXPECT_EQ(run.resumed, "23, 24");  // one that took no step left nothing
     sim = run.sim;
-    LogWriter log(std::make_unique<OutputFile>(file, Existing::go_on), run);
+    LogWriter log(file, run, part);
     write(log, 10);
     log.finish("complete", sim);
   }

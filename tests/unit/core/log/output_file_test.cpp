@@ -45,6 +45,12 @@ class OutputFileTest : public testing::Test {
   fs::path lock = folder / "run.h5.lock";
 };
 
+TEST_F(OutputFileTest, NeedsAName) {
+  EXPECT_EQ(complaint("", false), "'': names no file to write");
+  EXPECT_EQ(complaint(folder / "new/", false),
+            "'" + (folder / "new/").string() + "': names no file to write");
+}
+
 TEST_F(OutputFileTest, GetsItsNameWhenItIsWhole) {
   {
     OutputFile output(file, Existing::refuse);

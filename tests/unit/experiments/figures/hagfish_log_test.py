@@ -52,6 +52,37 @@ def test_a_foreign_or_empty_log_is_refused(content, log, damage, words):
         log()
 
 
+@pytest.mark.parametrize("what, by", [
+    (b"SNOD", b"SNOX"),  # a group's members
+    (b"TREE", b"TREX"),  # and chunks
+    (b"HEAP", b"HEAX"),  # and names
+    (b"[controller]", b"[controller."),  # no TOML
+    (b"_bend_y", b"\xffbend_y")])  # no UTF-8
+def test_a_damaged_log_is_one_line(log, what, by):
+    path = log().path
+    data = path.read_bytes()
+    assert what in data
+    path.write_bytes(data.replace(what, by))
+    with pytest.raises(LogError) as told:
+        damaged = HagfishLog(path)
+        damaged.scene(), damaged.hinges(), damaged["/trajectory/time"]
+    assert "\n" not in str(told.value) and path.name in str(told.value)
+
+
+@pytest.mark.parametrize("name", ["knot/head_end", "trajectory/time", "model/dof_name", "trajectory/phase"])
+def test_a_damaged_dataset_is_one_line(log, name):
+    path = log().path
+    with h5py.File(path) as file:
+        header = h5py.h5o.get_info(file[name].id).addr
+    data = bytearray(path.read_bytes())
+    data[header] = 9  # the version of a header that HDF5 does not know
+    path.write_bytes(data)
+    with pytest.raises(LogError) as told:
+        damaged = HagfishLog(path)
+        damaged.hinges(), damaged["/" + name], damaged.in_phase("slide")
+    assert "\n" not in str(told.value) and path.name in str(told.value)
+
+
 def test_missing_file_and_no_hdf5(tmp_path):
     with pytest.raises(LogError, match="no such file"):
         HagfishLog(tmp_path / "none.h5")

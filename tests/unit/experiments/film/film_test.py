@@ -139,7 +139,9 @@ def test_bad_films_are_one_line(tmp_path, film):
              "pixels": (good.replace("x_cm", "x_px"), "--scale"), "no y": (good.replace("y_cm", "w_cm"), "y_cm"),
              "word": (good.replace("1,3,3,0", "1,3,three,0"), "three"), "back": (good.replace("1,3,3,0", "0.5,3,3,0"), "rise"),
              "few": ("time_s,s_cm,x_cm,y_cm\n0,0,0,0\n1,0,0,0\n", "points"), "order": (good.replace("0,2,2,0", "0,1,2,0"), "rise"),
-             "one": (good[:good.index("1,0,0,0")], "two times"), "empty": ("", "time_s"), "inf": (good.replace("1,3,3,0", "1,3,inf,0"), "number")}
+             "one": (good[:good.index("1,0,0,0")], "two times"), "empty": ("", "time_s"), "inf": (good.replace("1,3,3,0", "1,3,inf,0"), "number"),
+             "huge": (good.replace("1,3,3,0", "1,3,1e300,0"), "at most"), "far": (good.replace("x_cm", "x_m").replace("1,3,3,0", "1,3,1e8,0"), "at most"),
+             "tiny": ("time_s,s_cm,x_cm,y_cm\n" + "".join(f"{t},{s}e-300,{s},0\n" for t in (0, 1) for s in range(6)), "cm long")}
     for name, (text, part) in cases.items():
         (tmp_path / "bad.csv").write_text(text)
         refused(tmp_path, "midlines", "bad.csv", "--out", "p.csv", parts=("bad.csv", part))
@@ -150,3 +152,5 @@ def test_bad_films_are_one_line(tmp_path, film):
     late = good.replace("\n0,", "\n1000,").replace("\n1,", "\n1001,")
     (film / "late.csv").write_text(late)
     refused(film, "against", "a.h5", "late.csv", parts=("a.h5", "no time"))
+    (film / "huge.csv").write_text(good.replace("1,3,3,0", "1,3,1e300,0"))
+    refused(film, "against", "a.h5", "huge.csv", parts=("huge.csv", "at most"))

@@ -54,6 +54,19 @@ TEST_F(CommandLine, ASlipIsToldTheNameMeant) {
               "table1 (built in): --set modle.bodies=100: modle: unknown key; did you mean model?");
 }
 
+TEST_F(CommandLine, NumbersOfOptionsAreFiniteAndInRange) {
+  for (const std::string word : {"nan", "inf", "0", "-1", "x", "1e999"}) {
+    expect_line(
+        "stress table1 --step " + word,
+        "--step: " + word + " is not a finite number above 0 (see `hagfish stress --help`)");
+    expect_line(
+        "run --step-limit " + word,
+        "--step-limit: " + word + " is not a finite number above 0 (see `hagfish run --help`)");
+  }
+  expect_line("sweep grid.toml --out x --threads nan",
+              "--threads: nan is not a number from 1 to 1024 (see `hagfish sweep --help`)");
+}
+
 TEST_F(CommandLine, EveryCommandHelpsAndListsItself) {
   const ProgramOutcome all = run_program("--help");
   EXPECT_EQ(all.code, 0);

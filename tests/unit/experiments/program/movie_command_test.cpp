@@ -58,6 +58,7 @@ TEST_F(MovieTest, RefusesBadInputInOneLine) {
   expect_refused("movie a.log --out a.mp4 --size 321x180", {"--size 321x180", "even"});
   expect_refused("movie a.log --out a.mp4 --size big", {"--size big"});
   expect_refused("movie a.log --out a.mp4 --speed 0", {"--speed"});
+  expect_refused("movie a.log --out a.mp4 --speed nan", {"--speed", "nan"});
   expect_refused("movie a.log --out a.mp4 --speed 1e-9", {"--speed", "pictures"});
   expect_refused("movie none.h5 --out a.mp4", {"none.h5", "no such file"});
   expect_refused("movie a.log --out /no/such/a.mp4", {"/no/such/a.mp4"});

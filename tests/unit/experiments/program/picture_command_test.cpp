@@ -71,6 +71,7 @@ TEST_F(ProgramTest, PictureRefusesBadInputInOneLine) {
   expect_refused("picture a.log --out a.png --time -1", {"a.log", "--time -1"});
   expect_refused("picture a.log --out a.png --time nan", {"a.log", "--time nan"});
   expect_refused("picture a.log --out a.png --pitch inf", {"--pitch", "inf"});
+  expect_refused("picture a.log --out a.png --yaw 1e308", {"--yaw", "1e+308"});
   for (const char* size :
        {"1280", "1280x", "x720", "1280x720x1", "15x720", "1280x9000", "-20x20"}) {
     expect_refused("picture a.log --out a.png --size " + std::string(size), {"--size", "px"});

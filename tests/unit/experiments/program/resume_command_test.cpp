@@ -72,6 +72,16 @@ TEST_F(ResumeTest, WhatCannotGoOnStaysAsItIs) {
   EXPECT_TRUE(fs::exists(folder / "a.h5.part"));
 }
 
+TEST_F(ResumeTest, ALogWithoutARowOfAStepStaysAsItIs) {
+  ASSERT_EQ(run_program("run --quiet --preset quick --step-limit 1e-9 --out a.h5").code, 1);
+  H5::H5File(folder / "a.h5", H5F_ACC_RDWR).unlink("/steps/rows");
+  const auto bytes = fs::file_size(folder / "a.h5");
+  const ProgramOutcome outcome = run_program("run --resume a.h5");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_EQ(outcome.output, "hagfish: a.h5: has no /steps/rows\n");
+  EXPECT_EQ(fs::file_size(folder / "a.h5"), bytes);
+}
+
 TEST_F(ResumeTest, ABranchWithoutChangesFollowsTheRun) {
   ASSERT_EQ(run_program(short_run + "--out a.h5").code, 0);
   const ProgramOutcome branch = run_program("branch a.h5 --time 0.25 --out b.h5 --quiet");
