@@ -155,18 +155,17 @@ class Run:
         self.effort = effort_per_cm(log, means)
 
 
-def efforts(runs: dict[str, Run]) -> tuple[list[list[str]], dict[str, list[tuple[int, float, bool]]]]:
-    """Rows of the table; for each scene the effort over that of f_thigmo, by numbers, and whether they slide all the way."""
+def efforts(runs: dict[str, Run]) -> tuple[list[list[str]], dict[str, list[tuple[int, float]]]]:
+    """Rows of the table; for each scene the effort over that of f_thigmo, by numbers, nan where they do not slide all the way."""
     rows = [["f_thigmo of the paper's law, dyn s for each cm", *(f"{runs[f'paper_{short(s)}'].effort:.0f}" for s in SCENES)]]
-    points: dict[str, list[tuple[int, float, bool]]] = {scene: [] for scene in SCENES}
+    points: dict[str, list[tuple[int, float]]] = {scene: [] for scene in SCENES}
     for count in NUMBERS:
         row = [f"{count} numbers, over that"]
         for scene in SCENES:
             paper, own = runs[f"paper_{short(scene)}"], runs[f"numbers_{short(scene)}_{count}"]
             all_the_way = own.ok and own.way >= ENOUGH * paper.way
             row.append(f"{own.effort / paper.effort:.2f}" if all_the_way else "-")
-            if all_the_way:
-                points[scene].append((count, own.effort / paper.effort, all_the_way))
+            points[scene].append((count, own.effort / paper.effort if all_the_way else np.nan))
         rows.append(row)
     return rows, points
 
@@ -186,7 +185,7 @@ def transfers(runs: dict[str, Run], name: str) -> list[list[str]]:
     return rows
 
 
-def draw(grid: Grid, points: dict[str, list[tuple[int, float, bool]]], out: Path) -> None:
+def draw(grid: Grid, points: dict[str, list[tuple[int, float]]], out: Path) -> None:
     names = [plots.KNOTS[knot].label for knot in SCENES.values()]
     figure, panels = plots.panels(3, 4, (11, 7.2), names + [""] * 8, sharex=True)
     panels = np.array(panels).reshape(3, 4)
@@ -202,10 +201,10 @@ def draw(grid: Grid, points: dict[str, list[tuple[int, float, bool]]], out: Path
             axes.axhline(ENOUGH, color=plots.GREY, lw=0.8, ls="--", zorder=0)
             axes.set_ylim(-0.05, 1.3)
         panels[row, 0].set_ylabel(f"share of the full way,\nshapes {words}")
-    most = max(value for of in points.values() for _, value, _ in of)
+    most = np.nanmax([value for of in points.values() for _, value in of])
     for column, scene in enumerate(SCENES):
         axes = panels[2, column]
-        axes.plot(*np.array([point[:2] for point in points[scene]]).T, "o-", color=COLOURS[1], ms=4)
+        axes.plot(*np.array(points[scene]).T, "o-", color=COLOURS[1], ms=4)
         axes.axhline(1, color=plots.GREY, lw=0.8, ls="--", zorder=0)
         axes.set(xlabel="numbers", xticks=grid.counts(), ylim=(0, 1.1 * max(most, 1)))
     panels[2, 0].set_ylabel("effort for each cm,\nover that of $f_{thigmo}$")
