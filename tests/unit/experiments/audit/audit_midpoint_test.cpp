@@ -60,5 +60,25 @@ TEST_F(AuditMidpoint, SeesAFalseWayOfOneStep) {
   change(-0.001);
 }
 
+// How the middle was found: a guess that is none, and a measure without a second pass.
+TEST_F(AuditMidpoint, SeesFalsePasses) {
+  const auto remaining = [](double by) {
+    rewrite<double>(file, "/steps/remaining", H5::PredType::NATIVE_DOUBLE,
+                    [by](std::vector<double>& values) { values[values.size() / 2] *= by; });
+  };
+  remaining(2);
+  EXPECT_NE(objections().find("passes of steps"), std::string::npos) << objections();
+  remaining(0.5);
+  const auto before = rewrite<std::int32_t>(file, "/steps/passes", H5::PredType::NATIVE_INT32,
+                                            [](std::vector<std::int32_t>& values) {
+                                              std::int32_t& some = values[values.size() / 2];
+                                              some = some == 1 ? 2 : 1;
+                                            });
+  EXPECT_NE(objections().find("passes of steps"), std::string::npos) << objections();
+  rewrite<std::int32_t>(file, "/steps/passes", H5::PredType::NATIVE_INT32,
+                        [&before](std::vector<std::int32_t>& values) { values = before; });
+  EXPECT_EQ(objections(), "");
+}
+
 }  // namespace
 }  // namespace hagfish
