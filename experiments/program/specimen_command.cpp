@@ -160,7 +160,7 @@ int specimen(const SpecimenOptions& options) {
   const double fourth = std::pow(mean_diameter(animal) / mean_diameter(base.specimen), 4);
   tell(options, animal, base.scene.model.largest_limit);
   out.write(toml_of(options, animal, base.specimen, fourth));
-  fmt::print("{}\n", options.out);
+  fmt::print("{}\n", printable(options.out));
   if (scene_out) {
     const fs::path relative =
         fs::absolute(options.out).lexically_relative(fs::absolute(options.scene_out).parent_path());
@@ -180,7 +180,7 @@ int specimen(const SpecimenOptions& options) {
         base_scene, base_scene, animal.length, relative.string(),
         fourth * base.scene.active.stiffness, fourth * base.scene.active.capacity,
         std::max(1.0, fourth) * base.scene.controller.cap));
-    fmt::print("{}: hagfish run {}\n", options.scene_out, options.scene_out);
+    fmt::print("{0}: hagfish run {0}\n", printable(options.scene_out));
   }
   return exit_code::done;
 }
