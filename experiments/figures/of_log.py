@@ -17,7 +17,7 @@ import muscles
 import overview
 import summary
 from hagfish_log import HagfishLog, LogError
-from script import run_script
+from script import printable, run_script
 
 
 def audited(path: Path, hagfish: Path, check: Path) -> str:
@@ -56,9 +56,9 @@ def main(path: Path, hagfish: Path, folder: Path) -> None:
         except LogError as error:
             if "claims.txt" in names:
                 (folder / "claims.txt").unlink(missing_ok=True)
-            print(f"{names[0]}: left out: {error}")
+            print(printable(f"{names[0]}: left out: {error}"))
         else:
-            print(", ".join(str(folder / name) for name in names))
+            print(printable(", ".join(str(folder / name) for name in names)))
 
 
 if __name__ == "__main__":

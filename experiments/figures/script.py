@@ -28,6 +28,11 @@ def run_script(description: str | None, names: Sequence[str], work: Callable[...
         fail(f"{error.filename}: {error.strerror}" if error.filename else str(error))
 
 
+def printable(text: str) -> str:
+    """Without what a terminal would obey."""
+    return "".join(c if c.isprintable() else c.encode("unicode_escape", "surrogatepass").decode() for c in text)
+
+
 def fail(message: str) -> None:
-    print(f"{Path(sys.argv[0]).name}: {message}", file=sys.stderr)
+    print(printable(f"{Path(sys.argv[0]).name}: {message}"), file=sys.stderr)
     sys.exit(2)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "core/input/input_text.hpp"
 #include "experiments/film/film_distance.hpp"
 #include "experiments/program/commands.hpp"
 #include "experiments/program/csv.hpp"
@@ -43,7 +44,7 @@ int against(const AgainstOptions& options) {
   if (!options.png.empty()) draw_from_text("against.py", text, options.png, options.force);
   if (csv) csv->write(text);
   fmt::print("{}: {:.3g} cm from {} (rms of {} midlines{}); the worst, at {:g} s, {:.3g} cm\n",
-             options.log, distance.rms(), options.film, by_time.size(),
+             printable(options.log), distance.rms(), printable(options.film), by_time.size(),
              options.as_is ? "" : ", the film moved as a whole", distance.time[worst],
              by_time[worst]);
   return exit_code::done;

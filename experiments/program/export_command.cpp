@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "core/input/input_text.hpp"
 #include "core/log/hdf5_error.hpp"
 #include "experiments/export/export_tables.hpp"
 #include "experiments/program/commands.hpp"
@@ -49,7 +50,8 @@ int export_log(const ExportOptions& options) {
     }
     files.back()->write(csv_text(dictionary));
     fmt::print("{}: {} tables of {} frames, {}; dictionary.csv says what each column is\n",
-               options.out, tables.size(), log.time.size(), options.si ? "SI" : "cm, g, s, dyn");
+               printable(options.out), tables.size(), log.time.size(),
+               options.si ? "SI" : "cm, g, s, dyn");
   } catch (...) {
     if (made) fs::remove(options.out, error);  // where it is empty
     throw;

@@ -4,6 +4,7 @@
 
 #include "core/input/curvature_csv.hpp"
 #include "core/input/input_error.hpp"
+#include "core/input/input_text.hpp"
 #include "experiments/film/film_fit.hpp"
 #include "experiments/program/commands.hpp"
 #include "experiments/program/number_options.hpp"
@@ -47,12 +48,12 @@ int midlines(const MidlinesOptions& options) {
   fmt::print(
       "{}: {} stations x {} times, {:g} s, linear in between, which smooths; {} "
       "midlines of {} lie {:.2g} cm from it (rms), the worst, at {:g} s, {:.2g} cm\n",
-      options.out, options.stations, options.times, fit.program.time.back(), frames,
+      printable(options.out), options.stations, options.times, fit.program.time.back(), frames,
       film.planar ? "two dimensions" : "three dimensions", fit.rms,
       film.frames[static_cast<std::size_t>(worst - fit.rms_at.begin())].time, *worst);
   fmt::print(
       "hagfish run {} --set script.program={} --set controller.tighten_from={:g} --until form\n",
-      options.scene, options.out, fit.program.time.back());
+      printable(options.scene), printable(options.out), fit.program.time.back());
   return exit_code::done;
 }
 

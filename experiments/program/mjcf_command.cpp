@@ -5,6 +5,7 @@
 
 #include "core/chain/model.hpp"
 #include "core/input/input_error.hpp"
+#include "core/input/input_text.hpp"
 #include "core/log/hdf5_error.hpp"
 #include "experiments/program/commands.hpp"
 #include "experiments/program/scene_argument.hpp"
@@ -44,8 +45,9 @@ int mjcf(const MjcfOptions& options) {
   for (const auto& [name, text] : files) {
     TextFile(fs::path(options.out) / name, options.force).write(text);
   }
-  fmt::print("{}: {} bodies in {} files\n", (fs::path(options.out) / mjcf_root_file).string(),
-             model.body_count(), files.size());
+  fmt::print("{}: {} bodies in {} files\n",
+             printable((fs::path(options.out) / mjcf_root_file).string()), model.body_count(),
+             files.size());
   return exit_code::done;
 }
 

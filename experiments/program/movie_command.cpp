@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "core/input/input_error.hpp"
+#include "core/input/input_text.hpp"
 #include "core/knot/knot.hpp"
 #include "core/log/output_file.hpp"
 #include "experiments/picture/encoder.hpp"
@@ -101,7 +102,7 @@ int movie(const MovieOptions& options) {
   }
   if (progress) say("\n");
   file.publish();
-  fmt::print("{}: {} pictures, {:.1f} s\n", options.out, frames.size(),
+  fmt::print("{}: {} pictures, {:.1f} s\n", printable(options.out), frames.size(),
              static_cast<double>(frames.size()) / rate);
   return exit_code::done;
 }

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "core/input/curvature_csv.hpp"
+#include "core/input/input_text.hpp"
 #include "experiments/audit/log_contents.hpp"
 #include "experiments/curvature/program_fit.hpp"
 #include "experiments/program/commands.hpp"
@@ -41,8 +42,8 @@ int make_program(const ProgramOptions& options) {
   fmt::print(
       "{}: {} stations x {} times, {:g} s; rms error {:.2g} rad a hinge of {:.2g}, largest "
       "{:.2g}\n",
-      options.out, options.stations, options.times, time.back(), fit.rms_error, fit.rms_angle,
-      fit.largest_error);
+      printable(options.out), options.stations, options.times, time.back(), fit.rms_error,
+      fit.rms_angle, fit.largest_error);
   return exit_code::done;
 }
 

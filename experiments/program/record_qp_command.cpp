@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "core/input/input_error.hpp"
+#include "core/input/input_text.hpp"
 #include "experiments/program/commands.hpp"
 #include "experiments/program/number_options.hpp"
 #include "experiments/program/progress.hpp"
@@ -101,7 +102,7 @@ int record_qp(const RecordQpOptions& options, const std::string& typed) {
   }
   progress.end();
   set.finish();
-  fmt::print("{}: {} QPs of {} steps{}\n", options.out, set.size(), sim.step,
+  fmt::print("{}: {} QPs of {} steps{}\n", printable(options.out), set.size(), sim.step,
              recorder.left_out() == 0
                  ? ""
                  : fmt::format("; {} left out, as a row is at its controller.cap, which "

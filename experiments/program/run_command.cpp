@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "core/input/input_text.hpp"
 #include "core/log/build_info.hpp"
 #include "core/log/hdf5_error.hpp"
 #include "experiments/audit/log_schema.hpp"
@@ -68,7 +69,7 @@ int resume(NewRunOptions options) {
   if (run.git_revision != build_revision()) {
     say("hagfish: {}: begun by revision {}, gone on with by {}: from here on not bit by bit the "
         "same\n",
-        options.run.out, run.git_revision, build_revision());
+        printable(options.run.out), printable(run.git_revision), build_revision());
   }
   return take_run(run.model, run.resolved.scene, run.sim, options.run, log, run.wall_time);
 }

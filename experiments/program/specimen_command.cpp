@@ -6,8 +6,10 @@
 #include <filesystem>
 #include <numbers>
 #include <optional>
+#include <tuple>
 
 #include "core/input/input_error.hpp"
+#include "core/input/input_text.hpp"
 #include "experiments/program/commands.hpp"
 #include "experiments/program/number_options.hpp"
 #include "experiments/program/scene_argument.hpp"
@@ -20,7 +22,9 @@ namespace fs = std::filesystem;
 
 /// The animal and the scene that others are made from.
 constexpr const char* base_scene = "living_overhand";
-constexpr int paper_bodies = 100;  // of the chain whose every other joint bends by the limits
+constexpr int paper_bodies = 100;     // of the chain whose every other joint bends by the limits
+constexpr double most_around = 1000;  // cm
+constexpr double most_bending = 180;  // degrees, as specimen files have it
 constexpr double degree = std::numbers::pi / 180;
 // Beyond these the figures are pointed out.
 constexpr double least_density = 0.9, largest_density = 1.2;        // g/cm^3; water has 1
@@ -34,15 +38,20 @@ struct SpecimenOptions {
 };
 
 void check(const SpecimenOptions& options) {
-  for (const auto& [name, list] :
-       {std::pair{"--circumference", options.circumference}, {"--bending", options.bending}}) {
+  if (printable(options.name) != options.name) {
+    throw InputError("--name " + printable(options.name) + ": must be letters");
+  }
+  const std::tuple<const char*, const std::vector<double>&, double> lists[] = {
+      {"--circumference", options.circumference, most_around},
+      {"--bending", options.bending, most_bending}};
+  for (const auto& [name, list, most] : lists) {
     if (list.size() != options.station.size()) {
       throw InputError(
           fmt::format("{}: {} values for {} stations", name, list.size(), options.station.size()));
     }
     for (const double value : list) {
-      if (!(value > 0) || !std::isfinite(value)) {
-        throw InputError(fmt::format("{} {:g}: must be above 0", name, value));
+      if (!(value > 0 && value < most)) {
+        throw InputError(fmt::format("{} {:g}: must be above 0 and below {:g}", name, value, most));
       }
     }
   }
@@ -173,7 +182,7 @@ int specimen(const SpecimenOptions& options) {
   const double fourth = std::pow(mean_diameter(animal) / mean_diameter(base.specimen), 4);
   tell(options, animal, base.scene.model.largest_limit);
   out.write(toml_of(options, animal, base.specimen, fourth));
-  fmt::print("{}\n", options.out);
+  fmt::print("{}\n", printable(options.out));
   if (scene_out) {
     const fs::path relative =
         fs::absolute(options.out).lexically_relative(fs::absolute(options.scene_out).parent_path());
@@ -193,7 +202,7 @@ int specimen(const SpecimenOptions& options) {
         base_scene, base_scene, animal.length, relative.string(),
         fourth * base.scene.active.stiffness, fourth * base.scene.active.capacity,
         std::max(1.0, fourth) * base.scene.controller.cap));
-    fmt::print("{}: hagfish run {}\n", options.scene_out, options.scene_out);
+    fmt::print("{0}: hagfish run {0}\n", printable(options.scene_out));
   }
   return exit_code::done;
 }
@@ -215,7 +224,7 @@ void add_specimen(Program& program) {
   list("--bending", options->bending, "bending limits at the stations, degrees")->required();
   app->add_option("--twist", options->twist, "twisting limit of the whole body, degrees")
       ->required()
-      ->check(from_to(0.0, 3600.0));
+      ->check(from_to(1e-3, 3600.0));
   list("--station", options->station, "where they were measured, shares of the length")
       ->capture_default_str();
   app->add_option("--name", options->name, "what the animal is called")->capture_default_str();

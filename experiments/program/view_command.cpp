@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "core/input/input_text.hpp"
 #include "experiments/program/commands.hpp"
 #include "experiments/program/text_file.hpp"
 #include "experiments/view/view_data.hpp"
@@ -27,7 +28,7 @@ int view(const ViewOptions& options) {
   }
   const std::string page = view_page(logs);
   out.write(page);
-  fmt::print("{}: {:.1f} MB, for any browser\n", options.out,
+  fmt::print("{}: {:.1f} MB, for any browser\n", printable(options.out),
              1e-6 * static_cast<double>(page.size()));
   return exit_code::done;
 }

@@ -282,7 +282,14 @@ def work(number, options, folder, bases, texts, results):
     begin = time.monotonic()
     end = begin + 60 * options.minutes
     worker = Worker(number, options, folder, bases, texts)
-    worker.named(number, options.jobs, options.seed, begin + NAMED_SHARE * (end - begin))
+    try:
+        worker.named(number, options.jobs, options.seed, begin + NAMED_SHARE * (end - begin))
+        go_through_kinds(worker, options, begin, end)
+    finally:  # what was found so far
+        results.put((worker.cases, worker.seen, worker.longest, worker.faults))
+
+
+def go_through_kinds(worker, options, begin, end):
     wanted = {
         "log flip": 0.75 * options.flips, "qp flip": 0.25 * options.flips, "log change": 0.3 * options.changes,
         "qp change": 0.2 * options.changes, "toml": 0.2 * options.changes, "grid": 0.1 * options.changes, "csv": 0.1 * options.changes,
@@ -300,7 +307,6 @@ def work(number, options, folder, bases, texts, results):
         if time.monotonic() > told + REPORT:
             told = time.monotonic()
             print(f"{told - begin:.0f} s: {sum(worker.seen.values())} commands, {worker.cases}", flush=True)
-    results.put((worker.cases, worker.seen, worker.longest, worker.faults))
 
 
 def make_bases(options, folder):
@@ -368,7 +374,7 @@ def main():
         print(f"{name}: {ends}; the longest took {max(d[2].get(name, 0) for d in done):.1f} s")
     print(f"seed {options.seed}:", ", ".join(f"{count} {kind}" for kind, count in cases.items()), "cases,", end=" ")
     print(sum(seen.values()), "commands,", len(faults), "faults")
-    return 1 if faults else 0
+    return 1 if faults or any(worker.exitcode for worker in workers) else 0
 
 
 if __name__ == "__main__":

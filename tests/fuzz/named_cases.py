@@ -206,6 +206,7 @@ def log_changes():
         ),
         "status_array": lambda log: replace_attribute(log, "status", np.array(["x"] * 50, object), dtype=h5py.string_dtype()),
         "status_escape": lambda log: replace_attribute(log, "status", "failed: \x1b]0;owned\x07\x1b[31m\n\r x"),
+        "revision_escape": lambda log: replace_attribute(log, "git_revision", "\x1b]0;owned\x07\x1b[31m"),
         "status_long": lambda log: replace_attribute(log, "status", "x" * 60000),
         "cpu_numbers": lambda log: replace_attribute(log, "cpu", np.arange(500)),
         "unit_array": lambda log: log["steps/kkt"].attrs.create("unit", np.arange(500)),

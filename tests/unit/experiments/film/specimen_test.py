@@ -55,6 +55,11 @@ def test_bad_measures_are_one_line(tmp_path):
     refused(tmp_path, "specimen", *at(1, -3), parts=("--length",))
     refused(tmp_path, "specimen", *at(5, "4.6,4.4"), parts=("--circumference", "2 values for 4"))
     refused(tmp_path, "specimen", *at(7, "25,80,50,0"), parts=("--bending 0",))
+    # What the reader of specimen files would refuse.
+    refused(tmp_path, "specimen", *at(7, "25,80,50,180"), parts=("--bending 180", "below 180"))
+    refused(tmp_path, "specimen", *at(5, "4.6,4.4,4.4,1e308"), parts=("--circumference 1e+308",))
+    refused(tmp_path, "specimen", *at(9, 0), parts=("--twist",))
+    refused(tmp_path, "specimen", *ANIMAL, "--name", "a\nb", "--out", "x.toml", parts=("--name",))
     refused(tmp_path, "specimen", *ANIMAL, "--station", "0.2,0.4,0.3,0.8", "--out", "x.toml", parts=("--station 0.3",))
     refused(tmp_path, "specimen", *ANIMAL, "--out", "/no/folder/x.toml", parts=("/no/folder/x.toml",))
 

@@ -29,7 +29,8 @@ def test_a_run_that_never_slid_has_the_rest(tmp_path):
     assert "figure8.png: left out: " in said and said.count("left out") == 1
     assert {path.name for path in (tmp_path / "some/where").glob("*.png")} == {"overview.png", "figure7.png"}
     (tmp_path / "a.h5").rename(tmp_path / "a.log")  # whatever it is called
-    assert "figure8.png: left out: " in hagfish(tmp_path, "figures", "a.log")
+    said = hagfish(tmp_path, "figures", "a.log", "--out", "\x1b[31mred")
+    assert "figure8.png: left out: " in said and "\\x1b[31mred/overview.png" in said and "\x1b" not in said
 
 
 def test_bad_input_is_one_line(tmp_path):
