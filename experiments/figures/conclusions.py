@@ -70,7 +70,7 @@ def integration(folder: Path) -> list[str]:
     lines += ["", f"- References: RK4 at 0.2 and 0.1 ms differ by {max(agreements):.1e} cm at most.",
               f"- A step of the core costs 1/{np.median(ratio):.2g} of one of MuJoCo's Euler (1/{min(ratio):.2g} to "
               f"1/{max(ratio):.2g}), and errs as much: both are of first order.",
-              f"- RK4 is cheaper than the core for errors below {', '.join(f'{c:.2g} cm ({m})' for m, c in crossings(folder))}. "
+              f"- RK4 is cheaper than the core's Euler for errors below {', '.join(f'{c:.2g} cm ({m})' for m, c in crossings(folder))}. "
               "Contacts that come and go leave a step of first order at best.", ""]
     return lines
 
