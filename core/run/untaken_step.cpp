@@ -12,11 +12,7 @@ StepInput input_of(const Situation& at, const Scene& scene, UntakenStep& untaken
 }  // namespace
 
 void begin_untaken(const Situation& at, const Scene& scene, UntakenStep& untaken) {
-  WarmStart& warm = untaken.solver.warm;
-  warm.begin();  // twice: nothing of other steps
-  warm.begin();
-  warm.half_change.resize(0);
-  warm.half_before.resize(0);
+  untaken.solver.warm.forget();
   if (const Status status = untaken.solver.begin(input_of(at, scene, untaken), untaken.step);
       !status.ok()) {
     throw StepError(status);

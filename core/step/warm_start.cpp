@@ -5,6 +5,14 @@
 
 namespace hagfish {
 
+void WarmStart::forget() {
+  entries_.clear();
+  before_.clear();
+  half_change.resize(0);
+  half_before.resize(0);
+  remaining = 1;
+}
+
 void WarmStart::begin() {
   std::swap(entries_, before_);
   entries_.clear();

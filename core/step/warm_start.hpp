@@ -15,6 +15,8 @@ class WarmStart {
     double lambda = 0;  ///< dyn s or dyn cm s
     double change = 0;  ///< since the step before, in which a row that had no force counts as 0
   };
+  /// As new, but for its storage.
+  void forget();
   /// Forgets all but what the changes are taken from.
   void begin();
   /// Ids may come in any order, once each; end() before the next look.

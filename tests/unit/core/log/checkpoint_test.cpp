@@ -115,6 +115,13 @@ TEST(Checkpoint, KeepsActivations) {
               155 + 50 * 4 + 49 * 2);
 }
 
+// What it solves for itself must not depend on steps before, of which a checkpoint holds nothing.
+TEST(Checkpoint, KeepsActivationsByTheMidpointRule) {
+  expect_kept({"controller.law=muscles", "muscle.present=true", "muscle.activation_time=0.1",
+               "time.rule=midpoint"},
+              155 + 50 * 4 + 49 * 2);
+}
+
 class BadBytes : public testing::Test {
  protected:
   std::string refusal(const std::vector<std::uint8_t>& changed) {
