@@ -29,7 +29,7 @@ def test_what_chance_and_rounding_leave_open(files, changes):
     readme.main(*files(**changes))
 
 
-@pytest.mark.parametrize("changes", [{"slide": "8.9"}, {"force balance": "5e-14"}, {"head drift": "1e-9"}, {"penetration": ""}])
+@pytest.mark.parametrize("changes", [{"slide": "8.9"}, {"force balance": "5e-14"}, {"head drift": "1e-9"}, {"penetration": ""}, {"penetration": "0.0006"}])
 def test_what_has_aged_is_named(files, capsys, changes):
     with pytest.raises(SystemExit) as stopped:
         readme.main(*files(**changes))

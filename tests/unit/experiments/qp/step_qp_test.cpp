@@ -39,9 +39,9 @@ TEST_P(StepQp, BothFormsHaveTheStepsOwnSolution) {
   EXPECT_EQ(primal.e.size(), record.control.clamp_head ? 6 : 0);
   const BoxQp dual = dual_of(primal);
   // Bilateral rows come first, so that the order is the same. A condition of H of 1.4e6 and as much
-  // in the units of A's entries.
-  EXPECT_LE(relative_error(dual.A, box.A), 1e-10);
-  EXPECT_LE(relative_error(dual.b, box.b), 1e-10);
+  // in the units of A's entries: 3e-10 of rounding; seen 1.1e-10 where the compiler has no FMA.
+  EXPECT_LE(relative_error(dual.A, box.A), 3e-10);
+  EXPECT_LE(relative_error(dual.b, box.b), 3e-10);
   EXPECT_EQ(dual.lower, box.lower);
   const Eigen::MatrixXd C = dense_rows(model, record.moment.observation.kin, rows);
   EXPECT_LE(relative_error(primal.C, C.bottomRows(primal.d.size())), 1e-13);
