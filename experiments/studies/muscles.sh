@@ -12,14 +12,7 @@ run_of() {
   [[ -e $out/$1.h5 ]] || "$hagfish" run "${@:2}" --out "$out/$1.h5" --quiet || [[ $? == 3 ]]
 }
 # A body of the rigidity EI = $1 and muscles that follow their program as those of the living scenes do, without a bound.
-stiffness() {
-  awk -v b="$1" 'BEGIN {
-    printf "--set active.stiffness=%g --set active.capacity=1e9", 2.5 * b
-    n = split("bending_stiffness bending_damping twist_stiffness twist_damping", name, " ")
-    split("2e5 3e3 1.3e5 2e3", value, " ")
-    for (i = 1; i <= n; i++) { x = value[i] * b / 2e5; printf " --set specimen.passive.%s=[%g,%g,%g,%g]", name[i], x, x, x, x }
-  }'
-}
+rigid() { awk -v b="$1" 'BEGIN { printf "--set active.stiffness=%g --set active.capacity=1e9 ", 2.5 * b }' && stiffness "$1"; }
 
 with="--set muscle.present=true"
 moved="$with --set controller.law=muscles --set muscle.activation_time=0.1 --set expect.speed_share=0"
@@ -30,7 +23,7 @@ moved="$with --set controller.law=muscles --set muscle.activation_time=0.1 --set
     run_of "pull_$knot" "pull_living_$knot" $with
     run_of "forward_$knot" "living_$knot" $moved
     for value in 4e4 1e5 3e5 4e5 6e5 8e5; do
-      run_of "ei_${knot}_$value" "living_$knot" $with --set 'expect.types=[]' --log frames $(stiffness $value)
+      run_of "ei_${knot}_$value" "living_$knot" $with --set 'expect.types=[]' --log frames $(rigid $value)
     done
   done
   for seed in {1..8}; do

@@ -1,7 +1,7 @@
 # shellcheck shell=bash
 # Sourced by the studies that sweep, not run: what common.sh does, and runs jobs side by side, which go on where they were
-# stopped. Comes after inputs=(...), files that results depend on besides the program, if any. Leaves runs (a folder), cores,
-# rounding and stiffness (settings) besides.
+# stopped. Comes after inputs=(...), files that results depend on besides the program, if any. Leaves runs (a folder), cores
+# and rounding (settings) besides.
 
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 # shellcheck disable=SC2034 # for the studies
@@ -12,15 +12,6 @@ export runs=$out/runs
 # runs differ by is chance.
 # shellcheck disable=SC2034
 rounding="--set start.noise_deg=1e-6"
-
-# Flexural rigidity $1 (dyn cm^2), and with it what the specimen file has in proportion to it.
-stiffness() {
-  awk -v b="$1" 'BEGIN {
-    split("bending_stiffness 1 bending_damping 0.015 twist_stiffness 0.65 twist_damping 0.01", f, " ")
-    for (i = 1; i < 8; i += 2)
-      printf "--set specimen.passive.%s=[%g,%g,%g,%g] ", f[i], b * f[i + 1], b * f[i + 1], b * f[i + 1], b * f[i + 1]
-  }'
-}
 
 # Results of another program or of other inputs do not mix with this one's.
 version=$("$hagfish" --version; [[ -z ${inputs-} ]] || cat "${inputs[@]}" | cksum)
