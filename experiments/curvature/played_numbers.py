@@ -10,22 +10,20 @@ import argparse
 import sys
 from pathlib import Path
 
-import h5py
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "figures"))
-from hagfish_log import LogError, dataset_of, open_hdf5, values_of  # noqa: E402
+from hagfish_log import HagfishLog, LogError  # noqa: E402
 
 
-def numbers_in_slide(log: h5py.File) -> tuple[np.ndarray, np.ndarray]:
+def numbers_in_slide(log: HagfishLog) -> tuple[np.ndarray, np.ndarray]:
     """Of the frames of the slide the head end of the window (cm) and the numbers (dyn cm)."""
-    if "basis" not in log:
-        raise LogError(f"{log.filename}: no numbers slide its knot")
-    place = values_of(dataset_of(log, "/basis/window"))[:, 0]
-    numbers = values_of(dataset_of(log, "/basis/amplitude"))
+    if log.scene()["controller"]["law"] != "reduced_basis":
+        raise LogError(f"{log.path}: no numbers slide its knot")
+    place, numbers = log["/basis/window"][:, 0], log["/basis/amplitude"]
     known = np.isfinite(place) & np.isfinite(numbers).all(axis=1)
     if known.sum() < 2:
-        raise LogError(f"{log.filename}: the knot never slides")
+        raise LogError(f"{log.path}: the knot never slides")
     return place[known], numbers[known]
 
 
@@ -47,8 +45,7 @@ def main() -> None:
     parser.add_argument("--base", required=True)
     of = parser.parse_args()
     try:
-        with open_hdf5(of.log) as log:
-            places, played = profile(*numbers_in_slide(log), of.places)
+        places, played = profile(*numbers_in_slide(HagfishLog(of.log)), of.places)
     except LogError as error:
         parser.error(str(error))
     rows = "\n".join("  " + ", ".join(f"{a:.0f}.0" for a in row) + "," for row in played)

@@ -10,50 +10,43 @@ import csv
 import sys
 from pathlib import Path
 
-import h5py
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "figures"))
-from hagfish_log import LogError, dataset_of, open_hdf5, values_of  # noqa: E402
+from hagfish_log import HagfishLog, LogError  # noqa: E402
 
 AXES = ("bend_y", "bend_z", "twist")
 STATIONS = 61
 
 
-def forces_in_slide(log: h5py.File) -> tuple[np.ndarray, np.ndarray, np.ndarray, float]:
-    """Of the frames of the slide f_thigmo at each hinge (dyn cm), and the knot's ends (cm); the hinges' names; length (cm)."""
-    phase = dataset_of(log, "/trajectory/phase")
-    slides = values_of(phase) == h5py.check_enum_dtype(phase.dtype)["slide"]
-    force = values_of(dataset_of(log, "/mean/forces/thigmotaxis"))
-    known = slides & np.isfinite(force).all(axis=1) & (np.abs(force[:, 6:]).sum(axis=1) > 0)
+def forces_in_slide(log: HagfishLog) -> tuple[np.ndarray, np.ndarray]:
+    """Of the frames of the slide f_thigmo at each hinge (dyn cm), and the knot's ends (cm)."""
+    frames = log.in_phase("slide")
+    force = log["/mean/forces/thigmotaxis"][frames][:, log.hinges()[0]]
+    known = np.isfinite(force).all(axis=1) & (np.abs(force).sum(axis=1) > 0)
     if known.sum() < 2:
-        raise LogError(f"{log.filename}: f_thigmo slides no knot in it")
-    ends = np.stack([values_of(dataset_of(log, f"/knot/{end}_end")) for end in ("head", "tail")], axis=1)
-    dofs = [name.decode() for name in values_of(dataset_of(log, "/model/dof_name"))]
-    length = float(np.sum(values_of(dataset_of(log, "/model/length"))))
-    return force[known][:, 6:], ends[known], np.array(dofs[6:]), length
+        raise LogError(f"{log.path}: f_thigmo slides no knot in it")
+    ends = np.stack([log[f"/knot/{end}_end"][frames] for end in ("head", "tail")], axis=1)
+    return force[known], ends[known]
 
 
-def sampled(force: np.ndarray, ends: np.ndarray, hinges: np.ndarray, length: float, margin: float | None) -> np.ndarray:
+def sampled(log: HagfishLog, force: np.ndarray, ends: np.ndarray, margin: float | None) -> np.ndarray:
     """Each frame's three axes at the stations, one after the other."""
-    bodies = 1 + max(int(name[1:].split("_")[0]) for name in hinges)
+    _, joint, kind = log.hinges()
+    place, length = log.joint_arc()[joint], log["/model/length"].sum()
     share = np.linspace(0, 1, STATIONS)
     rows = []
     for values, (first, last) in zip(force, ends):
         arc = share * length if margin is None else first - margin + share * (last - first + 2 * margin)
-        row = []
-        for axis in AXES:
-            own = np.array([name.endswith(axis) for name in hinges])
-            place = np.array([int(name[1:].split("_")[0]) for name in hinges[own]]) * length / bodies
-            row.append(np.interp(arc, place, values[own], left=0, right=0))
-        rows.append(np.concatenate(row))
+        rows.append(np.concatenate([np.interp(arc, place[kind == axis], values[kind == axis], left=0, right=0) for axis in AXES]))
     return np.array(rows)
 
 
 def learn(source: Path, out: Path, frame: str, count: int, margin: float) -> None:
-    with open_hdf5(source) as log:
-        force, ends, hinges, length = forces_in_slide(log)
-    rows = sampled(force, ends, hinges, length, margin if frame == "knot" else None)
+    log = HagfishLog(source)
+    force, ends = forces_in_slide(log)
+    length = log["/model/length"].sum()
+    rows = sampled(log, force, ends, margin if frame == "knot" else None)
     _, size, modes = np.linalg.svd(rows, full_matrices=False)
     held = np.cumsum(size**2) / np.sum(size**2)
     share = np.linspace(0, 1, STATIONS)
