@@ -1,11 +1,9 @@
 #include "core/knot/knot.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <optional>
 #include <random>
@@ -13,146 +11,10 @@
 #include <utility>
 #include <vector>
 
+#include "core/knot/diagram.hpp"
+
 namespace hagfish {
 namespace {
-
-/// Lengths below this share of the polygon's radius count as degenerate. Edges whose ends are all
-/// farther than that from each other's line cross at a sine of at least as much, and then the place
-/// of the crossing is rounded by less than a fifth of it: no decision made depends on rounding.
-constexpr double generic = 1e-7;
-
-/// Where two edges of the projection cross.
-struct Meeting {
-  double at_first, at_second;  ///< from the edge's start, projected length
-  bool first_over;
-  int sign;  ///< +1 where the over strand turns anticlockwise into the under strand
-};
-
-/// One of the two visits of the polygon to a crossing.
-struct Passage {
-  int edge;
-  double at;  ///< from the edge's start, projected length
-  int crossing;
-  bool over;
-};
-
-/// Signed Gauss code. Passages are in the order of the polygon; each crossing left has two.
-struct Diagram {
-  std::vector<Passage> passages;
-  std::vector<int> sign;  ///< by crossing, whether left or not
-};
-
-/// Bounding rectangles of the projected edges.
-struct Boxes {
-  Eigen::ArrayXd left, right, bottom, top;
-};
-
-[[noreturn]] void throw_degenerate() {
-  throw std::domain_error("knot: the projection is degenerate or the polygon touches itself");
-}
-
-double cross(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
-/// Coordinates (3 x n) about the mean, the third one pointing at the observer.
-Eigen::Matrix3Xd seen_along(const Eigen::Matrix3Xd& points, const Eigen::Vector3d& direction) {
-  Eigen::Matrix3d axes;
-  axes.col(2) = direction.normalized();
-  axes.col(0) = axes.col(2).unitOrthogonal();
-  axes.col(1) = axes.col(2).cross(axes.col(0));
-  return axes.transpose() * (points.colwise() - points.rowwise().mean());
-}
-
-/// Where edge a-b crosses edge c-d in projection, if it does. Throws where `tolerance` cannot tell.
-std::optional<Meeting> meet(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                            const Eigen::Vector3d& c, const Eigen::Vector3d& d, double tolerance) {
-  const Eigen::Vector3d first = b - a;
-  const Eigen::Vector3d second = d - c;
-  const double first_length = first.head<2>().norm();
-  const double second_length = second.head<2>().norm();
-  // Distances from the line through the other edge. A side is decided beyond the tolerance only.
-  const double to_c = cross(first, c - a) / first_length;
-  const double to_d = cross(first, d - a) / first_length;
-  if (std::min(to_c, to_d) > tolerance || std::max(to_c, to_d) < -tolerance) return std::nullopt;
-  const double to_a = cross(second, a - c) / second_length;
-  const double to_b = cross(second, b - c) / second_length;
-  if (std::min(to_a, to_b) > tolerance || std::max(to_a, to_b) < -tolerance) return std::nullopt;
-
-  const double nearest = std::min({std::abs(to_a), std::abs(to_b), std::abs(to_c), std::abs(to_d)});
-  const double turn = cross(first, second);
-  // The sign of this volume tells over from under without the place of the crossing.
-  const double volume = first.cross(second).dot(c - a);
-  // Written so that the nan of an edge seen end on is degenerate too.
-  const bool decided =
-      nearest > tolerance && std::abs(volume) > tolerance * first.norm() * second.norm();
-  if (!decided) throw_degenerate();
-
-  return Meeting{.at_first = first_length * to_a / (to_a - to_b),
-                 .at_second = second_length * to_c / (to_c - to_d),
-                 .first_over = (volume > 0) != (turn > 0),
-                 .sign = volume > 0 ? -1 : 1};
-}
-
-Boxes boxes_of_edges(const Eigen::Matrix3Xd& view) {
-  const Eigen::Index count = view.cols();
-  Eigen::ArrayX2d ends(count + 1, 2);
-  ends.topRows(count) = view.topRows<2>().transpose();
-  ends.row(count) = ends.row(0);
-  const auto from = ends.topRows(count);
-  const auto to = ends.bottomRows(count);
-  return {from.col(0).min(to.col(0)), from.col(0).max(to.col(0)), from.col(1).min(to.col(1)),
-          from.col(1).max(to.col(1))};
-}
-
-/// Diagram of the closed polygon `view` (3 x n) seen along its third axis.
-Diagram project(const Eigen::Matrix3Xd& view) {
-  const int count = static_cast<int>(view.cols());
-  const double tolerance = generic * view.colwise().norm().maxCoeff();
-  const Boxes boxes = boxes_of_edges(view);
-  constexpr int batch = 8;  // edges tested together: few cross
-  Eigen::ArrayXd apart =
-      Eigen::ArrayXd::Constant(count + batch, std::numeric_limits<double>::infinity());
-  std::vector<int> near;
-  Diagram diagram;
-  for (int i = 0; i + 2 < count; ++i) {
-    const int end = i == 0 ? count - 1 : count;  // the last edge ends where the first one starts
-    const auto later = Eigen::seq(i + 2, end - 1);
-    apart(later) = (boxes.left(later) - boxes.right[i])
-                       .max(boxes.left[i] - boxes.right(later))
-                       .max(boxes.bottom(later) - boxes.top[i])
-                       .max(boxes.bottom[i] - boxes.top(later));
-    near.clear();
-    for (int first = i + 2; first < end; first += batch) {
-      if (apart.segment<batch>(first).minCoeff() <= tolerance) {
-        for (int j = first; j < std::min(first + batch, end); ++j) {
-          if (apart[j] <= tolerance) near.push_back(j);
-        }
-      }
-    }
-    for (const int j : near) {
-      const auto meeting =
-          meet(view.col(i), view.col(i + 1), view.col(j), view.col((j + 1) % count), tolerance);
-      if (!meeting) continue;
-      const int crossing = static_cast<int>(diagram.sign.size());
-      diagram.sign.push_back(meeting->sign);
-      diagram.passages.push_back({i, meeting->at_first, crossing, meeting->first_over});
-      diagram.passages.push_back({j, meeting->at_second, crossing, !meeting->first_over});
-    }
-  }
-
-  auto& passages = diagram.passages;
-  std::sort(passages.begin(), passages.end(), [](const Passage& p, const Passage& q) {
-    return std::pair(p.edge, p.at) < std::pair(q.edge, q.at);
-  });
-  for (std::size_t k = 1; k < passages.size(); ++k) {
-    if (passages[k].edge == passages[k - 1].edge &&
-        passages[k].at - passages[k - 1].at <= tolerance) {
-      throw_degenerate();
-    }
-  }
-  return diagram;
-}
 
 /// Two crossings that a Reidemeister move removes; move I gives the same one twice.
 std::optional<std::pair<int, int>> removable(const Diagram& diagram) {
@@ -301,23 +163,45 @@ Eigen::Vector3d random_direction(std::mt19937& random) {
   }
 }
 
-/// One vote. `closed` holds the centreline and two more columns, which this function sets.
-KnotInvariants cast_vote(Eigen::Matrix3Xd& closed, double far, std::mt19937& random) {
-  constexpr int draws = 100;
-  const Eigen::Index count = closed.cols() - 2;
-  for (int draw = 1;; ++draw) {
-    const Eigen::Vector3d out = random_direction(random);
-    closed.col(count) = closed.col(count - 1) + far * out;
-    closed.col(count + 1) = closed.col(0) + far * out;
-    try {
-      return invariants_of_closed(closed, random_direction(random));
-    } catch (const std::domain_error&) {
-      if (draw == draws) throw;
-    } catch (const std::overflow_error&) {  // as of a wobbly body seen end on
-      if (draw == draws) throw;
+KnotInvariants invariants_of(Diagram diagram) {
+  reduce(diagram);
+  return {.determinant = determinant_of(diagram), .v2 = v2_of(diagram)};
+}
+
+/// Votes of closures of one centreline. What type they are does not depend on where they are seen
+/// from: all are seen from one side, until that or a closure turns out not to be generic.
+class Ballot {
+ public:
+  Ballot(const Eigen::Matrix3Xd& centreline, unsigned seed)
+      : centreline_(centreline), random_(seed) {
+    // The edge that joins the ends must pass outside the ball around the centreline; more than two
+    // radii away is enough, and farther would only cost precision.
+    far_ = 4 * (centreline.colwise() - centreline.rowwise().mean()).colwise().norm().maxCoeff();
+  }
+
+  KnotInvariants cast() {
+    constexpr int draws = 100;
+    for (int draw = 1;; ++draw) {
+      const Eigen::Vector3d out = random_direction(random_);
+      const Eigen::Vector3d sight = random_direction(random_);
+      try {
+        if (!seen_) seen_.emplace(centreline_, far_, sight);
+        return invariants_of(seen_->closed(out));
+      } catch (const std::domain_error&) {
+        if (draw == draws) throw;
+      } catch (const std::overflow_error&) {  // as of a wobbly body seen end on
+        if (draw == draws) throw;
+      }
+      seen_.reset();
     }
   }
-}
+
+ private:
+  const Eigen::Matrix3Xd& centreline_;
+  std::mt19937 random_;
+  double far_;
+  std::optional<SeenArc> seen_;
+};
 
 }  // namespace
 
@@ -328,34 +212,27 @@ KnotInvariants invariants_of_closed(const Eigen::Matrix3Xd& points,
   if (!direction.allFinite() || direction.isZero(0)) {
     throw std::invalid_argument("knot: the line of sight is zero or not finite");
   }
-  Diagram diagram = project(seen_along(points, direction));
-  reduce(diagram);
-  return {.determinant = determinant_of(diagram), .v2 = v2_of(diagram)};
+  return invariants_of(diagram_of_closed(points, direction));
 }
 
 KnotVote knot_type(const Eigen::Matrix3Xd& centreline, const KnotSettings& settings) {
   const int votes = settings.votes;
-  const Eigen::Index count = centreline.cols();
-  if (count < 2) throw std::invalid_argument("knot: a centreline needs 2 points");
+  if (centreline.cols() < 2) throw std::invalid_argument("knot: a centreline needs 2 points");
+  if (!centreline.allFinite()) throw std::invalid_argument("knot: the points are not finite");
   if (votes < 1) throw std::invalid_argument("knot: at least one vote is needed");
-  Eigen::Matrix3Xd closed(3, count + 2);
-  closed.leftCols(count) = centreline;
+  Eigen::Matrix3Xd points = centreline;
   if (settings.mirror) {  // the same as mirrored directions: types are blind to mirror images
-    closed.row(1) *= -1;
+    points.row(1) *= -1;
   }
-  // The edge that joins the ends must pass outside the ball around the centreline; more than two
-  // radii away is enough, and farther would only cost precision.
-  const double radius =
-      (centreline.colwise() - centreline.rowwise().mean()).colwise().norm().maxCoeff();
-  std::mt19937 random(settings.seed);
-  std::map<std::pair<int, int>, int> ballots;
+  Ballot ballot(points, settings.seed);
+  std::map<std::pair<int, int>, int> votes_for;
   int cast = 0;
   for (int most = 0; cast < votes && 2 * most <= votes; ++cast) {
-    const KnotInvariants type = cast_vote(closed, 4 * radius, random);
-    most = std::max(most, ++ballots[{type.determinant, type.v2}]);
+    const KnotInvariants type = ballot.cast();
+    most = std::max(most, ++votes_for[{type.determinant, type.v2}]);
   }
   // max_element keeps the first of equals: a tie goes to the smaller determinant, then v2.
-  const auto winner = std::max_element(ballots.begin(), ballots.end(),
+  const auto winner = std::max_element(votes_for.begin(), votes_for.end(),
                                        [](auto& a, auto& b) { return a.second < b.second; });
   return {.type = {.determinant = winner->first.first, .v2 = winner->first.second},
           .agreement = static_cast<double>(winner->second) / cast};

@@ -1,0 +1,187 @@
+#include "core/knot/diagram.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+namespace hagfish {
+namespace {
+
+/// Lengths below this share of the polygon's radius count as degenerate. Edges whose ends are all
+/// farther than that from each other's line cross at a sine of at least as much, and then the place
+/// of the crossing is rounded by less than a fifth of it: no decision made depends on rounding.
+constexpr double generic = 1e-7;
+
+/// Where two edges of the projection cross.
+struct Meeting {
+  double at_first, at_second;  ///< from the edge's start, projected length
+  bool first_over;
+  int sign;  ///< as Diagram::sign
+};
+
+constexpr int batch = 8;  // edges tested together: few cross
+
+[[noreturn]] void throw_degenerate() {
+  throw std::domain_error("knot: the projection is degenerate or the polygon touches itself");
+}
+
+double cross(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+/// Columns: axes of the view, the third one pointing at the observer.
+Eigen::Matrix3d axes_along(const Eigen::Vector3d& direction) {
+  Eigen::Matrix3d axes;
+  axes.col(2) = direction.normalized();
+  axes.col(0) = axes.col(2).unitOrthogonal();
+  axes.col(1) = axes.col(2).cross(axes.col(0));
+  return axes;
+}
+
+/// Where edge a-b crosses edge c-d in projection, if it does. Throws where `tolerance` cannot tell.
+std::optional<Meeting> meet(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                            const Eigen::Vector3d& c, const Eigen::Vector3d& d, double tolerance) {
+  const Eigen::Vector3d first = b - a;
+  const Eigen::Vector3d second = d - c;
+  const double first_length = first.head<2>().norm();
+  const double second_length = second.head<2>().norm();
+  // Distances from the line through the other edge. A side is decided beyond the tolerance only.
+  const double to_c = cross(first, c - a) / first_length;
+  const double to_d = cross(first, d - a) / first_length;
+  if (std::min(to_c, to_d) > tolerance || std::max(to_c, to_d) < -tolerance) return std::nullopt;
+  const double to_a = cross(second, a - c) / second_length;
+  const double to_b = cross(second, b - c) / second_length;
+  if (std::min(to_a, to_b) > tolerance || std::max(to_a, to_b) < -tolerance) return std::nullopt;
+
+  const double nearest = std::min({std::abs(to_a), std::abs(to_b), std::abs(to_c), std::abs(to_d)});
+  const double turn = cross(first, second);
+  // The sign of this volume tells over from under without the place of the crossing.
+  const double volume = first.cross(second).dot(c - a);
+  // Written so that the nan of an edge seen end on is degenerate too.
+  const bool decided =
+      nearest > tolerance && std::abs(volume) > tolerance * first.norm() * second.norm();
+  if (!decided) throw_degenerate();
+
+  return Meeting{.at_first = first_length * to_a / (to_a - to_b),
+                 .at_second = second_length * to_c / (to_c - to_d),
+                 .first_over = (volume > 0) != (turn > 0),
+                 .sign = volume > 0 ? -1 : 1};
+}
+
+/// Of the closed polygon `view`: behind the last comes the first.
+auto vertex(const Eigen::Matrix3Xd& view, int k) { return view.col(k < view.cols() ? k : 0); }
+
+void set_box(const Eigen::Matrix3Xd& view, int edge, EdgeBoxes& boxes) {
+  const auto from = vertex(view, edge);
+  const auto to = vertex(view, edge + 1);
+  boxes.left[edge] = std::min(from.x(), to.x());
+  boxes.right[edge] = std::max(from.x(), to.x());
+  boxes.bottom[edge] = std::min(from.y(), to.y());
+  boxes.top[edge] = std::max(from.y(), to.y());
+}
+
+/// Of the edges of the closed polygon `view`.
+EdgeBoxes boxes_of_edges(const Eigen::Matrix3Xd& view) {
+  EdgeBoxes boxes;
+  for (Eigen::ArrayXd* bounds : {&boxes.left, &boxes.right, &boxes.bottom, &boxes.top}) {
+    bounds->setConstant(view.cols() + batch, std::numeric_limits<double>::infinity());
+  }
+  for (int edge = 0; edge < view.cols(); ++edge) {
+    set_box(view, edge, boxes);
+  }
+  return boxes;
+}
+
+/// Adds the crossings of an edge of `view` with those of [begin, end).
+void cross_edges(const Eigen::Matrix3Xd& view, const EdgeBoxes& boxes, int edge, int begin, int end,
+                 double tolerance, Diagram& diagram) {
+  for (int first = begin; first < end; first += batch) {
+    const Eigen::Array<double, batch, 1> apart =
+        (boxes.left.segment<batch>(first) - boxes.right[edge])
+            .max(boxes.left[edge] - boxes.right.segment<batch>(first))
+            .max(boxes.bottom.segment<batch>(first) - boxes.top[edge])
+            .max(boxes.bottom[edge] - boxes.top.segment<batch>(first));
+    if (!(apart <= tolerance).any()) continue;
+    for (int j = first; j < std::min(first + batch, end); ++j) {
+      if (!(apart[j - first] <= tolerance)) continue;
+      const auto meeting = meet(vertex(view, edge), vertex(view, edge + 1), vertex(view, j),
+                                vertex(view, j + 1), tolerance);
+      if (!meeting) continue;
+      const int crossing = static_cast<int>(diagram.sign.size());
+      diagram.sign.push_back(meeting->sign);
+      diagram.passages.push_back({edge, meeting->at_first, crossing, meeting->first_over});
+      diagram.passages.push_back({j, meeting->at_second, crossing, !meeting->first_over});
+    }
+  }
+}
+
+bool earlier(const Passage& p, const Passage& q) {
+  return std::pair(p.edge, p.at) < std::pair(q.edge, q.at);
+}
+
+/// Throws where the order of passages that follow each other is not beyond `tolerance`.
+void check_order(const std::vector<Passage>& passages, double tolerance) {
+  for (std::size_t k = 1; k < passages.size(); ++k) {
+    if (passages[k].edge == passages[k - 1].edge &&
+        passages[k].at - passages[k - 1].at <= tolerance) {
+      throw_degenerate();
+    }
+  }
+}
+
+}  // namespace
+
+Diagram diagram_of_closed(const Eigen::Matrix3Xd& points, const Eigen::Vector3d& direction) {
+  const Eigen::Matrix3Xd view =
+      axes_along(direction).transpose() * (points.colwise() - points.rowwise().mean());
+  const int count = static_cast<int>(view.cols());
+  const double tolerance = generic * view.colwise().norm().maxCoeff();
+  const EdgeBoxes boxes = boxes_of_edges(view);
+  Diagram diagram;
+  for (int i = 0; i + 2 < count; ++i) {
+    // The last edge ends where the first one starts.
+    cross_edges(view, boxes, i, i + 2, i == 0 ? count - 1 : count, tolerance, diagram);
+  }
+  std::ranges::sort(diagram.passages, earlier);
+  check_order(diagram.passages, tolerance);
+  return diagram;
+}
+
+SeenArc::SeenArc(const Eigen::Matrix3Xd& points, double far, const Eigen::Vector3d& direction)
+    : far_(far), axes_(axes_along(direction)), view_(3, points.cols() + 2) {
+  const int count = static_cast<int>(points.cols());
+  view_.leftCols(count) = axes_.transpose() * (points.colwise() - points.rowwise().mean());
+  view_.rightCols<2>().setZero();
+  tolerance_ = generic * (far + view_.colwise().norm().maxCoeff());
+  boxes_ = boxes_of_edges(view_);
+  for (int i = 0; i + 2 < count - 1; ++i) {
+    cross_edges(view_, boxes_, i, i + 2, count - 1, tolerance_, own_);
+  }
+  std::ranges::sort(own_.passages, earlier);
+}
+
+Diagram SeenArc::closed(const Eigen::Vector3d& out) {
+  const int count = static_cast<int>(view_.cols()) - 2;
+  const Eigen::Vector3d way = far_ * (axes_.transpose() * out);
+  view_.col(count) = view_.col(count - 1) + way;
+  view_.col(count + 1) = view_.col(0) + way;
+  Diagram diagram = own_;
+  for (int edge = count - 1; edge <= count + 1; ++edge) {
+    set_box(view_, edge, boxes_);
+  }
+  // The edges at the ends of the arc share a vertex with it.
+  cross_edges(view_, boxes_, count - 1, 0, count - 2, tolerance_, diagram);
+  cross_edges(view_, boxes_, count, 0, count - 1, tolerance_, diagram);
+  cross_edges(view_, boxes_, count + 1, 1, count, tolerance_, diagram);
+  const auto added = diagram.passages.begin() + static_cast<std::ptrdiff_t>(own_.passages.size());
+  std::sort(added, diagram.passages.end(), earlier);
+  std::inplace_merge(diagram.passages.begin(), added, diagram.passages.end(), earlier);
+  check_order(diagram.passages, tolerance_);
+  return diagram;
+}
+
+}  // namespace hagfish

@@ -1,0 +1,58 @@
+// Diagrams of knots: which edges of a polygon pass over which others, seen from one side.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace hagfish {
+
+/// One of the two visits of the polygon to a crossing.
+struct Passage {
+  int edge = 0;   ///< from vertex `edge` to the next one
+  double at = 0;  ///< from the edge's start, projected length
+  int crossing = 0;
+  bool over = false;
+};
+
+/// Signed Gauss code of a closed polygon. Passages are in the order of the polygon; each crossing
+/// left has two.
+struct Diagram {
+  std::vector<Passage> passages;
+  /// By crossing, whether left or not: +1 where the over strand turns anticlockwise into the under
+  /// strand.
+  std::vector<int> sign;
+};
+
+/// The diagram of the closed polygon through the columns of `points` (3 x n, n >= 3, any length
+/// unit) seen along `direction` (of any length).
+/// Throws std::domain_error where that is not generic to 1e-7 of the polygon's size, and so always
+/// where the polygon touches itself or repeats a vertex.
+Diagram diagram_of_closed(const Eigen::Matrix3Xd& points, const Eigen::Vector3d& direction);
+
+/// Bounding rectangles of projected edges.
+struct EdgeBoxes {
+  Eigen::ArrayXd left, right, bottom, top;
+};
+
+/// An open polygon seen along one direction, for closures of it by different ways: what it crosses
+/// of itself is found once, which is nearly all of the work.
+class SeenArc {
+ public:
+  /// The polygon through the columns of `points` (3 x n, n >= 2), whose ends go on for `far` (same
+  /// unit) to where they are joined. Throws as diagram_of_closed.
+  SeenArc(const Eigen::Matrix3Xd& points, double far, const Eigen::Vector3d& direction);
+
+  /// The diagram of the polygon closed by two edges from its ends along `out` (unit) and one that
+  /// joins these. Throws as diagram_of_closed.
+  Diagram closed(const Eigen::Vector3d& out);
+
+ private:
+  double far_;
+  Eigen::Matrix3d axes_;   // the third one points at the observer
+  Eigen::Matrix3Xd view_;  // along them; the last two columns are the ends of the closure
+  double tolerance_;       // same unit
+  EdgeBoxes boxes_;        // of the edges of view_
+  Diagram own_;            // of the arc, passages in its order
+};
+
+}  // namespace hagfish
