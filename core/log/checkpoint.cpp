@@ -18,7 +18,7 @@ namespace hagfish {
 namespace {
 
 /// Of the bytes' layout; raised with every change of what they hold.
-constexpr int layout = 5;
+constexpr int layout = 6;
 /// No list of a run is longer; a damaged count must not ask for all memory.
 constexpr std::uint64_t most_entries = 1000000;
 
@@ -165,8 +165,8 @@ void serialize(Archive& archive, ControllerState& controller) {
 
 template <class Archive>
 void serialize(Archive& archive, WarmStart::Kept& kept) {
-  auto& [id, lambda, change] = kept;
-  archive(id, lambda, change);
+  auto& [id, lambda] = kept;
+  archive(id, lambda);
 }
 
 template <class Archive>

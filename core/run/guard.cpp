@@ -153,7 +153,7 @@ Status guard_energy(const Model& model, const Scene& scene, Moment& moment, Ener
         "the integrator made {:.3g} erg, over guard.energy_gain = {:g} of the {:.3g} erg that the "
         "body had or lost; a smaller time.step, drag or damping would help",
         made, guard.energy_gain, passed);
-    if (guard.energy_action == EnergyAction::hold) {
+    if (guard.energy_action == EnergyAction::hold && scene.time.rule == TimeRule::euler) {
       const double taken = std::min(made - allowed, ledger.kinetic);
       const double share = ledger.kinetic > 0 ? std::sqrt(1 - taken / ledger.kinetic) : 0;
       moment.state.qdot *= share;

@@ -39,8 +39,8 @@ Status guard_state(const Model& model, const Moment& moment, double crossing, co
 
 /// Energy that the integrator has made since the sum of its own terms was lowest (impacts lower
 /// it), against what there was before this step: the largest kinetic and elastic energy, and what
-/// drag and damping took. Where the scene says hold, the excess is taken back: the velocities of
-/// `moment` are scaled down by one factor, and the ledger books it.
+/// drag and damping took. Where the scene says hold and the rule is Euler's, the excess is taken
+/// back: the velocities of `moment` are scaled down by one factor, and the ledger books it.
 Status guard_energy(const Model& model, const Scene& scene, Moment& moment, EnergyLedger& ledger,
                     Watch& watch, std::vector<std::string>& warnings);
 

@@ -315,7 +315,7 @@ struct TimeSettings {
 
 enum class GuardAction { stop, warn };
 enum class EnergyAction {
-  hold,  ///< the excess is removed from the velocity, reported once
+  hold,  ///< the excess is removed from the velocity, reported once; by the midpoint rule as warn
   warn,
   stop
 };

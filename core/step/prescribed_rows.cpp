@@ -1,23 +1,13 @@
 #include "core/step/prescribed_rows.hpp"
 
-#include <cmath>
-
 namespace hagfish {
 namespace {
 
-/// A limit pushes steadily where its last multiplier would have to fall this much faster than it
-/// last changed to vanish.
-constexpr double steadiness = 2;
-
-bool surely_binds(const Row& row, const WarmStart& warm) {
+bool probably_binds(const Row& row, const WarmStart& warm) {
   if (row.kind == RowKind::head) {
     return true;
   }
-  if (row.kind != RowKind::limit || !row.unit()) {
-    return false;
-  }
-  const WarmStart::Kept* kept = warm.find(row.id);
-  return kept != nullptr && kept->lambda > steadiness * std::abs(kept->change);
+  return row.kind == RowKind::limit && row.unit() && warm.multiplier(row.id) > 0;
 }
 
 template <class Condition>
@@ -37,7 +27,7 @@ bool release_where(StepSolution& step, Condition condition) {
 void prescribe_rows(const WarmStart& warm, std::vector<Row>& rows) {
   int last = -1;  // at most one of a joint's two limits, which follow each other
   for (Row& row : rows) {
-    row.prescribed = surely_binds(row, warm) && row.dof != last;
+    row.prescribed = probably_binds(row, warm) && row.dof != last;
     last = row.prescribed ? row.dof : last;
   }
 }

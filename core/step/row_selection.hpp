@@ -8,8 +8,9 @@
 namespace hagfish {
 
 /// The rows of a step that bind or may do so, as far as the last velocity tells, into `rows`:
-/// head clamp, thigmotaxis, contacts, limits, head plate.
-void gather_rows(const StepInput& in, std::vector<Row>& rows);
+/// head clamp, thigmotaxis, contacts, limits, head plate. Pairs of segments that are no minimum of
+/// the gap are among them where they pushed in the last step, of which `warm` tells.
+void gather_rows(const StepInput& in, const WarmStart& warm, std::vector<Row>& rows);
 
 /// The unilateral rows that the velocity of `step` violates, into `rows`.
 void gather_violated_rows(const StepInput& in, const StepSolution& step, std::vector<Row>& rows);

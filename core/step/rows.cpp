@@ -132,10 +132,14 @@ void add_row(const Row& row, const Kinematics& kin, double lambda, Matrix6Xd& wr
   });
 }
 
+std::int64_t contact_row_id(const Contact& contact) {
+  return row_id(RowKind::contact, contact.segment_a, contact.segment_b);
+}
+
 Row contact_row(const Model& model, const Contact& contact) {
   Row row;
   row.kind = RowKind::contact;
-  row.id = row_id(RowKind::contact, contact.segment_a, contact.segment_b);
+  row.id = contact_row_id(contact);
   set_points(row, contact, contact.normal, model.body_count());
   return row;
 }
@@ -240,20 +244,17 @@ Contact placed(const Contact& contact, const std::vector<SplineSegment>* at) {
              : contact_at(*at, contact.segment_a, contact.t_a, contact.segment_b, contact.t_b);
 }
 
-void append_contact_rows(const Model& model, const std::vector<Contact>& contacts,
-                         const std::vector<SplineSegment>* at, const ConstraintSettings& settings,
-                         double h, const NearBinding& wanted, std::vector<Row>& rows) {
-  for (const Contact& contact : contacts) {
-    const std::optional<double> rhs =
-        unilateral(contact.gap, settings, h, settings.baumgarte_speed);
-    if (!rhs) {
-      continue;
-    }
-    Row& row = rows.emplace_back(contact_row(model, placed(contact, at)));
-    row.rhs = *rhs;
-    if (!wanted(row_velocity(row, wanted.centre_velocity, wanted.v), row.rhs)) {
-      rows.pop_back();
-    }
+void append_contact_row(const Model& model, const Contact& contact,
+                        const std::vector<SplineSegment>* at, const ConstraintSettings& settings,
+                        double h, const NearBinding& wanted, std::vector<Row>& rows) {
+  const std::optional<double> rhs = unilateral(contact.gap, settings, h, settings.baumgarte_speed);
+  if (!rhs) {
+    return;
+  }
+  Row& row = rows.emplace_back(contact_row(model, placed(contact, at)));
+  row.rhs = *rhs;
+  if (!wanted(row_velocity(row, wanted.centre_velocity, wanted.v), row.rhs)) {
+    rows.pop_back();
   }
 }
 

@@ -121,10 +121,13 @@ void append_limit_rows(const Model& model, const State& state, const ConstraintS
 /// `contact` as it was found, or between the same points of the segments `at`.
 Contact placed(const Contact& contact, const std::vector<SplineSegment>* at);
 
-/// One row per contact, as placed at `at`: the exact rate of its gap.
-void append_contact_rows(const Model& model, const std::vector<Contact>& contacts,
-                         const std::vector<SplineSegment>* at, const ConstraintSettings& settings,
-                         double h, const NearBinding& wanted, std::vector<Row>& rows);
+/// As Row::id of the contact's row.
+std::int64_t contact_row_id(const Contact& contact);
+
+/// The row of a contact, as placed at `at`: the exact rate of its gap.
+void append_contact_row(const Model& model, const Contact& contact,
+                        const std::vector<SplineSegment>* at, const ConstraintSettings& settings,
+                        double h, const NearBinding& wanted, std::vector<Row>& rows);
 
 /// One row per body behind the neck against the head plate.
 void append_wall_rows(const Model& model, const Kinematics& kin, const WallSettings& wall,

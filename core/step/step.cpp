@@ -113,7 +113,7 @@ Status StepSolver::begin_here(const StepInput& in, StepSolution& step) {
                        step.system);
   add_active_torque(in.control.active, reach, step.system);
   add_active_torque(in.control.torque, reach, step.system);
-  gather_rows(in, step.rows);
+  gather_rows(in, warm, step.rows);
   prescribe_rows(warm, step.rows);
   step.kind = SolveKind::linear;
   step.iterations = 0;

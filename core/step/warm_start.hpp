@@ -13,14 +13,13 @@ class WarmStart {
   struct Kept {
     std::int64_t id = 0;
     double lambda = 0;  ///< dyn s or dyn cm s
-    double change = 0;  ///< since the step before, in which a row that had no force counts as 0
   };
   /// As new, but for its storage.
   void forget();
-  /// Forgets all but what the changes are taken from.
-  void begin();
+  /// Forgets the multipliers.
+  void begin() { entries_.clear(); }
   /// Ids may come in any order, once each; end() before the next look.
-  void add(std::int64_t id, double lambda) { entries_.push_back({id, lambda, lambda}); }
+  void add(std::int64_t id, double lambda) { entries_.push_back({id, lambda}); }
   void end();
   /// What is kept of a row, or null.
   const Kept* find(std::int64_t id) const;
@@ -35,11 +34,11 @@ class WarmStart {
   /// The multipliers, for a checkpoint.
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(entries_, before_);
+    archive(entries_);
   }
 
  private:
-  std::vector<Kept> entries_, before_;  // by id
+  std::vector<Kept> entries_;  // by id
 };
 
 }  // namespace hagfish

@@ -189,7 +189,7 @@ void add_core_parts(const std::shared_ptr<Start>& start) {
   part("rows", [](Parts& p) {
     const Moment& at = p.record.moment;
     gather_rows({p.start->model, p.start->scene, at.state, at.observation, p.record.control},
-                p.rows);
+                p.sim.solver.warm, p.rows);
   });
   part("dual", [](Parts& p) {
     const StepSolution& step = p.record.solution;

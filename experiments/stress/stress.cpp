@@ -29,7 +29,7 @@ constexpr const char* unwatched = "guard.energy_action=warn";
 constexpr std::array<StressMethod, 11> methods{
     {{"default", core_rule, active_set, {"", ""}},
      {"no_watch", core_rule, active_set, {unwatched, ""}},
-     {"midpoint", core_rule, active_set, {"time.rule=midpoint", unwatched}},
+     {"midpoint", core_rule, active_set, {"time.rule=midpoint", ""}},
      {"violated", core_rule, active_set, {"constraints.activation=violated", ""}},
      {"baumgarte_0.2", core_rule, active_set, {"constraints.baumgarte=0.2", ""}},
      {"baumgarte_1", core_rule, active_set, {"constraints.baumgarte=1", ""}},

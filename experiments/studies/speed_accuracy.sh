@@ -30,7 +30,7 @@ whole_runs() {
     for h in 0.0005 0.001 0.002 0.005 0.01 0.025 0.05; do
       # The midpoint rule, which needs no watch.
       printf 'timed_run\t%s\t1\t%s\n' "whole_${bodies}_${h}_midpoint_active-set" "table1 --qp active-set $frames \
---set model.bodies=$bodies --set time.step=$h --set time.rule=midpoint --set guard.energy_action=warn"
+--set model.bodies=$bodies --set time.step=$h --set time.rule=midpoint"
       for activation in speculative violated; do
         local sets="$frames --set model.bodies=$bodies --set time.step=$h --set constraints.activation=$activation"
         printf 'timed_run\t%s\t1\t%s\n' "whole_${bodies}_${h}_${activation}_active-set" "table1 --qp active-set $sets"

@@ -36,8 +36,11 @@ inline std::vector<Row> contact_rows(const Model& model, const ContactSet& conta
                                      const ConstraintSettings& settings, double h) {
   std::vector<Row> rows;
   const AllRows all(model);
-  append_contact_rows(model, contacts.contacts, nullptr, settings, h, all.wanted, rows);
-  append_contact_rows(model, contacts.others, nullptr, settings, h, all.wanted, rows);
+  for (const auto* list : {&contacts.contacts, &contacts.others}) {
+    for (const Contact& contact : *list) {
+      append_contact_row(model, contact, nullptr, settings, h, all.wanted, rows);
+    }
+  }
   return rows;
 }
 

@@ -295,6 +295,23 @@ TEST_F(EnergyWatch, TakesNothingFromABodyAtRest) {
   EXPECT_EQ(warnings.size(), 1u);
 }
 
+TEST_F(EnergyWatch, OnlyWarnsByTheMidpointRule) {
+  State moving = rest_state(model);
+  moving.qdot.setConstant(1);
+  for (const TimeRule rule : {TimeRule::euler, TimeRule::midpoint}) {
+    scene.time.rule = rule;
+    Moment moment{moving, observe(model, moving, scene)};
+    EnergyLedger ledger = open_ledger(model, moment);
+    ledger.integrator_coriolis = 0.1 * ledger.kinetic;
+    Watch watch;
+    warnings.clear();
+    EXPECT_TRUE(guard_energy(model, scene, moment, ledger, watch, warnings).ok());
+    EXPECT_EQ(warnings.size(), 1u);
+    EXPECT_EQ(moment.state.qdot == moving.qdot, rule == TimeRule::midpoint);
+    EXPECT_EQ(ledger.integrator_held == 0, rule == TimeRule::midpoint);
+  }
+}
+
 TEST_F(EnergyWatch, OnlyWarnsWhereTheSceneAsksForIt) {
   EXPECT_GT(growth(EnergyAction::warn, 40), 1.1);
   EXPECT_EQ(warnings.size(), 1u);

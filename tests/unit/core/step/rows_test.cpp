@@ -165,8 +165,11 @@ TEST(Rows, OnlyThoseNearBindingAreAppended) {
        {std::pair(-10.0, -unbounded), {0.1, -unbounded}, {10, 0.1}}) {
     const NearBinding wanted{t.state.qdot, velocity, slack, at_rest};
     std::vector<Row> rows;
-    append_contact_rows(t.model, t.set.contacts, nullptr, speculative, h, wanted, rows);
-    append_contact_rows(t.model, t.set.others, nullptr, speculative, h, wanted, rows);
+    for (const auto* contacts : {&t.set.contacts, &t.set.others}) {
+      for (const Contact& contact : *contacts) {
+        append_contact_row(t.model, contact, nullptr, speculative, h, wanted, rows);
+      }
+    }
     append_limit_rows(t.model, t.state, speculative, h, wanted, rows);
     append_wall_rows(t.model, t.kin, {}, speculative, h, wanted, rows);
     std::vector<std::int64_t> expected;
