@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <hdf5.h>
+#include <hdf5_hl.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/time.h>
@@ -15,9 +16,11 @@
 #include <cmath>
 #include <csignal>
 #include <cstring>
+#include <map>
 #include <string>
 #include <vector>
 
+#include "core/log/hdf5_chunks.hpp"
 #include "core/log/hdf5_error.hpp"
 
 namespace hagfish {
@@ -33,8 +36,9 @@ constexpr std::size_t memory_increment = std::size_t{1} << 20;
 /// How the other process ends.
 enum Ending { copied, not_hdf5, no_room };
 
-/// An attribute as the same one of `to`. What cannot be read is left out.
+/// An attribute as the same one of `to`. What cannot be read is left out, and so are references.
 herr_t copy_attribute(hid_t from, const char* name, const H5A_info_t* /*info*/, void* to) {
+  if (name == std::string("DIMENSION_LIST") || name == std::string("REFERENCE_LIST")) return 0;
   const hid_t attribute = H5Aopen(from, name, H5P_DEFAULT);
   const hid_t type = H5Aget_type(attribute), space = H5Aget_space(attribute);
   const hssize_t count = H5Sget_simple_extent_npoints(space);
@@ -54,9 +58,14 @@ herr_t copy_attribute(hid_t from, const char* name, const H5A_info_t* /*info*/, 
   return 0;
 }
 
+/// Where the datasets of the original are in the copy, by address.
+using Places = std::map<haddr_t, std::string>;
+
 struct Group {
   hid_t copy;
   int depth;
+  std::string path;
+  Places* places;
 };
 
 herr_t copy_member(hid_t from, const char* name, const H5L_info_t* link, void* data);
@@ -67,23 +76,88 @@ void copy_members(hid_t from, Group to) {
   H5Literate(from, H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, copy_member, &to);
 }
 
+/// Copies the dataset `object`, which `from` has as `name`, into `to`, or links it to its copy.
+void copy_dataset(hid_t from, hid_t object, const char* name, const Group& to) {
+  H5O_info_t info;
+  if (H5Oget_info(object, &info) < 0) return;
+  if (const auto copied = to.places->find(info.addr); copied != to.places->end()) {
+    H5Lcreate_hard(to.copy, copied->second.c_str(), to.copy, name, H5P_DEFAULT, H5P_DEFAULT);
+    return;
+  }
+  hid_t copy = H5I_INVALID_HID;
+  if (is_chunked(object)) {
+    copy = copy_chunked(object, to.copy, name);
+    if (copy < 0) H5Lcreate_soft(damaged_link, to.copy, name, H5P_DEFAULT, H5P_DEFAULT);
+  } else {
+    const hid_t bare = H5Pcreate(H5P_OBJECT_COPY);
+    H5Pset_copy_object(bare, H5O_COPY_WITHOUT_ATTR_FLAG);
+    if (H5Ocopy(from, name, to.copy, name, bare, H5P_DEFAULT) >= 0) {
+      copy = H5Dopen2(to.copy, name, H5P_DEFAULT);
+    }
+    H5Pclose(bare);
+  }
+  if (copy < 0) return;
+  H5Aiterate2(object, H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, copy_attribute, &copy);
+  H5Dclose(copy);
+  to.places->emplace(info.addr, to.path + name);
+}
+
 herr_t copy_member(hid_t from, const char* name, const H5L_info_t* link, void* data) {
-  const Group to = *static_cast<Group*>(data);
+  const Group& to = *static_cast<Group*>(data);
   if (link->type != H5L_TYPE_HARD) {
     // Wherever it leads: links are not followed.
     H5Lcreate_soft("elsewhere", to.copy, name, H5P_DEFAULT, H5P_DEFAULT);
     return 0;
   }
   const hid_t object = H5Oopen(from, name, H5P_DEFAULT);
-  if (H5Iget_type(object) != H5I_GROUP) {
+  const H5I_type_t type = H5Iget_type(object);
+  if (type == H5I_DATASET) {
+    copy_dataset(from, object, name, to);
+  } else if (type != H5I_GROUP) {
     H5Ocopy(from, name, to.copy, name, H5P_DEFAULT, H5P_DEFAULT);
   } else if (to.depth < deepest_group) {
     const hid_t group = H5Gcreate2(to.copy, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-    copy_members(object, {group, to.depth + 1});
+    copy_members(object, {group, to.depth + 1, to.path + name + "/", to.places});
     H5Gclose(group);
   }
   if (object >= 0) H5Oclose(object);
   return 0;
+}
+
+/// A dataset of the copy, whose axes are labelled as the original's are.
+struct Labelled {
+  hid_t copy;
+  const Places* places;
+};
+
+herr_t attach_labels(hid_t /*set*/, unsigned axis, hid_t scale, void* data) {
+  const Labelled& to = *static_cast<Labelled*>(data);
+  H5O_info_t info;
+  if (H5Oget_info(scale, &info) < 0) return 0;
+  const auto place = to.places->find(info.addr);
+  if (place == to.places->end()) return 0;
+  const hid_t labels = H5Dopen2(to.copy, place->second.c_str(), H5P_DEFAULT);
+  if (labels >= 0) {
+    H5DSattach_scale(to.copy, labels, axis);
+    H5Dclose(labels);
+  }
+  return 0;
+}
+
+/// Labels the axes of all datasets: what says so are references into the original.
+void copy_labels(hid_t from, hid_t to, const Places& places) {
+  for (const auto& [address, path] : places) {
+    const hid_t set = H5Dopen2(from, path.c_str(), H5P_DEFAULT);
+    Labelled labelled{H5Dopen2(to, path.c_str(), H5P_DEFAULT), &places};
+    const hid_t space = H5Dget_space(set);
+    const int rank = H5Sget_simple_extent_ndims(space);
+    for (int axis = 0; axis < rank; ++axis) {
+      H5DSiterate_scales(set, static_cast<unsigned>(axis), nullptr, attach_labels, &labelled);
+    }
+    H5Sclose(space);
+    H5Dclose(labelled.copy);
+    H5Dclose(set);
+  }
 }
 
 /// Writes the image of the open file `h5` to `descriptor`. False where there is no room.
@@ -109,7 +183,9 @@ bool write_image(hid_t h5, int descriptor) {
     H5Pset_fapl_core(in_memory, memory_increment, 0);
     const hid_t to = H5Fcreate("copy", H5F_ACC_TRUNC, H5P_DEFAULT, in_memory);
     const hid_t root = H5Gopen2(from, "/", H5P_DEFAULT), root_copy = H5Gopen2(to, "/", H5P_DEFAULT);
-    copy_members(root, {root_copy, 0});
+    Places places;
+    copy_members(root, {root_copy, 0, "/", &places});
+    copy_labels(from, to, places);
     H5Fflush(to, H5F_SCOPE_LOCAL);
     ::_exit(write_image(to, descriptor) ? copied : no_room);
   } catch (const std::exception&) {

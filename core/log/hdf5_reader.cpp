@@ -3,33 +3,25 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <utility>
 
 #include "core/input/regular_file.hpp"
+#include "core/log/hdf5_chunks.hpp"
 #include "core/log/hdf5_copy.hpp"
 
 namespace hagfish {
 namespace {
 
-/// Deflate packs no better, to one byte of so many; a dataset with more holds what is not in its
-/// file.
-constexpr hsize_t densest_packing = 1032;
-/// But a small one may leave all to its fill value, bytes.
-constexpr hsize_t small_dataset = hsize_t{1} << 20;
 /// Objects of a group: a set of QPs has one a step.
 constexpr hsize_t most_names = 10'000'000;
 
-/// A quantity that does not fit comes out as the largest.
-hsize_t product(const std::vector<hsize_t>& factors, hsize_t first) {
-  return std::accumulate(factors.begin(), factors.end(), first, [](hsize_t a, hsize_t b) {
-    const bool fits = b == 0 || a <= std::numeric_limits<hsize_t>::max() / b;
-    return fits ? a * b : std::numeric_limits<hsize_t>::max();
-  });
+/// Of a dataset that does not exceed its file.
+hsize_t size_of(const std::vector<hsize_t>& shape) {
+  return std::accumulate(shape.begin(), shape.end(), hsize_t{1}, std::multiplies<>());
 }
-
-hsize_t size_of(const std::vector<hsize_t>& shape) { return product(shape, 1); }
 
 std::vector<hsize_t> extent_of(const H5::DataSpace& space) {
   std::vector<hsize_t> extent(space.getSimpleExtentNdims());
@@ -74,6 +66,11 @@ std::int64_t whole_number_of(const H5::Attribute& attribute, const std::string& 
   return value;
 }
 
+/// Whether the soft link `path` leads to `target`.
+bool leads_to(const H5::H5File& h5, const std::string& path, const std::string& target) {
+  return h5.getLinkval(path) == target;
+}
+
 }  // namespace
 
 Hdf5Reader::Hdf5Reader(const std::filesystem::path& file, Origin origin) : file_(file.string()) {
@@ -104,8 +101,7 @@ H5::DataSet Hdf5Reader::open(const std::string& path) const {
     if (made.getLayout() == H5D_VIRTUAL || H5Pget_external_count(made.getId()) != 0) {
       throw FileError(file_ + ": the numbers of " + path + " are in another file");
     }
-    const hsize_t bytes = product(extent_of(set.getSpace()), set.getDataType().getSize());
-    if (bytes > std::max(small_dataset, densest_packing * file_size_)) {
+    if (exceeds_file(extent_of(set.getSpace()), set.getDataType().getSize(), file_size_)) {
       throw FileError(file_ + ": " + path +
                       " says that it holds more than a file of this size can");
     }
@@ -126,6 +122,11 @@ bool Hdf5Reader::holds(const std::string& path) const {
     H5L_info_t link;
     if (H5Lget_info(h5_.getId(), part.c_str(), &link, H5P_DEFAULT) < 0) {
       throw FileError(file_ + ": " + part + " cannot be looked up");
+    }
+    if (link.type == H5L_TYPE_SOFT && leads_to(h5_, part, damaged_link)) {
+      throw FileError(file_ + ": " + part +
+                      " is damaged, or packed in a way that is not read: its chunks are not of "
+                      "the size that it says");
     }
     if (link.type != H5L_TYPE_HARD) {
       throw FileError(file_ + ": " + part + " is a link; only what the file itself has is read");

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/contact/wall.hpp"
+#include "core/step/look_ahead.hpp"
 
 namespace hagfish {
 namespace {
@@ -92,7 +93,9 @@ Status report(Outcome outcome, const std::string& message, GuardAction action, W
   return {};
 }
 
-Status guard_speed(const Eigen::Matrix3Xd& centre_velocity, const GuardSettings& guard) {
+Status guard_speed(const Eigen::Matrix3Xd& centre_velocity, const Scene& scene) {
+  const GuardSettings& guard = scene.guard;
+  const double farthest = most_path_samples * scene.constraints.stride;
   for (Eigen::Index b = 0; b < centre_velocity.cols(); ++b) {
     const double speed = centre_velocity.col(b).norm();
     if (!(speed <= guard.speed)) {
@@ -100,6 +103,13 @@ Status guard_speed(const Eigen::Matrix3Xd& centre_velocity, const GuardSettings&
               fmt::format("body {} moves at {:.3g} cm/s, over guard.speed = {:g} cm/s; a smaller "
                           "time.step would help",
                           b, speed, guard.speed)};
+    }
+    if (scene.time.step * speed > farthest) {
+      return {Outcome::speed,
+              fmt::format("body {} moves {:.3g} cm in a step, over {} times "
+                          "constraints.stride = {:g} cm; a smaller time.step would "
+                          "help",
+                          b, scene.time.step * speed, most_path_samples, scene.constraints.stride)};
     }
   }
   return {};

@@ -29,8 +29,9 @@ struct Watch {
 Status report(Outcome outcome, const std::string& message, GuardAction action, Watch& watch,
               std::vector<std::string>& warnings);
 
-/// Body speeds a step has come to, before it moves anything.
-Status guard_speed(const Eigen::Matrix3Xd& centre_velocity, const GuardSettings& guard);
+/// Body speeds a step has come to, before it moves anything: over guard.speed, or so far in one
+/// step that its path cannot be looked along (most_path_samples times constraints.stride).
+Status guard_speed(const Eigen::Matrix3Xd& centre_velocity, const Scene& scene);
 
 /// The moment that a step led to, and the deepest overlap on the way there (`crossing`, cm).
 /// Messages name the bodies or joint furthest out and the setting that would help.

@@ -15,7 +15,7 @@ void paper_control(const Situation& at, const Eigen::VectorXd& memory, const Con
   control.clamp_head = given.clamp_head;
   control.tip = given.tip;
   control.thigmotaxis.clear();
-  if (memory.size() == 0) {
+  if (memory.size() == 0 || scene.script.kind != ScriptSettings::Kind::curvature) {
     control.rest_shape.resize(0);
   } else {
     control.rest_shape = memory.head(model.nv());

@@ -96,7 +96,7 @@ class Attempt {
     Status status = sim_.solver.begin(in_, step_);
     int corrections = looks_ahead() ? scene_.constraints.corrections : 0;
     for (int k = 0; status.ok(); ++k) {
-      status = guard_speed(step_.centre_velocity, scene_.guard);
+      status = guard_speed(step_.centre_velocity, scene_);
       if (!status.ok() || !follow_path(k < corrections)) {
         break;
       }

@@ -11,6 +11,9 @@
 
 namespace hagfish {
 
+/// A step whose path would ask for more samples than this is not taken.
+inline constexpr int most_path_samples = 10000;
+
 /// Overlap that is accepted on the way of a step, as a share of `stride`: strands must not pass
 /// through each other there, no more.
 inline constexpr double way_tolerance = 0.25;

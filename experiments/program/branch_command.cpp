@@ -39,6 +39,7 @@ int branch(const BranchOptions& options, const std::string& typed) {
   LogHeader header = log_header(run.resolved, run.model, run.qp, typed);
   header.branched_from = fmt::format("{}, step {}, t = {:g} s", options.log, run.sim.step, time);
   LogWriter log(options.run.out, options.run.force, header, run.model, run.resolved.scene);
+  if (!options.set.empty()) warn_of_odd_things(run.resolved);
   return take_run(run.model, run.resolved.scene, std::move(run.sim), options.run, log);
 }
 

@@ -78,6 +78,7 @@ int record_qp(const RecordQpOptions& options, const std::string& typed) {
   const Model model = make_hagfish(resolved.specimen, scene);
   check_sense(resolved, model, options.force);
   QpSetWriter set(options.out, options.force, typed, scene_to_toml(scene, resolved.specimen));
+  warn_of_odd_things(resolved);
   Recorder recorder(options, model, scene, set);
   Progress progress(model, scene, options.quiet);
   note_signals();

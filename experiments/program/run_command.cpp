@@ -47,6 +47,7 @@ int run_anew(NewRunOptions options, const std::string& typed) {
   LogHeader header = log_header(resolved, model, qp, typed);
   header.level = log_level_called(options.level);
   LogWriter log(options.run.out, options.run.force, header, model, scene);
+  warn_of_odd_things(resolved);
   return take_run(model, scene, start(model, scene, qp), options.run, log);
 }
 

@@ -90,6 +90,9 @@ void check_sense(const ResolvedScene& scene, const Model& model, bool force) {
         scene.scene.time.duration, scene.scene.time.step, size.steps, 1e-9 * size.bytes, most_steps,
         1e-9 * most_bytes));
   }
+}
+
+void warn_of_odd_things(const ResolvedScene& scene) {
   for (const std::string& odd : odd_things(scene)) {
     say("hagfish: warning: {}\n", odd);
   }

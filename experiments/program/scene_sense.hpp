@@ -24,8 +24,10 @@ std::vector<std::string> odd_things(const ResolvedScene& scene);
 void require_named_law(const Scene& scene, const std::string& where);
 
 /// Throws InputError where a run cannot be meant: a law that is not there (require_named_law),
-/// matter denser than any; or, without `force`, more
-/// than 1e8 steps or 10 GB of log. Warns of odd things on standard error.
+/// matter denser than any; or, without `force`, more than 1e8 steps or 10 GB of log.
 void check_sense(const ResolvedScene& scene, const Model& model, bool force);
+
+/// Says what is odd on standard error; once nothing else keeps the run from being taken.
+void warn_of_odd_things(const ResolvedScene& scene);
 
 }  // namespace hagfish

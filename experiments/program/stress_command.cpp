@@ -68,6 +68,9 @@ void add_stress(Program& program) {
   stress_app->add_option("--step", options->step, "time step, s (the scene's)")
       ->check(above_zero());
   stress_app->add_option("--level", options->level, "what the row calls the scene's level")
+      ->check([](const std::string& text) {
+        return text.size() <= 200 ? "" : "has more than 200 characters";
+      })
       ->capture_default_str();
   stress_app->add_option("--set", options->set, set_help)->allow_extra_args(false);
   stress_app->add_option("--cpu-limit", options->cpu_limit, "the run is capped after this, s")

@@ -5,6 +5,7 @@ import collections
 import multiprocessing
 import os
 import pathlib
+import re
 import shlex
 import shutil
 import subprocess
@@ -44,6 +45,8 @@ def is_clean(text):
 def fault(status, output, error):
     """What is wrong with how a command ended, or nothing."""
     error = error.decode("utf-8", "replace")
+    # Memory refused is as good as none: what the program then says is what counts.
+    error = re.sub("==[0-9]+==WARNING: AddressSanitizer failed to allocate .*\\n", "", error)
     text = output.decode("utf-8", "replace") + error
     if status == "late":
         return "took longer than 10 s"

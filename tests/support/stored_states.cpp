@@ -38,7 +38,9 @@ std::vector<StoredState> stored_states() {
 }
 
 ResolvedScene stored_scene(const std::vector<std::string>& overrides) {
-  return read_scene(HAGFISH_DATA_DIR "/table1.toml", overrides);
+  std::vector<std::string> all{"time.step=" + std::to_string(stored_step)};
+  all.insert(all.end(), overrides.begin(), overrides.end());
+  return read_scene(HAGFISH_DATA_DIR "/table1.toml", all);
 }
 
 Simulation resume(const Model& model, const Scene& scene, const StoredState& stored,

@@ -26,7 +26,7 @@ std::string name_of(const testing::TestParamInfo<StoredState>& info);
 
 std::vector<StoredState> stored_states();
 
-/// The scene and the animal of that run: data/table1.toml with `overrides`.
+/// The scene and the animal of that run, at its step: data/table1.toml with `overrides`.
 ResolvedScene stored_scene(const std::vector<std::string>& overrides = {});
 
 /// A simulation that goes on from `stored`, its controller in the right phase.

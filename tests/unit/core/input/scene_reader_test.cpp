@@ -33,7 +33,7 @@ TEST(SceneReader, Table1FileIsThePapersScene) {
   EXPECT_EQ(scene.controller.tighten_tail.b, 2);
   EXPECT_EQ(scene.controller.slide_head.a, 2);
   EXPECT_EQ(scene.controller.slide_tail.b, 2);
-  EXPECT_EQ(scene.time.step, 0.002);
+  EXPECT_EQ(scene.time.step, 0.005);
 }
 
 TEST(SceneReader, WaypointFileIsInBodyLengths) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/run/simulation.hpp"
+#include "core/step/look_ahead.hpp"
 #include "core/step/paper_step.hpp"
 #include "tests/support/random_chain.hpp"
 #include "tests/support/row_lists.hpp"
@@ -80,12 +81,25 @@ TEST(Guard, WarnsOnceWhereTheSceneAsksForIt) {
 
 TEST(Guard, StopsAtSpeed) {
   Eigen::Matrix3Xd velocity = Eigen::Matrix3Xd::Zero(3, 5);
-  GuardSettings guard;
-  EXPECT_TRUE(guard_speed(velocity, guard).ok());
-  velocity.col(3) << 0, 0, 2 * guard.speed;
-  EXPECT_EQ(message_of(Outcome::speed, guard_speed(velocity, guard)).find("body 3 "), 0u);
+  Scene scene;
+  EXPECT_TRUE(guard_speed(velocity, scene).ok());
+  velocity.col(3) << 0, 0, 2 * scene.guard.speed;
+  EXPECT_EQ(message_of(Outcome::speed, guard_speed(velocity, scene)).find("body 3 moves at"), 0u);
   velocity(0, 3) = std::numeric_limits<double>::quiet_NaN();
-  message_of(Outcome::speed, guard_speed(velocity, guard));
+  message_of(Outcome::speed, guard_speed(velocity, scene));
+}
+
+TEST(Guard, StopsAStepWhosePathIsTooLongToLookAlong) {
+  Scene scene;
+  Eigen::Matrix3Xd velocity = Eigen::Matrix3Xd::Zero(3, 5);
+  velocity(1, 2) = 100;
+  scene.time.step = 0.99 * most_path_samples * scene.constraints.stride / 100;
+  EXPECT_TRUE(guard_speed(velocity, scene).ok());
+  EXPECT_LE(path_samples(velocity, scene.time.step, scene.constraints.stride), most_path_samples);
+  scene.time.step *= 1.02;
+  EXPECT_EQ(
+      message_of(Outcome::speed, guard_speed(velocity, scene)).find("body 2 moves 2.52e+03 cm"),
+      0u);
 }
 
 TEST(Guard, TellsOnceWhatMusclesCannotDo) {

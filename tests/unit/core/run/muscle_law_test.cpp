@@ -102,6 +102,16 @@ TEST_F(MuscleLaw, AsksAheadOfItsLagWhileTheKnotForms) {
               0, 1e-7 * gone * wanted.activation.maxCoeff());
 }
 
+TEST_F(MuscleLaw, HasNoShapeToFollowWhereAForceScriptTiesTheKnot) {
+  ASSERT_EQ(scene.script.kind, ScriptSettings::Kind::force);
+  sim = start(model, scene, "active-set");
+  for (int k = 0; k < 3; ++k) {
+    const StepRecord record = take_step(model, scene, sim);
+    EXPECT_EQ(record.controller.phase, Phase::form);
+    EXPECT_TRUE(activations_in(model, record.controller.memory).isZero(0));
+  }
+}
+
 TEST_F(MuscleLaw, ExcitesNothingFromReleaseOn) {
   for (int k = 0; k < 20; ++k) take_step(model, scene, sim);
   const Eigen::VectorXd before = activations_in(model, sim.controller.memory);

@@ -21,8 +21,8 @@ TEST_F(ProgramTest, APresetComesBeforeSetAndQp) {
     const LogContents log((folder / "a.h5").string());
     return std::pair(log.resolved.scene.time.step, log.h5.root_text("qp"));
   };
-  EXPECT_EQ(written(""), std::pair(0.002, std::string("active-set")));
-  EXPECT_EQ(written("--preset default"), std::pair(0.002, std::string("active-set")));
+  EXPECT_EQ(written(""), std::pair(0.005, std::string("active-set")));
+  EXPECT_EQ(written("--preset default"), std::pair(0.005, std::string("active-set")));
   EXPECT_EQ(written("--preset quick"), std::pair(0.02, std::string("active-set")));
   EXPECT_EQ(written("--preset quick --set time.step=0.01").first, 0.01);
   EXPECT_EQ(written("--preset quick --qp ipopt").second, "ipopt");
@@ -42,7 +42,7 @@ TEST_F(ProgramTest, RefusesBadInputInOneLine) {
   expect_refused("run --set time.step=nan", {"time.step", "finite"});
   expect_refused("run --set time.step=0", {"time.step", "positive"});
   expect_refused("run --set specimen.length=-1", {"specimen.length", "positive"});
-  expect_refused("run --set time.frame_interval=0.003", {"time.frame_interval", "whole number"});
+  expect_refused("run --set time.frame_interval=0.007", {"time.frame_interval", "whole number"});
   expect_refused("run --set expect.knot=unknot", {"expect.knot", "3_1"});
   expect_refused("run --set controller.contact_gap=1", {"controller.contact_gap", "margin"});
   expect_refused("run --out . --force", {"not a regular file"});
