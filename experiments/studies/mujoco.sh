@@ -6,10 +6,10 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 failed=0
-"$hagfish" compare table1 --out "$out/compare.h5" --force | tee "$out/compare.txt" || failed=$?
+"$hagfish" compare table1 --set time.step=0.002 --out "$out/compare.h5" --force | tee "$out/compare.txt" || failed=$?
 draw agreement.py "$out/compare.h5" "$out/agreement.png"
 echo
-"$hagfish" run table1 --qp ipopt --out "$out/table1.h5" --force
+"$hagfish" run table1 --qp ipopt --set time.step=0.002 --out "$out/table1.h5" --force
 "$hagfish" playback "$out/table1.h5" --out "$out/playback.h5" --force | tee "$out/playback.txt"
 draw playback.py "$out/playback.h5" "$out/playback.png"
 list_output

@@ -15,7 +15,7 @@ back_ends() {
   local -a tolerances=()
   for tolerance in 1e-2 1e-4 1e-6 1e-8 1e-10; do tolerances+=(--tolerance "$tolerance"); done
   [[ -e $runs/$1.csv ]] && return
-  "$hagfish" record-qp table1 --qp active-set --every 10 --out "$set" --force --quiet >"$runs/$1.txt"
+  "$hagfish" record-qp table1 --qp active-set --set time.step=0.002 --every 10 --out "$set" --force --quiet >"$runs/$1.txt"
   # A tolerance that a back end cannot reach fails, which the table counts.
   "$hagfish" qp "$set" "${tolerances[@]}" --csv "$runs/$1.csv.new" --force >>"$runs/$1.txt" 2>&1 || (($? == 1))
   mv "$runs/$1.csv.new" "$runs/$1.csv"
