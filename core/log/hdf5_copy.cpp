@@ -20,7 +20,7 @@
 #include <string>
 #include <vector>
 
-#include "core/log/hdf5_chunks.hpp"
+#include "core/log/hdf5_datasets.hpp"
 #include "core/log/hdf5_error.hpp"
 
 namespace hagfish {
@@ -85,8 +85,8 @@ void copy_dataset(hid_t from, hid_t object, const char* name, const Group& to) {
     return;
   }
   hid_t copy = H5I_INVALID_HID;
-  if (is_chunked(object)) {
-    copy = copy_chunked(object, to.copy, name);
+  if (is_plain(object)) {
+    copy = copy_plain(object, to.copy, name);
     if (copy < 0) H5Lcreate_soft(damaged_link, to.copy, name, H5P_DEFAULT, H5P_DEFAULT);
   } else {
     const hid_t bare = H5Pcreate(H5P_OBJECT_COPY);

@@ -7,7 +7,7 @@
 
 namespace hagfish {
 
-/// Where the link leads that stands in a copy for a dataset whose chunks are not of their size.
+/// Where the link leads that stands in a copy for a dataset that copy_plain refuses.
 inline constexpr const char* damaged_link = "damaged";
 
 /// What `file` holds, opened in memory. HDF5 1.10 as Debian 12 has it crashes on some damaged

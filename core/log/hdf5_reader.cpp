@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "core/input/regular_file.hpp"
-#include "core/log/hdf5_chunks.hpp"
 #include "core/log/hdf5_copy.hpp"
+#include "core/log/hdf5_datasets.hpp"
 
 namespace hagfish {
 namespace {
@@ -124,9 +124,7 @@ bool Hdf5Reader::holds(const std::string& path) const {
       throw FileError(file_ + ": " + part + " cannot be looked up");
     }
     if (link.type == H5L_TYPE_SOFT && leads_to(h5_, part, damaged_link)) {
-      throw FileError(file_ + ": " + part +
-                      " is damaged, or packed in a way that is not read: its chunks are not of "
-                      "the size that it says");
+      throw FileError(file_ + ": " + part + " is damaged, or packed in a way that is not read");
     }
     if (link.type != H5L_TYPE_HARD) {
       throw FileError(file_ + ": " + part + " is a link; only what the file itself has is read");

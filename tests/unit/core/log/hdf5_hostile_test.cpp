@@ -157,6 +157,29 @@ TEST_F(HostileHdf5, ChunksThatAreNotOfTheirSizeAreRefused) {
   }
 }
 
+TEST_F(HostileHdf5, NumbersWithoutTheirBytesAreNotReadFromNowhere) {
+  const hsize_t rows = 16;
+  const std::vector<double> values(rows, 1.5);
+  make([&](H5::H5File& h5) {
+    h5.createDataSet("whole", number(), H5::DataSpace(1, &rows)).write(values.data(), number());
+  });
+  EXPECT_EQ(Hdf5Reader(file).doubles("/whole"), values);
+  // Its layout: version 3, class 1, an address, the number of bytes. As class 0 it is in the
+  // header, after its number of bytes: fewer than it should have.
+  std::string bytes = contents();
+  const std::string size("\x80\0\0\0\0\0\0\0", 8);
+  std::size_t at = bytes.find("\x03\x01");
+  while (at != std::string::npos && bytes.substr(at + 10, 8) != size) {
+    at = bytes.find("\x03\x01", at + 1);
+  }
+  ASSERT_NE(at, std::string::npos);
+  bytes[at + 1] = 0;
+  bytes[at + 2] = 8;
+  bytes[at + 3] = 0;
+  std::ofstream(file, std::ios::binary) << bytes;
+  EXPECT_EQ(refusal_of("/whole"), "/whole is damaged, or packed in a way that is not read");
+}
+
 TEST_F(HostileHdf5, AttributesAreOneTextOrOneWholeNumber) {
   make([](H5::H5File& h5) {
     H5::Group root = h5.openGroup("/");

@@ -1,4 +1,4 @@
-#include "core/log/hdf5_chunks.hpp"
+#include "core/log/hdf5_datasets.hpp"
 
 #include <zlib.h>
 
@@ -39,20 +39,21 @@ struct Layout {
   std::vector<hsize_t> extent, chunk;  ///< elements
   hsize_t chunk_size = 0;              ///< unpacked, bytes
   std::vector<H5Z_filter_t> filters;   ///< in the order in which they are applied
+  bool compact = false;                ///< its elements are in its header
 };
 
 /// None where it makes no sense, or there are filters that are not known here.
-std::optional<Layout> layout_of(hid_t plist, hid_t space, hid_t type) {
+std::optional<Layout> layout_of(hid_t plist, hid_t space, hid_t type, bool chunked) {
   Layout layout;
+  layout.compact = H5Pget_layout(plist) == H5D_COMPACT;
   const int rank = H5Sget_simple_extent_ndims(space);
-  if (rank <= 0) return std::nullopt;
+  if (rank < 0 || H5Tget_size(type) == 0) return std::nullopt;
   layout.extent.resize(rank);
+  if (H5Sget_simple_extent_dims(space, layout.extent.data(), nullptr) != rank) return std::nullopt;
+  if (!chunked) return layout;
   layout.chunk.resize(rank);
   layout.chunk_size = H5Tget_size(type);
-  if (H5Sget_simple_extent_dims(space, layout.extent.data(), nullptr) != rank ||
-      H5Pget_chunk(plist, rank, layout.chunk.data()) != rank || layout.chunk_size == 0) {
-    return std::nullopt;
-  }
+  if (rank == 0 || H5Pget_chunk(plist, rank, layout.chunk.data()) != rank) return std::nullopt;
   for (const hsize_t length : layout.chunk) {
     if (length == 0 || length > largest_chunk / layout.chunk_size) return std::nullopt;
     layout.chunk_size *= length;
@@ -125,6 +126,15 @@ hsize_t product(const std::vector<hsize_t>& factors, hsize_t first) {
   });
 }
 
+/// Whether they were all there. HDF5 reads as many as there should be, wherever they end.
+bool copy_elements(const Layout& layout, hid_t from, hid_t to, hid_t type) {
+  std::vector<char> elements(product(layout.extent, H5Tget_size(type)));
+  const bool never_written = H5Dget_offset(from) == HADDR_UNDEF && !layout.compact;
+  return (never_written || H5Dget_storage_size(from) == elements.size()) &&
+         H5Dread(from, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, elements.data()) >= 0 &&
+         H5Dwrite(to, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, elements.data()) >= 0;
+}
+
 /// Whether all chunks were whole.
 bool copy_chunks(const Layout& layout, hid_t from, hid_t to) {
   std::vector<hsize_t> offset(layout.extent.size(), 0);
@@ -141,28 +151,30 @@ bool exceeds_file(const std::vector<hsize_t>& extent, std::size_t size, hsize_t 
   return product(extent, size) > std::max(small_dataset, densest_packing * file_size);
 }
 
-bool is_chunked(hid_t set) {
+bool is_plain(hid_t set) {
   const Handle plist(H5Dget_create_plist(set), H5Pclose);
   const Handle type(H5Dget_type(set), H5Tclose);
-  return plist.id >= 0 && type.id >= 0 && H5Pget_layout(plist.id) == H5D_CHUNKED &&
-         H5Tdetect_class(type.id, H5T_VLEN) == 0 && H5Tdetect_class(type.id, H5T_REFERENCE) == 0 &&
-         H5Tis_variable_str(type.id) == 0;
+  return plist.id >= 0 && type.id >= 0 && H5Pget_layout(plist.id) != H5D_VIRTUAL &&
+         H5Pget_external_count(plist.id) == 0 && H5Tdetect_class(type.id, H5T_VLEN) == 0 &&
+         H5Tdetect_class(type.id, H5T_REFERENCE) == 0 && H5Tis_variable_str(type.id) == 0;
 }
 
-hid_t copy_chunked(hid_t set, hid_t to, const char* name) {
+hid_t copy_plain(hid_t set, hid_t to, const char* name) {
   const Handle plist(H5Dget_create_plist(set), H5Pclose);
   const Handle space(H5Dget_space(set), H5Sclose);
   const Handle stored_type(H5Dget_type(set), H5Tclose);
   const Handle type(H5Tcopy(stored_type.id), H5Tclose);  // one of the file's own stays there
-  const std::optional<Layout> layout = layout_of(plist.id, space.id, type.id);
-  if (!layout) return H5I_INVALID_HID;
-  const hid_t copy = H5Dcreate2(to, name, type.id, space.id, H5P_DEFAULT, plist.id, H5P_DEFAULT);
-  if (copy < 0) return copy;
   const Handle file(H5Iget_file_id(set), H5Fclose);
+  const bool chunked = H5Pget_layout(plist.id) == H5D_CHUNKED;
+  const std::optional<Layout> layout = layout_of(plist.id, space.id, type.id, chunked);
   hsize_t file_size = 0;
-  const bool empty = product(layout->extent, 1) == 0 || H5Fget_filesize(file.id, &file_size) < 0 ||
-                     exceeds_file(layout->extent, H5Tget_size(type.id), file_size);
-  if (!empty && !copy_chunks(*layout, set, copy)) {
+  if (!layout || H5Fget_filesize(file.id, &file_size) < 0) return H5I_INVALID_HID;
+  const hid_t copy = H5Dcreate2(to, name, type.id, space.id, H5P_DEFAULT, plist.id, H5P_DEFAULT);
+  if (copy < 0 || H5Sget_simple_extent_npoints(space.id) <= 0 ||
+      exceeds_file(layout->extent, H5Tget_size(type.id), file_size)) {
+    return copy;
+  }
+  if (!(chunked ? copy_chunks(*layout, set, copy) : copy_elements(*layout, set, copy, type.id))) {
     H5Dclose(copy);
     H5Ldelete(to, name, H5P_DEFAULT);
     return H5I_INVALID_HID;
