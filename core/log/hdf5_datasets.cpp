@@ -36,21 +36,21 @@ struct Handle {
 
 /// How a dataset is stored.
 struct Layout {
+  H5D_layout_t kind = H5D_LAYOUT_ERROR;
   std::vector<hsize_t> extent, chunk;  ///< elements
   hsize_t chunk_size = 0;              ///< unpacked, bytes
   std::vector<H5Z_filter_t> filters;   ///< in the order in which they are applied
-  bool compact = false;                ///< its elements are in its header
 };
 
 /// None where it makes no sense, or there are filters that are not known here.
-std::optional<Layout> layout_of(hid_t plist, hid_t space, hid_t type, bool chunked) {
+std::optional<Layout> layout_of(hid_t plist, hid_t space, hid_t type) {
   Layout layout;
-  layout.compact = H5Pget_layout(plist) == H5D_COMPACT;
+  layout.kind = H5Pget_layout(plist);
   const int rank = H5Sget_simple_extent_ndims(space);
   if (rank < 0 || H5Tget_size(type) == 0) return std::nullopt;
   layout.extent.resize(rank);
   if (H5Sget_simple_extent_dims(space, layout.extent.data(), nullptr) != rank) return std::nullopt;
-  if (!chunked) return layout;
+  if (layout.kind != H5D_CHUNKED) return layout;
   layout.chunk.resize(rank);
   layout.chunk_size = H5Tget_size(type);
   if (rank == 0 || H5Pget_chunk(plist, rank, layout.chunk.data()) != rank) return std::nullopt;
@@ -129,7 +129,7 @@ hsize_t product(const std::vector<hsize_t>& factors, hsize_t first) {
 /// Whether they were all there. HDF5 reads as many as there should be, wherever they end.
 bool copy_elements(const Layout& layout, hid_t from, hid_t to, hid_t type) {
   std::vector<char> elements(product(layout.extent, H5Tget_size(type)));
-  const bool never_written = H5Dget_offset(from) == HADDR_UNDEF && !layout.compact;
+  const bool never_written = layout.kind == H5D_CONTIGUOUS && H5Dget_offset(from) == HADDR_UNDEF;
   return (never_written || H5Dget_storage_size(from) == elements.size()) &&
          H5Dread(from, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, elements.data()) >= 0 &&
          H5Dwrite(to, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, elements.data()) >= 0;
@@ -165,8 +165,7 @@ hid_t copy_plain(hid_t set, hid_t to, const char* name) {
   const Handle stored_type(H5Dget_type(set), H5Tclose);
   const Handle type(H5Tcopy(stored_type.id), H5Tclose);  // one of the file's own stays there
   const Handle file(H5Iget_file_id(set), H5Fclose);
-  const bool chunked = H5Pget_layout(plist.id) == H5D_CHUNKED;
-  const std::optional<Layout> layout = layout_of(plist.id, space.id, type.id, chunked);
+  const std::optional<Layout> layout = layout_of(plist.id, space.id, type.id);
   hsize_t file_size = 0;
   if (!layout || H5Fget_filesize(file.id, &file_size) < 0) return H5I_INVALID_HID;
   const hid_t copy = H5Dcreate2(to, name, type.id, space.id, H5P_DEFAULT, plist.id, H5P_DEFAULT);
@@ -174,7 +173,8 @@ hid_t copy_plain(hid_t set, hid_t to, const char* name) {
       exceeds_file(layout->extent, H5Tget_size(type.id), file_size)) {
     return copy;
   }
-  if (!(chunked ? copy_chunks(*layout, set, copy) : copy_elements(*layout, set, copy, type.id))) {
+  if (!(layout->kind == H5D_CHUNKED ? copy_chunks(*layout, set, copy)
+                                    : copy_elements(*layout, set, copy, type.id))) {
     H5Dclose(copy);
     H5Ldelete(to, name, H5P_DEFAULT);
     return H5I_INVALID_HID;
