@@ -26,7 +26,7 @@ WHOLE = {"log flip": 60}  # one in so many flips goes through all quick commands
 SLOW = {"log flip": 150}  # commands that draw, compare or start others take part in one of so many cases;
 SLOW_OF_OTHERS = 10  # of other kinds
 REPORT = 60  # s between lines that say how far it is
-PATIENCE = {"figures": 60, "integrate": 60, "compare": 60}  # s: Python and the program again; many steps by design
+PATIENCE = {"figures": 60, "integrate": 600, "compare": 60}  # s: Python and the program again; many steps by design
 KINDS = ["log flip", "qp flip", "log change", "qp change", "toml", "grid", "csv", "film", "scene", "options"]
 BASES = {
     "rest.h5": ["run", "muscles", "--qp", "active-set", "--quiet", *commands.SMALL, *commands.SHORT],
