@@ -26,7 +26,7 @@ ROWS = {"knot held": ("the knot is a 3_1 from tightening to release, frames", "a
 ROUNDING = 1e-6  # figures below are rounding, of which the order of magnitude counts
 FACTOR = 10  # by which such a figure may differ, on another machine
 SHARE = 0.02  # by which any other may: starts that differ by rounding differ by less at h = 2 ms
-DEEPEST = 0.5  # by which the deepest of all steps may, which is one step's: 0.00028 cm with AVX-512, 0.00033 without FMA
+DEEPEST = 0.5  # by which the deepest of all steps may, which is one step's: at h = 2 ms 0.00028 cm with AVX-512, 0.00033 without FMA
 
 
 def figure(text: str) -> str:

@@ -69,12 +69,12 @@ TEST_P(StressScenes, SmallStepsOfTheCoreAreSurvivedByEveryMethod) {
   for (const std::string& method : stress_methods()) {
     // Without the watch bodies are too fast in some scenes: RuleCells.
     if (method.starts_with("mujoco") || method == "no_watch" || method == "midpoint") continue;
+    // Hard rows that cannot be met: of parallel strands at once; of the knot at the head the scaled
+    // KKT residual comes to 1.0e-6 within these steps, which is the scene's bound.
+    const bool hard = unmeetable && method == "hard_thigmotaxis";
     const std::string found = outcome(method, small_step);
-    if (unmeetable && method == "hard_thigmotaxis") {  // has no solution sooner or later
-      EXPECT_TRUE(found == "ok" || found == "solver failed") << found;
-    } else {
-      EXPECT_EQ(found, contradictory ? "infeasible" : "ok") << method;
-    }
+    if (hard && name == "knot_into_head" && found == "ok") continue;
+    EXPECT_EQ(found, hard ? "solver failed" : contradictory ? "infeasible" : "ok") << method;
   }
 }
 
