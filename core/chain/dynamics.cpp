@@ -186,9 +186,19 @@ Eigen::VectorXd stiffness_force(const Model& model, const Eigen::VectorXd& q) {
   return force;
 }
 
-void assemble_step_system(const Model& model, const Eigen::VectorXd& q, const StepMotion& motion,
-                          const Kinematics& kin, const TipForce& tip, double h,
+Eigen::VectorXd ring_damping_force(const Model& model, double damping,
+                                   const Eigen::VectorXd& before, const Eigen::VectorXd& felt) {
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(model.nv());
+  for (int k = root_dofs; k < model.nv(); ++k) {
+    force[k] = -damping * model.hinges[k - root_dofs].stiffness * (2 * felt[k] - before[k]);
+  }
+  return force;
+}
+
+void assemble_step_system(const Model& model, const State& state, const StepMotion& motion,
+                          const Kinematics& kin, const TipForce& tip, const ForceTiming& when,
                           StepSystem& system) {
+  const double h = when.reach;
   const int n = model.body_count();
   system.bias.resize(6, n);
   system.op.inertia.resize(n);
@@ -215,10 +225,12 @@ void assemble_step_system(const Model& model, const Eigen::VectorXd& q, const St
             h * (body.mass * model.gravity - bias.tail<3>());
     system.wrench.col(b) = about_reference(momentum, offset);
   }
+  // Springs at x, and their numerical damping at 2 x - v: -K (q + h x) - β K (2 x - v).
+  const double spring_reach = h + 2 * when.spring_damping;
   for (int k = root_dofs; k < model.nv(); ++k) {
     const Hinge& hinge = model.hinges[k - root_dofs];
-    system.op.diagonal[k] = h * hinge.damping + h * h * hinge.stiffness;
-    system.joint[k] = -h * hinge.stiffness * q[k + 1];
+    system.op.diagonal[k] = h * hinge.damping + h * spring_reach * hinge.stiffness;
+    system.joint[k] = -h * hinge.stiffness * (state.q[k + 1] - when.spring_damping * state.qdot[k]);
   }
 
   const int last = n - 1;
@@ -240,7 +252,7 @@ void add_active_torque(const ActiveTorque& torque, double h, StepSystem& system)
 StepSystem step_system(const Model& model, const State& state, const Kinematics& kin,
                        const TipForce& tip, double h) {
   StepSystem system;
-  assemble_step_system(model, state.q, {kin.twist, kin.centre_velocity, kin.twist}, kin, tip, h,
+  assemble_step_system(model, state, {kin.twist, kin.centre_velocity, kin.twist}, kin, tip, {h},
                        system);
   return system;
 }

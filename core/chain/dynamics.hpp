@@ -59,11 +59,23 @@ struct StepSystem {
   Eigen::VectorXd joint;  ///< right-hand side, joint part, nv (times s)
 };
 
+/// When the forces of a step act (TimeSettings).
+struct ForceTiming {
+  double reach = 0;           ///< how far into it, s
+  double spring_damping = 0;  ///< numerical damping of springs, over their stiffness, s
+};
+
+/// Numerical damping of the hinges' springs (core/README.md, "Steps in time"), nv: `damping` (s)
+/// times their stiffness, against the velocity after a step from `before` on which `felt` is felt
+/// (nv both).
+Eigen::VectorXd ring_damping_force(const Model& model, double damping,
+                                   const Eigen::VectorXd& before, const Eigen::VectorXd& felt);
+
 /// Assembles Eq. 1 at the place of the step, `kin`, whose bodies move as the step does and as
-/// `motion` says. The step starts with hinges at the angles of `q` (nq); `h` (s) is how far into it
-/// its forces act.
-void assemble_step_system(const Model& model, const Eigen::VectorXd& q, const StepMotion& motion,
-                          const Kinematics& kin, const TipForce& tip, double h, StepSystem& system);
+/// `motion` says. The step starts from `state`.
+void assemble_step_system(const Model& model, const State& state, const StepMotion& motion,
+                          const Kinematics& kin, const TipForce& tip, const ForceTiming& when,
+                          StepSystem& system);
 /// The same of a step that starts where and as `kin` says.
 StepSystem step_system(const Model& model, const State& state, const Kinematics& kin,
                        const TipForce& tip, double h);

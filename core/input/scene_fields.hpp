@@ -243,6 +243,7 @@ void time_fields(Io& io, TimeSettings& s) {
   io.number("step", s.step, positive());
   io.number("settled", s.settled, positive());
   io.integer("passes", s.passes, within(1, 1000));
+  io.number("ring_damping", s.ring_damping, not_negative());
   io.number("frame_interval", s.frame_interval, positive());
   io.number("checkpoint_interval", s.checkpoint_interval, positive());
   io.number("duration", s.duration, positive());

@@ -24,10 +24,11 @@ EnergyLedger open_ledger(const Model& model, const Moment& now) {
 }
 
 // The step solves M (v' - v) = h (f(x) - b) + C'λ, with what is felt, f(x) = f - D x - K (q + r x)
-// + w, and moves by t u. Euler's rule: u = x = v', r = h, M at the start. Midpoint: x = (v + v')/2,
-// r = h/2, M in the middle; u = x but for impacts. With y = (v + v')/2 and all at that place,
+// - β K (2 x - v) + w, and moves by t u. Euler's rule: u = x = v', r = h, β = 0, M at the start.
+// Midpoint: x = (v + v')/2, r = h/2, M in the middle; u = x but for impacts. With y = (v + v')/2
+// and all at that place,
 //   T(v') - T(v) = y'MΔv = (t/h) u'MΔv + (y - (t/h) u)'MΔv,
-//   (t/h) u'MΔv = t u'(f - D x) + (t/h) u'C'λ - t u'K q - t r u'K x + t u'w - t u'b,
+//   (t/h) u'MΔv = t u'(f - D x) + (t/h) u'C'λ - t u'K (q + r x + β (2 x - v)) + t u'w - t u'b,
 //   V(q + t u) - V(q) = t u'K q + ½ t² u'K u   of the springs.
 // Their sum is works less dissipation and the integrator's own terms below, with what T changes by
 // on the way to that place and from there.
@@ -46,18 +47,21 @@ void book_step(const StepInput& in, const StepSolution& step, const Moment& next
   }
 
   double damped = 0;   // u'D x
-  double stretch = 0;  // ½ t u'K u - r u'K x
+  double stretch = 0;  // u'K (½ t u - r x - β (2 x - v))
+  const double r = in.scene.time.reach();
+  const double ring = in.scene.time.spring_damping();
   for (int k = root_dofs; k < model.nv(); ++k) {
     const Hinge& hinge = model.hinges[k - root_dofs];
     damped += hinge.damping * u[k] * step.felt[k];
-    stretch += hinge.stiffness * u[k] * (0.5 * t * u[k] - in.scene.time.reach() * step.felt[k]);
+    stretch += hinge.stiffness * u[k] *
+               (0.5 * t * u[k] - r * step.felt[k] - ring * (2 * step.felt[k] - in.state.qdot[k]));
   }
   const StepMotion before = in.motion();
-  const double whole = h / in.scene.time.reach();  // Δv over x - v
-  double impulse = 0;                              // (y - (t/h) u)'MΔv
-  double moved = 0;                                // T(v') - T(v) at the place of the step
-  double fall = 0;                                 // work of gravity
-  double bias = 0;                                 // and of what inertia asks for
+  const double whole = h / r;  // Δv over x - v
+  double impulse = 0;          // (y - (t/h) u)'MΔv
+  double moved = 0;            // T(v') - T(v) at the place of the step
+  double fall = 0;             // work of gravity
+  double bias = 0;             // and of what inertia asks for
   for (int b = 0; b < model.body_count(); ++b) {
     const PointMotion old = motion_of(before.twist, before.centre_velocity, b);
     const PointMotion by = motion_of(step.twist, step.centre_velocity, b);

@@ -26,8 +26,8 @@ struct EnergyLedger {
   /// -½ Δv' M Δv, what its steps lose when velocities change, inelastic impacts included, and the
   /// share of the impulse that has no displacement to work over.
   double integrator_inertia = 0;
-  /// Of the implicit springs, ½ t² u' K u - t r u' K x (energy.cpp), and gravity over the curved
-  /// path.
+  /// Of the implicit springs and their numerical damping, t u' K (½ t u - r x - β (2 x - v))
+  /// (energy.cpp), and gravity over the curved path.
   double integrator_potential = 0;
   /// Change of M along the step against the work of the Coriolis force.
   double integrator_coriolis = 0;

@@ -54,6 +54,13 @@ TipForce script_force(const ScriptSettings& script, double time, const TimeSetti
   const double h = step.reach();
   TipForce implicit{script.spring * (script_value(script, time + h) - position),
                     h * script.spring + script.damper};
+  if (step.rule == TimeRule::midpoint) {
+    // A spring too stiff for the step, whose script does not damp it, rings: so it is damped at the
+    // velocity after the step, 2 x - v (core/README.md, "Steps in time").
+    const double ringing = std::max(0.0, h * script.spring - script.damper);
+    implicit.value += ringing * velocity;
+    implicit.rate += 2 * ringing;
+  }
   const Eigen::Vector3d expected = implicit.value - implicit.rate * velocity;
   const double size = expected.norm();
   if (size <= script.largest_force) {

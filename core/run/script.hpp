@@ -18,7 +18,8 @@ double script_end(const ScriptSettings& script);
 /// The script's force on the last body for the step from `time`; none of a curvature program. A
 /// position script pulls with a spring-damper towards its value where the step's forces act
 /// (TimeSettings::reach), implicitly, up to largest_force, above which the force is constant within
-/// the step. `position`, `velocity`: the last body's centre, world, cm and cm/s.
+/// the step; by the midpoint rule its damper is no less than what keeps it from ringing from step
+/// to step, reach times spring. `position`, `velocity`: the last body's centre, world, cm and cm/s.
 TipForce script_force(const ScriptSettings& script, double time, const TimeSettings& step,
                       const Eigen::Vector3d& position, const Eigen::Vector3d& velocity);
 

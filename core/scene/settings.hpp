@@ -302,7 +302,10 @@ struct TimeSettings {
   /// The middle of a step has settled once further passes change the velocity by no more than this,
   /// as far as can be told: rad/s of each hinge, and cm/s and rad/s of the root.
   double settled = 0.001;
-  int passes = 20;                ///< to settle in at most
+  int passes = 20;  ///< to settle in at most
+  /// Far stiffer springs than the step resolves ring from step to step by the midpoint rule: this
+  /// times h² of their stiffness damps them, at the velocity after the step, 1/s.
+  double ring_damping = 1;
   double frame_interval = 0.020;  ///< time between logged frames, s; a whole number of steps
   /// Time between checkpoints in the log, from which a run can branch, rounded to whole frames, s.
   double checkpoint_interval = 1;
@@ -311,6 +314,8 @@ struct TimeSettings {
 
   /// How far into a step its forces act, s.
   double reach() const { return rule == TimeRule::euler ? step : step / 2; }
+  /// Numerical damping of a spring over its stiffness, s.
+  double spring_damping() const { return rule == TimeRule::euler ? 0 : ring_damping * step * step; }
 };
 
 enum class GuardAction { stop, warn };

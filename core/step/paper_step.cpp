@@ -49,6 +49,7 @@ void paper_equation_1(const StepInput& in, PrimalQp& qp) {
   const Control& control = in.control;
   const Kinematics& kin = in.kin();
   const double h = in.scene.time.reach();
+  const double ring = in.scene.time.spring_damping();
   const int nv = model.nv();
   Eigen::MatrixXd M = Eigen::MatrixXd::Zero(nv, nv);
   Eigen::MatrixXd D = M;
@@ -63,8 +64,10 @@ void paper_equation_1(const StepInput& in, PrimalQp& qp) {
     f += J.transpose() * on_bodies.col(b);
   }
   for (int k = root_dofs; k < nv; ++k) {
-    D(k, k) += model.hinges[k - root_dofs].damping;
-    K(k, k) = -model.hinges[k - root_dofs].stiffness;
+    const double stiffness = model.hinges[k - root_dofs].stiffness;
+    D(k, k) += model.hinges[k - root_dofs].damping + 2 * ring * stiffness;
+    f[k] += ring * stiffness * state.qdot[k];
+    K(k, k) = -stiffness;
   }
   const Eigen::Matrix3Xd J = centre_jacobian(model, kin, model.body_count() - 1);
   D += control.tip.rate * J.transpose() * J;

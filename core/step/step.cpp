@@ -74,6 +74,9 @@ Status StepSolver::begin(const StepInput& in, StepSolution& step) {
   midway.felt = midway.moved;
   step.remaining = guessed_remaining(warm.remaining);
   double before = 0;  // what the last pass changed
+  scratch_.passes.restart();
+  scratch_.placed_by.resize(2 * in.model.nv());
+  scratch_.led_to.resize(2 * in.model.nv());
   for (int pass = 1;; ++pass) {
     step.passes = pass;
     place_midway(in.model, in.state, time.step, midway);
@@ -98,8 +101,12 @@ Status StepSolver::begin(const StepInput& in, StepSolution& step) {
       step.remaining = 1;
       return status;
     }
-    midway.moved = step.qdot;
-    midway.felt = 0.5 * (in.state.qdot + step.next);
+    const Eigen::Index nv = in.model.nv();
+    scratch_.placed_by << midway.moved, midway.felt;
+    scratch_.led_to << step.qdot, 0.5 * (in.state.qdot + step.next);
+    scratch_.passes.mix(scratch_.placed_by, scratch_.led_to, scratch_.mixed);
+    midway.moved = scratch_.mixed.head(nv);
+    midway.felt = scratch_.mixed.tail(nv);
   }
 }
 
@@ -109,8 +116,8 @@ Status StepSolver::begin_here(const StepInput& in, StepSolution& step) {
     return {Outcome::non_finite, "non-finite state"};
   }
   const double reach = in.scene.time.reach();
-  assemble_step_system(in.model, in.state.q, in.motion(), in.kin(), in.control.tip, reach,
-                       step.system);
+  assemble_step_system(in.model, in.state, in.motion(), in.kin(), in.control.tip,
+                       {reach, in.scene.time.spring_damping()}, step.system);
   add_active_torque(in.control.active, reach, step.system);
   add_active_torque(in.control.torque, reach, step.system);
   gather_rows(in, warm, step.rows);

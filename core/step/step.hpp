@@ -20,6 +20,7 @@
 #include "core/step/rows.hpp"
 #include "core/step/warm_start.hpp"
 #include "solvers/box_qp.hpp"
+#include "solvers/fixed_point.hpp"
 
 namespace hagfish {
 
@@ -141,6 +142,9 @@ struct StepScratch {
   BoxQpSolution solution;
   Matrix6Xd wrench;
   Eigen::VectorXd joint, impulse, change;
+  // Of the step's middle (midpoint rule): velocities moved and felt, 2 nv.
+  AndersonMixing passes;
+  Eigen::VectorXd placed_by, led_to, mixed;
   // Of the velocity after the step (midpoint rule).
   std::vector<std::size_t> held;            ///< prescribed rows, and
   std::vector<PrescribedVelocity> jumps;    ///< what their velocities change by

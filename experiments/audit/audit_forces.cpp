@@ -220,10 +220,11 @@ void ForceAudit::see_balance(const AuditedFrame& frame) {
   const Eigen::Index f = frame.index;
   const Model& model = log_.model;
   // H times what is felt, which by the midpoint rule is half of the way to the next velocity.
-  const double reach = log_.resolved.scene.time.reach();
+  const TimeSettings& time = log_.resolved.scene.time;
+  const double reach = time.reach();
   StepSystem system;
-  assemble_step_system(model, frame.state.q, frame.motion, frame.kin, {tip_.row(f).transpose(), 0},
-                       reach, system);
+  assemble_step_system(model, frame.state, frame.motion, frame.kin, {tip_.row(f).transpose(), 0},
+                       {reach, time.spring_damping()}, system);
   const Eigen::VectorXd sum = (thigmotaxis_.row(f) + contact_.row(f) + limit_.row(f) +
                                head_.row(f) + wall_.row(f) + active_torque_.row(f))
                                   .transpose();
@@ -233,13 +234,13 @@ void ForceAudit::see_balance(const AuditedFrame& frame) {
     const Eigen::VectorXd off = frame.qdot_moved - frame.midway.moved;
     const std::size_t step = steps_.at(f);
     const double left = remaining_[step] * off.lpNorm<Eigen::Infinity>();
-    unsettled_ += left <= log_.resolved.scene.time.settled ? 0 : 1;
+    unsettled_ += left <= time.settled ? 0 : 1;
     from_rows_.compare("/steps/middle_off", middle_off_[step], off.norm());
   }
   imbalance_ =
       worse(imbalance_, mismatch(given, multiply(model, frame.kin, system.op, frame.qdot_felt)));
   momentum_before_ = momentum_;
-  momentum_ = given.lpNorm<Eigen::Infinity>() / log_.resolved.scene.time.step;
+  momentum_ = given.lpNorm<Eigen::Infinity>() / time.step;
 }
 
 void ForceAudit::see_means(const AuditedFrame& frame, const ThigmotaxisAudit::Rows& rows) {

@@ -57,8 +57,10 @@ void ForwardInverseAudit::see(const AuditedFrame& frame) {
       sum.row(f).transpose() + drag_force(log.model, frame.kin, frame.qdot_felt);
   if (log.midpoint()) {
     from = {frame.midway.q, frame.midway.moved};
+    const TimeSettings& time = log.resolved.scene.time;
     force +=
-        midway_force(log.model, frame.state, frame.midway, log.resolved.scene.time.reach(), mirror);
+        midway_force(log.model, frame.state, frame.midway, time.reach(), mirror) +
+        ring_damping_force(log.model, time.spring_damping(), frame.state.qdot, frame.qdot_felt);
   }
   const Eigen::VectorXd driven = driven_velocity(log.model, from, force, tip.row(f), mirror);
   const Eigen::VectorXd& wanted = frame.qdot_felt;

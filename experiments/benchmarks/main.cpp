@@ -174,9 +174,9 @@ void add_core_parts(const std::shared_ptr<Start>& start) {
   part("system", [](Parts& p) {  // Eq. 1 assembled, factorised and solved
     const Kinematics& kin = p.record.moment.observation.kin;
     StepSystem& system = p.record.solution.system;
-    assemble_step_system(p.start->model, p.record.moment.state.q,
+    assemble_step_system(p.start->model, p.record.moment.state,
                          {kin.twist, kin.centre_velocity, kin.twist}, kin, p.record.control.tip,
-                         p.start->scene.time.step, system);
+                         {p.start->scene.time.step}, system);
     p.factor.factorise(p.start->model, kin, system.op, p.sim.solver.scratch().prescribed);
     p.factor.solve(p.start->model, kin, system.wrench, system.joint, p.record.solution.base,
                    p.record.solution.twist, p.reaction);

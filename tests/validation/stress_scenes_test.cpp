@@ -167,16 +167,16 @@ const RuleCell rule_cells[] = {
     {"midpoint", "short_bodies", 0.01, 0},
     {"midpoint", "pulled_knot", 0.005, 0.01},
     {"midpoint", "knot_into_head", 0.02, 0.05},
-    {"midpoint", "parallel", 0.01, 0.02},
+    {"midpoint", "parallel", 0.02, 0.05},
     {"midpoint", "table1", 0.02, 0.05},
-    {"midpoint", "stiff_joints", 0.005, 0.01},
-    {"midpoint", "stiff_tip", 0.002, 0.005},
+    {"midpoint", "stiff_joints", 0.05, 0},
+    {"midpoint", "stiff_tip", 0.05, 0},
     {"midpoint", "closing", 0.0002, 0.0005},
     {"midpoint", "coil", 0.05, 0},
     {"midpoint", "mass_ratio", 0.05, 0},
     {"midpoint", "overlap", 0.05, 0},
     {"midpoint", "redundant", 0.05, 0},
-    {"midpoint", "tight_limits", 0.01, 0.02},
+    {"midpoint", "tight_limits", 0.02, 0.05},
 };
 class RuleCells : public testing::TestWithParam<RuleCell> {};
 

@@ -135,6 +135,23 @@ TEST(ScriptForce, OfTheMidpointRuleActsInTheMiddle) {
   EXPECT_LT((tip.value - tip.rate * w - expected).norm(), 1000 * rounding);
 }
 
+TEST(ScriptForce, OfTheMidpointRuleDampsASpringThatWouldRing) {
+  const double h = 0.002;
+  TimeSettings time = steps_of(h);
+  time.rule = TimeRule::midpoint;
+  ScriptSettings stiff = position;
+  stiff.spring = 1e6;
+  stiff.largest_force = 1e9;
+  const Vector3d at = script_value(position, 1.1) + Vector3d(0.1, 0, -0.05);
+  const Vector3d v(1, 2, 0), x(0.7, -0.3, 2);
+  const TipForce tip = script_force(stiff, 1.1, time, at, v);
+  // What the script's own damper, at x, lacks of reach times spring acts at 2 x - v.
+  const double lack = h / 2 * 1e6 - 20;
+  const Vector3d expected =
+      1e6 * (script_value(position, 1.1 + h / 2) - at - h / 2 * x) - 20 * x - lack * (2 * x - v);
+  EXPECT_LT((tip.value - tip.rate * x - expected).norm(), 1e6 * rounding);
+}
+
 TEST(ScriptForce, SaturatesAtTheLargestForce) {
   const Vector3d far(100, 0, 0);
   const TipForce tip = script_force(position, 3, steps_of(0.002), far, Vector3d::Zero());

@@ -39,6 +39,7 @@ struct MidpointStage {
 // mean and half of what impacts add, from the dense matrices of the paper's Eq. 1.
 TEST(Midpoint, MeetsItsEquationsInAKnot) {
   MidpointStage run(knotted(1, 3));
+  run.stage.scene.time.ring_damping = 100;  // so that it counts
   int pushing = 0;
   for (int k = 0; k < 4; ++k) {
     run.step([&](const StepInput& in, const StepSolution& step) {
@@ -87,6 +88,23 @@ TEST(Midpoint, ALoadThatBeginsLeavesNoVelocity) {
       EXPECT_NEAR(step.qdot[6], 0, 1e-9) << k;
     });
   }
+}
+
+// A spring far too stiff for the step turns the velocity round; numerical damping lets that die:
+// where it is all, K (q + h/2 x + c h² v') = 0 with q = 0 says v' = -v / (1 + 4 c h).
+TEST(Midpoint, StiffSpringsRingDown) {
+  MidpointStage run(two_hinges(10));
+  run.stage.scene.drag = {};
+  run.stage.model.drag = {};
+  for (Hinge& hinge : run.stage.model.hinges) hinge.stiffness = 1e12;
+  run.stage.scene.time.step = 0.01;
+  run.stage.scene.time.ring_damping = 10;
+  run.stage.state.qdot.tail<2>() << 1e-3, -2e-3;
+  const Eigen::Vector2d before = run.stage.state.qdot.tail<2>();
+  run.step([&](const StepInput&, const StepSolution& step) {
+    // To M / (h² K), some 1e-8.
+    EXPECT_LT((step.next.tail<2>() + before / 1.4).norm(), 1e-6 * before.norm());
+  });
 }
 
 // A hinge that flies into its limit stays there: impulses act in full, and are not expected again.
