@@ -12,7 +12,8 @@ void multiply(const Model& model, const Kinematics& kin, const StepOperator& op,
               Eigen::VectorXd& product) {
   wrench.resize(6, model.body_count());
   for (int b = 0; b < model.body_count(); ++b) {
-    wrench.col(b).noalias() = op.inertia[b] * twist.col(b);
+    const Eigen::Matrix<double, 8, 1> padded = op.inertia[b].columns * twist.col(b);
+    wrench.col(b) = padded.head<6>();
   }
   generalised_force(model, kin, wrench, product);
   product += op.diagonal.cwiseProduct(v);
@@ -31,7 +32,7 @@ Eigen::MatrixXd dense(const Model& model, const Kinematics& kin, const StepOpera
   Matrix6d composite = Matrix6d::Zero();
   for (int b = model.body_count() - 1; b >= 0; --b) {
     const Body& body = model.bodies[b];
-    composite += op.inertia[b];
+    composite += op.inertia[b].matrix();
     const int end = body.first_dof + body.dofs;
     for (int k = body.first_dof; k < end; ++k) {
       const Vector6d momentum = composite * kin.axis.col(k);
@@ -48,24 +49,31 @@ Eigen::MatrixXd dense(const Model& model, const Kinematics& kin, const StepOpera
 void ArticulatedFactor::factorise(const Model& model, const Kinematics& kin, const StepOperator& op,
                                   std::span<const PrescribedVelocity> prescribed) {
   weighted_.resize(6, model.nv());
+  coupling_.resize(model.nv());
   pivot_.resize(model.nv());
   inverse_pivot_.resize(model.nv());
   prescribed_.assign(prescribed.begin(), prescribed.end());
   auto next = prescribed_.rbegin();
-  // Columns of eight fill a vector register; the last two rows are zero.
+  // Sums are written in the order in which each waits least for the one before.
+  using Column = Eigen::Matrix<double, 8, 1>;
   Eigen::Matrix<double, 8, 6> articulated = Eigen::Matrix<double, 8, 6>::Zero();
   for (int b = model.body_count() - 1; b >= 0; --b) {
     const Body& body = model.bodies[b];
-    articulated.topRows<6>() += op.inertia[b];
+    articulated += op.inertia[b].columns;
     for (int k = body.first_dof + body.dofs - 1; k >= body.first_dof; --k) {
       const Vector6d axis = kin.axis.col(k);
-      const Eigen::Matrix<double, 8, 1> u = articulated * axis;
+      const Column first = articulated.col(0) * axis[0] + articulated.col(1) * axis[1] +
+                           articulated.col(2) * axis[2];
+      const Column second = articulated.col(3) * axis[3] + articulated.col(4) * axis[4] +
+                            articulated.col(5) * axis[5];
+      const Column u = first + second;
       const double pivot = axis.dot(u.head<6>()) + op.diagonal[k];
       if (!(pivot > 0)) {
         throw std::domain_error("articulated inertia is not positive at velocity " +
                                 std::to_string(k) + " (pivot " + std::to_string(pivot) + ")");
       }
       weighted_.col(k) = u.head<6>();
+      coupling_[k] = k == 0 ? 0 : kin.axis.col(k - 1).dot(u.head<6>());
       pivot_[k] = pivot;
       if (next != prescribed_.rend() && next->dof == k) {
         inverse_pivot_[k] = 0;
@@ -73,9 +81,9 @@ void ArticulatedFactor::factorise(const Model& model, const Kinematics& kin, con
         continue;
       }
       inverse_pivot_[k] = 1 / pivot;
-      const Vector6d share = inverse_pivot_[k] * u.head<6>();
+      const Column share = inverse_pivot_[k] * u;
       for (int i = 0; i < 6; ++i) {
-        articulated.col(i) -= share[i] * u;
+        articulated.col(i) -= u[i] * share;
       }
     }
   }
@@ -96,34 +104,43 @@ void ArticulatedFactor::solve(const Model& model, const Kinematics& kin, const M
   const auto count = static_cast<Eigen::Index>(prescribed.size());
   reaction.resize(count);
   Eigen::Index next = count;
+  // Both sums lack the part of the dof before, which `coupling_` adds to their product: so each dof
+  // waits for the last one's velocity alone, and not for the sum with it.
   Vector6d sum = Vector6d::Zero();
+  int last = 0;
+  double velocity = 0;  // of the dof `last`
   for (int b = model.body_count() - 1; b >= 0; --b) {
     const Body& body = model.bodies[b];
     sum += wrench.col(b);
     for (int k = body.first_dof + body.dofs - 1; k >= body.first_dof; --k) {
-      const double force = joint[k] + kin.axis.col(k).dot(sum);
+      const double force = joint[k] + kin.axis.col(k).dot(sum) - coupling_[last] * velocity;
+      sum -= weighted_.col(last) * velocity;
       v[k] = force * inverse_pivot_[k];
       if (next > 0 && prescribed[next - 1].dof == k) {
         --next;
         reaction[next] = -force;
         v[k] = prescribed[next].value;
       }
-      sum -= weighted_.col(k) * v[k];
+      last = k;
+      velocity = v[k];
     }
   }
   Vector6d moved = Vector6d::Zero();
+  velocity = 0;
   for (int b = 0; b < model.body_count(); ++b) {
     const Body& body = model.bodies[b];
     for (int k = body.first_dof; k < body.first_dof + body.dofs; ++k) {
-      const double force = weighted_.col(k).dot(moved);
+      const double force = weighted_.col(k).dot(moved) + coupling_[k] * velocity;
+      moved += kin.axis.col(last) * velocity;
       v[k] -= force * inverse_pivot_[k];
       if (next < count && prescribed[next].dof == k) {
         reaction[next] += force + pivot_[k] * v[k];
         ++next;
       }
-      moved += kin.axis.col(k) * v[k];
+      last = k;
+      velocity = v[k];
     }
-    twist.col(b) = moved;
+    twist.col(b) = moved + kin.axis.col(last) * velocity;
   }
 }
 
@@ -144,7 +161,8 @@ void ArticulatedFactor::half_solve(const Model& model, const Kinematics& kin,
   columns.set_widths();
   for (int b = model.body_count() - 1; b >= 0; --b) {
     for (int i = columns.newest_[b]; i >= 0; i = columns.loads_[i].next) {
-      sum.col(columns.loads_[i].column) += columns.loads_[i].wrench;
+      sum.col(columns.loads_[i].column).head<3>() += columns.loads_[i].moment;
+      sum.col(columns.loads_[i].column).tail<3>() += columns.loads_[i].force;
     }
     const Body& body = model.bodies[b];
     for (int k = body.first_dof + body.dofs - 1; k >= body.first_dof; --k) {
@@ -191,8 +209,9 @@ void RowColumns::reset(const Model& model, Eigen::Index m) {
   sum_.setZero(6, panels * panel);
 }
 
-void RowColumns::load(const Model& model, int body, Eigen::Index column, const Vector6d& wrench) {
-  loads_.push_back({wrench, column, newest_[body]});
+void RowColumns::load(const Model& model, int body, Eigen::Index column,
+                      const Eigen::Vector3d& moment, const Eigen::Vector3d& force) {
+  loads_.push_back({moment, force, column, newest_[body]});
   newest_[body] = static_cast<int>(loads_.size()) - 1;
   extend(column, model.bodies[body].first_dof + model.bodies[body].dofs);
 }

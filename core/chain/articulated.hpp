@@ -14,9 +14,19 @@
 
 namespace hagfish {
 
+/// A symmetric operator on twists whose columns fill a vector register: two rows of 0 below.
+struct PaddedOperator {
+  PaddedOperator() = default;
+  PaddedOperator(const Matrix6d& matrix) { columns.topRows<6>() = matrix; }  // NOLINT: the same
+  auto matrix() { return columns.topRows<6>(); }
+  auto matrix() const { return columns.topRows<6>(); }
+
+  Eigen::Matrix<double, 8, 6> columns = Eigen::Matrix<double, 8, 6>::Zero();
+};
+
 struct StepOperator {
-  std::vector<Matrix6d> inertia;  ///< Î, one symmetric positive operator per body, about O
-  Eigen::VectorXd diagonal;       ///< δ >= 0, nv
+  std::vector<PaddedOperator> inertia;  ///< Î, one, positive, per body, about O
+  Eigen::VectorXd diagonal;             ///< δ >= 0, nv
 };
 
 /// H v in O(n); `twist` are those of the bodies at v (6 x N), `wrench` is storage.
@@ -37,8 +47,9 @@ class RowColumns {
  public:
   /// Empties all for `m` columns.
   void reset(const Model& model, Eigen::Index m);
-  /// Adds a wrench about O on one body to a column.
-  void load(const Model& model, int body, Eigen::Index column, const Vector6d& wrench);
+  /// Adds a wrench on one body to a column: a moment about O and a force.
+  void load(const Model& model, int body, Eigen::Index column, const Eigen::Vector3d& moment,
+            const Eigen::Vector3d& force);
   /// Adds a force on one velocity to a column.
   void load_joint(Eigen::Index dof, Eigen::Index column, double force);
   /// A = Y'Y, m x m, after half_solve. Symmetric and semidefinite by construction.
@@ -48,7 +59,7 @@ class RowColumns {
   friend class ArticulatedFactor;
   static constexpr int panel = tile_rows;
   struct Load {
-    Vector6d wrench;
+    Eigen::Vector3d moment, force;
     Eigen::Index column;
     int next;  ///< load of the same body, -1 at the end
   };
@@ -110,6 +121,7 @@ class ArticulatedFactor {
 
  private:
   Matrix6Xd weighted_;             // Î^A S, one column a dof
+  Eigen::VectorXd coupling_;       // S' Î^A S of each dof and the one before it
   Eigen::VectorXd pivot_;          // S' Î^A S + δ
   Eigen::VectorXd inverse_pivot_;  // 0 where prescribed
   std::vector<PrescribedVelocity> prescribed_;

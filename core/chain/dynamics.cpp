@@ -10,11 +10,18 @@ Eigen::Matrix3d angular_inertia(const Model& model, const Kinematics& kin, int b
   return r * model.bodies[body].inertia.asDiagonal() * r.transpose();
 }
 
-/// A wrench whose moment is about `offset` from O, taken to O.
-Vector6d about_reference(const Vector6d& wrench, const Eigen::Vector3d& offset) {
-  Vector6d w;
-  w << wrench.head<3>() + offset.cross(wrench.tail<3>()), wrench.tail<3>();
-  return w;
+/// A moment about a body's centre and a force on it. Vectors of three stay in registers, where
+/// those of six would go through memory.
+struct CentreWrench {
+  Eigen::Vector3d moment, force;
+};
+
+/// The same about O, from which the centre is at `offset`.
+template <class Column>
+void put_about_reference(const CentreWrench& wrench, const Eigen::Vector3d& offset,
+                         Column&& column) {
+  column.template head<3>() = wrench.moment + offset.cross(wrench.force);
+  column.template tail<3>() = wrench.force;
 }
 
 /// A symmetric operator on the angular velocity and on the velocity of the body's centre.
@@ -52,8 +59,10 @@ AxisOperator inertia_about_centre(const Body& body) {
 }
 
 /// As point_operator of both about the centre, which is at `offset` from O; `linear` has no side.
-Matrix6d centre_operator(const AxisOperator& angular, const AxisOperator& linear,
-                         const Eigen::Matrix3d& axes, const Eigen::Vector3d& offset) {
+/// Written in place, entry by entry: a copy would wait for its bytes.
+void put_centre_operator(const AxisOperator& angular, const AxisOperator& linear,
+                         const Eigen::Matrix3d& axes, const Eigen::Vector3d& offset,
+                         PaddedOperator& put_in) {
   const Eigen::Vector3d a = axes.col(0);
   const Eigen::Vector3d s = axes.col(1);
   const Eigen::Vector3d c = offset.cross(a);
@@ -63,41 +72,42 @@ Matrix6d centre_operator(const AxisOperator& angular, const AxisOperator& linear
   const Eigen::Vector3d first = linear.plain * offset;
   const Eigen::Vector3d forward = linear.along * a;
   const double plain = angular.plain + first.dot(offset);
-  Matrix6d m;
+  auto& m = put_in.columns;
+  const auto put = [&m](int i, int j, double value) {
+    m(i, j) = value;
+    m(j, i) = value;
+  };
   for (int j = 0; j < 3; ++j) {
     for (int i = 0; i <= j; ++i) {
-      m(i, j) = along[i] * a[j] + side[i] * s[j] - first[i] * offset[j] + lever[i] * c[j] +
-                (i == j ? plain : 0);
-      m(j, i) = m(i, j);
-      m(3 + i, 3 + j) = forward[i] * a[j] + (i == j ? linear.plain : 0);
-      m(3 + j, 3 + i) = m(3 + i, 3 + j);
+      put(i, j,
+          along[i] * a[j] + side[i] * s[j] - first[i] * offset[j] + lever[i] * c[j] +
+              (i == j ? plain : 0));
+      put(3 + i, 3 + j, forward[i] * a[j] + (i == j ? linear.plain : 0));
     }
+    // [offset] linear
+    const int next = (j + 1) % 3;
+    const int last = (j + 2) % 3;
+    put(j, 3 + j, lever[j] * a[j]);
+    put(j, 3 + next, lever[j] * a[next] - first[last]);
+    put(j, 3 + last, lever[j] * a[last] + first[next]);
   }
-  Eigen::Matrix3d moment;  // [offset] linear
-  moment << lever[0] * a[0], lever[0] * a[1] - first[2], lever[0] * a[2] + first[1],
-      lever[1] * a[0] + first[2], lever[1] * a[1], lever[1] * a[2] - first[0],
-      lever[2] * a[0] - first[1], lever[2] * a[1] + first[0], lever[2] * a[2];
-  m.topRightCorner<3, 3>() = moment;
-  m.bottomLeftCorner<3, 3>() = moment.transpose();
-  return m;
 }
 
 /// Inertial wrench of one body at q̈ = 0, about its centre: the rate of its momentum at
 /// `felt_twist` as it moves by kin.twist.
-Vector6d bias_at_centre(const Model& model, const Kinematics& kin, const Matrix6Xd& felt_twist,
-                        int body) {
+inline CentreWrench bias_at_centre(const Model& model, const Kinematics& kin,
+                                   const Matrix6Xd& felt_twist, int body) {
   const AxisOperator inertia = inertia_about_centre(model.bodies[body]);
   const Eigen::Matrix3d& axes = kin.rotation[body];
-  const Vector6d bias = kin.bias_twist.col(body);
+  const Eigen::Vector3d bias = kin.bias_twist.col(body).head<3>();
+  const Eigen::Vector3d bias_at_reference = kin.bias_twist.col(body).tail<3>();
   const Eigen::Vector3d turn = kin.twist.col(body).head<3>();
   const Eigen::Vector3d spin = felt_twist.col(body).head<3>();
   const Eigen::Vector3d momentum = inertia.times(axes, spin);
-  const Eigen::Vector3d acceleration =
-      point_velocity(bias, kin.centre_offset(body)) + spin.cross(kin.centre_velocity.col(body));
-  Vector6d wrench;
-  wrench << inertia.times(axes, bias.head<3>() - turn.cross(spin)) + turn.cross(momentum),
-      model.bodies[body].mass * acceleration;
-  return wrench;
+  const Eigen::Vector3d acceleration = bias_at_reference + bias.cross(kin.centre_offset(body)) +
+                                       spin.cross(kin.centre_velocity.col(body));
+  return {inertia.times(axes, bias - turn.cross(spin)) + turn.cross(momentum),
+          model.bodies[body].mass * acceleration};
 }
 
 }  // namespace
@@ -108,8 +118,8 @@ Matrix6d body_inertia(const Model& model, const Kinematics& kin, int body) {
                         kin.centre_offset(body));
 }
 
-std::vector<Matrix6d> body_inertias(const Model& model, const Kinematics& kin) {
-  std::vector<Matrix6d> inertia(model.bodies.size());
+std::vector<PaddedOperator> body_inertias(const Model& model, const Kinematics& kin) {
+  std::vector<PaddedOperator> inertia(model.bodies.size());
   for (int b = 0; b < model.body_count(); ++b) {
     inertia[b] = body_inertia(model, kin, b);
   }
@@ -144,8 +154,7 @@ double drag_power(const Model& model, const Kinematics& kin, int body, const Poi
   const Eigen::Vector3d along = kin.rotation[body].col(0);
   const double forward = over.velocity.dot(along) * at.velocity.dot(along);
   const double sideways = over.velocity.dot(at.velocity) - forward;
-  const Eigen::Vector3d spin = over.twist.head<3>(), other = at.twist.head<3>();
-  const double turning = spin.dot(other) - spin.dot(along) * other.dot(along);
+  const double turning = over.spin.dot(at.spin) - over.spin.dot(along) * at.spin.dot(along);
   return length * (model.drag.normal * (sideways + turning * length * length / 12) +
                    model.drag.tangential * forward);
 }
@@ -153,7 +162,7 @@ double drag_power(const Model& model, const Kinematics& kin, int body, const Poi
 BodyMomentum body_momentum(const Model& model, const Kinematics& kin, int body,
                            const PointMotion& motion) {
   const Body& of = model.bodies[body];
-  return {inertia_about_centre(of).times(kin.rotation[body], motion.twist.head<3>()),
+  return {inertia_about_centre(of).times(kin.rotation[body], motion.spin),
           of.mass * motion.velocity};
 }
 
@@ -164,8 +173,8 @@ Matrix6Xd bias_wrench(const Model& model, const Kinematics& kin) {
 Matrix6Xd bias_wrench(const Model& model, const Kinematics& kin, const Matrix6Xd& felt_twist) {
   Matrix6Xd wrench(6, kin.twist.cols());
   for (int b = 0; b < model.body_count(); ++b) {
-    wrench.col(b) =
-        about_reference(bias_at_centre(model, kin, felt_twist, b), kin.centre_offset(b));
+    put_about_reference(bias_at_centre(model, kin, felt_twist, b), kin.centre_offset(b),
+                        wrench.col(b));
   }
   return wrench;
 }
@@ -214,16 +223,17 @@ void assemble_step_system(const Model& model, const State& state, const StepMoti
     const double sideways = h * body.length * model.drag.normal;
     const double forward = h * body.length * model.drag.tangential;
     const double turning = sideways * body.length * body.length / 12;
-    system.op.inertia[b] =
-        centre_operator({inertia.plain + turning, inertia.along - turning, inertia.side},
-                        {body.mass + sideways, forward - sideways}, axes, offset);
-    const Vector6d bias = bias_at_centre(model, kin, motion.felt_twist, b);
-    system.bias.col(b) = bias;
-    Vector6d momentum;
-    momentum << inertia.times(axes, motion.twist.col(b).head<3>()) - h * bias.head<3>(),
-        body.mass * motion.centre_velocity.col(b) +
-            h * (body.mass * model.gravity - bias.tail<3>());
-    system.wrench.col(b) = about_reference(momentum, offset);
+    put_centre_operator({inertia.plain + turning, inertia.along - turning, inertia.side},
+                        {body.mass + sideways, forward - sideways}, axes, offset,
+                        system.op.inertia[b]);
+    const CentreWrench bias = bias_at_centre(model, kin, motion.felt_twist, b);
+    system.bias.col(b).head<3>() = bias.moment;
+    system.bias.col(b).tail<3>() = bias.force;
+    const Eigen::Vector3d spin = motion.twist.col(b).head<3>();
+    put_about_reference(
+        {inertia.times(axes, spin) - h * bias.moment,
+         body.mass * motion.centre_velocity.col(b) + h * (body.mass * model.gravity - bias.force)},
+        offset, system.wrench.col(b));
   }
   // Springs at x, and their numerical damping at 2 x - v: -K (q + h x) - β K (2 x - v).
   const double spring_reach = h + 2 * when.spring_damping;
@@ -237,7 +247,7 @@ void assemble_step_system(const Model& model, const State& state, const StepMoti
   const Eigen::Vector3d offset = kin.centre_offset(last);
   system.wrench.col(last) += h * wrench_of_force(tip.value, offset);
   if (tip.rate != 0) {
-    system.op.inertia[last] +=
+    system.op.inertia[last].matrix() +=
         point_operator(Eigen::Matrix3d::Zero(), h * tip.rate * Eigen::Matrix3d::Identity(), offset);
   }
 }

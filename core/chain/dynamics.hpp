@@ -16,7 +16,7 @@ namespace hagfish {
 
 /// M_m: each body's inertia about O, world axes (g cm^2, g cm, g).
 Matrix6d body_inertia(const Model& model, const Kinematics& kin, int body);
-std::vector<Matrix6d> body_inertias(const Model& model, const Kinematics& kin);
+std::vector<PaddedOperator> body_inertias(const Model& model, const Kinematics& kin);
 
 /// Water drag of one body: normal and tangential drag per length (model.drag) integrated along it,
 /// as an operator on the twist, about O. The drag is minus this times the twist.
@@ -94,10 +94,9 @@ double kinetic_energy(const Model& model, const Kinematics& kin);
 Eigen::Vector3d drag_on_body(const Model& model, const Kinematics& kin, int body,
                              const Eigen::Vector3d& velocity);
 
-/// How one body moves: its twist, and the velocity of its centre at it, cm/s.
+/// How one body moves: its angular velocity, rad/s, and the velocity of its centre, cm/s, world.
 struct PointMotion {
-  Vector6d twist;
-  Eigen::Vector3d velocity;
+  Eigen::Vector3d spin, velocity;
 };
 
 /// Power over one motion of a body against the drag that it has at another one, erg/s: symmetric.
@@ -110,7 +109,7 @@ struct BodyMomentum {
 
   /// Over a motion, erg: twice the kinetic energy over the same motion.
   double times(const PointMotion& motion) const {
-    return angular.dot(motion.twist.head<3>()) + linear.dot(motion.velocity);
+    return angular.dot(motion.spin) + linear.dot(motion.velocity);
   }
 };
 BodyMomentum body_momentum(const Model& model, const Kinematics& kin, int body,

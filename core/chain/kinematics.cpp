@@ -3,28 +3,35 @@
 namespace hagfish {
 namespace {
 
-/// Turns `frame` about its column `axis`: only the other two change, which is cheaper than a
-/// product of matrices, and less rounding.
-template <int axis>
-void turn(double cosine, double sine, Eigen::Matrix3d& frame) {
-  constexpr int b = (axis + 1) % 3;
-  constexpr int c = (axis + 2) % 3;
-  const Eigen::Vector3d before = frame.col(b);
-  frame.col(b) = cosine * before + sine * frame.col(c);
-  frame.col(c) = cosine * frame.col(c) - sine * before;
-}
+/// The axes of a body: three vectors, which stay in registers where a matrix goes through memory.
+struct Frame {
+  Eigen::Vector3d x, y, z;
+};
 
-void turn(Axis axis, double angle, Eigen::Matrix3d& frame) {
+/// Turns two axes of a frame about the third: cheaper than a product of matrices, and less
+/// rounding.
+void turn(double angle, Eigen::Vector3d& b, Eigen::Vector3d& c) {
   const double cosine = std::cos(angle);
   const double sine = std::sin(angle);
+  const Eigen::Vector3d before = b;
+  b = cosine * before + sine * c;
+  c = cosine * c - sine * before;
+}
+
+/// Turns `frame` about one of its axes, and returns that.
+Eigen::Vector3d turn(Axis axis, double angle, Frame& frame) {
   switch (axis) {
     case Axis::x:
-      return turn<0>(cosine, sine, frame);
+      turn(angle, frame.y, frame.z);
+      return frame.x;
     case Axis::y:
-      return turn<1>(cosine, sine, frame);
+      turn(angle, frame.z, frame.x);
+      return frame.y;
     case Axis::z:
-      return turn<2>(cosine, sine, frame);
+      turn(angle, frame.x, frame.y);
+      return frame.z;
   }
+  return {};
 }
 
 }  // namespace
@@ -37,23 +44,22 @@ void update_positions(const Model& model, const Eigen::VectorXd& q, Kinematics& 
   kin.axis.resize(6, model.nv());
 
   // Hinge axes are kept as directions here and become twists once O is known.
+  const Eigen::Matrix3d root_frame = root_orientation(q).toRotationMatrix();
+  Frame frame{root_frame.col(0), root_frame.col(1), root_frame.col(2)};
+  Eigen::Vector3d origin = q.head<3>();
   for (int b = 0; b < n; ++b) {
     const Body& body = model.bodies[b];
-    if (b == 0) {
-      kin.rotation[0] = root_orientation(q).toRotationMatrix();
-      kin.origin.col(0) = q.head<3>();
-    } else {
-      const Eigen::Matrix3d& parent = kin.rotation[b - 1];
-      kin.origin.col(b) = kin.origin.col(b - 1) + model.bodies[b - 1].length * parent.col(0);
-      Eigen::Matrix3d frame = parent;
+    if (b > 0) {
+      origin += model.bodies[b - 1].length * frame.x;
       for (int k = body.first_dof; k < body.first_dof + body.dofs; ++k) {
-        const Axis axis = model.hinges[k - root_dofs].axis;
-        kin.axis.col(k).head<3>() = frame.col(static_cast<int>(axis));
-        turn(axis, q[k + 1], frame);
+        kin.axis.col(k).head<3>() = turn(model.hinges[k - root_dofs].axis, q[k + 1], frame);
       }
-      kin.rotation[b] = frame;
     }
-    kin.centre.col(b) = kin.origin.col(b) + 0.5 * body.length * kin.rotation[b].col(0);
+    kin.rotation[b].col(0) = frame.x;
+    kin.rotation[b].col(1) = frame.y;
+    kin.rotation[b].col(2) = frame.z;
+    kin.origin.col(b) = origin;
+    kin.centre.col(b) = origin + 0.5 * body.length * frame.x;
   }
 
   kin.reference = kin.centre.col(n / 2);
@@ -64,8 +70,8 @@ void update_positions(const Model& model, const Eigen::VectorXd& q, Kinematics& 
   }
   for (int k = root_dofs; k < model.nv(); ++k) {
     const Eigen::Vector3d direction = kin.axis.col(k).head<3>();
-    kin.axis.col(k) =
-        rotation_axis(direction, kin.origin.col(model.hinges[k - root_dofs].body) - kin.reference);
+    const Eigen::Vector3d offset = kin.origin.col(model.hinges[k - root_dofs].body) - kin.reference;
+    kin.axis.col(k).tail<3>() = offset.cross(direction);  // as rotation_axis has it
   }
 }
 
@@ -78,22 +84,29 @@ void update_velocities(const Model& model, const Eigen::VectorXd& moved,
   const int n = model.body_count();
   kin.twist.resize(6, n);
   kin.bias_twist.resize(6, n);
-  Vector6d twist = kin.axis.leftCols<root_dofs>() * moved.head<root_dofs>();
+  kin.centre_velocity.resize(3, n);
+  const Vector6d root = kin.axis.leftCols<root_dofs>() * moved.head<root_dofs>();
   // The root's translation axes stand still; its rotation axes turn and move with the body.
-  Vector6d bias = cross_motion(twist, Vector6d(kin.axis.middleCols<3>(3) * felt.segment<3>(3)));
-  kin.twist.col(0) = twist;
-  kin.bias_twist.col(0) = bias;
-  for (int b = 1; b < n; ++b) {
+  const Vector6d root_bias =
+      cross_motion(root, Vector6d(kin.axis.middleCols<3>(3) * felt.segment<3>(3)));
+  // Twists and cross_motion by halves, which stay in registers.
+  Eigen::Vector3d spin = root.head<3>(), velocity = root.tail<3>();
+  Eigen::Vector3d spin_bias = root_bias.head<3>(), velocity_bias = root_bias.tail<3>();
+  for (int b = 0; b < n; ++b) {
     const Body& body = model.bodies[b];
-    for (int k = body.first_dof; k < body.first_dof + body.dofs; ++k) {
-      const Vector6d turn = kin.axis.col(k) * moved[k];
-      bias += cross_motion(twist, Vector6d(kin.axis.col(k) * felt[k]));
-      twist += turn;
+    for (int k = b == 0 ? root_dofs : body.first_dof; k < body.first_dof + body.dofs; ++k) {
+      const Eigen::Vector3d axis = kin.axis.col(k).head<3>(), arm = kin.axis.col(k).tail<3>();
+      spin_bias += felt[k] * spin.cross(axis);
+      velocity_bias += felt[k] * (spin.cross(arm) + velocity.cross(axis));
+      spin += moved[k] * axis;
+      velocity += moved[k] * arm;
     }
-    kin.twist.col(b) = twist;
-    kin.bias_twist.col(b) = bias;
+    kin.twist.col(b).head<3>() = spin;
+    kin.twist.col(b).tail<3>() = velocity;
+    kin.bias_twist.col(b).head<3>() = spin_bias;
+    kin.bias_twist.col(b).tail<3>() = velocity_bias;
+    kin.centre_velocity.col(b) = velocity + spin.cross(kin.centre_offset(b));
   }
-  centre_velocities(kin, kin.twist, kin.centre_velocity);
 }
 
 Kinematics kinematics(const Model& model, const State& state) {

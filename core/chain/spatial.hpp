@@ -27,9 +27,20 @@ inline Vector6d wrench_of_force(const Eigen::Vector3d& force, const Eigen::Vecto
   return w;
 }
 
+/// The same, added to a column of wrenches: halves that stay in registers, where vectors of six
+/// would go through memory.
+template <class Column>
+void add_wrench_of_force(const Eigen::Vector3d& force, const Eigen::Vector3d& offset,
+                         Column&& wrench) {
+  wrench.template head<3>() += offset.cross(force);
+  wrench.template tail<3>() += force;
+}
+
 /// Velocity of the material point at `offset`, taken from O, of a body that moves with `twist`.
-inline Eigen::Vector3d point_velocity(const Vector6d& twist, const Eigen::Vector3d& offset) {
-  return twist.tail<3>() + twist.head<3>().cross(offset);
+template <class Twist>
+Eigen::Vector3d point_velocity(const Twist& twist, const Eigen::Vector3d& offset) {
+  const Eigen::Vector3d spin = twist.template head<3>();
+  return twist.template tail<3>() + spin.cross(offset);
 }
 
 /// Rate of the motion vector `m` when it is carried along by `twist`.

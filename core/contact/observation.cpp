@@ -24,15 +24,16 @@ void observe(const Model& model, const State& state, const Scene& scene, Contact
   o.penetration = std::max(0.0, -o.contact.least_gap);
   visit_wall_gaps(model, o.kin, scene.wall,
                   [&](int, double gap) { o.penetration = std::max(o.penetration, -gap); });
-  o.limit_violation = 0;
+  double past_limit = 0;
   for (int k = root_dofs; k < model.nv(); ++k) {
     const Hinge& hinge = model.hinges[k - root_dofs];
-    o.limit_violation =
-        std::max({o.limit_violation, hinge.lower - state.q[k + 1], state.q[k + 1] - hinge.upper});
+    past_limit =
+        std::max(past_limit, std::max(hinge.lower - state.q[k + 1], state.q[k + 1] - hinge.upper));
   }
   for (const BendingCone& cone : model.cones) {
-    o.limit_violation = std::max(o.limit_violation, past_cone(cone, state.q));
+    past_limit = std::max(past_limit, past_cone(cone, state.q));
   }
+  o.limit_violation = past_limit;
 }
 
 Observation observe(const Model& model, const State& state, const Scene& scene) {

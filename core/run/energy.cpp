@@ -10,7 +10,7 @@ void set_energies(const Model& model, const Moment& now, EnergyLedger& ledger) {
 }
 
 PointMotion motion_of(const Matrix6Xd& twist, const Eigen::Matrix3Xd& velocity, int body) {
-  return {twist.col(body), velocity.col(body)};
+  return {twist.col(body).head<3>(), velocity.col(body)};
 }
 
 }  // namespace
@@ -66,15 +66,15 @@ void book_step(const StepInput& in, const StepSolution& step, const Moment& next
     const PointMotion old = motion_of(before.twist, before.centre_velocity, b);
     const PointMotion by = motion_of(step.twist, step.centre_velocity, b);
     const PointMotion felt = motion_of(step.felt_twist, step.felt_centre_velocity, b);
-    const PointMotion change{whole * (felt.twist - old.twist),
+    const PointMotion change{whole * (felt.spin - old.spin),
                              whole * (felt.velocity - old.velocity)};
-    const PointMotion mean{old.twist + 0.5 * change.twist, old.velocity + 0.5 * change.velocity};
+    const PointMotion mean{old.spin + 0.5 * change.spin, old.velocity + 0.5 * change.velocity};
     const BodyMomentum gained = body_momentum(model, kin, b, change);
     moved += gained.times(mean);
-    impulse += gained.times({mean.twist - t / h * by.twist, mean.velocity - t / h * by.velocity});
+    impulse += gained.times({mean.spin - t / h * by.spin, mean.velocity - t / h * by.velocity});
     damped += drag_power(model, kin, b, by, felt);
     fall += t * model.bodies[b].mass * model.gravity.dot(by.velocity);
-    bias += t * (step.system.bias.col(b).head<3>().dot(by.twist.head<3>()) +
+    bias += t * (step.system.bias.col(b).head<3>().dot(by.spin) +
                  step.system.bias.col(b).tail<3>().dot(by.velocity));
   }
   ledger.dissipated += t * damped;

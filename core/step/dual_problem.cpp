@@ -19,7 +19,7 @@ void assemble_dual(const Model& model, const Kinematics& kin, const ArticulatedF
       columns.load_joint(row.dof + 1, j, row.beside);
     }
     visit_forces(row, [&](int body, const Eigen::Vector3d& force) {
-      columns.load(model, body, j, wrench_of_force(force, kin.centre_offset(body)));
+      columns.load(model, body, j, kin.centre_offset(body).cross(force), force);
     });
     qp.b[j] = row.rhs - row_velocity(row, centre_velocity, base);
     qp.lower[j] = row.lower;

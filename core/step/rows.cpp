@@ -128,7 +128,7 @@ void add_row(const Row& row, const Kinematics& kin, double lambda, Matrix6Xd& wr
     return;
   }
   visit_forces(row, [&](int body, const Eigen::Vector3d& force) {
-    wrench.col(body) += wrench_of_force(lambda * force, kin.centre_offset(body));
+    add_wrench_of_force(lambda * force, kin.centre_offset(body), wrench.col(body));
   });
 }
 

@@ -184,8 +184,8 @@ StepOperator random_operator(Random& random, const Model& model, const Kinematic
       return turn * diagonal.asDiagonal() * turn.transpose();
     };
     const Body& body = model.bodies[b];
-    op.inertia.push_back(point_operator(positive(body.inertia.maxCoeff()), positive(body.mass),
-                                        kin.centre_offset(b)));
+    op.inertia.emplace_back(point_operator(positive(body.inertia.maxCoeff()), positive(body.mass),
+                                           kin.centre_offset(b)));
   }
   op.diagonal = random_entries(random, model.nv(), 0.01).cwiseAbs();
   return op;

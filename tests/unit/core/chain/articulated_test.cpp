@@ -22,7 +22,7 @@ Eigen::MatrixXd definition(const Model& model, const Kinematics& kin, const Step
   Eigen::MatrixXd h = op.diagonal.asDiagonal();
   for (int b = 0; b < model.body_count(); ++b) {
     const Matrix6Xd jacobian = body_jacobian(model, kin, b);
-    h += jacobian.transpose() * op.inertia[b] * jacobian;
+    h += jacobian.transpose() * op.inertia[b].matrix() * jacobian;
   }
   return h;
 }
@@ -115,7 +115,7 @@ TEST(Articulated, HalfSolvesOfManyColumnsMultiplyToTheWhole) {
         const int body = static_cast<int>(random() % 100);
         const Vector6d load = random_entries(random, 6);
         wrench.col(body) += load;
-        columns.load(c.model, body, j, load);
+        columns.load(c.model, body, j, load.head<3>(), load.tail<3>());
       }
       const auto dof = static_cast<Eigen::Index>(random() % c.model.nv());
       joint[dof] = 1 + j;
@@ -206,7 +206,7 @@ TEST(Articulated, HeldVelocitiesDoNotAnswerInAHalfSolve) {
     Matrix6Xd wrench = Matrix6Xd::Zero(6, 100);
     const int body = 99 - 4 * j;
     wrench.col(body) = random_entries(random, 6);
-    columns.load(c.model, body, j, wrench.col(body));
+    columns.load(c.model, body, j, wrench.col(body).head<3>(), wrench.col(body).tail<3>());
     right.col(j) = generalised_force(c.model, c.kin, wrench);
     columns.load_joint(7 * (j % 3), j, 1);  // the first and the last are prescribed
     right(7 * (j % 3), j) += 1;
@@ -268,7 +268,7 @@ TEST(Articulated, ThrowsWhereTheOperatorIsNotPositive) {
   EXPECT_NO_THROW(factor.factorise(good.model, good.kin, good.op));
 
   Case massless = good;
-  for (Matrix6d& inertia : massless.op.inertia) inertia.setZero();
+  for (PaddedOperator& inertia : massless.op.inertia) inertia = {};
   massless.op.diagonal.setZero();
   EXPECT_THROW(factor.factorise(massless.model, massless.kin, massless.op), std::domain_error);
 
@@ -282,7 +282,7 @@ TEST(Articulated, ThrowsWhereTheOperatorIsNotPositive) {
   }
 
   Case undefined = good;
-  undefined.op.inertia[3](0, 0) = std::numeric_limits<double>::quiet_NaN();
+  undefined.op.inertia[3].columns(0, 0) = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(factor.factorise(undefined.model, undefined.kin, undefined.op), std::domain_error);
 }
 
