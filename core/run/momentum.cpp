@@ -28,15 +28,18 @@ void book_momentum(const StepInput& in, const StepSolution& step, const Moment& 
   const double whole = h / in.scene.time.reach();    // v' - v over what is felt of it
   Eigen::Vector3d change = Eigen::Vector3d::Zero();  // Σ m (v' - v)
   Eigen::Vector3d bias = Eigen::Vector3d::Zero();
+  Eigen::Vector3d drag = Eigen::Vector3d::Zero();
+  double mass = 0;
   for (int b = 0; b < model.body_count(); ++b) {
     const Eigen::Vector3d felt = step.felt_centre_velocity.col(b);
     change += whole * model.bodies[b].mass * (felt - before.centre_velocity.col(b));
     bias += step.system.bias.col(b).tail<3>();
-    ledger.drag += h * drag_on_body(model, in.kin(), b, felt);
-    ledger.outside += h * model.bodies[b].mass * model.gravity;
+    drag += drag_on_body(model, in.kin(), b, felt);
+    mass += model.bodies[b].mass;
   }
-  ledger.outside +=
-      h * (step.tip + step.force[RowKind::head].head<3>() + step.force[RowKind::wall].head<3>());
+  ledger.drag += h * drag;
+  ledger.outside += h * (mass * model.gravity + step.tip + step.force[RowKind::head].head<3>() +
+                         step.force[RowKind::wall].head<3>());
   const Eigen::Vector3d old = ledger.momentum;
   ledger.momentum = linear_momentum(model, next.observation.kin);
   ledger.integrator += ledger.momentum - old - change - h * bias;
