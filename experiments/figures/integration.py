@@ -51,7 +51,7 @@ def main(folder: Path, csv: Path, png: Path) -> None:
     for axes, results in zip(panels, motions.values()):
         draw(axes, results)
     panels[0].set(ylabel="largest error of a body centre at 0.5 s, cm", xlim=(4e-4, 40), ylim=(1e-10, 30))
-    panels[0].legend(loc="lower left", bbox_to_anchor=(0, 0.12))
+    panels[0].legend(loc="lower left", bbox_to_anchor=(0, 0.06))
     plots.save(figure, png)
     tables.write_csv(csv, ["motion", "method", "h_ms", "cpu_per_simulated_time", "error_cm"],
                      [[motion, method, *map(float, step)] for motion, results in motions.items()
