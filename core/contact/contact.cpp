@@ -10,17 +10,31 @@ namespace {
 /// what a segment may move before they are searched again. Affects speed only.
 constexpr double carried = 0.5;
 
-/// A cubic stays as close to another as their Bézier points: at most this far from `before`, cm.
-double displacement(const SplineSegment& before, const SplineSegment& now) {
-  const Eigen::Vector3d d0 = now.c0 - before.c0;
-  const Eigen::Vector3d d1 = now.c1 - before.c1;
-  const Eigen::Vector3d d2 = now.c2 - before.c2;
-  const Eigen::Vector3d d3 = now.c3 - before.c3;
-  constexpr double third = 1.0 / 3;
-  const Eigen::Vector3d first = d0 + third * d1;
-  return std::sqrt(
-      std::max({d0.squaredNorm(), first.squaredNorm(), (first + third * (d1 + d2)).squaredNorm(),
-                (d0 + d1 + d2 + d3).squaredNorm()}));
+/// The end between segments `end - 1` and `end`.
+SegmentEnd end_of(const std::vector<SplineSegment>& segments, std::size_t end) {
+  if (end < segments.size()) {
+    return {segments[end].c0, segments[end].c1};
+  }
+  return {segments.back().point(1), segments.back().slope(1)};
+}
+
+/// Adds to search.moved how far each segment may have moved since search.ends: a cubic stays as
+/// close to another as their Bézier points, which are its ends and these plus or minus a third of
+/// the slopes there.
+void add_motion(const std::vector<SplineSegment>& segments, ContactSearch& search) {
+  double behind = 0;  // squared displacement of the Bézier points at the segment's first end
+  for (std::size_t k = 0; k <= segments.size(); ++k) {
+    const SegmentEnd now = end_of(segments, k);
+    SegmentEnd& before = search.ends[k];
+    const Eigen::Vector3d moved = now.point - before.point;
+    const Eigen::Vector3d turned = (now.slope - before.slope) / 3;
+    const double end = moved.squaredNorm();
+    if (k > 0) {
+      search.moved[k - 1] += std::sqrt(std::max({behind, end, (moved - turned).squaredNorm()}));
+    }
+    behind = std::max(end, (moved + turned).squaredNorm());
+    before = now;
+  }
 }
 
 void find_candidates(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
@@ -45,15 +59,15 @@ void find_candidates(const std::vector<SplineSegment>& segments, const ContactSe
 /// Adds up how far the segments have moved; searches the candidates again once that is too far.
 void update_candidates(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
                        ContactSearch& search) {
-  bool valid = search.segments.size() == segments.size();
-  for (std::size_t i = 0; valid && i < segments.size(); ++i) {
-    search.moved[i] += displacement(search.segments[i], segments[i]);
-    valid = search.moved[i] <= 0.5 * carried;
+  if (search.ends.size() != segments.size() + 1) {
+    keep_ends(segments, search);
+    find_candidates(segments, settings, search);
+    return;
   }
-  if (!valid) {
+  add_motion(segments, search);
+  if (!(std::ranges::max(search.moved) <= 0.5 * carried)) {
     find_candidates(segments, settings, search);
   }
-  search.segments = segments;
 }
 
 /// Computes the closest points of the candidates that are due; lists those within the margin.
@@ -164,6 +178,13 @@ void evaluate_with_neighbours(const std::vector<SplineSegment>& segments,
 }
 
 }  // namespace
+
+void keep_ends(const std::vector<SplineSegment>& segments, ContactSearch& search) {
+  search.ends.resize(segments.size() + 1);
+  for (std::size_t k = 0; k <= segments.size(); ++k) {
+    search.ends[k] = end_of(segments, k);
+  }
+}
 
 Contact contact_at(const std::vector<SplineSegment>& segments, int segment_a, double t_a,
                    int segment_b, double t_b) {

@@ -60,18 +60,27 @@ struct ContactScratch {
   ClosestPointsSearch closest_points;
 };
 
+/// Where segments meet, or the first begins or the last ends: a point (cm) and the slope there
+/// (cm).
+struct SegmentEnd {
+  Eigen::Vector3d point, slope;
+};
+
 /// What a search for contacts keeps for the next one with the same settings. Pairs are skipped as
 /// long as they cannot have moved close enough. A new minimum is found at once where strands touch
 /// or come within the margin, but beside another minimum, with a positive gap, perhaps some steps
 /// late.
 struct ContactSearch {
   std::vector<SegmentPair> candidates;  ///< sorted
-  std::vector<SplineSegment> segments;  ///< of the last search
+  std::vector<SegmentEnd> ends;         ///< of the segments of the last search, one more than these
   std::vector<double> moved;            ///< at most, by each since the candidates were found, cm
   ContactScratch scratch;
 
   double moved_by(const SegmentPair& pair) const { return moved[pair.a] + moved[pair.b]; }
 };
+
+/// Makes `segments` those of the last search, from which motion counts.
+void keep_ends(const std::vector<SplineSegment>& segments, ContactSearch& search);
 
 /// Finds the contacts of `segments` (paper, 3.1: bounding spheres, then Eq. 5) into `set`. Of pairs
 /// that are no minimum, the first form lists those with a gap below `near` (cm), the second form

@@ -121,7 +121,7 @@ void serialize(Archive& archive, SegmentPair& pair) {
 
 template <class Archive>
 void serialize(Archive& archive, ContactSearch& search) {
-  auto& [candidates, segments, moved, scratch] = search;  // segments are those of the observation
+  auto& [candidates, ends, moved, scratch] = search;  // ends are those of the observation
   archive(candidates, moved);
 }
 
@@ -328,7 +328,7 @@ Simulation decode(std::span<const std::uint8_t> bytes, const Model& model,
   update_positions(model, sim.now.state.q, seen.kin);
   update_velocities(model, sim.now.state.qdot, seen.kin);
   update_spline(model, seen.kin.centre, seen.segments);
-  sim.search.segments = seen.segments;
+  keep_ends(seen.segments, sim.search);
   return sim;
 }
 

@@ -193,7 +193,7 @@ void put_back(Simulation& sim) {
   sim.watch = before.watch;
   sim.search.candidates = before.candidates;
   sim.search.moved = before.moved;
-  sim.search.segments = sim.now.observation.segments;
+  keep_ends(sim.now.observation.segments, sim.search);
 }
 
 }  // namespace

@@ -62,10 +62,10 @@ void expect_same(const Simulation& a, const Simulation& b) {
   EXPECT_EQ(a.solver.warm.size(), b.solver.warm.size());
 
   EXPECT_EQ(a.search.moved, b.search.moved);
-  EXPECT_TRUE(std::ranges::equal(
-      a.search.segments, b.search.segments, [](const SplineSegment& s, const SplineSegment& t) {
-        return s.c0 == t.c0 && s.c1 == t.c1 && s.c2 == t.c2 && s.c3 == t.c3;
-      }));
+  EXPECT_TRUE(std::ranges::equal(a.search.ends, b.search.ends,
+                                 [](const SegmentEnd& s, const SegmentEnd& t) {
+                                   return s.point == t.point && s.slope == t.slope;
+                                 }));
   EXPECT_TRUE(std::ranges::equal(
       a.search.candidates, b.search.candidates, [](const SegmentPair& s, const SegmentPair& t) {
         return s.a == t.a && s.b == t.b && s.clear_until == t.clear_until &&
