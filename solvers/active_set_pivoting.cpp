@@ -1,6 +1,7 @@
 #include "solvers/active_set_pivoting.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -19,6 +20,22 @@ constexpr double consistency = 1e-9;
 /// Smaller shares in a dependent row are rounding: the root of the factor's rank threshold, as the
 /// row would depend on the others alone to the square of such a share.
 constexpr double least_share = 1e-6;
+/// Columns of A that go into w together, so that w is read and written less often.
+constexpr int columns_at_once = 4;
+
+/// w += Σ x_j A_j over `columns` j, summed in their order.
+void add_columns(const Eigen::MatrixXd& A, const std::array<Eigen::Index, columns_at_once>& columns,
+                 const Eigen::Map<Eigen::VectorXd>& x, Eigen::Map<Eigen::VectorXd>& w) {
+  const auto [j0, j1, j2, j3] = columns;
+  const double x0 = x[j0], x1 = x[j1], x2 = x[j2], x3 = x[j3];
+  const double *a0 = A.col(j0).data(), *a1 = A.col(j1).data(), *a2 = A.col(j2).data(),
+               *a3 = A.col(j3).data();
+  double* sum = w.data();
+#pragma GCC ivdep
+  for (Eigen::Index i = 0; i < w.size(); ++i) {
+    sum[i] = (((sum[i] + x0 * a0[i]) + x1 * a1[i]) + x2 * a2[i]) + x3 * a3[i];
+  }
+}
 
 }  // namespace
 
@@ -50,11 +67,20 @@ void ActiveSetPivoting::start(const BoxQp& qp) {
 void ActiveSetPivoting::update_gradient() {
   w_ = -qp_->b;
   double sum = beta_;
+  std::array<Eigen::Index, columns_at_once> columns{};
+  std::size_t waiting = 0;
   for (Eigen::Index j = 0; j < x_.size(); ++j) {
     if (x_[j] != 0) {
-      w_ += x_[j] * qp_->A.col(j);
       sum += std::abs(x_[j]) * scale_[j];
+      columns[waiting++] = j;
+      if (waiting == columns.size()) {
+        add_columns(qp_->A, columns, x_, w_);
+        waiting = 0;
+      }
     }
+  }
+  for (std::size_t k = 0; k < waiting; ++k) {
+    w_ += x_[columns[k]] * qp_->A.col(columns[k]);
   }
   noise_ = rounding * sum;
 }

@@ -63,15 +63,13 @@ void update_positions(const Model& model, const Eigen::VectorXd& q, Kinematics& 
   }
 
   kin.reference = kin.centre.col(n / 2);
-  const Eigen::Vector3d root = kin.origin.col(0) - kin.reference;
-  kin.axis.leftCols<3>() << Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Identity();
-  for (int k = 0; k < 3; ++k) {
-    kin.axis.col(3 + k) = rotation_axis(kin.rotation[0].col(k), root);
-  }
-  for (int k = root_dofs; k < model.nv(); ++k) {
+  kin.axis.leftCols<root_dofs>() << Eigen::Matrix3d::Zero(), kin.rotation[0],
+      Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Zero();
+  for (int k = 3; k < model.nv(); ++k) {  // all but the root's translations
+    const int body = k < root_dofs ? 0 : model.hinges[k - root_dofs].body;
     const Eigen::Vector3d direction = kin.axis.col(k).head<3>();
-    const Eigen::Vector3d offset = kin.origin.col(model.hinges[k - root_dofs].body) - kin.reference;
-    kin.axis.col(k).tail<3>() = offset.cross(direction);  // as rotation_axis has it
+    const Eigen::Vector3d offset = kin.origin.col(body) - kin.reference;
+    kin.axis.col(k).tail<3>() = offset.cross(direction);
   }
 }
 
@@ -84,20 +82,23 @@ void update_velocities(const Model& model, const Eigen::VectorXd& moved,
   const int n = model.body_count();
   kin.twist.resize(6, n);
   kin.bias_twist.resize(6, n);
-  kin.centre_velocity.resize(3, n);
+  // Halves of twists stay in registers, where vectors of six would go through memory.
   const Vector6d root = kin.axis.leftCols<root_dofs>() * moved.head<root_dofs>();
-  // The root's translation axes stand still; its rotation axes turn and move with the body.
-  const Vector6d root_bias =
-      cross_motion(root, Vector6d(kin.axis.middleCols<3>(3) * felt.segment<3>(3)));
-  // Twists and cross_motion by halves, which stay in registers.
   Eigen::Vector3d spin = root.head<3>(), velocity = root.tail<3>();
-  Eigen::Vector3d spin_bias = root_bias.head<3>(), velocity_bias = root_bias.tail<3>();
+  Eigen::Vector3d spin_bias = Eigen::Vector3d::Zero(), velocity_bias = spin_bias;
+  // A motion that the twist so far carries along (Featherstone 2008, 2.9).
+  const auto carry = [&](const Eigen::Vector3d& turn, const Eigen::Vector3d& shift, double rate) {
+    spin_bias += rate * spin.cross(turn);
+    velocity_bias += rate * (spin.cross(shift) + velocity.cross(turn));
+  };
+  // The root's translation axes stand still; its rotation axes turn and move with the body.
+  const Vector6d turning = kin.axis.middleCols<3>(3) * felt.segment<3>(3);
+  carry(turning.head<3>(), turning.tail<3>(), 1);
   for (int b = 0; b < n; ++b) {
     const Body& body = model.bodies[b];
     for (int k = b == 0 ? root_dofs : body.first_dof; k < body.first_dof + body.dofs; ++k) {
       const Eigen::Vector3d axis = kin.axis.col(k).head<3>(), arm = kin.axis.col(k).tail<3>();
-      spin_bias += felt[k] * spin.cross(axis);
-      velocity_bias += felt[k] * (spin.cross(arm) + velocity.cross(axis));
+      carry(axis, arm, felt[k]);
       spin += moved[k] * axis;
       velocity += moved[k] * arm;
     }
@@ -105,8 +106,8 @@ void update_velocities(const Model& model, const Eigen::VectorXd& moved,
     kin.twist.col(b).tail<3>() = velocity;
     kin.bias_twist.col(b).head<3>() = spin_bias;
     kin.bias_twist.col(b).tail<3>() = velocity_bias;
-    kin.centre_velocity.col(b) = velocity + spin.cross(kin.centre_offset(b));
   }
+  centre_velocities(kin, kin.twist, kin.centre_velocity);
 }
 
 Kinematics kinematics(const Model& model, const State& state) {

@@ -13,13 +13,6 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Matrix6Xd = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
-/// Twist of a unit rotation about the world axis `axis` through `offset`, taken from O.
-inline Vector6d rotation_axis(const Eigen::Vector3d& axis, const Eigen::Vector3d& offset) {
-  Vector6d s;
-  s << axis, offset.cross(axis);
-  return s;
-}
-
 /// Wrench of `force` acting at `offset`, taken from O.
 inline Vector6d wrench_of_force(const Eigen::Vector3d& force, const Eigen::Vector3d& offset) {
   Vector6d w;
@@ -41,22 +34,6 @@ template <class Twist>
 Eigen::Vector3d point_velocity(const Twist& twist, const Eigen::Vector3d& offset) {
   const Eigen::Vector3d spin = twist.template head<3>();
   return twist.template tail<3>() + spin.cross(offset);
-}
-
-/// Rate of the motion vector `m` when it is carried along by `twist`.
-inline Vector6d cross_motion(const Vector6d& twist, const Vector6d& m) {
-  Vector6d r;
-  r << twist.head<3>().cross(m.head<3>()),
-      twist.head<3>().cross(m.tail<3>()) + twist.tail<3>().cross(m.head<3>());
-  return r;
-}
-
-/// Rate of the wrench or momentum `f` when it is carried along by `twist`.
-inline Vector6d cross_force(const Vector6d& twist, const Vector6d& f) {
-  Vector6d r;
-  r << twist.head<3>().cross(f.head<3>()) + twist.tail<3>().cross(f.tail<3>()),
-      twist.head<3>().cross(f.tail<3>());
-  return r;
 }
 
 /// Symmetric operator on twists of a symmetric 3 x 3 pair acting at `offset` from O: `angular` on

@@ -392,7 +392,8 @@ void declare_energy(LogTable<Frame>& t) {
   energy("integrator_inertia",
          "gained by the integrator from velocity changes, impacts included, so far",
          &EnergyLedger::integrator_inertia);
-  energy("integrator_potential", "gained by the integrator from springs, their numerical damping and gravity so far",
+  energy("integrator_potential",
+         "gained by the integrator from springs, their numerical damping and gravity so far",
          &EnergyLedger::integrator_potential);
   energy("integrator_coriolis", "gained by the integrator from explicit Coriolis forces so far",
          &EnergyLedger::integrator_coriolis);

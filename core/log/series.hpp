@@ -61,9 +61,7 @@ using SeriesList = std::vector<std::shared_ptr<AnySeries>>;
 template <class T>
 class Series final : public AnySeries {
  public:
-  explicit Series(SeriesLayout layout) : AnySeries(std::move(layout), sizeof(T)) {
-    waiting_.reserve(rows_ahead * row_size());
-  }
+  explicit Series(SeriesLayout layout) : AnySeries(std::move(layout), sizeof(T)) {}
   /// Appends one row; `count` must be the row's size.
   void append(const T* row, std::size_t count);
   void append(T value) { append(&value, 1); }
@@ -77,10 +75,6 @@ class Series final : public AnySeries {
   void forget(std::size_t rows) override;
 
  private:
-  /// Rows that memory is set aside for: what is not touched costs nothing, and what grows is
-  /// copied.
-  static constexpr std::size_t rows_ahead = 2048;
-
   std::vector<T> waiting_;
 };
 

@@ -166,11 +166,40 @@ TEST(KnotScenesByTheMidpointRule, ConvergeAtSecondOrder) {
 
 INSTANTIATE_TEST_SUITE_P(Pull, KnotScenes,
                          testing::Values("pull_overhand", "pull_figure_eight",
-                                         "pull_double_overhand", "pull_three_twist",
-                                         "pull_living_overhand", "pull_living_figure_eight",
-                                         "pull_living_double_overhand", "pull_living_three_twist",
-                                         "pull_morsel"),
+                                         "pull_double_overhand", "pull_living_overhand",
+                                         "pull_living_figure_eight", "pull_living_double_overhand",
+                                         "pull_living_three_twist", "pull_morsel"),
                          scene_name);
+
+/// Whether the knot of `resolved` holds until it is let go.
+bool holds(const ResolvedScene& resolved) {
+  const Model model = make_hagfish(resolved.specimen, resolved.scene);
+  Simulation sim = start(model, resolved.scene, "active-set");
+  StepRecord record;
+  try {
+    while (!finished(sim, resolved.scene)) {
+      take_step(model, resolved.scene, sim, record);
+    }
+  } catch (const StepError& error) {
+    EXPECT_EQ(error.outcome(), Outcome::knot_lost) << error.what();
+    return false;
+  }
+  return true;
+}
+
+// The soft body's 5_2 churns as it pulls and comes undone from 2 in 16 starts (leverage.md): from
+// 5 in 8 or more once in some 1000 times.
+TEST(PullOfTheThreeTwist, HoldsFromMostStarts) {
+  int held = 0;
+  for (int seed = 1; seed <= 8; ++seed) {
+    held += holds(scene_called("pull_three_twist",
+                               {"start.noise_deg=0.3", "start.seed=" + std::to_string(seed)}))
+                ? 1
+                : 0;
+  }
+  std::cout << "[ FIGURE   ] " << held << " of 8\n";
+  EXPECT_GE(held, 4);
+}
 
 TEST(KnotScenesWithCones, TieHoldSlideAndComeOff) {
   expect_whole(scene_called("table1", {"model.bending_limit=cone"}));
