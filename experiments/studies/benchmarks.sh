@@ -3,7 +3,7 @@
 # Leaves a CSV with processor, flags and library versions, a table of ratios and a figure.
 #   bash experiments/studies/benchmarks.sh [OUTPUT_FOLDER]     default: out/benchmarks
 set -euo pipefail
-targets=(hagfish_benchmarks)
+targets=(hagfish_benchmarks hagfish_overlap)
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 # The knotted states come from runs of the animal with as many bodies. At 25 the force script ends untied;
@@ -19,5 +19,10 @@ taskset --cpu-list 0 "$root/build/release/experiments/benchmarks/hagfish_benchma
   --benchmark_min_time=0.1 --benchmark_repetitions=5 --benchmark_enable_random_interleaving=true \
   --benchmark_out="$out/benchmarks.json" --benchmark_out_format=json \
   "$out"/{25,50,100,200,400}.h5 >"$out/benchmarks.log" 2>&1 || { cat "$out/benchmarks.log" >&2; exit 2; }
+# What it costs to keep strands apart: a knot pulled as hard in both simulators.
+taskset --cpu-list 0 "$root/build/release/experiments/benchmarks/hagfish_overlap" \
+  "$root/experiments/stability/pulled_knot.toml" "$out"/{50,100}.h5 >"$out/overlap.csv"
 draw benchmarks.py "$out/benchmarks.json" "$out/benchmarks.png"
+draw overlap.py "$out/overlap.csv" "$out/overlap.md"
+cat "$out/overlap.md"
 list_output
