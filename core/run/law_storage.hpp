@@ -10,10 +10,8 @@ namespace hagfish {
 struct LawStorage {
   LawStorage() = default;
   LawStorage(const LawStorage& /*other*/) : LawStorage() {}
+  // NOLINTNEXTLINE(cert-oop54-cpp): nothing is assigned
   LawStorage& operator=(const LawStorage& /*other*/) { return *this; }
-  LawStorage(LawStorage&&) = default;
-  LawStorage& operator=(LawStorage&&) = default;
-  ~LawStorage() = default;
 
   ReducedBasisStorage reduced_basis;
   MuscleStorage muscles;

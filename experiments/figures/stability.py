@@ -224,7 +224,7 @@ def draw_summary(cells: list[Cell], png: Path) -> None:
             words = "" if text == "n/a" else ("none" if largest is None else f"{largest:g}")
             draw_cell(axes, (x, y), shade, text != "n/a", f"{words} {letter}".strip(),
                       "white" if rank + 1 < 0.55 * len(steps) and text != "n/a" else plots.INK)
-    cell_grid(axes, [SCENES.get(s, s) for s in scenes], [TITLES.get(m, m) for m in METHODS])
+    cell_grid(axes, [SCENES.get(s, s) for s in scenes], [TITLES.get(m, m).replace(" ", "\n", 1) for m in METHODS])
     axes.xaxis.tick_top()
     axes.tick_params(axis="x", length=0)
     codes = ", ".join(f"{letter} {name}" for name, (letter, _) in LOOKS.items() if letter not in ("", "-"))
