@@ -102,7 +102,7 @@ void all_contacts_law(const Situation& at, Control& control) {
     return;
   }
   const ThigmotaxisCommand first = control.thigmotaxis[0];
-  const Contact& last = control.thigmotaxis[1].contact;
+  const Contact last = control.thigmotaxis[1].contact;  // a copy: the list grows below
   for (const Contact& contact : at.now.observation.contact.contacts) {
     if (contact.gap > at.scene.controller.contact_gap || same_segments(contact, first.contact) ||
         same_segments(contact, last)) {
