@@ -6,8 +6,8 @@
 #include <cereal/archives/binary.hpp>
 #include <cereal/types/array.hpp>
 #include <cereal/types/bitset.hpp>
-#include <cereal/types/optional.hpp>
 #include <cmath>
+#include <optional>
 #include <sstream>
 
 #include "core/log/hdf5_error.hpp"
@@ -63,6 +63,25 @@ void load(BinaryInputArchive& archive, std::vector<T>& list) {
   list.clear();
   for (std::uint64_t left = count_of(archive); left > 0; --left) {
     archive(list.emplace_back());
+  }
+}
+
+// A damaged byte that is neither true nor false must not be read as a bool.
+template <class Archive, class T>
+void save(Archive& archive, const std::optional<T>& entry) {
+  archive(std::uint8_t{!entry});
+  if (entry) {
+    archive(*entry);
+  }
+}
+template <class T>
+void load(BinaryInputArchive& archive, std::optional<T>& entry) {
+  std::uint8_t absent = 0;
+  archive(absent);
+  hagfish::require(absent <= 1, "what may be absent is neither there nor absent");
+  entry.reset();
+  if (absent == 0) {
+    archive(entry.emplace());
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "core/log/hdf5_error.hpp"
@@ -151,6 +152,14 @@ TEST_F(BadBytes, AnotherLayoutOrAnotherAnimalIsRefused) {
   s.model = make_hagfish(stored_scene({"model.bodies=99"}).specimen,
                          stored_scene({"model.bodies=99"}).scene);
   EXPECT_EQ(refusal(bytes), "checkpoint: a state that is not of its model");
+}
+
+TEST_F(BadBytes, NeitherThereNorAbsentIsRefused) {
+  ASSERT_TRUE(s.sim.controller.last.contact);
+  s.sim.controller.last.contact.reset();
+  const auto flag = std::ranges::mismatch(bytes, s.bytes()).in1;
+  *flag = 199;
+  EXPECT_EQ(refusal(bytes), "checkpoint: what may be absent is neither there nor absent");
 }
 
 TEST_F(BadBytes, NoChangeOfAByteLeadsOutOfBounds) {
