@@ -2,9 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
 #include <vector>
 
+#include "core/contact/candidates.hpp"
 #include "core/contact/closest_points.hpp"
 #include "core/contact/spline.hpp"
 
@@ -38,32 +38,17 @@ struct ContactSet {
 Contact contact_at(const std::vector<SplineSegment>& segments, int segment_a, double t_a,
                    int segment_b, double t_b);
 
-/// Two segments that may touch, a before b.
-struct SegmentPair {
-  int a = 0, b = 0;
-  std::optional<ClosestPoints> closest;  ///< as last computed
-  /// The pair need not be evaluated until both together have moved this far, cm.
-  double clear_until = 0;
-};
-
-/// What a search knows of a candidate, so far: beaten is one beside which another has a smaller
+/// What a search knows of a pair, so far: beaten is one beside which another has a smaller
 /// gap.
-enum class CandidateState : char { unknown, due, evaluated, beaten };
+enum class PairState : char { unknown, due, evaluated, beaten };
 
 /// Storage of one search.
 struct ContactScratch {
-  std::vector<int> first;                   ///< of each segment, where its candidates begin
-  std::vector<CandidateState> known;        ///< of each candidate
-  std::vector<int> due;                     ///< indices of candidates to evaluate next
+  std::vector<PairState> known;             ///< of each pair
+  std::vector<int> due;                     ///< pairs to evaluate next
   std::vector<int> close;                   ///< of those evaluated that are within the margin
   std::vector<ClosestPointsQuery> queries;  ///< of those that are due
   ClosestPointsSearch closest_points;
-};
-
-/// Where segments meet, or the first begins or the last ends: a point (cm) and the slope there
-/// (cm).
-struct SegmentEnd {
-  Eigen::Vector3d point, slope;
 };
 
 /// What a search for contacts keeps for the next one with the same settings. Pairs are skipped as
@@ -71,16 +56,9 @@ struct SegmentEnd {
 /// or come within the margin, but beside another minimum, with a positive gap, perhaps some steps
 /// late.
 struct ContactSearch {
-  std::vector<SegmentPair> candidates;  ///< sorted
-  std::vector<SegmentEnd> ends;         ///< of the segments of the last search, one more than these
-  std::vector<double> moved;            ///< at most, by each since the candidates were found, cm
+  Candidates candidates;
   ContactScratch scratch;
-
-  double moved_by(const SegmentPair& pair) const { return moved[pair.a] + moved[pair.b]; }
 };
-
-/// Makes `segments` those of the last search, from which motion counts.
-void keep_ends(const std::vector<SplineSegment>& segments, ContactSearch& search);
 
 /// Finds the contacts of `segments` (paper, 3.1: bounding spheres, then Eq. 5) into `set`. Of pairs
 /// that are no minimum, the first form lists those with a gap below `near` (cm), the second form

@@ -18,7 +18,7 @@ namespace hagfish {
 namespace {
 
 /// Of the bytes' layout; raised with every change of what they hold.
-constexpr int layout = 6;
+constexpr int layout = 7;
 /// No list of a run is longer; a damaged count must not ask for all memory.
 constexpr std::uint64_t most_entries = 1000000;
 
@@ -134,14 +134,26 @@ void serialize(Archive& archive, ClosestPoints& closest) {
 
 template <class Archive>
 void serialize(Archive& archive, SegmentPair& pair) {
-  auto& [a, b, closest, clear_until] = pair;
-  archive(a, b, closest, clear_until);
+  auto& [a, b] = pair;
+  archive(a, b);
+}
+
+template <class Archive>
+void serialize(Archive& archive, LastSeen& seen) {
+  auto& [closest, matters_at] = seen;
+  archive(closest, matters_at);
+}
+
+template <class Archive>
+void serialize(Archive& archive, Candidates& candidates) {
+  auto& [pairs, clear_until, seen, first, ends, moved] = candidates;  // two follow from the others
+  archive(pairs, clear_until, seen, moved);
 }
 
 template <class Archive>
 void serialize(Archive& archive, ContactSearch& search) {
-  auto& [candidates, ends, moved, scratch] = search;  // ends are those of the observation
-  archive(candidates, moved);
+  auto& [candidates, scratch] = search;
+  archive(candidates);
 }
 
 template <class Archive>
@@ -273,12 +285,13 @@ bool fits(const TrackedContact& tracked, int bodies) {
   return !tracked.contact || fits(*tracked.contact, bodies);
 }
 
-bool fits(const ContactSearch& search, int bodies) {
-  return static_cast<int>(search.moved.size()) == bodies - 1 &&
+bool fits(const Candidates& candidates, int bodies) {
+  const auto& [pairs, clear_until, seen, first, ends, moved] = candidates;
+  return static_cast<int>(moved.size()) == bodies - 1 && clear_until.size() == pairs.size() &&
+         seen.size() == pairs.size() &&
          std::ranges::is_sorted(
-             search.candidates, {},
-             [](const SegmentPair& pair) { return std::pair(pair.a, pair.b); }) &&
-         std::ranges::all_of(search.candidates, [&](const SegmentPair& pair) {
+             pairs, {}, [](const SegmentPair& pair) { return std::pair(pair.a, pair.b); }) &&
+         std::ranges::all_of(pairs, [&](const SegmentPair& pair) {
            return pair.a >= 0 && pair.a < pair.b && pair.b < bodies - 1;
          });
 }
@@ -293,8 +306,9 @@ void check(const Simulation& sim, const LogState& log, const Model& model) {
   require(sim.step >= 0, "a step before the first");
   require(fits(sim.now.state, model), "a state that is not of its model");
   require(fits(sim.now.observation.contact.contacts, bodies) &&
-              fits(sim.now.observation.contact.others, bodies) && fits(sim.search, bodies) &&
-              fits(sim.controller.first, bodies) && fits(sim.controller.last, bodies),
+              fits(sim.now.observation.contact.others, bodies) &&
+              fits(sim.search.candidates, bodies) && fits(sim.controller.first, bodies) &&
+              fits(sim.controller.last, bodies),
           "a contact that is not on its animal");
   require(static_cast<int>(sim.controller.phase) < phase_count, "an unknown phase");
   require(sim.controller.memory.allFinite(), "a memory that is not finite");
@@ -347,7 +361,8 @@ Simulation decode(std::span<const std::uint8_t> bytes, const Model& model,
   update_positions(model, sim.now.state.q, seen.kin);
   update_velocities(model, sim.now.state.qdot, seen.kin);
   update_spline(model, seen.kin.centre, seen.segments);
-  keep_ends(seen.segments, sim.search);
+  keep_ends(seen.segments, sim.search.candidates);
+  index_pairs(seen.segments.size(), sim.search.candidates);
   return sim;
 }
 

@@ -182,7 +182,6 @@ void keep(Simulation& sim) {
   before.ledger = sim.ledger;
   before.watch = sim.watch;
   before.candidates = sim.search.candidates;
-  before.moved = sim.search.moved;
 }
 
 void put_back(Simulation& sim) {
@@ -192,8 +191,6 @@ void put_back(Simulation& sim) {
   sim.ledger = before.ledger;
   sim.watch = before.watch;
   sim.search.candidates = before.candidates;
-  sim.search.moved = before.moved;
-  keep_ends(sim.now.observation.segments, sim.search);
 }
 
 }  // namespace

@@ -13,15 +13,13 @@
 
 namespace hagfish {
 
-/// What a step changes before it is sure to be taken, as it was: storage of take_step. The
-/// segments of the search are those of the observation.
+/// What a step changes before it is sure to be taken, as it was: storage of take_step.
 struct BeforeStep {
   ControllerState controller;
   WarmStart warm;
   EnergyLedger ledger;
   Watch watch;
-  std::vector<SegmentPair> candidates;  ///< of the search
-  std::vector<double> moved;            ///< of the search
+  Candidates candidates;  ///< of the search
 };
 
 /// All that changes while a scene runs. Copies go on independently of each other.

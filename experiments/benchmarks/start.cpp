@@ -19,6 +19,15 @@ constexpr double wave_count = 2;
 constexpr double wave_rate = 0.5;
 
 constexpr const char* back_end = "active-set";
+// By then limits are prescribed (from the third step on), and all storage has its size.
+constexpr int warm_steps = 6;
+
+Start warmed(Start start) {
+  for (int k = 0; k < warm_steps; ++k) {
+    take_step(start.model, start.scene, start.sim);
+  }
+  return start;
+}
 
 bool clamped(const Start& start) { return clamps_head(start.scene, start.sim.controller.phase); }
 
@@ -37,10 +46,11 @@ Start knotted_start(const std::string& log) {
   controller.phase = Phase::slide;
   controller.phase_start = contents.time[frame];
   controller.loose = controller.phase_start;
-  return {scene, contents.model,
-          start_from(contents.model, scene, back_end,
-                     {contents.q.row(frame).transpose(), contents.qdot.row(frame).transpose()},
-                     controller, std::llround(contents.time[frame] / scene.time.step))};
+  return warmed(
+      {scene, contents.model,
+       start_from(contents.model, scene, back_end,
+                  {contents.q.row(frame).transpose(), contents.qdot.row(frame).transpose()},
+                  controller, std::llround(contents.time[frame] / scene.time.step))});
 }
 
 Start free_start(const Start& knotted) {
@@ -61,7 +71,8 @@ Start free_start(const Start& knotted) {
   scene.time.duration = std::numeric_limits<double>::infinity();
   scene.controller.free_time = scene.time.duration;
   scene.wall.present = false;
-  return {scene, model, start_from(model, scene, back_end, std::move(state), controller, 0)};
+  return warmed(
+      {scene, model, start_from(model, scene, back_end, std::move(state), controller, 0)});
 }
 
 MujocoModel mirror_of(const Start& start) {

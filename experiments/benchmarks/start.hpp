@@ -9,15 +9,17 @@
 
 namespace hagfish {
 
-/// One animal in one state, with a scene that lets it step on from there.
+/// One animal in one state, with a scene that lets it step on from there. Some steps have been
+/// taken to it, so that the first one from it is as warm as MuJoCo's, which starts from
+/// accelerations that it keeps.
 struct Start {
   Scene scene;
   Model model;
   Simulation sim;  ///< with the active-set back end
 };
 
-/// The frame of a log half-way through the slide: knotted and tight, the head clamped. Throws
-/// FileError where the log has no slide.
+/// The middle of the slide of a log: knotted and tight, the head clamped. Throws FileError where
+/// the log has no slide.
 Start knotted_start(const std::string& log);
 
 /// The same animal without contact: a gentle wave that stays clear of limits and of itself, slowly

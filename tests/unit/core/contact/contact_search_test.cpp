@@ -58,5 +58,34 @@ TEST(ContactSearch, CarriedAlongMissesNoMinimumThatTouches) {
   }
 }
 
+// Each pair that is skipped, at every step: because it has not moved far, or for the planes
+// between.
+TEST(ContactSearch, WhatIsNotDueIsClear) {
+  const Scene scene = stored_scene().scene;
+  const Model model = make_hagfish(stored_scene().specimen, scene);
+  const std::vector<StoredState> states = stored_states();
+  Simulation sim = resume(model, scene, *std::ranges::find(states, "slide", &StoredState::name));
+  StepRecord record;
+  int unmoved = 0, parted = 0;
+  for (int k = 0; k < 40; ++k) {
+    Candidates before = sim.search.candidates;
+    take_step(model, scene, sim, record);
+    const std::vector<SplineSegment>& segments = sim.now.observation.segments;
+    update_candidates(segments, scene.contact, before);
+    const Candidates carried = before;
+    std::vector<int> due;
+    find_due(segments, before, due);
+    for (int i = 0; i < static_cast<int>(before.pairs.size()); ++i) {
+      if (std::ranges::binary_search(due, i)) continue;
+      const auto& [a, b] = before.pairs[i];
+      // To the tolerance of the closest points.
+      ASSERT_GT(closest_points(segments[a], segments[b]).gap, before.seen[i].matters_at - 1e-9);
+      ++(before.clear_until[i] == carried.clear_until[i] ? unmoved : parted);
+    }
+  }
+  EXPECT_GT(unmoved, 1000);
+  EXPECT_GT(parted, 100);
+}
+
 }  // namespace
 }  // namespace hagfish

@@ -61,18 +61,21 @@ void expect_same(const Simulation& a, const Simulation& b) {
       [](const CapWatch& s, const CapWatch& t) { return s.id == t.id && s.since == t.since; }));
   EXPECT_EQ(a.solver.warm.size(), b.solver.warm.size());
 
-  EXPECT_EQ(a.search.moved, b.search.moved);
-  EXPECT_TRUE(std::ranges::equal(a.search.ends, b.search.ends,
-                                 [](const SegmentEnd& s, const SegmentEnd& t) {
-                                   return s.point == t.point && s.slope == t.slope;
-                                 }));
-  EXPECT_TRUE(std::ranges::equal(
-      a.search.candidates, b.search.candidates, [](const SegmentPair& s, const SegmentPair& t) {
-        return s.a == t.a && s.b == t.b && s.clear_until == t.clear_until &&
-               s.closest.has_value() == t.closest.has_value() &&
-               (!s.closest ||
-                (s.closest->t_a == t.closest->t_a && s.closest->t_b == t.closest->t_b));
-      }));
+  const Candidates& e = a.search.candidates;
+  const Candidates& f = b.search.candidates;
+  EXPECT_EQ(e.moved, f.moved);
+  EXPECT_EQ(e.clear_until, f.clear_until);
+  EXPECT_EQ(e.first, f.first);
+  EXPECT_TRUE(std::ranges::equal(e.ends, f.ends, [](const SegmentEnd& s, const SegmentEnd& t) {
+    return s.point == t.point && s.slope == t.slope;
+  }));
+  EXPECT_TRUE(std::ranges::equal(e.pairs, f.pairs, [](const SegmentPair& s, const SegmentPair& t) {
+    return s.a == t.a && s.b == t.b;
+  }));
+  EXPECT_TRUE(std::ranges::equal(e.seen, f.seen, [](const LastSeen& s, const LastSeen& t) {
+    return s.matters_at == t.matters_at && s.closest.has_value() == t.closest.has_value() &&
+           (!s.closest || (s.closest->t_a == t.closest->t_a && s.closest->t_b == t.closest->t_b));
+  }));
 }
 
 class StoppedStep : public testing::TestWithParam<Obstacle> {};
