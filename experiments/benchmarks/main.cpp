@@ -1,6 +1,6 @@
 // What each part of a step costs, with MuJoCo's part beside it in the same process.
 //   hagfish_benchmarks [--benchmark_...] LOG...
-// Each log gives an animal and a knotted state of it (start.hpp). Names are SIMULATOR/PART/BODIES.
+// Each log gives an animal and knotted states of it (start.hpp). Names are SIMULATOR/PART/BODIES.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -8,6 +8,7 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -22,7 +23,7 @@ namespace {
 
 using namespace hagfish;
 
-// Steps from the start before a simulation is set back to it, so that the state stays what it is
+// Steps from a state before a simulation is set back to the next one, so that it stays what it is
 // named: nothing pulls MuJoCo's knot along, and of its 58 contacts at 100 bodies 54 are left after
 // 10 steps, 47 after 20 and 16 after 50. What a restart costs counts, so both are measured.
 constexpr std::array restarts = {10, 100};
@@ -36,25 +37,44 @@ void add(const std::string& simulator, const std::string& part, int bodies,
       ->Unit(benchmark::kMicrosecond);
 }
 
-/// The core's whole step, on and on from `start`, to which it goes back every `restart` steps.
+/// Counts steps: every `restart` of them, the next of `states` is due.
+struct Rounds {
+  int restart = 1;
+  std::size_t states = 1;
+  std::int64_t steps = 0;
+
+  /// The state that the next step begins from; none where it goes on.
+  std::optional<std::size_t> next() {
+    const std::int64_t step = steps++;
+    if (step % restart != 0) return std::nullopt;
+    return static_cast<std::size_t>(step / restart) % states;
+  }
+  /// The next step begins from the next state.
+  void skip() { steps += (restart - steps % restart) % restart; }
+};
+
+/// The core's whole step, on and on from one of the states of `start` after the other.
 void add_core_step(const std::string& part, const std::shared_ptr<Start>& start,
                    const std::string& back_end, int restart) {
   struct Run {
-    Simulation origin, sim;
+    std::vector<Simulation> origins;
+    Rounds rounds;
+    Simulation sim;
     StepRecord record;
-    int steps = 0;
   };
-  Simulation origin = start->sim;
-  origin.solver = StepSolver(back_end);
-  origin.solver.warm = start->sim.solver.warm;
-  auto run = std::make_shared<Run>(Run{origin, origin, {}});
-  add("core", fmt::format("{}:{}", part, restart), start->model.body_count(),
-      [start, run, restart] {
-        if (run->steps++ % restart == 0) {
-          run->sim = run->origin;
-        }
-        take_step(start->model, start->scene, run->sim, run->record);
-      });
+  auto run =
+      std::make_shared<Run>(Run{start->sims, {restart, start->sims.size()}, start->middle(), {}});
+  for (Simulation& origin : run->origins) {
+    WarmStart warm = origin.solver.warm;
+    origin.solver = StepSolver(back_end);
+    origin.solver.warm = std::move(warm);
+  }
+  add("core", fmt::format("{}:{}", part, restart), start->model.body_count(), [start, run] {
+    if (const auto from = run->rounds.next()) {
+      run->sim = run->origins[*from];
+    }
+    take_step(start->model, start->scene, run->sim, run->record);
+  });
 }
 
 /// mj_step, likewise, of `mirror`. Knotted, it tells how far from converged its solver is.
@@ -62,15 +82,25 @@ void add_mujoco_step(const std::string& part, const std::shared_ptr<Start>& star
                      MujocoModel mirror, double residual, int restart) {
   struct Run {
     MujocoModel mirror;
-    int steps = 0;
+    Rounds rounds;
+    std::vector<Eigen::VectorXd> accelerations;  ///< that it starts from in each state
   };
-  auto run = std::make_shared<Run>(Run{std::move(mirror)});
+  auto run = std::make_shared<Run>(Run{std::move(mirror), {restart, start->sims.size()}, {}});
+  mjData& data = *run->mirror.data();
+  const int nv = run->mirror.model()->nv;
+  for (const Simulation& sim : start->sims) {
+    set_state(start->model, sim.now.state, run->mirror);
+    mj_forward(run->mirror.model(), &data);
+    run->accelerations.emplace_back(Eigen::Map<const Eigen::VectorXd>(data.qacc, nv));
+  }
   benchmark::RegisterBenchmark(
       fmt::format("mujoco/{}:{}/{}", part, restart, start->model.body_count()).c_str(),
-      [start, run, residual, restart](benchmark::State& state) {
+      [start, run, residual](benchmark::State& state) {
+        run->rounds.skip();  // at 400 bodies there is time for a few steps only, of each state
         for (auto _ : state) {
-          if (run->steps++ % restart == 0) {
-            set_state(start->model, start->sim.now.state, run->mirror);
+          if (const auto from = run->rounds.next()) {
+            set_state(start->model, start->sims[*from].now.state, run->mirror);
+            std::ranges::copy(run->accelerations[*from], run->mirror.data()->qacc_warmstart);
           }
           mj_step(run->mirror.model(), run->mirror.data());
         }
@@ -81,7 +111,7 @@ void add_mujoco_step(const std::string& part, const std::shared_ptr<Start>& star
 
 /// A step of the knotted animal, taken apart.
 struct Parts {
-  explicit Parts(std::shared_ptr<Start> of) : start(std::move(of)), sim(start->sim) {
+  explicit Parts(std::shared_ptr<Start> of) : start(std::move(of)), sim(start->middle()) {
     for (Eigen::Matrix3Xd& seen : centre) {
       take_step(start->model, start->scene, sim, record);
       seen = sim.now.observation.kin.centre;

@@ -57,7 +57,7 @@ std::vector<MujocoSetting> mujoco_settings() {
 double mujoco_residual(const Start& start, const MujocoSetting& setting, int steps) {
   MujocoModel run = mirror_of(start);
   setting.apply(*run.model());
-  set_state(start.model, start.sim.now.state, run);
+  set_state(start.model, start.middle().now.state, run);
   MujocoModel seen = mirror_of(start);  // the state of `run`, stepped no further
   setting.apply(*seen.model());
   MujocoModel exact = mirror_of(start);

@@ -47,7 +47,7 @@ double cpu_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 /// The scene with the animal and the state of `knotted`, at rest.
 ResolvedScene pulled(const std::string& scene, const Start& knotted) {
-  const Eigen::VectorXd& q = knotted.sim.now.state.q;
+  const Eigen::VectorXd& q = knotted.middle().now.state.q;
   std::string text;
   for (const double value : q) {
     text += fmt::format("{}{}", text.empty() ? "" : ", ", value);

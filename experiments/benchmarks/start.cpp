@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "core/log/hdf5_error.hpp"
 #include "experiments/audit/log_contents.hpp"
@@ -22,14 +23,20 @@ constexpr const char* back_end = "active-set";
 // By then limits are prescribed (from the third step on), and all storage has its size.
 constexpr int warm_steps = 6;
 
-Start warmed(Start start) {
+void add_warmed(Simulation sim, Start& start) {
   for (int k = 0; k < warm_steps; ++k) {
-    take_step(start.model, start.scene, start.sim);
+    take_step(start.model, start.scene, sim);
   }
-  return start;
+  start.sims.push_back(std::move(sim));
 }
 
-bool clamped(const Start& start) { return clamps_head(start.scene, start.sim.controller.phase); }
+// Of the slide. A single one is dearer or cheaper than the next by a third, and at 400 bodies by
+// more.
+constexpr int knotted_states = 5;
+
+bool clamped(const Start& start) {
+  return clamps_head(start.scene, start.middle().controller.phase);
+}
 
 }  // namespace
 
@@ -40,17 +47,20 @@ Start knotted_start(const std::string& log) {
   if (first == last) {
     throw FileError(log + ": the knot never slides");
   }
-  const Eigen::Index frame = (first - contents.phase.begin()) + (last - first) / 2;
-  const Scene& scene = contents.resolved.scene;
-  ControllerState controller;
-  controller.phase = Phase::slide;
-  controller.phase_start = contents.time[frame];
-  controller.loose = controller.phase_start;
-  return warmed(
-      {scene, contents.model,
-       start_from(contents.model, scene, back_end,
-                  {contents.q.row(frame).transpose(), contents.qdot.row(frame).transpose()},
-                  controller, std::llround(contents.time[frame] / scene.time.step))});
+  Start start{contents.resolved.scene, contents.model, {}};
+  for (int k = 0; k < knotted_states; ++k) {
+    const Eigen::Index frame =
+        (first - contents.phase.begin()) + (last - first) * (2 * k + 1) / (2 * knotted_states);
+    ControllerState controller;
+    controller.phase = Phase::slide;
+    controller.phase_start = contents.time[frame];
+    controller.loose = controller.phase_start;
+    add_warmed(start_from(start.model, start.scene, back_end,
+                          {contents.q.row(frame).transpose(), contents.qdot.row(frame).transpose()},
+                          controller, std::llround(contents.time[frame] / start.scene.time.step)),
+               start);
+  }
+  return start;
 }
 
 Start free_start(const Start& knotted) {
@@ -71,8 +81,9 @@ Start free_start(const Start& knotted) {
   scene.time.duration = std::numeric_limits<double>::infinity();
   scene.controller.free_time = scene.time.duration;
   scene.wall.present = false;
-  return warmed(
-      {scene, model, start_from(model, scene, back_end, std::move(state), controller, 0)});
+  Start start{scene, model, {}};
+  add_warmed(start_from(model, scene, back_end, std::move(state), controller, 0), start);
+  return start;
 }
 
 MujocoModel mirror_of(const Start& start) {
@@ -80,7 +91,7 @@ MujocoModel mirror_of(const Start& start) {
                                 clamped(start) ? Head::clamped : Head::free));
   std::fill_n(mirror.model()->geom_margin, mirror.model()->ngeom, 0.0);
   mirror.model()->opt.integrator = mjINT_EULER;
-  set_state(start.model, start.sim.now.state, mirror);
+  set_state(start.model, start.middle().now.state, mirror);
   mj_forward(mirror.model(), mirror.data());
   return mirror;
 }
