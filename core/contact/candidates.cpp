@@ -12,9 +12,8 @@ namespace {
 /// what a segment may move before they are listed again. Affects speed only.
 constexpr double carried = 0.5;
 
-/// What planes between two segments cost counts only where they may part them: beyond this times
-/// the square of a segment's length (1/cm), which is what it bends by, two of them. Affects speed
-/// only.
+/// Planes are tried between two segments only from a gap on that may let them part them: this
+/// (1/cm) times the square of a segment's length, by which two of them bow. Affects speed only.
 constexpr double bent = 0.05;
 
 /// The end between segments `end - 1` and `end`.
@@ -92,13 +91,13 @@ void keep_ends(const std::vector<SplineSegment>& segments, Candidates& candidate
 }
 
 void index_pairs(std::size_t segments, Candidates& candidates) {
+  const int count = static_cast<int>(candidates.pairs.size());
   candidates.first.clear();
-  for (std::size_t i = 0; i < candidates.pairs.size(); ++i) {
-    candidates.first.resize(
-        std::max(candidates.first.size(), static_cast<std::size_t>(candidates.pairs[i].a) + 1),
-        static_cast<int>(i));
+  int i = 0;
+  for (int a = 0; a <= static_cast<int>(segments); ++a) {
+    while (i < count && candidates.pairs[i].a < a) ++i;
+    candidates.first.push_back(i);
   }
-  candidates.first.resize(segments + 1, static_cast<int>(candidates.pairs.size()));
 }
 
 void update_candidates(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
@@ -119,8 +118,7 @@ void find_due(const std::vector<SplineSegment>& segments, Candidates& candidates
   due.clear();
   for (std::size_t a = 0; a < segments.size(); ++a) {
     for (int i = candidates.first[a]; i < candidates.first[a + 1]; ++i) {
-      const int b = candidates.pairs[i].b;
-      const double moved = candidates.moved[a] + candidates.moved[b];
+      const double moved = candidates.moved_by(i);
       if (moved < candidates.clear_until[i]) {
         continue;
       }
@@ -128,7 +126,9 @@ void find_due(const std::vector<SplineSegment>& segments, Candidates& candidates
       const ClosestPoints at =
           seen.closest.value_or(ClosestPoints{0.5, 0.5, std::numeric_limits<double>::infinity()});
       if (at.gap > seen.matters_at + bent * segments[a].s1 * segments[a].s1) {
-        const double clear = least_gap(segments[a], segments[b], at.t_a, at.t_b) - seen.matters_at;
+        const double clear =
+            least_gap(segments[a], segments[candidates.pairs[i].b], at.t_a, at.t_b) -
+            seen.matters_at;
         if (clear > 0) {
           candidates.clear_until[i] = moved + clear;
           continue;

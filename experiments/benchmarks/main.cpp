@@ -8,7 +8,6 @@
 #include <array>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <span>
 #include <utility>
 
@@ -37,43 +36,37 @@ void add(const std::string& simulator, const std::string& part, int bodies,
       ->Unit(benchmark::kMicrosecond);
 }
 
-/// Counts steps: every `restart` of them, the next of `states` is due.
-struct Rounds {
-  int restart = 1;
-  std::size_t states = 1;
-  std::int64_t steps = 0;
-
-  /// The state that the next step begins from; none where it goes on.
-  std::optional<std::size_t> next() {
-    const std::int64_t step = steps++;
-    if (step % restart != 0) return std::nullopt;
-    return static_cast<std::size_t>(step / restart) % states;
-  }
-  /// The next step begins from the next state.
-  void skip() { steps += (restart - steps % restart) % restart; }
-};
+/// Whole rounds of `restart` steps, timed a step each, however dear a step is.
+void add_rounds(const std::string& simulator, const std::string& part, int bodies, int restart,
+                const std::function<void()>& round, double residual = 0) {
+  benchmark::RegisterBenchmark(fmt::format("{}/{}:{}/{}", simulator, part, restart, bodies).c_str(),
+                               [round, restart, residual](benchmark::State& state) {
+                                 while (state.KeepRunningBatch(restart)) round();
+                                 state.counters["residual"] = residual;
+                               })
+      ->Unit(benchmark::kMicrosecond);
+}
 
 /// The core's whole step, on and on from one of the states of `start` after the other.
 void add_core_step(const std::string& part, const std::shared_ptr<Start>& start,
                    const std::string& back_end, int restart) {
   struct Run {
     std::vector<Simulation> origins;
-    Rounds rounds;
     Simulation sim;
     StepRecord record;
+    std::size_t next = 0;  ///< origin
   };
-  auto run =
-      std::make_shared<Run>(Run{start->sims, {restart, start->sims.size()}, start->middle(), {}});
+  auto run = std::make_shared<Run>(Run{start->sims, start->middle(), {}});
   for (Simulation& origin : run->origins) {
     WarmStart warm = origin.solver.warm;
     origin.solver = StepSolver(back_end);
     origin.solver.warm = std::move(warm);
   }
-  add("core", fmt::format("{}:{}", part, restart), start->model.body_count(), [start, run] {
-    if (const auto from = run->rounds.next()) {
-      run->sim = run->origins[*from];
+  add_rounds("core", part, start->model.body_count(), restart, [start, run, restart] {
+    run->sim = run->origins[run->next++ % run->origins.size()];
+    for (int k = 0; k < restart; ++k) {
+      take_step(start->model, start->scene, run->sim, run->record);
     }
-    take_step(start->model, start->scene, run->sim, run->record);
   });
 }
 
@@ -82,10 +75,10 @@ void add_mujoco_step(const std::string& part, const std::shared_ptr<Start>& star
                      MujocoModel mirror, double residual, int restart) {
   struct Run {
     MujocoModel mirror;
-    Rounds rounds;
     std::vector<Eigen::VectorXd> accelerations;  ///< that it starts from in each state
+    std::size_t next = 0;                        ///< state
   };
-  auto run = std::make_shared<Run>(Run{std::move(mirror), {restart, start->sims.size()}, {}});
+  auto run = std::make_shared<Run>(Run{std::move(mirror), {}});
   mjData& data = *run->mirror.data();
   const int nv = run->mirror.model()->nv;
   for (const Simulation& sim : start->sims) {
@@ -93,20 +86,17 @@ void add_mujoco_step(const std::string& part, const std::shared_ptr<Start>& star
     mj_forward(run->mirror.model(), &data);
     run->accelerations.emplace_back(Eigen::Map<const Eigen::VectorXd>(data.qacc, nv));
   }
-  benchmark::RegisterBenchmark(
-      fmt::format("mujoco/{}:{}/{}", part, restart, start->model.body_count()).c_str(),
-      [start, run, residual](benchmark::State& state) {
-        run->rounds.skip();  // at 400 bodies there is time for a few steps only, of each state
-        for (auto _ : state) {
-          if (const auto from = run->rounds.next()) {
-            set_state(start->model, start->sims[*from].now.state, run->mirror);
-            std::ranges::copy(run->accelerations[*from], run->mirror.data()->qacc_warmstart);
-          }
+  add_rounds(
+      "mujoco", part, start->model.body_count(), restart,
+      [start, run, restart] {
+        const std::size_t from = run->next++ % start->sims.size();
+        set_state(start->model, start->sims[from].now.state, run->mirror);
+        std::ranges::copy(run->accelerations[from], run->mirror.data()->qacc_warmstart);
+        for (int k = 0; k < restart; ++k) {
           mj_step(run->mirror.model(), run->mirror.data());
         }
-        state.counters["residual"] = residual;
-      })
-      ->Unit(benchmark::kMicrosecond);
+      },
+      residual);
 }
 
 /// A step of the knotted animal, taken apart.
