@@ -38,7 +38,7 @@ Dynamics core_dynamics(const Model& model, const State& state, const Kinematics&
   for (int k = root_dofs; k < model.nv(); ++k) {
     joint[k] -= model.hinges[k - root_dofs].damping * state.qdot[k];
   }
-  const Matrix6Xd wrench = gravity_wrench(model, kin) - bias_wrench(model, kin);
+  const Matrix6Xd wrench = gravity_wrench(model, kin) - bias_wrench(model, kin, motion_of(kin));
   Dynamics dynamics{dense(model, kin, op), -(generalised_force(model, kin, wrench) + joint), {}};
   std::vector<PrescribedVelocity> prescribed;  // Eq. 3 for accelerations: the clamped head has none
   for (int k = 0; head == Head::clamped && k < root_dofs; ++k) {

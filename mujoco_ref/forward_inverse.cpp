@@ -30,9 +30,9 @@ Eigen::VectorXd midway_force(const Model& model, const State& start, const Midwa
   force.tail(moving) = momentum / reach;
   force += stiffness_force(model, start.q) - stiffness_force(model, midway.q);
   Kinematics kin = midway.kin;
-  const Matrix6Xd bias = bias_wrench(model, kin, midway.felt_twist);
+  const Matrix6Xd bias = bias_wrench(model, kin, midway.motion());
   update_velocities(model, midway.moved, kin);
-  force += generalised_force(model, kin, bias_wrench(model, kin, kin.twist) - bias);
+  force += generalised_force(model, kin, bias_wrench(model, kin, motion_of(kin)) - bias);
   return force;
 }
 

@@ -1,7 +1,8 @@
 #include "core/chain/dynamics.hpp"
 
-namespace hagfish {
+#include <algorithm>
 
+namespace hagfish {
 namespace {
 
 /// About the centre, world axes, g cm^2.
@@ -94,20 +95,32 @@ void put_centre_operator(const AxisOperator& angular, const AxisOperator& linear
 }
 
 /// Inertial wrench of one body at q̈ = 0, about its centre: the rate of its momentum at
-/// `felt_twist` as it moves by kin.twist.
+/// motion.felt_twist as it moves by kin.twist.
 inline CentreWrench bias_at_centre(const Model& model, const Kinematics& kin,
-                                   const Matrix6Xd& felt_twist, int body) {
+                                   const StepMotion& motion, int body) {
   const AxisOperator inertia = inertia_about_centre(model.bodies[body]);
+  const double mass = model.bodies[body].mass;
   const Eigen::Matrix3d& axes = kin.rotation[body];
+  const Eigen::Vector3d offset = kin.centre_offset(body);
   const Eigen::Vector3d bias = kin.bias_twist.col(body).head<3>();
   const Eigen::Vector3d bias_at_reference = kin.bias_twist.col(body).tail<3>();
   const Eigen::Vector3d turn = kin.twist.col(body).head<3>();
-  const Eigen::Vector3d spin = felt_twist.col(body).head<3>();
-  const Eigen::Vector3d momentum = inertia.times(axes, spin);
-  const Eigen::Vector3d acceleration = bias_at_reference + bias.cross(kin.centre_offset(body)) +
-                                       spin.cross(kin.centre_velocity.col(body));
-  return {inertia.times(axes, bias - turn.cross(spin)) + turn.cross(momentum),
-          model.bodies[body].mass * acceleration};
+  const Eigen::Vector3d shift = kin.centre_velocity.col(body);
+  const Eigen::Vector3d spin = motion.felt_twist.col(body).head<3>();
+  const Eigen::Vector3d angular = inertia.times(axes, spin);
+  const Eigen::Vector3d acceleration = bias_at_reference + bias.cross(offset) + spin.cross(shift);
+  CentreWrench wrench{inertia.times(axes, bias - turn.cross(spin)) + turn.cross(angular),
+                      mass * acceleration};
+  if (motion.bias_power != nullptr) {
+    const Eigen::Vector3d linear = mass * point_velocity(motion.felt_twist.col(body), offset);
+    const double work = std::max(angular.dot(turn) + linear.dot(shift), motion.bias_power->least);
+    const double missing =
+        motion.bias_power->value[body] - wrench.moment.dot(turn) - wrench.force.dot(shift);
+    const double share = work > 0 ? missing / work : 0;
+    wrench.moment += share * angular;
+    wrench.force += share * linear;
+  }
+  return wrench;
 }
 
 }  // namespace
@@ -166,15 +179,10 @@ BodyMomentum body_momentum(const Model& model, const Kinematics& kin, int body,
           of.mass * motion.velocity};
 }
 
-Matrix6Xd bias_wrench(const Model& model, const Kinematics& kin) {
-  return bias_wrench(model, kin, kin.twist);
-}
-
-Matrix6Xd bias_wrench(const Model& model, const Kinematics& kin, const Matrix6Xd& felt_twist) {
+Matrix6Xd bias_wrench(const Model& model, const Kinematics& kin, const StepMotion& motion) {
   Matrix6Xd wrench(6, kin.twist.cols());
   for (int b = 0; b < model.body_count(); ++b) {
-    put_about_reference(bias_at_centre(model, kin, felt_twist, b), kin.centre_offset(b),
-                        wrench.col(b));
+    put_about_reference(bias_at_centre(model, kin, motion, b), kin.centre_offset(b), wrench.col(b));
   }
   return wrench;
 }
@@ -226,7 +234,7 @@ void assemble_step_system(const Model& model, const State& state, const StepMoti
     put_centre_operator({inertia.plain + turning, inertia.along - turning, inertia.side},
                         {body.mass + sideways, forward - sideways}, axes, offset,
                         system.op.inertia[b]);
-    const CentreWrench bias = bias_at_centre(model, kin, motion.felt_twist, b);
+    const CentreWrench bias = bias_at_centre(model, kin, motion, b);
     system.bias.col(b).head<3>() = bias.moment;
     system.bias.col(b).tail<3>() = bias.force;
     const Eigen::Vector3d spin = motion.twist.col(b).head<3>();
@@ -262,8 +270,7 @@ void add_active_torque(const ActiveTorque& torque, double h, StepSystem& system)
 StepSystem step_system(const Model& model, const State& state, const Kinematics& kin,
                        const TipForce& tip, double h) {
   StepSystem system;
-  assemble_step_system(model, state, {kin.twist, kin.centre_velocity, kin.twist}, kin, tip, {h},
-                       system);
+  assemble_step_system(model, state, motion_of(kin), kin, tip, {h}, system);
   return system;
 }
 
@@ -280,6 +287,35 @@ double kinetic_energy(const Model& model, const Kinematics& kin) {
     energy += kinetic_energy(model, kin, b, kin.twist.col(b), kin.centre_velocity.col(b));
   }
   return energy;
+}
+
+// Velocities are carried along in the axes of the bodies, so that none has to be placed in the
+// world.
+void kinetic_energies(const Model& model, const State& state, Eigen::VectorXd& energies) {
+  Eigen::Vector3d spin = state.qdot.segment<3>(3);
+  Eigen::Vector3d velocity = root_orientation(state.q).conjugate() * state.qdot.head<3>();
+  energies.resize(model.body_count());
+  for (int b = 0; b < model.body_count(); ++b) {
+    const Body& body = model.bodies[b];
+    for (int k = b == 0 ? root_dofs : body.first_dof; k < body.first_dof + body.dofs; ++k) {
+      const int axis = static_cast<int>(model.hinges[k - root_dofs].axis);
+      const int second = (axis + 1) % 3;
+      const int third = (axis + 2) % 3;
+      const double cosine = std::cos(state.q[k + 1]);
+      const double sine = std::sin(state.q[k + 1]);
+      for (Eigen::Vector3d* v : {&spin, &velocity}) {
+        const double before = (*v)[second];
+        (*v)[second] = cosine * before + sine * (*v)[third];
+        (*v)[third] = cosine * (*v)[third] - sine * before;
+      }
+      spin[axis] += state.qdot[k];
+    }
+    // Along the X axis to the centre, and on to the next body's origin.
+    const Eigen::Vector3d half(0, 0.5 * body.length * spin.z(), -0.5 * body.length * spin.y());
+    energies[b] =
+        0.5 * (body.mass * (velocity + half).squaredNorm() + spin.cwiseAbs2().dot(body.inertia));
+    velocity += 2 * half;
+  }
 }
 
 double elastic_energy(const Model& model, const Eigen::VectorXd& q) {

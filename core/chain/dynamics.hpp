@@ -26,9 +26,9 @@ Matrix6d drag_operator(const Model& model, const Kinematics& kin, int body);
 Eigen::VectorXd drag_force(const Model& model, const Kinematics& kin, const Eigen::VectorXd& v);
 
 /// M_m J̇ q̇ plus the gyroscopic wrench: the inertial wrench of each body at q̈ = 0 (6 x N), where the
-/// bodies have the twists `felt_twist` (6 x N) and move as `kin` says.
-Matrix6Xd bias_wrench(const Model& model, const Kinematics& kin, const Matrix6Xd& felt_twist);
-Matrix6Xd bias_wrench(const Model& model, const Kinematics& kin);
+/// bodies have the twists motion.felt_twist and move as `kin` says; with as much of each body's
+/// momentum as brings its power to motion.bias_power.
+Matrix6Xd bias_wrench(const Model& model, const Kinematics& kin, const StepMotion& motion);
 
 /// Gravity on each body (6 x N).
 Matrix6Xd gravity_wrench(const Model& model, const Kinematics& kin);
@@ -89,6 +89,9 @@ double kinetic_energy(const Model& model, const Kinematics& kin, int body, const
 
 /// Of all bodies, at kin.twist.
 double kinetic_energy(const Model& model, const Kinematics& kin);
+
+/// Of each body (N), straight from a state, a third of the work of its kinematics.
+void kinetic_energies(const Model& model, const State& state, Eigen::VectorXd& energies);
 
 /// Drag on one body whose centre moves with `velocity` (cm/s, world), dyn, world.
 Eigen::Vector3d drag_on_body(const Model& model, const Kinematics& kin, int body,

@@ -25,12 +25,27 @@ struct Kinematics {
   Eigen::Vector3d centre_offset(int body) const { return centre.col(body) - reference; }
 };
 
+/// What the bodies' bias is to work over a step, so that Coriolis forces neither make nor take
+/// energy (core/README.md, "Steps in time").
+struct BiasPower {
+  Eigen::VectorXd value;  ///< of each body, erg/s, N
+  /// A body's momentum over its motion counts as no less, erg: what hardly moves would need forces
+  /// far larger than its own.
+  double least = 0;
+};
+
 /// What Eq. 1 needs to know of the motion at the place of its step.
 struct StepMotion {
   const Matrix6Xd& twist;                   ///< of the bodies at the step's first velocity, 6 x N
   const Eigen::Matrix3Xd& centre_velocity;  ///< of their centres at it, 3 x N, cm/s
   const Matrix6Xd& felt_twist;              ///< at what they have on the mean, 6 x N
+  const BiasPower* bias_power = nullptr;    ///< null where the bias works what it does
 };
+
+/// The motion of a step whose equations hold at its start.
+inline StepMotion motion_of(const Kinematics& kin) {
+  return {kin.twist, kin.centre_velocity, kin.twist};
+}
 
 /// Positions and axes; does not touch the velocity fields.
 void update_positions(const Model& model, const Eigen::VectorXd& q, Kinematics& kin);

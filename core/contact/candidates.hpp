@@ -29,12 +29,13 @@ struct SegmentEnd {
   Eigen::Vector3d point, slope;
 };
 
+/// The pairs, by index along the first three lists, and the segments that they are of.
 struct Candidates {
   std::vector<SegmentPair> pairs;  ///< sorted
-  std::vector<double>
-      clear_until;             ///< of each: not due until both together have moved this far, cm
-  std::vector<LastSeen> seen;  ///< of each
-  std::vector<int> first;      ///< of each segment, where its pairs begin; at the end, their number
+  /// Not due until both segments together have moved this far, cm.
+  std::vector<double> clear_until;
+  std::vector<LastSeen> seen;
+  std::vector<int> first;  ///< of each segment, where its pairs begin; at the end, their number
   std::vector<SegmentEnd> ends;  ///< of the segments of the last search, one more than these
   std::vector<double> moved;     ///< at most, by each since the pairs were listed, cm
 
@@ -53,7 +54,8 @@ void update_candidates(const std::vector<SplineSegment>& segments, const Contact
                        Candidates& candidates);
 
 /// Lists the pairs that may matter where the segments are now. Others have not moved far enough
-/// since they were evaluated, or the planes across the normal there still keep them apart.
+/// since they were evaluated, or the planes across the normal there still keep them apart, which
+/// puts them off for as far as that is sure (clear_until).
 void find_due(const std::vector<SplineSegment>& segments, Candidates& candidates,
               std::vector<int>& due);
 

@@ -499,8 +499,11 @@ LogTable<LoggedStep> step_table(const Scene& scene, LogLevel level) {
               "length of the difference of the velocity by which each step moves and that which "
               "placed its middle"},
              [](const LoggedStep& s) { return s.record.solution.middle_off; });
-    t.count("/steps/passes", "passes that found the middle of each step",
-            [](const LoggedStep& s) { return s.record.solution.passes; });
+    t.count(
+        "/steps/passes",
+        "passes that found the middle of each step: more than time.passes where it settled only "
+        "with the bias as it comes",
+        [](const LoggedStep& s) { return s.record.solution.passes; });
     t.number("/steps/remaining",
              {"1",
               "what further passes would change, over what the last one did: measured where there "

@@ -29,7 +29,8 @@ struct EnergyLedger {
   /// Of the implicit springs and their numerical damping, t u' K (½ t u - r x - β (2 x - v))
   /// (energy.cpp), and gravity over the curved path.
   double integrator_potential = 0;
-  /// Change of M along the step against the work of the Coriolis force.
+  /// Change of M along the step against the work of the Coriolis force: by the midpoint rule, what
+  /// its passes leave (BiasPower).
   double integrator_coriolis = 0;
   /// Taken back from the velocity where the scene holds the integrator's gain (guard.hpp), <= 0.
   double integrator_held = 0;

@@ -50,7 +50,7 @@ class Attempt {
           Outcome::unsettled,
           fmt::format("after {} passes the middle of a step is known to {:.3g} rad/s or cm/s only, "
                       "over time.settled = {:g}; a smaller time.step would help",
-                      scene_.time.passes, step_.unsettled, scene_.time.settled));
+                      step_.passes, step_.unsettled, scene_.time.settled));
     }
     const double travelled = looks_ahead() ? end_where_strands_meet() : h();
     sim_.solver.finish(in_, step_);

@@ -18,9 +18,19 @@ struct Midway {
   Matrix6Xd twist;                      ///< of the bodies at the step's first velocity, 6 x N
   Eigen::Matrix3Xd centre_velocity;     ///< of their centres at it, 3 x N, cm/s
   Matrix6Xd felt_twist;                 ///< at `felt`, 6 x N
+  BiasPower bias_power;                 ///< where `balanced`
+  bool balanced = false;                ///< so that Coriolis forces make no energy
+  State next;                           ///< where the whole step leads by the two velocities
+  Eigen::VectorXd next_energy;          ///< kinetic energy of each body there, erg, N
+
+  StepMotion motion() const {
+    return {twist, centre_velocity, felt_twist, balanced ? &bias_power : nullptr};
+  }
 };
 
-/// Places the middle of a step of `h` (s) from `state` by midway.moved and midway.felt.
-void place_midway(const Model& model, const State& state, double h, Midway& midway);
+/// Places the middle of a step of `h` (s) from `state` by midway.moved and midway.felt; `now` is of
+/// `state`. The bias is `balanced`, so that Coriolis forces make no energy, or as it comes.
+void place_midway(const Model& model, const State& state, const Kinematics& now, double h,
+                  bool balanced, Midway& midway);
 
 }  // namespace hagfish

@@ -55,8 +55,7 @@ void paper_equation_1(const StepInput& in, PrimalQp& qp) {
   Eigen::MatrixXd D = M;
   Eigen::MatrixXd K = M;
   Eigen::VectorXd f = stiffness_force(model, state.q);
-  const Matrix6Xd on_bodies =
-      gravity_wrench(model, kin) - bias_wrench(model, kin, in.motion().felt_twist);
+  const Matrix6Xd on_bodies = gravity_wrench(model, kin) - bias_wrench(model, kin, in.motion());
   for (int b = 0; b < model.body_count(); ++b) {
     const Matrix6Xd J = body_jacobian(model, kin, b);
     M += J.transpose() * body_inertia(model, kin, b) * J;

@@ -65,6 +65,24 @@ Status StepSolver::begin(const StepInput& in, StepSolution& step) {
   if (in.midway == nullptr) {
     return begin_here(in, step);
   }
+  // Where a balanced bias keeps the passes from settling, they may without.
+  Status status = find_middle(in, true, step);
+  if (!status.ok() || step.unsettled > 0) {
+    status = find_middle(in, false, step);
+  }
+  if (!status.ok() || step.unsettled == 0) {
+    return status;
+  }
+  // Passes that do not settle may run away: the step is taken as from its own first velocity.
+  Midway& midway = *in.midway;
+  midway.moved = midway.felt = in.state.qdot;
+  place_midway(in.model, in.state, in.observation.kin, in.scene.time.step, false, midway);
+  step.remaining = 1;
+  return begin_here(in, step);
+}
+
+/// Passes that place the step's middle until it has settled; step.unsettled where it does not.
+Status StepSolver::find_middle(const StepInput& in, bool balanced, StepSolution& step) {
   const TimeSettings& time = in.scene.time;
   Midway& midway = *in.midway;
   midway.moved = in.state.qdot;
@@ -72,14 +90,16 @@ Status StepSolver::begin(const StepInput& in, StepSolution& step) {
     midway.moved += 2 * warm.half_change - warm.half_before;
   }
   midway.felt = midway.moved;
+  step.passes = balanced ? 0 : time.passes;
+  step.unsettled = 0;
   step.remaining = guessed_remaining(warm.remaining);
   double before = 0;  // what the last pass changed
   scratch_.passes.restart();
   scratch_.placed_by.resize(2 * in.model.nv());
   scratch_.led_to.resize(2 * in.model.nv());
   for (int pass = 1;; ++pass) {
-    step.passes = pass;
-    place_midway(in.model, in.state, time.step, midway);
+    ++step.passes;
+    place_midway(in.model, in.state, in.observation.kin, time.step, balanced, midway);
     if (Status status = begin_here(in, step); !status.ok()) {
       return status;
     }
@@ -93,13 +113,8 @@ Status StepSolver::begin(const StepInput& in, StepSolution& step) {
     }
     before = off;
     if (pass >= time.passes) {
-      // Passes that do not settle may run away: the step is taken as from its own first velocity.
-      midway.moved = midway.felt = in.state.qdot;
-      place_midway(in.model, in.state, time.step, midway);
-      const Status status = begin_here(in, step);
       step.unsettled = off;
-      step.remaining = 1;
-      return status;
+      return {};
     }
     const Eigen::Index nv = in.model.nv();
     scratch_.placed_by << midway.moved, midway.felt;

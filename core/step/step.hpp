@@ -54,10 +54,7 @@ struct StepInput {
   }
   /// The motion there.
   StepMotion motion() const {
-    const Kinematics& now = observation.kin;
-    return midway == nullptr
-               ? StepMotion{now.twist, now.centre_velocity, now.twist}
-               : StepMotion{midway->twist, midway->centre_velocity, midway->felt_twist};
+    return midway == nullptr ? motion_of(observation.kin) : midway->motion();
   }
 };
 
@@ -113,12 +110,15 @@ struct StepSolution {
   double qp_time = 0;  ///< s spent in the QP back end
   StepSystem system;   ///< Eq. 1 as assembled
   /// What the last pass changed the middle's velocity by, rad/s and cm/s, where that does not
-  /// settle in the passes that the scene permits; else 0 (midpoint rule).
+  /// settle in the passes that the scene permits, with its bias balanced or not; else 0 (midpoint
+  /// rule).
   double unsettled = 0;
   /// What all further passes would change, over what the last one did: as measured in this step
   /// where it took two, else as guessed from those before; 1 where unknown (midpoint rule).
   double remaining = 1;
-  int passes = 0;  ///< that found the step's middle; 0 by Euler's rule
+  /// That found the step's middle; 0 by Euler's rule. With more than time.passes its bias is not
+  /// balanced (Midway::balanced).
+  int passes = 0;
   /// Length of what qdot and the velocity that placed the middle differ by, rad/s and cm/s: rows
   /// that the path shows change qdot after the middle has settled (midpoint rule; else 0).
   double middle_off = 0;
@@ -194,6 +194,7 @@ class StepSolver {
   const StepScratch& scratch() const { return scratch_; }
 
  private:
+  Status find_middle(const StepInput& in, bool balanced, StepSolution& step);
   Status begin_here(const StepInput& in, StepSolution& step);
   Status constrained_motion(const StepInput& in, bool base_known, StepSolution& step);
   void order_rows(const Model& model, StepSolution& step);

@@ -41,14 +41,15 @@ double mismatch(const Eigen::VectorXd& a, const Eigen::VectorXd& b, double least
 /// Steps of the midpoint rule whose number of passes and `remaining` contradict each other.
 double false_passes(const LogContents& log, const std::vector<double>& remaining) {
   constexpr double rounding = 1e-12;
-  const std::vector<std::int64_t> passes = log.h5.integers("/steps/passes");
+  const int most = log.resolved.scene.time.passes;
   double count = 0;
   for (std::size_t k = 1; k < remaining.size(); ++k) {
     const double guess = guessed_remaining(remaining[k - 1]);
     const bool guessed = std::abs(remaining[k] - guess) <= rounding * guess;
     // One that did not settle counts as unknown, 1, which is also what is guessed after such a one.
-    const bool unknown = remaining[k] == 1 && passes[k] == log.resolved.scene.time.passes;
-    count += passes[k] >= 1 && (guessed == (passes[k] == 1) || unknown) ? 0 : 1;
+    const bool unknown = remaining[k] == 1 && log.passes[k] == 2 * most;
+    const std::int64_t passes = log.passes[k] - (log.passes[k] > most ? most : 0);
+    count += passes >= 1 && (guessed == (passes == 1) || unknown) ? 0 : 1;
   }
   return count;
 }

@@ -3,12 +3,13 @@
 namespace hagfish {
 namespace {
 
-Midway midway_of(const LogContents& log, const State& state, Eigen::Index frame) {
+Midway midway_of(const LogContents& log, const State& state, const Kinematics& kin,
+                 Eigen::Index frame) {
   Midway midway;
   if (log.midpoint()) {
     midway.moved = log.middle_moved.row(frame);
     midway.felt = log.middle_felt.row(frame);
-    place_midway(log.model, state, log.resolved.scene.time.step, midway);
+    place_midway(log.model, state, kin, log.resolved.scene.time.step, log.balanced(frame), midway);
   }
   return midway;
 }
@@ -28,11 +29,10 @@ AuditedFrame::AuditedFrame(const LogContents& log, Eigen::Index frame)
       clamped(log.clamped(frame)),
       state{log.q.row(frame), log.qdot.row(frame)},
       observation(observe(log.model, state, log.resolved.scene)),
-      midway(midway_of(log, state, frame)),
+      midway(midway_of(log, state, observation.kin, frame)),
       kin(log.midpoint() ? midway.kin : observation.kin),
       segments(log.midpoint() ? midway.segments : observation.segments),
-      motion(log.midpoint() ? StepMotion{midway.twist, midway.centre_velocity, midway.felt_twist}
-                            : StepMotion{kin.twist, kin.centre_velocity, kin.twist}),
+      motion(log.midpoint() ? midway.motion() : motion_of(kin)),
       qdot_next(log.qdot_next.row(frame)),
       qdot_moved(log.midpoint() ? Eigen::VectorXd(log.qdot_moved.row(frame)) : qdot_next),
       qdot_felt(log.midpoint() ? Eigen::VectorXd(0.5 * (state.qdot + qdot_next)) : qdot_next),

@@ -7,6 +7,7 @@
 
 #include "core/log/log_frame.hpp"
 #include "core/log/log_header.hpp"
+#include "core/log/log_writer.hpp"
 #include "core/log/saved_run.hpp"
 #include "core/run/controller.hpp"
 #include "experiments/audit/log_schema.hpp"
@@ -33,6 +34,7 @@ LogContents::LogContents(const std::string& file, LogLevel least) : h5(file) {
     middle_moved = h5.rows("/midway/moved");
     middle_felt = h5.rows("/midway/felt");
     qdot_moved = h5.rows("/midway/qdot");
+    passes = h5.integers("/steps/passes");
   }
   if (own_law()) clamp_head = h5.integers("/control/clamp_head");
   check_model();
@@ -41,6 +43,11 @@ LogContents::LogContents(const std::string& file, LogLevel least) : h5(file) {
 bool LogContents::clamped(Eigen::Index frame) const {
   const auto f = static_cast<std::size_t>(frame);
   return own_law() ? clamp_head[f] != 0 : clamps_head(resolved.scene, static_cast<Phase>(phase[f]));
+}
+
+bool LogContents::balanced(Eigen::Index frame) const {
+  const TimeSettings& settings = resolved.scene.time;
+  return passes[static_cast<std::size_t>(frame * frame_stride(settings))] <= settings.passes;
 }
 
 void LogContents::check_model() const {

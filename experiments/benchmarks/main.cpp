@@ -188,7 +188,7 @@ void add_core_parts(const std::shared_ptr<Start>& start) {
   part("bias", [](Parts& p) {
     const Kinematics& kin = p.record.moment.observation.kin;
     benchmark::DoNotOptimize(
-        generalised_force(p.start->model, kin, bias_wrench(p.start->model, kin)));
+        generalised_force(p.start->model, kin, bias_wrench(p.start->model, kin, motion_of(kin))));
   });
   part("system", [](Parts& p) {  // Eq. 1 assembled, factorised and solved
     const Kinematics& kin = p.record.moment.observation.kin;

@@ -24,7 +24,7 @@ Eigen::MatrixXd mass_matrix(const Model& model, const Kinematics& kin) {
 
 Eigen::VectorXd bias_force(const Model& model, const State& state) {
   const Kinematics kin = kinematics(model, state);
-  return generalised_force(model, kin, bias_wrench(model, kin));
+  return generalised_force(model, kin, bias_wrench(model, kin, motion_of(kin)));
 }
 
 double energy_at(const Model& model, const Eigen::VectorXd& q, const Eigen::VectorXd& qdot) {
@@ -138,6 +138,30 @@ Vector6d momentum(const Model& model, const Kinematics& kin) {
     sum.tail<3>() += p;
   }
   return sum;
+}
+
+// A bias that is to have a power takes as much of each body's momentum as gives it that.
+TEST(Dynamics, BiasHasThePowerThatItIsGiven) {
+  Random random(12);
+  const Model model = random_chain(random, 12);
+  const State state = random_state(random, model);
+  const Kinematics kin = kinematics(model, state);
+  const Matrix6Xd felt =
+      body_twists(model, kin, state.qdot + random_entries(random, model.nv(), 0.5));
+  BiasPower power{random_entries(random, 12, 100), 0};
+  StepMotion motion{kin.twist, kin.centre_velocity, felt};
+  const Matrix6Xd plain = bias_wrench(model, kin, motion);
+  motion.bias_power = &power;
+  const Matrix6Xd given = bias_wrench(model, kin, motion);
+  for (int b = 0; b < 12; ++b) {
+    const Vector6d momentum = body_inertia(model, kin, b) * felt.col(b);
+    const Vector6d added = given.col(b) - plain.col(b);
+    const double share = added.dot(momentum) / momentum.squaredNorm();
+    EXPECT_LT((added - share * momentum).norm(), 1e-12 * added.norm()) << b;
+    EXPECT_NEAR(given.col(b).dot(kin.twist.col(b)), power.value[b], 1e-10) << b;
+  }
+  power.least = 1e9;  // far more than any body has
+  EXPECT_LT((bias_wrench(model, kin, motion) - plain).norm(), 1e-6 * plain.norm());
 }
 
 TEST(Dynamics, FreeChainKeepsItsMomentum) {
