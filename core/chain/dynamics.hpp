@@ -90,7 +90,7 @@ double kinetic_energy(const Model& model, const Kinematics& kin, int body, const
 /// Of all bodies, at kin.twist.
 double kinetic_energy(const Model& model, const Kinematics& kin);
 
-/// Of each body (N), straight from a state, a third of the work of its kinematics.
+/// Of each body, erg (N), straight from a state: its kinematics need not be known.
 void kinetic_energies(const Model& model, const State& state, Eigen::VectorXd& energies);
 
 /// Drag on one body whose centre moves with `velocity` (cm/s, world), dyn, world.

@@ -11,7 +11,7 @@ namespace {
 constexpr double least_share = 0.01;
 
 /// Where no body turns by more than this in a step, rad, Coriolis forces make or take some 1e-7 of
-/// the kinetic energy at most (its third power over 12), which is not worth the price of knowing
+/// the kinetic energy (its third power over 12), which is not worth the price of knowing
 /// it.
 constexpr double least_turn = 0.01;
 

@@ -140,6 +140,21 @@ Vector6d momentum(const Model& model, const Kinematics& kin) {
   return sum;
 }
 
+TEST(Dynamics, KineticEnergiesOfAStateAreThoseOfItsKinematics) {
+  Random random(13);
+  const Model model = random_chain(random, 12);
+  const State state = random_state(random, model);
+  const Kinematics kin = kinematics(model, state);
+  Eigen::VectorXd energies;
+  kinetic_energies(model, state, energies);
+  ASSERT_EQ(energies.size(), 12);
+  for (int b = 0; b < 12; ++b) {
+    const double energy =
+        kinetic_energy(model, kin, b, kin.twist.col(b), kin.centre_velocity.col(b));
+    EXPECT_NEAR(energies[b], energy, 1e-12 * energy) << b;  // rounding of 12 bodies' velocities
+  }
+}
+
 // A bias that is to have a power takes as much of each body's momentum as gives it that.
 TEST(Dynamics, BiasHasThePowerThatItIsGiven) {
   Random random(12);
