@@ -126,13 +126,15 @@ Matrix6Xd body_twists(const Model& model, const Kinematics& kin, const Eigen::Ve
 void body_twists(const Model& model, const Kinematics& kin, const Eigen::VectorXd& v,
                  Matrix6Xd& twist) {
   twist.resize(6, model.body_count());
-  Vector6d sum = Vector6d::Zero();
+  Eigen::Vector3d spin = Eigen::Vector3d::Zero(), velocity = spin;  // in registers, as above
   for (int b = 0; b < model.body_count(); ++b) {
     const Body& body = model.bodies[b];
     for (int k = body.first_dof; k < body.first_dof + body.dofs; ++k) {
-      sum += kin.axis.col(k) * v[k];
+      spin += v[k] * kin.axis.col(k).head<3>();
+      velocity += v[k] * kin.axis.col(k).tail<3>();
     }
-    twist.col(b) = sum;
+    twist.col(b).head<3>() = spin;
+    twist.col(b).tail<3>() = velocity;
   }
 }
 

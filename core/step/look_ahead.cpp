@@ -2,23 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/contact/wall.hpp"
+#include "core/step/row_selection.hpp"
 
 namespace hagfish {
 namespace {
 
-auto known(std::int64_t id, std::vector<Row>& rows) {
-  return std::ranges::find(rows, id, &Row::id);
-}
-
 /// Adds `row`, or replaces the one of its id in place, so that it keeps its multiplier.
-void put(const Row& row, StepSolution& step) {
-  const auto place = known(row.id, step.rows);
-  if (place == step.rows.end()) {
-    step.rows.push_back(row);
+void put(PathRow row, StepSolution& step) {
+  const auto id = [](const PathRow& other) { return other.row.id; };
+  put_row(row.row, step.rows);
+  const auto place = std::ranges::find(step.path_rows, row.row.id, id);
+  if (place == step.path_rows.end()) {
+    step.path_rows.push_back(std::move(row));
   } else {
-    *place = row;
+    *place = std::move(row);
   }
 }
 
@@ -41,13 +41,14 @@ bool add_missed_rows(const StepInput& in, const Observation& there, double t, St
     const double goal =
         before + std::min(-settings.baumgarte * before, h * settings.baumgarte_speed);
     if (gap_there < goal - tolerance) {
-      Row row = make_row();
+      PathRow shown = make_row();
+      Row& row = shown.row;
       const double missed =
           gap_there - gap_now - t * row_velocity(row, step.centre_velocity, step.qdot);
       // At great speeds what the linear row misses grows beyond all sense; rows that ask strands to
       // part by more than they may move between samples only contradict each other.
       row.rhs = std::min(goal - gap_now - missed * (h / t) * (h / t), settings.stride) / h;
-      put(row, step);
+      put(std::move(shown), step);
       any = true;
     }
   };
@@ -56,14 +57,16 @@ bool add_missed_rows(const StepInput& in, const Observation& there, double t, St
       if (contact.gap < -tolerance) {
         const Contact before = contact_at(now.segments, contact.segment_a, contact.t_a,
                                           contact.segment_b, contact.t_b);
-        check(before.gap, contact.gap,
-              [&] { return contact_row(in.model, placed(before, in.moved_segments())); });
+        check(before.gap, contact.gap, [&] {
+          return PathRow{contact_row(in.model, placed(before, in.moved_segments())), before};
+        });
       }
     }
   }
   visit_wall_gaps(in.model, there.kin, in.scene.wall, [&](int body, double gap) {
-    check(now.kin.centre(0, body) - in.model.bodies[body].radius, gap,
-          [&] { return wall_row(body); });
+    check(now.kin.centre(0, body) - in.model.bodies[body].radius, gap, [&] {
+      return PathRow{wall_row(body), {}};
+    });
   });
   return any;
 }
@@ -79,13 +82,13 @@ bool add_missed_bends(const StepInput& in, const Eigen::VectorXd& there, StepSol
     const Eigen::Vector2d goal =
         bend_to(there[cone.dof + 1], there[cone.dof + 2], cone.limit + left);
     int cuts = 1;
-    while (known(cone_row(cone, {}, cuts).id, step.rows) != step.rows.end()) {
+    while (std::ranges::find(step.rows, cone_row(cone, {}, cuts).id, &Row::id) != step.rows.end()) {
       ++cuts;
     }
     Row row = cone_row(cone, total_bend(goal[0], goal[1]), cuts);
     const Eigen::Vector2d way = goal - now.segment<2>(cone.dof + 1);
     row.rhs = (row.sign * way[0] + row.beside * way[1]) / in.scene.time.step;
-    step.rows.push_back(row);
+    put({row, {}}, step);
     any = true;
   }
   return any;

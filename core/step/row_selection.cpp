@@ -49,6 +49,24 @@ void gather_rows(const StepInput& in, const WarmStart& warm, std::vector<Row>& r
                          rows);
 }
 
+Row placed_row(const StepInput& in, const PathRow& shown) {
+  if (!shown.contact) {
+    return shown.row;
+  }
+  Row row = contact_row(in.model, placed(*shown.contact, in.moved_segments()));
+  row.rhs = shown.row.rhs;
+  return row;
+}
+
+void put_row(const Row& row, std::vector<Row>& rows) {
+  const auto place = std::ranges::find(rows, row.id, &Row::id);
+  if (place == rows.end()) {
+    rows.push_back(row);
+  } else {
+    *place = row;
+  }
+}
+
 void gather_violated_rows(const StepInput& in, const StepSolution& step, std::vector<Row>& rows) {
   rows.clear();
   const auto all = [](const Contact&) { return true; };

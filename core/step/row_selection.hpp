@@ -12,6 +12,12 @@ namespace hagfish {
 /// the gap are among them where they pushed in the last step, of which `warm` tells.
 void gather_rows(const StepInput& in, const WarmStart& warm, std::vector<Row>& rows);
 
+/// The row of `shown` where the step's equations hold.
+Row placed_row(const StepInput& in, const PathRow& shown);
+
+/// Adds `row`, or replaces the one of its id in place.
+void put_row(const Row& row, std::vector<Row>& rows);
+
 /// The unilateral rows that the velocity of `step` violates, into `rows`.
 void gather_violated_rows(const StepInput& in, const StepSolution& step, std::vector<Row>& rows);
 

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -51,6 +52,13 @@ struct Row {
   bool prescribed = false;
 
   bool unit() const { return dof >= 0 && beside == 0; }
+};
+
+/// A row that the path of a step shows (look_ahead.hpp), and the contact that it is of, if of one,
+/// as it is at the step's start.
+struct PathRow {
+  Row row;
+  std::optional<Contact> contact;
 };
 
 /// Calls `visit(body, force)` for each force (world, at the body's centre, per unit λ) that a row

@@ -62,9 +62,27 @@ Status StepSolver::begin(const StepInput& in, StepSolution& step) {
   step.unsettled = 0;
   step.remaining = 1;
   step.passes = 0;
+  step.path_rows.clear();
   if (in.midway == nullptr) {
     return begin_here(in, step);
   }
+  guess_middle(in);
+  return settle(in, step);
+}
+
+/// The velocity that the middle is first placed by: as it changed in the last two steps.
+void StepSolver::guess_middle(const StepInput& in) {
+  const Eigen::Index nv = in.model.nv();
+  scratch_.first_guess.resize(2 * nv);
+  scratch_.first_guess.head(nv) = in.state.qdot;
+  if (warm.half_before.size() > 0) {
+    scratch_.first_guess.head(nv) += 2 * warm.half_change - warm.half_before;
+  }
+  scratch_.first_guess.tail(nv) = scratch_.first_guess.head(nv);
+}
+
+/// Passes from scratch_.first_guess on, and what is done where they do not settle.
+Status StepSolver::settle(const StepInput& in, StepSolution& step) {
   // Where a balanced bias keeps the passes from settling, they may without.
   Status status = find_middle(in, true, step);
   if (!status.ok() || step.unsettled > 0) {
@@ -84,19 +102,17 @@ Status StepSolver::begin(const StepInput& in, StepSolution& step) {
 /// Passes that place the step's middle until it has settled; step.unsettled where it does not.
 Status StepSolver::find_middle(const StepInput& in, bool balanced, StepSolution& step) {
   const TimeSettings& time = in.scene.time;
+  const Eigen::Index nv = in.model.nv();
   Midway& midway = *in.midway;
-  midway.moved = in.state.qdot;
-  if (warm.half_before.size() > 0) {
-    midway.moved += 2 * warm.half_change - warm.half_before;
-  }
-  midway.felt = midway.moved;
+  midway.moved = scratch_.first_guess.head(nv);
+  midway.felt = scratch_.first_guess.tail(nv);
   step.passes = balanced ? 0 : time.passes;
   step.unsettled = 0;
   step.remaining = guessed_remaining(warm.remaining);
   double before = 0;  // what the last pass changed
   scratch_.passes.restart();
-  scratch_.placed_by.resize(2 * in.model.nv());
-  scratch_.led_to.resize(2 * in.model.nv());
+  scratch_.placed_by.resize(2 * nv);
+  scratch_.led_to.resize(2 * nv);
   for (int pass = 1;; ++pass) {
     ++step.passes;
     place_midway(in.model, in.state, in.observation.kin, time.step, balanced, midway);
@@ -116,7 +132,6 @@ Status StepSolver::find_middle(const StepInput& in, bool balanced, StepSolution&
       step.unsettled = off;
       return {};
     }
-    const Eigen::Index nv = in.model.nv();
     scratch_.placed_by << midway.moved, midway.felt;
     scratch_.led_to << step.qdot, 0.5 * (in.state.qdot + step.next);
     scratch_.passes.mix(scratch_.placed_by, scratch_.led_to, scratch_.mixed);
@@ -137,6 +152,9 @@ Status StepSolver::begin_here(const StepInput& in, StepSolution& step) {
   add_active_torque(in.control.torque, reach, step.system);
   gather_rows(in, warm, step.rows);
   prescribe_rows(warm, step.rows);
+  for (const PathRow& shown : step.path_rows) {
+    put_row(placed_row(in, shown), step.rows);
+  }
   step.kind = SolveKind::linear;
   step.iterations = 0;
   step.rounds = 0;
@@ -157,7 +175,13 @@ Status StepSolver::begin_here(const StepInput& in, StepSolution& step) {
 }
 
 Status StepSolver::resume(const StepInput& in, StepSolution& step) {
-  return constrained_motion(in, true, step);
+  Status status = constrained_motion(in, true, step);
+  if (!status.ok() || in.midway == nullptr ||
+      (step.qdot - in.midway->moved).lpNorm<Eigen::Infinity>() <= in.scene.time.settled) {
+    return status;
+  }
+  scratch_.first_guess << step.qdot, 0.5 * (in.state.qdot + step.next);
+  return settle(in, step);
 }
 
 Status StepSolver::solve(const StepInput& in, StepSolution& step) {

@@ -94,12 +94,13 @@ struct StepSolution {
   /// Active torque as applied, towards the rest shape and besides, dyn cm, nv; 0 at the root.
   Eigen::VectorXd active_torque;
   SolveKind kind = SolveKind::linear;
-  std::vector<Row> rows;        ///< rows that entered the problem, in the order of place_in_step
-  Eigen::Index prescribed = 0;  ///< how many of them, the first, are prescribed
-  Eigen::VectorXd lambda;       ///< their multipliers, dyn s or dyn cm s
-  Eigen::VectorXd excess;       ///< C q̇ - d of each row at the solution, cm/s or rad/s
-  int active = 0;               ///< rows with a force
-  int iterations = 0;           ///< of the back end, all rounds together
+  std::vector<Row> rows;           ///< rows that entered the problem, in the order of place_in_step
+  std::vector<PathRow> path_rows;  ///< of them, what the step's path showed
+  Eigen::Index prescribed = 0;     ///< how many of them, the first, are prescribed
+  Eigen::VectorXd lambda;          ///< their multipliers, dyn s or dyn cm s
+  Eigen::VectorXd excess;          ///< C q̇ - d of each row at the solution, cm/s or rad/s
+  int active = 0;                  ///< rows with a force
+  int iterations = 0;              ///< of the back end, all rounds together
   /// QP rounds: each adds violated rows and releases prescribed limits with λ < 0.
   int rounds = 0;
   /// (H q̇ - g) / h but for the active torque: what this and the forces of all rows add up to, from
@@ -116,8 +117,8 @@ struct StepSolution {
   /// What all further passes would change, over what the last one did: as measured in this step
   /// where it took two, else as guessed from those before; 1 where unknown (midpoint rule).
   double remaining = 1;
-  /// That found the step's middle; 0 by Euler's rule. With more than time.passes its bias is not
-  /// balanced (Midway::balanced).
+  /// That found the step's middle, the last time; 0 by Euler's rule. With more than time.passes its
+  /// bias is not balanced (Midway::balanced).
   int passes = 0;
   /// Length of what qdot and the velocity that placed the middle differ by, rad/s and cm/s: rows
   /// that the path shows change qdot after the middle has settled (midpoint rule; else 0).
@@ -144,7 +145,7 @@ struct StepScratch {
   Eigen::VectorXd joint, impulse, change;
   // Of the step's middle (midpoint rule): velocities moved and felt, 2 nv.
   AndersonMixing passes;
-  Eigen::VectorXd placed_by, led_to, mixed;
+  Eigen::VectorXd first_guess, placed_by, led_to, mixed;
   // Of the velocity after the step (midpoint rule).
   std::vector<std::size_t> held;            ///< prescribed rows, and
   std::vector<PrescribedVelocity> jumps;    ///< what their velocities change by
@@ -174,7 +175,8 @@ class StepSolver {
   /// rows contradict each other or the back end fails.
   Status begin(const StepInput& in, StepSolution& step);
 
-  /// Eq. 3 or 4 again, after rows were added to step.rows. Status as above.
+  /// Eq. 3 or 4 again, after rows were added to step.rows and step.path_rows. By the midpoint rule
+  /// the step's middle is found anew where these move it. Status as above.
   Status resume(const StepInput& in, StepSolution& step);
 
   /// Forces and residuals of the step as solved; keeps its multipliers in `warm`.
@@ -194,6 +196,8 @@ class StepSolver {
   const StepScratch& scratch() const { return scratch_; }
 
  private:
+  void guess_middle(const StepInput& in);
+  Status settle(const StepInput& in, StepSolution& step);
   Status find_middle(const StepInput& in, bool balanced, StepSolution& step);
   Status begin_here(const StepInput& in, StepSolution& step);
   Status constrained_motion(const StepInput& in, bool base_known, StepSolution& step);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <ranges>
 
 #include "core/input/scene_reader.hpp"
 #include "experiments/program/scene_argument.hpp"
@@ -136,8 +137,9 @@ const MendedCell mended_cells[] = {
 INSTANTIATE_TEST_SUITE_P(Stability, MendedCells, testing::ValuesIn(mended_cells),
                          [](const auto& cell) { return cell.param.name; });
 
-/// What the README says of a rule with the watch off: the largest step at which a scene passes, and
-/// the next one, at which it does not; 0 where there is none, or it takes too long.
+/// What the README says of a rule with the watch off: the largest step at which a scene passes from
+/// every one of eight starts, and the next one, at which it does not; 0 where there is none, or it
+/// takes too long.
 struct RuleCell {
   std::string method, scene;
   double largest, next;
@@ -165,13 +167,13 @@ const RuleCell rule_cells[] = {
     {"midpoint", "spinning", 0.01, 0.02},
     {"midpoint", "tight_bend", 0.002, 0.005},
     {"midpoint", "short_bodies", 0.01, 0},
-    {"midpoint", "pulled_knot", 0.005, 0.01},
-    {"midpoint", "knot_into_head", 0.02, 0.05},
+    {"midpoint", "pulled_knot", 0.01, 0.02},
+    {"midpoint", "knot_into_head", 0.05, 0},
     {"midpoint", "parallel", 0.02, 0.05},
     {"midpoint", "table1", 0.02, 0.05},
     {"midpoint", "stiff_joints", 0.05, 0},
     {"midpoint", "stiff_tip", 0.05, 0},
-    {"midpoint", "closing", 0.0002, 0.0005},
+    {"midpoint", "closing", 0.0005, 0.001},
     {"midpoint", "coil", 0.05, 0},
     {"midpoint", "mass_ratio", 0.05, 0},
     {"midpoint", "overlap", 0.05, 0},
@@ -185,14 +187,18 @@ TEST_P(RuleCells, PassWithoutTheWatchAsFarAsReadmeSays) {
   const std::string scene = cell.scene == "table1"
                                 ? cell.scene
                                 : (fs::path(HAGFISH_STRESS_DIR) / (cell.scene + ".toml")).string();
-  const auto outcome = [&](double step) {
-    return run_cell(scene, cell.method, step, {}).status.outcome;
+  const auto passes = [&](double step) {
+    return std::ranges::all_of(std::views::iota(1, 9), [&](int seed) {
+      const StressResult result = run_cell(
+          scene, cell.method, step, {"start.noise_deg=1e-4", "start.seed=" + std::to_string(seed)});
+      return result.status.outcome == Outcome::ok;
+    });
   };
   if (cell.largest > 0) {
-    EXPECT_EQ(outcome(cell.largest), Outcome::ok);
+    EXPECT_TRUE(passes(cell.largest));
   }
   if (cell.next > 0) {
-    EXPECT_NE(outcome(cell.next), Outcome::ok);
+    EXPECT_FALSE(passes(cell.next));
   }
 }
 INSTANTIATE_TEST_SUITE_P(Stability, RuleCells, testing::ValuesIn(rule_cells), [](const auto& cell) {

@@ -256,6 +256,26 @@ TEST(Midpoint, KnowsWhatFurtherPassesWouldChange) {
   }
 }
 
+// Rows that the path of a step shows move its middle: it is found anew.
+TEST(Midpoint, SettlesWithTheRowsOfItsPath) {
+  const ResolvedScene resolved =
+      read_scene(HAGFISH_STRESS_DIR "/pulled_knot.toml",
+                 {"time.rule=midpoint", "time.step=0.01", "guard.energy_action=warn"});
+  const Model model = make_hagfish(resolved.specimen, resolved.scene);
+  Simulation sim = start(model, resolved.scene, "active-set");
+  StepRecord record;
+  int with_path_rows = 0;
+  for (int i = 0; i < 30; ++i) {
+    take_step(model, resolved.scene, sim, record);
+    const StepSolution& step = record.solution;
+    with_path_rows += step.path_rows.empty() ? 0 : 1;
+    const double off = (step.qdot - step.middle.moved).lpNorm<Eigen::Infinity>();
+    EXPECT_LE(std::min(1.0, step.remaining) * off, resolved.scene.time.settled) << i;
+    EXPECT_EQ(step.unsettled, 0) << i;
+  }
+  EXPECT_GE(with_path_rows, 10);
+}
+
 // A second pass only where the first one's guess was poor; what does not settle is said.
 TEST(Midpoint, SaysWhatDoesNotSettle) {
   MidpointStage run(knotted(1, 3));
