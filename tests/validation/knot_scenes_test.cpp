@@ -153,15 +153,14 @@ TEST(KnotScenesByTheMidpointRule, StiffBodiesLetGoWithoutEnergyOfTheirOwn) {
   }
 }
 
-// Impacts and switching rows leave no order to be seen, and chance 0.0005 cm; by Euler's rule the
-// same steps put the knot 0.05 cm apart. The first bound holds from time.settled = 1e-4 to 1e-2, the
-// second one is for what is left at a quarter of its error.
+// Impacts and switching rows leave no order to be seen; Euler's rule puts the knot 0.046 cm apart.
+// The bounds hold from time.settled = 1e-4 to 1e-2; chance makes 0.0005 cm.
 TEST(KnotScenesByTheMidpointRule, TieAtOnePlaceFromTwoMillisecondsOn) {
   const double coarse = head_end_at_slide("0.002");
   const double middle = head_end_at_slide("0.001");
   const double fine = head_end_at_slide("0.0005");
   std::cout << "[ FIGURE   ] " << coarse << ", " << middle << ", " << fine << " cm\n";
-  EXPECT_LE(std::abs(middle - coarse), 0.0065);
+  EXPECT_LE(std::abs(middle - coarse), 0.005);
   EXPECT_LE(std::abs(fine - middle), 0.0016);
 }
 
