@@ -301,7 +301,7 @@ struct TimeSettings {
   double step = 0.002;  ///< h, s
   /// The middle of a step has settled once further passes change the velocity by no more than this,
   /// as far as can be told: rad/s of each hinge, and cm/s and rad/s of the root.
-  double settled = 0.005;
+  double settled = 0.001;
   int passes = 20;  ///< to settle in at most, twice: with a balanced bias, and without
   /// Far stiffer springs than the step resolves ring from step to step by the midpoint rule: this
   /// times h² of their stiffness damps them, at the velocity after the step, 1/s.
