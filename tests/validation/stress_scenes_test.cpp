@@ -166,7 +166,7 @@ const RuleCell rule_cells[] = {
     {"midpoint", "whip", 0.002, 0.005},
     {"midpoint", "spinning", 0.01, 0.02},
     {"midpoint", "tight_bend", 0.002, 0.005},
-    {"midpoint", "short_bodies", 0.01, 0},
+    {"midpoint", "short_bodies", 0.02, 0},
     {"midpoint", "pulled_knot", 0.01, 0.02},
     {"midpoint", "knot_into_head", 0.05, 0},
     {"midpoint", "parallel", 0.02, 0.05},
