@@ -120,8 +120,8 @@ struct StepSolution {
   /// That found the step's middle, the last time; 0 by Euler's rule. With more than time.passes its
   /// bias is not balanced (Midway::balanced).
   int passes = 0;
-  /// Length of what qdot and the velocity that placed the middle differ by, rad/s and cm/s: rows
-  /// that the path shows change qdot after the middle has settled (midpoint rule; else 0).
+  /// Length of what qdot and the velocity that placed the middle differ by, rad/s and cm/s: what
+  /// passes leave, as far as `remaining` lets them (midpoint rule; else 0).
   double middle_off = 0;
   struct {
     Eigen::VectorXd moved, felt;

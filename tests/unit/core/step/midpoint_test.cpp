@@ -5,6 +5,8 @@
 #include <cmath>
 #include <iostream>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/input/scene_reader.hpp"
 #include "core/run/simulation.hpp"
@@ -33,6 +35,26 @@ struct MidpointStage {
   Stage stage;
   Midway midway;
   StepSolution solution;
+};
+
+/// A run of a stress scene by the midpoint rule with steps of `h` (s), whose watch only warns.
+struct StressRun {
+  StressRun(const std::string& name, double h, std::vector<std::string> set = {})
+      : resolved(read_scene(HAGFISH_STRESS_DIR "/" + name + ".toml", with_rule(h, std::move(set)))),
+        model(make_hagfish(resolved.specimen, resolved.scene)),
+        sim(start(model, resolved.scene, "active-set")) {}
+  static std::vector<std::string> with_rule(double h, std::vector<std::string> set) {
+    set.insert(set.end(), {"time.rule=midpoint", "time.step=" + std::to_string(h),
+                           "guard.energy_action=warn"});
+    return set;
+  }
+  void step() { take_step(model, resolved.scene, sim, record); }
+  double time() const { return time_of(sim, resolved.scene); }
+
+  ResolvedScene resolved;
+  Model model;
+  Simulation sim;
+  StepRecord record;
 };
 
 // M (v' - v) = h f + C'λ with f at the mean of both velocities, and what the step moves by: that
@@ -127,22 +149,17 @@ TEST(Midpoint, AnImpactDoesNotBounce) {
 // passes leave.
 TEST(Midpoint, ConservesEnergy) {
   for (const double h : {0.004, 0.005}) {
-    const ResolvedScene resolved =
-        read_scene(HAGFISH_STRESS_DIR "/spinning.toml",
-                   {"time.rule=midpoint", "time.step=" + std::to_string(h), "drag.normal=0",
-                    "drag.tangential=0", "time.ring_damping=0", "time.settled=1e-10",
-                    "time.passes=100", "guard.energy_action=warn"});
-    const Model model = make_hagfish(resolved.specimen, resolved.scene);
-    Simulation sim = start(model, resolved.scene, "active-set");
+    StressRun run("spinning", h,
+                  {"drag.normal=0", "drag.tangential=0", "time.ring_damping=0",
+                   "time.settled=1e-10", "time.passes=100"});
     const auto energy = [&] {
-      return kinetic_energy(model, sim.now.observation.kin) +
-             elastic_energy(model, sim.now.state.q);
+      return kinetic_energy(run.model, run.sim.now.observation.kin) +
+             elastic_energy(run.model, run.sim.now.state.q);
     };
     const double before = energy();
-    StepRecord record;
     double furthest = 0;
-    while (time_of(sim, resolved.scene) < 1) {
-      take_step(model, resolved.scene, sim, record);
+    while (run.time() < 1) {
+      run.step();
       furthest = std::max(furthest, std::abs(energy() / before - 1));
     }
     // 250 steps that passes leave 1e-10 rad/s off, beside some 10.
@@ -153,19 +170,15 @@ TEST(Midpoint, ConservesEnergy) {
 // J moves along one velocity and multiplies another: with one for both, this whip doubles its
 // energy within 10 s, and by Euler's rule it blows up after 2.2 s.
 TEST(Midpoint, HoldsTheWhip) {
-  const ResolvedScene resolved =
-      read_scene(HAGFISH_STRESS_DIR "/whip.toml",
-                 {"time.rule=midpoint", "time.step=0.002", "guard.energy_action=warn"});
-  const Model model = make_hagfish(resolved.specimen, resolved.scene);
-  Simulation sim = start(model, resolved.scene, "active-set");
-  StepRecord record;
+  StressRun run("whip", 0.002);
+  const auto& ledger = run.sim.ledger;
   double furthest = 0;
-  while (time_of(sim, resolved.scene) < 5) {
-    take_step(model, resolved.scene, sim, record);
-    furthest = std::max(furthest, std::abs(sim.ledger.integrator_coriolis));
+  while (run.time() < 5) {
+    run.step();
+    furthest = std::max(furthest, std::abs(ledger.integrator_coriolis));
   }
-  EXPECT_LT(furthest, 0.001 * sim.ledger.initial);  // seen: 2e-4; 0.028 with the bias as it comes
-  EXPECT_LT(std::abs(sim.ledger.imbalance()), 1e-10 * sim.ledger.initial);
+  EXPECT_LT(furthest, 0.001 * ledger.initial);  // seen: 2e-4; 0.028 with the bias as it comes
+  EXPECT_LT(std::abs(ledger.imbalance()), 1e-10 * ledger.initial);
 }
 
 /// Angular and linear momentum about the world's origin.
@@ -224,22 +237,20 @@ struct Settling {
   double passes = 0, all_passes = 0;
 };
 Settling settling_of(const std::string& name, double duration) {
-  const ResolvedScene resolved =
-      read_scene(HAGFISH_STRESS_DIR "/" + name + ".toml",
-                 {"time.rule=midpoint", "time.step=0.002", "guard.energy_action=warn"});
-  const Model model = make_hagfish(resolved.specimen, resolved.scene);
-  Scene patient = resolved.scene;
+  StressRun run(name, 0.002);
+  const double tolerance = run.resolved.scene.time.settled;
+  Scene patient = run.resolved.scene;
   patient.time.settled = 1e-9;
-  Simulation sim = start(model, resolved.scene, "active-set");
-  StepRecord record, settled;
+  StepRecord settled;
   Settling seen;
-  while (time_of(sim, resolved.scene) < duration) {
-    Simulation twin = sim;
-    take_step(model, patient, twin, settled);
-    take_step(model, resolved.scene, sim, record);
-    const double off = (record.solution.qdot - settled.solution.qdot).lpNorm<Eigen::Infinity>();
-    seen.worst = std::max(seen.worst, off / resolved.scene.time.settled);
-    seen.passes += record.solution.passes;
+  while (run.time() < duration) {
+    Simulation twin = run.sim;
+    take_step(run.model, patient, twin, settled);
+    run.step();
+    const StepSolution& step = run.record.solution;
+    const double off = (step.qdot - settled.solution.qdot).lpNorm<Eigen::Infinity>();
+    seen.worst = std::max(seen.worst, off / tolerance);
+    seen.passes += step.passes;
     seen.all_passes += settled.solution.passes;
   }
   std::cout << "[ FIGURE   ] " << name << ": off by " << seen.worst
@@ -258,19 +269,14 @@ TEST(Midpoint, KnowsWhatFurtherPassesWouldChange) {
 
 // Rows that the path of a step shows move its middle: it is found anew.
 TEST(Midpoint, SettlesWithTheRowsOfItsPath) {
-  const ResolvedScene resolved =
-      read_scene(HAGFISH_STRESS_DIR "/pulled_knot.toml",
-                 {"time.rule=midpoint", "time.step=0.01", "guard.energy_action=warn"});
-  const Model model = make_hagfish(resolved.specimen, resolved.scene);
-  Simulation sim = start(model, resolved.scene, "active-set");
-  StepRecord record;
+  StressRun run("pulled_knot", 0.01);
   int with_path_rows = 0;
   for (int i = 0; i < 30; ++i) {
-    take_step(model, resolved.scene, sim, record);
-    const StepSolution& step = record.solution;
+    run.step();
+    const StepSolution& step = run.record.solution;
     with_path_rows += step.path_rows.empty() ? 0 : 1;
     const double off = (step.qdot - step.middle.moved).lpNorm<Eigen::Infinity>();
-    EXPECT_LE(std::min(1.0, step.remaining) * off, resolved.scene.time.settled) << i;
+    EXPECT_LE(std::min(1.0, step.remaining) * off, run.resolved.scene.time.settled) << i;
     EXPECT_EQ(step.unsettled, 0) << i;
   }
   EXPECT_GE(with_path_rows, 10);
