@@ -290,19 +290,26 @@ void ClosestPointsSearch::sample(int samples, std::span<const ClosestPointsQuery
       },
       b);
   const auto found = basins(a, b, samples);
+  const double spacing = 1.0 / (samples - 1);
   for (int k = 0; k < count; ++k) {
     const bool single = std::has_single_bit(found[k]);
     for (std::uint64_t bits = found[k]; bits != 0; bits &= bits - 1) {
       const int bit = std::countr_zero(bits);
       const int i = bit / most_samples;
       const int j = bit % most_samples;
-      Descent& descent = descents_.emplace_back();
-      descent.query = first + k;
-      descent.t_a = static_cast<double>(i) / (samples - 1);
-      descent.t_b = static_cast<double>(j) / (samples - 1);
-      const bool guessed = single && query(k).guess;
-      descent.guess_a = guessed ? query(k).guess->t_a : descent.t_a;
-      descent.guess_b = guessed ? query(k).guess->t_b : descent.t_b;
+      const double t_a = spacing * i;
+      const double t_b = spacing * j;
+      if (!single || !query(k).guess) {
+        descents_.push_back({first + k, t_a, t_b, t_a, t_b});
+        continue;
+      }
+      const auto& [guess_a, guess_b, gap] = *query(k).guess;
+      if (std::max(std::abs(guess_a - t_a), std::abs(guess_b - t_b)) <= spacing) {
+        descents_.push_back({first + k, t_a, t_b, guess_a, guess_b});
+      } else {  // it may be of a basin that the samples do not resolve
+        descents_.push_back({first + k, t_a, t_b, t_a, t_b});
+        descents_.push_back({first + k, guess_a, guess_b, guess_a, guess_b});
+      }
     }
   }
 }

@@ -32,7 +32,8 @@ struct ClosestPointsQuery {
 /// (Gauss-Newton); steps are cut until the gap falls, parameters stay in [0, 1]. Plain clamped
 /// Newton cycles on 7 % of candidate pairs.
 /// Starts from samples of both segments, one in each basin that they resolve; where there is only
-/// one, the guess replaces it if its gap is smaller.
+/// one, the guess replaces it if its gap is smaller, or is a second start where it is further off
+/// than the next sample.
 ///
 /// Queries are answered side by side, as many as a vector register has lanes, each as if it were
 /// alone; tests/support/closest_points_reference.cpp answers one, as one would write it.

@@ -22,6 +22,13 @@ void put(PathRow row, StepSolution& step) {
   }
 }
 
+/// How many rows of the contact with this id the path has shown in this step.
+int cuts_of(std::int64_t id, const StepSolution& step) {
+  return static_cast<int>(std::ranges::count_if(step.path_rows, [&](const PathRow& shown) {
+    return shown.contact && contact_row_id(*shown.contact) == id;
+  }));
+}
+
 }  // namespace
 
 int path_samples(const Eigen::Matrix3Xd& centre_velocity, double h, double stride) {
@@ -58,7 +65,9 @@ bool add_missed_rows(const StepInput& in, const Observation& there, double t, St
         const Contact before = contact_at(now.segments, contact.segment_a, contact.t_a,
                                           contact.segment_b, contact.t_b);
         check(before.gap, contact.gap, [&] {
-          return PathRow{contact_row(in.model, placed(before, in.moved_segments())), before};
+          return PathRow{contact_row(in.model, placed(before, in.moved_segments()),
+                                     cuts_of(contact_row_id(before), step)),
+                         before};
         });
       }
     }

@@ -28,7 +28,9 @@ int path_samples(const Eigen::Matrix3Xd& centre_velocity, double h, double strid
 ///     φ_now + h C q̇ + (φ_there - φ_now - t C q̇_step) (h/t)² >= goal,
 /// where the bracket is what the linear row misses at t, of second order, and the goal is 0, or
 /// what the Baumgarte gain leaves of an overlap that was there before; h C q̇ is asked to be
-/// `stride` at most. It replaces a row of the same id. Whether there was any.
+/// `stride` at most. A contact's first row of these replaces that of the step's start; others come
+/// on top, as strands turn about the points of one row and meet beside it. A wall's row replaces
+/// the one before. Whether there was any.
 bool add_missed_rows(const StepInput& in, const Observation& there, double t, StepSolution& step);
 
 /// A bend past its cone that is accepted at the end of a step, rad. The next step leaves half of it

@@ -53,8 +53,8 @@ Row placed_row(const StepInput& in, const PathRow& shown) {
   if (!shown.contact) {
     return shown.row;
   }
-  Row row = contact_row(in.model, placed(*shown.contact, in.moved_segments()));
-  row.rhs = shown.row.rhs;
+  Row row = shown.row;
+  row.direction = placed(*shown.contact, in.moved_segments()).normal;
   return row;
 }
 

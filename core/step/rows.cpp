@@ -14,6 +14,9 @@ constexpr double unbounded = std::numeric_limits<double>::infinity();
 /// on for a cone.
 constexpr int first_cone_row = 2;
 
+/// What the ids of a contact's rows in one step differ by: more than any kind's.
+constexpr std::int64_t next_cut = std::int64_t{1} << 48;
+
 std::int64_t row_id(RowKind kind, int first, int second) {
   return (static_cast<std::int64_t>(kind) << 40) | (static_cast<std::int64_t>(first) << 20) |
          second;
@@ -135,10 +138,10 @@ std::int64_t contact_row_id(const Contact& contact) {
   return row_id(RowKind::contact, contact.segment_a, contact.segment_b);
 }
 
-Row contact_row(const Model& model, const Contact& contact) {
+Row contact_row(const Model& model, const Contact& contact, int cut) {
   Row row;
   row.kind = RowKind::contact;
-  row.id = contact_row_id(contact);
+  row.id = contact_row_id(contact) + cut * next_cut;
   set_points(row, contact, contact.normal, model.body_count());
   return row;
 }

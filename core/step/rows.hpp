@@ -35,8 +35,8 @@ struct Row {
   double sign = 1;    ///< of a unit row +1 or -1
   double beside = 0;  ///< of a unit row 0
   /// Same from step to step for the same physical constraint: limits by dof and side, cones by dof
-  /// and which of their rows in the step, contacts by segments, thigmotaxis by the knot's end or by
-  /// segments, and tangent.
+  /// and contacts by segments, each and which of their rows in the step, thigmotaxis by the knot's
+  /// end or by segments, and tangent.
   std::int64_t id = 0;
   int command = -1;  ///< of a thigmotaxis row: the index of its command
   /// C q̇ = direction . (ẋ_a - ẋ_b), each point a mix of body centres; `b` may have none.
@@ -107,8 +107,9 @@ struct NearBinding {
   }
 };
 
-/// A contact's row: the exact rate of its gap, with no right-hand side yet.
-Row contact_row(const Model& model, const Contact& contact);
+/// A contact's row: the exact rate of its gap, with no right-hand side yet. `cut` 0 is that of the
+/// step's start; others come on top (core/step/look_ahead.hpp).
+Row contact_row(const Model& model, const Contact& contact, int cut = 0);
 /// The row of body `body` against the head plate, with no right-hand side yet.
 Row wall_row(int body);
 

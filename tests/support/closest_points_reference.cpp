@@ -179,14 +179,21 @@ ClosestPoints closest_points_reference(const SplineSegment& a, const SplineSegme
   const auto start = [&](int k) {
     return iterate_at(a, b, starts.at[k].first, starts.at[k].second);
   };
-  Iterate first = start(0);
+  Iterate best = descend(a, b, start(0));
   if (guess && starts.count == 1) {
     const Iterate guessed = iterate_at(a, b, guess->t_a, guess->t_b);
-    if (guessed.gap < first.gap) {
-      first = guessed;
+    const Iterate first = start(0);
+    const bool apart =
+        std::max(std::abs(first.t_a - guess->t_a), std::abs(first.t_b - guess->t_b)) *
+            (samples - 1) >
+        1;
+    if (apart) {
+      const Iterate other = descend(a, b, guessed);
+      best = other.gap < best.gap ? other : best;
+    } else if (guessed.gap < first.gap) {
+      best = descend(a, b, guessed);
     }
   }
-  Iterate best = descend(a, b, first);
   for (int k = 1; k < starts.count; ++k) {
     const Iterate other = descend(a, b, start(k));
     if (other.gap < best.gap) {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <string>
+#include <tuple>
 
 #include "core/input/scene_reader.hpp"
 #include "core/knot/writhe.hpp"
@@ -77,7 +79,7 @@ void expect_whole(const ResolvedScene& resolved) {
   EXPECT_EQ(seen.last_type, KnotInvariants{});
   EXPECT_GE(seen.head_end_at_slide, expect.slide_distance);
   EXPECT_LE(seen.worst.penetration, expect.penetration);
-  EXPECT_LE(expect.penetration, 0.002);
+  EXPECT_LE(expect.penetration, 0.001);
   EXPECT_LE(seen.worst.limit_violation, expect.limit_violation);
   EXPECT_LE(seen.worst.head_drift, expect.head_drift);
   EXPECT_LE(seen.worst.kkt, expect.kkt);
@@ -112,6 +114,31 @@ TEST(KnotScenesByActivations, TieHoldSlideAndComeOffAtAnyStep) {
                       "expect.speed_share=0", std::string("time.step=") + step}));
   }
 }
+
+/// Rule and step of a run.
+class KnotScenesAtLongSteps : public testing::TestWithParam<std::tuple<const char*, const char*>> {
+};
+
+// Strands turn about the points of a contact's row, within a step that is corrected by one row a
+// pair of segments, and overlap by 0.003 (midpoint) to 0.02 cm.
+TEST_P(KnotScenesAtLongSteps, TieHoldSlideAndComeOff) {
+  const auto& [rule, step] = GetParam();
+  for (const char* scene :
+       {"table1", "overhand_waypoints", "figure_eight", "double_overhand", "three_twist"}) {
+    SCOPED_TRACE(scene);
+    expect_whole(
+        scene_called(scene, {std::string("time.rule=") + rule, std::string("time.step=") + step}));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Rules, KnotScenesAtLongSteps,
+                         testing::Combine(testing::Values("euler", "midpoint"),
+                                          testing::Values("0.01", "0.02")),
+                         [](const auto& param) {
+                           return std::string(std::get<0>(param.param)) +
+                                  (std::string(std::get<1>(param.param)) == "0.01" ? "_10_ms"
+                                                                                   : "_20_ms");
+                         });
 
 TEST(KnotScenesByTheMidpointRule, TieHoldSlideAndComeOff) {
   for (const char* scene :
@@ -155,7 +182,7 @@ TEST(KnotScenesByTheMidpointRule, StiffBodiesLetGoWithoutEnergyOfTheirOwn) {
       EXPECT_EQ(record.warnings, std::vector<std::string>{});
     }
     EXPECT_EQ(sim.controller.phase, Phase::free);
-    EXPECT_LE(worst.penetration, 0.0015);
+    EXPECT_LE(worst.penetration, 0.001);
   }
 }
 

@@ -153,7 +153,7 @@ const RuleCell rule_cells[] = {
     {"no_watch", "short_bodies", 0.002, 0.005},
     {"no_watch", "pulled_knot", 0.002, 0.005},
     {"no_watch", "knot_into_head", 0.005, 0.01},
-    {"no_watch", "parallel", 0.001, 0.002},
+    {"no_watch", "parallel", 0.002, 0.005},
     {"no_watch", "table1", 0.05, 0},
     {"no_watch", "stiff_joints", 0.05, 0},
     {"no_watch", "stiff_tip", 0.05, 0},

@@ -190,6 +190,20 @@ TEST(ClosestPoints, OfWildStrandsSeldomLieInAnotherBasin) {
   EXPECT_LE(missed.count, 120) << "worst by " << missed.worst << " cm";
 }
 
+TEST(ClosestPoints, FromWhereTheyWereAreAsLowAsFromSamples) {
+  Random random(66);
+  int higher = 0;
+  for (const auto& [a, b] : pairs_of(wild_pair, 66, 10000)) {
+    SplineSegment before = b;
+    before.c0 += 0.1 * random_vector(random);
+    const double gap = closest_points(a, b, closest_points(a, before)).gap;
+    higher += gap > closest_points(a, b).gap + 1e-9 ? 1 : 0;  // both to rounding
+  }
+  // Of basins next to each other either may be found: in 4, and in 16 where the guess is all that a
+  // search starts from.
+  EXPECT_LE(higher, 8);
+}
+
 TEST(ClosestPoints, OfManyPairsAtOnceAreThoseOfEachAlone) {
   // Lanes do not mix: to the last bit, wherever a pair stands among others and however many there
   // are.

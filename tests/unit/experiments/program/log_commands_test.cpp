@@ -138,7 +138,7 @@ TEST_F(LogCommandsTest, CheckWritesARowForEachLogAndCriterion) {
   EXPECT_EQ(rows[1], (Row{"b.h5", "status", "complete", "complete", "", "yes"}));
   const auto has = [&rows](const Row& row) { return std::ranges::count(rows, row) == 1; };
   EXPECT_TRUE(has({"a.h5", "slide", "", "9", "cm", "no"})) << text_of("a.csv");
-  EXPECT_TRUE(has({"a.h5", "penetration", "0", "0.0015", "cm", "yes"})) << text_of("a.csv");
+  EXPECT_TRUE(has({"a.h5", "penetration", "0", "0.001", "cm", "yes"})) << text_of("a.csv");
   EXPECT_TRUE(has({"a.h5", "knot held", "", "", "frames", "no"})) << text_of("a.csv");
   EXPECT_TRUE(has({"b.h5", "f_thigmo past the knot", "0", "0", "dyn cm", "yes"}));
   // As many verdicts of each kind as the table for people has.
