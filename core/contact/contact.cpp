@@ -101,6 +101,12 @@ void evaluate_with_neighbours(const std::vector<SplineSegment>& segments,
 
 }  // namespace
 
+Eigen::Vector3d contact_normal(const std::vector<SplineSegment>& segments, const Contact& contact) {
+  return (segments[contact.segment_a].point(contact.t_a) -
+          segments[contact.segment_b].point(contact.t_b))
+      .normalized();
+}
+
 Contact contact_at(const std::vector<SplineSegment>& segments, int segment_a, double t_a,
                    int segment_b, double t_b) {
   const SplineSegment& a = segments[segment_a];

@@ -34,6 +34,9 @@ struct ContactSet {
   double least_gap = 0;
 };
 
+/// Contact::normal between the points of `contact` where the segments are now.
+Eigen::Vector3d contact_normal(const std::vector<SplineSegment>& segments, const Contact& contact);
+
 /// The pair of spline points (segment_a, t_a) and (segment_b, t_b), whatever the gap there.
 Contact contact_at(const std::vector<SplineSegment>& segments, int segment_a, double t_a,
                    int segment_b, double t_b);

@@ -65,7 +65,7 @@ bool add_missed_rows(const StepInput& in, const Observation& there, double t, St
         const Contact before = contact_at(now.segments, contact.segment_a, contact.t_a,
                                           contact.segment_b, contact.t_b);
         check(before.gap, contact.gap, [&] {
-          return PathRow{contact_row(in.model, placed(before, in.moved_segments()),
+          return PathRow{contact_row(in.model, before, in.moved_segments(),
                                      cuts_of(contact_row_id(before), step)),
                          before};
         });

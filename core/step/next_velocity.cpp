@@ -1,6 +1,7 @@
 // The velocity after a step of the midpoint rule (core/README.md, "Steps in time").
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "core/step/step.hpp"
@@ -11,6 +12,9 @@ namespace {
 /// Rows that repeat each other leave their Eq. 4 singular: this share of its largest diagonal entry
 /// is added, which changes impacts by as little.
 constexpr double least_pivot = 1e-10;
+
+/// Velocities of prescribed rows that jump by less, rad/s or cm/s, are rounding to the other rows.
+constexpr double least_jump = 1e-9;
 
 bool pushes(const Row& row, double lambda) {
   return lambda != 0 && lambda > row.lower && lambda < row.upper;
@@ -148,8 +152,9 @@ Status StepSolver::set_next_velocity(const StepInput& in, StepSolution& step) {
       add_row(step.rows[i], kin, step.rows[i].impact, scratch_.wrench, scratch_.joint);
     }
     if (!scratch_.hit.empty()) {
-      if (!scratch_.full.empty() ||
-          std::ranges::any_of(scratch_.jumps, [](const auto& jump) { return jump.value != 0; })) {
+      if (!scratch_.full.empty() || std::ranges::any_of(scratch_.jumps, [](const auto& jump) {
+            return std::abs(jump.value) > least_jump;
+          })) {
         respond(in, scratch_.factor, step);
         centre_velocities(kin, scratch_.impact_twist, scratch_.impact_centre_velocity);
         for (std::size_t k = 0; k < scratch_.hit.size(); ++k) {

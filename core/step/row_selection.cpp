@@ -6,8 +6,9 @@
 namespace hagfish {
 namespace {
 
-/// A row is left out at first where rest and the last step's velocity keep this much clear of it,
-/// cm/s or rad/s. Only speed depends on it: rows left out are checked after the solve.
+/// A row is left out at first where rest and the velocity before, of the last step or pass, keep
+/// this much clear of it, cm/s or rad/s. Only speed depends on it: rows left out are checked after
+/// the solve.
 constexpr double lazy_reach = 0.03;
 /// A row left out counts as violated below this, cm/s or rad/s: at h = 2 ms, 2e-11 cm or rad.
 constexpr double lazy_tolerance = 1e-8;
@@ -35,7 +36,6 @@ void append_unilateral_rows(const StepInput& in, const NearBinding& wanted, Cond
 
 void gather_rows(const StepInput& in, const WarmStart& warm, std::vector<Row>& rows) {
   const double h = in.scene.time.step;
-  const Eigen::Matrix3Xd& centre_velocity = in.observation.kin.centre_velocity;
   rows.clear();
   if (in.control.clamp_head) {
     append_head_rows(in.state, in.scene.constraints, h, rows);
@@ -45,8 +45,8 @@ void gather_rows(const StepInput& in, const WarmStart& warm, std::vector<Row>& r
   const auto pushed = [&](const Contact& contact) {
     return warm.find(contact_row_id(contact)) != nullptr;
   };
-  append_unilateral_rows(in, {in.state.qdot, centre_velocity, lazy_reach, lazy_reach}, pushed,
-                         rows);
+  const Eigen::VectorXd& v = in.midway == nullptr ? in.state.qdot : in.midway->moved;
+  append_unilateral_rows(in, {v, in.kin().centre_velocity, lazy_reach, lazy_reach}, pushed, rows);
 }
 
 Row placed_row(const StepInput& in, const PathRow& shown) {
@@ -54,7 +54,9 @@ Row placed_row(const StepInput& in, const PathRow& shown) {
     return shown.row;
   }
   Row row = shown.row;
-  row.direction = placed(*shown.contact, in.moved_segments()).normal;
+  if (in.moved_segments() != nullptr) {
+    row.direction = contact_normal(*in.moved_segments(), *shown.contact);
+  }
   return row;
 }
 

@@ -34,6 +34,13 @@ std::int64_t thigmotaxis_id(const ThigmotaxisCommand& command, bool on_a) {
              : row_id(RowKind::thigmotaxis, static_cast<int>(command.end), along);
 }
 
+/// `contact` as it was found, or between the same points of the segments `at`.
+Contact placed(const Contact& contact, const std::vector<SplineSegment>* at) {
+  return at == nullptr
+             ? contact
+             : contact_at(*at, contact.segment_a, contact.t_a, contact.segment_b, contact.t_b);
+}
+
 /// Relative motion along `direction` of the two spline points of a contact.
 void set_points(Row& row, const Contact& contact, const Eigen::Vector3d& direction, int bodies) {
   row.direction = direction;
@@ -138,11 +145,13 @@ std::int64_t contact_row_id(const Contact& contact) {
   return row_id(RowKind::contact, contact.segment_a, contact.segment_b);
 }
 
-Row contact_row(const Model& model, const Contact& contact, int cut) {
+Row contact_row(const Model& model, const Contact& contact, const std::vector<SplineSegment>* at,
+                int cut) {
   Row row;
   row.kind = RowKind::contact;
   row.id = contact_row_id(contact) + cut * next_cut;
-  set_points(row, contact, contact.normal, model.body_count());
+  set_points(row, contact, at == nullptr ? contact.normal : contact_normal(*at, contact),
+             model.body_count());
   return row;
 }
 
@@ -240,12 +249,6 @@ void append_limit_rows(const Model& model, const State& state, const ConstraintS
   append_cone_rows(model, state, settings, h, wanted, rows);
 }
 
-Contact placed(const Contact& contact, const std::vector<SplineSegment>* at) {
-  return at == nullptr
-             ? contact
-             : contact_at(*at, contact.segment_a, contact.t_a, contact.segment_b, contact.t_b);
-}
-
 void append_contact_row(const Model& model, const Contact& contact,
                         const std::vector<SplineSegment>* at, const ConstraintSettings& settings,
                         double h, const NearBinding& wanted, std::vector<Row>& rows) {
@@ -253,7 +256,7 @@ void append_contact_row(const Model& model, const Contact& contact,
   if (!rhs) {
     return;
   }
-  Row& row = rows.emplace_back(contact_row(model, placed(contact, at)));
+  Row& row = rows.emplace_back(contact_row(model, contact, at));
   row.rhs = *rhs;
   if (!wanted(row_velocity(row, wanted.centre_velocity, wanted.v), row.rhs)) {
     rows.pop_back();

@@ -107,9 +107,11 @@ struct NearBinding {
   }
 };
 
-/// A contact's row: the exact rate of its gap, with no right-hand side yet. `cut` 0 is that of the
-/// step's start; others come on top (core/step/look_ahead.hpp).
-Row contact_row(const Model& model, const Contact& contact, int cut = 0);
+/// A contact's row, with no right-hand side yet: the exact rate of its gap, as it was found or
+/// between the same points of the segments `at`. `cut` 0 is that of the step's start; others come
+/// on top (core/step/look_ahead.hpp).
+Row contact_row(const Model& model, const Contact& contact, const std::vector<SplineSegment>* at,
+                int cut = 0);
 /// The row of body `body` against the head plate, with no right-hand side yet.
 Row wall_row(int body);
 
@@ -126,9 +128,6 @@ void append_head_rows(const State& state, const ConstraintSettings& settings, do
 /// its joint is straight.
 void append_limit_rows(const Model& model, const State& state, const ConstraintSettings& settings,
                        double h, const NearBinding& wanted, std::vector<Row>& rows);
-
-/// `contact` as it was found, or between the same points of the segments `at`.
-Contact placed(const Contact& contact, const std::vector<SplineSegment>* at);
 
 /// As Row::id of the contact's row.
 std::int64_t contact_row_id(const Contact& contact);

@@ -132,6 +132,7 @@ Status StepSolver::find_middle(const StepInput& in, bool balanced, StepSolution&
       step.unsettled = off;
       return {};
     }
+    keep_pass(step);
     scratch_.placed_by << midway.moved, midway.felt;
     scratch_.led_to << step.qdot, 0.5 * (in.state.qdot + step.next);
     scratch_.passes.mix(scratch_.placed_by, scratch_.led_to, scratch_.mixed);
@@ -180,8 +181,20 @@ Status StepSolver::resume(const StepInput& in, StepSolution& step) {
       (step.qdot - in.midway->moved).lpNorm<Eigen::Infinity>() <= in.scene.time.settled) {
     return status;
   }
+  keep_pass(step);
   scratch_.first_guess << step.qdot, 0.5 * (in.state.qdot + step.next);
   return settle(in, step);
+}
+
+/// Keeps the multipliers of a pass for the next one.
+void StepSolver::keep_pass(const StepSolution& step) {
+  warm.begin();
+  for (std::size_t i = 0; i < step.rows.size(); ++i) {
+    if (const double lambda = step.lambda[static_cast<Eigen::Index>(i)]; lambda != 0) {
+      warm.add(step.rows[i].id, lambda);
+    }
+  }
+  warm.end();
 }
 
 Status StepSolver::solve(const StepInput& in, StepSolution& step) {

@@ -189,7 +189,7 @@ class StepSolver {
   /// of the back end. Copies are asked the same.
   void stop_when(std::function<bool()> asked);
 
-  /// What the last step left for the next one.
+  /// What the last step left for the next one, or a pass for the next.
   WarmStart warm;
 
   /// Intermediate results of the last step.
@@ -213,6 +213,7 @@ class StepSolver {
   Status set_next_velocity(const StepInput& in, StepSolution& step);
   bool solve_multipliers(StepSolution& step);
   bool add_violated(const StepInput& in, StepSolution& step);
+  void keep_pass(const StepSolution& step);
   void measure_rows(StepSolution& step);
   void keep_active(const StepSolution& step);
 

@@ -279,6 +279,9 @@ int main(int argc, char** argv) {
                           restart);
         }
       }
+      add_core_step("step_midpoint",
+                    std::make_shared<Start>(knotted_start(argv[k], TimeRule::midpoint)),
+                    "active-set", restarts.front());
       add_core_step("step_free", free, box_qp_solver_names().front(), restarts.front());
       add_mujoco_step("step_free", free, mirror_of(*free), 0, restarts.front());
     }

@@ -40,7 +40,7 @@ bool clamped(const Start& start) {
 
 }  // namespace
 
-Start knotted_start(const std::string& log) {
+Start knotted_start(const std::string& log, TimeRule rule) {
   const LogContents contents(log);
   const auto slide = static_cast<std::int64_t>(Phase::slide);
   const auto [first, last] = std::ranges::equal_range(contents.phase, slide);
@@ -48,6 +48,7 @@ Start knotted_start(const std::string& log) {
     throw FileError(log + ": the knot never slides");
   }
   Start start{contents.resolved.scene, contents.model, {}};
+  start.scene.time.rule = rule;
   for (int k = 0; k < knotted_states; ++k) {
     const Eigen::Index frame =
         (first - contents.phase.begin()) + (last - first) * (2 * k + 1) / (2 * knotted_states);

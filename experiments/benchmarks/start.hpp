@@ -22,8 +22,8 @@ struct Start {
 };
 
 /// Five states of a log, in the middles of as many equal parts of the slide: knotted and tight, the
-/// head clamped. Throws FileError where the log has no slide.
-Start knotted_start(const std::string& log);
+/// head clamped, to go on by `rule`. Throws FileError where the log has no slide.
+Start knotted_start(const std::string& log, TimeRule rule = TimeRule::euler);
 
 /// The same animal without contact: a gentle wave that stays clear of limits and of itself, slowly
 /// moving, the head free.

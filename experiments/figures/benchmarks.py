@@ -73,6 +73,8 @@ def print_ratios(times: Times, quickest: Quickest) -> None:
     row("step without contact: MuJoCo over core", [f"{times[('mujoco', 'step_free:10')][n] / free[n]:.1f}" for n in bodies])
     knotted = times[("core", "step_knotted_active-set:10")]
     row("knotted step, over 100 bodies", [f"{knotted[n] / knotted[100]:.2f}" for n in bodies])
+    midpoint = times[("core", "step_midpoint:10")]
+    row("knotted step by the midpoint rule, over Euler's", [f"{midpoint[n] / knotted[n]:.2f}" for n in bodies])
     row("QP: Ipopt over active-set, both warm",
         [f"{times[('core', 'qp_ipopt')][n] / times[('core', 'qp_active-set')][n]:.0f}" for n in bodies])
     as_is = times[("core", "prescribe_all")]

@@ -86,8 +86,9 @@ TEST(Midpoint, MeetsItsEquationsInAKnot) {
         const double size = 1e-9 * std::abs(lambda[i]);
         if (lambda[i] == 0 || lambda[i] - row.lower < size || row.upper - lambda[i] < size)
           continue;
-        // To the shift of the impacts' diagonal, times speeds of some 10.
-        EXPECT_NEAR(c.row(i).dot(step.next), row.rhs, 1e-6) << k << " row " << i;
+        // To the shift of the impacts' diagonal, times speeds of some 30 and what rows that nearly
+        // repeat each other make of it.
+        EXPECT_NEAR(c.row(i).dot(step.next), row.rhs, 1e-5) << k << " row " << i;
         ++pushing;
       }
     });
