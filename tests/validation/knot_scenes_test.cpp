@@ -231,8 +231,8 @@ bool holds(const ResolvedScene& resolved) {
   return true;
 }
 
-// The soft body's 5_2 churns as it pulls and comes undone from 2 in 16 starts (leverage.md): from
-// 5 in 8 or more once in some 1000 times.
+// The soft body's 5_2 churns as it pulls and comes undone from 13 in 64 starts (leverage.md):
+// from 5 in 8 or more once in some 100 times.
 TEST(PullOfTheThreeTwist, HoldsFromMostStarts) {
   int held = 0;
   for (int seed = 1; seed <= 8; ++seed) {
