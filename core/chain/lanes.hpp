@@ -26,6 +26,8 @@ template <class To, class From>
 To bits_as(const From& from) {
   static_assert(sizeof(To) == sizeof(From));
   To to;
+  // Eigen's arrays of fixed size are their numbers and no more.
+  // NOLINTNEXTLINE(bugprone-undefined-memory-manipulation)
   std::memcpy(static_cast<void*>(&to), &from, sizeof to);
   return to;
 }
