@@ -299,16 +299,12 @@ void ClosestPointsSearch::sample(int samples, std::span<const ClosestPointsQuery
       const int j = bit % most_samples;
       const double t_a = spacing * i;
       const double t_b = spacing * j;
-      if (!single || !query(k).guess) {
-        descents_.push_back({first + k, t_a, t_b, t_a, t_b});
-        continue;
-      }
-      const auto& [guess_a, guess_b, gap] = *query(k).guess;
-      if (std::max(std::abs(guess_a - t_a), std::abs(guess_b - t_b)) <= spacing) {
-        descents_.push_back({first + k, t_a, t_b, guess_a, guess_b});
-      } else {  // it may be of a basin that the samples do not resolve
-        descents_.push_back({first + k, t_a, t_b, t_a, t_b});
-        descents_.push_back({first + k, guess_a, guess_b, guess_a, guess_b});
+      const ClosestPoints guess =
+          single && query(k).guess ? *query(k).guess : ClosestPoints{t_a, t_b};
+      const bool near = std::max(std::abs(guess.t_a - t_a), std::abs(guess.t_b - t_b)) <= spacing;
+      descents_.push_back({first + k, t_a, t_b, near ? guess.t_a : t_a, near ? guess.t_b : t_b});
+      if (!near) {  // it may be of a basin that the samples do not resolve
+        descents_.push_back({first + k, guess.t_a, guess.t_b, guess.t_a, guess.t_b});
       }
     }
   }

@@ -179,10 +179,10 @@ ClosestPoints closest_points_reference(const SplineSegment& a, const SplineSegme
   const auto start = [&](int k) {
     return iterate_at(a, b, starts.at[k].first, starts.at[k].second);
   };
-  Iterate best = descend(a, b, start(0));
+  const Iterate first = start(0);
+  Iterate best = descend(a, b, first);
   if (guess && starts.count == 1) {
     const Iterate guessed = iterate_at(a, b, guess->t_a, guess->t_b);
-    const Iterate first = start(0);
     const bool apart =
         std::max(std::abs(first.t_a - guess->t_a), std::abs(first.t_b - guess->t_b)) *
             (samples - 1) >
