@@ -75,48 +75,82 @@ std::optional<Meeting> meet(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
 /// Of the closed polygon `view`: behind the last comes the first.
 auto vertex(const Eigen::Matrix3Xd& view, int k) { return view.col(k < view.cols() ? k : 0); }
 
-void set_box(const Eigen::Matrix3Xd& view, int edge, EdgeBoxes& boxes) {
+void set_box(const Eigen::Matrix3Xd& view, int edge, Rectangles& edges) {
   const auto from = vertex(view, edge);
   const auto to = vertex(view, edge + 1);
-  boxes.left[edge] = std::min(from.x(), to.x());
-  boxes.right[edge] = std::max(from.x(), to.x());
-  boxes.bottom[edge] = std::min(from.y(), to.y());
-  boxes.top[edge] = std::max(from.y(), to.y());
+  edges.left[edge] = std::min(from.x(), to.x());
+  edges.right[edge] = std::max(from.x(), to.x());
+  edges.bottom[edge] = std::min(from.y(), to.y());
+  edges.top[edge] = std::max(from.y(), to.y());
+}
+
+/// So many empty ones, and at least a batch more, which overlap none.
+Rectangles empty_rectangles(Eigen::Index count) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const Eigen::Index size = count + batch;
+  Rectangles none;
+  none.left = none.bottom = Eigen::ArrayXd::Constant(size, infinity);
+  none.right = none.top = Eigen::ArrayXd::Constant(size, -infinity);
+  return none;
 }
 
 /// Of the edges of the closed polygon `view`.
 EdgeBoxes boxes_of_edges(const Eigen::Matrix3Xd& view) {
-  EdgeBoxes boxes;
-  for (Eigen::ArrayXd* bounds : {&boxes.left, &boxes.right, &boxes.bottom, &boxes.top}) {
-    bounds->setConstant(view.cols() + batch, std::numeric_limits<double>::infinity());
+  const int count = static_cast<int>(view.cols());
+  const int batches = (count + batch - 1) / batch;
+  EdgeBoxes boxes{empty_rectangles(count), empty_rectangles(batches)};
+  for (int edge = 0; edge < count; ++edge) {
+    set_box(view, edge, boxes.edges);
   }
-  for (int edge = 0; edge < view.cols(); ++edge) {
-    set_box(view, edge, boxes);
+  for (int k = 0; k < batches; ++k) {
+    boxes.batches.left[k] = boxes.edges.left.segment<batch>(batch * k).minCoeff();
+    boxes.batches.right[k] = boxes.edges.right.segment<batch>(batch * k).maxCoeff();
+    boxes.batches.bottom[k] = boxes.edges.bottom.segment<batch>(batch * k).minCoeff();
+    boxes.batches.top[k] = boxes.edges.top.segment<batch>(batch * k).maxCoeff();
   }
   return boxes;
+}
+
+/// By how much rectangle `i` of `a` is clear of those from `first` on of `b`; negative: overlaps.
+Eigen::Array<double, batch, 1> clearance(const Rectangles& a, int i, const Rectangles& b,
+                                         int first) {
+  return (b.left.segment<batch>(first) - a.right[i])
+      .max(a.left[i] - b.right.segment<batch>(first))
+      .max(b.bottom.segment<batch>(first) - a.top[i])
+      .max(a.bottom[i] - b.top.segment<batch>(first));
+}
+
+/// Visits those of [begin, end) in `b` that rectangle `i` of `a` is not clear of by more than
+/// `tolerance`.
+template <class Visit>
+void visit_near(const Rectangles& a, int i, const Rectangles& b, int begin, int end,
+                double tolerance, const Visit& visit) {
+  for (int first = begin / batch * batch; first < end; first += batch) {
+    const auto apart = clearance(a, i, b, first);
+    if (!(apart <= tolerance).any()) continue;
+    for (int j = std::max(first, begin); j < std::min(first + batch, end); ++j) {
+      if (apart[j - first] <= tolerance) visit(j);
+    }
+  }
 }
 
 /// Adds the crossings of an edge of `view` with those of [begin, end).
 void cross_edges(const Eigen::Matrix3Xd& view, const EdgeBoxes& boxes, int edge, int begin, int end,
                  double tolerance, Diagram& diagram) {
-  for (int first = begin; first < end; first += batch) {
-    const Eigen::Array<double, batch, 1> apart =
-        (boxes.left.segment<batch>(first) - boxes.right[edge])
-            .max(boxes.left[edge] - boxes.right.segment<batch>(first))
-            .max(boxes.bottom.segment<batch>(first) - boxes.top[edge])
-            .max(boxes.bottom[edge] - boxes.top.segment<batch>(first));
-    if (!(apart <= tolerance).any()) continue;
-    for (int j = first; j < std::min(first + batch, end); ++j) {
-      if (!(apart[j - first] <= tolerance)) continue;
+  const int last_batch = (end + batch - 1) / batch;
+  visit_near(boxes.edges, edge, boxes.batches, begin / batch, last_batch, tolerance, [&](int k) {
+    const int from = std::max(begin, batch * k);
+    const int to = std::min(end, batch * (k + 1));
+    visit_near(boxes.edges, edge, boxes.edges, from, to, tolerance, [&](int j) {
       const auto meeting = meet(vertex(view, edge), vertex(view, edge + 1), vertex(view, j),
                                 vertex(view, j + 1), tolerance);
-      if (!meeting) continue;
+      if (!meeting) return;
       const int crossing = static_cast<int>(diagram.sign.size());
       diagram.sign.push_back(meeting->sign);
       diagram.passages.push_back({edge, meeting->at_first, crossing, meeting->first_over});
       diagram.passages.push_back({j, meeting->at_second, crossing, !meeting->first_over});
-    }
-  }
+    });
+  });
 }
 
 bool earlier(const Passage& p, const Passage& q) {
@@ -136,8 +170,8 @@ void check_order(const std::vector<Passage>& passages, double tolerance) {
 }  // namespace
 
 Diagram diagram_of_closed(const Eigen::Matrix3Xd& points, const Eigen::Vector3d& direction) {
-  const Eigen::Matrix3Xd view =
-      axes_along(direction).transpose() * (points.colwise() - points.rowwise().mean());
+  const Eigen::Vector3d middle = points.rowwise().mean();
+  const Eigen::Matrix3Xd view = axes_along(direction).transpose() * (points.colwise() - middle);
   const int count = static_cast<int>(view.cols());
   const double tolerance = generic * view.colwise().norm().maxCoeff();
   const EdgeBoxes boxes = boxes_of_edges(view);
@@ -154,7 +188,8 @@ Diagram diagram_of_closed(const Eigen::Matrix3Xd& points, const Eigen::Vector3d&
 SeenArc::SeenArc(const Eigen::Matrix3Xd& points, double far, const Eigen::Vector3d& direction)
     : far_(far), axes_(axes_along(direction)), view_(3, points.cols() + 2) {
   const int count = static_cast<int>(points.cols());
-  view_.leftCols(count) = axes_.transpose() * (points.colwise() - points.rowwise().mean());
+  const Eigen::Vector3d middle = points.rowwise().mean();
+  view_.leftCols(count) = axes_.transpose() * (points.colwise() - middle);
   view_.rightCols<2>().setZero();
   tolerance_ = generic * (far + view_.colwise().norm().maxCoeff());
   boxes_ = boxes_of_edges(view_);
@@ -171,7 +206,7 @@ Diagram SeenArc::closed(const Eigen::Vector3d& out) {
   view_.col(count + 1) = view_.col(0) + way;
   Diagram diagram = own_;
   for (int edge = count - 1; edge <= count + 1; ++edge) {
-    set_box(view_, edge, boxes_);
+    set_box(view_, edge, boxes_.edges);
   }
   // The edges at the ends of the arc share a vertex with it.
   cross_edges(view_, boxes_, count - 1, 0, count - 2, tolerance_, diagram);

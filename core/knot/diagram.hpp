@@ -29,9 +29,15 @@ struct Diagram {
 /// where the polygon touches itself or repeats a vertex.
 Diagram diagram_of_closed(const Eigen::Matrix3Xd& points, const Eigen::Vector3d& direction);
 
-/// Bounding rectangles of projected edges.
-struct EdgeBoxes {
+/// Rectangles in a projection.
+struct Rectangles {
   Eigen::ArrayXd left, right, bottom, top;
+};
+
+/// Bounding rectangles of projected edges, and of batches of edges that follow each other: most
+/// batches are clear of an edge.
+struct EdgeBoxes {
+  Rectangles edges, batches;
 };
 
 /// An open polygon seen along one direction, for closures of it by different ways: what it crosses

@@ -176,7 +176,8 @@ class Ballot {
       : centreline_(centreline), random_(seed) {
     // The edge that joins the ends must pass outside the ball around the centreline; more than two
     // radii away is enough, and farther would only cost precision.
-    far_ = 4 * (centreline.colwise() - centreline.rowwise().mean()).colwise().norm().maxCoeff();
+    const Eigen::Vector3d middle = centreline.rowwise().mean();
+    far_ = 4 * (centreline.colwise() - middle).colwise().norm().maxCoeff();
   }
 
   KnotInvariants cast() {

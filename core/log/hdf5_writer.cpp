@@ -2,32 +2,33 @@
 
 #include <hdf5_hl.h>
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <functional>
-#include <numeric>
 
 namespace hagfish {
 namespace {
 
-// Higher levels take up to twice as long and gain nothing on forces.
+// Higher levels take up to twice as long and gain nothing.
 constexpr int deflate_level = 1;
 // In which bytes without rows are stored.
 constexpr hsize_t bytes_chunk = 16384;
 // By which the file grows in memory, bytes.
 constexpr std::size_t memory_increment = std::size_t{1} << 16;
-
-bool all_zero(const char* bytes, std::size_t count) {
-  return count == 0 || (bytes[0] == 0 && std::memcmp(bytes, bytes + 1, count - 1) == 0);
-}
+// In which texts are converted, bytes; HDF5's own, of 1 MB, is cleared for each of them.
+constexpr std::size_t text_buffer = 4096;
 
 H5::StrType text_type() {
   H5::StrType type(H5::PredType::C_S1, H5T_VARIABLE);
   type.setCset(H5T_CSET_UTF8);
   return type;
+}
+
+H5::DSetMemXferPropList text_transfer() {
+  H5::DSetMemXferPropList transfer;
+  transfer.setBuffer(text_buffer, nullptr, nullptr);
+  return transfer;
 }
 
 void text_attribute(H5::H5Object& object, const std::string& name, const std::string& value) {
@@ -59,6 +60,12 @@ Hdf5Writer::Hdf5Writer() : name_("file in memory") {
     in_memory.setCore(memory_increment, false);
     h5_ = H5::H5File("log", H5F_ACC_TRUNC, H5::FileCreatPropList::DEFAULT, in_memory);
   });
+}
+
+H5::DataSet& Hdf5Writer::dataset(const std::string& path) {
+  const auto known = open_.find(path);
+  return known != open_.end() ? known->second
+                              : open_.emplace(path, h5_.openDataSet(path)).first->second;
 }
 
 void Hdf5Writer::group(const std::string& path) {
@@ -118,7 +125,8 @@ void Hdf5Writer::attribute(const std::string& path, const std::string& name, std
 
 void Hdf5Writer::text(const std::string& path, const std::string& value) {
   guarded(name_, "write " + path, [&] {
-    h5_.createDataSet(path, text_type(), H5::DataSpace(H5S_SCALAR)).write(value, text_type());
+    h5_.createDataSet(path, text_type(), H5::DataSpace(H5S_SCALAR))
+        .write(value, text_type(), H5::DataSpace::ALL, H5::DataSpace::ALL, text_transfer());
   });
 }
 
@@ -130,7 +138,8 @@ void Hdf5Writer::texts(const std::string& path, const std::vector<std::string>& 
   guarded(name_, "write " + path, [&] {
     const hsize_t size = values.size();
     h5_.createDataSet(path, text_type(), H5::DataSpace(1, &size))
-        .write(pointers.data(), text_type());
+        .write(static_cast<const void*>(pointers.data()), text_type(), H5::DataSpace::ALL,
+               H5::DataSpace::ALL, text_transfer());
   });
 }
 
@@ -155,7 +164,7 @@ void Hdf5Writer::bytes(const std::string& path, const std::vector<std::uint8_t>&
 
 void Hdf5Writer::make_labels(const std::string& path) {
   guarded(name_, "make labels of " + path, [&] {
-    const H5::DataSet set = h5_.openDataSet(path);
+    const H5::DataSet& set = dataset(path);
     if (H5DSset_scale(set.getId(), name_of(path).c_str()) < 0) {
       throw H5::DataSetIException("H5DSset_scale", "no scale");
     }
@@ -164,11 +173,11 @@ void Hdf5Writer::make_labels(const std::string& path) {
 
 void Hdf5Writer::label(const std::string& path, const std::vector<std::string>& labels) {
   guarded(name_, "label " + path, [&] {
-    const H5::DataSet set = h5_.openDataSet(path);
+    const H5::DataSet& set = dataset(path);
     for (std::size_t axis = 0; axis < labels.size(); ++axis) {
       // Labels label themselves.
       if (labels[axis].empty() || labels[axis] == path) continue;
-      const H5::DataSet scale = h5_.openDataSet(labels[axis]);
+      const H5::DataSet& scale = dataset(labels[axis]);
       if (H5DSattach_scale(set.getId(), scale.getId(), static_cast<unsigned>(axis)) < 0) {
         throw H5::DataSetIException("H5DSattach_scale", "not attached");
       }
@@ -181,18 +190,18 @@ void Hdf5Writer::label(const std::string& path, const std::vector<std::string>& 
 void Hdf5Writer::create(const SeriesLayout& layout) {
   const std::vector<hsize_t> now = layout.shape(0);
   const std::vector<hsize_t> most = layout.shape(H5S_UNLIMITED);
-  const std::vector<hsize_t> chunk = layout.shape(layout.chunk_rows);
+  const std::vector<hsize_t> chunk = layout.shape(layout.chunk_rows, layout.chunk_columns);
   guarded(name_, "create " + layout.path, [&] {
     H5::DSetCreatPropList storage;
     storage.setChunk(static_cast<int>(chunk.size()), chunk.data());
-    if (layout.meaning.packed) {
+    if (layout.meaning.storage == Storage::packed) {
       storage.setShuffle();
       storage.setDeflate(deflate_level);
     }
     storage.setFletcher32();  // readers refuse a chunk with a flipped bit
     H5::LinkCreatPropList groups;
     groups.setCreateIntermediateGroup(true);
-    H5::DataSet set =
+    H5::DataSet& set = open_[layout.path] =
         h5_.createDataSet(layout.path, layout.single ? H5::PredType::NATIVE_FLOAT : layout.type,
                           H5::DataSpace(static_cast<int>(now.size()), now.data(), most.data()),
                           storage, H5::DSetAccPropList::DEFAULT, groups);
@@ -204,75 +213,11 @@ void Hdf5Writer::create(const SeriesLayout& layout) {
   });
 }
 
-void Hdf5Writer::append(const SeriesLayout& layout, hsize_t first, hsize_t count,
-                        const void* values) {
-  const hsize_t end = first + count;
-  const std::vector<hsize_t> extent = layout.shape(end);
-  const hsize_t row_bytes =
-      std::accumulate(layout.row_shape.begin(), layout.row_shape.end(),
-                      static_cast<hsize_t>(layout.type.getSize()), std::multiplies<>());
-  const auto row = [&](hsize_t i) {
-    return static_cast<const char*>(values) + (i - first) * row_bytes;
-  };
-  guarded(name_, "write " + layout.path, [&] {
-    H5::DataSet set = h5_.openDataSet(layout.path);
-    set.extend(extent.data());
-    const H5::DataSpace space = set.getSpace();
-    const auto write = [&](hsize_t from, hsize_t to) {
-      const std::vector<hsize_t> size = layout.shape(to - from);
-      std::vector<hsize_t> offset(size.size(), 0);
-      offset[0] = from;
-      space.selectHyperslab(H5S_SELECT_SET, size.data(), offset.data());
-      set.write(row(from), layout.type, H5::DataSpace(static_cast<int>(size.size()), size.data()),
-                space);
-    };
-    // Rows without a chunk of their own read as 0: most forces are 0 for whole phases.
-    hsize_t from = first;
-    for (hsize_t at = first; at < end;) {
-      const hsize_t next = std::min(end, (at / layout.chunk_rows + 1) * layout.chunk_rows);
-      if (all_zero(row(at), (next - at) * row_bytes)) {
-        if (from < at) write(from, at);
-        from = next;
-      }
-      at = next;
-    }
-    if (from < end) write(from, end);
-  });
-}
-
-void Hdf5Writer::copy_chunks(const Hdf5Reader& from, const SeriesLayout& layout, hsize_t begin,
-                             hsize_t end) {
-  const std::vector<hsize_t> extent = layout.shape(end * layout.chunk_rows);
-  guarded(name_, "write " + layout.path, [&] {
-    const H5::DataSet source = from.open(layout.path);
-    const H5::DataSet target = h5_.openDataSet(layout.path);
-    target.extend(extent.data());
-    std::vector<hsize_t> offset(extent.size(), 0);
-    std::vector<char> stored;
-    for (hsize_t chunk = begin; chunk < end; ++chunk) {
-      offset[0] = chunk * layout.chunk_rows;
-      hsize_t size = 0;
-      haddr_t place = HADDR_UNDEF;
-      unsigned skipped = 0;  // filters
-      std::uint32_t filters = 0;
-      bool done =
-          H5Dget_chunk_info_by_coord(source.getId(), offset.data(), &skipped, &place, &size) >= 0;
-      if (done && place == HADDR_UNDEF) continue;  // all of it is 0
-      stored.resize(size);
-      done =
-          done &&
-          H5Dread_chunk(source.getId(), H5P_DEFAULT, offset.data(), &filters, stored.data()) >= 0 &&
-          H5Dwrite_chunk(target.getId(), H5P_DEFAULT, filters, offset.data(), size,
-                         stored.data()) >= 0;
-      if (!done) {
-        throw H5::DataSetIException("copy_chunks", "a chunk cannot be copied");
-      }
-    }
-  });
-}
-
 void Hdf5Writer::close() {
-  guarded(name_, "save", [&] { h5_.close(); });
+  guarded(name_, "save", [&] {
+    open_.clear();
+    h5_.close();
+  });
 }
 
 void Hdf5Writer::save(const std::filesystem::path& file) const {

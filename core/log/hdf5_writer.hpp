@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "core/log/hdf5_error.hpp"
@@ -14,11 +15,18 @@
 
 namespace hagfish {
 
+/// How a series is stored. Chunks of zeros take no room in any of them.
+enum class Storage : std::uint8_t {
+  rows,    ///< in chunks of whole rows
+  blocks,  ///< in chunks of some columns: mostly zeros, as forces that act on a part of the body
+  packed   ///< compressed, which takes as long as ten times the bytes otherwise: alike in time
+};
+
 /// Unit and meaning that go with every numeric dataset; unit "1" where there is none.
 struct Meaning {
   std::string unit;
   std::string description;
-  bool packed = false;  ///< worth compressing: mostly zeros, or alike in time; motion is not
+  Storage storage = Storage::rows;
 };
 
 /// An axis of a dataset: its extent, and the path of the dataset that labels it (its dimension
@@ -35,8 +43,9 @@ struct SeriesLayout {
   Meaning meaning;
   H5::DataType type;
   hsize_t chunk_rows = 1;
-  bool single = false;    ///< doubles are stored as floats
-  double resolution = 0;  ///< doubles are rounded to multiples of it; 0 for none
+  hsize_t chunk_columns = 0;  ///< of the last axis; 0: all of them
+  bool single = false;        ///< doubles are stored as floats
+  double resolution = 0;      ///< doubles are rounded to multiples of it; 0 for none
   std::vector<std::string>
       labels;  ///< of each axis, as LabelledAxis::labels; none where nothing does
 
@@ -44,6 +53,12 @@ struct SeriesLayout {
   std::vector<hsize_t> shape(hsize_t rows) const {
     std::vector<hsize_t> extent{rows};
     extent.insert(extent.end(), row_shape.begin(), row_shape.end());
+    return extent;
+  }
+  /// Extents of so many rows, `columns` wide; 0: all of them.
+  std::vector<hsize_t> shape(hsize_t rows, hsize_t columns) const {
+    std::vector<hsize_t> extent = shape(rows);
+    if (columns > 0) extent.back() = columns;
     return extent;
   }
 };
@@ -96,8 +111,12 @@ class Hdf5Writer {
   void save(const std::filesystem::path& file) const;
 
  private:
+  /// Opened where it is not.
+  H5::DataSet& dataset(const std::string& path);
+
   std::string name_;  // in messages
   H5::H5File h5_;
+  std::unordered_map<std::string, H5::DataSet> open_;  // series, by path: opening one takes 20 us
 };
 
 }  // namespace hagfish

@@ -74,14 +74,13 @@ const std::string order = "first t_a, first t_b, last t_a, last t_b: ";
 struct LoggedForce {
   RowKind kind;
   const char* description;
-  bool packed;  ///< mostly zeros in its rows
 };
 constexpr std::array<LoggedForce, row_kinds.size()> logged_forces = {
-    {{RowKind::thigmotaxis, "f_thigmo = C_thigmo' lambda_thigmo / h (Eq. 8)", false},
-     {RowKind::contact, "self-contact", false},
-     {RowKind::limit, "joint limits", true},
-     {RowKind::head, "head clamp", true},
-     {RowKind::wall, "head plate", true}}};
+    {{RowKind::thigmotaxis, "f_thigmo = C_thigmo' lambda_thigmo / h (Eq. 8)"},
+     {RowKind::contact, "self-contact"},
+     {RowKind::limit, "joint limits"},
+     {RowKind::head, "head clamp"},
+     {RowKind::wall, "head plate"}}};
 
 constexpr const char* active_description = "active torque of the animal's muscles, 0 at the root";
 
@@ -113,7 +112,7 @@ void declare_trajectory(const Model& model, LogTable<Frame>& t) {
       {"rad",
        "rest shape of the step that begins at the frame: angles that the active torque pulls the "
        "hinges to; 0 at the root and where no curvature program bends the animal",
-       true},
+       Storage::packed},
       [none = Eigen::VectorXd(Eigen::VectorXd::Zero(model.nv()))](const Frame& f) -> const auto& {
         const Eigen::VectorXd& rest = f.record.controller.rest_shape;
         return rest.size() == 0 ? none : rest;
@@ -168,13 +167,13 @@ void declare_forces(const Model& model, LogTable<Frame>& t) {
   for (const LoggedForce& force : logged_forces) {
     t.numbers(
         std::string("/forces/") + row_kind_name(force.kind), {nv},
-        {"dyn, dyn·cm", force.description, force.packed},
+        {"dyn, dyn·cm", force.description, Storage::blocks},
         [kind = force.kind](const Frame& f) -> const auto& {
           return f.record.solution.force[kind];
         });
   }
   t.numbers(
-      "/forces/active", {nv}, {"dyn, dyn·cm", active_description, true},
+      "/forces/active", {nv}, {"dyn, dyn·cm", active_description, Storage::blocks},
       [](const Frame& f) -> const auto& { return f.record.solution.active_torque; });
   t.numbers(
       "/forces/tip", {space}, {"dyn", "scripted force on the last body, world axes"},
@@ -225,7 +224,7 @@ void declare_control(const Model& model, LogTable<Frame>& t) {
   const auto torque = [&](const char* name, const char* unit, const char* description,
                           Eigen::VectorXd ActiveTorque::*member) {
     t.numbers(
-        std::string("/control/") + name, {dofs_of(model)}, {unit, description, true}, [
+        std::string("/control/") + name, {dofs_of(model)}, {unit, description, Storage::packed}, [
           member, none = Eigen::VectorXd(Eigen::VectorXd::Zero(model.nv()))
         ](const Frame& f) -> const auto& {
           const Eigen::VectorXd& values = f.record.control.torque.*member;
@@ -269,11 +268,12 @@ void declare_means(const Model& model, LogTable<Frame>& t) {
   for (const LoggedForce& force : logged_forces) {
     t.numbers(
         std::string("/mean/forces/") + row_kind_name(force.kind), {dofs_of(model)},
-        {"dyn, dyn·cm", force.description + since, force.packed},
+        {"dyn, dyn·cm", force.description + since, Storage::blocks},
         [kind = force.kind](const Frame& f) -> const auto& { return f.mean.force[kind]; });
   }
   t.numbers(
-      "/mean/forces/active", {dofs_of(model)}, {"dyn, dyn·cm", active_description + since, true},
+      "/mean/forces/active", {dofs_of(model)},
+      {"dyn, dyn·cm", active_description + since, Storage::blocks},
       [](const Frame& f) -> const auto& { return f.mean.active_torque; });
   t.numbers(
       "/mean/forces/net", {dofs_of(model)},

@@ -152,7 +152,7 @@ class LogTable {
     layout.resolution = resolution(form_.level, layout.path);
     layout.labels = {form_.labels};
     for (const LabelledAxis& axis : axes) layout.labels.push_back(axis.labels);
-    if (form_.packed || layout.meaning.packed) {
+    if (form_.packed || layout.meaning.storage == Storage::packed) {
       pack<T>(layout);
       layout.chunk_rows = std::min(layout.chunk_rows, form_.chunk_rows);
     } else {

@@ -41,7 +41,8 @@ LogTable<CheckpointMark> checkpoint_table(LogLevel level) {
 
 SeriesLayout checkpoint_bytes() {
   SeriesLayout layout = layout_of<std::uint8_t>(
-      checkpoint_data, {}, {"1", "runs between two steps, one after the other, as bytes", true});
+      checkpoint_data, {},
+      {"1", "runs between two steps, one after the other, as bytes", Storage::packed});
   layout.chunk_rows = checkpoint_chunk;
   return layout;
 }
@@ -179,7 +180,7 @@ struct LogWriter::Contents {
   std::int64_t mark_stride;                       // and a checkpoint
   std::map<std::string, std::string> attributes;  // of the root, to be set by the next save
   std::optional<TwinFile> file;
-  double next_save = 0;  // wall time, s: the first step is saved at once
+  double next_save = save_interval;  // wall time, s
   bool any = false;      // a step has been saved
 };
 

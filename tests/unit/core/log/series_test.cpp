@@ -87,7 +87,8 @@ class SeriesTest : public testing::Test {
   TemporaryFolder folder;
   std::filesystem::path file = folder / "a.h5";
   Series<double> dense{chunked(layout_of<double>("/a/dense", {2, 3}, {"1", "rows of six"}))};
-  Series<double> sparse{layout_of<double>("/a/b/sparse", {600}, {"dyn", "compressed", true})};
+  Series<double> sparse{
+      layout_of<double>("/a/b/sparse", {600}, {"dyn", "compressed", Storage::packed})};
   Series<std::int32_t> ints{chunked(layout_of<std::int32_t>("/ints", {}, {"1", "ints"}))};
   Series<std::int64_t> longs{layout_of<std::int64_t>("/longs", {}, {"1", "longs"})};
   Series<std::uint8_t> choices{layout_of_choices("/choices", {"zero", "one", "two"}, {"1", "c"})};
