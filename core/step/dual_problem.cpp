@@ -1,6 +1,37 @@
 #include "core/step/dual_problem.hpp"
 
 namespace hagfish {
+namespace {
+
+void load_row(const Model& model, const Kinematics& kin, const Row& row, Eigen::Index column,
+              RowColumns& columns) {
+  if (row.dof >= 0) {
+    columns.load_joint(row.dof, column, row.sign);
+  }
+  if (row.beside != 0) {
+    columns.load_joint(row.dof + 1, column, row.beside);
+  }
+  visit_forces(row, [&](int body, const Eigen::Vector3d& force) {
+    columns.load(model, body, column, kin.centre_offset(body).cross(force), force);
+  });
+}
+
+/// C of one row at one velocity.
+double coefficient(const Model& model, const Kinematics& kin, const Row& row, int dof) {
+  if (row.dof >= 0) {
+    return row.dof == dof ? row.sign : (row.dof + 1 == dof ? row.beside : 0);
+  }
+  double sum = 0;
+  visit_forces(row, [&](int body, const Eigen::Vector3d& force) {
+    if (dof < model.bodies[body].first_dof + model.bodies[body].dofs) {
+      const auto axis = kin.axis.col(dof);
+      sum += axis.head<3>().dot(kin.centre_offset(body).cross(force)) + axis.tail<3>().dot(force);
+    }
+  });
+  return sum;
+}
+
+}  // namespace
 
 void assemble_dual(const Model& model, const Kinematics& kin, const ArticulatedFactor& factor,
                    std::span<const Row> rows, const Eigen::VectorXd& base,
@@ -12,21 +43,82 @@ void assemble_dual(const Model& model, const Kinematics& kin, const ArticulatedF
   qp.upper.resize(m);
   for (Eigen::Index j = 0; j < m; ++j) {
     const Row& row = rows[j];
-    if (row.dof >= 0) {
-      columns.load_joint(row.dof, j, row.sign);
-    }
-    if (row.beside != 0) {
-      columns.load_joint(row.dof + 1, j, row.beside);
-    }
-    visit_forces(row, [&](int body, const Eigen::Vector3d& force) {
-      columns.load(model, body, j, kin.centre_offset(body).cross(force), force);
-    });
+    load_row(model, kin, row, j, columns);
     qp.b[j] = row.rhs - row_velocity(row, centre_velocity, base);
     qp.lower[j] = row.lower;
     qp.upper[j] = row.upper;
   }
   factor.half_solve(model, kin, columns);
   columns.gram(qp.A);
+}
+
+void extend_dual(const Model& model, const Kinematics& kin, const ArticulatedFactor& factor,
+                 const ExtendedRows& rows, const Eigen::VectorXd& base,
+                 const Eigen::Matrix3Xd& centre_velocity, const RowColumns& columns,
+                 const BoxQp& qp, DualExtension& extension) {
+  const auto there = static_cast<Eigen::Index>(rows.there.size());
+  const auto added = static_cast<Eigen::Index>(rows.added.size());
+  const auto released = static_cast<Eigen::Index>(rows.released.size());
+  const Eigen::Index unreleased = there + added;
+  DualExtension& e = extension;
+  e.columns.reset(model, added + released);
+  for (Eigen::Index j = 0; j < added; ++j) {
+    load_row(model, kin, rows.added[j], j, e.columns);
+  }
+  for (Eigen::Index r = 0; r < released; ++r) {
+    e.columns.load_motion(model, rows.released[r].dof, added + r, rows.released[r].sign);
+  }
+  factor.half_solve(model, kin, e.columns);
+  columns.products(e.columns, e.cross);
+  e.columns.gram(e.own);
+
+  const Eigen::Index m = unreleased + released;
+  e.qp.A.resize(m, m);
+  e.qp.A.topLeftCorner(there, there) = qp.A;
+  e.qp.A.block(0, there, there, added) = e.cross.leftCols(added);
+  e.qp.A.block(there, 0, added, there) = e.cross.leftCols(added).transpose();
+  e.qp.A.block(there, there, added, added) = e.own.topLeftCorner(added, added);
+  e.qp.b.resize(m);
+  e.qp.b.head(there) = qp.b;
+  e.qp.lower.resize(m);
+  e.qp.upper.resize(m);
+  e.qp.lower.head(there) = qp.lower;
+  e.qp.upper.head(there) = qp.upper;
+  for (Eigen::Index j = 0; j < added; ++j) {
+    const Row& row = rows.added[j];
+    e.qp.b[there + j] = row.rhs - row_velocity(row, centre_velocity, base);
+    e.qp.lower[there + j] = row.lower;
+    e.qp.upper[there + j] = row.upper;
+  }
+  if (released > 0) {
+    // U: how the rows move with a unit velocity of each released one. With K s = λ - reaction +
+    // U'λ' the released velocities s go with the forces λ' of the other rows and λ of their own, so
+    // that [U; 1] K⁻¹ [U; 1]' comes on top of A.
+    factor.free_inertia(kin, e.columns, e.inertia);
+    e.inertia_factor.compute(e.inertia);
+    e.answer.resize(m, released);
+    for (Eigen::Index r = 0; r < released; ++r) {
+      const Row& own = rows.released[r];
+      for (Eigen::Index i = 0; i < there; ++i) {
+        e.answer(i, r) =
+            own.sign * coefficient(model, kin, rows.there[i], own.dof) - e.cross(i, added + r);
+      }
+      for (Eigen::Index i = 0; i < added; ++i) {
+        e.answer(there + i, r) =
+            own.sign * coefficient(model, kin, rows.added[i], own.dof) - e.own(i, added + r);
+      }
+      e.qp.lower[unreleased + r] = own.lower;
+      e.qp.upper[unreleased + r] = own.upper;
+    }
+    e.answer.bottomRows(released).setIdentity();
+    e.inertia_factor.matrixU().solveInPlace<Eigen::OnTheRight>(e.answer);  // K = L L': [U; 1] L'⁻¹
+    e.inertia_factor.matrixL().solveInPlace(e.reaction);
+    e.qp.A.rightCols(released).setZero();
+    e.qp.A.bottomRows(released).setZero();
+    e.qp.A += e.answer.lazyProduct(e.answer.transpose());
+    e.qp.b.tail(released).setZero();
+    e.qp.b += e.answer.lazyProduct(e.reaction);
+  }
 }
 
 BoxQp whole_dual(const Model& model, const Kinematics& kin, const StepSystem& system,

@@ -65,7 +65,7 @@ void scale_multipliers(StepScratch& scratch, const StepSolution& step) {
   }
   const Eigen::Index others = scaled.size() - step.prescribed;
   if (others > 0) {
-    row_scale(scratch.qp.A, scaled.tail(others));
+    row_scale(scratch.qp().A, scaled.tail(others));
   }
   scaled.array() *= step.lambda.array().abs();
 }
@@ -91,7 +91,7 @@ void StepSolver::measure_rows(StepSolution& step) {
   const double beta = step.prescribed == 0 ? 0 : scratch_.scaled.head(step.prescribed).maxCoeff();
   const Eigen::Index others = m - step.prescribed;
   step.kkt = others == 0 ? KktResiduals{}
-                         : kkt_residuals(scratch_.qp, step.lambda.tail(others),
+                         : kkt_residuals(scratch_.qp(), step.lambda.tail(others),
                                          step.excess.tail(others), beta);
 }
 

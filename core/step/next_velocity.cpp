@@ -75,8 +75,8 @@ void StepSolver::solve_hit(const StepSolution& step) {
 /// A of the rows scratch_.hit[i] and `row`.
 double StepSolver::coupling(const StepSolution& step, Eigen::Index i, std::size_t row) const {
   const auto first = static_cast<std::size_t>(step.prescribed);
-  return scratch_.qp.A(static_cast<Eigen::Index>(scratch_.hit[i] - first),
-                       static_cast<Eigen::Index>(row - first));
+  return scratch_.qp().A(static_cast<Eigen::Index>(scratch_.hit[i] - first),
+                         static_cast<Eigen::Index>(row - first));
 }
 
 /// Impacts of the rows scratch_.hit. Those that would have a force that they may not have keep the

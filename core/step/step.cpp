@@ -37,13 +37,17 @@ StepSolver::StepSolver(std::string back_end)
     : back_end_(std::move(back_end)), solver_(make_box_qp_solver(back_end_)) {}
 
 StepSolver::StepSolver(const StepSolver& other)
-    : warm(other.warm), back_end_(other.back_end_), solver_(make_box_qp_solver(back_end_)) {
+    : warm(other.warm),
+      extends_rounds(other.extends_rounds),
+      back_end_(other.back_end_),
+      solver_(make_box_qp_solver(back_end_)) {
   stop_when(other.stop_);
 }
 
 StepSolver& StepSolver::operator=(const StepSolver& other) {
   if (this != &other) {
     warm = other.warm;
+    extends_rounds = other.extends_rounds;
     if (back_end_ != other.back_end_) {
       back_end_ = other.back_end_;
       solver_ = make_box_qp_solver(back_end_);
@@ -161,7 +165,7 @@ Status StepSolver::begin_here(const StepInput& in, StepSolution& step) {
   step.rounds = 0;
   step.qp_time = 0;
   step.prescribed = 0;
-  bool base_known = false;
+  scratch_.factor_known = false;
   if (step.rows.empty()) {
     if (Status status = base_motion(in, step); !status.ok()) {
       return status;
@@ -169,14 +173,13 @@ Status StepSolver::begin_here(const StepInput& in, StepSolution& step) {
     if (!add_violated(in, step)) {
       return set_next_velocity(in, step);
     }
-    base_known = true;
   }
   step.kind = SolveKind::kkt;
-  return constrained_motion(in, base_known, step);
+  return constrained_motion(in, step);
 }
 
 Status StepSolver::resume(const StepInput& in, StepSolution& step) {
-  Status status = constrained_motion(in, true, step);
+  Status status = constrained_motion(in, step);
   if (!status.ok() || in.midway == nullptr ||
       (step.qdot - in.midway->moved).lpNorm<Eigen::Infinity>() <= in.scene.time.settled) {
     return status;
@@ -206,38 +209,63 @@ Status StepSolver::solve(const StepInput& in, StepSolution& step) {
 }
 
 /// Eq. 3 or 4 on step.rows, in rounds: violated rows are added, prescribed limits with λ < 0
-/// released. `base_known`: step.base is the motion with the rows prescribed now.
-Status StepSolver::constrained_motion(const StepInput& in, bool base_known, StepSolution& step) {
+/// released, and the round after that goes on with the factor where that pays.
+Status StepSolver::constrained_motion(const StepInput& in, StepSolution& step) {
   for (bool again = true; again;) {
-    order_rows(in.model, step);
-    ++step.rounds;
-    if (!base_known) {
-      if (Status status = base_motion(in, step); !status.ok()) {
-        return status;
-      }
+    if (Status status = whole_round(in, step); !status.ok()) {
+      return status;
     }
-    const auto others = std::span(step.rows).subspan(static_cast<std::size_t>(step.prescribed));
-    if (!others.empty()) {
-      step.lambda.conservativeResize(static_cast<Eigen::Index>(step.rows.size()));
-      step.lambda.tail(scratch_.start.size()) = scratch_.start;
-      assemble_dual(in.model, in.kin(), scratch_.factor, others, step.base,
-                    scratch_.base_centre_velocity, scratch_.columns, scratch_.qp);
-      if (!solve_multipliers(step)) {
-        if (scratch_.solution.status == SolveStatus::stopped || !release_all(step)) {
-          return describe_failure(in.model, scratch_.qp, step.rows, scratch_.solution);
-        }
-        base_known = false;
-        continue;
-      }
-      set_velocity(in, step);
+    again = change_rows(in, step);
+    if (again && extended_round(in, step)) {
+      again = change_rows(in, step);
     }
-    base_known = !release_pulling(step);
-    again = add_violated(in, step) || !base_known;
   }
   if (!step.qdot.allFinite()) {
     return {Outcome::non_finite, "non-finite velocity"};
   }
   return set_next_velocity(in, step);
+}
+
+/// A round from nothing but the base motion, where that is known. Where the rows cannot all be met
+/// with those prescribed, another one, with none prescribed.
+Status StepSolver::whole_round(const StepInput& in, StepSolution& step) {
+  while (true) {
+    order_rows(in.model, step);
+    ++step.rounds;
+    if (!factor_is_current(step)) {
+      if (Status status = base_motion(in, step); !status.ok()) {
+        return status;
+      }
+    }
+    scratch_.extended = false;
+    const auto others = std::span(step.rows).subspan(static_cast<std::size_t>(step.prescribed));
+    if (others.empty()) {
+      return {};
+    }
+    step.lambda.conservativeResize(static_cast<Eigen::Index>(step.rows.size()));
+    step.lambda.tail(scratch_.start.size()) = scratch_.start;
+    assemble_dual(in.model, in.kin(), scratch_.factor, others, step.base,
+                  scratch_.base_centre_velocity, scratch_.columns, scratch_.whole);
+    if (solve_multipliers(step)) {
+      set_velocity(in, step);
+      return {};
+    }
+    if (scratch_.solution.status == SolveStatus::stopped || !release_all(step)) {
+      return describe_failure(in.model, scratch_.whole, step.rows, scratch_.solution);
+    }
+  }
+}
+
+/// Whether the factor is of Eq. 1 and the rows that are prescribed now.
+bool StepSolver::factor_is_current(const StepSolution& step) const {
+  return scratch_.factor_known && static_cast<std::size_t>(std::ranges::count_if(
+                                      step.rows, &Row::prescribed)) == scratch_.pinned.size();
+}
+
+/// Releases rows and adds others where the solution asks for it; whether it did.
+bool StepSolver::change_rows(const StepInput& in, StepSolution& step) {
+  const bool released = release_pulling(step);
+  return add_violated(in, step) || released;
 }
 
 /// Sorts the rows by their places, prescribed ones first, and gathers the multipliers to start
@@ -269,8 +297,9 @@ void StepSolver::order_rows(const Model& model, StepSolution& step) {
 /// Eq. 1, H q̇* = M q̇0 + h f, or Eq. 3 with the prescribed rows.
 Status StepSolver::base_motion(const StepInput& in, StepSolution& step) {
   prescribed_velocities(step, scratch_.prescribed);
+  scratch_.pinned = scratch_.prescribed;
   try {
-    scratch_.factor.factorise(in.model, in.kin(), step.system.op, scratch_.prescribed);
+    scratch_.factor.factorise(in.model, in.kin(), step.system.op, scratch_.pinned);
   } catch (const std::domain_error& error) {
     return {Outcome::non_finite, error.what()};
   }
@@ -281,6 +310,8 @@ Status StepSolver::base_motion(const StepInput& in, StepSolution& step) {
   }
   step.base = step.qdot;
   scratch_.base_centre_velocity = step.centre_velocity;
+  scratch_.base_reaction = step.lambda.head(step.prescribed);
+  scratch_.factor_known = true;
   return {};
 }
 
@@ -295,11 +326,13 @@ void StepSolver::set_velocity(const StepInput& in, StepSolution& step) {
       add_row(step.rows[i], kin, step.lambda[i], scratch_.wrench, scratch_.joint);
     }
   }
-  scratch_.factor.solve(in.model, kin, scratch_.wrench, scratch_.joint, step.qdot, step.twist,
-                        scratch_.reaction);
+  scratch_.factor.solve(in.model, kin, scratch_.wrench, scratch_.joint, scratch_.pinned, step.qdot,
+                        step.twist, scratch_.reaction);
   centre_velocities(kin, step.twist, step.centre_velocity);
-  for (Eigen::Index i = 0; i < step.prescribed; ++i) {
-    step.lambda[i] = step.rows[i].sign * scratch_.reaction[i];
+  Eigen::Index pinned = 0;  // released ones among them are passed over
+  for (Eigen::Index i = 0; i < step.prescribed; ++i, ++pinned) {
+    while (scratch_.pinned[pinned].dof != step.rows[i].dof) ++pinned;
+    step.lambda[i] = step.rows[i].sign * scratch_.reaction[pinned];
   }
 }
 
@@ -309,13 +342,13 @@ bool StepSolver::solve_multipliers(StepSolution& step) {
   BoxQpSolution& solution = scratch_.solution;
   step.kind = SolveKind::qp;
   const auto begin = std::chrono::steady_clock::now();
-  solver_->solve(scratch_.qp, scratch_.start, solution);
+  solver_->solve(scratch_.qp(), scratch_.start, solution);
   step.qp_time += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   step.iterations += solution.iterations;
   if (solution.status != SolveStatus::solved) {
     return false;
   }
-  step.lambda.tail(scratch_.qp.b.size()) = solution.x;
+  step.lambda.tail(solution.x.size()) = solution.x;
   return true;
 }
 

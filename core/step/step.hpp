@@ -130,15 +130,23 @@ struct StepSolution {
 
 /// Storage for intermediate results. A step allocates nothing once all of it has grown to size.
 struct StepScratch {
-  std::vector<PrescribedVelocity> prescribed;
+  std::vector<PrescribedVelocity> prescribed;  ///< of the rows that are
   ArticulatedFactor factor;
-  Eigen::VectorXd reaction;                        ///< at the prescribed velocities
+  bool factor_known = false;  ///< it is of this step's Eq. 1
+  /// Velocities that `factor` has as prescribed, with those of released rows, as they are.
+  std::vector<PrescribedVelocity> pinned;
+  Eigen::VectorXd reaction;                        ///< at those
+  Eigen::VectorXd base_reaction;                   ///< λ of the prescribed rows in step.base
   Eigen::Matrix3Xd base_centre_velocity;           ///< 3 x N, cm/s
   std::vector<Row> violated;                       ///< rows that the last answer violates
   std::vector<std::pair<int, std::size_t>> order;  ///< of the rows: place_in_step, index
   std::vector<Row> ordered;
   RowColumns columns;
-  BoxQp qp;
+  BoxQp whole;              ///< of a round from nothing
+  DualExtension extension;  ///< and of the one that goes on from there
+  bool extended = false;    ///< the last round did
+  /// Of the last round, on the rows behind the prescribed ones.
+  const BoxQp& qp() const { return extended ? extension.qp : whole; }
   Eigen::VectorXd start, scaled;
   BoxQpSolution solution;
   Matrix6Xd wrench;
@@ -192,6 +200,10 @@ class StepSolver {
   /// What the last step left for the next one, or a pass for the next.
   WarmStart warm;
 
+  /// Whether a round that releases or adds few rows goes on with the factor of the round before.
+  /// Without, scratch() has the factor of just the rows that the solution prescribes.
+  bool extends_rounds = true;
+
   /// Intermediate results of the last step.
   const StepScratch& scratch() const { return scratch_; }
 
@@ -200,7 +212,12 @@ class StepSolver {
   Status settle(const StepInput& in, StepSolution& step);
   Status find_middle(const StepInput& in, bool balanced, StepSolution& step);
   Status begin_here(const StepInput& in, StepSolution& step);
-  Status constrained_motion(const StepInput& in, bool base_known, StepSolution& step);
+  Status constrained_motion(const StepInput& in, StepSolution& step);
+  Status whole_round(const StepInput& in, StepSolution& step);
+  bool factor_is_current(const StepSolution& step) const;
+  bool change_rows(const StepInput& in, StepSolution& step);
+  bool extended_round(const StepInput& in, StepSolution& step);
+  void move_released_back(StepSolution& step);
   void order_rows(const Model& model, StepSolution& step);
   Status base_motion(const StepInput& in, StepSolution& step);
   void set_velocity(const StepInput& in, StepSolution& step);

@@ -34,6 +34,7 @@ class SeriesTest : public testing::Test {
     std::iota(row.begin(), row.end(), 600.0 * k);
     dense.append(row.data(), 6);
     sparse.append(row.data(), row.size());
+    blocks.append(row.data(), 70);
     ints.append(-k);
     longs.append(std::int64_t{k} << 33);
     choices.append(static_cast<std::uint8_t>(k % 3));
@@ -61,17 +62,21 @@ class SeriesTest : public testing::Test {
     const auto rows = static_cast<hsize_t>(count);
     ASSERT_EQ(in.shape("/a/dense"), (Shape{rows, 2, 3}));
     ASSERT_EQ(in.shape("/a/b/sparse"), (Shape{rows, 600}));
+    ASSERT_EQ(in.shape("/a/blocks"), (Shape{rows, 70}));
     for (const char* path : {"/ints", "/longs", "/choices"}) {
       ASSERT_EQ(in.shape(path), Shape{rows}) << path;
     }
     const auto dense_rows = in.rows("/a/dense");
     const auto sparse_rows = in.rows("/a/b/sparse");
+    const auto rows_of_blocks = in.rows("/a/blocks");
     const auto small = in.integers("/ints");
     const auto large = in.integers("/longs");
     const auto chosen = in.integers("/choices");
     for (int k = 0; k < count; ++k) {
       EXPECT_EQ(dense_rows.row(k), Eigen::RowVectorXd::LinSpaced(6, 600 * k, 600 * k + 5)) << k;
       EXPECT_EQ(sparse_rows.row(k), Eigen::RowVectorXd::LinSpaced(600, 600 * k, 600 * k + 599))
+          << k;
+      EXPECT_EQ(rows_of_blocks.row(k), Eigen::RowVectorXd::LinSpaced(70, 600 * k, 600 * k + 69))
           << k;
       EXPECT_EQ(small[k], -k);
       EXPECT_EQ(large[k], std::int64_t{k} << 33);
@@ -89,10 +94,12 @@ class SeriesTest : public testing::Test {
   Series<double> dense{chunked(layout_of<double>("/a/dense", {2, 3}, {"1", "rows of six"}))};
   Series<double> sparse{
       layout_of<double>("/a/b/sparse", {600}, {"dyn", "compressed", Storage::packed})};
+  Series<double> blocks{
+      chunked(layout_of<double>("/a/blocks", {70}, {"dyn", "blocks", Storage::blocks}))};
   Series<std::int32_t> ints{chunked(layout_of<std::int32_t>("/ints", {}, {"1", "ints"}))};
   Series<std::int64_t> longs{layout_of<std::int64_t>("/longs", {}, {"1", "longs"})};
   Series<std::uint8_t> choices{layout_of_choices("/choices", {"zero", "one", "two"}, {"1", "c"})};
-  std::vector<AnySeries*> all = {&dense, &sparse, &ints, &longs, &choices};
+  std::vector<AnySeries*> all = {&dense, &sparse, &blocks, &ints, &longs, &choices};
   std::optional<TwinFile> twin;
 };
 
@@ -146,6 +153,32 @@ TEST_F(SeriesTest, ZerosTakeNoRoom) {
   const auto zeros = size_after(0);
   EXPECT_LE(zeros, rows * 6 * sizeof(double) / 2);
   EXPECT_GE(size_after(1), zeros + rows * 6 * sizeof(double));
+}
+
+// Of a force that acts on some columns, only these are stored, wherever saves fall.
+TEST_F(SeriesTest, ColumnsOfZerosTakeNoRoomInBlocks) {
+  constexpr int rows = 700, columns = 70, acting = 50;  // of three blocks, the last one acts
+  const auto size_after = [&](double elsewhere) {
+    std::vector<double> row(columns, elsewhere);
+    for (int k = 0; k < rows; ++k) {
+      row[acting] = k + 1;
+      blocks.append(row.data(), row.size());
+      if (k % 100 == 0) save();
+    }
+    save();
+    return std::filesystem::file_size(file);
+  };
+  const auto before = std::filesystem::file_size(file);
+  const auto sparse_size = size_after(0) - before;
+  {
+    const Hdf5Reader in(file);
+    const Hdf5Reader::Rows read = in.rows("/a/blocks");
+    for (Eigen::Index k = 0; k < rows; ++k) {
+      EXPECT_EQ(read(k, acting), static_cast<double>(k + 1));
+      EXPECT_EQ(read.row(k).cwiseAbs().sum(), read(k, acting)) << k;
+    }
+  }
+  EXPECT_GE(size_after(1) - before - sparse_size, 2 * sparse_size);
 }
 
 TEST_F(SeriesTest, ATwinThatIsLostIsMadeAnew) {
