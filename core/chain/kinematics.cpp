@@ -1,5 +1,9 @@
 #include "core/chain/kinematics.hpp"
 
+#include <algorithm>
+
+#include "core/chain/lanes.hpp"
+
 namespace hagfish {
 namespace {
 
@@ -10,29 +14,52 @@ struct Frame {
 
 /// Turns two axes of a frame about the third: cheaper than a product of matrices, and less
 /// rounding.
-void turn(double angle, Eigen::Vector3d& b, Eigen::Vector3d& c) {
-  const double cosine = std::cos(angle);
-  const double sine = std::sin(angle);
+void turn(double sine, double cosine, Eigen::Vector3d& b, Eigen::Vector3d& c) {
   const Eigen::Vector3d before = b;
   b = cosine * before + sine * c;
   c = cosine * c - sine * before;
 }
 
 /// Turns `frame` about one of its axes, and returns that.
-Eigen::Vector3d turn(Axis axis, double angle, Frame& frame) {
+Eigen::Vector3d turn(Axis axis, double sine, double cosine, Frame& frame) {
   switch (axis) {
     case Axis::x:
-      turn(angle, frame.y, frame.z);
+      turn(sine, cosine, frame.y, frame.z);
       return frame.x;
     case Axis::y:
-      turn(angle, frame.z, frame.x);
+      turn(sine, cosine, frame.z, frame.x);
       return frame.y;
     case Axis::z:
-      turn(angle, frame.x, frame.y);
+      turn(sine, cosine, frame.x, frame.y);
       return frame.z;
   }
   return {};
 }
+
+/// Sines and cosines of angles that are asked for one after the other, worked out side by side.
+class Turns {
+ public:
+  explicit Turns(const Eigen::Ref<const Eigen::VectorXd>& angles) : angles_(angles) {}
+
+  void go_to(Eigen::Index i) {
+    at_ = static_cast<std::size_t>(i % lane_count);
+    if (at_ > 0) return;
+    LaneValues angles{};
+    const Eigen::Index count = std::min<Eigen::Index>(lane_count, angles_.size() - i);
+    std::copy_n(angles_.data() + i, count, angles.begin());
+    Lanes sines, cosines;
+    sine_and_cosine(lanes_of(angles), sines, cosines);
+    sines_ = detail::bits_as<LaneValues>(sines);
+    cosines_ = detail::bits_as<LaneValues>(cosines);
+  }
+  double sine() const { return sines_[at_]; }
+  double cosine() const { return cosines_[at_]; }
+
+ private:
+  const Eigen::Ref<const Eigen::VectorXd> angles_;
+  std::size_t at_ = 0;
+  LaneValues sines_{}, cosines_{};
+};
 
 }  // namespace
 
@@ -47,12 +74,16 @@ void update_positions(const Model& model, const Eigen::VectorXd& q, Kinematics& 
   const Eigen::Matrix3d root_frame = root_orientation(q).toRotationMatrix();
   Frame frame{root_frame.col(0), root_frame.col(1), root_frame.col(2)};
   Eigen::Vector3d origin = q.head<3>();
+  Turns turns(q.tail(model.nv() - root_dofs));
   for (int b = 0; b < n; ++b) {
     const Body& body = model.bodies[b];
     if (b > 0) {
       origin += model.bodies[b - 1].length * frame.x;
       for (int k = body.first_dof; k < body.first_dof + body.dofs; ++k) {
-        kin.axis.col(k).head<3>() = turn(model.hinges[k - root_dofs].axis, q[k + 1], frame);
+        const int hinge = k - root_dofs;
+        turns.go_to(hinge);
+        kin.axis.col(k).head<3>() =
+            turn(model.hinges[hinge].axis, turns.sine(), turns.cosine(), frame);
       }
     }
     kin.rotation[b].col(0) = frame.x;
