@@ -45,8 +45,11 @@ class Turns {
     at_ = static_cast<std::size_t>(i % lane_count);
     if (at_ > 0) return;
     LaneValues angles{};
-    const Eigen::Index count = std::min<Eigen::Index>(lane_count, angles_.size() - i);
-    std::copy_n(angles_.data() + i, count, angles.begin());
+    if (i + lane_count <= angles_.size()) {
+      std::copy_n(angles_.data() + i, lane_count, angles.begin());
+    } else {
+      std::copy(angles_.data() + i, angles_.data() + angles_.size(), angles.begin());
+    }
     Lanes sines, cosines;
     sine_and_cosine(lanes_of(angles), sines, cosines);
     sines_ = detail::bits_as<LaneValues>(sines);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/chain/lanes.hpp"
+
 namespace hagfish {
 namespace {
 
@@ -81,6 +83,40 @@ double least_gap(const SplineSegment& a, const SplineSegment& b, double t_a, dou
   return n.dot(a.c0 - b.c0) - a.r0 - b.r0 + std::ranges::min(of_a) - std::ranges::max(of_b);
 }
 
+/// Whether so many pairs of one segment as there are lanes, from `i` on, are of segments b that
+/// follow each other, as most are, and none has moved as far as it is clear.
+bool still_clear(const Candidates& candidates, int i) {
+  const auto& [a, b] = candidates.pairs[i];
+  if (candidates.pairs[i + lane_count - 1].b != b + lane_count - 1) {
+    return false;
+  }
+  LaneValues moved, until;
+  std::copy_n(&candidates.moved[b], lane_count, moved.begin());
+  std::copy_n(&candidates.clear_until[i], lane_count, until.begin());
+  return !any(lanes_of(candidates.moved[a]) + lanes_of(moved) >= lanes_of(until));
+}
+
+/// Whether pair `i` may matter where the segments are now; puts it off where planes say so.
+bool is_due(const std::vector<SplineSegment>& segments, Candidates& candidates, int i) {
+  const double moved = candidates.moved_by(i);
+  if (moved < candidates.clear_until[i]) {
+    return false;
+  }
+  const auto& [a, b] = candidates.pairs[i];
+  const LastSeen& seen = candidates.seen[i];
+  const ClosestPoints at =
+      seen.closest.value_or(ClosestPoints{0.5, 0.5, std::numeric_limits<double>::infinity()});
+  if (at.gap <= seen.matters_at + bent * segments[a].s1 * segments[a].s1) {
+    return true;
+  }
+  const double clear = least_gap(segments[a], segments[b], at.t_a, at.t_b) - seen.matters_at;
+  if (!(clear > 0)) {
+    return true;
+  }
+  candidates.clear_until[i] = moved + clear;
+  return false;
+}
+
 }  // namespace
 
 void keep_ends(const std::vector<SplineSegment>& segments, Candidates& candidates) {
@@ -116,25 +152,18 @@ void update_candidates(const std::vector<SplineSegment>& segments, const Contact
 void find_due(const std::vector<SplineSegment>& segments, Candidates& candidates,
               std::vector<int>& due) {
   due.clear();
-  for (std::size_t a = 0; a < segments.size(); ++a) {
-    for (int i = candidates.first[a]; i < candidates.first[a + 1]; ++i) {
-      const double moved = candidates.moved_by(i);
-      if (moved < candidates.clear_until[i]) {
+  const int n = static_cast<int>(segments.size());
+  for (int a = 0; a < n; ++a) {
+    const int end = candidates.first[a + 1];
+    for (int i = candidates.first[a]; i < end;) {
+      const int next = std::min(i + lane_count, end);
+      if (next - i == lane_count && still_clear(candidates, i)) {
+        i = next;
         continue;
       }
-      const LastSeen& seen = candidates.seen[i];
-      const ClosestPoints at =
-          seen.closest.value_or(ClosestPoints{0.5, 0.5, std::numeric_limits<double>::infinity()});
-      if (at.gap > seen.matters_at + bent * segments[a].s1 * segments[a].s1) {
-        const double clear =
-            least_gap(segments[a], segments[candidates.pairs[i].b], at.t_a, at.t_b) -
-            seen.matters_at;
-        if (clear > 0) {
-          candidates.clear_until[i] = moved + clear;
-          continue;
-        }
+      for (; i < next; ++i) {
+        if (is_due(segments, candidates, i)) due.push_back(i);
       }
-      due.push_back(i);
     }
   }
 }

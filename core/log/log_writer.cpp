@@ -180,7 +180,7 @@ struct LogWriter::Contents {
   std::int64_t mark_stride;                       // and a checkpoint
   std::map<std::string, std::string> attributes;  // of the root, to be set by the next save
   std::optional<TwinFile> file;
-  double next_save = save_interval;  // wall time, s
+  double next_save = 0;  // wall time, s: the first step is saved at once
   bool any = false;      // a step has been saved
 };
 
