@@ -91,7 +91,8 @@ void ActiveSetFactor::start_panel(Eigen::Index first, Eigen::Index width, Eigen:
     }
   }
   for (Eigen::Index i = top; first > 0 && i < n; i += tile_rows) {
-    const auto tile = tile_product<panel>(&L_(i, 0), L_.outerStride(), &L_(first, 0), L_.outerStride(), first);
+    const auto tile =
+        tile_product<panel>(&L_(i, 0), L_.outerStride(), &L_(first, 0), L_.outerStride(), first);
     const Eigen::Index rows = std::min(tile_rows, n - i);
     L_.block(i, first, rows, width).array() -= tile.topLeftCorner(rows, width);
   }

@@ -9,7 +9,8 @@ namespace hagfish {
 inline constexpr Eigen::Index tile_rows = 8;
 
 /// Σ_k u_k v_k' over k < count, with u_k the `tile_rows` entries from left + k left_stride on and
-/// v_k the `columns` entries from right + k right_stride on. It stays in registers until it is done.
+/// v_k the `columns` entries from right + k right_stride on. It stays in registers until it is
+/// done.
 template <int columns>
 Eigen::Array<double, tile_rows, columns> tile_product(const double* left, Eigen::Index left_stride,
                                                       const double* right,
