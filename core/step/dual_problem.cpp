@@ -96,7 +96,7 @@ void extend_dual(const Model& model, const Kinematics& kin, const ArticulatedFac
     // that [U; 1] K⁻¹ [U; 1]' comes on top of A.
     factor.free_inertia(kin, e.columns, e.inertia);
     e.inertia_factor.compute(e.inertia);
-    e.answer.resize(m, released);
+    e.answer.resize(m + 1, released);
     for (Eigen::Index r = 0; r < released; ++r) {
       const Row& own = rows.released[r];
       for (Eigen::Index i = 0; i < there; ++i) {
@@ -110,14 +110,17 @@ void extend_dual(const Model& model, const Kinematics& kin, const ArticulatedFac
       e.qp.lower[unreleased + r] = own.lower;
       e.qp.upper[unreleased + r] = own.upper;
     }
-    e.answer.bottomRows(released).setIdentity();
-    e.inertia_factor.matrixU().solveInPlace<Eigen::OnTheRight>(e.answer);  // K = L L': [U; 1] L'⁻¹
-    e.inertia_factor.matrixL().solveInPlace(e.reaction);
+    e.answer.middleRows(unreleased, released).setIdentity();
+    e.answer.bottomRows<1>() = e.reaction.transpose();
+    e.inertia_factor.matrixU().solveInPlace<Eigen::OnTheRight>(e.answer);
+    // With K = L L' the rows of the problem in `answer` are [U; 1] L'⁻¹ now, the last one L⁻¹ times
+    // the reactions.
+    const auto half = e.answer.topRows(m);
     e.qp.A.rightCols(released).setZero();
     e.qp.A.bottomRows(released).setZero();
-    e.qp.A += e.answer.lazyProduct(e.answer.transpose());
+    e.qp.A += half.lazyProduct(half.transpose());
     e.qp.b.tail(released).setZero();
-    e.qp.b += e.answer.lazyProduct(e.reaction);
+    e.qp.b += half.lazyProduct(e.answer.bottomRows<1>().transpose());
   }
 }
 

@@ -21,7 +21,7 @@ void assemble_dual(const Model& model, const Kinematics& kin, const ArticulatedF
 struct DualExtension {
   BoxQp qp;  ///< on the rows that there were, those added and those released
   RowColumns columns;
-  Eigen::VectorXd reaction;  ///< λ of the released rows in the base motion; used up
+  Eigen::VectorXd reaction;  ///< λ of the released rows in the base motion
   Eigen::MatrixXd cross, own, inertia, answer;
   Eigen::LLT<Eigen::MatrixXd> inertia_factor;
 };
