@@ -198,12 +198,12 @@ void ArticulatedFactor::half_solve(const Model& model, const Kinematics& kin,
       }
     }
   }
-  load_motions(kin, columns);
+  set_behind_motions(kin, columns);
 }
 
 /// The part of motions behind their own velocities: what moves as one has the momentum of its
 /// articulated inertia.
-void ArticulatedFactor::load_motions(const Kinematics& kin, RowColumns& columns) const {
+void ArticulatedFactor::set_behind_motions(const Kinematics& kin, RowColumns& columns) const {
   for (const auto& motion : columns.motions_) {
     const Vector6d moved = motion.value * kin.axis.col(motion.dof);
     for (Eigen::Index k = motion.dof + 1; k < pivot_.size(); ++k) {
@@ -275,17 +275,22 @@ void RowColumns::set_widths() {
   }
 }
 
+RowColumns::Tile RowColumns::tile(Eigen::Index first, const RowColumns& other,
+                                  Eigen::Index second) const {
+  const Eigen::Index end = std::min(end_[first / panel], other.end_[second / panel]);
+  return tile_product<panel>(&y_(0, first), y_.outerStride(), &other.y_(0, second),
+                             other.y_.outerStride(), end);
+}
+
 void RowColumns::gram(Eigen::MatrixXd& A) const {
   A.resize(count_, count_);
   for (Eigen::Index p = 0; p < count_; p += panel) {
     for (Eigen::Index q = 0; q <= p; q += panel) {
-      const Eigen::Index end = std::min(end_[p / panel], end_[q / panel]);
-      const Eigen::Index stride = y_.outerStride();
-      const auto tile = tile_product<panel>(&y_(0, q), stride, &y_(0, p), stride, end);
       const Eigen::Index rows = std::min<Eigen::Index>(panel, count_ - q);
       const Eigen::Index cols = std::min<Eigen::Index>(panel, count_ - p);
-      A.block(q, p, rows, cols) = tile.topLeftCorner(rows, cols);
-      A.block(p, q, cols, rows) = tile.topLeftCorner(rows, cols).transpose();
+      const Tile all = tile(q, *this, p);
+      A.block(q, p, rows, cols) = all.topLeftCorner(rows, cols);
+      A.block(p, q, cols, rows) = all.topLeftCorner(rows, cols).transpose();
     }
   }
 }
@@ -294,12 +299,9 @@ void RowColumns::products(const RowColumns& other, Eigen::MatrixXd& P) const {
   P.resize(count_, other.count_);
   for (Eigen::Index p = 0; p < other.count_; p += panel) {
     for (Eigen::Index q = 0; q < count_; q += panel) {
-      const Eigen::Index end = std::min(end_[q / panel], other.end_[p / panel]);
-      const auto tile = tile_product<panel>(&y_(0, q), y_.outerStride(), &other.y_(0, p),
-                                            other.y_.outerStride(), end);
       const Eigen::Index rows = std::min<Eigen::Index>(panel, count_ - q);
       const Eigen::Index cols = std::min<Eigen::Index>(panel, other.count_ - p);
-      P.block(q, p, rows, cols) = tile.topLeftCorner(rows, cols);
+      P.block(q, p, rows, cols) = tile(q, other, p).topLeftCorner(rows, cols);
     }
   }
 }

@@ -78,8 +78,11 @@ class RowColumns {
     Eigen::Index column;
     double value;
   };
+  using Tile = Eigen::Array<double, panel, panel>;
   void extend(Eigen::Index column, Eigen::Index end);
   void set_widths();
+  /// Products of the columns from `first` on with those of `other` from `second` on.
+  Tile tile(Eigen::Index first, const RowColumns& other, Eigen::Index second) const;
 
   Eigen::Index count_ = 0;
   std::vector<Load> loads_;
@@ -136,12 +139,12 @@ class ArticulatedFactor {
   double pivot(int dof) const { return pivot_[dof]; }
 
  private:
+  void set_behind_motions(const Kinematics& kin, RowColumns& columns) const;
+
   Matrix6Xd weighted_;             // Î^A S, one column a dof
   Eigen::VectorXd coupling_;       // S' Î^A S of each dof and the one before it
   Eigen::VectorXd pivot_;          // S' Î^A S + δ
   Eigen::VectorXd inverse_pivot_;  // 0 where prescribed
-  void load_motions(const Kinematics& kin, RowColumns& columns) const;
-
   std::vector<PrescribedVelocity> prescribed_;
 };
 

@@ -164,7 +164,7 @@ void Hdf5Writer::bytes(const std::string& path, const std::vector<std::uint8_t>&
 
 void Hdf5Writer::make_labels(const std::string& path) {
   guarded(name_, "make labels of " + path, [&] {
-    const H5::DataSet& set = dataset(path);
+    const H5::DataSet set = h5_.openDataSet(path);
     if (H5DSset_scale(set.getId(), name_of(path).c_str()) < 0) {
       throw H5::DataSetIException("H5DSset_scale", "no scale");
     }
@@ -173,7 +173,7 @@ void Hdf5Writer::make_labels(const std::string& path) {
 
 void Hdf5Writer::label(const std::string& path, const std::vector<std::string>& labels) {
   guarded(name_, "label " + path, [&] {
-    const H5::DataSet& set = dataset(path);
+    const H5::DataSet set = h5_.openDataSet(path);
     for (std::size_t axis = 0; axis < labels.size(); ++axis) {
       // Labels label themselves.
       if (labels[axis].empty() || labels[axis] == path) continue;

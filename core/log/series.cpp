@@ -55,10 +55,13 @@ std::size_t AnySeries::room() const {
   const hsize_t chunk = layout_.chunk_rows;
   const hsize_t begin = first_ / chunk;
   const hsize_t end = (total_ + chunk - 1) / chunk;
-  const hsize_t columns = layout_.chunk_columns;
-  const hsize_t blocks = columns == 0 ? 1 : (layout_.row_shape.back() + columns - 1) / columns;
-  // Blocks at the end of a row are as wide as the others.
-  const hsize_t width = columns == 0 ? row_bytes() : blocks * columns * value_size_;
+  hsize_t blocks = 1;
+  hsize_t width = row_bytes();
+  if (const hsize_t columns = layout_.chunk_columns; columns > 0) {
+    const hsize_t all = layout_.row_shape.back();
+    blocks = (all + columns - 1) / columns;
+    width = width / all * blocks * columns;  // the last block is as wide as the others
+  }
   return index_size + (end - begin) * (chunk * width + blocks * index_entry);
 }
 

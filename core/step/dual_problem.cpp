@@ -31,6 +31,54 @@ double coefficient(const Model& model, const Kinematics& kin, const Row& row, in
   return sum;
 }
 
+/// Right-hand side and bounds of row `i` of a problem.
+void set_row(const Row& row, const Eigen::VectorXd& base, const Eigen::Matrix3Xd& centre_velocity,
+             Eigen::Index i, BoxQp& qp) {
+  qp.b[i] = row.rhs - row_velocity(row, centre_velocity, base);
+  qp.lower[i] = row.lower;
+  qp.upper[i] = row.upper;
+}
+
+/// Takes what released velocities answer into the problem, whose other rows are set.
+void release(const Model& model, const Kinematics& kin, const ArticulatedFactor& factor,
+             const ExtendedRows& rows, DualExtension& e) {
+  const auto there = static_cast<Eigen::Index>(rows.there.size());
+  const auto added = static_cast<Eigen::Index>(rows.added.size());
+  const auto released = static_cast<Eigen::Index>(rows.released.size());
+  const Eigen::Index unreleased = there + added;
+  const Eigen::Index m = unreleased + released;
+  // U: how the rows move with a unit velocity of each released one. With K s = λ - reaction +
+  // U'λ' the released velocities s go with the forces λ' of the other rows and λ of their own, so
+  // that [U; 1] K⁻¹ [U; 1]' comes on top of A.
+  factor.free_inertia(kin, e.columns, e.inertia);
+  e.inertia_factor.compute(e.inertia);
+  e.answer.resize(m + 1, released);
+  for (Eigen::Index r = 0; r < released; ++r) {
+    const Row& own = rows.released[r];
+    for (Eigen::Index i = 0; i < there; ++i) {
+      e.answer(i, r) =
+          own.sign * coefficient(model, kin, rows.there[i], own.dof) - e.cross(i, added + r);
+    }
+    for (Eigen::Index i = 0; i < added; ++i) {
+      e.answer(there + i, r) =
+          own.sign * coefficient(model, kin, rows.added[i], own.dof) - e.own(i, added + r);
+    }
+    e.qp.lower[unreleased + r] = own.lower;
+    e.qp.upper[unreleased + r] = own.upper;
+  }
+  e.answer.middleRows(unreleased, released).setIdentity();
+  e.answer.bottomRows<1>() = e.reaction.transpose();
+  e.inertia_factor.matrixU().solveInPlace<Eigen::OnTheRight>(e.answer);
+  // With K = L L' the rows of the problem in `answer` are [U; 1] L'⁻¹ now, the last one L⁻¹ times
+  // the reactions.
+  const auto half = e.answer.topRows(m);
+  e.qp.A.rightCols(released).setZero();
+  e.qp.A.bottomRows(released).setZero();
+  e.qp.A += half.lazyProduct(half.transpose());
+  e.qp.b.tail(released).setZero();
+  e.qp.b += half.lazyProduct(e.answer.bottomRows<1>().transpose());
+}
+
 }  // namespace
 
 void assemble_dual(const Model& model, const Kinematics& kin, const ArticulatedFactor& factor,
@@ -44,9 +92,7 @@ void assemble_dual(const Model& model, const Kinematics& kin, const ArticulatedF
   for (Eigen::Index j = 0; j < m; ++j) {
     const Row& row = rows[j];
     load_row(model, kin, row, j, columns);
-    qp.b[j] = row.rhs - row_velocity(row, centre_velocity, base);
-    qp.lower[j] = row.lower;
-    qp.upper[j] = row.upper;
+    set_row(row, base, centre_velocity, j, qp);
   }
   factor.half_solve(model, kin, columns);
   columns.gram(qp.A);
@@ -59,7 +105,6 @@ void extend_dual(const Model& model, const Kinematics& kin, const ArticulatedFac
   const auto there = static_cast<Eigen::Index>(rows.there.size());
   const auto added = static_cast<Eigen::Index>(rows.added.size());
   const auto released = static_cast<Eigen::Index>(rows.released.size());
-  const Eigen::Index unreleased = there + added;
   DualExtension& e = extension;
   e.columns.reset(model, added + released);
   for (Eigen::Index j = 0; j < added; ++j) {
@@ -72,7 +117,7 @@ void extend_dual(const Model& model, const Kinematics& kin, const ArticulatedFac
   columns.products(e.columns, e.cross);
   e.columns.gram(e.own);
 
-  const Eigen::Index m = unreleased + released;
+  const Eigen::Index m = there + added + released;
   e.qp.A.resize(m, m);
   e.qp.A.topLeftCorner(there, there) = qp.A;
   e.qp.A.block(0, there, there, added) = e.cross.leftCols(added);
@@ -85,42 +130,10 @@ void extend_dual(const Model& model, const Kinematics& kin, const ArticulatedFac
   e.qp.lower.head(there) = qp.lower;
   e.qp.upper.head(there) = qp.upper;
   for (Eigen::Index j = 0; j < added; ++j) {
-    const Row& row = rows.added[j];
-    e.qp.b[there + j] = row.rhs - row_velocity(row, centre_velocity, base);
-    e.qp.lower[there + j] = row.lower;
-    e.qp.upper[there + j] = row.upper;
+    set_row(rows.added[j], base, centre_velocity, there + j, e.qp);
   }
   if (released > 0) {
-    // U: how the rows move with a unit velocity of each released one. With K s = λ - reaction +
-    // U'λ' the released velocities s go with the forces λ' of the other rows and λ of their own, so
-    // that [U; 1] K⁻¹ [U; 1]' comes on top of A.
-    factor.free_inertia(kin, e.columns, e.inertia);
-    e.inertia_factor.compute(e.inertia);
-    e.answer.resize(m + 1, released);
-    for (Eigen::Index r = 0; r < released; ++r) {
-      const Row& own = rows.released[r];
-      for (Eigen::Index i = 0; i < there; ++i) {
-        e.answer(i, r) =
-            own.sign * coefficient(model, kin, rows.there[i], own.dof) - e.cross(i, added + r);
-      }
-      for (Eigen::Index i = 0; i < added; ++i) {
-        e.answer(there + i, r) =
-            own.sign * coefficient(model, kin, rows.added[i], own.dof) - e.own(i, added + r);
-      }
-      e.qp.lower[unreleased + r] = own.lower;
-      e.qp.upper[unreleased + r] = own.upper;
-    }
-    e.answer.middleRows(unreleased, released).setIdentity();
-    e.answer.bottomRows<1>() = e.reaction.transpose();
-    e.inertia_factor.matrixU().solveInPlace<Eigen::OnTheRight>(e.answer);
-    // With K = L L' the rows of the problem in `answer` are [U; 1] L'⁻¹ now, the last one L⁻¹ times
-    // the reactions.
-    const auto half = e.answer.topRows(m);
-    e.qp.A.rightCols(released).setZero();
-    e.qp.A.bottomRows(released).setZero();
-    e.qp.A += half.lazyProduct(half.transpose());
-    e.qp.b.tail(released).setZero();
-    e.qp.b += half.lazyProduct(e.answer.bottomRows<1>().transpose());
+    release(model, kin, factor, rows, e);
   }
 }
 

@@ -2,9 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <random>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 namespace hagfish {
 namespace {
@@ -62,6 +66,44 @@ TEST(Diagram, ClosuresOfAnArcHaveTheDiagramOfTheClosedPolygon) {
       }
     }
     EXPECT_EQ(crossings > 0, count > 2);  // with two points it is a parallelogram
+  }
+}
+
+/// Whether the segments from a to b and from c to d cross, seen along Z.
+bool cross_in_view(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
+                   const Eigen::Vector3d& d) {
+  const auto side = [](const auto& p, const auto& q, const auto& r) {
+    return (q.x() - p.x()) * (r.y() - p.y()) - (q.y() - p.y()) * (r.x() - p.x()) > 0;
+  };
+  return side(a, b, c) != side(a, b, d) && side(c, d, a) != side(c, d, b);
+}
+
+// Edges that are clear of a whole batch of others are told apart at once: none may be missed.
+TEST(Diagram, HasTheCrossingsOfEachEdgeWithEachOther) {
+  std::mt19937 random(2);
+  for (const int count : {3, 8, 9, 17, 64, 90}) {
+    Eigen::Matrix3Xd points = tangle(count, random);
+    // Along a line, so that most edges are far from each other.
+    for (int k = 0; k < count; ++k) points(0, k) += 0.2 * std::abs(k - count / 2);
+    std::vector<std::pair<int, int>> expected;
+    for (int i = 0; i < count; ++i) {
+      for (int j = i + 2; j < count - (i == 0 ? 1 : 0); ++j) {
+        if (cross_in_view(points.col(i), points.col(i + 1), points.col(j),
+                          points.col((j + 1) % count))) {
+          expected.emplace_back(i, j);
+        }
+      }
+    }
+    const Diagram diagram = diagram_of_closed(points, Eigen::Vector3d::UnitZ());
+    std::map<int, std::pair<int, int>> edges;  // of each crossing, in the polygon's order
+    for (const Passage& passage : diagram.passages) {
+      const auto [at, is_new] = edges.try_emplace(passage.crossing, passage.edge, -1);
+      if (!is_new) at->second.second = passage.edge;
+    }
+    std::vector<std::pair<int, int>> found;
+    for (const auto& [crossing, pair] : edges) found.push_back(pair);
+    std::ranges::sort(found);
+    EXPECT_EQ(found, expected) << count;
   }
 }
 
