@@ -1,6 +1,7 @@
 #include "solvers/active_set_factor.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -9,7 +10,6 @@
 namespace hagfish {
 namespace {
 
-constexpr int panel = 4;  // columns made together
 /// As in free_rows.cpp: smaller pivots of a matrix of unit diagonal are rounding.
 constexpr double rank_threshold = 1e-12;
 /// Pivots above this are not: they are clear of rounding without a closer look.
@@ -17,138 +17,225 @@ constexpr double clear_pivot = 1e-4;
 /// Rounding of A and of the factor, in entries of A brought to unit diagonal.
 constexpr double entry_rounding = 8 * std::numeric_limits<double>::epsilon();
 
+using Lanes = Eigen::Array<double, tile_rows, 1>;
+using ConstLanes = Eigen::Map<const Lanes, Eigen::Aligned16>;
+
+/// t := t L⁻ᵀ with the diagonal tile L of a panel and its inverse pivots.
+void solve_tile(const double* diagonal, const double* inverse_pivot, Tile& t) {
+#pragma GCC unroll 8
+  for (int j = 0; j < tile_rows; ++j) {
+    t.col(j) *= inverse_pivot[j];
+#pragma GCC unroll 8
+    for (int i = j + 1; i < tile_rows; ++i) {
+      t.col(i) -= t.col(j) * diagonal[tile_rows * j + i];
+    }
+  }
+}
+
 }  // namespace
+
+/// The tile_rows entries of column `k` in panel `p`.
+double* ActiveSetFactor::column(Eigen::Index p, Eigen::Index k) {
+  return L_.data() + tile_rows * (tile_rows * p * (p + 1) / 2 + k);
+}
 
 void ActiveSetFactor::reset(const Eigen::MatrixXd& A,
                             const Eigen::Map<Eigen::VectorXd>& inverse_scale) {
   const Eigen::Index m = A.rows();
   A_ = &A;
   inverse_scale_ = &inverse_scale;
-  if (L_.cols() < m || L_.cols() == 0) {
-    L_.setZero(m + tile_rows, m);
-    work_.resize(m);
+  const Eigen::Index panels = (m + tile_rows - 1) / tile_rows;
+  if (inverse_pivot_.size() < panels * tile_rows) {
+    L_.setZero(tile_rows * tile_rows * panels * (panels + 1) / 2);
+    inverse_pivot_.setZero(panels * tile_rows);
+    work_.setZero(panels * tile_rows);
+    sums_.resize(tile_rows * panels * tile_rows);
     rows_.reserve(m);
+    place_.resize(panels * tile_rows);
+    place_scale_.resize(panels * tile_rows);
   }
   rows_.clear();
   active_.assign(m, 0);
 }
 
-bool ActiveSetFactor::append(std::span<const Eigen::Index> added) {
-  const auto known = static_cast<Eigen::Index>(rows_.size());
-  rows_.insert(rows_.end(), added.begin(), added.end());
-  return factorise_tail(known);
-}
-
-void ActiveSetFactor::remove(std::span<const Eigen::Index> dropped) {
+bool ActiveSetFactor::change(std::span<const Eigen::Index> dropped,
+                             std::span<const Eigen::Index> added) {
   for (const Eigen::Index row : dropped) {
     active_[row] = 0;
   }
   const auto gone = [this](Eigen::Index row) { return active_[row] == 0; };
-  const auto first = std::find_if(rows_.begin(), rows_.end(), gone);
+  const auto first = dropped.empty() ? rows_.end() : std::find_if(rows_.begin(), rows_.end(), gone);
   const auto known = first - rows_.begin();
   rows_.erase(std::remove_if(first, rows_.end(), gone), rows_.end());
-  factorise_tail(known);
+  rows_.insert(rows_.end(), added.begin(), added.end());
+  return known == std::ssize(rows_) || factorise_from(known);
 }
 
-/// Factorises rows_ from position `known` on, panel by panel of columns.
-bool ActiveSetFactor::factorise_tail(Eigen::Index known) {
-  auto n = static_cast<Eigen::Index>(rows_.size());
+/// Factorises rows_ from `position` on. A panel of which some rows are known is made again: its
+/// rows take no longer together than one of them.
+bool ActiveSetFactor::factorise_from(Eigen::Index position) {
+  place(position);
   bool all = true;
-  for (Eigen::Index first = 0; known < n && first < n;) {
-    // Columns that are final already gain the new rows only.
-    const bool final = first < known;
-    const Eigen::Index top = final ? known : first;
-    const Eigen::Index width = std::min<Eigen::Index>(panel, (final ? known : n) - first);
-    start_panel(first, width, top, n);
-    Eigen::Index k = first;
-    for (; k < first + width && (final || accept(k)); ++k) {
-      const Eigen::Index from = final ? known : k + 1;
-      auto column = L_.col(k).segment(from, n - from);
-      column /= L_(k, k);
-      for (Eigen::Index j = k + 1; j < first + width; ++j) {
-        const Eigen::Index behind = std::max(top, j);
-        L_.col(j).segment(behind, n - behind) -= L_(j, k) * column.tail(n - behind);
-      }
-    }
-    if (k < first + width) {  // the columns behind it are made again
-      refuse(k);
-      --n;
+  for (Eigen::Index p = position / tile_rows; p * tile_rows < std::ssize(rows_);) {
+    const Eigen::Index refused = make_panel(p);
+    if (refused < 0) {
+      ++p;
+    } else {
+      active_[rows_[refused]] = 0;
+      rows_.erase(rows_.begin() + refused);
+      place(refused);
       all = false;
     }
-    first = k;
   }
   return all;
 }
 
-/// Sets `width` columns from `first` on, rows `top` to n, to what the columns before them leave of
-/// A, on and below the diagonal.
-void ActiveSetFactor::start_panel(Eigen::Index first, Eigen::Index width, Eigen::Index top,
-                                  Eigen::Index n) {
-  const auto& s = *inverse_scale_;
-  for (Eigen::Index k = first; k < first + width; ++k) {
-    for (Eigen::Index i = std::max(top, k); i < n; ++i) {
-      L_(i, k) = (*A_)(rows_[i], rows_[k]) * s[rows_[i]] * s[rows_[k]];
-    }
+/// Notes the rows from `position` on to the end of the last panel.
+void ActiveSetFactor::place(Eigen::Index position) {
+  const Eigen::Index n = std::ssize(rows_);
+  for (Eigen::Index k = position; k < n; ++k) {
+    place_[k] = rows_[k];
+    place_scale_[k] = (*inverse_scale_)[rows_[k]];
   }
-  for (Eigen::Index i = top; first > 0 && i < n; i += tile_rows) {
-    const auto tile =
-        tile_product<panel>(&L_(i, 0), L_.outerStride(), &L_(first, 0), L_.outerStride(), first);
-    const Eigen::Index rows = std::min(tile_rows, n - i);
-    L_.block(i, first, rows, width).array() -= tile.topLeftCorner(rows, width);
+  for (Eigen::Index k = n; k % tile_rows != 0; ++k) {
+    place_[k] = 0;
+    place_scale_[k] = 0;
   }
 }
 
-/// Makes the pivot at `k` final unless its row depends on those before it.
-bool ActiveSetFactor::accept(Eigen::Index k) {
-  const double pivot = L_(k, k);
-  if (pivot <= clear_pivot && (pivot <= rank_threshold || pivot <= pivot_rounding(k))) {
-    return false;
+/// Makes panel `p`. Returns the position of a row that depends on those before it, with which the
+/// panel ends; -1 where there is none.
+Eigen::Index ActiveSetFactor::make_panel(Eigen::Index p) {
+  gather(p);
+  for (Eigen::Index q = 0; q <= p; ++q) {
+    Eigen::Map<Tile> made(column(p, q * tile_rows));
+    Tile t = made;
+    t -= tile_product(column(p, 0), tile_rows, column(q, 0), tile_rows, q * tile_rows);
+    if (q < p) {
+      solve_tile(column(q, q * tile_rows), &inverse_pivot_[q * tile_rows], t);
+    }
+    made = t;
   }
-  L_(k, k) = std::sqrt(pivot);
-  active_[rows_[k]] = 1;
-  return true;
+  return make_diagonal(p);
+}
+
+/// Sets panel `p` to entries of A, brought to unit diagonal.
+void ActiveSetFactor::gather(Eigen::Index p) {
+  const Eigen::Index first = p * tile_rows;
+  std::array<const double*, tile_rows> entries;  // A is symmetric: its columns are its rows
+  for (Eigen::Index i = 0; i < tile_rows; ++i) entries[i] = A_->col(place_[first + i]).data();
+  double* l = column(p, 0);
+  for (Eigen::Index k = 0; k < first + tile_rows; ++k, l += tile_rows) {
+    for (Eigen::Index i = 0; i < tile_rows; ++i) l[i] = entries[i][place_[k]];
+  }
+  const Lanes scale = ConstLanes(&place_scale_[first]);
+  l = column(p, 0);
+  for (Eigen::Index k = 0; k < first + tile_rows; ++k, l += tile_rows) {
+    Eigen::Map<Lanes, Eigen::Aligned16>(l) *= scale * place_scale_[k];
+  }
+}
+
+/// Factorises the diagonal tile of panel `p` in its place. Returns as make_panel does.
+Eigen::Index ActiveSetFactor::make_diagonal(Eigen::Index p) {
+  const Eigen::Index first = p * tile_rows;
+  const Eigen::Index count = std::min<Eigen::Index>(tile_rows, std::ssize(rows_) - first);
+  Eigen::Map<Tile> t(column(p, first));
+  for (Eigen::Index j = 0; j < count; ++j) {
+    if (!accept(t(j, j), first + j)) {
+      return first + j;
+    }
+    inverse_pivot_[first + j] = 1 / std::sqrt(t(j, j));
+    const Lanes l = t.col(j) * inverse_pivot_[first + j];
+    t.col(j) = l;
+#pragma GCC unroll 8
+    for (Eigen::Index i = 0; i < tile_rows; ++i) {
+      if (i > j) t.col(i) -= l * l[i];
+    }
+    active_[rows_[first + j]] = 1;
+  }
+  return -1;
+}
+
+/// Whether the row at `position` does not depend on those before it.
+bool ActiveSetFactor::accept(double pivot, Eigen::Index position) {
+  return pivot > clear_pivot || (pivot > rank_threshold && pivot > pivot_rounding(position));
 }
 
 /// Rounding of the pivot at `position`. It is (e - r)' S A S (e - r) with r the shares of the rows
 /// before it in this one: errors of the entries come in with |e - r|² in the 1-norm.
 double ActiveSetFactor::pivot_rounding(Eigen::Index position) {
-  auto shares = work_.head(position);
-  shares = L_.row(position).head(position).transpose();
-  L_.topLeftCorner(position, position)
-      .triangularView<Eigen::Lower>()
-      .transpose()
-      .solveInPlace(shares);
-  const double sum = 1 + shares.lpNorm<1>();
-  return entry_rounding * sum * sum;
-}
-
-/// Takes the row at `position`, not yet factorised, out of the list.
-void ActiveSetFactor::refuse(Eigen::Index position) {
-  const auto last = static_cast<Eigen::Index>(rows_.size()) - 1;
-  active_[rows_[position]] = 0;
-  rows_.erase(rows_.begin() + position);
-  for (Eigen::Index j = 0; j < position; ++j) {
-    for (Eigen::Index i = position; i < last; ++i) {
-      L_(i, j) = L_(i + 1, j);
-    }
+  const Eigen::Index p = position / tile_rows;
+  for (Eigen::Index k = 0; k < position; ++k) {
+    work_[k] = column(p, k)[position % tile_rows];
   }
+  solve_upper(position);
+  const double sum = 1 + work_.head(position).lpNorm<1>();
+  return entry_rounding * sum * sum;
 }
 
 Eigen::Ref<const Eigen::VectorXd> ActiveSetFactor::solve(
     const Eigen::Ref<const Eigen::VectorXd>& c) {
   const auto& s = *inverse_scale_;
-  const auto n = static_cast<Eigen::Index>(rows_.size());
-  auto y = work_.head(n);
+  const Eigen::Index n = std::ssize(rows_);
   for (Eigen::Index i = 0; i < n; ++i) {
-    y[i] = c[rows_[i]] * s[rows_[i]];
+    work_[i] = c[rows_[i]] * s[rows_[i]];
   }
-  const auto L = L_.topLeftCorner(n, n).triangularView<Eigen::Lower>();
-  L.solveInPlace(y);
-  L.transpose().solveInPlace(y);
+  solve_lower(n);
+  solve_upper(n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    y[i] *= s[rows_[i]];
+    work_[i] *= s[rows_[i]];
   }
-  return y;
+  return work_.head(n);
+}
+
+/// work_ := L⁻¹ work_, of `n` rows. What stands behind them to the end of a panel is lost.
+void ActiveSetFactor::solve_lower(Eigen::Index n) {
+  for (Eigen::Index first = 0; first < n; first += tile_rows) {
+    const double* l = column(first / tile_rows, 0);
+    Eigen::Array<double, tile_rows, 4> sums;  // apart, as each addition waits for the one before
+    sums.setZero();
+    for (Eigen::Index k = 0; k < first; k += 4, l += 4 * tile_rows) {
+      for (int j = 0; j < 4; ++j) sums.col(j) += ConstLanes(l + tile_rows * j) * work_[k + j];
+    }
+    Eigen::Map<Lanes> y(&work_[first]);
+    y -= (sums.col(0) + sums.col(1)) + (sums.col(2) + sums.col(3));
+    std::array<double, tile_rows> left;
+    Eigen::Map<Lanes>(left.data()) = y;
+#pragma GCC unroll 8
+    for (Eigen::Index j = 0; j < tile_rows; ++j) {
+      left[j] *= inverse_pivot_[first + j];
+#pragma GCC unroll 8
+      for (Eigen::Index i = j + 1; i < tile_rows; ++i) left[i] -= l[tile_rows * j + i] * left[j];
+    }
+    y = Eigen::Map<Lanes>(left.data());
+  }
+}
+
+/// work_ := L⁻ᵀ work_, of `n` rows.
+void ActiveSetFactor::solve_upper(Eigen::Index n) {
+  const Eigen::Index panels = (n + tile_rows - 1) / tile_rows;
+  work_.segment(n, panels * tile_rows - n).setZero();
+  Eigen::Map<Eigen::Array<double, tile_rows, Eigen::Dynamic>> sums(sums_.data(), tile_rows,
+                                                                   panels * tile_rows);
+  sums.setZero();
+  for (Eigen::Index p = panels; p-- > 0;) {
+    const Eigen::Index first = p * tile_rows;
+    const double* diagonal = column(p, first);
+    Eigen::Map<Lanes> y(&work_[first]);
+    y -= sums.middleCols<tile_rows>(first).colwise().sum().transpose();
+    std::array<double, tile_rows> left;
+    Eigen::Map<Lanes>(left.data()) = y;
+#pragma GCC unroll 8
+    for (Eigen::Index j = tile_rows; j-- > 0;) {
+      left[j] *= inverse_pivot_[first + j];
+#pragma GCC unroll 8
+      for (Eigen::Index i = 0; i < j; ++i) left[i] -= diagonal[tile_rows * i + j] * left[j];
+    }
+    y = Eigen::Map<Lanes>(left.data());
+    const Lanes found = y;
+    const double* l = column(p, 0);
+    for (Eigen::Index k = 0; k < first; ++k, l += tile_rows) sums.col(k) += ConstLanes(l) * found;
+  }
 }
 
 }  // namespace hagfish

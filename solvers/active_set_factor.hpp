@@ -22,28 +22,42 @@ class ActiveSetFactor {
 
   /// Adds `added` (none of them in) one after the other. Rows that depend on those before them to
   /// rounding (at least 1e-12 of their unit diagonal) stay out; true where there were none.
-  bool append(std::span<const Eigen::Index> added);
+  bool append(std::span<const Eigen::Index> added) { return change({}, added); }
 
   /// Takes `dropped` (all of them in) out. What follows the first of them is factorised again.
-  void remove(std::span<const Eigen::Index> dropped);
+  void remove(std::span<const Eigen::Index> dropped) { change(dropped, {}); }
+
+  /// remove() and append() in one. A row of `added` may depend on one of `dropped`.
+  bool change(std::span<const Eigen::Index> dropped, std::span<const Eigen::Index> added);
 
   /// y = A(rows, rows)⁻¹ c(rows), in the order of rows(); `c` has m entries. Valid until the next
   /// call.
   Eigen::Ref<const Eigen::VectorXd> solve(const Eigen::Ref<const Eigen::VectorXd>& c);
 
  private:
-  bool factorise_tail(Eigen::Index known);
-  void start_panel(Eigen::Index first, Eigen::Index width, Eigen::Index top, Eigen::Index n);
-  bool accept(Eigen::Index k);
+  double* column(Eigen::Index p, Eigen::Index k);
+  bool factorise_from(Eigen::Index position);
+  void place(Eigen::Index position);
+  Eigen::Index make_panel(Eigen::Index p);
+  void gather(Eigen::Index p);
+  Eigen::Index make_diagonal(Eigen::Index p);
+  bool accept(double pivot, Eigen::Index position);
   double pivot_rounding(Eigen::Index position);
-  void refuse(Eigen::Index position);
+  void solve_lower(Eigen::Index n);
+  void solve_upper(Eigen::Index n);
 
   const Eigen::MatrixXd* A_ = nullptr;
   const Eigen::Map<Eigen::VectorXd>* inverse_scale_ = nullptr;
-  /// The factor in its lower triangle; larger than m x m, as tiles reach past its end.
-  Eigen::MatrixXd L_;
+  /// The factor in panels of tile_rows rows, one behind the other, each by columns up to its
+  /// diagonal tile. What lies above the diagonal in that tile means nothing.
+  Eigen::VectorXd L_;
+  Eigen::VectorXd inverse_pivot_;  ///< 1 / L_kk by position
   Eigen::VectorXd work_;
+  Eigen::VectorXd sums_;  ///< of solve_upper: tile_rows for each position
   std::vector<Eigen::Index> rows_;
+  // By position up to the end of a panel; behind the last row there is row 0 with a scale of 0.
+  std::vector<Eigen::Index> place_;
+  Eigen::VectorXd place_scale_;
   std::vector<char> active_;
 };
 

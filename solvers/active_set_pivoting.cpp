@@ -151,13 +151,11 @@ bool ActiveSetPivoting::change_blocks() {
       return false;
     }
     for (const Eigen::Index i : leaving_) {
-      x_[i] = std::clamp(x_[i], qp_->lower[i], qp_->upper[i]);
+      const double bound = std::clamp(x_[i], qp_->lower[i], qp_->upper[i]);
+      w_ += (bound - x_[i]) * qp_->A.col(i);
+      x_[i] = bound;
     }
-    factor_.remove(leaving_);
-    factor_.append(joining_);
-    if (!leaving_.empty()) {
-      update_gradient();
-    }
+    factor_.change(leaving_, joining_);
   }
 }
 

@@ -48,6 +48,8 @@ class ActiveSetPivoting {
 
   /// Within the bounds after change_blocks returned true, and after change_singly.
   const Eigen::Map<Eigen::VectorXd>& x() const { return x_; }
+  /// A x - b, to rounding, where x has settled.
+  const Eigen::Map<Eigen::VectorXd>& w() const { return w_; }
   /// Changes of sides so far, a block counting as one.
   int changes() const { return changes_; }
   /// Ascending. Multipliers t_i with t_i > 0 on rows without an upper bound (any sign on free rows)

@@ -275,11 +275,10 @@ void RowColumns::set_widths() {
   }
 }
 
-RowColumns::Tile RowColumns::tile(Eigen::Index first, const RowColumns& other,
-                                  Eigen::Index second) const {
+Tile RowColumns::tile(Eigen::Index first, const RowColumns& other, Eigen::Index second) const {
   const Eigen::Index end = std::min(end_[first / panel], other.end_[second / panel]);
-  return tile_product<panel>(&y_(0, first), y_.outerStride(), &other.y_(0, second),
-                             other.y_.outerStride(), end);
+  return tile_product(&y_(0, first), y_.outerStride(), &other.y_(0, second), other.y_.outerStride(),
+                      end);
 }
 
 void RowColumns::gram(Eigen::MatrixXd& A) const {

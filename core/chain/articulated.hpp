@@ -78,7 +78,6 @@ class RowColumns {
     Eigen::Index column;
     double value;
   };
-  using Tile = Eigen::Array<double, panel, panel>;
   void extend(Eigen::Index column, Eigen::Index end);
   void set_widths();
   /// Products of the columns from `first` on with those of `other` from `second` on.
