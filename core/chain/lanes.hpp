@@ -50,13 +50,23 @@ inline FloatLanes lanes_of(const FloatLaneValues& values) {
   return detail::bits_as<FloatLanes>(values);
 }
 
-inline bool any(const LaneMask& mask) {
-  std::int64_t bits = 0;
+/// Bit k is set where lane k of a mask is.
+inline unsigned bits_of(const LaneMask& mask) {
+#if defined(EIGEN_VECTORIZE_AVX512)
+  return _mm512_cmplt_epi64_mask(detail::bits_as<__m512i>(mask), _mm512_setzero_si512());
+#elif defined(EIGEN_VECTORIZE_AVX)
+  return static_cast<unsigned>(_mm256_movemask_pd(detail::bits_as<__m256d>(mask)));
+#elif defined(EIGEN_VECTORIZE_SSE2)
+  return static_cast<unsigned>(_mm_movemask_pd(detail::bits_as<__m128d>(mask)));
+#else
+  unsigned bits = 0;
   for (int k = 0; k < lane_count; ++k) {
-    bits |= mask[k];
+    bits |= mask[k] != 0 ? 1U << k : 0;
   }
-  return bits != 0;
+  return bits;
+#endif
 }
+inline bool any(const LaneMask& mask) { return bits_of(mask) != 0; }
 
 inline Lanes least(const Lanes& x, const Lanes& y) { return x < y ? x : y; }
 inline FloatLanes least(const FloatLanes& x, const FloatLanes& y) { return x < y ? x : y; }

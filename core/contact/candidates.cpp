@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "core/chain/lanes.hpp"
@@ -18,31 +20,40 @@ constexpr double carried = 0.5;
 /// (1/cm) times the square of a segment's length, by which two of them bow. Affects speed only.
 constexpr double bent = 0.05;
 
-/// The end between segments `end - 1` and `end`.
-SegmentEnd end_of(const std::vector<SplineSegment>& segments, std::size_t end) {
-  if (end < segments.size()) {
-    return {segments[end].c0, segments[end].c1};
+/// Visits the ends with their index, point and a third of the slope there.
+template <class Visit>
+void visit_ends(const std::vector<SplineSegment>& segments, const Visit& visit) {
+  constexpr double third = 1.0 / 3;
+  const auto n = static_cast<Eigen::Index>(segments.size());
+  for (Eigen::Index k = 0; k < n; ++k) {
+    visit(k, segments[k].c0, (third * segments[k].c1).eval());
   }
-  return {segments.back().point(1), segments.back().slope(1)};
+  visit(n, segments.back().point(1), (third * segments.back().slope(1)).eval());
 }
 
 /// Adds to candidates.moved how far each segment may have moved since candidates.ends: a cubic
 /// stays as close to another as their Bézier points, which are its ends and these plus or minus a
 /// third of the slopes there.
 void add_motion(const std::vector<SplineSegment>& segments, Candidates& candidates) {
+  SegmentEnds& ends = candidates.ends;
   double behind = 0;  // squared displacement of the Bézier points at the segment's first end
-  for (std::size_t k = 0; k <= segments.size(); ++k) {
-    const SegmentEnd now = end_of(segments, k);
-    SegmentEnd& before = candidates.ends[k];
-    const Eigen::Vector3d moved = now.point - before.point;
-    const Eigen::Vector3d turned = (now.slope - before.slope) / 3;
-    const double end = moved.squaredNorm();
-    if (k > 0) {
-      candidates.moved[k - 1] += std::sqrt(std::max({behind, end, (moved - turned).squaredNorm()}));
-    }
-    behind = std::max(end, (moved + turned).squaredNorm());
-    before = now;
-  }
+  visit_ends(segments,
+             [&](Eigen::Index k, const Eigen::Vector3d& point, const Eigen::Vector3d& third) {
+               double end = 0, before = 0, after = 0;
+               for (int i = 0; i < 3; ++i) {
+                 const double moved = point[i] - ends.point(k, i);
+                 const double turned = third[i] - ends.third(k, i);
+                 end += moved * moved;
+                 before += (moved - turned) * (moved - turned);
+                 after += (moved + turned) * (moved + turned);
+                 ends.point(k, i) = point[i];
+                 ends.third(k, i) = third[i];
+               }
+               if (k > 0) {
+                 candidates.moved[k - 1] += std::sqrt(std::max({behind, end, before}));
+               }
+               behind = std::max(end, after);
+             });
 }
 
 void list_pairs(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
@@ -64,36 +75,79 @@ void list_pairs(const std::vector<SplineSegment>& segments, const ContactSetting
       }
     }
   }
-  candidates.seen.assign(candidates.pairs.size(), {std::nullopt, settings.margin});
+  candidates.all_changed = true;
+  candidates.closest.assign(candidates.pairs.size(), std::nullopt);
+  candidates.matters_at.assign(candidates.pairs.size(), settings.margin);
+  for (std::vector<double>& along : candidates.normal) along.assign(candidates.pairs.size(), 0);
   index_pairs(segments.size(), candidates);
 }
 
-/// The Bézier points of c1 t + c2 t² + c3 t³, between which it stays for t in [0, 1].
-std::array<double, 4> bezier(double c1, double c2, double c3) {
+/// n · u of two vectors of which each entry may be a number or lanes.
+template <class N, class U>
+auto along(const N& n, const U& u) {
+  return n[0] * u[0] + n[1] * u[1] + n[2] * u[2];
+}
+template <class Real>
+Real lower(const Real& x, const Real& y) {
+  return x < y ? x : y;
+}
+
+/// A bound on the gap between the skins of segment `a` and of another, cm, or of as many others as
+/// there are lanes: how far two planes across the unit vector `n` from there to `a` are apart, each
+/// with one of the skins behind it. A cubic stays between its Bézier points. `b(list)` and
+/// `next(list)` are the entries of a list of ends at the beginning and the end of the others.
+template <class Real, class Begin, class End>
+Real plane_gap(const SegmentEnds& ends, int a, const std::array<Real, 3>& n, const Begin& b,
+               const End& next) {
+  const auto vector = [](const Eigen::MatrixX3d& rows, const auto& of) {
+    return std::array{of(rows.col(0).data()), of(rows.col(1).data()), of(rows.col(2).data())};
+  };
   constexpr double third = 1.0 / 3;
-  return {0, third * c1, third * (2 * c1 + c2), c1 + c2 + c3};
+  const auto a_begins = [a](const double* list) { return list[a]; };
+  const auto a_ends = [a](const double* list) { return list[a + 1]; };
+  const double r_a = ends.radius[a];
+  const double taper_a = third * (ends.radius[a + 1] - r_a);
+  const Real first_a = along(n, vector(ends.point, a_begins)) - r_a;
+  const Real last_a = along(n, vector(ends.point, a_ends)) - ends.radius[a + 1];
+  const Real second_a = first_a + along(n, vector(ends.third, a_begins)) - taper_a;
+  const Real third_a = last_a - along(n, vector(ends.third, a_ends)) + taper_a;
+  const Real r_b = b(ends.radius.data());
+  const Real taper_b = third * (next(ends.radius.data()) - r_b);
+  const Real first_b = -along(n, vector(ends.point, b)) - r_b;
+  const Real last_b = -along(n, vector(ends.point, next)) - next(ends.radius.data());
+  const Real second_b = first_b - along(n, vector(ends.third, b)) - taper_b;
+  const Real third_b = last_b + along(n, vector(ends.third, next)) + taper_b;
+  return lower(lower(first_a, second_a), lower(third_a, last_a)) +
+         lower(lower(first_b, second_b), lower(third_b, last_b));
 }
 
-/// A bound on the gap between the skins of two segments from below, cm: how far two planes are
-/// apart, across the line between the points t_a and t_b, each with one of the skins behind it.
-double least_gap(const SplineSegment& a, const SplineSegment& b, double t_a, double t_b) {
-  const Eigen::Vector3d n = (a.point(t_a) - b.point(t_b)).normalized();
-  const auto of_a = bezier(n.dot(a.c1) - a.r1, n.dot(a.c2), n.dot(a.c3));
-  const auto of_b = bezier(n.dot(b.c1) + b.r1, n.dot(b.c2), n.dot(b.c3));
-  return n.dot(a.c0 - b.c0) - a.r0 - b.r0 + std::ranges::min(of_a) - std::ranges::max(of_b);
-}
-
-/// Whether so many pairs of one segment as there are lanes, from `i` on, are of segments b that
-/// follow each other, as most are, and none has moved as far as it is clear.
-bool still_clear(const Candidates& candidates, int i) {
+/// How far planes across `n` part pair `i` beyond the gap at which it matters, cm.
+double clear_by(const Candidates& candidates, int i, const std::array<double, 3>& n) {
   const auto& [a, b] = candidates.pairs[i];
-  if (candidates.pairs[i + lane_count - 1].b != b + lane_count - 1) {
+  return plane_gap(
+             candidates.ends, a, n, [b = b](const double* list) { return list[b]; },
+             [b = b](const double* list) { return list[b + 1]; }) -
+         candidates.matters_at[i];
+}
+
+/// Whether planes across the line between the closest points of pair `i`, as they were on the
+/// segments last, part it now; puts it off then.
+bool parted_anew(const std::vector<SplineSegment>& segments, Candidates& candidates, int i) {
+  const auto& [a, b] = candidates.pairs[i];
+  const ClosestPoints at = candidates.closest[i].value_or(
+      ClosestPoints{0.5, 0.5, std::numeric_limits<double>::infinity()});
+  if (at.gap <= candidates.matters_at[i] + bent * segments[a].s1 * segments[a].s1) {
     return false;
   }
-  LaneValues moved, until;
-  std::copy_n(&candidates.moved[b], lane_count, moved.begin());
-  std::copy_n(&candidates.clear_until[i], lane_count, until.begin());
-  return !any(lanes_of(candidates.moved[a]) + lanes_of(moved) >= lanes_of(until));
+  const Eigen::Vector3d n = (segments[a].point(at.t_a) - segments[b].point(at.t_b)).normalized();
+  const double clear = clear_by(candidates, i, {n.x(), n.y(), n.z()});
+  if (!(clear > 0)) {
+    return false;
+  }
+  for (int k = 0; k < 3; ++k) candidates.normal[k][i] = n[k];
+  candidates.changed.push_back(i);
+  candidates.clear_until[i] = candidates.moved_by(i) + clear;
+  return true;
 }
 
 /// Whether pair `i` may matter where the segments are now; puts it off where planes say so.
@@ -102,28 +156,72 @@ bool is_due(const std::vector<SplineSegment>& segments, Candidates& candidates, 
   if (moved < candidates.clear_until[i]) {
     return false;
   }
-  const auto& [a, b] = candidates.pairs[i];
-  const LastSeen& seen = candidates.seen[i];
-  const ClosestPoints at =
-      seen.closest.value_or(ClosestPoints{0.5, 0.5, std::numeric_limits<double>::infinity()});
-  if (at.gap <= seen.matters_at + bent * segments[a].s1 * segments[a].s1) {
-    return true;
+  const auto& [x, y, z] = candidates.normal;
+  const double clear = clear_by(candidates, i, {x[i], y[i], z[i]});
+  if (clear > 0) {
+    candidates.clear_until[i] = moved + clear;
+    return false;
   }
-  const double clear = least_gap(segments[a], segments[b], at.t_a, at.t_b) - seen.matters_at;
-  if (!(clear > 0)) {
-    return true;
+  return !parted_anew(segments, candidates, i);
+}
+
+/// Whether the pairs from `i` on, as many as there are lanes, are of one segment a and of segments
+/// b that follow each other, as most are.
+bool in_line(const Candidates& candidates, int i) {
+  const SegmentPair& first = candidates.pairs[i];
+  const SegmentPair& last = candidates.pairs[i + lane_count - 1];
+  return last.a == first.a && last.b == first.b + lane_count - 1;
+}
+
+/// is_due for pairs in line from `first` on; lists those from `from` on that are.
+void list_due_in_line(const std::vector<SplineSegment>& segments, Candidates& candidates, int first,
+                      int from, std::vector<int>& due) {
+  const auto lanes_at = [](const double* values) {
+    LaneValues some;
+    std::copy_n(values, lane_count, some.begin());
+    return lanes_of(some);
+  };
+  const auto& [a, b] = candidates.pairs[first];
+  const Lanes moved = candidates.moved[a] + lanes_at(&candidates.moved[b]);
+  const Lanes until = lanes_at(&candidates.clear_until[first]);
+  const LaneMask far = moved >= until;
+  if (!any(far)) {
+    return;
   }
-  candidates.clear_until[i] = moved + clear;
-  return false;
+  const std::array<Lanes, 3> n{lanes_at(&candidates.normal[0][first]),
+                               lanes_at(&candidates.normal[1][first]),
+                               lanes_at(&candidates.normal[2][first])};
+  LaneMask left = far;
+  if (any(far & (along(n, n) > 0))) {
+    const Lanes clear =
+        plane_gap(
+            candidates.ends, a, n, [&, b = b](const double* list) { return lanes_at(list + b); },
+            [&, b = b](const double* list) { return lanes_at(list + b + 1); }) -
+        lanes_at(&candidates.matters_at[first]);
+    const LaneMask parted = far & (clear > 0);
+    const Lanes put_off = parted ? moved + clear : until;
+    std::memcpy(&candidates.clear_until[first], &put_off, sizeof put_off);
+    left &= ~parted;
+  }
+  for (unsigned bits = bits_of(left) >> (from - first); bits != 0; bits &= bits - 1) {
+    const int i = from + std::countr_zero(bits);
+    if (!parted_anew(segments, candidates, i)) due.push_back(i);
+  }
 }
 
 }  // namespace
 
 void keep_ends(const std::vector<SplineSegment>& segments, Candidates& candidates) {
-  candidates.ends.resize(segments.size() + 1);
-  for (std::size_t k = 0; k <= segments.size(); ++k) {
-    candidates.ends[k] = end_of(segments, k);
-  }
+  SegmentEnds& ends = candidates.ends;
+  const auto n = static_cast<Eigen::Index>(segments.size());
+  ends.point.resize(n + 1, 3);
+  ends.third.resize(n + 1, 3);
+  ends.radius.resize(n + 1);
+  visit_ends(segments, [&](Eigen::Index k, const auto& point, const auto& third) {
+    ends.point.row(k) = point.transpose();
+    ends.third.row(k) = third.transpose();
+    ends.radius[k] = k < n ? segments[k].r0 : segments.back().radius(1);
+  });
 }
 
 void index_pairs(std::size_t segments, Candidates& candidates) {
@@ -138,7 +236,7 @@ void index_pairs(std::size_t segments, Candidates& candidates) {
 
 void update_candidates(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
                        Candidates& candidates) {
-  if (candidates.ends.size() != segments.size() + 1) {
+  if (candidates.moved.size() != segments.size()) {
     keep_ends(segments, candidates);
     list_pairs(segments, settings, candidates);
     return;
@@ -152,20 +250,43 @@ void update_candidates(const std::vector<SplineSegment>& segments, const Contact
 void find_due(const std::vector<SplineSegment>& segments, Candidates& candidates,
               std::vector<int>& due) {
   due.clear();
+  if (candidates.changed.size() > candidates.pairs.size()) {  // nobody keeps them
+    candidates.changed.clear();
+    candidates.all_changed = true;
+  }
   const int n = static_cast<int>(segments.size());
   for (int a = 0; a < n; ++a) {
+    const int begin = candidates.first[a];
     const int end = candidates.first[a + 1];
-    for (int i = candidates.first[a]; i < end;) {
-      const int next = std::min(i + lane_count, end);
-      if (next - i == lane_count && still_clear(candidates, i)) {
-        i = next;
-        continue;
-      }
-      for (; i < next; ++i) {
+    for (int i = begin; i < end;) {
+      const int first = std::min(i, end - lane_count);  // the last ones once more to fill lanes
+      if (first >= begin && in_line(candidates, first)) {
+        list_due_in_line(segments, candidates, first, i, due);
+        i = first + lane_count;
+      } else {
         if (is_due(segments, candidates, i)) due.push_back(i);
+        ++i;
       }
     }
   }
+}
+
+void keep_candidates(Candidates& candidates, Candidates& kept) {
+  if (candidates.all_changed) {
+    candidates.all_changed = false;
+    candidates.changed.clear();
+    kept = candidates;
+    return;
+  }
+  kept.clear_until = candidates.clear_until;
+  kept.ends = candidates.ends;
+  kept.moved = candidates.moved;
+  for (const int i : candidates.changed) {
+    kept.matters_at[i] = candidates.matters_at[i];
+    kept.closest[i] = candidates.closest[i];
+    for (int k = 0; k < 3; ++k) kept.normal[k][i] = candidates.normal[k][i];
+  }
+  candidates.changed.clear();
 }
 
 int find_pair(const Candidates& candidates, int a, int b) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -16,28 +17,29 @@ struct SegmentPair {
   int a = 0, b = 0;
 };
 
-/// What a pair's last evaluation showed.
-struct LastSeen {
-  std::optional<ClosestPoints> closest;
-  /// Only at gaps up to this need the pair be evaluated again, cm.
-  double matters_at = 0;
+/// Where segments meet, or the first begins or the last ends: one row each.
+struct SegmentEnds {
+  Eigen::MatrixX3d point;  ///< cm
+  Eigen::MatrixX3d third;  ///< a third of the slope there, cm
+  Eigen::VectorXd radius;  ///< cm
 };
 
-/// Where segments meet, or the first begins or the last ends: a point (cm) and the slope there
-/// (cm).
-struct SegmentEnd {
-  Eigen::Vector3d point, slope;
-};
-
-/// The pairs, by index along the first three lists, and the segments that they are of.
+/// The pairs, by index along all lists but the last three, and the segments that they are of.
 struct Candidates {
   std::vector<SegmentPair> pairs;  ///< sorted
   /// Not due until both segments together have moved this far, cm.
   std::vector<double> clear_until;
-  std::vector<LastSeen> seen;
-  std::vector<int> first;  ///< of each segment, where its pairs begin; at the end, their number
-  std::vector<SegmentEnd> ends;  ///< of the segments of the last search, one more than these
-  std::vector<double> moved;     ///< at most, by each since the pairs were listed, cm
+  /// Only at gaps up to this need the pair be evaluated again, cm.
+  std::vector<double> matters_at;
+  std::vector<std::optional<ClosestPoints>> closest;  ///< of the last evaluation
+  /// X, Y and Z of a unit vector from b to a, planes across which have parted the pair; else 0.
+  std::array<std::vector<double>, 3> normal;
+  std::vector<int> first;     ///< of each segment, where its pairs begin; at the end, their number
+  SegmentEnds ends;           ///< of the segments of the last search
+  std::vector<double> moved;  ///< at most, by each segment since the pairs were listed, cm
+  /// Since keep_candidates(): the pairs whose last evaluation or planes changed, or that all did.
+  std::vector<int> changed;
+  bool all_changed = true;
 
   double moved_by(int pair) const { return moved[pairs[pair].a] + moved[pairs[pair].b]; }
 };
@@ -53,11 +55,15 @@ void index_pairs(std::size_t segments, Candidates& candidates);
 void update_candidates(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
                        Candidates& candidates);
 
-/// Lists the pairs that may matter where the segments are now. Others have not moved far enough
-/// since they were evaluated, or the planes across the normal there still keep them apart, which
-/// puts them off for as far as that is sure (clear_until).
+/// Lists the pairs that may matter where the segments are now, in their order. Others have not
+/// moved far enough since they were evaluated, or are parted by planes across the normal of then or
+/// of now, which puts them off for as far as that is sure (clear_until).
 void find_due(const std::vector<SplineSegment>& segments, Candidates& candidates,
               std::vector<int>& due);
+
+/// Makes `kept` the same as `candidates`, from what has changed in them since the call before,
+/// which must have been with the same `kept`.
+void keep_candidates(Candidates& candidates, Candidates& kept);
 
 /// The pair of segments a and b, -1 where they are none.
 int find_pair(const Candidates& candidates, int a, int b);

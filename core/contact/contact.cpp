@@ -16,14 +16,15 @@ void evaluate(const std::vector<SplineSegment>& segments, const ContactSettings&
     ClosestPointsQuery& query = scratch.queries[k];
     query.a = &segments[candidates.pairs[index].a];
     query.b = &segments[candidates.pairs[index].b];
-    query.guess = candidates.seen[index].closest;
+    query.guess = candidates.closest[index];
   }
   scratch.closest_points.answer(samples, scratch.queries);
   for (std::size_t k = 0; k < scratch.due.size(); ++k) {
     const int index = scratch.due[k];
     const ClosestPoints& closest = scratch.queries[k].closest;
-    candidates.seen[index].closest = closest;
-    candidates.seen[index].matters_at = settings.margin;
+    candidates.closest[index] = closest;
+    candidates.matters_at[index] = settings.margin;
+    candidates.changed.push_back(index);
     candidates.clear_until[index] = candidates.moved_by(index) + closest.gap - settings.margin;
     scratch.known[index] = PairState::evaluated;
     if (closest.gap <= settings.margin) {
@@ -44,8 +45,8 @@ int across(double t) { return t <= 0 ? -1 : (t >= 1 ? 1 : 0); }
 template <class Visit>
 void visit_across(const Candidates& candidates, int index, const Visit& visit) {
   const SegmentPair& own = candidates.pairs[index];
-  const int step_a = across(candidates.seen[index].closest->t_a);
-  const int step_b = across(candidates.seen[index].closest->t_b);
+  const int step_a = across(candidates.closest[index]->t_a);
+  const int step_b = across(candidates.closest[index]->t_b);
   for (const auto& [da, db] : {std::pair(step_a, 0), {0, step_b}, {step_a, step_b}}) {
     const int other = da == 0 && db == 0 ? -1 : find_pair(candidates, own.a + da, own.b + db);
     if (other >= 0 && !visit(other)) {
@@ -58,11 +59,14 @@ void visit_across(const Candidates& candidates, int index, const Visit& visit) {
 /// beyond it, and only for the first of the pairs that find it. Neighbours that this search has not
 /// evaluated are left out.
 bool is_local_minimum(const ContactSearch& search, int index) {
-  const std::vector<LastSeen>& seen = search.candidates.seen;
-  bool lowest = search.scratch.known[index] != PairState::beaten;
+  const std::vector<std::optional<ClosestPoints>>& closest = search.candidates.closest;
+  if (search.scratch.known[index] == PairState::beaten) {
+    return false;
+  }
+  bool lowest = true;
   visit_across(search.candidates, index, [&](int other) {
     if (search.scratch.known[other] >= PairState::evaluated) {
-      const double lower_by = seen[index].closest->gap - seen[other].closest->gap;
+      const double lower_by = closest[index]->gap - closest[other]->gap;
       lowest = lowest && lower_by <= same_gap && (lower_by < -same_gap || other > index);
     }
     return lowest;
@@ -142,17 +146,17 @@ void find_contacts(const std::vector<SplineSegment>& segments, const ContactSett
   set.least_gap = settings.margin;
   for (const int index : search.scratch.close) {
     const bool minimum = is_local_minimum(search, index);
-    LastSeen& seen = candidates.seen[index];
-    const double gap = seen.closest->gap;
+    const ClosestPoints& closest = *candidates.closest[index];
+    const double gap = closest.gap;
     set.least_gap = std::min(set.least_gap, gap);
     if (!minimum) {
-      seen.matters_at = near;
+      candidates.matters_at[index] = near;
       candidates.clear_until[index] = candidates.moved_by(index) + gap - near;
     }
     if (minimum || gap < near) {
       const SegmentPair& pair = candidates.pairs[index];
       (minimum ? set.contacts : set.others)
-          .push_back(contact_at(segments, pair.a, seen.closest->t_a, pair.b, seen.closest->t_b));
+          .push_back(contact_at(segments, pair.a, closest.t_a, pair.b, closest.t_b));
     }
   }
   std::sort(set.contacts.begin(), set.contacts.end(), [](const Contact& x, const Contact& y) {

@@ -18,7 +18,7 @@ namespace hagfish {
 namespace {
 
 /// Of the bytes' layout; raised with every change of what they hold.
-constexpr int layout = 7;
+constexpr int layout = 8;
 /// No list of a run is longer; a damaged count must not ask for all memory.
 constexpr std::uint64_t most_entries = 1000000;
 
@@ -139,15 +139,11 @@ void serialize(Archive& archive, SegmentPair& pair) {
 }
 
 template <class Archive>
-void serialize(Archive& archive, LastSeen& seen) {
-  auto& [closest, matters_at] = seen;
-  archive(closest, matters_at);
-}
-
-template <class Archive>
 void serialize(Archive& archive, Candidates& candidates) {
-  auto& [pairs, clear_until, seen, first, ends, moved] = candidates;  // two follow from the others
-  archive(pairs, clear_until, seen, moved);
+  // Two follow from the others, and the last two are of BeforeStep.
+  auto& [pairs, clear_until, matters_at, closest, normal, first, ends, moved, changed,
+         all_changed] = candidates;
+  archive(pairs, clear_until, matters_at, closest, normal, moved);
 }
 
 template <class Archive>
@@ -286,9 +282,12 @@ bool fits(const TrackedContact& tracked, int bodies) {
 }
 
 bool fits(const Candidates& candidates, int bodies) {
-  const auto& [pairs, clear_until, seen, first, ends, moved] = candidates;
+  const auto& [pairs, clear_until, matters_at, closest, normal, first, ends, moved, changed,
+               all_changed] = candidates;
   return static_cast<int>(moved.size()) == bodies - 1 && clear_until.size() == pairs.size() &&
-         seen.size() == pairs.size() &&
+         matters_at.size() == pairs.size() && closest.size() == pairs.size() &&
+         std::ranges::all_of(normal,
+                             [&](const auto& along) { return along.size() == pairs.size(); }) &&
          std::ranges::is_sorted(
              pairs, {}, [](const SegmentPair& pair) { return std::pair(pair.a, pair.b); }) &&
          std::ranges::all_of(pairs, [&](const SegmentPair& pair) {

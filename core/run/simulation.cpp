@@ -181,7 +181,7 @@ void keep(Simulation& sim) {
   before.warm = sim.solver.warm;
   before.ledger = sim.ledger;
   before.watch = sim.watch;
-  before.candidates = sim.search.candidates;
+  keep_candidates(sim.search.candidates, before.candidates);
 }
 
 void put_back(Simulation& sim) {

@@ -79,7 +79,7 @@ TEST(ContactSearch, WhatIsNotDueIsClear) {
       if (std::ranges::binary_search(due, i)) continue;
       const auto& [a, b] = before.pairs[i];
       // To the tolerance of the closest points.
-      ASSERT_GT(closest_points(segments[a], segments[b]).gap, before.seen[i].matters_at - 1e-9);
+      ASSERT_GT(closest_points(segments[a], segments[b]).gap, before.matters_at[i] - 1e-9);
       ++(before.clear_until[i] == carried.clear_until[i] ? unmoved : parted);
     }
   }

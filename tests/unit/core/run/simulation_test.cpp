@@ -66,15 +66,17 @@ void expect_same(const Simulation& a, const Simulation& b) {
   EXPECT_EQ(e.moved, f.moved);
   EXPECT_EQ(e.clear_until, f.clear_until);
   EXPECT_EQ(e.first, f.first);
-  EXPECT_TRUE(std::ranges::equal(e.ends, f.ends, [](const SegmentEnd& s, const SegmentEnd& t) {
-    return s.point == t.point && s.slope == t.slope;
-  }));
+  EXPECT_EQ(e.matters_at, f.matters_at);
+  EXPECT_EQ(e.normal, f.normal);
+  EXPECT_EQ(e.ends.point, f.ends.point);
+  EXPECT_EQ(e.ends.third, f.ends.third);
+  EXPECT_EQ(e.ends.radius, f.ends.radius);
   EXPECT_TRUE(std::ranges::equal(e.pairs, f.pairs, [](const SegmentPair& s, const SegmentPair& t) {
     return s.a == t.a && s.b == t.b;
   }));
-  EXPECT_TRUE(std::ranges::equal(e.seen, f.seen, [](const LastSeen& s, const LastSeen& t) {
-    return s.matters_at == t.matters_at && s.closest.has_value() == t.closest.has_value() &&
-           (!s.closest || (s.closest->t_a == t.closest->t_a && s.closest->t_b == t.closest->t_b));
+  using Closest = std::optional<ClosestPoints>;
+  EXPECT_TRUE(std::ranges::equal(e.closest, f.closest, [](const Closest& s, const Closest& t) {
+    return s.has_value() == t.has_value() && (!s || (s->t_a == t->t_a && s->t_b == t->t_b));
   }));
 }
 
