@@ -78,13 +78,13 @@ void list_pairs(const std::vector<SplineSegment>& segments, const ContactSetting
   candidates.all_changed = true;
   candidates.closest.assign(candidates.pairs.size(), std::nullopt);
   candidates.matters_at.assign(candidates.pairs.size(), settings.margin);
-  for (std::vector<double>& along : candidates.normal) along.assign(candidates.pairs.size(), 0);
+  for (std::vector<double>& list : candidates.normal) list.assign(candidates.pairs.size(), 0);
   index_pairs(segments.size(), candidates);
 }
 
-/// n · u of two vectors of which each entry may be a number or lanes.
+/// Of two vectors of which each entry may be a number or lanes.
 template <class N, class U>
-auto along(const N& n, const U& u) {
+auto dot(const N& n, const U& u) {
   return n[0] * u[0] + n[1] * u[1] + n[2] * u[2];
 }
 template <class Real>
@@ -107,16 +107,16 @@ Real plane_gap(const SegmentEnds& ends, int a, const std::array<Real, 3>& n, con
   const auto a_ends = [a](const double* list) { return list[a + 1]; };
   const double r_a = ends.radius[a];
   const double taper_a = third * (ends.radius[a + 1] - r_a);
-  const Real first_a = along(n, vector(ends.point, a_begins)) - r_a;
-  const Real last_a = along(n, vector(ends.point, a_ends)) - ends.radius[a + 1];
-  const Real second_a = first_a + along(n, vector(ends.third, a_begins)) - taper_a;
-  const Real third_a = last_a - along(n, vector(ends.third, a_ends)) + taper_a;
+  const Real first_a = dot(n, vector(ends.point, a_begins)) - r_a;
+  const Real last_a = dot(n, vector(ends.point, a_ends)) - ends.radius[a + 1];
+  const Real second_a = first_a + dot(n, vector(ends.third, a_begins)) - taper_a;
+  const Real third_a = last_a - dot(n, vector(ends.third, a_ends)) + taper_a;
   const Real r_b = b(ends.radius.data());
   const Real taper_b = third * (next(ends.radius.data()) - r_b);
-  const Real first_b = -along(n, vector(ends.point, b)) - r_b;
-  const Real last_b = -along(n, vector(ends.point, next)) - next(ends.radius.data());
-  const Real second_b = first_b - along(n, vector(ends.third, b)) - taper_b;
-  const Real third_b = last_b + along(n, vector(ends.third, next)) + taper_b;
+  const Real first_b = -dot(n, vector(ends.point, b)) - r_b;
+  const Real last_b = -dot(n, vector(ends.point, next)) - next(ends.radius.data());
+  const Real second_b = first_b - dot(n, vector(ends.third, b)) - taper_b;
+  const Real third_b = last_b + dot(n, vector(ends.third, next)) + taper_b;
   return lower(lower(first_a, second_a), lower(third_a, last_a)) +
          lower(lower(first_b, second_b), lower(third_b, last_b));
 }
@@ -192,7 +192,7 @@ void list_due_in_line(const std::vector<SplineSegment>& segments, Candidates& ca
                                lanes_at(&candidates.normal[1][first]),
                                lanes_at(&candidates.normal[2][first])};
   LaneMask left = far;
-  if (any(far & (along(n, n) > 0))) {
+  if (any(far & (dot(n, n) > 0))) {
     const Lanes clear =
         plane_gap(
             candidates.ends, a, n, [&, b = b](const double* list) { return lanes_at(list + b); },

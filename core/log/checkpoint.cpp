@@ -287,7 +287,7 @@ bool fits(const Candidates& candidates, int bodies) {
   return static_cast<int>(moved.size()) == bodies - 1 && clear_until.size() == pairs.size() &&
          matters_at.size() == pairs.size() && closest.size() == pairs.size() &&
          std::ranges::all_of(normal,
-                             [&](const auto& along) { return along.size() == pairs.size(); }) &&
+                             [&](const auto& list) { return list.size() == pairs.size(); }) &&
          std::ranges::is_sorted(
              pairs, {}, [](const SegmentPair& pair) { return std::pair(pair.a, pair.b); }) &&
          std::ranges::all_of(pairs, [&](const SegmentPair& pair) {
