@@ -51,8 +51,6 @@ void ActiveSetFactor::reset(const Eigen::MatrixXd& A,
     work_.setZero(panels * tile_rows);
     sums_.resize(tile_rows * panels * tile_rows);
     rows_.reserve(m);
-    place_.resize(panels * tile_rows);
-    place_scale_.resize(panels * tile_rows);
   }
   rows_.clear();
   active_.assign(m, 0);
@@ -74,7 +72,6 @@ bool ActiveSetFactor::change(std::span<const Eigen::Index> dropped,
 /// Factorises rows_ from `position` on. A panel of which some rows are known is made again: its
 /// rows take no longer together than one of them.
 bool ActiveSetFactor::factorise_from(Eigen::Index position) {
-  place(position);
   bool all = true;
   for (Eigen::Index p = position / tile_rows; p * tile_rows < std::ssize(rows_);) {
     const Eigen::Index refused = make_panel(p);
@@ -83,24 +80,10 @@ bool ActiveSetFactor::factorise_from(Eigen::Index position) {
     } else {
       active_[rows_[refused]] = 0;
       rows_.erase(rows_.begin() + refused);
-      place(refused);
       all = false;
     }
   }
   return all;
-}
-
-/// Notes the rows from `position` on to the end of the last panel.
-void ActiveSetFactor::place(Eigen::Index position) {
-  const Eigen::Index n = std::ssize(rows_);
-  for (Eigen::Index k = position; k < n; ++k) {
-    place_[k] = rows_[k];
-    place_scale_[k] = (*inverse_scale_)[rows_[k]];
-  }
-  for (Eigen::Index k = n; k % tile_rows != 0; ++k) {
-    place_[k] = 0;
-    place_scale_[k] = 0;
-  }
 }
 
 /// Makes panel `p`. Returns the position of a row that depends on those before it, with which the
@@ -119,19 +102,25 @@ Eigen::Index ActiveSetFactor::make_panel(Eigen::Index p) {
   return make_diagonal(p);
 }
 
-/// Sets panel `p` to entries of A, brought to unit diagonal.
+/// Sets panel `p` to entries of A, brought to unit diagonal; to 0 behind the last row.
 void ActiveSetFactor::gather(Eigen::Index p) {
   const Eigen::Index first = p * tile_rows;
+  const Eigen::Index n = std::ssize(rows_);
+  const auto row = [&](Eigen::Index k) { return k < n ? rows_[k] : 0; };
+  const auto scale = [&](Eigen::Index k) { return k < n ? (*inverse_scale_)[rows_[k]] : 0; };
   std::array<const double*, tile_rows> entries;  // A is symmetric: its columns are its rows
-  for (Eigen::Index i = 0; i < tile_rows; ++i) entries[i] = A_->col(place_[first + i]).data();
+  Lanes scales;
+  for (Eigen::Index i = 0; i < tile_rows; ++i) {
+    entries[i] = A_->col(row(first + i)).data();
+    scales[i] = scale(first + i);
+  }
   double* l = column(p, 0);
   for (Eigen::Index k = 0; k < first + tile_rows; ++k, l += tile_rows) {
-    for (Eigen::Index i = 0; i < tile_rows; ++i) l[i] = entries[i][place_[k]];
+    for (Eigen::Index i = 0; i < tile_rows; ++i) l[i] = entries[i][row(k)];
   }
-  const Lanes scale = ConstLanes(&place_scale_[first]);
   l = column(p, 0);
   for (Eigen::Index k = 0; k < first + tile_rows; ++k, l += tile_rows) {
-    Eigen::Map<Lanes, Eigen::Aligned16>(l) *= scale * place_scale_[k];
+    Eigen::Map<Lanes, Eigen::Aligned16>(l) *= scales * scale(k);
   }
 }
 

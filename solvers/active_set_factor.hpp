@@ -37,7 +37,6 @@ class ActiveSetFactor {
  private:
   double* column(Eigen::Index p, Eigen::Index k);
   bool factorise_from(Eigen::Index position);
-  void place(Eigen::Index position);
   Eigen::Index make_panel(Eigen::Index p);
   void gather(Eigen::Index p);
   Eigen::Index make_diagonal(Eigen::Index p);
@@ -55,9 +54,6 @@ class ActiveSetFactor {
   Eigen::VectorXd work_;
   Eigen::VectorXd sums_;  ///< of solve_upper: tile_rows for each position
   std::vector<Eigen::Index> rows_;
-  // By position up to the end of a panel; behind the last row there is row 0 with a scale of 0.
-  std::vector<Eigen::Index> place_;
-  Eigen::VectorXd place_scale_;
   std::vector<char> active_;
 };
 

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iostream>
 #include <string>
@@ -63,10 +62,9 @@ Seen run(const ResolvedScene& resolved) {
 
 std::string scene_name(const testing::TestParamInfo<const char*>& scene) { return scene.param; }
 
-/// Runs a scene to its end, which shows what it expects.
-void expect_whole(const ResolvedScene& resolved) {
+/// A whole run of a scene shows what it expects, but for overlap.
+void expect_but_for_overlap(const ResolvedScene& resolved, const Seen& seen) {
   const ExpectSettings& expect = resolved.scene.expect;
-  const Seen seen = run(resolved);
   std::vector<Phase> phases = {Phase::form, Phase::tighten, Phase::slide, Phase::release,
                                Phase::free};
   const bool back = resolved.scene.controller.leave_by == BodyEnd::tail;
@@ -81,7 +79,7 @@ void expect_whole(const ResolvedScene& resolved) {
   EXPECT_TRUE(seen.held);
   EXPECT_EQ(seen.last_type, KnotInvariants{});
   EXPECT_GE(seen.head_end_at_slide, expect.slide_distance);
-  EXPECT_LE(seen.worst.penetration, expect.penetration);
+  EXPECT_LE(expect.penetration, 0.001);
   EXPECT_LE(seen.worst.limit_violation, expect.limit_violation);
   EXPECT_LE(seen.worst.head_drift, expect.head_drift);
   EXPECT_LE(seen.worst.kkt, expect.kkt);
@@ -96,13 +94,16 @@ void expect_whole(const ResolvedScene& resolved) {
   }
 }
 
+/// Runs a scene to its end, which shows what it expects.
+void expect_whole(const ResolvedScene& resolved) {
+  const Seen seen = run(resolved);
+  expect_but_for_overlap(resolved, seen);
+  EXPECT_LE(seen.worst.penetration, resolved.scene.expect.penetration);
+}
+
 class KnotScenes : public testing::TestWithParam<const char*> {};
 
-TEST_P(KnotScenes, TieHoldSlideAndComeOff) {
-  const ResolvedScene resolved = scene_called(GetParam());
-  EXPECT_LE(resolved.scene.expect.penetration, 0.001);
-  expect_whole(resolved);
-}
+TEST_P(KnotScenes, TieHoldSlideAndComeOff) { expect_whole(scene_called(GetParam())); }
 
 INSTANTIATE_TEST_SUITE_P(BuiltIn, KnotScenes,
                          testing::Values("figure_eight", "double_overhand", "three_twist",
@@ -131,28 +132,31 @@ class KnotScenesAtLongSteps : public testing::TestWithParam<std::tuple<const cha
 };
 
 // Where a step is corrected by one row a pair of segments, strands turn about its points and
-// overlap by 0.003 (midpoint) to 0.02 cm. From one start in five a 5_1 overlaps by 0.001 to 0.0034
-// at 20 ms (Euler), so that most of five starts are asked for what its scene expects.
+// overlap by 0.003 (midpoint) to 0.02 cm. From one start in five the 5_1 overlaps by 0.001 to
+// 0.0034 at 20 ms by Euler's rule, so that most of six starts are asked there, and all elsewhere.
 TEST_P(KnotScenesAtLongSteps, TieHoldSlideAndComeOff) {
   const auto& [rule, step] = GetParam();
-  for (const char* scene :
+  for (const std::string scene :
        {"table1", "overhand_waypoints", "figure_eight", "double_overhand", "three_twist"}) {
     SCOPED_TRACE(scene);
     std::vector<std::string> set = {std::string("time.rule=") + rule,
                                     std::string("time.step=") + step};
-    const double expected = scene_called(scene, set).scene.expect.penetration;
-    set.emplace_back("expect.penetration=0.005");
-    expect_whole(scene_called(scene, set));
+    const ResolvedScene resolved = scene_called(scene, set);
+    const Seen seen = run(resolved);
+    expect_but_for_overlap(resolved, seen);
+    std::vector<double> overlap = {seen.worst.penetration};
     set.emplace_back("start.noise_deg=0.05");
-    std::array<double, 5> overlap{};
-    for (std::size_t k = 0; k < overlap.size(); ++k) {
-      set.push_back("start.seed=" + std::to_string(k + 1));
-      overlap[k] = run(scene_called(scene, set)).worst.penetration;
+    for (int seed = 1; seed <= 5; ++seed) {
+      set.push_back("start.seed=" + std::to_string(seed));
+      overlap.push_back(run(scene_called(scene, set)).worst.penetration);
       set.pop_back();
     }
     std::ranges::sort(overlap);
-    EXPECT_LE(overlap[overlap.size() / 2], expected);
-    EXPECT_LE(overlap.back(), 0.005);
+    const double expected = resolved.scene.expect.penetration;
+    const bool by_chance =
+        scene == "double_overhand" && std::string(rule) == "euler" && std::string(step) == "0.02";
+    EXPECT_LE(overlap[3], expected);
+    EXPECT_LE(overlap.back(), by_chance ? 0.005 : expected);
   }
 }
 
