@@ -30,8 +30,7 @@ void add_columns(const Eigen::MatrixXd& A, const std::array<Eigen::Index, column
   const double x0 = x[j0], x1 = x[j1], x2 = x[j2], x3 = x[j3];
   const double *a0 = A.col(j0).data(), *a1 = A.col(j1).data(), *a2 = A.col(j2).data(),
                *a3 = A.col(j3).data();
-  double* sum = w.data();
-#pragma GCC ivdep
+  double* __restrict sum = w.data();
   for (Eigen::Index i = 0; i < w.size(); ++i) {
     sum[i] = (((sum[i] + x0 * a0[i]) + x1 * a1[i]) + x2 * a2[i]) + x3 * a3[i];
   }

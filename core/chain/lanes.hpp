@@ -68,8 +68,11 @@ inline unsigned bits_of(const LaneMask& mask) {
 }
 inline bool any(const LaneMask& mask) { return bits_of(mask) != 0; }
 
-inline Lanes least(const Lanes& x, const Lanes& y) { return x < y ? x : y; }
-inline FloatLanes least(const FloatLanes& x, const FloatLanes& y) { return x < y ? x : y; }
+/// Of two numbers, or of those in each lane.
+template <class Real>
+Real least(const Real& x, const Real& y) {
+  return x < y ? x : y;
+}
 inline Lanes largest(const Lanes& x, const Lanes& y) { return x > y ? x : y; }
 inline Lanes magnitude(const Lanes& x) { return largest(x, -x); }
 

@@ -87,10 +87,6 @@ template <class N, class U>
 auto dot(const N& n, const U& u) {
   return n[0] * u[0] + n[1] * u[1] + n[2] * u[2];
 }
-template <class Real>
-Real lower(const Real& x, const Real& y) {
-  return x < y ? x : y;
-}
 
 /// A bound on the gap between the skins of segment `a` and of another, cm, or of as many others as
 /// there are lanes: how far two planes across the unit vector `n` from there to `a` are apart, each
@@ -117,8 +113,8 @@ Real plane_gap(const SegmentEnds& ends, int a, const std::array<Real, 3>& n, con
   const Real last_b = -dot(n, vector(ends.point, next)) - next(ends.radius.data());
   const Real second_b = first_b - dot(n, vector(ends.third, b)) - taper_b;
   const Real third_b = last_b + dot(n, vector(ends.third, next)) + taper_b;
-  return lower(lower(first_a, second_a), lower(third_a, last_a)) +
-         lower(lower(first_b, second_b), lower(third_b, last_b));
+  return least(least(first_a, second_a), least(third_a, last_a)) +
+         least(least(first_b, second_b), least(third_b, last_b));
 }
 
 /// How far planes across `n` part pair `i` beyond the gap at which it matters, cm.
