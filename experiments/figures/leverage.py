@@ -76,8 +76,8 @@ def starts_table(runs: list[Run]) -> list[str]:
         for knot in KNOTS.values():
             all_starts = chosen(runs, body, knot, "start")
             pulls = [run.pull for run in all_starts if run.pull]
-            mirrored = [run.pull.mean for run in chosen(runs, body, knot, "mirror") if run.pull]
-            plain = [run.pull.mean for run in chosen(runs, body, knot, "plain") if run.pull]
+            mirrored, plain = ([(run.outcome, run.pull and run.pull.mean) for run in chosen(runs, body, knot, kind)]
+                               for kind in ("mirror", "plain"))
             same = "yes" if plain and mirrored == plain else "no"
             of_each = lambda figure, digits=2: spread([float(figure(pull)) for pull in pulls], digits)
             deepest = max((run.overlap for run in all_starts), default=np.nan)
