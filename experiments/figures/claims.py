@@ -26,6 +26,10 @@ LEAST_FRAMES = 12  # one to a block of the bootstrap
 NAMES = ("zero behind the knot", "larger near the head", "smooth in space, noisy in time", "a few Fourier modes would do")
 
 
+class ShortSlide(LogError):
+    """Too few sliding frames to judge."""
+
+
 @dataclass
 class Sliding:
     """The sliding phase; rows are the intervals between its frames."""
@@ -60,7 +64,7 @@ def ruled_intervals(log: HagfishLog) -> int:
 def read_sliding(log: HagfishLog) -> Sliding:
     frames, ruled = log.intervals_in("slide"), ruled_intervals(log)
     if ruled < LEAST_FRAMES:
-        raise LogError(f"{log.path}: {ruled} sliding frames with thigmotaxis rows; Figure 8 needs {LEAST_FRAMES}")
+        raise ShortSlide(f"{log.path}: {ruled} sliding frames with thigmotaxis rows; Figure 8 needs {LEAST_FRAMES}")
     dof, joint, kind = log.hinges()
     time = log["/trajectory/time"]
     step = log["/trajectory/step"] - log["/trajectory/step"][0]

@@ -142,7 +142,7 @@ def claims_table(folder: Path) -> list[str]:
             outcome = claim_row.outcome_of(log)
             try:
                 judged.append(dict(zip(claim_row.HEADING, claim_row.judged(log), strict=True)) if outcome == "slid" else None)
-            except LogError:
+            except claims.ShortSlide:
                 judged.append(None)
                 outcome = "hardly slid"
             if judged[-1] is None:

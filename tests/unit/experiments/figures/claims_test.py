@@ -142,7 +142,12 @@ def test_means_are_finite_though_the_first_frame_has_none(log):
 
 def test_what_a_run_came_to(content, log):
     assert outcome_of(log()) == "slid"
-    content.data["knot/head_end"][content.slide] += 1  # stops 1 cm before it lets go
+    content.data["knot/head_end"][content.slide] += 1  # hops over the last centimetre
+    assert outcome_of(log()) == "slid"
+    content.data["trajectory/phase"][content.slide[0]:] = 2  # --until slide
+    assert outcome_of(log()) == "slid"
+    last = content.data["trajectory/time"][-1]
+    content.attributes["scene"] = content.attributes["scene"].replace("duration = 3.0", f"duration = {last + 0.02:.2f}")
     assert outcome_of(log()) == "jammed"
     content.attributes["status"] = "failed: tunnelled"
     assert outcome_of(log()) == "stopped"

@@ -27,6 +27,8 @@ LAST_BODY = 30  # of any row of Eq. 6 while sliding
 SCENE = """
 [time]
 step = 0.002
+frame_interval = 0.02
+duration = 3.0
 rule = "euler"
 [model]
 bodies = 41
