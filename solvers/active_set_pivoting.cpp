@@ -110,8 +110,14 @@ bool ActiveSetPivoting::solve_active() {
 }
 
 void ActiveSetPivoting::clamp_active() {
+  bool moved = false;
   for (const Eigen::Index i : factor_.rows()) {
-    x_[i] = std::clamp(x_[i], qp_->lower[i], qp_->upper[i]);
+    const double before = x_[i];
+    x_[i] = std::clamp(before, qp_->lower[i], qp_->upper[i]);
+    moved = moved || x_[i] != before;
+  }
+  if (moved) {
+    update_gradient();
   }
 }
 

@@ -1,6 +1,6 @@
 // Numbers that are worked on side by side, one in each lane of a vector register: eight doubles
-// with AVX-512, two without any flag. By the vector extensions of GCC and Clang; lanes do not mix,
-// so that their number changes no result.
+// with AVX-512, two without any flag. By the vector extensions of GCC and Clang; lanes do not mix.
+// Their number changes results by the last bits of root() and of sine_and_cosine() alone.
 #pragma once
 
 #include <Eigen/Core>
@@ -76,7 +76,7 @@ Real least(const Real& x, const Real& y) {
 inline Lanes largest(const Lanes& x, const Lanes& y) { return x > y ? x : y; }
 inline Lanes magnitude(const Lanes& x) { return largest(x, -x); }
 
-/// To rounding; 0 below the smallest normal number.
+/// To two units in the last place; 0 below the smallest normal number. Of numbers that are finite.
 inline Lanes root(const Lanes& x) {
   using Values = Eigen::Array<double, lane_count, 1>;
   return detail::bits_as<Lanes>(Values(detail::bits_as<Values>(x).sqrt()));

@@ -232,6 +232,11 @@ void index_pairs(std::size_t segments, Candidates& candidates) {
 
 void update_candidates(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
                        Candidates& candidates) {
+  if (segments.empty()) {  // a single body
+    candidates = {};
+    index_pairs(0, candidates);
+    return;
+  }
   if (candidates.moved.size() != segments.size()) {
     keep_ends(segments, candidates);
     list_pairs(segments, settings, candidates);
@@ -269,9 +274,11 @@ void find_due(const std::vector<SplineSegment>& segments, Candidates& candidates
 
 void keep_candidates(Candidates& candidates, Candidates& kept) {
   if (candidates.all_changed) {
-    candidates.all_changed = false;
-    candidates.changed.clear();
     kept = candidates;
+    for (Candidates* both : {&candidates, &kept}) {
+      both->all_changed = false;
+      both->changed.clear();
+    }
     return;
   }
   kept.clear_until = candidates.clear_until;

@@ -24,7 +24,7 @@ struct SegmentEnds {
   Eigen::VectorXd radius;  ///< cm
 };
 
-/// The pairs, by index along all lists but the last three, and the segments that they are of.
+/// The pairs, by index along the lists down to `normal`, and the segments that they are of.
 struct Candidates {
   std::vector<SegmentPair> pairs;  ///< sorted
   /// Not due until both segments together have moved this far, cm.

@@ -89,13 +89,18 @@ void StepSolver::guess_middle(const StepInput& in) {
 Status StepSolver::settle(const StepInput& in, StepSolution& step) {
   // Where a balanced bias keeps the passes from settling, they may without.
   Status status = find_middle(in, true, step);
-  if (!status.ok() || step.unsettled > 0) {
+  const auto settled_or_stopped = [&] {
+    return status.ok() ? step.unsettled == 0 : status.outcome == Outcome::stopped;
+  };
+  if (!settled_or_stopped()) {
     status = find_middle(in, false, step);
   }
-  if (!status.ok() || step.unsettled == 0) {
+  if (settled_or_stopped()) {
     return status;
   }
-  // Passes that do not settle may run away: the step is taken as from its own first velocity.
+  // Passes that do not settle may run away, so far that one fails: the step is taken as from its
+  // own first velocity.
+  if (!status.ok()) step.unsettled = unlimited;
   Midway& midway = *in.midway;
   midway.moved = midway.felt = in.state.qdot;
   place_midway(in.model, in.state, in.observation.kin, in.scene.time.step, false, midway);

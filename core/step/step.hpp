@@ -80,7 +80,7 @@ struct ConstraintForces {
 inline double guessed_remaining(double before) { return std::pow(before, 0.9); }
 
 struct StepSolution {
-  Eigen::VectorXd base;  ///< q̇ with the reactions of prescribed rows, but no other rows, nv
+  Eigen::VectorXd base;  ///< q̇ with the reactions of rows prescribed when it was found alone, nv
   Eigen::VectorXd qdot;  ///< velocity that meets the rows and by which the step moves, nv
   Eigen::VectorXd next;  ///< velocity after the step, nv: by Euler's rule, qdot
   Eigen::VectorXd felt;  ///< that springs, damping and drag act on, nv: qdot; midpoint: the mean
@@ -94,7 +94,9 @@ struct StepSolution {
   /// Active torque as applied, towards the rest shape and besides, dyn cm, nv; 0 at the root.
   Eigen::VectorXd active_torque;
   SolveKind kind = SolveKind::linear;
-  std::vector<Row> rows;           ///< rows that entered the problem, in the order of place_in_step
+  /// Rows that entered the problem, in the order of place_in_step; where a round went on with the
+  /// factor of the one before, those that it added and then those that it released come last.
+  std::vector<Row> rows;
   std::vector<PathRow> path_rows;  ///< of them, what the step's path showed
   Eigen::Index prescribed = 0;     ///< how many of them, the first, are prescribed
   Eigen::VectorXd lambda;          ///< their multipliers, dyn s or dyn cm s
@@ -111,8 +113,8 @@ struct StepSolution {
   double qp_time = 0;  ///< s spent in the QP back end
   StepSystem system;   ///< Eq. 1 as assembled
   /// What the last pass changed the middle's velocity by, rad/s and cm/s, where that does not
-  /// settle in the passes that the scene permits, with its bias balanced or not; else 0 (midpoint
-  /// rule).
+  /// settle in the passes that the scene permits, with its bias balanced or not; infinite where a
+  /// pass failed; else 0 (midpoint rule).
   double unsettled = 0;
   /// What all further passes would change, over what the last one did: as measured in this step
   /// where it took two, else as guessed from those before; 1 where unknown (midpoint rule).
@@ -145,7 +147,7 @@ struct StepScratch {
   BoxQp whole;              ///< of a round from nothing
   DualExtension extension;  ///< and of the one that goes on from there
   bool extended = false;    ///< the last round did
-  /// Of the last round, on the rows behind the prescribed ones.
+  /// Of the last round that had rows behind the prescribed ones, on those.
   const BoxQp& qp() const { return extended ? extension.qp : whole; }
   Eigen::VectorXd start, scaled;
   BoxQpSolution solution;

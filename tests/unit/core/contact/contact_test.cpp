@@ -50,6 +50,15 @@ Eigen::Matrix3Xd crossing(const Model& model, double height, double shift) {
   return centre;
 }
 
+TEST(Contact, ASingleBodyHasNone) {
+  ContactSearch search;
+  ContactSet set;
+  for (int k = 0; k < 2; ++k) {  // anew, and from its last answer
+    find_contacts({}, ContactSettings{}, 0, search, set);
+    EXPECT_TRUE(set.contacts.empty() && set.others.empty());
+  }
+}
+
 TEST(Contact, StraightBodyHasNone) {
   const Model fish = table1_hagfish();
   const ContactSet set = contacts_of(fish, rest_state(fish).q);
