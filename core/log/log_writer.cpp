@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "core/log/disk_room.hpp"
 #include "core/log/log_frame.hpp"
@@ -74,8 +75,8 @@ void mark_failed(const fs::path& file, const std::string& cause) {
 }  // namespace
 
 struct LogWriter::Contents {
-  Contents(const Model& of, const Scene& scene, LogLevel held)
-      : model(of),
+  Contents(Model of, const Scene& scene, LogLevel held)
+      : model(std::move(of)),
         law(scene.controller.law),
         level(held),
         frames(frame_table(model, scene, held)),
