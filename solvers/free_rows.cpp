@@ -56,6 +56,7 @@ BoundedPart::BoundedPart(const BoxQp& qp) : size_(qp.b.size()) {
   }
   const Eigen::VectorXd scale = row_scale(qp.A);
   const double beta = size_ > 0 ? qp.b.cwiseQuotient(scale).lpNorm<Eigen::Infinity>() : 0;
+  left_out_ = Eigen::VectorXd::Zero(size_);
   std::vector<Eigen::Index> inside;  // of the bounded rows, those kept
   for (Eigen::Index k = 0; k < c.size(); ++k) {
     const Eigen::Index i = bounded[k];
@@ -65,10 +66,16 @@ BoundedPart::BoundedPart(const BoxQp& qp) : size_(qp.b.size()) {
     if (S(k, k) > rank_threshold * scale[i] * scale[i]) {
       inside.push_back(k);
       kept_.push_back(i);
-    } else {
-      // The free rows, or a zero diagonal, fix this row's speed: fine if that speed is allowed.
-      const bool pushed = c[k] > 0 ? std::isinf(qp.upper[i]) : std::isinf(qp.lower[i]);
-      consistent_ = consistent_ && !(pushed && std::abs(c[k]) > consistency * scale[i] * beta);
+    } else if (std::abs(c[k]) > consistency * scale[i] * beta) {
+      // The free rows, or a zero diagonal, fix this row's speed, which is wrong: it pushes all that
+      // it may, in vain.
+      left_out_[i] = c[k] > 0 ? qp.upper[i] : qp.lower[i];
+      if (std::isinf(left_out_[i])) {
+        consistent_ = false;
+        left_out_[i] = 0;
+      } else if (!free_.empty()) {
+        free_at_zero_ += response.col(k) * left_out_[i];
+      }
     }
   }
   free_response_ = response(Eigen::all, inside);
@@ -76,7 +83,7 @@ BoundedPart::BoundedPart(const BoxQp& qp) : size_(qp.b.size()) {
 }
 
 Eigen::VectorXd BoundedPart::expand(const Eigen::VectorXd& reduced_x) const {
-  Eigen::VectorXd x = Eigen::VectorXd::Zero(size_);
+  Eigen::VectorXd x = left_out_;
   x(kept_) = reduced_x;
   if (!free_.empty()) {
     x(free_) = free_at_zero_ + free_response_ * reduced_x;

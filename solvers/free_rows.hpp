@@ -26,12 +26,14 @@ class SemidefiniteFactor {
 };
 
 /// What is left of a box QP once rows without any choice are taken out: free rows by Schur
-/// complement, and rows that cannot move (no diagonal left, or lower = upper) at zero. Interior
-/// points need it: a clamp's multipliers are thousands of times larger than the rest.
+/// complement, and rows that cannot move at zero (lower = upper), or with no diagonal left at zero
+/// or the bound that they are pushed to. Interior points need it: a clamp's multipliers are
+/// thousands of times larger than the rest.
 class BoundedPart {
  public:
   explicit BoundedPart(const BoxQp& qp);
-  /// False where free rows contradict each other, or a row that cannot move would have to.
+  /// False where free rows contradict each other, or a row that cannot move would have to and has
+  /// no bound that way.
   bool consistent() const { return consistent_; }
   const BoxQp& reduced() const { return reduced_; }
   /// Entries of a full vector (m) that belong to the reduced problem.
@@ -43,7 +45,8 @@ class BoundedPart {
   Eigen::Index size_;
   BoxQp reduced_;
   std::vector<Eigen::Index> free_, kept_;
-  Eigen::VectorXd free_at_zero_;   ///< free rows' x where every other row is zero
+  Eigen::VectorXd left_out_;       ///< x of rows that are neither free nor kept, m
+  Eigen::VectorXd free_at_zero_;   ///< free rows' x where every kept row is zero
   Eigen::MatrixXd free_response_;  ///< its change with each kept row's x
   bool consistent_ = true;
 };

@@ -3,6 +3,24 @@
 namespace hagfish {
 namespace {
 
+/// A_ii of a row between points, times the mass of a body that it acts on, is below this where
+/// prescribed velocities keep these points from moving against each other: then it is rounding,
+/// some 1e-32. Where they move at all it is far above.
+constexpr double immovable = 1e-20;
+
+/// Makes A 0 for those of `rows`, which begin at `first`, that cannot move: the solver would take
+/// rounding for a way to move them.
+void clear_immovable(const Model& model, std::span<const Row> rows, Eigen::Index first,
+                     Eigen::MatrixXd& A) {
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const Eigen::Index i = first + static_cast<Eigen::Index>(k);
+    if (rows[k].dof < 0 && A(i, i) * model.bodies[rows[k].a.first].mass < immovable) {
+      A.row(i).setZero();
+      A.col(i).setZero();
+    }
+  }
+}
+
 void load_row(const Model& model, const Kinematics& kin, const Row& row, Eigen::Index column,
               RowColumns& columns) {
   if (row.dof >= 0) {
@@ -96,6 +114,7 @@ void assemble_dual(const Model& model, const Kinematics& kin, const ArticulatedF
   }
   factor.half_solve(model, kin, columns);
   columns.gram(qp.A);
+  clear_immovable(model, rows, 0, qp.A);
 }
 
 void extend_dual(const Model& model, const Kinematics& kin, const ArticulatedFactor& factor,
@@ -135,6 +154,8 @@ void extend_dual(const Model& model, const Kinematics& kin, const ArticulatedFac
   if (released > 0) {
     release(model, kin, factor, rows, e);
   }
+  clear_immovable(model, rows.there, 0, e.qp.A);
+  clear_immovable(model, rows.added, there, e.qp.A);
 }
 
 BoxQp whole_dual(const Model& model, const Kinematics& kin, const StepSystem& system,

@@ -185,6 +185,11 @@ TEST_P(EverySolver, RefusesWhatBilateralRowsForbid) {
   EXPECT_EQ(solve_cold(qp).status, SolveStatus::infeasible);
   qp.lower[1] = -infinity;
   EXPECT_EQ(solve_cold(qp).status, SolveStatus::infeasible) << "two bilateral rows";
+  qp.lower[1] = 0;
+  qp.upper[1] = 4;  // a soft one pushes all that it may, and the other holds against it
+  solution = solve_cold(qp);
+  ASSERT_EQ(solution.status, SolveStatus::solved);
+  EXPECT_LE((solution.x - Eigen::Vector2d(-7, 4)).lpNorm<Eigen::Infinity>(), settled);
 }
 
 TEST_P(EverySolver, TakesRowsThatCannotMove) {
@@ -195,6 +200,11 @@ TEST_P(EverySolver, TakesRowsThatCannotMove) {
   EXPECT_EQ(solution.x, Eigen::VectorXd(Eigen::Vector2d(1, 0)));
   EXPECT_EQ(solve_cold(unilateral_qp(A, Eigen::Vector2d(1, 0))).status, SolveStatus::solved);
   EXPECT_EQ(solve_cold(unilateral_qp(A, Eigen::Vector2d(1, 1))).status, SolveStatus::infeasible);
+  BoxQp soft = unilateral_qp(A, Eigen::Vector2d(1, 1));
+  soft.upper[1] = 3;
+  solution = solve_cold(soft);
+  ASSERT_EQ(solution.status, SolveStatus::solved);
+  EXPECT_EQ(solution.x, Eigen::VectorXd(Eigen::Vector2d(1, 3))) << "all that it may, in vain";
   const Eigen::Matrix2d nothing = Eigen::Matrix2d::Zero();
   EXPECT_EQ(solve_cold(unilateral_qp(nothing, Eigen::Vector2d(-1, 0))).status, SolveStatus::solved);
   EXPECT_EQ(solve_cold(unilateral_qp(nothing, Eigen::Vector2d(-1, 1))).status,

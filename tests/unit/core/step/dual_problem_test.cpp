@@ -194,6 +194,32 @@ TEST(DualProblem, ExtendsByRowsAddedAndReleasedAsIfMadeAnew) {
   }
 }
 
+TEST(DualProblem, RowsThatPrescribedVelocitiesHoldCannotMove) {
+  const Knotted k;
+  std::vector<Row> contacts, pinned;  // contacts within a body of which no joint moves
+  std::ranges::copy_if(k.rows, std::back_inserter(contacts),
+                       [](const Row& row) { return row.kind == RowKind::contact; });
+  ASSERT_GE(contacts.size(), 2U);
+  for (int dof = root_dofs; dof < k.model.nv(); ++dof) pinned.push_back(row_of(dof));
+  const auto count = static_cast<Eigen::Index>(contacts.size());
+  Pinned stiff(k, pinned);
+  const BoxQp qp = stiff.dual(k, contacts);
+  EXPECT_EQ(qp.A, Eigen::MatrixXd::Zero(count, count)) << "which was some 1e-33";
+  // Nor where one of them is added; they move again where a joint between their points does.
+  DualExtension extension;
+  const std::span<const Row> rows(contacts);
+  const BoxQp first = stiff.dual(k, rows.first(1));
+  extend_dual(k.model, k.kin, stiff.factor, {rows.first(1), rows.subspan(1), {}}, stiff.base,
+              stiff.centre_velocity, stiff.columns, first, extension);
+  EXPECT_EQ(extension.qp.A, qp.A);
+  const auto between =
+      std::ranges::find(pinned, k.model.bodies[contacts[0].b.first].first_dof, &Row::dof);
+  extension.reaction.setZero(1);
+  extend_dual(k.model, k.kin, stiff.factor, {rows.first(1), {}, {between, 1}}, stiff.base,
+              stiff.centre_velocity, stiff.columns, first, extension);
+  EXPECT_GT(extension.qp.A(0, 0), 1e-6);
+}
+
 TEST(DualProblem, StorageOfALargerOneServesASmallerOne) {
   const Knotted k;
   ArticulatedFactor factor;
