@@ -36,6 +36,12 @@ To bits_as(const From& from) {
 }  // namespace detail
 
 inline Lanes lanes_of(const LaneValues& values) { return detail::bits_as<Lanes>(values); }
+/// The numbers from `values` on.
+inline Lanes lanes_at(const double* values) {
+  Lanes lanes;
+  std::memcpy(&lanes, values, sizeof lanes);
+  return lanes;
+}
 /// The same number in all lanes.
 inline Lanes lanes_of(double value) { return Lanes{} + value; }
 

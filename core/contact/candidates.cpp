@@ -172,11 +172,6 @@ bool in_line(const Candidates& candidates, int i) {
 /// is_due for pairs in line from `first` on; lists those from `from` on that are.
 void list_due_in_line(const std::vector<SplineSegment>& segments, Candidates& candidates, int first,
                       int from, std::vector<int>& due) {
-  const auto lanes_at = [](const double* values) {
-    LaneValues some;
-    std::copy_n(values, lane_count, some.begin());
-    return lanes_of(some);
-  };
   const auto& [a, b] = candidates.pairs[first];
   const Lanes moved = candidates.moved[a] + lanes_at(&candidates.moved[b]);
   const Lanes until = lanes_at(&candidates.clear_until[first]);
