@@ -22,13 +22,17 @@ using ConstLanes = Eigen::Map<const Lanes, Eigen::Aligned16>;
 
 /// t := t L⁻ᵀ with the diagonal tile L of a panel and its inverse pivots.
 void solve_tile(const double* diagonal, const double* inverse_pivot, Tile& t) {
+  for (Eigen::Index first = 0; first < tile_rows; first += tile_part) {
+    Eigen::Array<double, tile_part, tile_rows> part = t.middleRows<tile_part>(first);
 #pragma GCC unroll 8
-  for (int j = 0; j < tile_rows; ++j) {
-    t.col(j) *= inverse_pivot[j];
+    for (int j = 0; j < tile_rows; ++j) {
+      part.col(j) *= inverse_pivot[j];
 #pragma GCC unroll 8
-    for (int i = j + 1; i < tile_rows; ++i) {
-      t.col(i) -= t.col(j) * diagonal[tile_rows * j + i];
+      for (int i = j + 1; i < tile_rows; ++i) {
+        part.col(i) -= part.col(j) * diagonal[tile_rows * j + i];
+      }
     }
+    t.middleRows<tile_part>(first) = part;
   }
 }
 
