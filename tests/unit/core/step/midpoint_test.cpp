@@ -283,6 +283,20 @@ TEST(Midpoint, SettlesWithTheRowsOfItsPath) {
   EXPECT_GE(with_path_rows, 10);
 }
 
+TEST(Midpoint, APassThatFailsLeavesTheStepToItsOwnFirstVelocity) {
+  MidpointStage run(knotted(1, 3));
+  for (int k = 0; k < 2; ++k) {  // the guess takes two
+    run.step([](const StepInput&, const StepSolution& step) { EXPECT_EQ(step.unsettled, 0); });
+  }
+  run.stage.solver.warm.half_change.setConstant(1e300);  // so far off that no pass is finite
+  run.step([](const StepInput& in, const StepSolution& step) {
+    EXPECT_TRUE(std::isinf(step.unsettled));
+    EXPECT_EQ(in.midway->moved, in.state.qdot);
+    EXPECT_TRUE(step.qdot.allFinite());
+    EXPECT_TRUE(step.next.allFinite());
+  });
+}
+
 // A second pass only where the first one's guess was poor; what does not settle is said.
 TEST(Midpoint, SaysWhatDoesNotSettle) {
   MidpointStage run(knotted(1, 3));
