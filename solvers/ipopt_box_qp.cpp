@@ -194,7 +194,8 @@ Ipopt::SmartPtr<Ipopt::IpoptApplication> make_application(const IpoptSettings& s
   options->SetStringValue("linear_solver", "mumps");
   options->SetIntegerValue("mumps_mem_percent", settings.mumps_extra_memory);
   options->SetStringValue("hessian_constant", "yes");
-  options->SetNumericValue("tol", settings.tolerance);
+  options->SetNumericValue(
+      "tol", fast && settings.polish ? settings.polished_tolerance : settings.tolerance);
   options->SetIntegerValue("acceptable_iter", 0);
   options->SetIntegerValue("max_iter", settings.iteration_limit);
   options->SetNumericValue("bound_relax_factor", 0);

@@ -107,7 +107,7 @@ void add_qp(Program& program) {
       ->allow_extra_args(false);
   qp_app
       ->add_option("--tolerance", options->tolerances,
-                   "of Ipopt's own stopping, repeatable: measures each (1e-9)")
+                   "where Ipopt stops, repeatable: measures each (1e-4; unpolished 1e-9)")
       ->check(above_zero())
       ->allow_extra_args(false);
   qp_app->add_option("--repeat", options->repeat, "times that each QP is solved")

@@ -23,7 +23,12 @@ std::unique_ptr<BoxQpSolver> make(const BackEnd& back_end) {
   }
   IpoptSettings settings;
   settings.polish = back_end.name == ipopt;
-  if (!std::isnan(back_end.tolerance)) {
+  if (std::isnan(back_end.tolerance)) {
+    return std::make_unique<IpoptBoxQp>(settings);
+  }
+  if (settings.polish) {
+    settings.polished_tolerance = back_end.tolerance;
+  } else {
     settings.tolerance = back_end.tolerance;
     settings.accepted = std::max(settings.accepted, 10 * back_end.tolerance);
   }

@@ -45,7 +45,9 @@ TEST(IpoptBoxQp, ReturnsItsOwnPointUnpolished) {
     return (s.x - known.x).lpNorm<Eigen::Infinity>();
   };
   EXPECT_GT(off(raw), 1e-9);
-  EXPECT_LE(off(solve_cold(known.dual)), 1e-12);
+  const BoxQpSolution polished = solve_cold(known.dual);
+  EXPECT_LE(off(polished), 1e-12);
+  EXPECT_LT(polished.iterations, raw.iterations);  // crossover ends what Ipopt need not
 }
 
 }  // namespace
