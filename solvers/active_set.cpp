@@ -48,9 +48,9 @@ void ActiveSetBoxQp::solve(const BoxQp& qp, const Eigen::VectorXd& start, BoxQpS
   solution.x = pivoting_.x();
   solution.iterations = pivoting_.changes();
   const bool settled = ending == ActiveSetPivoting::Ending::settled;
-  const double residual =
-      (settled ? kkt_residuals(qp, solution.x, pivoting_.w()) : kkt_residuals(qp, solution.x))
-          .worst();
+  const double residual = (settled ? kkt_residuals(qp, solution.x, pivoting_.w(), pivoting_.scale())
+                                   : kkt_residuals(qp, solution.x))
+                              .worst();
   if (ending == ActiveSetPivoting::Ending::contradiction) {
     solution.status = SolveStatus::infeasible;
     solution.contradicting = pivoting_.contradicting();

@@ -54,7 +54,7 @@ void ActiveSetPivoting::start(const BoxQp& qp) {
   }
   row_scale(qp.A, scale_);
   inverse_scale_ = scale_.cwiseInverse();
-  beta_ = rhs_scale(qp);
+  beta_ = rhs_scale(qp, scale_);
   x_.setZero();
   joining_.clear();
   contradicting_.clear();

@@ -50,6 +50,8 @@ class ActiveSetPivoting {
   const Eigen::Map<Eigen::VectorXd>& x() const { return x_; }
   /// A x - b, to rounding, where x has settled.
   const Eigen::Map<Eigen::VectorXd>& w() const { return w_; }
+  /// row_scale of the problem's A.
+  const Eigen::Map<Eigen::VectorXd>& scale() const { return scale_; }
   /// Changes of sides so far, a block counting as one.
   int changes() const { return changes_; }
   /// Ascending. Multipliers t_i with t_i > 0 on rows without an upper bound (any sign on free rows)

@@ -42,20 +42,8 @@ void check_box_qp(const BoxQp& qp) {
 
 namespace {
 
-/// row_scale(A) entry by entry.
-class RowScale {
- public:
-  explicit RowScale(const Eigen::MatrixXd& A) : A_(A) {
-    const double largest = A.size() > 0 ? std::sqrt(std::max(A.diagonal().maxCoeff(), 0.0)) : 0;
-    least_ = largest > 0 ? 1e-10 * largest : 1.0;
-  }
-  bool can_move(Eigen::Index i) const { return A_(i, i) >= least_ * least_; }
-  double operator[](Eigen::Index i) const { return can_move(i) ? std::sqrt(A_(i, i)) : least_; }
-
- private:
-  const Eigen::MatrixXd& A_;
-  double least_;
-};
+/// Of the largest entry of row_scale(A), its least one.
+constexpr double least_share = 1e-10;
 
 }  // namespace
 
@@ -66,40 +54,41 @@ Eigen::VectorXd row_scale(const Eigen::MatrixXd& A) {
 }
 
 void row_scale(const Eigen::MatrixXd& A, Eigen::Ref<Eigen::VectorXd> s) {
-  const RowScale scale(A);
-  for (Eigen::Index i = 0; i < s.size(); ++i) {
-    s[i] = scale[i];
+  if (s.size() == 0) {
+    return;
   }
+  s = A.diagonal().cwiseMax(0);  // side by side in memory, so that roots are taken in packets
+  s = s.cwiseSqrt();
+  const double largest = s.maxCoeff();
+  s = s.cwiseMax(largest > 0 ? least_share * largest : 1.0);
 }
 
-double rhs_scale(const BoxQp& qp) {
-  const RowScale scale(qp.A);
-  double beta = 0;
-  for (Eigen::Index i = 0; i < qp.b.size(); ++i) {
-    if (scale.can_move(i)) {
-      beta = std::max(beta, std::abs(qp.b[i]) / scale[i]);
-    }
+double rhs_scale(const BoxQp& qp, const Eigen::Ref<const Eigen::VectorXd>& s) {
+  if (s.size() == 0) {
+    return 1;
   }
+  const double least = least_share * s.maxCoeff();
+  const double beta = (s.array() > least).select(qp.b.array().abs() / s.array(), 0).maxCoeff();
   return beta > 0 ? beta : 1;
 }
 
-namespace {
+KktResiduals kkt_residuals(const BoxQp& qp, const Eigen::Ref<const Eigen::VectorXd>& x) {
+  return kkt_residuals(qp, x, qp.A * x - qp.b, row_scale(qp.A));
+}
 
-/// `gradient(i)` is w_i.
-template <class Gradient>
-KktResiduals residuals(const BoxQp& qp, const Eigen::Ref<const Eigen::VectorXd>& x, double beta,
-                       const Gradient& gradient) {
+KktResiduals kkt_residuals(const BoxQp& qp, const Eigen::Ref<const Eigen::VectorXd>& x,
+                           const Eigen::Ref<const Eigen::VectorXd>& w,
+                           const Eigen::Ref<const Eigen::VectorXd>& s, double least_beta) {
+  const double beta = std::max(rhs_scale(qp, s), least_beta);
   KktResiduals r;
-  const RowScale s(qp.A);
   for (Eigen::Index i = 0; i < x.size(); ++i) {
-    const double si = s[i];
-    const double wi = gradient(i) / si / beta;
+    const double wi = w[i] / s[i] / beta;
     if (!std::isfinite(x[i]) || !std::isfinite(wi)) {
       r.primal = std::numeric_limits<double>::infinity();
       return r;
     }
-    const double above = (x[i] - qp.lower[i]) * si / beta;  // room to the bounds, inf where free
-    const double below = (qp.upper[i] - x[i]) * si / beta;
+    const double above = (x[i] - qp.lower[i]) * s[i] / beta;  // room to the bounds, inf where free
+    const double below = (qp.upper[i] - x[i]) * s[i] / beta;
     const double room = wi > 0 ? above : below;
     if (std::isinf(room)) {
       r.primal = std::max(r.primal, std::abs(wi));
@@ -109,19 +98,6 @@ KktResiduals residuals(const BoxQp& qp, const Eigen::Ref<const Eigen::VectorXd>&
     r.primal = std::max({r.primal, -above, -below});
   }
   return r;
-}
-
-}  // namespace
-
-KktResiduals kkt_residuals(const BoxQp& qp, const Eigen::Ref<const Eigen::VectorXd>& x) {
-  return residuals(qp, x, rhs_scale(qp),
-                   [&](Eigen::Index i) { return qp.A.col(i).dot(x) - qp.b[i]; });
-}
-
-KktResiduals kkt_residuals(const BoxQp& qp, const Eigen::Ref<const Eigen::VectorXd>& x,
-                           const Eigen::Ref<const Eigen::VectorXd>& w, double least_beta) {
-  const double beta = std::max(rhs_scale(qp), least_beta);
-  return residuals(qp, x, beta, [&](Eigen::Index i) { return w[i]; });
 }
 
 std::vector<std::string> box_qp_solver_names() { return {"ipopt", "active-set"}; }

@@ -33,9 +33,9 @@ Eigen::VectorXd row_scale(const Eigen::MatrixXd& A);
 /// The same into memory of the caller's, `s` (m).
 void row_scale(const Eigen::MatrixXd& A, Eigen::Ref<Eigen::VectorXd> s);
 
-/// β = max |b_i| / s_i, s = row_scale(A), over rows that can move (s_i not at its least); 1 where
-/// that is 0.
-double rhs_scale(const BoxQp& qp);
+/// β = max |b_i| / s_i over rows that can move (s_i not at its least); 1 where that is 0. `s` is
+/// row_scale(A).
+double rhs_scale(const BoxQp& qp, const Eigen::Ref<const Eigen::VectorXd>& s);
 
 enum class SolveStatus { solved, infeasible, iteration_limit, stopped, failed };
 const char* status_name(SolveStatus status);
@@ -64,10 +64,11 @@ struct KktResiduals {
 /// Residuals of any x against the problem; knows no back end. Infinite where x or w is not finite.
 KktResiduals kkt_residuals(const BoxQp& qp, const Eigen::Ref<const Eigen::VectorXd>& x);
 
-/// The same from w = C v - d as measured on the primal side instead of A x - b. β is at least
-/// `least_beta`: of a larger problem of which this one is a part.
+/// The same from w = C v - d as measured on the primal side instead of A x - b, with s =
+/// row_scale(A). β is at least `least_beta`: of a larger problem of which this one is a part.
 KktResiduals kkt_residuals(const BoxQp& qp, const Eigen::Ref<const Eigen::VectorXd>& x,
-                           const Eigen::Ref<const Eigen::VectorXd>& w, double least_beta = 0);
+                           const Eigen::Ref<const Eigen::VectorXd>& w,
+                           const Eigen::Ref<const Eigen::VectorXd>& s, double least_beta = 0);
 
 /// A back end. Solvers keep settings and scratch, never results: the same problem and start give
 /// the same answer.

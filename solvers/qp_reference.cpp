@@ -75,8 +75,9 @@ QpReference::QpReference(const PrimalQp& qp) {
 
 /// Brings A_, b_ and the bounds to the scale of `qp`, the problem as back ends see it.
 void QpReference::scale(const BoxQp& qp) {
-  scale_ = row_scale(qp.A).cast<Real>();
-  beta_ = rhs_scale(qp);
+  const Eigen::VectorXd scale = row_scale(qp.A);
+  scale_ = scale.cast<Real>();
+  beta_ = rhs_scale(qp, scale);
   const Vector inverse = scale_.cwiseInverse();
   A_ = (inverse.asDiagonal() * A_ * inverse.asDiagonal()).eval();
   b_ = inverse.cwiseProduct(b_) / beta_;

@@ -56,7 +56,7 @@ double stationarity(const Model& model, const Kinematics& kin, double reach, Ste
 }
 
 /// |λ| with rows brought to unit diagonal (prescribed ones to about that), so that those of cm/s
-/// and rad/s compare, into scratch.scaled.
+/// and rad/s compare, into scratch.scaled; what brings them there into scratch.row_scale.
 void scale_multipliers(StepScratch& scratch, const StepSolution& step) {
   Eigen::VectorXd& scaled = scratch.scaled;
   scaled.resize(step.lambda.size());
@@ -67,6 +67,7 @@ void scale_multipliers(StepScratch& scratch, const StepSolution& step) {
   if (others > 0) {
     row_scale(scratch.qp().A, scaled.tail(others));
   }
+  scratch.row_scale = scaled;
   scaled.array() *= step.lambda.array().abs();
 }
 
@@ -90,9 +91,10 @@ void StepSolver::measure_rows(StepSolution& step) {
   // β of the whole problem: where a prescribed row binds alone, b over its scale is this.
   const double beta = step.prescribed == 0 ? 0 : scratch_.scaled.head(step.prescribed).maxCoeff();
   const Eigen::Index others = m - step.prescribed;
-  step.kkt = others == 0 ? KktResiduals{}
-                         : kkt_residuals(scratch_.qp(), step.lambda.tail(others),
-                                         step.excess.tail(others), beta);
+  step.kkt = others == 0
+                 ? KktResiduals{}
+                 : kkt_residuals(scratch_.qp(), step.lambda.tail(others), step.excess.tail(others),
+                                 scratch_.row_scale.tail(others), beta);
 }
 
 /// Keeps the multipliers of the rows with a force for the next step.

@@ -149,7 +149,7 @@ struct StepScratch {
   bool extended = false;    ///< the last round did
   /// Of the last round that had rows behind the prescribed ones, on those.
   const BoxQp& qp() const { return extended ? extension.qp : whole; }
-  Eigen::VectorXd start, scaled;
+  Eigen::VectorXd start, row_scale, scaled;
   BoxQpSolution solution;
   Matrix6Xd wrench;
   Eigen::VectorXd joint, impulse, change;

@@ -25,6 +25,11 @@ BoxQp two_rows() {
   return qp;
 }
 
+KktResiduals with_gradient(const Eigen::Vector2d& x, const Eigen::Vector2d& w,
+                           double least_beta = 0) {
+  return kkt_residuals(two_rows(), x, w, row_scale(two_rows().A), least_beta);
+}
+
 TEST(KktResiduals, AreZeroAtKnownSolutions) {
   std::mt19937 random(1);
   for (int count = 1; count <= 4; ++count) {
@@ -84,7 +89,7 @@ TEST(KktResiduals, DoNotDependOnUnits) {
 
 TEST(KktResiduals, UseTheVelocityGiven) {
   // w from elsewhere: the first row is violated by 0.6 / 2 / 3.
-  const KktResiduals r = kkt_residuals(two_rows(), Eigen::Vector2d(1, 0), Eigen::Vector2d(-0.6, 9));
+  const KktResiduals r = with_gradient(Eigen::Vector2d(1, 0), Eigen::Vector2d(-0.6, 9));
   EXPECT_NEAR(r.primal, 0.1, rounding);
 }
 
@@ -99,8 +104,7 @@ TEST(KktResiduals, KeepRowsThatCannotMoveFromHidingOthers) {
 
 TEST(KktResiduals, AreInfiniteWhereSomethingIsNotFinite) {
   EXPECT_EQ(kkt_residuals(two_rows(), Eigen::Vector2d(nan, 0)).worst(), infinity);
-  EXPECT_EQ(kkt_residuals(two_rows(), Eigen::Vector2d(1, 0), Eigen::Vector2d(0, nan)).worst(),
-            infinity);
+  EXPECT_EQ(with_gradient(Eigen::Vector2d(1, 0), Eigen::Vector2d(0, nan)).worst(), infinity);
 }
 
 TEST(CheckBoxQp, NamesWhatIsWrong) {
@@ -119,12 +123,12 @@ TEST(CheckBoxQp, NamesWhatIsWrong) {
 TEST(KktResiduals, ScaleOfALargerProblemMakesThemSmaller) {
   const Eigen::Vector2d x(0.5, 0);
   const Eigen::Vector2d w(-0.6, 3);
-  const KktResiduals own = kkt_residuals(two_rows(), x, w);
-  const double beta = rhs_scale(two_rows());
-  const KktResiduals part = kkt_residuals(two_rows(), x, w, 10 * beta);
+  const KktResiduals own = with_gradient(x, w);
+  const double beta = rhs_scale(two_rows(), row_scale(two_rows().A));
+  const KktResiduals part = with_gradient(x, w, 10 * beta);
   EXPECT_NEAR(part.primal, own.primal / 10, rounding);
   EXPECT_NEAR(part.complementarity, own.complementarity / 100, rounding);
-  EXPECT_EQ(kkt_residuals(two_rows(), x, w, 0.1 * beta).primal, own.primal);
+  EXPECT_EQ(with_gradient(x, w, 0.1 * beta).primal, own.primal);
 }
 
 TEST(MakeBoxQpSolver, KnowsItsNames) {

@@ -61,8 +61,8 @@ TEST(QpReference, MeasuresVelocities) {
   const double norm = std::sqrt(off.dot(known.primal.H * off));
   const VelocityError error = reference.error(x);
   EXPECT_NEAR(error.norm, norm, known_to * norm);
-  const double relative =
-      norm / std::max(std::sqrt(change.dot(known.primal.H * change)), rhs_scale(known.dual));
+  const double relative = norm / std::max(std::sqrt(change.dot(known.primal.H * change)),
+                                          rhs_scale(known.dual, row_scale(known.dual.A)));
   EXPECT_NEAR(error.relative, relative, known_to * relative);
   const double largest = off.lpNorm<Eigen::Infinity>();
   EXPECT_NEAR(error.largest, largest, known_to * largest);

@@ -34,7 +34,8 @@ TEST_P(StepQp, BothFormsHaveTheStepsOwnSolution) {
   // To rounding of λ, of which a step finds those of prescribed rows in another way: seen 1e-12.
   EXPECT_LE(kkt_residuals(box, step.lambda).worst(), 1e-10);
   // The residual of the rows not prescribed is as large as that of the whole problem.
-  EXPECT_LE(step.kkt.worst(), 3 * kkt_residuals(box, step.lambda, step.excess).worst() + 1e-15);
+  EXPECT_LE(step.kkt.worst(),
+            3 * kkt_residuals(box, step.lambda, step.excess, row_scale(box.A)).worst() + 1e-15);
   const PrimalQp primal = to_primal(model, resolved.scene, record);
   EXPECT_EQ(primal.e.size(), record.control.clamp_head ? 6 : 0);
   const BoxQp dual = dual_of(primal);
