@@ -57,23 +57,16 @@ void add_motion(const std::vector<SplineSegment>& segments, Candidates& candidat
 }
 
 void list_pairs(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
-                Candidates& candidates) {
-  const int n = static_cast<int>(segments.size());
+                BroadPhase& broad_phase, Candidates& candidates) {
   candidates.pairs.clear();
   candidates.clear_until.clear();
-  candidates.moved.assign(n, 0);
+  candidates.moved.assign(segments.size(), 0);
   // Slack, so that rounding does not put equal arcs on different sides of the bound.
   const double least_arc = settings.least_arc * (1 - 1e-9);
-  for (int a = 0; a < n; ++a) {
-    for (int b = a + 1; b < n; ++b) {
-      const double reach = segments[a].bound + segments[b].bound + settings.margin;
-      const double square = (segments[a].middle - segments[b].middle).squaredNorm();
-      if (square <= (reach + carried) * (reach + carried) &&
-          segments[b].s0 - segments[a].arc(1) >= least_arc) {
-        candidates.pairs.push_back({a, b});
-        candidates.clear_until.push_back(std::sqrt(square) - reach);
-      }
-    }
+  for (const NearPair& near : broad_phase.find(segments, settings.margin + carried, least_arc)) {
+    const double reach = segments[near.of.a].bound + segments[near.of.b].bound + settings.margin;
+    candidates.pairs.push_back(near.of);
+    candidates.clear_until.push_back(near.apart - reach);
   }
   candidates.all_changed = true;
   candidates.closest.assign(candidates.pairs.size(), std::nullopt);
@@ -226,7 +219,7 @@ void index_pairs(std::size_t segments, Candidates& candidates) {
 }
 
 void update_candidates(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
-                       Candidates& candidates) {
+                       BroadPhase& broad_phase, Candidates& candidates) {
   if (segments.empty()) {  // a single body
     candidates = {};
     index_pairs(0, candidates);
@@ -234,12 +227,12 @@ void update_candidates(const std::vector<SplineSegment>& segments, const Contact
   }
   if (candidates.moved.size() != segments.size()) {
     keep_ends(segments, candidates);
-    list_pairs(segments, settings, candidates);
+    list_pairs(segments, settings, broad_phase, candidates);
     return;
   }
   add_motion(segments, candidates);
   if (!(std::ranges::max(candidates.moved) <= 0.5 * carried)) {
-    list_pairs(segments, settings, candidates);
+    list_pairs(segments, settings, broad_phase, candidates);
   }
 }
 
@@ -254,9 +247,11 @@ void find_due(const std::vector<SplineSegment>& segments, Candidates& candidates
   for (int a = 0; a < n; ++a) {
     const int begin = candidates.first[a];
     const int end = candidates.first[a + 1];
+    const bool all_in_line =
+        begin < end && candidates.pairs[end - 1].b - candidates.pairs[begin].b == end - 1 - begin;
     for (int i = begin; i < end;) {
       const int first = std::min(i, end - lane_count);  // the last ones once more to fill lanes
-      if (first >= begin && in_line(candidates, first)) {
+      if (first >= begin && (all_in_line || in_line(candidates, first))) {
         list_due_in_line(segments, candidates, first, i, due);
         i = first + lane_count;
       } else {

@@ -66,12 +66,13 @@ TEST(ContactSearch, WhatIsNotDueIsClear) {
   const std::vector<StoredState> states = stored_states();
   Simulation sim = resume(model, scene, *std::ranges::find(states, "slide", &StoredState::name));
   StepRecord record;
+  BroadPhase broad_phase;
   int unmoved = 0, parted = 0;
   for (int k = 0; k < 40; ++k) {
     Candidates before = sim.search.candidates;
     take_step(model, scene, sim, record);
     const std::vector<SplineSegment>& segments = sim.now.observation.segments;
-    update_candidates(segments, scene.contact, before);
+    update_candidates(segments, scene.contact, broad_phase, before);
     const Candidates carried = before;
     std::vector<int> due;
     find_due(segments, before, due);
