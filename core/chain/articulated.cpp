@@ -54,9 +54,14 @@ void ArticulatedFactor::factorise(const Model& model, const Kinematics& kin, con
   inverse_pivot_.resize(model.nv());
   prescribed_.assign(prescribed.begin(), prescribed.end());
   auto next = prescribed_.rbegin();
-  // Sums are written in the order in which each waits least for the one before.
+  // Sums are written in the order in which each waits least for the one before. `articulated` lacks
+  // what the dof behind takes from it, u u' over its pivot, which is taken from the products with
+  // it: so each dof waits for the pivot of the one behind alone, and not for the matrix after it.
   using Column = Eigen::Matrix<double, 8, 1>;
   Eigen::Matrix<double, 8, 6> articulated = Eigen::Matrix<double, 8, 6>::Zero();
+  Column u = Column::Zero();
+  double inverse = 0;   // of the pivot behind
+  double coupling = 0;  // with the dof behind
   for (int b = model.body_count() - 1; b >= 0; --b) {
     const Body& body = model.bodies[b];
     articulated += op.inertia[b].columns;
@@ -66,25 +71,29 @@ void ArticulatedFactor::factorise(const Model& model, const Kinematics& kin, con
                            articulated.col(2) * axis[2];
       const Column second = articulated.col(3) * axis[3] + articulated.col(4) * axis[4] +
                             articulated.col(5) * axis[5];
-      const Column u = first + second;
-      const double pivot = axis.dot(u.head<6>()) + op.diagonal[k];
+      const Column product = first + second;
+      const double pivot =
+          axis.dot(product.head<6>()) + op.diagonal[k] - coupling * coupling * inverse;
       if (!(pivot > 0)) {
         throw std::domain_error("articulated inertia is not positive at velocity " +
                                 std::to_string(k) + " (pivot " + std::to_string(pivot) + ")");
       }
-      weighted_.col(k) = u.head<6>();
-      coupling_[k] = k == 0 ? 0 : kin.axis.col(k - 1).dot(u.head<6>());
-      pivot_[k] = pivot;
-      if (next != prescribed_.rend() && next->dof == k) {
-        inverse_pivot_[k] = 0;
-        ++next;
-        continue;
-      }
-      inverse_pivot_[k] = 1 / pivot;
-      const Column share = inverse_pivot_[k] * u;
+      const Column share = inverse * u;
       for (int i = 0; i < 6; ++i) {
         articulated.col(i) -= u[i] * share;
       }
+      u = product - coupling * share;
+      coupling = k == 0 ? 0 : kin.axis.col(k - 1).dot(u.head<6>());
+      weighted_.col(k) = u.head<6>();
+      coupling_[k] = coupling;
+      pivot_[k] = pivot;
+      if (next != prescribed_.rend() && next->dof == k) {
+        inverse = 0;
+        ++next;
+      } else {
+        inverse = 1 / pivot;
+      }
+      inverse_pivot_[k] = inverse;
     }
   }
 }
