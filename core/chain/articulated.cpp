@@ -193,17 +193,13 @@ void ArticulatedFactor::half_solve(const Model& model, const Kinematics& kin,
         y(k, columns.joint_loads_[i].column) += share * columns.joint_loads_[i].force;
       }
       for (Eigen::Index first = 0; first < columns.width_[k]; first += RowColumns::panel) {
-        // In halves that do not wait for each other.
         Panel own = Panel::Zero();
         if (loaded) {
           own = y.row(k).segment<RowColumns::panel>(first);
         }
-        Panel other = Panel::Zero();
-        for (int i = 0; i < 3; ++i) {
+        for (int i = 0; i < 6; ++i) {
           own += axis[i] * sum.row(i).segment<RowColumns::panel>(first).array();
-          other += axis[i + 3] * sum.row(i + 3).segment<RowColumns::panel>(first).array();
         }
-        own += other;
         y.row(k).segment<RowColumns::panel>(first) = own;
         for (int i = 0; i < 6; ++i) {
           sum.row(i).segment<RowColumns::panel>(first).array() -= weighted[i] * own;

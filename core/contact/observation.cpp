@@ -24,8 +24,12 @@ void observe(const Model& model, const State& state, const Scene& scene, Contact
   o.penetration = std::max(0.0, -o.contact.least_gap);
   visit_wall_gaps(model, o.kin, scene.wall,
                   [&](int, double gap) { o.penetration = std::max(o.penetration, -gap); });
-  hinge_room(model, state.q, o.room);
-  double past_limit = o.room.size() > 0 ? std::max(0.0, -o.room.minCoeff()) : 0;
+  double past_limit = 0;
+  for (int k = root_dofs; k < model.nv(); ++k) {
+    const Hinge& hinge = model.hinges[k - root_dofs];
+    past_limit =
+        std::max(past_limit, std::max(hinge.lower - state.q[k + 1], state.q[k + 1] - hinge.upper));
+  }
   for (const BendingCone& cone : model.cones) {
     past_limit = std::max(past_limit, past_cone(cone, state.q));
   }
@@ -37,15 +41,6 @@ Observation observe(const Model& model, const State& state, const Scene& scene) 
   Observation observation;
   observe(model, state, scene, search, observation);
   return observation;
-}
-
-void hinge_room(const Model& model, const Eigen::VectorXd& q, Eigen::VectorXd& room) {
-  room.resize(static_cast<Eigen::Index>(model.hinges.size()));
-  for (Eigen::Index k = 0; k < room.size(); ++k) {
-    const Hinge& hinge = model.hinges[static_cast<std::size_t>(k)];
-    const double angle = q[root_dofs + 1 + k];
-    room[k] = std::min(angle - hinge.lower, hinge.upper - angle);
-  }
 }
 
 double head_drift(const Model& model, const Kinematics& kin) {

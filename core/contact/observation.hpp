@@ -1,7 +1,6 @@
 // What a state looks like: kinematics, contacts and how far constraints are violated.
 #pragma once
 
-#include <Eigen/Core>
 #include <vector>
 
 #include "core/chain/kinematics.hpp"
@@ -17,7 +16,6 @@ struct Observation {
   Kinematics kin;
   std::vector<SplineSegment> segments;
   ContactSet contact;
-  Eigen::VectorXd room;        ///< of each hinge to its nearer limit, rad; below 0 past it
   double penetration = 0;      ///< deepest overlap of skins or with the head plate, cm, >= 0
   double limit_violation = 0;  ///< largest angle past a limit, rad, >= 0
 };
@@ -33,9 +31,6 @@ struct Moment {
 void observe(const Model& model, const State& state, const Scene& scene, ContactSearch& search,
              Observation& observation);
 Observation observe(const Model& model, const State& state, const Scene& scene);
-
-/// Of each hinge at `q` (nq) to its nearer limit, rad: below 0 past it, infinite where it has none.
-void hinge_room(const Model& model, const Eigen::VectorXd& q, Eigen::VectorXd& room);
 
 /// Largest displacement of the head from its clamped pose, cm: of either end and of its side, which
 /// shows a turn about its own axis.

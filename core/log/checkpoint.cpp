@@ -122,8 +122,7 @@ void serialize(Archive& archive, ContactSet& set) {
 
 template <class Archive>
 void serialize(Archive& archive, Observation& observation) {
-  // Those left out follow from q.
-  auto& [kin, segments, contact, room, penetration, limit_violation] = observation;
+  auto& [kin, segments, contact, penetration, limit_violation] = observation;  // two follow from q
   archive(contact, penetration, limit_violation);
 }
 
@@ -361,7 +360,6 @@ Simulation decode(std::span<const std::uint8_t> bytes, const Model& model,
   update_positions(model, sim.now.state.q, seen.kin);
   update_velocities(model, sim.now.state.qdot, seen.kin);
   update_spline(model, seen.kin.centre, seen.segments);
-  hinge_room(model, sim.now.state.q, seen.room);
   keep_ends(seen.segments, sim.search.candidates);
   index_pairs(seen.segments.size(), sim.search.candidates);
   return sim;

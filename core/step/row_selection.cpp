@@ -28,7 +28,7 @@ void append_unilateral_rows(const StepInput& in, const NearBinding& wanted, Cond
   for (const Contact& contact : in.observation.contact.others) {
     if (is_considered(contact)) append(contact);
   }
-  append_limit_rows(in.model, in.state, in.observation.room, settings, h, wanted, rows);
+  append_limit_rows(in.model, in.state, settings, h, wanted, rows);
   append_wall_rows(in.model, in.observation.kin, in.scene.wall, settings, h, wanted, rows);
 }
 

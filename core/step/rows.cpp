@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/chain/lanes.hpp"
 #include "core/contact/wall.hpp"
 
 namespace hagfish {
@@ -197,49 +196,31 @@ void append_head_rows(const State& state, const ConstraintSettings& settings, do
 
 namespace {
 
-/// The rows of hinge `k` that are wanted.
-void append_rows_of_hinge(const Model& model, const State& state, int k,
-                          const ConstraintSettings& settings, double h, const NearBinding& wanted,
-                          std::vector<Row>& rows) {
-  const Hinge& hinge = model.hinges[k];
-  const double angle = state.q[root_dofs + 1 + k];
-  // The nearer side first: an order that a mirror image, which swaps the sides, keeps.
-  const double nearer = angle - hinge.lower <= hinge.upper - angle ? 1 : -1;
-  for (const double sign : {nearer, -nearer}) {
-    const double gap = sign > 0 ? angle - hinge.lower : hinge.upper - angle;
-    const std::optional<double> rhs = unilateral(gap, settings, h, unbounded);
-    if (!rhs || !std::isfinite(gap) || !wanted(sign * wanted.v[root_dofs + k], *rhs)) {
-      continue;
-    }
-    Row& row = rows.emplace_back();
-    row.kind = RowKind::limit;
-    row.id = row_id(RowKind::limit, root_dofs + k, sign > 0 ? 0 : 1);
-    row.dof = root_dofs + k;
-    row.sign = sign;
-    row.rhs = *rhs;
-  }
-}
-
-void append_hinge_rows(const Model& model, const State& state, const Eigen::VectorXd& room,
-                       const ConstraintSettings& settings, double h, const NearBinding& wanted,
-                       std::vector<Row>& rows) {
+void append_hinge_rows(const Model& model, const State& state, const ConstraintSettings& settings,
+                       double h, const NearBinding& wanted, std::vector<Row>& rows) {
   // Most hinges are clear of both sides by this.
   const double reach = std::max(wanted.slack, wanted.slack_at_rest);
   const double clear = h * (reach + 1e-9 * std::abs(reach));  // beyond rounding
-  const auto is_near = [&](const auto& left, const auto& speed) {
-    return (left < 0) | (left - h * speed <= clear) | (left <= clear);
-  };
-  const int hinges = static_cast<int>(room.size());
-  for (int first = 0; first < hinges; first += lane_count) {
-    const int end = std::min(first + lane_count, hinges);
-    if (end - first == lane_count &&
-        !any(is_near(lanes_at(&room[first]), magnitude(lanes_at(&wanted.v[root_dofs + first]))))) {
+  for (int k = root_dofs; k < model.nv(); ++k) {
+    const Hinge& hinge = model.hinges[k - root_dofs];
+    const double least_gap = std::min(state.q[k + 1] - hinge.lower, hinge.upper - state.q[k + 1]);
+    if (least_gap >= 0 && least_gap - h * std::abs(wanted.v[k]) > clear && least_gap > clear) {
       continue;
     }
-    for (int k = first; k < end; ++k) {
-      if (is_near(room[k], std::abs(wanted.v[root_dofs + k]))) {
-        append_rows_of_hinge(model, state, k, settings, h, wanted, rows);
+    // The nearer side first: an order that a mirror image, which swaps the sides, keeps.
+    const double nearer = state.q[k + 1] - hinge.lower <= hinge.upper - state.q[k + 1] ? 1 : -1;
+    for (const double sign : {nearer, -nearer}) {
+      const double gap = sign > 0 ? state.q[k + 1] - hinge.lower : hinge.upper - state.q[k + 1];
+      const std::optional<double> rhs = unilateral(gap, settings, h, unbounded);
+      if (!rhs || !std::isfinite(gap) || !wanted(sign * wanted.v[k], *rhs)) {
+        continue;
       }
+      Row& row = rows.emplace_back();
+      row.kind = RowKind::limit;
+      row.id = row_id(RowKind::limit, k, sign > 0 ? 0 : 1);
+      row.dof = k;
+      row.sign = sign;
+      row.rhs = *rhs;
     }
   }
 }
@@ -268,10 +249,9 @@ void append_cone_rows(const Model& model, const State& state, const ConstraintSe
 
 }  // namespace
 
-void append_limit_rows(const Model& model, const State& state, const Eigen::VectorXd& room,
-                       const ConstraintSettings& settings, double h, const NearBinding& wanted,
-                       std::vector<Row>& rows) {
-  append_hinge_rows(model, state, room, settings, h, wanted, rows);
+void append_limit_rows(const Model& model, const State& state, const ConstraintSettings& settings,
+                       double h, const NearBinding& wanted, std::vector<Row>& rows) {
+  append_hinge_rows(model, state, settings, h, wanted, rows);
   append_cone_rows(model, state, settings, h, wanted, rows);
 }
 

@@ -125,10 +125,9 @@ void append_head_rows(const State& state, const ConstraintSettings& settings, do
                       std::vector<Row>& rows);
 
 /// One row per bounded side of each hinge, that of the nearer side first, and one per cone unless
-/// its joint is straight. `room` as of hinge_room().
-void append_limit_rows(const Model& model, const State& state, const Eigen::VectorXd& room,
-                       const ConstraintSettings& settings, double h, const NearBinding& wanted,
-                       std::vector<Row>& rows);
+/// its joint is straight.
+void append_limit_rows(const Model& model, const State& state, const ConstraintSettings& settings,
+                       double h, const NearBinding& wanted, std::vector<Row>& rows);
 
 /// As Row::id of the contact's row.
 std::int64_t contact_row_id(const Contact& contact);

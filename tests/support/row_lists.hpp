@@ -4,7 +4,6 @@
 #include <limits>
 #include <vector>
 
-#include "core/contact/observation.hpp"
 #include "core/step/rows.hpp"
 
 namespace hagfish {
@@ -26,16 +25,10 @@ struct AllRows {
   NearBinding wanted{v, centre_velocity, std::numeric_limits<double>::infinity(), 0};
 };
 
-inline Eigen::VectorXd room_of(const Model& model, const State& state) {
-  Eigen::VectorXd room;
-  hinge_room(model, state.q, room);
-  return room;
-}
-
 inline std::vector<Row> limit_rows(const Model& model, const State& state,
                                    const ConstraintSettings& settings, double h) {
   std::vector<Row> rows;
-  append_limit_rows(model, state, room_of(model, state), settings, h, AllRows(model).wanted, rows);
+  append_limit_rows(model, state, settings, h, AllRows(model).wanted, rows);
   return rows;
 }
 

@@ -211,8 +211,7 @@ TEST(ConeRows, OnlyThoseNearBindingAreAppended) {
       }
     }
     std::vector<Row> rows;
-    append_limit_rows(model, state, room_of(model, state), speculative, h,
-                      {state.qdot, velocity, slack, at_rest}, rows);
+    append_limit_rows(model, state, speculative, h, {state.qdot, velocity, slack, at_rest}, rows);
     for (const Row& row : rows) found.push_back(row.id);
     EXPECT_EQ(found, expected);
     EXPECT_FALSE(found.empty());

@@ -26,10 +26,7 @@ TEST(Observe, MeasuresPenetrationAndLimitViolation) {
 
   state.q[7 + 12] = fish.hinges[12].upper + 0.03;
   state.q[7 + 30] = fish.hinges[30].lower - 0.05;
-  now = observe(fish, state, scene);
-  EXPECT_NEAR(now.limit_violation, 0.05, 1e-15);
-  EXPECT_NEAR(now.room[12], -0.03, 1e-15);
-  EXPECT_EQ(now.room[13], fish.hinges[13].upper);  // at 0, between limits as far to either side
+  EXPECT_NEAR(observe(fish, state, scene).limit_violation, 0.05, 1e-15);
 
   Random random(106);
   state = knotted_state(random, fish);

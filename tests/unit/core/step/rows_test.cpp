@@ -170,7 +170,7 @@ TEST(Rows, OnlyThoseNearBindingAreAppended) {
         append_contact_row(t.model, contact, nullptr, speculative, h, wanted, rows);
       }
     }
-    append_limit_rows(t.model, t.state, room_of(t.model, t.state), speculative, h, wanted, rows);
+    append_limit_rows(t.model, t.state, speculative, h, wanted, rows);
     append_wall_rows(t.model, t.kin, {}, speculative, h, wanted, rows);
     std::vector<std::int64_t> expected;
     for (const auto& all : {contact_rows(t.model, t.set, speculative, h),
