@@ -15,7 +15,7 @@ struct IpoptSettings {
   double tolerance = 1e-9;
   /// The same of a first attempt whose point goes through crossover: near enough to tell which rows
   /// bind. Where it is not, by `accepted`, a second attempt stops at `tolerance`. Affects speed
-  /// only, by two iterations in five.
+  /// only.
   double polished_tolerance = 1e-4;
   /// Largest kkt_residuals of a point that is called solved.
   double accepted = 1e-8;

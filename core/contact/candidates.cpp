@@ -247,11 +247,9 @@ void find_due(const std::vector<SplineSegment>& segments, Candidates& candidates
   for (int a = 0; a < n; ++a) {
     const int begin = candidates.first[a];
     const int end = candidates.first[a + 1];
-    const bool all_in_line =
-        begin < end && candidates.pairs[end - 1].b - candidates.pairs[begin].b == end - 1 - begin;
     for (int i = begin; i < end;) {
       const int first = std::min(i, end - lane_count);  // the last ones once more to fill lanes
-      if (first >= begin && (all_in_line || in_line(candidates, first))) {
+      if (first >= begin && in_line(candidates, first)) {
         list_due_in_line(segments, candidates, first, i, due);
         i = first + lane_count;
       } else {

@@ -48,22 +48,16 @@ void set_points(Row& row, const Contact& contact, const Eigen::Vector3d& directi
   row.b = spline_mix(contact.segment_b, contact.t_b, bodies);
 }
 
-/// Along `direction`, of a spline point from another.
-double relative_velocity(const Eigen::Vector3d& direction, const SplineMix& a, const SplineMix& b,
-                         const Eigen::Matrix3Xd& centre_velocity) {
-  Eigen::Vector3d apart = Eigen::Vector3d::Zero();  // ẋ_a - ẋ_b
-  for (int k = 0; k < a.count; ++k) {
-    apart += a.weight[k] * centre_velocity.col(a.first + k);
-  }
-  for (int k = 0; k < b.count; ++k) {
-    apart -= b.weight[k] * centre_velocity.col(b.first + k);
-  }
-  return direction.dot(apart);
-}
-
 /// C q̇ of a row with points.
 double relative_velocity(const Row& row, const Eigen::Matrix3Xd& centre_velocity) {
-  return relative_velocity(row.direction, row.a, row.b, centre_velocity);
+  Eigen::Vector3d apart = Eigen::Vector3d::Zero();  // ẋ_a - ẋ_b
+  for (int k = 0; k < row.a.count; ++k) {
+    apart += row.a.weight[k] * centre_velocity.col(row.a.first + k);
+  }
+  for (int k = 0; k < row.b.count; ++k) {
+    apart -= row.b.weight[k] * centre_velocity.col(row.b.first + k);
+  }
+  return row.direction.dot(apart);
 }
 
 /// The right-hand side of a unilateral row at `gap`; none where the row is not in force.
@@ -262,13 +256,10 @@ void append_contact_row(const Model& model, const Contact& contact,
   if (!rhs) {
     return;
   }
-  const int n = model.body_count();
-  const SplineMix a = spline_mix(contact.segment_a, contact.t_a, n);
-  const SplineMix b = spline_mix(contact.segment_b, contact.t_b, n);
-  const Eigen::Vector3d normal = at == nullptr ? contact.normal : contact_normal(*at, contact);
-  if (wanted(relative_velocity(normal, a, b, wanted.centre_velocity), *rhs)) {
-    Row& row = rows.emplace_back(contact_row(model, contact, at));
-    row.rhs = *rhs;
+  Row& row = rows.emplace_back(contact_row(model, contact, at));
+  row.rhs = *rhs;
+  if (!wanted(row_velocity(row, wanted.centre_velocity, wanted.v), row.rhs)) {
+    rows.pop_back();
   }
 }
 

@@ -17,8 +17,8 @@ std::vector<std::string> measured_back_ends();
 /// A back end as it is to be measured.
 struct BackEnd {
   std::string name;  ///< one of measured_back_ends()
-  /// Where Ipopt stops, before crossover if it is polished; NaN: its default. A point that is not
-  /// counts as solved at ten times that, at 1e-8 at least.
+  /// Where Ipopt stops, before crossover if it is polished; NaN: its default. A point that is
+  /// not polished counts as solved at ten times that, at 1e-8 at least.
   double tolerance = std::numeric_limits<double>::quiet_NaN();
 };
 
