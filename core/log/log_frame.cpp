@@ -11,9 +11,8 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-// Frames are some 50 a second of simulated time, steps 500; a chunk is read and written as one.
+// Frames are some 50 a second of simulated time; a chunk is read and written as one.
 constexpr hsize_t frame_chunk_rows = 64;
-constexpr hsize_t step_chunk_rows = 1024;
 // Of logs below LogLevel::full, all of which is compressed.
 constexpr hsize_t packed_frames = 256;
 
@@ -31,13 +30,6 @@ std::vector<std::string> phase_names() {
   }
   return names;
 }
-
-const std::vector<std::string>& solve_names() {
-  static const std::vector<std::string> names = {"linear", "kkt", "qp"};
-  return names;
-}
-
-double worst_residual(const StepSolution& s) { return std::max(s.kkt.worst(), s.stationarity); }
 
 /// Bodies of the thigmotaxis contacts, [first, last].
 std::array<int, 2> bodies(const Frame& frame, int (Contact::*body)() const) {
@@ -67,8 +59,6 @@ std::array<double, 2> followed(const Frame& frame, int Contact::*segment, double
   }
   return pair;
 }
-
-const std::string order = "first t_a, first t_b, last t_a, last t_b: ";
 
 /// Forces of constraints, in the order of their datasets.
 struct LoggedForce {
@@ -194,17 +184,19 @@ void declare_thigmotaxis(LogTable<Frame>& t) {
             {"1", "spline parameter on the strand b" + parameter},
             [](const Frame& f) { return followed(f, &Contact::segment_b, &Contact::t_b); });
   t.numbers(
-      "/thigmotaxis/command", {strands}, {"cm/s", order + "right side of Eq. 6, nan where no row"},
+      "/thigmotaxis/command", {strands},
+      {"cm/s", strand_order + "right side of Eq. 6, nan where no row"},
       [](const Frame& f) -> const auto& { return f.thigmotaxis.command; });
   t.numbers(
-      "/thigmotaxis/lambda", {strands}, {"dyn", order + "multiplier over h, 0 where no row"},
+      "/thigmotaxis/lambda", {strands}, {"dyn", strand_order + "multiplier over h, 0 where no row"},
       [](const Frame& f) -> const auto& { return f.thigmotaxis.lambda; });
   t.numbers(
-      "/thigmotaxis/speed", {strands}, {"cm/s", order + "left side of Eq. 6, nan where no row"},
+      "/thigmotaxis/speed", {strands},
+      {"cm/s", strand_order + "left side of Eq. 6, nan where no row"},
       [](const Frame& f) -> const auto& { return f.thigmotaxis.speed; });
   t.numbers(
       "/thigmotaxis/slack", {strands},
-      {"cm/s", order + "shortfall of the command, nan where no row"},
+      {"cm/s", strand_order + "shortfall of the command, nan where no row"},
       [](const Frame& f) -> const auto& { return f.thigmotaxis.slack; });
   t.number("/thigmotaxis/cap", {"dyn", "largest multiplier over h of a row; nan where no row"},
            [](const Frame& f) { return f.thigmotaxis.cap; });
@@ -283,7 +275,7 @@ void declare_means(const Model& model, LogTable<Frame>& t) {
                        std::array<double, 4> FrameMeans::*member) {
     t.numbers(
         std::string("/mean/thigmotaxis/") + name, {strands},
-        {unit, order + description + since}, [member](const Frame& f) -> const auto& {
+        {unit, strand_order + description + since}, [member](const Frame& f) -> const auto& {
           return f.mean.*member;
         });
   };
@@ -340,7 +332,8 @@ void declare_pull(LogTable<Frame>& t) {
 
 void declare_diagnostics(LogTable<Frame>& t) {
   const std::string path = "/diagnostics/";
-  t.choice(path + "solve", solve_names(), "least that the step had to solve",
+  t.choice(path + "solve", {solve_kind_names.begin(), solve_kind_names.end()},
+           "least that the step had to solve",
            [](const Frame& f) { return f.record.solution.kind; });
   t.count(path + "rows", "rows in the problem",
           [](const Frame& f) { return f.record.solution.rows.size(); });
@@ -429,7 +422,7 @@ void Worst::take(const StepRecord& record) {
   penetration = std::max(penetration, record.moment.observation.penetration);
   limit_violation = std::max(limit_violation, record.moment.observation.limit_violation);
   head_drift = std::max(head_drift, record.head_drift);
-  kkt = std::max(kkt, worst_residual(record.solution));
+  kkt = std::max(kkt, record.solution.worst_residual());
 }
 
 LogTable<Frame> frame_table(const Model& model, const Scene& scene, LogLevel level) {
@@ -449,117 +442,6 @@ LogTable<Frame> frame_table(const Model& model, const Scene& scene, LogLevel lev
   declare_energy(table);
   declare_momentum(table);
   return table;
-}
-
-LogTable<LoggedStep> step_table(const Scene& scene, LogLevel level) {
-  LogTable<LoggedStep> t({level, step_labels, step_chunk_rows, true});
-  t.number("/steps/time", {"s", "simulated time at which each step begins"},
-           [](const LoggedStep& s) { return s.record.time; });
-  t.choice("/steps/solve", solve_names(), "least that each step had to solve",
-           [](const LoggedStep& s) { return s.record.solution.kind; });
-  t.count("/steps/rows", "rows in the problem of each step",
-          [](const LoggedStep& s) { return s.record.solution.rows.size(); });
-  t.count("/steps/iterations", "back end iterations of each step",
-          [](const LoggedStep& s) { return s.record.solution.iterations; });
-  t.count("/steps/eq6", "Eq. 6 at each step: -1 no rows, 0 with slack, 1 met",
-          [](const LoggedStep& s) {
-            return s.thigmotaxis.any ? static_cast<int>(s.thigmotaxis.met) : -1;
-          });
-  const auto row = [&t](const char* name, const char* unit, const std::string& description,
-                        std::array<double, 4> ThigmotaxisRows::*member) {
-    t.numbers(
-        std::string("/steps/thigmotaxis_") + name, {strands},
-        {unit, order + description}, [member](const LoggedStep& s) -> const auto& {
-          return s.thigmotaxis.*member;
-        });
-  };
-  row("lambda", "dyn", "multiplier over h of each step", &ThigmotaxisRows::lambda);
-  row("speed", "cm/s", "left side of Eq. 6, nan where no row", &ThigmotaxisRows::speed);
-  row("slack", "cm/s", "shortfall of the command, nan where no row", &ThigmotaxisRows::slack);
-  if (has_row_table(scene)) {
-    t.count("/steps/thigmotaxis_others", "rows of Eq. 6 at other contacts than first and last",
-            [](const LoggedStep& s) { return s.thigmotaxis.others; });
-    t.number("/steps/thigmotaxis_others_slack",
-             {"cm/s", "largest shortfall of the command of these rows, nan where none"},
-             [](const LoggedStep& s) { return s.thigmotaxis.others_slack; });
-  }
-  t.number("/steps/kkt", {"1", "largest KKT residual of each step"},
-           [](const LoggedStep& s) { return worst_residual(s.record.solution); });
-  t.number("/steps/penetration", {"cm", "deepest at each step's start"},
-           [](const LoggedStep& s) { return s.record.moment.observation.penetration; });
-  t.number("/steps/limit_violation", {"rad", "largest at each step's start"},
-           [](const LoggedStep& s) { return s.record.moment.observation.limit_violation; });
-  t.number("/steps/head_drift", {"cm", "at each step's start while clamped"},
-           [](const LoggedStep& s) { return s.record.head_drift; });
-  t.number("/steps/qp_time", {"s", "wall time in the QP back end, each step"},
-           [](const LoggedStep& s) { return s.record.solution.qp_time; });
-  if (scene.time.rule == TimeRule::midpoint) {
-    t.number("/steps/middle_off",
-             {"rad/s, cm/s",
-              "length of the difference of the velocity by which each step moves and that which "
-              "placed its middle"},
-             [](const LoggedStep& s) { return s.record.solution.middle_off; });
-    t.count(
-        "/steps/passes",
-        "passes that found the middle of each step: more than time.passes where it settled only "
-        "with the bias as it comes",
-        [](const LoggedStep& s) { return s.record.solution.passes; });
-    t.number("/steps/remaining",
-             {"1",
-              "what further passes would change, over what the last one did: measured where there "
-              "were two, else the step before's to the power of 0.9"},
-             [](const LoggedStep& s) { return s.record.solution.remaining; });
-  }
-  return t;
-}
-
-LogTable<BearingContact> contact_table(LogLevel level) {
-  LogTable<BearingContact> t(
-      {level, contact_frame_labels, step_chunk_rows, level != LogLevel::full});
-  t.count("/contacts/frame", "index along the frames of each contact with a force",
-          [](const BearingContact& c) { return c.frame; });
-  t.number("/contacts/spline_a",
-           {"1",
-            "spline parameter on the strand nearer the head, segment + t; of the head plate "
-            "the body"},
-           [](const BearingContact& c) { return c.row.a.parameter; });
-  t.number("/contacts/spline_b",
-           {"1", "spline parameter on the strand nearer the tail; nan where it is the head plate"},
-           [](const BearingContact& c) {
-             return c.row.kind == RowKind::wall ? nan : c.row.b.parameter;
-           });
-  t.number("/contacts/force",
-           {"dyn", "multiplier over h of the step at the frame, along the normal"},
-           [](const BearingContact& c) { return c.force; });
-  return t;
-}
-
-LogTable<FrameRow> row_table(LogLevel level) {
-  LogTable<FrameRow> t({level, row_frame_labels, step_chunk_rows, level != LogLevel::full});
-  const std::string which = " of each row of Eq. 6 at a frame";
-  t.count("/eq6/frame", "index along the frames" + which,
-          [](const FrameRow& r) { return r.frame; });
-  t.count("/eq6/end", "0 the knot's first contact, 1 its last one, 2 neither",
-          [](const FrameRow& r) { return static_cast<int>(r.row.end); });
-  t.count("/eq6/along", "0 along t_a, 1 along t_b",
-          [](const FrameRow& r) { return r.row.along_a ? 0 : 1; });
-  t.count("/eq6/towards", "the knot is to go: 1 to the head; -1 to the tail, both tangents turn",
-          [](const FrameRow& r) { return r.row.towards == BodyEnd::head ? 1 : -1; });
-  const auto number = [&t](const char* name, const char* unit, const std::string& description,
-                           double ThigmotaxisRow::*member) {
-    t.number(std::string("/eq6/") + name, {unit, description},
-             [member](const FrameRow& r) { return r.row.*member; });
-  };
-  number("spline_a", "1", "spline parameter on the strand nearer the head, segment + t",
-         &ThigmotaxisRow::spline_a);
-  number("spline_b", "1", "spline parameter on the strand nearer the tail",
-         &ThigmotaxisRow::spline_b);
-  number("command", "cm/s", "right side" + which, &ThigmotaxisRow::command);
-  number("cap", "dyn", "largest multiplier over h" + which, &ThigmotaxisRow::cap);
-  number("lambda", "dyn", "multiplier over h" + which, &ThigmotaxisRow::lambda);
-  number("speed", "cm/s", "left side" + which, &ThigmotaxisRow::speed);
-  number("slack", "cm/s", "shortfall of the command" + which, &ThigmotaxisRow::slack);
-  return t;
 }
 
 }  // namespace hagfish

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <vector>
 
+#include "core/log/axis_labels.hpp"
 #include "core/log/build_info.hpp"
 #include "core/log/coordinate_names.hpp"
-#include "core/log/log_frame.hpp"
 
 namespace hagfish {
 namespace {

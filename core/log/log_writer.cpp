@@ -8,7 +8,9 @@
 #include <utility>
 
 #include "core/log/disk_room.hpp"
+#include "core/log/frame_rows.hpp"
 #include "core/log/log_frame.hpp"
+#include "core/log/log_step.hpp"
 #include "core/log/twin_file.hpp"
 #include "core/run/muscle_law.hpp"
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <limits>
+#include <string>
 
 #include "core/step/step.hpp"
 
@@ -25,6 +26,9 @@ struct ThigmotaxisRow {
 /// Row `i` of a step as solved with `control`, which is of kind thigmotaxis.
 ThigmotaxisRow thigmotaxis_row(const Control& control, const StepSolution& solution, std::size_t i,
                                double h);
+
+/// How descriptions of datasets tell the order of the rows below.
+inline const std::string strand_order = "first t_a, first t_b, last t_a, last t_b: ";
 
 /// The four rows of Eq. 6 at the knot's ends: first t_a, first t_b, last t_a, last t_b; and what
 /// there is of others.

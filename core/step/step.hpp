@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -60,6 +61,8 @@ struct StepInput {
 
 /// Eq. 1, Eq. 3 (with limits as bilateral rows too) or Eq. 4.
 enum class SolveKind : std::uint8_t { linear, kkt, qp };
+/// In the order of the enumeration.
+inline constexpr std::array solve_kind_names = {"linear", "kkt", "qp"};
 
 /// Multiplier forces C'λ / h (paper, Eqs. 7 and 8), generalised, nv each.
 struct ConstraintForces {
@@ -109,7 +112,9 @@ struct StepSolution {
   /// the motion alone, nv.
   Eigen::VectorXd net_force;
   double stationarity = 0;  ///< |H q̇ - g - C'λ| over the largest of these three, infinity norms
-  KktResiduals kkt;    ///< of the rows not prescribed, on the scale of all; the others are exact
+  KktResiduals kkt;  ///< of the rows not prescribed, on the scale of all; the others are exact
+  /// The larger of `stationarity` and the residuals of `kkt`.
+  double worst_residual() const { return std::max(kkt.worst(), stationarity); }
   double qp_time = 0;  ///< s spent in the QP back end
   StepSystem system;   ///< Eq. 1 as assembled
   /// What the last pass changed the middle's velocity by, rad/s and cm/s, where that does not

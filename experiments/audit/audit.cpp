@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/log/log_frame.hpp"
+#include "core/log/frame_rows.hpp"
 #include "core/log/log_writer.hpp"
 #include "core/run/simulation.hpp"
 #include "experiments/audit/audit_activation.hpp"

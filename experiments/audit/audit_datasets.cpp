@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "core/log/axis_labels.hpp"
 #include "core/log/coordinate_names.hpp"
-#include "core/log/log_frame.hpp"
 #include "core/log/log_writer.hpp"
 #include "core/log/saved_run.hpp"
 #include "experiments/audit/log_schema.hpp"

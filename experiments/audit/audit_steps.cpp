@@ -7,7 +7,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "core/log/log_frame.hpp"
+#include "core/log/frame_rows.hpp"
 #include "core/log/thigmotaxis_rows.hpp"
 #include "experiments/audit/audited_frame.hpp"
 #include "experiments/audit/rebuilt.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "core/log/log_frame.hpp"
+#include "core/log/frame_rows.hpp"
 #include "experiments/audit/row_force.hpp"
 
 namespace hagfish {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/log/log_frame.hpp"
+#include "core/log/axis_labels.hpp"
 #include "core/log/log_header.hpp"
 #include "core/log/log_writer.hpp"
 #include "core/log/saved_run.hpp"

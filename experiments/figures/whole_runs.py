@@ -125,10 +125,14 @@ def draw_front(axes: Any, front: list[Run], own: list[Run], reference: Run, what
 
 
 def draw_presets(axes: Any, presets: list[Run], reference: Run, what: str, floor: float) -> None:
+    """Stars with their names, that of the quickest on its left, as the next one is near."""
+    quickest = min(run.cpu for run in presets)
     for run in presets:
         point = (run.cpu, max(errors(run, reference)[what], AT_EDGE * floor / BELOW_CHANCE))
         axes.plot(*point, "*", ms=11, mfc=plots.YELLOW, mec=INK, zorder=5)
-        axes.annotate(run.name.removeprefix("preset_"), point, (5, 6), textcoords="offset points", fontsize=8,
+        left = run.cpu == quickest
+        axes.annotate(run.name.removeprefix("preset_"), point, (-5 if left else 5, 6), textcoords="offset points",
+                      fontsize=8, ha="right" if left else "left",
                       bbox={"fc": "white", "ec": "none", "pad": 0.5, "alpha": 0.8}, zorder=6)
 
 
@@ -147,7 +151,7 @@ def draw_row(row: Any, runs: list[Run], presets: list[Run], reference: Run, what
             axes.set_ylim(bottom=chance / BELOW_CHANCE)
             axes.axhspan(axes.get_ylim()[0], chance, color="#eeeeee", zorder=-1)
             axes.text(0.98, 0.02, f"chance, {floor.starts} starts", transform=axes.transAxes, ha="right", va="bottom",
-                      fontsize=7.5, color=GREY)
+                      fontsize=7.5, color=GREY, bbox={"fc": "#eeeeee", "ec": "none", "pad": 0.5}, zorder=3)
     row[0].set_ylabel(PANELS[what][1])
 
 

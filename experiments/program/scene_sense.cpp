@@ -7,6 +7,7 @@
 
 #include "core/input/input_error.hpp"
 #include "core/log/log_frame.hpp"
+#include "core/log/log_step.hpp"
 #include "experiments/program/terminal.hpp"
 
 namespace hagfish {

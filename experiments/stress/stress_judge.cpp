@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/log/log_frame.hpp"
+#include "core/log/thigmotaxis_rows.hpp"
 
 namespace hagfish {
 namespace {

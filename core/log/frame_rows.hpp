@@ -1,0 +1,35 @@
+// What the log holds of the rows of the step at a frame: contacts with a force, and rows of Eq. 6.
+#pragma once
+
+#include <cstdint>
+
+#include "core/log/log_level.hpp"
+#include "core/log/log_table.hpp"
+#include "core/log/thigmotaxis_rows.hpp"
+#include "core/scene/settings.hpp"
+#include "core/step/rows.hpp"
+
+namespace hagfish {
+
+/// A contact with a force, of the step at a frame.
+struct BearingContact {
+  std::int32_t frame = 0;  ///< index along the frames
+  const Row& row;          ///< of kind contact or wall
+  double force = 0;        ///< λ / h, dyn
+};
+
+/// A row of Eq. 6 of the step at a frame.
+struct FrameRow {
+  std::int32_t frame = 0;  ///< index along the frames
+  ThigmotaxisRow row;
+};
+
+/// /eq6, a row for each row of Eq. 6 at a frame, at whatever contact. Empty of the paper's law,
+/// whose rows are those of /thigmotaxis.
+LogTable<FrameRow> row_table(LogLevel level);
+inline bool has_row_table(const Scene& scene) { return scene.controller.law != LawName::paper; }
+
+/// /contacts, a row for each contact with a force at a frame.
+LogTable<BearingContact> contact_table(LogLevel level);
+
+}  // namespace hagfish
