@@ -50,5 +50,22 @@ TEST(IpoptBoxQp, ReturnsItsOwnPointUnpolished) {
   EXPECT_LT(polished.iterations, raw.iterations);  // crossover ends what Ipopt need not
 }
 
+TEST(IpoptBoxQp, GoesTheCarefulWayWhereTheFastOneFails) {
+  IpoptSettings settings;
+  settings.barrier_share = settings.least_barrier = 1e-12;  // starts that are all but on the bounds
+  settings.iteration_limit = 20;                            // of which the fast way takes more
+  IpoptBoxQp solver(settings);
+  std::mt19937 random(5);
+  int careful = 0;
+  for (int problem = 0; problem < 10; ++problem) {
+    const KnownQp known = known_qp(random, 60, each_role(6));
+    const BoxQpSolution solution = solver.solve(known.dual, Eigen::VectorXd::Zero(known.x.size()));
+    ASSERT_EQ(solution.status, SolveStatus::solved) << solution.message;
+    EXPECT_LE((solution.x - known.x).lpNorm<Eigen::Infinity>(), 1e-12);
+    careful += solution.iterations > settings.iteration_limit ? 1 : 0;
+  }
+  EXPECT_GT(careful, 0);
+}
+
 }  // namespace
 }  // namespace hagfish
