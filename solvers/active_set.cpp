@@ -55,10 +55,10 @@ void ActiveSetBoxQp::solve(const BoxQp& qp, const Eigen::VectorXd& start, BoxQpS
     solution.status = SolveStatus::infeasible;
     solution.contradicting = pivoting_.contradicting();
     solution.message = names(solution.contradicting);
-  } else if (residual <= accepted) {
-    solution.status = SolveStatus::solved;
   } else if (ending == ActiveSetPivoting::Ending::stopped) {
     solution.status = SolveStatus::stopped;
+  } else if (residual <= accepted) {
+    solution.status = SolveStatus::solved;
   } else {
     solution.status = ending == ActiveSetPivoting::Ending::limit ? SolveStatus::iteration_limit
                                                                  : SolveStatus::failed;

@@ -55,7 +55,7 @@ BoundedPart::BoundedPart(const BoxQp& qp) : size_(qp.b.size()) {
     c -= coupling.transpose() * free_at_zero_;
   }
   const Eigen::VectorXd scale = row_scale(qp.A);
-  const double beta = size_ > 0 ? qp.b.cwiseQuotient(scale).lpNorm<Eigen::Infinity>() : 0;
+  const double beta = rhs_scale(qp, scale);
   left_out_ = Eigen::VectorXd::Zero(size_);
   std::vector<Eigen::Index> inside;  // of the bounded rows, those kept
   for (Eigen::Index k = 0; k < c.size(); ++k) {

@@ -238,6 +238,7 @@ void IpoptBoxQp::solve(const BoxQp& qp, const Eigen::VectorXd& start, BoxQpSolut
   const BoundedPart part(qp);
   solution.iterations = 0;
   solution.message.clear();
+  solution.contradicting.clear();
   if (!part.consistent()) {
     solution.x = part.expand(Eigen::VectorXd::Zero(part.reduced().b.size()));
     solution.status = SolveStatus::infeasible;
@@ -246,7 +247,9 @@ void IpoptBoxQp::solve(const BoxQp& qp, const Eigen::VectorXd& start, BoxQpSolut
   const Eigen::VectorXd reduced = Eigen::VectorXd::Zero(part.reduced().b.size());
   if (part.reduced().b.isZero(0)) {  // then zero is the answer
     solution.x = part.expand(reduced);
-    solution.status = SolveStatus::solved;
+    const bool solved = kkt_residuals(qp, solution.x).worst() <= engine_->settings.accepted;
+    solution.status = solved ? SolveStatus::solved : SolveStatus::failed;
+    if (!solved) solution.message = "no force of the bounded rows is asked for, and none is off";
     return;
   }
   engine_->attempt(*engine_->fast, part, part.restrict_to_reduced(start), qp, solution);
@@ -272,14 +275,12 @@ void IpoptBoxQp::Engine::attempt(Ipopt::IpoptApplication& ipopt, const BoundedPa
   }
   solution.x = part.expand(
       unit.cwiseProduct(y).cwiseMax(part.reduced().lower).cwiseMin(part.reduced().upper));
-  solution.message.clear();
-  if (kkt_residuals(qp, solution.x).worst() <= settings.accepted) {
-    solution.status = SolveStatus::solved;
-    return;
-  }
   solution.message = "Ipopt return code " + std::to_string(static_cast<int>(code));
   if (problem->stopped) {
     solution.status = SolveStatus::stopped;
+  } else if (kkt_residuals(qp, solution.x).worst() <= settings.accepted) {
+    solution.status = SolveStatus::solved;
+    solution.message.clear();
   } else if (falls_without_end(problem->qp, y, problem->least_objective)) {
     solution.status = SolveStatus::infeasible;
   } else {

@@ -37,15 +37,16 @@ Matrix6Xd gravity_wrench(const Model& model, const Kinematics& kin);
 Eigen::VectorXd stiffness_force(const Model& model, const Eigen::VectorXd& q);
 
 /// A force on the last body's centre: `value` minus `rate` times the centre's velocity at the end
-/// of the step. A scripted force has rate 0; an implicit spring-damper has rate h kp + kd.
+/// of the step, by the midpoint rule its mean over the step. A scripted force has rate 0; an
+/// implicit spring-damper has rate h kp + kd.
 struct TipForce {
   Eigen::Vector3d value = Eigen::Vector3d::Zero();  ///< dyn, world
   double rate = 0;                                  ///< dyn s / cm
 };
 
 /// Torques that the animal's muscles make at its hinges: `value` minus `rate` times the hinges'
-/// rates at the end of the step. Both are empty where there are none; else of length nv, and 0 at
-/// the root: nothing holds on to the world.
+/// rates at the end of the step, or their mean as above. Both are empty where there are none; else
+/// of length nv, and 0 at the root: nothing holds on to the world.
 struct ActiveTorque {
   Eigen::VectorXd value;  ///< dyn cm
   Eigen::VectorXd rate;   ///< dyn cm s, not negative

@@ -60,7 +60,7 @@ void update_velocities(const Model& model, const Eigen::VectorXd& moved,
 
 Kinematics kinematics(const Model& model, const State& state);
 
-// Functions with an output argument write into its storage; a step allocates nothing.
+// Functions with an output argument write into its storage.
 
 /// Twists of all bodies (6 x N) at the velocities `v` (nv) instead of q̇.
 Matrix6Xd body_twists(const Model& model, const Kinematics& kin, const Eigen::VectorXd& v);

@@ -197,6 +197,10 @@ void list_due_in_line(const std::vector<SplineSegment>& segments, Candidates& ca
 
 void keep_ends(const std::vector<SplineSegment>& segments, Candidates& candidates) {
   SegmentEnds& ends = candidates.ends;
+  if (segments.empty()) {
+    ends = {};
+    return;
+  }
   const auto n = static_cast<Eigen::Index>(segments.size());
   ends.point.resize(n + 1, 3);
   ends.third.resize(n + 1, 3);

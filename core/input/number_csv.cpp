@@ -21,7 +21,7 @@ void read_rows(const std::string& text, const std::string& name,
                std::index_sequence<I...> /*columns*/) {
   std::istringstream stream(text);
   io::CSVReader<N, io::trim_chars<' ', '\t'>, io::double_quote_escape<',', '"'>,
-                io::throw_on_overflow, io::single_line_comment<'#'>>
+                io::throw_on_overflow, io::single_and_empty_line_comment<'#'>>
       reader(name, stream);
   reader.read_header(io::ignore_extra_column, columns[I]...);
   const auto fail = [&](const std::string& why) {

@@ -1,5 +1,5 @@
 // Tables of numbers as CSV: columns found by their names, a row of finite numbers a line. Lines
-// that begin with # are comments.
+// that begin with # are comments, and empty ones do not count.
 #pragma once
 
 #include <array>

@@ -70,9 +70,17 @@ class LogTable {
                       });
   }
 
+  /// A row; none where a column throws, which is passed on.
   void append(const Source& source) {
-    for (const auto& append_to : appenders_) {
-      append_to(source);
+    if (series_.empty()) return;
+    const hsize_t rows = series_.front()->rows();
+    try {
+      for (const auto& append_to : appenders_) {
+        append_to(source);
+      }
+    } catch (...) {
+      for (const auto& series : series_) series->cut(rows);
+      throw;
     }
   }
   /// In the order of declaration.

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "core/log/log_header.hpp"
+#include "core/run/control_law.hpp"
 
 namespace hagfish {
 namespace {
@@ -25,6 +26,9 @@ SavedRun run_of(const Hdf5Reader& h5, std::span<const std::uint8_t> bytes) {
       throw FileError(fmt::format("{}: {}", h5.file(), error.what()));
     }
   }();
+  if (!fits_law(model, resolved.scene, sim.controller.memory)) {
+    throw FileError(h5.file() + ": a checkpoint's memory is not of its scene's law");
+  }
   const std::vector<double> wall_time = h5.doubles("/diagnostics/wall_time");
   return {std::move(resolved),
           std::move(model),

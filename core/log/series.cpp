@@ -81,6 +81,12 @@ void AnySeries::write(const Hdf5Reader& newer, Hdf5Writer& older) const {
   }
 }
 
+void AnySeries::cut(hsize_t rows) {
+  if (rows >= total_) return;
+  keep(rows - first_);
+  total_ = rows;
+}
+
 void AnySeries::saved() {
   files_are_alike();
   saved_ = total_;

@@ -30,6 +30,8 @@ class AnySeries {
   hsize_t rows() const { return total_; }
   /// Goes on behind `rows` that both files have; nothing has been appended yet.
   void go_on(hsize_t rows) { first_ = saved_ = total_ = rows; }
+  /// Leaves no more than `rows`, of which those that are gone had not been saved.
+  void cut(hsize_t rows);
   /// Bytes that write() may add to a file.
   std::size_t room() const;
   /// Writes all that waits to `older`, the one of the two files that has fewer rows. What `newer`
@@ -43,6 +45,7 @@ class AnySeries {
  protected:
   virtual const void* waiting(std::size_t skipped_rows) const = 0;
   virtual void forget(std::size_t rows) = 0;  ///< the first ones that wait
+  virtual void keep(std::size_t rows) = 0;    ///< of those that wait the first ones alone
   std::size_t row_size() const { return row_size_; }
   void count_rows(hsize_t rows) { total_ += rows; }
 
@@ -73,6 +76,7 @@ class Series final : public AnySeries {
     return waiting_.data() + skipped_rows * row_size();
   }
   void forget(std::size_t rows) override;
+  void keep(std::size_t rows) override { waiting_.resize(rows * row_size()); }
 
  private:
   std::vector<T> waiting_;

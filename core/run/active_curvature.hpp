@@ -19,7 +19,8 @@ Eigen::VectorXd program_shape(const Model& model, const CurvatureProgram& progra
 
 /// Moves `rest` (nv, rad; empty before the first step) to what it is for the step from `time` (s),
 /// which begins at coordinates `q` (nq) in `phase`:
-///   form              the program's shape at the end of the step;
+///   form              the program's shape where the step's forces act: at its end, by the midpoint
+///                     rule in its middle;
 ///   tighten to reverse  q_ref' = (q - q_ref) / tone_time, so that tone follows the shape;
 ///   release, free       q_ref' = -q_ref / relax_time, towards straight.
 /// The two decays are exact over the step at constant q. A run that begins after form begins with

@@ -12,6 +12,9 @@
 namespace hagfish {
 namespace {
 
+/// Numbers that knot_speed_law keeps.
+constexpr Eigen::Index knot_speed_memory = 2;
+
 /// The knot leaves, or has left, by the tail in this phase.
 bool goes_back(const Situation& at) {
   const Phase phase = at.so_far.phase;
@@ -126,19 +129,40 @@ void knot_speed_law(const Situation& at, Eigen::VectorXd& memory, Control& contr
   const double h = at.scene.time.step;
   const double arc = control.thigmotaxis[0].contact.arc_a;
   const double kept = std::exp(-h / loop.filter);
-  const double lag = h * kept / (1 - kept);  // of the smoothed place, where the speed is steady, s
-  if (memory.size() != 2) {
-    memory = Eigen::Vector2d(arc + (lag + h) * loop.target, 1);
+  const double lag =
+      h / (1 - kept);  // of the smoothed place of the step before, at steady speed, s
+  if (memory.size() == 0) {
+    memory.resize(knot_speed_memory);
+    memory << arc + lag * loop.target, 1;
   }
   double& smooth = memory[0];
   double& scale = memory[1];
-  smooth = arc + kept * (smooth - arc);
   const double speed = (smooth - arc) / lag;  // towards the head
+  smooth = arc + kept * (smooth - arc);
   scale = std::clamp(scale + h * loop.gain * (1 - speed / loop.target), 0.0, loop.most);
   for (ThigmotaxisCommand& command : control.thigmotaxis) {
     command.speed.a *= scale;
     command.speed.b *= scale;
   }
+}
+
+bool fits_law(const Model& model, const Scene& scene, const Eigen::VectorXd& memory) {
+  const Eigen::Index size = memory.size();
+  if (size == 0) return true;
+  switch (scene.controller.law) {
+    case LawName::paper:
+    case LawName::all_contacts:
+      return false;
+    case LawName::knot_speed:
+      return size == knot_speed_memory;
+    case LawName::reduced_basis:
+      return size == basis_memory_size(scene.controller.reduced_basis);
+    case LawName::muscles:
+      return size == muscle_memory_size(model);
+    case LawName::own:
+      break;
+  }
+  return true;
 }
 
 void named_law(const Situation& at, Eigen::VectorXd& memory, Control& control,

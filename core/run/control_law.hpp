@@ -55,6 +55,10 @@ void all_contacts_law(const Situation& at, Control& control);
 /// KnotSpeedSettings (addition). `memory`: smoothed arc length of the head end, cm; scale.
 void knot_speed_law(const Situation& at, Eigen::VectorXd& memory, Control& control);
 
+/// Whether `memory` is empty or as long as that of the law that the scene names; any is of a law of
+/// the run's own.
+bool fits_law(const Model& model, const Scene& scene, const Eigen::VectorXd& memory);
+
 /// By the law that the scene names, which is not its own, in `storage` (law_storage.hpp).
 void named_law(const Situation& at, Eigen::VectorXd& memory, Control& control, LawStorage& storage);
 

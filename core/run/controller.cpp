@@ -231,6 +231,7 @@ void command(const Model& model, const Scene& scene, const Moment& now, double t
   control.torque.rate.setZero();
   control.rest_shape = controller.rest_shape;
   const Situation at{model, scene, now, time, controller};
+  if (!fits_law(model, scene, controller.memory)) controller.memory.resize(0);
   if (!own) {
     named_law(at, controller.memory, control, storage);
   } else if (scene.controller.law == LawName::own) {

@@ -237,7 +237,7 @@ void guard_muscles(const Model& model, const Scene& scene, const Eigen::VectorXd
           fmt::format("the curvature program bends {} to {:.3g} deg at {:.2f} s, but its limits "
                       "are {:.3g} and {:.3g} deg, which push back",
                       dof_name(model, static_cast<int>(k) + root_dofs), angles[k] / degree,
-                      time + scene.time.step, ranges(0, k) / degree, ranges(1, k) / degree),
+                      time + scene.time.reach(), ranges(0, k) / degree, ranges(1, k) / degree),
           GuardAction::warn, watch, warnings);
     }
   }

@@ -41,7 +41,8 @@ void muscle_law(const Situation& at, Eigen::VectorXd& memory, Control& control,
   UntakenStep& paper = storage.paper;
   paper_control(at, memory, control, storage.shape_ahead, paper.control);
   control.tip = paper.control.tip;
-  if (memory.size() == 0) memory.setZero(model.nv() + count);
+  control.rest_shape.resize(0);
+  if (memory.size() == 0) memory.setZero(muscle_memory_size(model));
   if (paper.control.rest_shape.size() > 0) memory.head(model.nv()) = paper.control.rest_shape;
   const Kinematics& kin = at.now.observation.kin;
   MuscleEffort& wanted = storage.wanted;
@@ -57,6 +58,10 @@ void muscle_law(const Situation& at, Eigen::VectorXd& memory, Control& control,
   activation = wanted.activation + kept * (activation - wanted.activation);
   muscle_torque(model, kin, activation, control.torque.value);
   control.torque.rate.setZero(model.nv());
+}
+
+Eigen::Index muscle_memory_size(const Model& model) {
+  return model.nv() + static_cast<Eigen::Index>(model.muscles.size());
 }
 
 Eigen::VectorXd activations_in(const Model& model, const Eigen::VectorXd& memory) {

@@ -33,6 +33,9 @@ struct MuscleStorage {
 void muscle_law(const Situation& at, Eigen::VectorXd& memory, Control& control,
                 MuscleStorage& storage);
 
+/// How many numbers the memory has.
+Eigen::Index muscle_memory_size(const Model& model);
+
 /// The activations in the law's memory: 0 to 1, one for each of Model::muscles.
 Eigen::VectorXd activations_in(const Model& model, const Eigen::VectorXd& memory);
 

@@ -191,6 +191,10 @@ void basis_shapes(const Model& model, const Scene& scene, const KnotSpan& window
   }
 }
 
+Eigen::Index basis_memory_size(const ReducedBasisSettings& basis) {
+  return head + 2 * basis_size(basis);
+}
+
 void unpack(const Eigen::VectorXd& memory, ReducedBasisMemory& unpacked) {
   const Eigen::Index size = (memory.size() - head) / 2;
   unpacked.next = memory[0];

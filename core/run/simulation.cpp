@@ -100,7 +100,8 @@ class Attempt {
       if (!status.ok() || !follow_path(k < corrections)) {
         break;
       }
-      if (!sim_.solver.resume(in_, step_).ok()) {
+      status = sim_.solver.resume(in_, step_);
+      if (!status.ok() && status.outcome != Outcome::stopped) {
         corrections = 0;
         status = sim_.solver.begin(in_, step_);
       }
@@ -153,10 +154,12 @@ class Attempt {
                                path_samples(step_.centre_velocity, h(), scene_.constraints.stride));
     const auto move_to = [&](int i) { move(h() * i / count); };
     int clear = 0;
-    for (move_to(1); clear < count && next_.observation.penetration <= allowed;
-         move_to(clear + 1)) {
+    while (clear < count) {
+      move_to(clear + 1);
+      if (next_.observation.penetration > allowed) break;
       ++clear;
     }
+    if (clear == count) return h();
     move_to(clear);
     record_.crossing = 0;
     warn(Outcome::speed,
@@ -203,11 +206,13 @@ Simulation start(const Model& model, const Scene& scene, const std::string& back
 
 Simulation start_from(const Model& model, const Scene& scene, const std::string& back_end,
                       State state, ControllerState controller, std::int64_t step) {
+  StepSolver solver(
+      back_end);  // before anything is moved: GCC 12 destroys that twice if this throws
   Simulation sim{.step = step,
                  .now = {std::move(state), {}},
                  .search = {},
                  .controller = std::move(controller),
-                 .solver = StepSolver(back_end),
+                 .solver = std::move(solver),
                  .ledger = {},
                  .momentum = {},
                  .watch = {},
@@ -230,6 +235,11 @@ void change_scene(const Model& model, const Scene& before, const Scene& scene, S
                     time_of(sim, before), scene.time.frame_interval));
   }
   sim.step = std::llround(time_of(sim, before) / scene.time.step);
+  if (scene.controller.law != before.controller.law) sim.controller.memory.resize(0);
+  if (scene.script.kind != ScriptSettings::Kind::curvature &&
+      scene.controller.law != LawName::own) {
+    sim.controller.rest_shape.resize(0);
+  }
   sim.search = {};
   observe(model, sim.now.state, scene, sim.search, sim.now.observation);
   const EnergyLedger now = open_ledger(model, sim.now);

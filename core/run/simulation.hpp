@@ -47,7 +47,8 @@ Simulation start_from(const Model& model, const Scene& scene, const std::string&
                       State state, ControllerState controller, std::int64_t step);
 
 /// Goes on in another scene of the same chain, with another time step at the same time: contacts
-/// are found anew, and energy and momentum that the change brings count as there from the start.
+/// are found anew, energy and momentum that the change brings count as there from the start, and a
+/// memory or rest shape that the scene's law does not have is dropped.
 /// Throws std::invalid_argument where the state is not of `model`, or its time no multiple of the
 /// frame interval.
 void change_scene(const Model& model, const Scene& before, const Scene& scene, Simulation& sim);

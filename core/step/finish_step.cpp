@@ -126,7 +126,8 @@ void StepSolver::finish(const StepInput& in, StepSolution& step) {
     warm.half_change = scratch_.half_change;
     warm.remaining = step.remaining;
     end_half(step);
-    step.middle = {in.midway->moved, in.midway->felt};
+    step.middle.moved = in.midway->moved;
+    step.middle.felt = in.midway->felt;
     step.middle_off = (step.qdot - step.middle.moved).norm();
   }
   const ActiveTorque& active = in.control.active;

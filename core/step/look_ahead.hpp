@@ -24,7 +24,7 @@ int path_samples(const Eigen::Matrix3Xd& centre_velocity, double h, double strid
 
 /// Goes through the contacts and wall gaps of `there`, where the velocities of `step` lead within
 /// time `t` (s). Each overlap that is deeper than `constraints.tolerance` allows gets a row in
-/// step.rows between the same material points, with C taken at the step's start:
+/// step.rows between the same material points, with C taken where the step's equations hold:
 ///     φ_now + h C q̇ + (φ_there - φ_now - t C q̇_step) (h/t)² >= goal,
 /// where the bracket is what the linear row misses at t, of second order, and the goal is 0, or
 /// what the Baumgarte gain leaves of an overlap that was there before; h C q̇ is asked to be

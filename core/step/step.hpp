@@ -135,7 +135,8 @@ struct StepSolution {
   } middle;  ///< as in Midway, of the last pass
 };
 
-/// Storage for intermediate results. A step allocates nothing once all of it has grown to size.
+/// Storage for intermediate results. A step of as many rows as the one before, by Euler's rule,
+/// allocates nothing.
 struct StepScratch {
   std::vector<PrescribedVelocity> prescribed;  ///< of the rows that are
   ArticulatedFactor factor;

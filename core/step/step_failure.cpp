@@ -30,7 +30,7 @@ Status describe_failure(const Model& model, const BoxQp& qp, const std::vector<R
       names += fmt::format("; and {} more", contradicting.size() - most_named);
     }
     return {Outcome::infeasible,
-            fmt::format("rows contradict each other: {}; a start without overlap, a finite "
+            fmt::format("rows contradict each other: {}; a start without overlap, a lower "
                         "controller.cap or a smaller time.step would help",
                         names)};
   }

@@ -93,10 +93,20 @@ Eigen::ArrayXd mechanical_energy(const LogContents& log) {
          diagnostic(log, "gravity_energy");
 }
 
+/// Running totals since the log began: they need not begin at 0, as a branch goes on with those of
+/// its run.
+template <class Totals>
+Totals since_start(const Totals& totals) {
+  Totals since = totals;
+  for (Eigen::Index f = 0; f < totals.rows(); ++f) since.row(f) -= totals.row(0);
+  return since;
+}
+
 Finding energy_gain(const LogContents& log) {
   const Eigen::ArrayXd energy = mechanical_energy(log);
-  const Eigen::ArrayXd put_in = diagnostic(log, "work_tip") + diagnostic(log, "work_active") +
-                                diagnostic(log, "work_thigmotaxis");
+  const Eigen::ArrayXd put_in =
+      since_start<Eigen::ArrayXd>(diagnostic(log, "work_tip") + diagnostic(log, "work_active") +
+                                  diagnostic(log, "work_thigmotaxis"));
   EnergyGain gain(energy[0]);
   for (Eigen::Index f = 0; f < energy.size(); ++f) {
     gain.see(energy[f], put_in[f]);
@@ -106,16 +116,14 @@ Finding energy_gain(const LogContents& log) {
 
 /// The ledger's imbalance, over the energy that has passed through it.
 Finding energy(const LogContents& log) {
-  const auto get = [&](const char* name) { return diagnostic(log, name); };
-  const Eigen::ArrayXd energy = mechanical_energy(log);
+  const auto get = [&](const char* name) { return since_start(diagnostic(log, name)); };
+  const Eigen::ArrayXd energy = since_start(mechanical_energy(log));
   const Eigen::ArrayXd works = get("work_tip") + get("work_active") + get("work_thigmotaxis") +
                                get("work_contact") + get("work_limit") + get("work_head") +
                                get("work_wall");
   const Eigen::ArrayXd error = get("integrator_error");
   const Eigen::ArrayXd dissipated = get("dissipated");
-  // Running totals need not begin at 0: a branch goes on with those of its run.
-  const Eigen::ArrayXd balance = energy - works + dissipated - error;
-  const double worst = largest((balance - balance[0]).abs().eval());
+  const double worst = largest((energy - works + dissipated - error).abs().eval());
   const double passed = std::max(dissipated.abs().maxCoeff(), works.abs().maxCoeff());
   const double relative = passed > 0 ? worst / passed : worst;
   Finding finding = judged_over(
@@ -132,14 +140,13 @@ std::vector<Finding> momentum(const LogContents& log) {
     return log.h5.rows(std::string("/diagnostics/") + name);
   };
   const Hdf5Reader::Rows momentum = get("momentum");
-  const Hdf5Reader::Rows drag = get("impulse_drag");
-  const Hdf5Reader::Rows outside = get("impulse_outside");
-  const Hdf5Reader::Rows integrator = get("integrator_momentum");
+  const Hdf5Reader::Rows drag = since_start(get("impulse_drag"));
+  const Hdf5Reader::Rows outside = since_start(get("impulse_outside"));
+  const Hdf5Reader::Rows integrator = since_start(get("integrator_momentum"));
   const auto most = [](const Hdf5Reader::Rows& rows) {
     return rows.allFinite() ? rows.cwiseAbs().maxCoeff() : INFINITY;
   };
-  const Hdf5Reader::Rows off =
-      (momentum - drag - outside - integrator).rowwise() - momentum.row(0).eval();
+  const Hdf5Reader::Rows off = since_start(momentum) - drag - outside - integrator;
   const double passed = std::max({most(momentum), most(drag), most(outside)});
   const double relative = passed > 0 ? most(off) / passed : most(off);
   Finding finding = judged_over({"momentum ledger", relative, log.resolved.scene.expect.energy,

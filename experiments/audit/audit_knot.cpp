@@ -22,6 +22,11 @@ Phase phase_at(const LogContents& log, std::size_t frame) {
   return static_cast<Phase>(log.phase[frame]);
 }
 
+/// Of a branch that does not show a phase from its beginning.
+bool begins_within(const LogContents& log, Phase phase) {
+  return log.time.front() > 0 && phase_at(log, 0) == phase;
+}
+
 /// Of a run that never came to hold the knot.
 std::string never_held(const std::string& expected, const std::vector<std::string>& type) {
   const auto tied = std::ranges::count(type, expected);
@@ -51,7 +56,7 @@ Finding held(const LogContents& log, const std::vector<std::string>& type) {
                                           expected, kept, frames, lost));
 }
 
-/// When a time of the run came, s; infinite where it never did.
+/// When a time of the run came, s: at the log's first frame or later, infinite where it never did.
 double clock_of(const LogContents& log, const RunTime& time) {
   if (!time.after) return time.time;
   const int order = phase_order(*time.after);
@@ -68,7 +73,9 @@ std::vector<Finding> types_through_time(const LogContents& log,
   std::vector<Finding> findings;
   for (const KnotStretch& stretch : scene.expect.types) {
     const double from = clock_of(log, stretch.from), to = clock_of(log, stretch.to);
-    if (scene.time.until != Phase::free && from > log.time.back()) {
+    // A branch begins later than its run.
+    if ((scene.time.until != Phase::free && from > log.time.back()) ||
+        (to <= log.time.front() && log.time.front() > 0)) {
       continue;
     }
     std::int64_t frames = 0;
@@ -85,8 +92,11 @@ std::vector<Finding> types_through_time(const LogContents& log,
         frames > 0 ? fmt::format("{} at {} of {} frames", stretch.type, kept, frames)
                    : fmt::format("the log, of {:g} to {:g} s, has no frame to be a {}",
                                  log.time.front(), log.time.back(), stretch.type);
-    const auto told = [](const RunTime& time, double clock) {
+    const auto told = [&log](const RunTime& time, double clock) {
       const std::string text = run_time_text(time);
+      if (time.after && phase_order(phase_at(log, 0)) > phase_order(*time.after)) {
+        return text + " (before the log)";
+      }
       return time.after && std::isfinite(clock) ? fmt::format("{} ({:g} s)", text, clock)
              : time.after || std::isinf(clock)  ? text
                                                 : text + " s";
@@ -128,7 +138,7 @@ std::optional<KnotWay> way(const LogContents& log, Phase phase, const char* end)
   std::optional<KnotWay> seen;
   for (std::size_t f = 0; f < arc.size(); ++f) {
     if (phase_at(log, f) == phase && !std::isnan(arc[f])) {
-      seen = seen.value_or(KnotWay{arc[f], arc[f]});
+      seen = seen.value_or(KnotWay{arc[f], arc[f], !begins_within(log, phase)});
       seen->last = arc[f];
     }
   }
@@ -180,8 +190,8 @@ Criterion slide_found(const Scene& scene, const std::optional<KnotWay>& head_end
   }
   ExpectSettings asked = scene.expect;
   const double there = head_end->first - scene.controller.release_at - arrived_within;
-  asked.slide_distance =
-      std::clamp(there, least_slide * asked.slide_distance, asked.slide_distance);
+  asked.slide_distance = std::clamp(there, head_end->whole ? least_slide * asked.slide_distance : 0,
+                                    asked.slide_distance);
   return slide_criterion(asked, head_end->first - head_end->last);
 }
 
@@ -200,15 +210,21 @@ std::vector<Finding> audit_knot(const LogContents& log, const std::vector<SeenKn
     return phase_order(scene.time.until) >= phase_order(phase) &&
            phase_order(scene.start.phase) <= phase_order(phase);
   };
+  // A branch may begin after a phase of its run.
+  const auto shows = [&](Phase phase) {
+    return reaches(phase) && phase_order(phase_at(log, 0)) <= phase_order(phase);
+  };
+  const bool shows_knot =
+      reaches(Phase::tighten) && phase_order(phase_at(log, 0)) < phase_order(Phase::release);
   std::vector<std::string> type;
   for (const SeenKnot& knot : seen) {
     type.push_back(knot_name(knot.vote.type));
   }
   std::vector<Finding> findings;
-  if (reaches(Phase::tighten)) {
+  if (shows_knot) {
     findings.push_back(held(log, type));
   }
-  if (scene.start.phase == Phase::form) {
+  if (scene.start.phase == Phase::form && log.time.front() == 0) {
     findings.push_back(
         {"unknot at start", type.front() == "0_1", type.front(), type.front(), "0_1", ""});
   }
@@ -220,18 +236,19 @@ std::vector<Finding> audit_knot(const LogContents& log, const std::vector<SeenKn
   }
   const std::vector<Finding> through_time = types_through_time(log, type);
   findings.insert(findings.end(), through_time.begin(), through_time.end());
-  if (reaches(Phase::tighten) && expect.hand != Hand::any) {
+  if (shows_knot && expect.hand != Hand::any) {
     findings.push_back(hand(log, seen, type));
   }
-  if (reaches(Phase::slide)) {
+  if (shows(Phase::slide)) {
     findings.push_back(
         moved(slide_found(scene, way(log, Phase::slide, "/knot/head_end")), "head", "headward"));
   }
-  if (reaches(Phase::reverse) && scene.controller.leave_by == BodyEnd::tail) {
+  if (shows(Phase::reverse) && !begins_within(log, Phase::reverse) &&
+      scene.controller.leave_by == BodyEnd::tail) {
     findings.push_back(moved(reverse_found(scene, way(log, Phase::reverse, "/knot/tail_end")),
                              "tail", "tailward"));
   }
-  if (reaches(Phase::slide)) {
+  if (shows(Phase::slide)) {
     findings.push_back(commanded_speed(log));
   }
   return findings;

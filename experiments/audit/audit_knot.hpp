@@ -20,10 +20,12 @@ SeenKnot see_knot(const LogContents& log, const AuditedFrame& frame);
 /// Where an end of the knot is at the first and last frame of a phase that show it, cm of arc.
 struct KnotWay {
   double first = 0, last = 0;
+  bool whole = true;  ///< the log has the phase from its beginning, as a branch need not have
 };
 /// The slide of a knot's head end in `scene`, against what is asked of it: the scene's distance,
 /// or, where the knot was nearer to where it is released, all the way there, but half of that
-/// distance at least. And the way back of its tail end. Nothing found is never met.
+/// distance at least where the whole slide is seen. And the way back of its tail end. Nothing found
+/// is never met.
 Criterion slide_found(const Scene& scene, const std::optional<KnotWay>& head_end);
 Criterion reverse_found(const Scene& scene, const std::optional<KnotWay>& tail_end);
 

@@ -18,8 +18,13 @@
 namespace hagfish {
 namespace {
 
+/// Excel writes it before UTF-8.
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 constexpr std::size_t least_points = 5;
 constexpr std::uintmax_t most_bytes = std::uintmax_t{1} << 30;
+/// Of the way along a midline's points over what s says. Points that are far apart cut corners, and
+/// noise of points that are near makes detours.
+constexpr double least_way = 0.2, most_way = 5;
 /// Of a film, s or cm, and the least length of its animal, cm: what is fitted squares their ratio.
 constexpr double largest_number = 1e9, least_length = 1e-9;
 
@@ -35,8 +40,10 @@ class Heading {
       : file_(std::move(file)), pixels_per_cm_(pixels_per_cm) {
     std::istringstream lines(text);
     std::string line;
-    while (std::getline(lines, line) && line.starts_with('#')) {
-    }
+    do {
+      if (!std::getline(lines, line)) line.clear();
+    } while (lines && (line.starts_with('#') || line.empty() || line == "\r"));
+    heading_ = line;
     std::istringstream fields(line);
     for (std::string field; std::getline(fields, field, ',');) {
       field.erase(std::remove_if(field.begin(), field.end(),
@@ -64,12 +71,16 @@ class Heading {
   }
   LengthColumn needed(const std::string& name) const {
     const auto column = length(name);
-    if (!column) fail("no column " + name + "_cm (or _mm, _m, _px)");
+    if (!column) lacks(name + "_cm (or _mm, _m, _px)");
     return *column;
+  }
+  [[noreturn]] void lacks(const std::string& column) const {
+    fail(fmt::format("no column {} among the {} that commas separate in \"{}\"", column,
+                     names_.size(), shortened(heading_)));
   }
 
  private:
-  std::string file_;
+  std::string file_, heading_;
   double pixels_per_cm_;
   std::vector<std::string> names_;
 };
@@ -84,7 +95,9 @@ std::string whole_text(const std::string& file) {
   std::ostringstream text;
   text << stream.rdbuf();
   if (!stream) throw FileError(file + ": cannot be read");
-  return text.str();
+  std::string whole = text.str();
+  if (whole.starts_with(byte_order_mark)) whole.erase(0, byte_order_mark.size());
+  return whole;
 }
 
 /// Shares of the length: by s where there is one, else by the way along the points.
@@ -115,9 +128,9 @@ double place_points(const Heading& heading, bool by_arc, FilmFrame& frame) {
 Film read_film(const std::string& file, double pixels_per_cm) {
   const std::string text = whole_text(file);
   const Heading heading(text, file, pixels_per_cm);
-  if (!heading.has("time_s")) heading.fail("no column time_s");
+  if (!heading.has("time_s")) heading.lacks("time_s");
   const auto arc = heading.length("s");
-  if (!arc && !heading.has("point")) heading.fail("no column s_cm or point");
+  if (!arc && !heading.has("point")) heading.lacks("s_cm or point");
   const LengthColumn x = heading.needed("x"), y = heading.needed("y");
   const auto z = heading.length("z");
   const std::string order = arc ? arc->name : "point";
@@ -153,6 +166,9 @@ Film read_film(const std::string& file, double pixels_per_cm) {
     });
   }
   if (film.frames.size() < 2) heading.fail("midlines of two times or more are needed");
+  const auto check_length = [&heading](double length) {
+    if (length < least_length) heading.fail(fmt::format("an animal {:g} cm long", length));
+  };
   for (std::size_t f = 0; f < film.frames.size(); ++f) {
     FilmFrame& frame = film.frames[f];
     frame.point.resize(3, static_cast<Eigen::Index>(points[f].size()));
@@ -161,11 +177,18 @@ Film read_film(const std::string& file, double pixels_per_cm) {
     }
     const double way = place_points(heading, arc.has_value(), frame);
     film.length = std::max(film.length, arc ? longest : way);
+    check_length(film.length);
     if (!arc) continue;
     if (frame.place[0] < 0) heading.fail(arc->name + " is below 0");
+    const double share = way / (frame.place.back() - frame.place.front());
+    if (share < least_way || share > most_way) {
+      heading.fail(
+          fmt::format("time {:g} s: its points lie {:.3g} cm apart along the body, by {} "
+                      "{:.3g} cm: is one in another unit?",
+                      frame.time, way, arc->name, way / share));
+    }
     for (double& place : frame.place) place /= longest;
   }
-  if (film.length < least_length) heading.fail(fmt::format("an animal {:g} cm long", film.length));
   return film;
 }
 

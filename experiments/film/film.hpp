@@ -27,7 +27,8 @@ struct Film {
 /// Other columns do not matter. Without s the points are placed by the way along their polygon,
 /// which is taken to run from end to end. `pixels_per_cm`: of columns in px; 0 where there are
 /// none. Throws InputError, one line, for a column or unit that is missing, for what is no number,
-/// and for fewer than two frames or five points in one; FileError where the file cannot be read.
+/// for points whose way along the body is not a fifth to five times what s says, and for fewer than
+/// two frames or five points in one; FileError where the file cannot be read.
 Film read_film(const std::string& file, double pixels_per_cm);
 
 /// The point of the chain at a share of its length from the head, world, cm.

@@ -43,20 +43,21 @@ std::vector<double> FilmDistance::rms_by_time() const {
   return rms;
 }
 
-FilmDistance film_distance(const LogContents& log, const Film& film, bool aligned) {
+FilmDistance film_distance(const LogContents& log, const Film& film, const FilmPlacing& placing) {
   std::vector<const FilmFrame*> common;
   std::vector<Eigen::Matrix3Xd> own;
   Eigen::Index count = 0;
   const double begin = log.time.front(), end = log.time.back();
   const double little = rounding * log.resolved.scene.time.frame_interval;
   for (const FilmFrame& frame : film.frames) {
-    if (frame.time < begin - little || frame.time > end + little) continue;
-    const auto after = static_cast<std::size_t>(
-        std::ranges::lower_bound(log.time, frame.time - little) - log.time.begin());
+    const double time = frame.time + placing.later;
+    if (time < begin - little || time > end + little) continue;
+    const auto after = static_cast<std::size_t>(std::ranges::lower_bound(log.time, time - little) -
+                                                log.time.begin());
     const std::size_t b = std::min(after, log.time.size() - 1);
     Eigen::Matrix3Xd points = points_at(log, b, frame);
-    if (b > 0 && log.time[b] > frame.time + little) {
-      const double share = (log.time[b] - frame.time) / (log.time[b] - log.time[b - 1]);
+    if (b > 0 && log.time[b] > time + little) {
+      const double share = (log.time[b] - time) / (log.time[b] - log.time[b - 1]);
       points = ((1 - share) * points + share * points_at(log, b - 1, frame)).eval();
     }
     common.push_back(&frame);
@@ -66,19 +67,21 @@ FilmDistance film_distance(const LogContents& log, const Film& film, bool aligne
   if (common.empty()) {
     throw InputError(log.h5.file() + ": the film has no time of the log's");
   }
+  FilmDistance distance;
+  const double length = log.model.length();
+  distance.scale = placing.aligned ? length / film.length : 1;
   Eigen::Matrix3Xd from(3, count), to(3, count);
   Eigen::Index at = 0;
   for (std::size_t f = 0; f < common.size(); ++f) {
-    from.middleCols(at, own[f].cols()) = common[f]->point;
+    from.middleCols(at, own[f].cols()) = distance.scale * common[f]->point;
     to.middleCols(at, own[f].cols()) = own[f];
     at += own[f].cols();
   }
-  const RigidMotion motion = aligned ? nearest_motion(from, to) : RigidMotion{};
-  FilmDistance distance;
-  const double length = log.model.length();
+  const RigidMotion motion = placing.aligned ? nearest_motion(from, to) : RigidMotion{};
   for (std::size_t f = 0; f < common.size(); ++f) {
-    distance.time.push_back(common[f]->time);
-    const Eigen::RowVectorXd off = (own[f] - motion.of(common[f]->point)).colwise().norm();
+    distance.time.push_back(common[f]->time + placing.later);
+    const Eigen::RowVectorXd off =
+        (own[f] - motion.of(distance.scale * common[f]->point)).colwise().norm();
     distance.off.emplace_back(off.begin(), off.end());
     std::vector<double>& arc = distance.arc.emplace_back();
     for (const double place : common[f]->place) arc.push_back(place * length);

@@ -12,13 +12,22 @@ struct FilmDistance {
   std::vector<double> time;                 ///< of the frames that log and film both have, s
   std::vector<std::vector<double>> arc;     ///< of each point of each, cm of the log's animal
   std::vector<std::vector<double>> off;     ///< its distance from the animal's midline there, cm
+  double scale = 1;                         ///< what the film's lengths were multiplied by
   double rms() const;                       ///< of all points, cm
   std::vector<double> rms_by_time() const;  ///< cm
 };
 
-/// At each time of the film the log's shape, linear between its frames. With `aligned` the film as
-/// a whole is first brought to the log by the rigid motion that makes the sum of squares least, as
-/// a film has its own axes. Throws InputError where they have no time in common.
-FilmDistance film_distance(const LogContents& log, const Film& film, bool aligned);
+/// How a film is brought to a log before they are compared.
+struct FilmPlacing {
+  /// The film's animal is scaled to the length of the log's, as it may be another one, and the film
+  /// as a whole moved by the rigid motion that makes the sum of squares least, as it has its own
+  /// axes.
+  bool aligned = true;
+  double later = 0;  ///< the log's clock minus the film's, s
+};
+
+/// At each time of the film the log's shape, linear between its frames. Throws InputError where
+/// they have no time in common.
+FilmDistance film_distance(const LogContents& log, const Film& film, const FilmPlacing& placing);
 
 }  // namespace hagfish

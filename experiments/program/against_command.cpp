@@ -7,6 +7,7 @@
 #include "experiments/film/film_distance.hpp"
 #include "experiments/program/commands.hpp"
 #include "experiments/program/csv.hpp"
+#include "experiments/program/film_words.hpp"
 #include "experiments/program/number_options.hpp"
 #include "experiments/program/scripts.hpp"
 #include "experiments/program/text_file.hpp"
@@ -16,7 +17,8 @@ namespace {
 
 struct AgainstOptions {
   std::string log, film, csv, png;
-  double scale = 0;  ///< of pixels, px/cm
+  double scale = 0;             ///< of pixels, px/cm
+  std::optional<double> start;  ///< time of the log at the film's first midline, s
   bool as_is = false, force = false;
 };
 
@@ -37,16 +39,19 @@ int against(const AgainstOptions& options) {
   if (!options.csv.empty()) csv.emplace(options.csv, options.force);
   const LogContents log(options.log, LogLevel::frames);
   const Film film = read_film(options.film, options.scale);
-  const FilmDistance distance = film_distance(log, film, !options.as_is);
+  const double later = options.start ? *options.start - film.frames.front().time : 0;
+  const FilmDistance distance = film_distance(log, film, {!options.as_is, later});
   const std::vector<double> by_time = distance.rms_by_time();
   const auto worst = std::ranges::max_element(by_time) - by_time.begin();
   const std::string text = csv_text(table_of(distance));
   if (!options.png.empty()) draw_from_text("against.py", text, options.png, options.force);
   if (csv) csv->write(text);
-  fmt::print("{}: {:.3g} cm from {} (rms of {} midlines{}); the worst, at {:g} s, {:.3g} cm\n",
-             printable(options.log), distance.rms(), printable(options.film), by_time.size(),
-             options.as_is ? "" : ", the film moved as a whole", distance.time[worst],
-             by_time[worst]);
+  fmt::print(
+      "{}: {:.3g} cm from {} (rms of {} of its {} midlines{}{}); the worst, at {:g} s, {:.3g} cm\n",
+      printable(options.log), distance.rms(), printable(options.film), by_time.size(),
+      film.frames.size(), options.as_is ? "" : ", the film moved as a whole",
+      scaled(film, distance.scale), distance.time[worst], by_time[worst]);
+  if (film.planar) fmt::print("{}", flat_note(options.film));
   return exit_code::done;
 }
 
@@ -60,7 +65,11 @@ void add_against(Program& program) {
   app->add_option("CSV", options->film, "midlines, as `hagfish midlines` takes them")->required();
   app->add_option("--scale", options->scale, "pixels in a cm, for columns in px")
       ->check(above_zero());
-  app->add_flag("--as-is", options->as_is, "the film's axes are the log's: do not move it");
+  app->add_flag("--as-is", options->as_is,
+                "the film's axes and animal are the log's: neither move nor scale it");
+  app->add_option("--start", options->start,
+                  "time of the log at the film's first midline, s; where not given, both have one "
+                  "clock");
   app->add_option("--csv", options->csv, "file for every distance: time, arc length, distance");
   app->add_option("--png", options->png, "figure: distance by time and along the body");
   app->add_flag("--force", options->force, force_help);

@@ -36,6 +36,7 @@ int branch(const BranchOptions& options, const std::string& typed) {
     }
     run.resolved = resolved;
   }
+  run.sim.watch = {};  // the branch's own log warns of what it does
   LogHeader header = log_header(run.resolved, run.model, run.qp, typed);
   header.branched_from = fmt::format("{}, step {}, t = {:g} s", options.log, run.sim.step, time);
   LogWriter log(options.run.out, options.run.force, header, run.model, run.resolved.scene);

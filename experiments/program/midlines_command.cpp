@@ -7,8 +7,10 @@
 #include "core/input/input_text.hpp"
 #include "experiments/film/film_fit.hpp"
 #include "experiments/program/commands.hpp"
+#include "experiments/program/film_words.hpp"
 #include "experiments/program/number_options.hpp"
 #include "experiments/program/scene_argument.hpp"
+#include "experiments/program/shell_word.hpp"
 #include "experiments/program/text_file.hpp"
 
 namespace hagfish {
@@ -32,11 +34,14 @@ int midlines(const MidlinesOptions& options) {
     std::erase_if(film.frames, [&](const FilmFrame& f) { return f.time > options.until; });
   }
   const auto frames = static_cast<int>(film.frames.size());
-  if (options.times > frames || options.stations > model.body_count() / 4) {
-    throw InputError(
-        fmt::format("{}: {} times of midlines and {} bodies can tell {} times and {} "
-                    "stations",
-                    options.film, frames, model.body_count(), frames, model.body_count() / 4));
+  if (options.times > frames) {
+    throw InputError(fmt::format(
+        "{}: has {} midlines{}, of which --times {} cannot be told", options.film, frames,
+        options.until > 0 ? fmt::format(" up to {:g} s", options.until) : "", options.times));
+  }
+  if (const int most = model.body_count() / 4; options.stations > most) {
+    throw InputError(fmt::format("--stations {}: an animal of {} bodies has {} at most",
+                                 options.stations, model.body_count(), most));
   }
   const FilmFit fit = fit_film(model, film, options.free_head ? FilmHead::free : FilmHead::still,
                                options.times, options.stations);
@@ -47,13 +52,17 @@ int midlines(const MidlinesOptions& options) {
   const auto worst = std::ranges::max_element(fit.rms_at);
   fmt::print(
       "{}: {} stations x {} times, {:g} s, linear in between, which smooths; {} "
-      "midlines of {} lie {:.2g} cm from it (rms), the worst, at {:g} s, {:.2g} cm\n",
+      "midlines of {}{} lie {:.2g} cm from it (rms), the worst, at {:g} s of the film, {:.2g} cm\n",
       printable(options.out), options.stations, options.times, fit.program.time.back(), frames,
-      film.planar ? "two dimensions" : "three dimensions", fit.rms,
+      film.planar ? "two dimensions" : "three dimensions",
+      scaled(film, model.length() / film.length), fit.rms,
       film.frames[static_cast<std::size_t>(worst - fit.rms_at.begin())].time, *worst);
+  if (film.planar) fmt::print("{}", flat_note(options.film));
   fmt::print(
-      "hagfish run {} --set script.program={} --set controller.tighten_from={:g} --until form\n",
-      printable(options.scene), printable(options.out), fit.program.time.back());
+      "hagfish run {} --set script.program={} --set controller.tighten_from={:g} --until form "
+      "--out mine.h5\n",
+      shell_word(options.scene), shell_word(options.out), fit.program.time.back());
+  fmt::print("hagfish against mine.h5 {} --start 0\n", shell_word(options.film));
   return exit_code::done;
 }
 

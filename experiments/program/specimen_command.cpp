@@ -13,6 +13,7 @@
 #include "experiments/program/commands.hpp"
 #include "experiments/program/number_options.hpp"
 #include "experiments/program/scene_argument.hpp"
+#include "experiments/program/shell_word.hpp"
 #include "experiments/program/text_file.hpp"
 
 namespace hagfish {
@@ -202,7 +203,7 @@ int specimen(const SpecimenOptions& options) {
         base_scene, base_scene, animal.length, relative.string(),
         fourth * base.scene.active.stiffness, fourth * base.scene.active.capacity,
         std::max(1.0, fourth) * base.scene.controller.cap));
-    fmt::print("{0}: hagfish run {0}\n", printable(options.scene_out));
+    fmt::print("hagfish run {}\n", shell_word(options.scene_out));
   }
   return exit_code::done;
 }
@@ -220,12 +221,16 @@ void add_specimen(Program& program) {
       ->required()
       ->check(from_to(1.0, 1000.0));
   app->add_option("--mass", options->mass, "whole body, g")->required()->check(from_to(1e-3, 1e6));
-  list("--circumference", options->circumference, "at the stations, cm")->required();
-  list("--bending", options->bending, "bending limits at the stations, degrees")->required();
+  list("--circumference", options->circumference, "at the stations, cm, as in 4.6,4.4,3.2")
+      ->required();
+  list("--bending", options->bending,
+       "bending limits at the stations, degrees, separated by commas")
+      ->required();
   app->add_option("--twist", options->twist, "twisting limit of the whole body, degrees")
       ->required()
       ->check(from_to(1e-3, 3600.0));
-  list("--station", options->station, "where they were measured, shares of the length")
+  list("--station", options->station,
+       "where they were measured, shares of the length, separated by commas")
       ->capture_default_str();
   app->add_option("--name", options->name, "what the animal is called")->capture_default_str();
   app->add_option("--out", options->out, "TOML file to write")->required();

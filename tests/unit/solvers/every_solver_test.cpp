@@ -65,6 +65,27 @@ TEST_P(EverySolver, StopsWhenAskedToAndSolvesTheNextProblem) {
   expect_solved(known.dual, solver->solve(known.dual, nothing));
 }
 
+/// A row that cannot move has next to no scale: what it asks for must not make others look met.
+TEST_P(EverySolver, SolvesRowsBesideOneThatCannotMove) {
+  constexpr double free = std::numeric_limits<double>::infinity();
+  BoxQp qp;
+  qp.A = Eigen::Matrix3d::Zero();
+  qp.A.topLeftCorner<2, 2>().setOnes();
+  qp.b = Eigen::Vector3d(0, 0.01, 1);
+  qp.lower = Eigen::Vector3d(-free, 0, 0);
+  qp.upper = Eigen::Vector3d(free, 2, 3);
+  const BoxQpSolution solution = solve_cold(qp);
+  expect_solved(qp, solution);
+  EXPECT_EQ(solution.x, Eigen::Vector3d(-2, 2, 3));
+  // Without its upper bound the second row asks for ever more.
+  qp.upper[1] = free;
+  BoxQpSolution endless;
+  endless.contradicting = {7};  // of a problem before
+  solver->solve(qp, Eigen::VectorXd::Zero(3), endless);
+  EXPECT_EQ(endless.status, SolveStatus::infeasible);
+  for (const Eigen::Index row : endless.contradicting) EXPECT_LT(row, 2);
+}
+
 TEST_P(EverySolver, FindsTheVelocityWhereMultipliersAreNotUnique) {
   std::mt19937 random(4);
   const std::vector<Role> roles = {Role::bilateral, Role::bilateral, Role::active,

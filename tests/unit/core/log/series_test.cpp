@@ -8,6 +8,7 @@
 #include <random>
 
 #include "core/log/hdf5_reader.hpp"
+#include "core/log/log_table.hpp"
 #include "core/log/twin_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -209,6 +210,20 @@ TEST_F(SeriesTest, GoesOnBehindRowsThatAreThere) {
   const std::vector<std::int64_t> values = Hdf5Reader(file).integers("/ints");
   EXPECT_EQ(values.size(), 11u);
   EXPECT_EQ(values.back(), -10);
+}
+
+TEST_F(SeriesTest, ATableHasNoRowOfWhichAColumnThrows) {
+  LogTable<int> table({.level = LogLevel::full, .labels = "", .chunk_rows = 4});
+  table.number("/steps/kkt", {"1", "first"}, [](int k) { return 1.0 * k; });
+  table.count("/steps/rows", "second", [](int k) {
+    if (k == 2) throw std::runtime_error("no such row");
+    return k;
+  });
+  for (int k = 0; k < 2; ++k) table.append(k);
+  EXPECT_THROW(table.append(2), std::runtime_error);
+  for (const auto& series : table.series()) EXPECT_EQ(series->rows(), 2u) << series->layout().path;
+  table.append(3);
+  for (const auto& series : table.series()) EXPECT_EQ(series->rows(), 3u) << series->layout().path;
 }
 
 TEST_F(SeriesTest, RefusesRowsOfAnotherSize) {

@@ -95,6 +95,32 @@ TEST_F(ControlLaws, AMemoryOfAnotherLawIsForgotten) {
   EXPECT_NEAR(state.memory[1], 1, 0.01);
 }
 
+TEST_F(ControlLaws, KnotSpeedIsMeasuredByTheShortestFilter) {
+  scene.controller.law = LawName::knot_speed;
+  scene.controller.release_at = 0.1;
+  for (const double filter : {1e-3, 1e-5, 1e-9}) {
+    state = {};
+    start_in(Phase::slide);
+    scene.controller.knot_speed = {2, 0.5, filter, 3};
+    double arc = 30;
+    Control c;
+    for (int k = 0; k < 50; ++k) c = step({contact(arc -= 2 * scene.time.step, 35)});
+    EXPECT_NEAR(c.thigmotaxis.at(0).speed.a, 2, 1e-3) << filter;  // it slides at its target
+  }
+}
+
+TEST_F(ControlLaws, EveryLawForgetsAMemoryThatIsNotAsLongAsItsOwn) {
+  scene.controller.reduced_basis.cosines = 2;
+  for (const LawName law : {LawName::paper, LawName::all_contacts, LawName::knot_speed,
+                            LawName::reduced_basis, LawName::muscles}) {
+    scene.controller.law = law;
+    EXPECT_TRUE(fits_law(model, scene, {})) << static_cast<int>(law);
+    EXPECT_FALSE(fits_law(model, scene, Eigen::VectorXd::Zero(1))) << static_cast<int>(law);
+  }
+  scene.controller.law = LawName::own;
+  EXPECT_TRUE(fits_law(model, scene, Eigen::VectorXd::Zero(1)));
+}
+
 TEST_F(ControlLaws, TheRunsOwnHasAMemoryAndIsAskedForEachStep) {
   scene.controller.law = LawName::own;
   const ControlLaw own = [&](const Situation& at, Eigen::VectorXd& memory, Control& c) {

@@ -31,6 +31,11 @@ std::int64_t steps_of(const Model& model, const Scene& scene) {
   return sim.step;
 }
 
+TEST(SimulationStart, RefusesABackEndThatThereIsNot) {
+  const Pulled p;
+  EXPECT_THROW(start(p.model, p.scene, "Ipopt"), std::invalid_argument);
+}
+
 TEST(SimulationStart, IsTheScenesStateAtTimeZero) {
   Pulled p;
   p.scene.start.phase = Phase::slide;
@@ -66,6 +71,67 @@ TEST(SimulationStart, TimeIsStepsTimesTheirLength) {
   const Simulation sim =
       start_from(p.model, p.scene, "active-set", rest_state(p.model), {}, 1000000007);
   EXPECT_EQ(time_of(sim, p.scene), 1000000007 * 0.003);
+}
+
+TEST(SimulationStart, AnotherSceneHasNoMemoryOrRestShapeOfAnotherLaw) {
+  const Pulled p;
+  Simulation sim = start(p.model, p.scene, "active-set");
+  sim.controller.memory = Eigen::Vector2d(30, 1);
+  sim.controller.rest_shape = Eigen::VectorXd::Constant(p.model.nv(), 0.1);
+  Scene programmed = p.scene;
+  programmed.script.kind = ScriptSettings::Kind::curvature;
+  change_scene(p.model, programmed, programmed, sim);
+  EXPECT_EQ(sim.controller.memory.size(), 2);
+  EXPECT_EQ(sim.controller.rest_shape.size(), p.model.nv());
+  Scene other = p.scene;
+  other.controller.law = LawName::knot_speed;
+  change_scene(p.model, programmed, other, sim);
+  EXPECT_EQ(sim.controller.memory.size(), 0);
+  EXPECT_EQ(sim.controller.rest_shape.size(), 0);
+}
+
+/// Takes `count` steps of `sim`, each also asked to stop at one call of its back end after the
+/// other: then it must not be taken, or end as without that. How many were not; `corrected` are
+/// those whose path asked for rows.
+int stops_at_every_call(const Model& model, const Scene& scene, int count, Simulation sim,
+                        int& corrected) {
+  int stopped = 0;
+  for (int step = 0; step < count; ++step) {
+    const Simulation before = sim;
+    corrected += take_step(model, scene, sim).solution.path_rows.empty() ? 0 : 1;
+    for (int k = 1, calls = k; calls >= k; ++k) {
+      Simulation asked = before;
+      calls = 0;
+      asked.solver.stop_when([&] { return ++calls >= k; });
+      try {
+        take_step(model, scene, asked);
+        EXPECT_EQ(asked.now.state.q, sim.now.state.q) << "step " << step << ", call " << k;
+        EXPECT_EQ(asked.now.state.qdot, sim.now.state.qdot) << "step " << step << ", call " << k;
+      } catch (const StepError& error) {
+        EXPECT_EQ(error.outcome(), Outcome::stopped);
+        ++stopped;
+      }
+    }
+  }
+  return stopped;
+}
+
+TEST(SimulationStart, AStepThatIsAskedToStopIsTheSameOrNotTaken) {
+  int corrected = 0;
+  const ResolvedScene resolved = stored_scene({"time.step=0.01"});
+  const Model model = make_hagfish(resolved.specimen, resolved.scene);
+  for (const StoredState& stored : stored_states()) {
+    if (stored.phase != Phase::slide) continue;
+    const Simulation sim = resume(model, resolved.scene, stored);
+    EXPECT_GT(stops_at_every_call(model, resolved.scene, 150, sim, corrected), 300);
+  }
+  // Strands that meet in open water: only the path asks for a row.
+  corrected = 0;
+  const ResolvedScene closing = read_scene(HAGFISH_STRESS_DIR "/closing.toml", {"time.step=0.002"});
+  const Model strands = make_hagfish(closing.specimen, closing.scene);
+  const Simulation sim = start(strands, closing.scene, "active-set");
+  EXPECT_GT(stops_at_every_call(strands, closing.scene, 30, sim, corrected), 0);
+  EXPECT_GT(corrected, 0);
 }
 
 TEST(SimulationStart, ARecordIsOfTheMomentBeforeTheStep) {

@@ -133,13 +133,38 @@ def test_a_flat_film_makes_a_flat_program(tmp_path):
     np.testing.assert_allclose(np.hypot(*(table(tmp_path / "q.csv")[f"bend_{a} (rad/L)"] for a in "yz")), total, atol=0.05)
 
 
+def test_a_film_has_a_clock_and_an_animal_of_its_own(film, tmp_path):
+    """Started later, of an animal four fifths as long, and saved by Excel, it says the same."""
+    t = table(film / "film.csv")
+    rows = [f"{a + 3:.9g},{0.8 * s:.9g},{0.8 * x:.9g},{0.8 * y:.9g},{0.8 * z:.9g}" for a, s, x, y, z in
+            zip(t["time_s"], t["s_cm"], t["x_cm"], t["y_cm"], t["z_cm"])]
+    path = tmp_path / "other one.csv"
+    path.write_bytes(b"\xef\xbb\xbf" + "\r\n".join(["time_s,s_cm,x_cm,y_cm,z_cm", *rows, "", ""]).encode())
+    hagfish(film, "midlines", "film.csv", "--out", tmp_path / "a.csv")
+    said = hagfish(film, "midlines", path, "--out", tmp_path / "b.csv")
+    a, b = table(tmp_path / "a.csv"), table(tmp_path / "b.csv")
+    for name in a:
+        np.testing.assert_allclose(b[name], a[name], atol=1e-2)
+    length = t["s_cm"].max()
+    assert f"animal of {0.8 * length:.3g} cm scaled" in said
+    against = [line for line in said.splitlines() if line.startswith("hagfish against")][0]
+    assert against == f"hagfish against mine.h5 '{path}' --start 0"
+    said = hagfish(film, "against", "a.h5", path, "--start", 0)
+    assert rms_of(said) == pytest.approx(NOISE * np.sqrt(3), rel=0.03)
+    midlines = len(np.unique(t["time_s"]))
+    assert f"{midlines} of its {midlines} midlines" in said
+    apart = hagfish(film, "against", "a.h5", path)  # the film's clock is taken for the log's
+    assert rms_of(apart) > 1
+
+
 def test_bad_films_are_one_line(tmp_path, film):
     good = "time_s,s_cm,x_cm,y_cm\n" + "".join(f"{t},{s},{s},0\n" for t in (0, 1) for s in range(6))
     cases = {"no time": (good.replace("time_s", "t"), "time_s"), "no unit": (good.replace("x_cm", "x"), "unit"),
              "pixels": (good.replace("x_cm", "x_px"), "--scale"), "no y": (good.replace("y_cm", "w_cm"), "y_cm"),
              "word": (good.replace("1,3,3,0", "1,3,three,0"), "three"), "back": (good.replace("1,3,3,0", "0.5,3,3,0"), "rise"),
              "few": ("time_s,s_cm,x_cm,y_cm\n0,0,0,0\n1,0,0,0\n", "points"), "order": (good.replace("0,2,2,0", "0,1,2,0"), "rise"),
-             "one": (good[:good.index("1,0,0,0")], "two times"), "empty": ("", "time_s"), "inf": (good.replace("1,3,3,0", "1,3,inf,0"), "number"),
+             "one": (good[:good.index("1,0,0,0")], "two times"), "empty": ("", "time_s"), "semicolons": (good.replace(",", ";"), "the 1 that commas separate"),
+             "millimetres": (good.replace("x_cm", "x_mm"), "another unit"), "metres": (good.replace("s_cm", "s_m"), "another unit"), "inf": (good.replace("1,3,3,0", "1,3,inf,0"), "number"),
              "huge": (good.replace("1,3,3,0", "1,3,1e300,0"), "at most"), "far": (good.replace("x_cm", "x_m").replace("1,3,3,0", "1,3,1e8,0"), "at most"),
              "tiny": ("time_s,s_cm,x_cm,y_cm\n" + "".join(f"{t},{s}e-300,{s},0\n" for t in (0, 1) for s in range(6)), "cm long")}
     for name, (text, part) in cases.items():
@@ -147,7 +172,9 @@ def test_bad_films_are_one_line(tmp_path, film):
         refused(tmp_path, "midlines", "bad.csv", "--out", "p.csv", parts=("bad.csv", part))
     refused(tmp_path, "midlines", "none.csv", "--out", "p.csv", parts=("none.csv",))
     (tmp_path / "good.csv").write_text(good)
-    refused(tmp_path, "midlines", "good.csv", "--out", "p.csv", parts=("good.csv", "2 times"))
+    refused(tmp_path, "midlines", "good.csv", "--out", "p.csv", parts=("good.csv", "2 midlines", "--times 24"))
+    refused(tmp_path, "midlines", "good.csv", "--out", "p.csv", "--until", 0.5, "--times", 2, parts=("1 midlines up to 0.5 s",))
+    refused(tmp_path, "midlines", "good.csv", "--out", "p.csv", "--times", 2, "--stations", 26, parts=("--stations 26", "25 at most"))
     refused(tmp_path, "against", "none.h5", "good.csv", parts=("none.h5",))
     late = good.replace("\n0,", "\n1000,").replace("\n1,", "\n1001,")
     (film / "late.csv").write_text(late)

@@ -1,5 +1,8 @@
 """Control laws in Python: what they ask for is what is done, logged and audited."""
 
+import re
+from pathlib import Path
+
 import hagfish
 import numpy as np
 import pytest
@@ -24,6 +27,19 @@ def test_the_papers_control_unchanged_is_the_papers_run(tmp_path, differences):
         "steps/thigmotaxis_others",
         "steps/thigmotaxis_others_slack",
     }
+
+
+def test_the_law_of_the_readme_leaves_a_log_that_passes_the_audit(tmp_path, monkeypatch, verdicts):
+    readme = (Path(__file__).parents[4] / "README.md").read_text(encoding="utf-8")
+    (program,) = [block for block in re.findall(r"```python\n(.*?)```", readme, re.S) if "def lazy" in block]
+    monkeypatch.chdir(tmp_path)
+    exec(program, {})
+    assert verdicts(tmp_path / "lazy.h5") == set()
+
+
+def test_an_unknown_back_end_is_refused():
+    with pytest.raises(ValueError, match="there are: ipopt, active-set"):
+        hagfish.Simulation("table1", qp="Ipopt")
 
 
 def test_everything_that_a_law_asks_for_is_logged_and_audited(tmp_path, verdicts):
