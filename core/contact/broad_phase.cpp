@@ -42,7 +42,8 @@ void BroadPhase::gather(const std::vector<SplineSegment>& segments) {
   const int n = static_cast<int>(segments.size());
   const int blocks = (n + block_size - 1) / block_size;
   middle_.resize(blocks * block_size, 3);
-  middle_.bottomRows(blocks * block_size - n) = std::numeric_limits<double>::infinity();
+  // Near to nothing, whatever its size: infinity would be near to what overflows.
+  middle_.bottomRows(blocks * block_size - n) = std::numeric_limits<double>::quiet_NaN();
   bound_.setZero(blocks * block_size);
   blocks_.resize(blocks);
   for (int k = 0; k < blocks; ++k) {

@@ -35,19 +35,25 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-/// Bytes of the UTF-8 character that `text` begins with; 0 where that is none, or one to control a
-/// terminal: below U+0020, and U+007F to U+009F.
+/// Bytes of the UTF-8 character that `text` begins with; 0 where that is none.
 std::size_t character_size(std::string_view text) {
   const auto byte = [&text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char first = byte(0);
-  if (first < 0x80) return first >= 0x20 && first != 0x7f ? 1 : 0;
+  if (first < 0x80) return 1;
   const std::size_t size =
       first < 0xC2 || first > 0xF4 ? 0 : 2 + (first >= 0xE0 ? 1 : 0) + (first >= 0xF0 ? 1 : 0);
   if (size > text.size()) return 0;
   for (std::size_t i = 1; i < size; ++i) {
     if ((byte(i) & 0xC0) != 0x80) return 0;
   }
-  return first == 0xC2 && byte(1) < 0xA0 ? 0 : size;
+  return size;
+}
+
+/// Whether a character is one to control a terminal: below U+0020, and U+007F to U+009F.
+bool is_control(std::string_view character) {
+  const auto first = static_cast<unsigned char>(character[0]);
+  return first < 0x20 || first == 0x7f ||
+         (first == 0xC2 && static_cast<unsigned char>(character[1]) < 0xA0);
 }
 
 }  // namespace
@@ -71,17 +77,27 @@ std::string printable(std::string_view text) {
   std::size_t at = 0;
   while (at < text.size() && at < longest_shown) {
     const std::size_t size = character_size(text.substr(at));
-    if (size == 0) {
+    if (size == 0 || is_control(text.substr(at, size))) {
       constexpr char digits[] = "0123456789abcdef";
       const auto byte = static_cast<unsigned char>(text[at]);
       shown += {'\\', 'x', digits[byte >> 4], digits[byte & 15]};
+      ++at;
     } else {
       shown += text.substr(at, size);
+      at += size;
     }
-    at += std::max<std::size_t>(size, 1);
   }
   if (at < text.size()) shown += "... (" + std::to_string(text.size() - at) + " more bytes)";
   return shown;
+}
+
+bool is_utf8(std::string_view text) {
+  while (!text.empty()) {
+    const std::size_t size = character_size(text);
+    if (size == 0) return false;
+    text.remove_prefix(size);
+  }
+  return true;
 }
 
 void throw_input_error(std::string text) {

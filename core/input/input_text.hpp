@@ -30,6 +30,9 @@ std::string read_text_file(const std::filesystem::path& file);
 /// UTF-8 as \\xNN; of more than 2000 bytes the first ones, and how many more there are.
 std::string printable(std::string_view text);
 
+/// Whether `text` is UTF-8 throughout.
+bool is_utf8(std::string_view text);
+
 /// The finite number that the whole of `text` is; none where it is anything else.
 std::optional<double> finite_number(std::string_view text);
 

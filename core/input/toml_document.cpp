@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "core/input/input_error.hpp"
+#include "core/input/input_text.hpp"
 #include "core/input/toml_bounds.hpp"
 
 namespace hagfish {
@@ -29,6 +30,9 @@ std::string condensed(std::string message) {
 }
 
 toml::value parse(const std::string& text, const std::string& file) {
+  if (!is_utf8(text) || text.find('\0') != std::string::npos) {
+    throw_input_error(file + ": is not UTF-8, which TOML is: save it as such");
+  }
   check_toml_bounds(text, file);
   try {
     std::istringstream stream(text);

@@ -198,6 +198,11 @@ bool TableReader::is_table(std::string_view key) const {
   return value && value->is_table();
 }
 
+bool TableReader::is_array(std::string_view key) const {
+  const toml::value* value = impl_->peek(key);
+  return value && value->is_array();
+}
+
 std::string TableReader::file_of(std::string_view key) const {
   return impl_->document->file_of(impl_->walk(std::string(key)));
 }
@@ -399,8 +404,10 @@ void TableReader::finish() const {
     }
     if (!strangers.empty()) {
       const auto& [key, value] = *strangers.begin();
-      const std::string near = join_keys(impl_->path, nearest(key, impl_->known));
-      impl_->fail({key, value}, "unknown key; did you mean " + near + "?");
+      const std::string near = similar(key, impl_->known);
+      impl_->fail({key, value},
+                  near.empty() ? "unknown key"
+                               : "unknown key; did you mean " + join_keys(impl_->path, near) + "?");
     }
   }
   if (!impl_->missing.empty()) fail(impl_->missing.front(), "is missing");

@@ -46,6 +46,7 @@ class TableReader {
 
   bool has(std::string_view key) const;
   bool is_table(std::string_view key) const;
+  bool is_array(std::string_view key) const;
   bool was_set(std::string_view key) const;  ///< by set()
   /// The file that the value at the dotted `key` was read from: this table's, or a base's.
   std::string file_of(std::string_view key) const;

@@ -1,5 +1,7 @@
 #include "core/step/dual_problem.hpp"
 
+#include <Eigen/Cholesky>
+
 namespace hagfish {
 namespace {
 
@@ -69,7 +71,8 @@ void release(const Model& model, const Kinematics& kin, const ArticulatedFactor&
   // U'λ' the released velocities s go with the forces λ' of the other rows and λ of their own, so
   // that [U; 1] K⁻¹ [U; 1]' comes on top of A.
   factor.free_inertia(kin, e.columns, e.inertia);
-  e.inertia_factor.compute(e.inertia);
+  Eigen::Ref<Eigen::MatrixXd> in_place(e.inertia);
+  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> inertia_factor(in_place);
   e.answer.resize(m + 1, released);
   for (Eigen::Index r = 0; r < released; ++r) {
     const Row& own = rows.released[r];
@@ -86,7 +89,7 @@ void release(const Model& model, const Kinematics& kin, const ArticulatedFactor&
   }
   e.answer.middleRows(unreleased, released).setIdentity();
   e.answer.bottomRows<1>() = e.reaction.transpose();
-  e.inertia_factor.matrixU().solveInPlace<Eigen::OnTheRight>(e.answer);
+  inertia_factor.matrixU().solveInPlace<Eigen::OnTheRight>(e.answer);
   // With K = L L' the rows of the problem in `answer` are [U; 1] L'⁻¹ now, the last one L⁻¹ times
   // the reactions.
   const auto half = e.answer.topRows(m);

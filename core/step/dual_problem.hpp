@@ -1,7 +1,6 @@
 // A set of rows as the box QP in their multipliers: A = C H⁻¹ C', b = d - C q̇*.
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <span>
 
 #include "core/chain/articulated.hpp"
@@ -22,8 +21,8 @@ struct DualExtension {
   BoxQp qp;  ///< on the rows that there were, those added and those released
   RowColumns columns;
   Eigen::VectorXd reaction;  ///< λ of the released rows in the base motion
-  Eigen::MatrixXd cross, own, inertia, answer;
-  Eigen::LLT<Eigen::MatrixXd> inertia_factor;
+  Eigen::MatrixXd cross, own, answer;
+  Eigen::MatrixXd inertia;  ///< of the released velocities, overwritten by its factor
 };
 
 /// Rows of one problem, in its order: those there were, those added to them, and unit rows of

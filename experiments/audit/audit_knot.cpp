@@ -22,9 +22,12 @@ Phase phase_at(const LogContents& log, std::size_t frame) {
   return static_cast<Phase>(log.phase[frame]);
 }
 
+/// A branch begins later than its run.
+bool is_branch(const LogContents& log) { return log.h5.has_root_attribute("branched_from"); }
+
 /// Of a branch that does not show a phase from its beginning.
 bool begins_within(const LogContents& log, Phase phase) {
-  return log.time.front() > 0 && phase_at(log, 0) == phase;
+  return is_branch(log) && phase_at(log, 0) == phase;
 }
 
 /// Of a run that never came to hold the knot.
@@ -73,9 +76,8 @@ std::vector<Finding> types_through_time(const LogContents& log,
   std::vector<Finding> findings;
   for (const KnotStretch& stretch : scene.expect.types) {
     const double from = clock_of(log, stretch.from), to = clock_of(log, stretch.to);
-    // A branch begins later than its run.
     if ((scene.time.until != Phase::free && from > log.time.back()) ||
-        (to <= log.time.front() && log.time.front() > 0)) {
+        (to <= log.time.front() && is_branch(log))) {
       continue;
     }
     std::int64_t frames = 0;
@@ -224,7 +226,7 @@ std::vector<Finding> audit_knot(const LogContents& log, const std::vector<SeenKn
   if (shows_knot) {
     findings.push_back(held(log, type));
   }
-  if (scene.start.phase == Phase::form && log.time.front() == 0) {
+  if (scene.start.phase == Phase::form && !is_branch(log)) {
     findings.push_back(
         {"unknot at start", type.front() == "0_1", type.front(), type.front(), "0_1", ""});
   }

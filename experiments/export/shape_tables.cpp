@@ -18,7 +18,7 @@ ExportTable midline_table(bool si) {
            {"point", none,
             "0 the head's end, 1 to N the middles of the N bodies, N + 1 the tail's end"},
            {"s", centimetre, "arc length from the head's end at rest"},
-           {"x", centimetre, "place, world axes: the head is clamped at 0, the body lies along +x"},
+           {"x", centimetre, "place, world axes: the run starts with the head at 0 and the straight body along +x"},
            {"y", centimetre, "place"},
            {"z", centimetre, "place"},
            {"radius", centimetre, "of the skin"}},

@@ -99,7 +99,7 @@ void Progress::show(const StepRecord& record) {
     return;
   }
   show_change(record);
-  if (wall < next_) {
+  if (wall < next_ || record.time == 0) {  // there is no pace yet
     return;
   }
   next_ = wall + (terminal_ ? terminal_interval : file_interval);

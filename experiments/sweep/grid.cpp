@@ -12,6 +12,8 @@
 namespace hagfish {
 namespace {
 
+constexpr int most_tried = 1000;  // cells with one value: 2 ms each
+
 /// FNV-1a, 64 bits: tells a text from another one, where nobody means harm.
 std::uint64_t checksum(const std::string& text) {
   std::uint64_t hash = 0xcbf29ce484222325;
@@ -74,27 +76,48 @@ ResolvedScene scene_at(const Grid& grid, const std::vector<std::size_t>& places)
   }
 }
 
+ResolvedScene scene_with(const Grid& grid, std::size_t axis, std::size_t place) {
+  std::vector<std::size_t> places(grid.axes.size(), 0);
+  places[axis] = place;
+  // The next places of all other axes but that of seeds, which are all alike; false after the last.
+  const auto advance = [&] {
+    for (std::size_t a = grid.axes.size(); a-- > 0;) {
+      if (a == axis || is_seed(grid.axes[a])) continue;
+      if (++places[a] < grid.axes[a].size()) return true;
+      places[a] = 0;
+    }
+    return false;
+  };
+  std::exception_ptr first;
+  for (int tried = 0; tried < most_tried; ++tried) {
+    try {
+      return scene_at(grid, places);
+    } catch (const InputError&) {
+      if (!first) first = std::current_exception();
+    }
+    if (!advance()) break;
+  }
+  std::rethrow_exception(first);
+}
+
 std::string grid_identity(const Grid& grid) {
-  const auto scene_text = [&](const std::vector<std::size_t>& places) {
-    const ResolvedScene resolved = scene_at(grid, places);
+  const auto scene_text = [&](std::size_t axis, std::size_t place) {
+    const ResolvedScene resolved = scene_with(grid, axis, place);
     return scene_to_toml(resolved.scene, resolved.specimen);
   };
   std::string text = fmt::format("# The sweep in this folder. By hagfish {} {}\n", build_version(),
                                  build_revision());
-  std::vector<std::size_t> places(grid.axes.size(), 0);
-  const std::string first = scene_text(places);
   for (std::size_t a = 0; a < grid.axes.size(); ++a) {
     const GridAxis& axis = grid.axes[a];
-    for (places[a] = 0; places[a] < axis.size(); ++places[a]) {
+    for (std::size_t place = 0; place < axis.size(); ++place) {
       text += fmt::format("# axis {}: ", a + 1);
       for (std::size_t k = 0; k < axis.keys.size(); ++k) {
-        text += fmt::format("{} = {}, ", axis.keys[k], axis.values[k][places[a]]);
+        text += fmt::format("{} = {}, ", axis.keys[k], axis.values[k][place]);
       }
-      text += is_seed(axis) ? "\n" : fmt::format("scene {:016x}\n", checksum(scene_text(places)));
+      text += is_seed(axis) ? "\n" : fmt::format("scene {:016x}\n", checksum(scene_text(a, place)));
     }
-    places[a] = 0;
   }
-  return text + "# The scene of cell 0:\n" + first;
+  return text + "# The scene of the first cell:\n" + scene_text(0, 0);
 }
 
 }  // namespace hagfish

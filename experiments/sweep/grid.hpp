@@ -41,9 +41,14 @@ struct Grid {
 /// Scene and animal at `places`. Throws InputError, naming the grid's file.
 ResolvedScene scene_at(const Grid& grid, const std::vector<std::size_t>& places);
 
-/// What makes the rows of a grid what they are: the program, the axes, and each scene that they
-/// lead to as far as one axis at a time leaves the first cell. Lines of text; the same text, the
-/// same rows. Throws InputError as scene_at.
+/// The scene of the first cell with place `place` on axis `axis` that reads: values that contradict
+/// each other in some cells are rows there. Throws InputError as the first of those cells where
+/// none of the first thousand reads.
+ResolvedScene scene_with(const Grid& grid, std::size_t axis, std::size_t place);
+
+/// What makes the rows of a grid what they are: the program, the axes, and a scene with each of
+/// their values (scene_with). Lines of text; the same text, the same rows. Throws InputError as
+/// scene_with.
 std::string grid_identity(const Grid& grid);
 
 }  // namespace hagfish

@@ -54,7 +54,9 @@ void read_values(TableReader& table, const std::string& path, GridAxis& axis) {
       continue;
     }
     table.table(key, [&](TableReader& inner) {
-      if (inner.has("count")) {
+      // Ends without a count are a range that lacks it, unless they are lists of keys' values.
+      const bool ends = inner.has("from") && inner.has("to");
+      if (inner.has("count") || (ends && !inner.is_array("from") && !inner.is_array("to"))) {
         add(full, read_range(inner));
       } else {
         read_values(inner, full, axis);
@@ -126,14 +128,12 @@ std::string beside(const std::filesystem::path& file, const std::string& scene) 
 /// Reads the scene of every value once, but of seeds, which are all alike. Returns whether any of
 /// them has noise at its start.
 bool try_values(const Grid& grid) {
-  std::vector<std::size_t> places(grid.axes.size(), 0);
-  bool noisy = scene_at(grid, places).scene.start.noise > 0;
+  bool noisy = false;
   for (std::size_t a = 0; a < grid.axes.size(); ++a) {
-    const std::size_t end = is_seed(grid.axes[a]) ? 0 : grid.axes[a].size();
-    for (places[a] = 1; places[a] < end; ++places[a]) {
-      noisy = scene_at(grid, places).scene.start.noise > 0 || noisy;
+    const std::size_t end = is_seed(grid.axes[a]) ? 1 : grid.axes[a].size();
+    for (std::size_t place = 0; place < end; ++place) {
+      noisy = scene_with(grid, a, place).scene.start.noise > 0 || noisy;
     }
-    places[a] = 0;
   }
   return noisy;
 }

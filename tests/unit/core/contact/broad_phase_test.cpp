@@ -52,6 +52,16 @@ TEST(BroadPhase, FindsThePairsThatAreNear) {
   }
 }
 
+TEST(BroadPhase, FindsNoSegmentThatIsNotThereWhereNumbersOverflow) {
+  const Model fish = table1_hagfish();  // 99 segments: the last block of eight is not full
+  BroadPhase broad_phase;
+  const Eigen::Matrix3Xd centre = 1e200 * kinematics(fish, rest_state(fish)).centre;
+  const std::vector<SplineSegment> segments = spline(fish, centre);
+  for (const NearPair& near : broad_phase.find(segments, 1, 0)) {
+    ASSERT_LT(near.of.b, static_cast<int>(segments.size()));
+  }
+}
+
 TEST(BroadPhase, FindsNothingWithoutSegments) {
   BroadPhase broad_phase;
   EXPECT_TRUE(broad_phase.find({}, 1, 0).empty());

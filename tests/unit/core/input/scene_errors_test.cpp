@@ -40,11 +40,19 @@ TEST(SceneErrors, TellsSyntaxErrors) {
       "but got nothing)");
 }
 
+TEST(SceneErrors, RefusesWhatIsNotUtf8) {
+  const std::string complaint = "s.toml: is not UTF-8, which TOML is: save it as such";
+  EXPECT_EQ(scene_complaint("# caf\xe9\n"), complaint);                               // Latin-1
+  EXPECT_EQ(scene_complaint(std::string("t\0i\0", 4)), complaint);                    // UTF-16
+  EXPECT_EQ(scene_complaint("# caf\xc3\xa9\ntitle = 3\n").substr(0, 8), "s.toml:2");  // UTF-8
+}
+
 TEST(SceneErrors, RefusesUnknownKeys) {
   EXPECT_EQ(scene_complaint("[controler]\ncap = 1\n"),
             "s.toml:1: controler: unknown key; did you mean controller?");
   EXPECT_EQ(scene_complaint("[time]\nsteps = 1\n"),
             "s.toml:2: time.steps = 1: unknown key; did you mean time.step?");
+  EXPECT_EQ(scene_complaint("[time]\nbodies = 1\n"), "s.toml:2: time.bodies = 1: unknown key");
   EXPECT_EQ(
       scene_complaint("[model]\nlargest_limit = 1\n"),
       "s.toml:2: model.largest_limit = 1: unknown key; did you mean model.largest_limit_deg?");

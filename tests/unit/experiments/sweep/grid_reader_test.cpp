@@ -89,6 +89,17 @@ scene = ["table1", "own.toml"]
   EXPECT_EQ(last.scene.title, "true story");
 }
 
+TEST_F(GridTest, TakesValuesThatReadBesideAnyOfTheOthers) {
+  for (const char* axes :
+       {"'time.step' = [0.01, 0.05]\n[[axis]]\n'time.frame_interval' = [0.02, 0.1]\n",
+        "'time.step' = [0.05, 0.01]\n[[axis]]\n'time.frame_interval' = [0.02, 0.1]\n"}) {
+    const Grid grid = read(std::string("scene = 'table1'\n[[axis]]\n") + axes);
+    EXPECT_EQ(grid.size(), 4u);
+    EXPECT_FALSE(grid_identity(grid).empty());
+    EXPECT_EQ(scene_with(grid, 0, 0).scene.time.step, std::stod(grid.axes[0].values[0][0]));
+  }
+}
+
 TEST_F(GridTest, RefusesBadGridsInOneLine) {
   const std::string scene = "scene = 'table1'\n";
   const auto axis = [&](const std::string& text) { return scene + "[[axis]]\n" + text + "\n"; };
@@ -98,6 +109,10 @@ TEST_F(GridTest, RefusesBadGridsInOneLine) {
   expect_refused(axis("'model.limit_scale' = 1"), {":3", "array"});
   expect_refused(axis("'model.limit_scale' = [[{ a = 1 }]]"), {":3", "a number, a text"});
   expect_refused(axis(""), {"axis", "no key"});
+  expect_refused(axis("'controller.cap' = { from = 1, to = 9 }"),
+                 {"controller.cap.count", "missing"});
+  expect_refused(axis("'time.step' = [0.05]\n[[axis]]\n'time.frame_interval' = [0.02, 0.03]"),
+                 {"time.frame_interval", "0.05"});
   expect_refused(axis("'model.bodies' = [50]\n[[axis]]\n'model.bodies' = [60]"),
                  {"model.bodies", "axis 1 too"});
   expect_refused(axis("'start.noise_deg' = [1]\n[[axis]]\n'start.noise_rad' = [1]"),
