@@ -78,11 +78,11 @@ Hdf5Reader::Hdf5Reader(const std::filesystem::path& file, Origin origin) : file_
   if (const std::string why = unreadable(file); !why.empty()) {
     throw FileError(file_ + ": " + why);
   }
-  if (H5Fis_hdf5(file.c_str()) == 0) {
-    throw FileError(file_ + ": is not an HDF5 file");
-  }
   file_size_ = std::filesystem::file_size(file);
   if (origin == Origin::anywhere) {
+    if (H5Fis_hdf5(file.c_str()) == 0) {
+      throw FileError(file_ + ": is not an HDF5 file");
+    }
     h5_ = open_hdf5_copy(file);
   } else {
     guarded(file_, "read as HDF5", [&] { h5_ = H5::H5File(file_, H5F_ACC_RDONLY); });

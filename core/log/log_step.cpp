@@ -13,23 +13,7 @@ constexpr hsize_t step_chunk_rows = 1024;
 
 const LabelledAxis strands{4, strand_labels};
 
-}  // namespace
-
-LogTable<LoggedStep> step_table(const Scene& scene, LogLevel level) {
-  LogTable<LoggedStep> t({level, step_labels, step_chunk_rows, true});
-  t.number("/steps/time", {"s", "simulated time at which each step begins"},
-           [](const LoggedStep& s) { return s.record.time; });
-  t.choice("/steps/solve", {solve_kind_names.begin(), solve_kind_names.end()},
-           "least that each step had to solve",
-           [](const LoggedStep& s) { return s.record.solution.kind; });
-  t.count("/steps/rows", "rows in the problem of each step",
-          [](const LoggedStep& s) { return s.record.solution.rows.size(); });
-  t.count("/steps/iterations", "back end iterations of each step",
-          [](const LoggedStep& s) { return s.record.solution.iterations; });
-  t.count("/steps/eq6", "Eq. 6 at each step: -1 no rows, 0 with slack, 1 met",
-          [](const LoggedStep& s) {
-            return s.thigmotaxis.any ? static_cast<int>(s.thigmotaxis.met) : -1;
-          });
+void declare_thigmotaxis(const Scene& scene, LogTable<LoggedStep>& t) {
   const auto row = [&t](const char* name, const char* unit, const std::string& description,
                         std::array<double, 4> ThigmotaxisRows::*member) {
     t.numbers(
@@ -48,6 +32,43 @@ LogTable<LoggedStep> step_table(const Scene& scene, LogLevel level) {
              {"cm/s", "largest shortfall of the command of these rows, nan where none"},
              [](const LoggedStep& s) { return s.thigmotaxis.others_slack; });
   }
+}
+
+void declare_midpoint(LogTable<LoggedStep>& t) {
+  t.number("/steps/middle_off",
+           {"rad/s, cm/s",
+            "length of the difference of the velocity by which each step moves and that which "
+            "placed its middle"},
+           [](const LoggedStep& s) { return s.record.solution.middle_off; });
+  t.count("/steps/passes",
+          "passes that found the middle of each step: more than time.passes where it settled only "
+          "with the bias as it comes",
+          [](const LoggedStep& s) { return s.record.solution.passes; });
+  t.number("/steps/remaining",
+           {"1",
+            "what further passes would change, over what the last one did: measured where there "
+            "were two, else the step before's to the power of 0.9"},
+           [](const LoggedStep& s) { return s.record.solution.remaining; });
+}
+
+}  // namespace
+
+LogTable<LoggedStep> step_table(const Scene& scene, LogLevel level) {
+  LogTable<LoggedStep> t({level, step_labels, step_chunk_rows, true});
+  t.number("/steps/time", {"s", "simulated time at which each step begins"},
+           [](const LoggedStep& s) { return s.record.time; });
+  t.choice("/steps/solve", {solve_kind_names.begin(), solve_kind_names.end()},
+           "least that each step had to solve",
+           [](const LoggedStep& s) { return s.record.solution.kind; });
+  t.count("/steps/rows", "rows in the problem of each step",
+          [](const LoggedStep& s) { return s.record.solution.rows.size(); });
+  t.count("/steps/iterations", "back end iterations of each step",
+          [](const LoggedStep& s) { return s.record.solution.iterations; });
+  t.count("/steps/eq6", "Eq. 6 at each step: -1 no rows, 0 with slack, 1 met",
+          [](const LoggedStep& s) {
+            return s.thigmotaxis.any ? static_cast<int>(s.thigmotaxis.met) : -1;
+          });
+  declare_thigmotaxis(scene, t);
   t.number("/steps/kkt", {"1", "largest KKT residual of each step"},
            [](const LoggedStep& s) { return s.record.solution.worst_residual(); });
   t.number("/steps/penetration", {"cm", "deepest at each step's start"},
@@ -58,23 +79,7 @@ LogTable<LoggedStep> step_table(const Scene& scene, LogLevel level) {
            [](const LoggedStep& s) { return s.record.head_drift; });
   t.number("/steps/qp_time", {"s", "wall time in the QP back end, each step"},
            [](const LoggedStep& s) { return s.record.solution.qp_time; });
-  if (scene.time.rule == TimeRule::midpoint) {
-    t.number("/steps/middle_off",
-             {"rad/s, cm/s",
-              "length of the difference of the velocity by which each step moves and that which "
-              "placed its middle"},
-             [](const LoggedStep& s) { return s.record.solution.middle_off; });
-    t.count(
-        "/steps/passes",
-        "passes that found the middle of each step: more than time.passes where it settled only "
-        "with the bias as it comes",
-        [](const LoggedStep& s) { return s.record.solution.passes; });
-    t.number("/steps/remaining",
-             {"1",
-              "what further passes would change, over what the last one did: measured where there "
-              "were two, else the step before's to the power of 0.9"},
-             [](const LoggedStep& s) { return s.record.solution.remaining; });
-  }
+  if (scene.time.rule == TimeRule::midpoint) declare_midpoint(t);
   return t;
 }
 

@@ -30,7 +30,7 @@ class AnySeries {
   hsize_t rows() const { return total_; }
   /// Goes on behind `rows` that both files have; nothing has been appended yet.
   void go_on(hsize_t rows) { first_ = saved_ = total_ = rows; }
-  /// Leaves no more than `rows`, of which those that are gone had not been saved.
+  /// Drops all but the first `rows`; those dropped must not have been saved.
   void cut(hsize_t rows);
   /// Bytes that write() may add to a file.
   std::size_t room() const;

@@ -25,9 +25,14 @@ Phase phase_at(const LogContents& log, std::size_t frame) {
 /// A branch begins later than its run.
 bool is_branch(const LogContents& log) { return log.h5.has_root_attribute("branched_from"); }
 
+/// The phase that the log begins in.
+Phase first_phase(const LogContents& log) {
+  return is_branch(log) ? phase_at(log, 0) : log.resolved.scene.start.phase;
+}
+
 /// Of a branch that does not show a phase from its beginning.
 bool begins_within(const LogContents& log, Phase phase) {
-  return is_branch(log) && phase_at(log, 0) == phase;
+  return is_branch(log) && first_phase(log) == phase;
 }
 
 /// Of a run that never came to hold the knot.
@@ -96,7 +101,7 @@ std::vector<Finding> types_through_time(const LogContents& log,
                                  log.time.front(), log.time.back(), stretch.type);
     const auto told = [&log](const RunTime& time, double clock) {
       const std::string text = run_time_text(time);
-      if (time.after && phase_order(phase_at(log, 0)) > phase_order(*time.after)) {
+      if (time.after && phase_order(first_phase(log)) > phase_order(*time.after)) {
         return text + " (before the log)";
       }
       return time.after && std::isfinite(clock) ? fmt::format("{} ({:g} s)", text, clock)
@@ -214,10 +219,10 @@ std::vector<Finding> audit_knot(const LogContents& log, const std::vector<SeenKn
   };
   // A branch may begin after a phase of its run.
   const auto shows = [&](Phase phase) {
-    return reaches(phase) && phase_order(phase_at(log, 0)) <= phase_order(phase);
+    return reaches(phase) && phase_order(first_phase(log)) <= phase_order(phase);
   };
   const bool shows_knot =
-      reaches(Phase::tighten) && phase_order(phase_at(log, 0)) < phase_order(Phase::release);
+      reaches(Phase::tighten) && phase_order(first_phase(log)) < phase_order(Phase::release);
   std::vector<std::string> type;
   for (const SeenKnot& knot : seen) {
     type.push_back(knot_name(knot.vote.type));

@@ -9,7 +9,7 @@
 namespace hagfish {
 
 struct FilmDistance {
-  std::vector<double> time;                 ///< of the frames that log and film both have, s
+  std::vector<double> time;  ///< of the frames that log and film both have, on the log's clock, s
   std::vector<std::vector<double>> arc;     ///< of each point of each, cm of the log's animal
   std::vector<std::vector<double>> off;     ///< its distance from the animal's midline there, cm
   double scale = 1;                         ///< what the film's lengths were multiplied by

@@ -149,7 +149,8 @@ def test_a_film_has_a_clock_and_an_animal_of_its_own(film, tmp_path):
     assert f"animal of {0.8 * length:.3g} cm scaled" in said
     against = [line for line in said.splitlines() if line.startswith("hagfish against")][0]
     assert against == f"hagfish against mine.h5 '{path}' --start 0"
-    said = hagfish(film, "against", "a.h5", path, "--start", 0)
+    said = hagfish(film, "against", "a.h5", path, "--start", 0, "--csv", tmp_path / "off.csv")
+    np.testing.assert_allclose(np.unique(table(tmp_path / "off.csv")["time_s"]), np.unique(t["time_s"]), atol=1e-6)  # the log's clock
     assert rms_of(said) == pytest.approx(NOISE * np.sqrt(3), rel=0.03)
     midlines = len(np.unique(t["time_s"]))
     assert f"{midlines} of its {midlines} midlines" in said
