@@ -1,6 +1,7 @@
 #include "core/input/scene_checks.hpp"
 
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "core/chain/model.hpp"
 #include "core/input/toml_range.hpp"
 #include "core/knot/knot.hpp"
+#include "core/run/laws.hpp"
 
 namespace hagfish {
 namespace {
@@ -108,54 +110,15 @@ void check_muscles(const TableReader& root, const ResolvedScene& resolved) {
                 "the specimen's muscle." + std::string(key) + " is 0 or missing, must be positive");
     }
   }
-  if (resolved.scene.controller.law != LawName::muscles) return;
-  if (!settings.present) {
-    root.fail("muscle.present", "must be true where controller.law = \"muscles\"");
-  }
-  if (settings.activation_time == 0) {
-    root.fail("muscle.activation_time", "must be positive where controller.law = \"muscles\"");
-  }
 }
 
-void check_law(const TableReader& root, const ControllerSettings& controller) {
-  if (controller.law != LawName::knot_speed) return;
-  const KnotSpeedSettings& loop = controller.knot_speed;
-  for (const auto& [key, value] :
-       {std::pair("target", loop.target), {"gain", loop.gain}, {"filter", loop.filter}}) {
-    if (value == 0) {
-      root.fail("controller.knot_speed." + std::string(key),
-                "must be positive where controller.law = \"knot_speed\"");
-    }
-  }
-}
-
-void check_basis(const TableReader& root, const ControllerSettings& controller) {
-  if (controller.law != LawName::reduced_basis) return;
-  const ReducedBasisSettings& basis = controller.reduced_basis;
-  const std::string table = "controller.reduced_basis.";
-  const std::string where = " where controller.law = \"reduced_basis\"";
-  if ((basis.cosines > 0) != basis.stations.empty()) {
-    root.fail(table + "cosines", "must be positive, or shapes be given by file, not both," + where);
-  }
-  if (basis.most == 0) root.fail(table + "most", "must be positive" + where);
-  if (basis.places.empty()) {
-    for (const auto& [key, value] :
-         {std::pair("period", basis.period), {"softness", basis.softness}}) {
-      if (value == 0) root.fail(table + key, "must be positive" + where);
-    }
-    if (!basis.played.empty()) root.fail(table + "played", "has no places");
-    return;
-  }
-  for (std::size_t i = 1; i < basis.places.size(); ++i) {
-    if (basis.places[i] <= basis.places[i - 1]) {
-      root.fail_element(table + "places", i, "must rise");
-    }
-  }
-  const std::size_t size = basis.places.size() * static_cast<std::size_t>(basis_size(basis));
-  if (basis.places.size() < 2 || basis.played.size() != size) {
-    root.fail(table + "played", "must have places x shapes values, " + std::to_string(size) +
-                                    ", of two places or more");
-  }
+void check_law(const TableReader& root, const ResolvedScene& resolved) {
+  const Law& law = law_of(resolved.scene);
+  if (law.fault == nullptr) return;
+  const std::optional<SceneFault> fault = law.fault(resolved.specimen, resolved.scene);
+  if (!fault) return;
+  if (fault->element) root.fail_element(fault->key, *fault->element, fault->why);
+  root.fail(fault->key, fault->why);
 }
 
 void check_food(const TableReader& root, const Scene& scene) {
@@ -238,8 +201,7 @@ void check_scene(const TableReader& root, const ResolvedScene& resolved) {
   check_passive(root, resolved);
   check_active(root, resolved.scene);
   check_muscles(root, resolved);
-  check_law(root, resolved.scene.controller);
-  check_basis(root, resolved.scene.controller);
+  check_law(root, resolved);
   check_food(root, resolved.scene);
   check_times(root, resolved.scene.time);
   check_expectations(root, resolved.scene);

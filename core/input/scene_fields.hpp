@@ -14,6 +14,7 @@
 #include "core/input/program_table.hpp"
 #include "core/input/run_time_text.hpp"
 #include "core/input/toml_range.hpp"
+#include "core/run/laws.hpp"
 #include "core/scene/settings.hpp"
 #include "core/scene/specimen.hpp"
 
@@ -172,13 +173,9 @@ void muscle_fields(Io& io, MuscleSettings& s) {
 
 template <class Io>
 void controller_fields(Io& io, ControllerSettings& s) {
-  io.template choice<LawName>("law", s.law,
-                              {{"paper", LawName::paper},
-                               {"all_contacts", LawName::all_contacts},
-                               {"knot_speed", LawName::knot_speed},
-                               {"reduced_basis", LawName::reduced_basis},
-                               {"muscles", LawName::muscles},
-                               {"own", LawName::own}});
+  Choices<std::string> names;
+  for (const Law* law : laws()) names.emplace_back(law->name, law->name);
+  io.choice("law", s.law, names);
   io.number("cap", s.cap, positive());
   io.number("acceleration", s.acceleration, positive());
   io.number("contact_gap", s.contact_gap, not_negative());

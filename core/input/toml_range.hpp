@@ -1,9 +1,12 @@
-// Intervals that a number of an input file must lie in.
+// What a value of an input file may be: intervals of numbers, and words.
 #pragma once
 
 #include <charconv>
 #include <limits>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 namespace hagfish {
 
@@ -16,6 +19,10 @@ struct Range {
 
   bool contains(double x) const { return open ? x > low && x < high : x >= low && x <= high; }
 };
+
+/// Words, and what each stands for.
+template <class E>
+using Choices = std::vector<std::pair<std::string_view, E>>;
 
 /// Every finite number.
 inline Range any_number() { return {}; }

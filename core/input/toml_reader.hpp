@@ -8,7 +8,6 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <string>
@@ -84,11 +83,10 @@ class TableReader {
 
   /// A string out of a fixed list.
   template <class E>
-  void choice(std::string_view key, E& value,
-              std::initializer_list<std::pair<std::string_view, E>> options) {
+  void choice(std::string_view key, E& value, const Choices<E>& options) {
     std::vector<std::string_view> names;
     for (const auto& option : options) names.push_back(option.first);
-    if (const auto index = choice_index(key, names)) value = (options.begin() + *index)->second;
+    if (const auto index = choice_index(key, names)) value = options[*index].second;
   }
 
   /// Reads the table `key` with `read(TableReader&)`, as an empty one where it is absent.

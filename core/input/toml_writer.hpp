@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <initializer_list>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -40,8 +39,7 @@ class TomlWriter {
   void angles(std::string_view name, const std::vector<double>& value, const Range& range);
 
   template <class E>
-  void choice(std::string_view key, const E& value,
-              std::initializer_list<std::pair<std::string_view, E>> options) {
+  void choice(std::string_view key, const E& value, const Choices<E>& options) {
     for (const auto& [name, option] : options) {
       if (option == value) return string(key, std::string(name));
     }

@@ -24,10 +24,9 @@ struct FrameRow {
   ThigmotaxisRow row;
 };
 
-/// /eq6, a row for each row of Eq. 6 at a frame, at whatever contact. Empty of the paper's law,
-/// whose rows are those of /thigmotaxis.
+/// /eq6, a row for each row of Eq. 6 at a frame, at whatever contact (Law::logs_rows); of other
+/// laws /thigmotaxis has them all.
 LogTable<FrameRow> row_table(LogLevel level);
-inline bool has_row_table(const Scene& scene) { return scene.controller.law != LawName::paper; }
 
 /// /contacts, a row for each contact with a force at a frame.
 LogTable<BearingContact> contact_table(LogLevel level);

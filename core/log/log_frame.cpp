@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/log/pull_figures.hpp"
+#include "core/run/laws.hpp"
 
 namespace hagfish {
 namespace {
@@ -229,29 +230,18 @@ void declare_control(const Model& model, LogTable<Frame>& t) {
   torque("torque_rate", "dyn·cm·s", "what they lose by the hinges' rates", &ActiveTorque::rate);
 }
 
-/// /basis: the numbers by which the law reduced_basis slides the knot.
-void declare_basis(const Scene& scene, LogTable<Frame>& t) {
-  const auto numbers = [&](const char* name, int size, const Meaning& meaning, auto get) {
-    t.numbers(std::string("/basis/") + name, {{static_cast<hsize_t>(size), ""}}, meaning,
-              [size, get](const Frame& f) {
+/// Numbers of the law's memory.
+void declare_memory(const Model& model, const Scene& scene, LogTable<Frame>& t) {
+  for (const LawNumbers& numbers : law_of(scene).numbers) {
+    const bool of_muscles = numbers.size == nullptr;
+    const Eigen::Index size =
+        of_muscles ? static_cast<Eigen::Index>(model.muscles.size()) : numbers.size(model, scene);
+    t.numbers(numbers.path, {{static_cast<hsize_t>(size), of_muscles ? muscle_labels : ""}},
+              {numbers.unit, numbers.description}, [size, of = numbers.of](const Frame& f) {
                 const Eigen::VectorXd& memory = f.record.controller.memory;
-                ReducedBasisMemory unpacked;
-                if (memory.size() == 0)
-                  return Eigen::VectorXd(Eigen::VectorXd::Constant(size, NAN));
-                unpack(memory, unpacked);
-                return Eigen::VectorXd(get(unpacked));
+                return memory.size() == 0 ? Eigen::VectorXd::Constant(size, nan) : of(memory, size);
               });
-  };
-  numbers("amplitude", basis_size(scene.controller.reduced_basis),
-          {"dyn·cm", "a of u = B a, torques in place of Eq. 6; nan but in the slide"},
-          [](const ReducedBasisMemory& m) { return m.now; });
-  numbers("window", 2,
-          {"cm",
-           "first and last contact of the knot, smoothed, between which with a margin the "
-           "shapes lie that travel with it; nan but in the slide"},
-          [](const ReducedBasisMemory& m) {
-            return Eigen::Vector2d(m.window.head_end, m.window.tail_end);
-          });
+  }
 }
 
 /// /mean: what stands in the snapshots' groups, as means.
@@ -285,25 +275,19 @@ void declare_means(const Model& model, LogTable<Frame>& t) {
       &FrameMeans::slack);
 }
 
-/// /muscle: what muscles have to do for the torques, and what they did.
-void declare_muscles(const Model& model, const Scene& scene, LogTable<Frame>& t) {
+/// /muscle: what muscles have to do for the torques.
+void declare_muscles(const Model& model, LogTable<Frame>& t) {
   const LabelledAxis muscles{static_cast<hsize_t>(model.muscles.size()), muscle_labels};
   const std::string since =
       " for the mean of u + f_thigmo over the steps since the frame before, at the frame's q; nan "
       "at the first frame";
   t.numbers(
       "/muscle/activation", {muscles}, {"1", "least activations, 0 to 1," + since},
-      [](const Frame& f) -> const auto& { return f.muscles.effort.activation; });
+      [](const Frame& f) -> const auto& { return f.muscles.activation; });
   t.numbers(
       "/muscle/residual", {dofs_of(model)},
       {"dyn, dyn·cm", "what they fall short of, torque - R a F_max, 0 at the root," + since},
-      [](const Frame& f) -> const auto& { return f.muscles.effort.residual; });
-  if (scene.controller.law == LawName::muscles) {
-    t.numbers(
-        "/muscle/driven", {muscles},
-        {"1", "activations, 0 to 1, that move the animal in the step that begins at the frame"},
-        [](const Frame& f) -> const auto& { return f.muscles.driven; });
-  }
+      [](const Frame& f) -> const auto& { return f.muscles.residual; });
 }
 
 /// /pull: what the head's pull at food comes to, of the means above.
@@ -433,10 +417,10 @@ LogTable<Frame> frame_table(const Model& model, const Scene& scene, LogLevel lev
   declare_knot(table);
   declare_forces(model, table);
   declare_thigmotaxis(table);
-  if (scene.controller.law == LawName::own) declare_control(model, table);
-  if (scene.controller.law == LawName::reduced_basis) declare_basis(scene, table);
+  if (scene.controller.law == own_law) declare_control(model, table);
+  declare_memory(model, scene, table);
   declare_means(model, table);
-  if (scene.muscle.present) declare_muscles(model, scene, table);
+  if (scene.muscle.present) declare_muscles(model, table);
   declare_pull(table);
   declare_diagnostics(table);
   declare_energy(table);

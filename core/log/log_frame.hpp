@@ -19,12 +19,6 @@ struct Worst {
   void take(const StepRecord& record);
 };
 
-/// What the muscles have to do between two frames of the log, and what they did.
-struct FrameMuscles {
-  MuscleEffort effort;     ///< of the means since the frame before; nan at the first frame
-  Eigen::VectorXd driven;  ///< of LawName::muscles: activations of the step; else empty
-};
-
 struct Frame {
   const StepRecord& record;
   const ThigmotaxisRows& thigmotaxis;
@@ -32,7 +26,8 @@ struct Frame {
   KnotVote knot;
   Worst worst;
   double wall_time = 0;  ///< s
-  const FrameMuscles& muscles;
+  /// What muscles have to do, of the means since the frame before; nan at the first frame.
+  const MuscleEffort& muscles;
 };
 
 /// Every dataset along the frames (log schema, rows along T). Of a law other than the paper's what

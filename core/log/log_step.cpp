@@ -3,7 +3,7 @@
 #include <array>
 #include <string>
 
-#include "core/log/frame_rows.hpp"
+#include "core/run/laws.hpp"
 
 namespace hagfish {
 namespace {
@@ -25,7 +25,7 @@ void declare_thigmotaxis(const Scene& scene, LogTable<LoggedStep>& t) {
   row("lambda", "dyn", "multiplier over h of each step", &ThigmotaxisRows::lambda);
   row("speed", "cm/s", "left side of Eq. 6, nan where no row", &ThigmotaxisRows::speed);
   row("slack", "cm/s", "shortfall of the command, nan where no row", &ThigmotaxisRows::slack);
-  if (has_row_table(scene)) {
+  if (law_of(scene).logs_rows) {
     t.count("/steps/thigmotaxis_others", "rows of Eq. 6 at other contacts than first and last",
             [](const LoggedStep& s) { return s.thigmotaxis.others; });
     t.number("/steps/thigmotaxis_others_slack",

@@ -12,7 +12,6 @@
 #include "core/log/log_frame.hpp"
 #include "core/log/log_step.hpp"
 #include "core/log/twin_file.hpp"
-#include "core/run/muscle_law.hpp"
 
 namespace hagfish {
 namespace {
@@ -79,13 +78,12 @@ void mark_failed(const fs::path& file, const std::string& cause) {
 struct LogWriter::Contents {
   Contents(Model of, const Scene& scene, LogLevel held)
       : model(std::move(of)),
-        law(scene.controller.law),
         level(held),
         frames(frame_table(model, scene, held)),
         steps(step_table(scene, held)),
         contacts(contact_table(held)),
         rows(row_table(held)),
-        with_rows(has_row_table(scene)),
+        with_rows(law_of(scene).logs_rows),
         marks(checkpoint_table(held)),
         bytes(std::make_shared<Series<std::uint8_t>>(checkpoint_bytes())),
         log{RunningMeans(model.nv()), {}, {}},
@@ -124,13 +122,10 @@ struct LogWriter::Contents {
   void see_muscles(const StepRecord& record, const FrameMeans& mean) {
     const Eigen::VectorXd torque = mean.active_torque + mean.force[RowKind::thigmotaxis];
     if (torque.allFinite()) {
-      activations.solve(model, record.moment.observation.kin, torque, muscles.effort);
+      activations.solve(model, record.moment.observation.kin, torque, muscles);
     } else {
-      muscles.effort.activation.setConstant(static_cast<Eigen::Index>(model.muscles.size()), NAN);
-      muscles.effort.residual.setConstant(model.nv(), NAN);
-    }
-    if (law == LawName::muscles) {
-      muscles.driven = activations_in(model, record.controller.memory);
+      muscles.activation.setConstant(static_cast<Eigen::Index>(model.muscles.size()), NAN);
+      muscles.residual.setConstant(model.nv(), NAN);
     }
   }
 
@@ -163,7 +158,6 @@ struct LogWriter::Contents {
   }
 
   Model model;
-  LawName law;
   LogLevel level;
   LogTable<Frame> frames;
   LogTable<LoggedStep> steps;
@@ -176,7 +170,7 @@ struct LogWriter::Contents {
   SeriesList series;                            // all of them
   LogState log;
   ActivationSolver activations;
-  FrameMuscles muscles;
+  MuscleEffort muscles;
   KnotSettings knot;
   double h;
   std::int64_t stride;                            // steps a frame

@@ -6,7 +6,7 @@
 #include <iterator>
 
 #include "core/log/log_header.hpp"
-#include "core/run/control_law.hpp"
+#include "core/run/laws.hpp"
 
 namespace hagfish {
 namespace {

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 #include "core/run/controller.hpp"
-#include "core/run/law_storage.hpp"
+#include "core/run/laws.hpp"
 
 namespace hagfish {
 namespace {
@@ -82,6 +84,18 @@ void check_command(const Model& model, const ThigmotaxisCommand& command) {
   }
 }
 
+std::optional<SceneFault> knot_speed_fault(const Specimen& /*specimen*/, const Scene& scene) {
+  const KnotSpeedSettings& loop = scene.controller.knot_speed;
+  for (const auto& [key, value] :
+       {std::pair("target", loop.target), {"gain", loop.gain}, {"filter", loop.filter}}) {
+    if (value == 0) {
+      return SceneFault{"controller.knot_speed." + std::string(key),
+                        "must be positive where controller.law = \"knot_speed\""};
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 void paper_law(const Situation& at, Control& control) {
@@ -146,45 +160,38 @@ void knot_speed_law(const Situation& at, Eigen::VectorXd& memory, Control& contr
   }
 }
 
-bool fits_law(const Model& model, const Scene& scene, const Eigen::VectorXd& memory) {
-  const Eigen::Index size = memory.size();
-  if (size == 0) return true;
-  switch (scene.controller.law) {
-    case LawName::paper:
-    case LawName::all_contacts:
-      return false;
-    case LawName::knot_speed:
-      return size == knot_speed_memory;
-    case LawName::reduced_basis:
-      return size == basis_memory_size(scene.controller.reduced_basis);
-    case LawName::muscles:
-      return size == muscle_memory_size(model);
-    case LawName::own:
-      break;
-  }
-  return true;
-}
+extern constinit const Law paper_record{
+    .name = "paper",
+    .description = "Eq. 6 at the first and the last contact, at the commanded speeds",
+    .make =
+        [] {
+          return ControlLaw([](const Situation& at, Eigen::VectorXd& /*memory*/, Control& control) {
+            paper_law(at, control);
+          });
+        },
+    .logs_rows = false};
 
-void named_law(const Situation& at, Eigen::VectorXd& memory, Control& control,
-               LawStorage& storage) {
-  switch (at.scene.controller.law) {
-    case LawName::paper:
-      return paper_law(at, control);
-    case LawName::all_contacts:
-      return all_contacts_law(at, control);
-    case LawName::knot_speed:
-      return knot_speed_law(at, memory, control);
-    case LawName::reduced_basis:
-      return reduced_basis_law(at, memory, control, storage.reduced_basis);
-    case LawName::muscles:
-      return muscle_law(at, memory, control, storage.muscles);
-    case LawName::own:
-      break;
-  }
-  throw std::invalid_argument(R"(controller.law = "own")"
-                              ": the law is of the C++ or Python program that runs the scene, and "
-                              "this one has none");
-}
+extern constinit const Law all_contacts_record{
+    .name = "all_contacts",
+    .description = "Eq. 6 at every contact, as a knot that keeps its shape slides",
+    .make = [] {
+      return ControlLaw([](const Situation& at, Eigen::VectorXd& /*memory*/, Control& control) {
+        all_contacts_law(at, control);
+      });
+    }};
+
+extern constinit const Law knot_speed_record{
+    .name = "knot_speed",
+    .description = "the paper's, its speeds scaled until the knot has the speed wanted",
+    .make = [] { return ControlLaw(knot_speed_law); },
+    .memory_size = [](const Model& /*model*/, const Scene& /*scene*/) { return knot_speed_memory; },
+    .fault = knot_speed_fault,
+    .rows =
+        [](const Scene& scene, Phase phase) {
+          return phase == Phase::slide
+                     ? AskedRows{.least_scale = 0, .most_scale = scene.controller.knot_speed.most}
+                     : AskedRows{};
+        }};
 
 void check_control(const Model& model, const Control& control) {
   check_torque(model, "rest_shape", control.rest_shape);

@@ -7,7 +7,7 @@
 //     paper_law(at, control);
 //     for (ThigmotaxisCommand& command : control.thigmotaxis) command.effort = 0.5;
 //   };
-//   scene.controller.law = LawName::own;
+//   scene.controller.law = own_law;
 //   Simulation sim = start(model, scene, "active-set");
 //   sim.law = lazy;
 #pragma once
@@ -22,7 +22,6 @@
 namespace hagfish {
 
 struct ControllerState;
-struct LawStorage;
 
 /// What a control law sees of a run at the start of a step.
 struct Situation {
@@ -54,13 +53,6 @@ void all_contacts_law(const Situation& at, Control& control);
 /// The paper's, with the commanded speeds of the slide scaled by the knot's measured speed:
 /// KnotSpeedSettings (addition). `memory`: smoothed arc length of the head end, cm; scale.
 void knot_speed_law(const Situation& at, Eigen::VectorXd& memory, Control& control);
-
-/// Whether `memory` is empty or as long as that of the law that the scene names; any is of a law of
-/// the run's own.
-bool fits_law(const Model& model, const Scene& scene, const Eigen::VectorXd& memory);
-
-/// By the law that the scene names, which is not its own, in `storage` (law_storage.hpp).
-void named_law(const Situation& at, Eigen::VectorXd& memory, Control& control, LawStorage& storage);
 
 /// Throws std::invalid_argument in one line where `control` is none for a step of `model`: a vector
 /// of another length or with an entry at the root, a number that is not finite, a contact off the

@@ -222,7 +222,7 @@ Status follow(const Model& model, const Scene& scene, const Moment& now, double 
 }
 
 void command(const Model& model, const Scene& scene, const Moment& now, double time,
-             const ControlLaw& own, LawStorage& storage, ControllerState& controller,
+             const ControlLaw& own, NamedLaw& named, ControllerState& controller,
              Control& control) {
   control.clamp_head = clamps_head(scene, controller.phase);
   control.tip = {};
@@ -233,8 +233,8 @@ void command(const Model& model, const Scene& scene, const Moment& now, double t
   const Situation at{model, scene, now, time, controller};
   if (!fits_law(model, scene, controller.memory)) controller.memory.resize(0);
   if (!own) {
-    named_law(at, controller.memory, control, storage);
-  } else if (scene.controller.law == LawName::own) {
+    ask_law(at, controller.memory, control, named);
+  } else if (scene.controller.law == own_law) {
     own(at, controller.memory, control);
   } else {
     throw std::invalid_argument(R"(the run has a law of its own: controller.law must be "own")");
@@ -250,11 +250,11 @@ void command(const Model& model, const Scene& scene, const Moment& now, double t
 }
 
 Status decide(const Model& model, const Scene& scene, const Moment& now, double time,
-              LawStorage& storage, ControllerState& controller, Control& control,
+              NamedLaw& named, ControllerState& controller, Control& control,
               const ControlLaw& own) {
   Status status = follow(model, scene, now, time, controller);
   if (status.ok()) {
-    command(model, scene, now, time, own, storage, controller, control);
+    command(model, scene, now, time, own, named, controller, control);
   }
   return status;
 }

@@ -8,7 +8,7 @@
 
 #include "core/knot/knot.hpp"
 #include "core/run/active_curvature.hpp"
-#include "core/run/control_law.hpp"
+#include "core/run/laws.hpp"
 #include "core/run/script.hpp"
 #include "core/scene/phase.hpp"
 #include "core/step/step.hpp"
@@ -73,16 +73,16 @@ void note_pull(const StepSolution& step, ControllerState& controller);
 Status follow(const Model& model, const Scene& scene, const Moment& now, double time,
               ControllerState& controller);
 
-/// What that step shall do, by `own` law or, where there is none, by the one that the scene names.
+/// What that step shall do, by `own` law or, where there is none, by the one that the scene
+/// names.
 /// Throws what the law does, and std::invalid_argument where the scene's law and `own` do not fit,
 /// or the control is none (check_control).
 void command(const Model& model, const Scene& scene, const Moment& now, double time,
-             const ControlLaw& own, LawStorage& storage, ControllerState& controller,
-             Control& control);
+             const ControlLaw& own, NamedLaw& named, ControllerState& controller, Control& control);
 
 /// Both, one after the other.
 Status decide(const Model& model, const Scene& scene, const Moment& now, double time,
-              LawStorage& storage, ControllerState& controller, Control& control,
+              NamedLaw& named, ControllerState& controller, Control& control,
               const ControlLaw& own = {});
 
 }  // namespace hagfish

@@ -4,6 +4,7 @@
 
 #include "core/run/active_curvature.hpp"
 #include "core/run/controller.hpp"
+#include "core/run/laws.hpp"
 
 namespace hagfish {
 namespace {
@@ -32,6 +33,28 @@ void paper_control(const Situation& at, const Eigen::VectorXd& memory, const Con
                 control.active);
 }
 
+Eigen::Index memory_size(const Model& model, const Scene& /*scene*/) {
+  return model.nv() + static_cast<Eigen::Index>(model.muscles.size());
+}
+
+std::optional<SceneFault> fault(const Specimen& /*specimen*/, const Scene& scene) {
+  const std::string where = " where controller.law = \"muscles\"";
+  if (!scene.muscle.present) return SceneFault{"muscle.present", "must be true" + where};
+  if (scene.muscle.activation_time == 0) {
+    return SceneFault{"muscle.activation_time", "must be positive" + where};
+  }
+  return {};
+}
+
+constexpr LawNumbers numbers[] = {
+    {.path = driven_activations,
+     .unit = "1",
+     .description =
+         "activations, 0 to 1, that move the animal in the step that begins at the frame",
+     .of = [](const Eigen::VectorXd& memory, Eigen::Index size) {
+       return Eigen::VectorXd(memory.tail(size));
+     }}};
+
 }  // namespace
 
 void muscle_law(const Situation& at, Eigen::VectorXd& memory, Control& control,
@@ -42,7 +65,7 @@ void muscle_law(const Situation& at, Eigen::VectorXd& memory, Control& control,
   paper_control(at, memory, control, storage.shape_ahead, paper.control);
   control.tip = paper.control.tip;
   control.rest_shape.resize(0);
-  if (memory.size() == 0) memory.setZero(muscle_memory_size(model));
+  if (memory.size() == 0) memory.setZero(memory_size(model, at.scene));
   if (paper.control.rest_shape.size() > 0) memory.head(model.nv()) = paper.control.rest_shape;
   const Kinematics& kin = at.now.observation.kin;
   MuscleEffort& wanted = storage.wanted;
@@ -60,12 +83,24 @@ void muscle_law(const Situation& at, Eigen::VectorXd& memory, Control& control,
   control.torque.rate.setZero(model.nv());
 }
 
-Eigen::Index muscle_memory_size(const Model& model) {
-  return model.nv() + static_cast<Eigen::Index>(model.muscles.size());
-}
-
 Eigen::VectorXd activations_in(const Model& model, const Eigen::VectorXd& memory) {
   return memory.tail(static_cast<Eigen::Index>(model.muscles.size()));
 }
+
+extern constinit const Law muscles_record{
+    .name = "muscles",
+    .description = "activations alone, without rows of Eq. 6",
+    .make = law_with_storage<MuscleStorage, muscle_law>,
+    .memory_size = memory_size,
+    .fault = fault,
+    .numbers = numbers,
+    .rows = [](const Scene& /*scene*/, Phase /*phase*/) { return AskedRows{.any = false}; },
+    .rest_shape = [](const LoggedSituation& /*at*/) { return std::optional(Eigen::VectorXd()); },
+    .torque =
+        [](const LoggedSituation& at) {
+          Eigen::VectorXd torque;
+          muscle_torque(at.model, at.kin, at.numbers[0], torque);
+          return torque;
+        }};
 
 }  // namespace hagfish

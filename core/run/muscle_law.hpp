@@ -6,6 +6,9 @@
 
 namespace hagfish {
 
+/// The dataset of the activations that move the animal.
+inline constexpr const char* driven_activations = "/muscle/driven";
+
 /// Storage of muscle_law.
 struct MuscleStorage {
   UntakenStep paper;            ///< the paper's law's
@@ -32,9 +35,6 @@ struct MuscleStorage {
 /// the step that is not taken cannot be solved.
 void muscle_law(const Situation& at, Eigen::VectorXd& memory, Control& control,
                 MuscleStorage& storage);
-
-/// How many numbers the memory has.
-Eigen::Index muscle_memory_size(const Model& model);
 
 /// The activations in the law's memory: 0 to 1, one for each of Model::muscles.
 Eigen::VectorXd activations_in(const Model& model, const Eigen::VectorXd& memory);

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <string>
 
+#include "core/run/laws.hpp"
 #include "core/scene/interpolation.hpp"
 
 namespace hagfish {
@@ -170,6 +171,51 @@ double follows(double h, double time_constant) {
   return time_constant > 0 ? 1 - std::exp(-h / time_constant) : 1;
 }
 
+std::optional<SceneFault> fault(const Specimen& /*specimen*/, const Scene& scene) {
+  const ReducedBasisSettings& basis = scene.controller.reduced_basis;
+  const std::string where = " where controller.law = \"reduced_basis\"";
+  const auto at = [](const char* key, const std::string& why,
+                     std::optional<std::size_t> element = {}) {
+    return SceneFault{std::string("controller.reduced_basis.") + key, why, element};
+  };
+  if ((basis.cosines > 0) != basis.stations.empty()) {
+    return at("cosines", "must be positive, or shapes be given by file, not both," + where);
+  }
+  if (basis.most == 0) return at("most", "must be positive" + where);
+  if (basis.places.empty()) {
+    if (basis.period == 0) return at("period", "must be positive" + where);
+    if (basis.softness == 0) return at("softness", "must be positive" + where);
+    if (!basis.played.empty()) return at("played", "has no places");
+    return {};
+  }
+  for (std::size_t i = 1; i < basis.places.size(); ++i) {
+    if (basis.places[i] <= basis.places[i - 1]) return at("places", "must rise", i);
+  }
+  const std::size_t size = basis.places.size() * static_cast<std::size_t>(basis_size(basis));
+  if (basis.places.size() < 2 || basis.played.size() != size) {
+    return at("played", "must have places x shapes values, " + std::to_string(size) +
+                            ", of two places or more");
+  }
+  return {};
+}
+
+constexpr LawNumbers numbers[] = {
+    {.path = "/basis/amplitude",
+     .unit = "dyn·cm",
+     .description = "a of u = B a, torques in place of Eq. 6; nan but in the slide",
+     .size = [](const Model& /*model*/, const Scene& scene) -> Eigen::Index {
+       return basis_size(scene.controller.reduced_basis);
+     },
+     .of = [](const Eigen::VectorXd& memory,
+              Eigen::Index size) { return Eigen::VectorXd(memory.tail(size)); }},
+    {.path = "/basis/window",
+     .unit = "cm",
+     .description = "first and last contact of the knot, smoothed, between which with a margin the "
+                    "shapes lie that travel with it; nan but in the slide",
+     .size = [](const Model& /*model*/, const Scene& /*scene*/) -> Eigen::Index { return 2; },
+     .of = [](const Eigen::VectorXd& memory,
+              Eigen::Index size) { return Eigen::VectorXd(memory.segment(1, size)); }}};
+
 }  // namespace
 
 void basis_shapes(const Model& model, const Scene& scene, const KnotSpan& window,
@@ -189,10 +235,6 @@ void basis_shapes(const Model& model, const Scene& scene, const KnotSpan& window
                share ? (arc - from) / (to - from) : arc,
                shapes.row(root_dofs + static_cast<Eigen::Index>(k)));
   }
-}
-
-Eigen::Index basis_memory_size(const ReducedBasisSettings& basis) {
-  return head + 2 * basis_size(basis);
 }
 
 void unpack(const Eigen::VectorXd& memory, ReducedBasisMemory& unpacked) {
@@ -239,5 +281,24 @@ void reduced_basis_law(const Situation& at, Eigen::VectorXd& memory, Control& co
   memory.resize(head + 2 * m.now.size());
   memory << m.next, m.window.head_end, m.window.tail_end, m.aim, m.now;
 }
+
+extern constinit const Law reduced_basis_record{
+    .name = "reduced_basis",
+    .description = "a few numbers times fixed shapes of torque slide the knot",
+    .make = law_with_storage<ReducedBasisStorage, reduced_basis_law>,
+    .memory_size = [](const Model& /*model*/, const Scene& scene) -> Eigen::Index {
+      return head + 2 * basis_size(scene.controller.reduced_basis);
+    },
+    .fault = fault,
+    .numbers = numbers,
+    .remembers = [](Phase phase) { return phase == Phase::slide; },
+    .rows = [](const Scene& /*scene*/,
+               Phase phase) { return AskedRows{.effort = phase == Phase::slide ? 0.0 : 1.0}; },
+    .torque =
+        [](const LoggedSituation& at) {
+          Eigen::MatrixXd shapes;
+          basis_shapes(at.model, at.scene, {at.numbers[1][0], at.numbers[1][1]}, shapes);
+          return Eigen::VectorXd(shapes * at.numbers[0]);
+        }};
 
 }  // namespace hagfish

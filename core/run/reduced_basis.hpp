@@ -59,7 +59,5 @@ void reduced_basis_law(const Situation& at, Eigen::VectorXd& memory, Control& co
 
 /// What `memory` of the law holds. It is not empty.
 void unpack(const Eigen::VectorXd& memory, ReducedBasisMemory& unpacked);
-/// How many numbers the memory has.
-Eigen::Index basis_memory_size(const ReducedBasisSettings& basis);
 
 }  // namespace hagfish

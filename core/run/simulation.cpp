@@ -34,7 +34,7 @@ class Attempt {
     record_.step = sim_.step;
     record_.time = time_of(sim_, scene_);
     record_.warnings.clear();
-    if (Status status = decide(model_, scene_, sim_.now, record_.time, sim_.law_storage,
+    if (Status status = decide(model_, scene_, sim_.now, record_.time, sim_.named_law,
                                sim_.controller, record_.control, sim_.law);
         !status.ok()) {
       return status;
@@ -236,8 +236,7 @@ void change_scene(const Model& model, const Scene& before, const Scene& scene, S
   }
   sim.step = std::llround(time_of(sim, before) / scene.time.step);
   if (scene.controller.law != before.controller.law) sim.controller.memory.resize(0);
-  if (scene.script.kind != ScriptSettings::Kind::curvature &&
-      scene.controller.law != LawName::own) {
+  if (scene.script.kind != ScriptSettings::Kind::curvature && scene.controller.law != own_law) {
     sim.controller.rest_shape.resize(0);
   }
   sim.search = {};

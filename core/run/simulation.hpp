@@ -8,7 +8,6 @@
 #include "core/run/controller.hpp"
 #include "core/run/energy.hpp"
 #include "core/run/guard.hpp"
-#include "core/run/law_storage.hpp"
 #include "core/run/momentum.hpp"
 
 namespace hagfish {
@@ -34,7 +33,7 @@ struct Simulation {
   Watch watch;
   Midway midway = {};  ///< storage
   BeforeStep before;
-  LawStorage law_storage = {};
+  NamedLaw named_law = {};
   ControlLaw law = {};  ///< of its own, where the scene says so (control_law.hpp); else empty
 };
 

@@ -141,7 +141,7 @@ struct ActiveSettings {
 /// Muscles that make the animal's torques (addition; core/chain/muscle_paths.hpp).
 struct MuscleSettings {
   bool present = false;  ///< the specimen's: the activations that the torques take are logged
-  /// Of the first-order dynamics by which a muscle follows its excitation, s (LawName::muscles).
+  /// Of the first-order dynamics by which a muscle follows its excitation, s (law muscles).
   double activation_time = 0;
 };
 
@@ -154,17 +154,10 @@ struct ThigmotaxisSpeeds {
 /// The end of the animal by which the knot leaves it.
 enum class BodyEnd { head, tail };
 
-/// By what law the animal is controlled in each phase (core/run/control_law.hpp).
-enum class LawName {
-  paper,          ///< thigmotaxis at the first and the last contact, at the commanded speeds
-  all_contacts,   ///< addition: at every contact, as a knot that keeps its shape slides
-  knot_speed,     ///< addition: the paper's, its speeds scaled until the knot has the speed wanted
-  reduced_basis,  ///< addition: a few numbers times fixed shapes of torque slide the knot
-  muscles,        ///< addition: activations alone, without rows of Eq. 6 (core/muscle)
-  own             ///< of the program that runs the scene
-};
+/// The control law that is of the program that runs the scene.
+inline constexpr const char* own_law = "own";
 
-/// The loop of LawName::knot_speed: s' = gain (1 - v / target) for the scale s of the commanded
+/// The loop of the law knot_speed: s' = gain (1 - v / target) for the scale s of the commanded
 /// speeds, with v the knot's speed.
 struct KnotSpeedSettings {
   double target = 0;  ///< of the knot's leading end along the body, cm/s
@@ -180,7 +173,7 @@ enum class BasisFrame {
          ///< window that travels with the knot
 };
 
-/// The torques u = B a of LawName::reduced_basis: few numbers a, dyn cm, times shapes along the
+/// The torques u = B a of the law reduced_basis: few numbers a, dyn cm, times shapes along the
 /// body, the columns of B, with no unit. Shapes are cosines, or learned ones of a file.
 struct ReducedBasisSettings {
   BasisFrame frame = BasisFrame::knot;
@@ -210,7 +203,7 @@ inline int basis_size(const ReducedBasisSettings& basis) {
 
 /// The thigmotaxis controller (paper, 3.2, Eq. 6) and its switches between phases.
 struct ControllerSettings {
-  LawName law = LawName::paper;
+  std::string law = "paper";  ///< that controls the animal in each phase (core/run/laws.hpp)
   KnotSpeedSettings knot_speed;
   ReducedBasisSettings reduced_basis;
   ThigmotaxisSpeeds tighten_head, tighten_tail;  ///< first and last contact while tightening

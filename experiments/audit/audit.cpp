@@ -8,6 +8,7 @@
 
 #include "core/log/frame_rows.hpp"
 #include "core/log/log_writer.hpp"
+#include "core/run/laws.hpp"
 #include "core/run/simulation.hpp"
 #include "experiments/audit/audit_activation.hpp"
 #include "experiments/audit/audit_checkpoints.hpp"
@@ -62,7 +63,7 @@ Finding thigmotaxis_extent(const LogContents& log) {
   const Hdf5Reader::Rows body_b = log.h5.rows("/thigmotaxis/body_b");
   // Without rows, -1, there must be no force at all.
   Eigen::VectorXd furthest = body_b.rowwise().maxCoeff();
-  if (has_row_table(log.resolved.scene)) {
+  if (law_of(log.resolved.scene).logs_rows) {
     const std::vector<std::int64_t> frame = log.h5.integers("/eq6/frame");
     const std::vector<double> spline_b = log.h5.doubles("/eq6/spline_b");
     for (std::size_t i = 0; i < frame.size(); ++i) {

@@ -1,6 +1,10 @@
 #include "experiments/audit/audit_activation.hpp"
 
+#include <algorithm>
 #include <cmath>
+
+#include "core/run/laws.hpp"
+#include "core/run/muscle_law.hpp"
 
 namespace hagfish {
 namespace {
@@ -17,9 +21,10 @@ ActivationAudit::ActivationAudit(const LogContents& log) : log_(log) {
   torque_ = log.h5.rows("/mean/forces/active") + log.h5.rows("/mean/forces/thigmotaxis");
   activation_ = log.h5.rows("/muscle/activation");
   residual_ = log.h5.rows("/muscle/residual");
-  if (log.resolved.scene.controller.law == LawName::muscles) {
-    driven_ = log.h5.rows("/muscle/driven");
-    active_ = log.h5.rows("/forces/active");
+  const auto numbers = law_of(log.resolved.scene).numbers;
+  if (std::ranges::find(numbers, std::string_view(driven_activations), &LawNumbers::path) !=
+      numbers.end()) {
+    driven_ = log.h5.rows(driven_activations);
   }
 }
 
@@ -47,8 +52,6 @@ void ActivationAudit::see(const AuditedFrame& frame) {
 
 void ActivationAudit::see_driven(const AuditedFrame& frame) {
   const Eigen::Index f = frame.index;
-  muscle_torque(log_.model, frame.observation.kin, driven_.row(f).transpose(), given_);
-  rebuilt_.compare("/forces/active", active_.row(f).transpose(), given_);
   if (f == 0) return;
   // e stays between 0 and 1, so that a cannot come nearer to either than by the whole of them.
   const double kept =

@@ -79,7 +79,7 @@ ForceAudit::ForceAudit(const LogContents& log)
       contact_a_(log.h5.doubles("/contacts/spline_a")),
       contact_b_(log.h5.doubles("/contacts/spline_b")),
       contact_force_(log.h5.doubles("/contacts/force")) {
-  if (log.resolved.scene.controller.law == LawName::own) {
+  if (log.own_law()) {
     asked_tip_ = log.h5.rows("/control/tip");
     asked_tip_rate_ = log.h5.doubles("/control/tip_rate");
   }
@@ -207,7 +207,7 @@ void ForceAudit::see_tip(const AuditedFrame& frame) {
   const Kinematics& kin = frame.observation.kin;
   const int last = log_.model.body_count() - 1;
   TipForce tip;
-  if (scene.controller.law == LawName::own) {
+  if (log_.own_law()) {
     tip = {asked_tip_.row(frame.index).transpose(), asked_tip_rate_[frame.index]};
   } else if (frame.phase == Phase::form) {
     tip = script_force(scene.script, log_.time[frame.index], scene.time, kin.centre.col(last),

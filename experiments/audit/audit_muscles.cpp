@@ -7,7 +7,6 @@
 
 #include "core/log/log_writer.hpp"
 #include "core/run/active_curvature.hpp"
-#include "core/run/reduced_basis.hpp"
 
 namespace hagfish {
 namespace {
@@ -20,16 +19,16 @@ constexpr std::size_t least_frames = 5;  // for a median
 }  // namespace
 
 MuscleAudit::MuscleAudit(const LogContents& log)
-    : log_(log), torque_(log.h5.rows("/forces/active")), q_ref_(log.h5.rows("/trajectory/q_ref")) {
+    : log_(log),
+      law_(law_of(log.resolved.scene)),
+      torque_(log.h5.rows("/forces/active")),
+      q_ref_(log.h5.rows("/trajectory/q_ref")) {
   if (log.own_law()) {
     asked_ = log.h5.rows("/control/torque");
     asked_rate_ = log.h5.rows("/control/torque_rate");
     has_rest_shape_ = log.h5.integers("/control/has_rest_shape");
   }
-  if (log.resolved.scene.controller.law == LawName::reduced_basis) {
-    amplitude_ = log.h5.rows("/basis/amplitude");
-    window_ = log.h5.rows("/basis/window");
-  }
+  for (const LawNumbers& numbers : law_.numbers) numbers_.push_back(log.h5.rows(numbers.path));
 }
 
 void MuscleAudit::see(const AuditedFrame& frame) {
@@ -43,36 +42,46 @@ void MuscleAudit::see_torque(const AuditedFrame& frame) {
   const Eigen::VectorXd torque = torque_.row(f);
   // Muscles hold on to nothing outside.
   if (!torque.head<root_dofs>().isZero(0)) on_root_.insert("/forces/active");
-  if (scene.controller.law == LawName::muscles) {
-    return;  // by activations: ActivationAudit
-  }
   Eigen::VectorXd wanted = Eigen::VectorXd::Zero(log_.model.nv());
   const auto add = [&](const ActiveTorque& asked) {
     wanted += asked.value - asked.rate.cwiseProduct(frame.qdot_felt);
   };
-  if (log_.own_law() ? has_rest_shape_[static_cast<std::size_t>(f)] != 0
-                     : scene.script.kind == ScriptSettings::Kind::curvature) {
+  if (has_rest_shape(frame)) {
     add(active_torque(log_.model, scene, frame.state, q_ref_.row(f).transpose()));
   }
   if (log_.own_law()) {
     add({asked_.row(f).transpose(), asked_rate_.row(f).transpose()});
   }
-  if (amplitude_.rows() > 0) wanted += see_basis(frame);
+  see_law(frame, wanted);
   rebuilt_.compare("/forces/active", torque, wanted);
 }
 
-Eigen::VectorXd MuscleAudit::see_basis(const AuditedFrame& frame) {
-  const Eigen::VectorXd amplitude = amplitude_.row(frame.index);
-  const Eigen::VectorXd window = window_.row(frame.index);
-  if (frame.phase != Phase::slide) {
-    rebuilt_.compare("/basis/amplitude", amplitude,
-                     Eigen::VectorXd::Constant(amplitude.size(), NAN));
-    rebuilt_.compare("/basis/window", window, Eigen::VectorXd::Constant(window.size(), NAN));
-    return Eigen::VectorXd::Zero(log_.model.nv());
+void MuscleAudit::see_law(const AuditedFrame& frame, Eigen::VectorXd& torque) {
+  const bool remembers = law_.remembers == nullptr || law_.remembers(frame.phase);
+  const LoggedSituation at = situation(frame);
+  for (std::size_t k = 0; k < numbers_.size() && !remembers; ++k) {
+    rebuilt_.compare(law_.numbers[k].path, at.numbers[k],
+                     Eigen::VectorXd::Constant(at.numbers[k].size(), NAN));
   }
-  Eigen::MatrixXd shapes;
-  basis_shapes(log_.model, log_.resolved.scene, {window[0], window[1]}, shapes);
-  return shapes * amplitude;
+  if (remembers && law_.torque != nullptr) torque += law_.torque(at);
+}
+
+LoggedSituation MuscleAudit::situation(const AuditedFrame& frame) const {
+  LoggedSituation at{log_.model,    log_.resolved.scene, frame.observation.kin,
+                     frame.state.q, frame.phase,         {}};
+  for (const Hdf5Reader::Rows& rows : numbers_) at.numbers.emplace_back(rows.row(frame.index));
+  return at;
+}
+
+bool MuscleAudit::has_rest_shape(const AuditedFrame& frame) const {
+  if (log_.own_law()) return has_rest_shape_[static_cast<std::size_t>(frame.index)] != 0;
+  const auto shape = shape_of_law(frame);
+  return shape ? shape->size() > 0
+               : log_.resolved.scene.script.kind == ScriptSettings::Kind::curvature;
+}
+
+std::optional<Eigen::VectorXd> MuscleAudit::shape_of_law(const AuditedFrame& frame) const {
+  return law_.rest_shape == nullptr ? std::nullopt : law_.rest_shape(situation(frame));
 }
 
 void MuscleAudit::see_rest_shape(const AuditedFrame& frame) {
@@ -84,8 +93,12 @@ void MuscleAudit::see_rest_shape(const AuditedFrame& frame) {
     if (!rest.head<root_dofs>().isZero(0)) on_root_.insert("/trajectory/q_ref");
     return;
   }
-  if (scene.script.kind != ScriptSettings::Kind::curvature ||
-      scene.controller.law == LawName::muscles) {
+  const auto shape = shape_of_law(frame);
+  if (shape && shape->size() > 0) {
+    rebuilt_.compare("/trajectory/q_ref", rest, *shape);
+    return;
+  }
+  if (!has_rest_shape(frame)) {
     rebuilt_.compare("/trajectory/q_ref", rest, Eigen::VectorXd::Zero(rest.size()));
     return;
   }

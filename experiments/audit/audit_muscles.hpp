@@ -2,10 +2,12 @@
 // and its past, and the torques towards it.
 #pragma once
 
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "core/run/laws.hpp"
 #include "experiments/audit/audited_frame.hpp"
 #include "experiments/audit/rebuilt.hpp"
 
@@ -22,14 +24,19 @@ class MuscleAudit {
  private:
   void see_torque(const AuditedFrame& frame);
   void see_rest_shape(const AuditedFrame& frame);
-  /// What a reduced basis asks of the hinges, dyn cm, nv.
-  Eigen::VectorXd see_basis(const AuditedFrame& frame);
+  /// What the law asks of the hinges besides, added to `torque`, dyn cm, nv.
+  void see_law(const AuditedFrame& frame, Eigen::VectorXd& torque);
+  LoggedSituation situation(const AuditedFrame& frame) const;
+  /// As Law::rest_shape.
+  std::optional<Eigen::VectorXd> shape_of_law(const AuditedFrame& frame) const;
+  bool has_rest_shape(const AuditedFrame& frame) const;
 
   const LogContents& log_;
+  const Law& law_;
   Hdf5Reader::Rows torque_, q_ref_;
   Hdf5Reader::Rows asked_, asked_rate_;       ///< besides, by a law of the run's own
   std::vector<std::int64_t> has_rest_shape_;  ///< likewise
-  Hdf5Reader::Rows amplitude_, window_;       ///< of a reduced basis
+  std::vector<Hdf5Reader::Rows> numbers_;     ///< of its memory
   Rebuilt rebuilt_;
   std::set<std::string> on_root_;       ///< datasets with an entry there, where nothing holds on
   std::vector<double> tone_deviation_;  ///< of q_ref that follows q, shares of the motion

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <tuple>
 
-#include "core/log/frame_rows.hpp"
 #include "core/log/thigmotaxis_rows.hpp"
+#include "core/run/laws.hpp"
 #include "experiments/audit/audited_frame.hpp"
 #include "experiments/audit/rebuilt.hpp"
 
@@ -21,7 +21,7 @@ constexpr double slack_tolerance = 1e-9;
 /// What each step says of rows at other contacts than the knot's ends; nothing of the paper's law.
 struct OtherRows {
   explicit OtherRows(const LogContents& log) {
-    if (!has_row_table(log.resolved.scene)) return;
+    if (!law_of(log.resolved.scene).logs_rows) return;
     count = log.h5.integers("/steps/thigmotaxis_others");
     slack = log.h5.doubles("/steps/thigmotaxis_others_slack");
   }

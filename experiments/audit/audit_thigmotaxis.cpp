@@ -41,7 +41,8 @@ Eigen::Vector4d commands(const Scene& scene, Phase phase) {
 
 ThigmotaxisAudit::ThigmotaxisAudit(const LogContents& log)
     : log_(log),
-      table_(has_row_table(log.resolved.scene)),
+      law_(law_of(log.resolved.scene)),
+      table_(law_.logs_rows),
       lambda_(log.h5.rows("/thigmotaxis/lambda")),
       command_(log.h5.rows("/thigmotaxis/command")),
       speed_(log.h5.rows("/thigmotaxis/speed")),
@@ -176,10 +177,8 @@ std::vector<ThigmotaxisAudit::LoggedRow> ThigmotaxisAudit::rows_of_table(
 void ThigmotaxisAudit::see_commands(const AuditedFrame& frame, const std::vector<LoggedRow>& rows,
                                     double cap, Rebuilt& rebuilt) const {
   const Scene& scene = log_.resolved.scene;
-  if (scene.controller.law == LawName::own) {
-    return;
-  }
-  const bool scaled = scene.controller.law == LawName::knot_speed && frame.phase == Phase::slide;
+  if (log_.own_law()) return;
+  const AskedRows asked = asked_rows(frame.phase);
   const Eigen::Vector4d commanded = commands(scene, frame.phase);
   std::optional<double> scale;  // the same of all rows
   for (const LoggedRow& r : rows) {
@@ -189,8 +188,8 @@ void ThigmotaxisAudit::see_commands(const AuditedFrame& frame, const std::vector
           contact_of(log_.model, frame.observation.segments, r.spline_a, r.spline_b);
       wanted *= 1 - contact.tangent_a.dot(contact.tangent_b);
     }
-    if (scaled && wanted != 0) {
-      scale = scale.value_or(std::clamp(r.command / wanted, 0.0, scene.controller.knot_speed.most));
+    if (asked.least_scale < asked.most_scale && wanted != 0) {
+      scale = scale.value_or(std::clamp(r.command / wanted, asked.least_scale, asked.most_scale));
       wanted *= *scale;
     }
     rebuilt.compare("/eq6/command", r.command, wanted);
@@ -203,9 +202,8 @@ void ThigmotaxisAudit::see_commands(const AuditedFrame& frame, const std::vector
 void ThigmotaxisAudit::see_ends(const AuditedFrame& frame, const std::vector<LoggedRow>& rows,
                                 Rebuilt& rebuilt) const {
   const Eigen::Index f = frame.index;
-  const bool own = log_.resolved.scene.controller.law == LawName::own;
-  const bool commanded = log_.resolved.scene.controller.law != LawName::muscles &&
-                         !std::isnan(commands(log_.resolved.scene, frame.phase)[0]);
+  const bool commanded =
+      asked_rows(frame.phase).any && !std::isnan(commands(log_.resolved.scene, frame.phase)[0]);
   double cap = NAN;
   for (const LoggedRow& r : rows) {
     cap = r.end == KnotEnd::neither ? cap : r.cap;
@@ -221,20 +219,22 @@ void ThigmotaxisAudit::see_ends(const AuditedFrame& frame, const std::vector<Log
     rebuilt.compare("/thigmotaxis/command", command_(f, k), there ? row->command : NAN);
     rebuilt.compare("/thigmotaxis/speed", speed_(f, k), there ? row->speed : NAN);
     rebuilt.compare("/thigmotaxis/lambda", lambda_(f, k), there ? row->lambda : 0);
-    if (!own) {
+    if (!log_.own_law()) {
       const bool wanted = commanded && on_spline(log_.model, spline_a_(f, k / 2));
       rebuilt.compare_exactly("/eq6/end", there ? 1 : 0, wanted ? 1 : 0);
     }
   }
 }
 
+AskedRows ThigmotaxisAudit::asked_rows(Phase phase) const {
+  return law_.rows == nullptr ? AskedRows{} : law_.rows(log_.resolved.scene, phase);
+}
+
 double ThigmotaxisAudit::cap_of_scene(const AuditedFrame& frame, double logged) {
   const Scene& scene = log_.resolved.scene;
   if (frame.phase != Phase::pull) {
     pull_from_ = log_.time[frame.index];
-    const bool torques =
-        scene.controller.law == LawName::reduced_basis && frame.phase == Phase::slide;
-    return torques ? 0 : scene.controller.cap;
+    return asked_rows(frame.phase).effort * scene.controller.cap;
   }
   // The pull began after the last frame before it; of a log that begins with it, at any time.
   const Ramp& cap = scene.food.cap;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/run/laws.hpp"
 #include "experiments/audit/audited_frame.hpp"
 #include "experiments/audit/rebuilt.hpp"
 
@@ -49,11 +50,14 @@ class ThigmotaxisAudit {
   /// /thigmotaxis against the rows at the knot's ends.
   void see_ends(const AuditedFrame& frame, const std::vector<LoggedRow>& rows,
                 Rebuilt& rebuilt) const;
+  /// What the scene's law asks for at the ends in a phase.
+  AskedRows asked_rows(Phase phase) const;
   /// The bound on the forces of rows that the scene has, dyn: in the phase `pull`, in which it
   /// rises, the one nearest to what was logged.
   double cap_of_scene(const AuditedFrame& frame, double logged);
 
   const LogContents& log_;
+  const Law& law_;
   bool table_;  ///< the rows are those of /eq6
   Hdf5Reader::Rows lambda_, command_, speed_, spline_a_, spline_b_, body_a_, body_b_;
   std::vector<double> cap_;

@@ -30,7 +30,7 @@ struct LogContents {
   Hdf5Reader::Rows middle_moved, middle_felt, qdot_moved;
   std::vector<std::int64_t> passes;      ///< of each step, as StepSolution::passes; or empty
   std::vector<std::int64_t> clamp_head;  ///< by a law of the run's own, 1 or 0; else empty
-  bool own_law() const { return resolved.scene.controller.law == LawName::own; }
+  bool own_law() const { return resolved.scene.controller.law == hagfish::own_law; }
   /// Whether the head is clamped in the step that begins at a frame.
   bool clamped(Eigen::Index frame) const;
   /// Whether the step that begins at a frame balances its bias (midpoint rule).

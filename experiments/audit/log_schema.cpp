@@ -175,7 +175,7 @@ std::vector<DatasetForm> log_forms(const Hdf5Reader& log, const Model& model, co
   add(frame_table(model, scene, level).series(), "/trajectory/time");
   add(step_table(scene, level).series(), "/steps/kkt");
   add(contact_table(level).series(), "/contacts/frame");
-  if (has_row_table(scene)) add(row_table(level).series(), "/eq6/frame");
+  if (law_of(scene).logs_rows) add(row_table(level).series(), "/eq6/frame");
   return forms;
 }
 

@@ -67,7 +67,7 @@ std::vector<std::string> odd_things(const ResolvedScene& scene) {
 }
 
 void require_named_law(const Scene& scene, const std::string& where) {
-  if (scene.controller.law == LawName::own) {
+  if (scene.controller.law == own_law) {
     throw InputError(
         where +
         R"(controller.law = "own": the law is of the C++ or Python program that runs the scene)");

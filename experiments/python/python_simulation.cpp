@@ -45,7 +45,7 @@ PythonSimulation::PythonSimulation(const PythonSimulation& other, const py::obje
       control(record.control, model.nv()),
       scene_(resolved.scene),
       law_(law.is_none() ? other.law_ : law) {
-  if (!law.is_none()) resolved.scene.controller.law = LawName::own;
+  if (!law.is_none()) resolved.scene.controller.law = own_law;
   hold_views();
 }
 
@@ -107,13 +107,13 @@ void PythonSimulation::step() {
 }
 
 void PythonSimulation::step_by(PythonControl& asked) {
-  if (log_ && resolved.scene.controller.law != LawName::own) {
+  if (log_ && resolved.scene.controller.law != own_law) {
     throw std::invalid_argument(
         "a step was given a control, but the log says that the scene's law has it: "
         R"(set={"controller.law": "own"})");
   }
   asked.end();
-  scene_.controller.law = LawName::own;
+  scene_.controller.law = own_law;
   sim.law = [&asked](const Situation&, Eigen::VectorXd&, Control& of_step) {
     if (&of_step != asked.control) of_step = *asked.control;
   };

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/run/law_storage.hpp"
+#include "core/run/controller.hpp"
 #include "core/step/outcome.hpp"
 #include "tests/support/random_chain.hpp"
 
@@ -34,7 +34,7 @@ class ControllerTest : public testing::Test {
   Scene scene = table1_scene();
   Model model = table1_hagfish();
   ControllerState state;
-  LawStorage storage;
+  NamedLaw named;
   Moment moment;
   Observation& observation = moment.observation;
   double now = 0;
@@ -69,7 +69,7 @@ class ControllerTest : public testing::Test {
   Control step(std::vector<Contact> contacts) {
     observation.contact.contacts = std::move(contacts);
     Control control;
-    const Status status = decide(model, scene, moment, now, storage, state, control);
+    const Status status = decide(model, scene, moment, now, named, state, control);
     if (!status.ok()) throw StepError(status);
     now += scene.time.step;
     return control;

@@ -191,7 +191,7 @@ ResolvedScene odd_scene() {
   s.script.largest_force = odd();
   s.active = {odd(), odd(), odd(), odd()};
   s.muscle = {true, odd()};
-  s.controller = {LawName::knot_speed,
+  s.controller = {"knot_speed",
                   {odd(), odd(), odd(), odd()},
                   {BasisFrame::body,
                    odd(),

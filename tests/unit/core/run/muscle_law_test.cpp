@@ -17,12 +17,12 @@ class MuscleLaw : public testing::Test {
  protected:
   MuscleLaw() {
     scene.muscle = {true, 0.1};
-    scene.controller.law = LawName::muscles;
+    scene.controller.law = "muscles";
     model = make_hagfish(muscled_specimen(), scene);
     sim = resume(model, scene, stored_states().at(3));  // the slide
     // Contacts are followed, and the paper's control of the same step known.
     Scene paper = scene;
-    paper.controller.law = LawName::paper;
+    paper.controller.law = "paper";
     Simulation other = sim;
     reference = take_step(model, paper, other);
   }
@@ -76,7 +76,7 @@ TEST_F(MuscleLaw, AsksAheadOfItsLagWhileTheKnotForms) {
   State state = sim.now.state;  // bent, and moving
   sim = start_from(model, scene, "active-set", state, {}, 100);
   Scene own = scene;
-  own.controller.law = LawName::own;
+  own.controller.law = own_law;
   Simulation other = sim;
   other.law = [&](const Situation& at, Eigen::VectorXd& /*memory*/, Control& control) {
     control.torque.value.setZero(model.nv());

@@ -17,7 +17,7 @@ constexpr double h = 0.002;
 class ReducedBasis : public testing::Test {
  protected:
   ReducedBasis() {
-    scene.controller.law = LawName::reduced_basis;
+    scene.controller.law = "reduced_basis";
     ReducedBasisSettings& basis = scene.controller.reduced_basis;
     basis.margin = 1;
     basis.cosines = 6;

@@ -84,7 +84,7 @@ TEST(SimulationStart, AnotherSceneHasNoMemoryOrRestShapeOfAnotherLaw) {
   EXPECT_EQ(sim.controller.memory.size(), 2);
   EXPECT_EQ(sim.controller.rest_shape.size(), p.model.nv());
   Scene other = p.scene;
-  other.controller.law = LawName::knot_speed;
+  other.controller.law = "knot_speed";
   change_scene(p.model, programmed, other, sim);
   EXPECT_EQ(sim.controller.memory.size(), 0);
   EXPECT_EQ(sim.controller.rest_shape.size(), 0);
