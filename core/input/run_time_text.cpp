@@ -26,10 +26,9 @@ std::optional<RunTime> run_time_called(const std::string& text) {
   const std::size_t at = text.find(plus);
   const auto later =
       at == text.npos ? std::optional(0.0) : number_of(text.substr(at + plus.size()));
-  for (int p = 0; p < phase_count; ++p) {
-    const auto phase = static_cast<Phase>(p);
-    if (later && *later >= 0 && text.substr(0, at) == phase_name(phase)) {
-      return RunTime{phase, *later};
+  for (const PhaseEntry& phase : phase_table) {
+    if (later && *later >= 0 && text.substr(0, at) == phase.name) {
+      return RunTime{phase.value, *later};
     }
   }
   return std::nullopt;

@@ -82,8 +82,16 @@ void model_fields(Io& io, ModelSettings& s) {
                                    {{"box", BendingLimit::box}, {"cone", BendingLimit::cone}});
 }
 
-/// A phase as a choice, by the name that logs have.
-inline std::pair<std::string_view, Phase> named(Phase phase) { return {phase_name(phase), phase}; }
+/// Phases as choices, by the names that logs have: those from `first` on, in the order of time.
+inline Choices<Phase> phases_from(Phase first, bool with_optional) {
+  Choices<Phase> choices;
+  for (const PhaseEntry& phase : phase_table) {
+    if (phase_order(phase.value) >= phase_order(first) && (with_optional || !phase.optional)) {
+      choices.emplace_back(phase.name, phase.value);
+    }
+  }
+  return choices;
+}
 
 template <class Io>
 void start_fields(Io& io, StartSettings& s) {
@@ -94,9 +102,7 @@ void start_fields(Io& io, StartSettings& s) {
   io.numbers("qdot", s.qdot, any_number());
   io.angle("noise", s.noise, not_negative());
   io.integer("seed", s.seed, any_number());
-  io.template choice<Phase>("phase", s.phase,
-                            {named(Phase::form), named(Phase::tighten), named(Phase::slide),
-                             named(Phase::release), named(Phase::free)});
+  io.choice("phase", s.phase, phases_from(Phase::form, false));
 }
 
 template <class Io>
@@ -190,9 +196,7 @@ void controller_fields(Io& io, ControllerSettings& s) {
   io.number("free_time", s.free_time, not_negative());
   io.template choice<BodyEnd>("leave_by", s.leave_by,
                               {{"head", BodyEnd::head}, {"tail", BodyEnd::tail}});
-  io.template choice<Phase>(
-      "free_from", s.free_from,
-      {named(Phase::tighten), named(Phase::slide), named(Phase::release), named(Phase::free)});
+  io.choice("free_from", s.free_from, phases_from(Phase::tighten, false));
   const auto speeds = [&io](std::string_view key, ThigmotaxisSpeeds& pair) {
     io.table(key, [&pair](Io& table) {
       table.number("a", pair.a, any_number());
@@ -244,10 +248,7 @@ void time_fields(Io& io, TimeSettings& s) {
   io.number("frame_interval", s.frame_interval, positive());
   io.number("checkpoint_interval", s.checkpoint_interval, positive());
   io.number("duration", s.duration, positive());
-  io.template choice<Phase>(
-      "until", s.until,
-      {named(Phase::form), named(Phase::tighten), named(Phase::slide), named(Phase::pull),
-       named(Phase::reverse), named(Phase::release), named(Phase::free)});
+  io.choice("until", s.until, phases_from(Phase::form, true));
 }
 
 template <class Io>

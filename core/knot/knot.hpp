@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -44,7 +45,19 @@ KnotInvariants invariants_of_closed(const Eigen::Matrix3Xd& points,
 /// the polygon touches itself, repeats a vertex or ends where it starts, or is too tangled.
 KnotVote knot_type(const Eigen::Matrix3Xd& centreline, const KnotSettings& settings);
 
-/// "0_1", or a prime knot of up to seven crossings, "3_1" to "7_7"; "det=D,v2=V" for any other.
+struct NamedKnot {
+  const char* name;
+  KnotInvariants type;
+};
+
+/// The types that have names: "0_1", none, and the prime knots of up to seven crossings.
+std::span<const NamedKnot> named_knots();
+
+/// "det=3,v2=1".
+std::string invariants_text(const KnotInvariants& type);
+
+/// "0_1", or a prime knot of up to seven crossings, "3_1" to "7_7"; for any other
+/// its invariants_text().
 std::string knot_name(const KnotInvariants& type);
 
 /// The type of which `name` is the knot_name(), or nothing.

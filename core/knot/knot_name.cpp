@@ -8,28 +8,23 @@
 namespace hagfish {
 namespace {
 
-struct NamedKnot {
-  const char* name;
-  KnotInvariants type;
-};
-
 /// Prime knots of up to seven crossings: |Alexander polynomial at -1|, and half its second
 /// derivative at 1 (Rolfsen's table). All differ.
-constexpr std::array<NamedKnot, 15> named_knots = {{{"0_1", {1, 0}},
-                                                    {"3_1", {3, 1}},
-                                                    {"4_1", {5, -1}},
-                                                    {"5_1", {5, 3}},
-                                                    {"5_2", {7, 2}},
-                                                    {"6_1", {9, -2}},
-                                                    {"6_2", {11, -1}},
-                                                    {"6_3", {13, 1}},
-                                                    {"7_1", {7, 6}},
-                                                    {"7_2", {11, 3}},
-                                                    {"7_3", {13, 5}},
-                                                    {"7_4", {15, 4}},
-                                                    {"7_5", {17, 4}},
-                                                    {"7_6", {19, 1}},
-                                                    {"7_7", {21, -1}}}};
+constexpr auto table = std::to_array<NamedKnot>({{"0_1", {1, 0}},
+                                                 {"3_1", {3, 1}},
+                                                 {"4_1", {5, -1}},
+                                                 {"5_1", {5, 3}},
+                                                 {"5_2", {7, 2}},
+                                                 {"6_1", {9, -2}},
+                                                 {"6_2", {11, -1}},
+                                                 {"6_3", {13, 1}},
+                                                 {"7_1", {7, 6}},
+                                                 {"7_2", {11, 3}},
+                                                 {"7_3", {13, 5}},
+                                                 {"7_4", {15, 4}},
+                                                 {"7_5", {17, 4}},
+                                                 {"7_6", {19, 1}},
+                                                 {"7_7", {21, -1}}});
 
 /// Whether `text` is `prefix` and a whole number, which goes to `number`.
 bool number_after(std::string_view prefix, std::string_view text, int& number) {
@@ -42,16 +37,22 @@ bool number_after(std::string_view prefix, std::string_view text, int& number) {
 
 }  // namespace
 
-std::string knot_name(const KnotInvariants& type) {
-  const auto* const found =
-      std::ranges::find(named_knots, type, [](const NamedKnot& knot) { return knot.type; });
-  if (found != named_knots.end()) return found->name;
+std::span<const NamedKnot> named_knots() { return table; }
+
+std::string invariants_text(const KnotInvariants& type) {
   return "det=" + std::to_string(type.determinant) + ",v2=" + std::to_string(type.v2);
 }
 
+std::string knot_name(const KnotInvariants& type) {
+  const auto* const found =
+      std::ranges::find(table, type, [](const NamedKnot& knot) { return knot.type; });
+  if (found != table.end()) return found->name;
+  return invariants_text(type);
+}
+
 std::optional<KnotInvariants> knot_called(std::string_view name) {
-  const auto* const found = std::ranges::find(named_knots, name, &NamedKnot::name);
-  if (found != named_knots.end()) return found->type;
+  const auto* const found = std::ranges::find(table, name, &NamedKnot::name);
+  if (found != table.end()) return found->type;
   KnotInvariants type;
   const std::size_t comma = name.find(',');
   if (comma == std::string_view::npos ||

@@ -198,9 +198,9 @@ void serialize(Archive& archive, WarmStart::Kept& kept) {
 
 template <class Archive>
 void serialize(Archive& archive, EnergyLedger& ledger) {
-  auto& [initial, kinetic, elastic, gravity, work_tip, work_active, work_of_kind, dissipated,
-         inertia, potential, coriolis, held, lowest_error, largest] = ledger;
-  archive(initial, kinetic, elastic, gravity, work_tip, work_active, work_of_kind, dissipated,
+  auto& [initial, kinetic, elastic, gravity, work_tip, work_active, work, dissipated, inertia,
+         potential, coriolis, held, lowest_error, largest] = ledger;
+  archive(initial, kinetic, elastic, gravity, work_tip, work_active, work.of_kind, dissipated,
           inertia, potential, coriolis, held, lowest_error, largest);
 }
 
@@ -309,7 +309,7 @@ void check(const Simulation& sim, const LogState& log, const Model& model) {
               fits(sim.search.candidates, bodies) && fits(sim.controller.first, bodies) &&
               fits(sim.controller.last, bodies),
           "a contact that is not on its animal");
-  require(static_cast<int>(sim.controller.phase) < phase_count, "an unknown phase");
+  require(sim.controller.phase <= Phase::last, "an unknown phase");
   require(sim.controller.memory.allFinite(), "a memory that is not finite");
   const Eigen::Index rest = sim.controller.rest_shape.size();
   require(rest == 0 || (rest == model.nv() && sim.controller.rest_shape.allFinite()),

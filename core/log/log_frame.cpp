@@ -10,6 +10,7 @@
 namespace hagfish {
 namespace {
 
+constexpr std::array phases = names_by_value(phase_table);
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 // Frames are some 50 a second of simulated time; a chunk is read and written as one.
@@ -23,14 +24,6 @@ const LabelledAxis both_contacts{2, contact_labels};
 const LabelledAxis strands{4, strand_labels};
 
 LabelledAxis dofs_of(const Model& model) { return {static_cast<hsize_t>(model.nv()), dof_labels}; }
-
-std::vector<std::string> phase_names() {
-  std::vector<std::string> names;
-  for (int k = 0; k < phase_count; ++k) {
-    names.emplace_back(phase_name(static_cast<Phase>(k)));
-  }
-  return names;
-}
 
 /// Bodies of the thigmotaxis contacts, [first, last].
 std::array<int, 2> bodies(const Frame& frame, int (Contact::*body)() const) {
@@ -61,18 +54,6 @@ std::array<double, 2> followed(const Frame& frame, int Contact::*segment, double
   return pair;
 }
 
-/// Forces of constraints, in the order of their datasets.
-struct LoggedForce {
-  RowKind kind;
-  const char* description;
-};
-constexpr std::array<LoggedForce, row_kinds.size()> logged_forces = {
-    {{RowKind::thigmotaxis, "f_thigmo = C_thigmo' lambda_thigmo / h (Eq. 8)"},
-     {RowKind::contact, "self-contact"},
-     {RowKind::limit, "joint limits"},
-     {RowKind::head, "head clamp"},
-     {RowKind::wall, "head plate"}}};
-
 constexpr const char* active_description = "active torque of the animal's muscles, 0 at the root";
 
 void declare_trajectory(const Model& model, LogTable<Frame>& t) {
@@ -84,7 +65,7 @@ void declare_trajectory(const Model& model, LogTable<Frame>& t) {
           [](const Frame& f) { return f.record.step; });
   t.number("/trajectory/time", {"s", "simulated time"},
            [](const Frame& f) { return f.record.time; });
-  t.choice("/trajectory/phase", phase_names(), "phase of the experiment",
+  t.choice("/trajectory/phase", {phases.begin(), phases.end()}, "phase of the experiment",
            [](const Frame& f) { return f.record.controller.phase; });
   t.numbers(
       "/trajectory/q", {nq},
@@ -155,11 +136,11 @@ void declare_knot(LogTable<Frame>& t) {
 
 void declare_forces(const Model& model, LogTable<Frame>& t) {
   const LabelledAxis nv = dofs_of(model);
-  for (const LoggedForce& force : logged_forces) {
+  for (const RowKindEntry& force : row_kind_table) {
     t.numbers(
-        std::string("/forces/") + row_kind_name(force.kind), {nv},
+        std::string("/forces/") + force.name, {nv},
         {"dyn, dyn·cm", force.description, Storage::blocks},
-        [kind = force.kind](const Frame& f) -> const auto& {
+        [kind = force.value](const Frame& f) -> const auto& {
           return f.record.solution.force[kind];
         });
   }
@@ -247,11 +228,11 @@ void declare_memory(const Model& model, const Scene& scene, LogTable<Frame>& t) 
 /// /mean: what stands in the snapshots' groups, as means.
 void declare_means(const Model& model, LogTable<Frame>& t) {
   const std::string since = ", mean over the steps since the frame before; nan at the first frame";
-  for (const LoggedForce& force : logged_forces) {
+  for (const RowKindEntry& force : row_kind_table) {
     t.numbers(
-        std::string("/mean/forces/") + row_kind_name(force.kind), {dofs_of(model)},
+        std::string("/mean/forces/") + force.name, {dofs_of(model)},
         {"dyn, dyn·cm", force.description + since, Storage::blocks},
-        [kind = force.kind](const Frame& f) -> const auto& { return f.mean.force[kind]; });
+        [kind = force.value](const Frame& f) -> const auto& { return f.mean.force[kind]; });
   }
   t.numbers(
       "/mean/forces/active", {dofs_of(model)},
@@ -259,7 +240,7 @@ void declare_means(const Model& model, LogTable<Frame>& t) {
       [](const Frame& f) -> const auto& { return f.mean.active_torque; });
   t.numbers(
       "/mean/forces/net", {dofs_of(model)},
-      {"dyn, dyn·cm", "H (qdot_next - qdot*) / h, what the six add up to, from the motion" + since},
+      {"dyn, dyn·cm", "H (qdot_next - qdot*) / h, what they add up to, from the motion" + since},
       [](const Frame& f) -> const auto& { return f.mean.net_force; });
   const auto row = [&](const char* name, const char* unit, const std::string& description,
                        std::array<double, 4> FrameMeans::*member) {
@@ -360,10 +341,10 @@ void declare_energy(LogTable<Frame>& t) {
   energy("gravity_energy", "potential energy, 0 at the world's origin", &EnergyLedger::gravity);
   energy("work_tip", "work of the scripted force so far", &EnergyLedger::work_tip);
   energy("work_active", "work of the active torque so far", &EnergyLedger::work_active);
-  for (const LoggedForce& force : logged_forces) {
-    t.number(std::string("/diagnostics/work_") + row_kind_name(force.kind),
+  for (const RowKindEntry& force : row_kind_table) {
+    t.number(std::string("/diagnostics/work_") + force.name,
              {"erg", "work so far of: " + std::string(force.description)},
-             [kind = force.kind](const Frame& f) { return f.record.ledger.work(kind); });
+             [kind = force.value](const Frame& f) { return f.record.ledger.work[kind]; });
   }
   energy("dissipated", "lost to drag and joint damping so far", &EnergyLedger::dissipated);
   energy("integrator_inertia",
@@ -390,12 +371,15 @@ void declare_momentum(LogTable<Frame>& t) {
           return f.record.momentum.*member;
         });
   };
+  std::string outside = "impulse of tip, ";
+  for (const RowKindEntry& force : row_kind_table) {
+    if (force.from_outside) outside += std::string(force.description) + ", ";
+  }
+  outside.replace(outside.rfind(", "), 2, " and gravity so far, world axes");
   vector("momentum", "g cm/s", "linear momentum of all bodies, world axes",
          &MomentumLedger::momentum);
   vector("impulse_drag", "dyn s", "impulse of drag so far, world axes", &MomentumLedger::drag);
-  vector("impulse_outside", "dyn s",
-         "impulse of tip, head clamp, head plate and gravity so far, world axes",
-         &MomentumLedger::outside);
+  vector("impulse_outside", "dyn s", outside.c_str(), &MomentumLedger::outside);
   vector("integrator_momentum", "g cm/s", "gained by the integrator so far, world axes",
          &MomentumLedger::integrator);
 }

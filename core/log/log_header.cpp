@@ -6,9 +6,12 @@
 #include <cmath>
 #include <vector>
 
+#include "core/knot/knot.hpp"
 #include "core/log/axis_labels.hpp"
 #include "core/log/build_info.hpp"
 #include "core/log/coordinate_names.hpp"
+#include "core/scene/phase.hpp"
+#include "core/step/row_kind.hpp"
 
 namespace hagfish {
 namespace {
@@ -65,6 +68,24 @@ const std::vector<std::pair<const char*, std::vector<std::string>>>& axis_names(
   return names;
 }
 
+std::vector<std::pair<std::string, std::vector<std::string>>> enumerations() {
+  std::vector<std::string> phases, meanings, forces{"tip", "active"}, knots, invariants;
+  for (const PhaseEntry& phase : phase_table) {
+    phases.emplace_back(phase.name);
+    meanings.emplace_back(phase.description);
+  }
+  for (const RowKindEntry& kind : row_kind_table) forces.emplace_back(kind.name);
+  for (const NamedKnot& knot : named_knots()) {
+    knots.emplace_back(knot.name);
+    invariants.push_back(invariants_text(knot.type));
+  }
+  return {{"/enumerations/phase", phases},
+          {"/enumerations/phase_description", meanings},
+          {"/enumerations/force", forces},
+          {"/enumerations/knot", knots},
+          {"/enumerations/knot_invariants", invariants}};
+}
+
 /// Which muscles there are, and how strong.
 void write_muscles(const Model& model, Hdf5Writer& h5) {
   std::vector<std::string> names;
@@ -99,6 +120,8 @@ void write_model(const Model& model, Hdf5Writer& h5) {
     joints.push_back(joint.joint);
     dofs.insert(dofs.end(), joint.dofs.begin(), joint.dofs.end());
   }
+  h5.group("/enumerations");
+  for (const auto& [path, names] : enumerations()) h5.texts(path, names);
   h5.group("/model");
   h5.numbers(body_labels, body_arcs(model),
              {"cm", "arc length of each body's middle from the head's end at rest"});

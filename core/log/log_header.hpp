@@ -3,6 +3,8 @@
 
 #include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/chain/model.hpp"
 #include "core/log/hdf5_writer.hpp"
@@ -33,7 +35,11 @@ Eigen::VectorXd body_arcs(const Model& model);
 /// Names of what other axes than coordinates, velocities and bodies count: path and names.
 const std::vector<std::pair<const char*, std::vector<std::string>>>& axis_names();
 
-/// /model, and labels of the axes of what stands along bodies and velocities.
+/// /enumerations, lists for readers to walk over, each with its path: the phases in the order of
+/// time, the forces that do work, the knots that have names.
+std::vector<std::pair<std::string, std::vector<std::string>>> enumerations();
+
+/// These, /model, and labels of the axes of what stands along bodies and velocities.
 void write_model(const Model& model, Hdf5Writer& h5);
 
 }  // namespace hagfish

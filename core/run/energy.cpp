@@ -43,7 +43,7 @@ void book_step(const StepInput& in, const StepSolution& step, const Moment& next
   ledger.work_tip += t * step.tip.dot(step.centre_velocity.col(last));
   ledger.work_active += t * step.active_torque.dot(u);
   for (const RowKind kind : row_kinds) {
-    ledger.work(kind) += t * step.force[kind].dot(u);
+    ledger.work[kind] += t * step.force[kind].dot(u);
   }
 
   double damped = 0;   // u'D x

@@ -7,7 +7,6 @@
 // is a check: it closes to rounding, or the step is not what it claims.
 #pragma once
 
-#include <array>
 #include <numeric>
 
 #include "core/step/step.hpp"
@@ -19,9 +18,9 @@ struct EnergyLedger {
   double initial = 0;  ///< kinetic + elastic + gravity at the start
   double kinetic = 0, elastic = 0, gravity = 0;
   double work_tip = 0;
-  double work_active = 0;                               ///< of the muscles: of the active torque
-  std::array<double, row_kinds.size()> work_of_kind{};  ///< of the constraint forces, by row kind
-  double dissipated = 0;                                ///< by drag and joint damping
+  double work_active = 0;  ///< of the muscles: of the active torque
+  ByKind<double> work;     ///< of the constraint forces
+  double dissipated = 0;   ///< by drag and joint damping
   /// (y - (t/h) u)' M Δv with the mean y of the velocities before and after: by Euler's rule
   /// -½ Δv' M Δv, what its steps lose when velocities change, inelastic impacts included, and the
   /// share of the impulse that has no displacement to work over.
@@ -37,10 +36,8 @@ struct EnergyLedger {
   double lowest_error = 0;  ///< of integrator_error() so far
   double largest = 0;       ///< kinetic + elastic so far
 
-  double& work(RowKind kind) { return work_of_kind[static_cast<std::size_t>(kind)]; }
-  double work(RowKind kind) const { return work_of_kind[static_cast<std::size_t>(kind)]; }
   double works() const {
-    return std::accumulate(work_of_kind.begin(), work_of_kind.end(), work_tip + work_active);
+    return std::accumulate(work.of_kind.begin(), work.of_kind.end(), work_tip + work_active);
   }
   double integrator_error() const {
     return integrator_inertia + integrator_potential + integrator_coriolis + integrator_held;

@@ -38,8 +38,11 @@ void book_momentum(const StepInput& in, const StepSolution& step, const Moment& 
     mass += model.bodies[b].mass;
   }
   ledger.drag += h * drag;
-  ledger.outside += h * (mass * model.gravity + step.tip + step.force[RowKind::head].head<3>() +
-                         step.force[RowKind::wall].head<3>());
+  Eigen::Vector3d outside = mass * model.gravity + step.tip;
+  for (const RowKind kind : row_kinds) {
+    if (from_outside(kind)) outside += step.force[kind].head<3>();
+  }
+  ledger.outside += h * outside;
   const Eigen::Vector3d old = ledger.momentum;
   ledger.momentum = linear_momentum(model, next.observation.kin);
   ledger.integrator += ledger.momentum - old - change - h * bias;

@@ -1,25 +1,37 @@
-// The phases of an experiment, in the log's numbering.
+// The phases of an experiment.
 #pragma once
 
 #include <cstdint>
 
+#include "core/scene/enumeration.hpp"
+
 namespace hagfish {
 
-/// Between slide and release come `reverse`, where the knot leaves by the tail, or `pull`, where
-/// the head pulls at food; their numbers are the last ones because logs hold these numbers.
-enum class Phase : std::uint8_t { form, tighten, slide, release, free, reverse, pull };
-inline constexpr int phase_count = 7;
+/// Logs hold these numbers: a new phase comes last.
+enum class Phase : std::uint8_t { form, tighten, slide, release, free, reverse, pull, last = pull };
+
+struct PhaseEntry {
+  Phase value;
+  const char* name;
+  const char* description;
+  bool optional = false;  ///< only where the scene asks for it
+};
+
+/// In the order of time.
+inline constexpr TableOf<PhaseEntry> phase_table{{{Phase::form, "form", "knot forming"},
+                                                  {Phase::tighten, "tighten", "tightening"},
+                                                  {Phase::slide, "slide", "sliding"},
+                                                  {Phase::pull, "pull", "pulling", true},
+                                                  {Phase::reverse, "reverse", "sliding back", true},
+                                                  {Phase::release, "release", "released"},
+                                                  {Phase::free, "free", "free"}}};
+static_assert(lists_each_once(phase_table));
+
+/// Place of a phase in time.
+constexpr int phase_order(Phase phase) { return static_cast<int>(place_in(phase_table, phase)); }
 
 constexpr const char* phase_name(Phase phase) {
-  constexpr const char* names[phase_count] = {"form", "tighten", "slide", "release",
-                                              "free", "reverse", "pull"};
-  return names[static_cast<int>(phase)];
-}
-
-/// Place of a phase in time: form, tighten, slide, pull, reverse, release, free.
-constexpr int phase_order(Phase phase) {
-  constexpr int order[phase_count] = {0, 1, 2, 5, 6, 4, 3};
-  return order[static_cast<int>(phase)];
+  return phase_table[place_in(phase_table, phase)].name;
 }
 
 /// The knot must stay tied: from tightening to release.

@@ -73,12 +73,6 @@ std::optional<double> unilateral(double gap, const ConstraintSettings& settings,
 
 }  // namespace
 
-const char* row_kind_name(RowKind kind) {
-  constexpr std::array<const char*, row_kinds.size()> names = {"head", "limit", "contact", "wall",
-                                                               "thigmotaxis"};
-  return names[static_cast<std::size_t>(kind)];
-}
-
 std::string row_name(const Model& model, const Row& row) {
   const int first = static_cast<int>((row.id >> 20) & 0xfffff);
   const int second = static_cast<int>(row.id & 0xfffff);

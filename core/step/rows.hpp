@@ -19,14 +19,9 @@
 #include "core/contact/contact.hpp"
 #include "core/contact/spline.hpp"
 #include "core/scene/settings.hpp"
+#include "core/step/row_kind.hpp"
 
 namespace hagfish {
-
-enum class RowKind : std::uint8_t { head, limit, contact, wall, thigmotaxis };
-inline constexpr std::array row_kinds = {RowKind::head, RowKind::limit, RowKind::contact,
-                                         RowKind::wall, RowKind::thigmotaxis};
-/// "head", "limit", "contact", "wall", "thigmotaxis": as the log names their forces.
-const char* row_kind_name(RowKind kind);
 
 struct Row {
   RowKind kind = RowKind::limit;

@@ -65,13 +65,7 @@ enum class SolveKind : std::uint8_t { linear, kkt, qp };
 inline constexpr std::array solve_kind_names = {"linear", "kkt", "qp"};
 
 /// Multiplier forces C'λ / h (paper, Eqs. 7 and 8), generalised, nv each.
-struct ConstraintForces {
-  std::array<Eigen::VectorXd, row_kinds.size()> of_kind;
-
-  Eigen::VectorXd& operator[](RowKind kind) { return of_kind[static_cast<std::size_t>(kind)]; }
-  const Eigen::VectorXd& operator[](RowKind kind) const {
-    return of_kind[static_cast<std::size_t>(kind)];
-  }
+struct ConstraintForces : ByKind<Eigen::VectorXd> {
   /// Their sum into `sum` (nv).
   void total(Eigen::VectorXd& sum) const;
   Eigen::VectorXd total() const;

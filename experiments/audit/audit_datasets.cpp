@@ -31,6 +31,11 @@ void check_names(const LogContents& log) {
       throw FileError(log.h5.file() + ": " + muscle_labels + " does not name its muscles");
     }
   }
+  for (const auto& [path, names] : enumerations()) {
+    if (log.h5.texts(path) != names) {
+      throw FileError(log.h5.file() + ": " + path + " is not the list of this program");
+    }
+  }
   for (const auto& [path, names] : axis_names()) {
     if (log.h5.texts(path) != names) {
       throw FileError(log.h5.file() + ": " + path + " does not hold the names of its axis");

@@ -59,16 +59,9 @@ double false_passes(const LogContents& log, const std::vector<double>& remaining
 ForceAudit::ForceAudit(const LogContents& log)
     : log_(log),
       rows_(log),
-      thigmotaxis_(log.h5.rows("/forces/thigmotaxis")),
-      contact_(log.h5.rows("/forces/contact")),
-      limit_(log.h5.rows("/forces/limit")),
-      head_(log.h5.rows("/forces/head")),
-      wall_(log.h5.rows("/forces/wall")),
       tip_(log.h5.rows("/forces/tip")),
       active_torque_(log.h5.rows("/forces/active")),
-      mean_{log.h5.rows("/mean/forces/thigmotaxis"), log.h5.rows("/mean/forces/contact"),
-            log.h5.rows("/mean/forces/limit"),       log.h5.rows("/mean/forces/head"),
-            log.h5.rows("/mean/forces/wall"),        log.h5.rows("/mean/forces/active")},
+      mean_active_(log.h5.rows("/mean/forces/active")),
       mean_net_(log.h5.rows("/mean/forces/net")),
       mean_lambda_(log.h5.rows("/mean/thigmotaxis/lambda")),
       contact_frame_(log.h5.integers("/contacts/frame")),
@@ -79,6 +72,10 @@ ForceAudit::ForceAudit(const LogContents& log)
       contact_a_(log.h5.doubles("/contacts/spline_a")),
       contact_b_(log.h5.doubles("/contacts/spline_b")),
       contact_force_(log.h5.doubles("/contacts/force")) {
+  for (const RowKindEntry& kind : row_kind_table) {
+    force_[kind.value] = log.h5.rows(std::string("/forces/") + kind.name);
+    mean_[kind.value] = log.h5.rows(std::string("/mean/forces/") + kind.name);
+  }
   if (log.own_law()) {
     asked_tip_ = log.h5.rows("/control/tip");
     asked_tip_rate_ = log.h5.doubles("/control/tip_rate");
@@ -88,7 +85,8 @@ ForceAudit::ForceAudit(const LogContents& log)
 void ForceAudit::see(const AuditedFrame& frame) {
   const Eigen::Index f = frame.index;
   const ThigmotaxisAudit::Rows rows = rows_.see(frame, from_rows_, shape_);
-  from_rows_.compare("/forces/thigmotaxis", thigmotaxis_.row(f).transpose(), rows.force);
+  from_rows_.compare("/forces/thigmotaxis", force_[RowKind::thigmotaxis].row(f).transpose(),
+                     rows.force);
   const std::size_t first_contact = next_contact_;
   see_contacts(frame);
   see_limits(frame);
@@ -99,7 +97,7 @@ void ForceAudit::see(const AuditedFrame& frame) {
     see_means(frame, rows);
   }
   rows_before_ = rows;
-  const std::int64_t head = (head_.row(f).array() != 0).count();
+  const std::int64_t head = (force_[RowKind::head].row(f).array() != 0).count();
   const std::int64_t bearing = rows.bearing + bearing_limits(frame) + head +
                                static_cast<std::int64_t>(next_contact_ - first_contact);
   // A cone that bears may be followed by one more tangent a correction.
@@ -110,7 +108,7 @@ void ForceAudit::see(const AuditedFrame& frame) {
 }
 
 std::int64_t ForceAudit::bearing_limits(const AuditedFrame& frame) const {
-  const Eigen::VectorXd force = limit_.row(frame.index);
+  const Eigen::VectorXd force = force_[RowKind::limit].row(frame.index);
   std::int64_t count = (force.array() != 0).count();
   for (const BendingCone& cone : log_.model.cones) {  // one row on both
     count -= force[cone.dof] != 0 && force[cone.dof + 1] != 0 ? 1 : 0;
@@ -119,7 +117,7 @@ std::int64_t ForceAudit::bearing_limits(const AuditedFrame& frame) const {
 }
 
 std::int64_t ForceAudit::bearing_cones(const AuditedFrame& frame) const {
-  const Eigen::VectorXd force = limit_.row(frame.index);
+  const Eigen::VectorXd force = force_[RowKind::limit].row(frame.index);
   return std::ranges::count_if(log_.model.cones, [&force](const BendingCone& cone) {
     return !force.segment<2>(cone.dof).isZero(0);
   });
@@ -144,15 +142,16 @@ void ForceAudit::see_contacts(const AuditedFrame& frame) {
     (of_wall ? wall : contact) +=
         force_of(model, frame.kin, motion_row(model, normal, a, b), force);
   }
-  from_rows_.compare("/forces/contact", contact_.row(frame.index).transpose(), contact);
-  from_rows_.compare("/forces/wall", wall_.row(frame.index).transpose(), wall);
+  from_rows_.compare("/forces/contact", force_[RowKind::contact].row(frame.index).transpose(),
+                     contact);
+  from_rows_.compare("/forces/wall", force_[RowKind::wall].row(frame.index).transpose(), wall);
 }
 
 void ForceAudit::see_limits(const AuditedFrame& frame) {
   const Model& model = log_.model;
   const Scene& scene = log_.resolved.scene;
   const double h = scene.time.step;
-  const Eigen::VectorXd force = limit_.row(frame.index);
+  const Eigen::VectorXd force = force_[RowKind::limit].row(frame.index);
   if ((force.head(root_dofs).array() != 0).any()) {
     shape_.insert("/forces/limit");
   }
@@ -195,7 +194,7 @@ void ForceAudit::see_cone(const AuditedFrame& frame, const BendingCone& cone,
 }
 
 void ForceAudit::see_head(const AuditedFrame& frame) {
-  const Eigen::VectorXd force = head_.row(frame.index);
+  const Eigen::VectorXd force = force_[RowKind::head].row(frame.index);
   const Eigen::Index first_free = frame.clamped ? root_dofs : 0;
   if ((force.tail(force.size() - first_free).array() != 0).any()) {
     shape_.insert("/forces/head");
@@ -226,9 +225,9 @@ void ForceAudit::see_balance(const AuditedFrame& frame) {
   StepSystem system;
   assemble_step_system(model, frame.state, frame.motion, frame.kin, {tip_.row(f).transpose(), 0},
                        {reach, time.spring_damping()}, system);
-  const Eigen::VectorXd sum = (thigmotaxis_.row(f) + contact_.row(f) + limit_.row(f) +
-                               head_.row(f) + wall_.row(f) + active_torque_.row(f))
-                                  .transpose();
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(model.nv());
+  for (const RowKindEntry& kind : row_kind_table) sum += force_[kind.value].row(f).transpose();
+  sum += active_torque_.row(f).transpose();
   const Eigen::VectorXd given =
       generalised_force(model, frame.kin, system.wrench) + system.joint + reach * sum;
   if (log_.midpoint()) {
@@ -247,28 +246,32 @@ void ForceAudit::see_balance(const AuditedFrame& frame) {
 void ForceAudit::see_means(const AuditedFrame& frame, const ThigmotaxisAudit::Rows& rows) {
   const Eigen::Index f = frame.index;
   const auto row = [f](const Hdf5Reader::Rows& of) -> Eigen::VectorXd { return of.row(f); };
-  const auto& [thigmotaxis, contact, limit, head, wall, active] = mean_;
-  const Eigen::VectorXd sum =
-      row(thigmotaxis) + row(contact) + row(limit) + row(head) + row(wall) + row(active);
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(log_.model.nv());
+  for (const RowKindEntry& kind : row_kind_table) sum += row(mean_[kind.value]);
+  sum += row(mean_active_);
   // Forces alone may be nothing but rounding of the momentum.
   mean_imbalance_ =
       worse(mean_imbalance_, mismatch(sum, row(mean_net_), std::max(momentum_, momentum_before_)));
-  const auto ask = [this](const char* path, bool met) {
+  const auto ask = [this](const std::string& path, bool met) {
     if (!met) {
       shape_.insert(path);
     }
   };
-  ask("/mean/forces/limit", (row(limit).head(root_dofs).array() == 0).all());
-  ask("/mean/forces/active", (row(active).head(root_dofs).array() == 0).all());
-  ask("/mean/forces/head", (row(head).tail(row(head).size() - root_dofs).array() == 0).all());
+  const Eigen::VectorXd wall = row(mean_[RowKind::wall]);
+  const Eigen::Index hinges = sum.size() - root_dofs;
+  ask("/mean/forces/limit", row(mean_[RowKind::limit]).head(root_dofs).isZero(0));
+  ask("/mean/forces/active", row(mean_active_).head(root_dofs).isZero(0));
+  ask("/mean/forces/head", row(mean_[RowKind::head]).tail(hinges).isZero(0));
   // Action is reaction within the body, not at the head plate, which pushes tailward.
   const auto internal = [](const Eigen::VectorXd& force) {
     return force.head<3>().lpNorm<Eigen::Infinity>() <=
            rebuilt_tolerance * force.lpNorm<Eigen::Infinity>();
   };
-  ask("/mean/forces/thigmotaxis", internal(row(thigmotaxis)));
-  ask("/mean/forces/contact", internal(row(contact)));
-  ask("/mean/forces/wall", (row(wall).array() == 0).all() || row(wall)[0] > 0);
+  for (const RowKindEntry& kind : row_kind_table) {
+    if (kind.from_outside) continue;
+    ask(std::string("/mean/forces/") + kind.name, internal(row(mean_[kind.value])));
+  }
+  ask("/mean/forces/wall", wall.isZero(0) || wall[0] > 0);
   // Multipliers of rows at other contacts, which come and go, are not known as means.
   if (rows.others || rows_before_.others) {
     return;
@@ -277,7 +280,7 @@ void ForceAudit::see_means(const AuditedFrame& frame, const ThigmotaxisAudit::Ro
   const Eigen::MatrixXd& before = rows_before_.columns;
   const Eigen::VectorXd expected = 0.5 * (columns + before) * mean_lambda_.row(f).transpose();
   if ((columns.array() != 0).any() && (before.array() != 0).any()) {
-    mean_deviation_.push_back(mismatch(row(thigmotaxis), expected));
+    mean_deviation_.push_back(mismatch(row(mean_[RowKind::thigmotaxis]), expected));
   }
 }
 

@@ -2,7 +2,6 @@
 // the multipliers, and holds their sum against the motion.
 #pragma once
 
-#include <array>
 #include <set>
 #include <string>
 #include <vector>
@@ -36,9 +35,8 @@ class ForceAudit {
 
   const LogContents& log_;
   ThigmotaxisAudit rows_;
-  Hdf5Reader::Rows thigmotaxis_, contact_, limit_, head_, wall_, tip_, active_torque_;
-  std::array<Hdf5Reader::Rows, 6> mean_;  ///< thigmotaxis, contact, limit, head, wall, active
-  Hdf5Reader::Rows mean_net_, mean_lambda_;
+  ByKind<Hdf5Reader::Rows> force_, mean_;
+  Hdf5Reader::Rows tip_, active_torque_, mean_active_, mean_net_, mean_lambda_;
   std::vector<std::int64_t> contact_frame_, active_;
   std::vector<double> middle_off_, remaining_;  ///< of each step, by the midpoint rule
   Steps steps_;

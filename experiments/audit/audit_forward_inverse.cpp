@@ -17,11 +17,11 @@ namespace {
 
 /// All forces of each frame but the tip's, generalised.
 Hdf5Reader::Rows generalised_forces(const LogContents& log) {
-  Hdf5Reader::Rows sum = log.h5.rows("/forces/thigmotaxis");
-  for (const char* block : {"contact", "limit", "head", "wall", "active"}) {
-    sum += log.h5.rows(std::string("/forces/") + block);
+  Hdf5Reader::Rows sum = Hdf5Reader::Rows::Zero(log.q.rows(), log.model.nv());
+  for (const RowKindEntry& kind : row_kind_table) {
+    sum += log.h5.rows(std::string("/forces/") + kind.name);
   }
-  return sum;
+  return sum + log.h5.rows("/forces/active");
 }
 
 MujocoModel mirror_of(const LogContents& log) {

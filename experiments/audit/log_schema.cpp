@@ -35,12 +35,6 @@ constexpr const char* always_there[] = {"/trajectory/time",
                                         "/trajectory/qdot_next",
                                         "/trajectory/phase",
                                         "/trajectory/step",
-                                        "/forces/tip",
-                                        "/forces/thigmotaxis",
-                                        "/forces/contact",
-                                        "/forces/limit",
-                                        "/forces/head",
-                                        "/forces/wall",
                                         "/thigmotaxis/body_b",
                                         "/knot/determinant",
                                         "/knot/v2",
@@ -193,9 +187,9 @@ void check_form(const Hdf5Reader& log, const DatasetForm& form) {
 void check_schema(const Hdf5Reader& log, const Model& model, const Scene& scene) {
   const std::vector<DatasetForm> forms = log_forms(log, model, scene);
   for (const DatasetForm& form : forms) {
-    const bool needed = form.path.starts_with("/midway/") || form.path.starts_with("/eq6/") ||
-                        form.path.starts_with("/control/") || form.path.starts_with("/basis/") ||
-                        form.path.starts_with("/muscle/") ||
+    const bool needed = form.path.starts_with("/forces/") || form.path.starts_with("/midway/") ||
+                        form.path.starts_with("/eq6/") || form.path.starts_with("/control/") ||
+                        form.path.starts_with("/basis/") || form.path.starts_with("/muscle/") ||
                         std::ranges::find(always_there, form.path) != std::end(always_there);
     if (needed || log.has(form.path)) check_form(log, form);
   }
@@ -206,7 +200,7 @@ void check_schema(const Hdf5Reader& log, const Model& model, const Scene& scene)
   check_activations(log);
   const auto frames = static_cast<std::int64_t>(rows_of(log, "/trajectory/time"));
   constexpr auto last_solve = static_cast<std::int64_t>(SolveKind::qp);
-  check_whole(log, "/trajectory/phase", 0, phase_count - 1);
+  check_whole(log, "/trajectory/phase", 0, static_cast<int>(Phase::last));
   check_whole(log, "/steps/solve", 0, last_solve);
   check_whole(log, "/diagnostics/solve", 0, last_solve);
   check_whole(log, "/contacts/frame", 0, frames - 1);

@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <string>
 #include <utility>
 
 #include "core/chain/dynamics.hpp"
+#include "core/step/row_kind.hpp"
 #include "experiments/export/export_tables.hpp"
 
 namespace hagfish {
@@ -11,13 +13,17 @@ using namespace export_unit;
 
 const std::string mean = "; mean since the frame before";
 
-/// The datasets of /mean/forces that act on hinges, and the column of each.
-constexpr std::pair<const char*, const char*> torque_kinds[] = {
-    {"active", "of the animal's muscles"},
-    {"thigmotaxis", "f_thigmo, what slides the knot (Eq. 8)"},
-    {"contact", "of self-contact"},
-    {"limit", "of joint limits"},
-    {"wall", "of the head plate"}};
+std::string of(const RowKindEntry& kind) { return std::string("of: ") + kind.description; }
+
+/// Forces of /mean/forces that act on hinges, and the column of each: all but the clamp's, on the
+/// root.
+std::vector<std::pair<std::string, std::string>> torque_kinds() {
+  std::vector<std::pair<std::string, std::string>> kinds{{"active", "of the animal's muscles"}};
+  for (const RowKindEntry& kind : row_kind_table) {
+    if (kind.value != RowKind::head) kinds.emplace_back(kind.name, of(kind));
+  }
+  return kinds;
+}
 
 ExportTable torque_table(const LogContents& log, bool si) {
   std::vector<ExportColumn> columns{
@@ -28,13 +34,13 @@ ExportTable torque_table(const LogContents& log, bool si) {
       {"s", centimetre, "arc length of the joint from the head's end at rest"},
       {"angle", radian, "of the hinge at the frame"},
       {"spring", torque, "of the body's own stiffness, at the frame"}};
-  for (const auto& [kind, meaning] : torque_kinds) {
+  for (const auto& [kind, meaning] : torque_kinds()) {
     columns.push_back({kind, torque, meaning + mean});
   }
   ExportTable table("torques.csv", columns, si);
   std::vector<Hdf5Reader::Rows> kinds;
-  for (const auto& [kind, meaning] : torque_kinds) {
-    kinds.push_back(log.h5.rows(std::string("/mean/forces/") + kind));
+  for (const auto& [kind, meaning] : torque_kinds()) {
+    kinds.push_back(log.h5.rows("/mean/forces/" + kind));
   }
   constexpr const char* axes[] = {"twist", "bend_y", "bend_z"};
   const double length = log.model.length() / log.model.body_count();
@@ -142,24 +148,22 @@ ExportTable head_table(const LogContents& log, bool si) {
 }
 
 ExportTable energy_table(const LogContents& log, bool si) {
-  constexpr std::pair<const char*, const char*> terms[] = {
+  std::vector<std::pair<std::string, std::string>> terms{
       {"kinetic_energy", "at the frame"},
       {"elastic_energy", "in the joint springs, at the frame"},
       {"gravity_energy", "at the frame, 0 at the world's origin"},
       {"work_tip", "of the scripted force on the tail, so far"},
-      {"work_active", "of the muscles, so far"},
-      {"work_thigmotaxis", "of f_thigmo, so far"},
-      {"work_contact", "of self-contact, so far"},
-      {"work_limit", "of joint limits, so far"},
-      {"work_head", "of the head clamp, so far"},
-      {"work_wall", "of the head plate, so far"},
-      {"dissipated", "lost to water drag and joint damping, so far"},
-      {"integrator_error", "gained by the integrator itself, so far"}};
+      {"work_active", "of the muscles, so far"}};
+  for (const RowKindEntry& kind : row_kind_table) {
+    terms.emplace_back(std::string("work_") + kind.name, of(kind) + ", so far");
+  }
+  terms.emplace_back("dissipated", "lost to water drag and joint damping, so far");
+  terms.emplace_back("integrator_error", "gained by the integrator itself, so far");
   std::vector<ExportColumn> columns{frame_column, time_column};
   std::vector<std::vector<double>> values;
   for (const auto& [name, meaning] : terms) {
     columns.push_back({name, energy, meaning});
-    values.push_back(log.h5.doubles(std::string("/diagnostics/") + name));
+    values.push_back(log.h5.doubles("/diagnostics/" + name));
   }
   ExportTable table("energy.csv", columns, si);
   for (std::size_t f = 0; f < log.time.size(); ++f) {

@@ -17,7 +17,7 @@ from means import effort_per_cm, read_means
 from script import run_script
 from sweep_columns import SweepTable, read_sweep
 
-SCENES = {"living_overhand": "3_1", "living_figure_eight": "4_1", "living_double_overhand": "5_1", "living_three_twist": "5_2"}
+SCENES = {f"living_{name}": knot for name, knot in plots.SCENES.items()}
 FRAMES = {"knot": "in the knot's window", "body": "along the body"}
 NUMBERS = (3, 6, 9, 12, 18)
 TRANSFERS = {"": "as found", "_start": "3 degrees of noise at the start", "_step": "h = 2 ms", "_bodies": "60 bodies", "_mirror": "mirrored"}

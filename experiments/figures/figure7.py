@@ -30,8 +30,6 @@ LEAST_WIDTH = 17.5  # of a panel, cm: room for its caption
 LEAST_TRAVEL = 1.0  # of the knot's head end for pictures of it on its way, cm
 WORD = (0.22, 0.10)  # inches that "head" or "tail" takes
 BACKGROUND = 0.98  # of a pixel's colour, where nothing is drawn
-WORDS = {"form": "knot forming", "tighten": "tightening", "slide": "sliding", "pull": "pulling", "reverse": "sliding back",
-         "release": "released", "free": "free"}
 
 
 @dataclass
@@ -210,7 +208,8 @@ def label_ends(axes: Any, log: HagfishLog, frame: int, view: Camera, picture: Pi
 def caption(log: HagfishLog, letter: str, stage: Stage) -> str:
     """Letter, stage, phase, time and where the knot is."""
     phase = str(log.labels("/trajectory/phase")[stage.frame])
-    titled = f"{stage.title}\n{WORDS[phase]}, " if stage.title else f"{WORDS[phase]}\n"
+    word = log.named("phase_description", by="phase")[phase]
+    titled = f"{stage.title}\n{word}, " if stage.title else f"{word}\n"
     text = f"({letter}) {titled}$t$ = {log['/trajectory/time'][stage.frame]:.2f} s"
     ends = [log[f"/knot/{end}_end"][stage.frame] for end in ("head", "tail")]
     knotted = log["/knot/determinant"][stage.frame] != 1 and np.all(np.isfinite(ends))

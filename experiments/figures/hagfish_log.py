@@ -115,8 +115,13 @@ class HagfishLog:
             by_value = {value: word for word, value in words.items()}
             return np.array([by_value[int(value)] for value in self[path]])
 
+    def named(self, what: str, by: str) -> dict[str, str]:
+        """One of /enumerations by another: what a phase is, a knot's name by its invariants."""
+        keys, names = (self.strings(f"/enumerations/{name}") for name in (by, what))
+        return dict(zip(keys, names))
+
     def in_phase(self, phase: str) -> np.ndarray:
-        """Indices of the frames of one phase: form, tighten, slide, pull, reverse, release, free."""
+        """Indices of the frames of one phase, one of /enumerations/phase."""
         return np.flatnonzero(self.labels("/trajectory/phase") == phase)
 
     def intervals_in(self, phase: str) -> np.ndarray:

@@ -18,7 +18,6 @@ from hagfish_log import HagfishLog, LogError
 from pulls import NEWTON, Pull, read_pull, read_strand, settled
 from script import run_script
 
-KNOTS = {"overhand": "3_1", "figure_eight": "4_1", "double_overhand": "5_1", "three_twist": "5_2"}
 BODIES = {"table1": "Table 1", "living": "living"}
 TOOTH_MUSCLE = 16.0  # N, clavatus of the tooth plate: Clark & Summers 2007, J. Exp. Biol. 210:3897
 CAPACITY = 2.7  # N cm, a guess: data/living_overhand.toml
@@ -56,7 +55,7 @@ def read_run(path: Path) -> Run:
     if pull is not None and not pull.force.size:
         outcome, pull = "too short", None
     deepest = float(log["/steps/penetration"].max())
-    return Run(kind, body, KNOTS[knot], value, int(seed), outcome, pull, deepest, "penetration" in unmet)
+    return Run(kind, body, plots.SCENES[knot], value, int(seed), outcome, pull, deepest, "penetration" in unmet)
 
 
 def chosen(runs: Iterable[Run], body: str, knot: str, *kinds: str, value: str | None = None) -> list[Run]:
@@ -73,7 +72,7 @@ def spread(values: list[float], digits: int = 2) -> str:
 def starts_table(runs: list[Run]) -> list[str]:
     rows = []
     for body, label in BODIES.items():
-        for knot in KNOTS.values():
+        for knot in plots.SCENES.values():
             all_starts = chosen(runs, body, knot, "start")
             pulls = [run.pull for run in all_starts if run.pull]
             mirrored, plain = ([(run.outcome, run.pull and run.pull.mean) for run in chosen(runs, body, knot, kind)]
@@ -95,7 +94,7 @@ def work_table(folder: Path) -> list[str]:
     """What a slip of the whole body along itself would cost and yield, were the knot to keep its shape."""
     rows = []
     for body, label in BODIES.items():
-        for scene, knot in KNOTS.items():
+        for scene, knot in plots.SCENES.items():
             path = folder / f"plain-{body}-{scene}-0-1.h5"
             if not path.is_file() or not settled(log := HagfishLog(path)).size:
                 continue
@@ -126,7 +125,7 @@ def sweep_table(runs: list[Run], kind: str) -> list[str]:
     values = sorted({float(run.value) for run in runs if run.kind == kind} | set(BASE[kind].values()))
     rows = []
     for body in BASE[kind]:
-        for knot in KNOTS.values():
+        for knot in plots.SCENES.values():
             there = chosen(runs, body, knot, kind)
             pulls = dict(points(runs, body, knot, kind))
             deep = {float(run.value) for run in there if run.deep}

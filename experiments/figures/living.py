@@ -21,7 +21,6 @@ from hagfish_log import HagfishLog, LogError
 from script import run_script
 from slides import read_slide
 
-KNOTS = {"overhand": "3_1", "figure_eight": "4_1", "double_overhand": "5_1", "three_twist": "5_2"}
 SWEEPS = {"stiffness": "flexural rigidity, dyn cm²", "drag": "drag, times that of the scenes", "haste": "speed of the program"}
 CAPACITY = 2.7e5  # dyn cm, a guess: data/living_overhand.toml
 MARKER_EVERY = 0.1  # of the length of a line
@@ -107,7 +106,7 @@ def read_starts(folder: Path, head: str, scene: str) -> Starts:
     end = plain.in_phase("form")[-1]
     result = Starts(0, 0, 0, 0, [], [], [])
     for name in names_of(folder, f"{head}start", scene):
-        run = read_run(folder, name, KNOTS[scene])
+        run = read_run(folder, name, plots.SCENES[scene])
         log = HagfishLog(folder / f"{name}.h5")
         start = log.scene()["start"]
         result.noise = np.degrees(float(start.get("noise_rad", np.radians(start.get("noise_deg", 0)))))
@@ -123,7 +122,7 @@ def read_starts(folder: Path, head: str, scene: str) -> Starts:
 def starts_table(folder: Path) -> list[str]:
     rows = []
     for head in ("held", "free"):
-        for scene, knot in KNOTS.items():
+        for scene, knot in plots.SCENES.items():
             starts = read_starts(folder, head, scene)
             rows.append([head, knot, f"{starts.noise:g}", f"{starts.off} of {starts.count}", f"{starts.far} of {starts.count}",
                          f"{100 * np.nanmin(starts.met):.0f}", f"{max(starts.apart):.1e}", f"{np.nanmin(starts.alike):.4f}",
@@ -135,7 +134,7 @@ def starts_table(folder: Path) -> list[str]:
 def claims_table(folder: Path) -> list[str]:
     """Verdicts and measures of claim_row.py over starts with a degree of noise."""
     rows = []
-    for scene, knot in KNOTS.items():
+    for scene, knot in plots.SCENES.items():
         judged, others = [], Counter()
         for name in names_of(folder, "claims", scene):
             log = HagfishLog(folder / f"{name}.h5")
@@ -158,7 +157,7 @@ def claims_table(folder: Path) -> list[str]:
 
 def draw(folder: Path, sweeps: dict[str, dict[str, list[tuple[float, Run]]]], out: Path) -> None:
     figure, axes = plots.panels(2, 2, (10, 7), ["what a noisy start leaves behind", *(f"torque by {what}" for what in SWEEPS)])
-    for scene, knot in KNOTS.items():
+    for scene, knot in plots.SCENES.items():
         look = plots.KNOTS[knot]
         plain = HagfishLog(folder / f"held_{scene}.h5")
         time, apart = shape_apart(plain, HagfishLog(folder / f"heldstart_{scene}_1.h5"))
@@ -193,14 +192,14 @@ def main(folder: Path, table: Path, out: Path, page: Path) -> None:
     if not list(folder.glob("held_*.check.csv")):
         raise LogError(f"{folder}: holds no run held_*")
     value_of = lambda name: name.rsplit("_", 1)[1]
-    runs_of = lambda kind, scene: [(value_of(name), read_run(folder, name, KNOTS[scene])) for name in names_of(folder, kind, scene)]
+    runs_of = lambda kind, scene: [(value_of(name), read_run(folder, name, plots.SCENES[scene])) for name in names_of(folder, kind, scene)]
     scenes = [(kind, read_run(folder, f"{kind}_{scene}", knot))
-              for kind in ("held", "free", "ipopt", "fine") for scene, knot in KNOTS.items()]
+              for kind in ("held", "free", "ipopt", "fine") for scene, knot in plots.SCENES.items()]
     sweeps = {what: {knot: sorted(((float(value), run) for value, run in runs_of(what, scene)), key=lambda each: each[0])
-                     for scene, knot in KNOTS.items()} for what in SWEEPS}
+                     for scene, knot in plots.SCENES.items()} for what in SWEEPS}
     of_sweeps = [(f"{what} {value:g}", run) for what, knots in sweeps.items() for runs in knots.values() for value, run in runs]
-    both = [(value.replace("-", " "), run) for scene in KNOTS for value, run in runs_of("both", scene)]
-    animals = [(f"animal {value}", run) for scene in KNOTS for value, run in sorted(runs_of("animal", scene), key=lambda each: int(each[0]))]
+    both = [(value.replace("-", " "), run) for scene in plots.SCENES for value, run in runs_of("both", scene)]
+    animals = [(f"animal {value}", run) for scene in plots.SCENES for value, run in sorted(runs_of("animal", scene), key=lambda each: int(each[0]))]
     draw(folder, sweeps, out)
     head = ["run", "knot", "outcome", "slide, cm", "Eq. 6 met, %", "λ/h, median, dyn", "deepest overlap, cm",
             "torque forming, dyn cm", "torque sliding, dyn cm", "work of muscles, erg", "of thigmotaxis, erg",

@@ -16,7 +16,6 @@ from hagfish_log import HagfishLog, LogError
 from muscle_log import Effort, Muscles
 from script import run_script
 
-SCENES = {"overhand": "3_1", "figure_eight": "4_1", "double_overhand": "5_1", "three_twist": "5_2"}
 
 
 def sliding(log: HagfishLog) -> np.ndarray:
@@ -47,8 +46,8 @@ def rows_of(name: str, efforts: list[Effort]) -> list[list[str]]:
 
 
 def by_knot(folder: Path) -> list[str]:
-    tied = [Muscles(HagfishLog(folder / f"tie_{scene}.h5")) for scene in SCENES]
-    pulled = [Muscles(HagfishLog(folder / f"pull_{scene}.h5")) for scene in SCENES]
+    tied = [Muscles(HagfishLog(folder / f"tie_{scene}.h5")) for scene in plots.SCENES]
+    pulled = [Muscles(HagfishLog(folder / f"pull_{scene}.h5")) for scene in plots.SCENES]
     slides = [sliding(m.log) for m in tied]
     slid = [m.of(frames) for m, frames in zip(tied, slides)]
     rows = rows_of("tying", [m.of(m.log.intervals_in("form")) for m in tied])
@@ -58,7 +57,7 @@ def by_knot(folder: Path) -> list[str]:
              ["sliding: work of muscles, erg for each cm", *(f"{work(m.log, f) / way(m.log):.2g}" for m, f in zip(tied, slides))],
              ["sliding: one pair of constant arms instead, off by: median; largest, %",
               *("{:.0f}; {:.0f}".format(*(100 * off for off in m.pair_off(f))) for m, f in zip(tied, slides))]]
-    return tables.markdown(["", *SCENES.values()], rows)
+    return tables.markdown(["", *plots.SCENES.values()], rows)
 
 
 def forward(folder: Path) -> list[str]:
@@ -80,7 +79,7 @@ def forward(folder: Path) -> list[str]:
 
 def stiffness(folder: Path, out: Path) -> None:
     figure, panels = plots.panels(1, 2, (8.5, 3.4), ["peak activation while tying and sliding", "frames in which a muscle is too weak"])
-    for scene, knot in SCENES.items():
+    for scene, knot in plots.SCENES.items():
         found = {2e5: folder / f"tie_{scene}.h5"}
         for path in folder.glob(f"ei_{scene}_*.h5"):
             found[float(re.sub(r".*_", "", path.stem))] = path

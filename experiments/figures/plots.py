@@ -43,6 +43,7 @@ class Look:
         return {"color": self.colour, "marker": self.marker}
 
 
+SCENES = {"overhand": "3_1", "figure_eight": "4_1", "double_overhand": "5_1", "three_twist": "5_2"}  # what each knot's scenes are called
 KNOTS = {"3_1": Look("$3_1$ overhand", BLUE, "o"), "4_1": Look("$4_1$ figure-eight", ORANGE, "s"),
          "5_1": Look("$5_1$ double overhand", INK, "^"), "5_2": Look("$5_2$ three-twist", PURPLE, "D")}
 INTEGRATORS = {"core": Look("core, Euler", INK, "o"), "core_midpoint": Look("core, midpoint", VERMILION, "v"), "mujoco_euler": Look("MuJoCo Euler", BLUE, "s"),

@@ -15,9 +15,6 @@ from hagfish_log import HagfishLog, LogError
 from script import run_script
 from tables import markdown, write_page
 
-PHASES = ("form", "tighten", "slide", "release", "free")
-KNOTS = {(1, 0): "unknot", (3, 1): "3_1", (5, -1): "4_1", (5, 3): "5_1", (7, 2): "5_2"}
-WORKS = ("tip", "thigmotaxis", "contact", "limit", "head", "wall")
 ROWS = ("first, t_a", "first, t_b", "last, t_a", "last, t_b")
 MET = 1e-6  # slack of a row of Eq. 6 that counts as met, of its command or of 1 cm/s: Ipopt's own tolerance
 QP_TIME = 4e-3  # s, median of a QP: a matter of the machine, so that no scene expects it
@@ -118,8 +115,9 @@ def table_one(log: HagfishLog) -> list[str]:
 
 def knot_types(log: HagfishLog, frames: np.ndarray) -> dict[str, int]:
     """Knot types of the frames and how many frames each."""
-    names = [KNOTS.get((int(d), int(v)), f"det {d}, v2 {v}") for d, v in
-             zip(log["/knot/determinant"][frames], log["/knot/v2"][frames])]
+    named = log.named("knot", by="knot_invariants")
+    types = (f"det={d},v2={v}" for d, v in zip(log["/knot/determinant"][frames], log["/knot/v2"][frames]))
+    names = [named.get(type_, type_) for type_ in types]
     return {name: names.count(name) for name in dict.fromkeys(names)}
 
 
@@ -132,7 +130,7 @@ def span(values: np.ndarray) -> str:
 def timetable(log: HagfishLog) -> list[str]:
     """Each phase: when, how long, the knot and where its ends were."""
     rows, time = [], log["/trajectory/time"]
-    for phase in PHASES:
+    for phase in log.strings("/enumerations/phase"):
         frames = log.in_phase(phase)
         if not frames.size:
             rows.append([phase, "not reached", "", "", "", ""])
@@ -171,7 +169,7 @@ def ledger(log: HagfishLog) -> list[str]:
     """The energy ledger's table."""
     read = lambda name: log[f"/diagnostics/{name}"] - log[f"/diagnostics/{name}"][0]
     stored = read("kinetic_energy") + read("elastic_energy") + read("gravity_energy")
-    works = {f"work of {name}": read(f"work_{name}") for name in WORKS}
+    works = {f"work of {name}": read(f"work_{name}") for name in log.strings("/enumerations/force")}
     lost, integrator = read("dissipated"), read("integrator_error")
     gap = stored - (sum(works.values()) - lost + integrator)
     terms = {"kinetic + elastic energy": stored, **works, "dissipated": lost, "integrator error": integrator,

@@ -6,6 +6,7 @@
 #include "core/input/input_error.hpp"
 #include "core/log/build_info.hpp"
 #include "core/log/hdf5_error.hpp"
+#include "core/run/laws.hpp"
 #include "core/step/outcome.hpp"
 #include "experiments/python/python_control.hpp"
 #include "experiments/python/python_simulation.hpp"
@@ -31,5 +32,8 @@ PYBIND11_MODULE(_core, module) {
   declare_controls(module);
   declare_simulation(module);
   module.def("scenes", &builtin_scene_names, "Names of the built-in scenes.");
+  py::dict known;
+  for (const Law* law : laws()) known[py::str(law->name)] = law->description;
+  module.attr("laws") = known;
   module.attr("revision") = build_revision();
 }

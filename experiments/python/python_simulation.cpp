@@ -145,21 +145,30 @@ void PythonSimulation::close() {
 
 namespace {
 
+/// "form, tighten, ... or free".
+template <class Entry, std::size_t n>
+std::string one_of(const std::array<Entry, n>& table) {
+  std::string words;
+  for (const Entry& entry : table) {
+    words += words.empty() ? "" : (&entry == &table.back() ? " or " : ", ");
+    words += entry.name;
+  }
+  return words;
+}
+
 /// `until` of run(): None, a time, the name of a phase or a callable.
 void run_until(PythonSimulation& run, const py::object& self, const py::object& until) {
   if (until.is_none()) {
     run.run_while([] { return true; });
   } else if (py::isinstance<py::str>(until)) {
     const auto name = until.cast<std::string>();
-    for (int k = 0; k < phase_count; ++k) {
-      if (const auto phase = static_cast<Phase>(k); name == phase_name(phase)) {
-        run.run_while(
-            [&run, phase] { return phase_order(run.sim.controller.phase) <= phase_order(phase); });
-        return;
-      }
+    const auto* const last = std::ranges::find(phase_table, name, &PhaseEntry::name);
+    if (last == phase_table.end()) {
+      throw py::value_error(fmt::format("until = {}: {}", name, one_of(phase_table)));
     }
-    throw py::value_error("until = " + name +
-                          ": form, tighten, slide, pull, reverse, release or free");
+    run.run_while([&run, order = phase_order(last->value)] {
+      return phase_order(run.sim.controller.phase) <= order;
+    });
   } else if (PyCallable_Check(until.ptr()) != 0) {
     run.run_while([&] {
       const py::gil_scoped_acquire gil;
@@ -198,8 +207,8 @@ py::dict forces(const py::object& self) {
   StepSolution& step = run.record.solution;
   py::dict views;
   const auto nv = static_cast<py::ssize_t>(run.model.nv());
-  for (const RowKind kind : row_kinds) {
-    views[row_kind_name(kind)] = view(self, step.force[kind].data(), {nv}, false);
+  for (const RowKindEntry& kind : row_kind_table) {
+    views[kind.name] = view(self, step.force[kind.value].data(), {nv}, false);
   }
   views["active"] = view(self, step.active_torque.data(), {nv}, false);
   views["tip"] = view(self, step.tip.data(), {3}, false);
@@ -214,8 +223,8 @@ py::dict energies(const PythonSimulation& run) {
   e["gravity"] = ledger.gravity;
   e["work_tip"] = ledger.work_tip;
   e["work_active"] = ledger.work_active;
-  for (const RowKind kind : row_kinds) {
-    e[(std::string("work_") + row_kind_name(kind)).c_str()] = ledger.work(kind);
+  for (const RowKindEntry& kind : row_kind_table) {
+    e[(std::string("work_") + kind.name).c_str()] = ledger.work[kind.value];
   }
   e["dissipated"] = ledger.dissipated;
   e["integrator_error"] = ledger.integrator_error();
@@ -293,10 +302,10 @@ changes. `log`: a file to write; `force` replaces one that is there. Raises Inpu
                              "(bodies, 3) view: centres of the bodies, cm, world")
       .def_property_readonly("velocity", &shown<&Run::velocity>,
                              "(bodies, 3) view: their velocities, cm/s, world")
-      .def_property_readonly(
-          "forces", &forces,
-          "views of the last step's generalised forces by name, (nv,), dyn and "
-          "dyn cm: thigmotaxis, contact, limit, head, wall, active; and tip (3,), dyn")
+      .def_property_readonly("forces", &forces,
+                             "views of the last step's generalised forces by name, (nv,), dyn and "
+                             "dyn cm, of all kinds "
+                             "of rows and active; and tip (3,), dyn")
       .def_property_readonly(
           "contacts", [](const Run& r) { return r.sim.now.observation.contact.contacts; },
           "list of Contact within contact.margin, a copy, sorted from the head")
@@ -311,7 +320,7 @@ changes. `log`: a file to write; `force` replaces one that is there. Raises Inpu
           "steps", [](const Run& r) { return r.sim.step; }, "steps taken")
       .def_property_readonly(
           "phase", [](const Run& r) { return phase_name(r.sim.controller.phase); },
-          "form, tighten, slide, pull, reverse, release or free")
+          one_of(phase_table).c_str())
       .def_property_readonly(
           "knot", [](const Run& r) { return knot_name(r.sim.controller.knot.type); },
           "type of the knot as last seen: 0_1 for none")

@@ -63,7 +63,7 @@ bool run_in_core(const Model& model, const Scene& scene, const char* qp,
     const auto see = [&](const State& before, const Moment& after, const EnergyLedger& ledger) {
       judge.see(before, after.state, after.observation, time_of(sim, scene),
                 {ledger.kinetic + ledger.elastic + ledger.gravity,
-                 ledger.work_tip + ledger.work_active + ledger.work(RowKind::thigmotaxis)});
+                 ledger.work_tip + ledger.work_active + ledger.work[RowKind::thigmotaxis]});
     };
     try {
       take_step(model, scene, sim, record);

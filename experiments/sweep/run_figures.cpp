@@ -21,7 +21,7 @@ double total(const EnergyLedger& ledger) {
 }
 
 double put_in(const EnergyLedger& ledger) {
-  return ledger.work_tip + ledger.work_active + ledger.work(RowKind::thigmotaxis);
+  return ledger.work_tip + ledger.work_active + ledger.work[RowKind::thigmotaxis];
 }
 
 double balance(const EnergyLedger& ledger) {
@@ -203,7 +203,7 @@ RunSummary RunFigures::summary(const std::string& outcome, const std::string& me
   run.momentum_ledger = share(momentum_off_, momentum_passed_);
   run.work_tip = ledger_.work_tip;
   run.work_active = ledger_.work_active;
-  run.work_thigmotaxis = ledger_.work(RowKind::thigmotaxis);
+  run.work_thigmotaxis = ledger_.work[RowKind::thigmotaxis];
   run.dissipated = ledger_.dissipated;
   if (const auto judged = pull_criteria(scene_.expect, settled_part(scene_.expect, pull()));
       !judged.empty()) {

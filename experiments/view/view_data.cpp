@@ -88,9 +88,7 @@ void add_stages(const LogContents& log, Json& json) {
     knot.push_back(static_cast<std::uint8_t>(found - knots.begin()));
   }
   knots.emplace_back("another type");
-  for (int k = 0; k < phase_count; ++k) {
-    json["phases"].push_back(phase_name(static_cast<Phase>(k)));
-  }
+  json["phases"] = names_by_value(phase_table);
   json["knots"] = knots;
   json["phase"] = {{"u1", base64(phase)}};
   json["knot"] = {{"u1", base64(knot)}};

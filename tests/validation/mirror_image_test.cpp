@@ -131,7 +131,7 @@ class Comparison {
           &EnergyLedger::integrator_coriolis, &EnergyLedger::integrator_held}) {
       same("energy", l.*part, image.*part);
     }
-    same("work", l.work_of_kind, image.work_of_kind);
+    same("work", l.work.of_kind, image.work.of_kind);
   }
 
   const Model& model_;

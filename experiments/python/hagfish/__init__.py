@@ -14,6 +14,7 @@ from ._core import (
     InputError,
     Simulation,
     StepError,
+    laws,
     revision,
     scenes,
 )
@@ -28,6 +29,7 @@ __all__ = [
     "Log",
     "Simulation",
     "StepError",
+    "laws",
     "revision",
     "scenes",
 ]

@@ -107,7 +107,7 @@ TEST_P(EnergyOf, LedgerClosesWithEveryKindOfForce) {
     EXPECT_LE(std::abs(run.ledger.imbalance()), 1e-11 * run.throughput()) << "h = " << h;
     EXPECT_NE(run.ledger.work_tip, 0);
     EXPECT_NE(run.ledger.work_active, 0);
-    EXPECT_NE(run.ledger.work(RowKind::limit), 0);
+    EXPECT_NE(run.ledger.work[RowKind::limit], 0);
     EXPECT_GT(run.ledger.dissipated, 0);
   }
 }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <vector>
 
 namespace hagfish {
@@ -25,6 +26,14 @@ TEST(Phase, HasNames) {
   EXPECT_STREQ(phase_name(Phase::release), "release");
   EXPECT_STREQ(phase_name(Phase::free), "free");
   EXPECT_STREQ(phase_name(Phase::pull), "pull");
+}
+
+TEST(Table, ListsEachValueOnce) {
+  const auto lists = [](const std::array<PhaseEntry, 2>& table) { return lists_each_once(table); };
+  EXPECT_TRUE(lists({{{Phase::tighten, "b", ""}, {Phase::form, "a", ""}}}));
+  EXPECT_FALSE(lists({{{Phase::form, "a", ""}, {Phase::form, "b", ""}}}));
+  EXPECT_FALSE(lists({{{Phase::form, "a", ""}, {Phase::slide, "b", ""}}}));
+  EXPECT_FALSE(lists({{{Phase::tighten, "b", ""}}}));  // an initialiser too few
 }
 
 }  // namespace

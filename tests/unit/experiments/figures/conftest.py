@@ -75,6 +75,13 @@ def hinges_of(kind: str) -> np.ndarray:
     return np.array([i for i, name in enumerate(dof_names()) if name.endswith(kind)])
 
 
+TEXTS = {"model/dof_name": dof_names(),
+         "enumerations/phase": ["form", "tighten", "slide", "pull", "reverse", "release", "free"],
+         "enumerations/force": ["tip", "active", "thigmotaxis", "contact", "limit", "head", "wall"],
+         "enumerations/knot": ["0_1", "3_1", "4_1", "5_1"],
+         "enumerations/knot_invariants": ["det=1,v2=0", "det=3,v2=1", "det=5,v2=-1", "det=5,v2=3"]}
+
+
 class Content:
     """Datasets by path and root attributes, to be changed before the log is written."""
 
@@ -114,8 +121,7 @@ class Content:
             "steps/solve": np.where(step_ruled, 2, 0)}
         self.data["diagnostics/solve"] = np.zeros(n, dtype=int)
         for name in ("contacts", "rows", "active", "iterations", "qp_time", "wall_time", "penetration", "limit_violation", "head_drift", "kinetic_energy", "elastic_energy", "gravity_energy",
-                     "dissipated", "integrator_error", *(f"work_{name}" for name in
-                                                         ("tip", "thigmotaxis", "contact", "limit", "head", "wall"))):
+                     "dissipated", "integrator_error", *(f"work_{name}" for name in TEXTS["enumerations/force"])):
             self.data[f"diagnostics/{name}"] = np.zeros(n)
 
     def write(self, path: Path) -> Path:
@@ -125,7 +131,8 @@ class Content:
             for name, values in self.data.items():
                 kind = h5py.enum_dtype(enums[name], basetype="u1") if name in enums else values.dtype
                 file.create_dataset(name, data=values, dtype=kind)
-            file.create_dataset("model/dof_name", data=dof_names(), dtype=h5py.string_dtype())
+            for name, words in TEXTS.items():
+                file.create_dataset(name, data=words, dtype=h5py.string_dtype())
         return path
 
 

@@ -97,6 +97,10 @@ def test_bad_input_is_told_in_the_programs_line(program, tmp_path):
             hagfish.Simulation("table1", set={key: value})
         out = ("--out", tmp_path / "none.h5")
         assert program("run", "table1", "--set", f"{key}={value}", *out) == (2, f"hagfish: {raised.value}")
+    assert {"paper", "muscles", "own"} < hagfish.laws.keys()
+    with pytest.raises(hagfish.InputError) as raised:
+        hagfish.Simulation("table1", set={"controller.law": "mine"})
+    assert all(f'"{law}"' in str(raised.value) and about for law, about in hagfish.laws.items())
     with pytest.raises(hagfish.InputError) as raised:
         hagfish.Simulation("tabel1")
     assert program("run", "tabel1") == (2, f"hagfish: {raised.value}")

@@ -1,0 +1,50 @@
+// Kinds of rows, and of the forces that they give.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/scene/enumeration.hpp"
+
+namespace hagfish {
+
+/// Checkpoints hold forces in this order: a new kind comes last.
+enum class RowKind : std::uint8_t { head, limit, contact, wall, thigmotaxis, last = thigmotaxis };
+
+struct RowKindEntry {
+  RowKind value;
+  const char* name;  ///< in logs
+  const char* description;
+  bool from_outside = false;  ///< what lies outside the animal pushes it; else forces are internal
+};
+
+/// In the order in which logs and tables have them.
+inline constexpr TableOf<RowKindEntry> row_kind_table{
+    {{RowKind::thigmotaxis, "thigmotaxis", "f_thigmo = C_thigmo' lambda_thigmo / h (Eq. 8)"},
+     {RowKind::contact, "contact", "self-contact"},
+     {RowKind::limit, "limit", "joint limits"},
+     {RowKind::head, "head", "head clamp", true},
+     {RowKind::wall, "wall", "head plate", true}}};
+static_assert(lists_each_once(row_kind_table));
+
+/// In the order of the enumeration, in which sums are taken.
+inline constexpr auto row_kinds = [] {
+  std::array<RowKind, row_kind_table.size()> kinds{};
+  for (std::size_t k = 0; k < kinds.size(); ++k) kinds[k] = static_cast<RowKind>(k);
+  return kinds;
+}();
+
+constexpr bool from_outside(RowKind kind) {
+  return row_kind_table[place_in(row_kind_table, kind)].from_outside;
+}
+
+/// One of each kind.
+template <class T>
+struct ByKind {
+  std::array<T, row_kinds.size()> of_kind{};
+
+  T& operator[](RowKind kind) { return of_kind[static_cast<std::size_t>(kind)]; }
+  const T& operator[](RowKind kind) const { return of_kind[static_cast<std::size_t>(kind)]; }
+};
+
+}  // namespace hagfish

@@ -1,0 +1,49 @@
+"""The summary of each built-in scene's run leaves out none of its time, and none of its energy."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import h5py
+import pytest
+
+ROOT = Path(__file__).parents[4]
+sys.dont_write_bytecode = True
+sys.path[:0] = [str(ROOT / "tests/support"), str(ROOT / "experiments/figures")]
+
+import summary  # noqa: E402
+from hagfish_log import HagfishLog  # noqa: E402
+from program import hagfish  # noqa: E402
+
+SCENES = sorted(path.stem for path in (ROOT / "data").glob("*.toml") if path.stem != "presets")
+PRINTED = 0.005  # s, to which times are rounded
+CLOSED = 1e-6  # of the energy that passed: the scenes' own expect.energy
+DIGITS = 1e-5  # to which energies are rounded
+
+
+def rows_of(page: list[str]) -> dict[str, list[str]]:
+    """The cells of a table by the first one of each row, without its heading."""
+    cells = [[cell.strip() for cell in line.strip("|").split("|")] for line in page if line.startswith("|")]
+    return {first: others for first, *others in cells[2:]}
+
+
+@pytest.mark.parametrize("scene", SCENES)
+def test_a_summary_has_all_time_and_energy(tmp_path, scene):
+    hagfish(tmp_path, "run", scene, "--preset", "quick", "--log", "summary", "--quiet", "--out", "a.h5")
+    log = HagfishLog(tmp_path / "a.h5")
+    reached = [row for row in rows_of(summary.timetable(log)).values() if row[0] != "not reached"]
+    end = 0.0
+    for row in reached:
+        start, end_of_phase = (float(time) for time in row[0].split(" to "))
+        assert start == pytest.approx(end, abs=2 * PRINTED)
+        assert float(row[1]) == pytest.approx(end_of_phase - start, abs=3 * PRINTED)
+        end = end_of_phase
+    assert end == pytest.approx(log["/trajectory/time"][-1], abs=2 * PRINTED)
+    energies = {name: float(row[0]) for name, row in rows_of(summary.ledger(log)).items()}
+    passed = sum(abs(energy) for energy in energies.values())
+    assert abs(energies["left over"]) <= CLOSED * passed
+    with h5py.File(tmp_path / "a.h5") as file:
+        works = [data[-1] - data[0] for name, data in file["diagnostics"].items() if name.startswith("work_")]
+    told = sum(energy for name, energy in energies.items() if name.startswith("work of "))
+    assert told == pytest.approx(sum(works), abs=DIGITS * passed)
