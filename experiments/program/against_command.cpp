@@ -5,10 +5,10 @@
 
 #include "core/input/input_text.hpp"
 #include "experiments/film/film_distance.hpp"
-#include "experiments/program/commands.hpp"
 #include "experiments/program/csv.hpp"
 #include "experiments/program/film_words.hpp"
 #include "experiments/program/number_options.hpp"
+#include "experiments/program/program.hpp"
 #include "experiments/program/scripts.hpp"
 #include "experiments/program/text_file.hpp"
 

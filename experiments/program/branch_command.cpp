@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "experiments/audit/log_schema.hpp"
-#include "experiments/program/commands.hpp"
+#include "experiments/program/program.hpp"
 #include "experiments/program/scene_run.hpp"
 #include "experiments/program/scene_sense.hpp"
 

@@ -6,9 +6,9 @@
 
 #include "core/input/input_text.hpp"
 #include "experiments/audit/audit.hpp"
-#include "experiments/program/commands.hpp"
 #include "experiments/program/csv.hpp"
 #include "experiments/program/failure.hpp"
+#include "experiments/program/program.hpp"
 #include "experiments/program/terminal.hpp"
 #include "experiments/program/text_file.hpp"
 

@@ -6,18 +6,13 @@
 #include "core/input/input_text.hpp"
 #include "core/log/hdf5_error.hpp"
 #include "experiments/export/export_tables.hpp"
-#include "experiments/program/commands.hpp"
+#include "experiments/program/program.hpp"
 #include "experiments/program/text_file.hpp"
 
 namespace hagfish {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Tables of one log, as `hagfish export` writes them.
-constexpr const char* table_files[] = {"midline.csv", "curvature.csv", "knot.csv", "contacts.csv",
-                                       "torques.csv", "eq6.csv",       "head.csv", "energy.csv",
-                                       "summary.csv", "dictionary.csv"};
 
 struct ExportOptions {
   std::string log, out;
@@ -26,25 +21,22 @@ struct ExportOptions {
 
 int export_log(const ExportOptions& options) {
   const LogContents log(options.log, LogLevel::frames);
+  std::vector<ExportTable> tables = shape_tables(log, options.si);
+  for (ExportTable& table : force_tables(log, options.si)) tables.push_back(std::move(table));
+  tables.push_back(summary_table(log, options.si));
   std::error_code error;
   const bool made = fs::create_directories(options.out, error);
   if (error) throw FileError(options.out + ": cannot make the folder: " + error.message());
   try {
-    std::vector<std::string> names(std::begin(table_files), std::end(table_files));
-    if (!log.model.muscles.empty()) {
-      names.insert(std::ranges::find(names, "summary.csv"), "muscles.csv");
-    }
     // All are reserved before the first is written.
     std::vector<std::unique_ptr<TextFile>> files;
-    for (const std::string& name : names) {
+    const auto reserve = [&](const std::string& name) {
       files.push_back(std::make_unique<TextFile>(fs::path(options.out) / name, options.force));
-    }
-    std::vector<ExportTable> tables = shape_tables(log, options.si);
-    for (ExportTable& table : force_tables(log, options.si)) tables.push_back(std::move(table));
-    tables.push_back(summary_table(log, options.si));
+    };
+    for (const ExportTable& table : tables) reserve(table.name());
+    reserve("dictionary.csv");
     CsvTable dictionary{{"file", "column", "unit", "meaning"}};
     for (std::size_t k = 0; k < tables.size(); ++k) {
-      if (tables[k].name() != names[k]) throw std::logic_error("tables in another order");
       tables[k].describe(dictionary);
       files[k]->write(tables[k].csv());
     }

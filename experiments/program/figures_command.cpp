@@ -1,7 +1,7 @@
 #include <filesystem>
 
 #include "experiments/audit/log_contents.hpp"
-#include "experiments/program/commands.hpp"
+#include "experiments/program/program.hpp"
 #include "experiments/program/scripts.hpp"
 
 namespace hagfish {

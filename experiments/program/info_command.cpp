@@ -7,7 +7,7 @@
 #include "core/log/saved_run.hpp"
 #include "core/run/controller.hpp"
 #include "experiments/audit/log_contents.hpp"
-#include "experiments/program/commands.hpp"
+#include "experiments/program/program.hpp"
 
 namespace hagfish {
 namespace {

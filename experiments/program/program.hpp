@@ -1,9 +1,10 @@
-// What the subcommands of `hagfish` share. Each has a file of its own, NAME_command.cpp: its
-// options, its registration, its call.
+// What the subcommands of `hagfish` share. Each has a file of its own, NAME_command.cpp, in
+// mujoco/ where it needs that: its options, its registration, its call.
 #pragma once
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <vector>
 
 namespace hagfish {
 
@@ -24,6 +25,10 @@ struct Program {
 
 /// Adds one subcommand to `program`, which outlives its callback.
 using Registrar = void (*)(Program& program);
+
+/// Those of all subcommands, in the order of `hagfish --help` (commands.cpp). They are listed by
+/// hand: what registers itself by a static object is dropped when it comes from a static library.
+std::vector<Registrar> commands();
 
 inline constexpr const char* default_scene = "table1";
 inline constexpr const char* scene_help = "a built-in scene (see `scenes`) or a TOML file";

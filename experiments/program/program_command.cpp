@@ -4,8 +4,8 @@
 #include "core/input/input_text.hpp"
 #include "experiments/audit/log_contents.hpp"
 #include "experiments/curvature/program_fit.hpp"
-#include "experiments/program/commands.hpp"
 #include "experiments/program/number_options.hpp"
+#include "experiments/program/program.hpp"
 #include "experiments/program/text_file.hpp"
 
 namespace hagfish {

@@ -4,9 +4,9 @@
 #include <cstdio>
 
 #include "core/input/input_text.hpp"
-#include "experiments/program/commands.hpp"
 #include "experiments/program/csv.hpp"
 #include "experiments/program/number_options.hpp"
+#include "experiments/program/program.hpp"
 #include "experiments/program/suggestion.hpp"
 #include "experiments/program/terminal.hpp"
 #include "experiments/program/text_file.hpp"

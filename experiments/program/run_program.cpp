@@ -8,8 +8,8 @@
 
 #include "core/input/input_text.hpp"
 #include "core/log/build_info.hpp"
-#include "experiments/program/commands.hpp"
 #include "experiments/program/failure.hpp"
+#include "experiments/program/program.hpp"
 #include "experiments/program/suggestion.hpp"
 #include "experiments/program/terminal.hpp"
 
@@ -31,9 +31,7 @@ int dispatch(int argc, char** argv) {
   app.description("A hagfish that ties itself into a knot and slides it to its head.");
   app.set_version_flag("--version", build_version() + " " + build_revision());
   app.require_subcommand(1);
-  for (const auto& list : {commands(), mujoco_commands()}) {
-    for (const Registrar add : list) add(program);
-  }
+  for (const Registrar add : commands()) add(program);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -2,7 +2,7 @@
 
 #include "core/input/builtin_files.hpp"
 #include "core/input/scene_reader.hpp"
-#include "experiments/program/commands.hpp"
+#include "experiments/program/program.hpp"
 
 namespace hagfish {
 namespace {

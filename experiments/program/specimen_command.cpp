@@ -10,8 +10,8 @@
 
 #include "core/input/input_error.hpp"
 #include "core/input/input_text.hpp"
-#include "experiments/program/commands.hpp"
 #include "experiments/program/number_options.hpp"
+#include "experiments/program/program.hpp"
 #include "experiments/program/scene_argument.hpp"
 #include "experiments/program/shell_word.hpp"
 #include "experiments/program/text_file.hpp"

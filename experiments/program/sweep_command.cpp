@@ -5,9 +5,9 @@
 
 #include "core/input/input_error.hpp"
 #include "core/input/input_text.hpp"
-#include "experiments/program/commands.hpp"
 #include "experiments/program/failure.hpp"
 #include "experiments/program/number_options.hpp"
+#include "experiments/program/program.hpp"
 #include "experiments/program/terminal.hpp"
 #include "experiments/sweep/grid_reader.hpp"
 #include "experiments/sweep/sweep.hpp"

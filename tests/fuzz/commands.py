@@ -13,27 +13,53 @@ SMALL = ["--set", "model.bodies=8"]
 BACK_ENDS = ["active-set", "ipopt", "ipopt-unpolished"]
 
 
-def of_log(file):
+# Good values of arguments and options, by the names that help gives them; what is not here is left out.
+ARGUMENTS = {"LOG": "good.h5", "SCENE": "table1", "GRID": "scene_grid.toml", "SET": "good.qp.h5", "CSV": "film.csv"}
+OPTIONS = {
+    "--force": [], "--quiet": [], "--qp": ["active-set"], "--backend": ["active-set"], "--repeat": ["1"], "--threads": ["1"], "--cpu-limit": ["3"],
+    "--size": ["64x48"], "--stations": ["3"], "--times": ["3"], "--scene": ["small.toml"], "--length": ["40"], "--mass": ["80"],
+    "--circumference": ["5,5,5,4"], "--bending": ["20,70,40,50"], "--twist": ["48"],
+}  # fmt: skip
+ENDINGS = {"picture": ".png", "movie": ".gif"}  # of --out
+BESIDE = {"program": ["--until", "0.08"], "integrate": ["--set", "model.bodies=3"]}
+
+
+class Command:
+    """A subcommand as its help has it: a good command line, whose options may be made extreme, and which take values."""
+
+    def __init__(self, name, help_text):
+        positionals, _, options = help_text.partition("Options:\n")
+        places = re.findall(r"^  ([A-Z]+) TEXT", positionals.partition("Positionals:")[2], re.M)
+        self.valued = re.findall(r"^ +(?:-\w,)?(--[a-z-]+) (?:TEXT|INT|FLOAT)", options, re.M)
+        self.reads_log = "LOG" in places
+        self.good = [name, *(ARGUMENTS[place] for place in places)]
+        for option, rest in re.findall(r"^ +(?:-\w,)?(--[a-z-]+)(.*)$", options, re.M):
+            if option == "--out" and "REQUIRED" in rest:
+                self.good += ["--out", name + ENDINGS.get(name, "")]
+            elif option == "--set" and "SCENE" in places:
+                self.good += [*SHORT, *SMALL]
+            elif option in OPTIONS:
+                self.good += [option, *OPTIONS[option]]
+            elif "REQUIRED" in rest:
+                raise ValueError(f"tests/fuzz/commands.py has no {option}, which {name} needs")
+        self.good += BESIDE.get(name, [])
+
+
+SLOW = ("figures", "movie")  # start Python or ffmpeg
+
+
+def of_log(file, known):
     """Two lists: the commands that read a log in this process, and those that start Python or ffmpeg."""
-    quick = [
-        ["info", file],
+    reading = {name: [file if a == "good.h5" else a for a in c.good] for name, c in known.items() if c.reads_log}
+    quick = [arguments for name, arguments in reading.items() if name not in SLOW]
+    quick += [
         ["check", file, "--csv", "check.csv", "--force"],
-        ["playback", file, "--out", "playback.h5", "--force"],
-        ["branch", file, "--out", "branch.h5", "--quiet", "--force"],
         ["info", "good.h5", file, "--json"],
-        ["export", file, "--out", "tables", "--force"],
         ["view", file, "good.h5", "--out", "replay.html", "--force"],
-        ["picture", file, "--out", "picture.png", "--size", "64x48", "--force"],
-        ["program", file, "--out", "program.csv", "--force", "--until", "0.08", "--stations", "2", "--times", "3"],
         ["against", file, "film.csv", "--csv", "against.csv", "--force"],
         ["run", "--resume", file, "--quiet"],  # last, as it goes on in the file itself
     ]
-    slow = [
-        ["movie", file, "--out", "movie.gif", "--size", "64x48", "--quiet", "--force"],
-        ["figures", file, "--out", "figures"],
-        ["against", file, "film.csv", "--png", "against.png", "--force"],
-    ]
-    return quick, slow
+    return quick, [*(reading[name] for name in SLOW), ["against", file, "film.csv", "--png", "against.png", "--force"]]
 
 
 def of_qps(file, back_end):
@@ -79,35 +105,6 @@ def grid_text(scene, cut):
     return f'scene = "{scene}"\nset = [{values}]\n[[axis]]\n"knot.votes" = [1, 2]\n'
 
 
-# Good commands, whose options are then made extreme.
-GOOD = {
-    "run": ["run", "table1", "--quiet", "--force", "--qp", "active-set", "--out", "run.h5", *SHORT, *SMALL],
-    "branch": ["branch", "good.h5", "--quiet", "--force", "--out", "branch.h5"],
-    "scenes": ["scenes"],
-    "sweep": ["sweep", "scene_grid.toml", "--threads", "1", "--quiet", "--out", "sweep"],
-    "record-qp": ["record-qp", "table1", "--quiet", "--force", "--qp", "active-set", "--out", "qp.h5", *SHORT, *SMALL],
-    "qp": ["qp", "good.qp.h5", "--repeat", "1", "--backend", "active-set", "--force"],
-    "info": ["info", "good.h5"],
-    "check": ["check", "good.h5", "--force"],
-    "export": ["export", "good.h5", "--force", "--out", "tables"],
-    "view": ["view", "good.h5", "--force", "--out", "replay.html"],
-    "figures": ["figures", "good.h5", "--out", "figures"],
-    "program": ["program", "good.h5", "--force", "--out", "program.csv", "--until", "0.08", "--stations", "2", "--times", "3"],
-    "midlines": ["midlines", "film.csv", "--force", "--scene", "small.toml", "--stations", "3", "--times", "3", "--out", "midlines.csv"],
-    "against": ["against", "good.h5", "film.csv", "--force"],
-    "specimen": [
-        "specimen", "--length", "40", "--mass", "80", "--circumference", "5", "--circumference", "5", "--circumference", "5",
-        "--circumference", "4", "--bending", "20", "--bending", "70", "--bending", "40", "--bending", "50", "--twist", "48",
-        "--force", "--out", "specimen.toml",
-    ],
-    "picture": ["picture", "good.h5", "--force", "--size", "64x48", "--out", "picture.png"],
-    "movie": ["movie", "good.h5", "--force", "--quiet", "--size", "64x48", "--out", "movie.gif"],
-    "mjcf": ["mjcf", "table1", "--force", "--out", "mjcf", *SMALL],
-    "compare": ["compare", "table1", "--force", *SHORT, *SMALL],
-    "integrate": ["integrate", "table1", "--force", "--out", "integrate.h5", *SHORT, "--set", "model.bodies=3"],
-    "playback": ["playback", "good.h5", "--force", "--out", "playback.h5"],
-    "stress": ["stress", "table1", "--cpu-limit", "3", *SHORT, *SMALL],
-}  # fmt: skip
 # Files to write: never one outside the working folder.
 OUT = ["", ".", "..", "none/such/x", "a" * 300, "x\x1b[31my", "good.h5", "film.csv", "small.toml", "x", "x.h5", "x.csv", "x.png", "x.gif", "x.mp4"]
 VALUES = [
@@ -123,17 +120,12 @@ def subcommands(help_text):
     return re.findall(r"^  ([a-z][a-z-]*) ", help_text.split("Subcommands:")[1], re.M)
 
 
-def options(help_text):
-    """Options of a subcommand that take a value."""
-    return re.findall(r"^ +(?:-\w,)?(--[a-z-]+) (?:TEXT|INT|FLOAT)", help_text, re.M)
-
-
 def extreme_options(known, random):
-    """A command with one to three extreme options; `known` has those of each subcommand."""
-    name = str(random.choice(sorted(GOOD)))
-    arguments = list(GOOD[name])
+    """A command with one to three extreme options; `known` has each subcommand."""
+    name = str(random.choice(sorted(known)))
+    arguments = list(known[name].good)
     for _ in range(int(random.integers(1, 4))):
-        option = str(random.choice(known[name])) if known[name] else None
+        option = str(random.choice(known[name].valued)) if known[name].valued else None
         if option is None or random.random() < 0.1:
             # No words beside: of several logs, each has its line.
             words = ["--no-such", "--", "--help=1", "-x", "--\x1b[31m"]

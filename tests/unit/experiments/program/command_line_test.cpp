@@ -1,6 +1,9 @@
 // What `hagfish` says of a command line that names what is not there.
 #include <gtest/gtest.h>
 
+#include <sstream>
+#include <string>
+
 #include "tests/support/program_runs.hpp"
 
 namespace hagfish {
@@ -70,12 +73,14 @@ TEST_F(CommandLine, NumbersOfOptionsAreFiniteAndInRange) {
 TEST_F(CommandLine, EveryCommandHelpsAndListsItself) {
   const ProgramOutcome all = run_program("--help");
   EXPECT_EQ(all.code, 0);
-  for (const char* command :
-       {"run", "scenes", "record-qp", "qp", "info", "check", "export", "view", "picture", "movie",
-        "mjcf", "compare", "integrate", "playback", "stress"}) {
-    EXPECT_NE(all.output.find(std::string("\n  ") + command + " "), std::string::npos) << command;
-    EXPECT_EQ(run_program(std::string(command) + " --help").code, 0) << command;
+  std::istringstream lines(all.output.substr(all.output.find("Subcommands:")));
+  std::string line, command;
+  int count = 0;
+  for (std::getline(lines, line); std::getline(lines, line) && std::istringstream(line) >> command;
+       ++count) {
+    EXPECT_EQ(run_program(command + " --help").code, 0) << command;
   }
+  EXPECT_GE(count, 15);
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include "core/input/input_error.hpp"
 #include "core/input/input_text.hpp"
 #include "experiments/picture/frame_picture.hpp"
-#include "experiments/program/commands.hpp"
+#include "experiments/program/program.hpp"
 #include "experiments/program/suggestion.hpp"
 #include "experiments/program/text_file.hpp"
 

@@ -1,7 +1,7 @@
 #include "experiments/mujoco/playback.hpp"
 
 #include "core/log/output_file.hpp"
-#include "experiments/program/commands.hpp"
+#include "experiments/program/program.hpp"
 
 namespace hagfish {
 namespace {

@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <numbers>
 
-#include "experiments/program/commands.hpp"
 #include "experiments/program/csv.hpp"
 #include "experiments/program/number_options.hpp"
+#include "experiments/program/program.hpp"
 #include "experiments/program/scene_argument.hpp"
 #include "experiments/program/suggestion.hpp"
 #include "experiments/program/text_file.hpp"

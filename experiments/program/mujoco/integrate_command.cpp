@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/log/output_file.hpp"
-#include "experiments/program/commands.hpp"
+#include "experiments/program/program.hpp"
 #include "experiments/program/scene_argument.hpp"
 #include "experiments/program/suggestion.hpp"
 

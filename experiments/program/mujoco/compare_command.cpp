@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "core/log/output_file.hpp"
-#include "experiments/program/commands.hpp"
+#include "experiments/program/program.hpp"
 #include "experiments/program/scene_argument.hpp"
 
 namespace hagfish {

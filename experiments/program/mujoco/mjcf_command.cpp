@@ -7,7 +7,7 @@
 #include "core/input/input_error.hpp"
 #include "core/input/input_text.hpp"
 #include "core/log/hdf5_error.hpp"
-#include "experiments/program/commands.hpp"
+#include "experiments/program/program.hpp"
 #include "experiments/program/scene_argument.hpp"
 #include "experiments/program/text_file.hpp"
 #include "mujoco_ref/mjcf.hpp"
