@@ -17,7 +17,7 @@
 
 #include "core/contact/observation.hpp"
 #include "core/scene/settings.hpp"
-#include "core/step/step.hpp"
+#include "core/step/step_input.hpp"
 
 namespace hagfish {
 

@@ -11,7 +11,8 @@
 #include "core/run/control_law.hpp"
 #include "core/run/script.hpp"
 #include "core/scene/phase.hpp"
-#include "core/step/step.hpp"
+#include "core/step/outcome.hpp"
+#include "core/step/step_solution.hpp"
 
 namespace hagfish {
 

@@ -32,10 +32,10 @@ EnergyLedger open_ledger(const Model& model, const Moment& now) {
 //   V(q + t u) - V(q) = t u'K q + ½ t² u'K u   of the springs.
 // Their sum is works less dissipation and the integrator's own terms below, with what T changes by
 // on the way to that place and from there.
-void book_step(const StepInput& in, const StepSolution& step, const Moment& next, double travelled,
-               EnergyLedger& ledger) {
+void book_step(const StepInput& in, const StepPlace& place, const StepSolution& step,
+               const Moment& next, double travelled, EnergyLedger& ledger) {
   const Model& model = in.model;
-  const Kinematics& kin = in.kin();
+  const Kinematics& kin = place.kin;
   const double t = travelled;
   const double h = in.scene.time.step;
   const Eigen::VectorXd& u = step.qdot;
@@ -56,7 +56,7 @@ void book_step(const StepInput& in, const StepSolution& step, const Moment& next
     stretch += hinge.stiffness * u[k] *
                (0.5 * t * u[k] - r * step.felt[k] - ring * (2 * step.felt[k] - in.state.qdot[k]));
   }
-  const StepMotion before = in.motion();
+  const StepMotion& before = place.motion;
   const double whole = h / r;  // Δv over x - v
   double impulse = 0;          // (y - (t/h) u)'MΔv
   double moved = 0;            // T(v') - T(v) at the place of the step

@@ -10,7 +10,8 @@
 #include <array>
 #include <numeric>
 
-#include "core/step/step.hpp"
+#include "core/step/step_input.hpp"
+#include "core/step/step_solution.hpp"
 
 namespace hagfish {
 
@@ -54,9 +55,9 @@ struct EnergyLedger {
 /// Opens the ledger at a moment.
 EnergyLedger open_ledger(const Model& model, const Moment& now);
 
-/// Books the step `in` from where the ledger stands, by its solution, to `next`, where it has led
-/// in the time `travelled` (s), 0 to h.
-void book_step(const StepInput& in, const StepSolution& step, const Moment& next, double travelled,
-               EnergyLedger& ledger);
+/// Books the step `in` from where the ledger stands, by its solution at `place`, to `next`, where
+/// it has led in the time `travelled` (s), 0 to h.
+void book_step(const StepInput& in, const StepPlace& place, const StepSolution& step,
+               const Moment& next, double travelled, EnergyLedger& ledger);
 
 }  // namespace hagfish

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/contact/wall.hpp"
+#include "core/step/dual_problem.hpp"
 #include "core/step/look_ahead.hpp"
 
 namespace hagfish {

@@ -8,7 +8,7 @@
 
 #include "core/run/energy.hpp"
 #include "core/step/outcome.hpp"
-#include "core/step/step.hpp"
+#include "core/step/step_solution.hpp"
 
 namespace hagfish {
 

@@ -20,11 +20,11 @@ MomentumLedger open_momentum(const Model& model, const Moment& now) {
 // The root's linear rows of Eq. 1 say Σ m (v' - v) + h Σ bias = h Σ forces, with the velocities v,
 // v' of the bodies' centres before and after at the positions of the step's equations, and forces
 // of rows between two parts of the body, of joints and of muscles that add up to nothing.
-void book_momentum(const StepInput& in, const StepSolution& step, const Moment& next,
-                   MomentumLedger& ledger) {
+void book_momentum(const StepInput& in, const StepPlace& place, const StepSolution& step,
+                   const Moment& next, MomentumLedger& ledger) {
   const Model& model = in.model;
   const double h = in.scene.time.step;
-  const StepMotion before = in.motion();
+  const StepMotion& before = place.motion;
   const double whole = h / in.scene.time.reach();    // v' - v over what is felt of it
   Eigen::Vector3d change = Eigen::Vector3d::Zero();  // Σ m (v' - v)
   Eigen::Vector3d bias = Eigen::Vector3d::Zero();
@@ -34,7 +34,7 @@ void book_momentum(const StepInput& in, const StepSolution& step, const Moment& 
     const Eigen::Vector3d felt = step.felt_centre_velocity.col(b);
     change += whole * model.bodies[b].mass * (felt - before.centre_velocity.col(b));
     bias += step.system.bias.col(b).tail<3>();
-    drag += drag_on_body(model, in.kin(), b, felt);
+    drag += drag_on_body(model, place.kin, b, felt);
     mass += model.bodies[b].mass;
   }
   ledger.drag += h * drag;

@@ -8,7 +8,8 @@
 // closes to rounding, or the forces are not what they claim.
 #pragma once
 
-#include "core/step/step.hpp"
+#include "core/step/step_input.hpp"
+#include "core/step/step_solution.hpp"
 
 namespace hagfish {
 
@@ -29,8 +30,8 @@ Eigen::Vector3d linear_momentum(const Model& model, const Kinematics& kin);
 /// Opens the ledger at a moment.
 MomentumLedger open_momentum(const Model& model, const Moment& now);
 
-/// Books the step `in` from where the ledger stands, by its solution, to `next`.
-void book_momentum(const StepInput& in, const StepSolution& step, const Moment& next,
-                   MomentumLedger& ledger);
+/// Books the step `in` from where the ledger stands, by its solution at `place`, to `next`.
+void book_momentum(const StepInput& in, const StepPlace& place, const StepSolution& step,
+                   const Moment& next, MomentumLedger& ledger);
 
 }  // namespace hagfish

@@ -66,7 +66,7 @@ void look_forward(const Situation& at, const Control& control, double steps,
   s.scene = at.scene;
   s.scene.time.step = steps * at.scene.time.step;
   s.scene.time.rule = TimeRule::euler;
-  ahead.solver.extends_rounds = false;  // set_gain goes on with its factor
+  ahead.solver.extend_rounds(false);  // set_gain goes on with its factor
   ahead.control.clamp_head = control.clamp_head;
   ahead.control.tip = control.tip;
   ahead.control.thigmotaxis = control.thigmotaxis;
@@ -81,12 +81,12 @@ void look_forward(const Situation& at, const Control& control, double steps,
 /// Eq. 6 after that step, with the rows that bear held: gain a >= shortfall.
 void set_gain(const Situation& at, ReducedBasisStorage& s) {
   const StepSolution& step = s.ahead.step;
-  const StepScratch& scratch = s.ahead.solver.scratch();
-  const Eigen::MatrixXd& A = scratch.qp().A;
+  const RowProblem& problem = s.ahead.solver.problem();
+  const Eigen::MatrixXd& A = problem.qp().A;
   const auto row_of = [&](Eigen::Index i) -> const Row& { return step.rows[step.prescribed + i]; };
   s.held.clear();
   s.asked.clear();
-  for (Eigen::Index i = 0; i < scratch.qp().b.size(); ++i) {
+  for (Eigen::Index i = 0; i < problem.qp().b.size(); ++i) {
     if (row_of(i).kind == RowKind::thigmotaxis) {
       s.asked.push_back(i);
     } else if (step.lambda[step.prescribed + i] != 0) {
@@ -105,7 +105,7 @@ void set_gain(const Situation& at, ReducedBasisStorage& s) {
     s.held_factor.compute(s.held_A);
     s.held_factor.solveInPlace(s.share);
   }
-  s.still = scratch.prescribed;
+  s.still = problem.prescribed;
   for (PrescribedVelocity& velocity : s.still) velocity.value = 0;
   const Kinematics& kin = at.now.observation.kin;
   s.gain.resize(asked, s.shapes.cols());
@@ -115,12 +115,12 @@ void set_gain(const Situation& at, ReducedBasisStorage& s) {
     s.wrench.setZero(6, at.model.body_count());
     s.joint.setZero(at.model.nv());
     add_row(row_of(s.asked[t]), kin, 1, s.wrench, s.joint);
-    s.shortfall[t] = scratch.qp().b[s.asked[t]];
+    s.shortfall[t] = problem.qp().b[s.asked[t]];
     for (Eigen::Index c = 0; c < held; ++c) {
       add_row(row_of(s.held[c]), kin, -s.share(c, t), s.wrench, s.joint);
-      s.shortfall[t] -= s.share(c, t) * scratch.qp().b[s.held[c]];
+      s.shortfall[t] -= s.share(c, t) * problem.qp().b[s.held[c]];
     }
-    scratch.factor.solve(at.model, kin, s.wrench, s.joint, s.still, s.velocity, s.twist,
+    problem.factor.solve(at.model, kin, s.wrench, s.joint, s.still, s.velocity, s.twist,
                          s.reaction);
     s.gain.row(t).noalias() = s.scene.time.step * s.velocity.transpose() * s.shapes;
   }

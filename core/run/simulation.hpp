@@ -10,6 +10,7 @@
 #include "core/run/guard.hpp"
 #include "core/run/law_storage.hpp"
 #include "core/run/momentum.hpp"
+#include "core/step/step.hpp"
 
 namespace hagfish {
 
@@ -32,7 +33,6 @@ struct Simulation {
   EnergyLedger ledger;
   MomentumLedger momentum;
   Watch watch;
-  Midway midway = {};  ///< storage
   BeforeStep before;
   LawStorage law_storage = {};
   ControlLaw law = {};  ///< of its own, where the scene says so (control_law.hpp); else empty

@@ -43,11 +43,11 @@ Eigen::MatrixXd dense_rows(const Model& model, const Kinematics& kin,
 namespace {
 
 /// Eq. 1, H q̇* = M q̇0 + h f, with H = M + h D - h² K: springs, damping and drag are implicit.
-void paper_equation_1(const StepInput& in, PrimalQp& qp) {
+void paper_equation_1(const StepInput& in, const StepPlace& place, PrimalQp& qp) {
   const Model& model = in.model;
   const State& state = in.state;
   const Control& control = in.control;
-  const Kinematics& kin = in.kin();
+  const Kinematics& kin = place.kin;
   const double h = in.scene.time.reach();
   const double ring = in.scene.time.spring_damping();
   const int nv = model.nv();
@@ -55,7 +55,7 @@ void paper_equation_1(const StepInput& in, PrimalQp& qp) {
   Eigen::MatrixXd D = M;
   Eigen::MatrixXd K = M;
   Eigen::VectorXd f = stiffness_force(model, state.q);
-  const Matrix6Xd on_bodies = gravity_wrench(model, kin) - bias_wrench(model, kin, in.motion());
+  const Matrix6Xd on_bodies = gravity_wrench(model, kin) - bias_wrench(model, kin, place.motion);
   for (int b = 0; b < model.body_count(); ++b) {
     const Matrix6Xd J = body_jacobian(model, kin, b);
     M += J.transpose() * body_inertia(model, kin, b) * J;
@@ -83,9 +83,9 @@ void paper_equation_1(const StepInput& in, PrimalQp& qp) {
 
 }  // namespace
 
-PrimalQp paper_problem(const StepInput& in, const std::vector<Row>& rows) {
+PrimalQp paper_problem(const StepInput& in, const StepPlace& place, const std::vector<Row>& rows) {
   PrimalQp qp;
-  paper_equation_1(in, qp);
+  paper_equation_1(in, place, qp);
   std::vector<Row> bilateral, unilateral;
   for (const Row& row : rows) {
     (std::isinf(row.lower) ? bilateral : unilateral).push_back(row);
@@ -95,9 +95,9 @@ PrimalQp paper_problem(const StepInput& in, const std::vector<Row>& rows) {
     std::ranges::transform(of, values.begin(), member);
     return values;
   };
-  qp.G = dense_rows(in.model, in.kin(), bilateral);
+  qp.G = dense_rows(in.model, place.kin, bilateral);
   qp.e = column(bilateral, &Row::rhs);
-  qp.C = dense_rows(in.model, in.kin(), unilateral);
+  qp.C = dense_rows(in.model, place.kin, unilateral);
   qp.d = column(unilateral, &Row::rhs);
   qp.cap = column(unilateral, &Row::upper);
   return qp;
@@ -105,7 +105,7 @@ PrimalQp paper_problem(const StepInput& in, const std::vector<Row>& rows) {
 
 State paper_step(const StepInput& in, const std::vector<Row>& rows,
                  const std::function<Eigen::VectorXd(const PrimalQp&)>& solve) {
-  const PrimalQp qp = paper_problem(in, rows);
+  const PrimalQp qp = paper_problem(in, start_of(in), rows);
   const Eigen::Index n = qp.g.size();
   const Eigen::Index p = qp.e.size();
   Eigen::VectorXd v;

@@ -44,7 +44,7 @@ struct Row {
   SplineMix a, b;
   double rhs = 0;  ///< d, cm/s or rad/s
   /// The part of λ that is an impact's and acts at once; half of the rest acts before the middle of
-  /// the step (midpoint rule, next_velocity.cpp).
+  /// the step (midpoint rule, midpoint/impacts.hpp).
   double impact = 0;
   double lower = 0;  ///< bounds on the multiplier λ, dyn s or dyn cm s
   double upper = std::numeric_limits<double>::infinity();

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/run/simulation.hpp"
+#include "core/step/midpoint/midway.hpp"
 #include "experiments/audit/log_contents.hpp"
 
 namespace hagfish {

@@ -79,7 +79,8 @@ struct Optimality {
 Optimality optimality(const Stage& s, const StepSolution& step) {
   const Observation now = observe(s.model, s.state, s.scene);
   const std::vector<Row> all = s.rows();
-  const PrimalQp paper = paper_problem(s.input(now), all);
+  const StepInput in = s.input(now);
+  const PrimalQp paper = paper_problem(in, start_of(in), all);
   const Eigen::MatrixXd c = dense_rows(s.model, now.kin, all);
   const Eigen::VectorXd& g = paper.g;
   Eigen::VectorXd lambda = Eigen::VectorXd::Zero(c.rows());

@@ -19,7 +19,7 @@ constexpr double far = 5;
 
 /// The rows of a step from their makers, and not from the step's own list.
 std::vector<Row> all_rows_of(const StepInput& in, const Eigen::VectorXd& base) {
-  const auto& [model, scene, state, now, control, midway] = in;
+  const auto& [model, scene, state, now, control] = in;
   const double h = scene.time.step;
   std::vector<Row> rows =
       thigmotaxis_rows(model, control.thigmotaxis, scene.controller, now.kin.centre_velocity, h);
@@ -48,7 +48,7 @@ int compare(const Model& model, const Scene& scene, Simulation sim) {
     const Eigen::VectorXd& qdot = record.solution.qdot;
     const StepInput in{model, scene, now.state, now.observation, record.control};
     const State reference =
-        paper_step(in, all_rows_of(in, record.solution.base), [&](const PrimalQp& qp) {
+        paper_step(in, all_rows_of(in, sim.solver.problem().base), [&](const PrimalQp& qp) {
           const PrimalQpSolution solution = solve_primal(qp);
           EXPECT_EQ(solution.status, SolveStatus::solved);
           // Of the two, the step's own must be the better: it meets every row and costs no more,

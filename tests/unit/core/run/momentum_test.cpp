@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/step/step.hpp"
 #include "tests/support/random_chain.hpp"
 
 namespace hagfish {
@@ -31,16 +32,17 @@ struct MomentumRun {
     const Observation now = observe(model, state, scene);
     StepSolution solution;
     const bool euler = scene.time.rule == TimeRule::euler;
-    const StepInput in{model, scene, state, now, control, euler ? nullptr : &midway};
+    const StepInput in{model, scene, state, now, control};
     ASSERT_TRUE(solver.solve(in, solution).ok());
+    const StepPlace place = solver.place(in);
     spoil(solution);
     if (euler) {
       solution.next = solution.qdot;
       solution.felt_centre_velocity =
-          centre_velocities(in.kin(), body_twists(model, in.kin(), solution.qdot));
+          centre_velocities(place.kin, body_twists(model, place.kin, solution.qdot));
     }
     const State next{advance(state.q, solution.qdot, scene.time.step), solution.next};
-    book_momentum(in, solution, {next, observe(model, next, scene)}, ledger);
+    book_momentum(in, place, solution, {next, observe(model, next, scene)}, ledger);
     state = next;
   }
   double imbalance() const {
@@ -55,7 +57,6 @@ struct MomentumRun {
   Control control;
   MomentumLedger ledger;
   StepSolver solver{"active-set"};
-  Midway midway;
 };
 
 TEST(Momentum, LedgerClosesHeldOrFree) {

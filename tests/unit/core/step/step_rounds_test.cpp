@@ -110,13 +110,13 @@ TEST(Step, ReleasesPrescribedLimitsThatWouldHaveToPull) {
 TEST(Step, ARoundThatGoesOnWithTheFactorSolvesAsOneFromNothing) {
   Stage s = knotted(106, 1);
   Stage other = knotted(106, 1);
-  other.solver.extends_rounds = false;
+  other.solver.extend_rounds(false);
   int extended = 0;
   for (int k = 0; k < 40; ++k) {
     SCOPED_TRACE(k);
     const StepSolution step = s.solve();
     const StepSolution anew = other.solve();
-    extended += s.solver.scratch().extended ? 1 : 0;
+    extended += s.solver.problem().extended ? 1 : 0;
     expect_optimal(s, step);
     ASSERT_EQ(step.rounds, anew.rounds);
     ASSERT_EQ(step.rows.size(), anew.rows.size());

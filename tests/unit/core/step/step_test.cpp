@@ -21,7 +21,7 @@ TEST(Step, IsLinearWhereNoRowCanBind) {
   EXPECT_EQ(step.kind, SolveKind::linear);
   EXPECT_TRUE(step.rows.empty());
   EXPECT_EQ(step.rounds, 0);
-  EXPECT_EQ(step.qdot, step.base);
+  EXPECT_EQ(step.qdot, s.solver.problem().base);
   const Kinematics kin = kinematics(s.model, s.state);
   const Eigen::VectorXd g = generalised_force(s.model, kin, step.system.wrench) + step.system.joint;
   // The residual of a solve is rounding of its terms.
