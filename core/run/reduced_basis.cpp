@@ -66,7 +66,6 @@ void look_forward(const Situation& at, const Control& control, double steps,
   s.scene = at.scene;
   s.scene.time.step = steps * at.scene.time.step;
   s.scene.time.rule = TimeRule::euler;
-  ahead.solver.extend_rounds(false);  // set_gain goes on with its factor
   ahead.control.clamp_head = control.clamp_head;
   ahead.control.tip = control.tip;
   ahead.control.thigmotaxis = control.thigmotaxis;
@@ -82,11 +81,11 @@ void look_forward(const Situation& at, const Control& control, double steps,
 void set_gain(const Situation& at, ReducedBasisStorage& s) {
   const StepSolution& step = s.ahead.step;
   const RowProblem& problem = s.ahead.solver.problem();
-  const Eigen::MatrixXd& A = problem.qp().A;
+  const Eigen::MatrixXd& A = problem.qp.A;
   const auto row_of = [&](Eigen::Index i) -> const Row& { return step.rows[step.prescribed + i]; };
   s.held.clear();
   s.asked.clear();
-  for (Eigen::Index i = 0; i < problem.qp().b.size(); ++i) {
+  for (Eigen::Index i = 0; i < problem.qp.b.size(); ++i) {
     if (row_of(i).kind == RowKind::thigmotaxis) {
       s.asked.push_back(i);
     } else if (step.lambda[step.prescribed + i] != 0) {
@@ -115,10 +114,10 @@ void set_gain(const Situation& at, ReducedBasisStorage& s) {
     s.wrench.setZero(6, at.model.body_count());
     s.joint.setZero(at.model.nv());
     add_row(row_of(s.asked[t]), kin, 1, s.wrench, s.joint);
-    s.shortfall[t] = problem.qp().b[s.asked[t]];
+    s.shortfall[t] = problem.qp.b[s.asked[t]];
     for (Eigen::Index c = 0; c < held; ++c) {
       add_row(row_of(s.held[c]), kin, -s.share(c, t), s.wrench, s.joint);
-      s.shortfall[t] -= s.share(c, t) * problem.qp().b[s.held[c]];
+      s.shortfall[t] -= s.share(c, t) * problem.qp.b[s.held[c]];
     }
     problem.factor.solve(at.model, kin, s.wrench, s.joint, s.still, s.velocity, s.twist,
                          s.reaction);

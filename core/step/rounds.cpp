@@ -16,13 +16,12 @@ Rounds::Rounds(std::string back_end)
     : back_end_(std::move(back_end)), solver_(make_box_qp_solver(back_end_)) {}
 
 Rounds::Rounds(const Rounds& other)
-    : extends(other.extends), back_end_(other.back_end_), solver_(make_box_qp_solver(back_end_)) {
+    : back_end_(other.back_end_), solver_(make_box_qp_solver(back_end_)) {
   stop_when(other.stop_);
 }
 
 Rounds& Rounds::operator=(const Rounds& other) {
   if (this != &other) {
-    extends = other.extends;
     if (back_end_ != other.back_end_) {
       back_end_ = other.back_end_;
       solver_ = make_box_qp_solver(back_end_);
@@ -71,28 +70,24 @@ Status Rounds::begin(const StepInput& in, const StepPlace& place, const WarmStar
 }
 
 /// Eq. 3 or 4 on step.rows, in rounds: violated rows are added, prescribed limits with λ < 0
-/// released, and the round after that goes on with the factor where that pays.
+/// released.
 Status Rounds::resume(const StepInput& in, const StepPlace& place, const WarmStart& warm,
                       StepSolution& step) {
-  for (bool again = true; again;) {
-    if (Status status = whole_round(in, place, warm, step); !status.ok()) {
+  do {
+    if (Status status = round(in, place, warm, step); !status.ok()) {
       return status;
     }
-    again = change_rows(in, place, step);
-    if (again && extended_round(in, place, warm, step)) {
-      again = change_rows(in, place, step);
-    }
-  }
+  } while (change_rows(in, place, step));
   if (!step.qdot.allFinite()) {
     return {Outcome::non_finite, "non-finite velocity"};
   }
   return {};
 }
 
-/// A round from nothing but the base motion, where that is known. Where the rows cannot all be met
-/// with those prescribed, another one, with none prescribed.
-Status Rounds::whole_round(const StepInput& in, const StepPlace& place, const WarmStart& warm,
-                           StepSolution& step) {
+/// A round. Where the rows cannot all be met with those prescribed, another one, with none
+/// prescribed.
+Status Rounds::round(const StepInput& in, const StepPlace& place, const WarmStart& warm,
+                     StepSolution& step) {
   while (true) {
     order_rows(in.model, warm, step);
     ++step.rounds;
@@ -101,7 +96,6 @@ Status Rounds::whole_round(const StepInput& in, const StepPlace& place, const Wa
         return status;
       }
     }
-    problem_.extended = false;
     const auto others = std::span(step.rows).subspan(static_cast<std::size_t>(step.prescribed));
     if (others.empty()) {
       return {};
@@ -109,13 +103,13 @@ Status Rounds::whole_round(const StepInput& in, const StepPlace& place, const Wa
     step.lambda.conservativeResize(static_cast<Eigen::Index>(step.rows.size()));
     step.lambda.tail(problem_.start.size()) = problem_.start;
     assemble_dual(in.model, place.kin, problem_.factor, others, problem_.base,
-                  problem_.base_centre_velocity, problem_.columns, problem_.whole);
+                  problem_.base_centre_velocity, problem_.columns, problem_.qp);
     if (solve_multipliers(step)) {
       set_velocity(in, place, step);
       return {};
     }
     if (solution_.status == SolveStatus::stopped || !release_all(step)) {
-      return describe_failure(in.model, problem_.whole, step.rows, solution_);
+      return describe_failure(in.model, problem_.qp, step.rows, solution_);
     }
   }
 }
@@ -123,7 +117,7 @@ Status Rounds::whole_round(const StepInput& in, const StepPlace& place, const Wa
 /// Whether the factor is of Eq. 1 and the rows that are prescribed now.
 bool Rounds::factor_is_current(const StepSolution& step) const {
   return factor_known_ && static_cast<std::size_t>(std::ranges::count_if(
-                              step.rows, &Row::prescribed)) == problem_.pinned.size();
+                              step.rows, &Row::prescribed)) == problem_.prescribed.size();
 }
 
 /// Releases rows and adds others where the solution asks for it; whether it did.
@@ -161,9 +155,8 @@ void Rounds::order_rows(const Model& model, const WarmStart& warm, StepSolution&
 /// Eq. 1, H q̇* = M q̇0 + h f, or Eq. 3 with the prescribed rows.
 Status Rounds::base_motion(const StepInput& in, const StepPlace& place, StepSolution& step) {
   prescribed_velocities(step, problem_.prescribed);
-  problem_.pinned = problem_.prescribed;
   try {
-    problem_.factor.factorise(in.model, place.kin, step.system.op, problem_.pinned);
+    problem_.factor.factorise(in.model, place.kin, step.system.op, problem_.prescribed);
   } catch (const std::domain_error& error) {
     return {Outcome::non_finite, error.what()};
   }
@@ -174,7 +167,6 @@ Status Rounds::base_motion(const StepInput& in, const StepPlace& place, StepSolu
   }
   problem_.base = step.qdot;
   problem_.base_centre_velocity = step.centre_velocity;
-  problem_.base_reaction = step.lambda.head(step.prescribed);
   factor_known_ = true;
   return {};
 }
@@ -190,13 +182,10 @@ void Rounds::set_velocity(const StepInput& in, const StepPlace& place, StepSolut
       add_row(step.rows[i], kin, step.lambda[i], wrench_, joint_);
     }
   }
-  problem_.factor.solve(in.model, kin, wrench_, joint_, problem_.pinned, step.qdot, step.twist,
-                        reaction_);
+  problem_.factor.solve(in.model, kin, wrench_, joint_, step.qdot, step.twist, reaction_);
   centre_velocities(kin, step.twist, step.centre_velocity);
-  Eigen::Index pinned = 0;  // released ones among them are passed over
-  for (Eigen::Index i = 0; i < step.prescribed; ++i, ++pinned) {
-    while (problem_.pinned[pinned].dof != step.rows[i].dof) ++pinned;
-    step.lambda[i] = step.rows[i].sign * reaction_[pinned];
+  for (Eigen::Index i = 0; i < step.prescribed; ++i) {
+    step.lambda[i] = step.rows[i].sign * reaction_[i];
   }
 }
 
@@ -206,7 +195,7 @@ bool Rounds::solve_multipliers(StepSolution& step) {
   BoxQpSolution& solution = solution_;
   step.kind = SolveKind::qp;
   const auto begin = std::chrono::steady_clock::now();
-  solver_->solve(problem_.qp(), problem_.start, solution);
+  solver_->solve(problem_.qp, problem_.start, solution);
   step.qp_time += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   step.iterations += solution.iterations;
   if (solution.status != SolveStatus::solved) {

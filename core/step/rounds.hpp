@@ -19,21 +19,13 @@ namespace hagfish {
 /// Eq. 3 or 4 of a step as its last round had it: how velocities answer to forces, and its rows to
 /// their multipliers.
 struct RowProblem {
-  ArticulatedFactor factor;  ///< H⁻¹, with some velocities prescribed
-  /// Those, with those of released rows, as they are.
-  std::vector<PrescribedVelocity> pinned;
+  ArticulatedFactor factor;                    ///< H⁻¹, with the velocities below prescribed
   std::vector<PrescribedVelocity> prescribed;  ///< of the rows that are
-  Eigen::VectorXd base;  ///< q̇ with the reactions of rows prescribed when it was found alone, nv
-  Eigen::Matrix3Xd base_centre_velocity;  ///< of the bodies' centres at it, 3 x N, cm/s
-  Eigen::VectorXd base_reaction;          ///< λ of the prescribed rows in it
-  RowColumns columns;                     ///< of the other rows
-  BoxQp whole;                            ///< of a round from nothing
-  DualExtension extension;                ///< and of the one that goes on from there
-  bool extended = false;                  ///< the last round did
-  Eigen::VectorXd start;                  ///< multipliers that the back end started from
-
-  /// Of the last round that had rows behind the prescribed ones, on those: A and b of Eq. 4.
-  const BoxQp& qp() const { return extended ? extension.qp : whole; }
+  Eigen::VectorXd base;                        ///< q̇ with the reactions of these alone, nv
+  Eigen::Matrix3Xd base_centre_velocity;       ///< of the bodies' centres at it, 3 x N, cm/s
+  RowColumns columns;                          ///< of the other rows, where there are any, and
+  BoxQp qp;                                    ///< Eq. 4 on these: A and b
+  Eigen::VectorXd start;                       ///< multipliers that the back end started from
 };
 
 /// Solves steps round by round, one step after the other. Copies have a back end and storage of
@@ -61,21 +53,14 @@ class Rounds {
   /// As StepSolver::stop_when.
   void stop_when(std::function<bool()> asked);
 
-  /// Whether a round that releases or adds few rows goes on with the factor of the round before.
-  /// Without, problem() has the factor of just the rows that the solution prescribes.
-  bool extends = true;
-
   /// That of the last step.
   const RowProblem& problem() const { return problem_; }
 
  private:
-  Status whole_round(const StepInput& in, const StepPlace& place, const WarmStart& warm,
-                     StepSolution& step);
+  Status round(const StepInput& in, const StepPlace& place, const WarmStart& warm,
+               StepSolution& step);
   bool factor_is_current(const StepSolution& step) const;
   bool change_rows(const StepInput& in, const StepPlace& place, StepSolution& step);
-  bool extended_round(const StepInput& in, const StepPlace& place, const WarmStart& warm,
-                      StepSolution& step);
-  void move_released_back(StepSolution& step);
   void order_rows(const Model& model, const WarmStart& warm, StepSolution& step);
   Status base_motion(const StepInput& in, const StepPlace& place, StepSolution& step);
   void set_velocity(const StepInput& in, const StepPlace& place, StepSolution& step);

@@ -46,9 +46,6 @@ class StepSolver {
   /// Its rows and what answers to them.
   const RowProblem& problem() const { return rounds_.problem(); }
 
-  /// As Rounds::extends.
-  void extend_rounds(bool extends) { rounds_.extends = extends; }
-
   /// What the last step left for the next one, or a pass for the next.
   WarmStart warm;
 

@@ -65,7 +65,7 @@ void scale_multipliers(const RowProblem& problem, const StepSolution& step,
   }
   const Eigen::Index others = scaled.size() - step.prescribed;
   if (others > 0) {
-    row_scale(problem.qp().A, scaled.tail(others));
+    row_scale(problem.qp.A, scaled.tail(others));
   }
   storage.row_scale = scaled;
   scaled.array() *= step.lambda.array().abs();
@@ -98,7 +98,7 @@ void measure_rows(const RowProblem& problem, ReportStorage& storage, StepSolutio
   const Eigen::Index others = m - step.prescribed;
   step.kkt = others == 0
                  ? KktResiduals{}
-                 : kkt_residuals(problem.qp(), step.lambda.tail(others), step.excess.tail(others),
+                 : kkt_residuals(problem.qp, step.lambda.tail(others), step.excess.tail(others),
                                  storage.row_scale.tail(others), beta);
 }
 

@@ -63,9 +63,7 @@ struct StepSolution {
   /// Active torque as applied, towards the rest shape and besides, dyn cm, nv; 0 at the root.
   Eigen::VectorXd active_torque;
   SolveKind kind = SolveKind::linear;
-  /// Rows that entered the problem, in the order of place_in_step; where a round went on with the
-  /// factor of the one before, those that it added and then those that it released come last.
-  std::vector<Row> rows;
+  std::vector<Row> rows;           ///< that entered the problem, in the order of place_in_step
   std::vector<PathRow> path_rows;  ///< of them, what the step's path showed
   Eigen::Index prescribed = 0;     ///< how many of them, the first, are prescribed
   Eigen::VectorXd lambda;          ///< their multipliers, dyn s or dyn cm s

@@ -102,7 +102,6 @@ void add_mujoco_step(const std::string& part, const std::shared_ptr<Start>& star
 /// A step of the knotted animal, taken apart.
 struct Parts {
   explicit Parts(std::shared_ptr<Start> of) : start(std::move(of)), sim(start->middle()) {
-    sim.solver.extend_rounds(false);  // parts go on with its factor
     for (Eigen::Matrix3Xd& seen : centre) {
       take_step(start->model, start->scene, sim, record);
       seen = sim.now.observation.kin.centre;
@@ -226,7 +225,7 @@ void add_core_parts(const std::shared_ptr<Start>& start) {
     const std::shared_ptr<BoxQpSolver> solver = make_box_qp_solver(name);
     add("core", "qp_" + name, n, [parts, solver] {
       benchmark::DoNotOptimize(
-          solver->solve(parts->sim.solver.problem().qp(), parts->sim.solver.problem().start));
+          solver->solve(parts->sim.solver.problem().qp, parts->sim.solver.problem().start));
     });
   }
 }

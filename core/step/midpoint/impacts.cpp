@@ -75,7 +75,7 @@ void Impacts::solve_hit(const RowProblem& problem, const StepSolution& step) {
 double Impacts::coupling(const RowProblem& problem, const StepSolution& step, Eigen::Index i,
                          std::size_t row) const {
   const auto first = static_cast<std::size_t>(step.prescribed);
-  return problem.qp().A(static_cast<Eigen::Index>(hit_[i] - first),
+  return problem.qp.A(static_cast<Eigen::Index>(hit_[i] - first),
                         static_cast<Eigen::Index>(row - first));
 }
 
