@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/step/midpoint/impacts.hpp"
+
 namespace hagfish {
 namespace {
 
@@ -115,14 +117,15 @@ Status MidpointRule::find_middle(const StepInput& in, bool balanced, Rounds& rou
 Status MidpointRule::solve_here(const StepInput& in, Rounds& rounds, const WarmStart& warm,
                                 StepSolution& step) {
   Status status = rounds.begin(in, place(in), warm, step);
-  return status.ok() ? impacts_.set_next_velocity(in, place(in), rounds.problem(), step) : status;
+  return status.ok() ? set_next_velocity(in, place(in), rounds.problem(), step, half_change_)
+                     : status;
 }
 
 Status MidpointRule::resume(const StepInput& in, Rounds& rounds, WarmStart& warm,
                             StepSolution& step) {
   Status status = rounds.resume(in, place(in), warm, step);
   if (status.ok()) {
-    status = impacts_.set_next_velocity(in, place(in), rounds.problem(), step);
+    status = set_next_velocity(in, place(in), rounds.problem(), step, half_change_);
   }
   if (!status.ok() ||
       (step.qdot - midway_.moved).lpNorm<Eigen::Infinity>() <= in.scene.time.settled) {
@@ -138,7 +141,7 @@ void MidpointRule::end(const StepInput& in, WarmStart& warm, StepSolution& step)
   body_twists(in.model, midway_.kin, step.felt, step.felt_twist);
   centre_velocities(midway_.kin, step.felt_twist, step.felt_centre_velocity);
   warm.half_before = warm.half_change;
-  warm.half_change = impacts_.half_change();
+  warm.half_change = half_change_;
   warm.remaining = step.middle.remaining;
   // Multipliers of the velocity by which the step moves become those of its whole force.
   for (std::size_t i = 0; i < step.rows.size(); ++i) {

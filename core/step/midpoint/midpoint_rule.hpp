@@ -2,7 +2,6 @@
 // which passes of the rounds find.
 #pragma once
 
-#include "core/step/midpoint/impacts.hpp"
 #include "core/step/midpoint/midway.hpp"
 #include "core/step/step_rule.hpp"
 #include "solvers/fixed_point.hpp"
@@ -28,8 +27,8 @@ class MidpointRule : public StepRule {
                      StepSolution& step);
   Status solve_here(const StepInput& in, Rounds& rounds, const WarmStart& warm, StepSolution& step);
 
-  Midway midway_;  ///< of the step last begun
-  Impacts impacts_;
+  Midway midway_;                ///< of the step last begun
+  Eigen::VectorXd half_change_;  ///< of the last pass (impacts.hpp), nv
   // Velocities moved and felt, 2 nv.
   AndersonMixing passes_;
   Eigen::VectorXd first_guess_, placed_by_, led_to_, mixed_;
