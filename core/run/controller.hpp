@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "core/knot/knot.hpp"
-#include "core/run/active_curvature.hpp"
+#include "core/muscle/active_curvature.hpp"
 #include "core/run/control_law.hpp"
 #include "core/run/script.hpp"
 #include "core/scene/phase.hpp"

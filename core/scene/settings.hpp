@@ -138,7 +138,7 @@ struct ActiveSettings {
   double capacity = 0;
 };
 
-/// Muscles that make the animal's torques (addition; core/chain/muscle_paths.hpp).
+/// Muscles that make the animal's torques (addition; core/chain/muscle.hpp).
 struct MuscleSettings {
   bool present = false;  ///< the specimen's: the activations that the torques take are logged
   /// Of the first-order dynamics by which a muscle follows its excitation, s (LawName::muscles).

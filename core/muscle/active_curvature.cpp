@@ -1,4 +1,4 @@
-#include "core/run/active_curvature.hpp"
+#include "core/muscle/active_curvature.hpp"
 
 #include <cmath>
 
