@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <tuple>
 
+#include "core/run/muscle_law.hpp"
 #include "core/run/simulation.hpp"
 #include "tests/support/random_chain.hpp"
 #include "tests/support/stored_states.hpp"
@@ -72,22 +74,12 @@ TEST_F(Allocation, CountersSeeEigenAndTheStandardLibrary) {
   EXPECT_EQ(requests - between, 1) << other.front();
 }
 
-class AllocationOfLaws : public Allocation, public testing::WithParamInterface<LawName> {};
-
-TEST_P(AllocationOfLaws, NoneInOneThatSolvesAStepAsItDidBefore) {
-  scene.controller.law = GetParam();
-  ReducedBasisSettings& basis = scene.controller.reduced_basis;
-  basis.cosines = 3;
-  basis.period = 0.004;
-  basis.softness = 0.1;
-  basis.most = 1e4;
-  scene.muscle = {GetParam() == LawName::muscles, 0.1};
+TEST_F(Allocation, NoneInTheMuscleLawWhereItSolvesAStepAsItDidBefore) {
+  scene.muscle = {true, 0.1};
   scene.script.kind = ScriptSettings::Kind::curvature;  // with tone
   scene.active = {500, 0.01, 1, 1e4};
   start("slide");
-  LawStorage storage;
-  const StepSolution& solved = GetParam() == LawName::muscles ? storage.muscles.paper.step
-                                                              : storage.reduced_basis.ahead.step;
+  std::optional<MuscleStorage> storage(std::in_place);
   Eigen::VectorXd memory;
   Control control;
   const auto asked_at = [&](double time) {
@@ -95,25 +87,22 @@ TEST_P(AllocationOfLaws, NoneInOneThatSolvesAStepAsItDidBefore) {
     control.torque.value.setZero();
     control.torque.rate.setZero();
     const int before = requests;
-    named_law({model, scene, sim.now, time, sim.controller}, memory, control, storage);
+    muscle_law({model, scene, sim.now, time, sim.controller}, memory, control, *storage);
     return requests - before;
   };
   // Arrays by row grow from round to round of one step: a moment with one round is looked for.
-  for (int k = 0; k < 100 && solved.rounds != 1; ++k) {
+  for (int k = 0; k < 100 && storage->paper.step.rounds != 1; ++k) {
     step();
     memory.resize(0);
     control = {};
-    storage = {};
+    storage.emplace();
     EXPECT_GT(asked_at(0), 0);
   }
-  ASSERT_EQ(solved.rounds, 1);
+  ASSERT_EQ(storage->paper.step.rounds, 1);
   asked_at(0.004);
   EXPECT_EQ(asked_at(0.008), 0);
   EXPECT_GT(control.torque.value.size(), 0);
 }
-
-INSTANTIATE_TEST_SUITE_P(LookingForward, AllocationOfLaws,
-                         testing::Values(LawName::reduced_basis, LawName::muscles));
 
 class AllocationOfRows : public Allocation,
                          public testing::WithParamInterface<std::pair<BendingLimit, LawName>> {};
