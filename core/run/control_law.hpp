@@ -14,6 +14,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <string>
 
 #include "core/contact/observation.hpp"
 #include "core/scene/settings.hpp"
@@ -61,6 +62,10 @@ bool fits_law(const Model& model, const Scene& scene, const Eigen::VectorXd& mem
 
 /// By the law that the scene names, which is not its own, in `storage` (law_storage.hpp).
 void named_law(const Situation& at, Eigen::VectorXd& memory, Control& control, LawStorage& storage);
+
+/// What to say besides where a step by `control` ended so: explicit torques that grow from step to
+/// step have a cure. Empty where that is not the case.
+std::string cure_of_torque(const Control& control, const Status& status);
 
 /// Throws std::invalid_argument in one line where `control` is none for a step of `model`: a vector
 /// of another length or with an entry at the root, a number that is not finite, a contact off the

@@ -1,5 +1,7 @@
 #include "core/run/energy.hpp"
 
+#include <algorithm>
+
 namespace hagfish {
 namespace {
 
@@ -11,6 +13,24 @@ void set_energies(const Model& model, const Moment& now, EnergyLedger& ledger) {
 
 PointMotion motion_of(const Matrix6Xd& twist, const Eigen::Matrix3Xd& velocity, int body) {
   return {twist.col(body).head<3>(), velocity.col(body)};
+}
+
+/// What the step's impacts lose.
+double lost_at_impacts(const StepInput& in, const StepSolution& step) {
+  const BodyVelocities before = in.motion().before();
+  const BodyVelocities felt{step.felt_twist, step.felt_centre_velocity};
+  const double whole = in.scene.time.step / in.scene.time.reach();  // Δv over x - v
+  double lost = 0;
+  for (std::size_t i = 0; i < step.rows.size(); ++i) {
+    const Row& row = step.rows[i];
+    const double impact =
+        in.midway == nullptr ? step.lambda[static_cast<Eigen::Index>(i)] : row.impact;
+    if (row.kind == RowKind::thigmotaxis || impact == 0) continue;
+    const double change =
+        whole * (row_velocity(row, felt, step.felt) - row_velocity(row, before, in.state.qdot));
+    lost += std::max(0.0, 0.5 * impact * change);
+  }
+  return lost;
 }
 
 }  // namespace
@@ -31,7 +51,7 @@ EnergyLedger open_ledger(const Model& model, const Moment& now) {
 //   (t/h) u'MΔv = t u'(f - D x) + (t/h) u'C'λ - t u'K (q + r x + β (2 x - v)) + t u'w - t u'b,
 //   V(q + t u) - V(q) = t u'K q + ½ t² u'K u   of the springs.
 // Their sum is works less dissipation and the integrator's own terms below, with what T changes by
-// on the way to that place and from there.
+// on the way to that place and from there. Of (y - (t/h) u)'MΔv impacts have a part of their own.
 void book_step(const StepInput& in, const StepSolution& step, const Moment& next, double travelled,
                EnergyLedger& ledger) {
   const Model& model = in.model;
@@ -81,7 +101,9 @@ void book_step(const StepInput& in, const StepSolution& step, const Moment& next
   const double kinetic = ledger.kinetic;
   const double gravity = ledger.gravity;
   set_energies(model, next, ledger);
-  ledger.integrator_inertia += impulse;
+  const double lost = lost_at_impacts(in, step);
+  ledger.impacts += lost;
+  ledger.integrator_inertia += impulse + lost;
   ledger.integrator_potential += t * stretch + fall + ledger.gravity - gravity;
   ledger.integrator_coriolis += ledger.kinetic - kinetic - moved - bias;
 }

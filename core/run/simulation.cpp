@@ -55,8 +55,7 @@ class Attempt {
     const double travelled = looks_ahead() ? end_where_strands_meet() : h();
     sim_.solver.finish(in_, step_);
     note_pull(step_, sim_.controller);
-    guard_muscles(model_, scene_, sim_.controller.rest_shape, record_.control.active, record_.time,
-                  sim_.watch, record_.warnings);
+    guard_muscles(model_, scene_, record_.control, record_.time, sim_.watch, record_.warnings);
     guard_cap(model_, in_.kin(), scene_, sim_.controller.phase, step_, record_.time, sim_.watch,
               record_.warnings);
     if (Status status =
@@ -75,7 +74,9 @@ class Attempt {
         record_.control.clamp_head ? head_drift(model_, sim_.now.observation.kin) : 0;
     record_.controller = sim_.controller;
     record_.momentum = sim_.momentum;
-    book_momentum(in_, step_, next_, sim_.momentum);
+    book_momentum(in_, step_, next_, sim_.ledger, sim_.momentum);
+    guard_momentum(model_, in_, record_.momentum, sim_.momentum, sim_.ledger, sim_.watch,
+                   record_.warnings);
     std::swap(sim_.now, next_);
     ++sim_.step;
     return {};
@@ -112,7 +113,13 @@ class Attempt {
   /// Where the step's velocity leads within time `t` (s).
   void move(double t) {
     advance(sim_.now.state.q, step_.qdot, t, next_.state.q);
-    observe(model_, next_.state, scene_, sim_.search, next_.observation);
+    if (keeps_momentum(scene_, record_.control)) {
+      place_centre(model_, centre_after(in_, step_, sim_.momentum.momentum, t), next_.state.q,
+                   next_.observation.kin);
+      observe_placed(model_, next_.state, scene_, sim_.search, next_.observation);
+    } else {
+      observe(model_, next_.state, scene_, sim_.search, next_.observation);
+    }
   }
 
   /// Moves along the step's path to its end. Where the path overlaps or leaves a cone and `correct`
@@ -183,6 +190,7 @@ void keep(Simulation& sim) {
   before.controller = sim.controller;
   before.warm = sim.solver.warm;
   before.ledger = sim.ledger;
+  before.momentum = sim.momentum;
   before.watch = sim.watch;
   keep_candidates(sim.search.candidates, before.candidates);
 }
@@ -192,6 +200,7 @@ void put_back(Simulation& sim) {
   sim.controller = before.controller;
   sim.solver.warm = before.warm;
   sim.ledger = before.ledger;
+  sim.momentum = before.momentum;
   sim.watch = before.watch;
   sim.search.candidates = before.candidates;
 }
@@ -243,7 +252,7 @@ void change_scene(const Model& model, const Scene& before, const Scene& scene, S
   sim.search = {};
   observe(model, sim.now.state, scene, sim.search, sim.now.observation);
   const EnergyLedger now = open_ledger(model, sim.now);
-  const Eigen::Vector3d now_momentum = linear_momentum(model, sim.now.observation.kin);
+  const Momentum now_momentum = open_momentum(model, sim.now).momentum;
   EnergyLedger& ledger = sim.ledger;
   ledger.initial += now.initial - (ledger.kinetic + ledger.elastic + ledger.gravity);
   ledger.kinetic = now.kinetic;
@@ -268,7 +277,7 @@ void take_step(const Model& model, const Scene& scene, Simulation& sim, StepReco
   try {
     const Status status = Attempt(model, scene, sim, record).take();
     if (!status.ok()) {
-      throw StepError(status);
+      throw StepError({status.outcome, status.message + cure_of_torque(record.control, status)});
     }
   } catch (...) {
     record.controller = sim.controller;

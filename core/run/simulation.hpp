@@ -18,6 +18,7 @@ struct BeforeStep {
   ControllerState controller;
   WarmStart warm;
   EnergyLedger ledger;
+  MomentumLedger momentum;
   Watch watch;
   Candidates candidates;  ///< of the search
 };

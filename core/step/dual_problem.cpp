@@ -31,9 +31,10 @@ void load_row(const Model& model, const Kinematics& kin, const Row& row, Eigen::
   if (row.beside != 0) {
     columns.load_joint(row.dof + 1, column, row.beside);
   }
-  visit_forces(row, [&](int body, const Eigen::Vector3d& force) {
-    columns.load(model, body, column, kin.centre_offset(body).cross(force), force);
-  });
+  visit_forces(row, kin,
+               [&](int body, const Eigen::Vector3d& force, const Eigen::Vector3d& offset) {
+                 columns.load(model, body, column, offset.cross(force), force);
+               });
 }
 
 /// C of one row at one velocity.
@@ -42,19 +43,20 @@ double coefficient(const Model& model, const Kinematics& kin, const Row& row, in
     return row.dof == dof ? row.sign : (row.dof + 1 == dof ? row.beside : 0);
   }
   double sum = 0;
-  visit_forces(row, [&](int body, const Eigen::Vector3d& force) {
-    if (dof < model.bodies[body].first_dof + model.bodies[body].dofs) {
-      const auto axis = kin.axis.col(dof);
-      sum += axis.head<3>().dot(kin.centre_offset(body).cross(force)) + axis.tail<3>().dot(force);
-    }
-  });
+  visit_forces(row, kin,
+               [&](int body, const Eigen::Vector3d& force, const Eigen::Vector3d& offset) {
+                 if (dof < model.bodies[body].first_dof + model.bodies[body].dofs) {
+                   const auto axis = kin.axis.col(dof);
+                   sum += axis.head<3>().dot(offset.cross(force)) + axis.tail<3>().dot(force);
+                 }
+               });
   return sum;
 }
 
 /// Right-hand side and bounds of row `i` of a problem.
-void set_row(const Row& row, const Eigen::VectorXd& base, const Eigen::Matrix3Xd& centre_velocity,
+void set_row(const Row& row, const Eigen::VectorXd& base, const BodyVelocities& bodies,
              Eigen::Index i, BoxQp& qp) {
-  qp.b[i] = row.rhs - row_velocity(row, centre_velocity, base);
+  qp.b[i] = row.rhs - row_velocity(row, bodies, base);
   qp.lower[i] = row.lower;
   qp.upper[i] = row.upper;
 }
@@ -104,7 +106,7 @@ void release(const Model& model, const Kinematics& kin, const ArticulatedFactor&
 
 void assemble_dual(const Model& model, const Kinematics& kin, const ArticulatedFactor& factor,
                    std::span<const Row> rows, const Eigen::VectorXd& base,
-                   const Eigen::Matrix3Xd& centre_velocity, RowColumns& columns, BoxQp& qp) {
+                   const BodyVelocities& bodies, RowColumns& columns, BoxQp& qp) {
   const auto m = static_cast<Eigen::Index>(rows.size());
   columns.reset(model, m);
   qp.b.resize(m);
@@ -113,7 +115,7 @@ void assemble_dual(const Model& model, const Kinematics& kin, const ArticulatedF
   for (Eigen::Index j = 0; j < m; ++j) {
     const Row& row = rows[j];
     load_row(model, kin, row, j, columns);
-    set_row(row, base, centre_velocity, j, qp);
+    set_row(row, base, bodies, j, qp);
   }
   factor.half_solve(model, kin, columns);
   columns.gram(qp.A);
@@ -122,8 +124,8 @@ void assemble_dual(const Model& model, const Kinematics& kin, const ArticulatedF
 
 void extend_dual(const Model& model, const Kinematics& kin, const ArticulatedFactor& factor,
                  const ExtendedRows& rows, const Eigen::VectorXd& base,
-                 const Eigen::Matrix3Xd& centre_velocity, const RowColumns& columns,
-                 const BoxQp& qp, DualExtension& extension) {
+                 const BodyVelocities& bodies, const RowColumns& columns, const BoxQp& qp,
+                 DualExtension& extension) {
   const auto there = static_cast<Eigen::Index>(rows.there.size());
   const auto added = static_cast<Eigen::Index>(rows.added.size());
   const auto released = static_cast<Eigen::Index>(rows.released.size());
@@ -152,7 +154,7 @@ void extend_dual(const Model& model, const Kinematics& kin, const ArticulatedFac
   e.qp.lower.head(there) = qp.lower;
   e.qp.upper.head(there) = qp.upper;
   for (Eigen::Index j = 0; j < added; ++j) {
-    set_row(rows.added[j], base, centre_velocity, there + j, e.qp);
+    set_row(rows.added[j], base, bodies, there + j, e.qp);
   }
   if (released > 0) {
     release(model, kin, factor, rows, e);
@@ -166,10 +168,11 @@ BoxQp whole_dual(const Model& model, const Kinematics& kin, const StepSystem& sy
   ArticulatedFactor factor;
   factor.factorise(model, kin, system.op);
   const Eigen::VectorXd base = factor.solve(model, kin, system.wrench, system.joint);
+  const Matrix6Xd twist = body_twists(model, kin, base);
   RowColumns columns;
   BoxQp qp;
-  assemble_dual(model, kin, factor, rows, base,
-                centre_velocities(kin, body_twists(model, kin, base)), columns, qp);
+  assemble_dual(model, kin, factor, rows, base, {twist, centre_velocities(kin, twist)}, columns,
+                qp);
   return qp;
 }
 

@@ -11,10 +11,10 @@
 namespace hagfish {
 
 /// The problem on `rows` (m): `factor` of H, `base` the velocity q̇* without their forces (nv),
-/// which moves the bodies' centres by `centre_velocity` (3 x N). `columns` is storage.
+/// by which the bodies move as `bodies` says. `columns` is storage.
 void assemble_dual(const Model& model, const Kinematics& kin, const ArticulatedFactor& factor,
                    std::span<const Row> rows, const Eigen::VectorXd& base,
-                   const Eigen::Matrix3Xd& centre_velocity, RowColumns& columns, BoxQp& qp);
+                   const BodyVelocities& bodies, RowColumns& columns, BoxQp& qp);
 
 /// How the problem on some rows changes by further ones, of the same factor.
 struct DualExtension {
@@ -37,8 +37,8 @@ struct ExtendedRows {
 /// left them.
 void extend_dual(const Model& model, const Kinematics& kin, const ArticulatedFactor& factor,
                  const ExtendedRows& rows, const Eigen::VectorXd& base,
-                 const Eigen::Matrix3Xd& centre_velocity, const RowColumns& columns,
-                 const BoxQp& qp, DualExtension& extension);
+                 const BodyVelocities& bodies, const RowColumns& columns, const BoxQp& qp,
+                 DualExtension& extension);
 
 /// The problem of a step on all of `rows`, with nothing prescribed, from Eq. 1 as assembled.
 BoxQp whole_dual(const Model& model, const Kinematics& kin, const StepSystem& system,

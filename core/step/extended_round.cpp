@@ -59,8 +59,7 @@ bool StepSolver::extended_round(const StepInput& in, StepSolution& step) {
   extend_dual(
       in.model, in.kin(), scratch_.factor,
       {others.first(first_added), others.subspan(first_added, added), others.last(released)},
-      step.base, scratch_.base_centre_velocity, scratch_.columns, scratch_.whole,
-      scratch_.extension);
+      step.base, scratch_.base_bodies(), scratch_.columns, scratch_.whole, scratch_.extension);
   scratch_.extended = true;
   step.lambda.conservativeResize(static_cast<Eigen::Index>(step.rows.size()));
   step.lambda.tail(scratch_.start.size()) = scratch_.start;

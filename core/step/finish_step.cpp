@@ -86,7 +86,7 @@ void StepSolver::measure_rows(StepSolution& step) {
   const auto m = static_cast<Eigen::Index>(step.rows.size());
   step.excess.resize(m);
   for (Eigen::Index i = 0; i < m; ++i) {
-    step.excess[i] = row_velocity(step.rows[i], step.centre_velocity, step.qdot) - step.rows[i].rhs;
+    step.excess[i] = row_velocity(step.rows[i], step.bodies(), step.qdot) - step.rows[i].rhs;
   }
   // β of the whole problem: where a prescribed row binds alone, b over its scale is this.
   const double beta = step.prescribed == 0 ? 0 : scratch_.scaled.head(step.prescribed).maxCoeff();

@@ -50,8 +50,7 @@ bool add_missed_rows(const StepInput& in, const Observation& there, double t, St
     if (gap_there < goal - tolerance) {
       PathRow shown = make_row();
       Row& row = shown.row;
-      const double missed =
-          gap_there - gap_now - t * row_velocity(row, step.centre_velocity, step.qdot);
+      const double missed = gap_there - gap_now - t * row_velocity(row, step.bodies(), step.qdot);
       // At great speeds what the linear row misses grows beyond all sense; rows that ask strands to
       // part by more than they may move between samples only contradict each other.
       row.rhs = std::min(goal - gap_now - missed * (h / t) * (h / t), settings.stride) / h;

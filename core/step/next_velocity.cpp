@@ -43,7 +43,7 @@ bool StepSolver::find_impacts(const StepInput& in, StepSolution& step) {
       any = true;
     }
     if (!row.prescribed && !pushes(row, lambda)) continue;
-    const double change = row.rhs - row_velocity(row, in.midway->centre_velocity, in.state.qdot);
+    const double change = row.rhs - row_velocity(row, in.motion().before(), in.state.qdot);
     any = any || change != 0;
     if (row.prescribed) {
       scratch_.held.push_back(i);
@@ -158,8 +158,9 @@ Status StepSolver::set_next_velocity(const StepInput& in, StepSolution& step) {
         respond(in, scratch_.factor, step);
         centre_velocities(kin, scratch_.impact_twist, scratch_.impact_centre_velocity);
         for (std::size_t k = 0; k < scratch_.hit.size(); ++k) {
-          scratch_.hit_b[k] -= row_velocity(step.rows[scratch_.hit[k]],
-                                            scratch_.impact_centre_velocity, scratch_.impact);
+          scratch_.hit_b[k] -= row_velocity(
+              step.rows[scratch_.hit[k]], {scratch_.impact_twist, scratch_.impact_centre_velocity},
+              scratch_.impact);
         }
       }
       solve_impacts(in, step);

@@ -15,8 +15,12 @@ Matrix6Xd body_jacobian(const Model& model, const Kinematics& kin, int body) {
 }
 
 Eigen::Matrix3Xd centre_jacobian(const Model& model, const Kinematics& kin, int body) {
+  return point_jacobian(model, kin, body, kin.centre_offset(body));
+}
+
+Eigen::Matrix3Xd point_jacobian(const Model& model, const Kinematics& kin, int body,
+                                const Eigen::Vector3d& offset) {
   const Matrix6Xd jacobian = body_jacobian(model, kin, body);
-  const Eigen::Vector3d offset = kin.centre_offset(body);
   Eigen::Matrix3Xd velocity = jacobian.bottomRows<3>();
   for (Eigen::Index k = 0; k < velocity.cols(); ++k) {
     velocity.col(k) += jacobian.col(k).head<3>().cross(offset);
@@ -33,9 +37,10 @@ Eigen::MatrixXd dense_rows(const Model& model, const Kinematics& kin,
       c(i, row.dof) = row.sign;
       if (row.beside != 0) c(i, row.dof + 1) = row.beside;
     }
-    visit_forces(row, [&](int body, const Eigen::Vector3d& force) {
-      c.row(i) += force.transpose() * centre_jacobian(model, kin, body);
-    });
+    visit_forces(row, kin,
+                 [&](int body, const Eigen::Vector3d& force, const Eigen::Vector3d& offset) {
+                   c.row(i) += force.transpose() * point_jacobian(model, kin, body, offset);
+                 });
   }
   return c;
 }

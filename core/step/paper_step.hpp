@@ -15,8 +15,10 @@ namespace hagfish {
 /// zero behind.
 Matrix6Xd body_jacobian(const Model& model, const Kinematics& kin, int body);
 
-/// Jacobian of a body's centre, 3 x nv.
+/// Jacobian of a body's centre, 3 x nv, and of its material point at `offset` from kin.reference.
 Eigen::Matrix3Xd centre_jacobian(const Model& model, const Kinematics& kin, int body);
+Eigen::Matrix3Xd point_jacobian(const Model& model, const Kinematics& kin, int body,
+                                const Eigen::Vector3d& offset);
 
 /// Rows as a dense matrix, m x nv.
 Eigen::MatrixXd dense_rows(const Model& model, const Kinematics& kin, const std::vector<Row>& rows);

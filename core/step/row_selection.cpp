@@ -40,13 +40,14 @@ void gather_rows(const StepInput& in, const WarmStart& warm, std::vector<Row>& r
   if (in.control.clamp_head) {
     append_head_rows(in.state, in.scene.constraints, h, rows);
   }
-  append_thigmotaxis_rows(in.model, in.control.thigmotaxis, in.moved_segments(),
-                          in.scene.controller, in.motion().centre_velocity, h, rows);
+  append_thigmotaxis_rows(in.model, in.control.thigmotaxis,
+                          {in.kin(), in.segments(), in.midway != nullptr, in.motion().before()},
+                          in.scene.controller, h, rows);
   const auto pushed = [&](const Contact& contact) {
     return warm.find(contact_row_id(contact)) != nullptr;
   };
   const Eigen::VectorXd& v = in.midway == nullptr ? in.state.qdot : in.midway->moved;
-  append_unilateral_rows(in, {v, in.kin().centre_velocity, lazy_reach, lazy_reach}, pushed, rows);
+  append_unilateral_rows(in, {v, in.kin().velocities(), lazy_reach, lazy_reach}, pushed, rows);
 }
 
 Row placed_row(const StepInput& in, const PathRow& shown) {
@@ -72,8 +73,7 @@ void put_row(const Row& row, std::vector<Row>& rows) {
 void gather_violated_rows(const StepInput& in, const StepSolution& step, std::vector<Row>& rows) {
   rows.clear();
   const auto all = [](const Contact&) { return true; };
-  append_unilateral_rows(in, {step.qdot, step.centre_velocity, -lazy_tolerance, nowhere}, all,
-                         rows);
+  append_unilateral_rows(in, {step.qdot, step.bodies(), -lazy_tolerance, nowhere}, all, rows);
 }
 
 }  // namespace hagfish

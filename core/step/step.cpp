@@ -249,8 +249,8 @@ Status StepSolver::whole_round(const StepInput& in, StepSolution& step) {
     }
     step.lambda.conservativeResize(static_cast<Eigen::Index>(step.rows.size()));
     step.lambda.tail(scratch_.start.size()) = scratch_.start;
-    assemble_dual(in.model, in.kin(), scratch_.factor, others, step.base,
-                  scratch_.base_centre_velocity, scratch_.columns, scratch_.whole);
+    assemble_dual(in.model, in.kin(), scratch_.factor, others, step.base, scratch_.base_bodies(),
+                  scratch_.columns, scratch_.whole);
     if (solve_multipliers(step)) {
       set_velocity(in, step);
       return {};
@@ -314,6 +314,7 @@ Status StepSolver::base_motion(const StepInput& in, StepSolution& step) {
     return {Outcome::non_finite, "non-finite unconstrained velocity"};
   }
   step.base = step.qdot;
+  scratch_.base_twist = step.twist;
   scratch_.base_centre_velocity = step.centre_velocity;
   scratch_.base_reaction = step.lambda.head(step.prescribed);
   scratch_.factor_known = true;

@@ -49,6 +49,9 @@ struct StepInput {
 
   /// What Eq. 1 and the rows are of.
   const Kinematics& kin() const { return midway == nullptr ? observation.kin : midway->kin; }
+  const std::vector<SplineSegment>& segments() const {
+    return midway == nullptr ? observation.segments : midway->segments;
+  }
   /// Null where that is `state`: contacts are then as they were found.
   const std::vector<SplineSegment>* moved_segments() const {
     return midway == nullptr ? nullptr : &midway->segments;
@@ -92,6 +95,7 @@ struct StepSolution {
   Eigen::Matrix3Xd felt_centre_velocity;  ///< of their centres at it, 3 x N, cm/s
   Matrix6Xd twist;                        ///< of the bodies at it, 6 x N
   Eigen::Matrix3Xd centre_velocity;       ///< of the bodies' centres at it, 3 x N, cm/s
+  BodyVelocities bodies() const { return {twist, centre_velocity}; }  ///< at qdot
   ConstraintForces force;
   Eigen::Vector3d tip = Eigen::Vector3d::Zero();  ///< tip force as applied, dyn, world
   /// Active torque as applied, towards the rest shape and besides, dyn cm, nv; 0 at the root.
@@ -143,9 +147,11 @@ struct StepScratch {
   bool factor_known = false;  ///< it is of this step's Eq. 1
   /// Velocities that `factor` has as prescribed, with those of released rows, as they are.
   std::vector<PrescribedVelocity> pinned;
-  Eigen::VectorXd reaction;                        ///< at those
-  Eigen::VectorXd base_reaction;                   ///< λ of the prescribed rows in step.base
-  Eigen::Matrix3Xd base_centre_velocity;           ///< 3 x N, cm/s
+  Eigen::VectorXd reaction;               ///< at those
+  Eigen::VectorXd base_reaction;          ///< λ of the prescribed rows in step.base
+  Matrix6Xd base_twist;                   ///< of the bodies at step.base, 6 x N
+  Eigen::Matrix3Xd base_centre_velocity;  ///< of their centres, 3 x N, cm/s
+  BodyVelocities base_bodies() const { return {base_twist, base_centre_velocity}; }
   std::vector<Row> violated;                       ///< rows that the last answer violates
   std::vector<std::pair<int, std::size_t>> order;  ///< of the rows: place_in_step, index
   std::vector<Row> ordered;

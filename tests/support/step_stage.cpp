@@ -29,8 +29,7 @@ std::vector<Row> Stage::rows() const {
     all.insert(all.end(), more.begin(), more.end());
   };
   if (control.clamp_head) append(head_rows(state, scene.constraints, h));
-  append(
-      thigmotaxis_rows(model, control.thigmotaxis, scene.controller, now.kin.centre_velocity, h));
+  append(thigmotaxis_rows(model, control.thigmotaxis, scene.controller, now.kin, h));
   append(contact_rows(model, now.contact, scene.constraints, h));
   append(limit_rows(model, state, scene.constraints, h));
   append(wall_rows(model, now.kin, scene.wall, scene.constraints, h));

@@ -22,17 +22,17 @@ std::vector<Row> all_rows_of(const StepInput& in, const Eigen::VectorXd& base) {
   const auto& [model, scene, state, now, control, midway] = in;
   const double h = scene.time.step;
   std::vector<Row> rows =
-      thigmotaxis_rows(model, control.thigmotaxis, scene.controller, now.kin.centre_velocity, h);
+      thigmotaxis_rows(model, control.thigmotaxis, scene.controller, now.kin, h);
   for (const std::vector<Row>& more :
        {contact_rows(model, now.contact, scene.constraints, h),
         limit_rows(model, state, scene.constraints, h),
         wall_rows(model, now.kin, scene.wall, scene.constraints, h)}) {
     rows.insert(rows.end(), more.begin(), more.end());
   }
-  const Eigen::Matrix3Xd centre_velocity =
-      centre_velocities(now.kin, body_twists(model, now.kin, base));
+  const Matrix6Xd twist = body_twists(model, now.kin, base);
+  const Eigen::Matrix3Xd centre_velocity = centre_velocities(now.kin, twist);
   std::erase_if(rows, [&](const Row& row) {
-    return row_velocity(row, centre_velocity, base) - row.rhs > far;
+    return row_velocity(row, {twist, centre_velocity}, base) - row.rhs > far;
   });
   if (control.clamp_head) append_head_rows(state, scene.constraints, h, rows);
   return rows;

@@ -33,7 +33,7 @@ struct Knotted {
     rows = head_rows(state, scene.constraints, h);
     append(thigmotaxis_rows(model,
                             {{contacts.contacts.front(), {2, 1}}, {contacts.contacts.back(), {}}},
-                            scene.controller, kin.centre_velocity, h));
+                            scene.controller, kin, h));
     append(contact_rows(model, contacts, scene.constraints, h));
     append(limit_rows(model, state, scene.constraints, h));
     append(wall_rows(model, kin, scene.wall, scene.constraints, h));
