@@ -15,20 +15,17 @@ PointMotion motion_of(const Matrix6Xd& twist, const Eigen::Matrix3Xd& velocity, 
   return {twist.col(body).head<3>(), velocity.col(body)};
 }
 
-/// What the step's impacts lose.
+/// What the impacts of a step of Euler's rule lose.
 double lost_at_impacts(const StepInput& in, const StepSolution& step) {
   const BodyVelocities before = in.motion().before();
-  const BodyVelocities felt{step.felt_twist, step.felt_centre_velocity};
-  const double whole = in.scene.time.step / in.scene.time.reach();  // Δv over x - v
   double lost = 0;
   for (std::size_t i = 0; i < step.rows.size(); ++i) {
     const Row& row = step.rows[i];
-    const double impact =
-        in.midway == nullptr ? step.lambda[static_cast<Eigen::Index>(i)] : row.impact;
-    if (row.kind == RowKind::thigmotaxis || impact == 0) continue;
+    const double lambda = step.lambda[static_cast<Eigen::Index>(i)];
+    if (row.kind == RowKind::thigmotaxis || lambda == 0) continue;
     const double change =
-        whole * (row_velocity(row, felt, step.felt) - row_velocity(row, before, in.state.qdot));
-    lost += std::max(0.0, 0.5 * impact * change);
+        row_velocity(row, step.bodies(), step.qdot) - row_velocity(row, before, in.state.qdot);
+    lost += std::max(0.0, 0.5 * lambda * change);
   }
   return lost;
 }
@@ -79,6 +76,7 @@ void book_step(const StepInput& in, const StepSolution& step, const Moment& next
   const StepMotion before = in.motion();
   const double whole = h / r;  // Δv over x - v
   double impulse = 0;          // (y - (t/h) u)'MΔv
+  double jump = 0;             // (u - y)'MΔv
   double moved = 0;            // T(v') - T(v) at the place of the step
   double fall = 0;             // work of gravity
   double bias = 0;             // and of what inertia asks for
@@ -92,6 +90,7 @@ void book_step(const StepInput& in, const StepSolution& step, const Moment& next
     const BodyMomentum gained = body_momentum(model, kin, b, change);
     moved += gained.times(mean);
     impulse += gained.times({mean.spin - t / h * by.spin, mean.velocity - t / h * by.velocity});
+    jump += gained.times({by.spin - mean.spin, by.velocity - mean.velocity});
     damped += drag_power(model, kin, b, by, felt);
     fall += t * model.bodies[b].mass * model.gravity.dot(by.velocity);
     bias += t * (step.system.bias.col(b).head<3>().dot(by.spin) +
@@ -101,7 +100,7 @@ void book_step(const StepInput& in, const StepSolution& step, const Moment& next
   const double kinetic = ledger.kinetic;
   const double gravity = ledger.gravity;
   set_energies(model, next, ledger);
-  const double lost = lost_at_impacts(in, step);
+  const double lost = in.midway == nullptr ? lost_at_impacts(in, step) : jump;
   ledger.impacts += lost;
   ledger.integrator_inertia += impulse + lost;
   ledger.integrator_potential += t * stretch + fall + ledger.gravity - gravity;

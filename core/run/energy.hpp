@@ -22,9 +22,10 @@ struct EnergyLedger {
   double work_active = 0;                               ///< of the muscles: of the active torque
   std::array<double, row_kinds.size()> work_of_kind{};  ///< of the constraint forces, by row kind
   double dissipated = 0;                                ///< by drag and joint damping
-  /// Lost where bodies hit each other, a limit or what holds them: Σ ½ μ C (v' - v) of the rows
-  /// that come to a stop, or part, by impacts μ (Carnot). By Euler's rule, which has no other
-  /// forces of rows, μ is λ; Eq. 6 is no impact.
+  /// Lost where bodies hit each other, a limit or what holds them, or are stopped or started by Eq.
+  /// 6 at once. Midpoint: (u - x)'M Δv, as u is x but for impacts. Euler's rule knows all forces of
+  /// rows over whole steps: Σ ½ λ C Δv of the rows, but those of Eq. 6, that come to a stop or part
+  /// (Carnot).
   double impacts = 0;
   /// (y - (t/h) u)' M Δv with the mean y of the velocities before and after, less what impacts
   /// lose: by Euler's rule -½ Δv' M Δv, what its steps lose when velocities change; and the share

@@ -81,7 +81,12 @@ TEST_P(PrimalReference, FindsTheSameVelocity) {
   const auto& [stored, back_end] = GetParam();
   const ResolvedScene resolved = stored_scene();
   const Model model = make_hagfish(resolved.specimen, resolved.scene);
-  compare(model, resolved.scene, resume(model, resolved.scene, stored, back_end));
+  Scene scene = resolved.scene;
+  scene.time.momentum = FreeMomentum::rule;  // the paper's
+  for (const Eq6Point at : {Eq6Point::centreline, Eq6Point::skin}) {
+    scene.controller.eq6_at = at;
+    compare(model, scene, resume(model, scene, stored, back_end));
+  }
 }
 
 TEST(PrimalReferenceOfCones, FindsTheSameVelocity) {
@@ -90,6 +95,7 @@ TEST(PrimalReferenceOfCones, FindsTheSameVelocity) {
   // Rows that a step takes in for what its path shows are not the reference's.
   Scene linear = resolved.scene;
   linear.constraints.corrections = 0;
+  linear.time.momentum = FreeMomentum::rule;
   Simulation sim = start(model, resolved.scene, "active-set");
   StepRecord record;
   int pushing = 0;

@@ -18,6 +18,7 @@ from ._core import (
     scenes,
 )
 from .log import Log
+from .sweep import sweep
 
 __all__ = [
     "Command",
@@ -30,4 +31,5 @@ __all__ = [
     "StepError",
     "revision",
     "scenes",
+    "sweep",
 ]

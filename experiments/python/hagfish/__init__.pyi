@@ -1,7 +1,7 @@
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
 from types import TracebackType
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -19,6 +19,16 @@ _KnotEnd = Literal["first", "last", "neither"]
 revision: str
 
 def scenes() -> list[str]: ...
+def sweep(
+    scene: str | PathLike[str],
+    values: Mapping[str, Sequence[object]],
+    *,
+    law: Callable[[], _Law] | None = None,
+    set: Mapping[str, object] | None = None,
+    until: float | _Phase | Callable[[Simulation], bool] | None = None,
+    figures: Callable[[Simulation], Mapping[str, object]] | None = None,
+    processes: int = 1,
+) -> list[dict[str, Any]]: ...
 
 class InputError(ValueError): ...
 class FileError(OSError): ...
