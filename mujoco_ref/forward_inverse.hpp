@@ -5,7 +5,7 @@
 
 #include "core/chain/model.hpp"
 #include "core/chain/state.hpp"
-#include "core/step/midway.hpp"
+#include "core/step/midpoint/midway.hpp"
 #include "mujoco_ref/mujoco_model.hpp"
 
 namespace hagfish {

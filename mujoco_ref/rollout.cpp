@@ -30,13 +30,11 @@ std::vector<State> core_rollout(const Model& model, const State& start, Head hea
   StepSolver solver("active-set");  // no row needs it
   StepSolution step;
   Observation observation;  // without contacts
-  Midway midway;
   std::vector<State> states;
   State state = start;
   for (int i = 0; i < steps; ++i) {
     observation.kin = kinematics(model, state);
-    const StepInput in{model,       scene,   state,
-                       observation, control, rule == TimeRule::euler ? nullptr : &midway};
+    const StepInput in{model, scene, state, observation, control};
     if (const Status status = solver.solve(in, step); !status.ok()) {
       throw StepError(status);
     }

@@ -177,9 +177,6 @@ void ArticulatedFactor::half_solve(const Model& model, const Kinematics& kin,
     for (int k = body.first_dof + body.dofs - 1; k >= body.first_dof; --k) {
       if (inverse_pivot_[k] == 0) {
         y.row(k).head(columns.width_[k]).setZero();
-        for (const auto& motion : columns.motions_) {
-          if (motion.dof == k) sum.col(motion.column) += motion.value * weighted_.col(k);
-        }
         continue;
       }
       const double share = std::sqrt(inverse_pivot_[k]);
@@ -207,39 +204,6 @@ void ArticulatedFactor::half_solve(const Model& model, const Kinematics& kin,
       }
     }
   }
-  set_behind_motions(kin, columns);
-}
-
-/// The part of motions behind their own velocities: what moves as one has the momentum of its
-/// articulated inertia.
-void ArticulatedFactor::set_behind_motions(const Kinematics& kin, RowColumns& columns) const {
-  for (const auto& motion : columns.motions_) {
-    const Vector6d moved = motion.value * kin.axis.col(motion.dof);
-    for (Eigen::Index k = motion.dof + 1; k < pivot_.size(); ++k) {
-      columns.y_(k, motion.column) = std::sqrt(inverse_pivot_[k]) * weighted_.col(k).dot(moved);
-    }
-  }
-}
-
-void ArticulatedFactor::free_inertia(const Kinematics& kin, const RowColumns& columns,
-                                     Eigen::MatrixXd& K) const {
-  const auto& motions = columns.motions_;
-  const auto count = static_cast<Eigen::Index>(motions.size());
-  K.resize(count, count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    for (Eigen::Index j = 0; j <= i; ++j) {
-      const auto& [inner, outer] = std::minmax(
-          motions[i], motions[j], [](const auto& a, const auto& b) { return a.dof < b.dof; });
-      // What is behind the outer one is in its articulated inertia.
-      const double own =
-          i == j ? pivot_[outer.dof] : kin.axis.col(inner.dof).dot(weighted_.col(outer.dof));
-      double share = 0;
-      for (Eigen::Index k = 0; k < outer.dof; ++k) {
-        share += columns.y_(k, inner.column) * columns.y_(k, outer.column);
-      }
-      K(i, j) = K(j, i) = inner.value * outer.value * own - share;
-    }
-  }
 }
 
 void RowColumns::reset(const Model& model, Eigen::Index m) {
@@ -247,7 +211,6 @@ void RowColumns::reset(const Model& model, Eigen::Index m) {
   count_ = m;
   loads_.clear();
   joint_loads_.clear();
-  motions_.clear();
   newest_.assign(model.body_count(), -1);
   newest_joint_.assign(model.nv(), -1);
   end_.assign(panels, 0);
@@ -268,11 +231,6 @@ void RowColumns::load_joint(Eigen::Index dof, Eigen::Index column, double force)
   extend(column, dof + 1);
 }
 
-void RowColumns::load_motion(const Model& model, int dof, Eigen::Index column, double value) {
-  motions_.push_back({dof, column, value});
-  extend(column, model.nv());
-}
-
 void RowColumns::extend(Eigen::Index column, Eigen::Index end) {
   end_[column / panel] = std::max(end_[column / panel], end);
 }
@@ -284,32 +242,16 @@ void RowColumns::set_widths() {
   }
 }
 
-Tile RowColumns::tile(Eigen::Index first, const RowColumns& other, Eigen::Index second) const {
-  const Eigen::Index end = std::min(end_[first / panel], other.end_[second / panel]);
-  return tile_product(&y_(0, first), y_.outerStride(), &other.y_(0, second), other.y_.outerStride(),
-                      end);
-}
-
 void RowColumns::gram(Eigen::MatrixXd& A) const {
   A.resize(count_, count_);
   for (Eigen::Index p = 0; p < count_; p += panel) {
     for (Eigen::Index q = 0; q <= p; q += panel) {
       const Eigen::Index rows = std::min<Eigen::Index>(panel, count_ - q);
       const Eigen::Index cols = std::min<Eigen::Index>(panel, count_ - p);
-      const Tile all = tile(q, *this, p);
+      const Eigen::Index end = std::min(end_[q / panel], end_[p / panel]);
+      const Tile all = tile_product(&y_(0, q), y_.outerStride(), &y_(0, p), y_.outerStride(), end);
       A.block(q, p, rows, cols) = all.topLeftCorner(rows, cols);
       A.block(p, q, cols, rows) = all.topLeftCorner(rows, cols).transpose();
-    }
-  }
-}
-
-void RowColumns::products(const RowColumns& other, Eigen::MatrixXd& P) const {
-  P.resize(count_, other.count_);
-  for (Eigen::Index p = 0; p < other.count_; p += panel) {
-    for (Eigen::Index q = 0; q < count_; q += panel) {
-      const Eigen::Index rows = std::min<Eigen::Index>(panel, count_ - q);
-      const Eigen::Index cols = std::min<Eigen::Index>(panel, other.count_ - p);
-      P.block(q, p, rows, cols) = tile(q, other, p).topLeftCorner(rows, cols);
     }
   }
 }

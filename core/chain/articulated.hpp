@@ -52,13 +52,8 @@ class RowColumns {
             const Eigen::Vector3d& force);
   /// Adds a force on one velocity to a column.
   void load_joint(Eigen::Index dof, Eigen::Index column, double force);
-  /// Makes a column the momentum that a motion at one prescribed velocity gives the others, H e_dof
-  /// times `value`. It has no other load.
-  void load_motion(const Model& model, int dof, Eigen::Index column, double value);
   /// A = Y'Y, m x m, after half_solve. Symmetric and semidefinite by construction.
   void gram(Eigen::MatrixXd& A) const;
-  /// Y'Z with the Z of `other`, m x its columns, after half_solve of both by the same factor.
-  void products(const RowColumns& other, Eigen::MatrixXd& P) const;
 
  private:
   friend class ArticulatedFactor;
@@ -73,20 +68,12 @@ class RowColumns {
     Eigen::Index column;
     int next;  ///< load of the same velocity, -1 at the end
   };
-  struct MotionLoad {
-    int dof;
-    Eigen::Index column;
-    double value;
-  };
   void extend(Eigen::Index column, Eigen::Index end);
   void set_widths();
-  /// Products of the columns from `first` on with those of `other` from `second` on.
-  Tile tile(Eigen::Index first, const RowColumns& other, Eigen::Index second) const;
 
   Eigen::Index count_ = 0;
   std::vector<Load> loads_;
   std::vector<JointLoad> joint_loads_;
-  std::vector<MotionLoad> motions_;
   std::vector<int> newest_, newest_joint_;  ///< load of each body, velocity; -1 where it has none
   std::vector<Eigen::Index> end_;           ///< of each panel: 1 + last velocity
   std::vector<Eigen::Index> width_;         ///< panels times columns that reach each velocity
@@ -128,18 +115,11 @@ class ArticulatedFactor {
   /// Prescribed velocities do not answer to a force.
   void half_solve(const Model& model, const Kinematics& kin, RowColumns& columns) const;
 
-  /// The inertia K that prescribed velocities have where all others answer to them freely: force
-  /// over velocity of the `motions` loaded into `columns`, after half_solve, in their order (k x k;
-  /// the Schur complement of the others in H).
-  void free_inertia(const Kinematics& kin, const RowColumns& columns, Eigen::MatrixXd& K) const;
-
   /// S' Î^A S + δ: force over velocity at a dof (prescribed or not) where all nearer the head are
   /// prescribed.
   double pivot(int dof) const { return pivot_[dof]; }
 
  private:
-  void set_behind_motions(const Kinematics& kin, RowColumns& columns) const;
-
   Matrix6Xd weighted_;             // Î^A S, one column a dof
   Eigen::VectorXd coupling_;       // S' Î^A S of each dof and the one before it
   Eigen::VectorXd pivot_;          // S' Î^A S + δ

@@ -11,12 +11,6 @@ Eigen::Matrix3d angular_inertia(const Model& model, const Kinematics& kin, int b
   return r * model.bodies[body].inertia.asDiagonal() * r.transpose();
 }
 
-/// A moment about a body's centre and a force on it. Vectors of three stay in registers, where
-/// those of six would go through memory.
-struct CentreWrench {
-  Eigen::Vector3d moment, force;
-};
-
 /// The same about O, from which the centre is at `offset`.
 template <class Column>
 void put_about_reference(const CentreWrench& wrench, const Eigen::Vector3d& offset,
@@ -152,13 +146,16 @@ Eigen::VectorXd drag_force(const Model& model, const Kinematics& kin, const Eige
   return generalised_force(model, kin, wrench);
 }
 
-Eigen::Vector3d drag_on_body(const Model& model, const Kinematics& kin, int body,
-                             const Eigen::Vector3d& velocity) {
+CentreWrench drag_on_body(const Model& model, const Kinematics& kin, int body,
+                          const PointMotion& motion) {
   // drag_at_centre without its matrices: each step asks this of every body.
+  const double length = model.bodies[body].length;
   const Eigen::Vector3d along = kin.rotation[body].col(0);
-  const Eigen::Vector3d forward = velocity.dot(along) * along;
-  return -model.bodies[body].length *
-         (model.drag.normal * (velocity - forward) + model.drag.tangential * forward);
+  const Eigen::Vector3d forward = motion.velocity.dot(along) * along;
+  const Eigen::Vector3d turn = motion.spin - motion.spin.dot(along) * along;
+  return {-model.drag.normal * length * length * length / 12 * turn,
+          -length *
+              (model.drag.normal * (motion.velocity - forward) + model.drag.tangential * forward)};
 }
 
 double drag_power(const Model& model, const Kinematics& kin, int body, const PointMotion& over,

@@ -50,6 +50,7 @@ struct TipForce {
 struct ActiveTorque {
   Eigen::VectorXd value;  ///< dyn cm
   Eigen::VectorXd rate;   ///< dyn cm s, not negative
+  int full = -1;          ///< the first velocity whose torque is all that muscles have; -1: none
 };
 
 /// One step's unconstrained problem H q̇* = M q̇0 + h f (paper, Eq. 1).
@@ -94,14 +95,20 @@ double kinetic_energy(const Model& model, const Kinematics& kin);
 /// Of each body, erg (N), straight from a state: its kinematics need not be known.
 void kinetic_energies(const Model& model, const State& state, Eigen::VectorXd& energies);
 
-/// Drag on one body whose centre moves with `velocity` (cm/s, world), dyn, world.
-Eigen::Vector3d drag_on_body(const Model& model, const Kinematics& kin, int body,
-                             const Eigen::Vector3d& velocity);
-
 /// How one body moves: its angular velocity, rad/s, and the velocity of its centre, cm/s, world.
 struct PointMotion {
   Eigen::Vector3d spin, velocity;
 };
+
+/// A moment about a body's centre, dyn cm, and a force on it, dyn; world. Vectors of three stay in
+/// registers, where those of six would go through memory.
+struct CentreWrench {
+  Eigen::Vector3d moment, force;
+};
+
+/// Drag on one body that moves as `motion`.
+CentreWrench drag_on_body(const Model& model, const Kinematics& kin, int body,
+                          const PointMotion& motion);
 
 /// Power over one motion of a body against the drag that it has at another one, erg/s: symmetric.
 double drag_power(const Model& model, const Kinematics& kin, int body, const PointMotion& over,

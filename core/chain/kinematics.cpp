@@ -64,36 +64,42 @@ class Turns {
   LaneValues sines_{}, cosines_{};
 };
 
-}  // namespace
-
-void update_positions(const Model& model, const Eigen::VectorXd& q, Kinematics& kin) {
+/// The axes of bodies and hinges.
+void update_axes(const Model& model, const Eigen::VectorXd& q, Kinematics& kin) {
   const int n = model.body_count();
   kin.rotation.resize(n);
-  kin.origin.resize(3, n);
-  kin.centre.resize(3, n);
   kin.axis.resize(6, model.nv());
 
   // Hinge axes are kept as directions here and become twists once O is known.
   const Eigen::Matrix3d root_frame = root_orientation(q).toRotationMatrix();
   Frame frame{root_frame.col(0), root_frame.col(1), root_frame.col(2)};
-  Eigen::Vector3d origin = q.head<3>();
   Turns turns(q.tail(model.nv() - root_dofs));
   for (int b = 0; b < n; ++b) {
     const Body& body = model.bodies[b];
-    if (b > 0) {
-      origin += model.bodies[b - 1].length * frame.x;
-      for (int k = body.first_dof; k < body.first_dof + body.dofs; ++k) {
-        const int hinge = k - root_dofs;
-        turns.go_to(hinge);
-        kin.axis.col(k).head<3>() =
-            turn(model.hinges[hinge].axis, turns.sine(), turns.cosine(), frame);
-      }
+    for (int k = b == 0 ? root_dofs : body.first_dof; k < body.first_dof + body.dofs; ++k) {
+      const int hinge = k - root_dofs;
+      turns.go_to(hinge);
+      kin.axis.col(k).head<3>() =
+          turn(model.hinges[hinge].axis, turns.sine(), turns.cosine(), frame);
     }
     kin.rotation[b].col(0) = frame.x;
     kin.rotation[b].col(1) = frame.y;
     kin.rotation[b].col(2) = frame.z;
+  }
+}
+
+/// Where bodies and hinges are, by their axes and where the root is.
+void update_places(const Model& model, const Eigen::Vector3d& root, Kinematics& kin) {
+  const int n = model.body_count();
+  kin.origin.resize(3, n);
+  kin.centre.resize(3, n);
+  Eigen::Vector3d origin = root;
+  for (int b = 0; b < n; ++b) {
+    const double length = model.bodies[b].length;
+    const Eigen::Vector3d along = kin.rotation[b].col(0);
     kin.origin.col(b) = origin;
-    kin.centre.col(b) = origin + 0.5 * body.length * frame.x;
+    kin.centre.col(b) = origin + 0.5 * length * along;
+    origin += length * along;
   }
 
   kin.reference = kin.centre.col(n / 2);
@@ -105,6 +111,40 @@ void update_positions(const Model& model, const Eigen::VectorXd& q, Kinematics& 
     const Eigen::Vector3d offset = kin.origin.col(body) - kin.reference;
     kin.axis.col(k).tail<3>() = offset.cross(direction);
   }
+}
+
+}  // namespace
+
+void update_positions(const Model& model, const Eigen::VectorXd& q, Kinematics& kin) {
+  update_axes(model, q, kin);
+  update_places(model, q.head<3>(), kin);
+}
+
+void place_centre(const Model& model, const Eigen::Vector3d& centre, Eigen::VectorXd& q,
+                  Kinematics& kin) {
+  update_axes(model, q, kin);
+  Eigen::Vector3d end = Eigen::Vector3d::Zero();  // of the body, from the root
+  Eigen::Vector3d moment = end;
+  double mass = 0;
+  for (int b = 0; b < model.body_count(); ++b) {
+    const Body& body = model.bodies[b];
+    const Eigen::Vector3d half = 0.5 * body.length * kin.rotation[b].col(0);
+    moment += body.mass * (end + half);
+    end += 2 * half;
+    mass += body.mass;
+  }
+  q.head<3>() = centre - moment / mass;
+  update_places(model, q.head<3>(), kin);
+}
+
+Eigen::Vector3d centre_of_mass(const Model& model, const Kinematics& kin) {
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+  double mass = 0;
+  for (int b = 0; b < model.body_count(); ++b) {
+    moment += model.bodies[b].mass * kin.centre.col(b);
+    mass += model.bodies[b].mass;
+  }
+  return moment / mass;
 }
 
 void update_velocities(const Model& model, const Eigen::VectorXd& qdot, Kinematics& kin) {

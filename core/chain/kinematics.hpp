@@ -10,6 +10,12 @@
 
 namespace hagfish {
 
+/// How all bodies move at one velocity of the chain.
+struct BodyVelocities {
+  const Matrix6Xd& twist;          ///< about O, 6 x N
+  const Eigen::Matrix3Xd& centre;  ///< of their centres, 3 x N, cm/s
+};
+
 /// World axes. Spatial vectors are about `reference`, the centre of the middle body: taken about
 /// the far head, a 100-body solve loses two digits.
 struct Kinematics {
@@ -23,6 +29,7 @@ struct Kinematics {
   Matrix6Xd bias_twist;              ///< 6 x N, J̇ q̇: rates of the twists at q̈ = 0
 
   Eigen::Vector3d centre_offset(int body) const { return centre.col(body) - reference; }
+  BodyVelocities velocities() const { return {twist, centre_velocity}; }  ///< at q̇
 };
 
 /// What the bodies' bias is to work over a step, so that Coriolis forces neither make nor take
@@ -40,6 +47,9 @@ struct StepMotion {
   const Eigen::Matrix3Xd& centre_velocity;  ///< of their centres at it, 3 x N, cm/s
   const Matrix6Xd& felt_twist;              ///< at what they have on the mean, 6 x N
   const BiasPower* bias_power = nullptr;    ///< null where the bias works what it does
+
+  /// At the step's first velocity.
+  BodyVelocities before() const { return {twist, centre_velocity}; }
 };
 
 /// The motion of a step whose equations hold at its start.
@@ -49,6 +59,14 @@ inline StepMotion motion_of(const Kinematics& kin) {
 
 /// Positions and axes; does not touch the velocity fields.
 void update_positions(const Model& model, const Eigen::VectorXd& q, Kinematics& kin);
+
+/// The same with the root where it takes the centre of mass to `centre` (cm, world), which is
+/// written into `q`.
+void place_centre(const Model& model, const Eigen::Vector3d& centre, Eigen::VectorXd& q,
+                  Kinematics& kin);
+
+/// Of all bodies, cm, world.
+Eigen::Vector3d centre_of_mass(const Model& model, const Kinematics& kin);
 
 /// Twists and bias twists; after update_positions.
 void update_velocities(const Model& model, const Eigen::VectorXd& qdot, Kinematics& kin);

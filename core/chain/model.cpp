@@ -9,8 +9,6 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "core/chain/muscle_paths.hpp"
-
 namespace hagfish {
 namespace {
 

@@ -1,11 +1,20 @@
-// A muscle of the chain: what it is made of. Where it pulls is muscle_paths.hpp's subject.
+// The muscles of the chain (addition: the paper has torques, and closes with the wish for
+// contractile fibres): what they are made of. How they pull is core/muscle/'s subject.
+//
+// A bending joint has four lines along the body, a pair of antagonists for each of its hinges; a
+// twisting joint has two families of oblique lines around the body, one wound like a right-handed
+// screw and one like a left-handed one. Both lie at a share of the skin's measured radius.
 #pragma once
 
 #include <Eigen/Core>
 #include <string>
 #include <vector>
 
+#include "core/scene/specimen.hpp"
+
 namespace hagfish {
+
+struct Model;
 
 /// A straight line of fibres across a joint.
 struct MuscleLine {
@@ -21,5 +30,10 @@ struct Muscle {
   double force = 0;  ///< F_max of each of its lines, dyn
   std::vector<MuscleLine> lines;
 };
+
+/// Those of the chain `model` by what the specimen has (Specimen::muscle), joint by joint from the
+/// head; at a bending joint left, right, dorsal, ventral, at a twisting one right_handed,
+/// left_handed. The animal's left is -y, its back is +z.
+std::vector<Muscle> muscles_of(const Specimen& specimen, const Model& model);
 
 }  // namespace hagfish

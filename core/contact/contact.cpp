@@ -111,6 +111,14 @@ Eigen::Vector3d contact_normal(const std::vector<SplineSegment>& segments, const
       .normalized();
 }
 
+Eigen::Vector3d skin_point(const std::vector<SplineSegment>& segments, const Contact& contact) {
+  const SplineSegment& a = segments[contact.segment_a];
+  const SplineSegment& b = segments[contact.segment_b];
+  return 0.5 *
+         (a.point(contact.t_a) + b.point(contact.t_b) +
+          (b.radius(contact.t_b) - a.radius(contact.t_a)) * contact_normal(segments, contact));
+}
+
 Contact contact_at(const std::vector<SplineSegment>& segments, int segment_a, double t_a,
                    int segment_b, double t_b) {
   const SplineSegment& a = segments[segment_a];

@@ -37,6 +37,10 @@ struct ContactSet {
 /// Contact::normal between the points of `contact` where the segments are now.
 Eigen::Vector3d contact_normal(const std::vector<SplineSegment>& segments, const Contact& contact);
 
+/// Where the skins of `contact` meet: the middle between them on the line of its two points, where
+/// the segments are now; cm, world.
+Eigen::Vector3d skin_point(const std::vector<SplineSegment>& segments, const Contact& contact);
+
 /// The pair of spline points (segment_a, t_a) and (segment_b, t_b), whatever the gap there.
 Contact contact_at(const std::vector<SplineSegment>& segments, int segment_a, double t_a,
                    int segment_b, double t_b);

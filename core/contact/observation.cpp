@@ -16,8 +16,13 @@ constexpr double closing_speed = 1;
 
 void observe(const Model& model, const State& state, const Scene& scene, ContactSearch& search,
              Observation& observation) {
+  update_positions(model, state.q, observation.kin);
+  observe_placed(model, state, scene, search, observation);
+}
+
+void observe_placed(const Model& model, const State& state, const Scene& scene,
+                    ContactSearch& search, Observation& observation) {
   Observation& o = observation;
-  update_positions(model, state.q, o.kin);
   update_velocities(model, state.qdot, o.kin);
   update_spline(model, o.kin.centre, o.segments);
   find_contacts(o.segments, scene.contact, closing_speed * scene.time.step, search, o.contact);

@@ -31,6 +31,9 @@ struct Moment {
 void observe(const Model& model, const State& state, const Scene& scene, ContactSearch& search,
              Observation& observation);
 Observation observe(const Model& model, const State& state, const Scene& scene);
+/// The same where the positions in observation.kin are those of `state` already.
+void observe_placed(const Model& model, const State& state, const Scene& scene,
+                    ContactSearch& search, Observation& observation);
 
 /// Largest displacement of the head from its clamped pose, cm: of either end and of its side, which
 /// shows a turn about its own axis.

@@ -149,6 +149,7 @@ void active_fields(Io& io, ActiveSettings& s) {
   io.number("tone_time", s.tone_time, not_negative());
   io.number("relax_time", s.relax_time, not_negative());
   io.number("capacity", s.capacity, not_negative());
+  io.boolean("bounds_laws", s.bounds_laws);
 }
 
 template <class Io>
@@ -182,6 +183,8 @@ void controller_fields(Io& io, ControllerSettings& s) {
   Choices<std::string> names;
   for (const Law* law : laws()) names.emplace_back(law->name, law->name);
   io.choice("law", s.law, names);
+  io.template choice<Eq6Point>("eq6_at", s.eq6_at,
+                               {{"skin", Eq6Point::skin}, {"centreline", Eq6Point::centreline}});
   io.number("cap", s.cap, positive());
   io.number("acceleration", s.acceleration, positive());
   io.number("contact_gap", s.contact_gap, not_negative());
@@ -241,6 +244,8 @@ template <class Io>
 void time_fields(Io& io, TimeSettings& s) {
   io.template choice<TimeRule>("rule", s.rule,
                                {{"euler", TimeRule::euler}, {"midpoint", TimeRule::midpoint}});
+  io.template choice<FreeMomentum>("momentum", s.momentum,
+                                   {{"kept", FreeMomentum::kept}, {"rule", FreeMomentum::rule}});
   io.number("step", s.step, positive());
   io.number("settled", s.settled, positive());
   io.integer("passes", s.passes, within(1, 1000));
@@ -262,6 +267,7 @@ void guard_fields(Io& io, GuardSettings& s) {
   io.template choice<EnergyAction>(
       "energy_action", s.energy_action,
       {{"hold", EnergyAction::hold}, {"warn", EnergyAction::warn}, {"stop", EnergyAction::stop}});
+  io.number("momentum_gain", s.momentum_gain, not_negative());
   io.number("capped_time", s.capped_time, not_negative());
 }
 
@@ -295,6 +301,8 @@ void expect_fields(Io& io, ExpectSettings& s) {
   io.number("forward_inverse", s.forward_inverse, not_negative());
   io.number("energy", s.energy, not_negative());
   io.number("energy_gain", s.energy_gain, not_negative());
+  io.number("energy_loss", s.energy_loss, not_negative());
+  io.number("momentum", s.momentum, not_negative());
 }
 
 /// All but `specimen`, which is a file name or a table.

@@ -21,6 +21,12 @@ namespace {
 
 constexpr std::string_view specimen_prefix = "specimen.";
 
+/// Where the files that a scene names are looked for.
+struct Sources {
+  std::vector<SceneSource> scenes;  ///< the scene, and each its base
+  TextFiles files;
+};
+
 Specimen read_specimen_table(TableReader& table) {
   Specimen s;
   passive_fields(table, s);
@@ -50,10 +56,13 @@ Specimen read_specimen_table(TableReader& table) {
 
 /// The text of the file `name` that the scene has at the dotted `key`, and its name in errors.
 std::pair<std::string, std::string> named_file(const TableReader& root, const std::string& key,
-                                               const std::string& name,
-                                               const std::vector<SceneSource>& sources) {
+                                               const std::string& name, const Sources& sources) {
   const bool set = root.was_set(key);
-  const SceneSource& source = *std::ranges::find(sources, root.file_of(key), &SceneSource::name);
+  if (const auto text = sources.files.find(name); text != sources.files.end()) {
+    return {text->second, name};
+  }
+  const SceneSource& source =
+      *std::ranges::find(sources.scenes, root.file_of(key), &SceneSource::name);
   if (set || source.file) {
     std::filesystem::path file = name;
     if (!set) file = source.file->parent_path() / file;
@@ -69,7 +78,7 @@ std::pair<std::string, std::string> named_file(const TableReader& root, const st
 }
 
 /// Reads `specimen` of the scene, a table or a file name, which goes to `name`.
-Specimen read_scene_specimen(TableReader& root, const std::vector<SceneSource>& sources,
+Specimen read_scene_specimen(TableReader& root, const Sources& sources,
                              const std::vector<Override>& changes, std::string& name) {
   if (root.is_table("specimen")) {
     Specimen specimen;
@@ -87,7 +96,7 @@ Specimen read_scene_specimen(TableReader& root, const std::vector<SceneSource>& 
 }
 
 CurvatureProgram resolve_program(const TableReader& root, const ScriptFile& file,
-                                 const std::vector<SceneSource>& sources) {
+                                 const Sources& sources) {
   if (file.program.empty()) return resolve_table(root, file.curvature);
   if (!file.curvature.times.empty()) {
     root.fail("script.program", "script.curvature is given too");
@@ -97,7 +106,7 @@ CurvatureProgram resolve_program(const TableReader& root, const ScriptFile& file
 }
 
 /// Reads the file of learned shapes that `basis` names, and checks shapes given in place of it.
-void resolve_basis(const TableReader& root, double length, const std::vector<SceneSource>& sources,
+void resolve_basis(const TableReader& root, double length, const Sources& sources,
                    ReducedBasisSettings& basis) {
   const std::string table = "controller.reduced_basis.";
   if (!basis.file.empty()) {
@@ -125,7 +134,7 @@ void resolve_basis(const TableReader& root, double length, const std::vector<Sce
 
 /// Checks `file` and turns it into the script it spells, for an animal of `length` (cm).
 ScriptSettings resolve_script(const TableReader& root, const ScriptFile& file, double length,
-                              const std::vector<SceneSource>& sources) {
+                              const Sources& sources) {
   using Kind = ScriptSettings::Kind;
   ScriptSettings script = file.settings;
   if (script.kind == Kind::none) return script;
@@ -197,10 +206,11 @@ void reflect(Scene& scene) {
   if (hand != Hand::any) hand = hand == Hand::right ? Hand::left : Hand::right;
 }
 
-ResolvedScene read(SceneSource source, const std::vector<std::string>& overrides) {
+ResolvedScene read(SceneSource source, const std::vector<std::string>& overrides,
+                   const TextFiles& files) {
   const std::string name = source.name;
-  std::vector<SceneSource> sources;
-  TableReader root = read_with_bases(std::move(source), sources);
+  Sources sources{{}, files};
+  TableReader root = read_with_bases(std::move(source), sources.scenes);
   std::vector<Override> specimen_changes;
   for (const auto& assignment : overrides) {
     const Override change = parse_override(assignment);
@@ -240,12 +250,12 @@ Specimen read_specimen(const std::filesystem::path& file) {
 
 ResolvedScene read_scene(const std::filesystem::path& file,
                          const std::vector<std::string>& overrides) {
-  return read({read_text_file(file), file.string(), file}, overrides);
+  return read({read_text_file(file), file.string(), file}, overrides, {});
 }
 
 ResolvedScene read_scene_text(const std::string& text, const std::string& name,
-                              const std::vector<std::string>& overrides) {
-  return read({text, name, std::nullopt}, overrides);
+                              const std::vector<std::string>& overrides, const TextFiles& files) {
+  return read({text, name, std::nullopt}, overrides, files);
 }
 
 std::string scene_to_toml(const Scene& scene, const Specimen& specimen) {

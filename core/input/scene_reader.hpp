@@ -10,6 +10,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -35,10 +36,15 @@ Specimen read_specimen(const std::filesystem::path& file);
 ResolvedScene read_scene(const std::filesystem::path& file,
                          const std::vector<std::string>& overrides = {});
 
-/// The same from text; `name` stands for the file in errors. A specimen file that the text names is
-/// looked for among the built-in files (builtin_files.hpp).
+/// Texts in place of files, by the names that a scene has for them.
+using TextFiles = std::map<std::string, std::string>;
+
+/// The same from text; `name` stands for the file in errors. A file that the text names (specimen,
+/// script.program, controller.reduced_basis.file) is looked for in `files` and then among the
+/// built-in ones (builtin_files.hpp).
 ResolvedScene read_scene_text(const std::string& text, const std::string& name,
-                              const std::vector<std::string>& overrides = {});
+                              const std::vector<std::string>& overrides = {},
+                              const TextFiles& files = {});
 
 /// The whole scene, the specimen in it, as text from which read_scene_text() makes the same numbers
 /// to the last bit. Throws std::invalid_argument for a number that is not finite.

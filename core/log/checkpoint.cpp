@@ -18,7 +18,7 @@ namespace hagfish {
 namespace {
 
 /// Of the bytes' layout; raised with every change of what they hold.
-constexpr int layout = 8;
+constexpr int layout = 9;
 /// No list of a run is longer; a damaged count must not ask for all memory.
 constexpr std::uint64_t most_entries = 1000000;
 
@@ -198,16 +198,22 @@ void serialize(Archive& archive, WarmStart::Kept& kept) {
 
 template <class Archive>
 void serialize(Archive& archive, EnergyLedger& ledger) {
-  auto& [initial, kinetic, elastic, gravity, work_tip, work_active, work, dissipated, inertia,
-         potential, coriolis, held, lowest_error, largest] = ledger;
-  archive(initial, kinetic, elastic, gravity, work_tip, work_active, work.of_kind, dissipated,
-          inertia, potential, coriolis, held, lowest_error, largest);
+  auto& [initial, kinetic, elastic, gravity, work_tip, work_active, work, dissipated, impacts,
+        , inertia, potential, coriolis, held, momentum, lowest_error, largest] = ledger;
+  archive(initial, kinetic, elastic, gravity, work_tip, work_active, work.of_kind, dissipated, impacts,
+         , inertia, potential, coriolis, held, momentum, lowest_error, largest);
+}
+
+template <class Archive>
+void serialize(Archive& archive, Momentum& momentum) {
+  auto& [linear, angular] = momentum;
+  archive(linear, angular);
 }
 
 template <class Archive>
 void serialize(Archive& archive, MomentumLedger& ledger) {
-  auto& [initial, momentum, drag, outside, integrator] = ledger;
-  archive(initial, momentum, drag, outside, integrator);
+  auto& [initial, momentum, drag, outside, integrator, given_back] = ledger;
+  archive(initial, momentum, drag, outside, integrator, given_back);
 }
 
 template <class Archive>
@@ -218,8 +224,8 @@ void serialize(Archive& archive, CapWatch& row) {
 
 template <class Archive>
 void serialize(Archive& archive, Watch& watch) {
-  auto& [warned, capped] = watch;
-  archive(warned, capped);
+  auto& [warned, capped, made] = watch;
+  archive(warned, capped, made);
 }
 
 template <class Archive>
@@ -247,8 +253,7 @@ void serialize(Archive& archive, LogState& log) {
 
 template <class Archive>
 void serialize(Archive& archive, Simulation& sim) {
-  auto& [step, now, search, controller, solver, ledger, momentum, watch, midway, before,
-         reduced_basis,
+  auto& [step, now, search, controller, solver, ledger, momentum, watch, before, storage,
          law] = sim;  // the last are storage and code
   archive(step, now.state, now.observation, search, controller, solver.warm,
           solver.warm.half_change, solver.warm.half_before, solver.warm.remaining, ledger, momentum,

@@ -347,8 +347,10 @@ void declare_energy(LogTable<Frame>& t) {
              [kind = force.value](const Frame& f) { return f.record.ledger.work[kind]; });
   }
   energy("dissipated", "lost to drag and joint damping so far", &EnergyLedger::dissipated);
+  energy("impact_loss", "lost where bodies hit each other, a limit or what holds them, so far",
+         &EnergyLedger::impacts);
   energy("integrator_inertia",
-         "gained by the integrator from velocity changes, impacts included, so far",
+         "gained by the integrator from velocity changes, without impacts, so far",
          &EnergyLedger::integrator_inertia);
   energy("integrator_potential",
          "gained by the integrator from springs, their numerical damping and gravity so far",
@@ -358,30 +360,51 @@ void declare_energy(LogTable<Frame>& t) {
   energy("integrator_held",
          "taken back from the velocity so far: what the integrator gained too much",
          &EnergyLedger::integrator_held);
+  energy("integrator_given_back",
+         "gained so far as momentum that the integrator made is given back (momentum_given_back)",
+         &EnergyLedger::integrator_momentum);
   t.number("/diagnostics/integrator_error", {"erg", "sum of the integrator's terms"},
            [](const Frame& f) { return f.record.ledger.integrator_error(); });
 }
 
 void declare_momentum(LogTable<Frame>& t) {
-  const auto vector = [&t](const char* name, const char* unit, const char* description,
-                           Eigen::Vector3d MomentumLedger::*member) {
-    t.numbers(
-        std::string("/diagnostics/") + name, {space},
-        {unit, description}, [member](const Frame& f) -> const auto& {
-          return f.record.momentum.*member;
+  const auto vector = [&t](const std::string& name, const char* unit,
+                           const std::string& description, auto get) {
+    t.numbers("/diagnostics/" + name, {space}, {unit, description + ", world axes"}, get);
+  };
+  const auto ledger = [&vector](const std::string& linear, const std::string& angular,
+                                const char* unit, const char* angular_unit,
+                                const std::string& description, Momentum MomentumLedger::*member) {
+    vector(
+        linear, unit, description, [member](const Frame& f) -> const auto& {
+          return (f.record.momentum.*member).linear;
+        });
+    vector(
+        angular, angular_unit,
+        description + ": about the centre of mass", [member](const Frame& f) -> const auto& {
+          return (f.record.momentum.*member).angular;
         });
   };
-  std::string outside = "impulse of tip, ";
+  std::string outside = "impulse so far of tip, ";
   for (const RowKindEntry& force : row_kind_table) {
     if (force.from_outside) outside += std::string(force.description) + ", ";
   }
-  outside.replace(outside.rfind(", "), 2, " and gravity so far, world axes");
-  vector("momentum", "g cm/s", "linear momentum of all bodies, world axes",
+  outside.replace(outside.rfind(", "), 2,
+                  " and gravity, and the moment of f_thigmo where controller.eq6_at is centreline");
+  ledger("momentum", "angular_momentum", "g cm/s", "g cm²/s", "momentum of all bodies",
          &MomentumLedger::momentum);
-  vector("impulse_drag", "dyn s", "impulse of drag so far, world axes", &MomentumLedger::drag);
-  vector("impulse_outside", "dyn s", outside.c_str(), &MomentumLedger::outside);
-  vector("integrator_momentum", "g cm/s", "gained by the integrator so far, world axes",
+  ledger("impulse_drag", "angular_impulse_drag", "dyn s", "dyn cm s", "impulse of drag so far",
+         &MomentumLedger::drag);
+  ledger("impulse_outside", "angular_impulse_outside", "dyn s", "dyn cm s",
+         outside.c_str(),
+         &MomentumLedger::outside);
+  ledger("integrator_momentum", "integrator_angular_momentum", "g cm/s", "g cm²/s",
+         "gained by the rule of the steps itself so far, before it is given back",
          &MomentumLedger::integrator);
+  ledger("momentum_given_back", "angular_momentum_given_back", "g cm/s", "g cm²/s",
+         "given back so far, after steps in which nothing held the head: what such a step gained "
+         "itself, so that no motion of a free animal is the integrator's",
+         &MomentumLedger::given_back);
 }
 
 }  // namespace

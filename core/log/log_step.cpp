@@ -39,16 +39,16 @@ void declare_midpoint(LogTable<LoggedStep>& t) {
            {"rad/s, cm/s",
             "length of the difference of the velocity by which each step moves and that which "
             "placed its middle"},
-           [](const LoggedStep& s) { return s.record.solution.middle_off; });
+           [](const LoggedStep& s) { return s.record.solution.middle.off; });
   t.count("/steps/passes",
           "passes that found the middle of each step: more than time.passes where it settled only "
           "with the bias as it comes",
-          [](const LoggedStep& s) { return s.record.solution.passes; });
+          [](const LoggedStep& s) { return s.record.solution.middle.passes; });
   t.number("/steps/remaining",
            {"1",
             "what further passes would change, over what the last one did: measured where there "
             "were two, else the step before's to the power of 0.9"},
-           [](const LoggedStep& s) { return s.record.solution.remaining; });
+           [](const LoggedStep& s) { return s.record.solution.middle.remaining; });
 }
 
 }  // namespace

@@ -5,7 +5,8 @@
 #include <limits>
 #include <string>
 
-#include "core/step/step.hpp"
+#include "core/step/step_input.hpp"
+#include "core/step/step_solution.hpp"
 
 namespace hagfish {
 

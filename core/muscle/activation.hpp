@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "core/chain/muscle_paths.hpp"
+#include "core/muscle/paths.hpp"
 #include "solvers/active_set.hpp"
 
 namespace hagfish {

@@ -193,6 +193,18 @@ extern constinit const Law knot_speed_record{
                      : AskedRows{};
         }};
 
+std::string cure_of_torque(const Control& control, const Status& status) {
+  const bool blown_up = status.outcome == Outcome::speed || status.outcome == Outcome::non_finite ||
+                        status.outcome == Outcome::energy_gain ||
+                        status.outcome == Outcome::limits || status.outcome == Outcome::penetration;
+  const bool asked = control.torque.value.size() > 0 && !control.torque.value.isZero(0) &&
+                     control.torque.rate.isZero(0);
+  return blown_up && asked
+             ? "; the law's torques know nothing of the step's end, which stiff or damping ones "
+               "must: torque_rate takes damping, and rest_shape a pull to angles, implicitly"
+             : "";
+}
+
 void check_control(const Model& model, const Control& control) {
   check_torque(model, "rest_shape", control.rest_shape);
   check_torque(model, "torque", control.torque.value);

@@ -14,10 +14,11 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <string>
 
 #include "core/contact/observation.hpp"
 #include "core/scene/settings.hpp"
-#include "core/step/step.hpp"
+#include "core/step/step_input.hpp"
 
 namespace hagfish {
 
@@ -53,6 +54,10 @@ void all_contacts_law(const Situation& at, Control& control);
 /// The paper's, with the commanded speeds of the slide scaled by the knot's measured speed:
 /// KnotSpeedSettings (addition). `memory`: smoothed arc length of the head end, cm; scale.
 void knot_speed_law(const Situation& at, Eigen::VectorXd& memory, Control& control);
+
+/// What to say besides where a step by `control` ended so: explicit torques that grow from step to
+/// step have a cure. Empty where that is not the case.
+std::string cure_of_torque(const Control& control, const Status& status);
 
 /// Throws std::invalid_argument in one line where `control` is none for a step of `model`: a vector
 /// of another length or with an entry at the root, a number that is not finite, a contact off the

@@ -239,6 +239,9 @@ void command(const Model& model, const Scene& scene, const Moment& now, double t
   } else {
     throw std::invalid_argument(R"(the run has a law of its own: controller.law must be "own")");
   }
+  if (control.torque.rate.size() == 0) {
+    control.torque.rate.setZero(control.torque.value.size());
+  }
   check_control(model, control);
   controller.rest_shape = control.rest_shape;
   if (control.rest_shape.size() > 0) {
@@ -246,6 +249,10 @@ void command(const Model& model, const Scene& scene, const Moment& now, double t
                   control.active);
   } else {
     control.active = {};
+  }
+  control.torque.full = -1;
+  if (scene.active.bounds_laws) {
+    bound_torque(scene.active.capacity, now.state.qdot, control.active, control.torque);
   }
 }
 

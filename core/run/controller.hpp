@@ -7,11 +7,12 @@
 #include <optional>
 
 #include "core/knot/knot.hpp"
-#include "core/run/active_curvature.hpp"
+#include "core/muscle/active_curvature.hpp"
 #include "core/run/laws.hpp"
 #include "core/run/script.hpp"
 #include "core/scene/phase.hpp"
-#include "core/step/step.hpp"
+#include "core/step/outcome.hpp"
+#include "core/step/step_solution.hpp"
 
 namespace hagfish {
 

@@ -1,5 +1,7 @@
 #include "core/run/energy.hpp"
 
+#include <algorithm>
+
 namespace hagfish {
 namespace {
 
@@ -11,6 +13,21 @@ void set_energies(const Model& model, const Moment& now, EnergyLedger& ledger) {
 
 PointMotion motion_of(const Matrix6Xd& twist, const Eigen::Matrix3Xd& velocity, int body) {
   return {twist.col(body).head<3>(), velocity.col(body)};
+}
+
+/// What the impacts of a step of Euler's rule lose.
+double lost_at_impacts(const StepInput& in, const StepPlace& place, const StepSolution& step) {
+  const BodyVelocities before = place.motion.before();
+  double lost = 0;
+  for (std::size_t i = 0; i < step.rows.size(); ++i) {
+    const Row& row = step.rows[i];
+    const double lambda = step.lambda[static_cast<Eigen::Index>(i)];
+    if (row.kind == RowKind::thigmotaxis || lambda == 0) continue;
+    const double change =
+        row_velocity(row, step.bodies(), step.qdot) - row_velocity(row, before, in.state.qdot);
+    lost += std::max(0.0, 0.5 * lambda * change);
+  }
+  return lost;
 }
 
 }  // namespace
@@ -31,11 +48,11 @@ EnergyLedger open_ledger(const Model& model, const Moment& now) {
 //   (t/h) u'MΔv = t u'(f - D x) + (t/h) u'C'λ - t u'K (q + r x + β (2 x - v)) + t u'w - t u'b,
 //   V(q + t u) - V(q) = t u'K q + ½ t² u'K u   of the springs.
 // Their sum is works less dissipation and the integrator's own terms below, with what T changes by
-// on the way to that place and from there.
-void book_step(const StepInput& in, const StepSolution& step, const Moment& next, double travelled,
-               EnergyLedger& ledger) {
+// on the way to that place and from there. Of (y - (t/h) u)'MΔv impacts have a part of their own.
+void book_step(const StepInput& in, const StepPlace& place, const StepSolution& step,
+               const Moment& next, double travelled, EnergyLedger& ledger) {
   const Model& model = in.model;
-  const Kinematics& kin = in.kin();
+  const Kinematics& kin = place.kin;
   const double t = travelled;
   const double h = in.scene.time.step;
   const Eigen::VectorXd& u = step.qdot;
@@ -56,9 +73,10 @@ void book_step(const StepInput& in, const StepSolution& step, const Moment& next
     stretch += hinge.stiffness * u[k] *
                (0.5 * t * u[k] - r * step.felt[k] - ring * (2 * step.felt[k] - in.state.qdot[k]));
   }
-  const StepMotion before = in.motion();
+  const StepMotion& before = place.motion;
   const double whole = h / r;  // Δv over x - v
   double impulse = 0;          // (y - (t/h) u)'MΔv
+  double jump = 0;             // (u - y)'MΔv
   double moved = 0;            // T(v') - T(v) at the place of the step
   double fall = 0;             // work of gravity
   double bias = 0;             // and of what inertia asks for
@@ -72,6 +90,7 @@ void book_step(const StepInput& in, const StepSolution& step, const Moment& next
     const BodyMomentum gained = body_momentum(model, kin, b, change);
     moved += gained.times(mean);
     impulse += gained.times({mean.spin - t / h * by.spin, mean.velocity - t / h * by.velocity});
+    jump += gained.times({by.spin - mean.spin, by.velocity - mean.velocity});
     damped += drag_power(model, kin, b, by, felt);
     fall += t * model.bodies[b].mass * model.gravity.dot(by.velocity);
     bias += t * (step.system.bias.col(b).head<3>().dot(by.spin) +
@@ -81,7 +100,10 @@ void book_step(const StepInput& in, const StepSolution& step, const Moment& next
   const double kinetic = ledger.kinetic;
   const double gravity = ledger.gravity;
   set_energies(model, next, ledger);
-  ledger.integrator_inertia += impulse;
+  const double lost =
+      in.scene.time.rule == TimeRule::euler ? lost_at_impacts(in, place, step) : jump;
+  ledger.impacts += lost;
+  ledger.integrator_inertia += impulse + lost;
   ledger.integrator_potential += t * stretch + fall + ledger.gravity - gravity;
   ledger.integrator_coriolis += ledger.kinetic - kinetic - moved - bias;
 }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/contact/wall.hpp"
+#include "core/step/dual_problem.hpp"
 #include "core/step/look_ahead.hpp"
 
 namespace hagfish {
@@ -180,6 +181,34 @@ Status guard_energy(const Model& model, const Scene& scene, Moment& moment, Ener
   return status;
 }
 
+void guard_momentum(const Model& model, const StepInput& in, const MomentumLedger& before,
+                    const MomentumLedger& now, const EnergyLedger& energy, Watch& watch,
+                    std::vector<std::string>& warnings) {
+  if (in.control.clamp_head) {
+    watch.made = {};
+    return;
+  }
+  watch.made += now.integrator + now.given_back - before.integrator - before.given_back;
+  double mass = 0;
+  for (const Body& body : model.bodies) mass += body.mass;
+  // Of a body that moves as one |P|² <= 2 m T and |L|² <= 2 I T; a straight one has the largest I.
+  const double linear = std::sqrt(2 * mass * energy.largest);
+  const double angular = linear * model.length() / std::sqrt(12.0);
+  const double share =
+      std::max(watch.made.linear.norm() / linear, watch.made.angular.norm() / angular);
+  if (share > in.scene.guard.momentum_gain) {
+    std::ignore = report(
+        Outcome::momentum_gain,
+        fmt::format("the integrator has pushed the free body by {:.3g} dyn s and turned it by "
+                    "{:.3g} dyn cm s, where nothing outside did: over guard.momentum_gain = {:g} "
+                    "of what it could have with the energy that it had; time.momentum = \"kept\" "
+                    "or a smaller time.step would help",
+                    watch.made.linear.norm(), watch.made.angular.norm(),
+                    in.scene.guard.momentum_gain),
+        GuardAction::warn, watch, warnings);
+  }
+}
+
 void guard_cap(const Model& model, const Kinematics& kin, const Scene& scene, Phase phase,
                const StepSolution& step, double time, Watch& watch,
                std::vector<std::string>& warnings) {
@@ -216,16 +245,13 @@ void guard_cap(const Model& model, const Kinematics& kin, const Scene& scene, Ph
   }
 }
 
-void guard_muscles(const Model& model, const Scene& scene, const Eigen::VectorXd& rest_shape,
-                   const ActiveTorque& torque, double time, Watch& watch,
-                   std::vector<std::string>& warnings) {
-  if (rest_shape.size() == 0) {
-    return;
-  }
+void guard_muscles(const Model& model, const Scene& scene, const Control& control, double time,
+                   Watch& watch, std::vector<std::string>& warnings) {
+  const Eigen::VectorXd& rest_shape = control.rest_shape;
   const auto warned = [&watch](Outcome outcome) {
     return watch.warned.test(static_cast<std::size_t>(outcome));
   };
-  if (!warned(Outcome::overbent)) {
+  if (rest_shape.size() > 0 && !warned(Outcome::overbent)) {
     const Eigen::Matrix2Xd ranges = hinge_ranges(model);
     const auto angles = rest_shape.tail(ranges.cols()).transpose();
     const Eigen::RowVectorXd past =
@@ -241,21 +267,16 @@ void guard_muscles(const Model& model, const Scene& scene, const Eigen::VectorXd
           GuardAction::warn, watch, warnings);
     }
   }
-  if (!warned(Outcome::saturated)) {
-    const auto at_capacity = [&](Eigen::Index k) {
-      return torque.rate[k] == 0 && std::abs(torque.value[k]) >= scene.active.capacity;
-    };
-    for (Eigen::Index k = root_dofs; k < torque.value.size(); ++k) {
-      if (at_capacity(k)) {
-        std::ignore =
-            report(Outcome::saturated,
-                   fmt::format("{} takes all of active.capacity = {:g} dyn cm; a slower program, a "
-                               "softer body or more capacity would help",
-                               dof_name(model, static_cast<int>(k)), scene.active.capacity),
-                   GuardAction::warn, watch, warnings);
-        return;
-      }
-    }
+  const int full = control.active.full >= 0 ? control.active.full : control.torque.full;
+  if (full >= 0 && !warned(Outcome::saturated)) {
+    std::ignore = report(
+        Outcome::saturated,
+        fmt::format("{} takes all of active.capacity = {:g} dyn cm at {:.2f} s; {}",
+                    dof_name(model, full), scene.active.capacity, time,
+                    control.active.full >= 0
+                        ? "a slower program, a softer body or more capacity would help"
+                        : "the law asks for more, which active.bounds_laws = true keeps from it"),
+        GuardAction::warn, watch, warnings);
   }
 }
 

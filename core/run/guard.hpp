@@ -7,8 +7,9 @@
 #include <vector>
 
 #include "core/run/energy.hpp"
+#include "core/run/momentum.hpp"
 #include "core/step/outcome.hpp"
-#include "core/step/step.hpp"
+#include "core/step/step_solution.hpp"
 
 namespace hagfish {
 
@@ -22,6 +23,7 @@ struct CapWatch {
 struct Watch {
   std::bitset<outcome_count> warned;  ///< warnings given: each cause once a run
   std::vector<CapWatch> capped;       ///< the thigmotaxis rows at their caps, by id
+  Momentum made;                      ///< by the integrator since the head was last held
 };
 
 /// A status of this outcome and message where the scene stops at it; else ok, and the message is
@@ -45,6 +47,13 @@ Status guard_state(const Model& model, const Moment& moment, double crossing, co
 Status guard_energy(const Model& model, const Scene& scene, Moment& moment, EnergyLedger& ledger,
                     Watch& watch, std::vector<std::string>& warnings);
 
+/// Momentum that the integrator has made since the head was last held, over guard.momentum_gain of
+/// the most that a body of the largest energy so far can have: warns. The ledgers are those
+/// `before` the step `in` and after it.
+void guard_momentum(const Model& model, const StepInput& in, const MomentumLedger& before,
+                    const MomentumLedger& now, const EnergyLedger& energy, Watch& watch,
+                    std::vector<std::string>& warnings);
+
 /// A thigmotaxis row whose force has been at its cap for longer than the scene permits: warns and
 /// names the rows that resist it most; not in the phase `pull`, where rows give all they may. `kin`
 /// is that of the step's start.
@@ -53,10 +62,8 @@ void guard_cap(const Model& model, const Kinematics& kin, const Scene& scene, Ph
                std::vector<std::string>& warnings);
 
 /// What the animal cannot do: warns, naming the joint, of a rest shape beyond a joint's limit by
-/// more than `guard.limit_violation`, and of muscles at their capacity. `rest_shape` and `torque`
-/// (nv) are those of the step from `time`.
-void guard_muscles(const Model& model, const Scene& scene, const Eigen::VectorXd& rest_shape,
-                   const ActiveTorque& torque, double time, Watch& watch,
-                   std::vector<std::string>& warnings);
+/// more than `guard.limit_violation`, and of muscles at their capacity, in the step from `time`.
+void guard_muscles(const Model& model, const Scene& scene, const Control& control, double time,
+                   Watch& watch, std::vector<std::string>& warnings);
 
 }  // namespace hagfish

@@ -1,51 +1,182 @@
 #include "core/run/momentum.hpp"
 
-namespace hagfish {
+#include <Eigen/Cholesky>
 
-Eigen::Vector3d linear_momentum(const Model& model, const Kinematics& kin) {
-  Eigen::Vector3d momentum = Eigen::Vector3d::Zero();
+namespace hagfish {
+namespace {
+
+/// Drag and what acts from outside over the step `in`, with moments about `centre`.
+struct Impulses {
+  Momentum drag, outside;
+};
+
+Impulses impulses_of(const StepInput& in, const Kinematics& kin, const StepSolution& step,
+                     const Eigen::Vector3d& centre) {
+  const Model& model = in.model;
+  const double h = in.scene.time.step;
+  Momentum drag, outside;
   for (int b = 0; b < model.body_count(); ++b) {
-    momentum += model.bodies[b].mass * kin.centre_velocity.col(b);
+    const auto [moment, force] = drag_on_body(
+        model, kin, b, {step.felt_twist.col(b).head<3>(), step.felt_centre_velocity.col(b)});
+    drag.linear += force;
+    drag.angular += moment + (kin.centre.col(b) - centre).cross(force);
+    outside.linear += model.bodies[b].mass * model.gravity;
   }
-  return momentum;
+  outside.linear += step.tip;
+  outside.angular += (kin.centre.col(model.body_count() - 1) - centre).cross(step.tip);
+  for (const RowKind kind : row_kinds) {
+    if (!from_outside(kind)) continue;
+    outside.linear += step.force[kind].head<3>();
+    outside.angular += moment_of_root(step.force[kind], kin, centre);
+  }
+  if (in.scene.controller.eq6_at == Eq6Point::centreline) {
+    outside.angular += moment_of_root(step.force[RowKind::thigmotaxis], kin, centre);
+  }
+  for (Momentum* impulse : {&drag, &outside}) {
+    impulse->linear *= h;
+    impulse->angular *= h;
+  }
+  return {drag, outside};
+}
+
+/// What the root's rows of Eq. 1 say that the step gains, with moments about `centre`:
+/// Σ m (v' - v) + h Σ bias, with the velocities v, v' of the bodies' centres before and after at
+/// the positions of the step's equations. Forces between two parts of the body, of joints and of
+/// muscles add up to nothing.
+Momentum gained(const StepInput& in, const StepPlace& place, const StepSolution& step,
+                const Eigen::Vector3d& centre) {
+  const Model& model = in.model;
+  const Kinematics& kin = place.kin;
+  const double h = in.scene.time.step;
+  const StepMotion& before = place.motion;
+  const double whole = h / in.scene.time.reach();  // v' - v over what is felt of it
+  Momentum sum;
+  for (int b = 0; b < model.body_count(); ++b) {
+    const BodyMomentum change =
+        body_momentum(model, kin, b,
+                      {whole * (step.felt_twist.col(b) - before.twist.col(b)).head<3>(),
+                       whole * (step.felt_centre_velocity.col(b) - before.centre_velocity.col(b))});
+    const Eigen::Vector3d force = change.linear + h * step.system.bias.col(b).tail<3>();
+    sum.linear += force;
+    sum.angular += change.angular + h * step.system.bias.col(b).head<3>() +
+                   (kin.centre.col(b) - centre).cross(force);
+  }
+  return sum;
+}
+
+/// Moments of inertia of all bodies as if joints were locked, about their centre of mass, world
+/// axes, g cm².
+Eigen::Matrix3d locked_inertia(const Model& model, const Kinematics& kin,
+                               const Eigen::Vector3d& centre) {
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+  for (int b = 0; b < model.body_count(); ++b) {
+    const Body& body = model.bodies[b];
+    const Eigen::Vector3d arm = kin.centre.col(b) - centre;
+    const Eigen::Matrix3d& axes = kin.rotation[b];
+    inertia +=
+        axes * body.inertia.asDiagonal() * axes.transpose() - body.mass * arm * arm.transpose();
+    inertia.diagonal().array() += body.mass * arm.squaredNorm();
+  }
+  return inertia;
+}
+
+double mass_of(const Model& model) {
+  double mass = 0;
+  for (const Body& body : model.bodies) mass += body.mass;
+  return mass;
+}
+
+/// Gives `next` as much momentum, by a motion of the whole as one rigid body about `centre` of
+/// mass.
+void give(const Model& model, const Eigen::Vector3d& centre, const Momentum& missing,
+          Moment& next) {
+  Kinematics& kin = next.observation.kin;
+  const Eigen::Vector3d turn = locked_inertia(model, kin, centre).llt().solve(missing.angular);
+  const Eigen::Vector3d shift = missing.linear / mass_of(model);
+  next.state.qdot.head<3>() += shift + turn.cross(kin.origin.col(0) - centre);
+  next.state.qdot.segment<3>(3) += kin.rotation[0].transpose() * turn;
+  update_velocities(model, next.state.qdot, kin);
+}
+
+}  // namespace
+
+Momentum& Momentum::operator+=(const Momentum& more) {
+  linear += more.linear;
+  angular += more.angular;
+  return *this;
+}
+
+Momentum& Momentum::operator-=(const Momentum& less) {
+  linear -= less.linear;
+  angular -= less.angular;
+  return *this;
+}
+
+Eigen::Vector3d moment_of_root(const Eigen::VectorXd& force, const Kinematics& kin,
+                               const Eigen::Vector3d& centre) {
+  const Eigen::Vector3d sum = force.head<3>();
+  return kin.rotation[0] * force.segment<3>(3) + (kin.origin.col(0) - centre).cross(sum);
+}
+
+Momentum momentum_of(const Model& model, const Kinematics& kin, const Eigen::Vector3d& centre) {
+  Momentum sum;
+  for (int b = 0; b < model.body_count(); ++b) {
+    const BodyMomentum of =
+        body_momentum(model, kin, b, {kin.twist.col(b).head<3>(), kin.centre_velocity.col(b)});
+    sum.linear += of.linear;
+    sum.angular += of.angular + (kin.centre.col(b) - centre).cross(of.linear);
+  }
+  return sum;
 }
 
 MomentumLedger open_momentum(const Model& model, const Moment& now) {
   MomentumLedger ledger;
-  ledger.initial = linear_momentum(model, now.observation.kin);
+  const Kinematics& kin = now.observation.kin;
+  ledger.initial = momentum_of(model, kin, centre_of_mass(model, kin));
   ledger.momentum = ledger.initial;
   return ledger;
 }
 
-// The root's linear rows of Eq. 1 say Σ m (v' - v) + h Σ bias = h Σ forces, with the velocities v,
-// v' of the bodies' centres before and after at the positions of the step's equations, and forces
-// of rows between two parts of the body, of joints and of muscles that add up to nothing.
-void book_momentum(const StepInput& in, const StepSolution& step, const Moment& next,
-                   MomentumLedger& ledger) {
+bool keeps_momentum(const Scene& scene, const Control& control) {
+  return scene.time.momentum == FreeMomentum::kept && !control.clamp_head;
+}
+
+Eigen::Vector3d centre_after(const StepInput& in, const StepPlace& place, const StepSolution& step,
+                             const Momentum& before, double travelled) {
+  // M (w - v) + r b = r f + C'λ, with the velocity w that the step moves by and its reach r.
   const Model& model = in.model;
-  const double h = in.scene.time.step;
-  const StepMotion before = in.motion();
-  const double whole = h / in.scene.time.reach();    // v' - v over what is felt of it
-  Eigen::Vector3d change = Eigen::Vector3d::Zero();  // Σ m (v' - v)
-  Eigen::Vector3d bias = Eigen::Vector3d::Zero();
-  Eigen::Vector3d drag = Eigen::Vector3d::Zero();
+  const Eigen::Matrix3Xd& old = place.motion.centre_velocity;
+  Eigen::Vector3d momentum = before.linear;
   double mass = 0;
   for (int b = 0; b < model.body_count(); ++b) {
-    const Eigen::Vector3d felt = step.felt_centre_velocity.col(b);
-    change += whole * model.bodies[b].mass * (felt - before.centre_velocity.col(b));
-    bias += step.system.bias.col(b).tail<3>();
-    drag += drag_on_body(model, in.kin(), b, felt);
+    momentum += model.bodies[b].mass * (step.centre_velocity.col(b) - old.col(b)) +
+                in.scene.time.reach() * step.system.bias.col(b).tail<3>();
     mass += model.bodies[b].mass;
   }
-  ledger.drag += h * drag;
-  Eigen::Vector3d outside = mass * model.gravity + step.tip;
-  for (const RowKind kind : row_kinds) {
-    if (from_outside(kind)) outside += step.force[kind].head<3>();
+  return centre_of_mass(model, in.observation.kin) + travelled / mass * momentum;
+}
+
+void book_momentum(const StepInput& in, const StepPlace& place, const StepSolution& step,
+                   Moment& next, EnergyLedger& energy, MomentumLedger& ledger) {
+  const Model& model = in.model;
+  const Kinematics& kin = next.observation.kin;
+  const Eigen::Vector3d middle = centre_of_mass(model, place.kin);
+  const auto [drag, outside] = impulses_of(in, place.kin, step, middle);
+  const Momentum old = ledger.momentum;
+  const Eigen::Vector3d centre = centre_of_mass(model, kin);
+  ledger.momentum = momentum_of(model, kin, centre);
+  ledger.integrator += ledger.momentum - old - gained(in, place, step, middle);
+  ledger.drag += drag;
+  ledger.outside += outside;
+  if (keeps_momentum(in.scene, in.control)) {
+    const Momentum before = ledger.momentum;
+    give(model, centre, old + drag + outside - before, next);
+    ledger.momentum = momentum_of(model, kin, centre);
+    ledger.given_back += ledger.momentum - before;
+    const double kinetic = kinetic_energy(model, kin);
+    energy.integrator_momentum += kinetic - energy.kinetic;
+    energy.kinetic = kinetic;
   }
-  ledger.outside += h * outside;
-  const Eigen::Vector3d old = ledger.momentum;
-  ledger.momentum = linear_momentum(model, next.observation.kin);
-  ledger.integrator += ledger.momentum - old - change - h * bias;
 }
 
 }  // namespace hagfish

@@ -1,36 +1,67 @@
-// The momentum ledger: what an animal's linear momentum comes from. Only water can push an animal
-// that nothing holds, so that
-//   momentum - initial = drag + outside + integrator
+// The momentum ledger: what an animal's linear and angular momentum come from. Only water can push
+// or turn an animal that nothing holds, so that
+//   momentum - initial = drag + outside + integrator + given back
 // with nothing outside shows that it ties its knot by itself.
 //
-// Impulses are h times the forces of Eq. 1, also of a step that ends early. What the first-order
-// rule gains by itself is written down from its own formula, not as the remainder: the ledger
-// closes to rounding, or the forces are not what they claim.
+// Impulses are h times the forces of Eq. 1, also of a step that ends early. What the rule gains by
+// itself is written down from its own formula, not as the remainder: the ledger closes to rounding,
+// or the forces are not what they claim. While nothing holds the head it is given back after each
+// step, where the scene says so (TimeSettings::momentum).
 #pragma once
 
-#include "core/step/step.hpp"
+#include "core/run/energy.hpp"
+#include "core/step/step_input.hpp"
+#include "core/step/step_solution.hpp"
 
 namespace hagfish {
 
-/// World axes. Momentum in g cm/s; impulses, in dyn s, and the integrator's are running totals.
-struct MomentumLedger {
-  Eigen::Vector3d initial = Eigen::Vector3d::Zero();
-  Eigen::Vector3d momentum = Eigen::Vector3d::Zero();
-  Eigen::Vector3d drag = Eigen::Vector3d::Zero();
-  Eigen::Vector3d outside = Eigen::Vector3d::Zero();  ///< tip, head clamp, head plate, gravity
-  /// As bodies turn within the step while their velocities do not, against the work of the explicit
-  /// Coriolis force; and what guards take from the velocity.
-  Eigen::Vector3d integrator = Eigen::Vector3d::Zero();
+/// Linear momentum, g cm/s, and angular momentum about the centre of mass, g cm²/s; or an impulse,
+/// dyn s and dyn cm s. World axes.
+struct Momentum {
+  Eigen::Vector3d linear = Eigen::Vector3d::Zero();
+  Eigen::Vector3d angular = Eigen::Vector3d::Zero();
+
+  Momentum& operator+=(const Momentum& more);
+  Momentum& operator-=(const Momentum& less);
+  Momentum operator+(const Momentum& more) const { return Momentum(*this) += more; }
+  Momentum operator-(const Momentum& less) const { return Momentum(*this) -= less; }
 };
 
-/// Linear momentum of all bodies at kin's velocities, g cm/s.
-Eigen::Vector3d linear_momentum(const Model& model, const Kinematics& kin);
+/// The moment about `centre` (cm, world) of forces on bodies whose sum, generalised, is `force`
+/// (nv): all bodies hang on the root, so that its first six entries tell. dyn cm, world.
+Eigen::Vector3d moment_of_root(const Eigen::VectorXd& force, const Kinematics& kin,
+                               const Eigen::Vector3d& centre);
+
+/// Of all bodies at kin's velocities; the angular part is about `centre` (cm, world).
+Momentum momentum_of(const Model& model, const Kinematics& kin, const Eigen::Vector3d& centre);
+
+/// Impulses, the integrator's and what was given back are running totals.
+struct MomentumLedger {
+  Momentum initial, momentum;
+  Momentum drag;
+  Momentum outside;  ///< tip, head clamp, head plate, gravity; moments of Eq. 6 at the centreline
+  /// As bodies turn within the step while their velocities do not, against what the explicit
+  /// Coriolis force does; and what guards take from the velocity.
+  Momentum integrator;
+  Momentum given_back;  ///< so that steps with a free head make none
+};
 
 /// Opens the ledger at a moment.
 MomentumLedger open_momentum(const Model& model, const Moment& now);
 
-/// Books the step `in` from where the ledger stands, by its solution, to `next`.
-void book_momentum(const StepInput& in, const StepSolution& step, const Moment& next,
-                   MomentumLedger& ledger);
+/// Whether the step of `in` keeps momentum: nothing holds the head, and the scene says so.
+bool keeps_momentum(const Scene& scene, const Control& control);
+
+/// Where the centre of mass is when the step `in`, as solved at `place`, has moved for the time `travelled`
+/// (s) from `now`: moved by the momentum that the step moves by, which Eq. 1 has from that before
+/// and from the forces; cm, world.
+Eigen::Vector3d centre_after(const StepInput& in, const StepPlace& place, const StepSolution& step,
+                             const Momentum& before, double travelled);
+
+/// Books the step `in` from where the ledger stands, by its solution at `place`, to `next`. Where it keeps
+/// momentum, `next` is first given that which the impulses leave, by a motion of the whole as one
+/// rigid body: velocities between its parts stay as they are. `energy` books what that takes.
+void book_momentum(const StepInput& in, const StepPlace& place, const StepSolution& step,
+                   Moment& next, EnergyLedger& energy, MomentumLedger& ledger);
 
 }  // namespace hagfish

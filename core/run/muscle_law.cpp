@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/run/active_curvature.hpp"
+#include "core/muscle/active_curvature.hpp"
 #include "core/run/controller.hpp"
 #include "core/run/laws.hpp"
 

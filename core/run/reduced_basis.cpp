@@ -1,10 +1,12 @@
 #include "core/run/reduced_basis.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include "core/run/laws.hpp"
 #include "core/scene/interpolation.hpp"
@@ -60,14 +62,10 @@ void mean_tone_torque(const Situation& at, double steps, const Eigen::VectorXd& 
   }
 }
 
-/// The paper's step from `at`, but one period long: what bears in it is held below.
-void look_forward(const Situation& at, const Control& control, double steps,
-                  ReducedBasisStorage& s) {
-  UntakenStep& ahead = s.ahead;
-  s.scene = at.scene;
-  s.scene.time.step = steps * at.scene.time.step;
-  s.scene.time.rule = TimeRule::euler;
-  ahead.solver.extends_rounds = false;  // set_gain goes on with its factor
+/// The paper's step of `scene` from `at`, which is `steps` of the run's long: what bears in it is
+/// held below.
+void look_forward(const Situation& at, const Scene& scene, double steps, const Control& control,
+                  UntakenStep& ahead) {
   ahead.control.clamp_head = control.clamp_head;
   ahead.control.tip = control.tip;
   ahead.control.thigmotaxis = control.thigmotaxis;
@@ -76,76 +74,73 @@ void look_forward(const Situation& at, const Control& control, double steps,
   } else {
     ahead.control.active = {};
   }
-  begin_untaken(at, s.scene, ahead);
+  begin_untaken(at, scene, ahead);
 }
 
-/// Eq. 6 after that step, with the rows that bear held: gain a >= shortfall.
-void set_gain(const Situation& at, ReducedBasisStorage& s) {
-  const StepSolution& step = s.ahead.step;
-  const StepScratch& scratch = s.ahead.solver.scratch();
-  const Eigen::MatrixXd& A = scratch.qp().A;
+/// Eq. 6 after a step as a function of a: gain a >= shortfall.
+struct Eq6 {
+  Eigen::MatrixXd gain;       ///< cm/s of each row by a unit of each of a
+  Eigen::VectorXd shortfall;  ///< of each row where a is 0, cm/s
+};
+
+/// That of the step `ahead` of length `h` (s), with the rows held that bear in it.
+Eq6 eq6_after(const Situation& at, double h, const Eigen::MatrixXd& shapes,
+              const UntakenStep& ahead) {
+  const StepSolution& step = ahead.step;
+  const RowProblem& problem = ahead.solver.problem();
   const auto row_of = [&](Eigen::Index i) -> const Row& { return step.rows[step.prescribed + i]; };
-  s.held.clear();
-  s.asked.clear();
-  for (Eigen::Index i = 0; i < scratch.qp().b.size(); ++i) {
+  std::vector<Eigen::Index> held, asked;  // rows: those that bear, those of Eq. 6
+  for (Eigen::Index i = 0; i < problem.qp.b.size(); ++i) {
     if (row_of(i).kind == RowKind::thigmotaxis) {
-      s.asked.push_back(i);
+      asked.push_back(i);
     } else if (step.lambda[step.prescribed + i] != 0) {
-      s.held.push_back(i);
+      held.push_back(i);
     }
   }
-  const auto held = static_cast<Eigen::Index>(s.held.size());
-  const auto asked = static_cast<Eigen::Index>(s.asked.size());
-  s.held_A.resize(held, held);
-  s.share.resize(held, asked);
-  for (Eigen::Index c = 0; c < held; ++c) {
-    for (Eigen::Index d = 0; d < held; ++d) s.held_A(c, d) = A(s.held[c], s.held[d]);
-    for (Eigen::Index t = 0; t < asked; ++t) s.share(c, t) = A(s.held[c], s.asked[t]);
+  // What the rows held bear of a unit row of Eq. 6.
+  Eigen::MatrixXd share = problem.qp.A(held, asked);
+  if (!held.empty()) {
+    Eigen::LDLT<Eigen::MatrixXd>(problem.qp.A(held, held)).solveInPlace(share);
   }
-  if (held > 0) {
-    s.held_factor.compute(s.held_A);
-    s.held_factor.solveInPlace(s.share);
-  }
-  s.still = scratch.prescribed;
-  for (PrescribedVelocity& velocity : s.still) velocity.value = 0;
+  std::vector<PrescribedVelocity> still = problem.prescribed;
+  for (PrescribedVelocity& velocity : still) velocity.value = 0;
   const Kinematics& kin = at.now.observation.kin;
-  s.gain.resize(asked, s.shapes.cols());
-  s.shortfall.resize(asked);
-  for (Eigen::Index t = 0; t < asked; ++t) {
+  const auto count = static_cast<Eigen::Index>(asked.size());
+  Eq6 eq6{Eigen::MatrixXd(count, shapes.cols()), problem.qp.b(asked)};
+  Matrix6Xd wrench, twist;
+  Eigen::VectorXd joint, velocity, reaction;
+  for (Eigen::Index t = 0; t < count; ++t) {
     // H⁻¹ is symmetric: how the hinges answer to the row is how the row answers to them.
-    s.wrench.setZero(6, at.model.body_count());
-    s.joint.setZero(at.model.nv());
-    add_row(row_of(s.asked[t]), kin, 1, s.wrench, s.joint);
-    s.shortfall[t] = scratch.qp().b[s.asked[t]];
-    for (Eigen::Index c = 0; c < held; ++c) {
-      add_row(row_of(s.held[c]), kin, -s.share(c, t), s.wrench, s.joint);
-      s.shortfall[t] -= s.share(c, t) * scratch.qp().b[s.held[c]];
+    wrench.setZero(6, at.model.body_count());
+    joint.setZero(at.model.nv());
+    add_row(row_of(asked[t]), kin, 1, wrench, joint);
+    for (Eigen::Index c = 0; c < share.rows(); ++c) {
+      add_row(row_of(held[c]), kin, -share(c, t), wrench, joint);
+      eq6.shortfall[t] -= share(c, t) * problem.qp.b[held[c]];
     }
-    scratch.factor.solve(at.model, kin, s.wrench, s.joint, s.still, s.velocity, s.twist,
-                         s.reaction);
-    s.gain.row(t).noalias() = s.scene.time.step * s.velocity.transpose() * s.shapes;
+    problem.factor.solve(at.model, kin, wrench, joint, still, velocity, twist, reaction);
+    eq6.gain.row(t).noalias() = h * velocity.transpose() * shapes;
   }
+  return eq6;
 }
 
-/// The least |a| with gain a >= shortfall, softly, and within the bound on the torques: the dual is
-/// a box QP of as many multipliers as Eq. 6 has rows.
-void find_least(const ReducedBasisSettings& basis, ReducedBasisStorage& s, Eigen::VectorXd& a) {
-  BoxQp& qp = s.qp;
-  qp.A.noalias() = s.gain * s.gain.transpose();
+/// The least |a| that meets `eq6`, softly, and within the bound on the torques: the dual is a box
+/// QP of as many multipliers as Eq. 6 has rows.
+Eigen::VectorXd find_least(const ReducedBasisSettings& basis, const Eq6& eq6,
+                           const Eigen::MatrixXd& shapes) {
+  const Eigen::Index count = eq6.shortfall.size();
+  BoxQp qp{eq6.gain * eq6.gain.transpose(), eq6.shortfall, Eigen::VectorXd::Zero(count),
+           Eigen::VectorXd::Constant(count, std::numeric_limits<double>::infinity())};
   qp.A.diagonal().array() += basis.softness * qp.A.diagonal().maxCoeff();
-  qp.b = s.shortfall;
-  qp.lower.setZero(qp.b.size());
-  qp.upper.setConstant(qp.b.size(), std::numeric_limits<double>::infinity());
-  s.start.setZero(qp.b.size());
-  s.back_end->solve(qp, s.start, s.solution);
-  if (s.solution.status != SolveStatus::solved) {
+  const BoxQpSolution solution = make_box_qp_solver("active-set")->solve(qp, qp.lower);
+  if (solution.status != SolveStatus::solved) {
     throw StepError({Outcome::solver_failed, "the numbers of the reduced basis: " +
-                                                 std::string(status_name(s.solution.status))});
+                                                 std::string(status_name(solution.status))});
   }
-  a.noalias() = s.gain.transpose() * s.solution.x;
-  s.joint.noalias() = s.shapes * a;
-  const double largest = s.joint.lpNorm<Eigen::Infinity>();
+  Eigen::VectorXd a = eq6.gain.transpose() * solution.x;
+  const double largest = (shapes * a).lpNorm<Eigen::Infinity>();
   if (largest > basis.most) a *= basis.most / largest;
+  return a;
 }
 
 /// a as played at the knot's place.
@@ -270,9 +265,12 @@ void reduced_basis_law(const Situation& at, Eigen::VectorXd& memory, Control& co
   } else if (at.time + 0.5 * h >= m.next) {
     const double steps = std::max(1.0, std::round(basis.period / h));
     m.next += steps * h;
-    look_forward(at, control, steps, storage);
-    set_gain(at, storage);
-    find_least(basis, storage, m.aim);
+    Scene scene = at.scene;
+    scene.time.step = steps * h;
+    scene.time.rule = TimeRule::euler;
+    look_forward(at, scene, steps, control, storage.ahead);
+    m.aim = find_least(basis, eq6_after(at, scene.time.step, storage.shapes, storage.ahead),
+                       storage.shapes);
   }
   m.now += follows(h, basis.filter) * (m.aim - m.now);
   control.torque.value.noalias() = storage.shapes * m.now;

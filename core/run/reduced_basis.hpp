@@ -4,14 +4,10 @@
 // from a model of the next moments, or played by the knot's place alone.
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <memory>
-#include <vector>
 
 #include "core/run/controller.hpp"
 #include "core/run/untaken_step.hpp"
-#include "solvers/box_qp.hpp"
 
 namespace hagfish {
 
@@ -31,22 +27,7 @@ void basis_shapes(const Model& model, const Scene& scene, const KnotSpan& window
 struct ReducedBasisStorage {
   ReducedBasisMemory memory;
   Eigen::MatrixXd shapes;
-  // One long step of the period, as the model of the next moments.
-  Scene scene;
-  UntakenStep ahead;
-  // Eq. 6 after it as a function of a.
-  std::vector<Eigen::Index> held, asked;  ///< rows: those that bear, those of Eq. 6
-  std::vector<PrescribedVelocity> still;
-  Eigen::MatrixXd held_A, share;  ///< Eq. 4 of rows held; what they bear of a unit row of Eq. 6
-  Eigen::LDLT<Eigen::MatrixXd> held_factor;
-  Matrix6Xd wrench, twist;
-  Eigen::VectorXd joint, velocity, reaction;
-  Eigen::MatrixXd gain;       ///< cm/s of each row by a unit of each of a
-  Eigen::VectorXd shortfall;  ///< of each row where a is 0, cm/s
-  BoxQp qp;
-  Eigen::VectorXd start;
-  BoxQpSolution solution;
-  std::unique_ptr<BoxQpSolver> back_end = make_box_qp_solver("active-set");
+  UntakenStep ahead;  ///< one long step of the period, as the model of the next moments
 };
 
 /// The paper's law but for the slide, where torques u = B a take the place of the forces of Eq. 6:

@@ -9,6 +9,7 @@
 #include "core/run/energy.hpp"
 #include "core/run/guard.hpp"
 #include "core/run/momentum.hpp"
+#include "core/step/step.hpp"
 
 namespace hagfish {
 
@@ -17,6 +18,7 @@ struct BeforeStep {
   ControllerState controller;
   WarmStart warm;
   EnergyLedger ledger;
+  MomentumLedger momentum;
   Watch watch;
   Candidates candidates;  ///< of the search
 };
@@ -31,7 +33,6 @@ struct Simulation {
   EnergyLedger ledger;
   MomentumLedger momentum;
   Watch watch;
-  Midway midway = {};  ///< storage
   BeforeStep before;
   NamedLaw named_law = {};
   ControlLaw law = {};  ///< of its own, where the scene says so (control_law.hpp); else empty

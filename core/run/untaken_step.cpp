@@ -4,9 +4,7 @@ namespace hagfish {
 namespace {
 
 StepInput input_of(const Situation& at, const Scene& scene, UntakenStep& untaken) {
-  return {at.model,        scene,
-          at.now.state,    at.now.observation,
-          untaken.control, scene.time.rule == TimeRule::euler ? nullptr : &untaken.midway};
+  return {at.model, scene, at.now.state, at.now.observation, untaken.control};
 }
 
 }  // namespace

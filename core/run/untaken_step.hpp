@@ -2,13 +2,13 @@
 #pragma once
 
 #include "core/run/control_law.hpp"
+#include "core/step/step.hpp"
 
 namespace hagfish {
 
 /// Storage of it, which grows to size once.
 struct UntakenStep {
   Control control;  ///< what it shall do
-  Midway midway;
   StepSolver solver{"active-set"};
   StepSolution step;
 };

@@ -136,9 +136,10 @@ struct ActiveSettings {
   /// Torque of one hinge that the muscles can make, dyn cm: above it the torque is constant within
   /// the step, and the run reports it.
   double capacity = 0;
+  bool bounds_laws = false;  ///< the same of torques that a law of the run's own asks for besides
 };
 
-/// Muscles that make the animal's torques (addition; core/chain/muscle_paths.hpp).
+/// Muscles that make the animal's torques (addition; core/chain/muscle.hpp).
 struct MuscleSettings {
   bool present = false;  ///< the specimen's: the activations that the torques take are logged
   /// Of the first-order dynamics by which a muscle follows its excitation, s (law muscles).
@@ -153,6 +154,12 @@ struct ThigmotaxisSpeeds {
 
 /// The end of the animal by which the knot leaves it.
 enum class BodyEnd { head, tail };
+
+/// Where the two strands' velocities of Eq. 6 are taken.
+enum class Eq6Point {
+  skin,       ///< at one point, where the skins touch: f_thigmo is internal
+  centreline  ///< at the two closest points of the spline: f_thigmo has a couple from outside
+};
 
 /// The control law that is of the program that runs the scene.
 inline constexpr const char* own_law = "own";
@@ -204,6 +211,7 @@ inline int basis_size(const ReducedBasisSettings& basis) {
 /// The thigmotaxis controller (paper, 3.2, Eq. 6) and its switches between phases.
 struct ControllerSettings {
   std::string law = "paper";  ///< that controls the animal in each phase (core/run/laws.hpp)
+  Eq6Point eq6_at = Eq6Point::skin;
   KnotSpeedSettings knot_speed;
   ReducedBasisSettings reduced_basis;
   ThigmotaxisSpeeds tighten_head, tighten_tail;  ///< first and last contact while tightening
@@ -289,8 +297,15 @@ enum class TimeRule {
   midpoint  ///< forces in the middle of the step, of second order; impulses act in full
 };
 
+/// What becomes of the momentum that a rule makes while nothing holds the head.
+enum class FreeMomentum {
+  kept,  ///< given back after each step, so that momentum changes by outside impulses alone
+  rule   ///< it stays, as the rule has it: the paper's, and MuJoCo's
+};
+
 struct TimeSettings {
   TimeRule rule = TimeRule::euler;
+  FreeMomentum momentum = FreeMomentum::kept;
   double step = 0.002;  ///< h, s
   /// The middle of a step has settled once further passes change the velocity by no more than this,
   /// as far as can be told: rad/s of each hinge, and cm/s and rad/s of the root.
@@ -329,6 +344,9 @@ struct GuardSettings {
   /// drag and damping took.
   double energy_gain = 0.005;
   EnergyAction energy_action = EnergyAction::hold;
+  /// Momentum that the integrator makes while nothing holds the head, over the most that the body
+  /// could have with its largest energy so far: warns.
+  double momentum_gain = 0.001;
   double capped_time = 0.25;  ///< a thigmotaxis row at its cap for this long is reported, s
 };
 
@@ -374,6 +392,10 @@ struct ExpectSettings {
   /// Share by which kinetic, elastic and gravity energy may exceed what there was and what the
   /// script and thigmotaxis put in, at any step.
   double energy_gain = 0.01;
+  /// What the integrator takes, without impacts, of the energy that passed.
+  double energy_loss = 0.1;
+  /// Momentum that the integrator makes while nothing holds the head, of what passed.
+  double momentum = 1e-6;
 };
 
 struct Scene {

@@ -36,7 +36,8 @@ int path_samples(const Eigen::Matrix3Xd& centre_velocity, double h, double strid
   return std::max(1, static_cast<int>(std::ceil(longest / stride)));
 }
 
-bool add_missed_rows(const StepInput& in, const Observation& there, double t, StepSolution& step) {
+bool add_missed_rows(const StepInput& in, const StepPlace& place, const Observation& there,
+                     double t, StepSolution& step) {
   const ConstraintSettings& settings = in.scene.constraints;
   const Observation& now = in.observation;
   const double h = in.scene.time.step;
@@ -50,8 +51,7 @@ bool add_missed_rows(const StepInput& in, const Observation& there, double t, St
     if (gap_there < goal - tolerance) {
       PathRow shown = make_row();
       Row& row = shown.row;
-      const double missed =
-          gap_there - gap_now - t * row_velocity(row, step.centre_velocity, step.qdot);
+      const double missed = gap_there - gap_now - t * row_velocity(row, step.bodies(), step.qdot);
       // At great speeds what the linear row misses grows beyond all sense; rows that ask strands to
       // part by more than they may move between samples only contradict each other.
       row.rhs = std::min(goal - gap_now - missed * (h / t) * (h / t), settings.stride) / h;
@@ -65,9 +65,9 @@ bool add_missed_rows(const StepInput& in, const Observation& there, double t, St
         const Contact before = contact_at(now.segments, contact.segment_a, contact.t_a,
                                           contact.segment_b, contact.t_b);
         check(before.gap, contact.gap, [&] {
-          return PathRow{contact_row(in.model, before, in.moved_segments(),
-                                     cuts_of(contact_row_id(before), step)),
-                         before};
+          return PathRow{
+              contact_row(in.model, before, place.segments, cuts_of(contact_row_id(before), step)),
+              before};
         });
       }
     }

@@ -25,8 +25,9 @@ enum class Outcome : std::uint8_t {
   overbent,        ///< a curvature program bends a joint further than it goes
   saturated,       ///< muscles make all the torque that they can
   unsettled,       ///< the middle of a step is not known well enough
+  momentum_gain,   ///< it pushed or turned a free body by more than the scene permits
 };
-inline constexpr int outcome_count = 17;
+inline constexpr int outcome_count = 18;
 /// "ok", "non-finite", "energy gain", ...
 const char* outcome_name(Outcome outcome);
 

@@ -15,8 +15,12 @@ Matrix6Xd body_jacobian(const Model& model, const Kinematics& kin, int body) {
 }
 
 Eigen::Matrix3Xd centre_jacobian(const Model& model, const Kinematics& kin, int body) {
+  return point_jacobian(model, kin, body, kin.centre_offset(body));
+}
+
+Eigen::Matrix3Xd point_jacobian(const Model& model, const Kinematics& kin, int body,
+                                const Eigen::Vector3d& offset) {
   const Matrix6Xd jacobian = body_jacobian(model, kin, body);
-  const Eigen::Vector3d offset = kin.centre_offset(body);
   Eigen::Matrix3Xd velocity = jacobian.bottomRows<3>();
   for (Eigen::Index k = 0; k < velocity.cols(); ++k) {
     velocity.col(k) += jacobian.col(k).head<3>().cross(offset);
@@ -33,9 +37,10 @@ Eigen::MatrixXd dense_rows(const Model& model, const Kinematics& kin,
       c(i, row.dof) = row.sign;
       if (row.beside != 0) c(i, row.dof + 1) = row.beside;
     }
-    visit_forces(row, [&](int body, const Eigen::Vector3d& force) {
-      c.row(i) += force.transpose() * centre_jacobian(model, kin, body);
-    });
+    visit_forces(row, kin,
+                 [&](int body, const Eigen::Vector3d& force, const Eigen::Vector3d& offset) {
+                   c.row(i) += force.transpose() * point_jacobian(model, kin, body, offset);
+                 });
   }
   return c;
 }
@@ -43,11 +48,11 @@ Eigen::MatrixXd dense_rows(const Model& model, const Kinematics& kin,
 namespace {
 
 /// Eq. 1, H q̇* = M q̇0 + h f, with H = M + h D - h² K: springs, damping and drag are implicit.
-void paper_equation_1(const StepInput& in, PrimalQp& qp) {
+void paper_equation_1(const StepInput& in, const StepPlace& place, PrimalQp& qp) {
   const Model& model = in.model;
   const State& state = in.state;
   const Control& control = in.control;
-  const Kinematics& kin = in.kin();
+  const Kinematics& kin = place.kin;
   const double h = in.scene.time.reach();
   const double ring = in.scene.time.spring_damping();
   const int nv = model.nv();
@@ -55,7 +60,7 @@ void paper_equation_1(const StepInput& in, PrimalQp& qp) {
   Eigen::MatrixXd D = M;
   Eigen::MatrixXd K = M;
   Eigen::VectorXd f = stiffness_force(model, state.q);
-  const Matrix6Xd on_bodies = gravity_wrench(model, kin) - bias_wrench(model, kin, in.motion());
+  const Matrix6Xd on_bodies = gravity_wrench(model, kin) - bias_wrench(model, kin, place.motion);
   for (int b = 0; b < model.body_count(); ++b) {
     const Matrix6Xd J = body_jacobian(model, kin, b);
     M += J.transpose() * body_inertia(model, kin, b) * J;
@@ -83,9 +88,9 @@ void paper_equation_1(const StepInput& in, PrimalQp& qp) {
 
 }  // namespace
 
-PrimalQp paper_problem(const StepInput& in, const std::vector<Row>& rows) {
+PrimalQp paper_problem(const StepInput& in, const StepPlace& place, const std::vector<Row>& rows) {
   PrimalQp qp;
-  paper_equation_1(in, qp);
+  paper_equation_1(in, place, qp);
   std::vector<Row> bilateral, unilateral;
   for (const Row& row : rows) {
     (std::isinf(row.lower) ? bilateral : unilateral).push_back(row);
@@ -95,9 +100,9 @@ PrimalQp paper_problem(const StepInput& in, const std::vector<Row>& rows) {
     std::ranges::transform(of, values.begin(), member);
     return values;
   };
-  qp.G = dense_rows(in.model, in.kin(), bilateral);
+  qp.G = dense_rows(in.model, place.kin, bilateral);
   qp.e = column(bilateral, &Row::rhs);
-  qp.C = dense_rows(in.model, in.kin(), unilateral);
+  qp.C = dense_rows(in.model, place.kin, unilateral);
   qp.d = column(unilateral, &Row::rhs);
   qp.cap = column(unilateral, &Row::upper);
   return qp;
@@ -105,7 +110,7 @@ PrimalQp paper_problem(const StepInput& in, const std::vector<Row>& rows) {
 
 State paper_step(const StepInput& in, const std::vector<Row>& rows,
                  const std::function<Eigen::VectorXd(const PrimalQp&)>& solve) {
-  const PrimalQp qp = paper_problem(in, rows);
+  const PrimalQp qp = paper_problem(in, start_of(in), rows);
   const Eigen::Index n = qp.g.size();
   const Eigen::Index p = qp.e.size();
   Eigen::VectorXd v;

@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-#include "core/step/step.hpp"
+#include "core/step/step_input.hpp"
 #include "solvers/primal_qp.hpp"
 
 namespace hagfish {
@@ -15,15 +15,17 @@ namespace hagfish {
 /// zero behind.
 Matrix6Xd body_jacobian(const Model& model, const Kinematics& kin, int body);
 
-/// Jacobian of a body's centre, 3 x nv.
+/// Jacobian of a body's centre, 3 x nv, and of its material point at `offset` from kin.reference.
 Eigen::Matrix3Xd centre_jacobian(const Model& model, const Kinematics& kin, int body);
+Eigen::Matrix3Xd point_jacobian(const Model& model, const Kinematics& kin, int body,
+                                const Eigen::Vector3d& offset);
 
 /// Rows as a dense matrix, m x nv.
 Eigen::MatrixXd dense_rows(const Model& model, const Kinematics& kin, const std::vector<Row>& rows);
 
-/// H and g of Eq. 1; G, e, C and d of Eqs. 3 and 4 from `rows`, in their order. `cap` has the upper
-/// bounds of the multipliers (soft rows, an addition to the paper).
-PrimalQp paper_problem(const StepInput& in, const std::vector<Row>& rows);
+/// H and g of Eq. 1 at `place`; G, e, C and d of Eqs. 3 and 4 from `rows`, in their order. `cap`
+/// has the upper bounds of the multipliers (soft rows, an addition to the paper).
+PrimalQp paper_problem(const StepInput& in, const StepPlace& place, const std::vector<Row>& rows);
 
 /// The step to the new state by Eq. 1, 3 or 4, whichever `rows` ask for, and Eq. 2. `solve` returns
 /// v of Eq. 4 (nv).

@@ -7,7 +7,8 @@
 
 #include <vector>
 
-#include "core/step/step.hpp"
+#include "core/step/step_solution.hpp"
+#include "core/step/warm_start.hpp"
 
 namespace hagfish {
 

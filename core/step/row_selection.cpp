@@ -17,12 +17,12 @@ constexpr double nowhere = -std::numeric_limits<double>::infinity();
 /// The unilateral rows that are near to binding; of pairs of segments that are no minimum of the
 /// gap those that `is_considered`: at 400 bodies many are beside each minimum, and few push.
 template <class Condition>
-void append_unilateral_rows(const StepInput& in, const NearBinding& wanted, Condition is_considered,
-                            std::vector<Row>& rows) {
+void append_unilateral_rows(const StepInput& in, const StepPlace& place, const NearBinding& wanted,
+                            Condition is_considered, std::vector<Row>& rows) {
   const ConstraintSettings& settings = in.scene.constraints;
   const double h = in.scene.time.step;
   const auto append = [&](const Contact& contact) {
-    append_contact_row(in.model, contact, in.moved_segments(), settings, h, wanted, rows);
+    append_contact_row(in.model, contact, place.segments, settings, h, wanted, rows);
   };
   std::ranges::for_each(in.observation.contact.contacts, append);
   for (const Contact& contact : in.observation.contact.others) {
@@ -34,28 +34,32 @@ void append_unilateral_rows(const StepInput& in, const NearBinding& wanted, Cond
 
 }  // namespace
 
-void gather_rows(const StepInput& in, const WarmStart& warm, std::vector<Row>& rows) {
+void gather_rows(const StepInput& in, const StepPlace& place, const WarmStart& warm,
+                 std::vector<Row>& rows) {
   const double h = in.scene.time.step;
   rows.clear();
   if (in.control.clamp_head) {
     append_head_rows(in.state, in.scene.constraints, h, rows);
   }
-  append_thigmotaxis_rows(in.model, in.control.thigmotaxis, in.moved_segments(),
-                          in.scene.controller, in.motion().centre_velocity, h, rows);
+  append_thigmotaxis_rows(
+      in.model, in.control.thigmotaxis,
+      {place.kin, place.segments == nullptr ? in.observation.segments : *place.segments,
+       place.segments != nullptr, place.motion.before()},
+      in.scene.controller, h, rows);
   const auto pushed = [&](const Contact& contact) {
     return warm.find(contact_row_id(contact)) != nullptr;
   };
-  const Eigen::VectorXd& v = in.midway == nullptr ? in.state.qdot : in.midway->moved;
-  append_unilateral_rows(in, {v, in.kin().centre_velocity, lazy_reach, lazy_reach}, pushed, rows);
+  append_unilateral_rows(
+      in, place, {place.velocity, place.kin.velocities(), lazy_reach, lazy_reach}, pushed, rows);
 }
 
-Row placed_row(const StepInput& in, const PathRow& shown) {
+Row placed_row(const StepPlace& place, const PathRow& shown) {
   if (!shown.contact) {
     return shown.row;
   }
   Row row = shown.row;
-  if (in.moved_segments() != nullptr) {
-    row.direction = contact_normal(*in.moved_segments(), *shown.contact);
+  if (place.segments != nullptr) {
+    row.direction = contact_normal(*place.segments, *shown.contact);
   }
   return row;
 }
@@ -69,10 +73,11 @@ void put_row(const Row& row, std::vector<Row>& rows) {
   }
 }
 
-void gather_violated_rows(const StepInput& in, const StepSolution& step, std::vector<Row>& rows) {
+void gather_violated_rows(const StepInput& in, const StepPlace& place, const StepSolution& step,
+                          std::vector<Row>& rows) {
   rows.clear();
   const auto all = [](const Contact&) { return true; };
-  append_unilateral_rows(in, {step.qdot, step.centre_velocity, -lazy_tolerance, nowhere}, all,
+  append_unilateral_rows(in, place, {step.qdot, step.bodies(), -lazy_tolerance, nowhere}, all,
                          rows);
 }
 

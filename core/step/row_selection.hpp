@@ -3,22 +3,26 @@
 
 #include <vector>
 
-#include "core/step/step.hpp"
+#include "core/step/step_input.hpp"
+#include "core/step/step_solution.hpp"
+#include "core/step/warm_start.hpp"
 
 namespace hagfish {
 
-/// The rows of a step that bind or may do so, as far as the last velocity tells, into `rows`:
-/// head clamp, thigmotaxis, contacts, limits, head plate. Pairs of segments that are no minimum of
-/// the gap are among them where they pushed in the last step, of which `warm` tells.
-void gather_rows(const StepInput& in, const WarmStart& warm, std::vector<Row>& rows);
+/// The rows of a step at `place` that bind or may do so, as far as the last velocity tells, into
+/// `rows`: head clamp, thigmotaxis, contacts, limits, head plate. Pairs of segments that are no
+/// minimum of the gap are among them where they pushed in the last step, of which `warm` tells.
+void gather_rows(const StepInput& in, const StepPlace& place, const WarmStart& warm,
+                 std::vector<Row>& rows);
 
-/// The row of `shown` where the step's equations hold.
-Row placed_row(const StepInput& in, const PathRow& shown);
+/// The row of `shown` at `place`.
+Row placed_row(const StepPlace& place, const PathRow& shown);
 
 /// Adds `row`, or replaces the one of its id in place.
 void put_row(const Row& row, std::vector<Row>& rows);
 
 /// The unilateral rows that the velocity of `step` violates, into `rows`.
-void gather_violated_rows(const StepInput& in, const StepSolution& step, std::vector<Row>& rows);
+void gather_violated_rows(const StepInput& in, const StepPlace& place, const StepSolution& step,
+                          std::vector<Row>& rows);
 
 }  // namespace hagfish

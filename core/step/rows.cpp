@@ -34,13 +34,6 @@ std::int64_t thigmotaxis_id(const ThigmotaxisCommand& command, bool on_a) {
              : row_id(RowKind::thigmotaxis, static_cast<int>(command.end), along);
 }
 
-/// `contact` as it was found, or between the same points of the segments `at`.
-Contact placed(const Contact& contact, const std::vector<SplineSegment>* at) {
-  return at == nullptr
-             ? contact
-             : contact_at(*at, contact.segment_a, contact.t_a, contact.segment_b, contact.t_b);
-}
-
 /// Relative motion along `direction` of the two spline points of a contact.
 void set_points(Row& row, const Contact& contact, const Eigen::Vector3d& direction, int bodies) {
   row.direction = direction;
@@ -48,16 +41,24 @@ void set_points(Row& row, const Contact& contact, const Eigen::Vector3d& directi
   row.b = spline_mix(contact.segment_b, contact.t_b, bodies);
 }
 
-/// C q̇ of a row with points.
-double relative_velocity(const Row& row, const Eigen::Matrix3Xd& centre_velocity) {
-  Eigen::Vector3d apart = Eigen::Vector3d::Zero();  // ẋ_a - ẋ_b
+/// The mix a less the mix b of columns.
+template <class Columns>
+auto apart(const Row& row, const Columns& columns) {
+  Eigen::Matrix<double, Columns::RowsAtCompileTime, 1> sum;
+  sum.setZero();
   for (int k = 0; k < row.a.count; ++k) {
-    apart += row.a.weight[k] * centre_velocity.col(row.a.first + k);
+    sum += row.a.weight[k] * columns.col(row.a.first + k);
   }
   for (int k = 0; k < row.b.count; ++k) {
-    apart -= row.b.weight[k] * centre_velocity.col(row.b.first + k);
+    sum -= row.b.weight[k] * columns.col(row.b.first + k);
   }
-  return row.direction.dot(apart);
+  return sum;
+}
+
+/// C q̇ of a row with points: along its direction ẋ_a - ẋ_b.
+double relative_velocity(const Row& row, const BodyVelocities& bodies) {
+  return row.direction.dot(row.at ? point_velocity(apart(row, bodies.twist), *row.at)
+                                  : apart(row, bodies.centre));
 }
 
 /// The right-hand side of a unilateral row at `gap`; none where the row is not in force.
@@ -113,10 +114,9 @@ int place_in_step(const Model& model, const Row& row) {
 
 bool along_a(const Row& row) { return row.id % 2 == 0; }
 
-double row_velocity(const Row& row, const Eigen::Matrix3Xd& centre_velocity,
-                    const Eigen::VectorXd& v) {
+double row_velocity(const Row& row, const BodyVelocities& bodies, const Eigen::VectorXd& v) {
   if (row.dof < 0) {
-    return relative_velocity(row, centre_velocity);
+    return relative_velocity(row, bodies);
   }
   return row.sign * v[row.dof] + (row.unit() ? 0 : row.beside * v[row.dof + 1]);
 }
@@ -130,9 +130,10 @@ void add_row(const Row& row, const Kinematics& kin, double lambda, Matrix6Xd& wr
     }
     return;
   }
-  visit_forces(row, [&](int body, const Eigen::Vector3d& force) {
-    add_wrench_of_force(lambda * force, kin.centre_offset(body), wrench.col(body));
-  });
+  visit_forces(row, kin,
+               [&](int body, const Eigen::Vector3d& force, const Eigen::Vector3d& offset) {
+                 add_wrench_of_force(lambda * force, offset, wrench.col(body));
+               });
 }
 
 std::int64_t contact_row_id(const Contact& contact) {
@@ -229,7 +230,7 @@ void append_cone_rows(const Model& model, const State& state, const ConstraintSe
     }
     Row& row = rows.emplace_back(cone_row(cone, bend, 0));
     row.rhs = *rhs;
-    if (!wanted(row_velocity(row, wanted.centre_velocity, wanted.v), row.rhs)) {
+    if (!wanted(row_velocity(row, wanted.bodies, wanted.v), row.rhs)) {
       rows.pop_back();
     }
   }
@@ -252,7 +253,7 @@ void append_contact_row(const Model& model, const Contact& contact,
   }
   Row& row = rows.emplace_back(contact_row(model, contact, at));
   row.rhs = *rhs;
-  if (!wanted(row_velocity(row, wanted.centre_velocity, wanted.v), row.rhs)) {
+  if (!wanted(row_velocity(row, wanted.bodies, wanted.v), row.rhs)) {
     rows.pop_back();
   }
 }
@@ -262,31 +263,42 @@ void append_wall_rows(const Model& model, const Kinematics& kin, const WallSetti
                       std::vector<Row>& rows) {
   visit_wall_gaps(model, kin, wall, [&](int body, double gap) {
     const std::optional<double> rhs = unilateral(gap, settings, h, settings.baumgarte_speed);
-    if (rhs && wanted(wanted.centre_velocity(0, body), *rhs)) {
+    if (rhs && wanted(wanted.bodies.centre(0, body), *rhs)) {
       rows.emplace_back(wall_row(body)).rhs = *rhs;
     }
   });
 }
 
+Row eq6_row(const Model& model, const Kinematics& kin, const std::vector<SplineSegment>& segments,
+            const Contact& contact, bool on_a, BodyEnd towards, Eq6Point at) {
+  // Eq. 6: t_a' (ẋ_a - ẋ_b) >= v_a and t_b' (ẋ_b - ẋ_a) >= v_b.
+  const double sense = towards == BodyEnd::head ? 1 : -1;
+  Row row;
+  row.kind = RowKind::thigmotaxis;
+  set_points(row, contact, sense * (on_a ? contact.tangent_a : -contact.tangent_b),
+             model.body_count());
+  if (at == Eq6Point::skin) {
+    row.at = skin_point(segments, contact) - kin.reference;
+  }
+  return row;
+}
+
 void append_thigmotaxis_rows(const Model& model, const std::vector<ThigmotaxisCommand>& commands,
-                             const std::vector<SplineSegment>* at,
-                             const ControllerSettings& settings,
-                             const Eigen::Matrix3Xd& centre_velocity, double h,
-                             std::vector<Row>& rows) {
+                             const ThigmotaxisPlace& place, const ControllerSettings& settings,
+                             double h, std::vector<Row>& rows) {
   const double gain = settings.acceleration * h;
   for (std::size_t k = 0; k < commands.size(); ++k) {
     const ThigmotaxisCommand& command = commands[k];
-    const Contact contact = placed(command.contact, at);
-    const double sense = command.towards == BodyEnd::head ? 1 : -1;
+    const Contact& found = command.contact;
+    const Contact contact = place.moved ? contact_at(place.segments, found.segment_a, found.t_a,
+                                                     found.segment_b, found.t_b)
+                                        : found;
     for (const bool on_a : {true, false}) {
-      // Eq. 6: t_a' (ẋ_a - ẋ_b) >= v_a and t_b' (ẋ_b - ẋ_a) >= v_b.
-      const Eigen::Vector3d way = sense * (on_a ? contact.tangent_a : -contact.tangent_b);
-      Row& row = rows.emplace_back();
-      row.kind = RowKind::thigmotaxis;
+      Row& row = rows.emplace_back(eq6_row(model, place.kin, place.segments, contact, on_a,
+                                           command.towards, settings.eq6_at));
       row.id = thigmotaxis_id(command, on_a);
       row.command = static_cast<int>(k);
-      set_points(row, contact, way, model.body_count());
-      const double now = relative_velocity(row, centre_velocity);
+      const double now = relative_velocity(row, place.before);
       row.rhs = std::min(on_a ? command.speed.a : command.speed.b, now + gain);
       row.upper =
           command.effort * settings.cap * h;  // the soft row: its L1 slack is this bound's dual

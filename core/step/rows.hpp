@@ -37,9 +37,13 @@ struct Row {
   /// C q̇ = direction . (ẋ_a - ẋ_b), each point a mix of body centres; `b` may have none.
   Eigen::Vector3d direction;  ///< unit, world
   SplineMix a, b;
+  /// One point for both, from kin.reference, cm: ẋ_a and ẋ_b are then the same mixes of the
+  /// velocities that the bodies, as rigid ones, have there. So forces of such a row are internal:
+  /// they have no sum and no moment.
+  std::optional<Eigen::Vector3d> at;
   double rhs = 0;  ///< d, cm/s or rad/s
   /// The part of λ that is an impact's and acts at once; half of the rest acts before the middle of
-  /// the step (midpoint rule, next_velocity.cpp).
+  /// the step (midpoint rule, midpoint/impacts.hpp).
   double impact = 0;
   double lower = 0;  ///< bounds on the multiplier λ, dyn s or dyn cm s
   double upper = std::numeric_limits<double>::infinity();
@@ -56,16 +60,19 @@ struct PathRow {
   std::optional<Contact> contact;
 };
 
-/// Calls `visit(body, force)` for each force (world, at the body's centre, per unit λ) that a row
-/// with points stands for: C q̇ is the sum of force . centre velocity.
+/// Calls `visit(body, force, offset)` for each force (world, per unit λ) that a row with points
+/// stands for, and where it acts, from kin.reference: C q̇ is the sum of force . velocity there.
 template <class Visit>
-void visit_forces(const Row& row, Visit visit) {
-  for (int k = 0; k < row.a.count; ++k) {
-    visit(row.a.first + k, (row.a.weight[k] * row.direction).eval());
-  }
-  for (int k = 0; k < row.b.count; ++k) {
-    visit(row.b.first + k, (-row.b.weight[k] * row.direction).eval());
-  }
+void visit_forces(const Row& row, const Kinematics& kin, Visit visit) {
+  const auto of_mix = [&](const SplineMix& mix, double sign) {
+    for (int k = 0; k < mix.count; ++k) {
+      const int body = mix.first + k;
+      visit(body, (sign * mix.weight[k] * row.direction).eval(),
+            row.at ? *row.at : kin.centre_offset(body));
+    }
+  };
+  of_mix(row.a, 1);
+  of_mix(row.b, -1);
 }
 
 /// "limit of j05_bend_y (upper)", "contact of bodies 31 and 74", ...
@@ -79,10 +86,8 @@ int place_in_step(const Model& model, const Row& row);
 /// Whether a thigmotaxis row is along t_a; else it is along t_b.
 bool along_a(const Row& row);
 
-/// C v of one row at velocities `v` (nv), which move the bodies' centres by `centre_velocity`
-/// (3 x N).
-double row_velocity(const Row& row, const Eigen::Matrix3Xd& centre_velocity,
-                    const Eigen::VectorXd& v);
+/// C v of one row at velocities `v` (nv), by which the bodies move as `bodies` says.
+double row_velocity(const Row& row, const BodyVelocities& bodies, const Eigen::VectorXd& v);
 
 /// Adds C' λ of one row: to the bodies' wrenches (6 x N) or the joint forces (nv).
 void add_row(const Row& row, const Kinematics& kin, double lambda, Matrix6Xd& wrench,
@@ -92,10 +97,10 @@ void add_row(const Row& row, const Kinematics& kin, double lambda, Matrix6Xd& wr
 
 /// Selects the unilateral rows near binding; most of the animal's 500 are far from it.
 struct NearBinding {
-  const Eigen::VectorXd& v;                 ///< a velocity, nv
-  const Eigen::Matrix3Xd& centre_velocity;  ///< of the bodies' centres at it, 3 x N, cm/s
-  double slack;                             ///< those with C v - d below this, cm/s or rad/s
-  double slack_at_rest;                     ///< and those with -d below this, which touch
+  const Eigen::VectorXd& v;  ///< a velocity, nv
+  BodyVelocities bodies;     ///< at it
+  double slack;              ///< those with C v - d below this, cm/s or rad/s
+  double slack_at_rest;      ///< and those with -d below this, which touch
 
   bool operator()(double row_velocity, double rhs) const {
     return row_velocity - rhs < slack || -rhs < slack_at_rest;
@@ -149,15 +154,25 @@ struct ThigmotaxisCommand {
   KnotEnd end = KnotEnd::neither;   ///< what tells its rows from others from step to step
 };
 
-/// Eq. 6 at the contacts commanded, as placed at `at`: rows t_a, t_b of each. settings.cap times
-/// the command's effort bounds λ / h; a row asks for its commanded speed, but for no more than
-/// settings.acceleration makes in the step of the speed that it has now, where the bodies' centres
-/// move by `centre_velocity` (3 x N, cm/s). No two commands are of the same end or, of neither, of
-/// the same segments.
+/// Where the rows of Eq. 6 are placed.
+struct ThigmotaxisPlace {
+  const Kinematics& kin;
+  const std::vector<SplineSegment>& segments;  ///< of it
+  bool moved;                                  ///< from where the commands' contacts were found
+  BodyVelocities before;                       ///< at the step's first velocity
+};
+
+/// A row of Eq. 6 with no right-hand side or bounds yet, along t_a or t_b of `contact`, whose
+/// tangents both turn where `towards` is the tail; `at` as ControllerSettings::eq6_at.
+Row eq6_row(const Model& model, const Kinematics& kin, const std::vector<SplineSegment>& segments,
+            const Contact& contact, bool on_a, BodyEnd towards, Eq6Point at);
+
+/// Eq. 6 at the contacts commanded: rows t_a, t_b of each. settings.cap times the command's effort
+/// bounds λ / h; a row asks for its commanded speed, but for no more than settings.acceleration
+/// makes in the step of the speed that it has now. No two commands are of the same end or, of
+/// neither, of the same segments.
 void append_thigmotaxis_rows(const Model& model, const std::vector<ThigmotaxisCommand>& commands,
-                             const std::vector<SplineSegment>* at,
-                             const ControllerSettings& settings,
-                             const Eigen::Matrix3Xd& centre_velocity, double h,
-                             std::vector<Row>& rows);
+                             const ThigmotaxisPlace& place, const ControllerSettings& settings,
+                             double h, std::vector<Row>& rows);
 
 }  // namespace hagfish

@@ -115,8 +115,12 @@ Finding energy_gain(const LogContents& log) {
   return judged_over(energy_gain_criterion(log.resolved.scene.expect, gain.largest()));
 }
 
-/// The ledger's imbalance, over the energy that has passed through it.
-Finding energy(const LogContents& log) {
+/// So that nothing is divided by nothing, erg.
+constexpr double least_energy = 1e-300;
+
+/// The ledger's imbalance, and what the integrator takes, over the energy that has passed through
+/// it.
+std::vector<Finding> energy(const LogContents& log) {
   const auto get = [&](const char* name) { return since_start(diagnostic(log, name)); };
   const Eigen::ArrayXd energy = since_start(mechanical_energy(log));
   const Eigen::ArrayXd works = get("work_tip") + get("work_active") + get("work_thigmotaxis") +
@@ -124,47 +128,113 @@ Finding energy(const LogContents& log) {
                                get("work_wall");
   const Eigen::ArrayXd error = get("integrator_error");
   const Eigen::ArrayXd dissipated = get("dissipated");
-  const double worst = largest((energy - works + dissipated - error).abs().eval());
+  const Eigen::ArrayXd impacts = get("impact_loss");
+  const double worst = largest((energy - works + dissipated + impacts - error).abs().eval());
   const double passed = std::max(dissipated.abs().maxCoeff(), works.abs().maxCoeff());
   const double relative = passed > 0 ? worst / passed : worst;
   Finding finding = judged_over(
       {"energy ledger", relative, log.resolved.scene.expect.energy, "of the energy that passed"});
-  finding.text += fmt::format("; {:.0f} erg worked, {:.0f} dissipated, {:.0f} integrator's own",
-                              works[works.size() - 1], dissipated[dissipated.size() - 1],
-                              error[error.size() - 1]);
+  finding.text += fmt::format(
+      "; {:.0f} erg worked, {:.0f} dissipated, {:.0f} lost at impacts, {:.0f} integrator's own",
+      works[works.size() - 1], dissipated[dissipated.size() - 1], impacts[impacts.size() - 1],
+      error[error.size() - 1]);
+  const double had =
+      (diagnostic(log, "kinetic_energy") + diagnostic(log, "elastic_energy")).maxCoeff();
+  const double loss = EnergyLoss::of(error) / std::max({passed, had, least_energy});
+  return {finding, judged_over(energy_loss_criterion(log.resolved.scene.expect, loss),
+                               "by the integrator, without impacts")};
+}
+
+/// One of the two momentum ledgers, linear or angular: its columns, since the log began.
+struct MomentumColumns {
+  MomentumColumns(const LogContents& log, const std::string& angular)
+      : momentum(get(log, angular + "momentum")),
+        drag(since_start(get(log, angular + "impulse_drag"))),
+        outside(since_start(get(log, angular + "impulse_outside"))),
+        integrator(since_start(get(log, "integrator_" + angular + "momentum"))),
+        given_back(since_start(get(log, angular + "momentum_given_back"))) {}
+
+  static Hdf5Reader::Rows get(const LogContents& log, const std::string& name) {
+    return log.h5.rows("/diagnostics/" + name);
+  }
+  static double most(const Hdf5Reader::Rows& rows) {
+    return rows.allFinite() ? rows.cwiseAbs().maxCoeff() : INFINITY;
+  }
+  double passed() const {
+    return std::max({most(momentum), most(drag), most(outside), most(integrator)});
+  }
+
+  Hdf5Reader::Rows momentum, drag, outside, integrator, given_back;
+};
+
+Finding momentum_ledger(const LogContents& log, const std::string& name, const char* unit,
+                        const MomentumColumns& of) {
+  const auto most = &MomentumColumns::most;
+  const double off =
+      most(since_start(of.momentum) - of.drag - of.outside - of.integrator - of.given_back);
+  const double relative = of.passed() > 0 ? off / of.passed() : off;
+  Finding finding = judged_over(
+      {name, relative, log.resolved.scene.expect.energy, "of the momentum that passed"});
+  finding.text += fmt::format(
+      "; at most {:.3g} {} by drag, {:.3g} from outside, {:.3g} the integrator's own, {:.3g} given "
+      "back",
+      most(of.drag), unit, most(of.outside), most(of.integrator), most(of.given_back));
   return finding;
 }
 
-/// What happens to linear momentum; where nothing holds or pulls the animal, that nothing does.
+/// What the integrator makes of a momentum, and does not give back, from frames to frames at which
+/// nothing holds the head, over the most that passed and that the body's parts have.
+double made_while_free(const LogContents& log, const MomentumColumns& of, double of_parts) {
+  Eigen::RowVector3d made = Eigen::RowVector3d::Zero();
+  double most = 0;
+  for (Eigen::Index f = 1; f < of.momentum.rows(); ++f) {
+    if (log.clamped(f - 1) || log.clamped(f)) {
+      made.setZero();
+      continue;
+    }
+    made += of.integrator.row(f) - of.integrator.row(f - 1) + of.given_back.row(f) -
+            of.given_back.row(f - 1);
+    most = worse(most, made.norm());
+  }
+  const double scale = std::max({MomentumColumns::most(of.momentum), MomentumColumns::most(of.drag),
+                                 MomentumColumns::most(of.outside), of_parts});
+  return scale > 0 ? most / scale : most;
+}
+
+/// What happens to momentum; where nothing holds or pulls the animal, that nothing does.
 std::vector<Finding> momentum(const LogContents& log) {
-  const auto get = [&log](const char* name) {
-    return log.h5.rows(std::string("/diagnostics/") + name);
-  };
-  const Hdf5Reader::Rows momentum = get("momentum");
-  const Hdf5Reader::Rows drag = since_start(get("impulse_drag"));
-  const Hdf5Reader::Rows outside = since_start(get("impulse_outside"));
-  const Hdf5Reader::Rows integrator = since_start(get("integrator_momentum"));
-  const auto most = [](const Hdf5Reader::Rows& rows) {
-    return rows.allFinite() ? rows.cwiseAbs().maxCoeff() : INFINITY;
-  };
-  const Hdf5Reader::Rows off = since_start(momentum) - drag - outside - integrator;
-  const double passed = std::max({most(momentum), most(drag), most(outside)});
-  const double relative = passed > 0 ? most(off) / passed : most(off);
-  Finding finding = judged_over({"momentum ledger", relative, log.resolved.scene.expect.energy,
-                                 "of the momentum that passed"});
-  finding.text += fmt::format(
-      "; at most {:.3g} dyn s by drag, {:.3g} from outside, {:.3g} the "
-      "integrator's own",
-      most(drag), most(outside), most(integrator));
-  std::vector<Finding> findings{finding};
+  const MomentumColumns linear(log, "");
+  const MomentumColumns angular(log, "angular_");
+  std::vector<Finding> findings{
+      momentum_ledger(log, "momentum ledger", "dyn s", linear),
+      momentum_ledger(log, "angular momentum ledger", "dyn cm s", angular)};
   const Scene& scene = log.resolved.scene;
+  bool ever_free = false;
+  for (Eigen::Index f = 1; f < log.q.rows(); ++f) {
+    ever_free = ever_free || !(log.clamped(f - 1) || log.clamped(f));
+  }
+  if (ever_free) {
+    // As GuardSettings::momentum_gain: with the largest kinetic energy.
+    double mass = 0;
+    for (const Body& body : log.model.bodies) mass += body.mass;
+    const double parts = std::sqrt(2 * mass * diagnostic(log, "kinetic_energy").maxCoeff());
+    const double share =
+        worse(made_while_free(log, linear, parts),
+              made_while_free(log, angular, parts * log.model.length() / std::sqrt(12.0)));
+    findings.push_back(
+        judged_over({"free momentum", share, scene.expect.momentum, "of the momentum that passed"},
+                    "made by the integrator while nothing held the head"));
+  }
   using Kind = ScriptSettings::Kind;
   const bool free = !log.own_law() && !scene.clamp_head && !scene.wall.present &&
-                    scene.gravity.isZero(0) &&
+                    scene.gravity.isZero(0) && scene.controller.eq6_at == Eq6Point::skin &&
                     (scene.script.kind == Kind::none || scene.script.kind == Kind::curvature);
   if (free) {
-    findings.push_back(judged_over({"nothing outside", most(outside), 0, "dyn s"},
-                                   "no clamp, plate, gravity or tip force"));
+    findings.push_back(judged_over(
+        {"nothing outside",
+         std::max(MomentumColumns::most(linear.outside), MomentumColumns::most(angular.outside)), 0,
+         "dyn s, dyn cm s"},
+        "no clamp, plate, gravity or tip force"));
   }
   return findings;
 }
@@ -233,7 +303,7 @@ std::vector<Finding> audit(const std::string& file) {
   append(audit_pull(log));
   findings.push_back(forward_inverse.finding());
   findings.push_back(thigmotaxis_extent(log));
-  findings.push_back(energy(log));
+  append(energy(log));
   findings.push_back(energy_gain(log));
   append(momentum(log));
   append(rates.findings());

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/run/script.hpp"
+#include "core/step/midpoint/midpoint_rule.hpp"
 #include "experiments/audit/row_force.hpp"
 
 namespace hagfish {

@@ -68,13 +68,14 @@ FrameAudit::FrameAudit(const LogContents& log)
       kinetic_(log.h5.doubles("/diagnostics/kinetic_energy")),
       elastic_(log.h5.doubles("/diagnostics/elastic_energy")),
       gravity_(log.h5.doubles("/diagnostics/gravity_energy")),
-      integrator_(sum_of(log, {"inertia", "potential", "coriolis", "held"})),
+      integrator_(sum_of(log, {"inertia", "potential", "coriolis", "held", "given_back"})),
       integrator_error_(log.h5.doubles("/diagnostics/integrator_error")),
       penetration_(log.h5.doubles("/steps/penetration")),
       limit_violation_(log.h5.doubles("/steps/limit_violation")),
       head_drift_(log.h5.doubles("/steps/head_drift")),
       position_(log.h5.rows("/trajectory/position")),
       momentum_(log.h5.rows("/diagnostics/momentum")),
+      angular_momentum_(log.h5.rows("/diagnostics/angular_momentum")),
       spline_a_(log.h5.rows("/thigmotaxis/spline_a")),
       spline_b_(log.h5.rows("/thigmotaxis/spline_b")),
       last_order_(phase_order(log.resolved.scene.start.phase)) {}
@@ -130,8 +131,10 @@ void FrameAudit::see_energy(const AuditedFrame& frame) {
                   elastic_energy(log_.model, frame.state.q));
   by_itself_.compare("/diagnostics/integrator_error", integrator_error_[f], integrator_[f]);
   from_q_.compare("/diagnostics/gravity_energy", gravity_[f], gravity_energy(log_.model, kin));
-  from_q_.compare("/diagnostics/momentum", momentum_.row(f).transpose(),
-                  linear_momentum(log_.model, kin));
+  const Momentum momentum = momentum_of(log_.model, kin, centre_of_mass(log_.model, kin));
+  from_q_.compare("/diagnostics/momentum", momentum_.row(f).transpose(), momentum.linear);
+  from_q_.compare("/diagnostics/angular_momentum", angular_momentum_.row(f).transpose(),
+                  momentum.angular);
 }
 
 void FrameAudit::see_bounds(const AuditedFrame& frame) {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/log/log_writer.hpp"
-#include "core/run/active_curvature.hpp"
+#include "core/muscle/active_curvature.hpp"
 
 namespace hagfish {
 namespace {

@@ -25,7 +25,8 @@ RateAudit::RateAudit(const LogContents& log)
       active_(log.h5.rows("/mean/forces/active")),
       head_(log.h5.rows("/mean/forces/head")),
       wall_(log.h5.rows("/mean/forces/wall")) {
-  for (const char* name : {"work_tip", "work_thigmotaxis", "work_active", "impulse_drag"}) {
+  for (const char* name : {"work_tip", "work_thigmotaxis", "work_active", "impulse_drag",
+                           "angular_impulse_drag", "dissipated", "angular_impulse_outside"}) {
     const std::string path = std::string("/diagnostics/") + name;
     growths_.push_back({name, log.h5.rows(path)});
   }
@@ -52,21 +53,36 @@ void RateAudit::see(const AuditedFrame& frame) {
   const Eigen::Index bodies = log_.model.body_count();
   const Eigen::Matrix3Xd moved = (position_.row(f) - position_.row(f - 1)).reshaped(3, bodies);
   const Eigen::Vector3d tip = 0.5 * (tip_.row(f) + tip_.row(f - 1));
+  const Kinematics& kin = frame.observation.kin;
+  const Eigen::Vector3d centre = centre_of_mass(log_.model, kin);
   Eigen::Vector3d drag = Eigen::Vector3d::Zero();
+  Eigen::Vector3d drag_moment = drag;
+  double dissipated = 0;
   for (int b = 0; b < bodies; ++b) {
-    drag += drag_on_body(log_.model, frame.observation.kin, b, moved.col(b));
+    const PointMotion motion{elapsed * kin.twist.col(b).head<3>(), moved.col(b)};
+    const auto [moment, force] = drag_on_body(log_.model, kin, b, motion);
+    drag += force;
+    drag_moment += moment + (kin.centre.col(b) - centre).cross(force);
+    dissipated += drag_power(log_.model, kin, b, motion, motion) / elapsed;
+  }
+  for (int k = root_dofs; k < log_.model.nv(); ++k) {
+    dissipated += log_.model.hinges[k - root_dofs].damping * way[k] * way[k] / elapsed;
   }
   const auto one = [](double value) { return Eigen::VectorXd::Constant(1, value); };
   growths_[0].compare(f, one(tip.dot(moved.col(bodies - 1))));
   growths_[1].compare(f, one(thigmotaxis_.row(f).dot(way)));
   growths_[2].compare(f, one(active_.row(f).dot(way)));
   growths_[3].compare(f, drag);
-  see_outside(f, elapsed);
+  growths_[4].compare(f, drag_moment);
+  growths_[5].compare(f, one(dissipated));
+  see_outside(frame, centre, elapsed);
 }
 
 /// Of what pulls from outside all but the tip's force is known as a mean, and that one only acts
 /// while a script forms the knot, or by a law of the run's own at any time.
-void RateAudit::see_outside(Eigen::Index f, double elapsed) {
+void RateAudit::see_outside(const AuditedFrame& frame, const Eigen::Vector3d& centre,
+                            double elapsed) {
+  const Eigen::Index f = frame.index;
   const bool pulled = !(tip_.row(f - 1).isZero(0) && tip_.row(f).isZero(0));
   if (log_.own_law() ? !tip_.isZero(0)
                      : static_cast<Phase>(log_.phase[f - 1]) == Phase::form && pulled) {
@@ -82,6 +98,12 @@ void RateAudit::see_outside(Eigen::Index f, double elapsed) {
   // What grows is a difference of totals.
   rebuilt_.compare("/diagnostics/impulse_outside", grew, wanted,
                    rebuilt_tolerance * outside_.cwiseAbs().maxCoeff());
+  // Of the root's moment alone is known that arms move from frame to frame.
+  Eigen::VectorXd turning = head_.row(f) + wall_.row(f);
+  if (log_.resolved.scene.controller.eq6_at == Eq6Point::centreline) {
+    turning += thigmotaxis_.row(f);
+  }
+  growths_[6].compare(f, elapsed * moment_of_root(turning, frame.observation.kin, centre));
 }
 
 std::vector<Finding> RateAudit::findings() const {

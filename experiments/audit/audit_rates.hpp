@@ -26,7 +26,7 @@ class RateAudit {
     double off = 0, grown = 0;
     void compare(Eigen::Index frame, const Eigen::VectorXd& wanted);
   };
-  void see_outside(Eigen::Index frame, double elapsed);
+  void see_outside(const AuditedFrame& frame, const Eigen::Vector3d& centre, double elapsed);
 
   const LogContents& log_;
   Hdf5Reader::Rows position_, tip_, thigmotaxis_, active_, head_, wall_, outside_;

@@ -90,16 +90,15 @@ ThigmotaxisAudit::Rows ThigmotaxisAudit::see(const AuditedFrame& frame, Rebuilt&
   Rows seen{Eigen::MatrixXd::Zero(model.nv(), 4), Eigen::VectorXd::Zero(model.nv())};
   const std::string group = table_ ? "/eq6/" : "/thigmotaxis/";
   for (const LoggedRow& r : rows) {
-    // Eq. 6: t_a' (ẋ_a - ẋ_b) >= v_a and t_b' (ẋ_b - ẋ_a) >= v_b.
     const Contact contact = contact_of(model, frame.segments, r.spline_a, r.spline_b);
-    const Row row =
-        motion_row(model, r.along == 0 ? r.sense * contact.tangent_a : -r.sense * contact.tangent_b,
-                   r.spline_a, r.spline_b);
-    const double speed = row_velocity(row, frame.moved_velocity, frame.qdot_moved);
+    const Row row = eq6_row(model, frame.kin, frame.segments, contact, r.along == 0,
+                            r.sense > 0 ? BodyEnd::head : BodyEnd::tail, scene.controller.eq6_at);
+    const double speed =
+        row_velocity(row, {frame.moved_twist, frame.moved_velocity}, frame.qdot_moved);
     rebuilt.compare(group + "speed", r.speed, speed);
     // A row below its cap is met, with a force exactly: at its command, or on the way to it.
     const double asked =
-        std::min(r.command, row_velocity(row, frame.motion.centre_velocity, frame.state.qdot) +
+        std::min(r.command, row_velocity(row, frame.motion.before(), frame.state.qdot) +
                                 scene.controller.acceleration * scene.time.step);
     if (r.lambda < 0) {
       shape.insert(group + "lambda");

@@ -36,7 +36,9 @@ AuditedFrame::AuditedFrame(const LogContents& log, Eigen::Index frame)
       qdot_next(log.qdot_next.row(frame)),
       qdot_moved(log.midpoint() ? Eigen::VectorXd(log.qdot_moved.row(frame)) : qdot_next),
       qdot_felt(log.midpoint() ? Eigen::VectorXd(0.5 * (state.qdot + qdot_next)) : qdot_next),
-      moved_velocity(centre_velocities(kin, body_twists(log.model, kin, qdot_moved))),
-      felt_velocity(centre_velocities(kin, body_twists(log.model, kin, qdot_felt))) {}
+      moved_twist(body_twists(log.model, kin, qdot_moved)),
+      felt_twist(body_twists(log.model, kin, qdot_felt)),
+      moved_velocity(centre_velocities(kin, moved_twist)),
+      felt_velocity(centre_velocities(kin, felt_twist)) {}
 
 }  // namespace hagfish

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/run/simulation.hpp"
+#include "core/step/midpoint/midway.hpp"
 #include "experiments/audit/log_contents.hpp"
 
 namespace hagfish {
@@ -39,7 +40,8 @@ struct AuditedFrame {
   Eigen::VectorXd qdot_next;                       ///< after it
   Eigen::VectorXd qdot_moved;                      ///< by which it moves
   Eigen::VectorXd qdot_felt;                       ///< that springs, damping and drag act on
-  Eigen::Matrix3Xd moved_velocity, felt_velocity;  ///< of the bodies' centres at these, 3 x N, cm/s
+  Matrix6Xd moved_twist, felt_twist;               ///< of the bodies at these, 6 x N
+  Eigen::Matrix3Xd moved_velocity, felt_velocity;  ///< of their centres, 3 x N, cm/s
 };
 
 /// Whether a logged spline parameter lies on the animal.

@@ -30,6 +30,10 @@ Criterion energy_gain_criterion(const ExpectSettings& expect, double largest) {
   return {"energy gain", largest, expect.energy_gain, "of what there was and was put in"};
 }
 
+Criterion energy_loss_criterion(const ExpectSettings& expect, double largest) {
+  return {"energy loss", largest, expect.energy_loss, "of the energy that passed"};
+}
+
 Criterion slide_criterion(const ExpectSettings& expect, std::optional<double> travel) {
   return {"slide", travel.value_or(NAN), expect.slide_distance, "cm", true};
 }

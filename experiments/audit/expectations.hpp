@@ -33,6 +33,8 @@ Criterion head_drift_criterion(const ExpectSettings& expect, double largest);
 Criterion kkt_criterion(const ExpectSettings& expect, double largest);
 /// As EnergyGain has it.
 Criterion energy_gain_criterion(const ExpectSettings& expect, double largest);
+/// As EnergyLoss has it, of the most energy that there was, worked or went to drag and damping.
+Criterion energy_loss_criterion(const ExpectSettings& expect, double largest);
 /// Headward travel of the knot's head end while sliding, cm; nothing where it never slid.
 Criterion slide_criterion(const ExpectSettings& expect, std::optional<double> travel);
 /// Tailward travel of its tail end on the way back, cm; likewise.
@@ -63,6 +65,27 @@ class EnergyGain {
 
  private:
   double start_ = 0, most_ = 0, largest_ = 0;
+};
+
+/// What the integrator takes: how far the sum of its own terms falls below what it was before.
+class EnergyLoss {
+ public:
+  /// The sum at a later moment, erg.
+  void see(double error) {
+    highest_ = std::max(highest_, error);
+    largest_ = worse(largest_, highest_ - error);
+  }
+  double largest() const { return largest_; }
+  /// Of sums from the start on.
+  template <class Errors>
+  static double of(const Errors& errors) {
+    EnergyLoss loss;
+    for (const double error : errors) loss.see(error);
+    return loss.largest();
+  }
+
+ private:
+  double highest_ = -INFINITY, largest_ = 0;
 };
 
 }  // namespace hagfish

@@ -102,7 +102,6 @@ void add_mujoco_step(const std::string& part, const std::shared_ptr<Start>& star
 /// A step of the knotted animal, taken apart.
 struct Parts {
   explicit Parts(std::shared_ptr<Start> of) : start(std::move(of)), sim(start->middle()) {
-    sim.solver.extends_rounds = false;  // parts go on with its factor
     for (Eigen::Matrix3Xd& seen : centre) {
       take_step(start->model, start->scene, sim, record);
       seen = sim.now.observation.kin.centre;
@@ -118,7 +117,7 @@ struct Parts {
   std::vector<SplineSegment> segments;
   std::vector<Row> rows;
   ArticulatedFactor factor;
-  Eigen::VectorXd reaction;
+  Eigen::VectorXd base, reaction;
   RowColumns columns;
   BoxQp qp;
 };
@@ -197,8 +196,8 @@ void add_core_parts(const std::shared_ptr<Start>& start) {
     assemble_step_system(p.start->model, p.record.moment.state,
                          {kin.twist, kin.centre_velocity, kin.twist}, kin, p.record.control.tip,
                          {p.start->scene.time.step}, system);
-    p.factor.factorise(p.start->model, kin, system.op, p.sim.solver.scratch().prescribed);
-    p.factor.solve(p.start->model, kin, system.wrench, system.joint, p.record.solution.base,
+    p.factor.factorise(p.start->model, kin, system.op, p.sim.solver.problem().prescribed);
+    p.factor.solve(p.start->model, kin, system.wrench, system.joint, p.base,
                    p.record.solution.twist, p.reaction);
   });
   part("contact", [](Parts& p) {  // to and fro, as a search saves its work where nothing moves
@@ -208,14 +207,15 @@ void add_core_parts(const std::shared_ptr<Start>& start) {
   });
   part("rows", [](Parts& p) {
     const Moment& at = p.record.moment;
-    gather_rows({p.start->model, p.start->scene, at.state, at.observation, p.record.control},
-                p.sim.solver.warm, p.rows);
+    const StepInput in{p.start->model, p.start->scene, at.state, at.observation, p.record.control};
+    gather_rows(in, start_of(in), p.sim.solver.warm, p.rows);
   });
   part("dual", [](Parts& p) {
     const StepSolution& step = p.record.solution;
-    assemble_dual(p.start->model, p.record.moment.observation.kin, p.sim.solver.scratch().factor,
+    assemble_dual(p.start->model, p.record.moment.observation.kin, p.sim.solver.problem().factor,
                   std::span(step.rows).subspan(static_cast<std::size_t>(step.prescribed)),
-                  step.base, p.sim.solver.scratch().base_centre_velocity, p.columns, p.qp);
+                  p.sim.solver.problem().base, p.sim.solver.problem().base_centre_velocity,
+                  p.columns, p.qp);
   });
   add_prescribing("prescribe_nothing", parts, [](const Row&) { return false; });
   add_prescribing("prescribe_head", parts,
@@ -225,7 +225,7 @@ void add_core_parts(const std::shared_ptr<Start>& start) {
     const std::shared_ptr<BoxQpSolver> solver = make_box_qp_solver(name);
     add("core", "qp_" + name, n, [parts, solver] {
       benchmark::DoNotOptimize(
-          solver->solve(parts->sim.solver.scratch().qp(), parts->sim.solver.scratch().start));
+          solver->solve(parts->sim.solver.problem().qp, parts->sim.solver.problem().start));
     });
   }
 }

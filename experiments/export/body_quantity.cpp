@@ -8,8 +8,8 @@
 #include <stdexcept>
 
 #include "core/chain/bending.hpp"
-#include "core/chain/muscle_paths.hpp"
 #include "core/contact/spline.hpp"
+#include "core/muscle/paths.hpp"
 #include "experiments/audit/audited_frame.hpp"
 
 namespace hagfish {

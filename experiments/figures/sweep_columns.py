@@ -32,6 +32,7 @@ FIGURES = {  # unit, meaning
     "eq6_percent": ("%", "sliding steps that meet Eq. 6 without slack"),
     "energy_ledger": ("1", "imbalance of the energy ledger, of the energy that passed"),
     "energy_gain": ("1", "mechanical energy above what there was and was put in, share of that"),
+    "energy_loss": ("1", "energy that the integrator takes, without impacts, of the energy that passed"),
     "momentum_ledger": ("1", "imbalance of the momentum ledger, of the momentum that passed"),
     "work_tip_erg": ("erg", "of the scripted force on the tail, in all"),
     "work_active_erg": ("erg", "of the muscles, in all"),

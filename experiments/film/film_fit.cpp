@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "core/run/active_curvature.hpp"
+#include "core/muscle/active_curvature.hpp"
 
 namespace hagfish {
 namespace {

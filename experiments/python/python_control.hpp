@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/step/step.hpp"
+#include "core/step/step_input.hpp"
 
 namespace hagfish {
 

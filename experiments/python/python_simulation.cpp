@@ -22,6 +22,12 @@ ResolvedScene resolve(const PythonRun& run) {
   return scene_argument(run.scene, set);
 }
 
+/// `resolved` with other settings.
+ResolvedScene changed(const ResolvedScene& resolved, const std::vector<std::string>& set) {
+  if (set.empty()) return resolved;
+  return read_scene_text(scene_to_toml(resolved.scene, resolved.specimen), "copy", set);
+}
+
 }  // namespace
 
 PythonSimulation::PythonSimulation(const PythonRun& run)
@@ -38,13 +44,15 @@ PythonSimulation::PythonSimulation(const PythonRun& run)
   }
 }
 
-PythonSimulation::PythonSimulation(const PythonSimulation& other, const py::object& law)
-    : resolved(other.resolved),
-      model(other.model),
+PythonSimulation::PythonSimulation(const PythonSimulation& other, const py::object& law,
+                                   const std::vector<std::string>& set)
+    : resolved(changed(other.resolved, set)),
+      model(make_hagfish(resolved.specimen, resolved.scene)),
       sim(other.sim),
       control(record.control, model.nv()),
       scene_(resolved.scene),
       law_(law.is_none() ? other.law_ : law) {
+  if (!set.empty()) change_scene(model, other.resolved.scene, resolved.scene, sim);
   if (!law.is_none()) resolved.scene.controller.law = own_law;
   hold_views();
 }
@@ -186,16 +194,20 @@ std::string text_of(const py::handle& value) {
   return py::str(value);
 }
 
+/// Keys and values as --set has them.
+std::vector<std::string> settings(const py::dict& set) {
+  std::vector<std::string> list;
+  for (const auto& [key, value] : set) list.push_back(text_of(key) + "=" + text_of(value));
+  return list;
+}
+
 std::unique_ptr<PythonSimulation> begin(const py::object& scene, const py::dict& set,
                                         const std::string& qp, const py::object& law,
                                         const py::object& log, bool force) {
   const auto path = [](const py::object& of) {
     return py::module_::import("os").attr("fspath")(of).cast<std::string>();
   };
-  PythonRun run{path(scene), {}, qp, law, log.is_none() ? "" : path(log), force, ""};
-  for (const auto& [key, value] : set) {
-    run.set.push_back(text_of(key) + "=" + text_of(value));
-  }
+  PythonRun run{path(scene), settings(set), qp, law, log.is_none() ? "" : path(log), force, ""};
   run.command =
       fmt::format("hagfish.Simulation({}, set={}{})", std::string(py::repr(py::str(run.scene))),
                   std::string(py::repr(set)), law.is_none() ? "" : ", law=...");
@@ -227,8 +239,26 @@ py::dict energies(const PythonSimulation& run) {
     e[(std::string("work_") + kind.name).c_str()] = ledger.work[kind.value];
   }
   e["dissipated"] = ledger.dissipated;
+  e["impact_loss"] = ledger.impacts;
   e["integrator_error"] = ledger.integrator_error();
   return e;
+}
+
+py::dict momenta(const PythonSimulation& run) {
+  const MomentumLedger& ledger = run.sim.momentum;
+  py::dict m;
+  const auto put = [&m](const char* name, const Momentum& of) {
+    Eigen::Matrix<double, 2, 3> rows;
+    rows << of.linear.transpose(), of.angular.transpose();
+    m[name] = rows;
+  };
+  put("now", ledger.momentum);
+  put("initial", ledger.initial);
+  put("drag", ledger.drag);
+  put("outside", ledger.outside);
+  put("integrator", ledger.integrator);
+  put("given_back", ledger.given_back);
+  return m;
 }
 
 std::vector<std::string> dof_names(const Model& model) {
@@ -285,9 +315,13 @@ changes. `log`: a file to write; `force` replaces one that is there. Raises Inpu
           "or the scene is over. Returns the simulation.")
       .def("close", &Run::close, "Ends the log; its status is complete where the scene is over.")
       .def(
-          "copy", [](const Run& r, const py::object& law) { return std::make_unique<Run>(r, law); },
-          py::arg("law") = py::none(),
-          "A simulation that goes on from here independently, without a log; by `law` where given.")
+          "copy",
+          [](const Run& r, const py::object& law, const py::dict& set) {
+            return std::make_unique<Run>(r, law, settings(set));
+          },
+          py::arg("law") = py::none(), py::kw_only(), py::arg("set") = py::dict(),
+          "A simulation that goes on from here independently, without a log; by `law` where given, "
+          "and with other settings by `set`, as `hagfish branch` has them.")
       .def("__enter__", [](const py::object& self) { return self; })
       .def("__exit__", [](Run& r, const py::args&) { r.close(); })
       .def(
@@ -322,6 +356,9 @@ changes. `log`: a file to write; `force` replaces one that is there. Raises Inpu
           "phase", [](const Run& r) { return phase_name(r.sim.controller.phase); },
           one_of(phase_table).c_str())
       .def_property_readonly(
+          "clamped", [](const Run& r) { return r.record.control.clamp_head; },
+          "whether the head was held in the last step")
+      .def_property_readonly(
           "knot", [](const Run& r) { return knot_name(r.sim.controller.knot.type); },
           "type of the knot as last seen: 0_1 for none")
       .def_property_readonly("head_end", knot_end(&KnotSpan::head_end),
@@ -330,6 +367,11 @@ changes. `log`: a file to write; `force` replaces one that is there. Raises Inpu
                              "arc length of its last contact, cm, or None")
       .def_property_readonly("finished", &Run::over, "whether the scene is over")
       .def_property_readonly("energy", &energies, "the energy ledger by name, erg")
+      .def_property_readonly(
+          "momentum", &momenta,
+          "the momentum ledger by name, each (2, 3): linear, dyn s, and angular about the centre "
+          "of "
+          "mass, dyn cm s; world. What the integrator makes is integrator + given_back")
       .def_property(
           "memory", [](const Run& r) { return r.sim.controller.memory; },
           [](Run& r, const Eigen::VectorXd& memory) { r.sim.controller.memory = memory; },

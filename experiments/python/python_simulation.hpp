@@ -31,8 +31,10 @@ class PythonSimulation {
  public:
   /// Throws InputError, FileError, std::invalid_argument.
   explicit PythonSimulation(const PythonRun& run);
-  /// Goes on independently, without a log; by `law` where that is not None.
-  PythonSimulation(const PythonSimulation& other, const pybind11::object& law);
+  /// Goes on independently, without a log; by `law` where that is not None, and with KEY=VALUE
+  /// overrides `set`. Throws InputError, and std::invalid_argument as change_scene.
+  PythonSimulation(const PythonSimulation& other, const pybind11::object& law,
+                   const std::vector<std::string>& set);
   PythonSimulation(const PythonSimulation&) = delete;
   PythonSimulation& operator=(const PythonSimulation&) = delete;
 

@@ -30,8 +30,8 @@ bool at_cap(const StepSolution& solution) {
 
 PrimalQp to_primal(const Model& model, const Scene& scene, const StepRecord& record) {
   const Moment& now = record.moment;
-  PrimalQp primal = paper_problem({model, scene, now.state, now.observation, record.control},
-                                  record.solution.rows);
+  const StepInput in{model, scene, now.state, now.observation, record.control};
+  PrimalQp primal = paper_problem(in, start_of(in), record.solution.rows);
   primal.cap.setConstant(std::numeric_limits<double>::infinity());
   return primal;
 }

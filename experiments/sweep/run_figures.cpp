@@ -25,11 +25,12 @@ double put_in(const EnergyLedger& ledger) {
 }
 
 double balance(const EnergyLedger& ledger) {
-  return total(ledger) - ledger.works() + ledger.dissipated - ledger.integrator_error();
+  return total(ledger) - ledger.works() + ledger.dissipated + ledger.impacts -
+         ledger.integrator_error();
 }
 
-Eigen::Vector3d balance(const MomentumLedger& ledger) {
-  return ledger.momentum - ledger.drag - ledger.outside - ledger.integrator;
+Momentum balance(const MomentumLedger& ledger) {
+  return ledger.momentum - ledger.drag - ledger.outside - ledger.integrator - ledger.given_back;
 }
 
 double most(const Eigen::Vector3d& v) { return v.allFinite() ? v.cwiseAbs().maxCoeff() : INFINITY; }
@@ -82,6 +83,7 @@ std::vector<std::pair<std::string, std::string>> RunSummary::fields() const {
           {"eq6_percent", number(eq6)},
           {"energy_ledger", number(energy_ledger)},
           {"energy_gain", number(energy_gain)},
+          {"energy_loss", number(energy_loss)},
           {"momentum_ledger", number(momentum_ledger)},
           {"work_tip_erg", number(work_tip)},
           {"work_active_erg", number(work_active)},
@@ -139,14 +141,21 @@ void RunFigures::see_ledgers(const StepRecord& record) {
     gain_ = EnergyGain(total(ledger_));
     first_balance_ = balance(ledger_);
     first_momentum_ = momentum.momentum;
+    first_error_ = ledger_.integrator_error();
   }
   gain_.see(total(ledger_), put_in(ledger_));
   imbalance_ = worse(imbalance_, std::abs(balance(ledger_) - first_balance_));
   worked_ = std::max(worked_, std::abs(ledger_.works()));
   dissipated_ = std::max(dissipated_, std::abs(ledger_.dissipated));
-  momentum_off_ = worse(momentum_off_, most(balance(momentum) - first_momentum_));
-  momentum_passed_ = std::max(
-      {momentum_passed_, most(momentum.momentum), most(momentum.drag), most(momentum.outside)});
+  loss_.see(ledger_.integrator_error() - first_error_);
+  const Momentum off = balance(momentum) - first_momentum_;
+  for (const auto part : {&Momentum::linear, &Momentum::angular}) {
+    MomentumSeen& seen = momentum_[part == &Momentum::angular];
+    seen.off = worse(seen.off, most(off.*part));
+    for (const Momentum* of : {&momentum.momentum, &momentum.drag, &momentum.outside}) {
+      seen.passed = std::max(seen.passed, most(of->*part));
+    }
+  }
 }
 
 RunFigures::Stretch RunFigures::stretch(Phase phase) const {
@@ -200,7 +209,9 @@ RunSummary RunFigures::summary(const std::string& outcome, const std::string& me
   run.eq6 = eq6_criterion(scene_.expect, eq6_met_, eq6_steps_).value;
   run.energy_ledger = share(imbalance_, std::max(worked_, dissipated_));
   run.energy_gain = gain_.largest();
-  run.momentum_ledger = share(momentum_off_, momentum_passed_);
+  run.energy_loss = share(loss_.largest(), std::max({worked_, dissipated_, ledger_.largest}));
+  run.momentum_ledger = std::max(share(momentum_[0].off, momentum_[0].passed),
+                                 share(momentum_[1].off, momentum_[1].passed));
   run.work_tip = ledger_.work_tip;
   run.work_active = ledger_.work_active;
   run.work_thigmotaxis = ledger_.work[RowKind::thigmotaxis];
@@ -243,6 +254,7 @@ std::vector<Criterion> RunFigures::criteria(const RunSummary& run) const {
                                    kkt_criterion(expect, run.kkt),
                                    {"energy ledger", run.energy_ledger, expect.energy, ""},
                                    energy_gain_criterion(expect, run.energy_gain),
+                                   energy_loss_criterion(expect, run.energy_loss),
                                    {"momentum ledger", run.momentum_ledger, expect.energy, ""}};
   if (!expect.knot.empty() && reaches(Phase::slide)) {
     judged.push_back(slide_found(scene_, way(Phase::slide, &Seen::head_end)));

@@ -33,7 +33,7 @@ struct RunSummary {
   double penetration = none, limit_violation = none;                                     // cm, rad
   double head_drift = none, kkt = none;                                                  // cm, 1
   double eq6 = none;                                                                     // %
-  double energy_ledger = none, energy_gain = none, momentum_ledger = none;               // 1
+  double energy_ledger = none, energy_gain = none, energy_loss = none, momentum_ledger = none;  // 1
   double work_tip = none, work_active = none, work_thigmotaxis = none, dissipated = none;  // erg
 
   /// Headings, with units, and fields: numbers are the shortest that read back as the same double.
@@ -87,8 +87,13 @@ class RunFigures {
   std::int64_t eq6_met_ = 0, eq6_steps_ = 0;              // of slides, up to the last frame
   std::int64_t eq6_met_since_ = 0, eq6_steps_since_ = 0;  // and since
   double first_balance_ = 0, imbalance_ = 0, worked_ = 0, dissipated_ = 0;
-  Eigen::Vector3d first_momentum_ = Eigen::Vector3d::Zero();
-  double momentum_off_ = 0, momentum_passed_ = 0;
+  Momentum first_momentum_;
+  struct MomentumSeen {
+    double off = 0, passed = 0;
+  };
+  std::array<MomentumSeen, 2> momentum_;  // linear, angular
+  EnergyLoss loss_;
+  double first_error_ = 0;
   EnergyGain gain_{0};
   EnergyLedger ledger_;
 };

@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "core/chain/muscle_paths.hpp"
+#include "core/muscle/paths.hpp"
 #include "tests/support/random_chain.hpp"
 
 namespace hagfish {

@@ -19,10 +19,12 @@ inline std::vector<Row> head_rows(const State& state, const ConstraintSettings& 
 struct AllRows {
   explicit AllRows(const Model& model)
       : v(Eigen::VectorXd::Zero(model.nv())),
+        twist(Matrix6Xd::Zero(6, model.body_count())),
         centre_velocity(Eigen::Matrix3Xd::Zero(3, model.body_count())) {}
   Eigen::VectorXd v;
+  Matrix6Xd twist;
   Eigen::Matrix3Xd centre_velocity;
-  NearBinding wanted{v, centre_velocity, std::numeric_limits<double>::infinity(), 0};
+  NearBinding wanted{v, {twist, centre_velocity}, std::numeric_limits<double>::infinity(), 0};
 };
 
 inline std::vector<Row> limit_rows(const Model& model, const State& state,
@@ -54,10 +56,12 @@ inline std::vector<Row> wall_rows(const Model& model, const Kinematics& kin,
 
 inline std::vector<Row> thigmotaxis_rows(const Model& model,
                                          const std::vector<ThigmotaxisCommand>& commands,
-                                         const ControllerSettings& settings,
-                                         const Eigen::Matrix3Xd& centre_velocity, double h) {
+                                         const ControllerSettings& settings, const Kinematics& kin,
+                                         double h) {
   std::vector<Row> rows;
-  append_thigmotaxis_rows(model, commands, nullptr, settings, centre_velocity, h, rows);
+  const std::vector<SplineSegment> segments = spline(model, kin.centre);
+  append_thigmotaxis_rows(model, commands, {kin, segments, false, kin.velocities()}, settings, h,
+                          rows);
   return rows;
 }
 

@@ -29,8 +29,7 @@ std::vector<Row> Stage::rows() const {
     all.insert(all.end(), more.begin(), more.end());
   };
   if (control.clamp_head) append(head_rows(state, scene.constraints, h));
-  append(
-      thigmotaxis_rows(model, control.thigmotaxis, scene.controller, now.kin.centre_velocity, h));
+  append(thigmotaxis_rows(model, control.thigmotaxis, scene.controller, now.kin, h));
   append(contact_rows(model, now.contact, scene.constraints, h));
   append(limit_rows(model, state, scene.constraints, h));
   append(wall_rows(model, now.kin, scene.wall, scene.constraints, h));
@@ -79,7 +78,8 @@ struct Optimality {
 Optimality optimality(const Stage& s, const StepSolution& step) {
   const Observation now = observe(s.model, s.state, s.scene);
   const std::vector<Row> all = s.rows();
-  const PrimalQp paper = paper_problem(s.input(now), all);
+  const StepInput in = s.input(now);
+  const PrimalQp paper = paper_problem(in, start_of(in), all);
   const Eigen::MatrixXd c = dense_rows(s.model, now.kin, all);
   const Eigen::VectorXd& g = paper.g;
   Eigen::VectorXd lambda = Eigen::VectorXd::Zero(c.rows());

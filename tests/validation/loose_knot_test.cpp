@@ -104,11 +104,12 @@ Eigen::Vector3d force_behind(const ChainRun& run, int b) {
     if (row.kind != RowKind::contact) {
       continue;
     }
-    visit_forces(row, [&](int body, const Eigen::Vector3d& unit_force) {
-      if (body >= b) {
-        force += run.last.lambda[i] / run.scene.time.step * unit_force;
-      }
-    });
+    visit_forces(row, run.seen.kin,
+                 [&](int body, const Eigen::Vector3d& unit_force, const Eigen::Vector3d&) {
+                   if (body >= b) {
+                     force += run.last.lambda[i] / run.scene.time.step * unit_force;
+                   }
+                 });
   }
   return force;
 }

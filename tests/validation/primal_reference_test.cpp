@@ -19,20 +19,20 @@ constexpr double far = 5;
 
 /// The rows of a step from their makers, and not from the step's own list.
 std::vector<Row> all_rows_of(const StepInput& in, const Eigen::VectorXd& base) {
-  const auto& [model, scene, state, now, control, midway] = in;
+  const auto& [model, scene, state, now, control] = in;
   const double h = scene.time.step;
   std::vector<Row> rows =
-      thigmotaxis_rows(model, control.thigmotaxis, scene.controller, now.kin.centre_velocity, h);
+      thigmotaxis_rows(model, control.thigmotaxis, scene.controller, now.kin, h);
   for (const std::vector<Row>& more :
        {contact_rows(model, now.contact, scene.constraints, h),
         limit_rows(model, state, scene.constraints, h),
         wall_rows(model, now.kin, scene.wall, scene.constraints, h)}) {
     rows.insert(rows.end(), more.begin(), more.end());
   }
-  const Eigen::Matrix3Xd centre_velocity =
-      centre_velocities(now.kin, body_twists(model, now.kin, base));
+  const Matrix6Xd twist = body_twists(model, now.kin, base);
+  const Eigen::Matrix3Xd centre_velocity = centre_velocities(now.kin, twist);
   std::erase_if(rows, [&](const Row& row) {
-    return row_velocity(row, centre_velocity, base) - row.rhs > far;
+    return row_velocity(row, {twist, centre_velocity}, base) - row.rhs > far;
   });
   if (control.clamp_head) append_head_rows(state, scene.constraints, h, rows);
   return rows;
@@ -48,7 +48,7 @@ int compare(const Model& model, const Scene& scene, Simulation sim) {
     const Eigen::VectorXd& qdot = record.solution.qdot;
     const StepInput in{model, scene, now.state, now.observation, record.control};
     const State reference =
-        paper_step(in, all_rows_of(in, record.solution.base), [&](const PrimalQp& qp) {
+        paper_step(in, all_rows_of(in, sim.solver.problem().base), [&](const PrimalQp& qp) {
           const PrimalQpSolution solution = solve_primal(qp);
           EXPECT_EQ(solution.status, SolveStatus::solved);
           // Of the two, the step's own must be the better: it meets every row and costs no more,
@@ -81,7 +81,12 @@ TEST_P(PrimalReference, FindsTheSameVelocity) {
   const auto& [stored, back_end] = GetParam();
   const ResolvedScene resolved = stored_scene();
   const Model model = make_hagfish(resolved.specimen, resolved.scene);
-  compare(model, resolved.scene, resume(model, resolved.scene, stored, back_end));
+  Scene scene = resolved.scene;
+  scene.time.momentum = FreeMomentum::rule;  // the paper's
+  for (const Eq6Point at : {Eq6Point::centreline, Eq6Point::skin}) {
+    scene.controller.eq6_at = at;
+    compare(model, scene, resume(model, scene, stored, back_end));
+  }
 }
 
 TEST(PrimalReferenceOfCones, FindsTheSameVelocity) {
@@ -90,6 +95,7 @@ TEST(PrimalReferenceOfCones, FindsTheSameVelocity) {
   // Rows that a step takes in for what its path shows are not the reference's.
   Scene linear = resolved.scene;
   linear.constraints.corrections = 0;
+  linear.time.momentum = FreeMomentum::rule;
   Simulation sim = start(model, resolved.scene, "active-set");
   StepRecord record;
   int pushing = 0;

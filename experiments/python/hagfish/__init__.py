@@ -19,6 +19,7 @@ from ._core import (
     scenes,
 )
 from .log import Log
+from .sweep import sweep
 
 __all__ = [
     "Command",
@@ -32,4 +33,5 @@ __all__ = [
     "laws",
     "revision",
     "scenes",
+    "sweep",
 ]

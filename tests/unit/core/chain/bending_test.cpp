@@ -132,7 +132,7 @@ TEST(ConeRows, AreTheRateOfWhatTheConeLeaves) {
   Random random(5);
   State state = random_state(random, model);
   state = within_cones(model, state, 1.2);  // some of them past it
-  const Eigen::Matrix3Xd centre_velocity = kinematics(model, state).centre_velocity;
+  const Kinematics kin = kinematics(model, state);
   int cones = 0;
   for (const Row& row : limit_rows(model, state, speculative, h)) {
     const int body = model.hinges[row.dof - root_dofs].body;
@@ -150,7 +150,7 @@ TEST(ConeRows, AreTheRateOfWhatTheConeLeaves) {
                          angle_of(model, advance(state.q, state.qdot, -e), body)) /
                         (2 * e);
     // Rounding over 2e-6, and 1e-12 times the third derivative.
-    EXPECT_NEAR(row_velocity(row, centre_velocity, state.qdot), -rate, 1e-8);
+    EXPECT_NEAR(row_velocity(row, kin.velocities(), state.qdot), -rate, 1e-8);
   }
   EXPECT_EQ(cones, 50);
 }
@@ -188,8 +188,7 @@ TEST(ConeRows, VelocityAndForceAreThoseOfTheDenseRow) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const auto line = dense.row(static_cast<Eigen::Index>(i));
     // Two products and a sum.
-    EXPECT_NEAR(row_velocity(rows[i], kin.centre_velocity, state.qdot), line.dot(state.qdot),
-                1e-15);
+    EXPECT_NEAR(row_velocity(rows[i], kin.velocities(), state.qdot), line.dot(state.qdot), 1e-15);
     Matrix6Xd wrench = Matrix6Xd::Zero(6, model.body_count());
     Eigen::VectorXd joint = Eigen::VectorXd::Zero(model.nv());
     add_row(rows[i], kin, 3, wrench, joint);
@@ -202,7 +201,8 @@ TEST(ConeRows, OnlyThoseNearBindingAreAppended) {
   const Model model = cone_hagfish();
   Random random(8);
   const State state = within_cones(model, random_state(random, model, 1.4, 100), 1.1);
-  const Eigen::Matrix3Xd velocity = kinematics(model, state).centre_velocity;
+  const Kinematics kin = kinematics(model, state);
+  const BodyVelocities velocity = kin.velocities();
   for (const auto& [slack, at_rest] : {std::pair(-10.0, -INFINITY), {0.1, -INFINITY}, {10, 0.1}}) {
     std::vector<std::int64_t> expected, found;
     for (const Row& row : limit_rows(model, state, speculative, h)) {

@@ -256,8 +256,10 @@ RateError gap_rates(Random& random, const Model& model, const State& start) {
       continue;
     }
     const double rate = (next->gap - last->gap) / (2 * e);
-    error.worst =
-        std::max(error.worst, std::abs(row_velocity(rows[i], kin.centre_velocity, v) - rate));
+    error.worst = std::max(
+        error.worst,
+        std::abs(row_velocity(rows[i], {body_twists(model, kin, v), kin.centre_velocity}, v) -
+                 rate));
     ++error.seen;
   }
   return error;

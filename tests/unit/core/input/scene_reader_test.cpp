@@ -98,5 +98,17 @@ TEST(SceneReader, SpecimenFileIsBesideTheSceneOrWhereTheOptionSays) {
   EXPECT_EQ(changed.specimen.length, 40);
 }
 
+TEST(SceneReader, FilesThatATextNamesMayBeTextsToo) {
+  const std::string scene = "specimen = 'mine.toml'\n";
+  const ResolvedScene resolved =
+      read_scene_text(scene, "s", {"specimen.mass=70"}, {{"mine.toml", plain_specimen}});
+  EXPECT_EQ(resolved.specimen.name, "test");
+  EXPECT_EQ(resolved.specimen.mass, 70);
+  EXPECT_NE(error_of([&] {
+              read_scene_text(scene, "s", {}, {{"other.toml", plain_specimen}});
+            }).find("no such built-in file"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace hagfish

@@ -84,8 +84,8 @@ class Bits {
     add(kind, curvature, knots, spring, damper, largest_force, noise, noise_seed);
   }
   void put(const ActiveSettings& s) {
-    const auto& [stiffness, tone_time, relax_time, capacity] = s;
-    add(stiffness, tone_time, relax_time, capacity);
+    const auto& [stiffness, tone_time, relax_time, capacity, bounds_laws] = s;
+    add(stiffness, tone_time, relax_time, capacity, bounds_laws);
   }
   void put(const ThigmotaxisSpeeds& s) {
     const auto& [a, b] = s;
@@ -102,11 +102,11 @@ class Bits {
         softness, most, places, played);
   }
   void put(const ControllerSettings& s) {
-    const auto& [law, knot_speed, reduced_basis, tighten_head, tighten_tail, slide_head, slide_tail,
-                 reverse_head, reverse_tail, leave_by, free_from, cap, acceleration, contact_gap,
-                 hysteresis, tail_through, tighten_from, tight_span, tight_hold, tighten_time,
-                 release_at, untied_for, free_time] = s;
-    add(law, knot_speed, reduced_basis, tighten_head, tighten_tail, slide_head, slide_tail,
+    const auto& [law, eq6_at, knot_speed, reduced_basis, tighten_head, tighten_tail, slide_head,
+                 slide_tail, reverse_head, reverse_tail, leave_by, free_from, cap, acceleration,
+                 contact_gap, hysteresis, tail_through, tighten_from, tight_span, tight_hold,
+                 tighten_time, release_at, untied_for, free_time] = s;
+    add(law, eq6_at, knot_speed, reduced_basis, tighten_head, tighten_tail, slide_head, slide_tail,
         reverse_head, reverse_tail, leave_by, free_from, cap, acceleration, contact_gap, hysteresis,
         tail_through, tighten_from, tight_span, tight_hold, tighten_time, release_at, untied_for,
         free_time);
@@ -128,15 +128,16 @@ class Bits {
     add(votes, seed, interval, mirror);
   }
   void put(const TimeSettings& s) {
-    const auto& [rule, step, settled, passes, ring_damping, frame_interval, checkpoint_interval,
-                 duration, until] = s;
-    add(rule, step, settled, passes, ring_damping, frame_interval, checkpoint_interval, duration,
-        until);
+    const auto& [rule, momentum, step, settled, passes, ring_damping, frame_interval,
+                 checkpoint_interval, duration, until] = s;
+    add(rule, momentum, step, settled, passes, ring_damping, frame_interval, checkpoint_interval,
+        duration, until);
   }
   void put(const GuardSettings& s) {
     const auto& [action, penetration, limit_violation, speed, energy_gain, energy_action,
-                 capped_time] = s;
-    add(action, penetration, limit_violation, speed, energy_gain, energy_action, capped_time);
+                 momentum_gain, capped_time] = s;
+    add(action, penetration, limit_violation, speed, energy_gain, energy_action, momentum_gain,
+        capped_time);
   }
   void put(const KnotStretch& s) {
     const auto& [type, from, to] = s;
@@ -145,10 +146,11 @@ class Bits {
   void put(const ExpectSettings& s) {
     const auto& [knot, types, hand, slide_distance, reverse_distance, pull, pull_settled,
                  pull_drift, pull_balance, speed_share, penetration, limit_violation, head_drift,
-                 kkt, force_balance, forward_inverse, energy, energy_gain] = s;
+                 kkt, force_balance, forward_inverse, energy, energy_gain, energy_loss, momentum] =
+        s;
     add(knot, types, hand, slide_distance, reverse_distance, pull, pull_settled, pull_drift,
         pull_balance, speed_share, penetration, limit_violation, head_drift, kkt, force_balance,
-        forward_inverse, energy, energy_gain);
+        forward_inverse, energy, energy_gain, energy_loss, momentum);
   }
   void put(const Specimen& s) {
     const auto& [name, length, mass, station, circumference, bending_limit, bending_span,
@@ -232,6 +234,7 @@ ResolvedScene odd_scene() {
   s.controller.contact_gap = s.contact.margin / 3;
   s.time.rule = TimeRule::midpoint;
   s.time.step = odd();
+  s.time.momentum = FreeMomentum::rule;
   s.time.settled = odd();
   s.time.passes = 7;
   s.time.frame_interval = 3 * s.time.step;
@@ -262,6 +265,11 @@ ResolvedScene odd_scene() {
   s.food = {0, odd(), odd(), {odd(), odd(), odd()}};  // none, as the head is free
   s.expect.energy = odd();
   s.expect.energy_gain = odd();
+  s.expect.energy_loss = odd();
+  s.expect.momentum = odd();
+  s.guard.momentum_gain = odd();
+  s.active.bounds_laws = true;
+  s.controller.eq6_at = Eq6Point::centreline;
   s.start.bend = {{odd(), odd(), -odd(), odd()}, {odd(), odd(), odd(), odd()}};
   for (int i = 0; i < 6 + 9; ++i) s.start.qdot.push_back(odd());  // of 7 bodies
   s.start.noise = odd();

@@ -112,11 +112,9 @@ TEST_F(ThigmotaxisRowsTest, RowsAtOtherContactsLeaveThoseOfTheEndsInTheirColumns
     });
     ASSERT_NE(command, control.thigmotaxis.end());
     const Contact& c = command->contact;
-    const Row along{.dof = -1,
-                    .direction = row.along_a ? c.tangent_a : -c.tangent_b,
-                    .a = spline_mix(c.segment_a, c.t_a, model.body_count()),
-                    .b = spline_mix(c.segment_b, c.t_b, model.body_count())};
-    const double speed = row_velocity(along, step.centre_velocity, step.qdot);
+    const Row along = eq6_row(model, now.observation.kin, now.observation.segments, c, row.along_a,
+                              BodyEnd::head, scene.controller.eq6_at);
+    const double speed = row_velocity(along, step.bodies(), step.qdot);
     EXPECT_NEAR(row.speed, speed, 1e-12 * (1 + std::abs(speed)));
     EXPECT_NEAR(row.slack, std::max(0.0, row.command - speed), 1e-11);
     worst = std::max(worst, row.slack);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "core/run/guard.hpp"
 #include "tests/support/controller_fixture.hpp"
 #include "tests/support/errors.hpp"
 
@@ -141,6 +142,50 @@ TEST_F(ControlLaws, TheRunsOwnHasAMemoryAndIsAskedForEachStep) {
     EXPECT_GT(control.active.value[9], 0);
   }
   EXPECT_EQ(state.memory, Eigen::Vector3d(0, 0.002, 0.004));
+}
+
+TEST_F(ControlLaws, ATorqueWorksByItsValueAlone) {
+  scene.controller.law = own_law;
+  const ControlLaw own = [](const Situation& at, Eigen::VectorXd&, Control& c) {
+    c.torque.value = 7 * Eigen::VectorXd::Unit(at.model.nv(), 9);
+  };
+  observation.contact.contacts = {contact(5, 30)};
+  for (int k = 0; k < 2; ++k) {
+    ASSERT_TRUE(decide(model, scene, moment, now, storage, state, control, own).ok());
+    EXPECT_EQ(control.torque.value[9], 7);
+    EXPECT_EQ(control.torque.rate, Eigen::VectorXd::Zero(model.nv()));
+  }
+}
+
+// Muscles have no more than their capacity, whoever asks, where the scene says so.
+TEST_F(ControlLaws, TheCapacityBoundsTorquesOfLawsWhereTheSceneSaysSo) {
+  scene.controller.law = own_law;
+  scene.active = {100, 1, 1, 50};
+  const ControlLaw own = [](const Situation& at, Eigen::VectorXd&, Control& c) {
+    c.torque.value = c.torque.rate = Eigen::VectorXd::Zero(at.model.nv());
+    c.torque.value[9] = -80;
+    c.torque.rate[9] = 3;
+    c.torque.value[11] = 40;
+    c.rest_shape = 0.1 * Eigen::VectorXd::Unit(at.model.nv(), 11);
+  };
+  observation.contact.contacts = {contact(5, 30)};
+  ASSERT_TRUE(decide(model, scene, moment, now, storage, state, control, own).ok());
+  EXPECT_EQ(control.torque.value[9], -80);
+  EXPECT_EQ(control.torque.full, -1);
+  scene.active.bounds_laws = true;
+  ASSERT_TRUE(decide(model, scene, moment, now, storage, state, control, own).ok());
+  EXPECT_EQ(control.torque.value[9], -50);
+  EXPECT_EQ(control.torque.rate[9], 0);
+  EXPECT_EQ(control.torque.full, 9);
+  // With what pulls to the rest shape it is no more than that, either.
+  ASSERT_GT(control.active.value[11], 10);
+  EXPECT_DOUBLE_EQ(control.active.value[11] + control.torque.value[11], 50);
+  Watch watch;
+  std::vector<std::string> warnings;
+  guard_muscles(model, scene, control, 1, watch, warnings);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0].find(dof_name(model, 9) + " takes all of active.capacity = 50"), 0u)
+      << warnings[0];
 }
 
 TEST_F(ControlLaws, LawAndSceneMustAgree) {

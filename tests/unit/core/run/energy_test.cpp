@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "core/step/step.hpp"
 #include "tests/support/random_chain.hpp"
 
 namespace hagfish {
@@ -35,12 +36,12 @@ struct BookedRun {
   void step(const Control& control, Spoil spoil, double share = 1) {
     const Observation now = observe(model, state, scene);
     StepSolution solution;
-    const StepInput in{model, scene,   state,
-                       now,   control, scene.time.rule == TimeRule::euler ? nullptr : &midway};
+    const StepInput in{model, scene, state, now, control};
     ASSERT_TRUE(solver.solve(in, solution).ok());
+    const StepPlace place = solver.place(in);
     spoil(solution);
-    solution.twist = body_twists(model, in.kin(), solution.qdot);
-    solution.centre_velocity = centre_velocities(in.kin(), solution.twist);
+    solution.twist = body_twists(model, place.kin, solution.qdot);
+    solution.centre_velocity = centre_velocities(place.kin, solution.twist);
     if (scene.time.rule == TimeRule::euler) {
       solution.next = solution.felt = solution.qdot;
       solution.felt_twist = solution.twist;
@@ -48,7 +49,7 @@ struct BookedRun {
     }
     const double h = scene.time.step;
     const State next{advance(state.q, solution.qdot, share * h), solution.next};
-    book_step(in, solution, {next, observe(model, next, scene)}, share * h, ledger);
+    book_step(in, place, solution, {next, observe(model, next, scene)}, share * h, ledger);
     state = next;
   }
   void step(const Control& control, double share = 1) {
@@ -61,7 +62,6 @@ struct BookedRun {
   }
 
   StepSolver solver{"ipopt"};
-  Midway midway;
 };
 
 /// Torques of muscles at every hinge, some stiff.

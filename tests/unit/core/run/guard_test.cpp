@@ -106,17 +106,17 @@ TEST(Guard, TellsOnceWhatMusclesCannotDo) {
   const Model model = table1_hagfish();
   Scene scene = table1_scene();
   scene.active.capacity = 1e5;
-  Eigen::VectorXd rest = Eigen::VectorXd::Zero(model.nv());
-  ActiveTorque torque{rest, Eigen::VectorXd::Ones(model.nv())};
+  Control control;
+  Eigen::VectorXd& rest = control.rest_shape;
+  rest = Eigen::VectorXd::Zero(model.nv());
   Watch watch;
   std::vector<std::string> warnings;
-  const auto look = [&] { guard_muscles(model, scene, rest, torque, 1, watch, warnings); };
-  torque.value[8] = 1e5;                   // elastic: at the capacity by chance, not held there
+  const auto look = [&] { guard_muscles(model, scene, control, 1, watch, warnings); };
   rest[7] = model.hinges[1].upper + 0.01;  // within what a fitted program may pass a limit by
   look();
   EXPECT_TRUE(warnings.empty());
   rest[7] = model.hinges[1].lower - 0.3;
-  torque.rate[8] = 0;
+  control.active.full = 8;
   look();
   look();
   ASSERT_EQ(warnings.size(), 2u);
@@ -140,7 +140,8 @@ struct CappedRow {
     append_thigmotaxis_rows(model,
                             {{contact, {1, 1}, BodyEnd::head, 1, KnotEnd::first},
                              {contact, {1, 1}, BodyEnd::head, 1, KnotEnd::last}},
-                            nullptr, scene.controller, now.kin.centre_velocity, 1, step.rows);
+                            {now.kin, now.segments, false, now.kin.velocities()}, scene.controller,
+                            1, step.rows);
     const std::vector<Row> limits = limit_rows(model, state, scene.constraints, 1);
     step.rows.insert(step.rows.end(), limits.begin() + 20, limits.begin() + 23);
     step.qdot = Eigen::VectorXd::Zero(model.nv());
@@ -223,8 +224,9 @@ TEST(Guard, WatchesTheCapOfAnyNumberOfContacts) {
   for (const Contact& contact : capped.now.contact.contacts) commands.push_back({contact, {1, 1}});
   ASSERT_GE(commands.size(), 3u);
   capped.step.rows.clear();
-  append_thigmotaxis_rows(capped.model, commands, nullptr, capped.scene.controller,
-                          capped.now.kin.centre_velocity, 1, capped.step.rows);
+  append_thigmotaxis_rows(capped.model, commands,
+                          {capped.now.kin, capped.now.segments, false, capped.now.kin.velocities()},
+                          capped.scene.controller, 1, capped.step.rows);
   const auto count = static_cast<Eigen::Index>(capped.step.rows.size());
   capped.step.lambda = Eigen::VectorXd::Zero(count);
   capped.step.excess = Eigen::VectorXd::Constant(count, -0.5);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/step/step.hpp"
 #include "tests/support/random_chain.hpp"
 
 namespace hagfish {
@@ -31,31 +32,38 @@ struct MomentumRun {
     const Observation now = observe(model, state, scene);
     StepSolution solution;
     const bool euler = scene.time.rule == TimeRule::euler;
-    const StepInput in{model, scene, state, now, control, euler ? nullptr : &midway};
+    const StepInput in{model, scene, state, now, control};
     ASSERT_TRUE(solver.solve(in, solution).ok());
+    const StepPlace place = solver.place(in);
     spoil(solution);
     if (euler) {
-      solution.next = solution.qdot;
-      solution.felt_centre_velocity =
-          centre_velocities(in.kin(), body_twists(model, in.kin(), solution.qdot));
+      solution.next = solution.felt = solution.qdot;
+      solution.felt_twist = body_twists(model, place.kin, solution.qdot);
+      solution.felt_centre_velocity = centre_velocities(place.kin, solution.felt_twist);
     }
-    const State next{advance(state.q, solution.qdot, scene.time.step), solution.next};
-    book_momentum(in, solution, {next, observe(model, next, scene)}, ledger);
-    state = next;
+    const State moved{advance(state.q, solution.qdot, scene.time.step), solution.next};
+    Moment next{moved, observe(model, moved, scene)};
+    energy.kinetic = kinetic_energy(model, next.observation.kin);
+    book_momentum(in, place, solution, next, energy, ledger);
+    state = next.state;
+  }
+  double imbalance(Eigen::Vector3d Momentum::*part) const {
+    const Momentum off = ledger.momentum - ledger.initial - ledger.drag - ledger.outside -
+                         ledger.integrator - ledger.given_back;
+    return (off.*part).norm() / ((ledger.momentum.*part).norm() + (ledger.drag.*part).norm() +
+                                 (ledger.outside.*part).norm());
   }
   double imbalance() const {
-    const Eigen::Vector3d off =
-        ledger.momentum - ledger.initial - ledger.drag - ledger.outside - ledger.integrator;
-    return off.norm() / (ledger.momentum.norm() + ledger.drag.norm() + ledger.outside.norm());
+    return std::max(imbalance(&Momentum::linear), imbalance(&Momentum::angular));
   }
 
   Scene scene = table1_scene(20);
   Model model;
   State state;
   Control control;
+  EnergyLedger energy;
   MomentumLedger ledger;
   StepSolver solver{"active-set"};
-  Midway midway;
 };
 
 TEST(Momentum, LedgerClosesHeldOrFree) {
@@ -64,17 +72,24 @@ TEST(Momentum, LedgerClosesHeldOrFree) {
       MomentumRun run(held, rule);
       for (int k = 0; k < 50; ++k) run.step([](StepSolution&) {});
       EXPECT_LT(run.imbalance(), 1e-12) << held;  // rounding of 50 booked steps
-      EXPECT_GT(run.ledger.drag.norm(), 0);
-      EXPECT_EQ(run.ledger.outside.isZero(0), !held);
+      EXPECT_GT(run.ledger.drag.linear.norm(), 0);
+      EXPECT_GT(run.ledger.drag.angular.norm(), 0);
+      EXPECT_EQ(run.ledger.outside.linear.isZero(0), !held);
+      EXPECT_EQ(run.ledger.outside.angular.isZero(0), !held);
     }
   }
 }
 
 TEST(Momentum, LedgerSeesAForceThatNobodyBooked) {
-  MomentumRun run(false);
-  // A push on the whole animal, one part in a thousand of its speed.
-  for (int k = 0; k < 50; ++k) run.step([](StepSolution& s) { s.qdot.head<3>() *= 1.001; });
-  EXPECT_GT(run.imbalance(), 1e-6);
+  // A push on the whole animal, and a turn, one part in a thousand of its speed.
+  for (const auto part : {&Momentum::linear, &Momentum::angular}) {
+    MomentumRun run(false);
+    for (int k = 0; k < 50; ++k) {
+      run.step(
+          [&](StepSolution& s) { s.qdot.segment<3>(part == &Momentum::linear ? 0 : 3) *= 1.001; });
+    }
+    EXPECT_GT(run.imbalance(part), 1e-6);
+  }
 }
 
 }  // namespace

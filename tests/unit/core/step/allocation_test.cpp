@@ -9,7 +9,6 @@
 #include <tuple>
 
 #include "core/run/muscle_law.hpp"
-#include "core/run/reduced_basis.hpp"
 #include "core/run/simulation.hpp"
 #include "tests/support/random_chain.hpp"
 #include "tests/support/stored_states.hpp"
@@ -75,23 +74,12 @@ TEST_F(Allocation, CountersSeeEigenAndTheStandardLibrary) {
   EXPECT_EQ(requests - between, 1) << other.front();
 }
 
-class AllocationOfLaws : public Allocation, public testing::WithParamInterface<std::string> {};
-
-TEST_P(AllocationOfLaws, NoneInOneThatSolvesAStepAsItDidBefore) {
-  scene.controller.law = GetParam();
-  ReducedBasisSettings& basis = scene.controller.reduced_basis;
-  basis.cosines = 3;
-  basis.period = 0.004;
-  basis.softness = 0.1;
-  basis.most = 1e4;
-  const bool by_muscles = GetParam() == "muscles";
-  scene.muscle = {by_muscles, 0.1};
+TEST_F(Allocation, NoneInTheMuscleLawWhereItSolvesAStepAsItDidBefore) {
+  scene.muscle = {true, 0.1};
   scene.script.kind = ScriptSettings::Kind::curvature;  // with tone
   scene.active = {500, 0.01, 1, 1e4};
   start("slide");
-  std::optional<MuscleStorage> muscles(std::in_place);
-  std::optional<ReducedBasisStorage> reduced(std::in_place);
-  const StepSolution& solved = by_muscles ? muscles->paper.step : reduced->ahead.step;
+  std::optional<MuscleStorage> storage(std::in_place);
   Eigen::VectorXd memory;
   Control control;
   const auto asked_at = [&](double time) {
@@ -99,31 +87,22 @@ TEST_P(AllocationOfLaws, NoneInOneThatSolvesAStepAsItDidBefore) {
     control.torque.value.setZero();
     control.torque.rate.setZero();
     const int before = requests;
-    const Situation at{model, scene, sim.now, time, sim.controller};
-    if (by_muscles) {
-      muscle_law(at, memory, control, *muscles);
-    } else {
-      reduced_basis_law(at, memory, control, *reduced);
-    }
+    muscle_law({model, scene, sim.now, time, sim.controller}, memory, control, *storage);
     return requests - before;
   };
   // Arrays by row grow from round to round of one step: a moment with one round is looked for.
-  for (int k = 0; k < 100 && solved.rounds != 1; ++k) {
+  for (int k = 0; k < 100 && storage->paper.step.rounds != 1; ++k) {
     step();
     memory.resize(0);
     control = {};
-    muscles.emplace();
-    reduced.emplace();
+    storage.emplace();
     EXPECT_GT(asked_at(0), 0);
   }
-  ASSERT_EQ(solved.rounds, 1);
+  ASSERT_EQ(storage->paper.step.rounds, 1);
   asked_at(0.004);
   EXPECT_EQ(asked_at(0.008), 0);
   EXPECT_GT(control.torque.value.size(), 0);
 }
-
-INSTANTIATE_TEST_SUITE_P(LookingForward, AllocationOfLaws,
-                         testing::Values("reduced_basis", "muscles"));
 
 class AllocationOfRows : public Allocation,
                          public testing::WithParamInterface<std::pair<BendingLimit, const char*>> {

@@ -29,7 +29,7 @@ TEST(CommandRamp, AsksForTheSpeedNowAndOneStepOfAcceleration) {
   for (const BodyEnd towards : {BodyEnd::head, BodyEnd::tail}) {
     const std::vector<Row> rows = thigmotaxis_rows(
         model, {{contact, {out_of_reach, -out_of_reach}, towards}, {contact, {-3, 1e3}, towards}},
-        settings, kin.centre_velocity, h);
+        settings, kin, h);
     ASSERT_EQ(rows.size(), 4U);
     const Eigen::VectorXd now = dense_rows(model, kin, rows) * state.qdot;
     EXPECT_GT(now.cwiseAbs().minCoeff(), 0.1);  // there is something to tell apart

@@ -69,10 +69,12 @@ struct Tangle {
   }
 
   /// Eq. 6 of `commands_`, at the speeds commanded, whatever those now.
-  std::vector<Row> at_once(const std::vector<ThigmotaxisCommand>& commands_) const {
+  std::vector<Row> at_once(const std::vector<ThigmotaxisCommand>& commands_,
+                           Eq6Point at = Eq6Point::skin) const {
     ControllerSettings settings;
+    settings.eq6_at = at;
     settings.acceleration = unbounded;
-    return thigmotaxis_rows(model, commands_, settings, kin.centre_velocity, h);
+    return thigmotaxis_rows(model, commands_, settings, kin, h);
   }
 
   std::vector<Row> rows() const {
@@ -153,14 +155,15 @@ TEST(ContactRows, PositiveForcePushesTheStrandsApart) {
   for (const Row& row : contact_rows(t.model, t.set, speculative, h)) {
     // Forces of action and reaction: none in sum.
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    visit_forces(row, [&](int, const Eigen::Vector3d& force) { sum += force; });
+    visit_forces(row, t.kin,
+                 [&](int, const Eigen::Vector3d& force, const Eigen::Vector3d&) { sum += force; });
     EXPECT_LT(sum.norm(), 1e-15);
   }
 }
 
 TEST(Rows, OnlyThoseNearBindingAreAppended) {
   const Tangle t(89);
-  const Eigen::Matrix3Xd& velocity = t.kin.centre_velocity;
+  const BodyVelocities velocity = t.kin.velocities();
   for (const auto& [slack, at_rest] :
        {std::pair(-10.0, -unbounded), {0.1, -unbounded}, {10, 0.1}}) {
     const NearBinding wanted{t.state.qdot, velocity, slack, at_rest};
@@ -201,11 +204,12 @@ TEST(WallRows, SkipTheNeckAndLookAlongX) {
     const int body = static_cast<int>(i) + 7;
     const double gap = 0.424 * (body + 0.5) - 20.1055 - fish.bodies[body].radius;
     int forces = 0;
-    visit_forces(rows[i], [&](int loaded, const Eigen::Vector3d& force) {
-      ++forces;
-      EXPECT_EQ(loaded, body);
-      EXPECT_EQ(force, Eigen::Vector3d::UnitX());
-    });
+    visit_forces(rows[i], kin,
+                 [&](int loaded, const Eigen::Vector3d& force, const Eigen::Vector3d&) {
+                   ++forces;
+                   EXPECT_EQ(loaded, body);
+                   EXPECT_EQ(force, Eigen::Vector3d::UnitX());
+                 });
     EXPECT_EQ(forces, 1);
     // Centres are sums of 100 lengths: 1e-14 cm over h.
     const double fastest = speculative.baumgarte_speed;
@@ -249,8 +253,76 @@ TEST(HeadRows, TakeADriftBack) {
   }
 }
 
-// Eq. 6 by its words: velocities of the two spline points at fixed parameters, by differences of
-// positions, times the tangents. Speeds of some 20 cm/s: 1e-15 20 / 1e-6.
+/// Where the material of a strand that is at `point` now is after `time`: of each body of the mix
+/// that its spline point is, as rigid ones, and mixed alike.
+Eigen::Vector3d carried(const Tangle& t, int segment, double along, const Eigen::Vector3d& point,
+                        double time) {
+  Kinematics then;
+  update_positions(t.model, advance(t.state.q, t.state.qdot, time), then);
+  const SplineMix mix = spline_mix(segment, along, t.model.body_count());
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (int k = 0; k < mix.count; ++k) {
+    const int b = mix.first + k;
+    const Eigen::Vector3d own = t.kin.rotation[b].transpose() * (point - t.kin.centre.col(b));
+    sum += mix.weight[k] * (then.centre.col(b) + then.rotation[b] * own);
+  }
+  return sum;
+}
+
+// Eq. 6 where the skins touch: velocities of the two strands' material there, by differences of
+// positions, times the tangents. Rounding of speeds of some 20 cm/s, as below.
+TEST(ThigmotaxisRows, AreOfTheSkinsWhereTheyTouch) {
+  const Tangle t(83);
+  const double e = 1e-6;
+  const std::vector<SplineSegment> now = spline(t.model, t.kin.centre);
+  const std::vector<Row> rows = t.at_once(t.commands);
+  ASSERT_EQ(rows.size(), 4U);
+  for (int place = 0; place < 2; ++place) {
+    const Contact& c = t.commands[place].contact;
+    const SplineSegment &a = now[c.segment_a], &b = now[c.segment_b];
+    // From the middle of a to that of b: r_a, half of the gap, and on.
+    const Eigen::Vector3d apart = b.point(c.t_b) - a.point(c.t_a);
+    const Eigen::Vector3d point =
+        a.point(c.t_a) + (a.radius(c.t_a) + 0.5 * c.gap) * apart.normalized();
+    const auto velocity = [&](int segment, double along) -> Eigen::Vector3d {
+      return (carried(t, segment, along, point, e) - carried(t, segment, along, point, -e)) /
+             (2 * e);
+    };
+    const Eigen::Vector3d slip = velocity(c.segment_a, c.t_a) - velocity(c.segment_b, c.t_b);
+    const auto speed = [&](const Row& row) {
+      return row_velocity(row, t.kin.velocities(), t.state.qdot);
+    };
+    EXPECT_NEAR(speed(rows[2 * place]), c.tangent_a.dot(slip), 1e-6);
+    EXPECT_NEAR(speed(rows[2 * place + 1]), -c.tangent_b.dot(slip), 1e-6);
+  }
+}
+
+// An animal cannot push or turn itself as a whole.
+TEST(ThigmotaxisRows, HaveNoSumAndNoMomentAtTheSkin) {
+  const Tangle t(83);
+  const auto whole = [&](const Row& row) {
+    Matrix6Xd wrench = Matrix6Xd::Zero(6, t.model.body_count());
+    Eigen::VectorXd joint = Eigen::VectorXd::Zero(t.model.nv());
+    add_row(row, t.kin, 1, wrench, joint);
+    return Vector6d(wrench.rowwise().sum());
+  };
+  const std::vector<Row> skin = t.at_once(t.commands);
+  const std::vector<Row> centreline = t.at_once(t.commands, Eq6Point::centreline);
+  const std::vector<SplineSegment> now = spline(t.model, t.kin.centre);
+  for (std::size_t i = 0; i < skin.size(); ++i) {
+    EXPECT_LT(whole(skin[i]).norm(), 1e-14);  // rounding of some ten numbers of up to 20
+    // The paper's two points are two radii apart: a couple.
+    const Contact& c = t.commands[i / 2].contact;
+    const Eigen::Vector3d arm = now[c.segment_a].point(c.t_a) - now[c.segment_b].point(c.t_b);
+    const Eigen::Vector3d couple = arm.cross(centreline[i].direction);
+    EXPECT_LT(whole(centreline[i]).tail<3>().norm(), 1e-14);
+    EXPECT_LT((whole(centreline[i]).head<3>() - couple).norm(), 1e-12);
+    EXPECT_GT(couple.norm(), 0.5);
+  }
+}
+
+// Eq. 6 by the paper's words: velocities of the two spline points at fixed parameters, by
+// differences of positions, times the tangents. Speeds of some 20 cm/s: 1e-15 20 / 1e-6.
 TEST(ThigmotaxisRows, AreEquationSixOfThePaper) {
   const Tangle t(83);
   const double e = 1e-6;
@@ -262,7 +334,7 @@ TEST(ThigmotaxisRows, AreEquationSixOfThePaper) {
   };
   const std::vector<SplineSegment> after = segments(e);
   const std::vector<SplineSegment> before = segments(-e);
-  const std::vector<Row> rows = t.at_once(t.commands);
+  const std::vector<Row> rows = t.at_once(t.commands, Eq6Point::centreline);
   ASSERT_EQ(rows.size(), 4U);
   for (int place = 0; place < 2; ++place) {
     const Contact& c = t.commands[place].contact;
@@ -273,7 +345,7 @@ TEST(ThigmotaxisRows, AreEquationSixOfThePaper) {
     const Eigen::Vector3d tangent_a = now[c.segment_a].slope(c.t_a).normalized();
     const Eigen::Vector3d tangent_b = now[c.segment_b].slope(c.t_b).normalized();
     const auto velocity = [&](const Row& row) {
-      return row_velocity(row, t.kin.centre_velocity, t.state.qdot);
+      return row_velocity(row, t.kin.velocities(), t.state.qdot);
     };
     EXPECT_NEAR(velocity(rows[2 * place]), tangent_a.dot(a - b), 1e-6);
     EXPECT_NEAR(velocity(rows[2 * place + 1]), tangent_b.dot(b - a), 1e-6);
@@ -292,7 +364,7 @@ TEST(Rows, VelocityIsTheDenseRow) {
   const Eigen::VectorXd expected = dense_rows(t.model, t.kin, rows) * t.state.qdot;
   Eigen::VectorXd actual(expected.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    actual[i] = row_velocity(rows[i], t.kin.centre_velocity, t.state.qdot);
+    actual[i] = row_velocity(rows[i], t.kin.velocities(), t.state.qdot);
   }
   // Sums over 100 bodies of terms that cancel.
   EXPECT_LT(relative_error(actual, expected), 1e-12);
@@ -310,8 +382,8 @@ TEST(Rows, ForceIsTheTransposeOfVelocity) {
     add_row(row, t.kin, lambda, wrench, joint);
     const Eigen::VectorXd force = generalised_force(t.model, t.kin, wrench) + joint;
     const double scale = force.cwiseAbs().dot(v.cwiseAbs());
-    const double velocity =
-        row_velocity(row, centre_velocities(t.kin, body_twists(t.model, t.kin, v)), v);
+    const Matrix6Xd twist = body_twists(t.model, t.kin, v);
+    const double velocity = row_velocity(row, {twist, centre_velocities(t.kin, twist)}, v);
     EXPECT_NEAR(lambda * velocity, v.dot(force), 1e-13 * scale) << row_name(t.model, row);
   }
 }

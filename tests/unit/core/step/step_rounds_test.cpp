@@ -107,31 +107,6 @@ TEST(Step, ReleasesPrescribedLimitsThatWouldHaveToPull) {
   EXPECT_LT(relative_error(step.qdot, cold.qdot), 1e-7);  // solver tolerance
 }
 
-TEST(Step, ARoundThatGoesOnWithTheFactorSolvesAsOneFromNothing) {
-  Stage s = knotted(106, 1);
-  Stage other = knotted(106, 1);
-  other.solver.extends_rounds = false;
-  int extended = 0;
-  for (int k = 0; k < 40; ++k) {
-    SCOPED_TRACE(k);
-    const StepSolution step = s.solve();
-    const StepSolution anew = other.solve();
-    extended += s.solver.scratch().extended ? 1 : 0;
-    expect_optimal(s, step);
-    ASSERT_EQ(step.rounds, anew.rounds);
-    ASSERT_EQ(step.rows.size(), anew.rows.size());
-    // To the condition of H times rounding.
-    EXPECT_LT(relative_error(step.qdot, anew.qdot), 1e-9);
-    for (std::size_t i = 0; i < step.rows.size(); ++i) {
-      EXPECT_EQ(step.rows[i].prescribed, static_cast<Eigen::Index>(i) < step.prescribed);
-    }
-    s.state.qdot = other.state.qdot = step.qdot;
-    s.state.q = other.state.q = advance(s.state.q, step.qdot, s.scene.time.step);
-    other.solver.warm = s.solver.warm;
-  }
-  EXPECT_GT(extended, 5);
-}
-
 TEST(Step, ReleasesPrescribedLimitsThatContradictOtherRows) {
   // With both hinges prescribed the plate could not push the last body out.
   Stage s = two_hinges(3);

@@ -5,7 +5,7 @@
 
 #include <stdexcept>
 
-#include "core/run/active_curvature.hpp"
+#include "core/muscle/active_curvature.hpp"
 #include "tests/support/random_chain.hpp"
 
 namespace hagfish {

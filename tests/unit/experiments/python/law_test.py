@@ -208,3 +208,49 @@ def test_the_program_refuses_a_law_that_it_does_not_have(tmp_path, program):
     assert program("run", "--resume", log) == (2, f"hagfish: {log}: {line}")
     assert program("branch", log, "--out", tmp_path / "x.h5") == (2, f"hagfish: {log}: {line}")
     assert not (tmp_path / "x.h5").exists()
+
+
+class Strong:
+    """A law that turns one hinge, and notes that it was asked."""
+
+    made = 0
+
+    def __init__(self):
+        Strong.made += 1
+        self.asked = 0
+
+    def __call__(self, sim, control):
+        self.asked += 1
+        control.torque[9] = 1e4
+
+
+def test_a_sweep_runs_a_law_of_its_own_for_each_cell():
+    values = {"time.step": [0.01, 0.005], "drag.normal": [9.434, 0.0]}
+    arguments = dict(law=Strong, until=0.1, figures=lambda s: {"turned": float(s.q[10])})
+    rows = hagfish.sweep("table1", values, **arguments)
+    assert Strong.made == 4
+    assert [(row["time.step"], row["drag.normal"]) for row in rows] == [(0.01, 9.434), (0.01, 0.0), (0.005, 9.434), (0.005, 0.0)]
+    assert all(row["outcome"] == "ok" and row["time"] == pytest.approx(0.1) for row in rows)
+    assert all(row["turned"] > 0 for row in rows) and rows[0]["turned"] != rows[1]["turned"]
+    assert hagfish.sweep("table1", values, **arguments, processes=2) == rows
+    (refused,) = hagfish.sweep("table1", {"model.bodies": [1]})
+    assert refused["outcome"] == "refused" and "model.bodies" in refused["message"]
+
+
+def test_a_copy_goes_on_with_other_settings(tied):
+    free = tied.copy(set={"clamp_head": False, "wall.present": False, "time.step": 0.005, "time.frame_interval": 0.01})
+    assert free.h == 0.005 and free.time == tied.time
+    free.step()
+    assert free.scene != tied.scene and not free.clamped
+    assert_array_equal(free.momentum["outside"][0], tied.momentum["outside"][0])  # no clamp, no plate
+    with pytest.raises(hagfish.InputError, match="time.stop"):
+        tied.copy(set={"time.stop": 1})
+
+
+def test_an_explicit_torque_that_blows_up_is_told_what_cures_it():
+    def stiff(sim, control):
+        control.torque[6:] = -1e7 * sim.q[7:] - 1e6 * sim.qdot[6:]
+
+    sim = hagfish.Simulation("table1", set=FAST, law=stiff)
+    with pytest.raises(hagfish.StepError, match="torque_rate takes damping, and rest_shape a pull"):
+        sim.run(until=1.0)

@@ -1,23 +1,12 @@
-// Muscles as paths between bodies (addition: the paper has torques, and closes with the wish for
-// contractile fibres): lengths, moment arms, torques.
-//
-// A bending joint has four lines along the body, a pair of antagonists for each of its hinges; a
-// twisting joint has two families of oblique lines around the body, one wound like a right-handed
-// screw and one like a left-handed one. Both lie at a share of the skin's measured radius.
+// Muscles as paths between bodies: lengths, moment arms, torques.
 #pragma once
 
 #include <Eigen/Core>
-#include <vector>
 
 #include "core/chain/kinematics.hpp"
 #include "core/chain/model.hpp"
 
 namespace hagfish {
-
-/// Those of the chain `model` by what the specimen has (Specimen::muscle), joint by joint from the
-/// head; at a bending joint left, right, dorsal, ventral, at a twisting one right_handed,
-/// left_handed. The animal's left is -y, its back is +z.
-std::vector<Muscle> muscles_of(const Specimen& specimen, const Model& model);
 
 /// Of one joint.
 inline constexpr int most_muscles = 4;

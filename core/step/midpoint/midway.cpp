@@ -1,4 +1,4 @@
-#include "core/step/midway.hpp"
+#include "core/step/midpoint/midway.hpp"
 
 #include "core/chain/dynamics.hpp"
 

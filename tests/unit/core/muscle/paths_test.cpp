@@ -1,6 +1,6 @@
 // Muscles as paths: moment arms against differences of lengths, and against what they are where
 // the body is straight.
-#include "core/chain/muscle_paths.hpp"
+#include "core/muscle/paths.hpp"
 
 #include <gtest/gtest.h>
 

@@ -40,4 +40,10 @@ void active_torque(const Model& model, const ActiveSettings& active, const State
 ActiveTorque active_torque(const Model& model, const Scene& scene, const State& state,
                            const Eigen::VectorXd& rest);
 
+/// Bounds `torque`, asked for besides `active` (empty where there is none): where both, at the
+/// velocity `qdot` (nv) of the step's start, come to more than `capacity` (dyn cm) at a hinge, they
+/// are that, and `torque` is constant within the step.
+void bound_torque(double capacity, const Eigen::VectorXd& qdot, const ActiveTorque& active,
+                  ActiveTorque& torque);
+
 }  // namespace hagfish

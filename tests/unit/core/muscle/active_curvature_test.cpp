@@ -1,5 +1,5 @@
 // The rest shape that a curvature program and muscle tone give, and the torques towards it.
-#include "core/run/active_curvature.hpp"
+#include "core/muscle/active_curvature.hpp"
 
 #include <gtest/gtest.h>
 

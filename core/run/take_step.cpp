@@ -1,0 +1,217 @@
+// One step of a run.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include "core/run/simulation.hpp"
+#include "core/step/look_ahead.hpp"
+
+namespace hagfish {
+namespace {
+
+/// A step on its way from `sim.now` to `record.moment`, which change places once it is taken.
+struct Attempt {
+  const StepInput in;
+  Simulation& sim;
+  StepRecord& record;
+
+  double h() const { return in.scene.time.step; }
+  StepPlace place() const { return sim.solver.place(in); }
+  void warn(Outcome outcome, const std::string& message) const {
+    std::ignore = report(outcome, message, GuardAction::warn, sim.watch, record.warnings);
+  }
+  void require(const Status& status) const {
+    if (status.ok()) return;
+    throw StepError({status.outcome, status.message + cure_of_torque(record.control, status)});
+  }
+};
+
+bool looks_ahead(const Scene& scene) {
+  return scene.constraints.activation == Activation::speculative;
+}
+
+/// What the animal does, by the controller and its law.
+void decide_control(const Attempt& step) {
+  const auto& [in, sim, record] = step;
+  record.step = sim.step;
+  record.time = time_of(sim, in.scene);
+  record.warnings.clear();
+  step.require(decide(in.model, in.scene, sim.now, record.time, sim.named_law, sim.controller,
+                      record.control, sim.law));
+  if (!sim.controller.lost.empty()) step.warn(Outcome::knot_lost, sim.controller.lost);
+}
+
+/// Eq. 2: where the step's velocity leads within time `t` (s), and what it looks like there.
+void move(const Attempt& step, double t) {
+  const auto& [in, sim, record] = step;
+  auto& [state, observation] = record.moment;
+  advance(in.state.q, record.solution.qdot, t, state.q);
+  if (keeps_momentum(in.scene, in.control)) {
+    place_centre(in.model,
+                 centre_after(in, step.place(), record.solution, sim.momentum.momentum, t), state.q,
+                 observation.kin);
+    observe_placed(in.model, state, in.scene, sim.search, observation);
+  } else {
+    observe(in.model, state, in.scene, sim.search, observation);
+  }
+}
+
+/// Moves along the step's path to its end. Where the path overlaps or leaves a cone and `correct`
+/// is set, adds the rows that show it and returns true: the step is to be solved again.
+bool look_along_path(const Attempt& step, bool correct) {
+  const auto& [in, sim, record] = step;
+  StepSolution& solution = record.solution;
+  Moment& there = record.moment;
+  const int count = path_samples(solution.centre_velocity, step.h(), in.scene.constraints.stride);
+  there.state.qdot = solution.next;
+  record.crossing = 0;
+  for (int i = 1; i <= count; ++i) {
+    const double t = i < count ? step.h() * i / count : step.h();
+    move(step, t);
+    if (i < count) {
+      record.crossing = std::max(record.crossing, there.observation.penetration);
+    }
+    if (!correct) {
+      continue;
+    }
+    bool missed = add_missed_rows(in, step.place(), there.observation, t, solution);
+    if (i == count) {
+      missed = add_missed_bends(in, there.state.q, solution) || missed;
+    }
+    if (missed) {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Solves the step, and again as long as its path misses rows, up to scene.constraints.corrections
+/// times. Where the rows added cannot all be met the step goes without them.
+void solve_along_path(const Attempt& step) {
+  const auto& [in, sim, record] = step;
+  StepSolution& solution = record.solution;
+  int corrections = looks_ahead(in.scene) ? in.scene.constraints.corrections : 0;
+  Status status = sim.solver.begin(in, solution);
+  for (int k = 0; status.ok(); ++k) {
+    status = guard_speed(solution.centre_velocity, in.scene);
+    if (!status.ok() || !look_along_path(step, k < corrections)) {
+      break;
+    }
+    status = sim.solver.resume(in, solution);
+    if (!status.ok() && status.outcome != Outcome::stopped) {
+      corrections = 0;
+      status = sim.solver.begin(in, solution);
+    }
+  }
+  step.require(status);
+  if (solution.middle.unsettled > 0) {
+    step.warn(
+        Outcome::unsettled,
+        fmt::format("after {} passes the middle of a step is known to {:.3g} rad/s or cm/s only, "
+                    "over time.settled = {:g}; a smaller time.step would help",
+                    solution.middle.passes, solution.middle.unsettled, in.scene.time.settled));
+  }
+}
+
+/// A step whose path still overlaps ends where strands meet: the rest of its motion is left out,
+/// and the next step, with strands close, can see and stop them. The time travelled, s.
+double end_where_strands_meet(const Attempt& step) {
+  const auto& [in, sim, record] = step;
+  const double stride = in.scene.constraints.stride;
+  constexpr int least_samples = 16;
+  const double& penetration = record.moment.observation.penetration;
+  const double allowed = std::max(in.observation.penetration, way_tolerance * stride);
+  if (!looks_ahead(in.scene) || std::max(record.crossing, penetration) <= allowed) {
+    return step.h();
+  }
+  const int count =
+      std::max(least_samples, path_samples(record.solution.centre_velocity, step.h(), stride));
+  int clear = 0;
+  while (clear < count) {
+    move(step, step.h() * (clear + 1) / count);
+    if (penetration > allowed) break;
+    ++clear;
+  }
+  if (clear == count) return step.h();
+  move(step, step.h() * clear / count);
+  record.crossing = 0;
+  step.warn(
+      Outcome::speed,
+      fmt::format("strands meet too fast for the step, which ends there: {:.3g} s of its motion "
+                  "are left out; a smaller time.step would help",
+                  step.h() * (count - clear) / count));
+  return step.h() * clear / count;
+}
+
+/// Bounds of sanity, of the step and of where it has led.
+void watch(const Attempt& step) {
+  const auto& [in, sim, record] = step;
+  guard_muscles(in.model, in.scene, in.control, record.time, sim.watch, record.warnings);
+  guard_cap(in.model, step.place().kin, in.scene, sim.controller.phase, record.solution,
+            record.time, sim.watch, record.warnings);
+  step.require(
+      guard_state(in.model, record.moment, record.crossing, in.scene, sim.watch, record.warnings));
+  record.head_drift = record.control.clamp_head ? head_drift(in.model, in.observation.kin) : 0;
+}
+
+/// Energy, which may not grow by itself, and momentum of what has moved for the time `travelled`
+/// (s).
+void book(const Attempt& step, double travelled) {
+  const auto& [in, sim, record] = step;
+  Moment& next = record.moment;
+  record.ledger = sim.ledger;
+  book_step(in, step.place(), record.solution, next, travelled, sim.ledger);
+  step.require(guard_energy(in.model, in.scene, next, sim.ledger, sim.watch, record.warnings));
+  record.momentum = sim.momentum;
+  book_momentum(in, step.place(), record.solution, next, sim.ledger, sim.momentum);
+  guard_momentum(in.model, in, record.momentum, sim.momentum, sim.ledger, sim.watch,
+                 record.warnings);
+}
+
+void keep(Simulation& sim) {
+  BeforeStep& before = sim.before;
+  before.controller = sim.controller;
+  before.warm = sim.solver.warm;
+  before.ledger = sim.ledger;
+  before.momentum = sim.momentum;
+  before.watch = sim.watch;
+  keep_candidates(sim.search.candidates, before.candidates);
+}
+
+void put_back(Simulation& sim) {
+  const BeforeStep& before = sim.before;
+  sim.controller = before.controller;
+  sim.solver.warm = before.warm;
+  sim.ledger = before.ledger;
+  sim.momentum = before.momentum;
+  sim.watch = before.watch;
+  sim.search.candidates = before.candidates;
+}
+
+}  // namespace
+
+void take_step(const Model& model, const Scene& scene, Simulation& sim, StepRecord& record) {
+  const Attempt step{
+      {model, scene, sim.now.state, sim.now.observation, record.control}, sim, record};
+  keep(sim);
+  try {
+    decide_control(step);
+    solve_along_path(step);
+    const double travelled = end_where_strands_meet(step);
+    sim.solver.finish(step.in, record.solution);
+    note_pull(record.solution, sim.controller);
+    watch(step);
+    book(step, travelled);
+  } catch (...) {
+    record.controller = sim.controller;
+    put_back(sim);
+    throw;
+  }
+  record.controller = sim.controller;
+  std::swap(sim.now, record.moment);
+  ++sim.step;
+}
+
+}  // namespace hagfish

@@ -1,0 +1,155 @@
+#include "core/step/midpoint/midpoint_rule.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/step/midpoint/impacts.hpp"
+
+namespace hagfish {
+namespace {
+
+/// Less than this of a pass's change is never taken to remain.
+constexpr double least_remaining = 1e-3;
+constexpr double unlimited = std::numeric_limits<double>::infinity();
+
+/// Keeps the multipliers of a pass for the next one.
+void keep_pass(const StepSolution& step, WarmStart& warm) {
+  warm.begin();
+  for (std::size_t i = 0; i < step.rows.size(); ++i) {
+    if (const double lambda = step.lambda[static_cast<Eigen::Index>(i)]; lambda != 0) {
+      warm.add(step.rows[i].id, lambda);
+    }
+  }
+  warm.end();
+}
+
+}  // namespace
+
+StepPlace MidpointRule::place(const StepInput& /*in*/) const {
+  return {midway_.kin, midway_.motion(), midway_.moved, &midway_.segments};
+}
+
+Status MidpointRule::begin(const StepInput& in, Rounds& rounds, WarmStart& warm,
+                           StepSolution& step) {
+  guess_middle(in, warm);
+  return settle(in, rounds, warm, step);
+}
+
+/// The velocity that the middle is first placed by: as it changed in the last two steps.
+void MidpointRule::guess_middle(const StepInput& in, const WarmStart& warm) {
+  const Eigen::Index nv = in.model.nv();
+  first_guess_.resize(2 * nv);
+  first_guess_.head(nv) = in.state.qdot;
+  if (warm.half_before.size() > 0) {
+    first_guess_.head(nv) += 2 * warm.half_change - warm.half_before;
+  }
+  first_guess_.tail(nv) = first_guess_.head(nv);
+}
+
+/// Passes from first_guess_ on, and what is done where they do not settle.
+Status MidpointRule::settle(const StepInput& in, Rounds& rounds, WarmStart& warm,
+                            StepSolution& step) {
+  // Where a balanced bias keeps the passes from settling, they may without.
+  Status status = find_middle(in, true, rounds, warm, step);
+  const auto settled_or_stopped = [&] {
+    return status.ok() ? step.middle.unsettled == 0 : status.outcome == Outcome::stopped;
+  };
+  if (!settled_or_stopped()) {
+    status = find_middle(in, false, rounds, warm, step);
+  }
+  if (settled_or_stopped()) {
+    return status;
+  }
+  // Passes that do not settle may run away, so far that one fails: the step is taken as from its
+  // own first velocity.
+  if (!status.ok()) step.middle.unsettled = unlimited;
+  midway_.moved = midway_.felt = in.state.qdot;
+  place_midway(in.model, in.state, in.observation.kin, in.scene.time.step, false, midway_);
+  step.middle.remaining = 1;
+  return solve_here(in, rounds, warm, step);
+}
+
+/// Passes that place the step's middle until it has settled; step.middle.unsettled where it does
+/// not.
+Status MidpointRule::find_middle(const StepInput& in, bool balanced, Rounds& rounds,
+                                 WarmStart& warm, StepSolution& step) {
+  const TimeSettings& time = in.scene.time;
+  const Eigen::Index nv = in.model.nv();
+  StepMiddle& middle = step.middle;
+  midway_.moved = first_guess_.head(nv);
+  midway_.felt = first_guess_.tail(nv);
+  middle.passes = balanced ? 0 : time.passes;
+  middle.unsettled = 0;
+  middle.remaining = guessed_remaining(warm.remaining);
+  double before = 0;  // what the last pass changed
+  passes_.restart();
+  placed_by_.resize(2 * nv);
+  led_to_.resize(2 * nv);
+  for (int pass = 1;; ++pass) {
+    ++middle.passes;
+    place_midway(in.model, in.state, in.observation.kin, time.step, balanced, midway_);
+    if (Status status = solve_here(in, rounds, warm, step); !status.ok()) {
+      return status;
+    }
+    const double off = (step.qdot - midway_.moved).lpNorm<Eigen::Infinity>();
+    if (pass > 1) {
+      // Changes fall by a share θ each: what is left is off (θ + θ² + ...) = off θ / (1 - θ).
+      middle.remaining = off < before ? std::max(off / (before - off), least_remaining) : unlimited;
+    }
+    if (off == 0 || middle.remaining * off <= time.settled) {
+      return {};
+    }
+    before = off;
+    if (pass >= time.passes) {
+      middle.unsettled = off;
+      return {};
+    }
+    keep_pass(step, warm);
+    placed_by_ << midway_.moved, midway_.felt;
+    led_to_ << step.qdot, 0.5 * (in.state.qdot + step.next);
+    passes_.mix(placed_by_, led_to_, mixed_);
+    midway_.moved = mixed_.head(nv);
+    midway_.felt = mixed_.tail(nv);
+  }
+}
+
+/// The step where midway_ is, with the velocity after it.
+Status MidpointRule::solve_here(const StepInput& in, Rounds& rounds, const WarmStart& warm,
+                                StepSolution& step) {
+  Status status = rounds.begin(in, place(in), warm, step);
+  return status.ok() ? set_next_velocity(in, place(in), rounds.problem(), step, half_change_)
+                     : status;
+}
+
+Status MidpointRule::resume(const StepInput& in, Rounds& rounds, WarmStart& warm,
+                            StepSolution& step) {
+  Status status = rounds.resume(in, place(in), warm, step);
+  if (status.ok()) {
+    status = set_next_velocity(in, place(in), rounds.problem(), step, half_change_);
+  }
+  if (!status.ok() ||
+      (step.qdot - midway_.moved).lpNorm<Eigen::Infinity>() <= in.scene.time.settled) {
+    return status;
+  }
+  keep_pass(step, warm);
+  first_guess_ << step.qdot, 0.5 * (in.state.qdot + step.next);
+  return settle(in, rounds, warm, step);
+}
+
+void MidpointRule::end(const StepInput& in, WarmStart& warm, StepSolution& step) {
+  step.felt = 0.5 * (in.state.qdot + step.next);
+  body_twists(in.model, midway_.kin, step.felt, step.felt_twist);
+  centre_velocities(midway_.kin, step.felt_twist, step.felt_centre_velocity);
+  warm.half_before = warm.half_change;
+  warm.half_change = half_change_;
+  warm.remaining = step.middle.remaining;
+  // Multipliers of the velocity by which the step moves become those of its whole force.
+  for (std::size_t i = 0; i < step.rows.size(); ++i) {
+    step.lambda[i] = 2 * step.lambda[i] - step.rows[i].impact;
+  }
+  step.middle.moved = midway_.moved;
+  step.middle.felt = midway_.felt;
+  step.middle.off = (step.qdot - midway_.moved).norm();
+}
+
+}  // namespace hagfish

@@ -1,0 +1,37 @@
+// The midpoint rule (core/README.md, "Steps in time"): equations hold in the middle of a step,
+// which passes of the rounds find.
+#pragma once
+
+#include "core/step/midpoint/midway.hpp"
+#include "core/step/step_rule.hpp"
+#include "solvers/fixed_point.hpp"
+
+namespace hagfish {
+
+/// What a step takes StepMiddle::remaining as from the one before: the measure of a step fades
+/// towards 1 by this power, so that it is taken anew each ten steps or so (after Hairer and Wanner,
+/// Solving Ordinary Differential Equations II, IV.8).
+inline double guessed_remaining(double before) { return std::pow(before, 0.9); }
+
+class MidpointRule : public StepRule {
+ public:
+  Status begin(const StepInput& in, Rounds& rounds, WarmStart& warm, StepSolution& step) override;
+  Status resume(const StepInput& in, Rounds& rounds, WarmStart& warm, StepSolution& step) override;
+  void end(const StepInput& in, WarmStart& warm, StepSolution& step) override;
+  StepPlace place(const StepInput& in) const override;
+
+ private:
+  void guess_middle(const StepInput& in, const WarmStart& warm);
+  Status settle(const StepInput& in, Rounds& rounds, WarmStart& warm, StepSolution& step);
+  Status find_middle(const StepInput& in, bool balanced, Rounds& rounds, WarmStart& warm,
+                     StepSolution& step);
+  Status solve_here(const StepInput& in, Rounds& rounds, const WarmStart& warm, StepSolution& step);
+
+  Midway midway_;                ///< of the step last begun
+  Eigen::VectorXd half_change_;  ///< of the last pass (impacts.hpp), nv
+  // Velocities moved and felt, 2 nv.
+  AndersonMixing passes_;
+  Eigen::VectorXd first_guess_, placed_by_, led_to_, mixed_;
+};
+
+}  // namespace hagfish

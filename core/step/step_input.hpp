@@ -1,0 +1,48 @@
+// What a step depends on, and where its equations hold.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/chain/dynamics.hpp"
+#include "core/contact/observation.hpp"
+#include "core/step/rows.hpp"
+
+namespace hagfish {
+
+/// What the controller asks of a step.
+struct Control {
+  bool clamp_head = true;
+  TipForce tip;
+  std::vector<ThigmotaxisCommand> thigmotaxis;  ///< rows of Eq. 6 at any number of contacts
+  /// Angles that muscles pull the hinges to, rad, nv, 0 at the root; empty where they do not.
+  Eigen::VectorXd rest_shape;
+  ActiveTorque torque;  ///< torques asked for besides; empty, or 0, where none are
+  ActiveTorque active;  ///< towards the rest shape, which follows from it (active_curvature.hpp)
+};
+
+/// All that a step depends on, but for the warm start.
+struct StepInput {
+  const Model& model;
+  const Scene& scene;
+  const State& state;
+  const Observation& observation;  ///< of `state`
+  const Control& control;
+};
+
+/// Where the equations of a step hold, and how the animal moves there. It refers to the step's
+/// input, or to the time rule that found it.
+struct StepPlace {
+  const Kinematics& kin;            ///< what Eq. 1 and the rows are of
+  StepMotion motion;                ///< the step's first velocity, there
+  const Eigen::VectorXd& velocity;  ///< by which the step moves, as far as known: that of kin, nv
+  /// Null at the step's start: contacts are then as they were found.
+  const std::vector<SplineSegment>* segments = nullptr;
+};
+
+/// The start of a step, where its equations hold by the paper's rule.
+inline StepPlace start_of(const StepInput& in) {
+  return {in.observation.kin, motion_of(in.observation.kin), in.state.qdot};
+}
+
+}  // namespace hagfish

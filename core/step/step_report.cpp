@@ -1,0 +1,137 @@
+#include <algorithm>
+#include <cmath>
+
+#include "core/step/step_report.hpp"
+
+namespace hagfish {
+namespace {
+
+/// λ, rows brought to unit diagonal, is kept for the next step above this share of the largest.
+constexpr double active_share = 1e-6;
+
+/// Eqs. 7 and 8: f = C'λ / h of one kind of row.
+void sum_forces(RowKind kind, const Model& model, const Kinematics& kin, double h,
+                ReportStorage& storage, StepSolution& step) {
+  Eigen::VectorXd& force = step.force[kind];
+  bool on_bodies = false;
+  storage.joint.setZero(model.nv());
+  for (std::size_t i = 0; i < step.rows.size(); ++i) {
+    const Row& row = step.rows[i];
+    if (row.kind == kind && step.lambda[i] != 0) {
+      if (row.dof < 0 && !on_bodies) {
+        storage.wrench.setZero(6, model.body_count());
+        on_bodies = true;
+      }
+      add_row(row, kin, step.lambda[i] / h, storage.wrench, storage.joint);
+    }
+  }
+  if (on_bodies) {
+    generalised_force(model, kin, storage.wrench, force);
+    force += storage.joint;
+  } else {
+    force = storage.joint;
+  }
+}
+
+/// step.net_force, and |H x - g - C'λ r / h| (x: felt; by Euler's rule q̇, r = h) over the largest
+/// of the three: forces alone may be nothing but rounding.
+double stationarity(const Model& model, const Kinematics& kin, double reach, ReportStorage& storage,
+                    StepSolution& step) {
+  const StepSystem& system = step.system;
+  Eigen::VectorXd& momentum = storage.joint;  // g, then with C'λ
+  generalised_force(model, kin, system.wrench, momentum);
+  momentum += system.joint;
+  double scale = momentum.lpNorm<Eigen::Infinity>();
+  Eigen::VectorXd& change = storage.change;  // H x
+  multiply(model, kin, system.op, step.felt, step.felt_twist, storage.wrench, change);
+  scale = std::max(scale, change.lpNorm<Eigen::Infinity>());
+  step.net_force = (change - momentum) / reach + step.active_torque;
+  step.force.total(storage.impulse);
+  storage.impulse *= reach;
+  scale = std::max(scale, storage.impulse.lpNorm<Eigen::Infinity>());
+  momentum += storage.impulse;
+  change -= momentum;
+  return scale == 0 ? 0 : change.lpNorm<Eigen::Infinity>() / scale;
+}
+
+/// |λ| with rows brought to unit diagonal (prescribed ones to about that), so that those of cm/s
+/// and rad/s compare, into storage.scaled; what brings them there into storage.row_scale.
+void scale_multipliers(const RowProblem& problem, const StepSolution& step,
+                       ReportStorage& storage) {
+  Eigen::VectorXd& scaled = storage.scaled;
+  scaled.resize(step.lambda.size());
+  for (Eigen::Index i = 0; i < step.prescribed; ++i) {
+    scaled[i] = 1 / std::sqrt(problem.factor.pivot(step.rows[i].dof));
+  }
+  const Eigen::Index others = scaled.size() - step.prescribed;
+  if (others > 0) {
+    row_scale(problem.qp.A, scaled.tail(others));
+  }
+  storage.row_scale = scaled;
+  scaled.array() *= step.lambda.array().abs();
+}
+
+}  // namespace
+
+void ConstraintForces::total(Eigen::VectorXd& sum) const {
+  sum = of_kind[0];
+  for (std::size_t k = 1; k < of_kind.size(); ++k) {
+    sum += of_kind[k];
+  }
+}
+
+Eigen::VectorXd ConstraintForces::total() const {
+  Eigen::VectorXd sum;
+  total(sum);
+  return sum;
+}
+
+void measure_rows(const RowProblem& problem, ReportStorage& storage, StepSolution& step) {
+  scale_multipliers(problem, step, storage);
+  const auto m = static_cast<Eigen::Index>(step.rows.size());
+  step.excess.resize(m);
+  for (Eigen::Index i = 0; i < m; ++i) {
+    step.excess[i] = row_velocity(step.rows[i], step.bodies(), step.qdot) - step.rows[i].rhs;
+  }
+  // β of the whole problem: where a prescribed row binds alone, b over its scale is this.
+  const double beta = step.prescribed == 0 ? 0 : storage.scaled.head(step.prescribed).maxCoeff();
+  const Eigen::Index others = m - step.prescribed;
+  step.kkt = others == 0
+                 ? KktResiduals{}
+                 : kkt_residuals(problem.qp, step.lambda.tail(others), step.excess.tail(others),
+                                 storage.row_scale.tail(others), beta);
+}
+
+void keep_active(const ReportStorage& storage, const StepSolution& step, WarmStart& warm) {
+  warm.begin();
+  const Eigen::VectorXd& scaled = storage.scaled;
+  const double least = scaled.size() > 0 ? active_share * scaled.maxCoeff() : 0;
+  for (Eigen::Index i = 0; i < scaled.size(); ++i) {
+    if (scaled[i] > least) {
+      warm.add(step.rows[i].id, step.lambda[i]);
+    }
+  }
+  warm.end();
+}
+
+void report_forces(const StepInput& in, const StepPlace& place, ReportStorage& storage,
+                   StepSolution& step) {
+  const ActiveTorque& active = in.control.active;
+  if (active.value.size() > 0) {
+    step.active_torque = active.value - active.rate.cwiseProduct(step.felt);
+  } else {
+    step.active_torque.setZero(in.model.nv());
+  }
+  if (const ActiveTorque& torque = in.control.torque; torque.value.size() > 0) {
+    step.active_torque += torque.value - torque.rate.cwiseProduct(step.felt);
+  }
+  for (const RowKind kind : row_kinds) {
+    sum_forces(kind, in.model, place.kin, in.scene.time.step, storage, step);
+  }
+  step.stationarity = stationarity(in.model, place.kin, in.scene.time.reach(), storage, step);
+  step.active = static_cast<int>((step.lambda.array() != 0).count());
+  const int last = in.model.body_count() - 1;
+  step.tip = in.control.tip.value - in.control.tip.rate * step.felt_centre_velocity.col(last);
+}
+
+}  // namespace hagfish

@@ -1,0 +1,275 @@
+// A body that nothing holds, in empty space: nothing but its shape changes, and it turns only as
+// that makes it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+#include <numbers>
+
+#include "core/input/scene_reader.hpp"
+#include "core/run/simulation.hpp"
+#include "mujoco_ref/mirror.hpp"
+
+namespace hagfish {
+namespace {
+
+constexpr int bodies = 20;
+constexpr double pi = std::numbers::pi;
+
+/// The hagfish in empty space: no water, plate, clamp or gravity.
+ResolvedScene empty_space(const std::string& rule, double h,
+                          const std::vector<std::string>& more = {}) {
+  std::vector<std::string> set{"clamp_head=false",
+                               "wall.present=false",
+                               "drag.normal=0",
+                               "drag.tangential=0",
+                               "script.kind=none",
+                               "expect.knot=\"\"",
+                               "model.bodies=" + std::to_string(bodies),
+                               "active.stiffness=2e5",
+                               "active.capacity=1e9",
+                               "controller.law=own",
+                               "time.frame_interval=0.1",
+                               "time.settled=1e-6",
+                               "time.rule=" + rule,
+                               "time.step=" + std::to_string(h)};
+  set.insert(set.end(), more.begin(), more.end());
+  return read_scene(HAGFISH_DATA_DIR "/table1.toml", set);
+}
+
+/// A wave of bending that travels from head to tail, 2 rad of it, each second; about Z and,
+/// `turned` a quarter of a wave behind, about Y.
+ControlLaw wave(double turned) {
+  return [turned](const Situation& at, Eigen::VectorXd&, Control& control) {
+    const double rise = std::min(1.0, at.time / 0.5);
+    const double size = 0.5 * (1 - std::cos(pi * rise)) * 4.0 / bodies;
+    control.rest_shape.setZero(at.model.nv());
+    for (int k = root_dofs; k < at.model.nv(); ++k) {
+      const Hinge& hinge = at.model.hinges[k - root_dofs];
+      const double phase = 2 * pi * (static_cast<double>(hinge.body) / bodies - at.time);
+      if (hinge.axis == Axis::z) control.rest_shape[k] = size * std::sin(phase);
+      if (hinge.axis == Axis::y) control.rest_shape[k] = turned * size * std::cos(phase);
+    }
+  };
+}
+
+struct FreeRun {
+  explicit FreeRun(const ResolvedScene& of, ControlLaw law)
+      : scene(of.scene),
+        model(make_hagfish(of.specimen, scene)),
+        sim(start(model, scene, "active-set")) {
+    sim.law = std::move(law);
+    centre = centre_of_mass(model, sim.now.observation.kin);
+  }
+  void step() {
+    before = sim.now.observation.kin;
+    take_step(model, scene, sim, record);
+    const Kinematics& kin = sim.now.observation.kin;
+    moved = std::max(moved, (centre_of_mass(model, kin) - centre).norm());
+    warned = warned || !record.warnings.empty();
+  }
+  double time() const { return time_of(sim, scene); }
+  /// Of the head about Z, rad, of a body that moves in the plane.
+  double angle() const { return 2 * std::atan2(sim.now.state.q[6], sim.now.state.q[3]); }
+
+  Scene scene;
+  Model model;
+  Simulation sim;
+  StepRecord record;
+  Kinematics before;  // the last step
+  Eigen::Vector3d centre;
+  double moved = 0;
+  bool warned = false;
+};
+
+class FreeBody : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Rules, FreeBody, testing::Values("euler", "midpoint"),
+                         [](const auto& test) { return std::string(test.param); });
+
+TEST_P(FreeBody, MovesItsCentreOfMassAtNoStep) {
+  for (const double h : {0.01, 0.005, 0.002, 0.001}) {
+    FreeRun run(empty_space(GetParam(), h), wave(0.7));
+    double linear = 0, angular = 0;
+    while (run.time() < 2) {
+      run.step();
+      linear = std::max(linear, run.sim.momentum.momentum.linear.norm());
+      angular = std::max(angular, run.sim.momentum.momentum.angular.norm());
+    }
+    std::cout << "[ FIGURE   ] " << GetParam() << ", h = " << 1e3 * h << " ms: centre of mass "
+              << run.moved << " cm, momentum " << linear << " g cm/s, " << angular << " g cm²/s\n";
+    EXPECT_LT(run.moved, 1e-9);
+    // Rounding of some 1e3 g cm/s and 1e4 g cm²/s of the parts.
+    EXPECT_LT(linear, 1e-9);
+    EXPECT_LT(angular, 1e-8);
+    EXPECT_GT(
+        run.sim.momentum.given_back.linear.norm() + run.sim.momentum.given_back.angular.norm(),
+        GetParam() == std::string("euler") ? 1 : 1e-3);  // it had to be made so
+  }
+}
+
+/// Torques of such a wave at the hinges, dyn cm (nv), whatever the body does.
+Eigen::VectorXd wave_torque(const Model& model, double time) {
+  const double size = 4000 * 0.5 * (1 - std::cos(pi * std::min(1.0, time / 0.5)));
+  Eigen::VectorXd torque = Eigen::VectorXd::Zero(model.nv());
+  for (int k = root_dofs; k < model.nv(); ++k) {
+    const Hinge& hinge = model.hinges[k - root_dofs];
+    const double phase = 2 * pi * (static_cast<double>(hinge.body) / bodies - time);
+    if (hinge.axis == Axis::z) torque[k] = size * std::sin(phase);
+    if (hinge.axis == Axis::y) torque[k] = 0.7 * size * std::cos(phase);
+  }
+  return torque;
+}
+
+/// How far MuJoCo moves the centre of mass of the same body by the same torques in 2 s, cm; nan
+/// where it finds the state bad.
+double moved_by_mujoco(const Model& model, int integrator, double h) {
+  MujocoModel mirror(mjcf_files(model, model.length(), h, Head::free));
+  mirror.model()->opt.integrator = integrator;
+  set_state(model, rest_state(model), mirror);
+  const auto centre = [&] {
+    return centre_of_mass(model, kinematics(model, state_of(model, mirror)));
+  };
+  const Eigen::Vector3d begin = centre();
+  double moved = 0;
+  for (int i = 0; i < std::lround(2 / h); ++i) {
+    Eigen::VectorXd::Map(mirror.data()->qfrc_applied, model.nv()) = wave_torque(model, i * h);
+    mj_step(mirror.model(), mirror.data());
+    try {
+      check_stable(mirror);
+    } catch (const StepError&) {
+      return NAN;
+    }
+    moved = std::max(moved, (centre() - begin).norm());
+  }
+  return moved;
+}
+
+TEST(FreeBodyRule, MovesItsCentreOfMassBesideMujoco) {
+  for (const double h : {0.005, 0.002, 0.001}) {
+    const std::vector<std::string> soft{"model.bending_stiffness=4000",
+                                        "model.twist_stiffness=4000", "model.bending_damping=400",
+                                        "model.twist_damping=400", "contact.least_arc=42"};
+    const ControlLaw push = [](const Situation& at, Eigen::VectorXd&, Control& control) {
+      control.torque.value = wave_torque(at.model, at.time);
+    };
+    std::cout << "[ FIGURE   ] h = " << 1e3 * h << " ms, centre of mass, cm:";
+    for (const std::string momentum : {"kept", "rule"}) {
+      for (const std::string rule : {"euler", "midpoint"}) {
+        std::vector<std::string> set = soft;
+        set.push_back("time.momentum=" + momentum);
+        FreeRun run(empty_space(rule, h, set), push);
+        while (run.time() < 2) run.step();
+        std::cout << " " << rule << " " << momentum << " " << run.moved << ",";
+        if (momentum == "kept") EXPECT_LT(run.moved, 1e-9);
+      }
+    }
+    const Model model = FreeRun(empty_space("euler", h, soft), push).model;
+    std::cout << " MuJoCo's Euler " << moved_by_mujoco(model, mjINT_EULER, h) << ", implicit "
+              << moved_by_mujoco(model, mjINT_IMPLICIT, h) << "\n";
+  }
+}
+
+// The scene can have the rule as it is, and is told what it does.
+TEST(FreeBodyRule, IsPushedByTheRuleAsItIsAndTheRunSaysSo) {
+  FreeRun run(empty_space("euler", 0.005, {"time.momentum=rule", "guard.energy_action=warn"}),
+              wave(0.7));
+  std::string told;
+  while (run.time() < 2) {
+    run.step();
+    for (const std::string& warning : run.record.warnings) {
+      if (warning.find("pushed the free body") != std::string::npos) {
+        EXPECT_EQ(told, "") << "twice";
+        told = warning;
+      }
+    }
+  }
+  EXPECT_GT(run.moved, 0.05);
+  EXPECT_NE(told.find("time.momentum = \"kept\""), std::string::npos) << told;
+  EXPECT_TRUE(run.sim.momentum.given_back.linear.isZero(0));
+}
+
+/// The turn of a planar body without angular momentum by its change of shape alone: dθ = -A dα,
+/// with the moment about Z of unit hinge rates over that of the whole (the mechanical connection).
+/// By the trapezoidal rule between two moments.
+double holonomy(const FreeRun& run) {
+  const auto rate = [&](const Kinematics& kin, const Eigen::VectorXd& change) {
+    const Matrix6Xd twist = body_twists(run.model, kin, change);
+    const Eigen::Vector3d centre = centre_of_mass(run.model, kin);
+    double angular = 0, inertia = 0;
+    for (int b = 0; b < bodies; ++b) {
+      const Body& body = run.model.bodies[b];
+      const Eigen::Vector3d from = kin.centre.col(b) - centre;
+      const Eigen::Vector3d velocity = point_velocity(twist.col(b), kin.centre_offset(b));
+      angular += body.mass * from.cross(velocity).z() + body.inertia.z() * twist(2, b);
+      inertia += body.mass * from.head<2>().squaredNorm() + body.inertia.z();
+    }
+    return -angular / inertia;
+  };
+  const StepRecord& record = run.record;
+  Eigen::VectorXd change = Eigen::VectorXd::Zero(run.model.nv());
+  change.tail(run.model.nv() - root_dofs) =
+      (run.sim.now.state.q - record.moment.state.q).tail(run.model.nv() - root_dofs);
+  return 0.5 * (rate(run.before, change) + rate(run.sim.now.observation.kin, change));
+}
+
+/// How far the head's angle is from what shapes make of it, at most in 2 s, rad.
+double angle_off(const std::string& rule, double h) {
+  FreeRun run(empty_space(rule, h), wave(0));
+  double wanted = 0, off = 0;
+  while (run.time() < 2) {
+    run.step();
+    wanted += holonomy(run);
+    off = std::max(off, std::abs(std::remainder(run.angle() - wanted, 2 * pi)));
+  }
+  return off;
+}
+
+// A falling cat turns without momentum: how far follows from the shapes that it goes through. What
+// steps leave of that is of the rule's order.
+TEST(FreeBodyRule, TurnsAsItsShapesMakeIt) {
+  const double euler[] = {angle_off("euler", 0.005), angle_off("euler", 0.0025)};
+  const double midpoint[] = {angle_off("midpoint", 0.005), angle_off("midpoint", 0.0025)};
+  std::cout << "[ FIGURE   ] angle off at 5 and 2.5 ms: Euler " << euler[0] << ", " << euler[1]
+            << "; midpoint " << midpoint[0] << ", " << midpoint[1] << " rad\n";
+  EXPECT_LT(euler[1], euler[0] / 1.7);      // 2 in the limit
+  EXPECT_LT(midpoint[1], midpoint[0] / 3);  // 4 in the limit
+  EXPECT_LT(midpoint[0], 1e-2);
+}
+
+// A travelling wave is its own mirror image half a period later, so that what it turns by in the
+// one half it turns back by in the other: no drift at any step.
+TEST_P(FreeBody, OfASymmetricWaveComesBackToItsAngleEachPeriod) {
+  FreeRun run(empty_space(GetParam(), 0.005, {"model.bending_damping=2000"}), wave(0));
+  const int period = 200;  // steps
+  std::vector<double> angles;
+  while (run.time() < 6) {
+    run.step();
+    angles.push_back(run.angle());
+  }
+  const std::size_t last = angles.size() - 1;
+  const double drift = std::remainder(angles[last] - angles[last - period], 2 * pi);
+  const auto [least, most] = std::minmax_element(angles.end() - period, angles.end());
+  std::cout << "[ FIGURE   ] " << GetParam() << ": turns by " << *most - *least
+            << " rad to and fro, drifts by " << drift << " rad a period\n";
+  EXPECT_GT(*most - *least, 0.05);
+  EXPECT_LT(std::abs(drift), 1e-6);  // what its start leaves after 6 s
+}
+
+// A chain that is held straight by its springs spins as one rigid body: its angle is known.
+TEST_P(FreeBody, SpinsEvenlyWhereItIsRigid) {
+  const double h = 0.005;
+  FreeRun run(empty_space(GetParam(), h,
+                          {"model.bending_stiffness=1e9", "model.twist_stiffness=1e9",
+                           "model.bending_damping=1e6", "start.spin=[0,0,2]"}),
+              [](const Situation&, Eigen::VectorXd&, Control&) {});
+  const Momentum begin = run.sim.momentum.initial;
+  while (run.time() < 3) run.step();
+  const Momentum off = run.sim.momentum.momentum - begin;
+  EXPECT_LT(off.linear.norm(), 1e-11 * begin.angular.norm());
+  EXPECT_LT(off.angular.norm(), 1e-11 * begin.angular.norm());
+  // Centrifugal force stretches nothing but hinges, which a straight chain has none of.
+  EXPECT_NEAR(std::remainder(run.angle() - 2 * run.time(), 2 * pi), 0, 1e-9);
+}
+
+}  // namespace
+}  // namespace hagfish
