@@ -173,6 +173,21 @@ void reduced_basis_fields(Io& io, ReducedBasisSettings& s) {
 }
 
 template <class Io>
+void reflex_fields(Io& io, ReflexSettings& s) {
+  io.length("shift", s.shift, any_number());
+  io.length("pull_shift", s.pull_shift, any_number());
+  io.boolean("bend_y", s.bend_y);
+  io.boolean("bend_z", s.bend_z);
+  io.boolean("twist", s.twist);
+  io.template choice<ReflexGate>("gate", s.gate,
+                                 {{"all", ReflexGate::all}, {"touch", ReflexGate::touch}});
+  io.length("reach", s.reach, not_negative());
+  io.number("delay", s.delay, not_negative());
+  io.number("noise", s.noise, within(0, 10));
+  io.integer("seed", s.seed, any_number());
+}
+
+template <class Io>
 void muscle_fields(Io& io, MuscleSettings& s) {
   io.boolean("present", s.present);
   io.number("activation_time", s.activation_time, not_negative());
@@ -219,6 +234,7 @@ void controller_fields(Io& io, ControllerSettings& s) {
     table.number("most", s.knot_speed.most, positive());
   });
   io.table("reduced_basis", [&s](Io& table) { reduced_basis_fields(table, s.reduced_basis); });
+  io.table("reflex", [&s](Io& table) { reflex_fields(table, s.reflex); });
 }
 
 template <class Io>

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <random>
 
 #include "core/input/basis_csv.hpp"
@@ -15,6 +14,7 @@
 #include "core/input/scene_fields.hpp"
 #include "core/input/toml_reader.hpp"
 #include "core/input/toml_writer.hpp"
+#include "core/scene/normal_draw.hpp"
 
 namespace hagfish {
 namespace {
@@ -163,22 +163,15 @@ ScriptSettings resolve_script(const TableReader& root, const ScriptFile& file, d
   return script;
 }
 
-/// Standard normal (Box and Muller), from the generator's bits: the same on every platform.
-double normal(std::mt19937& random) {
-  const double u = (static_cast<double>(random()) + 0.5) * 0x1p-32;
-  const double v = static_cast<double>(random()) * 0x1p-32;
-  return std::sqrt(-2 * std::log(u)) * std::cos(2 * std::numbers::pi * v);
-}
-
 void draw_noise(ScriptSettings& script) {
   if (script.noise == 0) return;
   std::mt19937 random(script.noise_seed);
   for (const Eigen::Matrix3Xd& value : script.curvature.value) {
     Eigen::Matrix3Xd& noise = script.curvature.noise.emplace_back(3, value.cols());
-    for (double& coordinate : noise.reshaped()) coordinate = script.noise * normal(random);
+    for (double& coordinate : noise.reshaped()) coordinate = script.noise * normal_draw(random);
   }
   for (ScriptKnot& knot : script.knots) {
-    for (double& coordinate : knot.noise) coordinate = script.noise * normal(random);
+    for (double& coordinate : knot.noise) coordinate = script.noise * normal_draw(random);
   }
 }
 

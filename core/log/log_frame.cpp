@@ -217,6 +217,7 @@ void declare_memory(const Model& model, const Scene& scene, LogTable<Frame>& t) 
     const bool of_muscles = numbers.size == nullptr;
     const Eigen::Index size =
         of_muscles ? static_cast<Eigen::Index>(model.muscles.size()) : numbers.size(model, scene);
+    if (size == 0) continue;
     t.numbers(numbers.path, {{static_cast<hsize_t>(size), of_muscles ? muscle_labels : ""}},
               {numbers.unit, numbers.description}, [size, of = numbers.of](const Frame& f) {
                 const Eigen::VectorXd& memory = f.record.controller.memory;
@@ -395,8 +396,7 @@ void declare_momentum(LogTable<Frame>& t) {
          &MomentumLedger::momentum);
   ledger("impulse_drag", "angular_impulse_drag", "dyn s", "dyn cm s", "impulse of drag so far",
          &MomentumLedger::drag);
-  ledger("impulse_outside", "angular_impulse_outside", "dyn s", "dyn cm s",
-         outside.c_str(),
+  ledger("impulse_outside", "angular_impulse_outside", "dyn s", "dyn cm s", outside.c_str(),
          &MomentumLedger::outside);
   ledger("integrator_momentum", "integrator_angular_momentum", "g cm/s", "g cm²/s",
          "gained by the rule of the steps itself so far, before it is given back",
@@ -413,7 +413,9 @@ void Worst::take(const StepRecord& record) {
   penetration = std::max(penetration, record.moment.observation.penetration);
   limit_violation = std::max(limit_violation, record.moment.observation.limit_violation);
   head_drift = std::max(head_drift, record.head_drift);
-  kkt = std::max(kkt, record.solution.worst_residual());
+  // Nan where a step has none (of another simulator), and then of the whole frame.
+  const double residual = record.solution.worst_residual();
+  kkt = residual <= kkt ? kkt : residual;
 }
 
 LogTable<Frame> frame_table(const Model& model, const Scene& scene, LogLevel level) {

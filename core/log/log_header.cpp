@@ -39,6 +39,7 @@ void write_header(const LogHeader& header, Hdf5Writer& h5) {
   h5.root_attribute("cpu", cpu_name());
   h5.root_attribute("status", "running");
   h5.root_attribute("warnings", "");
+  if (!header.simulator.empty()) h5.root_attribute("simulator", header.simulator);
   if (!header.branched_from.empty()) {
     h5.root_attribute("branched_from", header.branched_from);
   }

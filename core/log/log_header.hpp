@@ -23,6 +23,7 @@ struct LogHeader {
   std::string libraries;
   std::map<std::string, std::string> mjcf;  ///< the mirrored model's files by name
   LogLevel level = LogLevel::full;
+  std::string simulator;      ///< that took the steps, where that is not this program
   std::string branched_from;  ///< of a branch: log, step and time; empty otherwise
 };
 

@@ -53,6 +53,15 @@ void require_log(const Hdf5Reader& h5) {
   }
 }
 
+void require_own_steps(const Hdf5Reader& h5) {
+  if (h5.has_root_attribute("simulator")) {
+    throw FileError(
+        fmt::format("{}: its steps were taken by {}, and only this program's own can be audited or "
+                    "gone on with",
+                    h5.file(), h5.root_text("simulator")));
+  }
+}
+
 LogLevel level_of(const Hdf5Reader& h5) {
   if (!h5.has_root_attribute("log_level")) return LogLevel::full;
   try {
@@ -73,6 +82,7 @@ void require_level(const Hdf5Reader& h5, LogLevel least) {
 
 SavedRun saved_run(const Hdf5Reader& h5) {
   require_log(h5);
+  require_own_steps(h5);
   if (h5.root_text("status") == "complete") {
     throw FileError(h5.file() + ": the run is complete");
   }
@@ -100,6 +110,7 @@ std::vector<LoggedCheckpoint> logged_checkpoints(const Hdf5Reader& h5) {
 
 SavedRun saved_run_at(const Hdf5Reader& h5, double time) {
   require_log(h5);
+  require_own_steps(h5);
   require_level(h5, LogLevel::full);
   const double h = read_scene_text(h5.root_text("scene"), h5.file() + ": scene").scene.time.step;
   const std::vector<LoggedCheckpoint> all = logged_checkpoints(h5);

@@ -25,6 +25,9 @@ LogLevel level_of(const Hdf5Reader& h5);
 /// Throws FileError where the log holds less than `least`.
 void require_level(const Hdf5Reader& h5, LogLevel least);
 
+/// Throws FileError where another simulator took the steps of the log's run.
+void require_own_steps(const Hdf5Reader& h5);
+
 /// A run between two steps, as a log holds it.
 struct LoggedCheckpoint {
   std::int64_t step = 0;  ///< that comes next

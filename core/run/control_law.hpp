@@ -18,6 +18,7 @@
 
 #include "core/contact/observation.hpp"
 #include "core/scene/settings.hpp"
+#include "core/step/outcome.hpp"
 #include "core/step/step_input.hpp"
 
 namespace hagfish {

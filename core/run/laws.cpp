@@ -6,7 +6,7 @@
 namespace hagfish {
 
 extern const Law paper_record, all_contacts_record, knot_speed_record, reduced_basis_record,
-    muscles_record;
+    muscles_record, reflex_record, reflex_muscles_record;
 
 namespace {
 
@@ -14,8 +14,9 @@ constexpr Law own_record{.name = own_law,
                          .description = "of the C++ or Python program that runs the scene",
                          .make = nullptr};
 
-constexpr const Law* table[] = {&paper_record,         &all_contacts_record, &knot_speed_record,
-                                &reduced_basis_record, &muscles_record,      &own_record};
+constexpr const Law* table[] = {&paper_record,          &all_contacts_record, &knot_speed_record,
+                                &reduced_basis_record,  &muscles_record,      &reflex_record,
+                                &reflex_muscles_record, &own_record};
 
 }  // namespace
 

@@ -44,7 +44,7 @@ struct LawNumbers {
   const char* path;  ///< of the dataset
   const char* unit;
   const char* description;
-  /// How many there are; nullptr: one for each muscle.
+  /// How many there are; 0: no dataset; nullptr: one for each muscle.
   Eigen::Index (*size)(const Model& model, const Scene& scene) = nullptr;
   /// The `size` numbers in `memory`, which is not empty; where it is, nan are logged.
   Eigen::VectorXd (*of)(const Eigen::VectorXd& memory, Eigen::Index size);
@@ -56,7 +56,10 @@ struct LoggedSituation {
   const Scene& scene;
   const Kinematics& kin;
   const Eigen::VectorXd& q;
+  const Eigen::VectorXd& qdot;
+  const ContactSet& contacts;
   Phase phase;
+  double time;                           ///< s
   std::vector<Eigen::VectorXd> numbers;  ///< of Law::numbers, in their order
 };
 

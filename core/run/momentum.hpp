@@ -52,15 +52,16 @@ MomentumLedger open_momentum(const Model& model, const Moment& now);
 /// Whether the step of `in` keeps momentum: nothing holds the head, and the scene says so.
 bool keeps_momentum(const Scene& scene, const Control& control);
 
-/// Where the centre of mass is when the step `in`, as solved at `place`, has moved for the time `travelled`
-/// (s) from `now`: moved by the momentum that the step moves by, which Eq. 1 has from that before
-/// and from the forces; cm, world.
+/// Where the centre of mass is when the step `in`, as solved at `place`, has moved for the time
+/// `travelled` (s) from `now`: moved by the momentum that the step moves by, which Eq. 1 has from
+/// that before and from the forces; cm, world.
 Eigen::Vector3d centre_after(const StepInput& in, const StepPlace& place, const StepSolution& step,
                              const Momentum& before, double travelled);
 
-/// Books the step `in` from where the ledger stands, by its solution at `place`, to `next`. Where it keeps
-/// momentum, `next` is first given that which the impulses leave, by a motion of the whole as one
-/// rigid body: velocities between its parts stay as they are. `energy` books what that takes.
+/// Books the step `in` from where the ledger stands, by its solution at `place`, to `next`. Where
+/// it keeps momentum, `next` is first given that which the impulses leave, by a motion of the whole
+/// as one rigid body: velocities between its parts stay as they are. `energy` books what that
+/// takes.
 void book_momentum(const StepInput& in, const StepPlace& place, const StepSolution& step,
                    Moment& next, EnergyLedger& energy, MomentumLedger& ledger);
 

@@ -208,12 +208,34 @@ inline int basis_size(const ReducedBasisSettings& basis) {
                            : static_cast<int>(basis.bend_y.size() / basis.stations.size());
 }
 
+/// Which joints the law reflex moves.
+enum class ReflexGate {
+  all,
+  touch  ///< those within a reach of where the body touches itself; the others keep their angle
+};
+
+/// The rule of the law reflex (core/run/reflex.hpp): every joint copies what the animal senses of
+/// its own shape a little further on.
+struct ReflexSettings {
+  /// Δ, cm of arc: how far behind itself (negative: before itself) a joint finds what it copies. On
+  /// a way back to the tail it is turned round.
+  double shift = 0;
+  double pull_shift = 0;  ///< the same while the head pulls at food; 0: as before that
+  bool bend_y = true, bend_z = true, twist = true;  ///< which turns are copied, each from its kind
+  ReflexGate gate = ReflexGate::all;
+  double reach = 0;   ///< of ReflexGate::touch, along either strand, cm of arc
+  double delay = 0;   ///< of the senses, s: rounded to whole steps
+  double noise = 0;   ///< standard deviation of each sensed angle at each step, share of it
+  unsigned seed = 1;  ///< of the noise
+};
+
 /// The thigmotaxis controller (paper, 3.2, Eq. 6) and its switches between phases.
 struct ControllerSettings {
   std::string law = "paper";  ///< that controls the animal in each phase (core/run/laws.hpp)
   Eq6Point eq6_at = Eq6Point::skin;
   KnotSpeedSettings knot_speed;
   ReducedBasisSettings reduced_basis;
+  ReflexSettings reflex;
   ThigmotaxisSpeeds tighten_head, tighten_tail;  ///< first and last contact while tightening
   ThigmotaxisSpeeds slide_head, slide_tail;      ///< first and last contact while sliding
   /// The same on the way back to the tail. Eq. 6 bounds speeds from below, so that v < 0 asks for

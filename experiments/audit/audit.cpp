@@ -8,6 +8,7 @@
 
 #include "core/log/frame_rows.hpp"
 #include "core/log/log_writer.hpp"
+#include "core/log/saved_run.hpp"
 #include "core/run/laws.hpp"
 #include "core/run/simulation.hpp"
 #include "experiments/audit/audit_activation.hpp"
@@ -267,6 +268,7 @@ Finding all_of(const std::string& name, std::int64_t count, std::int64_t of,
 
 std::vector<Finding> audit(const std::string& file) {
   const LogContents log(file);
+  require_own_steps(log.h5);
   check_datasets(log);
   FrameAudit frames(log);
   ForceAudit forces(log);

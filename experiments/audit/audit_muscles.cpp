@@ -28,7 +28,11 @@ MuscleAudit::MuscleAudit(const LogContents& log)
     asked_rate_ = log.h5.rows("/control/torque_rate");
     has_rest_shape_ = log.h5.integers("/control/has_rest_shape");
   }
-  for (const LawNumbers& numbers : law_.numbers) numbers_.push_back(log.h5.rows(numbers.path));
+  for (const LawNumbers& numbers : law_.numbers) {
+    const bool there = numbers.size == nullptr || numbers.size(log.model, log.resolved.scene) > 0;
+    numbers_.push_back(there ? log.h5.rows(numbers.path)
+                             : Hdf5Reader::Rows(log.qdot.rows(), Eigen::Index{0}));
+  }
 }
 
 void MuscleAudit::see(const AuditedFrame& frame) {
@@ -67,8 +71,15 @@ void MuscleAudit::see_law(const AuditedFrame& frame, Eigen::VectorXd& torque) {
 }
 
 LoggedSituation MuscleAudit::situation(const AuditedFrame& frame) const {
-  LoggedSituation at{log_.model,    log_.resolved.scene, frame.observation.kin,
-                     frame.state.q, frame.phase,         {}};
+  LoggedSituation at{log_.model,
+                     log_.resolved.scene,
+                     frame.observation.kin,
+                     frame.state.q,
+                     frame.state.qdot,
+                     frame.observation.contact,
+                     frame.phase,
+                     log_.time[static_cast<std::size_t>(frame.index)],
+                     {}};
   for (const Hdf5Reader::Rows& rows : numbers_) at.numbers.emplace_back(rows.row(frame.index));
   return at;
 }

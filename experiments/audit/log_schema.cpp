@@ -189,7 +189,8 @@ void check_schema(const Hdf5Reader& log, const Model& model, const Scene& scene)
   for (const DatasetForm& form : forms) {
     const bool needed = form.path.starts_with("/forces/") || form.path.starts_with("/midway/") ||
                         form.path.starts_with("/eq6/") || form.path.starts_with("/control/") ||
-                        form.path.starts_with("/basis/") || form.path.starts_with("/muscle/") ||
+                        form.path.starts_with("/basis/") || form.path.starts_with("/reflex/") ||
+                        form.path.starts_with("/muscle/") ||
                         std::ranges::find(always_there, form.path) != std::end(always_there);
     if (needed || log.has(form.path)) check_form(log, form);
   }

@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "core/chain/dynamics.hpp"
+#include "core/log/saved_run.hpp"
 #include "core/run/controller.hpp"
 #include "core/step/step.hpp"
 #include "mujoco_ref/log_model.hpp"
@@ -38,6 +39,7 @@ struct Slide {
 };
 
 Slide::Slide(const LogContents& log) {
+  require_own_steps(log.h5);
   const auto slides = [](std::int64_t phase) { return phase == static_cast<int>(Phase::slide); };
   const auto first = std::find_if(log.phase.begin(), log.phase.end(), slides);
   const auto last = std::find_if_not(first, log.phase.end(), slides);

@@ -26,7 +26,7 @@ std::string reason_of_stop(double limit) {
 }
 
 /// Steps until the scene is over.
-Ending take_steps(const Model& model, const Scene& scene, Simulation& sim, double limit,
+Ending take_steps(const Scene& scene, Simulation& sim, double limit, const TakeStep& take,
                   LogWriter& log, Progress& progress) {
   using Clock = std::chrono::steady_clock;
   Clock::time_point begin;
@@ -40,7 +40,7 @@ Ending take_steps(const Model& model, const Scene& scene, Simulation& sim, doubl
     }
     try {
       begin = Clock::now();
-      take_step(model, scene, sim, record);
+      take(sim, record);
       log.write(record, sim, progress.elapsed());
       progress.warn(record);
       progress.show(record);
@@ -70,10 +70,13 @@ void add_run_options(CLI::App& command, RunOptions& options) {
 }
 
 int take_run(const Model& model, const Scene& scene, Simulation sim, const RunOptions& options,
-             LogWriter& log, double before) {
+             LogWriter& log, double before, TakeStep take) {
+  if (!take) {
+    take = [&](Simulation& of, StepRecord& record) { take_step(model, scene, of, record); };
+  }
   note_signals();
   Progress progress(model, scene, options.quiet, before);
-  const Ending ending = take_steps(model, scene, sim, options.step_limit, log, progress);
+  const Ending ending = take_steps(scene, sim, options.step_limit, take, log, progress);
   progress.end();
   try {
     log.finish(ending.status, sim);

@@ -185,8 +185,14 @@ INSTANTIATE_TEST_SUITE_P(BuiltIn, MirrorImage,
                          testing::Values("table1", "figure_eight", "double_overhand", "three_twist",
                                          "overhand_waypoints", "overhand_reverse",
                                          "thigmotaxis_everywhere", "double_overhand_paced",
-                                         "pull_figure_eight", "living_three_twist"),
+                                         "pull_figure_eight", "living_three_twist",
+                                         "reflex_figure_eight", "reflex_reverse"),
                          [](const auto& scene) { return std::string(scene.param); });
+
+TEST(MirrorImageOf, SensesThatAreLateAndWrong) {
+  expect_reflection("reflex_overhand",
+                    {"controller.reflex.delay=0.1", "controller.reflex.noise=0.1"}, 15);
+}
 
 TEST(MirrorImageOf, NoiseAndGravityToo) {
   for (const char* name : {"table1", "double_overhand", "living_overhand"}) {

@@ -101,15 +101,19 @@ class Bits {
     add(frame, margin, smooth, cosines, file, stations, bend_y, bend_z, twist, period, filter,
         softness, most, places, played);
   }
+  void put(const ReflexSettings& s) {
+    const auto& [shift, pull_shift, bend_y, bend_z, twist, gate, reach, delay, noise, seed] = s;
+    add(shift, pull_shift, bend_y, bend_z, twist, gate, reach, delay, noise, seed);
+  }
   void put(const ControllerSettings& s) {
-    const auto& [law, eq6_at, knot_speed, reduced_basis, tighten_head, tighten_tail, slide_head,
-                 slide_tail, reverse_head, reverse_tail, leave_by, free_from, cap, acceleration,
-                 contact_gap, hysteresis, tail_through, tighten_from, tight_span, tight_hold,
-                 tighten_time, release_at, untied_for, free_time] = s;
-    add(law, eq6_at, knot_speed, reduced_basis, tighten_head, tighten_tail, slide_head, slide_tail,
-        reverse_head, reverse_tail, leave_by, free_from, cap, acceleration, contact_gap, hysteresis,
-        tail_through, tighten_from, tight_span, tight_hold, tighten_time, release_at, untied_for,
-        free_time);
+    const auto& [law, eq6_at, knot_speed, reduced_basis, reflex, tighten_head, tighten_tail,
+                 slide_head, slide_tail, reverse_head, reverse_tail, leave_by, free_from, cap,
+                 acceleration, contact_gap, hysteresis, tail_through, tighten_from, tight_span,
+                 tight_hold, tighten_time, release_at, untied_for, free_time] = s;
+    add(law, eq6_at, knot_speed, reduced_basis, reflex, tighten_head, tighten_tail, slide_head,
+        slide_tail, reverse_head, reverse_tail, leave_by, free_from, cap, acceleration, contact_gap,
+        hysteresis, tail_through, tighten_from, tight_span, tight_hold, tighten_time, release_at,
+        untied_for, free_time);
   }
   void put(const Ramp& s) {
     const auto& [from, to, time] = s;
@@ -193,43 +197,45 @@ ResolvedScene odd_scene() {
   s.script.largest_force = odd();
   s.active = {odd(), odd(), odd(), odd()};
   s.muscle = {true, odd()};
-  s.controller = {"knot_speed",
-                  {odd(), odd(), odd(), odd()},
-                  {BasisFrame::body,
-                   odd(),
-                   odd(),
-                   0,
-                   "",
-                   {odd(), odd()},
-                   {odd(), odd()},
-                   {odd(), odd()},
-                   {odd(), odd()},
-                   odd(),
-                   odd(),
-                   odd(),
-                   odd(),
-                   {odd(), odd()},
-                   {odd(), odd()}},
-                  {odd(), odd()},
-                  {odd(), odd()},
-                  {odd(), odd()},
-                  {odd(), odd()},
-                  {odd(), odd()},
-                  {odd(), odd()},
-                  BodyEnd::tail,
-                  Phase::tighten,
-                  odd(),
-                  odd(),
-                  odd(),
-                  odd(),
-                  odd(),
-                  odd(),
-                  odd(),
-                  odd(),
-                  odd(),
-                  odd(),
-                  odd(),
-                  odd()};
+  s.controller = {
+      "knot_speed",
+      {odd(), odd(), odd(), odd()},
+      {BasisFrame::body,
+       odd(),
+       odd(),
+       0,
+       "",
+       {odd(), odd()},
+       {odd(), odd()},
+       {odd(), odd()},
+       {odd(), odd()},
+       odd(),
+       odd(),
+       odd(),
+       odd(),
+       {odd(), odd()},
+       {odd(), odd()}},
+      {odd(), -odd(), true, false, true, ReflexGate::touch, odd(), odd(), odd() / 10, 3},
+      {odd(), odd()},
+      {odd(), odd()},
+      {odd(), odd()},
+      {odd(), odd()},
+      {odd(), odd()},
+      {odd(), odd()},
+      BodyEnd::tail,
+      Phase::tighten,
+      odd(),
+      odd(),
+      odd(),
+      odd(),
+      odd(),
+      odd(),
+      odd(),
+      odd(),
+      odd(),
+      odd(),
+      odd(),
+      odd()};
   s.knot = {3, 4294967295u, odd()};
   s.controller.contact_gap = s.contact.margin / 3;
   s.time.rule = TimeRule::midpoint;

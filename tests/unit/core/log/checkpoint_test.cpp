@@ -111,6 +111,13 @@ TEST(Checkpoint, ALawThatLooksForwardGoesOnToTheLastBit) {
               3 + 2 * 9);
 }
 
+TEST(Checkpoint, KeepsWhatLateSensesShow) {
+  expect_kept({"controller.law=reflex", "controller.reflex.shift=0.01",
+               "controller.reflex.delay=0.02", "controller.reflex.noise=0.1",
+               "active.stiffness=1e4", "active.relax_time=1", "active.capacity=1e6"},
+              (0.02 / 0.002 + 1) * 149);
+}
+
 TEST(Checkpoint, KeepsActivations) {
   expect_kept({"controller.law=muscles", "muscle.present=true", "muscle.activation_time=0.1"},
               155 + 50 * 4 + 49 * 2);

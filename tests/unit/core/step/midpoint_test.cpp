@@ -197,11 +197,10 @@ Vector6d momentum(const Model& model, const State& state) {
 /// Largest change of the momentum of a free body without drag, that spins with its middle bent to
 /// near 90 degrees, over the momentum it has, in 2 s of steps of `h`: angular, linear.
 Eigen::Vector2d lost_momentum(const std::string& rule, double h) {
-  const ResolvedScene resolved =
-      read_scene(HAGFISH_STRESS_DIR "/spinning.toml",
-                 {"time.rule=" + rule, "time.step=" + std::to_string(h), "drag.normal=0",
-                  "drag.tangential=0", "guard.energy_action=warn", "start.spin=[1,0.5,0.2]",
-                  "time.momentum=rule"});
+  const ResolvedScene resolved = read_scene(
+      HAGFISH_STRESS_DIR "/spinning.toml",
+      {"time.rule=" + rule, "time.step=" + std::to_string(h), "drag.normal=0", "drag.tangential=0",
+       "guard.energy_action=warn", "start.spin=[1,0.5,0.2]", "time.momentum=rule"});
   const Model model = make_hagfish(resolved.specimen, resolved.scene);
   Simulation sim = start(model, resolved.scene, "active-set");
   const Vector6d begin = momentum(model, sim.now.state);

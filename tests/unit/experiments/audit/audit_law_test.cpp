@@ -201,5 +201,37 @@ TEST_F(AuditLaw, OfAReducedBasisTorquesAreItsShapesTimesItsNumbers) {
   EXPECT_NE(capped.find("/eq6/cap"), std::string::npos) << capped;
 }
 
+/// Of the reflex the rest shape is what it copies, whatever its senses are.
+TEST_F(AuditLaw, OfTheReflexTheRestShapeIsWhatItCopies) {
+  const std::vector<std::string> senses[] = {
+      {},
+      {"controller.reflex.noise=0.2", "controller.reflex.gate=touch", "controller.reflex.reach=3"},
+      {"controller.reflex.noise=0.2", "controller.reflex.delay=0.02"}};
+  for (std::vector<std::string> set : senses) {
+    set.insert(set.end(), {"controller.reflex.shift=0.1", "active.relax_time=1"});
+    write(scene_of("reflex", set), {});
+    const std::string good = objections();
+    for (const char* wrong : {"muscles", "balance", "checkpoints", "/forces", "/trajectory"}) {
+      EXPECT_EQ(good.find(wrong), std::string::npos) << good;
+    }
+    const auto some = [](double v) { return std::abs(v) > 1e-3; };
+    const std::string text =
+        objections_to<double>("/trajectory/q_ref", some, [](double v) { return 1.001 * v; });
+    EXPECT_NE(text.find("/trajectory/q_ref"), std::string::npos) << text;
+    const std::string other = objections_with(scene_of("reflex", [&] {
+      set.insert(set.begin() + static_cast<std::ptrdiff_t>(set.size()) - 2,
+                 "controller.reflex.seed=2");
+      set.emplace_back("controller.reflex.shift=0.11");
+      return set;
+    }()));
+    EXPECT_NE(other.find("/trajectory/q_ref"), std::string::npos) << other;
+  }
+  // The last log is one of late senses.
+  const std::string text = objections_to<double>(
+      "/reflex/sensed", [](double v) { return std::abs(v) > 1e-3; },
+      [](double v) { return 1.01 * v; });
+  EXPECT_NE(text.find("/trajectory/q_ref"), std::string::npos) << text;
+}
+
 }  // namespace
 }  // namespace hagfish

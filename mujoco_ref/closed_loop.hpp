@@ -1,0 +1,50 @@
+// A run in MuJoCo, in closed loop: what the animal senses, decides and asks of its muscles is the
+// scene's, as in any run; how it moves, touches itself and meets its joint limits is MuJoCo's.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "core/run/simulation.hpp"
+#include "mujoco_ref/mjcf.hpp"
+#include "mujoco_ref/mujoco_model.hpp"
+
+namespace hagfish {
+
+/// How hard MuJoCo's contacts and limits are: they are springs and dampers that bodies sink into.
+struct MujocoSettings {
+  /// Time constant (solref) of critically damped contacts and limits, s. MuJoCo takes no less than
+  /// two steps; its default, 0.02, lets the strands of a tight knot overlap by half a millimetre.
+  double contact_time = 0.005;
+};
+
+/// Takes the steps of a run in MuJoCo, at the scene's time step: semi-implicit Euler, Newton's
+/// solver, the capsules of mjcf.hpp. Muscles and water drag are applied as generalised forces
+/// (qfrc_applied), explicitly, from the state at the start of the step; the torque of a hinge ends
+/// at the scene's capacity. A clamped head is part of the world.
+class MujocoLoop {
+ public:
+  /// `model` and `scene` are referred to. Throws InputError, one line, where the scene asks for
+  /// what MuJoCo has not: a head plate, a script's force on the tail, rows of Eq. 6.
+  MujocoLoop(const Model& model, const Scene& scene, const MujocoSettings& settings = {});
+
+  /// As take_step(): what the step began with and did is written into `record`, and `sim` moves on.
+  /// Of the solution there are the velocities, contacts and limits with their forces, and the
+  /// active torque; what MuJoCo does not tell, the clamp's force, works and residuals, is nan.
+  /// Throws StepError.
+  void take_step(Simulation& sim, StepRecord& record);
+
+ private:
+  MujocoModel& mirror(Head head);
+  void book(double work, const Moment& next, Simulation& sim) const;
+  void apply(const Simulation& sim, const Control& control, MujocoModel& mirror,
+             Eigen::VectorXd& torque) const;
+  void note_forces(const Simulation& sim, MujocoModel& mirror, StepSolution& step) const;
+
+  const Model& model_;
+  const Scene& scene_;
+  MujocoSettings settings_;
+  std::optional<MujocoModel> clamped_, free_;
+};
+
+}  // namespace hagfish
