@@ -163,8 +163,8 @@ void add_prescribing(const std::string& name, const std::shared_ptr<Parts>& part
     run->factor.factorise(of, kin, system.op, run->prescribed);
     run->factor.solve(of, kin, system.wrench, system.joint, run->base, run->twist, run->reaction);
     centre_velocities(kin, run->twist, run->centre_velocity);
-    assemble_dual(of, kin, run->factor, run->rows, run->base, run->centre_velocity, parts->columns,
-                  parts->qp);
+    assemble_dual(of, kin, run->factor, run->rows, run->base, {run->twist, run->centre_velocity},
+                  parts->columns, parts->qp);
     run->solver->solve(parts->qp, run->start, run->solution);
   });
 }
@@ -214,8 +214,8 @@ void add_core_parts(const std::shared_ptr<Start>& start) {
     const StepSolution& step = p.record.solution;
     assemble_dual(p.start->model, p.record.moment.observation.kin, p.sim.solver.problem().factor,
                   std::span(step.rows).subspan(static_cast<std::size_t>(step.prescribed)),
-                  p.sim.solver.problem().base, p.sim.solver.problem().base_centre_velocity,
-                  p.columns, p.qp);
+                  p.sim.solver.problem().base, p.sim.solver.problem().base_bodies(), p.columns,
+                  p.qp);
   });
   add_prescribing("prescribe_nothing", parts, [](const Row&) { return false; });
   add_prescribing("prescribe_head", parts,

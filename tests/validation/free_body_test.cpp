@@ -160,7 +160,9 @@ TEST(FreeBodyRule, MovesItsCentreOfMassBesideMujoco) {
         FreeRun run(empty_space(rule, h, set), push);
         while (run.time() < 2) run.step();
         std::cout << " " << rule << " " << momentum << " " << run.moved << ",";
-        if (momentum == "kept") EXPECT_LT(run.moved, 1e-9);
+        if (momentum == "kept") {
+          EXPECT_LT(run.moved, 1e-9);
+        }
       }
     }
     const Model model = FreeRun(empty_space("euler", h, soft), push).model;

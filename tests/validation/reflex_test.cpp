@@ -16,8 +16,8 @@ namespace hagfish {
 namespace {
 
 /// A run of a built-in scene.
-struct Run {
-  explicit Run(const std::string& name, const std::vector<std::string>& set = {})
+struct ReflexRun {
+  explicit ReflexRun(const std::string& name, const std::vector<std::string>& set = {})
       : resolved(read_scene(std::string(HAGFISH_DATA_DIR) + "/" + name + ".toml", set)),
         model(make_hagfish(resolved.specimen, resolved.scene)),
         sim(start(model, resolved.scene, "active-set")) {}
@@ -38,7 +38,7 @@ struct Run {
 
 /// Where each joint copies itself, the knot stays; where it copies its neighbour, it goes 5 cm.
 TEST(ReflexKnockedOut, MovesNoKnot) {
-  Run whole("reflex_overhand");
+  ReflexRun whole("reflex_overhand");
   whole.slide();
   Simulation still = whole.sim;
   Scene own = whole.resolved.scene;
@@ -64,8 +64,8 @@ TEST(ReflexKnockedOut, MovesNoKnot) {
 class ReflexOfMuscles : public testing::TestWithParam<const char*> {};
 
 TEST_P(ReflexOfMuscles, TiesHoldsSlidesAndComesOff) {
-  Run run(GetParam(), {"controller.law=reflex_muscles", "muscle.present=true",
-                       "muscle.activation_time=0.1", "controller.reflex.shift=0.05"});
+  ReflexRun run(GetParam(), {"controller.law=reflex_muscles", "muscle.present=true",
+                             "muscle.activation_time=0.1", "controller.reflex.shift=0.05"});
   while (!finished(run.sim, run.resolved.scene)) {
     run.step();
     ASSERT_TRUE(run.record.control.rest_shape.size() == 0 &&
@@ -81,7 +81,7 @@ INSTANTIATE_TEST_SUITE_P(BuiltIn, ReflexOfMuscles,
 
 /// From the start of the slide, in both simulators: the knot holds and takes as long to the head.
 TEST(ReflexInMujoco, SlidesAKnotAsFast) {
-  Run tied("reflex_double_overhand", {"wall.present=false"});
+  ReflexRun tied("reflex_double_overhand", {"wall.present=false"});
   tied.slide();
   ResolvedScene fine = tied.resolved;
   fine.scene.time.step = 0.001;

@@ -199,6 +199,7 @@ ResolvedScene odd_scene() {
   s.muscle = {true, odd()};
   s.controller = {
       "knot_speed",
+      Eq6Point::centreline,
       {odd(), odd(), odd(), odd()},
       {BasisFrame::body,
        odd(),
@@ -275,7 +276,6 @@ ResolvedScene odd_scene() {
   s.expect.momentum = odd();
   s.guard.momentum_gain = odd();
   s.active.bounds_laws = true;
-  s.controller.eq6_at = Eq6Point::centreline;
   s.start.bend = {{odd(), odd(), -odd(), odd()}, {odd(), odd(), odd(), odd()}};
   for (int i = 0; i < 6 + 9; ++i) s.start.qdot.push_back(odd());  // of 7 bodies
   s.start.noise = odd();

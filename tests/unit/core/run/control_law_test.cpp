@@ -151,7 +151,7 @@ TEST_F(ControlLaws, ATorqueWorksByItsValueAlone) {
   };
   observation.contact.contacts = {contact(5, 30)};
   for (int k = 0; k < 2; ++k) {
-    ASSERT_TRUE(decide(model, scene, moment, now, storage, state, control, own).ok());
+    ASSERT_TRUE(decide(model, scene, moment, now, named, state, control, own).ok());
     EXPECT_EQ(control.torque.value[9], 7);
     EXPECT_EQ(control.torque.rate, Eigen::VectorXd::Zero(model.nv()));
   }
@@ -169,11 +169,11 @@ TEST_F(ControlLaws, TheCapacityBoundsTorquesOfLawsWhereTheSceneSaysSo) {
     c.rest_shape = 0.1 * Eigen::VectorXd::Unit(at.model.nv(), 11);
   };
   observation.contact.contacts = {contact(5, 30)};
-  ASSERT_TRUE(decide(model, scene, moment, now, storage, state, control, own).ok());
+  ASSERT_TRUE(decide(model, scene, moment, now, named, state, control, own).ok());
   EXPECT_EQ(control.torque.value[9], -80);
   EXPECT_EQ(control.torque.full, -1);
   scene.active.bounds_laws = true;
-  ASSERT_TRUE(decide(model, scene, moment, now, storage, state, control, own).ok());
+  ASSERT_TRUE(decide(model, scene, moment, now, named, state, control, own).ok());
   EXPECT_EQ(control.torque.value[9], -50);
   EXPECT_EQ(control.torque.rate[9], 0);
   EXPECT_EQ(control.torque.full, 9);

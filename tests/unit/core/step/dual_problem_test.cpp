@@ -115,7 +115,8 @@ TEST(DualProblem, PrescribedVelocitiesDoNotAnswer) {
   factor.solve(k.model, k.kin, k.system.wrench, k.system.joint, base, twist, reaction);
   RowColumns columns;
   BoxQp qp;
-  assemble_dual(k.model, k.kin, factor, k.rows, base, centre_velocities(k.kin, twist), columns, qp);
+  assemble_dual(k.model, k.kin, factor, k.rows, base, {twist, centre_velocities(k.kin, twist)},
+                columns, qp);
   const Eigen::MatrixXd H = dense(k.model, k.kin, k.system.op)(free, free);
   const Eigen::MatrixXd C = dense_rows(k.model, k.kin, k.rows);
   const Eigen::MatrixXd moving = C(Eigen::all, free);
@@ -141,8 +142,8 @@ TEST(DualProblem, RowsThatPrescribedVelocitiesHoldCannotMove) {
     factor.solve(k.model, k.kin, k.system.wrench, k.system.joint, base, twist, reaction);
     RowColumns columns;
     BoxQp qp;
-    assemble_dual(k.model, k.kin, factor, contacts, base, centre_velocities(k.kin, twist), columns,
-                  qp);
+    assemble_dual(k.model, k.kin, factor, contacts, base, {twist, centre_velocities(k.kin, twist)},
+                  columns, qp);
     return qp.A;
   };
   const auto count = static_cast<Eigen::Index>(contacts.size());
@@ -158,12 +159,13 @@ TEST(DualProblem, StorageOfALargerOneServesASmallerOne) {
   ArticulatedFactor factor;
   factor.factorise(k.model, k.kin, k.system.op);
   const Eigen::VectorXd base = factor.solve(k.model, k.kin, k.system.wrench, k.system.joint);
-  const Eigen::Matrix3Xd velocity = centre_velocities(k.kin, body_twists(k.model, k.kin, base));
+  const Matrix6Xd twist = body_twists(k.model, k.kin, base);
+  const Eigen::Matrix3Xd velocity = centre_velocities(k.kin, twist);
   RowColumns columns;
   BoxQp qp;
   for (const std::size_t count : {k.rows.size(), std::size_t{9}, std::size_t{0}}) {
     const std::vector<Row> rows(k.rows.begin(), k.rows.begin() + static_cast<long>(count));
-    assemble_dual(k.model, k.kin, factor, rows, base, velocity, columns, qp);
+    assemble_dual(k.model, k.kin, factor, rows, base, {twist, velocity}, columns, qp);
     const BoxQp fresh = whole_dual(k.model, k.kin, k.system, rows);
     EXPECT_EQ(qp.A, fresh.A) << count;
     EXPECT_EQ(qp.b, fresh.b);
