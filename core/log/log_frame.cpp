@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/log/energy_losses.hpp"
 #include "core/log/pull_figures.hpp"
 #include "core/run/laws.hpp"
 
@@ -347,9 +348,7 @@ void declare_energy(LogTable<Frame>& t) {
              {"erg", "work so far of: " + std::string(force.description)},
              [kind = force.value](const Frame& f) { return f.record.ledger.work[kind]; });
   }
-  energy("dissipated", "lost to drag and joint damping so far", &EnergyLedger::dissipated);
-  energy("impact_loss", "lost where bodies hit each other, a limit or what holds them, so far",
-         &EnergyLedger::impacts);
+  for (const EnergyLoss& loss : energy_losses) energy(loss.name, loss.description, loss.member);
   energy("integrator_inertia",
          "gained by the integrator from velocity changes, without impacts, so far",
          &EnergyLedger::integrator_inertia);

@@ -10,6 +10,7 @@
 #include "core/log/axis_labels.hpp"
 #include "core/log/build_info.hpp"
 #include "core/log/coordinate_names.hpp"
+#include "core/log/energy_losses.hpp"
 #include "core/scene/phase.hpp"
 #include "core/step/row_kind.hpp"
 
@@ -70,21 +71,20 @@ const std::vector<std::pair<const char*, std::vector<std::string>>>& axis_names(
 }
 
 std::vector<std::pair<std::string, std::vector<std::string>>> enumerations() {
-  std::vector<std::string> phases, meanings, forces{"tip", "active"}, knots, invariants;
+  std::vector<std::string> phases, meanings, forces{"tip", "active"}, losses, knots, invariants;
   for (const PhaseEntry& phase : phase_table) {
     phases.emplace_back(phase.name);
     meanings.emplace_back(phase.description);
   }
   for (const RowKindEntry& kind : row_kind_table) forces.emplace_back(kind.name);
+  for (const EnergyLoss& loss : energy_losses) losses.emplace_back(loss.name);
   for (const NamedKnot& knot : named_knots()) {
     knots.emplace_back(knot.name);
     invariants.push_back(invariants_text(knot.type));
   }
-  return {{"/enumerations/phase", phases},
-          {"/enumerations/phase_description", meanings},
-          {"/enumerations/force", forces},
-          {"/enumerations/knot", knots},
-          {"/enumerations/knot_invariants", invariants}};
+  return {{"/enumerations/phase", phases}, {"/enumerations/phase_description", meanings},
+          {"/enumerations/force", forces}, {"/enumerations/loss", losses},
+          {"/enumerations/knot", knots},   {"/enumerations/knot_invariants", invariants}};
 }
 
 /// Which muscles there are, and how strong.

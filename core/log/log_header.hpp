@@ -37,7 +37,7 @@ Eigen::VectorXd body_arcs(const Model& model);
 const std::vector<std::pair<const char*, std::vector<std::string>>>& axis_names();
 
 /// /enumerations, lists for readers to walk over, each with its path: the phases in the order of
-/// time, the forces that do work, the knots that have names.
+/// time, the forces that do work, what energy is lost to, the knots that have names.
 std::vector<std::pair<std::string, std::vector<std::string>>> enumerations();
 
 /// These, /model, and labels of the axes of what stands along bodies and velocities.

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "core/chain/dynamics.hpp"
+#include "core/log/energy_losses.hpp"
 #include "core/step/row_kind.hpp"
 #include "experiments/export/export_tables.hpp"
 
@@ -157,7 +158,7 @@ ExportTable energy_table(const LogContents& log, bool si) {
   for (const RowKindEntry& kind : row_kind_table) {
     terms.emplace_back(std::string("work_") + kind.name, of(kind) + ", so far");
   }
-  terms.emplace_back("dissipated", "lost to water drag and joint damping, so far");
+  for (const EnergyLoss& loss : energy_losses) terms.emplace_back(loss.name, loss.description);
   terms.emplace_back("integrator_error", "gained by the integrator itself, so far");
   std::vector<ExportColumn> columns{frame_column, time_column};
   std::vector<std::vector<double>> values;

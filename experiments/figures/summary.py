@@ -170,13 +170,13 @@ def ledger(log: HagfishLog) -> list[str]:
     read = lambda name: log[f"/diagnostics/{name}"] - log[f"/diagnostics/{name}"][0]
     stored = read("kinetic_energy") + read("elastic_energy") + read("gravity_energy")
     works = {f"work of {name}": read(f"work_{name}") for name in log.strings("/enumerations/force")}
-    lost, integrator = read("dissipated"), read("integrator_error")
-    gap = stored - (sum(works.values()) - lost + integrator)
-    terms = {"kinetic + elastic energy": stored, **works, "dissipated": lost, "integrator error": integrator,
-             "left over": gap}
+    losses = {name.replace("_", " "): read(name) for name in log.strings("/enumerations/loss")}
+    integrator = read("integrator_error")
+    gap = stored - (sum(works.values()) - sum(losses.values()) + integrator)
+    terms = {"kinetic + elastic energy": stored, **works, **losses, "integrator error": integrator, "left over": gap}
     rows = [[name, f"{values[-1]:.6g}", f"{np.abs(values).max():.3g}"] for name, values in terms.items()]
     return ["## Energy ledger", "",
-            "kinetic + elastic = works - dissipated + integrator error, counted from the first frame.", "",
+            "kinetic + elastic = works - dissipated - impact loss + integrator error, counted from the first frame.", "",
             *markdown(["Term", "At the end, erg", "Largest, erg"], rows)]
 
 

@@ -5,6 +5,7 @@
 #include <pybind11/stl.h>
 
 #include "core/log/coordinate_names.hpp"
+#include "core/log/energy_losses.hpp"
 #include "experiments/program/run_header.hpp"
 #include "experiments/program/scene_argument.hpp"
 
@@ -238,8 +239,7 @@ py::dict energies(const PythonSimulation& run) {
   for (const RowKindEntry& kind : row_kind_table) {
     e[(std::string("work_") + kind.name).c_str()] = ledger.work[kind.value];
   }
-  e["dissipated"] = ledger.dissipated;
-  e["impact_loss"] = ledger.impacts;
+  for (const EnergyLoss& loss : energy_losses) e[loss.name] = ledger.*loss.member;
   e["integrator_error"] = ledger.integrator_error();
   return e;
 }

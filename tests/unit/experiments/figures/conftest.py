@@ -78,6 +78,7 @@ def hinges_of(kind: str) -> np.ndarray:
 TEXTS = {"model/dof_name": dof_names(),
          "enumerations/phase": ["form", "tighten", "slide", "pull", "reverse", "release", "free"],
          "enumerations/force": ["tip", "active", "thigmotaxis", "contact", "limit", "head", "wall"],
+         "enumerations/loss": ["dissipated", "impact_loss"],
          "enumerations/knot": ["0_1", "3_1", "4_1", "5_1"],
          "enumerations/knot_invariants": ["det=1,v2=0", "det=3,v2=1", "det=5,v2=-1", "det=5,v2=3"]}
 
@@ -121,7 +122,7 @@ class Content:
             "steps/solve": np.where(step_ruled, 2, 0)}
         self.data["diagnostics/solve"] = np.zeros(n, dtype=int)
         for name in ("contacts", "rows", "active", "iterations", "qp_time", "wall_time", "penetration", "limit_violation", "head_drift", "kinetic_energy", "elastic_energy", "gravity_energy",
-                     "dissipated", "integrator_error", *(f"work_{name}" for name in TEXTS["enumerations/force"])):
+                     *TEXTS["enumerations/loss"], "integrator_error", *(f"work_{name}" for name in TEXTS["enumerations/force"])):
             self.data[f"diagnostics/{name}"] = np.zeros(n)
 
     def write(self, path: Path) -> Path:
