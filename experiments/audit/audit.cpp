@@ -183,6 +183,15 @@ Finding momentum_ledger(const LogContents& log, const std::string& name, const c
   return finding;
 }
 
+/// Whether anything is given back between frames at which the head is held.
+bool given_while_held(const LogContents& log, const MomentumColumns& of) {
+  for (Eigen::Index f = 1; f < of.given_back.rows(); ++f) {
+    const bool grew = !(of.given_back.row(f) - of.given_back.row(f - 1)).isZero(0);
+    if (grew && log.clamped(f - 1) && log.clamped(f)) return true;
+  }
+  return false;
+}
+
 /// What the integrator makes of a momentum, and does not give back, from frames to frames at which
 /// nothing holds the head, over the most that passed and that the body's parts have.
 double made_while_free(const LogContents& log, const MomentumColumns& of, double of_parts) {
@@ -209,6 +218,12 @@ std::vector<Finding> momentum(const LogContents& log) {
   std::vector<Finding> findings{
       momentum_ledger(log, "momentum ledger", "dyn s", linear),
       momentum_ledger(log, "angular momentum ledger", "dyn cm s", angular)};
+  const int held =
+      (given_while_held(log, linear) ? 1 : 0) + (given_while_held(log, angular) ? 1 : 0);
+  findings.push_back(judged({"given back", static_cast<double>(held), 0, "ledgers"},
+                            held == 0 ? "nothing while the head is held"
+                                      : "while the head is held: /diagnostics/momentum_given_back "
+                                        "or angular_momentum_given_back"));
   const Scene& scene = log.resolved.scene;
   bool ever_free = false;
   for (Eigen::Index f = 1; f < log.q.rows(); ++f) {

@@ -29,8 +29,9 @@ double balance(const EnergyLedger& ledger) {
          ledger.integrator_error();
 }
 
-Momentum balance(const MomentumLedger& ledger) {
-  return ledger.momentum - ledger.drag - ledger.outside - ledger.integrator - ledger.given_back;
+Eigen::Vector3d balance(const MomentumLedger& ledger) {
+  return (ledger.momentum - ledger.drag - ledger.outside - ledger.integrator - ledger.given_back)
+      .linear;
 }
 
 double most(const Eigen::Vector3d& v) { return v.allFinite() ? v.cwiseAbs().maxCoeff() : INFINITY; }
@@ -140,7 +141,7 @@ void RunFigures::see_ledgers(const StepRecord& record) {
   if (frames_.size() == 1) {
     gain_ = EnergyGain(total(ledger_));
     first_balance_ = balance(ledger_);
-    first_momentum_ = momentum.momentum;
+    first_momentum_ = momentum.momentum.linear;
     first_error_ = ledger_.integrator_error();
   }
   gain_.see(total(ledger_), put_in(ledger_));
@@ -148,13 +149,11 @@ void RunFigures::see_ledgers(const StepRecord& record) {
   worked_ = std::max(worked_, std::abs(ledger_.works()));
   dissipated_ = std::max(dissipated_, std::abs(ledger_.dissipated));
   loss_.see(ledger_.integrator_error() - first_error_);
-  const Momentum off = balance(momentum) - first_momentum_;
-  for (const auto part : {&Momentum::linear, &Momentum::angular}) {
-    MomentumSeen& seen = momentum_[part == &Momentum::angular];
-    seen.off = worse(seen.off, most(off.*part));
-    for (const Momentum* of : {&momentum.momentum, &momentum.drag, &momentum.outside}) {
-      seen.passed = std::max(seen.passed, most(of->*part));
-    }
+  had_ = std::max(had_, ledger_.kinetic + ledger_.elastic);
+  momentum_off_ = worse(momentum_off_, most(balance(momentum) - first_momentum_));
+  for (const Momentum* of :
+       {&momentum.momentum, &momentum.drag, &momentum.outside, &momentum.integrator}) {
+    momentum_passed_ = std::max(momentum_passed_, most(of->linear));
   }
 }
 
@@ -209,9 +208,8 @@ RunSummary RunFigures::summary(const std::string& outcome, const std::string& me
   run.eq6 = eq6_criterion(scene_.expect, eq6_met_, eq6_steps_).value;
   run.energy_ledger = share(imbalance_, std::max(worked_, dissipated_));
   run.energy_gain = gain_.largest();
-  run.energy_loss = share(loss_.largest(), std::max({worked_, dissipated_, ledger_.largest}));
-  run.momentum_ledger = std::max(share(momentum_[0].off, momentum_[0].passed),
-                                 share(momentum_[1].off, momentum_[1].passed));
+  run.energy_loss = share(loss_.largest(), std::max({worked_, dissipated_, had_}));
+  run.momentum_ledger = share(momentum_off_, momentum_passed_);
   run.work_tip = ledger_.work_tip;
   run.work_active = ledger_.work_active;
   run.work_thigmotaxis = ledger_.work[RowKind::thigmotaxis];

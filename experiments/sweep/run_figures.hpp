@@ -87,13 +87,10 @@ class RunFigures {
   std::int64_t eq6_met_ = 0, eq6_steps_ = 0;              // of slides, up to the last frame
   std::int64_t eq6_met_since_ = 0, eq6_steps_since_ = 0;  // and since
   double first_balance_ = 0, imbalance_ = 0, worked_ = 0, dissipated_ = 0;
-  Momentum first_momentum_;
-  struct MomentumSeen {
-    double off = 0, passed = 0;
-  };
-  std::array<MomentumSeen, 2> momentum_;  // linear, angular
+  Eigen::Vector3d first_momentum_ = Eigen::Vector3d::Zero();
+  double momentum_off_ = 0, momentum_passed_ = 0;
   EnergyLoss loss_;
-  double first_error_ = 0;
+  double first_error_ = 0, had_ = 0;
   EnergyGain gain_{0};
   EnergyLedger ledger_;
 };

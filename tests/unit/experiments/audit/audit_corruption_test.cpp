@@ -24,6 +24,7 @@ namespace fs = std::filesystem;
 constexpr const char* named_by_themselves[] = {"/checkpoints/step",
                                                "/contacts/frame",
                                                "/diagnostics/active",
+                                               "/diagnostics/angular_momentum",
                                                "/diagnostics/elastic_energy",
                                                "/diagnostics/gravity_energy",
                                                "/diagnostics/head_drift",
@@ -91,14 +92,19 @@ const std::map<std::string, std::string>& watchers() {
       watch[path] = path;
     }
     // By what is rebuilt from them, or summed with them.
-    for (const char* name : {"impulse_drag", "impulse_outside", "integrator_momentum"}) {
+    for (const char* name :
+         {"impulse_drag", "impulse_outside", "integrator_momentum", "momentum_given_back"}) {
       watch[std::string("/diagnostics/") + name] = "momentum ledger";
     }
+    for (const char* name : {"angular_impulse_drag", "angular_impulse_outside",
+                             "integrator_angular_momentum", "angular_momentum_given_back"}) {
+      watch[std::string("/diagnostics/") + name] = "angular momentum ledger";
+    }
     for (const char* name : {"work_tip", "work_active", "work_thigmotaxis", "work_contact",
-                             "work_limit", "work_head", "work_wall", "dissipated"}) {
+                             "work_limit", "work_head", "work_wall", "dissipated", "impact_loss"}) {
       watch[std::string("/diagnostics/") + name] = "energy ledger";
     }
-    for (const char* name : {"inertia", "potential", "coriolis", "held"}) {
+    for (const char* name : {"inertia", "potential", "coriolis", "held", "given_back"}) {
       watch[std::string("/diagnostics/integrator_") + name] = "/diagnostics/integrator_error";
     }
     for (const char* name : {"thigmotaxis", "contact", "limit", "head", "wall", "active", "net"}) {
@@ -290,10 +296,18 @@ TEST_F(AuditCorruption, EachDatasetIsWatched) {
 TEST_F(AuditCorruption, ExchangedColumnsAreSeen) {
   // In each pair both enter a ledger alike, which closes whichever is called which.
   const std::pair<const char*, const char*> pairs[] = {
-      {"work_tip", "work_thigmotaxis"},          {"work_tip", "work_contact"},
-      {"work_active", "work_thigmotaxis"},       {"work_active", "work_limit"},
-      {"impulse_drag", "impulse_outside"},       {"impulse_drag", "integrator_momentum"},
-      {"impulse_outside", "integrator_momentum"}};
+      {"work_tip", "work_thigmotaxis"},
+      {"work_tip", "work_contact"},
+      {"work_active", "work_thigmotaxis"},
+      {"work_active", "work_limit"},
+      {"impulse_drag", "impulse_outside"},
+      {"impulse_drag", "integrator_momentum"},
+      {"impulse_outside", "integrator_momentum"},
+      {"integrator_momentum", "momentum_given_back"},
+      {"dissipated", "impact_loss"},
+      {"angular_impulse_drag", "angular_impulse_outside"},
+      {"angular_impulse_drag", "integrator_angular_momentum"},
+      {"angular_impulse_outside", "integrator_angular_momentum"}};
   const auto exchange = [](const std::string& a, const std::string& b) {
     const H5::H5File h5(file.string(), H5F_ACC_RDWR);
     h5.move("/diagnostics/" + a, "/elsewhere");
