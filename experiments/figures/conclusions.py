@@ -20,7 +20,7 @@ from study import FORCE_WINDOW, Run, path_error, read_run, read_runs
 from tables import markdown, write_page
 from whole_runs import CHANCE_STEPS, chance, front_of, reference_of
 
-PRESETS = {"quick": "a look at a new script", "default": "work", "figure": "print"}
+PRESETS = {"quick": "a look at a new script", "default": "work"}
 
 
 def reached(cost: np.ndarray, error: np.ndarray, wanted: float) -> float:

@@ -15,7 +15,7 @@ struct Preset {
 /// All of them, in the file's order.
 std::vector<Preset> presets();
 
-/// quick, default, figure.
+/// quick, default.
 std::vector<std::string> preset_names();
 
 /// Throws std::invalid_argument where `name` is none of preset_names().

@@ -93,7 +93,7 @@ LIST
 
 presets() {
   local preset
-  for preset in quick default figure; do
+  for preset in quick default; do
     printf 'timed_run\t%s\t3\t%s\n' "preset_$preset" "table1 --preset $preset"
   done
 }

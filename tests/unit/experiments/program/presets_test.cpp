@@ -10,7 +10,7 @@ namespace hagfish {
 namespace {
 
 TEST(Presets, AreThoseOfTheReadme) {
-  EXPECT_EQ(preset_names(), (std::vector<std::string>{"quick", "default", "figure"}));
+  EXPECT_EQ(preset_names(), (std::vector<std::string>{"quick", "default"}));
 }
 
 TEST(Presets, DefaultIsTheSceneItself) { EXPECT_TRUE(preset_called("default").set.empty()); }
@@ -25,13 +25,11 @@ TEST(Presets, FitEveryScene) {
 }
 
 // The longer the step, the cheaper and the rougher.
-TEST(Presets, RiseInCostFromQuickToFigure) {
-  double before = 1;
-  for (const char* name : {"quick", "default", "figure"}) {
-    const double step = scene_argument("table1", preset_called(name).set).scene.time.step;
-    EXPECT_LT(step, before) << name;
-    before = step;
-  }
+TEST(Presets, QuickTakesLongerStepsThanDefault) {
+  const auto step = [](const char* name) {
+    return scene_argument("table1", preset_called(name).set).scene.time.step;
+  };
+  EXPECT_GT(step("quick"), step("default"));
 }
 
 TEST(Presets, AreNoScene) {
