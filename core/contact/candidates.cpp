@@ -57,16 +57,23 @@ void add_motion(const std::vector<SplineSegment>& segments, Candidates& candidat
 }
 
 void list_pairs(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
-                BroadPhase& broad_phase, Candidates& candidates) {
+                Candidates& candidates) {
   candidates.pairs.clear();
   candidates.clear_until.clear();
   candidates.moved.assign(segments.size(), 0);
   // Slack, so that rounding does not put equal arcs on different sides of the bound.
   const double least_arc = settings.least_arc * (1 - 1e-9);
-  for (const NearPair& near : broad_phase.find(segments, settings.margin + carried, least_arc)) {
-    const double reach = segments[near.of.a].bound + segments[near.of.b].bound + settings.margin;
-    candidates.pairs.push_back(near.of);
-    candidates.clear_until.push_back(near.apart - reach);
+  const int n = static_cast<int>(segments.size());
+  for (int a = 0; a < n; ++a) {
+    for (int b = a + 1; b < n; ++b) {
+      if (segments[b].s0 - segments[a].arc(1) < least_arc) continue;
+      const double reach = segments[a].bound + segments[b].bound + settings.margin;
+      const double square = (segments[a].middle - segments[b].middle).squaredNorm();
+      if (square <= (reach + carried) * (reach + carried)) {
+        candidates.pairs.push_back({a, b});
+        candidates.clear_until.push_back(std::sqrt(square) - reach);
+      }
+    }
   }
   candidates.all_changed = true;
   candidates.closest.assign(candidates.pairs.size(), std::nullopt);
@@ -223,7 +230,7 @@ void index_pairs(std::size_t segments, Candidates& candidates) {
 }
 
 void update_candidates(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
-                       BroadPhase& broad_phase, Candidates& candidates) {
+                       Candidates& candidates) {
   if (segments.empty()) {  // a single body
     candidates = {};
     index_pairs(0, candidates);
@@ -231,12 +238,12 @@ void update_candidates(const std::vector<SplineSegment>& segments, const Contact
   }
   if (candidates.moved.size() != segments.size()) {
     keep_ends(segments, candidates);
-    list_pairs(segments, settings, broad_phase, candidates);
+    list_pairs(segments, settings, candidates);
     return;
   }
   add_motion(segments, candidates);
   if (!(std::ranges::max(candidates.moved) <= 0.5 * carried)) {
-    list_pairs(segments, settings, broad_phase, candidates);
+    list_pairs(segments, settings, candidates);
   }
 }
 

@@ -7,11 +7,15 @@
 #include <optional>
 #include <vector>
 
-#include "core/contact/broad_phase.hpp"
 #include "core/contact/closest_points.hpp"
 #include "core/contact/spline.hpp"
 
 namespace hagfish {
+
+/// Two segments, a before b.
+struct SegmentPair {
+  int a = 0, b = 0;
+};
 
 /// Where segments meet, or the first begins or the last ends: one row each.
 struct SegmentEnds {
@@ -46,10 +50,10 @@ void keep_ends(const std::vector<SplineSegment>& segments, Candidates& candidate
 /// Finds `first` for the pairs of so many segments.
 void index_pairs(std::size_t segments, Candidates& candidates);
 
-/// Adds up how far the segments have moved; lists the pairs anew, by `broad_phase`, once that is
-/// too far.
+/// Adds up how far the segments have moved. Once that is too far, lists anew the pairs whose
+/// bounding spheres are near each other (paper, 3.1).
 void update_candidates(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
-                       BroadPhase& broad_phase, Candidates& candidates);
+                       Candidates& candidates);
 
 /// Lists the pairs that may matter where the segments are now, in their order. Others have not
 /// moved far enough since they were evaluated, or are parted by planes across the normal of then or

@@ -141,7 +141,7 @@ Contact contact_at(const std::vector<SplineSegment>& segments, int segment_a, do
 void find_contacts(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
                    double near, ContactSearch& search, ContactSet& set) {
   Candidates& candidates = search.candidates;
-  update_candidates(segments, settings, search.scratch.broad_phase, candidates);
+  update_candidates(segments, settings, candidates);
   search.scratch.known.assign(candidates.pairs.size(), PairState::unknown);
   search.scratch.close.clear();
   find_due(segments, candidates, search.scratch.due);

@@ -56,7 +56,6 @@ struct ContactScratch {
   std::vector<int> close;                   ///< of those evaluated that are within the margin
   std::vector<ClosestPointsQuery> queries;  ///< of those that are due
   ClosestPointsSearch closest_points;
-  BroadPhase broad_phase;
 };
 
 /// What a search for contacts keeps for the next one with the same settings. Pairs are skipped as
