@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/chain/lanes.hpp"
+#include "core/chain/sines.hpp"
 
 namespace hagfish {
 namespace {
@@ -36,34 +36,6 @@ Eigen::Vector3d turn(Axis axis, double sine, double cosine, Frame& frame) {
   return {};
 }
 
-/// Sines and cosines of angles that are asked for one after the other, worked out side by side.
-class Turns {
- public:
-  explicit Turns(const Eigen::Ref<const Eigen::VectorXd>& angles) : angles_(angles) {}
-
-  void go_to(Eigen::Index i) {
-    at_ = static_cast<std::size_t>(i % lane_count);
-    if (at_ > 0) return;
-    LaneValues angles{};
-    if (i + lane_count <= angles_.size()) {
-      std::copy_n(angles_.data() + i, lane_count, angles.begin());
-    } else {
-      std::copy(angles_.data() + i, angles_.data() + angles_.size(), angles.begin());
-    }
-    Lanes sines, cosines;
-    sine_and_cosine(lanes_of(angles), sines, cosines);
-    sines_ = detail::bits_as<LaneValues>(sines);
-    cosines_ = detail::bits_as<LaneValues>(cosines);
-  }
-  double sine() const { return sines_[at_]; }
-  double cosine() const { return cosines_[at_]; }
-
- private:
-  const Eigen::Ref<const Eigen::VectorXd> angles_;
-  std::size_t at_ = 0;
-  LaneValues sines_{}, cosines_{};
-};
-
 /// The axes of bodies and hinges.
 void update_axes(const Model& model, const Eigen::VectorXd& q, Kinematics& kin) {
   const int n = model.body_count();
@@ -73,14 +45,13 @@ void update_axes(const Model& model, const Eigen::VectorXd& q, Kinematics& kin) 
   // Hinge axes are kept as directions here and become twists once O is known.
   const Eigen::Matrix3d root_frame = root_orientation(q).toRotationMatrix();
   Frame frame{root_frame.col(0), root_frame.col(1), root_frame.col(2)};
-  Turns turns(q.tail(model.nv() - root_dofs));
+  sines_and_cosines(q.tail(model.nv() - root_dofs), kin.sine, kin.cosine);
   for (int b = 0; b < n; ++b) {
     const Body& body = model.bodies[b];
     for (int k = b == 0 ? root_dofs : body.first_dof; k < body.first_dof + body.dofs; ++k) {
       const int hinge = k - root_dofs;
-      turns.go_to(hinge);
       kin.axis.col(k).head<3>() =
-          turn(model.hinges[hinge].axis, turns.sine(), turns.cosine(), frame);
+          turn(model.hinges[hinge].axis, kin.sine[hinge], kin.cosine[hinge], frame);
     }
     kin.rotation[b].col(0) = frame.x;
     kin.rotation[b].col(1) = frame.y;

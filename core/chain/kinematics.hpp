@@ -23,6 +23,7 @@ struct Kinematics {
   std::vector<Eigen::Matrix3d> rotation;                ///< N, body to world
   Eigen::Matrix3Xd origin;                              ///< 3 x N, body frames, cm
   Eigen::Matrix3Xd centre;                              ///< 3 x N, centres of mass, cm
+  Eigen::VectorXd sine, cosine;                         ///< of the hinges' angles
   Matrix6Xd axis;   ///< 6 x nv: column k of the Jacobian of every body at or behind dof k
   Matrix6Xd twist;  ///< 6 x N, body twists at q̇
   Eigen::Matrix3Xd centre_velocity;  ///< 3 x N, of the centres of mass at q̇, cm/s

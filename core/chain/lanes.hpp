@@ -1,14 +1,12 @@
 // Numbers that are worked on side by side, one in each lane of a vector register: eight doubles
 // with AVX-512, two without any flag. By the vector extensions of GCC and Clang; lanes do not mix.
-// Their number changes results by the last bits of root() and of sine_and_cosine() alone.
+// Their number changes results by the last bits of root() alone.
 #pragma once
 
 #include <Eigen/Core>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <numbers>
 
 namespace hagfish {
 
@@ -90,50 +88,6 @@ inline Lanes root(const Lanes& x) {
 inline FloatLanes root(const FloatLanes& x) {
   using Values = Eigen::Array<float, float_lane_count, 1>;
   return detail::bits_as<FloatLanes>(Values(detail::bits_as<Values>(x).sqrt()));
-}
-
-/// Sine and cosine of each lane, rounded in the last place or the one before, as are those of the
-/// standard library, which takes one angle at a time: π/2 is taken off in parts, and what is left
-/// is in the polynomials of fdlibm (k_sin.c, k_cos.c).
-inline void sine_and_cosine(const Lanes& angle, Lanes& sine, Lanes& cosine) {
-  constexpr double largest_turned = 1e6;  // rad, up to which products with the parts are exact
-  if (any(~(magnitude(angle) <= lanes_of(largest_turned)))) {
-    for (int k = 0; k < lane_count; ++k) {
-      sine[k] = std::sin(angle[k]);
-      cosine[k] = std::cos(angle[k]);
-    }
-    return;
-  }
-  constexpr double whole = 0x1.8p52;  // above it numbers are whole, and their last bits count
-  const Lanes shifted = angle * (2 / std::numbers::pi) + whole;
-  const Lanes turns = shifted - whole;
-  const Lanes x =
-      ((angle - turns * 0x1.921fb544p0) - turns * 0x1.0b4611a6p-34) - turns * 0x1.3198a2e037073p-69;
-  const Lanes z = x * x;
-  const Lanes s =
-      x + x * z *
-              (-1.66666666666666324348e-01 +
-               z * (8.33333333332248946124e-03 +
-                    z * (-1.98412698298579493134e-04 +
-                         z * (2.75573137070700676789e-06 + z * (-2.50507602534068634195e-08 +
-                                                                z * 1.58969099521155010221e-10)))));
-  const Lanes half = 0.5 * z;
-  const Lanes rest = 1 - half;
-  const Lanes c =
-      rest +
-      (((1 - rest) - half) +
-       z * z *
-           (4.16666666666666019037e-02 +
-            z * (-1.38888888888741095749e-03 +
-                 z * (2.48015872894767294178e-05 +
-                      z * (-2.75573143513906633035e-07 +
-                           z * (2.08757232129817482790e-09 + z * -1.13596475577881948265e-11))))));
-  const auto quarter = detail::bits_as<LaneMask>(shifted);
-  const LaneMask odd = (quarter & 1) != 0;
-  const Lanes first = odd ? c : s;
-  const Lanes second = odd ? s : c;
-  sine = (quarter & 2) != 0 ? -first : first;
-  cosine = ((quarter + 1) & 2) != 0 ? -second : second;
 }
 
 /// A vector of space in each lane.

@@ -3,9 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
-#include <numbers>
-#include <random>
 
 namespace hagfish {
 namespace {
@@ -24,45 +21,6 @@ TEST(Lanes, HaveTheRootsOfTheirNumbers) {
     }
   }
   EXPECT_EQ(root(Lanes{})[0], 0);
-}
-
-/// EXPECTs the sines and cosines of the standard library, to two units in the last place.
-void expect_sine_and_cosine(const LaneValues& angles) {
-  constexpr double rounding = 4.5e-16;
-  Lanes sine, cosine;
-  sine_and_cosine(lanes_of(angles), sine, cosine);
-  for (int k = 0; k < lane_count; ++k) {
-    const double s = std::sin(angles[k]), c = std::cos(angles[k]);
-    EXPECT_NEAR(sine[k], s, rounding * std::abs(s)) << angles[k];
-    EXPECT_NEAR(cosine[k], c, rounding * std::abs(c)) << angles[k];
-  }
-}
-
-TEST(Lanes, HaveTheSinesAndCosinesOfTheirNumbers) {
-  std::mt19937 random(5);
-  LaneValues angles;
-  for (const double size : {1e-9, 0.1, 1.0, 4.0, 100.0, 1e6, 1e9}) {
-    for (int trial = 0; trial < 2000; ++trial) {
-      for (double& angle : angles) angle = std::uniform_real_distribution(-size, size)(random);
-      expect_sine_and_cosine(angles);
-    }
-  }
-  // Where the quarter changes, and where one of the two is 0.
-  for (int eighth = -80; eighth <= 80; ++eighth) {
-    const double angle = eighth * std::numbers::pi / 4;
-    for (int k = 0; k < lane_count; ++k) angles[k] = angle * (1 + (k - 3) * 1e-16);
-    expect_sine_and_cosine(angles);
-  }
-}
-
-TEST(Lanes, OneThatIsNotFiniteHasNoSineAndSpoilsNoOther) {
-  LaneValues angles;
-  angles.fill(0.7);
-  angles[1] = std::numeric_limits<double>::infinity();
-  Lanes sine, cosine;
-  sine_and_cosine(lanes_of(angles), sine, cosine);
-  EXPECT_TRUE(std::isnan(sine[1]) && std::isnan(cosine[1]));
-  EXPECT_EQ(sine[0], std::sin(0.7));
 }
 
 TEST(Lanes, DoNotMix) {
