@@ -3,7 +3,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <optional>
 #include <vector>
 
@@ -21,23 +20,18 @@ struct SegmentPair {
 struct SegmentEnds {
   Eigen::MatrixX3d point;  ///< cm
   Eigen::MatrixX3d third;  ///< a third of the slope there, cm
-  Eigen::VectorXd radius;  ///< cm
 };
 
-/// The pairs, by index along the lists down to `normal`, and the segments that they are of.
+/// The pairs, by index along the lists down to `closest`, and the segments that they are of.
 struct Candidates {
   std::vector<SegmentPair> pairs;  ///< sorted
   /// Not due until both segments together have moved this far, cm.
   std::vector<double> clear_until;
-  /// Only at gaps up to this need the pair be evaluated again, cm.
-  std::vector<double> matters_at;
   std::vector<std::optional<ClosestPoints>> closest;  ///< of the last evaluation
-  /// X, Y and Z of a unit vector from b to a, planes across which have parted the pair; else 0.
-  std::array<std::vector<double>, 3> normal;
   std::vector<int> first;     ///< of each segment, where its pairs begin; at the end, their number
   SegmentEnds ends;           ///< of the segments of the last search
   std::vector<double> moved;  ///< at most, by each segment since the pairs were listed, cm
-  /// Since keep_candidates(): the pairs whose last evaluation or planes changed, or that all did.
+  /// Since keep_candidates(): the pairs that were evaluated, or that all changed.
   std::vector<int> changed;
   bool all_changed = true;
 
@@ -55,11 +49,9 @@ void index_pairs(std::size_t segments, Candidates& candidates);
 void update_candidates(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
                        Candidates& candidates);
 
-/// Lists the pairs that may matter where the segments are now, in their order. Others have not
-/// moved far enough since they were evaluated, or are parted by planes across the normal of then or
-/// of now, which puts them off for as far as that is sure (clear_until).
-void find_due(const std::vector<SplineSegment>& segments, Candidates& candidates,
-              std::vector<int>& due);
+/// Lists the pairs that may matter where the segments are now, in their order: those that have
+/// moved far enough since they were evaluated.
+void find_due(const Candidates& candidates, std::vector<int>& due);
 
 /// Makes `kept` the same as `candidates`, from what has changed in them since the call before,
 /// which must have been with the same `kept`.

@@ -23,7 +23,6 @@ void evaluate(const std::vector<SplineSegment>& segments, const ContactSettings&
     const int index = scratch.due[k];
     const ClosestPoints& closest = scratch.queries[k].closest;
     candidates.closest[index] = closest;
-    candidates.matters_at[index] = settings.margin;
     candidates.changed.push_back(index);
     candidates.clear_until[index] = candidates.moved_by(index) + closest.gap - settings.margin;
     scratch.known[index] = PairState::evaluated;
@@ -144,7 +143,7 @@ void find_contacts(const std::vector<SplineSegment>& segments, const ContactSett
   update_candidates(segments, settings, candidates);
   search.scratch.known.assign(candidates.pairs.size(), PairState::unknown);
   search.scratch.close.clear();
-  find_due(segments, candidates, search.scratch.due);
+  find_due(candidates, search.scratch.due);
   for (const int index : search.scratch.due) {
     search.scratch.known[index] = PairState::due;
   }
@@ -158,7 +157,6 @@ void find_contacts(const std::vector<SplineSegment>& segments, const ContactSett
     const double gap = closest.gap;
     set.least_gap = std::min(set.least_gap, gap);
     if (!minimum) {
-      candidates.matters_at[index] = near;
       candidates.clear_until[index] = candidates.moved_by(index) + gap - near;
     }
     if (minimum || gap < near) {

@@ -141,9 +141,8 @@ void serialize(Archive& archive, SegmentPair& pair) {
 template <class Archive>
 void serialize(Archive& archive, Candidates& candidates) {
   // Two follow from the others, and the last two are of BeforeStep.
-  auto& [pairs, clear_until, matters_at, closest, normal, first, ends, moved, changed,
-         all_changed] = candidates;
-  archive(pairs, clear_until, matters_at, closest, normal, moved);
+  auto& [pairs, clear_until, closest, first, ends, moved, changed, all_changed] = candidates;
+  archive(pairs, clear_until, closest, moved);
 }
 
 template <class Archive>
@@ -287,12 +286,9 @@ bool fits(const TrackedContact& tracked, int bodies) {
 }
 
 bool fits(const Candidates& candidates, int bodies) {
-  const auto& [pairs, clear_until, matters_at, closest, normal, first, ends, moved, changed,
-               all_changed] = candidates;
+  const auto& [pairs, clear_until, closest, first, ends, moved, changed, all_changed] = candidates;
   return static_cast<int>(moved.size()) == bodies - 1 && clear_until.size() == pairs.size() &&
-         matters_at.size() == pairs.size() && closest.size() == pairs.size() &&
-         std::ranges::all_of(normal,
-                             [&](const auto& list) { return list.size() == pairs.size(); }) &&
+         closest.size() == pairs.size() &&
          std::ranges::is_sorted(
              pairs, {}, [](const SegmentPair& pair) { return std::pair(pair.a, pair.b); }) &&
          std::ranges::all_of(pairs, [&](const SegmentPair& pair) {

@@ -53,7 +53,7 @@ Eigen::Matrix3Xd crossing(const Model& model, double height, double shift) {
 TEST(Contact, ASingleBodyHasNone) {
   Candidates none;
   keep_ends({}, none);
-  EXPECT_EQ(none.ends.radius.size(), 0);
+  EXPECT_EQ(none.ends.point.rows(), 0);
   ContactSearch search;
   ContactSet set;
   for (int k = 0; k < 2; ++k) {  // anew, and from its last answer
