@@ -1,11 +1,19 @@
 #!/usr/bin/env bash
-# Builds and runs every test; closes on CTest's summary. Arguments go to ctest:
-#   bash tests/run.sh -L unit          only the unit tests
+# Builds and runs the tests; closes on CTest's summary. Further arguments go to ctest:
+#   bash tests/run.sh                  all tests
+#   bash tests/run.sh --quick          those for each edit: no whole runs, no hostile input
+#   bash tests/run.sh -L validation    what has a label
 #   PRESET=sanitize bash tests/run.sh  with AddressSanitizer and UndefinedBehaviorSanitizer
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-bash experiments/setup.sh
+targets=() chosen=()
+if [[ ${1-} == --quick ]]; then
+  shift
+  targets=(--target unit_tests)
+  chosen=(-L quick)
+fi
+bash experiments/setup.sh "${targets[@]}"
 jobs=$(nproc) # which would heed OMP_NUM_THREADS
 # Serial BLAS, so that runs repeat and tests do not fight for the cores.
 export OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1
-ctest --preset "${PRESET:-release}" --parallel "$jobs" "$@"
+ctest --preset "${PRESET:-release}" --parallel "$jobs" "${chosen[@]}" "$@"
