@@ -33,29 +33,11 @@ TEST(SceneErrors, TellsMissingAndUnreadableFiles) {
             "s: specimen: is missing: a file name or a table");
 }
 
-TEST(SceneErrors, TellsSyntaxErrors) {
-  EXPECT_EQ(
-      scene_complaint("title = \n"),
-      "s.toml:1: not valid TOML: missing value after key-value separator '=' (expected value, "
-      "but got nothing)");
-}
-
 TEST(SceneErrors, RefusesWhatIsNotUtf8) {
   const std::string complaint = "s.toml: is not UTF-8, which TOML is: save it as such";
   EXPECT_EQ(scene_complaint("# caf\xe9\n"), complaint);                               // Latin-1
   EXPECT_EQ(scene_complaint(std::string("t\0i\0", 4)), complaint);                    // UTF-16
   EXPECT_EQ(scene_complaint("# caf\xc3\xa9\ntitle = 3\n").substr(0, 8), "s.toml:2");  // UTF-8
-}
-
-TEST(SceneErrors, RefusesUnknownKeys) {
-  EXPECT_EQ(scene_complaint("[controler]\ncap = 1\n"),
-            "s.toml:1: controler: unknown key; did you mean controller?");
-  EXPECT_EQ(scene_complaint("[time]\nsteps = 1\n"),
-            "s.toml:2: time.steps = 1: unknown key; did you mean time.step?");
-  EXPECT_EQ(scene_complaint("[time]\nbodies = 1\n"), "s.toml:2: time.bodies = 1: unknown key");
-  EXPECT_EQ(
-      scene_complaint("[model]\nlargest_limit = 1\n"),
-      "s.toml:2: model.largest_limit = 1: unknown key; did you mean model.largest_limit_deg?");
 }
 
 TEST(SceneErrors, RefusesBadValues) {
@@ -81,19 +63,6 @@ TEST(SceneErrors, RefusesBadValues) {
             "s.toml: time.frame_interval: must not be less than time.step, 0.05");
   EXPECT_EQ(scene_complaint("[time]\nduration = 0.001\n"),
             "s.toml:2: time.duration = 0.001: must not be less than time.step, 0.002");
-}
-
-TEST(SceneErrors, RefusesBadOverrides) {
-  EXPECT_EQ(scene_complaint("", {"time.stop=1"}),
-            "s.toml: --set time.stop=1: unknown key; did you mean time.step?");
-  EXPECT_EQ(scene_complaint("", {"time.step=fast"}),
-            "s.toml: --set time.step=fast: must be a number");
-  EXPECT_EQ(scene_complaint("", {"time.step"}), "--set time.step: must be KEY=VALUE");
-  EXPECT_EQ(scene_complaint("", {"constraints.activation=never"}),
-            "s.toml: --set constraints.activation=never: must be one of \"speculative\", "
-            "\"violated\"");
-  EXPECT_EQ(error_of([] { read_scene(data + "/table1.toml", {"specimen.mass=0"}); }),
-            data + "/specimens/pacific_hagfish.toml: --set specimen.mass=0: must be positive");
 }
 
 TEST(SceneErrors, RefusesStartsThatDoNotFit) {
@@ -206,14 +175,6 @@ TEST(SpecimenReader, RefusesBadValues) {
   expect("station", "[0.2, 0.2]", "must rise; station 2 does not");
   expect("station", "[0.2, 1.5]", "number 2 must be from 0 to 1");
   expect("station", "[]", "must be an array of numbers");
-}
-
-TEST(SpecimenReader, NamesTheFileAndTheMissingKey) {
-  const TemporaryFolder folder;
-  const std::string file = folder.write("animal.toml", "name = 'x'\nlength = 40\nmass = 0\n");
-  EXPECT_EQ(error_of([&] { read_specimen(file); }), file + ":3: mass = 0: must be positive");
-  folder.write("animal.toml", "name = 'x'\nlength = 40\n");
-  EXPECT_EQ(error_of([&] { read_specimen(file); }), file + ": mass: is missing");
 }
 
 }  // namespace

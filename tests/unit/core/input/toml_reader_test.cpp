@@ -256,13 +256,6 @@ TEST(TomlReader, OverriddenStringsNeedNoQuotes) {
   }
 }
 
-TEST(TomlReader, TellsUnreadableFilesApart) {
-  const TemporaryFolder folder;
-  EXPECT_EQ(error_of([] { read_text_file("no/such.toml"); }), "no/such.toml: no such file");
-  EXPECT_EQ(error_of([&] { read_text_file(folder.path()); }),
-            folder.path().string() + ": is a directory");
-}
-
 TEST(TomlWriter, WritesWhatTheReaderReadsToTheBit) {
   // 1.21 rad is one of the doubles that no double of degrees reaches by the reader's product.
   const std::vector<double> values = {0.1, 1.0 / 3, -0.0, 5e-324, 1e22, 1e-5, 123456789.0, 1.21};

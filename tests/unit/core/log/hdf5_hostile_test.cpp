@@ -254,18 +254,6 @@ TEST_F(HostileHdf5, PipesDevicesAndFoldersAreNotOpened) {
             folder.path().string() + ": is a directory");
 }
 
-TEST_F(HostileHdf5, AFileThatHdf5CrashesOnEndsInOneLine) {
-  // Virtual datasets whose numbers are each other's: HDF5 1.10 opens them without end.
-  make([](H5::H5File& h5) {
-    const hsize_t extent = 4;
-    const H5::DataSpace space(1, &extent);
-    H5::DSetCreatPropList itself;
-    itself.setVirtual(space, ".", "x", space);
-    h5.createDataSet("x", number(), space, itself);
-  });
-  EXPECT_EQ(refusal_of("/x"), "the numbers of /x are in another file");
-}
-
 // HDF5 1.10 copies a text of whatever length its heap says to where there is room for as much as
 // its attribute says: over its own memory, to be found out at some time later.
 TEST_F(HostileHdf5, ATextOfFalseLengthSpoilsNoMemory) {

@@ -175,22 +175,6 @@ TEST_F(LogTest, TheSameRunTwiceGivesTheSameBytes) {
   }
 }
 
-TEST_F(LogTest, RefusesToReplaceUnlessAsked) {
-  const fs::path file = folder / "run.h5";
-  std::ofstream(file) << "precious";
-  try {
-    LogWriter log(file, false, header, model, scene);
-    FAIL() << "replaced an existing file";
-  } catch (const FileError& error) {
-    EXPECT_EQ(error.what(), file.string() + ": already exists (--force replaces it)");
-  }
-  EXPECT_EQ(fs::file_size(file), 8u);
-  LogWriter log(file, true, header, model, scene);
-  write(log, 1);
-  log.finish("complete", sim);
-  EXPECT_GT(fs::file_size(file), 8u);
-}
-
 TEST_F(LogTest, KeepsWhatWasSavedUnlessFinished) {
   const fs::path file = folder / "run.h5";
   { LogWriter log(file, false, header, model, scene); }
@@ -282,17 +266,6 @@ TEST_F(LogTest, FailedRunsStayReadable) {
   EXPECT_EQ(h5.shape("/trajectory/time"), std::vector<hsize_t>{2});
 }
 
-TEST_F(LogTest, NamesAFolderThatIsNotThere) {
-  const fs::path file = folder / "missing/run.h5";
-  try {
-    LogWriter log(file, false, header, model, scene);
-    FAIL();
-  } catch (const FileError& error) {
-    EXPECT_EQ(std::string(error.what()).rfind(file.string(), 0), 0u) << error.what();
-    EXPECT_NE(std::string(error.what()).find("No such file"), std::string::npos) << error.what();
-  }
-}
-
 TEST_F(LogTest, AFullDiskIsOneLineAndKeepsWhatWasSaved) {
   // In a child: a limit on file size stands for a full disk and cannot be taken back.
   const fs::path file = folder / "run.h5";
@@ -320,19 +293,6 @@ TEST_F(LogTest, AFullDiskIsOneLineAndKeepsWhatWasSaved) {
   EXPECT_EQ(h5.root_text("status").find("failed: "), 0u) << h5.root_text("status");
   EXPECT_GT(h5.shape("/trajectory/time")[0], 0u);
   EXPECT_FALSE(fs::exists(folder / "run.h5.lock"));
-}
-
-TEST_F(LogTest, ForeignFilesAreRefusedInOneLine) {
-  const fs::path file = folder / "run.h5";
-  std::ofstream(file) << "not HDF5";
-  try {
-    const Hdf5Reader h5(file);
-    FAIL();
-  } catch (const FileError& error) {
-    EXPECT_EQ(std::string(error.what()).rfind(file.string(), 0), 0u);
-    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
-  }
-  EXPECT_THROW(Hdf5Reader(folder / "nothing.h5"), FileError);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-"""What others made of a log or a machine: half a log, one without a group, a folder that cannot be written, no ffmpeg, no OpenGL.
-Each command that shows a log says it in one line, exits 2 and leaves nothing behind."""
+"""A folder that cannot be written, no ffmpeg, no OpenGL: each command that writes says it in one line, exits 2 and leaves nothing
+behind. Damaged logs are the fuzz test's (tests/fuzz)."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ import shutil
 import sys
 from pathlib import Path
 
-import h5py
 import numpy as np
 import pytest
 
@@ -33,29 +32,6 @@ def log(tmp_path_factory):
 def folder(tmp_path, log):
     shutil.copy(log, tmp_path / "a.h5")
     return tmp_path
-
-
-def test_half_a_log(folder):
-    (folder / "a.h5").write_bytes((folder / "a.h5").read_bytes()[:100000])
-    for command, out in SHOW.items():
-        refused(folder, command, "a.h5", "--out", out, parts=("a.h5", "HDF5"))
-
-
-@pytest.mark.parametrize("group", ["knot", "contacts", "trajectory/position", "trajectory/q", "diagnostics"])
-def test_a_log_without_what_all_need(folder, group):
-    with h5py.File(folder / "a.h5", "a") as file:
-        del file[group]
-    for command, out in SHOW.items():
-        refused(folder, command, "a.h5", "--out", out, parts=("a.h5", f"/{group}"))
-
-
-def test_a_log_without_means(folder):
-    with h5py.File(folder / "a.h5", "a") as file:
-        del file["mean"]
-    for command in ("export", "view"):
-        refused(folder, command, "a.h5", "--out", SHOW[command], parts=("a.h5", "/mean/forces"))
-    for command in ("movie", "picture"):
-        refused(folder, command, "a.h5", "--out", SHOW[command], "--colour", "thigmotaxis", parts=("a.h5", "/mean/forces/thigmotaxis"))
 
 
 def test_a_folder_that_cannot_be_written(folder):

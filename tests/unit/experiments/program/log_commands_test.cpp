@@ -183,23 +183,5 @@ TEST_F(LogCommandsTest, InfoGivesJson) {
   EXPECT_NE(both.output.find("a.h5:\nstatus "), std::string::npos) << both.output;
 }
 
-TEST_F(LogCommandsTest, ALogThatSaysItHoldsMoreThanItsFileIsOneHonestLine) {
-  ASSERT_EQ(run_program(brief_run + "--out a.h5").code, 0);
-  {
-    // 7e15 bytes, of which none is on disk: more than any address space.
-    H5::H5File file((folder / "a.h5").string(), H5F_ACC_RDWR);
-    file.unlink("/trajectory/q");
-    const hsize_t size[] = {30'000'000, 30'000'000}, chunk[] = {100, 100};
-    H5::DSetCreatPropList chunked;
-    chunked.setChunk(2, chunk);
-    file.createDataSet("/trajectory/q", H5::PredType::NATIVE_DOUBLE, H5::DataSpace(2, size),
-                       chunked);
-  }
-  const ProgramOutcome info = run_program("info a.h5");
-  EXPECT_EQ(info.code, 2);
-  EXPECT_EQ(info.output,
-            "hagfish: a.h5: /trajectory/q says that it holds more than a file of this size can\n");
-}
-
 }  // namespace
 }  // namespace hagfish

@@ -60,22 +60,7 @@ TEST_F(MovieTest, RefusesBadInputInOneLine) {
   expect_refused("movie a.log --out a.mp4 --speed 0", {"--speed"});
   expect_refused("movie a.log --out a.mp4 --speed nan", {"--speed", "nan"});
   expect_refused("movie a.log --out a.mp4 --speed 1e-9", {"--speed", "pictures"});
-  expect_refused("movie none.h5 --out a.mp4", {"none.h5", "no such file"});
-  expect_refused("movie a.log --out /no/such/a.mp4", {"/no/such/a.mp4"});
-  const ProgramOutcome without = run_program("movie a.log --out a.mp4", "PATH=/no/such/folder");
-  EXPECT_EQ(without.code, 2);
-  EXPECT_EQ(without.output,
-            "hagfish: no ffmpeg: a film needs it (Debian: apt-get install ffmpeg)\n");
   EXPECT_FALSE(fs::exists(folder / "a.mp4"));
-}
-
-TEST_F(MovieTest, WithoutOpenGlItIsOneLine) {
-  const ProgramOutcome film =
-      run_program("movie a.log --out a.mp4", "__EGL_VENDOR_LIBRARY_FILENAMES=/no/such/vendor.json");
-  EXPECT_EQ(film.code, 2);
-  EXPECT_EQ(film.output.find("hagfish: no off-screen OpenGL: "), 0u) << film.output;
-  EXPECT_FALSE(fs::exists(folder / "a.mp4"));
-  EXPECT_FALSE(fs::exists(folder / "a.mp4.part"));
 }
 
 }  // namespace

@@ -66,7 +66,6 @@ TEST_F(ProgramTest, PicturesOfASizeAreFramesOfAFilm) {
 TEST_F(ProgramTest, PictureRefusesBadInputInOneLine) {
   ASSERT_EQ(run_program(brief_run + "--out a.h5").code, 0);
   fs::rename(folder / "a.h5", folder / "a.log");  // expect_refused looks for logs left behind
-  expect_refused("picture missing.log --out a.png", {"missing.log", "no such file"});
   expect_refused("picture a.log --out a.png --time 0.5", {"a.log", "--time 0.5", "0 to 0 s"});
   expect_refused("picture a.log --out a.png --time -1", {"a.log", "--time -1"});
   expect_refused("picture a.log --out a.png --time nan", {"a.log", "--time nan"});
@@ -78,10 +77,6 @@ TEST_F(ProgramTest, PictureRefusesBadInputInOneLine) {
   }
   expect_refused("picture a.log --out a.png --colour hue", {"--colour", "hue", "curvature"});
   expect_refused("picture a.log --out a.jpg", {"a.jpg", "--out", ".png"});
-  expect_refused("picture a.log", {"--out"});
-  expect_refused("picture a.log --out /no/such/folder/a.png", {"/no/such/folder/a.png", "No such"});
-  fs::create_directory(folder / "folder.png");
-  expect_refused("picture a.log --out folder.png", {"folder.png", "not a regular file"});
   EXPECT_FALSE(fs::exists(folder / "a.png"));
 }
 

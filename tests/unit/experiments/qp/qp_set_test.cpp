@@ -234,13 +234,5 @@ TEST_F(QpSetTest, RefusesWhatIsNoSet) {
   EXPECT_EQ(failure(no_group), file + ": /qp/0 is no group");
 }
 
-TEST_F(QpSetTest, KeepsAnExistingFileUnlessForced) {
-  QpSetWriter(file, false, "", "").finish();
-  EXPECT_THROW(QpSetWriter(file, false, "", ""), FileError);
-  EXPECT_NO_THROW(QpSetWriter(file, true, "", ""));
-  EXPECT_THROW(QpSetWriter(folder.path(), true, "", ""), FileError) << "a folder";
-  EXPECT_THROW(QpSetWriter(folder / "none" / "a.qps", true, "", ""), FileError);
-}
-
 }  // namespace
 }  // namespace hagfish
