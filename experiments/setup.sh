@@ -12,13 +12,18 @@ packages=(
   libtinyxml2-dev                                       # what the MJCF in a log may say
   libegl-dev libgl1-mesa-dri libpng-dev                 # pictures, without a display
   libqhull-dev libgl-dev libopengl-dev                  # named by MuJoCo's CMake file, but not by its package
-  libgtest-dev libbenchmark-dev python3-pytest          # tests and benchmarks
+  libgtest-dev libbenchmark-dev                         # tests and benchmarks
   python3 python3-h5py python3-matplotlib               # figures
-  pybind11-dev python3-dev python3-xarray               # the Python module, and logs in it
+  pybind11-dev python3-dev                              # the Python module
   libjs-three node-d3                                   # replays in a browser
-  ffmpeg                                                # films
-  parallel                                              # jobs of studies that are no grids
 )
+if [[ -z ${HAGFISH_RUN_ONLY-} ]]; then
+  packages+=(
+    python3-pytest python3-xarray                       # tests, and logs in Python
+    ffmpeg                                              # films
+    parallel                                            # jobs of studies that are no grids
+  )
+fi
 if [[ -n ${HAGFISH_CLUSTER-} ]]; then
   packages+=(snakemake slurmctld slurmd slurm-client munge time) # sweeps on a cluster, and a cluster to try them on
 fi

@@ -4,6 +4,7 @@
 # folder.
 #   bash experiments/table1.sh [OUTPUT_FOLDER]     default: out/table1
 set -euo pipefail
+export HAGFISH_RUN_ONLY=1 # no packages for films, tests and other studies
 source "$(dirname "${BASH_SOURCE[0]}")/studies/common.sh"
 
 # Exit codes 1 and 3 are runs that stopped: their log is audited and drawn as far as it goes. Either failure
