@@ -1,7 +1,5 @@
 #include "core/chain/kinematics.hpp"
 
-#include <algorithm>
-
 #include "core/chain/sines.hpp"
 
 namespace hagfish {
