@@ -59,6 +59,7 @@ SplineMix mix_at(const Model& model, double parameter) {
 MujocoLoop::MujocoLoop(const Model& model, const Scene& scene, const MujocoSettings& settings)
     : model_(model), scene_(scene), settings_(settings) {
   if (scene.wall.present) throw InputError("wall.present: MuJoCo's model has no head plate");
+  if (!scene.obstacles.empty()) throw InputError("obstacle: a run in MuJoCo knows none");
   using Kind = ScriptSettings::Kind;
   if (scene.script.kind == Kind::force || scene.script.kind == Kind::position) {
     throw InputError(

@@ -7,6 +7,8 @@
 #include <sstream>
 #include <vector>
 
+#include "core/contact/obstacles.hpp"
+
 namespace hagfish {
 namespace {
 
@@ -139,12 +141,30 @@ void write_excludes(std::ostream& out, const Model& model, double least_arc) {
   }
 }
 
+/// What the world holds that bodies touch.
+void write_obstacles(std::ostream& out, const Model& model) {
+  for (const Obstacle& obstacle : model.obstacles) {
+    if (obstacle.kind == Obstacle::Kind::plane) {
+      if (obstacle.neck > 0) continue;
+      out << "<geom type=\"plane\" pos=\"" << obstacle.point.transpose() << "\" zaxis=\""
+          << obstacle.normal.transpose() << "\" size=\"20 20 1\"/>\n";
+      continue;
+    }
+    const Eigen::Matrix3Xd curve = strand_curve(obstacle);
+    for (Eigen::Index k = 0; k + 1 < curve.cols(); ++k) {
+      out << "<geom fromto=\"" << curve.col(k).transpose() << ' ' << curve.col(k + 1).transpose()
+          << "\" size=\"" << obstacle.radius << "\"/>\n";
+    }
+  }
+}
+
 std::string root_file(const Model& model, double least_arc, double h) {
   const int contacts = contacts_per_body * model.body_count();
   const int rows = contacts + static_cast<int>(model.hinges.size());  // each contact is one row
   std::ostringstream out = number_stream();
   out << "<!-- Units: cm, g, s, rad. -->\n"
-         "<!-- The animal alone, without water drag, head plate, and what a scene does to the "
+         "<!-- The animal and its obstacles, without water drag, the head plate, and what a scene "
+         "does to the "
          "animal or has it do: "
          "the tip's force, the active torques of its muscles (their stiffness towards a rest shape "
          "that moves is no joint stiffness of MuJoCo's), thigmotaxis. -->\n";
@@ -162,9 +182,9 @@ std::string root_file(const Model& model, double least_arc, double h) {
          "</default>\n"
          "<worldbody>\n"
          "<include file=\""
-      << bodies_file_name(0)
-      << "\"/>\n"
-         "</worldbody>\n"
+      << bodies_file_name(0) << "\"/>\n";
+  write_obstacles(out, model);
+  out << "</worldbody>\n"
          "<contact>\n";
   write_excludes(out, model, least_arc);
   out << "</contact>\n";

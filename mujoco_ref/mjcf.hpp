@@ -2,11 +2,13 @@
 //
 // Positions and velocities have the layout of core/chain/state.hpp, so a log replays as it is. What
 // the two simulators share: bodies with their inertias, joints with limits, stiffness and damping,
-// the skin as frictionless capsules, and gravity. What is left out: water drag, which MuJoCo knows
-// only in other forms, limits on the total angle of a joint (the root document says so), since
-// MuJoCo limits hinges one by one, and all that belongs to a scene: head plate, script, the active
-// torques of muscles, controller. Muscles, where the model has them, are spatial tendons with
-// general actuators, whose controls are activations: 0 but where someone sets them.
+// the skin as frictionless capsules, gravity, and obstacles: strands as capsules, planes as planes.
+// What is left out: planes with a neck, as the head plate, since MuJoCo knows no bodies that pass
+// through one, water drag, which MuJoCo knows only in other forms, limits on the total angle of a
+// joint (the root document says so), since MuJoCo limits hinges one by one, and all that belongs to
+// a scene: script, the active torques of muscles, controller. Muscles, where the model has them,
+// are spatial tendons with general actuators, whose controls are activations: 0 but where someone
+// sets them.
 #pragma once
 
 #include <map>

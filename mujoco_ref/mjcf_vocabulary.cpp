@@ -18,6 +18,7 @@ namespace {
 // the square of the rows.
 constexpr int most_bodies = 400;
 constexpr int most_joints = 3 * most_bodies;
+constexpr int most_geoms = 20000;  // of bodies and of strands, which scene_reader.cpp bounds
 constexpr int most_sites = 4 * 8 * most_bodies;  // at their definition and in tendons
 constexpr int most_rows = 5000;
 constexpr std::size_t largest_text = std::size_t{1} << 24;  // of one file, bytes
@@ -44,7 +45,7 @@ const std::map<std::string_view, std::set<std::string_view>>& vocabulary() {
       {"actuator", {}},
       {"general", {"name", "tendon", "ctrllimited", "ctrlrange", "gainprm"}},
       {"inertial", {"pos", "mass", "diaginertia"}},
-      {"geom", {"type", "condim", "fromto", "size"}}};
+      {"geom", {"type", "condim", "fromto", "size", "pos", "zaxis"}}};
   return attributes;
 }
 
@@ -81,7 +82,8 @@ class VocabularyCheck : public tinyxml2::XMLVisitor {
     if (name == "size") size(element);
     count(name == "body", bodies_, most_bodies, "bodies");
     count(name == "site" || name == "pulley", sites_, most_sites, "sites and pulleys");
-    count(name == "joint" || name == "geom", joints_, most_joints, "joints and geoms");
+    count(name == "joint", joints_, most_joints, "joints");
+    count(name == "geom", geoms_, most_geoms, "geoms");
     return true;
   }
 
@@ -115,7 +117,7 @@ class VocabularyCheck : public tinyxml2::XMLVisitor {
   const std::map<std::string, std::string>& files_;
   std::string file_;
   std::set<std::string> included_;
-  int bodies_ = 0, joints_ = 0, sites_ = 0;
+  int bodies_ = 0, joints_ = 0, geoms_ = 0, sites_ = 0;
 };
 
 }  // namespace

@@ -19,12 +19,13 @@ Model smooth(Model model) {
   return model;
 }
 
-std::vector<State> core_rollout(const Model& model, const State& start, Head head, TimeRule rule,
+std::vector<State> core_rollout(const Model& animal, const State& start, Head head, TimeRule rule,
                                 double h, int steps) {
   Scene scene;
   scene.time.rule = rule;
   scene.time.step = h;
-  scene.wall.present = false;
+  Model model = animal;
+  model.obstacles.clear();
   Control control;
   control.clamp_head = head == Head::clamped;
   StepSolver solver("active-set");  // no row needs it

@@ -131,6 +131,18 @@ double hinge_span(int bodies, double length, int body) {
   return (to - from) * length;
 }
 
+std::vector<Obstacle> obstacles_of(const Scene& scene) {
+  std::vector<Obstacle> all;
+  if (scene.wall.present) {
+    Obstacle& plate = all.emplace_back();
+    plate.name = "head plate";
+    plate.kind = Obstacle::Kind::plane;
+    plate.neck = scene.wall.neck;
+  }
+  all.insert(all.end(), scene.obstacles.begin(), scene.obstacles.end());
+  return all;
+}
+
 Model make_hagfish(const Specimen& specimen, const Scene& scene) {
   const ModelSettings& settings = scene.model;
   const int n = settings.bodies;
@@ -149,6 +161,7 @@ Model make_hagfish(const Specimen& specimen, const Scene& scene) {
   }
 
   Model model;
+  model.obstacles = obstacles_of(scene);
   model.drag = scene.drag;
   model.gravity = scene.gravity;
   for (int b = 0; b < n; ++b) {

@@ -46,8 +46,9 @@ struct BendingCone {
 struct Model {
   std::vector<Body> bodies;   ///< head to tail
   std::vector<Hinge> hinges;  ///< head to tail; hinge k has velocity 6 + k and coordinate 7 + k
-  std::vector<BendingCone> cones;  ///< head to tail; none where each hinge has its own limit
-  std::vector<Muscle> muscles;     ///< by joint, head to tail; none but where the scene has them
+  std::vector<BendingCone> cones;   ///< head to tail; none where each hinge has its own limit
+  std::vector<Muscle> muscles;      ///< by joint, head to tail; none but where the scene has them
+  std::vector<Obstacle> obstacles;  ///< what its bodies and skin stay out of
   DragSettings drag;
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< cm / s^2
 
@@ -96,11 +97,15 @@ Eigen::Vector3d cylinder_inertia(double mass, double length, double radius);
 /// order in `length`.
 double hinge_span(int bodies, double length, int body);
 
+/// What the animal stays out of: the head plate where there is one, then the scene's others. Their
+/// places in this list are their indices everywhere.
+std::vector<Obstacle> obstacles_of(const Scene& scene);
+
 /// The animal (design: alternating YZ-universal and X-revolute joints, paper 3.1). Mass is in
 /// proportion to r^2; stiffness and damping are those of the length of body that a joint stands
 /// for, limits those of one joint in every two bodies, so that the physics per length does not
-/// depend on the number of bodies. Scaled as ModelSettings says. Throws std::invalid_argument for a
-/// body count outside 2..400.
+/// depend on the number of bodies. Scaled as ModelSettings says, and among the scene's obstacles.
+/// Throws std::invalid_argument for a body count outside 2..400.
 Model make_hagfish(const Specimen& specimen, const Scene& scene);
 
 }  // namespace hagfish

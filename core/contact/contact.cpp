@@ -134,6 +134,7 @@ Contact contact_at(const std::vector<SplineSegment>& segments, int segment_a, do
   c.normal = apart.normalized();
   c.tangent_a = a.slope(t_a).normalized();
   c.tangent_b = b.slope(t_b).normalized();
+  c.obstacle = b.obstacle;
   return c;
 }
 
@@ -149,6 +150,7 @@ void find_contacts(const std::vector<SplineSegment>& segments, const ContactSett
   }
   evaluate_with_neighbours(segments, settings, search);
   set.contacts.clear();
+  set.on_obstacles.clear();
   set.others.clear();
   set.least_gap = settings.margin;
   for (const int index : search.scratch.close) {
@@ -161,8 +163,9 @@ void find_contacts(const std::vector<SplineSegment>& segments, const ContactSett
     }
     if (minimum || gap < near) {
       const SegmentPair& pair = candidates.pairs[index];
-      (minimum ? set.contacts : set.others)
-          .push_back(contact_at(segments, pair.a, closest.t_a, pair.b, closest.t_b));
+      const Contact contact = contact_at(segments, pair.a, closest.t_a, pair.b, closest.t_b);
+      const bool on_obstacle = contact.obstacle >= 0;
+      (!minimum ? set.others : (on_obstacle ? set.on_obstacles : set.contacts)).push_back(contact);
     }
   }
   std::sort(set.contacts.begin(), set.contacts.end(), [](const Contact& x, const Contact& y) {

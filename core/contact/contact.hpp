@@ -1,4 +1,5 @@
-// Self-contact of the swept skin: where strands of the body touch or nearly touch.
+// Contact of the swept skin: where strands of the body touch or nearly touch each other, or a
+// strand that is an obstacle.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,16 +11,18 @@
 
 namespace hagfish {
 
-/// One local minimum of the gap between two strands; a is the strand nearer the head.
+/// One local minimum of the gap between two strands; a is the strand nearer the head, b the other
+/// one or an obstacle.
 struct Contact {
   int segment_a = 0, segment_b = 0;
   double t_a = 0, t_b = 0;
-  double arc_a = 0, arc_b = 0;           ///< arc length from the head, cm
+  double arc_a = 0, arc_b = 0;           ///< arc length from the head, cm; infinite on an obstacle
   double gap = 0;                        ///< cm; negative where the skins overlap
   Eigen::Vector3d normal;                ///< unit, world, from b to a: the gap's rate along ẋ_a
   Eigen::Vector3d tangent_a, tangent_b;  ///< unit, world, both to the tail
+  int obstacle = -1;                     ///< that strand b is; -1: the body itself
 
-  /// Body of the chain nearest to the point on strand a (b).
+  /// Body of the chain nearest to the point on strand a (b, where that is of the body).
   int body_a() const { return segment_a + (t_a >= 0.5 ? 1 : 0); }
   int body_b() const { return segment_b + (t_b >= 0.5 ? 1 : 0); }
 };
@@ -28,6 +31,7 @@ struct ContactSet {
   /// Local minima of the gap up to the margin, sorted by arc_a, then arc_b: some 5 to 15 in a tight
   /// knot. The gap is positive everywhere if it is at those.
   std::vector<Contact> contacts;
+  std::vector<Contact> on_obstacles;  ///< the same between the body and strands that are obstacles
   /// Pairs that nearly touch but are no minimum. They matter only where a step makes them one.
   std::vector<Contact> others;
   /// Least gap found, cm; at most the margin.

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/chain/bending.hpp"
-#include "core/contact/wall.hpp"
+#include "core/contact/obstacles.hpp"
 
 namespace hagfish {
 namespace {
@@ -24,11 +24,11 @@ void observe_placed(const Model& model, const State& state, const Scene& scene,
                     ContactSearch& search, Observation& observation) {
   Observation& o = observation;
   update_velocities(model, state.qdot, o.kin);
-  update_spline(model, o.kin.centre, o.segments);
+  update_segments(model, o.kin.centre, o.segments);
   find_contacts(o.segments, scene.contact, closing_speed * scene.time.step, search, o.contact);
   o.penetration = std::max(0.0, -o.contact.least_gap);
-  visit_wall_gaps(model, o.kin, scene.wall,
-                  [&](int, double gap) { o.penetration = std::max(o.penetration, -gap); });
+  visit_plane_gaps(model, o.kin,
+                   [&](int, int, double gap) { o.penetration = std::max(o.penetration, -gap); });
   double past_limit = 0;
   for (int k = root_dofs; k < model.nv(); ++k) {
     const Hinge& hinge = model.hinges[k - root_dofs];

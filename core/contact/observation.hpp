@@ -14,9 +14,9 @@ namespace hagfish {
 /// Found once per state, used by controller, constraints and log.
 struct Observation {
   Kinematics kin;
-  std::vector<SplineSegment> segments;
+  std::vector<SplineSegment> segments;  ///< of the body and of obstacles (obstacles.hpp)
   ContactSet contact;
-  double penetration = 0;      ///< deepest overlap of skins or with the head plate, cm, >= 0
+  double penetration = 0;      ///< deepest overlap of skins or with an obstacle, cm, >= 0
   double limit_violation = 0;  ///< largest angle past a limit, rad, >= 0
 };
 

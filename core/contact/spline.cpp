@@ -31,6 +31,22 @@ SplineMix spline_mix(int segment, double t, int bodies) {
   return mix;
 }
 
+void set_curve(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1, const Eigen::Vector3d& p2,
+               const Eigen::Vector3d& p3, SplineSegment& s) {
+  s.c0 = p1;
+  s.c1 = 0.5 * (p2 - p0);
+  s.c2 = 0.5 * (2 * p0 - 5 * p1 + 4 * p2 - p3);
+  s.c3 = 0.5 * (-p0 + 3 * p1 - 3 * p2 + p3);
+  // A cubic lies in the hull of its Bézier points, two of which are the ends.
+  s.middle = 0.5 * (p1 + p2);
+  constexpr double sixth = 1.0 / 6;
+  const Eigen::Vector3d b1 = p1 + sixth * (p2 - p0);
+  const Eigen::Vector3d b2 = p2 - sixth * (p3 - p1);
+  s.bound = std::sqrt(std::max({(p1 - s.middle).squaredNorm(), (b1 - s.middle).squaredNorm(),
+                                (b2 - s.middle).squaredNorm()})) +
+            std::max(s.r0, s.r0 + s.r1);
+}
+
 void update_spline(const Model& model, const Eigen::Matrix3Xd& centre,
                    std::vector<SplineSegment>& segments) {
   const int n = model.body_count();
@@ -42,23 +58,13 @@ void update_spline(const Model& model, const Eigen::Matrix3Xd& centre,
     const Eigen::Vector3d p0 = i > 0 ? centre.col(i - 1).eval() : (2 * p1 - p2).eval();
     const Eigen::Vector3d p3 = i + 2 < n ? centre.col(i + 2).eval() : (2 * p2 - p1).eval();
     SplineSegment& s = segments[i];
-    s.c0 = p1;
-    s.c1 = 0.5 * (p2 - p0);
-    s.c2 = 0.5 * (2 * p0 - 5 * p1 + 4 * p2 - p3);
-    s.c3 = 0.5 * (-p0 + 3 * p1 - 3 * p2 + p3);
     s.r0 = model.bodies[i].radius;
     s.r1 = model.bodies[i + 1].radius - s.r0;
     s.s0 = arc;
     s.s1 = 0.5 * (model.bodies[i].length + model.bodies[i + 1].length);
     arc += s.s1;
-    // A cubic lies in the hull of its Bézier points, two of which are the ends.
-    s.middle = 0.5 * (p1 + p2);
-    constexpr double sixth = 1.0 / 6;
-    const Eigen::Vector3d b1 = p1 + sixth * (p2 - p0);
-    const Eigen::Vector3d b2 = p2 - sixth * (p3 - p1);
-    s.bound = std::sqrt(std::max({(p1 - s.middle).squaredNorm(), (b1 - s.middle).squaredNorm(),
-                                  (b2 - s.middle).squaredNorm()})) +
-              std::max(s.r0, s.r0 + s.r1);
+    s.obstacle = -1;
+    set_curve(p0, p1, p2, p3, s);
   }
 }
 

@@ -28,9 +28,11 @@ SplineMix spline_mix(int segment, double t, int bodies);
 struct SplineSegment {
   Eigen::Vector3d c0, c1, c2, c3;  ///< cm
   double r0 = 0, r1 = 0;           ///< cm
-  double s0 = 0, s1 = 0;           ///< arc length from the head at rest, s(t) = s0 + s1 t, cm
+  double s0 = 0, s1 = 0;           ///< arc length from the head at rest, s(t) = s0 + s1 t, cm;
+                                   ///< infinite where it is no part of the body
   Eigen::Vector3d middle;          ///< centre of a sphere that holds the skin of the segment, cm
   double bound = 0;                ///< its radius, cm
+  int obstacle = -1;               ///< that it is a part of; -1: the body itself
 
   Eigen::Vector3d point(double t) const { return c0 + t * (c1 + t * (c2 + t * c3)); }
   Eigen::Vector3d slope(double t) const { return c1 + t * (2 * c2 + 3 * t * c3); }
@@ -38,6 +40,11 @@ struct SplineSegment {
   double radius(double t) const { return r0 + t * r1; }
   double arc(double t) const { return s0 + t * s1; }
 };
+
+/// Sets the curve of a segment from the second to the third of four points (cm), and the sphere
+/// about its skin, from its radius.
+void set_curve(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1, const Eigen::Vector3d& p2,
+               const Eigen::Vector3d& p3, SplineSegment& segment);
 
 /// All segments through the columns of `centre` (3 x N, cm) with the bodies' radii.
 void update_spline(const Model& model, const Eigen::Matrix3Xd& centre,

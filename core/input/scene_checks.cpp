@@ -7,6 +7,9 @@
 #include <vector>
 
 #include "core/chain/model.hpp"
+#include "core/chain/start.hpp"
+#include "core/contact/observation.hpp"
+#include "core/contact/obstacles.hpp"
 #include "core/input/toml_range.hpp"
 #include "core/knot/knot.hpp"
 #include "core/run/laws.hpp"
@@ -143,6 +146,26 @@ void check_food(const TableReader& root, const Scene& scene) {
   }
 }
 
+/// No obstacle but the head plate, which a neck may be in, overlaps the body at the start.
+void check_obstacles(const TableReader& root, const ResolvedScene& resolved) {
+  const Scene& scene = resolved.scene;
+  if (scene.obstacles.empty()) return;
+  const Model model = make_hagfish(resolved.specimen, scene);
+  const Observation seen = observe(model, start_state(model, scene.start), scene);
+  const auto check = [&](int obstacle, int body, double gap) {
+    const int index = obstacle - (scene.wall.present ? 1 : 0);
+    if (index >= 0 && gap < -scene.constraints.tolerance) {
+      root.fail_element("obstacle", static_cast<std::size_t>(index),
+                        "the " + model.obstacles[obstacle].name + " overlaps body " +
+                            std::to_string(body) + " at the start by " + shortest(-gap) + " cm");
+    }
+  };
+  for (const Contact& contact : seen.contact.on_obstacles) {
+    check(contact.obstacle, contact.body_a(), contact.gap);
+  }
+  visit_plane_gaps(model, seen.kin, check);
+}
+
 void check_times(const TableReader& root, const TimeSettings& time) {
   const std::string step = "must not be less than time.step, " + shortest(time.step);
   if (time.frame_interval < time.step) root.fail("time.frame_interval", step);
@@ -203,6 +226,7 @@ void check_scene(const TableReader& root, const ResolvedScene& resolved) {
   check_muscles(root, resolved);
   check_law(root, resolved);
   check_food(root, resolved.scene);
+  check_obstacles(root, resolved);
   check_times(root, resolved.scene.time);
   check_expectations(root, resolved.scene);
 }

@@ -31,6 +31,15 @@ struct ScriptFile {
   ProgramTable curvature;
 };
 
+/// An obstacle as its file spells it: a ring is a closed strand by another name.
+struct ObstacleFile {
+  enum class Kind { plane, strand, ring };
+  Obstacle obstacle;
+  Kind kind = Kind::plane;
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero(), axis = Eigen::Vector3d::UnitX();
+  double inner_radius = 0;  ///< of the hole, cm
+};
+
 template <class Io>
 void specimen_fields(Io& io, Specimen& s) {
   io.string("name", s.name);
@@ -115,6 +124,37 @@ void constraint_fields(Io& io, ConstraintSettings& s) {
   io.number("tolerance", s.tolerance, not_negative());
   io.integer("corrections", s.corrections, within(0, 100));
   io.number("stride", s.stride, at_least(1e-3));  // finer, a path is cut for ever
+}
+
+template <class Io>
+void obstacle_fields(Io& io, ObstacleFile& s) {
+  using Kind = ObstacleFile::Kind;
+  const auto require = [&io](std::initializer_list<const char*> keys) {
+    for (const char* key : keys) io.require(key);
+  };
+  require({"kind"});
+  io.string("name", s.obstacle.name);
+  io.template choice<Kind>(
+      "kind", s.kind, {{"plane", Kind::plane}, {"strand", Kind::strand}, {"ring", Kind::ring}});
+  if (s.kind == Kind::plane) {
+    require({"point", "normal"});
+    io.place("point", s.obstacle.point);
+    io.vector("normal", s.obstacle.normal);
+    io.length("neck", s.obstacle.neck, not_negative());
+    return;
+  }
+  require({"radius"});
+  io.length("radius", s.obstacle.radius, positive());
+  if (s.kind == Kind::strand) {
+    require({"points"});
+    io.places("points", s.obstacle.points);
+    io.boolean("closed", s.obstacle.closed);
+  } else {
+    require({"centre", "axis", "inner_radius"});
+    io.place("centre", s.centre);
+    io.vector("axis", s.axis);
+    io.length("inner_radius", s.inner_radius, positive());
+  }
 }
 
 template <class Io>
@@ -323,7 +363,7 @@ void expect_fields(Io& io, ExpectSettings& s) {
 
 /// All but `specimen`, which is a file name or a table.
 template <class Io>
-void scene_fields(Io& io, Scene& s, ScriptFile& script) {
+void scene_fields(Io& io, Scene& s, ScriptFile& script, std::vector<ObstacleFile>& obstacles) {
   io.string("title", s.title);
   io.boolean("mirror", s.mirror);
   io.boolean("clamp_head", s.clamp_head);
@@ -342,6 +382,7 @@ void scene_fields(Io& io, Scene& s, ScriptFile& script) {
     t.boolean("present", s.wall.present);
     t.length("neck", s.wall.neck, not_negative());
   });
+  io.tables("obstacle", obstacles, [](Io& t, ObstacleFile& one) { obstacle_fields(t, one); });
   io.table("start", [&](Io& t) { start_fields(t, s.start); });
   io.table("script", [&](Io& t) { script_fields(t, script); });
   io.table("active", [&](Io& t) { active_fields(t, s.active); });

@@ -1,7 +1,9 @@
 #include "core/input/scene_reader.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include "core/input/basis_csv.hpp"
@@ -163,6 +165,73 @@ ScriptSettings resolve_script(const TableReader& root, const ScriptFile& file, d
   return script;
 }
 
+/// A unit vector along `v`; one that is read again stays as it is to the last bit.
+Eigen::Vector3d unit(const TableReader& root, std::size_t index, const char* key,
+                     const Eigen::Vector3d& v) {
+  constexpr double rounding = 1e-12;
+  const double norm = v.stableNorm();
+  if (norm == 0) root.fail_element("obstacle", index, std::string(key) + " must not be all 0");
+  return std::abs(norm - 1) <= rounding ? v : Eigen::Vector3d(v / norm);
+}
+
+/// The closed strand round a hole of `ring.inner_radius`.
+void close_ring(const TableReader& root, std::size_t index, ObstacleFile& ring) {
+  constexpr int points = 32;  // the spline through them is round to 4e-5 of its radius
+  const Eigen::Vector3d axis = unit(root, index, "axis", ring.axis);
+  const Eigen::Vector3d across = axis.unitOrthogonal();
+  const double radius = ring.inner_radius + ring.obstacle.radius;
+  for (int k = 0; k < points; ++k) {
+    const double turn = 2 * std::numbers::pi * k / points;
+    ring.obstacle.points.emplace_back(
+        ring.centre + radius * (std::cos(turn) * across + std::sin(turn) * axis.cross(across)));
+  }
+  ring.obstacle.closed = true;
+}
+
+/// Checks what `files` spell and turns it into obstacles, for an animal of at most `thickest` (cm)
+/// radius.
+std::vector<Obstacle> resolve_obstacles(const TableReader& root, std::vector<ObstacleFile>& files,
+                                        double thickest) {
+  using Kind = ObstacleFile::Kind;
+  constexpr std::size_t longest_name = 40;
+  constexpr std::size_t most_points = 2000;
+  std::size_t points = 0;
+  std::vector<Obstacle> obstacles;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    ObstacleFile& file = files[i];
+    Obstacle& obstacle = file.obstacle;
+    const auto fail = [&](const std::string& why) { root.fail_element("obstacle", i, why); };
+    if (obstacle.name.empty()) obstacle.name = "obstacle " + std::to_string(i + 1);
+    const auto allowed = [](unsigned char c) {
+      return std::isalnum(c) != 0 || c == ' ' || c == '_' || c == '-';
+    };
+    if (obstacle.name.size() > longest_name || !std::ranges::all_of(obstacle.name, allowed)) {
+      fail("name must be at most 40 letters, digits, spaces, _ and -");
+    }
+    if (file.kind == Kind::plane) {
+      obstacle.kind = Obstacle::Kind::plane;
+      obstacle.normal = unit(root, i, "normal", obstacle.normal);
+    } else if (file.kind == Kind::ring) {
+      if (file.inner_radius <= thickest) {
+        fail("inner_radius = " + shortest(file.inner_radius) +
+             " is a hole too narrow for the body, whose radius is " + shortest(thickest));
+      }
+      close_ring(root, i, file);
+    }
+    const std::size_t count = obstacle.points.size();
+    points += count;
+    if (points > most_points) fail("points: all strands together may have 2000");
+    if (obstacle.closed && count < 3) fail("points: a closed strand needs three or more");
+    for (std::size_t k = obstacle.closed ? 0 : 1; k < count; ++k) {
+      if (obstacle.points[k] == obstacle.points[(k + count - 1) % count]) {
+        fail("points: point " + std::to_string(k + 1) + " is where the one before it is");
+      }
+    }
+    obstacles.push_back(obstacle);
+  }
+  return obstacles;
+}
+
 void draw_noise(ScriptSettings& script) {
   if (script.noise == 0) return;
   std::mt19937 random(script.noise_seed);
@@ -191,6 +260,11 @@ void reflect(Scene& scene) {
       row[1] *= -1;
       row[3] *= -1;
     }
+  }
+  for (Obstacle& obstacle : scene.obstacles) {
+    obstacle.point.y() *= -1;
+    obstacle.normal.y() *= -1;
+    for (Eigen::Vector3d& point : obstacle.points) point.y() *= -1;
   }
   scene.start.spin.x() *= -1;
   scene.start.spin.z() *= -1;
@@ -224,10 +298,13 @@ ResolvedScene read(SceneSource source, const std::vector<std::string>& overrides
   ScriptFile script;
   result.specimen = read_scene_specimen(root, sources, specimen_changes, result.scene.specimen);
   root.set_body(result.specimen.length, mean_diameter(result.specimen));
-  scene_fields(root, result.scene, script);
+  std::vector<ObstacleFile> obstacles;
+  scene_fields(root, result.scene, script, obstacles);
   root.finish();
   result.scene.script = resolve_script(root, script, result.specimen.length, sources);
   draw_noise(result.scene.script);
+  result.scene.obstacles = resolve_obstacles(
+      root, obstacles, std::ranges::max(result.specimen.circumference) / (2 * std::numbers::pi));
   resolve_basis(root, result.specimen.length, sources, result.scene.controller.reduced_basis);
   if (result.scene.mirror) reflect(result.scene);
   check_scene(root, result);
@@ -264,8 +341,13 @@ std::string scene_to_toml(const Scene& scene, const Specimen& specimen) {
     script.rows.emplace_back(knot.time, knot.value.x(), knot.value.y(), knot.value.z());
   }
   script.curvature = program_table(fields.script.curvature);
+  std::vector<ObstacleFile> obstacles;
+  for (const Obstacle& one : fields.obstacles) {
+    const bool plane = one.kind == Obstacle::Kind::plane;
+    obstacles.push_back({one, plane ? ObstacleFile::Kind::plane : ObstacleFile::Kind::strand});
+  }
   TomlWriter writer;
-  scene_fields(writer, fields, script);
+  scene_fields(writer, fields, script, obstacles);
   writer.table("specimen", [&](TomlWriter& table) {
     specimen_fields(table, animal);
     passive_fields(table, animal);

@@ -17,6 +17,8 @@ namespace hagfish {
 namespace {
 
 constexpr const char* numbers_wanted = "must be an array of numbers";
+/// No place of a scene is further from the origin along an axis, cm.
+constexpr double largest_place = 1e6;
 
 /// A range in degrees converted to the unit that is `unit` rad.
 Range in_unit(Range degrees, double unit) {
@@ -160,6 +162,31 @@ struct TableReader::Impl {
     return "[" + text + "]";
   }
 
+  /// A length as TableReader::length() has it, cm.
+  double length(const Place& place, const toml::value& value, const Range& range) const {
+    if (!value.is_string()) return checked(place, value, range);
+    const std::string& text = value.as_string().str;
+    double number = 0;
+    const auto read = std::from_chars(text.data(), text.data() + text.size(), number);
+    const std::string unit(read.ptr, text.data() + text.size() - read.ptr);
+    if (read.ec != std::errc() || (unit != " L" && unit != " D")) {
+      fail(place,
+           "must be a number of cm, or as \"0.2 L\" or \"12 D\", of body lengths or mean "
+           "diameters");
+    }
+    return checked(place, toml::value(number), range) *
+           (unit == " L" ? document->body_length : document->body_diameter);
+  }
+
+  /// Three lengths.
+  Eigen::Vector3d place(const Place& place, const toml::value& value) const {
+    if (!value.is_array() || value.size() != 3) fail(place, "must be three lengths [x, y, z]");
+    const Range range = within(-largest_place, largest_place);
+    Eigen::Vector3d at;
+    for (int i = 0; i < 3; ++i) at[i] = length(place, value.at(i), range);
+    return at;
+  }
+
   template <class Integer>
   void integer(std::string_view key, Integer& value, const Range& range) {
     const Place place = ask(key);
@@ -192,6 +219,10 @@ void TableReader::set(const Override& change, const std::string& shown) {
 void TableReader::require_all() { impl_->all_required = true; }
 
 bool TableReader::has(std::string_view key) const { return impl_->peek(key); }
+
+void TableReader::require(std::string_view key) const {
+  if (!has(key)) fail(key, "is missing");
+}
 
 bool TableReader::is_table(std::string_view key) const {
   const toml::value* value = impl_->peek(key);
@@ -251,22 +282,25 @@ void TableReader::set_body(double length, double diameter) {
 
 void TableReader::length(std::string_view key, double& value, const Range& range) {
   const Impl::Place place = impl_->ask(key);
+  if (place.value) value = impl_->length(place, *place.value, range);
+}
+
+void TableReader::place(std::string_view key, Eigen::Vector3d& value) {
+  const Impl::Place place = impl_->ask(key);
+  if (place.value) value = impl_->place(place, *place.value);
+}
+
+void TableReader::places(std::string_view key, std::vector<Eigen::Vector3d>& value) {
+  const Impl::Place place = impl_->ask(key);
   if (!place.value) return;
-  if (!place.value->is_string()) {
-    value = impl_->checked(place, *place.value, range);
-    return;
+  if (!place.value->is_array() || place.value->as_array().empty()) {
+    impl_->fail(place, "must be an array of points [x, y, z]");
   }
-  const std::string& text = place.value->as_string().str;
-  double number = 0;
-  const auto read = std::from_chars(text.data(), text.data() + text.size(), number);
-  const std::string unit(read.ptr, text.data() + text.size() - read.ptr);
-  if (read.ec != std::errc() || (unit != " L" && unit != " D")) {
-    impl_->fail(place,
-                "must be a number of cm, or as \"0.2 L\" or \"12 D\", of body lengths or mean "
-                "diameters");
+  value.clear();
+  for (const auto& point : place.value->as_array()) {
+    const std::string which = "point " + std::to_string(value.size() + 1) + " ";
+    value.push_back(impl_->place({place.key, &point, which}, point));
   }
-  value = impl_->checked(place, toml::value(number), range) *
-          (unit == " L" ? impl_->document->body_length : impl_->document->body_diameter);
 }
 
 void TableReader::vector(std::string_view key, Eigen::Vector3d& value) {

@@ -44,6 +44,8 @@ class TableReader {
   void require_all();
 
   bool has(std::string_view key) const;
+  /// Throws InputError where `key` is absent.
+  void require(std::string_view key) const;
   bool is_table(std::string_view key) const;
   bool is_array(std::string_view key) const;
   bool was_set(std::string_view key) const;  ///< by set()
@@ -61,6 +63,10 @@ class TableReader {
   void length(std::string_view key, double& value, const Range& range);
   /// As number(), three in an array.
   void vector(std::string_view key, Eigen::Vector3d& value);
+  /// As length(), three in an array: a place in the world.
+  void place(std::string_view key, Eigen::Vector3d& value);
+  /// As place(), one or more in an array.
+  void places(std::string_view key, std::vector<Eigen::Vector3d>& value);
   /// As number(), one or more in an array.
   void numbers(std::string_view key, std::vector<double>& value, const Range& range);
   /// An array of arrays of four numbers; errors call an element `noun`, count from 1 and name its
@@ -105,6 +111,15 @@ class TableReader {
       read(child);
       child.finish();
     }
+  }
+
+  /// The same for a list of them, which `read(TableReader&, T&)` reads one by one; left as it is
+  /// where the key is absent.
+  template <class T, class Read>
+  void tables(std::string_view key, std::vector<T>& list, Read read) {
+    if (!has(key)) return;
+    list.clear();
+    tables(key, [&](TableReader& child) { read(child, list.emplace_back()); });
   }
 
   /// Ends the reading: throws InputError for a key that was not read (with the nearest one that

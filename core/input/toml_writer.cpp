@@ -83,6 +83,14 @@ void TomlWriter::vector(std::string_view key, const Eigen::Vector3d& value) {
   line(key, array_text(value));
 }
 
+void TomlWriter::place(std::string_view key, const Eigen::Vector3d& value) { vector(key, value); }
+
+void TomlWriter::places(std::string_view key, const std::vector<Eigen::Vector3d>& value) {
+  std::string text = "[\n";
+  for (const auto& point : value) text += "  " + array_text(point) + ",\n";
+  line(key, text + "]");
+}
+
 void TomlWriter::numbers(std::string_view key, const std::vector<double>& value, const Range&) {
   if (!value.empty()) line(key, array_text(value));
 }

@@ -20,6 +20,7 @@ class TomlWriter {
  public:
   const std::string& text() const { return text_; }
 
+  void require(std::string_view) {}  ///< whoever calls it writes the key
   void string(std::string_view key, const std::string& value);
   void boolean(std::string_view key, bool value);
   void integer(std::string_view key, int value, const Range& range);
@@ -28,6 +29,8 @@ class TomlWriter {
   /// In cm: a number that undoes a product with the body's length is not always there.
   void length(std::string_view key, double value, const Range& range);
   void vector(std::string_view key, const Eigen::Vector3d& value);
+  void place(std::string_view key, const Eigen::Vector3d& value);
+  void places(std::string_view key, const std::vector<Eigen::Vector3d>& value);
   /// No line where there are none: the reader wants one or more.
   void numbers(std::string_view key, const std::vector<double>& value, const Range& range);
   void rows(std::string_view key, std::string_view noun, std::string_view columns,
@@ -53,6 +56,16 @@ class TomlWriter {
     text_ += "\n[" + path_ + "]\n";
     write(*this);
     path_ = parent;
+  }
+
+  /// Writes each of a list as a table of the array `key`, at the root; nothing where there are
+  /// none.
+  template <class T, class Write>
+  void tables(std::string_view key, std::vector<T>& list, Write write) {
+    for (T& one : list) {
+      text_ += "\n[[" + std::string(key) + "]]\n";
+      write(*this, one);
+    }
   }
 
  private:

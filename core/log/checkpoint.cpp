@@ -7,9 +7,11 @@
 #include <cereal/types/array.hpp>
 #include <cereal/types/bitset.hpp>
 #include <cmath>
+#include <cstring>
 #include <optional>
 #include <sstream>
 
+#include "core/contact/obstacles.hpp"
 #include "core/log/hdf5_error.hpp"
 
 // Each struct is taken apart by a structured binding: one that gains a member does not compile
@@ -110,14 +112,16 @@ void serialize(Archive& archive, State& state) {
 
 template <class Archive>
 void serialize(Archive& archive, Contact& contact) {
-  auto& [segment_a, segment_b, t_a, t_b, arc_a, arc_b, gap, normal, tangent_a, tangent_b] = contact;
-  archive(segment_a, segment_b, t_a, t_b, arc_a, arc_b, gap, normal, tangent_a, tangent_b);
+  auto& [segment_a, segment_b, t_a, t_b, arc_a, arc_b, gap, normal, tangent_a, tangent_b,
+         obstacle] = contact;
+  archive(segment_a, segment_b, t_a, t_b, arc_a, arc_b, gap, normal, tangent_a, tangent_b,
+          obstacle);
 }
 
 template <class Archive>
 void serialize(Archive& archive, ContactSet& set) {
-  auto& [contacts, others, least_gap] = set;
-  archive(contacts, others, least_gap);
+  auto& [contacts, on_obstacles, others, least_gap] = set;
+  archive(contacts, on_obstacles, others, least_gap);
 }
 
 template <class Archive>
@@ -263,36 +267,43 @@ namespace {
 
 // What the program takes as an index, or as a size, must be one.
 
-bool fits(const Contact& contact, int bodies) {
-  const auto on_segment = [bodies](int segment, double t) {
-    return segment >= 0 && segment < bodies - 1 && t >= 0 && t <= 1;
+bool fits(const Contact& contact, const Model& model) {
+  const int own = model.body_count() - 1;
+  const bool on_obstacle = contact.obstacle != -1;
+  if (on_obstacle && !has_strand(model, contact.obstacle)) return false;
+  const int first = on_obstacle ? strand_begin(model, contact.obstacle) : 0;
+  const int end = on_obstacle ? first + segments_of(model.obstacles[contact.obstacle]) : own;
+  const auto on_segment = [](int segment, double t, int from, int to) {
+    return segment >= from && segment < to && t >= 0 && t <= 1;
   };
   const auto direction = [](const Eigen::Vector3d& v) {
     constexpr double rounding = 1e-9;  // of a unit vector
     return std::abs(v.norm() - 1) <= rounding;
   };
-  return on_segment(contact.segment_a, contact.t_a) && on_segment(contact.segment_b, contact.t_b) &&
-         std::isfinite(contact.arc_a) && std::isfinite(contact.arc_b) &&
-         std::isfinite(contact.gap) && direction(contact.normal) && direction(contact.tangent_a) &&
-         direction(contact.tangent_b);
+  return on_segment(contact.segment_a, contact.t_a, 0, own) &&
+         on_segment(contact.segment_b, contact.t_b, first, end) && std::isfinite(contact.arc_a) &&
+         std::isfinite(contact.arc_b) != on_obstacle && std::isfinite(contact.gap) &&
+         direction(contact.normal) && direction(contact.tangent_a) && direction(contact.tangent_b);
 }
 
-bool fits(const std::vector<Contact>& contacts, int bodies) {
-  return std::ranges::all_of(contacts, [&](const Contact& c) { return fits(c, bodies); });
+bool fits(const std::vector<Contact>& contacts, const Model& model) {
+  return std::ranges::all_of(contacts, [&](const Contact& c) { return fits(c, model); });
 }
 
-bool fits(const TrackedContact& tracked, int bodies) {
-  return !tracked.contact || fits(*tracked.contact, bodies);
+bool fits(const TrackedContact& tracked, const Model& model) {
+  return !tracked.contact || (tracked.contact->obstacle == -1 && fits(*tracked.contact, model));
 }
 
-bool fits(const Candidates& candidates, int bodies) {
+bool fits(const Candidates& candidates, const Model& model) {
+  const int segments = segment_count(model);
   const auto& [pairs, clear_until, closest, first, ends, moved, changed, all_changed] = candidates;
-  return static_cast<int>(moved.size()) == bodies - 1 && clear_until.size() == pairs.size() &&
+  return static_cast<int>(moved.size()) == segments && clear_until.size() == pairs.size() &&
          closest.size() == pairs.size() &&
          std::ranges::is_sorted(
              pairs, {}, [](const SegmentPair& pair) { return std::pair(pair.a, pair.b); }) &&
          std::ranges::all_of(pairs, [&](const SegmentPair& pair) {
-           return pair.a >= 0 && pair.a < pair.b && pair.b < bodies - 1;
+           return pair.a >= 0 && pair.a < pair.b && pair.a < model.body_count() - 1 &&
+                  pair.b < segments;
          });
 }
 
@@ -302,13 +313,12 @@ bool fits(const State& state, const Model& model) {
 }
 
 void check(const Simulation& sim, const LogState& log, const Model& model) {
-  const int bodies = model.body_count();
+  const ContactSet& contact = sim.now.observation.contact;
   require(sim.step >= 0, "a step before the first");
   require(fits(sim.now.state, model), "a state that is not of its model");
-  require(fits(sim.now.observation.contact.contacts, bodies) &&
-              fits(sim.now.observation.contact.others, bodies) &&
-              fits(sim.search.candidates, bodies) && fits(sim.controller.first, bodies) &&
-              fits(sim.controller.last, bodies),
+  require(fits(contact.contacts, model) && fits(contact.on_obstacles, model) &&
+              fits(contact.others, model) && fits(sim.search.candidates, model) &&
+              fits(sim.controller.first, model) && fits(sim.controller.last, model),
           "a contact that is not on its animal");
   require(sim.controller.phase <= Phase::last, "an unknown phase");
   require(sim.controller.memory.allFinite(), "a memory that is not finite");
@@ -325,6 +335,12 @@ void check(const Simulation& sim, const LogState& log, const Model& model) {
 }
 
 }  // namespace
+
+bool is_older_checkpoint(std::span<const std::uint8_t> bytes) {
+  int found = layout;
+  if (bytes.size() >= sizeof found) std::memcpy(&found, bytes.data(), sizeof found);
+  return found > 0 && found < layout;
+}
 
 std::vector<std::uint8_t> encode(const Simulation& sim, const LogState& log) {
   std::ostringstream stream;
@@ -360,7 +376,7 @@ Simulation decode(std::span<const std::uint8_t> bytes, const Model& model,
   Observation& seen = sim.now.observation;
   update_positions(model, sim.now.state.q, seen.kin);
   update_velocities(model, sim.now.state.qdot, seen.kin);
-  update_spline(model, seen.kin.centre, seen.segments);
+  update_segments(model, seen.kin.centre, seen.segments);
   keep_ends(seen.segments, sim.search.candidates);
   index_pairs(seen.segments.size(), sim.search.candidates);
   return sim;

@@ -11,6 +11,10 @@
 
 namespace hagfish {
 
+/// Whether `bytes` begin as a checkpoint of an earlier version of this program, which decode()
+/// refuses.
+bool is_older_checkpoint(std::span<const std::uint8_t> bytes);
+
 /// What a log keeps between its frames.
 struct LogState {
   RunningMeans means;

@@ -13,23 +13,37 @@ constexpr hsize_t chunk_rows = 1024;
 
 }  // namespace
 
-LogTable<BearingContact> contact_table(LogLevel level) {
+LogTable<BearingContact> contact_table(const Scene& scene, LogLevel level) {
   LogTable<BearingContact> t({level, contact_frame_labels, chunk_rows, level != LogLevel::full});
   t.count("/contacts/frame", "index along the frames of each contact with a force",
           [](const BearingContact& c) { return c.frame; });
   t.number("/contacts/spline_a",
            {"1",
-            "spline parameter on the strand nearer the head, segment + t; of the head plate "
-            "the body"},
+            "spline parameter on the strand nearer the head, segment + t; of the head plate, or "
+            "another plane, the body"},
            [](const BearingContact& c) { return c.row.a.parameter; });
   t.number("/contacts/spline_b",
-           {"1", "spline parameter on the strand nearer the tail; nan where it is the head plate"},
+           {"1",
+            "spline parameter on the strand nearer the tail; nan where it is the head plate, or "
+            "another obstacle"},
            [](const BearingContact& c) {
-             return c.row.kind == RowKind::wall ? nan : c.row.b.parameter;
+             return c.row.kind == RowKind::obstacle ? nan : c.row.b.parameter;
            });
   t.number("/contacts/force",
            {"dyn", "multiplier over h of the step at the frame, along the normal"},
            [](const BearingContact& c) { return c.force; });
+  if (!scene.obstacles.empty()) {
+    t.count("/contacts/obstacle", "index in /model/obstacle_name; -1 where it is the body itself",
+            [](const BearingContact& c) { return c.row.obstacle; });
+    t.number(
+        "/contacts/spline_obstacle",
+        {"1",
+         "spline parameter on the strand that is an obstacle, its segment + t; nan where it is "
+         "a plane or the body itself"},
+        [](const BearingContact& c) {
+          return c.row.kind == RowKind::obstacle ? c.row.b.parameter : nan;
+        });
+  }
   return t;
 }
 

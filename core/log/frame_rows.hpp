@@ -14,7 +14,7 @@ namespace hagfish {
 /// A contact with a force, of the step at a frame.
 struct BearingContact {
   std::int32_t frame = 0;  ///< index along the frames
-  const Row& row;          ///< of kind contact or wall
+  const Row& row;          ///< of kind contact or obstacle
   double force = 0;        ///< λ / h, dyn
 };
 
@@ -28,7 +28,8 @@ struct FrameRow {
 /// laws /thigmotaxis has them all.
 LogTable<FrameRow> row_table(LogLevel level);
 
-/// /contacts, a row for each contact with a force at a frame.
-LogTable<BearingContact> contact_table(LogLevel level);
+/// /contacts, a row for each contact with a force at a frame. Which obstacle it is with is said
+/// where the scene has others than the head plate.
+LogTable<BearingContact> contact_table(const Scene& scene, LogLevel level);
 
 }  // namespace hagfish

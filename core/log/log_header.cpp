@@ -61,6 +61,12 @@ Eigen::VectorXd body_arcs(const Model& model) {
   return arc;
 }
 
+std::vector<std::string> obstacle_names(const Model& model) {
+  std::vector<std::string> names;
+  for (const Obstacle& obstacle : model.obstacles) names.push_back(obstacle.name);
+  return names;
+}
+
 const std::vector<std::pair<const char*, std::vector<std::string>>>& axis_names() {
   static const std::vector<std::pair<const char*, std::vector<std::string>>> names = {
       {axis_labels, {"x", "y", "z"}},
@@ -133,6 +139,7 @@ void write_model(const Model& model, Hdf5Writer& h5) {
   h5.texts(dof_labels, dofs);
   h5.texts(coordinate_labels, coordinate_names(model));
   if (!model.muscles.empty()) write_muscles(model, h5);
+  if (!model.obstacles.empty()) h5.texts(obstacle_names_path, obstacle_names(model));
   for (const auto& [path, names] : axis_names()) {
     h5.texts(path, names);
     h5.make_labels(path);

@@ -33,6 +33,10 @@ void write_header(const LogHeader& header, Hdf5Writer& h5);
 /// Arc length of each body's middle from the head's end at rest, cm (N).
 Eigen::VectorXd body_arcs(const Model& model);
 
+/// Where the obstacles' names are, of a model that has some, and the names.
+inline constexpr const char* obstacle_names_path = "/model/obstacle_name";
+std::vector<std::string> obstacle_names(const Model& model);
+
 /// Names of what other axes than coordinates, velocities and bodies count: path and names.
 const std::vector<std::pair<const char*, std::vector<std::string>>>& axis_names();
 

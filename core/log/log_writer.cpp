@@ -81,7 +81,7 @@ struct LogWriter::Contents {
         level(held),
         frames(frame_table(model, scene, held)),
         steps(step_table(scene, held)),
-        contacts(contact_table(held)),
+        contacts(contact_table(scene, held)),
         rows(row_table(held)),
         with_rows(law_of(scene).logs_rows),
         marks(checkpoint_table(held)),
@@ -273,7 +273,7 @@ void LogWriter::write_frame(const StepRecord& record, const ThigmotaxisRows& row
   for (std::size_t i = 0; i < step.rows.size(); ++i) {
     const Row& row = step.rows[i];
     const double force = step.lambda[static_cast<Eigen::Index>(i)] / c.h;
-    if ((row.kind == RowKind::contact || row.kind == RowKind::wall) && force != 0) {
+    if ((row.kind == RowKind::contact || row.kind == RowKind::obstacle) && force != 0) {
       c.contacts.append({frame, row, force});
     }
     if (row.kind == RowKind::thigmotaxis && c.with_rows) {

@@ -14,7 +14,7 @@ double ratio(double a, double b) {
 }  // namespace
 
 PullFigures pull_figures(const FrameMeans& mean) {
-  const Eigen::VectorXd& wall = mean.force[RowKind::wall];
+  const Eigen::VectorXd& wall = mean.force[RowKind::obstacle];
   const Eigen::Index hinges = wall.size() - root_dofs;
   PullFigures pull;
   pull.force = pull_of(mean.force[RowKind::head]);

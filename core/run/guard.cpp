@@ -8,7 +8,7 @@
 #include <tuple>
 #include <utility>
 
-#include "core/contact/wall.hpp"
+#include "core/contact/obstacles.hpp"
 #include "core/step/dual_problem.hpp"
 #include "core/step/look_ahead.hpp"
 
@@ -18,22 +18,27 @@ namespace {
 constexpr double degree = std::numbers::pi / 180;
 
 /// The deepest overlap of a state by the names of what touches.
-std::string deepest_overlap(const Model& model, const Observation& observation,
-                            const Scene& scene) {
+std::string deepest_overlap(const Model& model, const Observation& observation) {
   double least = 0;
   std::string name = "none";
-  for (const auto* contacts : {&observation.contact.contacts, &observation.contact.others}) {
+  const auto of_obstacle = [&model](int body, int obstacle) {
+    return fmt::format("body {} and the {}", body, model.obstacles[obstacle].name);
+  };
+  const ContactSet& found = observation.contact;
+  for (const auto* contacts : {&found.contacts, &found.on_obstacles, &found.others}) {
     for (const Contact& contact : *contacts) {
       if (contact.gap < least) {
         least = contact.gap;
-        name = fmt::format("bodies {} and {}", contact.body_a(), contact.body_b());
+        name = contact.obstacle >= 0
+                   ? of_obstacle(contact.body_a(), contact.obstacle)
+                   : fmt::format("bodies {} and {}", contact.body_a(), contact.body_b());
       }
     }
   }
-  visit_wall_gaps(model, observation.kin, scene.wall, [&](int body, double gap) {
+  visit_plane_gaps(model, observation.kin, [&](int obstacle, int body, double gap) {
     if (gap < least) {
       least = gap;
-      name = fmt::format("body {} and the head plate", body);
+      name = of_obstacle(body, obstacle);
     }
   });
   return name;
@@ -129,7 +134,7 @@ Status guard_state(const Model& model, const Moment& moment, double crossing, co
         Outcome::penetration,
         fmt::format("penetration {:.3g} cm of {} exceeds guard.penetration = {:g} cm; a smaller "
                     "time.step or more constraints.corrections would help",
-                    seen.penetration, deepest_overlap(model, seen, scene), guard.penetration),
+                    seen.penetration, deepest_overlap(model, seen), guard.penetration),
         guard.action, watch, warnings);
   } else if (crossing > guard.penetration) {
     status = report(Outcome::penetration,

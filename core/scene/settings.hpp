@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "core/scene/obstacle.hpp"
 #include "core/scene/phase.hpp"
 
 namespace hagfish {
@@ -50,7 +51,7 @@ struct DragSettings {
   double tangential = 0;  ///< along it
 };
 
-/// When a unilateral row (joint limit, contact, wall) enters the problem.
+/// When a unilateral row (joint limit, contact, obstacle) enters the problem.
 enum class Activation {
   speculative,  ///< within reach: C v >= -gap / h, so that the gap closes and does not cross
   violated      ///< only once violated, as RedMax does
@@ -81,7 +82,7 @@ struct ContactSettings {
   double least_arc = 2.968;
 };
 
-/// The tank's head plate, the plane x = 0.
+/// The tank's head plate, the plane x = 0: the first of the obstacles (obstacles_of).
 struct WallSettings {
   bool present = true;
   double neck = 3.0;  ///< bodies nearer the head than this pass through the plate, cm of arc
@@ -433,6 +434,7 @@ struct Scene {
   ConstraintSettings constraints;
   ContactSettings contact;
   WallSettings wall;
+  std::vector<Obstacle> obstacles;  ///< others than the head plate
   StartSettings start;
   ScriptSettings script;
   ActiveSettings active;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/contact/wall.hpp"
+#include "core/contact/obstacles.hpp"
 #include "core/step/row_selection.hpp"
 
 namespace hagfish {
@@ -59,7 +59,8 @@ bool add_missed_rows(const StepInput& in, const StepPlace& place, const Observat
       any = true;
     }
   };
-  for (const auto* contacts : {&there.contact.contacts, &there.contact.others}) {
+  const ContactSet& found = there.contact;
+  for (const auto* contacts : {&found.contacts, &found.on_obstacles, &found.others}) {
     for (const Contact& contact : *contacts) {
       if (contact.gap < -tolerance) {
         const Contact before = contact_at(now.segments, contact.segment_a, contact.t_a,
@@ -72,9 +73,9 @@ bool add_missed_rows(const StepInput& in, const StepPlace& place, const Observat
       }
     }
   }
-  visit_wall_gaps(in.model, there.kin, in.scene.wall, [&](int body, double gap) {
-    check(now.kin.centre(0, body) - in.model.bodies[body].radius, gap, [&] {
-      return PathRow{wall_row(body), {}};
+  visit_plane_gaps(in.model, there.kin, [&](int obstacle, int body, double gap) {
+    check(plane_gap(in.model, now.kin, in.model.obstacles[obstacle], body), gap, [&] {
+      return PathRow{plane_row(in.model, obstacle, body), {}};
     });
   });
   return any;

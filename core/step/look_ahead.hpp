@@ -23,14 +23,15 @@ inline constexpr double way_tolerance = 0.25;
 /// `stride` (cm) between two: 1 is the end alone.
 int path_samples(const Eigen::Matrix3Xd& centre_velocity, double h, double stride);
 
-/// Goes through the contacts and wall gaps of `there`, where the velocities of `step` lead within
-/// time `t` (s). Each overlap that is deeper than `constraints.tolerance` allows gets a row in
-/// step.rows between the same material points, with C taken at `place`, where its equations hold:
+/// Goes through the contacts and gaps to planes of `there`, where the velocities of `step` lead
+/// within time `t` (s). Each overlap that is deeper than `constraints.tolerance` allows gets a row
+/// in step.rows between the same material points, with C taken at `place`, where its equations
+/// hold:
 ///     φ_now + h C q̇ + (φ_there - φ_now - t C q̇_step) (h/t)² >= goal,
 /// where the bracket is what the linear row misses at t, of second order, and the goal is 0, or
 /// what the Baumgarte gain leaves of an overlap that was there before; h C q̇ is asked to be
 /// `stride` at most. A contact's first row of these replaces that of the step's start; others come
-/// on top, as strands turn about the points of one row and meet beside it. A wall's row replaces
+/// on top, as strands turn about the points of one row and meet beside it. A plane's row replaces
 /// the one before. Whether there was any.
 bool add_missed_rows(const StepInput& in, const StepPlace& place, const Observation& there,
                      double t, StepSolution& step);

@@ -9,11 +9,11 @@
 namespace hagfish {
 
 /// Checkpoints hold forces in this order: a new kind comes last.
-enum class RowKind : std::uint8_t { head, limit, contact, wall, thigmotaxis, last = thigmotaxis };
+enum class RowKind : std::uint8_t { head, limit, contact, obstacle, thigmotaxis, last = thigmotaxis };
 
 struct RowKindEntry {
   RowKind value;
-  const char* name;  ///< in logs
+  const char* name;  ///< in logs; obstacles' is older than they are
   const char* description;
   bool from_outside = false;  ///< what lies outside the animal pushes it; else forces are internal
 };
@@ -24,7 +24,7 @@ inline constexpr TableOf<RowKindEntry> row_kind_table{
      {RowKind::contact, "contact", "self-contact"},
      {RowKind::limit, "limit", "joint limits"},
      {RowKind::head, "head", "head clamp", true},
-     {RowKind::wall, "wall", "head plate", true}}};
+     {RowKind::obstacle, "wall", "head plate and other obstacles", true}}};
 static_assert(lists_each_once(row_kind_table));
 
 /// In the order of the enumeration, in which sums are taken.

@@ -25,11 +25,12 @@ void append_unilateral_rows(const StepInput& in, const StepPlace& place, const N
     append_contact_row(in.model, contact, place.segments, settings, h, wanted, rows);
   };
   std::ranges::for_each(in.observation.contact.contacts, append);
+  std::ranges::for_each(in.observation.contact.on_obstacles, append);
   for (const Contact& contact : in.observation.contact.others) {
     if (is_considered(contact)) append(contact);
   }
   append_limit_rows(in.model, in.state, settings, h, wanted, rows);
-  append_wall_rows(in.model, in.observation.kin, in.scene.wall, settings, h, wanted, rows);
+  append_plane_rows(in.model, in.observation.kin, settings, h, wanted, rows);
 }
 
 }  // namespace

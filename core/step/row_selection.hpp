@@ -10,7 +10,7 @@
 namespace hagfish {
 
 /// The rows of a step at `place` that bind or may do so, as far as the last velocity tells, into
-/// `rows`: head clamp, thigmotaxis, contacts, limits, head plate. Pairs of segments that are no
+/// `rows`: head clamp, thigmotaxis, contacts, limits, obstacles. Pairs of segments that are no
 /// minimum of the gap are among them where they pushed in the last step, of which `warm` tells.
 void gather_rows(const StepInput& in, const StepPlace& place, const WarmStart& warm,
                  std::vector<Row>& rows);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/contact/wall.hpp"
+#include "core/contact/obstacles.hpp"
 
 namespace hagfish {
 namespace {
@@ -13,6 +13,9 @@ constexpr double unbounded = std::numeric_limits<double>::infinity();
 /// The last number of a limit row's id: 0 for a hinge's lower limit, 1 for its upper one, from here
 /// on for a cone.
 constexpr int first_cone_row = 2;
+
+/// The last number of an obstacle row's id: the index of a plane, from here on a strand's segment.
+constexpr int first_strand_segment = 1 << 16;
 
 /// What the ids of a contact's rows in one step differ by: more than any kind's.
 constexpr std::int64_t next_cut = std::int64_t{1} << 48;
@@ -34,11 +37,17 @@ std::int64_t thigmotaxis_id(const ThigmotaxisCommand& command, bool on_a) {
              : row_id(RowKind::thigmotaxis, static_cast<int>(command.end), along);
 }
 
-/// Relative motion along `direction` of the two spline points of a contact.
-void set_points(Row& row, const Contact& contact, const Eigen::Vector3d& direction, int bodies) {
+/// Relative motion along `direction` of the two spline points of a contact; an obstacle's rests.
+void set_points(Row& row, const Contact& contact, const Eigen::Vector3d& direction,
+                const Model& model) {
   row.direction = direction;
-  row.a = spline_mix(contact.segment_a, contact.t_a, bodies);
-  row.b = spline_mix(contact.segment_b, contact.t_b, bodies);
+  row.a = spline_mix(contact.segment_a, contact.t_a, model.body_count());
+  if (contact.obstacle < 0) {
+    row.b = spline_mix(contact.segment_b, contact.t_b, model.body_count());
+  } else {
+    row.b = {};
+    row.b.parameter = strand_parameter(model, contact);
+  }
 }
 
 /// The mix a less the mix b of columns.
@@ -88,8 +97,8 @@ std::string row_name(const Model& model, const Row& row) {
              dof_name(model, row.dof);
     case RowKind::contact:
       return "contact of bodies " + std::to_string(first) + " and " + std::to_string(second);
-    case RowKind::wall:
-      return "head plate at body " + std::to_string(first);
+    case RowKind::obstacle:
+      return model.obstacles[row.obstacle].name + " at body " + std::to_string(first);
     case RowKind::thigmotaxis:
       return (first < first_segment
                   ? std::string(first == 0 ? "first" : "last") + " thigmotaxis contact"
@@ -137,25 +146,29 @@ void add_row(const Row& row, const Kinematics& kin, double lambda, Matrix6Xd& wr
 }
 
 std::int64_t contact_row_id(const Contact& contact) {
-  return row_id(RowKind::contact, contact.segment_a, contact.segment_b);
+  return contact.obstacle < 0 ? row_id(RowKind::contact, contact.segment_a, contact.segment_b)
+                              : row_id(RowKind::obstacle, contact.segment_a,
+                                       first_strand_segment + contact.segment_b);
 }
 
 Row contact_row(const Model& model, const Contact& contact, const std::vector<SplineSegment>* at,
                 int cut) {
   Row row;
-  row.kind = RowKind::contact;
+  row.kind = contact.obstacle < 0 ? RowKind::contact : RowKind::obstacle;
+  row.obstacle = contact.obstacle;
   row.id = contact_row_id(contact) + cut * next_cut;
-  set_points(row, contact, at == nullptr ? contact.normal : contact_normal(*at, contact),
-             model.body_count());
+  set_points(row, contact, at == nullptr ? contact.normal : contact_normal(*at, contact), model);
   return row;
 }
 
-Row wall_row(int body) {
+Row plane_row(const Model& model, int obstacle, int body) {
   Row row;
-  row.kind = RowKind::wall;
-  row.id = row_id(RowKind::wall, body, 0);
-  row.direction = Eigen::Vector3d::UnitX();
+  row.kind = RowKind::obstacle;
+  row.obstacle = obstacle;
+  row.id = row_id(RowKind::obstacle, body, obstacle);
+  row.direction = model.obstacles[obstacle].normal;
   row.a = {body, 1, {1}, static_cast<double>(body)};
+  row.b.parameter = std::numeric_limits<double>::quiet_NaN();  // of a strand's point
   return row;
 }
 
@@ -258,13 +271,14 @@ void append_contact_row(const Model& model, const Contact& contact,
   }
 }
 
-void append_wall_rows(const Model& model, const Kinematics& kin, const WallSettings& wall,
-                      const ConstraintSettings& settings, double h, const NearBinding& wanted,
-                      std::vector<Row>& rows) {
-  visit_wall_gaps(model, kin, wall, [&](int body, double gap) {
+void append_plane_rows(const Model& model, const Kinematics& kin,
+                       const ConstraintSettings& settings, double h, const NearBinding& wanted,
+                       std::vector<Row>& rows) {
+  visit_plane_gaps(model, kin, [&](int obstacle, int body, double gap) {
     const std::optional<double> rhs = unilateral(gap, settings, h, settings.baumgarte_speed);
-    if (rhs && wanted(wanted.bodies.centre(0, body), *rhs)) {
-      rows.emplace_back(wall_row(body)).rhs = *rhs;
+    const Eigen::Vector3d& normal = model.obstacles[obstacle].normal;
+    if (rhs && wanted(normal.dot(wanted.bodies.centre.col(body)), *rhs)) {
+      rows.emplace_back(plane_row(model, obstacle, body)).rhs = *rhs;
     }
   });
 }
@@ -275,8 +289,7 @@ Row eq6_row(const Model& model, const Kinematics& kin, const std::vector<SplineS
   const double sense = towards == BodyEnd::head ? 1 : -1;
   Row row;
   row.kind = RowKind::thigmotaxis;
-  set_points(row, contact, sense * (on_a ? contact.tangent_a : -contact.tangent_b),
-             model.body_count());
+  set_points(row, contact, sense * (on_a ? contact.tangent_a : -contact.tangent_b), model);
   if (at == Eq6Point::skin) {
     row.at = skin_point(segments, contact) - kin.reference;
   }

@@ -30,10 +30,11 @@ struct Row {
   double sign = 1;    ///< of a unit row +1 or -1
   double beside = 0;  ///< of a unit row 0
   /// Same from step to step for the same physical constraint: limits by dof and side, cones by dof
-  /// and contacts by segments, each and which of their rows in the step, thigmotaxis by the knot's
-  /// end or by segments, and tangent.
+  /// and contacts by segments, planes by body, each and which of their rows in the step,
+  /// thigmotaxis by the knot's end or by segments, and tangent.
   std::int64_t id = 0;
-  int command = -1;  ///< of a thigmotaxis row: the index of its command
+  int obstacle = -1;  ///< of an obstacle's row: its index
+  int command = -1;   ///< of a thigmotaxis row: the index of its command
   /// C q̇ = direction . (ẋ_a - ẋ_b), each point a mix of body centres; `b` may have none.
   Eigen::Vector3d direction;  ///< unit, world
   SplineMix a, b;
@@ -112,8 +113,8 @@ struct NearBinding {
 /// on top (core/step/look_ahead.hpp).
 Row contact_row(const Model& model, const Contact& contact, const std::vector<SplineSegment>* at,
                 int cut = 0);
-/// The row of body `body` against the head plate, with no right-hand side yet.
-Row wall_row(int body);
+/// The row of body `body` against a plane, with no right-hand side yet.
+Row plane_row(const Model& model, int obstacle, int body);
 
 /// The row of a joint bent as `bend`, with no right-hand side yet: the exact rate of what its cone
 /// leaves it. `cut` 0 is that of the step's start; others come on top (core/step/look_ahead.hpp).
@@ -137,10 +138,10 @@ void append_contact_row(const Model& model, const Contact& contact,
                         const std::vector<SplineSegment>* at, const ConstraintSettings& settings,
                         double h, const NearBinding& wanted, std::vector<Row>& rows);
 
-/// One row per body behind the neck against the head plate.
-void append_wall_rows(const Model& model, const Kinematics& kin, const WallSettings& wall,
-                      const ConstraintSettings& settings, double h, const NearBinding& wanted,
-                      std::vector<Row>& rows);
+/// One row per body and plane that holds it.
+void append_plane_rows(const Model& model, const Kinematics& kin,
+                       const ConstraintSettings& settings, double h, const NearBinding& wanted,
+                       std::vector<Row>& rows);
 
 /// Which contact of a knot: its first or last one, as the controller follows them, or another.
 enum class KnotEnd : std::uint8_t { first, last, neither };

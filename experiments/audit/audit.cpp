@@ -242,7 +242,7 @@ std::vector<Finding> momentum(const LogContents& log) {
                     "made by the integrator while nothing held the head"));
   }
   using Kind = ScriptSettings::Kind;
-  const bool free = !log.own_law() && !scene.clamp_head && !scene.wall.present &&
+  const bool free = !log.own_law() && !scene.clamp_head && log.model.obstacles.empty() &&
                     scene.gravity.isZero(0) && scene.controller.eq6_at == Eq6Point::skin &&
                     (scene.script.kind == Kind::none || scene.script.kind == Kind::curvature);
   if (free) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/log/build_info.hpp"
 #include "core/log/saved_run.hpp"
 #include "experiments/audit/audited_frame.hpp"
 
@@ -106,9 +107,17 @@ class CheckpointAudit {
 
 }  // namespace
 
+bool is_of_earlier_version(const LogContents& log) {
+  return log.h5.root_text("git_revision") != build_revision() &&
+         is_older_checkpoint(log.h5.bytes(last_checkpoint));
+}
+
 Finding audit_checkpoints(const LogContents& log) {
   if (log.own_law()) {
     return {"checkpoints", true, "not followed: the law is the run's own", "", "", ""};
+  }
+  if (is_of_earlier_version(log)) {
+    return {"checkpoints", true, "not followed: made by an earlier version", "", "", ""};
   }
   return CheckpointAudit(log).finding();
 }

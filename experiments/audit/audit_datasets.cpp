@@ -6,6 +6,7 @@
 #include "core/log/coordinate_names.hpp"
 #include "core/log/log_writer.hpp"
 #include "core/log/saved_run.hpp"
+#include "experiments/audit/audit_checkpoints.hpp"
 #include "experiments/audit/log_schema.hpp"
 
 namespace hagfish {
@@ -32,9 +33,15 @@ void check_names(const LogContents& log) {
     }
   }
   for (const auto& [path, names] : enumerations()) {
+    if (!log.h5.has(path) && is_of_earlier_version(log)) continue;
     if (log.h5.texts(path) != names) {
       throw FileError(log.h5.file() + ": " + path + " is not the list of this program");
     }
+  }
+  // Logs of the head plate alone were without names.
+  if ((!log.resolved.scene.obstacles.empty() || log.h5.has(obstacle_names_path)) &&
+      log.h5.texts(obstacle_names_path) != obstacle_names(log.model)) {
+    throw FileError(log.h5.file() + ": " + obstacle_names_path + " does not name its obstacles");
   }
   for (const auto& [path, names] : axis_names()) {
     if (log.h5.texts(path) != names) {

@@ -65,14 +65,11 @@ ForceAudit::ForceAudit(const LogContents& log)
       mean_active_(log.h5.rows("/mean/forces/active")),
       mean_net_(log.h5.rows("/mean/forces/net")),
       mean_lambda_(log.h5.rows("/mean/thigmotaxis/lambda")),
-      contact_frame_(log.h5.integers("/contacts/frame")),
+      contacts_(logged_contacts(log)),
       active_(log.h5.integers("/diagnostics/active")),
       middle_off_(log.midpoint() ? log.h5.doubles("/steps/middle_off") : std::vector<double>{}),
       remaining_(log.midpoint() ? log.h5.doubles("/steps/remaining") : std::vector<double>{}),
-      steps_(log),
-      contact_a_(log.h5.doubles("/contacts/spline_a")),
-      contact_b_(log.h5.doubles("/contacts/spline_b")),
-      contact_force_(log.h5.doubles("/contacts/force")) {
+      steps_(log) {
   for (const RowKindEntry& kind : row_kind_table) {
     force_[kind.value] = log.h5.rows(std::string("/forces/") + kind.name);
     mean_[kind.value] = log.h5.rows(std::string("/mean/forces/") + kind.name);
@@ -128,24 +125,20 @@ void ForceAudit::see_contacts(const AuditedFrame& frame) {
   const Model& model = log_.model;
   Eigen::VectorXd contact = Eigen::VectorXd::Zero(model.nv());
   Eigen::VectorXd wall = contact;
-  for (; next_contact_ < contact_frame_.size() && contact_frame_[next_contact_] == frame.index;
+  for (; next_contact_ < contacts_.size() && contacts_[next_contact_].frame == frame.index;
        ++next_contact_) {
-    const double a = contact_a_[next_contact_];
-    const double b = contact_b_[next_contact_];
-    const double force = contact_force_[next_contact_];
-    const bool of_wall = std::isnan(b);
-    if (!on_spline(model, a) || !(of_wall || on_spline(model, b)) || !(force > 0)) {
+    const LoggedContact& one = contacts_[next_contact_];
+    if (!is_placed(model, one) || !(one.force > 0)) {
       shape_.insert("/contacts");
       continue;
     }
-    const Eigen::Vector3d normal =
-        of_wall ? Eigen::Vector3d::UnitX().eval() : contact_of(model, frame.segments, a, b).normal;
-    (of_wall ? wall : contact) +=
-        force_of(model, frame.kin, motion_row(model, normal, a, b), force);
+    const Eigen::Vector3d normal = placed_contact(model, frame.kin, frame.segments, one).normal;
+    (one.obstacle < 0 ? contact : wall) +=
+        force_of(model, frame.kin, motion_row(model, normal, one.a, one.b), one.force);
   }
   from_rows_.compare("/forces/contact", force_[RowKind::contact].row(frame.index).transpose(),
                      contact);
-  from_rows_.compare("/forces/wall", force_[RowKind::wall].row(frame.index).transpose(), wall);
+  from_rows_.compare("/forces/wall", force_[RowKind::obstacle].row(frame.index).transpose(), wall);
 }
 
 void ForceAudit::see_limits(const AuditedFrame& frame) {
@@ -258,12 +251,12 @@ void ForceAudit::see_means(const AuditedFrame& frame, const ThigmotaxisAudit::Ro
       shape_.insert(path);
     }
   };
-  const Eigen::VectorXd wall = row(mean_[RowKind::wall]);
+  const Eigen::VectorXd wall = row(mean_[RowKind::obstacle]);
   const Eigen::Index hinges = sum.size() - root_dofs;
   ask("/mean/forces/limit", row(mean_[RowKind::limit]).head(root_dofs).isZero(0));
   ask("/mean/forces/active", row(mean_active_).head(root_dofs).isZero(0));
   ask("/mean/forces/head", row(mean_[RowKind::head]).tail(hinges).isZero(0));
-  // Action is reaction within the body, not at the head plate, which pushes tailward.
+  // Action is reaction within the body, not at obstacles. The head plate pushes tailward.
   const auto internal = [](const Eigen::VectorXd& force) {
     return force.head<3>().lpNorm<Eigen::Infinity>() <=
            rebuilt_tolerance * force.lpNorm<Eigen::Infinity>();
@@ -272,7 +265,7 @@ void ForceAudit::see_means(const AuditedFrame& frame, const ThigmotaxisAudit::Ro
     if (kind.from_outside) continue;
     ask(std::string("/mean/forces/") + kind.name, internal(row(mean_[kind.value])));
   }
-  ask("/mean/forces/wall", wall.isZero(0) || wall[0] > 0);
+  ask("/mean/forces/wall", !log_.resolved.scene.obstacles.empty() || wall.isZero(0) || wall[0] > 0);
   // Multipliers of rows at other contacts, which come and go, are not known as means.
   if (rows.others || rows_before_.others) {
     return;
@@ -304,7 +297,7 @@ std::vector<Finding> ForceAudit::findings() const {
     findings.push_back(finding);
   }
   std::set<std::string> shape = shape_;
-  if (next_contact_ != contact_frame_.size()) shape.insert("/contacts/frame");
+  if (next_contact_ != contacts_.size()) shape.insert("/contacts/frame");
   findings.push_back(judged(
       {"shape of forces", static_cast<double>(shape.size()), 0, "datasets"},
       shape.empty() ? "each kind acts where it can, contacts push"

@@ -8,6 +8,7 @@
 
 #include "experiments/audit/audit_thigmotaxis.hpp"
 #include "experiments/audit/audited_frame.hpp"
+#include "experiments/audit/logged_contacts.hpp"
 #include "experiments/audit/rebuilt.hpp"
 
 namespace hagfish {
@@ -37,12 +38,12 @@ class ForceAudit {
   ThigmotaxisAudit rows_;
   ByKind<Hdf5Reader::Rows> force_, mean_;
   Hdf5Reader::Rows tip_, active_torque_, mean_active_, mean_net_, mean_lambda_;
-  std::vector<std::int64_t> contact_frame_, active_;
+  std::vector<LoggedContact> contacts_;
+  std::vector<std::int64_t> active_;
   std::vector<double> middle_off_, remaining_;  ///< of each step, by the midpoint rule
   Steps steps_;
   Hdf5Reader::Rows asked_tip_;  ///< by a law of the run's own
   std::vector<double> asked_tip_rate_;
-  std::vector<double> contact_a_, contact_b_, contact_force_;
   std::size_t next_contact_ = 0;  ///< first one of frames not seen yet
   Rebuilt from_rows_;
   double imbalance_ = 0, unsettled_ = 0, mean_imbalance_ = 0, limit_miss_ = 0, cone_miss_ = 0,

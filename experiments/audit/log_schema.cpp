@@ -168,7 +168,7 @@ std::vector<DatasetForm> log_forms(const Hdf5Reader& log, const Model& model, co
   };
   add(frame_table(model, scene, level).series(), "/trajectory/time");
   add(step_table(scene, level).series(), "/steps/kkt");
-  add(contact_table(level).series(), "/contacts/frame");
+  add(contact_table(scene, level).series(), "/contacts/frame");
   if (law_of(scene).logs_rows) add(row_table(level).series(), "/eq6/frame");
   return forms;
 }
@@ -205,6 +205,7 @@ void check_schema(const Hdf5Reader& log, const Model& model, const Scene& scene)
   check_whole(log, "/steps/solve", 0, last_solve);
   check_whole(log, "/diagnostics/solve", 0, last_solve);
   check_whole(log, "/contacts/frame", 0, frames - 1);
+  check_whole(log, "/contacts/obstacle", -1, static_cast<std::int64_t>(model.obstacles.size()) - 1);
   check_whole(log, "/eq6/frame", 0, frames - 1);
   check_whole(log, "/eq6/end", 0, 2);
   check_whole(log, "/eq6/along", 0, 1);

@@ -65,7 +65,8 @@ Start knotted_start(const std::string& log, TimeRule rule) {
 }
 
 Start free_start(const Start& knotted) {
-  const Model& model = knotted.model;
+  Model model = knotted.model;
+  model.obstacles.clear();
   State state = rest_state(model);
   const Eigen::Matrix2Xd ranges = hinge_ranges(model);
   for (std::size_t k = 0; k < model.hinges.size(); ++k) {
@@ -81,7 +82,6 @@ Start free_start(const Start& knotted) {
   Scene scene = knotted.scene;
   scene.time.duration = std::numeric_limits<double>::infinity();
   scene.controller.free_time = scene.time.duration;
-  scene.wall.present = false;
   Start start{scene, model, {}};
   add_warmed(start_from(model, scene, back_end, std::move(state), controller, 0), start);
   return start;

@@ -4,14 +4,14 @@
 
 #include <vector>
 
-#include "experiments/audit/audited_frame.hpp"
+#include "experiments/audit/logged_contacts.hpp"
 
 namespace hagfish {
 
 struct FrameContact {
-  bool plate = false;      ///< of the body with the head plate, else of two strands
+  int obstacle = -1;       ///< index in Model::obstacles; -1: of two strands of the body
   double arc_a = 0;        ///< arc length from the head, cm; of the strand nearer the head
-  double arc_b = 0;        ///< of the other one; nan of the plate
+  double arc_b = 0;        ///< of the other one; nan of an obstacle
   double gap = 0;          ///< cm
   Eigen::Vector3d point;   ///< in the middle of the gap, world, cm
   Eigen::Vector3d normal;  ///< unit, world: the way that strand a is pushed
@@ -23,16 +23,12 @@ class FrameContacts {
  public:
   /// The log is referred to. Throws FileError where a contact lies beyond the animal's ends.
   explicit FrameContacts(const LogContents& log);
-  /// From head to tail by strand a, the plate's among them.
+  /// From head to tail by strand a, those with obstacles among them.
   std::vector<FrameContact> at(const ShownFrame& frame) const;
 
  private:
-  struct Bearing {
-    double a = 0, b = 0;  ///< spline parameters; b is nan of the plate
-    double force = 0;
-  };
   const LogContents& log_;
-  std::vector<std::vector<Bearing>> bearing_;  ///< by frame
+  std::vector<std::vector<LoggedContact>> bearing_;  ///< by frame
 };
 
 }  // namespace hagfish

@@ -18,7 +18,8 @@ ExportTable midline_table(bool si) {
            {"point", none,
             "0 the head's end, 1 to N the middles of the N bodies, N + 1 the tail's end"},
            {"s", centimetre, "arc length from the head's end at rest"},
-           {"x", centimetre, "place, world axes: the run starts with the head at 0 and the straight body along +x"},
+           {"x", centimetre,
+            "place, world axes: the run starts with the head at 0 and the straight body along +x"},
            {"y", centimetre, "place"},
            {"z", centimetre, "place"},
            {"radius", centimetre, "of the skin"}},
@@ -100,7 +101,9 @@ ExportTable contact_table_of(bool si) {
   return {"contacts.csv",
           {frame_column,
            time_column,
-           {"kind", none, "self: two strands of the body; plate: the body and the head plate"},
+           {"kind", none,
+            "self: two strands of the body; plate: the body and the head plate; else the name of "
+            "the obstacle"},
            {"s_a", centimetre, "arc length of the point on the strand nearer the head"},
            {"s_b", centimetre, "arc length of the point on the strand nearer the tail"},
            {"gap", centimetre, "between the skins; below 0 they overlap"},
@@ -116,12 +119,18 @@ ExportTable contact_table_of(bool si) {
           si};
 }
 
+std::string kind_of(const LogContents& log, int obstacle) {
+  if (obstacle < 0) return "self";
+  const bool plate = log.resolved.scene.wall.present && obstacle == 0;
+  return plate ? "plate" : log.model.obstacles[static_cast<std::size_t>(obstacle)].name;
+}
+
 void add_contacts(const LogContents& log, const FrameContacts& contacts, const ShownFrame& frame,
                   ExportTable& table) {
   for (const FrameContact& c : contacts.at(frame)) {
-    table.add({std::int64_t{frame.index}, log.time[frame.index],
-               std::string(c.plate ? "plate" : "self"), c.arc_a, c.arc_b, c.gap, c.point.x(),
-               c.point.y(), c.point.z(), c.normal.x(), c.normal.y(), c.normal.z(), c.force});
+    table.add({std::int64_t{frame.index}, log.time[frame.index], kind_of(log, c.obstacle), c.arc_a,
+               c.arc_b, c.gap, c.point.x(), c.point.y(), c.point.z(), c.normal.x(), c.normal.y(),
+               c.normal.z(), c.force});
   }
 }
 

@@ -73,14 +73,20 @@ Skin FramePictures::skin(std::size_t frame) const {
   return skin;
 }
 
-std::vector<mjvGeom> FramePictures::plate(std::size_t frame) const {
-  if (!log_.resolved.scene.wall.present) return {};
-  return {plate_geom(log_.clamped(static_cast<Eigen::Index>(frame)))};
+std::vector<mjvGeom> FramePictures::obstacles(std::size_t frame) const {
+  std::vector<mjvGeom> geoms;
+  if (log_.resolved.scene.wall.present) {
+    geoms.push_back(plate_geom(log_.clamped(static_cast<Eigen::Index>(frame))));
+  }
+  for (const Obstacle& obstacle : log_.resolved.scene.obstacles) {
+    for (const mjvGeom& geom : obstacle_geoms(obstacle)) geoms.push_back(geom);
+  }
+  return geoms;
 }
 
 void FramePictures::add(std::size_t frame, Shown& shown) const {
   shown.add(view_, skin(frame));
-  for (const mjvGeom& box : plate(frame)) shown.add(view_, box);
+  for (const mjvGeom& box : obstacles(frame)) shown.add(view_, box);
 }
 
 std::unique_ptr<OffscreenRenderer> FramePictures::renderer(PictureSize size,
@@ -90,7 +96,7 @@ std::unique_ptr<OffscreenRenderer> FramePictures::renderer(PictureSize size,
 
 Image FramePictures::draw(OffscreenRenderer& renderer, std::size_t frame, const View& view,
                           const std::string& words) const {
-  return renderer.render(plate(frame), view, skin(frame), words, bar_ ? &*bar_ : nullptr);
+  return renderer.render(obstacles(frame), view, skin(frame), words, bar_ ? &*bar_ : nullptr);
 }
 
 void FramePictures::fit(const Shown& shown, std::optional<PictureSize> size, View& view) const {

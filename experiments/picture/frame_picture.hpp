@@ -45,7 +45,7 @@ class FramePictures {
 
  private:
   Skin skin(std::size_t frame) const;
-  std::vector<mjvGeom> plate(std::size_t frame) const;
+  std::vector<mjvGeom> obstacles(std::size_t frame) const;
 
   const LogContents& log_;
   View view_;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/contact/spline.hpp"
+#include "core/contact/obstacles.hpp"
 #include "core/scene/interpolation.hpp"
 
 namespace hagfish {
@@ -150,20 +150,47 @@ std::vector<std::array<unsigned char, 3>> colour_steps() {
   return colours;
 }
 
-mjvGeom plate_geom(bool holds_head) {
-  const Vector3d half = 0.5 * plate_size;
-  // Of the geom's axes Z is the world's X.
-  const mjtNum size[] = {half.z(), half.y(), half.x()};
-  const mjtNum position[] = {-half.x(), 0, 0};
-  const Vector3d axis = Vector3d::UnitX();
+namespace {
+
+/// A geom in the middle of `at` (cm) whose Z is `axis`.
+mjvGeom geom_at(mjtGeom type, const Vector3d& size, const Vector3d& at, const Vector3d& axis,
+                const std::array<float, 4>& colour) {
   const Vector3d side = axis.unitOrthogonal();
   Eigen::Matrix<mjtNum, 3, 3, Eigen::RowMajor> axes;
   axes << side, axis.cross(side), axis;
   mjvGeom geom;
-  mjv_initGeom(&geom, mjGEOM_BOX, size, position, axes.data(),
-               (holds_head ? plate_colour : pale_plate_colour).data());
+  mjv_initGeom(&geom, type, size.data(), at.data(), axes.data(), colour.data());
   geom.specular = 0;
   return geom;
+}
+
+mjvGeom plane_geom(const Vector3d& point, const Vector3d& normal,
+                   const std::array<float, 4>& colour) {
+  const Vector3d half = 0.5 * plate_size;
+  return geom_at(mjGEOM_BOX, {half.z(), half.y(), half.x()}, point - half.x() * normal, normal,
+                 colour);
+}
+
+}  // namespace
+
+mjvGeom plate_geom(bool holds_head) {
+  return plane_geom(Vector3d::Zero(), Vector3d::UnitX(),
+                    holds_head ? plate_colour : pale_plate_colour);
+}
+
+std::vector<mjvGeom> obstacle_geoms(const Obstacle& obstacle) {
+  if (obstacle.kind == Obstacle::Kind::plane) {
+    return {plane_geom(obstacle.point, obstacle.normal, plate_colour)};
+  }
+  std::vector<mjvGeom> geoms;
+  const Eigen::Matrix3Xd curve = strand_curve(obstacle);
+  for (Eigen::Index k = 0; k + 1 < curve.cols(); ++k) {
+    const Vector3d along = curve.col(k + 1) - curve.col(k);
+    const double length = along.norm();
+    geoms.push_back(geom_at(mjGEOM_CAPSULE, {obstacle.radius, obstacle.radius, 0.5 * length},
+                            curve.col(k) + 0.5 * along, along / length, plate_colour));
+  }
+  return geoms;
 }
 
 View turned_view(double pitch, double yaw) {

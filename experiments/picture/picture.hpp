@@ -31,6 +31,9 @@ std::vector<std::array<unsigned char, 3>> colour_steps();
 /// The head plate behind the plane x = 0; pale where it does not hold the head.
 mjvGeom plate_geom(bool holds_head);
 
+/// What an obstacle looks like: a piece of a plane, of the head plate's size, or a tube.
+std::vector<mjvGeom> obstacle_geoms(const Obstacle& obstacle);
+
 /// Looks along -Z with +X to the right, then turned about X by `pitch` and about the picture's
 /// vertical by `yaw` (degrees). Its window is yet to be set.
 View turned_view(double pitch, double yaw);

@@ -125,7 +125,7 @@ void RunFigures::see_frame(const StepRecord& record) {
   }
   frames_.push_back({record.time, phase, span ? span->head_end : nan, span ? span->tail_end : nan,
                      std::accumulate(mean.lambda.begin(), mean.lambda.end(), 0.0),
-                     pull_of(mean.force[RowKind::head]), mean.force[RowKind::wall][0]});
+                     pull_of(mean.force[RowKind::head]), mean.force[RowKind::obstacle][0]});
   last_centreline_ = record.moment.observation.kin.centre;
   largest_thigmotaxis_ =
       std::max(largest_thigmotaxis_, largest_hinge(mean.force[RowKind::thigmotaxis]));

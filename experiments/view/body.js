@@ -19,6 +19,24 @@ function splinePoint(centres, offset, bodies, segment, t, out) {
   }
 }
 
+/** An obstacle: a piece of a plane, or the tube about the curve through its points, with round ends. */
+function obstacleMesh(obstacle) {
+  const group = new THREE.Group(), material = new THREE.MeshPhongMaterial({ color: 0x9aa5b1 });
+  const add = (geometry, at) => { const mesh = new THREE.Mesh(geometry, material); if (at) mesh.position.copy(at); group.add(mesh); return mesh; };
+  if (obstacle.normal) {
+    const normal = new THREE.Vector3(...obstacle.normal), point = new THREE.Vector3(...obstacle.point);
+    add(new THREE.BoxGeometry(0.3, 5.2, 5.2), point.addScaledVector(normal, -0.15)).quaternion.setFromUnitVectors(new THREE.Vector3(1, 0, 0), normal);
+    return group;
+  }
+  const points = obstacle.points.map((p) => new THREE.Vector3(...p)), { radius, closed } = obstacle;
+  if (points.length > 1) {
+    const curve = new THREE.CatmullRomCurve3(points, closed, "catmullrom", 0.5); // the uniform one
+    add(new THREE.TubeGeometry(curve, 8 * points.length, radius, 20, closed));
+  }
+  if (!closed) for (const end of [points[0], points[points.length - 1]]) add(new THREE.SphereGeometry(radius, 20, 14), end);
+  return group;
+}
+
 class Body {
   /** `ghost`: pale and without colours, to lie over another. */
   constructor(log, ghost) {
@@ -58,6 +76,8 @@ class Body {
     this.plate.position.x = -0.15;
     this.plate.visible = log.plate;
     this.group.add(this.plate);
+    this.obstacles = log.obstacles.map((obstacle) => obstacleMesh(obstacle));
+    this.obstacles.forEach((mesh) => this.group.add(mesh));
     this.largest = { contact: 1e-9, head: 1e-9, tip: 1e-9 };
     for (let c = 0; 9 * c < log.contacts.values.length; ++c) this.largest.contact = Math.max(this.largest.contact, log.contacts.values[9 * c + 6]);
     for (let f = 0; f < log.frames; ++f) {

@@ -72,6 +72,24 @@ Json animal(const LogContents& log) {
   return json;
 }
 
+/// Obstacles but the head plate.
+Json obstacles(const Scene& scene) {
+  const auto numbers = [](const Eigen::Vector3d& v) { return Json{v.x(), v.y(), v.z()}; };
+  Json all = Json::array();
+  for (const Obstacle& one : scene.obstacles) {
+    Json& json = all.emplace_back(Json{{"name", printable(one.name)}});
+    if (one.kind == Obstacle::Kind::plane) {
+      json["point"] = numbers(one.point);
+      json["normal"] = numbers(one.normal);
+      continue;
+    }
+    json["radius"] = one.radius;
+    json["closed"] = one.closed;
+    for (const Eigen::Vector3d& point : one.points) json["points"].push_back(numbers(point));
+  }
+  return all;
+}
+
 /// Phases and knot types as places in lists of their names.
 void add_stages(const LogContents& log, Json& json) {
   const std::vector<std::int64_t> determinant = log.h5.integers("/knot/determinant");
@@ -123,6 +141,7 @@ Json view_data(const LogContents& log, const std::string& name) {
             {"specimen", printable(log.resolved.specimen.name)},
             {"status", printable(log.h5.root_text("status"))},
             {"plate", log.resolved.scene.wall.present},
+            {"obstacles", obstacles(log.resolved.scene)},
             {"animal", animal(log)},
             {"time", floats(log.time)}};
   add_stages(log, json);

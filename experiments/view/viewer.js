@@ -23,6 +23,7 @@ class Viewer {
     this.bodies.forEach((body, k) => this.scenes[k].add(body.group));
     if (two) {
       this.ghost.plate.visible = false;
+      this.ghost.obstacles.forEach((mesh) => { mesh.visible = false; });
       this.scenes[0].add(this.ghost.group);
     }
     this.scene_names = logs.map((log) => {
@@ -115,6 +116,7 @@ class Viewer {
     const points = [], place = (axis, p) => p.dot(axis);
     for (const log of this.logs) {
       for (let k = 0; k < log.position.length; k += 30) points.push(new THREE.Vector3(log.position[k], log.position[k + 1], log.position[k + 2]));
+      for (const { points: along, point } of log.obstacles) for (const p of along || [point]) points.push(new THREE.Vector3(...p));
       if (log.plate) for (const y of [-2.6, 2.6]) for (const z of [-2.6, 2.6]) points.push(new THREE.Vector3(0, y, z));
     }
     const middle = (axis) => { const [low, high] = d3.extent(points, (p) => place(axis, p)); return (low + high) / 2; };

@@ -9,7 +9,6 @@ namespace hagfish {
 Scene bare_scene(double h) {
   Scene scene;
   scene.time.step = h;
-  scene.wall.present = false;
   scene.contact.least_arc = std::numeric_limits<double>::infinity();
   return scene;
 }

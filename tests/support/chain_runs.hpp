@@ -7,7 +7,7 @@
 
 namespace hagfish {
 
-/// A scene of step h (s) without wall, drag, gravity or self-contact, head clamped at the origin.
+/// A scene of step h (s) without drag, gravity or self-contact, head clamped at the origin.
 Scene bare_scene(double h);
 
 /// A chain's first body, at the origin once clamped: `length` (cm) along +X, which may be 0, with

@@ -38,7 +38,7 @@ inline std::vector<Row> contact_rows(const Model& model, const ContactSet& conta
                                      const ConstraintSettings& settings, double h) {
   std::vector<Row> rows;
   const AllRows all(model);
-  for (const auto* list : {&contacts.contacts, &contacts.others}) {
+  for (const auto* list : {&contacts.contacts, &contacts.on_obstacles, &contacts.others}) {
     for (const Contact& contact : *list) {
       append_contact_row(model, contact, nullptr, settings, h, all.wanted, rows);
     }
@@ -46,11 +46,10 @@ inline std::vector<Row> contact_rows(const Model& model, const ContactSet& conta
   return rows;
 }
 
-inline std::vector<Row> wall_rows(const Model& model, const Kinematics& kin,
-                                  const WallSettings& wall, const ConstraintSettings& settings,
-                                  double h) {
+inline std::vector<Row> plane_rows(const Model& model, const Kinematics& kin,
+                                   const ConstraintSettings& settings, double h) {
   std::vector<Row> rows;
-  append_wall_rows(model, kin, wall, settings, h, AllRows(model).wanted, rows);
+  append_plane_rows(model, kin, settings, h, AllRows(model).wanted, rows);
   return rows;
 }
 

@@ -32,14 +32,14 @@ std::vector<Row> Stage::rows() const {
   append(thigmotaxis_rows(model, control.thigmotaxis, scene.controller, now.kin, h));
   append(contact_rows(model, now.contact, scene.constraints, h));
   append(limit_rows(model, state, scene.constraints, h));
-  append(wall_rows(model, now.kin, scene.wall, scene.constraints, h));
+  append(plane_rows(model, now.kin, scene.constraints, h));
   return all;
 }
 
 Stage knotted(unsigned seed, double speed) {
   Random random(seed);
   Stage s;
-  s.scene.wall.present = false;  // the knot passes x = 0
+  s.model.obstacles.clear();  // the knot passes x = 0
   s.state = knotted_state(random, s.model, 2.45, 0.002);
   s.state.qdot = random_entries(random, s.model.nv(), speed);
   s.control.tip = {random_vector(random, 1000), 0};
@@ -60,7 +60,6 @@ Stage two_hinges(double limit) {
     hinge.lower = -limit;
     hinge.upper = limit;
   }
-  s.scene.wall.present = false;
   s.state = rest_state(s.model);
   return s;
 }

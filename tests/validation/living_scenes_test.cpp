@@ -25,7 +25,7 @@ TEST(LivingScenes, NothingOutsideTakesPartWhereTheHeadIsFree) {
     ASSERT_TRUE(step.active_torque.head<root_dofs>().isZero(0));
     ASSERT_TRUE(step.tip.isZero(0));
     ASSERT_TRUE(step.force[RowKind::head].isZero(0));
-    ASSERT_TRUE(step.force[RowKind::wall].isZero(0));
+    ASSERT_TRUE(step.force[RowKind::obstacle].isZero(0));
     most = std::max(most, step.active_torque.lpNorm<Eigen::Infinity>());
   }
   EXPECT_EQ(sim.controller.phase, Phase::free);

@@ -14,7 +14,7 @@ namespace hagfish {
 namespace {
 
 /// Rows this far from binding, cm/s or rad/s, stay out of the reference: Ipopt's accuracy goes with
-/// the largest right-hand side, and that of a far wall is 20,000 cm/s. The step sees them all.
+/// the largest right-hand side, and that of a far plane is 20,000 cm/s. The step sees them all.
 constexpr double far = 5;
 
 /// The rows of a step from their makers, and not from the step's own list.
@@ -23,10 +23,9 @@ std::vector<Row> all_rows_of(const StepInput& in, const Eigen::VectorXd& base) {
   const double h = scene.time.step;
   std::vector<Row> rows =
       thigmotaxis_rows(model, control.thigmotaxis, scene.controller, now.kin, h);
-  for (const std::vector<Row>& more :
-       {contact_rows(model, now.contact, scene.constraints, h),
-        limit_rows(model, state, scene.constraints, h),
-        wall_rows(model, now.kin, scene.wall, scene.constraints, h)}) {
+  for (const std::vector<Row>& more : {contact_rows(model, now.contact, scene.constraints, h),
+                                       limit_rows(model, state, scene.constraints, h),
+                                       plane_rows(model, now.kin, scene.constraints, h)}) {
     rows.insert(rows.end(), more.begin(), more.end());
   }
   const Matrix6Xd twist = body_twists(model, now.kin, base);

@@ -1,6 +1,7 @@
 #include "core/step/midpoint/midway.hpp"
 
 #include "core/chain/dynamics.hpp"
+#include "core/contact/obstacles.hpp"
 
 namespace hagfish {
 namespace {
@@ -51,7 +52,7 @@ void place_midway(const Model& model, const State& state, const Kinematics& now,
   advance(state.q, midway.moved, h / 2, midway.q);
   update_positions(model, midway.q, midway.kin);
   update_velocities(model, midway.moved, midway.felt, midway.kin);
-  update_spline(model, midway.kin.centre, midway.segments);
+  update_segments(model, midway.kin.centre, midway.segments);
   body_twists(model, midway.kin, state.qdot, midway.twist);
   centre_velocities(midway.kin, midway.twist, midway.centre_velocity);
   body_twists(model, midway.kin, midway.felt, midway.felt_twist);

@@ -10,8 +10,8 @@ namespace hagfish {
 namespace {
 
 TEST(Observe, MeasuresPenetrationAndLimitViolation) {
-  Scene scene = table1_scene();
-  const Model fish = table1_hagfish();
+  const Scene scene = table1_scene();
+  Model fish = table1_hagfish();
   State state = rest_state(fish);
   Observation now = observe(fish, state, scene);
   // At rest nothing overlaps: body 7, the first behind the neck, is clear of the plate.
@@ -21,7 +21,7 @@ TEST(Observe, MeasuresPenetrationAndLimitViolation) {
   state.q[0] = -3;
   now = observe(fish, state, scene);
   EXPECT_NEAR(now.penetration, fish.bodies[7].radius - (7.5 * 0.424 - 3), 1e-12);
-  scene.wall.present = false;
+  fish.obstacles.clear();
   EXPECT_EQ(observe(fish, state, scene).penetration, 0);
 
   state.q[7 + 12] = fish.hinges[12].upper + 0.03;

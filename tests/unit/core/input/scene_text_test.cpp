@@ -23,10 +23,10 @@ class Bits {
   Bits(const Scene& scene, const Specimen& specimen) {
     // The name of the specimen's file is not written.
     const auto& [title, file, mirror, clamp_head, gravity, model, drag, constraints, contact, wall,
-                 start, script, active, muscle, controller, food, knot, time, guard, expect] =
-        scene;
-    add(title, mirror, clamp_head, gravity, model, drag, constraints, contact, wall, start, script,
-        active, muscle, controller, food, knot, time, guard, expect, specimen);
+                 obstacles, start, script, active, muscle, controller, food, knot, time, guard,
+                 expect] = scene;
+    add(title, mirror, clamp_head, gravity, model, drag, constraints, contact, wall, obstacles,
+        start, script, active, muscle, controller, food, knot, time, guard, expect, specimen);
   }
   bool operator==(const Bits&) const = default;
 
@@ -70,6 +70,10 @@ class Bits {
   void put(const WallSettings& s) {
     const auto& [present, neck] = s;
     add(present, neck);
+  }
+  void put(const Obstacle& s) {
+    const auto& [name, kind, point, normal, neck, points, radius, closed] = s;
+    add(name, kind, point, normal, neck, points, radius, closed);
   }
   void put(const ScriptKnot& s) {
     const auto& [time, value, noise] = s;
@@ -190,6 +194,17 @@ ResolvedScene odd_scene() {
   s.constraints = {Activation::violated, odd()};
   s.contact = {odd(), odd()};
   s.wall = {false, odd()};
+  Obstacle& plane = s.obstacles.emplace_back();
+  plane.name = "a plane";
+  plane.kind = Obstacle::Kind::plane;
+  plane.point = {odd() - 100, odd(), odd()};  // clear of the body
+  plane.normal = Eigen::Vector3d(1, 0.1 * odd(), 0.1 * odd()).normalized();
+  plane.neck = odd();
+  Obstacle& strand = s.obstacles.emplace_back();
+  strand.name = "a strand";
+  strand.points = {{odd(), odd(), odd() + 50}, {odd(), odd(), odd() + 51}, {odd(), 9, odd() + 52}};
+  strand.radius = odd();
+  strand.closed = true;
   s.script.kind = ScriptSettings::Kind::position;
   s.script.knots = {{0, {odd(), odd(), odd()}}, {odd(), {-odd(), odd(), odd()}}};
   s.script.spring = odd();

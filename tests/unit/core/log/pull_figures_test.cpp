@@ -16,10 +16,10 @@ FrameMeans means() {
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
   for (const auto& [point, force] :
        {std::pair(Eigen::Vector3d(0, 1, 2), 100.0), {Eigen::Vector3d(0, -3, 0.5), 140.0}}) {
-    mean.force[RowKind::wall][0] += force;
+    mean.force[RowKind::obstacle][0] += force;
     moment += point.cross(Eigen::Vector3d(force, 0, 0));
   }
-  mean.force[RowKind::wall].segment<3>(3) = moment;
+  mean.force[RowKind::obstacle].segment<3>(3) = moment;
   // At the root, no torque of a hinge; in opposite directions at the second hinge.
   mean.active_torque << 900, 0, 0, 0, 0, 0, 50, -70, 10;
   mean.force[RowKind::thigmotaxis] << 0, 0, 0, 0, 0, 0, 12.5, 30, -60;
@@ -40,7 +40,7 @@ TEST(PullFigures, AreThoseOfTheirMeans) {
 TEST(PullFigures, HaveNoAdvantageWhereNothingPushes) {
   FrameMeans mean = means();
   mean.lambda = {};
-  mean.force[RowKind::wall].setZero();
+  mean.force[RowKind::obstacle].setZero();
   mean.force[RowKind::thigmotaxis] = -mean.active_torque;
   const PullFigures pull = pull_figures(mean);
   EXPECT_EQ(pull.force, 250);

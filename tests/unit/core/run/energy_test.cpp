@@ -143,7 +143,7 @@ TEST_P(EnergyOf, IntegratorErrorFallsWithTheStep) {
       hinge.lower = -INFINITY;
       hinge.upper = INFINITY;
     }
-    run.scene.wall.present = false;
+    run.model.obstacles.clear();
     for (int k = 0; k < std::lround(0.04 / h); ++k) {
       run.step(control(false));
     }

@@ -21,9 +21,9 @@ std::string message_of(Outcome outcome, const Status& status) {
 /// A knot with a contact 0.18 cm too deep (random_chain.hpp).
 struct DeepKnot {
   DeepKnot() {
-    scene.wall.present = false;
     Random random(1);
     model = table1_hagfish();
+    model.obstacles.clear();
     state = knotted_state(random, model);
     observation = observe(model, state, scene);
   }

@@ -16,14 +16,14 @@ namespace hagfish {
 namespace {
 
 /// A cause that stops a step, and what brings it about.
-struct Obstacle {
+struct Hindrance {
   std::string name;
   Outcome cause;
   std::string from;  ///< stored state
   std::function<void(Scene&, Model&)> set;
 };
 
-void PrintTo(const Obstacle& obstacle, std::ostream* out) { *out << obstacle.name; }
+void PrintTo(const Hindrance& hindrance, std::ostream* out) { *out << hindrance.name; }
 
 bool same(const std::optional<Contact>& a, const std::optional<Contact>& b) {
   return a.has_value() == b.has_value() &&
@@ -77,14 +77,14 @@ void expect_same(const Simulation& a, const Simulation& b) {
   }));
 }
 
-class StoppedStep : public testing::TestWithParam<Obstacle> {};
+class StoppedStep : public testing::TestWithParam<Hindrance> {};
 
 TEST_P(StoppedStep, LeavesTheSimulationAsItWas) {
-  const Obstacle& obstacle = GetParam();
+  const Hindrance& hindrance = GetParam();
   const Scene scene = stored_scene().scene;
   const Model model = make_hagfish(stored_scene().specimen, scene);
   const std::vector<StoredState> states = stored_states();
-  const auto found = std::ranges::find(states, obstacle.from, &StoredState::name);
+  const auto found = std::ranges::find(states, hindrance.from, &StoredState::name);
   ASSERT_NE(found, states.end());
   Simulation sim = resume(model, scene, *found);
   StepRecord record;
@@ -94,13 +94,13 @@ TEST_P(StoppedStep, LeavesTheSimulationAsItWas) {
   Simulation twin = sim;
   Scene harder = scene;
   Model other = model;
-  obstacle.set(harder, other);
+  hindrance.set(harder, other);
   for (int attempt = 0; attempt < 2; ++attempt) {
     try {
       take_step(other, harder, sim, record);
       FAIL() << "the step was taken";
     } catch (const StepError& error) {
-      EXPECT_EQ(error.outcome(), obstacle.cause) << error.what();
+      EXPECT_EQ(error.outcome(), hindrance.cause) << error.what();
     }
     EXPECT_EQ(record.controller.phase, twin.controller.phase);
     expect_same(sim, twin);
@@ -116,41 +116,41 @@ TEST_P(StoppedStep, LeavesTheSimulationAsItWas) {
 
 INSTANTIATE_TEST_SUITE_P(
     Causes, StoppedStep,
-    testing::Values(Obstacle{"penetration", Outcome::penetration, "slide",
-                             [](Scene& scene, Model&) {
-                               scene.guard.action = GuardAction::stop;
-                               scene.guard.penetration = -1;
-                             }},
-                    Obstacle{"limits", Outcome::limits, "slide",
-                             [](Scene& scene, Model&) {
-                               scene.guard.action = GuardAction::stop;
-                               scene.guard.limit_violation = -1;
-                             }},
-                    Obstacle{"speed", Outcome::speed, "slide",
-                             [](Scene& scene, Model&) { scene.guard.speed = 0; }},
-                    Obstacle{"energy", Outcome::energy_gain, "slide",
-                             [](Scene& scene, Model&) {
-                               scene.guard.energy_action = EnergyAction::stop;
-                               scene.guard.energy_gain = -1;
-                             }},
-                    Obstacle{"knotLost", Outcome::knot_lost, "slide",
-                             [](Scene& scene, Model&) {
-                               scene.guard.action = GuardAction::stop;
-                               scene.expect.knot = "4_1";
-                               scene.knot.interval = 0;
-                             }},
-                    Obstacle{"neverTied", Outcome::never_tied, "form",
-                             [](Scene& scene, Model&) {
-                               scene.expect.knot = "4_1";
-                               scene.script.knots.resize(2);
-                               scene.knot.interval = 0;
-                             }},
-                    Obstacle{"infeasible", Outcome::infeasible, "slide",
-                             [](Scene&, Model& model) {  // both limits of a hinge push
-                               model.hinges[20].lower = 0.1;
-                               model.hinges[20].upper = -0.1;
-                             }}),
-    [](const auto& obstacle) { return obstacle.param.name; });
+    testing::Values(Hindrance{"penetration", Outcome::penetration, "slide",
+                              [](Scene& scene, Model&) {
+                                scene.guard.action = GuardAction::stop;
+                                scene.guard.penetration = -1;
+                              }},
+                    Hindrance{"limits", Outcome::limits, "slide",
+                              [](Scene& scene, Model&) {
+                                scene.guard.action = GuardAction::stop;
+                                scene.guard.limit_violation = -1;
+                              }},
+                    Hindrance{"speed", Outcome::speed, "slide",
+                              [](Scene& scene, Model&) { scene.guard.speed = 0; }},
+                    Hindrance{"energy", Outcome::energy_gain, "slide",
+                              [](Scene& scene, Model&) {
+                                scene.guard.energy_action = EnergyAction::stop;
+                                scene.guard.energy_gain = -1;
+                              }},
+                    Hindrance{"knotLost", Outcome::knot_lost, "slide",
+                              [](Scene& scene, Model&) {
+                                scene.guard.action = GuardAction::stop;
+                                scene.expect.knot = "4_1";
+                                scene.knot.interval = 0;
+                              }},
+                    Hindrance{"neverTied", Outcome::never_tied, "form",
+                              [](Scene& scene, Model&) {
+                                scene.expect.knot = "4_1";
+                                scene.script.knots.resize(2);
+                                scene.knot.interval = 0;
+                              }},
+                    Hindrance{"infeasible", Outcome::infeasible, "slide",
+                              [](Scene&, Model& model) {  // both limits of a hinge push
+                                model.hinges[20].lower = 0.1;
+                                model.hinges[20].upper = -0.1;
+                              }}),
+    [](const auto& hindrance) { return hindrance.param.name; });
 
 }  // namespace
 }  // namespace hagfish

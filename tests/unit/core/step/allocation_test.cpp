@@ -142,7 +142,7 @@ INSTANTIATE_TEST_SUITE_P(BendingLimits, AllocationOfRows,
                                          std::pair(BendingLimit::box, "knot_speed")));
 
 TEST_F(Allocation, NoneInAStepWithoutConstraints) {
-  scene.wall.present = false;
+  model.obstacles.clear();
   State state = rest_state(model);
   state.qdot[7] = 0.01;
   ControllerState controller;

@@ -36,7 +36,7 @@ struct Knotted {
                             scene.controller, kin, h));
     append(contact_rows(model, contacts, scene.constraints, h));
     append(limit_rows(model, state, scene.constraints, h));
-    append(wall_rows(model, kin, scene.wall, scene.constraints, h));
+    append(plane_rows(model, kin, scene.constraints, h));
   }
   void append(const std::vector<Row>& more) { rows.insert(rows.end(), more.begin(), more.end()); }
 

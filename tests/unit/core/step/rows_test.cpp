@@ -81,7 +81,7 @@ struct Tangle {
     std::vector<Row> all = head_rows(state, speculative, h);
     for (const auto& more :
          {limit_rows(model, state, speculative, h), contact_rows(model, set, speculative, h),
-          wall_rows(model, kin, {}, speculative, h), at_once(commands)}) {
+          plane_rows(model, kin, speculative, h), at_once(commands)}) {
       all.insert(all.end(), more.begin(), more.end());
     }
     return all;
@@ -136,7 +136,7 @@ TEST(LimitRows, LeaveFreeSidesOut) {
 
 TEST(ContactRows, CloseAGapAndPushOutAnOverlap) {
   const Tangle t(81);
-  ContactSet set{{2, t.set.contacts.front()}, {}, 0};
+  ContactSet set{{2, t.set.contacts.front()}, {}, {}, 0};
   set.contacts[0].gap = 0.03;
   set.contacts[1].gap = -0.01;
   const std::vector<Row> rows = contact_rows(t.model, set, speculative, h);
@@ -174,11 +174,11 @@ TEST(Rows, OnlyThoseNearBindingAreAppended) {
       }
     }
     append_limit_rows(t.model, t.state, speculative, h, wanted, rows);
-    append_wall_rows(t.model, t.kin, {}, speculative, h, wanted, rows);
+    append_plane_rows(t.model, t.kin, speculative, h, wanted, rows);
     std::vector<std::int64_t> expected;
     for (const auto& all : {contact_rows(t.model, t.set, speculative, h),
                             limit_rows(t.model, t.state, speculative, h),
-                            wall_rows(t.model, t.kin, {}, speculative, h)}) {
+                            plane_rows(t.model, t.kin, speculative, h)}) {
       for (const Row& row : all) {
         if (row_velocity(row, velocity, t.state.qdot) < row.rhs + slack || row.rhs > -at_rest) {
           expected.push_back(row.id);
@@ -191,12 +191,13 @@ TEST(Rows, OnlyThoseNearBindingAreAppended) {
   }
 }
 
-TEST(WallRows, SkipTheNeckAndLookAlongX) {
+TEST(PlaneRows, SkipTheNeckAndLookAlongX) {
   Model fish = table1_hagfish();
   State state = rest_state(fish);
   state.q[0] = -20.1055;  // one body is a few micrometres in
   const Kinematics kin = kinematics(fish, state);
-  const std::vector<Row> rows = wall_rows(fish, kin, {true, 2.9}, speculative, h);
+  fish.obstacles.at(0).neck = 2.9;
+  const std::vector<Row> rows = plane_rows(fish, kin, speculative, h);
   // Centres at 0.424 (b + ½): the first beyond 2.9 cm is body 7.
   ASSERT_EQ(rows.size(), 93U);
   int slower = 0;  // pushed out by less than the fastest
@@ -217,11 +218,13 @@ TEST(WallRows, SkipTheNeckAndLookAlongX) {
     if (gap < 0 && -0.5 * gap / h < fastest) ++slower;
   }
   EXPECT_GT(slower, 0);
-  EXPECT_TRUE(wall_rows(fish, kin, {false, 2.9}, speculative, h).empty());
-  EXPECT_EQ(wall_rows(fish, kin, {true, 0.0}, speculative, h).size(), 100U);
-  const std::vector<Row> late = wall_rows(fish, kin, {true, 2.9}, violated, h);
+  const std::vector<Row> late = plane_rows(fish, kin, violated, h);
   EXPECT_LT(late.size(), rows.size());
   for (const Row& row : late) EXPECT_GT(row.rhs, 0);
+  fish.obstacles.at(0).neck = 0;
+  EXPECT_EQ(plane_rows(fish, kin, speculative, h).size(), 100U);
+  fish.obstacles.clear();
+  EXPECT_TRUE(plane_rows(fish, kin, speculative, h).empty());
 }
 
 TEST(HeadRows, TakeADriftBack) {
@@ -417,7 +420,7 @@ TEST(Rows, EachHasItsOwnIdAndKeepsIt) {
   const std::vector<Row> later = limit_rows(t.model, moved.state, speculative, h);
   ASSERT_EQ(all.size(), later.size());
   for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(all[i].id, later[i].id);
-  const ContactSet last{{t.set.contacts.back()}, {}, 0};
+  const ContactSet last{{t.set.contacts.back()}, {}, {}, 0};
   EXPECT_EQ(contact_rows(t.model, last, speculative, h)[0].id,
             contact_rows(t.model, t.set, speculative, h)[t.set.contacts.size() - 1].id);
 }

@@ -114,10 +114,10 @@ TEST(Step, ReleasesPrescribedLimitsThatContradictOtherRows) {
   s.model.hinges[1].upper = 0.5;
   s.state.q[7] = 2.5;
   s.state.q[8] = 0.5;
-  s.scene.wall.present = true;
   s.scene.wall.neck = 2;
+  s.model.obstacles = obstacles_of(s.scene);
   const StepSolution cold = s.solve();
-  ASSERT_GT(cold.force[RowKind::wall].norm(), 0);
+  ASSERT_GT(cold.force[RowKind::obstacle].norm(), 0);
   s.solver.warm = steady(s.rows());
   const StepSolution step = s.solve();
   EXPECT_GT(step.rounds, 1);

@@ -115,7 +115,7 @@ TEST(Step, IsOptimalAgainstTheHeadPlate) {
   s.control.tip.value << -500, 20, 0;
   const StepSolution step = s.solve();
   EXPECT_EQ(step.kind, SolveKind::qp);
-  EXPECT_GT(step.force[RowKind::wall].lpNorm<Eigen::Infinity>(), 0);
+  EXPECT_GT(step.force[RowKind::obstacle].lpNorm<Eigen::Infinity>(), 0);
   expect_optimal(s, step);
 }
 

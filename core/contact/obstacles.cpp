@@ -1,0 +1,108 @@
+#include "core/contact/obstacles.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace hagfish {
+namespace {
+
+/// A ball is the tube about a curve of this length, cm: one of no length has no direction.
+constexpr double ball_length = 1e-7;
+
+int point_count(const Obstacle& strand) { return static_cast<int>(strand.points.size()); }
+
+/// Point `i` of a strand, cm. Beyond the ends of an open one the polygon is continued straight.
+Eigen::Vector3d point_of(const Obstacle& strand, int i) {
+  const std::vector<Eigen::Vector3d>& p = strand.points;
+  const int n = point_count(strand);
+  if (n == 1) return p[0] + i * ball_length * Eigen::Vector3d::UnitX();
+  if (strand.closed) return p[(i + n) % n];
+  if (i < 0) return 2 * p[0] - p[1];
+  return i < n ? p[i] : (2 * p[n - 1] - p[n - 2]).eval();
+}
+
+SplineSegment segment_of(const Obstacle& strand, int i) {
+  SplineSegment s;
+  s.r0 = strand.radius;
+  s.s0 = std::numeric_limits<double>::infinity();
+  s.s1 = (point_of(strand, i + 1) - point_of(strand, i)).norm();
+  set_curve(point_of(strand, i - 1), point_of(strand, i), point_of(strand, i + 1),
+            point_of(strand, i + 2), s);
+  return s;
+}
+
+/// What lies between two strands. Its first end is that of the segment before, whose motion is told
+/// by it (SegmentEnds).
+SplineSegment gap_behind(const SplineSegment& before, int obstacle) {
+  SplineSegment s;
+  s.c0 = before.point(1);
+  s.c1 = before.slope(1);
+  s.c2 = s.c3 = Eigen::Vector3d::Zero();
+  s.r0 = before.radius(1);
+  s.s0 = std::numeric_limits<double>::infinity();
+  s.middle = s.c0;
+  s.bound = std::numeric_limits<double>::quiet_NaN();  // no distance is below it
+  s.obstacle = obstacle;
+  return s;
+}
+
+}  // namespace
+
+bool has_strand(const Model& model, int obstacle) {
+  return obstacle >= 0 && obstacle < static_cast<int>(model.obstacles.size()) &&
+         model.obstacles[obstacle].kind == Obstacle::Kind::strand;
+}
+
+int segments_of(const Obstacle& strand) {
+  const int n = point_count(strand);
+  return strand.closed || n == 1 ? n : n - 1;
+}
+
+Eigen::Matrix3Xd strand_curve(const Obstacle& strand) {
+  constexpr int pieces = 6;  // of a segment
+  const int count = segments_of(strand);
+  Eigen::Matrix3Xd curve(3, pieces * count + 1);
+  for (int k = 0; k < curve.cols(); ++k) {
+    const int i = std::min(k / pieces, count - 1);
+    curve.col(k) = segment_of(strand, i).point(static_cast<double>(k - i * pieces) / pieces);
+  }
+  return curve;
+}
+
+int strand_begin(const Model& model, int obstacle) {
+  int at = model.body_count() - 1;
+  for (int k = 0; k <= obstacle; ++k) {
+    const Obstacle& strand = model.obstacles[k];
+    if (strand.kind == Obstacle::Kind::strand) at += 1 + (k < obstacle ? segments_of(strand) : 0);
+  }
+  return at;
+}
+
+double strand_parameter(const Model& model, const Contact& contact) {
+  return contact.segment_b - strand_begin(model, contact.obstacle) + contact.t_b;
+}
+
+int segment_count(const Model& model) {
+  int count = model.body_count() - 1;
+  for (const Obstacle& strand : model.obstacles) {
+    if (strand.kind == Obstacle::Kind::strand) count += 1 + segments_of(strand);
+  }
+  return count;
+}
+
+void update_segments(const Model& model, const Eigen::Matrix3Xd& centre,
+                     std::vector<SplineSegment>& segments) {
+  update_spline(model, centre, segments);
+  if (segments.empty()) return;  // a single body has no skin between bodies
+  for (int k = 0; k < static_cast<int>(model.obstacles.size()); ++k) {
+    const Obstacle& strand = model.obstacles[k];
+    if (strand.kind != Obstacle::Kind::strand) continue;
+    segments.push_back(gap_behind(segments.back(), k));
+    for (int i = 0; i < segments_of(strand); ++i) {
+      segments.push_back(segment_of(strand, i));
+      segments.back().obstacle = k;
+    }
+  }
+}
+
+}  // namespace hagfish

@@ -1,0 +1,74 @@
+// The audit of a run in which the tail is pulled against a pole: what the log says of the obstacle
+// goes red when it is false.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "core/log/hdf5_error.hpp"
+#include "experiments/audit/audit.hpp"
+#include "experiments/audit/logged_contacts.hpp"
+#include "tests/support/stored_states.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tests/support/written_log.hpp"
+
+namespace hagfish {
+namespace {
+
+class AuditObstacles : public testing::Test {
+ protected:
+  AuditObstacles() {
+    write_log(file, stored_scene({"obstacle=[{kind='strand', name='pole', radius=0.5, "
+                                  "points=[[40, -1.4, -5], [40, -1.4, 5]]}]",
+                                  "time.step=0.005", "time.duration=0.4", "knot.votes=5",
+                                  "expect.knot=", "expect.types=[]", "expect.slide_distance=0"}));
+  }
+  std::string objections() const {
+    try {
+      return audit_objections(file);
+    } catch (const FileError& error) {
+      return error.what();
+    }
+  }
+  template <class T>
+  std::string objections_to(const std::string& path, const H5::DataType& type,
+                            const std::function<T(T)>& change) {
+    const auto before = rewrite<T>(file, path, type, [&](std::vector<T>& values) {
+      ASSERT_FALSE(values.empty());
+      for (T& value : values) value = change(value);
+    });
+    const std::string text = objections();
+    rewrite<T>(file, path, type, [&](std::vector<T>& values) { values = before; });
+    return text;
+  }
+
+  TemporaryFolder folder;
+  std::filesystem::path file = folder / "log.h5";
+};
+
+TEST_F(AuditObstacles, EachFigureIsWatched) {
+  EXPECT_EQ(objections(), "");
+  const LogContents log(file.string(), LogLevel::full);
+  int pressed = 0;
+  for (const LoggedContact& contact : logged_contacts(log)) pressed += contact.obstacle == 1;
+  ASSERT_GT(pressed, 3);
+  const auto number = [this](const std::string& path, const std::function<double(double)>& change) {
+    return objections_to<double>(path, H5::PredType::NATIVE_DOUBLE, change);
+  };
+  for (const char* path : {"/contacts/spline_a", "/contacts/force"}) {
+    const std::string text = number(path, [](double v) { return 0.99 * v; });
+    EXPECT_NE(text.find("/forces/wall"), std::string::npos) << path << ": " << text;
+  }
+  const std::string place = number("/contacts/spline_obstacle", [](double v) { return 0.9 * v; });
+  EXPECT_NE(place.find("/forces/wall"), std::string::npos) << place;
+  const std::string beyond = number("/contacts/spline_obstacle", [](double v) { return v + 1; });
+  EXPECT_NE(beyond.find("/contacts"), std::string::npos) << beyond;
+  for (const int other : {-1, 0, 2}) {  // the body itself, the head plate, none
+    const std::string text = objections_to<std::int64_t>(
+        "/contacts/obstacle", H5::PredType::NATIVE_INT64, [&](std::int64_t) { return other; });
+    EXPECT_NE(text.find("/contacts"), std::string::npos) << other << ": " << text;
+  }
+}
+
+}  // namespace
+}  // namespace hagfish
