@@ -9,7 +9,14 @@
 namespace hagfish {
 
 /// Checkpoints hold forces in this order: a new kind comes last.
-enum class RowKind : std::uint8_t { head, limit, contact, obstacle, thigmotaxis, last = thigmotaxis };
+enum class RowKind : std::uint8_t {
+  head,
+  limit,
+  contact,
+  obstacle,
+  thigmotaxis,
+  last = thigmotaxis
+};
 
 struct RowKindEntry {
   RowKind value;
