@@ -29,9 +29,10 @@ struct Beginning {
   Simulation sim;
 };
 
-/// What MuJoCo takes of a scene: its own time step, and no head plate.
+/// What MuJoCo has of its own: the time step and its rule, and no head plate.
 std::vector<std::string> changes(const MujocoRunOptions& options) {
-  std::vector<std::string> set = {fmt::format("time.step={}", options.step), "wall.present=false"};
+  std::vector<std::string> set = {fmt::format("time.step={}", options.step),
+                                  "time.rule=euler", "wall.present=false"};
   set.insert(set.end(), options.set.begin(), options.set.end());
   return set;
 }

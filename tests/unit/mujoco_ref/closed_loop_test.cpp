@@ -20,6 +20,7 @@ Scene bent_scene() {
   scene.model.bending_damping = scene.model.twist_damping = 3e3;
   scene.active = {5e5, 0.01, 1, 1e9};
   scene.start.bend = {{0, 0, 0.02, 0.01}, {1, 0.001, 0.1, -0.05}};
+  scene.start.bend_rate = {{0, 0, 0.03, 0}, {1, 0, 0.01, 0.02}};
   scene.start.phase = Phase::slide;
   scene.controller.law = "reflex";
   scene.controller.reflex.shift = 0.02;
