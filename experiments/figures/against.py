@@ -32,7 +32,13 @@ def main(table: Path, out: Path) -> None:
     by_time.set(xlabel="time, s", ylabel="distance, rms, cm", ylim=(0, None))
     along.plot(middle[counts.sum(axis=0) > 0], rms(0)[counts.sum(axis=0) > 0], color=plots.BLUE)
     along.set(xlabel="arc length, cm: head on the left, tail on the right", ylabel="distance, rms, cm", ylim=(0, None))
-    shown = np.ma.masked_where(counts == 0, np.sqrt(sums / np.maximum(counts, 1)))
+    # Points are fewer than bins, and some are missing: in between, linear along the body.
+    shown = np.empty((times.size, BINS))
+    for row in range(times.size):
+        here = np.flatnonzero(at == row)
+        here = here[np.argsort(arc[here])]
+        shown[row] = np.interp(middle, arc[here], off[here], left=np.nan, right=np.nan)
+    shown = np.ma.masked_invalid(shown)
     edges = np.r_[times, 2 * times[-1] - times[-2]] if times.size > 1 else np.r_[times, times + 1]
     image = both.pcolormesh(edges, bounds, shown.T, cmap="viridis", vmin=0, rasterized=True)
     both.grid(visible=False)

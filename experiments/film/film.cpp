@@ -2,212 +2,230 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <optional>
-#include <sstream>
+#include <limits>
 
 #include "core/input/input_error.hpp"
 #include "core/input/input_text.hpp"
-#include "core/input/number_csv.hpp"
-#include "core/input/regular_file.hpp"
-#include "core/log/hdf5_error.hpp"
+#include "experiments/film/film_table.hpp"
 
 namespace hagfish {
 namespace {
 
-/// Excel writes it before UTF-8.
-constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 constexpr std::size_t least_points = 5;
-constexpr std::uintmax_t most_bytes = std::uintmax_t{1} << 30;
-/// Of the way along a midline's points over what s says. Points that are far apart cut corners, and
-/// noise of points that are near makes detours.
-constexpr double least_way = 0.2, most_way = 5;
-/// Of a film, s or cm, and the least length of its animal, cm: what is fitted squares their ratio.
-constexpr double largest_number = 1e9, least_length = 1e-9;
+/// The least length of a film's animal, cm: what is fitted squares its inverse.
+constexpr double least_length = 1e-9;
+/// Of places, in the film's unit: what is fitted squares them.
+constexpr double largest_place = 1e9;
+/// Of the distance of two points over what s says, in the middle: beyond, one is in another unit.
+/// Points that are far apart cut corners, and those of a projection lie nearer.
+constexpr double least_ratio = 0.7, most_ratio = 1.15;
+/// Of the body: about how far apart points are to be compared, and how far at most for the least.
+constexpr double compared_apart = 0.06, corners_from = 0.1;
+/// Points whose distances from one number to the next differ by no more are even.
+constexpr double even_share = 0.1, even_errors = 4;
+/// Of the body between two points, rad: more is noise.
+constexpr double most_turn = 2;
 
-/// A column of lengths: its name with its unit, and cm in one of it.
-struct LengthColumn {
-  std::string name;
-  double cm = 1;
-};
-
-class Heading {
- public:
-  Heading(const std::string& text, std::string file, double pixels_per_cm)
-      : file_(std::move(file)), pixels_per_cm_(pixels_per_cm) {
-    std::istringstream lines(text);
-    std::string line;
-    do {
-      if (!std::getline(lines, line)) line.clear();
-    } while (lines && (line.starts_with('#') || line.empty() || line == "\r"));
-    heading_ = line;
-    std::istringstream fields(line);
-    for (std::string field; std::getline(fields, field, ',');) {
-      field.erase(std::remove_if(field.begin(), field.end(),
-                                 [](char c) { return c == '"' || c == '\r' || c == ' '; }),
-                  field.end());
-      names_.push_back(field);
-    }
-  }
-  bool has(const std::string& name) const {
-    return std::ranges::find(names_, name) != names_.end();
-  }
-  [[noreturn]] void fail(const std::string& why) const { throw_input_error(file_ + ": " + why); }
-
-  /// `name` in one of the units of length; nothing where it is in none.
-  std::optional<LengthColumn> length(const std::string& name) const {
-    for (const auto& [unit, cm] : {std::pair{"cm", 1.0}, {"mm", 0.1}, {"m", 100.0}}) {
-      if (has(name + "_" + unit)) return LengthColumn{name + "_" + unit, cm};
-    }
-    if (has(name + "_px")) {
-      if (pixels_per_cm_ <= 0) fail(name + "_px: pixels need --scale, px/cm");
-      return LengthColumn{name + "_px", 1 / pixels_per_cm_};
-    }
-    if (has(name)) fail("column " + name + ": has no unit: " + name + "_cm, _mm, _m or _px");
-    return std::nullopt;
-  }
-  LengthColumn needed(const std::string& name) const {
-    const auto column = length(name);
-    if (!column) lacks(name + "_cm (or _mm, _m, _px)");
-    return *column;
-  }
-  [[noreturn]] void lacks(const std::string& column) const {
-    fail(fmt::format("no column {} among the {} that commas separate in \"{}\"", column,
-                     names_.size(), shortened(heading_)));
-  }
-
- private:
-  std::string file_, heading_;
-  double pixels_per_cm_;
-  std::vector<std::string> names_;
-};
-
-std::string whole_text(const std::string& file) {
-  if (const std::string why = unreadable(file); !why.empty()) throw FileError(file + ": " + why);
-  std::error_code error;
-  if (std::filesystem::file_size(file, error) > most_bytes || error) {
-    throw FileError(file + ": larger than 1 GiB");
-  }
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  if (!stream) throw FileError(file + ": cannot be read");
-  std::string whole = text.str();
-  if (whole.starts_with(byte_order_mark)) whole.erase(0, byte_order_mark.size());
-  return whole;
+double quantile(std::vector<double>& values, double share) {
+  const auto at =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::ranges::nth_element(values, at);
+  return *at;
 }
 
-/// Shares of the length: by s where there is one, else by the way along the points.
-/// Returns the length of the polygon, cm.
-double place_points(const Heading& heading, bool by_arc, FilmFrame& frame) {
-  const auto n = static_cast<std::size_t>(frame.point.cols());
-  const auto fail = [&](const std::string& why) {
-    heading.fail(fmt::format("time {:g} s: {}", frame.time, why));
+/// The rows of a table by time, in each by number.
+void sort_points(const std::string& file, FilmTable& table) {
+  const auto key = [](const FilmPoint& p) { return std::pair(p.time, p.number); };
+  std::ranges::stable_sort(table.points, {}, key);
+  const auto same = [&](const FilmPoint& a, const FilmPoint& b) {
+    if (key(a) != key(b)) return false;
+    if (a.place == b.place || (!a.place.allFinite() && !b.place.allFinite())) return true;
+    throw_input_error(fmt::format("{}: time {:g} s: {} {:g} stands there twice, with other numbers",
+                                  file, a.time, table.by_arc ? "s" : "point", a.number));
   };
-  if (n < least_points) fail(fmt::format("{} points; a midline needs {}", n, least_points));
-  for (std::size_t k = 1; k < n; ++k) {
-    if (!(frame.place[k] > frame.place[k - 1])) fail("points must rise from head to tail");
+  const auto again = std::ranges::unique(table.points, same);
+  table.points.erase(again.begin(), again.end());
+}
+
+/// The way along a body between two points of an arc through them: the chord, and how far the body
+/// turns from one end of it to the other.
+double arc_over(double chord, double turn) {
+  const double half = std::min(turn, most_turn) / 2;
+  return half > 0 ? chord * half / std::sin(half) : chord;
+}
+
+/// The ways between the points of one midline, from one to the next; NaN where one is missing.
+std::vector<double> ways_of(const Eigen::Matrix3Xd& points) {
+  const Eigen::Index n = points.cols();
+  const Eigen::Matrix3Xd chord = points.rightCols(n - 1) - points.leftCols(n - 1);
+  // How much the polygon turns at each point, per length.
+  Eigen::VectorXd bend = Eigen::VectorXd::Constant(n, std::numeric_limits<double>::quiet_NaN());
+  for (Eigen::Index i = 1; i + 1 < n; ++i) {
+    const Eigen::Vector3d a = chord.col(i - 1), b = chord.col(i);
+    bend[i] = 2 * std::atan2(a.cross(b).norm(), a.dot(b)) / (a.norm() + b.norm());
   }
-  double way = 0;
-  std::vector<double> ways{0};
-  for (Eigen::Index k = 1; k < frame.point.cols(); ++k) {
-    ways.push_back(way += (frame.point.col(k) - frame.point.col(k - 1)).norm());
+  std::vector<double> ways;
+  for (Eigen::Index i = 0; i + 1 < n; ++i) {
+    double sum = 0, count = 0;
+    for (const double at : {bend[i], bend[i + 1]}) {
+      if (!std::isfinite(at)) continue;
+      sum += at;
+      ++count;
+    }
+    const double size = chord.col(i).norm();
+    ways.push_back(count > 0 ? arc_over(size, sum / count * size) : size);
   }
-  if (!(way > 0)) fail("all points are in one place");
-  if (!by_arc) {
-    for (std::size_t k = 0; k < n; ++k) frame.place[k] = ways[k] / way;
+  return ways;
+}
+
+/// Where each number lies along the body: even, or as far apart as the points are.
+std::vector<double> places_of(const std::vector<double>& numbers, const FilmTable& table) {
+  const std::size_t n = numbers.size();
+  std::vector<std::vector<double>> way(n - 1);
+  for (std::size_t k = 0; k < table.points.size();) {
+    const double time = table.points[k].time;
+    Eigen::Matrix3Xd points = Eigen::Matrix3Xd::Constant(3, static_cast<Eigen::Index>(n),
+                                                         std::numeric_limits<double>::quiet_NaN());
+    for (; k < table.points.size() && table.points[k].time == time; ++k) {
+      const auto i = std::ranges::lower_bound(numbers, table.points[k].number) - numbers.begin();
+      points.col(i) = table.points[k].place;
+    }
+    const std::vector<double> ways = ways_of(points);
+    for (std::size_t i = 0; i + 1 < n; ++i) {
+      if (std::isfinite(ways[i])) way[i].push_back(ways[i]);
+    }
   }
-  return way;
+  std::vector<double> even(n), by_way{0}, middle;
+  for (std::size_t k = 0; k < n; ++k) even[k] = static_cast<double>(k) / static_cast<double>(n - 1);
+  for (std::vector<double>& ways : way) {
+    if (ways.empty()) return even;
+    middle.push_back(quantile(ways, 0.5));
+    by_way.push_back(by_way.back() + middle.back());
+  }
+  const double mean = by_way.back() / static_cast<double>(n - 1);
+  if (!(mean > 0)) return even;
+  bool uneven = false;
+  for (std::size_t i = 0; i + 1 < n; ++i) {
+    const double off = std::abs(middle[i] - mean);
+    for (double& w : way[i]) w = std::abs(w - middle[i]);
+    // Of a median, from the median of what is off it.
+    const double error =
+        1.9 * quantile(way[i], 0.5) / std::sqrt(static_cast<double>(way[i].size()));
+    uneven = uneven || (off > even_share * mean && off > even_errors * error);
+  }
+  if (!uneven) return even;
+  for (double& place : by_way) place /= by_way.back();
+  return by_way;
+}
+
+/// Distances of points about `compared_apart` of the body apart, over that, and how far that is.
+struct Spacing {
+  std::vector<double> ratio, apart;
+};
+Spacing spacing(const Film& film) {
+  Spacing out;
+  for (const FilmFrame& frame : film.frames) {
+    const std::size_t n = frame.place.size();
+    for (std::size_t a = 0, b = 0; a < n; ++a) {
+      b = std::max(b, a + 1);
+      while (b + 1 < n && frame.place[b] - frame.place[a] < compared_apart) ++b;
+      if (b >= n) break;
+      const double apart = frame.place[b] - frame.place[a];
+      out.apart.push_back(apart);
+      out.ratio.push_back((frame.point.col(static_cast<Eigen::Index>(b)) -
+                           frame.point.col(static_cast<Eigen::Index>(a)))
+                              .norm() /
+                          apart);
+    }
+  }
+  return out;
 }
 
 }  // namespace
 
-Film read_film(const std::string& file, double pixels_per_cm) {
-  const std::string text = whole_text(file);
-  const Heading heading(text, file, pixels_per_cm);
-  if (!heading.has("time_s")) heading.lacks("time_s");
-  const auto arc = heading.length("s");
-  if (!arc && !heading.has("point")) heading.lacks("s_cm or point");
-  const LengthColumn x = heading.needed("x"), y = heading.needed("y");
-  const auto z = heading.length("z");
-  const std::string order = arc ? arc->name : "point";
+std::size_t Film::present() const {
+  std::size_t count = 0;
+  for (const FilmFrame& frame : frames) count += frame.place.size();
+  return count;
+}
+
+Film read_film(const std::string& file, const FilmReading& reading) {
+  FilmTable table = read_film_table(file, reading);
+  const auto fail = [&](const std::string& why) { throw_input_error(file + ": " + why); };
+  sort_points(file, table);
   Film film;
-  film.planar = !z;
-  const double unit = arc ? arc->cm : 1;
-  double longest = 0;
-  std::vector<std::vector<Eigen::Vector3d>> points;
-  const auto take = [&](double time, double place, const Eigen::Vector3d& point) -> std::string {
-    const double largest =
-        std::max({std::abs(time), std::abs(place), point.lpNorm<Eigen::Infinity>()});
-    if (largest > largest_number) {
-      return fmt::format("{:g}: must be of at most {:g} s or cm", largest, largest_number);
-    }
-    if (film.frames.empty() || time != film.frames.back().time) {
-      if (!film.frames.empty() && time < film.frames.back().time) return "times must rise";
-      film.frames.push_back({time, {}, {}});
-      points.emplace_back();
-    }
-    film.frames.back().place.push_back(place);
-    points.back().push_back(point);
-    longest = std::max(longest, place);
-    return {};
-  };
-  if (z) {
-    read_number_csv<5>(
-        text, file, {"time_s", order, x.name, y.name, z->name}, [&](const auto& row) {
-          return take(row[0], unit * row[1], {x.cm * row[2], y.cm * row[3], z->cm * row[4]});
-        });
-  } else {
-    read_number_csv<4>(text, file, {"time_s", order, x.name, y.name}, [&](const auto& row) {
-      return take(row[0], unit * row[1], {x.cm * row[2], y.cm * row[3], 0});
-    });
+  film.planar = table.planar;
+  film.unit = table.unit;
+  film.format = table.format;
+  film.length_known = table.by_arc;
+  const bool down = table.pixels ? !reading.y_up : reading.y_down;
+  if (down) film.turned = table.pixels ? "y runs down, as rows of images do" : "y runs down";
+
+  std::vector<double> numbers;
+  for (const FilmPoint& point : table.points) numbers.push_back(point.number);
+  std::ranges::sort(numbers);
+  numbers.erase(std::ranges::unique(numbers).begin(), numbers.end());
+  if (numbers.size() < least_points) {
+    fail(fmt::format("{} points along the body; a midline needs {}", numbers.size(), least_points));
   }
-  if (film.frames.size() < 2) heading.fail("midlines of two times or more are needed");
-  const auto check_length = [&heading](double length) {
-    if (length < least_length) heading.fail(fmt::format("an animal {:g} cm long", length));
-  };
-  for (std::size_t f = 0; f < film.frames.size(); ++f) {
-    FilmFrame& frame = film.frames[f];
-    frame.point.resize(3, static_cast<Eigen::Index>(points[f].size()));
-    for (std::size_t k = 0; k < points[f].size(); ++k) {
-      frame.point.col(static_cast<Eigen::Index>(k)) = points[f][k];
+  std::vector<double> places;
+  if (table.by_arc) {
+    if (numbers.front() < 0) fail("s is below 0");
+    film.length = reading.length > 0 ? reading.length : numbers.back();
+    if (numbers.back() > film.length * (1 + 1e-9)) {
+      fail(fmt::format("s = {:g} cm is past --length {:g}", numbers.back(), film.length));
     }
-    const double way = place_points(heading, arc.has_value(), frame);
-    film.length = std::max(film.length, arc ? longest : way);
-    check_length(film.length);
-    if (!arc) continue;
-    if (frame.place[0] < 0) heading.fail(arc->name + " is below 0");
-    const double share = way / (frame.place.back() - frame.place.front());
-    if (share < least_way || share > most_way) {
-      heading.fail(
-          fmt::format("time {:g} s: its points lie {:.3g} cm apart along the body, by {} "
-                      "{:.3g} cm: is one in another unit?",
-                      frame.time, way, arc->name, way / share));
+    for (const double s : numbers) places.push_back(std::min(s / film.length, 1.0));
+  } else {
+    places = places_of(numbers, table);
+  }
+  std::size_t most = 0, rows = 0;
+  for (std::size_t k = 0; k < table.points.size();) {
+    FilmFrame frame{table.points[k].time, {}, {}};
+    std::vector<Eigen::Vector3d> points;
+    std::size_t here = 0;
+    for (; k < table.points.size() && table.points[k].time == frame.time; ++k, ++here) {
+      Eigen::Vector3d place = table.points[k].place;
+      if (!place.allFinite()) continue;
+      if (place.lpNorm<Eigen::Infinity>() > largest_place) {
+        fail(fmt::format("time {:g} s: a point is at {:g} {}: must be of at most {:g}", frame.time,
+                         place.lpNorm<Eigen::Infinity>(), film.unit, largest_place));
+      }
+      if (down) place.y() = -place.y();
+      points.push_back(place);
+      frame.place.push_back(places[static_cast<std::size_t>(
+          std::ranges::lower_bound(numbers, table.points[k].number) - numbers.begin())]);
     }
-    for (double& place : frame.place) place /= longest;
+    most = std::max(most, here);
+    ++rows;
+    if (points.empty()) continue;
+    frame.point.resize(3, static_cast<Eigen::Index>(points.size()));
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      frame.point.col(static_cast<Eigen::Index>(i)) = points[i];
+    }
+    film.frames.push_back(std::move(frame));
+  }
+  film.expected = rows * (table.by_arc ? most : numbers.size());
+  if (film.frames.size() < 2) fail("midlines of two times or more are needed");
+
+  Spacing spacing = hagfish::spacing(film);
+  if (spacing.ratio.empty()) fail("no midline has two points");
+  const double apart = quantile(spacing.apart, 0.5);
+  if (!table.by_arc) film.length = quantile(spacing.ratio, 0.75);
+  if (!(film.length > least_length)) fail(fmt::format("an animal {:g} cm long", film.length));
+  if (table.by_arc) {
+    const double ratio = quantile(spacing.ratio, 0.5) / film.length;
+    const bool near = ratio < least_ratio && !film.planar && apart < corners_from;
+    if (ratio > most_ratio || near || ratio < least_ratio * least_ratio * least_ratio) {
+      fail(
+          fmt::format("points that s says are {:.3g} {} apart along the body are {:.3g} times as "
+                      "far from each other: is one in another unit, or the scale wrong?",
+                      apart * film.length, film.unit, ratio));
+    }
   }
   return film;
-}
-
-Eigen::Vector3d point_on(const Model& model, const Kinematics& kin, double place) {
-  const double at = place * model.body_count();
-  const int body = std::clamp(static_cast<int>(at), 0, model.body_count() - 1);
-  return kin.origin.col(body) + (at - body) * model.bodies[body].length * kin.rotation[body].col(0);
-}
-
-RigidMotion nearest_motion(const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to) {
-  const Eigen::Vector3d a = from.rowwise().mean(), b = to.rowwise().mean();
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd((to.colwise() - b) * (from.colwise() - a).transpose(),
-                                              Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Vector3d sign = Eigen::Vector3d::Ones();
-  sign[2] = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
-  RigidMotion motion;
-  motion.rotation = svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose();
-  motion.shift = b - motion.rotation * a;
-  return motion;
 }
 
 }  // namespace hagfish

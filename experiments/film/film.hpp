@@ -5,44 +5,49 @@
 #include <string>
 #include <vector>
 
-#include "core/chain/kinematics.hpp"
-#include "core/chain/model.hpp"
-
 namespace hagfish {
 
+/// One midline. What the film lacks is not here.
 struct FilmFrame {
   double time = 0;            ///< s
   std::vector<double> place;  ///< of each point, share of the length from the head, 0 to 1, rising
-  Eigen::Matrix3Xd point;     ///< cm, in the film's own axes; z is 0 in two dimensions
+  Eigen::Matrix3Xd point;     ///< the film's unit and axes; z is 0 in two dimensions
 };
 
 struct Film {
   std::vector<FilmFrame> frames;  ///< times rising
   bool planar = false;            ///< it has no z
-  double length = 0;              ///< of the animal: the largest s, or the longest polygon, cm
+  /// Of the animal, by s, or by the points' distances where there is no s: then a fit finds it.
+  double length = 0;
+  bool length_known = false;  ///< by s
+  std::string unit = "cm";    ///< of points and length: "px" where nothing says how large these are
+  std::string format;         ///< what it was read as, for the user
+  std::string turned;         ///< what was done to its axes; empty where nothing was
+  std::size_t expected = 0;   ///< points that it would have if none were missing
+  std::size_t present() const;
 };
 
-/// Reads a CSV with a heading: `time_s`; `s_cm` (or m, mm, px) or `point`, which rise from head to
-/// tail; `x_cm`, `y_cm` and perhaps `z_cm` (or m, mm, px), as `hagfish export` writes midlines.
-/// Other columns do not matter. Without s the points are placed by the way along their polygon,
-/// which is taken to run from end to end. `pixels_per_cm`: of columns in px; 0 where there are
-/// none. Throws InputError, one line, for a column or unit that is missing, for what is no number,
-/// for points whose way along the body is not a fifth to five times what s says, and for fewer than
-/// two frames or five points in one; FileError where the file cannot be read.
-Film read_film(const std::string& file, double pixels_per_cm);
-
-/// The point of the chain at a share of its length from the head, world, cm.
-Eigen::Vector3d point_on(const Model& model, const Kinematics& kin, double place);
-
-/// The rigid motion, x to rotation x + shift, that brings `from` (3 x n) nearest to `to`, by least
-/// squares.
-struct RigidMotion {
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-  Eigen::Vector3d shift = Eigen::Vector3d::Zero();
-  Eigen::Matrix3Xd of(const Eigen::Matrix3Xd& points) const {
-    return (rotation * points).colwise() + shift;
-  }
+/// How a film is to be read.
+struct FilmReading {
+  double pixels_per_cm = 0;  ///< of columns in px; 0 where not given
+  double fps = 0;            ///< of films that count frames; 0 where not given
+  double likelihood = 0.6;   ///< points that their tracker is less sure of are missing
+  double length = 0;         ///< of the film's animal, cm; 0: its last s is its tail
+  std::string individual;    ///< of films of several
+  bool y_up = false;         ///< columns in px have y up: else it runs down, as rows of images do
+  bool y_down = false;       ///< columns in a unit of length have y down
 };
-RigidMotion nearest_motion(const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to);
+
+/// Reads midlines as they come: a table with a row for each time and point (`time_s` or `frame`;
+/// `s_cm` or `point`; `x_cm`, `y_cm`, perhaps `z_cm`, or _mm, _m, _px; perhaps `likelihood`,
+/// `individual`), with a row for each time ("X NAME", "Y NAME", as EthoVision writes them),
+/// DeepLabCut's CSV, SLEAP's analysis HDF5. Commas, semicolons or tabs; decimal points or commas;
+/// rows in any order. Empty cells and words such as NaN are missing, and so are points below the
+/// likelihood. A point is where its s or its number says; numbers are even from head to tail, or as
+/// far apart as the points are. Throws InputError, one line, for what it cannot read so: columns,
+/// units or times that are missing, what is no number, one point twice with other numbers, points
+/// farther apart than s says, fewer than two midlines or five points; FileError where the file
+/// cannot be read.
+Film read_film(const std::string& file, const FilmReading& reading);
 
 }  // namespace hagfish

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "core/input/input_error.hpp"
+#include "experiments/film/film_rigid.hpp"
+#include "experiments/film/film_shape.hpp"
 
 namespace hagfish {
 namespace {
@@ -11,13 +13,14 @@ namespace {
 /// Of times, in frames of the log: a film made from a log has its times rounded.
 constexpr double rounding = 1e-6;
 
-/// The log's points at the places of a film's frame.
-Eigen::Matrix3Xd points_at(const LogContents& log, std::size_t frame, const FilmFrame& film) {
+/// The log's points at the places of a film's frame, times `share`.
+Eigen::Matrix3Xd points_at(const LogContents& log, std::size_t frame, const FilmFrame& film,
+                           double share) {
   Kinematics kin;
   update_positions(log.model, log.q.row(static_cast<Eigen::Index>(frame)).transpose(), kin);
   Eigen::Matrix3Xd points(3, film.point.cols());
   for (Eigen::Index k = 0; k < points.cols(); ++k) {
-    points.col(k) = point_on(log.model, kin, film.place[k]);
+    points.col(k) = point_on(log.model, kin, std::min(share * film.place[k], 1.0));
   }
   return points;
 }
@@ -47,6 +50,11 @@ FilmDistance film_distance(const LogContents& log, const Film& film, const FilmP
   std::vector<const FilmFrame*> common;
   std::vector<Eigen::Matrix3Xd> own;
   Eigen::Index count = 0;
+  if (!placing.aligned && !film.length_known) {
+    throw InputError("--as-is needs s_cm, which says where a point is");
+  }
+  const double length = log.model.length();
+  const double along = placing.aligned ? 1 : film.length / length;
   const double begin = log.time.front(), end = log.time.back();
   const double little = rounding * log.resolved.scene.time.frame_interval;
   for (const FilmFrame& frame : film.frames) {
@@ -55,10 +63,10 @@ FilmDistance film_distance(const LogContents& log, const Film& film, const FilmP
     const auto after = static_cast<std::size_t>(std::ranges::lower_bound(log.time, time - little) -
                                                 log.time.begin());
     const std::size_t b = std::min(after, log.time.size() - 1);
-    Eigen::Matrix3Xd points = points_at(log, b, frame);
+    Eigen::Matrix3Xd points = points_at(log, b, frame, along);
     if (b > 0 && log.time[b] > time + little) {
       const double share = (log.time[b] - time) / (log.time[b] - log.time[b - 1]);
-      points = ((1 - share) * points + share * points_at(log, b - 1, frame)).eval();
+      points = ((1 - share) * points + share * points_at(log, b - 1, frame, along)).eval();
     }
     common.push_back(&frame);
     own.push_back(points);
@@ -68,7 +76,6 @@ FilmDistance film_distance(const LogContents& log, const Film& film, const FilmP
     throw InputError(log.h5.file() + ": the film has no time of the log's");
   }
   FilmDistance distance;
-  const double length = log.model.length();
   distance.scale = placing.aligned ? length / film.length : 1;
   Eigen::Matrix3Xd from(3, count), to(3, count);
   Eigen::Index at = 0;
@@ -77,14 +84,24 @@ FilmDistance film_distance(const LogContents& log, const Film& film, const FilmP
     to.middleCols(at, own[f].cols()) = own[f];
     at += own[f].cols();
   }
-  const RigidMotion motion = placing.aligned ? nearest_motion(from, to) : RigidMotion{};
+  RigidMotion motion = placing.aligned ? nearest_motion(from, to) : RigidMotion{};
+  if (placing.aligned && !film.length_known) {
+    const Eigen::Matrix3Xd a =
+        (motion.rotation * from).colwise() - (motion.rotation * from).rowwise().mean();
+    const Eigen::Matrix3Xd b = to.colwise() - to.rowwise().mean();
+    const double more = a.cwiseProduct(b).sum() / a.squaredNorm();
+    if (std::isfinite(more) && more > 0) {
+      distance.scale *= more;
+      motion = nearest_motion(more * from, to);
+    }
+  }
   for (std::size_t f = 0; f < common.size(); ++f) {
     distance.time.push_back(common[f]->time + placing.later);
     const Eigen::RowVectorXd off =
         (own[f] - motion.of(distance.scale * common[f]->point)).colwise().norm();
     distance.off.emplace_back(off.begin(), off.end());
     std::vector<double>& arc = distance.arc.emplace_back();
-    for (const double place : common[f]->place) arc.push_back(place * length);
+    for (const double place : common[f]->place) arc.push_back(place * along * length);
   }
   return distance;
 }

@@ -21,13 +21,14 @@ struct FilmDistance {
 struct FilmPlacing {
   /// The film's animal is scaled to the length of the log's, as it may be another one, and the film
   /// as a whole moved by the rigid motion that makes the sum of squares least, as it has its own
-  /// axes.
+  /// axes. Where the film does not know its animal's length, the scale makes it least, too. Else a
+  /// point is where its s says, in cm, and axes are the log's.
   bool aligned = true;
   double later = 0;  ///< the log's clock minus the film's, s
 };
 
 /// At each time of the film the log's shape, linear between its frames. Throws InputError where
-/// they have no time in common.
+/// they have no time in common, and where a film whose points have no s is not to be scaled.
 FilmDistance film_distance(const LogContents& log, const Film& film, const FilmPlacing& placing);
 
 }  // namespace hagfish

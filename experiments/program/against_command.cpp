@@ -3,8 +3,13 @@
 #include <algorithm>
 #include <optional>
 
+#include "core/chain/kinematics.hpp"
+#include "core/input/input_error.hpp"
 #include "core/input/input_text.hpp"
+#include "experiments/film/film_checks.hpp"
+#include "experiments/film/film_curve.hpp"
 #include "experiments/film/film_distance.hpp"
+#include "experiments/film/film_trial.hpp"
 #include "experiments/program/csv.hpp"
 #include "experiments/program/film_words.hpp"
 #include "experiments/program/number_options.hpp"
@@ -17,7 +22,7 @@ namespace {
 
 struct AgainstOptions {
   std::string log, film, csv, png;
-  double scale = 0;             ///< of pixels, px/cm
+  FilmReading reading;
   std::optional<double> start;  ///< time of the log at the film's first midline, s
   bool as_is = false, force = false;
 };
@@ -34,11 +39,37 @@ CsvTable table_of(const FilmDistance& distance) {
   return table;
 }
 
+/// Says so where film and log show one knot of two hands at the last time that both have.
+void compare_hands(const LogContents& log, const Film& film, double later,
+                   const AgainstOptions& options) {
+  const auto after = [&](const FilmFrame& frame) { return frame.time + later > log.time.back(); };
+  const auto end = std::ranges::find_if(film.frames, after);
+  if (end == film.frames.begin()) return;
+  const FilmFrame& last = *(end - 1);
+  const auto near = std::ranges::lower_bound(log.time, last.time + later) - log.time.begin();
+  const auto frame = std::min<Eigen::Index>(near, log.q.rows() - 1);
+  Kinematics kin;
+  update_positions(log.model, log.q.row(frame).transpose(), kin);
+  const KnotSettings& settings = log.resolved.scene.knot;
+  const SeenKnot own = knot_of(kin.centre, settings), seen = knot_of(curve_through(last), settings);
+  if (own.name != seen.name || own.hand == seen.hand || own.hand == Hand::any ||
+      seen.hand == Hand::any) {
+    return;
+  }
+  fmt::print(
+      "{}: at {:g} s its {} is {}-handed, that of {} {}-handed: which of them has y the "
+      "wrong way (--y-up, --y-down)?\n",
+      printable(options.film), last.time, seen.name, seen.hand == Hand::right ? "right" : "left",
+      printable(options.log), own.hand == Hand::right ? "right" : "left");
+}
+
 int against(const AgainstOptions& options) {
   std::optional<TextFile> csv;
   if (!options.csv.empty()) csv.emplace(options.csv, options.force);
   const LogContents log(options.log, LogLevel::frames);
-  const Film film = read_film(options.film, options.scale);
+  Film film = read_film(options.film, options.reading);
+  const FilmRemarks remarks = tidy(film);
+  if (film.frames.empty()) throw InputError(options.film + ": has no midline that can be used");
   const double later = options.start ? *options.start - film.frames.front().time : 0;
   const FilmDistance distance = film_distance(log, film, {!options.as_is, later});
   const std::vector<double> by_time = distance.rms_by_time();
@@ -51,7 +82,15 @@ int against(const AgainstOptions& options) {
       printable(options.log), distance.rms(), printable(options.film), by_time.size(),
       film.frames.size(), options.as_is ? "" : ", the film moved as a whole",
       scaled(film, distance.scale), distance.time[worst], by_time[worst]);
-  if (film.planar) fmt::print("{}", flat_note(options.film));
+  for (const std::vector<std::string>& lines : {remarks.told, remarks.doubts}) {
+    for (const std::string& line : lines) fmt::print("{}: {}\n", printable(options.film), line);
+  }
+  if (film.planar) {
+    fmt::print("{}: has no z: one camera does not tell how far its strands are apart\n",
+               printable(options.film));
+  } else {
+    compare_hands(log, film, later, options);
+  }
   return exit_code::done;
 }
 
@@ -62,9 +101,8 @@ void add_against(Program& program) {
   CLI::App* app = program.app.add_subcommand(
       "against", "say how far a run is from midlines digitised from a film");
   app->add_option("LOG", options->log, "log file")->required();
-  app->add_option("CSV", options->film, "midlines, as `hagfish midlines` takes them")->required();
-  app->add_option("--scale", options->scale, "pixels in a cm, for columns in px")
-      ->check(above_zero());
+  app->add_option("FILM", options->film, "midlines, as `hagfish midlines` takes them")->required();
+  add_film_options(*app, options->reading);
   app->add_flag("--as-is", options->as_is,
                 "the film's axes and animal are the log's: neither move nor scale it");
   app->add_option("--start", options->start,

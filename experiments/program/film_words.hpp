@@ -1,29 +1,27 @@
-// What commands on films say of a film.
+// What commands on films ask and say of a film.
 #pragma once
 
-#include <fmt/format.h>
-
-#include <cmath>
+#include <CLI/CLI.hpp>
 #include <string>
 
-#include "core/input/input_text.hpp"
 #include "experiments/film/film.hpp"
 
 namespace hagfish {
 
+inline constexpr const char* film_help =
+    "midlines: columns time_s (or frame), s_cm or point, x_cm, y_cm, perhaps z_cm (or _mm, _m, "
+    "_px), or DeepLabCut's CSV, SLEAP's analysis HDF5, EthoVision's export";
+
+/// Adds the options that say how a film is to be read.
+void add_film_options(CLI::App& command, FilmReading& reading);
+
+/// The same options as words of a command line, each with a blank before it.
+std::string film_option_words(const FilmReading& reading);
+
 /// ", its animal of 35 cm scaled to 42.4 cm"; empty where the lengths are the same to 0.1 %.
-inline std::string scaled(const Film& film, double scale) {
-  constexpr double same = 1e-3;
-  return std::abs(scale - 1) < same ? ""
-                                    : fmt::format(", its animal of {:.3g} cm scaled to {:.3g} cm",
-                                                  film.length, scale * film.length);
-}
+std::string scaled(const Film& film, double scale);
 
 /// A line, of a film without z.
-inline std::string flat_note(const std::string& film) {
-  return fmt::format(
-      "{}: has no z, so that its animal is taken to lie in a plane, which no knot does\n",
-      printable(film));
-}
+std::string flat_note(const std::string& film);
 
 }  // namespace hagfish

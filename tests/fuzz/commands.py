@@ -14,7 +14,7 @@ BACK_ENDS = ["active-set", "ipopt", "ipopt-unpolished"]
 
 
 # Good values of arguments and options, by the names that help gives them; what is not here is left out.
-ARGUMENTS = {"LOG": "good.h5", "SCENE": "table1", "GRID": "scene_grid.toml", "SET": "good.qp.h5", "CSV": "film.csv"}
+ARGUMENTS = {"LOG": "good.h5", "SCENE": "table1", "GRID": "scene_grid.toml", "SET": "good.qp.h5", "FILM": "film.csv"}
 OPTIONS = {
     "--force": [], "--quiet": [], "--qp": ["active-set"], "--backend": ["active-set"], "--repeat": ["1"], "--threads": ["1"], "--cpu-limit": ["3"],
     "--size": ["64x48"], "--stations": ["3"], "--times": ["3"], "--scene": ["small.toml"], "--length": ["40"], "--mass": ["80"],

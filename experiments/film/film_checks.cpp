@@ -1,0 +1,285 @@
+#include "experiments/film/film_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "experiments/film/film_curve.hpp"
+
+namespace hagfish {
+namespace {
+
+/// Two points are no farther apart than the body between them, times the first and with the second
+/// (of the body's length) for noise.
+constexpr double stretch = 1.1, noise_allowed = 0.03;
+/// Above this many points in a midline, pairs are too many to look at.
+constexpr Eigen::Index most_pairs_of = 400;
+/// Midlines in a row that are the same, from which on they count as repeated.
+constexpr std::size_t repeated = 3;
+/// A change counts as a jump where it is so many times the usual one, and so much of the body.
+constexpr double jump_times = 6, jump_share = 0.04;
+/// What follows a frozen film is so many times the usual change off it.
+constexpr double thaw_times = 3;
+/// A midline is turned round where it is that far off the one before, of the body, and is nearer by
+/// this factor then, and not much farther than midlines usually are.
+constexpr double turned_far = 0.05, turned_nearer = 0.6, turned_change = 3, turned_noise = 0.01;
+/// Of the interval between midlines: what is longer is a gap.
+constexpr double gap_times = 2.5;
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+void keep(FilmFrame& frame, const std::vector<bool>& kept) {
+  FilmFrame out{frame.time, {}, {}};
+  out.point.resize(3, std::ranges::count(kept, true));
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    if (!kept[k]) continue;
+    out.point.col(static_cast<Eigen::Index>(out.place.size())) =
+        frame.point.col(static_cast<Eigen::Index>(k));
+    out.place.push_back(frame.place[k]);
+  }
+  frame = std::move(out);
+}
+
+bool too_far(const FilmFrame& frame, double length, Eigen::Index a, Eigen::Index b) {
+  const double along =
+      std::abs(frame.place[static_cast<std::size_t>(b)] - frame.place[static_cast<std::size_t>(a)]);
+  return (frame.point.col(a) - frame.point.col(b)).norm() >
+         (stretch * along + noise_allowed) * length;
+}
+
+/// Points at 0,0: two of them in one midline, or one that is too far from its neighbours.
+void drop_zeros(Film& film, FilmRemarks& remarks) {
+  std::size_t points = 0;
+  std::vector<double> times;
+  for (FilmFrame& frame : film.frames) {
+    std::vector<bool> kept;
+    for (Eigen::Index k = 0; k < frame.point.cols(); ++k) {
+      kept.push_back(!frame.point.col(k).isZero(0));
+    }
+    const auto zeros = std::ranges::count(kept, false);
+    if (zeros == 0) continue;
+    const auto n = frame.point.cols();
+    const auto at = std::ranges::find(kept, false) - kept.begin();
+    const bool apart = (at > 0 && too_far(frame, film.length, at - 1, at)) ||
+                       (at + 1 < n && too_far(frame, film.length, at, at + 1));
+    if (zeros == 1 && !apart) continue;
+    points += static_cast<std::size_t>(zeros);
+    times.push_back(frame.time);
+    keep(frame, kept);
+  }
+  if (points > 0) {
+    remarks.told.push_back(fmt::format("{} points at 0,0 in {} midlines ({} s): taken as lost",
+                                       points, times.size(), times_text(times)));
+  }
+}
+
+/// Points that the body does not reach from where the others are.
+void drop_far(Film& film, FilmRemarks& remarks) {
+  std::size_t points = 0;
+  std::vector<double> times;
+  for (FilmFrame& frame : film.frames) {
+    const Eigen::Index n = frame.point.cols();
+    if (n < 3 || n > most_pairs_of) continue;
+    std::vector<std::vector<Eigen::Index>> against(n);
+    for (Eigen::Index a = 0; a < n; ++a) {
+      for (Eigen::Index b = a + 1; b < n; ++b) {
+        if (!too_far(frame, film.length, a, b)) continue;
+        against[a].push_back(b);
+        against[b].push_back(a);
+      }
+    }
+    std::vector<bool> kept(n, true);
+    std::vector<std::size_t> count;
+    for (const auto& others : against) count.push_back(others.size());
+    for (;;) {
+      const auto worst = std::ranges::max_element(count) - count.begin();
+      if (count[worst] == 0) break;
+      kept[worst] = false;
+      for (const Eigen::Index other : against[worst]) {
+        if (count[other] > 0) --count[other];
+      }
+      count[worst] = 0;
+      ++points;
+      if (times.empty() || times.back() != frame.time) times.push_back(frame.time);
+    }
+    keep(frame, kept);
+  }
+  if (points > 0) {
+    remarks.told.push_back(
+        fmt::format("{} points in {} midlines ({} s) are farther from the others than the body "
+                    "reaches: left out",
+                    points, times.size(), times_text(times)));
+  }
+}
+
+std::vector<Eigen::Matrix3Xd> curves_of(const Film& film) {
+  std::vector<Eigen::Matrix3Xd> curves;
+  for (const FilmFrame& frame : film.frames) curves.push_back(curve_through(frame));
+  return curves;
+}
+
+double apart(const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b) {
+  return (a - b).colwise().norm().mean();
+}
+
+/// Midlines that repeat the one before, where the next one that does not is far from them.
+void drop_repeats(Film& film, FilmRemarks& remarks) {
+  const std::vector<Eigen::Matrix3Xd> curves = curves_of(film);
+  std::vector<double> changes;
+  const auto same = [&](std::size_t f) {
+    return film.frames[f].place == film.frames[f - 1].place &&
+           film.frames[f].point == film.frames[f - 1].point;
+  };
+  for (std::size_t f = 1; f < curves.size(); ++f) {
+    if (!same(f)) changes.push_back(apart(curves[f - 1], curves[f]));
+  }
+  const double usual = median(changes);
+  if (!(usual > 1e-4 * film.length)) return;
+  std::vector<bool> dropped(film.frames.size(), false);
+  for (std::size_t f = 1; f < film.frames.size();) {
+    std::size_t end = f;  // of the row of midlines like f - 1
+    while (end < film.frames.size() && same(end)) ++end;
+    if (end - f + 1 >= repeated) {
+      const double from = film.frames[f - 1].time, to = film.frames[end - 1].time;
+      if (end == film.frames.size()) {
+        remarks.doubts.push_back(
+            fmt::format("the midlines from {:g} s to the end at {:g} s are one and the same: does "
+                        "the film stand still there?",
+                        from, to));
+      } else if (apart(curves[end - 1], curves[end]) > thaw_times * usual) {
+        remarks.told.push_back(fmt::format(
+            "the midlines from {:g} to {:g} s repeat one, and the next is elsewhere: left out",
+            from, to));
+        std::fill(dropped.begin() + static_cast<std::ptrdiff_t>(f),
+                  dropped.begin() + static_cast<std::ptrdiff_t>(end), true);
+      }
+    }
+    f = end + 1;
+  }
+  std::size_t f = 0;
+  std::erase_if(film.frames, [&](const FilmFrame&) { return dropped[f++]; });
+}
+
+FilmFrame turned_round(const FilmFrame& frame) {
+  FilmFrame out{frame.time, {}, frame.point.rowwise().reverse()};
+  for (auto place = frame.place.rbegin(); place != frame.place.rend(); ++place) {
+    out.place.push_back(1 - *place);
+  }
+  return out;
+}
+
+void turn_round(Film& film, FilmRemarks& remarks) {
+  std::vector<Eigen::Matrix3Xd> curves = curves_of(film);
+  const double usual = usual_interval(film);
+  std::vector<double> changes;
+  for (std::size_t f = 1; f < curves.size(); ++f)
+    changes.push_back(apart(curves[f - 1], curves[f]));
+  const double near = turned_change * median(changes) + turned_noise * film.length;
+  std::vector<bool> turned(curves.size(), false);
+  std::size_t first = 0;  // of midlines that follow each other without a gap
+  std::vector<double> times;
+  const auto end_row = [&](std::size_t end) {
+    const auto begin = turned.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto last = turned.begin() + static_cast<std::ptrdiff_t>(end);
+    const bool most = 2 * std::count(begin, last, true) > last - begin;
+    for (std::size_t f = first; f < end; ++f) {
+      if (turned[f] == most) continue;
+      film.frames[f] = turned_round(film.frames[f]);
+      times.push_back(film.frames[f].time);
+    }
+    first = end;
+  };
+  for (std::size_t f = 1; f < curves.size(); ++f) {
+    if (film.frames[f].time - film.frames[f - 1].time > 2 * gap_times * usual) {
+      end_row(f);
+      continue;
+    }
+    const double as_is = apart(curves[f - 1], curves[f]);
+    const double round = apart(curves[f - 1], curves[f].rowwise().reverse());
+    const bool other =
+        round < std::min(near, turned_nearer * as_is) && as_is > turned_far * film.length;
+    turned[f] = turned[f - 1] != other;
+  }
+  end_row(curves.size());
+  if (!times.empty()) {
+    remarks.told.push_back(
+        fmt::format("head and tail are exchanged in {} midlines ({} s): turned "
+                    "round",
+                    times.size(), times_text(times)));
+  }
+}
+
+void tell_jumps(const Film& film, FilmRemarks& remarks) {
+  const std::vector<Eigen::Matrix3Xd> curves = curves_of(film);
+  const double interval = usual_interval(film);
+  // All points at once: the least of them.
+  std::vector<double> least;
+  for (std::size_t f = 1; f < curves.size(); ++f) {
+    least.push_back((curves[f] - curves[f - 1]).colwise().norm().minCoeff());
+  }
+  const double far = std::max(jump_times * median(least), jump_share * film.length);
+  std::vector<double> times;
+  double largest = 0;
+  for (std::size_t f = 1; f < curves.size(); ++f) {
+    const bool gap = film.frames[f].time - film.frames[f - 1].time > gap_times * interval;
+    if (gap || least[f - 1] < far) continue;
+    largest = std::max(largest, apart(curves[f - 1], curves[f]));
+    times.push_back(film.frames[f].time);
+  }
+  if (!times.empty()) {
+    remarks.doubts.push_back(
+        fmt::format("the whole body jumps by up to {:.2g} {} from one midline "
+                    "to the next ({} s)",
+                    largest, film.unit, times_text(times)));
+  }
+}
+
+}  // namespace
+
+double usual_interval(const Film& film) {
+  std::vector<double> intervals;
+  for (std::size_t f = 1; f < film.frames.size(); ++f) {
+    intervals.push_back(film.frames[f].time - film.frames[f - 1].time);
+  }
+  return median(intervals);
+}
+
+std::string times_text(const std::vector<double>& times) {
+  constexpr std::size_t shown = 5;
+  std::string text;
+  for (std::size_t k = 0; k < std::min(times.size(), shown); ++k) {
+    text += fmt::format("{}{:.4g}", k > 0 ? ", " : "", times[k]);
+  }
+  if (times.size() > shown) text += fmt::format(" and {} more", times.size() - shown);
+  return text;
+}
+
+std::vector<std::pair<double, double>> gaps(const Film& film) {
+  const double usual = usual_interval(film);
+  std::vector<std::pair<double, double>> gaps;
+  for (std::size_t f = 1; f < film.frames.size(); ++f) {
+    const double from = film.frames[f - 1].time, to = film.frames[f].time;
+    if (to - from > gap_times * usual) gaps.emplace_back(from, to);
+  }
+  return gaps;
+}
+
+FilmRemarks tidy(Film& film) {
+  FilmRemarks remarks;
+  drop_zeros(film, remarks);
+  drop_far(film, remarks);
+  std::erase_if(film.frames, [](const FilmFrame& frame) { return frame.place.size() < 2; });
+  if (film.frames.size() < 2) return remarks;
+  drop_repeats(film, remarks);
+  turn_round(film, remarks);
+  tell_jumps(film, remarks);
+  return remarks;
+}
+
+}  // namespace hagfish

@@ -1,0 +1,395 @@
+#include "experiments/film/film_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+#include "core/input/input_error.hpp"
+#include "core/input/input_text.hpp"
+#include "core/input/regular_file.hpp"
+#include "core/log/hdf5_error.hpp"
+#include "experiments/film/delimited_text.hpp"
+
+namespace hagfish {
+namespace {
+
+constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+constexpr std::uintmax_t most_bytes = std::uintmax_t{1} << 30;
+constexpr std::string_view hdf5_signature = "\x89HDF\r\n\x1a\n";
+/// Of a film, s or a unit of length: what is fitted squares it.
+constexpr double largest_number = 1e9;
+
+/// What Windows programs write before UTF-8, and before UTF-16 with the low byte first.
+constexpr std::string_view utf8_mark = "\xEF\xBB\xBF", utf16_mark = "\xFF\xFE";
+
+std::string whole_text(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  if (!stream) throw FileError(file + ": cannot be read");
+  std::string whole = text.str();
+  if (whole.starts_with(utf8_mark)) return whole.substr(utf8_mark.size());
+  if (!whole.starts_with(utf16_mark)) return whole;
+  std::string narrow;  // letters beyond ASCII are in names alone
+  for (std::size_t k = utf16_mark.size(); k + 1 < whole.size(); k += 2) {
+    narrow += whole[k + 1] == 0 ? whole[k] : '?';
+  }
+  return narrow;
+}
+
+std::string lower(std::string_view text) {
+  std::string out;
+  for (const char c : text) out += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return out;
+}
+
+/// A column of lengths: which one, and units of the table in one of it.
+struct LengthColumn {
+  std::size_t column = 0;
+  double size = 1;
+  bool pixels = false;
+};
+
+/// The rows of a table, read by the columns that its heading names.
+class TableReader {
+ public:
+  TableReader(DelimitedText text, std::string file, const FilmReading& reading)
+      : text_(std::move(text)), file_(std::move(file)), reading_(reading) {
+    table_.unit = "cm";
+  }
+
+  FilmTable read() {
+    const std::string first = text_.rows() > 0 ? lower(text_.cell(0, 0)) : "";
+    if (first == "scorer") {
+      deep_lab_cut();
+    } else if (first.starts_with("number of header lines")) {
+      wide(header_rows(), true);
+    } else {
+      name_columns(0);
+      const bool is_wide = std::ranges::any_of(names_, [](const std::string& name) {
+        return name.starts_with("x ") && !name.starts_with("x (");
+      });
+      if (is_wide) {
+        wide(1, false);
+      } else {
+        tall();
+      }
+    }
+    return std::move(table_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& why) const { throw_input_error(file_ + ": " + why); }
+
+  void name_columns(std::size_t row) {
+    names_.clear();
+    if (row >= text_.rows()) return;
+    for (std::size_t k = 0; k < text_.cells(row); ++k) names_.push_back(lower(text_.cell(row, k)));
+  }
+  std::optional<std::size_t> column(const std::string& name) const {
+    const auto at = std::ranges::find(names_, name);
+    if (at == names_.end()) return std::nullopt;
+    return static_cast<std::size_t>(at - names_.begin());
+  }
+  [[noreturn]] void lacks(const std::string& name) const {
+    std::string heading;
+    for (const std::string& column : names_) heading += (heading.empty() ? "" : ",") + column;
+    fail(fmt::format("no column {} among the {} that {} separate in \"{}\"", name, names_.size(),
+                     text_.separator_name(), shortened(heading)));
+  }
+
+  double number(std::size_t row, std::size_t column, const std::string& name) const {
+    const std::optional<double> value = text_.number(row, column);
+    const auto line = text_.line(row);
+    if (!value) {
+      throw_input_error(fmt::format("{}:{}: {} = {}: must be a number", file_, line, name,
+                                    shortened(std::string(text_.cell(row, column)))));
+    }
+    if (std::abs(*value) > largest_number) {
+      throw_input_error(fmt::format("{}:{}: {} = {:g}: must be of at most {:g}", file_, line, name,
+                                    *value, largest_number));
+    }
+    return *value;
+  }
+  double needed(std::size_t row, std::size_t column, const std::string& name) const {
+    const double value = number(row, column, name);
+    if (std::isnan(value)) {
+      throw_input_error(fmt::format("{}:{}: {} is missing", file_, text_.line(row), name));
+    }
+    return value;
+  }
+  bool unsure(std::size_t row, std::optional<std::size_t> likelihood) const {
+    if (!likelihood) return false;
+    return !(number(row, *likelihood, "likelihood") >= reading_.likelihood);
+  }
+
+  /// `name` with a unit of length behind it; nothing where it has none such.
+  std::optional<LengthColumn> length(const std::string& name) {
+    for (const auto& [unit, cm] : {std::pair{"cm", 1.0}, {"mm", 0.1}, {"m", 100.0}}) {
+      for (const std::string& full : {name + "_" + unit, name + " (" + unit + ")"}) {
+        if (const auto at = column(full)) return LengthColumn{*at, cm, false};
+      }
+    }
+    for (const std::string& full : {name + "_px", name + " (px)"}) {
+      if (const auto at = column(full)) return LengthColumn{*at, 1, true};
+    }
+    if (column(name)) fail("column " + name + ": has no unit: " + name + "_cm, _mm, _m or _px");
+    return std::nullopt;
+  }
+  LengthColumn needed_length(const std::string& name) {
+    const auto column = length(name);
+    if (!column) lacks(name + "_cm (or _mm, _m, _px)");
+    return *column;
+  }
+
+  /// Where the time is: in s, or as a frame to be counted.
+  struct Clock {
+    std::size_t column = 0;
+    bool frames = false;
+  };
+  Clock clock() const {
+    for (const char* name : {"time_s", "time (s)", "trial time (s)", "recording time (s)"}) {
+      if (const auto at = column(name)) return {*at, false};
+    }
+    if (const auto at = column("frame")) return {*at, true};
+    lacks("time_s");
+  }
+  double time(std::size_t row, const Clock& clock) const {
+    const double at = needed(row, clock.column, clock.frames ? "frame" : "time_s");
+    return clock.frames ? frame_time(file_, reading_, at) : at;
+  }
+
+  /// Sizes of px in the table's unit, once all columns are known.
+  void settle_units(std::initializer_list<LengthColumn*> columns, const LengthColumn* arc) {
+    bool any = false, all = true;
+    for (const LengthColumn* column : columns) (column->pixels ? any : all) = column->pixels;
+    table_.pixels = any;
+    const bool scale_matters = !all || (arc != nullptr && !arc->pixels);
+    if (any && scale_matters && reading_.pixels_per_cm <= 0) {
+      fail("columns in px beside others in a unit of length need --scale, px/cm");
+    }
+    if (!any && (arc == nullptr || !arc->pixels)) return;
+    const double px = any ? pixel_size(reading_, table_.unit) : 1;
+    for (LengthColumn* column : columns) {
+      if (column->pixels) column->size = px;
+    }
+  }
+
+  /// A row for each time and point.
+  void tall() {
+    const Clock clock = this->clock();
+    std::optional<LengthColumn> arc = length("s");
+    const auto point = column("point");
+    if (!arc && !point) lacks("s_cm or point");
+    LengthColumn x = needed_length("x"), y = needed_length("y");
+    std::optional<LengthColumn> z = length("z");
+    if (z) {
+      settle_units({&x, &y, &*z}, arc ? &*arc : nullptr);
+    } else {
+      settle_units({&x, &y}, arc ? &*arc : nullptr);
+    }
+    if (arc && arc->pixels) {
+      if (!table_.pixels && reading_.pixels_per_cm <= 0) fail("s_px: pixels need --scale, px/cm");
+      arc->size = pixel_size(reading_, table_.unit);
+    }
+    const auto likelihood = column("likelihood");
+    auto who = column("individual");
+    if (!who) who = column("track");
+    if (who) choose(*who);
+    table_.planar = !z;
+    table_.by_arc = arc.has_value();
+    table_.format = "a row for each time and point";
+    for (std::size_t row = 1; row < text_.rows(); ++row) {
+      if (who && text_.cell(row, *who) != individual_) continue;
+      FilmPoint at;
+      at.time = time(row, clock);
+      at.number = arc ? arc->size * needed(row, arc->column, "s") : needed(row, *point, "point");
+      const bool unsure = this->unsure(row, likelihood);
+      at.place = {x.size * number(row, x.column, "x"), y.size * number(row, y.column, "y"),
+                  z ? z->size * number(row, z->column, "z") : 0};
+      if (unsure || !at.place.allFinite()) at.place.setConstant(missing);
+      table_.points.push_back(at);
+    }
+  }
+
+  void choose(std::size_t column) {
+    std::vector<std::string> names;
+    for (std::size_t row = 1; row < text_.rows(); ++row) {
+      const std::string name(text_.cell(row, column));
+      if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+      if (names.size() > 100) break;
+    }
+    if (names.empty()) return;
+    individual_ = names[chosen_individual(file_, names, reading_.individual)];
+  }
+
+  /// Rows of EthoVision's heading, the last two of which name columns and units.
+  std::size_t header_rows() const {
+    const std::optional<double> lines = text_.number(0, 1);
+    const double most = static_cast<double>(text_.line(text_.rows() - 1));
+    if (!lines || !(*lines >= 2) || *lines > most) {
+      fail(fmt::format("number of header lines = {}: must be 2 to {:g}",
+                       shortened(std::string(text_.cell(0, 1))), most));
+    }
+    std::size_t row = 0;
+    while (row < text_.rows() && static_cast<double>(text_.line(row)) <= *lines) ++row;
+    if (row < 2) fail("its heading names no columns");
+    return row;
+  }
+
+  /// A row for each time: columns "X NAME" and "Y NAME" of each point, head to tail. `units`: the
+  /// heading's last row has them; else they stand in brackets.
+  void wide(std::size_t header, bool units) {
+    name_columns(header - (units ? 2 : 1));
+    if (units) {
+      for (std::size_t k = 0; k < names_.size(); ++k) {
+        const std::string unit = lower(text_.cell(header - 1, k));
+        if (!unit.empty()) names_[k] += " (" + unit + ")";
+      }
+    }
+    struct Point {
+      LengthColumn x, y;
+      std::optional<LengthColumn> z;
+    };
+    std::vector<Point> points;
+    table_.planar = true;
+    for (std::size_t k = 0; k < names_.size(); ++k) {
+      if (!names_[k].starts_with("x ")) continue;
+      const std::string name = names_[k].substr(2, names_[k].find(" (") - 2);
+      Point point{needed_length("x " + name), needed_length("y " + name), length("z " + name)};
+      if (point.z) {
+        settle_units({&point.x, &point.y, &*point.z}, nullptr);
+        table_.planar = false;
+      } else {
+        settle_units({&point.x, &point.y}, nullptr);
+      }
+      points.push_back(point);
+    }
+    const Clock clock = this->clock();
+    table_.format = units ? "EthoVision's export" : "a row for each time";
+    for (std::size_t row = header; row < text_.rows(); ++row) {
+      const double at = time(row, clock);
+      for (std::size_t k = 0; k < points.size(); ++k) {
+        const Point& p = points[k];
+        Eigen::Vector3d place(p.x.size * number(row, p.x.column, names_[p.x.column]),
+                              p.y.size * number(row, p.y.column, names_[p.y.column]), 0);
+        if (p.z) place.z() = p.z->size * number(row, p.z->column, names_[p.z->column]);
+        if (!place.allFinite()) place.setConstant(missing);
+        table_.points.push_back({at, static_cast<double>(k + 1), place});
+      }
+    }
+  }
+
+  /// Three or four rows of heading: scorer, perhaps individuals, bodyparts, coords.
+  void deep_lab_cut() {
+    std::size_t row = 1;
+    const bool several = row < text_.rows() && lower(text_.cell(row, 0)) == "individuals";
+    if (several) ++row;
+    if (row + 1 >= text_.rows() || lower(text_.cell(row, 0)) != "bodyparts" ||
+        lower(text_.cell(row + 1, 0)) != "coords") {
+      fail("begins as DeepLabCut's CSV does, but has no rows bodyparts and coords");
+    }
+    if (several) {
+      std::vector<std::string> names;
+      for (std::size_t k = 1; k < text_.cells(1); ++k) {
+        const std::string name(text_.cell(1, k));
+        if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+      }
+      if (names.empty()) fail("names no individuals");
+      individual_ = names[chosen_individual(file_, names, reading_.individual)];
+    }
+    struct Part {
+      std::string name;
+      std::array<std::optional<std::size_t>, 4> column;  // x, y, z, likelihood
+    };
+    std::vector<Part> parts;
+    constexpr std::array<const char*, 4> coords = {"x", "y", "z", "likelihood"};
+    for (std::size_t k = 1; k < text_.cells(row); ++k) {
+      if (several && text_.cell(1, k) != individual_) continue;
+      const std::string name(text_.cell(row, k));
+      auto part = std::ranges::find(parts, name, &Part::name);
+      if (part == parts.end()) part = parts.insert(parts.end(), {name, {}});
+      const auto coord = std::ranges::find(coords, lower(text_.cell(row + 1, k)));
+      if (coord == coords.end()) {
+        fail(fmt::format("bodypart {}: coords {}: must be x, y, z or likelihood", shortened(name),
+                         shortened(std::string(text_.cell(row + 1, k)))));
+      }
+      part->column[static_cast<std::size_t>(coord - coords.begin())] = k;
+    }
+    table_.format = "DeepLabCut's CSV";
+    table_.pixels = true;
+    const double px = pixel_size(reading_, table_.unit);
+    for (const Part& part : parts) {
+      if (!part.column[0] || !part.column[1]) fail(part.name + ": has no x and y");
+      if (part.column[2]) table_.planar = false;
+    }
+    for (std::size_t r = row + 2; r < text_.rows(); ++r) {
+      const double at = frame_time(file_, reading_, needed(r, 0, "frame"));
+      for (std::size_t k = 0; k < parts.size(); ++k) {
+        const auto& column = parts[k].column;
+        Eigen::Vector3d place(number(r, *column[0], parts[k].name),
+                              number(r, *column[1], parts[k].name), 0);
+        if (!table_.planar) place.z() = column[2] ? number(r, *column[2], parts[k].name) : missing;
+        if (unsure(r, column[3]) || !place.allFinite()) place.setConstant(missing);
+        table_.points.push_back({at, static_cast<double>(k + 1), px * place});
+      }
+    }
+  }
+
+  DelimitedText text_;
+  std::string file_;
+  const FilmReading& reading_;
+  std::vector<std::string> names_;
+  std::string individual_;
+  FilmTable table_;
+};
+
+}  // namespace
+
+FilmTable read_film_table(const std::string& file, const FilmReading& reading) {
+  if (const std::string why = unreadable(file); !why.empty()) throw FileError(file + ": " + why);
+  std::error_code error;
+  if (std::filesystem::file_size(file, error) > most_bytes || error) {
+    throw FileError(file + ": larger than 1 GiB");
+  }
+  std::string text = whole_text(file);
+  if (text.starts_with(hdf5_signature)) return read_sleap(file, reading);
+  return TableReader(DelimitedText(std::move(text)), file, reading).read();
+}
+
+std::size_t chosen_individual(const std::string& file, const std::vector<std::string>& names,
+                              const std::string& asked) {
+  std::string known;
+  for (const std::string& name : names) known += (known.empty() ? "" : ", ") + name;
+  if (asked.empty()) {
+    if (names.size() == 1) return 0;
+    throw_input_error(fmt::format("{}: has several animals, say which by --individual: {}", file,
+                                  shortened(known)));
+  }
+  const auto at = std::ranges::find(names, asked);
+  if (at == names.end()) {
+    throw_input_error(
+        fmt::format("{}: --individual {}: there is {}", file, shortened(asked), shortened(known)));
+  }
+  return static_cast<std::size_t>(at - names.begin());
+}
+
+double frame_time(const std::string& file, const FilmReading& reading, double frame) {
+  if (!(reading.fps > 0)) throw_input_error(file + ": counts frames: needs --fps, frames a second");
+  return frame / reading.fps;
+}
+
+double pixel_size(const FilmReading& reading, std::string& unit) {
+  if (reading.pixels_per_cm > 0) return 1 / reading.pixels_per_cm;
+  unit = "px";
+  return 1;
+}
+
+}  // namespace hagfish

@@ -1,0 +1,47 @@
+// What a tracker's file says, by whichever program it was written: points by time and number.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/film/film.hpp"
+
+namespace hagfish {
+
+/// A point at a time, as the file has it.
+struct FilmPoint {
+  double time = 0;        ///< s
+  double number = 0;      ///< of the point, or its s, in FilmTable::unit
+  Eigen::Vector3d place;  ///< NaN where missing, in FilmTable::unit
+};
+
+struct FilmTable {
+  std::vector<FilmPoint> points;  ///< in any order
+  bool planar = true;
+  bool by_arc = false;  ///< numbers are s
+  std::string unit;     ///< "cm" or "px"
+  bool pixels = false;  ///< points were in px, whatever their unit is now
+  std::string format;
+};
+
+/// Throws as read_film().
+FilmTable read_film_table(const std::string& file, const FilmReading& reading);
+
+/// SLEAP's analysis HDF5: `tracks` (individuals x 2 x points x frames), `node_names`, `track_names`
+/// and `point_scores`. Throws as read_film().
+FilmTable read_sleap(const std::string& file, const FilmReading& reading);
+
+/// Which of a film's individuals is meant, by `reading`. Throws InputError where that is not one of
+/// them.
+std::size_t chosen_individual(const std::string& file, const std::vector<std::string>& names,
+                              const std::string& asked);
+
+/// The time of a film's frame, s. Throws InputError where there is no --fps.
+double frame_time(const std::string& file, const FilmReading& reading, double frame);
+
+/// cm in a px, or 1 where nothing says it: then `unit` is px.
+double pixel_size(const FilmReading& reading, std::string& unit);
+
+}  // namespace hagfish

@@ -1,0 +1,33 @@
+// Whether the fit of a film can be used.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/chain/model.hpp"
+#include "experiments/film/film_checks.hpp"
+#include "experiments/film/film_fit.hpp"
+
+namespace hagfish {
+
+enum class FilmVerdict {
+  fitted,    ///< it can
+  doubtful,  ///< by who has looked at what is told
+  failed     ///< it is not the film's animal
+};
+
+struct FilmJudgement {
+  FilmVerdict verdict = FilmVerdict::fitted;
+  std::vector<std::string> why;      ///< a line each; none where it is fitted
+  double share_used = 0;             ///< of the points that the film should have
+  double worst = 0, worst_time = 0;  ///< midline: rms, cm of the model, and when, s of the film
+};
+
+/// `film` as it was fitted, `remarks` what was taken out of it before.
+FilmJudgement judge(const Model& model, const Film& film, const FilmRemarks& remarks,
+                    const FilmFit& fit);
+
+/// "fitted", "doubtful", "failed".
+const char* verdict_name(FilmVerdict verdict);
+
+}  // namespace hagfish
