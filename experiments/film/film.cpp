@@ -175,7 +175,7 @@ Film read_film(const std::string& file, const FilmReading& reading) {
     if (numbers.front() < 0) fail("s is below 0");
     film.length = reading.length > 0 ? reading.length : numbers.back();
     if (numbers.back() > film.length * (1 + 1e-9)) {
-      fail(fmt::format("s = {:g} cm is past --length {:g}", numbers.back(), film.length));
+      fail(fmt::format("s = {:g} cm is past --animal-length {:g}", numbers.back(), film.length));
     }
     for (const double s : numbers) places.push_back(std::min(s / film.length, 1.0));
   } else {

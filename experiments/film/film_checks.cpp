@@ -24,6 +24,8 @@ constexpr double thaw_times = 3;
 /// A midline is turned round where it is that far off the one before, of the body, and is nearer by
 /// this factor then, and not much farther than midlines usually are.
 constexpr double turned_far = 0.05, turned_nearer = 0.6, turned_change = 3, turned_noise = 0.01;
+/// Nodes of a curve between edges that cross: fewer are noise.
+constexpr Eigen::Index crossing_apart = 4;
 /// Of the interval between midlines: what is longer is a gap.
 constexpr double gap_times = 2.5;
 
@@ -279,6 +281,7 @@ FilmRemarks tidy(Film& film) {
   drop_repeats(film, remarks);
   turn_round(film, remarks);
   tell_jumps(film, remarks);
+  if (film.planar) tell_crossings(film, remarks);
   return remarks;
 }
 

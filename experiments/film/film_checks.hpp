@@ -17,7 +17,8 @@ struct FilmRemarks {
 /// Takes out of `film` points at 0,0 that are lost ones, points farther from others than the body
 /// between them is long, and midlines that repeat the one before while the animal moves on; turns
 /// midlines round whose head and tail are exchanged. Tells also of gaps in time, of jumps of the
-/// whole body and of a film that ends with one midline repeated.
+/// whole body, of a film that ends with one midline repeated and, in two dimensions, of midlines
+/// that cross themselves.
 FilmRemarks tidy(Film& film);
 
 /// From one midline to the next, in the middle, s.

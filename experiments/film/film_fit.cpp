@@ -41,6 +41,8 @@ constexpr double least_smoothness = 1e-12, most_smoothness = 1, wall = 0.1, pose
 constexpr double untold = 1e-13;
 /// Of smoothness, by which it changes from round to round at most; and of its traces.
 constexpr double largest_change = 100, rounding = 1e-9;
+/// Smoothness is that of times up to this far, s, and differs from the mean by this factor at most.
+constexpr double around_time = 0.75, most_uneven = 30;
 /// Of second differences in time: a free head may roll, and rolls as little as it can.
 constexpr double least_motion = 1e-3;
 
@@ -108,7 +110,9 @@ class Fit {
         border_((still_ ? pose_size_ : 0) + (scaled_ ? 1 : 0)),
         matrix_(times, shape_.values(), border_),
         now_{Eigen::MatrixXd::Zero(shape_.values(), times), {}, 1},
-        limit_(limits()) {
+        limit_(limits()),
+        along_at_(Eigen::VectorXd::Ones(times)),
+        time_at_(Eigen::VectorXd::Ones(times)) {
     now_.pose.resize(still_ ? 1 : film.frames.size());
     now_.scale = model.length() / film.length;
   }
@@ -438,9 +442,9 @@ class Fit {
     double cost = 0;
     const Eigen::Index times = x.values.cols(), n = shape_.stations();
     for (Eigen::Index k = 0; k < times; ++k) {
-      cost += along_ * x.values.col(k).dot(along_form_ * x.values.col(k));
+      cost += along_ * along_at_[k] * x.values.col(k).dot(along_form_ * x.values.col(k));
       if (k + 2 < times) {
-        cost += in_time_ *
+        cost += in_time_ * time_at_[k] *
                 (x.values.col(k) - 2 * x.values.col(k + 1) + x.values.col(k + 2)).squaredNorm();
       }
       if (!still_ && k + 1 < times) {
@@ -555,14 +559,15 @@ class Fit {
     const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(m, m);
     const double c[] = {1, -2, 1};
     for (Eigen::Index k = 0; k < times; ++k) {
-      matrix_.add(k, k, along_ * along_form_);
-      gradient_.segment(k * m, m) += along_ * along_form_ * now_.values.col(k);
+      const double along = along_ * along_at_[k], in_time = in_time_ * time_at_[k];
+      matrix_.add(k, k, along * along_form_);
+      gradient_.segment(k * m, m) += along * along_form_ * now_.values.col(k);
       if (k + 2 < times) {
         const Eigen::VectorXd bend =
             now_.values.col(k) - 2 * now_.values.col(k + 1) + now_.values.col(k + 2);
         for (int a = 0; a < 3; ++a) {
-          gradient_.segment((k + a) * m, m) += in_time_ * c[a] * bend;
-          for (int b = 0; b <= a; ++b) matrix_.add(k + a, k + b, in_time_ * c[a] * c[b] * unit);
+          gradient_.segment((k + a) * m, m) += in_time * c[a] * bend;
+          for (int b = 0; b <= a; ++b) matrix_.add(k + a, k + b, in_time * c[a] * c[b] * unit);
         }
       }
       if (!still_ && k + 1 < times) {
@@ -666,6 +671,22 @@ class Fit {
     return {axes * along_trace, axes * time_trace};
   }
 
+  /// How smooth each time is to be, over all of them: by what its differences are expected to be,
+  /// in the mean of the times around it. An animal rests and moves.
+  Eigen::VectorXd around(const Eigen::VectorXd& squares, Eigen::Index count) const {
+    Eigen::VectorXd at = Eigen::VectorXd::Ones(squares.size());
+    if (count < 1) return at;
+    const double mean = squares.head(count).mean();
+    const auto reaches = static_cast<Eigen::Index>(around_time / (knots_[1] - knots_[0]));
+    for (Eigen::Index k = 0; k < count; ++k) {
+      const Eigen::Index from = std::max<Eigen::Index>(0, k - reaches);
+      const Eigen::Index to = std::min(count - 1, k + reaches);
+      const double here = squares.segment(from, to - from + 1).mean();
+      at[k] = std::clamp(mean / std::max(here, 1e-12), 1 / most_uneven, most_uneven);
+    }
+    return at;
+  }
+
   /// Noise and smoothness from what is left (Fellner and Schall's update). False where the matrix
   /// says too little.
   bool estimate() {
@@ -674,17 +695,17 @@ class Fit {
     const BlockArrow::Inverse inverse = matrix_.inverse();
     const Eigen::Index m = shape_.values();
     const auto times = static_cast<Eigen::Index>(knots_.size());
-    double along_trace = 0, time_trace = 0, along_squares = 0, time_squares = 0;
+    Eigen::VectorXd along_trace = Eigen::VectorXd::Zero(times), along_squares = along_trace,
+                    time_trace = along_trace, time_squares = along_trace;
     for (Eigen::Index k = 0; k < times; ++k) {
-      along_trace += inverse.own[k].cwiseProduct(along_form_).sum();
-      along_squares += now_.values.col(k).dot(along_form_ * now_.values.col(k));
-      if (k + 2 < times) {
-        time_trace += inverse.own[k].trace() + 4 * inverse.own[k + 1].trace() +
+      along_trace[k] = inverse.own[k].cwiseProduct(along_form_).sum();
+      along_squares[k] = now_.values.col(k).dot(along_form_ * now_.values.col(k));
+      if (k + 2 >= times) continue;
+      time_trace[k] = inverse.own[k].trace() + 4 * inverse.own[k + 1].trace() +
                       inverse.own[k + 2].trace() - 4 * inverse.one_below[k].trace() -
                       4 * inverse.one_below[k + 1].trace() + 2 * inverse.two_below[k].trace();
-        time_squares += (now_.values.col(k) - 2 * now_.values.col(k + 1) + now_.values.col(k + 2))
-                            .squaredNorm();
-      }
+      time_squares[k] =
+          (now_.values.col(k) - 2 * now_.values.col(k + 1) + now_.values.col(k + 2)).squaredNorm();
     }
     // What is far counts as just as far as squares reach, so that noise does not shrink to that of
     // the points which happen to be nearest.
@@ -695,8 +716,8 @@ class Fit {
       squares += off.colwise().squaredNorm().cwiseMin(far() * far()).sum();
     }
     const auto count = static_cast<double>(dims_ * points());
-    const double told = static_cast<double>(times * m) - along_ * along_trace -
-                        in_time_ * time_trace +
+    const double along_sum = along_trace.dot(along_at_), time_sum = time_trace.dot(time_at_);
+    const double told = static_cast<double>(times * m) - along_ * along_sum - in_time_ * time_sum +
                         static_cast<double>(still_ ? border_ : pose_size_ * now_.pose.size());
     const double free = std::max(count - std::max(told, 0.0), 0.05 * count);
     noise_ = std::max(std::sqrt(squares / std::max(free, 1.0)), least_noise * model_.length());
@@ -708,8 +729,10 @@ class Fit {
       const double wanted = noise_ * noise_ * known / std::max(differences, 1e-12);
       return std::clamp(wanted, 1 / largest_change, largest_change) * now;
     };
-    along_ = factor(along_, along_prior, along_trace, along_squares);
-    in_time_ = factor(in_time_, time_prior, time_trace, time_squares);
+    along_ = factor(along_, along_prior, along_sum, along_squares.dot(along_at_));
+    in_time_ = factor(in_time_, time_prior, time_sum, time_squares.dot(time_at_));
+    along_at_ = around(along_squares + noise_ * noise_ * along_trace, times);
+    time_at_ = around(time_squares + noise_ * noise_ * time_trace, times - 2);
     bound_smoothness();
     return true;
   }
@@ -813,7 +836,8 @@ class Fit {
   Eigen::MatrixXd along_form_ = along_square();
   double noise_ = 0;  // cm
   double in_time_ = first_smoothness, along_ = first_smoothness;
-  double wall_ = 0, size_ = 1;  // of the matrix
+  Eigen::VectorXd along_at_, time_at_;  // by time, over these
+  double wall_ = 0, size_ = 1;          // of the matrix
 };
 
 }  // namespace

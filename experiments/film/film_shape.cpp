@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/chain/state.hpp"
-#include "core/run/active_curvature.hpp"
+#include "core/muscle/active_curvature.hpp"
 
 namespace hagfish {
 namespace {

@@ -21,7 +21,7 @@ void add_film_options(CLI::App& command, FilmReading& reading) {
       ->check(from_to(0, 1))
       ->capture_default_str();
   command
-      .add_option("--length", reading.length,
+      .add_option("--animal-length", reading.length,
                   "of the film's animal, cm; where not given, its last s is its tail")
       ->check(above_zero());
   command.add_option("--individual", reading.individual, "which animal of a film of several");
@@ -39,7 +39,7 @@ std::string film_option_words(const FilmReading& reading) {
   if (reading.likelihood != usual.likelihood) {
     words += fmt::format(" --likelihood {:g}", reading.likelihood);
   }
-  if (reading.length > 0) words += fmt::format(" --length {:g}", reading.length);
+  if (reading.length > 0) words += fmt::format(" --animal-length {:g}", reading.length);
   if (!reading.individual.empty()) words += " --individual " + shell_word(reading.individual);
   if (reading.y_up) words += " --y-up";
   if (reading.y_down) words += " --y-down";
@@ -55,7 +55,8 @@ std::string scaled(const Film& film, double scale) {
 
 std::string flat_note(const std::string& film) {
   return fmt::format(
-      "{}: has no z, so that its animal is taken to lie in a plane, which no knot does\n",
+      "{}: has no z: the animal is taken to lie in a plane. No knot does, and one camera does not "
+      "tell which strand is over: for a knot, film it with two\n",
       printable(film));
 }
 

@@ -17,6 +17,7 @@
 #include "experiments/program/number_options.hpp"
 #include "experiments/program/program.hpp"
 #include "experiments/program/scene_argument.hpp"
+#include "experiments/program/scripts.hpp"
 #include "experiments/program/shell_word.hpp"
 #include "experiments/program/text_file.hpp"
 
@@ -32,7 +33,7 @@ constexpr double longest_trial = 60;
 constexpr int not_fitted = exit_code::wrong_knot;
 
 struct MidlinesOptions {
-  std::string film, out;
+  std::string film, out, png;
   std::string scene = "living_overhand";  ///< whose animal it is for
   FilmReading reading;
   double until = 0;  ///< s; 0: to the film's end
@@ -182,6 +183,7 @@ int midlines(const MidlinesOptions& options) {
   for (const std::string& why : judgement.why) fmt::print("look at: {}\n", why);
   if (judgement.verdict == FilmVerdict::failed) return not_fitted;
   const std::string csv = csv_with_errors(fit);
+  if (!options.png.empty()) draw_from_text("midlines.py", csv, options.png, options.force);
   out.write(csv);
   fmt::print("{}: {} stations x {} times, {:g} s, linear in between\n", printable(options.out),
              options.stations, times, fit.program.time.back());
@@ -214,6 +216,7 @@ void add_midlines(Program& program) {
                   "from the film's first midline to its last; where not given, one each 0.05 s or "
                   "each midline")
       ->check(from_to(2, most_times));
+  app->add_option("--png", options->png, "figure: the program with bands of 90 %");
   app->add_flag("--free-head", options->free_head,
                 "the film's head moves; else it is clamped, at one place and turned one way");
   app->add_flag("--force", options->force, force_help);

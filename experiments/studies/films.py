@@ -176,8 +176,8 @@ def runs(folder: Path) -> list[dict]:
         with h5py.File(folder / "run.h5") as h5:
             time, centres = h5["trajectory/time"][()], h5["trajectory/position"][()]
         until = time[-1]
-        read_as = ["--fps", 30, "--scale", 25, "--length", LENGTH]
-        free = ["--free-head"] if scene.endswith("free") and False else []
+        read_as = ["--fps", 30, "--scale", 25, "--animal-length", LENGTH]
+        free = ["--free-head"] if scene.endswith("free") else []
         text, exchanged = filmed(folder / "run.h5", until, number, True)
         (folder / "film.csv").write_text(text)
         (folder / "exact.csv").write_text(filmed(folder / "run.h5", until, number, False)[0])

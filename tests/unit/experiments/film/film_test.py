@@ -305,6 +305,22 @@ def test_what_no_body_can_do_is_taken_out_and_told(tmp_path):
     assert all(word not in film("none", lambda points: None) for word in ("left out", "taken as lost", "turned round", "bridged"))
 
 
+def test_one_camera_does_not_tell_a_knot(film, tmp_path):
+    """The film of a knot, seen by one camera: its midlines cross themselves."""
+    t = table(film / "film.csv")
+    rows = [f"{a:.6g},{s:.6g},{x:.6g},{y:.6g}" for a, s, x, y in zip(t["time_s"], t["s_cm"], t["x_cm"], t["y_cm"])]
+    (tmp_path / "flat.csv").write_text("\n".join(["time_s,s_cm,x_cm,y_cm", *rows]) + "\n")
+    said = hagfish(tmp_path, "midlines", "flat.csv", "--out", "p.csv", "--times", 48)
+    assert "doubtful: " in said and "midlines cross themselves" in said and "one camera does not tell" in said
+    assert "hagfish run" not in said
+
+
+def test_errors_are_drawn(film, tmp_path):
+    write_rows(tmp_path / "f.csv", np.array([0.0, 1.0]), *bent(np.array([0.0, 1.0]), lambda t: 2.0))
+    hagfish(tmp_path, "midlines", "f.csv", "--out", "p.csv", "--png", "p.png")
+    assert (tmp_path / "p.png").read_bytes().startswith(b"\x89PNG")
+
+
 def test_what_cannot_be_put_right_is_doubtful_or_fails(tmp_path):
     time = np.arange(61) / 20
     s, points = bent(time, lambda t: 2 * t, points=41)
@@ -322,3 +338,87 @@ def test_what_cannot_be_put_right_is_doubtful_or_fails(tmp_path):
     said = hagfish(tmp_path, "midlines", "walk.csv", "--out", "w.csv", code=3)
     assert "failed: " in said and "look at: " in said
     assert sorted(tmp_path.rglob("*")) == before
+
+
+PARTS = 12  # of the body, as trackers number them
+PIXELS = 30  # a cm
+
+
+def tracked():
+    """An arc that grows, as a tracker's camera sees it: 20 frames a second, pixels, y down; frames x parts x 2."""
+    time = np.arange(41) / 20
+    _, points = bent(time, lambda t: 2 * t, points=PARTS)
+    return time, PIXELS * (points * (1, -1) + (5, 40))
+
+
+def is_the_arc(folder, *arguments):
+    said, p = bends(folder, *arguments, "--fps", 20)
+    assert "fitted: " in said and "y runs down" in said
+    np.testing.assert_allclose(p["bend_z (rad/L)"], 2 * p["time (s)"], atol=0.06)
+    return said
+
+
+@pytest.mark.parametrize("several", [False, True])
+def test_deeplabcut_is_read_as_it_is(tmp_path, several):
+    time, points = tracked()
+    individuals = ["eel", "hag"] if several else ["hag"]
+    columns = [(who, f"part {k}", coord) for who in individuals for k in range(PARTS) for coord in ("x", "y", "likelihood")]
+    heading = [["scorer"] + ["DLC_resnet50"] * len(columns)] + ([["individuals", *(c[0] for c in columns)]] if several else [])
+    heading += [["bodyparts", *(c[1] for c in columns)], ["coords", *(c[2] for c in columns)]]
+    rows = []
+    for f in range(len(time)):
+        cells = []
+        for who in individuals:
+            for k in range(PARTS):
+                wrong = who == "eel" or (f + k) % 9 == 0
+                cells += ["3.5", "4.5", "0.02"] if wrong else [f"{points[f, k, 0]:.4f}", f"{points[f, k, 1]:.4f}", "0.99"]
+        rows.append([str(f), *cells])
+    (tmp_path / "dlc.csv").write_text("\n".join(",".join(row) for row in heading + rows) + "\n")
+    who = ["--individual", "hag"] if several else []
+    assert "DeepLabCut" in is_the_arc(tmp_path, "dlc.csv", *who)
+    is_the_arc(tmp_path, "dlc.csv", *who, "--scale", PIXELS)
+    refused(tmp_path, "midlines", "dlc.csv", "--out", "q.csv", *who, parts=("dlc.csv", "--fps"))
+    if several:
+        refused(tmp_path, "midlines", "dlc.csv", "--out", "q.csv", "--fps", 20, parts=("eel, hag", "--individual"))
+
+
+def test_sleap_is_read_as_it_is(tmp_path):
+    time, points = tracked()
+    with h5py.File(tmp_path / "sleap.h5", "w") as h5:  # as SLEAP 1.3 exports: individuals x 2 x nodes x frames
+        tracks = np.full((2, 2, PARTS, len(time)), np.nan)
+        tracks[1] = points.transpose(2, 1, 0)
+        tracks[1, :, 3, ::4] = np.nan
+        scores = np.ones((2, PARTS, len(time)))
+        tracks[1, :, 7, 5:9], scores[1, 7, 5:9] = 1, 0.1
+        h5["tracks"], h5["point_scores"] = tracks, scores
+        h5["track_names"] = np.array([b"track_0", b"track_1"])
+        h5["node_names"] = np.array([f"n{k}".encode() for k in range(PARTS)])
+    assert "SLEAP" in is_the_arc(tmp_path, "sleap.h5", "--individual", "track_1")
+    refused(tmp_path, "midlines", "sleap.h5", "--out", "q.csv", "--fps", 20, parts=("track_0, track_1",))
+    with h5py.File(tmp_path / "other.h5", "w") as h5:
+        h5["a"] = 1
+    refused(tmp_path, "midlines", "other.h5", "--out", "q.csv", "--fps", 20, parts=("other.h5", "tracks"))
+
+
+def test_ethovision_is_read_as_it_is(tmp_path):
+    """Semicolons, decimal commas, UTF-16, 36 lines of heading, a dash for what is missing."""
+    time, points = tracked()
+    cm = points / PIXELS * (1, -1)
+    names = ["Trial time", "Recording time", *(f"{axis} p{k}" for k in range(PARTS) for axis in "XY"), "Result 1"]
+    lines = ['"Number of header lines:";"6"', '"Experiment";"Hagfish"', '"Trial name";"Trial 1"', '""', ";".join(f'"{name}"' for name in names),
+             ";".join(['"s"', '"s"'] + ['"cm"'] * 2 * PARTS + ['""'])]
+    for f, t in enumerate(time):
+        cells = [f"{t:.3f}", f"{t:.3f}"] + [f"{v:.5f}" if (f + k // 2) % 9 else "-" for k, v in enumerate(cm[f].ravel())] + ["1"]
+        lines.append(";".join(cell.replace(".", ",") if cell != "-" else '"-"' for cell in cells))
+    (tmp_path / "ev.txt").write_bytes(b"\xff\xfe" + ("\r\n".join(lines) + "\r\n").encode("utf-16-le"))
+    said, p = bends(tmp_path, "ev.txt")
+    assert "EthoVision" in said and "fitted: " in said
+    np.testing.assert_allclose(p["bend_z (rad/L)"], 2 * p["time (s)"], atol=0.06)
+
+
+def test_the_hand_of_a_knot_is_said(film):
+    """y the wrong way makes the mirror image of a knot: midlines and against say which hand they see."""
+    said = hagfish(film, "midlines", "film.csv", "--out", "down.csv", "--y-down", "--times", 48)
+    assert "3_1, left-handed" in said
+    assert "which of them has y the wrong way" in hagfish(film, "against", "a.h5", "film.csv", "--y-down")
+    assert "which of them" not in hagfish(film, "against", "a.h5", "film.csv")
