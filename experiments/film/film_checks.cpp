@@ -242,6 +242,33 @@ void tell_jumps(const Film& film, FilmRemarks& remarks) {
   }
 }
 
+/// Whether the polygon of a flat curve crosses itself: edges that are no neighbours.
+bool crosses(const Eigen::Matrix3Xd& curve) {
+  const auto left = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                       const Eigen::Vector3d& c) { return (b - a).cross(c - a).z() > 0; };
+  for (Eigen::Index i = 0; i + 1 < curve.cols(); ++i) {
+    for (Eigen::Index j = i + crossing_apart; j + 1 < curve.cols(); ++j) {
+      const Eigen::Vector3d a = curve.col(i), b = curve.col(i + 1);
+      const Eigen::Vector3d c = curve.col(j), d = curve.col(j + 1);
+      if (left(a, b, c) != left(a, b, d) && left(c, d, a) != left(c, d, b)) return true;
+    }
+  }
+  return false;
+}
+
+void tell_crossings(const Film& film, FilmRemarks& remarks) {
+  std::vector<double> times;
+  for (const FilmFrame& frame : film.frames) {
+    if (crosses(curve_through(frame))) times.push_back(frame.time);
+  }
+  if (!times.empty()) {
+    remarks.doubts.push_back(
+        fmt::format("{} midlines cross themselves ({} s), which nothing in a plane does: one "
+                    "camera does not tell which strand is over",
+                    times.size(), times_text(times)));
+  }
+}
+
 }  // namespace
 
 double usual_interval(const Film& film) {
