@@ -57,7 +57,7 @@ void list_pairs(const std::vector<SplineSegment>& segments, const ContactSetting
   // Slack, so that rounding does not put equal arcs on different sides of the bound.
   const double least_arc = settings.least_arc * (1 - 1e-9);
   const int n = static_cast<int>(segments.size());
-  for (int a = 0; a < n; ++a) {
+  for (int a = 0; a < n && segments[a].obstacle < 0; ++a) {  // obstacles follow the body
     for (int b = a + 1; b < n; ++b) {
       if (segments[b].s0 - segments[a].arc(1) < least_arc) continue;
       const double reach = segments[a].bound + segments[b].bound + settings.margin;
