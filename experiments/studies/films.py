@@ -1,7 +1,7 @@
 """How well `hagfish midlines` gives back what was filmed: closed forms, ten runs as films with a tracker's faults, 300 damaged films.
 
 Usage: films.py [--only forms|runs|damaged] [--run SCENE]... [--out DIR]. Needs the program as built (HAGFISH_PROGRAM), python3-numpy and python3-h5py.
-Writes DIR/films_PART.csv for each part and, from all three, experiments/results/films.md.
+Writes DIR/films_PART.csv for each part and, from those that are there, experiments/results/films.md.
 """
 
 from __future__ import annotations
@@ -270,31 +270,39 @@ def markdown(path: Path) -> str:
 
 
 def page(folder: Path) -> str:
-    with (folder / "films_damaged.csv").open(newline="") as file:
-        rows = list(csv.DictReader(file))
-    outcomes = {o: sum(row["outcome"] == o for row in rows) for o in ("right", "told", "failed", "refused", "silently off", "crashed")}
-    counts = "| outcome | films |\n|---|---|\n" + "".join(f"| {o} | {n} |\n" for o, n in outcomes.items())
-    return f"""# How well films are given back
+    """The parts that have been run."""
+    text = """# How well films are given back
 
 Written by `python3 experiments/studies/films.py`; its tables are CSV beside its films. Bends are in rad per body length, bands are 1.645 standard errors to each side.
-
+"""
+    if (folder / "films_forms.csv").exists():
+        text += f"""
 ## Closed forms
 
 61 midlines of 41 points, 3 s, without noise and with 1 mm on each coordinate.
 
-{markdown(folder / "films_forms.csv")}
+{markdown(folder / "films_forms.csv")}"""
+    if (folder / "films_runs.csv").exists():
+        text += f"""
 ## Runs as films
 
 The scene at h = 20 ms until its knot is tied, filmed at 30 frames a second: 50 points in pixels, y down, turned; 1 mm of noise, 5 % of the points lost, 1 % of them 15 cm off, 1 s without midlines, head and tail exchanged in two.
 Shapes are held against the run's own bodies; bands against the program of the same film without faults.
 
-{markdown(folder / "films_runs.csv")}
+{markdown(folder / "films_runs.csv")}"""
+    if (folder / "films_damaged.csv").exists():
+        with (folder / "films_damaged.csv").open(newline="") as file:
+            rows = list(csv.DictReader(file))
+        outcomes = {o: sum(row["outcome"] == o for row in rows) for o in ("right", "told", "failed", "refused", "silently off", "crashed")}
+        counts = "| outcome | films |\n|---|---|\n" + "".join(f"| {o} | {n} |\n" for o, n in outcomes.items())
+        text += f"""
 ## Damaged films
 
 {len(rows)} films of an arc that grows, each with one or two random faults. Right: three quarters of the bends or more are within their bands of 90 %. Told: something is said that a reader must look at.
 A film with y down is held against the mirror image: nothing in a plane tells it.
 
 {counts}"""
+    return text
 
 
 def main() -> None:
@@ -307,8 +315,8 @@ def main() -> None:
     for part in (forms, runs, damaged):
         if options.only in (None, part.__name__):
             write(options.out / f"films_{part.__name__}.csv", part(options.out, options.run) if part is runs else part(options.out))
-    if all((options.out / f"films_{part}.csv").exists() for part in ("forms", "runs", "damaged")):
-        (ROOT / "experiments/results/films.md").write_text(page(options.out))
+    (ROOT / "experiments/results").mkdir(exist_ok=True)
+    (ROOT / "experiments/results/films.md").write_text(page(options.out))
 
 
 if __name__ == "__main__":
