@@ -16,6 +16,7 @@ _Phase = Literal["form", "tighten", "slide", "pull", "reverse", "release", "free
 _End = Literal["head", "tail"]
 _KnotEnd = Literal["first", "last", "neither"]
 
+laws: dict[str, str]
 revision: str
 
 def scenes() -> list[str]: ...

@@ -87,7 +87,7 @@ def test_copies_go_on_independently_and_alike(tied):
 def test_the_energy_ledger_closes(tied):
     e = tied.energy
     works = sum(value for name, value in e.items() if name.startswith("work_"))
-    left = e["kinetic"] + e["elastic"] + e["gravity"] - works + e["dissipated"] - e["integrator_error"]
+    left = e["kinetic"] + e["elastic"] + e["gravity"] - works + e["dissipated"] + e["impact_loss"] - e["integrator_error"]
     assert abs(left) < 1e-9 * e["dissipated"]
 
 
