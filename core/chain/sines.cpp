@@ -5,17 +5,18 @@
 namespace hagfish {
 
 // A loop for each, since GCC makes one call of one angle of both. CMakeLists.txt has the flag that
-// lets it call for several.
+// lets it call for several. Near whole turns that library's cosine is even to rounding alone: so it
+// is taken of the angle's size, which is stored first, as GCC would leave out the size of a
+// cosine's argument.
 void sines_and_cosines(const Eigen::Ref<const Eigen::VectorXd>& angles, Eigen::VectorXd& sine,
                        Eigen::VectorXd& cosine) {
-  const Eigen::Index count = angles.size();
-  sine.resize(count);
-  cosine.resize(count);
-  const double* const from = angles.data();
+  sine = angles;
+  cosine = angles.cwiseAbs();
   double* const s = sine.data();
   double* const c = cosine.data();
-  for (Eigen::Index i = 0; i < count; ++i) s[i] = std::sin(from[i]);
-  for (Eigen::Index i = 0; i < count; ++i) c[i] = std::cos(from[i]);
+  const Eigen::Index count = angles.size();
+  for (Eigen::Index i = 0; i < count; ++i) s[i] = std::sin(s[i]);
+  for (Eigen::Index i = 0; i < count; ++i) c[i] = std::cos(c[i]);
 }
 
 }  // namespace hagfish
