@@ -1,6 +1,7 @@
 #include "core/run/momentum.hpp"
 
 #include <Eigen/Cholesky>
+#include <cmath>
 
 namespace hagfish {
 namespace {
@@ -86,16 +87,30 @@ double mass_of(const Model& model) {
   return mass;
 }
 
-/// Gives `next` as much momentum, by a motion of the whole as one rigid body about `centre` of
-/// mass.
-void give(const Model& model, const Eigen::Vector3d& centre, const Momentum& missing,
-          Moment& next) {
+/// Gives `next`, which has `now`, the momentum `wanted`, by a motion of the whole as one rigid body
+/// about `centre` of mass. Its kinetic energy stays as it is: velocities between its parts take or
+/// give by one factor what that motion has more or less, as far as they can.
+void give(const Model& model, const Eigen::Vector3d& centre, const Momentum& now,
+          const Momentum& wanted, Moment& next) {
   Kinematics& kin = next.observation.kin;
-  const Eigen::Vector3d turn = locked_inertia(model, kin, centre).llt().solve(missing.angular);
-  const Eigen::Vector3d shift = missing.linear / mass_of(model);
-  next.state.qdot.head<3>() += shift + turn.cross(kin.origin.col(0) - centre);
-  next.state.qdot.segment<3>(3) += kin.rotation[0].transpose() * turn;
-  update_velocities(model, next.state.qdot, kin);
+  const auto inertia = locked_inertia(model, kin, centre).llt();
+  const double mass = mass_of(model);
+  const Eigen::Vector3d old_turn = inertia.solve(now.angular), turn = inertia.solve(wanted.angular);
+  const auto energy = [mass](const Momentum& of, const Eigen::Vector3d& at) {
+    return 0.5 * (of.linear.squaredNorm() / mass + of.angular.dot(at));
+  };
+  const double whole = kinetic_energy(model, kin);
+  const double inner = whole - energy(now, old_turn);
+  const double left = whole - energy(wanted, turn);
+  const double factor = inner > 0 && left > 0 ? std::sqrt(left / inner) : 1;
+  const Eigen::Vector3d arm = kin.origin.col(0) - centre;
+  Eigen::VectorXd& v = next.state.qdot;
+  const Eigen::Vector3d linear = v.head<3>() - now.linear / mass - old_turn.cross(arm);
+  const Eigen::Vector3d spin = kin.rotation[0] * v.segment<3>(3) - old_turn;
+  v *= factor;
+  v.head<3>() = factor * linear + wanted.linear / mass + turn.cross(arm);
+  v.segment<3>(3) = kin.rotation[0].transpose() * (factor * spin + turn);
+  update_velocities(model, v, kin);
 }
 
 }  // namespace
@@ -170,7 +185,7 @@ void book_momentum(const StepInput& in, const StepPlace& place, const StepSoluti
   ledger.outside += outside;
   if (keeps_momentum(in.scene, in.control)) {
     const Momentum before = ledger.momentum;
-    give(model, centre, old + drag + outside - before, next);
+    give(model, centre, before, old + drag + outside, next);
     ledger.momentum = momentum_of(model, kin, centre);
     ledger.given_back += ledger.momentum - before;
     const double kinetic = kinetic_energy(model, kin);

@@ -36,6 +36,7 @@ ChainRun chain_round_a_post() {
   pole.points = {post - 5 * Eigen::Vector3d::UnitZ(), post + 5 * Eigen::Vector3d::UnitZ()};
   pole.radius = post_radius;
   ChainRun run(model, bare_scene(0.002));
+  run.scene.controller.eq6_at = Eq6Point::centreline;
   // The joints that turn by the angle that a link takes on the post.
   const double turn = 2 * std::asin(link / 2 / post_radius);
   const int first = static_cast<int>(post.x() / link);

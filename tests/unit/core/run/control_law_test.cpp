@@ -166,7 +166,7 @@ TEST_F(ControlLaws, TheCapacityBoundsTorquesOfLawsWhereTheSceneSaysSo) {
     c.torque.value[9] = -80;
     c.torque.rate[9] = 3;
     c.torque.value[11] = 40;
-    c.rest_shape = 0.1 * Eigen::VectorXd::Unit(at.model.nv(), 11);
+    c.rest_shape = 0.02 * Eigen::VectorXd::Unit(at.model.nv(), 11);
   };
   observation.contact.contacts = {contact(5, 30)};
   ASSERT_TRUE(decide(model, scene, moment, now, named, state, control, own).ok());

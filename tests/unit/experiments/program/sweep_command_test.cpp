@@ -136,7 +136,7 @@ TEST_F(SweepTest, AFailedRunIsARowAndOnlyItsLogIsKept) {
   folder.write("fails.toml", R"(
 scene = "table1"
 keep = "failed"
-set = ["time.step=0.02", "time.duration=0.2", "expect.knot=''", "expect.types=[]"]
+set = ["time.step=0.02", "time.duration=0.2", "expect.knot=''", "expect.types=[]", "expect.energy_loss=1"]
 [[axis]]
 "guard.speed" = [10000, 4]
 )");
