@@ -89,7 +89,8 @@ double mass_of(const Model& model) {
 
 /// Gives `next`, which has `now`, the momentum `wanted`, by a motion of the whole as one rigid body
 /// about `centre` of mass. Its kinetic energy stays as it is: velocities between its parts take or
-/// give by one factor what that motion has more or less, as far as they can.
+/// give by one factor what that motion has more or less. Where they have not enough, nothing is
+/// given, of which the watch on momentum tells.
 void give(const Model& model, const Eigen::Vector3d& centre, const Momentum& now,
           const Momentum& wanted, Moment& next) {
   Kinematics& kin = next.observation.kin;
@@ -102,7 +103,8 @@ void give(const Model& model, const Eigen::Vector3d& centre, const Momentum& now
   const double whole = kinetic_energy(model, kin);
   const double inner = whole - energy(now, old_turn);
   const double left = whole - energy(wanted, turn);
-  const double factor = inner > 0 && left > 0 ? std::sqrt(left / inner) : 1;
+  if (!(inner > 0 && left > 0)) return;
+  const double factor = std::sqrt(left / inner);
   const Eigen::Vector3d arm = kin.origin.col(0) - centre;
   Eigen::VectorXd& v = next.state.qdot;
   const Eigen::Vector3d linear = v.head<3>() - now.linear / mass - old_turn.cross(arm);

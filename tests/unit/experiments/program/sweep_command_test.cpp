@@ -211,6 +211,7 @@ scene = ["table1", "overhand_reverse", "pull_overhand", "table1"]
                                                      {"Eq. 6", "eq6_percent"},
                                                      {"energy ledger", "energy_ledger"},
                                                      {"energy gain", "energy_gain"},
+                                                     {"energy loss", "energy_loss"},
                                                      {"momentum ledger", "momentum_ledger"},
                                                      {"slide", "slide_distance_cm"},
                                                      {"pull", "pull_N"}};
