@@ -87,6 +87,12 @@ double mass_of(const Model& model) {
   return mass;
 }
 
+/// Share of its energy that a body without motion between its parts may gain in a step that gives
+/// its momentum back; more is not given.
+constexpr double most_added = 1e-3;
+/// Motion between parts with less of the energy is rounding.
+constexpr double rounding = 1e-12;
+
 /// Gives `next`, which has `now`, the momentum `wanted`, by a motion of the whole as one rigid body
 /// about `centre` of mass. Its kinetic energy stays as it is: velocities between its parts take or
 /// give by one factor what that motion has more or less. Where they have not enough, nothing is
@@ -103,8 +109,8 @@ void give(const Model& model, const Eigen::Vector3d& centre, const Momentum& now
   const double whole = kinetic_energy(model, kin);
   const double inner = whole - energy(now, old_turn);
   const double left = whole - energy(wanted, turn);
-  if (!(inner > 0 && left > 0)) return;
-  const double factor = std::sqrt(left / inner);
+  if (left < -most_added * whole) return;
+  const double factor = inner > rounding * whole && left > 0 ? std::sqrt(left / inner) : 1;
   const Eigen::Vector3d arm = kin.origin.col(0) - centre;
   Eigen::VectorXd& v = next.state.qdot;
   const Eigen::Vector3d linear = v.head<3>() - now.linear / mass - old_turn.cross(arm);
