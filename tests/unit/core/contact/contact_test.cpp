@@ -246,7 +246,7 @@ RateError gap_rates(Random& random, const Model& model, const State& start) {
     return near ? &*it : nullptr;
   };
   RateError error;
-  const std::vector<Row> rows = contact_rows(model, {now, {}, 0}, {}, 1e-3);
+  const std::vector<Row> rows = contact_rows(model, {now, {}, {}, 0}, {}, 1e-3);
   EXPECT_EQ(rows.size(), now.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Contact* next = again(after, now[i]);
