@@ -172,7 +172,7 @@ double winding(const Model& model, const Eigen::Matrix3Xd& centre, double from, 
   const Eigen::Vector3d third = axis.cross(across);
   const double length = model.length() / model.body_count();
   double turn = 0, before = NAN;
-  for (auto b = static_cast<Eigen::Index>(from / length); (b + 0.5) * length < to; ++b) {
+  for (int b = static_cast<int>(from / length); (b + 0.5) * length < to; ++b) {
     const Eigen::Vector3d off = centre.col(b) - p;
     const double angle = std::atan2(off.dot(third), off.dot(across));
     if (!std::isnan(before)) turn += std::remainder(angle - before, 2 * std::numbers::pi);
