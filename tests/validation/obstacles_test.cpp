@@ -38,12 +38,16 @@ class Obstructed {
       control.tip = {pull, 0};
     };
   }
-  /// Steps on for `duration` s.
+  /// Steps on for `duration` s. A step's force is an impulse over h: means are taken of all of
+  /// them.
   void run(double duration) {
     const auto steps = std::lround(duration / scene_.time.step);
+    on_body = on_head = Eigen::Vector3d::Zero();
     for (long k = 0; k < steps; ++k) {
       take_step(model_, scene_, sim_, record);
       overlap = std::max(overlap, sim_.now.observation.penetration);
+      on_body += force_of(0) / static_cast<double>(steps);
+      on_head += record.solution.force[RowKind::head].head<3>() / static_cast<double>(steps);
     }
   }
   const Eigen::Matrix3Xd& centres() const { return sim_.now.observation.kin.centre; }
@@ -65,6 +69,8 @@ class Obstructed {
 
   StepRecord record;
   double overlap = 0;  ///< deepest so far, cm
+  Eigen::Vector3d on_body,
+      on_head;  ///< means of the last run: of the first obstacle, the clamp; dyn
 
  private:
   Simulation begin(const State& state) {
@@ -122,13 +128,12 @@ TEST_P(AtSteps, ALoopRoundAPoleHoldsWhatPullsAtBothEnds) {
   model.obstacles = {strand("pole", {{straight - 1, radius, -8}, {straight - 1, radius, 8}}, 2)};
   Obstructed loop(model, scene, start_state(model, start), {-pull, 0, 0});
   loop.run(8);
+  loop.run(1);
   EXPECT_LT(loop.overlap, allowed_overlap);
   EXPECT_LT(loop.speed(), 0.05);
-  // The pole is still inside, and holds both strands.
-  const Eigen::Vector3d held = loop.force_of(0);
-  const Eigen::Vector3d head = loop.record.solution.force[RowKind::head].head<3>();
-  EXPECT_NEAR((held + head + Eigen::Vector3d(-pull, 0, 0)).norm(), 0, 0.02 * pull);
-  EXPECT_GT(held.x(), 1.5 * pull);
+  // The pole is still inside, and holds both strands; water takes what is left of motion.
+  EXPECT_NEAR((loop.on_body + loop.on_head + Eigen::Vector3d(-pull, 0, 0)).norm(), 0, 0.03 * pull);
+  EXPECT_GT(loop.on_body.x(), 1.5 * pull);
   EXPECT_LT(loop.centres().col(99).x(), straight - 1);
 }
 
