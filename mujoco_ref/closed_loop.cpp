@@ -117,7 +117,8 @@ void MujocoLoop::note_forces(const Simulation& sim, MujocoModel& mirror, StepSol
   if (root > 0) step.force[RowKind::head].head<root_dofs>().setConstant(nan);
   step.rows.clear();
   std::vector<double> lambda;
-  Eigen::VectorXd force(m.nv), of_rows(std::max(d.nefc, 1));
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(m.nv);  // as it stays where there are no rows
+  Eigen::VectorXd of_rows(std::max(d.nefc, 1));
   for (const auto& [kind, type] : {std::pair(RowKind::limit, mjCNSTR_LIMIT_JOINT),
                                    std::pair(RowKind::contact, mjCNSTR_CONTACT_FRICTIONLESS)}) {
     for (int i = 0; i < d.nefc; ++i) of_rows[i] = d.efc_type[i] == type ? d.efc_force[i] : 0;

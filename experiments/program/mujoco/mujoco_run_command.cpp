@@ -31,8 +31,8 @@ struct Beginning {
 
 /// What MuJoCo has of its own: the time step and its rule, and no head plate.
 std::vector<std::string> changes(const MujocoRunOptions& options) {
-  std::vector<std::string> set = {fmt::format("time.step={}", options.step),
-                                  "time.rule=euler", "wall.present=false"};
+  std::vector<std::string> set = {fmt::format("time.step={}", options.step), "time.rule=euler",
+                                  "wall.present=false"};
   set.insert(set.end(), options.set.begin(), options.set.end());
   return set;
 }

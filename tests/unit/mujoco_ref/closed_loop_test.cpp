@@ -75,7 +75,8 @@ TEST(ClosedLoop, SaysWhatTheStepDid) {
   EXPECT_EQ(record.solution.next, sim.now.state.qdot);
   EXPECT_EQ(sim.step, 1);
   const ActiveTorque& asked = record.control.active;
-  EXPECT_EQ(record.solution.active_torque, asked.value - asked.rate.cwiseProduct(before.qdot));
+  const Eigen::VectorXd torque = asked.value - asked.rate.cwiseProduct(before.qdot);
+  EXPECT_LE((record.solution.active_torque - torque).norm(), 1e-12 * torque.norm());
   EXPECT_TRUE(std::isnan(record.solution.worst_residual()));
   EXPECT_TRUE(record.solution.force[RowKind::contact].isZero(0));
 }
