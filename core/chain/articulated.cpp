@@ -49,13 +49,19 @@ Eigen::MatrixXd dense(const Model& model, const Kinematics& kin, const StepOpera
 void ArticulatedFactor::factorise(const Model& model, const Kinematics& kin, const StepOperator& op,
                                   std::span<const PrescribedVelocity> prescribed) {
   weighted_.resize(6, model.nv());
+  coupling_.resize(model.nv());
   pivot_.resize(model.nv());
   inverse_pivot_.resize(model.nv());
   prescribed_.assign(prescribed.begin(), prescribed.end());
   auto next = prescribed_.rbegin();
-  // Two halves of a product do not wait for each other.
+  // Sums are written in the order in which each waits least for the one before. `articulated` lacks
+  // what the dof behind takes from it, u u' over its pivot, which is taken from the products with
+  // it: so each dof waits for the pivot of the one behind alone, and not for the matrix after it.
   using Column = Eigen::Matrix<double, 8, 1>;
   Eigen::Matrix<double, 8, 6> articulated = Eigen::Matrix<double, 8, 6>::Zero();
+  Column u = Column::Zero();
+  double inverse = 0;   // of the pivot behind
+  double coupling = 0;  // with the dof behind
   for (int b = model.body_count() - 1; b >= 0; --b) {
     const Body& body = model.bodies[b];
     articulated += op.inertia[b].columns;
@@ -65,24 +71,29 @@ void ArticulatedFactor::factorise(const Model& model, const Kinematics& kin, con
                            articulated.col(2) * axis[2];
       const Column second = articulated.col(3) * axis[3] + articulated.col(4) * axis[4] +
                             articulated.col(5) * axis[5];
-      const Column u = first + second;
-      const double pivot = axis.dot(u.head<6>()) + op.diagonal[k];
+      const Column product = first + second;
+      const double pivot =
+          axis.dot(product.head<6>()) + op.diagonal[k] - coupling * coupling * inverse;
       if (!(pivot > 0)) {
         throw std::domain_error("articulated inertia is not positive at velocity " +
                                 std::to_string(k) + " (pivot " + std::to_string(pivot) + ")");
       }
-      weighted_.col(k) = u.head<6>();
-      pivot_[k] = pivot;
-      if (next != prescribed_.rend() && next->dof == k) {
-        inverse_pivot_[k] = 0;
-        ++next;
-        continue;
-      }
-      inverse_pivot_[k] = 1 / pivot;
-      const Column share = inverse_pivot_[k] * u;
+      const Column share = inverse * u;
       for (int i = 0; i < 6; ++i) {
         articulated.col(i) -= u[i] * share;
       }
+      u = product - coupling * share;
+      coupling = k == 0 ? 0 : kin.axis.col(k - 1).dot(u.head<6>());
+      weighted_.col(k) = u.head<6>();
+      coupling_[k] = coupling;
+      pivot_[k] = pivot;
+      if (next != prescribed_.rend() && next->dof == k) {
+        inverse = 0;
+        ++next;
+      } else {
+        inverse = 1 / pivot;
+      }
+      inverse_pivot_[k] = inverse;
     }
   }
 }
@@ -102,34 +113,43 @@ void ArticulatedFactor::solve(const Model& model, const Kinematics& kin, const M
   const auto count = static_cast<Eigen::Index>(prescribed.size());
   reaction.resize(count);
   Eigen::Index next = count;
+  // Both sums lack the part of the dof before, which `coupling_` adds to their product: so each dof
+  // waits for the last one's velocity alone, and not for the sum with it.
   Vector6d sum = Vector6d::Zero();
+  int last = 0;
+  double velocity = 0;  // of the dof `last`
   for (int b = model.body_count() - 1; b >= 0; --b) {
     const Body& body = model.bodies[b];
     sum += wrench.col(b);
     for (int k = body.first_dof + body.dofs - 1; k >= body.first_dof; --k) {
-      const double force = joint[k] + kin.axis.col(k).dot(sum);
+      const double force = joint[k] + kin.axis.col(k).dot(sum) - coupling_[last] * velocity;
+      sum -= weighted_.col(last) * velocity;
       v[k] = force * inverse_pivot_[k];
       if (next > 0 && prescribed[next - 1].dof == k) {
         --next;
         reaction[next] = -force;
         v[k] = prescribed[next].value;
       }
-      sum -= weighted_.col(k) * v[k];
+      last = k;
+      velocity = v[k];
     }
   }
   Vector6d moved = Vector6d::Zero();
+  velocity = 0;
   for (int b = 0; b < model.body_count(); ++b) {
     const Body& body = model.bodies[b];
     for (int k = body.first_dof; k < body.first_dof + body.dofs; ++k) {
-      const double force = weighted_.col(k).dot(moved);
+      const double force = weighted_.col(k).dot(moved) + coupling_[k] * velocity;
+      moved += kin.axis.col(last) * velocity;
       v[k] -= force * inverse_pivot_[k];
       if (next < count && prescribed[next].dof == k) {
         reaction[next] += force + pivot_[k] * v[k];
         ++next;
       }
-      moved += kin.axis.col(k) * v[k];
+      last = k;
+      velocity = v[k];
     }
-    twist.col(b) = moved;
+    twist.col(b) = moved + kin.axis.col(last) * velocity;
   }
 }
 

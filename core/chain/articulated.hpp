@@ -121,6 +121,7 @@ class ArticulatedFactor {
 
  private:
   Matrix6Xd weighted_;             // Î^A S, one column a dof
+  Eigen::VectorXd coupling_;       // S' Î^A S of each dof and the one before it
   Eigen::VectorXd pivot_;          // S' Î^A S + δ
   Eigen::VectorXd inverse_pivot_;  // 0 where prescribed
   std::vector<PrescribedVelocity> prescribed_;
