@@ -11,7 +11,8 @@ namespace {
 
 /// Forces and velocities are known as means from frame to frame, or at frames, so that a total
 /// grows otherwise by some hundredths of its growth, and by up to a third where rows switch within
-/// a frame. With another column's forces it is off by all of its growth or more.
+/// a frame. With another column's forces it is off by all of its growth or more. Moments and works
+/// of joints cancel each other, so that growth is measured by the sum of their sizes.
 constexpr double growth_tolerance = 0.7;
 constexpr int least_frames = 5;  // to tell
 
@@ -33,10 +34,10 @@ RateAudit::RateAudit(const LogContents& log)
   outside_ = log.h5.rows("/diagnostics/impulse_outside");
 }
 
-void RateAudit::Growth::compare(Eigen::Index frame, const Eigen::VectorXd& wanted) {
+void RateAudit::Growth::compare(Eigen::Index frame, const Eigen::VectorXd& wanted, double passed) {
   const Eigen::VectorXd grew = total.row(frame) - total.row(frame - 1);
   off += (grew - wanted).norm();
-  grown += grew.norm();
+  grown += std::max(grew.norm(), passed);
 }
 
 void RateAudit::see(const AuditedFrame& frame) {
@@ -57,12 +58,14 @@ void RateAudit::see(const AuditedFrame& frame) {
   const Eigen::Vector3d centre = centre_of_mass(log_.model, kin);
   Eigen::Vector3d drag = Eigen::Vector3d::Zero();
   Eigen::Vector3d drag_moment = drag;
-  double dissipated = 0;
+  double moments = 0, dissipated = 0;
   for (int b = 0; b < bodies; ++b) {
     const PointMotion motion{elapsed * kin.twist.col(b).head<3>(), moved.col(b)};
     const auto [moment, force] = drag_on_body(log_.model, kin, b, motion);
     drag += force;
-    drag_moment += moment + (kin.centre.col(b) - centre).cross(force);
+    const Eigen::Vector3d about = moment + (kin.centre.col(b) - centre).cross(force);
+    drag_moment += about;
+    moments += about.norm();
     dissipated += drag_power(log_.model, kin, b, motion, motion) / elapsed;
   }
   for (int k = root_dofs; k < log_.model.nv(); ++k) {
@@ -70,10 +73,14 @@ void RateAudit::see(const AuditedFrame& frame) {
   }
   const auto one = [](double value) { return Eigen::VectorXd::Constant(1, value); };
   growths_[0].compare(f, one(tip.dot(moved.col(bodies - 1))));
-  growths_[1].compare(f, one(thigmotaxis_.row(f).dot(way)));
-  growths_[2].compare(f, one(active_.row(f).dot(way)));
+  const auto work = [&way](const auto& force) {
+    return force.transpose().cwiseProduct(way).eval();
+  };
+  const Eigen::VectorXd thigmotaxis = work(thigmotaxis_.row(f)), active = work(active_.row(f));
+  growths_[1].compare(f, one(thigmotaxis.sum()), thigmotaxis.lpNorm<1>());
+  growths_[2].compare(f, one(active.sum()), active.lpNorm<1>());
   growths_[3].compare(f, drag);
-  growths_[4].compare(f, drag_moment);
+  growths_[4].compare(f, drag_moment, moments);
   growths_[5].compare(f, one(dissipated));
   see_outside(frame, centre, elapsed);
 }

@@ -24,7 +24,8 @@ class RateAudit {
     std::string name;
     Hdf5Reader::Rows total;  ///< frames x 1 or 3
     double off = 0, grown = 0;
-    void compare(Eigen::Index frame, const Eigen::VectorXd& wanted);
+    /// `passed`: the sum of the sizes of what `wanted` is the sum of, which may cancel.
+    void compare(Eigen::Index frame, const Eigen::VectorXd& wanted, double passed = 0);
   };
   void see_outside(const AuditedFrame& frame, const Eigen::Vector3d& centre, double elapsed);
 
