@@ -5,7 +5,7 @@
 #   bash experiments/studies/reflex.sh [OUTPUT_FOLDER]     default: out/reflex
 # Stopped, it goes on where it was; logs of MuJoCo and the table of laws in Python that are there already are not made again.
 set -euo pipefail
-targets=(--target hagfish_python)
+targets=(hagfish_python)
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 for grid in knots paper knockouts speed delay noise bodies step drag muscle damping stiffness starts pull pull_shift; do

@@ -262,6 +262,7 @@ class EnergyWatch : public testing::Test {
     scene.model.bending_stiffness = 0;
     scene.model.twist_stiffness = 0;
     scene.time.step = 0.005;
+    scene.time.momentum = FreeMomentum::rule;  // what the rule makes is to be seen
     model = make_hagfish(table1_specimen(), scene);
     for (Hinge& hinge : model.hinges) {  // a limit's impacts would hide what is made
       hinge.lower = -std::numeric_limits<double>::infinity();

@@ -21,6 +21,7 @@ class AuditObstacles : public testing::Test {
     write_log(file, stored_scene({"obstacle=[{kind='strand', name='pole', radius=0.5, "
                                   "points=[[40, -1.4, -5], [40, -1.4, 5]]}]",
                                   "time.step=0.005", "time.duration=0.4", "knot.votes=5",
+                                  "expect.energy_loss=0.2",  // of so short a log with long steps
                                   "expect.knot=", "expect.types=[]", "expect.slide_distance=0"}));
   }
   std::string objections() const {

@@ -207,10 +207,11 @@ def bends(folder, *arguments, code=0):
 
 @pytest.mark.parametrize("total", [0.0, 2.5, 4.0, -6.0, 8.0])
 def test_a_film_that_begins_bent_is_found(tmp_path, total):
+    """More than a full turn in a plane crosses itself, of which one camera does not tell enough."""
     time = np.array([0.0, 1.0])
     write_rows(tmp_path / "f.csv", time, *bent(time, lambda t: total))
     said, p = bends(tmp_path, "f.csv")
-    assert said.count("fitted: ") == 1
+    assert said.count("fitted: " if abs(total) < 2 * np.pi else "doubtful: ") == 1
     np.testing.assert_allclose(p["bend_z (rad/L)"], total, atol=0.05)
     np.testing.assert_array_equal(p["bend_y (rad/L)"], 0)
 
