@@ -279,8 +279,8 @@ class EnergyWatch : public testing::Test {
     StepRecord record;
     for (int k = 0; k < steps; ++k) {
       take_step(model, scene, sim, record);
-      for (const std::string& warning : record.warnings) {
-        warnings.push_back(warning);
+      for (const std::string& warning : record.warnings) {  // of momentum it warns too
+        if (warning.starts_with("the integrator made")) warnings.push_back(warning);
       }
       // The ledger closes to rounding, what was taken back included.
       EXPECT_LT(std::abs(sim.ledger.imbalance()), 1e-9 * sim.ledger.initial);
