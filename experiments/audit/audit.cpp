@@ -141,7 +141,7 @@ std::vector<Finding> energy(const LogContents& log) {
       error[error.size() - 1]);
   const double had =
       (diagnostic(log, "kinetic_energy") + diagnostic(log, "elastic_energy")).maxCoeff();
-  const double loss = EnergyLoss::of(error) / std::max({passed, had, least_energy});
+  const double loss = IntegratorLoss::of(error) / std::max({passed, had, least_energy});
   return {finding, judged_over(energy_loss_criterion(log.resolved.scene.expect, loss),
                                "by the integrator, without impacts")};
 }

@@ -9,7 +9,7 @@
 namespace hagfish {
 namespace {
 
-constexpr double rounding = 1e-9;
+constexpr double activation_rounding = 1e-9;
 
 /// Activations are found to some 1e-9 from torques of 1e5 dyn cm that machines round otherwise.
 constexpr double activation_tolerance = 1e-8;
@@ -47,7 +47,7 @@ void ActivationAudit::see(const AuditedFrame& frame) {
   rebuilt_.compare("/muscle/activation", activation, effort_.activation, activation_tolerance);
   muscle_torque(log_.model, kin, activation, given_);
   rebuilt_.compare("/muscle/residual", residual, torque - given_,
-                   rounding * torque.lpNorm<Eigen::Infinity>());
+                   activation_rounding * torque.lpNorm<Eigen::Infinity>());
 }
 
 void ActivationAudit::see_driven(const AuditedFrame& frame) {
@@ -68,7 +68,7 @@ std::vector<Finding> ActivationAudit::findings() const {
   std::vector<Finding> findings{
       rebuilt_.finding("activations", "means of u + f_thigmo, q and the specimen's muscles")};
   if (driven_.size() > 0) {
-    findings.push_back(judged_over({"activation dynamics", beyond_, rounding, "1"},
+    findings.push_back(judged_over({"activation dynamics", beyond_, activation_rounding, "1"},
                                    "between frames, past the fastest"));
   }
   return findings;

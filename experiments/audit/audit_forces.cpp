@@ -41,12 +41,12 @@ double mismatch(const Eigen::VectorXd& a, const Eigen::VectorXd& b, double least
 
 /// Steps of the midpoint rule whose number of passes and `remaining` contradict each other.
 double false_passes(const LogContents& log, const std::vector<double>& remaining) {
-  constexpr double rounding = 1e-12;
+  constexpr double guess_rounding = 1e-12;
   const int most = log.resolved.scene.time.passes;
   double count = 0;
   for (std::size_t k = 1; k < remaining.size(); ++k) {
     const double guess = guessed_remaining(remaining[k - 1]);
-    const bool guessed = std::abs(remaining[k] - guess) <= rounding * guess;
+    const bool guessed = std::abs(remaining[k] - guess) <= guess_rounding * guess;
     // One that did not settle counts as unknown, 1, which is also what is guessed after such a one.
     const bool unknown = remaining[k] == 1 && log.passes[k] == 2 * most;
     const std::int64_t passes = log.passes[k] - (log.passes[k] > most ? most : 0);

@@ -13,7 +13,7 @@
 namespace hagfish {
 namespace {
 
-constexpr std::size_t least_frames = 4;  // for two halves of a pull
+constexpr std::size_t frames_for_halves = 4;  // for two halves of a pull
 
 bool pulls(const LogContents& log, Eigen::Index frame) {
   return static_cast<Phase>(log.phase[frame]) == Phase::pull;
@@ -154,7 +154,7 @@ std::vector<PullMeans> settled_part(const ExpectSettings& expect,
 std::vector<Criterion> pull_criteria(const ExpectSettings& expect,
                                      const std::vector<PullMeans>& settled) {
   const std::size_t count = settled.size();
-  if (count < least_frames) {
+  if (count < frames_for_halves) {
     return {};
   }
   const auto force = [&](std::size_t from, std::size_t to) {

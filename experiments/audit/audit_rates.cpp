@@ -14,7 +14,7 @@ namespace {
 /// a frame. With another column's forces it is off by all of its growth or more. Moments and works
 /// of joints cancel each other, so that growth is measured by the sum of their sizes.
 constexpr double growth_tolerance = 0.7;
-constexpr int least_frames = 5;  // to tell
+constexpr int frames_for_rates = 5;  // to tell
 
 }  // namespace
 
@@ -116,7 +116,7 @@ void RateAudit::see_outside(const AuditedFrame& frame, const Eigen::Vector3d& ce
 std::vector<Finding> RateAudit::findings() const {
   std::vector<Finding> findings{
       rebuilt_.finding("impulse from outside", "means of head clamp and plate, and gravity")};
-  if (log_.q.rows() < least_frames) {
+  if (log_.q.rows() < frames_for_rates) {
     return findings;
   }
   for (const Growth& growth : growths_) {

@@ -13,7 +13,7 @@ namespace {
 constexpr double ask_tolerance = 1e-5;  // cm/s
 constexpr double cap_tolerance = 1e-6;
 /// A slack of nothing but rounding has no scale of its own, cm/s.
-constexpr double slack_tolerance = 1e-9;
+constexpr double eq6_slack_tolerance = 1e-9;
 
 /// The knot goes to the tail in this phase: both tangents turn.
 bool towards_tail(const Scene& scene, Phase phase) {
@@ -163,7 +163,7 @@ std::vector<ThigmotaxisAudit::LoggedRow> ThigmotaxisAudit::rows_of_table(
                     static_cast<double>(towards_[i]), row_a_[i], row_b_[i], row_command_[i],
                     row_cap_[i], row_lambda_[i], row_speed_[i]});
     rebuilt.compare("/eq6/slack", row_slack_[i], std::max(0.0, row_command_[i] - row_speed_[i]),
-                    slack_tolerance);
+                    eq6_slack_tolerance);
   }
   // Rows of frames that come later, or never.
   if (next_row_ < frame_.size() &&

@@ -33,7 +33,7 @@ Criterion head_drift_criterion(const ExpectSettings& expect, double largest);
 Criterion kkt_criterion(const ExpectSettings& expect, double largest);
 /// As EnergyGain has it.
 Criterion energy_gain_criterion(const ExpectSettings& expect, double largest);
-/// As EnergyLoss has it, of the most energy that there was, worked or went to drag and damping.
+/// As IntegratorLoss has it, of the most energy that there was, worked or went to drag and damping.
 Criterion energy_loss_criterion(const ExpectSettings& expect, double largest);
 /// Headward travel of the knot's head end while sliding, cm; nothing where it never slid.
 Criterion slide_criterion(const ExpectSettings& expect, std::optional<double> travel);
@@ -68,7 +68,7 @@ class EnergyGain {
 };
 
 /// What the integrator takes: how far the sum of its own terms falls below what it was before.
-class EnergyLoss {
+class IntegratorLoss {
  public:
   /// The sum at a later moment, erg.
   void see(double error) {
@@ -79,7 +79,7 @@ class EnergyLoss {
   /// Of sums from the start on.
   template <class Errors>
   static double of(const Errors& errors) {
-    EnergyLoss loss;
+    IntegratorLoss loss;
     for (const double error : errors) loss.see(error);
     return loss.largest();
   }

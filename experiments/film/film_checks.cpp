@@ -29,7 +29,7 @@ constexpr Eigen::Index crossing_apart = 4;
 /// Of the interval between midlines: what is longer is a gap.
 constexpr double gap_times = 2.5;
 
-double median(std::vector<double> values) {
+double median_or_zero(std::vector<double> values) {
   if (values.empty()) return 0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::ranges::nth_element(values, middle);
@@ -141,7 +141,7 @@ void drop_repeats(Film& film, FilmRemarks& remarks) {
   for (std::size_t f = 1; f < curves.size(); ++f) {
     if (!same(f)) changes.push_back(apart(curves[f - 1], curves[f]));
   }
-  const double usual = median(changes);
+  const double usual = median_or_zero(changes);
   if (!(usual > 1e-4 * film.length)) return;
   std::vector<bool> dropped(film.frames.size(), false);
   for (std::size_t f = 1; f < film.frames.size();) {
@@ -182,7 +182,7 @@ void turn_round(Film& film, FilmRemarks& remarks) {
   std::vector<double> changes;
   for (std::size_t f = 1; f < curves.size(); ++f)
     changes.push_back(apart(curves[f - 1], curves[f]));
-  const double near = turned_change * median(changes) + turned_noise * film.length;
+  const double near = turned_change * median_or_zero(changes) + turned_noise * film.length;
   std::vector<bool> turned(curves.size(), false);
   std::size_t first = 0;  // of midlines that follow each other without a gap
   std::vector<double> times;
@@ -225,7 +225,7 @@ void tell_jumps(const Film& film, FilmRemarks& remarks) {
   for (std::size_t f = 1; f < curves.size(); ++f) {
     least.push_back((curves[f] - curves[f - 1]).colwise().norm().minCoeff());
   }
-  const double far = std::max(jump_times * median(least), jump_share * film.length);
+  const double far = std::max(jump_times * median_or_zero(least), jump_share * film.length);
   std::vector<double> times;
   double largest = 0;
   for (std::size_t f = 1; f < curves.size(); ++f) {
@@ -276,7 +276,7 @@ double usual_interval(const Film& film) {
   for (std::size_t f = 1; f < film.frames.size(); ++f) {
     intervals.push_back(film.frames[f].time - film.frames[f - 1].time);
   }
-  return median(intervals);
+  return median_or_zero(intervals);
 }
 
 std::string times_text(const std::vector<double>& times) {

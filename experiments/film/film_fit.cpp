@@ -40,7 +40,7 @@ constexpr double least_smoothness = 1e-12, most_smoothness = 1, wall = 0.1, pose
 /// Of the same: added to the diagonal, so that steps of what nothing tells are none.
 constexpr double untold = 1e-13;
 /// Of smoothness, by which it changes from round to round at most; and of its traces.
-constexpr double largest_change = 100, rounding = 1e-9;
+constexpr double largest_change = 100, trace_rounding = 1e-9;
 /// Smoothness is that of times up to this far, s, and differs from the mean by this factor at most.
 constexpr double around_time = 0.75, most_uneven = 30;
 /// Of second differences in time: a free head may roll, and rolls as little as it can.
@@ -725,7 +725,7 @@ class Fit {
     // Fellner and Schall's factor, no more than `largest_change` at once. Where the points tell
     // next to nothing of a difference, the two traces differ by rounding alone.
     const auto factor = [&](double now, double prior, double trace, double differences) {
-      const double known = std::max(prior - trace, rounding * prior);
+      const double known = std::max(prior - trace, trace_rounding * prior);
       const double wanted = noise_ * noise_ * known / std::max(differences, 1e-12);
       return std::clamp(wanted, 1 / largest_change, largest_change) * now;
     };

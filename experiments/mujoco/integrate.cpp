@@ -31,14 +31,14 @@ struct Measurement {
 struct Method {
   const char* name;
   const char* title;
-  int integrator;        ///< MuJoCo's, or core_rule
+  int integrator;        ///< MuJoCo's, or not_mujoco
   TimeRule rule;         ///< the core's
   double smallest_step;  ///< below this it takes long and shows nothing new, s
 };
-constexpr int core_rule = -1;
+constexpr int not_mujoco = -1;
 constexpr std::array<Method, 5> methods{
-    {{"core", "core, Euler", core_rule, TimeRule::euler, 6e-5},
-     {"core_midpoint", "core, midpoint", core_rule, TimeRule::midpoint, 6e-5},
+    {{"core", "core, Euler", not_mujoco, TimeRule::euler, 6e-5},
+     {"core_midpoint", "core, midpoint", not_mujoco, TimeRule::midpoint, 6e-5},
      {"mujoco_euler", "MuJoCo Euler", mjINT_EULER, {}, 2e-4},
      {"mujoco_implicit", "MuJoCo implicit", mjINT_IMPLICIT, {}, 2e-4},
      {"mujoco_rk4", "MuJoCo RK4", mjINT_RK4, {}, 4e-4}}};
@@ -56,7 +56,7 @@ std::optional<Ending> end_of(const Method& method, const Model& model, const Sta
   const int steps = static_cast<int>(std::lround(duration / h));
   Ending ending;
   try {
-    if (method.integrator == core_rule) {
+    if (method.integrator == not_mujoco) {
       const double before = cpu_time();
       ending.state = core_rollout(model, start, Head::clamped, method.rule, h, steps).back();
       ending.cost = cpu_time() - before;

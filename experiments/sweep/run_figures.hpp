@@ -89,7 +89,7 @@ class RunFigures {
   double first_balance_ = 0, imbalance_ = 0, worked_ = 0, dissipated_ = 0;
   Eigen::Vector3d first_momentum_ = Eigen::Vector3d::Zero();
   double momentum_off_ = 0, momentum_passed_ = 0;
-  EnergyLoss loss_;
+  IntegratorLoss loss_;
   double first_error_ = 0, had_ = 0;
   EnergyGain gain_{0};
   EnergyLedger ledger_;

@@ -7,7 +7,7 @@
 namespace hagfish {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double no_bound = std::numeric_limits<double>::infinity();
 
 // std::uniform_real_distribution differs between libraries; this does not.
 double draw(std::mt19937& random, double low, double high) {
@@ -35,7 +35,7 @@ KnownQp known_qp(std::mt19937& random, Eigen::Index n, const std::vector<Role>& 
   known.v = draw_matrix(random, n, 1);
   known.x.setZero(m);
   Eigen::VectorXd excess = Eigen::VectorXd::Zero(m);
-  Eigen::VectorXd cap = Eigen::VectorXd::Constant(m, infinity);
+  Eigen::VectorXd cap = Eigen::VectorXd::Constant(m, no_bound);
   Eigen::Index bilateral = 0;
   for (Eigen::Index i = 0; i < m; ++i) {
     const double size = draw(random, 0.1, 1);
@@ -95,7 +95,7 @@ std::vector<Role> each_role(int count) {
 }
 
 BoxQp unilateral_qp(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
-  return {A, b, Eigen::VectorXd::Zero(b.size()), Eigen::VectorXd::Constant(b.size(), infinity)};
+  return {A, b, Eigen::VectorXd::Zero(b.size()), Eigen::VectorXd::Constant(b.size(), no_bound)};
 }
 
 BoxQp qp_of_rows(const Eigen::MatrixXd& J, const Eigen::VectorXd& b) {

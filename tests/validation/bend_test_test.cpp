@@ -8,8 +8,7 @@
 #include "core/chain/dynamics.hpp"
 #include "core/input/scene_reader.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::bend_test_test {
 
 /// What a sinusoidal bend of a segment shows, dyn cm^2.
 struct BendTest {
@@ -81,5 +80,4 @@ TEST(VirtualBendTest, GivesBackTheSpecimensStiffnessAndDamping) {
   }
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::bend_test_test

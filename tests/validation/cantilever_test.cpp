@@ -8,8 +8,7 @@
 #include "tests/support/chain_runs.hpp"
 #include "tests/support/random_chain.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::cantilever_test {
 
 constexpr double length = 10;     // cm
 constexpr double rigidity = 1e4;  // EI, dyn cm^2
@@ -174,5 +173,4 @@ TEST(HagfishRod, AMomentAtTheTailBendsItIntoACircleToSecondOrder) {
   }
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::cantilever_test

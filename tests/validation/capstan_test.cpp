@@ -12,8 +12,7 @@
 
 #include "tests/support/chain_runs.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::capstan_test {
 
 constexpr double link = 0.4;                     // cm
 constexpr double post_radius = 3;                // cm, to the chain's middle line
@@ -144,5 +143,4 @@ TEST_F(Capstan, IsAPulleyForThigmotaxis) {
   }
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::capstan_test

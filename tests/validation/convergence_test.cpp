@@ -8,8 +8,7 @@
 
 #include "tests/support/chain_runs.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::convergence_test {
 
 /// Hangs on a hinge and swings widely: Coriolis terms matter, nothing damps.
 ChainRun double_pendulum(double h) {
@@ -92,5 +91,4 @@ INSTANTIATE_TEST_SUITE_P(Motions, FirstOrder,
                                            Motion{"ReleasedCoil", released_coil, 0.4}),
                          [](const auto& param) { return std::string(param.param.name); });
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::convergence_test

@@ -7,8 +7,7 @@
 #include "mujoco_ref/mirror.hpp"
 #include "tests/support/stored_states.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::forward_inverse_test {
 
 class ForwardInverse : public testing::TestWithParam<StoredState> {
  protected:
@@ -57,5 +56,4 @@ TEST_P(ForwardInverse, NeedsEveryForce) {
 
 INSTANTIATE_TEST_SUITE_P(Table1, ForwardInverse, testing::ValuesIn(stored_states()), name_of);
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::forward_inverse_test

@@ -10,8 +10,7 @@
 #include "core/run/simulation.hpp"
 #include "mujoco_ref/mirror.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::free_body_test {
 
 constexpr int bodies = 20;
 constexpr double pi = std::numbers::pi;
@@ -274,5 +273,4 @@ TEST_P(FreeBody, SpinsEvenlyWhereItIsRigid) {
   EXPECT_NEAR(std::remainder(run.angle() - 2 * run.time(), 2 * pi), 0, 1e-5);
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::free_body_test

@@ -7,8 +7,7 @@
 
 #include "tests/support/chain_runs.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::hanging_chain_test {
 
 constexpr double length = 42.4;
 constexpr double gravity = 981;  // cm / s^2, as in the figures given
@@ -79,5 +78,4 @@ TEST_P(HangingChain, PeriodOfTheContinuum) {
 INSTANTIATE_TEST_SUITE_P(Modes, HangingChain, ::testing::Values(0, 1),
                          [](const auto& param) { return param.param == 0 ? "First" : "Second"; });
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::hanging_chain_test

@@ -12,8 +12,7 @@
 #include "core/knot/writhe.hpp"
 #include "core/log/log_frame.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::knot_scenes_test {
 
 ResolvedScene scene_called(const std::string& name, const std::vector<std::string>& set = {}) {
   return read_scene(std::string(HAGFISH_DATA_DIR) + "/" + name + ".toml", set);
@@ -256,5 +255,4 @@ TEST(Mirror, GivesTheOtherHandToTheEnd) {
   EXPECT_LT(seen.most_writhe, -4);  // an ideal 5_1 has 6.3
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::knot_scenes_test

@@ -5,8 +5,7 @@
 #include "core/input/scene_reader.hpp"
 #include "core/run/simulation.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::living_scenes_test {
 
 ResolvedScene scene_called(const std::string& name, const std::vector<std::string>& set = {}) {
   return read_scene(std::string(HAGFISH_DATA_DIR) + "/" + name + ".toml", set);
@@ -63,5 +62,4 @@ TEST(LivingScenes, TheStartIsForgotten) {
   }
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::living_scenes_test

@@ -11,8 +11,7 @@
 #include "core/knot/knot.hpp"
 #include "tests/support/chain_runs.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::loose_knot_test {
 
 constexpr int bodies = 120;
 constexpr double link = 0.35;      // cm
@@ -189,5 +188,4 @@ TEST(LooseKnot, LoadOfTheThinRod) {
   EXPECT_NEAR(thin.load - slope * thin.thickness, 0.5, 0.02);
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::loose_knot_test

@@ -11,8 +11,7 @@
 #include "core/knot/writhe.hpp"
 #include "core/run/simulation.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::mirror_image_test {
 
 const Eigen::Vector3d flip(1, -1, 1);
 
@@ -200,5 +199,4 @@ TEST(MirrorImageOf, NoiseAndGravityToo) {
   }
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::mirror_image_test

@@ -6,8 +6,7 @@
 #include "mujoco_ref/mjcf.hpp"
 #include "tests/support/random_chain.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::mujoco_agreement_test {
 
 constexpr int states = 1000;
 
@@ -87,5 +86,4 @@ TEST(MujocoAgreement, SeesASmallChange) {
             agreement_bound.acceleration);
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::mujoco_agreement_test

@@ -11,8 +11,7 @@
 #include "mujoco_ref/rollout.hpp"
 #include "tests/support/random_chain.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::mujoco_rollout_test {
 
 struct Case {
   int bodies;
@@ -122,5 +121,4 @@ TEST(MujocoRollout, SaysWhenMujocoBlowsUp) {
   EXPECT_THROW(mujoco_rollout(model, start, mirror, 100), StepError);
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::mujoco_rollout_test

@@ -12,8 +12,7 @@
 #include "core/run/simulation.hpp"
 #include "tests/support/random_chain.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::obstacles_test {
 
 constexpr double allowed_overlap = 0.001;  // cm, of any step
 
@@ -214,5 +213,4 @@ TEST(KnotRoundAPole, SlidesUntilItHangsOnThePole) {
             0.6);
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::obstacles_test

@@ -7,8 +7,7 @@
 
 #include "tests/support/chain_runs.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::pendulum_test {
 
 /// Period of a thin rod on one hinge, released at rest at `amplitude` (rad), over its period at
 /// small amplitude, T0 = 2π sqrt(I / (m g d)).
@@ -58,5 +57,4 @@ INSTANTIATE_TEST_SUITE_P(Amplitudes, Pendulum,
                            return std::to_string(static_cast<int>(param.param.degrees)) + "deg";
                          });
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::pendulum_test

@@ -7,8 +7,7 @@
 #include "core/log/log_frame.hpp"
 #include "tests/support/stored_states.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::phases_test {
 
 class Phases : public testing::TestWithParam<StoredState> {
  protected:
@@ -101,5 +100,4 @@ TEST(Determinism, TheSameStepsTwiceToTheLastBit) {
   EXPECT_EQ(once.qdot, twice.qdot);
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::phases_test

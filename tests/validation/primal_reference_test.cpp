@@ -10,8 +10,7 @@
 #include "tests/support/row_lists.hpp"
 #include "tests/support/stored_states.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::primal_reference_test {
 
 /// Rows this far from binding, cm/s or rad/s, stay out of the reference: Ipopt's accuracy goes with
 /// the largest right-hand side, and that of a far plane is 20,000 cm/s. The step sees them all.
@@ -124,5 +123,4 @@ INSTANTIATE_TEST_SUITE_P(Table1, PrimalReference,
                                           testing::ValuesIn(box_qp_solver_names())),
                          name_of_pair);
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::primal_reference_test

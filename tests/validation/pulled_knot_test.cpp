@@ -13,8 +13,7 @@
 #include "tests/support/chain_runs.hpp"
 #include "tests/support/stored_states.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::pulled_knot_test {
 
 constexpr double look = 0.02;      // s, between looks at the knot's type
 constexpr double averaging = 0.1;  // s: contacts flicker from step to step
@@ -117,5 +116,4 @@ TEST(PulledKnot, LocksAtTheIdealTrefoil) {
   }
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::pulled_knot_test

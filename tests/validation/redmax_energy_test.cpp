@@ -8,8 +8,7 @@
 
 #include "tests/support/chain_runs.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::redmax_energy_test {
 
 constexpr double quarter_turn = std::numbers::pi / 2;
 
@@ -74,5 +73,4 @@ TEST(RedMaxEnergy, LimitRowsOnceViolated) {
   EXPECT_NEAR(energy_gained(std::move(run)), 34838.892, tolerance);
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::redmax_energy_test

@@ -12,8 +12,7 @@
 #include "core/run/simulation.hpp"
 #include "mujoco_ref/closed_loop.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::reflex_test {
 
 /// A run of a built-in scene.
 struct ReflexRun {
@@ -105,5 +104,4 @@ TEST(ReflexInMujoco, SlidesAKnotAsFast) {
   EXPECT_NEAR(there / here, 1, 0.1);
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::reflex_test

@@ -10,8 +10,7 @@
 #include "experiments/program/scene_argument.hpp"
 #include "experiments/stress/stress.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::stress_scenes_test {
 
 namespace fs = std::filesystem;
 
@@ -195,5 +194,4 @@ TEST(StressOfAFirstStep, ThatIsTooFastHasAnOutcome) {
   EXPECT_EQ(result.status.outcome, Outcome::speed) << result.status.message;
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::stress_scenes_test

@@ -9,8 +9,7 @@
 #include "tests/support/errors.hpp"
 #include "tests/support/random_chain.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::closed_loop_test {
 
 /// A bent animal that copies itself by the reflex, in water, touching nothing.
 Scene bent_scene() {
@@ -97,5 +96,4 @@ TEST(ClosedLoop, RefusesWhatMujocoHasNot) {
             std::string::npos);
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::closed_loop_test

@@ -13,8 +13,7 @@
 #include "tests/support/random_chain.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::log_model_test {
 
 namespace fs = std::filesystem;
 
@@ -108,5 +107,4 @@ TEST(FirstDifference, NamesEachQuantity) {
   expect(difference([](Model& m) { m.hinges[2].damping += 1; }), "damping of j02_twist: ");
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::log_model_test

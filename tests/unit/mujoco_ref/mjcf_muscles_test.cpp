@@ -10,8 +10,7 @@
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/written_log.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::mjcf_muscles_test {
 
 /// Torques of up to 3e5 dyn cm, from arms that both programs know to 1e-13 of the body's length.
 constexpr double torque_tolerance = 1e-8;  // of the largest
@@ -80,5 +79,4 @@ TEST(MjcfMusclesOfALog, MakeItsTorques) {
   }
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::mjcf_muscles_test

@@ -26,8 +26,7 @@
 #include "mujoco_ref/agreement.hpp"
 #include "mujoco_ref/mujoco_model.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::mjcf_test {
 
 constexpr double least_arc = 2.968;
 constexpr double timestep = 0.002;
@@ -373,5 +372,4 @@ TEST(MujocoModel, TakesWarningsAsErrors) {
   EXPECT_EQ(error.rfind("hagfish.xml: Pre-allocated contact buffer is full", 0), 0u) << error;
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::mjcf_test

@@ -10,8 +10,7 @@
 #include "tests/support/errors.hpp"
 #include "tests/support/random_chain.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::mjcf_vocabulary_test {
 
 using Files = std::map<std::string, std::string>;
 
@@ -88,5 +87,4 @@ TEST(MujocoErrors, AreThrownInOneLineAndWriteNoFile) {
   EXPECT_FALSE(std::filesystem::exists("MUJOCO_LOG.TXT"));
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::mjcf_vocabulary_test

@@ -17,8 +17,7 @@
 #include "tests/support/random_chain.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::offscreen_test {
 
 using Pixel = std::array<int, 3>;
 
@@ -306,5 +305,4 @@ TEST(PictureTest, TheWindowHoldsWhatIsShown) {
   EXPECT_EQ(wide.width, 600);
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::offscreen_test

@@ -8,8 +8,7 @@
 
 #include "tests/support/random_chain.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::active_set_factor_test {
 
 using Indices = std::vector<Eigen::Index>;
 
@@ -158,5 +157,4 @@ TEST(ActiveSetFactor, ResetForgetsTheProblemBefore) {
   }
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::active_set_factor_test

@@ -12,8 +12,7 @@
 #include "solvers/ipopt_box_qp.hpp"
 #include "tests/support/random_qp.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::active_set_test {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Rounding of A x - b: 60 products of size 1 and multipliers up to 10; A of condition up to 1e3.
@@ -282,5 +281,4 @@ TEST(ActiveSetBoxQp, TakesRowsThatAgreeToRounding) {
   EXPECT_LE(kkt_residuals(qp, solution.x).worst(), settled);
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::active_set_test

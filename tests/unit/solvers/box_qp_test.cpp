@@ -7,8 +7,7 @@
 
 #include "tests/support/random_qp.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::box_qp_test {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -138,5 +137,4 @@ TEST(MakeBoxQpSolver, KnowsItsNames) {
   EXPECT_THROW(make_box_qp_solver("simplex"), std::invalid_argument);
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::box_qp_test

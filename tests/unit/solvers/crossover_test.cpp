@@ -7,8 +7,7 @@
 
 #include "tests/support/random_qp.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::crossover_test {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Rounding of A x - b for some 50 rows, and a condition of A up to 1e3 for x.
@@ -91,5 +90,4 @@ TEST(Crossover, ReturnsItsArgumentWhereNothingIsSettled) {
   EXPECT_EQ(crossover(qp, x), x);
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::crossover_test

@@ -10,8 +10,7 @@
 #include "solvers/box_qp.hpp"
 #include "tests/support/random_qp.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::every_solver_test {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Rounding of A x - b: 60 products of size 1 and multipliers up to 10.
@@ -308,5 +307,4 @@ std::string name_of(const testing::TestParamInfo<std::string>& back_end) {
 
 INSTANTIATE_TEST_SUITE_P(BackEnds, EverySolver, testing::ValuesIn(box_qp_solver_names()), name_of);
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::every_solver_test

@@ -5,8 +5,7 @@
 #include <Eigen/LU>
 #include <functional>
 
-namespace hagfish {
-namespace {
+namespace hagfish::fixed_point_test {
 
 /// x after `passes` of x <- g(x) from 0, mixed.
 Eigen::VectorXd after(int passes, const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& g,
@@ -50,5 +49,4 @@ TEST(AndersonMixing, StaysAtAFixedPoint) {
   EXPECT_EQ(after(5, g, mixing), Eigen::VectorXd(shift));
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::fixed_point_test

@@ -6,8 +6,7 @@
 
 #include "tests/support/random_qp.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::free_rows_test {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double rounding = 1e-13;  // of sums of a few terms of size 1 to 10
@@ -98,5 +97,4 @@ TEST(SemidefiniteFactor, TellsContradictoryRows) {
   EXPECT_FALSE(contradictory(Eigen::Matrix2d::Identity(), {0, 0}));
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::free_rows_test

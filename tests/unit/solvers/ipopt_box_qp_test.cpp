@@ -6,8 +6,7 @@
 #include "solvers/free_rows.hpp"
 #include "tests/support/random_qp.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::ipopt_box_qp_test {
 
 BoxQpSolution solve_cold(const BoxQp& qp, const IpoptSettings& settings = {}) {
   return IpoptBoxQp(settings).solve(qp, Eigen::VectorXd::Zero(qp.b.size()));
@@ -67,5 +66,4 @@ TEST(IpoptBoxQp, GoesTheCarefulWayWhereTheFastOneFails) {
   EXPECT_GT(careful, 0);
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::ipopt_box_qp_test

@@ -6,8 +6,7 @@
 
 #include "tests/support/random_qp.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::primal_qp_test {
 
 /// Of v where no row is degenerate: Ipopt's 1e-14 times a condition of about 100.
 constexpr double sharp = 1e-11;
@@ -105,5 +104,4 @@ TEST(DualOf, HasTheGradientThatItsHeaderStates) {
   EXPECT_LE((known.dual.A * x - known.dual.b - w).lpNorm<Eigen::Infinity>(), 1e-13);
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::primal_qp_test

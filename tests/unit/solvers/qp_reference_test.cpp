@@ -8,8 +8,7 @@
 
 #include "tests/support/random_qp.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::qp_reference_test {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// known_qp makes its problems in double: the rounding of g, d and A, a condition of H of 100 and
@@ -130,5 +129,4 @@ TEST(QpReference, RejectsBadInput) {
   EXPECT_THROW(QpReference{qp}, std::invalid_argument);
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::qp_reference_test

@@ -11,8 +11,7 @@
 #include "core/step/paper_step.hpp"
 #include "tests/support/random_chain.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::articulated_test {
 
 // Sums over a dozen bodies of products of six: some 100 roundings of entries of one size.
 constexpr double rounding = 1e-13;
@@ -286,5 +285,4 @@ TEST(Articulated, ThrowsWhereTheOperatorIsNotPositive) {
   EXPECT_THROW(factor.factorise(undefined.model, undefined.kin, undefined.op), std::domain_error);
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::articulated_test

@@ -11,8 +11,7 @@
 #include "tests/support/random_chain.hpp"
 #include "tests/support/row_lists.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::bending_test {
 
 constexpr double h = 2e-3;
 const ConstraintSettings speculative;
@@ -219,5 +218,4 @@ TEST(ConeRows, OnlyThoseNearBindingAreAppended) {
   }
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::bending_test

@@ -9,8 +9,7 @@
 #include "core/step/paper_step.hpp"
 #include "tests/support/random_chain.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::dynamics_test {
 
 // Central differences over ±1e-5: truncation and rounding come to some 1e-8 of the largest rate.
 constexpr double step = 1e-5;
@@ -344,5 +343,4 @@ TEST(Dynamics, StepSystemIsEquationOneOfThePaper) {
   }
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::dynamics_test

@@ -8,8 +8,7 @@
 #include "core/step/paper_step.hpp"
 #include "tests/support/random_chain.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::kinematics_test {
 
 // Central differences over ±1e-5 in chains of some 10 cm that turn at up to 5 rad/s: truncation
 // e² ω³ r / 6 ~ 2e-8, rounding 1e-15 / 1e-5 ~ 1e-10; against rates of 10 and more.
@@ -167,5 +166,4 @@ TEST(Kinematics, NoForceBehindTheLastLoadedBody) {
   }
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::kinematics_test

@@ -4,8 +4,7 @@
 
 #include <cmath>
 
-namespace hagfish {
-namespace {
+namespace hagfish::lanes_test {
 
 TEST(Lanes, HaveTheRootsOfTheirNumbers) {
   // Eigen's root of many numbers at once is not the processor's: good to two units in the last
@@ -39,5 +38,4 @@ TEST(Lanes, DoNotMix) {
   }
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::lanes_test

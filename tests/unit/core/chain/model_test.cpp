@@ -12,8 +12,7 @@
 #include "tests/support/random_chain.hpp"
 #include "tests/support/stored_states.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::model_test {
 
 // Sums of up to 400 terms of one size: 400 roundings.
 constexpr double sum_rounding = 1e-13;
@@ -209,5 +208,4 @@ TEST(Hagfish, LimitScaleIsOnEveryLimitBelowTheLargest) {
   }
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::model_test

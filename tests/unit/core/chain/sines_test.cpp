@@ -7,8 +7,7 @@
 
 #include "tests/support/random_chain.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::sines_test {
 
 /// EXPECTs the sines and cosines of the standard library, to two units in the last place, and of
 /// the opposite angles exactly the opposite and the same.
@@ -54,5 +53,4 @@ TEST(Sines, OfOneThatIsNotFiniteSpoilNoOther) {
   EXPECT_EQ(sine.tail(7), plain.tail(7));
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::sines_test

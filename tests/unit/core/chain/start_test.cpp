@@ -8,8 +8,7 @@
 #include "tests/support/random_chain.hpp"
 #include "tests/support/stored_states.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::start_test {
 
 /// Angle (rad) or rate of hinge k.
 double hinge_of(const Eigen::VectorXd& v, const Model& model, std::size_t k) {
@@ -124,5 +123,4 @@ TEST(Start, TheSimulationBeginsThere) {
   EXPECT_EQ(sim.controller.phase, Phase::free);
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::start_test

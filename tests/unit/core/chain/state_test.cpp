@@ -6,8 +6,7 @@
 
 #include "tests/support/random_chain.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::state_test {
 
 TEST(State, RestIsStraightFromTheOrigin) {
   const Model fish = table1_hagfish();
@@ -77,5 +76,4 @@ TEST(State, RateTurnsAboutTheBodysOwnAxes) {
   EXPECT_LT(relative_error(turned, expected), 1e-15);
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::state_test

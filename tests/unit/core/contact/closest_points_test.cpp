@@ -11,8 +11,7 @@
 #include "tests/support/closest_points_reference.hpp"
 #include "tests/support/random_chain.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::closest_points_test {
 
 /// Least gap by sampling: a grid of `cells` squared, then windows around the best sample that
 /// shrink fivefold, twelve times: to 1e-10 of the parameter.
@@ -239,5 +238,4 @@ TEST(ClosestPoints, SolveEquationFiveOfThePaper) {
   EXPECT_GT(interior, 50);
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::closest_points_test

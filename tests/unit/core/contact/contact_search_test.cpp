@@ -9,8 +9,7 @@
 #include "tests/support/random_chain.hpp"
 #include "tests/support/stored_states.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::contact_search_test {
 
 /// Whether one of the contacts is `wanted`, or lies next to it and is as deep: of two basins of one
 /// pair of segments a search from a guess and one from samples may find either, with gaps that
@@ -115,5 +114,4 @@ TEST(ContactSearch, WhatIsNotDueIsClear) {
   EXPECT_GT(skipped, 1000);
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::contact_search_test

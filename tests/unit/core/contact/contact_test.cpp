@@ -13,8 +13,7 @@
 #include "tests/support/random_chain.hpp"
 #include "tests/support/row_lists.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::contact_test {
 
 std::vector<SplineSegment> segments_of(const Model& model, const Eigen::VectorXd& q) {
   Kinematics kin;
@@ -304,5 +303,4 @@ TEST(Contact, RowIsTheRateOfTheGapOfATaperedBody) {
   EXPECT_LE(all.lost, all.seen / 50);
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::contact_test

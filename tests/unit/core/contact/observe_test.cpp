@@ -6,8 +6,7 @@
 #include "core/step/step.hpp"
 #include "tests/support/random_chain.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::observe_test {
 
 TEST(Observe, MeasuresPenetrationAndLimitViolation) {
   const Scene scene = table1_scene();
@@ -48,5 +47,4 @@ TEST(HeadDrift, IsTheLargestOfBothEndsAndTheSide) {
   EXPECT_NEAR(head_drift(fish, kinematics(fish, state)), 2 * 0.424, 1e-15);
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::observe_test

@@ -11,8 +11,7 @@
 #include "tests/support/random_chain.hpp"
 #include "tests/support/row_lists.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::obstacles_test {
 
 Obstacle strand(const std::vector<Eigen::Vector3d>& points, double radius, bool closed = false) {
   Obstacle one;
@@ -184,5 +183,4 @@ TEST(Obstacles, BruteForceFindsNothingNearer) {
   }
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::obstacles_test

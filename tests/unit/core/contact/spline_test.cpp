@@ -8,8 +8,7 @@
 
 #include "tests/support/random_chain.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::spline_test {
 
 // Mixes of four points of some 10 cm: a few roundings.
 constexpr double rounding = 1e-13;
@@ -136,5 +135,4 @@ TEST(Spline, ArcLengthOfUnevenBodiesRunsFromCentreToCentre) {
   }
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::spline_test

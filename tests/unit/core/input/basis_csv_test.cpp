@@ -5,8 +5,7 @@
 
 #include "tests/support/errors.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::basis_csv_test {
 
 const std::string heading = "shape,station (cm),bend_y (1),bend_z (1),twist (1)\n";
 
@@ -52,5 +51,4 @@ TEST(BasisCsv, WhatIsNoBasisIsRefusedWithItsLine) {
   EXPECT_EQ(complaint(heading), "b.csv: a basis needs two stations or more");
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::basis_csv_test

@@ -5,8 +5,7 @@
 
 #include "tests/support/errors.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::curvature_csv_test {
 
 const std::string heading = "time (s),station (L),bend_y (rad/L),bend_z (rad/L),twist (rad/L)\n";
 
@@ -69,5 +68,4 @@ TEST(CurvatureCsv, TellsWhatIsWrong) {
   EXPECT_NE(complaint(heading + "0,0,1,2\n").find("p.csv"), std::string::npos);
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::curvature_csv_test

@@ -7,8 +7,7 @@
 #include "tests/support/plain_scene.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::curvature_scene_test {
 
 const std::string active =
     "[active]\nstiffness = 2e5\ntone_time = 0.02\nrelax_time = 1\ncapacity = 2e5\n";
@@ -127,5 +126,4 @@ TEST(CurvatureScene, TellsWhatIsWrong) {
             "s.toml:2: model.passive = 'specimen': the specimen has no passive.bending_stiffness");
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::curvature_scene_test

@@ -5,8 +5,7 @@
 #include "tests/support/errors.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::input_text_test {
 
 const std::vector<std::string> words = {"run", "scenes", "record-qp", "qp"};
 
@@ -59,5 +58,4 @@ TEST(ReadTextFile, RefusesWhatIsNoFileOrTooLarge) {
   EXPECT_EQ(error_of([&] { read_text_file(more); }), more + ": is larger than " + size + " bytes");
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::input_text_test

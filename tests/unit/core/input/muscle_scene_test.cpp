@@ -4,8 +4,7 @@
 #include "core/chain/model.hpp"
 #include "tests/support/plain_scene.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::muscle_scene_test {
 
 const std::string muscle =
     "[specimen.muscle]\nlongitudinal_area = [0.5, 0.4]\noblique_area = [0.2, 0.1]\nstress = 1e6\n"
@@ -45,5 +44,4 @@ TEST(MuscleScene, TheLawNeedsMusclesAndTheirTime) {
             "s: muscle.activation_time: must be positive where controller.law = \"muscles\"");
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::muscle_scene_test

@@ -4,8 +4,7 @@
 #include "core/chain/model.hpp"
 #include "tests/support/plain_scene.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::obstacle_scene_test {
 
 std::vector<Obstacle> read_obstacles(const std::string& text) {
   return read_scene_text(text + plain_scene, "s.toml").scene.obstacles;
@@ -106,5 +105,4 @@ TEST(ObstacleScene, RefusesOneThatTheBodyStartsIn) {
       0U);
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::obstacle_scene_test

@@ -10,8 +10,7 @@
 #include "tests/support/plain_scene.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::scene_base_test {
 
 std::string text_of(const ResolvedScene& resolved) {
   return scene_to_toml(resolved.scene, resolved.specimen);
@@ -153,5 +152,4 @@ TEST(SceneBase, EveryBuiltInSceneIsTheSameOnDisk) {
   EXPECT_FALSE(builtin_file("table2.toml"));
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::scene_base_test

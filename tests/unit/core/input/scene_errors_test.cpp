@@ -4,8 +4,7 @@
 #include "tests/support/plain_scene.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::scene_errors_test {
 
 const std::string data = HAGFISH_DATA_DIR;
 
@@ -177,5 +176,4 @@ TEST(SpecimenReader, RefusesBadValues) {
   expect("station", "[]", "must be an array of numbers");
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::scene_errors_test

@@ -5,8 +5,7 @@
 
 #include "tests/support/plain_scene.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::scene_knots_test {
 
 const std::string data = HAGFISH_DATA_DIR;
 
@@ -106,5 +105,4 @@ TEST(SceneKnots, RefusesBadExpectations) {
             "s.toml:2: script.noise = -1: must not be negative");
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::scene_knots_test

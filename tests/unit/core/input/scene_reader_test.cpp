@@ -6,8 +6,7 @@
 #include "tests/support/plain_scene.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::scene_reader_test {
 
 const std::string data = HAGFISH_DATA_DIR;
 
@@ -110,5 +109,4 @@ TEST(SceneReader, FilesThatATextNamesMayBeTextsToo) {
             std::string::npos);
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::scene_reader_test

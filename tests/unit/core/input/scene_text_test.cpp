@@ -11,8 +11,7 @@
 #include "core/input/run_time_text.hpp"
 #include "tests/support/plain_scene.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::scene_text_test {
 
 const std::string data = HAGFISH_DATA_DIR;
 
@@ -349,5 +348,4 @@ TEST(SceneText, DefaultsAreThoseOfSettings) {
   EXPECT_TRUE(Bits(scene, specimen) == Bits(Scene{}, specimen));
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::scene_text_test

@@ -6,8 +6,7 @@
 #include "core/input/scene_reader.hpp"
 #include "tests/support/errors.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::toml_bounds_test {
 
 std::string times(int count, const std::string& text) {
   std::string all;
@@ -63,5 +62,4 @@ TEST(TomlBounds, HoldForScenesAndOverrides) {
   EXPECT_TRUE(set.ends_with("...: has more than 32 parts")) << set;
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::toml_bounds_test

@@ -12,8 +12,7 @@
 #include "tests/support/errors.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::toml_reader_test {
 
 /// What reading `text` as "f.toml" with `read` complains of.
 std::string complaint(const std::string& text, const std::function<void(TableReader&)>& read) {
@@ -306,5 +305,4 @@ TEST(TomlWriter, RefusesWhatNoReaderTakesBack) {
   EXPECT_THROW(writer.number("x", HUGE_VAL, any_number()), std::invalid_argument);
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::toml_reader_test

@@ -10,8 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace hagfish {
-namespace {
+namespace hagfish::diagram_test {
 
 /// A tangle: `count` vertices of a random walk in a box, so that some tenth of all edges cross.
 Eigen::Matrix3Xd tangle(int count, std::mt19937& random) {
@@ -117,5 +116,4 @@ TEST(Diagram, ClosuresThatCannotBeToldApartAreRefused) {
   EXPECT_TRUE(seen.closed(Eigen::Vector3d::UnitY()).sign.empty());  // it can still be closed
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::diagram_test

@@ -4,8 +4,7 @@
 #include "core/knot/knot.hpp"
 #include "tests/support/knot_curves.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::knot_name_test {
 
 constexpr KnotInvariants unknot{1, 0};
 
@@ -43,5 +42,4 @@ TEST(KnotName, NameOfAnyOther) {
   EXPECT_EQ(knot_name({5, 2}), "det=5,v2=2");
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::knot_name_test

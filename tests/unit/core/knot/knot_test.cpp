@@ -22,7 +22,9 @@ void PrintTo(const KnotInvariants& type, std::ostream* out) {
   *out << "(" << type.determinant << ", " << type.v2 << ")";
 }
 
-namespace {
+}  // namespace hagfish
+
+namespace hagfish::knot_test {
 
 constexpr double pi = std::numbers::pi;
 constexpr KnotInvariants unknot{1, 0};
@@ -292,5 +294,4 @@ TEST(Knot, BadInputIsRefused) {
   EXPECT_THROW(knot_type(trefoil.leftCols(1), {.votes = 3, .seed = 1}), std::invalid_argument);
   EXPECT_THROW(knot_type(trefoil, {.votes = 0, .seed = 1}), std::invalid_argument);
 }
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::knot_test

@@ -7,8 +7,7 @@
 
 #include "tests/support/random_chain.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::writhe_test {
 
 /// Two long lines across each other, 1 apart, the upper one over the lower as in a crossing of
 /// `sign`, joined far away.
@@ -84,5 +83,4 @@ TEST(Writhe, IsTheMeanOfSignedCrossings) {
   EXPECT_NEAR(writhe(knot), sum / views, 0.1);
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::writhe_test

@@ -11,8 +11,7 @@
 #include "tests/support/errors.hpp"
 #include "tests/support/stored_states.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::checkpoint_test {
 
 struct Stage {
   Model model;
@@ -191,5 +190,4 @@ TEST_F(BadBytes, NoChangeOfAByteLeadsOutOfBounds) {
   EXPECT_GT(refused, 0);
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::checkpoint_test

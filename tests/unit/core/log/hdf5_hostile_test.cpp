@@ -14,8 +14,7 @@
 #include "tests/support/errors.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::hdf5_hostile_test {
 
 const H5::PredType& number() { return H5::PredType::NATIVE_DOUBLE; }
 
@@ -283,5 +282,4 @@ TEST_F(HostileHdf5, ATextOfFalseLengthSpoilsNoMemory) {
   EXPECT_EQ(Hdf5Reader(file).root_text("words"), words);
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::hdf5_hostile_test

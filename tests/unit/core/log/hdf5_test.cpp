@@ -11,8 +11,7 @@
 #include "tests/support/errors.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::hdf5_test {
 
 namespace fs = std::filesystem;
 
@@ -155,5 +154,4 @@ TEST_F(Hdf5Test, WhatCannotBeSavedLeavesTheFileBefore) {
   EXPECT_FALSE(fs::exists(folder / "b.h5.new"));
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::hdf5_test

@@ -16,8 +16,7 @@
 #include "tests/support/random_chain.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::log_test {
 
 namespace fs = std::filesystem;
 
@@ -295,5 +294,4 @@ TEST_F(LogTest, AFullDiskIsOneLineAndKeepsWhatWasSaved) {
   EXPECT_FALSE(fs::exists(folder / "run.h5.lock"));
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::log_test

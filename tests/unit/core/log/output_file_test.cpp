@@ -10,8 +10,7 @@
 
 #include "tests/support/temporary_folder.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::output_file_test {
 
 namespace fs = std::filesystem;
 
@@ -146,5 +145,4 @@ TEST_F(OutputFileTest, NamesAFolderThatTakesNoFiles) {
   EXPECT_EQ(complaint(folder.path(), true), folder.path().string() + ": is not a regular file");
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::output_file_test

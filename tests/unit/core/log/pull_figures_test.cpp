@@ -3,8 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hagfish {
-namespace {
+namespace hagfish::pull_figures_test {
 
 FrameMeans means() {
   FrameMeans mean;
@@ -50,5 +49,4 @@ TEST(PullFigures, HaveNoAdvantageWhereNothingPushes) {
   }
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::pull_figures_test

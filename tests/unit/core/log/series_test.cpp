@@ -12,8 +12,7 @@
 #include "core/log/twin_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::series_test {
 
 using Shape = std::vector<hsize_t>;
 
@@ -239,5 +238,4 @@ TEST_F(SeriesTest, UnitDescriptionAndNamesAreStored) {
   EXPECT_EQ(in.attribute("/a/b/sparse", "description"), "compressed");
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::series_test

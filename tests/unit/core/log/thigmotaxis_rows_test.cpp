@@ -9,8 +9,7 @@
 #include "core/log/log_means.hpp"
 #include "tests/support/stored_states.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::thigmotaxis_rows_test {
 
 /// A step of the stored slide, whose knot's first and last contact are commanded differently.
 class ThigmotaxisRowsTest : public testing::Test {
@@ -153,5 +152,4 @@ TEST_F(ThigmotaxisRowsTest, MeansAreThoseOfTheSteps) {
   EXPECT_TRUE(std::isnan(means.close().lambda[0])) << "starts over";
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::thigmotaxis_rows_test

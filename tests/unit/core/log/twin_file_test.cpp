@@ -11,8 +11,7 @@
 #include "core/log/hdf5_error.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::twin_file_test {
 
 namespace fs = std::filesystem;
 
@@ -98,5 +97,4 @@ TEST_F(TwinFileTest, AFileThatIsGoneIsTold) {
   EXPECT_THROW(twin.commit(), FileError);
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::twin_file_test

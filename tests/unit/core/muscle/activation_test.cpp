@@ -9,8 +9,7 @@
 
 #include "tests/support/muscled_hagfish.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::activation_test {
 
 class Activations : public testing::Test {
  protected:
@@ -92,5 +91,4 @@ TEST_F(Activations, RefuseWhatIsNoTorque) {
   EXPECT_THROW(solve(torque), std::invalid_argument);
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::activation_test

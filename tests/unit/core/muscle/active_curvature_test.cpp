@@ -7,8 +7,7 @@
 
 #include "tests/support/random_chain.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::active_curvature_test {
 
 // Products and sums of a few numbers of one size.
 constexpr double rounding = 1e-13;
@@ -166,5 +165,4 @@ TEST_F(ActiveCurvature, MusclesMakeNoMoreThanTheirCapacity) {
   EXPECT_GT(torque.rate[12], 0);
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::active_curvature_test

@@ -8,8 +8,7 @@
 
 #include "tests/support/muscled_hagfish.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::paths_test {
 
 /// Central differences over ±1e-4 rad of lengths of 0.5 to 3 cm: truncation e² l''' / 6 ~ 1e-8 but
 /// where a line of no length turns round, rounding 1e-15 / 1e-4 ~ 1e-11.
@@ -126,5 +125,4 @@ TEST(MusclePaths, TorqueIsTheSumOfArmsTimesForces) {
   EXPECT_NEAR(torque.dot(v), work, 1e-7 * torque.cwiseProduct(v).cwiseAbs().sum());
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::paths_test

@@ -9,8 +9,7 @@
 #include "tests/support/controller_fixture.hpp"
 #include "tests/support/errors.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::control_law_test {
 
 class ControlLaws : public ControllerTest {
  protected:
@@ -241,5 +240,4 @@ TEST_F(ControlLaws, AControlThatIsNoneIsRefusedByName) {
   EXPECT_EQ(refusal(), "no error");
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::control_law_test

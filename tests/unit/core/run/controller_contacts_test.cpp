@@ -3,8 +3,7 @@
 
 #include "tests/support/controller_fixture.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::controller_contacts_test {
 
 using ControllerContacts = ControllerTest;
 
@@ -103,5 +102,4 @@ TEST_F(ControllerContacts, CommandsNoneThatDoNotTouch) {
   EXPECT_TRUE(step({contact(5, 30, 0.08)}).thigmotaxis.empty());
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::controller_contacts_test

@@ -3,8 +3,7 @@
 
 #include "tests/support/controller_fixture.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::controller_phases_test {
 
 using ControllerPhases = ControllerTest;
 
@@ -240,5 +239,4 @@ TEST_F(ControllerPhases, AKnotIsGoneOnceItHasBeenForAWhile) {
   EXPECT_EQ(state.phase, Phase::free);
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::controller_phases_test

@@ -3,8 +3,7 @@
 
 #include "tests/support/controller_fixture.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::controller_stops_test {
 
 using ControllerStops = ControllerTest;
 
@@ -76,5 +75,4 @@ TEST_F(ControllerStops, WithoutAKnotExpectedItOnlyForms) {
   EXPECT_EQ(state.phase, Phase::form);
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::controller_stops_test

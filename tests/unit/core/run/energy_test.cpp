@@ -8,8 +8,7 @@
 #include "core/step/step.hpp"
 #include "tests/support/random_chain.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::energy_test {
 
 Control control(bool clamp_head, const TipForce& tip = {}, const ActiveTorque& active = {}) {
   Control made;
@@ -180,5 +179,4 @@ TEST(Energy, ConservedWithoutForcesButForTheIntegratorsShare) {
   EXPECT_NEAR(gained, run.ledger.integrator_error(), 1e-11 * run.ledger.initial);
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::energy_test

@@ -10,8 +10,7 @@
 #include "tests/support/random_chain.hpp"
 #include "tests/support/row_lists.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::guard_test {
 
 std::string message_of(Outcome outcome, const Status& status) {
   EXPECT_EQ(status.outcome, outcome) << status.message;
@@ -344,5 +343,4 @@ TEST_F(EnergyWatch, StopsWhereTheSceneAsksForIt) {
   }
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::guard_test

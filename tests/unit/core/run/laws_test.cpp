@@ -6,8 +6,7 @@
 #include "tests/support/controller_fixture.hpp"
 #include "tests/support/errors.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::laws_test {
 
 TEST(Laws, AreFoundByTheirNames) {
   Scene scene;
@@ -60,5 +59,4 @@ TEST_F(LawStorage, IsOfTheLawThatTheSceneNamesNow) {
   }
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::laws_test

@@ -6,8 +6,7 @@
 #include "core/step/step.hpp"
 #include "tests/support/random_chain.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::momentum_test {
 
 /// A run of 20 bodies, pulled, clamped and falling where `held`, else free but for water.
 struct MomentumRun {
@@ -92,5 +91,4 @@ TEST(Momentum, LedgerSeesAForceThatNobodyBooked) {
   }
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::momentum_test

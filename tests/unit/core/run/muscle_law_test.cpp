@@ -10,8 +10,7 @@
 #include "tests/support/muscled_hagfish.hpp"
 #include "tests/support/stored_states.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::muscle_law_test {
 
 class MuscleLaw : public testing::Test {
  protected:
@@ -123,5 +122,4 @@ TEST_F(MuscleLaw, ExcitesNothingFromReleaseOn) {
             1e-15);
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::muscle_law_test

@@ -9,8 +9,7 @@
 
 #include "tests/support/stored_states.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::reduced_basis_test {
 
 constexpr double h = 0.002;
 
@@ -130,5 +129,4 @@ TEST_F(ReducedBasis, AProfileIsPlayedByTheKnotsPlaceAlone) {
   EXPECT_EQ(record.control.torque.value, B * memory.now);
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::reduced_basis_test

@@ -12,8 +12,7 @@
 #include "tests/support/plain_scene.hpp"
 #include "tests/support/random_chain.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::reflex_test {
 
 double arc_of(const Model& model, int k) {
   return model.length() * model.hinges[k].body / model.body_count();
@@ -244,5 +243,4 @@ TEST(ReflexScene, IsRefusedInALine) {
   }
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::reflex_test

@@ -4,8 +4,7 @@
 
 #include "tests/support/random_chain.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::script_test {
 
 TimeSettings steps_of(double h) {
   TimeSettings time;
@@ -167,5 +166,4 @@ TEST(ScriptForce, SaturatesAtTheLargestForce) {
   }
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::script_test

@@ -8,8 +8,7 @@
 #include "tests/support/random_chain.hpp"
 #include "tests/support/stored_states.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::simulation_start_test {
 
 /// Ten bodies in open water, pulled at the tail.
 struct Pulled {
@@ -223,5 +222,4 @@ TEST(SimulationEnd, ComesATimeAfterTheKnotIsGone) {
   EXPECT_FALSE(over(Phase::release, 250));
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::simulation_start_test

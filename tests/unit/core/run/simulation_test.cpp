@@ -12,8 +12,7 @@
 
 #include "tests/support/stored_states.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::simulation_test {
 
 /// A cause that stops a step, and what brings it about.
 struct Hindrance {
@@ -152,5 +151,4 @@ INSTANTIATE_TEST_SUITE_P(
                               }}),
     [](const auto& hindrance) { return hindrance.param.name; });
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::simulation_test

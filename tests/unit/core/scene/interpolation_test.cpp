@@ -5,8 +5,7 @@
 
 #include <vector>
 
-namespace hagfish {
-namespace {
+namespace hagfish::interpolation_test {
 
 TEST(Interpolation, IsLinearBetweenKnotsAndConstantOutside) {
   const std::vector<double> knots{1, 2, 4}, values{5, 3, 4};
@@ -36,5 +35,4 @@ TEST(Interpolation, TakesOneKnotAndKnotsWithMore) {
   EXPECT_EQ(place_among(two, 5, &Knot::time).index, 1u);
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::interpolation_test

@@ -5,8 +5,7 @@
 #include <array>
 #include <vector>
 
-namespace hagfish {
-namespace {
+namespace hagfish::phase_test {
 
 TEST(Phase, HasAnOrderInTime) {
   const std::vector<Phase> order = {Phase::form,    Phase::tighten, Phase::slide, Phase::pull,
@@ -36,5 +35,4 @@ TEST(Table, ListsEachValueOnce) {
   EXPECT_FALSE(lists({{{Phase::tighten, "b", ""}}}));  // an initialiser too few
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::phase_test

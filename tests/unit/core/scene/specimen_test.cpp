@@ -6,8 +6,7 @@
 
 #include "core/input/scene_reader.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::specimen_test {
 
 TEST(Profile, IsLinearBetweenStationsAndConstantOutside) {
   const std::vector<double> station = {0.25, 0.5, 0.75}, value = {1, 3, -1};
@@ -40,5 +39,4 @@ TEST(Specimen, PacificHagfishIsTable1) {
   EXPECT_DOUBLE_EQ(s.bending_span, 2 * s.length / 100);
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::specimen_test

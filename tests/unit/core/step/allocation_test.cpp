@@ -32,8 +32,7 @@ void* __wrap__Znwm(std::size_t size) {
 }
 // NOLINTEND(bugprone-reserved-identifier)
 
-namespace hagfish {
-namespace {
+namespace hagfish::allocation_test {
 
 /// Steps a stored state; the controller does not look at the knot, which costs memory of its own.
 class Allocation : public testing::Test {
@@ -157,5 +156,4 @@ TEST_F(Allocation, NoneInAStepWithoutConstraints) {
   }
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::allocation_test

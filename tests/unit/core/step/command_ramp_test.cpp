@@ -10,8 +10,7 @@
 #include "tests/support/row_lists.hpp"
 #include "tests/support/stored_states.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::command_ramp_test {
 
 // A knot in random motion, its rows' speeds by dense algebra. Commands far above the speeds ask for
 // what the acceleration makes in a step, those far below for themselves.
@@ -69,5 +68,4 @@ TEST(CommandRamp, ForceOfAStartDoesNotGrowAsTheStepShrinks) {
   EXPECT_GT(largest_at_start("0.0005", "1e9"), 2.5 * largest_at_start("0.002", "1e9"));
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::command_ramp_test

@@ -15,8 +15,7 @@
 #include "tests/support/random_chain.hpp"
 #include "tests/support/row_lists.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::cone_test {
 
 constexpr double degree = std::numbers::pi / 180;
 
@@ -240,5 +239,4 @@ TEST(Cones, PassThroughTheMiddleWithinAStep) {
   }
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::cone_test

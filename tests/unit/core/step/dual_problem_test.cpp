@@ -13,8 +13,7 @@
 #include "tests/support/random_chain.hpp"
 #include "tests/support/row_lists.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::dual_problem_test {
 
 constexpr double h = 0.002;
 /// Of sums over 100 bodies through H, whose condition is 1.4e6: 1e-16 times that.
@@ -174,5 +173,4 @@ TEST(DualProblem, StorageOfALargerOneServesASmallerOne) {
   }
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::dual_problem_test

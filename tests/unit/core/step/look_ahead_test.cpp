@@ -11,8 +11,7 @@
 #include "tests/support/random_chain.hpp"
 #include "tests/support/stored_states.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::look_ahead_test {
 
 /// Deepest overlap at `count` places evenly along the way of a step to `end`, which is the last.
 double deepest_on_way(const Model& model, const Scene& scene, const StepRecord& record,
@@ -152,5 +151,4 @@ TEST_P(ClosingArms, NeverPassThroughEachOther) {
 
 INSTANTIATE_TEST_SUITE_P(Speeds, ClosingArms, testing::Values(10, 100, 1000, 10000));
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::look_ahead_test

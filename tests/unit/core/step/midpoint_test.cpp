@@ -14,8 +14,7 @@
 #include "tests/support/random_chain.hpp"
 #include "tests/support/step_stage.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::midpoint_test {
 
 /// A stage that steps by the midpoint rule.
 struct MidpointStage {
@@ -311,5 +310,4 @@ TEST(Midpoint, SaysWhatDoesNotSettle) {
   });
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::midpoint_test

@@ -13,8 +13,7 @@
 #include "tests/support/random_chain.hpp"
 #include "tests/support/row_lists.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::rows_test {
 
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 constexpr double h = 2e-3;
@@ -438,5 +437,4 @@ TEST(Rows, HaveNamesThatSayWhichTheyAre) {
   EXPECT_EQ(names.size(), t.rows().size());
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::rows_test

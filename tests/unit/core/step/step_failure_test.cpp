@@ -6,8 +6,7 @@
 
 #include "tests/support/step_stage.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::step_failure_test {
 
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 
@@ -59,5 +58,4 @@ TEST(Step, ThrowsOnAPositionThatIsNotFinite) {
   }
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::step_failure_test

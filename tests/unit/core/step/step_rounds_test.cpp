@@ -7,8 +7,7 @@
 #include "tests/support/random_chain.hpp"
 #include "tests/support/step_stage.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::step_rounds_test {
 
 TEST(Step, WarmStartKeepsTheRowsWithAForce) {
   Stage s = knotted(99, 1);
@@ -126,5 +125,4 @@ TEST(Step, ReleasesPrescribedLimitsThatContradictOtherRows) {
   EXPECT_LT(relative_error(step.qdot, cold.qdot), 1e-7);  // solver tolerance
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::step_rounds_test

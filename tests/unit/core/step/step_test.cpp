@@ -9,8 +9,7 @@
 #include "tests/support/random_chain.hpp"
 #include "tests/support/step_stage.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::step_test {
 
 TEST(Step, IsLinearWhereNoRowCanBind) {
   Stage s;
@@ -200,5 +199,4 @@ TEST(Step, CapsThigmotaxisForces) {
   EXPECT_GT(largest, 4999);
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::step_test

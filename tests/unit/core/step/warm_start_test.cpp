@@ -8,8 +8,7 @@
 
 #include "tests/support/random_chain.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::warm_start_test {
 
 /// A step that leaves these multipliers, by id.
 void leave(WarmStart& warm, const std::vector<std::pair<std::int64_t, double>>& multipliers) {
@@ -71,5 +70,4 @@ TEST(WarmStart, FollowsManyRowsOverManySteps) {
   }
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::warm_start_test

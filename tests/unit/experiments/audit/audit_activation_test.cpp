@@ -11,8 +11,7 @@
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/written_log.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::audit_activation_test {
 
 namespace fs = std::filesystem;
 
@@ -82,5 +81,4 @@ TEST_P(AuditActivation, WatchesWhatMusclesDo) {
 INSTANTIATE_TEST_SUITE_P(Laws, AuditActivation, testing::Values("paper", "muscles"),
                          [](const auto& law) { return law.param; });
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::audit_activation_test

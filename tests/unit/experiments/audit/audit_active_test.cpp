@@ -10,8 +10,7 @@
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/written_log.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::audit_active_test {
 
 namespace fs = std::filesystem;
 
@@ -127,5 +126,4 @@ TEST_F(AuditActive, SeesMusclesThatAreNotTheScenes) {
   EXPECT_EQ(objections(), "");
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::audit_active_test

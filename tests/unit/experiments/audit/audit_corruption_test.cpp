@@ -15,8 +15,7 @@
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/written_log.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::audit_corruption_test {
 
 namespace fs = std::filesystem;
 
@@ -442,5 +441,4 @@ TEST_F(AuditCorruption, NumbersWithoutUnitOrDescription) {
   }
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::audit_corruption_test

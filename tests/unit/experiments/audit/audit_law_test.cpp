@@ -13,8 +13,7 @@
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/written_log.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::audit_law_test {
 
 namespace fs = std::filesystem;
 
@@ -233,5 +232,4 @@ TEST_F(AuditLaw, OfTheReflexTheRestShapeIsWhatItCopies) {
   EXPECT_NE(text.find("/trajectory/q_ref"), std::string::npos) << text;
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::audit_law_test

@@ -10,8 +10,7 @@
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/written_log.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::audit_midpoint_test {
 
 class AuditMidpoint : public testing::Test {
  protected:
@@ -80,5 +79,4 @@ TEST_F(AuditMidpoint, SeesFalsePasses) {
   EXPECT_EQ(objections(), "");
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::audit_midpoint_test

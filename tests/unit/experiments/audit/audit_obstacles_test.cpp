@@ -12,8 +12,7 @@
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/written_log.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::audit_obstacles_test {
 
 class AuditObstacles : public testing::Test {
  protected:
@@ -71,5 +70,4 @@ TEST_F(AuditObstacles, EachFigureIsWatched) {
   }
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::audit_obstacles_test

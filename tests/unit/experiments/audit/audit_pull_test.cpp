@@ -10,8 +10,7 @@
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/written_log.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::audit_pull_test {
 
 namespace fs = std::filesystem;
 
@@ -105,5 +104,4 @@ TEST_F(AuditPull, SeesACapThatIsNotTheScenes) {
   EXPECT_NE(objections_with(file, rising).find("/thigmotaxis/cap"), std::string::npos);
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::audit_pull_test

@@ -14,8 +14,7 @@
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/written_log.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::audit_test {
 
 namespace fs = std::filesystem;
 
@@ -251,5 +250,4 @@ TEST_F(AuditTest, SeesEnergyOutOfNothing) {
   EXPECT_FALSE(passes("energy gain"));
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::audit_test

@@ -4,8 +4,7 @@
 
 #include <numbers>
 
-namespace hagfish {
-namespace {
+namespace hagfish::expectations_test {
 
 /// Bounds that are all different.
 ExpectSettings expected() {
@@ -75,5 +74,4 @@ TEST(EnergyGainTest, NeedsEnergyToBeAShareOf) {
   EXPECT_DOUBLE_EQ(gain.largest(), 0.5);
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::expectations_test

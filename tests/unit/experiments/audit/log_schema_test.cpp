@@ -12,8 +12,7 @@
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/written_log.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::log_schema_test {
 
 using H5::PredType;
 
@@ -118,5 +117,4 @@ TEST_F(LogSchema, WantsMotionThatCanBe) {
   EXPECT_EQ(refusal(), "/trajectory/time holds 0 s at frame 2: times must rise");
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::log_schema_test

@@ -8,8 +8,7 @@
 #include "core/muscle/active_curvature.hpp"
 #include "tests/support/random_chain.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::program_fit_test {
 
 /// Frames of 20 ms whose hinges have the program's shapes, the root anywhere.
 std::pair<std::vector<double>, Eigen::MatrixXd> shapes(const Model& model,
@@ -90,5 +89,4 @@ TEST(ProgramFit, RefusesMoreThanTheShapesCanTell) {
   EXPECT_THROW(fit_program(model, time, q, 2, 26), std::invalid_argument);
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::program_fit_test

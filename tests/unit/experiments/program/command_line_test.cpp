@@ -6,8 +6,7 @@
 
 #include "tests/support/program_runs.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::command_line_test {
 
 class CommandLine : public ProgramTest {
  protected:
@@ -83,5 +82,4 @@ TEST_F(CommandLine, EveryCommandHelpsAndListsItself) {
   EXPECT_GE(count, 15);
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::command_line_test

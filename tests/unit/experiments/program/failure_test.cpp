@@ -9,8 +9,7 @@
 #include "core/log/hdf5_error.hpp"
 #include "core/step/outcome.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::failure_test {
 
 TEST(Failure, OutOfMemoryIsSaidInWords) {
   EXPECT_EQ(reason(std::bad_alloc()), "out of memory");
@@ -40,5 +39,4 @@ TEST(Failure, OnlyWhatTheUserGaveIsBadInput) {
   EXPECT_FALSE(is_bad_input(std::runtime_error("why")));
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::failure_test

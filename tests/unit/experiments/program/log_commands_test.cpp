@@ -14,8 +14,7 @@
 #include "core/log/hdf5_reader.hpp"
 #include "tests/support/program_runs.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::log_commands_test {
 
 /// What a log holds of a run that never got to this or that.
 const std::regex no_number(R"((^|[^a-z])-?(inf|nan)([^a-z]|$))");
@@ -183,5 +182,4 @@ TEST_F(LogCommandsTest, InfoGivesJson) {
   EXPECT_NE(both.output.find("a.h5:\nstatus "), std::string::npos) << both.output;
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::log_commands_test

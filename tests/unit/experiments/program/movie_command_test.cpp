@@ -7,8 +7,7 @@
 
 #include "tests/support/program_runs.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::movie_command_test {
 
 namespace fs = std::filesystem;
 
@@ -63,5 +62,4 @@ TEST_F(MovieTest, RefusesBadInputInOneLine) {
   EXPECT_FALSE(fs::exists(folder / "a.mp4"));
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::movie_command_test

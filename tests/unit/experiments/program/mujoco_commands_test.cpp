@@ -7,8 +7,7 @@
 
 #include "tests/support/program_runs.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::mujoco_commands_test {
 
 namespace fs = std::filesystem;
 
@@ -64,5 +63,4 @@ TEST_F(ProgramTest, StressNamesTheOutcomeOfACell) {
   expect_refused("stress table1 --method mujoco_euller", {"did you mean `mujoco_euler`?"});
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::mujoco_commands_test

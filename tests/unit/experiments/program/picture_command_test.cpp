@@ -11,8 +11,7 @@
 
 #include "tests/support/program_runs.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::picture_command_test {
 
 namespace fs = std::filesystem;
 
@@ -80,5 +79,4 @@ TEST_F(ProgramTest, PictureRefusesBadInputInOneLine) {
   EXPECT_FALSE(fs::exists(folder / "a.png"));
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::picture_command_test

@@ -7,8 +7,7 @@
 #include "experiments/audit/log_contents.hpp"
 #include "tests/support/program_runs.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::playback_command_test {
 
 TEST_F(ProgramTest, PlaybackRefusesALogWithoutASlide) {
   EXPECT_EQ(run_program(brief_run + "--out a.log").code, 0);
@@ -62,5 +61,4 @@ TEST_F(ProgramTest, PlaybackAppliesTheMeansBetweenFramesAlone) {
   EXPECT_EQ(control, none);
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::playback_command_test

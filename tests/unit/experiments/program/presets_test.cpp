@@ -6,8 +6,7 @@
 #include "experiments/program/scene_argument.hpp"
 #include "solvers/box_qp.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::presets_test {
 
 TEST(Presets, AreThoseOfTheReadme) {
   EXPECT_EQ(preset_names(), (std::vector<std::string>{"quick", "default"}));
@@ -36,5 +35,4 @@ TEST(Presets, AreNoScene) {
   for (const std::string_view scene : builtin_scene_names()) EXPECT_NE(scene, "presets");
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::presets_test

@@ -8,8 +8,7 @@
 #include "tests/support/foreign_qps.hpp"
 #include "tests/support/program_runs.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::qp_command_test {
 
 // Ten steps, with joints that can hardly twist, so that limits are in reach from the first.
 const std::string record =
@@ -103,5 +102,4 @@ TEST_F(ProgramTest, RecordsQpsOfEulersRuleOnly) {
   EXPECT_FALSE(std::filesystem::exists(folder / "q.h5"));
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::qp_command_test

@@ -7,8 +7,7 @@
 #include "core/log/hdf5_reader.hpp"
 #include "tests/support/program_runs.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::resume_command_test {
 
 namespace fs = std::filesystem;
 
@@ -113,5 +112,4 @@ TEST_F(ResumeTest, ABranchTakesOtherSettings) {
   }
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::resume_command_test

@@ -9,8 +9,7 @@
 #include "experiments/audit/log_contents.hpp"
 #include "tests/support/program_runs.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::run_command_test {
 
 namespace fs = std::filesystem;
 
@@ -165,5 +164,4 @@ TEST_F(ProgramTest, ListsTheScenes) {
   EXPECT_NE(scenes.output.find("overhand_waypoints"), std::string::npos);
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::run_command_test

@@ -7,8 +7,7 @@
 #include "tests/support/errors.hpp"
 #include "tests/support/stored_states.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::scene_sense_test {
 
 std::string refusal(const std::vector<std::string>& changes, bool force = false) {
   const ResolvedScene scene = stored_scene(changes);
@@ -51,5 +50,4 @@ TEST(SceneSense, RunsOfTooManyStepsOrBytesAskForForce) {
       << refusal(large);
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::scene_sense_test

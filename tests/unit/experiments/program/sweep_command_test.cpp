@@ -10,8 +10,7 @@
 #include "core/input/input_text.hpp"
 #include "tests/support/program_runs.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::sweep_command_test {
 
 namespace fs = std::filesystem;
 
@@ -235,5 +234,4 @@ scene = ["table1", "overhand_reverse", "pull_overhand", "table1"]
   }
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::sweep_command_test

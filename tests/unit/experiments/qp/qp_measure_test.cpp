@@ -8,8 +8,7 @@
 #include "tests/support/random_qp.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::qp_measure_test {
 
 class QpMeasureTest : public testing::Test {
  protected:
@@ -154,5 +153,4 @@ TEST_F(QpMeasureTest, CountsFailuresAndTellsTheFirst) {
       << report.failures[0];
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::qp_measure_test

@@ -11,8 +11,7 @@
 #include "tests/support/random_qp.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::qp_set_test {
 
 namespace fs = std::filesystem;
 
@@ -234,5 +233,4 @@ TEST_F(QpSetTest, RefusesWhatIsNoSet) {
   EXPECT_EQ(failure(no_group), file + ": /qp/0 is no group");
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::qp_set_test

@@ -9,8 +9,7 @@
 #include "tests/support/random_chain.hpp"
 #include "tests/support/stored_states.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::step_qp_test {
 
 class StepQp : public testing::TestWithParam<StoredState> {};
 
@@ -75,5 +74,4 @@ std::vector<StoredState> states_with_qp() {
 
 INSTANTIATE_TEST_SUITE_P(Table1, StepQp, testing::ValuesIn(states_with_qp()), name_of);
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::step_qp_test

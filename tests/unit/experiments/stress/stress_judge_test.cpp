@@ -6,8 +6,7 @@
 
 #include "tests/support/stored_states.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::stress_judge_test {
 
 /// A judge of two straight bodies' worth of scene, shown steps by hand.
 class StressJudgeTest : public testing::Test {
@@ -120,5 +119,4 @@ TEST_F(StressJudgeTest, AKnotThatDoesNotSlideIsCapped) {
   EXPECT_EQ(judge_of_it.ended().message, "no slide");
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::stress_judge_test

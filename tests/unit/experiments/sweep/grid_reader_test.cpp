@@ -6,8 +6,7 @@
 #include "core/input/input_error.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::grid_reader_test {
 
 using Texts = std::vector<std::string>;
 
@@ -163,5 +162,4 @@ TEST_F(GridTest, IdentityIsOfWhatMakesTheRows) {
   EXPECT_NE(before, grid_identity(read(two)));
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::grid_reader_test
