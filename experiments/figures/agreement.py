@@ -1,7 +1,7 @@
 """The core against MuJoCo, from `hagfish compare`: differences in random states, along rollouts by the same rule, and
 errors over the time step.
 
-Usage: agreement.py COMPARE.h5 OUT.png (writes a PDF beside).
+Usage: agreement.py COMPARE.h5 OUT.png (writes a PDF beside, and tables/two_simulators.csv).
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ import numpy as np
 import plots
 from hagfish_log import Results
 from script import run_script
+from tables import of_page
 
 HEADS = {"free": (plots.BLUE, "free head"), "clamped": (plots.ORANGE, "clamped head")}
 QUANTITIES = {"position": "positions", "orientation": "orientations", "mass": "M", "bias": "bias",
@@ -57,11 +58,21 @@ def draw_errors(axes: Any, results: Results) -> None:
     axes.legend(loc="lower right")
 
 
+def rows_of(results: Results) -> list[list[str]]:
+    """The largest difference in each quantity, over its scale, and what is required."""
+    rows = []
+    for name, words in (QUANTITIES | {"acceleration": "q̈"}).items():
+        rows.append([words, f"{results[f'/states/free/{name}_bound'][0]:.0e}", *(f"{results[f'/states/{head}/{name}'].max():.0e}" for head in HEADS)])
+    return [*rows, ["q̇ along a run by the same rule", f"{results['/rollout/free/velocity_bound'][0]:.0e}",
+                    *(f"{results[f'/rollout/{head}/velocity'].max():.0e}" for head in HEADS)]]
+
+
 def main(compare: Path, out: Path) -> None:
     results = Results(compare)
     figure, (states, rollouts, errors) = plots.panels(
         1, 3, (13, 4.2), [f"{len(results['/states/free/mass'])} random states", "the same rule, step by step",
                           "error against the step, clamped head"])
+    of_page(out.parent, "two_simulators", ["largest difference, of its scale", "required", "free head", "clamped head"], rows_of(results))
     draw_states(states, results)
     draw_rollouts(rollouts, results)
     draw_errors(errors, results)

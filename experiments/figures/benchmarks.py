@@ -58,17 +58,20 @@ def write_times(times: Times, context: dict[str, Any], path: Path) -> None:
                       for bodies, time in by_bodies.items()], notes)
 
 
-def print_ratios(times: Times, quickest: Quickest) -> None:
+def ratios(times: Times, quickest: Quickest) -> list[list[str]]:
+    """Rows of the table of ratios; the first one has the numbers of bodies."""
+    rows: list[list[str]] = []
+
     def row(text: str, values: list[str]) -> None:
-        print(f"{text:<50}" + "".join(f"{value:>20}" for value in values))
+        rows.append([text.strip(), *values])
 
     bodies = sorted(times[("core", "step_free:10")])
     row("bodies", [str(n) for n in bodies])
     for restart in RESTARTS:
         mujoco, core = times[("mujoco", f"step_knotted:{restart}")], times[("core", f"step_knotted_active-set:{restart}")]
         row(f"knotted step: MuJoCo over core, {restart} steps a start", [f"{mujoco[n] / core[n]:.1f}" for n in bodies])
-        row("  by", [quickest[restart][n][0] for n in bodies])
-        row("  which is off by", [f"{quickest[restart][n][1]:.0e}" for n in bodies])
+        row(f"  by, {restart} steps a start", [quickest[restart][n][0] for n in bodies])
+        row(f"  which is off by, {restart} steps a start", [f"{quickest[restart][n][1]:.0e}" for n in bodies])
     free = times[("core", "step_free:10")]
     row("step without contact: MuJoCo over core", [f"{times[('mujoco', 'step_free:10')][n] / free[n]:.1f}" for n in bodies])
     knotted = times[("core", "step_knotted_active-set:10")]
@@ -81,6 +84,9 @@ def print_ratios(times: Times, quickest: Quickest) -> None:
     for text, part in (("Eqs. 1 and 4: nothing prescribed over as it is", "prescribe_nothing"), ("Eqs. 1 and 4: head alone prescribed", "prescribe_head")):
         row(text, [f"{times[('core', part)][n] / as_is[n]:.2f}" for n in bodies])
     row("step without contact, over 100 bodies", [f"{free[n] / free[100]:.2f}" for n in bodies])
+    for text, part in (("knotted step, µs", "step_knotted_active-set:10"), ("step without contact, µs", "step_free:10"), ("contact alone, µs", "contact")):
+        row(text, [f"{times[('core', part)][n]:.3g}" for n in bodies])
+    return rows
 
 
 def draw_steps(axes: Any, times: Times) -> None:
@@ -110,7 +116,10 @@ def main(benchmarks: Path, out: Path) -> None:
     results = json.loads(benchmarks.read_text(encoding="utf-8"))
     times, quickest = medians(results["benchmarks"])
     write_times(times, results["context"], out.with_suffix(".csv"))
-    print_ratios(times, quickest)
+    head, *rows = ratios(times, quickest)
+    tables.of_page(out.parent, "step_cost", head, rows)
+    for cells in (head, *rows):
+        print(f"{cells[0]:<50}" + "".join(f"{value:>20}" for value in cells[1:]))
     bodies = 100
     figure, (step, parts) = plots.panels(1, 2, (11, 4.4), ["one step", f"parts of the knotted step, {bodies} bodies"])
     draw_steps(step, times)

@@ -113,7 +113,23 @@ def spread(values: list[float]) -> str:
     return f"{middle:.3g} ({low:.3g} to {high:.3g})"
 
 
-def page(runs: list[Claim]) -> list[str]:
+def summary(runs: list[Claim]) -> list[list[str]]:
+    """A row a change: for each reading of the limit the median ratio of efforts and the verdicts on it; what is rough, by the first reading."""
+    rows = []
+    for change in dict.fromkeys(change for _, change in groups(runs)):
+        row = [change]
+        for reading in READINGS:
+            slid = [run for run in of_group(runs, (reading, change)) if run.outcome == "slid"]
+            verdicts = Counter(run.verdict[GROWTH] for run in slid)
+            row += [f"{np.median([run.measure['near_over_far'] for run in slid]):.2g}" if slid else "none slid",
+                    ", ".join(f"{word} {verdicts[word]}" for word in plots.VERDICTS if verdicts[word])]
+        slid = [run for run in of_group(runs, (next(iter(READINGS)), change)) if run.outcome == "slid"]
+        row += [f"{np.median([run.measure[name] for run in slid]):.2g}" if slid else "" for name in ("roughness_space", "roughness_time", "dct_modes_95")]
+        rows.append(row)
+    return rows
+
+
+def page(runs: list[Claim], out: Path) -> list[str]:
     rows = []
     for key in groups(runs):
         own = of_group(runs, key)
@@ -129,6 +145,9 @@ def page(runs: list[Claim]) -> list[str]:
             f"Overhand knots; each row is {len({run.seed for run in runs})} starts with 0.1 degrees of noise on every hinge at "
             + " and ".join(f"{1000 * step:g}" for step in sorted({run.step for run in runs})) + " ms. Forces are means over "
             "20 ms. Verdicts are counts of agrees / undecided / disagrees among the runs that slid.", "",
+            *tables.of_page(out, "claims", ["what is changed", "box: effort near over far", "box: larger near the head?", "cone: effort near over far",
+                                            "cone: larger near the head?", "box: roughness along the body", "box: in time", "box: Fourier modes for 95 %"],
+                            summary(runs)),
             *tables.markdown(["bending limit", "change", "slid", "zero behind", "larger near the head", "near over far",
                               "smooth, noisy", "roughness along the body", "in time", "Fourier modes for 95 %",
                               "what else became of it"], rows)]
@@ -140,7 +159,7 @@ def main(folder: Path, table: Path, out: Path, text: Path) -> None:
                      [[run.reading, run.change, run.step, run.seed, run.outcome, *run.measure.values(), *run.verdict.values()]
                       for run in runs])
     draw(runs, out)
-    tables.write_page(text, page(runs))
+    tables.write_page(text, page(runs, text.parent))
 
 
 if __name__ == "__main__":

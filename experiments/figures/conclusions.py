@@ -17,7 +17,7 @@ from needs import needs
 from plots import INTEGRATORS
 from script import run_script
 from study import FORCE_WINDOW, Run, path_error, read_run, read_runs
-from tables import markdown, write_page
+from tables import of_page, write_page
 from whole_runs import CHANCE_STEPS, chance, front_of, reference_of
 
 PRESETS = {"quick": "a look at a new script", "default": "work"}
@@ -47,7 +47,7 @@ def crossings(folder: Path) -> list[tuple[str, float]]:
     return found
 
 
-def integration(folder: Path) -> list[str]:
+def integration(folder: Path, out: Path) -> list[str]:
     lines = ["## Smooth motions", "", "CPU time per simulated time for an error of at most so much of a body centre at 0.5 s, "
              "between the steps tried (-: not reached by any), and the largest step that does not blow up. 100 bodies, head clamped, "
              "no contacts.", ""]
@@ -61,7 +61,7 @@ def integration(folder: Path) -> list[str]:
             times = [reached(cost, error, w) for w in wanted]
             rows.append([results.root("motion"), look.label, *("-" if np.isnan(t) else f"{t:.2g}" for t in times),
                          f"{h[np.isfinite(error)].max():g}"])
-    lines += markdown(["Motion", "Method", *(f"{w:g} cm" for w in wanted), "Largest h, ms"], rows)
+    lines += of_page(out, "speed_accuracy_motions", ["Motion", "Method", *(f"{w:g} cm" for w in wanted), "Largest h, ms"], rows)
     ratio = []
     for motion in MOTIONS:
         results = Results(folder / f"{motion}.h5")
@@ -75,18 +75,18 @@ def integration(folder: Path) -> list[str]:
     return lines
 
 
-def solvers(folder: Path) -> list[str]:
+def solvers(folder: Path, out: Path) -> list[str]:
     table_rows = read_table(folder)
     rows = [[BACK_ENDS[row["back_end"]].label, row["tolerance"] or "exact", row["start"], f"{1e6 * float(row['median_s']):.0f}",
              f"{1e6 * float(row['p99_s']):.0f}", f"{float(row['error_norm_relative']):.1e}", f"{float(row['kkt']):.1e}",
              row["failures"]] for row in table_rows]
     return ["## QPs", "", f"{table_rows[0]['qps']} QPs of the Table 1 run, of every tenth step; errors are the worst of them, "
             "in the H norm, over the rows' change of the velocity.", "",
-            *markdown(["Back end", "Tolerance", "Start", "Median, µs", "99 %, µs", "Error of the velocity", "KKT residual",
+            *of_page(out, "speed_accuracy_qps", ["Back end", "Tolerance", "Start", "Median, µs", "99 %, µs", "Error of the velocity", "KKT residual",
                     "Failures"], rows), ""]
 
 
-def body_counts(runs: list[Run], reference: Run) -> list[str]:
+def body_counts(runs: list[Run], reference: Run, out: Path) -> list[str]:
     rows = []
     for bodies in sorted({run.bodies for run in runs}):
         own = {run.step: run for run in runs if run.bodies == bodies}
@@ -95,20 +95,20 @@ def body_counts(runs: list[Run], reference: Run) -> list[str]:
             at = own[0.002]
             rows.append([str(bodies), f"{at.cpu:.2f}", f"{min(found):.2f} to {max(found):.2f}", f"{at.force:.0f}",
                          f"{at.penetration:.5f}"])
-    return markdown(["Bodies", "CPU, s", "Head end of the knot off, cm", "Sliding force, dyn", "Penetration, cm"], rows)
+    return of_page(out, "speed_accuracy_bodies", ["Bodies", "CPU, s", "Head end of the knot off, cm", "Sliding force, dyn", "Penetration, cm"], rows)
 
 
-def midpoint(done: list[Run], reference: Run) -> list[str]:
+def midpoint(done: list[Run], reference: Run, out: Path) -> list[str]:
     """A row for each step of the midpoint rule at 100 bodies."""
     rows = []
     for run in sorted((run for run in done if run.bodies == 100 and run.rule == "midpoint"), key=lambda run: run.step):
         off = path_error(run, reference)
         rows.append([f"{1e3 * run.step:g}", f"{run.cpu:.2f}", "0 (reference)" if run is reference else f"{off[0]:.2f} ({off[1]:.2f})",
                      f"{run.force:.0f}", f"{run.penetration:.5f}"])
-    return markdown(["h, ms", "CPU, s", "Head end of the knot off, cm", "Sliding force, dyn", "Penetration, cm"], rows)
+    return of_page(out, "speed_accuracy_midpoint", ["h, ms", "CPU, s", "Head end of the knot off, cm", "Sliding force, dyn", "Penetration, cm"], rows)
 
 
-def whole(folder: Path) -> list[str]:
+def whole(folder: Path, out: Path) -> list[str]:
     runs = read_runs(folder, "whole")
     reference = reference_of(runs)
     floor = chance(folder, reference.step)
@@ -124,10 +124,10 @@ def whole(folder: Path) -> list[str]:
         twin, off = twins.get((run.step, run.bodies, run.activation)), path_error(run, reference)
         rows.append([f"{1e3 * run.step:g}", f"{run.cpu:.2f}", f"{twin.cpu:.1f}" if twin else "", "0 (reference)" if run is reference
                      else f"{off[0]:.2f} ({off[1]:.2f})", f"{run.force:.0f}", f"{run.penetration:.5f}"])
-    lines += markdown(["h, ms", "CPU, s (active-set)", "CPU, s (Ipopt)", "Head end of the knot off, cm", "Sliding force, dyn",
+    lines += of_page(out, "speed_accuracy_steps", ["h, ms", "CPU, s (active-set)", "CPU, s (Ipopt)", "Head end of the knot off, cm", "Sliding force, dyn",
                     "Penetration, cm"], rows)
-    lines += ["By the midpoint rule:", "", *midpoint(done, reference)]
-    lines += ["Speculative rows, active-set; errors at 5 ms and finer, the rest at 2 ms:", "", *body_counts(usual, reference)]
+    lines += ["By the midpoint rule:", "", *midpoint(done, reference, out)]
+    lines += ["Speculative rows, active-set; errors at 5 ms and finer, the rest at 2 ms:", "", *body_counts(usual, reference, out)]
     found = [(step, chance(folder, step)) for step in CHANCE_STEPS]
     lines += ["- Chance: starts that differ by rounding alone come apart by up to "
               + "; ".join(f"{c.position:.2f} cm (knot's head end, rms over the slide), {c.pointwise:.2f} cm (at any frame) and "
@@ -156,7 +156,7 @@ def whole(folder: Path) -> list[str]:
     return [*lines, ""]
 
 
-def presets(folder: Path) -> list[str]:
+def presets(folder: Path, out: Path) -> list[str]:
     reference = reference_of(read_runs(folder, "whole"))
     rows = []
     for name, use in PRESETS.items():
@@ -168,11 +168,11 @@ def presets(folder: Path) -> list[str]:
                      f"{run.force / reference.force * 100 - 100:+.0f} %", f"{run.penetration:.4f}",
                      "failed" if failed else "passed"])
     return ["## Presets", "", "`hagfish run --preset NAME`, timed alone on the machine, with their own intervals between frames.",
-            "", *markdown(["Preset", "For", "h, ms", "Bodies", "Back end", "CPU, s", "Head end of the knot off, rms (largest), cm", "Sliding force",
+            "", *of_page(out, "speed_accuracy", ["Preset", "For", "h, ms", "Bodies", "Back end", "CPU, s", "Head end of the knot off, rms (largest), cm", "Sliding force",
                         "Penetration, cm", "Audit"], rows), ""]
 
 
-def choices(folder: Path) -> list[str]:
+def choices(folder: Path, out: Path) -> list[str]:
     as_is, found = needs(folder)
     rows = [["as it is", "", "1", "0", "0", f"{as_is.penetration:.5f}", ""]]
     for n in found:
@@ -180,7 +180,7 @@ def choices(folder: Path) -> list[str]:
         rows.append([n.choice, n.instead, f"{n.cpu:.2f}", *(["", "", ""] if failed else
                      [f"{n.slide:+.2f}", f"{n.force:+.0f}", f"{n.run.penetration:.5f}"]), n.verdict])
     return ["## What the scene needs", "", f"Each choice changed by itself; the scene as it is takes {as_is.cpu:.2f} s of CPU time.",
-            "", *markdown(["Choice", "Instead", "CPU, ratio", "Slide, cm more", "Force, % more", "Penetration, cm", "Verdict"], rows),
+            "", *of_page(out, "speed_accuracy_choices", ["Choice", "Instead", "CPU, ratio", "Slide, cm more", "Force, % more", "Penetration, cm", "Verdict"], rows),
             ""]
 
 
@@ -188,8 +188,8 @@ def main(folder: Path, out: Path) -> None:
     version = (folder / "version").read_text().strip()
     cpu = HagfishLog(folder / "preset_default.h5").attribute("cpu")
     text = ["# Speed against accuracy", "", f"hagfish {version}, {cpu}. Times are CPU times of one process, serial; all but the "
-            "presets were measured with a run on every core.", "", *presets(folder), *whole(folder), *choices(folder),
-            *solvers(folder), *integration(folder)]
+            "presets were measured with a run on every core.", "", *presets(folder, out.parent), *whole(folder, out.parent), *choices(folder, out.parent),
+            *solvers(folder, out.parent), *integration(folder, out.parent)]
     write_page(out, text)
 
 

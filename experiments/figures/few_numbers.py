@@ -220,15 +220,16 @@ def work(folder: Path, png: Path, page: Path) -> None:
     knots = list(SCENES.values())
     least = [[f"{words}, each {1000 * period:g} ms", *(grid.least(scene, frame, period) for scene in SCENES)]
              for frame, words in FRAMES.items() for period in grid.periods()]
-    lines = ["# Few numbers", "", *tables.markdown(["least numbers from which on all slide", *knots], least)]
-    lines += tables.markdown(["all the way", *knots], starts(read_sweep(folder / "starts/table.csv"))
+    table = lambda name, head, rows: tables.of_page(page.parent, name, head, rows)
+    lines = ["# Few numbers", "", *table("few_numbers", ["least numbers from which on all slide", *knots], least)]
+    lines += table("few_numbers_starts", ["all the way", *knots], starts(read_sweep(folder / "starts/table.csv"))
                              + animals(read_sweep(folder / "animals/table.csv")))
-    lines += tables.markdown(["effort in the knot's window, each 100 ms", *knots], rows)
+    lines += table("few_numbers_effort", ["effort in the knot's window, each 100 ms", *knots], rows)
     free = read_sweep(folder / "free/table.csv")
     each = ", ".join(f"{1000 * float(value):g}" for value in sorted(set(free.axes["controller.reduced_basis.period"]), key=float))
-    lines += tables.markdown([f"free head: share of the way, each {each} ms", *knots], free_head(free))
+    lines += table("few_numbers_free", [f"free head: share of the way, each {each} ms", *knots], free_head(free))
     for name, words in {"played": "played by the knot's place", "learned": "learned shapes"}.items():
-        lines += tables.markdown([f"{words}: share of the way; s", *knots], transfers(runs, name))
+        lines += table(f"few_numbers_{name}", [f"{words}: share of the way; s", *knots], transfers(runs, name))
     tables.write_page(page, lines)
 
 

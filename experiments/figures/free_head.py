@@ -58,8 +58,8 @@ def main(folder: Path, table: Path, out: Path, page: Path) -> None:
 
     tables.write_page(page, [
         "# A free head", "", "Forming with a free head too:", "", *(f"- {s.knot}: {s.failure or 'tied all the same'}" for s in forming),
-        "", *tables.markdown(
-            ["head", "knot", "commanded, cm/s", "measured, cm/s", "travel, cm", f"force, median {MEAN}, dyn",
+        "", *tables.of_page(
+            page.parent, "free_head", ["head", "knot", "commanded, cm/s", "measured, cm/s", "travel, cm", f"force, median {MEAN}, dyn",
              f"largest {MEAN}, dyn", "steps that meet Eq. 6, %", "penetration, cm", "run"],
             [[head, s.knot, f"{s.commanded:g}", f"{s.speed:.3g}", f"{s.travel:.1f}", f"{s.force:.0f}", f"{s.peak:.0f}",
               f"{100 * s.met:.1f}", f"{s.penetration:.2g}", s.failure or "complete"] for head, s in all_slides])])

@@ -17,7 +17,7 @@ from hagfish_log import HagfishLog, LogError
 from means import Means, effort_per_cm, read_means
 from script import run_script
 from slides import MEAN, unmet_of
-from tables import markdown, write_page
+from tables import of_page, write_page
 
 WIDTH = 7.2  # of the pictures, inches
 NOISES = ("0.2", "0.5", "1")
@@ -152,7 +152,7 @@ def mirror_error(folder: Path, scene: str) -> float:
     return float(np.abs(plain[:frames] * [1.0, -1.0, 1.0] - image[:frames]).max())
 
 
-def force_by_step(folder: Path, scenes: dict[str, str]) -> list[str]:
+def force_by_step(folder: Path, scenes: dict[str, str], out: Path) -> list[str]:
     """The sliding force at every step tried, one run each."""
     runs: dict[float, list[str]] = {}
     for scene in scenes.values():
@@ -161,10 +161,10 @@ def force_by_step(folder: Path, scenes: dict[str, str]) -> list[str]:
             found = force_figures(log, read_means(log))
             runs.setdefault(log.scene()["time"]["step"], []).append(f"{found['median']:.0f} ({found['mean']:.0f})")
     return [f"Sum of the four λ/h by step, one run each: median of the {MEAN}s and, in brackets, mean over the slide, dyn.", "",
-            *markdown(["h, ms", *scenes], [[f"{1000 * step:g}", *cells] for step, cells in sorted(runs.items())])]
+            *of_page(out, "knots_step", ["h, ms", *scenes], [[f"{1000 * step:g}", *cells] for step, cells in sorted(runs.items())])]
 
 
-def force_by_chance(folder: Path, scenes: dict[str, str]) -> list[str]:
+def force_by_chance(folder: Path, scenes: dict[str, str], out: Path) -> list[str]:
     """What chance and the step make of the sliding force."""
     chance = {k: [chance_figures(folder, scene, step) for step in CHANCE_STEPS] for k, scene in scenes.items()}
     starts = min(each["median"].size for found in chance.values() for each in found)
@@ -178,7 +178,7 @@ def force_by_chance(folder: Path, scenes: dict[str, str]) -> list[str]:
                 f"{found[i][key].mean():{form}} ± {found[i][key].std(ddof=1):{form}}" for found in chance.values())])
         rows.append(["change, %", *(change(coarse[key], fine[key]) for coarse, fine in chance.values())])
     return [f"Starts that differ by rounding alone, {starts} at each step: mean ± standard deviation, and the change from "
-            "one step to the other ± its standard error.", "", *markdown(["", *scenes], rows)]
+            "one step to the other ± its standard error.", "", *of_page(out, "knots_chance", ["", *scenes], rows)]
 
 
 def change(coarse: np.ndarray, fine: np.ndarray) -> str:
@@ -210,15 +210,15 @@ def write_tables(folder: Path, logs: dict[str, HagfishLog], slides: dict[str, cl
                             (f"f_thigmo of a hinge: largest {MEAN}, dyn cm", "peak", ".0f"),
                             (f"of 99 % of the {MEAN}s, no hinge above", "peak99", ".0f"),
                             (f"largest hinge, median of the {MEAN}s", "median_hinge", ".0f"),
-                            ("effort, mean of \\|f_thigmo\\| along the body over time for each cm of slide, dyn s",
+                            ("effort: mean size of f_thigmo along the body, over time, for each cm of slide, dyn s",
                              "effort", ".0f"),
                             ("work, erg", "work", ".0f")):
         row(name, lambda k, key=key, form=form: format(figures[k][key], form))
     modes = {k: claims.smooth_in_space(slides[k])["axes"].values() for k in logs}
     for name, key in (("Fourier modes for 95 % of the energy, of 50", "dct_modes_95"), ("SVD modes", "svd_modes_95")):
         row(name, lambda k, key=key: str(max(axis[key] for axis in modes[k])))
-    write_page(page, ["# Four knots", "", *markdown(["", *logs], rows), *force_by_step(folder, scenes),
-                      *force_by_chance(folder, scenes)])
+    write_page(page, ["# Four knots", "", *of_page(page.parent, "knots", ["", *logs], rows), *force_by_step(folder, scenes, page.parent),
+                      *force_by_chance(folder, scenes, page.parent)])
 
 
 def main(folder: Path, hagfish: Path, pictures: Path, forces: Path, page: Path) -> None:

@@ -69,7 +69,7 @@ def spread(values: list[float], digits: int = 2) -> str:
     return f"{np.mean(values):.{digits}f}" + (f" ± {np.std(values, ddof=1):.{digits}f}" if len(values) > 1 else "")
 
 
-def starts_table(runs: list[Run]) -> list[str]:
+def starts_table(runs: list[Run], out: Path) -> list[str]:
     rows = []
     for body, label in BODIES.items():
         for knot in plots.SCENES.values():
@@ -85,12 +85,12 @@ def starts_table(runs: list[Run]) -> list[str]:
                          of_each(lambda p: p.mean / p.rows.mean(axis=0).max()), of_each(lambda p: p.torque.mean()),
                          of_each(lambda p: p.mean / p.torque.mean()), of_each(lambda p: p.mean / p.estimate),
                          of_each(lambda p: np.linalg.norm(np.nanmean(p.bearing, axis=0)), 1), f"{deepest:.4f}", same])
-    return tables.markdown(["body", "knot", "pulled", "pull, N", "it swings by, N", "over the sum of the rows",
+    return tables.of_page(out, "leverage", ["body", "knot", "pulled", "pull, N", "it swings by, N", "over the sum of the rows",
                             "over the largest row", "largest torque, N cm", "pull over it, 1/cm", "over the rope estimate",
                             "plate's force off the head by, cm", "deepest overlap, cm", "mirror image the same"], rows)
 
 
-def work_table(folder: Path) -> list[str]:
+def work_table(folder: Path, out: Path) -> list[str]:
     """What a slip of the whole body along itself would cost and yield, were the knot to keep its shape."""
     rows = []
     for body, label in BODIES.items():
@@ -102,7 +102,7 @@ def work_table(folder: Path) -> list[str]:
             rows.append([label, knot, f"{pull:.3f}", *(f"{work[key]:.3f}" for key in ("rows", "contacts", "plate")),
                          f"{pull - sum(work.values()):.3f}"])
     head = ["body", "knot", "pull", "rows of Eq. 6", "contacts", "head plate", "left to bending, limits, muscles"]
-    return tables.markdown(head, rows)
+    return tables.of_page(out, "leverage_work", head, rows)
 
 
 SWEEPS = {"cap": "largest force of a row, dyn", "speed": "commanded speed, cm/s", "stiffness": "flexural rigidity, dyn cm²",
@@ -121,7 +121,7 @@ def points(runs: list[Run], body: str, knot: str, kind: str, deep: bool = True) 
     return sorted(found + [(BASE[kind][body], float(np.mean(starts)))] * bool(starts))
 
 
-def sweep_table(runs: list[Run], kind: str) -> list[str]:
+def sweep_table(runs: list[Run], kind: str, out: Path) -> list[str]:
     values = sorted({float(run.value) for run in runs if run.kind == kind} | set(BASE[kind].values()))
     rows = []
     for body in BASE[kind]:
@@ -132,7 +132,7 @@ def sweep_table(runs: list[Run], kind: str) -> list[str]:
             failed = {float(run.value): run.outcome for run in there if not run.pull}
             cells = [f"{pulls[v]:.3f}" + "*" * (v in deep) if v in pulls else failed.get(v, "") for v in values]
             rows.append([BODIES[body], knot, *cells])
-    return tables.markdown(["body", "knot", *(f"{v:g}" for v in values)], rows)
+    return tables.of_page(out, f"leverage_{kind}", ["body", "knot", *(f"{v:g}" for v in values)], rows)
 
 
 def draw_sweep(axes: plots.plt.Axes, runs: list[Run], kind: str, scale: float = 1) -> None:
@@ -210,10 +210,10 @@ def main(folder: Path, table: Path, out: Path, page: Path) -> None:
                      ["means over the settled pull; estimate: sum of lambda (1 - cos theta) / h"])
     draw(runs, out)
     note = "Pulls in N, means over the settled pull; ± is the standard deviation over starts; * overlaps too deep for its scene."
-    lines = ["# Leverage", "", note, "", *starts_table(runs)]
-    lines += ["## Work, N cm for each cm that the head is drawn in", "", *work_table(folder)]
+    lines = ["# Leverage", "", note, "", *starts_table(runs, page.parent)]
+    lines += ["## Work, N cm for each cm that the head is drawn in", "", *work_table(folder, page.parent)]
     for kind, label in SWEEPS.items():
-        lines += [f"## By {label}", "", *sweep_table(runs, kind)]
+        lines += [f"## By {label}", "", *sweep_table(runs, kind, page.parent)]
     tables.write_page(page, lines)
 
 

@@ -119,7 +119,7 @@ def read_starts(folder: Path, head: str, scene: str) -> Starts:
     return result
 
 
-def starts_table(folder: Path) -> list[str]:
+def starts_table(folder: Path, out: Path) -> list[str]:
     rows = []
     for head in ("held", "free"):
         for scene, knot in plots.SCENES.items():
@@ -127,11 +127,11 @@ def starts_table(folder: Path) -> list[str]:
             rows.append([head, knot, f"{starts.noise:g}", f"{starts.off} of {starts.count}", f"{starts.far} of {starts.count}",
                          f"{100 * np.nanmin(starts.met):.0f}", f"{max(starts.apart):.1e}", f"{np.nanmin(starts.alike):.4f}",
                          f"{np.nanmedian(starts.alike):.4f}"])
-    return tables.markdown(["head", "knot", "noise, deg", "tied, kept, off", "slide within 10 % of the undisturbed one", "Eq. 6 met, least, %",
+    return tables.of_page(out, "living_starts", ["head", "knot", "noise, deg", "tied, kept, off", "slide within 10 % of the undisturbed one", "Eq. 6 met, least, %",
                             "hinges apart at the end of forming, rad", "likeness of f_thigmo, least of the medians", "median of them"], rows)
 
 
-def claims_table(folder: Path) -> list[str]:
+def claims_table(folder: Path, out: Path) -> list[str]:
     """Verdicts and measures of claim_row.py over starts with a degree of noise."""
     rows = []
     for scene, knot in plots.SCENES.items():
@@ -151,7 +151,7 @@ def claims_table(folder: Path) -> list[str]:
         spread = lambda what: "{1:.3g} ({0:.3g} to {2:.3g})".format(*np.percentile([row[what] for row in own], [0, 50, 100])) if own else ""
         rows.append([knot, f"{len(own)} of {len(judged)}", *counts, *map(spread, claim_row.MEASURES[1:]),
                      ", ".join(f"{what}: {count}" for what, count in others.items())])
-    return tables.markdown(["knot", "slid", *claims.NAMES, "beyond, dyn cm", "near over far", "roughness along the body", "in time",
+    return tables.of_page(out, "living_claims", ["knot", "slid", *claims.NAMES, "beyond, dyn cm", "near over far", "roughness along the body", "in time",
                             "Fourier modes for 95 %", "what else became of it"], rows)
 
 
@@ -207,10 +207,10 @@ def main(folder: Path, table: Path, out: Path, page: Path) -> None:
     tables.write_csv(table, head, run_rows(scenes + of_sweeps + both + animals))
     tables.write_page(page, [
         "# The animal ties itself", "", "`ipopt`: that back end; `fine`: h = 2 ms instead of 5. Works are until release.", "",
-        *tables.markdown(head, run_rows(scenes)), "## Noisy starts", "", *starts_table(folder), "## Other animals", "",
-        *tables.markdown(head, run_rows(animals)), "## The paper's claims, starts with a degree of noise", "",
-        "Verdicts: agrees / undecided / disagrees, of the runs that slid to the head.", "", *claims_table(folder), "## Sweeps", "",
-        *tables.markdown(head, run_rows(of_sweeps)), "## Two things at once", "", *tables.markdown(head, run_rows(both))])
+        *tables.markdown(head, run_rows(scenes)), "## Noisy starts", "", *starts_table(folder, page.parent), "## Other animals", "",
+        *tables.of_page(page.parent, "living_animals", head, run_rows(animals)), "## The paper's claims, starts with a degree of noise", "",
+        "Verdicts: agrees / undecided / disagrees, of the runs that slid to the head.", "", *claims_table(folder, page.parent), "## Sweeps", "",
+        *tables.of_page(page.parent, "living_sweeps", head, run_rows(of_sweeps)), "## Two things at once", "", *tables.markdown(head, run_rows(both))])
 
 
 if __name__ == "__main__":

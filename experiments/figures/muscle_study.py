@@ -45,7 +45,7 @@ def rows_of(name: str, efforts: list[Effort]) -> list[list[str]]:
             [f"{name}: frames in which a muscle is too weak, %", *(f"{100 * e.short:.0f}" for e in efforts)]]
 
 
-def by_knot(folder: Path) -> list[str]:
+def by_knot(folder: Path, out: Path) -> list[str]:
     tied = [Muscles(HagfishLog(folder / f"tie_{scene}.h5")) for scene in plots.SCENES]
     pulled = [Muscles(HagfishLog(folder / f"pull_{scene}.h5")) for scene in plots.SCENES]
     slides = [sliding(m.log) for m in tied]
@@ -57,10 +57,10 @@ def by_knot(folder: Path) -> list[str]:
              ["sliding: work of muscles, erg for each cm", *(f"{work(m.log, f) / way(m.log):.2g}" for m, f in zip(tied, slides))],
              ["sliding: one pair of constant arms instead, off by: median; largest, %",
               *("{:.0f}; {:.0f}".format(*(100 * off for off in m.pair_off(f))) for m, f in zip(tied, slides))]]
-    return tables.markdown(["", *plots.SCENES.values()], rows)
+    return tables.of_page(out, "muscles", ["", *plots.SCENES.values()], rows)
 
 
-def forward(folder: Path) -> list[str]:
+def forward(folder: Path, out: Path) -> list[str]:
     rows = []
     for path in sorted(folder.glob("forward_*.h5")) + sorted(folder.glob("start_*.h5")) + sorted(folder.glob("lag_*.h5")):
         log = HagfishLog(path)
@@ -74,11 +74,12 @@ def forward(folder: Path) -> list[str]:
         driven = log["/muscle/driven"][frames]
         rows.append([path.stem, "kept" if len(types) == 1 else "lost", f"{way(log):.2f}", f"{way(log) / (time[-1] - time[0]):.2f}",
                      f"{np.quantile(driven, 0.999):.2f}"])
-    return tables.markdown(["on activations", "type until release", "slide, cm", "cm/s", "peak activation"], rows)
+    return tables.of_page(out, "muscles_forward", ["on activations", "type until release", "slide, cm", "cm/s", "peak activation"], rows)
 
 
-def stiffness(folder: Path, out: Path) -> None:
+def stiffness(folder: Path, picture: Path, out: Path) -> list[str]:
     figure, panels = plots.panels(1, 2, (8.5, 3.4), ["peak activation while tying and sliding", "frames in which a muscle is too weak"])
+    rows: dict[float, list[str]] = {}
     for scene, knot in plots.SCENES.items():
         found = {2e5: folder / f"tie_{scene}.h5"}
         for path in folder.glob(f"ei_{scene}_*.h5"):
@@ -91,6 +92,7 @@ def stiffness(folder: Path, out: Path) -> None:
             effort = muscles.of(frames)
             tied = log.in_phase("slide").size > 0
             points.append((value / 1e5, max(effort.lines, effort.obliques), 100 * effort.short, tied))
+            rows.setdefault(value, []).append(f"{points[-1][1]:.2f}; {points[-1][2]:.0f}" + ("" if tied else "; not tied"))
         for axes, column in zip(panels, (1, 2)):
             x, y = [p[0] for p in points], [p[column] for p in points]
             axes.plot(x, y, label=plots.KNOTS[knot].label, **plots.KNOTS[knot].style)
@@ -102,12 +104,13 @@ def stiffness(folder: Path, out: Path) -> None:
         plots.plain_ticks(axes.xaxis, (0.4, 1, 2, 3, 4, 6, 8))
         axes.set(xlabel="flexural rigidity EI, $10^5$ dyn cm²", ylabel=name)
     panels[0].legend()
-    plots.save(figure, out)
+    plots.save(figure, picture)
+    return tables.of_page(out, "muscles_stiffness", ["EI, dyn cm²: peak activation; frames in which a muscle is too weak, %", *plots.SCENES.values()],
+                          [[f"{value:.0e}".replace("e+0", "e"), *cells] for value, cells in sorted(rows.items())])
 
 
 def main(folder: Path, page: Path, picture: Path) -> None:
-    tables.write_page(page, ["# Muscles", "", *by_knot(folder), *forward(folder)])
-    stiffness(folder, picture)
+    tables.write_page(page, ["# Muscles", "", *by_knot(folder, page.parent), *forward(folder, page.parent), *stiffness(folder, picture, page.parent)])
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from hagfish_log import LogError
 from script import run_script
-from tables import markdown, read_csv, write_page
+from tables import of_page, read_csv, write_page
 
 # Overlaps that MuJoCo is asked to keep to, cm; the last is the core's own.
 BOUNDS = (0.02, 0.005, 0.0025, 0.001)
@@ -22,7 +22,7 @@ def quickest(rows: list[Row], bound: float) -> Row | None:
     return min(within, key=lambda row: float(row["cpu_s"])) if within else None
 
 
-def table(rows: list[Row]) -> list[str]:
+def table(rows: list[Row], folder: Path) -> list[str]:
     """By size and bound: the CPU time of a simulated second, MuJoCo's quickest setting over the core's quickest step."""
     lines = []
     for bodies in sorted({row["bodies"] for row in rows}, key=int):
@@ -35,12 +35,12 @@ def table(rows: list[Row]) -> list[str]:
             setting = [f"{float(mujoco['cpu_s']) / float(core['cpu_s']):.1f}", mujoco["h_ms"], mujoco["constant_ms"], mujoco["share"],
                        f"{float(mujoco['limits_deg']):.2g}"] if mujoco else ["none does", "", "", "", ""]
             lines.append([bodies, f"{bound:g}", *setting])
-    return markdown(["bodies", "overlap, cm, at most", "MuJoCo over core", "h, ms", "time constant, ms", "impedance", "past a limit, degrees"],
+    return of_page(folder, "step_cost_overlap", ["bodies", "overlap, cm, at most", "MuJoCo over core", "h, ms", "time constant, ms", "impedance", "past a limit, degrees"],
                     lines)
 
 
 def main(csv: Path, out: Path) -> None:
-    write_page(out, table(read_csv(csv, ("bodies", "simulator", "h_ms", "constant_ms", "share", "overlap_cm", "limits_deg", "cpu_s"))))
+    write_page(out, table(read_csv(csv, ("bodies", "simulator", "h_ms", "constant_ms", "share", "overlap_cm", "limits_deg", "cpu_s")), out.parent))
 
 
 if __name__ == "__main__":

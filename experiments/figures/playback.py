@@ -2,7 +2,7 @@
 head end goes, how much of the slide it keeps, how far the body drifts from the log, and how deep the soft contacts
 overlap. The control has no f_thigmo.
 
-Usage: playback.py PLAYBACK.h5 OUT.png (writes a PDF beside).
+Usage: playback.py PLAYBACK.h5 OUT.png (writes a PDF beside, and tables/two_simulators_playback.csv).
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ import numpy as np
 import plots
 from hagfish_log import Results
 from script import run_script
+from tables import of_page
 
 INTERVALS = ["0.04", "0.1", "0.2", "0.5", "1"]
 SECONDS = [float(interval) for interval in INTERVALS]
@@ -42,16 +43,28 @@ def draw_paths(axes: Any, results: Results) -> None:
     axes.legend(loc="upper right")
 
 
+def shares(results: Results, force: str) -> np.ndarray:
+    """Of the log's headward slide, by interval between restarts, %."""
+    logged, found = results["/head_end"], []
+    for interval in INTERVALS:
+        path = results[f"/{force}_{interval}s/head_end"]
+        ends = [(logged[p.start], path[p.stop - 1], logged[p.stop])
+                for p in stretches(results, interval)]
+        found.append(100 * sum(a - b for a, b, _ in ends) / sum(a - c for a, _, c in ends))
+    return np.array(found)
+
+
+def rows_of(results: Results) -> list[list[str]]:
+    largest = lambda what: [f"{np.nanmax(results[f'/thigmotaxis_{interval}s/{what}']):.2g}" for interval in INTERVALS]
+    return [["headward slide, of the log's, %", *(f"{share:.0f}" for share in shares(results, "thigmotaxis"))],
+            ["the same without f_thigmo, %", *(f"{share:.0f}" for share in shares(results, "none"))],
+            ["farthest body centre from the log, cm", *largest("drift")],
+            ["deepest overlap of the capsules, cm", *largest("capsule_penetration")]]
+
+
 def draw_share(axes: Any, results: Results) -> None:
-    logged = results["/head_end"]
     for force, (colour, label) in FORCES.items():
-        share = []
-        for interval in INTERVALS:
-            path = results[f"/{force}_{interval}s/head_end"]
-            ends = [(logged[p.start], path[p.stop - 1], logged[p.stop])
-                    for p in stretches(results, interval)]
-            share.append(sum(a - b for a, b, _ in ends) / sum(a - c for a, _, c in ends))
-        axes.plot(SECONDS, 100 * np.array(share), "o-", color=colour, label=label)
+        axes.plot(SECONDS, shares(results, force), "o-", color=colour, label=label)
     axes.axhline(100, color=plots.INK, lw=0.8)
     axes.set(xscale="log", ylim=(0, 110), xlabel="time between restarts, s", ylabel="headward slide, % of the log's")
     plots.plain_ticks(axes.xaxis, SECONDS)
@@ -95,6 +108,7 @@ def main(playback: Path, out: Path) -> None:
     figure, (paths, share, drift, overlap) = plots.panels(
         2, 2, (11, 8), [rf"driven by $f_\mathrm{{thigmo}}$ alone, means over {interval:.0f} ms", "how much of the slide",
                         "drift", "overlap of the soft contacts"])
+    of_page(out.parent, "two_simulators_playback", ["restarted every, s", *INTERVALS], rows_of(results))
     draw_paths(paths, results)
     draw_share(share, results)
     draw_drift(drift, results)

@@ -61,8 +61,8 @@ def main(folder: Path, table: Path, out: Path, page: Path) -> None:
 
     tables.write_page(page, [
         "# The reverse slide", "", "From the head back to the tail; the way ends near the tail's tip, at the scene's `release_at`, "
-        "where the knot may go.", "", *tables.markdown(
-            ["knot", "commanded, cm/s", "measured, cm/s", "tail end moved, cm", "time, s", f"force, median {MEAN}, dyn",
+        "where the knot may go.", "", *tables.of_page(
+            page.parent, "reverse", ["knot", "commanded, cm/s", "measured, cm/s", "tail end moved, cm", "time, s", f"force, median {MEAN}, dyn",
              f"largest {MEAN}, dyn", "steps that meet Eq. 6, %", "penetration, cm", "run"],
             [[s.knot, f"{s.commanded:g}", f"{s.speed:.3g}", f"{s.travel:.1f}", f"{seconds(s):.1f}", f"{s.force:.0f}",
               f"{s.peak:.0f}", f"{100 * s.met:.1f}", f"{s.penetration:.2g}", s.failure or "untied at the tail"] for s in back])])

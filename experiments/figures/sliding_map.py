@@ -94,11 +94,41 @@ def number(values: np.ndarray) -> str:
     return f"{values[1]:.3g}" if np.isfinite(values[1]) else ""
 
 
-def page(places: list[Place]) -> list[str]:
+def by_speed(places: list[Place]) -> list[list[str]]:
+    """A row a speed: of all starts, how many tie, come to the head and meet every bound; from which stiffness on all do; what a soft and a
+    stiff body take."""
+    rows = []
+    for speed in sorted({p.speed for p in places}):
+        own = sorted((p for p in places if p.speed == speed), key=lambda p: p.stiffness)
+        total = lambda what: sum(getattr(p, what) for p in own)
+        known = [p for p in own if p.tied]
+        good = next((f"{p.stiffness:.2g}" for k, p in enumerate(known) if all(q.passed == q.tied for q in known[k:])), "none")
+        span = lambda what: f"{getattr(known[0], what)[1]:.3g}; {getattr(known[-1], what)[1]:.3g}"
+        rows.append([f"{speed:g}", f"{total('tied')} of {total('starts')}", f"{total('arrived')} of {total('tied')}",
+                     f"{total('passed')} of {total('tied')}", good, span("force"), span("work")])
+    return rows
+
+
+def by_stiffness(places: list[Place]) -> list[list[str]]:
+    """A row a stiffness from the first on that does not always tie."""
+    rows = []
+    for stiffness in sorted({p.stiffness for p in places}):
+        own = [p for p in places if p.stiffness == stiffness]
+        tied, starts = sum(p.tied for p in own), sum(p.starts for p in own)
+        if tied < starts or rows:
+            rows.append([f"{stiffness:.3g}", f"{tied} of {starts}"])
+    return rows
+
+
+def page(places: list[Place], out: Path) -> list[str]:
     rows = [[f"{p.stiffness:.3g}", f"{p.speed:g}", *(f"{count} of {p.starts}" for count in (p.tied, p.arrived, p.passed)),
              p.unmet, number(p.force), number(p.work), number(p.measured)] for p in places]
     return ["# Where sliding works and what it costs", "",
             "Overhand knots tied by waypoints, h = 20 ms; medians are of starts whose knot came to the head.", "",
+            *tables.of_page(out, "sliding", ["commanded speed, cm/s", "tied", "of these came to the head", "and met every bound",
+                                             "all do from this stiffness on, dyn cm²", "force, softest and stiffest body, dyn",
+                                             "work of f_thigmo, softest and stiffest, erg/cm"], by_speed(places)),
+            *tables.of_page(out, "sliding_stiffness", ["bending stiffness, dyn cm²", "starts that tie"], by_stiffness(places)),
             *tables.markdown(["bending stiffness, dyn cm²", "commanded, cm/s", "tied", "came to the head", "and met every bound",
                               "bounds not met", "sliding force, dyn", "work of f_thigmo, erg/cm", "measured, cm/s"], rows)]
 
@@ -106,7 +136,7 @@ def page(places: list[Place]) -> list[str]:
 def main(table: Path, out: Path, text: Path) -> None:
     places = places_of(read_sweep(table))
     draw(places, out)
-    tables.write_page(text, page(places))
+    tables.write_page(text, page(places, text.parent))
 
 
 if __name__ == "__main__":

@@ -65,8 +65,8 @@ def main(folder: Path, table: Path, out: Path, page: Path) -> None:
     tables.write_csv(table, heading, [[s.knot, s.commanded, s.speed, s.travel, s.force, s.peak, s.capped, s.slack, s.met,
                                        s.penetration, int(s.held), s.failure] for s in slides])
     draw(slides, out)
-    tables.write_page(page, ["# How fast a knot slides", "", *limits(slides), "", *tables.markdown(
-        ["knot", "commanded, cm/s", "measured, cm/s", f"force, median {MEAN}, dyn", f"largest {MEAN}, dyn",
+    tables.write_page(page, ["# How fast a knot slides", "", *limits(slides), "", *tables.of_page(
+        page.parent, "speeds", ["knot", "commanded, cm/s", "measured, cm/s", f"force, median {MEAN}, dyn", f"largest {MEAN}, dyn",
          "steps that meet Eq. 6, %", f"slack, median {MEAN}, cm/s", "rows at the cap, %", "penetration, cm", "run"],
         [[s.knot, f"{s.commanded:g}", f"{s.speed:.3g}", f"{s.force:.0f}", f"{s.peak:.0f}", f"{100 * s.met:.1f}",
           f"{round(s.slack, 9):.2g}", f"{100 * s.capped:.0f}", f"{s.penetration:.2g}", s.failure or "complete"]

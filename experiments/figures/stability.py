@@ -17,7 +17,7 @@ from matplotlib.patches import Patch, Rectangle
 import plots
 from hagfish_log import LogError
 from script import run_script
-from tables import markdown, read_csv, write_page
+from tables import of_page, read_csv, write_page
 
 LEGEND_COLUMNS, LEGEND_ROWS = 5, 2
 CELL, LETTER = 0.3, 0.075  # inches, of a cell's side and of a label's letter
@@ -241,9 +241,9 @@ def behind_mujoco(cells: list[Cell]) -> list[str]:
             and (mine := ours.get((c["scene"], c["level"], c["h_ms"]))) and mine["outcome"] != "ok"]
 
 
-def summary_page(cells: list[Cell]) -> list[str]:
+def summary_page(cells: list[Cell], out: Path) -> list[str]:
     lines = ["# Where it fails", "", "Largest h (ms) up to which every step is survived, and the first outcome beyond it.",
-             "", *markdown(["scene", *(TITLES.get(m, m) for m in METHODS)],
+             "", *of_page(out, "stability", ["scene", *(TITLES.get(m, m) for m in METHODS)],
                            [[SCENES.get(scene, scene), *(survived(own_cells(cells, scene, m))[0] for m in METHODS)]
                             for scene in scenes_of(cells)])]
     seeds = [cell for cell in cells if cell["level"].startswith("seed")]
@@ -253,7 +253,7 @@ def summary_page(cells: list[Cell]) -> list[str]:
         others = ", ".join(f"{n} {name}" for name, n in counts.most_common() if name != "ok")
         rows.append([f"{step:g}", f"{counts['ok']} of {counts.total()}", others])
     if rows:
-        lines += ["Perturbed starts of the Table 1 run:", "", *markdown(["h, ms", "ok", "otherwise"], rows)]
+        lines += ["Perturbed starts of the Table 1 run:", "", *of_page(out, "stability_starts", ["h, ms", "ok", "otherwise"], rows)]
     counts = Counter(cell["outcome"] for cell in cells)
     worse = behind_mujoco(cells)
     return [*lines, f"{len(cells)} cells: " + ", ".join(f"{n} {name}" for name, n in counts.most_common()) + ".", "",
@@ -266,7 +266,7 @@ def main(table: Path, out: Path) -> None:
     for scene in scenes_of(cells):
         draw_scene(scene, [cell for cell in cells if cell["scene"] == scene], out / f"{scene}.png")
     draw_summary(cells, out / "summary.png")
-    write_page(out / "summary.md", summary_page(cells))
+    write_page(out / "summary.md", summary_page(cells, out))
 
 
 if __name__ == "__main__":

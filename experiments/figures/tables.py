@@ -12,8 +12,15 @@ from hagfish_log import LogError
 
 def markdown(head: Sequence[str], rows: Iterable[Sequence[str]]) -> list[str]:
     """The lines of a table, an empty one behind it."""
-    line = lambda cells: "| " + " | ".join(cells) + " |"
+    line = lambda cells: "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"
     return [line(head), "|" + "---|" * len(head), *map(line, rows), ""]
+
+
+def of_page(folder: Path, name: str, head: Sequence[str], rows: Sequence[Sequence[str]]) -> list[str]:
+    """The lines of a table that a page of results shows: it is written as FOLDER/tables/NAME.csv, too, where results.py takes it."""
+    (folder / "tables").mkdir(parents=True, exist_ok=True)
+    write_csv(folder / "tables" / f"{name}.csv", head, rows)
+    return markdown(head, rows)
 
 
 def write_page(path: Path, lines: Iterable[str]) -> None:

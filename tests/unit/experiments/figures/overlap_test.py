@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
 from hagfish_log import LogError
@@ -19,12 +21,12 @@ def test_the_quickest_within_the_bound_is_quoted() -> None:
     assert quickest(rows, 0.0005) is None
 
 
-def test_ratios_are_over_the_quickest_step_of_the_core() -> None:
-    text = "\n".join(table([row("core", 0.0004, 0.02), row("core", 0.0001, 0.08), row("mujoco", 0.002, 0.5, 7)]))
+def test_ratios_are_over_the_quickest_step_of_the_core(tmp_path: Path) -> None:
+    text = "\n".join(table([row("core", 0.0004, 0.02), row("core", 0.0001, 0.08), row("mujoco", 0.002, 0.5, 7)], tmp_path))
     assert "| 50 | 0.0025 | 25.0 | 7 |" in text
     assert "| 50 | 0.0004 | none does |" in text
 
 
-def test_rows_of_the_core_are_wanted() -> None:
+def test_rows_of_the_core_are_wanted(tmp_path: Path) -> None:
     with pytest.raises(LogError, match="no row of the core with 50 bodies"):
-        table([row("mujoco", 0.002, 0.5)])
+        table([row("mujoco", 0.002, 0.5)], tmp_path)

@@ -1,4 +1,4 @@
-"""What the READMEs show of the program is there: each command and each of its options."""
+"""What the documents show of the program is there: each command and each of its options."""
 
 from __future__ import annotations
 
@@ -14,13 +14,14 @@ sys.path.insert(0, str(ROOT / "tests/support"))
 
 from program import hagfish  # noqa: E402
 
-SHOWN = re.compile(r"^    hagfish ([a-z-]+)([^#\n]*)", re.MULTILINE)  # in blocks of commands, up to a comment
+SHOWN = re.compile(r"^(?:    )?hagfish ([a-z-]+)([^#\n]*)", re.MULTILINE)  # in blocks of commands, up to a comment
+PAGES = [path for folder in ("experiments", "data") for path in sorted((ROOT / folder).rglob("*.md"))] + [ROOT / "README.md"]
 
 
-@pytest.mark.parametrize("readme", ["README.md", "experiments/README.md"])
-def test_commands_and_options_are_there(readme, tmp_path):
-    shown = SHOWN.findall((ROOT / readme).read_text())
-    assert len(shown) > 10
+@pytest.mark.parametrize("page", PAGES, ids=lambda path: str(path.relative_to(ROOT)))
+def test_commands_and_options_are_there(page, tmp_path):
+    shown = SHOWN.findall(page.read_text())
+    assert shown or page.name != "commands.md"
     for command, arguments in shown:
         known = set(re.findall(r"--[a-z-]+", hagfish(tmp_path, command, "--help")))
         assert set(re.findall(r"--[a-z-]+", arguments)) <= known, f"hagfish {command}{arguments}"

@@ -30,7 +30,7 @@ def test_the_papers_control_unchanged_is_the_papers_run(tmp_path, differences):
 
 
 def test_the_law_of_the_readme_leaves_a_log_that_passes_the_audit(tmp_path, monkeypatch, verdicts):
-    readme = (Path(__file__).parents[4] / "README.md").read_text(encoding="utf-8")
+    readme = (Path(__file__).parents[4] / "experiments/python/README.md").read_text(encoding="utf-8")
     (program,) = [block for block in re.findall(r"```python\n(.*?)```", readme, re.S) if "def lazy" in block]
     monkeypatch.chdir(tmp_path)
     exec(program, {})

@@ -1,21 +1,22 @@
-"""The README's table of the Table 1 run: written anew from an audit, and compared with what README says.
+"""The table of the Table 1 run (experiments/results/table1.csv): written anew from an audit, and compared with the one that is there.
 
-Usage: readme.py CHECK.csv README.md OUT.md, where CHECK.csv is of `hagfish check --csv`. OUT.md is what belongs between the
-README's markers; exits 1, naming each row, where README says something else.
+Usage: table1.py CHECK.csv STATED.csv OUT.md, where CHECK.csv is of `hagfish check --csv`. Leaves the table as OUT.md and, beside it, as
+tables/table1.csv; exits 1, naming each row, where STATED.csv says something else.
 """
 
 from __future__ import annotations
 
+import csv
 import sys
 from pathlib import Path
 
 import audits
 from hagfish_log import LogError
 from script import run_script
-from tables import markdown, write_page
+from tables import of_page, write_page
 
-BEGIN, END = "<!-- table1: readme.py writes this -->", "<!-- end of table1 -->"
-# Criterion, how README calls it, and how it says the bound.
+HEAD = ["", "required", "measured"]
+# Criterion, how the page calls it, and how it says the bound.
 ROWS = {"knot held": ("the knot is a 3_1 from tightening to release, frames", "all"),
         "slide": ("head end of the knot slides, cm", "≥ {}"), "Eq. 6": ("Eq. 6 met without slack, % of sliding steps", "≥ {}"),
         "penetration": ("penetration at any step, cm", "≤ {}"), "limits": ("past a joint limit at any step, °", "≤ {}"),
@@ -43,28 +44,27 @@ def figure(text: str, rounding: float) -> str:
     return f"{value:.0e}" if 0 < value < rounding else f"{value:.3g}"
 
 
-def table(findings: list[audits.Finding]) -> list[str]:
+def table(findings: list[audits.Finding]) -> list[list[str]]:
     found = {finding.criterion: finding for finding in findings}
     missing = ROWS.keys() - found.keys()
     if missing:
         raise LogError(f"the audit has no {sorted(missing)[0]}")
-    return markdown(["", "required", "measured"], [
-        [words, required.format(f"{float(found[name].bound):g}"), figure(found[name].value, rounding_of(words))]
-        for name, (words, required) in ROWS.items()])
+    return [[words, required.format(f"{float(found[name].bound):g}"), figure(found[name].value, rounding_of(words))]
+            for name, (words, required) in ROWS.items()]
 
 
-def stated(readme: Path, begin: str = BEGIN, end: str = END) -> list[str]:
-    """The lines between the markers."""
-    text = readme.read_text(encoding="utf-8")
-    if text.count(begin) != 1 or text.count(end) != 1:
-        raise LogError(f"{readme}: does not have the lines {begin} and {end} once each")
-    return text.split(begin)[1].split(end)[0].strip().splitlines()
+def stated(path: Path) -> list[list[str]]:
+    """Rows of the table that is there."""
+    lines = path.read_text(encoding="utf-8").splitlines()
+    head, *rows = csv.reader(line for line in lines if not line.startswith("#"))
+    if head != HEAD:
+        raise LogError(f"{path}: its columns are not {HEAD}")
+    return rows
 
 
-def same(stated_row: str, row: str) -> bool:
+def same(old: list[str], new: list[str]) -> bool:
     """Whether two rows say the same: words and bounds to the letter, figures to what chance and rounding leave open."""
-    old, new = ([cell.strip() for cell in each.strip("|").split("|")] for each in (stated_row, row))
-    if old == new or len(old) != len(new) or old[:-1] != new[:-1]:
+    if old == new or old[:-1] != new[:-1]:
         return old == new
     try:
         a, b = float(old[-1]), float(new[-1])
@@ -74,18 +74,17 @@ def same(stated_row: str, row: str) -> bool:
     return max(a, b) < rounding_of(old[0]) and max(a, b) <= FACTOR * min(a, b) or abs(a - b) <= share * max(a, b)
 
 
-def main(check: Path, readme: Path, out: Path) -> None:
-    lines = table(audits.read_findings(check))
-    write_page(out, lines)
-    old, new = stated(readme), lines[:-1]
-    differ = [f"has {a!r} where the run has {b!r}" for a, b in zip(old, new) if not same(a, b)]
+def main(check: Path, known: Path, out: Path) -> None:
+    new = table(audits.read_findings(check))
+    write_page(out, of_page(out.parent, "table1", HEAD, new))
+    old = stated(known)
+    differ = [f"has {a} where the run has {b}" for a, b in zip(old, new) if not same(a, b)]
     if len(old) != len(new):
-        differ.append(f"has {len(old)} lines where the run has {len(new)}")
+        differ.append(f"has {len(old)} rows where the run has {len(new)}")
     if differ:
-        print("\n".join(f"{readme.name} {words}" for words in differ), f"{out} is the table as it is now.", sep="\n",
-              file=sys.stderr)
+        print("\n".join(f"{known.name} {words}" for words in differ), f"{out} is the table as it is now.", sep="\n", file=sys.stderr)
         sys.exit(1)
 
 
 if __name__ == "__main__":
-    run_script(__doc__, ["CHECK.csv", "README.md", "OUT.md"], main)
+    run_script(__doc__, ["CHECK.csv", "STATED.csv", "OUT.md"], main)

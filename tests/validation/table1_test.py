@@ -1,5 +1,4 @@
-"""README says of the Table 1 run what the program does: run anew, audited, and compared with the table between the markers.
-Presets pass the audit, as experiments/README.md says."""
+"""The page of the Table 1 run says what the program does: run anew, audited, and compared with its table. Presets pass the audit."""
 
 import os
 import subprocess
@@ -11,12 +10,12 @@ import pytest
 ROOT = Path(__file__).parents[2]
 
 
-def test_readme_states_what_the_table_1_run_measures(tmp_path):
+def test_the_page_states_what_the_table_1_run_measures(tmp_path):
     program, log, check = os.environ["HAGFISH_PROGRAM"], tmp_path / "table1.h5", tmp_path / "check.csv"
     subprocess.run([program, "run", "table1", "--qp", "ipopt", "--out", log, "--quiet"], check=True)
     subprocess.run([program, "check", log, "--csv", check], check=True, stdout=subprocess.DEVNULL)
-    done = subprocess.run([sys.executable, "-B", ROOT / "experiments/figures/readme.py", check, ROOT / "README.md",
-                           tmp_path / "readme.md"], capture_output=True, text=True)
+    done = subprocess.run([sys.executable, "-B", ROOT / "experiments/figures/table1.py", check, ROOT / "experiments/results/table1.csv",
+                           tmp_path / "table1.md"], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
 
 

@@ -1,0 +1,47 @@
+#!/usr/bin/env bash
+# Makes pages of results again, from nothing: runs each study, takes its tables and figures into experiments/results and
+# experiments/figures, and says what differs from those that were there by more than chance.
+#   bash experiments/reproduce.sh [NAME...]     default: all pages
+#   bash experiments/reproduce.sh --list        their names, questions, and how long each took
+#   bash experiments/reproduce.sh --mark        notes on each page whether the simulator has changed since it was made
+# Stopped, it goes on where it was: studies keep what they have in out/reproduce, and a page that is done by the same program
+# is not made again. Exits 1 if anything differs.
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+results() { /usr/bin/python3 -B "$root/experiments/results/results.py" "$@"; }
+case ${1-} in
+  --list) results list; exit ;;
+  --mark) results mark; exit ;;
+esac
+names=("$@")
+if ((${#names[@]} == 0)); then mapfile -t names < <(results names); fi
+for name in "${names[@]}"; do results study "$name" >/dev/null; done # unknown names end it before any work
+
+bash "$root/experiments/setup.sh" --target hagfish
+version=$("$root/build/release/experiments/hagfish" --version)
+differs=()
+for name in "${names[@]}"; do
+  out=$root/out/reproduce/$name
+  if [[ $(cat "$out/done" 2>/dev/null) == "$version" ]]; then
+    echo "$name: done before, by this program"
+    continue
+  fi
+  mkdir -p "$out"
+  start=$SECONDS
+  echo "$name: running"
+  study=$root/experiments/studies/$(results study "$name")
+  bash "$study" "$out" >"$out/study.txt" 2>&1 || {
+    tail -n 20 "$out/study.txt" >&2
+    echo "reproduce: $name: its study failed; all that it said is in $out/study.txt" >&2
+    exit 1
+  }
+  took=$((SECONDS - start))
+  results adopt "$name" "$out" "$took" || differs+=("$name")
+  echo "$version" >"$out/done"
+  echo "$name: took $((took / 60)) min $((took % 60)) s"
+done
+results mark
+if ((${#differs[@]})); then
+  echo "These pages differ from what they were by more than chance: ${differs[*]}"
+  exit 1
+fi

@@ -1,0 +1,292 @@
+"""Pages of results: tables from the CSV files beside them, their stamps, and their index.
+
+Usage: results.py render                 makes the blocks between markers again, of all pages and of README.md
+       results.py adopt NAME FOLDER S    takes tables and figures that a study left in FOLDER after S seconds, says what differs
+                                         from those that were here by more than chance (exit code 1), and renders
+       results.py mark                   notes in each CSV whether code has changed since it was measured, and renders
+       results.py names | list           names of pages; with their questions and times
+       results.py study NAME             the page's script, from experiments/studies
+
+A block begins with one of these lines and ends with `<!-- end -->`:
+    <!-- table: FILE.csv -->             the table; `; rows: WORDS; WORDS` picks the rows whose first cell has the words
+    <!-- stamp: NAME -->                 when, where and by what the page's tables were made
+    <!-- index -->                       a row a page
+"""
+
+from __future__ import annotations
+
+import csv
+import datetime
+import io
+import re
+import shutil
+import subprocess
+import sys
+import tomllib
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+ROOT = Path(__file__).resolve().parents[2]
+RESULTS = ROOT / "experiments" / "results"
+FIGURES = ROOT / "experiments" / "figures"
+CODE = ("core", "solvers", "mujoco_ref", "data")  # what moves the animal: a change there may change figures
+BLOCK = re.compile(r"<!-- (table|stamp|index)(?:: ([^;>]+?))?(?:; rows: ([^>]+?))? -->\n(?:.*?\n)??<!-- end -->", re.DOTALL)
+NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
+NAME = re.compile(r"\b\d_\d\b")  # of a knot, which is no number
+ROUNDING = 1e-6  # figures below are rounding errors, of which the order of magnitude counts
+FACTOR = 10  # by which such a figure may differ
+MEASURED = re.compile(r"Measured at ([0-9a-f]{7,40})(?:-dirty)? on (.+), (\d{4}-\d\d-\d\d)\.")
+OLDER = "Since then"
+
+
+class ResultsError(Exception):
+    """One line on what is wrong with a page or a table."""
+
+
+@dataclass
+class Table:
+    """A CSV file: notes (lines behind a #), headings, rows of text."""
+
+    head: list[str]
+    rows: list[list[str]]
+    notes: list[str] = field(default_factory=list)
+
+    def markdown(self, wanted: list[str] | None = None) -> list[str]:
+        line = lambda cells: "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"
+        return [line(self.head), "|" + "---|" * len(self.head), *map(line, self.rows if wanted is None else [self.row(words) for words in wanted])]
+
+    def row(self, words: str) -> list[str]:
+        found = [row for row in self.rows if words in row[0]]
+        if len(found) != 1:
+            raise ResultsError(f"{len(found)} rows have {words!r} in their first cell")
+        return found[0]
+
+
+def read(path: Path) -> Table:
+    try:
+        lines = path.read_text(encoding="utf-8").splitlines(keepends=True)
+    except OSError as error:
+        raise ResultsError(f"{path}: {error.strerror}") from None
+    notes = [line[1:].strip() for line in lines if line.startswith("#")]
+    head, *rows = csv.reader(io.StringIO("".join(line for line in lines if not line.startswith("#"))))
+    for row in rows:
+        if len(row) != len(head):
+            raise ResultsError(f"{path}: a row of {len(row)} cells under {len(head)} headings: {row[0]}")
+    return Table(head, rows, notes)
+
+
+def write(path: Path, table: Table) -> None:
+    with path.open("w", newline="", encoding="utf-8") as file:
+        file.writelines(f"# {note}\n" for note in table.notes)
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerows([table.head, *table.rows])
+
+
+def pages() -> dict[str, dict[str, Any]]:
+    return tomllib.loads((RESULTS / "pages.toml").read_text(encoding="utf-8"))
+
+
+def page_of(name: str) -> dict[str, Any]:
+    if name not in pages():
+        raise ResultsError(f"no page {name}; there are {', '.join(pages())}")
+    return pages()[name]
+
+
+def shown_by(name: str) -> list[str]:
+    """The tables of a page, in its order; a study may leave more."""
+    text = (RESULTS / f"{name}.md").read_text(encoding="utf-8")
+    return list(dict.fromkeys(match[2] for match in BLOCK.finditer(text) if match[1] == "table"))
+
+
+def tables_of(name: str) -> list[Path]:
+    return [RESULTS / table for table in shown_by(name)]
+
+
+def stamp(name: str) -> list[str]:
+    """What the notes of the page's tables say, each once, and how to make them again."""
+    notes: dict[str, list[str]] = {}
+    tables = tables_of(name)
+    for path in tables:
+        for note in read(path).notes:
+            notes.setdefault(note, []).append(path.stem)
+    said = [note if len(of) == len(tables) else f"{note[:-1]} ({', '.join(of)})." for note, of in notes.items()]
+    chance = page_of(name).get("chance", 0)
+    again = f"`bash experiments/reproduce.sh {name}` makes this page's tables again" + (
+        f"; figures may differ by {100 * chance:g} % from machine to machine." if chance else ".")
+    return [*said, again, "Tables are CSV files: " + ", ".join(f"[{path.name}]({path.name})" for path in tables) + "."]
+
+
+def index() -> list[str]:
+    rows = [[f"[{page['question']}]({name}.md)", f"`bash experiments/reproduce.sh {name}`"] for name, page in pages().items()]
+    return Table(["question", "command"], rows).markdown()
+
+
+def rendered(path: Path) -> str:
+    """The page with its blocks as they should be."""
+    def block(match: re.Match[str]) -> str:
+        kind, what, rows = match[1], match[2], match[3]
+        first = match[0].split("\n", 1)[0]
+        if kind == "index":
+            lines = index()
+        elif kind == "stamp":
+            lines = stamp(what)
+        else:
+            try:
+                lines = read(path.parent / what).markdown([words.strip() for words in rows.split(";")] if rows else None)
+            except ResultsError as error:
+                raise ResultsError(f"{path.name}: {what}: {error}") from None
+        return "\n".join([first, *lines, "<!-- end -->"])
+    return BLOCK.sub(block, path.read_text(encoding="utf-8"))
+
+
+def documents() -> list[Path]:
+    return [ROOT / "README.md", *sorted(RESULTS.glob("*.md"))]
+
+
+def render() -> None:
+    for path in documents():
+        path.write_text(rendered(path), encoding="utf-8")
+
+
+def same(old: str, new: str, chance: float) -> bool:
+    """Whether two cells say the same: words to the letter, figures to `chance`, rounding errors to FACTOR."""
+    if NAME.findall(old) != NAME.findall(new):
+        return False
+    old, new = NAME.sub("knot", old), NAME.sub("knot", new)
+    if NUMBER.sub("#", old) != NUMBER.sub("#", new):
+        return False
+    pairs = [(float(a), float(b)) for a, b in zip(NUMBER.findall(old), NUMBER.findall(new))]
+    near = lambda a, b: abs(a - b) <= chance * max(abs(a), abs(b)) or (
+        max(abs(a), abs(b)) < ROUNDING and max(abs(a), abs(b)) <= FACTOR * min(abs(a), abs(b)))
+    return all(near(a, b) for a, b in pairs)
+
+
+def differences(name: str, old: Table, new: Table, chance: float) -> list[str]:
+    """A line for each cell that differs by more than chance, and for headings and rows that are not the same."""
+    if old.head != new.head:
+        return [f"{name}: columns were {old.head}, are {new.head}"]
+    before = {row[0]: row for row in old.rows}
+    keyed = len(before) == len(old.rows) and len({row[0] for row in new.rows}) == len(new.rows)
+    found = []
+    if not keyed and len(old.rows) != len(new.rows):
+        return [f"{name}: had {len(old.rows)} rows, has {len(new.rows)}"]
+    for k, row in enumerate(new.rows):
+        was = before.pop(row[0], None) if keyed else old.rows[k]
+        if was is None:
+            found.append(f"{name}: a new row: {row[0]}")
+            continue
+        found += [f"{name}: {row[0]}, {head}: was {a!r}, is {b!r}" for head, a, b in zip(new.head, was, row) if not same(a, b, chance)]
+    return found + [f"{name}: no row any more: {first}" for first in (before if keyed else ())]
+
+
+def git(*arguments: str) -> str:
+    return subprocess.run(["git", "-C", str(ROOT), *arguments], check=True, capture_output=True, text=True, errors="replace").stdout
+
+
+def processor() -> str:
+    for line in Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines():
+        if line.startswith("model name"):
+            return line.split(":", 1)[1].strip()
+    return "an unknown processor"
+
+
+def measured(seconds: float) -> list[str]:
+    dirty = "-dirty" if git("status", "--porcelain", "--", *CODE).strip() else ""
+    return [f"Measured at {git('rev-parse', '--short=12', 'HEAD').strip()}{dirty} on {processor()}, {datetime.date.today():%Y-%m-%d}.",
+            f"The study took {int(seconds) // 60} min {int(seconds) % 60} s."]
+
+
+def adopt(name: str, folder: Path, seconds: float) -> list[str]:
+    """Takes what a study left; returns what differs from what was here."""
+    page = page_of(name)
+    if page.get("writes_itself"):
+        return []
+    found = []
+    for wanted in shown_by(name):
+        new, here = read(folder / "tables" / wanted), RESULTS / wanted
+        new.notes += measured(seconds)
+        if here.exists():
+            found += differences(here.stem, read(here), new, page["chance"])
+        write(here, new)
+    for figure in page.get("figures", ()):
+        shutil.copyfile(folder / figure, FIGURES / figure)
+    render()
+    return found
+
+
+def without_comments(path: str, text: str) -> str:
+    """What of a file can change what it does: no comments, no empty lines, no runs of spaces."""
+    comment = r"//.*" if Path(path).suffix in (".cpp", ".hpp", ".h") else r"#.*"
+    return "\n".join(line for line in (" ".join(re.sub(comment, "", each).split()) for each in text.splitlines()) if line)
+
+
+def changed_since(commit: str) -> int | None:
+    """Files of CODE whose code is not what it was then; None where the commit is not known."""
+    try:
+        names = git("diff", "--name-only", "--no-renames", commit, "--", *CODE).split()
+    except subprocess.CalledProcessError:
+        return None
+
+    def then(name: str) -> str:
+        try:
+            return git("show", f"{commit}:{name}")
+        except subprocess.CalledProcessError:
+            return ""
+    now = lambda name: (ROOT / name).read_text(encoding="utf-8", errors="replace") if (ROOT / name).is_file() else ""
+    return sum(without_comments(name, then(name)) != without_comments(name, now(name)) for name in names if not name.endswith(".md"))
+
+
+def mark() -> None:
+    counts: dict[str, int | None] = {}
+    for path in sorted(RESULTS.glob("*.csv")):
+        table = read(path)
+        match = next((found for note in table.notes if (found := MEASURED.match(note))), None)
+        if match is None:
+            raise ResultsError(f"{path.name}: no note says at which commit it was measured")
+        commit = match[1]
+        counts.setdefault(commit, changed_since(commit))
+        notes = [note for note in table.notes if not note.startswith(OLDER)]
+        if counts[commit] is None:
+            notes.append(f"{OLDER} the history has been rewritten; how much code has changed is not known.")
+        elif counts[commit]:
+            notes.append(f"{OLDER} the simulator or its scenes have changed, in code and not in comments alone.")
+        if notes != table.notes and not path.stem.startswith("reflex"):
+            write(path, Table(table.head, table.rows, notes))
+    render()
+
+
+def list_pages() -> None:
+    for name, page in pages().items():
+        took = [note for path in tables_of(name)[:1] for note in read(path).notes if note.startswith("The study took")]
+        print(f"{name:16s} {page['question']} {took[0] if took else ''}".rstrip())
+
+
+def main(arguments: list[str]) -> int:
+    try:
+        match arguments:
+            case ["render"]:
+                render()
+            case ["mark"]:
+                mark()
+            case ["names"]:
+                print(*pages(), sep="\n")
+            case ["list"]:
+                list_pages()
+            case ["study", name]:
+                print(page_of(name)["study"])
+            case ["adopt", name, folder, seconds]:
+                found = adopt(name, Path(folder), float(seconds))
+                print(*(found or [f"{name}: nothing differs by more than chance"]), sep="\n")
+                return 1 if found else 0
+            case _:
+                print(__doc__, file=sys.stderr)
+                return 2
+    except ResultsError as error:
+        print(f"results: {error}", file=sys.stderr)
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

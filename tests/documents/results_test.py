@@ -1,0 +1,130 @@
+"""Pages of results say what their tables say, and nothing by hand."""
+
+import re
+import shutil
+import subprocess
+import sys
+
+import pytest
+
+from pages import ROOT, paragraphs, plain
+
+sys.path.insert(0, str(ROOT / "experiments/results"))
+import results  # noqa: E402
+
+OWN = [name for name, page in results.pages().items() if not page.get("writes_itself")]
+# Words with digits that are no figures: knots, equations, figures and tables of the paper, eigenvalues of nothing.
+NO_FIGURE = re.compile(r"\bRK4\b|\b\d_\d\b|\bEqs?\. ?\d+(?: (?:and|to) \d+)?|\b(?:Table|Figure) \d\b|\bO\(n\)|[A-Z]\. [A-Za-z]+\. [A-Za-z]+\. \d+[:\d, ]*")
+
+
+@pytest.mark.parametrize("path", results.documents(), ids=lambda path: path.name)
+def test_each_table_is_its_csv(path):
+    assert results.rendered(path) == path.read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("name", OWN)
+def test_prose_has_no_figure_by_hand(name):
+    for paragraph in paragraphs((results.RESULTS / f"{name}.md").read_text(encoding="utf-8")):
+        words = NO_FIGURE.sub("", plain(paragraph))
+        assert not re.search(r"\d", words), paragraph
+
+
+@pytest.mark.parametrize("name", OWN)
+def test_a_page_has_question_answer_command_and_limits(name):
+    text = (results.RESULTS / f"{name}.md").read_text(encoding="utf-8")
+    for part in ("**Answer.**", f"<!-- stamp: {name} -->", "## What this page does not show"):
+        assert part in text
+    assert text.startswith(f"# {results.pages()[name]['question']}\n")
+
+
+@pytest.mark.parametrize("name", OWN)
+def test_each_table_says_where_it_was_measured(name):
+    assert results.tables_of(name)
+    for path in results.tables_of(name):
+        assert any(results.MEASURED.match(note) for note in results.read(path).notes), path.name
+
+
+@pytest.mark.parametrize("name", OWN)
+def test_each_csv_of_a_page_is_shown(name):
+    longer = [other for other in results.pages() if other.startswith(f"{name}_")]
+    mine = {path.name for path in results.RESULTS.glob(f"{name}*.csv") if path.stem == name or path.stem.startswith(f"{name}_")}
+    assert {each for each in mine if not each.startswith(tuple(longer))} <= set(results.shown_by(name))
+
+
+def test_each_page_has_its_study_and_is_listed():
+    for name, page in results.pages().items():
+        assert (ROOT / "experiments/studies" / page["study"]).is_file()
+        assert f"]({name}.md)" in (results.RESULTS / "README.md").read_text(encoding="utf-8")
+        for figure in page.get("figures", ()):
+            assert (results.FIGURES / figure).is_file()
+
+
+@pytest.mark.parametrize("old, new, chance, same", [
+    ("9.30", "9.35", 0.01, True), ("9.30", "9.9", 0.01, False), ("3_1", "4_1", 0.5, False), ("2e-14", "9e-14", 0.01, True),
+    ("2e-14", "3e-7", 0.01, False), ("5 of 9", "5 of 8", 0.01, False), ("5 (energy gain)", "5 (limits)", 0.1, False), ("-0.5", "0.5", 0.1, False)])
+def test_what_chance_leaves_open(old, new, chance, same):
+    assert results.same(old, new, chance) == same
+
+
+def test_differences_are_named():
+    old = results.Table(["", "a"], [["x", "1"], ["y", "2"]])
+    assert results.differences("t", old, results.Table(["", "a"], [["y", "2"], ["x", "1.05"]]), 0.1) == []
+    found = results.differences("t", old, results.Table(["", "a"], [["x", "2"], ["z", "2"]]), 0.1)
+    assert found == ["t: x, a: was '1', is '2'", "t: a new row: z", "t: no row any more: y"]
+    assert results.differences("t", old, results.Table(["", "b"], old.rows), 0.1) == ["t: columns were ['', 'a'], are ['', 'b']"]
+
+
+def test_only_code_makes_a_page_old():
+    cpp = "int f();  // old words\n\n"
+    assert results.without_comments("a.cpp", cpp) == results.without_comments("a.cpp", "// new\nint  f();\n")
+    assert results.without_comments("a.cpp", cpp) != results.without_comments("a.cpp", "int g();\n")
+
+
+@pytest.fixture
+def house(tmp_path, monkeypatch):
+    """A project of one page, under version control."""
+    (tmp_path / "experiments/results").mkdir(parents=True)
+    (tmp_path / "experiments/figures").mkdir()
+    (tmp_path / "core").mkdir()
+    (tmp_path / "core/a.cpp").write_text("int a;\n")
+    (tmp_path / "README.md").write_text("# R\n<!-- table: experiments/results/p.csv; rows: y -->\n<!-- end -->\n")
+    (tmp_path / "experiments/results/pages.toml").write_text('[p]\nquestion = "Q?"\nstudy = "p.sh"\nchance = 0.1\n')
+    (tmp_path / "experiments/results/README.md").write_text("# I\n<!-- index -->\n<!-- end -->\n")
+    (tmp_path / "experiments/results/p.md").write_text("# Q?\n<!-- table: p.csv -->\n<!-- end -->\n<!-- stamp: p -->\n<!-- end -->\n")
+    for name, path in (("ROOT", tmp_path), ("RESULTS", tmp_path / "experiments/results"), ("FIGURES", tmp_path / "experiments/figures")):
+        monkeypatch.setattr(results, name, path)
+    git = lambda *words: subprocess.run(["git", "-C", tmp_path, "-c", "user.name=n", "-c", "user.email=e", *words], check=True, capture_output=True)
+    git("init", "-q")
+    git("add", ".")
+    git("commit", "-qm", "one")
+    return tmp_path
+
+
+@pytest.mark.skipif(shutil.which("git") is None, reason="needs git")
+def test_a_study_is_adopted_and_ages(house):
+    page, csv = house / "experiments/results/p.md", house / "experiments/results/p.csv"
+    (house / "s/tables").mkdir(parents=True)
+    (house / "s/tables/p.csv").write_text(",a\nx,1\ny,2|3\n")
+    assert results.adopt("p", house / "s", 61) == []
+    assert "| y | 2\\|3 |" in page.read_text() and "took 1 min 1 s" in page.read_text()
+    assert "| y | 2\\|3 |" in (house / "README.md").read_text() and "| x |" not in (house / "README.md").read_text()
+    (house / "s/tables/p.csv").write_text(",a\nx,1.5\ny,2|3\n")
+    assert results.adopt("p", house / "s", 5) == ["p: x, a: was '1', is '1.5'"]
+    results.mark()
+    assert results.OLDER not in csv.read_text()
+    (house / "core/a.cpp").write_text("int a;  // more words\n")
+    results.mark()
+    assert results.OLDER not in csv.read_text()
+    (house / "core/a.cpp").write_text("int b;\n")
+    results.mark()
+    assert results.OLDER in csv.read_text() and results.OLDER in page.read_text()
+
+
+def test_bad_pages_are_told(house):
+    with pytest.raises(results.ResultsError, match="No such file"):
+        results.adopt("p", house, 1)
+    with pytest.raises(results.ResultsError, match="no page q"):
+        results.page_of("q")
+    (house / "experiments/results/p.csv").write_text(",a\nx,1,2\n")
+    with pytest.raises(results.ResultsError, match="3 cells under 2 headings"):
+        results.render()

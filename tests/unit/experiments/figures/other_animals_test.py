@@ -1,0 +1,28 @@
+"""The study's other animals are within what is said of them."""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+sys.path.insert(0, str(Path(__file__).parents[4] / "experiments/studies"))
+import animals  # noqa: E402
+
+def test_other_animals_are_what_is_said_of_them():
+    own = animals.tomllib.loads((animals.DATA / "specimens/pacific_hagfish.toml").read_text())
+    for seed in range(animals.FIRST_SEED, animals.FIRST_SEED + 10):
+        drawn = animals.settings(seed)
+        length = drawn["specimen.length"]
+        scale = length / own["length"]
+        assert 25 <= length <= 60 and 60 <= drawn["model.bodies"] <= 200
+        for key, by in (("circumference", scale), ("bending_limit_deg", 1)):
+            assert all(0.8 <= a / (by * b) <= 1.2 for a, b in zip(drawn[f"specimen.{key}"], own[key], strict=True))
+        # Mass by volume: the density is the measured animal's, as thin slices give it.
+        assert drawn["specimen.mass"] / sliced(drawn["specimen.circumference"], own["station"], length) == pytest.approx(
+            own["mass"] / sliced(own["circumference"], own["station"], own["length"]), rel=1e-4)
+
+
+def sliced(circumference, station, length):
+    place = (np.arange(2000) + 0.5) / 2000
+    return float((np.interp(place, station, circumference) ** 2).mean()) * length
