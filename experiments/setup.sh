@@ -4,6 +4,11 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
+if ! (. /etc/os-release 2>/dev/null && [[ $ID == debian && $VERSION_ID == 12 ]]); then
+  echo "setup: this builds on Debian 12; elsewhere use the container or the packages: experiments/packaging/README.md" >&2
+  exit 2
+fi
+
 packages=(
   g++ cmake ninja-build pkg-config git ca-certificates  # to build
   libeigen3-dev libfmt-dev libtoml11-dev libcli11-dev   # C++ libraries
