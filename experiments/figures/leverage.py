@@ -135,6 +135,21 @@ def sweep_table(runs: list[Run], kind: str, out: Path) -> list[str]:
     return tables.of_page(out, f"leverage_{kind}", ["body", "knot", *(f"{v:g}" for v in values)], rows)
 
 
+def summary_table(runs: list[Run], out: Path) -> list[str]:
+    """What each change makes of the pull, over that of the starts: the least and the largest of the knots that pulled."""
+    rows = []
+    for kind, label in SWEEPS.items():
+        for body in BASE[kind]:
+            for value in sorted({float(run.value) for run in runs if run.kind == kind and run.body == body}):
+                ratios = []
+                for knot in plots.SCENES.values():
+                    starts = [run.pull.mean for run in chosen(runs, body, knot, "start") if run.pull]
+                    ratios += [run.pull.mean / np.mean(starts) for run in chosen(runs, body, knot, kind) if run.pull and starts and float(run.value) == value]
+                rows.append([f"{label}: {value:g}", BODIES[body], f"{len(ratios)} of {len(plots.SCENES)}",
+                             f"{min(ratios):.2f} to {max(ratios):.2f}" if ratios else ""])
+    return tables.of_page(out, "leverage_changes", ["what is changed", "body", "pulled", "pull, over that of the starts"], rows)
+
+
 def draw_sweep(axes: plots.plt.Axes, runs: list[Run], kind: str, scale: float = 1) -> None:
     for body in BASE[kind]:
         for knot, look in plots.KNOTS.items():
@@ -212,6 +227,7 @@ def main(folder: Path, table: Path, out: Path, page: Path) -> None:
     note = "Pulls in N, means over the settled pull; ± is the standard deviation over starts; * overlaps too deep for its scene."
     lines = ["# Leverage", "", note, "", *starts_table(runs, page.parent)]
     lines += ["## Work, N cm for each cm that the head is drawn in", "", *work_table(folder, page.parent)]
+    lines += ["## Each change", "", *summary_table(runs, page.parent)]
     for kind, label in SWEEPS.items():
         lines += [f"## By {label}", "", *sweep_table(runs, kind, page.parent)]
     tables.write_page(page, lines)

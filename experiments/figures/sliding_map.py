@@ -95,18 +95,20 @@ def number(values: np.ndarray) -> str:
 
 
 def by_speed(places: list[Place]) -> list[list[str]]:
-    """A row a speed: of all starts, how many tie, come to the head and meet every bound; from which stiffness on all do; what a soft and a
-    stiff body take."""
+    """A row a speed, and one of all: how many starts tie, come to the head and meet every bound; from which stiffness on all do; what the
+    stiffest body that is tied takes, over the softest."""
+    def counts(own: list[Place]) -> list[str]:
+        total = lambda what: sum(getattr(p, what) for p in own)
+        return [f"{total('tied')} of {total('starts')}", f"{total('arrived')} of {total('tied')}", f"{100 * total('passed') / total('tied'):.0f} %"]
+
     rows = []
     for speed in sorted({p.speed for p in places}):
         own = sorted((p for p in places if p.speed == speed), key=lambda p: p.stiffness)
-        total = lambda what: sum(getattr(p, what) for p in own)
         known = [p for p in own if p.tied]
         good = next((f"{p.stiffness:.2g}" for k, p in enumerate(known) if all(q.passed == q.tied for q in known[k:])), "none")
-        span = lambda what: f"{getattr(known[0], what)[1]:.3g}; {getattr(known[-1], what)[1]:.3g}"
-        rows.append([f"{speed:g}", f"{total('tied')} of {total('starts')}", f"{total('arrived')} of {total('tied')}",
-                     f"{total('passed')} of {total('tied')}", good, span("force"), span("work")])
-    return rows
+        over = lambda what: f"{getattr(known[-1], what)[1] / getattr(known[0], what)[1]:.1f}"
+        rows.append([f"{speed:g}", *counts(own), good, over("force"), over("work")])
+    return [*rows, ["all", *counts(places), "", "", ""]]
 
 
 def by_stiffness(places: list[Place]) -> list[list[str]]:
@@ -126,8 +128,7 @@ def page(places: list[Place], out: Path) -> list[str]:
     return ["# Where sliding works and what it costs", "",
             "Overhand knots tied by waypoints, h = 20 ms; medians are of starts whose knot came to the head.", "",
             *tables.of_page(out, "sliding", ["commanded speed, cm/s", "tied", "of these came to the head", "and met every bound",
-                                             "all do from this stiffness on, dyn cm²", "force, softest and stiffest body, dyn",
-                                             "work of f_thigmo, softest and stiffest, erg/cm"], by_speed(places)),
+                                             "all do from this stiffness on, dyn cm²", "force, stiffest over softest body", "work, the same"], by_speed(places)),
             *tables.of_page(out, "sliding_stiffness", ["bending stiffness, dyn cm²", "starts that tie"], by_stiffness(places)),
             *tables.markdown(["bending stiffness, dyn cm²", "commanded, cm/s", "tied", "came to the head", "and met every bound",
                               "bounds not met", "sliding force, dyn", "work of f_thigmo, erg/cm", "measured, cm/s"], rows)]

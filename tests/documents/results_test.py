@@ -120,6 +120,15 @@ def test_a_study_is_adopted_and_ages(house):
     assert results.OLDER in csv.read_text() and results.OLDER in page.read_text()
 
 
+def test_a_picture_says_where_it_was_measured(tmp_path):
+    pytest.importorskip("matplotlib")
+    from matplotlib import image, pyplot
+    pyplot.imsave(tmp_path / "a.png", [[0.0, 1.0]])
+    (tmp_path / "b.png").write_bytes(results.stamped((tmp_path / "a.png").read_bytes(), "Measured at abc."))
+    assert b"Measured at abc." in (tmp_path / "b.png").read_bytes()
+    assert (image.imread(tmp_path / "a.png") == image.imread(tmp_path / "b.png")).all()
+
+
 def test_bad_pages_are_told(house):
     with pytest.raises(results.ResultsError, match="No such file"):
         results.adopt("p", house, 1)
