@@ -43,7 +43,7 @@ def project(tmp_path):
 
 def run(folder: Path, text: str) -> str:
     environment = os.environ | {"PATH": f"{PROGRAM.parent}:/usr/bin:/bin", "OPENBLAS_NUM_THREADS": "1", "PYTHONDONTWRITEBYTECODE": "1"}
-    done = subprocess.run(["bash", "-euo", "pipefail", "-c", text], cwd=folder, env=environment, capture_output=True, text=True, timeout=600)
+    done = subprocess.run(["bash", "-euo", "pipefail", "-c", text], cwd=folder, env=environment, capture_output=True, text=True, timeout=1800)
     said = done.stdout + done.stderr
     assert done.returncode == 0, said
     return said
