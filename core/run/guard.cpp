@@ -105,16 +105,16 @@ Status guard_speed(const Eigen::Matrix3Xd& centre_velocity, const Scene& scene) 
   for (Eigen::Index b = 0; b < centre_velocity.cols(); ++b) {
     const double speed = centre_velocity.col(b).norm();
     if (!(speed <= guard.speed)) {
-      return {Outcome::speed,
-              fmt::format("body {} moves at {:.3g} cm/s, over guard.speed = {:g} cm/s; a smaller "
-                          "time.step would help",
-                          b, speed, guard.speed)};
+      return {
+          Outcome::speed,
+          fmt::format("body {} moves at {:.3g} cm/s, over guard.speed = {:g} cm/s; try a smaller "
+                      "time.step",
+                      b, speed, guard.speed)};
     }
     if (scene.time.step * speed > farthest) {
       return {Outcome::speed,
               fmt::format("body {} moves {:.3g} cm in a step, over {} times "
-                          "constraints.stride = {:g} cm; a smaller time.step would "
-                          "help",
+                          "constraints.stride = {:g} cm; try a smaller time.step",
                           b, scene.time.step * speed, most_path_samples, scene.constraints.stride)};
     }
   }
@@ -130,25 +130,26 @@ Status guard_state(const Model& model, const Moment& moment, double crossing, co
   }
   Status status;
   if (seen.penetration > guard.penetration) {
-    status = report(
-        Outcome::penetration,
-        fmt::format("penetration {:.3g} cm of {} exceeds guard.penetration = {:g} cm; a smaller "
-                    "time.step or more constraints.corrections would help",
-                    seen.penetration, deepest_overlap(model, seen), guard.penetration),
-        guard.action, watch, warnings);
+    status =
+        report(Outcome::penetration,
+               fmt::format(
+                   "penetration {:.3g} cm of {} exceeds guard.penetration = {:g} cm; try a smaller "
+                   "time.step or more constraints.corrections",
+                   seen.penetration, deepest_overlap(model, seen), guard.penetration),
+               guard.action, watch, warnings);
   } else if (crossing > guard.penetration) {
     status = report(Outcome::penetration,
-                    fmt::format("strands {:.3g} cm into each other on the way of a step, over "
-                                "guard.penetration = {:g} cm; a smaller time.step or more "
-                                "constraints.corrections would help",
+                    fmt::format("strands go {:.3g} cm into each other within a step, over "
+                                "guard.penetration = {:g} cm; try a smaller time.step or more "
+                                "constraints.corrections",
                                 crossing, guard.penetration),
                     guard.action, watch, warnings);
   }
   if (status.ok() && seen.limit_violation > guard.limit_violation) {
     status = report(
         Outcome::limits,
-        fmt::format("{} is {:.3g} deg past its limit, over guard.limit_violation_deg = {:g}; "
-                    "constraints.activation = \"speculative\" or a smaller time.step would help",
+        fmt::format("{} is {:.3g} deg past its limit, over guard.limit_violation_deg = {:g}; try "
+                    "constraints.activation = \"speculative\" or a smaller time.step",
                     furthest_limit(model, moment.state), seen.limit_violation / degree,
                     guard.limit_violation / degree),
         guard.action, watch, warnings);
@@ -166,8 +167,8 @@ Status guard_energy(const Model& model, const Scene& scene, Moment& moment, Ener
   Status status;
   if (!(made <= allowed)) {
     std::string message = fmt::format(
-        "the integrator made {:.3g} erg, over guard.energy_gain = {:g} of the {:.3g} erg that the "
-        "body had or lost; a smaller time.step, drag or damping would help",
+        "the integrator made {:.3g} erg of energy, over guard.energy_gain = {:g} of the {:.3g} erg "
+        "that the body had or lost; try a smaller time.step, or more drag or damping",
         made, guard.energy_gain, passed);
     if (guard.energy_action == EnergyAction::hold && scene.time.rule == TimeRule::euler) {
       const double taken = std::min(made - allowed, ledger.kinetic);
@@ -176,7 +177,7 @@ Status guard_energy(const Model& model, const Scene& scene, Moment& moment, Ener
       update_velocities(model, moment.state.qdot, moment.observation.kin);
       ledger.kinetic -= taken;
       ledger.integrator_held -= taken;
-      message += "; what is more is taken from the velocity";
+      message += ". The excess was taken out of the velocities";
     }
     const bool stop = guard.energy_action == EnergyAction::stop;
     status = report(Outcome::energy_gain, message, stop ? GuardAction::stop : GuardAction::warn,
@@ -204,12 +205,11 @@ void guard_momentum(const Model& model, const StepInput& in, const MomentumLedge
   if (share > in.scene.guard.momentum_gain) {
     std::ignore = report(
         Outcome::momentum_gain,
-        fmt::format("the integrator has pushed the free body by {:.3g} dyn s and turned it by "
-                    "{:.3g} dyn cm s, where nothing outside did: over guard.momentum_gain = {:g} "
-                    "of what it could have with the energy that it had; time.momentum = \"kept\" "
-                    "or a smaller time.step would help",
-                    watch.made.linear.norm(), watch.made.angular.norm(),
-                    in.scene.guard.momentum_gain),
+        fmt::format(
+            "the integrator pushed the free body by {:.3g} dyn s and turned it by {:.3g} dyn "
+            "cm s, over guard.momentum_gain = {:g} of what its energy allows. Nothing "
+            "outside did that; try time.momentum = \"kept\" or a smaller time.step",
+            watch.made.linear.norm(), watch.made.angular.norm(), in.scene.guard.momentum_gain),
         GuardAction::warn, watch, warnings);
   }
 }
@@ -241,8 +241,8 @@ void guard_cap(const Model& model, const Kinematics& kin, const Scene& scene, Ph
       const Eigen::Index i = &row - step.rows.data();
       std::ignore = report(
           Outcome::capped,
-          fmt::format("{} has been at controller.cap = {:g} dyn for {:g} s and falls {:.3g} cm/s "
-                      "short; held back most by {}; a lower speed or a higher cap would help",
+          fmt::format("{} has been at controller.cap = {:g} dyn for {:g} s and is {:.3g} cm/s too "
+                      "slow. It is held back most by {}; try a lower speed or a higher cap",
                       row_name(model, row), scene.controller.cap, scene.guard.capped_time,
                       -step.excess[i], opponents(model, kin, step, i)),
           GuardAction::warn, watch, warnings);
@@ -265,8 +265,8 @@ void guard_muscles(const Model& model, const Scene& scene, const Control& contro
     if (past.maxCoeff(&k) > scene.guard.limit_violation) {
       std::ignore = report(
           Outcome::overbent,
-          fmt::format("the curvature program bends {} to {:.3g} deg at {:.2f} s, but its limits "
-                      "are {:.3g} and {:.3g} deg, which push back",
+          fmt::format("the curvature program bends {} to {:.3g} deg at {:.2f} s. Its limits are "
+                      "{:.3g} and {:.3g} deg, and push back",
                       dof_name(model, static_cast<int>(k) + root_dofs), angles[k] / degree,
                       time + scene.time.reach(), ranges(0, k) / degree, ranges(1, k) / degree),
           GuardAction::warn, watch, warnings);
@@ -276,11 +276,11 @@ void guard_muscles(const Model& model, const Scene& scene, const Control& contro
   if (full >= 0 && !warned(Outcome::saturated)) {
     std::ignore = report(
         Outcome::saturated,
-        fmt::format("{} takes all of active.capacity = {:g} dyn cm at {:.2f} s; {}",
+        fmt::format("{} takes all of active.capacity = {:g} dyn cm at {:.2f} s. {}",
                     dof_name(model, full), scene.active.capacity, time,
                     control.active.full >= 0
-                        ? "a slower program, a softer body or more capacity would help"
-                        : "the law asks for more, which active.bounds_laws = true keeps from it"),
+                        ? "Try a slower program, a softer body or more capacity"
+                        : "The law asks for more, and active.bounds_laws = true cuts it off"),
         GuardAction::warn, watch, warnings);
   }
 }

@@ -110,7 +110,7 @@ void solve_along_path(const Attempt& step) {
     step.warn(
         Outcome::unsettled,
         fmt::format("after {} passes the middle of a step is known to {:.3g} rad/s or cm/s only, "
-                    "over time.settled = {:g}; a smaller time.step would help",
+                    "over time.settled = {:g}; try a smaller time.step",
                     solution.middle.passes, solution.middle.unsettled, in.scene.time.settled));
   }
 }
@@ -139,8 +139,8 @@ double end_where_strands_meet(const Attempt& step) {
   record.crossing = 0;
   step.warn(
       Outcome::speed,
-      fmt::format("strands meet too fast for the step, which ends there: {:.3g} s of its motion "
-                  "are left out; a smaller time.step would help",
+      fmt::format("strands meet too fast for the step, which ends there. {:.3g} s of its motion "
+                  "are left out; try a smaller time.step",
                   step.h() * (count - clear) / count));
   return step.h() * clear / count;
 }

@@ -30,15 +30,15 @@ Status describe_failure(const Model& model, const BoxQp& qp, const std::vector<R
       names += fmt::format("; and {} more", contradicting.size() - most_named);
     }
     return {Outcome::infeasible,
-            fmt::format("rows contradict each other: {}; a start without overlap, a lower "
-                        "controller.cap or a smaller time.step would help",
+            fmt::format("rows contradict each other: {}; try a start without overlap, a lower "
+                        "controller.cap or a smaller time.step",
                         names)};
   }
   Eigen::Index worst = 0;
   (qp.b - qp.A * solution.x).cwiseQuotient(row_scale(qp.A)).maxCoeff(&worst);
   return {Outcome::solver_failed,
-          fmt::format("solver failed: {} on {} rows, furthest from being met: {}{}; another --qp "
-                      "or a smaller time.step would help",
+          fmt::format("solver failed: {} on {} rows, furthest from being met: {}{}; try another "
+                      "--qp or a smaller time.step",
                       status_name(solution.status), qp.b.size(), row_name(model, rows[worst]),
                       solution.message.empty() ? "" : fmt::format(" ({})", solution.message))};
 }
