@@ -3,7 +3,7 @@
 # UndefinedBehaviorSanitizer: no signal, no internal error, nothing over 10 s, no control characters.
 #   bash tests/fuzz.sh                          the named cases, 20,000 flips, 1,000 changes, 1,000 scenes
 #   bash tests/fuzz.sh --seed 7 --minutes 10    other ones, as many as the time allows
-# Inputs that find a fault are kept in out/fuzz. tests/README.md says what was found.
+# Inputs that find a fault are kept in out/fuzz. CHANGELOG.md says what was found.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 preset=${PRESET:-sanitize}
