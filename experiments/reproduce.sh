@@ -36,7 +36,7 @@ for name in "${names[@]}"; do
     exit 1
   }
   took=$((SECONDS - start))
-  results adopt "$name" "$out" "$took" || differs+=("$name")
+  results adopt "$name" "$out" "$version" "$took" || differs+=("$name")
   echo "$version" >"$out/done"
   echo "$name: took $((took / 60)) min $((took % 60)) s"
 done

@@ -1,8 +1,8 @@
 """Pages of results: tables from the CSV files beside them, their stamps, and their index.
 
 Usage: results.py render                 makes the blocks between markers again, of all pages and of README.md
-       results.py adopt NAME FOLDER S    takes tables and figures that a study left in FOLDER after S seconds, says what differs
-                                         from those that were here by more than chance (exit code 1), and renders
+       results.py adopt NAME FOLDER VERSION S   takes tables and figures that a study left in FOLDER, by the program VERSION in S
+                                         seconds; says what differs from those that were here by more than chance (exit code 1)
        results.py mark                   notes in each CSV whether code has changed since it was measured, and renders
        results.py names | list           names of pages; with their questions and times
        results.py study NAME             the page's script, from experiments/studies
@@ -19,11 +19,9 @@ import csv
 import datetime
 import io
 import re
-import struct
 import subprocess
 import sys
 import tomllib
-import zlib
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -35,9 +33,9 @@ CODE = ("core", "solvers", "mujoco_ref", "data")  # what moves the animal: a cha
 BLOCK = re.compile(r"<!-- (table|stamp|index)(?:: ([^;>]+?))?(?:; rows: ([^>]+?))? -->\n(?:.*?\n)??<!-- end -->", re.DOTALL)
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 NAME = re.compile(r"\b\d_\d\b")  # of a knot, which is no number
-ROUNDING = 1e-6  # figures below are rounding errors, of which the order of magnitude counts
+ROUNDING = 1e-5  # figures below are rounding errors, of which the order of magnitude counts
 FACTOR = 10  # by which such a figure may differ
-MEASURED = re.compile(r"Measured at ([0-9a-f]{7,40})(?:-dirty)? on (.+), (\d{4}-\d\d-\d\d)\.")
+MEASURED = re.compile(r"Measured at ([0-9a-f]{7,40})\+? on (.+), (\d{4}-\d\d-\d\d)\.")
 OLDER = "Since then"
 
 
@@ -192,20 +190,23 @@ def processor() -> str:
     return "an unknown processor"
 
 
-def measured(seconds: float) -> list[str]:
-    dirty = "-dirty" if git("status", "--porcelain", "--", *CODE).strip() else ""
-    return [f"Measured at {git('rev-parse', '--short=12', 'HEAD').strip()}{dirty} on {processor()}, {datetime.date.today():%Y-%m-%d}.",
+def measured(version: str, seconds: float) -> list[str]:
+    """`version` is what the program says of itself: its release and its commit, with a + where files were changed."""
+    return [f"Measured at {version.split()[-1]} on {processor()}, {datetime.date.today():%Y-%m-%d}.",
             f"The study took {int(seconds) // 60} min {int(seconds) % 60} s."]
 
 
-def stamped(png: bytes, text: str) -> bytes:
-    """A PNG that says where it was measured, as a comment behind its header."""
-    header = 33  # bytes: the signature and the first chunk
-    chunk = b"tEXt" + b"Comment\0" + text.encode("latin-1", "replace")
-    return png[:header] + struct.pack(">I", len(chunk) - 4) + chunk + struct.pack(">I", zlib.crc32(chunk)) + png[header:]
+def take_figure(source: Path, target: Path, text: str) -> None:
+    """A figure in 256 colours, which says where it was measured."""
+    from PIL import Image, PngImagePlugin  # comes with Debian's matplotlib
+
+    info = PngImagePlugin.PngInfo()
+    info.add_text("Comment", text)
+    with Image.open(source) as picture:
+        picture.convert("RGB").quantize(256, dither=Image.Dither.NONE).save(target, optimize=True, pnginfo=info)
 
 
-def adopt(name: str, folder: Path, seconds: float) -> list[str]:
+def adopt(name: str, folder: Path, version: str, seconds: float) -> list[str]:
     """Takes what a study left; returns what differs from what was here."""
     page = page_of(name)
     if page.get("writes_itself"):
@@ -213,12 +214,12 @@ def adopt(name: str, folder: Path, seconds: float) -> list[str]:
     found = []
     for wanted in shown_by(name):
         new, here = read(folder / "tables" / wanted), RESULTS / wanted
-        new.notes += measured(seconds)
+        new.notes += measured(version, seconds)
         if here.exists():
             found += differences(here.stem, read(here), new, page["chance"])
         write(here, new)
     for figure in page.get("figures", ()):
-        (FIGURES / figure).write_bytes(stamped((folder / figure).read_bytes(), measured(seconds)[0]))
+        take_figure(folder / figure, FIGURES / figure, measured(version, seconds)[0])
     render()
     return found
 
@@ -283,8 +284,8 @@ def main(arguments: list[str]) -> int:
                 list_pages()
             case ["study", name]:
                 print(page_of(name)["study"])
-            case ["adopt", name, folder, seconds]:
-                found = adopt(name, Path(folder), float(seconds))
+            case ["adopt", name, folder, version, seconds]:
+                found = adopt(name, Path(folder), version, float(seconds))
                 print(*(found or [f"{name}: nothing differs by more than chance"]), sep="\n")
                 return 1 if found else 0
             case _:
