@@ -139,7 +139,7 @@ Status guard_state(const Model& model, const Moment& moment, double crossing, co
                guard.action, watch, warnings);
   } else if (crossing > guard.penetration) {
     status = report(Outcome::penetration,
-                    fmt::format("strands go {:.3g} cm into each other within a step, over "
+                    fmt::format("strands go {:.3g} cm into each other on the way, over "
                                 "guard.penetration = {:g} cm; try a smaller time.step or more "
                                 "constraints.corrections",
                                 crossing, guard.penetration),

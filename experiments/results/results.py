@@ -37,6 +37,7 @@ ROUNDING = 1e-5  # figures below are rounding errors, of which the order of magn
 FACTOR = 10  # by which such a figure may differ
 MEASURED = re.compile(r"Measured at ([0-9a-f]{7,40})\+? on (.+), (\d{4}-\d\d-\d\d)\.")
 OLDER = "Since then"
+QUOTED = re.compile(r'"(?:[^"\\\n]|\\.)*"')
 
 
 class ResultsError(Exception):
@@ -225,9 +226,30 @@ def adopt(name: str, folder: Path, version: str, seconds: float) -> list[str]:
 
 
 def without_comments(path: str, text: str) -> str:
-    """What of a file can change what it does: no comments, no empty lines, no runs of spaces."""
-    comment = r"//.*" if Path(path).suffix in (".cpp", ".hpp", ".h") else r"#.*"
-    return "\n".join(line for line in (" ".join(re.sub(comment, "", each).split()) for each in text.splitlines()) if line)
+    """What of a file can change a figure: no comments, no layout, and in C++ no words in quotes, which are messages."""
+    cpp = Path(path).suffix in (".cpp", ".hpp", ".h")
+    if cpp:
+        text = QUOTED.sub('""', text)
+    words = " ".join(re.sub(r"//.*" if cpp else r"#.*", "", line) for line in text.splitlines()).split()
+    return re.sub(r'(""\s*)+', '""', " ".join(words))
+
+
+def texts_of(commit: str, names: list[str]) -> list[str]:
+    """Files as they were; empty where there was none."""
+    asked = "".join(f"{commit}:{name}\n" for name in names).encode()
+    said = subprocess.run(["git", "-C", str(ROOT), "cat-file", "--batch"], input=asked, check=True, capture_output=True).stdout
+    texts, at = [], 0
+    for _ in names:
+        end = said.index(b"\n", at)
+        words = said[at:end].split()
+        at = end + 1
+        if words[-1] == b"missing":
+            texts.append("")
+            continue
+        size = int(words[-1])
+        texts.append(said[at:at + size].decode("utf-8", "replace"))
+        at += size + 1
+    return texts
 
 
 def changed_since(commit: str) -> int | None:
@@ -236,14 +258,9 @@ def changed_since(commit: str) -> int | None:
         names = git("diff", "--name-only", "--no-renames", commit, "--", *CODE).split()
     except subprocess.CalledProcessError:
         return None
-
-    def then(name: str) -> str:
-        try:
-            return git("show", f"{commit}:{name}")
-        except subprocess.CalledProcessError:
-            return ""
-    now = lambda name: (ROOT / name).read_text(encoding="utf-8", errors="replace") if (ROOT / name).is_file() else ""
-    return sum(without_comments(name, then(name)) != without_comments(name, now(name)) for name in names if not name.endswith(".md"))
+    names = [name for name in names if not name.endswith(".md")]
+    now = [(ROOT / name).read_text(encoding="utf-8", errors="replace") if (ROOT / name).is_file() else "" for name in names]
+    return sum(without_comments(name, old) != without_comments(name, new) for name, old, new in zip(names, texts_of(commit, names), now))
 
 
 def mark() -> None:
@@ -259,7 +276,7 @@ def mark() -> None:
         if counts[commit] is None:
             notes.append(f"{OLDER} the history has been rewritten; how much code has changed is not known.")
         elif counts[commit]:
-            notes.append(f"{OLDER} the simulator or its scenes have changed, in code and not in comments alone.")
+            notes.append(f"{OLDER} the simulator or its scenes have changed, in more than comments and messages.")
         if notes != table.notes and not path.stem.startswith("reflex"):
             write(path, Table(table.head, table.rows, notes))
     render()
