@@ -1,0 +1,93 @@
+"""The tables of pages of results are what the studies' scripts write, of runs made up here."""
+
+import csv
+import re
+from pathlib import Path
+
+import numpy as np
+
+import benchmarks
+import claim_map
+import claims
+import leverage
+import living
+import sliding_map
+import stability
+
+ROOT = Path(__file__).resolve().parents[4]
+
+
+def read(folder, name):
+    with (folder / "tables" / f"{name}.csv").open(newline="") as file:
+        return list(csv.reader(file))
+
+
+def test_each_table_of_a_page_is_written_by_a_script():
+    scripts = "\n".join(path.read_text(encoding="utf-8") for path in (ROOT / "experiments/figures").glob("*.py"))
+    for page in (ROOT / "experiments/results").glob("*.md"):
+        for name in re.findall(r"<!-- table: (\w+)\.csv", page.read_text(encoding="utf-8")):
+            stem, _, end = name.rpartition("_")
+            assert f'"{name}"' in scripts or f'f"{stem}_{{' in scripts and f'"{end}"' in scripts, name
+
+
+def test_sliding_by_speed_and_stiffness(tmp_path):
+    place = lambda k, v, tied, passed, force: sliding_map.Place(k, v, 10, tied, tied, passed, np.full(3, force), np.full(3, 2 * force), np.full(3, v), "")
+    places = [place(10, 2, 10, 9, 100.0), place(100, 2, 10, 10, 150.0), place(1000, 2, 3, 3, 300.0), place(2000, 2, 0, 0, np.nan)]
+    sliding_map.page(places, tmp_path)
+    assert read(tmp_path, "sliding")[1:] == [["2", "23 of 40", "23 of 23", "96 %", "1e+02", "3.0", "3.0"], ["all", "23 of 40", "23 of 23", "96 %", "", "", ""]]
+    assert read(tmp_path, "sliding_stiffness")[1:] == [["1e+03", "3 of 10"], ["2e+03", "0 of 10"]]
+
+
+def test_claims_by_change(tmp_path):
+    growth = claims.NAMES[1]
+    measure = dict.fromkeys(claim_map.MEASURES, 0.1) | {"near_over_far": 2.0}
+    verdict = dict.fromkeys(claims.NAMES, "agrees")
+    runs = [claim_map.Claim(reading, "Table 1", 0.005, seed, outcome, verdict | {growth: word}, measure)
+            for reading, seed, outcome, word in (("box", 1, "slid", "agrees"), ("box", 2, "slid", "undecided"), ("cone", 1, "jammed", "agrees"))]
+    claim_map.page(runs, tmp_path)
+    assert read(tmp_path, "claims")[1] == ["Table 1", "2", "agrees 1, undecided 1", "none slid", "", "0.1", "0.1", "0.1"]
+
+
+def test_stability_by_scene_and_start(tmp_path):
+    cells = [{"scene": "whip", "level": level, "method": "default", "h_ms": h, "outcome": outcome}
+             for level, h, outcome in (("as is", "1", "ok"), ("as is", "5", "limits"), ("seed 1", "1", "ok"), ("seed 2", "1", "ok"))]
+    stability.summary_page(cells, tmp_path)
+    assert read(tmp_path, "stability")[1][:2] == ["fast undamped whip", "1 (limits)"]
+    assert read(tmp_path, "stability_starts")[1] == ["1", "2 of 2", ""]
+
+
+class Pulled:
+    def __init__(self, mean):
+        self.mean = mean
+
+
+def test_what_changes_a_pull(tmp_path):
+    run = lambda kind, value, seed, mean: leverage.Run(kind, "living", "3_1", value, seed, "pulled" if mean else "knot lost", Pulled(mean) if mean else None, 0, False)
+    runs = [run("start", "0", 1, 0.2), run("start", "0", 2, 0.4), run("speed", "4", 1, 0.6), run("speed", "0.5", 1, None)]
+    leverage.summary_table(runs, tmp_path)
+    assert read(tmp_path, "leverage_changes")[1:] == [["commanded speed, cm/s: 0.5", "living", "0 of 4", ""], ["commanded speed, cm/s: 4", "living", "1 of 4", "2.00 to 2.00"]]
+
+
+class Swept:
+    def __init__(self, outcome, torque):
+        self.outcome, self.torque = outcome, {"form": torque}
+
+
+def test_sweeps_of_living_animals():
+    sweeps = {what: {"3_1": [], "4_1": []} for what in living.SWEEPS}
+    sweeps["drag"] = {"3_1": [(1.0, Swept("off", 2e5))], "4_1": [(1.0, Swept("knot lost", 1e5))]}
+    assert living.sweep_rows(sweeps) == [["drag, times that of the scenes: 1", "1 of 2", "2e+05 to 2e+05"]]
+
+
+def test_ratios_of_steps():
+    part = lambda time: {25: time, 100: 4 * time}
+    names = ["step_free:10", "step_knotted_active-set:10", "step_knotted_active-set:100", "step_midpoint:10", "qp_ipopt", "qp_active-set", "prescribe_all",
+             "prescribe_nothing", "prescribe_head", "contact"]
+    times = {("core", name): part(2.0) for name in names} | {("mujoco", name): part(10.0) for name in ("step_free:10", "step_knotted:10", "step_knotted:100")}
+    quickest = {restart: {25: ("PGS", 1e-4), 100: ("CG", 1e-3)} for restart in benchmarks.RESTARTS}
+    head, *rows = benchmarks.ratios(times, quickest)
+    table = {first: cells for first, *cells in rows}
+    assert head == ["bodies", "25", "100"]
+    assert table["knotted step: MuJoCo over core, 100 steps a start"] == ["5.0", "5.0"]
+    assert table["knotted step, over 100 bodies"] == ["0.25", "1.00"]
+    assert len(table) == len(rows)
