@@ -126,4 +126,25 @@ TEST_F(AuditActive, SeesMusclesThatAreNotTheScenes) {
   EXPECT_EQ(objections(), "");
 }
 
+// Where the head pulls at what does not give, the animal comes to rest: 1e-6 rad/s under 1e5 dyn cm
+// of each kind, so that rounding alone is 3e-8 of q̇.
+TEST(AuditAtRest, KnowsVelocitiesAsWellAsForcesMakeThem) {
+  const TemporaryFolder folder;
+  const fs::path file = folder / "log.h5";
+  write_log(file, read_scene(std::string(HAGFISH_DATA_DIR) + "/reflex_pull_figure_eight.toml",
+                             {"time.frame_interval=0.1", "expect.types=[]"}));
+  EXPECT_EQ(audit_objections(file), "");
+  const Hdf5Reader log(file);
+  const std::vector<std::int64_t> phases = log.integers("/trajectory/phase");
+  const auto last = std::ranges::find(phases, static_cast<std::int64_t>(Phase::release));
+  const std::size_t nv = log.shape("/forces/active")[1];
+  const auto entry = (static_cast<std::size_t>(last - phases.begin()) - 1) * nv + 80;
+  ASSERT_LT(log.rows("/trajectory/qdot").row(static_cast<Eigen::Index>(entry / nv)).norm(), 1e-3);
+  rewrite<double>(file, "/forces/active", H5::PredType::NATIVE_DOUBLE,
+                  [&](std::vector<double>& values) { values.at(entry) += 0.1; });
+#ifdef HAGFISH_MUJOCO
+  EXPECT_NE(audit_objections(file).find("forward-inverse"), std::string::npos);
+#endif
+}
+
 }  // namespace hagfish::audit_active_test
