@@ -14,14 +14,15 @@ BACK_ENDS = ["active-set", "ipopt", "ipopt-unpolished"]
 
 
 # Good values of arguments and options, by the names that help gives them; what is not here is left out.
-ARGUMENTS = {"LOG": "good.h5", "SCENE": "table1", "GRID": "scene_grid.toml", "SET": "good.qp.h5", "FILM": "film.csv"}
+ARGUMENTS = {"LOG": "good.h5", "SCENE": "table1", "GRID": "scene_grid.toml", "SET": "good.qp.h5", "FILM": "film.csv",
+             "KNOT": "7_7"}
 OPTIONS = {
     "--force": [], "--quiet": [], "--qp": ["active-set"], "--backend": ["active-set"], "--repeat": ["1"], "--threads": ["1"], "--cpu-limit": ["3"],
     "--size": ["64x48"], "--stations": ["3"], "--times": ["3"], "--scene": ["small.toml"], "--length": ["40"], "--mass": ["80"],
     "--circumference": ["5,5,5,4"], "--bending": ["20,70,40,50"], "--twist": ["48"],
 }  # fmt: skip
 ENDINGS = {"picture": ".png", "movie": ".gif"}  # of --out
-BESIDE = {"program": ["--until", "0.08"], "integrate": ["--set", "model.bodies=3"]}
+BESIDE = {"program": ["--until", "0.08"], "integrate": ["--set", "model.bodies=3"], "design": ["--budget", "1e-6"]}
 
 
 class Command:
@@ -113,7 +114,8 @@ VALUES = [
     "time.step", "time.step=", "time.step=nan", "start.bend=[]", "title=\"\x07\"", "model.bodies=400000", "/dev/zero", "/etc/passwd", ".", "..",
 ]  # fmt: skip
 # What would rightly take for ever.
-PATIENT = {("qp", "--repeat"): {"2147483648", "1e12"}}
+PATIENT = {("qp", "--repeat"): {"2147483648", "1e12"},
+           ("design", "--budget"): {"2147483648", "1e12", "1e308", "99999999999999999999"}}
 
 
 def subcommands(help_text):

@@ -18,6 +18,7 @@ from ._core import (
     revision,
     scenes,
 )
+from .design import Design, design
 from .log import Log
 from .sweep import sweep
 
@@ -25,11 +26,13 @@ __all__ = [
     "Command",
     "Contact",
     "Control",
+    "Design",
     "FileError",
     "InputError",
     "Log",
     "Simulation",
     "StepError",
+    "design",
     "laws",
     "revision",
     "scenes",

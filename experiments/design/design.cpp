@@ -1,0 +1,334 @@
+#include "experiments/design/design.hpp"
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+#include <exception>
+#include <fstream>
+#include <map>
+#include <mutex>
+#include <sstream>
+#include <thread>
+
+#include "core/input/input_error.hpp"
+#include "core/log/hdf5_error.hpp"
+#include "experiments/design/design_page.hpp"
+#include "experiments/design/length_bound.hpp"
+#include "experiments/design/living_body.hpp"
+#include "experiments/design/tries.hpp"
+#include "experiments/sweep/appended_file.hpp"
+#include "experiments/sweep/sweep_run.hpp"
+
+namespace hagfish {
+namespace {
+
+namespace fs = std::filesystem;
+
+// s, that the knot is pulled together in the soft body: the program ends with a knot that holds.
+constexpr double tightening = 1.5;
+
+/// work(k) for k from 0 to count - 1, each once, by so many threads. Throws what one of them does.
+void in_parallel(int count, int threads, const std::function<void(int)>& work) {
+  std::atomic<int> next = 0;
+  std::exception_ptr error;
+  std::mutex mutex;
+  {
+    std::vector<std::jthread> workers;
+    for (int t = 0; t < std::min(count, threads); ++t) {
+      workers.emplace_back([&] {
+        try {
+          for (int k = next++; k < count; k = next++) work(k);
+        } catch (...) {
+          const std::scoped_lock lock(mutex);
+          if (!error) error = std::current_exception();
+          next = count;
+        }
+      });
+    }
+  }
+  if (error) std::rethrow_exception(error);
+}
+
+std::string read_text(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+void write_text(const fs::path& file, const std::string& text) {
+  std::ofstream stream(file, std::ios::binary);
+  stream << text;
+  stream.close();
+  if (!stream) throw FileError(file.string() + ": cannot be written");
+}
+
+/// What makes a search what it is.
+std::string identity(const DesignOptions& options) {
+  return fmt::format("knot = \"{}\"\nseed = {}\nspecimen = '''\n{}'''\n", options.knot,
+                     options.seed, options.specimen);
+}
+
+void claim(const DesignOptions& options) {
+  const fs::path file = options.folder / "search.toml";
+  std::error_code error;
+  fs::create_directories(options.folder, error);
+  if (!fs::exists(file)) {
+    if (options.resume) throw FileError(file.string() + ": no search to go on with");
+    return write_text(file, identity(options));
+  }
+  if (!options.resume) {
+    throw FileError(options.folder.string() + ": has a search already; --resume goes on with it");
+  }
+  if (read_text(file) != identity(options)) {
+    throw FileError(file.string() + ": is a search for another knot or animal, or by another seed");
+  }
+}
+
+/// Lines "NUMBER,TEXT" of a file, the last of a number; incomplete ones of a kill are left out.
+std::map<int, std::string> numbered_lines(const fs::path& file) {
+  std::map<int, std::string> lines;
+  std::ifstream stream(file);
+  for (std::string line; std::getline(stream, line) && !stream.eof();) {
+    const std::size_t comma = line.find(',');
+    if (comma == std::string::npos || line.find_first_not_of("0123456789") != comma) continue;
+    lines[std::stoi(line.substr(0, comma))] = line.substr(comma + 1);
+  }
+  return lines;
+}
+
+/// Ends a line that a kill left unfinished, so that what is added stands by itself.
+void end_last_line(const fs::path& name, AppendedFile& file) {
+  const std::string text = read_text(name);
+  if (!text.empty() && text.back() != '\n') file.add("\n");
+}
+
+std::string candidate_text(const Candidate& candidate) {
+  return fmt::format("{},{},{},{},{}\n", candidate.number, candidate.judged, candidate.passed[0],
+                     candidate.passed[1], candidate.shortcoming);
+}
+
+std::optional<Candidate> candidate_of(int number, const std::string& text) {
+  std::istringstream stream(text);
+  Candidate candidate;
+  candidate.number = number;
+  char comma = 0;
+  stream >> candidate.judged >> comma >> candidate.passed[0] >> comma >> candidate.passed[1] >>
+      comma;
+  if (!stream) return std::nullopt;
+  std::getline(stream, candidate.shortcoming);
+  return candidate;
+}
+
+class Search {
+ public:
+  explicit Search(const DesignOptions& options)
+      : options_(options),
+        wanted_(*knot_called(*name_in_scene(options.knot))),
+        body_(checked(soft_body(animal()))),
+        archive_(options.seed),
+        known_tries_(numbered_lines(options.folder / "tries.csv")),
+        known_candidates_(numbered_lines(options.folder / "candidates.csv")),
+        tries_file_(options.folder / "tries.csv"),
+        candidates_file_(options.folder / "candidates.csv") {
+    end_last_line(options.folder / "tries.csv", tries_file_);
+    end_last_line(options.folder / "candidates.csv", candidates_file_);
+  }
+
+  DesignOutcome run() {
+    const auto begin = std::chrono::steady_clock::now();
+    const auto elapsed = [&] {
+      return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    };
+    const auto over = [&] { return options_.interrupted() || elapsed() > options_.budget; };
+    do {
+      const std::vector<int> tied = try_batch();
+      for (std::size_t k = 0; k < tied.size() && !outcome_.found && !over(); ++k) {
+        judge(tied[k]);
+      }
+      report(elapsed());
+    } while (!outcome_.found && !over());
+    outcome_.interrupted = options_.interrupted();
+    outcome_.time = {elapsed(), static_cast<double>(std::clock()) / CLOCKS_PER_SEC};
+    note_types();
+    if (outcome_.best && !outcome_.interrupted) write_best();
+    return outcome_;
+  }
+
+ private:
+  SoftBody checked(SoftBody body) const {
+    const std::string why = too_short_for(body.resolved.specimen, options_.knot);
+    if (!why.empty()) throw InputError(why);
+    return body;
+  }
+
+  std::vector<std::string> animal() const {
+    if (options_.specimen.empty()) return {};
+    const fs::path file = options_.folder / specimen_file;
+    write_text(file, options_.specimen);
+    return {"specimen=" + file.string()};
+  }
+
+  /// Tries a batch; gives the tries that tied the knot.
+  std::vector<int> try_batch() {
+    const int first = outcome_.tries;
+    std::vector<TailPath> paths(batch_size);
+    std::vector<std::optional<Tying>> tyings(batch_size);
+    in_parallel(batch_size, options_.threads, [&](int k) {
+      const int number = first + k;
+      paths[k] = archive_.path_of(number);
+      if (const auto known = known_tries_.find(number); known != known_tries_.end()) {
+        tyings[k] = tying_of(known->second);
+      }
+      if (tyings[k]) return;
+      tyings[k] = try_path(body_, paths[k], options_.interrupted);
+      if (tyings[k]) tries_file_.add(fmt::format("{},{}\n", number, tying_text(*tyings[k])));
+    });
+    if (options_.interrupted()) return {};
+    std::vector<int> tied;
+    for (int k = 0; k < batch_size; ++k) {
+      archive_.add(first + k, paths[k], *tyings[k]);
+      if (tyings[k]->tied() == wanted_) {
+        tied.push_back(first + k);
+        tied_paths_[first + k] = paths[k];
+      }
+    }
+    outcome_.tries += batch_size;
+    return tied;
+  }
+
+  /// The shapes and the scene of a try that tied the knot, or why there are none.
+  FoundScene found_of(int number, std::string& shortcoming) const {
+    const Shapes shapes = tied_shapes(body_, tied_paths_.at(number), options_.knot, tightening);
+    shortcoming = shapes.failure;
+    if (!shapes.failure.empty()) return {};
+    return found_scene(body_, shapes, options_.knot, options_.specimen);
+  }
+
+  /// Tries a path that tied the knot in the living body.
+  void judge(int number) {
+    std::optional<Candidate> candidate;
+    if (const auto known = known_candidates_.find(number); known != known_candidates_.end()) {
+      candidate = candidate_of(number, known->second);
+    }
+    if (!candidate) {
+      candidate = judged(number);
+      if (options_.interrupted()) return;
+      candidates_file_.add(candidate_text(*candidate));
+    }
+    outcome_.candidates.push_back(*candidate);
+    if (!outcome_.best || candidate->passes() > outcome_.best->passes() ||
+        candidate->shortcoming.empty()) {
+      outcome_.best = candidate;
+    }
+    outcome_.found = candidate->shortcoming.empty();
+  }
+
+  Candidate judged(int number) {
+    Candidate candidate;
+    candidate.number = number;
+    const FoundScene found = found_of(number, candidate.shortcoming);
+    if (!candidate.shortcoming.empty()) {
+      candidate.shortcoming = "soft body: " + candidate.shortcoming;
+      return candidate;
+    }
+    // The straight start first, then ever more: most candidates are given up soon.
+    for (const auto& [first, last] : {std::pair(0, 0), {1, 4}, {5, judged_starts}}) {
+      const int starts = last - first + 1;
+      std::vector<std::optional<RunSummary>> runs(2 * starts);
+      in_parallel(2 * starts, options_.threads, [&](int k) {
+        runs[k] = run_trial(found, {.law = k % 2, .seed = first + k / 2}, options_.interrupted);
+      });
+      if (options_.interrupted()) return candidate;
+      if (first > 0) candidate.judged = last;
+      for (int k = 0; k < 2 * starts; ++k) {
+        if (succeeds(*runs[k])) {
+          if (first > 0) ++candidate.passed[k % 2];
+        } else if (first == 0 || candidate.judged - candidate.passed[k % 2] > allowed_failures) {
+          candidate.shortcoming = fmt::format("{}, start {}: {}", judged_laws[k % 2], first + k / 2,
+                                              shortcoming(*runs[k]));
+        }
+      }
+      for (const int passed : candidate.passed) {
+        if (candidate.judged - passed > allowed_failures && candidate.shortcoming.empty()) {
+          candidate.shortcoming =
+              fmt::format("{} of {} starts fail", candidate.judged - passed, candidate.judged);
+        }
+      }
+      if (!candidate.shortcoming.empty()) return candidate;
+    }
+    return candidate;
+  }
+
+  void note_types() {
+    outcome_.types.clear();
+    for (const auto& [type, count] : archive_.counts()) {
+      outcome_.types.emplace_back(knot_name({type.first, type.second}), count);
+    }
+  }
+
+  void report(double elapsed) {
+    note_types();
+    std::string types;
+    for (const auto& [name, count] : outcome_.types) types += fmt::format(" {} {}", name, count);
+    std::string best = outcome_.candidates.empty()
+                           ? std::string("none tied yet")
+                           : fmt::format("{} tied, best {} of {}", outcome_.candidates.size(),
+                                         outcome_.best->passes(), 2 * judged_starts);
+    options_.progress(
+        fmt::format("{:.0f} s, {} tries:{}; {}", elapsed, outcome_.tries, types, best));
+  }
+
+  void write_best() {
+    std::string none;
+    const FoundScene found = found_of(outcome_.best->number, none);
+    if (!none.empty()) return;
+    write_text(options_.folder / scene_file, found.scene);
+    write_text(options_.folder / program_file, found.program);
+    std::mutex alone;
+    const ResolvedScene resolved =
+        read_scene_text(found.scene, scene_file, {},
+                        {{program_file, found.program}, {specimen_file, found.specimen}});
+    const std::optional<SweepRun> run =
+        run_for_summary(resolved, options_.interrupted,
+                        SweepLog{options_.folder / "knot.h5", options_.typed, alone});
+    if (!run) return;
+    write_text(options_.folder / "result.csv", design_row(options_, outcome_, run->summary));
+    write_text(options_.folder / "README.md",
+               design_page(options_, outcome_, resolved, run->summary));
+  }
+
+  const DesignOptions& options_;
+  KnotInvariants wanted_;
+  SoftBody body_;
+  Archive archive_;
+  std::map<int, std::string> known_tries_, known_candidates_;
+  AppendedFile tries_file_, candidates_file_;
+  std::map<int, TailPath> tied_paths_;
+  DesignOutcome outcome_;
+};
+
+}  // namespace
+
+std::string DesignOutcome::in_words() const {
+  if (found) {
+    return fmt::format("found by try {}: {} and {} of {} starts by the laws paper and reflex",
+                       best->number, best->passed[0], best->passed[1], judged_starts);
+  }
+  if (!best) return fmt::format("none of {} tries tied it", tries);
+  return fmt::format(
+      "{} of {} tries tied it in the soft body; in the living body the best, try {}, "
+      "came to {} of {} runs: {}",
+      candidates.size(), tries, best->number, best->passes(), 2 * judged_starts, best->shortcoming);
+}
+
+DesignOutcome design(const DesignOptions& options) {
+  claim(options);
+  Search search(options);
+  return search.run();
+}
+
+}  // namespace hagfish

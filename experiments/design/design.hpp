@@ -1,0 +1,60 @@
+// From the name of a knot to a program by which the animal ties it itself.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hagfish {
+
+struct DesignOptions {
+  std::string knot;              ///< as name_in_scene() reads it
+  std::string specimen;          ///< text of the animal's file; empty: Table 1's animal
+  std::filesystem::path folder;  ///< files of the search and of what it found
+  bool resume = false;           ///< goes on in it
+  double budget = 900;           ///< wall time for the search, s
+  int threads = 1;
+  unsigned seed = 1;
+  std::string typed;                                 ///< the command line, for the log
+  std::function<bool()> interrupted;                 ///< asked at each step, by every thread
+  std::function<void(const std::string&)> progress;  ///< gets a line now and then
+};
+
+/// A path that ties the knot, tried in the living body.
+struct Candidate {
+  int number = 0;           ///< of the try
+  std::string shortcoming;  ///< why it was given up; empty of one that is good enough
+  int judged = 0;           ///< starts
+  int passed[2] = {0, 0};   ///< of these, by judged_laws
+  int passes() const { return passed[0] + passed[1]; }
+};
+
+struct DesignTime {
+  double wall = 0, cpu = 0;  ///< s, of this process
+};
+
+struct DesignOutcome {
+  bool found = false;        ///< a program of enough starts; its files are in the folder
+  bool interrupted = false;  ///< all is kept: go on by `resume`
+  int tries = 0;
+  std::optional<Candidate> best;                   ///< the found one, or which came nearest
+  std::vector<Candidate> candidates;               ///< all, in the order of their tries
+  std::vector<std::pair<std::string, int>> types;  ///< tied by how many tries
+  DesignTime time;
+  std::string in_words() const;  ///< one line: what was found, or how near it came
+};
+
+/// Starts with noise that a program is judged by, for each law, and how many of them may fail.
+inline constexpr int judged_starts = 20, allowed_failures = 1;
+
+/// Searches by whole batches until a program is found, the budget is over, or it is interrupted. Which program is
+/// found depends on knot, animal and seed alone. The folder gets tries.csv and candidates.csv, by
+/// which it is resumed, and of the best program, where there is one, the files of FoundScene,
+/// knot.h5, README.md and result.csv.
+/// Throws InputError for a knot that the animal is too short for (length_bound.hpp), FileError
+/// where the folder holds another search, or cannot be written.
+DesignOutcome design(const DesignOptions& options);
+
+}  // namespace hagfish

@@ -1,0 +1,87 @@
+#include "experiments/design/design_page.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "experiments/design/living_body.hpp"
+#include "experiments/program/csv.hpp"
+
+namespace hagfish {
+
+std::string design_page(const DesignOptions& options, const DesignOutcome& outcome,
+                        const ResolvedScene& scene, const RunSummary& run) {
+  const Candidate& best = *outcome.best;
+  std::string page = fmt::format(
+      "# {0}, tied by {1}\n\n"
+      "`hagfish design {0}` searched for this program. Its search started from nothing.\n\n"
+      "**Result.** {2}.\n\n"
+      "    hagfish run {3} --out again.h5        # the animal ties, slides and loses the knot\n"
+      "    hagfish check knot.h5                # the audit of the run that is here already\n\n",
+      options.knot, scene.specimen.name, outcome.in_words(), scene_file);
+  page += fmt::format(
+      "## How sure it is\n\n"
+      "A start has normal noise of {:g} degrees on every hinge. A run succeeds if the animal ties, "
+      "holds, tightens and slides the knot, and it comes off, within all bounds of the scene.\n\n"
+      "| law that slides it | starts that succeed |\n|---|---|\n"
+      "| paper | {} of {} |\n| reflex | {} of {} |\n\n",
+      start_noise_deg, best.passed[0], best.judged, best.passed[1], best.judged);
+  page += fmt::format(
+      "## What it takes\n\n"
+      "These figures are of the run from a straight start by the paper's law.\n\n"
+      "| figure | value |\n|---|---|\n"
+      "| tied and tightened from | {:.2f} s |\n"
+      "| way of the knot to the head | {:.1f} cm |\n"
+      "| released at | {:.2f} s |\n"
+      "| untied at | {:.2f} s |\n"
+      "| largest active torque | {:.2g} dyn cm, of {:.2g} that the muscles have |\n"
+      "| largest torque of f_thigmo | {:.2g} dyn cm |\n"
+      "| work of the active torques | {:.2g} erg |\n"
+      "| deepest overlap | {:.2g} cm |\n"
+      "| bounds not met | {} |\n\n",
+      run.tighten_from, run.slide_distance, run.release_from, run.free_from, run.largest_active,
+      scene.scene.active.capacity, run.largest_thigmotaxis, run.work_active, run.penetration,
+      run.unmet.empty() ? "none" : run.unmet);
+  page += fmt::format(
+      "## What was tried\n\n"
+      "{} paths of the tail in the soft body took {:.0f} s of CPU time and {:.0f} s by the clock, "
+      "with all that follows.\n\n"
+      "| type tied | paths |\n|---|---|\n",
+      outcome.tries, outcome.time.cpu, outcome.time.wall);
+  for (const auto& [type, count] : outcome.types) page += fmt::format("| {} | {} |\n", type, count);
+  std::map<std::string, int> reasons;
+  for (const Candidate& candidate : outcome.candidates) {
+    if (!candidate.shortcoming.empty()) ++reasons[candidate.shortcoming];
+  }
+  if (!reasons.empty()) {
+    page += "\nPaths that tied the knot and were given up:\n\n| why | paths |\n|---|---|\n";
+    for (const auto& [why, count] : reasons) page += fmt::format("| {} | {} |\n", why, count);
+  }
+  return page;
+}
+
+std::string design_row(const DesignOptions& options, const DesignOutcome& outcome,
+                       const RunSummary& run) {
+  const Candidate& best = *outcome.best;
+  CsvTable table(2);
+  const auto add = [&table](const std::string& name, const std::string& value) {
+    table[0].push_back(name);
+    table[1].push_back(value);
+  };
+  add("knot_wanted", options.knot);
+  add("seed", std::to_string(options.seed));
+  add("found", outcome.found ? "yes" : "no");
+  add("tries", std::to_string(outcome.tries));
+  add("tied_in_soft_body", std::to_string(outcome.candidates.size()));
+  add("try", std::to_string(best.number));
+  add("starts", std::to_string(best.judged));
+  for (const int law : {0, 1}) {
+    add(fmt::format("starts_by_{}", judged_laws[law]), std::to_string(best.passed[law]));
+  }
+  add("cpu_s", fmt::format("{:.1f}", outcome.time.cpu));
+  add("wall_s", fmt::format("{:.1f}", outcome.time.wall));
+  for (const auto& [name, value] : run.fields()) add(name, value);
+  return csv_text(table);
+}
+
+}  // namespace hagfish

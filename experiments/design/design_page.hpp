@@ -1,0 +1,21 @@
+// The page that a design leaves: what was found, how sure it is and what it takes.
+#pragma once
+
+#include <string>
+
+#include "core/input/scene_reader.hpp"
+#include "experiments/design/design.hpp"
+#include "experiments/sweep/run_figures.hpp"
+
+namespace hagfish {
+
+/// Markdown. `scene` and `run`: the found scene and its run from a straight start by the paper's
+/// law.
+std::string design_page(const DesignOptions& options, const DesignOutcome& outcome,
+                        const ResolvedScene& scene, const RunSummary& run);
+
+/// The same as a row of a table, with its heading: CSV.
+std::string design_row(const DesignOptions& options, const DesignOutcome& outcome,
+                       const RunSummary& run);
+
+}  // namespace hagfish

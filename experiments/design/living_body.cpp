@@ -1,0 +1,87 @@
+#include "experiments/design/living_body.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/input/curvature_csv.hpp"
+#include "experiments/curvature/program_fit.hpp"
+#include "experiments/sweep/sweep_run.hpp"
+
+namespace hagfish {
+namespace {
+
+constexpr double between_times = 0.35;  // s, of the program
+constexpr int stations = 25;
+
+}  // namespace
+
+FoundScene found_scene(const SoftBody& body, const Shapes& shapes, const std::string& knot,
+                       const std::string& specimen) {
+  const std::string in_scene = *name_in_scene(knot);
+  const double end = shapes.time.back();
+  const int times = 1 + static_cast<int>(std::ceil(end / between_times));
+  const ProgramFit fit = fit_program(body.model, shapes.time, shapes.q, times, stations);
+  FoundScene found;
+  found.program = curvature_csv(fit.program);
+  found.specimen = specimen;
+  found.scene = fmt::format(
+      R"(# The animal ties a {0} itself, by a program that `hagfish design` found. Keys and units: the built-in scene table1.
+base = "living_overhand"
+title = "{0}, tied by the animal itself"
+{1}
+[script]
+program = "{2}"
+
+[controller]
+tighten_from = {3:.2f}            # s: the program ends by pulling the knot together
+tighten_time = 1.0              # s
+
+[expect]
+knot = "{4}"
+hand = "any"
+types = [  # type, from, to: s, or a phase and s after it
+  ["{4}", "tighten", "release"],
+  ["0_1", "free + 0.5", "end"],
+]
+slide_distance = "0.04 L"
+energy_loss = 0.15              # by Euler's rule at its release
+)",
+      knot, specimen.empty() ? "" : fmt::format("specimen = \"{}\"\n", specimen_file), program_file,
+      end, in_scene);
+  return found;
+}
+
+std::vector<std::string> trial_settings(const Trial& trial) {
+  std::vector<std::string> set;
+  if (trial.law == 1) {
+    set = {"controller.law=reflex", "controller.tighten_time=0.04",
+           "controller.reflex.shift=2.5e-4 L",
+           "expect.speed_share=0.0"};  // there are no rows of Eq. 6 to be met
+  }
+  if (trial.seed > 0) {
+    set.push_back(fmt::format("start.noise_deg={:g}", start_noise_deg));
+    set.push_back(fmt::format("start.seed={}", trial.seed));
+  }
+  return set;
+}
+
+std::optional<RunSummary> run_trial(const FoundScene& found, const Trial& trial,
+                                    const std::function<bool()>& interrupted) {
+  const ResolvedScene resolved =
+      read_scene_text(found.scene, scene_file, trial_settings(trial),
+                      {{program_file, found.program}, {specimen_file, found.specimen}});
+  const std::optional<SweepRun> run = run_for_summary(resolved, interrupted, std::nullopt);
+  if (!run) return std::nullopt;
+  return run->summary;
+}
+
+bool succeeds(const RunSummary& run) { return run.outcome == "ok" && run.unmet.empty(); }
+
+std::string shortcoming(const RunSummary& run) {
+  if (succeeds(run)) return "";
+  return run.outcome == "ok" ? run.unmet : run.message.empty() ? run.outcome : run.message;
+}
+
+}  // namespace hagfish

@@ -1,0 +1,56 @@
+// The second stage of a design: the animal ties the knot by its own torques, from many starts, and
+// slides it.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/input/scene_reader.hpp"
+#include "experiments/design/soft_body.hpp"
+#include "experiments/sweep/run_figures.hpp"
+
+namespace hagfish {
+
+/// The files of a found knot, as they are written and as they are judged.
+struct FoundScene {
+  std::string scene;    ///< TOML, names the others: program.csv and, where not empty, specimen.toml
+  std::string program;  ///< CSV
+  std::string specimen;
+};
+
+inline constexpr const char* scene_file = "scene.toml";
+inline constexpr const char* program_file = "program.csv";
+inline constexpr const char* specimen_file = "specimen.toml";
+
+/// A curvature program fitted to `shapes`, in the scene of an animal that ties `knot` with it.
+/// `specimen`: text of the animal's file; empty for the base scene's.
+FoundScene found_scene(const SoftBody& body, const Shapes& shapes, const std::string& knot,
+                       const std::string& specimen);
+
+/// The control laws by which a found knot is slid.
+inline constexpr const char* judged_laws[] = {"paper", "reflex"};
+
+/// One run of a found scene: a law, and a start.
+struct Trial {
+  int law = 0;   ///< of judged_laws
+  int seed = 0;  ///< of noise on every hinge; 0: straight
+};
+
+inline constexpr double start_noise_deg = 3;
+
+/// What is changed of the scene for a trial, as after --set.
+std::vector<std::string> trial_settings(const Trial& trial);
+
+/// Runs it to its end. Nothing where `interrupted`.
+std::optional<RunSummary> run_trial(const FoundScene& found, const Trial& trial,
+                                    const std::function<bool()>& interrupted);
+
+/// The animal ties the knot, holds it, tightens and slides it, and it comes off, within all bounds.
+bool succeeds(const RunSummary& run);
+
+/// In a few words, why not; "" of one that succeeds.
+std::string shortcoming(const RunSummary& run);
+
+}  // namespace hagfish

@@ -1,0 +1,117 @@
+#include "experiments/design/soft_body.hpp"
+
+#include <cmath>
+
+#include "core/knot/knot_table.hpp"
+#include "core/run/simulation.hpp"
+#include "core/step/outcome.hpp"
+#include "experiments/sweep/sweep.hpp"
+
+namespace hagfish {
+namespace {
+
+constexpr double look = 0.4;     // s, between looks at the knot
+constexpr double lasting = 1.0;  // s, that a knot must be there
+
+/// The scene with a path.
+Scene led_along(const SoftBody& body, const TailPath& path, double step) {
+  Scene scene = body.resolved.scene;
+  scene.script.knots = script_knots(path, body.model.length());
+  scene.time.step = step;
+  return scene;
+}
+
+}  // namespace
+
+std::optional<std::string> name_in_scene(const std::string& knot) {
+  if (const std::optional<KnotFingerprint> full = fingerprint_called(knot)) {
+    return knot_name(full->type);
+  }
+  if (!knot_called(knot)) return std::nullopt;
+  return knot;
+}
+
+SoftBody soft_body(const std::vector<std::string>& animal) {
+  std::vector<std::string> set = animal;
+  // Lengths that fit other animals too (living_overhand.toml says why these).
+  set.insert(set.end(),
+             {"contact.least_arc=1.8 D", "wall.neck=0.07 L", "controller.tail_through=0.02 L",
+              "controller.release_at=0.04 L", "time.frame_interval=0.02", "time.duration=60.0"});
+  ResolvedScene resolved = read_scene_text("base = \"overhand_waypoints\"\n", "design", set);
+  Model model = make_hagfish(resolved.specimen, resolved.scene);
+  return {std::move(resolved), std::move(model)};
+}
+
+std::optional<KnotInvariants> Tying::tied() const {
+  if (failed || seen.back().to - seen.back().from < lasting) return std::nullopt;
+  return seen.back().type;
+}
+
+std::optional<Tying> try_path(const SoftBody& body, const TailPath& path,
+                              const std::function<bool()>& interrupted) {
+  Scene scene = led_along(body, path, 0.02);
+  scene.expect.knot.clear();  // nothing is waited for
+  scene.expect.types.clear();
+  scene.knot.interval = look;
+  Simulation sim = start(body.model, scene, sweep_qp);
+  Tying tying{.seen = {{}}};
+  StepRecord record;
+  const double end = path_end(path) + lasting;
+  while (time_of(sim, scene) < end) {
+    if (interrupted()) return std::nullopt;
+    try {
+      take_step(body.model, scene, sim, record);
+    } catch (const std::exception&) {  // whatever it was, this path leads nowhere
+      tying.failed = true;
+      return tying;
+    }
+    const double time = record.controller.knot_seen;
+    if (!std::isfinite(time)) continue;
+    if (record.controller.knot.type != tying.seen.back().type) {
+      tying.seen.push_back({record.controller.knot.type, time, time});
+    }
+    tying.seen.back().to = time;
+  }
+  return tying;
+}
+
+Shapes tied_shapes(const SoftBody& body, const TailPath& path, const std::string& wanted,
+                   double tightening) {
+  Scene scene = led_along(body, path, 0.01);
+  scene.expect.knot = *name_in_scene(wanted);
+  scene.controller.tighten_from = path_end(path);
+  scene.controller.tight_span = 0;
+  scene.controller.tighten_time = tightening;
+  scene.time.until = Phase::tighten;
+  Simulation sim = start(body.model, scene, sweep_qp);
+  Shapes shapes;
+  std::vector<Eigen::VectorXd> q;
+  StepRecord record;
+  bool tightens = false;
+  while (!finished(sim, scene)) {
+    try {
+      take_step(body.model, scene, sim, record);
+    } catch (const std::exception& error) {
+      shapes.failure = error.what();
+      break;
+    }
+    if (!tightens && record.controller.phase == Phase::tighten) {
+      tightens = true;
+      shapes.tighten_from = record.time;
+    }
+    if (record.step % 2 == 0) {
+      shapes.time.push_back(record.time);
+      q.push_back(record.moment.state.q);
+    }
+  }
+  if (shapes.failure.empty() && !tightens) shapes.failure = "it was never tightened";
+  if (shapes.failure.empty() && fingerprint_called(wanted)) {
+    const std::string name = full_knot_name(sim.now.observation.kin.centre, scene.knot);
+    if (name != wanted) shapes.failure = "it is a " + name;
+  }
+  shapes.q.resize(static_cast<Eigen::Index>(q.size()), body.model.nq());
+  for (std::size_t k = 0; k < q.size(); ++k) shapes.q.row(static_cast<Eigen::Index>(k)) = q[k];
+  return shapes;
+}
+
+}  // namespace hagfish

@@ -1,0 +1,108 @@
+"""Found programs: their table and their page.
+
+Usage: design.py FOLDER OUT.csv OUT.md. FOLDER is what experiments/studies/design.sh leaves. The page is made of the table alone: a
+test makes it again.
+"""
+
+from __future__ import annotations
+
+import csv
+import datetime
+from pathlib import Path
+
+import tables
+from audits import read_findings, unmet
+from hagfish_log import HagfishLog, LogError
+from script import run_script
+
+STEPS = ("0.001", "0.002", "0.005")  # s, of the audited runs
+KEPT = ["knot_wanted", "seed", "found", "tries", "tied_in_soft_body", "try", "starts", "starts_by_paper", "starts_by_reflex", "cpu_s", "wall_s",
+        "tighten_from_s", "slide_distance_cm", "release_from_s", "free_from_s", "largest_active_dyn_cm", "largest_thigmotaxis_dyn_cm",
+        "work_active_erg", "penetration_cm"]
+Row = dict[str, str]
+
+
+def audited(folder: Path, step: str) -> str:
+    """What the audit of the run at that step says: "clean", or what is not met."""
+    findings = folder / f"step_{step}.csv"
+    if not findings.exists():
+        return "no log"
+    return "; ".join(unmet(read_findings(findings))) or "clean"
+
+
+def read_study(folder: Path) -> tuple[list[Row], list[str]]:
+    rows = []
+    results = sorted(folder.glob("*/result.csv"))
+    if not results:
+        raise LogError(f"{folder}: holds no folder with a result.csv")
+    for result in results:
+        row = tables.read_csv(result, KEPT)[0]
+        rows.append({**{name: row[name] for name in KEPT}, **{f"audit_{step}_s": audited(result.parent, step) for step in STEPS}})
+    log = HagfishLog(results[0].parent / "knot.h5")
+    date = datetime.datetime.fromtimestamp(results[0].stat().st_mtime, datetime.UTC)
+    return rows, [f"Measured at {str(log.attribute('git_revision'))[:12]} on {log.attribute('cpu')}, {date:%Y-%m-%d}."]
+
+
+def read_table(path: Path) -> tuple[list[Row], list[str]]:
+    with path.open(newline="", encoding="utf-8") as file:
+        lines = file.readlines()
+    notes = [line[2:].rstrip("\n") for line in lines if line.startswith("# ")]
+    return list(csv.DictReader(line for line in lines if not line.startswith("#"))), notes
+
+
+def number(text: str, digits: int = 3) -> str:
+    return f"{float(text):.{digits}g}".replace("e+0", "e") if text else "-"
+
+
+def found_table(rows: list[Row]) -> list[str]:
+    head = ["knot", "found", "CPU time, s", "clock, s", "paths tried", "paths that tied it", "starts, paper's law", "starts, reflex"]
+    return tables.markdown(head, [[row["knot_wanted"], row["found"], number(row["cpu_s"]), number(row["wall_s"]), row["tries"],
+                                   row["tied_in_soft_body"], f"{row['starts_by_paper']} of {row['starts']}",
+                                   f"{row['starts_by_reflex']} of {row['starts']}"] for row in rows])
+
+
+def needs_table(rows: list[Row]) -> list[str]:
+    head = ["knot", "tightened from, s", "way, cm", "untied at, s", "largest active torque, dyn cm", "largest torque of f_thigmo, dyn cm",
+            "work of active torques, erg", "audit at 1 ms", "at 2 ms", "at 5 ms"]
+    return tables.markdown(head, [[row["knot_wanted"], number(row["tighten_from_s"]), number(row["slide_distance_cm"], 2), number(row["free_from_s"]),
+                                   number(row["largest_active_dyn_cm"], 2), number(row["largest_thigmotaxis_dyn_cm"], 2),
+                                   number(row["work_active_erg"], 2), *(row[f"audit_{step}_s"] for step in STEPS)] for row in rows])
+
+
+def page(rows: list[Row], notes: list[str]) -> list[str]:
+    found = [row for row in rows if row["found"] == "yes"]
+    longest = max((float(row["cpu_s"]) for row in found), default=0)
+    answer = (f"It does: {len(found)} of {len(rows)} knots were found, each within {longest:.0f} s of CPU time." if found else "It did not here.")
+    return [
+        "# From a knot's name to an animal that ties it", "",
+        "`bash experiments/studies/design.sh` makes this page and [its table](design.csv). " + " ".join(notes), "",
+        "**Question.** Does a body find out by itself how to knot itself?", "",
+        f"**Answer.** {answer}", "",
+        "## How it is found", "",
+        "1. A hand leads the tail of the animal with a soft body along random paths. Half of the paths are mutations of paths that tied something.",
+        "2. Parents are drawn by type, so that a rare knot is looked into as often as a common one. No measure shapes the search.",
+        "3. The soft body is tightened. Its shapes become a curvature program of 25 stations, a time every 0.35 s.",
+        "4. The animal of measured stiffness ties itself by that program, without a hand. The knot slides by the paper's law, then by the reflex.",
+        "5. A program is kept if at least 19 of 20 starts succeed by each law. Starts have normal noise of 3 degrees on every hinge.", "",
+        "No script and no program of `data/` is a start of the search. The head is clamped.", "",
+        "## What was found", "",
+        *found_table(rows),
+        "Times are of one thread and hold everything: the search, the fit and all runs of the starts. The machine was shared, so compare CPU times.", "",
+        "## What each takes", "",
+        "These are figures of the run from a straight start by the paper's law. The audit is `hagfish check`.", "",
+        *needs_table(rows),
+        "## What this page does not show", "",
+        "- Other animals: the search was run for Table 1's alone.",
+        "- Knots of six crossings and more, and composites. The classifier tells them apart; their searches were not run.",
+        "- A refinement of found programs. The first program that passes is kept, not the best.",
+    ]
+
+
+def main(folder: Path, table: Path, out: Path) -> None:
+    rows, notes = read_study(folder)
+    tables.write_csv(table, list(rows[0]), [list(row.values()) for row in rows], notes)
+    tables.write_page(out, page(*read_table(table)))
+
+
+if __name__ == "__main__":
+    run_script(__doc__, ["FOLDER", "OUT.csv", "OUT.md"], main)

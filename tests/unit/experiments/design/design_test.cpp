@@ -1,0 +1,107 @@
+// A search for a knot: it repeats whatever the threads, goes on where it was, and refuses what
+// cannot be.
+#include "experiments/design/design.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include "core/input/input_error.hpp"
+#include "core/input/scene_reader.hpp"
+#include "core/log/hdf5_error.hpp"
+#include "experiments/design/length_bound.hpp"
+#include "experiments/design/tries.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace hagfish {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> sorted_lines(const fs::path& file) {
+  std::vector<std::string> lines;
+  std::ifstream stream(file);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  std::ranges::sort(lines);
+  return lines;
+}
+
+/// One batch in search of a knot that it will not tie.
+DesignOptions one_batch(const fs::path& folder, int threads) {
+  DesignOptions options;
+  options.knot = "7_7";
+  options.folder = folder;
+  options.budget = 1e-6;
+  options.threads = threads;
+  options.interrupted = [] { return false; };
+  options.progress = [](const std::string&) {};
+  return options;
+}
+
+TEST(Design, TriesAreTheSameWhateverTheThreadsAndStops) {
+  const TemporaryFolder folder;
+  const DesignOutcome one = design(one_batch(folder.path() / "one", 1));
+  EXPECT_FALSE(one.found);
+  EXPECT_EQ(one.tries, batch_size);
+  const std::vector<std::string> lines = sorted_lines(folder.path() / "one/tries.csv");
+  EXPECT_EQ(lines.size(), batch_size);
+
+  design(one_batch(folder.path() / "three", 3));
+  EXPECT_EQ(sorted_lines(folder.path() / "three/tries.csv"), lines);
+
+  // Two lines of it are lost, one of them in part.
+  std::ofstream cut(folder.path() / "three/tries.csv");
+  for (std::size_t k = 0; k + 2 < lines.size(); ++k) cut << lines[k] << "\n";
+  cut << lines.back().substr(0, lines.back().size() / 2);
+  cut.close();
+  EXPECT_THROW(design(one_batch(folder.path() / "three", 1)), FileError);
+  DesignOptions again = one_batch(folder.path() / "three", 1);
+  again.resume = true;
+  EXPECT_EQ(design(again).in_words(), one.in_words());
+  const std::vector<std::string> mended = sorted_lines(folder.path() / "three/tries.csv");
+  EXPECT_TRUE(std::ranges::includes(mended, lines));
+  again.seed = 2;
+  EXPECT_THROW(design(again), FileError);
+}
+
+TEST(Design, InterruptedSearchKeepsItsTries) {
+  const TemporaryFolder folder;
+  DesignOptions options = one_batch(folder.path() / "stopped", 1);
+  int asked = 0;
+  options.interrupted = [&asked] { return ++asked > 2000; };
+  const DesignOutcome outcome = design(options);
+  EXPECT_TRUE(outcome.interrupted);
+  const std::size_t kept = sorted_lines(folder.path() / "stopped/tries.csv").size();
+  EXPECT_GT(kept, 0);
+  EXPECT_LT(kept, batch_size);
+}
+
+TEST(Design, AnimalTooShortIsRefusedWithTheLengthItNeeds) {
+  const Specimen table1 = read_specimen(HAGFISH_DATA_DIR "/specimens/pacific_hagfish.toml");
+  EXPECT_EQ(too_short_for(table1, "4_1"), "");
+  Specimen thick = table1;
+  for (double& around : thick.circumference) around *= 3;
+  const std::string why = too_short_for(thick, "4_1");
+  EXPECT_TRUE(why.starts_with("4_1 needs at least 62.")) << why;
+  EXPECT_TRUE(why.ends_with("yours has 42.4")) << why;
+  EXPECT_DOUBLE_EQ(*least_diameters("3_1#-4_1"), *least_diameters("3_1") + *least_diameters("4_1"));
+  EXPECT_FALSE(least_diameters("det=9,v2=10"));
+}
+
+TEST(Design, TyingsAreReadBackAsTheyWereWritten) {
+  Tying tying;
+  tying.seen = {{{}, 0, 8.4}, {{3, 1}, 8.8, 11.2}, {{9, 2}, 11.6, 13.2}};
+  const std::string text = tying_text(tying);
+  const std::optional<Tying> back = tying_of(text);
+  ASSERT_TRUE(back);
+  EXPECT_EQ(tying_text(*back), text);
+  EXPECT_EQ(*back->tied(), (KnotInvariants{9, 2}));
+  EXPECT_FALSE(tying_of(text.substr(0, text.size() - 1)));
+  tying.failed = true;
+  EXPECT_FALSE(tying_of(tying_text(tying))->tied());
+}
+
+}  // namespace
+}  // namespace hagfish
