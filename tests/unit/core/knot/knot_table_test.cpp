@@ -10,8 +10,7 @@
 
 #include "tests/support/knot_curves.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::knot_table_test {
 
 int strands_of(const std::vector<int>& word) {
   int strands = 1;
@@ -100,5 +99,4 @@ TEST(KnotTable, UnknownNamesAreNone) {
   }
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::knot_table_test

@@ -15,8 +15,7 @@
 #include "experiments/design/tries.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::design_test {
 
 namespace fs = std::filesystem;
 
@@ -103,5 +102,4 @@ TEST(Design, TyingsAreReadBackAsTheyWereWritten) {
   EXPECT_FALSE(tying_of(tying_text(tying))->tied());
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::design_test
