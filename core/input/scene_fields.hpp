@@ -240,6 +240,8 @@ void controller_fields(Io& io, ControllerSettings& s) {
   io.choice("law", s.law, names);
   io.template choice<Eq6Point>("eq6_at", s.eq6_at,
                                {{"skin", Eq6Point::skin}, {"centreline", Eq6Point::centreline}});
+  io.template choice<Eq6Slip>("eq6_slip", s.eq6_slip,
+                              {{"paper", Eq6Slip::paper}, {"shape", Eq6Slip::shape}});
   io.number("cap", s.cap, positive());
   io.number("acceleration", s.acceleration, positive());
   io.number("contact_gap", s.contact_gap, not_negative());

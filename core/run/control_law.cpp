@@ -24,25 +24,37 @@ bool goes_back(const Situation& at) {
          (phase == Phase::release && at.scene.controller.leave_by == BodyEnd::tail);
 }
 
-/// Commanded speeds at the first and the last contact.
-void command_speeds(const Situation& at, std::vector<ThigmotaxisCommand>& commands) {
+/// Speeds at which the strands are to run at the first and the last contact, and where to.
+struct CommandedSpeeds {
+  ThigmotaxisSpeeds first, last;
+  BodyEnd towards;
+};
+
+CommandedSpeeds commanded_speeds(const Situation& at) {
+  const ControllerSettings& settings = at.scene.controller;
+  if (at.so_far.phase == Phase::tighten) {
+    return {settings.tighten_head, settings.tighten_tail, BodyEnd::head};
+  }
+  return goes_back(at)
+             ? CommandedSpeeds{settings.reverse_head, settings.reverse_tail, BodyEnd::tail}
+             : CommandedSpeeds{settings.slide_head, settings.slide_tail, BodyEnd::head};
+}
+
+/// Eq. 6 at the first and the last contact.
+void command_ends(const Situation& at, std::vector<ThigmotaxisCommand>& commands) {
   const ControllerSettings& settings = at.scene.controller;
   const ControllerState& so_far = at.so_far;
   const double effort = so_far.phase == Phase::pull
                             ? at.scene.food.cap.at(at.time - so_far.phase_start) / settings.cap
                             : 1;
-  const auto command = [&](const ThigmotaxisSpeeds& first, const ThigmotaxisSpeeds& last,
-                           BodyEnd towards) {
-    commands.push_back({*so_far.first.contact, first, towards, effort, KnotEnd::first});
-    commands.push_back({*so_far.last.contact, last, towards, effort, KnotEnd::last});
+  const CommandedSpeeds speeds = commanded_speeds(at);
+  const auto command = [&](const Contact& contact, const ThigmotaxisSpeeds& speed, KnotEnd end) {
+    commands.push_back({contact,
+                        settings.eq6_slip == Eq6Slip::paper ? speed : slip_of_shape(contact, speed),
+                        speeds.towards, effort, end});
   };
-  if (so_far.phase == Phase::tighten) {
-    command(settings.tighten_head, settings.tighten_tail, BodyEnd::head);
-  } else if (goes_back(at)) {
-    command(settings.reverse_head, settings.reverse_tail, BodyEnd::tail);
-  } else {
-    command(settings.slide_head, settings.slide_tail, BodyEnd::head);
-  }
+  command(*so_far.first.contact, speeds.first, KnotEnd::first);
+  command(*so_far.last.contact, speeds.last, KnotEnd::last);
 }
 
 bool same_segments(const Contact& x, const Contact& y) {
@@ -106,11 +118,16 @@ void paper_law(const Situation& at, Control& control) {
     control.tip = script_force(scene.script, time, scene.time, kin.centre.col(last),
                                kin.centre_velocity.col(last));
   } else if (so_far.phase != Phase::free && so_far.first.contact) {
-    command_speeds(at, control.thigmotaxis);
+    command_ends(at, control.thigmotaxis);
   }
   if (scene.script.kind == ScriptSettings::Kind::curvature) {
     move_rest_shape(model, scene, so_far.phase, now.state.q, time, control.rest_shape);
   }
+}
+
+ThigmotaxisSpeeds slip_of_shape(const Contact& contact, const ThigmotaxisSpeeds& speed) {
+  const double cosine = contact.tangent_a.dot(contact.tangent_b);
+  return {speed.a - speed.b * cosine, speed.b - speed.a * cosine};
 }
 
 void all_contacts_law(const Situation& at, Control& control) {
@@ -120,17 +137,14 @@ void all_contacts_law(const Situation& at, Control& control) {
   }
   const ThigmotaxisCommand first = control.thigmotaxis[0];
   const Contact last = control.thigmotaxis[1].contact;  // a copy: the list grows below
+  const ThigmotaxisSpeeds speed = commanded_speeds(at).first;
   for (const Contact& contact : at.now.observation.contact.contacts) {
     if (contact.gap > at.scene.controller.contact_gap || same_segments(contact, first.contact) ||
         same_segments(contact, last)) {
       continue;
     }
-    const double share = 1 - contact.tangent_a.dot(contact.tangent_b);
-    control.thigmotaxis.push_back({contact,
-                                   {share * first.speed.a, share * first.speed.b},
-                                   first.towards,
-                                   first.effort,
-                                   KnotEnd::neither});
+    control.thigmotaxis.push_back(
+        {contact, slip_of_shape(contact, speed), first.towards, first.effort, KnotEnd::neither});
   }
 }
 

@@ -47,9 +47,19 @@ using ControlLaw =
 /// at the commanded speeds of the phase; the rest shape of a scene that has a curvature program.
 void paper_law(const Situation& at, Control& control);
 
-/// The paper's and Eq. 6 at every other contact that touches, while the knot slides. A knot of
-/// constant shape that the body runs through at the speed v has v (1 - t_a . t_b) on the left side
-/// of both rows, with which the head contact's speeds are multiplied there (addition).
+/// The left sides of Eq. 6 at `contact` where both strands run along themselves,
+/// ẋ_a = speed.a t_a and ẋ_b = speed.b t_b, as those of a knot of constant shape do at one speed:
+///
+///     t_a . (ẋ_a - ẋ_b) = speed.a - speed.b t_a . t_b
+///     t_b . (ẋ_b - ẋ_a) = speed.b - speed.a t_a . t_b
+///
+/// At one speed v both are v (1 - t_a . t_b): v where strands cross at right angles, 2 v where they
+/// run past each other, 0 side by side. There the paper's, v on both rows, contradict each other:
+/// they ask for w along t_a and against it. This motion meets both at any angle.
+ThigmotaxisSpeeds slip_of_shape(const Contact& contact, const ThigmotaxisSpeeds& speed);
+
+/// The paper's and Eq. 6 at every other contact that touches, while the knot slides: the slip that
+/// its strands have at the head contact's speeds (addition).
 void all_contacts_law(const Situation& at, Control& control);
 
 /// The paper's, with the commanded speeds of the slide scaled by the knot's measured speed:

@@ -67,9 +67,9 @@ std::string furthest_limit(const Model& model, const State& state) {
   return bent == nullptr ? dof_name(model, static_cast<int>(worst)) : cone_joint_name(model, *bent);
 }
 
-/// The rows whose forces work hardest against row i, at most three.
-std::string opponents(const Model& model, const Kinematics& kin, const StepSolution& step,
-                      Eigen::Index i) {
+/// The rows whose forces work hardest against row i, at most three, hardest first.
+std::vector<const Row*> opponents(const Model& model, const Kinematics& kin,
+                                  const StepSolution& step, Eigen::Index i) {
   const Eigen::MatrixXd A = whole_dual(model, kin, step.system, step.rows).A;
   std::vector<std::pair<double, Eigen::Index>> effect;  // on the row's velocity
   for (Eigen::Index j = 0; j < A.rows(); ++j) {
@@ -78,11 +78,31 @@ std::string opponents(const Model& model, const Kinematics& kin, const StepSolut
     }
   }
   std::sort(effect.begin(), effect.end());
-  std::string names;
+  std::vector<const Row*> rows;
   for (std::size_t k = 0; k < std::min<std::size_t>(3, effect.size()); ++k) {
-    names += (k == 0 ? "" : "; ") + row_name(model, step.rows[effect[k].second]);
+    rows.push_back(&step.rows[static_cast<std::size_t>(effect[k].second)]);
   }
-  return names.empty() ? "no row" : names;
+  return rows;
+}
+
+/// What a thigmotaxis row at its cap suffers from, and what would help, by what holds it back most.
+std::string cure_of_cap(const Row& row, const std::vector<const Row*>& against) {
+  const RowKind kind = against.empty() ? RowKind::contact : against[0]->kind;
+  if (kind == RowKind::thigmotaxis && against[0]->command == row.command) {
+    const double angle =
+        std::acos(std::min(1.0, std::abs(row.direction.dot(against[0]->direction))));
+    return fmt::format(
+        "both rows of one contact work against each other, {:.2g} deg from one line; "
+        "controller.eq6_slip = \"shape\" would help",
+        angle / degree);
+  }
+  if (kind == RowKind::limit) {
+    return "joint limits leave no way; a lower speed or a larger model.limit_scale would help";
+  }
+  if (kind == RowKind::obstacle) {
+    return "an obstacle is in the way; a larger controller.release_at would help";
+  }
+  return "a lower speed or a higher cap would help";
 }
 
 }  // namespace
@@ -239,12 +259,17 @@ void guard_cap(const Model& model, const Kinematics& kin, const Scene& scene, Ph
     if (time - one->since > scene.guard.capped_time &&
         !watch.warned.test(static_cast<std::size_t>(Outcome::capped))) {
       const Eigen::Index i = &row - step.rows.data();
+      const std::vector<const Row*> against = opponents(model, kin, step, i);
+      std::string names;
+      for (const Row* other : against) {
+        names += (names.empty() ? "" : "; ") + row_name(model, *other);
+      }
       std::ignore = report(
           Outcome::capped,
           fmt::format("{} has been at controller.cap = {:g} dyn for {:g} s and is {:.3g} cm/s too "
-                      "slow. It is held back most by {}; try a lower speed or a higher cap",
+                      "slow. It is held back most by {}; {}",
                       row_name(model, row), scene.controller.cap, scene.guard.capped_time,
-                      -step.excess[i], opponents(model, kin, step, i)),
+                      -step.excess[i], names.empty() ? "no row" : names, cure_of_cap(row, against)),
           GuardAction::warn, watch, warnings);
     }
   }

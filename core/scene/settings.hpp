@@ -162,6 +162,12 @@ enum class Eq6Point {
   centreline  ///< at the two closest points of the spline: f_thigmo has a couple from outside
 };
 
+/// What Eq. 6 asks of two strands that are commanded to run at given speeds.
+enum class Eq6Slip {
+  paper,  ///< the speeds themselves, whatever the angle of the strands
+  shape   ///< the slip that strands have which run along themselves at these speeds
+};
+
 /// The control law that is of the program that runs the scene.
 inline constexpr const char* own_law = "own";
 
@@ -234,6 +240,7 @@ struct ReflexSettings {
 struct ControllerSettings {
   std::string law = "paper";  ///< that controls the animal in each phase (core/run/laws.hpp)
   Eq6Point eq6_at = Eq6Point::skin;
+  Eq6Slip eq6_slip = Eq6Slip::paper;
   KnotSpeedSettings knot_speed;
   ReducedBasisSettings reduced_basis;
   ReflexSettings reflex;

@@ -21,7 +21,7 @@ bool towards_tail(const Scene& scene, Phase phase) {
          (phase == Phase::release && scene.controller.leave_by == BodyEnd::tail);
 }
 
-/// Commanded speeds of a phase: first t_a, first t_b, last t_a, last t_b, cm/s; nan without rows.
+/// Commanded speeds of a phase: first strand a, b, last a, b, cm/s; nan without rows.
 Eigen::Vector4d commands(const Scene& scene, Phase phase) {
   const ControllerSettings& c = scene.controller;
   const auto four = [](const ThigmotaxisSpeeds& first, const ThigmotaxisSpeeds& last) {
@@ -35,6 +35,15 @@ Eigen::Vector4d commands(const Scene& scene, Phase phase) {
   }
   return towards_tail(scene, phase) ? four(c.reverse_head, c.reverse_tail)
                                     : four(c.slide_head, c.slide_tail);
+}
+
+/// What the rows along t_a and t_b ask for at the points `a` and `b` of the spline, where strands a
+/// and b are to run at `speed` and, with `shape`, Eq. 6 asks for the slip of strands that do; cm/s.
+Eigen::Vector2d asked_slip(const Model& model, const AuditedFrame& frame, double a, double b,
+                           const Eigen::Vector2d& speed, bool shape) {
+  if (!shape) return speed;
+  const Contact contact = contact_of(model, frame.observation.segments, a, b);
+  return speed - contact.tangent_a.dot(contact.tangent_b) * speed.reverse();
 }
 
 }  // namespace
@@ -134,15 +143,19 @@ std::vector<ThigmotaxisAudit::LoggedRow> ThigmotaxisAudit::rows_at_ends(const Au
     const auto nearest = [there](double s) { return there ? std::floor(s + 0.5) : -1; };
     rebuilt.compare("/thigmotaxis/body_a", body_a_(f, place), nearest(a));
     rebuilt.compare("/thigmotaxis/body_b", body_b_(f, place), nearest(b));
+    const Eigen::Vector2d asked =
+        there ? asked_slip(log_.model, frame, a, b, commanded.segment<2>(2 * place),
+                           scene.controller.eq6_slip == Eq6Slip::shape)
+              : Eigen::Vector2d::Constant(NAN);
     for (const int along : {0, 1}) {
       const Eigen::Index k = 2 * place + along;
-      rebuilt.compare("/thigmotaxis/command", command_(f, k), there ? commanded[k] : NAN);
+      rebuilt.compare("/thigmotaxis/command", command_(f, k), asked[along]);
       if (!there) {
         rebuilt.compare("/thigmotaxis/speed", speed_(f, k), NAN);
         rebuilt.compare("/thigmotaxis/lambda", lambda_(f, k), 0);
         continue;
       }
-      rows.push_back({end, along, towards_tail(scene, frame.phase) ? -1.0 : 1.0, a, b, commanded[k],
+      rows.push_back({end, along, towards_tail(scene, frame.phase) ? -1.0 : 1.0, a, b, asked[along],
                       cap_[f], lambda_(f, k), speed_(f, k)});
     }
   }
@@ -181,12 +194,10 @@ void ThigmotaxisAudit::see_commands(const AuditedFrame& frame, const std::vector
   const Eigen::Vector4d commanded = commands(scene, frame.phase);
   std::optional<double> scale;  // the same of all rows
   for (const LoggedRow& r : rows) {
-    double wanted = commanded[r.end == KnotEnd::neither ? r.along : r.place()];
-    if (r.end == KnotEnd::neither) {
-      const Contact contact =
-          contact_of(log_.model, frame.observation.segments, r.spline_a, r.spline_b);
-      wanted *= 1 - contact.tangent_a.dot(contact.tangent_b);
-    }
+    const bool other = r.end == KnotEnd::neither;
+    double wanted = asked_slip(log_.model, frame, r.spline_a, r.spline_b,
+                               commanded.segment<2>(other ? 0 : r.place() - r.along),
+                               other || scene.controller.eq6_slip == Eq6Slip::shape)[r.along];
     if (asked.least_scale < asked.most_scale && wanted != 0) {
       scale = scale.value_or(std::clamp(r.command / wanted, asked.least_scale, asked.most_scale));
       wanted *= *scale;

@@ -109,14 +109,14 @@ class Bits {
     add(shift, pull_shift, bend_y, bend_z, twist, gate, reach, delay, noise, seed);
   }
   void put(const ControllerSettings& s) {
-    const auto& [law, eq6_at, knot_speed, reduced_basis, reflex, tighten_head, tighten_tail,
-                 slide_head, slide_tail, reverse_head, reverse_tail, leave_by, free_from, cap,
-                 acceleration, contact_gap, hysteresis, tail_through, tighten_from, tight_span,
-                 tight_hold, tighten_time, release_at, untied_for, free_time] = s;
-    add(law, eq6_at, knot_speed, reduced_basis, reflex, tighten_head, tighten_tail, slide_head,
-        slide_tail, reverse_head, reverse_tail, leave_by, free_from, cap, acceleration, contact_gap,
-        hysteresis, tail_through, tighten_from, tight_span, tight_hold, tighten_time, release_at,
-        untied_for, free_time);
+    const auto& [law, eq6_at, eq6_slip, knot_speed, reduced_basis, reflex, tighten_head,
+                 tighten_tail, slide_head, slide_tail, reverse_head, reverse_tail, leave_by,
+                 free_from, cap, acceleration, contact_gap, hysteresis, tail_through, tighten_from,
+                 tight_span, tight_hold, tighten_time, release_at, untied_for, free_time] = s;
+    add(law, eq6_at, eq6_slip, knot_speed, reduced_basis, reflex, tighten_head, tighten_tail,
+        slide_head, slide_tail, reverse_head, reverse_tail, leave_by, free_from, cap, acceleration,
+        contact_gap, hysteresis, tail_through, tighten_from, tight_span, tight_hold, tighten_time,
+        release_at, untied_for, free_time);
   }
   void put(const Ramp& s) {
     const auto& [from, to, time] = s;
@@ -214,6 +214,7 @@ ResolvedScene odd_scene() {
   s.controller = {
       "knot_speed",
       Eq6Point::centreline,
+      Eq6Slip::shape,
       {odd(), odd(), odd(), odd()},
       {BasisFrame::body,
        odd(),

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 
 #include "core/run/simulation.hpp"
+#include "core/step/dual_problem.hpp"
 #include "core/step/look_ahead.hpp"
 #include "core/step/paper_step.hpp"
 #include "tests/support/random_chain.hpp"
@@ -191,6 +193,36 @@ TEST(Guard, TellsOfARowThatStaysAtItsCapAndWhatHoldsItBack) {
                    "; " + row_name(capped.model, step.rows[hardest[1].second]) + "; "),
       std::string::npos)
       << warning;
+}
+
+TEST(Guard, TellsWhyARowIsAtItsCap) {
+  const auto warning = [](const std::function<void(CappedRow&)>& change) {
+    CappedRow capped;
+    change(capped);
+    for (const double time : {0.0, 0.2}) capped.look(time);
+    return capped.warnings.at(0);
+  };
+  // One other row alone holds the second back, by whichever sign works against it.
+  const auto alone = [](CappedRow& capped, Eigen::Index other) {
+    capped.step.lambda.setZero();
+    capped.step.lambda[1] = capped.step.rows[1].upper;
+    const Eigen::MatrixXd A =
+        whole_dual(capped.model, capped.now.kin, capped.step.system, capped.step.rows).A;
+    capped.step.lambda[other] = A(1, other) < 0 ? 1 : -1;
+  };
+  const std::string sides = warning([&](CappedRow& capped) { alone(capped, 0); });
+  EXPECT_NE(sides.find("both rows of one contact work against each other"), std::string::npos)
+      << sides;
+  EXPECT_NE(sides.find("controller.eq6_slip"), std::string::npos) << sides;
+  const std::string end = warning([&](CappedRow& capped) { alone(capped, 3); });
+  EXPECT_NE(end.find("a lower speed or a higher cap would help"), std::string::npos) << end;
+  const std::string limits = warning([&](CappedRow& capped) { alone(capped, 4); });
+  EXPECT_NE(limits.find("joint limits leave no way"), std::string::npos) << limits;
+  const std::string plate = warning([&](CappedRow& capped) {
+    capped.step.rows[4] = plane_row(capped.model, 0, 30);
+    alone(capped, 4);
+  });
+  EXPECT_NE(plate.find("an obstacle is in the way"), std::string::npos) << plate;
 }
 
 TEST(Guard, ARowBelowItsCapForAStepStartsAnew) {
