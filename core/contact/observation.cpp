@@ -9,8 +9,9 @@ namespace hagfish {
 namespace {
 
 /// Pairs of segments that are no minimum of the gap are listed where they could close it in a step
-/// at this speed, cm/s: next to a minimum, strands close slower than there.
-constexpr double closing_speed = 1;
+/// at this share of the speed at which strands that overlap are pushed apart: next to a minimum,
+/// strands close slower than there.
+constexpr double closing_speed = 0.2;
 
 }  // namespace
 
@@ -25,7 +26,10 @@ void observe_placed(const Model& model, const State& state, const Scene& scene,
   Observation& o = observation;
   update_velocities(model, state.qdot, o.kin);
   update_segments(model, o.kin.centre, o.segments);
-  find_contacts(o.segments, scene.contact, closing_speed * scene.time.step, search, o.contact);
+  const double near = closing_speed * scene.constraints.baumgarte_speed * scene.time.step;
+  find_contacts(o.segments, scene.contact, near, search, o.contact);
+  o.ends =
+      touching_ends(o.segments, o.contact.contacts, scene.contact, scene.controller.contact_gap);
   o.penetration = std::max(0.0, -o.contact.least_gap);
   visit_plane_gaps(model, o.kin,
                    [&](int, int, double gap) { o.penetration = std::max(o.penetration, -gap); });

@@ -7,6 +7,7 @@
 #include "core/chain/model.hpp"
 #include "core/chain/state.hpp"
 #include "core/contact/contact.hpp"
+#include "core/contact/ends.hpp"
 #include "core/scene/settings.hpp"
 
 namespace hagfish {
@@ -16,6 +17,7 @@ struct Observation {
   Kinematics kin;
   std::vector<SplineSegment> segments;  ///< of the body and of obstacles (obstacles.hpp)
   ContactSet contact;
+  TouchingEnds ends;           ///< of the body with itself
   double penetration = 0;      ///< deepest overlap of skins or with an obstacle, cm, >= 0
   double limit_violation = 0;  ///< largest angle past a limit, rad, >= 0
 };

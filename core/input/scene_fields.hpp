@@ -245,7 +245,6 @@ void controller_fields(Io& io, ControllerSettings& s) {
   io.number("cap", s.cap, positive());
   io.number("acceleration", s.acceleration, positive());
   io.number("contact_gap", s.contact_gap, not_negative());
-  io.number("hysteresis", s.hysteresis, not_negative());
   io.length("tail_through", s.tail_through, not_negative());
   io.number("tighten_from", s.tighten_from, not_negative());
   io.length("tight_span", s.tight_span, positive());

@@ -20,7 +20,7 @@ namespace hagfish {
 namespace {
 
 /// Of the bytes' layout; raised with every change of what they hold.
-constexpr int layout = 9;
+constexpr int layout = 10;
 /// No list of a run is longer; a damaged count must not ask for all memory.
 constexpr std::uint64_t most_entries = 1000000;
 
@@ -125,9 +125,16 @@ void serialize(Archive& archive, ContactSet& set) {
 }
 
 template <class Archive>
+void serialize(Archive& archive, TouchingEnds& ends) {
+  auto& [first, last] = ends;
+  archive(first, last);
+}
+
+template <class Archive>
 void serialize(Archive& archive, Observation& observation) {
-  auto& [kin, segments, contact, penetration, limit_violation] = observation;  // two follow from q
-  archive(contact, penetration, limit_violation);
+  auto& [kin, segments, contact, ends, penetration, limit_violation] =
+      observation;  // two follow from q
+  archive(contact, ends, penetration, limit_violation);
 }
 
 template <class Archive>
@@ -174,12 +181,6 @@ void serialize(Archive& archive, PastKnot& past) {
 }
 
 template <class Archive>
-void serialize(Archive& archive, TrackedContact& tracked) {
-  auto& [contact, settled] = tracked;
-  archive(contact, settled);
-}
-
-template <class Archive>
 void serialize(Archive& archive, PullSum& pull) {
   auto& [sum, steps] = pull;
   archive(sum, steps);
@@ -187,10 +188,10 @@ void serialize(Archive& archive, PullSum& pull) {
 
 template <class Archive>
 void serialize(Archive& archive, ControllerState& controller) {
-  auto& [phase, phase_start, loose, knot, knot_seen, knot_from, past, lost, first, last, pull,
-         rest_shape, memory] = controller;
-  archive(phase, phase_start, loose, knot, knot_seen, knot_from, past, lost, first, last, pull,
-          rest_shape, memory);
+  auto& [phase, phase_start, loose, knot, knot_seen, knot_from, past, lost, ends, pull, rest_shape,
+         memory] = controller;
+  archive(phase, phase_start, loose, knot, knot_seen, knot_from, past, lost, ends, pull, rest_shape,
+          memory);
 }
 
 template <class Archive>
@@ -290,8 +291,11 @@ bool fits(const std::vector<Contact>& contacts, const Model& model) {
   return std::ranges::all_of(contacts, [&](const Contact& c) { return fits(c, model); });
 }
 
-bool fits(const TrackedContact& tracked, const Model& model) {
-  return !tracked.contact || (tracked.contact->obstacle == -1 && fits(*tracked.contact, model));
+bool fits(const TouchingEnds& ends, const Model& model) {
+  const auto end = [&](const std::optional<Contact>& contact) {
+    return !contact || (contact->obstacle == -1 && fits(*contact, model));
+  };
+  return end(ends.first) && end(ends.last);
 }
 
 bool fits(const Candidates& candidates, const Model& model) {
@@ -318,7 +322,7 @@ void check(const Simulation& sim, const LogState& log, const Model& model) {
   require(fits(sim.now.state, model), "a state that is not of its model");
   require(fits(contact.contacts, model) && fits(contact.on_obstacles, model) &&
               fits(contact.others, model) && fits(sim.search.candidates, model) &&
-              fits(sim.controller.first, model) && fits(sim.controller.last, model),
+              fits(sim.now.observation.ends, model) && fits(sim.controller.ends, model),
           "a contact that is not on its animal");
   require(sim.controller.phase <= Phase::last, "an unknown phase");
   require(sim.controller.memory.allFinite(), "a memory that is not finite");

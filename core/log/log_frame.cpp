@@ -45,9 +45,9 @@ PullFigures pull_figures_of(const Frame& frame) {
 /// Spline parameters of the contacts that the controller follows, [first, last].
 std::array<double, 2> followed(const Frame& frame, int Contact::*segment, double Contact::*t) {
   std::array<double, 2> pair{nan, nan};
-  const ControllerState& controller = frame.record.controller;
+  const TouchingEnds& ends = frame.record.controller.ends;
   for (std::size_t k = 0; k < 2; ++k) {
-    const std::optional<Contact>& contact = (k == 0 ? controller.first : controller.last).contact;
+    const std::optional<Contact>& contact = k == 0 ? ends.first : ends.last;
     if (contact) {
       pair[k] = *contact.*segment + *contact.*t;
     }

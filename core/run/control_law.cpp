@@ -53,8 +53,8 @@ void command_ends(const Situation& at, std::vector<ThigmotaxisCommand>& commands
                         settings.eq6_slip == Eq6Slip::paper ? speed : slip_of_shape(contact, speed),
                         speeds.towards, effort, end});
   };
-  command(*so_far.first.contact, speeds.first, KnotEnd::first);
-  command(*so_far.last.contact, speeds.last, KnotEnd::last);
+  command(*so_far.ends.first, speeds.first, KnotEnd::first);
+  command(*so_far.ends.last, speeds.last, KnotEnd::last);
 }
 
 bool same_segments(const Contact& x, const Contact& y) {
@@ -117,7 +117,7 @@ void paper_law(const Situation& at, Control& control) {
   if (so_far.phase == Phase::form) {
     control.tip = script_force(scene.script, time, scene.time, kin.centre.col(last),
                                kin.centre_velocity.col(last));
-  } else if (so_far.phase != Phase::free && so_far.first.contact) {
+  } else if (so_far.phase != Phase::free && so_far.ends.first) {
     command_ends(at, control.thigmotaxis);
   }
   if (scene.script.kind == ScriptSettings::Kind::curvature) {

@@ -9,59 +9,8 @@
 namespace hagfish {
 namespace {
 
-// Minima of the gap hop along a contact line from one universal joint to the next, 0.85 cm at 100
-// bodies, and slide by 0.004 cm a step in between. Half a centimetre separates the two, cm.
-constexpr double same_contact = 0.5;
-// A script that has not tied within this long after its last knot will not, s.
-constexpr double patience = 2.0;
-
-double apart(const Contact& x, const Contact& y) {
-  return std::hypot(x.arc_a - y.arc_a, x.arc_b - y.arc_b);
-}
-
-/// One step of a tracked contact: it goes on as the outermost one where that is the same, else as
-/// the nearest minimum, else as the same material points, for the hysteresis time at most.
-void follow(TrackedContact& tracked, const Observation& observation, const Contact* outermost,
-            double time, double hysteresis) {
-  if (outermost == nullptr) {
-    tracked = {};
-    return;
-  }
-  if (!tracked.contact || apart(*outermost, *tracked.contact) < same_contact ||
-      time - tracked.settled >= hysteresis) {
-    tracked = {*outermost, time};
-    return;
-  }
-  const std::vector<Contact>& contacts = observation.contact.contacts;
-  const Contact& old = *tracked.contact;
-  const auto nearest = std::min_element(
-      contacts.begin(), contacts.end(),
-      [&](const Contact& x, const Contact& y) { return apart(x, old) < apart(y, old); });
-  tracked.contact =
-      apart(*nearest, old) < same_contact
-          ? *nearest
-          : contact_at(observation.segments, old.segment_a, old.t_a, old.segment_b, old.t_b);
-}
-
-void follow_contacts(const Scene& scene, const Observation& observation, double time,
-                     ControllerState& controller) {
-  const std::vector<Contact>& contacts = observation.contact.contacts;
-  const Contact* first = nullptr;
-  const Contact* last = nullptr;
-  for (const Contact& contact : contacts) {
-    if (contact.gap > scene.controller.contact_gap) {
-      continue;
-    }
-    if (first == nullptr || contact.arc_a < first->arc_a) {
-      first = &contact;
-    }
-    if (last == nullptr || contact.arc_b > last->arc_b) {
-      last = &contact;
-    }
-  }
-  follow(controller.first, observation, first, time, scene.controller.hysteresis);
-  follow(controller.last, observation, last, time, scene.controller.hysteresis);
-}
+// A script that has not tied within this share of its own time after its last knot will not.
+constexpr double patience = 0.4;
 
 void enter(ControllerState& controller, Phase phase, double time) {
   controller.phase = phase;
@@ -120,7 +69,7 @@ Status switch_by_knot(const Model& model, const Scene& scene, double time,
         time >= scene.controller.tighten_from) {
       enter(controller, Phase::tighten, time);
     } else if (wanted && scene.script.kind != ScriptSettings::Kind::none &&
-               time > script_end(scene.script) + patience) {
+               time > (1 + patience) * script_end(scene.script)) {
       return failed_script(scene, controller, through);
     }
   } else if (holds_knot(controller.phase) && !tied) {
@@ -182,10 +131,10 @@ bool food_gives(const Scene& scene, double time, PullSum& pull) {
 }  // namespace
 
 std::optional<KnotSpan> knot_span(const ControllerState& controller) {
-  if (!controller.first.contact || !controller.last.contact) {
+  if (!controller.ends.first || !controller.ends.last) {
     return std::nullopt;
   }
-  return KnotSpan{controller.first.contact->arc_a, controller.last.contact->arc_b};
+  return KnotSpan{controller.ends.first->arc_a, controller.ends.last->arc_b};
 }
 
 bool clamps_head(const Scene& scene, Phase phase) {
@@ -202,7 +151,7 @@ void note_pull(const StepSolution& step, ControllerState& controller) {
 Status follow(const Model& model, const Scene& scene, const Moment& now, double time,
               ControllerState& controller) {
   const Observation& observation = now.observation;
-  follow_contacts(scene, observation, time, controller);
+  controller.ends = observation.ends;
   // Half a step of slack: the time of a step is a product and may fall short by rounding.
   if (controller.phase != Phase::free &&
       time + 0.5 * scene.time.step >= controller.knot_seen + scene.knot.interval) {

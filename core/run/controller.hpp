@@ -16,14 +16,6 @@
 
 namespace hagfish {
 
-/// The contact that plays the first or the last one, followed from step to step. Minima of the gap
-/// come and go and hop along a strand; the one in use stays, where it vanishes as the pair of
-/// material points that it last was, until the hysteresis time after it last was the outermost.
-struct TrackedContact {
-  std::optional<Contact> contact;
-  double settled = 0;  ///< time at which it last was the outermost contact, s
-};
-
 /// A knot that was there and is gone: its type, and between which times it was seen, s.
 struct PastKnot {
   KnotInvariants type;
@@ -43,9 +35,9 @@ struct ControllerState {
   KnotVote knot;           ///< as last seen
   double knot_seen = -std::numeric_limits<double>::infinity();  ///< when that was, s
   double knot_from = 0;                                         ///< when it became of that type, s
-  PastKnot past;     ///< the last one before it; an unknot where there was none
-  std::string lost;  ///< where the scene only warns: how the knot was lost; empty before that
-  TrackedContact first, last;
+  PastKnot past;      ///< the last one before it; an unknot where there was none
+  std::string lost;   ///< where the scene only warns: how the knot was lost; empty before that
+  TouchingEnds ends;  ///< the knot's first and last contact
   PullSum pull;
   Eigen::VectorXd rest_shape;  ///< as last commanded (Control), nv or empty
   Eigen::VectorXd memory;      ///< of the control law

@@ -256,10 +256,7 @@ struct ControllerSettings {
   /// phase starts, and where another contact becomes the first or last one, the speeds along the
   /// new tangents are up to 2 cm/s off, and to mend that within a step takes a force as 1 / h.
   double acceleration = 100;
-  double contact_gap = 0.05;  ///< a contact this close counts as touching, cm
-  /// The contact used as first or last is kept this long after it last was the outermost, s:
-  /// without it the identity jumps 7 to 16 times a second.
-  double hysteresis = 0.1;
+  double contact_gap = 0.05;   ///< strands this close count as touching, cm (TouchingEnds)
   double tail_through = 8.0;   ///< tighten once this much body is past the last contact, cm of arc
   double tighten_from = 0;     ///< and not before this time: a script may end by pulling tight, s
   double tight_span = 20.352;  ///< slide once the knot spans no more body than this, cm of arc

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 
 #include "core/log/log_writer.hpp"
 
@@ -17,26 +18,19 @@ constexpr double search_tolerance = 2e-4;
 /// So many minima more or less, at such a share of the frames.
 constexpr std::int64_t most_contacts_off = 6;
 constexpr double largest_share_off = 0.2;
-/// The contact followed is a minimum of the gap, up to how far Newton's method finds it, cm of arc;
-/// or it was one, and is kept for the hysteresis time: at up to this share of the frames.
-constexpr double found_tolerance = 1e-3;
-constexpr double largest_kept_share = 0.3;
+/// The first and the last contact follow from q, up to how far Newton's method finds them, in
+/// segments of the spline. A search that sees a minimum late may make them others, at up to this
+/// share of the frames.
+constexpr double found_tolerance = 1e-5;
+constexpr double largest_share_late = 0.02;
 /// Figures that are nothing but rounding have no scale of their own, cm and rad.
 constexpr double nothing_but_rounding = 1e-9;
 
-/// How far the contact followed, by its spline parameters, is from the nearest one found; 0 where
-/// none is followed; cm of arc.
-double distance_to_contact(const AuditedFrame& frame, double a, double b) {
-  if (std::isnan(a) && std::isnan(b)) {
-    return 0;
-  }
-  double nearest = INFINITY;
-  for (const Contact& c : frame.observation.contact.contacts) {
-    const double length = frame.observation.segments[c.segment_a].s1;
-    nearest =
-        std::min(nearest, length * std::hypot(c.segment_a + c.t_a - a, c.segment_b + c.t_b - b));
-  }
-  return nearest;
+/// Whether the contact that the spline parameters `a` and `b` give is `found`, if any.
+bool is_contact(const std::optional<Contact>& found, double a, double b) {
+  if (!found) return std::isnan(a) && std::isnan(b);
+  return std::hypot(found->segment_a + found->t_a - a, found->segment_b + found->t_b - b) <=
+         found_tolerance;
 }
 
 /// Sum of the integrator's terms of the ledger at each frame, erg.
@@ -113,10 +107,11 @@ void FrameAudit::see_knot(const AuditedFrame& frame, const KnotVote& knot) {
   };
   const double first = spline_a_(f, 0);
   const double last = spline_b_(f, 1);
+  const TouchingEnds& ends = frame.observation.ends;
   for (int place = 0; place < 2; ++place) {
     const double a = spline_a_(f, place);
     followed_ += std::isnan(a) ? 0 : 1;
-    kept_ += distance_to_contact(frame, a, spline_b_(f, place)) > found_tolerance ? 1 : 0;
+    late_ += is_contact(place == 0 ? ends.first : ends.last, a, spline_b_(f, place)) ? 0 : 1;
   }
   const bool span = on_spline(log_.model, first) && on_spline(log_.model, last);
   from_q_.compare("/knot/head_end", head_end_[f], span ? arc(first) : NAN);
@@ -167,13 +162,14 @@ std::vector<Finding> FrameAudit::findings() const {
                          "{} frames (at most {:g} %), by {} at most ({})",
                          contacts_off_, frames_, 100 * largest_share_off, contacts_off_by_,
                          most_contacts_off)),
-      judged({"contacts followed", share(kept_, largest_kept_share, followed_), 1,
-              "of what is allowed"},
-             followed_ == 0
-                 ? "no contact was followed"
-                 : fmt::format("/thigmotaxis/spline_a and spline_b are no minimum of the gap, but "
-                               "kept from one, {} times of {} (at most {:g} %)",
-                               kept_, followed_, 100 * largest_kept_share))};
+      judged(
+          {"contacts followed", share(late_, largest_share_late, followed_), 1,
+           "of what is allowed"},
+          followed_ == 0
+              ? "no contact was followed"
+              : fmt::format("/thigmotaxis/spline_a and spline_b are not where the body begins and "
+                            "ends to touch itself {} times of {} (at most {:g} %)",
+                            late_, followed_, 100 * largest_share_late))};
 }
 
 }  // namespace hagfish

@@ -31,7 +31,7 @@ class FrameAudit {
       integrator_error_, penetration_, limit_violation_, head_drift_;
   Hdf5Reader::Rows position_, momentum_, angular_momentum_, spline_a_, spline_b_;
   int last_order_ = 0;
-  std::int64_t frames_ = 0, contacts_off_ = 0, contacts_off_by_ = 0, followed_ = 0, kept_ = 0;
+  std::int64_t frames_ = 0, contacts_off_ = 0, contacts_off_by_ = 0, followed_ = 0, late_ = 0;
   Rebuilt by_itself_, from_q_;
 };
 

@@ -30,7 +30,6 @@ CHOICES = {
     "no_corrections": ("steps corrected along their path", "not corrected"),
     "cap_5000": ("thigmotaxis up to 1000 dyn", "5000 dyn"), "no_cap": ("thigmotaxis up to 1000 dyn", "no cap"),
     "at_once": ("speeds rise by 100 cm/s²", "at once"),
-    "no_hysteresis": ("contacts keep their identity 0.1 s", "not at all"),
     "votes_5": ("15 votes on the knot", "5"), "votes_45": ("15 votes on the knot", "45"),
     "no_wall": ("head plate", "none"),
 }

@@ -86,14 +86,8 @@ struct Seen {
 
 Seen look(const Model& model, const Scene& scene, const State& state) {
   const Observation observation = observe(model, state, scene);
-  Seen seen{NAN, observation.penetration, observation.kin.centre};
-  for (const Contact& contact : observation.contact.contacts) {
-    if (contact.gap <= scene.controller.contact_gap) {
-      seen.head_end = contact.arc_a;
-      break;  // sorted from the head
-    }
-  }
-  return seen;
+  const std::optional<Contact>& first = observation.ends.first;
+  return {first ? first->arc_a : NAN, observation.penetration, observation.kin.centre};
 }
 
 /// MuJoCo with its own contacts and limits (but for cones, which it has not), its head clamped,

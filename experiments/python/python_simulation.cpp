@@ -344,10 +344,10 @@ changes. `log`: a file to write; `force` replaces one that is there. Raises Inpu
           "contacts", [](const Run& r) { return r.sim.now.observation.contact.contacts; },
           "list of Contact within contact.margin, a copy, sorted from the head")
       .def_property_readonly(
-          "first_contact", [](const Run& r) { return r.sim.controller.first.contact; },
+          "first_contact", [](const Run& r) { return r.sim.controller.ends.first; },
           "Contact that is the knot's first one, or None")
       .def_property_readonly(
-          "last_contact", [](const Run& r) { return r.sim.controller.last.contact; },
+          "last_contact", [](const Run& r) { return r.sim.controller.ends.last; },
           "Contact that is the knot's last one, or None")
       .def_property_readonly("time", &Run::time, "s")
       .def_property_readonly(

@@ -84,7 +84,6 @@ no_corrections constraints.corrections=0
 cap_5000 controller.cap=5000
 at_once controller.acceleration=1e9
 no_cap controller.cap=1e9
-no_hysteresis controller.hysteresis=0
 votes_5 knot.votes=5
 votes_45 knot.votes=45
 no_wall wall.present=false

@@ -43,7 +43,6 @@ class ControllerTest : public testing::Test {
     scene.expect.knot = "3_1";
     scene.script.kind = ScriptSettings::Kind::force;
     scene.script.knots = {{0, {10, 20, 30}}, {5, {50, 60, 70}}};
-    scene.controller.hysteresis = 0.05;
     scene.controller.contact_gap = 0.05;
     scene.controller.tail_through = 8;
     scene.controller.tight_span = 20.352;
@@ -68,6 +67,13 @@ class ControllerTest : public testing::Test {
 
   Control step(std::vector<Contact> contacts) {
     observation.contact.contacts = std::move(contacts);
+    observation.ends = {};
+    for (const Contact& c : observation.contact.contacts) {
+      if (c.gap > scene.controller.contact_gap) continue;
+      std::optional<Contact>&first = observation.ends.first, &last = observation.ends.last;
+      if (!first || c.arc_a < first->arc_a) first = c;
+      if (!last || c.arc_b > last->arc_b) last = c;
+    }
     Control control;
     const Status status = decide(model, scene, moment, now, named, state, control);
     if (!status.ok()) throw StepError(status);
@@ -95,8 +101,8 @@ class ControllerTest : public testing::Test {
     return "none";
   }
 
-  double first() const { return state.first.contact->arc_a; }
-  double last() const { return state.last.contact->arc_b; }
+  double first() const { return state.ends.first->arc_a; }
+  double last() const { return state.ends.last->arc_b; }
 };
 
 }  // namespace hagfish

@@ -76,7 +76,7 @@ TEST(Sliding, ForceIsZeroBehindTheKnot) {
     Simulation sim = resume(model, resolved.scene, stored, "ipopt");
     const StepRecord record = take_step(model, resolved.scene, sim);
     // The spline's four weights reach two bodies past the segment of the contact.
-    const int last = record.controller.last.contact->segment_b + 2;
+    const int last = record.controller.ends.last->segment_b + 2;
     const Body& behind = model.bodies[last + 1];
     const Eigen::VectorXd& force = record.solution.force[RowKind::thigmotaxis];
     EXPECT_EQ(force.tail(force.size() - behind.first_dof).lpNorm<Eigen::Infinity>(), 0);

@@ -161,8 +161,8 @@ TEST_F(BadBytes, AnotherLayoutOrAnotherAnimalIsRefused) {
 }
 
 TEST_F(BadBytes, NeitherThereNorAbsentIsRefused) {
-  ASSERT_TRUE(s.sim.controller.last.contact);
-  s.sim.controller.last.contact.reset();
+  ASSERT_TRUE(s.sim.controller.ends.last);
+  s.sim.controller.ends.last.reset();
   const auto flag = std::ranges::mismatch(bytes, s.bytes()).in1;
   *flag = 199;
   EXPECT_EQ(refusal(bytes), "checkpoint: what may be absent is neither there nor absent");

@@ -39,8 +39,7 @@ TEST_F(ThigmotaxisRowsTest, ColumnsAreThoseOfTheirContact) {
   };
   const double commands[] = {0.5, 1, 3, 4};
   for (int place = 0; place < 2; ++place) {
-    const Contact& c =
-        place == 0 ? *record.controller.first.contact : *record.controller.last.contact;
+    const Contact& c = place == 0 ? *record.controller.ends.first : *record.controller.ends.last;
     const Eigen::Vector3d apart = at(c.segment_a, c.t_a) - at(c.segment_b, c.t_b);
     // Eq. 6, left sides; rounding of sums of four.
     EXPECT_NEAR(rows.speed[2 * place], c.tangent_a.dot(apart), 1e-12);

@@ -152,7 +152,6 @@ TEST_F(ControllerPhases, TurnsBackAtTheHeadAndReleasesNearTheTail) {
   EXPECT_EQ(control.thigmotaxis[0].speed.a, 3);
   EXPECT_EQ(control.thigmotaxis[1].speed.b, 6);
   // 1.908 cm before the tail's end, at 42.4 cm.
-  now += scene.controller.hysteresis;
   step({contact(20, 40.48)});
   EXPECT_EQ(state.phase, Phase::reverse);
   control = step({contact(20, 40.5)});

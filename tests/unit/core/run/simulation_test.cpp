@@ -49,9 +49,7 @@ void expect_same(const Simulation& a, const Simulation& b) {
   EXPECT_EQ(c.lost, d.lost);
   EXPECT_EQ(c.memory, d.memory);
   EXPECT_EQ(c.rest_shape, d.rest_shape);
-  EXPECT_EQ(c.first.settled, d.first.settled);
-  EXPECT_EQ(c.last.settled, d.last.settled);
-  EXPECT_TRUE(same(c.first.contact, d.first.contact) && same(c.last.contact, d.last.contact));
+  EXPECT_TRUE(same(c.ends.first, d.ends.first) && same(c.ends.last, d.ends.last));
 
   EXPECT_EQ(std::memcmp(&a.ledger, &b.ledger, sizeof(EnergyLedger)), 0);
   EXPECT_EQ(a.watch.warned, b.watch.warned);
