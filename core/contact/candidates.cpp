@@ -9,9 +9,16 @@
 namespace hagfish {
 namespace {
 
-/// Distance between bounding spheres up to which pairs are carried beyond the margin, cm: twice
-/// what a segment may move before they are listed again. Affects speed only.
-constexpr double carried = 0.5;
+/// Distance between bounding spheres up to which pairs are carried beyond the margin, cm, half a
+/// radius of the body: twice what a segment may move before they are listed again. Affects speed
+/// only.
+double carried_beyond(const std::vector<SplineSegment>& segments) {
+  double thickest = 0;
+  for (const SplineSegment& segment : segments) {
+    if (segment.obstacle < 0) thickest = std::max(thickest, segment.r0);
+  }
+  return 0.5 * thickest;
+}
 
 /// Visits the ends with their index, point and a third of the slope there.
 template <class Visit>
@@ -54,6 +61,7 @@ void list_pairs(const std::vector<SplineSegment>& segments, const ContactSetting
   candidates.pairs.clear();
   candidates.clear_until.clear();
   candidates.moved.assign(segments.size(), 0);
+  const double carried = carried_beyond(segments);
   // Slack, so that rounding does not put equal arcs on different sides of the bound.
   const double least_arc = settings.least_arc * (1 - 1e-9);
   const int n = static_cast<int>(segments.size());
@@ -133,7 +141,7 @@ void update_candidates(const std::vector<SplineSegment>& segments, const Contact
     candidates.changed.clear();
     candidates.all_changed = true;
   }
-  if (!(std::ranges::max(candidates.moved) <= 0.5 * carried)) {
+  if (!(std::ranges::max(candidates.moved) <= 0.5 * carried_beyond(segments))) {
     list_pairs(segments, settings, candidates);
   }
 }

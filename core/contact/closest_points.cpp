@@ -21,9 +21,9 @@ constexpr double whole_step_tolerance = 1e-4;
 constexpr double cut_step_tolerance = 1e-7;
 // A Hessian below this share of its positive part is taken as singular.
 constexpr double least_share = 1e-12;
-// Samples of a segment are at most so far apart, cm, and at least 3: they must resolve the basins
-// of the minima, which are as wide as the body bends.
-constexpr double sample_spacing = 0.06;
+// Samples of a segment are at most so far apart, of its radius, and at least 3: they must resolve
+// the basins of the minima, which are as wide as the body bends.
+constexpr double sample_spacing = 0.09;
 
 // Single precision is enough to choose starts, in half the time.
 using SampleLanes = FloatLanes;
@@ -250,8 +250,8 @@ void descend_lanes(const LaneSegments& a, const LaneSegments& b, Iterate& at) {
 
 }  // namespace
 
-int samples_along(double length) {
-  return std::clamp(static_cast<int>(std::ceil(length / sample_spacing)) + 1, 3, most_samples);
+int samples_along(double slenderness) {
+  return std::clamp(static_cast<int>(std::ceil(slenderness / sample_spacing)) + 1, 3, most_samples);
 }
 
 void ClosestPointsSearch::answer(int samples, std::span<ClosestPointsQuery> queries) {

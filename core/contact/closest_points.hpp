@@ -56,8 +56,8 @@ class ClosestPointsSearch {
 };
 
 inline constexpr int most_samples = 8;
-/// That resolve the basins of the gap along a segment of `length` (cm).
-int samples_along(double length);
+/// That resolve the basins of the gap along a segment so many times as long as its radius.
+int samples_along(double slenderness);
 
 /// Of one pair, with most_samples.
 ClosestPoints closest_points(const SplineSegment& a, const SplineSegment& b,

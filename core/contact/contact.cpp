@@ -32,9 +32,9 @@ void evaluate(const std::vector<SplineSegment>& segments, const ContactSettings&
   }
 }
 
-// A minimum on the border of two segments is found from both, with gaps that differ by rounding,
-// cm.
-constexpr double same_gap = 1e-9;
+// A minimum on the border of two segments is found from both, with gaps that differ by rounding:
+// by less than this share of the margin of the search.
+constexpr double same_gap = 1e-8;
 
 /// Which neighbour shares the border that `t` lies on: -1, +1, or 0 inside the segment.
 int across(double t) { return t <= 0 ? -1 : (t >= 1 ? 1 : 0); }
@@ -56,8 +56,8 @@ void visit_across(const Candidates& candidates, int index, const Visit& visit) {
 
 /// A minimum inside both segments always counts; one on a border counts unless the gap decreases
 /// beyond it, and only for the first of the pairs that find it. Neighbours that this search has not
-/// evaluated are left out.
-bool is_local_minimum(const ContactSearch& search, int index) {
+/// evaluated are left out. Gaps that differ by `same` (cm) are one.
+bool is_local_minimum(const ContactSearch& search, double same, int index) {
   const std::vector<std::optional<ClosestPoints>>& closest = search.candidates.closest;
   if (search.scratch.known[index] == PairState::beaten) {
     return false;
@@ -66,7 +66,7 @@ bool is_local_minimum(const ContactSearch& search, int index) {
   visit_across(search.candidates, index, [&](int other) {
     if (search.scratch.known[other] >= PairState::evaluated) {
       const double lower_by = closest[index]->gap - closest[other]->gap;
-      lowest = lowest && lower_by <= same_gap && (lower_by < -same_gap || other > index);
+      lowest = lowest && lower_by <= same && (lower_by < -same || other > index);
     }
     return lowest;
   });
@@ -77,17 +77,17 @@ bool is_local_minimum(const ContactSearch& search, int index) {
 /// within the margin are minima.
 void evaluate_with_neighbours(const std::vector<SplineSegment>& segments,
                               const ContactSettings& settings, ContactSearch& search) {
-  double longest = 0;
+  double slenderest = 0;
   for (const SplineSegment& segment : segments) {
-    longest = std::max(longest, segment.s1);
+    slenderest = std::max(slenderest, segment.s1 / std::min(segment.r0, segment.r0 + segment.r1));
   }
-  const int samples = samples_along(longest);
+  const int samples = samples_along(slenderest);
   for (std::size_t seen = 0; !search.scratch.due.empty();) {
     evaluate(segments, settings, samples, search);
     search.scratch.due.clear();
     for (; seen < search.scratch.close.size(); ++seen) {
       const int index = search.scratch.close[seen];
-      if (!is_local_minimum(search, index)) {
+      if (!is_local_minimum(search, same_gap * settings.margin, index)) {
         search.scratch.known[index] = PairState::beaten;
         continue;
       }
@@ -154,7 +154,7 @@ void find_contacts(const std::vector<SplineSegment>& segments, const ContactSett
   set.others.clear();
   set.least_gap = settings.margin;
   for (const int index : search.scratch.close) {
-    const bool minimum = is_local_minimum(search, index);
+    const bool minimum = is_local_minimum(search, same_gap * settings.margin, index);
     const ClosestPoints& closest = *candidates.closest[index];
     const double gap = closest.gap;
     set.least_gap = std::min(set.least_gap, gap);

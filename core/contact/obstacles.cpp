@@ -6,7 +6,8 @@
 namespace hagfish {
 namespace {
 
-/// A ball is the tube about a curve of this length, cm: one of no length has no direction.
+/// A ball is the tube about a curve of this length, of its radius: one of no length has no
+/// direction.
 constexpr double ball_length = 1e-7;
 
 int point_count(const Obstacle& strand) { return static_cast<int>(strand.points.size()); }
@@ -15,7 +16,7 @@ int point_count(const Obstacle& strand) { return static_cast<int>(strand.points.
 Eigen::Vector3d point_of(const Obstacle& strand, int i) {
   const std::vector<Eigen::Vector3d>& p = strand.points;
   const int n = point_count(strand);
-  if (n == 1) return p[0] + i * ball_length * Eigen::Vector3d::UnitX();
+  if (n == 1) return p[0] + i * ball_length * strand.radius * Eigen::Vector3d::UnitX();
   if (strand.closed) return p[(i + n) % n];
   if (i < 0) return 2 * p[0] - p[1];
   return i < n ? p[i] : (2 * p[n - 1] - p[n - 2]).eval();

@@ -7,11 +7,11 @@ namespace hagfish {
 namespace {
 
 /// A row is left out at first where rest and the velocity before, of the last step or pass, keep
-/// this much clear of it, cm/s or rad/s. Only speed depends on it: rows left out are checked after
-/// the solve.
-constexpr double lazy_reach = 0.03;
-/// A row left out counts as violated below this, cm/s or rad/s: at h = 2 ms, 2e-11 cm or rad.
-constexpr double lazy_tolerance = 1e-8;
+/// this much clear of it in a step, rad; of rows of points, where the radius of the body is 1. Only
+/// speed depends on it: rows left out are checked after the solve.
+constexpr double lazy_reach = 6e-5;
+/// A row left out counts as violated below this in a step, likewise.
+constexpr double lazy_tolerance = 2e-11;
 constexpr double nowhere = -std::numeric_limits<double>::infinity();
 
 /// The unilateral rows that are near to binding; of pairs of segments that are no minimum of the
@@ -50,8 +50,10 @@ void gather_rows(const StepInput& in, const StepPlace& place, const WarmStart& w
   const auto pushed = [&](const Contact& contact) {
     return warm.find(contact_row_id(contact)) != nullptr;
   };
-  append_unilateral_rows(
-      in, place, {place.velocity, place.kin.velocities(), lazy_reach, lazy_reach}, pushed, rows);
+  append_unilateral_rows(in, place,
+                         {place.velocity, place.kin.velocities(), lazy_reach / h, lazy_reach / h,
+                          in.model.bodies[0].radius},
+                         pushed, rows);
 }
 
 Row placed_row(const StepPlace& place, const PathRow& shown) {
@@ -78,8 +80,10 @@ void gather_violated_rows(const StepInput& in, const StepPlace& place, const Ste
                           std::vector<Row>& rows) {
   rows.clear();
   const auto all = [](const Contact&) { return true; };
-  append_unilateral_rows(in, place, {step.qdot, step.bodies(), -lazy_tolerance, nowhere}, all,
-                         rows);
+  append_unilateral_rows(in, place,
+                         {step.qdot, step.bodies(), -lazy_tolerance / in.scene.time.step, nowhere,
+                          in.model.bodies[0].radius},
+                         all, rows);
 }
 
 }  // namespace hagfish

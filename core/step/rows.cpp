@@ -266,7 +266,7 @@ void append_contact_row(const Model& model, const Contact& contact,
   }
   Row& row = rows.emplace_back(contact_row(model, contact, at));
   row.rhs = *rhs;
-  if (!wanted(row_velocity(row, wanted.bodies, wanted.v), row.rhs)) {
+  if (!wanted.of_points(row_velocity(row, wanted.bodies, wanted.v), row.rhs)) {
     rows.pop_back();
   }
 }
@@ -277,7 +277,7 @@ void append_plane_rows(const Model& model, const Kinematics& kin,
   visit_plane_gaps(model, kin, [&](int obstacle, int body, double gap) {
     const std::optional<double> rhs = unilateral(gap, settings, h, settings.baumgarte_speed);
     const Eigen::Vector3d& normal = model.obstacles[obstacle].normal;
-    if (rhs && wanted(normal.dot(wanted.bodies.centre.col(body)), *rhs)) {
+    if (rhs && wanted.of_points(normal.dot(wanted.bodies.centre.col(body)), *rhs)) {
       rows.emplace_back(plane_row(model, obstacle, body)).rhs = *rhs;
     }
   });

@@ -100,11 +100,15 @@ void add_row(const Row& row, const Kinematics& kin, double lambda, Matrix6Xd& wr
 struct NearBinding {
   const Eigen::VectorXd& v;  ///< a velocity, nv
   BodyVelocities bodies;     ///< at it
-  double slack;              ///< those with C v - d below this, cm/s or rad/s
+  double slack;              ///< those of angles with C v - d below this, rad/s
   double slack_at_rest;      ///< and those with -d below this, which touch
+  double radius = 1;         ///< times these, those of points, cm
 
   bool operator()(double row_velocity, double rhs) const {
     return row_velocity - rhs < slack || -rhs < slack_at_rest;
+  }
+  bool of_points(double row_velocity, double rhs) const {
+    return row_velocity - rhs < radius * slack || -rhs < radius * slack_at_rest;
   }
 };
 

@@ -9,7 +9,7 @@ using ControllerStops = ControllerTest;
 
 TEST_F(ControllerStops, ThrowsWhereTheScriptEndsUntied) {
   tie(false);
-  now = 6.9;  // the script ends at 5 s; patience is 2 s
+  now = 6.9;  // the script ends at 5 s, and two fifths of that is patience
   EXPECT_NO_THROW(step({}));
   now = 7.1;
   EXPECT_EQ(complaint({}),

@@ -1,0 +1,130 @@
+// An animal of another size is the same animal: with every number of a scene scaled by its
+// dimension, all angles stay as they are. By powers of two nothing is rounded on the way, so that
+// a constant of the code that has a dimension shows, as does a scale that a number was forgotten
+// in.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "core/input/scene_reader.hpp"
+#include "core/run/simulation.hpp"
+
+namespace hagfish {
+namespace {
+
+/// Units of length, mass and time over those of the scene as it is.
+struct Scale {
+  double length = 1, mass = 1, time = 1;
+
+  double speed() const { return length / time; }
+  double force() const { return mass * length / (time * time); }
+  double torque() const { return force() * length; }
+  double rigidity() const { return torque() * length; }
+};
+
+void scale(std::vector<double>& values, double by) {
+  for (double& value : values) value *= by;
+}
+
+void scale(ThigmotaxisSpeeds& speed, double by) {
+  speed.a *= by;
+  speed.b *= by;
+}
+
+void scale(Specimen& s, const Scale& by) {
+  s.length *= by.length;
+  s.mass *= by.mass;
+  s.bending_span *= by.length;
+  scale(s.circumference, by.length);
+  scale(s.bending_stiffness, by.rigidity());
+  scale(s.twist_stiffness, by.rigidity());
+  scale(s.bending_damping, by.rigidity() * by.time);
+  scale(s.twist_damping, by.rigidity() * by.time);
+}
+
+void scale(ControllerSettings& s, const Scale& by) {
+  for (ThigmotaxisSpeeds* speed : {&s.tighten_head, &s.tighten_tail, &s.slide_head, &s.slide_tail,
+                                   &s.reverse_head, &s.reverse_tail}) {
+    scale(*speed, by.speed());
+  }
+  s.cap *= by.force();
+  s.acceleration *= by.speed() / by.time;
+  for (double* length : {&s.contact_gap, &s.tail_through, &s.tight_span, &s.release_at,
+                         &s.reflex.shift, &s.reflex.pull_shift, &s.reflex.reach}) {
+    *length *= by.length;
+  }
+  for (double* time : {&s.tighten_from, &s.tight_hold, &s.tighten_time, &s.untied_for, &s.free_time,
+                       &s.reflex.delay}) {
+    *time *= by.time;
+  }
+}
+
+void scale(Scene& s, const Scale& by) {
+  s.model.bending_stiffness *= by.rigidity();
+  s.model.twist_stiffness *= by.rigidity();
+  s.model.bending_damping *= by.rigidity() * by.time;
+  s.model.twist_damping *= by.rigidity() * by.time;
+  s.drag.normal *= by.mass / (by.time * by.length);
+  s.drag.tangential *= by.mass / (by.time * by.length);
+  s.constraints.baumgarte_speed *= by.speed();
+  s.constraints.tolerance *= by.length;
+  s.constraints.stride *= by.length;
+  s.contact.margin *= by.length;
+  s.contact.least_arc *= by.length;
+  s.wall.neck *= by.length;
+  for (ScriptKnot& knot : s.script.knots) {
+    knot.time *= by.time;
+    knot.value *= s.script.kind == ScriptSettings::Kind::force ? by.force() : by.length;
+  }
+  s.script.spring *= by.force() / by.length;
+  s.script.damper *= by.force() / by.speed();
+  s.script.largest_force *= by.force();
+  scale(s.script.curvature.time, by.time);
+  s.active.stiffness *= by.rigidity();
+  s.active.tone_time *= by.time;
+  s.active.relax_time *= by.time;
+  s.active.capacity *= by.torque();
+  scale(s.controller, by);
+  s.knot.interval *= by.time;
+  for (double* time : {&s.time.step, &s.time.frame_interval, &s.time.checkpoint_interval,
+                       &s.time.duration, &s.guard.capped_time}) {
+    *time *= by.time;
+  }
+  s.guard.penetration *= by.length;
+  s.guard.speed *= by.speed();
+}
+
+/// Hinge angles where a run ends.
+Eigen::VectorXd angles_after(ResolvedScene resolved, const Scale& by) {
+  scale(resolved.specimen, by);
+  scale(resolved.scene, by);
+  const Scene& scene = resolved.scene;
+  const Model model = make_hagfish(resolved.specimen, scene);
+  Simulation sim = start(model, scene, "active-set");
+  StepRecord record;
+  while (!finished(sim, scene)) take_step(model, scene, sim, record);
+  EXPECT_EQ(sim.controller.phase, Phase::slide);
+  return sim.now.state.q.tail(model.nv() - root_dofs);
+}
+
+class Scales : public testing::TestWithParam<const char*> {};
+
+TEST_P(Scales, ChangeNoAngle) {
+  // Into the slide, at a coarse step.
+  const ResolvedScene resolved =
+      read_scene(std::string(HAGFISH_DATA_DIR) + "/" + GetParam() + ".toml",
+                 {"time.step=0.02", "time.until=slide", "time.duration=15"});
+  const Eigen::VectorXd angles = angles_after(resolved, {});
+  for (const Scale& by : {Scale{0.125}, {0.5}, {8}, {1, 4}, {1, 1, 2}, {32, 0.25, 0.5}}) {
+    const double off = (angles_after(resolved, by) - angles).lpNorm<Eigen::Infinity>();
+    EXPECT_LT(off, 1e-9) << by.length << ", " << by.mass << ", " << by.time;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Scales,
+                         testing::Values("table1", "living_overhand", "reflex_overhand"),
+                         [](const auto& info) { return std::string(info.param); });
+
+}  // namespace
+}  // namespace hagfish
