@@ -1,0 +1,285 @@
+"""How far the forces of Eq. 6 depend on the step, the mesh and chance: the table and the page of experiments/studies/forces.sh.
+
+Usage: forces.py FOLDER OUT.csv OUT.md. FOLDER is what the study leaves. The page is made of the table alone: a test makes it again.
+"""
+
+from __future__ import annotations
+
+import csv
+import datetime
+from collections.abc import Iterable
+from dataclasses import astuple, dataclass, fields
+from pathlib import Path
+
+import numpy as np
+
+import plots
+import tables
+from hagfish_log import HagfishLog
+from reflex_runs import knot_of
+from script import run_script
+from slides import log_of
+from sweep_columns import SweepTable, read_sweep
+
+KINDS = ("bend_y", "bend_z", "twist")
+STATIONS = np.linspace(0.01, 0.99, 99)  # along the body, at which moments of two meshes are compared
+LONG = 0.5  # s, of the longer means
+HOP = 0.1  # cm, by which an end of the knot moves in a frame where it hops
+KNOTS, ANIMALS = list(plots.KNOTS), ("towed", "living")
+ASKED = {"mean": 5, "long": 15, "way": 3, "pull": 5, "met": 95, "alike": 0.97}  # %, and a correlation
+
+
+@dataclass
+class Row:
+    """One run; cm, s, dyn, erg. Figures from `off_20_ms` on are against the run that its study compares with; None: not measured."""
+
+    study: str  # which grid
+    knot: str  # expected type
+    animal: str  # "towed" by its tail, or "living"
+    bodies: int
+    step: float  # ms
+    variant: str  # seed, or stiffness over that of the scene
+    outcome: str  # "ok" where the run came to its end
+    way: float | None = None  # of the knot's head end while it slides
+    time: float | None = None  # of the slide
+    met: float | None = None  # sliding steps that meet Eq. 6, %
+    capped: float | None = None  # steps with a row at its cap, %
+    multipliers: float | None = None  # sum of the four, over h: mean
+    work: float | None = None  # of f_thigmo for each cm of way
+    moment: float | None = None  # |f_thigmo| of the slide's mean, dyn cm
+    hops: float | None = None  # frames, 20 ms apart, between which an end moves by more than HOP
+    travel: float | None = None  # of the tail end, all moves added up
+    pull: float | None = None  # N
+    off_20_ms: float | None = None  # |f - f'| of means over 20 ms, of |f'|, %
+    off_long: float | None = None  # the same of means over LONG, %
+    off_mean: float | None = None  # of the slide's mean, %
+    alike: float | None = None  # correlation of means over 20 ms
+    off_way: float | None = None  # %
+
+
+UNITS = {"step": "step_ms", "way": "way_cm", "time": "time_s", "met": "met_percent", "capped": "capped_percent", "multipliers": "multipliers_dyn",
+         "work": "work_erg_per_cm", "moment": "mean_moment_dyn_cm", "hops": "hops", "travel": "tail_end_travel_cm", "pull": "pull_N",
+         "off_20_ms": "off_20_ms_percent", "off_long": "off_500_ms_percent", "off_mean": "off_mean_percent", "alike": "correlation_20_ms",
+         "off_way": "off_way_percent"}
+HEADING = [UNITS.get(field.name, field.name) for field in fields(Row)]
+
+
+def moments(log: HagfishLog) -> np.ndarray:
+    """f_thigmo of the slide at STATIONS, means from frame to frame, frames x (3 kinds of turn times stations), dyn cm: moments of the
+    body, which are the same of any mesh."""
+    dof, joint, kind = log.hinges()
+    arc = log.joint_arc()
+    place = arc[joint] / (arc[-1] + log["/model/length"][-1])
+    force = log["/mean/forces/thigmotaxis"][log.intervals_in("slide")][:, dof]
+    return np.concatenate([[np.interp(STATIONS, place[kind == each], row[kind == each]) for row in force] for each in KINDS], axis=1)
+
+
+def off(found: np.ndarray, wanted: np.ndarray) -> float:
+    return float(100 * np.linalg.norm(found - wanted) / np.linalg.norm(wanted))
+
+
+def long_means(force: np.ndarray, frames: int) -> np.ndarray:
+    whole = len(force) // frames
+    return force[:whole * frames].reshape(whole, frames, -1).mean(axis=1)
+
+
+def add_log(row: Row, log: HagfishLog) -> None:
+    """What only a log shows of a run by itself."""
+    frames = log.in_phase("slide")
+    steps = log["/trajectory/step"].astype(int) - int(log["/trajectory/step"][0])
+    own = slice(steps[frames[0]], steps[frames[-1]])
+    multipliers = log["/steps/thigmotaxis_lambda"][own]
+    head, tail = log["/knot/head_end"][frames], log["/knot/tail_end"][frames]
+    work = log["/diagnostics/work_thigmotaxis"][frames]
+    row.capped = float(100 * (np.nanmax(multipliers, axis=1) >= 0.999999 * log.scene()["controller"]["cap"]).mean())
+    row.multipliers = float(np.nansum(multipliers, axis=1).mean())
+    row.work = float((work[-1] - work[0]) / (head[0] - head[-1]))
+    row.moment = float(np.linalg.norm(moments(log).mean(axis=0)))
+    row.hops = float(sum((np.abs(np.diff(end)) > HOP).sum() for end in (head, tail)))
+    row.travel = float(np.abs(np.diff(tail)).sum())
+
+
+def compare(row: Row, log: HagfishLog, with_row: Row, with_log: HagfishLog) -> None:
+    found, wanted = moments(log), moments(with_log)
+    both = min(len(found), len(wanted))
+    window = round(LONG / float(np.median(np.diff(log["/trajectory/time"]))))
+    row.off_20_ms = off(found[:both], wanted[:both])
+    row.off_long = off(long_means(found[:both], window), long_means(wanted[:both], window)) if both >= window else None
+    row.off_mean = off(found.mean(axis=0), wanted.mean(axis=0))
+    row.alike = float(np.corrcoef(found[:both].ravel(), wanted[:both].ravel())[0, 1])
+    row.off_way = 100 * (row.way / with_row.way - 1) if row.way and with_row.way else None
+
+
+def sweep_rows(study: str, table: SweepTable, variants: Iterable[str]) -> list[Row]:
+    known = lambda value: None if np.isnan(value) else float(value)
+    rows = []
+    for i, variant in enumerate(variants):
+        scene, of = table.axes["scene"][i], {key: known(values[i]) for key, values in table.figures.items()}
+        axis = lambda key, default: float(table.axes[key][i]) if key in table.axes else default
+        span = None if of["duration_s"] is None or of["slide_from_s"] is None else of["duration_s"] - of["slide_from_s"]
+        rows.append(Row(study, knot_of(scene), "living" if "living" in scene else "towed", int(axis("model.bodies", 100)), 1e3 * axis("time.step", 0.002),
+                        variant, table.texts["outcome"][i], of["slide_distance_cm"], span, of["eq6_percent"], pull=of["pull_N"]))
+    return rows
+
+
+def read_study(folder: Path) -> list[Row]:
+    """Every run; those of the meshes are compared with that of 100 bodies at 1 ms or, at 2 ms, with that of twice the bodies; starts with the
+    first one."""
+    table = read_sweep(folder / "meshes/table.csv")
+    rows = sweep_rows("meshes", table, [""] * len(table.axes["scene"]))
+    starts = read_sweep(folder / "starts/table.csv")
+    rows_of_starts = sweep_rows("starts", starts, starts.axes["start.seed"])
+    for study, own in (("meshes", rows), ("starts", rows_of_starts)):
+        logs = [HagfishLog(log_of(folder / study, str(cell))) for cell in range(len(own))]
+        for row, log in zip(own, logs):
+            if row.way is None:
+                continue
+            add_log(row, log)
+            for other, with_log in zip(own, logs):
+                wanted = ((100, 1.0) if row.step != 2 else (2 * row.bodies, 2.0)) if study == "meshes" else None
+                if other is not row and (other.knot, other.animal) == (row.knot, row.animal) and other.way is not None and \
+                        (other.variant == "1" if wanted is None else (other.bodies, other.step) == wanted):
+                    compare(row, log, other, with_log)
+    rows += rows_of_starts
+    pulls, stiffness = read_sweep(folder / "pulls/table.csv"), read_sweep(folder / "stiffness/table.csv")
+    rows += sweep_rows("pulls", pulls, [""] * len(pulls.axes["scene"]))
+    ratio = lambda text: f"{float(text.strip('[]').split(',')[0]) / 2e5:.3f}"
+    return rows + sweep_rows("stiffness", stiffness, map(ratio, stiffness.axes["specimen.passive.bending_stiffness"]))
+
+
+def read_table(path: Path) -> tuple[list[Row], list[str]]:
+    """Rows, and the notes above them."""
+    lines = path.read_text(encoding="utf-8").splitlines()
+    notes = [line[2:] for line in lines if line.startswith("# ")]
+    kinds = {field.name: {"str": str, "int": int}.get(str(field.type), float) for field in fields(Row)}
+    rows = []
+    for line in csv.DictReader(line for line in lines if not line.startswith("# ")):
+        cells = {field.name: line[name] for field, name in zip(fields(Row), HEADING)}
+        rows.append(Row(**{name: kinds[name](text) if text or kinds[name] is str else None for name, text in cells.items()}))
+    return rows, notes
+
+
+def pick(rows: Iterable[Row], **wanted: object) -> list[Row]:
+    return [row for row in rows if all(getattr(row, key) == value for key, value in wanted.items())]
+
+
+def one(rows: Iterable[Row], **wanted: object) -> Row | None:
+    return next(iter(pick(rows, **wanted)), None)
+
+
+def shown(value: float | None, form: str = ".0f") -> str:
+    return "-" if value is None or np.isnan(value) else f"{value:{form}}".replace("e+0", "e")
+
+
+def animals(rows: list[Row]) -> list[tuple[str, str]]:
+    return [(knot, animal) for animal in ANIMALS for knot in KNOTS if pick(rows, knot=knot, animal=animal)]
+
+
+def runs_table(rows: list[Row]) -> list[str]:
+    body = []
+    for knot, animal in animals(rows):
+        for row in pick(rows, study="meshes", knot=knot, animal=animal):
+            body.append([f"{knot}, {animal}", str(row.bodies), f"{row.step:g}", shown(row.way, ".2f"), shown(row.time, ".2f"), shown(row.met, ".1f"),
+                         shown(row.capped, ".1f"), shown(row.multipliers, ".2g"), shown(row.work, ".2g"), shown(row.moment, ".3g"), shown(row.hops),
+                         shown(row.travel, ".1f")])
+    return tables.markdown(["knot, animal", "bodies", "step, ms", "way, cm", "time, s", "Eq. 6 met, %", "at the cap, %", "multipliers, dyn",
+                            "work, erg/cm", "moment of the mean, dyn cm", "hops", "travel of the tail end, cm"], body)
+
+
+PAIRS = {"5 against 1 ms": (100, 5.0), "100 against 200 bodies": (100, 2.0), "50 against 100 bodies": (50, 2.0)}
+
+
+def pairs_table(rows: list[Row]) -> list[str]:
+    body = []
+    for knot, animal in animals(rows):
+        cells = [f"{knot}, {animal}"]
+        for bodies, step in PAIRS.values():
+            row = one(rows, study="meshes", knot=knot, animal=animal, bodies=bodies, step=step)
+            cells.append("-" if row is None or row.off_mean is None else
+                         f"{shown(row.off_mean)}; {shown(row.off_long)}; {shown(row.off_20_ms)}; {shown(row.off_way, '+.0f')}")
+        body.append(cells)
+    return tables.markdown(["slide's mean; 0.5 s; 20 ms; way: off by, %", *PAIRS], body)
+
+
+def starts_table(rows: list[Row]) -> list[str]:
+    body = []
+    for knot, animal in animals(rows):
+        own = [row for row in pick(rows, study="starts", knot=knot, animal=animal) if row.alike is not None]
+        if own:
+            span = lambda name, form: " and ".join(shown(getattr(row, name), form) for row in own)
+            body.append([f"{knot}, {animal}", span("alike", ".2f"), span("off_mean", ".0f"), span("off_long", ".0f"), span("off_20_ms", ".0f"),
+                         span("off_way", "+.0f")])
+    return tables.markdown(["knot, animal", "correlation of 20 ms means", "slide's mean, %", "0.5 s, %", "20 ms, %", "way, %"], body)
+
+
+def pulls_table(rows: list[Row]) -> list[str]:
+    settings = [(100, 5.0), (100, 2.0), (100, 1.0), (200, 2.0)]
+    body = []
+    for knot, animal in animals(rows):
+        own = [one(rows, study="pulls", knot=knot, animal=animal, bodies=bodies, step=step) for bodies, step in settings]
+        known = [row.pull for row in own if row is not None and row.pull]
+        body.append([f"{knot}, {animal}", *(shown(row.pull if row else None, ".3f") for row in own),
+                     shown(100 * (max(known) - min(known)) / np.mean(known)) if known else "-"])
+    return tables.markdown(["pull, N", *(f"{bodies} bodies, {step:g} ms" for bodies, step in settings), "largest less least, % of the mean"], body)
+
+
+def within(rows: list[Row], name: str, most: float, **wanted: object) -> str:
+    """How many of the runs keep a bound, and the worst."""
+    known = [abs(value) for row in pick(rows, **wanted) if (value := getattr(row, name)) is not None]
+    return f"{sum(value <= most for value in known)} of {len(known)}; worst {max(known):.0f} %" if known else "not run"
+
+
+def asked_table(rows: list[Row]) -> list[str]:
+    body = []
+    for name, key, what in (("off_mean", "mean", "slide's mean"), ("off_long", "long", "0.5 s means"), ("off_way", "way", "way")):
+        for pair, (bodies, step) in list(PAIRS.items())[:2]:
+            body.append([f"{what}, {pair}", f"{ASKED[key]} %", within(rows, name, ASKED[key], study="meshes", bodies=bodies, step=step)])
+    met = [row for row in pick(rows, study="meshes") if row.met is not None]
+    stiff = [row for row in pick(rows, study="stiffness") if row.met is not None]
+    for what, own in (("Eq. 6 met, of the runs above", met), ("Eq. 6 met, 24 bodies of 0.9 to 1.1 times the stiffness at 5 and 2 ms", stiff)):
+        if own:
+            body.append([what, f"{ASKED['met']} % of steps", f"{sum(row.met >= ASKED['met'] for row in own)} of {len(own)}; least {min(row.met for row in own):.1f} %"])
+    alike = [row.alike for row in pick(rows, study="starts") if row.alike is not None]
+    if alike:
+        body.append(["starts 0.1 degree apart, 20 ms means", f"correlation {ASKED['alike']}",
+                     f"{sum(value >= ASKED['alike'] for value in alike)} of {len(alike)}; least {min(alike):.2f}"])
+    return tables.markdown(["figure", "asked for", "runs that keep it"], body)
+
+
+def page(rows: list[Row], notes: list[str]) -> list[str]:
+    lost = [row for row in rows if row.outcome != "ok"]
+    return [
+        "# How far forces depend on step, mesh and chance", "",
+        "`bash experiments/studies/forces.sh` makes this page and [its table](forces.csv). " + " ".join(notes), "",
+        "**Question.** Are the forces of Eq. 6 the animal's, or those of a mesh and a step?", "",
+        *asked_table(rows),
+        "## What the runs did", "",
+        "Towed animals are tied by a force or by waypoints of the tail. Living ones tie themselves. All slides are by the paper's law. "
+        f"A hop is a move of an end of the knot by more than {HOP:g} cm in 20 ms. Moments are those of f_thigmo at {STATIONS.size} stations.", "",
+        *runs_table(rows),
+        *([f"{len(lost)} of {len(rows)} runs did not come to their end: "
+           + "; ".join(f"{row.study}, {row.knot}, {row.animal}, {row.bodies} bodies, {row.step:g} ms: {row.outcome}" for row in lost) + ".", ""] if lost else []),
+        "## Step and mesh", "",
+        "Slides begin together, each from its own tied knot. |f - f'| is taken over all stations and windows, of |f'|.", "",
+        *pairs_table(rows),
+        "## Chance", "",
+        "Three starts with 0.1 degree of noise on every hinge, tied anew. The second and the third are compared with the first.", "",
+        *starts_table(rows),
+        "## Pulls at food", "",
+        *pulls_table(rows)]
+
+
+def notes_of(folder: Path) -> list[str]:
+    log = HagfishLog(log_of(folder / "meshes", "0"))
+    date = datetime.datetime.fromtimestamp((folder / "meshes/table.csv").stat().st_mtime, datetime.UTC)
+    return [f"Measured at {str(log.attribute('git_revision'))[:12]} on {log.attribute('cpu')}, {date:%Y-%m-%d}."]
+
+
+def main(folder: Path, table: Path, out: Path) -> None:
+    rows = [["" if cell is None else cell for cell in astuple(row)] for row in read_study(folder)]
+    tables.write_csv(table, HEADING, rows, notes_of(folder))
+    tables.write_page(out, page(*read_table(table)))
+
+
+if __name__ == "__main__":
+    run_script(__doc__, ["FOLDER", "OUT.csv", "OUT.md"], main)
