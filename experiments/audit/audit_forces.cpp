@@ -23,7 +23,7 @@ constexpr double cone_turn_tolerance = 0.1;
 /// Mean f_thigmo is not C' of the mean multipliers exactly, as the knot moves between two frames:
 /// the median, which grows with the time between them, tells a wrong column, sign or window.
 constexpr double mean_tolerance = 0.05;
-constexpr double mean_tolerance_growth = 1;     // 1/s
+constexpr double mean_tolerance_growth = 5;     // 1/s: contacts move along the strands
 constexpr double largest_mean_tolerance = 0.3;  // beyond it the finding would say nothing
 constexpr std::size_t least_means = 5;          // for a median
 /// Rows that a step's own path shows change its velocity after its middle has settled: at up to
