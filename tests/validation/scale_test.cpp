@@ -10,8 +10,7 @@
 #include "core/input/scene_reader.hpp"
 #include "core/run/simulation.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::scale_test {
 
 /// Units of length, mass and time over those of the scene as it is.
 struct Scale {
@@ -126,5 +125,4 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Scales,
                          testing::Values("table1", "living_overhand", "reflex_overhand"),
                          [](const auto& info) { return std::string(info.param); });
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::scale_test

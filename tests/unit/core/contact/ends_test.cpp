@@ -9,8 +9,7 @@
 
 #include "tests/support/random_chain.hpp"
 
-namespace hagfish {
-namespace {
+namespace hagfish::ends_test {
 
 constexpr double level = 0.05;
 
@@ -148,5 +147,4 @@ TEST(TouchingEnds, AreNoneWhereNothingTouchesAndTheBodysOwnWhereItTouchesToItsEn
   EXPECT_NEAR(ends.last->gap, 0.02, 1e-12);
 }
 
-}  // namespace
-}  // namespace hagfish
+}  // namespace hagfish::ends_test
