@@ -36,23 +36,6 @@ CentreOperator drag_at_centre(const Model& model, const Kinematics& kin, int bod
           length * model.drag.normal * across + length * model.drag.tangential * forward};
 }
 
-/// A symmetric operator about a body's centre: plain 1 + along aa' + side ss', with a and s the
-/// body's X and Y axes. Inertia and drag have this form, in which a step assembles and applies
-/// them: body_inertia and drag_operator, as matrices, are what the tests hold that to.
-struct AxisOperator {
-  double plain = 0, along = 0, side = 0;
-
-  Eigen::Vector3d times(const Eigen::Matrix3d& axes, const Eigen::Vector3d& v) const {
-    return plain * v + along * axes.col(0).dot(v) * axes.col(0) +
-           side * axes.col(1).dot(v) * axes.col(1);
-  }
-};
-
-AxisOperator inertia_about_centre(const Body& body) {
-  const Eigen::Vector3d& i = body.inertia;
-  return {i.z(), i.x() - i.z(), i.y() - i.z()};
-}
-
 /// As point_operator of both about the centre, which is at `offset` from O; `linear` has no side.
 /// Written in place, entry by entry: a copy would wait for its bytes.
 void put_centre_operator(const AxisOperator& angular, const AxisOperator& linear,
@@ -144,36 +127,6 @@ Eigen::VectorXd drag_force(const Model& model, const Kinematics& kin, const Eige
     wrench.col(b) = -(drag_operator(model, kin, b) * wrench.col(b)).eval();
   }
   return generalised_force(model, kin, wrench);
-}
-
-CentreWrench drag_on_body(const Model& model, const Kinematics& kin, int body,
-                          const PointMotion& motion) {
-  // drag_at_centre without its matrices: each step asks this of every body.
-  const double length = model.bodies[body].length;
-  const Eigen::Vector3d along = kin.rotation[body].col(0);
-  const Eigen::Vector3d forward = motion.velocity.dot(along) * along;
-  const Eigen::Vector3d turn = motion.spin - motion.spin.dot(along) * along;
-  return {-model.drag.normal * length * length * length / 12 * turn,
-          -length *
-              (model.drag.normal * (motion.velocity - forward) + model.drag.tangential * forward)};
-}
-
-double drag_power(const Model& model, const Kinematics& kin, int body, const PointMotion& over,
-                  const PointMotion& at) {
-  const double length = model.bodies[body].length;
-  const Eigen::Vector3d along = kin.rotation[body].col(0);
-  const double forward = over.velocity.dot(along) * at.velocity.dot(along);
-  const double sideways = over.velocity.dot(at.velocity) - forward;
-  const double turning = over.spin.dot(at.spin) - over.spin.dot(along) * at.spin.dot(along);
-  return length * (model.drag.normal * (sideways + turning * length * length / 12) +
-                   model.drag.tangential * forward);
-}
-
-BodyMomentum body_momentum(const Model& model, const Kinematics& kin, int body,
-                           const PointMotion& motion) {
-  const Body& of = model.bodies[body];
-  return {inertia_about_centre(of).times(kin.rotation[body], motion.spin),
-          of.mass * motion.velocity};
 }
 
 Matrix6Xd bias_wrench(const Model& model, const Kinematics& kin, const StepMotion& motion) {

@@ -95,6 +95,25 @@ double kinetic_energy(const Model& model, const Kinematics& kin);
 /// Of each body, erg (N), straight from a state: its kinematics need not be known.
 void kinetic_energies(const Model& model, const State& state, Eigen::VectorXd& energies);
 
+// What follows is asked of every body in each step, where calls would put vectors into memory.
+
+/// A symmetric operator about a body's centre: plain 1 + along aa' + side ss', with a and s the
+/// body's X and Y axes. Inertia and drag have this form, in which a step assembles and applies
+/// them: body_inertia and drag_operator, as matrices, are what the tests hold that to.
+struct AxisOperator {
+  double plain = 0, along = 0, side = 0;
+
+  Eigen::Vector3d times(const Eigen::Matrix3d& axes, const Eigen::Vector3d& v) const {
+    return plain * v + along * axes.col(0).dot(v) * axes.col(0) +
+           side * axes.col(1).dot(v) * axes.col(1);
+  }
+};
+
+inline AxisOperator inertia_about_centre(const Body& body) {
+  const Eigen::Vector3d& i = body.inertia;
+  return {i.z(), i.x() - i.z(), i.y() - i.z()};
+}
+
 /// How one body moves: its angular velocity, rad/s, and the velocity of its centre, cm/s, world.
 struct PointMotion {
   Eigen::Vector3d spin, velocity;
@@ -107,12 +126,29 @@ struct CentreWrench {
 };
 
 /// Drag on one body that moves as `motion`.
-CentreWrench drag_on_body(const Model& model, const Kinematics& kin, int body,
-                          const PointMotion& motion);
+inline CentreWrench drag_on_body(const Model& model, const Kinematics& kin, int body,
+                                 const PointMotion& motion) {
+  // drag_at_centre without its matrices: each step asks this of every body.
+  const double length = model.bodies[body].length;
+  const Eigen::Vector3d along = kin.rotation[body].col(0);
+  const Eigen::Vector3d forward = motion.velocity.dot(along) * along;
+  const Eigen::Vector3d turn = motion.spin - motion.spin.dot(along) * along;
+  return {-model.drag.normal * length * length * length / 12 * turn,
+          -length *
+              (model.drag.normal * (motion.velocity - forward) + model.drag.tangential * forward)};
+}
 
 /// Power over one motion of a body against the drag that it has at another one, erg/s: symmetric.
-double drag_power(const Model& model, const Kinematics& kin, int body, const PointMotion& over,
-                  const PointMotion& at);
+inline double drag_power(const Model& model, const Kinematics& kin, int body,
+                         const PointMotion& over, const PointMotion& at) {
+  const double length = model.bodies[body].length;
+  const Eigen::Vector3d along = kin.rotation[body].col(0);
+  const double forward = over.velocity.dot(along) * at.velocity.dot(along);
+  const double sideways = over.velocity.dot(at.velocity) - forward;
+  const double turning = over.spin.dot(at.spin) - over.spin.dot(along) * at.spin.dot(along);
+  return length * (model.drag.normal * (sideways + turning * length * length / 12) +
+                   model.drag.tangential * forward);
+}
 
 /// How much momentum one body has: angular about its centre, g cm²/s, and linear, g cm/s.
 struct BodyMomentum {
@@ -123,8 +159,12 @@ struct BodyMomentum {
     return angular.dot(motion.spin) + linear.dot(motion.velocity);
   }
 };
-BodyMomentum body_momentum(const Model& model, const Kinematics& kin, int body,
-                           const PointMotion& motion);
+inline BodyMomentum body_momentum(const Model& model, const Kinematics& kin, int body,
+                                  const PointMotion& motion) {
+  const Body& of = model.bodies[body];
+  return {inertia_about_centre(of).times(kin.rotation[body], motion.spin),
+          of.mass * motion.velocity};
+}
 
 /// Energy in the joint springs, erg.
 double elastic_energy(const Model& model, const Eigen::VectorXd& q);

@@ -215,10 +215,8 @@ void guard_momentum(const Model& model, const StepInput& in, const MomentumLedge
     return;
   }
   watch.made += now.integrator + now.given_back - before.integrator - before.given_back;
-  double mass = 0;
-  for (const Body& body : model.bodies) mass += body.mass;
   // Of a body that moves as one |P|² <= 2 m T and |L|² <= 2 I T; a straight one has the largest I.
-  const double linear = std::sqrt(2 * mass * energy.largest);
+  const double linear = std::sqrt(2 * mass_of(model) * energy.largest);
   const double angular = linear * model.length() / std::sqrt(12.0);
   const double share =
       std::max(watch.made.linear.norm() / linear, watch.made.angular.norm() / angular);

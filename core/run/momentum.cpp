@@ -6,6 +6,21 @@
 namespace hagfish {
 namespace {
 
+/// The sum over all bodies of what `of(body)` has at each one's centre, a moment and a force or
+/// angular and linear momentum, with moments about `centre` (cm, world).
+template <class Of>
+Momentum sum_over_bodies(const Model& model, const Kinematics& kin, const Eigen::Vector3d& centre,
+                         Of of) {
+  Eigen::Vector3d linear = Eigen::Vector3d::Zero();
+  Eigen::Vector3d angular = linear;
+  for (int b = 0; b < model.body_count(); ++b) {
+    const auto [own, force] = of(b);
+    angular += own + (kin.centre.col(b) - centre).cross(force);
+    linear += force;
+  }
+  return {linear, angular};
+}
+
 /// Drag and what acts from outside over the step `in`, with moments about `centre`.
 struct Impulses {
   Momentum drag, outside;
@@ -14,17 +29,15 @@ struct Impulses {
 Impulses impulses_of(const StepInput& in, const Kinematics& kin, const StepSolution& step,
                      const Eigen::Vector3d& centre) {
   const Model& model = in.model;
+  const int last = model.body_count() - 1;
   const double h = in.scene.time.step;
-  Momentum drag, outside;
-  for (int b = 0; b < model.body_count(); ++b) {
-    const auto [moment, force] = drag_on_body(
-        model, kin, b, {step.felt_twist.col(b).head<3>(), step.felt_centre_velocity.col(b)});
-    drag.linear += force;
-    drag.angular += moment + (kin.centre.col(b) - centre).cross(force);
-    outside.linear += model.bodies[b].mass * model.gravity;
-  }
-  outside.linear += step.tip;
-  outside.angular += (kin.centre.col(model.body_count() - 1) - centre).cross(step.tip);
+  const Momentum drag = sum_over_bodies(model, kin, centre, [&](int b) {
+    return drag_on_body(model, kin, b,
+                        {step.felt_twist.col(b).head<3>(), step.felt_centre_velocity.col(b)});
+  });
+  Momentum outside;
+  outside.linear = mass_of(model) * model.gravity + step.tip;
+  outside.angular = (kin.centre.col(last) - centre).cross(step.tip);
   for (const RowKind kind : row_kinds) {
     if (!from_outside(kind)) continue;
     outside.linear += step.force[kind].head<3>();
@@ -33,11 +46,7 @@ Impulses impulses_of(const StepInput& in, const Kinematics& kin, const StepSolut
   if (in.scene.controller.eq6_at == Eq6Point::centreline) {
     outside.angular += moment_of_root(step.force[RowKind::thigmotaxis], kin, centre);
   }
-  for (Momentum* impulse : {&drag, &outside}) {
-    impulse->linear *= h;
-    impulse->angular *= h;
-  }
-  return {drag, outside};
+  return {drag * h, outside * h};
 }
 
 /// What the root's rows of Eq. 1 say that the step gains, with moments about `centre`:
@@ -46,23 +55,17 @@ Impulses impulses_of(const StepInput& in, const Kinematics& kin, const StepSolut
 /// muscles add up to nothing.
 Momentum gained(const StepInput& in, const StepPlace& place, const StepSolution& step,
                 const Eigen::Vector3d& centre) {
-  const Model& model = in.model;
-  const Kinematics& kin = place.kin;
   const double h = in.scene.time.step;
   const StepMotion& before = place.motion;
   const double whole = h / in.scene.time.reach();  // v' - v over what is felt of it
-  Momentum sum;
-  for (int b = 0; b < model.body_count(); ++b) {
-    const BodyMomentum change =
-        body_momentum(model, kin, b,
+  return sum_over_bodies(in.model, place.kin, centre, [&](int b) {
+    const auto [angular, linear] =
+        body_momentum(in.model, place.kin, b,
                       {whole * (step.felt_twist.col(b) - before.twist.col(b)).head<3>(),
                        whole * (step.felt_centre_velocity.col(b) - before.centre_velocity.col(b))});
-    const Eigen::Vector3d force = change.linear + h * step.system.bias.col(b).tail<3>();
-    sum.linear += force;
-    sum.angular += change.angular + h * step.system.bias.col(b).head<3>() +
-                   (kin.centre.col(b) - centre).cross(force);
-  }
-  return sum;
+    return CentreWrench{angular + h * step.system.bias.col(b).head<3>(),
+                        linear + h * step.system.bias.col(b).tail<3>()};
+  });
 }
 
 /// Moments of inertia of all bodies as if joints were locked, about their centre of mass, world
@@ -81,35 +84,30 @@ Eigen::Matrix3d locked_inertia(const Model& model, const Kinematics& kin,
   return inertia;
 }
 
-double mass_of(const Model& model) {
-  double mass = 0;
-  for (const Body& body : model.bodies) mass += body.mass;
-  return mass;
-}
-
 /// Share of its energy that a body without motion between its parts may gain in a step that gives
 /// its momentum back; more is not given.
 constexpr double most_added = 1e-3;
 /// Motion between parts with less of the energy is rounding.
 constexpr double rounding = 1e-12;
 
-/// Gives `next`, which has `now`, the momentum `wanted`, by a motion of the whole as one rigid body
-/// about `centre` of mass. Its kinetic energy stays as it is: velocities between its parts take or
-/// give by one factor what that motion has more or less. Where they have not enough, nothing is
-/// given, of which the watch on momentum tells.
-void give(const Model& model, const Eigen::Vector3d& centre, const Momentum& now,
-          const Momentum& wanted, Moment& next) {
+/// Gives `next`, which has `now` and the kinetic energy `whole` (erg), the momentum `wanted`, by a
+/// motion of the whole as one rigid body about its centre of mass. Its kinetic energy stays as it
+/// is: velocities between its parts take or give by one factor what that motion has more or less.
+/// Where they have not enough, nothing is given, of which the watch on momentum tells. Whether it
+/// was.
+bool give(const Model& model, double whole, const Momentum& now, const Momentum& wanted,
+          Moment& next) {
   Kinematics& kin = next.observation.kin;
+  const Eigen::Vector3d centre = centre_of_mass(model, kin);
   const auto inertia = locked_inertia(model, kin, centre).llt();
   const double mass = mass_of(model);
   const Eigen::Vector3d old_turn = inertia.solve(now.angular), turn = inertia.solve(wanted.angular);
   const auto energy = [mass](const Momentum& of, const Eigen::Vector3d& at) {
     return 0.5 * (of.linear.squaredNorm() / mass + of.angular.dot(at));
   };
-  const double whole = kinetic_energy(model, kin);
   const double inner = whole - energy(now, old_turn);
   const double left = whole - energy(wanted, turn);
-  if (left < -most_added * whole) return;
+  if (left < -most_added * whole) return false;
   const double factor = inner > rounding * whole && left > 0 ? std::sqrt(left / inner) : 1;
   const Eigen::Vector3d arm = kin.origin.col(0) - centre;
   Eigen::VectorXd& v = next.state.qdot;
@@ -119,6 +117,7 @@ void give(const Model& model, const Eigen::Vector3d& centre, const Momentum& now
   v.head<3>() = factor * linear + wanted.linear / mass + turn.cross(arm);
   v.segment<3>(3) = kin.rotation[0].transpose() * (factor * spin + turn);
   update_velocities(model, v, kin);
+  return true;
 }
 
 }  // namespace
@@ -141,21 +140,21 @@ Eigen::Vector3d moment_of_root(const Eigen::VectorXd& force, const Kinematics& k
   return kin.rotation[0] * force.segment<3>(3) + (kin.origin.col(0) - centre).cross(sum);
 }
 
-Momentum momentum_of(const Model& model, const Kinematics& kin, const Eigen::Vector3d& centre) {
-  Momentum sum;
-  for (int b = 0; b < model.body_count(); ++b) {
-    const BodyMomentum of =
-        body_momentum(model, kin, b, {kin.twist.col(b).head<3>(), kin.centre_velocity.col(b)});
-    sum.linear += of.linear;
-    sum.angular += of.angular + (kin.centre.col(b) - centre).cross(of.linear);
-  }
-  return sum;
+double mass_of(const Model& model) {
+  double mass = 0;
+  for (const Body& body : model.bodies) mass += body.mass;
+  return mass;
+}
+
+Momentum momentum_of(const Model& model, const Kinematics& kin) {
+  return sum_over_bodies(model, kin, centre_of_mass(model, kin), [&](int b) {
+    return body_momentum(model, kin, b, {kin.twist.col(b).head<3>(), kin.centre_velocity.col(b)});
+  });
 }
 
 MomentumLedger open_momentum(const Model& model, const Moment& now) {
   MomentumLedger ledger;
-  const Kinematics& kin = now.observation.kin;
-  ledger.initial = momentum_of(model, kin, centre_of_mass(model, kin));
+  ledger.initial = momentum_of(model, now.observation.kin);
   ledger.momentum = ledger.initial;
   return ledger;
 }
@@ -186,15 +185,14 @@ void book_momentum(const StepInput& in, const StepPlace& place, const StepSoluti
   const Eigen::Vector3d middle = centre_of_mass(model, place.kin);
   const auto [drag, outside] = impulses_of(in, place.kin, step, middle);
   const Momentum old = ledger.momentum;
-  const Eigen::Vector3d centre = centre_of_mass(model, kin);
-  ledger.momentum = momentum_of(model, kin, centre);
+  ledger.momentum = momentum_of(model, kin);
   ledger.integrator += ledger.momentum - old - gained(in, place, step, middle);
   ledger.drag += drag;
   ledger.outside += outside;
-  if (keeps_momentum(in.scene, in.control)) {
-    const Momentum before = ledger.momentum;
-    give(model, centre, before, old + drag + outside, next);
-    ledger.momentum = momentum_of(model, kin, centre);
+  const Momentum before = ledger.momentum;
+  if (keeps_momentum(in.scene, in.control) &&
+      give(model, energy.kinetic, before, old + drag + outside, next)) {
+    ledger.momentum = momentum_of(model, kin);
     ledger.given_back += ledger.momentum - before;
     const double kinetic = kinetic_energy(model, kin);
     energy.integrator_momentum += kinetic - energy.kinetic;

@@ -25,6 +25,7 @@ struct Momentum {
   Momentum& operator-=(const Momentum& less);
   Momentum operator+(const Momentum& more) const { return Momentum(*this) += more; }
   Momentum operator-(const Momentum& less) const { return Momentum(*this) -= less; }
+  Momentum operator*(double factor) const { return {factor * linear, factor * angular}; }
 };
 
 /// The moment about `centre` (cm, world) of forces on bodies whose sum, generalised, is `force`
@@ -32,8 +33,11 @@ struct Momentum {
 Eigen::Vector3d moment_of_root(const Eigen::VectorXd& force, const Kinematics& kin,
                                const Eigen::Vector3d& centre);
 
-/// Of all bodies at kin's velocities; the angular part is about `centre` (cm, world).
-Momentum momentum_of(const Model& model, const Kinematics& kin, const Eigen::Vector3d& centre);
+/// Of all bodies, g.
+double mass_of(const Model& model);
+
+/// Of all bodies at kin's velocities.
+Momentum momentum_of(const Model& model, const Kinematics& kin);
 
 /// Impulses, the integrator's and what was given back are running totals.
 struct MomentumLedger {

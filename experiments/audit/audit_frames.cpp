@@ -126,7 +126,7 @@ void FrameAudit::see_energy(const AuditedFrame& frame) {
                   elastic_energy(log_.model, frame.state.q));
   by_itself_.compare("/diagnostics/integrator_error", integrator_error_[f], integrator_[f]);
   from_q_.compare("/diagnostics/gravity_energy", gravity_[f], gravity_energy(log_.model, kin));
-  const Momentum momentum = momentum_of(log_.model, kin, centre_of_mass(log_.model, kin));
+  const Momentum momentum = momentum_of(log_.model, kin);
   from_q_.compare("/diagnostics/momentum", momentum_.row(f).transpose(), momentum.linear);
   from_q_.compare("/diagnostics/angular_momentum", angular_momentum_.row(f).transpose(),
                   momentum.angular);
