@@ -5,8 +5,7 @@
 
 namespace hagfish {
 
-/// Whether an earlier version of the program made the log, whose checkpoints this one cannot read
-/// and whose lists it does not ask for.
+/// Whether an earlier version of the program made the log, whose checkpoints this one cannot read.
 bool is_of_earlier_version(const LogContents& log);
 
 /// From each checkpoint the run is taken on to the next frame, and from the last but one to where

@@ -33,7 +33,6 @@ void check_names(const LogContents& log) {
     }
   }
   for (const auto& [path, names] : enumerations()) {
-    if (!log.h5.has(path) && is_of_earlier_version(log)) continue;
     if (log.h5.texts(path) != names) {
       throw FileError(log.h5.file() + ": " + path + " is not the list of this program");
     }
@@ -50,6 +49,23 @@ void check_names(const LogContents& log) {
   }
 }
 
+/// Logs of an earlier version may lack what is audited here; that version can audit them.
+void require_own_version(const LogContents& log) {
+  if (!is_of_earlier_version(log)) return;
+  const auto require = [&log](const std::string& path) {
+    if (log.h5.has(path)) return;
+    throw FileError(fmt::format(
+        "{}: has no {}: hagfish {} wrote it at revision {}, before logs had one; check it with "
+        "that revision, or run its scene again (view and export read it)",
+        log.h5.file(), path, log.h5.root_text("creator_version"),
+        log.h5.root_text("git_revision")));
+  };
+  for (const DatasetForm& form : log_forms(log.h5, log.model, log.resolved.scene)) {
+    require(form.path);
+  }
+  for (const auto& [path, names] : enumerations()) require(path);
+}
+
 void check_words(const Hdf5Reader& h5, const std::string& path) {
   if (h5.attribute(path, "unit").empty() || h5.attribute(path, "description").empty()) {
     throw FileError(h5.file() + ": " + path + " has no unit or description");
@@ -59,6 +75,7 @@ void check_words(const Hdf5Reader& h5, const std::string& path) {
 }  // namespace
 
 void check_datasets(const LogContents& log) {
+  require_own_version(log);
   const hsize_t step_count = log.h5.shape("/steps/kkt").at(0);
   const auto stride = static_cast<hsize_t>(frame_stride(log.resolved.scene.time));
   const hsize_t covered = (log.time.size() - 1) * stride + 1;

@@ -158,7 +158,11 @@ ExportTable energy_table(const LogContents& log, bool si) {
   for (const RowKindEntry& kind : row_kind_table) {
     terms.emplace_back(std::string("work_") + kind.name, of(kind) + ", so far");
   }
-  for (const EnergyLoss& loss : energy_losses) terms.emplace_back(loss.name, loss.description);
+  for (const EnergyLoss& loss : energy_losses) {
+    const bool logged =
+        log.h5.has(std::string("/diagnostics/") + loss.name);  // earlier logs differ
+    if (logged) terms.emplace_back(loss.name, loss.description);
+  }
   terms.emplace_back("integrator_error", "gained by the integrator itself, so far");
   std::vector<ExportColumn> columns{frame_column, time_column};
   std::vector<std::vector<double>> values;
