@@ -54,8 +54,6 @@ void read_number_csv(const std::string& text, const std::string& name,
 }
 
 template void read_number_csv(const std::string&, const std::string&,
-                              const std::array<std::string, 4>&, const RowTaker<4>&);
-template void read_number_csv(const std::string&, const std::string&,
                               const std::array<std::string, 5>&, const RowTaker<5>&);
 
 }  // namespace hagfish
