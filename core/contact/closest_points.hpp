@@ -36,7 +36,7 @@ struct ClosestPointsQuery {
 /// than the next sample.
 ///
 /// Queries are answered side by side, as many as a vector register has lanes, each as if it were
-/// alone; tests/support/closest_points_reference.cpp answers one, as one would write it.
+/// alone.
 class ClosestPointsSearch {
  public:
   /// `samples`: along each segment, 3 to most_samples.

@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "tests/support/closest_points_reference.hpp"
 #include "tests/support/random_chain.hpp"
 
 namespace hagfish::closest_points_test {
@@ -209,14 +208,6 @@ TEST(ClosestPoints, OfManyPairsAtOnceAreThoseOfEachAlone) {
     EXPECT_EQ(query.closest.t_a, alone.t_a);
     EXPECT_EQ(query.closest.t_b, alone.t_b);
     EXPECT_EQ(query.closest.gap, alone.gap);
-  }
-}
-
-TEST(ClosestPoints, HaveTheGapThatThePlainVersionFinds) {
-  // Both are at the minimum to rounding of gaps of 1 cm, along valleys to the square of the last
-  // step, 1e-4.
-  for (const auto& [a, b] : pairs_of(body_pair, 66, 5000)) {
-    EXPECT_NEAR(closest_points(a, b).gap, closest_points_reference(a, b).gap, 1e-11);
   }
 }
 
