@@ -23,6 +23,11 @@ StepSolution Stage::solve() {
 
 std::vector<Row> Stage::rows() const {
   const Observation now = observe(model, state, scene);
+  return every_row(input(now));
+}
+
+std::vector<Row> every_row(const StepInput& in) {
+  const auto& [model, scene, state, now, control] = in;
   const double h = scene.time.step;
   std::vector<Row> all;
   const auto append = [&all](const std::vector<Row>& more) {
@@ -74,12 +79,9 @@ struct Optimality {
   double work = 0;          ///< Σ |λ (C v - d)| over Σ |λ| max |d|
 };
 
-Optimality optimality(const Stage& s, const StepSolution& step) {
-  const Observation now = observe(s.model, s.state, s.scene);
-  const std::vector<Row> all = s.rows();
-  const StepInput in = s.input(now);
+Optimality optimality(const StepInput& in, const std::vector<Row>& all, const StepSolution& step) {
   const PrimalQp paper = paper_problem(in, start_of(in), all);
-  const Eigen::MatrixXd c = dense_rows(s.model, now.kin, all);
+  const Eigen::MatrixXd c = dense_rows(in.model, in.observation.kin, all);
   const Eigen::VectorXd& g = paper.g;
   Eigen::VectorXd lambda = Eigen::VectorXd::Zero(c.rows());
   for (Eigen::Index i = 0; i < step.lambda.size(); ++i) {
@@ -116,14 +118,19 @@ Optimality optimality(const Stage& s, const StepSolution& step) {
 // A row left out may fall short by 1e-8; rows that are in are met to the back end's scaled 1e-10
 // times the largest right-hand side, some 100 rad/s. Stationarity holds by construction, to
 // rounding.
-void expect_optimal(const Stage& s, const StepSolution& step) {
-  const Optimality error = optimality(s, step);
+void expect_optimal(const StepInput& in, const StepSolution& step) {
+  const Optimality error = optimality(in, every_row(in), step);
   EXPECT_LT(error.stationarity, 1e-9);
   EXPECT_LT(error.feasibility, 2e-8);
   EXPECT_LE(error.sign, 0);
   EXPECT_LT(error.work, 1e-7);
   EXPECT_LE(step.stationarity, 1e-9);
   EXPECT_LE(step.kkt.worst(), 1e-8);
+}
+
+void expect_optimal(const Stage& s, const StepSolution& step) {
+  const Observation now = observe(s.model, s.state, s.scene);
+  expect_optimal(s.input(now), step);
 }
 
 Eigen::VectorXd paper_velocity(const Stage& s) {

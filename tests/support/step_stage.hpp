@@ -29,7 +29,12 @@ Stage knotted(unsigned seed, double speed);
 /// Three bodies in a line with two hinges about Z between ±`limit`; head clamped.
 Stage two_hinges(double limit);
 
-/// EXPECTs that `step` is the solution of the paper's Eq. 4 on all rows, rows left out included.
+/// Every row that a step may use, by its makers.
+std::vector<Row> every_row(const StepInput& in);
+
+/// EXPECTs that `step` is the solution of the paper's Eq. 4 on all rows, rows left out included:
+/// with its multipliers it meets the conditions that only the solution of a convex problem meets.
+void expect_optimal(const StepInput& in, const StepSolution& step);
 void expect_optimal(const Stage& s, const StepSolution& step);
 
 /// The velocity by the paper's step, with every row in from the start.

@@ -1,0 +1,79 @@
+// The step against the paper's as printed: dense H, dense rows, all of them that could matter. The
+// step's velocity and multipliers meet the conditions of the paper's Eq. 4, which has one solution.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/support/random_chain.hpp"
+#include "tests/support/step_stage.hpp"
+#include "tests/support/stored_states.hpp"
+
+namespace hagfish::equation4_test {
+
+/// Three steps on from `sim`, each against the paper's. Returns how many cones pushed.
+int compare(const Model& model, Scene scene, Simulation sim) {
+  scene.constraints.corrections = 0;         // which add rows that the paper has not
+  scene.time.momentum = FreeMomentum::rule;  // the paper's
+  int pushing = 0;
+  for (int k = 0; k < 3; ++k) {
+    SCOPED_TRACE(sim.step);
+    const StepRecord record = take_step(model, scene, sim);
+    const State& before = record.moment.state;
+    expect_optimal({model, scene, before, record.moment.observation, record.control},
+                   record.solution);
+    // Eqs. 1 and 2: the new velocity, and where it leads.
+    EXPECT_EQ(sim.now.state.qdot, record.solution.qdot);
+    EXPECT_EQ(sim.now.state.q, advance(before.q, record.solution.qdot, scene.time.step));
+    for (const BendingCone& cone : model.cones) {
+      pushing += record.solution.force[RowKind::limit].segment<2>(cone.dof).isZero(0) ? 0 : 1;
+    }
+  }
+  return pushing;
+}
+
+class Equation4 : public testing::TestWithParam<std::tuple<StoredState, std::string>> {};
+
+TEST_P(Equation4, IsMetByTheStep) {
+  const auto& [stored, back_end] = GetParam();
+  const ResolvedScene resolved = stored_scene();
+  const Model model = make_hagfish(resolved.specimen, resolved.scene);
+  Scene scene = resolved.scene;
+  for (const Eq6Point at : {Eq6Point::centreline, Eq6Point::skin}) {
+    scene.controller.eq6_at = at;
+    compare(model, scene, resume(model, scene, stored, back_end));
+  }
+}
+
+TEST(Equation4OfCones, IsMetByTheStep) {
+  const ResolvedScene resolved = stored_scene({"model.bending_limit=cone"});
+  const Model model = make_hagfish(resolved.specimen, resolved.scene);
+  Simulation sim = start(model, resolved.scene, "active-set");
+  StepRecord record;
+  int pushing = 0;
+  for (const double time : {8.0, 10.5, 12.0, 13.0, 15.0, 16.0}) {  // s; from tying to sliding
+    while (time_of(sim, resolved.scene) < time) {
+      take_step(model, resolved.scene, sim, record);
+    }
+    for (const std::string& back_end : box_qp_solver_names()) {
+      Simulation other = sim;
+      other.solver = StepSolver(back_end);
+      other.solver.warm = sim.solver.warm;
+      pushing += compare(model, resolved.scene, std::move(other));
+    }
+  }
+  EXPECT_GT(pushing, 20);
+}
+
+std::string name_of_pair(const testing::TestParamInfo<Equation4::ParamType>& pair) {
+  const auto& [stored, back_end] = pair.param;
+  std::string name = name_of({stored, pair.index}) + "_" + back_end;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Table1, Equation4,
+                         testing::Combine(testing::ValuesIn(stored_states()),
+                                          testing::ValuesIn(box_qp_solver_names())),
+                         name_of_pair);
+
+}  // namespace hagfish::equation4_test
