@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "core/log/hdf5_error.hpp"
 #include "core/log/log_writer.hpp"
 #include "experiments/audit/audit.hpp"
 #include "mujoco_ref/mjcf.hpp"
@@ -30,12 +31,22 @@ void write_log(const std::filesystem::path& file, const ResolvedScene& scene) {
             std::numeric_limits<int>::max());
 }
 
-std::string audit_objections(const std::filesystem::path& file, const std::string& expected) {
+std::string audit_objections(const std::filesystem::path& file, const std::string& expected) try {
   std::string text;
   for (const Finding& finding : audit(file)) {
     const bool good = finding.passed || finding.name == expected;
     text += good ? "" : finding.name + ": " + finding.text + "\n";
   }
+  return text;
+} catch (const FileError& error) {
+  return error.what();
+}
+
+std::string audit_objections_as(const std::filesystem::path& file, const ResolvedScene& scene,
+                                const std::string& expected) {
+  const std::string before = write_scene(file, scene_to_toml(scene.scene, scene.specimen));
+  const std::string text = audit_objections(file, expected);
+  write_scene(file, before);
   return text;
 }
 

@@ -57,14 +57,6 @@ class StressScenes : public testing::TestWithParam<std::string> {
   static constexpr double small_step = 0.0002, large_step = 0.05;  // s, the ends of the map
 };
 
-TEST_P(StressScenes, ComesBackFromItsOwnText) {
-  const ResolvedScene resolved = read_scene(GetParam());
-  EXPECT_FALSE(resolved.scene.title.empty());
-  const std::string text = scene_to_toml(resolved.scene, resolved.specimen);
-  const ResolvedScene again = read_scene_text(text, "again");
-  EXPECT_EQ(scene_to_toml(again.scene, again.specimen), text);
-}
-
 TEST_P(StressScenes, SmallStepsOfTheCoreAreSurvivedByEveryMethod) {
   for (const std::string& method : stress_methods()) {
     // Without the watch bodies are too fast in some scenes: RuleCells.

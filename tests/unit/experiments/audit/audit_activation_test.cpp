@@ -4,7 +4,6 @@
 
 #include <filesystem>
 
-#include "core/log/hdf5_error.hpp"
 #include "experiments/audit/audit.hpp"
 #include "tests/support/muscled_hagfish.hpp"
 #include "tests/support/stored_states.hpp"
@@ -28,13 +27,7 @@ class AuditActivation : public testing::TestWithParam<std::string> {
     const Model model = make_hagfish(resolved.specimen, resolved.scene);
     write_log(file, resolved, model, resume(model, resolved.scene, stored_states().at(3)), 63);
   }
-  std::string objections() const {
-    try {
-      return audit_objections(file);
-    } catch (const FileError& error) {
-      return error.what();
-    }
-  }
+  std::string objections() const { return audit_objections(file); }
   /// What the audit says while one entry of the fifth frame or so, larger than `least`, is changed.
   template <class Change>
   std::string objections_to(const std::string& path, double least, Change change) {

@@ -9,7 +9,6 @@
 #include <map>
 #include <memory>
 
-#include "core/log/hdf5_error.hpp"
 #include "experiments/audit/audit.hpp"
 #include "tests/support/stored_states.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -156,13 +155,7 @@ class AuditCorruption : public testing::Test {
   static void TearDownTestSuite() { folder.reset(); }
 
   /// All that the audit objects to; empty for a good log.
-  static std::string objections() {
-    try {
-      return audit_objections(file);
-    } catch (const FileError& error) {
-      return error.what();
-    }
-  }
+  static std::string objections() { return audit_objections(file); }
 
   /// Where a dataset that labels axes has its place, of any of its names; any other as it is.
   static std::string own_path(const H5::H5File& h5, const std::string& path) {

@@ -36,15 +36,6 @@ class AuditPull : public testing::Test {
   }
   static void TearDownTestSuite() { folder.reset(); }
 
-  /// What the audit says while the log claims to be of another scene.
-  static std::string objections_with(const fs::path& file, const std::vector<std::string>& set) {
-    const ResolvedScene other = pulling_scene(set);
-    const std::string before = write_scene(file, scene_to_toml(other.scene, other.specimen));
-    const std::string text = audit_objections(file);
-    write_scene(file, before);
-    return text;
-  }
-
   static std::unique_ptr<TemporaryFolder> folder;
   static fs::path file, rising_file;
 };
@@ -88,7 +79,7 @@ TEST_F(AuditPull, SeesFoodAndBoundsThatAreNotTheScenes) {
       {"expect.pull_balance=0", "pull balance: "},
       {"expect.pull_settled=1.9", "too few"}};
   for (const auto& [change, watcher] : changes) {
-    const std::string text = objections_with(file, {change});
+    const std::string text = audit_objections_as(file, pulling_scene({change}));
     EXPECT_NE(text.find(watcher), std::string::npos) << change << ": " << text;
   }
   EXPECT_EQ(audit_objections(file), "");
@@ -98,10 +89,11 @@ TEST_F(AuditPull, SeesACapThatIsNotTheScenes) {
   for (const char* change : {"food.cap.from=3900", "food.cap.to=5100", "food.cap.time=1.5"}) {
     std::vector<std::string> set = rising;
     set.emplace_back(change);
-    const std::string text = objections_with(rising_file, set);
+    const std::string text = audit_objections_as(rising_file, pulling_scene(set));
     EXPECT_NE(text.find("/thigmotaxis/cap"), std::string::npos) << change << ": " << text;
   }
-  EXPECT_NE(objections_with(file, rising).find("/thigmotaxis/cap"), std::string::npos);
+  EXPECT_NE(audit_objections_as(file, pulling_scene(rising)).find("/thigmotaxis/cap"),
+            std::string::npos);
 }
 
 }  // namespace hagfish::audit_pull_test
