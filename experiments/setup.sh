@@ -33,6 +33,11 @@ if [[ -n ${HAGFISH_CLUSTER-} ]]; then
   packages+=(snakemake slurmctld slurmd slurm-client munge time) # sweeps on a cluster, and a cluster to try them on
 fi
 
+if [[ -n ${HAGFISH_WEB-} ]]; then
+  packages+=(clang-16 lld-16 llvm-16 libc++-16-dev-wasm32 libc++abi-16-dev-wasm32 libclang-rt-16-dev-wasm32 wasi-libc libsimde-dev
+    nodejs chromium) # the page that runs the simulator in a browser, and its tests
+fi
+
 missing=()
 for package in "${packages[@]}"; do
   dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q '^install ok installed' || missing+=("$package")
@@ -59,7 +64,8 @@ if ((${#missing[@]})); then
   rm -f "$log"
 fi
 
-preset=${PRESET:-release}
+preset=${PRESET:-${HAGFISH_WEB:+web}}
+preset=${preset:-release}
 log=$(mktemp)
 cmake --preset "$preset" >"$log" 2>&1 || { cat "$log" >&2; exit 2; }
 rm -f "$log"

@@ -6,7 +6,9 @@
 #include <stdexcept>
 
 #include "solvers/active_set.hpp"
+#if defined(HAGFISH_IPOPT)
 #include "solvers/ipopt_box_qp.hpp"
+#endif
 
 namespace hagfish {
 
@@ -100,16 +102,26 @@ KktResiduals kkt_residuals(const BoxQp& qp, const Eigen::Ref<const Eigen::Vector
   return r;
 }
 
-std::vector<std::string> box_qp_solver_names() { return {"ipopt", "active-set"}; }
+std::vector<std::string> box_qp_solver_names() {
+#if defined(HAGFISH_IPOPT)
+  return {"ipopt", "active-set"};
+#else
+  return {"active-set"};
+#endif
+}
 
 std::unique_ptr<BoxQpSolver> make_box_qp_solver(const std::string& name) {
+#if defined(HAGFISH_IPOPT)
   if (name == "ipopt") {
     return std::make_unique<IpoptBoxQp>();
   }
+#endif
   if (name == "active-set") {
     return std::make_unique<ActiveSetBoxQp>();
   }
-  throw std::invalid_argument("unknown QP back end '" + name + "' (there are: ipopt, active-set)");
+  std::string known;
+  for (const std::string& one : box_qp_solver_names()) known += (known.empty() ? "" : ", ") + one;
+  throw std::invalid_argument("unknown QP back end '" + name + "' (there are: " + known + ")");
 }
 
 }  // namespace hagfish

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/chain/sines.hpp"
+
 namespace hagfish {
 namespace {
 
@@ -201,11 +203,11 @@ void assemble_step_system(const Model& model, const State& state, const StepMoti
     system.joint[k] = -h * hinge.stiffness * (state.q[k + 1] - when.spring_damping * state.qdot[k]);
   }
 
-  const int last = n - 1;
-  const Eigen::Vector3d offset = kin.centre_offset(last);
-  system.wrench.col(last) += h * wrench_of_force(tip.value, offset);
+  const int pulled = tip.on(model);
+  const Eigen::Vector3d offset = kin.centre_offset(pulled);
+  system.wrench.col(pulled) += h * wrench_of_force(tip.value, offset);
   if (tip.rate != 0) {
-    system.op.inertia[last].matrix() +=
+    system.op.inertia[pulled].matrix() +=
         point_operator(Eigen::Matrix3d::Zero(), h * tip.rate * Eigen::Matrix3d::Identity(), offset);
   }
 }
@@ -251,8 +253,7 @@ void kinetic_energies(const Model& model, const State& state, Eigen::VectorXd& e
       const int axis = static_cast<int>(model.hinges[k - root_dofs].axis);
       const int second = (axis + 1) % 3;
       const int third = (axis + 2) % 3;
-      const double cosine = std::cos(state.q[k + 1]);
-      const double sine = std::sin(state.q[k + 1]);
+      const auto [sine, cosine] = sine_and_cosine(state.q[k + 1]);
       for (Eigen::Vector3d* v : {&spin, &velocity}) {
         const double before = (*v)[second];
         (*v)[second] = cosine * before + sine * (*v)[third];

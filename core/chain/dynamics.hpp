@@ -36,12 +36,15 @@ Matrix6Xd gravity_wrench(const Model& model, const Kinematics& kin);
 /// Stiffness torque -k q at the angles of q (nv; zero at the root).
 Eigen::VectorXd stiffness_force(const Model& model, const Eigen::VectorXd& q);
 
-/// A force on the last body's centre: `value` minus `rate` times the centre's velocity at the end
-/// of the step, by the midpoint rule its mean over the step. A scripted force has rate 0; an
-/// implicit spring-damper has rate h kp + kd.
+/// A force on the centre of the last body, or of another one: `value` minus `rate` times the
+/// centre's velocity at the end of the step, by the midpoint rule its mean over the step. A
+/// scripted force has rate 0; an implicit spring-damper has rate h kp + kd.
 struct TipForce {
   Eigen::Vector3d value = Eigen::Vector3d::Zero();  ///< dyn, world
   double rate = 0;                                  ///< dyn s / cm
+  int body = -1;                                    ///< that it is on; -1: the last one
+
+  int on(const Model& model) const { return body >= 0 ? body : model.body_count() - 1; }
 };
 
 /// Torques that the animal's muscles make at its hinges: `value` minus `rate` times the hinges'

@@ -1,7 +1,5 @@
 #include "core/chain/sines.hpp"
 
-#include <cmath>
-
 namespace hagfish {
 
 // A loop for each, since GCC makes one call of one angle of both. CMakeLists.txt has the flag that
@@ -10,6 +8,7 @@ namespace hagfish {
 // cosine's argument.
 void sines_and_cosines(const Eigen::Ref<const Eigen::VectorXd>& angles, Eigen::VectorXd& sine,
                        Eigen::VectorXd& cosine) {
+#if defined(HAGFISH_LIBRARY_SINES)
   sine = angles;
   cosine = angles.cwiseAbs();
   double* const s = sine.data();
@@ -17,6 +16,15 @@ void sines_and_cosines(const Eigen::Ref<const Eigen::VectorXd>& angles, Eigen::V
   const Eigen::Index count = angles.size();
   for (Eigen::Index i = 0; i < count; ++i) s[i] = std::sin(s[i]);
   for (Eigen::Index i = 0; i < count; ++i) c[i] = std::cos(c[i]);
+#else
+  sine.resize(angles.size());
+  cosine.resize(angles.size());
+  for (Eigen::Index i = 0; i < angles.size(); ++i) {
+    const SineCosine of = plain_sine_and_cosine(angles[i]);
+    sine[i] = of.sine;
+    cosine[i] = of.cosine;
+  }
+#endif
 }
 
 }  // namespace hagfish

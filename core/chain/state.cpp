@@ -1,5 +1,7 @@
 #include "core/chain/state.hpp"
 
+#include "core/chain/sines.hpp"
+
 namespace hagfish {
 
 State rest_state(const Model& model) {
@@ -14,7 +16,11 @@ void advance(const Eigen::VectorXd& q0, const Eigen::VectorXd& qdot, double h, E
   const Eigen::Vector3d turn = h * qdot.segment<3>(3);
   const double angle = turn.norm();
   if (angle > 0) {
-    const Eigen::Quaterniond rotation(Eigen::AngleAxisd(angle, turn / angle));
+    const SineCosine half = sine_and_cosine(0.5 * angle);
+    const Eigen::Vector3d axis = turn / angle;
+    Eigen::Quaterniond rotation;
+    rotation.w() = half.cosine;
+    rotation.vec() = half.sine * axis;
     const Eigen::Quaterniond turned = (root_orientation(q0) * rotation).normalized();
     q.segment<4>(3) << turned.w(), turned.x(), turned.y(), turned.z();
   }

@@ -3,20 +3,16 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
+#include <cstdlib>
 #include <numeric>
-#include <sstream>
 #include <utility>
 
 #include "core/input/input_error.hpp"
-#include "core/input/regular_file.hpp"
 
 namespace hagfish {
 namespace {
 
-constexpr std::size_t longest_quote = 60;  ///< bytes of a value that an error repeats
-/// Of a text file, bytes. A scene with the whole state of 400 bodies has some 30,000.
-constexpr std::size_t largest_text = std::size_t{1} << 20;
+constexpr std::size_t longest_quote = 60;    ///< bytes of a value that an error repeats
 constexpr std::size_t longest_shown = 2000;  ///< bytes of a text that is printed
 constexpr std::ptrdiff_t most_parts = 32;    ///< of a dotted key; scenes use 3
 
@@ -58,11 +54,33 @@ bool is_control(std::string_view character) {
 
 }  // namespace
 
+std::optional<LeadingNumber> leading_number(std::string_view text) {
+#if defined(__cpp_lib_to_chars)
+  LeadingNumber number{};
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), number.value);
+  number.size = static_cast<std::size_t>(read.ptr - text.data());
+  return read.ec == std::errc() ? std::optional(number) : std::nullopt;
+#else
+  // A library without std::from_chars of numbers with a fraction, whose strtod() knows no locale.
+  const bool minus = text.starts_with('-');
+  const char first = text.size() > (minus ? 1 : 0) ? text[minus ? 1 : 0] : ' ';
+  const bool hexadecimal =
+      text.substr(minus ? 1 : 0).starts_with("0x") || text.substr(minus ? 1 : 0).starts_with("0X");
+  if (!(first == '.' || (first >= '0' && first <= '9'))) return std::nullopt;
+  if (hexadecimal) return LeadingNumber{minus ? -0.0 : 0.0, std::size_t{minus ? 2U : 1U}};
+  const std::string ended(text);
+  char* end = nullptr;
+  const double value = std::strtod(ended.c_str(), &end);
+  const auto size = static_cast<std::size_t>(end - ended.c_str());
+  const bool written = size > 0 && std::isfinite(value);
+  return written ? std::optional(LeadingNumber{value, size}) : std::nullopt;
+#endif
+}
+
 std::optional<double> finite_number(std::string_view text) {
-  double number = 0;
-  const auto read = std::from_chars(text.data(), text.data() + text.size(), number);
-  const bool whole = read.ec == std::errc() && read.ptr == text.data() + text.size();
-  return whole && std::isfinite(number) ? std::optional(number) : std::nullopt;
+  const std::optional<LeadingNumber> number = leading_number(text);
+  const bool whole = number && number->size == text.size() && std::isfinite(number->value);
+  return whole ? std::optional(number->value) : std::nullopt;
 }
 
 std::string shortened(const std::string& text) {
@@ -142,22 +160,6 @@ Override parse_override(std::string_view assignment) {
                       std::to_string(most_parts) + " parts");
   }
   return change;
-}
-
-std::string read_text_file(const std::filesystem::path& file) {
-  if (const std::string why = unreadable(file); !why.empty()) {
-    throw_input_error(file.string() + ": " + why);
-  }
-  std::ifstream stream(file, std::ios::binary);
-  std::string text(largest_text + 1, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (stream.bad() || !stream.is_open()) throw_input_error(file.string() + ": cannot be read");
-  text.resize(static_cast<std::size_t>(stream.gcount()));
-  if (text.size() > largest_text) {
-    throw_input_error(file.string() + ": is larger than " + std::to_string(largest_text) +
-                      " bytes");
-  }
-  return text;
 }
 
 }  // namespace hagfish

@@ -1,7 +1,7 @@
 // Text of files and options on its way in, and of the errors about it.
 #pragma once
 
-#include <filesystem>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -19,10 +19,6 @@ struct Override {
 /// part or more than 32.
 Override parse_override(std::string_view assignment);
 
-/// The whole of a text file. Throws InputError where `file` is missing, not a regular file,
-/// unreadable or larger than 1 MiB.
-std::string read_text_file(const std::filesystem::path& file);
-
 /// Throws InputError with `text` on one line: control characters become spaces.
 [[noreturn]] void throw_input_error(std::string text);
 
@@ -32,6 +28,16 @@ std::string printable(std::string_view text);
 
 /// Whether `text` is UTF-8 throughout.
 bool is_utf8(std::string_view text);
+
+/// A number that a text begins with, and how many bytes of the text it is.
+struct LeadingNumber {
+  double value = 0;
+  std::size_t size = 0;
+};
+
+/// The decimal number that `text` begins with, in whatever locale; none where it begins with
+/// anything else, such as a space or a plus, or where no double is as large.
+std::optional<LeadingNumber> leading_number(std::string_view text);
 
 /// The finite number that the whole of `text` is; none where it is anything else.
 std::optional<double> finite_number(std::string_view text);

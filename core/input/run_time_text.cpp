@@ -1,8 +1,8 @@
 #include "core/input/run_time_text.hpp"
 
-#include <charconv>
 #include <cmath>
 
+#include "core/input/input_text.hpp"
 #include "core/input/toml_range.hpp"
 
 namespace hagfish {
@@ -11,21 +11,14 @@ namespace {
 constexpr const char* end_of_run = "end";
 constexpr std::string_view plus = " + ";
 
-std::optional<double> number_of(std::string_view text) {
-  double x = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
-  const bool whole = error == std::errc() && end == text.data() + text.size();
-  return whole && std::isfinite(x) ? std::optional(x) : std::nullopt;
-}
-
 }  // namespace
 
 std::optional<RunTime> run_time_called(const std::string& text) {
   if (text == end_of_run) return RunTime{std::nullopt, INFINITY};
-  if (const auto seconds = number_of(text)) return RunTime{std::nullopt, *seconds};
+  if (const auto seconds = finite_number(text)) return RunTime{std::nullopt, *seconds};
   const std::size_t at = text.find(plus);
   const auto later =
-      at == text.npos ? std::optional(0.0) : number_of(text.substr(at + plus.size()));
+      at == text.npos ? std::optional(0.0) : finite_number(text.substr(at + plus.size()));
   for (const PhaseEntry& phase : phase_table) {
     if (later && *later >= 0 && text.substr(0, at) == phase.name) {
       return RunTime{phase.value, *later};

@@ -1,7 +1,6 @@
 #include "core/input/scene_base.hpp"
 
 #include <algorithm>
-#include <system_error>
 #include <utility>
 
 #include "core/input/builtin_files.hpp"
@@ -19,29 +18,36 @@ SceneSource builtin_base(const TableReader& root, const std::string& base) {
   return {std::string(*builtin_file(base + ".toml")), base + " (built in)", std::nullopt};
 }
 
+/// Whether a base is called by the name of a file: one that ends in .toml and is more than that.
+bool names_file(const std::string& base) {
+  constexpr std::string_view ending = ".toml";
+  return base.ends_with(ending) && base.size() > ending.size() &&
+         base[base.size() - ending.size() - 1] != '/';
+}
+
 /// The source that `base` names, in the scene of `root` and `scene`.
-SceneSource find_base(const TableReader& root, const std::string& base, const SceneSource& scene) {
-  if (!scene.file || std::filesystem::path(base).extension() != ".toml") {
+SceneSource find_base(const TableReader& root, const std::string& base, const SceneSource& scene,
+                      const FileAccess* access) {
+  if (!scene.file || !names_file(base)) {
     return builtin_base(root, base);
   }
-  const std::filesystem::path file = scene.file->parent_path() / base;
   try {
-    return {read_text_file(file), file.string(), file};
+    return access->read(base, scene.file);
   } catch (const InputError& error) {
     root.fail("base", error.what());
   }
 }
 
-bool same_file(const SceneSource& a, const SceneSource& b) {
+bool same_source(const SceneSource& a, const SceneSource& b, const FileAccess* access) {
   if (!a.file || !b.file) return !a.file && !b.file && a.name == b.name;
-  std::error_code error;  // both were read a moment ago
-  return std::filesystem::equivalent(*a.file, *b.file, error);
+  return access->same(*a.file, *b.file);
 }
 
 /// Fails where `base` is among `sources`, each of which is the base of the one before.
 void check_circle(const TableReader& root, const SceneSource& base,
-                  const std::vector<SceneSource>& sources) {
-  auto at = std::ranges::find_if(sources, [&](const auto& s) { return same_file(s, base); });
+                  const std::vector<SceneSource>& sources, const FileAccess* access) {
+  auto at =
+      std::ranges::find_if(sources, [&](const auto& s) { return same_source(s, base, access); });
   if (at == sources.end()) return;
   if (at + 1 == sources.end()) root.fail("base", "a scene cannot be its own base");
   std::string circle;
@@ -51,15 +57,16 @@ void check_circle(const TableReader& root, const SceneSource& base,
 
 }  // namespace
 
-TableReader read_with_bases(SceneSource scene, std::vector<SceneSource>& sources) {
+TableReader read_with_bases(SceneSource scene, std::vector<SceneSource>& sources,
+                            const FileAccess* access) {
   TableReader root(scene.text, scene.name);
   sources.push_back(std::move(scene));
   std::string name;
   root.string("base", name);
   if (!root.has("base")) return root;
-  SceneSource base = find_base(root, name, sources.back());
-  check_circle(root, base, sources);
-  root.inherit(read_with_bases(std::move(base), sources));
+  SceneSource base = find_base(root, name, sources.back(), access);
+  check_circle(root, base, sources, access);
+  root.inherit(read_with_bases(std::move(base), sources, access));
   return root;
 }
 

@@ -2,7 +2,7 @@
 // itself is in its range.
 #pragma once
 
-#include "core/input/scene_reader.hpp"
+#include "core/input/scene_text.hpp"
 #include "core/input/toml_reader.hpp"
 
 namespace hagfish {

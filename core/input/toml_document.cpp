@@ -6,6 +6,7 @@
 #include "core/input/input_error.hpp"
 #include "core/input/input_text.hpp"
 #include "core/input/toml_bounds.hpp"
+#include "core/input/toml_fault.hpp"
 
 namespace hagfish {
 namespace {
@@ -29,6 +30,11 @@ std::string condensed(std::string message) {
   return message + (wanted.empty() ? "" : " (" + wanted.substr(1) + ")");
 }
 
+std::string fault_in(const std::string& file, const toml::exception& error) {
+  return file + ":" + std::to_string(error.location().line()) +
+         ": not valid TOML: " + condensed(error.what());
+}
+
 toml::value parse(const std::string& text, const std::string& file) {
   if (!is_utf8(text) || text.find('\0') != std::string::npos) {
     throw_input_error(file + ": is not UTF-8, which TOML is: save it as such");
@@ -38,8 +44,7 @@ toml::value parse(const std::string& text, const std::string& file) {
     std::istringstream stream(text);
     return toml::parse(stream, file);
   } catch (const toml::exception& error) {
-    throw_input_error(file + ":" + std::to_string(error.location().line()) +
-                      ": not valid TOML: " + condensed(error.what()));
+    throw_input_error(fault_in(file, error));
   } catch (const std::exception& error) {
     throw_input_error(file + ": not valid TOML: " + condensed(error.what()));
   }
@@ -119,6 +124,12 @@ std::string TomlDocument::file_of(const toml::value* value) const {
 
 TomlDocument parse_toml(const std::string& text, const std::string& file) {
   return {file, parse(text, file), {}, {}};
+}
+
+std::optional<std::string> toml_fault(const std::exception& thrown, const std::type_info& type) {
+  if (type != typeid(toml::syntax_error)) return std::nullopt;
+  const auto& error = static_cast<const toml::syntax_error&>(thrown);
+  return fault_in(error.location().file_name(), error);
 }
 
 std::string toml_spelling(const toml::value& value) {

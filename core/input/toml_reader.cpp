@@ -1,7 +1,6 @@
 #include "core/input/toml_reader.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -166,15 +165,14 @@ struct TableReader::Impl {
   double length(const Place& place, const toml::value& value, const Range& range) const {
     if (!value.is_string()) return checked(place, value, range);
     const std::string& text = value.as_string().str;
-    double number = 0;
-    const auto read = std::from_chars(text.data(), text.data() + text.size(), number);
-    const std::string unit(read.ptr, text.data() + text.size() - read.ptr);
-    if (read.ec != std::errc() || (unit != " L" && unit != " D")) {
+    const std::optional<LeadingNumber> number = leading_number(text);
+    const std::string unit = number ? text.substr(number->size) : "";
+    if (!number || (unit != " L" && unit != " D")) {
       fail(place,
            "must be a number of cm, or as \"0.2 L\" or \"12 D\", of body lengths or mean "
            "diameters");
     }
-    return checked(place, toml::value(number), range) *
+    return checked(place, toml::value(number->value), range) *
            (unit == " L" ? document->body_length : document->body_diameter);
   }
 

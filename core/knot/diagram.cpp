@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <stdexcept>
 #include <utility>
 
 namespace hagfish {
@@ -14,7 +13,7 @@ namespace {
 /// Lengths below this share of the polygon's radius count as degenerate. Edges whose ends are all
 /// farther than that from each other's line cross at a sine of at least as much, and then the place
 /// of the crossing is rounded by less than a fifth of it: no decision made depends on rounding.
-constexpr double generic = 1e-7;
+constexpr double least_share = 1e-7;
 
 /// Where two edges of the projection cross.
 struct Meeting {
@@ -24,10 +23,6 @@ struct Meeting {
 };
 
 constexpr int batch = 8;  // edges tested together: few cross
-
-[[noreturn]] void throw_degenerate() {
-  throw std::domain_error("knot: the projection is degenerate or the polygon touches itself");
-}
 
 double cross(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return a.x() * b.y() - a.y() * b.x();
@@ -42,9 +37,11 @@ Eigen::Matrix3d axes_along(const Eigen::Vector3d& direction) {
   return axes;
 }
 
-/// Where edge a-b crosses edge c-d in projection, if it does. Throws where `tolerance` cannot tell.
+/// Where edge a-b crosses edge c-d in projection, if it does. Where `tolerance` cannot tell,
+/// `generic` becomes false.
 std::optional<Meeting> meet(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                            const Eigen::Vector3d& c, const Eigen::Vector3d& d, double tolerance) {
+                            const Eigen::Vector3d& c, const Eigen::Vector3d& d, double tolerance,
+                            bool& generic) {
   const Eigen::Vector3d first = b - a;
   const Eigen::Vector3d second = d - c;
   const double first_length = first.head<2>().norm();
@@ -64,7 +61,10 @@ std::optional<Meeting> meet(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
   // Written so that the nan of an edge seen end on is degenerate too.
   const bool decided =
       nearest > tolerance && std::abs(volume) > tolerance * first.norm() * second.norm();
-  if (!decided) throw_degenerate();
+  if (!decided) {
+    generic = false;
+    return std::nullopt;
+  }
 
   return Meeting{.at_first = first_length * to_a / (to_a - to_b),
                  .at_second = second_length * to_c / (to_c - to_d),
@@ -143,7 +143,7 @@ void cross_edges(const Eigen::Matrix3Xd& view, const EdgeBoxes& boxes, int edge,
     const int to = std::min(end, batch * (k + 1));
     visit_near(boxes.edges, edge, boxes.edges, from, to, tolerance, [&](int j) {
       const auto meeting = meet(vertex(view, edge), vertex(view, edge + 1), vertex(view, j),
-                                vertex(view, j + 1), tolerance);
+                                vertex(view, j + 1), tolerance, diagram.generic);
       if (!meeting) return;
       const int crossing = static_cast<int>(diagram.sign.size());
       diagram.sign.push_back(meeting->sign);
@@ -157,12 +157,13 @@ bool earlier(const Passage& p, const Passage& q) {
   return std::pair(p.edge, p.at) < std::pair(q.edge, q.at);
 }
 
-/// Throws where the order of passages that follow each other is not beyond `tolerance`.
-void check_order(const std::vector<Passage>& passages, double tolerance) {
+/// Notes where the order of passages that follow each other is not beyond `tolerance`.
+void check_order(double tolerance, Diagram& diagram) {
+  const std::vector<Passage>& passages = diagram.passages;
   for (std::size_t k = 1; k < passages.size(); ++k) {
     if (passages[k].edge == passages[k - 1].edge &&
         passages[k].at - passages[k - 1].at <= tolerance) {
-      throw_degenerate();
+      diagram.generic = false;
     }
   }
 }
@@ -173,7 +174,7 @@ Diagram diagram_of_closed(const Eigen::Matrix3Xd& points, const Eigen::Vector3d&
   const Eigen::Vector3d middle = points.rowwise().mean();
   const Eigen::Matrix3Xd view = axes_along(direction).transpose() * (points.colwise() - middle);
   const int count = static_cast<int>(view.cols());
-  const double tolerance = generic * view.colwise().norm().maxCoeff();
+  const double tolerance = least_share * view.colwise().norm().maxCoeff();
   const EdgeBoxes boxes = boxes_of_edges(view);
   Diagram diagram;
   for (int i = 0; i + 2 < count; ++i) {
@@ -181,7 +182,7 @@ Diagram diagram_of_closed(const Eigen::Matrix3Xd& points, const Eigen::Vector3d&
     cross_edges(view, boxes, i, i + 2, i == 0 ? count - 1 : count, tolerance, diagram);
   }
   std::ranges::sort(diagram.passages, earlier);
-  check_order(diagram.passages, tolerance);
+  check_order(tolerance, diagram);
   return diagram;
 }
 
@@ -191,7 +192,7 @@ SeenArc::SeenArc(const Eigen::Matrix3Xd& points, double far, const Eigen::Vector
   const Eigen::Vector3d middle = points.rowwise().mean();
   view_.leftCols(count) = axes_.transpose() * (points.colwise() - middle);
   view_.rightCols<2>().setZero();
-  tolerance_ = generic * (far + view_.colwise().norm().maxCoeff());
+  tolerance_ = least_share * (far + view_.colwise().norm().maxCoeff());
   boxes_ = boxes_of_edges(view_);
   for (int i = 0; i + 2 < count - 1; ++i) {
     cross_edges(view_, boxes_, i, i + 2, count - 1, tolerance_, own_);
@@ -215,7 +216,7 @@ Diagram SeenArc::closed(const Eigen::Vector3d& out) {
   const auto added = diagram.passages.begin() + static_cast<std::ptrdiff_t>(own_.passages.size());
   std::sort(added, diagram.passages.end(), earlier);
   std::inplace_merge(diagram.passages.begin(), added, diagram.passages.end(), earlier);
-  check_order(diagram.passages, tolerance_);
+  check_order(tolerance_, diagram);
   return diagram;
 }
 

@@ -21,12 +21,14 @@ struct Diagram {
   /// By crossing, whether left or not: +1 where the over strand turns anticlockwise into the under
   /// strand.
   std::vector<int> sign;
+  /// Whether the projection tells each passage from the next and over from under; where it does
+  /// not, the rest says nothing.
+  bool generic = true;
 };
 
 /// The diagram of the closed polygon through the columns of `points` (3 x n, n >= 3, any length
-/// unit) seen along `direction` (of any length).
-/// Throws std::domain_error where that is not generic to 1e-7 of the polygon's size, and so always
-/// where the polygon touches itself or repeats a vertex.
+/// unit) seen along `direction` (of any length). It is not generic where a length is below 1e-7 of
+/// the polygon's size, and so never where the polygon touches itself or repeats a vertex.
 Diagram diagram_of_closed(const Eigen::Matrix3Xd& points, const Eigen::Vector3d& direction);
 
 /// Rectangles in a projection.
@@ -45,11 +47,11 @@ struct EdgeBoxes {
 class SeenArc {
  public:
   /// The polygon through the columns of `points` (3 x n, n >= 2), whose ends go on for `far` (same
-  /// unit) to where they are joined. Throws as diagram_of_closed.
+  /// unit) to where they are joined.
   SeenArc(const Eigen::Matrix3Xd& points, double far, const Eigen::Vector3d& direction);
 
   /// The diagram of the polygon closed by two edges from its ends along `out` (unit) and one that
-  /// joins these. Throws as diagram_of_closed.
+  /// joins these; generic as of diagram_of_closed, and never where the arc itself is not.
   Diagram closed(const Eigen::Vector3d& out);
 
  private:

@@ -113,21 +113,20 @@ std::int64_t determinant_modulo(std::vector<std::int64_t> matrix, int size, std:
 
 /// |det| of the colouring minor, exactly. It is a signed count of the spanning trees of the
 /// diagram's checkerboard graph, which has one edge per crossing, so |det| <= 2^crossings. Enough
-/// primes to span that range, all with the same residue of least size, leave one integer.
-int determinant_of(const Diagram& diagram) {
+/// primes to span that range, all with the same residue of least size, leave one integer. Nothing
+/// where that takes more than 119 crossings or is beyond 2^30.
+std::optional<int> determinant_of(const Diagram& diagram) {
   constexpr std::array<std::int64_t, 4> primes = {2147483647, 2147483629, 2147483587, 2147483579};
   constexpr std::size_t bits = 30;  // of range per prime, rounded down
   const std::size_t crossings = diagram.passages.size() / 2;
   if (crossings == 0) return 1;
   const std::size_t needed = crossings / bits + 1;
-  if (needed > primes.size()) throw std::overflow_error("knot: more than 119 crossings");
+  if (needed > primes.size()) return std::nullopt;
   const int size = static_cast<int>(crossings) - 1;
   const std::vector<std::int64_t> minor = colouring_minor(diagram, size);
   const std::int64_t determinant = determinant_modulo(minor, size, primes[0]);
   for (std::size_t k = 1; k < needed; ++k) {
-    if (determinant_modulo(minor, size, primes[k]) != determinant) {
-      throw std::overflow_error("knot: the determinant is beyond 2^30");
-    }
+    if (determinant_modulo(minor, size, primes[k]) != determinant) return std::nullopt;
   }
   return static_cast<int>(std::abs(determinant));
 }
@@ -163,9 +162,20 @@ Eigen::Vector3d random_direction(std::mt19937& random) {
   }
 }
 
-KnotInvariants invariants_of(Diagram diagram) {
+/// Nothing where the diagram is too large for its determinant.
+std::optional<KnotInvariants> invariants_of(Diagram diagram) {
   reduce(diagram);
-  return {.determinant = determinant_of(diagram), .v2 = v2_of(diagram)};
+  const std::optional<int> determinant = determinant_of(diagram);
+  if (!determinant) return std::nullopt;
+  return KnotInvariants{.determinant = *determinant, .v2 = v2_of(diagram)};
+}
+
+/// Throws what keeps a diagram from having invariants: that it is not generic, or its size.
+[[noreturn]] void throw_unseen(bool generic) {
+  if (!generic) {
+    throw std::domain_error("knot: the projection is degenerate or the polygon touches itself");
+  }
+  throw std::overflow_error("knot: more than 119 crossings, or a determinant beyond 2^30");
 }
 
 /// Votes of closures of one centreline. What type they are does not depend on where they are seen
@@ -182,19 +192,19 @@ class Ballot {
 
   KnotInvariants cast() {
     constexpr int draws = 100;
-    for (int draw = 1;; ++draw) {
+    bool generic = true;
+    for (int draw = 0; draw < draws; ++draw) {
       const Eigen::Vector3d out = random_direction(random_);
       const Eigen::Vector3d sight = random_direction(random_);
-      try {
-        if (!seen_) seen_.emplace(centreline_, far_, sight);
-        return invariants_of(seen_->closed(out));
-      } catch (const std::domain_error&) {
-        if (draw == draws) throw;
-      } catch (const std::overflow_error&) {  // as of a wobbly body seen end on
-        if (draw == draws) throw;
+      if (!seen_) seen_.emplace(centreline_, far_, sight);
+      Diagram diagram = seen_->closed(out);
+      generic = diagram.generic;
+      if (generic) {  // and yet too large, as of a wobbly body seen end on
+        if (const auto type = invariants_of(std::move(diagram))) return *type;
       }
       seen_.reset();
     }
+    throw_unseen(generic);
   }
 
  private:
@@ -213,7 +223,12 @@ KnotInvariants invariants_of_closed(const Eigen::Matrix3Xd& points,
   if (!direction.allFinite() || direction.isZero(0)) {
     throw std::invalid_argument("knot: the line of sight is zero or not finite");
   }
-  return invariants_of(diagram_of_closed(points, direction));
+  Diagram diagram = diagram_of_closed(points, direction);
+  const bool generic = diagram.generic;
+  if (generic) {
+    if (const auto type = invariants_of(std::move(diagram))) return *type;
+  }
+  throw_unseen(generic);
 }
 
 KnotVote knot_type(const Eigen::Matrix3Xd& centreline, const KnotSettings& settings) {

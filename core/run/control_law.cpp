@@ -232,6 +232,9 @@ void check_control(const Model& model, const Control& control) {
   if (!control.tip.value.allFinite() || !std::isfinite(control.tip.rate)) {
     throw std::invalid_argument("control: the tip force is not finite");
   }
+  if (control.tip.body < -1 || control.tip.body >= model.body_count()) {
+    throw std::invalid_argument("control: the tip force is on a body that is not there");
+  }
   const std::vector<ThigmotaxisCommand>& commands = control.thigmotaxis;
   for (std::size_t i = 0; i < commands.size(); ++i) {
     check_command(model, commands[i]);

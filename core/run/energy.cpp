@@ -56,8 +56,7 @@ void book_step(const StepInput& in, const StepPlace& place, const StepSolution& 
   const double t = travelled;
   const double h = in.scene.time.step;
   const Eigen::VectorXd& u = step.qdot;
-  const int last = model.body_count() - 1;
-  ledger.work_tip += t * step.tip.dot(step.centre_velocity.col(last));
+  ledger.work_tip += t * step.tip.dot(step.centre_velocity.col(in.control.tip.on(model)));
   ledger.work_active += t * step.active_torque.dot(u);
   for (const RowKind kind : row_kinds) {
     ledger.work[kind] += t * step.force[kind].dot(u);

@@ -29,7 +29,6 @@ struct Impulses {
 Impulses impulses_of(const StepInput& in, const Kinematics& kin, const StepSolution& step,
                      const Eigen::Vector3d& centre) {
   const Model& model = in.model;
-  const int last = model.body_count() - 1;
   const double h = in.scene.time.step;
   const Momentum drag = sum_over_bodies(model, kin, centre, [&](int b) {
     return drag_on_body(model, kin, b,
@@ -37,7 +36,7 @@ Impulses impulses_of(const StepInput& in, const Kinematics& kin, const StepSolut
   });
   Momentum outside;
   outside.linear = mass_of(model) * model.gravity + step.tip;
-  outside.angular = (kin.centre.col(last) - centre).cross(step.tip);
+  outside.angular = (kin.centre.col(in.control.tip.on(model)) - centre).cross(step.tip);
   for (const RowKind kind : row_kinds) {
     if (!from_outside(kind)) continue;
     outside.linear += step.force[kind].head<3>();

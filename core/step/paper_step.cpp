@@ -73,7 +73,7 @@ void paper_equation_1(const StepInput& in, const StepPlace& place, PrimalQp& qp)
     f[k] += ring * stiffness * state.qdot[k];
     K(k, k) = -stiffness;
   }
-  const Eigen::Matrix3Xd J = centre_jacobian(model, kin, model.body_count() - 1);
+  const Eigen::Matrix3Xd J = centre_jacobian(model, kin, control.tip.on(model));
   D += control.tip.rate * J.transpose() * J;
   f += J.transpose() * control.tip.value;
   for (const ActiveTorque* torque : {&control.active, &control.torque}) {

@@ -130,8 +130,8 @@ void report_forces(const StepInput& in, const StepPlace& place, ReportStorage& s
   }
   step.stationarity = stationarity(in.model, place.kin, in.scene.time.reach(), storage, step);
   step.active = static_cast<int>((step.lambda.array() != 0).count());
-  const int last = in.model.body_count() - 1;
-  step.tip = in.control.tip.value - in.control.tip.rate * step.felt_centre_velocity.col(last);
+  const TipForce& tip = in.control.tip;
+  step.tip = tip.value - tip.rate * step.felt_centre_velocity.col(tip.on(in.model));
 }
 
 }  // namespace hagfish

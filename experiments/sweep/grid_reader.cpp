@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/input/input_text.hpp"
+#include "core/input/text_file.hpp"
 #include "core/input/toml_reader.hpp"
 
 namespace hagfish {

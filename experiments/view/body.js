@@ -4,8 +4,8 @@
 
 const SIDES = 24, RINGS_PER_SEGMENT = 2, CAP_RINGS = 5;
 const FORCE_LENGTH = 5; // cm of the arrow of the largest force of a kind
-const ARROWS = { contact: 0xd55e00, head: 0x0072b2, tip: 0x000000 };
-const ARROW_WORDS = { contact: "contacts, step at the frame", head: "what clamps the head", tip: "script's pull on the tail" };
+const ARROWS = { contact: 0xd55e00, head: 0x0072b2, tip: 0x7f7f7f, hand: 0xcc79a7 };
+const ARROW_WORDS = { contact: "contacts, step at the frame", head: "what clamps the head", tip: "script's pull on the tail", hand: "your pull" };
 
 /** A point of the spline: of `centres` at `offset`, three numbers a body, into `out`. */
 function splinePoint(centres, offset, bodies, segment, t, out) {
@@ -78,11 +78,18 @@ class Body {
     this.group.add(this.plate);
     this.obstacles = log.obstacles.map((obstacle) => obstacleMesh(obstacle));
     this.obstacles.forEach((mesh) => this.group.add(mesh));
-    this.largest = { contact: 1e-9, head: 1e-9, tip: 1e-9 };
-    for (let c = 0; 9 * c < log.contacts.values.length; ++c) this.largest.contact = Math.max(this.largest.contact, log.contacts.values[9 * c + 6]);
-    for (let f = 0; f < log.frames; ++f) {
-      for (const [kind, values, width] of [["head", log.head, 6], ["tip", log.tip, 3]]) {
-        const size = Math.hypot(values[f * width], values[f * width + 1], values[f * width + 2]);
+    this.largest = { contact: 1e-9, head: 1e-9, tip: 1e-9, hand: 1e-9 };
+    this.measured = 0;
+    this.measure();
+  }
+
+  /** Takes note of the largest forces of the frames that have come since: arrows are drawn to them. */
+  measure() {
+    const { log } = this, { first, values } = log.contacts;
+    for (let c = first[this.measured]; c < first[log.frames]; ++c) this.largest.contact = Math.max(this.largest.contact, values[9 * c + 6]);
+    for (; this.measured < log.frames; ++this.measured) {
+      for (const [kind, forces, width] of [["head", log.head, 6], ["tip", log.tip, 3], ["hand", log.hand, 3]]) {
+        const f = this.measured * width, size = forces ? Math.hypot(forces[f], forces[f + 1], forces[f + 2]) : 0;
         if (size > this.largest[kind]) this.largest[kind] = size;
       }
     }
@@ -168,5 +175,8 @@ class Body {
     const head = vector(log.head, 6 * frame), tip = vector(log.tip, 3 * frame);
     this.addArrow(vector(log.position, offset), head, head.length(), largest.head, ARROWS.head);
     this.addArrow(vector(log.position, offset + 3 * (log.bodies - 1)), tip, tip.length(), largest.tip, ARROWS.tip);
+    if (!log.hand) return;
+    const hand = vector(log.hand, 3 * frame);
+    this.addArrow(vector(log.position, offset + 3 * log.held[frame]), hand, hand.length(), largest.hand, ARROWS.hand);
   }
 }

@@ -1,7 +1,7 @@
 "use strict";
 // Plots over time with one cursor: the quantity along the body, knot and phase, Eq. 6, forces at the head, energy.
 
-const LEFT = 76, RIGHT = 132, INK = ["#0072b2", "#d55e00", "#000000", "#cc79a7", "#e69f00", "#56b4e9"];
+const LEFT = 76, RIGHT = 132, INK = ["#0072b2", "#d55e00", "var(--ink)", "#cc79a7", "#e69f00", "#56b4e9"];
 const DASHES = ["", "6 3", "2 3", "8 3 2 3", "1 3", "12 4"]; // so that no line is told by its colour alone
 const PHASE_INK = { form: "#e8e8e8", tighten: "#c9dff0", slide: "#f6dfb5", release: "#dddddd", free: "#f4f4f4", reverse: "#e6d3e3", pull: "#f2c4bb" };
 
@@ -61,10 +61,10 @@ class Plot {
   lines(log, series, second) {
     series.forEach(({ name, values }, k) => {
       const path = d3.line().defined((v) => Number.isFinite(v)).x((v, f) => this.x(log.time[f])).y((v) => this.y(v));
-      this.body.append("path").attr("d", path(Array.from(values))).attr("stroke", INK[k % INK.length]).attr("stroke-dasharray", DASHES[k % DASHES.length]).style("stroke-width", second ? 0.7 : 1.4);
+      this.body.append("path").attr("d", path(Array.from(values))).style("stroke", INK[k % INK.length]).attr("stroke-dasharray", DASHES[k % DASHES.length]).style("stroke-width", second ? 0.7 : 1.4);
       if (second) return;
       const y = 8 + 15 * k;
-      this.body.append("line").attr("x1", this.width + 8).attr("x2", this.width + 34).attr("y1", y).attr("y2", y).attr("stroke", INK[k % INK.length]).attr("stroke-dasharray", DASHES[k % DASHES.length]).attr("stroke-width", 2);
+      this.body.append("line").attr("x1", this.width + 8).attr("x2", this.width + 34).attr("y1", y).attr("y2", y).style("stroke", INK[k % INK.length]).attr("stroke-dasharray", DASHES[k % DASHES.length]).attr("stroke-width", 2);
       this.body.append("text").attr("x", this.width + 39).attr("y", y + 4).text(name);
     });
   }
@@ -74,7 +74,7 @@ class Plot {
     for (const { name, from, to } of found) {
       const wide = this.x(to) - this.x(from);
       this.body.append("rect").attr("x", this.x(from)).attr("width", Math.max(wide, 1)).attr("y", top).attr("height", high).attr("fill", ink(name)).attr("stroke", "#fff");
-      if (wide > 8 * name.length) this.body.append("text").attr("x", this.x(from) + wide / 2).attr("y", top + high / 2 + 4).attr("text-anchor", "middle").text(name);
+      if (wide > 8 * name.length) this.body.append("text").attr("class", "band").attr("x", this.x(from) + wide / 2).attr("y", top + high / 2 + 4).attr("text-anchor", "middle").text(name);
     }
   }
 
@@ -88,7 +88,7 @@ class Plot {
 function rangeOf(lists) {
   let low = 0, high = 1e-12;
   for (const list of lists) for (const v of list) { if (v < low) low = v; if (v > high) high = v; }
-  return [low, high];
+  return [low, low === 0 && high === 1e-12 ? 1 : high];
 }
 
 const column = (values, width, k) => d3.range(values.length / width).map((f) => values[f * width + k]);
@@ -105,13 +105,13 @@ class Plots {
     this.head = new Plot(parent, "Force at the head, means from frame to frame", 90, seek);
     this.energy = new Plot(parent, "Energy and work so far", 110, seek);
     this.all = [...this.maps, ...this.stages, this.eq6, this.head, this.energy];
-    this.headForce = logs.map((log) => d3.range(log.frames).map((f) => Math.hypot(log.head[6 * f], log.head[6 * f + 1], log.head[6 * f + 2])));
   }
 
   /** Draws all anew, the maps by quantity `name` up to `scale`. */
   draw(name, scale, label, unit) {
     Object.assign(this, { quantity: name, label, unit });
-    const width = Math.max(420, document.getElementById("plots").clientWidth - 28);
+    this.headForce = this.logs.map((log) => d3.range(log.frames).map((f) => Math.hypot(log.head[6 * f], log.head[6 * f + 1], log.head[6 * f + 2])));
+    const width = Math.max(340, document.getElementById("plots").clientWidth - 28);
     const times = [d3.min(this.logs, (log) => log.time[0]), d3.max(this.logs, (log) => log.time[log.frames - 1])];
     for (const plot of this.all) plot.fit(width, times);
     this.logs.forEach((log, k) => {

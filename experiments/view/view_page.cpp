@@ -51,6 +51,7 @@ std::string view_page(const std::vector<nlohmann::ordered_json>& logs) {
   for (const char* name : {"quantities.js", "body.js", "plots.js", "viewer.js"}) {
     scripts += script(std::string(view_file(name)));
   }
+  scripts += script("const viewer = new Viewer(LOGS.map((raw) => new Log(raw)));");
   std::string page(view_file("page.html"));
   const auto put = [&page](const std::string& mark, const std::string& text) {
     page.replace(page.find(mark), mark.size(), text);

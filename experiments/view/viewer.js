@@ -13,7 +13,7 @@ class Viewer {
     this.last = Math.max(...logs.map((log) => log.time[log.frames - 1]));
     const two = logs.length > 1;
     this.renderer = new THREE.WebGLRenderer({ canvas: element("scene"), antialias: true });
-    this.renderer.setClearColor(0xf4f6f8);
+    this.renderer.setClearColor(getComputedStyle(document.documentElement).getPropertyValue("--stage").trim());
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
     this.camera = new THREE.PerspectiveCamera(30, 1, 0.5, 2000);
     this.camera.up.set(0, 0, 1);
@@ -53,20 +53,15 @@ class Viewer {
     const { logs } = this;
     element("title").textContent = logs.map((log) => log.title).join(" | ");
     element("about").textContent = logs.map((log) => `${log.name}: ${log.specimen}, ${d3.format(".3~g")(log.animal.length)} cm, ${log.bodies} bodies, ${log.frames} frames, ${log.status}`).join(" | ");
-    document.title = "hagfish replay: " + logs.map((log) => log.name).join(", ");
+    document.title = `hagfish ${this.kind()}: ${logs.map((log) => log.name).join(", ")}`;
     element("layout-label").style.display = logs.length > 1 ? "" : "none";
-    for (const speed of SPEEDS) element("speed").add(new Option(`${speed} x`, speed, speed === 1, speed === 1));
+    for (const speed of this.speeds()) element("speed").add(new Option(`${speed} x`, speed, speed === 1, speed === 1));
     element("colour").add(new Option("none", ""));
     this.quantities = quantitiesOf(logs);
     for (const [name, { label }] of Object.entries(this.quantities)) element("colour").add(new Option(label, name));
     const wanted = ["active", "thigmotaxis", "curvature"].find((name) => logs.every((log) => log.quantities[name]));
     element("colour").value = wanted || "";
-    for (const [kind, words] of Object.entries(ARROW_WORDS)) {
-      if (!logs.some((log, k) => this.bodies[k].largest[kind] > 1e-6)) continue;
-      const line = element("arrow-words").appendChild(document.createElement("div"));
-      line.textContent = "→ " + words;
-      line.style.color = "#" + ARROWS[kind].toString(16).padStart(6, "0");
-    }
+    this.nameArrows();
     element("scrub").max = this.longest().frames - 1;
     element("scrub").addEventListener("input", () => this.seek(this.longest().time[element("scrub").value]));
     element("play").addEventListener("click", () => this.play(!this.playing));
@@ -76,6 +71,20 @@ class Viewer {
     element("help").addEventListener("click", () => { element("keys").hidden = !element("keys").hidden; });
     document.addEventListener("keydown", (event) => this.key(event));
   }
+
+  /** What the arrows that there are stand for. */
+  nameArrows() {
+    element("arrow-words").textContent = "";
+    for (const [kind, words] of Object.entries(ARROW_WORDS)) {
+      if (!this.bodies.some((body) => body.largest[kind] > 1e-6)) continue;
+      const line = element("arrow-words").appendChild(document.createElement("div"));
+      line.textContent = "→ " + words;
+      line.style.color = "#" + ARROWS[kind].toString(16).padStart(6, "0");
+    }
+  }
+
+  kind() { return "replay"; }
+  speeds() { return SPEEDS; }
 
   /** The log that goes on the longest: its frames are those of the slider. */
   longest() { return this.logs.reduce((a, b) => (b.time[b.frames - 1] > a.time[a.frames - 1] ? b : a)); }
@@ -231,5 +240,3 @@ class Viewer {
     }
   }
 }
-
-const viewer = new Viewer(LOGS.map((raw) => new Log(raw)));

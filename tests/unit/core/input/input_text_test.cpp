@@ -1,4 +1,5 @@
 #include "core/input/input_text.hpp"
+#include "core/input/text_file.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,2 @@
+// As emmintrin.h.
+#include <emmintrin.h>
