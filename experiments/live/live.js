@@ -181,21 +181,29 @@ class LiveViewer extends Viewer {
 
   /** More frames have come. */
   grow() {
-    const [log] = this.logs, now = performance.now();
+    const [log] = this.logs;
     this.last = log.last();
     element("scrub").max = log.frames - 1;
     this.bodies[0].measure();
     if (this.fresh) { this.fresh = false; this.resetView(); }
     if (this.following) this.time = this.last;
-    if (now - this.drawn > REDRAW || !this.running) {
-      log.rescale();
-      this.nameArrows();
-      this.recolour();
-      this.drawn = performance.now();
-    } else if (!this.waiting) {
-      this.waiting = true;
-      requestAnimationFrame(() => { this.waiting = false; this.seek(this.following ? this.last : this.time); });
+    if (this.waiting) return;
+    this.waiting = true;
+    requestAnimationFrame(() => { this.waiting = false; this.showNow(); });
+  }
+
+  /** Draws what there is: the body each time, the plots as often as leaves time for it. */
+  showNow() {
+    const begin = performance.now();
+    if (this.running && begin - this.drawn < Math.max(REDRAW, 5 * (this.cost || 0))) {
+      this.seek(this.following ? this.last : this.time);
+      return;
     }
+    this.logs[0].rescale();
+    this.nameArrows();
+    this.recolour();
+    this.drawn = performance.now();
+    this.cost = this.drawn - begin;
   }
 
   render() { super.render(); ++this.pictures; }

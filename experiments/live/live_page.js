@@ -85,6 +85,8 @@ class Page {
 
   started(data) {
     this.log = new LiveLog(data);
+    this.over = false;
+    this.starts = (this.starts || 0) + 1;
     this.remember(data);
     if (!this.viewer) {
       this.log.add(EMPTY_FRAME(this.log), 0);
@@ -126,6 +128,7 @@ class Page {
 
   frames(data) {
     this.log.add(data, this.viewer.held ? this.viewer.held.body : 0);
+    this.ask({ kind: "got" });
     this.digest = data.digest;
     this.over = data.over;
     if (data.warnings) this.say(data.warnings.trim().split("\n").pop());

@@ -72,8 +72,9 @@ class Simulator {
 
 /** A number of 64 bits that any bit of any frame changes: of 32-bit words, in order. digest.cpp has the same. */
 class Digest {
-  constructor() { this.a = 2166136261; this.b = 374761393; }
+  constructor() { this.a = 2166136261; this.b = 374761393; this.frames = 0; }
   add(array) {
+    ++this.frames;
     const words = new Uint32Array(array.buffer, array.byteOffset, array.byteLength / 4);
     for (const word of words) {
       this.a = Math.imul(this.a ^ word, 16777619);
@@ -81,7 +82,7 @@ class Digest {
       this.b = (this.b << 13) | (this.b >>> 19);
     }
   }
-  text() { return [this.a, this.b].map((x) => (x >>> 0).toString(16).padStart(8, "0")).join(""); }
+  text() { return [this.a, this.b].map((x) => (x >>> 0).toString(16).padStart(8, "0")).join("") + ` of ${this.frames} frames`; }
 }
 
 if (typeof module !== "undefined") module.exports = { Simulator, Digest };

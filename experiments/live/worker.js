@@ -13,6 +13,7 @@ const clock = () => performance.now() / 1e3;
 
 let compiled, runner, checker, scene, digest;
 let playing = false, over = false, speed = 1, due = 0, before = 0, taken = 0, timer = 0;
+let sent = false; // and the page has not taken it yet
 let rows = [], contacts = [], counts = [], names = {};
 
 const stepsPerFrame = () => { const [step, interval] = runner.array("clock"); return Math.round(interval / step); };
@@ -20,6 +21,7 @@ const stepsPerFrame = () => { const [step, interval] = runner.array("clock"); re
 /** Puts the present state among what is sent next. */
 function takeFrame() {
   runner.calls.live_frame();
+  over = runner.array("over")[0] > 0;
   if (taken % stepsPerFrame() === 0) digest.add(runner.array("q"));
   for (const name of SENT) rows.push(Float32Array.from(runner.array(name)));
   const type = Array.from(runner.array("knot"));
@@ -38,7 +40,8 @@ function joined(parts) {
 
 /** Sends the frames so far. Of an instance that has ended nothing is asked. */
 function send(ended = false) {
-  if (!counts.length) return;
+  if (!counts.length || (sent && !ended)) return;
+  sent = true;
   const frames = joined(rows), touching = joined(contacts), warnings = ended ? "" : runner.text("warnings");
   postMessage({ kind: "frames", count: counts.length, frames, touching, counts, names, digest: digest.text(), over, warnings }, [frames.buffer, touching.buffer]);
   rows = []; contacts = []; counts = [];
@@ -47,10 +50,10 @@ function send(ended = false) {
 /** Takes `count` steps and then a frame; fewer where the scene is over, or there is no time left before `end` (s). */
 function advance(count, end = Infinity) {
   let done = 0;
-  while (done < count && !over) {
+  while (done < count) {
     const wanted = Math.min(BATCH, count - done), some = runner.calls.live_advance(wanted);
     done += some;
-    over = some < wanted;
+    if (some < wanted) break;
     if (clock() > end) break;
   }
   taken += done;
@@ -88,7 +91,7 @@ async function start(wanted) {
   scene = wanted;
   runner = await Simulator.create(compiled, clock);
   runner.start(scene);
-  taken = 0; due = 0; over = false;
+  taken = 0; due = 0; over = sent = false;
   digest = new Digest();
   rows = []; contacts = []; counts = [];
   runner.calls.live_animal();
@@ -149,6 +152,7 @@ function play(on) {
 }
 
 const asked = {
+  got: () => { sent = false; if (!playing && runner) send(); },
   start: ({ scene: wanted }) => start(wanted),
   change: ({ scene: wanted }) => change(wanted),
   play: ({ on }) => play(on),

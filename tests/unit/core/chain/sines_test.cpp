@@ -36,6 +36,22 @@ TEST(Sines, AreThoseOfTheStandardLibrary) {
   }
 }
 
+TEST(Sines, PlainOnesAreThoseOfTheStandardLibrary) {
+  constexpr double rounding = 4.5e-16;
+  Random random(7);
+  for (const double size : {1e-9, 0.1, 1.0, 4.0, 100.0, 9e5, 1e9}) {
+    for (const double angle : random_entries(random, 2000, size)) {
+      const auto [sine, cosine] = plain_sine_and_cosine(angle);
+      const SineCosine opposite = plain_sine_and_cosine(-angle);
+      EXPECT_EQ(opposite.sine, -sine);
+      EXPECT_EQ(opposite.cosine, cosine);
+      const double s = std::sin(angle), c = std::cos(angle);
+      EXPECT_NEAR(sine, s, rounding * std::abs(s)) << angle;
+      EXPECT_NEAR(cosine, c, rounding * std::abs(c)) << angle;
+    }
+  }
+}
+
 TEST(Sines, AreThoseWhereTheQuarterChanges) {
   for (int eighth = -80; eighth <= 80; ++eighth) {
     const double angle = eighth * std::numbers::pi / 4;

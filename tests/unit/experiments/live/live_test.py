@@ -26,7 +26,7 @@ from program import hagfish  # noqa: E402
 WEB = Path(os.environ.get("HAGFISH_WEB_BUILD", ROOT / "build/web"))
 NATIVE = Path(os.environ.get("HAGFISH_LIVE_DIGEST", ROOT / "build/portable/experiments/live_digest"))
 NODE = shutil.which("node")
-PATIENCE = 240  # s, on a machine that draws by its processor and does much else
+PATIENCE = int(os.environ.get("HAGFISH_PATIENCE", 240))  # s, on a machine that draws by its processor and does much else
 
 if not (WEB / "index.html").exists():
     pytest.skip(f"no page here: {WEB}/index.html is built by HAGFISH_WEB=1 bash experiments/setup.sh", allow_module_level=True)
@@ -46,7 +46,7 @@ def digest_of(*command):
 def test_q_at_every_frame_is_that_of_the_native_program_to_the_last_bit(scene):
     there = digest_of(NODE, ROOT / "experiments/live/digest.mjs", WEB / "hagfish.wasm", scene)
     assert there == digest_of(NATIVE, scene)
-    changed = digest_of(NATIVE, scene, "time.duration=1", "drag.normal=9.4340000000000002")
+    changed = digest_of(NATIVE, scene, "time.duration=1", "drag.normal=9.4340")
     assert changed == digest_of(NATIVE, scene, "time.duration=1")  # the same double
     assert changed != digest_of(NATIVE, scene, "time.duration=1", "drag.normal=9.434000000000002")  # the next one
 
@@ -62,8 +62,8 @@ class Live(Browser):
 
     def start(self, scene, settings=(), speed=1000):
         self.wait("window.page && page.log && page.log.frames > 0", "no first frame")
-        self.run(f"page.wantsPlay = true; page.choose({json.dumps(scene)}, {json.dumps(list(settings))})")
-        self.wait(f"page.name === {json.dumps(scene)} && page.log.name === page.name && page.log.frames > 0", scene)
+        before = self.run(f"page.wantsPlay = true, page.choose({json.dumps(scene)}, {json.dumps(list(settings))}), page.starts")
+        self.wait(f"page.starts > {before} && page.log.frames > 0", scene)
         self.run(f"page.ask({{ kind: 'speed', value: {speed} }})")
 
     def until(self, condition, what):
@@ -81,7 +81,7 @@ class Live(Browser):
 def page(tmp_path_factory):
     if CHROMIUM is None:
         pytest.skip("no chromium here")
-    browser = Live(tmp_path_factory.mktemp("live"), (1400, 900))
+    browser = Live(tmp_path_factory.mktemp("live"), (1000, 700))
     browser.open(WEB / "index.html")
     yield browser
     browser.close()
@@ -109,7 +109,7 @@ def test_a_run_in_the_page_ties_a_3_1_and_has_the_digest_of_the_native_program(p
     page.until("page.over", "the run does not end")
     knots = page.run("(() => { const log = page.log; return Array.from({ length: log.frames }, (_, f) => log.phaseName(f) + ' ' + log.knotName(f)); })()")
     assert "slide 3_1" in knots and knots[-1] == "free 0_1"
-    assert f"{page.run('page.digest')} of {len(knots)} frames" == digest_of(NATIVE, "table1")
+    assert page.run("page.digest") == digest_of(NATIVE, "table1")
 
 
 def test_a_link_makes_the_same_run(page):
@@ -117,32 +117,35 @@ def test_a_link_makes_the_same_run(page):
     page.until("page.over", "the run does not end")
     digest, address = page.run("page.digest"), page.run("page.link()")
     assert "#" in address and "controller" not in address
-    page.run("page.choose('table1', ['time.duration=1'])")
-    page.until("log.last() > 0.5", "no other run")
+    page.start("table1", ["time.duration=1"])
+    page.until("page.over", "no other run")
     assert page.run("page.digest") != digest
     page.run(f"history.replaceState(null, '', '#'); location.hash = {json.dumps(address.split('#')[1])}")
-    page.until("page.settings.get('controller.cap') === '900' && page.over", "the link does not run")
+    page.until("page.accepted.includes('controller.cap=900') && page.over", "the link does not run")
     assert page.run("page.digest") == digest
 
 
 def test_without_the_reflex_the_knot_stays(page):
-    page.start("reflex_overhand")
-    page.until("log.phaseName(f) === 'slide'", "no slide")
-    page.until("log.last() > log.time[log.phase.indexOf(log.phases.indexOf('slide'))] + 1", "no slide of a second")
-    page.run("page.set([['controller.reflex.shift', '1e-9']])")
-    page.wait("page.values['controller.reflex.shift'] === '1e-9' || page.values['controller.reflex.shift'] === '1e-09'", "no change")
-    start = page.run("page.log.last()")
-    page.until(f"log.last() > {start} + 2.2", "it does not go on")
-    ends = page.run(f"(() => {{ const log = page.log, at = (t) => log.head_end[log.frameAt(t)]; return [at({start} - 1), at({start}), at({start} + 1), at({start} + 2)]; }})()")
-    before, after = ends[0] - ends[1], ends[2] - ends[3]
-    assert before > 0.2 and abs(after) < 0.1 * before, ends
+    slid = {}
+    for shift in ("1e-9", "0.0106"):
+        page.start("reflex_overhand", ["time.duration=13.5"])
+        page.until("page.over", "it does not come to slide")
+        assert page.run("page.log.phaseName(page.log.frames - 1)") == "slide"
+        page.run(f"page.set([['controller.reflex.shift', '{shift}'], ['time.duration', '15.5']])")
+        page.wait("page.accepted.includes('time.duration=15.5')", "no change")
+        page.run("page.ask({ kind: 'play', on: true })")
+        page.until("log.last() > 15.4 && page.over", "it does not go on")
+        ends = page.run("(() => { const log = page.log, at = (t) => log.head_end[log.frameAt(t)]; return [at(12.5), at(13.5), at(14.5), at(15.5)]; })()")
+        assert ends[0] - ends[1] > 0.2, ends
+        slid[shift] = ends[2] - ends[3]  # in the second second after the change
+    assert slid["0.0106"] > 0.2 and abs(slid["1e-9"]) < 0.1 * slid["0.0106"], slid
 
 
 def test_a_change_while_it_runs_goes_on_from_where_it_was(page):
     page.start("table1", speed=4)
     page.until("log.last() > 0.5", "no motion")
     page.type("specimen.length", "45")
-    page.until("log.animal.length === 45", "no change")
+    page.until("Math.abs(log.animal.length - 45) < 1e-9", "no change")
     then = page.run("page.log.last()")
     page.until(f"log.last() > {then} + 0.2", "it does not go on")
     assert page.run("page.log.frames") > 25 and page.message() == ""
@@ -182,10 +185,8 @@ def test_the_body_is_pulled(page):
     page.call("Input.dispatchMouseEvent", type="mousePressed", x=x, y=y, button="left", clickCount=1)
     page.call("Input.dispatchMouseEvent", type="mouseMoved", x=x, y=y - 120, button="left", buttons=1)
     page.until("Math.hypot(log.hand[3 * f], log.hand[3 * f + 1], log.hand[3 * f + 2]) > 10", "no pull")
-    assert "you pull with" in page.run("element('now').textContent")
-    page.until("log.last() > 1", "no motion")
-    after = page.run("viewer.centre(70).toArray()")
-    assert sum((a - b) ** 2 for a, b in zip(after, before)) ** 0.5 > 1
+    page.wait("element('now').textContent.includes('you pull with')", "its force is not shown")
+    page.until(f"viewer.centre(70).distanceTo(new THREE.Vector3(...{before})) > 1", "no motion")
     page.call("Input.dispatchMouseEvent", type="mouseReleased", x=x, y=y - 120, button="left", clickCount=1)
     page.until("log.hand[3 * f] === 0", "it is not let go")
 
@@ -222,7 +223,7 @@ def test_files_of_ones_own_are_taken_and_bad_ones_refused(page):
     give("mine.toml", "base = \"table1\"\ntitle = \"My own\"\n[model]\nbodies = 40\n")
     page.until("log.title === 'My own' && log.bodies === 40 && log.last() > 0.1", "no scene of one's own")
     give("animal.toml", (ROOT / "data/specimens/pacific_hagfish.toml").read_text().replace("length = 42.4", "length = 50.0"))
-    page.until("log.animal.length === 50", "no specimen of one's own")
+    page.until("Math.abs(log.animal.length - 50) < 1e-9", "no specimen of one's own")
     give("broken.toml", "base = \"table1\"\n[model\n")
     page.wait("!element('message').hidden", "no message")
     assert page.message().startswith("broken.toml:2: not valid TOML")
@@ -233,8 +234,8 @@ def test_files_of_ones_own_are_taken_and_bad_ones_refused(page):
 
 def test_a_thousand_random_inputs_never_break_it(page):
     page.start("table1", ["time.duration=1e6"], speed=0.1)
-    told = page.run("""(async () => {
-      let seed = 12345, refused = 0;
+    told = sum(page.run("""(async () => {
+      let seed = %d, refused = 0;
       const random = (n) => { seed = (Math.imul(seed, 1103515245) + 12345) >>> 0; return Math.floor(seed / 4294967296 * n); };
       const some = ["", "-1", "0", "1e308", "1e-308", "NaN", "inf", "-inf", "0x10", "1,5", "\\"", "\\\\", "]", "[1]", "{", "=", "#", "\\n", "\\u0000", "\\ud800",
         "é", "true", "paper", "1e9999", "0.1 L", "9".repeat(400), "'''", "<b>", "400", "2", "3", "1e-9", "100", "50", "1", "0.002"];
@@ -245,15 +246,17 @@ def test_a_thousand_random_inputs_never_break_it(page):
         page.heard.started = (data) => { back(); started(data); done(); };
         page.heard.refused = (data) => { back(); ++refused; no(data); done(); };
       });
-      for (let k = 0; k < 1000; ++k) {
+      for (let k = 0; k < 50; ++k) {
         const input = inputs[random(inputs.length)], answer = answered();
         input.value = random(2) ? some[random(some.length)] : String.fromCharCode(...Array.from({ length: 1 + random(12) }, () => 1 + random(126)));
         input.dispatchEvent(new Event("change"));
         await answer;
-        if (k % 50 === 49) { const again = answered(); page.choose("table1", ["time.duration=1e6"]); await again; }
       }
+      const again = answered();
+      page.choose("table1", ["time.duration=1e6"]);
+      await again;
       return refused;
-    })()""")
+    })()""" % seed) for seed in range(20))
     assert 500 < told < 1000
     page.start("table1")
     page.until("log.last() > 0.2", "it is broken")
