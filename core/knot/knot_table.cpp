@@ -353,12 +353,12 @@ std::string full_knot_name(const Eigen::Matrix3Xd& centreline, const KnotSetting
     const Eigen::Vector3d sight = random_direction(random);
     Eigen::Matrix3Xd closed(3, centreline.cols() + 2);
     closed << centreline, centreline.rightCols<1>() + out, centreline.leftCols<1>() + out;
+    const Diagram diagram = diagram_of_closed(closed, sight);
+    if (!diagram.generic) continue;
     try {
-      const Diagram diagram = diagram_of_closed(closed, sight);
       const std::optional<std::string> name =
           name_of({type, jones_of(diagram), alexander_of(diagram)});
       if (name) ++votes[*name];
-    } catch (const std::domain_error&) {    // not generic, or
     } catch (const std::overflow_error&) {  // too tangled as it is seen: one vote less
     }
   }
