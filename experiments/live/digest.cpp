@@ -1,10 +1,10 @@
 // The digest of q at every frame of a built-in scene, as the page gives it (simulator.js), by this
 // build of the simulator: digest SCENE [KEY=VALUE]... [--q FILE].
 #include <bit>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <ctime>
 #include <exception>
 #include <fstream>
 #include <string>
@@ -49,7 +49,7 @@ int main(int argc, char** argv) {
                                   {words.begin() + 1, words.end()}));
     const TimeSettings& clock = run.resolved().scene.time;
     const int steps = static_cast<int>(std::lround(clock.frame_interval / clock.step));
-    const auto begin = std::chrono::steady_clock::now();
+    const std::clock_t begin = std::clock();
     Digest digest;
     int frames = 0;
     double time = 0;
@@ -62,10 +62,9 @@ int main(int argc, char** argv) {
       time = frame[0].values[0];
       ++frames;
     }
-    const double seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    std::printf("%s: %08x%08x of %d frames, %.2f s in %.2f s, %.1f x real time\n", name.c_str(),
-                digest.a, digest.b, frames, time, seconds, time / seconds);
+    const double seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+    std::printf("%s: %08x%08x of %d frames, %.2f s in %.2f s of the processor, %.1f x real time\n",
+                name.c_str(), digest.a, digest.b, frames, time, seconds, time / seconds);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;
