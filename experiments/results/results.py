@@ -37,6 +37,7 @@ ROUNDING = 1e-5  # figures below are rounding errors, of which the order of magn
 FACTOR = 10  # by which such a figure may differ
 MEASURED = re.compile(r"Measured at ([0-9a-f]{7,40})\+? on (.+), (\d{4}-\d\d-\d\d)\.")
 OLDER = "Since then"
+COMMAND = re.compile(r"`(?:bash|python3) experiments/[^`]+`")
 QUOTED = re.compile(r'"(?:[^"\\\n]|\\.)*"')
 
 
@@ -119,6 +120,11 @@ def stamp(name: str) -> list[str]:
 
 def index() -> list[str]:
     rows = [[f"[{page['question']}]({name}.md)", f"`bash experiments/reproduce.sh {name}`"] for name, page in pages().items()]
+    for path in sorted(RESULTS.glob("*.md")):
+        if path.stem not in pages() and path.name != "README.md":  # made by a study that is no page of pages.toml
+            text = path.read_text(encoding="utf-8")
+            command = COMMAND.search(text)
+            rows.append([f"[{text.splitlines()[0].removeprefix('# ')}]({path.name})", command[0] if command else ""])
     return Table(["question", "command"], rows).markdown()
 
 

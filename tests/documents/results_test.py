@@ -134,6 +134,13 @@ def test_a_picture_says_where_it_was_measured(tmp_path):
         assert picture.size == (4, 2) and picture.convert("RGB").getpixel((3, 1)) == (10, 20, 30)
 
 
+def test_a_page_that_a_study_writes_is_listed(house):
+    (house / "experiments/results/p.csv").write_text(",a\nx,1\ny,2\n")
+    (house / "experiments/results/own.md").write_text("# Own question?\n\n`bash experiments/studies/own.sh` makes this page.\n")
+    results.render()
+    assert "| [Own question?](own.md) | `bash experiments/studies/own.sh` |" in (house / "experiments/results/README.md").read_text()
+
+
 def test_bad_pages_are_told(house):
     with pytest.raises(results.ResultsError, match="No such file"):
         results.adopt("p", house, "0.2.0 abcdef1", 1)
