@@ -243,7 +243,6 @@ void controller_fields(Io& io, ControllerSettings& s) {
   io.template choice<Eq6Slip>("eq6_slip", s.eq6_slip,
                               {{"paper", Eq6Slip::paper}, {"shape", Eq6Slip::shape}});
   io.number("cap", s.cap, positive());
-  io.number("acceleration", s.acceleration, positive());
   io.number("contact_gap", s.contact_gap, not_negative());
   io.length("tail_through", s.tail_through, not_negative());
   io.number("tighten_from", s.tighten_from, not_negative());

@@ -20,7 +20,7 @@ struct ThigmotaxisRow {
   double cap = 0;                     ///< of its λ / h, dyn
   double lambda = 0;                  ///< over h, dyn
   double speed = 0;                   ///< left side of Eq. 6 at the solution, cm/s
-  /// Shortfall of the command, whether by controller.cap or controller.acceleration, cm/s.
+  /// Shortfall of the command, cm/s: only of a row at its cap.
   double slack = 0;
 };
 

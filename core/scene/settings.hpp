@@ -251,11 +251,7 @@ struct ControllerSettings {
   ThigmotaxisSpeeds reverse_head, reverse_tail;
   BodyEnd leave_by = BodyEnd::head;  ///< tail: at the head the knot turns back
   Phase free_from = Phase::release;  ///< a clamped head is free from this phase on
-  double cap = 5000;  ///< largest lambda / h of a thigmotaxis row, dyn: the rows are soft
-  /// A thigmotaxis row below its commanded speed asks for no more than this, cm/s^2 (addition): at
-  /// phase starts, and where another contact becomes the first or last one, the speeds along the
-  /// new tangents are up to 2 cm/s off, and to mend that within a step takes a force as 1 / h.
-  double acceleration = 100;
+  double cap = 5000;           ///< largest lambda / h of a thigmotaxis row, dyn: the rows are soft
   double contact_gap = 0.05;   ///< strands this close count as touching, cm (TouchingEnds)
   double tail_through = 8.0;   ///< tighten once this much body is past the last contact, cm of arc
   double tighten_from = 0;     ///< and not before this time: a script may end by pulling tight, s

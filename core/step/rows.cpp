@@ -299,7 +299,6 @@ Row eq6_row(const Model& model, const Kinematics& kin, const std::vector<SplineS
 void append_thigmotaxis_rows(const Model& model, const std::vector<ThigmotaxisCommand>& commands,
                              const ThigmotaxisPlace& place, const ControllerSettings& settings,
                              double h, std::vector<Row>& rows) {
-  const double gain = settings.acceleration * h;
   for (std::size_t k = 0; k < commands.size(); ++k) {
     const ThigmotaxisCommand& command = commands[k];
     const Contact& found = command.contact;
@@ -311,8 +310,7 @@ void append_thigmotaxis_rows(const Model& model, const std::vector<ThigmotaxisCo
                                            command.towards, settings.eq6_at));
       row.id = thigmotaxis_id(command, on_a);
       row.command = static_cast<int>(k);
-      const double now = relative_velocity(row, place.before);
-      row.rhs = std::min(on_a ? command.speed.a : command.speed.b, now + gain);
+      row.rhs = on_a ? command.speed.a : command.speed.b;
       row.upper =
           command.effort * settings.cap * h;  // the soft row: its L1 slack is this bound's dual
     }

@@ -164,7 +164,6 @@ struct ThigmotaxisPlace {
   const Kinematics& kin;
   const std::vector<SplineSegment>& segments;  ///< of it
   bool moved;                                  ///< from where the commands' contacts were found
-  BodyVelocities before;                       ///< at the step's first velocity
 };
 
 /// A row of Eq. 6 with no right-hand side or bounds yet, along t_a or t_b of `contact`, whose
@@ -173,9 +172,7 @@ Row eq6_row(const Model& model, const Kinematics& kin, const std::vector<SplineS
             const Contact& contact, bool on_a, BodyEnd towards, Eq6Point at);
 
 /// Eq. 6 at the contacts commanded: rows t_a, t_b of each. settings.cap times the command's effort
-/// bounds λ / h; a row asks for its commanded speed, but for no more than settings.acceleration
-/// makes in the step of the speed that it has now. No two commands are of the same end or, of
-/// neither, of the same segments.
+/// bounds λ / h. No two commands are of the same end or, of neither, of the same segments.
 void append_thigmotaxis_rows(const Model& model, const std::vector<ThigmotaxisCommand>& commands,
                              const ThigmotaxisPlace& place, const ControllerSettings& settings,
                              double h, std::vector<Row>& rows);

@@ -105,15 +105,12 @@ ThigmotaxisAudit::Rows ThigmotaxisAudit::see(const AuditedFrame& frame, Rebuilt&
     const double speed =
         row_velocity(row, {frame.moved_twist, frame.moved_velocity}, frame.qdot_moved);
     rebuilt.compare(group + "speed", r.speed, speed);
-    // A row below its cap is met, with a force exactly: at its command, or on the way to it.
-    const double asked =
-        std::min(r.command, row_velocity(row, frame.motion.before(), frame.state.qdot) +
-                                scene.controller.acceleration * scene.time.step);
+    // A row below its cap is met, with a force exactly.
     if (r.lambda < 0) {
       shape.insert(group + "lambda");
     }
     if (r.lambda < (1 - cap_tolerance) * r.cap) {
-      ask_miss_ = worse(ask_miss_, r.lambda > 0 ? std::abs(speed - asked) : asked - speed);
+      ask_miss_ = worse(ask_miss_, r.lambda > 0 ? std::abs(speed - r.command) : r.command - speed);
     }
     most_ = worse(most_, r.lambda == 0 ? 0 : r.lambda / r.cap);
     const Eigen::VectorXd column = force_of(model, frame.kin, row, 1);

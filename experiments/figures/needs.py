@@ -28,8 +28,7 @@ CHOICES = {
     "no_stiffness": ("joint stiffness", "none"), "no_drag": ("water drag", "none"),
     "baumgarte_0.2": ("half a violation pushed out", "a fifth"), "baumgarte_1": ("half a violation pushed out", "all"),
     "no_corrections": ("steps corrected along their path", "not corrected"),
-    "cap_5000": ("thigmotaxis up to 1000 dyn", "5000 dyn"), "no_cap": ("thigmotaxis up to 1000 dyn", "no cap"),
-    "at_once": ("speeds rise by 100 cm/s²", "at once"),
+    "cap_1000": ("thigmotaxis up to 5000 dyn", "1000 dyn"), "no_cap": ("thigmotaxis up to 5000 dyn", "no cap"),
     "votes_5": ("15 votes on the knot", "5"), "votes_45": ("15 votes on the knot", "45"),
     "no_wall": ("head plate", "none"),
 }

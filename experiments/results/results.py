@@ -283,7 +283,7 @@ def mark() -> None:
             notes.append(f"{OLDER} the history has been rewritten; how much code has changed is not known.")
         elif counts[commit]:
             notes.append(f"{OLDER} the simulator or its scenes have changed, in more than comments and messages.")
-        if notes != table.notes and not path.stem.startswith("reflex"):
+        if notes != table.notes and not path.stem.startswith(("forces", "reflex")):
             write(path, Table(table.head, table.rows, notes))
     render()
 

@@ -81,8 +81,7 @@ no_drag drag.normal=0 drag.tangential=0
 baumgarte_0.2 constraints.baumgarte=0.2
 baumgarte_1 constraints.baumgarte=1
 no_corrections constraints.corrections=0
-cap_5000 controller.cap=5000
-at_once controller.acceleration=1e9
+cap_1000 controller.cap=1000
 no_cap controller.cap=1e9
 votes_5 knot.votes=5
 votes_45 knot.votes=45

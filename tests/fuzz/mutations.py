@@ -233,7 +233,7 @@ def extreme_overrides(random, any_bodies=True):
         "start.noise_deg": wild, "start.phase": lambda: random.choice(["form", "tighten", "slide", "release", "free"]),
         "start.bend": lambda: f"[[0.0, {wild():g}, 0.0, {wild():g}], [1.0, 0.0, {wild():g}, 0.0]]",
         "start.bend_rate": lambda: f"[[0.0, {wild():g}, 0.0, {wild():g}]]",
-        "controller.cap": wild, "controller.acceleration": wild, "controller.contact_gap": lambda: 0,
+        "controller.cap": wild, "controller.contact_gap": lambda: 0,
         "controller.release_at": wild, "controller.tight_span": wild,
         "knot.votes": lambda: random.choice([1, 15, 200]), "knot.interval": wild, "guard.action": lambda: "warn",
         "guard.speed": wild, "guard.energy_gain": wild, "guard.energy_action": lambda: random.choice(["warn", "stop", "hold"]),

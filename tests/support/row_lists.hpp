@@ -59,8 +59,7 @@ inline std::vector<Row> thigmotaxis_rows(const Model& model,
                                          double h) {
   std::vector<Row> rows;
   const std::vector<SplineSegment> segments = spline(model, kin.centre);
-  append_thigmotaxis_rows(model, commands, {kin, segments, false, kin.velocities()}, settings, h,
-                          rows);
+  append_thigmotaxis_rows(model, commands, {kin, segments, false}, settings, h, rows);
   return rows;
 }
 

@@ -48,7 +48,6 @@ void scale(ControllerSettings& s, const Scale& by) {
     scale(*speed, by.speed());
   }
   s.cap *= by.force();
-  s.acceleration *= by.speed() / by.time;
   for (double* length : {&s.contact_gap, &s.tail_through, &s.tight_span, &s.release_at,
                          &s.reflex.shift, &s.reflex.pull_shift, &s.reflex.reach}) {
     *length *= by.length;

@@ -141,8 +141,7 @@ struct CappedRow {
     append_thigmotaxis_rows(model,
                             {{contact, {1, 1}, BodyEnd::head, 1, KnotEnd::first},
                              {contact, {1, 1}, BodyEnd::head, 1, KnotEnd::last}},
-                            {now.kin, now.segments, false, now.kin.velocities()}, scene.controller,
-                            1, step.rows);
+                            {now.kin, now.segments, false}, scene.controller, 1, step.rows);
     const std::vector<Row> limits = limit_rows(model, state, scene.constraints, 1);
     step.rows.insert(step.rows.end(), limits.begin() + 20, limits.begin() + 23);
     step.qdot = Eigen::VectorXd::Zero(model.nv());
@@ -255,8 +254,7 @@ TEST(Guard, WatchesTheCapOfAnyNumberOfContacts) {
   for (const Contact& contact : capped.now.contact.contacts) commands.push_back({contact, {1, 1}});
   ASSERT_GE(commands.size(), 3u);
   capped.step.rows.clear();
-  append_thigmotaxis_rows(capped.model, commands,
-                          {capped.now.kin, capped.now.segments, false, capped.now.kin.velocities()},
+  append_thigmotaxis_rows(capped.model, commands, {capped.now.kin, capped.now.segments, false},
                           capped.scene.controller, 1, capped.step.rows);
   const auto count = static_cast<Eigen::Index>(capped.step.rows.size());
   capped.step.lambda = Eigen::VectorXd::Zero(count);

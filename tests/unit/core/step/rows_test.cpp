@@ -72,7 +72,6 @@ struct Tangle {
                            Eq6Point at = Eq6Point::skin) const {
     ControllerSettings settings;
     settings.eq6_at = at;
-    settings.acceleration = unbounded;
     return thigmotaxis_rows(model, commands_, settings, kin, h);
   }
 

@@ -186,7 +186,6 @@ TEST(Step, ClampTakesADriftBack) {
 
 TEST(Step, CapsThigmotaxisForces) {
   Stage s = knotted(103, 0);
-  s.scene.controller.acceleration = 1e8;  // at once
   for (ThigmotaxisCommand& command : s.control.thigmotaxis) command.speed = {1e4, 1e4};
   const StepSolution step = s.solve();
   double largest = 0;
