@@ -114,10 +114,11 @@ class Comparison {
     same("knot", c.knot.type, image.knot.type);
     same("agreement", c.knot.agreement, image.knot.agreement);
     same("knot from", c.knot_from, image.knot_from);
-    for (auto end : {&ControllerState::first, &ControllerState::last}) {
-      same("tracked contact", (c.*end).contact.has_value(), (image.*end).contact.has_value());
-      if ((c.*end).contact && (image.*end).contact) {
-        contact(*(c.*end).contact, *(image.*end).contact);
+    for (auto end : {&TouchingEnds::first, &TouchingEnds::last}) {
+      const std::optional<Contact>&ours = c.ends.*end, &theirs = image.ends.*end;
+      same("end of the contact", ours.has_value(), theirs.has_value());
+      if (ours && theirs) {
+        contact(*ours, *theirs);
       }
     }
   }

@@ -122,6 +122,6 @@ TEST_P(Scales, ChangeNoAngle) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Scales,
                          testing::Values("table1", "living_overhand", "reflex_overhand"),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& scene) { return std::string(scene.param); });
 
 }  // namespace hagfish::scale_test

@@ -249,8 +249,6 @@ ResolvedScene odd_scene() {
       odd(),
       odd(),
       odd(),
-      odd(),
-      odd(),
       odd()};
   s.knot = {3, 4294967295u, odd()};
   s.controller.contact_gap = s.contact.margin / 3;
