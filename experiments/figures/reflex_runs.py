@@ -12,6 +12,7 @@ import numpy as np
 
 import claims
 import plots
+import skin
 import tables
 from hagfish_log import HagfishLog
 from slides import log_of
@@ -19,6 +20,8 @@ from sweep_columns import SweepTable, read_sweep
 
 APART = 5  # frames between two shapes of which the wave's speed is found: 0.1 s
 KINDS = ("bend_y", "bend_z")
+# Arcs from the head, cm, between which a slide is timed: what begins and ends a slide, contacts that come and go, is not of it.
+MIDDLE = {"3_1": (9.3, 3.0), "4_1": (5.4, 2.4), "5_1": (4.4, 2.2), "5_2": (4.5, 2.2)}
 
 
 @dataclass
@@ -46,6 +49,13 @@ class Row:
     rank: str = ""  # claim (b): "agrees", "undecided", "disagrees"
     rough_space: float | None = None  # roughness along the body, 1 of white noise: largest of three kinds of turn
     rough_time: float | None = None  # in time: least of them
+    middle: float | None = None  # time of the knot's place between the two arcs of MIDDLE
+    rings: float | None = None  # share of the body's length whose skin touched skin in the slide
+    skin: float | None = None  # the same of its area
+    span_from: float | None = None  # of a loose knot, where the reflex begins, cm
+    span_to: float | None = None  # the least that it comes to, cm
+    types: str = ""  # of the knot, in turn
+    commit: str = ""  # of the program that made the run
 
     @property
     def speed(self) -> float:
@@ -53,7 +63,9 @@ class Row:
 
 
 UNITS = {"way": "way_cm", "time": "time_s", "torque": "torque_dyn_cm", "effort": "effort_dyn_s", "work": "work_erg_per_cm", "put_in": "put_in_erg_per_cm",
-         "pull": "pull_N", "wave": "wave_of_knot_speed", "travel": "travel_share", "near": "near_of_far"}
+         "pull": "pull_N", "wave": "wave_of_knot_speed", "travel": "travel_share", "near": "near_of_far",
+         "middle": "middle_s", "rings": "rings_swept", "skin": "skin_swept",
+         "span_from": "span_from_cm", "span_to": "span_least_cm"}
 HEADING = [UNITS.get(field.name, field.name) for field in fields(Row)]
 
 
@@ -171,7 +183,7 @@ def gradient_likeness(log: HagfishLog, frames: np.ndarray, torque: np.ndarray) -
     return float(np.nanmedian(np.where(scale > 0, (slope * own).sum(axis=1) / np.where(scale > 0, scale, 1), np.nan)))
 
 
-def add_log(row: Row, log: HagfishLog) -> Row:
+def add_log(row: Row, log: HagfishLog) -> None:
     """What only a log shows."""
     frames = log.intervals_in("slide")
     _, joint, kind = log.hinges()
@@ -198,45 +210,122 @@ def add_log(row: Row, log: HagfishLog) -> Row:
     row.rank = "agrees" if high < 0 else "disagrees" if low > 0 else "undecided"
     rough = [[claims.roughness(asked[:, kind == each], axis) for each in (*KINDS, "twist")] for axis in (1, 0)]
     row.rough_space, row.rough_time = max(rough[0]), min(rough[1])
-    return row
+    row.middle = middle_of(log, row.knot)
+    row.rings, row.skin = skin.swept(log, log.in_phase("slide"))
 
 
-SWEEPS = ("delay", "noise", "bodies", "step", "drag", "muscle", "damping", "stiffness", "starts", "animals", "pull_shift")
+def middle_of(log: HagfishLog, knot: str) -> float:
+    """Time of the knot's place from one arc of MIDDLE to the other, s."""
+    frames = log.in_phase("slide")
+    place, time = skin.knot_place(log, frames), log["/trajectory/time"][frames]
+    first, last = (skin.passed(time, place, arc) for arc in MIDDLE[knot])
+    return last - first
 
 
-def read_study(folder: Path) -> list[Row]:
-    """Every run that the study left in its folder; what it has not run is not there."""
-    rows: list[Row] = []
-    for study in ("knots", "paper"):
-        table = read_sweep(folder / study / "table.csv")
-        settings = both_axes(table, "model.bodies", "time.step") if study == "knots" else ["100; 2"] * len(table.axes["scene"])
-        rows += [add_log(row, HagfishLog(log_of(folder / study, str(cell)))) if row.held == "yes" else row
-                 for cell, row in enumerate(sweep_rows(study, table, settings))]
-    table = read_sweep(folder / "knockouts/table.csv")
-    rows += sweep_rows("knockouts", table, knockout_settings(table))
-    with (folder / "laws.csv").open(newline="", encoding="utf-8") as file:
-        rows += [Row("laws", line["knot"], "clamped", line["law"], float(line["head_end_from_cm"]) - float(line["head_end_to_cm"]),
-                     float(line["slide_s"]), line["type_held"], line["reached_head"]) for line in csv.DictReader(file)]
-    table = read_sweep(folder / "speed/table.csv")
-    rows += sweep_rows("speed", table, both_axes(table, "controller.reflex.shift", "time.step"))
-    for study in SWEEPS:
-        if (folder / study / "table.csv").is_file():
-            table = read_sweep(folder / study / "table.csv")
-            rows += sweep_rows(study, table, plain_settings(table))
-    table = read_sweep(folder / "pull/table.csv")
-    rows += sweep_rows("pull", table, ["reflex" if "reflex" in scene else "paper" for scene in table.axes["scene"]])
-    return rows + [mujoco_row(path) for path in sorted(folder.glob("mujoco/*.h5"))]
+SWEEPS = ("delay", "noise", "bodies", "step", "drag", "muscle", "damping", "stiffness", "starts", "animals", "pull_shift", "paper_soft", "free", "free_programs")
 
 
-def mujoco_row(path: Path) -> Row:
-    """A run of `hagfish mujoco-run`."""
+def add_middle(row: Row, log: HagfishLog) -> None:
+    row.middle = middle_of(log, row.knot)
+
+
+# Sweeps that keep their logs, and what is read from those.
+LOGGED = {"knots": add_log, "meshes": add_middle, "beside": add_middle, "paper": add_log}
+
+
+def commit_of(folder: Path) -> str:
+    """Of the program that made a sweep: the first line of what it says of itself."""
+    with (folder / "sweep.toml").open(encoding="utf-8") as file:
+        return file.readline().split()[-1]
+
+
+def settings_of(study: str, table: SweepTable) -> list[str]:
+    """What each run of a sweep differs by, in words."""
+    if study == "paper":
+        return ["100; 2"] * len(table.axes["scene"])
+    if study == "knots":
+        return both_axes(table, "model.bodies", "time.step")
+    if study == "beside":
+        return ["with drag" if float(drag) > 0 else "no drag" for drag in table.axes["drag.normal"]]
+    if study == "knockouts":
+        return knockout_settings(table)
+    if study == "speed":
+        return both_axes(table, "controller.reflex.shift", "time.step")
+    if study == "pull":
+        return ["reflex" if "reflex" in scene else "paper" for scene in table.axes["scene"]]
+    return changed_settings(table) if study == "free" else plain_settings(table)
+
+
+def changed_settings(table: SweepTable) -> list[str]:
+    """What a run changes, of axes that go together: their first values are the scene's own."""
+    keys = [key for key in table.axes if key != "scene" and key != "seed"]
+    first = {key: table.axes[key][0] for key in keys}
+    out = []
+    for cell in range(len(table.axes["scene"])):
+        changed = [f"{key.split('.')[-1]} = {number(table.axes[key][cell])}" for key in keys if table.axes[key][cell] != first[key]]
+        out.append(changed[0] if changed else "as it is")
+    return out
+
+
+def read_laws(part: str, path: Path) -> list[Row]:
+    with path.open(newline="", encoding="utf-8") as file:
+        return [Row(part, line["knot"], line["head"], line["law"], float(line["head_end_from_cm"]) - float(line["head_end_to_cm"]),
+                    float(line["slide_s"]), line["type_held"], line["reached_head"], commit=line["commit"]) for line in csv.DictReader(file)]
+
+
+def log_row(study: str, path: Path) -> Row:
+    """A run by its log, SCENE.h5, or SCENE-WORDS.h5 where it differs from the others by something."""
     log = HagfishLog(path)
     slide = log.in_phase("slide")
     head, time = log["/knot/head_end"][slide], log["/trajectory/time"][slide]
-    knot = knot_of(path.stem)
+    scene, _, setting = path.stem.partition("-")
     held = str(log.attribute("status")) == "complete"
-    return Row("mujoco", knot, "free" if path.stem.endswith("_free") else "clamped", "", float(head[0] - np.nanmin(head)),
-               float(time[-1] - time[0]), "yes" if held else "no", "yes" if held and log.in_phase("release").size else "no")
+    return Row(study, knot_of(scene), "free" if scene.endswith("_free") else "clamped", setting.replace("_", " "),
+               float(head[0] - np.nanmin(head)), float(time[-1] - time[0]), "yes" if held else "no",
+               "yes" if held and log["/trajectory/time"][-1] < log.scene()["time"]["duration"] - 1 else "no",
+               middle=middle_of(log, knot_of(scene)), commit=str(log.attribute("git_revision"))[:12])
+
+
+def read_loose(path: Path) -> list[Row]:
+    with path.open(newline="", encoding="utf-8") as file:
+        return [Row(line["task"], line["knot"], "clamped", line["growth"], time=float(line["slide_s"]), span_from=float(line["span_from_cm"]),
+                    span_to=float(line["span_least_cm"]), types=line["types"], commit=line["commit"]) for line in csv.DictReader(file)]
+
+
+def read_study(folder: Path) -> dict[str, list[Row]]:
+    """Every run that the study left in its folder, by the part that it is of; a part that it has not run is not there."""
+    parts: dict[str, list[Row]] = {}
+    for study in (*LOGGED, "knockouts", "speed", *SWEEPS, "pull"):
+        own = folder / study
+        if not (own / "table.csv").is_file():
+            continue
+        table = read_sweep(own / "table.csv")
+        rows = sweep_rows(study, table, settings_of(study, table))
+        for cell, row in enumerate(rows):
+            if study in LOGGED and row.held == "yes":
+                LOGGED[study](row, HagfishLog(log_of(own, str(cell))))
+        for row in rows:
+            row.commit = commit_of(own)
+        parts[study] = rows
+    for part in ("laws", "rate"):
+        if (folder / f"{part}.csv").is_file():
+            parts[part] = read_laws(part, folder / f"{part}.csv")
+    if (folder / "loose.csv").is_file():
+        rows = read_loose(folder / "loose.csv")
+        parts |= {task: [row for row in rows if row.study == task] for task in ("tighten", "form")}
+    for part in ("curves", "mujoco", "beside"):
+        rows = [log_row(part, path) for path in sorted(folder.glob(f"{part}/*.h5"))]
+        if rows:
+            parts[part] = parts.get(part, []) + rows
+    return parts
+
+
+PARTS = ("knots", "meshes", "curves", "paper", "knockouts", "laws", "rate", "speed", *SWEEPS, "pull", "tighten", "form", "beside", "mujoco")
+
+
+def with_parts(rows: list[Row], parts: dict[str, list[Row]]) -> list[Row]:
+    """Rows of a table, those of some parts of the study made anew."""
+    return [row for part in PARTS for row in (parts[part] if part in parts else [row for row in rows if row.study == part])]
 
 
 def write_table(path: Path, rows: list[Row], notes: list[str]) -> None:
