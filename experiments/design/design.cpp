@@ -129,7 +129,7 @@ class Search {
       : options_(options),
         wanted_(*knot_called(*name_in_scene(options.knot))),
         body_(checked(soft_body(animal()))),
-        archive_(options.seed),
+        archive_(wanted_, options.seed),
         known_tries_(numbered_lines(options.folder / "tries.csv")),
         known_candidates_(numbered_lines(options.folder / "candidates.csv")),
         tries_file_(options.folder / "tries.csv"),
@@ -315,13 +315,13 @@ class Search {
 
 std::string DesignOutcome::in_words() const {
   if (found) {
-    return fmt::format("found by try {}: {} and {} of {} starts by the laws paper and reflex",
+    return fmt::format("Try {} is good: {} and {} of {} starts by the laws paper and reflex",
                        best->number, best->passed[0], best->passed[1], judged_starts);
   }
-  if (!best) return fmt::format("none of {} tries tied it", tries);
+  if (!best) return fmt::format("None of {} tries tied it", tries);
   return fmt::format(
-      "{} of {} tries tied it in the soft body; in the living body the best, try {}, "
-      "came to {} of {} runs: {}",
+      "Nothing is good enough: {} of {} tries tied it in the soft body, and the best "
+      "of them, try {}, came to {} of {} runs in the living one ({})",
       candidates.size(), tries, best->number, best->passes(), 2 * judged_starts, best->shortcoming);
 }
 

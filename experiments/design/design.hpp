@@ -49,12 +49,12 @@ struct DesignOutcome {
 /// Starts with noise that a program is judged by, for each law, and how many of them may fail.
 inline constexpr int judged_starts = 20, allowed_failures = 1;
 
-/// Searches by whole batches until a program is found, the budget is over, or it is interrupted. Which program is
-/// found depends on knot, animal and seed alone. The folder gets tries.csv and candidates.csv, by
-/// which it is resumed, and of the best program, where there is one, the files of FoundScene,
-/// knot.h5, README.md and result.csv.
-/// Throws InputError for a knot that the animal is too short for (length_bound.hpp), FileError
-/// where the folder holds another search, or cannot be written.
+/// Searches by whole batches until a program is found, the budget is over, or it is interrupted.
+/// Which program is found depends on knot, animal and seed alone. The folder gets tries.csv and
+/// candidates.csv, by which it is resumed, and of the best program, where there is one, the files
+/// of FoundScene, knot.h5, README.md and result.csv. Throws InputError for a knot that the animal
+/// is too short for (length_bound.hpp), FileError where the folder holds another search, or cannot
+/// be written.
 DesignOutcome design(const DesignOptions& options);
 
 }  // namespace hagfish

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <map>
 
 #include "experiments/design/living_body.hpp"
@@ -14,11 +15,18 @@ std::string design_page(const DesignOptions& options, const DesignOutcome& outco
   const Candidate& best = *outcome.best;
   std::string page = fmt::format(
       "# {0}, tied by {1}\n\n"
-      "`hagfish design {0}` searched for this program. Its search started from nothing.\n\n"
-      "**Result.** {2}.\n\n"
-      "    hagfish run {3} --out again.h5        # the animal ties, slides and loses the knot\n"
-      "    hagfish check knot.h5                # the audit of the run that is here already\n\n",
+      "`hagfish design {0}` searched for this program from nothing. {2}.\n\n"
+      "    hagfish run {3} --out again.h5   # the animal ties and slides the knot, and loses it\n"
+      "    hagfish check knot.h5            # audits the run that is here already\n"
+      "    hagfish picture knot.h5 --out strip.png",
       options.knot, scene.specimen.name, outcome.in_words(), scene_file);
+  // The way to the knot, tied, slid and untied.
+  for (const double time :
+       {0.25 * run.tighten_from, 0.5 * run.tighten_from, 0.75 * run.tighten_from, run.tighten_from,
+        run.release_from, run.free_from}) {
+    if (std::isfinite(time)) page += fmt::format(" --time {:.2f}", time);
+  }
+  page += "\n\n";
   page += fmt::format(
       "## How sure it is\n\n"
       "A start has normal noise of {:g} degrees on every hinge. A run succeeds if the animal ties, "

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
+
+#include "core/run/script.hpp"
 
 namespace hagfish {
 namespace {
@@ -19,14 +22,14 @@ struct Strand {
 
 /// The part of the body that lies straight, or that which the swing leads back to it: where these
 /// are is known well enough before anything has moved.
-Strand choose_strand(Draw& draw, double near) {
+Strand choose_strand(const TailPath& path, Draw& draw) {
   Strand strand;
   if (draw.chance(0.6)) {
     strand.point.setZero();
     strand.along = Eigen::Vector3d::UnitX();
   } else {
-    strand.point = {near + draw.uniform(-0.05, 0.1), 0.1, 0.03};
-    strand.along = Eigen::Vector3d(draw.uniform(0.2, 0.8), 1, draw.uniform(-0.1, 0.2)).normalized();
+    strand.point = {path.swing.back().place.x() - draw.uniform(0, 0.1), 0.1, 0.03};
+    strand.along = Eigen::Vector3d(draw.uniform(0.1, 0.8), 1, draw.uniform(-0.1, 0.2)).normalized();
   }
   strand.across = strand.along.cross(Eigen::Vector3d::UnitZ()).normalized();
   strand.beside = strand.along.cross(strand.across);
@@ -45,15 +48,16 @@ void add_turns(TailPath& path, int count, Draw& draw) {
   Eigen::Vector3d place = last_place(path);
   double time = last_time(path);
   while (count > 0 && path.turns.size() < most_turns) {
-    const Strand strand = choose_strand(draw, place.x());
+    const Strand strand = choose_strand(path, draw);
     const Eigen::Vector3d from = place - strand.point;
     double along = from.dot(strand.along);
     double angle = std::atan2(from.dot(strand.beside), from.dot(strand.across));
     const double sense = draw.chance(0.5) ? 1 : -1;
+    const double advance = draw.uniform(-0.03, 0.03);  // along it, for each waypoint
     // On about this strand for some waypoints, then perhaps about another.
     do {
       angle += sense * draw.uniform(50 * degree, 110 * degree);
-      along += 0.03 * draw.normal();
+      along += advance + 0.015 * draw.normal();
       const double radius = draw.uniform(0.055, 0.13);
       place = strand.point + along * strand.along +
               radius * (std::cos(angle) * strand.across + std::sin(angle) * strand.beside);
@@ -130,6 +134,24 @@ std::vector<ScriptKnot> script_knots(const TailPath& path, double length) {
   }
   for (ScriptKnot& knot : knots) knot.noise.setZero();
   return knots;
+}
+
+std::optional<KnotInvariants> type_of_trail(const TailPath& path) {
+  ScriptSettings script;
+  script.kind = ScriptSettings::Kind::position;
+  script.knots = script_knots(path, 1);
+  constexpr double between = 0.3;  // s, of points: some 40 degrees of a turn
+  const int points = static_cast<int>(path_end(path) / between);
+  Eigen::Matrix3Xd line(3, points + 1);
+  line.col(0).setZero();  // the head; the straight body ends where the path starts
+  for (int k = 0; k < points; ++k) line.col(k + 1) = script_value(script, (k + 1) * between);
+  try {
+    return knot_type(line, KnotSettings{.votes = 1}).type;
+  } catch (const std::domain_error&) {
+    return std::nullopt;
+  } catch (const std::overflow_error&) {
+    return std::nullopt;
+  }
 }
 
 double path_end(const TailPath& path) { return path.pull.back().time; }

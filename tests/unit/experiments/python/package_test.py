@@ -99,3 +99,12 @@ def test_the_installed_package_is_whole(tmp_path):
     told = subprocess.run([sys.executable, "-B", "-c", code], env=environment, capture_output=True, text=True, check=True)
     assert told.stdout.strip() == str(package / "hagfish/__init__.py")
     assert np.all([(package / "hagfish" / name).exists() for name in ("__init__.pyi", "py.typed", "log.py")])
+
+
+def test_a_design_says_what_it_found(tmp_path):
+    sought = hagfish.design("7_7", out=tmp_path / "seven", budget="0.001s", threads=1)
+    assert not sought.found
+    assert "None of 32 tries tied it" in sought.message
+    assert sought.figures == {}
+    with pytest.raises(hagfish.InputError, match="no knot that is known"):
+        hagfish.design("3_2", out=tmp_path / "none")
