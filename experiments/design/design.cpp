@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "core/input/input_error.hpp"
+#include "core/log/build_info.hpp"
 #include "core/log/hdf5_error.hpp"
 #include "experiments/design/design_page.hpp"
 #include "experiments/design/length_bound.hpp"
@@ -68,8 +69,8 @@ void write_text(const fs::path& file, const std::string& text) {
 
 /// What makes a search what it is.
 std::string identity(const DesignOptions& options) {
-  return fmt::format("knot = \"{}\"\nseed = {}\nspecimen = '''\n{}'''\n", options.knot,
-                     options.seed, options.specimen);
+  return fmt::format("knot = \"{}\"\nseed = {}\nrevision = \"{}\"\nspecimen = '''\n{}'''\n",
+                     options.knot, options.seed, build_revision(), options.specimen);
 }
 
 void claim(const DesignOptions& options) {
@@ -84,7 +85,8 @@ void claim(const DesignOptions& options) {
     throw FileError(options.folder.string() + ": has a search already; --resume goes on with it");
   }
   if (read_text(file) != identity(options)) {
-    throw FileError(file.string() + ": is a search for another knot or animal, or by another seed");
+    throw FileError(file.string() +
+                    ": is a search for another knot or animal, by another seed or program");
   }
 }
 
@@ -125,10 +127,10 @@ std::optional<Candidate> candidate_of(int number, const std::string& text) {
 
 class Search {
  public:
-  explicit Search(const DesignOptions& options)
+  Search(const DesignOptions& options, SoftBody body)
       : options_(options),
         wanted_(*knot_called(*name_in_scene(options.knot))),
-        body_(checked(soft_body(animal()))),
+        body_(std::move(body)),
         archive_(wanted_, options.seed),
         known_tries_(numbered_lines(options.folder / "tries.csv")),
         known_candidates_(numbered_lines(options.folder / "candidates.csv")),
@@ -159,19 +161,6 @@ class Search {
   }
 
  private:
-  SoftBody checked(SoftBody body) const {
-    const std::string why = too_short_for(body.resolved.specimen, options_.knot);
-    if (!why.empty()) throw InputError(why);
-    return body;
-  }
-
-  std::vector<std::string> animal() const {
-    if (options_.specimen.empty()) return {};
-    const fs::path file = options_.folder / specimen_file;
-    write_text(file, options_.specimen);
-    return {"specimen=" + file.string()};
-  }
-
   /// Tries a batch; gives the tries that tied the knot.
   std::vector<int> try_batch() {
     const int first = outcome_.tries;
@@ -288,6 +277,7 @@ class Search {
     if (!none.empty()) return;
     write_text(options_.folder / scene_file, found.scene);
     write_text(options_.folder / program_file, found.program);
+    if (!found.specimen.empty()) write_text(options_.folder / specimen_file, found.specimen);
     std::mutex alone;
     const ResolvedScene resolved =
         read_scene_text(found.scene, scene_file, {},
@@ -326,8 +316,11 @@ std::string DesignOutcome::in_words() const {
 }
 
 DesignOutcome design(const DesignOptions& options) {
+  SoftBody body = soft_body(options.specimen);
+  const std::string why = too_short_for(body.resolved.specimen, options.knot);
+  if (!why.empty()) throw InputError(why);
   claim(options);
-  Search search(options);
+  Search search(options, std::move(body));
   return search.run();
 }
 

@@ -31,13 +31,15 @@ std::optional<std::string> name_in_scene(const std::string& knot) {
   return knot;
 }
 
-SoftBody soft_body(const std::vector<std::string>& animal) {
-  std::vector<std::string> set = animal;
+SoftBody soft_body(const std::string& specimen) {
   // Lengths that fit other animals too (living_overhand.toml says why these).
-  set.insert(set.end(),
-             {"contact.least_arc=1.8 D", "wall.neck=0.07 L", "controller.tail_through=0.02 L",
-              "controller.release_at=0.04 L", "time.frame_interval=0.02", "time.duration=60.0"});
-  ResolvedScene resolved = read_scene_text("base = \"overhand_waypoints\"\n", "design", set);
+  const std::vector<std::string> set = {
+      "contact.least_arc=1.8 D",      "wall.neck=0.07 L",         "controller.tail_through=0.02 L",
+      "controller.release_at=0.04 L", "time.frame_interval=0.02", "time.duration=60.0"};
+  constexpr const char* file = "specimen.toml";
+  std::string text = "base = \"overhand_waypoints\"\n";
+  if (!specimen.empty()) text += std::string("specimen = \"") + file + "\"\n";
+  ResolvedScene resolved = read_scene_text(text, "design", set, {{file, specimen}});
   Model model = make_hagfish(resolved.specimen, resolved.scene);
   return {std::move(resolved), std::move(model)};
 }

@@ -20,8 +20,8 @@ struct SoftBody {
   Model model;
 };
 
-/// `animal`: overrides of the scene that name it, for read_scene_text.
-SoftBody soft_body(const std::vector<std::string>& animal);
+/// `specimen`: text of the animal's file; empty: that of the built-in scenes. Throws InputError.
+SoftBody soft_body(const std::string& specimen);
 
 /// What a scene calls `knot`, a name of knot_table.hpp or invariants_text(): of what only full
 /// names tell apart, the invariants. Nothing of any other text.

@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "core/input/input_error.hpp"
+#include "core/input/input_text.hpp"
 #include "core/input/scene_reader.hpp"
 #include "core/log/hdf5_error.hpp"
 #include "experiments/design/length_bound.hpp"
@@ -77,6 +78,13 @@ TEST(Design, InterruptedSearchKeepsItsTries) {
   EXPECT_LT(kept, batch_size);
 }
 
+/// The file of an animal three times as thick.
+std::string thick_text() {
+  std::string text = read_text_file(HAGFISH_DATA_DIR "/specimens/pacific_hagfish.toml");
+  const std::string girth = "[5.6, 5.5, 5.6, 4.3]";
+  return text.replace(text.find(girth), girth.size(), "[16.8, 16.5, 16.8, 12.9]");
+}
+
 TEST(Design, AnimalTooShortIsRefusedWithTheLengthItNeeds) {
   const Specimen table1 = read_specimen(HAGFISH_DATA_DIR "/specimens/pacific_hagfish.toml");
   EXPECT_EQ(too_short_for(table1, "4_1"), "");
@@ -85,6 +93,11 @@ TEST(Design, AnimalTooShortIsRefusedWithTheLengthItNeeds) {
   const std::string why = too_short_for(thick, "4_1");
   EXPECT_TRUE(why.starts_with("4_1 needs at least 62.")) << why;
   EXPECT_TRUE(why.ends_with("yours has 42.4")) << why;
+  const TemporaryFolder folder;
+  DesignOptions options = one_batch(folder.path() / "short", 1);
+  options.specimen = thick_text();
+  EXPECT_THROW(design(options), InputError);
+  EXPECT_FALSE(fs::exists(options.folder));
   EXPECT_DOUBLE_EQ(*least_diameters("3_1#-4_1"), *least_diameters("3_1") + *least_diameters("4_1"));
   EXPECT_FALSE(least_diameters("det=9,v2=10"));
 }
