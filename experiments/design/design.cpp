@@ -131,7 +131,7 @@ class Search {
       : options_(options),
         wanted_(*knot_called(*name_in_scene(options.knot))),
         body_(std::move(body)),
-        archive_(wanted_, options.seed),
+        archive_(options.seed),
         known_tries_(numbered_lines(options.folder / "tries.csv")),
         known_candidates_(numbered_lines(options.folder / "candidates.csv")),
         tries_file_(options.folder / "tries.csv"),

@@ -4,9 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
-
-#include "core/run/script.hpp"
 
 namespace hagfish {
 namespace {
@@ -134,24 +131,6 @@ std::vector<ScriptKnot> script_knots(const TailPath& path, double length) {
   }
   for (ScriptKnot& knot : knots) knot.noise.setZero();
   return knots;
-}
-
-std::optional<KnotInvariants> type_of_trail(const TailPath& path) {
-  ScriptSettings script;
-  script.kind = ScriptSettings::Kind::position;
-  script.knots = script_knots(path, 1);
-  constexpr double between = 0.3;  // s, of points: some 40 degrees of a turn
-  const int points = static_cast<int>(path_end(path) / between);
-  Eigen::Matrix3Xd line(3, points + 1);
-  line.col(0).setZero();  // the head; the straight body ends where the path starts
-  for (int k = 0; k < points; ++k) line.col(k + 1) = script_value(script, (k + 1) * between);
-  try {
-    return knot_type(line, KnotSettings{.votes = 1}).type;
-  } catch (const std::domain_error&) {
-    return std::nullopt;
-  } catch (const std::overflow_error&) {
-    return std::nullopt;
-  }
 }
 
 double path_end(const TailPath& path) { return path.pull.back().time; }

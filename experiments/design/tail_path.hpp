@@ -3,10 +3,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
 #include <vector>
 
-#include "core/knot/knot.hpp"
 #include "core/scene/settings.hpp"
 #include "experiments/design/draw.hpp"
 
@@ -32,11 +30,6 @@ TailPath shortened_path(const TailPath& path, double time, Draw& draw);
 
 /// The script's knots for an animal of that length, cm.
 std::vector<ScriptKnot> script_knots(const TailPath& path, double length);
-
-/// The type of the straight body with its tail on along the path: a body that is led by its tail
-/// follows where that has been, more or less, since water holds it less along itself than across.
-/// A thousand times cheaper than to try. Nothing where the path touches itself.
-std::optional<KnotInvariants> type_of_trail(const TailPath& path);
 
 double path_end(const TailPath& path);  ///< s
 

@@ -11,9 +11,7 @@ namespace {
 
 constexpr std::size_t kept_of_type = 40;
 constexpr double random_share = 0.5;
-constexpr double by_trail_share = 0.75;  // of tries: trails are not all that a body does
-constexpr int most_drawn = 500;          // takes about as long as one try
-constexpr double seen_for = 0.8;         // s, before a type on the way is worth a path of its own
+constexpr double seen_for = 0.8;  // s, before a type on the way is worth a path of its own
 constexpr const char* failed_word = "failed";
 
 std::pair<int, int> key(const KnotInvariants& type) { return {type.determinant, type.v2}; }
@@ -22,16 +20,6 @@ std::pair<int, int> key(const KnotInvariants& type) { return {type.determinant, 
 
 TailPath Archive::path_of(int number) const {
   Draw draw(seed_, static_cast<unsigned>(number));
-  if (!draw.chance(by_trail_share)) return drawn(draw);
-  TailPath path;
-  for (int k = 0; k < most_drawn; ++k) {
-    path = drawn(draw);
-    if (type_of_trail(path) == wanted_) break;
-  }
-  return path;
-}
-
-TailPath Archive::drawn(Draw& draw) const {
   if (paths_.empty() || draw.chance(random_share)) return random_path(draw);
   const auto type = std::next(paths_.begin(), draw.below(static_cast<int>(paths_.size())));
   const std::vector<TailPath>& paths = type->second;

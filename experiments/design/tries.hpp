@@ -11,13 +11,13 @@
 namespace hagfish {
 
 /// Paths that tied something, by what they tied. New paths are random ones, or mutations of these,
-/// each type being as likely, so that what is rare is looked into as often as what is common. Most
-/// of them are drawn until their trail is the wanted knot (type_of_trail). Which try makes which
-/// path depends on the seed and on the results of all batches before its own, so that results may
-/// come in any order and from anywhere.
+/// each type being as likely, so that what is rare is looked into as often as what is common: no
+/// measure tells how near a path is to a knot. Which try makes which path depends on the seed and
+/// on the results of all batches before its own, so that results may come in any order and from
+/// anywhere.
 class Archive {
  public:
-  Archive(const KnotInvariants& wanted, unsigned seed) : wanted_(wanted), seed_(seed) {}
+  explicit Archive(unsigned seed) : seed_(seed) {}
 
   /// The path of a try, whose results of all batches before are there.
   TailPath path_of(int number) const;
@@ -32,9 +32,6 @@ class Archive {
   using Type = std::pair<int, int>;  // determinant, v2: rises
   void keep(int number, const KnotInvariants& type, const TailPath& path);
 
-  TailPath drawn(Draw& draw) const;
-
-  KnotInvariants wanted_;
   unsigned seed_;
   std::map<Type, std::vector<TailPath>> paths_;
   std::map<Type, int> counts_;
@@ -43,7 +40,8 @@ class Archive {
 /// Tries whose paths are made of the same archive.
 inline constexpr int batch_size = 32;
 
-/// A line of a file of tries: "7,0_1 0-8.4 3_1 8.8-12".
+/// As a file of tries has it: "0_1 0 8.4 3_1 8.8 12 .", types with the times of their first and
+/// last looks (s), and how it ended.
 std::string tying_text(const Tying& tying);
 /// What tying_text() made, or nothing where it is not whole.
 std::optional<Tying> tying_of(const std::string& text);
