@@ -49,7 +49,7 @@ def read_study(folder: Path) -> tuple[list[Row], list[str]]:
         rows.append({**{name: row[name] for name in KEPT}, **{f"audit_{step}_s": audited(result.parent, step) for step in STEPS}})
     log = HagfishLog(results[0].parent / "knot.h5")
     date = datetime.datetime.fromtimestamp(results[0].stat().st_mtime, datetime.UTC)
-    return rows, [f"Measured on {log.attribute('cpu')}, {date:%Y-%m-%d}."]
+    return rows, [f"Measured at {str(log.attribute('git_revision'))[:12]} on {log.attribute('cpu')}, {date:%Y-%m-%d}."]
 
 
 def read_table(path: Path) -> tuple[list[Row], list[str]]:
