@@ -5,7 +5,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 if ! (. /etc/os-release 2>/dev/null && [[ $ID == debian && $VERSION_ID == 12 ]]); then
-  echo "setup: this builds on Debian 12; elsewhere use the container or the packages: experiments/packaging/README.md" >&2
+  echo "setup: this builds on Debian 12; elsewhere use the container, the packages or the page for a browser: experiments/packaging/README.md" >&2
   exit 2
 fi
 
