@@ -92,17 +92,17 @@ std::string cure_of_cap(const Row& row, const std::vector<const Row*>& against) 
     const double angle =
         std::acos(std::min(1.0, std::abs(row.direction.dot(against[0]->direction))));
     return fmt::format(
-        "both rows of one contact work against each other, {:.2g} deg from one line; "
-        "controller.eq6_slip = \"shape\" would help",
+        "its strands run {:.2g} deg apart, where both rows cannot hold: try controller.eq6_slip = "
+        "\"shape\"",
         angle / degree);
   }
   if (kind == RowKind::limit) {
-    return "joint limits leave no way; a lower speed or a larger model.limit_scale would help";
+    return "joint limits leave no way: try a lower speed or a larger model.limit_scale";
   }
   if (kind == RowKind::obstacle) {
-    return "an obstacle is in the way; a larger controller.release_at would help";
+    return "an obstacle is in the way: try a larger controller.release_at";
   }
-  return "a lower speed or a higher cap would help";
+  return "try a lower speed or a higher cap";
 }
 
 }  // namespace
