@@ -6,7 +6,7 @@
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
-for grid in meshes starts pulls stiffness; do
+for grid in meshes midpoint starts pulls stiffness; do
   "$hagfish" sweep "$grids/forces_$grid.toml" --out "$out/$grid"
 done
 draw forces.py "$out" "$root/experiments/results/forces.csv" "$root/experiments/results/forces.md"
