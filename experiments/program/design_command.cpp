@@ -7,6 +7,7 @@
 #include "core/input/input_error.hpp"
 #include "core/input/input_text.hpp"
 #include "core/input/scene_reader.hpp"
+#include "core/input/text_file.hpp"
 #include "experiments/design/design.hpp"
 #include "experiments/design/soft_body.hpp"
 #include "experiments/program/number_options.hpp"
