@@ -13,7 +13,7 @@ namespace {
 
 /// The rest shape follows q at every step, which is known at frames: a median, as a share of the
 /// way that the hinges made between two.
-constexpr double tone_tolerance = 0.1;
+constexpr double tone_tolerance = 0.2;
 constexpr std::size_t least_frames = 5;  // for a median
 
 }  // namespace
