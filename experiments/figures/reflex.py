@@ -365,21 +365,18 @@ def page(rows: list[Row], notes: list[str]) -> list[str]:
 
 
 def draw_ways(axes: Any, folder: Path) -> None:
-    table = reflex_runs.read_sweep(folder / "knots/table.csv")
-    rows = reflex_runs.sweep_rows("knots", table, reflex_runs.both_axes(table, "model.bodies", "time.step"))
+    """The clamped knots without a head plate, here and, from the same state at the start of the slide, in MuJoCo."""
+    table = reflex_runs.read_sweep(folder / "beside/table.csv")
+    rows = reflex_runs.sweep_rows("beside", table, reflex_runs.settings_of("beside", table))
     for cell, row in enumerate(rows):
-        if row.setting == USUAL and row.head == "clamped":
-            log, look = HagfishLog(log_of(folder / "knots", str(cell))), plots.KNOTS[row.knot]
-            frames = log.in_phase("slide")
-            axes.plot(log["/trajectory/time"][frames] - log["/trajectory/time"][frames[0]], log["/knot/head_end"][frames], color=look.colour,
-                      label=look.label)
-    for path in sorted(folder.glob("mujoco/*.h5")):
-        if "-" in path.stem or path.stem.endswith("_free"):
+        if row.setting != "with drag" or row.head != "clamped":
             continue
-        log, look = HagfishLog(path), plots.KNOTS[reflex_runs.knot_of(path.stem)]
-        frames = log.in_phase("slide")
-        if frames.size:
-            axes.plot(log["/trajectory/time"][frames] - log["/trajectory/time"][frames[0]], log["/knot/head_end"][frames], color=look.colour, ls="--")
+        scene, look = table.axes["scene"][cell], plots.KNOTS[row.knot]
+        for path, style in ((log_of(folder / "beside", str(cell)), {"label": look.label}), (folder / f"mujoco/{scene}-from_the_slide.h5", {"ls": "--"})):
+            log = HagfishLog(path)
+            frames = log.in_phase("slide")
+            time = log["/trajectory/time"][frames]
+            axes.plot(time - time[0], log["/knot/head_end"][frames], color=look.colour, **style)
     axes.plot([], [], color=plots.GREY, ls="--", label="in MuJoCo")
     axes.set(xlabel="time since the start of the slide, s", ylabel="head end of the knot, cm from the head", ylim=(0, 13))
     axes.legend(loc="upper right", ncols=2)
@@ -466,7 +463,7 @@ def main(folder: Path, table: Path, out: Path, figure: Path) -> None:
     reflex_runs.write_table(table, rows, notes_of(folder, notes))
     rows, notes = read_table(table)
     tables.write_page(out, page(rows, notes))
-    if (folder / "knots/table.csv").is_file():
+    if all((folder / part / "table.csv").is_file() for part in ("knots", "beside")):
         draw(folder, rows, figure)
 
 
