@@ -11,6 +11,7 @@
 #include "core/input/input_error.hpp"
 #include "core/input/input_text.hpp"
 #include "core/input/scene_reader.hpp"
+#include "core/input/text_file.hpp"
 #include "core/log/hdf5_error.hpp"
 #include "experiments/design/length_bound.hpp"
 #include "experiments/design/tries.hpp"
