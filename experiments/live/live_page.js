@@ -2,6 +2,7 @@
 // The panel and what happens at the start.
 
 const MOST_FRAMES = 20000; // some 4 kB each
+const PATIENCE = 20000; // ms that the simulator may take to answer
 const FIRST_SCENE = "reflex_overhand";
 const SPEED_ROWS = ["slide_head", "slide_tail"].flatMap((end) => ["a", "b"].map((strand) => `controller.${end}.${strand}`));
 const LAWS = ["paper", "all_contacts", "knot_speed", "muscles", "reflex", "reflex_muscles"];
@@ -39,12 +40,13 @@ const number = (text) => { const x = Number(text); return Number.isFinite(x) ? x
 const largestOf = (text) => Math.max(...text.slice(1, -1).split(",").map(Number));
 
 class Page {
-  constructor(worker) {
-    this.worker = worker;
+  /** `make` makes a worker, `bytes` is the simulator. */
+  constructor(make, bytes) {
+    Object.assign(this, { make, bytes });
     this.settings = new Map();
     this.accepted = [];
-    worker.onmessage = ({ data }) => this.heard[data.kind](data);
-    worker.onerror = (event) => this.say(`the simulator cannot run here: ${event.message || "no worker, or no WebAssembly with vector instructions"}`);
+    this.renew();
+    setInterval(() => this.watch(), 1000);
     this.heard = {
       ready: (data) => this.ready(data),
       started: (data) => this.started(data),
@@ -55,9 +57,42 @@ class Page {
     };
   }
 
-  ask(message) { this.worker.postMessage(message); }
+  ask(message) {
+    if (message.kind === "start" || message.kind === "change") this.pending = performance.now();
+    this.worker.postMessage(message);
+  }
+
+  /** A fresh worker in place of the one that there was. */
+  renew() {
+    if (this.worker) this.worker.terminate();
+    this.worker = this.make();
+    this.worker.onmessage = ({ data }) => {
+      if (["started", "changed", "refused"].includes(data.kind)) this.pending = 0;
+      this.heard[data.kind](data);
+    };
+    this.worker.onerror = (event) => this.say(`the simulator cannot run here: ${event.message || "no worker, or no WebAssembly with vector instructions"}`);
+    const bytes = this.bytes.slice();
+    this.worker.postMessage({ kind: "begin", bytes }, [bytes.buffer]);
+  }
+
+  /** Some settings make a step that takes for ever: then a fresh simulator starts, the second time without them. */
+  watch() {
+    if (!this.pending || performance.now() - this.pending < PATIENCE) return;
+    this.pending = 0;
+    if (this.late) {
+      this.settings.clear();
+      Object.assign(this, { name: FIRST_SCENE, text: this.texts[FIRST_SCENE], files: {} });
+    }
+    this.late = !this.late;
+    this.renew();
+  }
 
   async ready({ names, texts }) {
+    if (this.texts) { // a fresh worker
+      this.restart();
+      this.say("the simulator did not answer for too long, and was started again");
+      return;
+    }
     this.texts = texts;
     for (const name of names) element("scenes").add(new Option(name, name));
     this.addControls();
@@ -85,7 +120,7 @@ class Page {
 
   started(data) {
     this.log = new LiveLog(data);
-    this.over = false;
+    this.late = this.over = false;
     this.starts = (this.starts || 0) + 1;
     this.remember(data);
     if (!this.viewer) {
@@ -346,10 +381,9 @@ function EMPTY_FRAME(log) {
 /** The part of the page that is neither script nor style: what the worker runs, and the simulator itself. */
 async function begin() {
   const code = element("worker").textContent;
-  const worker = new Worker(URL.createObjectURL(new Blob([code], { type: "text/javascript" })));
-  window.page = new Page(worker);
+  const address = URL.createObjectURL(new Blob([code], { type: "text/javascript" }));
   const bytes = await through(bytesOf(element("simulator").textContent), new DecompressionStream("gzip"));
-  worker.postMessage({ kind: "begin", bytes }, [bytes.buffer]);
+  window.page = new Page(() => new Worker(address), bytes);
 }
 begin().catch((error) => {
   element("about").textContent = `This browser cannot run the simulator: ${error.message}`;

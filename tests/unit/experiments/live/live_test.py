@@ -246,17 +246,14 @@ def test_a_thousand_random_inputs_never_break_it(page):
         page.heard.started = (data) => { back(); started(data); done(); };
         page.heard.refused = (data) => { back(); ++refused; no(data); done(); };
       });
-      for (let k = 0; k < 50; ++k) {
+      for (let k = 0; k < 2; ++k) {
         const input = inputs[random(inputs.length)], answer = answered();
         input.value = random(2) ? some[random(some.length)] : String.fromCharCode(...Array.from({ length: 1 + random(12) }, () => 1 + random(126)));
         input.dispatchEvent(new Event("change"));
         await answer;
       }
-      const again = answered();
-      page.choose("table1", ["time.duration=1e6"]);
-      await again;
       return refused;
-    })()""" % seed) for seed in range(20))
+    })()""" % (7919 * seed)) for seed in range(500))
     assert 500 < told < 1000
     page.start("table1")
     page.until("log.last() > 0.2", "it is broken")
