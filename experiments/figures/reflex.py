@@ -279,7 +279,7 @@ def page(rows: list[Row], notes: list[str]) -> list[str]:
         *meshes_table(rows),
         "One cause is the rule itself. Between two joints it takes the curvature on a straight line, so that a shape smears as it travels, by v/2 times the spacing of joints. "
         "Where joints copy a parabola through three of them instead, 200 bodies differ from 100, clamped, by "
-        + "; ".join(f"{knot}: {value} %" for knot, value in curves.items() if value != "-") + ". Of the other knots the cause was not found.", "",
+        + "; ".join(f"{knot}: {value} %" for knot, value in curves.items() if value != "-") + ". That brings the 3_1 within 3 %, and not the 4_1. What holds the others apart was not found.", "",
         "## The law of speed", "",
         "Measured speed over v = Δ (B_a + B) / C. A star marks a knot that came less far than its scene asks.", "",
         *speed_table(rows),
