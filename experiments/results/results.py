@@ -271,7 +271,8 @@ def changed_since(commit: str) -> int | None:
 
 def mark() -> None:
     counts: dict[str, int | None] = {}
-    for path in sorted(RESULTS.glob("*.csv")):
+    own = [name for name, page in pages().items() if not page.get("writes_itself")]
+    for path in (path for name in own for path in tables_of(name)):
         table = read(path)
         match = next((found for note in table.notes if (found := MEASURED.match(note))), None)
         if match is None:
@@ -283,7 +284,7 @@ def mark() -> None:
             notes.append(f"{OLDER} the history has been rewritten; how much code has changed is not known.")
         elif counts[commit]:
             notes.append(f"{OLDER} the simulator or its scenes have changed, in more than comments and messages.")
-        if notes != table.notes and not path.stem.startswith(("forces", "reflex")):
+        if notes != table.notes:
             write(path, Table(table.head, table.rows, notes))
     render()
 

@@ -11,7 +11,7 @@ LONGEST = 40  # words of a sentence
 MEAN = 18
 FOR_ALL = [ROOT / "README.md", ROOT / "experiments/README.md", *sorted(ROOT.glob("experiments/tutorials/*.md")), *sorted(ROOT.glob("experiments/howto/*.md"))]
 COMMIT = re.compile(r"\b(?=[0-9a-f]*\d)(?=[0-9a-f]*[a-f])[0-9a-f]{7,40}\b")
-STAMP = "Measured at "  # of a page that a study writes
+STAMP = "Measured "  # of a page that a study writes
 name = lambda path: str(path.relative_to(ROOT))
 
 
