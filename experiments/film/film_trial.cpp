@@ -50,8 +50,8 @@ double squares_off(const Kinematics& kin, const ProgramShape& shape, const Eigen
 
 }  // namespace
 
-SeenKnot knot_of(const Eigen::Matrix3Xd& points, const KnotSettings& settings) {
-  SeenKnot seen{"0_1", Hand::any};
+FilmedKnot knot_of(const Eigen::Matrix3Xd& points, const KnotSettings& settings) {
+  FilmedKnot seen{"0_1", Hand::any};
   try {
     seen.name = knot_name(knot_type(points, settings).type);
   } catch (const std::exception&) {  // a shape that passes through itself has none
@@ -64,8 +64,8 @@ SeenKnot knot_of(const Eigen::Matrix3Xd& points, const KnotSettings& settings) {
   return seen;
 }
 
-SeenKnot knot_of(const Model& model, const CurvatureProgram& program, std::size_t time,
-                 const KnotSettings& settings) {
+FilmedKnot knot_of(const Model& model, const CurvatureProgram& program, std::size_t time,
+                   const KnotSettings& settings) {
   const ProgramShape shape(model, program.station, false);
   return knot_of(
       shape.points(values_at(program, program.time[time]), even_places(centreline_points)),
@@ -85,7 +85,7 @@ std::vector<Eigen::Vector4d> first_bends(const Model& model, const CurvatureProg
 }
 
 ResolvedScene scene_of_film(ResolvedScene base, const CurvatureProgram& program,
-                            const SeenKnot& knot, double stiffness) {
+                            const FilmedKnot& knot, double stiffness) {
   Scene& scene = base.scene;
   const Model model = make_hagfish(base.specimen, scene);
   scene.script.curvature = program;
@@ -100,7 +100,7 @@ ResolvedScene scene_of_film(ResolvedScene base, const CurvatureProgram& program,
 }
 
 std::vector<FilmTrial> try_stiffness(const ResolvedScene& base, const CurvatureProgram& program,
-                                     const SeenKnot& knot) {
+                                     const FilmedKnot& knot) {
   std::vector<FilmTrial> trials;
   int failed = 0;
   double stiffness = base.scene.active.stiffness;
@@ -139,7 +139,7 @@ std::vector<FilmTrial> try_stiffness(const ResolvedScene& base, const CurvatureP
   return trials;
 }
 
-std::optional<FilmTrial> best_of(const std::vector<FilmTrial>& trials, const SeenKnot& knot) {
+std::optional<FilmTrial> best_of(const std::vector<FilmTrial>& trials, const FilmedKnot& knot) {
   std::optional<FilmTrial> best;
   const auto ties = [&](const FilmTrial& trial) {
     return trial.knot.name == knot.name && (knot.hand == Hand::any || trial.knot.hand == knot.hand);

@@ -11,22 +11,22 @@
 namespace hagfish {
 
 /// A knot and which image of it.
-struct SeenKnot {
+struct FilmedKnot {
   std::string name;       ///< knot_name(); "0_1" where there is none
   Hand hand = Hand::any;  ///< any where the knot is its own mirror image, or none
 };
 
 /// That of an open polygon (3 x n, any unit); "0_1" also where none can be told.
-SeenKnot knot_of(const Eigen::Matrix3Xd& points, const KnotSettings& settings);
+FilmedKnot knot_of(const Eigen::Matrix3Xd& points, const KnotSettings& settings);
 
 /// That of a program's shape at one of its times.
-SeenKnot knot_of(const Model& model, const CurvatureProgram& program, std::size_t time,
-                 const KnotSettings& settings);
+FilmedKnot knot_of(const Model& model, const CurvatureProgram& program, std::size_t time,
+                   const KnotSettings& settings);
 
 /// `base` with a film's program in place of its own: the animal begins in its first shape,
 /// tightens once it is over, and is to tie `knot`, where that is one.
 ResolvedScene scene_of_film(ResolvedScene base, const CurvatureProgram& program,
-                            const SeenKnot& knot, double stiffness);
+                            const FilmedKnot& knot, double stiffness);
 
 /// Bends of the program's first shape as StartSettings::bend, rounded as a scene file has them.
 std::vector<Eigen::Vector4d> first_bends(const Model& model, const CurvatureProgram& program);
@@ -34,15 +34,15 @@ std::vector<Eigen::Vector4d> first_bends(const Model& model, const CurvatureProg
 struct FilmTrial {
   double stiffness = 0;  ///< ActiveSettings::stiffness, dyn cm^2
   bool lasted = false;   ///< to the program's end
-  SeenKnot knot;         ///< at the end
+  FilmedKnot knot;       ///< at the end
   double rms = 0;        ///< of the bodies' centres from the program's shapes, cm
 };
 
 /// Runs with the scene's stiffness and doubles of it, until two in a row do not last.
 std::vector<FilmTrial> try_stiffness(const ResolvedScene& base, const CurvatureProgram& program,
-                                     const SeenKnot& knot);
+                                     const FilmedKnot& knot);
 
 /// The one that ends with the film's knot and is nearest; of none such, the nearest that lasted.
-std::optional<FilmTrial> best_of(const std::vector<FilmTrial>& trials, const SeenKnot& knot);
+std::optional<FilmTrial> best_of(const std::vector<FilmTrial>& trials, const FilmedKnot& knot);
 
 }  // namespace hagfish

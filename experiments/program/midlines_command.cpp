@@ -66,7 +66,7 @@ std::string scene_file(const MidlinesOptions& options) {
   return std::filesystem::path(options.out).replace_extension(".toml").string();
 }
 
-std::string hand_text(const SeenKnot& knot) {
+std::string hand_text(const FilmedKnot& knot) {
   return knot.hand == Hand::right  ? ", right-handed"
          : knot.hand == Hand::left ? ", left-handed"
          : knot.name == "0_1"      ? ""
@@ -75,7 +75,7 @@ std::string hand_text(const SeenKnot& knot) {
 
 /// A scene file that `hagfish run` takes, of what scene_of_film() changes.
 std::string scene_text(const MidlinesOptions& options, const Model& model,
-                       const CurvatureProgram& program, const SeenKnot& knot, double stiffness) {
+                       const CurvatureProgram& program, const FilmedKnot& knot, double stiffness) {
   namespace fs = std::filesystem;
   const bool file = fs::path(options.scene).extension() == ".toml";
   const auto quoted = [](const std::string& text) { return nlohmann::json(text).dump(); };
@@ -105,7 +105,7 @@ std::string scene_text(const MidlinesOptions& options, const Model& model,
 void run_by(const MidlinesOptions& options, const ResolvedScene& resolved,
             const CurvatureProgram& program, TextFile& out) {
   const Model model = make_hagfish(resolved.specimen, resolved.scene);
-  const SeenKnot knot = knot_of(model, program, program.time.size() - 1, resolved.scene.knot);
+  const FilmedKnot knot = knot_of(model, program, program.time.size() - 1, resolved.scene.knot);
   fmt::print("knot at the film's end: {}{}\n", knot.name == "0_1" ? "none" : knot.name,
              hand_text(knot));
   double stiffness = resolved.scene.active.stiffness;

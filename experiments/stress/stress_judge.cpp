@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/log/thigmotaxis_rows.hpp"
+#include "experiments/audit/audit_knot.hpp"
 
 namespace hagfish {
 namespace {
@@ -130,7 +131,7 @@ Status StressJudge::thigmotaxis() const {
   if (expect.slide_distance > 0 && slide_steps_ == 0) {
     return {Outcome::capped, "no slide"};
   }
-  const auto slide = slide_criterion(expect, slide_from_ - slide_to_);
+  const auto slide = slide_found(scene_, KnotWay{slide_from_, slide_to_, true});
   if (expect.slide_distance > 0 && !slide.met()) {
     return {Outcome::capped, unmet(slide)};
   }

@@ -109,7 +109,7 @@ TEST_F(ReducedBasis, NumbersFoundForOneStepMeetEq6InIt) {
   const double missed = shortfall(sim);
   EXPECT_GT(missed, 0.2);
   // Not zero: other limits and contacts bear than in the paper's step, whose are held.
-  EXPECT_LT(met, 0.25 * missed);
+  EXPECT_LT(met, 0.3 * missed);
 }
 
 TEST_F(ReducedBasis, AProfileIsPlayedByTheKnotsPlaceAlone) {

@@ -210,7 +210,9 @@ class AuditCorruption : public testing::Test {
     if (kind == H5T_FLOAT) {
       // Of the contacts followed, one that carries rows: while the knot slides.
       const bool followed = path.starts_with("/thigmotaxis/spline");
-      const auto corrupt = [followed](std::vector<double>& values) {
+      // The head plate does next to no work here, of which a hundredth is rounding.
+      const bool little = path == "/diagnostics/work_wall";
+      const auto corrupt = [followed, little](std::vector<double>& values) {
         if (followed) {
           values[values.size() * 3 / 4] *= 1.01;
           return;
@@ -223,6 +225,7 @@ class AuditCorruption : public testing::Test {
         // What is nothing but rounding, or nan, becomes 1.
         const bool scalable = std::isfinite(values[largest]) && std::abs(values[largest]) > 1e-9;
         values[largest] = scalable ? 1.01 * values[largest] : 1;
+        if (little) values[largest] += 1;
       };
       while_changed(path, corrupt, judge);
     } else if (kind == H5T_INTEGER) {

@@ -55,7 +55,7 @@ def test_a_profile_is_of_means_by_place():
 def test_a_profile_is_a_scene_that_plays_it(folder):
     script = [sys.executable, str(ROOT / "experiments/curvature/played_numbers.py")]
     subprocess.run([*script, "a.h5", "b.toml", "4", "--base", "few_numbers"], cwd=folder, check=True)
-    hagfish(folder, "run", "b.toml", "--set", "time.duration=13.5", "--quiet", "--out", "b.h5")
+    hagfish(folder, "run", "b.toml", "--set", "time.duration=14.5", "--quiet", "--out", "b.h5")
     basis = tomllib.loads((folder / "b.toml").read_text())["controller"]["reduced_basis"]
     log = HagfishLog(folder / "b.h5")
     frame = log.in_phase("slide")[10]

@@ -74,7 +74,7 @@ def test_everything_that_a_law_asks_for_is_logged_and_audited(tmp_path, verdicts
     rows = np.bincount(frames["eq6/frame"], minlength=len(frames.time))
     assert rows.max() > 4 and set(frames["eq6/end"]) == {0, 1, 2}
     others = frames["eq6/end"] == 2
-    assert_allclose(frames["eq6/cap"][others], 500)
+    assert_allclose(frames["eq6/cap"][others], 2500)
     assert set(frames["eq6/command"][others]) == {0.7, 0.3}
     assert rows[frames["trajectory/time"].searchsorted(sim.time - 2 * sim.h)] == 2 * asked[-2][1]
 
