@@ -48,7 +48,7 @@ void descend(const SplineSegment& other, const Eigen::Vector3d& x, double r, dou
     for (bool lower = false; !lower;) {
       const double next = std::clamp(t + step, 0.0, 1.0);
       const double there = gap_at(next);
-      const bool small = std::abs(next - t) <= step_tolerance;
+      const bool small = !(std::abs(next - t) > step_tolerance);  // what is no number ends it, too
       lower = there < gap;
       if (lower) {
         t = next;
