@@ -9,7 +9,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 # The knotted states come from runs of the animal with as many bodies. At 25 the force script ends untied;
 # the waypoints tie, with less of the tail through.
 run() { "$hagfish" run "${@:2}" --qp active-set --out "$out/$1.h5" --force --quiet; }
-run 25 overhand_waypoints --set model.bodies=25 --set controller.tail_through=6 --set controller.tighten_from=10
+run 25 overhand_waypoints --set model.bodies=25 --set controller.tail_through=3 --set controller.tighten_from=10
 for bodies in 50 100 200 400; do
   run "$bodies" table1 --set model.bodies="$bodies" --set time.step=0.002
 done
