@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace hagfish {
 namespace {
@@ -10,158 +11,134 @@ constexpr int iteration_limit = 50;
 // A Newton step in a parameter of [0, 1] below this leaves an error of its square.
 constexpr double step_tolerance = 1e-8;
 
-/// From a point x, where the skin of radius r is, to the point `t` of a segment.
-struct PointGap {
-  PointGap(const SplineSegment& segment, const Eigen::Vector3d& x, double r, double at)
-      : t(at), apart(segment.point(at) - x), slope(segment.slope(at)), distance(apart.norm()) {
-    gap = distance - segment.radius(at) - r;
-    along = apart.dot(slope) / distance;
-    rate = along - segment.r1;
-  }
-  double t;
-  Eigen::Vector3d apart, slope;  ///< cm
-  double distance, gap;          ///< cm
-  double along, rate;            ///< of the distance and of the gap by t, cm
+/// The point of the other strand that is nearest to one of the first.
+struct Nearest {
+  double gap = 0;    ///< cm; at most the margin, where there is none
+  int segment = -1;  ///< -1: there is none
+  double t = 0;
+  double rate = NAN;  ///< of the gap by the first strand's parameter, cm
 };
 
-/// Where `other` is nearest to x: at an end, unless the gap falls inwards from both. Else by
-/// Newton's method on the gap's rate, or Gauss-Newton's where that would go up.
-PointGap nearest(const SplineSegment& other, const Eigen::Vector3d& x, double r) {
-  const PointGap begin(other, x, r, 0), end(other, x, r, 1);
-  if (!(begin.rate < 0 && end.rate > 0)) return begin.gap <= end.gap ? begin : end;
-  PointGap here(other, x, r, begin.rate / (begin.rate - end.rate));
-  for (int k = 0; k < iteration_limit && here.distance > 0; ++k) {
-    const double gauss = (here.slope.squaredNorm() - here.along * here.along) / here.distance;
-    const double newton = gauss + here.apart.dot(other.bend(here.t)) / here.distance;
-    double step = -here.rate / std::max(newton, 0.1 * here.slope.squaredNorm() / here.distance);
-    for (bool lower = false; !lower; step *= 0.5) {
-      const PointGap there(other, x, r, std::clamp(here.t + step, 0.0, 1.0));
-      const bool small = !(std::abs(there.t - here.t) > step_tolerance);  // or no number
-      lower = there.gap < here.gap;
-      if (lower) here = there;
-      if (small) return here;
+/// The nearest point of `other` to x, where the skin of radius r is: Newton's method on the gap's
+/// slope from the lowest of three samples, or Gauss-Newton's where that would go up.
+void descend(const SplineSegment& other, const Eigen::Vector3d& x, double r, double& t,
+             double& gap) {
+  const auto gap_at = [&](double at) {
+    return (other.point(at) - x).norm() - other.radius(at) - r;
+  };
+  gap = std::numeric_limits<double>::infinity();
+  for (const double at : {0.0, 0.5, 1.0}) {
+    const double here = gap_at(at);
+    if (here < gap) {
+      gap = here;
+      t = at;
     }
   }
-  return here;
+  for (int k = 0; k < iteration_limit; ++k) {
+    const Eigen::Vector3d apart = other.point(t) - x;
+    const double distance = apart.norm();
+    if (distance == 0) return;
+    const Eigen::Vector3d slope = other.slope(t);
+    const double along = apart.dot(slope) / distance;
+    const double down = other.r1 - along;
+    if ((t <= 0 && down <= 0) || (t >= 1 && down >= 0)) return;
+    const double gauss = (slope.squaredNorm() - along * along) / distance;
+    const double newton = gauss + apart.dot(other.bend(t)) / distance;
+    double step = down / std::max(newton, 0.1 * slope.squaredNorm() / distance);
+    for (bool lower = false; !lower;) {
+      const double next = std::clamp(t + step, 0.0, 1.0);
+      const double there = gap_at(next);
+      const bool small = !(std::abs(next - t) > step_tolerance);  // what is no number ends it, too
+      lower = there < gap;
+      if (lower) {
+        t = next;
+        gap = there;
+      }
+      if (small) return;
+      step *= 0.5;
+    }
+  }
 }
 
-/// One end of the level set, on the strand that is nearer the tail or nearer the head.
-class EndSearch {
+/// One strand's points against the body's others.
+class Strand {
  public:
-  EndSearch(const std::vector<SplineSegment>& segments, const ContactSettings& settings, double gap,
-            bool tail)
+  Strand(const std::vector<SplineSegment>& segments, const ContactSettings& settings, bool tail)
       : segments_(segments),
+        settings_(settings),
         least_arc_(settings.least_arc * (1 - 1e-9)),
-        margin_(settings.margin),
-        gap_(gap),
         tail_(tail) {}
 
-  /// Where the part of the set ends that holds `contact`, to the tail or to the head.
-  Contact from(const Contact& contact) const {
-    int own = tail_ ? contact.segment_b : contact.segment_a;
-    Place inside = {tail_ ? contact.t_b : contact.t_a,
-                    tail_ ? contact.segment_a : contact.segment_b,
-                    tail_ ? contact.t_a : contact.t_b, contact.gap};
-    for (;;) {
-      const Place border = nearest_of_all(own, tail_ ? 1 : 0);
-      if (!(border.gap <= gap_)) return contact_of(own, outermost(own, inside, border.other));
-      if (is_last(own)) return contact_of(own, border);
-      inside = border;
-      inside.t = tail_ ? 0 : 1;
-      own += tail_ ? 1 : -1;
-    }
-  }
-
- private:
-  /// A point `t` of the strand, and the nearest one of another segment; -1: there is none.
-  struct Place {
-    double t = 0;
-    int other = -1;
-    double t_other = 0;
-    double gap = INFINITY;  ///< cm
-  };
-
-  PointGap gap_to(int other, int own, double t) const {
-    return nearest(segments_[other], segments_[own].point(t), segments_[own].radius(t));
-  }
-
-  /// Visits the other segments that may be as near as `gap` to the point `t` of segment `own`.
-  template <class Visit>
-  void visit_near(int own, double t, double gap, const Visit& visit) const {
+  /// Of those that may touch segment `own`, to its point `t`.
+  Nearest nearest(int own, double t) const {
     const SplineSegment& segment = segments_[own];
     const Eigen::Vector3d x = segment.point(t);
-    const double within = gap + segment.radius(t);
+    const double r = segment.radius(t);
+    Nearest best;
+    best.gap = settings_.margin + 0.01 * r;  // beyond what is asked for
     const int count = static_cast<int>(segments_.size());
     for (int k = tail_ ? 0 : own + 1; k < (tail_ ? own : count); ++k) {
       const SplineSegment& other = segments_[k];
-      const double reach = within + other.bound;
-      const double arc = tail_ ? segment.s0 - other.arc(1) : other.s0 - segment.arc(1);
-      if ((other.middle - x).squaredNorm() < reach * reach && other.obstacle < 0 &&
-          arc >= least_arc_) {
-        visit(k);
+      const double reach = best.gap + other.bound + r;
+      if ((other.middle - x).squaredNorm() >= reach * reach || other.obstacle >= 0 ||
+          (tail_ ? segment.s0 - other.arc(1) : other.s0 - segment.arc(1)) < least_arc_) {
+        continue;
       }
+      double there = 0, gap = 0;
+      descend(other, x, r, there, gap);
+      if (gap < best.gap) best = {gap, k, there};
     }
-  }
-
-  /// Of those within the margin.
-  Place nearest_of_all(int own, double t) const {
-    Place found = {t};
-    visit_near(own, t, margin_, [&](int k) {
-      const PointGap here = gap_to(k, own, t);
-      if (here.gap < found.gap) found = {t, k, here.t, here.gap};
-    });
-    return found;
-  }
-
-  /// The outermost point of `own` within the gap, from one that is. The border of `own` is not, and
-  /// `likely` is the nearest there.
-  Place outermost(int own, Place inside, int likely) const {
-    const auto go_on_beside = [&](int k) {
-      if (gap_to(k, own, inside.t).gap <= gap_) inside = end_beside(k, own, inside.t);
-    };
-    if (likely >= 0) go_on_beside(likely);
-    visit_near(own, inside.t, gap_, [&](int k) {
-      if (k != likely) go_on_beside(k);
-    });
-    return inside;
-  }
-
-  /// Where segment k comes to be further than the gap from `own`, from its point `inside` outwards:
-  /// by Newton's method, with the point inside and that outside of the set closing in.
-  Place end_beside(int k, int own, double inside) const {
-    const SplineSegment& segment = segments_[own];
-    double outside = tail_ ? 1 : 0;
-    double at = outside;
-    PointGap here = gap_to(k, own, at);
-    for (int i = 0; i < iteration_limit; ++i) {
-      const double rate = -here.apart.dot(segment.slope(at)) / here.distance - segment.r1;
-      const double newton = at - (here.gap - gap_) / rate;
-      const bool within = std::min(inside, outside) < newton && newton < std::max(inside, outside);
-      const bool settled = within && std::abs(newton - at) <= step_tolerance;
-      at = within ? newton : 0.5 * (inside + outside);
-      here = gap_to(k, own, at);
-      (here.gap <= gap_ ? inside : outside) = at;
-      if (settled) break;
+    if (best.segment >= 0) {
+      const Eigen::Vector3d apart = x - segments_[best.segment].point(best.t);
+      best.rate = apart.dot(segment.slope(t)) / apart.norm() - segment.r1;
     }
-    return {at, k, here.t, here.gap};
+    return best;
   }
 
-  bool is_last(int own) const {
-    if (!tail_) return own == 0;
-    return own + 1 == static_cast<int>(segments_.size()) || segments_[own + 1].obstacle >= 0;
-  }
-
-  Contact contact_of(int own, const Place& place) const {
-    return tail_ ? contact_at(segments_, place.other, place.t_other, own, place.t)
-                 : contact_at(segments_, own, place.t, place.other, place.t_other);
-  }
-
+ private:
   const std::vector<SplineSegment>& segments_;
-  double least_arc_;  ///< cm, with slack for rounding, as the search for contacts has it
-  double margin_;     ///< cm
-  double gap_;        ///< cm
+  const ContactSettings& settings_;
+  double least_arc_;  ///< with slack for rounding, as the search has it
   bool tail_;
 };
+
+/// Where the level set that holds the point `t` of segment `own` ends, to the tail or to the head.
+Contact end_from(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
+                 double gap, bool tail, int own, double t) {
+  const Strand strand(segments, settings, tail);
+  const auto contact = [&](int segment, double at, const Nearest& pair) {
+    return tail ? contact_at(segments, pair.segment, pair.t, segment, at)
+                : contact_at(segments, segment, at, pair.segment, pair.t);
+  };
+  const double border = tail ? 1 : 0;
+  const auto is_last = [&](int segment) {
+    return tail ? segment + 1 == static_cast<int>(segments.size()) ||
+                      segments[segment + 1].obstacle >= 0
+                : segment == 0;
+  };
+  Nearest outer = strand.nearest(own, border);
+  while (outer.gap <= gap && !is_last(own)) {
+    own += tail ? 1 : -1;
+    t = 1 - border;
+    outer = strand.nearest(own, border);
+  }
+  if (outer.gap <= gap) return contact(own, border, outer);
+  // Newton's method, with the point inside and that outside of the set closing in.
+  double inside = t, outside = border;
+  Nearest here = outer;
+  double at = border;
+  for (int k = 0; k < iteration_limit; ++k) {
+    const double newton = at - (here.gap - gap) / here.rate;
+    const bool within = std::min(inside, outside) < newton && newton < std::max(inside, outside);
+    const bool settled = within && std::abs(newton - at) <= step_tolerance;
+    at = within ? newton : 0.5 * (inside + outside);
+    here = strand.nearest(own, at);
+    (here.gap <= gap ? inside : outside) = at;
+    if (settled) break;
+  }
+  if (here.segment < 0) here = strand.nearest(own, at = inside);
+  return contact(own, at, here);
+}
 
 }  // namespace
 
@@ -176,8 +153,8 @@ TouchingEnds touching_ends(const std::vector<SplineSegment>& segments,
     if (last == nullptr || contact.arc_b > last->arc_b) last = &contact;
   }
   if (first == nullptr) return {};
-  return {EndSearch(segments, settings, gap, false).from(*first),
-          EndSearch(segments, settings, gap, true).from(*last)};
+  return {end_from(segments, settings, gap, false, first->segment_a, first->t_a),
+          end_from(segments, settings, gap, true, last->segment_b, last->t_b)};
 }
 
 }  // namespace hagfish
