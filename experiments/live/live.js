@@ -192,8 +192,9 @@ class LiveViewer extends Viewer {
     requestAnimationFrame(() => { this.waiting = false; this.showNow(); });
   }
 
-  /** Draws what there is: the body each time, the plots as often as leaves time for it. */
+  /** Draws what there is: the body each time, the plots as often as leaves time for it. A scene that has only begun has nothing. */
   showNow() {
+    if (!this.logs[0].frames) return;
     const begin = performance.now();
     if (this.running && begin - this.drawn < Math.max(REDRAW, 5 * (this.cost || 0))) {
       this.seek(this.following ? this.last : this.time);
