@@ -2,15 +2,16 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <map>
 #include <optional>
-#include <random>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
+#include "core/knot/closures.hpp"
+#include "core/knot/colouring.hpp"
 #include "core/knot/diagram.hpp"
 
 namespace hagfish {
@@ -50,67 +51,6 @@ void reduce(Diagram& diagram) {
   }
 }
 
-/// Minor (size x size, row by row) of the colouring matrix. Arcs run from one underpass to the
-/// next; each crossing says 2 over - before - after = 0. The last crossing and arc are left out.
-std::vector<std::int64_t> colouring_minor(const Diagram& diagram, int size) {
-  std::vector<int> arc_over(diagram.sign.size());
-  int arc = 0;
-  for (const Passage& passage : diagram.passages) {
-    if (passage.over) {
-      arc_over[passage.crossing] = arc % (size + 1);
-    } else {
-      ++arc;
-    }
-  }
-  std::vector<std::int64_t> minor(size * size, 0);
-  const auto add = [&](int row, int column, int value) {
-    if (column < size) minor[row * size + column] += value;
-  };
-  int row = 0;
-  for (const Passage& passage : diagram.passages) {
-    if (passage.over) continue;
-    if (row == size) break;
-    add(row, arc_over[passage.crossing], 2);
-    add(row, row, -1);
-    add(row, row + 1, -1);
-    ++row;
-  }
-  return minor;
-}
-
-std::int64_t inverse_modulo(std::int64_t value, std::int64_t prime) {
-  std::int64_t result = 1;  // value^(prime - 2), by Fermat
-  for (std::int64_t power = prime - 2; power > 0; power /= 2) {
-    if (power % 2 == 1) result = result * value % prime;
-    value = value * value % prime;
-  }
-  return result;
-}
-
-/// Determinant of `matrix` (size x size) modulo a prime below 2^31, between -prime/2 and prime/2.
-std::int64_t determinant_modulo(std::vector<std::int64_t> matrix, int size, std::int64_t prime) {
-  for (std::int64_t& entry : matrix) entry = (entry + prime) % prime;
-  std::int64_t determinant = 1;
-  for (int k = 0; k < size; ++k) {
-    const auto row = [&](int i) { return matrix.begin() + i * size; };
-    int pivot = k;
-    while (pivot < size && row(pivot)[k] == 0) ++pivot;
-    if (pivot == size) return 0;
-    if (pivot != k) {
-      std::swap_ranges(row(pivot), row(pivot) + size, row(k));
-      determinant = prime - determinant;
-    }
-    determinant = determinant * row(k)[k] % prime;
-    const std::int64_t inverse = inverse_modulo(row(k)[k], prime);
-    for (int i = pivot + 1; i < size; ++i) {
-      if (row(i)[k] == 0) continue;
-      const std::int64_t factor = prime - row(i)[k] * inverse % prime;
-      for (int j = k; j < size; ++j) row(i)[j] = (row(i)[j] + factor * row(k)[j]) % prime;
-    }
-  }
-  return determinant > prime / 2 ? determinant - prime : determinant;
-}
-
 /// |det| of the colouring minor, exactly. It is a signed count of the spanning trees of the
 /// diagram's checkerboard graph, which has one edge per crossing, so |det| <= 2^crossings. Enough
 /// primes to span that range, all with the same residue of least size, leave one integer. Nothing
@@ -122,11 +62,10 @@ std::optional<int> determinant_of(const Diagram& diagram) {
   if (crossings == 0) return 1;
   const std::size_t needed = crossings / bits + 1;
   if (needed > primes.size()) return std::nullopt;
-  const int size = static_cast<int>(crossings) - 1;
-  const std::vector<std::int64_t> minor = colouring_minor(diagram, size);
-  const std::int64_t determinant = determinant_modulo(minor, size, primes[0]);
+  const WholeMatrix minor = colouring_minor(diagram, -1);
+  const std::int64_t determinant = determinant_modulo(minor, primes[0]);
   for (std::size_t k = 1; k < needed; ++k) {
-    if (determinant_modulo(minor, size, primes[k]) != determinant) return std::nullopt;
+    if (determinant_modulo(minor, primes[k]) != determinant) return std::nullopt;
   }
   return static_cast<int>(std::abs(determinant));
 }
@@ -152,16 +91,6 @@ int v2_of(const Diagram& diagram) {
   return v2;
 }
 
-/// Uniform on the sphere, from the generator's bits alone: the same on every platform.
-Eigen::Vector3d random_direction(std::mt19937& random) {
-  while (true) {
-    Eigen::Vector3d point;
-    for (double& coordinate : point) coordinate = static_cast<double>(random()) * 0x1p-31 - 1;
-    const double square = point.squaredNorm();
-    if (square > 0.01 && square < 1) return point / std::sqrt(square);
-  }
-}
-
 /// Nothing where the diagram is too large for its determinant.
 std::optional<KnotInvariants> invariants_of(Diagram diagram) {
   reduce(diagram);
@@ -178,41 +107,20 @@ std::optional<KnotInvariants> invariants_of(Diagram diagram) {
   throw std::overflow_error("knot: more than 119 crossings, or a determinant beyond 2^30");
 }
 
-/// Votes of closures of one centreline. What type they are does not depend on where they are seen
-/// from: all are seen from one side, until that or a closure turns out not to be generic.
-class Ballot {
- public:
-  Ballot(const Eigen::Matrix3Xd& centreline, unsigned seed)
-      : centreline_(centreline), random_(seed) {
-    // The edge that joins the ends must pass outside the ball around the centreline; more than two
-    // radii away is enough, and farther would only cost precision.
-    const Eigen::Vector3d middle = centreline.rowwise().mean();
-    far_ = 4 * (centreline.colwise() - middle).colwise().norm().maxCoeff();
-  }
-
-  KnotInvariants cast() {
-    constexpr int draws = 100;
-    bool generic = true;
-    for (int draw = 0; draw < draws; ++draw) {
-      const Eigen::Vector3d out = random_direction(random_);
-      const Eigen::Vector3d sight = random_direction(random_);
-      if (!seen_) seen_.emplace(centreline_, far_, sight);
-      Diagram diagram = seen_->closed(out);
-      generic = diagram.generic;
-      if (generic) {  // and yet too large, as of a wobbly body seen end on
-        if (const auto type = invariants_of(std::move(diagram))) return *type;
-      }
-      seen_.reset();
+/// The type of the next closure that shows one.
+KnotInvariants vote(RandomClosures& closures) {
+  constexpr int draws = 100;
+  bool generic = true;
+  for (int draw = 0; draw < draws; ++draw) {
+    Diagram diagram = closures.draw();
+    generic = diagram.generic;
+    if (generic) {  // and yet too large, as of a wobbly body seen end on
+      if (const auto type = invariants_of(std::move(diagram))) return *type;
     }
-    throw_unseen(generic);
+    closures.turn();
   }
-
- private:
-  const Eigen::Matrix3Xd& centreline_;
-  std::mt19937 random_;
-  double far_;
-  std::optional<SeenArc> seen_;
-};
+  throw_unseen(generic);
+}
 
 }  // namespace
 
@@ -240,11 +148,11 @@ KnotVote knot_type(const Eigen::Matrix3Xd& centreline, const KnotSettings& setti
   if (settings.mirror) {  // the same as mirrored directions: types are blind to mirror images
     points.row(1) *= -1;
   }
-  Ballot ballot(points, settings.seed);
+  RandomClosures closures(points, settings.seed);
   std::map<std::pair<int, int>, int> votes_for;
   int cast = 0;
   for (int most = 0; cast < votes && 2 * most <= votes; ++cast) {
-    const KnotInvariants type = ballot.cast();
+    const KnotInvariants type = vote(closures);
     most = std::max(most, ++votes_for[{type.determinant, type.v2}]);
   }
   // max_element keeps the first of equals: a tie goes to the smaller determinant, then v2.

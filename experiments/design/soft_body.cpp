@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/knot/knot_table.hpp"
+#include "experiments/design/knot_table.hpp"
 #include "core/run/simulation.hpp"
 #include "core/step/outcome.hpp"
 #include "experiments/sweep/sweep.hpp"

@@ -1,12 +1,14 @@
-#include "core/knot/knot_table.hpp"
+#include "experiments/design/knot_table.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <cstdlib>
 #include <map>
-#include <random>
 #include <stdexcept>
 #include <utility>
+
+#include "core/knot/closures.hpp"
+#include "core/knot/colouring.hpp"
 
 namespace hagfish {
 namespace {
@@ -24,7 +26,7 @@ std::int64_t power(std::int64_t base, std::int64_t exponent) {
   return result;
 }
 
-std::int64_t inverse(std::int64_t value) { return power(value, prime - 2); }
+std::int64_t inverse(std::int64_t value) { return inverse_modulo(value, prime); }
 
 /// How the loose ends are joined in what has been smoothed: pairs of arcs, sorted.
 using Joints = std::vector<std::pair<int, int>>;
@@ -128,61 +130,10 @@ std::int64_t jones_at(const Diagram& diagram, std::int64_t a) {
   return bracket * power(twist, std::abs(twists)) % prime;
 }
 
-/// Determinant of `matrix` (size x size, row by row).
-std::int64_t determinant_of(std::vector<std::int64_t> matrix, int size) {
-  std::int64_t determinant = 1;
-  for (int k = 0; k < size; ++k) {
-    const auto row = [&](int i) { return matrix.begin() + i * size; };
-    int pivot = k;
-    while (pivot < size && row(pivot)[k] == 0) ++pivot;
-    if (pivot == size) return 0;
-    if (pivot != k) {
-      std::swap_ranges(row(pivot), row(pivot) + size, row(k));
-      determinant = prime - determinant;
-    }
-    determinant = determinant * row(k)[k] % prime;
-    const std::int64_t share = inverse(row(k)[k]);
-    for (int i = pivot + 1; i < size; ++i) {
-      const std::int64_t factor = prime - row(i)[k] * share % prime;
-      for (int j = k; j < size; ++j) row(i)[j] = (row(i)[j] + factor * row(k)[j]) % prime;
-    }
-  }
-  return determinant;
-}
-
-/// The Alexander polynomial at `t`, times + or - a power of t. Arcs run from one underpass to the
-/// next, and a crossing says (1 - t) over + t one - other = 0 of the arcs that meet under it (Fox's
-/// calculus); the last crossing and arc are left out.
+/// The Alexander polynomial at `t`, modulo the prime, times + or - a power of t.
 std::int64_t alexander_at(const Diagram& diagram, std::int64_t t) {
-  // Crossings that moves have removed from a diagram still have signs.
-  const int size = static_cast<int>(diagram.passages.size()) / 2 - 1;
-  if (size < 1) return 1;
-  std::vector<int> arc_over(diagram.sign.size());
-  int arc = 0;
-  for (const Passage& passage : diagram.passages) {
-    if (passage.over) {
-      arc_over[passage.crossing] = arc % (size + 1);
-    } else {
-      ++arc;
-    }
-  }
-  std::vector<std::int64_t> matrix(static_cast<std::size_t>(size) * size, 0);
-  int row = 0;
-  const auto add = [&](int column, std::int64_t value) {
-    if (column == size) return;
-    std::int64_t& entry = matrix[row * size + column];
-    entry = (entry + value) % prime;
-  };
-  for (const Passage& passage : diagram.passages) {
-    if (passage.over) continue;
-    if (row == size) break;
-    const bool positive = diagram.sign[passage.crossing] > 0;
-    add(arc_over[passage.crossing], 1 + prime - t);
-    add(positive ? row : row + 1, t);
-    add(positive ? row + 1 : row, prime - 1);
-    ++row;
-  }
-  return determinant_of(std::move(matrix), size);
+  if (diagram.passages.empty()) return 1;
+  return determinant_modulo(colouring_minor(diagram, t), prime);
 }
 
 JonesValues image_of(const JonesValues& jones) { return {jones.image, jones.knot}; }
@@ -259,15 +210,6 @@ std::optional<std::string> name_of(const KnotFingerprint& seen) {
   return std::nullopt;
 }
 
-Eigen::Vector3d random_direction(std::mt19937& random) {
-  while (true) {
-    Eigen::Vector3d point;
-    for (double& coordinate : point) coordinate = static_cast<double>(random()) * 0x1p-31 - 1;
-    const double square = point.squaredNorm();
-    if (square > 0.01 && square < 1) return point / std::sqrt(square);
-  }
-}
-
 }  // namespace
 
 bool JonesValues::same_but_for_image(const JonesValues& other) const {
@@ -282,7 +224,9 @@ bool KnotFingerprint::same_but_for_image(const KnotFingerprint& other) const {
 
 std::int64_t alexander_of(const Diagram& diagram) {
   // Of the two, as many powers of the variable and as many signs cancel.
-  return alexander_at(diagram, variable) * alexander_at(diagram, inverse(variable)) % prime;
+  const std::int64_t product =
+      alexander_at(diagram, variable) * alexander_at(diagram, inverse(variable)) % prime;
+  return product < 0 ? product + prime : product;
 }
 
 JonesValues jones_of(const Diagram& diagram) {
@@ -344,16 +288,11 @@ std::optional<KnotFingerprint> fingerprint_called(std::string_view name) {
 
 std::string full_knot_name(const Eigen::Matrix3Xd& centreline, const KnotSettings& settings) {
   const KnotInvariants type = knot_type(centreline, settings).type;
-  const Eigen::Vector3d middle = centreline.rowwise().mean();
-  const double far = 4 * (centreline.colwise() - middle).colwise().norm().maxCoeff();
-  std::mt19937 random(settings.seed);
+  RandomClosures closures(centreline, settings.seed);
   std::map<std::string, int> votes;
   for (int vote = 0; vote < settings.votes; ++vote) {
-    const Eigen::Vector3d out = far * random_direction(random);
-    const Eigen::Vector3d sight = random_direction(random);
-    Eigen::Matrix3Xd closed(3, centreline.cols() + 2);
-    closed << centreline, centreline.rightCols<1>() + out, centreline.leftCols<1>() + out;
-    const Diagram diagram = diagram_of_closed(closed, sight);
+    const Diagram diagram = closures.draw();
+    closures.turn();  // may be too tangled as it is seen
     if (!diagram.generic) continue;
     try {
       const std::optional<std::string> name =

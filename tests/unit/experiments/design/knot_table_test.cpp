@@ -1,6 +1,6 @@
 // Rolfsen's table to eight crossings, from closed braids laid out in space: each type and each
 // composite of two small ones has its own name.
-#include "core/knot/knot_table.hpp"
+#include "experiments/design/knot_table.hpp"
 
 #include <gtest/gtest.h>
 
