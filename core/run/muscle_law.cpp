@@ -4,7 +4,6 @@
 
 #include "core/muscle/active_curvature.hpp"
 #include "core/run/controller.hpp"
-#include "core/run/laws.hpp"
 
 namespace hagfish {
 namespace {
@@ -37,24 +36,6 @@ Eigen::Index memory_size(const Model& model, const Scene& /*scene*/) {
   return model.nv() + static_cast<Eigen::Index>(model.muscles.size());
 }
 
-std::optional<SceneFault> fault(const Specimen& /*specimen*/, const Scene& scene) {
-  const std::string where = " where controller.law = \"muscles\"";
-  if (!scene.muscle.present) return SceneFault{"muscle.present", "must be true" + where};
-  if (scene.muscle.activation_time == 0) {
-    return SceneFault{"muscle.activation_time", "must be positive" + where};
-  }
-  return {};
-}
-
-constexpr LawNumbers numbers[] = {
-    {.path = driven_activations,
-     .unit = "1",
-     .description =
-         "activations, 0 to 1, that move the animal in the step that begins at the frame",
-     .of = [](const Eigen::VectorXd& memory, Eigen::Index size) {
-       return Eigen::VectorXd(memory.tail(size));
-     }}};
-
 }  // namespace
 
 void muscle_law(const Situation& at, Eigen::VectorXd& memory, Control& control,
@@ -64,7 +45,6 @@ void muscle_law(const Situation& at, Eigen::VectorXd& memory, Control& control,
   UntakenStep& paper = storage.paper;
   paper_control(at, memory, control, storage.shape_ahead, paper.control);
   control.tip = paper.control.tip;
-  control.rest_shape.resize(0);
   if (memory.size() == 0) memory.setZero(memory_size(model, at.scene));
   if (paper.control.rest_shape.size() > 0) memory.head(model.nv()) = paper.control.rest_shape;
   const Kinematics& kin = at.now.observation.kin;
@@ -76,31 +56,35 @@ void muscle_law(const Situation& at, Eigen::VectorXd& memory, Control& control,
     storage.torque = paper.step.active_torque + paper.step.force[RowKind::thigmotaxis];
     storage.activations.solve(model, kin, storage.torque, wanted);
   }
-  auto activation = memory.tail(count);
+  drive_muscles(at, wanted.activation, memory, control);
+}
+
+void drive_muscles(const Situation& at, const Eigen::VectorXd& excitation, Eigen::VectorXd& memory,
+                   Control& control) {
+  auto activation = memory.tail(excitation.size());
   const double kept = std::exp(-at.scene.time.step / at.scene.muscle.activation_time);
-  activation = wanted.activation + kept * (activation - wanted.activation);
-  muscle_torque(model, kin, activation, control.torque.value);
-  control.torque.rate.setZero(model.nv());
+  activation = excitation + kept * (activation - excitation);
+  control.rest_shape.resize(0);
+  muscle_torque(at.model, at.now.observation.kin, activation, control.torque.value);
+  control.torque.rate.setZero(at.model.nv());
 }
 
-Eigen::VectorXd activations_in(const Model& model, const Eigen::VectorXd& memory) {
-  return memory.tail(static_cast<Eigen::Index>(model.muscles.size()));
+std::optional<SceneFault> driven_fault(const Scene& scene) {
+  const std::string where = " where controller.law = \"" + scene.controller.law + "\"";
+  if (!scene.muscle.present) return SceneFault{"muscle.present", "must be true" + where};
+  if (scene.muscle.activation_time == 0) {
+    return SceneFault{"muscle.activation_time", "must be positive" + where};
+  }
+  return {};
 }
 
-extern constinit const Law muscles_record{
-    .name = "muscles",
-    .description = "activations alone, without rows of Eq. 6",
-    .make = law_with_storage<MuscleStorage, muscle_law>,
-    .memory_size = memory_size,
-    .fault = fault,
-    .numbers = numbers,
-    .rows = [](const Scene& /*scene*/, Phase /*phase*/) { return AskedRows{.any = false}; },
-    .rest_shape = [](const LoggedSituation& /*at*/) { return std::optional(Eigen::VectorXd()); },
-    .torque =
-        [](const LoggedSituation& at) {
-          Eigen::VectorXd torque;
-          muscle_torque(at.model, at.kin, at.numbers[0], torque);
-          return torque;
-        }};
+extern constinit const Law muscles_record =
+    driven_law({.name = "muscles",
+                .description = "activations alone, without rows of Eq. 6",
+                .make = law_with_storage<MuscleStorage, muscle_law>,
+                .memory_size = memory_size,
+                .fault = [](const Specimen& /*specimen*/, const Scene& scene) {
+                  return driven_fault(scene);
+                }});
 
 }  // namespace hagfish

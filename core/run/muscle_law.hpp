@@ -1,7 +1,12 @@
 // The animal moves by the activations of its muscles (addition).
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "core/muscle/activation.hpp"
+#include "core/muscle/paths.hpp"
+#include "core/run/laws.hpp"
 #include "core/run/untaken_step.hpp"
 
 namespace hagfish {
@@ -36,7 +41,34 @@ struct MuscleStorage {
 void muscle_law(const Situation& at, Eigen::VectorXd& memory, Control& control,
                 MuscleStorage& storage);
 
-/// The activations in the law's memory: 0 to 1, one for each of Model::muscles.
-Eigen::VectorXd activations_in(const Model& model, const Eigen::VectorXd& memory);
+/// The step of a law that moves the animal by activations alone: those at the end of its `memory`,
+/// 0 to 1, one for each of Model::muscles, follow `excitation` and make the torques of `control`.
+void drive_muscles(const Situation& at, const Eigen::VectorXd& excitation, Eigen::VectorXd& memory,
+                   Control& control);
+
+/// What keeps a scene from having such a law.
+std::optional<SceneFault> driven_fault(const Scene& scene);
+
+inline constexpr LawNumbers driven_numbers[] = {
+    {.path = driven_activations,
+     .unit = "1",
+     .description =
+         "activations, 0 to 1, that move the animal in the step that begins at the frame",
+     .of = [](const Eigen::VectorXd& memory, Eigen::Index size) {
+       return Eigen::VectorXd(memory.tail(size));
+     }}};
+
+/// The record of such a law: what it logs, and what an audit may ask of it.
+constexpr Law driven_law(Law law) {
+  law.numbers = driven_numbers;
+  law.rows = [](const Scene& /*scene*/, Phase /*phase*/) { return AskedRows{.any = false}; };
+  law.rest_shape = [](const LoggedSituation& /*at*/) { return std::optional(Eigen::VectorXd()); };
+  law.torque = [](const LoggedSituation& at) {
+    Eigen::VectorXd torque;
+    muscle_torque(at.model, at.kin, at.numbers[0], torque);
+    return torque;
+  };
+  return law;
+}
 
 }  // namespace hagfish

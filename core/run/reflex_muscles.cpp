@@ -1,7 +1,5 @@
 #include "core/run/reflex_muscles.hpp"
 
-#include <cmath>
-
 #include "core/muscle/active_curvature.hpp"
 #include "core/run/controller.hpp"
 #include "core/run/muscle_law.hpp"
@@ -15,24 +13,6 @@ constexpr double none = 1e6;
 Eigen::Index muscle_count(const Model& model) {
   return static_cast<Eigen::Index>(model.muscles.size());
 }
-
-std::optional<SceneFault> fault(const Specimen& specimen, const Scene& scene) {
-  const std::string where = " where controller.law = \"reflex_muscles\"";
-  if (!scene.muscle.present) return SceneFault{"muscle.present", "must be true" + where};
-  if (scene.muscle.activation_time == 0) {
-    return SceneFault{"muscle.activation_time", "must be positive" + where};
-  }
-  return reflex_fault(specimen, scene);
-}
-
-constexpr LawNumbers numbers[] = {
-    {.path = driven_activations,
-     .unit = "1",
-     .description =
-         "activations, 0 to 1, that move the animal in the step that begins at the frame",
-     .of = [](const Eigen::VectorXd& memory, Eigen::Index size) {
-       return Eigen::VectorXd(memory.tail(size));
-     }}};
 
 }  // namespace
 
@@ -67,31 +47,21 @@ void reflex_muscles_law(const Situation& at, Eigen::VectorXd& memory, Control& c
     storage.torque = active.value - active.rate.cwiseProduct(now.state.qdot);
     storage.activations.solve(model, kin, storage.torque, storage.wanted);
   }
-  auto activation = memory.tail(muscles);
-  const double kept = std::exp(-scene.time.step / scene.muscle.activation_time);
-  activation = storage.wanted.activation + kept * (activation - storage.wanted.activation);
-  control.rest_shape.resize(0);
-  muscle_torque(model, kin, activation, control.torque.value);
-  control.torque.rate.setZero(model.nv());
+  drive_muscles(at, storage.wanted.activation, memory, control);
 }
 
-extern constinit const Law reflex_muscles_record{
-    .name = "reflex_muscles",
-    .description = "the reflex by activations of muscles alone",
-    .make = law_with_storage<ReflexMusclesStorage, reflex_muscles_law>,
-    .memory_size =
-        [](const Model& model, const Scene& scene) {
-          return reflex_memory_size(model, scene) + muscle_count(model);
-        },
-    .fault = fault,
-    .numbers = numbers,
-    .rows = [](const Scene& /*scene*/, Phase /*phase*/) { return AskedRows{.any = false}; },
-    .rest_shape = [](const LoggedSituation& /*at*/) { return std::optional(Eigen::VectorXd()); },
-    .torque =
-        [](const LoggedSituation& at) {
-          Eigen::VectorXd torque;
-          muscle_torque(at.model, at.kin, at.numbers[0], torque);
-          return torque;
-        }};
+extern constinit const Law reflex_muscles_record =
+    driven_law({.name = "reflex_muscles",
+                .description = "the reflex by activations of muscles alone",
+                .make = law_with_storage<ReflexMusclesStorage, reflex_muscles_law>,
+                .memory_size =
+                    [](const Model& model, const Scene& scene) {
+                      return reflex_memory_size(model, scene) + muscle_count(model);
+                    },
+                .fault =
+                    [](const Specimen& specimen, const Scene& scene) {
+                      std::optional<SceneFault> found = driven_fault(scene);
+                      return found ? found : reflex_fault(specimen, scene);
+                    }});
 
 }  // namespace hagfish

@@ -12,6 +12,10 @@
 
 namespace hagfish::muscle_law_test {
 
+Eigen::VectorXd activations_in(const Model& model, const Eigen::VectorXd& memory) {
+  return memory.tail(static_cast<Eigen::Index>(model.muscles.size()));
+}
+
 class MuscleLaw : public testing::Test {
  protected:
   MuscleLaw() {
