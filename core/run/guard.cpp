@@ -112,7 +112,7 @@ Status report(Outcome outcome, const std::string& message, GuardAction action, W
   if (action == GuardAction::stop) {
     return {outcome, message};
   }
-  if (!watch.warned.test(static_cast<std::size_t>(outcome))) {
+  if (!watch.has_warned(outcome)) {
     watch.warned.set(static_cast<std::size_t>(outcome));
     warnings.push_back(message);
   }
@@ -207,17 +207,16 @@ Status guard_energy(const Model& model, const Scene& scene, Moment& moment, Ener
   return status;
 }
 
-void guard_momentum(const Model& model, const StepInput& in, const MomentumLedger& before,
-                    const MomentumLedger& now, const EnergyLedger& energy, Watch& watch,
-                    std::vector<std::string>& warnings) {
+void guard_momentum(const StepInput& in, const MomentumLedger& before, const MomentumLedger& now,
+                    const EnergyLedger& energy, Watch& watch, std::vector<std::string>& warnings) {
   if (in.control.clamp_head) {
     watch.made = {};
     return;
   }
   watch.made += now.integrator + now.given_back - before.integrator - before.given_back;
   // Of a body that moves as one |P|² <= 2 m T and |L|² <= 2 I T; a straight one has the largest I.
-  const double linear = std::sqrt(2 * mass_of(model) * energy.largest);
-  const double angular = linear * model.length() / std::sqrt(12.0);
+  const double linear = std::sqrt(2 * mass_of(in.model) * energy.largest);
+  const double angular = linear * in.model.length() / std::sqrt(12.0);
   const double share =
       std::max(watch.made.linear.norm() / linear, watch.made.angular.norm() / angular);
   if (share > in.scene.guard.momentum_gain) {
@@ -254,8 +253,7 @@ void guard_cap(const Model& model, const Kinematics& kin, const Scene& scene, Ph
       continue;
     }
     // Naming the opponents takes a factorisation: once.
-    if (time - one->since > scene.guard.capped_time &&
-        !watch.warned.test(static_cast<std::size_t>(Outcome::capped))) {
+    if (time - one->since > scene.guard.capped_time && !watch.has_warned(Outcome::capped)) {
       const Eigen::Index i = &row - step.rows.data();
       const std::vector<const Row*> against = opponents(model, kin, step, i);
       std::string names;
@@ -276,10 +274,7 @@ void guard_cap(const Model& model, const Kinematics& kin, const Scene& scene, Ph
 void guard_muscles(const Model& model, const Scene& scene, const Control& control, double time,
                    Watch& watch, std::vector<std::string>& warnings) {
   const Eigen::VectorXd& rest_shape = control.rest_shape;
-  const auto warned = [&watch](Outcome outcome) {
-    return watch.warned.test(static_cast<std::size_t>(outcome));
-  };
-  if (rest_shape.size() > 0 && !warned(Outcome::overbent)) {
+  if (rest_shape.size() > 0 && !watch.has_warned(Outcome::overbent)) {
     const Eigen::Matrix2Xd ranges = hinge_ranges(model);
     const auto angles = rest_shape.tail(ranges.cols()).transpose();
     const Eigen::RowVectorXd past =
@@ -296,7 +291,7 @@ void guard_muscles(const Model& model, const Scene& scene, const Control& contro
     }
   }
   const int full = control.active.full >= 0 ? control.active.full : control.torque.full;
-  if (full >= 0 && !warned(Outcome::saturated)) {
+  if (full >= 0 && !watch.has_warned(Outcome::saturated)) {
     std::ignore = report(
         Outcome::saturated,
         fmt::format("{} takes all of active.capacity = {:g} dyn cm at {:.2f} s. {}",

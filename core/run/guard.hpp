@@ -24,6 +24,8 @@ struct Watch {
   std::bitset<outcome_count> warned;  ///< warnings given: each cause once a run
   std::vector<CapWatch> capped;       ///< the thigmotaxis rows at their caps, by id
   Momentum made;                      ///< by the integrator since the head was last held
+
+  bool has_warned(Outcome of) const { return warned.test(static_cast<std::size_t>(of)); }
 };
 
 /// A status of this outcome and message where the scene stops at it; else ok, and the message is
@@ -50,9 +52,8 @@ Status guard_energy(const Model& model, const Scene& scene, Moment& moment, Ener
 /// Momentum that the integrator has made since the head was last held, over guard.momentum_gain of
 /// the most that a body of the largest energy so far can have: warns. The ledgers are those
 /// `before` the step `in` and after it.
-void guard_momentum(const Model& model, const StepInput& in, const MomentumLedger& before,
-                    const MomentumLedger& now, const EnergyLedger& energy, Watch& watch,
-                    std::vector<std::string>& warnings);
+void guard_momentum(const StepInput& in, const MomentumLedger& before, const MomentumLedger& now,
+                    const EnergyLedger& energy, Watch& watch, std::vector<std::string>& warnings);
 
 /// A thigmotaxis row whose force has been at its cap for longer than the scene permits: warns and
 /// names the rows that resist it most; not in the phase `pull`, where rows give all they may. `kin`

@@ -168,13 +168,11 @@ Eigen::Vector3d centre_after(const StepInput& in, const StepPlace& place, const 
   const Model& model = in.model;
   const Eigen::Matrix3Xd& old = place.motion.centre_velocity;
   Eigen::Vector3d momentum = before.linear;
-  double mass = 0;
   for (int b = 0; b < model.body_count(); ++b) {
     momentum += model.bodies[b].mass * (step.centre_velocity.col(b) - old.col(b)) +
                 in.scene.time.reach() * step.system.bias.col(b).tail<3>();
-    mass += model.bodies[b].mass;
   }
-  return centre_of_mass(model, in.observation.kin) + travelled / mass * momentum;
+  return centre_of_mass(model, in.observation.kin) + travelled / mass_of(model) * momentum;
 }
 
 void book_momentum(const StepInput& in, const StepPlace& place, const StepSolution& step,

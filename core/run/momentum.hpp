@@ -47,13 +47,13 @@ struct MomentumLedger {
   /// As bodies turn within the step while their velocities do not, against what the explicit
   /// Coriolis force does; and what guards take from the velocity.
   Momentum integrator;
-  Momentum given_back;  ///< so that steps with a free head make none
+  Momentum given_back;  ///< what steps with a free head would have made, with its sign turned
 };
 
 /// Opens the ledger at a moment.
 MomentumLedger open_momentum(const Model& model, const Moment& now);
 
-/// Whether the step of `in` keeps momentum: nothing holds the head, and the scene says so.
+/// Whether a step by `control` keeps momentum: nothing holds the head, and the scene says so.
 bool keeps_momentum(const Scene& scene, const Control& control);
 
 /// Where the centre of mass is when the step `in`, as solved at `place`, has moved for the time
@@ -64,8 +64,8 @@ Eigen::Vector3d centre_after(const StepInput& in, const StepPlace& place, const 
 
 /// Books the step `in` from where the ledger stands, by its solution at `place`, to `next`. Where
 /// it keeps momentum, `next` is first given that which the impulses leave, by a motion of the whole
-/// as one rigid body: velocities between its parts stay as they are. `energy` books what that
-/// takes.
+/// as one rigid body. One factor on the velocities between its parts keeps the kinetic energy;
+/// where none does, nothing is given back. `energy` books what is left.
 void book_momentum(const StepInput& in, const StepPlace& place, const StepSolution& step,
                    Moment& next, EnergyLedger& energy, MomentumLedger& ledger);
 

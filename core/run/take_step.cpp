@@ -166,8 +166,7 @@ void book(const Attempt& step, double travelled) {
   step.require(guard_energy(in.model, in.scene, next, sim.ledger, sim.watch, record.warnings));
   record.momentum = sim.momentum;
   book_momentum(in, step.place(), record.solution, next, sim.ledger, sim.momentum);
-  guard_momentum(in.model, in, record.momentum, sim.momentum, sim.ledger, sim.watch,
-                 record.warnings);
+  guard_momentum(in, record.momentum, sim.momentum, sim.ledger, sim.watch, record.warnings);
 }
 
 void keep(Simulation& sim) {
