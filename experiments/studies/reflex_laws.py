@@ -44,20 +44,27 @@ class Body:
         self.arc = self.joint * self.length / sim.bodies
 
 
+def copied_from(sim: hagfish.Simulation, control: hagfish.Control) -> np.ndarray | None:
+    """The hinges' angles where the step's forces act, rad, while a reflex acts; there are no commands at any time."""
+    control.commands = []
+    if sim.phase not in ("tighten", "slide"):
+        return None
+    return sim.q[-(sim.nv - ROOT):] + sim.h * sim.qdot[ROOT:]
+
+
 def law(mask: Mask, order: np.random.Generator | None = None, side: float = 0.0) -> Callable[..., None]:
     """`order`: neighbours are shuffled, the same all the time. `side`: muscles of that side alone, 1 or -1, as they pull."""
     body: list[Body] = []
     source: dict[str, np.ndarray] = {}
 
     def act(sim: hagfish.Simulation, control: hagfish.Control) -> None:
-        control.commands = []
-        if sim.phase not in ("tighten", "slide"):
+        angles = copied_from(sim, control)
+        if angles is None:
             return
         if not body:
             body.append(Body(sim))
             for kind, own in body[0].kinds.items():
                 source[kind] = np.arange(own.size) if order is None else order.permutation(own.size)
-        angles = sim.q[-(sim.nv - ROOT):] + sim.h * sim.qdot[ROOT:]
         rest = np.zeros(sim.nv)
         rest[ROOT:] = angles
         share = mask(sim, body[0])
@@ -96,12 +103,11 @@ def held(rate: float, shape: bool) -> Callable[..., None]:
     tick = [-1]
 
     def act(sim: hagfish.Simulation, control: hagfish.Control) -> None:
-        control.commands = []
-        if sim.phase not in ("tighten", "slide"):
+        angles = copied_from(sim, control)
+        if angles is None:
             return
         if not body:
             body.append(Body(sim))
-        angles = sim.q[-(sim.nv - ROOT):] + sim.h * sim.qdot[ROOT:]
         now = int(np.floor(sim.time * rate + 1e-6))
         if now != tick[0]:
             tick[0] = now
@@ -139,11 +145,10 @@ def laws() -> dict[str, Callable[..., None]]:
 
 def parabola(sim: hagfish.Simulation, control: hagfish.Control) -> None:
     """The curvature behind a joint by a parabola, where the C++ law has a straight line: it smears no shape."""
-    control.commands = []
-    if sim.phase not in ("tighten", "slide"):
+    angles = copied_from(sim, control)
+    if angles is None:
         return
     body = Body(sim)
-    angles = sim.q[-(sim.nv - ROOT):] + sim.h * sim.qdot[ROOT:]
     rest = np.zeros(sim.nv)
     rest[ROOT:] = angles
     shift = SHIFT * body.length / (2 * body.length / sim.bodies)

@@ -1,12 +1,13 @@
 from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
-from pathlib import Path
 from types import TracebackType
 from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .design import Design as Design
+from .design import design as design
 from .log import Log as Log
 
 __all__: list[str]
@@ -31,28 +32,6 @@ def sweep(
     figures: Callable[[Simulation], Mapping[str, object]] | None = None,
     processes: int = 1,
 ) -> list[dict[str, Any]]: ...
-
-class Design:
-    folder: Path
-    found: bool
-    message: str
-    @property
-    def scene(self) -> Path: ...
-    @property
-    def log(self) -> Path: ...
-    @property
-    def figures(self) -> dict[str, str]: ...
-
-def design(
-    knot: str,
-    *,
-    out: str | PathLike[str],
-    specimen: str | PathLike[str] | None = None,
-    budget: str = "15m",
-    threads: int | None = None,
-    seed: int = 1,
-    resume: bool = False,
-) -> Design: ...
 
 class InputError(ValueError): ...
 class FileError(OSError): ...
