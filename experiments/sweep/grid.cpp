@@ -65,7 +65,7 @@ ResolvedScene scene_at(const Grid& grid, const std::vector<std::size_t>& places)
   for (std::size_t k = 0; k < keys.size(); ++k) {
     if (keys[k] == scene_key) {
       scene = values[k];
-    } else {
+    } else if (!values[k].empty()) {
       overrides.push_back(keys[k] + "=" + values[k]);
     }
   }

@@ -12,7 +12,8 @@ namespace hagfish {
 /// Settings that change together, as often as an axis has places.
 struct GridAxis {
   std::vector<std::string> keys;                 ///< dotted; "scene" is the scene itself
-  std::vector<std::vector<std::string>> values;  ///< of each key, at each place; as --set has them
+  std::vector<std::vector<std::string>> values;  ///< of each key, at each place; as --set
+                                                 ///< has them, or empty: as the scene has it
   std::size_t size() const { return values.front().size(); }
 };
 
