@@ -1,9 +1,8 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <tuple>
@@ -14,6 +13,8 @@
 #include "experiments/program/program.hpp"
 #include "experiments/program/scene_argument.hpp"
 #include "experiments/program/shell_word.hpp"
+#include "experiments/program/specimen_files.hpp"
+#include "experiments/program/suggestion.hpp"
 #include "experiments/program/text_file.hpp"
 
 namespace hagfish {
@@ -21,8 +22,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The animal and the scene that others are made from.
-constexpr const char* base_scene = "living_overhand";
+/// Scenes that others are made from, with the paper's animal, by the knot that they tie.
+const std::map<std::string, std::string> base_scenes{{"3_1", "living_overhand"},
+                                                     {"4_1", "living_figure_eight"},
+                                                     {"5_1", "living_double_overhand"},
+                                                     {"5_2", "living_three_twist"}};
 constexpr int paper_bodies = 100;     // of the chain whose every other joint bends by the limits
 constexpr double most_around = 1000;  // cm
 constexpr double most_bending = 180;  // degrees, as specimen files have it
@@ -31,9 +35,10 @@ constexpr double degree = std::numbers::pi / 180;
 constexpr double least_density = 0.9, largest_density = 1.2;        // g/cm^3; water has 1
 constexpr double least_slenderness = 15, largest_slenderness = 45;  // length over mean diameter
 
+/// Zero or empty: the paper's animal's, scaled.
 struct SpecimenOptions {
-  std::string out, scene_out, name = "my animal";
-  double length = 0, mass = 0, twist = 0;                                   ///< cm, g, degrees
+  std::string out, scene_out, name = "my animal", knot = "3_1";
+  double length = 0, mass = 0, twist = 0, thicker = 1;                      ///< cm, g, degrees, 1
   std::vector<double> station{0.2, 0.4, 0.6, 0.8}, circumference, bending;  ///< cm, degrees
   bool force = false;
 };
@@ -46,7 +51,7 @@ void check(const SpecimenOptions& options) {
       {"--circumference", options.circumference, most_around},
       {"--bending", options.bending, most_bending}};
   for (const auto& [name, list, most] : lists) {
-    if (list.size() != options.station.size()) {
+    if (!list.empty() && list.size() != options.station.size()) {
       throw InputError(
           fmt::format("{}: {} values for {} stations", name, list.size(), options.station.size()));
     }
@@ -64,113 +69,83 @@ void check(const SpecimenOptions& options) {
   }
 }
 
-Specimen specimen_of(const SpecimenOptions& options) {
-  Specimen animal;
-  animal.name = options.name;
-  animal.length = options.length;
-  animal.mass = options.mass;
-  animal.station = options.station;
-  animal.circumference = options.circumference;
-  for (const double limit : options.bending) animal.bending_limit.push_back(limit * degree);
-  animal.bending_span = 2 * options.length / paper_bodies;
-  animal.twist_limit = options.twist * degree;
-  return animal;
-}
-
-/// Mass over the volume of round cross-sections.
-double density_of(const Specimen& animal) {
+/// The volume of round cross-sections, cm^3.
+double volume_of(const Specimen& animal) {
   constexpr int parts = 1000;
   double volume = 0;
   for (int k = 0; k < parts; ++k) {
     const double around = profile(animal.station, animal.circumference, (k + 0.5) / parts);
     volume += around * around / (4 * std::numbers::pi) * animal.length / parts;
   }
-  return animal.mass / volume;
+  return volume;
+}
+
+double slenderness(const Specimen& animal) { return animal.length / mean_diameter(animal); }
+
+/// Given values, or those of the paper's animal at the stations, times `scale`.
+std::vector<double> given_or(const std::vector<double>& given, const SpecimenOptions& options,
+                             const Specimen& paper, const std::vector<double>& of_paper,
+                             double scale) {
+  if (!given.empty()) return given;
+  std::vector<double> own;
+  for (const double station : options.station) {
+    own.push_back(scale * profile(paper.station, of_paper, station));
+  }
+  return own;
+}
+
+/// What was not measured is scaled from the paper's animal: girth with the length, mass by the same
+/// density, and limits so that the skin is stretched as much, which a thicker body's is sooner.
+Specimen specimen_of(const SpecimenOptions& options, const Specimen& paper) {
+  Specimen animal;
+  animal.name = options.name;
+  animal.length = options.length > 0 ? options.length : paper.length;
+  animal.station = options.station;
+  animal.circumference = given_or(options.circumference, options, paper, paper.circumference,
+                                  animal.length / paper.length);
+  const double density = paper.mass / volume_of(paper);
+  animal.mass = options.mass > 0 ? options.mass : density * volume_of(animal);
+  const double stretch = slenderness(animal) / slenderness(paper);
+  std::vector<double> given;
+  for (const double limit : options.bending) given.push_back(limit * degree);
+  animal.bending_limit = given_or(given, options, paper, paper.bending_limit, stretch);
+  animal.bending_span = 2 * animal.length / paper_bodies;
+  animal.twist_limit = options.twist > 0 ? options.twist * degree : stretch * paper.twist_limit;
+  for (double& around : animal.circumference) around *= options.thicker;
+  animal.mass *= options.thicker * options.thicker;
+  for (double& limit : animal.bending_limit) limit /= options.thicker;
+  animal.twist_limit /= options.thicker;
+  return animal;
 }
 
 /// What is said of the animal; what is odd about it says so.
-void tell(const SpecimenOptions& options, const Specimen& animal, double largest_limit) {
-  const double density = density_of(animal);
-  const double slender = animal.length / mean_diameter(animal);
+void tell(const Specimen& animal, const Specimen& paper, double largest_limit) {
+  const double density = animal.mass / volume_of(animal);
   const auto judged = [](double value, double least, double most, const char* odd) {
     return value < least || value > most ? odd : "plausible";
   };
+  const AnimalRatios beside = ratios(animal, paper);
+  fmt::print(
+      "beside paper's length x {:.3g}, girth x {:.3g}, mass x {:.3g}, limits x {:.3g} at least, "
+      "stiffness x {:.3g}, muscles' torques x {:.3g}, drag x {:.3g}\n",
+      beside.length, beside.girth, beside.mass, beside.limits, beside.stiffness(), beside.torque(),
+      beside.drag());
   fmt::print("density        {:.3g} g/cm^3 of round cross-sections, water 1: {}\n", density,
              judged(density, least_density, largest_density,
                     "ODD for an animal: check mass (g) and circumference (cm)"));
-  fmt::print("slenderness    {:.3g}, length over mean diameter: {}\n", slender,
-             judged(slender, least_slenderness, largest_slenderness,
+  fmt::print("slenderness    {:.3g}, length over mean diameter: {}\n", slenderness(animal),
+             judged(slenderness(animal), least_slenderness, largest_slenderness,
                     "ODD for a hagfish (24 in the paper's): check length and circumference"));
   fmt::print("bending_span   {:g} cm of body to a limit: two of the paper's {} bodies\n",
              animal.bending_span, paper_bodies);
   for (std::size_t k = 0; k < animal.station.size(); ++k) {
     if (animal.bending_limit[k] > largest_limit) {
       fmt::print(
-          "bending limit  {:g} degrees at {:g} L: a joint bends by {:g} at most "
+          "bending limit  {:.4g} degrees at {:g} L: a joint bends by {:g} at most "
           "(model.largest_limit_deg)\n",
-          options.bending[k], animal.station[k], largest_limit / degree);
+          animal.bending_limit[k] / degree, animal.station[k], largest_limit / degree);
     }
   }
-}
-
-std::string toml_of(const SpecimenOptions& options, const Specimen& animal, const Specimen& base,
-                    double fourth) {
-  const auto list = [](const std::vector<double>& values) {
-    return fmt::format("[{}]", fmt::join(values, ", "));
-  };
-  const auto scaled = [&](const std::vector<double>& values) {
-    // Where the base was measured is not where this one was.
-    std::vector<double> own;
-    for (const double station : animal.station) {
-      own.push_back(std::round(fourth * profile(base.station, values, station)));
-    }
-    return list(own);
-  };
-  const auto muscle = [&](const std::vector<double>& area) {
-    std::vector<std::string> own;
-    for (std::size_t k = 0; k < animal.station.size(); ++k) {
-      const double station = animal.station[k];
-      const double thicker =
-          animal.circumference[k] / profile(base.station, base.circumference, station);
-      own.push_back(
-          fmt::format("{:.3g}", thicker * thicker * profile(base.station, area, station)));
-    }
-    return fmt::format("[{}]", fmt::join(own, ", "));
-  };
-  std::string quoted;
-  for (const char c : animal.name)
-    quoted += c == '"' || c == '\\' ? std::string{'\\', c} : std::string{c};
-  return fmt::format(
-      "# Written by `hagfish specimen`.\n"
-      "name = \"{}\"\n\n"
-      "length = {}  # cm, head to tail\n"
-      "mass = {}  # g, whole body\n\n"
-      "station = {}  # fraction of the length, from the head\n"
-      "circumference = {}  # cm, at the stations\n"
-      "bending_limit_deg = {}  # degrees, at the stations, to each side\n"
-      "twist_limit_deg = {}  # degrees, whole body\n"
-      "bending_span = {}  # cm of body that one bending limit belongs to: 2 x length / {}\n\n"
-      "# Guess: those of the {} by the fourth power of the mean diameter.\n"
-      "[passive]\n"
-      "bending_stiffness = {}  # EI, dyn cm^2\n"
-      "bending_damping = {}  # dyn cm^2 s\n"
-      "twist_stiffness = {}  # GJ, dyn cm^2\n"
-      "twist_damping = {}  # dyn cm^2 s\n\n"
-      "# Guess: those of the {}, areas by the square of the diameter at each station, depth by "
-      "the\n"
-      "# radius.\n"
-      "[muscle]\n"
-      "longitudinal_area = {}  # cm^2 on each of four sides\n"
-      "oblique_area = {}  # cm^2 of each hand\n"
-      "stress = {}  # dyn cm^-2, largest\n"
-      "radius_share = {}  # of the radius of the skin\n"
-      "oblique_angle_deg = {:.6g}  # to the body's axis\n",
-      quoted, animal.length, animal.mass, list(animal.station), list(animal.circumference),
-      list(options.bending), options.twist, animal.bending_span, paper_bodies, base.name,
-      scaled(base.bending_stiffness), scaled(base.bending_damping), scaled(base.twist_stiffness),
-      scaled(base.twist_damping), base.name, muscle(base.muscle.longitudinal_area),
-      muscle(base.muscle.oblique_area), base.muscle.stress, base.muscle.radius_share,
-      base.muscle.oblique_angle / degree);
 }
 
 int specimen(const SpecimenOptions& options) {
@@ -178,31 +153,16 @@ int specimen(const SpecimenOptions& options) {
   TextFile out(options.out, options.force);
   std::optional<TextFile> scene_out;
   if (!options.scene_out.empty()) scene_out.emplace(options.scene_out, options.force);
-  const ResolvedScene base = scene_argument(base_scene, {});
-  const Specimen animal = specimen_of(options);
-  const double fourth = std::pow(mean_diameter(animal) / mean_diameter(base.specimen), 4);
-  tell(options, animal, base.scene.model.largest_limit);
-  out.write(toml_of(options, animal, base.specimen, fourth));
+  const std::string& base_name = base_scenes.at(options.knot);
+  const ResolvedScene base = scene_argument(base_name, {});
+  const Specimen animal = specimen_of(options, base.specimen);
+  tell(animal, base.specimen, base.scene.model.largest_limit);
+  out.write(specimen_text(animal, base.specimen));
   fmt::print("{}\n", printable(options.out));
   if (scene_out) {
     const fs::path relative =
         fs::absolute(options.out).lexically_relative(fs::absolute(options.scene_out).parent_path());
-    scene_out->write(fmt::format(
-        "# Written by `hagfish specimen`: {} with another animal. Lengths and what a run must "
-        "show\n"
-        "# are shares of its body; muscles go by the fourth power of the mean diameter, as its\n"
-        "# stiffness does.\n"
-        "base = \"{}\"\n"
-        "title = \"Overhand knot, tied by an animal of {:g} cm\"\n"
-        "specimen = \"{}\"\n\n"
-        "[active]\n"
-        "stiffness = {:.4g}  # dyn cm^2\n"
-        "capacity = {:.4g}  # dyn cm\n\n"
-        "[controller]\n"
-        "cap = {:.4g}  # dyn\n",
-        base_scene, base_scene, animal.length, relative.string(),
-        fourth * base.scene.active.stiffness, fourth * base.scene.active.capacity,
-        std::max(1.0, fourth) * base.scene.controller.cap));
+    scene_out->write(specimen_scene_text(animal, relative.string(), base_name, base));
     fmt::print("hagfish run {}\n", shell_word(options.scene_out));
   }
   return exit_code::done;
@@ -217,25 +177,32 @@ void add_specimen(Program& program) {
   const auto list = [app](const char* name, std::vector<double>& values, const char* help) {
     return app->add_option(name, values, help)->delimiter(',')->allow_extra_args(false);
   };
-  app->add_option("--length", options->length, "head to tail, cm")
-      ->required()
+  app->add_option("--length", options->length, "head to tail, cm (the paper's animal's)")
       ->check(from_to(1.0, 1000.0));
-  app->add_option("--mass", options->mass, "whole body, g")->required()->check(from_to(1e-3, 1e6));
-  list("--circumference", options->circumference, "at the stations, cm, as in 4.6,4.4,3.2")
-      ->required();
+  app->add_option("--mass", options->mass, "whole body, g (the same density)")
+      ->check(from_to(1e-3, 1e6));
+  list("--circumference", options->circumference,
+       "at the stations, cm, as in 4.6,4.4,3.2 (the same shape)");
   list("--bending", options->bending,
-       "bending limits at the stations, degrees, separated by commas")
-      ->required();
-  app->add_option("--twist", options->twist, "twisting limit of the whole body, degrees")
-      ->required()
+       "bending limits at the stations, degrees, separated by commas (the skin stretched as much)");
+  app->add_option("--twist", options->twist,
+                  "twisting limit of the whole body, degrees (the skin stretched as much)")
       ->check(from_to(1e-3, 3600.0));
   list("--station", options->station,
        "where they were measured, shares of the length, separated by commas")
       ->capture_default_str();
+  app->add_option("--thicker", options->thicker,
+                  "then as much thicker: girth, and with it mass, limits, stiffness, muscles, drag")
+      ->check(from_to(0.1, 10.0));
   app->add_option("--name", options->name, "what the animal is called")->capture_default_str();
   app->add_option("--out", options->out, "TOML file to write")->required();
+  std::vector<std::string> knots;
+  for (const auto& [knot, scene] : base_scenes) knots.push_back(knot);
+  app->add_option("--knot", options->knot, "which it ties in the scene: 3_1, 4_1, 5_1 or 5_2")
+      ->check(one_of(knots))
+      ->capture_default_str();
   app->add_option("--scene-out", options->scene_out,
-                  "scene file to write, in which it ties an overhand knot");
+                  "scene file to write, in which it ties a knot");
   app->add_flag("--force", options->force, force_help);
   app->callback([options, &program] { program.code = specimen(*options); });
 }

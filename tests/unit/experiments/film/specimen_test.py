@@ -64,17 +64,66 @@ def test_bad_measures_are_one_line(tmp_path):
     refused(tmp_path, "specimen", *ANIMAL, "--out", "/no/folder/x.toml", parts=("/no/folder/x.toml",))
 
 
-def test_its_scene_ties_the_knot_and_judges_by_its_size(tmp_path):
-    hagfish(tmp_path, "specimen", *ANIMAL, "--out", "mine.toml", "--scene-out", "knot.toml", "--name", "mine")
+def test_what_was_not_measured_is_the_papers_animal_scaled(tmp_path):
+    with (DATA / "specimens/pacific_hagfish.toml").open("rb") as file:
+        paper = tomllib.load(file)
+    hagfish(tmp_path, "specimen", "--out", "same.toml")
+    hagfish(tmp_path, "specimen", "--length", 21.2, "--out", "half.toml")
+    said = hagfish(tmp_path, "specimen", "--thicker", 1.1, "--out", "thick.toml")
+    same, half, thick = (tomllib.loads((tmp_path / f"{name}.toml").read_text()) for name in ("same", "half", "thick"))
+    for key in ("length", "mass", "circumference", "bending_limit_deg", "twist_limit_deg", "bending_span"):
+        assert same[key] == pytest.approx(paper[key], rel=1e-5)
+    assert same["passive"]["bending_stiffness"] == pytest.approx(paper["passive"]["bending_stiffness"])
+    # The same shape and density; angles stay.
+    assert half["mass"] == pytest.approx(paper["mass"] / 8, rel=1e-5)
+    assert half["circumference"] == pytest.approx([c / 2 for c in paper["circumference"]])
+    assert half["bending_limit_deg"] == pytest.approx(paper["bending_limit_deg"], rel=1e-5)
+    # Thicker: all that goes with the girth, in the file and in a line.
+    assert thick["mass"] == pytest.approx(1.21 * paper["mass"], rel=1e-5)
+    assert thick["bending_limit_deg"] == pytest.approx([limit / 1.1 for limit in paper["bending_limit_deg"]], rel=1e-5)
+    assert thick["passive"]["twist_damping"] == pytest.approx([1.1 ** 4 * each for each in paper["passive"]["twist_damping"]], rel=1e-3)
+    assert thick["muscle"]["longitudinal_area"] == pytest.approx([1.21 * each for each in paper["muscle"]["longitudinal_area"]], rel=5e-3)
+    line = next(line for line in said.splitlines() if line.startswith("beside paper's"))
+    for part in ("length x 1,", "girth x 1.1,", "mass x 1.21,", "limits x 0.909 at", "stiffness x 1.46,", "torques x 1.33,", "drag x 1.1"):
+        assert part in line
+    # Measured values are thickened, too.
+    hagfish(tmp_path, "specimen", *ANIMAL, "--thicker", 2, "--out", "twice.toml")
+    twice = tomllib.loads((tmp_path / "twice.toml").read_text())
+    assert (twice["mass"], twice["twist_limit_deg"]) == (180, 30) and twice["circumference"] == [9.2, 8.8, 8.8, 6.4]
+
+
+@pytest.mark.parametrize("knot, title", [("3_1", "Overhand knot"), ("4_1", "Figure-eight knot"), ("5_1", "Double overhand knot"), ("5_2", "Three-twist knot")])
+def test_its_scene_is_of_its_knot_and_animal(tmp_path, knot, title):
+    hagfish(tmp_path, "specimen", *ANIMAL, "--knot", knot, "--out", "mine.toml", "--scene-out", "knot.toml", "--name", "mine")
+    hagfish(tmp_path, "run", "knot.toml", "--set", "time.duration=0.01", "--quiet", "--out", "a.h5")
+    scene = tomllib.loads(h5py.File(tmp_path / "a.h5").attrs["scene"])
+    assert scene["title"] == f"{title}, tied by mine" and scene["expect"]["knot"] == knot
+    with (DATA / "table1.toml").open("rb") as file:
+        drag = tomllib.load(file)["drag"]
+    girth = np.mean(np.interp((np.arange(1000) + 0.5) / 1000, [0.2, 0.4, 0.6, 0.8], [4.6, 4.4, 4.4, 3.2]))
+    papers = np.mean(np.interp((np.arange(1000) + 0.5) / 1000, [0.2, 0.4, 0.6, 0.8], [5.6, 5.5, 5.6, 4.3]))
+    assert scene["drag"]["normal"] == pytest.approx(girth / papers * drag["normal"], rel=1e-3)
+    refused(tmp_path, "specimen", "--knot", "6_1", "--out", "x.toml", parts=("--knot",))
+
+
+FRESH = [("3_1", ANIMAL), ("3_1", ["--thicker", 1.1]), ("3_1", ["--thicker", 0.9]), ("3_1", ["--length", 80]), ("3_1", ["--length", 20]),
+         ("4_1", ANIMAL), ("4_1", ["--thicker", 1.1]), ("5_1", ["--thicker", 0.9]), ("5_2", ANIMAL)]
+
+
+@pytest.mark.parametrize("knot, animal", FRESH, ids=str)
+def test_a_fresh_animal_ties_its_knot_and_passes_its_audit(tmp_path, knot, animal):
+    hagfish(tmp_path, "specimen", *animal, "--knot", knot, "--out", "mine.toml", "--scene-out", "knot.toml", "--name", "mine")
     hagfish(tmp_path, "run", "knot.toml", "--quiet", "--out", "a.h5")
     log = h5py.File(tmp_path / "a.h5")
-    assert log.attrs["status"] == "complete" and 3 in log["knot/determinant"][()]
+    assert log.attrs["status"] == "complete" and {"3_1": 3, "4_1": 5, "5_1": 5, "5_2": 7}[knot] in log["knot/determinant"][()]
     scene = tomllib.loads(log.attrs["scene"])
-    assert scene["expect"]["slide_distance"] == pytest.approx(0.2 * 35)
+    if knot == "3_1":
+        assert scene["expect"]["slide_distance"] == pytest.approx(0.05 * scene["specimen"]["length"])
+    assert scene["time"]["step"] == 0.005 / {35: 2, 20: 4}.get(round(scene["specimen"]["length"]), 1)
     hagfish(tmp_path, "check", "a.h5")
     hagfish(tmp_path, "export", "a.h5", "--out", "a")
     summary = table(tmp_path / "a/summary.csv")
-    assert summary["specimen"][0] == "mine" and summary["length_cm"][0] == 35
+    assert summary["specimen"][0] == "mine" and summary["length_cm"][0] == pytest.approx(scene["specimen"]["length"])
 
 
 def test_it_has_muscles(tmp_path):

@@ -1,0 +1,31 @@
+// Files of an animal that was measured, made beside the animal of the paper: what was not measured
+// is that one's, scaled.
+#pragma once
+
+#include <string>
+
+#include "core/input/scene_text.hpp"
+
+namespace hagfish {
+
+/// An animal over the paper's: each figure a factor.
+struct AnimalRatios {
+  double length = 1, girth = 1, mass = 1, limits = 1;  ///< girth: of the mean diameter
+  /// Of the girth alone: of passive and active stiffness (its fourth power), of the muscles'
+  /// torques (third: area times arm) and of the drag for each length of body (first).
+  double stiffness() const;
+  double torque() const;
+  double drag() const { return girth; }
+};
+
+/// `limits`: of the least station.
+AnimalRatios ratios(const Specimen& animal, const Specimen& paper);
+
+/// The specimen file: what is not in `animal` is `paper`'s, scaled.
+std::string specimen_text(const Specimen& animal, const Specimen& paper);
+
+/// The scene file: `base`, the built-in scene `base_name`, with the animal of `file`.
+std::string specimen_scene_text(const Specimen& animal, const std::string& file,
+                                const std::string& base_name, const ResolvedScene& base);
+
+}  // namespace hagfish
