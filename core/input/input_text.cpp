@@ -134,7 +134,9 @@ std::string nearest(std::string_view word, const std::vector<std::string>& candi
 std::string similar(std::string_view word, const std::vector<std::string>& candidates) {
   const std::string near = nearest(word, candidates);
   const bool extended = near.starts_with(word) || word.starts_with(near);
-  const bool slip = edit_distance(word, near) <= (word.size() + 1) / 2;
+  const std::size_t slips =
+      std::min((word.size() + 1) / 2, std::max<std::size_t>(2, word.size() / 3));
+  const bool slip = edit_distance(word, near) <= slips;
   return extended || slip ? near : "";
 }
 

@@ -141,7 +141,7 @@ std::string toml_spelling(const toml::value& value) {
 }
 
 std::string join_keys(const std::string& path, std::string_view key) {
-  return path.empty() ? std::string(key) : path + "." + std::string(key);
+  return path.empty() ? std::string(key) : key.empty() ? path : path + "." + std::string(key);
 }
 
 }  // namespace hagfish

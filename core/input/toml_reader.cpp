@@ -40,6 +40,7 @@ struct TableReader::Impl {
 
   std::shared_ptr<TomlDocument> document;
   const toml::value* table = nullptr;  ///< nothing where the file has no such table
+  const toml::value* other = nullptr;  ///< what stands in place of a table
   std::string path;
   bool all_required = false;
   std::vector<std::string> known, missing;
@@ -59,6 +60,12 @@ struct TableReader::Impl {
       at = found == at->as_table().end() ? nullptr : &found->second;
     }
     return at;
+  }
+
+  std::string keys_there_are() const {
+    std::string names;
+    for (const std::string& key : known) names += (names.empty() ? "" : ", ") + key;
+    return "there are " + names;
   }
 
   /// The place of `key`, which counts as read.
@@ -405,9 +412,10 @@ TableReader TableReader::open(std::string_view key) {
   auto child = std::make_unique<Impl>();
   child->document = impl_->document;
   const Impl::Place place = impl_->ask(key);
-  if (place.value && !place.value->is_table()) impl_->fail(place, "must be a table");
-  child->table = place.value;
   child->path = join_keys(impl_->path, key);
+  // What is no table is refused by finish(), which knows the keys that a table would have.
+  const bool is_table = place.value && place.value->is_table();
+  (is_table ? child->table : child->other) = place.value;
   return TableReader(std::move(child));
 }
 
@@ -428,6 +436,9 @@ std::vector<TableReader> TableReader::open_all(std::string_view key) {
 }
 
 void TableReader::finish() const {
+  if (impl_->other) {
+    impl_->fail({"", impl_->other}, "must be a table; in it " + impl_->keys_there_are());
+  }
   if (impl_->table) {
     // The parser keeps no order: of several unknown keys, the first by name is reported.
     std::map<std::string, const toml::value*> strangers;
@@ -438,7 +449,7 @@ void TableReader::finish() const {
       const auto& [key, value] = *strangers.begin();
       const std::string near = similar(key, impl_->known);
       impl_->fail({key, value},
-                  near.empty() ? "unknown key"
+                  near.empty() ? "unknown key; " + impl_->keys_there_are()
                                : "unknown key; did you mean " + join_keys(impl_->path, near) + "?");
     }
   }

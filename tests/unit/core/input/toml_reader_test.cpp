@@ -111,6 +111,12 @@ TEST(TomlReader, UnknownKeySuggestsTheNearest) {
   EXPECT_EQ(complaint("[time]\n\nstpe = 2\n", read),
             "f.toml:3: time.stpe = 2: unknown key; did you mean time.step?");
   EXPECT_EQ(complaint("tme = 3\n", read), "f.toml:1: tme = 3: unknown key; did you mean time?");
+  // Where none is near, and where a table should stand: which there are.
+  EXPECT_EQ(complaint("water = 3\n", read), "f.toml:1: water = 3: unknown key; there are time");
+  EXPECT_EQ(complaint("[time]\nwater = 3\n", read),
+            "f.toml:2: time.water = 3: unknown key; there are duration, step");
+  EXPECT_EQ(complaint("time = 2\n", read),
+            "f.toml:1: time = 2: must be a table; in it there are duration, step");
 }
 
 TEST(TomlReader, UnknownKeyIsToldBeforeAMissingOne) {
@@ -152,18 +158,18 @@ TEST(TomlReader, RefusesBadIntegers) {
 
 TEST(TomlReader, RefusesWrongTypes) {
   const auto read = [](TableReader& table) {
-    bool b = false;
+    bool b = false, t_u = false;
     std::string s;
     int choice = 0;
     table.boolean("b", b);
     table.string("s", s);
     table.choice<int>("c", choice, {{"one", 1}, {"two", 2}});
-    table.table("t", [](TableReader&) {});
+    table.table("t", [&](TableReader& t) { t.boolean("u", t_u); });
   };
   EXPECT_EQ(complaint("b = 1", read), "f.toml:1: b = 1: must be true or false");
   EXPECT_EQ(complaint("s = 1", read), "f.toml:1: s = 1: must be a string in quotes");
   EXPECT_EQ(complaint("c = 'ten'", read), "f.toml:1: c = 'ten': must be one of \"one\", \"two\"");
-  EXPECT_EQ(complaint("t = 3", read), "f.toml:1: t = 3: must be a table");
+  EXPECT_EQ(complaint("t = 3", read), "f.toml:1: t = 3: must be a table; in it there are u");
 }
 
 TEST(TomlReader, RefusesBadArrays) {
@@ -238,6 +244,8 @@ TEST(TomlReader, OverridesNameTheOption) {
   EXPECT_EQ(why("t.x="), "f.toml: --set t.x=: must be a number");
   EXPECT_EQ(why("t.x=1\ny=2"), "f.toml: --set t.x=1 y=2: must be a number");
   EXPECT_EQ(why("t.y=1"), "f.toml: --set t.y=1: unknown key; did you mean t.x?");
+  EXPECT_EQ(why("t=1"), "f.toml: --set t=1: must be a table; in it there are x");
+  EXPECT_EQ(why("water.t=1"), "f.toml: --set water.t=1: water: unknown key; there are size, t");
   EXPECT_EQ(why("size.x=1"), "f.toml: --set size.x=1: size is not a table");
   EXPECT_EQ(why("t={x = -1}"), "f.toml: --set t={x = -1}: t.x must be positive");
   EXPECT_EQ(why("size"), "--set size: must be KEY=VALUE");
