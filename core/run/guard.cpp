@@ -17,6 +17,12 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
+/// What happened and what to do about it; where the run goes on, also whether it can be used.
+std::string told(GuardAction action, const std::string& what, const std::string& use,
+                 const std::string& remedy) {
+  return action == GuardAction::stop ? what + "; " + remedy : what + ". " + use + "; " + remedy;
+}
+
 /// The deepest overlap of a state by the names of what touches.
 std::string deepest_overlap(const Model& model, const Observation& observation) {
   double least = 0;
@@ -149,30 +155,30 @@ Status guard_state(const Model& model, const Moment& moment, double crossing, co
     return {Outcome::non_finite, "non-finite state"};
   }
   Status status;
-  if (seen.penetration > guard.penetration) {
+  const auto look = [&](Outcome outcome, const std::string& what, const std::string& remedy) {
     status =
-        report(Outcome::penetration,
-               fmt::format(
-                   "penetration {:.3g} cm of {} exceeds guard.penetration = {:g} cm; try a smaller "
-                   "time.step or more constraints.corrections",
-                   seen.penetration, deepest_overlap(model, seen), guard.penetration),
+        report(outcome, told(guard.action, what, "Forces from here on are not to be used", remedy),
                guard.action, watch, warnings);
+  };
+  const char* finer = "try a smaller time.step or more constraints.corrections";
+  if (seen.penetration > guard.penetration) {
+    look(Outcome::penetration,
+         fmt::format("penetration {:.3g} cm of {} exceeds guard.penetration = {:g} cm",
+                     seen.penetration, deepest_overlap(model, seen), guard.penetration),
+         finer);
   } else if (crossing > guard.penetration) {
-    status = report(Outcome::penetration,
-                    fmt::format("strands go {:.3g} cm into each other on the way, over "
-                                "guard.penetration = {:g} cm; try a smaller time.step or more "
-                                "constraints.corrections",
-                                crossing, guard.penetration),
-                    guard.action, watch, warnings);
+    look(Outcome::penetration,
+         fmt::format("strands go {:.3g} cm into each other on the way, over guard.penetration = "
+                     "{:g} cm",
+                     crossing, guard.penetration),
+         finer);
   }
   if (status.ok() && seen.limit_violation > guard.limit_violation) {
-    status = report(
-        Outcome::limits,
-        fmt::format("{} is {:.3g} deg past its limit, over guard.limit_violation_deg = {:g}; try "
-                    "constraints.activation = \"speculative\" or a smaller time.step",
-                    furthest_limit(model, moment.state), seen.limit_violation / degree,
-                    guard.limit_violation / degree),
-        guard.action, watch, warnings);
+    look(Outcome::limits,
+         fmt::format("{} is {:.3g} deg past its limit, over guard.limit_violation_deg = {:g}",
+                     furthest_limit(model, moment.state), seen.limit_violation / degree,
+                     guard.limit_violation / degree),
+         "try constraints.activation = \"speculative\" or a smaller time.step");
   }
   return status;
 }
@@ -186,9 +192,9 @@ Status guard_energy(const Model& model, const Scene& scene, Moment& moment, Ener
   ledger.lowest_error = std::min(ledger.lowest_error, ledger.integrator_error());
   Status status;
   if (!(made <= allowed)) {
-    std::string message = fmt::format(
+    std::string what = fmt::format(
         "the integrator made {:.3g} erg of energy, over guard.energy_gain = {:g} of the {:.3g} erg "
-        "that the body had or lost; try a smaller time.step, or more drag or damping",
+        "that the body had or lost",
         made, guard.energy_gain, passed);
     if (guard.energy_action == EnergyAction::hold && scene.time.rule == TimeRule::euler) {
       const double taken = std::min(made - allowed, ledger.kinetic);
@@ -197,11 +203,15 @@ Status guard_energy(const Model& model, const Scene& scene, Moment& moment, Ener
       update_velocities(model, moment.state.qdot, moment.observation.kin);
       ledger.kinetic -= taken;
       ledger.integrator_held -= taken;
-      message += ". The excess was taken out of the velocities";
+      what += ", and the excess was taken out of the velocities";
     }
     const bool stop = guard.energy_action == EnergyAction::stop;
-    status = report(Outcome::energy_gain, message, stop ? GuardAction::stop : GuardAction::warn,
-                    watch, warnings);
+    const GuardAction action = stop ? GuardAction::stop : GuardAction::warn;
+    status =
+        report(Outcome::energy_gain,
+               told(action, what, "Speeds around this time are not to be used, earlier ones are",
+                    "try a smaller time.step, or more drag or damping"),
+               action, watch, warnings);
   }
   ledger.largest = std::max(ledger.largest, ledger.kinetic + ledger.elastic);
   return status;
@@ -222,11 +232,13 @@ void guard_momentum(const StepInput& in, const MomentumLedger& before, const Mom
   if (share > in.scene.guard.momentum_gain) {
     std::ignore = report(
         Outcome::momentum_gain,
-        fmt::format(
-            "the integrator pushed the free body by {:.3g} dyn s and turned it by {:.3g} dyn "
-            "cm s, over guard.momentum_gain = {:g} of what its energy allows. Nothing "
-            "outside did that; try time.momentum = \"kept\" or a smaller time.step",
-            watch.made.linear.norm(), watch.made.angular.norm(), in.scene.guard.momentum_gain),
+        told(GuardAction::warn,
+             fmt::format(
+                 "the integrator pushed the free body by {:.3g} dyn s and turned it by {:.3g} dyn "
+                 "cm s, over guard.momentum_gain = {:g} of what its energy allows",
+                 watch.made.linear.norm(), watch.made.angular.norm(), in.scene.guard.momentum_gain),
+             "The body's shape can be used, its way through the water cannot",
+             "try time.momentum = \"kept\" or a smaller time.step"),
         GuardAction::warn, watch, warnings);
   }
 }
@@ -262,10 +274,13 @@ void guard_cap(const Model& model, const Kinematics& kin, const Scene& scene, Ph
       }
       std::ignore = report(
           Outcome::capped,
-          fmt::format("{} has been at controller.cap = {:g} dyn for {:g} s and is {:.3g} cm/s too "
-                      "slow. It is held back most by {}; {}",
-                      row_name(model, row), scene.controller.cap, scene.guard.capped_time,
-                      -step.excess[i], names.empty() ? "no row" : names, cure_of_cap(row, against)),
+          told(GuardAction::warn,
+               fmt::format("{} has been at controller.cap = {:g} dyn for {:g} s, is {:.3g} cm/s "
+                           "too slow and is held back most by {}",
+                           row_name(model, row), scene.controller.cap, scene.guard.capped_time,
+                           -step.excess[i], names.empty() ? "no row" : names),
+               "Paths can be used, forces at a cap are the cap's and not the animal's",
+               cure_of_cap(row, against)),
           GuardAction::warn, watch, warnings);
     }
   }
@@ -283,23 +298,28 @@ void guard_muscles(const Model& model, const Scene& scene, const Control& contro
     if (past.maxCoeff(&k) > scene.guard.limit_violation) {
       std::ignore = report(
           Outcome::overbent,
-          fmt::format("the curvature program bends {} to {:.3g} deg at {:.2f} s. Its limits are "
-                      "{:.3g} and {:.3g} deg, and push back",
-                      dof_name(model, static_cast<int>(k) + root_dofs), angles[k] / degree,
-                      time + scene.time.reach(), ranges(0, k) / degree, ranges(1, k) / degree),
+          told(GuardAction::warn,
+               fmt::format("the curvature program bends {} to {:.3g} deg at {:.2f} s, past its "
+                           "limits of {:.3g} and {:.3g} deg",
+                           dof_name(model, static_cast<int>(k) + root_dofs), angles[k] / degree,
+                           time + scene.time.reach(), ranges(0, k) / degree, ranges(1, k) / degree),
+               "The run can be used, but for torques of muscles that work against a limit",
+               "try a program within the limits or a larger model.limit_scale"),
           GuardAction::warn, watch, warnings);
     }
   }
   const int full = control.active.full >= 0 ? control.active.full : control.torque.full;
   if (full >= 0 && !watch.has_warned(Outcome::saturated)) {
-    std::ignore = report(
-        Outcome::saturated,
-        fmt::format("{} takes all of active.capacity = {:g} dyn cm at {:.2f} s. {}",
-                    dof_name(model, full), scene.active.capacity, time,
+    std::ignore =
+        report(Outcome::saturated,
+               told(GuardAction::warn,
+                    fmt::format("{} takes all of active.capacity = {:g} dyn cm at {:.2f} s",
+                                dof_name(model, full), scene.active.capacity, time),
+                    "The run can be used: it is of an animal too weak for what it is asked",
                     control.active.full >= 0
-                        ? "Try a slower program, a softer body or more capacity"
-                        : "The law asks for more, and active.bounds_laws = true cuts it off"),
-        GuardAction::warn, watch, warnings);
+                        ? "try a slower program, a softer body or more capacity"
+                        : "try a law that asks for less, or active.bounds_laws = false"),
+               GuardAction::warn, watch, warnings);
   }
 }
 

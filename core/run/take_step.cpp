@@ -40,7 +40,12 @@ void decide_control(const Attempt& step) {
   record.warnings.clear();
   step.require(decide(in.model, in.scene, sim.now, record.time, sim.named_law, sim.controller,
                       record.control, sim.law));
-  if (!sim.controller.lost.empty()) step.warn(Outcome::knot_lost, sim.controller.lost);
+  if (!sim.controller.lost.empty()) {
+    step.warn(Outcome::knot_lost,
+              sim.controller.lost +
+                  ". What follows is not of the scene's knot; try a smaller time.step, or another "
+                  "script or expect.knot");
+  }
 }
 
 /// Eq. 2: where the step's velocity leads within time `t` (s), and what it looks like there.
@@ -110,7 +115,8 @@ void solve_along_path(const Attempt& step) {
     step.warn(
         Outcome::unsettled,
         fmt::format("after {} passes the middle of a step is known to {:.3g} rad/s or cm/s only, "
-                    "over time.settled = {:g}; try a smaller time.step",
+                    "over time.settled = {:g}. The run can be used, with larger errors than "
+                    "this rule's own; try a smaller time.step",
                     solution.middle.passes, solution.middle.unsettled, in.scene.time.settled));
   }
 }
@@ -137,11 +143,12 @@ double end_where_strands_meet(const Attempt& step) {
   if (clear == count) return step.h();
   move(step, step.h() * clear / count);
   record.crossing = 0;
-  step.warn(
-      Outcome::speed,
-      fmt::format("strands meet too fast for the step, which ends there. {:.3g} s of its motion "
-                  "are left out; try a smaller time.step",
-                  step.h() * (count - clear) / count));
+  step.warn(Outcome::speed,
+            fmt::format(
+                "strands meet too fast for the step, which ends there with {:.3g} s of its "
+                "motion left out. The run can be used, but for speeds at this time; try a smaller "
+                "time.step",
+                step.h() * (count - clear) / count));
   return step.h() * clear / count;
 }
 

@@ -60,6 +60,19 @@ TEST(Guard, StopsAtWhatHappensOnTheWay) {
   EXPECT_NE(message_of(Outcome::penetration, knot.look()).find("on the way"), std::string::npos);
 }
 
+/// What a warning says: what happened, whether the run can be used, and what to do, in two
+/// sentences at most.
+void expect_told(const std::string& warning) {
+  std::size_t ends = 0;
+  for (std::size_t at = 0; (at = warning.find(". ", at)) != std::string::npos; ++at) ++ends;
+  EXPECT_EQ(ends, 1u) << warning;
+  EXPECT_TRUE(warning.find("can be used") != std::string::npos ||
+              warning.find("not to be used") != std::string::npos)
+      << warning;
+  EXPECT_NE(warning.rfind("try "), std::string::npos) << warning;
+  EXPECT_GT(warning.rfind("try "), warning.rfind("used")) << warning;
+}
+
 TEST(Guard, NamesTheJointPastItsLimit) {
   DeepKnot knot;
   const Hinge& hinge = knot.model.hinges[4];
@@ -78,6 +91,7 @@ TEST(Guard, WarnsOnceWhereTheSceneAsksForIt) {
   EXPECT_TRUE(knot.look().ok());
   ASSERT_EQ(knot.warnings.size(), 1u);
   EXPECT_EQ(knot.warnings[0].find("penetration 0."), 0u) << knot.warnings[0];
+  expect_told(knot.warnings[0]);
 }
 
 TEST(Guard, StopsAtSpeed) {
@@ -126,6 +140,7 @@ TEST(Guard, TellsOnceWhatMusclesCannotDo) {
   EXPECT_NE(warnings[0].find(" at 1.00 s"), std::string::npos) << warnings[0];
   EXPECT_EQ(warnings[1].find(dof_name(model, 8) + " takes all of active.capacity = 100000"), 0u)
       << warnings[1];
+  for (const std::string& warning : warnings) expect_told(warning);
 }
 
 /// The knot with thigmotaxis rows at one of its contacts, twice, and three limits.
@@ -189,7 +204,7 @@ TEST(Guard, TellsOfARowThatStaysAtItsCapAndWhatHoldsItBack) {
   ASSERT_GE(hardest.size(), 2u);
   EXPECT_NE(
       warning.find("held back most by " + row_name(capped.model, step.rows[hardest[0].second]) +
-                   "; " + row_name(capped.model, step.rows[hardest[1].second]) + "; "),
+                   "; " + row_name(capped.model, step.rows[hardest[1].second])),
       std::string::npos)
       << warning;
 }
@@ -209,6 +224,9 @@ TEST(Guard, TellsWhyARowIsAtItsCap) {
         whole_dual(capped.model, capped.now.kin, capped.step.system, capped.step.rows).A;
     capped.step.lambda[other] = A(1, other) < 0 ? 1 : -1;
   };
+  for (const Eigen::Index other : {0, 3, 4}) {
+    expect_told(warning([&](CappedRow& capped) { alone(capped, other); }));
+  }
   const std::string sides = warning([&](CappedRow& capped) { alone(capped, 0); });
   EXPECT_NE(sides.find("where both rows cannot hold"), std::string::npos) << sides;
   EXPECT_NE(sides.find("controller.eq6_slip"), std::string::npos) << sides;
@@ -327,6 +345,7 @@ TEST_F(EnergyWatch, HoldsWhatTheIntegratorMakes) {
   EXPECT_LE(growth(EnergyAction::hold), 1 + 1.02 * scene.guard.energy_gain);
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_EQ(warnings[0].find("the integrator made"), 0u) << warnings[0];
+  expect_told(warnings[0]);
 }
 
 TEST_F(EnergyWatch, TakesNothingFromABodyAtRest) {
@@ -359,7 +378,8 @@ TEST_F(EnergyWatch, OnlyWarnsByTheMidpointRule) {
 
 TEST_F(EnergyWatch, OnlyWarnsWhereTheSceneAsksForIt) {
   EXPECT_GT(growth(EnergyAction::warn, 40), 1.1);
-  EXPECT_EQ(warnings.size(), 1u);
+  ASSERT_EQ(warnings.size(), 1u);
+  expect_told(warnings[0]);
 }
 
 TEST_F(EnergyWatch, StopsWhereTheSceneAsksForIt) {
