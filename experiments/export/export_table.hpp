@@ -27,6 +27,7 @@ inline constexpr ExportUnit per_length{"rad_per_cm", "rad_per_m", 1e2};
 inline constexpr ExportUnit speed{"cm_per_s", "m_per_s", 1e-2};
 inline constexpr ExportUnit force{"dyn", "N", 1e-5};
 inline constexpr ExportUnit torque{"dyn_cm", "N_m", 1e-7};
+inline constexpr ExportUnit torque_time{"dyn_cm_s", "N_m_s", 1e-7};
 inline constexpr ExportUnit energy{"erg", "J", 1e-7};
 }  // namespace export_unit
 

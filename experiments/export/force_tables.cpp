@@ -65,6 +65,24 @@ ExportTable torque_table(const LogContents& log, bool si) {
   return table;
 }
 
+/// A column a hinge, for those who think in tables of time by place.
+ExportTable joint_table(const LogContents& log, bool si) {
+  std::vector<ExportColumn> columns{frame_column, time_column};
+  for (int dof = root_dofs; dof < log.model.nv(); ++dof) {
+    columns.push_back({dof_name(log.model, dof), torque,
+                       "what the animal makes at this hinge: u + f_thigmo" + mean});
+  }
+  ExportTable table("joints.csv", columns, si);
+  const Hdf5Reader::Rows made =
+      log.h5.rows("/mean/forces/active") + log.h5.rows("/mean/forces/thigmotaxis");
+  for (Eigen::Index f = 0; f < made.rows(); ++f) {
+    std::vector<ExportTable::Cell> row{std::int64_t{f}, log.time[f]};
+    for (int dof = root_dofs; dof < log.model.nv(); ++dof) row.emplace_back(made(f, dof));
+    table.add(row);
+  }
+  return table;
+}
+
 ExportTable muscle_table(const LogContents& log, bool si) {
   ExportTable table("muscles.csv",
                     {frame_column,
@@ -182,8 +200,8 @@ ExportTable energy_table(const LogContents& log, bool si) {
 }  // namespace
 
 std::vector<ExportTable> force_tables(const LogContents& log, bool si) {
-  std::vector<ExportTable> tables{torque_table(log, si), eq6_table(log, si), head_table(log, si),
-                                  energy_table(log, si)};
+  std::vector<ExportTable> tables{torque_table(log, si), joint_table(log, si), eq6_table(log, si),
+                                  head_table(log, si), energy_table(log, si)};
   if (!log.model.muscles.empty()) tables.push_back(muscle_table(log, si));
   return tables;
 }

@@ -23,6 +23,7 @@ int export_log(const ExportOptions& options) {
   const LogContents log(options.log, LogLevel::frames);
   std::vector<ExportTable> tables = shape_tables(log, options.si);
   for (ExportTable& table : force_tables(log, options.si)) tables.push_back(std::move(table));
+  tables.push_back(phases_table(log, options.si));
   tables.push_back(summary_table(log, options.si));
   std::error_code error;
   const bool made = fs::create_directories(options.out, error);

@@ -16,9 +16,9 @@ sys.path.insert(0, str(Path(__file__).parents[3] / "support"))
 from program import hagfish, refused, table  # noqa: E402
 
 DIGITS = 1e-8  # of a column's largest: nine digits are written
-FILES = ("midline", "curvature", "knot", "contacts", "torques", "eq6", "head", "energy", "summary")
-SI = {"cm": 1e-2, "dyn": 1e-5, "dyn_cm": 1e-7, "erg": 1e-7, "g": 1e-3, "cm_per_s": 1e-2, "rad_per_cm": 1e2}
-SI_NAME = {"cm": "m", "dyn": "N", "dyn_cm": "N_m", "erg": "J", "g": "kg", "cm_per_s": "m_per_s", "rad_per_cm": "rad_per_m"}
+FILES = ("midline", "curvature", "knot", "contacts", "torques", "joints", "eq6", "head", "energy", "phases", "summary")
+SI = {"cm": 1e-2, "dyn": 1e-5, "dyn_cm": 1e-7, "dyn_cm_s": 1e-7, "erg": 1e-7, "g": 1e-3, "cm_per_s": 1e-2, "rad_per_cm": 1e2}
+SI_NAME = {"cm": "m", "dyn": "N", "dyn_cm": "N_m", "dyn_cm_s": "N_m_s", "erg": "J", "g": "kg", "cm_per_s": "m_per_s", "rad_per_cm": "rad_per_m"}
 
 
 @pytest.fixture(scope="module")
@@ -152,6 +152,39 @@ def test_what_the_log_has_is_as_the_log_has_it(run):
             same(energy[name], log["diagnostics/" + name.removesuffix("_erg")][()])
 
 
+def test_joints_are_the_torques_a_column_a_hinge(run):
+    _, log, tables = run
+    names = list(log["model/dof_name"].asstr()[()])[6:]
+    assert list(tables["joints"]) == ["frame", "time_s", *(f"{name}_dyn_cm" for name in names)]
+    made = log["mean/forces/active"][:, 6:] + log["mean/forces/thigmotaxis"][:, 6:]
+    same(np.stack([tables["joints"][f"{name}_dyn_cm"] for name in names], axis=1), made)
+
+
+def test_phases(run):
+    _, log, tables = run
+    t, names = tables["phases"], list(log["model/dof_name"].asstr()[()])
+    words = {value: word for word, value in h5py.check_enum_dtype(log["trajectory/phase"].dtype).items()}
+    of_frame, time = [words[int(p)] for p in log["trajectory/phase"]], log["trajectory/time"][()]
+    assert list(t["phase"]) == list(dict.fromkeys(of_frame))
+    same(t["to_s"][:-1], t["from_s"][1:])
+    same([t["from_s"][0], t["to_s"][-1]], time[[0, -1]])
+    # Works and losses of the phases add up to the run's.
+    for name in ("work_tip", "work_active", "work_thigmotaxis", "dissipated"):
+        same(t[f"{name}_erg"].sum(), tables["summary"][f"{name}_erg"][0])
+    force, spans_of = np.abs(log["mean/forces/thigmotaxis"][:, 6:]), spans(log)
+    share = np.array([spans_of[int(name[1:3])] for name in names[6:]]) / log["model/length"][()].sum()
+    for row, phase in enumerate(t["phase"]):
+        own = [f + 1 for f, each in enumerate(of_frame[:-1]) if each == phase]  # the mean that ends a frame began in the phase before it
+        same(t["largest_thigmotaxis_dyn_cm"][row], force[own].max())
+        if force[own].max() > 0:
+            frame, hinge = np.unravel_index(force[own].argmax(), force[own].shape)
+            assert t["largest_thigmotaxis_at"][row] == names[6 + hinge]
+            same(t["largest_thigmotaxis_time_s"][row], time[own[frame]])
+        same(t["effort_dyn_cm_s"][row], (force[own] @ share * np.diff(time)[np.array(own) - 1]).sum())
+    same(t["largest_thigmotaxis_dyn_cm"].max(), tables["summary"]["largest_thigmotaxis_dyn_cm"][0])
+    assert "slide" in t["phase"] and not any(t["muscle"])
+
+
 def test_summary(run):
     _, log, tables = run
     row = {name: column[0] for name, column in tables["summary"].items()}
@@ -227,3 +260,8 @@ def test_muscles(tmp_path):
     of_joint = [[k for k, dof in enumerate(dofs) if dof.startswith(f"j{j:02d}_")] for j in joint]
     same(t["shortfall_dyn_cm"], np.stack([lacks[:, hinges].max(axis=1) for hinges in of_joint], axis=1).ravel())
     assert np.nanmax(lacks) > 100
+    # The most loaded muscle, with its name, its time, and what it rests on.
+    phases = table(tmp_path / "t" / "phases.csv")
+    frame, muscle = np.unravel_index(np.nanargmax(activation), activation.shape)
+    assert (phases["muscle"][0], phases["muscle_basis"][0]) == (names[muscle], "guess")
+    same([phases["muscle_activation"][0], phases["muscle_time_s"][0]], [activation[frame, muscle], log["trajectory/time"][frame]])
