@@ -51,7 +51,8 @@ void compare_hands(const LogContents& log, const Film& film, double later,
   Kinematics kin;
   update_positions(log.model, log.q.row(frame).transpose(), kin);
   const KnotSettings& settings = log.resolved.scene.knot;
-  const FilmedKnot own = knot_of(kin.centre, settings), seen = knot_of(curve_through(last), settings);
+  const FilmedKnot own = knot_of(kin.centre, settings),
+                   seen = knot_of(curve_through(last), settings);
   if (own.name != seen.name || own.hand == seen.hand || own.hand == Hand::any ||
       seen.hand == Hand::any) {
     return;
