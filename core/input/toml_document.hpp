@@ -39,7 +39,7 @@ TomlDocument parse_toml(const std::string& text, const std::string& file);
 /// The value as its file spells it; only the first line of what spans several.
 std::string toml_spelling(const toml::value& value);
 
-/// A dotted path; `path` may be empty.
+/// A dotted path; either may be empty.
 std::string join_keys(const std::string& path, std::string_view key);
 
 }  // namespace hagfish
