@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 
 import plots
+import sure
 import tables
 from hagfish_log import HagfishLog
 from script import run_script
@@ -37,7 +38,7 @@ class Row:
     animal: str  # "towed" by its tail, or "living"
     bodies: int
     step: float  # ms
-    variant: str  # seed, or stiffness over that of the scene
+    variant: str  # seed, stiffness over that of the scene, or what `hagfish sure` changes
     outcome: str  # "ok" where the run came to its end
     way: float | None = None  # of the knot's head end while it slides
     time: float | None = None  # of the slide
@@ -126,6 +127,23 @@ def sweep_rows(study: str, table: SweepTable, variants: Iterable[str]) -> list[R
     return rows
 
 
+def interval_rows(folder: Path) -> list[Row]:
+    """What `hagfish sure` found of each slide, by chance, steps and bodies: a row a run that counts."""
+    rows = []
+    for path in sorted(folder.iterdir()):
+        found = sure.read(path)
+        of = found.table.figures
+        axis = lambda key, cell: float(found.table.axes[key][cell] or "nan")
+        for cell, cause in enumerate(found.causes):
+            if cause not in (sure.AS_IS, *sure.NUMERICS) or not found.counted[cell]:
+                continue
+            way = float(of["slide_distance_cm"][cell])
+            rows.append(Row("sure", knot_of(path.name), "living" if "living" in path.name else "towed",
+                            int(np.nan_to_num(axis("model.bodies", cell), nan=100)), float(np.nan_to_num(1e3 * axis("time.step", cell), nan=5)), cause, "ok", way,
+                            multipliers=float(of["sliding_force_dyn"][cell]), work=float(of["work_thigmotaxis_erg"][cell]) / way if way > 0 else None))
+    return rows
+
+
 def compared_with(row: Row) -> dict[str, object]:
     """The run of its knot and study that a run is compared with: 100 bodies at 1 ms or, at 2 ms, twice the bodies; of starts the first."""
     if row.study == "starts":
@@ -154,7 +172,7 @@ def read_study(folder: Path) -> list[Row]:
             table = read_sweep(folder / study / "table.csv")
             axis = table.axes.get("specimen.passive.bending_stiffness")
             rows += sweep_rows(study, table, map(ratio, axis) if axis else [""] * len(table.axes["scene"]))
-    return rows
+    return rows + (interval_rows(folder / "sure") if (folder / "sure").is_dir() else [])
 
 
 def read_table(path: Path) -> tuple[list[Row], list[str]]:
@@ -235,6 +253,34 @@ def pulls_table(rows: list[Row]) -> list[str]:
     return tables.markdown(["pull, N", *(f"{bodies} bodies, {step:g} ms" for bodies, step in settings), "largest less least, % of the mean"], body)
 
 
+def interval(rows: list[Row], name: str, form: str) -> str:
+    known = [value for row in rows if (value := getattr(row, name)) is not None]
+    ends = [shown(end, form) for end in (min(known), max(known))]
+    return ends[0] if ends[0] == ends[1] else " to ".join(ends)
+
+
+def intervals_table(rows: list[Row]) -> list[str]:
+    """Of each slide: the way, the median sum of multipliers and the work, over chance, steps and bodies apart."""
+    body = []
+    for knot, animal in animals(pick(rows, study="sure")):
+        own = pick(rows, study="sure", knot=knot, animal=animal)
+        as_is = pick(own, variant=sure.AS_IS)
+        for name, what, form in (("way", "way, cm", ".3g"), ("multipliers", "multipliers, dyn", ".3g"), ("work", "work, erg/cm", ".3g")):
+            body.append([f"{knot}, {animal}: {what}", interval(as_is, name, form),
+                         *(interval(as_is + pick(own, variant=kind), name, form) for kind in sure.NUMERICS), interval(own, name, form)])
+    return tables.markdown(["slide", sure.AS_IS, *sure.NUMERICS, "all three"], body)
+
+
+def furthest(rows: list[Row], kind: str) -> str:
+    """How far a kind of change takes the multipliers of any slide, of those as it is: median and largest, %."""
+    found = []
+    for knot, animal in animals(pick(rows, study="sure")):
+        own = pick(rows, study="sure", knot=knot, animal=animal)
+        base = pick(own, variant=sure.AS_IS)[0].multipliers
+        found.append(max(100 * abs(row.multipliers / base - 1) for row in pick(own, variant=kind)))
+    return f"{np.median(found):.2g} % (at most {max(found):.2g} %)"
+
+
 def within(rows: list[Row], name: str, most: float, **wanted: object) -> str:
     """How many of the runs keep a bound, and the worst."""
     known = [abs(value) for row in pick(rows, **wanted) if (value := getattr(row, name)) is not None]
@@ -300,6 +346,12 @@ def page(rows: list[Row], notes: list[str]) -> list[str]:
         "## Chance", "",
         "Three starts with 0.1 degree of noise on every hinge, tied anew. The second and the third are compared with the first.", "",
         *starts_table(rows),
+        *(["## Intervals", "",
+           "`hagfish sure` runs each slide as its scene has it, from starts of 1e-6 degree, at smaller steps, and with 60 to 200 bodies. "
+           f"Chance takes the multipliers {furthest(rows, 'chance')} from the scene's, steps {furthest(rows, 'step')}, bodies {furthest(rows, 'bodies')}: "
+           "medians over slides. Where chance is far less than the others, the difference is the simulator's error and no instability of the body. "
+           "Quote a slide's figures with the last column.", "",
+           *intervals_table(rows)] if pick(rows, study="sure") else []),
         *(["## Pulls at food", "", *pulls_table(rows)] if pick(rows, study="pulls") else []),
         "## What this page does not show", "",
         "- Slides of one state at other steps. Here tying differs too.",

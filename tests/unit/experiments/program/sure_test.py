@@ -45,6 +45,8 @@ def test_each_cause_changes_its_own_settings_alone(folder):
     assert {row["cause"] for row in causes} == {"as it is", *keys}
     bodies = sorted(int(cell["model.bodies"]) for cell in cells if cell["model.bodies"])
     assert bodies[0] == 60 and bodies[-1] == 200 and 96 in bodies
+    steps = sorted(float(cell["time.step"]) for cell in cells if cell["time.step"])
+    assert steps == pytest.approx([0.001, 0.00125, 0.0025])
     girths = sorted(float(cell["specimen.circumference"].strip("[]").split(",")[0]) for cell in cells if cell["specimen.circumference"])
     assert girths == pytest.approx([0.95 * 5.6, 1.05 * 5.6])
 
