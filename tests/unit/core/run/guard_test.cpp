@@ -297,6 +297,65 @@ TEST(Guard, WatchesTheCapOfAnyNumberOfContacts) {
   EXPECT_EQ(capped.watch.capped.size(), 2u);
 }
 
+/// What the integrator made of the momentum of a free body, step by step.
+class MomentumWatch : public testing::Test {
+ protected:
+  MomentumWatch() {
+    scene.guard.momentum_gain = 0.01;
+    control.clamp_head = false;
+    energy.largest = 1000;
+  }
+  /// A step that makes `made`. Its warnings.
+  std::vector<std::string> look(const Momentum& made, const Momentum& given_back = {}) {
+    const MomentumLedger before = ledger;
+    ledger.integrator += made;
+    ledger.given_back += given_back;
+    std::vector<std::string> warnings;
+    guard_momentum({model, scene, state, now, control}, before, ledger, energy, watch, warnings);
+    return warnings;
+  }
+
+  Scene scene = table1_scene(20);
+  Model model = make_hagfish(table1_specimen(), scene);
+  State state = rest_state(model);
+  Observation now = observe(model, state, scene);
+  Control control;
+  EnergyLedger energy;
+  MomentumLedger ledger;
+  Watch watch;
+  // A hundredth of the most that a straight body of this energy can have.
+  double linear = 0.01 * std::sqrt(2 * 1000 * table1_specimen().mass);
+  double angular = linear * model.length() / std::sqrt(12.0);
+  Eigen::Vector3d along{0.6, 0, -0.8};
+};
+
+TEST_F(MomentumWatch, WarnsOnceOfAPushOrATurnOfTheIntegratorsOwn) {
+  for (const bool pushed : {true, false}) {
+    watch = {};
+    const auto made = [&](double share) {
+      return Momentum{(pushed ? share * linear : 0) * along,
+                      (pushed ? 0 : share * angular) * along};
+    };
+    EXPECT_TRUE(look(made(0.99)).empty());
+    const std::vector<std::string> warnings = look(made(0.02));  // 1.01 in all
+    ASSERT_EQ(warnings.size(), 1u) << pushed;
+    EXPECT_NE(warnings[0].find("guard.momentum_gain = 0.01"), std::string::npos) << warnings[0];
+    EXPECT_TRUE(look(made(5)).empty());
+  }
+}
+
+TEST_F(MomentumWatch, CountsWhatIsGivenBackAndStartsAnewWhereTheHeadIsHeld) {
+  const Momentum push{5 * linear * along, 5 * angular * along};
+  EXPECT_TRUE(look(push, push * -1).empty());
+  const Momentum half = push * 0.15;  // 0.75 of what is allowed
+  EXPECT_TRUE(look(half).empty());
+  control.clamp_head = true;
+  EXPECT_TRUE(look(push).empty());
+  control.clamp_head = false;
+  EXPECT_TRUE(look(half).empty());
+  EXPECT_EQ(look(half).size(), 1u);
+}
+
 /// A body bent evenly that turns about its root without damping: explicit Coriolis forces feed it.
 class EnergyWatch : public testing::Test {
  protected:
