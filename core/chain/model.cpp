@@ -125,10 +125,24 @@ Eigen::Vector3d cylinder_inertia(double mass, double length, double radius) {
   return {mass * radius * radius / 2, across, across};
 }
 
-double hinge_span(int bodies, double length, int body) {
-  const int from = body <= 2 ? 0 : body - 1;
-  const int to = body + 2 >= bodies ? bodies : body + 1;
-  return (to - from) * length;
+namespace {
+
+/// The nearest joint before (way -1) or after (1) joint `body` with as many hinges, body 0 none;
+/// -1.
+int joint_beside(const Model& model, int body, int way) {
+  for (int b = body + way; b > 0 && b < model.body_count(); b += way) {
+    if (model.bodies[b].dofs == model.bodies[body].dofs) return b;
+  }
+  return -1;
+}
+
+}  // namespace
+
+double hinge_span(const Model& model, int body) {
+  const int before = joint_beside(model, body, -1), after = joint_beside(model, body, 1);
+  const double from = before < 0 ? 0 : 0.5 * (before + body);
+  const double to = after < 0 ? model.body_count() : 0.5 * (body + after);
+  return (to - from) * model.bodies[body].length;
 }
 
 std::vector<Obstacle> obstacles_of(const Scene& scene) {
@@ -142,6 +156,36 @@ std::vector<Obstacle> obstacles_of(const Scene& scene) {
   all.insert(all.end(), scene.obstacles.begin(), scene.obstacles.end());
   return all;
 }
+
+namespace {
+
+/// Limits, stiffness and damping of the hinges of joint `b`.
+void set_joint(const Specimen& specimen, const ModelSettings& settings, int b, Model& model) {
+  const int n = model.body_count();
+  const Body& body = model.bodies[b];
+  const double fraction = static_cast<double>(b) / n;
+  const double span = hinge_span(model, b);
+  Hinge* hinge = &model.hinges[body.first_dof - root_dofs];
+  if (body.dofs == 1) {
+    const Passive passive = twist_at(specimen, settings, fraction);
+    set_hinge(*hinge, settings.limit_scale * specimen.twist_limit / n, passive.stiffness / span,
+              passive.damping / span);
+    return;
+  }
+  const double measured = profile(specimen.station, specimen.bending_limit, fraction);
+  const Passive passive = bending_at(specimen, settings, fraction);
+  const int apart = settings.joints == JointLayout::universal ? 1 : 2;  // bodies
+  const double limit =
+      std::min(settings.limit_scale * measured * apart * body.length / specimen.bending_span,
+               settings.largest_limit);
+  const bool cone = settings.bending_limit == BendingLimit::cone;
+  if (cone) model.cones.push_back({body.first_dof, limit});
+  for (int k = 0; k < 2; ++k) {
+    set_hinge(hinge[k], cone ? unbounded : limit, passive.stiffness / span, passive.damping / span);
+  }
+}
+
+}  // namespace
 
 Model make_hagfish(const Specimen& specimen, const Scene& scene) {
   const ModelSettings& settings = scene.model;
@@ -165,8 +209,7 @@ Model make_hagfish(const Specimen& specimen, const Scene& scene) {
   model.drag = scene.drag;
   model.gravity = scene.gravity;
   for (int b = 0; b < n; ++b) {
-    const bool bend = b % 2 == 1;
-    const double fraction = static_cast<double>(b) / n;
+    const bool bend = b % 2 == 1 || settings.joints == JointLayout::universal;
     Body body;
     body.mass = specimen.mass * radius[b] * radius[b] * density[b] / whole;
     body.length = length;
@@ -176,28 +219,11 @@ Model make_hagfish(const Specimen& specimen, const Scene& scene) {
       append_body(model, body, {});
     } else if (bend) {
       append_body(model, body, {Axis::y, Axis::z});
-      const double span = hinge_span(n, length, b);
-      const double measured = profile(specimen.station, specimen.bending_limit, fraction);
-      const Passive passive = bending_at(specimen, settings, fraction);
-      const double limit =
-          std::min(settings.limit_scale * measured * 2 * length / specimen.bending_span,
-                   settings.largest_limit);
-      const bool cone = settings.bending_limit == BendingLimit::cone;
-      if (cone) {
-        model.cones.push_back({model.bodies.back().first_dof, limit});
-      }
-      for (int k = 1; k <= 2; ++k) {
-        set_hinge(model.hinges[model.hinges.size() - k], cone ? unbounded : limit,
-                  passive.stiffness / span, passive.damping / span);
-      }
     } else {
       append_body(model, body, {Axis::x});
-      const double span = hinge_span(n, length, b);
-      const Passive passive = twist_at(specimen, settings, fraction);
-      set_hinge(model.hinges.back(), settings.limit_scale * specimen.twist_limit / n,
-                passive.stiffness / span, passive.damping / span);
     }
   }
+  for (int b = 1; b < n; ++b) set_joint(specimen, settings, b, model);
   if (scene.muscle.present) {
     model.muscles = muscles_of(specimen, model);
   }

@@ -90,22 +90,22 @@ void append_body(Model& model, const Body& body, const std::vector<Axis>& axes);
 /// Inertia of a solid homogeneous cylinder along X about its centre, g cm^2.
 Eigen::Vector3d cylinder_inertia(double mass, double length, double radius);
 
-/// Length of the animal (cm) that the hinges of joint `body` >= 1 stand for, where `bodies` bodies
-/// of `length` cm alternate as in make_hagfish: from half way to the joint of the same kind before
-/// it to half way to the one after it, from the head or to the tail where there is none. The spans
-/// of a kind add up to the animal; sums over them are integrals along it but for errors of second
-/// order in `length`.
-double hinge_span(int bodies, double length, int body);
+/// Length of the animal (cm) that the hinges of joint `body` >= 1 stand for, where all bodies are
+/// as long, as in make_hagfish: from half way to the joint of the same kind before it to half way
+/// to the one after it, from the head or to the tail where there is none. The spans of a kind add
+/// up to the animal; sums over them are integrals along it but for errors of second order in
+/// `length`.
+double hinge_span(const Model& model, int body);
 
 /// What the animal stays out of: the head plate where there is one, then the scene's others. Their
 /// places in this list are their indices everywhere.
 std::vector<Obstacle> obstacles_of(const Scene& scene);
 
-/// The animal (design: alternating YZ-universal and X-revolute joints, paper 3.1). Mass is in
-/// proportion to r^2; stiffness and damping are those of the length of body that a joint stands
-/// for, limits those of one joint in every two bodies, so that the physics per length does not
-/// depend on the number of bodies. Scaled as ModelSettings says, and among the scene's obstacles.
-/// Throws std::invalid_argument for a body count outside 2..400.
+/// The animal (design: alternating YZ-universal and X-revolute joints, paper 3.1; or universal ones
+/// alone). Mass is in proportion to r^2; stiffness and damping are those of the length of body that
+/// a joint stands for, bending limits those of the way from one bending joint to the next, so that
+/// the physics per length does not depend on the number of bodies. Scaled as ModelSettings says,
+/// and among the scene's obstacles. Throws std::invalid_argument for a body count outside 2..400.
 Model make_hagfish(const Specimen& specimen, const Scene& scene);
 
 }  // namespace hagfish

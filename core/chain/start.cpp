@@ -25,12 +25,10 @@ Eigen::VectorXd hinge_shares(const Model& model, const std::vector<Eigen::Vector
     }
   }
   const int n = model.body_count();
-  const double length = model.length() / n;
   for (Eigen::Index k = 0; k < count; ++k) {
     const Hinge& hinge = model.hinges[k];
-    share[k] =
-        hinge_span(n, length, hinge.body) *
-        profile(station, about[static_cast<int>(hinge.axis)], static_cast<double>(hinge.body) / n);
+    share[k] = hinge_span(model, hinge.body) * profile(station, about[static_cast<int>(hinge.axis)],
+                                                       static_cast<double>(hinge.body) / n);
   }
   return share;
 }

@@ -1,5 +1,6 @@
 #include "core/input/scene_checks.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -134,8 +135,10 @@ void check_food(const TableReader& root, const Scene& scene) {
     root.fail("food.hold", "no food holds a head that is free from \"" +
                                std::string(phase_name(free_from)) + "\" on (controller.free_from)");
   }
-  if (!scene.wall.present) {
-    root.fail("food.hold", "without a head plate (wall.present) the knot presses against nothing");
+  if (!scene.wall.present && scene.obstacles.empty()) {
+    root.fail(
+        "food.hold",
+        "without a head plate (wall.present) or an obstacle the knot presses against nothing");
   }
   if (scene.controller.leave_by == BodyEnd::tail) {
     root.fail("food.hold", "a knot that pulls cannot turn back (controller.leave_by)");
@@ -210,6 +213,12 @@ void check_expectations(const TableReader& root, const Scene& scene) {
         !in_order(i > 0 ? types[i - 1].to : start, types[i].from)) {
       root.fail_element("expect.types", i, "times must rise");
     }
+  }
+  const auto is_called = [&](const Obstacle& one) {
+    return one.kind == Obstacle::Kind::plane && one.name == scene.expect.out_of;
+  };
+  if (!scene.expect.out_of.empty() && std::ranges::none_of(obstacles_of(scene), is_called)) {
+    root.fail("expect.out_of", "must be the name of a plane that is an obstacle, or empty");
   }
   if (scene.controller.contact_gap > scene.contact.margin) {
     root.fail("controller.contact_gap",

@@ -77,6 +77,9 @@ void muscle_tissue_fields(Io& io, Specimen& s) {
 template <class Io>
 void model_fields(Io& io, ModelSettings& s) {
   io.integer("bodies", s.bodies, within(2, 400));
+  io.template choice<JointLayout>(
+      "joints", s.joints,
+      {{"alternating", JointLayout::alternating}, {"universal", JointLayout::universal}});
   io.template choice<PassiveSource>(
       "passive", s.passive,
       {{"scene", PassiveSource::scene}, {"specimen", PassiveSource::specimen}});
@@ -344,6 +347,7 @@ void expect_fields(Io& io, ExpectSettings& s) {
                            {{"any", Hand::any}, {"right", Hand::right}, {"left", Hand::left}});
   io.length("slide_distance", s.slide_distance, not_negative());
   io.length("reverse_distance", s.reverse_distance, not_negative());
+  io.string("out_of", s.out_of);
   io.number("pull", s.pull, not_negative());
   io.number("pull_settled", s.pull_settled, not_negative());
   io.number("pull_drift", s.pull_drift, not_negative());

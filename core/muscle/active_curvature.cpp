@@ -18,9 +18,7 @@ double program_value(const CurvatureProgram& program, const TablePlace& when, in
 }
 
 /// Length of body that a hinge stands for, cm.
-double span_of(const Model& model, const Hinge& hinge) {
-  return hinge_span(model.body_count(), model.bodies[hinge.body].length, hinge.body);
-}
+double span_of(const Model& model, const Hinge& hinge) { return hinge_span(model, hinge.body); }
 
 }  // namespace
 

@@ -52,9 +52,7 @@ void mean_tone_torque(const Situation& at, double steps, const Eigen::VectorXd& 
   torque.rate.setZero(model.nv());
   for (int d = root_dofs; d < model.nv(); ++d) {
     const Hinge& hinge = model.hinges[d - root_dofs];
-    const double active =
-        at.scene.active.stiffness /
-        hinge_span(model.body_count(), model.bodies[hinge.body].length, hinge.body);
+    const double active = at.scene.active.stiffness / hinge_span(model, hinge.body);
     const double all = active + hinge.stiffness;
     const double angle = at.now.state.q[d + 1];
     torque.value[d] = all * left * (rest[d] - angle) + hinge.stiffness * angle;

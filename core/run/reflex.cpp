@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <random>
 
 #include "core/muscle/active_curvature.hpp"
@@ -17,10 +18,7 @@ double arc_of(const Model& model, int k) {
 }
 
 /// Length of body that a hinge stands for, cm.
-double span_of(const Model& model, int k) {
-  const int body = model.hinges[k].body;
-  return hinge_span(model.body_count(), model.bodies[body].length, body);
-}
+double span_of(const Model& model, int k) { return hinge_span(model, model.hinges[k].body); }
 
 /// The next hinge of the same kind, tailward (`way` 1) or headward (-1); -1 where there is none.
 int neighbour(const Model& model, int k, int way) {
@@ -29,6 +27,13 @@ int neighbour(const Model& model, int k, int way) {
     if (model.hinges[i].axis == model.hinges[k].axis) return i;
   }
   return -1;
+}
+
+/// From a hinge to the next one of its kind, cm; where there is none, as chains alternate.
+double spacing(const Model& model, int k, int way) {
+  const int next = neighbour(model, k, way);
+  const int bodies = next < 0 ? 2 : std::abs(model.hinges[next].body - model.hinges[k].body);
+  return bodies * model.bodies[model.hinges[k].body].length;
 }
 
 /// Whether the scene has a hinge copy, where the body touches itself as `contacts` say.
@@ -123,8 +128,7 @@ double copied_angle(const Model& model, const Eigen::VectorXd& angles, int k, do
   for (int i = k; i >= 0;) {
     const int next = neighbour(model, i, way);
     const double from = arc_of(model, i);
-    const double to =
-        next < 0 ? from + way * 2 * model.bodies[model.hinges[i].body].length : arc_of(model, next);
+    const double to = next < 0 ? from + way * spacing(model, i, -way) : arc_of(model, next);
     if (way * (to - arc) >= 0) {
       const double here = angles[i] / span_of(model, i);
       const double there = next < 0 ? 0 : angles[next] / span_of(model, next);

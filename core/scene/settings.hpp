@@ -22,6 +22,12 @@ enum class BendingLimit {
   cone  ///< the angle between the X axes of its two bodies
 };
 
+/// Which joints the chain has behind its free head.
+enum class JointLayout {
+  alternating,  ///< universal about Y and Z, then revolute about X, and so on (paper, 3.1)
+  universal     ///< universal ones alone, as robots have them: no twist (addition)
+};
+
 /// Where the body's passive stiffness and damping come from.
 enum class PassiveSource {
   scene,    ///< ModelSettings, the same all along the body
@@ -31,6 +37,7 @@ enum class PassiveSource {
 /// How the specimen becomes a chain. The passive terms are additions to the paper: it states none.
 struct ModelSettings {
   int bodies = 100;  ///< rigid bodies along the animal, 2 to 400
+  JointLayout joints = JointLayout::alternating;
   PassiveSource passive = PassiveSource::scene;
   double bending_stiffness = 0;  ///< flexural rigidity about each bending axis, dyn cm^2
   double bending_damping = 0;    ///< its rate form, dyn cm^2 s
@@ -399,8 +406,9 @@ struct ExpectSettings {
   /// Headward travel of the knot's head end while sliding, cm; where the knot began nearer to its
   /// release than that, all the way there, but half of this at least.
   double slide_distance = 0;
-  double reverse_distance = 0;        ///< tailward travel of its tail end on the way back, cm
-  double pull = 0;                    ///< mean pull at the food, N
+  double reverse_distance = 0;  ///< tailward travel of its tail end on the way back, cm
+  std::string out_of;  ///< plane behind which the head is until the knot pulls it out; "" for none
+  double pull = 0;     ///< mean pull at the food, N
   double pull_settled = 1;            ///< of all of the pull but its first part, this long, s
   double pull_drift = 0.4;            ///< between the halves of that, of its mean
   double pull_balance = 0.005;        ///< of the mean force of the head plate from it, of it

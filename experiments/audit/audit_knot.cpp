@@ -184,6 +184,31 @@ Finding commanded_speed(const LogContents& log) {
                                         criterion.value, rows, criterion.bound));
 }
 
+/// The head's end comes back through the plane expect.out_of, and until then the knot is tied.
+Finding head_out(const LogContents& log, const std::vector<std::string>& type) {
+  const ExpectSettings& expect = log.resolved.scene.expect;
+  const auto plane = std::ranges::find(log.model.obstacles, expect.out_of, &Obstacle::name);
+  bool was_in = false;
+  for (std::size_t f = 0; f < type.size(); ++f) {
+    const Eigen::Vector3d end = log.q.row(static_cast<Eigen::Index>(f)).head<3>();
+    const double before = plane->normal.dot(end - plane->point);  // cm in front of it
+    was_in = was_in || before < 0;
+    const bool tied = type[f] == expect.knot;
+    if (was_in && phase_order(phase_at(log, f)) > phase_order(Phase::form) &&
+        (before > 0 || !tied)) {
+      return {"head out",
+              tied,
+              fmt::format("{} at {:.2f} s, with a {}; its end is {:.2f} cm in front of the {}",
+                          tied ? "it came" : "the knot was gone", log.time[f], type[f], before,
+                          expect.out_of),
+              fmt::format("{}", before),
+              "0",
+              "cm"};
+    }
+  }
+  return {"head out", false, "it never came in front of the " + expect.out_of, "", "0", "cm"};
+}
+
 }  // namespace
 
 SeenKnot see_knot(const LogContents& log, const AuditedFrame& frame) {
@@ -255,6 +280,7 @@ std::vector<Finding> audit_knot(const LogContents& log, const std::vector<SeenKn
     findings.push_back(moved(reverse_found(scene, way(log, Phase::reverse, "/knot/tail_end")),
                              "tail", "tailward"));
   }
+  if (!expect.out_of.empty() && reaches(Phase::free)) findings.push_back(head_out(log, type));
   if (shows(Phase::slide)) {
     findings.push_back(commanded_speed(log));
   }

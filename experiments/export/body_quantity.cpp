@@ -42,7 +42,7 @@ void fill(const LogContents& log, Turn turn, BodyQuantity& quantity,
   const double length = body_length(log.model);
   for (std::size_t j = 0; j < joints.size(); ++j) {
     quantity.arc.push_back(joints[j] * length);
-    const double span = hinge_span(log.model.body_count(), length, joints[j]);
+    const double span = hinge_span(log.model, joints[j]);
     for (Eigen::Index f = 0; f < log.q.rows(); ++f) {
       quantity.values(f, static_cast<Eigen::Index>(j)) =
           value(f, log.model.bodies[joints[j]], span);

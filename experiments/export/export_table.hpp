@@ -22,6 +22,7 @@ inline constexpr ExportUnit none{"", "", 1};
 inline constexpr ExportUnit second{"s", "s", 1};
 inline constexpr ExportUnit radian{"rad", "rad", 1};
 inline constexpr ExportUnit centimetre{"cm", "m", 1e-2};
+inline constexpr ExportUnit area{"cm2", "m2", 1e-4};
 inline constexpr ExportUnit gram{"g", "kg", 1e-3};
 inline constexpr ExportUnit per_length{"rad_per_cm", "rad_per_m", 1e2};
 inline constexpr ExportUnit speed{"cm_per_s", "m_per_s", 1e-2};

@@ -5,6 +5,7 @@
 
 #include "experiments/audit/log_contents.hpp"
 #include "experiments/export/export_table.hpp"
+#include "experiments/export/swept_skin.hpp"
 
 namespace hagfish {
 
@@ -22,7 +23,10 @@ std::vector<ExportTable> force_tables(const LogContents& log, bool si);
 /// phases: a row a phase that the run reached, in the order of time.
 ExportTable phases_table(const LogContents& log, bool si);
 
+/// skin: the cells of the skin that the knot has swept or not, `swept`.
+ExportTable skin_table(const SweptSkin& swept, const Model& model, bool si);
+
 /// summary: one row.
-ExportTable summary_table(const LogContents& log, bool si);
+ExportTable summary_table(const LogContents& log, const SweptSkin& swept, bool si);
 
 }  // namespace hagfish

@@ -69,12 +69,12 @@ void add_curvature(const LogContents& log, const ShownFrame& frame, ExportTable&
     if (body.dofs != 2) continue;
     const double y = frame.q[body.first_dof + 1];
     const double z = frame.q[body.first_dof + 2];
-    const double span = hinge_span(n, length, b);
+    const double span = hinge_span(model, b);
     double turn = 0, along = 0;
     for (const int beside : {b - 1, b + 1}) {
       if (beside < 1 || beside >= n || model.bodies[beside].dofs != 1) continue;
       turn += frame.q[model.bodies[beside].first_dof + 1];
-      along += hinge_span(n, length, beside);
+      along += hinge_span(model, beside);
     }
     table.add({std::int64_t{frame.index}, log.time[frame.index], std::int64_t{b}, b * length,
                y / span, z / span, total_bend(y, z).angle / span, along > 0 ? turn / along : NAN});

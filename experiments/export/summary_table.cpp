@@ -156,7 +156,7 @@ ExportTable phases_table(const LogContents& log, bool si) {
   return table;
 }
 
-ExportTable summary_table(const LogContents& log, bool si) {
+ExportTable summary_table(const LogContents& log, const SweptSkin& swept, bool si) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const Scene& scene = log.resolved.scene;
   const Specimen& animal = log.resolved.specimen;
@@ -199,7 +199,9 @@ ExportTable summary_table(const LogContents& log, bool si) {
        {"work_tip", energy, "of the scripted force on the tail, in all"},
        {"work_active", energy, "of the muscles, in all"},
        {"work_thigmotaxis", energy, "of f_thigmo, in all"},
-       {"dissipated", energy, "lost to water drag and joint damping, in all"}},
+       {"dissipated", energy, "lost to water drag and joint damping, in all"},
+       {"swept", area, "skin that the knot swept, of skin.csv"},
+       {"swept_share", none, "of all skin"}},
       si);
   table.add({std::filesystem::path(log.h5.file()).filename().string(),
              scene.title,
@@ -225,7 +227,9 @@ ExportTable summary_table(const LogContents& log, bool si) {
              at_end("work_tip"),
              at_end("work_active"),
              at_end("work_thigmotaxis"),
-             at_end("dissipated")});
+             at_end("dissipated"),
+             swept.swept(),
+             swept.swept() / swept.all()});
   return table;
 }
 

@@ -172,7 +172,7 @@ class Fit {
                                      static_cast<double>(j) / static_cast<double>(count - 1));
         if (away >= nearest) continue;
         nearest = away;
-        const double span = hinge_span(model_.body_count(), model_.bodies[0].length, hinge.body);
+        const double span = hinge_span(model_, hinge.body);
         limit[j] = range(1, static_cast<Eigen::Index>(k)) * model_.length() / span *
                    (model_.cones.empty() && !film_.planar ? std::sqrt(2.0) : 1);
       }

@@ -196,9 +196,7 @@ std::span<const LiveArray> LiveRun::frame() {
                  ledger.work[RowKind::thigmotaxis], ledger.dissipated});
   put("thigmotaxis", torques(model_, 2, mean.force[RowKind::thigmotaxis]));
   put("active", torques(model_, 2, mean.active_torque));
-  const auto span_of = [&](int body) {
-    return hinge_span(model_.body_count(), body_length(model_), body);
-  };
+  const auto span_of = [&](int body) { return hinge_span(model_, body); };
   put("curvature", of_joints(model_, 2, [&](int body, int first) {
         return total_bend(state.q[first + 1], state.q[first + 2]).angle / span_of(body);
       }));

@@ -24,7 +24,9 @@ int export_log(const ExportOptions& options) {
   std::vector<ExportTable> tables = shape_tables(log, options.si);
   for (ExportTable& table : force_tables(log, options.si)) tables.push_back(std::move(table));
   tables.push_back(phases_table(log, options.si));
-  tables.push_back(summary_table(log, options.si));
+  const SweptSkin swept = swept_skin(log);
+  tables.push_back(skin_table(swept, log.model, options.si));
+  tables.push_back(summary_table(log, swept, options.si));
   std::error_code error;
   const bool made = fs::create_directories(options.out, error);
   if (error) throw FileError(options.out + ": cannot make the folder: " + error.message());

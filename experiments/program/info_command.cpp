@@ -7,6 +7,7 @@
 #include "core/log/saved_run.hpp"
 #include "core/run/controller.hpp"
 #include "experiments/audit/log_contents.hpp"
+#include "experiments/export/swept_skin.hpp"
 #include "experiments/program/program.hpp"
 
 namespace hagfish {
@@ -33,6 +34,7 @@ struct LogInfo {
   std::size_t frames = 0, steps = 0;
   double first = 0, last = 0, step = 0, wall_time = 0;  ///< s
   std::vector<PhaseStart> phases;
+  double swept = NAN, skin = NAN;  ///< cm^2: what the knot swept, and all; nan without q
 };
 
 std::vector<PhaseStart> phase_starts(const LogContents& log) {
@@ -77,6 +79,11 @@ LogInfo read_info(const std::string& file) {
   info.step = log.resolved.scene.time.step;
   info.wall_time = log.h5.doubles("/diagnostics/wall_time").back();
   info.phases = phase_starts(log);
+  if (level_of(log.h5) != LogLevel::summary) {
+    const SweptSkin swept = swept_skin(log);
+    info.swept = swept.swept();
+    info.skin = swept.all();
+  }
   return info;
 }
 
@@ -95,6 +102,10 @@ void print_info(const LogInfo& info) {
                                           : fmt::format(", contacts from {:.1f} to {:.1f} cm",
                                                         start.head_end, start.tail_end));
   }
+  if (info.swept > 0) {
+    fmt::print("{:<16} {:.1f} cm^2 of skin by the knot, {:.1f} % of {:.0f} cm^2\n", "swept",
+               info.swept, 100 * info.swept / info.skin, info.skin);
+  }
 }
 
 nlohmann::ordered_json json_of(const LogInfo& info) {
@@ -109,6 +120,8 @@ nlohmann::ordered_json json_of(const LogInfo& info) {
   json["last_time_s"] = info.last;
   json["step_s"] = info.step;
   json["wall_time_s"] = info.wall_time;
+  json["swept_cm2"] = info.swept;
+  json["skin_cm2"] = info.skin;
   json["phases"] = nlohmann::ordered_json::array();
   for (const PhaseStart& start : info.phases) {
     // What is no number becomes null.

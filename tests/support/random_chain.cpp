@@ -127,8 +127,7 @@ State bent_state(const Model& model, double bend_y, double bend_z, double twist)
   for (int k = root_dofs; k < model.nv(); ++k) {
     const Hinge& hinge = model.hinges[k - root_dofs];
     const double rate = hinge.axis == Axis::x ? twist : hinge.axis == Axis::y ? bend_y : bend_z;
-    state.q[k + 1] =
-        rate * hinge_span(model.body_count(), model.bodies[hinge.body].length, hinge.body);
+    state.q[k + 1] = rate * hinge_span(model, hinge.body);
   }
   return state;
 }

@@ -34,7 +34,7 @@ BendTest bend(const Model& model, Axis axis, double from, double to, double curv
       const Hinge& hinge = model.hinges[k - root_dofs];
       const double place = static_cast<double>(hinge.body) / n;
       if (hinge.axis != axis || place < from || place > to) continue;
-      const double span = hinge_span(n, model.bodies[0].length, hinge.body);
+      const double span = hinge_span(model, hinge.body);
       q[k + 1] = span * curvature * std::sin(phase);
       qdot[k] = span * curvature * omega * std::cos(phase);
       angle += span;

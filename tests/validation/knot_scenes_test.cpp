@@ -26,6 +26,7 @@ struct Seen {
   double least_writhe = INFINITY, most_writhe = -INFINITY;  ///< while it must hold
   double head_end_at_slide = 0, tail_end_at_release = 0;    ///< cm
   KnotInvariants last_type;
+  bool head_out = false;  ///< it came in front of the plane expect.out_of, the knot still tied
 };
 
 Seen run(const ResolvedScene& resolved) {
@@ -34,6 +35,7 @@ Seen run(const ResolvedScene& resolved) {
   Simulation sim = start(model, scene, "active-set");
   StepRecord record;
   Seen seen;
+  const auto face = std::ranges::find(scene.obstacles, scene.expect.out_of, &Obstacle::name);
   while (!finished(sim, scene)) {
     take_step(model, scene, sim, record);
     seen.worst.take(record);
@@ -44,8 +46,13 @@ Seen run(const ResolvedScene& resolved) {
       if (now.phase == Phase::slide && span) seen.head_end_at_slide = span->head_end;
       if (now.phase == Phase::release && span) seen.tail_end_at_release = span->tail_end;
     }
+    const bool tied = knot_name(now.knot.type) == scene.expect.knot;
+    if (now.phase == Phase::release && tied && face != scene.obstacles.end()) {
+      const Eigen::Vector3d end = sim.now.state.q.head<3>();
+      seen.head_out = seen.head_out || face->normal.dot(end - face->point) > 0;
+    }
     if (holds_knot(now.phase)) {
-      seen.held = seen.held && knot_name(now.knot.type) == scene.expect.knot;
+      seen.held = seen.held && tied;
       if (record.step % 50 == 0) {
         const double w = writhe(sim.now.observation.kin.centre);
         seen.least_writhe = std::min(seen.least_writhe, w);
@@ -75,6 +82,7 @@ void expect_but_for_overlap(const ResolvedScene& resolved, const Seen& seen) {
   }
   EXPECT_EQ(seen.phases, phases);
   EXPECT_TRUE(seen.held);
+  EXPECT_EQ(seen.head_out, !expect.out_of.empty());
   EXPECT_EQ(seen.last_type, KnotInvariants{});
   EXPECT_GE(seen.head_end_at_slide, expect.slide_distance);
   EXPECT_LE(expect.penetration, 0.001);
@@ -223,6 +231,12 @@ INSTANTIATE_TEST_SUITE_P(Pull, KnotScenes,
                                          "pull_living_figure_eight", "pull_living_double_overhand",
                                          "pull_living_three_twist", "pull_morsel",
                                          "reflex_pull_overhand", "reflex_pull_figure_eight"),
+                         scene_name);
+
+INSTANTIATE_TEST_SUITE_P(OutOfAHole, KnotScenes,
+                         testing::Values("hole_overhand", "hole_figure_eight", "hole_three_twist",
+                                         "reflex_hole_overhand", "reflex_hole_figure_eight",
+                                         "reflex_hole_three_twist"),
                          scene_name);
 
 TEST(KnotScenesWithCones, TieHoldSlideAndComeOff) {

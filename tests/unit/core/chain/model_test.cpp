@@ -161,6 +161,24 @@ TEST(Hagfish, LimitsAndStiffnessPerLengthDoNotDependOnTheBodyCount) {
   EXPECT_GT(capped, 0);  // the coarse chains
 }
 
+TEST(Hagfish, OfUniversalJointsBendsAsFarAndAsStiffly) {
+  const Specimen specimen = table1_specimen();
+  Scene scene = table1_scene();
+  const Model alternating = make_hagfish(specimen, scene);
+  scene.model.joints = JointLayout::universal;
+  const Model fish = make_hagfish(specimen, scene);
+  ASSERT_EQ(fish.hinges.size(), 198U);
+  Eigen::Vector3d compliance = Eigen::Vector3d::Zero();
+  double most = 0, least = 0;  // of bends of the whole body
+  for (const Hinge& hinge : fish.hinges) {
+    compliance[static_cast<int>(hinge.axis)] += 1 / hinge.stiffness;
+    most += hinge.axis == Axis::y ? hinge.upper : 0;
+  }
+  for (const Hinge& hinge : alternating.hinges) least += hinge.axis == Axis::y ? hinge.upper : 0;
+  EXPECT_LT((compliance - Eigen::Vector3d(0, 42.4 / 424, 42.4 / 424)).norm(), sum_rounding);
+  EXPECT_NEAR(most / least, 1, 0.01);  // both are sums over the body's profile
+}
+
 TEST(Hagfish, RefusesBodyCountsItCannotStandFor) {
   for (const int n : {-1, 0, 1, 401}) {
     EXPECT_THROW(table1_hagfish(n), std::invalid_argument) << n;

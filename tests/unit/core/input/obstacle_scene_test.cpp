@@ -93,6 +93,16 @@ TEST(ObstacleScene, RefusesWhatIsNone) {
             "s.toml:1: obstacle: must be an array of tables");
 }
 
+TEST(ObstacleScene, AHeadComesOutOfAPlane) {
+  const std::string out_of = "s.toml:2: expect.out_of = 'wall': must be the name of a plane";
+  const std::string expect = "[expect]\nout_of = 'wall'\n";
+  EXPECT_EQ(scene_complaint(expect).find(out_of), 0U) << scene_complaint(expect);
+  EXPECT_EQ(scene_complaint("[[obstacle]]\nkind = 'plane'\nname = 'wall'\npoint = [0, 0, -9]\n"
+                            "normal = [0, 0, 1]\n" +
+                            expect),
+            "no error");
+}
+
 TEST(ObstacleScene, RefusesOneThatTheBodyStartsIn) {
   const std::string overlap = scene_complaint(
       "[[obstacle]]\nkind = 'strand'\nname = 'pole'\npoints = [[20, -5, 1], [20, 5, 1]]\n"

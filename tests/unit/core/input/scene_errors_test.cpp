@@ -102,8 +102,8 @@ TEST(SceneErrors, RefusesFoodThatCannotBePulled) {
   const std::string food = "[food]\nhold = 2\ncap = { from = 10, to = 20, time = 1 }\n";
   EXPECT_EQ(scene_complaint(food), "no error");
   EXPECT_EQ(scene_complaint(food + "[wall]\npresent = false\n"),
-            "s.toml:2: food.hold = 2: without a head plate (wall.present) the knot presses against "
-            "nothing");
+            "s.toml:2: food.hold = 2: without a head plate (wall.present) or an obstacle the "
+            "knot presses against nothing");
   EXPECT_EQ(scene_complaint("clamp_head = false\n" + food),
             "s.toml:3: food.hold = 2: no food holds a head that is not clamped (clamp_head)");
   EXPECT_EQ(scene_complaint(food + "[controller]\nfree_from = 'slide'\n"),

@@ -49,9 +49,9 @@ class Bits {
     for (const double value : values.reshaped()) put(value);
   }
   void put(const ModelSettings& s) {
-    const auto& [bodies, passive, bending_stiffness, bending_damping, twist_stiffness,
+    const auto& [bodies, joints, passive, bending_stiffness, bending_damping, twist_stiffness,
                  twist_damping, largest_limit, limit_scale, mass_ratio, bending_limit] = s;
-    add(bodies, passive, bending_stiffness, bending_damping, twist_stiffness, twist_damping,
+    add(bodies, joints, passive, bending_stiffness, bending_damping, twist_stiffness, twist_damping,
         largest_limit, limit_scale, mass_ratio, bending_limit);
   }
   void put(const DragSettings& s) {
@@ -151,11 +151,11 @@ class Bits {
     add(type, run_time_text(from), run_time_text(to));
   }
   void put(const ExpectSettings& s) {
-    const auto& [knot, types, hand, slide_distance, reverse_distance, pull, pull_settled,
+    const auto& [knot, types, hand, slide_distance, reverse_distance, out_of, pull, pull_settled,
                  pull_drift, pull_balance, speed_share, penetration, limit_violation, head_drift,
                  kkt, force_balance, forward_inverse, energy, energy_gain, energy_loss, momentum] =
         s;
-    add(knot, types, hand, slide_distance, reverse_distance, pull, pull_settled, pull_drift,
+    add(knot, types, hand, slide_distance, reverse_distance, out_of, pull, pull_settled, pull_drift,
         pull_balance, speed_share, penetration, limit_violation, head_drift, kkt, force_balance,
         forward_inverse, energy, energy_gain, energy_loss, momentum);
   }
@@ -187,8 +187,17 @@ ResolvedScene odd_scene() {
   s.title = "odd \"title\"";
   s.clamp_head = false;
   s.gravity = {odd(), -odd(), odd()};
-  s.model = {7,     PassiveSource::specimen, odd(), odd(), odd(), odd(), odd(), odd(),
-             odd(), BendingLimit::cone};
+  s.model = {7,
+             JointLayout::universal,
+             PassiveSource::specimen,
+             odd(),
+             odd(),
+             odd(),
+             odd(),
+             odd(),
+             odd(),
+             odd(),
+             BendingLimit::cone};
   s.drag = {odd(), odd()};
   s.constraints = {Activation::violated, odd()};
   s.contact = {odd(), odd()};
@@ -271,6 +280,7 @@ ResolvedScene odd_scene() {
               Hand::left,
               odd(),
               odd(),
+              "a plane",
               odd(),
               odd(),
               odd(),
@@ -290,7 +300,7 @@ ResolvedScene odd_scene() {
   s.guard.momentum_gain = odd();
   s.active.bounds_laws = true;
   s.start.bend = {{odd(), odd(), -odd(), odd()}, {odd(), odd(), odd(), odd()}};
-  for (int i = 0; i < 6 + 9; ++i) s.start.qdot.push_back(odd());  // of 7 bodies
+  for (int i = 0; i < 6 + 12; ++i) s.start.qdot.push_back(odd());  // of 7 bodies
   s.start.noise = odd();
   s.start.seed = 4294967294u;
   s.start.phase = Phase::slide;

@@ -86,7 +86,7 @@ TEST_F(ActiveCurvature, IsLinearBetweenTimesAndStationsAndConstantOutside) {
     for (std::size_t k = 0; k < model.hinges.size(); ++k) {
       const Hinge& hinge = model.hinges[k];
       const int row = hinge.axis == Axis::y ? 0 : hinge.axis == Axis::z ? 1 : 2;
-      const double share = hinge_span(100, 0.424, hinge.body) / 42.4;
+      const double share = hinge_span(model, hinge.body) / 42.4;
       EXPECT_NEAR(shape[root_dofs + static_cast<int>(k)],
                   share * value(time, hinge.body / 100.0, row), rounding);
     }
@@ -139,7 +139,7 @@ TEST_F(ActiveCurvature, TorquesPullToTheRestShapeAndCarryThePassiveSpring) {
   const Eigen::VectorXd passive = stiffness_force(model, state.q);
   for (int k = root_dofs; k < model.nv(); ++k) {
     const Hinge& hinge = model.hinges[k - root_dofs];
-    const double stiffness = 2e5 / hinge_span(100, 0.424, hinge.body);
+    const double stiffness = 2e5 / hinge_span(model, hinge.body);
     EXPECT_NEAR(torque.rate[k], 0.005 * stiffness, rounding * stiffness);
     // With the passive spring it is one spring about the rest shape.
     EXPECT_NEAR(torque.value[k] + passive[k],

@@ -87,8 +87,7 @@ TEST_F(MuscleLaw, AsksAheadOfItsLagWhileTheKnotForms) {
     const double ahead = scene.time.step + lag;
     for (int k = root_dofs; k < model.nv(); ++k) {
       const Hinge& hinge = model.hinges[k - root_dofs];
-      const double span =
-          hinge_span(model.body_count(), model.bodies[hinge.body].length, hinge.body);
+      const double span = hinge_span(model, hinge.body);
       const double shape = (at.time + ahead) * turn * span / model.length();
       const double stiffness = scene.active.stiffness / span;
       control.torque.value[k] = stiffness * (shape - state.q[k + 1]) + hinge.stiffness * shape;

@@ -18,10 +18,7 @@ double arc_of(const Model& model, int k) {
   return model.length() * model.hinges[k].body / model.body_count();
 }
 
-double span_of(const Model& model, int k) {
-  const int body = model.hinges[k].body;
-  return hinge_span(model.body_count(), model.bodies[body].length, body);
-}
+double span_of(const Model& model, int k) { return hinge_span(model, model.hinges[k].body); }
 
 Eigen::Index hinge_count(const Model& model) {
   return static_cast<Eigen::Index>(model.hinges.size());

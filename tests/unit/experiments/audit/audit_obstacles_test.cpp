@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <functional>
+#include <string>
+#include <vector>
 
 #include "core/log/hdf5_error.hpp"
 #include "experiments/audit/audit.hpp"
@@ -68,6 +70,23 @@ TEST_F(AuditObstacles, EachFigureIsWatched) {
         "/contacts/obstacle", H5::PredType::NATIVE_INT64, [&](std::int64_t) { return other; });
     EXPECT_NE(text.find("/contacts"), std::string::npos) << other << ": " << text;
   }
+}
+
+TEST(AuditOfAHole, AHeadThatStaysInIsNotOut) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder / "log.h5";
+  const std::vector<std::string> set = {
+      "wall.present=false",
+      "obstacle=[{kind='plane', name='face', point=[2, 0, 0], normal=[1, 0, 0], neck=40}]",
+      "time.step=0.005", "time.duration=0.1", "knot.votes=5"};
+  const auto objects = [&](const std::string& out_of) {
+    std::vector<std::string> all = set;
+    all.push_back("expect.out_of=" + out_of);
+    write_log(file, stored_scene(all));
+    return audit_objections(file).find("head out") != std::string::npos;
+  };
+  EXPECT_TRUE(objects("face"));
+  EXPECT_FALSE(objects(""));
 }
 
 }  // namespace hagfish::audit_obstacles_test

@@ -16,9 +16,9 @@ sys.path.insert(0, str(Path(__file__).parents[3] / "support"))
 from program import hagfish, refused, table  # noqa: E402
 
 DIGITS = 1e-8  # of a column's largest: nine digits are written
-FILES = ("midline", "curvature", "knot", "contacts", "torques", "joints", "eq6", "head", "energy", "phases", "summary")
-SI = {"cm": 1e-2, "dyn": 1e-5, "dyn_cm": 1e-7, "dyn_cm_s": 1e-7, "erg": 1e-7, "g": 1e-3, "cm_per_s": 1e-2, "rad_per_cm": 1e2}
-SI_NAME = {"cm": "m", "dyn": "N", "dyn_cm": "N_m", "dyn_cm_s": "N_m_s", "erg": "J", "g": "kg", "cm_per_s": "m_per_s", "rad_per_cm": "rad_per_m"}
+FILES = ("midline", "curvature", "knot", "contacts", "torques", "joints", "eq6", "head", "energy", "phases", "skin", "summary")
+SI = {"cm2": 1e-4, "cm": 1e-2, "dyn": 1e-5, "dyn_cm": 1e-7, "dyn_cm_s": 1e-7, "erg": 1e-7, "g": 1e-3, "cm_per_s": 1e-2, "rad_per_cm": 1e2}
+SI_NAME = {"cm2": "m2", "cm": "m", "dyn": "N", "dyn_cm": "N_m", "dyn_cm_s": "N_m_s", "erg": "J", "g": "kg", "cm_per_s": "m_per_s", "rad_per_cm": "rad_per_m"}
 
 
 @pytest.fixture(scope="module")
@@ -183,6 +183,52 @@ def test_phases(run):
         same(t["effort_dyn_cm_s"][row], (force[own] @ share * np.diff(time)[np.array(own) - 1]).sum())
     same(t["largest_thigmotaxis_dyn_cm"].max(), tables["summary"]["largest_thigmotaxis_dyn_cm"][0])
     assert "slide" in t["phase"] and np.isnan(t["muscle"]).all()  # empty: it has none
+
+
+def rotations(q, bodies):
+    """Of each body to the world: the root's, then Y and Z of odd joints, X of even ones."""
+    w, x, y, z = q[3:7]
+    turns = [np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+                       [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+                       [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])]
+    about = lambda axis, angle: np.roll(np.roll([[1, 0, 0], [0, np.cos(angle), -np.sin(angle)], [0, np.sin(angle), np.cos(angle)]], axis, 0), axis, 1)
+    angles = list(q[7:])
+    for j in range(1, bodies):
+        turn = about(1, angles.pop(0)) @ about(2, angles.pop(0)) if j % 2 else about(0, angles.pop(0))
+        turns.append(turns[-1] @ turn)
+    return turns
+
+
+def test_skin(run):
+    """What touched while the knot was tied, by round patches on a skin that is rolled out here."""
+    _, log, tables = run
+    t, lengths, radii, centres = tables["skin"], log["model/length"][()], log["model/radius"][()], log["trajectory/position"][()]
+    bodies = len(lengths)
+    same(t["area_cm2"].sum(), (2 * np.pi * radii * lengths).sum())
+    since = np.full(len(t["s_cm"]), np.nan)
+    at_cell = radii[np.minimum((t["s_cm"] / lengths[0]).astype(int), bodies - 1)]
+    tied = np.isin(log["trajectory/phase"][()], (1, 2))  # tighten, slide
+    for frame, a, b in zip(*(log[f"contacts/{name}"][()] for name in ("frame", "spline_a", "spline_b"))):
+        if np.isnan(b) or not tied[frame]:
+            continue
+        turns = rotations(log["trajectory/q"][frame], bodies)
+        arcs = [(one + 0.5) * lengths[0] for one in (a, b)]
+        points = [spline_point(centres[frame], lengths, arc) for arc in arcs]
+        thick = [np.interp(arc, np.cumsum(lengths) - lengths / 2, radii) for arc in arcs]
+        gap = max(0, np.linalg.norm(points[0] - points[1]) - sum(thick))
+        reach = np.sqrt(2 * thick[0] * max(0, 0.05 - gap))  # controller.contact_gap
+        for arc, way in zip(arcs, (points[1] - points[0], points[0] - points[1])):
+            local = turns[min(int(arc / lengths[0]), bodies - 1)].T @ way
+            round_ = (t["side_rad"] - np.arctan2(local[2], local[1]) + np.pi) % (2 * np.pi) - np.pi
+            near = np.hypot(t["s_cm"] - arc, at_cell * round_) <= reach
+            since[near & np.isnan(since)] = log["trajectory/time"][frame]
+    assert 100 < np.isfinite(since).sum() < 0.5 * len(since)
+    other = ~((since == t["since_s"]) | (np.isnan(since) & np.isnan(t["since_s"])))
+    assert other.mean() < 0.002  # cells at the very edge of a patch
+    row = {name: column[0] for name, column in tables["summary"].items()}
+    swept = ~np.isnan(t["since_s"])
+    same(row["swept_cm2"], t["area_cm2"][swept].sum())
+    same(row["swept_share"], row["swept_cm2"] / t["area_cm2"].sum())
 
 
 def test_summary(run):

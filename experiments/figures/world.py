@@ -1,0 +1,126 @@
+"""Tables of a world to knot in: out of a hole with knots and without, and the skin that knots sweep.
+
+Usage: world.py FOLDER, of experiments/studies/world.sh.
+"""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+
+import numpy as np
+
+import tables
+from hagfish_log import HagfishLog
+from script import run_script
+
+SETTLED = 4.0  # s, after which a wave runs evenly
+LAWS = {"paper": "paper's", "reflex": "reflex"}
+
+
+def cells(folder: Path) -> list[tuple[dict[str, str], HagfishLog]]:
+    """Rows of a sweep with their logs."""
+    rows = tables.read_csv(folder / "table.csv", ["cell"])
+    return [(row, HagfishLog(folder / "logs" / f"{row['cell']}.h5")) for row in rows]
+
+
+def knot_and_law(log: HagfishLog) -> tuple[str, str]:
+    scene = log.scene()
+    return scene["expect"]["knot"], LAWS[scene["controller"]["law"]]
+
+
+def types(log: HagfishLog) -> np.ndarray:
+    """The knot's name at each frame."""
+    names = log.named("knot", by="knot_invariants")
+    return np.array([names.get(f"det={d},v2={v}", "") for d, v in zip(log["/knot/determinant"], log["/knot/v2"])])
+
+
+def largest_pull(log: HagfishLog) -> float:
+    """Of means over a frame's time, N."""
+    pull = log["/pull/force"]
+    return float(np.nanmax(pull, initial=0)) / 1e5
+
+
+def first(time: np.ndarray, where: np.ndarray) -> float:
+    return float(time[np.argmax(where)]) if where.any() else np.nan
+
+
+def number(value: float, digits: int = 3) -> str:
+    return "never" if np.isnan(value) else f"{value:.{digits}g}"
+
+
+def holes(folder: Path) -> None:
+    rows = []
+    for _, log in cells(folder / "holes"):
+        scene, time = log.scene(), log["/trajectory/time"]
+        knot, law = knot_and_law(log)
+        phase = log.labels("/trajectory/phase")
+        plate = next(each for each in scene["obstacle"] if each["name"] == scene["expect"]["out_of"])
+        pulls = first(time, phase == "pull")
+        out = first(time, (log["/trajectory/q"][:, 0] > plate["point"][0]) & (time > pulls))
+        held = bool((types(log)[(time >= pulls) & (time <= out)] == knot).all())
+        rows.append([knot, law, f"{scene['food']['strength']:g}", f"{1000 * scene['time']['step']:g}", number(pulls), number(first(time, phase == "release")),
+                     number(out), "yes" if held else "no", number(1000 * float(np.max(log["/diagnostics/penetration"])), 2)])
+    tables.write_csv(folder / "tables" / "world.csv", ["knot", "law", "held with, N", "step, ms", "pulls from, s", "it gives at, s", "head out at, s",
+                                                       "type held until then", "deepest overlap, 1e-3 cm"], rows)
+
+
+def waves(folder: Path) -> None:
+    rows = []
+    for path in sorted((folder / "waves").glob("*.h5")):
+        log = HagfishLog(path)
+        angle, length, period = path.stem.split("_")
+        late = log["/trajectory/time"] > SETTLED
+        pull = -log["/mean/forces/head"][late, 0] / 1e5
+        torque = np.abs(log["/mean/forces/active"][late]).max()
+        rows.append([angle, length, period, number(float(pull.mean()), 2), number(float(pull.max()), 2), f"{torque:.1e}".replace("+0", "")])
+    tables.write_csv(folder / "tables" / "world_waves.csv", ["angle, rad", "length, L", "period, s", "mean pull, N", "largest pull, N", "largest torque, dyn cm"],
+                     rows)
+
+
+def hole_map(folder: Path) -> None:
+    """A row a change, a column a knot and law."""
+    found: dict[str, dict[tuple[str, str], str]] = {}
+    for _, log in [*cells(folder / "hole_map"), *cells(folder / "hole_widths")]:
+        scene = log.scene()
+        rim = next(each for each in scene["obstacle"] if each["kind"] == "strand")
+        points = np.array(rim["points"])  # evenly round the hole
+        width = 2 * (np.linalg.norm(points - points.mean(axis=0), axis=1).mean() - rim["radius"])
+        plate = "plane" if rim["name"] == "rim" else "rings"
+        changed = (f"hole {width:.2g} cm, {plate}; girth {max(log['/model/radius']) * 2 * np.pi:.2g} cm; "
+                   f"muscles {scene['active']['stiffness']:.1e} dyn cm^2").replace("e+0", "e")
+        pulled = largest_pull(log)
+        found.setdefault(changed, {})[knot_and_law(log)] = f"{pulled:.2f}" if pulled > 0 else "not tied"
+    columns = list(dict.fromkeys(key for cell in found.values() for key in cell))
+    tables.write_csv(folder / "tables" / "world_map.csv", ["changed", *(f"{knot}, {law}" for knot, law in columns)],
+                     [[changed, *(cell.get(key, "") for key in columns)] for changed, cell in found.items()])
+
+
+def skin(folder: Path) -> None:
+    rows = []
+    for row, log in cells(folder / "skin"):
+        knot, law = knot_and_law(log)
+        with (folder / "skin" / "logs" / row["cell"] / "skin.csv").open(encoding="utf-8") as file:
+            cell = list(csv.DictReader(file))
+        s, area = (np.array([float(one[name]) for one in cell]) for name in ("s_cm", "area_cm2"))
+        swept = np.array([one["since_s"] != "" for one in cell])
+        back = log.scene()["controller"]["leave_by"] == "tail"
+        ends = (s[swept].min(), s[swept].max()) if swept.any() else (np.nan, np.nan)
+        between = (s >= ends[0]) & (s <= ends[1])
+        rows.append([knot, law, "to the head and back" if back else "to the head", row["outcome"], number(area[swept].sum()),
+                     number(100 * area[swept].sum() / area.sum()), number(ends[0], 2), number(s.max() - ends[1], 2),
+                     number(100 * area[swept & between].sum() / area[between].sum())])
+    tables.write_csv(folder / "tables" / "world_skin.csv",
+                     ["knot", "law", "slides", "outcome", "swept, cm^2", "of all skin, %", "never: head, cm", "never: tail, cm", "between these, %"], rows)
+
+
+def main(folder: Path) -> None:
+    (folder / "tables").mkdir(exist_ok=True)
+    holes(folder)
+    waves(folder)
+    hole_map(folder)
+    skin(folder)
+
+
+if __name__ == "__main__":
+    run_script(__doc__, ["FOLDER"], main)

@@ -1,0 +1,45 @@
+#!/usr/bin/env bash
+# A world to knot in: the head pulled out of a hole by knots and by waves without a knot, and the skin that knots sweep. Leaves
+# world.csv, world_waves.csv, world_map.csv, world_skin.csv and world.png.
+#   bash experiments/studies/world.sh [OUTPUT_FOLDER]     default: out/world
+# Stopped, it goes on where it was.
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+for grid in holes hole_map skin; do
+  "$hagfish" sweep "$grids/world_$grid.toml" --out "$out/$grid"
+done
+
+# Holes of other widths, cm: an array of tables is no axis of a grid.
+scenes=()
+for width in 2 3 4 5 6 7; do
+  for knot in overhand figure_eight three_twist; do
+    draw world_plate.py "$width" "$root/data/hole_$knot.toml" "$out/hole_${knot}_$width.toml"
+    sed "s/^base = .*/base = \"hole_${knot}_$width.toml\"/" "$root/data/reflex_hole_$knot.toml" >"$out/reflex_hole_${knot}_$width.toml"
+    scenes+=("\"hole_${knot}_$width.toml\"" "\"reflex_hole_${knot}_$width.toml\"")
+  done
+done
+{
+  grep "^keep\|^set" "$grids/world_hole_map.toml"
+  echo "[[axis]]"
+  echo "scene = [$(IFS=,; echo "${scenes[*]}")]"
+} >"$out/hole_widths.toml"
+"$hagfish" sweep "$out/hole_widths.toml" --out "$out/hole_widths"
+
+# Without a knot: a wave of `angle` (rad) and `length` (body lengths) runs to the head once in `period` (s).
+mkdir -p "$out/waves"
+for wave in "0.5 1 2" "0.5 1 1" "0.5 1 0.5" "1 1 2" "1 1 1" "0.5 0.6 1" "0.5 0.6 0.5" "0.5 0.6 0.25"; do
+  name=$out/waves/${wave// /_}
+  [[ -e $name.h5 ]] && continue
+  # shellcheck disable=SC2086 # three numbers
+  draw world_wave.py $wave "$name.csv" "$name.toml"
+  "$hagfish" run "$name.toml" --out "$name.part.h5" --force --quiet
+  mv "$name.part.h5" "$name.h5"
+done
+
+for log in "$out"/skin/logs/*.h5; do
+  [[ -e ${log%.h5}/summary.csv ]] || "$hagfish" export "$log" --out "${log%.h5}"
+done
+draw world.py "$out"
+draw world_strip.py "$out/holes/logs/9.h5" "$out/holes/logs/0.h5" "$out/world.png"
+list_output
