@@ -1,4 +1,4 @@
-"""Tables of a world to knot in: out of a hole with knots and without, and the skin that knots sweep.
+"""Tables of a world to knot in: out of a hole with knots and without, the skin that knots sweep, and a robot on a floor.
 
 Usage: world.py FOLDER, of experiments/studies/world.sh.
 """
@@ -114,12 +114,29 @@ def skin(folder: Path) -> None:
                      ["knot", "law", "slides", "outcome", "swept, cm^2", "of all skin, %", "never: head, cm", "never: tail, cm", "between these, %"], rows)
 
 
+def robot(folder: Path) -> None:
+    rows = []
+    for row, log in cells(folder / "robot"):
+        scene, time = log.scene(), log["/trajectory/time"]
+        phase = log.labels("/trajectory/phase")
+        slide = log.in_phase("slide")
+        way = float(log["/knot/head_end"][slide[0]] - log["/knot/head_end"][slide[-1]]) if slide.size else np.nan
+        # A released knot is gone where the run comes to the phase free.
+        became = ("it never tied" if not slide.size else "it tied, slid and came off" if (phase == "free").any() else "it tied, and lost the knot")
+        rows.append([f"{-scene['gravity'][2] / 981:.2g}", "held" if scene["clamp_head"] else "free", f"{scene['active']['capacity'] / 1e7:g}",
+                     f"{scene['active']['stiffness'] / 4e7:g}", became, "" if np.isnan(way) else f"{way:.3g}",
+                     f"{np.nanmax(np.abs(log['/mean/forces/active'][:, 6:])) / 1e7:.2g}", number(1000 * float(np.max(log["/diagnostics/penetration"])), 2)])
+    tables.write_csv(folder / "tables" / "world_robot.csv", ["weight, of all of it", "head", "torque bound, N m", "stiffness of a joint, N m/rad", "what became of it",
+                                                             "slide, cm", "largest torque, N m", "deepest overlap, 1e-3 cm"], rows)
+
+
 def main(folder: Path) -> None:
     (folder / "tables").mkdir(exist_ok=True)
     holes(folder)
     waves(folder)
     hole_map(folder)
     skin(folder)
+    robot(folder)
 
 
 if __name__ == "__main__":

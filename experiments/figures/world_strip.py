@@ -1,6 +1,6 @@
-"""A film strip of a head pulled out of a hole: by a reflex (above) and by the paper's law (below).
+"""A film strip of a head pulled out of a hole, by a reflex and by the paper's law, and of a robot that ties a knot (a row each).
 
-Usage: world_strip.py REFLEX.h5 PAPER.h5 OUT.png. Needs the program as built (HAGFISH_PROGRAM).
+Usage: world_strip.py REFLEX.h5 PAPER.h5 ROBOT.h5 OUT.png. Needs the program as built (HAGFISH_PROGRAM).
 """
 
 from __future__ import annotations
@@ -31,16 +31,22 @@ def moments(log: HagfishLog) -> list[float]:
     return [start("slide"), start("pull"), start("release"), out + OUT_FOR]
 
 
-def main(reflex: Path, paper: Path, out: Path) -> None:
+def moments_of_slide(log: HagfishLog) -> list[float]:
+    """Half way to the knot, the start of the slide, its middle and its end, s."""
+    slide = log["/trajectory/time"][log.in_phase("slide")]
+    return [slide[0] / 2, slide[0], (slide[0] + slide[-1]) / 2, slide[-1]]
+
+
+def main(reflex: Path, paper: Path, robot: Path, out: Path) -> None:
     rows = []
     with tempfile.TemporaryDirectory() as folder:
-        for path in (reflex, paper):
-            picture = Path(folder) / f"{path.stem}.png"
-            at = [word for time in moments(HagfishLog(path)) for word in ("--time", f"{time:g}")]
+        for row, (path, moments_of) in enumerate(((reflex, moments), (paper, moments), (robot, moments_of_slide))):
+            picture = Path(folder) / f"{row}.png"
+            at = [word for time in moments_of(HagfishLog(path)) for word in ("--time", f"{time:g}")]
             subprocess.run([HAGFISH, "picture", path, "--out", picture, "--size", SIZE, *at], check=True, stdout=subprocess.DEVNULL)
             rows.append(np.hstack([matplotlib.image.imread(picture.with_stem(f"{picture.stem}_{k + 1}"))[..., :3] for k in range(4)]))
     matplotlib.image.imsave(out, np.vstack(rows))
 
 
 if __name__ == "__main__":
-    run_script(__doc__, ["REFLEX.h5", "PAPER.h5", "OUT.png"], main)
+    run_script(__doc__, ["REFLEX.h5", "PAPER.h5", "ROBOT.h5", "OUT.png"], main)

@@ -117,7 +117,7 @@ INSTANTIATE_TEST_SUITE_P(
                     "reflex_figure_eight", "reflex_double_overhand", "reflex_three_twist",
                     "reflex_overhand_free", "reflex_figure_eight_free",
                     "reflex_double_overhand_free", "reflex_three_twist_free", "reflex_reverse",
-                    "reflex_muscles"),
+                    "reflex_muscles", "robot_overhand"),
     scene_name);
 
 /// What muscles that lag behind a stiff spring do must not hang on the step's own damping.
