@@ -123,7 +123,7 @@ def robot(folder: Path) -> None:
         way = float(log["/knot/head_end"][slide[0]] - log["/knot/head_end"][slide[-1]]) if slide.size else np.nan
         # A released knot is gone where the run comes to the phase free.
         became = ("it never tied" if not slide.size else "it tied, slid and came off" if (phase == "free").any() else "it tied, and lost the knot")
-        rows.append([f"{-scene['gravity'][2] / 981:.2g}", "held" if scene["clamp_head"] else "free", f"{scene['active']['capacity'] / 1e7:g}",
+        rows.append([f"{abs(scene['gravity'][2]) / 981:.2g}", "held" if scene["clamp_head"] else "free", f"{scene['active']['capacity'] / 1e7:g}",
                      f"{scene['active']['stiffness'] / 4e7:g}", became, "" if np.isnan(way) else f"{way:.3g}",
                      f"{np.nanmax(np.abs(log['/mean/forces/active'][:, 6:])) / 1e7:.2g}", number(1000 * float(np.max(log["/diagnostics/penetration"])), 2)])
     tables.write_csv(folder / "tables" / "world_robot.csv", ["weight, of all of it", "head", "torque bound, N m", "stiffness of a joint, N m/rad", "what became of it",
