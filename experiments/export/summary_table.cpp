@@ -75,13 +75,12 @@ Peak peak_of(const Hdf5Reader::Rows& rows, Eigen::Index from_column, std::size_t
 /// (1/L) integral |f_thigmo| ds dt over the frames after `first`, dyn cm s: the three turns added.
 double effort_of(const LogContents& log, const Hdf5Reader::Rows& force, std::size_t first,
                  std::size_t last) {
-  const int n = log.model.body_count();
   double sum = 0;
   for (std::size_t f = first; f <= last; ++f) {
     for (std::size_t k = 0; k < log.model.hinges.size(); ++k) {
       const double size =
           std::abs(force(static_cast<Eigen::Index>(f), root_dofs + static_cast<Eigen::Index>(k)));
-      const double span = hinge_span(n, log.model.length() / n, log.model.hinges[k].body);
+      const double span = hinge_span(log.model, log.model.hinges[k].body);
       sum += size * span / log.model.length() * (log.time[f] - log.time[f - 1]);
     }
   }
