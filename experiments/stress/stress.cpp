@@ -16,39 +16,39 @@ namespace hagfish {
 namespace {
 
 constexpr const char* active_set = "active-set";
-constexpr int core_rule = -1;
+constexpr int core_stepper = -1;
 
 /// How a cell's steps are taken.
 struct StressMethod {
   const char* name;
-  int integrator;                      ///< MuJoCo's, or core_rule
+  int integrator;                      ///< MuJoCo's, or core_stepper
   const char* qp;                      ///< back end of the core
   std::array<const char*, 2> changes;  ///< KEY=VALUE of the scene; none where empty
 };
 constexpr const char* unwatched = "guard.energy_action=warn";
-constexpr std::array<StressMethod, 11> methods{
-    {{"default", core_rule, active_set, {"", ""}},
-     {"no_watch", core_rule, active_set, {unwatched, ""}},
-     {"midpoint", core_rule, active_set, {"time.rule=midpoint", ""}},
-     {"violated", core_rule, active_set, {"constraints.activation=violated", ""}},
-     {"baumgarte_0.2", core_rule, active_set, {"constraints.baumgarte=0.2", ""}},
-     {"baumgarte_1", core_rule, active_set, {"constraints.baumgarte=1", ""}},
-     {"hard_thigmotaxis", core_rule, active_set, {"controller.cap=1e9", ""}},
-     {"ipopt", core_rule, "ipopt", {"", ""}},
+constexpr std::array<StressMethod, 11> stress_rules{
+    {{"default", core_stepper, active_set, {"", ""}},
+     {"no_watch", core_stepper, active_set, {unwatched, ""}},
+     {"midpoint", core_stepper, active_set, {"time.rule=midpoint", ""}},
+     {"violated", core_stepper, active_set, {"constraints.activation=violated", ""}},
+     {"baumgarte_0.2", core_stepper, active_set, {"constraints.baumgarte=0.2", ""}},
+     {"baumgarte_1", core_stepper, active_set, {"constraints.baumgarte=1", ""}},
+     {"hard_thigmotaxis", core_stepper, active_set, {"controller.cap=1e9", ""}},
+     {"ipopt", core_stepper, "ipopt", {"", ""}},
      {"mujoco_euler", mjINT_EULER, "", {"", ""}},
      {"mujoco_implicit", mjINT_IMPLICIT, "", {"", ""}},
      {"mujoco_rk4", mjINT_RK4, "", {"", ""}}}};
 
 const StressMethod& method_called(const std::string& name) {
-  const auto* found = std::find_if(methods.begin(), methods.end(),
+  const auto* found = std::find_if(stress_rules.begin(), stress_rules.end(),
                                    [&](const StressMethod& m) { return m.name == name; });
-  if (found == methods.end()) {
+  if (found == stress_rules.end()) {
     throw std::invalid_argument("unknown method '" + name + "'");
   }
   return *found;
 }
 
-double cpu_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+double processor_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 /// Whether the run came to its end in time. Throws StepError as take_step.
 bool run_in_core(const Model& model, const Scene& scene, const char* qp,
@@ -83,9 +83,9 @@ bool run_in_core(const Model& model, const Scene& scene, const char* qp,
 
 Status run_cell(const Model& model, const Scene& scene, const StressMethod& method,
                 double cpu_limit, StressJudge& judge) {
-  const double begin = cpu_time();
-  const auto out_of_time = [&] { return cpu_time() - begin > cpu_limit; };
-  const bool core = method.integrator == core_rule;
+  const double begin = processor_time();
+  const auto out_of_time = [&] { return processor_time() - begin > cpu_limit; };
+  const bool core = method.integrator == core_stepper;
   if (const std::string why = core ? "" : not_in_mujoco(scene); !why.empty()) {
     return {Outcome::not_applicable, why};
   }
@@ -108,7 +108,7 @@ Status run_cell(const Model& model, const Scene& scene, const StressMethod& meth
 
 std::vector<std::string> stress_methods() {
   std::vector<std::string> names;
-  for (const StressMethod& method : methods) {
+  for (const StressMethod& method : stress_rules) {
     names.emplace_back(method.name);
   }
   return names;
@@ -130,9 +130,9 @@ StressResult stress(const Scene& scene, const Model& model, const std::string& m
                     double cpu_limit) {
   const State first = start_state(model, scene.start);
   StressJudge judge(model, scene, first, mechanical_energy(model, first, kinematics(model, first)));
-  const double begin = cpu_time();
+  const double begin = processor_time();
   const Status status = run_cell(model, scene, method_called(method), cpu_limit, judge);
-  return {status, judge.figures(), cpu_time() - begin};
+  return {status, judge.figures(), processor_time() - begin};
 }
 
 }  // namespace hagfish
