@@ -194,7 +194,9 @@ VelocityError QpReference::error(const Eigen::VectorXd& x) const {
       return response_ * (beta_ * y.cwiseQuotient(scale_));
     };
     const Real largest = velocity(difference).lpNorm<Eigen::Infinity>();
-    const Real reference = (free_velocity_ + velocity(x_)).lpNorm<Eigen::Infinity>();
+    // Of a velocity that the rows bring to nothing, what they take is known.
+    const Real reference = std::max((free_velocity_ + velocity(x_)).lpNorm<Eigen::Infinity>(),
+                                    free_velocity_.lpNorm<Eigen::Infinity>());
     error.largest = static_cast<double>(largest);
     error.largest_relative = largest > 0 ? static_cast<double>(largest / reference) : 0;
   }

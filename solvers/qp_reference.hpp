@@ -18,7 +18,7 @@ struct VelocityError {
   /// rows hardly do anything, errors count as in kkt_residuals.
   double relative = 0;
   double largest = 0;           ///< |v - v*|∞; 0 where v is not known (BoxQp)
-  double largest_relative = 0;  ///< that over |v*|∞
+  double largest_relative = 0;  ///< that over |v*|∞, or |v|∞ without rows where that is more
 };
 
 /// A problem, its elimination of v and its solution, all in long double (64 bits of mantissa on

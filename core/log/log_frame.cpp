@@ -310,10 +310,11 @@ void declare_diagnostics(LogTable<Frame>& t) {
           [](const Frame& f) { return f.record.moment.observation.contact.contacts.size(); });
   t.count(path + "iterations", "iterations of the QP back end",
           [](const Frame& f) { return f.record.solution.iterations; });
-  t.number(
-      path + "kkt_stationarity",
-      {"1", "|H (qdot_next - qdot*) - h sum of forces|, infinity norm over the largest momentum"},
-      [](const Frame& f) { return f.record.solution.stationarity; });
+  t.number(path + "kkt_stationarity",
+           {"1",
+            "|H (qdot_next - qdot*) - h sum of forces|, infinity norm over the largest momentum, "
+            "also of one kind of force alone"},
+           [](const Frame& f) { return f.record.solution.stationarity; });
   t.number(path + "kkt_primal", {"1", "row violation, scaled, infinity norm"},
            [](const Frame& f) { return f.record.solution.kkt.primal; });
   t.number(path + "kkt_complementarity", {"1", "multiplier times excess, scaled, infinity norm"},

@@ -11,6 +11,7 @@
 #include "core/log/frame_rows.hpp"
 #include "core/log/log_frame.hpp"
 #include "core/log/log_step.hpp"
+#include "core/log/seal.hpp"
 #include "core/log/twin_file.hpp"
 
 namespace hagfish {
@@ -20,8 +21,8 @@ namespace fs = std::filesystem;
 
 // From one save to the next, s of wall time.
 constexpr double save_interval = 1;
-// What a save may add besides rows and checkpoints: attributes and their heap, bytes.
-constexpr std::size_t attribute_room = 65536;
+// What a save may add besides rows and checkpoints: attributes and their heap, a seal, bytes.
+constexpr std::size_t attribute_room = 131072;
 // Checkpoints are some 20 kB each at 100 bodies. Compressed they would take half of that, and a run
 // of the Table 1 scene 2.5 % longer.
 constexpr hsize_t checkpoint_chunk = 32768;
@@ -129,8 +130,9 @@ struct LogWriter::Contents {
     }
   }
 
-  /// Brings FILE.part up to date; `sim` is the run after all that it then holds.
-  void save(const Simulation& sim) {
+  /// Brings FILE.part up to date; `sim` is the run after all that it then holds. The last one is
+  /// sealed.
+  void save(const Simulation& sim, bool last = false) {
     if (file->prepare()) {
       std::ranges::for_each(series, [](const auto& s) { s->files_are_alike(); });
     }
@@ -140,7 +142,8 @@ struct LogWriter::Contents {
       room += s->room();
     }
     try {
-      Hdf5Writer h5(file->begin(room));
+      const fs::path& next = file->begin(room);
+      Hdf5Writer h5(next);
       const Hdf5Reader newer(file->whole(), Origin::own);
       std::ranges::for_each(series, [&](const auto& s) { s->write(newer, h5); });
       h5.bytes(last_checkpoint, now, "the run where the log ends, as bytes");
@@ -148,6 +151,7 @@ struct LogWriter::Contents {
         h5.root_attribute(name, value);
       }
       h5.close();
+      if (last) seal_file(next);
     } catch (...) {
       file->abandon();
       throw;
@@ -216,6 +220,7 @@ LogWriter::LogWriter(const fs::path& file, const SavedRun& run, const Hdf5Reader
   const fs::path next = output_->partial().string() + ".next";
   read.write_to(next);
   fs::rename(next, output_->partial());
+  unseal_file(output_->partial());
   c.log = run.log;
   c.attributes["status"] = "running";
   c.attributes["resumed"] =
@@ -287,7 +292,7 @@ void LogWriter::finish(const std::string& status, const Simulation& sim) {
   Contents& c = *contents_;
   try {
     c.attributes["status"] = status;
-    c.save(sim);
+    c.save(sim, true);
   } catch (const std::exception& error) {
     if (!c.any) {
       throw;

@@ -34,7 +34,8 @@ void sum_forces(RowKind kind, const Model& model, const Kinematics& kin, double 
 }
 
 /// step.net_force, and |H x - g - C'λ r / h| (x: felt; by Euler's rule q̇, r = h) over the largest
-/// of the three: forces alone may be nothing but rounding.
+/// of the first two and of what one kind of force alone makes: their sum may be nothing but
+/// rounding, and all of the three are where forces hold each other at rest.
 double stationarity(const Model& model, const Kinematics& kin, double reach, ReportStorage& storage,
                     StepSolution& step) {
   const StepSystem& system = step.system;
@@ -46,9 +47,12 @@ double stationarity(const Model& model, const Kinematics& kin, double reach, Rep
   multiply(model, kin, system.op, step.felt, step.felt_twist, storage.wrench, change);
   scale = std::max(scale, change.lpNorm<Eigen::Infinity>());
   step.net_force = (change - momentum) / reach + step.active_torque;
+  scale = std::max(scale, reach * step.active_torque.lpNorm<Eigen::Infinity>());
+  for (const Eigen::VectorXd& force : step.force.of_kind) {
+    scale = std::max(scale, reach * force.lpNorm<Eigen::Infinity>());
+  }
   step.force.total(storage.impulse);
   storage.impulse *= reach;
-  scale = std::max(scale, storage.impulse.lpNorm<Eigen::Infinity>());
   momentum += storage.impulse;
   change -= momentum;
   return scale == 0 ? 0 : change.lpNorm<Eigen::Infinity>() / scale;

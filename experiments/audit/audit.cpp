@@ -22,6 +22,7 @@
 #include "experiments/audit/audit_pull.hpp"
 #include "experiments/audit/audit_rates.hpp"
 #include "experiments/audit/audit_steps.hpp"
+#include "experiments/audit/rebuilt.hpp"
 
 namespace hagfish {
 namespace {
@@ -106,42 +107,51 @@ Totals since_start(const Totals& totals) {
 
 Finding energy_gain(const LogContents& log) {
   const Eigen::ArrayXd energy = mechanical_energy(log);
-  const Eigen::ArrayXd put_in =
-      since_start<Eigen::ArrayXd>(diagnostic(log, "work_tip") + diagnostic(log, "work_active") +
-                                  diagnostic(log, "work_thigmotaxis"));
+  const Eigen::ArrayXd works = diagnostic(log, "work_tip") + diagnostic(log, "work_active") +
+                               diagnostic(log, "work_thigmotaxis");
+  const Eigen::ArrayXd put_in = since_start(works);
+  const double rounding = totals_rounding * works.abs().maxCoeff();
   EnergyGain gain(energy[0]);
   for (Eigen::Index f = 0; f < energy.size(); ++f) {
-    gain.see(energy[f], put_in[f]);
+    gain.see(energy[f] - rounding, put_in[f]);
   }
   return judged_over(energy_gain_criterion(log.resolved.scene.expect, gain.largest()));
 }
 
-/// So that nothing is divided by nothing, erg.
-constexpr double least_energy = 1e-300;
-
 /// The ledger's imbalance, and what the integrator takes, over the energy that has passed through
 /// it.
 std::vector<Finding> energy(const LogContents& log) {
-  const auto get = [&](const char* name) { return since_start(diagnostic(log, name)); };
+  double largest_total = 0;
+  const auto get = [&](const char* name) {
+    const Eigen::ArrayXd total = diagnostic(log, name);
+    largest_total = std::max(largest_total, total.abs().maxCoeff());
+    return since_start(total);
+  };
   const Eigen::ArrayXd energy = since_start(mechanical_energy(log));
-  const Eigen::ArrayXd works = get("work_tip") + get("work_active") + get("work_thigmotaxis") +
-                               get("work_contact") + get("work_limit") + get("work_head") +
-                               get("work_wall");
+  Eigen::ArrayXd works = Eigen::ArrayXd::Zero(energy.size());
+  double passed = 0;  // works of forces that hold each other cancel
+  for (const char* name : {"work_tip", "work_active", "work_thigmotaxis", "work_contact",
+                           "work_limit", "work_head", "work_wall"}) {
+    const Eigen::ArrayXd work = get(name);
+    works += work;
+    passed = std::max(passed, work.abs().maxCoeff());
+  }
   const Eigen::ArrayXd error = get("integrator_error");
   const Eigen::ArrayXd dissipated = get("dissipated");
   const Eigen::ArrayXd impacts = get("impact_loss");
   const double worst = largest((energy - works + dissipated + impacts - error).abs().eval());
-  const double passed = std::max(dissipated.abs().maxCoeff(), works.abs().maxCoeff());
-  const double relative = passed > 0 ? worst / passed : worst;
+  const double had =
+      (diagnostic(log, "kinetic_energy") + diagnostic(log, "elastic_energy")).maxCoeff();
+  passed = std::max(passed, dissipated.abs().maxCoeff());
+  largest_total = std::max(largest_total, mechanical_energy(log).abs().maxCoeff());
+  const double relative = share_of(worst, passed, largest_total);
   Finding finding = judged_over(
       {"energy ledger", relative, log.resolved.scene.expect.energy, "of the energy that passed"});
   finding.text += fmt::format(
       "; {:.0f} erg worked, {:.0f} dissipated, {:.0f} lost at impacts, {:.0f} integrator's own",
       works[works.size() - 1], dissipated[dissipated.size() - 1], impacts[impacts.size() - 1],
       error[error.size() - 1]);
-  const double had =
-      (diagnostic(log, "kinetic_energy") + diagnostic(log, "elastic_energy")).maxCoeff();
-  const double loss = IntegratorLoss::of(error) / std::max({passed, had, least_energy});
+  const double loss = share_of(IntegratorLoss::of(error), std::max(passed, had), largest_total);
   return {finding, judged_over(energy_loss_criterion(log.resolved.scene.expect, loss),
                                "by the integrator, without impacts")};
 }
@@ -150,13 +160,19 @@ std::vector<Finding> energy(const LogContents& log) {
 struct MomentumColumns {
   MomentumColumns(const LogContents& log, const std::string& angular)
       : momentum(get(log, angular + "momentum")),
-        drag(since_start(get(log, angular + "impulse_drag"))),
-        outside(since_start(get(log, angular + "impulse_outside"))),
-        integrator(since_start(get(log, "integrator_" + angular + "momentum"))),
-        given_back(since_start(get(log, angular + "momentum_given_back"))) {}
+        drag(total(log, angular + "impulse_drag")),
+        outside(total(log, angular + "impulse_outside")),
+        integrator(total(log, "integrator_" + angular + "momentum")),
+        given_back(total(log, angular + "momentum_given_back")) {}
 
   static Hdf5Reader::Rows get(const LogContents& log, const std::string& name) {
     return log.h5.rows("/diagnostics/" + name);
+  }
+  /// Since the log began.
+  Hdf5Reader::Rows total(const LogContents& log, const std::string& name) {
+    const Hdf5Reader::Rows rows = get(log, name);
+    largest_total = worse(largest_total, most(rows));
+    return since_start(rows);
   }
   static double most(const Hdf5Reader::Rows& rows) {
     return rows.allFinite() ? rows.cwiseAbs().maxCoeff() : INFINITY;
@@ -165,6 +181,7 @@ struct MomentumColumns {
     return std::max({most(momentum), most(drag), most(outside), most(integrator)});
   }
 
+  double largest_total = 0;  ///< of any
   Hdf5Reader::Rows momentum, drag, outside, integrator, given_back;
 };
 
@@ -173,7 +190,7 @@ Finding momentum_ledger(const LogContents& log, const std::string& name, const c
   const auto most = &MomentumColumns::most;
   const double off =
       most(since_start(of.momentum) - of.drag - of.outside - of.integrator - of.given_back);
-  const double relative = of.passed() > 0 ? off / of.passed() : off;
+  const double relative = share_of(off, of.passed(), of.largest_total);
   Finding finding = judged_over(
       {name, relative, log.resolved.scene.expect.energy, "of the momentum that passed"});
   finding.text += fmt::format(
@@ -208,7 +225,7 @@ double made_while_free(const LogContents& log, const MomentumColumns& of, double
   }
   const double scale = std::max({MomentumColumns::most(of.momentum), MomentumColumns::most(of.drag),
                                  MomentumColumns::most(of.outside), of_parts});
-  return scale > 0 ? most / scale : most;
+  return share_of(most, scale, of.largest_total);
 }
 
 /// What happens to momentum; where nothing holds or pulls the animal, that nothing does.
@@ -306,7 +323,7 @@ std::vector<Finding> audit(const std::string& file) {
     deepest = worse(deepest, frame.observation.penetration);
     furthest = worse(furthest, frame.observation.limit_violation);
   }
-  std::vector<Finding> findings{status(log)};
+  std::vector<Finding> findings{status(log), audit_seal(log)};
   const auto append = [&findings](std::vector<Finding> more) {
     findings.insert(findings.end(), more.begin(), more.end());
   };

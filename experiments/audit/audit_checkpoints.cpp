@@ -3,17 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "core/log/build_info.hpp"
+#include "core/log/log_writer.hpp"
 #include "core/log/saved_run.hpp"
 #include "experiments/audit/audited_frame.hpp"
 
 namespace hagfish {
 namespace {
 
-/// On the machine that made the log states agree to the last bit. Another one's compiler rounds
-/// otherwise, which grows, where the knot slides, by some orders in a checkpoint's interval: cm,
-/// rad, and their rates per s.
+/// On the machine that made the log checkpoints come again to the last bit. Another one's compiler
+/// rounds otherwise, which grows, where the knot slides, by some orders in a checkpoint's interval:
+/// there the next frame is compared, to cm, rad, and their rates per s.
 constexpr double same_state = 1e-6;
 
 double apart(const State& a, const State& b) {
@@ -27,42 +29,104 @@ class CheckpointAudit {
         scene_(log.resolved.scene),
         qp_(log.h5.root_text("qp")),
         steps_(log),
+        exact_(is_of_this_build(log.h5)),
         end_(steps_.first + static_cast<std::int64_t>(log.h5.shape("/steps/kkt").at(0))) {}
 
   Finding finding() {
     const std::vector<LoggedCheckpoint> marks = logged_checkpoints(log_.h5);
-    const Simulation last = run_of(log_.h5.bytes(last_checkpoint));
+    const std::vector<std::uint8_t> end = log_.h5.bytes(last_checkpoint);
+    const Simulation last = run_of(end).sim;
     if (last.step != end_) {
       throw FileError(fmt::format("{}: {} is before step {}, and the log ends before step {}",
                                   log_.h5.file(), last_checkpoint, last.step, end_));
     }
-    if (steps_.first == 0) {
-      follow(start(log_.model, scene_, qp_), marks.empty(), last);
+    if (const std::string gone = first_missing(marks); !gone.empty()) {
+      return {"checkpoints", false, gone, "", "", ""};
     }
-    for (const LoggedCheckpoint& mark : marks) {
-      const Simulation sim = run_of(mark.bytes);
-      if (sim.step != mark.step) {
+    for (std::size_t k = steps_.first == 0 ? 0 : 1; k <= marks.size(); ++k) {
+      Run run = k == 0 ? Run{start(log_.model, scene_, qp_), empty()} : run_of(marks[k - 1].bytes);
+      if (k > 0 && run.sim.step != marks[k - 1].step) {
         throw FileError(log_.h5.file() + ": /checkpoints/step is not that of /checkpoints/data");
       }
-      follow(sim, &mark == &marks.back(), last);
+      const std::vector<std::uint8_t>& next = k < marks.size() ? marks[k].bytes : end;
+      exact_ ? see_next(std::move(run), next) : follow(std::move(run.sim), k == marks.size(), last);
     }
     if (seen_ == 0) {
       return {"checkpoints", true, "none before the log's end", "", "", ""};
     }
-    return all_of(
-        "checkpoints", same_, seen_, "states",
-        fmt::format("{} of {} states come again from the start and {} checkpoints, off by "
-                    "{:.2g} cm, rad or their rates at most ({:g})",
-                    same_, seen_, marks.size(), worst_, same_state));
+    return all_of("checkpoints", same_, seen_, "states",
+                  exact_ ? fmt::format("{} of {} come again bit by bit, with all that they hold, "
+                                       "each from the one before{}",
+                                       same_, seen_, first_wrong_)
+                         : fmt::format("{} of {} states come again from the start and {} "
+                                       "checkpoints, off by {:.2g} cm, rad or their rates at most "
+                                       "({:g})",
+                                       same_, seen_, marks.size(), worst_, same_state));
   }
 
  private:
-  Simulation run_of(const std::vector<std::uint8_t>& bytes) const {
-    LogState unused{RunningMeans(log_.model.nv()), {}, {}};
+  struct Run {
+    Simulation sim;
+    LogState log;
+  };
+
+  LogState empty() const { return {RunningMeans(log_.model.nv()), {}, {}}; }
+
+  Run run_of(const std::vector<std::uint8_t>& bytes) const {
+    LogState log = empty();
     try {
-      return decode(bytes, log_.model, qp_, unused);
+      Simulation sim = decode(bytes, log_.model, qp_, log);
+      return {std::move(sim), std::move(log)};
     } catch (const std::exception& error) {
       throw FileError(fmt::format("{}: /checkpoints: {}", log_.h5.file(), error.what()));
+    }
+  }
+
+  /// The first step before which there should be a checkpoint and is none, or one too many.
+  std::string first_missing(const std::vector<LoggedCheckpoint>& marks) const {
+    const std::int64_t stride = checkpoint_stride(scene_.time);
+    std::size_t k = 0;
+    for (std::int64_t step = (steps_.first / stride + 1) * stride; step <= end_; step += stride) {
+      if (k == marks.size() || marks[k].step != step) {
+        return fmt::format(
+            "none before step {}, {:g} s, though time.checkpoint_interval asks for "
+            "it",
+            step, static_cast<double>(step) * scene_.time.step);
+      }
+      ++k;
+    }
+    return k == marks.size() ? "" : fmt::format("one too many before step {}", marks[k].step);
+  }
+
+  /// Takes a run on to where the checkpoint `next` stands, and compares all that it holds. Warnings
+  /// are those of `next`.
+  void see_next(Run run, const std::vector<std::uint8_t>& next) {
+    auto [wanted, log] = run_of(next);
+    StepRecord record;
+    bool same = true;
+    while (run.sim.step < wanted.step) {
+      if (const auto frame = frame_of(run.sim)) {
+        const State& state = run.sim.now.state;
+        same = same && state.q == log_.q.row(*frame).transpose() &&
+               state.qdot == log_.qdot.row(*frame).transpose();
+      }
+      take_step(log_.model, scene_, run.sim, record);
+      const ThigmotaxisRows rows =
+          thigmotaxis_rows_of(record.control, record.solution, scene_.time.step);
+      run.log.worst.take(record);
+      if (record.step % steps_.stride == 0) {
+        run.log.means.close();
+        run.log.worst = {};
+      }
+      run.log.means.take(record, rows);
+    }
+    run.log.warnings = log.warnings;
+    same = same && encode(run.sim, run.log) == next;
+    same_ += same ? 1 : 0;
+    ++seen_;
+    if (!same && first_wrong_.empty()) {
+      first_wrong_ =
+          fmt::format("; not that before step {}, {:g} s", wanted.step, time_of(wanted, scene_));
     }
   }
 
@@ -82,11 +146,15 @@ class CheckpointAudit {
   }
 
   /// The frame with which the next step of `sim` begins, if there is one.
+  std::optional<Eigen::Index> frame_of(const Simulation& sim) const {
+    const std::int64_t since = sim.step - steps_.first;
+    const Eigen::Index frame = since / steps_.stride;
+    return since % steps_.stride == 0 && frame < log_.q.rows() ? std::optional(frame)
+                                                               : std::nullopt;
+  }
+
   void see_frame(const Simulation& sim) {
-    const Eigen::Index frame = (sim.step - steps_.first) / steps_.stride;
-    if (frame < log_.q.rows()) {
-      see(sim, {log_.q.row(frame), log_.qdot.row(frame)});
-    }
+    if (const auto frame = frame_of(sim)) see(sim, {log_.q.row(*frame), log_.qdot.row(*frame)});
   }
 
   void see(const Simulation& sim, const State& logged) {
@@ -100,12 +168,19 @@ class CheckpointAudit {
   const Scene& scene_;
   std::string qp_;
   Steps steps_;
+  bool exact_;        // this build on this machine made the log
   std::int64_t end_;  // the step that would come next
   std::int64_t same_ = 0, seen_ = 0;
   double worst_ = 0;
+  std::string first_wrong_;
 };
 
 }  // namespace
+
+bool is_of_this_build(const Hdf5Reader& h5) {
+  return h5.root_text("git_revision") == build_revision() &&
+         h5.root_text("compiler") == build_compiler() && h5.root_text("cpu") == cpu_name();
+}
 
 bool is_of_earlier_version(const LogContents& log) {
   return log.h5.root_text("git_revision") != build_revision() &&

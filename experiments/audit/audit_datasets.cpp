@@ -1,11 +1,15 @@
 #include "experiments/audit/audit_datasets.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <hdf5_hl.h>
 
 #include "core/log/axis_labels.hpp"
+#include "core/log/build_info.hpp"
 #include "core/log/coordinate_names.hpp"
 #include "core/log/log_writer.hpp"
 #include "core/log/saved_run.hpp"
+#include "core/log/seal.hpp"
 #include "experiments/audit/audit_checkpoints.hpp"
 #include "experiments/audit/log_schema.hpp"
 
@@ -72,6 +76,25 @@ void check_words(const Hdf5Reader& h5, const std::string& path) {
   }
 }
 
+/// Other revisions may have had other words.
+void check_own_words(const Hdf5Reader& h5, const SeriesLayout& layout) {
+  const auto require = [&](bool same, const char* what) {
+    if (!same) throw FileError(h5.file() + ": " + layout.path + " has another " + what);
+  };
+  require(h5.attribute(layout.path, "unit") == layout.meaning.unit, "unit");
+  require(h5.attribute(layout.path, "description") == layout.meaning.description, "description");
+  const H5::DataSet set = h5.open(layout.path);
+  if (layout.type.getClass() == H5T_ENUM) {
+    require(set.getDataType() == layout.type, "enumeration");
+  }
+  for (std::size_t axis = 0; axis < layout.labels.size(); ++axis) {
+    const std::string& labels = layout.labels[axis];
+    if (labels.empty() || labels == layout.path) continue;
+    require(H5DSis_attached(set.getId(), h5.open(labels).getId(), static_cast<unsigned>(axis)) > 0,
+            "label on an axis");
+  }
+}
+
 }  // namespace
 
 void check_datasets(const LogContents& log) {
@@ -86,6 +109,9 @@ void check_datasets(const LogContents& log) {
   for (const DatasetForm& form : log_forms(log.h5, log.model, log.resolved.scene)) {
     check_form(log.h5, form);
     check_words(log.h5, form.path);
+    if (log.h5.root_text("git_revision") == build_revision()) {
+      check_own_words(log.h5, *form.layout);
+    }
   }
   for (const char* path :
        {"/checkpoints/step", "/checkpoints/end", checkpoint_data, last_checkpoint}) {
@@ -95,6 +121,24 @@ void check_datasets(const LogContents& log) {
     if (!log.h5.has(path)) throw FileError(log.h5.file() + ": has no " + path);
   }
   check_names(log);
+}
+
+Finding audit_seal(const LogContents& log) {
+  if (!log.h5.has(seal_path)) {
+    const bool ended = log.h5.root_text("status") != "running";
+    const bool taken = ended && log.h5.root_text("git_revision") == build_revision();
+    return {"seal", !taken, taken ? "taken out: logs of this revision have one" : "none",
+            "",     "",     ""};
+  }
+  const Seal then = read_seal(log.h5.text(seal_path));
+  const H5::DataSet any = log.h5.open("/trajectory/time");
+  const auto changed = guarded(log.h5.file(), "look for changes",
+                               [&] { return changes(then, seal_of(any.getId())); });
+  return judged(
+      {"seal", static_cast<double>(changed.size()), 0, "changes"},
+      changed.empty()
+          ? fmt::format("{} datasets and attributes are as the log's end left them", then.size())
+          : fmt::format("since the log ended {}", fmt::join(changed, ", ")));
 }
 
 }  // namespace hagfish

@@ -33,12 +33,26 @@ constexpr std::size_t least_means = 5;          // for a median
 constexpr double unsettled_share = 0.75;
 
 /// |a - b| over the largest of both and of `least_scale`, in infinity norms; infinite where one is
-/// no number.
+/// no number. Sums of forces that hold each other are nothing but rounding, their parts are not.
 double mismatch(const Eigen::VectorXd& a, const Eigen::VectorXd& b, double least_scale = 0) {
   const double off = (a - b).lpNorm<Eigen::Infinity>();
   const double scale =
       std::max({a.lpNorm<Eigen::Infinity>(), b.lpNorm<Eigen::Infinity>(), least_scale});
   return !(a - b).allFinite() ? INFINITY : (off > 0 ? off / scale : 0);
+}
+
+/// What a frame's forces of all kinds and torques of muscles add up to, and the largest entry of
+/// any of them.
+std::pair<Eigen::VectorXd, double> sum_of_kinds(const ByKind<Hdf5Reader::Rows>& forces,
+                                                const Hdf5Reader::Rows& active, Eigen::Index f) {
+  Eigen::VectorXd sum = active.row(f);
+  double largest = sum.lpNorm<Eigen::Infinity>();
+  for (const RowKindEntry& kind : row_kind_table) {
+    const Eigen::VectorXd force = forces[kind.value].row(f);
+    sum += force;
+    largest = std::max(largest, force.lpNorm<Eigen::Infinity>());
+  }
+  return {sum, largest};
 }
 
 /// Of at least one value.
@@ -228,9 +242,7 @@ void ForceAudit::see_balance(const AuditedFrame& frame) {
   StepSystem system;
   assemble_step_system(model, frame.state, frame.motion, frame.kin, {tip_.row(f).transpose(), 0},
                        {reach, time.spring_damping()}, system);
-  Eigen::VectorXd sum = Eigen::VectorXd::Zero(model.nv());
-  for (const RowKindEntry& kind : row_kind_table) sum += force_[kind.value].row(f).transpose();
-  sum += active_torque_.row(f).transpose();
+  const auto [sum, largest] = sum_of_kinds(force_, active_torque_, f);
   const Eigen::VectorXd given =
       generalised_force(model, frame.kin, system.wrench) + system.joint + reach * sum;
   if (log_.midpoint()) {
@@ -240,8 +252,9 @@ void ForceAudit::see_balance(const AuditedFrame& frame) {
     unsettled_ += left <= time.settled ? 0 : 1;
     from_rows_.compare("/steps/middle_off", middle_off_[step], off.norm());
   }
-  imbalance_ =
-      worse(imbalance_, mismatch(given, multiply(model, frame.kin, system.op, frame.qdot_felt)));
+  imbalance_ = worse(
+      imbalance_,
+      mismatch(given, multiply(model, frame.kin, system.op, frame.qdot_felt), reach * largest));
   momentum_before_ = momentum_;
   momentum_ = given.lpNorm<Eigen::Infinity>() / time.step;
 }
@@ -249,12 +262,11 @@ void ForceAudit::see_balance(const AuditedFrame& frame) {
 void ForceAudit::see_means(const AuditedFrame& frame, const ThigmotaxisAudit::Rows& rows) {
   const Eigen::Index f = frame.index;
   const auto row = [f](const Hdf5Reader::Rows& of) -> Eigen::VectorXd { return of.row(f); };
-  Eigen::VectorXd sum = Eigen::VectorXd::Zero(log_.model.nv());
-  for (const RowKindEntry& kind : row_kind_table) sum += row(mean_[kind.value]);
-  sum += row(mean_active_);
+  const auto [sum, largest] = sum_of_kinds(mean_, mean_active_, f);
   // Forces alone may be nothing but rounding of the momentum.
   mean_imbalance_ =
-      worse(mean_imbalance_, mismatch(sum, row(mean_net_), std::max(momentum_, momentum_before_)));
+      worse(mean_imbalance_,
+            mismatch(sum, row(mean_net_), std::max({momentum_, momentum_before_, largest})));
   const auto ask = [this](const std::string& path, bool met) {
     if (!met) {
       shape_.insert(path);

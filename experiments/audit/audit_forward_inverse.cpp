@@ -51,12 +51,13 @@ struct ForwardInverseAudit::Driven {
   double largest_alone(Eigen::Index frame, const Eigen::VectorXd& q) {
     const State rest{q, Eigen::VectorXd::Zero(log.model.nv())};
     double largest = 0;
-    for (const Hdf5Reader::Rows& kind : kinds) {
-      if (kind.row(frame).isZero(0)) continue;
-      const Eigen::VectorXd alone =
-          driven_velocity(log.model, rest, kind.row(frame), Eigen::Vector3d::Zero(), mirror);
+    const auto see = [&](const Eigen::VectorXd& force, const Eigen::Vector3d& at_tip) {
+      if (force.isZero(0) && at_tip.isZero(0)) return;
+      const Eigen::VectorXd alone = driven_velocity(log.model, rest, force, at_tip, mirror);
       largest = std::max(largest, alone.lpNorm<Eigen::Infinity>());
-    }
+    };
+    for (const Hdf5Reader::Rows& kind : kinds) see(kind.row(frame), Eigen::Vector3d::Zero());
+    see(Eigen::VectorXd::Zero(log.model.nv()), tip.row(frame));
     return largest;
   }
 };

@@ -26,6 +26,13 @@ constexpr double largest_share_late = 0.02;
 /// Figures that are nothing but rounding have no scale of their own, cm and rad.
 constexpr double nothing_but_rounding = 1e-9;
 
+/// The centre of mass goes from frame to frame at the mean of its velocities at both, but for what
+/// it changes in between: this much, cm/s, or this share of the speed, more where frames are
+/// further apart than these, s. Seen: 0.33 cm/s.
+constexpr double way_tolerance = 1;
+constexpr double way_share = 0.3;
+constexpr double way_interval = 0.02;
+
 /// Whether the contact that the spline parameters `a` and `b` give is `found`, if any.
 bool is_contact(const std::optional<Contact>& found, double a, double b) {
   if (!found) return std::isnan(a) && std::isnan(b);
@@ -79,6 +86,7 @@ void FrameAudit::see(const AuditedFrame& frame, const KnotVote& knot) {
   see_knot(frame, knot);
   see_energy(frame);
   see_bounds(frame);
+  see_motion(frame);
 }
 
 void FrameAudit::see_trajectory(const AuditedFrame& frame) {
@@ -147,6 +155,31 @@ void FrameAudit::see_bounds(const AuditedFrame& frame) {
                   frame.clamped ? head_drift(log_.model, s.kin) : 0, nothing_but_rounding);
 }
 
+void FrameAudit::see_motion(const AuditedFrame& frame) {
+  const auto mean = [this](const Eigen::Matrix3Xd& of_bodies) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    double mass = 0;
+    for (int b = 0; b < log_.model.body_count(); ++b) {
+      sum += log_.model.bodies[b].mass * of_bodies.col(b);
+      mass += log_.model.bodies[b].mass;
+    }
+    return Eigen::Vector3d(sum / mass);
+  };
+  const Kinematics& kin = frame.observation.kin;
+  const Eigen::Vector3d centre = mean(kin.centre), arrived_with = mean(kin.centre_velocity);
+  if (frame.index > 0) {
+    const double elapsed = log_.time[frame.index] - log_.time[frame.index - 1];
+    const Eigen::Vector3d off =
+        centre - centre_before_ - 0.5 * elapsed * (left_with_ + arrived_with);
+    const double speed = std::max(left_with_.norm(), arrived_with.norm());
+    const double allowed = elapsed * std::max(1.0, elapsed / way_interval) *
+                           std::max(way_tolerance, way_share * speed);
+    off_way_ = worse(off_way_, off.norm() / allowed);
+  }
+  centre_before_ = centre;
+  left_with_ = mean(frame.moved_velocity);
+}
+
 std::vector<Finding> FrameAudit::findings() const {
   // At one frame more or less, whatever the share.
   const auto share = [](std::int64_t count, double most, std::int64_t of) {
@@ -157,6 +190,8 @@ std::vector<Finding> FrameAudit::findings() const {
   return {
       by_itself_.finding("frames", "the frame's number, the phase before, the integrator's terms"),
       from_q_.finding("figures of q", "q and q̇ at every frame"),
+      judged_over({"motion", off_way_, 1, "of what is allowed"},
+                  "way of the centre of mass between frames, against its velocities there"),
       judged({"contacts", off, 1, "of what is allowed"},
              fmt::format("/diagnostics/contacts is not what a search from nothing finds at {} of "
                          "{} frames (at most {:g} %), by {} at most ({})",

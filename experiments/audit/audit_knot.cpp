@@ -9,6 +9,7 @@
 #include "core/input/run_time_text.hpp"
 #include "core/knot/knot.hpp"
 #include "core/knot/writhe.hpp"
+#include "core/run/laws.hpp"
 
 namespace hagfish {
 namespace {
@@ -161,8 +162,18 @@ Finding moved(const Criterion& criterion, const char* end, const char* way) {
                                   criterion.value, way, criterion.bound));
 }
 
-/// Eq. 6 at the steps of both slides. Steps of a phase lie between its frames' first and last step.
-Finding commanded_speed(const LogContents& log) {
+/// Whether the scene's law asks for Eq. 6 while the knot slides; of a law of the run's own, whether
+/// it may.
+bool asks_for_eq6(const Scene& scene) {
+  const Law& law = law_of(scene);
+  return law.rows == nullptr || law.rows(scene, Phase::slide).any;
+}
+
+/// Eq. 6 at the steps of both slides; nothing where the law never asks for it. Of a law of the
+/// run's own at those steps at which it does. Steps of a phase lie between its frames' first and
+/// last step.
+std::optional<Finding> commanded_speed(const LogContents& log) {
+  if (!log.own_law() && !asks_for_eq6(log.resolved.scene)) return std::nullopt;
   const std::vector<std::int64_t> step = log.h5.integers("/trajectory/step");
   const std::vector<std::int64_t> eq6 = log.h5.integers("/steps/eq6");
   std::int64_t met = 0;
@@ -172,10 +183,12 @@ Finding commanded_speed(const LogContents& log) {
       continue;
     }
     for (std::int64_t k = step[f]; k < step[f + 1]; ++k) {
-      rows += 1;
-      met += eq6.at(k - step.front()) == 1 ? 1 : 0;
+      const std::int64_t one = eq6.at(k - step.front());
+      rows += one != -1 || !log.own_law() ? 1 : 0;
+      met += one == 1 ? 1 : 0;
     }
   }
+  if (log.own_law() && rows == 0) return std::nullopt;
   const Criterion criterion = eq6_criterion(log.resolved.scene.expect, met, rows);
   return judged(criterion,
                 rows == 0 ? fmt::format("no sliding steps (at least {:g} %)", criterion.bound)
@@ -282,7 +295,7 @@ std::vector<Finding> audit_knot(const LogContents& log, const std::vector<SeenKn
   }
   if (!expect.out_of.empty() && reaches(Phase::free)) findings.push_back(head_out(log, type));
   if (shows(Phase::slide)) {
-    findings.push_back(commanded_speed(log));
+    if (const auto finding = commanded_speed(log)) findings.push_back(*finding);
   }
   return findings;
 }

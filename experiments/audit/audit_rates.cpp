@@ -121,7 +121,8 @@ std::vector<Finding> RateAudit::findings() const {
   }
   for (const Growth& growth : growths_) {
     // What never grew must not be made to.
-    const double share = growth.grown > 0 ? growth.off / growth.grown : growth.off;
+    const double rounding = growth.total.cwiseAbs().maxCoeff() * static_cast<double>(log_.q.rows());
+    const double share = share_of(growth.off, growth.grown, rounding);
     findings.push_back(judged_over({growth.name, share, growth_tolerance, "of its growth"},
                                    "as the forces and the motion from frame to frame make it"));
   }

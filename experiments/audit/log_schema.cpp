@@ -69,8 +69,8 @@ hsize_t rows_of(const Hdf5Reader& log, const std::string& path) {
 
 void add_forms(const SeriesList& table, hsize_t rows, std::vector<DatasetForm>& forms) {
   for (const auto& series : table) {
-    const SeriesLayout& layout = series->layout();
-    forms.push_back({layout.path, layout.shape(rows), layout.type.getClass()});
+    const auto layout = std::make_shared<SeriesLayout>(series->layout());
+    forms.push_back({layout->path, layout->shape(rows), layout->type.getClass(), layout});
   }
 }
 

@@ -2,11 +2,13 @@
 // anywhere.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "core/chain/model.hpp"
 #include "core/log/hdf5_reader.hpp"
+#include "core/log/hdf5_writer.hpp"
 #include "core/scene/settings.hpp"
 
 namespace hagfish {
@@ -16,6 +18,7 @@ struct DatasetForm {
   std::string path;
   std::vector<hsize_t> shape;
   H5T_class_t type;
+  std::shared_ptr<const SeriesLayout> layout;  ///< as declared
 };
 
 /// Every dataset along frames, steps and contacts as the writer of logs declares it, with the rows

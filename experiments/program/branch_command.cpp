@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "experiments/audit/log_schema.hpp"
+#include "experiments/program/idle_settings.hpp"
 #include "experiments/program/program.hpp"
 #include "experiments/program/scene_run.hpp"
 #include "experiments/program/scene_sense.hpp"
@@ -28,6 +29,7 @@ int branch(const BranchOptions& options, const std::string& typed) {
         read_scene_text(h5.root_text("scene"), options.log + ": scene", options.set);
     run.model = make_hagfish(resolved.specimen, resolved.scene);
     check_sense(resolved, run.model, options.run.force);
+    require_settings_act_from(run.sim, resolved.scene, options.set);
     try {
       change_scene(run.model, run.resolved.scene, resolved.scene, run.sim);
     } catch (const std::invalid_argument& error) {
@@ -35,6 +37,12 @@ int branch(const BranchOptions& options, const std::string& typed) {
           fmt::format("{}: cannot branch at {:g} s: {}", options.log, time, error.what()));
     }
     run.resolved = resolved;
+  }
+  if (finished(run.sim, run.resolved.scene)) {
+    throw InputError(
+        fmt::format("{}: cannot branch at {:g} s: the scene is over there "
+                    "(time.duration = {:g} s; --time branches earlier)",
+                    options.log, time, run.resolved.scene.time.duration));
   }
   run.sim.watch = {};  // the branch's own log warns of what it does
   LogHeader header = log_header(run.resolved, run.model, run.qp, typed);

@@ -6,6 +6,7 @@
 #include "core/log/build_info.hpp"
 #include "core/log/hdf5_error.hpp"
 #include "experiments/audit/log_schema.hpp"
+#include "experiments/program/idle_settings.hpp"
 #include "experiments/program/presets.hpp"
 #include "experiments/program/program.hpp"
 #include "experiments/program/scene_argument.hpp"
@@ -40,6 +41,7 @@ int run_anew(NewRunOptions options, const std::string& typed) {
   const Scene& scene = resolved.scene;
   const Model model = make_hagfish(resolved.specimen, scene);
   check_sense(resolved, model, options.run.force);
+  require_settings_act(scene, options.set);
   const std::string qp = options.qp.empty() ? preset.qp : options.qp;
   if (options.run.out.empty()) {
     options.run.out = fs::path(options.scene).stem().string() + ".h5";

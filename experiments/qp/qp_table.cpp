@@ -26,7 +26,9 @@ void print_qp_heading(const std::string& file, const QpReport& report, int repea
   fmt::print("time: of solve() alone, least of {}; speed: over the first back end's, by medians\n",
              repeat);
   fmt::print("H norm: error of the velocity against long double, over the rows' change of it{}\n",
-             report.primal == 0 ? "" : "; entry: largest, over the velocity's (primal QPs)");
+             report.primal == 0
+                 ? ""
+                 : "; entry: largest, over the velocity's with or without rows (primal QPs)");
 }
 
 void print_qp_table(const QpReport& report) {

@@ -9,6 +9,7 @@
 
 #include "core/input/toml_range.hpp"
 #include "core/log/log_writer.hpp"
+#include "core/run/laws.hpp"
 #include "experiments/audit/rebuilt.hpp"
 
 namespace hagfish {
@@ -256,7 +257,10 @@ std::vector<Criterion> RunFigures::criteria(const RunSummary& run) const {
                                    {"momentum ledger", run.momentum_ledger, expect.energy, ""}};
   if (!expect.knot.empty() && reaches(Phase::slide)) {
     judged.push_back(slide_found(scene_, way(Phase::slide, &Seen::head_end)));
-    judged.push_back(eq6_criterion(expect, eq6_met_, eq6_steps_));
+    const Law& law = law_of(scene_);
+    if (law.rows == nullptr || law.rows(scene_, Phase::slide).any) {
+      judged.push_back(eq6_criterion(expect, eq6_met_, eq6_steps_));
+    }
   }
   if (!expect.knot.empty() && reaches(Phase::reverse) &&
       scene_.controller.leave_by == BodyEnd::tail) {

@@ -1,0 +1,21 @@
+// Settings that would be recorded and do nothing.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/run/simulation.hpp"
+
+namespace hagfish {
+
+/// Throws InputError, naming the key, where one of `set` (KEY=VALUE) cannot act in `scene`: seeds
+/// without noise, speeds of a law that asks for none, settings of another law or of what is not
+/// there.
+void require_settings_act(const Scene& scene, const std::vector<std::string>& set);
+
+/// The same of a run that goes on from `sim` in `scene`: what only its start or a phase that is
+/// over reads.
+void require_settings_act_from(const Simulation& sim, const Scene& scene,
+                               const std::vector<std::string>& set);
+
+}  // namespace hagfish
