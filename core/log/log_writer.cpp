@@ -150,8 +150,8 @@ struct LogWriter::Contents {
       for (const auto& [name, value] : attributes) {
         h5.root_attribute(name, value);
       }
+      if (last) seal_file(next);  // while it is open: HDF5 then need not read it anew
       h5.close();
-      if (last) seal_file(next);
     } catch (...) {
       file->abandon();
       throw;

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
-#include <map>
 #include <optional>
 
 #include "core/log/log_writer.hpp"
 #include "core/log/saved_run.hpp"
+#include "core/log/seal.hpp"
 #include "experiments/audit/audit_checkpoints.hpp"
 #include "experiments/program/run_header.hpp"
 
@@ -62,19 +62,12 @@ class Rerun {
   fs::path folder_;
 };
 
-/// Datasets of all groups but those that say how long the computer took.
-std::vector<std::string> datasets(const Hdf5Reader& h5, const std::string& group = "/") {
+/// Datasets that a sealed log holds, but those that say how long the computer took.
+std::vector<std::string> datasets(const Hdf5Reader& h5) {
   std::vector<std::string> paths;
-  for (const std::string& name : h5.names(group)) {
-    const std::string path = group == "/" ? "/" + name : group + "/" + name;
-    if (path == "/seal" || path.ends_with("/qp_time") || path.ends_with("/wall_time")) continue;
-    try {
-      h5.open(path);
-      paths.push_back(path);
-    } catch (const FileError&) {  // a group
-      const std::vector<std::string> within = datasets(h5, path);
-      paths.insert(paths.end(), within.begin(), within.end());
-    }
+  for (const auto& [name, digest] : read_seal(h5.text(seal_path))) {
+    const bool wall = name.ends_with("/qp_time") || name.ends_with("/wall_time");
+    if (!wall && name.find(": attribute ") == std::string::npos) paths.push_back(name);
   }
   return paths;
 }

@@ -63,7 +63,10 @@ TEST_F(ResumeTest, WhatCannotGoOnStaysAsItIs) {
   expect("branch a.h5 --time 0.1 --set time.step=0.03 --set time.frame_interval=0.03 --out b.h5",
          "a.h5: cannot branch at 0.1 s: its time, 0.1 s, is no multiple of time.frame_interval, "
          "0.03 s");
-  expect("branch a.h5 --out a.h5", "a.h5: already exists (--force replaces it)");
+  expect("branch a.h5 --out b.h5",
+         "a.h5: cannot branch at 0.4 s: the scene is over there (time.duration = 0.4 s; --time "
+         "branches earlier)");
+  expect("branch a.h5 --time 0.1 --out a.h5", "a.h5: already exists (--force replaces it)");
   EXPECT_NE(run_program("run table1 --resume a.h5").output.find("--resume"), std::string::npos);
   fs::copy_file(folder / "a.h5", folder / "a.h5.part");
   EXPECT_EQ(run_program("run --resume a.h5.part").code, 2);

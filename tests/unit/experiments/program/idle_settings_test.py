@@ -1,0 +1,64 @@
+"""Settings that would be recorded and do nothing are refused by name."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[4]
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(ROOT / "tests/support"))
+
+from program import hagfish, refused  # noqa: E402
+
+
+@pytest.mark.parametrize(
+    ("scene", "key", "why"),
+    [
+        ("table1", "start.seed=3", "start.noise_deg is 0"),
+        ("table1", "script.noise_seed=3", "script.noise is 0"),
+        ("table1", "script.spring=3", 'script.kind = "position"'),
+        ("table1", "food.strength=3", "food.hold is 0"),
+        ("table1", "time.passes=3", "midpoint"),
+        ("table1", "controller.knot_speed.gain=1", "knot_speed"),
+        ("table1", "controller.reflex.shift=1", "reflex"),
+        ("table1", "controller.reverse_head.a=1", "controller.leave_by"),
+        ("table1", "muscle.activation_time=0.1", "drives no muscles"),
+        ("reflex_overhand", "controller.slide_head.a=1", "asks for no speeds"),
+        ("living_overhand", "model.bending_stiffness=1", "model.passive"),
+    ],
+)
+def test_a_run_refuses_what_does_nothing(tmp_path, scene, key, why):
+    refused(tmp_path, "run", scene, "--set", key, "--out", "a.h5", parts=(f"--set {key.split('=')[0]}: does nothing here", why))
+
+
+def test_what_acts_is_taken(tmp_path):
+    brief = ["--quiet", "--set", "time.duration=0.02", "--force", "--out", "a.h5"]
+    hagfish(tmp_path, "run", "table1", "--set", "start.seed=3", "--set", "start.noise_deg=0.3", *brief)
+    hagfish(tmp_path, "run", "table1", "--set", "script.noise=1", "--set", "script.noise_seed=2", *brief)
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("branch")
+    hagfish(folder, "run", "table1", "--quiet", "--out", "a.h5")
+    return folder
+
+
+@pytest.mark.parametrize(
+    ("time", "set_", "parts"),
+    [
+        (8, ["start.seed=2", "start.noise_deg=0.3"], ("start.seed", "begins where its log stands")),
+        (8, ["start.noise_deg=0.3"], ("start.noise_deg", "begins where its log stands")),
+        (8, ["start.phase=slide"], ("start.phase", "begins where its log stands")),
+        (8, ["script.noise_seed=2"], ("script.noise_seed", "script.noise is 0")),
+        (14, ["script.noise=2.0"], ("script.noise", "begins in phase slide")),
+        (14, ["controller.tighten_time=1"], ("controller.tighten_time", "begins in phase slide")),
+        (14, ["time.duration=10"], ("cannot branch at 14 s", "time.duration = 10 s")),
+    ],
+)
+def test_a_branch_refuses_what_does_nothing(folder, time, set_, parts):
+    options = [word for one in set_ for word in ("--set", one)]
+    refused(folder, "branch", "a.h5", "--time", time, *options, "--out", "b.h5", parts=parts)
