@@ -10,8 +10,28 @@
 #include "core/chain/start.hpp"
 
 namespace hagfish {
+namespace {
+
+void require_bodies(const Model& model) {
+  if (model.bodies.empty()) throw std::invalid_argument("the model has no bodies");
+}
+
+void require_of(const Model& model, const State& state) {
+  if (state.q.size() == model.nq() && state.qdot.size() == model.nv()) return;
+  throw std::invalid_argument("the state is of a chain of another number of bodies");
+}
+
+}  // namespace
+
+void require_of(const Model& model, const Simulation& sim) {
+  require_of(model, sim.now.state);
+  if (sim.now.observation.kin.centre.cols() != model.body_count()) {
+    throw std::invalid_argument("what was seen of the state is of another chain");
+  }
+}
 
 Simulation start(const Model& model, const Scene& scene, const std::string& back_end) {
+  require_bodies(model);
   ControllerState controller;
   controller.phase = scene.start.phase;
   return start_from(model, scene, back_end, start_state(model, scene.start), controller, 0);
@@ -19,6 +39,8 @@ Simulation start(const Model& model, const Scene& scene, const std::string& back
 
 Simulation start_from(const Model& model, const Scene& scene, const std::string& back_end,
                       State state, ControllerState controller, std::int64_t step) {
+  require_bodies(model);
+  require_of(model, state);
   StepSolver solver(
       back_end);  // before anything is moved: GCC 12 destroys that twice if this throws
   Simulation sim{.step = step,
@@ -37,9 +59,7 @@ Simulation start_from(const Model& model, const Scene& scene, const std::string&
 }
 
 void change_scene(const Model& model, const Scene& before, const Scene& scene, Simulation& sim) {
-  if (sim.now.state.q.size() != model.nq()) {
-    throw std::invalid_argument("the state is of a chain of another number of bodies");
-  }
+  require_of(model, sim);
   const double frames = time_of(sim, before) / scene.time.frame_interval;
   constexpr double rounding = 1e-9;  // of a number of frames that is whole
   if (std::abs(frames - std::round(frames)) > rounding * std::max(1.0, frames)) {

@@ -1,6 +1,7 @@
 // A run of a scene, step by step: observe, decide, solve (Eqs. 1-4), advance (Eq. 2), book.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -23,6 +24,22 @@ struct BeforeStep {
   Candidates candidates;  ///< of the search
 };
 
+/// Set while a step is under way, by which a second one of the same simulation is refused. A copy
+/// has no step under way.
+class StepUnderWay {
+ public:
+  StepUnderWay() = default;
+  StepUnderWay(const StepUnderWay&) {}
+  StepUnderWay& operator=(const StepUnderWay&) { return *this; }
+
+  /// Whether it was not set before.
+  bool begin() { return !set_.exchange(true); }
+  void end() { set_ = false; }
+
+ private:
+  std::atomic<bool> set_ = false;
+};
+
 /// All that changes while a scene runs. Copies go on independently of each other.
 struct Simulation {
   std::int64_t step = 0;  ///< steps taken
@@ -36,13 +53,15 @@ struct Simulation {
   BeforeStep before;
   NamedLaw named_law = {};
   ControlLaw law = {};  ///< of its own, where the scene says so (control_law.hpp); else empty
+  StepUnderWay under_way = {};
 };
 
-/// As the scene starts, at time 0. `back_end`: one of box_qp_solver_names(); throws
-/// std::invalid_argument otherwise.
+/// As the scene starts, at time 0. `back_end`: one of box_qp_solver_names(). Throws
+/// std::invalid_argument otherwise, and of a model without bodies.
 Simulation start(const Model& model, const Scene& scene, const std::string& back_end);
 
-/// From a state of another run: `controller` says which phase it is in.
+/// From a state of another run: `controller` says which phase it is in. Throws as start, and
+/// std::invalid_argument of a state that is not of `model`.
 Simulation start_from(const Model& model, const Scene& scene, const std::string& back_end,
                       State state, ControllerState controller, std::int64_t step);
 
@@ -76,11 +95,15 @@ struct StepRecord {
   std::vector<std::string> warnings;
 };
 
+/// Throws std::invalid_argument where `sim` is not of `model`, as one that was moved from.
+void require_of(const Model& model, const Simulation& sim);
+
 /// Takes one step, writing into the storage of `record`. Throws StepError, with the outcome by
-/// name, where it cannot. Whatever it throws, `sim` is then as it was, but for storage whose
-/// contents do not matter; a step with another scene goes on as if nothing had been. `record` then
-/// has its step and time, the controller as far as it came and, where a guard refused the moment
-/// that the step led to, that moment.
+/// name, where it cannot; std::invalid_argument where `sim` is not of `model`; std::logic_error
+/// where a step of `sim` is under way, as in a law or another thread. Whatever it throws, `sim` is
+/// then as it was, but for storage whose contents do not matter; a step with another scene goes on
+/// as if nothing had been. `record` then has its step and time, the controller as far as it came
+/// and, where a guard refused the moment that the step led to, that moment.
 void take_step(const Model& model, const Scene& scene, Simulation& sim, StepRecord& record);
 StepRecord take_step(const Model& model, const Scene& scene, Simulation& sim);
 

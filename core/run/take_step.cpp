@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <stdexcept>
 #include <tuple>
 #include <utility>
 
@@ -176,6 +177,22 @@ void book(const Attempt& step, double travelled) {
   guard_momentum(in, record.momentum, sim.momentum, sim.ledger, sim.watch, record.warnings);
 }
 
+/// One step at a time.
+class Guard {
+ public:
+  explicit Guard(StepUnderWay& under_way) : under_way_(under_way) {
+    if (!under_way.begin()) {
+      throw std::logic_error("a step of this simulation is under way: a copy can take another");
+    }
+  }
+  ~Guard() { under_way_.end(); }
+  Guard(const Guard&) = delete;
+  Guard& operator=(const Guard&) = delete;
+
+ private:
+  StepUnderWay& under_way_;
+};
+
 void keep(Simulation& sim) {
   BeforeStep& before = sim.before;
   before.controller = sim.controller;
@@ -199,6 +216,8 @@ void put_back(Simulation& sim) {
 }  // namespace
 
 void take_step(const Model& model, const Scene& scene, Simulation& sim, StepRecord& record) {
+  require_of(model, sim);
+  const Guard guard(sim.under_way);
   const Attempt step{
       {model, scene, sim.now.state, sim.now.observation, record.control}, sim, record};
   keep(sim);

@@ -222,4 +222,78 @@ TEST(SimulationEnd, ComesATimeAfterTheKnotIsGone) {
   EXPECT_FALSE(over(Phase::release, 250));
 }
 
+/// Does what must be refused by an exception of that kind.
+template <class Error, class Work>
+void expect_thrown(Work&& work) {
+  EXPECT_THROW(work(), Error);
+}
+
+TEST(SimulationMisuse, ALawTakesNoStepOfItsOwnSimulation) {
+  Pulled p;
+  p.scene.controller.law = own_law;
+  Simulation sim = start(p.model, p.scene, "active-set");
+  int refused = 0;
+  sim.law = [&](const Situation&, Eigen::VectorXd&, Control&) {
+    expect_thrown<std::logic_error>([&] { take_step(p.model, p.scene, sim); });
+    ++refused;
+  };
+  for (int k = 0; k < 10; ++k) take_step(p.model, p.scene, sim);
+  EXPECT_EQ(sim.step, 10);
+  EXPECT_EQ(refused, 10);
+}
+
+TEST(SimulationMisuse, ALawMayStepACopy) {
+  Pulled p;
+  p.scene.controller.law = own_law;
+  Simulation sim = start(p.model, p.scene, "active-set");
+  std::int64_t ahead = 0;
+  sim.law = [&](const Situation&, Eigen::VectorXd&, Control&) {
+    Simulation copy = sim;
+    copy.law = {};
+    take_step(p.model, p.scene, copy);
+    ahead = copy.step;
+  };
+  take_step(p.model, p.scene, sim);
+  EXPECT_EQ(sim.step, 1);
+  EXPECT_EQ(ahead, 1);
+}
+
+TEST(SimulationMisuse, AModelWithoutBodiesHasNoStart) {
+  const Pulled p;
+  expect_thrown<std::invalid_argument>([&] { start(Model{}, p.scene, "active-set"); });
+}
+
+TEST(SimulationMisuse, AStateOfAnotherLengthIsNoStart) {
+  const Pulled p;
+  State state = start_state(p.model, p.scene.start);
+  state.q.conservativeResize(12);
+  expect_thrown<std::invalid_argument>(
+      [&] { start_from(p.model, p.scene, "active-set", state, {}, 0); });
+  state = start_state(p.model, p.scene.start);
+  state.qdot.conservativeResize(3);
+  expect_thrown<std::invalid_argument>(
+      [&] { start_from(p.model, p.scene, "active-set", state, {}, 0); });
+}
+
+TEST(SimulationMisuse, ASimulationOfAnotherAnimalTakesNoStep) {
+  const Pulled p;
+  Simulation sim = start(p.model, p.scene, "active-set");
+  for (const int bodies : {4, 40}) {
+    const Model other = table1_hagfish(bodies);
+    expect_thrown<std::invalid_argument>([&] { take_step(other, p.scene, sim); });
+  }
+  EXPECT_EQ(sim.step, 0);
+  take_step(p.model, p.scene, sim);
+  EXPECT_EQ(sim.step, 1);
+}
+
+TEST(SimulationMisuse, ASimulationThatWasMovedFromTakesNoStep) {
+  const Pulled p;
+  Simulation sim = start(p.model, p.scene, "active-set");
+  Simulation taken = std::move(sim);
+  expect_thrown<std::invalid_argument>([&] { take_step(p.model, p.scene, sim); });
+  take_step(p.model, p.scene, taken);
+  EXPECT_EQ(taken.step, 1);
+}
+
 }  // namespace hagfish::simulation_start_test
