@@ -1,9 +1,11 @@
 #include "core/log/disk_room.hpp"
 
 #include <fcntl.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <new>
 
 namespace hagfish {
 
@@ -21,6 +23,12 @@ int reserve_room(const std::filesystem::path& file, std::size_t bytes) {
     ::close(descriptor);
   }
   return error;
+}
+
+void require_memory(std::size_t bytes) {
+  void* const room = ::mmap(nullptr, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (room == MAP_FAILED) throw std::bad_alloc();
+  ::munmap(room, bytes);
 }
 
 }  // namespace hagfish

@@ -23,6 +23,9 @@ namespace fs = std::filesystem;
 constexpr double save_interval = 1;
 // What a save may add besides rows and checkpoints: attributes and their heap, a seal, bytes.
 constexpr std::size_t attribute_room = 131072;
+// Memory that HDF5 takes to open two files and to write what is new, at most, beside copies of it,
+// bytes.
+constexpr std::size_t hdf5_memory = std::size_t{16} << 20;
 // Checkpoints are some 20 kB each at 100 bodies. Compressed they would take half of that, and a run
 // of the Table 1 scene 2.5 % longer.
 constexpr hsize_t checkpoint_chunk = 32768;
@@ -67,10 +70,11 @@ void mark_failed(const fs::path& file, const std::string& cause) {
     return;
   }
   try {
+    require_memory(hdf5_memory);
     Hdf5Writer h5(file);
     h5.root_attribute("status", "failed: " + cause);
     h5.close();
-  } catch (const FileError&) {  // what is told is why the log could not be saved
+  } catch (const std::exception&) {  // what is told is why the log could not be saved
   }
 }
 
@@ -141,6 +145,7 @@ struct LogWriter::Contents {
     for (const auto& s : series) {
       room += s->room();
     }
+    require_memory(hdf5_memory + 2 * room);
     try {
       const fs::path& next = file->begin(room);
       Hdf5Writer h5(next);
@@ -198,6 +203,7 @@ LogWriter::LogWriter(const fs::path& file, bool replace, const LogHeader& header
                      const Model& model, const Scene& scene)
     : output_(std::make_unique<OutputFile>(file, replaced_if(replace))),
       contents_(std::make_unique<Contents>(model, scene, header.level)) {
+  require_memory(hdf5_memory);
   Hdf5Writer h5;
   write_header(header, h5);
   write_model(model, h5);
@@ -231,13 +237,23 @@ LogWriter::LogWriter(const fs::path& file, const SavedRun& run, const Hdf5Reader
 }
 
 LogWriter::~LogWriter() {
-  if (contents_ && !contents_->any) {
+  if (!contents_) return;
+  if (!output_->is_ours()) {
+    if (contents_->file) contents_->file->forget();
+  } else if (!contents_->any) {
     std::error_code error;
     fs::remove(output_->partial(), error);
   }
 }
 
+void LogWriter::require_ours() const {
+  if (output_->is_ours()) return;
+  throw FileError(output_->partial().string() +
+                  ": is being made by the process that forked this one");
+}
+
 void LogWriter::write(const StepRecord& record, const Simulation& sim, double wall_time) {
+  require_ours();
   Contents& c = *contents_;
   for (const std::string& warning : record.warnings) {
     c.log.warnings +=
@@ -289,6 +305,7 @@ void LogWriter::write_frame(const StepRecord& record, const ThigmotaxisRows& row
 }
 
 void LogWriter::finish(const std::string& status, const Simulation& sim) {
+  require_ours();
   Contents& c = *contents_;
   try {
     c.attributes["status"] = status;

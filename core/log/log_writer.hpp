@@ -37,7 +37,7 @@ class LogWriter {
   /// Takes in one step, after which the run is `sim`; every scene.time.frame_interval it becomes a
   /// frame. `wall_time`: since the run began, s. After the first step, and a second of wall time
   /// after each save, the log is saved with all that the run needs to go on, whatever ends the
-  /// process. Throws FileError where that fails.
+  /// process. Throws FileError where that fails, and in a forked child.
   void write(const StepRecord& record, const Simulation& sim, double wall_time);
 
   /// Sets the status ("complete" or "failed: CAUSE") of the run, now `sim`, closes the log and
@@ -46,6 +46,7 @@ class LogWriter {
   void finish(const std::string& status, const Simulation& sim);
 
  private:
+  void require_ours() const;
   void write_frame(const StepRecord& record, const ThigmotaxisRows& rows, double wall_time);
   struct Contents;
   std::unique_ptr<OutputFile> output_;

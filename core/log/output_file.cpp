@@ -31,7 +31,8 @@ OutputFile::OutputFile(const fs::path& file, Existing existing)
     : file_(target_of(file)),
       partial_(file_.string() + ".part"),
       lock_(file_.string() + ".lock"),
-      existing_(existing) {
+      existing_(existing),
+      process_(::getpid()) {
   if (!file_.has_filename()) throw FileError("'" + file_.string() + "': names no file to write");
   std::error_code error;
   if (fs::exists(file_, error) && !fs::is_regular_file(file_, error)) {
@@ -98,8 +99,10 @@ void OutputFile::take_lock() {
   }
 }
 
+bool OutputFile::is_ours() const { return ::getpid() == process_; }
+
 OutputFile::~OutputFile() {
-  ::unlink(lock_.c_str());
+  if (is_ours()) ::unlink(lock_.c_str());
   ::close(lock_descriptor_);
 }
 

@@ -19,7 +19,8 @@ constexpr Existing replaced_if(bool force) { return force ? Existing::replace : 
 
 /// Reserves FILE while it lives. What is made goes to FILE.part, so that FILE is never half-written
 /// and what was made survives whatever ends the process; FILE.lock, locked by the kernel, tells a
-/// process at work from one that is gone. Symbolic links are followed and stay.
+/// process at work from one that is gone. Symbolic links are followed and stay. A forked child has
+/// nothing of it: what it destroys stays the parent's.
 class OutputFile {
  public:
   /// Throws FileError where FILE is no name or that of no regular file; where it, or FILE.part,
@@ -31,6 +32,8 @@ class OutputFile {
   OutputFile& operator=(const OutputFile&) = delete;
 
   const std::filesystem::path& partial() const { return partial_; }
+  /// Not a copy in a forked child.
+  bool is_ours() const;
 
   /// Gives FILE.part its name. Throws FileError, and keeps FILE.part, where that fails or a FILE
   /// that is not to be replaced has appeared meanwhile.
@@ -44,6 +47,7 @@ class OutputFile {
   std::filesystem::path file_, partial_, lock_;
   Existing existing_;
   int lock_descriptor_ = -1;
+  int process_;
 };
 
 }  // namespace hagfish

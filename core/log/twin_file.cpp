@@ -1,5 +1,7 @@
 #include "core/log/twin_file.hpp"
 
+#include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -19,6 +21,18 @@ namespace fs = std::filesystem;
   throw FileError(file.string() + ": cannot be saved: " + std::strerror(error));
 }
 
+/// Whether no other process has the file open. The kernel gives a lease of a file that nobody else
+/// has open; where it gives none at all, as on NFS, readers of HDF5 are known by their locks.
+bool is_alone(const fs::path& file) {
+  const int descriptor = ::open(file.c_str(), O_RDWR | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  bool alone = ::fcntl(descriptor, F_SETLEASE, F_WRLCK) == 0;
+  const bool in_use = !alone && (errno == EAGAIN || errno == EBUSY);
+  if (!alone && !in_use) alone = ::flock(descriptor, LOCK_EX | LOCK_NB) == 0;
+  ::close(descriptor);  // what it holds goes with it
+  return alone;
+}
+
 }  // namespace
 
 TwinFile::TwinFile(fs::path file)
@@ -28,6 +42,11 @@ TwinFile::TwinFile(fs::path file)
 
 TwinFile::~TwinFile() { abandon(); }
 
+void TwinFile::forget() {
+  next_.clear();
+  last_.clear();
+}
+
 void TwinFile::abandon() {
   ::unlink(next_.c_str());
   ::unlink(last_.c_str());
@@ -36,7 +55,8 @@ void TwinFile::abandon() {
 bool TwinFile::prepare() {
   std::error_code error;
   if (fs::exists(next_, error)) {
-    return false;
+    if (is_alone(next_)) return false;
+    abandon();  // whoever reads it goes on with what it was
   }
   if (!fs::copy_file(file_, next_, error)) {
     abandon();

@@ -66,6 +66,21 @@ TEST_F(TwinFileTest, OnlyTheFileStays) {
   EXPECT_EQ(text_of(file), "one");
 }
 
+TEST_F(TwinFileTest, WhoHasItOpenKeepsWhatItOpened) {
+  TwinFile twin(file);
+  twin.prepare();
+  std::ifstream reader(file);
+  for (const char* text : {"two", "three", "four"}) {
+    twin.prepare();
+    put(twin.begin(0), text);
+    twin.commit();
+    EXPECT_EQ(text_of(file), text);
+  }
+  const std::string read{std::istreambuf_iterator<char>(reader), {}};
+  EXPECT_EQ(read, "one");
+  EXPECT_EQ(count_files(), 2);
+}
+
 TEST_F(TwinFileTest, AFullDiskIsFoundBeforeAnythingIsChanged) {
   // In a child: a limit on file size stands for a full disk and cannot be taken back.
   const auto fill = [&] {
