@@ -8,6 +8,7 @@
 #include "core/log/hdf5_error.hpp"
 #include "core/run/laws.hpp"
 #include "core/step/outcome.hpp"
+#include "experiments/python/gil.hpp"
 #include "experiments/python/python_control.hpp"
 #include "experiments/python/python_simulation.hpp"
 
@@ -29,6 +30,7 @@ PYBIND11_MODULE(_core, module) {
       PyErr_SetObject(step_error.ptr(), raised.ptr());
     }
   });
+  wait_for_steps_at_exit();
   declare_controls(module);
   declare_simulation(module);
   module.def("scenes", &builtin_scene_names, "Names of the built-in scenes.");

@@ -75,6 +75,10 @@ void PythonControl::begin() {
 void PythonControl::end() {
   control->thigmotaxis.clear();
   for (const py::handle command : commands) {
+    if (!py::isinstance<ThigmotaxisCommand>(command)) {
+      throw py::type_error("control.commands has " + std::string(py::repr(command)) +
+                           ", where each is a Command");
+    }
     control->thigmotaxis.push_back(command.cast<const ThigmotaxisCommand&>());
   }
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/step/step_input.hpp"
+#include "experiments/python/begun.hpp"
 
 namespace hagfish {
 
@@ -35,3 +36,15 @@ pybind11::array_t<double> view(pybind11::handle owner, double* data,
                                const std::vector<pybind11::ssize_t>& shape, bool writable);
 
 }  // namespace hagfish
+
+template <>
+class pybind11::detail::type_caster<hagfish::Contact>
+    : public hagfish::BegunCaster<hagfish::Contact> {};
+
+template <>
+class pybind11::detail::type_caster<hagfish::ThigmotaxisCommand>
+    : public hagfish::BegunCaster<hagfish::ThigmotaxisCommand> {};
+
+template <>
+class pybind11::detail::type_caster<hagfish::PythonControl>
+    : public hagfish::BegunCaster<hagfish::PythonControl> {};

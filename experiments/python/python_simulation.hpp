@@ -7,6 +7,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "core/input/scene_reader.hpp"
@@ -38,6 +39,11 @@ class PythonSimulation {
   PythonSimulation(const PythonSimulation&) = delete;
   PythonSimulation& operator=(const PythonSimulation&) = delete;
 
+  /// Throws std::runtime_error where another thread has it at work.
+  void require_readable() const;
+  /// Throws std::runtime_error where it is at work, in this thread or another.
+  void require_idle() const;
+
   /// A step by the run's law. Throws StepError, FileError and what the law throws.
   void step();
   /// A step as `asked` says, which a log must expect: the scene's law is then "own".
@@ -48,6 +54,8 @@ class PythonSimulation {
   /// Ends the log, "complete" where the scene is over.
   void close();
   bool over() const { return finished(sim, resolved.scene); }
+  /// Its law, which may hold the simulation itself.
+  pybind11::object& law() { return law_; }
   double time() const { return time_of(sim, resolved.scene); }
 
   ResolvedScene resolved;
@@ -60,21 +68,29 @@ class PythonSimulation {
   PythonControl control;  ///< of the record
 
  private:
+  class Work;
   void hold_views();
   void take_law();
   void take();
   void show();
   void ask_python();
+  void take_commands(PythonControl& asked) const;
 
   Scene scene_;  ///< the resolved one, but for a law that a step brings
   pybind11::object law_;
   std::optional<LogWriter> log_;
   bool closed_ = false;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
-  std::string failure_;  ///< of the last step
+  std::string failure_;     ///< of the last step
+  std::string raised_;      ///< by Python in it, in a line
+  std::thread::id worker_;  ///< thread that has it at work
 };
 
-/// Declares Simulation in `module`.
+/// Declares Simulation in `module` (simulation_type.cpp).
 void declare_simulation(pybind11::module_& module);
 
 }  // namespace hagfish
+
+template <>
+class pybind11::detail::type_caster<hagfish::PythonSimulation>
+    : public hagfish::BegunCaster<hagfish::PythonSimulation> {};

@@ -1,0 +1,133 @@
+#include "experiments/python/python_arguments.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/scene/phase.hpp"
+#include "experiments/python/gil.hpp"
+
+namespace py = pybind11;
+
+namespace hagfish {
+namespace {
+
+[[noreturn]] void refuse(const char* name, const py::handle& given, const std::string& wanted) {
+  throw py::type_error(fmt::format("{} = {}: {}", name, std::string(py::repr(given)), wanted));
+}
+
+std::string path_of(const char* name, const py::object& given, const char* wanted) {
+  const py::module_ os = py::module_::import("os");
+  const bool is_path = py::isinstance<py::str>(given) || py::isinstance<py::bytes>(given) ||
+                       py::isinstance(given, os.attr("PathLike"));
+  if (!is_path) refuse(name, given, wanted);
+  const auto path = os.attr("fsencode")(given).cast<std::string>();
+  if (path.empty()) throw py::value_error(fmt::format("{} = '': {}", name, wanted));
+  if (path.find('\0') != std::string::npos) {
+    throw py::value_error(fmt::format("{} has a byte 0: {}", name, wanted));
+  }
+  return path;
+}
+
+std::string text_of(const py::handle& value) {
+  if (py::isinstance<py::bool_>(value)) return value.cast<bool>() ? "true" : "false";
+  return py::str(value);
+}
+
+double time_of(const py::object& until) {
+  const char* wanted = "a time (s), the name of a phase, or what is called with the simulation";
+  if (py::isinstance<py::bool_>(until)) refuse("until", until, wanted);
+  const double time = PyFloat_AsDouble(until.ptr());
+  if (PyErr_Occurred() != nullptr) {
+    PyErr_Clear();
+    refuse("until", until, wanted);
+  }
+  if (std::isnan(time)) throw py::value_error("until = nan: no time");
+  return time;
+}
+
+/// To the first step at or past `end` (s). A time of a step is a product, so one that falls short
+/// by rounding is there; where the run begins with such a one it takes another step, so that
+/// whoever runs until the time is no less comes to an end.
+void run_until_time(PythonSimulation& run, double end) {
+  constexpr double rounding = 1e-6;  // of a step
+  const double close = end - rounding * run.resolved.scene.time.step;
+  run.run_while([&run, end, close, begun = false]() mutable {
+    return run.time() < (std::exchange(begun, true) ? close : end);
+  });
+}
+
+Phase phase_called(const std::string& name) {
+  const auto* const found = std::ranges::find(phase_table, name, &PhaseEntry::name);
+  if (found == phase_table.end()) {
+    throw py::value_error(fmt::format("until = {}: {}", name, phase_names()));
+  }
+  return found->value;
+}
+
+}  // namespace
+
+std::string phase_names() {
+  std::string words;
+  for (const PhaseEntry& entry : phase_table) {
+    words += words.empty() ? "" : (&entry == &phase_table.back() ? " or " : ", ");
+    words += entry.name;
+  }
+  return words;
+}
+
+PythonRun python_run(const py::object& scene, const py::object& set, const py::object& qp,
+                     const py::object& law, const py::object& log, bool force) {
+  require_law(law);
+  if (!py::isinstance<py::str>(qp)) refuse("qp", qp, "the name of a QP back end");
+  PythonRun run{path_of("scene", scene, "a built-in scene's name or a file"),
+                settings(set),
+                qp.cast<std::string>(),
+                law,
+                log.is_none() ? "" : path_of("log", log, "a file to write"),
+                force,
+                ""};
+  run.command =
+      fmt::format("hagfish.Simulation({}, set={}{})", std::string(py::repr(py::str(run.scene))),
+                  std::string(py::repr(set)), law.is_none() ? "" : ", law=...");
+  return run;
+}
+
+std::vector<std::string> settings(const py::object& set) {
+  if (!py::isinstance<py::dict>(set)) refuse("set", set, "a dict of keys and values");
+  std::vector<std::string> list;
+  for (const auto& [key, value] : set.cast<py::dict>()) {
+    list.push_back(text_of(key) + "=" + text_of(value));
+  }
+  return list;
+}
+
+void require_law(const py::object& law) {
+  if (!law.is_none() && PyCallable_Check(law.ptr()) == 0) {
+    refuse("law", law, "what is called with a simulation and its control");
+  }
+}
+
+void run_until(PythonSimulation& run, const py::object& self, const py::object& until) {
+  if (until.is_none()) {
+    run.run_while([] { return true; });
+  } else if (py::isinstance<py::str>(until)) {
+    run.run_while([&run, order = phase_order(phase_called(until.cast<std::string>()))] {
+      return phase_order(run.sim.controller.phase) <= order;
+    });
+  } else if (PyCallable_Check(until.ptr()) != 0) {
+    run.run_while([&] {
+      return with_python([&] {
+        const int reached = PyObject_IsTrue(call(until, py::make_tuple(self)).ptr());
+        if (reached < 0) throw py::error_already_set();
+        return reached == 0;
+      });
+    });
+  } else {
+    run_until_time(run, time_of(until));
+  }
+}
+
+}  // namespace hagfish
