@@ -1,6 +1,9 @@
 #include "mujoco_ref/rollout.hpp"
 
+#include <fmt/format.h>
+
 #include <limits>
+#include <string>
 
 #include "core/chain/kinematics.hpp"
 #include "core/step/step.hpp"
@@ -18,6 +21,22 @@ Model smooth(Model model) {
   }
   return model;
 }
+
+namespace {
+
+/// What a roll-out that cannot go on from `state` is told by: where, when and what helps.
+std::string blow_up(const Model& model, const State& state, Head head, double time,
+                    const std::string& why) {
+  Eigen::Index fastest = 0;
+  const double speed = state.qdot.cwiseAbs().maxCoeff(&fastest);
+  return fmt::format(
+      "{} at t = {:.4g} s with the head {}; {} was the fastest, at {:.3g} {}. Limits and drag are "
+      "left out here, so less gravity helps, or a smaller time.step",
+      why, time, head == Head::clamped ? "clamped" : "free",
+      dof_name(model, static_cast<int>(fastest)), speed, fastest < 3 ? "cm/s" : "rad/s");
+}
+
+}  // namespace
 
 std::vector<State> core_rollout(const Model& animal, const State& start, Head head, TimeRule rule,
                                 double h, int steps) {
@@ -37,7 +56,7 @@ std::vector<State> core_rollout(const Model& animal, const State& start, Head he
     observation.kin = kinematics(model, state);
     const StepInput in{model, scene, state, observation, control};
     if (const Status status = solver.solve(in, step); !status.ok()) {
-      throw StepError(status);
+      throw StepError({status.outcome, blow_up(model, state, head, i * h, status.message)});
     }
     state.q = advance(state.q, step.qdot, h);
     state.qdot = step.next;

@@ -44,7 +44,7 @@ def main(table: Path, out: Path) -> None:
     both.grid(visible=False)
     both.set(xlabel="time, s", ylabel="cm from the head")
     figure.colorbar(image, ax=both, label="distance, cm")
-    figure.savefig(out, dpi=plots.DPI)  # no PDF beside: the program asked for one file
+    plots.save_one(figure, out, dpi=plots.DPI)  # no PDF beside: the program asked for one file
 
 
 if __name__ == "__main__":

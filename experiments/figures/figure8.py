@@ -19,7 +19,7 @@ from matplotlib.colors import LogNorm
 import claims
 import plots
 from hagfish_log import HagfishLog
-from script import run_script
+from script import run_script, whole
 
 NAMES = {"X": "X (twist)", "Y": "Y (bend)", "Z": "Z (bend)"}
 COLOURS = {"X": plots.BLUE, "Y": plots.ORANGE, "Z": plots.INK}
@@ -201,7 +201,8 @@ def claims_page(s: claims.Sliding, out: Path) -> None:
     plots.save(figure, out)
     report = {"verdicts": verdict, "in_words": dict(words), "zero_behind_the_knot": a, "larger_near_the_head": b,
               "smooth_in_space": c}
-    out.with_suffix(".json").write_text(json.dumps(report, indent=1) + "\n")
+    with whole(out.with_suffix(".json")) as part:
+        part.write_text(json.dumps(report, indent=1) + "\n")
     for name, text in words:
         print(f"{name}: {verdict[name]}. {text}")
 

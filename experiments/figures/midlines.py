@@ -35,7 +35,7 @@ def main(table: Path, out: Path) -> None:
     axes[2].grid(visible=False)
     axes[2].set(xlabel="time, s", ylabel="place, of the length")
     figure.colorbar(image, ax=axes[2], label="rad / length")
-    figure.savefig(out, dpi=plots.DPI)  # no PDF beside: the program asked for one file
+    plots.save_one(figure, out, dpi=plots.DPI)  # no PDF beside: the program asked for one file
 
 
 if __name__ == "__main__":

@@ -17,7 +17,7 @@ import muscles
 import overview
 import summary
 from hagfish_log import HagfishLog, LogError
-from script import printable, run_script
+from script import printable, run_script, whole
 
 
 def audited(path: Path, hagfish: Path, check: Path) -> str:
@@ -30,7 +30,7 @@ def audited(path: Path, hagfish: Path, check: Path) -> str:
 
 
 def claims(path: Path, folder: Path) -> None:
-    with (folder / "claims.txt").open("w") as words, contextlib.redirect_stdout(words):
+    with whole(folder / "claims.txt") as part, part.open("w") as words, contextlib.redirect_stdout(words):
         figure8.main(path, folder / "figure8.png", folder / "claims.png")
 
 
@@ -54,8 +54,6 @@ def main(path: Path, hagfish: Path, folder: Path) -> None:
         try:
             draw()
         except LogError as error:
-            if "claims.txt" in names:
-                (folder / "claims.txt").unlink(missing_ok=True)
             print(printable(f"{names[0]}: left out: {error}"))
         else:
             print(printable(", ".join(str(folder / name) for name in names)))

@@ -14,10 +14,13 @@ from typing import Any
 
 import matplotlib
 
+matplotlib.rcdefaults()  # the user's own matplotlibrc is for the user's own figures
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.ticker import NullLocator
+
+from script import whole
 
 DPI = 200
 INK, GREY, GRID = "#000000", "#777777", "#e5e5e5"
@@ -86,6 +89,12 @@ def draw_diagonal(axes: Any, values: Iterable[float]) -> None:
 
 def save(figure: Any, png: Path, dpi: int = DPI) -> None:
     """Writes the figure as PNG and, beside it, as PDF. No time stamps: the same log gives the same files."""
-    figure.savefig(png, dpi=dpi)
-    figure.savefig(png.with_suffix(".pdf"), dpi=dpi, metadata={"CreationDate": None})
+    save_one(figure, png, dpi=dpi)
+    save_one(figure, png.with_suffix(".pdf"), dpi=dpi, metadata={"CreationDate": None})
     plt.close(figure)
+
+
+def save_one(figure: Any, file: Path, **options: Any) -> None:
+    """Writes one file, which has its name only when it is whole."""
+    with whole(file) as part:
+        figure.savefig(part, **options)

@@ -1,10 +1,13 @@
-"""The command line that all scripts share: files in, files out. Bad input is one line on standard error and exit code 2."""
+"""The command line that all scripts share: files in, files out. Bad input is one line on standard error and exit code 2, a full disk
+one and exit code 1."""
 
 from __future__ import annotations
 
 import argparse
+import contextlib
+import errno
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 from hagfish_log import LogError
@@ -25,7 +28,8 @@ def run_script(description: str | None, names: Sequence[str], work: Callable[...
     except LogError as error:
         fail(str(error))
     except OSError as error:
-        fail(f"{error.filename}: {error.strerror}" if error.filename else str(error))
+        full = error.errno in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
+        fail(f"{error.filename}: {error.strerror}" if error.filename else str(error), 1 if full else 2)
 
 
 def printable(text: str) -> str:
@@ -33,6 +37,19 @@ def printable(text: str) -> str:
     return "".join(c if c.isprintable() else c.encode("unicode_escape", "surrogatepass").decode() for c in text)
 
 
-def fail(message: str) -> None:
+@contextlib.contextmanager
+def whole(file: Path) -> Iterator[Path]:
+    """A file to write, which has the name of `file` only when it is whole. What fails names `file`."""
+    part = file.with_name(f"{file.stem}.part{file.suffix}")
+    try:
+        yield part
+        part.replace(file)
+    except OSError as error:
+        raise OSError(error.errno, error.strerror or str(error), str(file)) from error
+    finally:
+        part.unlink(missing_ok=True)
+
+
+def fail(message: str, code: int = 2) -> None:
     print(printable(f"{Path(sys.argv[0]).name}: {message}"), file=sys.stderr)
-    sys.exit(2)
+    sys.exit(code)

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from hagfish_log import LogError
+from script import whole
 
 
 def markdown(head: Sequence[str], rows: Iterable[Sequence[str]]) -> list[str]:
@@ -24,7 +25,8 @@ def of_page(folder: Path, name: str, head: Sequence[str], rows: Sequence[Sequenc
 
 
 def write_page(path: Path, lines: Iterable[str]) -> None:
-    path.write_text("\n".join(lines).rstrip() + "\n", encoding="utf-8")
+    with whole(path) as part:
+        part.write_text("\n".join(lines).rstrip() + "\n", encoding="utf-8")
 
 
 def write_csv(path: Path, heading: Sequence[str], rows: Iterable[Sequence[Any]], notes: Sequence[str] = ()) -> None:

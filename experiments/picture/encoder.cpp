@@ -13,6 +13,7 @@
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "core/input/input_error.hpp"
@@ -47,6 +48,45 @@ std::vector<std::string> arguments(const fs::path& file, FilmFormat format, int 
   return list;
 }
 
+std::vector<std::string> reading(const fs::path& file) {
+  return {"ffmpeg",
+          "-nostdin",
+          "-hide_banner",
+          "-loglevel",
+          "error",
+          "-xerror",
+          "-i",
+          fs::absolute(file).string(),
+          "-f",
+          "null",
+          "-"};
+}
+
+/// Starts a program with its standard input from `input`, where that is not negative, and with its
+/// standard error to the file `said`. Returns the system's error number, or 0.
+int spawn(std::vector<std::string> list, int input, const fs::path& said, pid_t& process) {
+  std::vector<char*> argv;
+  for (std::string& argument : list) argv.push_back(argument.data());
+  argv.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  if (input >= 0) posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, said.c_str(),
+                                   O_WRONLY | O_CREAT | O_TRUNC, 0666);
+  const int error = posix_spawnp(&process, "ffmpeg", &actions, nullptr, argv.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  return error;
+}
+
+/// Whether it ended well.
+bool ended_well(pid_t process) {
+  int status = 0;
+  while (::waitpid(process, &status, 0) < 0 && errno == EINTR) {
+  }
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
 }  // namespace
 
 FilmFormat film_format(const std::string& file) {
@@ -67,23 +107,12 @@ void require_ffmpeg() {
 
 FilmEncoder::FilmEncoder(const fs::path& file, FilmFormat format, int width, int height,
                          double rate)
-    : said_(file.string() + ".ffmpeg") {
-  std::vector<std::string> list = arguments(file, format, width, height, rate);
-  std::vector<char*> argv;
-  for (std::string& argument : list) argv.push_back(argument.data());
-  argv.push_back(nullptr);
+    : file_(file), said_(file.string() + ".ffmpeg") {
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0) {
     throw std::runtime_error(std::string("ffmpeg: no pipe: ") + std::strerror(errno));
   }
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, ends[0], STDIN_FILENO);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, said_.c_str(),
-                                   O_WRONLY | O_CREAT | O_TRUNC, 0666);
-  const int error = posix_spawnp(&process_, "ffmpeg", &actions, nullptr, argv.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
+  const int error = spawn(arguments(file, format, width, height, rate), ends[0], said_, process_);
   ::close(ends[0]);
   pipe_ = ends[1];
   if (error != 0) {
@@ -107,7 +136,8 @@ void FilmEncoder::fail() {
   std::ifstream file(said_);
   std::string line;
   std::getline(file, line);
-  throw std::runtime_error("ffmpeg: " + (line.empty() ? "gave up" : printable(line)));
+  throw std::runtime_error(file_.string() +
+                           ": ffmpeg: " + (line.empty() ? "gave up" : printable(line)));
 }
 
 void FilmEncoder::add(const Image& image) {
@@ -122,11 +152,17 @@ void FilmEncoder::add(const Image& image) {
 void FilmEncoder::finish() {
   ::close(pipe_);
   pipe_ = -1;
-  int status = 0;
-  while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+  const bool written = ended_well(std::exchange(process_, -1));
+  if (!written) fail();
+  // On a full disk ffmpeg may end well and leave a film without its index.
+  if (const int error = spawn(reading(file_), -1, said_, process_); error != 0) {
+    process_ = -1;
+    throw std::runtime_error(file_.string() +
+                             ": ffmpeg: cannot be started: " + std::strerror(error));
   }
-  process_ = -1;
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) fail();
+  const bool whole = ended_well(std::exchange(process_, -1));
+  std::error_code ignored;
+  if (!whole || fs::file_size(said_, ignored) != 0) fail();
 }
 
 }  // namespace hagfish

@@ -30,11 +30,13 @@ class FilmEncoder {
 
   /// Appends a picture. Throws std::runtime_error where ffmpeg has given up.
   void add(const Image& image);
-  /// Completes the film. Throws std::runtime_error, with what ffmpeg said, where that failed.
+  /// Completes the film and reads it again. Throws std::runtime_error, with what ffmpeg said, where
+  /// either fails.
   void finish();
 
  private:
   [[noreturn]] void fail();
+  std::filesystem::path file_;
   std::filesystem::path said_;  ///< what ffmpeg writes to standard error
   int process_ = -1;
   int pipe_ = -1;

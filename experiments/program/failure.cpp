@@ -7,6 +7,7 @@
 #include "core/input/input_error.hpp"
 #include "core/input/input_text.hpp"
 #include "core/log/hdf5_error.hpp"
+#include "experiments/program/text_file.hpp"
 
 namespace hagfish {
 namespace {
@@ -18,7 +19,9 @@ bool is_one_of(const std::exception& error) {
 
 }  // namespace
 
-bool is_bad_input(const std::exception& error) { return is_one_of<InputError, FileError>(error); }
+bool is_bad_input(const std::exception& error) {
+  return is_one_of<InputError, FileError>(error) && !is_one_of<WriteError>(error);
+}
 
 std::string reason(const std::exception& error) {
   if (is_one_of<std::bad_alloc>(error)) {

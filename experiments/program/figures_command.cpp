@@ -20,7 +20,7 @@ int figures(const FiguresOptions& options) {
                               ? (file.parent_path() / (file.stem().string() + "_figures")).string()
                               : options.out;
   const int code = run_script("of_log.py", {options.log, own_program().string(), out});
-  return code == 0 ? exit_code::done : exit_code::bad_input;
+  return code == exit_code::failed || code == 0 ? code : exit_code::bad_input;
 }
 
 }  // namespace

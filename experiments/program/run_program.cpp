@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -48,6 +49,7 @@ int dispatch(int argc, char** argv) {
 
 int run_program(int argc, char** argv) {
   open_standard_streams();
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is told by its write
   try {
     const int code = dispatch(argc, argv);
     if (!standard_output_arrived()) {

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <stdexcept>
@@ -53,6 +54,9 @@ fs::path script_file(const std::string& script) {
 fs::path own_program() { return fs::read_symlink("/proc/self/exe"); }
 
 int run_script(const std::string& script, const std::vector<std::string>& arguments) {
+  // What a figure shows and how is not the caller's locale's or number of threads'.
+  for (const char* name : {"OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS"}) ::setenv(name, "1", 1);
+  ::setenv("LC_ALL", "C.UTF-8", 1);
   const fs::path file = script_file(script);
   if (::access(python, X_OK) != 0) {
     throw InputError(std::string("no ") + python + ": figures need it");
@@ -76,9 +80,12 @@ void draw_from_text(const std::string& script, const std::string& text, const st
   const std::string table = picture.partial().string() + ".csv";
   const std::string drawn = picture.partial().string() + ".png";
   std::error_code ignored;
-  std::ofstream(table) << text;
-  const int code = run_script(script, {table, drawn});
+  std::ofstream stream(table);
+  stream << text;
+  stream.close();
+  const int code = stream ? run_script(script, {table, drawn}) : -1;
   fs::remove(table, ignored);
+  if (!stream) throw FileError(table + ": cannot be written");
   if (code != 0) throw std::runtime_error(out + ": " + script + " could not draw it");
   fs::rename(drawn, picture.partial(), ignored);
   if (ignored) throw FileError(out + ": cannot be written: " + ignored.message());

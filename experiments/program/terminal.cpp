@@ -33,9 +33,7 @@ void note_signals() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     ::sigaction(signal, &action, nullptr);
   }
-  for (const int signal : {SIGPIPE, SIGXFSZ}) {
-    std::signal(signal, SIG_IGN);
-  }
+  std::signal(SIGPIPE, SIG_IGN);
 }
 
 bool interrupted() { return signalled != 0; }

@@ -1,23 +1,22 @@
 #include "experiments/program/text_file.hpp"
 
-#include <fmt/os.h>
-
-#include <system_error>
-
-#include "core/log/hdf5_error.hpp"
+#include <cerrno>
+#include <cstring>
+#include <fstream>
 
 namespace hagfish {
 
 void TextFile::write(const std::string& text) {
   const std::string partial = file_.partial().string();
-  try {
-    auto out = fmt::output_file(partial);
-    out.print("{}", text);
-    out.close();
-  } catch (const std::system_error& error) {
+  errno = 0;
+  std::ofstream stream(partial, std::ios::binary);
+  stream.write(text.data(), static_cast<std::streamsize>(text.size()));
+  stream.close();
+  if (!stream) {
+    const std::string reason = std::strerror(errno);
     std::error_code ignored;
     std::filesystem::remove(partial, ignored);
-    throw FileError(partial + ": cannot be written: " + error.code().message());
+    throw WriteError(partial + ": cannot be written: " + reason);
   }
   file_.publish();
 }

@@ -9,11 +9,17 @@ namespace hagfish {
 
 inline constexpr const char* force_help = "replace an existing file";
 
+/// A file that could not be written, for no fault of the command line.
+class WriteError : public FileError {
+ public:
+  using FileError::FileError;
+};
+
 /// Reserves `file` before the work, as OutputFile does and throwing as it does.
 class TextFile {
  public:
   TextFile(const std::string& file, bool force) : file_(file, replaced_if(force)) {}
-  /// Throws FileError where it cannot be written.
+  /// Throws WriteError, and leaves nothing, where it cannot be written.
   void write(const std::string& text);
 
  private:
