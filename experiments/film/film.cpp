@@ -178,6 +178,8 @@ Film read_film(const std::string& file, const FilmReading& reading) {
       fail(fmt::format("s = {:g} cm is past --animal-length {:g}", numbers.back(), film.length));
     }
     for (const double s : numbers) places.push_back(std::min(s / film.length, 1.0));
+  } else if (reading.length > 0) {
+    fail("--animal-length says how far s is from the tail, and this film has no s_cm");
   } else {
     places = places_of(numbers, table);
   }

@@ -53,10 +53,17 @@ std::string scaled(const Film& film, double scale) {
                                                   film.length, film.unit, scale * film.length);
 }
 
+std::string tail_note(const FilmReading& reading, const std::string& scaled) {
+  return scaled.empty() || reading.length > 0 ? ""
+                                              : "the last point is taken for the tail's tip: if "
+                                                "the film never shows that, say where "
+                                                "it is (s_cm and --animal-length)\n";
+}
+
 std::string flat_note(const std::string& film) {
   return fmt::format(
       "{}: has no z: the animal is taken to lie in a plane. No knot does, and one camera does not "
-      "tell which strand is over: for a knot, film it with two\n",
+      "tell which strand is over, nor a knot from its mirror image: for a knot, film it with two\n",
       printable(film));
 }
 

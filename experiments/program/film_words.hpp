@@ -21,6 +21,9 @@ std::string film_option_words(const FilmReading& reading);
 /// ", its animal of 35 cm scaled to 42.4 cm"; empty where the lengths are the same to 0.1 %.
 std::string scaled(const Film& film, double scale);
 
+/// A line, of a film whose animal was scaled(), and nothing says that its tail is in it.
+std::string tail_note(const FilmReading& reading, const std::string& scaled);
+
 /// A line, of a film without z.
 std::string flat_note(const std::string& film);
 

@@ -168,9 +168,11 @@ int midlines(const MidlinesOptions& options) {
     throw InputError(options.film + ": no shape can be computed from its numbers");
   }
   const FilmJudgement judgement = judge(model, film, remarks, fit);
-  fmt::print("{}: read as {}, {} midlines of {}{}{}\n", printable(options.film), film.format,
+  const std::string scale = scaled(film, fit.scale);
+  fmt::print("{}: read as {}, {} midlines of {}{}{}\n{}", printable(options.film), film.format,
              film.frames.size(), film.planar ? "two dimensions" : "three dimensions",
-             film.turned.empty() ? "" : ", " + film.turned, scaled(film, fit.scale));
+             film.turned.empty() ? "" : ", " + film.turned, scale,
+             tail_note(options.reading, scale));
   for (const std::string& told : remarks.told) fmt::print("{}\n", told);
   for (const auto& [from, to] : gaps(film)) {
     fmt::print("no midlines from {:.4g} to {:.4g} s: bridged\n", from, to);

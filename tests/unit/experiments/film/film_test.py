@@ -261,6 +261,23 @@ def test_points_are_where_their_numbers_say(tmp_path):
         np.testing.assert_allclose(p["bend_z (rad/L)"], 2, atol=0.05, err_msg=name)
 
 
+def test_a_tail_that_is_never_seen_is_not_bent_nor_scaled_in_silence(tmp_path):
+    """A film of the first four fifths: told where it ends, or with the missing points listed, it is right; else what was taken is said."""
+    time = np.arange(24) / 10
+    s, points = bent(time, lambda t: 1 + t)
+    write_rows(tmp_path / "cut.csv", time, s, points, kept=lambda f, i: i < 17)
+    points[:, 17:] = np.nan
+    write_rows(tmp_path / "listed.csv", time, s, points)
+    write_rows(tmp_path / "by point.csv", time, s, points, column="point")
+    for arguments in (["listed.csv"], ["by point.csv"], ["cut.csv", "--animal-length", LENGTH]):
+        said, p = bends(tmp_path, *arguments)
+        assert "scaled" not in said and "tail's tip" not in said
+        np.testing.assert_allclose(p["bend_z (rad/L)"], 1 + p["time (s)"], atol=0.05, err_msg=arguments[0])
+    said, _ = bends(tmp_path, "cut.csv")
+    assert "animal of 33.9 cm scaled to 42.4 cm" in said and "the last point is taken for the tail's tip" in said
+    refused(tmp_path, "midlines", "by point.csv", "--out", "q.csv", "--animal-length", LENGTH, parts=("by point.csv", "no s_cm"))
+
+
 def test_points_that_are_not_even_are_placed_by_their_distances(tmp_path):
     time = np.arange(24) / 10
     s, points = bent(time, lambda t: 1 + t, points=41)
@@ -312,7 +329,7 @@ def test_one_camera_does_not_tell_a_knot(film, tmp_path):
     rows = [f"{a:.6g},{s:.6g},{x:.6g},{y:.6g}" for a, s, x, y in zip(t["time_s"], t["s_cm"], t["x_cm"], t["y_cm"])]
     (tmp_path / "flat.csv").write_text("\n".join(["time_s,s_cm,x_cm,y_cm", *rows]) + "\n")
     said = hagfish(tmp_path, "midlines", "flat.csv", "--out", "p.csv", "--times", 48)
-    assert "doubtful: " in said and "midlines cross themselves" in said and "one camera does not tell" in said
+    assert "doubtful: " in said and "midlines cross themselves" in said and "one camera does not tell" in said and "mirror image" in said
     assert "hagfish run" not in said
 
 
