@@ -1,7 +1,7 @@
 "use strict";
 // Plots over time with one cursor: the quantity along the body, knot and phase, Eq. 6, forces at the head, energy.
 
-const LEFT = 76, RIGHT = 132, INK = ["#0072b2", "#d55e00", "var(--ink)", "#cc79a7", "#e69f00", "#56b4e9"];
+const LEFT = 76, RIGHT = 14, TOP = 8, BOTTOM = 22, INK = ["#0072b2", "#d55e00", "var(--ink)", "#cc79a7", "#e69f00", "#56b4e9"];
 const DASHES = ["", "6 3", "2 3", "8 3 2 3", "1 3", "12 4"]; // so that no line is told by its colour alone
 const PHASE_INK = { form: "#e8e8e8", tighten: "#c9dff0", slide: "#f6dfb5", release: "#dddddd", free: "#f4f4f4", reverse: "#e6d3e3", pull: "#f2c4bb" };
 
@@ -19,19 +19,23 @@ function stretches(log, nameAt) {
   return found;
 }
 
-/** One strip of the page: an SVG over a canvas, with the time axis that all share. */
+/** One strip of the page: words that wrap, and an SVG over a canvas, with the time axis that all share. */
 class Plot {
   constructor(parent, heading, height, seek) {
-    this.box = parent.append("div").attr("class", "plot").style("height", height + 42 + "px");
+    const box = parent.append("div").attr("class", "plot"), words = box.append("div").attr("class", "words");
+    this.heading = words.append("span").attr("class", "heading").text(heading);
+    this.reading = words.append("span").attr("class", "reading");
+    this.names = box.append("div").attr("class", "line-names");
+    const drawing = box.append("div").attr("class", "drawing").style("height", height + TOP + BOTTOM + "px");
     this.height = height;
-    this.canvas = this.box.append("canvas").node();
-    this.svg = this.box.append("svg");
-    this.inside = this.svg.append("g").attr("transform", `translate(${LEFT},20)`);
-    this.svg.append("text").attr("class", "heading").attr("x", LEFT).attr("y", 14).text(heading);
-    this.body = this.inside.append("g");
+    this.canvas = drawing.append("canvas").node();
+    this.svg = drawing.append("svg");
+    this.inside = this.svg.append("g").attr("transform", `translate(${LEFT},${TOP})`);
+    const clip = `plot-${Plot.count = (Plot.count || 0) + 1}`;
+    this.clip = this.svg.append("clipPath").attr("id", clip).append("rect").attr("y", -TOP).attr("height", height + TOP);
+    this.body = this.inside.append("g").attr("clip-path", `url(#${clip})`);
     this.axes = this.inside.append("g");
     this.cursor = this.inside.append("line").attr("class", "cursor").attr("y1", 0).attr("y2", height);
-    this.reading = this.svg.append("text").attr("class", "reading").attr("y", 14).attr("text-anchor", "end");
     const go = (event) => seek(this.x.invert(event.clientX - this.svg.node().getBoundingClientRect().left - LEFT));
     let held = false;
     this.svg.node().addEventListener("pointerdown", (event) => { held = true; this.svg.node().setPointerCapture(event.pointerId); go(event); });
@@ -42,12 +46,13 @@ class Plot {
   /** Fits the strip to the page: `times` is the first and the last, s. */
   fit(width, times) {
     this.width = width - LEFT - RIGHT;
-    this.svg.attr("width", width).attr("height", this.height + 42);
-    this.reading.attr("x", LEFT + this.width);
+    this.svg.attr("width", width).attr("height", this.height + TOP + BOTTOM);
+    this.clip.attr("width", this.width);
+    this.names.selectAll("*").remove();
     this.x = d3.scaleLinear(times, [0, this.width]);
     this.body.selectAll("*").remove();
     this.axes.selectAll("*").remove();
-    this.axes.append("g").attr("transform", `translate(0,${this.height})`).call(d3.axisBottom(this.x).ticks(Math.max(3, this.width / 90)).tickFormat((t) => `${t} s`));
+    this.axes.append("g").attr("transform", `translate(0,${this.height})`).call(d3.axisBottom(this.x).ticks(Math.max(3, Math.min(12, this.width / 90))).tickFormat((t) => `${t} s`));
   }
 
   /** Sets the vertical axis. */
@@ -62,11 +67,15 @@ class Plot {
     series.forEach(({ name, values }, k) => {
       const path = d3.line().defined((v) => Number.isFinite(v)).x((v, f) => this.x(log.time[f])).y((v) => this.y(v));
       this.body.append("path").attr("d", path(Array.from(values))).style("stroke", INK[k % INK.length]).attr("stroke-dasharray", DASHES[k % DASHES.length]).style("stroke-width", second ? 0.7 : 1.4);
-      if (second) return;
-      const y = 8 + 15 * k;
-      this.body.append("line").attr("x1", this.width + 8).attr("x2", this.width + 34).attr("y1", y).attr("y2", y).style("stroke", INK[k % INK.length]).attr("stroke-dasharray", DASHES[k % DASHES.length]).attr("stroke-width", 2);
-      this.body.append("text").attr("x", this.width + 39).attr("y", y + 4).text(name);
+      if (!second) this.name(name, INK[k % INK.length], DASHES[k % DASHES.length]);
     });
+  }
+
+  /** How a line looks, above the strip. */
+  name(text, ink, dash) {
+    const one = this.names.append("span");
+    one.append("svg").attr("width", 26).attr("height", 8).append("line").attr("x2", 26).attr("y1", 4).attr("y2", 4).style("stroke", ink).attr("stroke-dasharray", dash).attr("stroke-width", 2);
+    one.append("span").text(text);
   }
 
   /** Named bands between two heights. */
@@ -91,6 +100,12 @@ function rangeOf(lists) {
   return [low, low === 0 && high === 1e-12 ? 1 : high];
 }
 
+/** Without what the release does: its spikes would flatten all that comes before it. */
+function untilRelease(log, values) {
+  const kept = values.filter((_, f) => !["release", "free"].includes(log.phaseName(f)));
+  return kept.length ? kept : values;
+}
+
 const column = (values, width, k) => d3.range(values.length / width).map((f) => values[f * width + k]);
 const EQ6 = ["first, t_a", "first, t_b", "last, t_a", "last, t_b"];
 const short = (v, unit) => (Number.isFinite(v) ? `${d3.format(".4~g")(v)} ${unit}` : "");
@@ -101,8 +116,8 @@ class Plots {
     const parent = d3.select("#plots"), of = (log) => (logs.length > 1 ? `, ${log.name}` : "");
     this.maps = logs.map((log) => new Plot(parent, "", 150, seek));
     this.stages = logs.map((log) => new Plot(parent, `Phase and knot type${of(log)}`, 44, seek));
-    this.eq6 = new Plot(parent, "Eq. 6: speed along each tangent, means from frame to frame (as commanded: thin)", 100, seek);
-    this.head = new Plot(parent, "Force at the head, means from frame to frame", 90, seek);
+    this.eq6 = new Plot(parent, "Eq. 6: speed along each tangent, means from frame to frame (as commanded: thin; cut where the release is faster)", 100, seek);
+    this.head = new Plot(parent, "Force at the head, means from frame to frame (cut where the release is larger)", 90, seek);
     this.energy = new Plot(parent, "Energy and work so far", 110, seek);
     this.all = [...this.maps, ...this.stages, this.eq6, this.head, this.energy];
   }
@@ -111,7 +126,7 @@ class Plots {
   draw(name, scale, label, unit) {
     Object.assign(this, { quantity: name, label, unit });
     this.headForce = this.logs.map((log) => d3.range(log.frames).map((f) => Math.hypot(log.head[6 * f], log.head[6 * f + 1], log.head[6 * f + 2])));
-    const width = Math.max(340, document.getElementById("plots").clientWidth - 28);
+    const width = Math.max(280, document.getElementById("plots").clientWidth - 28);
     const times = [d3.min(this.logs, (log) => log.time[0]), d3.max(this.logs, (log) => log.time[log.frames - 1])];
     for (const plot of this.all) plot.fit(width, times);
     this.logs.forEach((log, k) => {
@@ -120,12 +135,13 @@ class Plots {
       this.stages[k].bands(stretches(log, (f) => log.knotName(f)), 23, 20, (knot) => (knot === "0_1" ? "#f4f4f4" : "#bfe3d6"));
     });
     const speeds = this.logs.map((log) => EQ6.map((row, k) => ({ name: row, values: column(log.eq6.speed, 4, k) })));
-    this.eq6.scale(rangeOf([...speeds.flat().map((s) => s.values), ...this.logs.map((log) => log.eq6.command)]), "cm/s", 4);
+    const before = (lists) => this.logs.flatMap((log, k) => lists[k].map((values) => untilRelease(log, Array.from(values))));
+    this.eq6.scale(rangeOf([...before(speeds.map((own) => own.map((s) => s.values))), ...this.logs.map((log) => log.eq6.command)]), "cm/s", 4);
     this.logs.forEach((log, k) => {
       this.eq6.lines(log, speeds[k], k > 0);
       this.eq6.lines(log, EQ6.map((row, i) => ({ name: row, values: column(log.eq6.command, 4, i) })), true);
     });
-    this.head.scale(rangeOf([...this.headForce, ...this.logs.map((log) => log.plate_force)]), "dyn", 4);
+    this.head.scale(rangeOf(before(this.logs.map((log, k) => [this.headForce[k], log.plate_force]))), "dyn", 4);
     this.logs.forEach((log, k) => this.head.lines(log, [{ name: "clamp", values: this.headForce[k] }, { name: "head plate", values: log.plate_force }], k > 0));
     const terms = this.logs.map((log) => Object.entries(log.energy).filter(([, values]) => values.some((v) => v !== 0)).map(([key, values]) => ({ name: key.replace("_energy", "").replace("work_", "work, "), values })));
     this.energy.scale(rangeOf(terms.flat().map((t) => t.values)), "erg", 4);
@@ -134,7 +150,7 @@ class Plots {
 
   drawMap(plot, log, name, scale) {
     const { label, unit } = this, { arc, values } = log.field(name), n = arc.length, length = log.animal.length;
-    plot.svg.select(".heading").text(`Along the body: ${label}, ${unit}${this.logs.length > 1 ? ", " + log.name : ""}`);
+    plot.heading.text(`Along the body: ${label}, ${unit}${this.logs.length > 1 ? ", " + log.name : ""}`);
     plot.scale([0, length], "cm from the head", 4);
     const image = new ImageData(log.frames, n);
     for (let f = 0; f < log.frames; ++f) {
@@ -150,22 +166,20 @@ class Plots {
     small.getContext("2d").putImageData(image, 0, 0);
     const ratio = window.devicePixelRatio || 1, { canvas } = plot;
     canvas.width = (LEFT + plot.width) * ratio;
-    canvas.height = (plot.height + 20) * ratio;
+    canvas.height = (plot.height + TOP) * ratio;
     canvas.style.width = LEFT + plot.width + "px";
-    canvas.style.height = plot.height + 20 + "px";
+    canvas.style.height = plot.height + TOP + "px";
     const context = canvas.getContext("2d"), half = length / n / 2;
     context.scale(ratio, ratio);
     context.imageSmoothingEnabled = false;
-    const top = 20 + plot.y(Math.min(length, arc[n - 1] + half)), bottom = 20 + plot.y(Math.max(0, arc[0] - half));
+    const top = TOP + plot.y(Math.min(length, arc[n - 1] + half)), bottom = TOP + plot.y(Math.max(0, arc[0] - half));
     const left = LEFT + plot.x(log.time[0]);
     context.drawImage(small, left, top, LEFT + plot.x(log.time[log.frames - 1]) - left, bottom - top);
     for (const [end, dash, word] of [["head_end", "", "knot, head end"], ["tail_end", "5 3", "knot, tail end"]]) {
       const path = d3.line().defined((v) => Number.isFinite(v)).x((v, f) => plot.x(log.time[f])).y((v) => plot.y(v))(Array.from(log[end]));
       plot.body.append("path").attr("d", path).attr("stroke", "#000").style("stroke-width", 3.2);
       plot.body.append("path").attr("d", path).attr("stroke", "#fff").attr("stroke-dasharray", dash).style("stroke-width", 1.6);
-      const y = end === "head_end" ? 8 : 24;
-      plot.body.append("line").attr("x1", plot.width + 8).attr("x2", plot.width + 34).attr("y1", y).attr("y2", y).attr("stroke", "#000").attr("stroke-dasharray", dash).attr("stroke-width", 2);
-      plot.body.append("text").attr("x", plot.width + 39).attr("y", y + 4).text(word);
+      plot.name(word, "var(--ink)", dash);
     }
   }
 

@@ -124,7 +124,9 @@ class Viewer {
     const right = new THREE.Vector3().crossVectors(this.camera.up, toward).normalize(), up = new THREE.Vector3().crossVectors(toward, right);
     const points = [], place = (axis, p) => p.dot(axis);
     for (const log of this.logs) {
-      for (let k = 0; k < log.position.length; k += 30) points.push(new THREE.Vector3(log.position[k], log.position[k + 1], log.position[k + 2]));
+      const { position, bodies } = log, add = (b) => points.push(new THREE.Vector3(position[3 * b], position[3 * b + 1], position[3 * b + 2]));
+      for (let b = 0; b < position.length / 3; b += 10) add(b);
+      for (let b = bodies - 1; b < position.length / 3; b += bodies) add(b); // the tail goes furthest
       for (const { points: along, point } of log.obstacles) for (const p of along || [point]) points.push(new THREE.Vector3(...p));
       if (log.plate) for (const y of [-2.6, 2.6]) for (const z of [-2.6, 2.6]) points.push(new THREE.Vector3(0, y, z));
     }

@@ -175,3 +175,22 @@ def test_two_logs_beside_and_over_each_other(run, browser):
     assert browser.run("viewer.ghost.group.visible") is True
     assert browser.run(COLOURS_ON_CANVAS) > 100
     assert browser.errors == []
+
+
+@needs_chromium
+@pytest.mark.parametrize("width", [390, 420])
+def test_it_fits_a_phone(run, tmp_path, width):
+    phone = Browser(tmp_path, (width, 844))
+    phone.open(run / "a.html")
+    assert phone.run("document.documentElement.scrollWidth") <= width
+    # No words lie on others, and the whole animal is in sight at the start.
+    assert phone.run("""(() => {
+      const boxes = [...document.querySelectorAll('.plot .heading, .plot .reading, .plot .line-names > span, .plot .drawing')].map((e) => e.getBoundingClientRect()).filter((b) => b.width > 0);
+      let over = 0;
+      boxes.forEach((a, i) => boxes.slice(i + 1).forEach((b) => { if (a.left < b.right - 1 && b.left < a.right - 1 && a.top < b.bottom - 1 && b.top < a.bottom - 1) ++over; }));
+      return over;
+    })()""") == 0
+    places = phone.run("""(() => { const p = viewer.logs[0].position, n = viewer.logs[0].bodies, found = [];
+      for (const b of [0, n - 1]) { const v = new THREE.Vector3(p[3 * b], p[3 * b + 1], p[3 * b + 2]).project(viewer.camera); found.push(v.x, v.y); } return found; })()""")
+    assert np.abs(places).max() < 1
+    phone.close()
