@@ -30,7 +30,7 @@ def draw_map(axes: plt.Axes, muscles: Muscles, bends: bool) -> None:
     image = axes.pcolormesh(edges(muscles.time), edges(arc), activation.T, cmap="viridis", vmin=0, vmax=1, rasterized=True)
     axes.plot(muscles.time, log["/knot/head_end"], color="white", lw=0.9, label="knot, head end")
     axes.plot(muscles.time, log["/knot/tail_end"], color="white", lw=0.9, ls="--", label="knot, tail end")
-    axes.set(ylabel="arc length from the head, cm", xlabel="time, s", ylim=(arc[-1], arc[0]))
+    axes.set(ylabel="arc length from the head, cm", xlabel="time, s", ylim=(arc[0], arc[-1]))
     legend = axes.legend(loc="lower left", fontsize=7, framealpha=0.35, facecolor="black")
     for text in legend.get_texts():
         text.set_color("white")

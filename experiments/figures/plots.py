@@ -54,7 +54,7 @@ INTEGRATORS = {"core": Look("core, Euler", INK, "o"), "core_midpoint": Look("cor
 VERDICTS = {"agrees": Look("agrees", BLUE, "^"), "undecided": Look("undecided", GREY, "o"),
             "disagrees": Look("disagrees", ORANGE, "v")}
 ROUGHNESS = {"space": Look("along the body", BLUE, "o"), "time": Look("in time", ORANGE, "D")}
-TICKS_APART = 1.4  # least ratio of two labelled ticks
+TICKS_APART = 1.3  # least ratio of two ticks
 
 
 def panels(rows: int, columns: int, size: tuple[float, float], titles: Sequence[str], **options: Any) -> tuple[Any, np.ndarray]:
@@ -71,13 +71,12 @@ def name_panels(panels: Iterable[Any], titles: Sequence[str]) -> None:
 
 
 def plain_ticks(axis: Any, values: Iterable[float]) -> None:
-    """Ticks of a logarithmic axis at `values` alone, as plain numbers; one too near to the last has no label."""
-    values, labels, last = sorted(values), [], 0.0
-    for value in values:
-        near = value < TICKS_APART * last
-        labels.append("" if near else f"{value:g}")
-        last = last if near else value
-    axis.set_ticks(values, labels)
+    """Ticks of a logarithmic axis at `values` alone, as plain numbers; none where it is too near to the last."""
+    kept: list[float] = []
+    for value in sorted(values):
+        if not kept or value >= TICKS_APART * kept[-1]:
+            kept.append(value)
+    axis.set_ticks(kept, [f"{value:g}" for value in kept])
     axis.set_minor_locator(NullLocator())
 
 
