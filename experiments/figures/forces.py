@@ -133,13 +133,13 @@ def interval_rows(folder: Path) -> list[Row]:
     for path in sorted(folder.iterdir()):
         found = sure.read(path)
         of = found.table.figures
-        axis = lambda key, cell: float(found.table.axes[key][cell] or "nan")
+        animal, step = ("living", 0.005) if "living" in path.name else ("towed", 0.002)  # the scenes' own
+        axis = lambda key, cell, own: float(found.table.axes[key][cell] or own)
         for cell, cause in enumerate(found.causes):
             if cause not in (sure.AS_IS, *sure.NUMERICS) or not found.counted[cell]:
                 continue
             way = float(of["slide_distance_cm"][cell])
-            rows.append(Row("sure", knot_of(path.name), "living" if "living" in path.name else "towed",
-                            int(np.nan_to_num(axis("model.bodies", cell), nan=100)), float(np.nan_to_num(1e3 * axis("time.step", cell), nan=5)), cause, "ok", way,
+            rows.append(Row("sure", knot_of(path.name), animal, int(axis("model.bodies", cell, 100)), 1e3 * axis("time.step", cell, step), cause, "ok", way,
                             multipliers=float(of["sliding_force_dyn"][cell]), work=float(of["work_thigmotaxis_erg"][cell]) / way if way > 0 else None))
     return rows
 
