@@ -230,8 +230,16 @@ double made_while_free(const LogContents& log, const MomentumColumns& of, double
 
 /// What happens to momentum; where nothing holds or pulls the animal, that nothing does.
 std::vector<Finding> momentum(const LogContents& log) {
-  const MomentumColumns linear(log, "");
-  const MomentumColumns angular(log, "angular_");
+  MomentumColumns linear(log, "");
+  MomentumColumns angular(log, "angular_");
+  // As GuardSettings::momentum_gain: with the largest kinetic energy.
+  double mass = 0;
+  for (const Body& body : log.model.bodies) mass += body.mass;
+  const double parts = std::sqrt(2 * mass * diagnostic(log, "kinetic_energy").maxCoeff());
+  const double turning_parts = parts * log.model.length() / std::sqrt(12.0);
+  // A body that falls has parts that are large where all of it is not.
+  linear.largest_total = worse(linear.largest_total, parts);
+  angular.largest_total = worse(angular.largest_total, turning_parts);
   std::vector<Finding> findings{
       momentum_ledger(log, "momentum ledger", "dyn s", linear),
       momentum_ledger(log, "angular momentum ledger", "dyn cm s", angular)};
@@ -247,13 +255,8 @@ std::vector<Finding> momentum(const LogContents& log) {
     ever_free = ever_free || !(log.clamped(f - 1) || log.clamped(f));
   }
   if (ever_free) {
-    // As GuardSettings::momentum_gain: with the largest kinetic energy.
-    double mass = 0;
-    for (const Body& body : log.model.bodies) mass += body.mass;
-    const double parts = std::sqrt(2 * mass * diagnostic(log, "kinetic_energy").maxCoeff());
     const double share =
-        worse(made_while_free(log, linear, parts),
-              made_while_free(log, angular, parts * log.model.length() / std::sqrt(12.0)));
+        worse(made_while_free(log, linear, parts), made_while_free(log, angular, turning_parts));
     findings.push_back(
         judged_over({"free momentum", share, scene.expect.momentum, "of the momentum that passed"},
                     "made by the integrator while nothing held the head"));
