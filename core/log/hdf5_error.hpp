@@ -30,11 +30,4 @@ auto guarded(const std::string& file, const std::string& what, Work&& work) {
   }
 }
 
-/// To open a file of the process's own: HDF5's lock would fail where a reader has one.
-inline H5::FileAccPropList unlocked() {
-  H5::FileAccPropList access;
-  H5Pset_file_locking(access.getId(), false, true);
-  return access;
-}
-
 }  // namespace hagfish

@@ -85,9 +85,7 @@ Hdf5Reader::Hdf5Reader(const std::filesystem::path& file, Origin origin) : file_
     }
     h5_ = open_hdf5_copy(file);
   } else {
-    guarded(file_, "read as HDF5", [&] {
-      h5_ = H5::H5File(file_, H5F_ACC_RDONLY, H5::FileCreatPropList::DEFAULT, unlocked());
-    });
+    guarded(file_, "read as HDF5", [&] { h5_ = H5::H5File(file_, H5F_ACC_RDONLY); });
   }
 }
 

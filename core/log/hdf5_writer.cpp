@@ -50,9 +50,7 @@ void describe(H5::DataSet& set, const Meaning& meaning) {
 
 Hdf5Writer::Hdf5Writer(const std::filesystem::path& file) : name_(file.string()) {
   H5::Exception::dontPrint();
-  guarded(name_, "open", [&] {
-    h5_ = H5::H5File(name_, H5F_ACC_RDWR, H5::FileCreatPropList::DEFAULT, unlocked());
-  });
+  guarded(name_, "open", [&] { h5_ = H5::H5File(name_, H5F_ACC_RDWR); });
 }
 
 Hdf5Writer::Hdf5Writer() : name_("file in memory") {

@@ -249,7 +249,7 @@ TEST(SimulationMisuse, ALawMayStepACopy) {
   std::int64_t ahead = 0;
   sim.law = [&](const Situation&, Eigen::VectorXd&, Control&) {
     Simulation copy = sim;
-    copy.law = {};
+    copy.law = [](const Situation&, Eigen::VectorXd&, Control&) {};
     take_step(p.model, p.scene, copy);
     ahead = copy.step;
   };
