@@ -142,7 +142,7 @@ std::vector<Finding> energy(const LogContents& log) {
   const double worst = largest((energy - works + dissipated + impacts - error).abs().eval());
   const double had =
       (diagnostic(log, "kinetic_energy") + diagnostic(log, "elastic_energy")).maxCoeff();
-  passed = std::max(passed, dissipated.abs().maxCoeff());
+  passed = std::max({passed, works.abs().maxCoeff(), dissipated.abs().maxCoeff()});
   largest_total = std::max(largest_total, mechanical_energy(log).abs().maxCoeff());
   const double relative = share_of(worst, passed, largest_total);
   Finding finding = judged_over(

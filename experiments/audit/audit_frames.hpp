@@ -33,7 +33,7 @@ class FrameAudit {
   Hdf5Reader::Rows position_, momentum_, angular_momentum_, spline_a_, spline_b_;
   int last_order_ = 0;
   std::int64_t frames_ = 0, contacts_off_ = 0, contacts_off_by_ = 0, followed_ = 0, late_ = 0;
-  /// The centre of mass at the frame before, cm, its velocity in the step from there, cm/s, and the
+  /// The centre of mass at the frame before, cm, its velocity there, cm/s, and the
   /// furthest that it was off since, of what is allowed.
   Eigen::Vector3d centre_before_ = Eigen::Vector3d::Zero(), left_with_ = centre_before_;
   double off_way_ = 0;

@@ -67,7 +67,8 @@ std::vector<std::string> datasets(const Hdf5Reader& h5) {
   std::vector<std::string> paths;
   for (const auto& [name, digest] : read_seal(h5.text(seal_path))) {
     const bool wall = name.ends_with("/qp_time") || name.ends_with("/wall_time");
-    if (!wall && name.find(": attribute ") == std::string::npos) paths.push_back(name);
+    const bool link = digest == 0;  // to labels that are elsewhere in the file
+    if (!wall && !link && name.find(": attribute ") == std::string::npos) paths.push_back(name);
   }
   return paths;
 }
