@@ -8,6 +8,7 @@
 #include "core/log/build_info.hpp"
 #include "core/log/log_writer.hpp"
 #include "core/log/saved_run.hpp"
+#include "core/step/outcome.hpp"
 #include "experiments/audit/audited_frame.hpp"
 
 namespace hagfish {
@@ -49,7 +50,16 @@ class CheckpointAudit {
         throw FileError(log_.h5.file() + ": /checkpoints/step is not that of /checkpoints/data");
       }
       const std::vector<std::uint8_t>& next = k < marks.size() ? marks[k].bytes : end;
-      exact_ ? see_next(std::move(run), next) : follow(std::move(run.sim), k == marks.size(), last);
+      const std::int64_t from = run.sim.step;
+      try {
+        exact_ ? see_next(std::move(run), next)
+               : follow(std::move(run.sim), k == marks.size(), last);
+      } catch (const StepError& error) {  // a state or a scene that is not the log's
+        ++seen_;
+        if (first_wrong_.empty()) {
+          first_wrong_ = fmt::format("; on from step {}: {}", from, error.what());
+        }
+      }
     }
     if (seen_ == 0) {
       return {"checkpoints", true, "none before the log's end", "", "", ""};
