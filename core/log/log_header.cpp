@@ -140,7 +140,10 @@ void write_model(const Model& model, Hdf5Writer& h5) {
   h5.texts(dof_labels, dofs);
   h5.texts(coordinate_labels, coordinate_names(model));
   if (!model.muscles.empty()) write_muscles(model, h5);
-  if (!model.obstacles.empty()) h5.texts(obstacle_names_path, obstacle_names(model));
+  if (!model.obstacles.empty()) {
+    h5.texts(obstacle_names_path, obstacle_names(model));
+    h5.make_labels(obstacle_names_path);
+  }
   for (const auto& [path, names] : axis_names()) {
     h5.texts(path, names);
     h5.make_labels(path);

@@ -58,9 +58,10 @@ TEST(Standstill, OfABodyPulledStraight) {
 /// A knot in drag so large that it comes to rest in a second, held by muscles that pull towards the
 /// shape that it had, and by no row of Eq. 6; then a log that begins with it at rest.
 TEST(Standstill, OfAKnotHeldStill) {
-  const ResolvedScene resolved =
+  ResolvedScene resolved =
       scene_of({"active.stiffness=1e5", "active.capacity=1e7", "drag.normal=100.0",
                 "drag.tangential=100.0", "start.phase=slide"});
+  resolved.scene.expect.knot = "3_1";
   const Model model = make_hagfish(resolved.specimen, resolved.scene);
   const StoredState& slide = stored_states().at(3);
   Eigen::VectorXd shape = Eigen::VectorXd::Zero(model.nv());

@@ -79,7 +79,12 @@ int picture(const PictureOptions& options) {
   std::string table = "file\ttime_s\tleft_cm\tbottom_cm\tcm_per_pixel\n";
   for (std::size_t k = 0; k < frames.size(); ++k) {
     const fs::path file = numbered(out, k, frames.size());
-    write_png(pictures.draw(*renderer, frames[k], views[k]), files[k]->partial());
+    const Image picture = pictures.draw(*renderer, frames[k], views[k]);
+    try {
+      write_png(picture, files[k]->partial());
+    } catch (const FileError& error) {
+      throw WriteError(error.what());
+    }
     files[k]->publish();
     table +=
         fmt::format("{}\t{:.9g}\t{:.6f}\t{:.6f}\t{:.6f}\n", printable(file.string()),

@@ -75,12 +75,11 @@ def full(whole, command):
     return KNOWN[name]
 
 
-@pytest.mark.parametrize("name", ["export", "view", "mjcf", "program", "check", "picture", "movie", "figures"])
-def test_a_quota(whole, name):
-    command = COMMANDS[name]
+def test_a_quota(whole):
+    """Of a command that reads no log: a log is read by a copy, which such a limit stops, too."""
+    command = COMMANDS["mjcf"]
     full(whole, command)
-    sizes = SIZES if name not in ("movie", "figures") else SIZES[1::3]
-    for size in sizes:
+    for size in SIZES:
         def limit(size=size):
             resource.setrlimit(resource.RLIMIT_FSIZE, (1024 * size, 1024 * size))
 
@@ -119,4 +118,4 @@ def test_words_that_do_not_arrive_are_told(whole):
     with open("/dev/full", "w") as full_device:
         for command in (["info", "a.h5"], ["check", "a.h5"], ["scenes"]):
             done = subprocess.run([HAGFISH, *command], cwd=whole, stdout=full_device, stderr=subprocess.PIPE, text=True)
-            assert (done.returncode, done.stderr) == (1, "hagfish: standard output cannot be written\n")
+            assert (done.returncode, done.stderr) == (1, "hagfish: cannot write to file: No space left on device\n"), command

@@ -15,7 +15,7 @@ sys.path.insert(0, str(Path(__file__).parents[3] / "support"))
 
 from program import HAGFISH, hagfish  # noqa: E402
 
-RUN = ["run", "table1", "--quiet", "--set", "time.duration=3", "--set", "time.step=0.002", "--out"]
+RUN = ["run", "table1", "--quiet", "--qp", "ipopt", "--set", "time.duration=16", "--out"]  # some seconds, with a save in each
 CLOCKS = ("wall_time", "qp_time")
 
 
