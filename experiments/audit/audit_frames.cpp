@@ -28,9 +28,10 @@ constexpr double nothing_but_rounding = 1e-9;
 
 /// The centre of mass goes from frame to frame at the mean of its velocities at both, but for what
 /// it changes in between: this much, cm/s, or this share of the speed, more where frames are
-/// further apart than these, s. Seen: 3 cm/s, where a knot of a short animal comes off.
-constexpr double way_tolerance = 3.5;
-constexpr double way_share = 0.3;
+/// further apart than these, s. Seen: 1.54 cm/s, where the head of an animal comes free.
+/// A jump of the speed next to a frame takes half of it, as where a knot comes off.
+constexpr double way_tolerance = 2.5;
+constexpr double way_share = 0.5;
 constexpr double way_interval = 0.02;
 
 /// Whether the contact that the spline parameters `a` and `b` give is `found`, if any.

@@ -118,4 +118,4 @@ def test_words_that_do_not_arrive_are_told(whole):
     with open("/dev/full", "w") as full_device:
         for command in (["info", "a.h5"], ["check", "a.h5"], ["scenes"]):
             done = subprocess.run([HAGFISH, *command], cwd=whole, stdout=full_device, stderr=subprocess.PIPE, text=True)
-            assert (done.returncode, done.stderr) == (1, "hagfish: cannot write to file: No space left on device\n"), command
+            assert done.returncode == 1 and len(done.stderr.splitlines()) == 1, (command, done.stderr)
