@@ -257,8 +257,8 @@ void serialize(Archive& archive, LogState& log) {
 
 template <class Archive>
 void serialize(Archive& archive, Simulation& sim) {
-  auto& [step, now, search, controller, solver, ledger, momentum, watch, before, storage,
-         law, under_way] = sim;  // the last are storage and code
+  auto& [step, now, search, controller, solver, ledger, momentum, watch, before, storage, law,
+         under_way] = sim;  // the last are storage and code
   archive(step, now.state, now.observation, search, controller, solver.warm,
           solver.warm.half_change, solver.warm.half_before, solver.warm.remaining, ledger, momentum,
           watch);
