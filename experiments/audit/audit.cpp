@@ -10,6 +10,7 @@
 #include "core/log/log_writer.hpp"
 #include "core/log/saved_run.hpp"
 #include "core/run/laws.hpp"
+#include "core/run/momentum.hpp"
 #include "core/run/simulation.hpp"
 #include "experiments/audit/audit_activation.hpp"
 #include "experiments/audit/audit_checkpoints.hpp"
@@ -233,9 +234,8 @@ std::vector<Finding> momentum(const LogContents& log) {
   MomentumColumns linear(log, "");
   MomentumColumns angular(log, "angular_");
   // As GuardSettings::momentum_gain: with the largest kinetic energy.
-  double mass = 0;
-  for (const Body& body : log.model.bodies) mass += body.mass;
-  const double parts = std::sqrt(2 * mass * diagnostic(log, "kinetic_energy").maxCoeff());
+  const double parts =
+      std::sqrt(2 * mass_of(log.model) * diagnostic(log, "kinetic_energy").maxCoeff());
   const double turning_parts = parts * log.model.length() / std::sqrt(12.0);
   // A body that falls has parts that are large where all of it is not.
   linear.largest_total = worse(linear.largest_total, parts);

@@ -65,13 +65,14 @@ class CheckpointAudit {
       return {"checkpoints", true, "none before the log's end", "", "", ""};
     }
     return all_of("checkpoints", same_, seen_, "states",
-                  exact_ ? fmt::format("{} of {} come again bit by bit, with all that they hold, "
-                                       "each from the one before{}",
-                                       same_, seen_, first_wrong_)
-                         : fmt::format("{} of {} states come again from the start and {} "
-                                       "checkpoints, off by {:.2g} cm, rad or their rates at most "
-                                       "({:g})",
-                                       same_, seen_, marks.size(), worst_, same_state));
+                  exact_
+                      ? fmt::format("{} of {} come again bit by bit, with all that they hold, "
+                                    "each from the one before{}",
+                                    same_, seen_, first_wrong_)
+                      : fmt::format("{} of {} states come again from the start and {} "
+                                    "checkpoints, off by {:.2g} cm, rad or their rates at most "
+                                    "({:g}){}",
+                                    same_, seen_, marks.size(), worst_, same_state, first_wrong_));
   }
 
  private:
