@@ -9,7 +9,7 @@ namespace {
 
 constexpr int iteration_limit = 50;
 // A Newton step in a parameter of [0, 1] below this leaves an error of its square.
-constexpr double step_tolerance = 1e-8;
+constexpr double step_tolerance = 1e-6;
 
 /// The point of the other strand that is nearest to one of the first.
 struct Nearest {
@@ -19,45 +19,76 @@ struct Nearest {
   double rate = NAN;  ///< of the gap by the first strand's parameter, cm
 };
 
-/// The nearest point of `other` to x, where the skin of radius r is: Newton's method on the gap's
-/// slope from the lowest of three samples, or Gauss-Newton's where that would go up.
-void descend(const SplineSegment& other, const Eigen::Vector3d& x, double r, double& t,
-             double& gap) {
-  const auto gap_at = [&](double at) {
-    return (other.point(at) - x).norm() - other.radius(at) - r;
-  };
-  gap = std::numeric_limits<double>::infinity();
-  for (const double at : {0.0, 0.5, 1.0}) {
-    const double here = gap_at(at);
-    if (here < gap) {
-      gap = here;
-      t = at;
-    }
-  }
+/// The gap from a point of a segment to the skin of radius r about x, and its rate by the
+/// parameter.
+struct GapAt {
+  Eigen::Vector3d apart;  ///< cm
+  double distance, gap, rate;
+
+  GapAt(const SplineSegment& segment, const Eigen::Vector3d& x, double r, double t)
+      : apart(segment.point(t) - x),
+        distance(apart.norm()),
+        gap(distance - segment.radius(t) - r),
+        rate(apart.dot(segment.slope(t)) / distance - segment.r1) {}
+};
+
+/// Where the gap is least between two points of a segment, at which it falls and rises: Newton's
+/// method on its rate, and halves where that leaves them.
+double least_between(const SplineSegment& segment, const Eigen::Vector3d& x, double r, double falls,
+                     double rises, double start) {
+  double t = start;
   for (int k = 0; k < iteration_limit; ++k) {
-    const Eigen::Vector3d apart = other.point(t) - x;
-    const double distance = apart.norm();
-    if (distance == 0) return;
-    const Eigen::Vector3d slope = other.slope(t);
-    const double along = apart.dot(slope) / distance;
-    const double down = other.r1 - along;
-    if ((t <= 0 && down <= 0) || (t >= 1 && down >= 0)) return;
-    const double gauss = (slope.squaredNorm() - along * along) / distance;
-    const double newton = gauss + apart.dot(other.bend(t)) / distance;
-    double step = down / std::max(newton, 0.1 * slope.squaredNorm() / distance);
-    for (bool lower = false; !lower;) {
-      const double next = std::clamp(t + step, 0.0, 1.0);
-      const double there = gap_at(next);
-      const bool small = !(std::abs(next - t) > step_tolerance);  // what is no number ends it, too
-      lower = there < gap;
-      if (lower) {
-        t = next;
-        gap = there;
-      }
-      if (small) return;
-      step *= 0.5;
-    }
+    const GapAt here(segment, x, r, t);
+    (here.rate < 0 ? falls : rises) = t;
+    const double along = here.rate + segment.r1;
+    const double growth =
+        segment.slope(t).squaredNorm() - along * along + here.apart.dot(segment.bend(t));
+    const double newton = t - here.rate * here.distance / growth;
+    const bool within = falls <= newton && newton <= rises;
+    const double next = within ? newton : 0.5 * (falls + rises);
+    if (!(std::abs(next - t) > step_tolerance)) return next;
+    t = next;
   }
+  return t;
+}
+
+/// The gaps from four points of a segment, evenly from its start to its end, to the skin of radius
+/// r about x, side by side, and their rates.
+struct FourGaps {
+  static constexpr int parts = 3;
+  Eigen::Array4d at{0, 1.0 / 3, 2.0 / 3, 1}, gap, rate;
+
+  FourGaps(const SplineSegment& segment, const Eigen::Vector3d& x, double r) {
+    Eigen::Array4d square = Eigen::Array4d::Zero(), along = Eigen::Array4d::Zero();
+    for (int i = 0; i < 3; ++i) {
+      const double c1 = segment.c1[i], c2 = segment.c2[i], c3 = segment.c3[i];
+      const Eigen::Array4d apart = segment.c0[i] - x[i] + at * (c1 + at * (c2 + at * c3));
+      square += apart.square();
+      along += apart * (c1 + at * (2 * c2 + at * (3 * c3)));
+    }
+    const Eigen::Array4d distance = square.sqrt();
+    gap = distance - (segment.r0 + r) - at * segment.r1;
+    rate = along / distance - segment.r1;
+  }
+};
+
+/// The nearest point of a segment to x, where the skin of radius r is. Samples tell its minima
+/// apart: along a strand that winds about x the gap falls and rises more than once.
+Nearest nearest_on(const SplineSegment& segment, const Eigen::Vector3d& x, double r) {
+  const FourGaps samples(segment, x, r);
+  int least = 0;
+  Nearest best;
+  best.gap = samples.gap.minCoeff(&least);
+  best.t = samples.at[least];
+  for (int k = 0; k < FourGaps::parts; ++k) {
+    const double left = samples.rate[k], right = samples.rate[k + 1];
+    if (!(left < 0 && right > 0)) continue;
+    const double t = least_between(segment, x, r, samples.at[k], samples.at[k + 1],
+                                   (k + left / (left - right)) / FourGaps::parts);
+    const double gap = GapAt(segment, x, r, t).gap;
+    if (gap < best.gap) best.t = t, best.gap = gap;
+  }
+  return best;
 }
 
 /// One strand's points against the body's others.
@@ -69,75 +100,118 @@ class Strand {
         least_arc_(settings.least_arc * (1 - 1e-9)),
         tail_(tail) {}
 
-  /// Of those that may touch segment `own`, to its point `t`.
+  /// To the point `t` of segment `own`, of all that may touch it.
   Nearest nearest(int own, double t) const {
-    const SplineSegment& segment = segments_[own];
-    const Eigen::Vector3d x = segment.point(t);
-    const double r = segment.radius(t);
+    const Eigen::Vector3d x = segments_[own].point(t);
+    const double r = segments_[own].radius(t);
     Nearest best;
     best.gap = settings_.margin + 0.01 * r;  // beyond what is asked for
     const int count = static_cast<int>(segments_.size());
     for (int k = tail_ ? 0 : own + 1; k < (tail_ ? own : count); ++k) {
-      const SplineSegment& other = segments_[k];
-      const double reach = best.gap + other.bound + r;
-      if ((other.middle - x).squaredNorm() >= reach * reach || other.obstacle >= 0 ||
-          (tail_ ? segment.s0 - other.arc(1) : other.s0 - segment.arc(1)) < least_arc_) {
-        continue;
-      }
-      double there = 0, gap = 0;
-      descend(other, x, r, there, gap);
-      if (gap < best.gap) best = {gap, k, there};
+      const double reach = best.gap + segments_[k].bound + r;
+      if ((segments_[k].middle - x).squaredNorm() >= reach * reach || !may_touch(own, k)) continue;
+      const Nearest there = nearest_on(segments_[k], x, r);
+      if (there.gap < best.gap) best = {there.gap, k, there.t};
     }
-    if (best.segment >= 0) {
-      const Eigen::Vector3d apart = x - segments_[best.segment].point(best.t);
-      best.rate = apart.dot(segment.slope(t)) / apart.norm() - segment.r1;
+    return with_rate(best, own, t);
+  }
+
+  /// The same where segment `start` has the nearest point, or those beside it.
+  Nearest nearest(int own, double t, int start) const {
+    if (start < 0) return nearest(own, t);
+    const auto to = [&](int k) {
+      Nearest there = nearest_on(segments_[k], segments_[own].point(t), segments_[own].radius(t));
+      there.segment = k;
+      return there;
+    };
+    Nearest best = to(start);
+    while (best.t == 0 || best.t == 1) {
+      const int beside = best.segment + (best.t == 0 ? -1 : 1);
+      if (!may_touch(own, beside)) break;
+      const Nearest there = to(beside);
+      if (!(there.gap < best.gap)) break;
+      best = there;
     }
-    return best;
+    return with_rate(best, own, t);
   }
 
  private:
+  bool may_touch(int own, int other) const {
+    if (other < 0 || other >= static_cast<int>(segments_.size())) return false;
+    const SplineSegment& a = segments_[tail_ ? other : own];
+    const SplineSegment& b = segments_[tail_ ? own : other];
+    return (tail_ ? a : b).obstacle < 0 && b.s0 - a.arc(1) >= least_arc_;
+  }
+
+  Nearest with_rate(Nearest nearest, int own, double t) const {
+    if (nearest.segment < 0) return nearest;
+    const SplineSegment& segment = segments_[own];
+    const Eigen::Vector3d apart = segment.point(t) - segments_[nearest.segment].point(nearest.t);
+    nearest.rate = apart.dot(segment.slope(t)) / apart.norm() - segment.r1;
+    return nearest;
+  }
+
   const std::vector<SplineSegment>& segments_;
   const ContactSettings& settings_;
   double least_arc_;  ///< with slack for rounding, as the search has it
   bool tail_;
 };
 
+/// A point of a segment, and what is nearest to it.
+struct Place {
+  double t;
+  Nearest nearest;
+};
+
+/// Where the gap passes `level` between the point `inside` of the level set and `outer`, which is
+/// outside of it: Newton's method on nearest(t, segment that was nearest), which closes in.
+template <class Search>
+Place close_in(double level, double inside, const Place& outer, const Search& nearest) {
+  double outside = outer.t;
+  auto [at, here] = outer;
+  for (int k = 0; k < iteration_limit; ++k) {
+    const double newton = at - (here.gap - level) / here.rate;
+    const bool within = std::min(inside, outside) < newton && newton < std::max(inside, outside);
+    const bool settled = within && std::abs(newton - at) <= step_tolerance;
+    at = within ? newton : 0.5 * (inside + outside);
+    here = nearest(at, here.segment);
+    (here.gap <= level ? inside : outside) = at;
+    if (settled) break;
+  }
+  if (here.segment < 0) here = nearest(at = inside, -1);
+  return {at, here};
+}
+
 /// Where the level set that holds the point `t` of segment `own` ends, to the tail or to the head.
 Contact end_from(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
-                 double gap, bool tail, int own, double t) {
+                 double level, bool tail, int own, double t) {
   const Strand strand(segments, settings, tail);
-  const auto contact = [&](int segment, double at, const Nearest& pair) {
-    return tail ? contact_at(segments, pair.segment, pair.t, segment, at)
-                : contact_at(segments, segment, at, pair.segment, pair.t);
-  };
   const double border = tail ? 1 : 0;
   const auto is_last = [&](int segment) {
     return tail ? segment + 1 == static_cast<int>(segments.size()) ||
                       segments[segment + 1].obstacle >= 0
                 : segment == 0;
   };
-  Nearest outer = strand.nearest(own, border);
-  while (outer.gap <= gap && !is_last(own)) {
+  Place end{border, strand.nearest(own, border)};
+  while (end.nearest.gap <= level && !is_last(own)) {
     own += tail ? 1 : -1;
     t = 1 - border;
-    outer = strand.nearest(own, border);
+    end.nearest = strand.nearest(own, border);
   }
-  if (outer.gap <= gap) return contact(own, border, outer);
-  // Newton's method, with the point inside and that outside of the set closing in.
-  double inside = t, outside = border;
-  Nearest here = outer;
-  double at = border;
-  for (int k = 0; k < iteration_limit; ++k) {
-    const double newton = at - (here.gap - gap) / here.rate;
-    const bool within = std::min(inside, outside) < newton && newton < std::max(inside, outside);
-    const bool settled = within && std::abs(newton - at) <= step_tolerance;
-    at = within ? newton : 0.5 * (inside + outside);
-    here = strand.nearest(own, at);
-    (here.gap <= gap ? inside : outside) = at;
-    if (settled) break;
+  if (end.nearest.gap > level) {
+    // Along one strand first. If that end is another strand's, or where its own set begins: along
+    // all.
+    const Place outer = end;
+    end = close_in(level, t, outer,
+                   [&](double at, int start) { return strand.nearest(own, at, start); });
+    const bool grows = tail ? end.nearest.rate > 0 : end.nearest.rate < 0;
+    if (!grows || strand.nearest(own, end.t).gap < end.nearest.gap) {
+      end = close_in(level, t, outer, [&](double at, int) { return strand.nearest(own, at); });
+    }
   }
-  if (here.segment < 0) here = strand.nearest(own, at = inside);
-  return contact(own, at, here);
+  const auto [at, other] = end;
+  return tail ? contact_at(segments, other.segment, other.t, own, at)
+              : contact_at(segments, own, at, other.segment, other.t);
 }
 
 }  // namespace
