@@ -10,20 +10,18 @@ from pathlib import Path
 
 import numpy as np
 
+import few_numbers_picture as picture
 import plots
 import tables
+from few_numbers_picture import ENOUGH, FRAMES
 from hagfish_log import HagfishLog, LogError
 from means import effort_per_cm, read_means
 from script import run_script
 from sweep_columns import SweepTable, read_sweep
 
 SCENES = {f"living_{name}": knot for name, knot in plots.SCENES.items()}
-FRAMES = {"knot": "in the knot's window", "body": "along the body"}
 NUMBERS = (3, 6, 9, 12, 18)
 TRANSFERS = {"": "as found", "_start": "3 degrees of noise at the start", "_step": "h = 2 ms", "_bodies": "60 bodies", "_mirror": "mirrored"}
-ENOUGH = 0.9  # of the way by the paper's law
-COLOURS = [plots.GREY, plots.BLUE, plots.ORANGE, plots.VERMILION]
-MARKERS = "osD^"
 
 
 class Grid:
@@ -185,44 +183,38 @@ def transfers(runs: dict[str, Run], name: str) -> list[list[str]]:
     return rows
 
 
-def draw(grid: Grid, points: dict[str, list[tuple[int, float]]], out: Path) -> None:
-    names = [plots.KNOTS[knot].label for knot in SCENES.values()]
-    figure, panels = plots.panels(3, 4, (11, 7.2), names + [""] * 8, sharex=True)
-    panels = np.array(panels).reshape(3, 4)
-    for row, (frame, words) in enumerate(FRAMES.items()):
-        for column, scene in enumerate(SCENES):
-            axes = panels[row, column]
-            for colour, marker, period in zip(COLOURS, MARKERS, grid.periods()):
-                found = [(count, share) for count in grid.counts() for share in grid.shares(scene, frame, period, count)]
-                mean = [np.mean(grid.shares(scene, frame, period, count)) if len(grid.shares(scene, frame, period, count)) else np.nan
-                        for count in grid.counts()]
-                axes.plot(grid.counts(), np.clip(mean, 0, None), color=colour, lw=1)
-                axes.plot(*np.clip(np.array(found).T, 0, None), marker, color=colour, ms=4, label=f"{1000 * period:g} ms")
-            axes.axhline(ENOUGH, color=plots.GREY, lw=0.8, ls="--", zorder=0)
-            axes.set_ylim(-0.05, 1.3)
-        panels[row, 0].set_ylabel(f"share of the full way,\nshapes {words}")
-    most = np.nanmax([value for of in points.values() for _, value in of])
-    for column, scene in enumerate(SCENES):
-        axes = panels[2, column]
-        axes.plot(*np.array(points[scene]).T, "o-", color=COLOURS[1], ms=4)
-        axes.axhline(1, color=plots.GREY, lw=0.8, ls="--", zorder=0)
-        axes.set(xlabel="numbers", xticks=grid.counts(), ylim=(0, 1.1 * max(most, 1)))
-    panels[2, 0].set_ylabel("effort for each cm,\nover that of $f_{thigmo}$")
-    panels[0, 0].legend(title="found each", fontsize=7)
-    plots.save(figure, out)
+def points_of(grid: Grid, many: SweepTable, efforts: dict[str, list[tuple[int, float]]]) -> list[list[str]]:
+    """What the picture shows, a start a row; efforts of those alone that slide all the way."""
+    rows = []
+    for scene, knot in SCENES.items():
+        for frame in FRAMES:
+            for period in grid.periods():
+                for count in grid.counts():
+                    rows += [["share", knot, frame, f"{period:g}", str(count), str(start), f"{share:.3f}"]
+                             for start, share in enumerate(grid.shares(scene, frame, period, count))]
+        own, numbers, way = np.array(many.axes["scene"]) == scene, numbers_of(many), held_way(many)
+        full = np.median(way[own & (numbers == 0)])
+        for count in sorted(set(numbers[numbers > 0])):
+            rows += [["starts", knot, "knot", "0.1", str(count), str(start), f"{each / full:.3f}"] for start, each in enumerate(way[own & (numbers == count)])]
+        rows += [["effort", knot, "knot", "0.1", str(count), "0", f"{value:.3f}"] for count, value in efforts[scene] if np.isfinite(value)]
+    return rows
 
 
 def work(folder: Path, png: Path, page: Path) -> None:
     grid = Grid(read_sweep(folder / "numbers/table.csv"))
     runs = {path.stem: Run(path) for path in sorted((folder / "runs").glob("*.h5"))}
-    rows, points = efforts(runs)
-    draw(grid, points, png)
+    rows, effort = efforts(runs)
+    many = read_sweep(folder / "starts/table.csv")
+    points = points_of(grid, many, effort)
+    (page.parent / "tables").mkdir(parents=True, exist_ok=True)
+    tables.write_csv(page.parent / "tables/few_numbers_points.csv", picture.HEAD, points)
+    picture.draw([dict(zip(picture.HEAD, row)) for row in points], png)
     knots = list(SCENES.values())
     least = [[f"{words}, each {1000 * period:g} ms", *(grid.least(scene, frame, period) for scene in SCENES)]
              for frame, words in FRAMES.items() for period in grid.periods()]
     table = lambda name, head, rows: tables.of_page(page.parent, name, head, rows)
     lines = ["# Few numbers", "", *table("few_numbers", ["least numbers from which on all slide", *knots], least)]
-    lines += table("few_numbers_starts", ["all the way", *knots], starts(read_sweep(folder / "starts/table.csv"))
+    lines += table("few_numbers_starts", ["all the way", *knots], starts(many)
                              + animals(read_sweep(folder / "animals/table.csv")))
     lines += table("few_numbers_effort", ["effort in the knot's window, each 100 ms", *knots], rows)
     free = read_sweep(folder / "free/table.csv")

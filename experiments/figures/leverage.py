@@ -1,6 +1,6 @@
-"""The pull of every knot: tables, a CSV of all runs, and a figure of what it depends on.
+"""The pull of every knot: tables, a CSV of all runs (tables/leverage_runs.csv), and a figure of what it depends on.
 
-Usage: leverage.py RUNS OUT.csv OUT.png OUT.md (writes a PDF beside).
+Usage: leverage.py RUNS OUT.png OUT.md (writes a PDF beside).
 """
 
 from __future__ import annotations
@@ -12,15 +12,15 @@ from pathlib import Path
 import numpy as np
 
 import audits
+import leverage_picture as picture
 import plots
 import tables
 from hagfish_log import HagfishLog, LogError
+from leverage_picture import BASE, HEAD, SWEEPS
 from pulls import NEWTON, Pull, read_pull, read_strand, settled
 from script import run_script
 
 BODIES = {"table1": "Table 1", "living": "living"}
-TOOTH_MUSCLE = 16.0  # N, clavatus of the tooth plate: Clark & Summers 2007, J. Exp. Biol. 210:3897
-CAPACITY = 2.7  # N cm, a guess: data/living_overhand.toml
 
 
 @dataclass
@@ -105,18 +105,9 @@ def work_table(folder: Path, out: Path) -> list[str]:
     return tables.of_page(out, "leverage_work", head, rows)
 
 
-SWEEPS = {"cap": "largest force of a row, dyn", "speed": "commanded speed, cm/s", "stiffness": "flexural rigidity, dyn cm²",
-          "girth": "girth, times the animal's", "capacity": "capacity of a hinge's muscles, dyn cm", "step": "time step, s",
-          "bodies": "number of bodies"}
-# What the starts have, by body.
-BASE = {"cap": {"table1": 5e3, "living": 3e4}, "speed": {"table1": 2.0, "living": 1.0}, "stiffness": {"living": 2e5},
-        "girth": {"table1": 1.0, "living": 1.0}, "capacity": {"living": 2.7e5}, "step": {"table1": 0.005, "living": 0.005},
-        "bodies": {"table1": 100.0, "living": 100.0}}
-
-
-def points(runs: list[Run], body: str, knot: str, kind: str, deep: bool = True) -> list[tuple[float, float]]:
-    """Value and pull, N, of the runs that pulled, and the mean of the starts; those that overlap too deep if `deep`."""
-    found = [(float(run.value), run.pull.mean) for run in chosen(runs, body, knot, kind) if run.pull and (deep or not run.deep)]
+def points(runs: list[Run], body: str, knot: str, kind: str) -> list[tuple[float, float]]:
+    """Value and pull, N, of the runs that pulled, and the mean of the starts."""
+    found = [(float(run.value), run.pull.mean) for run in chosen(runs, body, knot, kind) if run.pull]
     starts = [run.pull.mean for run in chosen(runs, body, knot, "start") if run.pull]
     return sorted(found + [(BASE[kind][body], float(np.mean(starts)))] * bool(starts))
 
@@ -150,80 +141,25 @@ def summary_table(runs: list[Run], out: Path) -> list[str]:
     return tables.of_page(out, "leverage_changes", ["what is changed", "body", "pulled", "pull, over that of the starts"], rows)
 
 
-def draw_sweep(axes: plots.plt.Axes, runs: list[Run], kind: str, scale: float = 1) -> None:
-    for body in BASE[kind]:
-        for knot, look in plots.KNOTS.items():
-            found = points(runs, body, knot, kind, deep=False)
-            living = body == "living"
-            for run in chosen(runs, body, knot, kind):
-                if run.pull and run.deep:
-                    axes.plot(float(run.value) * scale, run.pull.mean, color=look.colour, marker="x", ms=4)
-            axes.plot([x * scale for x, _ in found], [y for _, y in found], color=look.colour, marker=look.marker, lw=1, ms=4,
-                      ls="-" if living else "--", mfc=look.colour if living else "white")
-
-
-def draw(runs: list[Run], out: Path) -> None:
-    figure, axes = plots.panels(2, 3, (11, 7), [
-        "the harder it slides, the harder it pulls", "what that asks of a joint", "against a frictionless rope",
-        "stiffness of the body", "girth", "time step"])
-    draw_sweep(axes[0], runs, "cap", 1 / NEWTON)
-    axes[0].axhline(TOOTH_MUSCLE, color=plots.GREY, ls=":", lw=1)
-    axes[0].text(2.4, TOOTH_MUSCLE * 1.1, "tooth muscle, 16 N", fontsize=7, color=plots.GREY, va="bottom", ha="right")
-    axes[0].set(xscale="log", yscale="log", xlim=(0.008, 2.6), ylim=(0.01, 40), ylabel="pull, N",
-                xlabel="largest force of each of the four rows, N")
-    for run in runs:
-        if run.pull:
-            look = plots.KNOTS[run.knot]
-            style = {"color": look.colour, "marker": look.marker, "ls": "", "ms": 3.5,
-                     "mfc": look.colour if run.body == "living" else "white"}
-            if run.deep:
-                style["marker"] = "x"
-            axes[1].plot(run.pull.torque.mean(), run.pull.mean, **style)
-            axes[2].plot(run.pull.estimate, run.pull.mean, **style)
-    axes[1].axvline(CAPACITY, color=plots.GREY, ls="--", lw=0.8)
-    axes[1].text(CAPACITY, 0.004, " a guess at\n the capacity", fontsize=7, color=plots.GREY)
-    axes[1].set(xscale="log", yscale="log", xlabel="largest torque of a joint, N cm", ylabel="pull, N", ylim=(0.003, None))
-    ends = [0.01, 5]
-    axes[2].plot(ends, ends, color=plots.GREY, lw=0.8, ls="--")
-    axes[2].text(1.6, 2.2, "rope", fontsize=7, color=plots.GREY, rotation=45)
-    axes[2].set(xscale="log", yscale="log", xlabel="estimate, sum of λ (1 - cos θ) / h, N", ylabel="pull, N", ylim=(0.003, None))
-    draw_sweep(axes[3], runs, "stiffness")
-    axes[3].set(xscale="log", xlabel=SWEEPS["stiffness"], ylabel="pull, N", ylim=(0, None))
-    draw_sweep(axes[4], runs, "girth")
-    axes[4].set(xlabel=SWEEPS["girth"], ylabel="pull, N", ylim=(0, None), xticks=[0.8, 1, 1.2])
-    draw_sweep(axes[5], runs, "step", 1e3)
-    axes[5].set(xscale="log", xlabel="time step, ms", ylabel="pull, N", ylim=(0, None))
-    plots.plain_ticks(axes[5].xaxis, [2, 5, 10])
-    handles = [axes[0].plot([], [], label=look.label, **look.style)[0] for look in plots.KNOTS.values()]
-    handles += [axes[0].plot([], [], color=plots.INK, marker="o", mfc=fill, ls=line, label=label)[0]
-                for fill, line, label in ((plots.INK, "-", "living body"), ("white", "--", "Table 1 body"))]
-    handles.append(axes[0].plot([], [], color=plots.INK, marker="x", ls="", label="overlaps too deep")[0])
-    axes[0].legend(handles=handles, fontsize=6.5, loc="upper left", bbox_to_anchor=(0.0, 0.9))
-    plots.save(figure, out)
-
-
-HEAD = ["kind", "body", "knot", "value", "seed", "outcome", "pull_N", "pull_sd_N", "plate_N", "rows_N", "largest_row_N",
-        "torque_mean_N_cm", "torque_largest_N_cm", "advantage_rows", "advantage_torque_1_cm", "estimate_N", "turn_first",
-        "turn_last", "deepest_overlap_cm"]
-
-
 def csv_row(run: Run) -> list[str | float]:
+    deep = "yes" if run.deep else "no"
     if not run.pull:
-        return [run.kind, run.body, run.knot, run.value, run.seed, run.outcome, *[""] * (len(HEAD) - 7), run.overlap]
+        return [run.kind, run.body, run.knot, run.value, run.seed, run.outcome, *[""] * (len(HEAD) - 8), run.overlap, deep]
     p = run.pull
     torque = float(p.torque.mean())
     return [run.kind, run.body, run.knot, run.value, run.seed, run.outcome, p.mean, float(p.force.std()),
             float(p.plate.mean()), p.sum, float(p.rows.mean(axis=0).max()), torque, float(p.torque.max()), p.mean / p.sum,
-            p.mean / torque, p.estimate, *map(float, p.turn.mean(axis=0)), run.overlap]
+            p.mean / torque, p.estimate, *map(float, p.turn.mean(axis=0)), run.overlap, deep]
 
 
-def main(folder: Path, table: Path, out: Path, page: Path) -> None:
+def main(folder: Path, out: Path, page: Path) -> None:
     runs = [read_run(path) for path in sorted(folder.glob("*-*-*-*-*.check.csv"))]
     if not any(run.pull for run in runs):
         raise LogError(f"{folder}: holds no run that pulled")
-    tables.write_csv(table, HEAD, [csv_row(run) for run in runs],
-                     ["means over the settled pull; estimate: sum of lambda (1 - cos theta) / h"])
-    draw(runs, out)
+    (page.parent / "tables").mkdir(parents=True, exist_ok=True)
+    table = page.parent / "tables/leverage_runs.csv"
+    tables.write_csv(table, HEAD, [csv_row(run) for run in runs])
+    picture.draw(tables.read_csv(table, HEAD), out)
     note = "Pulls in N, means over the settled pull; ± is the standard deviation over starts; * overlaps too deep for its scene."
     lines = ["# Leverage", "", note, "", *starts_table(runs, page.parent)]
     lines += ["## Work, N cm for each cm that the head is drawn in", "", *work_table(folder, page.parent)]
@@ -234,4 +170,4 @@ def main(folder: Path, table: Path, out: Path, page: Path) -> None:
 
 
 if __name__ == "__main__":
-    run_script(__doc__, ["RUNS", "OUT.csv", "OUT.png", "OUT.md"], main)
+    run_script(__doc__, ["RUNS", "OUT.png", "OUT.md"], main)

@@ -86,6 +86,12 @@ def draw_diagonal(axes: Any, values: Iterable[float]) -> None:
     axes.plot(ends, ends, color=GREY, lw=0.8, ls="--", zorder=0, label="as commanded")
 
 
+def legend_above(figure: Any, handles: Sequence[Any], columns: int, room: float, **options: Any) -> None:
+    """One legend for all panels, over them, in `room` of the figure's height."""
+    figure.get_layout_engine().set(rect=(0, 0, 1, 1 - room))
+    figure.legend(handles=handles, loc="upper center", ncols=columns, frameon=False, **options)
+
+
 def save(figure: Any, png: Path, dpi: int = DPI) -> None:
     """Writes the figure as PNG and, beside it, as PDF. No time stamps: the same log gives the same files."""
     save_one(figure, png, dpi=dpi)

@@ -1,6 +1,6 @@
 """The failure map: a heat map of outcomes for every stress scene, and the largest step that each method survives.
 
-Usage: stability.py STABILITY.csv OUT_FOLDER (SCENE.png, summary.png, each with a PDF beside, and summary.md)
+Usage: stability.py STABILITY.csv OUT_FOLDER (SCENE.png, stability.png, each with a PDF beside, and summary.md)
 """
 
 from __future__ import annotations
@@ -12,26 +12,19 @@ from pathlib import Path
 from typing import Any
 
 import matplotlib.pyplot as plt
-from matplotlib.patches import Patch, Rectangle
+from matplotlib.patches import Patch
 
 import plots
 from hagfish_log import LogError
 from script import run_script
+from stability_picture import DARK, LOOKS, cell_grid, draw_cell, draw_summary
 from tables import of_page, read_csv, write_page
 
 LEGEND_COLUMNS, LEGEND_ROWS = 5, 2
 CELL, LETTER = 0.3, 0.075  # inches, of a cell's side and of a label's letter
-# Outcome: letter, colour (Paul Tol's light and muted schemes, told apart without red and green).
-LOOKS = {"ok": ("", "#e8f4f0"), "energy gain": ("E", "#ee8866"), "non-finite": ("N", "#000000"),
-         "tunnelled": ("T", "#882255"), "penetration": ("P", "#77aadd"), "limits": ("L", "#eedd88"),
-         "solver failed": ("S", "#332288"), "infeasible": ("I", "#aaaa00"), "capped": ("C", "#bbbbbb"),
-         "never tied": ("U", "#ffaabb"),
-         "knot lost": ("K", "#ddaa33"), "speed": ("V", "#cc6677"), "crashed": ("X", "#ff0000"),
-         "not applicable": ("-", "#ffffff")}
-DARK = {"non-finite", "tunnelled", "solver failed"}
-METHODS = ["default", "no_watch", "midpoint", "violated", "baumgarte_0.2", "baumgarte_1", "hard_thigmotaxis", "ipopt", "mujoco_euler",
-           "mujoco_implicit", "mujoco_rk4"]
-TITLES = {"no_watch": "no watch", "midpoint": "midpoint, no watch", "baumgarte_0.2": "Baumgarte 0.2",
+# Without the watch beside MuJoCo, which has none.
+METHODS = ["default", "violated", "baumgarte_0.2", "baumgarte_1", "hard_thigmotaxis", "ipopt", "no_watch", "midpoint", "mujoco_euler", "mujoco_implicit", "mujoco_rk4"]
+TITLES = {"no_watch": "Euler, no watch", "midpoint": "midpoint, no watch", "baumgarte_0.2": "Baumgarte 0.2",
           "baumgarte_1": "Baumgarte 1", "hard_thigmotaxis": "hard Eq. 6",
           "ipopt": "Ipopt", "mujoco_euler": "MuJoCo Euler", "mujoco_implicit": "MuJoCo implicit",
           "mujoco_rk4": "MuJoCo RK4"}
@@ -83,21 +76,6 @@ def panel_of(title: str, cells: list[Cell], row: Callable[[Cell], str], rows: li
     """Over time steps."""
     steps = [f"{step:g}" for step in sorted({step_of(cell) for cell in cells})]
     return Panel(title, "h, ms", rows, steps, {(row(cell), f"{step_of(cell):g}"): cell for cell in cells})
-
-
-def cell_grid(axes: Any, rows: list[str], columns: list[str]) -> None:
-    """Axes for cells of one unit, the first row at the top."""
-    axes.set(xlim=(0, len(columns)), ylim=(len(rows), 0))
-    axes.set_xticks([x + 0.5 for x in range(len(columns))], columns)
-    axes.set_yticks([y + 0.5 for y in range(len(rows))], rows)
-    axes.tick_params(length=0)
-    axes.grid(visible=False)
-    axes.spines[:].set_visible(False)
-
-
-def draw_cell(axes: Any, place: tuple[int, int], colour: Any, applicable: bool, text: str, ink: str) -> None:
-    axes.add_patch(Rectangle(place, 1, 1, fc=colour, ec="white", lw=1.5, hatch=None if applicable else "///"))
-    axes.text(place[0] + 0.5, place[1] + 0.52, text, ha="center", va="center", fontsize=8, color=ink)
 
 
 def draw_panel(axes: Any, panel: Panel) -> None:
@@ -207,45 +185,22 @@ def own_cells(cells: list[Cell], scene: str, method: str) -> list[Cell]:
     return [c for c in cells if c["scene"] == scene and c["method"] == method and c["level"] == AS_IS]
 
 
-def draw_summary(cells: list[Cell], png: Path) -> None:
-    scenes = scenes_of(cells)
-    steps = sorted({step_of(cell) for cell in cells})
-    figure, axes = plt.subplots(figsize=(10.5, 0.36 * len(scenes) + 1.6), layout="constrained")
-    shades = plt.get_cmap("cividis")
-    for y, scene in enumerate(scenes):
-        for x, method in enumerate(METHODS):
-            own = own_cells(cells, scene, method)
-            text, largest = survived(own)
-            if not own:
-                continue
-            rank = -1 if largest is None else steps.index(largest)
-            shade = "#ffffff" if text == "n/a" else shades((rank + 1) / len(steps))
-            letter = "" if text == "n/a" or text.startswith("all") else LOOKS[first_failure(own)][0]
-            words = "" if text == "n/a" else ("none" if largest is None else f"{largest:g}")
-            draw_cell(axes, (x, y), shade, text != "n/a", f"{words} {letter}".strip(),
-                      "white" if rank + 1 < 0.55 * len(steps) and text != "n/a" else plots.INK)
-    cell_grid(axes, [SCENES.get(s, s) for s in scenes], [TITLES.get(m, m).replace(" ", "\n", 1) for m in METHODS])
-    axes.xaxis.tick_top()
-    axes.tick_params(axis="x", length=0)
-    codes = ", ".join(f"{letter} {name}" for name, (letter, _) in LOOKS.items() if letter not in ("", "-"))
-    figure.supxlabel("Largest step, ms, up to which every step is survived, and what comes first beyond it; blank: not run.\n" + codes,
-                     fontsize=7.5)
-    plots.save(figure, png)
-
-
-def behind_mujoco(cells: list[Cell]) -> list[str]:
-    """Cells in which MuJoCo's default survives and the core's does not."""
-    ours = {(c["scene"], c["level"], c["h_ms"]): c for c in cells if c["method"] == "default"}
+def behind_mujoco(cells: list[Cell], method: str) -> list[str]:
+    """Cells in which MuJoCo's default survives and this method of the core does not."""
+    ours = {(c["scene"], c["level"], c["h_ms"]): c for c in cells if c["method"] == method}
     return [f"{SCENES.get(c['scene'], c['scene'])}, {c['level']}, {c['h_ms']} ms: {mine['outcome']}"
             for c in cells if c["method"] == "mujoco_euler" and c["outcome"] == "ok"
             and (mine := ours.get((c["scene"], c["level"], c["h_ms"]))) and mine["outcome"] != "ok"]
 
 
+def summary_table(cells: list[Cell]) -> tuple[list[str], list[list[str]]]:
+    return ["scene", *(TITLES.get(m, m) for m in METHODS)], [[SCENES.get(scene, scene), *(survived(own_cells(cells, scene, m))[0] for m in METHODS)]
+                                                             for scene in scenes_of(cells)]
+
+
 def summary_page(cells: list[Cell], out: Path) -> list[str]:
-    lines = ["# Where it fails", "", "Largest h (ms) up to which every step is survived, and the first outcome beyond it.",
-             "", *of_page(out, "stability", ["scene", *(TITLES.get(m, m) for m in METHODS)],
-                           [[SCENES.get(scene, scene), *(survived(own_cells(cells, scene, m))[0] for m in METHODS)]
-                            for scene in scenes_of(cells)])]
+    lines = ["# Where it fails", "", "Largest h (ms) up to which every step is survived, and the first outcome beyond it.", "",
+             *of_page(out, "stability", *summary_table(cells))]
     seeds = [cell for cell in cells if cell["level"].startswith("seed")]
     rows = []
     for step in sorted({step_of(c) for c in seeds}):
@@ -255,17 +210,19 @@ def summary_page(cells: list[Cell], out: Path) -> list[str]:
     if rows:
         lines += ["Perturbed starts of the Table 1 run:", "", *of_page(out, "stability_starts", ["h, ms", "ok", "otherwise"], rows)]
     counts = Counter(cell["outcome"] for cell in cells)
-    worse = behind_mujoco(cells)
-    return [*lines, f"{len(cells)} cells: " + ", ".join(f"{n} {name}" for name, n in counts.most_common()) + ".", "",
-            f"Cells in which MuJoCo's default (Euler) survives and the core's does not: {len(worse)}.",
-            *(f"- {text}" for text in worse)]
+    lines += [f"{len(cells)} cells: " + ", ".join(f"{n} {name}" for name, n in counts.most_common()) + ".", ""]
+    for method in ("default", "no_watch"):
+        worse = behind_mujoco(cells, method)
+        lines += [f"Cells in which MuJoCo's default (Euler) survives and the core's ({TITLES.get(method, method)}) does not: {len(worse)}.",
+                  *(f"- {text}" for text in worse), ""]
+    return lines
 
 
 def main(table: Path, out: Path) -> None:
     cells = read(table)
     for scene in scenes_of(cells):
         draw_scene(scene, [cell for cell in cells if cell["scene"] == scene], out / f"{scene}.png")
-    draw_summary(cells, out / "summary.png")
+    draw_summary(*summary_table(cells), out / "stability.png")
     write_page(out / "summary.md", summary_page(cells, out))
 
 

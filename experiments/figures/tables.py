@@ -39,9 +39,9 @@ def write_csv(path: Path, heading: Sequence[str], rows: Iterable[Sequence[Any]],
 
 
 def read_csv(path: Path, wanted: Iterable[str]) -> list[dict[str, str]]:
-    """Rows by column name; a file without rows or without a column of `wanted` is an error."""
+    """Rows by column name, without notes above; a file without rows or without a column of `wanted` is an error."""
     with path.open(newline="", encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
+        rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
     if not rows:
         raise LogError(f"{path}: holds no rows")
     for name in wanted:

@@ -104,6 +104,11 @@ def tables_of(name: str) -> list[Path]:
     return [RESULTS / table for table in shown_by(name)]
 
 
+def data_of(name: str) -> list[Path]:
+    """What its figures are drawn from, besides its tables; there once a study has left it."""
+    return [path for data in page_of(name).get("data", ()) if (path := RESULTS / data).exists()]
+
+
 def stamp(name: str) -> list[str]:
     """What the notes of the page's tables say, each once, and how to make them again."""
     notes: dict[str, list[str]] = {}
@@ -115,7 +120,9 @@ def stamp(name: str) -> list[str]:
     chance = page_of(name).get("chance", 0)
     again = f"`bash experiments/reproduce.sh {name}` makes this page's tables again" + (
         f"; figures may differ by {100 * chance:g} % from machine to machine." if chance else ".")
-    return [*said, again, "Tables are CSV files: " + ", ".join(f"[{path.name}]({path.name})" for path in tables) + "."]
+    links = lambda paths: ", ".join(f"[{path.name}]({path.name})" for path in paths)
+    drawn = [f"Figures are drawn from {links(data_of(name))}."] if data_of(name) else []
+    return [*said, again, f"Tables are CSV files: {links(tables)}.", *drawn]
 
 
 def index() -> list[str]:
@@ -219,10 +226,10 @@ def adopt(name: str, folder: Path, version: str, seconds: float) -> list[str]:
     if page.get("writes_itself"):
         return []
     found = []
-    for wanted in shown_by(name):
+    for wanted in [*page.get("data", ()), *(shown := shown_by(name))]:
         new, here = read(folder / "tables" / wanted), RESULTS / wanted
         new.notes += measured(version, seconds)
-        if here.exists():
+        if wanted in shown and here.exists():
             found += differences(here.stem, read(here), new, page["chance"])
         write(here, new)
     for figure in page.get("figures", ()):
@@ -272,7 +279,7 @@ def changed_since(commit: str) -> int | None:
 def mark() -> None:
     counts: dict[str, int | None] = {}
     own = [name for name, page in pages().items() if not page.get("writes_itself")]
-    for path in (path for name in own for path in tables_of(name)):
+    for path in (path for name in own for path in tables_of(name) + data_of(name)):
         table = read(path)
         match = next((found for note in table.notes if (found := MEASURED.match(note))), None)
         if match is None:

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # What a knot is for: the pull at the food of every knot, in the Table 1 body and in the living one, against what the rows of
-# Eq. 6 may give, speed, stiffness, girth, muscles, time step and number of bodies. Leaves leverage.png, leverage_why.png,
-# leverage.csv and leverage.md.
+# Eq. 6 may give, speed, stiffness, girth, muscles, time step and number of bodies. Leaves tables, leverage.png, leverage_why.png
+# and leverage.md.
 #   bash experiments/studies/leverage.sh [OUTPUT_FOLDER]     default: out/leverage
 # Stopped, it goes on where it was.
 set -euo pipefail
@@ -55,6 +55,6 @@ runs_of_all() {
 runs_of_all | work "$cores" "Leverage"
 
 echo "Drawing"
-draw leverage.py "$runs" "$out/leverage.csv" "$out/leverage.png" "$out/leverage.md"
+draw leverage.py "$runs" "$out/leverage.png" "$out/leverage.md"
 draw leverage_why.py "$runs" "$out/leverage_why.png"
 finish "$out/leverage.md"

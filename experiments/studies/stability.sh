@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The failure map: stress scenes (experiments/stability/*.toml, and the Table 1 run) over time steps, methods and
-# levels of stress. Leaves stability.csv, a heat map per scene, and summary.md and summary.png: the largest step that
+# levels of stress. Leaves stability.csv, a heat map per scene, and summary.md and stability.png: the largest step that
 # each method survives.
 #   bash experiments/studies/stability.sh [OUTPUT_FOLDER]     default: out/stability
 # Stopped, it goes on where it was. `hagfish stress` judges a cell (experiments/stress/stress_judge.hpp).

@@ -92,7 +92,7 @@ def house(tmp_path, monkeypatch):
     (tmp_path / "core").mkdir()
     (tmp_path / "core/a.cpp").write_text("int a;\n")
     (tmp_path / "README.md").write_text("# R\n<!-- table: experiments/results/p.csv; rows: y -->\n<!-- end -->\n")
-    (tmp_path / "experiments/results/pages.toml").write_text('[p]\nquestion = "Q?"\nstudy = "p.sh"\nchance = 0.1\n')
+    (tmp_path / "experiments/results/pages.toml").write_text('[p]\nquestion = "Q?"\nstudy = "p.sh"\nchance = 0.1\ndata = ["d.csv"]\n')
     (tmp_path / "experiments/results/README.md").write_text("# I\n<!-- index -->\n<!-- end -->\n")
     (tmp_path / "experiments/results/p.md").write_text("# Q?\n<!-- table: p.csv -->\n<!-- end -->\n<!-- stamp: p -->\n<!-- end -->\n")
     for name, path in (("ROOT", tmp_path), ("RESULTS", tmp_path / "experiments/results"), ("FIGURES", tmp_path / "experiments/figures")):
@@ -110,10 +110,13 @@ def test_a_study_is_adopted_and_ages(house):
     commit = results.git("rev-parse", "HEAD").strip()
     (house / "s/tables").mkdir(parents=True)
     (house / "s/tables/p.csv").write_text(",a\nx,1\ny,2|3\n")
+    (house / "s/tables/d.csv").write_text("b\n1\n")
     assert results.adopt("p", house / "s", "0.2.0 abcdef1", 61) == []
+    assert "Figures are drawn from [d.csv](d.csv)." in page.read_text() and "abcdef1" in (house / "experiments/results/d.csv").read_text()
     assert "| y | 2\\|3 |" in page.read_text() and "took 1 min 1 s" in page.read_text()
     assert "| y | 2\\|3 |" in (house / "README.md").read_text() and "| x |" not in (house / "README.md").read_text()
     (house / "s/tables/p.csv").write_text(",a\nx,1.5\ny,2|3\n")
+    (house / "s/tables/d.csv").write_text("b\n2\n")  # points of a figure: no claim
     assert results.adopt("p", house / "s", f"0.2.0 {commit}", 5) == ["p: x, a: was '1', is '1.5'"]
     results.mark()
     assert results.OLDER not in csv.read_text()
