@@ -205,12 +205,6 @@ def label_ends(axes: Any, log: HagfishLog, frame: int, view: Camera, picture: Pi
                       arrowprops={"arrowstyle": "-", "color": plots.INK, "lw": 0.5, "shrinkA": 1, "shrinkB": 0})
 
 
-def draw_scale(axes: Any, left: float, low: float) -> None:
-    """A bar of 5 cm on axes in cm."""
-    axes.plot([left, left + 5], [low, low], color=plots.INK, lw=1.5, solid_capstyle="butt")
-    axes.text(left + 2.5, low + 0.3, "5 cm", fontsize=7, ha="center", va="bottom")
-
-
 def caption(log: HagfishLog, letter: str, stage: Stage) -> str:
     """Letter, stage, phase, time and where the knot is."""
     phase = str(log.labels("/trajectory/phase")[stage.frame])
@@ -253,7 +247,8 @@ def main(path: Path, hagfish: Path, out: Path) -> None:
             axes.text(left[i] + 0.35, bottom - 0.3, caption(log, ascii_lowercase[i], stages[i]), fontsize=7, va="top",
                       linespacing=1.25, clip_on=False)
             if i == 0:
-                draw_scale(axes, left[i] + width - 7, bottom + 1.0)
+                axes.plot(left[i] + width - np.array([7, 2]), [bottom + 1.0] * 2, color="black", lw=1.5, solid_capstyle="butt")
+                axes.text(left[i] + width - 4.5, bottom + 1.3, "5 cm", fontsize=7, ha="center", va="bottom")
             x += width
         top -= height + text
     figure.text(0.01, 0.012, "Rings: 20, 40, 60, 80 % of the length, where the specimen was measured. Spans: arc "

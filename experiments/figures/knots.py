@@ -12,7 +12,7 @@ import numpy as np
 
 import claims
 import plots
-from figure7 import GAP, Stage, choose_camera, draw_scale, label_ends, take_pictures
+from figure7 import GAP, Stage, choose_camera, label_ends, take_pictures
 from hagfish_log import HagfishLog, LogError
 from means import Means, effort_per_cm, read_means
 from script import run_script
@@ -63,10 +63,14 @@ def draw_pictures(logs: dict[str, HagfishLog], hagfish: Path, out: Path) -> None
                       transform=axes.transAxes)
             if column == 0:
                 axes.text(0.03, 1.0, plots.KNOTS[knot].label, fontsize=8.5, va="bottom", weight="bold", transform=axes.transAxes)
-                draw_scale(axes, middle - wide / 2 + GAP, low + heights[knot] - 2 * GAP)
         top -= height + above + below
     for column, stage in enumerate(next(iter(pictures.values()))[0]):
         figure.text(column / 4 + 0.01, 1 - 0.16 / tall, stage.title, fontsize=8.5, va="center")
+    scale = figure.add_axes([1 - 5 * per_cm / WIDTH - 0.015, 1 - 0.16 / tall, 5 * per_cm / WIDTH, 0])
+    scale.plot([0, 1], [0, 0], color=plots.INK, lw=1.5, solid_capstyle="butt", clip_on=False)
+    scale.text(-0.1, 0, "5 cm", fontsize=7, ha="right", va="center")
+    scale.set(xlim=(0, 1))
+    scale.axis("off")
     plots.save(figure, out)
 
 
