@@ -179,7 +179,7 @@ void MujocoLoop::take_step(Simulation& sim, StepRecord& record) {
   note_forces(sim, mirror, step);
   Moment& next = record.moment;
   next.state = state_of(model_, mirror);
-  step.qdot = step.next = step.felt = next.state.qdot;
+  step.qdot = step.next = step.mean_velocity = next.state.qdot;
   observe(model_, next.state, scene_, sim.search, next.observation);
   if (Status status = guard_state(model_, next, 0, scene_, sim.watch, record.warnings);
       !status.ok()) {

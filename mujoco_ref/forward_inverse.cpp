@@ -20,10 +20,10 @@ Eigen::VectorXd driven_velocity(const Model& model, const State& state,
 Eigen::VectorXd midway_force(const Model& model, const State& start, const Midway& midway,
                              double reach, MujocoModel& mirror) {
   mjData& d = *mirror.data();
-  set_state(model, {midway.q, midway.moved}, mirror);
+  set_state(model, {midway.q, midway.step_velocity}, mirror);
   mj_forward(mirror.model(), &d);
   const Eigen::Index moving = mirror.model()->nv;
-  const Eigen::VectorXd behind = (start.qdot - midway.moved).tail(moving);
+  const Eigen::VectorXd behind = (start.qdot - midway.step_velocity).tail(moving);
   Eigen::VectorXd momentum(moving);
   mj_mulM(mirror.model(), &d, momentum.data(), behind.data());
   Eigen::VectorXd force = Eigen::VectorXd::Zero(model.nv());
@@ -31,7 +31,7 @@ Eigen::VectorXd midway_force(const Model& model, const State& start, const Midwa
   force += stiffness_force(model, start.q) - stiffness_force(model, midway.q);
   Kinematics kin = midway.kin;
   const Matrix6Xd bias = bias_wrench(model, kin, midway.motion());
-  update_velocities(model, midway.moved, kin);
+  update_velocities(model, midway.step_velocity, kin);
   force += generalised_force(model, kin, bias_wrench(model, kin, motion_of(kin)) - bias);
   return force;
 }

@@ -74,7 +74,7 @@ void put_centre_operator(const AxisOperator& angular, const AxisOperator& linear
 }
 
 /// Inertial wrench of one body at q̈ = 0, about its centre: the rate of its momentum at
-/// motion.felt_twist as it moves by kin.twist.
+/// motion.mean_twist as it moves by kin.twist.
 inline CentreWrench bias_at_centre(const Model& model, const Kinematics& kin,
                                    const StepMotion& motion, int body) {
   const AxisOperator inertia = inertia_about_centre(model.bodies[body]);
@@ -85,13 +85,13 @@ inline CentreWrench bias_at_centre(const Model& model, const Kinematics& kin,
   const Eigen::Vector3d bias_at_reference = kin.bias_twist.col(body).tail<3>();
   const Eigen::Vector3d turn = kin.twist.col(body).head<3>();
   const Eigen::Vector3d shift = kin.centre_velocity.col(body);
-  const Eigen::Vector3d spin = motion.felt_twist.col(body).head<3>();
+  const Eigen::Vector3d spin = motion.mean_twist.col(body).head<3>();
   const Eigen::Vector3d angular = inertia.times(axes, spin);
   const Eigen::Vector3d acceleration = bias_at_reference + bias.cross(offset) + spin.cross(shift);
   CentreWrench wrench{inertia.times(axes, bias - turn.cross(spin)) + turn.cross(angular),
                       mass * acceleration};
   if (motion.bias_power != nullptr) {
-    const Eigen::Vector3d linear = mass * point_velocity(motion.felt_twist.col(body), offset);
+    const Eigen::Vector3d linear = mass * point_velocity(motion.mean_twist.col(body), offset);
     const double work = std::max(angular.dot(turn) + linear.dot(shift), motion.bias_power->least);
     const double missing =
         motion.bias_power->value[body] - wrench.moment.dot(turn) - wrench.force.dot(shift);
@@ -156,10 +156,12 @@ Eigen::VectorXd stiffness_force(const Model& model, const Eigen::VectorXd& q) {
 }
 
 Eigen::VectorXd ring_damping_force(const Model& model, double damping,
-                                   const Eigen::VectorXd& before, const Eigen::VectorXd& felt) {
+                                   const Eigen::VectorXd& before,
+                                   const Eigen::VectorXd& mean_velocity) {
   Eigen::VectorXd force = Eigen::VectorXd::Zero(model.nv());
   for (int k = root_dofs; k < model.nv(); ++k) {
-    force[k] = -damping * model.hinges[k - root_dofs].stiffness * (2 * felt[k] - before[k]);
+    force[k] =
+        -damping * model.hinges[k - root_dofs].stiffness * (2 * mean_velocity[k] - before[k]);
   }
   return force;
 }

@@ -26,7 +26,7 @@ Matrix6d drag_operator(const Model& model, const Kinematics& kin, int body);
 Eigen::VectorXd drag_force(const Model& model, const Kinematics& kin, const Eigen::VectorXd& v);
 
 /// M_m J̇ q̇ plus the gyroscopic wrench: the inertial wrench of each body at q̈ = 0 (6 x N), where the
-/// bodies have the twists motion.felt_twist and move as `kin` says; with as much of each body's
+/// bodies have the twists motion.mean_twist and move as `kin` says; with as much of each body's
 /// momentum as brings its power to motion.bias_power.
 Matrix6Xd bias_wrench(const Model& model, const Kinematics& kin, const StepMotion& motion);
 
@@ -53,7 +53,7 @@ struct TipForce {
 struct ActiveTorque {
   Eigen::VectorXd value;  ///< dyn cm
   Eigen::VectorXd rate;   ///< dyn cm s, not negative
-  int full = -1;          ///< the first velocity whose torque is all that muscles have; -1: none
+  int saturated = -1;     ///< the first velocity whose torque is all that muscles have; -1: none
 };
 
 /// One step's unconstrained problem H q̇* = M q̇0 + h f (paper, Eq. 1).
@@ -71,10 +71,11 @@ struct ForceTiming {
 };
 
 /// Numerical damping of the hinges' springs (core/README.md, "Steps in time"), nv: `damping` (s)
-/// times their stiffness, against the velocity after a step from `before` on which `felt` is felt
-/// (nv both).
+/// times their stiffness, against the velocity after a step from `before` on which the mean
+/// velocity is `mean_velocity` (nv both).
 Eigen::VectorXd ring_damping_force(const Model& model, double damping,
-                                   const Eigen::VectorXd& before, const Eigen::VectorXd& felt);
+                                   const Eigen::VectorXd& before,
+                                   const Eigen::VectorXd& mean_velocity);
 
 /// Assembles Eq. 1 at the place of the step, `kin`, whose bodies move as the step does and as
 /// `motion` says. The step starts from `state`.

@@ -120,13 +120,13 @@ void update_velocities(const Model& model, const Eigen::VectorXd& qdot, Kinemati
   update_velocities(model, qdot, qdot, kin);
 }
 
-void update_velocities(const Model& model, const Eigen::VectorXd& moved,
-                       const Eigen::VectorXd& felt, Kinematics& kin) {
+void update_velocities(const Model& model, const Eigen::VectorXd& step_velocity,
+                       const Eigen::VectorXd& mean_velocity, Kinematics& kin) {
   const int n = model.body_count();
   kin.twist.resize(6, n);
   kin.bias_twist.resize(6, n);
   // Halves of twists stay in registers, where vectors of six would go through memory.
-  const Vector6d root = kin.axis.leftCols<root_dofs>() * moved.head<root_dofs>();
+  const Vector6d root = kin.axis.leftCols<root_dofs>() * step_velocity.head<root_dofs>();
   Eigen::Vector3d spin = root.head<3>(), velocity = root.tail<3>();
   Eigen::Vector3d spin_bias = Eigen::Vector3d::Zero(), velocity_bias = spin_bias;
   // A motion that the twist so far carries along (Featherstone 2008, 2.9).
@@ -135,15 +135,15 @@ void update_velocities(const Model& model, const Eigen::VectorXd& moved,
     velocity_bias += rate * (spin.cross(shift) + velocity.cross(turn));
   };
   // The root's translation axes stand still; its rotation axes turn and move with the body.
-  const Vector6d turning = kin.axis.middleCols<3>(3) * felt.segment<3>(3);
+  const Vector6d turning = kin.axis.middleCols<3>(3) * mean_velocity.segment<3>(3);
   carry(turning.head<3>(), turning.tail<3>(), 1);
   for (int b = 0; b < n; ++b) {
     const Body& body = model.bodies[b];
     for (int k = b == 0 ? root_dofs : body.first_dof; k < body.first_dof + body.dofs; ++k) {
       const Eigen::Vector3d axis = kin.axis.col(k).head<3>(), arm = kin.axis.col(k).tail<3>();
-      carry(axis, arm, felt[k]);
-      spin += moved[k] * axis;
-      velocity += moved[k] * arm;
+      carry(axis, arm, mean_velocity[k]);
+      spin += step_velocity[k] * axis;
+      velocity += step_velocity[k] * arm;
     }
     kin.twist.col(b).head<3>() = spin;
     kin.twist.col(b).tail<3>() = velocity;

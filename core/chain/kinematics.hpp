@@ -46,7 +46,7 @@ struct BiasPower {
 struct StepMotion {
   const Matrix6Xd& twist;                   ///< of the bodies at the step's first velocity, 6 x N
   const Eigen::Matrix3Xd& centre_velocity;  ///< of their centres at it, 3 x N, cm/s
-  const Matrix6Xd& felt_twist;              ///< at what they have on the mean, 6 x N
+  const Matrix6Xd& mean_twist;              ///< at what they have on the mean, 6 x N
   const BiasPower* bias_power = nullptr;    ///< null where the bias works what it does
 
   /// At the step's first velocity.
@@ -71,11 +71,11 @@ Eigen::Vector3d centre_of_mass(const Model& model, const Kinematics& kin);
 
 /// Twists and bias twists; after update_positions.
 void update_velocities(const Model& model, const Eigen::VectorXd& qdot, Kinematics& kin);
-/// The same where bodies move by `moved`, but have the velocities `felt` (nv both) on the mean
-/// while they do (midpoint rule): bias_twist is the rate of J along `moved`, times `felt`; the rest
-/// is of `moved`.
-void update_velocities(const Model& model, const Eigen::VectorXd& moved,
-                       const Eigen::VectorXd& felt, Kinematics& kin);
+/// The same where bodies move by `step_velocity`, but have the velocities `mean_velocity` (nv both)
+/// on the mean while they do (midpoint rule): bias_twist is the rate of J along `step_velocity`,
+/// times `mean_velocity`; the rest is of `step_velocity`.
+void update_velocities(const Model& model, const Eigen::VectorXd& step_velocity,
+                       const Eigen::VectorXd& mean_velocity, Kinematics& kin);
 
 Kinematics kinematics(const Model& model, const State& state);
 

@@ -31,9 +31,9 @@ void visit_ends(const std::vector<SplineSegment>& segments, const Visit& visit) 
   visit(n, segments.back().point(1), (third * segments.back().slope(1)).eval());
 }
 
-/// Adds to candidates.moved how far each segment may have moved since candidates.ends: a cubic
-/// stays as close to another as their Bézier points, which are its ends and these plus or minus a
-/// third of the slopes there.
+/// Adds to candidates.displacement how far each segment may have moved since candidates.ends: a
+/// cubic stays as close to another as their Bézier points, which are its ends and these plus or
+/// minus a third of the slopes there.
 void add_motion(const std::vector<SplineSegment>& segments, Candidates& candidates) {
   SegmentEnds& ends = candidates.ends;
   double behind = 0;  // squared displacement of the Bézier points at the segment's first end
@@ -41,16 +41,16 @@ void add_motion(const std::vector<SplineSegment>& segments, Candidates& candidat
              [&](Eigen::Index k, const Eigen::Vector3d& point, const Eigen::Vector3d& third) {
                double end = 0, before = 0, after = 0;
                for (int i = 0; i < 3; ++i) {
-                 const double moved = point[i] - ends.point(k, i);
+                 const double shift = point[i] - ends.point(k, i);
                  const double turned = third[i] - ends.third(k, i);
-                 end += moved * moved;
-                 before += (moved - turned) * (moved - turned);
-                 after += (moved + turned) * (moved + turned);
+                 end += shift * shift;
+                 before += (shift - turned) * (shift - turned);
+                 after += (shift + turned) * (shift + turned);
                  ends.point(k, i) = point[i];
                  ends.third(k, i) = third[i];
                }
                if (k > 0) {
-                 candidates.moved[k - 1] += std::sqrt(std::max({behind, end, before}));
+                 candidates.displacement[k - 1] += std::sqrt(std::max({behind, end, before}));
                }
                behind = std::max(end, after);
              });
@@ -60,7 +60,7 @@ void list_pairs(const std::vector<SplineSegment>& segments, const ContactSetting
                 Candidates& candidates) {
   candidates.pairs.clear();
   candidates.clear_until.clear();
-  candidates.moved.assign(segments.size(), 0);
+  candidates.displacement.assign(segments.size(), 0);
   const double carried = carried_beyond(segments);
   // Slack, so that rounding does not put equal arcs on different sides of the bound.
   const double least_arc = settings.least_arc * (1 - 1e-9);
@@ -87,13 +87,14 @@ bool in_line(const Candidates& candidates, int i) {
   return candidates.pairs[i + lane_count - 1].b == candidates.pairs[i].b + lane_count - 1;
 }
 
-/// Lists those of the pairs in line from `first` on that are due, at once.
-void list_due_in_line(const Candidates& candidates, int first, std::vector<int>& due) {
+/// Lists those of the pairs in line from `first` on that must be evaluated, at once.
+void list_pairs_in_line(const Candidates& candidates, int first, std::vector<int>& pairs) {
   const SegmentPair& pair = candidates.pairs[first];
-  const Lanes moved = candidates.moved[pair.a] + lanes_at(&candidates.moved[pair.b]);
-  const LaneMask clear = moved < lanes_at(&candidates.clear_until[first]);
+  const Lanes displacement =
+      candidates.displacement[pair.a] + lanes_at(&candidates.displacement[pair.b]);
+  const LaneMask clear = displacement < lanes_at(&candidates.clear_until[first]);
   for (unsigned bits = bits_of(~clear); bits != 0; bits &= bits - 1) {
-    due.push_back(first + std::countr_zero(bits));
+    pairs.push_back(first + std::countr_zero(bits));
   }
 }
 
@@ -131,7 +132,7 @@ void update_candidates(const std::vector<SplineSegment>& segments, const Contact
     index_pairs(0, candidates);
     return;
   }
-  if (candidates.moved.size() != segments.size()) {
+  if (candidates.displacement.size() != segments.size()) {
     keep_ends(segments, candidates);
     list_pairs(segments, settings, candidates);
     return;
@@ -141,21 +142,21 @@ void update_candidates(const std::vector<SplineSegment>& segments, const Contact
     candidates.changed.clear();
     candidates.all_changed = true;
   }
-  if (!(std::ranges::max(candidates.moved) <= 0.5 * carried_beyond(segments))) {
+  if (!(std::ranges::max(candidates.displacement) <= 0.5 * carried_beyond(segments))) {
     list_pairs(segments, settings, candidates);
   }
 }
 
-void find_due(const Candidates& candidates, std::vector<int>& due) {
-  due.clear();
+void find_pairs_to_evaluate(const Candidates& candidates, std::vector<int>& pairs) {
+  pairs.clear();
   for (std::size_t a = 0; a + 1 < candidates.first.size(); ++a) {
     const int end = candidates.first[a + 1];
     for (int i = candidates.first[a]; i < end;) {
       if (i + lane_count <= end && in_line(candidates, i)) {
-        list_due_in_line(candidates, i, due);
+        list_pairs_in_line(candidates, i, pairs);
         i += lane_count;
       } else {
-        if (!(candidates.moved_by(i) < candidates.clear_until[i])) due.push_back(i);
+        if (!(candidates.displacement_of(i) < candidates.clear_until[i])) pairs.push_back(i);
         ++i;
       }
     }
@@ -172,7 +173,7 @@ void keep_candidates(Candidates& candidates, Candidates& kept) {
     return;
   }
   kept.ends = candidates.ends;
-  kept.moved = candidates.moved;
+  kept.displacement = candidates.displacement;
   for (const int i : candidates.changed) {
     kept.clear_until[i] = candidates.clear_until[i];
     kept.closest[i] = candidates.closest[i];

@@ -25,17 +25,19 @@ struct SegmentEnds {
 /// The pairs, by index along the lists down to `closest`, and the segments that they are of.
 struct Candidates {
   std::vector<SegmentPair> pairs;  ///< sorted
-  /// Not due until both segments together have moved this far, cm.
+  /// No evaluation is needed until both segments together have moved this far, cm.
   std::vector<double> clear_until;
   std::vector<std::optional<ClosestPoints>> closest;  ///< of the last evaluation
-  std::vector<int> first;     ///< of each segment, where its pairs begin; at the end, their number
-  SegmentEnds ends;           ///< of the segments of the last search
-  std::vector<double> moved;  ///< at most, by each segment since the pairs were listed, cm
+  std::vector<int> first;  ///< of each segment, where its pairs begin; at the end, their number
+  SegmentEnds ends;        ///< of the segments of the last search
+  std::vector<double> displacement;  ///< at most, by each segment since the pairs were listed, cm
   /// Since keep_candidates(): the pairs that were evaluated, or that all changed.
   std::vector<int> changed;
   bool all_changed = true;
 
-  double moved_by(int pair) const { return moved[pairs[pair].a] + moved[pairs[pair].b]; }
+  double displacement_of(int pair) const {
+    return displacement[pairs[pair].a] + displacement[pairs[pair].b];
+  }
 };
 
 /// Makes `segments` those of the last search, from which motion counts.
@@ -51,7 +53,7 @@ void update_candidates(const std::vector<SplineSegment>& segments, const Contact
 
 /// Lists the pairs that may matter where the segments are now, in their order: those that have
 /// moved far enough since they were evaluated.
-void find_due(const Candidates& candidates, std::vector<int>& due);
+void find_pairs_to_evaluate(const Candidates& candidates, std::vector<int>& pairs);
 
 /// Makes `kept` the same as `candidates`, from what has changed in them since the call before,
 /// which must have been with the same `kept`.

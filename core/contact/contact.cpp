@@ -5,26 +5,27 @@
 namespace hagfish {
 namespace {
 
-/// Computes the closest points of the pairs that are due; lists those within the margin.
+/// Computes the closest points of the queued pairs; lists those within the margin.
 void evaluate(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
               int samples, ContactSearch& search) {
   Candidates& candidates = search.candidates;
   ContactScratch& scratch = search.scratch;
-  scratch.queries.resize(scratch.due.size());
-  for (std::size_t k = 0; k < scratch.due.size(); ++k) {
-    const int index = scratch.due[k];
+  scratch.queries.resize(scratch.queue.size());
+  for (std::size_t k = 0; k < scratch.queue.size(); ++k) {
+    const int index = scratch.queue[k];
     ClosestPointsQuery& query = scratch.queries[k];
     query.a = &segments[candidates.pairs[index].a];
     query.b = &segments[candidates.pairs[index].b];
     query.guess = candidates.closest[index];
   }
   scratch.closest_points.answer(samples, scratch.queries);
-  for (std::size_t k = 0; k < scratch.due.size(); ++k) {
-    const int index = scratch.due[k];
+  for (std::size_t k = 0; k < scratch.queue.size(); ++k) {
+    const int index = scratch.queue[k];
     const ClosestPoints& closest = scratch.queries[k].closest;
     candidates.closest[index] = closest;
     candidates.changed.push_back(index);
-    candidates.clear_until[index] = candidates.moved_by(index) + closest.gap - settings.margin;
+    candidates.clear_until[index] =
+        candidates.displacement_of(index) + closest.gap - settings.margin;
     scratch.known[index] = PairState::evaluated;
     if (closest.gap <= settings.margin) {
       scratch.close.push_back(index);
@@ -73,7 +74,7 @@ bool is_local_minimum(const ContactSearch& search, double same, int index) {
   return lowest;
 }
 
-/// Evaluates the pairs that are due, and all neighbours that it takes to tell which of those
+/// Evaluates the queued pairs, and all neighbours that it takes to tell which of those
 /// within the margin are minima.
 void evaluate_with_neighbours(const std::vector<SplineSegment>& segments,
                               const ContactSettings& settings, ContactSearch& search) {
@@ -82,9 +83,9 @@ void evaluate_with_neighbours(const std::vector<SplineSegment>& segments,
     slenderest = std::max(slenderest, segment.s1 / std::min(segment.r0, segment.r0 + segment.r1));
   }
   const int samples = samples_along(slenderest);
-  for (std::size_t seen = 0; !search.scratch.due.empty();) {
+  for (std::size_t seen = 0; !search.scratch.queue.empty();) {
     evaluate(segments, settings, samples, search);
-    search.scratch.due.clear();
+    search.scratch.queue.clear();
     for (; seen < search.scratch.close.size(); ++seen) {
       const int index = search.scratch.close[seen];
       if (!is_local_minimum(search, same_gap * settings.margin, index)) {
@@ -93,8 +94,8 @@ void evaluate_with_neighbours(const std::vector<SplineSegment>& segments,
       }
       visit_across(search.candidates, index, [&](int other) {
         if (search.scratch.known[other] == PairState::unknown) {
-          search.scratch.known[other] = PairState::due;
-          search.scratch.due.push_back(other);
+          search.scratch.known[other] = PairState::queued;
+          search.scratch.queue.push_back(other);
         }
         return true;
       });
@@ -144,14 +145,14 @@ void find_contacts(const std::vector<SplineSegment>& segments, const ContactSett
   update_candidates(segments, settings, candidates);
   search.scratch.known.assign(candidates.pairs.size(), PairState::unknown);
   search.scratch.close.clear();
-  find_due(candidates, search.scratch.due);
-  for (const int index : search.scratch.due) {
-    search.scratch.known[index] = PairState::due;
+  find_pairs_to_evaluate(candidates, search.scratch.queue);
+  for (const int index : search.scratch.queue) {
+    search.scratch.known[index] = PairState::queued;
   }
   evaluate_with_neighbours(segments, settings, search);
   set.contacts.clear();
   set.on_obstacles.clear();
-  set.others.clear();
+  set.near_pairs.clear();
   set.least_gap = settings.margin;
   for (const int index : search.scratch.close) {
     const bool minimum = is_local_minimum(search, same_gap * settings.margin, index);
@@ -159,13 +160,14 @@ void find_contacts(const std::vector<SplineSegment>& segments, const ContactSett
     const double gap = closest.gap;
     set.least_gap = std::min(set.least_gap, gap);
     if (!minimum) {
-      candidates.clear_until[index] = candidates.moved_by(index) + gap - near;
+      candidates.clear_until[index] = candidates.displacement_of(index) + gap - near;
     }
     if (minimum || gap < near) {
       const SegmentPair& pair = candidates.pairs[index];
       const Contact contact = contact_at(segments, pair.a, closest.t_a, pair.b, closest.t_b);
       const bool on_obstacle = contact.obstacle >= 0;
-      (!minimum ? set.others : (on_obstacle ? set.on_obstacles : set.contacts)).push_back(contact);
+      (!minimum ? set.near_pairs : (on_obstacle ? set.on_obstacles : set.contacts))
+          .push_back(contact);
     }
   }
   std::sort(set.contacts.begin(), set.contacts.end(), [](const Contact& x, const Contact& y) {

@@ -33,7 +33,7 @@ struct ContactSet {
   std::vector<Contact> contacts;
   std::vector<Contact> on_obstacles;  ///< the same between the body and strands that are obstacles
   /// Pairs that nearly touch but are no minimum. They matter only where a step makes them one.
-  std::vector<Contact> others;
+  std::vector<Contact> near_pairs;
   /// Least gap found, cm; at most the margin.
   double least_gap = 0;
 };
@@ -51,14 +51,14 @@ Contact contact_at(const std::vector<SplineSegment>& segments, int segment_a, do
 
 /// What a search knows of a pair, so far: beaten is one beside which another has a smaller
 /// gap.
-enum class PairState : char { unknown, due, evaluated, beaten };
+enum class PairState : char { unknown, queued, evaluated, beaten };
 
 /// Storage of one search.
 struct ContactScratch {
   std::vector<PairState> known;             ///< of each pair
-  std::vector<int> due;                     ///< pairs to evaluate next
+  std::vector<int> queue;                   ///< pairs to evaluate next
   std::vector<int> close;                   ///< of those evaluated that are within the margin
-  std::vector<ClosestPointsQuery> queries;  ///< of those that are due
+  std::vector<ClosestPointsQuery> queries;  ///< of the queued pairs
   ClosestPointsSearch closest_points;
 };
 

@@ -120,8 +120,8 @@ void serialize(Archive& archive, Contact& contact) {
 
 template <class Archive>
 void serialize(Archive& archive, ContactSet& set) {
-  auto& [contacts, on_obstacles, others, least_gap] = set;
-  archive(contacts, on_obstacles, others, least_gap);
+  auto& [contacts, on_obstacles, near_pairs, least_gap] = set;
+  archive(contacts, on_obstacles, near_pairs, least_gap);
 }
 
 template <class Archive>
@@ -152,8 +152,8 @@ void serialize(Archive& archive, SegmentPair& pair) {
 template <class Archive>
 void serialize(Archive& archive, Candidates& candidates) {
   // Two follow from the others, and the last two are of BeforeStep.
-  auto& [pairs, clear_until, closest, first, ends, moved, changed, all_changed] = candidates;
-  archive(pairs, clear_until, closest, moved);
+  auto& [pairs, clear_until, closest, first, ends, displacement, changed, all_changed] = candidates;
+  archive(pairs, clear_until, closest, displacement);
 }
 
 template <class Archive>
@@ -300,8 +300,9 @@ bool fits(const TouchingEnds& ends, const Model& model) {
 
 bool fits(const Candidates& candidates, const Model& model) {
   const int segments = segment_count(model);
-  const auto& [pairs, clear_until, closest, first, ends, moved, changed, all_changed] = candidates;
-  return static_cast<int>(moved.size()) == segments && clear_until.size() == pairs.size() &&
+  const auto& [pairs, clear_until, closest, first, ends, displacement, changed, all_changed] =
+      candidates;
+  return static_cast<int>(displacement.size()) == segments && clear_until.size() == pairs.size() &&
          closest.size() == pairs.size() &&
          std::ranges::is_sorted(
              pairs, {}, [](const SegmentPair& pair) { return std::pair(pair.a, pair.b); }) &&
@@ -321,7 +322,7 @@ void check(const Simulation& sim, const LogState& log, const Model& model) {
   require(sim.step >= 0, "a step before the first");
   require(fits(sim.now.state, model), "a state that is not of its model");
   require(fits(contact.contacts, model) && fits(contact.on_obstacles, model) &&
-              fits(contact.others, model) && fits(sim.search.candidates, model) &&
+              fits(contact.near_pairs, model) && fits(sim.search.candidates, model) &&
               fits(sim.now.observation.ends, model) && fits(sim.controller.ends, model),
           "a contact that is not on its animal");
   require(sim.controller.phase <= Phase::last, "an unknown phase");

@@ -105,10 +105,10 @@ void declare_midway(const Model& model, LogTable<Frame>& t) {
       "moved",
       "velocity that takes half a step from the frame to the middle of its step, where its "
       "equations hold",
-      [](const Frame& f) -> const auto& { return f.record.solution.middle.moved; });
+      [](const Frame& f) -> const auto& { return f.record.solution.middle.step_velocity; });
   velocity(
       "felt", "velocity that the bodies' inertia is taken to have there",
-      [](const Frame& f) -> const auto& { return f.record.solution.middle.felt; });
+      [](const Frame& f) -> const auto& { return f.record.solution.middle.mean_velocity; });
   velocity(
       "qdot",
       "velocity by which the step moves, which meets the rows: impulses act on it in full, "

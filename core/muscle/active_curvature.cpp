@@ -71,7 +71,7 @@ void active_torque(const Model& model, const ActiveSettings& active, const State
   const double capacity = active.capacity;
   torque.value.setZero(model.nv());
   torque.rate.setZero(model.nv());
-  torque.full = -1;
+  torque.saturated = -1;
   for (int k = root_dofs; k < model.nv(); ++k) {
     const Hinge& hinge = model.hinges[k - root_dofs];
     const double stiffness = active.stiffness / span_of(model, hinge);
@@ -82,14 +82,14 @@ void active_torque(const Model& model, const ActiveSettings& active, const State
       torque.rate[k] = ahead * stiffness;
     } else {
       torque.value[k] = std::copysign(capacity, expected);
-      if (torque.full < 0) torque.full = k;
+      if (torque.saturated < 0) torque.saturated = k;
     }
   }
 }
 
 void bound_torque(double capacity, const Eigen::VectorXd& qdot, const ActiveTorque& active,
                   ActiveTorque& torque) {
-  torque.full = -1;
+  torque.saturated = -1;
   for (Eigen::Index k = root_dofs; k < torque.value.size(); ++k) {
     const double towards =
         active.value.size() == 0 ? 0 : active.value[k] - active.rate[k] * qdot[k];
@@ -97,7 +97,7 @@ void bound_torque(double capacity, const Eigen::VectorXd& qdot, const ActiveTorq
     if (std::abs(expected) <= capacity) continue;
     torque.value[k] = std::copysign(capacity, expected) - towards;
     torque.rate[k] = 0;
-    if (torque.full < 0) torque.full = static_cast<int>(k);
+    if (torque.saturated < 0) torque.saturated = static_cast<int>(k);
   }
 }
 

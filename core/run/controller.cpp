@@ -199,7 +199,7 @@ void command(const Model& model, const Scene& scene, const Moment& now, double t
   } else {
     control.active = {};
   }
-  control.torque.full = -1;
+  control.torque.saturated = -1;
   if (scene.active.bounds_laws) {
     bound_torque(scene.active.capacity, now.state.qdot, control.active, control.torque);
   }

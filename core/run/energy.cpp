@@ -40,10 +40,10 @@ EnergyLedger open_ledger(const Model& model, const Moment& now) {
   return ledger;
 }
 
-// The step solves M (v' - v) = h (f(x) - b) + C'λ, with what is felt, f(x) = f - D x - K (q + r x)
-// - β K (2 x - v) + w, and moves by t u. Euler's rule: u = x = v', r = h, β = 0, M at the start.
-// Midpoint: x = (v + v')/2, r = h/2, M in the middle; u = x but for impacts. With y = (v + v')/2
-// and all at that place,
+// The step solves M (v' - v) = h (f(x) - b) + C'λ, with the mean velocity x and
+// f(x) = f - D x - K (q + r x) - β K (2 x - v) + w, and moves by t u. Euler's rule: u = x = v',
+// r = h, β = 0, M at the start. Midpoint: x = (v + v')/2, r = h/2, M in the middle; u = x but for
+// impacts. With y = (v + v')/2 and all at that place,
 //   T(v') - T(v) = y'MΔv = (t/h) u'MΔv + (y - (t/h) u)'MΔv,
 //   (t/h) u'MΔv = t u'(f - D x) + (t/h) u'C'λ - t u'K (q + r x + β (2 x - v)) + t u'w - t u'b,
 //   V(q + t u) - V(q) = t u'K q + ½ t² u'K u   of the springs.
@@ -68,9 +68,10 @@ void book_step(const StepInput& in, const StepPlace& place, const StepSolution& 
   const double ring = in.scene.time.spring_damping();
   for (int k = root_dofs; k < model.nv(); ++k) {
     const Hinge& hinge = model.hinges[k - root_dofs];
-    damped += hinge.damping * u[k] * step.felt[k];
+    damped += hinge.damping * u[k] * step.mean_velocity[k];
     stretch += hinge.stiffness * u[k] *
-               (0.5 * t * u[k] - r * step.felt[k] - ring * (2 * step.felt[k] - in.state.qdot[k]));
+               (0.5 * t * u[k] - r * step.mean_velocity[k] -
+                ring * (2 * step.mean_velocity[k] - in.state.qdot[k]));
   }
   const StepMotion& before = place.motion;
   const double whole = h / r;  // Δv over x - v
@@ -82,15 +83,15 @@ void book_step(const StepInput& in, const StepPlace& place, const StepSolution& 
   for (int b = 0; b < model.body_count(); ++b) {
     const PointMotion old = motion_of(before.twist, before.centre_velocity, b);
     const PointMotion by = motion_of(step.twist, step.centre_velocity, b);
-    const PointMotion felt = motion_of(step.felt_twist, step.felt_centre_velocity, b);
-    const PointMotion change{whole * (felt.spin - old.spin),
-                             whole * (felt.velocity - old.velocity)};
+    const PointMotion dragged = motion_of(step.mean_twist, step.mean_centre_velocity, b);
+    const PointMotion change{whole * (dragged.spin - old.spin),
+                             whole * (dragged.velocity - old.velocity)};
     const PointMotion mean{old.spin + 0.5 * change.spin, old.velocity + 0.5 * change.velocity};
     const BodyMomentum gained = body_momentum(model, kin, b, change);
     moved += gained.times(mean);
     impulse += gained.times({mean.spin - t / h * by.spin, mean.velocity - t / h * by.velocity});
     jump += gained.times({by.spin - mean.spin, by.velocity - mean.velocity});
-    damped += drag_power(model, kin, b, by, felt);
+    damped += drag_power(model, kin, b, by, dragged);
     fall += t * model.bodies[b].mass * model.gravity.dot(by.velocity);
     bias += t * (step.system.bias.col(b).head<3>().dot(by.spin) +
                  step.system.bias.col(b).tail<3>().dot(by.velocity));

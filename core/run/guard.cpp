@@ -31,7 +31,7 @@ std::string deepest_overlap(const Model& model, const Observation& observation) 
     return fmt::format("body {} and the {}", body, model.obstacles[obstacle].name);
   };
   const ContactSet& found = observation.contact;
-  for (const auto* contacts : {&found.contacts, &found.on_obstacles, &found.others}) {
+  for (const auto* contacts : {&found.contacts, &found.on_obstacles, &found.near_pairs}) {
     for (const Contact& contact : *contacts) {
       if (contact.gap < least) {
         least = contact.gap;
@@ -308,15 +308,16 @@ void guard_muscles(const Model& model, const Scene& scene, const Control& contro
           GuardAction::warn, watch, warnings);
     }
   }
-  const int full = control.active.full >= 0 ? control.active.full : control.torque.full;
-  if (full >= 0 && !watch.has_warned(Outcome::saturated)) {
+  const int saturated =
+      control.active.saturated >= 0 ? control.active.saturated : control.torque.saturated;
+  if (saturated >= 0 && !watch.has_warned(Outcome::saturated)) {
     std::ignore =
         report(Outcome::saturated,
                told(GuardAction::warn,
                     fmt::format("{} takes all of active.capacity = {:g} dyn cm at {:.2f} s",
-                                dof_name(model, full), scene.active.capacity, time),
+                                dof_name(model, saturated), scene.active.capacity, time),
                     "The run can be used: it is of an animal too weak for what it is asked",
-                    control.active.full >= 0
+                    control.active.saturated >= 0
                         ? "try a slower program, a softer body or more capacity"
                         : "try a law that asks for less, or active.bounds_laws = false"),
                GuardAction::warn, watch, warnings);

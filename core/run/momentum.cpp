@@ -32,7 +32,7 @@ Impulses impulses_of(const StepInput& in, const Kinematics& kin, const StepSolut
   const double h = in.scene.time.step;
   const Momentum drag = sum_over_bodies(model, kin, centre, [&](int b) {
     return drag_on_body(model, kin, b,
-                        {step.felt_twist.col(b).head<3>(), step.felt_centre_velocity.col(b)});
+                        {step.mean_twist.col(b).head<3>(), step.mean_centre_velocity.col(b)});
   });
   Momentum outside;
   outside.linear = mass_of(model) * model.gravity + step.tip;
@@ -56,12 +56,12 @@ Momentum gained(const StepInput& in, const StepPlace& place, const StepSolution&
                 const Eigen::Vector3d& centre) {
   const double h = in.scene.time.step;
   const StepMotion& before = place.motion;
-  const double whole = h / in.scene.time.reach();  // v' - v over what is felt of it
+  const double whole = h / in.scene.time.reach();  // v' - v over its part in the mean velocity
   return sum_over_bodies(in.model, place.kin, centre, [&](int b) {
     const auto [angular, linear] =
         body_momentum(in.model, place.kin, b,
-                      {whole * (step.felt_twist.col(b) - before.twist.col(b)).head<3>(),
-                       whole * (step.felt_centre_velocity.col(b) - before.centre_velocity.col(b))});
+                      {whole * (step.mean_twist.col(b) - before.twist.col(b)).head<3>(),
+                       whole * (step.mean_centre_velocity.col(b) - before.centre_velocity.col(b))});
     return CentreWrench{angular + h * step.system.bias.col(b).head<3>(),
                         linear + h * step.system.bias.col(b).tail<3>()};
   });

@@ -81,24 +81,25 @@ struct Eq6 {
   Eigen::VectorXd shortfall;  ///< of each row where a is 0, cm/s
 };
 
-/// That of the step `ahead` of length `h` (s), with the rows held that bear in it.
+/// That of the step `ahead` of length `h` (s), with the velocities of those rows kept that bear in
+/// it.
 Eq6 eq6_after(const Situation& at, double h, const Eigen::MatrixXd& shapes,
               const UntakenStep& ahead) {
   const StepSolution& step = ahead.step;
   const RowProblem& problem = ahead.solver.problem();
   const auto row_of = [&](Eigen::Index i) -> const Row& { return step.rows[step.prescribed + i]; };
-  std::vector<Eigen::Index> held, asked;  // rows: those that bear, those of Eq. 6
+  std::vector<Eigen::Index> bearing, asked;  // rows: those that bear, those of Eq. 6
   for (Eigen::Index i = 0; i < problem.qp.b.size(); ++i) {
     if (row_of(i).kind == RowKind::thigmotaxis) {
       asked.push_back(i);
     } else if (step.lambda[step.prescribed + i] != 0) {
-      held.push_back(i);
+      bearing.push_back(i);
     }
   }
-  // What the rows held bear of a unit row of Eq. 6.
-  Eigen::MatrixXd share = problem.qp.A(held, asked);
-  if (!held.empty()) {
-    Eigen::LDLT<Eigen::MatrixXd>(problem.qp.A(held, held)).solveInPlace(share);
+  // What the bearing rows bear of a unit row of Eq. 6.
+  Eigen::MatrixXd share = problem.qp.A(bearing, asked);
+  if (!bearing.empty()) {
+    Eigen::LDLT<Eigen::MatrixXd>(problem.qp.A(bearing, bearing)).solveInPlace(share);
   }
   std::vector<PrescribedVelocity> still = problem.prescribed;
   for (PrescribedVelocity& velocity : still) velocity.value = 0;
@@ -113,8 +114,8 @@ Eq6 eq6_after(const Situation& at, double h, const Eigen::MatrixXd& shapes,
     joint.setZero(at.model.nv());
     add_row(row_of(asked[t]), kin, 1, wrench, joint);
     for (Eigen::Index c = 0; c < share.rows(); ++c) {
-      add_row(row_of(held[c]), kin, -share(c, t), wrench, joint);
-      eq6.shortfall[t] -= share(c, t) * problem.qp.b[held[c]];
+      add_row(row_of(bearing[c]), kin, -share(c, t), wrench, joint);
+      eq6.shortfall[t] -= share(c, t) * problem.qp.b[bearing[c]];
     }
     problem.factor.solve(at.model, kin, wrench, joint, still, velocity, twist, reaction);
     eq6.gain.row(t).noalias() = h * velocity.transpose() * shapes;

@@ -24,8 +24,8 @@ void load_row(const Model& model, const Kinematics& kin, const Row& row, Eigen::
   if (row.dof >= 0) {
     columns.load_joint(row.dof, column, row.sign);
   }
-  if (row.beside != 0) {
-    columns.load_joint(row.dof + 1, column, row.beside);
+  if (row.next_sign != 0) {
+    columns.load_joint(row.dof + 1, column, row.next_sign);
   }
   visit_forces(row, kin,
                [&](int body, const Eigen::Vector3d& force, const Eigen::Vector3d& offset) {

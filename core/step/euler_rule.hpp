@@ -19,9 +19,9 @@ class EulerRule : public StepRule {
     return status;
   }
   void end(const StepInput& /*in*/, WarmStart& /*warm*/, StepSolution& step) override {
-    step.felt = step.qdot;
-    step.felt_twist = step.twist;
-    step.felt_centre_velocity = step.centre_velocity;
+    step.mean_velocity = step.qdot;
+    step.mean_twist = step.twist;
+    step.mean_centre_velocity = step.centre_velocity;
   }
   StepPlace place(const StepInput& in) const override { return start_of(in); }
 };

@@ -22,10 +22,10 @@ void put(PathRow row, StepSolution& step) {
   }
 }
 
-/// How many rows of the contact with this id the path has shown in this step.
-int cuts_of(std::int64_t id, const StepSolution& step) {
-  return static_cast<int>(std::ranges::count_if(step.path_rows, [&](const PathRow& shown) {
-    return shown.contact && contact_row_id(*shown.contact) == id;
+/// How many rows of the contact with this id the path has given in this step.
+int rows_of_contact(std::int64_t id, const StepSolution& step) {
+  return static_cast<int>(std::ranges::count_if(step.path_rows, [&](const PathRow& path_row) {
+    return path_row.contact && contact_row_id(*path_row.contact) == id;
   }));
 }
 
@@ -49,26 +49,26 @@ bool add_missed_rows(const StepInput& in, const StepPlace& place, const Observat
     const double goal =
         before + std::min(-settings.baumgarte * before, h * settings.baumgarte_speed);
     if (gap_there < goal - tolerance) {
-      PathRow shown = make_row();
-      Row& row = shown.row;
+      PathRow path_row = make_row();
+      Row& row = path_row.row;
       const double missed = gap_there - gap_now - t * row_velocity(row, step.bodies(), step.qdot);
       // At great speeds what the linear row misses grows beyond all sense; rows that ask strands to
       // part by more than they may move between samples only contradict each other.
       row.rhs = std::min(goal - gap_now - missed * (h / t) * (h / t), settings.stride) / h;
-      put(std::move(shown), step);
+      put(std::move(path_row), step);
       any = true;
     }
   };
   const ContactSet& found = there.contact;
-  for (const auto* contacts : {&found.contacts, &found.on_obstacles, &found.others}) {
+  for (const auto* contacts : {&found.contacts, &found.on_obstacles, &found.near_pairs}) {
     for (const Contact& contact : *contacts) {
       if (contact.gap < -tolerance) {
         const Contact before = contact_at(now.segments, contact.segment_a, contact.t_a,
                                           contact.segment_b, contact.t_b);
         check(before.gap, contact.gap, [&] {
-          return PathRow{
-              contact_row(in.model, before, place.segments, cuts_of(contact_row_id(before), step)),
-              before};
+          return PathRow{contact_row(in.model, before, place.segments,
+                                     rows_of_contact(contact_row_id(before), step)),
+                         before};
         });
       }
     }
@@ -91,13 +91,14 @@ bool add_missed_bends(const StepInput& in, const Eigen::VectorXd& there, StepSol
     }
     const Eigen::Vector2d goal =
         bend_to(there[cone.dof + 1], there[cone.dof + 2], cone.limit + left);
-    int cuts = 1;
-    while (std::ranges::find(step.rows, cone_row(cone, {}, cuts).id, &Row::id) != step.rows.end()) {
-      ++cuts;
+    int tangents = 1;
+    while (std::ranges::find(step.rows, cone_row(cone, {}, tangents).id, &Row::id) !=
+           step.rows.end()) {
+      ++tangents;
     }
-    Row row = cone_row(cone, total_bend(goal[0], goal[1]), cuts);
+    Row row = cone_row(cone, total_bend(goal[0], goal[1]), tangents);
     const Eigen::Vector2d way = goal - now.segment<2>(cone.dof + 1);
-    row.rhs = (row.sign * way[0] + row.beside * way[1]) / in.scene.time.step;
+    row.rhs = (row.sign * way[0] + row.next_sign * way[1]) / in.scene.time.step;
     put({row, {}}, step);
     any = true;
   }

@@ -35,7 +35,7 @@ Eigen::MatrixXd dense_rows(const Model& model, const Kinematics& kin,
     const Row& row = rows[i];
     if (row.dof >= 0) {
       c(i, row.dof) = row.sign;
-      if (row.beside != 0) c(i, row.dof + 1) = row.beside;
+      if (row.next_sign != 0) c(i, row.dof + 1) = row.next_sign;
     }
     visit_forces(row, kin,
                  [&](int body, const Eigen::Vector3d& force, const Eigen::Vector3d& offset) {

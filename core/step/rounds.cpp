@@ -48,8 +48,8 @@ Status Rounds::begin(const StepInput& in, const StepPlace& place, const WarmStar
   add_active_torque(in.control.torque, reach, step.system);
   gather_rows(in, place, warm, step.rows);
   prescribe_rows(warm, step.rows);
-  for (const PathRow& shown : step.path_rows) {
-    put_row(placed_row(place, shown), step.rows);
+  for (const PathRow& path_row : step.path_rows) {
+    put_row(placed_row(place, path_row), step.rows);
   }
   step.kind = SolveKind::linear;
   step.iterations = 0;

@@ -26,7 +26,7 @@ void append_unilateral_rows(const StepInput& in, const StepPlace& place, const N
   };
   std::ranges::for_each(in.observation.contact.contacts, append);
   std::ranges::for_each(in.observation.contact.on_obstacles, append);
-  for (const Contact& contact : in.observation.contact.others) {
+  for (const Contact& contact : in.observation.contact.near_pairs) {
     if (is_considered(contact)) append(contact);
   }
   append_limit_rows(in.model, in.state, settings, h, wanted, rows);
@@ -56,13 +56,13 @@ void gather_rows(const StepInput& in, const StepPlace& place, const WarmStart& w
                          pushed, rows);
 }
 
-Row placed_row(const StepPlace& place, const PathRow& shown) {
-  if (!shown.contact) {
-    return shown.row;
+Row placed_row(const StepPlace& place, const PathRow& path_row) {
+  if (!path_row.contact) {
+    return path_row.row;
   }
-  Row row = shown.row;
+  Row row = path_row.row;
   if (place.segments != nullptr) {
-    row.direction = contact_normal(*place.segments, *shown.contact);
+    row.direction = contact_normal(*place.segments, *path_row.contact);
   }
   return row;
 }

@@ -15,8 +15,8 @@ namespace hagfish {
 void gather_rows(const StepInput& in, const StepPlace& place, const WarmStart& warm,
                  std::vector<Row>& rows);
 
-/// The row of `shown` at `place`.
-Row placed_row(const StepPlace& place, const PathRow& shown);
+/// The row of `path_row` at `place`.
+Row placed_row(const StepPlace& place, const PathRow& path_row);
 
 /// Adds `row`, or replaces the one of its id in place.
 void put_row(const Row& row, std::vector<Row>& rows);

@@ -127,7 +127,7 @@ double row_velocity(const Row& row, const BodyVelocities& bodies, const Eigen::V
   if (row.dof < 0) {
     return relative_velocity(row, bodies);
   }
-  return row.sign * v[row.dof] + (row.unit() ? 0 : row.beside * v[row.dof + 1]);
+  return row.sign * v[row.dof] + (row.unit() ? 0 : row.next_sign * v[row.dof + 1]);
 }
 
 void add_row(const Row& row, const Kinematics& kin, double lambda, Matrix6Xd& wrench,
@@ -135,7 +135,7 @@ void add_row(const Row& row, const Kinematics& kin, double lambda, Matrix6Xd& wr
   if (row.dof >= 0) {
     joint[row.dof] += row.sign * lambda;
     if (!row.unit()) {
-      joint[row.dof + 1] += row.beside * lambda;
+      joint[row.dof + 1] += row.next_sign * lambda;
     }
     return;
   }
@@ -178,7 +178,7 @@ Row cone_row(const BendingCone& cone, const Bend& bend, int cut) {
   row.id = row_id(RowKind::limit, cone.dof, first_cone_row + cut);
   row.dof = cone.dof;
   row.sign = -bend.slope[0];
-  row.beside = -bend.slope[1];
+  row.next_sign = -bend.slope[1];
   return row;
 }
 
@@ -302,9 +302,9 @@ void append_thigmotaxis_rows(const Model& model, const std::vector<ThigmotaxisCo
   for (std::size_t k = 0; k < commands.size(); ++k) {
     const ThigmotaxisCommand& command = commands[k];
     const Contact& found = command.contact;
-    const Contact contact = place.moved ? contact_at(place.segments, found.segment_a, found.t_a,
-                                                     found.segment_b, found.t_b)
-                                        : found;
+    const Contact contact = place.displaced ? contact_at(place.segments, found.segment_a, found.t_a,
+                                                         found.segment_b, found.t_b)
+                                            : found;
     for (const bool on_a : {true, false}) {
       Row& row = rows.emplace_back(eq6_row(model, place.kin, place.segments, contact, on_a,
                                            command.towards, settings.eq6_at));

@@ -25,10 +25,10 @@ namespace hagfish {
 
 struct Row {
   RowKind kind = RowKind::limit;
-  /// C q̇ = sign * q̇[dof] + beside * q̇[dof + 1]; -1 where points are used.
+  /// C q̇ = sign * q̇[dof] + next_sign * q̇[dof + 1]; -1 where points are used.
   int dof = -1;
-  double sign = 1;    ///< of a unit row +1 or -1
-  double beside = 0;  ///< of a unit row 0
+  double sign = 1;       ///< of a unit row +1 or -1
+  double next_sign = 0;  ///< of a unit row 0
   /// Same from step to step for the same physical constraint: limits by dof and side, cones by dof
   /// and contacts by segments, planes by body, each and which of their rows in the step,
   /// thigmotaxis by the knot's end or by segments, and tangent.
@@ -51,7 +51,7 @@ struct Row {
   /// A unit row whose velocity is prescribed, C q̇ = d; λ is its reaction.
   bool prescribed = false;
 
-  bool unit() const { return dof >= 0 && beside == 0; }
+  bool unit() const { return dof >= 0 && next_sign == 0; }
 };
 
 /// A row that the path of a step shows (look_ahead.hpp), and the contact that it is of, if of one,
@@ -163,7 +163,7 @@ struct ThigmotaxisCommand {
 struct ThigmotaxisPlace {
   const Kinematics& kin;
   const std::vector<SplineSegment>& segments;  ///< of it
-  bool moved;                                  ///< from where the commands' contacts were found
+  bool displaced;                              ///< from where the commands' contacts were found
 };
 
 /// A row of Eq. 6 with no right-hand side or bounds yet, along t_a or t_b of `contact`, whose

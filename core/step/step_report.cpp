@@ -33,9 +33,9 @@ void sum_forces(RowKind kind, const Model& model, const Kinematics& kin, double 
   }
 }
 
-/// step.net_force, and |H x - g - C'λ r / h| (x: felt; by Euler's rule q̇, r = h) over the largest
-/// of the first two and of what one kind of force alone makes: their sum may be nothing but
-/// rounding, and all of the three are where forces hold each other at rest.
+/// step.net_force, and |H x - g - C'λ r / h| (x: the mean velocity; by Euler's rule q̇, r = h) over
+/// the largest of the first two and of what one kind of force alone makes: their sum may be nothing
+/// but rounding, and all of the three are where forces hold each other at rest.
 double stationarity(const Model& model, const Kinematics& kin, double reach, ReportStorage& storage,
                     StepSolution& step) {
   const StepSystem& system = step.system;
@@ -44,7 +44,7 @@ double stationarity(const Model& model, const Kinematics& kin, double reach, Rep
   momentum += system.joint;
   double scale = momentum.lpNorm<Eigen::Infinity>();
   Eigen::VectorXd& change = storage.change;  // H x
-  multiply(model, kin, system.op, step.felt, step.felt_twist, storage.wrench, change);
+  multiply(model, kin, system.op, step.mean_velocity, step.mean_twist, storage.wrench, change);
   scale = std::max(scale, change.lpNorm<Eigen::Infinity>());
   step.net_force = (change - momentum) / reach + step.active_torque;
   scale = std::max(scale, reach * step.active_torque.lpNorm<Eigen::Infinity>());
@@ -67,9 +67,9 @@ void scale_multipliers(const RowProblem& problem, const StepSolution& step,
   for (Eigen::Index i = 0; i < step.prescribed; ++i) {
     scaled[i] = 1 / std::sqrt(problem.factor.pivot(step.rows[i].dof));
   }
-  const Eigen::Index others = scaled.size() - step.prescribed;
-  if (others > 0) {
-    row_scale(problem.qp.A, scaled.tail(others));
+  const Eigen::Index solved = scaled.size() - step.prescribed;
+  if (solved > 0) {
+    row_scale(problem.qp.A, scaled.tail(solved));
   }
   storage.row_scale = scaled;
   scaled.array() *= step.lambda.array().abs();
@@ -99,11 +99,11 @@ void measure_rows(const RowProblem& problem, ReportStorage& storage, StepSolutio
   }
   // β of the whole problem: where a prescribed row binds alone, b over its scale is this.
   const double beta = step.prescribed == 0 ? 0 : storage.scaled.head(step.prescribed).maxCoeff();
-  const Eigen::Index others = m - step.prescribed;
-  step.kkt = others == 0
+  const Eigen::Index solved = m - step.prescribed;
+  step.kkt = solved == 0
                  ? KktResiduals{}
-                 : kkt_residuals(problem.qp, step.lambda.tail(others), step.excess.tail(others),
-                                 storage.row_scale.tail(others), beta);
+                 : kkt_residuals(problem.qp, step.lambda.tail(solved), step.excess.tail(solved),
+                                 storage.row_scale.tail(solved), beta);
 }
 
 void keep_active(const ReportStorage& storage, const StepSolution& step, WarmStart& warm) {
@@ -122,12 +122,12 @@ void report_forces(const StepInput& in, const StepPlace& place, ReportStorage& s
                    StepSolution& step) {
   const ActiveTorque& active = in.control.active;
   if (active.value.size() > 0) {
-    step.active_torque = active.value - active.rate.cwiseProduct(step.felt);
+    step.active_torque = active.value - active.rate.cwiseProduct(step.mean_velocity);
   } else {
     step.active_torque.setZero(in.model.nv());
   }
   if (const ActiveTorque& torque = in.control.torque; torque.value.size() > 0) {
-    step.active_torque += torque.value - torque.rate.cwiseProduct(step.felt);
+    step.active_torque += torque.value - torque.rate.cwiseProduct(step.mean_velocity);
   }
   for (const RowKind kind : row_kinds) {
     sum_forces(kind, in.model, place.kin, in.scene.time.step, storage, step);
@@ -135,7 +135,7 @@ void report_forces(const StepInput& in, const StepPlace& place, ReportStorage& s
   step.stationarity = stationarity(in.model, place.kin, in.scene.time.reach(), storage, step);
   step.active = static_cast<int>((step.lambda.array() != 0).count());
   const TipForce& tip = in.control.tip;
-  step.tip = tip.value - tip.rate * step.felt_centre_velocity.col(tip.on(in.model));
+  step.tip = tip.value - tip.rate * step.mean_centre_velocity.col(tip.on(in.model));
 }
 
 }  // namespace hagfish

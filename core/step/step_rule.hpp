@@ -19,8 +19,8 @@ class StepRule {
   virtual Status resume(const StepInput& in, Rounds& rounds, WarmStart& warm,
                         StepSolution& step) = 0;
 
-  /// Ends a step that is solved: step.felt, and multipliers of its whole force. Notes in `warm`
-  /// what the next step begins with.
+  /// Ends a step that is solved: step.mean_velocity, and multipliers of its whole force. Notes in
+  /// `warm` what the next step begins with.
   virtual void end(const StepInput& in, WarmStart& warm, StepSolution& step) = 0;
 
   /// Where the equations of the step hold, once it has begun.

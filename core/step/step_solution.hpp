@@ -40,16 +40,16 @@ struct StepMiddle {
   /// Length of what qdot and the velocity that placed the middle differ by, rad/s and cm/s: what
   /// passes leave, as far as `remaining` lets them.
   double off = 0;
-  Eigen::VectorXd moved, felt;  ///< as in Midway, of the last pass, nv
+  Eigen::VectorXd step_velocity, mean_velocity;  ///< as in Midway, of the last pass, nv
 };
 
 struct StepSolution {
-  Eigen::VectorXd qdot;  ///< velocity that meets the rows and by which the step moves, nv
-  Eigen::VectorXd next;  ///< velocity after the step, nv: by Euler's rule, qdot
-  Eigen::VectorXd felt;  ///< that springs, damping and drag act on, nv: qdot; midpoint: the mean
-                         ///< of the velocities before and after
-  Matrix6Xd felt_twist;  ///< of the bodies at it, 6 x N
-  Eigen::Matrix3Xd felt_centre_velocity;  ///< of their centres at it, 3 x N, cm/s
+  Eigen::VectorXd qdot;           ///< velocity that meets the rows and by which the step moves, nv
+  Eigen::VectorXd next;           ///< velocity after the step, nv: by Euler's rule, qdot
+  Eigen::VectorXd mean_velocity;  ///< that springs, damping and drag act on, nv: qdot; midpoint:
+                                  ///< the mean of the velocities before and after
+  Matrix6Xd mean_twist;           ///< of the bodies at it, 6 x N
+  Eigen::Matrix3Xd mean_centre_velocity;  ///< of their centres at it, 3 x N, cm/s
   Matrix6Xd twist;                        ///< of the bodies at it, 6 x N
   Eigen::Matrix3Xd centre_velocity;       ///< of the bodies' centres at it, 3 x N, cm/s
   BodyVelocities bodies() const { return {twist, centre_velocity}; }  ///< at qdot

@@ -186,7 +186,7 @@ void ForceAudit::see_limits(const AuditedFrame& frame) {
     const Hinge& hinge = model.hinges[k - root_dofs];
     const double angle = frame.state.q[k + 1];
     const double gap = force[k] > 0 ? angle - hinge.lower : hinge.upper - angle;
-    const double speed = (force[k] > 0 ? 1 : -1) * frame.qdot_moved[k];
+    const double speed = (force[k] > 0 ? 1 : -1) * frame.qdot_step[k];
     const double wanted = gap >= 0 ? -gap / h : -scene.constraints.baumgarte * gap / h;
     limit_miss_ = worse(limit_miss_, std::abs(speed - wanted) * h);
   }
@@ -203,7 +203,7 @@ void ForceAudit::see_cone(const AuditedFrame& frame, const BendingCone& cone,
   const double h = log_.resolved.scene.time.step;
   const double left =
       (1 - log_.resolved.scene.constraints.baumgarte) * past_cone(cone, frame.state.q);
-  const Bend end = bend_of(advance(frame.state.q, frame.qdot_moved, h));
+  const Bend end = bend_of(advance(frame.state.q, frame.qdot_step, h));
   cone_miss_ = worse(cone_miss_, std::abs(end.angle - cone.limit - left));
   // Every tangent that a step takes pushes back the way the joint bends.
   const double along = -force.dot(end.slope) / (force.norm() * end.slope.norm());
@@ -229,14 +229,15 @@ void ForceAudit::see_tip(const AuditedFrame& frame) {
     tip = script_force(scene.script, log_.time[frame.index], scene.time, kin.centre.col(last),
                        kin.centre_velocity.col(last));
   }
-  const Eigen::Vector3d felt = frame.felt_velocity.col(last);
-  from_rows_.compare("/forces/tip", tip_.row(frame.index).transpose(), tip.value - tip.rate * felt);
+  const Eigen::Vector3d velocity = frame.mean_centre_velocity.col(last);
+  from_rows_.compare("/forces/tip", tip_.row(frame.index).transpose(),
+                     tip.value - tip.rate * velocity);
 }
 
 void ForceAudit::see_balance(const AuditedFrame& frame) {
   const Eigen::Index f = frame.index;
   const Model& model = log_.model;
-  // H times what is felt, which by the midpoint rule is half of the way to the next velocity.
+  // H times the mean velocity, which by the midpoint rule is half of the way to the next velocity.
   const TimeSettings& time = log_.resolved.scene.time;
   const double reach = time.reach();
   StepSystem system;
@@ -246,7 +247,7 @@ void ForceAudit::see_balance(const AuditedFrame& frame) {
   const Eigen::VectorXd given =
       generalised_force(model, frame.kin, system.wrench) + system.joint + reach * sum;
   if (log_.midpoint()) {
-    const Eigen::VectorXd off = frame.qdot_moved - frame.midway.moved;
+    const Eigen::VectorXd off = frame.qdot_step - frame.midway.step_velocity;
     const std::size_t step = steps_.at(f);
     const double left = remaining_[step] * off.lpNorm<Eigen::Infinity>();
     unsettled_ += left <= time.settled ? 0 : 1;
@@ -254,7 +255,7 @@ void ForceAudit::see_balance(const AuditedFrame& frame) {
   }
   imbalance_ = worse(
       imbalance_,
-      mismatch(given, multiply(model, frame.kin, system.op, frame.qdot_felt), reach * largest));
+      mismatch(given, multiply(model, frame.kin, system.op, frame.qdot_mean), reach * largest));
   momentum_before_ = momentum_;
   momentum_ = given.lpNorm<Eigen::Infinity>() / time.step;
 }

@@ -70,17 +70,17 @@ void ForwardInverseAudit::see(const AuditedFrame& frame) {
   auto& [log, mirror, kinds, tip, largest_error] = *driven_;
   const Eigen::Index f = frame.index;
   State from = frame.state;
-  Eigen::VectorXd force = drag_force(log.model, frame.kin, frame.qdot_felt);
+  Eigen::VectorXd force = drag_force(log.model, frame.kin, frame.qdot_mean);
   for (const Hdf5Reader::Rows& kind : kinds) force += kind.row(f);
   if (log.midpoint()) {
-    from = {frame.midway.q, frame.midway.moved};
+    from = {frame.midway.q, frame.midway.step_velocity};
     const TimeSettings& time = log.resolved.scene.time;
     force +=
         midway_force(log.model, frame.state, frame.midway, time.reach(), mirror) +
-        ring_damping_force(log.model, time.spring_damping(), frame.state.qdot, frame.qdot_felt);
+        ring_damping_force(log.model, time.spring_damping(), frame.state.qdot, frame.qdot_mean);
   }
   const Eigen::VectorXd driven = driven_velocity(log.model, from, force, tip.row(f), mirror);
-  const Eigen::VectorXd& wanted = frame.qdot_felt;
+  const Eigen::VectorXd& wanted = frame.qdot_mean;
   const double off =
       (driven - wanted).allFinite() ? (driven - wanted).lpNorm<Eigen::Infinity>() : INFINITY;
   if (off == 0) return;

@@ -48,7 +48,7 @@ void MuscleAudit::see_torque(const AuditedFrame& frame) {
   if (!torque.head<root_dofs>().isZero(0)) on_root_.insert("/forces/active");
   Eigen::VectorXd wanted = Eigen::VectorXd::Zero(log_.model.nv());
   const auto add = [&](const ActiveTorque& asked) {
-    wanted += asked.value - asked.rate.cwiseProduct(frame.qdot_felt);
+    wanted += asked.value - asked.rate.cwiseProduct(frame.qdot_mean);
   };
   if (has_rest_shape(frame)) {
     add(active_torque(log_.model, scene, frame.state, q_ref_.row(f).transpose()));

@@ -103,7 +103,7 @@ ThigmotaxisAudit::Rows ThigmotaxisAudit::see(const AuditedFrame& frame, Rebuilt&
     const Row row = eq6_row(model, frame.kin, frame.segments, contact, r.along == 0,
                             r.sense > 0 ? BodyEnd::head : BodyEnd::tail, scene.controller.eq6_at);
     const double speed =
-        row_velocity(row, {frame.moved_twist, frame.moved_velocity}, frame.qdot_moved);
+        row_velocity(row, {frame.step_twist, frame.step_centre_velocity}, frame.qdot_step);
     rebuilt.compare(group + "speed", r.speed, speed);
     // A row below its cap is met, with a force exactly.
     if (r.lambda < 0) {

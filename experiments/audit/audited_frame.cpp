@@ -7,8 +7,8 @@ Midway midway_of(const LogContents& log, const State& state, const Kinematics& k
                  Eigen::Index frame) {
   Midway midway;
   if (log.midpoint()) {
-    midway.moved = log.middle_moved.row(frame);
-    midway.felt = log.middle_felt.row(frame);
+    midway.step_velocity = log.middle_step_velocity.row(frame);
+    midway.mean_velocity = log.middle_mean_velocity.row(frame);
     place_midway(log.model, state, kin, log.resolved.scene.time.step, log.balanced(frame), midway);
   }
   return midway;
@@ -34,11 +34,11 @@ AuditedFrame::AuditedFrame(const LogContents& log, Eigen::Index frame)
       segments(log.midpoint() ? midway.segments : observation.segments),
       motion(log.midpoint() ? midway.motion() : motion_of(kin)),
       qdot_next(log.qdot_next.row(frame)),
-      qdot_moved(log.midpoint() ? Eigen::VectorXd(log.qdot_moved.row(frame)) : qdot_next),
-      qdot_felt(log.midpoint() ? Eigen::VectorXd(0.5 * (state.qdot + qdot_next)) : qdot_next),
-      moved_twist(body_twists(log.model, kin, qdot_moved)),
-      felt_twist(body_twists(log.model, kin, qdot_felt)),
-      moved_velocity(centre_velocities(kin, moved_twist)),
-      felt_velocity(centre_velocities(kin, felt_twist)) {}
+      qdot_step(log.midpoint() ? Eigen::VectorXd(log.qdot_step.row(frame)) : qdot_next),
+      qdot_mean(log.midpoint() ? Eigen::VectorXd(0.5 * (state.qdot + qdot_next)) : qdot_next),
+      step_twist(body_twists(log.model, kin, qdot_step)),
+      mean_twist(body_twists(log.model, kin, qdot_mean)),
+      step_centre_velocity(centre_velocities(kin, step_twist)),
+      mean_centre_velocity(centre_velocities(kin, mean_twist)) {}
 
 }  // namespace hagfish

@@ -33,15 +33,15 @@ struct AuditedFrame {
   Observation observation;  ///< observed again from the logged state
 
   // The step that begins at the frame.
-  Midway midway;                                   ///< by the midpoint rule
-  const Kinematics& kin;                           ///< of the place where its equations hold
-  const std::vector<SplineSegment>& segments;      ///< there
-  StepMotion motion;                               ///< there
-  Eigen::VectorXd qdot_next;                       ///< after it
-  Eigen::VectorXd qdot_moved;                      ///< by which it moves
-  Eigen::VectorXd qdot_felt;                       ///< that springs, damping and drag act on
-  Matrix6Xd moved_twist, felt_twist;               ///< of the bodies at these, 6 x N
-  Eigen::Matrix3Xd moved_velocity, felt_velocity;  ///< of their centres, 3 x N, cm/s
+  Midway midway;                               ///< by the midpoint rule
+  const Kinematics& kin;                       ///< of the place where its equations hold
+  const std::vector<SplineSegment>& segments;  ///< there
+  StepMotion motion;                           ///< there
+  Eigen::VectorXd qdot_next;                   ///< after it
+  Eigen::VectorXd qdot_step;                   ///< by which it moves
+  Eigen::VectorXd qdot_mean;                   ///< that springs, damping and drag act on
+  Matrix6Xd step_twist, mean_twist;            ///< of the bodies at these, 6 x N
+  Eigen::Matrix3Xd step_centre_velocity, mean_centre_velocity;  ///< of their centres, 3 x N, cm/s
 };
 
 /// Whether a logged spline parameter lies on the animal.

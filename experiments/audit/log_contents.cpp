@@ -31,9 +31,9 @@ LogContents::LogContents(const std::string& file, LogLevel least) : h5(file) {
     qdot_next = h5.rows("/trajectory/qdot_next");
   }
   if (level == LogLevel::full && midpoint()) {
-    middle_moved = h5.rows("/midway/moved");
-    middle_felt = h5.rows("/midway/felt");
-    qdot_moved = h5.rows("/midway/qdot");
+    middle_step_velocity = h5.rows("/midway/moved");
+    middle_mean_velocity = h5.rows("/midway/felt");
+    qdot_step = h5.rows("/midway/qdot");
     passes = h5.integers("/steps/passes");
   }
   if (own_law()) clamp_head = h5.integers("/control/clamp_head");

@@ -27,7 +27,7 @@ struct LogContents {
   Hdf5Reader::Rows q, qdot, qdot_next;
   /// /midway, frames x nv each; empty of logs by Euler's rule, where they would be qdot and
   /// qdot_next.
-  Hdf5Reader::Rows middle_moved, middle_felt, qdot_moved;
+  Hdf5Reader::Rows middle_step_velocity, middle_mean_velocity, qdot_step;
   std::vector<std::int64_t> passes;      ///< of each step, as StepSolution::passes; or empty
   std::vector<std::int64_t> clamp_head;  ///< by a law of the run's own, 1 or 0; else empty
   bool own_law() const { return resolved.scene.controller.law == hagfish::own_law; }

@@ -38,7 +38,7 @@ inline std::vector<Row> contact_rows(const Model& model, const ContactSet& conta
                                      const ConstraintSettings& settings, double h) {
   std::vector<Row> rows;
   const AllRows all(model);
-  for (const auto* list : {&contacts.contacts, &contacts.on_obstacles, &contacts.others}) {
+  for (const auto* list : {&contacts.contacts, &contacts.on_obstacles, &contacts.near_pairs}) {
     for (const Contact& contact : *list) {
       append_contact_row(model, contact, nullptr, settings, h, all.wanted, rows);
     }

@@ -42,7 +42,7 @@ class Comparison {
   void compare(const StepRecord& r, const StepRecord& image) {
     motion(r, image);
     solution(r.solution, image.solution);
-    for (auto list : {&ContactSet::contacts, &ContactSet::others}) {
+    for (auto list : {&ContactSet::contacts, &ContactSet::near_pairs}) {
       contacts(r.moment.observation.contact.*list, image.moment.observation.contact.*list);
     }
     controller(r.controller, image.controller);

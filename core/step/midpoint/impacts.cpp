@@ -32,31 +32,31 @@ class Impacts {
 
  private:
   bool find();
-  void solve_hit();
-  void bound_hit();
+  void solve_impacts();
+  void bound_impacts();
   void respond(const ArticulatedFactor& factor);
-  bool release_held();
+  bool release_pulling_limits();
   double coupling(Eigen::Index i, std::size_t row) const;
 
   const StepInput& in_;
   const StepPlace& place_;
   const RowProblem& problem_;
   StepSolution& step_;
-  std::vector<std::size_t> held_;          ///< prescribed rows that push, and
-  std::vector<PrescribedVelocity> jumps_;  ///< what their velocities change by
-  std::vector<std::size_t> full_;          ///< rows at their upper bound
-  std::vector<std::size_t> hit_;           ///< other rows with an impact
-  std::vector<double> hit_b_, hit_x_;      ///< Eq. 4 of those, and its answer
-  Matrix6Xd wrench_;                       ///< of all impacts but those of held rows
+  std::vector<std::size_t> prescribed_rows_;  ///< prescribed rows that push, and
+  std::vector<PrescribedVelocity> jumps_;     ///< what their velocities change by
+  std::vector<std::size_t> saturated_rows_;   ///< rows at their upper bound
+  std::vector<std::size_t> impact_rows_;      ///< other rows with an impact
+  std::vector<double> impact_b_, impact_x_;   ///< Eq. 4 of those, and its answer
+  Matrix6Xd wrench_;                          ///< of all impacts but those of prescribed rows
   Eigen::VectorXd joint_;
   Eigen::VectorXd change_, reaction_;
   Matrix6Xd twist_;  ///< of the bodies at `change_`, 6 x N
 };
 
 /// Rows that push: a force that begins or stays stops what comes, so that the step ends with the
-/// velocities that they ask for. Prescribed ones go into held_ and jumps_, the others into
-/// hit_, with what their velocities change by. What a row at its upper bound has acts at
-/// once: full_. False where no velocity changes.
+/// velocities that they ask for. Prescribed ones go into prescribed_rows_ and jumps_, the others
+/// into impact_rows_, with what their velocities change by. What a row at its upper bound has acts
+/// at once: saturated_rows_. False where no velocity changes.
 bool Impacts::find() {
   bool any = false;
   for (std::size_t i = 0; i < step_.rows.size(); ++i) {
@@ -65,98 +65,98 @@ bool Impacts::find() {
     row.impact = 0;
     if (lambda >= row.upper) {
       row.impact = lambda;
-      full_.push_back(i);
+      saturated_rows_.push_back(i);
       any = true;
     }
     if (!row.prescribed && !pushes(row, lambda)) continue;
     const double change = row.rhs - row_velocity(row, place_.motion.before(), in_.state.qdot);
     any = any || change != 0;
     if (row.prescribed) {
-      held_.push_back(i);
+      prescribed_rows_.push_back(i);
       jumps_.push_back({row.dof, row.sign * change});
     } else {
-      hit_.push_back(i);
-      hit_b_.push_back(change);
+      impact_rows_.push_back(i);
+      impact_b_.push_back(change);
     }
   }
   return any;
 }
 
-/// Solves A_hit μ = hit_b_, of the same A as Eq. 4, into hit_x_.
-void Impacts::solve_hit() {
-  const auto m = static_cast<Eigen::Index>(hit_.size());
+/// Solves A_impact μ = impact_b_, of the same A as Eq. 4, into impact_x_.
+void Impacts::solve_impacts() {
+  const auto m = static_cast<Eigen::Index>(impact_rows_.size());
   Eigen::MatrixXd A(m, m);
   for (Eigen::Index j = 0; j < m; ++j) {
-    for (Eigen::Index i = j; i < m; ++i) A(i, j) = coupling(i, hit_[j]);
+    for (Eigen::Index i = j; i < m; ++i) A(i, j) = coupling(i, impact_rows_[j]);
   }
   A.diagonal().array() += least_pivot * A.diagonal().maxCoeff();
   const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(A);
-  hit_x_ = hit_b_;
-  Eigen::Map<Eigen::VectorXd> x(hit_x_.data(), m);
+  impact_x_ = impact_b_;
+  Eigen::Map<Eigen::VectorXd> x(impact_x_.data(), m);
   factor.solveInPlace(x);
 }
 
-/// A of the rows hit_[i] and `row`.
+/// A of the rows impact_rows_[i] and `row`.
 double Impacts::coupling(Eigen::Index i, std::size_t row) const {
   const auto first = static_cast<std::size_t>(step_.prescribed);
-  return problem_.qp.A(static_cast<Eigen::Index>(hit_[i] - first),
+  return problem_.qp.A(static_cast<Eigen::Index>(impact_rows_[i] - first),
                        static_cast<Eigen::Index>(row - first));
 }
 
-/// Impacts of the rows hit_. Those that would have a force that they may not have keep the
+/// Impacts of the rows impact_rows_. Those that would have a force that they may not have keep the
 /// bound, and the others are solved again. Adds all to wrench_ and joint_.
-void Impacts::bound_hit() {
-  for (bool again = true; again && !hit_.empty();) {
+void Impacts::bound_impacts() {
+  for (bool again = true; again && !impact_rows_.empty();) {
     again = false;
-    solve_hit();
-    for (std::size_t k = hit_.size(); k-- > 0;) {
-      const std::size_t i = hit_[k];
+    solve_impacts();
+    for (std::size_t k = impact_rows_.size(); k-- > 0;) {
+      const std::size_t i = impact_rows_[k];
       Row& row = step_.rows[i];
       const double lambda = 2 * step_.lambda[static_cast<Eigen::Index>(i)];
-      row.impact = std::clamp(hit_x_[k], lambda - row.upper, lambda - row.lower);
-      if (row.impact == hit_x_[k]) continue;
+      row.impact = std::clamp(impact_x_[k], lambda - row.upper, lambda - row.lower);
+      if (row.impact == impact_x_[k]) continue;
       again = true;
-      hit_.erase(hit_.begin() + static_cast<std::ptrdiff_t>(k));
-      hit_x_.erase(hit_x_.begin() + static_cast<std::ptrdiff_t>(k));
-      hit_b_.erase(hit_b_.begin() + static_cast<std::ptrdiff_t>(k));
-      for (std::size_t j = 0; j < hit_.size(); ++j) {
-        hit_b_[j] -= coupling(static_cast<Eigen::Index>(j), i) * row.impact;
+      impact_rows_.erase(impact_rows_.begin() + static_cast<std::ptrdiff_t>(k));
+      impact_x_.erase(impact_x_.begin() + static_cast<std::ptrdiff_t>(k));
+      impact_b_.erase(impact_b_.begin() + static_cast<std::ptrdiff_t>(k));
+      for (std::size_t j = 0; j < impact_rows_.size(); ++j) {
+        impact_b_[j] -= coupling(static_cast<Eigen::Index>(j), i) * row.impact;
       }
       add_row(row, place_.kin, row.impact, wrench_, joint_);
     }
   }
-  for (const std::size_t i : hit_) {
+  for (const std::size_t i : impact_rows_) {
     add_row(step_.rows[i], place_.kin, step_.rows[i].impact, wrench_, joint_);
   }
 }
 
-/// What the velocity changes by in the impacts of the rows hit_ and the jumps of the held
-/// ones, and the impacts of those.
+/// What the velocity changes by in the impacts of the rows impact_rows_ and the jumps of the
+/// prescribed ones, and the impacts of those.
 void Impacts::respond(const ArticulatedFactor& factor) {
   factor.solve(in_.model, place_.kin, wrench_, joint_, jumps_, change_, twist_, reaction_);
-  for (std::size_t k = 0; k < held_.size(); ++k) {
-    Row& row = step_.rows[held_[k]];
+  for (std::size_t k = 0; k < prescribed_rows_.size(); ++k) {
+    Row& row = step_.rows[prescribed_rows_[k]];
     row.impact = row.sign * reaction_[static_cast<Eigen::Index>(k)];
   }
 }
 
-/// Held limits that would pull over the whole step are let go, with no force; whether there were
-/// any.
-bool Impacts::release_held() {
+/// Prescribed limits that would pull over the whole step are let go, with no force; whether there
+/// were any.
+bool Impacts::release_pulling_limits() {
   std::size_t left = 0;
-  for (std::size_t k = 0; k < held_.size(); ++k) {
-    Row& row = step_.rows[held_[k]];
-    const double lambda = 2 * step_.lambda[static_cast<Eigen::Index>(held_[k])];
+  for (std::size_t k = 0; k < prescribed_rows_.size(); ++k) {
+    Row& row = step_.rows[prescribed_rows_[k]];
+    const double lambda = 2 * step_.lambda[static_cast<Eigen::Index>(prescribed_rows_[k])];
     if (lambda - row.impact < row.lower) {
       row.impact = lambda - row.lower;
       add_row(row, place_.kin, row.impact, wrench_, joint_);
     } else {
-      held_[left] = held_[k];
+      prescribed_rows_[left] = prescribed_rows_[k];
       jumps_[left++] = jumps_[k];
     }
   }
-  const bool any = left < held_.size();
-  held_.resize(left);
+  const bool any = left < prescribed_rows_.size();
+  prescribed_rows_.resize(left);
   jumps_.resize(left);
   return any;
 }
@@ -165,24 +165,25 @@ const Eigen::VectorXd& Impacts::change() {
   if (!find()) return change_;
   wrench_.setZero(6, in_.model.body_count());
   joint_.setZero(in_.model.nv());
-  for (const std::size_t i : full_) {
+  for (const std::size_t i : saturated_rows_) {
     add_row(step_.rows[i], place_.kin, step_.rows[i].impact, wrench_, joint_);
   }
-  if (!hit_.empty()) {
-    if (!full_.empty() || std::ranges::any_of(jumps_, [](const auto& jump) {
+  if (!impact_rows_.empty()) {
+    if (!saturated_rows_.empty() || std::ranges::any_of(jumps_, [](const auto& jump) {
           return std::abs(jump.value) > least_jump;
         })) {
       respond(problem_.factor);
       const Eigen::Matrix3Xd centre_velocity = centre_velocities(place_.kin, twist_);
-      for (std::size_t k = 0; k < hit_.size(); ++k) {
-        hit_b_[k] -= row_velocity(step_.rows[hit_[k]], {twist_, centre_velocity}, change_);
+      for (std::size_t k = 0; k < impact_rows_.size(); ++k) {
+        impact_b_[k] -=
+            row_velocity(step_.rows[impact_rows_[k]], {twist_, centre_velocity}, change_);
       }
     }
-    bound_hit();
+    bound_impacts();
   }
   respond(problem_.factor);
   ArticulatedFactor free_factor;  // with limits that would pull let go
-  while (release_held()) {
+  while (release_pulling_limits()) {
     free_factor.factorise(in_.model, place_.kin, step_.system.op, jumps_);
     respond(free_factor);
   }

@@ -26,7 +26,7 @@ void keep_pass(const StepSolution& step, WarmStart& warm) {
 }  // namespace
 
 StepPlace MidpointRule::place(const StepInput& /*in*/) const {
-  return {midway_.kin, midway_.motion(), midway_.moved, &midway_.segments};
+  return {midway_.kin, midway_.motion(), midway_.step_velocity, &midway_.segments};
 }
 
 Status MidpointRule::begin(const StepInput& in, Rounds& rounds, WarmStart& warm,
@@ -63,7 +63,7 @@ Status MidpointRule::settle(const StepInput& in, Rounds& rounds, WarmStart& warm
   // Passes that do not settle may run away, so far that one fails: the step is taken as from its
   // own first velocity.
   if (!status.ok()) step.middle.unsettled = unlimited;
-  midway_.moved = midway_.felt = in.state.qdot;
+  midway_.step_velocity = midway_.mean_velocity = in.state.qdot;
   place_midway(in.model, in.state, in.observation.kin, in.scene.time.step, false, midway_);
   step.middle.remaining = 1;
   return solve_here(in, rounds, warm, step);
@@ -76,8 +76,8 @@ Status MidpointRule::find_middle(const StepInput& in, bool balanced, Rounds& rou
   const TimeSettings& time = in.scene.time;
   const Eigen::Index nv = in.model.nv();
   StepMiddle& middle = step.middle;
-  midway_.moved = first_guess_.head(nv);
-  midway_.felt = first_guess_.tail(nv);
+  midway_.step_velocity = first_guess_.head(nv);
+  midway_.mean_velocity = first_guess_.tail(nv);
   middle.passes = balanced ? 0 : time.passes;
   middle.unsettled = 0;
   middle.remaining = guessed_remaining(warm.remaining);
@@ -91,7 +91,7 @@ Status MidpointRule::find_middle(const StepInput& in, bool balanced, Rounds& rou
     if (Status status = solve_here(in, rounds, warm, step); !status.ok()) {
       return status;
     }
-    const double off = (step.qdot - midway_.moved).lpNorm<Eigen::Infinity>();
+    const double off = (step.qdot - midway_.step_velocity).lpNorm<Eigen::Infinity>();
     if (pass > 1) {
       // Changes fall by a share θ each: what is left is off (θ + θ² + ...) = off θ / (1 - θ).
       middle.remaining = off < before ? std::max(off / (before - off), least_remaining) : unlimited;
@@ -105,11 +105,11 @@ Status MidpointRule::find_middle(const StepInput& in, bool balanced, Rounds& rou
       return {};
     }
     keep_pass(step, warm);
-    placed_by_ << midway_.moved, midway_.felt;
+    placed_by_ << midway_.step_velocity, midway_.mean_velocity;
     led_to_ << step.qdot, 0.5 * (in.state.qdot + step.next);
     passes_.mix(placed_by_, led_to_, mixed_);
-    midway_.moved = mixed_.head(nv);
-    midway_.felt = mixed_.tail(nv);
+    midway_.step_velocity = mixed_.head(nv);
+    midway_.mean_velocity = mixed_.tail(nv);
   }
 }
 
@@ -128,7 +128,7 @@ Status MidpointRule::resume(const StepInput& in, Rounds& rounds, WarmStart& warm
     status = set_next_velocity(in, place(in), rounds.problem(), step, half_change_);
   }
   if (!status.ok() ||
-      (step.qdot - midway_.moved).lpNorm<Eigen::Infinity>() <= in.scene.time.settled) {
+      (step.qdot - midway_.step_velocity).lpNorm<Eigen::Infinity>() <= in.scene.time.settled) {
     return status;
   }
   keep_pass(step, warm);
@@ -137,9 +137,9 @@ Status MidpointRule::resume(const StepInput& in, Rounds& rounds, WarmStart& warm
 }
 
 void MidpointRule::end(const StepInput& in, WarmStart& warm, StepSolution& step) {
-  step.felt = 0.5 * (in.state.qdot + step.next);
-  body_twists(in.model, midway_.kin, step.felt, step.felt_twist);
-  centre_velocities(midway_.kin, step.felt_twist, step.felt_centre_velocity);
+  step.mean_velocity = 0.5 * (in.state.qdot + step.next);
+  body_twists(in.model, midway_.kin, step.mean_velocity, step.mean_twist);
+  centre_velocities(midway_.kin, step.mean_twist, step.mean_centre_velocity);
   warm.half_before = warm.half_change;
   warm.half_change = half_change_;
   warm.remaining = step.middle.remaining;
@@ -147,9 +147,9 @@ void MidpointRule::end(const StepInput& in, WarmStart& warm, StepSolution& step)
   for (std::size_t i = 0; i < step.rows.size(); ++i) {
     step.lambda[i] = 2 * step.lambda[i] - step.rows[i].impact;
   }
-  step.middle.moved = midway_.moved;
-  step.middle.felt = midway_.felt;
-  step.middle.off = (step.qdot - midway_.moved).norm();
+  step.middle.step_velocity = midway_.step_velocity;
+  step.middle.mean_velocity = midway_.mean_velocity;
+  step.middle.off = (step.qdot - midway_.step_velocity).norm();
 }
 
 }  // namespace hagfish

@@ -29,7 +29,7 @@ class MidpointRule : public StepRule {
 
   Midway midway_;                ///< of the step last begun
   Eigen::VectorXd half_change_;  ///< of the last pass (impacts.hpp), nv
-  // Velocities moved and felt, 2 nv.
+  // Step velocity and mean velocity, 2 nv.
   AndersonMixing passes_;
   Eigen::VectorXd first_guess_, placed_by_, led_to_, mixed_;
 };

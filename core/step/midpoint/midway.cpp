@@ -22,24 +22,24 @@ constexpr double least_turn = 0.01;
 /// (A discrete gradient, body by body: Gonzalez, J. Nonlinear Sci. 6, 1996.)
 void set_bias_power(const Model& model, const State& state, const Kinematics& now, double h,
                     Midway& midway) {
-  advance(state.q, midway.moved, h, midway.next.q);
-  midway.next.qdot = 2 * midway.felt - state.qdot;
+  advance(state.q, midway.step_velocity, h, midway.next.q);
+  midway.next.qdot = 2 * midway.mean_velocity - state.qdot;
   kinetic_energies(model, midway.next, midway.next_energy);
   const int n = model.body_count();
   midway.bias_power.value.resize(n);
   double momentum = 0;  // over the motion, of all bodies
   for (int b = 0; b < n; ++b) {
     const Vector6d old = midway.twist.col(b);
-    const Vector6d felt = midway.felt_twist.col(b);
+    const Vector6d mean = midway.mean_twist.col(b);
     const Eigen::Vector3d velocity =
-        point_velocity(midway.felt_twist.col(b), midway.kin.centre_offset(b));
+        point_velocity(midway.mean_twist.col(b), midway.kin.centre_offset(b));
     const BodyMomentum gained =
         body_momentum(model, midway.kin, b,
-                      {2 * (felt - old).head<3>(), 2 * (velocity - midway.centre_velocity.col(b))});
+                      {2 * (mean - old).head<3>(), 2 * (velocity - midway.centre_velocity.col(b))});
     const double before =
         kinetic_energy(model, now, b, now.twist.col(b), now.centre_velocity.col(b));
     const double after = midway.next_energy[b];
-    midway.bias_power.value[b] = (after - before - gained.times({felt.head<3>(), velocity})) / h;
+    midway.bias_power.value[b] = (after - before - gained.times({mean.head<3>(), velocity})) / h;
     momentum += before + after;
   }
   midway.bias_power.least = least_share * momentum / n;
@@ -49,13 +49,13 @@ void set_bias_power(const Model& model, const State& state, const Kinematics& no
 
 void place_midway(const Model& model, const State& state, const Kinematics& now, double h,
                   bool balanced, Midway& midway) {
-  advance(state.q, midway.moved, h / 2, midway.q);
+  advance(state.q, midway.step_velocity, h / 2, midway.q);
   update_positions(model, midway.q, midway.kin);
-  update_velocities(model, midway.moved, midway.felt, midway.kin);
+  update_velocities(model, midway.step_velocity, midway.mean_velocity, midway.kin);
   update_segments(model, midway.kin.centre, midway.segments);
   body_twists(model, midway.kin, state.qdot, midway.twist);
   centre_velocities(midway.kin, midway.twist, midway.centre_velocity);
-  body_twists(model, midway.kin, midway.felt, midway.felt_twist);
+  body_twists(model, midway.kin, midway.mean_velocity, midway.mean_twist);
   const double fastest = midway.kin.twist.topRows<3>().colwise().squaredNorm().maxCoeff();
   midway.balanced = balanced && h * h * fastest > least_turn * least_turn;
   if (midway.balanced) {

@@ -11,24 +11,25 @@ namespace hagfish {
 
 /// The middle of a step, as far as it is known.
 struct Midway {
-  Eigen::VectorXd moved, felt;          ///< velocities by which the step moves, and on the mean, nv
-  Eigen::VectorXd q;                    ///< where `moved` leads in half a step, nq
-  Kinematics kin;                       ///< at q, of `moved` and `felt`
+  Eigen::VectorXd step_velocity,
+      mean_velocity;                    ///< velocities by which the step moves, and on the mean, nv
+  Eigen::VectorXd q;                    ///< where the step velocity leads in half a step, nq
+  Kinematics kin;                       ///< at q, of both velocities
   std::vector<SplineSegment> segments;  ///< at q
   Matrix6Xd twist;                      ///< of the bodies at the step's first velocity, 6 x N
   Eigen::Matrix3Xd centre_velocity;     ///< of their centres at it, 3 x N, cm/s
-  Matrix6Xd felt_twist;                 ///< at `felt`, 6 x N
+  Matrix6Xd mean_twist;                 ///< at the mean velocity, 6 x N
   BiasPower bias_power;                 ///< where `balanced`
   bool balanced = false;                ///< so that Coriolis forces make no energy
   State next;                           ///< where the whole step leads by the two velocities
   Eigen::VectorXd next_energy;          ///< kinetic energy of each body there, erg, N
 
   StepMotion motion() const {
-    return {twist, centre_velocity, felt_twist, balanced ? &bias_power : nullptr};
+    return {twist, centre_velocity, mean_twist, balanced ? &bias_power : nullptr};
   }
 };
 
-/// Places the middle of a step of `h` (s) from `state` by midway.moved and midway.felt; `now` is of
+/// Places the middle of a step of `h` (s) from `state` by both of its velocities; `now` is of
 /// `state`. The bias is `balanced`, so that Coriolis forces make no energy, or as it comes.
 void place_midway(const Model& model, const State& state, const Kinematics& now, double h,
                   bool balanced, Midway& midway);

@@ -160,15 +160,15 @@ TEST(Dynamics, BiasHasThePowerThatItIsGiven) {
   const Model model = random_chain(random, 12);
   const State state = random_state(random, model);
   const Kinematics kin = kinematics(model, state);
-  const Matrix6Xd felt =
+  const Matrix6Xd mean =
       body_twists(model, kin, state.qdot + random_entries(random, model.nv(), 0.5));
   BiasPower power{random_entries(random, 12, 100), 0};
-  StepMotion motion{kin.twist, kin.centre_velocity, felt};
+  StepMotion motion{kin.twist, kin.centre_velocity, mean};
   const Matrix6Xd plain = bias_wrench(model, kin, motion);
   motion.bias_power = &power;
   const Matrix6Xd given = bias_wrench(model, kin, motion);
   for (int b = 0; b < 12; ++b) {
-    const Vector6d momentum = body_inertia(model, kin, b) * felt.col(b);
+    const Vector6d momentum = body_inertia(model, kin, b) * mean.col(b);
     const Vector6d added = given.col(b) - plain.col(b);
     const double share = added.dot(momentum) / momentum.squaredNorm();
     EXPECT_LT((added - share * momentum).norm(), 1e-12 * added.norm()) << b;

@@ -94,14 +94,14 @@ TEST(ContactSearch, WhatIsNotDueIsClear) {
     take_step(model, scene, sim, record);
     const std::vector<SplineSegment>& segments = sim.now.observation.segments;
     update_candidates(segments, scene.contact, before);
-    std::vector<int> due, one_by_one;
-    find_due(before, due);
+    std::vector<int> pairs, one_by_one;
+    find_pairs_to_evaluate(before, pairs);
     for (int i = 0; i < static_cast<int>(before.pairs.size()); ++i) {
-      if (before.moved_by(i) >= before.clear_until[i]) one_by_one.push_back(i);
+      if (before.displacement_of(i) >= before.clear_until[i]) one_by_one.push_back(i);
     }
-    ASSERT_EQ(due, one_by_one);
+    ASSERT_EQ(pairs, one_by_one);
     for (int i = 0; i < static_cast<int>(before.pairs.size()); ++i) {
-      if (std::ranges::binary_search(due, i)) continue;
+      if (std::ranges::binary_search(pairs, i)) continue;
       const auto& [a, b] = before.pairs[i];
       // Within the margin only pairs beside a minimum are skipped, until they nearly touch.
       const bool beside = before.closest[i] && before.closest[i]->gap <= scene.contact.margin;

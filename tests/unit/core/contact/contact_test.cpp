@@ -57,7 +57,7 @@ TEST(Contact, ASingleBodyHasNone) {
   ContactSet set;
   for (int k = 0; k < 2; ++k) {  // anew, and from its last answer
     find_contacts({}, ContactSettings{}, 0, search, set);
-    EXPECT_TRUE(set.contacts.empty() && set.others.empty());
+    EXPECT_TRUE(set.contacts.empty() && set.near_pairs.empty());
   }
 }
 

@@ -219,12 +219,12 @@ TEST_F(ControlLaws, TheCapacityBoundsTorquesOfLawsWhereTheSceneSaysSo) {
   observation.contact.contacts = {contact(5, 30)};
   ASSERT_TRUE(decide(model, scene, moment, now, named, state, control, own).ok());
   EXPECT_EQ(control.torque.value[9], -80);
-  EXPECT_EQ(control.torque.full, -1);
+  EXPECT_EQ(control.torque.saturated, -1);
   scene.active.bounds_laws = true;
   ASSERT_TRUE(decide(model, scene, moment, now, named, state, control, own).ok());
   EXPECT_EQ(control.torque.value[9], -50);
   EXPECT_EQ(control.torque.rate[9], 0);
-  EXPECT_EQ(control.torque.full, 9);
+  EXPECT_EQ(control.torque.saturated, 9);
   // With what pulls to the rest shape it is no more than that, either.
   ASSERT_GT(control.active.value[11], 10);
   EXPECT_DOUBLE_EQ(control.active.value[11] + control.torque.value[11], 50);

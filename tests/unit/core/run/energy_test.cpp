@@ -42,9 +42,9 @@ struct BookedRun {
     solution.twist = body_twists(model, place.kin, solution.qdot);
     solution.centre_velocity = centre_velocities(place.kin, solution.twist);
     if (scene.time.rule == TimeRule::euler) {
-      solution.next = solution.felt = solution.qdot;
-      solution.felt_twist = solution.twist;
-      solution.felt_centre_velocity = solution.centre_velocity;
+      solution.next = solution.mean_velocity = solution.qdot;
+      solution.mean_twist = solution.twist;
+      solution.mean_centre_velocity = solution.centre_velocity;
     }
     const double h = scene.time.step;
     const State next{advance(state.q, solution.qdot, share * h), solution.next};

@@ -131,7 +131,7 @@ TEST(Guard, TellsOnceWhatMusclesCannotDo) {
   look();
   EXPECT_TRUE(warnings.empty());
   rest[7] = model.hinges[1].lower - 0.3;
-  control.active.full = 8;
+  control.active.saturated = 8;
   look();
   look();
   ASSERT_EQ(warnings.size(), 2u);

@@ -38,9 +38,9 @@ struct MomentumRun {
     const StepPlace place = solver.place(in);
     spoil(solution);
     if (euler) {
-      solution.next = solution.felt = solution.qdot;
-      solution.felt_twist = body_twists(model, place.kin, solution.qdot);
-      solution.felt_centre_velocity = centre_velocities(place.kin, solution.felt_twist);
+      solution.next = solution.mean_velocity = solution.qdot;
+      solution.mean_twist = body_twists(model, place.kin, solution.qdot);
+      solution.mean_centre_velocity = centre_velocities(place.kin, solution.mean_twist);
     }
     const State moved{advance(state.q, solution.qdot, scene.time.step), solution.next};
     Moment next{moved, observe(model, moved, scene)};

@@ -60,7 +60,7 @@ void expect_same(const Simulation& a, const Simulation& b) {
 
   const Candidates& e = a.search.candidates;
   const Candidates& f = b.search.candidates;
-  EXPECT_EQ(e.moved, f.moved);
+  EXPECT_EQ(e.displacement, f.displacement);
   EXPECT_EQ(e.clear_until, f.clear_until);
   EXPECT_EQ(e.first, f.first);
   EXPECT_EQ(e.ends.point, f.ends.point);

@@ -287,7 +287,7 @@ TEST(Midpoint, SettlesWithTheRowsOfItsPath) {
     run.step();
     const StepSolution& step = run.record.solution;
     with_path_rows += step.path_rows.empty() ? 0 : 1;
-    const double off = (step.qdot - step.middle.moved).lpNorm<Eigen::Infinity>();
+    const double off = (step.qdot - step.middle.step_velocity).lpNorm<Eigen::Infinity>();
     EXPECT_LE(std::min(1.0, step.middle.remaining) * off, run.resolved.scene.time.settled) << i;
     EXPECT_EQ(step.middle.unsettled, 0) << i;
   }

@@ -166,7 +166,7 @@ TEST(Rows, OnlyThoseNearBindingAreAppended) {
        {std::pair(-10.0, -unbounded), {0.1, -unbounded}, {10, 0.1}}) {
     const NearBinding wanted{t.state.qdot, velocity, slack, at_rest};
     std::vector<Row> rows;
-    for (const auto* contacts : {&t.set.contacts, &t.set.others}) {
+    for (const auto* contacts : {&t.set.contacts, &t.set.near_pairs}) {
       for (const Contact& contact : *contacts) {
         append_contact_row(t.model, contact, nullptr, speculative, h, wanted, rows);
       }
