@@ -1,5 +1,6 @@
 #include "solvers/active_set.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
@@ -8,8 +9,7 @@ namespace hagfish {
 namespace {
 
 /// Largest kkt_residuals of a point that is called solved, as for Ipopt: far above rounding, which
-/// is 1e-16 to 1e-12 with the size of x, and above what rows may miss that contradict each other by
-/// rounding.
+/// is 1e-16 to 1e-12 with the size of x. Parallel rows that differ by rounding may miss by more.
 constexpr double accepted = 1e-8;
 
 std::string names(const std::vector<Eigen::Index>& rows) {
@@ -57,7 +57,7 @@ void ActiveSetBoxQp::solve(const BoxQp& qp, const Eigen::VectorXd& start, BoxQpS
     solution.message = names(solution.contradicting);
   } else if (ending == ActiveSetPivoting::Ending::stopped) {
     solution.status = SolveStatus::stopped;
-  } else if (residual <= accepted) {
+  } else if (residual <= std::max(accepted, pivoting_.tolerated())) {
     solution.status = SolveStatus::solved;
   } else {
     solution.status = ending == ActiveSetPivoting::Ending::limit ? SolveStatus::iteration_limit

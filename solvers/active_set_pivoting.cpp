@@ -14,9 +14,10 @@ constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
 /// Of block pivoting: changes without fewer wrong rows before it gives up. Portugal et al. take 10;
 /// single changes follow here, which need no patience.
 constexpr int patience = 3;
-/// Rows that depend on each other with shares t_i (brought to unit diagonal) miss by about 1e-14 of
-/// β Σ |t_i| where they agree; rows that contradict each other miss by more than this.
-constexpr double consistency = 1e-9;
+/// Rows count as parallel where the entries of A, with their rounding, cannot tell: within some
+/// sqrt(8 ε) rad. What such rows ask for may differ by this share of the change of velocity, times
+/// Σ |t_i| with the shares t_i by which they depend on each other.
+constexpr double consistency = 4e-8;
 /// Smaller shares in a dependent row are rounding: the root of the factor's rank threshold, as the
 /// row would depend on the others alone to the square of such a share.
 constexpr double least_share = 1e-6;
@@ -42,14 +43,14 @@ void ActiveSetPivoting::start(const BoxQp& qp) {
   const Eigen::Index m = qp.b.size();
   qp_ = &qp;
   if (memory_.rows() < m || memory_.cols() == 0) {
-    memory_.resize(m, 6);
+    memory_.resize(m, 7);
     for (std::vector<Eigen::Index>* rows : {&moving_, &leaving_, &joining_, &contradicting_}) {
       rows->reserve(m);
     }
   }
   Eigen::Index column = 0;
   for (Eigen::Map<Eigen::VectorXd>* vector :
-       {&scale_, &inverse_scale_, &x_, &w_, &step_, &tolerated_}) {
+       {&scale_, &inverse_scale_, &x_, &w_, &step_, &tolerated_, &unsure_}) {
     new (vector) Eigen::Map<Eigen::VectorXd>(memory_.col(column++).data(), m);
   }
   row_scale(qp.A, scale_);
@@ -59,6 +60,11 @@ void ActiveSetPivoting::start(const BoxQp& qp) {
   joining_.clear();
   contradicting_.clear();
   tolerated_.setZero();
+  if (qp.rounding.size() == m) {
+    unsure_ = qp.rounding.cwiseProduct(inverse_scale_);
+  } else {
+    unsure_.setZero();
+  }
   changes_ = 0;
   factor_.reset(qp.A, inverse_scale_);
 }
@@ -87,10 +93,11 @@ void ActiveSetPivoting::update_gradient() {
 /// +1 or -1 where the sign of w moves row i off the place where it is fixed, else 0.
 int ActiveSetPivoting::push(Eigen::Index i) const {
   const double w = w_[i] * inverse_scale_[i];
-  if (w < -noise_) {
+  const double noise = noise_ + unsure_[i];
+  if (w < -noise) {
     return x_[i] < qp_->upper[i] ? 1 : 0;
   }
-  return w > noise_ && x_[i] > qp_->lower[i] ? -1 : 0;
+  return w > noise && x_[i] > qp_->lower[i] ? -1 : 0;
 }
 
 /// Corrects x of the active rows so that their w vanishes; w is up to date before and after.
@@ -267,15 +274,17 @@ bool ActiveSetPivoting::exchange(Eigen::Index row) {
   moving_ = factor_.rows();
   step_.head(share.size()) = -sign * share;
   double sum = 1;
+  double unsure = unsure_[row];
   for (std::size_t k = 0; k < moving_.size(); ++k) {
     const double part = std::abs(step_[k]) * scale_[moving_[k]] * inverse_scale_[row];
     sum += part;
+    unsure += part * unsure_[moving_[k]];
     if (part <= least_share) {
       step_[k] = 0;
     }
   }
   const double size = std::abs(w_[row]) * inverse_scale_[row];
-  tolerated_[row] = noise_ * sum;
+  tolerated_[row] = noise_ * sum + unsure;
   if (size <= tolerated_[row]) {
     return true;
   }
@@ -283,7 +292,8 @@ bool ActiveSetPivoting::exchange(Eigen::Index row) {
   moving_.push_back(row);
   const Eigen::Index blocking = advance(infinity);
   if (blocking < 0) {
-    tolerated_[row] = consistency * beta_ * sum;
+    const double change = std::sqrt(std::max(x_.dot(w_ + qp_->b), 0.0));
+    tolerated_[row] = consistency * std::max(beta_, change) * sum + unsure;
     if (size <= tolerated_[row]) {
       return true;
     }

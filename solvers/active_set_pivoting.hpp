@@ -52,6 +52,8 @@ class ActiveSetPivoting {
   const Eigen::Map<Eigen::VectorXd>& w() const { return w_; }
   /// row_scale of the problem's A.
   const Eigen::Map<Eigen::VectorXd>& scale() const { return scale_; }
+  /// |ŵ| of kkt_residuals up to which rows that depend on others may be unmet.
+  double tolerated() const { return tolerated_.size() > 0 ? tolerated_.maxCoeff() / beta_ : 0; }
   /// Changes of sides so far, a block counting as one.
   int changes() const { return changes_; }
   /// Ascending. Multipliers t_i with t_i > 0 on rows without an upper bound (any sign on free rows)
@@ -77,6 +79,7 @@ class ActiveSetPivoting {
       w_{nullptr, 0};
   Eigen::Map<Eigen::VectorXd> step_{nullptr, 0};       ///< of the rows in moving_, in their order
   Eigen::Map<Eigen::VectorXd> tolerated_{nullptr, 0};  ///< |ŵ| β up to which a row may go unmet
+  Eigen::Map<Eigen::VectorXd> unsure_{nullptr, 0};     ///< rounding of b, brought to unit diagonal
   double beta_ = 1;                                    ///< size of b, brought to unit diagonal
   double noise_ = 0;                                   ///< rounding of w, brought to unit diagonal
   std::vector<Eigen::Index> moving_, leaving_, joining_, contradicting_;

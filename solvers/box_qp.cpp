@@ -30,7 +30,8 @@ const char* status_name(SolveStatus status) {
 
 void check_box_qp(const BoxQp& qp) {
   const Eigen::Index m = qp.b.size();
-  if (qp.A.rows() != m || qp.A.cols() != m || qp.lower.size() != m || qp.upper.size() != m) {
+  if (qp.A.rows() != m || qp.A.cols() != m || qp.lower.size() != m || qp.upper.size() != m ||
+      (qp.rounding.size() != m && qp.rounding.size() != 0)) {
     throw std::invalid_argument("box QP: A, b, lower and upper differ in size");
   }
   // 0 * A is not 0 where A is not finite; unlike allFinite, the sum is vectorised.
@@ -44,7 +45,9 @@ void check_box_qp(const BoxQp& qp) {
 
 namespace {
 
-/// Of the largest entry of row_scale(A), its least one.
+/// Of the largest entry of row_scale(A): rows below it cannot move.
+constexpr double immovable_share = 1e-20;
+/// Of the same: the scale of rows that cannot move.
 constexpr double least_share = 1e-10;
 
 }  // namespace
@@ -62,17 +65,29 @@ void row_scale(const Eigen::MatrixXd& A, Eigen::Ref<Eigen::VectorXd> s) {
   s = A.diagonal().cwiseMax(0);  // side by side in memory, so that roots are taken in packets
   s = s.cwiseSqrt();
   const double largest = s.maxCoeff();
-  s = s.cwiseMax(largest > 0 ? least_share * largest : 1.0);
+  const double least = largest > 0 ? least_share * largest : 1.0;
+  s = (s.array() > immovable_share * largest).select(s, least);
 }
 
 double rhs_scale(const BoxQp& qp, const Eigen::Ref<const Eigen::VectorXd>& s) {
-  if (s.size() == 0) {
-    return 1;
+  double beta = 0;
+  for (Eigen::Index i = 0; i < s.size(); ++i) {
+    const double size = std::abs(qp.b[i]);
+    if (size > beta * s[i] && pushes_at_zero(qp, i) && qp.A(i, i) > 0.5 * s[i] * s[i]) {
+      beta = size / s[i];
+    }
   }
-  const double least = least_share * s.maxCoeff();
-  const double beta = (s.array() > least).select(qp.b.array().abs() / s.array(), 0).maxCoeff();
   return beta > 0 ? beta : 1;
 }
+
+namespace {
+
+/// `w` brought nearer to 0 by `rounding`, but not past it.
+double beyond(double w, double rounding) {
+  return rounding == 0 ? w : std::copysign(std::max(std::abs(w) - rounding, 0.0), w);
+}
+
+}  // namespace
 
 KktResiduals kkt_residuals(const BoxQp& qp, const Eigen::Ref<const Eigen::VectorXd>& x) {
   return kkt_residuals(qp, x, qp.A * x - qp.b, row_scale(qp.A));
@@ -84,7 +99,7 @@ KktResiduals kkt_residuals(const BoxQp& qp, const Eigen::Ref<const Eigen::Vector
   const double beta = std::max(rhs_scale(qp, s), least_beta);
   KktResiduals r;
   for (Eigen::Index i = 0; i < x.size(); ++i) {
-    const double wi = w[i] / s[i] / beta;
+    const double wi = beyond(w[i], b_rounding(qp, i)) / s[i] / beta;
     if (!std::isfinite(x[i]) || !std::isfinite(wi)) {
       r.primal = std::numeric_limits<double>::infinity();
       return r;
@@ -95,7 +110,7 @@ KktResiduals kkt_residuals(const BoxQp& qp, const Eigen::Ref<const Eigen::Vector
     if (std::isinf(room)) {
       r.primal = std::max(r.primal, std::abs(wi));
     } else {
-      r.complementarity = std::max(r.complementarity, std::abs(wi) * std::max(room, 0.0));
+      r.complementarity = std::max(r.complementarity, std::abs(wi) * std::clamp(room, 0.0, 1.0));
     }
     r.primal = std::max({r.primal, -above, -below});
   }

@@ -21,19 +21,34 @@ struct BoxQp {
   Eigen::VectorXd b;      ///< m
   Eigen::VectorXd lower;  ///< m, <= 0, -infinity where free
   Eigen::VectorXd upper;  ///< m, >= 0, +infinity where free
+  /// m, or empty where b is exact: b_i is a difference of larger numbers and known to this alone.
+  /// Rows that miss by no more are met.
+  Eigen::VectorXd rounding = {};
 };
 
 /// Throws std::invalid_argument with the cause in one line where sizes differ, A or b is not finite
 /// or a box leaves out 0.
 void check_box_qp(const BoxQp& qp);
 
-/// sqrt(A_ii), m: what brings rows of different units to unit diagonal. At least 1e-10 of the
-/// largest (1 where A = 0), so that rows that cannot move keep a finite scale.
+/// What b_i may be off.
+inline double b_rounding(const BoxQp& qp, Eigen::Index i) {
+  return qp.rounding.size() == 0 ? 0 : qp.rounding[i];
+}
+
+/// Whether b violates row i at x = 0 by more than its rounding, with room to the bound on its side.
+inline bool pushes_at_zero(const BoxQp& qp, Eigen::Index i) {
+  const double b = qp.b[i];
+  return (b > 0 ? qp.upper[i] > 0 : qp.lower[i] < 0) && (b > 0 ? b : -b) > b_rounding(qp, i);
+}
+
+/// sqrt(A_ii), m: what brings rows of different units to unit diagonal. A row below 1e-20 of the
+/// largest cannot move: its scale is 1e-10 of the largest (1 where A = 0).
 Eigen::VectorXd row_scale(const Eigen::MatrixXd& A);
 /// The same into memory of the caller's, `s` (m).
 void row_scale(const Eigen::MatrixXd& A, Eigen::Ref<Eigen::VectorXd> s);
 
-/// β = max |b_i| / s_i over rows that can move (s_i not at its least); 1 where that is 0. `s` is
+/// β = max |b_i| / s_i over rows that can move and that push at x = 0; 1 where there is none. The b
+/// of a row that is met says nothing of the size of x and may be a stand-in for infinity. `s` is
 /// row_scale(A).
 double rhs_scale(const BoxQp& qp, const Eigen::Ref<const Eigen::VectorXd>& s);
 
@@ -56,7 +71,8 @@ struct KktResiduals {
   /// max |ŵ_i| of rows with nothing to push against (w > 0 without a lower bound, w < 0 without an
   /// upper one), and how far any x̂_i lies outside its bounds.
   double primal = 0;
-  /// max of |ŵ_i| times the distance of x̂_i from the finite bound that w pushes it to.
+  /// max of |ŵ_i| times the distance of x̂_i from the finite bound that w pushes it to, which counts
+  /// as 1 where it is more: bounds that are far away are as good as none.
   double complementarity = 0;
   double worst() const { return primal > complementarity ? primal : complementarity; }
 };

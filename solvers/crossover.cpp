@@ -1,7 +1,5 @@
 #include "solvers/crossover.hpp"
 
-#include "solvers/active_set_pivoting.hpp"
-
 namespace hagfish {
 namespace {
 
@@ -15,10 +13,11 @@ double natural_residual(const BoxQp& qp, const Eigen::VectorXd& x) {
   return (x - wish.cwiseMax(qp.lower).cwiseMin(qp.upper)).lpNorm<Eigen::Infinity>();
 }
 
-Eigen::VectorXd crossover(const BoxQp& qp, const Eigen::VectorXd& x) {
-  const Eigen::VectorXd w = qp.A * x - qp.b;
-  ActiveSetPivoting pivoting;
+ActiveSetPivoting::Ending pivot_from(const BoxQp& qp, const Eigen::VectorXd& x,
+                                     ActiveSetPivoting& pivoting) {
   pivoting.start(qp);
+  // Distances and gradients on the scale of unit diagonal.
+  const Eigen::VectorXd w = (qp.A * x - qp.b).cwiseQuotient(pivoting.scale().cwiseAbs2());
   for (Eigen::Index i = 0; i < x.size(); ++i) {
     if (x[i] - qp.lower[i] < w[i]) {
       pivoting.fix(i, qp.lower[i]);
@@ -29,7 +28,12 @@ Eigen::VectorXd crossover(const BoxQp& qp, const Eigen::VectorXd& x) {
       pivoting.activate(i);
     }
   }
-  if (!pivoting.change_blocks() && pivoting.change_singly() != ActiveSetPivoting::Ending::settled) {
+  return pivoting.change_blocks() ? ActiveSetPivoting::Ending::settled : pivoting.change_singly();
+}
+
+Eigen::VectorXd crossover(const BoxQp& qp, const Eigen::VectorXd& x) {
+  ActiveSetPivoting pivoting;
+  if (pivot_from(qp, x, pivoting) != ActiveSetPivoting::Ending::settled) {
     return x;
   }
   const Eigen::VectorXd point = pivoting.x();

@@ -1,6 +1,7 @@
 #include "solvers/free_rows.hpp"
 
 #include <cmath>
+#include <limits>
 
 namespace hagfish {
 namespace {
@@ -11,6 +12,8 @@ constexpr double rank_threshold = 1e-12;
 /// Consistent equations are met to about 1e-15 of the right-hand side; rows that contradict each
 /// other miss by far more than this.
 constexpr double consistency = 1e-9;
+/// Of the terms that make up what is left of b.
+constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
 
 }  // namespace
 
@@ -28,10 +31,14 @@ Eigen::MatrixXd SemidefiniteFactor::solve(const Eigen::MatrixXd& b) const {
   return inverse_scale_.asDiagonal() * factor_.solve(inverse_scale_.asDiagonal() * b);
 }
 
-bool SemidefiniteFactor::meets(const Eigen::VectorXd& x, const Eigen::VectorXd& b) const {
+bool SemidefiniteFactor::meets(const Eigen::VectorXd& x, const Eigen::VectorXd& b,
+                               const Eigen::VectorXd& rounding) const {
   const Eigen::VectorXd right = inverse_scale_.cwiseProduct(b);
+  const Eigen::VectorXd unsure = inverse_scale_.cwiseProduct(rounding);
   const Eigen::VectorXd residual = scaled_ * x.cwiseQuotient(inverse_scale_) - right;
-  return residual.lpNorm<Eigen::Infinity>() <= consistency * right.lpNorm<Eigen::Infinity>();
+  // A row's error is spread over those that depend on it.
+  return residual.lpNorm<Eigen::Infinity>() <=
+         consistency * right.lpNorm<Eigen::Infinity>() + unsure.lpNorm<1>();
 }
 
 BoundedPart::BoundedPart(const BoxQp& qp) : size_(qp.b.size()) {
@@ -42,6 +49,9 @@ BoundedPart::BoundedPart(const BoxQp& qp) : size_(qp.b.size()) {
   }
   Eigen::MatrixXd S = qp.A(bounded, bounded);
   Eigen::VectorXd c = qp.b(bounded);
+  const Eigen::VectorXd unsure =
+      qp.rounding.size() > 0 ? qp.rounding : Eigen::VectorXd(Eigen::VectorXd::Zero(size_));
+  Eigen::VectorXd c_rounding = unsure(bounded);
   Eigen::MatrixXd response(0, c.size());
   if (!free_.empty()) {
     const SemidefiniteFactor factor(qp.A(free_, free_));
@@ -49,9 +59,12 @@ BoundedPart::BoundedPart(const BoxQp& qp) : size_(qp.b.size()) {
     const Eigen::VectorXd b = qp.b(free_);
     free_at_zero_ = factor.solve(b);
     response = -factor.solve(coupling);
-    consistent_ = factor.meets(free_at_zero_, b);
+    consistent_ = factor.meets(free_at_zero_, b, unsure(free_));
     S += coupling.transpose() * response;
     S = (0.5 * (S + S.transpose())).eval();
+    c_rounding +=
+        rounding * (c.cwiseAbs() + coupling.transpose().cwiseAbs() * free_at_zero_.cwiseAbs()) +
+        response.transpose().cwiseAbs() * unsure(free_);
     c -= coupling.transpose() * free_at_zero_;
   }
   const Eigen::VectorXd scale = row_scale(qp.A);
@@ -66,7 +79,7 @@ BoundedPart::BoundedPart(const BoxQp& qp) : size_(qp.b.size()) {
     if (S(k, k) > rank_threshold * scale[i] * scale[i]) {
       inside.push_back(k);
       kept_.push_back(i);
-    } else if (std::abs(c[k]) > consistency * scale[i] * beta) {
+    } else if (std::abs(c[k]) > consistency * scale[i] * beta + c_rounding[k]) {
       // The free rows, or a zero diagonal, fix this row's speed, which is wrong: it pushes all that
       // it may, in vain.
       left_out_[i] = c[k] > 0 ? qp.upper[i] : qp.lower[i];
@@ -79,7 +92,7 @@ BoundedPart::BoundedPart(const BoxQp& qp) : size_(qp.b.size()) {
     }
   }
   free_response_ = response(Eigen::all, inside);
-  reduced_ = {S(inside, inside), c(inside), qp.lower(kept_), qp.upper(kept_)};
+  reduced_ = {S(inside, inside), c(inside), qp.lower(kept_), qp.upper(kept_), c_rounding(inside)};
 }
 
 Eigen::VectorXd BoundedPart::expand(const Eigen::VectorXd& reduced_x) const {

@@ -16,8 +16,10 @@ class SemidefiniteFactor {
   explicit SemidefiniteFactor(const Eigen::MatrixXd& A);
   /// `b` is m x k; a least-squares answer where the columns are not consistent.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const;
-  /// Whether A x = b (m) is met by `x` to rounding; false where rows contradict each other.
-  bool meets(const Eigen::VectorXd& x, const Eigen::VectorXd& b) const;
+  /// Whether A x = b (m) is met by `x` to rounding, of which b may bring some of its own (m); false
+  /// where rows contradict each other.
+  bool meets(const Eigen::VectorXd& x, const Eigen::VectorXd& b,
+             const Eigen::VectorXd& rounding) const;
 
  private:
   Eigen::VectorXd inverse_scale_;

@@ -24,19 +24,28 @@ class ScaledProblem final : public Ipopt::TNLP {
   BoxQp qp;
   Eigen::VectorXd start, start_lower, start_upper;  ///< y and the multipliers of its bounds
   Eigen::VectorXd y;                                ///< Ipopt's last point
+  Eigen::Array<bool, Eigen::Dynamic, 1> far_rhs;    ///< rows of which b̂ is taken for smaller
+  Eigen::Array<bool, Eigen::Dynamic, 1> endless;    ///< rows without an upper bound
   double least_objective = 0;                       ///< below it the solve is stopped
   double regularisation = 0;                        ///< added to the diagonal of Q
   std::function<bool()> stop;                       ///< whether to end the solve
   bool stopped = false;                             ///< it did
 
-  /// Takes over min ½ x' A x - b' x with x = t y, t = β / sqrt(A_ii): unit diagonal and |b̂| <= 1,
-  /// so that Ipopt's tolerances mean what IpoptSettings says. Returns t.
-  Eigen::VectorXd set(const BoxQp& problem, const Eigen::VectorXd& x) {
+  /// Takes over min ½ x' A x - b' x with x = t y, t = β / sqrt(A_ii): unit diagonal and |b̂| <= 1 in
+  /// rows that push at 0, so that Ipopt's tolerances mean what IpoptSettings says. Bounds beyond
+  /// `far` are taken for infinite and |b̂| beyond it for `far`: an answer says whether that was
+  /// right. Returns t.
+  Eigen::VectorXd set(const BoxQp& problem, const Eigen::VectorXd& x, double far) {
     const Eigen::VectorXd s = problem.A.diagonal().cwiseSqrt().cwiseInverse();
-    const double beta = s.cwiseProduct(problem.b).lpNorm<Eigen::Infinity>();
+    const double beta = rhs_scale(problem, s.cwiseInverse());
     const Eigen::VectorXd t = beta * s;
-    qp = {s.asDiagonal() * problem.A * s.asDiagonal(), s.cwiseProduct(problem.b) / beta,
+    qp = {s.asDiagonal() * problem.A * s.asDiagonal(),
+          (s.cwiseProduct(problem.b) / beta).cwiseMax(-far).cwiseMin(far),
           problem.lower.cwiseQuotient(t), problem.upper.cwiseQuotient(t)};
+    far_rhs = qp.b.cwiseAbs().array() >= far;
+    endless = (qp.upper.array() == infinity);
+    qp.lower = (qp.lower.array() < -far).select(-infinity, qp.lower);
+    qp.upper = (qp.upper.array() > far).select(infinity, qp.upper);
     start = x.cwiseQuotient(t).cwiseMax(qp.lower).cwiseMin(qp.upper);
     y = Eigen::VectorXd::Zero(t.size());
     return t;
@@ -115,7 +124,7 @@ class ScaledProblem final : public Ipopt::TNLP {
                              Index /*trials*/, const Ipopt::IpoptData* /*data*/,
                              Ipopt::IpoptCalculatedQuantities* /*quantities*/) override {
     stopped = stop();
-    return objective >= least_objective && !stopped;
+    return (objective >= least_objective || !endless.any()) && !stopped;
   }
 
   void finalize_solution(Ipopt::SolverReturn /*status*/, Index n, const Number* x,
@@ -142,6 +151,9 @@ void centre_start(ScaledProblem& p, const IpoptSettings& settings) {
   p.start_upper.setZero(w.size());
   for (Eigen::Index i = 0; i < w.size(); ++i) {
     const double width = qp.upper[i] - qp.lower[i];
+    if (std::isinf(qp.lower[i]) && std::isinf(qp.upper[i])) {
+      continue;
+    }
     const double above = p.start[i] - qp.lower[i] - w[i];
     const double below = qp.upper[i] - p.start[i] + w[i];
     const double nearer = std::min(above, below);
@@ -157,15 +169,25 @@ void centre_start(ScaledProblem& p, const IpoptSettings& settings) {
   }
 }
 
-/// Whether the objective falls below `least` on the ray of y, as it does where rows contradict each
-/// other. Rounding of y' Q y counts as cost. Only rows without an upper bound can make such a ray.
-bool falls_without_end(const BoxQp& qp, const Eigen::VectorXd& y, double least) {
-  const Eigen::VectorXd ray = (qp.upper.array() == infinity).select(y, 0);
+bool anything_pushes(const BoxQp& qp) {
+  for (Eigen::Index i = 0; i < qp.b.size(); ++i) {
+    if (pushes_at_zero(qp, i)) return true;
+  }
+  return false;
+}
+
+/// Whether the objective falls below the least on the ray of y, as it does where rows contradict
+/// each other. Rounding of y' Q y counts as cost. Only rows without an upper bound can make such a
+/// ray.
+bool falls_without_end(const ScaledProblem& problem, const Eigen::VectorXd& y) {
+  const BoxQp& qp = problem.qp;
+  const Eigen::VectorXd ray = problem.endless.select(y, 0);
   const double length = ray.lpNorm<1>();
   const double cost =
       std::max(ray.dot(qp.A * ray), std::numeric_limits<double>::epsilon() * length * length);
   const double gain = qp.b.dot(ray);
-  return gain > 0 && -gain * gain < 2 * cost * least;  // min over t of ½ t² cost - t gain
+  return gain > 0 &&
+         -gain * gain < 2 * cost * problem.least_objective;  // min over t of ½ t² cost - t gain
 }
 
 }  // namespace
@@ -180,7 +202,11 @@ struct IpoptBoxQp::Engine {
   /// One run of `ipopt` from `start` on the bounded part; sets x, status and message of `solution`
   /// and adds its iterations.
   void attempt(Ipopt::IpoptApplication& ipopt, const BoundedPart& part,
-               const Eigen::VectorXd& start, const BoxQp& qp, BoxQpSolution& solution);
+               const Eigen::VectorXd& start, const BoxQp& qp, double far, BoxQpSolution& solution);
+
+  /// What pivoting makes of the point where Ipopt failed: the rows that contradict each other, or
+  /// the solution, where the answer may be polished.
+  void pivot(const BoxQp& qp, BoxQpSolution& solution);
 };
 
 namespace {
@@ -242,10 +268,11 @@ void IpoptBoxQp::solve(const BoxQp& qp, const Eigen::VectorXd& start, BoxQpSolut
   if (!part.consistent()) {
     solution.x = part.expand(Eigen::VectorXd::Zero(part.reduced().b.size()));
     solution.status = SolveStatus::infeasible;
+    engine_->pivot(qp, solution);
     return;
   }
   const Eigen::VectorXd reduced = Eigen::VectorXd::Zero(part.reduced().b.size());
-  if (part.reduced().b.isZero(0)) {  // then zero is the answer
+  if (!anything_pushes(part.reduced())) {  // then zero is the answer
     solution.x = part.expand(reduced);
     const bool solved = kkt_residuals(qp, solution.x).worst() <= engine_->settings.accepted;
     solution.status = solved ? SolveStatus::solved : SolveStatus::failed;
@@ -253,16 +280,35 @@ void IpoptBoxQp::solve(const BoxQp& qp, const Eigen::VectorXd& start, BoxQpSolut
       solution.message = "no force of the bounded rows, which ask for none, is no solution";
     return;
   }
-  engine_->attempt(*engine_->fast, part, part.restrict_to_reduced(start), qp, solution);
+  engine_->attempt(*engine_->fast, part, part.restrict_to_reduced(start), qp, engine_->settings.far,
+                   solution);
   if (solution.status == SolveStatus::failed || solution.status == SolveStatus::iteration_limit) {
-    engine_->attempt(*engine_->careful, part, reduced, qp, solution);
+    engine_->attempt(*engine_->careful, part, reduced, qp, infinity, solution);
+  }
+  if (solution.status == SolveStatus::failed || solution.status == SolveStatus::infeasible) {
+    engine_->pivot(qp, solution);
+  }
+}
+
+void IpoptBoxQp::Engine::pivot(const BoxQp& qp, BoxQpSolution& solution) {
+  ActiveSetPivoting pivoting([this] { return problem->stop(); });
+  const ActiveSetPivoting::Ending ending = pivot_from(qp, solution.x, pivoting);
+  if (ending == ActiveSetPivoting::Ending::contradiction) {
+    solution.status = SolveStatus::infeasible;
+    solution.contradicting = pivoting.contradicting();
+  } else if (ending == ActiveSetPivoting::Ending::settled && settings.polish &&
+             kkt_residuals(qp, pivoting.x()).worst() <=
+                 std::max(settings.accepted, pivoting.tolerated())) {
+    solution.x = pivoting.x();
+    solution.status = SolveStatus::solved;
+    solution.message.clear();
   }
 }
 
 void IpoptBoxQp::Engine::attempt(Ipopt::IpoptApplication& ipopt, const BoundedPart& part,
-                                 const Eigen::VectorXd& start, const BoxQp& qp,
+                                 const Eigen::VectorXd& start, const BoxQp& qp, double far,
                                  BoxQpSolution& solution) {
-  const Eigen::VectorXd unit = problem->set(part.reduced(), start);
+  const Eigen::VectorXd unit = problem->set(part.reduced(), start, far);
   centre_start(*problem, settings);
   problem->stopped = false;
   const Ipopt::ApplicationReturnStatus code = ipopt.OptimizeTNLP(Ipopt::GetRawPtr(problem));
@@ -270,6 +316,7 @@ void IpoptBoxQp::Engine::attempt(Ipopt::IpoptApplication& ipopt, const BoundedPa
     solution.iterations += ipopt.Statistics()->IterationCount();
   }
   Eigen::VectorXd y = problem->y.cwiseMax(problem->qp.lower).cwiseMin(problem->qp.upper);
+  y = problem->far_rhs.select(0, y);  // else a trace of the barrier stays, times a huge w
   // Only what is solved is polished: failures must show.
   if (settings.polish && code == Ipopt::Solve_Succeeded) {
     y = crossover(problem->qp, y);
@@ -282,7 +329,7 @@ void IpoptBoxQp::Engine::attempt(Ipopt::IpoptApplication& ipopt, const BoundedPa
   } else if (kkt_residuals(qp, solution.x).worst() <= settings.accepted) {
     solution.status = SolveStatus::solved;
     solution.message.clear();
-  } else if (falls_without_end(problem->qp, y, problem->least_objective)) {
+  } else if (falls_without_end(*problem, y)) {
     solution.status = SolveStatus::infeasible;
   } else {
     solution.status = code == Ipopt::Maximum_Iterations_Exceeded ? SolveStatus::iteration_limit

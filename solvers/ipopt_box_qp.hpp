@@ -32,6 +32,9 @@ struct IpoptSettings {
   /// norm, over the change of velocity that the worst row alone needs; 5e7 is a change 1e4 times
   /// that large. Contradictions below 1e-3 of the worst row may come back as another failure.
   double infeasible_objective = 5e7;
+  /// Bounds and right-hand sides beyond this are as good as infinite, until the answer shows that
+  /// they are not.
+  double far = 1e6;
   /// Whether crossover takes Ipopt's point to the vertex next to it. Off, the answer is Ipopt's
   /// own.
   bool polish = true;
@@ -41,7 +44,9 @@ struct IpoptSettings {
 };
 
 /// Free rows are eliminated before (BoundedPart), what Ipopt solved is polished after (crossover),
-/// and a point is called solved by its own residuals, not by Ipopt's word. Reads no option file.
+/// and a point is called solved by its own residuals, not by Ipopt's word. Where Ipopt finds none,
+/// pivoting from its point either does or names the rows that contradict each other. Reads no
+/// option file.
 class IpoptBoxQp final : public BoxQpSolver {
  public:
   explicit IpoptBoxQp(const IpoptSettings& settings = {});

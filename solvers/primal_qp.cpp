@@ -5,6 +5,13 @@
 #include <stdexcept>
 
 namespace hagfish {
+namespace {
+
+/// Of the terms of a right-hand side: those of some hundred velocities, each off by a few of the
+/// last bits.
+constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
+
+}  // namespace
 
 void check_primal_qp(const PrimalQp& qp) {
   const Eigen::Index n = qp.g.size();
@@ -42,7 +49,9 @@ BoxQp dual_of(const PrimalQp& qp) {
   dual.A = half.transpose() * half;
   dual.b.resize(J.rows());
   dual.b << qp.e, qp.d;
-  dual.b -= J * factor.solve(qp.g);
+  const Eigen::VectorXd free_velocity = factor.solve(qp.g);
+  dual.rounding = rounding * (dual.b.cwiseAbs() + J.cwiseAbs() * free_velocity.cwiseAbs());
+  dual.b -= J * free_velocity;
   constexpr double infinity = std::numeric_limits<double>::infinity();
   dual.lower = Eigen::VectorXd::Zero(J.rows());
   dual.lower.head(p).setConstant(-infinity);

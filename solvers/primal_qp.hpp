@@ -26,7 +26,8 @@ void check_primal_qp(const PrimalQp& qp);
 Eigen::MatrixXd all_rows(const PrimalQp& qp);
 
 /// The same problem in its multipliers, rows of G first: A = [G; C] H⁻¹ [G; C]' by a dense Cholesky
-/// factorisation. Throws std::invalid_argument where H is not positive definite.
+/// factorisation, and the rounding of b, which is a difference. Throws std::invalid_argument where
+/// H is not positive definite.
 BoxQp dual_of(const PrimalQp& qp);
 
 }  // namespace hagfish

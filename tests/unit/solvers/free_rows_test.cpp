@@ -48,7 +48,7 @@ TEST(SemidefiniteFactor, MeetsIndependentRows) {
   const KnownQp known = known_qp(random, 20, std::vector<Role>(12, Role::bilateral), 100);
   const SemidefiniteFactor factor(known.dual.A);
   const Eigen::VectorXd x = factor.solve(known.dual.b);
-  EXPECT_TRUE(factor.meets(x, known.dual.b));
+  EXPECT_TRUE(factor.meets(x, known.dual.b, Eigen::VectorXd::Zero(x.size())));
   EXPECT_LE((x - known.x).cwiseQuotient(known.x).lpNorm<Eigen::Infinity>(), 1e3 * rounding)
       << "A has a condition of about 1e3";
 }
@@ -60,7 +60,7 @@ TEST(SemidefiniteFactor, SharesForceBetweenRedundantRows) {
   const SemidefiniteFactor factor(A);
   const Eigen::Vector2d b(1, 10);
   const Eigen::VectorXd x = factor.solve(b);
-  EXPECT_TRUE(factor.meets(x, b));
+  EXPECT_TRUE(factor.meets(x, b, Eigen::VectorXd::Zero(x.size())));
   EXPECT_NEAR(x[0], 0.5, rounding);
   EXPECT_NEAR(x[1], 0.05, rounding);
 }
@@ -77,7 +77,7 @@ TEST(SemidefiniteFactor, TakesRoundingForRedundancy) {
   const SemidefiniteFactor factor(A);
   const Eigen::VectorXd b = combine * known.dual.b;
   const Eigen::VectorXd x = factor.solve(b);
-  EXPECT_TRUE(factor.meets(x, b));
+  EXPECT_TRUE(factor.meets(x, b, Eigen::VectorXd::Zero(x.size())));
   // The least solution has no part along what cannot be told: +1 on each row, -1 on their sum.
   const Eigen::VectorXd scale = row_scale(A);
   Eigen::VectorXd idle = scale;
@@ -90,7 +90,7 @@ TEST(SemidefiniteFactor, TellsContradictoryRows) {
   A << 1, 10, 10, 100;
   const auto contradictory = [](const Eigen::Matrix2d& of, const Eigen::Vector2d& b) {
     const SemidefiniteFactor factor(of);
-    return !factor.meets(factor.solve(b), b);
+    return !factor.meets(factor.solve(b), b, Eigen::Vector2d::Zero());
   };
   EXPECT_TRUE(contradictory(A, {1, 10.001}));
   EXPECT_TRUE(contradictory(Eigen::Matrix2d::Zero(), {0, 1}));
