@@ -91,6 +91,7 @@ struct StepRecord {
   MomentumLedger momentum;  ///< up to `time`
   double head_drift = 0;    ///< cm; 0 while the head is free
   double crossing = 0;      ///< deepest overlap on the way to the next state, cm; 0 of a short way
+  double left_out = 0;      ///< of the step's motion, at its end, where strands meet too fast, s
   /// What this step gave rise to for the first time (guard.hpp).
   std::vector<std::string> warnings;
 };

@@ -129,16 +129,20 @@ double end_where_strands_meet(const Attempt& step) {
   const double stride = in.scene.constraints.stride;
   constexpr int least_samples = 16;
   const double& penetration = record.moment.observation.penetration;
-  const double allowed = std::max(in.observation.penetration, way_tolerance * stride);
-  if (!looks_ahead(in.scene) || std::max(record.crossing, penetration) <= allowed) {
+  const int samples = path_samples(record.solution.centre_velocity, step.h(), stride);
+  const double before = in.observation.penetration;
+  const double allowed = std::max(before, way_tolerance * stride);
+  // What corrections leave at most, and half of what was there before; of a long way, whose rows
+  // ask for too little (add_missed_rows), there may be more.
+  const double left = samples > 1 ? std::max(before, 3 * in.scene.constraints.tolerance) : allowed;
+  if (!looks_ahead(in.scene) || (record.crossing <= allowed && penetration <= left)) {
     return step.h();
   }
-  const int count =
-      std::max(least_samples, path_samples(record.solution.centre_velocity, step.h(), stride));
+  const int count = std::max(least_samples, samples);
   int clear = 0;
   while (clear < count) {
     move(step, step.h() * (clear + 1) / count);
-    if (penetration > allowed) break;
+    if (penetration > left) break;
     ++clear;
   }
   if (clear == count) return step.h();
@@ -225,6 +229,7 @@ void take_step(const Model& model, const Scene& scene, Simulation& sim, StepReco
     decide_control(step);
     solve_along_path(step);
     const double travelled = end_where_strands_meet(step);
+    record.left_out = step.h() - travelled;
     sim.solver.finish(step.in, record.solution);
     note_pull(record.solution, sim.controller);
     watch(step);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numeric>
 #include <optional>
 
 #include "core/log/log_writer.hpp"
@@ -73,6 +74,7 @@ FrameAudit::FrameAudit(const LogContents& log)
       integrator_(sum_of(log, {"inertia", "potential", "coriolis", "held", "given_back"})),
       integrator_error_(log.h5.doubles("/diagnostics/integrator_error")),
       penetration_(log.h5.doubles("/steps/penetration")),
+      left_out_(log.h5.doubles("/steps/left_out")),
       limit_violation_(log.h5.doubles("/steps/limit_violation")),
       head_drift_(log.h5.doubles("/steps/head_drift")),
       position_(log.h5.rows("/trajectory/position")),
@@ -173,8 +175,11 @@ void FrameAudit::see_motion(const AuditedFrame& frame) {
     const Eigen::Vector3d off =
         centre - centre_before_ - 0.5 * elapsed * (left_with_ + arrived_with);
     const double speed = std::max(left_with_.norm(), arrived_with.norm());
+    const double left_out = std::accumulate(left_out_.begin() + steps_.at(frame.index - 1),
+                                            left_out_.begin() + steps_.at(frame.index), 0.0);
     const double allowed = elapsed * std::max(1.0, elapsed / way_interval) *
-                           std::max(way_tolerance, way_share * speed);
+                               std::max(way_tolerance, way_share * speed) +
+                           left_out * speed;
     off_way_ = worse(off_way_, off.norm() / allowed);
   }
   centre_before_ = centre;

@@ -29,7 +29,7 @@ class FrameAudit {
   Steps steps_;
   std::vector<std::int64_t> step_, determinant_, v2_, contacts_;
   std::vector<double> agreement_, head_end_, tail_end_, kinetic_, elastic_, gravity_, integrator_,
-      integrator_error_, penetration_, limit_violation_, head_drift_;
+      integrator_error_, penetration_, left_out_, limit_violation_, head_drift_;
   Hdf5Reader::Rows position_, momentum_, angular_momentum_, spline_a_, spline_b_;
   int last_order_ = 0;
   std::int64_t frames_ = 0, contacts_off_ = 0, contacts_off_by_ = 0, followed_ = 0, late_ = 0;

@@ -13,15 +13,19 @@ constexpr int states = 1000;
 struct Case {
   int bodies;
   Head head;
+  JointLayout joints = JointLayout::alternating;
 };
 
 std::string name_of(const testing::TestParamInfo<Case>& info) {
-  return std::to_string(info.param.bodies) + (info.param.head == Head::free ? "_free" : "_clamped");
+  return std::to_string(info.param.bodies) +
+         (info.param.head == Head::free ? "_free" : "_clamped") +
+         (info.param.joints == JointLayout::universal ? "_universal" : "");
 }
 
 /// The Table 1 animal, its joints damped and in gravity along no axis, so that no term is zero.
-Model damped_hagfish(int bodies) {
+Model damped_hagfish(int bodies, JointLayout joints = JointLayout::alternating) {
   Scene scene = table1_scene(bodies);
+  scene.model.joints = joints;
   scene.model.bending_damping = 17;
   scene.model.twist_damping = 11;
   scene.gravity = {120, -350, -981};
@@ -33,14 +37,15 @@ MujocoModel mirror_of(const Model& model, Head head) {
 }
 
 void PrintTo(const Case& c, std::ostream* out) {
-  *out << c.bodies << " bodies, head " << (c.head == Head::free ? "free" : "clamped");
+  *out << c.bodies << " bodies, head " << (c.head == Head::free ? "free" : "clamped")
+       << (c.joints == JointLayout::universal ? ", universal joints alone" : "");
 }
 
 class MujocoAgreement : public testing::TestWithParam<Case> {};
 
 TEST_P(MujocoAgreement, HoldsInRandomStates) {
-  const auto& [bodies, head] = GetParam();
-  const Model model = damped_hagfish(bodies);
+  const auto& [bodies, head, joints] = GetParam();
+  const Model model = damped_hagfish(bodies, joints);
   MujocoModel mirror = mirror_of(model, head);
   std::mt19937 random(1);
   Agreement largest;
@@ -60,7 +65,11 @@ INSTANTIATE_TEST_SUITE_P(Hagfish, MujocoAgreement,
                                          Case{3, Head::free}, Case{3, Head::clamped},
                                          Case{10, Head::free}, Case{10, Head::clamped},
                                          Case{50, Head::free}, Case{50, Head::clamped},
-                                         Case{100, Head::free}, Case{100, Head::clamped}),
+                                         Case{100, Head::free}, Case{100, Head::clamped},
+                                         Case{3, Head::free, JointLayout::universal},
+                                         Case{40, Head::free, JointLayout::universal},
+                                         Case{40, Head::clamped, JointLayout::universal},
+                                         Case{100, Head::free, JointLayout::universal}),
                          name_of);
 
 // The measure itself: another model must not pass, were it by 1e-8; by 1e-4 for the passive forces,
