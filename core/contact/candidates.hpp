@@ -22,16 +22,16 @@ struct SegmentEnds {
   Eigen::MatrixX3d third;  ///< a third of the slope there, cm
 };
 
-/// The pairs, by index along the lists down to `closest`, and the segments that they are of.
+/// The pairs of segments. `pairs`, `clear_until` and `closest` have an entry for each pair.
 struct Candidates {
   std::vector<SegmentPair> pairs;  ///< sorted
   /// No evaluation is needed until both segments together have moved this far, cm.
   std::vector<double> clear_until;
   std::vector<std::optional<ClosestPoints>> closest;  ///< of the last evaluation
-  std::vector<int> first;  ///< of each segment, where its pairs begin; at the end, their number
+  std::vector<int> first;  ///< index of each segment's first pair; at the end, the number of pairs
   SegmentEnds ends;        ///< of the segments of the last search
   std::vector<double> displacement;  ///< at most, by each segment since the pairs were listed, cm
-  /// Since keep_candidates(): the pairs that were evaluated, or that all changed.
+  /// Pairs that were evaluated since keep_candidates(); or all have changed.
   std::vector<int> changed;
   bool all_changed = true;
 

@@ -49,8 +49,7 @@ Eigen::Vector3d skin_point(const std::vector<SplineSegment>& segments, const Con
 Contact contact_at(const std::vector<SplineSegment>& segments, int segment_a, double t_a,
                    int segment_b, double t_b);
 
-/// What a search knows of a pair, so far: beaten is one beside which another has a smaller
-/// gap.
+/// What a search knows of a pair so far. A pair is beaten where a neighbour has a smaller gap.
 enum class PairState : char { unknown, queued, evaluated, beaten };
 
 /// Storage of one search.
@@ -64,8 +63,8 @@ struct ContactScratch {
 
 /// What a search for contacts keeps for the next one with the same settings. Pairs are skipped as
 /// long as they cannot have moved close enough. A new minimum is found at once where strands touch
-/// or come within the margin, but beside another minimum, with a positive gap, perhaps some steps
-/// late.
+/// or come within the margin. Next to another minimum, and with a positive gap, it may be found
+/// some steps late.
 struct ContactSearch {
   Candidates candidates;
   ContactScratch scratch;

@@ -1,8 +1,8 @@
-// Rows for what a step's own path shows. Contact rows are linear in q̇, the path is not: at a long
-// step strands that the rows kept apart overlap at its end, or pass each other on the way. Such
-// pairs get a row whose right-hand side contains what the linear row misses, and the step is solved
-// again. Cones of universal joints are curved, and a step along their tangent leaves them: one more
-// tangent.
+// Looks along the path of a solved step. Contact rows are linear in q̇, the path is not. In a long
+// step, strands that the rows kept apart may overlap at its end or pass each other on the way. Such
+// a pair gets a row whose right-hand side contains what the linear row misses, and the step is
+// solved again. Cones of universal joints are curved, so that a step along their tangent leaves
+// them: such a joint gets one more tangent.
 #pragma once
 
 #include <vector>
@@ -28,11 +28,11 @@ int path_samples(const Eigen::Matrix3Xd& centre_velocity, double h, double strid
 /// in step.rows between the same material points, with C taken at `place`, where its equations
 /// hold:
 ///     φ_now + h C q̇ + (φ_there - φ_now - t C q̇_step) (h/t)² >= goal,
-/// where the bracket is what the linear row misses at t, of second order, and the goal is 0, or
-/// what the Baumgarte gain leaves of an overlap that was there before; h C q̇ is asked to be
-/// `stride` at most. A contact's first row of these replaces that of the step's start; others come
-/// on top, as strands turn about the points of one row and meet beside it. A plane's row replaces
-/// the one before. Whether there was any.
+/// The bracket is what the linear row misses at t, of second order. The goal is 0, or what the
+/// Baumgarte gain leaves of an overlap that was there before. No row asks for h C q̇ over `stride`.
+/// The first added row of a contact replaces the row of the step's start. Further ones are added to
+/// it: strands turn about the points of one row and may meet elsewhere. A plane's row replaces the
+/// one before. Returns whether any row was added.
 bool add_missed_rows(const StepInput& in, const StepPlace& place, const Observation& there,
                      double t, StepSolution& step);
 
@@ -44,9 +44,8 @@ inline constexpr double bend_tolerance = 5e-6;
 /// The same for the cones of universal joints, with coordinates `there` (nq) at the end of the
 /// step. Each joint bent further past its cone than bend_tolerance and what the Baumgarte gain
 /// leaves of an earlier violation gets one more row: the cone's tangent at the bend of `there`. The
-/// angles within a cone are a convex set, which no tangent cuts: earlier rows stay, the cone is
-/// followed as closely as need be, and a path that ends within it has never left it. Whether there
-/// was any.
+/// angles within a cone are a convex set, and no tangent cuts it. So earlier rows stay, and a path
+/// that ends within the cone has never left it. Returns whether any row was added.
 bool add_missed_bends(const StepInput& in, const Eigen::VectorXd& there, StepSolution& step);
 
 }  // namespace hagfish

@@ -16,16 +16,16 @@
 
 namespace hagfish {
 
-/// Eq. 3 or 4 of a step as its last round had it: how velocities answer to forces, and its rows to
-/// their multipliers.
+/// Eq. 3 or 4 of a step in its last round: how velocities answer to forces, and rows to
+/// multipliers.
 struct RowProblem {
-  ArticulatedFactor factor;                    ///< H⁻¹, with the velocities below prescribed
-  std::vector<PrescribedVelocity> prescribed;  ///< of the rows that are
-  Eigen::VectorXd base;                        ///< q̇ with the reactions of these alone, nv
-  Matrix6Xd base_twist;                        ///< of the bodies at it, 6 x N
-  Eigen::Matrix3Xd base_centre_velocity;       ///< of their centres at it, 3 x N, cm/s
-  RowColumns columns;                          ///< of the other rows, where there are any, and
-  BoxQp qp;                                    ///< Eq. 4 on these: A and b
+  ArticulatedFactor factor;                    ///< H⁻¹, with `prescribed` kept
+  std::vector<PrescribedVelocity> prescribed;  ///< velocities that rows prescribe
+  Eigen::VectorXd base;                        ///< q̇ with the prescribed rows alone, nv
+  Matrix6Xd base_twist;                        ///< twists of the bodies at `base`, 6 x N
+  Eigen::Matrix3Xd base_centre_velocity;       ///< velocities of their centres, 3 x N, cm/s
+  RowColumns columns;                          ///< H⁻¹ on the other rows
+  BoxQp qp;                                    ///< Eq. 4 on the other rows: A and b
   Eigen::VectorXd start;                       ///< multipliers that the back end started from
 
   BodyVelocities base_bodies() const { return {base_twist, base_centre_velocity}; }

@@ -6,16 +6,17 @@
 namespace hagfish {
 namespace {
 
-/// A row is left out at first where rest and the velocity before, of the last step or pass, keep
-/// this much clear of it in a step, rad; of rows of points, where the radius of the body is 1. Only
-/// speed depends on it: rows left out are checked after the solve.
+/// A row is left out at first if neither rest nor the last velocity brings it nearer than this to
+/// binding in a step. The unit is rad for angles, and the body's radius for points. Only speed
+/// depends on it: rows that were left out are checked after the solve.
 constexpr double lazy_reach = 6e-5;
 /// A row left out counts as violated below this in a step, likewise.
 constexpr double lazy_tolerance = 2e-11;
 constexpr double nowhere = -std::numeric_limits<double>::infinity();
 
-/// The unilateral rows that are near to binding; of pairs of segments that are no minimum of the
-/// gap those that `is_considered`: at 400 bodies many are beside each minimum, and few push.
+/// The unilateral rows that are near binding. Of pairs of segments that are no minimum of the gap,
+/// those for which `is_considered` holds: at 400 bodies each minimum has many neighbours, and few
+/// of them push.
 template <class Condition>
 void append_unilateral_rows(const StepInput& in, const StepPlace& place, const NearBinding& wanted,
                             Condition is_considered, std::vector<Row>& rows) {

@@ -9,13 +9,13 @@
 
 namespace hagfish {
 
-/// The rows of a step at `place` that bind or may do so, as far as the last velocity tells, into
-/// `rows`: head clamp, thigmotaxis, contacts, limits, obstacles. Pairs of segments that are no
-/// minimum of the gap are among them where they pushed in the last step, of which `warm` tells.
+/// The rows of a step at `place` that are near binding by the last velocity, into `rows`: head
+/// clamp, thigmotaxis, contacts, limits, obstacles. A pair of segments that is no minimum of the
+/// gap is among them where `warm` has a force of it from the last step.
 void gather_rows(const StepInput& in, const StepPlace& place, const WarmStart& warm,
                  std::vector<Row>& rows);
 
-/// The row of `path_row` at `place`.
+/// The row of `path_row`, placed at `place`.
 Row placed_row(const StepPlace& place, const PathRow& path_row);
 
 /// Adds `row`, or replaces the one of its id in place.

@@ -152,11 +152,11 @@ std::int64_t contact_row_id(const Contact& contact) {
 }
 
 Row contact_row(const Model& model, const Contact& contact, const std::vector<SplineSegment>* at,
-                int cut) {
+                int number) {
   Row row;
   row.kind = contact.obstacle < 0 ? RowKind::contact : RowKind::obstacle;
   row.obstacle = contact.obstacle;
-  row.id = contact_row_id(contact) + cut * next_cut;
+  row.id = contact_row_id(contact) + number * next_cut;
   set_points(row, contact, at == nullptr ? contact.normal : contact_normal(*at, contact), model);
   return row;
 }
@@ -172,10 +172,10 @@ Row plane_row(const Model& model, int obstacle, int body) {
   return row;
 }
 
-Row cone_row(const BendingCone& cone, const Bend& bend, int cut) {
+Row cone_row(const BendingCone& cone, const Bend& bend, int number) {
   Row row;
   row.kind = RowKind::limit;
-  row.id = row_id(RowKind::limit, cone.dof, first_cone_row + cut);
+  row.id = row_id(RowKind::limit, cone.dof, first_cone_row + number);
   row.dof = cone.dof;
   row.sign = -bend.slope[0];
   row.next_sign = -bend.slope[1];

@@ -29,18 +29,19 @@ struct Row {
   int dof = -1;
   double sign = 1;       ///< of a unit row +1 or -1
   double next_sign = 0;  ///< of a unit row 0
-  /// Same from step to step for the same physical constraint: limits by dof and side, cones by dof
-  /// and contacts by segments, planes by body, each and which of their rows in the step,
-  /// thigmotaxis by the knot's end or by segments, and tangent.
+  /// The same physical constraint has the same id in every step. A limit is told by its dof and
+  /// side, a cone by its dof, a contact by its segments, a plane by the body. A row of Eq. 6 is
+  /// told by its tangent and by the knot's end or the segments. Cones, contacts and planes may have
+  /// several rows in a step: their number is part of the id.
   std::int64_t id = 0;
   int obstacle = -1;  ///< of an obstacle's row: its index
   int command = -1;   ///< of a thigmotaxis row: the index of its command
   /// C q̇ = direction . (ẋ_a - ẋ_b), each point a mix of body centres; `b` may have none.
   Eigen::Vector3d direction;  ///< unit, world
   SplineMix a, b;
-  /// One point for both, from kin.reference, cm: ẋ_a and ẋ_b are then the same mixes of the
-  /// velocities that the bodies, as rigid ones, have there. So forces of such a row are internal:
-  /// they have no sum and no moment.
+  /// One point in space for both strands, from kin.reference, cm. ẋ_a and ẋ_b are then the
+  /// velocities of the rigid bodies at that point, mixed with the same weights. The forces of such
+  /// a row are internal: they have no sum and no moment.
   std::optional<Eigen::Vector3d> at;
   double rhs = 0;  ///< d, cm/s or rad/s
   /// The part of λ that is an impact's and acts at once; half of the rest acts before the middle of
@@ -54,8 +55,8 @@ struct Row {
   bool unit() const { return dof >= 0 && next_sign == 0; }
 };
 
-/// A row that the path of a step shows (look_ahead.hpp), and the contact that it is of, if of one,
-/// as it is at the step's start.
+/// A row that is added because the path of the step overlaps (look_ahead.hpp). `contact` is the
+/// contact that it belongs to, if any, at the step's start.
 struct PathRow {
   Row row;
   std::optional<Contact> contact;
@@ -100,9 +101,9 @@ void add_row(const Row& row, const Kinematics& kin, double lambda, Matrix6Xd& wr
 struct NearBinding {
   const Eigen::VectorXd& v;  ///< a velocity, nv
   BodyVelocities bodies;     ///< at it
-  double slack;              ///< those of angles with C v - d below this, rad/s
-  double slack_at_rest;      ///< and those with -d below this, which touch
-  double radius = 1;         ///< times these, those of points, cm
+  double slack;              ///< rows of angles are near where C v - d is below this, rad/s
+  double slack_at_rest;      ///< or where -d is below this: they touch
+  double radius = 1;         ///< rows of points: both bounds times this, cm
 
   bool operator()(double row_velocity, double rhs) const {
     return row_velocity - rhs < slack || -rhs < slack_at_rest;
@@ -112,17 +113,17 @@ struct NearBinding {
   }
 };
 
-/// A contact's row, with no right-hand side yet: the exact rate of its gap, as it was found or
-/// between the same points of the segments `at`. `cut` 0 is that of the step's start; others come
-/// on top (core/step/look_ahead.hpp).
+/// A contact's row, with no right-hand side yet: the exact rate of its gap. Where `at` is null, the
+/// points are where the contact was found; else they are the same points of the segments `at`.
+/// `number` 0 is the row of the step's start; rows that are added later count on (look_ahead.hpp).
 Row contact_row(const Model& model, const Contact& contact, const std::vector<SplineSegment>* at,
-                int cut = 0);
+                int number = 0);
 /// The row of body `body` against a plane, with no right-hand side yet.
 Row plane_row(const Model& model, int obstacle, int body);
 
 /// The row of a joint bent as `bend`, with no right-hand side yet: the exact rate of what its cone
-/// leaves it. `cut` 0 is that of the step's start; others come on top (core/step/look_ahead.hpp).
-Row cone_row(const BendingCone& cone, const Bend& bend, int cut);
+/// leaves it. `number` as above.
+Row cone_row(const BendingCone& cone, const Bend& bend, int number);
 
 /// Six bilateral rows that keep the root at the origin and unturned (paper, Eq. 3); a drift is
 /// taken back at the rate baumgarte / h.

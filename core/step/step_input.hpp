@@ -17,11 +17,11 @@ struct Control {
   std::vector<ThigmotaxisCommand> thigmotaxis;  ///< rows of Eq. 6 at any number of contacts
   /// Angles that muscles pull the hinges to, rad, nv, 0 at the root; empty where they do not.
   Eigen::VectorXd rest_shape;
-  ActiveTorque torque;  ///< torques asked for besides; empty, or 0, where none are
-  ActiveTorque active;  ///< towards the rest shape, which follows from it (active_curvature.hpp)
+  ActiveTorque torque;  ///< further torques of the law; empty or 0 where there are none
+  ActiveTorque active;  ///< torques towards the rest shape (active_curvature.hpp)
 };
 
-/// All that a step depends on, but for the warm start.
+/// All that a step depends on, except the warm start.
 struct StepInput {
   const Model& model;
   const Scene& scene;

@@ -25,20 +25,18 @@ struct ConstraintForces : ByKind<Eigen::VectorXd> {
   Eigen::VectorXd total() const;
 };
 
-/// What the passes of the midpoint rule came to; as it begins by Euler's.
+/// What the passes of the midpoint rule found. Euler's rule leaves it as it is here.
 struct StepMiddle {
-  /// What the last pass changed the middle's velocity by, rad/s and cm/s, where that does not
-  /// settle in the passes that the scene permits, with its bias balanced or not; infinite where a
-  /// pass failed; else 0.
+  /// 0 where the velocity of the middle settles in the passes that the scene permits. Else the
+  /// change in the last pass, rad/s and cm/s; infinite where a pass failed.
   double unsettled = 0;
-  /// What all further passes would change, over what the last one did: as measured in this step
-  /// where it took two, else as guessed from those before; 1 where unknown.
+  /// Change that all further passes would make, over the change of the last one. Measured in this
+  /// step where it took two passes, else guessed from the steps before; 1 where unknown.
   double remaining = 1;
-  /// That found the middle, the last time. With more than time.passes its bias is not balanced
+  /// Passes that found the middle. With more than time.passes its bias is not balanced
   /// (Midway::balanced).
   int passes = 0;
-  /// Length of what qdot and the velocity that placed the middle differ by, rad/s and cm/s: what
-  /// passes leave, as far as `remaining` lets them.
+  /// Length of the difference between qdot and the velocity that placed the middle, rad/s and cm/s.
   double off = 0;
   Eigen::VectorXd step_velocity, mean_velocity;  ///< as in Midway, of the last pass, nv
 };
@@ -48,30 +46,30 @@ struct StepSolution {
   Eigen::VectorXd next;           ///< velocity after the step, nv: by Euler's rule, qdot
   Eigen::VectorXd mean_velocity;  ///< that springs, damping and drag act on, nv: qdot; midpoint:
                                   ///< the mean of the velocities before and after
-  Matrix6Xd mean_twist;           ///< of the bodies at it, 6 x N
-  Eigen::Matrix3Xd mean_centre_velocity;  ///< of their centres at it, 3 x N, cm/s
-  Matrix6Xd twist;                        ///< of the bodies at it, 6 x N
-  Eigen::Matrix3Xd centre_velocity;       ///< of the bodies' centres at it, 3 x N, cm/s
+  Matrix6Xd mean_twist;           ///< of the bodies at mean_velocity, 6 x N
+  Eigen::Matrix3Xd mean_centre_velocity;  ///< of their centres at mean_velocity, 3 x N, cm/s
+  Matrix6Xd twist;                        ///< of the bodies at qdot, 6 x N
+  Eigen::Matrix3Xd centre_velocity;       ///< of their centres at qdot, 3 x N, cm/s
   BodyVelocities bodies() const { return {twist, centre_velocity}; }  ///< at qdot
   ConstraintForces force;
   Eigen::Vector3d tip = Eigen::Vector3d::Zero();  ///< tip force as applied, dyn, world
-  /// Active torque as applied, towards the rest shape and besides, dyn cm, nv; 0 at the root.
+  /// All torque of the muscles as applied, dyn cm, nv; 0 at the root.
   Eigen::VectorXd active_torque;
   SolveKind kind = SolveKind::linear;
-  std::vector<Row> rows;           ///< that entered the problem, in the order of place_in_step
-  std::vector<PathRow> path_rows;  ///< of them, what the step's path showed
-  Eigen::Index prescribed = 0;     ///< how many of them, the first, are prescribed
+  std::vector<Row> rows;           ///< of the problem, in the order of place_in_step
+  std::vector<PathRow> path_rows;  ///< those that were added along the step's path
+  Eigen::Index prescribed = 0;     ///< so many of `rows`, the first ones, are prescribed
   Eigen::VectorXd lambda;          ///< their multipliers, dyn s or dyn cm s
   Eigen::VectorXd excess;          ///< C q̇ - d of each row at the solution, cm/s or rad/s
   int active = 0;                  ///< rows with a force
   int iterations = 0;              ///< of the back end, all rounds together
   /// QP rounds: each adds violated rows and releases prescribed limits with λ < 0.
   int rounds = 0;
-  /// (H q̇ - g) / h but for the active torque: what this and the forces of all rows add up to, from
-  /// the motion alone, nv.
+  /// (H q̇ - g) / h without the active torque, nv. It follows from the motion alone, and is the sum
+  /// of the active torque and the forces of all rows.
   Eigen::VectorXd net_force;
   double stationarity = 0;  ///< |H q̇ - g - C'λ| over the largest of these three, infinity norms
-  KktResiduals kkt;  ///< of the rows not prescribed, on the scale of all; the others are exact
+  KktResiduals kkt;         ///< of the rows that are not prescribed, on the scale of all rows
   /// The larger of `stationarity` and the residuals of `kkt`.
   double worst_residual() const { return std::max(kkt.worst(), stationarity); }
   double qp_time = 0;  ///< s spent in the QP back end

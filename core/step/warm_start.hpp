@@ -26,8 +26,8 @@ class WarmStart {
   /// The multiplier kept of a row, 0 where there is none.
   double multiplier(std::int64_t id) const;
   std::size_t size() const { return entries_.size(); }
-  /// Half of what steady forces changed the velocity by in the last step and in the one before, nv:
-  /// the midpoint rule extrapolates them to the middle of the next step. Empty where there was
+  /// Half of the change of velocity by steady forces, in the last step and in the one before it,
+  /// nv. The midpoint rule extrapolates them to the middle of the next step. Empty where there was
   /// none.
   Eigen::VectorXd half_change, half_before;
   double remaining = 1;  ///< of the last step (StepSolution)

@@ -11,8 +11,8 @@ namespace hagfish {
 
 /// The middle of a step, as far as it is known.
 struct Midway {
-  Eigen::VectorXd step_velocity,
-      mean_velocity;                    ///< velocities by which the step moves, and on the mean, nv
+  Eigen::VectorXd step_velocity;        ///< by which the step moves, nv
+  Eigen::VectorXd mean_velocity;        ///< mean of those before and after the step, nv
   Eigen::VectorXd q;                    ///< where the step velocity leads in half a step, nq
   Kinematics kin;                       ///< at q, of both velocities
   std::vector<SplineSegment> segments;  ///< at q
