@@ -15,14 +15,17 @@ namespace {
 /// Distances up to this many standard deviations of a coordinate count by their square: one of 150
 /// points of normal noise in three dimensions is further.
 constexpr double reach = 3.5;
-/// Least noise, of the body's length: a chain of straight bodies is that far off a curve.
-constexpr double least_noise = 3e-4;
+/// Least noise, of the body's length: points of a smooth curve of 12 rad are that far off stretches
+/// of two straight bodies of a hundred. Less, and bends follow the corners.
+constexpr double least_noise = 6e-4;
 constexpr int rounds = 20;  // of noise and smoothness, and of the steps at them:
 constexpr int steps = 40;
 /// The gradient has vanished where the step that it asks for is this much of the standard errors.
 constexpr double settled_decrement = 0.01;
 /// Noise and smoothness are known once they change by less than this, of themselves.
 constexpr double settled_noise = 0.02;
+/// Points tell a value where noise is at least this share of the variance that the matrix gives it.
+constexpr double told_by_points = 0.2;
 /// Of the largest number on the matrix's diagonal: what holds poses that no point tells.
 constexpr double pose_ridge = 1e-9;
 /// Of the same: added to the diagonal, so that steps of what nothing tells are none.
@@ -119,9 +122,9 @@ class Fit {
     Eigen::VectorXd gradient;
   };
 
-  /// The matrix and the gradient of the cost at now_ (Gauss and Newton), half of each. Returns the
-  /// cost.
-  double assemble() {
+  /// The matrix and the gradient of the cost at now_ (Gauss and Newton), half of each, with what
+  /// smooths times `smoothing`. Returns the cost.
+  double assemble(double smoothing = 1) {
     const Eigen::Index m = shape_.values();
     const auto times = static_cast<Eigen::Index>(knots_.size());
     matrix_.clear();
@@ -178,7 +181,7 @@ class Fit {
     }
     size_ = std::max(matrix_.diagonal().head(times * m).maxCoeff(), 1e-12);
     prior_.bound(size_);
-    prior_.add(now_.values, matrix_, gradient_);
+    prior_.add(now_.values, smoothing, matrix_, gradient_);
     // What nothing tells, such as the roll of a free head, stays where it is.
     for (Eigen::Index k = 0; k < times; ++k) {
       for (Eigen::Index j = 0; j < m; ++j) matrix_.add_diagonal(k, j, j, untold * size_);
@@ -314,30 +317,57 @@ class Fit {
     return fit;
   }
 
-  /// Standard errors, by the inverse of the matrix. Neighbouring points whose distances are alike
-  /// tell less than they would by themselves: `alike` is their correlation.
-  void errors(double alike, FilmFit& fit) {
+  /// The matrix and its gradient with what smooths times `smoothing`, factored. False where it says
+  /// too little.
+  bool factor_for_errors(double smoothing) {
+    assemble(smoothing);
     const Eigen::Index n = shape_.stations();
-    const auto times = static_cast<Eigen::Index>(knots_.size());
-    assemble();
-    if (!still_ && dims_ == 3) {
+    if (!still_ && shape_.axes() == 2) {
       // Bends of a free head are told but for a roll of all of them at a time.
-      for (Eigen::Index k = 0; k < times; ++k) {
+      for (Eigen::Index k = 0; k < now_.values.cols(); ++k) {
         Eigen::VectorXd roll(2 * n);
         roll << -now_.values.col(k).tail(n), now_.values.col(k).head(n);
         if (roll.norm() > 0)
           matrix_.add(k, k, size_ * roll * roll.transpose() / roll.squaredNorm());
       }
     }
-    const bool told = matrix_.factor(0);
-    BlockArrow::Inverse inverse;
-    if (told) inverse = matrix_.inverse();
+    return matrix_.factor(0);
+  }
+
+  /// Standard errors: of the noise that values take from the points, and of how far what smooths
+  /// moves them, by the fit's own differences. The inverse of the matrix takes these differences
+  /// as alike everywhere, which they are not: it holds where points do not tell. Neighbouring
+  /// points whose distances are alike tell less than they would by themselves: `alike` is their
+  /// correlation.
+  void errors(double alike, FilmFit& fit) {
+    const Eigen::Index n = shape_.stations(), m = shape_.values();
+    constexpr double more = 1e-3;  // of what smooths: a derivative
+    BlockArrow::Inverse smoother, inverse;
+    Eigen::VectorXd moved;
+    bool told = factor_for_errors(1 + more);
+    if (told) {
+      smoother = matrix_.inverse();
+      moved = gradient_;
+      told = factor_for_errors(1);
+    }
+    if (told) {
+      inverse = matrix_.inverse();
+      moved = matrix_.solve((moved - gradient_) / more);
+    }
     const double variance = noise_ * noise_ * (1 + alike) / (1 - alike);
-    for (Eigen::Index k = 0; k < times; ++k) {
+    for (Eigen::Index k = 0; k < now_.values.cols(); ++k) {
       Eigen::Matrix3Xd& error = fit.error.emplace_back(Eigen::Matrix3Xd::Zero(3, n));
-      for (Eigen::Index j = 0; j < shape_.values(); ++j) {
+      for (Eigen::Index j = 0; j < m; ++j) {
         const Eigen::Index row = dims_ == 2 ? 1 : j / n;
-        error(row, j % n) = told ? std::sqrt(variance * inverse.own[k](j, j)) : INFINITY;
+        if (!told) {
+          error(row, j % n) = INFINITY;
+          continue;
+        }
+        const double all = inverse.own[k](j, j);
+        const double by_noise = all - (all - smoother.own[k](j, j)) / more;
+        error(row, j % n) = by_noise < told_by_points * all
+                                ? std::sqrt(variance * all)
+                                : std::hypot(std::sqrt(variance * by_noise), moved[k * m + j]);
       }
     }
   }

@@ -89,14 +89,14 @@ void FilmPrior::bound(double size) {
   along_ = std::clamp(along_, least_smoothness * size, most_smoothness * size);
 }
 
-void FilmPrior::add(const Eigen::MatrixXd& values, BlockArrow& matrix,
+void FilmPrior::add(const Eigen::MatrixXd& values, double share, BlockArrow& matrix,
                     Eigen::VectorXd& gradient) const {
   const Eigen::Index m = values.rows(), n = stations_;
   const Eigen::Index times = values.cols();
   const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(m, m);
   const double c[] = {1, -2, 1};
   for (Eigen::Index k = 0; k < times; ++k) {
-    const double along = along_ * along_at_[k], in_time = in_time_ * time_at_[k];
+    const double along = share * along_ * along_at_[k], in_time = share * in_time_ * time_at_[k];
     matrix.add(k, k, along * along_form_);
     gradient.segment(k * m, m) += along * along_form_ * values.col(k);
     if (k + 2 < times) {
@@ -107,7 +107,7 @@ void FilmPrior::add(const Eigen::MatrixXd& values, BlockArrow& matrix,
       }
     }
     if (!still_ && k + 1 < times) {
-      const double weight = least_motion * in_time_;
+      const double weight = share * least_motion * in_time_;
       const Eigen::VectorXd change = values.col(k + 1) - values.col(k);
       gradient.segment((k + 1) * m, m) += weight * change;
       gradient.segment(k * m, m) -= weight * change;

@@ -17,8 +17,9 @@ class FilmPrior {
 
   /// Of `values`, ProgramShape's x times, cm^2.
   double cost(const Eigen::MatrixXd& values) const;
-  /// Adds to half of the matrix and of the gradient.
-  void add(const Eigen::MatrixXd& values, BlockArrow& matrix, Eigen::VectorXd& gradient) const;
+  /// Adds to half of the matrix and of the gradient: `share` of what smooths, and the wall.
+  void add(const Eigen::MatrixXd& values, double share, BlockArrow& matrix,
+           Eigen::VectorXd& gradient) const;
   /// Keeps what smooths and the wall at the limits in proportion to the matrix's diagonal.
   void bound(double size);
 

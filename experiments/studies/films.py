@@ -1,6 +1,6 @@
-"""How well `hagfish midlines` gives back what was filmed: closed forms, ten runs as films with a tracker's faults, 300 damaged films.
+"""How well `hagfish midlines` gives back what was filmed: closed forms, ten runs as films with a tracker's faults, 300 damaged films; and what the tutorial takes.
 
-Usage: films.py [--only forms|runs|damaged|page] [--run SCENE]... [--out DIR]. Needs the program as built (HAGFISH_PROGRAM), python3-numpy and python3-h5py.
+Usage: films.py [--only forms|runs|damaged|tutorial|page] [--run SCENE]... [--out DIR]. Needs the program as built (HAGFISH_PROGRAM), python3-numpy and python3-h5py.
 Writes experiments/results/films_PART.csv for each part and, where all are there, films.md. Runs that DIR has a row of are not made again.
 """
 
@@ -10,9 +10,12 @@ import argparse
 import csv
 import datetime
 import os
+import re
 import resource
+import shutil
 import subprocess
 from pathlib import Path
+from time import monotonic
 
 import h5py
 import numpy as np
@@ -99,16 +102,17 @@ def joints_along(way: np.ndarray, roll: np.ndarray) -> np.ndarray:
     return np.stack(angles, axis=1)
 
 
-def ways_between(centres: np.ndarray) -> np.ndarray:
-    """ways() of bodies' centres, times x BODIES x 3, in axes in which the head's first way is along X at the first time."""
+def ways_between(centres: np.ndarray, free: bool) -> np.ndarray:
+    """ways() of bodies' centres, times x BODIES x 3, in axes in which the head's way is along X: at the first time, or for a free head at each."""
     way = centres[:, 2::2] - centres[:, 1:-1:2]
     half = LENGTH / BODIES / 2 * way / np.linalg.norm(way, axis=2, keepdims=True)
     way = np.concatenate([(centres[:, 1] - half[:, 0] - centres[:, 0])[:, None], way, (centres[:, -1] - centres[:, -2] - half[:, -1])[:, None]], axis=1)
     way /= np.linalg.norm(way, axis=2, keepdims=True)
-    axes = np.linalg.svd(way[:1, 0])[2]
-    axes[0] = way[0, 0]
-    axes[2] = np.cross(axes[0], axes[1])
-    return way @ axes.T
+    first = way[:, 0] if free else way[:1, 0]
+    beside = np.cross(first, np.eye(3)[np.argmin(np.abs(first), axis=1)])
+    beside /= np.linalg.norm(beside, axis=1, keepdims=True)
+    axes = np.stack([first, beside, np.cross(first, beside)], axis=1)
+    return way @ axes.swapaxes(1, 2)
 
 
 def at_stations(angle: np.ndarray, station: np.ndarray) -> np.ndarray:
@@ -266,7 +270,7 @@ def runs(folder: Path, asked: list[str]) -> list[dict]:
             fit = Program(folder / "p.csv")
             true = np.stack([np.stack([np.interp(fit.time, time, centres[:, k, d]) for d in range(3)], axis=1) for k in range(BODIES)], axis=1)
             off = np.array([moved_off(own, x) for own, x in zip(bodies(joints_of(fit.bend, fit.station)), true)])
-            way = ways_between(true)
+            way = ways_between(true, bool(free))
             same = rolled_to(fit, lambda roll: at_stations(joints_along(way, roll), fit.station), bool(free))
             tried = [line for line in said.splitlines() if line.startswith("run by it")]
             row |= {"shapes off (cm)": rms(off), "within bands of 90 %": in_band(fit, same), "seen": said.split("film's end: ")[1].split("\n")[0].split(", which")[0],
@@ -331,6 +335,25 @@ def damaged(folder: Path, count: int = 300) -> list[dict]:
     return rows
 
 
+# The tutorial ------------------------------------------------------------------------------------------------------------------------------------
+
+def tutorial(folder: Path) -> list[dict]:
+    """What each chapter of the tutorial takes, from nothing."""
+    place, rows = folder / "tutorial", []
+    shutil.rmtree(place, ignore_errors=True)
+    place.mkdir(parents=True)
+    environment = os.environ | {"PATH": f"{HAGFISH.parent}:/usr/bin:/bin", "OPENBLAS_NUM_THREADS": "1"}
+    for chapter in (ROOT / "experiments/tutorials/film_to_torques.md").read_text().split("\n## ")[2:]:
+        title, commands = chapter.split("\n", 1)[0].split(". ")[-1], re.findall(r"^```bash\n(.*?)^```$", chapter, re.MULTILINE | re.DOTALL)
+        if commands:
+            before, begin = cpu(), monotonic()
+            subprocess.run(["bash", "-euc", "\n".join(commands)], cwd=place, env=environment, stdout=subprocess.DEVNULL, check=True)
+            rows.append({"chapter": title, "CPU (s)": cpu() - before, "by the clock (s)": monotonic() - begin})
+    return rows
+
+
+PARTS = forms, runs, damaged, tutorial
+
 # Tables ------------------------------------------------------------------------------------------------------------------------------------------
 
 def write(path: Path, rows: list[dict]) -> None:
@@ -362,7 +385,7 @@ def measured(log: Path) -> str:
         return f" Measured at {text('git_revision')[:12]} on {text('cpu')}, {datetime.date.today()}."
 
 
-def answer(forms: list[dict], runs: list[dict], films: list[dict]) -> str:
+def answer(forms: list[dict], runs: list[dict], films: list[dict], chapters: list[dict]) -> str:
     number = lambda rows, name: [float(row[name]) for row in rows if row.get(name)]
     exact, noisy = ([row for row in forms if (float(row["noise (cm)"]) > 0) == noise] for noise in (False, True))
     off = "bends off, rms (rad/L)"
@@ -372,25 +395,26 @@ def answer(forms: list[dict], runs: list[dict], films: list[dict]) -> str:
     silent = sum(row["outcome"] == "silently off" for row in films)
     return (f"Without noise, closed forms come back to {max(number(exact, 'off (cm)')):.2g} cm and {max(number(exact, off)):.2g} rad/L at worst. "
             f"With a millimetre of noise it is {max(number(noisy, off)):.2g} rad/L. "
-            f"Of {len(runs)} runs as films with all faults at once, {len(off_by)} get a program, within {max(off_by):.2g} cm at worst; {sum(row['verdict'] == 'doubtful' for row in runs)} of these is called doubtful. "
+            f"Of {len(runs)} runs as films with all faults at once, {len(off_by)} get a program, within {max(off_by):.2g} cm at worst; {sum(row['verdict'] == 'doubtful' for row in runs)} of these are called doubtful. "
             f"{ties} of the animals that follow the fit tie the knot of the film, of the same hand. "
             f"Bands of 90 % hold {min(held):.0f} to {max(held):.0f} % of the true bends; asked for were 85 to 95 %, which {sum(85 <= share <= 95 for share in held)} of them keep. "
-            f"Of {len(films)} damaged films, {silent} are off and nothing is said. A knot's film takes {min(took):.0f} to {max(took):.0f} s of CPU time.")
+            f"Of {len(films)} damaged films, {silent} are off and nothing is said. A knot's film takes {min(took):.0f} to {max(took):.0f} s of CPU time. "
+            f"The tutorial's way from film to torque table takes {sum(number(chapters, 'by the clock (s)')) / 60:.1f} minutes; a quarter of an hour was asked for.")
 
 
 def page(folder: Path) -> str:
     """Of the tables alone, but for where they were measured."""
-    forms, runs, films = (of_table(RESULTS / f"films_{part}.csv") for part in ("forms", "runs", "damaged"))
+    forms, runs, films, chapters = (of_table(RESULTS / f"films_{part.__name__}.csv") for part in PARTS)
     outcomes = [{"outcome": o, "films": sum(row["outcome"] == o for row in films)} for o in ("right", "told", "failed", "refused", "silently off", "crashed")]
     times = [float(row["CPU (s)"]) for row in films]
     missing = "".join(f"- The run {name}: it is not measured yet.\n" for name in map(run_name, RUNS) if name not in [row["run"] for row in runs])
     return f"""# How well does a film give back the animal?
 
-`bash experiments/studies/films.sh` makes this page and its tables: [closed forms](films_forms.csv), [runs](films_runs.csv), [damaged films](films_damaged.csv).{measured(folder / "run.h5")}
+`bash experiments/studies/films.sh` makes this page and its tables: [closed forms](films_forms.csv), [runs](films_runs.csv), [damaged films](films_damaged.csv), [the tutorial](films_tutorial.csv).{measured(folder / "run.h5")}
 
-**Answer.** {answer(forms, runs, films)}
+**Answer.** {answer(forms, runs, films, chapters)}
 
-Bends are in rad per body length L. Bands reach {WITHIN} standard errors to each side. Points of a body of {LENGTH} cm are off by the noise in each coordinate.
+Bends are in rad per body length L. Bands reach {WITHIN} standard errors to each side. These are of the noise and of what smoothing moves. Points of a body of {LENGTH} cm are off by the noise in each coordinate.
 
 ## Closed forms
 
@@ -419,28 +443,32 @@ A film with y down is held against the mirror image, since nothing in a plane te
 {markdown(outcomes)}
 A fit takes {np.median(times):.2g} s of CPU time, at most {max(times):.2g} s.
 
+## From film to torque table
+
+All commands of [the tutorial](../tutorials/film_to_torques.md), its film among them, as they stand there. The clock counts what else the machine does.
+
+{markdown(chapters)}
 ## What this page does not show
 
 - No film of a living hagfish is among them: none with digitised midlines is at hand.
 - One camera is fitted as an animal in a plane. It does not tell which strand is over, and the command says so.
 - A film that never shows the tail counts as a whole animal, unless its points or `--animal-length` say where the tail is. The command says so.
 - Whether a head is free must be known: `--free-head`. Such a fit takes longer.
-- Why bands of a clamped head are too wide. They are so most where they are narrowest.
 {missing}"""
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--only", choices=("forms", "runs", "damaged", "page"))
+    parser.add_argument("--only", choices=[*(part.__name__ for part in PARTS), "page"])
     parser.add_argument("--run", action="append", default=[], help="of the ten runs, such as living_overhand or 'living_overhand (mirror)'; where not given, all")
     parser.add_argument("--out", type=Path, default=ROOT / "out/films")
     options = parser.parse_args()
     options.out.mkdir(parents=True, exist_ok=True)
-    for part in (forms, runs, damaged):
+    for part in PARTS:
         if options.only in (None, part.__name__):
             rows = part(options.out, options.run) if part is runs else part(options.out)
             write(RESULTS / f"films_{part.__name__}.csv", rows)
-    if all((RESULTS / f"films_{part.__name__}.csv").exists() for part in (forms, runs, damaged)):
+    if all((RESULTS / f"films_{part.__name__}.csv").exists() for part in PARTS):
         (RESULTS / "films.md").write_text(page(options.out))
 
 

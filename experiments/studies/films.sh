@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# How well `hagfish midlines` gives back what was filmed: closed forms, ten runs as films with a tracker's faults, 300 damaged films. Leaves
-# experiments/results/films_*.csv, and films.md, made of them.
+# How well `hagfish midlines` gives back what was filmed: closed forms, ten runs as films with a tracker's faults, 300 damaged films;
+# and what the tutorial takes. Leaves experiments/results/films_*.csv, and films.md, made of them.
 #   bash experiments/studies/films.sh [OUTPUT_FOLDER]     default: out/films
 # Stopped, it goes on where it was.
 set -euo pipefail

@@ -11,7 +11,9 @@ import pytest
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).parents[3] / "support"))
+sys.path.insert(0, str(Path(__file__).parents[4] / "experiments/studies"))
 
+import films  # noqa: E402
 from program import hagfish, refused, table  # noqa: E402
 
 NOISE = 0.1  # cm, on each coordinate of each point
@@ -77,6 +79,18 @@ def test_a_film_gives_back_knot_and_midlines(film):
     assert program_distance(film, "p.csv", "true.csv") < WITHIN
 
 
+def test_bands_of_nine_tenths_hold_nine_tenths(film):
+    """Bends of a knot change most where the knot is, and hardly elsewhere: bands must tell the two."""
+    hagfish(film, "midlines", "film.csv", "--out", "bands.csv", "--stations", 25)
+    fit = films.Program(film / "bands.csv")
+    with h5py.File(film / "a.h5") as h5:
+        time, centres = h5["trajectory/time"][()], h5["trajectory/position"][()]
+    true = np.stack([np.stack([np.interp(fit.time, time, centres[:, k, d]) for d in range(3)], axis=1) for k in range(films.BODIES)], axis=1)
+    way = films.ways_between(true, free=False)
+    same = films.rolled_to(fit, lambda roll: films.at_stations(films.joints_along(way, roll), fit.station), free=False)
+    assert 0.85 <= films.in_band(fit, same) <= 0.95
+
+
 def program_distance(folder, program, film):
     """Distance, rms, of a film's points from a program's shapes, computed anew: the head still at the origin, the film moved as a whole."""
     p, t = table(folder / program), table(folder / film)
@@ -118,6 +132,7 @@ def test_a_flat_film_makes_a_flat_program(tmp_path):
     write_film(tmp_path / "flat.csv", time, s, np.array(bent), names=("x", "y"))
     said = hagfish(tmp_path, "midlines", "flat.csv", "--out", "p.csv", "--stations", 5, "--times", 5)
     assert "two dimensions" in said
+    assert "one camera does not tell which strand is over" in said and "hagfish run" not in said and not (tmp_path / "p.toml").exists()
     p = table(tmp_path / "p.csv")
     # An arc of 30 cm at 0.05 t /cm, of an animal of any length: 1.5 t rad per length, all along it.
     inner = (p["station (L)"] > 0.1) & (p["station (L)"] < 0.9)
