@@ -45,9 +45,9 @@ def draw_over(axes: plots.plt.Axes, runs: Runs, across: str, name: str, joined: 
             axes.plot(column(own, across), column(own, name), ls="-" if joined else "", lw=1, ms=5, label=look.label, **look.style)
 
 
-def shade_chance(axes: plots.plt.Axes, chance: dict[str, str], name: str) -> None:
+def shade_chance(axes: plots.plt.Axes, chance: dict[str, str], name: str, side: str) -> None:
     axes.axhspan(LEAST[name] / 2, float(chance[name]), color="#eeeeee", zorder=-1)
-    axes.text(0.98, 0.03, "chance: starts that differ by rounding", transform=axes.transAxes, ha="right", fontsize=7, color=plots.GREY)
+    axes.text(0.98 if side == "right" else 0.02, 0.03, "chance: starts\nthat differ by rounding", transform=axes.transAxes, ha=side, fontsize=7, color=plots.GREY)
     axes.set_ylim(bottom=0.8 * LEAST[name])
 
 
@@ -69,9 +69,9 @@ def draw(runs: Runs, out: Path) -> None:
     figure, panels = plots.panels(2, 3, (11, 7.2), [
         "where the knot is", "how hard it is pushed", "how deep skins overlap", "what a run costs", f"where the knot is, steps of {FINE} ms", "runs that fail, all methods"])
     position, force, depth, cost, bodies, failures = panels
-    for axes, name, label in ((position, "position_error_rms_cm", "knot's head end off, rms, cm"), (force, "force_error_percent", "sliding force off, %")):
+    for axes, name, label, side in ((position, "position_error_rms_cm", "knot's head end off, rms, cm", "right"), (force, "force_error_percent", "sliding force off, %", "left")):
         draw_over(axes, whole, "h_ms", name, joined=False)
-        shade_chance(axes, chance, name)
+        shade_chance(axes, chance, name, side)
         axes.set_ylabel(label)
     draw_over(depth, whole, "h_ms", "penetration_cm", joined=True)
     depth.set_ylabel("deepest of any step, cm")
@@ -82,7 +82,7 @@ def draw(runs: Runs, out: Path) -> None:
         axes.set(xscale="log", yscale="log", xlabel="time step, ms")
         plots.plain_ticks(axes.xaxis, steps)
     draw_over(bodies, whole, "bodies", "position_error_rms_cm", joined=False)
-    shade_chance(bodies, chance, "position_error_rms_cm")
+    shade_chance(bodies, chance, "position_error_rms_cm", "left")
     bodies.set(xscale="log", yscale="log", xlabel="number of bodies", ylabel="knot's head end off, rms, cm")
     plots.plain_ticks(bodies.xaxis, sorted({float(run["bodies"]) for run in whole}))
     fail_to_tie(failures, whole)

@@ -194,7 +194,8 @@ def behind_mujoco(cells: list[Cell], method: str) -> list[str]:
 
 
 def summary_table(cells: list[Cell]) -> tuple[list[str], list[list[str]]]:
-    return ["scene", *(TITLES.get(m, m) for m in METHODS)], [[SCENES.get(scene, scene), *(survived(own_cells(cells, scene, m))[0] for m in METHODS)]
+    methods = [m for m in METHODS if m in {cell["method"] for cell in cells}]
+    return ["scene", *(TITLES.get(m, m) for m in methods)], [[SCENES.get(scene, scene), *(survived(own_cells(cells, scene, m))[0] for m in methods)]
                                                              for scene in scenes_of(cells)]
 
 
