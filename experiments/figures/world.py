@@ -96,6 +96,18 @@ def hole_map(folder: Path) -> None:
                      [[changed, *(cell.get(key, "") for key in columns)] for changed, cell in found.items()])
 
 
+def chance(folder: Path) -> None:
+    """Pulls of the map's first row from other starts."""
+    pulls: dict[tuple[str, str], list[float]] = {}
+    for _, log in cells(folder / "hole_chance"):
+        pulls.setdefault(knot_and_law(log), []).append(largest_pull(log))
+    rows = []
+    for (knot, law), of in pulls.items():
+        tied = [pull for pull in of if pull > 0]
+        rows.append([knot, law, f"{len(tied)} of {len(of)}", *(f"{value:.2f}" for value in (min(tied), np.median(tied), max(tied)))])
+    tables.write_csv(folder / "tables" / "world_chance.csv", ["knot", "law", "tied", "lowest, N", "median, N", "highest, N"], rows)
+
+
 def skin(folder: Path) -> None:
     rows = []
     for row, log in cells(folder / "skin"):
@@ -135,6 +147,7 @@ def main(folder: Path) -> None:
     holes(folder)
     waves(folder)
     hole_map(folder)
+    chance(folder)
     skin(folder)
     robot(folder)
 

@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
 # A world to knot in: the head pulled out of a hole by knots and by waves without a knot, the skin that knots sweep,
-# and a snake robot on a floor. Leaves tables/world.csv, world_waves.csv, world_map.csv, world_skin.csv, world_robot.csv, and world.png.
+# and a snake robot on a floor. Leaves tables/world.csv, world_waves.csv, world_map.csv, world_chance.csv, world_skin.csv,
+# world_robot.csv, world.png and world_skin.png.
 #   bash experiments/studies/world.sh [OUTPUT_FOLDER]     default: out/world
 # Stopped, it goes on where it was.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
-for grid in holes hole_map skin robot; do
+for grid in holes hole_map hole_chance skin robot; do
   "$hagfish" sweep "$grids/world_$grid.toml" --out "$out/$grid"
 done
 
@@ -41,5 +42,6 @@ for log in "$out"/skin/logs/*.h5; do
   [[ -e ${log%.h5}/summary.csv ]] || "$hagfish" export "$log" --out "${log%.h5}"
 done
 draw world.py "$out"
+draw world_skin.py "$out/skin" "$out/world_skin.png"
 draw world_strip.py "$out/holes/logs/9.h5" "$out/holes/logs/0.h5" "$out/robot/logs/1.h5" "$out/world.png"
 list_output
