@@ -85,8 +85,8 @@ TEST_P(HardQp, ScalesAreNoContradiction) {
 }
 
 INSTANTIATE_TEST_SUITE_P(BackEnds, HardQp, testing::Values("active-set", "ipopt"),
-                         [](const auto& info) {
-                           return info.param == "ipopt" ? "ipopt" : "activeset";
+                         [](const auto& tested) {
+                           return tested.param == "ipopt" ? "ipopt" : "activeset";
                          });
 
 struct Draw {
