@@ -1,0 +1,153 @@
+#include "experiments/mechanics/rod.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/knot/knot.hpp"
+
+namespace hagfish {
+namespace {
+
+constexpr double density =
+    1e-3;  // g/cm: what drag stops within a thousandth of the times that matter
+
+/// Turns about Y and then Z that take `frame`'s X axis to `direction`, which `frame` follows.
+Eigen::Vector2d turn_to(const Eigen::Vector3d& direction, Eigen::Quaterniond& frame) {
+  const Eigen::Vector3d next = frame.conjugate() * direction;
+  const Eigen::Vector2d angles(std::atan2(-next.z(), next.x()), std::asin(next.y()));
+  frame = frame * Eigen::AngleAxisd(angles[0], Eigen::Vector3d::UnitY()) *
+          Eigen::AngleAxisd(angles[1], Eigen::Vector3d::UnitZ());
+  return angles;
+}
+
+}  // namespace
+
+RodChain chain_of(const Rod& rod, double link, const std::vector<Eigen::Vector3d>& links) {
+  const bool alternating = rod.twisting > 0;
+  RodChain chain;
+  Body body;
+  body.length = link;
+  body.mass = density * link;
+  body.radius = rod.radius;
+  body.inertia = cylinder_inertia(body.mass, link, rod.radius);
+  append_body(chain.model, body, {});
+  const double span = alternating ? 2 * link : link;
+  for (std::size_t b = 1; b < links.size(); ++b) {
+    const bool bends = !alternating || b % 2 == 1;
+    append_body(chain.model, body, bends ? std::vector{Axis::y, Axis::z} : std::vector{Axis::x});
+    if (bends && rod.sharpest > 0) {
+      chain.model.cones.push_back({chain.model.bodies.back().first_dof, rod.sharpest * span});
+    }
+  }
+  for (Hinge& hinge : chain.model.hinges) {
+    hinge.stiffness = (hinge.axis == Axis::x ? rod.twisting : rod.bending) / span;
+  }
+  chain.model.drag = {rod.drag, 0.1 * rod.drag};
+  chain.state = rest_state(chain.model);
+  Eigen::Quaterniond frame = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), links[0]);
+  for (std::size_t b = 1; b < links.size(); ++b) {
+    if (alternating && b % 2 == 0) continue;
+    const Eigen::Vector3d way =
+        alternating && b + 1 < links.size() ? links[b] + links[b + 1] : links[b];
+    chain.state.q.segment<2>(chain.model.bodies[b].first_dof + 1) =
+        turn_to(way.normalized(), frame);
+  }
+  return chain;
+}
+
+std::vector<Eigen::Vector3d> links_along(const std::vector<Eigen::Vector3d>& curve, double link) {
+  std::vector<Eigen::Vector3d> links;
+  Eigen::Vector3d before = curve.front();
+  for (const Eigen::Vector3d& point : curve) {
+    if ((point - before).norm() < link) continue;
+    links.push_back((point - before).normalized());
+    before = point;
+  }
+  return links;
+}
+
+Scene pulled_scene(double radius, double force, double step, double apart) {
+  Scene scene;
+  scene.wall.present = false;
+  scene.contact = {.margin = radius, .least_arc = apart};
+  scene.constraints.baumgarte_speed = radius / step;
+  scene.constraints.tolerance = 0.003 * radius;
+  scene.constraints.stride = radius;
+  scene.script.kind = ScriptSettings::Kind::force;
+  scene.script.knots = {{.time = 0, .value = Eigen::Vector3d(force, 0, 0)}};
+  scene.time.step = step;
+  scene.time.duration = 1e9;
+  scene.guard.action = GuardAction::warn;
+  scene.guard.energy_action = EnergyAction::warn;
+  return scene;
+}
+
+Pulled::Pulled(RodChain chain, Scene scene)
+    : chain_(std::move(chain)),
+      scene_(std::move(scene)),
+      sim_(start_from(chain_.model, scene_, "active-set", chain_.state, {}, 0)) {}
+
+bool Pulled::relax(double still, int most_steps) {
+  constexpr double longest = 2;  // s: longer steps leave the directions of contact forces behind
+  constexpr int look = 20;  // steps: contacts that take turns move bodies to and fro within fewer
+  const double radius = model().bodies.front().radius;
+  double& h = scene_.time.step;
+  Eigen::Matrix3Xd before = kin().centre;
+  double time = 0;
+  for (int k = 1; k <= most_steps; ++k) {
+    take_step(chain_.model, scene_, sim_, record_);
+    time += h;
+    if (k % look == 0) {
+      if ((kin().centre - before).cwiseAbs().maxCoeff() < still * time && h > 0.1 * longest)
+        return true;
+      before = kin().centre;
+      time = 0;
+    }
+    const double speed = solution().centre_velocity.cwiseAbs().maxCoeff();
+    h = std::min(longest, h * std::clamp(0.3 * radius / (speed * h), 0.5, 1.3));
+    scene_.constraints.baumgarte_speed = radius / h;
+  }
+  return false;
+}
+
+std::string Pulled::knot() const {
+  return knot_name(knot_type(kin().centre, {.votes = 9, .seed = 1}).type);
+}
+
+std::vector<ContactForce> Pulled::contact_forces() const {
+  std::vector<ContactForce> forces;
+  for (std::size_t i = 0; i < solution().rows.size(); ++i) {
+    const Row& row = solution().rows[i];
+    const double push = solution().lambda[static_cast<Eigen::Index>(i)];
+    if (row.kind == RowKind::contact && push > 0) {
+      forces.push_back({row.a.parameter, row.b.parameter, push / scene_.time.step});
+    }
+  }
+  return forces;
+}
+
+Eigen::Vector3d Pulled::force_behind(int body) const {
+  Eigen::Vector3d force = solution().tip;
+  for (std::size_t i = 0; i < solution().rows.size(); ++i) {
+    if (solution().rows[i].kind != RowKind::contact) continue;
+    const double push = solution().lambda[static_cast<Eigen::Index>(i)] / scene_.time.step;
+    visit_forces(solution().rows[i], kin(),
+                 [&](int b, const Eigen::Vector3d& unit, const Eigen::Vector3d&) {
+                   if (b >= body) force += push * unit;
+                 });
+  }
+  return force;
+}
+
+double Pulled::mean_curvature(double from, double to) const {
+  double turned = 0;
+  for (int b = static_cast<int>(from) + 1; b - 1 < to; ++b) {
+    const Eigen::Vector3d before = kin().rotation[b - 1].col(0);
+    const Eigen::Vector3d after = kin().rotation[b].col(0);
+    const double share = std::min<double>(b, to) - std::max<double>(b - 1, from);
+    turned += share * std::atan2(before.cross(after).norm(), before.dot(after));
+  }
+  return turned / (to - from) / model().bodies.front().length;
+}
+
+}  // namespace hagfish

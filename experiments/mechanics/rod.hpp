@@ -1,0 +1,69 @@
+// Elastic rods as chains of bodies, at rest under a pull: overdamped, with steps as long as their
+// slowest motions.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/run/simulation.hpp"
+
+namespace hagfish {
+
+/// A uniform rod without mass to speak of.
+struct Rod {
+  double radius = 0;    ///< cm
+  double bending = 0;   ///< rigidity B, dyn cm^2
+  double twisting = 0;  ///< rigidity C, dyn cm^2: joints alternate; 0: universal joints alone
+  double sharpest = 0;  ///< curvature that no joint exceeds, 1/cm; 0: any
+  double drag = 1;      ///< across the rod, a tenth of it along, g / (s cm)
+};
+
+/// A chain that stands for the rod, with these links (unit vectors, head to tail) of `link` (cm)
+/// each: its model and its state. The first link is turned to +X. Alternating joints bend at every
+/// second link alone, so links go in pairs.
+struct RodChain {
+  Model model;
+  State state;
+};
+RodChain chain_of(const Rod& rod, double link, const std::vector<Eigen::Vector3d>& links);
+
+/// Points of a curve as unit links of the same length, by walking along it.
+std::vector<Eigen::Vector3d> links_along(const std::vector<Eigen::Vector3d>& curve, double link);
+
+/// The scene in which it is pulled by `force` (dyn) along +X at its last body, the head clamped,
+/// with steps of `step` (s). Parts with less rod than `apart` (cm) between them never touch.
+Scene pulled_scene(double radius, double force, double step, double apart);
+
+/// The push (dyn) of one contact between two places along the rod, in bodies from the head.
+struct ContactForce {
+  double head = 0, tail = 0;
+  double force = 0;
+};
+
+/// The rod on its way to rest.
+class Pulled {
+ public:
+  Pulled(RodChain chain, Scene scene);
+  const Model& model() const { return chain_.model; }
+  const StepSolution& solution() const { return record_.solution; }
+  const Kinematics& kin() const { return sim_.now.observation.kin; }
+  /// Steps, each as long as lets no body move further than a third of the radius, until in some
+  /// steps together none has moved at more than `still` (cm/s); false: not within so many.
+  bool relax(double still, int most_steps);
+  std::string knot() const;
+  /// Of the last step.
+  std::vector<ContactForce> contact_forces() const;
+  /// Force (dyn) of the part of the rod from `body` on upon the part before it.
+  Eigen::Vector3d force_behind(int body) const;
+  /// Bend between two places over the length between them, 1/cm; places in bodies from the head,
+  /// whole at their middles.
+  double mean_curvature(double from, double to) const;
+
+ private:
+  RodChain chain_;
+  Scene scene_;
+  Simulation sim_;
+  StepRecord record_;
+};
+
+}  // namespace hagfish
