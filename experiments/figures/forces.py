@@ -69,14 +69,18 @@ def knot_of(scene: str) -> str:
     return plots.SCENES[scene.removeprefix("pull_").removeprefix("living_").removesuffix("_waypoints")]
 
 
-def moments(log: HagfishLog) -> np.ndarray:
-    """f_thigmo of the slide at STATIONS, means from frame to frame, frames x (3 kinds of turn times stations), dyn cm: moments of the
-    body, which are the same of any mesh."""
+def moments_of(log: HagfishLog, force: np.ndarray) -> np.ndarray:
+    """Generalised forces, rows x nv, at STATIONS: rows x (3 kinds of turn times stations), dyn cm: moments of the body, which are the
+    same of any mesh."""
     dof, joint, kind = log.hinges()
     arc = log.joint_arc()
     place = arc[joint] / (arc[-1] + log["/model/length"][-1])
-    force = log["/mean/forces/thigmotaxis"][log.intervals_in("slide")][:, dof]
-    return np.concatenate([[np.interp(STATIONS, place[kind == each], row[kind == each]) for row in force] for each in KINDS], axis=1)
+    return np.concatenate([[np.interp(STATIONS, place[kind == each], row[dof[kind == each]]) for row in force] for each in KINDS], axis=1)
+
+
+def moments(log: HagfishLog) -> np.ndarray:
+    """Those of f_thigmo in the slide, means from frame to frame."""
+    return moments_of(log, log["/mean/forces/thigmotaxis"][log.intervals_in("slide")])
 
 
 def off(found: np.ndarray, wanted: np.ndarray) -> float:
@@ -88,6 +92,14 @@ def long_means(force: np.ndarray, frames: int) -> np.ndarray:
     return force[:whole * frames].reshape(whole, frames, -1).mean(axis=1)
 
 
+def way_of(log: HagfishLog) -> float:
+    """Of the knot's head end in the slide, cm, to where the head is let go. Frames beside that may have the head end elsewhere, which goes
+    to and fro there; the step of the release has it at release_at."""
+    head, scene = log["/knot/head_end"][log.in_phase("slide")], log.scene()
+    let_go = log["/trajectory/time"][-1] < scene["time"]["duration"]
+    return float(head[0] - (min(head[-1], scene["controller"]["release_at"]) if let_go else head[-1]))
+
+
 def add_log(row: Row, log: HagfishLog) -> None:
     """What only a log shows of a run by itself."""
     frames = log.in_phase("slide")
@@ -95,10 +107,11 @@ def add_log(row: Row, log: HagfishLog) -> None:
     own = slice(steps[frames[0]], steps[frames[-1]])
     multipliers = log["/steps/thigmotaxis_lambda"][own]
     head, tail = log["/knot/head_end"][frames], log["/knot/tail_end"][frames]
+    row.way = way_of(log)
     work = log["/diagnostics/work_thigmotaxis"][frames]
     row.capped = float(100 * (np.nanmax(multipliers, axis=1) >= 0.999999 * log.scene()["controller"]["cap"]).mean())
     row.multipliers = float(np.nansum(multipliers, axis=1).mean())
-    row.work = float((work[-1] - work[0]) / (head[0] - head[-1]))
+    row.work = float((work[-1] - work[0]) / row.way)
     row.moment = float(np.linalg.norm(moments(log).mean(axis=0)))
     row.hops = float(sum((np.abs(np.diff(end)) > HOP).sum() for end in (head, tail)))
     row.travel = float(np.abs(np.diff(tail)).sum())
@@ -355,20 +368,22 @@ def page(rows: list[Row], notes: list[str]) -> list[str]:
         *(["## Pulls at food", "", *pulls_table(rows)] if pick(rows, study="pulls") else []),
         "## What this page does not show", "",
         "- Slides of one state at other steps. Here tying differs too.",
+        "- Why meshes differ, and slides of one curve at other meshes: [another page](forces_mesh.md) has them.",
         "- Animals whose head is free, which slide by the midpoint rule.",
         "- Why a living overhand knot's head end hops: two places of the strand touch in turn, each for some steps. "
         "The last frame of its slide may show the hinder one, so that its way is the least certain figure here."]
 
 
-def notes_of(folder: Path) -> list[str]:
-    log = HagfishLog(log_of(folder / "meshes", "0"))
-    date = datetime.datetime.fromtimestamp((folder / "meshes/table.csv").stat().st_mtime, datetime.UTC)
+def notes_of(sweep: Path) -> list[str]:
+    """What was measured, where and when: of a sweep that kept its logs."""
+    log = HagfishLog(log_of(sweep, "0"))
+    date = datetime.datetime.fromtimestamp((sweep / "table.csv").stat().st_mtime, datetime.UTC)
     return [f"Measured at {str(log.attribute('git_revision'))[:12]} on {log.attribute('cpu')}, {date:%Y-%m-%d}."]
 
 
 def main(folder: Path, table: Path, out: Path) -> None:
     rows = [["" if cell is None else cell for cell in astuple(row)] for row in read_study(folder)]
-    tables.write_csv(table, HEADING, rows, notes_of(folder))
+    tables.write_csv(table, HEADING, rows, notes_of(folder / "meshes"))
     tables.write_page(out, page(*read_table(table)))
 
 
