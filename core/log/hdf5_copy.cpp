@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <hdf5.h>
 #include <hdf5_hl.h>
-#include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/time.h>
 #include <sys/wait.h>
@@ -16,7 +15,10 @@
 #include <cmath>
 #include <csignal>
 #include <cstring>
+#include <exception>
 #include <map>
+#include <new>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -160,17 +162,28 @@ void copy_labels(hid_t from, hid_t to, const Places& places) {
   }
 }
 
-/// Writes the image of the open file `h5` to `descriptor`. False where there is no room.
-bool write_image(hid_t h5, int descriptor) {
+/// The bytes of the open file `h5`; none where HDF5 does not give them.
+std::vector<char> image_of(hid_t h5) {
   const ssize_t size = H5Fget_file_image(h5, nullptr, 0);
   std::vector<char> image(std::max<ssize_t>(size, 0));
-  bool whole = size > 0 && H5Fget_file_image(h5, image.data(), image.size()) == size;
-  for (ssize_t done = 0; whole && done < size;) {
-    const ssize_t more = ::write(descriptor, image.data() + done, size - done);
-    whole = more > 0;
-    done += more;
+  if (size > 0 && H5Fget_file_image(h5, image.data(), image.size()) != size) image.clear();
+  return image;
+}
+
+/// Hands `bytes` to `move` (as write and read) until all went through; false where some did not.
+template <class Bytes, class Move>
+bool move_all(std::span<Bytes> bytes, int descriptor, Move move) {
+  while (!bytes.empty()) {
+    const ssize_t more = move(descriptor, bytes.data(), bytes.size());
+    if (more < 0 && errno == EINTR) continue;
+    if (more <= 0) return false;
+    bytes = bytes.subspan(more);
   }
-  return whole;
+  return true;
+}
+
+bool write_all(std::span<const char> bytes, int descriptor) {
+  return move_all(bytes, descriptor, ::write);
 }
 
 /// What the other process does after it has begun, and its end.
@@ -187,7 +200,10 @@ bool write_image(hid_t h5, int descriptor) {
     copy_members(root, {root_copy, 0, "/", &places});
     copy_labels(from, to, places);
     H5Fflush(to, H5F_SCOPE_LOCAL);
-    ::_exit(write_image(to, descriptor) ? copied : no_room);
+    const std::vector<char> image = image_of(to);
+    const std::size_t size = image.size();
+    const bool told = write_all({reinterpret_cast<const char*>(&size), sizeof size}, descriptor);
+    ::_exit(size > 0 && told && write_all(image, descriptor) ? copied : no_room);
   } catch (const std::exception&) {
     ::_exit(no_room);
   }
@@ -235,44 +251,77 @@ void require_copied(int status, const std::string& file) {
   if (WEXITSTATUS(status) != copied) throw FileError(file + ": no memory to read it");
 }
 
-/// A file in memory, unnamed, for another process to write to.
-class SharedMemory {
+/// What another process sends, its size first. A pipe has no size, unlike a file in memory, which
+/// `ulimit -f` bounds.
+class Pipe {
  public:
-  SharedMemory() : descriptor_(::memfd_create("hagfish", MFD_CLOEXEC)) {}
-  ~SharedMemory() { ::close(descriptor_); }
-  SharedMemory(const SharedMemory&) = delete;
-  SharedMemory& operator=(const SharedMemory&) = delete;
-
-  int descriptor() const { return descriptor_; }
-  /// All of it.
-  std::vector<char> bytes() const {
-    std::vector<char> all(std::max<off_t>(::lseek(descriptor_, 0, SEEK_END), 0));
-    for (std::size_t done = 0; done < all.size();) {
-      const ssize_t more = ::pread(descriptor_, all.data() + done, all.size() - done, done);
-      if (more <= 0) return {};
-      done += more;
+  explicit Pipe(const std::string& file) {
+    if (::pipe2(ends_, O_CLOEXEC) != 0) {
+      throw FileError(file + ": cannot be read by a process: " + std::strerror(errno));
     }
+  }
+  ~Pipe() { close(); }
+  Pipe(const Pipe&) = delete;
+  Pipe& operator=(const Pipe&) = delete;
+
+  /// Where the other process writes to; it must not hold the end that this one reads from.
+  int entry() {
+    close(ends_[0]);
+    return ends_[1];
+  }
+  /// What comes until the other process ends, which it does when this pipe closes: all or nothing.
+  std::vector<char> bytes() {
+    close(ends_[1]);
+    std::size_t size = 0;
+    if (!move_all(std::span(reinterpret_cast<char*>(&size), sizeof size), ends_[0], ::read)) {
+      return {};
+    }
+    std::vector<char> all(size);
+    if (!move_all(std::span(all), ends_[0], ::read)) all.clear();
     return all;
+  }
+  void close() {
+    for (int& end : ends_) close(end);
   }
 
  private:
-  int descriptor_;
+  static void close(int& end) {
+    if (end >= 0) ::close(end);
+    end = -1;
+  }
+
+  int ends_[2] = {-1, -1};
 };
+
+/// What the process `child` sends, once it has ended.
+std::vector<char> received(Pipe& pipe, pid_t child, const std::string& file) {
+  std::vector<char> image;
+  std::exception_ptr no_memory;
+  try {
+    if (child > 0) image = pipe.bytes();
+  } catch (const std::bad_alloc&) {
+    no_memory = std::current_exception();
+  }
+  pipe.close();
+  const int status = await(child, file);
+  if (no_memory) std::rethrow_exception(no_memory);
+  require_copied(status, file);
+  return image;
+}
 
 }  // namespace
 
 H5::H5File open_hdf5_copy(const std::filesystem::path& path) {
   const std::string file = path.string();
-  const SharedMemory memory;
+  Pipe pipe(file);
   const double time =
       least_time + static_cast<double>(std::filesystem::file_size(path)) / bytes_each_second;
   const pid_t child = ::fork();
   if (child == 0) {
     expect_the_worst(time);
-    copy_all(file, memory.descriptor());
+    copy_all(file, pipe.entry());
   }
-  require_copied(await(child, file), file);
-  std::vector<char> image = memory.bytes();
+  std::vector<char> image = received(pipe, child, file);
   H5::FileAccPropList in_memory;
   in_memory.setCore(memory_increment, false);
   H5Pset_file_image(in_memory.getId(), image.data(), image.size());
@@ -286,7 +335,8 @@ H5::H5File open_hdf5_copy(const std::filesystem::path& path) {
 
 void save_hdf5(const H5::H5File& copy, const std::filesystem::path& file) {
   const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  const bool whole = descriptor >= 0 && write_image(copy.getId(), descriptor);
+  const std::vector<char> image = image_of(copy.getId());
+  const bool whole = descriptor >= 0 && !image.empty() && write_all(image, descriptor);
   const int error = errno;
   if (descriptor >= 0) ::close(descriptor);
   if (!whole) {

@@ -75,19 +75,26 @@ def full(whole, command):
     return KNOWN[name]
 
 
-def test_a_quota(whole):
-    """Of a command that reads no log: a log is read by a copy, which such a limit stops, too."""
-    command = COMMANDS["mjcf"]
+def quota(size):
+    return lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (1024 * size, 1024 * size))
+
+
+@pytest.mark.parametrize("name", ["export", "view", "mjcf", "program"])
+def test_a_quota(whole, name):
+    command = COMMANDS[name]
     full(whole, command)
     for size in SIZES:
-        def limit(size=size):
-            resource.setrlimit(resource.RLIMIT_FSIZE, (1024 * size, 1024 * size))
-
-        done = outcome(whole, command, preexec_fn=limit)
+        done = outcome(whole, command, preexec_fn=quota(size))
         assert done.returncode in (0, 1), (size, done)
         judge(whole, command, whole / "out", done)
         subprocess.run(["rm", "-r", "out"], cwd=whole, check=True)
         (whole / "out").mkdir()
+
+
+def test_a_log_is_read_whatever_may_be_written(whole):
+    for command in (["info", "a.h5"], ["check", "a.h5"]):
+        done, free = outcome(whole, command, preexec_fn=quota(0)), outcome(whole, command)
+        assert (done.returncode, done.stdout, done.stderr) == (free.returncode, free.stdout, free.stderr) and free.stdout
 
 
 @contextmanager
