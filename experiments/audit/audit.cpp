@@ -301,7 +301,7 @@ Finding all_of(const std::string& name, std::int64_t count, std::int64_t of,
   return {name, of > 0 && count == of, text, number(count), number(of), unit};
 }
 
-std::vector<Finding> audit(const std::string& file) {
+std::vector<Finding> audit(const std::string& file, bool anew) {
   const LogContents log(file);
   require_own_steps(log.h5);
   check_datasets(log);
@@ -344,7 +344,7 @@ std::vector<Finding> audit(const std::string& file) {
   findings.push_back(energy_gain(log));
   append(momentum(log));
   append(rates.findings());
-  findings.push_back(audit_checkpoints(log));
+  if (!(anew && comes_again(log))) findings.push_back(audit_checkpoints(log));
   return findings;
 }
 

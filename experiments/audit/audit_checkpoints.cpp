@@ -193,6 +193,11 @@ bool is_of_this_build(const Hdf5Reader& h5) {
          h5.root_text("compiler") == build_compiler() && h5.root_text("cpu") == cpu_name();
 }
 
+bool comes_again(const LogContents& log) {
+  return is_of_this_build(log.h5) && !log.own_law() && !log.h5.has_root_attribute("resumed") &&
+         !log.h5.has_root_attribute("branched_from");
+}
+
 bool is_of_earlier_version(const LogContents& log) {
   return log.h5.root_text("git_revision") != build_revision() &&
          is_older_checkpoint(log.h5.bytes(last_checkpoint));

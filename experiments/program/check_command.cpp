@@ -25,7 +25,7 @@ struct CheckOptions {
 
 /// Audits one log; its findings become rows of `table`. Returns an exit code.
 int check_log(const std::string& file, bool again, CsvTable& table) {
-  std::vector<Finding> findings = audit(file);
+  std::vector<Finding> findings = audit(file, again);
   if (again) findings.push_back(audit_again(file));
   std::vector<std::string> unmet;
   for (const Finding& f : findings) {

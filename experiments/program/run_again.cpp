@@ -177,7 +177,7 @@ Finding audit_again(const std::string& file) {
   const auto steps = static_cast<std::int64_t>(log.h5.shape("/steps/time").at(0));
   const Rerun rerun(log, steps);
   const Hdf5Reader again(rerun.file(), Origin::own);
-  if (is_of_this_build(log.h5) && !log.h5.has_root_attribute("resumed")) {
+  if (comes_again(log)) {
     const Difference first = earliest(log, again, 0, INFINITY);
     return judged({"again", first.text.empty() ? 0.0 : 1.0, 0, "differences"},
                   first.text.empty() ? fmt::format("all of {} steps comes again bit by bit", steps)

@@ -28,7 +28,9 @@ BRIEF = ["--quiet", "--set", "time.until=form", "--set", "time.duration=3", "--s
 def folder(tmp_path_factory):
     folder = tmp_path_factory.mktemp("changes")
     hagfish(folder, "run", "table1", *BRIEF, "--out", "good.h5")
-    hagfish(folder, "check", "--again", "good.h5")
+    said = hagfish(folder, "check", "--again", "good.h5")
+    # One run is enough: it makes all checkpoints.
+    assert "comes again bit by bit" in said and not [line for line in said.splitlines() if line[5:].startswith("checkpoints ")], said
     return folder
 
 
@@ -101,13 +103,16 @@ def test_a_run_comes_again_but_for_what_was_changed(folder):
     assert "/mean/forces/net, row 10" in said["again"]
 
 
-def test_all_that_a_checkpoint_holds_is_compared(folder):
+@pytest.mark.parametrize(("options", "finding"), [((), "checkpoints"), (("--again",), "again")])
+def test_all_that_a_checkpoint_holds_is_compared(folder, options, finding):
     with h5py.File(folder / "good.h5") as log:
         end = log["/checkpoints/end"][0]
     # The last bytes before the log's own part are those of the ledgers; the first of the means come behind them.
     for place in (int(0.3 * end), int(0.9 * end)):
-        said = changed(folder, sealed_anew(added("/checkpoints/data", place, 1)))
-        if not said:  # it is no checkpoint any more
+        said = changed(folder, sealed_anew(added("/checkpoints/data", place, 1)), *options)
+        if said:
+            assert finding in said, place
+        else:  # it is no checkpoint any more
             assert "/checkpoints" in hagfish(folder, "check", "changed.h5", code=2), place
 
 
