@@ -16,6 +16,8 @@ struct AnimalRatios {
   double stiffness() const;
   double torque() const;
   double drag() const { return girth; }
+  /// For its length.
+  double thickness() const { return girth / length; }
 };
 
 /// `limits`: of the least station.

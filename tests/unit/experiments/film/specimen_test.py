@@ -107,12 +107,13 @@ def test_its_scene_is_of_its_knot_and_animal(tmp_path, knot, title):
 
 
 FRESH = [("3_1", ANIMAL), ("3_1", ["--thicker", 1.1]), ("3_1", ["--thicker", 0.9]), ("3_1", ["--length", 80]), ("3_1", ["--length", 20]),
-         ("4_1", ANIMAL), ("4_1", ["--thicker", 1.1]), ("5_1", ["--thicker", 0.9]), ("5_2", ANIMAL)]
+         ("4_1", ANIMAL), ("4_1", ["--thicker", 1.1]), ("5_1", ["--thicker", 0.9]), ("5_2", ANIMAL), ("5_2", ["--thicker", 1.1])]
 
 
 @pytest.mark.parametrize("knot, animal", FRESH, ids=str)
 def test_a_fresh_animal_ties_its_knot_and_passes_its_audit(tmp_path, knot, animal):
-    hagfish(tmp_path, "specimen", *animal, "--knot", knot, "--out", "mine.toml", "--scene-out", "knot.toml", "--name", "mine")
+    said = hagfish(tmp_path, "specimen", *animal, "--knot", knot, "--out", "mine.toml", "--scene-out", "knot.toml", "--name", "mine")
+    assert "may not be tied" not in said
     hagfish(tmp_path, "run", "knot.toml", "--quiet", "--out", "a.h5")
     log = h5py.File(tmp_path / "a.h5")
     assert log.attrs["status"] == "complete" and {"3_1": 3, "4_1": 5, "5_1": 5, "5_2": 7}[knot] in log["knot/determinant"][()]
@@ -124,6 +125,17 @@ def test_a_fresh_animal_ties_its_knot_and_passes_its_audit(tmp_path, knot, anima
     hagfish(tmp_path, "export", "a.h5", "--out", "a")
     summary = table(tmp_path / "a/summary.csv")
     assert summary["specimen"][0] == "mine" and summary["length_cm"][0] == pytest.approx(scene["specimen"]["length"])
+
+
+@pytest.mark.parametrize("knot", ["4_1", "5_2"])
+def test_an_animal_too_thick_for_its_knot_is_told(tmp_path, knot):
+    said = hagfish(tmp_path, "specimen", "--thicker", 1.2, "--knot", knot, "--out", "mine.toml", "--scene-out", "knot.toml", "--name", "mine")
+    assert f"{knot} may not be tied: 1.2 times as thick for its length as the paper's, whose program tied up to 1.1" in said
+    done = hagfish(tmp_path, "run", "knot.toml", "--quiet", "--out", "a.h5", code=3)
+    assert "the script ended with" in done
+    # A longer one of that girth is as slender as the paper's.
+    said = hagfish(tmp_path, "specimen", "--length", 42.4 * 1.2, "--knot", knot, "--out", "b.toml", "--scene-out", "long.toml")
+    assert "may not be tied" not in said
 
 
 def test_it_has_muscles(tmp_path):
