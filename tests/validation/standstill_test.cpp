@@ -1,6 +1,10 @@
 // Where nothing moves, or all moves alike, what an audit measures against vanishes: such logs pass.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "core/log/log_writer.hpp"
+#include "experiments/audit/audit.hpp"
 #include "tests/support/stored_states.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/written_log.hpp"
@@ -14,10 +18,10 @@ ResolvedScene scene_of(std::vector<std::string> set) {
   return stored_scene(set);
 }
 
+void no_commands(const Situation&, Eigen::VectorXd&, Control&) {}
+
 /// What the audit says of 300 steps from the scene's start, by `law`.
-std::string objections(
-    const ResolvedScene& resolved,
-    const ControlLaw& law = [](const Situation&, Eigen::VectorXd&, Control&) {}) {
+std::string objections(const ResolvedScene& resolved, const ControlLaw& law = no_commands) {
   const TemporaryFolder folder;
   const Model model = make_hagfish(resolved.specimen, resolved.scene);
   Simulation sim = start(model, resolved.scene, "active-set");
@@ -44,6 +48,73 @@ TEST(Standstill, OfABodyPulledStraight) {
     control.tip = {{500, 0, 0}, 0};
   };
   EXPECT_EQ(objections(scene_of({}), pull), "");
+}
+
+/// What the audit says of `steps` steps from the knot of Table 1's slide at rest, by `law`.
+std::string objections_to_a_knot(const std::vector<std::string>& set, const ControlLaw& law,
+                                 int steps) {
+  const TemporaryFolder folder;
+  const ResolvedScene resolved = scene_of(set);
+  const Model model = make_hagfish(resolved.specimen, resolved.scene);
+  const std::vector<StoredState> all = stored_states();
+  StoredState knot = *std::ranges::find(all, "slide", &StoredState::name);
+  knot.phase = Phase::form;  // in which no knot is expected
+  knot.state.qdot.setZero();
+  const std::int64_t stride = frame_stride(resolved.scene.time);
+  knot.step -= knot.step % stride;  // a log begins with a frame
+  Simulation sim = resume(model, resolved.scene, knot);
+  sim.law = law;
+  write_log(folder / "log.h5", resolved, model, sim, steps);
+  return audit_objections(folder / "log.h5");
+}
+
+TEST(Standstill, OfAKnotWithoutCommands) {
+  EXPECT_EQ(objections_to_a_knot({}, no_commands, 500), "");
+}
+
+TEST(Standstill, OfAKnotThatNothingMoves) {
+  const std::vector<std::string> limp = {"model.bending_stiffness=0.0",
+                                         "model.twist_stiffness=0.0"};
+  EXPECT_EQ(objections_to_a_knot(limp, no_commands, 500), "");
+}
+
+TEST(Standstill, OfAKnotPulledTight) {
+  const ControlLaw pull = [](const Situation&, Eigen::VectorXd&, Control& control) {
+    control.tip = {{1000, 0, 0}, 0};
+  };
+  EXPECT_EQ(objections_to_a_knot({}, pull, 3000), "");
+}
+
+/// The audit's finding on the motion of a free body at rest, `size` times as long as the paper's
+/// animal, that is a share `moved` of its length elsewhere for one frame.
+Finding motion_of(double size, double moved) {
+  const TemporaryFolder folder;
+  ResolvedScene resolved = scene_of({"clamp_head=false", "wall.present=false"});
+  Specimen& animal = resolved.specimen;
+  animal.length *= size;
+  animal.bending_span *= size;
+  for (double& around : animal.circumference) around *= size;
+  resolved.scene.contact.least_arc *= size;
+  const Model model = make_hagfish(animal, resolved.scene);
+  Simulation sim = start(model, resolved.scene, "active-set");
+  sim.law = no_commands;
+  write_log(folder / "log.h5", resolved, model, sim, 300);
+  rewrite<double>(folder / "log.h5", "/trajectory/q", H5::PredType::NATIVE_DOUBLE,
+                  [&](std::vector<double>& q) { q[3 * model.nq() + 1] += moved * animal.length; });
+  std::vector<Finding> findings = audit(folder / "log.h5");
+  return *std::ranges::find(findings, "motion", &Finding::name);
+}
+
+TEST(Standstill, OfBodiesOfAnyLengthIsJudgedAlike) {
+  for (const double moved : {0.02, 0.04}) {
+    const Finding own = motion_of(1, moved);
+    EXPECT_EQ(own.passed, moved < 0.03) << own.text;
+    for (const double size : {0.125, 8.0}) {
+      const Finding other = motion_of(size, moved);
+      EXPECT_EQ(other.value, own.value) << size;
+      EXPECT_EQ(other.passed, own.passed) << size;
+    }
+  }
 }
 
 }  // namespace hagfish::standstill_test
