@@ -1,6 +1,8 @@
 #include "mujoco_ref/agreement.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "core/chain/dynamics.hpp"
@@ -12,6 +14,9 @@ namespace {
 
 using RowMajor3d = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 using RowMajorXd = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// Times the condition of M: seen in q̈ of 2 to 100 bodies, mass ratios of 0.01 to 1e4: a tenth.
+constexpr double rounding = std::numeric_limits<double>::epsilon();
 
 double even(std::mt19937& random, double size) {
   return size * (2 * static_cast<double>(random()) / 0x1p32 - 1);
@@ -74,6 +79,10 @@ void compare_bodies(const Model& model, const Kinematics& kin, const mjData& d, 
 
 }  // namespace
 
+double acceleration_bound(double condition) {
+  return std::max(agreement_bound.acceleration, rounding * condition);
+}
+
 Agreement agreement(const Model& model, const State& state, MujocoModel& mirror) {
   const Head head = head_of(*mirror.model(), model);
   const Kinematics kin = kinematics(model, state);
@@ -88,6 +97,8 @@ Agreement agreement(const Model& model, const State& state, MujocoModel& mirror)
   const int n = mirror.model()->nv;
   const Eigen::VectorXd scale = mujoco.mass.diagonal().cwiseSqrt();
   const Eigen::VectorXd inverse = scale.cwiseInverse();
+  const Eigen::MatrixXd unit = inverse.asDiagonal() * mujoco.mass * inverse.asDiagonal();
+  result.condition = 1 / Eigen::LLT<Eigen::MatrixXd>(unit).rcond();
   result.mass = (inverse.asDiagonal() * (core.mass.bottomRightCorner(n, n) - mujoco.mass) *
                  inverse.asDiagonal())
                     .cwiseAbs()
@@ -98,9 +109,12 @@ Agreement agreement(const Model& model, const State& state, MujocoModel& mirror)
 }
 
 Agreement worst(const Agreement& a, const Agreement& b) {
-  return {std::max(a.position, b.position), std::max(a.orientation, b.orientation),
-          std::max(a.mass, b.mass), std::max(a.bias, b.bias),
-          std::max(a.acceleration, b.acceleration)};
+  return {std::max(a.position, b.position),
+          std::max(a.orientation, b.orientation),
+          std::max(a.mass, b.mass),
+          std::max(a.bias, b.bias),
+          std::max(a.acceleration, b.acceleration),
+          std::max(a.condition, b.condition)};
 }
 
 State drawn_state(std::mt19937& random, const Model& model, Head head, double angle, double spin) {

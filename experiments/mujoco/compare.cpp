@@ -89,7 +89,7 @@ void compare_states(const Model& model, Head head, double h, const Comparison& s
   const std::array<double, 5> found = {largest.position, largest.orientation, largest.mass,
                                        largest.bias, largest.acceleration};
   const std::array<double, 5> bounds = {bound.position, bound.orientation, bound.mass, bound.bias,
-                                        bound.acceleration};
+                                        acceleration_bound(largest.condition)};
   const std::string group = std::string("/states/") + head_name(head);
   findings.h5.group(group);
   for (int i = 0; i < 5; ++i) {
