@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <span>
 
 #include "core/input/input_error.hpp"
 #include "core/run/laws.hpp"
@@ -122,14 +123,32 @@ bool concerns(const std::string& key, const std::string& of) {
   return key == of || key.starts_with(of + ".");
 }
 
+/// Why nothing reads `key` in any of `scenes`; null where something may. One reason must hold in
+/// all of them: two scenes may each lack one of two things that the key needs, and a third have
+/// both.
+const char* why_idle(std::span<const Scene> scenes, const std::string& key) {
+  const auto& keys = idle_keys();
+  const auto found = std::ranges::find_if(keys, [&](const IdleKey& one) {
+    return concerns(key, one.key) && std::ranges::all_of(scenes, one.idle);
+  });
+  return found == keys.end() ? nullptr : found->why;
+}
+
 }  // namespace
 
 void require_settings_act(const Scene& scene, const std::vector<std::string>& set) {
   for (const std::string& key : keys_of(set)) {
-    for (const IdleKey& one : idle_keys()) {
-      if (concerns(key, one.key) && one.idle(scene)) {
-        throw InputError(fmt::format("--set {}: does nothing here: {}", key, one.why));
-      }
+    if (const char* why = why_idle({&scene, 1}, key)) {
+      throw InputError(fmt::format("--set {}: does nothing here: {}", key, why));
+    }
+  }
+}
+
+void require_settings_act_somewhere(const std::vector<Scene>& scenes,
+                                    const std::vector<std::string>& set) {
+  for (const std::string& key : keys_of(set)) {
+    if (const char* why = why_idle(scenes, key)) {
+      throw InputError(fmt::format("{}: does nothing in any cell: {}", key, why));
     }
   }
 }

@@ -2,6 +2,7 @@
 
 #include "core/input/input_error.hpp"
 #include "core/input/input_text.hpp"
+#include "experiments/program/idle_settings.hpp"
 #include "experiments/program/program.hpp"
 #include "experiments/program/told_sweep.hpp"
 #include "experiments/sweep/grid_reader.hpp"
@@ -30,6 +31,24 @@ SweepPart part_of(const std::string& text, std::size_t cells) {
   return part;
 }
 
+/// Throws InputError where a key of the file does nothing in any of its scenes.
+void require_keys_act(const Grid& grid) {
+  std::vector<Scene> scenes;
+  for (std::size_t a = 0; a < grid.axes.size(); ++a) {
+    for (std::size_t place = 0; place < (is_seed(grid.axes[a]) ? 1 : grid.axes[a].size());
+         ++place) {
+      scenes.push_back(scene_with(grid, a, place).scene);
+    }
+  }
+  std::vector<std::string> keys = grid.keys();
+  keys.insert(keys.end(), grid.set.begin(), grid.set.end());
+  try {
+    require_settings_act_somewhere(scenes, keys);
+  } catch (const InputError& error) {
+    throw_input_error(grid.file + ": " + error.what());
+  }
+}
+
 }  // namespace
 
 void add_sweep(Program& program) {
@@ -45,6 +64,7 @@ void add_sweep(Program& program) {
       ->capture_default_str();
   app->callback([options, &program] {
     const Grid grid = read_grid(options->grid);
+    require_keys_act(grid);
     const bool whole =
         run_told_sweep(grid, part_of(options->part, grid.size()), options->sweep, program.typed);
     program.code = whole ? exit_code::done : exit_code::failed;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/input/input_text.hpp"
+#include "experiments/program/idle_settings.hpp"
 #include "experiments/program/run_header.hpp"
 #include "experiments/program/scene_argument.hpp"
 #include "experiments/python/gil.hpp"
@@ -22,7 +23,9 @@ constexpr int signal_stride = 64;
 ResolvedScene resolve(const PythonRun& run) {
   std::vector<std::string> set = run.set;
   if (!run.law.is_none()) set.emplace_back("controller.law=own");
-  return scene_argument(run.scene, set);
+  const ResolvedScene resolved = scene_argument(run.scene, set);
+  require_settings_act(resolved.scene, run.set);
+  return resolved;
 }
 
 /// `resolved` with other settings.
@@ -100,6 +103,7 @@ PythonSimulation::PythonSimulation(const PythonSimulation& other, const py::obje
       law_(law.is_none() ? other.law_ : law) {
   if (!set.empty()) change_scene(model, other.resolved.scene, resolved.scene, sim);
   if (!law.is_none()) resolved.scene.controller.law = own_law;
+  require_settings_act_from(sim, resolved.scene, set);
   hold_views();
 }
 

@@ -40,6 +40,30 @@ def test_what_acts_is_taken(tmp_path):
     hagfish(tmp_path, "run", "table1", "--set", "script.noise=1", "--set", "script.noise_seed=2", *brief)
 
 
+@pytest.mark.parametrize(
+    ("grid", "key", "why"),
+    [
+        ('[[axis]]\n"start.seed" = [1, 2]\n', "start.seed", "start.noise_deg is 0"),
+        ('set = ["food.strength=3"]\n[[axis]]\n"model.bodies" = [20, 30]\n', "food.strength", "food.hold is 0"),
+    ],
+)
+def test_a_sweep_refuses_what_does_nothing_in_all_cells(tmp_path, grid, key, why):
+    (tmp_path / "grid.toml").write_text(f'scene = "table1"\n{grid}')
+    refused(tmp_path, "sweep", "grid.toml", "--out", "out", parts=("grid.toml", f"{key}: does nothing in any cell", why))
+
+
+def test_a_sweep_takes_what_two_of_its_axes_make_act(tmp_path):
+    axes = {"controller.law": ["paper", "reflex"], "controller.reflex.noise": [0, 0.1], "controller.reflex.seed": [1, 2]}
+    (tmp_path / "grid.toml").write_text('scene = "reflex_overhand"\n' + "".join(f'[[axis]]\n"{key}" = {values}\n' for key, values in axes.items()))
+    refused(tmp_path, "sweep", "grid.toml", "--out", "out", "--part", "2/1", parts=("--part 2/1",))
+
+
+@pytest.mark.parametrize("grid", sorted((ROOT / "experiments/studies/grids").glob("*.toml")), ids=lambda grid: grid.stem)
+def test_all_that_the_studies_set_does_something(tmp_path, grid):
+    """What is refused is the part, after the keys: no run begins."""
+    refused(tmp_path, "sweep", str(grid), "--out", "out", "--part", "2/1", parts=("--part 2/1",))
+
+
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     folder = tmp_path_factory.mktemp("branch")

@@ -238,6 +238,16 @@ def test_wrong_arguments_of_calls_are_told_in_a_line(sim):
     assert sim.steps == 0
 
 
+def test_settings_that_do_nothing_are_refused(sim):
+    for key, value, why in (("start.seed", 3, "start.noise_deg is 0"), ("controller.reflex.shift", 1, "reflex")):
+        with pytest.raises(hagfish.InputError, match=f"{key}: does nothing here: .*{why}"):
+            hagfish.Simulation("table1", set={**FAST, key: value})
+    with pytest.raises(hagfish.InputError, match="start.noise_deg: does nothing here: the branch begins where"):
+        sim.copy(set={"start.noise_deg": 1})
+    # A law of one's own drives muscles.
+    hagfish.Simulation("table1", set={"muscle.activation_time": 0.1}, law=lambda s, c: None)
+
+
 def test_a_control_of_another_animal_is_refused(sim):
     small = hagfish.Simulation("table1", set={**FAST, "model.bodies": 40})
     with pytest.raises(ValueError, match="velocities, where the animal has"):
