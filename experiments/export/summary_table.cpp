@@ -54,6 +54,11 @@ double sliding_force(const LogContents& log, const Stretch& slide) {
   return sums.empty() ? std::numeric_limits<double>::quiet_NaN() : median(sums);
 }
 
+/// Time that was simulated, s: steps go on behind the last frame.
+double simulated(const LogContents& log) {
+  return static_cast<double>(log.h5.shape("/steps/time").at(0)) * log.resolved.scene.time.step;
+}
+
 /// The largest of some columns over the frames from `first` to `last`, in size; nan means count for
 /// nothing.
 struct Peak {
@@ -210,7 +215,7 @@ ExportTable summary_table(const LogContents& log, const SweptSkin& swept, bool s
              animal.length,
              animal.mass,
              scene.time.step,
-             log.time[end] - log.time[0],
+             simulated(log),
              knot_at(log, tighten.reached ? tighten.first : end),
              from(tighten),
              from(slide),

@@ -100,6 +100,7 @@ void RunFigures::see(const StepRecord& record) {
   const ThigmotaxisRows rows =
       thigmotaxis_rows_of(record.control, record.solution, scene_.time.step);
   const Observation& seen = record.moment.observation;
+  ++steps_;
   penetration_ = worse(penetration_, seen.penetration);
   limit_violation_ = worse(limit_violation_, seen.limit_violation);
   head_drift_ = worse(head_drift_, record.head_drift);
@@ -187,7 +188,7 @@ RunSummary RunFigures::summary(const std::string& outcome, const std::string& me
   };
   const Stretch slide = stretch(Phase::slide);
   run.knot = stretch(Phase::tighten).reached ? tightened_ : type_at_end();
-  run.duration = frames_.back().time - frames_.front().time;
+  run.duration = static_cast<double>(steps_) * scene_.time.step;
   run.tighten_from = from(Phase::tighten);
   run.slide_from = from(Phase::slide);
   run.release_from = from(Phase::release);

@@ -77,7 +77,8 @@ class RunFigures {
   const Model& model_;
   const Scene& scene_;
   RunningMeans means_;
-  std::int64_t stride_;  // steps a frame
+  std::int64_t stride_;     // steps a frame
+  std::int64_t steps_ = 0;  // seen
   std::vector<Seen> frames_;
   std::string tightened_;             // type at the first frame of tightening
   Eigen::Matrix3Xd last_centreline_;  // at the last frame

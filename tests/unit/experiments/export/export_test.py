@@ -248,6 +248,7 @@ def test_summary(run):
     assert row["knot"] == "3_1" and row["bodies"] == 100 and row["status"] == "complete"
     same([row["length_cm"], row["mass_g"], row["step_s"]], [42.4, 80, 0.02])
     same(row["slide_from_s"], time[slide[0]])
+    same(row["duration_s"], log["steps/time"][-1] + row["step_s"])
 
 
 def test_si_is_the_same_in_other_units(run):

@@ -34,3 +34,4 @@ def test_parts_gathered_are_the_whole_byte_for_byte(tmp_path):
     table = read_sweep(tmp_path / "whole/table.csv")
     assert table.axes["title"] == 2 * (3 * ["a"] + 3 * ["b, c"])
     assert len(set(table.figures["work_tip_erg"])) > 1
+    assert set(table.figures["duration_s"]) == {0.4}  # to the end of the last step, which is no frame
