@@ -97,6 +97,19 @@ def test_a_log_is_read_whatever_may_be_written(whole):
         assert (done.returncode, done.stdout, done.stderr) == (free.returncode, free.stdout, free.stderr) and free.stdout
 
 
+def test_a_log_that_memory_does_not_hold_is_not_called_damaged(whole):
+    free = outcome(whole, ["info", "a.h5"]).stdout
+    told = []
+    for size in range(56, 130, 4):  # MB; below these the program itself does not start
+        done = outcome(whole, ["info", "a.h5"], preexec_fn=lambda size=size: resource.setrlimit(resource.RLIMIT_AS, (10**6 * size, 10**6 * size)))
+        if done.returncode == 0:
+            assert done.stdout == free, size
+        elif done.stderr.startswith("hagfish: a.h5: "):
+            told.append(done.stderr)
+            assert done.stderr.count("\n") == 1 and done.stderr.startswith("hagfish: a.h5: no memory to read it"), done
+    assert told
+
+
 @contextmanager
 def small_disk(at: Path, size: int):
     done = subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={size}k", "tmpfs", at], capture_output=True)
