@@ -3,6 +3,7 @@
 // braid, closed by a loop that is nearly a circle.
 #pragma once
 
+#include <Eigen/Core>
 #include <string>
 #include <vector>
 
@@ -35,5 +36,9 @@ struct LooseKnot {
   double cpu = 0;              ///< s
 };
 LooseKnot pull_loose_knot(const LooseKnotInput& input);
+
+/// A curve near it, with tails of `tail` along X: a circle, 1 in radius, whose two ends lie along
+/// the tails and wind about each other `crossings` half turns.
+std::vector<Eigen::Vector3d> loose_curve(const LooseKnotInput& input, double tail);
 
 }  // namespace hagfish

@@ -1,11 +1,13 @@
 // Tables of experiments/results/mechanics.md: rows of CSV on standard output.
-//   mechanics loose      loose open knots, pulled
+//   mechanics loose      loose open knots in elastic rods, pulled
+//   mechanics tight      tight open knots in rope
 #include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <vector>
 
 #include "experiments/mechanics/loose_knot.hpp"
+#include "experiments/mechanics/tight_knot.hpp"
 
 namespace {
 
@@ -37,6 +39,17 @@ void loose() {
   }
 }
 
+void tight() {
+  for (const char* type : {"3_1", "4_1", "5_1", "5_2"}) {
+    for (const double link : {0.2, 0.17, 0.14}) {
+      const TightKnot knot = tighten(type, link);
+      std::printf("%s,%g,%d,%.4f,%s,%.2g\n", knot.type.c_str(), link, knot.bodies, knot.shortening,
+                  knot.at_rest ? "yes" : "no", knot.cpu);
+      std::fflush(stdout);
+    }
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -44,6 +57,10 @@ int main(int argc, char** argv) {
     loose();
     return 0;
   }
-  std::fputs("mechanics loose\n", stderr);
+  if (argc == 2 && std::strcmp(argv[1], "tight") == 0) {
+    tight();
+    return 0;
+  }
+  std::fputs("mechanics loose | tight\n", stderr);
   return 2;
 }

@@ -11,8 +11,9 @@ namespace hagfish {
 
 /// A uniform rod without mass to speak of.
 struct Rod {
-  double radius = 0;    ///< cm
-  double bending = 0;   ///< rigidity B, dyn cm^2
+  double radius = 0;           ///< cm
+  double bending = 0;          ///< rigidity B, dyn cm^2
+  double bending_damping = 0;  ///< rate form of B, dyn cm^2 s
   double twisting = 0;  ///< rigidity C, dyn cm^2: joints alternate; 0: universal joints alone
   double sharpest = 0;  ///< curvature that no joint exceeds, 1/cm; 0: any
   double drag = 1;      ///< across the rod, a tenth of it along, g / (s cm)

@@ -1,0 +1,138 @@
+#include "experiments/mechanics/tight_knot.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <numbers>
+#include <stdexcept>
+#include <vector>
+
+#include "experiments/mechanics/loose_knot.hpp"
+#include "experiments/mechanics/rod.hpp"
+
+namespace hagfish {
+namespace {
+
+using Curve = std::vector<Eigen::Vector3d>;
+
+constexpr double radius = 0.5;  // cm: lengths are in diameters
+constexpr double pull = 1;      // dyn
+constexpr int most_steps = 6000;
+
+/// Shastri's figure eight (t³ - 3t, t (t² - 1) (t² - 4), t⁷ - 42t), run on straight at both ends.
+Curve figure_eight() {
+  const auto at = [](double t) -> Eigen::Vector3d {
+    const double tt = t * t;
+    return {2.5 * t * (tt - 3), 1.6 * t * (tt - 1) * (tt - 4), 0.09 * t * (tt * tt * tt - 42)};
+  };
+  constexpr double end = 2.15;
+  constexpr double by = 1e-4;
+  const Eigen::Vector3d way =
+      (at(end) - at(end - by)).normalized();  // odd: the same at the other end
+  Curve curve;
+  for (double s = 5; s > 0; s -= 0.01) curve.push_back(at(-end) - s * way);
+  for (double t = -end; t < end; t += by) curve.push_back(at(t));
+  for (double s = 0; s < 5; s += 0.01) curve.push_back(at(end) + s * way);
+  return curve;
+}
+
+/// Catmull-Rom through the centres of bodies `first` to `last`.
+Curve through_centres(const Eigen::Matrix3Xd& centre, int first, int last) {
+  Curve curve;
+  constexpr int samples = 50;
+  for (int b = std::max(first, 1); b < std::min<int>(last, static_cast<int>(centre.cols()) - 2);
+       ++b) {
+    const Eigen::Vector3d from = 0.5 * (centre.col(b + 1) - centre.col(b - 1));
+    const Eigen::Vector3d to = 0.5 * (centre.col(b + 2) - centre.col(b));
+    const Eigen::Vector3d chord = centre.col(b + 1) - centre.col(b);
+    for (int i = 0; i < samples; ++i) {
+      const double t = static_cast<double>(i) / samples;
+      curve.push_back(centre.col(b) +
+                      t * (from + t * ((3 * chord - 2 * from - to) + t * (from + to - 2 * chord))));
+    }
+  }
+  return curve;
+}
+
+/// The Lissajous knot 5_2, opened where it is furthest out: both tails turn back there and run on
+/// side by side of it.
+Curve lissajous() {
+  constexpr double scale = 5.5;
+  const auto at = [&](double t) -> Eigen::Vector3d {
+    return scale * Eigen::Vector3d(std::cos(3 * t + 0.7), std::cos(2 * t + 0.2), std::cos(7 * t));
+  };
+  constexpr double by = 1e-4;
+  constexpr double round = 2 * std::numbers::pi;
+  double out = 0;
+  for (double t = 0; t < round; t += by) {
+    if (at(t).norm() > at(out).norm()) out = t;
+  }
+  const Eigen::Vector3d top = at(out);
+  const Eigen::Vector3d up = top.normalized();
+  const Eigen::Vector3d along = (at(out + by) - at(out - by)).normalized();
+  const double speed = (at(out + by) - at(out - by)).norm() / (2 * by);
+  Curve points;
+  for (int k = 10; k >= 0; --k) points.emplace_back(top + 2 * up + k * along);
+  points.emplace_back(top + up - along);
+  const double last = out + round - 3.5 / speed;
+  double before = out;
+  for (double t = out + 1 / speed; t < last; t += by) {
+    if (before == out || (at(t) - at(before)).norm() > 0.7) {
+      points.push_back(at(t));
+      before = t;
+    }
+  }
+  points.emplace_back(top + up - 2.5 * along);
+  for (int k = 3; k < 12; ++k) points.emplace_back(top + 2 * up - (k + 0.5) * along);
+  Eigen::Matrix3Xd centre(3, points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    centre.col(static_cast<Eigen::Index>(i)) = points[i];
+  return through_centres(centre, 0, static_cast<int>(points.size()));
+}
+
+Curve start_of(const std::string& type) {
+  if (type == "4_1") return figure_eight();
+  if (type == "5_2") return lissajous();
+  if (type != "3_1" && type != "5_1") throw std::invalid_argument("no start for a knot " + type);
+  const double thin = type == "3_1" ? 0.08 : 0.04;
+  Curve curve = loose_curve({.crossings = type[0] - '0', .radius = thin}, 5 * thin);
+  for (Eigen::Vector3d& point : curve) point *= radius / thin;
+  return curve;
+}
+
+Pulled rope_along(const Curve& curve, double link) {
+  // Damping does not move where the rope comes to rest: it lets steps be long.
+  const Rod rope{.radius = radius, .bending_damping = 1, .sharpest = 1 / radius};
+  const double apart =
+      std::numbers::pi * radius + link;  // half of the sharpest circle does not touch itself
+  return {chain_of(rope, link, links_along(curve, link)), pulled_scene(radius, pull, 1e-3, apart)};
+}
+
+}  // namespace
+
+TightKnot tighten(const std::string& type, double link) {
+  const std::clock_t begin = std::clock();
+  Pulled rope = rope_along(start_of(type), 2.5 * link);
+  rope.relax(1e-3, most_steps);
+  // Again with shorter bodies and without most of the tails.
+  double head = rope.model().body_count();
+  double tail = 0;
+  for (const ContactForce& contact : rope.contact_forces()) {
+    head = std::min(head, contact.head);
+    tail = std::max(tail, contact.tail);
+  }
+  const double kept = 2 / (2.5 * link);  // two diameters of each tail
+  rope = rope_along(through_centres(rope.kin().centre, static_cast<int>(head - kept),
+                                    static_cast<int>(tail + kept)),
+                    link);
+  TightKnot knot;
+  knot.at_rest = rope.relax(2e-5, most_steps);
+  knot.type = rope.knot();
+  knot.bodies = rope.model().body_count();
+  const Eigen::Matrix3Xd& centre = rope.kin().centre;
+  knot.shortening = link * (knot.bodies - 1) - (centre.rightCols<1>() - centre.col(0)).norm();
+  knot.cpu = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+  return knot;
+}
+
+}  // namespace hagfish
