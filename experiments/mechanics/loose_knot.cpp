@@ -94,7 +94,6 @@ LooseKnot pull_loose_knot(const LooseKnotInput& input) {
     const double bend = rod.mean_curvature(from, to);
     const double top_bend = rod.mean_curvature(top - input.per_braid, top + input.per_braid);
     knot.load = pull / (bend * bend);
-    knot.top_load = pull / (top_bend * top_bend);
     knot.integral = rod.force_behind(top).dot(rod.kin().rotation[top].col(0)) / pull +
                     0.5 * top_bend * top_bend / pull;
   }

@@ -30,8 +30,8 @@ struct LooseKnot {
   std::string type;      ///< "3_1"
   bool at_rest = false;  ///< no body moves faster than drag makes matter
   double load = 0;       ///< F R² / B, 1 / R: mean curvature from the first touch to the last
-  double top_load = 0;   ///< the same with the curvature half way between them
-  double integral = 0;   ///< (tension + B κ² / 2) / F there: 1 all along a frictionless rod
+  double integral =
+      0;  ///< (tension + B κ² / 2) / F half way between them: 1 all along a frictionless rod
   std::vector<Touch> touches;  ///< along the head's strand
   double cpu = 0;              ///< s
 };
