@@ -8,6 +8,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import living
+import plots
 import tables
 from hagfish_log import HagfishLog
 from script import run_script
@@ -18,15 +19,15 @@ def short(value: float) -> str:
 
 
 def table(folder: Path, out: Path) -> list[str]:
-    of = lambda kind: [living.read_run(folder, f"{kind}_{scene}", knot) for scene, knot in living.KNOTS.items()]
-    starts = lambda head: [living.read_starts(folder, head, scene) for scene in living.KNOTS]
+    of = lambda kind: [living.read_run(folder, f"{kind}_{scene}", knot) for scene, knot in plots.SCENES.items()]
+    starts = lambda head: [living.read_starts(folder, head, scene) for scene in plots.SCENES]
     held, free = of("held"), of("free")
     animals = [[living.read_run(folder, name, knot) for name in living.names_of(folder, "animal", scene)]
-               for scene, knot in living.KNOTS.items()]
-    programs = [HagfishLog(folder / f"held_{scene}.h5").scene()["script"]["curvature"] for scene in living.KNOTS]
+               for scene, knot in plots.SCENES.items()]
+    programs = [HagfishLog(folder / f"held_{scene}.h5").scene()["script"]["curvature"] for scene in plots.SCENES]
     slid = lambda run: f"{run.travel:.1f}; {100 * run.met:.0f}"
     off = lambda runs: [f"{one.off}; {one.far}" for one in runs]
-    return tables.of_page(out, "living", ["h = 5 ms, `active-set`", *living.KNOTS.values()], [
+    return tables.of_page(out, "living", ["h = 5 ms, `active-set`", *plots.SCENES.values()], [
         ["clamped: slide, cm; sliding steps that meet Eq. 6, %", *map(slid, held)],
         ["free, no plate: slide, cm; Eq. 6, %", *map(slid, free)],
         ["deepest penetration at any step, release included, cm",
