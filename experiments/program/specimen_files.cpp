@@ -14,20 +14,10 @@ constexpr double to_degrees = 180 / std::numbers::pi;
 // Nobody knows how far a fresh animal's knot slides; of the paper's animal other meshes alone make
 // it less than half (experiments/results/sure.md).
 constexpr double share_of_slide = 0.25;
-// The knot of a thicker body takes up more of it, and so less of its tail is through: 0.55 cm of a
-// 5_2 at 1.1 times the girth, where the scene asks for 0.85.
-constexpr double thick = 1.05;
-constexpr double share_of_tail = 0.5;
 
 /// A smaller animal is as much faster: its step is the scene's halved as often as it takes.
 double step_of(const AnimalRatios& beside, const Scene& scene) {
   return scene.time.step * std::exp2(std::min(0.0, std::floor(std::log2(beside.length))));
-}
-
-/// Arc of the tail that must be through the knot, in lengths of the body.
-double tail_through(const AnimalRatios& beside, const ResolvedScene& base) {
-  const double share = beside.thickness() > thick ? share_of_tail : 1;
-  return share * base.scene.controller.tail_through / base.specimen.length;
 }
 
 std::string list(const std::vector<double>& values, double by = 1, const char* form = "{:.6g}") {
@@ -138,8 +128,7 @@ std::string specimen_scene_text(const Specimen& animal, const std::string& file,
       "normal = {:.4g}  # g/(s cm): by its first power\n"
       "tangential = {:.4g}  # g/(s cm)\n\n"
       "[controller]\n"
-      "cap = {:.4g}  # dyn\n"
-      "tail_through = \"{:.4g} L\"  # of arc; half for thick bodies, whose knots take more\n\n"
+      "cap = {:.4g}  # dyn\n\n"
       "[time]\n"
       "step = {:.6g}  # s\n\n"
       "[expect]\n"
@@ -147,8 +136,8 @@ std::string specimen_scene_text(const Specimen& animal, const std::string& file,
       base_name, base_name, quoted(fmt::format("{}, tied by {}", knot, animal.name)), quoted(file),
       beside.stiffness() * scene.active.stiffness, beside.torque() * scene.active.capacity,
       beside.drag() * scene.drag.normal, beside.drag() * scene.drag.tangential,
-      std::max(1.0, beside.stiffness()) * scene.controller.cap, tail_through(beside, base),
-      step_of(beside, scene), share_of_slide * scene.expect.slide_distance / base.specimen.length);
+      std::max(1.0, beside.stiffness()) * scene.controller.cap, step_of(beside, scene),
+      share_of_slide * scene.expect.slide_distance / base.specimen.length);
 }
 
 }  // namespace hagfish
