@@ -17,6 +17,7 @@ using Curve = std::vector<Eigen::Vector3d>;
 
 constexpr double radius = 0.5;  // cm: lengths are in diameters
 constexpr double pull = 1;      // dyn
+constexpr double coarse = 0.5;  // cm, a body at first
 constexpr int most_steps = 6000;
 
 /// Shastri's figure eight (t³ - 3t, t (t² - 1) (t² - 4), t⁷ - 42t), run on straight at both ends.
@@ -93,9 +94,9 @@ Curve lissajous() {
 Curve start_of(const std::string& type) {
   if (type == "4_1") return figure_eight();
   if (type == "5_2") return lissajous();
-  if (type != "3_1" && type != "5_1") throw std::invalid_argument("no start for a knot " + type);
-  const double thin = type == "3_1" ? 0.08 : 0.04;
-  Curve curve = loose_curve({.crossings = type[0] - '0', .radius = thin}, 5 * thin);
+  if (type != "3_1") throw std::invalid_argument("no start for a knot " + type);
+  constexpr double thin = 0.08;
+  Curve curve = loose_curve({.radius = thin}, 5 * thin);
   for (Eigen::Vector3d& point : curve) point *= radius / thin;
   return curve;
 }
@@ -112,7 +113,7 @@ Pulled rope_along(const Curve& curve, double link) {
 
 TightKnot tighten(const std::string& type, double link) {
   const std::clock_t begin = std::clock();
-  Pulled rope = rope_along(start_of(type), 2.5 * link);
+  Pulled rope = rope_along(start_of(type), coarse);
   rope.relax(1e-3, most_steps);
   // Again with shorter bodies and without most of the tails.
   double head = rope.model().body_count();
@@ -121,7 +122,7 @@ TightKnot tighten(const std::string& type, double link) {
     head = std::min(head, contact.head);
     tail = std::max(tail, contact.tail);
   }
-  const double kept = 2 / (2.5 * link);  // two diameters of each tail
+  const double kept = 2 / coarse;  // two diameters of each tail
   rope = rope_along(through_centres(rope.kin().centre, static_cast<int>(head - kept),
                                     static_cast<int>(tail + kept)),
                     link);

@@ -48,7 +48,7 @@ def loose(folder: Path) -> list[list[str]]:
     return rows
 
 
-KNOWN = {"3_1": (10.10, 10.08), "4_1": (13.71, 13.70), "5_1": (17.21, 17.19), "5_2": (17.22, 17.20)}  # animal's chain, rope code
+KNOWN = {"3_1": (10.10, 10.08), "4_1": (13.71, 13.70), "5_2": (17.22, 17.20)}  # animal's chain, rope code
 
 
 def tight(folder: Path) -> list[list[str]]:
