@@ -126,6 +126,27 @@ def carried(fine: Chain, q: np.ndarray, chain: Chain, inside: float) -> tuple[np
     return found, float(np.abs(wanted - places(chain, found)[0]).max())
 
 
+def turned(bodies: int, in_turn: bool) -> np.ndarray:
+    """Places (99 x 3, cm) along a body of 42.4 cm whose curvatures are functions of its length. Its universal joints turn about Y before Z,
+    all or, `in_turn`, every other one; the others the other way round."""
+    length = 42.4
+    along = {"bend_y": lambda s: 0.35 * np.sin(np.pi * s / length) ** 2, "twist": lambda s: 0.05 * np.sin(np.pi * s / length),
+             "bend_z": lambda s: 0.3 * np.sin(np.pi * s / length) ** 2 * np.cos(0.2 * s)}
+    kinds = lambda body: ["twist"] if body % 2 == 0 else ["bend_y", "bend_z"][:: -1 if in_turn and body // 2 % 2 else 1]
+    hinges = [(body, kind) for body in range(1, bodies) for kind in kinds(body)]
+    chain = Chain(bodies, length / bodies, np.array([body for body, _ in hinges]), np.array([kind for _, kind in hinges]))
+    q = np.concatenate([[0, 0, 0, 1, 0, 0, 0], np.zeros(len(hinges))])
+    for kind, curvature in along.items():
+        edges = chain.edges(kind)
+        q[7:][chain.kind == kind] = curvature(np.linspace(edges[:-1], edges[1:], 9)).mean(axis=0) * np.diff(edges)
+    return through(places(chain, q)[0], np.linspace(0.02, 0.98, 99) * bodies)
+
+
+def turns_off(bodies: int, in_turn: bool) -> float:
+    """How far such a body is from one of twice as many bodies, cm, root mean square."""
+    return float(np.sqrt(((turned(bodies, in_turn) - turned(2 * bodies, in_turn)) ** 2).sum(axis=1).mean()))
+
+
 def scene_text(scene: str, bodies: int, q: np.ndarray) -> str:
     """A slide from q: of half the bodies or more to its end, of fewer its first frame."""
     short = "" if 2 * bodies >= FROM else "duration = 0.02\n"

@@ -58,3 +58,9 @@ def test_sudden_steps_are_those_far_above_what_is_around_them():
     assert forces_mesh.sudden_share(steady) == 0
     steady[[40, 90]] = 60.0
     assert np.isclose(forces_mesh.sudden_share(steady), 100 * 100 / 2100)
+
+
+def test_universal_joints_that_turn_about_y_before_z_err_by_the_first_order_and_in_turn_by_the_second():
+    first, second = ([carried_curve.turns_off(bodies, in_turn) for bodies in (50, 100)] for in_turn in (False, True))
+    assert np.isclose(first[0] / first[1], 2, rtol=0.05)
+    assert np.isclose(second[0] / second[1], 4, rtol=0.05)
