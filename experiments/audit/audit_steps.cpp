@@ -185,6 +185,10 @@ Finding plausible(const LogContents& log) {
     ask(path, std::all_of(values.begin(), values.end(),
                           [](double v) { return v >= 0 && std::isfinite(v); }));
   }
+  const std::vector<double> left_out = log.h5.doubles("/steps/left_out");
+  const double step = log.resolved.scene.time.step;
+  ask("/steps/left_out", std::all_of(left_out.begin(), left_out.end(),
+                                     [step](double v) { return v >= 0 && v <= step; }));
   const std::vector<double> wall = log.h5.doubles("/diagnostics/wall_time");
   ask("/diagnostics/wall_time falls", std::is_sorted(wall.begin(), wall.end()));
   const std::vector<std::int64_t> solve = log.h5.integers("/steps/solve");

@@ -54,8 +54,9 @@ double sliding_force(const LogContents& log, const Stretch& slide) {
   return sums.empty() ? std::numeric_limits<double>::quiet_NaN() : median(sums);
 }
 
-/// Time that was simulated, s: steps go on behind the last frame.
+/// Time that was simulated, s: steps go on behind the last frame, where the log has them.
 double simulated(const LogContents& log) {
+  if (!log.h5.has("/steps/time")) return log.time[log.time.size() - 1] - log.time[0];
   return static_cast<double>(log.h5.shape("/steps/time").at(0)) * log.resolved.scene.time.step;
 }
 
@@ -186,7 +187,7 @@ ExportTable summary_table(const LogContents& log, const SweptSkin& swept, bool s
        {"length", centimetre, "of the animal"},
        {"mass", gram, "of the animal"},
        {"step", second, "h, of the integration"},
-       {"duration", second, "simulated"},
+       {"duration", second, "simulated; of a log of frames, up to the last one"},
        {"knot", none, "type at the start of tightening, or at the end where it never tightened"},
        {"tighten_from", second, "start of tightening"},
        {"slide_from", second, "start of the slide"},

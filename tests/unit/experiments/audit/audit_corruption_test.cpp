@@ -127,6 +127,7 @@ const std::map<std::string, std::string>& watchers() {
     watch["/trajectory/qdot"] = "force balance";
     watch["/trajectory/qdot_next"] = "force balance";
     watch["/steps/kkt"] = "/diagnostics/kkt_worst";
+    watch["/steps/left_out"] = "/steps/left_out";
     watch["/steps/penetration"] = "/diagnostics/penetration";
     watch["/steps/limit_violation"] = "/diagnostics/limit_violation";
     watch["/steps/head_drift"] = "/diagnostics/head_drift";
