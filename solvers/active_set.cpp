@@ -57,7 +57,7 @@ void ActiveSetBoxQp::solve(const BoxQp& qp, const Eigen::VectorXd& start, BoxQpS
     solution.message = names(solution.contradicting);
   } else if (ending == ActiveSetPivoting::Ending::stopped) {
     solution.status = SolveStatus::stopped;
-  } else if (residual <= std::max(accepted, pivoting_.tolerated())) {
+  } else if (residual <= accepted) {
     solution.status = SolveStatus::solved;
   } else {
     solution.status = ending == ActiveSetPivoting::Ending::limit ? SolveStatus::iteration_limit

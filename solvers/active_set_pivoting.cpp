@@ -17,7 +17,7 @@ constexpr int patience = 3;
 /// Rows count as parallel where the entries of A, with their rounding, cannot tell: within some
 /// sqrt(8 ε) rad. What such rows ask for may differ by this share of the change of velocity, times
 /// Σ |t_i| with the shares t_i by which they depend on each other.
-constexpr double consistency = 4e-8;
+constexpr double consistency = 1e-9;
 /// Smaller shares in a dependent row are rounding: the root of the factor's rank threshold, as the
 /// row would depend on the others alone to the square of such a share.
 constexpr double least_share = 1e-6;
@@ -292,8 +292,7 @@ bool ActiveSetPivoting::exchange(Eigen::Index row) {
   moving_.push_back(row);
   const Eigen::Index blocking = advance(infinity);
   if (blocking < 0) {
-    const double change = std::sqrt(std::max(x_.dot(w_ + qp_->b), 0.0));
-    tolerated_[row] = consistency * std::max(beta_, change) * sum + unsure;
+    tolerated_[row] = consistency * beta_ * sum + unsure;
     if (size <= tolerated_[row]) {
       return true;
     }

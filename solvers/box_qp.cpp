@@ -110,7 +110,8 @@ KktResiduals kkt_residuals(const BoxQp& qp, const Eigen::Ref<const Eigen::Vector
     if (std::isinf(room)) {
       r.primal = std::max(r.primal, std::abs(wi));
     } else {
-      r.complementarity = std::max(r.complementarity, std::abs(wi) * std::clamp(room, 0.0, 1.0));
+      const double size = std::max(1.0, std::abs(x[i]) * s[i] / beta);
+      r.complementarity = std::max(r.complementarity, std::abs(wi) * std::clamp(room, 0.0, size));
     }
     r.primal = std::max({r.primal, -above, -below});
   }

@@ -71,8 +71,8 @@ struct KktResiduals {
   /// max |ŵ_i| of rows with nothing to push against (w > 0 without a lower bound, w < 0 without an
   /// upper one), and how far any x̂_i lies outside its bounds.
   double primal = 0;
-  /// max of |ŵ_i| times the distance of x̂_i from the finite bound that w pushes it to, which counts
-  /// as 1 where it is more: bounds that are far away are as good as none.
+  /// max of |ŵ_i| times the distance of x̂_i from the finite bound that w pushes it to, at most
+  /// |x̂_i| or 1: bounds that are further away are as good as none.
   double complementarity = 0;
   double worst() const { return primal > complementarity ? primal : complementarity; }
 };

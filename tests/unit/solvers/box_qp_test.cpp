@@ -14,7 +14,8 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 /// Sums of some 50 products of size 1 round to about 1e-15; H⁻¹ of condition 100 adds two digits.
 constexpr double rounding = 1e-13;
 
-/// Two uncoupled unilateral rows; solution (1, 0) with w = (0, 9). Scales s = (2, 3), β = 3.
+/// Two uncoupled unilateral rows; solution (1, 0) with w = (0, 9). Scales s = (2, 3); only the first
+/// pushes at x = 0, so β = 2.
 BoxQp two_rows() {
   BoxQp qp;
   qp.A = Eigen::Vector2d(4, 9).asDiagonal();
@@ -44,17 +45,17 @@ TEST(KktResiduals, HaveTheSizeOfTheError) {
   // Too large x₀: w₀ = 4 step pushes it down to its lower bound, 1 + step away.
   KktResiduals r = kkt_residuals(two_rows(), Eigen::Vector2d(1 + step, 0));
   EXPECT_EQ(r.primal, 0);
-  EXPECT_NEAR(r.complementarity, 2 * step / 3 * (2 * (1 + step) / 3), rounding);
+  EXPECT_NEAR(r.complementarity, step * (1 + step), rounding);
   // Too small x₀: w₀ < 0 and nothing above to rest on, the row is violated.
   r = kkt_residuals(two_rows(), Eigen::Vector2d(1 - step, 0));
-  EXPECT_NEAR(r.primal, 2 * step / 3, rounding);
+  EXPECT_NEAR(r.primal, step, rounding);
   EXPECT_EQ(r.complementarity, 0);
   // A force on a row that moves away.
   r = kkt_residuals(two_rows(), Eigen::Vector2d(1, step));
-  EXPECT_NEAR(r.complementarity, step * (1 + step), rounding);
+  EXPECT_NEAR(r.complementarity, 1.5 * step * 1.5 * (1 + step), rounding);
   // A pulling force.
   r = kkt_residuals(two_rows(), Eigen::Vector2d(1, -step));
-  EXPECT_NEAR(r.primal, step, rounding);
+  EXPECT_NEAR(r.primal, 1.5 * step, rounding);
 }
 
 TEST(KktResiduals, TellSoftAndFreeRowsFromHardOnes) {
@@ -62,10 +63,10 @@ TEST(KktResiduals, TellSoftAndFreeRowsFromHardOnes) {
   qp.upper[0] = 0.5;
   // At its cap a soft row may fall short, w₀ = -2.
   EXPECT_EQ(kkt_residuals(qp, Eigen::Vector2d(0.5, 0)).worst(), 0);
-  // Short of its cap it may not: ŵ₀ = 2.4 / 6 with room 0.1 * 2 / 3.
-  EXPECT_NEAR(kkt_residuals(qp, Eigen::Vector2d(0.4, 0)).complementarity, 0.4 * 0.2 / 3, rounding);
-  // Beyond it, never: 0.1 * 2 / 3 outside.
-  EXPECT_NEAR(kkt_residuals(qp, Eigen::Vector2d(0.6, 0)).primal, 0.2 / 3, rounding);
+  // Short of its cap it may not: ŵ₀ = 2.4 / 4 with room 0.1 * 2 / 2.
+  EXPECT_NEAR(kkt_residuals(qp, Eigen::Vector2d(0.4, 0)).complementarity, 0.6 * 0.1, rounding);
+  // Beyond it, never: 0.1 * 2 / 2 outside.
+  EXPECT_NEAR(kkt_residuals(qp, Eigen::Vector2d(0.6, 0)).primal, 0.1, rounding);
   qp = two_rows();
   qp.lower[1] = -infinity;
   // A free row must not move away either: ŵ₁ = 9 / 9.
@@ -87,9 +88,9 @@ TEST(KktResiduals, DoNotDependOnUnits) {
 }
 
 TEST(KktResiduals, UseTheVelocityGiven) {
-  // w from elsewhere: the first row is violated by 0.6 / 2 / 3.
+  // w from elsewhere: the first row is violated by 0.6 / 2 / 2.
   const KktResiduals r = with_gradient(Eigen::Vector2d(1, 0), Eigen::Vector2d(-0.6, 9));
-  EXPECT_NEAR(r.primal, 0.1, rounding);
+  EXPECT_NEAR(r.primal, 0.15, rounding);
 }
 
 TEST(KktResiduals, KeepRowsThatCannotMoveFromHidingOthers) {
