@@ -17,6 +17,8 @@ constexpr double stretch = 1.1, noise_allowed = 0.03;
 constexpr Eigen::Index most_pairs_of = 400;
 /// Midlines in a row that are the same, from which on they count as repeated.
 constexpr std::size_t repeated = 3;
+/// Points that two midlines must both have to be called the same.
+constexpr std::size_t least_common = 3;
 /// A change counts as a jump where it is so many times the usual one, and so much of the body.
 constexpr double jump_times = 6, jump_share = 0.04;
 /// What follows a frozen film is so many times the usual change off it.
@@ -130,14 +132,26 @@ double apart(const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b) {
   return (a - b).colwise().norm().mean();
 }
 
+/// Whether all points that both have are the same, to the last digit: either may lack some.
+bool repeats(const FilmFrame& a, const FilmFrame& b) {
+  std::size_t common = 0;
+  for (std::size_t i = 0, j = 0; i < a.place.size() && j < b.place.size();) {
+    if (a.place[i] != b.place[j]) {
+      a.place[i] < b.place[j] ? ++i : ++j;
+      continue;
+    }
+    if (a.point.col(static_cast<Eigen::Index>(i)) != b.point.col(static_cast<Eigen::Index>(j)))
+      return false;
+    ++common, ++i, ++j;
+  }
+  return common >= least_common;
+}
+
 /// Midlines that repeat the one before, where the next one that does not is far from them.
 void drop_repeats(Film& film, FilmRemarks& remarks) {
   const std::vector<Eigen::Matrix3Xd> curves = curves_of(film);
   std::vector<double> changes;
-  const auto same = [&](std::size_t f) {
-    return film.frames[f].place == film.frames[f - 1].place &&
-           film.frames[f].point == film.frames[f - 1].point;
-  };
+  const auto same = [&](std::size_t f) { return repeats(film.frames[f - 1], film.frames[f]); };
   for (std::size_t f = 1; f < curves.size(); ++f) {
     if (!same(f)) changes.push_back(apart(curves[f - 1], curves[f]));
   }
@@ -225,14 +239,26 @@ void tell_jumps(const Film& film, FilmRemarks& remarks) {
   for (std::size_t f = 1; f < curves.size(); ++f) {
     least.push_back((curves[f] - curves[f - 1]).colwise().norm().minCoeff());
   }
+  std::vector<double> mean;
+  for (std::size_t f = 1; f < curves.size(); ++f) mean.push_back(apart(curves[f - 1], curves[f]));
   const double far = std::max(jump_times * median_or_zero(least), jump_share * film.length);
-  std::vector<double> times;
+  const double sudden = std::max(jump_times * median_or_zero(mean), jump_share * film.length);
+  std::vector<double> times, sudden_times;
   double largest = 0;
   for (std::size_t f = 1; f < curves.size(); ++f) {
-    const bool gap = film.frames[f].time - film.frames[f - 1].time > gap_times * interval;
-    if (gap || least[f - 1] < far) continue;
-    largest = std::max(largest, apart(curves[f - 1], curves[f]));
-    times.push_back(film.frames[f].time);
+    if (film.frames[f].time - film.frames[f - 1].time > gap_times * interval) continue;
+    if (least[f - 1] >= far) {
+      largest = std::max(largest, mean[f - 1]);
+      times.push_back(film.frames[f].time);
+    } else if (mean[f - 1] >= sudden) {
+      sudden_times.push_back(film.frames[f].time);
+    }
+  }
+  if (!sudden_times.empty()) {
+    remarks.told.push_back(
+        fmt::format("the body changes more than {:.2g} {} from one midline to the next ({} s): "
+                    "look at these times",
+                    sudden, film.unit, times_text(sudden_times)));
   }
   if (!times.empty()) {
     remarks.doubts.push_back(

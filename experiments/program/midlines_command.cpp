@@ -148,7 +148,9 @@ int midlines(const MidlinesOptions& options) {
   }
   Film film = read_film(options.film, options.reading);
   if (options.until > 0) {
+    const std::size_t all = std::max<std::size_t>(film.frames.size(), 1);
     std::erase_if(film.frames, [&](const FilmFrame& f) { return f.time > options.until; });
+    film.expected = film.expected * film.frames.size() / all;
   }
   const FilmRemarks remarks = tidy(film);
   if (film.frames.size() < 2) {

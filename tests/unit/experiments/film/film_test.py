@@ -138,6 +138,8 @@ def test_a_flat_film_makes_a_flat_program(tmp_path):
     inner = (p["station (L)"] > 0.1) & (p["station (L)"] < 0.9)
     total = np.hypot(p["bend_y (rad/L)"], p["bend_z (rad/L)"])
     np.testing.assert_allclose(total[inner], 1.5 * p["time (s)"][inner], atol=0.02)
+    # Of its first half no point is missing.
+    assert "fitted: " in (half := hagfish(tmp_path, "midlines", "flat.csv", "--out", "half.csv", "--until", 1, "--times", 5)) and "from 100 % of" in half
     # Points without s, placed by the way between them, say the same.
     rows = (tmp_path / "flat.csv").read_text().splitlines()
     by_point = ["time_s,point,x_cm,y_cm"] + [",".join([r.split(",")[0], str(i % 40), *r.split(",")[2:]]) for i, r in enumerate(rows[1:])]
@@ -331,10 +333,15 @@ def test_what_no_body_can_do_is_taken_out_and_told(tmp_path):
     def repeated(points):
         points[30:45] = points[30]
 
+    def repeated_and_lost(points):
+        repeated(points)
+        points[random.random(points.shape[:2]) < 0.04] = np.nan
+
     assert "farther from the others" in film("outliers", outliers)
     assert "16 points at 0,0 in 4 midlines" in film("lost", lost)
     assert "head and tail are exchanged in 2 midlines (0.6667, 2 s)" in film("exchanged", exchanged)
     assert "repeat one, and the next is elsewhere: left out" in film("repeated", repeated)
+    assert "repeat one, and the next is elsewhere: left out" in film("repeated and lost", repeated_and_lost)
     assert all(word not in film("none", lambda points: None) for word in ("left out", "taken as lost", "turned round", "bridged"))
 
 
@@ -362,6 +369,10 @@ def test_what_cannot_be_put_right_is_doubtful_or_fails(tmp_path):
     write_rows(tmp_path / "jump.csv", time, s, moved)
     said = hagfish(tmp_path, "midlines", "jump.csv", "--out", "j.csv", "--free-head")
     assert "doubtful: " in said and "the whole body jumps" in said and "(1.5 s)" in said
+    late = points.copy()
+    late[20:30] = points[19] + NOISE * np.random.default_rng(1).standard_normal(late[20:30].shape)  # one picture, clicked again
+    write_rows(tmp_path / "late.csv", time, s, late)
+    assert "the body changes more than" in (said := hagfish(tmp_path, "midlines", "late.csv", "--out", "l.csv")) and "(1.5 s)" in said
     tight_s, tight = bent(time, lambda t: 30, points=101)  # more than the joints near the head can
     write_rows(tmp_path / "tight.csv", time, tight_s, tight)
     assert "times as much as the animal's joints can" in hagfish(tmp_path, "midlines", "tight.csv", "--out", "t.csv")
