@@ -236,7 +236,7 @@ INSTANTIATE_TEST_SUITE_P(Pull, KnotScenes,
 INSTANTIATE_TEST_SUITE_P(OutOfAHole, KnotScenes,
                          testing::Values("hole_overhand", "hole_figure_eight", "hole_three_twist",
                                          "reflex_hole_overhand", "reflex_hole_figure_eight",
-                                         "reflex_hole_three_twist", "reflex_burrow"),
+                                         "reflex_hole_three_twist", "reflex_burrow", "reflex_pole"),
                          scene_name);
 
 TEST(KnotScenesWithCones, TieHoldSlideAndComeOff) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 #include <numbers>
 
 #include "core/chain/start.hpp"
@@ -211,6 +212,41 @@ TEST(KnotRoundAPole, SlidesUntilItHangsOnThePole) {
   EXPECT_GT(std::abs(winding(model, sim.now.observation.kin.centre, span->head_end, span->tail_end,
                              pole.points[0], pole.points[1])),
             0.6);
+}
+
+// A smooth pole pushes across itself alone: nothing holds a knot on it along its axis (capstan
+// without friction), however the animal is wound round it.
+TEST(LivingKnotRoundAPole, IsPushedAcrossThePoleAlone) {
+  const ResolvedScene resolved = read_scene(std::string(HAGFISH_DATA_DIR) + "/reflex_pole.toml");
+  const Scene& scene = resolved.scene;
+  const Model model = make_hagfish(resolved.specimen, scene);
+  const Obstacle& pole = model.obstacles.at(0);
+  const Eigen::Vector3d axis = (pole.points.back() - pole.points.front()).normalized();
+  Simulation sim = start(model, scene, "active-set");
+  StepRecord record;
+  double least_turn = INFINITY, across = 0, along = 0;
+  while (sim.controller.phase != Phase::release) {
+    take_step(model, scene, sim, record);
+    const StepSolution& step = record.solution;
+    for (std::size_t i = 0; i < step.rows.size(); ++i) {
+      if (step.rows[i].obstacle != 0) continue;
+      const double push = step.lambda[static_cast<Eigen::Index>(i)] / scene.time.step;
+      along = std::max(along, std::abs(push * step.rows[i].direction.dot(axis)));
+      across = std::max(across, push);
+    }
+    if (record.controller.phase == Phase::slide) {
+      const auto span = knot_span(record.controller);
+      ASSERT_TRUE(span);
+      const double turn = winding(model, sim.now.observation.kin.centre, span->head_end,
+                                  span->tail_end, pole.points.front(), pole.points.back());
+      least_turn = std::min(least_turn, std::abs(turn));
+    }
+  }
+  std::cout << "[ FIGURE   ] " << across << " dyn across, " << along << " along; " << least_turn
+            << " turns at least\n";
+  EXPECT_GT(across, 1000);
+  EXPECT_LT(along, 5e-3 * across);  // how well closest points are known leaves 0.2 %
+  EXPECT_GT(least_turn, 1);
 }
 
 }  // namespace hagfish::obstacles_test
