@@ -66,16 +66,22 @@ def holes(folder: Path) -> None:
 
 
 def waves(folder: Path) -> None:
-    rows = []
+    """A row a wave, of runs that start at other phases of it. The pull is a mean over a frame's time, as that at which food gives."""
+    found: dict[tuple[str, ...], list[tuple[np.ndarray, float, float]]] = {}
     for path in sorted((folder / "waves").glob("*.h5")):
         log = HagfishLog(path)
-        angle, length, period = path.stem.split("_")
         late = log["/trajectory/time"] > SETTLED
-        pull = -log["/mean/forces/head"][late, 0] / 1e5
-        torque = np.abs(log["/mean/forces/active"][late]).max()
-        rows.append([angle, length, period, number(float(pull.mean()), 2), number(float(pull.max()), 2), f"{torque:.1e}".replace("+0", "")])
-    tables.write_csv(folder / "tables" / "world_waves.csv", ["angle, rad", "length, L", "period, s", "mean pull, N", "largest pull, N", "largest torque, dyn cm"],
-                     rows)
+        found.setdefault(tuple(path.stem.split("_")[:3]), []).append(
+            (-log["/mean/forces/head"][late, 0] / 1e5, np.abs(log["/mean/forces/active"][late]).max(), log.scene()["food"]["strength"]))
+    rows = []
+    for wave, runs in found.items():
+        pull = np.array([run[0] for run in runs])
+        means, peaks, strength = pull.mean(axis=1), pull.max(axis=1), runs[0][2]
+        rows.append([*wave, f"{len(runs)}", f"{means.min():.2g} to {means.max():.2g}", f"{peaks.min():.2g} to {peaks.max():.2g}",
+                     f"{100 * (pull > strength).mean():.2g}", "no" if (peaks < strength).all() else "yes" if (peaks > strength).all() else "at some phases",
+                     f"{max(run[1] for run in runs):.1e}".replace("+0", "")])
+    tables.write_csv(folder / "tables" / "world_waves.csv", ["angle, rad", "length, L", "period, s", "phases", "mean pull, N", "largest pull, N",
+                                                             "over what holds, % of time", "head comes out", "largest torque, dyn cm"], rows)
 
 
 def hole_map(folder: Path) -> None:

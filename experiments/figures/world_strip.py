@@ -1,6 +1,6 @@
-"""A film strip of a head pulled out of a hole, by a reflex and by the paper's law, and of a robot that ties a knot (a row each).
+"""A film strip of a head pulled out of a hole, by a reflex and by the paper's law, of a knot round a pole and of a robot's (a row each).
 
-Usage: world_strip.py REFLEX.h5 PAPER.h5 ROBOT.h5 OUT.png. Needs the program as built (HAGFISH_PROGRAM).
+Usage: world_strip.py REFLEX.h5 PAPER.h5 POLE.h5 ROBOT.h5 OUT.png. Needs the program as built (HAGFISH_PROGRAM).
 """
 
 from __future__ import annotations
@@ -37,10 +37,10 @@ def moments_of_slide(log: HagfishLog) -> list[float]:
     return [slide[0] / 2, slide[0], (slide[0] + slide[-1]) / 2, slide[-1]]
 
 
-def main(reflex: Path, paper: Path, robot: Path, out: Path) -> None:
+def main(reflex: Path, paper: Path, pole: Path, robot: Path, out: Path) -> None:
     rows = []
     with tempfile.TemporaryDirectory() as folder:
-        for row, (path, moments_of) in enumerate(((reflex, moments), (paper, moments), (robot, moments_of_slide))):
+        for row, (path, moments_of) in enumerate(((reflex, moments), (paper, moments), (pole, moments_of_slide), (robot, moments_of_slide))):
             picture = Path(folder) / f"{row}.png"
             at = [word for time in moments_of(HagfishLog(path)) for word in ("--time", f"{time:g}")]
             subprocess.run([HAGFISH, "picture", path, "--out", picture, "--size", SIZE, *at], check=True, stdout=subprocess.DEVNULL)
@@ -49,4 +49,4 @@ def main(reflex: Path, paper: Path, robot: Path, out: Path) -> None:
 
 
 if __name__ == "__main__":
-    run_script(__doc__, ["REFLEX.h5", "PAPER.h5", "ROBOT.h5", "OUT.png"], main)
+    run_script(__doc__, ["REFLEX.h5", "PAPER.h5", "POLE.h5", "ROBOT.h5", "OUT.png"], main)

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # A world to knot in: the head pulled out of a hole by knots and by waves without a knot, the skin that knots sweep,
 # and a snake robot on a floor. Leaves tables/world.csv, world_waves.csv, world_map.csv, world_chance.csv, world_skin.csv,
-# world_robot.csv, world.png and world_skin.png.
+# world_pole.csv, world_robot.csv, world.png and world_skin.png.
 #   bash experiments/studies/world.sh [OUTPUT_FOLDER]     default: out/world
 # Stopped, it goes on where it was.
 set -euo pipefail
@@ -27,15 +27,17 @@ done
 } >"$out/hole_widths.toml"
 "$hagfish" sweep "$out/hole_widths.toml" --out "$out/hole_widths"
 
-# Without a knot: a wave of `angle` (rad) and `length` (body lengths) runs to the head once in `period` (s).
+# Without a knot: a wave of `angle` (rad) and `length` (body lengths) runs to the head once in `period` (s), from eight phases.
 mkdir -p "$out/waves"
 for wave in "0.5 1 2" "0.5 1 1" "0.5 1 0.5" "1 1 2" "1 1 1" "0.5 0.6 1" "0.5 0.6 0.5" "0.5 0.6 0.25"; do
-  name=$out/waves/${wave// /_}
-  [[ -e $name.h5 ]] && continue
-  # shellcheck disable=SC2086 # three numbers
-  draw world_wave.py $wave "$name.csv" "$name.toml"
-  "$hagfish" run "$name.toml" --out "$name.part.h5" --force --quiet
-  mv "$name.part.h5" "$name.h5"
+  for eighth in 0 0.125 0.25 0.375 0.5 0.625 0.75 0.875; do
+    name=$out/waves/${wave// /_}_$eighth
+    [[ -e $name.h5 ]] && continue
+    # shellcheck disable=SC2086 # three numbers
+    draw world_wave.py $wave $eighth "$name.csv" "$name.toml"
+    "$hagfish" run "$name.toml" --out "$name.part.h5" --force --quiet
+    mv "$name.part.h5" "$name.h5"
+  done
 done
 
 for log in "$out"/skin/logs/*.h5; do
@@ -43,5 +45,10 @@ for log in "$out"/skin/logs/*.h5; do
 done
 draw world.py "$out"
 draw world_skin.py "$out/skin" "$out/world_skin.png"
-draw world_strip.py "$out/holes/logs/9.h5" "$out/holes/logs/0.h5" "$out/robot/logs/1.h5" "$out/world.png"
+
+# Round a pole: the slide goes on from the run's checkpoint, with weights along the pole and across it.
+mkdir -p "$out/pole"
+"$hagfish" run reflex_pole --out "$out/pole/run.h5" --force --quiet
+draw world_pole.py "$out"
+draw world_strip.py "$out/holes/logs/9.h5" "$out/holes/logs/0.h5" "$out/pole/run.h5" "$out/robot/logs/1.h5" "$out/world.png"
 list_output
