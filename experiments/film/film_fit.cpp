@@ -20,9 +20,8 @@ constexpr double reach = 3.5;
 constexpr double least_noise = 6e-4;
 constexpr int rounds = 20;  // of noise and smoothness, and of the steps at them:
 constexpr int steps = 40;
-/// The gradient has vanished where the step that it asks for is this much of the standard errors,
-/// all values together. Where steps run out, as of a free head's roll, `near_enough` will do.
-constexpr double settled_decrement = 0.01, near_enough = 0.1;
+/// The gradient has vanished where the step that it asks for is this much of the standard errors.
+constexpr double settled_decrement = 0.01;
 /// Noise and smoothness are known once they change by less than this, of themselves.
 constexpr double settled_noise = 0.02;
 /// Points tell a value where noise is at least this share of the variance that the matrix gives it.
@@ -213,21 +212,19 @@ class Fit {
 
   /// Levenberg and Marquardt's steps at this noise and smoothness. Whether the gradient vanished.
   bool descend() {
-    double damping = 1e-4, asked = 0;  // asked: by the least damped try of a step
-    const auto within = [&](double decrement, double share) {
-      return decrement <= share * share * noise_ * noise_;
-    };
+    double damping = 1e-4;
     for (int step = 0; step < steps; ++step) {
       const double before = assemble();
-      asked = 0;
       for (;;) {
         if (damping > 1e8) return false;
         Eigen::VectorXd by;
         if (matrix_.factor(damping)) by = -matrix_.solve(gradient_);
         if (by.size() > 0 && by.allFinite()) {
           const double decrement = -gradient_.dot(by);
-          if (within(decrement, settled_decrement) || decrement <= 1e-9 * before) return true;
-          asked = std::max(asked, decrement);
+          if (decrement <= settled_decrement * settled_decrement * noise_ * noise_ ||
+              decrement <= 1e-9 * before) {
+            return true;
+          }
           const FilmUnknowns next = stepped(by);
           const double after = cost(next);
           if (after < before) {
@@ -239,7 +236,7 @@ class Fit {
         damping = std::max(1e-6, 10 * damping);
       }
     }
-    return within(asked, near_enough);
+    return false;
   }
 
   /// Noise and smoothness from what is left (Fellner and Schall's update). False where the matrix

@@ -246,10 +246,10 @@ def run_name(run: tuple[str, bool]) -> str:
 
 
 def runs(folder: Path, asked: list[str]) -> list[dict]:
-    rows = []
+    rows, before = [], of_table(folder / "films_runs.csv")
     for number, (scene, mirror) in enumerate(RUNS):
         name = run_name((scene, mirror))
-        known = [row for row in of_table(folder / "films_runs.csv") if row["run"] == name]
+        known = [row for row in before if row["run"] == name]
         if (asked and name not in asked) or known:
             rows += known
             continue
@@ -261,9 +261,9 @@ def runs(folder: Path, asked: list[str]) -> list[dict]:
         free = ["--free-head"] if scene.endswith("free") else []
         text, exchanged = filmed(folder / "run.h5", until, number)
         (folder / "film.csv").write_text(text)
-        before = cpu()
+        begin = cpu()
         code, said = hagfish(folder, "midlines", "film.csv", "--scene", scene, "--stations", 25, "--out", "p.csv", "--force", *read_as, *free)
-        took = cpu() - before
+        took = cpu() - begin
         row = {"run": name, "code": code, "verdict": next((line.split(":")[0] for line in said.splitlines() if line.split(":")[0] in ("fitted", "doubtful", "failed")), "refused"),
                "exchanged frames named": sum(t in said for t in exchanged)}
         if code == 0:
@@ -456,7 +456,7 @@ All commands of [the tutorial](../tutorials/film_to_torques.md), its film among 
 - No film of a living hagfish is among them: none with digitised midlines is at hand.
 - One camera is fitted as an animal in a plane. It does not tell which strand is over, and the command says so.
 - A film that never shows the tail counts as a whole animal, unless its points or `--animal-length` say where the tail is. The command says so.
-- Whether a head is free must be known: `--free-head`. Such a fit takes longer.
+- Whether a head is free must be known: `--free-head`. Such a fit takes longer, and is called doubtful as it comes to no end: its roll at each time is told by nothing.
 {missing}"""
 
 
