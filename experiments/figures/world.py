@@ -85,8 +85,8 @@ def waves(folder: Path) -> None:
 
 
 def hole_map(folder: Path) -> None:
-    """A row a change, a column a knot and law."""
-    found: dict[str, dict[tuple[str, str], str]] = {}
+    """A row a change, a column a knot and law: the median of its starts, their least and most; "not tied" counts as no pull."""
+    found: dict[str, dict[tuple[str, str], list[float]]] = {}
     for _, log in [*cells(folder / "hole_map"), *cells(folder / "hole_widths")]:
         scene = log.scene()
         rim = next(each for each in scene["obstacle"] if each["kind"] == "strand")
@@ -95,11 +95,14 @@ def hole_map(folder: Path) -> None:
         plate = "plane" if rim["name"] == "rim" else "rings"
         changed = (f"hole {width:.2g} cm, {plate}; girth {max(log['/model/radius']) * 2 * np.pi:.2g} cm; "
                    f"muscles {scene['active']['stiffness']:.1e} dyn cm^2").replace("e+0", "e")
-        pulled = largest_pull(log)
-        found.setdefault(changed, {})[knot_and_law(log)] = f"{pulled:.2f}" if pulled > 0 else "not tied"
+        found.setdefault(changed, {}).setdefault(knot_and_law(log), []).append(largest_pull(log))
     columns = list(dict.fromkeys(key for cell in found.values() for key in cell))
     tables.write_csv(folder / "tables" / "world_map.csv", ["changed", *(f"{knot}, {law}" for knot, law in columns)],
-                     [[changed, *(cell.get(key, "") for key in columns)] for changed, cell in found.items()])
+                     [[changed, *(pulled(cell.get(key, [])) for key in columns)] for changed, cell in found.items()])
+
+
+def pulled(starts: list[float]) -> str:
+    return "not tied" if not any(starts) else f"{np.median(starts):.2f} ({min(starts):.2f} to {max(starts):.2f})"
 
 
 def chance(folder: Path) -> None:

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # A world to knot in: the head pulled out of a hole by knots and by waves without a knot, the skin that knots sweep,
 # and a snake robot on a floor. Leaves tables/world.csv, world_waves.csv, world_map.csv, world_chance.csv, world_skin.csv,
-# world_pole.csv, world_robot.csv, world.png and world_skin.png.
+# world_pole.csv, world_robot.csv, world.png, world_map.png and world_skin.png.
 #   bash experiments/studies/world.sh [OUTPUT_FOLDER]     default: out/world
 # Stopped, it goes on where it was.
 set -euo pipefail
@@ -22,6 +22,8 @@ for width in 2 3 4 5 6 7; do
 done
 {
   grep "^keep\|^set" "$grids/world_hole_map.toml"
+  echo "[[axis]]"
+  echo "\"start.seed\" = [1, 2, 3]"
   echo "[[axis]]"
   echo "scene = [$(IFS=,; echo "${scenes[*]}")]"
 } >"$out/hole_widths.toml"
@@ -44,6 +46,7 @@ for log in "$out"/skin/logs/*.h5; do
   [[ -e ${log%.h5}/summary.csv ]] || "$hagfish" export "$log" --out "${log%.h5}"
 done
 draw world.py "$out"
+draw world_map.py "$out/tables/world_map.csv" "$out/world_map.png"
 draw world_skin.py "$out/skin" "$out/world_skin.png"
 
 # Round a pole: the slide goes on from the run's checkpoint, with weights along the pole and across it.
