@@ -3,7 +3,7 @@
 # and a snake robot on a floor. Leaves tables/world.csv, world_waves.csv, world_map.csv, world_chance.csv, world_skin.csv,
 # world_pole.csv, world_robot.csv, world.png, world_map.png and world_skin.png.
 #   bash experiments/studies/world.sh [OUTPUT_FOLDER]     default: out/world
-# Stopped, it goes on where it was.
+# Stopped, it goes on where it was. Its logs take some 6 GB.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
