@@ -14,8 +14,8 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 /// Sums of some 50 products of size 1 round to about 1e-15; H⁻¹ of condition 100 adds two digits.
 constexpr double rounding = 1e-13;
 
-/// Two uncoupled unilateral rows; solution (1, 0) with w = (0, 9). Scales s = (2, 3); only the first
-/// pushes at x = 0, so β = 2.
+/// Two uncoupled unilateral rows; solution (1, 0) with w = (0, 9). Scales s = (2, 3); only the
+/// first pushes at x = 0, so β = 2.
 BoxQp two_rows() {
   BoxQp qp;
   qp.A = Eigen::Vector2d(4, 9).asDiagonal();

@@ -65,8 +65,8 @@ TEST(QpReference, MeasuresVelocities) {
   EXPECT_NEAR(error.relative, relative, known_to * relative);
   const double largest = off.lpNorm<Eigen::Infinity>();
   EXPECT_NEAR(error.largest, largest, known_to * largest);
-  const double velocity = std::max(known.v.lpNorm<Eigen::Infinity>(),
-                                   (known.v - change).lpNorm<Eigen::Infinity>());
+  const double velocity =
+      std::max(known.v.lpNorm<Eigen::Infinity>(), (known.v - change).lpNorm<Eigen::Infinity>());
   EXPECT_NEAR(error.largest_relative, largest / velocity, known_to * largest);
 }
 
