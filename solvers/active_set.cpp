@@ -1,6 +1,5 @@
 #include "solvers/active_set.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
@@ -9,7 +8,8 @@ namespace hagfish {
 namespace {
 
 /// Largest kkt_residuals of a point that is called solved, as for Ipopt: far above rounding, which
-/// is 1e-16 to 1e-12 with the size of x. Parallel rows that differ by rounding may miss by more.
+/// is 1e-16 to 1e-12 with the size of x, and above what rows may miss that contradict each other by
+/// rounding.
 constexpr double accepted = 1e-8;
 
 std::string names(const std::vector<Eigen::Index>& rows) {

@@ -14,9 +14,9 @@ constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
 /// Of block pivoting: changes without fewer wrong rows before it gives up. Portugal et al. take 10;
 /// single changes follow here, which need no patience.
 constexpr int patience = 3;
-/// Rows count as parallel where the entries of A, with their rounding, cannot tell: within some
-/// sqrt(8 ε) rad. What such rows ask for may differ by this share of the change of velocity, times
-/// Σ |t_i| with the shares t_i by which they depend on each other.
+/// Rows that depend on each other with shares t_i (brought to unit diagonal) miss by about 1e-14 of
+/// β Σ |t_i| where they agree, and by the rounding of b; rows that contradict each other miss by
+/// more than this and that rounding.
 constexpr double consistency = 1e-9;
 /// Smaller shares in a dependent row are rounding: the root of the factor's rank threshold, as the
 /// row would depend on the others alone to the square of such a share.

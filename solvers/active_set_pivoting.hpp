@@ -52,8 +52,6 @@ class ActiveSetPivoting {
   const Eigen::Map<Eigen::VectorXd>& w() const { return w_; }
   /// row_scale of the problem's A.
   const Eigen::Map<Eigen::VectorXd>& scale() const { return scale_; }
-  /// |ŵ| of kkt_residuals up to which rows that depend on others may be unmet.
-  double tolerated() const { return tolerated_.size() > 0 ? tolerated_.maxCoeff() / beta_ : 0; }
   /// Changes of sides so far, a block counting as one.
   int changes() const { return changes_; }
   /// Ascending. Multipliers t_i with t_i > 0 on rows without an upper bound (any sign on free rows)

@@ -297,8 +297,7 @@ void IpoptBoxQp::Engine::pivot(const BoxQp& qp, BoxQpSolution& solution) {
     solution.status = SolveStatus::infeasible;
     solution.contradicting = pivoting.contradicting();
   } else if (ending == ActiveSetPivoting::Ending::settled && settings.polish &&
-             kkt_residuals(qp, pivoting.x()).worst() <=
-                 std::max(settings.accepted, pivoting.tolerated())) {
+             kkt_residuals(qp, pivoting.x()).worst() <= settings.accepted) {
     solution.x = pivoting.x();
     solution.status = SolveStatus::solved;
     solution.message.clear();
