@@ -22,7 +22,7 @@ COLOURS = {NEVER: plots.GRID, THERE: plots.BLUE, BACK: plots.ORANGE}
 
 
 def passes(log: HagfishLog, skin: Path) -> tuple[np.ndarray, np.ndarray]:
-    """Arc length of the rings, cm, and when each patch was first swept: a row a side of the body, a column a ring."""
+    """Arc length of the rings, cm, and on which way each patch was first swept: a row a side of the body, a column a ring."""
     cells = tables.read_csv(skin, ["s_cm", "side_rad", "since_s"])
     s, side = (np.unique([float(cell[name]) for cell in cells]) for name in ("s_cm", "side_rad"))
     since = np.array([float(cell["since_s"] or "nan") for cell in cells]).reshape(s.size, side.size).T
