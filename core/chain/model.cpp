@@ -185,6 +185,14 @@ void set_joint(const Specimen& specimen, const ModelSettings& settings, int b, M
   }
 }
 
+/// Axes of the universal joint before body b. Turns do not commute: one about Y before Z twists the
+/// body by half the product of its angles, Z before Y by as much the other way. In turn these
+/// twists cancel, so that one curvature makes one curve to second order in the bodies' length.
+std::vector<Axis> bending_axes(JointLayout joints, int b) {
+  const int before = joints == JointLayout::universal ? b - 1 : (b - 1) / 2;  // universal joints
+  return before % 2 == 0 ? std::vector{Axis::z, Axis::y} : std::vector{Axis::y, Axis::z};
+}
+
 }  // namespace
 
 Model make_hagfish(const Specimen& specimen, const Scene& scene) {
@@ -218,7 +226,7 @@ Model make_hagfish(const Specimen& specimen, const Scene& scene) {
     if (b == 0) {
       append_body(model, body, {});
     } else if (bend) {
-      append_body(model, body, {Axis::y, Axis::z});
+      append_body(model, body, bending_axes(settings.joints, b));
     } else {
       append_body(model, body, {Axis::x});
     }

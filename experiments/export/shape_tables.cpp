@@ -1,4 +1,5 @@
 #include <cmath>
+#include <utility>
 
 #include "core/chain/bending.hpp"
 #include "core/knot/knot.hpp"
@@ -67,8 +68,9 @@ void add_curvature(const LogContents& log, const ShownFrame& frame, ExportTable&
   for (int b = 1; b < n; ++b) {
     const Body& body = model.bodies[b];
     if (body.dofs != 2) continue;
-    const double y = frame.q[body.first_dof + 1];
-    const double z = frame.q[body.first_dof + 2];
+    double y = frame.q[body.first_dof + 1];
+    double z = frame.q[body.first_dof + 2];
+    if (model.hinges[body.first_dof - root_dofs].axis == Axis::z) std::swap(y, z);
     const double span = hinge_span(model, b);
     double turn = 0, along = 0;
     for (const int beside : {b - 1, b + 1}) {

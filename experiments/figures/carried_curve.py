@@ -128,11 +128,11 @@ def carried(fine: Chain, q: np.ndarray, chain: Chain, inside: float) -> tuple[np
 
 def turned(bodies: int, in_turn: bool) -> np.ndarray:
     """Places (99 x 3, cm) along a body of 42.4 cm whose curvatures are functions of its length. Its universal joints turn about Y before Z,
-    all or, `in_turn`, every other one; the others the other way round."""
+    all or, `in_turn` as the simulator's, every other one; the others the other way round."""
     length = 42.4
     along = {"bend_y": lambda s: 0.35 * np.sin(np.pi * s / length) ** 2, "twist": lambda s: 0.05 * np.sin(np.pi * s / length),
              "bend_z": lambda s: 0.3 * np.sin(np.pi * s / length) ** 2 * np.cos(0.2 * s)}
-    kinds = lambda body: ["twist"] if body % 2 == 0 else ["bend_y", "bend_z"][:: -1 if in_turn and body // 2 % 2 else 1]
+    kinds = lambda body: ["twist"] if body % 2 == 0 else ["bend_y", "bend_z"][:: -1 if in_turn and body // 2 % 2 == 0 else 1]
     hinges = [(body, kind) for body in range(1, bodies) for kind in kinds(body)]
     chain = Chain(bodies, length / bodies, np.array([body for body, _ in hinges]), np.array([kind for _, kind in hinges]))
     q = np.concatenate([[0, 0, 0, 1, 0, 0, 0], np.zeros(len(hinges))])

@@ -231,17 +231,16 @@ def page(rows: list[Row], notes: list[str]) -> list[str]:
         f"**Answer.** It is a bias of coarse meshes, not their chance: by over two standard errors in {sure} of {len(bias)} slides. "
         f"Five counts of bodies about 200 agree to {np.median(groups[200]):.0f} % of f_thigmo (at most {max(groups[200]):.0f} %), "
         f"five about 100 to {np.median(groups[100]):.0f} %. The means of both differ by {np.median(bias):.0f} % (at most {max(bias):.0f} %): medians over knots and animals. "
-        f"One cause is of first order: all universal joints turn about Y before Z. From 200 to 400 bodies the sum of the multipliers changes by {np.median(sums):.0f} % (at most {max(sums):.0f} %) "
+        f"From 200 to 400 bodies the sum of the multipliers changes by {np.median(sums):.0f} % (at most {max(sums):.0f} %) "
         f"and the way by {np.median(ways[200]):.1f} % "
         f"(at most {max(ways[200]):.0f} %). From 100 to 200 the way changes by {np.median(ways[100]):.1f} % (at most {max(ways[100]):.0f} %).", "",
         "## The order of turns", "",
-        "A universal joint turns about Y before Z. Turns do not commute: each such joint twists the body by half the product of its two angles. "
-        "That is a twist for each length of half the joints' distance times both curvatures, an error of first order. "
-        "So one program of curvatures is another curve with other bodies, and one curve has other torques. "
+        "Turns do not commute: a universal joint that turns about Y before Z twists the body by half the product of its two angles. "
+        "If all joints do, that is a twist for each length of half the joints' distance times both curvatures, an error of first order. "
+        "One program of curvatures is then another curve with other bodies. "
         "Below, no run: three smooth curvatures along a body, and how far it lies from one of twice as many bodies, root mean square.", "",
         *turns_table(rows),
-        "Where every other joint turns the other way round, these twists cancel. The simulator does not do so. "
-        "A trial did not bring slides of 100 and 200 bodies nearer ([what was tried](../benchmarks/README.md)), so that this is not all.", "",
+        "Where every other joint turns the other way round, as in this simulator, these twists cancel.", "",
         "## Slides", "",
         "Slides of 92 to 108 bodies, of 184 to 216 and of 400, at 2 ms. Order is by the differences of 100, 200 and 400. "
         "The way ends where the head is let go. "

@@ -59,15 +59,16 @@ class Program:
         self.error = grid("bend_y error (rad/L)") + 1j * grid("bend_z error (rad/L)")
 
 
-# The chain, computed anew: a joint at every other body, which turns about its Y and then about its Z.
+# The chain, computed anew: a joint at every other body, which turns about its Z and then about its Y, the next one the other way round.
 JOINTS = np.arange(1, BODIES, 2)
 SPAN = (np.where(JOINTS + 2 >= BODIES, BODIES, JOINTS + 1) - np.where(JOINTS <= 2, 0, JOINTS - 1)) / BODIES
 
 
-def turns(angle: np.ndarray) -> np.ndarray:
-    """Of a joint's angles y + i z."""
+def turns(angle: np.ndarray, joint: int) -> np.ndarray:
+    """Of a joint's angles y + i z, by its place in JOINTS."""
     (cy, sy), (cz, sz), none = (np.cos(angle.real), np.sin(angle.real)), (np.cos(angle.imag), np.sin(angle.imag)), 0 * angle.real
-    return np.stack([cy * cz, -cy * sz, sy, sz, cz, none, -sy * cz, sy * sz, cy], axis=-1).reshape(*angle.shape, 3, 3)
+    rows = [cz * cy, -sz, cz * sy, sz * cy, cz, sz * sy, -sy, none, cy] if joint % 2 == 0 else [cy * cz, -cy * sz, sy, sz, cz, none, -sy * cz, sy * sz, cy]
+    return np.stack(rows, axis=-1).reshape(*angle.shape, 3, 3)
 
 
 def joints_of(bend: np.ndarray, station: np.ndarray) -> np.ndarray:
@@ -78,8 +79,8 @@ def joints_of(bend: np.ndarray, station: np.ndarray) -> np.ndarray:
 def ways(angle: np.ndarray) -> np.ndarray:
     """Directions of the stretches between joints, times x (joints + 1) x 3, the head's first."""
     turn, way = np.broadcast_to(np.eye(3), (len(angle), 3, 3)), [np.broadcast_to([1.0, 0, 0], (len(angle), 3))]
-    for each in turns(angle).swapaxes(0, 1):
-        turn = turn @ each
+    for joint, each in enumerate(angle.T):
+        turn = turn @ turns(each, joint)
         way.append(turn[..., 0])
     return np.stack(way, axis=1)
 
@@ -95,10 +96,10 @@ def joints_along(way: np.ndarray, roll: np.ndarray) -> np.ndarray:
     c, s, one, none = np.cos(roll), np.sin(roll), 1 + 0 * roll, 0 * roll
     turn = np.stack([one, none, none, none, c, -s, none, s, c], axis=-1).reshape(-1, 3, 3)
     angles = []
-    for there in way[:, 1:].swapaxes(0, 1):
+    for joint, there in enumerate(way[:, 1:].swapaxes(0, 1)):
         x, y, z = np.einsum("tji,tj->it", turn, there)
-        angles.append(np.arctan2(-z, x) + 1j * np.arcsin(np.clip(y, -1, 1)))
-        turn = turn @ turns(angles[-1])
+        angles.append(-np.arcsin(np.clip(z, -1, 1)) + 1j * np.arctan2(y, x) if joint % 2 == 0 else np.arctan2(-z, x) + 1j * np.arcsin(np.clip(y, -1, 1)))
+        turn = turn @ turns(angles[-1], joint)
     return np.stack(angles, axis=1)
 
 
@@ -124,7 +125,7 @@ def at_stations(angle: np.ndarray, station: np.ndarray) -> np.ndarray:
 def rolled_to(fit: Program, true_by, free: bool) -> np.ndarray:
     """True bends as those of a head rolled as the fit's is, of which a midline says nothing: one roll for all times, or for a free head one for each.
 
-    `true_by` gives them by the rolls at the times. Later bodies are not rolled by as much: a joint's two turns do not commute."""
+    `true_by` gives them by the rolls at the times."""
     weight, roll = 1 / np.abs(fit.error) ** 2, np.zeros(len(fit.time))
     for _ in range(12):
         true = true_by(roll)
@@ -175,13 +176,10 @@ def curve(bend, torsion: float, t: float, places: np.ndarray, steps: int = 1200)
 
 
 def true_bends(bend, torsion: float, t: float, station: np.ndarray, roll: float) -> np.ndarray:
-    """The curve's bends by a chain of joints. One that turns about Y and then Z by y and z rolls about itself by y z / 2."""
-    steps = 2000
-    s, out = np.linspace(0, 1, steps + 1), []
-    for place, size in zip(s, np.broadcast_to(bend(t, s), s.shape)):
-        out.append(1j * size * np.exp(1j * (torsion * place - roll)))
-        roll += out[-1].real * out[-1].imag / 2 * (2 / BODIES) / steps
-    return np.interp(station, s, np.real(out)) + 1j * np.interp(station, s, np.imag(out))
+    """The curve's bends about axes that do not roll about it: joints take turns in which of theirs comes first."""
+    s = np.linspace(0, 1, 2001)
+    out = 1j * np.broadcast_to(bend(t, s), s.shape) * np.exp(1j * (torsion * s - roll))
+    return np.interp(station, s, out.real) + 1j * np.interp(station, s, out.imag)
 
 
 def write_film(path: Path, time, s, points, header="time_s,s_cm,x_cm,y_cm,z_cm", kept=None) -> None:

@@ -158,13 +158,18 @@ State knotted_state(Random& random, const Model& model, double height, double no
   at += model.bodies[0].length * frame.col(0);
   for (int b = 1; b < model.body_count(); ++b) {
     const Body& body = model.bodies[b];
-    if (body.dofs == 2) {  // Y and Z that turn X into the wanted direction; two bodies follow it
+    if (body.dofs == 2) {  // turns that bring X into the wanted direction; two bodies follow it
       const Eigen::Vector3d d = frame.transpose() * ahead(share, at, 2 * body.length);
-      const double y = std::atan2(-d.z(), d.x());
-      const double z = std::asin(d.y());
-      state.q.segment<2>(body.first_dof + 1) << y, z;
-      frame = frame * Eigen::AngleAxisd(y, Eigen::Vector3d::UnitY()) *
-              Eigen::AngleAxisd(z, Eigen::Vector3d::UnitZ());
+      const Eigen::Vector3d to_y = Eigen::Vector3d::UnitY(), to_z = Eigen::Vector3d::UnitZ();
+      if (model.hinges[body.first_dof - root_dofs].axis == Axis::y) {
+        const double y = std::atan2(-d.z(), d.x()), z = std::asin(d.y());
+        state.q.segment<2>(body.first_dof + 1) << y, z;
+        frame = frame * Eigen::AngleAxisd(y, to_y) * Eigen::AngleAxisd(z, to_z);
+      } else {
+        const double z = std::atan2(d.y(), d.x()), y = -std::asin(d.z());
+        state.q.segment<2>(body.first_dof + 1) << z, y;
+        frame = frame * Eigen::AngleAxisd(z, to_z) * Eigen::AngleAxisd(y, to_y);
+      }
     }
     at += body.length * frame.col(0);
   }

@@ -100,9 +100,9 @@ TEST(FirstDifference, NamesEachQuantity) {
   expect(difference([](Model& m) { m.bodies[5].length *= 2; }), "length of b5: ");
   expect(difference([](Model& m) { m.bodies[6].inertia.y() *= 2; }), "inertia of b6 about y: ");
   expect(difference([](Model& m) { m.bodies[7].radius *= 2; }), "radius of b7: ");
-  expect(difference([](Model& m) { m.hinges[0].axis = Axis::z; }), "joint 1: j01_bend_y");
-  expect(difference([](Model& m) { m.hinges[1].lower = -1; }), "lower limit of j01_bend_z: ");
-  expect(difference([](Model& m) { m.hinges[1].upper = 9; }), "upper limit of j01_bend_z: ");
+  expect(difference([](Model& m) { m.hinges[0].axis = Axis::y; }), "joint 1: j01_bend_z");
+  expect(difference([](Model& m) { m.hinges[1].lower = -1; }), "lower limit of j01_bend_y: ");
+  expect(difference([](Model& m) { m.hinges[1].upper = 9; }), "upper limit of j01_bend_y: ");
   expect(difference([](Model& m) { m.hinges[2].stiffness += 1; }), "stiffness of j02_twist: ");
   expect(difference([](Model& m) { m.hinges[2].damping += 1; }), "damping of j02_twist: ");
 }

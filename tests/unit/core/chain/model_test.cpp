@@ -65,8 +65,9 @@ TEST(Hagfish, HasThePapersHundredJoints) {
     const Body& body = fish.bodies[b];
     ASSERT_EQ(body.dofs, b % 2 == 1 ? 2 : 1) << b;
     if (b % 2 == 1) {
-      EXPECT_EQ(fish.hinges[body.first_dof - root_dofs].axis, Axis::y) << b;
-      EXPECT_EQ(fish.hinges[body.first_dof - root_dofs + 1].axis, Axis::z) << b;
+      const bool z_first = b % 4 == 1;
+      EXPECT_EQ(fish.hinges[body.first_dof - root_dofs].axis, z_first ? Axis::z : Axis::y) << b;
+      EXPECT_EQ(fish.hinges[body.first_dof - root_dofs + 1].axis, z_first ? Axis::y : Axis::z) << b;
     } else {
       EXPECT_EQ(fish.hinges[body.first_dof - root_dofs].axis, Axis::x) << b;
     }
@@ -191,7 +192,7 @@ TEST(JointNames, FollowTheVelocities) {
   EXPECT_EQ(names[0].joint, "root");
   EXPECT_EQ(names[0].dofs.size(), 6U);
   EXPECT_EQ(names[1].joint, "j01_bend");
-  EXPECT_EQ(names[1].dofs, (std::vector<std::string>{"j01_bend_y", "j01_bend_z"}));
+  EXPECT_EQ(names[1].dofs, (std::vector<std::string>{"j01_bend_z", "j01_bend_y"}));
   EXPECT_EQ(names[98].joint, "j98_twist");
   EXPECT_EQ(names[98].dofs, (std::vector<std::string>{"j98_twist"}));
   EXPECT_EQ(joint_names(table1_hagfish(101))[7].joint, "j007_bend");

@@ -427,8 +427,8 @@ TEST(Rows, HaveNamesThatSayWhichTheyAre) {
   const Model fish = table1_hagfish();
   State state = rest_state(fish);
   const std::vector<Row> limits = limit_rows(fish, state, speculative, h);
-  EXPECT_EQ(row_name(fish, limits[0]), "lower limit of j01_bend_y");
-  EXPECT_EQ(row_name(fish, limits[3]), "upper limit of j01_bend_z");
+  EXPECT_EQ(row_name(fish, limits[0]), "lower limit of j01_bend_z");
+  EXPECT_EQ(row_name(fish, limits[3]), "upper limit of j01_bend_y");
   EXPECT_EQ(row_name(fish, limits[4]), "lower limit of j02_twist");
   const Tangle t(88);
   std::set<std::string> names;

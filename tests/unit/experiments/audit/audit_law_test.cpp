@@ -27,7 +27,7 @@ void everything(const Situation& at, Eigen::VectorXd& /*memory*/, Control& contr
   all_contacts_law(at, control);
   for (ThigmotaxisCommand& command : control.thigmotaxis) {
     command.speed.b -= 0.25;
-    command.effort = command.end == KnotEnd::neither ? 0.04 : 1;
+    command.effort = command.end == KnotEnd::neither ? 0.02 : 0.5;
   }
   control.tip = {{10, -20, 30}, 2};
   const int nv = at.model.nv();

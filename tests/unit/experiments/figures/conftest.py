@@ -63,10 +63,10 @@ penetration = 0.0015
 
 
 def dof_names() -> list[str]:
-    """As the simulator names them: odd joints bend about Y and Z, even ones twist."""
+    """As the simulator names them: odd joints bend about Y and Z, in turn which of them first, even ones twist."""
     names = [f"root_{name}" for name in ("x", "y", "z", "rot_x", "rot_y", "rot_z")]
     for joint in range(1, BODIES):
-        names += [f"j{joint:02d}_bend_y", f"j{joint:02d}_bend_z"] if joint % 2 else [f"j{joint:02d}_twist"]
+        names += [f"j{joint:02d}_{kind}" for kind in (["twist"], ["bend_z", "bend_y"], ["twist"], ["bend_y", "bend_z"])[joint % 4]]
     return names
 
 

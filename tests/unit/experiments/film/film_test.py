@@ -112,7 +112,8 @@ def program_distance(folder, program, film):
         for body in range(n):
             if body % 2:
                 cy, sy, cz, sz = np.cos(y[body // 2]), np.sin(y[body // 2]), np.cos(z[body // 2]), np.sin(z[body // 2])
-                turn = turn @ np.array([[cy, 0, sy], [0, 1, 0], [-sy, 0, cy]]) @ np.array([[cz, -sz, 0], [sz, cz, 0], [0, 0, 1]])
+                about_y, about_z = np.array([[cy, 0, sy], [0, 1, 0], [-sy, 0, cy]]), np.array([[cz, -sz, 0], [sz, cz, 0], [0, 0, 1]])
+                turn = turn @ (about_z @ about_y if body % 4 == 1 else about_y @ about_z)
             places.append((origin, turn[:, 0]))
             origin = origin + turn[:, 0] * length / n
         own.append([places[b][0] + (k - b) * length / n * places[b][1] for b, k in zip(bodies, place)])

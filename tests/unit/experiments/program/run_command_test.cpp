@@ -22,8 +22,8 @@ TEST_F(ProgramTest, APresetComesBeforeSetAndQp) {
   };
   EXPECT_EQ(written(""), std::pair(0.005, std::string("active-set")));
   EXPECT_EQ(written("--preset default"), std::pair(0.005, std::string("active-set")));
-  EXPECT_EQ(written("--preset quick"), std::pair(0.02, std::string("active-set")));
-  EXPECT_EQ(written("--preset quick --set time.step=0.01").first, 0.01);
+  EXPECT_EQ(written("--preset quick"), std::pair(0.01, std::string("active-set")));
+  EXPECT_EQ(written("--preset quick --set time.step=0.02").first, 0.02);
   EXPECT_EQ(written("--preset quick --qp ipopt").second, "ipopt");
 }
 
