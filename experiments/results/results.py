@@ -94,10 +94,10 @@ def page_of(name: str) -> dict[str, Any]:
     return pages()[name]
 
 
-def shown_by(name: str) -> list[str]:
-    """The tables of a page, in its order; a study may leave more."""
+def shown_by(name: str, borrowed: bool = True) -> list[str]:
+    """The tables of a page, in its order, with or without those of which it shows single rows: another page's. A study may leave more."""
     text = (RESULTS / f"{name}.md").read_text(encoding="utf-8")
-    return list(dict.fromkeys(match[2] for match in BLOCK.finditer(text) if match[1] == "table"))
+    return list(dict.fromkeys(match[2] for match in BLOCK.finditer(text) if match[1] == "table" and (borrowed or not match[3])))
 
 
 def tables_of(name: str) -> list[Path]:
@@ -226,7 +226,7 @@ def adopt(name: str, folder: Path, version: str, seconds: float) -> list[str]:
     if page.get("writes_itself"):
         return []
     found = []
-    for wanted in [*page.get("data", ()), *(shown := shown_by(name))]:
+    for wanted in [*page.get("data", ()), *(shown := shown_by(name, borrowed=False))]:
         new, here = read(folder / "tables" / wanted), RESULTS / wanted
         new.notes += measured(version, seconds)
         if wanted in shown and here.exists():

@@ -10,7 +10,7 @@ import numpy as np
 
 LATER = 0.1  # s between a state and the one that the regression must reach from it
 SHARE = {"form early": ("form", 0.3), "form": ("form", 0.95), "tighten": ("tighten", 0.5),
-         "slide": ("slide", 0.3), "slide late": ("slide", 0.85), "release": ("release", 0.4), "free": ("free", 0.3)}
+         "slide": ("slide", 0.2), "slide late": ("slide", 0.85), "release": ("release", 0.4), "free": ("free", 0.3)}
 
 
 def row(values: np.ndarray) -> str:

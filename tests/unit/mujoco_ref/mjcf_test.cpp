@@ -332,7 +332,7 @@ TEST(MujocoModel, PassesOnWhatMujocoRejects) {
   Model model = hagfish(2);
   model.hinges[1].lower = model.hinges[1].upper;
   const std::string error = load_error(mjcf_files(model, least_arc, timestep));
-  EXPECT_NE(error.find("range[0] should be smaller than range[1] in joint 'j01_bend_z'"),
+  EXPECT_NE(error.find("range[0] should be smaller than range[1] in joint 'j01_bend_y'"),
             std::string::npos)
       << error;
   EXPECT_EQ(error.find('\n'), std::string::npos) << error;
@@ -351,7 +351,7 @@ TEST(Mjcf, LeavesConesOutAndSaysSo) {
   EXPECT_NE(files.at(mjcf_root_file).find("Left out: the limit on the total angle"),
             std::string::npos);
   const MujocoModel mujoco(files);
-  EXPECT_EQ(std::string(mj_id2name(mujoco.model(), mjOBJ_JOINT, 1)), "j01_bend_y");
+  EXPECT_EQ(std::string(mj_id2name(mujoco.model(), mjOBJ_JOINT, 1)), "j01_bend_z");
   EXPECT_FALSE(mujoco.model()->jnt_limited[1]);
   EXPECT_FALSE(mujoco.model()->jnt_limited[2]);
   EXPECT_TRUE(mujoco.model()->jnt_limited[3]);

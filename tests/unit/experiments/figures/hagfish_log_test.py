@@ -34,7 +34,7 @@ def test_a_run_that_starts_in_its_phase_has_no_mean_at_its_first_frame(content, 
 
 def test_hinges_and_their_places(log):
     index, joint, kind = log().hinges()
-    assert (index[0], joint[0], kind[0]) == (6, 1, "bend_y")
+    assert (index[0], joint[0], kind[0]) == (6, 1, "bend_z")
     assert (index[2], joint[2], kind[2]) == (8, 2, "twist")
     assert joint.max() == 40
     assert log().joint_arc()[5] == pytest.approx(5.0, rel=1e-12)  # rounding of a sum
