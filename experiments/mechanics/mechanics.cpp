@@ -1,13 +1,17 @@
 // Tables of experiments/results/mechanics.md: rows of CSV on standard output.
+//   mechanics twisted    moments at which twisted rods give way, over those of theory
 //   mechanics loose      loose open knots in elastic rods, pulled
 //   mechanics tight      tight open knots in rope
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
+#include <map>
+#include <string>
+#include <utility>
 
 #include "experiments/mechanics/loose_knot.hpp"
 #include "experiments/mechanics/tight_knot.hpp"
+#include "experiments/mechanics/twisted_rod.hpp"
 
 namespace {
 
@@ -52,17 +56,37 @@ void tight() {
   }
 }
 
+void print_twisted(const char* problem, const GivesWay& of, const TwistedRod& rod) {
+  std::printf("%s,%s,%g,%d,%.5f,%.2g\n", problem, rod.in_turn ? "in turn" : "alike", rod.ratio,
+              rod.bodies, of.moment, of.cpu);
+  std::fflush(stdout);
+}
+
+void twisted() {
+  std::puts("problem,joints,ratio,bodies,moment,cpu");
+  const auto each = [](bool in_turn, const char* problem, GivesWay (*of)(const TwistedRod&)) {
+    for (const double ratio : {0.5, 1.0, 2.0}) {
+      for (const int bodies : {80, 160, 320}) {
+        const TwistedRod rod{.bodies = bodies, .ratio = ratio, .in_turn = in_turn};
+        print_twisted(problem, of(rod), rod);
+      }
+    }
+  };
+  each(false, "Greenhill's rod", greenhill);
+  each(true, "Greenhill's rod", greenhill);
+  each(true, "Michell's ring", michell);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc == 2 && std::strcmp(argv[1], "loose") == 0) {
-    loose();
-    return 0;
+  const std::map<std::string, void (*)()> tables{
+      {"loose", loose}, {"tight", tight}, {"twisted", twisted}};
+  const auto table = argc == 2 ? tables.find(argv[1]) : tables.end();
+  if (table == tables.end()) {
+    std::fputs("mechanics loose | tight | twisted\n", stderr);
+    return 2;
   }
-  if (argc == 2 && std::strcmp(argv[1], "tight") == 0) {
-    tight();
-    return 0;
-  }
-  std::fputs("mechanics loose | tight\n", stderr);
-  return 2;
+  table->second();
+  return 0;
 }

@@ -11,18 +11,27 @@ namespace {
 constexpr double density =
     1e-3;  // g/cm: what drag stops within a thousandth of the times that matter
 
-/// Turns about Y and then Z that take `frame`'s X axis to `direction`, which `frame` follows.
-Eigen::Vector2d turn_to(const Eigen::Vector3d& direction, Eigen::Quaterniond& frame) {
+/// Turns about `first` (Y or Z) and then about the other one that take `frame`'s X axis to
+/// `direction`, which `frame` follows.
+Eigen::Vector2d turn_to(const Eigen::Vector3d& direction, Axis first, Eigen::Quaterniond& frame) {
   const Eigen::Vector3d next = frame.conjugate() * direction;
-  const Eigen::Vector2d angles(std::atan2(-next.z(), next.x()), std::asin(next.y()));
-  frame = frame * Eigen::AngleAxisd(angles[0], Eigen::Vector3d::UnitY()) *
-          Eigen::AngleAxisd(angles[1], Eigen::Vector3d::UnitZ());
+  const Eigen::Vector3d y = Eigen::Vector3d::UnitY();
+  const Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
+  Eigen::Vector2d angles;
+  if (first == Axis::y) {
+    angles << std::atan2(-next.z(), next.x()), std::asin(next.y());
+    frame = frame * Eigen::AngleAxisd(angles[0], y) * Eigen::AngleAxisd(angles[1], z);
+  } else {
+    angles << std::atan2(next.y(), next.x()), std::asin(-next.z());
+    frame = frame * Eigen::AngleAxisd(angles[0], z) * Eigen::AngleAxisd(angles[1], y);
+  }
   return angles;
 }
 
 }  // namespace
 
-RodChain chain_of(const Rod& rod, double link, const std::vector<Eigen::Vector3d>& links) {
+RodChain chain_of(const Rod& rod, double link, const std::vector<Eigen::Vector3d>& links,
+                  double twist) {
   const bool alternating = rod.twisting > 0;
   RodChain chain;
   Body body;
@@ -34,7 +43,11 @@ RodChain chain_of(const Rod& rod, double link, const std::vector<Eigen::Vector3d
   const double span = alternating ? 2 * link : link;
   for (std::size_t b = 1; b < links.size(); ++b) {
     const bool bends = !alternating || b % 2 == 1;
-    append_body(chain.model, body, bends ? std::vector{Axis::y, Axis::z} : std::vector{Axis::x});
+    const bool z_first = rod.in_turn && (alternating ? b / 2 : b) % 2 == 1;
+    append_body(chain.model, body,
+                !bends    ? std::vector{Axis::x}
+                : z_first ? std::vector{Axis::z, Axis::y}
+                          : std::vector{Axis::y, Axis::z});
     if (bends && rod.sharpest > 0) {
       chain.model.cones.push_back({chain.model.bodies.back().first_dof, rod.sharpest * span});
     }
@@ -47,11 +60,16 @@ RodChain chain_of(const Rod& rod, double link, const std::vector<Eigen::Vector3d
   chain.state = rest_state(chain.model);
   Eigen::Quaterniond frame = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), links[0]);
   for (std::size_t b = 1; b < links.size(); ++b) {
-    if (alternating && b % 2 == 0) continue;
+    const int dof = chain.model.bodies[b].first_dof;
+    if (alternating && b % 2 == 0) {
+      chain.state.q[dof + 1] = twist;
+      frame = frame * Eigen::AngleAxisd(twist, Eigen::Vector3d::UnitX());
+      continue;
+    }
     const Eigen::Vector3d way =
         alternating && b + 1 < links.size() ? links[b] + links[b + 1] : links[b];
-    chain.state.q.segment<2>(chain.model.bodies[b].first_dof + 1) =
-        turn_to(way.normalized(), frame);
+    chain.state.q.segment<2>(dof + 1) =
+        turn_to(way.normalized(), chain.model.hinges[dof - root_dofs].axis, frame);
   }
   return chain;
 }

@@ -16,17 +16,21 @@ struct Rod {
   double bending_damping = 0;  ///< rate form of B, dyn cm^2 s
   double twisting = 0;  ///< rigidity C, dyn cm^2: joints alternate; 0: universal joints alone
   double sharpest = 0;  ///< curvature that no joint exceeds, 1/cm; 0: any
+  bool in_turn = true;  ///< universal joints turn about Y before Z and Z before Y in turn
   double drag = 1;      ///< across the rod, a tenth of it along, g / (s cm)
 };
 
 /// A chain that stands for the rod, with these links (unit vectors, head to tail) of `link` (cm)
 /// each: its model and its state. The first link is turned to +X. Alternating joints bend at every
-/// second link alone, so links go in pairs.
+/// second link alone, so links go in pairs; their twist joints turn by `twist` (rad) each. A joint
+/// that turns about Y before Z twists the rod by half the product of its angles: with the next one
+/// the other way round, the twists of both add up to none.
 struct RodChain {
   Model model;
   State state;
 };
-RodChain chain_of(const Rod& rod, double link, const std::vector<Eigen::Vector3d>& links);
+RodChain chain_of(const Rod& rod, double link, const std::vector<Eigen::Vector3d>& links,
+                  double twist = 0);
 
 /// Points of a curve as unit links of the same length, by walking along it.
 std::vector<Eigen::Vector3d> links_along(const std::vector<Eigen::Vector3d>& curve, double link);

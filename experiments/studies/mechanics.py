@@ -1,12 +1,16 @@
-"""Tables of experiments/results/mechanics.md, from what the tests of rods and the program `mechanics` left in a folder.
+"""Tables of experiments/results/mechanics.md, from what the program `mechanics` left in a folder.
 
-Usage: mechanics.py FOLDER     reads tests.json, loose.csv, tight.csv; writes tables/*.csv
+Usage: mechanics.py FOLDER     reads twisted.csv, loose.csv, tight.csv; writes tables/*.csv
 """
 
-import csv
-import json
+import math
 import sys
+from itertools import groupby
 from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "figures"))
+
+from tables import of_page, read_csv  # noqa: E402
 
 
 def limit(points: list[tuple[float, float]]) -> float:
@@ -16,26 +20,26 @@ def limit(points: list[tuple[float, float]]) -> float:
     return y - slope * x
 
 
-def read(path: Path) -> list[dict[str, str]]:
-    with path.open(encoding="utf-8") as file:
-        return list(csv.DictReader(file))
+def twisted(folder: Path) -> None:
+    """Each mesh with the order in the length of a body by which its error is less than that of the mesh before it."""
+    rows = []
+    for name, meshes in groupby(read_csv(folder / "twisted.csv", ["moment"]), lambda rod: (rod["problem"], rod["joints"], rod["ratio"])):
+        before = 0.0
+        for rod in meshes:
+            error = float(rod["moment"]) - 1
+            order = f"{math.log2(before / error):.1f}" if before else ""
+            rows.append([*name, rod["bodies"], f"{100 * error:.2f}", order, rod["cpu"]])
+            coarser, before = before, error
+        if name[1] == "in turn":  # of second order
+            rows.append([*name, "extrapolated", f"{round(100 * (error - (coarser - error) / 3), 2) + 0:.2f}", "", ""])
+    of_page(folder, "mechanics", ["problem", "universal joints", "bending over twist rigidity", "bodies", "error of the moment, %", "order", "CPU time, s"],
+            rows)
 
 
-def write(path: Path, head: list[str], rows: list[list[str]]) -> None:
-    with path.open("w", encoding="utf-8", newline="") as file:
-        csv.writer(file, lineterminator="\n").writerows([head, *rows])
-
-
-def rods(folder: Path) -> list[list[str]]:
-    suites = json.loads((folder / "tests.json").read_text(encoding="utf-8"))["testsuites"]
-    tests = [test for suite in suites for test in suite["testsuite"]]
-    return [row.split(",") for test in tests for name, row in sorted(test.items()) if name.startswith("row_")]
-
-
-def loose(folder: Path) -> list[list[str]]:
+def loose(folder: Path) -> None:
     """Each knot, and with the load that its thin rods come to: the excess is in proportion to ε²."""
     rows = []
-    knots = read(folder / "loose.csv")
+    knots = read_csv(folder / "loose.csv", ["load"])
     for knot in knots:
         error = f"{100 * (float(knot['load']) / 0.5 - 1):.1f}"
         twist = knot["ratio"] if float(knot["ratio"]) else "no twist"
@@ -45,15 +49,17 @@ def loose(folder: Path) -> list[list[str]]:
         thin = [knot for knot in knots if knot["type"] == kind and knot["series"] == "thin"][-3:]
         load = limit([(float(knot["thin"]) ** 2, float(knot["load"])) for knot in thin])
         rows.append([kind, "extrapolated", "", "no twist", f"{load:.4f}", f"{100 * (load / 0.5 - 1):.1f}", *[""] * 6])
-    return rows
+    of_page(folder, "mechanics_loose",
+            ["knot", "ε", "bodies", "twist over bending rigidity", "F R² / B", "error of 1/2, %", "(T + B κ² / 2) / F", "touches",
+             "interval, bodies", "points, bodies", "at rest", "CPU time, s"], rows)
 
 
 KNOWN = {"3_1": (10.10, 10.08), "4_1": (13.71, 13.70), "5_2": (17.22, 17.20)}  # animal's chain, rope code
 
 
-def tight(folder: Path) -> list[list[str]]:
+def tight(folder: Path) -> None:
     rows = []
-    knots = read(folder / "tight.csv")
+    knots = read_csv(folder / "tight.csv", ["shortening"])
     for kind, (chain, rope) in KNOWN.items():
         same = [knot for knot in knots if knot["type"] == kind]
         for knot in same:
@@ -61,20 +67,11 @@ def tight(folder: Path) -> list[list[str]]:
                          knot["cpu"]])
         ideal = limit([(float(knot["link"]) ** 2, float(knot["shortening"])) for knot in same])
         rows.append([kind, "extrapolated", "", f"{ideal:.3f}", f"{100 * (ideal / rope - 1):.2f}", f"{chain:.2f}", f"{rope:.2f}", "", ""])
-    return rows
-
-
-def main(folder: Path) -> None:
-    tables = folder / "tables"
-    tables.mkdir(exist_ok=True)
-    write(tables / "mechanics.csv", ["problem", "bending over twist rigidity", "bodies", "closed form, dyn cm", "error, %", "CPU time, s"], rods(folder))
-    write(tables / "mechanics_loose.csv",
-          ["knot", "ε", "bodies", "twist over bending rigidity", "F R² / B", "error of 1/2, %", "(T + B κ² / 2) / F", "touches",
-           "interval, bodies", "points, bodies", "at rest", "CPU time, s"], loose(folder))
-    write(tables / "mechanics_tight.csv",
-          ["knot", "link, diameters", "bodies", "shortening, diameters", "over the rope code's, %", "animal's chain before", "rope code", "at rest",
-           "CPU time, s"], tight(folder))
+    of_page(folder, "mechanics_tight",
+            ["knot", "link, diameters", "bodies", "shortening, diameters", "over the rope code's, %", "animal's chain before", "rope code", "at rest",
+             "CPU time, s"], rows)
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]))
+    for table in (twisted, loose, tight):
+        table(Path(sys.argv[1]))
