@@ -4,6 +4,8 @@
 #include <cmath>
 #include <ctime>
 #include <numbers>
+#include <span>
+#include <stdexcept>
 
 #include "experiments/mechanics/rod.hpp"
 
@@ -15,32 +17,41 @@ constexpr double tail_length = 7;  // cm, five lengths sqrt(B / F) over which be
 constexpr double still = 2e-5;     // cm/s: drag on all of the rod is then 0.01 % of the pull
 constexpr int most_steps = 4000;
 
-/// Contacts with a force, sorted along the head's strand, where they are closer than `apart` bodies
-/// taken as one touch.
-std::vector<Touch> touches_of(const Pulled& rod, double apart) {
-  std::vector<Touch> single;
-  for (const ContactForce& contact : rod.contact_forces()) {
-    single.push_back({contact.head, contact.tail, 0, contact.force / pull});
+/// The touch of all these contacts, sorted along the head's strand.
+Touch one_touch(std::span<const ContactForce> contacts) {
+  constexpr double fringe = 0.02;  // of the force, at each end: what flickers
+  Touch touch;
+  for (const ContactForce& one : contacts) touch.force += one.force;
+  double so_far = 0;
+  double first = contacts.back().head;
+  for (const ContactForce& one : contacts) {
+    touch.head += one.force / touch.force * one.head;
+    touch.tail += one.force / touch.force * one.tail;
+    if (so_far < (1 - fringe) * touch.force) touch.extent = one.head - first;
+    so_far += one.force;
+    if (so_far > fringe * touch.force) first = std::min(first, one.head);
   }
-  std::ranges::sort(single, {}, &Touch::head);
+  return touch;
+}
+
+/// Contacts that are closer than `apart` bodies along the head's strand are one touch.
+std::vector<Touch> touches_of(std::vector<ContactForce> contacts, double apart) {
+  std::ranges::sort(contacts, {}, &ContactForce::head);
   std::vector<Touch> touches;
-  double first = 0;
-  double last = 0;
-  for (const Touch& next : single) {
-    if (touches.empty() || next.head - last > apart) {
-      touches.push_back(next);
-      first = next.head;
-    } else {
-      Touch& touch = touches.back();
-      const double share = next.force / (touch.force + next.force);
-      touch.head += share * (next.head - touch.head);
-      touch.tail += share * (next.tail - touch.tail);
-      touch.force += next.force;
-      touch.extent = next.head - first;
-    }
-    last = next.head;
+  std::size_t first = 0;
+  for (std::size_t i = 1; i <= contacts.size(); ++i) {
+    if (i < contacts.size() && contacts[i].head - contacts[i - 1].head <= apart) continue;
+    touches.push_back(one_touch(std::span(contacts).subspan(first, i - first)));
+    first = i;
   }
   return touches;
+}
+
+/// The body half way round the loop.
+int middle(const std::vector<ContactForce>& forces) {
+  const double from = std::ranges::max(forces, {}, &ContactForce::head).head;
+  const double to = std::ranges::min(forces, {}, &ContactForce::tail).tail;
+  return static_cast<int>(std::lround(0.5 * (from + to)));
 }
 
 }  // namespace
@@ -78,7 +89,8 @@ std::vector<Eigen::Vector3d> loose_curve(const LooseKnotInput& input, double tai
 LooseKnot pull_loose_knot(const LooseKnotInput& input) {
   const std::clock_t begin = std::clock();
   const double link = std::sqrt(input.radius) / input.per_braid;
-  const Rod material{.radius = input.radius, .bending = 1, .twisting = input.ratio};
+  const Rod material{
+      .radius = input.radius, .bending = 1, .bending_damping = 0.1, .twisting = input.ratio};
   constexpr double apart = 3;  // cm: the loop has some 6
   Pulled rod(chain_of(material, link, links_along(loose_curve(input, tail_length), link)),
              pulled_scene(input.radius, pull, 2e-4, apart));
@@ -86,17 +98,26 @@ LooseKnot pull_loose_knot(const LooseKnotInput& input) {
   knot.at_rest = rod.relax(still, most_steps);
   knot.bodies = rod.model().body_count();
   knot.type = rod.knot();
-  knot.touches = touches_of(rod, input.per_braid);
-  if (!knot.touches.empty()) {
-    const double from = knot.touches.back().head;
-    const double to = knot.touches.front().tail;
-    const auto top = static_cast<int>(std::lround(0.5 * (from + to)));
-    const double bend = rod.mean_curvature(from, to);
-    const double top_bend = rod.mean_curvature(top - input.per_braid, top + input.per_braid);
-    knot.load = pull / (bend * bend);
-    knot.integral = rod.force_behind(top).dot(rod.kin().rotation[top].col(0)) / pull +
-                    0.5 * top_bend * top_bend / pull;
+  if (rod.contact_forces().empty()) throw std::runtime_error("a loose knot touches itself nowhere");
+  // The force between two strands goes to and fro between contacts beside each other: means of
+  // some steps.
+  std::vector<ContactForce> forces;
+  Eigen::Vector3d behind = Eigen::Vector3d::Zero();
+  const int top = middle(rod.contact_forces());
+  constexpr int averaged = 20;
+  for (int k = 0; k < averaged; ++k) {
+    rod.step();
+    for (const ContactForce& one : rod.contact_forces()) {
+      forces.push_back({one.head, one.tail, one.force / averaged / pull});
+    }
+    behind += rod.force_behind(top) / averaged;
   }
+  knot.touches = touches_of(forces, input.per_braid);
+  const double bend = rod.mean_curvature(knot.touches.back().head, knot.touches.front().tail);
+  const double top_bend = rod.mean_curvature(top - input.per_braid, top + input.per_braid);
+  knot.load = pull / (bend * bend);
+  knot.integral =
+      behind.dot(rod.kin().rotation[top].col(0)) / pull + 0.5 * top_bend * top_bend / pull;
   knot.cpu = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   return knot;
 }

@@ -20,7 +20,7 @@ struct LooseKnotInput {
 /// over contacts that are within one body of each other.
 struct Touch {
   double head = 0, tail = 0;  ///< where the two strands meet, bodies from the head: means by force
-  double extent = 0;          ///< from the first contact to the last, bodies
+  double extent = 0;          ///< from the first contact to the last, bodies, but for fringes
   double force = 0;           ///< sum, over the pull
 };
 

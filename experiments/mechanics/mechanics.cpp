@@ -1,7 +1,9 @@
 // Tables of experiments/results/mechanics.md: rows of CSV on standard output.
 //   mechanics twisted    moments at which twisted rods give way, over those of theory
+//   mechanics hooked     ropes round a post, and ropes that hook into each other
 //   mechanics loose      loose open knots in elastic rods, pulled
 //   mechanics tight      tight open knots in rope
+//   mechanics time       a rod that is bent and released, by steps of several lengths
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -9,7 +11,10 @@
 #include <string>
 #include <utility>
 
+#include "experiments/mechanics/capstan.hpp"
+#include "experiments/mechanics/clasp.hpp"
 #include "experiments/mechanics/loose_knot.hpp"
+#include "experiments/mechanics/released_rod.hpp"
 #include "experiments/mechanics/tight_knot.hpp"
 #include "experiments/mechanics/twisted_rod.hpp"
 
@@ -34,7 +39,7 @@ void print_loose(const char* series, const LooseKnotInput& input) {
 void loose() {
   std::puts("series,type,thin,bodies,ratio,load,integral,touches,interval,points,rest,cpu");
   for (const int crossings : {3, 5}) {
-    for (double radius = 0.04; radius > (crossings == 3 ? 0.002 : 0.004); radius /= 2) {
+    for (double radius = 0.04; radius > 0.002; radius /= 2) {
       print_loose("thin", {.crossings = crossings, .radius = radius});
     }
   }
@@ -77,14 +82,55 @@ void twisted() {
   each(true, "Michell's ring", michell);
 }
 
+void print_hooked(const char* problem, const char* figure, double link, int bodies, double value,
+                  double expected, bool at_rest, double cpu) {
+  std::printf("%s,%s,%g,%d,%.5f,%.5f,%s,%.2g\n", problem, figure, link, bodies, value, expected,
+              at_rest ? "yes" : "no", cpu);
+  std::fflush(stdout);
+}
+
+void hooked() {
+  std::puts("problem,figure,link,bodies,value,expected,rest,cpu");
+  for (const double link : {0.4, 0.2, 0.1, 0.05}) {
+    const Capstan rope = lie_round_post(link);
+    print_hooked("capstan", "pull at the head over that at the tail", link, rope.bodies, rope.head,
+                 1, rope.at_rest, rope.cpu);
+    print_hooked("capstan", "sum of the post's forces over π F", link, rope.bodies, rope.press, 1,
+                 rope.at_rest, rope.cpu);
+  }
+  for (const double link : {0.4, 0.2, 0.1, 0.05}) {
+    const Clasp rope = hook(link);
+    print_hooked("clasp", "distance of the tips", link, rope.bodies, rope.tips, ideal_tips(),
+                 rope.at_rest, rope.cpu);
+    print_hooked("clasp", "force of one rope on the other one over F", link, rope.bodies, rope.load,
+                 2, rope.at_rest, rope.cpu);
+  }
+}
+
+void time_rules() {
+  std::puts("rule,steps,error,cpu");
+  constexpr int fine = 25600;
+  const Eigen::Vector3d right = release(TimeRule::midpoint, fine).tail;
+  for (const auto& [name, rule] :
+       {std::pair{"Euler", TimeRule::euler}, {"midpoint", TimeRule::midpoint}}) {
+    for (const int steps : {100, 200, 400, 800, 1600, 3200}) {
+      const ReleasedRod rod = release(rule, steps);
+      std::printf("%s,%d,%.3e,%.2g\n", name, steps, (rod.tail - right).norm(), rod.cpu);
+    }
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::map<std::string, void (*)()> tables{
-      {"loose", loose}, {"tight", tight}, {"twisted", twisted}};
+  const std::map<std::string, void (*)()> tables{{"hooked", hooked},
+                                                 {"loose", loose},
+                                                 {"tight", tight},
+                                                 {"time", time_rules},
+                                                 {"twisted", twisted}};
   const auto table = argc == 2 ? tables.find(argv[1]) : tables.end();
   if (table == tables.end()) {
-    std::fputs("mechanics loose | tight | twisted\n", stderr);
+    std::fputs("mechanics hooked | loose | tight | time | twisted\n", stderr);
     return 2;
   }
   table->second();

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/chain/dynamics.hpp"
 #include "core/knot/knot.hpp"
+#include "core/run/control_law.hpp"
 
 namespace hagfish {
 namespace {
@@ -26,6 +28,26 @@ Eigen::Vector2d turn_to(const Eigen::Vector3d& direction, Axis first, Eigen::Qua
     frame = frame * Eigen::AngleAxisd(angles[0], z) * Eigen::AngleAxisd(angles[1], y);
   }
   return angles;
+}
+
+Scene with_loads(Scene scene, const std::vector<Load>& loads) {
+  if (!loads.empty()) scene.controller.law = own_law;
+  return scene;
+}
+
+/// Asks for the torques of the hinges that these forces are to the chain behind its clamped head.
+ControlLaw pull_at(const std::vector<Load>& loads) {
+  return [loads](const Situation& at, Eigen::VectorXd&, Control& control) {
+    const Kinematics& kin = at.now.observation.kin;
+    paper_law(at, control);
+    Matrix6Xd wrench = Matrix6Xd::Zero(6, at.model.body_count());
+    for (const auto& [body, force] : loads) {
+      const Eigen::Vector3d arm = kin.centre.col(body) - kin.reference;
+      wrench.col(body) << arm.cross(force), force;
+    }
+    control.torque.value = generalised_force(at.model, kin, wrench);
+    control.torque.value.head<root_dofs>().setZero();
+  };
 }
 
 }  // namespace
@@ -85,6 +107,23 @@ std::vector<Eigen::Vector3d> links_along(const std::vector<Eigen::Vector3d>& cur
   return links;
 }
 
+std::vector<Eigen::Vector3d> smooth_through(const Eigen::Matrix3Xd& points, int first, int last) {
+  std::vector<Eigen::Vector3d> curve;
+  constexpr int samples = 50;
+  for (int b = std::max(first, 1); b < std::min<int>(last, static_cast<int>(points.cols()) - 2);
+       ++b) {
+    const Eigen::Vector3d from = 0.5 * (points.col(b + 1) - points.col(b - 1));
+    const Eigen::Vector3d to = 0.5 * (points.col(b + 2) - points.col(b));
+    const Eigen::Vector3d chord = points.col(b + 1) - points.col(b);
+    for (int i = 0; i < samples; ++i) {
+      const double t = static_cast<double>(i) / samples;
+      curve.push_back(points.col(b) +
+                      t * (from + t * ((3 * chord - 2 * from - to) + t * (from + to - 2 * chord))));
+    }
+  }
+  return curve;
+}
+
 Scene pulled_scene(double radius, double force, double step, double apart) {
   Scene scene;
   scene.wall.present = false;
@@ -102,10 +141,12 @@ Scene pulled_scene(double radius, double force, double step, double apart) {
   return scene;
 }
 
-Pulled::Pulled(RodChain chain, Scene scene)
+Pulled::Pulled(RodChain chain, Scene scene, const std::vector<Load>& loads)
     : chain_(std::move(chain)),
-      scene_(std::move(scene)),
-      sim_(start_from(chain_.model, scene_, "active-set", chain_.state, {}, 0)) {}
+      scene_(with_loads(std::move(scene), loads)),
+      sim_(start_from(chain_.model, scene_, "active-set", chain_.state, {}, 0)) {
+  if (!loads.empty()) sim_.law = pull_at(loads);
+}
 
 bool Pulled::relax(double still, int most_steps) {
   constexpr double longest = 2;  // s: longer steps leave the directions of contact forces behind
@@ -117,7 +158,7 @@ bool Pulled::relax(double still, int most_steps) {
   double time = 0;
   for (int k = 1; k <= most_steps; ++k) {
     try {
-      take_step(chain_.model, scene_, sim_, record_);
+      step();
     } catch (const StepError&) {  // the QP of a long step can fail; the state is as it was
       h *= 0.3;
       if (h < shortest) throw;
@@ -140,6 +181,8 @@ std::string Pulled::knot() const {
   return knot_name(knot_type(kin().centre, {.votes = 9, .seed = 1}).type);
 }
 
+void Pulled::step() { take_step(chain_.model, scene_, sim_, record_); }
+
 std::vector<ContactForce> Pulled::contact_forces() const {
   std::vector<ContactForce> forces;
   for (std::size_t i = 0; i < solution().rows.size(); ++i) {
@@ -150,6 +193,15 @@ std::vector<ContactForce> Pulled::contact_forces() const {
     }
   }
   return forces;
+}
+
+double Pulled::press() const {
+  double sum = 0;
+  for (std::size_t i = 0; i < solution().rows.size(); ++i) {
+    if (solution().rows[i].kind != RowKind::obstacle) continue;
+    sum += solution().lambda[static_cast<Eigen::Index>(i)] / scene_.time.step;
+  }
+  return sum;
 }
 
 Eigen::Vector3d Pulled::force_behind(int body) const {
@@ -167,11 +219,16 @@ Eigen::Vector3d Pulled::force_behind(int body) const {
 
 double Pulled::mean_curvature(double from, double to) const {
   double turned = 0;
-  for (int b = static_cast<int>(from) + 1; b - 1 < to; ++b) {
+  const auto joints = std::ranges::count(model().bodies, 2, &Body::dofs);
+  const double half = 0.5 * (model().body_count() - 1) / static_cast<double>(joints);
+  for (int b = 1; b < model().body_count(); ++b) {
+    if (model().bodies[b].dofs != 2) continue;
+    const double joint = b - 0.5;
+    const double share = std::min(joint + half, to) - std::max(joint - half, from);
+    if (share <= 0) continue;
     const Eigen::Vector3d before = kin().rotation[b - 1].col(0);
     const Eigen::Vector3d after = kin().rotation[b].col(0);
-    const double share = std::min<double>(b, to) - std::max<double>(b - 1, from);
-    turned += share * std::atan2(before.cross(after).norm(), before.dot(after));
+    turned += share / (2 * half) * std::atan2(before.cross(after).norm(), before.dot(after));
   }
   return turned / (to - from) / model().bodies.front().length;
 }

@@ -35,6 +35,10 @@ RodChain chain_of(const Rod& rod, double link, const std::vector<Eigen::Vector3d
 /// Points of a curve as unit links of the same length, by walking along it.
 std::vector<Eigen::Vector3d> links_along(const std::vector<Eigen::Vector3d>& curve, double link);
 
+/// Catmull-Rom through the columns `first` to `last` of `points`, but for the ends that have no
+/// neighbours; fifty points from one to the next.
+std::vector<Eigen::Vector3d> smooth_through(const Eigen::Matrix3Xd& points, int first, int last);
+
 /// The scene in which it is pulled by `force` (dyn) along +X at its last body, the head clamped,
 /// with steps of `step` (s). Parts with less rod than `apart` (cm) between them never touch.
 Scene pulled_scene(double radius, double force, double step, double apart);
@@ -45,23 +49,35 @@ struct ContactForce {
   double force = 0;
 };
 
+/// A force (dyn) on the middle of a body.
+struct Load {
+  int body = 0;
+  Eigen::Vector3d force;
+};
+
 /// The rod on its way to rest.
 class Pulled {
  public:
-  Pulled(RodChain chain, Scene scene);
+  /// `loads` act besides the scene's pull at the tail.
+  Pulled(RodChain chain, Scene scene, const std::vector<Load>& loads = {});
   const Model& model() const { return chain_.model; }
   const StepSolution& solution() const { return record_.solution; }
   const Kinematics& kin() const { return sim_.now.observation.kin; }
   /// Steps, each as long as lets no body move further than a third of the radius, until in some
   /// steps together none has moved at more than `still` (cm/s); false: not within so many.
   bool relax(double still, int most_steps);
+  /// One more, as long as the last one.
+  void step();
   std::string knot() const;
   /// Of the last step.
   std::vector<ContactForce> contact_forces() const;
+  /// Sum of the forces of obstacles in the last step, whatever their ways, dyn.
+  double press() const;
   /// Force (dyn) of the part of the rod from `body` on upon the part before it.
   Eigen::Vector3d force_behind(int body) const;
   /// Bend between two places over the length between them, 1/cm; places in bodies from the head,
-  /// whole at their middles.
+  /// whole at their middles. A joint's bend is spread as far as half way to the next ones that
+  /// bend.
   double mean_curvature(double from, double to) const;
 
  private:

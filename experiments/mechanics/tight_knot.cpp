@@ -37,24 +37,6 @@ Curve figure_eight() {
   return curve;
 }
 
-/// Catmull-Rom through the centres of bodies `first` to `last`.
-Curve through_centres(const Eigen::Matrix3Xd& centre, int first, int last) {
-  Curve curve;
-  constexpr int samples = 50;
-  for (int b = std::max(first, 1); b < std::min<int>(last, static_cast<int>(centre.cols()) - 2);
-       ++b) {
-    const Eigen::Vector3d from = 0.5 * (centre.col(b + 1) - centre.col(b - 1));
-    const Eigen::Vector3d to = 0.5 * (centre.col(b + 2) - centre.col(b));
-    const Eigen::Vector3d chord = centre.col(b + 1) - centre.col(b);
-    for (int i = 0; i < samples; ++i) {
-      const double t = static_cast<double>(i) / samples;
-      curve.push_back(centre.col(b) +
-                      t * (from + t * ((3 * chord - 2 * from - to) + t * (from + to - 2 * chord))));
-    }
-  }
-  return curve;
-}
-
 /// The Lissajous knot 5_2, opened where it is furthest out: both tails turn back there and run on
 /// side by side of it.
 Curve lissajous() {
@@ -88,7 +70,7 @@ Curve lissajous() {
   Eigen::Matrix3Xd centre(3, points.size());
   for (std::size_t i = 0; i < points.size(); ++i)
     centre.col(static_cast<Eigen::Index>(i)) = points[i];
-  return through_centres(centre, 0, static_cast<int>(points.size()));
+  return smooth_through(centre, 0, static_cast<int>(points.size()));
 }
 
 Curve start_of(const std::string& type) {
@@ -123,8 +105,8 @@ TightKnot tighten(const std::string& type, double link) {
     tail = std::max(tail, contact.tail);
   }
   const double kept = 2 / coarse;  // two diameters of each tail
-  rope = rope_along(through_centres(rope.kin().centre, static_cast<int>(head - kept),
-                                    static_cast<int>(tail + kept)),
+  rope = rope_along(smooth_through(rope.kin().centre, static_cast<int>(head - kept),
+                                   static_cast<int>(tail + kept)),
                     link);
   TightKnot knot;
   knot.at_rest = rope.relax(2e-5, most_steps);

@@ -1,6 +1,6 @@
 """Tables of experiments/results/mechanics.md, from what the program `mechanics` left in a folder.
 
-Usage: mechanics.py FOLDER     reads twisted.csv, loose.csv, tight.csv; writes tables/*.csv
+Usage: mechanics.py FOLDER     reads twisted.csv, hooked.csv, loose.csv, tight.csv, time.csv; writes tables/*.csv
 """
 
 import math
@@ -36,8 +36,29 @@ def twisted(folder: Path) -> None:
             rows)
 
 
+def hooked(folder: Path) -> None:
+    rows = []
+    for rope in read_csv(folder / "hooked.csv", ["value"]):
+        value, expected = float(rope["value"]), float(rope["expected"])
+        rows.append([rope["problem"], rope["figure"], rope["link"], rope["bodies"], f"{value:.4f}", f"{expected:.4f}", f"{100 * (value / expected - 1):.2f}",
+                     rope["rest"], rope["cpu"]])
+    of_page(folder, "mechanics_hooked", ["rope", "figure", "link", "bodies", "measured", "theory", "error, %", "at rest", "CPU time, s"], rows)
+
+
+def time_rules(folder: Path) -> None:
+    """Each step with the order by which its error is less than that of the step before it."""
+    rows = []
+    for rule, steps in groupby(read_csv(folder / "time.csv", ["error"]), lambda run: run["rule"]):
+        before = 0.0
+        for run in steps:
+            error = float(run["error"])
+            rows.append([rule, run["steps"], f"{error:.1e}", f"{math.log2(before / error):.1f}" if before else "", run["cpu"]])
+            before = error
+    of_page(folder, "mechanics_time", ["rule", "steps", "error of the tail's place, lengths", "order", "CPU time, s"], rows)
+
+
 def loose(folder: Path) -> None:
-    """Each knot, and with the load that its thin rods come to: the excess is in proportion to ε²."""
+    """Each knot, and the load that its thinnest rods come to, where the excess is in proportion to ε²."""
     rows = []
     knots = read_csv(folder / "loose.csv", ["load"])
     for knot in knots:
@@ -73,5 +94,5 @@ def tight(folder: Path) -> None:
 
 
 if __name__ == "__main__":
-    for table in (twisted, loose, tight):
+    for table in (twisted, hooked, loose, tight, time_rules):
         table(Path(sys.argv[1]))
