@@ -12,11 +12,9 @@ namespace hagfish {
 
 Capstan lie_round_post(double link) {
   const std::clock_t begin = std::clock();
-  const double rope =
-      getenv("RR") ? atof(getenv("RR"))
-                   : 0.05;    // cm: its radius; from the post's axis to its middle line it is 1
-  constexpr double pull = 1;  // dyn
-  constexpr double leg = 2;   // cm
+  constexpr double rope = 0.05;  // cm: its radius; from the post's axis to its middle line it is 1
+  constexpr double pull = 1;     // dyn
+  constexpr double leg = 2;      // cm
   constexpr int samples = 10000;
   std::vector<Eigen::Vector3d> curve;
   for (int i = 0; i < samples; ++i) curve.emplace_back(leg * i / samples, 0, 0);

@@ -12,11 +12,9 @@ namespace hagfish {
 namespace {
 
 constexpr double radius = 0.5;  // cm: lengths are in diameters
-constexpr double pull = 1;      // dyn
 constexpr double leg = 3;       // cm
 constexpr double loose = 0.3;   // cm, that the tips are further apart at first
 
-/// One chain is both ropes: what is between them goes round outside and carries nothing.
 struct BothRopes {
   std::vector<Eigen::Vector3d> curve;
   double first_end = 0, second_begin = 0;  ///< cm from the head
@@ -59,26 +57,36 @@ double furthest(const Eigen::Matrix3Xd& centre, int first, int last, Less less) 
 
 }  // namespace
 
+ClaspChain clasp_chain(double link) {
+  const BothRopes ropes = both_ropes();
+  ClaspChain both;
+  both.chain =
+      chain_of({.radius = radius, .bending_damping = 1}, link, links_along(ropes.curve, link));
+  both.first_end = static_cast<int>(ropes.first_end / link) - 1;
+  both.second_begin = static_cast<int>(ropes.second_begin / link) + 1;
+  const Eigen::Vector3d force(clasp_pull, 0, 0);
+  both.loads = {{both.first_end, -force}, {both.second_begin, force}};
+  return both;
+}
+
+double ClaspChain::tips(const Eigen::Matrix3Xd& centre) const {
+  return furthest(centre, 0, first_end, std::less()) -
+         furthest(centre, second_begin, static_cast<int>(centre.cols()), std::greater());
+}
+
 Clasp hook(double link) {
   const std::clock_t begin = std::clock();
-  const BothRopes ropes = both_ropes();
-  const auto first_end = static_cast<int>(ropes.first_end / link) - 1;
-  const auto second_begin = static_cast<int>(ropes.second_begin / link) + 1;
-  constexpr double apart = 4;  // cm: no rope touches itself
-  const Eigen::Vector3d force(pull, 0, 0);
-  Pulled rope(
-      chain_of({.radius = radius, .bending_damping = 1}, link, links_along(ropes.curve, link)),
-      pulled_scene(radius, pull, 1e-3, apart), {{first_end, -force}, {second_begin, force}});
+  const ClaspChain both = clasp_chain(link);
+  Pulled rope(both.chain, pulled_scene(radius, clasp_pull, 1e-3, clasp_apart),
+              [&](const Kinematics&) { return both.loads; });
   Clasp clasp;
   constexpr double still = 2e-5;  // cm/s
   constexpr int most_steps = 6000;
   clasp.at_rest = rope.relax(still, most_steps);
   clasp.bodies = rope.model().body_count();
-  const Eigen::Matrix3Xd& centre = rope.kin().centre;
-  clasp.tips = furthest(centre, 0, first_end, std::less()) -
-               furthest(centre, second_begin, clasp.bodies, std::greater());
-  const int between = (first_end + second_begin) / 2;
-  clasp.load = 1 - rope.force_behind(between).x() / pull;
+  clasp.tips = both.tips(rope.kin().centre);
+  const int between = (both.first_end + both.second_begin) / 2;
+  clasp.load = 1 - rope.force_behind(between).x() / clasp_pull;
   clasp.cpu = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   return clasp;
 }

@@ -3,7 +3,21 @@
 // and Topology 10, 2006).
 #pragma once
 
+#include "experiments/mechanics/rod.hpp"
+
 namespace hagfish {
+
+/// Both ropes as one chain, whose middle goes round outside and carries nothing: a little apart.
+/// Its links are `link` diameters long, and a diameter is 1 cm.
+struct ClaspChain {
+  RodChain chain;
+  int first_end = 0, second_begin = 0;  ///< bodies: where the first rope ends, and the other begins
+  std::vector<Load> loads;              ///< besides that at the tail, where the head is clamped
+  double tips(const Eigen::Matrix3Xd& centre) const;  ///< see Clasp
+};
+ClaspChain clasp_chain(double link);
+inline constexpr double clasp_pull = 1;   // dyn, at each of the four ends
+inline constexpr double clasp_apart = 4;  // cm of rope: no rope touches itself
 
 /// In diameters of the rope, which has no stiffness.
 struct Clasp {

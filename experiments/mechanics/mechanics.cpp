@@ -2,6 +2,8 @@
 //   mechanics twisted    moments at which twisted rods give way, over those of theory
 //   mechanics hooked     ropes round a post, and ropes that hook into each other
 //   mechanics loose      loose open knots in elastic rods, pulled
+//   mechanics mujoco     the same clasp by MuJoCo
+//   mechanics ply        twisted rods that have wound up loops of themselves
 //   mechanics tight      tight open knots in rope
 //   mechanics time       a rod that is bent and released, by steps of several lengths
 #include <algorithm>
@@ -14,6 +16,8 @@
 #include "experiments/mechanics/capstan.hpp"
 #include "experiments/mechanics/clasp.hpp"
 #include "experiments/mechanics/loose_knot.hpp"
+#include "experiments/mechanics/mujoco_clasp.hpp"
+#include "experiments/mechanics/ply.hpp"
 #include "experiments/mechanics/released_rod.hpp"
 #include "experiments/mechanics/tight_knot.hpp"
 #include "experiments/mechanics/twisted_rod.hpp"
@@ -107,6 +111,33 @@ void hooked() {
   }
 }
 
+#ifdef HAGFISH_MUJOCO
+void mujoco() {
+  std::puts("link,bodies,step,density,tips,expected,overlap,rest,cpu");
+  for (const double link : {0.4, 0.2}) {
+    for (const MujocoRope& rope : {MujocoRope{0.02, 1}, {0.01, 1}, {0.02, 10}}) {
+      const MujocoClasp clasp = hook_in_mujoco(link, rope);
+      std::printf("%g,%d,%g,%g,%.5f,%.5f,%.2e,%s,%.2g\n", link, clasp.bodies, rope.step,
+                  rope.density, clasp.tips, ideal_tips(), clasp.overlap,
+                  clasp.at_rest ? "yes" : "no", clasp.cpu);
+      std::fflush(stdout);
+    }
+  }
+}
+#endif
+
+void ply() {
+  std::puts("per_radius,bodies,angle,radius,force,moment,rest,cpu");
+  for (const double angle : {0.35, 0.45}) {
+    for (const double per_radius : {1.0, 2.0, 3.0}) {
+      const Ply rod = wind_up({.angle = angle, .per_radius = per_radius});
+      std::printf("%g,%d,%.4f,%.4f,%.4f,%.4f,%s,%.2g\n", per_radius, rod.bodies, rod.angle,
+                  rod.radius, rod.force, rod.moment, rod.at_rest ? "yes" : "no", rod.cpu);
+      std::fflush(stdout);
+    }
+  }
+}
+
 void time_rules() {
   std::puts("rule,steps,error,cpu");
   constexpr int fine = 25600;
@@ -123,14 +154,16 @@ void time_rules() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::map<std::string, void (*)()> tables{{"hooked", hooked},
-                                                 {"loose", loose},
-                                                 {"tight", tight},
-                                                 {"time", time_rules},
-                                                 {"twisted", twisted}};
+  const std::map<std::string, void (*)()> tables{{"hooked", hooked},   {"loose", loose},
+
+#ifdef HAGFISH_MUJOCO
+                                                 {"mujoco", mujoco},
+#endif
+                                                 {"ply", ply},         {"tight", tight},
+                                                 {"time", time_rules}, {"twisted", twisted}};
   const auto table = argc == 2 ? tables.find(argv[1]) : tables.end();
   if (table == tables.end()) {
-    std::fputs("mechanics hooked | loose | tight | time | twisted\n", stderr);
+    std::fputs("mechanics hooked | loose | mujoco | ply | tight | time | twisted\n", stderr);
     return 2;
   }
   table->second();

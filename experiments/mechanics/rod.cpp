@@ -30,20 +30,20 @@ Eigen::Vector2d turn_to(const Eigen::Vector3d& direction, Axis first, Eigen::Qua
   return angles;
 }
 
-Scene with_loads(Scene scene, const std::vector<Load>& loads) {
-  if (!loads.empty()) scene.controller.law = own_law;
+Scene with_loads(Scene scene, const Loads& loads) {
+  if (loads) scene.controller.law = own_law;
   return scene;
 }
 
 /// Asks for the torques of the hinges that these forces are to the chain behind its clamped head.
-ControlLaw pull_at(const std::vector<Load>& loads) {
+ControlLaw pull_at(const Loads& loads) {
   return [loads](const Situation& at, Eigen::VectorXd&, Control& control) {
     const Kinematics& kin = at.now.observation.kin;
     paper_law(at, control);
     Matrix6Xd wrench = Matrix6Xd::Zero(6, at.model.body_count());
-    for (const auto& [body, force] : loads) {
-      const Eigen::Vector3d arm = kin.centre.col(body) - kin.reference;
-      wrench.col(body) << arm.cross(force), force;
+    for (const Load& load : loads(kin)) {
+      const Eigen::Vector3d arm = kin.centre.col(load.body) - kin.reference;
+      wrench.col(load.body) << load.moment + arm.cross(load.force), load.force;
     }
     control.torque.value = generalised_force(at.model, kin, wrench);
     control.torque.value.head<root_dofs>().setZero();
@@ -141,15 +141,14 @@ Scene pulled_scene(double radius, double force, double step, double apart) {
   return scene;
 }
 
-Pulled::Pulled(RodChain chain, Scene scene, const std::vector<Load>& loads)
+Pulled::Pulled(RodChain chain, Scene scene, const Loads& loads)
     : chain_(std::move(chain)),
       scene_(with_loads(std::move(scene), loads)),
       sim_(start_from(chain_.model, scene_, "active-set", chain_.state, {}, 0)) {
-  if (!loads.empty()) sim_.law = pull_at(loads);
+  if (loads) sim_.law = pull_at(loads);
 }
 
-bool Pulled::relax(double still, int most_steps) {
-  constexpr double longest = 2;  // s: longer steps leave the directions of contact forces behind
+bool Pulled::relax(double still, int most_steps, double longest) {
   constexpr double shortest = 1e-9;
   constexpr int look = 20;  // steps: contacts that take turns move bodies to and fro within fewer
   const double radius = model().bodies.front().radius;
@@ -193,6 +192,18 @@ std::vector<ContactForce> Pulled::contact_forces() const {
     }
   }
   return forces;
+}
+
+double Pulled::twisting_moment() const {
+  double sum = 0;
+  int joints = 0;
+  for (std::size_t k = 0; k < model().hinges.size(); ++k) {
+    const Hinge& hinge = model().hinges[k];
+    if (hinge.axis != Axis::x) continue;
+    sum += hinge.stiffness * sim_.now.state.q[static_cast<Eigen::Index>(k) + root_dofs + 1];
+    ++joints;
+  }
+  return sum / joints;
 }
 
 double Pulled::press() const {

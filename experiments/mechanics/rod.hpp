@@ -2,6 +2,7 @@
 // slowest motions.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -49,28 +50,33 @@ struct ContactForce {
   double force = 0;
 };
 
-/// A force (dyn) on the middle of a body.
+/// A force (dyn) on the middle of a body, and a moment (dyn cm).
 struct Load {
   int body = 0;
   Eigen::Vector3d force;
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
 };
+using Loads = std::function<std::vector<Load>(const Kinematics&)>;
 
 /// The rod on its way to rest.
 class Pulled {
  public:
   /// `loads` act besides the scene's pull at the tail.
-  Pulled(RodChain chain, Scene scene, const std::vector<Load>& loads = {});
+  Pulled(RodChain chain, Scene scene, const Loads& loads = {});
   const Model& model() const { return chain_.model; }
   const StepSolution& solution() const { return record_.solution; }
   const Kinematics& kin() const { return sim_.now.observation.kin; }
   /// Steps, each as long as lets no body move further than a third of the radius, until in some
   /// steps together none has moved at more than `still` (cm/s); false: not within so many.
-  bool relax(double still, int most_steps);
+  /// No step is longer than `longest` (s): long ones leave the directions of contact forces behind.
+  bool relax(double still, int most_steps, double longest = 2);
   /// One more, as long as the last one.
   void step();
   std::string knot() const;
   /// Of the last step.
   std::vector<ContactForce> contact_forces() const;
+  /// Mean of the twist joints' moments, dyn cm.
+  double twisting_moment() const;
   /// Sum of the forces of obstacles in the last step, whatever their ways, dyn.
   double press() const;
   /// Force (dyn) of the part of the rod from `body` on upon the part before it.

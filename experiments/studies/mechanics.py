@@ -1,6 +1,6 @@
 """Tables of experiments/results/mechanics.md, from what the program `mechanics` left in a folder.
 
-Usage: mechanics.py FOLDER     reads twisted.csv, hooked.csv, loose.csv, tight.csv, time.csv; writes tables/*.csv
+Usage: mechanics.py FOLDER     reads twisted.csv, hooked.csv, loose.csv, ply.csv, tight.csv, time.csv; writes tables/*.csv
 """
 
 import math
@@ -43,6 +43,14 @@ def hooked(folder: Path) -> None:
         rows.append([rope["problem"], rope["figure"], rope["link"], rope["bodies"], f"{value:.4f}", f"{expected:.4f}", f"{100 * (value / expected - 1):.2f}",
                      rope["rest"], rope["cpu"]])
     of_page(folder, "mechanics_hooked", ["rope", "figure", "link", "bodies", "measured", "theory", "error, %", "at rest", "CPU time, s"], rows)
+
+
+def ply(folder: Path) -> None:
+    percent = lambda over: f"{100 * (float(over) - 1):.1f}"
+    rows = [[rod["bodies"], rod["per_radius"], rod["angle"], percent(rod["radius"]), percent(rod["force"]), percent(rod["moment"]), rod["rest"], rod["cpu"]]
+            for rod in read_csv(folder / "ply.csv", ["force"])]
+    of_page(folder, "mechanics_ply", ["bodies", "bodies to a radius", "angle of the strands, rad", "their distance over two radii, %", "error of F, %",
+                                      "error of M, %", "at rest", "CPU time, s"], rows)
 
 
 def time_rules(folder: Path) -> None:
@@ -94,5 +102,5 @@ def tight(folder: Path) -> None:
 
 
 if __name__ == "__main__":
-    for table in (twisted, hooked, loose, tight, time_rules):
+    for table in (twisted, hooked, loose, ply, tight, time_rules):
         table(Path(sys.argv[1]))

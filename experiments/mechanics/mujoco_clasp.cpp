@@ -1,0 +1,82 @@
+#include "experiments/mechanics/mujoco_clasp.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+
+#include "experiments/mechanics/clasp.hpp"
+#include "mujoco_ref/mirror.hpp"
+#include "mujoco_ref/mjcf.hpp"
+#include "mujoco_ref/mujoco_model.hpp"
+
+namespace hagfish {
+namespace {
+
+void make_dense(Model& model, double density) {
+  for (Body& body : model.bodies) {
+    body.mass = density * body.length;
+    body.inertia = cylinder_inertia(body.mass, body.length, body.radius);
+  }
+}
+
+/// The loads, and drag per length as that of the chain across it: MuJoCo's own is of other forms.
+void pull(const ClaspChain& both, MujocoModel& rope) {
+  mjData& d = *rope.data();
+  const int bodies = both.chain.model.body_count();
+  std::fill(d.xfrc_applied, d.xfrc_applied + 6 * rope.model()->nbody, 0.0);
+  const auto force = [&](int body) {
+    return Eigen::Map<Eigen::Vector3d>(d.xfrc_applied + 6 * (body + 1));
+  };
+  for (const Load& load : both.loads) force(load.body) += load.force;
+  force(bodies - 1).x() += clasp_pull;
+  for (int b = 0; b < bodies; ++b) {
+    mjtNum velocity[6];
+    mj_objectVelocity(rope.model(), &d, mjOBJ_BODY, b + 1, velocity, 0);
+    force(b) -= both.chain.model.drag.normal * both.chain.model.bodies[b].length *
+                Eigen::Map<Eigen::Vector3d>(velocity + 3);
+  }
+}
+
+Eigen::Matrix3Xd centres(const MujocoModel& rope, int bodies) {
+  return Eigen::Map<const Eigen::Matrix3Xd>(rope.data()->xipos + 3, 3, bodies);
+}
+
+}  // namespace
+
+MujocoClasp hook_in_mujoco(double link, const MujocoRope& input) {
+  const std::clock_t begin = std::clock();
+  ClaspChain both = clasp_chain(link);
+  Model& model = both.chain.model;
+  make_dense(model, input.density);
+  MujocoModel rope(mjcf_files(model, clasp_apart, input.step, Head::clamped));
+  mjModel& m = *rope.model();
+  set_state(model, both.chain.state, rope);
+  m.opt.tolerance = 1e-10;
+  for (int g = 0; g < m.ngeom; ++g) {
+    m.geom_solref[2 * g] = 2 * input.step;
+    std::fill_n(m.geom_solimp + 5 * g, 2, 0.99);  // as hard from the first touch on
+  }
+  MujocoClasp clasp;
+  clasp.bodies = model.body_count();
+  constexpr double still = 2e-4;   // cm/s
+  constexpr double longest = 100;  // s
+  constexpr int look = 50;         // steps
+  mj_forward(&m, rope.data());
+  Eigen::Matrix3Xd before = centres(rope, clasp.bodies);
+  for (int k = 1; k * input.step < longest && !clasp.at_rest; ++k) {
+    pull(both, rope);
+    mj_step(&m, rope.data());
+    if (k % look != 0) continue;
+    const Eigen::Matrix3Xd now = centres(rope, clasp.bodies);
+    clasp.at_rest = (now - before).cwiseAbs().maxCoeff() < still * look * input.step;
+    before = now;
+  }
+  check_stable(rope);
+  clasp.tips = both.tips(before);
+  for (int c = 0; c < rope.data()->ncon; ++c)
+    clasp.overlap = std::max(clasp.overlap, -rope.data()->contact[c].dist);
+  clasp.cpu = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+  return clasp;
+}
+
+}  // namespace hagfish
