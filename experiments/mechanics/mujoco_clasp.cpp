@@ -48,6 +48,8 @@ MujocoClasp hook_in_mujoco(double link, const MujocoRope& input) {
   ClaspChain both = clasp_chain(link);
   Model& model = both.chain.model;
   make_dense(model, input.density);
+  // Less than ours: its time to bend is longer than that to come to rest here.
+  for (Hinge& hinge : model.hinges) hinge.damping *= 0.1;
   MujocoModel rope(mjcf_files(model, clasp_apart, input.step, Head::clamped));
   mjModel& m = *rope.model();
   set_state(model, both.chain.state, rope);
@@ -58,21 +60,19 @@ MujocoClasp hook_in_mujoco(double link, const MujocoRope& input) {
   }
   MujocoClasp clasp;
   clasp.bodies = model.body_count();
-  constexpr double still = 2e-4;   // cm/s
-  constexpr double longest = 100;  // s
-  constexpr int look = 50;         // steps
-  mj_forward(&m, rope.data());
-  Eigen::Matrix3Xd before = centres(rope, clasp.bodies);
+  constexpr double still = 1e-4;  // cm, of the tips; legs go on swinging, which does not move them
+  constexpr double look = 2;      // s
+  constexpr double longest = 40;  // s
+  const auto between = static_cast<int>(std::lround(look / input.step));
   for (int k = 1; k * input.step < longest && !clasp.at_rest; ++k) {
     pull(both, rope);
     mj_step(&m, rope.data());
-    if (k % look != 0) continue;
-    const Eigen::Matrix3Xd now = centres(rope, clasp.bodies);
-    clasp.at_rest = (now - before).cwiseAbs().maxCoeff() < still * look * input.step;
-    before = now;
+    if (k % between != 0) continue;
+    const double now = both.tips(centres(rope, clasp.bodies));
+    clasp.at_rest = std::abs(now - clasp.tips) < still;
+    clasp.tips = now;
   }
   check_stable(rope);
-  clasp.tips = both.tips(before);
   for (int c = 0; c < rope.data()->ncon; ++c)
     clasp.overlap = std::max(clasp.overlap, -rope.data()->contact[c].dist);
   clasp.cpu = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;

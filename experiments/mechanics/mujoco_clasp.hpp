@@ -10,10 +10,10 @@ struct MujocoRope {
 
 struct MujocoClasp {
   int bodies = 0;
-  bool at_rest = false;
-  double tips = 0;     ///< as in Clasp
-  double overlap = 0;  ///< deepest of two capsules, diameters
-  double cpu = 0;      ///< s
+  bool at_rest = false;  ///< the tips move no more
+  double tips = 0;       ///< as in Clasp
+  double overlap = 0;    ///< deepest of two capsules, diameters
+  double cpu = 0;        ///< s
 };
 MujocoClasp hook_in_mujoco(double link, const MujocoRope& rope);
 

@@ -76,9 +76,11 @@ Curve lissajous() {
 Curve start_of(const std::string& type) {
   if (type == "4_1") return figure_eight();
   if (type == "5_2") return lissajous();
-  if (type != "3_1") throw std::invalid_argument("no start for a knot " + type);
-  constexpr double thin = 0.08;
-  Curve curve = loose_curve({.radius = thin}, 5 * thin);
+  if (type != "3_1" && type != "5_1") {
+    throw std::invalid_argument("no start for a knot " + type);
+  }
+  const double thin = type == "3_1" ? 0.08 : 0.04;
+  Curve curve = loose_curve({.crossings = type[0] - '0', .radius = thin}, 5 * thin);
   for (Eigen::Vector3d& point : curve) point *= radius / thin;
   return curve;
 }

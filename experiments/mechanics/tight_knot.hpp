@@ -15,7 +15,7 @@ struct TightKnot {
   double cpu = 0;         ///< s
 };
 
-/// `type`: 3_1, 4_1 or 5_2. `link`: length of a body, diameters.
+/// `type`: 3_1, 4_1, 5_1 or 5_2. `link`: length of a body, diameters.
 TightKnot tighten(const std::string& type, double link);
 
 }  // namespace hagfish

@@ -5,7 +5,7 @@ set -euo pipefail
 targets=(--target mechanics)
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
-for table in twisted hooked loose ply tight time; do
+for table in twisted hooked loose mujoco ply tight time; do
   "$root/build/release/experiments/mechanics" $table >"$out/$table.csv"
 done
 /usr/bin/python3 "$root/experiments/studies/mechanics.py" "$out"
