@@ -1,9 +1,10 @@
-// Tables of experiments/results/mechanics.md: rows of CSV on standard output.
+// Tables of experiments/results/mechanics.md on standard output: rows of CSV, but where said.
 //   mechanics twisted    moments at which twisted rods give way, over those of theory
 //   mechanics hooked     ropes round a post, and ropes that hook into each other
 //   mechanics loose      loose open knots in elastic rods, pulled
 //   mechanics mujoco     the same clasp by MuJoCo
 //   mechanics ply        twisted rods that have wound up loops of themselves
+//   mechanics states     the Table 1 animal on its way, as JSON, for other simulators
 //   mechanics tight      tight open knots in rope
 //   mechanics time       a rod that is bent and released, by steps of several lengths
 #include <algorithm>
@@ -17,6 +18,7 @@
 #include "experiments/mechanics/capstan.hpp"
 #include "experiments/mechanics/clasp.hpp"
 #include "experiments/mechanics/loose_knot.hpp"
+#include "experiments/mechanics/mirrored_states.hpp"
 #include "experiments/mechanics/mujoco_clasp.hpp"
 #include "experiments/mechanics/ply.hpp"
 #include "experiments/mechanics/released_rod.hpp"
@@ -160,16 +162,19 @@ void time_rules() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::map<std::string, void (*)()> tables{{"hooked", hooked},   {"loose", loose},
+  const std::map<std::string, void (*)()> tables{
+      {"hooked", hooked},  {"loose", loose},
 
 #ifdef HAGFISH_MUJOCO
-                                                 {"mujoco", mujoco},
+      {"mujoco", mujoco},
 #endif
-                                                 {"ply", ply},         {"tight", tight},
-                                                 {"time", time_rules}, {"twisted", twisted}};
+      {"ply", ply},        {"states", print_mirrored_states},
+      {"tight", tight},    {"time", time_rules},
+      {"twisted", twisted}};
   const auto table = argc == 2 ? tables.find(argv[1]) : tables.end();
   if (table == tables.end()) {
-    std::fputs("mechanics hooked | loose | mujoco | ply | tight | time | twisted\n", stderr);
+    std::fputs("mechanics hooked | loose | mujoco | ply | states | tight | time | twisted\n",
+               stderr);
     return 2;
   }
   table->second();

@@ -52,9 +52,9 @@ def mujoco(folder: Path) -> None:
     own = {rope["link"]: rope for rope in read_csv(folder / "hooked.csv", ["value"]) if rope["figure"] == "distance of the tips"}
     for link, ropes in groupby(read_csv(folder / "mujoco.csv", ["tips"]), lambda rope: rope["link"]):
         here = own[link]
-        rows.append(["this one", "", "", here["bodies"], here["value"][:-1], error(here["value"], here["expected"]), "", here["rest"], here["cpu"]])
+        rows.append(["this one", "", "", here["bodies"], f"{float(here['value']):.4f}", error(here["value"], here["expected"]), "", here["rest"], here["cpu"]])
         for rope in ropes:
-            rows.append(["MuJoCo 2.2.2", rope["step"], rope["density"], rope["bodies"], rope["tips"][:-1], error(rope["tips"], rope["expected"]),
+            rows.append(["MuJoCo 2.2.2", rope["step"], rope["density"], rope["bodies"], f"{float(rope['tips']):.4f}", error(rope["tips"], rope["expected"]),
                          rope["overlap"], rope["rest"], rope["cpu"]])
     of_page(folder, "mechanics_mujoco", ["simulator", "step, s", "mass, g/cm", "bodies", "distance of the tips, diameters", "error, %",
                                          "overlap of capsules, diameters", "at rest", "CPU time, s"], rows)
