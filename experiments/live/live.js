@@ -104,13 +104,13 @@ function obstaclesOf(numbers) {
   const found = [];
   for (let at = 0; at < numbers.length;) {
     if (numbers[at++] > 0) {
-      found.push({ name: "plane", point: numbers.slice(at, at + 3), normal: numbers.slice(at + 3, at + 6) });
-      at += 6;
+      found.push({ name: "plane", point: numbers.slice(at, at + 3), normal: numbers.slice(at + 3, at + 6), half: numbers[at + 6], hole: numbers[at + 7] });
+      at += 8;
       continue;
     }
-    const [radius, closed, count] = numbers.slice(at, at + 3);
-    at += 3;
-    found.push({ name: "strand", radius, closed: closed > 0, points: d3.range(count).map((k) => numbers.slice(at + 3 * k, at + 3 * k + 3)) });
+    const [radius, closed, rim, count] = numbers.slice(at, at + 4);
+    at += 4;
+    found.push({ name: "strand", radius, closed: closed > 0, rim: rim > 0, points: d3.range(count).map((k) => numbers.slice(at + 3 * k, at + 3 * k + 3)) });
     at += 3 * count;
   }
   return found;

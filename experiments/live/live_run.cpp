@@ -1,5 +1,6 @@
 #include "experiments/live/live_run.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -7,6 +8,7 @@
 
 #include "core/chain/bending.hpp"
 #include "core/run/laws.hpp"
+#include "experiments/view/drawn_plane.hpp"
 
 namespace hagfish {
 namespace {
@@ -225,22 +227,27 @@ std::vector<LiveArray> LiveRun::animal() const {
   const auto joints = [&](int dofs) {
     return of_joints(model_, dofs, [length](int body, int /*first*/) { return body * length; });
   };
-  // Of each: 1 and a point and a normal of a plane, or 0, radius, whether it is closed, the number
-  // of points, and these.
+  // Of each: 1 and the middle, normal, half side and hole of a plane's square, or 0, radius,
+  // whether it is closed and a rim, the number of points, and these.
   std::vector<double> obstacles;
   const auto add = [&obstacles](const Eigen::Vector3d& v) {
     obstacles.insert(obstacles.end(), v.begin(), v.end());
   };
-  for (const Obstacle& one : resolved_.scene.obstacles) {
+  const std::vector<Obstacle>& all = resolved_.scene.obstacles;
+  for (const Obstacle& one : all) {
     const bool plane = one.kind == Obstacle::Kind::plane;
     obstacles.push_back(plane ? 1 : 0);
     if (plane) {
-      add(one.point);
+      const DrawnPlane square = drawn_plane(one, all, model_.length());
+      add(square.middle);
       add(one.normal);
+      obstacles.insert(obstacles.end(), {square.half, square.hole});
       continue;
     }
-    obstacles.insert(obstacles.end(),
-                     {one.radius, one.closed ? 1.0 : 0.0, static_cast<double>(one.points.size())});
+    const bool rim =
+        std::ranges::any_of(all, [&one](const Obstacle& other) { return is_rim(one, other); });
+    obstacles.insert(obstacles.end(), {one.radius, one.closed ? 1.0 : 0.0, rim ? 1.0 : 0.0,
+                                       static_cast<double>(one.points.size())});
     for (const Eigen::Vector3d& point : one.points) add(point);
   }
   const Scene& scene = resolved_.scene;

@@ -9,6 +9,8 @@
 #include "core/input/input_error.hpp"
 #include "core/input/input_text.hpp"
 #include "core/run/controller.hpp"
+#include "experiments/picture/obstacle_geoms.hpp"
+#include "experiments/view/drawn_plane.hpp"
 
 namespace hagfish {
 namespace {
@@ -73,20 +75,23 @@ Skin FramePictures::skin(std::size_t frame) const {
   return skin;
 }
 
-std::vector<mjvGeom> FramePictures::obstacles(std::size_t frame) const {
+std::vector<mjvGeom> FramePictures::obstacles(std::size_t frame, bool floors) const {
   std::vector<mjvGeom> geoms;
   if (log_.resolved.scene.wall.present) {
     geoms.push_back(plate_geom(log_.clamped(static_cast<Eigen::Index>(frame))));
   }
-  for (const Obstacle& obstacle : log_.resolved.scene.obstacles) {
-    for (const mjvGeom& geom : obstacle_geoms(obstacle)) geoms.push_back(geom);
+  const std::vector<Obstacle>& all = log_.resolved.scene.obstacles;
+  for (const Obstacle& obstacle : all) {
+    if (!floors && is_floor(obstacle)) continue;
+    std::ranges::copy(obstacle_geoms(obstacle, all, log_.model.length(), view_.toward()),
+                      std::back_inserter(geoms));
   }
   return geoms;
 }
 
 void FramePictures::add(std::size_t frame, Shown& shown) const {
   shown.add(view_, skin(frame));
-  for (const mjvGeom& box : obstacles(frame)) shown.add(view_, box);
+  for (const mjvGeom& box : obstacles(frame, false)) shown.add(view_, box);
 }
 
 std::unique_ptr<OffscreenRenderer> FramePictures::renderer(PictureSize size,
@@ -96,7 +101,7 @@ std::unique_ptr<OffscreenRenderer> FramePictures::renderer(PictureSize size,
 
 Image FramePictures::draw(OffscreenRenderer& renderer, std::size_t frame, const View& view,
                           const std::string& words) const {
-  return renderer.render(obstacles(frame), view, skin(frame), words, bar_ ? &*bar_ : nullptr);
+  return renderer.render(obstacles(frame, true), view, skin(frame), words, bar_ ? &*bar_ : nullptr);
 }
 
 void FramePictures::fit(const Shown& shown, std::optional<PictureSize> size, View& view) const {

@@ -45,7 +45,8 @@ class FramePictures {
 
  private:
   Skin skin(std::size_t frame) const;
-  std::vector<mjvGeom> obstacles(std::size_t frame) const;
+  /// Floors and walls fill the window, and do not widen it.
+  std::vector<mjvGeom> obstacles(std::size_t frame, bool floors) const;
 
   const LogContents& log_;
   View view_;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/contact/obstacles.hpp"
+#include "core/contact/contact.hpp"
 #include "core/scene/interpolation.hpp"
 
 namespace hagfish {
@@ -14,18 +14,15 @@ namespace {
 using Eigen::Vector3d;
 using Rgb = std::array<unsigned char, 3>;
 
-constexpr double own_scale = 80;           // px/cm; Figure 7 prints 40 px/cm
-constexpr double margin = 4;               // of the window around what it shows, px
-constexpr int rings_per_segment = 6;       // 0.07 cm apart, so that the dark rings have sharp edges
-constexpr int cap_rings = 6;               // of each round end
-constexpr double ring_width = 0.26;        // cm
-constexpr double ring_shade = 0.5;         // of the colour beside it
-const Vector3d plate_size(0.5, 5.2, 5.2);  // cm
+constexpr double own_scale = 80;      // px/cm; Figure 7 prints 40 px/cm
+constexpr double margin = 4;          // of the window around what it shows, px
+constexpr int rings_per_segment = 6;  // 0.07 cm apart, so that the dark rings have sharp edges
+constexpr int cap_rings = 6;          // of each round end
+constexpr double ring_width = 0.26;   // cm
+constexpr double ring_shade = 0.5;    // of the colour beside it
 
 constexpr Rgb skin_colour{184, 138, 130};
 constexpr float skin_specular = 0.35f;
-constexpr std::array plate_colour = {0.72f, 0.76f, 0.80f, 1.0f};
-constexpr std::array pale_plate_colour = {0.91f, 0.93f, 0.95f, 1.0f};
 
 /// Viridis, told apart with any colour vision, at every sixteenth.
 constexpr std::array<Rgb, 17> viridis = {{{68, 1, 84},
@@ -148,49 +145,6 @@ std::vector<std::array<unsigned char, 3>> colour_steps() {
   std::vector<Rgb> colours;
   for (int k = 0; k < steps; ++k) colours.push_back(colour_of(k / (steps - 1.0)));
   return colours;
-}
-
-namespace {
-
-/// A geom in the middle of `at` (cm) whose Z is `axis`.
-mjvGeom geom_at(mjtGeom type, const Vector3d& size, const Vector3d& at, const Vector3d& axis,
-                const std::array<float, 4>& colour) {
-  const Vector3d side = axis.unitOrthogonal();
-  Eigen::Matrix<mjtNum, 3, 3, Eigen::RowMajor> axes;
-  axes << side, axis.cross(side), axis;
-  mjvGeom geom;
-  mjv_initGeom(&geom, type, size.data(), at.data(), axes.data(), colour.data());
-  geom.specular = 0;
-  return geom;
-}
-
-mjvGeom plane_geom(const Vector3d& point, const Vector3d& normal,
-                   const std::array<float, 4>& colour) {
-  const Vector3d half = 0.5 * plate_size;
-  return geom_at(mjGEOM_BOX, {half.z(), half.y(), half.x()}, point - half.x() * normal, normal,
-                 colour);
-}
-
-}  // namespace
-
-mjvGeom plate_geom(bool holds_head) {
-  return plane_geom(Vector3d::Zero(), Vector3d::UnitX(),
-                    holds_head ? plate_colour : pale_plate_colour);
-}
-
-std::vector<mjvGeom> obstacle_geoms(const Obstacle& obstacle) {
-  if (obstacle.kind == Obstacle::Kind::plane) {
-    return {plane_geom(obstacle.point, obstacle.normal, plate_colour)};
-  }
-  std::vector<mjvGeom> geoms;
-  const Eigen::Matrix3Xd curve = strand_curve(obstacle);
-  for (Eigen::Index k = 0; k + 1 < curve.cols(); ++k) {
-    const Vector3d along = curve.col(k + 1) - curve.col(k);
-    const double length = along.norm();
-    geoms.push_back(geom_at(mjGEOM_CAPSULE, {obstacle.radius, obstacle.radius, 0.5 * length},
-                            curve.col(k) + 0.5 * along, along / length, plate_colour));
-  }
-  return geoms;
 }
 
 View turned_view(double pitch, double yaw) {

@@ -1,5 +1,5 @@
-// What a picture of one frame of a log shows: the animal's skin and the head plate, as MuJoCo's
-// renderer takes them, and through which window.
+// What a picture of one frame of a log shows: the animal's skin, as MuJoCo's renderer takes it, and
+// through which window.
 #pragma once
 
 #include <array>
@@ -27,12 +27,6 @@ void paint(const Model& model, const Specimen& specimen, const std::vector<doubl
 
 /// The colours of paint() from 0 to its scale, even.
 std::vector<std::array<unsigned char, 3>> colour_steps();
-
-/// The head plate behind the plane x = 0; pale where it does not hold the head.
-mjvGeom plate_geom(bool holds_head);
-
-/// What an obstacle looks like: a piece of a plane, of the head plate's size, or a tube.
-std::vector<mjvGeom> obstacle_geoms(const Obstacle& obstacle);
 
 /// Looks along -Z with +X to the right, then turned about X by `pitch` and about the picture's
 /// vertical by `yaw` (degrees). Its window is yet to be set.

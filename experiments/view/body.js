@@ -19,16 +19,31 @@ function splinePoint(centres, offset, bodies, segment, t, out) {
   }
 }
 
-/** An obstacle: a piece of a plane, or the tube about the curve through its points, with round ends. */
+/** A square of a plane, cm, seen from before it alone: a plate with a hole, or a floor. */
+function planeMesh({ point, normal, half, hole }) {
+  const square = new THREE.Shape(), material = new THREE.MeshPhongMaterial({ color: 0xb8c2cc });
+  [[-half, -half], [half, -half], [half, half], [-half, half]].forEach(([x, y], k) => (k ? square.lineTo(x, y) : square.moveTo(x, y)));
+  if (hole > 0) square.holes.push(new THREE.Path().absarc(0, 0, hole, 0, 2 * Math.PI, true));
+  const out = new THREE.Vector3(...normal), mesh = new THREE.Mesh(new THREE.ExtrudeGeometry(square, { depth: 0.3, bevelEnabled: false, curveSegments: 48 }), material);
+  // Turned about the upright as little as may be: X of the square lies level.
+  const level = new THREE.Vector3(-out.y, out.x, 0);
+  if (level.lengthSq() < 1e-6) level.set(1, 0, 0);
+  level.normalize();
+  mesh.quaternion.setFromRotationMatrix(new THREE.Matrix4().makeBasis(level, new THREE.Vector3().crossVectors(out, level), out));
+  mesh.position.set(...point).addScaledVector(out, -0.3);
+  return mesh;
+}
+
+/** An obstacle: a square of a plane, or the tube about the curve through its points, with round ends. What is in a ring is seen through it. */
 function obstacleMesh(obstacle) {
-  const group = new THREE.Group(), material = new THREE.MeshPhongMaterial({ color: 0x9aa5b1 });
-  const add = (geometry, at) => { const mesh = new THREE.Mesh(geometry, material); if (at) mesh.position.copy(at); group.add(mesh); return mesh; };
+  const group = new THREE.Group();
   if (obstacle.normal) {
-    const normal = new THREE.Vector3(...obstacle.normal), point = new THREE.Vector3(...obstacle.point);
-    add(new THREE.BoxGeometry(0.3, 5.2, 5.2), point.addScaledVector(normal, -0.15)).quaternion.setFromUnitVectors(new THREE.Vector3(1, 0, 0), normal);
+    group.add(planeMesh(obstacle));
     return group;
   }
-  const points = obstacle.points.map((p) => new THREE.Vector3(...p)), { radius, closed } = obstacle;
+  const points = obstacle.points.map((p) => new THREE.Vector3(...p)), { radius, closed } = obstacle, clear = closed && !obstacle.rim;
+  const material = new THREE.MeshPhongMaterial(clear ? { color: 0x9ab0ca, transparent: true, opacity: 0.3, depthWrite: false } : { color: 0x6b7a8f });
+  const add = (geometry, at) => { const mesh = new THREE.Mesh(geometry, material); if (at) mesh.position.copy(at); group.add(mesh); };
   if (points.length > 1) {
     const curve = new THREE.CatmullRomCurve3(points, closed, "catmullrom", 0.5); // the uniform one
     add(new THREE.TubeGeometry(curve, 8 * points.length, radius, 20, closed));

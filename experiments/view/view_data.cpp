@@ -10,6 +10,7 @@
 #include "core/run/controller.hpp"
 #include "experiments/export/body_quantity.hpp"
 #include "experiments/export/frame_contacts.hpp"
+#include "experiments/view/drawn_plane.hpp"
 
 namespace hagfish {
 namespace {
@@ -73,18 +74,23 @@ Json animal(const LogContents& log) {
 }
 
 /// Obstacles but the head plate.
-Json obstacles(const Scene& scene) {
+Json obstacles(const Scene& scene, double length) {
   const auto numbers = [](const Eigen::Vector3d& v) { return Json{v.x(), v.y(), v.z()}; };
   Json all = Json::array();
   for (const Obstacle& one : scene.obstacles) {
     Json& json = all.emplace_back(Json{{"name", printable(one.name)}});
     if (one.kind == Obstacle::Kind::plane) {
-      json["point"] = numbers(one.point);
+      const DrawnPlane square = drawn_plane(one, scene.obstacles, length);
+      json["point"] = numbers(square.middle);
       json["normal"] = numbers(one.normal);
+      json["half"] = square.half;
+      json["hole"] = square.hole;
       continue;
     }
     json["radius"] = one.radius;
     json["closed"] = one.closed;
+    json["rim"] = std::ranges::any_of(scene.obstacles,
+                                      [&one](const Obstacle& plane) { return is_rim(one, plane); });
     for (const Eigen::Vector3d& point : one.points) json["points"].push_back(numbers(point));
   }
   return all;
@@ -141,7 +147,7 @@ Json view_data(const LogContents& log, const std::string& name) {
             {"specimen", printable(log.resolved.specimen.name)},
             {"status", printable(log.h5.root_text("status"))},
             {"plate", log.resolved.scene.wall.present},
-            {"obstacles", obstacles(log.resolved.scene)},
+            {"obstacles", obstacles(log.resolved.scene, log.model.length())},
             {"animal", animal(log)},
             {"time", floats(log.time)}};
   add_stages(log, json);

@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "core/log/hdf5_error.hpp"
+#include "experiments/picture/obstacle_geoms.hpp"
 #include "experiments/picture/picture.hpp"
 #include "mujoco_ref/mjcf.hpp"
 #include "mujoco_ref/mujoco_model.hpp"
@@ -38,6 +39,14 @@ Model small_chain() {
     for (Hinge& hinge : model.hinges) hinge.lower = -(hinge.upper = 3);
   }
   return model;
+}
+
+/// What is seen at a place of the picture plane, cm.
+Pixel pixel_at(const Image& image, const View& view, double right, double up) {
+  const int column = static_cast<int>((right - view.low.x()) * view.scale);
+  const int row = image.height - 1 - static_cast<int>((up - view.low.y()) * view.scale);
+  const unsigned char* rgb = &image.rgb[3 * (static_cast<std::size_t>(row) * image.width + column)];
+  return {rgb[0], rgb[1], rgb[2]};
 }
 
 class OffscreenTest : public testing::Test {
@@ -252,13 +261,7 @@ TEST(PictureTest, ASkinIsDrawnWhereItIsInItsColours) {
   fit(shown, 424, 100, view);
   OffscreenRenderer renderer(*scene.model(), 424, 100);
   const Image image = renderer.render({}, view, skin);
-  const auto pixel = [&](double x, double y) {
-    const int column = static_cast<int>((x - view.low.x()) * view.scale);
-    const int row = image.height - 1 - static_cast<int>((y - view.low.y()) * view.scale);
-    const unsigned char* rgb =
-        &image.rgb[3 * (static_cast<std::size_t>(row) * image.width + column)];
-    return Pixel{rgb[0], rgb[1], rgb[2]};
-  };
+  const auto pixel = [&](double x, double y) { return pixel_at(image, view, x, y); };
   for (const double x : {0.5, 10.0, 30.0, 42.0}) {
     EXPECT_GT(pixel(x, 0)[1], pixel(x, 0)[0] + 40) << x;
     EXPECT_EQ(pixel(x, 2), white) << x;
@@ -303,6 +306,60 @@ TEST(PictureTest, TheWindowHoldsWhatIsShown) {
   EXPECT_NEAR(wide.scale, 100 / 5.2, 0.01);  // 4 px of margin above and below
   EXPECT_NEAR(wide.low.x() + 300 / wide.scale, -0.25, 1e-9);
   EXPECT_EQ(wide.width, 600);
+}
+
+/// A ring of 0.3 cm about a hole of 1 cm, both radii, about the X axis.
+Obstacle ring_at(double x) {
+  Obstacle ring;
+  for (int k = 0; k < 32; ++k) {
+    const double turn = 2 * std::numbers::pi * k / 32;
+    ring.points.emplace_back(x, 1.3 * std::cos(turn), 1.3 * std::sin(turn));
+  }
+  ring.radius = 0.3;
+  ring.closed = true;
+  return ring;
+}
+
+TEST_F(OffscreenTest, AHoleIsSeenThroughAndATubeIsCutOpen) {
+  Obstacle plate;
+  plate.kind = Obstacle::Kind::plane;
+  plate.point = {2, 0.5, 0};  // the hole is where its rim is
+  plate.neck = 3;
+  const std::vector<Obstacle> all{plate, ring_at(1.7), ring_at(1.1)};
+  const auto picture = [&](View& from, std::initializer_list<int> shown) {
+    std::vector<mjvGeom> geoms;
+    for (const int k : shown) {
+      for (const mjvGeom& geom : obstacle_geoms(all[k], all, 40, from.toward())) {
+        geoms.push_back(geom);
+      }
+    }
+    from.low = {-4, -4};
+    from.width = from.height = 160;
+    from.scale = 20;
+    return OffscreenRenderer(*mirror.model(), 160, 160).render(geoms, from);
+  };
+  View front = turned_view(0, 90);  // against X; the plate is 5.2 cm wide
+  const Image plate_alone = picture(front, {0}), with_rim = picture(front, {0, 1});
+  for (const Eigen::Vector2d& edge :
+       {Eigen::Vector2d{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {0.7, 0.7}}) {
+    const auto seen = [&](const Image& image, double far) {
+      return pixel_at(image, front, far * edge.x(), far * edge.y());
+    };
+    EXPECT_EQ(seen(plate_alone, 1.2), white);
+    EXPECT_NE(seen(plate_alone, 1.4), white);
+    EXPECT_EQ(seen(with_rim, 0.9), white);
+    EXPECT_NE(seen(with_rim, 1.1), white);
+    EXPECT_NE(seen(with_rim, 2.5), white);
+    EXPECT_EQ(seen(with_rim, 3.8), white);
+  }
+  // A tube from the side: the half behind the middle is left, so that both edges show and the
+  // viewer looks between them.
+  View side = turned_view(0, 0);
+  for (const mjvGeom& geom : obstacle_geoms(all[2], all, 40, side.toward())) {
+    EXPECT_LT(geom.pos[2], 0.05);
+  }
+  const Image tube = picture(side, {2});
+  for (const double at : {-1.5, 0.0, 1.5}) EXPECT_NE(pixel_at(tube, side, 1.1, at), white) << at;
 }
 
 }  // namespace hagfish::offscreen_test

@@ -164,6 +164,24 @@ def test_the_page_replays_the_log(run, browser):
     assert browser.errors == []
 
 
+# What a ray against X meets of the obstacles at a place (y, z), the nearest first: their x.
+MET = """((y, z) => { viewer.scenes[0].updateMatrixWorld();
+  return new THREE.Raycaster(new THREE.Vector3(30, y, z), new THREE.Vector3(-1, 0, 0)).intersectObjects(viewer.bodies[0].obstacles, true).map((hit) => hit.point.x); })"""
+
+
+@needs_chromium
+def test_a_plate_has_its_hole(tmp_path, browser):
+    hagfish(tmp_path, "run", "hole_overhand", "--quiet", "--set", "time.duration=0.1", "--set", "expect.types=[]", "--out", "a.h5")
+    hagfish(tmp_path, "view", "a.h5", "--out", "a.html")
+    browser.open(tmp_path / "a.html")
+    for y, z in ((0, 0), (0.9, 0), (0, -0.9), (3, 0)):
+        assert browser.run(f"{MET}({y}, {z})") == []
+    for y, z in ((2, 0), (2.5, 2.5), (0, -2)):
+        assert browser.run(f"{MET}({y}, {z})")[0] == pytest.approx(2, abs=1e-6)
+    assert browser.run(f"{MET}(1.3, 0)")[0] == pytest.approx(2, abs=0.01)  # the rim's nearest
+    assert browser.errors == []
+
+
 @needs_chromium
 def test_two_logs_beside_and_over_each_other(run, browser):
     browser.open(run / "both.html")
