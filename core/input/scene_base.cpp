@@ -61,6 +61,7 @@ TableReader read_with_bases(SceneSource scene, std::vector<SceneSource>& sources
                             const FileAccess* access) {
   TableReader root(scene.text, scene.name);
   sources.push_back(std::move(scene));
+  root.read_units();
   std::string name;
   root.string("base", name);
   if (!root.has("base")) return root;

@@ -20,7 +20,13 @@
 
 namespace hagfish {
 
-enum class KnotUnit { unsaid, dyn, cm, body_length };
+enum class KnotUnit { unsaid, dyn, newton, cm, metre, body_length };
+
+/// What the noise of a script's knots is in.
+inline Unit knot_unit(ScriptSettings::Kind kind) {
+  using Kind = ScriptSettings::Kind;
+  return kind == Kind::force ? cgs::dyn : kind == Kind::position ? cgs::cm : cgs::one;
+}
 
 /// A script as its file spells it: knots in rows [t, x, y, z], in `unit`.
 struct ScriptFile {
@@ -43,12 +49,12 @@ struct ObstacleFile {
 template <class Io>
 void specimen_fields(Io& io, Specimen& s) {
   io.string("name", s.name);
-  io.number("length", s.length, positive());
-  io.number("mass", s.mass, positive());
+  io.number("length", s.length, positive(cgs::cm));
+  io.number("mass", s.mass, positive(cgs::gram));
   io.numbers("station", s.station, within(0, 1));
-  io.numbers("circumference", s.circumference, positive());
+  io.numbers("circumference", s.circumference, positive(cgs::cm));
   io.angles("bending_limit", s.bending_limit, inside(0, 180));
-  io.number("bending_span", s.bending_span, positive());
+  io.number("bending_span", s.bending_span, positive(cgs::cm));
   io.angle("twist_limit", s.twist_limit, positive());
 }
 
@@ -56,19 +62,19 @@ void specimen_fields(Io& io, Specimen& s) {
 template <class Io>
 void passive_fields(Io& io, Specimen& s) {
   io.table("passive", [&s](Io& table) {
-    table.numbers("bending_stiffness", s.bending_stiffness, not_negative());
-    table.numbers("bending_damping", s.bending_damping, not_negative());
-    table.numbers("twist_stiffness", s.twist_stiffness, not_negative());
-    table.numbers("twist_damping", s.twist_damping, not_negative());
+    table.numbers("bending_stiffness", s.bending_stiffness, not_negative(cgs::rigidity));
+    table.numbers("bending_damping", s.bending_damping, not_negative(cgs::damping));
+    table.numbers("twist_stiffness", s.twist_stiffness, not_negative(cgs::rigidity));
+    table.numbers("twist_damping", s.twist_damping, not_negative(cgs::damping));
   });
 }
 
 template <class Io>
 void muscle_tissue_fields(Io& io, Specimen& s) {
   io.table("muscle", [&tissue = s.muscle](Io& table) {
-    table.numbers("longitudinal_area", tissue.longitudinal_area, positive());
-    table.numbers("oblique_area", tissue.oblique_area, positive());
-    table.number("stress", tissue.stress, not_negative());
+    table.numbers("longitudinal_area", tissue.longitudinal_area, positive(cgs::cm2));
+    table.numbers("oblique_area", tissue.oblique_area, positive(cgs::cm2));
+    table.number("stress", tissue.stress, not_negative(cgs::stress));
     table.number("radius_share", tissue.radius_share, within(0, 1));
     table.angle("oblique_angle", tissue.oblique_angle, within(0, 80));
   });
@@ -83,10 +89,10 @@ void model_fields(Io& io, ModelSettings& s) {
   io.template choice<PassiveSource>(
       "passive", s.passive,
       {{"scene", PassiveSource::scene}, {"specimen", PassiveSource::specimen}});
-  io.number("bending_stiffness", s.bending_stiffness, not_negative());
-  io.number("bending_damping", s.bending_damping, not_negative());
-  io.number("twist_stiffness", s.twist_stiffness, not_negative());
-  io.number("twist_damping", s.twist_damping, not_negative());
+  io.number("bending_stiffness", s.bending_stiffness, not_negative(cgs::rigidity));
+  io.number("bending_damping", s.bending_damping, not_negative(cgs::damping));
+  io.number("twist_stiffness", s.twist_stiffness, not_negative(cgs::rigidity));
+  io.number("twist_damping", s.twist_damping, not_negative(cgs::damping));
   io.angle("largest_limit", s.largest_limit, inside(0, 90));
   io.number("limit_scale", s.limit_scale, positive());
   io.number("mass_ratio", s.mass_ratio, positive());
@@ -107,9 +113,10 @@ inline Choices<Phase> phases_from(Phase first, bool with_optional) {
 
 template <class Io>
 void start_fields(Io& io, StartSettings& s) {
-  io.rows("bend", "row", "station, x, y, z", s.bend);
-  io.rows("bend_rate", "row", "station, x, y, z", s.bend_rate);
+  io.rows("bend", "row", "station, x, y, z", s.bend, cgs::curvature);
+  io.rows("bend_rate", "row", "station, x, y, z", s.bend_rate, cgs::curvature);
   io.vector("spin", s.spin);
+  io.only_cgs({"q", "qdot"});  // of many units
   io.numbers("q", s.q, any_number());
   io.numbers("qdot", s.qdot, any_number());
   io.angle("noise", s.noise, not_negative());
@@ -123,10 +130,10 @@ void constraint_fields(Io& io, ConstraintSettings& s) {
       "activation", s.activation,
       {{"speculative", Activation::speculative}, {"violated", Activation::violated}});
   io.number("baumgarte", s.baumgarte, within(0, 1));
-  io.number("baumgarte_speed", s.baumgarte_speed, positive());
-  io.number("tolerance", s.tolerance, not_negative());
+  io.number("baumgarte_speed", s.baumgarte_speed, positive(cgs::speed));
+  io.number("tolerance", s.tolerance, not_negative(cgs::cm));
   io.integer("corrections", s.corrections, within(0, 100));
-  io.number("stride", s.stride, at_least(1e-3));  // finer, a path is cut for ever
+  io.number("stride", s.stride, at_least(1e-3, cgs::cm));  // finer, a path is cut for ever
 }
 
 template <class Io>
@@ -168,13 +175,17 @@ void script_fields(Io& io, ScriptFile& s) {
                             {"force", Kind::force},
                             {"position", Kind::position},
                             {"curvature", Kind::curvature}});
-  io.number("spring", s.settings.spring, not_negative());
-  io.number("damper", s.settings.damper, not_negative());
-  io.number("largest_force", s.settings.largest_force, not_negative());
-  io.number("noise", s.settings.noise, not_negative());
+  io.number("spring", s.settings.spring, not_negative(cgs::spring));
+  io.number("damper", s.settings.damper, not_negative(cgs::damper));
+  io.number("largest_force", s.settings.largest_force, not_negative(cgs::dyn));
+  io.number("noise", s.settings.noise, not_negative(knot_unit(s.settings.kind)));
   io.integer("noise_seed", s.settings.noise_seed, any_number());
-  io.template choice<KnotUnit>(
-      "unit", s.unit, {{"dyn", KnotUnit::dyn}, {"cm", KnotUnit::cm}, {"L", KnotUnit::body_length}});
+  io.template choice<KnotUnit>("unit", s.unit,
+                               {{"dyn", KnotUnit::dyn},
+                                {"N", KnotUnit::newton},
+                                {"cm", KnotUnit::cm},
+                                {"m", KnotUnit::metre},
+                                {"L", KnotUnit::body_length}});
   io.rows("knots", "knot", "t, x, y, z", s.rows);
   io.string("program", s.program);
   io.table("curvature", [&s](Io& table) {
@@ -188,10 +199,10 @@ void script_fields(Io& io, ScriptFile& s) {
 
 template <class Io>
 void active_fields(Io& io, ActiveSettings& s) {
-  io.number("stiffness", s.stiffness, not_negative());
+  io.number("stiffness", s.stiffness, not_negative(cgs::rigidity));
   io.number("tone_time", s.tone_time, not_negative());
   io.number("relax_time", s.relax_time, not_negative());
-  io.number("capacity", s.capacity, not_negative());
+  io.number("capacity", s.capacity, not_negative(cgs::dyn_cm));
   io.boolean("bounds_laws", s.bounds_laws);
 }
 
@@ -203,16 +214,17 @@ void reduced_basis_fields(Io& io, ReducedBasisSettings& s) {
   io.number("smooth", s.smooth, not_negative());
   io.integer("cosines", s.cosines, within(0, 100));
   io.string("file", s.file);
-  io.numbers("stations", s.stations, not_negative());
+  const bool along_body = s.frame == BasisFrame::body;
+  io.numbers("stations", s.stations, not_negative(along_body ? cgs::cm : cgs::one));
   io.numbers("bend_y", s.bend_y, any_number());
   io.numbers("bend_z", s.bend_z, any_number());
   io.numbers("twist", s.twist, any_number());
   io.number("period", s.period, not_negative());
   io.number("filter", s.filter, not_negative());
   io.number("softness", s.softness, not_negative());
-  io.number("most", s.most, not_negative());
-  io.numbers("places", s.places, not_negative());
-  io.numbers("played", s.played, any_number());
+  io.number("most", s.most, not_negative(cgs::dyn_cm));
+  io.numbers("places", s.places, not_negative(cgs::cm));
+  io.numbers("played", s.played, any_number(cgs::dyn_cm));
 }
 
 template <class Io>
@@ -245,8 +257,8 @@ void controller_fields(Io& io, ControllerSettings& s) {
                                {{"skin", Eq6Point::skin}, {"centreline", Eq6Point::centreline}});
   io.template choice<Eq6Slip>("eq6_slip", s.eq6_slip,
                               {{"paper", Eq6Slip::paper}, {"shape", Eq6Slip::shape}});
-  io.number("cap", s.cap, positive());
-  io.number("contact_gap", s.contact_gap, not_negative());
+  io.number("cap", s.cap, positive(cgs::dyn));
+  io.number("contact_gap", s.contact_gap, not_negative(cgs::cm));
   io.length("tail_through", s.tail_through, not_negative());
   io.number("tighten_from", s.tighten_from, not_negative());
   io.length("tight_span", s.tight_span, positive());
@@ -260,8 +272,8 @@ void controller_fields(Io& io, ControllerSettings& s) {
   io.choice("free_from", s.free_from, phases_from(Phase::tighten, false));
   const auto speeds = [&io](std::string_view key, ThigmotaxisSpeeds& pair) {
     io.table(key, [&pair](Io& table) {
-      table.number("a", pair.a, any_number());
-      table.number("b", pair.b, any_number());
+      table.number("a", pair.a, any_number(cgs::speed));
+      table.number("b", pair.b, any_number(cgs::speed));
     });
   };
   speeds("tighten_head", s.tighten_head);
@@ -271,7 +283,7 @@ void controller_fields(Io& io, ControllerSettings& s) {
   speeds("reverse_head", s.reverse_head);
   speeds("reverse_tail", s.reverse_tail);
   io.table("knot_speed", [&s](Io& table) {
-    table.number("target", s.knot_speed.target, not_negative());
+    table.number("target", s.knot_speed.target, not_negative(cgs::speed));
     table.number("gain", s.knot_speed.gain, not_negative());
     table.number("filter", s.knot_speed.filter, not_negative());
     table.number("most", s.knot_speed.most, positive());
@@ -286,8 +298,8 @@ void food_fields(Io& io, FoodSettings& s) {
   io.number("strength", s.strength, positive());
   io.number("average", s.average, positive());
   io.table("cap", [&s](Io& table) {
-    table.number("from", s.cap.from, not_negative());
-    table.number("to", s.cap.to, not_negative());
+    table.number("from", s.cap.from, not_negative(cgs::dyn));
+    table.number("to", s.cap.to, not_negative(cgs::dyn));
     table.number("time", s.cap.time, not_negative());
   });
 }
@@ -319,9 +331,9 @@ template <class Io>
 void guard_fields(Io& io, GuardSettings& s) {
   io.template choice<GuardAction>("action", s.action,
                                   {{"stop", GuardAction::stop}, {"warn", GuardAction::warn}});
-  io.number("penetration", s.penetration, positive());
+  io.number("penetration", s.penetration, positive(cgs::cm));
   io.angle("limit_violation", s.limit_violation, positive());
-  io.number("speed", s.speed, positive());
+  io.number("speed", s.speed, positive(cgs::speed));
   io.number("energy_gain", s.energy_gain, not_negative());
   io.template choice<EnergyAction>(
       "energy_action", s.energy_action,
@@ -353,9 +365,9 @@ void expect_fields(Io& io, ExpectSettings& s) {
   io.number("pull_drift", s.pull_drift, not_negative());
   io.number("pull_balance", s.pull_balance, not_negative());
   io.number("speed_share", s.speed_share, within(0, 1));
-  io.number("penetration", s.penetration, not_negative());
+  io.number("penetration", s.penetration, not_negative(cgs::cm));
   io.angle("limit_violation", s.limit_violation, not_negative());
-  io.number("head_drift", s.head_drift, not_negative());
+  io.number("head_drift", s.head_drift, not_negative(cgs::cm));
   io.number("kkt", s.kkt, not_negative());
   io.number("force_balance", s.force_balance, not_negative());
   io.number("forward_inverse", s.forward_inverse, not_negative());
@@ -371,15 +383,15 @@ void scene_fields(Io& io, Scene& s, ScriptFile& script, std::vector<ObstacleFile
   io.string("title", s.title);
   io.boolean("mirror", s.mirror);
   io.boolean("clamp_head", s.clamp_head);
-  io.vector("gravity", s.gravity);
+  io.vector("gravity", s.gravity, cgs::acceleration);
   io.table("model", [&](Io& t) { model_fields(t, s.model); });
   io.table("drag", [&](Io& t) {
-    t.number("normal", s.drag.normal, not_negative());
-    t.number("tangential", s.drag.tangential, not_negative());
+    t.number("normal", s.drag.normal, not_negative(cgs::drag));
+    t.number("tangential", s.drag.tangential, not_negative(cgs::drag));
   });
   io.table("constraints", [&](Io& t) { constraint_fields(t, s.constraints); });
   io.table("contact", [&](Io& t) {
-    t.number("margin", s.contact.margin, not_negative());
+    t.number("margin", s.contact.margin, not_negative(cgs::cm));
     t.length("least_arc", s.contact.least_arc, positive());
   });
   io.table("wall", [&](Io& t) {

@@ -52,7 +52,7 @@ Specimen read_specimen_table(TableReader& table) {
                "must have as many values as station, " + count);
   }
   if (s.bending_span > s.length) {
-    table.fail("bending_span", "must not exceed the length, " + shortest(s.length));
+    table.fail("bending_span", "must not exceed the length, " + shortest(s.length) + " cm");
   }
   return s;
 }
@@ -91,6 +91,7 @@ Specimen read_scene_specimen(TableReader& root, const Sources& sources,
   root.string("specimen", name);
   const auto [text, file] = named_file(root, "specimen", name, sources);
   TableReader table(text, file);
+  table.read_units();
   for (const auto& [key, value] : changes) {
     table.set({key.substr(specimen_prefix.size()), value}, key);
   }
@@ -134,6 +135,30 @@ void resolve_basis(const TableReader& root, double length, const Sources& source
   if (basis.twist.size() != size) root.fail(table + "twist", "must be as long as bend_y");
 }
 
+/// One of the unit of the knots of `file`, dyn or cm, for an animal of `length` (cm).
+double knot_size(const TableReader& root, const ScriptFile& file, double length) {
+  const bool position = file.settings.kind == ScriptSettings::Kind::position;
+  const bool force = file.unit == KnotUnit::dyn || file.unit == KnotUnit::newton;
+  if (file.unit != KnotUnit::unsaid && position == force) {
+    root.fail("script.unit", position ? "positions are in \"L\", \"cm\" or \"m\""
+                                      : "forces are in \"dyn\" or \"N\"");
+  }
+  switch (file.unit) {
+    case KnotUnit::unsaid:
+      return position ? length : root.in_si("script.knots") ? 1e5 : 1;
+    case KnotUnit::newton:
+      return 1e5;
+    case KnotUnit::metre:
+      return 1e2;
+    case KnotUnit::body_length:
+      return length;
+    case KnotUnit::dyn:
+    case KnotUnit::cm:
+      break;
+  }
+  return 1;
+}
+
 /// Checks `file` and turns it into the script it spells, for an animal of `length` (cm).
 ScriptSettings resolve_script(const TableReader& root, const ScriptFile& file, double length,
                               const Sources& sources) {
@@ -145,20 +170,16 @@ ScriptSettings resolve_script(const TableReader& root, const ScriptFile& file, d
     return script;
   }
   const bool position = script.kind == Kind::position;
-  if (file.unit != KnotUnit::unsaid && position == (file.unit == KnotUnit::dyn)) {
-    root.fail("script.unit",
-              position ? "positions are in \"L\" or \"cm\"" : "forces are in \"dyn\"");
-  }
+  const double unit = knot_size(root, file, length);
   if (file.rows.size() < 2) root.fail("script.knots", "a script needs two knots or more");
   if (file.rows[0][0] != 0) root.fail_element("script.knots", 0, "knot 1 must be at time 0");
-  const bool lengths = position && file.unit != KnotUnit::cm;
   for (std::size_t i = 0; i < file.rows.size(); ++i) {
     const auto& row = file.rows[i];
     if (i > 0 && row[0] <= file.rows[i - 1][0]) {
       root.fail_element("script.knots", i,
                         "knot " + std::to_string(i + 1) + " must be later than the one before it");
     }
-    script.knots.push_back({row[0], row.tail<3>() * (lengths ? length : 1)});
+    script.knots.push_back({row[0], row.tail<3>() * unit});
   }
   if (position && script.spring == 0) root.fail("script.spring", "must be positive");
   if (position && script.largest_force == 0) root.fail("script.largest_force", "must be positive");
@@ -214,7 +235,8 @@ std::vector<Obstacle> resolve_obstacles(const TableReader& root, std::vector<Obs
     } else if (file.kind == Kind::ring) {
       if (file.inner_radius <= thickest) {
         fail("inner_radius = " + shortest(file.inner_radius) +
-             " is a hole too narrow for the body, whose radius is " + shortest(thickest));
+             " cm is a hole too narrow for the body, whose radius is " + shortest(thickest) +
+             " cm");
       }
       close_ring(root, i, file);
     }
@@ -284,9 +306,11 @@ ResolvedScene read_scene_source(const SceneSource& source,
   std::vector<Override> specimen_changes;
   for (const auto& assignment : overrides) {
     const Override change = parse_override(assignment);
-    if ((change.key + ".").starts_with("base.")) {
-      throw_input_error(name + ": --set " + shortened(assignment) + ": only a file has a base");
-    }
+    const auto refuse = [&](const char* why) {
+      throw_input_error(name + ": --set " + shortened(assignment) + ": " + why);
+    };
+    if ((change.key + ".").starts_with("base.")) refuse("only a file has a base");
+    if (change.key == "units" || change.key == "specimen.units") refuse("only a file has units");
     if (change.key.starts_with(specimen_prefix)) {
       specimen_changes.push_back(change);
     } else {
@@ -316,6 +340,7 @@ ResolvedScene read_scene_source(const SceneSource& source,
 
 Specimen read_specimen_text(const std::string& text, const std::string& name) {
   TableReader table(text, name);
+  table.read_units();
   return read_specimen_table(table);
 }
 
@@ -338,6 +363,7 @@ std::string scene_to_toml(const Scene& scene, const Specimen& specimen) {
     obstacles.push_back({one, plane ? ObstacleFile::Kind::plane : ObstacleFile::Kind::strand});
   }
   TomlWriter writer;
+  writer.string("units", "CGS");
   scene_fields(writer, fields, script, obstacles);
   writer.table("specimen", [&](TomlWriter& table) {
     specimen_fields(table, animal);

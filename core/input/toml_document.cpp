@@ -86,6 +86,7 @@ void TomlDocument::inherit(const TomlDocument& base) {
   merge(root, base.root);
   bases.insert(base.file);
   bases.insert(base.bases.begin(), base.bases.end());
+  si_files.insert(base.si_files.begin(), base.si_files.end());
 }
 
 void TomlDocument::set(const Override& change, const std::string& shown) {
@@ -123,7 +124,7 @@ std::string TomlDocument::file_of(const toml::value* value) const {
 }
 
 TomlDocument parse_toml(const std::string& text, const std::string& file) {
-  return {file, parse(text, file), {}, {}};
+  return {file, parse(text, file), {}, {}, {}};
 }
 
 std::optional<std::string> toml_fault(const std::exception& thrown, const std::type_info& type) {

@@ -16,6 +16,7 @@ struct TomlDocument {
   std::string file;  ///< its name in errors
   toml::value root;
   std::set<std::string> bases;                ///< the files of inherited values
+  std::set<std::string> si_files;             ///< of these, the files of numbers in SI
   std::map<std::string, Override> overrides;  ///< by path in this document; key is the shown one
   double body_length = 0, body_diameter = 0;  ///< of the animal, cm: units of lengths
 

@@ -112,6 +112,10 @@ struct TableReader::Impl {
     throw_input_error(text + ": " + reason);
   }
 
+  bool in_si(const toml::value& value) const {
+    return !document->si_files.empty() && document->si_files.contains(document->file_of(&value));
+  }
+
   double checked(const Place& place, const toml::value& value, const Range& range) const {
     double x = 0;
     if (value.is_integer()) {
@@ -125,7 +129,12 @@ struct TableReader::Impl {
     if (!std::isfinite(x) || std::abs(x) == std::numeric_limits<double>::max()) {
       fail(place, "must be finite");
     }
-    if (!range.contains(x)) fail(place, range.rule);
+    const bool si = range.unit.per_si != 1 && in_si(value);
+    if (si) x *= range.unit.per_si;
+    if (!range.contains(x)) {
+      const bool says_number = range.low != 0 || std::isfinite(range.high);
+      fail(place, range.rule + (si && says_number ? std::string(" ") + range.unit.cgs : ""));
+    }
     return x;
   }
 
@@ -170,14 +179,18 @@ struct TableReader::Impl {
 
   /// A length as TableReader::length() has it, cm.
   double length(const Place& place, const toml::value& value, const Range& range) const {
-    if (!value.is_string()) return checked(place, value, range);
+    if (!value.is_string()) {
+      Range in_cm = range;
+      in_cm.unit = cgs::cm;
+      return checked(place, value, in_cm);
+    }
     const std::string& text = value.as_string().str;
     const std::optional<LeadingNumber> number = leading_number(text);
     const std::string unit = number ? text.substr(number->size) : "";
     if (!number || (unit != " L" && unit != " D")) {
-      fail(place,
-           "must be a number of cm, or as \"0.2 L\" or \"12 D\", of body lengths or mean "
-           "diameters");
+      fail(place, std::string("must be a number of ") + (in_si(value) ? "m" : "cm") +
+                      ", or as \"0.2 L\" or \"12 D\", of body lengths or mean "
+                      "diameters");
     }
     return checked(place, toml::value(number->value), range) *
            (unit == " L" ? document->body_length : document->body_diameter);
@@ -213,6 +226,12 @@ TableReader::TableReader(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 TableReader::TableReader(TableReader&&) noexcept = default;
 TableReader::~TableReader() = default;
 
+void TableReader::read_units() {
+  bool si = false;
+  choice<bool>("units", si, {{"CGS", false}, {"SI", true}});
+  if (si) impl_->document->si_files.insert(impl_->document->file);
+}
+
 void TableReader::inherit(const TableReader& base) {
   impl_->document->inherit(*base.impl_->document);
 }
@@ -227,6 +246,17 @@ bool TableReader::has(std::string_view key) const { return impl_->peek(key); }
 
 void TableReader::require(std::string_view key) const {
   if (!has(key)) fail(key, "is missing");
+}
+
+bool TableReader::in_si(std::string_view key) const {
+  const toml::value* value = impl_->walk(std::string(key));
+  return value && impl_->in_si(*value);
+}
+
+void TableReader::only_cgs(std::initializer_list<std::string_view> keys) const {
+  for (const std::string_view key : keys) {
+    if (in_si(key)) fail(key, "has numbers of several units: say them in a file of CGS");
+  }
 }
 
 bool TableReader::is_table(std::string_view key) const {
@@ -308,10 +338,10 @@ void TableReader::places(std::string_view key, std::vector<Eigen::Vector3d>& val
   }
 }
 
-void TableReader::vector(std::string_view key, Eigen::Vector3d& value) {
+void TableReader::vector(std::string_view key, Eigen::Vector3d& value, Unit unit) {
   const Impl::Place place = impl_->ask(key);
   if (!place.value) return;
-  const auto x = impl_->array(place, any_number(), 3, "must be three numbers [x, y, z]");
+  const auto x = impl_->array(place, any_number(unit), 3, "must be three numbers [x, y, z]");
   value = Eigen::Vector3d::Map(x.data());
 }
 
@@ -321,7 +351,7 @@ void TableReader::numbers(std::string_view key, std::vector<double>& value, cons
 }
 
 void TableReader::rows(std::string_view key, std::string_view noun, std::string_view columns,
-                       std::vector<Eigen::Vector4d>& value) {
+                       std::vector<Eigen::Vector4d>& value, Unit unit) {
   const Impl::Place place = impl_->ask(key);
   if (!place.value) return;
   const std::string shape = "[" + std::string(columns) + "]";
@@ -332,6 +362,7 @@ void TableReader::rows(std::string_view key, std::string_view noun, std::string_
     const auto numbers =
         impl_->array({place.key, &row, which}, any_number(), 4, "must be four numbers " + shape);
     value.emplace_back(Eigen::Vector4d::Map(numbers.data()));
+    if (impl_->in_si(row)) value.back().tail<3>() *= unit.per_si;
   }
 }
 

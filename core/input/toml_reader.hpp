@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <string>
@@ -29,6 +30,10 @@ class TableReader {
   TableReader(TableReader&&) noexcept;
   ~TableReader();
 
+  /// Reads the key `units` of this root, "CGS" where it is absent: what the numbers of its file are
+  /// in, overrides among them, but never those of a base. Comes before inherit().
+  void read_units();
+
   /// Takes from `base` what this table does not have, table by table; arrays are not merged. Both
   /// are roots. Errors about such a value name the file of `base`. Comes before set().
   void inherit(const TableReader& base);
@@ -46,6 +51,10 @@ class TableReader {
   bool has(std::string_view key) const;
   /// Throws InputError where `key` is absent.
   void require(std::string_view key) const;
+  /// Throws InputError where one of `keys` stands in a file of SI.
+  void only_cgs(std::initializer_list<std::string_view> keys) const;
+  /// Whether the number at the dotted `key` stands in a file of SI.
+  bool in_si(std::string_view key) const;
   bool is_table(std::string_view key) const;
   bool is_array(std::string_view key) const;
   bool was_set(std::string_view key) const;  ///< by set()
@@ -56,13 +65,14 @@ class TableReader {
   void boolean(std::string_view key, bool& value);
   void integer(std::string_view key, int& value, const Range& range);
   void integer(std::string_view key, unsigned& value, const Range& range);
-  /// A finite number; TOML integers count as numbers.
+  /// A finite number, turned from SI into `range.unit` where its file is in SI; TOML integers count
+  /// as numbers.
   void number(std::string_view key, double& value, const Range& range);
   /// A length in cm: a number, or a string of a number and its unit, "0.2 L" of body lengths or
   /// "12 D" of mean diameters, as set_body() has said. `range` is in either.
   void length(std::string_view key, double& value, const Range& range);
   /// As number(), three in an array.
-  void vector(std::string_view key, Eigen::Vector3d& value);
+  void vector(std::string_view key, Eigen::Vector3d& value, Unit unit = cgs::one);
   /// As length(), three in an array: a place in the world.
   void place(std::string_view key, Eigen::Vector3d& value);
   /// As place(), one or more in an array.
@@ -70,9 +80,9 @@ class TableReader {
   /// As number(), one or more in an array.
   void numbers(std::string_view key, std::vector<double>& value, const Range& range);
   /// An array of arrays of four numbers; errors call an element `noun`, count from 1 and name its
-  /// `columns`, "t, x, y, z".
+  /// `columns`, "t, x, y, z", of which all but the first are in `unit`.
   void rows(std::string_view key, std::string_view noun, std::string_view columns,
-            std::vector<Eigen::Vector4d>& value);
+            std::vector<Eigen::Vector4d>& value, Unit unit = cgs::one);
   /// An array of arrays of three strings, which errors show as `form`; a number but in the first
   /// place is taken as its shortest text.
   void text_rows(std::string_view key, std::string_view noun, std::string_view form,

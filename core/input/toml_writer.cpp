@@ -79,7 +79,7 @@ void TomlWriter::length(std::string_view key, double value, const Range& range) 
   number(key, value, range);
 }
 
-void TomlWriter::vector(std::string_view key, const Eigen::Vector3d& value) {
+void TomlWriter::vector(std::string_view key, const Eigen::Vector3d& value, Unit) {
   line(key, array_text(value));
 }
 
@@ -96,7 +96,7 @@ void TomlWriter::numbers(std::string_view key, const std::vector<double>& value,
 }
 
 void TomlWriter::rows(std::string_view key, std::string_view, std::string_view,
-                      const std::vector<Eigen::Vector4d>& value) {
+                      const std::vector<Eigen::Vector4d>& value, Unit) {
   std::string text = "[\n";
   for (const auto& row : value) text += "  " + array_text(row) + ",\n";
   line(key, text + "]");

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <initializer_list>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -14,13 +15,14 @@
 namespace hagfish {
 
 /// Appends keys and tables to a text. Doubles keep every bit. Tables come after the keys of the
-/// table that holds them. The writer ignores ranges. Throws std::invalid_argument for a
-/// number that is not finite, which the reader would refuse.
+/// table that holds them. The writer ignores ranges and writes units of CGS. Throws
+/// std::invalid_argument for a number that is not finite, which the reader would refuse.
 class TomlWriter {
  public:
   const std::string& text() const { return text_; }
 
   void require(std::string_view) {}  ///< whoever calls it writes the key
+  void only_cgs(std::initializer_list<std::string_view>) {}
   void string(std::string_view key, const std::string& value);
   void boolean(std::string_view key, bool value);
   void integer(std::string_view key, int value, const Range& range);
@@ -28,13 +30,13 @@ class TomlWriter {
   void number(std::string_view key, double value, const Range& range);
   /// In cm: a number that undoes a product with the body's length is not always there.
   void length(std::string_view key, double value, const Range& range);
-  void vector(std::string_view key, const Eigen::Vector3d& value);
+  void vector(std::string_view key, const Eigen::Vector3d& value, Unit unit = cgs::one);
   void place(std::string_view key, const Eigen::Vector3d& value);
   void places(std::string_view key, const std::vector<Eigen::Vector3d>& value);
   /// No line where there are none: the reader wants one or more.
   void numbers(std::string_view key, const std::vector<double>& value, const Range& range);
   void rows(std::string_view key, std::string_view noun, std::string_view columns,
-            const std::vector<Eigen::Vector4d>& value);
+            const std::vector<Eigen::Vector4d>& value, Unit unit = cgs::one);
   void text_rows(std::string_view key, std::string_view noun, std::string_view form,
                  const std::vector<std::array<std::string, 3>>& value);
   /// Writes NAME_deg, or NAME_rad where no double of degrees gives `value` (rad) back exactly.

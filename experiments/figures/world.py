@@ -1,85 +1,53 @@
 """Tables of a world to knot in: out of a hole with knots and without, the skin that knots sweep, and a robot on a floor.
 
-Usage: world.py FOLDER, of experiments/studies/world.sh.
+Usage: world.py FOLDER, of experiments/studies/world.sh, of what world_logs.py took of its logs.
 """
 
 from __future__ import annotations
 
-import csv
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 import tables
-from hagfish_log import HagfishLog
 from script import run_script
+from world_logs import taken
 
-SETTLED = 4.0  # s, after which a wave runs evenly
 LAWS = {"paper": "paper's", "reflex": "reflex"}
-
-
-def cells(folder: Path) -> list[tuple[dict[str, str], HagfishLog]]:
-    """Rows of a sweep with their logs."""
-    rows = tables.read_csv(folder / "table.csv", ["cell"])
-    return [(row, HagfishLog(folder / "logs" / f"{row['cell']}.h5")) for row in rows]
-
-
-def knot_and_law(log: HagfishLog) -> tuple[str, str]:
-    scene = log.scene()
-    return scene["expect"]["knot"], LAWS[scene["controller"]["law"]]
-
-
-def types(log: HagfishLog) -> np.ndarray:
-    """The knot's name at each frame."""
-    names = log.named("knot", by="knot_invariants")
-    return np.array([names.get(f"det={d},v2={v}", "") for d, v in zip(log["/knot/determinant"], log["/knot/v2"])])
-
-
-def largest_pull(log: HagfishLog) -> float:
-    """Of means over a frame's time, N."""
-    pull = log["/pull/force"]
-    return float(np.nanmax(pull, initial=0)) / 1e5
-
-
-def first(time: np.ndarray, where: np.ndarray) -> float:
-    return float(time[np.argmax(where)]) if where.any() else np.nan
 
 
 def number(value: float, digits: int = 3) -> str:
     return "never" if np.isnan(value) else f"{value:.{digits}g}"
 
 
+def knot_and_law(run: dict[str, Any]) -> tuple[str, str]:
+    return run["knot"], LAWS[run["law"]]
+
+
+def overlap(run: dict[str, Any]) -> str:
+    return number(1000 * run["penetration"], 2)
+
+
 def holes(folder: Path) -> None:
-    rows = []
-    for _, log in cells(folder / "holes"):
-        scene, time = log.scene(), log["/trajectory/time"]
-        knot, law = knot_and_law(log)
-        phase = log.labels("/trajectory/phase")
-        plate = next(each for each in scene["obstacle"] if each["name"] == scene["expect"]["out_of"])
-        pulls = first(time, phase == "pull")
-        out = first(time, (log["/trajectory/q"][:, 0] > plate["point"][0]) & (time > pulls))
-        held = bool((types(log)[(time >= pulls) & (time <= out)] == knot).all())
-        rows.append([knot, law, f"{scene['food']['strength']:g}", f"{1000 * scene['time']['step']:g}", number(pulls), number(first(time, phase == "release")),
-                     number(out), "yes" if held else "no", number(1000 * float(np.max(log["/diagnostics/penetration"])), 2)])
+    rows = [[*knot_and_law(run), f"{run['strength']:g}", f"{1000 * run['step']:g}", number(run["pulls"]), number(run["gives"]), number(run["out"]),
+             "yes" if run["held"] else "no", overlap(run)] for run in taken(folder / "holes" / "logs")]
     tables.write_csv(folder / "tables" / "world.csv", ["knot", "law", "held with, N", "step, ms", "pulls from, s", "it gives at, s", "head out at, s",
                                                        "type held until then", "deepest overlap, 1e-3 cm"], rows)
 
 
 def waves(folder: Path) -> None:
-    """A row a wave, of runs that start at other phases of it. The pull is a mean over a frame's time, as that at which food gives."""
-    found: dict[tuple[str, ...], list[tuple[np.ndarray, float, float]]] = {}
-    for path in sorted((folder / "waves").glob("*.h5")):
-        log = HagfishLog(path)
-        late = log["/trajectory/time"] > SETTLED
-        found.setdefault(tuple(path.stem.split("_")[:3]), []).append(
-            (-log["/mean/forces/head"][late, 0] / 1e5, np.abs(log["/mean/forces/active"][late]).max(), log.scene()["food"]["strength"]))
+    """A row a wave, of runs that start at other phases of it."""
+    found: dict[tuple[str, ...], list[dict[str, Any]]] = {}
+    for run in taken(folder / "waves"):
+        found.setdefault(tuple(run["wave"]), []).append(run)
     rows = []
     for wave, runs in found.items():
-        pull = np.array([run[0] for run in runs])
-        means, peaks, strength = pull.mean(axis=1), pull.max(axis=1), runs[0][2]
+        means, peaks, over = (np.array([run[name] for run in runs]) for name in ("mean", "peak", "over"))
+        strength = runs[0]["strength"]
         rows.append([*wave, f"{len(runs)}", f"{means.min():.2g} to {means.max():.2g}", f"{peaks.min():.2g} to {peaks.max():.2g}",
-                     f"{100 * (pull > strength).mean():.2g}", "no" if (peaks < strength).all() else "yes" if (peaks > strength).all() else "at some phases",
-                     f"{max(run[1] for run in runs):.1e}".replace("+0", "")])
+                     f"{100 * over.mean():.2g}", "no" if (peaks < strength).all() else "yes" if (peaks > strength).all() else "at some phases",
+                     f"{max(run['torque'] for run in runs):.1e}".replace("+0", "")])
     tables.write_csv(folder / "tables" / "world_waves.csv", ["angle, rad", "length, L", "period, s", "phases", "mean pull, N", "largest pull, N",
                                                              "over what holds, % of time", "head comes out", "largest torque, dyn cm"], rows)
 
@@ -87,15 +55,10 @@ def waves(folder: Path) -> None:
 def hole_map(folder: Path) -> None:
     """A row a change, a column a knot and law: the median of its starts, their least and most; "not tied" counts as no pull."""
     found: dict[str, dict[tuple[str, str], list[float]]] = {}
-    for _, log in [*cells(folder / "hole_map"), *cells(folder / "hole_widths")]:
-        scene = log.scene()
-        rim = next(each for each in scene["obstacle"] if each["kind"] == "strand")
-        points = np.array(rim["points"])  # evenly round the hole
-        width = 2 * (np.linalg.norm(points - points.mean(axis=0), axis=1).mean() - rim["radius"])
-        plate = "plane" if rim["name"] == "rim" else "rings"
-        changed = (f"hole {width:.2g} cm, {plate}; girth {max(log['/model/radius']) * 2 * np.pi:.2g} cm; "
-                   f"muscles {scene['active']['stiffness']:.1e} dyn cm^2").replace("e+0", "e")
-        found.setdefault(changed, {}).setdefault(knot_and_law(log), []).append(largest_pull(log))
+    for run in [*taken(folder / "hole_map" / "logs"), *taken(folder / "hole_widths" / "logs")]:
+        changed = (f"hole {run['width']:.2g} cm, {run['plate']}; girth {run['girth']:.2g} cm; "
+                   f"muscles {run['stiffness']:.1e} dyn cm^2").replace("e+0", "e")
+        found.setdefault(changed, {}).setdefault(knot_and_law(run), []).append(run["pull"])
     columns = list(dict.fromkeys(key for cell in found.values() for key in cell))
     tables.write_csv(folder / "tables" / "world_map.csv", ["changed", *(f"{knot}, {law}" for knot, law in columns)],
                      [[changed, *(pulled(cell.get(key, [])) for key in columns)] for changed, cell in found.items()])
@@ -108,8 +71,8 @@ def pulled(starts: list[float]) -> str:
 def chance(folder: Path) -> None:
     """Pulls of the map's first row from other starts."""
     pulls: dict[tuple[str, str], list[float]] = {}
-    for _, log in cells(folder / "hole_chance"):
-        pulls.setdefault(knot_and_law(log), []).append(largest_pull(log))
+    for run in taken(folder / "hole_chance" / "logs"):
+        pulls.setdefault(knot_and_law(run), []).append(run["pull"])
     rows = []
     for (knot, law), of in pulls.items():
         tied = [pull for pull in of if pull > 0]
@@ -119,46 +82,31 @@ def chance(folder: Path) -> None:
 
 def skin(folder: Path) -> None:
     rows = []
-    for row, log in cells(folder / "skin"):
-        knot, law = knot_and_law(log)
-        with (folder / "skin" / "logs" / row["cell"] / "skin.csv").open(encoding="utf-8") as file:
-            cell = list(csv.DictReader(file))
-        s, area = (np.array([float(one[name]) for one in cell]) for name in ("s_cm", "area_cm2"))
-        swept = np.array([one["since_s"] != "" for one in cell])
-        back = log.scene()["controller"]["leave_by"] == "tail"
-        ends = (s[swept].min(), s[swept].max()) if swept.any() else (np.nan, np.nan)
-        between = (s >= ends[0]) & (s <= ends[1])
-        rows.append([knot, law, "to the head and back" if back else "to the head", row["outcome"], number(area[swept].sum()),
-                     number(100 * area[swept].sum() / area.sum()), number(ends[0], 2), number(s.max() - ends[1], 2),
-                     number(100 * area[swept & between].sum() / area[between].sum())])
+    for run in taken(folder / "skin" / "logs"):
+        s, area, swept = np.array(run["s"]), np.array(run["area"]), ~np.isnan(run["since"])
+        reached = s[swept.any(axis=0)]
+        between = (s >= reached.min()) & (s <= reached.max())
+        share = lambda part: number(100 * area[part].sum() / area.sum())
+        beyond = np.broadcast_to(~between, swept.shape)
+        rows.append([*knot_and_law(run), "to the head and back" if run["back"] else "to the head", number(area[swept].sum()), share(swept),
+                     number(area[~swept].sum()), share(~swept), number(reached.min(), 2), number(s.max() - reached.max(), 2), share(beyond),
+                     share(~beyond & ~swept)])
     tables.write_csv(folder / "tables" / "world_skin.csv",
-                     ["knot", "law", "slides", "outcome", "swept, cm^2", "of all skin, %", "never: head, cm", "never: tail, cm", "between these, %"], rows)
+                     ["knot", "law", "slides", "swept, cm^2", "swept, %", "never, cm^2", "never, %", "never: head, cm", "never: tail, cm",
+                      "never: these two, %", "never: sides between them, %"], rows)
 
 
 def robot(folder: Path) -> None:
-    rows = []
-    for row, log in cells(folder / "robot"):
-        scene, time = log.scene(), log["/trajectory/time"]
-        phase = log.labels("/trajectory/phase")
-        slide = log.in_phase("slide")
-        way = float(log["/knot/head_end"][slide[0]] - log["/knot/head_end"][slide[-1]]) if slide.size else np.nan
-        # A released knot is gone where the run comes to the phase free.
-        became = ("it never tied" if not slide.size else "it tied, slid and came off" if (phase == "free").any() else "it tied, and lost the knot")
-        rows.append([f"{abs(scene['gravity'][2]) / 981:.2g}", "held" if scene["clamp_head"] else "free", f"{scene['active']['capacity'] / 1e7:g}",
-                     f"{scene['active']['stiffness'] / 4e7:g}", became, "" if np.isnan(way) else f"{way:.3g}",
-                     f"{np.nanmax(np.abs(log['/mean/forces/active'][:, 6:])) / 1e7:.2g}", number(1000 * float(np.max(log["/diagnostics/penetration"])), 2)])
+    rows = [[f"{run['weight']:.2g}", "held" if run["held"] else "free", f"{run['capacity']:g}", f"{run['stiffness']:g}", run["became"],
+             "" if np.isnan(run["way"]) else f"{run['way']:.3g}", f"{run['torque']:.2g}", overlap(run)] for run in taken(folder / "robot" / "logs")]
     tables.write_csv(folder / "tables" / "world_robot.csv", ["weight, of all of it", "head", "torque bound, N m", "stiffness of a joint, N m/rad", "what became of it",
                                                              "slide, cm", "largest torque, N m", "deepest overlap, 1e-3 cm"], rows)
 
 
 def main(folder: Path) -> None:
     (folder / "tables").mkdir(exist_ok=True)
-    holes(folder)
-    waves(folder)
-    hole_map(folder)
-    chance(folder)
-    skin(folder)
-    robot(folder)
+    for table in (holes, waves, hole_map, chance, skin, robot):
+        table(folder)
 
 
 if __name__ == "__main__":

@@ -138,9 +138,9 @@ TEST(SceneErrors, RefusesScriptsOfTheWrongKind) {
             "s.toml:2: script.kind = 'pull': must be one of \"none\", \"force\", \"position\", "
             "\"curvature\"");
   EXPECT_EQ(scene_complaint("[script]\nkind = 'force'\nunit = 'L'\n" + knots),
-            "s.toml:3: script.unit = 'L': forces are in \"dyn\"");
+            "s.toml:3: script.unit = 'L': forces are in \"dyn\" or \"N\"");
   EXPECT_EQ(scene_complaint("[script]\nkind = 'position'\nunit = 'dyn'\n" + knots),
-            "s.toml:3: script.unit = 'dyn': positions are in \"L\" or \"cm\"");
+            "s.toml:3: script.unit = 'dyn': positions are in \"L\", \"cm\" or \"m\"");
   EXPECT_EQ(scene_complaint("[script]\nkind = 'position'\nlargest_force = 1\n" + knots),
             "s.toml: script.spring: must be positive");
   EXPECT_EQ(scene_complaint("[script]\nkind = 'position'\nspring = 1\n" + knots),
@@ -168,7 +168,7 @@ TEST(SpecimenReader, RefusesBadValues) {
   expect("bending_limit_deg", "[20, 30, 40]", "must have as many values as station, 2");
   expect("bending_limit_deg", "[20, -30]", "number 2 must be above 0 and below 180 degrees");
   expect("bending_limit_deg", "[0, 30]", "number 1 must be above 0 and below 180 degrees");
-  expect("bending_span", "41", "must not exceed the length, 40");
+  expect("bending_span", "41", "must not exceed the length, 40 cm");
   expect("twist_limit_deg", "-48", "must be positive");
   expect("station", "[0.8, 0.2]", "must rise; station 2 does not");
   expect("station", "[0.2, 0.2]", "must rise; station 2 does not");
