@@ -48,6 +48,11 @@ Eigen::Vector2d asked_slip(const Model& model, const AuditedFrame& frame, double
 
 }  // namespace
 
+double nearest_body(double place, double logged) {
+  constexpr double rounding = 1e-13;  // of places up to some hundred
+  return std::abs(place - logged) <= 0.5 + rounding ? logged : std::floor(place + 0.5);
+}
+
 ThigmotaxisAudit::ThigmotaxisAudit(const LogContents& log)
     : log_(log),
       law_(law_of(log.resolved.scene)),
@@ -137,9 +142,7 @@ std::vector<ThigmotaxisAudit::LoggedRow> ThigmotaxisAudit::rows_at_ends(const Au
     const double b = spline_b_(f, place);
     const bool there =
         on_spline(log_.model, a) && on_spline(log_.model, b) && !std::isnan(commanded[0]);
-    const auto nearest = [there](double s) { return there ? std::floor(s + 0.5) : -1; };
-    rebuilt.compare("/thigmotaxis/body_a", body_a_(f, place), nearest(a));
-    rebuilt.compare("/thigmotaxis/body_b", body_b_(f, place), nearest(b));
+    see_bodies(f, place, there ? a : NAN, there ? b : NAN, rebuilt);
     const Eigen::Vector2d asked =
         there ? asked_slip(log_.model, frame, a, b, commanded.segment<2>(2 * place),
                            scene.controller.eq6_slip == Eq6Slip::shape)
@@ -206,6 +209,15 @@ void ThigmotaxisAudit::see_commands(const AuditedFrame& frame, const std::vector
   }
 }
 
+void ThigmotaxisAudit::see_bodies(Eigen::Index frame, Eigen::Index end, double a, double b,
+                                  Rebuilt& rebuilt) const {
+  const auto see = [&](const char* path, double logged, double place) {
+    rebuilt.compare(path, logged, std::isnan(place) ? -1 : nearest_body(place, logged));
+  };
+  see("/thigmotaxis/body_a", body_a_(frame, end), a);
+  see("/thigmotaxis/body_b", body_b_(frame, end), b);
+}
+
 void ThigmotaxisAudit::see_ends(const AuditedFrame& frame, const std::vector<LoggedRow>& rows,
                                 Rebuilt& rebuilt) const {
   const Eigen::Index f = frame.index;
@@ -220,9 +232,7 @@ void ThigmotaxisAudit::see_ends(const AuditedFrame& frame, const std::vector<Log
     const auto row = std::ranges::find_if(
         rows, [k](const LoggedRow& r) { return r.end != KnotEnd::neither && r.place() == k; });
     const bool there = row != rows.end();
-    const auto nearest = [there](double s) { return there ? std::floor(s + 0.5) : -1; };
-    rebuilt.compare("/thigmotaxis/body_a", body_a_(f, k / 2), nearest(there ? row->spline_a : NAN));
-    rebuilt.compare("/thigmotaxis/body_b", body_b_(f, k / 2), nearest(there ? row->spline_b : NAN));
+    see_bodies(f, k / 2, there ? row->spline_a : NAN, there ? row->spline_b : NAN, rebuilt);
     rebuilt.compare("/thigmotaxis/command", command_(f, k), there ? row->command : NAN);
     rebuilt.compare("/thigmotaxis/speed", speed_(f, k), there ? row->speed : NAN);
     rebuilt.compare("/thigmotaxis/lambda", lambda_(f, k), there ? row->lambda : 0);

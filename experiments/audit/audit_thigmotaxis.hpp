@@ -13,6 +13,10 @@
 
 namespace hagfish {
 
+/// The body nearest to a place on the spline, in segments from its beginning. Half way between two,
+/// which the place, a rounded sum, does not tell apart, it is the one that was `logged`.
+double nearest_body(double place, double logged);
+
 class ThigmotaxisAudit {
  public:
   /// The log is referred to.
@@ -47,6 +51,9 @@ class ThigmotaxisAudit {
   /// What the scene's law has the rows of a frame ask for.
   void see_commands(const AuditedFrame& frame, const std::vector<LoggedRow>& rows, double cap,
                     Rebuilt& rebuilt) const;
+  /// The bodies at an end of the knot against the places `a` and `b` of its strands on the spline,
+  /// nan where there are no rows.
+  void see_bodies(Eigen::Index frame, Eigen::Index end, double a, double b, Rebuilt& rebuilt) const;
   /// /thigmotaxis against the rows at the knot's ends.
   void see_ends(const AuditedFrame& frame, const std::vector<LoggedRow>& rows,
                 Rebuilt& rebuilt) const;

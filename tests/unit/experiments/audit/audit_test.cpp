@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "core/log/hdf5_writer.hpp"
+#include "experiments/audit/audit_thigmotaxis.hpp"
 #include "mujoco_ref/mjcf.hpp"
 #include "tests/support/errors.hpp"
 #include "tests/support/random_chain.hpp"
@@ -209,6 +210,14 @@ TEST_F(AuditTest, RefusesALogThatDoesNotFitItsModel) {
   h5.move("/trajectory/qdot", "/trajectory/q");
   h5.close();
   EXPECT_THROW(audit(file), FileError);
+}
+
+TEST(NearestBody, IsEitherOneHalfWayBetweenTwo) {
+  EXPECT_EQ(nearest_body(55.5, 55), 55);
+  EXPECT_EQ(nearest_body(55.5, 56), 56);
+  EXPECT_EQ(nearest_body(55.5, 54), 56);
+  EXPECT_EQ(nearest_body(55.499, 56), 55);
+  EXPECT_EQ(nearest_body(55.501, 55), 56);
 }
 
 TEST_F(AuditTest, SeesABentLimit) {
