@@ -1,6 +1,6 @@
-"""A film strip of a head pulled out of a hole, by a reflex and by the paper's law, of a knot round a pole and of a robot's (a row each).
+"""A film strip, a row each: a head pulled out of a hole by a reflex and by the paper's law, a front out of a burrow, a knot round a pole, a robot's.
 
-Usage: world_strip.py REFLEX.h5 PAPER.h5 POLE.h5 ROBOT.h5 OUT.png. Needs the program as built (HAGFISH_PROGRAM).
+Usage: world_strip.py REFLEX.h5 PAPER.h5 BURROW.h5 POLE.h5 ROBOT.h5 OUT.png. Needs the program as built (HAGFISH_PROGRAM).
 """
 
 from __future__ import annotations
@@ -37,10 +37,11 @@ def moments_of_slide(log: HagfishLog) -> list[float]:
     return [slide[0] / 2, slide[0], (slide[0] + slide[-1]) / 2, slide[-1]]
 
 
-def main(reflex: Path, paper: Path, pole: Path, robot: Path, out: Path) -> None:
+def main(reflex: Path, paper: Path, burrow: Path, pole: Path, robot: Path, out: Path) -> None:
     rows = []
     with tempfile.TemporaryDirectory() as folder:
-        for row, (path, moments_of) in enumerate(((reflex, moments), (paper, moments), (pole, moments_of_slide), (robot, moments_of_slide))):
+        strips = ((reflex, moments), (paper, moments), (burrow, moments), (pole, moments_of_slide), (robot, moments_of_slide))
+        for row, (path, moments_of) in enumerate(strips):
             picture = Path(folder) / f"{row}.png"
             at = [word for time in moments_of(HagfishLog(path)) for word in ("--time", f"{time:g}")]
             subprocess.run([HAGFISH, "picture", path, "--out", picture, "--size", SIZE, *at], check=True, stdout=subprocess.DEVNULL)
@@ -49,4 +50,4 @@ def main(reflex: Path, paper: Path, pole: Path, robot: Path, out: Path) -> None:
 
 
 if __name__ == "__main__":
-    run_script(__doc__, ["REFLEX.h5", "PAPER.h5", "POLE.h5", "ROBOT.h5", "OUT.png"], main)
+    run_script(__doc__, ["REFLEX.h5", "PAPER.h5", "BURROW.h5", "POLE.h5", "ROBOT.h5", "OUT.png"], main)

@@ -61,8 +61,8 @@ draw world_skin.py "$out/skin/logs" "$out/world_skin.png"
 mkdir -p "$out/pole" "$out/strip"
 "$hagfish" run reflex_pole --out "$out/pole/run.h5" --force --quiet
 draw world_pole.py "$out"
-for scene in reflex_hole_overhand hole_overhand robot_overhand; do
+for scene in reflex_hole_overhand hole_overhand reflex_burrow robot_overhand; do
   "$hagfish" run "$scene" --out "$out/strip/$scene.h5" --force --quiet
 done
-draw world_strip.py "$out/strip/reflex_hole_overhand.h5" "$out/strip/hole_overhand.h5" "$out/pole/run.h5" "$out/strip/robot_overhand.h5" "$out/world.png"
+draw world_strip.py "$out"/strip/{reflex_hole_overhand,hole_overhand,reflex_burrow}.h5 "$out/pole/run.h5" "$out/strip/robot_overhand.h5" "$out/world.png"
 list_output
