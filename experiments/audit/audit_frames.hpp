@@ -6,6 +6,7 @@
 
 #include "core/knot/knot.hpp"
 #include "experiments/audit/audited_frame.hpp"
+#include "experiments/audit/logged_contacts.hpp"
 #include "experiments/audit/rebuilt.hpp"
 
 namespace hagfish {
@@ -28,6 +29,7 @@ class FrameAudit {
   const LogContents& log_;
   Steps steps_;
   std::vector<std::int64_t> step_, determinant_, v2_, contacts_;
+  std::vector<LoggedContact> bearing_;
   std::vector<double> agreement_, head_end_, tail_end_, kinetic_, elastic_, gravity_, integrator_,
       integrator_error_, penetration_, left_out_, limit_violation_, head_drift_;
   Hdf5Reader::Rows position_, momentum_, angular_momentum_, spline_a_, spline_b_;
