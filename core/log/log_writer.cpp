@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/log/disk_room.hpp"
+#include "core/log/end_of_run.hpp"
 #include "core/log/frame_rows.hpp"
 #include "core/log/log_frame.hpp"
 #include "core/log/log_step.hpp"
@@ -104,8 +105,8 @@ struct LogWriter::Contents {
     }
   }
 
-  /// Goes on behind the rows that `h5` has of `table`.
-  static void go_on(const Hdf5Reader& h5, const SeriesList& table) {
+  /// Goes on behind the rows that `h5` has of `table`, but for the last ones that `dropped` counts.
+  static void go_on(const Hdf5Reader& h5, const SeriesList& table, hsize_t dropped) {
     if (table.empty()) return;
     const std::vector<hsize_t> first = h5.shape(table.front()->layout().path);
     const hsize_t rows = first.empty() ? 0 : first[0];
@@ -115,7 +116,7 @@ struct LogWriter::Contents {
         throw FileError(fmt::format("{}: {} does not have the rows of {}", h5.file(), layout.path,
                                     table.front()->layout().path));
       }
-      s->go_on(rows);
+      s->go_on(rows - dropped);
     }
   }
 
@@ -132,6 +133,26 @@ struct LogWriter::Contents {
       muscles.activation.setConstant(static_cast<Eigen::Index>(model.muscles.size()), NAN);
       muscles.residual.setConstant(model.nv(), NAN);
     }
+  }
+
+  /// A frame of `record`, and of the means and the `worst` since the one before.
+  void append_frame(const StepRecord& record, const ThigmotaxisRows& rows_of_step,
+                    const FrameMeans& mean, const Worst& worst) {
+    const KnotVote type = record.controller.knot_seen == record.time
+                              ? record.controller.knot
+                              : knot_type(record.moment.observation.kin.centre, knot);
+    if (!model.muscles.empty()) see_muscles(record, mean);
+    frames.append({record, rows_of_step, mean, type, worst, wall_time, muscles});
+  }
+
+  /// The state at the end as a frame. What a run goes on with, `log`, does not know of it.
+  void append_end(const Simulation& sim) {
+    const StepRecord end = end_record(model, static_cast<double>(sim.step) * h, sim, clamped);
+    Worst worst = log.worst;
+    worst.take(end);
+    worst.kkt = log.worst.kkt;
+    RunningMeans means = log.means;
+    append_frame(end, thigmotaxis_rows_of(end.control, end.solution, h), means.close(), worst);
   }
 
   /// Brings FILE.part up to date; `sim` is the run after all that it then holds. The last one is
@@ -186,6 +207,8 @@ struct LogWriter::Contents {
   std::int64_t mark_stride;                       // and a checkpoint
   std::map<std::string, std::string> attributes;  // of the root, to be set by the next save
   std::optional<TwinFile> file;
+  double wall_time = 0;  // of the last step, s
+  bool clamped = false;  // the head was, in the last step
   double next_save = 0;  // wall time, s: the first step is saved at once
   bool any = false;      // a step has been saved
 };
@@ -219,15 +242,20 @@ LogWriter::LogWriter(const fs::path& file, bool replace, const LogHeader& header
 LogWriter::LogWriter(const fs::path& file, const SavedRun& run, const Hdf5Reader& read)
     : contents_(std::make_unique<Contents>(run.model, run.resolved.scene, run.level)) {
   Contents& c = *contents_;
+  const bool ended = has_end_frame(read, run.sim.step);
+  const SeriesList frames = c.frames.series();
   for (const SeriesList& table : c.tables) {
-    c.go_on(read, table);
+    c.go_on(read, table, ended && table == frames ? 1 : 0);
   }
   output_ = std::make_unique<OutputFile>(file, Existing::go_on);
   const fs::path next = output_->partial().string() + ".next";
   read.write_to(next);
   fs::rename(next, output_->partial());
   unseal_file(output_->partial());
+  if (ended) drop_end_frame(output_->partial(), frames, frames.front()->rows() + 1);
   c.log = run.log;
+  c.wall_time = run.wall_time;
+  c.clamped = clamps_head(run.resolved.scene, run.sim.controller.phase);
   c.attributes["status"] = "running";
   c.attributes["resumed"] =
       fmt::format("{}{}{}", run.resumed, run.resumed.empty() ? "" : ", ", run.sim.step);
@@ -262,10 +290,12 @@ void LogWriter::write(const StepRecord& record, const Simulation& sim, double wa
     c.attributes["warnings"] = c.log.warnings;
   }
   const ThigmotaxisRows rows = thigmotaxis_rows_of(record.control, record.solution, c.h);
+  c.wall_time = wall_time;
+  c.clamped = record.control.clamp_head;
   c.log.worst.take(record);
   c.steps.append({record, rows});
   if (record.step % c.stride == 0) {
-    write_frame(record, rows, wall_time);
+    write_frame(record, rows);
   }
   // The step that begins at a frame counts to the next one's means.
   c.log.means.take(record, rows);
@@ -280,16 +310,10 @@ void LogWriter::write(const StepRecord& record, const Simulation& sim, double wa
   }
 }
 
-void LogWriter::write_frame(const StepRecord& record, const ThigmotaxisRows& rows,
-                            double wall_time) {
+void LogWriter::write_frame(const StepRecord& record, const ThigmotaxisRows& rows) {
   Contents& c = *contents_;
-  const KnotVote knot = record.controller.knot_seen == record.time
-                            ? record.controller.knot
-                            : knot_type(record.moment.observation.kin.centre, c.knot);
   const std::int32_t frame = c.frame_count();
-  const FrameMeans& mean = c.log.means.close();
-  if (!c.model.muscles.empty()) c.see_muscles(record, mean);
-  c.frames.append({record, rows, mean, knot, c.log.worst, wall_time, c.muscles});
+  c.append_frame(record, rows, c.log.means.close(), c.log.worst);
   const StepSolution& step = record.solution;
   for (std::size_t i = 0; i < step.rows.size(); ++i) {
     const Row& row = step.rows[i];
@@ -309,6 +333,7 @@ void LogWriter::finish(const std::string& status, const Simulation& sim) {
   Contents& c = *contents_;
   try {
     c.attributes["status"] = status;
+    if (c.frame_count() > 0) c.append_end(sim);
     c.save(sim, true);
   } catch (const std::exception& error) {
     if (!c.any) {

@@ -40,14 +40,15 @@ class LogWriter {
   /// process. Throws FileError where that fails, and in a forked child.
   void write(const StepRecord& record, const Simulation& sim, double wall_time);
 
-  /// Sets the status ("complete" or "failed: CAUSE") of the run, now `sim`, closes the log and
-  /// gives it its name. Throws FileError where that fails; FILE.part is then as it was last saved,
-  /// if possible with the status "failed: CAUSE".
+  /// Sets the status ("complete" or "failed: CAUSE") of the run, now `sim`, whose state becomes the
+  /// last frame where there was a step (end_of_run.hpp), closes the log and gives it its name.
+  /// Throws FileError where that fails; FILE.part is then as it was last saved, if possible with
+  /// the status "failed: CAUSE".
   void finish(const std::string& status, const Simulation& sim);
 
  private:
   void require_ours() const;
-  void write_frame(const StepRecord& record, const ThigmotaxisRows& rows, double wall_time);
+  void write_frame(const StepRecord& record, const ThigmotaxisRows& rows);
   struct Contents;
   std::unique_ptr<OutputFile> output_;
   std::unique_ptr<Contents> contents_;

@@ -75,7 +75,7 @@ Finding thigmotaxis_extent(const LogContents& log) {
     }
   }
   double beyond = 0;
-  for (Eigen::Index f = 0; f < force.rows(); ++f) {
+  for (Eigen::Index f = 0; f < log.begun; ++f) {
     const int last = static_cast<int>(furthest[f]);
     for (int b = last < 0 ? 0 : last + spline_reach + 1; b < model.body_count(); ++b) {
       const Body& body = model.bodies[b];
@@ -319,10 +319,12 @@ std::vector<Finding> audit(const std::string& file, bool anew) {
     knots.push_back(see_knot(log, frame));
     frames.see(frame, knots.back().vote);
     forces.see(frame);
-    muscles.see(frame);
     activations.see(frame);
     rates.see(frame);
-    forward_inverse.see(frame);
+    if (frame.begins_step) {
+      muscles.see(frame);
+      forward_inverse.see(frame);
+    }
     deepest = worse(deepest, frame.observation.penetration);
     furthest = worse(furthest, frame.observation.limit_violation);
   }

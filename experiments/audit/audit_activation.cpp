@@ -33,7 +33,7 @@ void ActivationAudit::see(const AuditedFrame& frame) {
   const Eigen::Index f = frame.index;
   const Eigen::VectorXd activation = activation_.row(f);
   const Eigen::VectorXd residual = residual_.row(f);
-  if (driven_.size() > 0) see_driven(frame);
+  if (driven_.size() > 0 && frame.begins_step) see_driven(frame);
   Eigen::VectorXd torque = torque_.row(f);
   if (f == 0) {  // no means before it
     rebuilt_.compare("/muscle/activation", activation,

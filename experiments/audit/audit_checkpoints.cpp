@@ -41,6 +41,9 @@ class CheckpointAudit {
       throw FileError(fmt::format("{}: {} is before step {}, and the log ends before step {}",
                                   log_.h5.file(), last_checkpoint, last.step, end_));
     }
+    if (log_.has_end() && !is_frame(log_.begun, last.now.state)) {
+      return {"checkpoints", false, "the last frame is not the state at the end", "", "", ""};
+    }
     if (const std::string gone = first_missing(marks); !gone.empty()) {
       return {"checkpoints", false, gone, "", "", ""};
     }
@@ -118,8 +121,7 @@ class CheckpointAudit {
     while (run.sim.step < wanted.step) {
       if (const auto frame = frame_of(run.sim)) {
         const State& state = run.sim.now.state;
-        same = same && state.q == log_.q.row(*frame).transpose() &&
-               state.qdot == log_.qdot.row(*frame).transpose();
+        same = same && is_frame(*frame, state);
       }
       take_step(log_.model, scene_, run.sim, record);
       const ThigmotaxisRows rows =
@@ -141,6 +143,11 @@ class CheckpointAudit {
     }
   }
 
+  bool is_frame(Eigen::Index frame, const State& state) const {
+    return state.q == log_.q.row(frame).transpose() &&
+           state.qdot == log_.qdot.row(frame).transpose();
+  }
+
   /// Takes a run on to the next frame, or, where asked, to the end of the log.
   void follow(Simulation sim, bool to_the_end, const Simulation& last) {
     see_frame(sim);
@@ -160,8 +167,7 @@ class CheckpointAudit {
   std::optional<Eigen::Index> frame_of(const Simulation& sim) const {
     const std::int64_t since = sim.step - steps_.first;
     const Eigen::Index frame = since / steps_.stride;
-    return since % steps_.stride == 0 && frame < log_.q.rows() ? std::optional(frame)
-                                                               : std::nullopt;
+    return since % steps_.stride == 0 && frame < log_.begun ? std::optional(frame) : std::nullopt;
   }
 
   void see_frame(const Simulation& sim) {

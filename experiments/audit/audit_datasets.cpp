@@ -101,10 +101,10 @@ void check_datasets(const LogContents& log) {
   require_own_version(log);
   const hsize_t step_count = log.h5.shape("/steps/kkt").at(0);
   const auto stride = static_cast<hsize_t>(frame_stride(log.resolved.scene.time));
-  const hsize_t covered = (log.time.size() - 1) * stride + 1;
+  const hsize_t covered = static_cast<hsize_t>(log.begun - 1) * stride + 1;
   if (step_count < covered || step_count >= covered + stride) {
     throw FileError(fmt::format("{}: /steps has {} steps, {} frames make {} to {}", log.h5.file(),
-                                step_count, log.time.size(), covered, covered + stride - 1));
+                                step_count, log.begun, covered, covered + stride - 1));
   }
   for (const DatasetForm& form : log_forms(log.h5, log.model, log.resolved.scene)) {
     check_form(log.h5, form);

@@ -105,6 +105,11 @@ ForceAudit::ForceAudit(const LogContents& log)
 
 void ForceAudit::see(const AuditedFrame& frame) {
   const Eigen::Index f = frame.index;
+  if (!frame.begins_step) {
+    const Eigen::Index nv = log_.model.nv();
+    see_means(frame, {Eigen::MatrixXd::Zero(nv, 4), Eigen::VectorXd::Zero(nv)});
+    return;
+  }
   const ThigmotaxisAudit::Rows rows = rows_.see(frame, from_rows_, shape_);
   from_rows_.compare("/forces/thigmotaxis", force_[RowKind::thigmotaxis].row(f).transpose(),
                      rows.force);

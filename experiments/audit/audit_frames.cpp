@@ -80,7 +80,8 @@ std::vector<double> sum_of(const LogContents& log, const std::vector<std::string
 
 Steps::Steps(const LogContents& log)
     : first(log.h5.integers("/trajectory/step").front()),
-      stride(frame_stride(log.resolved.scene.time)) {}
+      stride(frame_stride(log.resolved.scene.time)),
+      count(static_cast<std::int64_t>(log.h5.shape("/steps/kkt").at(0))) {}
 
 FrameAudit::FrameAudit(const LogContents& log)
     : log_(log),
@@ -119,7 +120,7 @@ void FrameAudit::see(const AuditedFrame& frame, const KnotVote& knot) {
 
 void FrameAudit::see_trajectory(const AuditedFrame& frame) {
   const Eigen::Index f = frame.index;
-  const std::int64_t step = steps_.first + f * steps_.stride;
+  const std::int64_t step = steps_.first + steps_.at(f);
   by_itself_.compare_exactly("/trajectory/step", step_[f], step);
   by_itself_.compare("/trajectory/time", log_.time[f],
                      static_cast<double>(step) * log_.resolved.scene.time.step);
@@ -170,18 +171,37 @@ void FrameAudit::see_energy(const AuditedFrame& frame) {
 
 void FrameAudit::see_bounds(const AuditedFrame& frame) {
   const Eigen::Index f = frame.index;
-  const Eigen::Index step = steps_.at(f);
   const Observation& s = frame.observation;
   auto found = static_cast<std::int64_t>(s.contact.contacts.size());
   if (found != contacts_[f]) found = minima_by(bearing_, frame, log_);
   contacts_off_by_ = std::max(contacts_off_by_, std::abs(contacts_[f] - found));
   contacts_off_ += contacts_[f] == found ? 0 : 1;
   ++frames_;
+  const double drift = frame.clamped ? head_drift(log_.model, s.kin) : 0;
+  if (!frame.begins_step) {
+    see_worst_at_end(s, drift);
+    return;
+  }
+  const Eigen::Index step = steps_.at(f);
   from_q_.compare("/steps/penetration", penetration_[step], s.penetration, search_tolerance);
   from_q_.compare("/steps/limit_violation", limit_violation_[step], s.limit_violation,
                   nothing_but_rounding);
-  from_q_.compare("/steps/head_drift", head_drift_[step],
-                  frame.clamped ? head_drift(log_.model, s.kin) : 0, nothing_but_rounding);
+  from_q_.compare("/steps/head_drift", head_drift_[step], drift, nothing_but_rounding);
+}
+
+/// Worst figures of the steps since the frame before, and of the state at the end.
+void FrameAudit::see_worst_at_end(const Observation& end, double drift) {
+  const auto compare = [&](const std::string& path, const std::vector<double>& of_steps, double own,
+                           double allowed) {
+    const auto since = of_steps.begin() + steps_.at(log_.begun - 1) + 1;
+    from_q_.compare(path, log_.h5.doubles(path).back(),
+                    std::accumulate(since, of_steps.end(), own, worse), allowed);
+  };
+  compare("/diagnostics/penetration", penetration_, end.penetration, search_tolerance);
+  compare("/diagnostics/limit_violation", limit_violation_, end.limit_violation,
+          nothing_but_rounding);
+  compare("/diagnostics/head_drift", head_drift_, drift, nothing_but_rounding);
+  compare("/diagnostics/kkt_worst", log_.h5.doubles("/steps/kkt"), 0, 0);
 }
 
 void FrameAudit::see_motion(const AuditedFrame& frame) {

@@ -24,6 +24,7 @@ class FrameAudit {
   void see_knot(const AuditedFrame& frame, const KnotVote& knot);
   void see_energy(const AuditedFrame& frame);
   void see_bounds(const AuditedFrame& frame);
+  void see_worst_at_end(const Observation& end, double drift);
   void see_motion(const AuditedFrame& frame);
 
   const LogContents& log_;

@@ -19,10 +19,11 @@ bool pulls(const LogContents& log, Eigen::Index frame) {
   return static_cast<Phase>(log.phase[frame]) == Phase::pull;
 }
 
-/// Frames of the pull whose frame before is of it too: all steps between them are.
-std::vector<Eigen::Index> intervals(const LogContents& log) {
+/// Those of the first `count` frames, of the pull, whose frame before is of it too: all steps
+/// between them are.
+std::vector<Eigen::Index> intervals(const LogContents& log, Eigen::Index count) {
   std::vector<Eigen::Index> frames;
-  for (Eigen::Index f = 1; f < log.q.rows(); ++f) {
+  for (Eigen::Index f = 1; f < count; ++f) {
     if (pulls(log, f - 1) && pulls(log, f)) {
       frames.push_back(f);
     }
@@ -39,7 +40,7 @@ Finding figures(const LogContents& log) {
   const Eigen::VectorXd rows = log.h5.rows("/mean/thigmotaxis/lambda").rowwise().sum();
   const Hdf5Reader::Rows bearing = log.h5.rows("/pull/bearing");
   std::vector<bool> of_pull(log.time.size(), false);
-  for (const Eigen::Index f : intervals(log)) {
+  for (const Eigen::Index f : intervals(log, log.q.rows())) {
     of_pull[f] = true;
   }
   Rebuilt rebuilt;
@@ -117,7 +118,7 @@ Finding end(const LogContents& log, const std::vector<Eigen::Index>& frames) {
   const Eigen::Index last = frames.back();
   const double lasted = log.time[last] - log.time[frames.front()];
   const bool known = std::abs(food.average - time.frame_interval) < 0.5 * time.step;
-  const bool over = last + 1 < log.q.rows();
+  const bool over = last + 1 < log.begun;
   // The pull may begin two frames before its first whole interval's end, and end one after the
   // last.
   const bool let_go = over && lasted + 3 * time.frame_interval >= food.hold;
@@ -172,7 +173,8 @@ std::vector<Finding> audit_pull(const LogContents& log) {
   if (!pulls_at_food(scene)) {
     return findings;
   }
-  const std::vector<Eigen::Index> frames = intervals(log);
+  // The means before the state at the end are of less time.
+  const std::vector<Eigen::Index> frames = intervals(log, log.begun);
   if (frames.empty()) {
     findings.push_back({"pull", false, "the knot never pulled", "", "", "N"});
     return findings;

@@ -32,6 +32,7 @@ RateAudit::RateAudit(const LogContents& log)
     growths_.push_back({name, log.h5.rows(path)});
   }
   outside_ = log.h5.rows("/diagnostics/impulse_outside");
+  if (log.has_end()) tip_.row(log.begun) = tip_.row(log.begun - 1);  // up to the end
 }
 
 void RateAudit::Growth::compare(Eigen::Index frame, const Eigen::VectorXd& wanted, double passed) {

@@ -10,6 +10,7 @@
 #include "core/log/thigmotaxis_rows.hpp"
 #include "core/run/laws.hpp"
 #include "experiments/audit/audited_frame.hpp"
+#include "experiments/audit/log_schema.hpp"
 #include "experiments/audit/rebuilt.hpp"
 
 namespace hagfish {
@@ -17,6 +18,24 @@ namespace {
 
 /// A slack of nothing but rounding has no scale of its own, cm/s.
 constexpr double slack_tolerance = 1e-9;
+
+/// Datasets along frames that are of the step that begins there, by how their paths begin.
+constexpr const char* of_a_step[] = {"/trajectory/qdot_next",
+                                     "/trajectory/q_ref",
+                                     "/forces/",
+                                     "/midway/",
+                                     "/thigmotaxis/command",
+                                     "/thigmotaxis/speed",
+                                     "/thigmotaxis/slack",
+                                     "/thigmotaxis/cap",
+                                     "/control/t",
+                                     "/basis/",
+                                     "/reflex/",
+                                     "/muscle/driven",
+                                     "/diagnostics/kkt_stationarity",
+                                     "/diagnostics/kkt_primal",
+                                     "/diagnostics/kkt_complementarity",
+                                     "/diagnostics/qp_time"};
 
 /// What each step says of rows at other contacts than the knot's ends; nothing of the paper's law.
 struct OtherRows {
@@ -46,8 +65,8 @@ void rebuild_others(const LogContents& log, const Steps& steps, Rebuilt& rebuilt
       most[frame[i]] = std::fmax(most[frame[i]], slack[i]);
     }
   }
-  for (std::size_t f = 0; f < count.size(); ++f) {
-    const Eigen::Index s = steps.at(static_cast<Eigen::Index>(f));
+  for (Eigen::Index f = 0; f < log.begun; ++f) {
+    const Eigen::Index s = steps.at(f);
     rebuilt.compare_exactly("/steps/thigmotaxis_others", others.count[s], count[f]);
     rebuilt.compare("/steps/thigmotaxis_others_slack", others.slack[s], most[f], slack_tolerance);
   }
@@ -71,7 +90,7 @@ void rebuild_eq6(const LogContents& log, const Steps& steps, Rebuilt& rebuilt) {
   };
   for (Eigen::Index s = 0; s < slack.rows(); ++s) {
     const Eigen::Index before = s / steps.stride;
-    const Eigen::Index after = std::min(before + 1, command.rows() - 1);
+    const Eigen::Index after = std::min(before + 1, log.begun - 1);
     const bool same = eq6[s] == verdict(s, before) || eq6[s] == verdict(s, after);
     rebuilt.compare_exactly("/steps/eq6", same ? 1 : 0, 1);
   }
@@ -94,7 +113,9 @@ void rebuild_thigmotaxis(const LogContents& log, const Steps& steps, Rebuilt& re
     for (Eigen::Index f = 0; f < mean.rows(); ++f) {
       const Eigen::Index begin = f > 0 ? steps.at(f - 1) : 0;
       for (int k = 0; k < 4; ++k) {
-        rebuilt.compare(path, at_frame(f, k), each(steps.at(f), k), allowed);
+        if (f < log.begun) {
+          rebuilt.compare(path, at_frame(f, k), each(steps.at(f), k), allowed);
+        }
         double sum = 0;
         double count = 0;
         for (Eigen::Index s = begin; s < steps.at(f); ++s) {
@@ -108,7 +129,7 @@ void rebuild_thigmotaxis(const LogContents& log, const Steps& steps, Rebuilt& re
     }
   }
   const Hdf5Reader::Rows command = log.h5.rows("/thigmotaxis/command");
-  for (Eigen::Index f = 0; f < command.rows(); ++f) {
+  for (Eigen::Index f = 0; f < log.begun; ++f) {
     for (int k = 0; k < 4; ++k) {
       const double wanted = std::max(0.0, command(f, k) - speed(steps.at(f), k));
       rebuilt.compare("/thigmotaxis/slack against command and speed", slack(steps.at(f), k),
@@ -117,7 +138,8 @@ void rebuild_thigmotaxis(const LogContents& log, const Steps& steps, Rebuilt& re
   }
 }
 
-/// Worst figures since the frame before, from those of each step.
+/// Worst figures since the frame before, from those of each step; of the state at the end, which
+/// counts too, FrameAudit asks.
 void rebuild_worst(const LogContents& log, const Steps& steps, Rebuilt& rebuilt) {
   const std::pair<const char*, const char*> worst[] = {
       {"/diagnostics/kkt_worst", "/steps/kkt"},
@@ -127,11 +149,9 @@ void rebuild_worst(const LogContents& log, const Steps& steps, Rebuilt& rebuilt)
   for (const auto& [path, of_steps] : worst) {
     const std::vector<double> logged = log.h5.doubles(path);
     const std::vector<double> each = log.h5.doubles(of_steps);
-    for (std::size_t f = 0; f < logged.size(); ++f) {
-      const auto frame = static_cast<Eigen::Index>(f);
-      const auto begin = each.begin() + (f > 0 ? steps.at(frame - 1) + 1 : 0);
-      rebuilt.compare(path, logged[f],
-                      *std::max_element(begin, each.begin() + steps.at(frame) + 1));
+    for (Eigen::Index f = 0; f < log.begun; ++f) {
+      const auto begin = each.begin() + (f > 0 ? steps.at(f - 1) + 1 : 0);
+      rebuilt.compare(path, logged[f], *std::max_element(begin, each.begin() + steps.at(f) + 1));
     }
   }
 }
@@ -142,8 +162,8 @@ void rebuild_solver(const LogContents& log, const Steps& steps, Rebuilt& rebuilt
     const std::string path = std::string("/diagnostics/") + name;
     const std::vector<std::int64_t> logged = log.h5.integers(path);
     const std::vector<std::int64_t> each = log.h5.integers(std::string("/steps/") + name);
-    for (std::size_t f = 0; f < logged.size(); ++f) {
-      rebuilt.compare_exactly(path, logged[f], each[steps.at(static_cast<Eigen::Index>(f))]);
+    for (Eigen::Index f = 0; f < log.begun; ++f) {
+      rebuilt.compare_exactly(path, logged[f], each[steps.at(f)]);
     }
   }
   const std::vector<double> time = log.h5.doubles("/diagnostics/qp_time");
@@ -153,12 +173,35 @@ void rebuild_solver(const LogContents& log, const Steps& steps, Rebuilt& rebuilt
   for (const char* name : {"kkt_stationarity", "kkt_primal", "kkt_complementarity"}) {
     residuals.push_back(log.h5.doubles(std::string("/diagnostics/") + name));
   }
-  for (std::size_t f = 0; f < time.size(); ++f) {
-    const Eigen::Index s = steps.at(static_cast<Eigen::Index>(f));
+  for (Eigen::Index f = 0; f < log.begun; ++f) {
+    const Eigen::Index s = steps.at(f);
     rebuilt.compare("/diagnostics/qp_time", time[f], each_time[s]);
     rebuilt.compare("/steps/kkt at frames", kkt[s],
                     std::max({residuals[0][f], residuals[1][f], residuals[2][f]}));
   }
+}
+
+/// What the last frame says of a step where it is the state at the end: nothing.
+void rebuild_end(const LogContents& log, Rebuilt& rebuilt) {
+  if (!log.has_end()) return;
+  for (const DatasetForm& form : log_forms(log.h5, log.model, log.resolved.scene)) {
+    const std::string& path = form.path;
+    if (std::ranges::none_of(of_a_step, [&](const char* b) { return path.starts_with(b); })) {
+      continue;
+    }
+    const Hdf5Reader::Rows rows = log.h5.rows(path);
+    rebuilt.compare(path, rows.row(log.begun).transpose(),
+                    Eigen::VectorXd::Constant(rows.cols(), NAN));
+  }
+  for (const char* path : {"/diagnostics/solve", "/diagnostics/rows", "/diagnostics/active",
+                           "/diagnostics/iterations"}) {
+    rebuilt.compare_exactly(path, log.h5.integers(path).back(), 0);
+  }
+  for (const char* path : {"/thigmotaxis/body_a", "/thigmotaxis/body_b"}) {
+    rebuilt.compare_exactly(path, log.h5.integers(path).back(), -1);
+  }
+  rebuilt.compare("/thigmotaxis/lambda", log.h5.rows("/thigmotaxis/lambda").row(log.begun),
+                  Eigen::Vector4d::Zero());
 }
 
 /// /steps/time from the step and its index, as the run makes it.
@@ -181,7 +224,10 @@ Finding plausible(const LogContents& log) {
        {"/steps/kkt", "/steps/penetration", "/steps/limit_violation", "/steps/head_drift",
         "/steps/qp_time", "/diagnostics/kkt_stationarity", "/diagnostics/kkt_primal",
         "/diagnostics/kkt_complementarity", "/diagnostics/wall_time"}) {
-    const std::vector<double> values = log.h5.doubles(path);
+    std::vector<double> values = log.h5.doubles(path);
+    const bool of_frame =
+        std::ranges::find(of_a_step, std::string_view(path)) != std::end(of_a_step);
+    if (of_frame) values.resize(log.begun);
     ask(path, std::all_of(values.begin(), values.end(),
                           [](double v) { return v >= 0 && std::isfinite(v); }));
   }
@@ -221,6 +267,7 @@ std::vector<Finding> audit_steps(const LogContents& log) {
   rebuild_worst(log, steps, rebuilt);
   rebuild_solver(log, steps, rebuilt);
   rebuild_time(log, steps, rebuilt);
+  rebuild_end(log, rebuilt);
   return {rebuilt.finding("steps and frames", "every step"), plausible(log)};
 }
 

@@ -180,7 +180,7 @@ std::vector<ThigmotaxisAudit::LoggedRow> ThigmotaxisAudit::rows_of_table(
   }
   // Rows of frames that come later, or never.
   if (next_row_ < frame_.size() &&
-      (frame_[next_row_] < frame.index || frame.index + 1 == log_.q.rows())) {
+      (frame_[next_row_] < frame.index || frame.index + 1 == log_.begun)) {
     shape.insert("/eq6/frame");
   }
   return rows;

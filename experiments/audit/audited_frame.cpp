@@ -6,7 +6,7 @@ namespace {
 Midway midway_of(const LogContents& log, const State& state, const Kinematics& kin,
                  Eigen::Index frame) {
   Midway midway;
-  if (log.midpoint()) {
+  if (log.midpoint() && frame < log.begun) {
     midway.step_velocity = log.middle_step_velocity.row(frame);
     midway.mean_velocity = log.middle_mean_velocity.row(frame);
     place_midway(log.model, state, kin, log.resolved.scene.time.step, log.balanced(frame), midway);
@@ -26,13 +26,14 @@ ShownFrame::ShownFrame(const LogContents& log, Eigen::Index frame)
 AuditedFrame::AuditedFrame(const LogContents& log, Eigen::Index frame)
     : index(frame),
       phase(static_cast<Phase>(log.phase[frame])),
+      begins_step(frame < log.begun),
       clamped(log.clamped(frame)),
       state{log.q.row(frame), log.qdot.row(frame)},
       observation(observe(log.model, state, log.resolved.scene)),
       midway(midway_of(log, state, observation.kin, frame)),
-      kin(log.midpoint() ? midway.kin : observation.kin),
-      segments(log.midpoint() ? midway.segments : observation.segments),
-      motion(log.midpoint() ? midway.motion() : motion_of(kin)),
+      kin(log.midpoint() && begins_step ? midway.kin : observation.kin),
+      segments(log.midpoint() && begins_step ? midway.segments : observation.segments),
+      motion(log.midpoint() && begins_step ? midway.motion() : motion_of(kin)),
       qdot_next(log.qdot_next.row(frame)),
       qdot_step(log.midpoint() ? Eigen::VectorXd(log.qdot_step.row(frame)) : qdot_next),
       qdot_mean(log.midpoint() ? Eigen::VectorXd(0.5 * (state.qdot + qdot_next)) : qdot_next),

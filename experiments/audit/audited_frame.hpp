@@ -28,11 +28,12 @@ struct AuditedFrame {
 
   Eigen::Index index;
   Phase phase;
-  bool clamped;  ///< the head is
+  bool begins_step;  ///< it is not the state at the run's end
+  bool clamped;      ///< the head is
   State state;
   Observation observation;  ///< observed again from the logged state
 
-  // The step that begins at the frame.
+  // The step that begins at the frame; nan where none does.
   Midway midway;                               ///< by the midpoint rule
   const Kinematics& kin;                       ///< of the place where its equations hold
   const std::vector<SplineSegment>& segments;  ///< there
@@ -54,12 +55,13 @@ inline std::pair<int, double> spline_point(const Model& model, double parameter)
   return {segment, parameter - segment};
 }
 
-/// A run's steps by the frames of its log: frame f begins with step first + f stride.
+/// A run's steps by the frames of its log: frame f begins with step first + f stride, but for the
+/// state at the end, which comes after the last one.
 struct Steps {
   explicit Steps(const LogContents& log);
-  std::int64_t first = 0, stride = 1;
-  /// Index along /steps of the step that begins at a frame.
-  Eigen::Index at(Eigen::Index frame) const { return frame * stride; }
+  std::int64_t first = 0, stride = 1, count = 0;
+  /// Index along /steps of the step that begins at a frame; of the state at the end, their number.
+  Eigen::Index at(Eigen::Index frame) const { return std::min(frame * stride, count); }
 };
 
 }  // namespace hagfish

@@ -22,6 +22,7 @@ LogContents::LogContents(const std::string& file, LogLevel least) : h5(file) {
   check_schema(h5, model, resolved.scene);
   time = h5.doubles("/trajectory/time");
   phase = h5.integers("/trajectory/phase");
+  begun = std::ssize(time) - (ends_with_end_frame(h5) ? 1 : 0);
   const LogLevel level = level_of(h5);
   if (level >= LogLevel::frames) {
     q = h5.rows("/trajectory/q");

@@ -28,6 +28,10 @@ struct LogContents {
   /// /midway, frames x nv each; empty of logs by Euler's rule, where they would be qdot and
   /// qdot_next.
   Hdf5Reader::Rows middle_step_velocity, middle_mean_velocity, qdot_step;
+  /// Frames at which a step begins: all but the last one, where that is the state at the end. Below
+  /// LogLevel::full it is not known, and all are counted.
+  Eigen::Index begun = 0;
+  bool has_end() const { return begun < std::ssize(time); }
   std::vector<std::int64_t> passes;      ///< of each step, as StepSolution::passes; or empty
   std::vector<std::int64_t> clamp_head;  ///< by a law of the run's own, 1 or 0; else empty
   bool own_law() const { return resolved.scene.controller.law == hagfish::own_law; }

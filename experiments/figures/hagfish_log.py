@@ -125,10 +125,19 @@ class HagfishLog:
         return np.flatnonzero(self.labels("/trajectory/phase") == phase)
 
     def intervals_in(self, phase: str) -> np.ndarray:
-        """Indices of the frames of one phase whose frame before is of it too: their rows of /mean are
-        means over steps of that phase alone."""
+        """Indices of the frames of one phase whose frame before, an interval before it, is of it too:
+        their rows of /mean are means over steps of that phase alone."""
         frames = self.in_phase(phase)
-        return frames[np.isin(frames - 1, frames)]
+        frames = frames[np.isin(frames - 1, frames)]
+        since = np.diff(self["/trajectory/step"], prepend=0)
+        # The state at the end may come sooner after the frame before.
+        return frames[since[frames] == since[min(1, self.frames - 1)]] if frames.size else frames
+
+    def begun(self) -> int:
+        """Frames at which a step begins: all but the state at the run's end, of which forces, rows and
+        residuals of a step are nan or 0."""
+        step = self["/trajectory/step"]
+        return self.frames - int(self.frames > 1 and step[-1] - step[0] == dataset_of(self._file, "/steps/kkt").shape[0])
 
     def scene(self) -> dict[str, Any]:
         """The resolved scene."""

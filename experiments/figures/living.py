@@ -55,7 +55,7 @@ def read_run(folder: Path, name: str, knot: str) -> Run:
     log = HagfishLog(folder / f"{name}.h5")
     unmet = audits.unmet(audits.read_findings(folder / f"{name}.check.csv"))
     slide = read_slide(folder, name)
-    torque = np.abs(log["/forces/active"]).max(axis=1)
+    torque = np.abs(np.nan_to_num(log["/forces/active"])).max(axis=1)  # no step begins at the end
     frames = {phase: log.in_phase(phase) for phase in PHASES}
     held = np.concatenate([frames[phase] for phase in ("form", "tighten", "slide")])
     total = lambda what: float(log[f"/diagnostics/{what}"][held[-1]])
@@ -76,7 +76,7 @@ def shape_apart(log: HagfishLog, other: HagfishLog) -> tuple[np.ndarray, np.ndar
 
 def likeness(log: HagfishLog, other: HagfishLog) -> float:
     """Median correlation along the body of f_thigmo at frames in which both runs slide."""
-    f, g = (one["/forces/thigmotaxis"] for one in (log, other))
+    f, g = (np.nan_to_num(one["/forces/thigmotaxis"]) for one in (log, other))
     both = np.intersect1d(log.in_phase("slide"), other.in_phase("slide"))
     rows = [np.corrcoef(f[k], g[k])[0, 1] for k in both if f[k].any() and g[k].any()]
     return float(np.median(rows)) if rows else np.nan

@@ -211,14 +211,15 @@ def requirements(log: HagfishLog, findings: list[audits.Finding]) -> list[str]:
 
 def solver(log: HagfishLog) -> list[str]:
     """Solve kinds, sizes, iterations and times."""
-    kinds = log.labels("/diagnostics/solve")
+    at_steps = lambda name: log[f"/diagnostics/{name}"][: log.begun()]
+    kinds = log.labels("/diagnostics/solve")[: log.begun()]
     counts = ", ".join(f"{kind} {100 * np.mean(kinds == kind):.1f} %" for kind in ("linear", "kkt", "qp"))
     quick = lambda v: [f"{np.median(v):.4g}", f"{np.percentile(v, 95):.4g}", f"{v.max():.4g}"]
-    rows = [[name, *quick(log[f"/diagnostics/{name}"])] for name in ("contacts", "rows", "active")]
+    rows = [[name, *quick(at_steps(name))] for name in ("contacts", "rows", "active")]
     qp = kinds == "qp"
     if qp.any():
-        rows.append(["iterations of a QP", *quick(log["/diagnostics/iterations"][qp])])
-        rows.append(["time of a QP, ms", *quick(1000 * log["/diagnostics/qp_time"][qp])])
+        rows.append(["iterations of a QP", *quick(at_steps("iterations")[qp])])
+        rows.append(["time of a QP, ms", *quick(1000 * at_steps("qp_time")[qp])])
     wall, simulated = log["/diagnostics/wall_time"][-1], log["/trajectory/time"][-1]
     return ["## Solver", "", f"Logged steps by kind: {counts}. {simulated:.2f} s simulated in {wall:.1f} s: "
             f"{simulated / max(wall, 1e-9):.2f} times real time.", "",

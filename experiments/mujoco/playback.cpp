@@ -44,7 +44,8 @@ Slide::Slide(const LogContents& log) {
   const auto first = std::find_if(log.phase.begin(), log.phase.end(), slides);
   const auto last = std::find_if_not(first, log.phase.end(), slides);
   const auto begin = first - log.phase.begin();
-  const auto count = last - first;
+  // The state at the end may come sooner after the frame before than others do.
+  const auto count = std::min(last - first, static_cast<std::ptrdiff_t>(log.begun - begin));
   if (count < 2) {
     throw FileError(log.h5.file() + ": the knot does not slide in it");
   }

@@ -57,7 +57,7 @@ std::vector<PhaseStart> phase_starts(const LogContents& log) {
 std::size_t step_count(const LogContents& log) {
   if (level_of(log.h5) == LogLevel::full) return log.h5.shape("/steps/kkt").at(0);
   const std::vector<std::int64_t> step = log.h5.integers("/trajectory/step");
-  return static_cast<std::size_t>(step.back() - step.front() + 1);
+  return static_cast<std::size_t>(step.back() - step.front());
 }
 
 LogInfo read_info(const std::string& file) {

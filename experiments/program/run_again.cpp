@@ -137,6 +137,16 @@ struct Difference {
   std::string text;
 };
 
+/// A dataset of the rerun, but for the state at its end where the log, of an earlier version or of
+/// a run that was killed, has none.
+Hdf5Reader::Rows rows_again(const LogContents& log, const Hdf5Reader& again,
+                            const std::string& path) {
+  const Hdf5Reader::Rows rows = numbers(again, path);
+  const bool more = !log.has_end() && again.shape("/trajectory/time").at(0) > log.time.size() &&
+                    rows.rows() == log.q.rows() + 1;
+  return more ? rows.topRows(log.q.rows()).eval() : rows;
+}
+
 /// The earliest difference up to `end` (s), of numbers that may differ by `tolerance`.
 Difference earliest(const LogContents& log, const Hdf5Reader& again, double tolerance, double end) {
   Difference first;
@@ -147,7 +157,8 @@ Difference earliest(const LogContents& log, const Hdf5Reader& again, double tole
                           path.find("kkt") != std::string::npos)) {
       continue;
     }
-    const auto row = first_difference(numbers(log.h5, path), numbers(again, path), tolerance);
+    const auto row =
+        first_difference(numbers(log.h5, path), rows_again(log, again, path), tolerance);
     if (!row) continue;
     const double time = time_of_row(log, path, *row);
     if (time >= first.time || time >= end) continue;
@@ -159,7 +170,7 @@ Difference earliest(const LogContents& log, const Hdf5Reader& again, double tole
 
 /// When the motion of two runs differs first, s; infinite where it never does.
 double parting(const LogContents& log, const Hdf5Reader& again) {
-  const auto frame = first_difference(log.qdot, again.rows("/trajectory/qdot"), parted);
+  const auto frame = first_difference(log.qdot, rows_again(log, again, "/trajectory/qdot"), parted);
   return frame ? time_of_row(log, "/trajectory/qdot", *frame) : INFINITY;
 }
 

@@ -51,6 +51,21 @@ class LogTest : public testing::Test {
   Simulation sim = start(model, scene, "ipopt");
 };
 
+/// Two logs are of the same run, whichever was stopped in between.
+void expect_same_run(const fs::path& one, const fs::path& other) {
+  const Hdf5Reader a(one), b(other);
+  for (const char* path :
+       {"/trajectory/step", "/trajectory/q", "/trajectory/qdot", "/forces/limit",
+        "/mean/forces/limit", "/diagnostics/limit_violation", "/diagnostics/work_tip", "/steps/kkt",
+        "/steps/rows", "/checkpoints/step", "/checkpoints/end", "/checkpoints/data"}) {
+    const std::vector<double> x = a.doubles(path);
+    const std::vector<double> y = b.doubles(path);
+    ASSERT_EQ(x.size(), y.size()) << path;
+    EXPECT_EQ(std::memcmp(x.data(), y.data(), x.size() * sizeof(double)), 0) << path;
+  }
+  EXPECT_EQ(a.bytes("/checkpoints/last"), b.bytes("/checkpoints/last"));
+}
+
 struct Dataset {
   std::string path;
   std::vector<hsize_t> shape;
@@ -111,7 +126,7 @@ TEST_F(LogTest, HoldsWhatTheContractNames) {
   write(log, 12);
   log.finish("complete", sim);
   const Hdf5Reader h5(file);
-  const hsize_t t = 3;  // steps 0, 5 and 10 of 12 at one frame in 5
+  const hsize_t t = 4;  // steps 0, 5 and 10 of 12 at one frame in 5, and the end
   const hsize_t n = 10;
   const hsize_t nq = model.nq();
   const hsize_t nv = model.nv();
@@ -143,11 +158,13 @@ TEST_F(LogTest, ReadsBackTheVeryStatesThatWereWritten) {
   const Hdf5Reader h5(file);
   const Hdf5Reader::Rows q = h5.rows("/trajectory/q");
   const Hdf5Reader::Rows qdot = h5.rows("/trajectory/qdot");
-  EXPECT_EQ(h5.integers("/trajectory/step"), (std::vector<std::int64_t>{0, 5, 10}));
+  EXPECT_EQ(h5.integers("/trajectory/step"), (std::vector<std::int64_t>{0, 5, 10, 11}));
   for (const int frame : {0, 1, 2}) {
     EXPECT_EQ(q.row(frame).transpose(), states[5 * frame].q);
     EXPECT_EQ(qdot.row(frame).transpose(), states[5 * frame].qdot);
   }
+  EXPECT_EQ(q.row(3).transpose(), sim.now.state.q);
+  EXPECT_EQ(qdot.row(3).transpose(), sim.now.state.qdot);
   // The scene in the log makes the run again.
   const ResolvedScene again = read_scene_text(h5.root_text("scene"), "log");
   EXPECT_EQ(again.scene.time.step, scene.time.step);
@@ -218,18 +235,53 @@ TEST_F(LogTest, GoesOnWithALogAsIfNothingHadBeen) {
     write(log, 10);
     log.finish("complete", sim);
   }
-  const Hdf5Reader a(whole), b(file);
-  for (const char* path :
-       {"/trajectory/step", "/trajectory/q", "/trajectory/qdot", "/forces/limit",
-        "/mean/forces/limit", "/diagnostics/limit_violation", "/diagnostics/work_tip", "/steps/kkt",
-        "/steps/rows", "/checkpoints/step", "/checkpoints/end", "/checkpoints/data"}) {
-    const std::vector<double> x = a.doubles(path);
-    const std::vector<double> y = b.doubles(path);
-    ASSERT_EQ(x.size(), y.size()) << path;
-    EXPECT_EQ(std::memcmp(x.data(), y.data(), x.size() * sizeof(double)), 0) << path;
+  expect_same_run(whole, file);
+  EXPECT_EQ(error_of<FileError>([&] { saved_run(Hdf5Reader(file)); }),
+            file.string() + ": the run is complete");
+}
+
+TEST_F(LogTest, TheStateAtTheEndIsTheLastFrameUntilTheRunGoesOn) {
+  const fs::path whole = folder / "whole.h5", file = folder / "run.h5",
+                 part = folder / "run.h5.part";
+  const auto steps_at_frames = [](const fs::path& of) {
+    return Hdf5Reader(of).integers("/trajectory/step");
+  };
+  {
+    LogWriter log(whole, false, header, model, scene);
+    write(log, 35, 0.01);
+    log.finish("complete", sim);
   }
-  EXPECT_EQ(a.bytes("/checkpoints/last"), b.bytes("/checkpoints/last"));
-  EXPECT_EQ(error_of<FileError>([&] { saved_run(b); }), file.string() + ": the run is complete");
+  for (const int before : {23, 25}) {
+    fs::remove(file);
+    {
+      sim = start(model, scene, "ipopt");
+      LogWriter log(file, false, header, model, scene);
+      write(log, before, 0.01);
+      log.finish("failed: interrupted", sim);
+    }
+    const Hdf5Reader ended(file);
+    std::vector<std::int64_t> frames{0, 5, 10, 15, 20, before};
+    EXPECT_EQ(steps_at_frames(file), frames);
+    EXPECT_EQ(ended.rows("/trajectory/q").bottomRows(1).transpose(), sim.now.state.q);
+    EXPECT_EQ(ended.doubles("/diagnostics/kinetic_energy").back(), sim.ledger.kinetic);
+    EXPECT_TRUE(ended.rows("/forces/head").bottomRows(1).array().isNaN().all());
+    EXPECT_TRUE(ended.rows("/mean/forces/head").bottomRows(1).allFinite());
+    {
+      const SavedRun run = saved_run(ended);
+      sim = run.sim;
+      LogWriter log(file, run, ended);
+      write(log, 1, 1e6);  // is saved; then the run is killed
+    }
+    if (before % 5 != 0) frames.pop_back();
+    EXPECT_EQ(steps_at_frames(part), frames);
+    const Hdf5Reader killed(part);
+    const SavedRun run = saved_run(killed);
+    sim = run.sim;
+    LogWriter log(file, run, killed);
+    write(log, 34 - before);
+    log.finish("complete", sim);
+    expect_same_run(whole, file);
+  }
 }
 
 TEST_F(LogTest, AFlippedBitInAChunkIsRefused) {
@@ -262,7 +314,7 @@ TEST_F(LogTest, FailedRunsStayReadable) {
   log.finish("failed: solver failed at step 6", sim);
   const Hdf5Reader h5(file);
   EXPECT_EQ(h5.root_text("status"), "failed: solver failed at step 6");
-  EXPECT_EQ(h5.shape("/trajectory/time"), std::vector<hsize_t>{2});
+  EXPECT_EQ(h5.shape("/trajectory/time"), std::vector<hsize_t>{3});  // steps 0 and 5, and the end
 }
 
 TEST_F(LogTest, AFullDiskIsOneLineAndKeepsWhatWasSaved) {

@@ -387,6 +387,19 @@ TEST_F(AuditCorruption, SeesWholeDatasetsThatAreFalse) {
   }
 }
 
+TEST_F(AuditCorruption, TheStateAtTheEndIsThatOfTheRunAndNoStep) {
+  const auto off = [](std::vector<double>& values) {
+    values.back() = std::isnan(values.back()) ? 1 : values.back() + 0.01;
+  };
+  for (const char* path :
+       {"/trajectory/q", "/trajectory/qdot", "/trajectory/qdot_next", "/trajectory/q_ref",
+        "/trajectory/position", "/forces/head", "/forces/tip", "/thigmotaxis/lambda",
+        "/thigmotaxis/cap", "/mean/forces/limit", "/diagnostics/penetration",
+        "/diagnostics/kkt_stationarity", "/diagnostics/work_limit"}) {
+    while_changed(path, off, [&] { EXPECT_NE(objections(), "") << path; });
+  }
+}
+
 TEST_F(AuditCorruption, SeesBlocksOfMeansExchanged) {
   const auto exchange = [](const char* one, const char* other) {
     const H5::H5File h5(file.string(), H5F_ACC_RDWR);

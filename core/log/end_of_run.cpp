@@ -1,0 +1,44 @@
+#include "core/log/end_of_run.hpp"
+
+#include <limits>
+
+namespace hagfish {
+
+StepRecord end_record(const Model& model, double time, const Simulation& sim, bool clamped) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const Eigen::VectorXd none = Eigen::VectorXd::Constant(model.nv(), nan);
+  StepRecord record;
+  record.step = sim.step;
+  record.time = time;
+  record.moment = sim.now;
+  record.controller = sim.controller;
+  record.controller.ends = sim.now.observation.ends;
+  record.controller.rest_shape = none;
+  record.controller.memory.resize(0);
+  record.control.clamp_head = clamped;
+  record.control.tip = {Eigen::Vector3d::Constant(nan), nan};
+  record.control.torque.value = record.control.torque.rate = none;
+  StepSolution& step = record.solution;
+  step.qdot = step.next = step.active_torque = none;
+  step.middle.step_velocity = step.middle.mean_velocity = none;
+  for (Eigen::VectorXd& force : step.force.of_kind) force = none;
+  step.tip.setConstant(nan);
+  step.stationarity = step.kkt.primal = step.kkt.complementarity = step.qp_time = nan;
+  record.ledger = sim.ledger;
+  record.momentum = sim.momentum;
+  record.head_drift = clamped ? head_drift(model, sim.now.observation.kin) : 0;
+  return record;
+}
+
+bool has_end_frame(const Hdf5Reader& h5, std::int64_t next) {
+  const std::vector<std::int64_t> step = h5.integers("/trajectory/step");
+  return !step.empty() && step.back() == next;
+}
+
+void drop_end_frame(const std::filesystem::path& file, const SeriesList& frames, hsize_t rows) {
+  Hdf5Writer h5(file);
+  for (const auto& series : frames) h5.append(series->layout(), rows - 1, 0, nullptr);
+  h5.close();
+}
+
+}  // namespace hagfish
