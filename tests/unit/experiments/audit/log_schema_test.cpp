@@ -58,14 +58,14 @@ TEST_F(LogSchema, WantsSeriesForWhatIsCounted) {
 
 TEST_F(LogSchema, WantsTheShapeOfModelAndFrames) {
   const std::tuple<std::string, std::vector<hsize_t>, std::string> cases[] = {
-      {"/diagnostics/wall_time", {0}, "(0), not (3)"},
-      {"/diagnostics/qp_time", {2}, "(2), not (3)"},
-      {"/mean/forces/thigmotaxis", {3, 2}, "(3, 2), not (3, 17)"},
+      {"/diagnostics/wall_time", {0}, "(0), not (4)"},
+      {"/diagnostics/qp_time", {2}, "(2), not (4)"},
+      {"/mean/forces/thigmotaxis", {3, 2}, "(3, 2), not (4, 17)"},
       {"/steps/penetration", {}, "(), not (15)"}};
   for (const auto& [path, extent, shapes] : cases) {
     replace(path, PredType::NATIVE_DOUBLE, extent);
     EXPECT_EQ(refusal(), path + " has the shape " + shapes + ", that of its model and frames");
-    std::vector<hsize_t> right{3};
+    std::vector<hsize_t> right{4};
     if (path.starts_with("/mean")) right.push_back(17);
     replace(path, PredType::NATIVE_DOUBLE,
             path.starts_with("/steps") ? std::vector<hsize_t>{15} : right);

@@ -78,7 +78,7 @@ TEST_F(LogCommandsTest, OfARunThatNeverTiesTellSo) {
   expect_told("--set time.duration=0.02 --set expect.hand=right", 0,
               {"FAIL knot held                never tied: no frame with a 3_1\n",
                "FAIL hand                     never tied: no frame with a 3_1\n",
-               "the log, of 0 to 0 s, has no frame to be a 3_1 from tighten to release\n",
+               "the log, of 0 to 0.02 s, has no frame to be a 3_1 from tighten to release\n",
                "FAIL slide                    no slide (at least 9 cm)\n",
                "FAIL Eq. 6                    no sliding steps (at least 95 %)\n",
                "ok   contacts followed        no contact was followed\n"});
@@ -117,7 +117,9 @@ std::vector<std::vector<std::string>> rows_of(const std::string& text) {
 
 TEST_F(LogCommandsTest, CheckWritesARowForEachLogAndCriterion) {
   ASSERT_EQ(run_program(brief_run + "--out a.h5").code, 0);
-  ASSERT_EQ(run_program(brief_run + "--set expect.knot= --out b.h5").code, 0);
+  // Euler's rule loses 0.19 of the energy in the first 4 steps from rest.
+  const std::string no_knot = "--set expect.knot= --set expect.energy_loss=0.2 ";
+  ASSERT_EQ(run_program(brief_run + no_knot + "--out b.h5").code, 0);
   const ProgramOutcome one = run_program("check b.h5 --csv b.csv");
   EXPECT_EQ(one.code, 0) << one.output;
   EXPECT_EQ(one.output.rfind("ok   status", 0), 0u)

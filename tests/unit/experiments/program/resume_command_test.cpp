@@ -1,5 +1,6 @@
 // `hagfish run --resume` and `branch` from outside.
 #include <gtest/gtest.h>
+#include <cstring>
 
 #include <filesystem>
 #include <string>
@@ -22,10 +23,11 @@ class ResumeTest : public ProgramTest {
   /// Rows `from` on of `whole` are all rows of `part`, to the last bit.
   static void expect_same_rows(const Hdf5Reader& whole, const Hdf5Reader& part,
                                const std::string& path, Eigen::Index from) {
-    const Hdf5Reader::Rows a = whole.rows(path);
+    const Hdf5Reader::Rows a = whole.rows(path).bottomRows(whole.rows(path).rows() - from);
     const Hdf5Reader::Rows b = part.rows(path);
-    ASSERT_EQ(a.rows() - from, b.rows()) << path;
-    EXPECT_EQ(a.bottomRows(b.rows()), b) << path;
+    ASSERT_EQ(a.rows(), b.rows()) << path;
+    ASSERT_EQ(a.cols(), b.cols()) << path;
+    EXPECT_EQ(std::memcmp(a.data(), b.data(), sizeof(double) * b.size()), 0) << path;
   }
 };
 
@@ -105,7 +107,7 @@ TEST_F(ResumeTest, ABranchTakesOtherSettings) {
   const Hdf5Reader b = log("b.h5");
   EXPECT_EQ(b.integers("/trajectory/step").front(), 200);
   EXPECT_EQ(b.doubles("/trajectory/time").front(), 0.2);
-  EXPECT_EQ(b.doubles("/trajectory/time").size(), 20u);
+  EXPECT_EQ(b.doubles("/trajectory/time").size(), 21u);
   EXPECT_EQ(b.rows("/trajectory/q").row(0), log("a.h5").rows("/trajectory/q").row(10));
   EXPECT_NE(b.root_text("scene").find("bending_stiffness = 1000"), std::string::npos);
   // All but what a run so short cannot show.
