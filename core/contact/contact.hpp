@@ -22,10 +22,9 @@ struct Contact {
   Eigen::Vector3d tangent_a, tangent_b;  ///< unit, world, both to the tail
   int obstacle = -1;                     ///< that strand b is; -1: the body itself
 
-  /// Body of the chain nearest to the point on strand a (b, where that is of the body): of the
-  /// rounded sum, which logs have.
-  int body_a() const { return static_cast<int>(segment_a + t_a + 0.5); }
-  int body_b() const { return static_cast<int>(segment_b + t_b + 0.5); }
+  /// Body of the chain nearest to the point on strand a (b, where that is of the body).
+  int body_a() const { return segment_a + (t_a >= 0.5 ? 1 : 0); }
+  int body_b() const { return segment_b + (t_b >= 0.5 ? 1 : 0); }
 };
 
 struct ContactSet {
