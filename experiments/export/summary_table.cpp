@@ -206,7 +206,7 @@ ExportTable summary_table(const LogContents& log, const SweptSkin& swept, bool s
        {"work_thigmotaxis", energy, "of f_thigmo, in all"},
        {"dissipated", energy, "lost to water drag and joint damping, in all"},
        {"swept", area, "skin that the knot swept, of skin.csv"},
-       {"swept_share", none, "of all skin"}},
+       {"swept_percent", none, "of all skin, %"}},
       si);
   table.add({std::filesystem::path(log.h5.file()).filename().string(),
              scene.title,
@@ -234,7 +234,7 @@ ExportTable summary_table(const LogContents& log, const SweptSkin& swept, bool s
              at_end("work_thigmotaxis"),
              at_end("dissipated"),
              swept.swept(),
-             swept.swept() / swept.all()});
+             100 * swept.swept() / swept.all()});
   return table;
 }
 

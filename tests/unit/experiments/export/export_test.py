@@ -233,7 +233,7 @@ def test_skin(run):
     row = {name: column[0] for name, column in tables["summary"].items()}
     swept = ~np.isnan(t["since_s"])
     same(row["swept_cm2"], t["area_cm2"][swept].sum())
-    same(row["swept_share"], row["swept_cm2"] / t["area_cm2"].sum())
+    same(row["swept_percent"], 100 * row["swept_cm2"] / t["area_cm2"].sum())
 
 
 def test_summary(run):
