@@ -22,7 +22,10 @@ MujocoModel made(const Model& model, const Scene& scene, const MujocoSettings& s
   MujocoModel mirror(mjcf_files(model, scene.contact.least_arc, scene.time.step, head));
   mjModel& m = *mirror.model();
   m.opt.solver = mjSOL_NEWTON;
-  m.opt.integrator = mjINT_EULER;
+  m.opt.jacobian = mjJAC_DENSE;
+  m.opt.integrator = settings.integrator == MujocoIntegrator::euler      ? mjINT_EULER
+                     : settings.integrator == MujocoIntegrator::implicit ? mjINT_IMPLICIT
+                                                                         : mjINT_RK4;
   const auto soften = [&settings](mjtNum* solref, int count) {
     for (int i = 0; i < count; ++i) {
       solref[mjNREF * i] = settings.contact_time;
@@ -31,11 +34,6 @@ MujocoModel made(const Model& model, const Scene& scene, const MujocoSettings& s
   };
   soften(m.geom_solref, m.ngeom);
   soften(m.jnt_solref, m.njnt);
-  for (int j = 0; j < m.njnt; ++j) {
-    if (m.jnt_type[j] == mjJNT_HINGE) {
-      m.dof_damping[m.jnt_dofadr[j]] += m.opt.timestep * m.jnt_stiffness[j];
-    }
-  }
   return mirror;
 }
 
@@ -96,16 +94,32 @@ MujocoModel& MujocoLoop::mirror(Head head) {
   return *mirror;
 }
 
+/// Dampers, springs at the step's end and the muscles' share by velocity, which Euler's rule and
+/// the implicit one take implicitly; by RK4 all is explicit.
+bool MujocoLoop::damps_implicitly() const { return settings_.integrator != MujocoIntegrator::rk4; }
+
 void MujocoLoop::apply(const Simulation& sim, const Control& control, MujocoModel& mirror,
-                       Eigen::VectorXd& torque) const {
-  const State& state = sim.now.state;
-  torque.setZero(model_.nv());
+                       MuscleTorque& muscles) const {
+  const Eigen::VectorXd& qdot = sim.now.state.qdot;
+  muscles.value.setZero(model_.nv());
+  muscles.rate.setZero(model_.nv());
   for (const ActiveTorque* asked : {&control.active, &control.torque}) {
-    if (asked->value.size() > 0) torque += asked->value - asked->rate.cwiseProduct(state.qdot);
+    if (asked->value.size() == 0) continue;
+    muscles.value += asked->value;
+    muscles.rate += asked->rate;
   }
-  const Eigen::VectorXd force = torque + drag_force(model_, sim.now.observation.kin, state.qdot);
-  const mjModel& m = *mirror.model();
-  mju_copy(mirror.data()->qfrc_applied, force.data() + (model_.nv() - m.nv), m.nv);
+  Eigen::VectorXd force = muscles.value + drag_force(model_, sim.now.observation.kin, qdot);
+  mjModel& m = *mirror.model();
+  const Eigen::Index root = model_.nv() - m.nv;  // velocities that a clamped head has not
+  if (damps_implicitly()) {
+    for (Eigen::Index k = root_dofs; k < model_.nv(); ++k) {
+      const Hinge& hinge = model_.hinges[k - root_dofs];
+      m.dof_damping[k - root] = hinge.damping + m.opt.timestep * hinge.stiffness + muscles.rate[k];
+    }
+  } else {
+    force -= muscles.rate.cwiseProduct(qdot);
+  }
+  mju_copy(mirror.data()->qfrc_applied, force.data() + root, m.nv);
 }
 
 void MujocoLoop::note_forces(const Simulation& sim, MujocoModel& mirror, StepSolution& step) const {
@@ -173,13 +187,15 @@ void MujocoLoop::take_step(Simulation& sim, StepRecord& record) {
   }
   MujocoModel& mirror = this->mirror(record.control.clamp_head ? Head::clamped : Head::free);
   set_state(model_, sim.now.state, mirror);
-  apply(sim, record.control, mirror, step.active_torque);
+  apply(sim, record.control, mirror, muscles_);
   mj_step(mirror.model(), mirror.data());
   check_stable(mirror);
   note_forces(sim, mirror, step);
   Moment& next = record.moment;
   next.state = state_of(model_, mirror);
   step.qdot = step.next = step.mean_velocity = next.state.qdot;
+  const Eigen::VectorXd& acts_at = damps_implicitly() ? step.next : sim.now.state.qdot;
+  step.active_torque = muscles_.value - muscles_.rate.cwiseProduct(acts_at);
   observe(model_, next.state, scene_, sim.search, next.observation);
   if (Status status = guard_state(model_, next, 0, scene_, sim.watch, record.warnings);
       !status.ok()) {

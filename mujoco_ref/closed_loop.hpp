@@ -11,17 +11,24 @@
 
 namespace hagfish {
 
-/// How hard MuJoCo's contacts and limits are: they are springs and dampers that bodies sink into.
+/// MuJoCo's ways to take a step. Euler's and the implicit one take damping implicitly, and with it
+/// springs and muscles, of which a step makes dampers; by RK4 all is explicit, and applied forces
+/// are those of the step's start.
+enum class MujocoIntegrator { euler, implicit, rk4 };
+
+/// How MuJoCo takes its steps, and how hard its contacts and limits are: they are springs and
+/// dampers that bodies sink into.
 struct MujocoSettings {
+  MujocoIntegrator integrator = MujocoIntegrator::euler;
   /// Time constant (solref) of critically damped contacts and limits, s. MuJoCo takes no less than
   /// two steps; its default, 0.02, lets the strands of a tight knot overlap by half a millimetre.
   double contact_time = 0.005;
 };
 
-/// Takes the steps of a run in MuJoCo, at the scene's time step: semi-implicit Euler, Newton's
-/// solver, the capsules of mjcf.hpp. Muscles and water drag are applied as generalised forces
-/// (qfrc_applied), explicitly, from the state at the start of the step; the torque of a hinge ends
-/// at the scene's capacity. A clamped head is part of the world.
+/// Takes the steps of a run in MuJoCo, at the scene's time step: Newton's solver with a dense
+/// Jacobian, which is its quickest here, and the capsules of mjcf.hpp. Muscles and water drag are
+/// applied as generalised forces (qfrc_applied), explicitly, from the state at the start of the
+/// step; the torque of a hinge ends at the scene's capacity. A clamped head is part of the world.
 class MujocoLoop {
  public:
   /// `model` and `scene` are referred to. Throws InputError, one line, where the scene asks for
@@ -35,16 +42,23 @@ class MujocoLoop {
   void take_step(Simulation& sim, StepRecord& record);
 
  private:
+  /// value - rate q̇, dyn cm, nv.
+  struct MuscleTorque {
+    Eigen::VectorXd value, rate;
+  };
+
   MujocoModel& mirror(Head head);
   void book(double work, const Moment& next, Simulation& sim) const;
+  bool damps_implicitly() const;
   void apply(const Simulation& sim, const Control& control, MujocoModel& mirror,
-             Eigen::VectorXd& torque) const;
+             MuscleTorque& muscles) const;
   void note_forces(const Simulation& sim, MujocoModel& mirror, StepSolution& step) const;
 
   const Model& model_;
   const Scene& scene_;
   MujocoSettings settings_;
   std::optional<MujocoModel> clamped_, free_;
+  MuscleTorque muscles_;  ///< of the last step
 };
 
 }  // namespace hagfish

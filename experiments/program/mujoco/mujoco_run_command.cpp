@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <map>
+#include <string>
 
 #include "experiments/audit/log_contents.hpp"
 #include "experiments/program/number_options.hpp"
@@ -21,6 +23,11 @@ struct MujocoRunOptions {
   MujocoSettings mujoco;
   RunOptions run;
 };
+
+const std::map<std::string, MujocoIntegrator> integrators = {
+    {"euler", MujocoIntegrator::euler},
+    {"implicit", MujocoIntegrator::implicit},
+    {"rk4", MujocoIntegrator::rk4}};
 
 /// A run about to begin.
 struct Beginning {
@@ -94,6 +101,9 @@ void add_mujoco_run(Program& program) {
   app->add_option("--step", options->step, "time step, s")
       ->check(above_zero())
       ->capture_default_str();
+  app->add_option("--integrator", options->mujoco.integrator, "MuJoCo's: euler, implicit or rk4")
+      ->transform(CLI::CheckedTransformer(integrators))
+      ->default_str("euler");
   app->add_option("--contact-time", options->mujoco.contact_time,
                   "time constant of contacts and limits (solref), s; two steps or more")
       ->check(above_zero())
