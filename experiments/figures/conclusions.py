@@ -9,18 +9,15 @@ from pathlib import Path
 
 import numpy as np
 
-import audits
 from back_ends import BACK_ENDS, read_table
 from hagfish_log import HagfishLog, Results
 from integration import MOTIONS, steps
 from needs import needs
 from plots import INTEGRATORS
 from script import run_script
-from study import FORCE_WINDOW, Run, path_error, read_run, read_runs
+from study import FORCE_WINDOW, Run, path_error, read_runs
 from tables import of_page, write_page
-from whole_runs import CHANCE_STEPS, chance, front_of, reference_of
-
-PRESETS = {"quick": "a look at a new script", "default": "work"}
+from whole_runs import CHANCE_STEPS, REFERENCE, chance, front_of, reference_of
 
 
 def reached(cost: np.ndarray, error: np.ndarray, wanted: float) -> float:
@@ -156,22 +153,6 @@ def whole(folder: Path, out: Path) -> list[str]:
     return [*lines, ""]
 
 
-def presets(folder: Path, out: Path) -> list[str]:
-    reference = reference_of(read_runs(folder, "whole"))
-    rows = []
-    for name, use in PRESETS.items():
-        run = read_run(folder, f"preset_{name}")
-        off = path_error(run, reference)
-        failed = audits.unmet(audits.read_findings(folder / f"preset_{name}.check.csv"))
-        rows.append([f"`{name}`", use, f"{1e3 * run.step:g}", str(run.bodies), run.qp, f"{run.cpu:.2f}",
-                     f"{off[0]:.2f} ({off[1]:.2f})" + (", as the reference" if run.step == reference.step else ""),
-                     f"{run.force / reference.force * 100 - 100:+.0f} %", f"{run.penetration:.4f}",
-                     "failed" if failed else "passed"])
-    return ["## Presets", "", "`hagfish run --preset NAME`, timed alone on the machine, with their own intervals between frames.",
-            "", *of_page(out, "speed_accuracy", ["Preset", "For", "h, ms", "Bodies", "Back end", "CPU, s", "Head end of the knot off, rms (largest), cm", "Sliding force",
-                        "Penetration, cm", "Audit"], rows), ""]
-
-
 def choices(folder: Path, out: Path) -> list[str]:
     as_is, found = needs(folder)
     rows = [["as it is", "", "1", "0", "0", f"{as_is.penetration:.5f}", ""]]
@@ -186,9 +167,9 @@ def choices(folder: Path, out: Path) -> list[str]:
 
 def main(folder: Path, out: Path) -> None:
     version = (folder / "version").read_text().strip()
-    cpu = HagfishLog(folder / "preset_default.h5").attribute("cpu")
-    text = ["# Speed against accuracy", "", f"hagfish {version}, {cpu}. Times are CPU times of one process, serial; all but the "
-            "presets were measured with a run on every core.", "", *presets(folder, out.parent), *whole(folder, out.parent), *choices(folder, out.parent),
+    cpu = HagfishLog(folder / f"{REFERENCE}.h5").attribute("cpu")
+    text = ["# Speed against accuracy", "", f"hagfish {version}, {cpu}. Times are CPU times of one process, serial, "
+            "measured with a run on every core.", "", *whole(folder, out.parent), *choices(folder, out.parent),
             *solvers(folder, out.parent), *integration(folder, out.parent)]
     write_page(out, text)
 

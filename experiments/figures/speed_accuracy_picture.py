@@ -86,13 +86,7 @@ def draw(runs: Runs, out: Path) -> None:
     bodies.set(xscale="log", yscale="log", xlabel="number of bodies", ylabel="knot's head end off, rms, cm")
     plots.plain_ticks(bodies.xaxis, sorted({float(run["bodies"]) for run in whole}))
     fail_to_tie(failures, whole)
-    for run in (run for run in runs if run["run"].startswith("preset")):
-        for axes, name in ((position, "position_error_rms_cm"), (force, "force_error_percent"), (depth, "penetration_cm"), (cost, "cpu_s")):
-            at = float(run["h_ms"]), max(float(run[name]), LEAST.get(name, 0))
-            axes.plot(*at, "*", ms=10, mfc=plots.YELLOW, mec=plots.INK, zorder=5)
-            axes.annotate(run["run"].removeprefix("preset_"), at, (0, 8), textcoords="offset points", fontsize=7.5, ha="center",
-                          bbox={"fc": "white", "ec": "none", "pad": 0.5, "alpha": 0.8}, zorder=6)
-    handles = [*cost.get_legend_handles_labels()[0], cost.plot([], [], "*", ms=10, mfc=plots.YELLOW, mec=plots.INK, label="preset, timed alone")[0]]
+    handles = cost.get_legend_handles_labels()[0]
     plots.legend_above(figure, handles, len(handles), 0.045)
     plots.save(figure, out)
 

@@ -72,7 +72,7 @@ def front_of(runs: list[Run], reference: Run, what: str, floor: float) -> list[R
     return [able[k] for k in front]
 
 
-def rows_of(runs: list[Run], presets: list[Run], reference: Run, floor: Chance) -> list[list[Any]]:
+def rows_of(runs: list[Run], reference: Run, floor: Chance) -> list[list[Any]]:
     """A row a run, and what chance makes of its errors."""
     fronts = {what: {run.name for run in front_of(runs, reference, what, floor.of(what))} for what in MEASURES}
     rows: list[list[Any]] = [[
@@ -80,7 +80,7 @@ def rows_of(runs: list[Run], presets: list[Run], reference: Run, floor: Chance) 
         run.failure or (picture.REFERENCE if run is reference else picture.SLID),
         *path_error(run, reference), path_error(run, reference, "tail_end")[0], run.slide_at, run.slide, run.force,
         errors(run, reference)["force"], run.force_mean, run.penetration, "; ".join(run.unmet),
-        " ".join(what for what in MEASURES if run.name in fronts[what])] for run in runs + presets]
+        " ".join(what for what in MEASURES if run.name in fronts[what])] for run in runs]
     chance = dict.fromkeys(picture.HEAD, "") | {"run": f"chance, {floor.starts} starts", "position_error_rms_cm": floor.position,
                                                 "position_error_largest_cm": floor.pointwise, "force_error_percent": floor.force}
     return [*rows, list(chance.values())]
@@ -90,7 +90,7 @@ def main(folder: Path, csv: Path, png: Path) -> None:
     runs = read_runs(folder, "whole")
     reference = reference_of(runs)
     csv.parent.mkdir(parents=True, exist_ok=True)
-    write_csv(csv, picture.HEAD, rows_of(runs, read_runs(folder, "preset"), reference, chance(folder, reference.step)))
+    write_csv(csv, picture.HEAD, rows_of(runs, reference, chance(folder, reference.step)))
     picture.draw(read_csv(csv, picture.HEAD), png)
 
 

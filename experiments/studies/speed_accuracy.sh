@@ -2,7 +2,7 @@
 # What accuracy costs: smooth motions, QPs, whole runs of the Table 1 scene and the choices of its
 # model, each measured over step, size and method. Leaves CSV, figures and conclusions.md.
 #   bash experiments/studies/speed_accuracy.sh [OUTPUT_FOLDER]     default: out/speed_accuracy
-# Stopped, it goes on where it was. Times are CPU times; jobs share the machine, presets do not.
+# Stopped, it goes on where it was. Times are CPU times; jobs share the machine.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/study.sh"
 
@@ -89,18 +89,10 @@ no_wall wall.present=false
 LIST
 }
 
-presets() {
-  local preset
-  for preset in quick default; do
-    printf 'timed_run\t%s\t3\t%s\n' "preset_$preset" "table1 --preset $preset"
-  done
-}
-
 whole_runs | work "$cores" "Whole runs"
 chance | work "$cores" "Chance"
 needs | work "$cores" "Choices of the model"
 { printf 'back_ends\tqps\n'; printf 'integrate\t%s\n' coil hanging whip; } | work "$cores" "QPs and smooth motions"
-presets | work 1 "Presets, alone on the machine"
 
 echo "Drawing"
 draw integration.py "$runs" "$out/integration.csv" "$out/integration.png"

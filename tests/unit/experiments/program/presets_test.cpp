@@ -9,7 +9,7 @@
 namespace hagfish::presets_test {
 
 TEST(Presets, AreThoseOfTheReadme) {
-  EXPECT_EQ(preset_names(), (std::vector<std::string>{"quick", "default"}));
+  EXPECT_EQ(preset_names(), (std::vector<std::string>{"quick", "default", "figure"}));
 }
 
 TEST(Presets, DefaultIsTheSceneItself) { EXPECT_TRUE(preset_called("default").set.empty()); }
