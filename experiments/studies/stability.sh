@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The failure map: stress scenes (experiments/stability/*.toml, and the Table 1 run) over time steps, methods and
 # levels of stress. Leaves stability.csv, a heat map per scene, and summary.md and stability.png: the largest step that
-# each method survives.
+# each method survives; and how far the reflex goes.
 #   bash experiments/studies/stability.sh [OUTPUT_FOLDER]     default: out/stability
 # Stopped, it goes on where it was. `hagfish stress` judges a cell (experiments/stress/stress_judge.hpp).
 set -euo pipefail
@@ -114,4 +114,5 @@ list | sort -t$'\t' -k5,5gr | work "$cores" cells
   tail -qn 1 "$runs"/*.csv
 } >"$out/stability.csv"
 draw stability.py "$out/stability.csv" "$out"
+/usr/bin/python3 "$root/experiments/studies/reflex_limits.py" "$hagfish" "$out/reflex" "$out/tables/stability_reflex.csv"
 finish "$out/summary.md"
