@@ -310,7 +310,8 @@ def back_ends(rows: list[Row]) -> str:
     pairs = [(row, one(rows, law=row.law, rule=row.rule, bodies=row.bodies, step=row.step, back_end="active-set")) for row in done(rows, back_end="ipopt")]
     ratios = [slow.cpu / quick.cpu for slow, quick in pairs if quick]
     moved = [abs(slow.place - quick.place) for slow, quick in pairs if quick and slow.place is not None]
-    return f"Ipopt takes {min(ratios):.0f} to {max(ratios):.0f} times the CPU time of the active set; places are the same to {max(moved):.0e} cm."
+    return f"Ipopt takes {min(ratios):.0f} to {max(ratios):.0f} times the CPU time of the active set; errors of places are the same" \
+        + (" to each digit of the table." if max(moved) == 0 else f" to {max(moved):.0e} cm.")
 
 
 def draw(rows: list[Row], out: Path) -> None:
