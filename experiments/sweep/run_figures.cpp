@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "core/input/toml_range.hpp"
+#include "core/log/end_of_run.hpp"
 #include "core/log/log_writer.hpp"
 #include "core/run/laws.hpp"
 #include "experiments/audit/rebuilt.hpp"
@@ -104,6 +105,7 @@ void RunFigures::see(const StepRecord& record) {
   penetration_ = worse(penetration_, seen.penetration);
   limit_violation_ = worse(limit_violation_, seen.limit_violation);
   head_drift_ = worse(head_drift_, record.head_drift);
+  clamped_ = record.control.clamp_head;
   kkt_ = worse(kkt_, std::max(record.solution.kkt.worst(), record.solution.stationarity));
   lost_ = lost_ || !record.controller.lost.empty();
   if (record.step % stride_ == 0) {
@@ -116,6 +118,16 @@ void RunFigures::see(const StepRecord& record) {
     ++eq6_steps_since_;
     eq6_met_since_ += rows.any && rows.met ? 1 : 0;
   }
+}
+
+void RunFigures::see_end(const Simulation& sim) {
+  if (frames_.empty()) return;
+  const StepRecord end = end_record(model_, time_of(sim, scene_), sim, clamped_);
+  penetration_ = worse(penetration_, end.moment.observation.penetration);
+  limit_violation_ = worse(limit_violation_, end.moment.observation.limit_violation);
+  head_drift_ = worse(head_drift_, end.head_drift);
+  see_frame(end);
+  ended_ = true;
 }
 
 void RunFigures::see_frame(const StepRecord& record) {
@@ -238,7 +250,9 @@ std::optional<KnotWay> RunFigures::way(Phase phase, double Seen::*end) const {
 
 std::vector<PullMeans> RunFigures::pull() const {
   std::vector<PullMeans> means;
-  for (std::size_t f = 1; f < frames_.size(); ++f) {
+  // The means before the state at the end may be of less time.
+  const std::size_t count = frames_.size() - (ended_ ? 1 : 0);
+  for (std::size_t f = 1; f < count; ++f) {
     if (frames_[f - 1].phase == Phase::pull && frames_[f].phase == Phase::pull) {
       means.push_back({frames_[f].time, frames_[f].pull, frames_[f].plate});
     }

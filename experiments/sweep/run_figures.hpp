@@ -47,6 +47,8 @@ class RunFigures {
   RunFigures(const Model& model, const Scene& scene);
   /// Each step, in order, from step 0.
   void see(const StepRecord& record);
+  /// The run has ended as `sim`: no step follows.
+  void see_end(const Simulation& sim);
   /// How the run ended: "ok" or the outcome by name, and why.
   RunSummary summary(const std::string& outcome, const std::string& message) const;
 
@@ -82,7 +84,7 @@ class RunFigures {
   std::vector<Seen> frames_;
   std::string tightened_;             // type at the first frame of tightening
   Eigen::Matrix3Xd last_centreline_;  // at the last frame
-  bool lost_ = false;
+  bool lost_ = false, clamped_ = false, ended_ = false;
   double penetration_ = 0, limit_violation_ = 0, head_drift_ = 0, kkt_ = 0;
   double largest_thigmotaxis_ = 0, largest_active_ = 0;
   std::int64_t eq6_met_ = 0, eq6_steps_ = 0;              // of slides, up to the last frame

@@ -98,6 +98,7 @@ std::optional<SweepRun> run_for_summary(const ResolvedScene& resolved,
     figures.see(record);
     kept.write(record, sim, step_begin - begin);
   }
+  figures.see_end(sim);
   const std::string at = fmt::format("{} at step {}", message, sim.step);
   kept.finish(message.empty() ? "complete" : "failed: " + at, sim);
   return SweepRun{figures.summary(outcome, message.empty() ? "" : at), cpu_time};

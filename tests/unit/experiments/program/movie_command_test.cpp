@@ -42,7 +42,7 @@ TEST_F(MovieTest, HasAPictureForEachMomentOfItsSize) {
   EXPECT_EQ(probe("a.mp4"), "320,180,26\n");
   EXPECT_EQ(run_program("movie a.log --out b.mp4 --size 320x180 --speed 0.5 --colour contact").code,
             0);
-  EXPECT_EQ(probe("b.mp4"), "320,180,51\n");
+  EXPECT_EQ(probe("b.mp4"), "320,180,52\n");
   EXPECT_EQ(run_program("movie a.log --out c.gif --size 161x91 --speed 2").code, 0);
   EXPECT_EQ(probe("c.gif"), "161,91,7\n");
   for (const auto& entry : fs::directory_iterator(folder.path())) {

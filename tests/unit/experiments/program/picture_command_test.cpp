@@ -16,11 +16,11 @@ namespace hagfish::picture_command_test {
 namespace fs = std::filesystem;
 
 TEST_F(ProgramTest, PictureDrawsTheFramesAsked) {
-  // Frames at 0, 0.02 and 0.04 s.
+  // Frames at 0, 0.02 and 0.04 s, and the end.
   ASSERT_EQ(run_program("run --quiet --set time.duration=0.05 --out a.h5").code, 0);
   const ProgramOutcome one = run_program("picture a.h5 --out one.png");
   EXPECT_EQ(one.code, 0) << one.output;
-  EXPECT_NE(one.output.find("file\ttime_s\tleft_cm\tbottom_cm\tcm_per_pixel\none.png\t0.04\t"),
+  EXPECT_NE(one.output.find("file\ttime_s\tleft_cm\tbottom_cm\tcm_per_pixel\none.png\t0.05\t"),
             std::string::npos)
       << one.output;
   EXPECT_GT(fs::file_size(folder / "one.png"), 0u);
@@ -65,7 +65,7 @@ TEST_F(ProgramTest, PicturesOfASizeAreFramesOfAFilm) {
 TEST_F(ProgramTest, PictureRefusesBadInputInOneLine) {
   ASSERT_EQ(run_program(brief_run + "--out a.h5").code, 0);
   fs::rename(folder / "a.h5", folder / "a.log");  // expect_refused looks for logs left behind
-  expect_refused("picture a.log --out a.png --time 0.5", {"a.log", "--time 0.5", "0 to 0 s"});
+  expect_refused("picture a.log --out a.png --time 0.5", {"a.log", "--time 0.5", "0 to 0.02 s"});
   expect_refused("picture a.log --out a.png --time -1", {"a.log", "--time -1"});
   expect_refused("picture a.log --out a.png --time nan", {"a.log", "--time nan"});
   expect_refused("picture a.log --out a.png --pitch inf", {"--pitch", "inf"});
