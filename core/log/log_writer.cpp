@@ -247,12 +247,20 @@ LogWriter::LogWriter(const fs::path& file, const SavedRun& run, const Hdf5Reader
   for (const SeriesList& table : c.tables) {
     c.go_on(read, table, ended && table == frames ? 1 : 0);
   }
+  const bool whole = fs::exists(file);
   output_ = std::make_unique<OutputFile>(file, Existing::go_on);
   const fs::path next = output_->partial().string() + ".next";
-  read.write_to(next);
-  fs::rename(next, output_->partial());
-  unseal_file(output_->partial());
-  if (ended) drop_end_frame(output_->partial(), frames, frames.front()->rows() + 1);
+  try {
+    read.write_to(next);
+    unseal_file(next);
+    if (ended) drop_end_frame(next, frames, frames.front()->rows() + 1);
+    fs::rename(next, output_->partial());
+  } catch (...) {  // a log that cannot be gone on with stays as it was
+    std::error_code error;
+    fs::remove(next, error);
+    if (whole) output_->publish();
+    throw;
+  }
   c.log = run.log;
   c.wall_time = run.wall_time;
   c.clamped = clamps_head(run.resolved.scene, run.sim.controller.phase);

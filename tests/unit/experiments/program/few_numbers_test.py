@@ -39,10 +39,11 @@ def test_torques_of_the_numbers_are_what_the_run_took_beside_tone(folder):
     after = q + scene["time"]["step"] * log["/trajectory/qdot_next"][:, hinges]
     tone = scene["active"]["stiffness"] / span * (rest - after) + stiffness * rest
     frames = log.in_phase("slide")
+    frames = frames[frames < log.begun()]
     assert frames.size > 20
     wanted = (log["/forces/active"][:, hinges] - tone)[frames]
     assert np.abs(wanted).max() > 100
-    np.testing.assert_allclose(basis_torque(log)[frames], wanted, rtol=0, atol=1e-9 * np.abs(log["/forces/active"]).max())
+    np.testing.assert_allclose(basis_torque(log)[frames], wanted, rtol=0, atol=1e-9 * np.nanmax(np.abs(log["/forces/active"])))
 
 
 def test_a_profile_is_of_means_by_place():
