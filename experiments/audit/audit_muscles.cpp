@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/log/log_writer.hpp"
@@ -67,7 +68,12 @@ void MuscleAudit::see_law(const AuditedFrame& frame, Eigen::VectorXd& torque) {
     rebuilt_.compare(law_.numbers[k].path, at.numbers[k],
                      Eigen::VectorXd::Constant(at.numbers[k].size(), NAN));
   }
-  if (remembers && law_.torque != nullptr) torque += law_.torque(at);
+  // Without a contact in the slide a law does nothing and remembers nothing.
+  const bool acts =
+      remembers && std::ranges::all_of(at.numbers, [](const Eigen::VectorXd& numbers) {
+        return numbers.allFinite();
+      });
+  if (acts && law_.torque != nullptr) torque += law_.torque(at);
 }
 
 LoggedSituation MuscleAudit::situation(const AuditedFrame& frame) const {

@@ -271,7 +271,7 @@ def changed_since(commit: str) -> int | None:
         names = git("diff", "--name-only", "--no-renames", commit, "--", *CODE).split()
     except subprocess.CalledProcessError:
         return None
-    names = [name for name in names if not name.endswith(".md")]
+    names = [name for name in names if not name.endswith((".md", ".cmake"))]
     now = [(ROOT / name).read_text(encoding="utf-8", errors="replace") if (ROOT / name).is_file() else "" for name in names]
     return sum(without_comments(name, old) != without_comments(name, new) for name, old, new in zip(names, texts_of(commit, names), now))
 
