@@ -1,5 +1,5 @@
-// Pairs of segments that may touch, carried from one search for contacts to the next by bounds on
-// how far they have moved.
+// Pairs of segments that may touch. Each search for contacts passes them on to the next, with
+// bounds on how far the segments have moved.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,7 +16,8 @@ struct SegmentPair {
   int a = 0, b = 0;
 };
 
-/// Where segments meet, or the first begins or the last ends: one row each.
+/// Both ends of each segment: where two segments meet, where the first begins and where the last
+/// ends. One row for each.
 struct SegmentEnds {
   Eigen::MatrixX3d point;  ///< cm
   Eigen::MatrixX3d third;  ///< a third of the slope there, cm
@@ -25,13 +26,13 @@ struct SegmentEnds {
 /// The pairs of segments. `pairs`, `clear_until` and `closest` have an entry for each pair.
 struct Candidates {
   std::vector<SegmentPair> pairs;  ///< sorted
-  /// No evaluation is needed until both segments together have moved this far, cm.
+  /// The pair needs no evaluation until its two segments together have moved this far, cm.
   std::vector<double> clear_until;
   std::vector<std::optional<ClosestPoints>> closest;  ///< of the last evaluation
   std::vector<int> first;  ///< index of each segment's first pair; at the end, the number of pairs
   SegmentEnds ends;        ///< of the segments of the last search
-  std::vector<double> displacement;  ///< at most, by each segment since the pairs were listed, cm
-  /// Pairs that were evaluated since keep_candidates(); or all have changed.
+  std::vector<double> displacement;  ///< bound for each segment since the pairs were listed, cm
+  /// Pairs that were evaluated since the last keep_candidates(), unless all have changed.
   std::vector<int> changed;
   bool all_changed = true;
 
@@ -40,26 +41,26 @@ struct Candidates {
   }
 };
 
-/// Makes `segments` those of the last search, from which motion counts.
+/// Makes `segments` those of the last search. Motion is measured from there.
 void keep_ends(const std::vector<SplineSegment>& segments, Candidates& candidates);
 
-/// Finds `first` for the pairs of so many segments.
+/// Sets `first` for the pairs of this number of segments.
 void index_pairs(std::size_t segments, Candidates& candidates);
 
-/// Adds up how far the segments have moved. Once that is too far, lists anew the pairs whose
+/// Adds up how far the segments have moved. Once that is too far, lists the pairs again whose
 /// bounding spheres are near each other (paper, 3.1).
 void update_candidates(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
                        Candidates& candidates);
 
-/// Lists the pairs that may matter where the segments are now, in their order: those that have
-/// moved far enough since they were evaluated.
+/// Lists, in their order, the pairs that have moved far enough since their evaluation to need
+/// another one.
 void find_pairs_to_evaluate(const Candidates& candidates, std::vector<int>& pairs);
 
-/// Makes `kept` the same as `candidates`, from what has changed in them since the call before,
-/// which must have been with the same `kept`.
+/// Makes `kept` equal to `candidates` by copying the changes since the last call, which must have
+/// been with the same `kept`.
 void keep_candidates(Candidates& candidates, Candidates& kept);
 
-/// The pair of segments a and b, -1 where they are none.
+/// The pair of segments a and b, or -1 if they are not a pair.
 int find_pair(const Candidates& candidates, int a, int b);
 
 }  // namespace hagfish

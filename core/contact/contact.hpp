@@ -1,5 +1,5 @@
-// Contact of the swept skin: where strands of the body touch or nearly touch each other, or a
-// strand that is an obstacle.
+// Contact of the swept skin: where strands of the body touch or nearly touch each other or an
+// obstacle that is a strand.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,9 +18,9 @@ struct Contact {
   double t_a = 0, t_b = 0;
   double arc_a = 0, arc_b = 0;           ///< arc length from the head, cm; infinite on an obstacle
   double gap = 0;                        ///< cm; negative where the skins overlap
-  Eigen::Vector3d normal;                ///< unit, world, from b to a: the gap's rate along ẋ_a
+  Eigen::Vector3d normal;                ///< unit, world, from b to a: gradient of the gap by x_a
   Eigen::Vector3d tangent_a, tangent_b;  ///< unit, world, both to the tail
-  int obstacle = -1;                     ///< that strand b is; -1: the body itself
+  int obstacle = -1;                     ///< index of the obstacle that strand b is; -1: the body
 
   /// Body of the chain nearest to the point on strand a (b, where that is of the body).
   int body_a() const { return segment_a + (t_a >= 0.5 ? 1 : 0); }
@@ -28,28 +28,28 @@ struct Contact {
 };
 
 struct ContactSet {
-  /// Local minima of the gap up to the margin, sorted by arc_a, then arc_b: some 5 to 15 in a tight
-  /// knot. The gap is positive everywhere if it is at those.
+  /// Local minima of the gap up to the margin, sorted by arc_a, then arc_b: about 5 to 15 in a
+  /// tight knot. If the gap is positive at all of them, it is positive everywhere.
   std::vector<Contact> contacts;
   std::vector<Contact> on_obstacles;  ///< the same between the body and strands that are obstacles
-  /// Pairs that nearly touch but are no minimum. They matter only where a step makes them one.
+  /// Pairs that nearly touch but are not a minimum. They matter only if a step makes them one.
   std::vector<Contact> near_pairs;
   /// Least gap found, cm; at most the margin.
   double least_gap = 0;
 };
 
-/// Contact::normal between the points of `contact` where the segments are now.
+/// Contact::normal between the points of `contact`, with the segments where they are now.
 Eigen::Vector3d contact_normal(const std::vector<SplineSegment>& segments, const Contact& contact);
 
-/// Where the skins of `contact` meet: the middle between them on the line of its two points, where
-/// the segments are now; cm, world.
+/// Where the skins of `contact` meet: the middle between the skins on the line through its two
+/// points, with the segments where they are now; cm, world.
 Eigen::Vector3d skin_point(const std::vector<SplineSegment>& segments, const Contact& contact);
 
-/// The pair of spline points (segment_a, t_a) and (segment_b, t_b), whatever the gap there.
+/// A Contact of the spline points (segment_a, t_a) and (segment_b, t_b), whatever their gap.
 Contact contact_at(const std::vector<SplineSegment>& segments, int segment_a, double t_a,
                    int segment_b, double t_b);
 
-/// What a search knows of a pair so far. A pair is beaten where a neighbour has a smaller gap.
+/// What a search knows of a pair. A pair is `beaten` if a neighbour has a smaller gap.
 enum class PairState : char { unknown, queued, evaluated, beaten };
 
 /// Storage of one search.
@@ -61,18 +61,18 @@ struct ContactScratch {
   ClosestPointsSearch closest_points;
 };
 
-/// What a search for contacts keeps for the next one with the same settings. Pairs are skipped as
-/// long as they cannot have moved close enough. A new minimum is found at once where strands touch
-/// or come within the margin. Next to another minimum, and with a positive gap, it may be found
-/// some steps late.
+/// What a search for contacts keeps for the next one with the same settings. The search skips pairs
+/// that cannot have moved close enough. It finds a new minimum at once where strands touch or come
+/// within the margin. Beside another minimum, and with a positive gap, it may find one some steps
+/// late.
 struct ContactSearch {
   Candidates candidates;
   ContactScratch scratch;
 };
 
-/// Finds the contacts of `segments` (paper, 3.1: bounding spheres, then Eq. 5) into `set`. Of pairs
-/// that are no minimum, the first form lists those with a gap below `near` (cm), the second form
-/// those that overlap.
+/// Writes the contacts of `segments` into `set` (paper, 3.1: bounding spheres, then Eq. 5). Its
+/// near_pairs are pairs that are no minimum: those with a gap below `near` (cm) by the first
+/// function, those that overlap by the second.
 void find_contacts(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
                    double near, ContactSearch& search, ContactSet& set);
 ContactSet find_contacts(const std::vector<SplineSegment>& segments,

@@ -9,16 +9,17 @@
 
 namespace hagfish {
 
-/// The first contact is the smallest s_a, the last one the largest s_b, at which the gap to the
-/// nearest point of the other strand is no more than `gap` (ControllerSettings::contact_gap). They
-/// move as the body does: unlike minima of the gap, which hop along a strand from joint to joint,
-/// where such a level set ends is continuous, and it settles as bodies become more.
+/// The first contact is at the smallest s_a, and the last one at the largest s_b, at which the gap
+/// to the nearest point of the other strand is at most `gap` (ControllerSettings::contact_gap).
+/// These places move continuously with the body, and they converge as bodies become more. Minima of
+/// the gap do not: they hop along a strand from joint to joint.
 struct TouchingEnds {
   std::optional<Contact> first, last;  ///< both or none
 };
 
-/// `contacts` are the local minima of the gap of `segments`. Each part of the level set holds one
-/// that is no larger, so that from the outermost of these it goes on without a break.
+/// `contacts` are the local minima of the gap of `segments`. Each part of the level set contains a
+/// minimum whose gap is at most `gap`. So the search starts at the outermost of these minima and
+/// follows the level set from there.
 TouchingEnds touching_ends(const std::vector<SplineSegment>& segments,
                            const std::vector<Contact>& contacts, const ContactSettings& settings,
                            double gap);

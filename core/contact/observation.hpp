@@ -1,4 +1,4 @@
-// What a state looks like: kinematics, contacts and how far constraints are violated.
+// All that is derived from a state: kinematics, contacts and violations of constraints.
 #pragma once
 
 #include <vector>
@@ -12,7 +12,7 @@
 
 namespace hagfish {
 
-/// Found once per state, used by controller, constraints and log.
+/// Computed once for each state; used by controller, constraints and log.
 struct Observation {
   Kinematics kin;
   std::vector<SplineSegment> segments;  ///< of the body and of obstacles (obstacles.hpp)
@@ -22,13 +22,13 @@ struct Observation {
   double limit_violation = 0;  ///< largest angle past a limit, rad, >= 0
 };
 
-/// A state and what it looks like.
+/// A state and its observation.
 struct Moment {
   State state;
   Observation observation;
 };
 
-/// Observes `state` into the storage of `observation`; `search` carries the candidate pairs from
+/// Writes what follows from `state` into `observation`; `search` passes the candidate pairs from
 /// one state to the next.
 void observe(const Model& model, const State& state, const Scene& scene, ContactSearch& search,
              Observation& observation);
@@ -37,8 +37,8 @@ Observation observe(const Model& model, const State& state, const Scene& scene);
 void observe_placed(const Model& model, const State& state, const Scene& scene,
                     ContactSearch& search, Observation& observation);
 
-/// Largest displacement of the head from its clamped pose, cm: of either end and of its side, which
-/// shows a turn about its own axis.
+/// Largest displacement of the head from its clamped pose, cm. It is taken at both ends and at its
+/// side, which shows a rotation about its own axis.
 double head_drift(const Model& model, const Kinematics& kin);
 
 }  // namespace hagfish

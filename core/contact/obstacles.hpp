@@ -1,6 +1,6 @@
-// Obstacles as contact sees them. A plane holds bodies one by one. A strand is a part of the list
-// of segments, behind those of the body: what self-contact knows of two strands it knows of the
-// body and one that does not move.
+// Obstacles in the search for contacts. A plane holds bodies one by one. A strand adds segments
+// behind those of the body, so that the code of self-contact treats it as another strand that does
+// not move.
 #pragma once
 
 #include <vector>
@@ -11,14 +11,14 @@
 
 namespace hagfish {
 
-/// Gap of a body's sphere to a plane, cm, negative where it is behind it. `kin` needs positions
-/// only.
+/// Gap of a body's sphere to a plane, cm; negative where the sphere is behind the plane. `kin`
+/// needs positions only.
 inline double plane_gap(const Model& model, const Kinematics& kin, const Obstacle& plane,
                         int body) {
   return plane.normal.dot(kin.centre.col(body) - plane.point) - model.bodies[body].radius;
 }
 
-/// Calls `visit(obstacle, body, gap)` for each body that a plane holds, plane by plane; the first
+/// Calls `visit(obstacle, body, gap)` for each body that a plane holds, plane by plane; `obstacle`
 /// is the plane's index.
 template <class Visit>
 void visit_plane_gaps(const Model& model, const Kinematics& kin, Visit visit) {
@@ -35,28 +35,27 @@ void visit_plane_gaps(const Model& model, const Kinematics& kin, Visit visit) {
   }
 }
 
-/// Whether there is an obstacle of this index and it is a strand.
+/// Whether there is an obstacle with this index and it is a strand.
 bool has_strand(const Model& model, int obstacle);
 
-/// How many segments the curve of a strand has.
+/// Number of segments of a strand's curve.
 int segments_of(const Obstacle& strand);
 
-/// Points along the curve of a strand, 3 x N, cm, for what draws it: with straight lines between
-/// them it is off by some 0.1 % of its radius of curvature, where its points turn by 30 degrees.
+/// Points along the curve of a strand for drawing, 3 x N, cm. Straight lines between them are off
+/// by about 0.1 % of the radius of curvature where the strand's points turn by 30 degrees.
 Eigen::Matrix3Xd strand_curve(const Obstacle& strand);
 
-/// Where the segments of a strand begin in the list of update_segments().
+/// Index of a strand's first segment in the list of update_segments().
 int strand_begin(const Model& model, int obstacle);
 
-/// The parameter of the point of a strand at which `contact` is: counts the strand's segments.
+/// The strand's parameter at `contact`, which counts the strand's segments.
 double strand_parameter(const Model& model, const Contact& contact);
 
-/// How many segments the list of update_segments() has.
+/// Number of segments in the list of update_segments().
 int segment_count(const Model& model);
 
-/// The segments of the body, as update_spline(), and behind them those of each strand. Before each
-/// strand lies one that is no part of anything and near to nothing, so that no two strands share
-/// an end.
+/// Writes the segments of the body, as update_spline() does, and behind them those of each strand.
+/// A far-away dummy segment lies before each strand, so that no two strands share an end.
 void update_segments(const Model& model, const Eigen::Matrix3Xd& centre,
                      std::vector<SplineSegment>& segments);
 

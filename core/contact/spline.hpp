@@ -1,7 +1,7 @@
-// The uniform Catmull-Rom spline through the body centres: the animal's cartilaginous spine (paper,
-// Figure 3a), carrying a radius linear in the parameter. Uniform, not centripetal: its weights
-// depend on the parameter alone, so a spline point is a fixed mix of body centres and its velocity
-// the same mix of theirs.
+// The uniform Catmull-Rom spline through the body centres, with a radius linear in the parameter:
+// the animal's cartilaginous spine (paper, Figure 3a). The weights of a uniform spline depend on
+// the parameter alone. So a spline point is a fixed mix of body centres, and its velocity is the
+// same mix of their velocities. A centripetal spline would not have this property.
 #pragma once
 
 #include <Eigen/Core>
@@ -32,7 +32,7 @@ struct SplineSegment {
                                    ///< infinite where it is no part of the body
   Eigen::Vector3d middle;          ///< centre of a sphere that holds the skin of the segment, cm
   double bound = 0;                ///< its radius, cm
-  int obstacle = -1;               ///< that it is a part of; -1: the body itself
+  int obstacle = -1;               ///< index of its obstacle; -1: the body
 
   Eigen::Vector3d point(double t) const { return c0 + t * (c1 + t * (c2 + t * c3)); }
   Eigen::Vector3d slope(double t) const { return c1 + t * (2 * c2 + 3 * t * c3); }

@@ -9,23 +9,23 @@
 
 namespace hagfish {
 
-/// What the muscles can give of a torque.
+/// How well the muscles can produce a torque.
 struct MuscleEffort {
   Eigen::VectorXd activation;  ///< a, of each of Model::muscles, 0 to 1
   Eigen::VectorXd residual;    ///< torque - R a F_max, dyn cm, nv; 0 at the root
 };
 
-/// w of the problem below is this over the square of what the joint's muscles give at full
-/// activation, |R F_max|^2: where they are strong enough, torques are met to 1e-6 of that, and
-/// among activations that meet them 1/2 |a|^2 still counts.
+/// w of the problem below is this over |R F_max|^2, the square of what the joint's muscles give at
+/// full activation. Strong enough muscles then meet torques to 1e-6 of that, and among activations
+/// that meet them 1/2 |a|^2 still decides.
 inline constexpr double residual_weight = 1e6;
 
-/// min 1/2 |a|^2 + w |R a F_max - torque|^2 with 0 <= a <= 1, joint by joint, since no muscle
-/// crosses two. A box QP each, in the activations. Keeps its storage.
+/// Solves min 1/2 |a|^2 + w |R a F_max - torque|^2 with 0 <= a <= 1, joint by joint, since no
+/// muscle crosses two joints. Each is a box QP in the activations. Keeps its storage.
 class ActivationSolver {
  public:
-  /// Of `torque` (nv, dyn cm; its root entries do not matter) in the shape of `kin`. Throws
-  /// std::invalid_argument for a torque that is not finite, and std::logic_error where the back end
+  /// The effort for `torque` (nv, dyn cm; its root entries do not matter) in the shape of `kin`.
+  /// Throws std::invalid_argument if a torque is not finite, and std::logic_error if the back end
   /// fails.
   void solve(const Model& model, const Kinematics& kin, const Eigen::VectorXd& torque,
              MuscleEffort& effort);

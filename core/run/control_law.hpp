@@ -1,7 +1,6 @@
-// How a controller of one's own is written: a control law says what the animal does in a step, from
-// what the run is like at its start. What the laws here have in common, the phases of the
-// experiment and the contacts that are the knot's first and last one, is the controller's
-// (controller.hpp).
+// How to write a controller. A control law decides what the animal does in a step, from the state
+// of the run at the step's start. All laws share the phases of the experiment and the knot's first
+// and last contact, which the controller provides (controller.hpp).
 //
 //   ControlLaw lazy = [](const Situation& at, Eigen::VectorXd&, Control& control) {
 //     paper_law(at, control);
@@ -34,17 +33,18 @@ struct Situation {
   const ControllerState& so_far;  ///< phase, knot, its first and last contact
 };
 
-/// Writes into `control` what the step from `at` shall do. It comes with the head clamped as the
-/// scene has it for the phase, the rest shape of the last step (empty at first), no tip force, no
-/// commands and torques that are 0 or empty. `memory` is the law's own: what it keeps from step to
-/// step, as numbers of any meaning; empty at first, saved in checkpoints, and as it was where a
-/// step cannot be taken. A law that keeps anything else is not resumed as it was. May throw, which
-/// take_step passes on.
+/// Writes into `control` what the step from `at` does. At the call `control` holds the scene's
+/// clamp of the phase and the rest shape of the last step (empty at first). It holds no tip force
+/// and no commands, and its torques are 0 or empty. `memory` is for the law: what it keeps from
+/// step to step, as numbers of any meaning. It is empty at first, saved in checkpoints, and
+/// restored where a step cannot be taken. A law that keeps anything else does not resume as it was.
+/// The law may throw; take_step passes this on.
 using ControlLaw =
     std::function<void(const Situation& at, Eigen::VectorXd& memory, Control& control)>;
 
 /// The paper's law (3.2): the script while the knot forms, then Eq. 6 at the first and last contact
-/// at the commanded speeds of the phase; the rest shape of a scene that has a curvature program.
+/// at the commanded speeds of the phase. In a scene with a curvature program it also sets the rest
+/// shape.
 void paper_law(const Situation& at, Control& control);
 
 /// The left sides of Eq. 6 at `contact` where both strands run along themselves,
@@ -53,26 +53,27 @@ void paper_law(const Situation& at, Control& control);
 ///     t_a . (ẋ_a - ẋ_b) = speed.a - speed.b t_a . t_b
 ///     t_b . (ẋ_b - ẋ_a) = speed.b - speed.a t_a . t_b
 ///
-/// At one speed v both are v (1 - t_a . t_b): v where strands cross at right angles, 2 v where they
-/// run past each other, 0 side by side. There the paper's, v on both rows, contradict each other:
-/// they ask for w along t_a and against it. This motion meets both at any angle.
+/// At one speed v both are v (1 - t_a . t_b). This is v where strands cross at right angles, 2 v
+/// where they run in opposite directions, and 0 side by side. The paper has v on both rows. Side by
+/// side these contradict each other, as they ask for v along t_a and against it. The motion above
+/// meets both rows at any angle.
 ThigmotaxisSpeeds slip_of_shape(const Contact& contact, const ThigmotaxisSpeeds& speed);
 
-/// The paper's and Eq. 6 at every other contact that touches, while the knot slides: the slip that
-/// its strands have at the head contact's speeds (addition).
+/// The paper's law, and while the knot slides also Eq. 6 at every other touching contact, with the
+/// slip of its strands at the head contact's speeds (addition).
 void all_contacts_law(const Situation& at, Control& control);
 
-/// The paper's, with the commanded speeds of the slide scaled by the knot's measured speed:
+/// The paper's law with the speeds of the slide scaled by feedback of the knot's measured speed:
 /// KnotSpeedSettings (addition). `memory`: smoothed arc length of the head end, cm; scale.
 void knot_speed_law(const Situation& at, Eigen::VectorXd& memory, Control& control);
 
-/// What to say besides where a step by `control` ended so: explicit torques that grow from step to
-/// step have a cure. Empty where that is not the case.
+/// Advice to add to `status` if explicit torques of `control` may have made the step fail by
+/// growing from step to step. Else empty.
 std::string cure_of_torque(const Control& control, const Status& status);
 
-/// Throws std::invalid_argument in one line where `control` is none for a step of `model`: a vector
-/// of another length or with an entry at the root, a number that is not finite, a contact off the
-/// body, two commands where one may be, a negative rate or effort.
+/// Throws std::invalid_argument with one line if `control` does not fit a step of `model`: a vector
+/// of the wrong length or with an entry at the root, a number that is not finite, a contact off the
+/// body, two commands at one place, a negative rate or effort.
 void check_control(const Model& model, const Control& control);
 
 }  // namespace hagfish

@@ -1,6 +1,6 @@
-// The controller (paper, 3.2): forms the knot by script, then tightens and slides it by positive
-// thigmotaxis, then lets the head go. It switches by knot type and knot span, never by eye; what is
-// done in each phase is a control law's (control_law.hpp).
+// The controller (paper, 3.2): forms the knot by a script, then tightens and slides it by positive
+// thigmotaxis, then releases the head. It switches phases by knot type and knot span alone. A
+// control law decides what is done in each phase (control_law.hpp).
 #pragma once
 
 #include <limits>
@@ -16,13 +16,13 @@
 
 namespace hagfish {
 
-/// A knot that was there and is gone: its type, and between which times it was seen, s.
+/// The last knot that came undone: its type, and between which times it was seen, s.
 struct PastKnot {
   KnotInvariants type;
   double from = 0, to = 0;
 };
 
-/// The pull at the food since a mean of it was last taken.
+/// The pull at the food since its mean was last taken.
 struct PullSum {
   double sum = 0;  ///< of the steps' pulls, dyn
   int steps = 0;
@@ -35,7 +35,7 @@ struct ControllerState {
   KnotVote knot;           ///< as last seen
   double knot_seen = -std::numeric_limits<double>::infinity();  ///< when that was, s
   double knot_from = 0;                                         ///< when it became of that type, s
-  PastKnot past;      ///< the last one before it; an unknot where there was none
+  PastKnot past;      ///< the last knot before it; an unknot where there was none
   std::string lost;   ///< where the scene only warns: how the knot was lost; empty before that
   TouchingEnds ends;  ///< the knot's first and last contact
   PullSum pull;
@@ -43,7 +43,7 @@ struct ControllerState {
   Eigen::VectorXd memory;      ///< of the control law
 };
 
-/// Where the knot begins and ends: arc length of the first and the last contact, cm.
+/// Where the knot begins and ends: arc lengths of the first and the last contact, cm.
 struct KnotSpan {
   double head_end = 0, tail_end = 0;
 };
@@ -52,28 +52,27 @@ std::optional<KnotSpan> knot_span(const ControllerState& controller);
 /// Whether the head is clamped in a phase.
 bool clamps_head(const Scene& scene, Phase phase);
 
-/// How hard the head pulls at what clamps it, away from it along +x, by the head clamp's
-/// generalised force (nv), dyn.
+/// The force by which the head pulls at its clamp, along +x away from it, dyn, from the generalised
+/// force of the head clamp (nv).
 inline double pull_of(const Eigen::VectorXd& head) { return -head[0]; }
 
-/// Adds the pull of a step as solved, where the knot pulls.
+/// Adds the pull of a solved step while the knot pulls.
 void note_pull(const StepSolution& step, ControllerState& controller);
 
-/// Follows the contacts and switches phases at the start of the step from `time`. Not ok
-/// (never_tied) where the script ends without the scene's knot, or with too little tail through it,
-/// and (knot_lost) where that knot goes before it may, unless the scene only warns. The message
-/// says which knot there is, since when.
+/// Follows the contacts and switches phases at the start of the step from `time`. The status is
+/// never_tied if the script ends without the scene's knot, or with too little tail through it. It
+/// is knot_lost if the knot comes undone too early, unless the scene only warns. The message names
+/// the knot that is there, and since when.
 Status follow(const Model& model, const Scene& scene, const Moment& now, double time,
               ControllerState& controller);
 
-/// What that step shall do, by `own` law or, where there is none, by the one that the scene
-/// names.
-/// Throws what the law does, and std::invalid_argument where the scene's law and `own` do not fit,
-/// or the control is none (check_control).
+/// Decides the control of that step, by `own` law or, without one, by the law that the scene names.
+/// Throws what the law throws, and std::invalid_argument if the scene's law and `own` do not fit,
+/// or if the control is invalid (check_control).
 void command(const Model& model, const Scene& scene, const Moment& now, double time,
              const ControlLaw& own, NamedLaw& named, ControllerState& controller, Control& control);
 
-/// Both, one after the other.
+/// Calls both functions in turn.
 Status decide(const Model& model, const Scene& scene, const Moment& now, double time,
               NamedLaw& named, ControllerState& controller, Control& control,
               const ControlLaw& own = {});

@@ -1,4 +1,4 @@
-// What every run is watched for: signs that its figures are no longer to be believed.
+// Guards: checks at every step that a run's figures can still be trusted.
 #pragma once
 
 #include <bitset>
@@ -13,13 +13,13 @@
 
 namespace hagfish {
 
-/// Since when a thigmotaxis row has been at its cap.
+/// The time since which a row of Eq. 6 has been at its cap.
 struct CapWatch {
   std::int64_t id = 0;  ///< Row::id
   double since = 0;     ///< s
 };
 
-/// What a run remembers of its watches.
+/// Memory of a run's guards.
 struct Watch {
   std::bitset<outcome_count> warned;  ///< warnings given: each cause once a run
   std::vector<CapWatch> capped;       ///< the thigmotaxis rows at their caps, by id
@@ -28,42 +28,43 @@ struct Watch {
   bool has_warned(Outcome of) const { return warned.test(static_cast<std::size_t>(of)); }
 };
 
-/// A status of this outcome and message where the scene stops at it; else ok, and the message is
-/// added to `warnings` the first time.
+/// A status of this outcome and message if `action` is to stop. Else ok, and the message joins
+/// `warnings` if it is the first of its outcome.
 Status report(Outcome outcome, const std::string& message, GuardAction action, Watch& watch,
               std::vector<std::string>& warnings);
 
-/// Body speeds a step has come to, before it moves anything: over guard.speed, or so far in one
-/// step that its path cannot be looked along (most_path_samples times constraints.stride).
+/// Checks body speeds of a solved step before anything moves: over guard.speed, or so far in one
+/// step that its path cannot be checked (most_path_samples times constraints.stride).
 Status guard_speed(const Eigen::Matrix3Xd& centre_velocity, const Scene& scene);
 
-/// The moment that a step led to, and the deepest overlap on the way there (`crossing`, cm).
-/// Messages name the bodies or joint furthest out and the setting that would help.
+/// Checks the state after a step, and the deepest overlap on the way there (`crossing`, cm).
+/// Messages name the bodies or the joint with the largest violation, and the setting that would
+/// help.
 Status guard_state(const Model& model, const Moment& moment, double crossing, const Scene& scene,
                    Watch& watch, std::vector<std::string>& warnings);
 
-/// Energy that the integrator has made since the sum of its own terms was lowest (impacts lower
-/// it), against what there was before this step: the largest kinetic and elastic energy, and what
-/// drag and damping took. Where the scene says hold and the rule is Euler's, the excess is taken
-/// back: the velocities of `moment` are scaled down by one factor, and the ledger books it.
+/// Checks the energy that the integrator has made since the sum of its own terms was lowest
+/// (impacts lower it). The reference is what there was before this step: the largest kinetic and
+/// elastic energy, and the loss by drag and damping. With action `hold` and Euler's rule the excess
+/// is taken back: one factor scales the velocities of `moment` down, and the ledger books it.
 Status guard_energy(const Model& model, const Scene& scene, Moment& moment, EnergyLedger& ledger,
                     Watch& watch, std::vector<std::string>& warnings);
 
-/// Momentum that the integrator has made since the head was last held, over guard.momentum_gain of
-/// the most that a body of the largest energy so far can have: warns. The ledgers are those
-/// `before` the step `in` and after it.
+/// Warns if the momentum that the integrator has made since the head was last held exceeds
+/// guard.momentum_gain. The reference is the largest momentum that a body can have with the largest
+/// energy so far. The ledgers are those `before` the step `in` and after it.
 void guard_momentum(const StepInput& in, const MomentumLedger& before, const MomentumLedger& now,
                     const EnergyLedger& energy, Watch& watch, std::vector<std::string>& warnings);
 
-/// A thigmotaxis row whose force has been at its cap for longer than the scene permits: warns and
-/// names the rows that resist it most; not in the phase `pull`, where rows give all they may. `kin`
-/// is that of the step's start.
+/// Warns of a row of Eq. 6 whose force has been at its cap for longer than the scene permits, and
+/// names the rows that resist it most. It does not warn in the phase `pull`, where rows may give
+/// all they can. `kin` is that of the step's start.
 void guard_cap(const Model& model, const Kinematics& kin, const Scene& scene, Phase phase,
                const StepSolution& step, double time, Watch& watch,
                std::vector<std::string>& warnings);
 
-/// What the animal cannot do: warns, naming the joint, of a rest shape beyond a joint's limit by
-/// more than `guard.limit_violation`, and of muscles at their capacity, in the step from `time`.
+/// Warns of what the animal cannot do in the step from `time`, and names the joint: a rest shape
+/// beyond a joint's limit by more than `guard.limit_violation`, or muscles at their capacity.
 void guard_muscles(const Model& model, const Scene& scene, const Control& control, double time,
                    Watch& watch, std::vector<std::string>& warnings);
 

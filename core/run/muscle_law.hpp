@@ -24,29 +24,31 @@ struct MuscleStorage {
 };
 
 /// Activations alone move the animal: no rows of Eq. 6, no torques towards a rest shape.
-/// Excitations e are those activations that would give what the paper's law asks for in this step,
-/// u + f_thigmo, by the step solved with its rows and not taken; activations follow them by
-/// first-order dynamics, a' = (e - a) / activation_time, and act as R(q) a F_max, constant within
-/// the step. While the knot forms, u is a stiff spring towards the program's shape, about which a
-/// body whose muscles lag would swing ever further: what is asked for is u as it will be
-/// activation_time later, towards the shape then from where the motion leads, which takes the lag
-/// out of that loop. Tone, which follows the body, resists motion only and needs no such
-/// thing. From release on nothing is excited, and the body's own stiffness pushes the knot off and
-/// straightens it: what is excited when the knot comes off would throw the body. A script's tip
-/// force and the head's clamp stay as they are. What f_thigmo does at the root, where no muscle
-/// holds, is left out.
+/// Excitations e are the activations that would give the torques of the paper's law, u + f_thigmo.
+/// A step that is solved with the paper's rows and not taken yields these torques. Activations
+/// follow the excitations, a' = (e - a) / activation_time. They act as R(q) a F_max, constant
+/// within the step.
 ///
-/// `memory`: the rest shape of the paper's law (nv), then the activations. Throws StepError where
-/// the step that is not taken cannot be solved.
+/// While the knot forms, u is a stiff spring towards the program's shape. A body whose muscles lag
+/// would swing about this shape with growing amplitude. So the law asks for u as it will be after
+/// activation_time, from where the motion leads to the shape then. This removes the lag. Tone,
+/// which follows the body, only resists motion and does not need it. From the release on nothing is
+/// excited, since the torques would throw the body as the knot comes off. The body's own stiffness
+/// then pushes the knot off and straightens the body. A script's tip force and the head's clamp
+/// stay as they are. The law leaves out f_thigmo at the root, where there is no muscle.
+///
+/// `memory`: the rest shape of the paper's law (nv), then the activations. Throws StepError if the
+/// step that is not taken cannot be solved.
 void muscle_law(const Situation& at, Eigen::VectorXd& memory, Control& control,
                 MuscleStorage& storage);
 
-/// The step of a law that moves the animal by activations alone: those at the end of its `memory`,
-/// 0 to 1, one for each of Model::muscles, follow `excitation` and make the torques of `control`.
+/// The step of a law that moves the animal by activations alone. The activations are the end of its
+/// `memory`, 0 to 1, one for each of Model::muscles. They follow `excitation` and make the torques
+/// of `control`.
 void drive_muscles(const Situation& at, const Eigen::VectorXd& excitation, Eigen::VectorXd& memory,
                    Control& control);
 
-/// What keeps a scene from having such a law.
+/// The reason why a scene cannot have such a law, if any.
 std::optional<SceneFault> driven_fault(const Scene& scene);
 
 inline constexpr LawNumbers driven_numbers[] = {

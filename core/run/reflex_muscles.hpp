@@ -16,11 +16,11 @@ struct ReflexMusclesStorage {
   MuscleEffort wanted;
 };
 
-/// Activations alone move the animal: excitations are those activations that would give the torques
-/// of reflex_law, and activations follow them by first-order dynamics. While the knot forms they
-/// are asked for ahead of that lag, and from release on nothing is excited, as in muscle_law.
+/// Activations alone move the animal. Excitations are the activations that would give the torques
+/// of reflex_law, and the activations follow them by first-order dynamics. While the knot forms,
+/// excitations are ahead by that lag, and from the release on nothing is excited, as in muscle_law.
 ///
-/// `memory`: that of reflex_law, filled up where it is empty, then the activations.
+/// `memory`: that of reflex_law, padded where it is empty, then the activations.
 void reflex_muscles_law(const Situation& at, Eigen::VectorXd& memory, Control& control,
                         ReflexMusclesStorage& storage);
 

@@ -14,7 +14,7 @@
 
 namespace hagfish {
 
-/// What a step changes before it is sure to be taken, as it was: storage of take_step.
+/// Storage of take_step: copies of what a step changes before it is certain to be taken.
 struct BeforeStep {
   ControllerState controller;
   WarmStart warm;
@@ -24,7 +24,7 @@ struct BeforeStep {
   Candidates candidates;  ///< of the search
 };
 
-/// Set while a step is under way, by which a second one of the same simulation is refused. A copy
+/// Set while a step is under way, so that a second step of the same simulation is refused. A copy
 /// has no step under way.
 class StepUnderWay {
  public:
@@ -56,19 +56,19 @@ struct Simulation {
   StepUnderWay under_way = {};
 };
 
-/// As the scene starts, at time 0. `back_end`: one of box_qp_solver_names(). Throws
-/// std::invalid_argument otherwise, and of a model without bodies.
+/// A run at time 0 of the scene. `back_end`: one of box_qp_solver_names(). Throws
+/// std::invalid_argument for another name, and for a model without bodies.
 Simulation start(const Model& model, const Scene& scene, const std::string& back_end);
 
-/// From a state of another run: `controller` says which phase it is in. Throws as start, and
-/// std::invalid_argument of a state that is not of `model`.
+/// A run from a state of another run; `controller` has its phase. Throws as start does, and
+/// std::invalid_argument for a state that does not fit `model`.
 Simulation start_from(const Model& model, const Scene& scene, const std::string& back_end,
                       State state, ControllerState controller, std::int64_t step);
 
-/// Goes on in another scene of the same chain, with another time step at the same time: contacts
-/// are found anew, energy and momentum that the change brings count as there from the start, and a
-/// memory or rest shape that the scene's law does not have is dropped.
-/// Throws std::invalid_argument where the state is not of `model`, or its time no multiple of the
+/// Continues in another scene of the same chain, perhaps with another time step, at the same time.
+/// Contacts are searched again. Changes of energy and momentum by the new scene count as there from
+/// the start. A memory or rest shape that the scene's law does not have is dropped. Throws
+/// std::invalid_argument if the state does not fit `model`, or if its time is not a multiple of the
 /// frame interval.
 void change_scene(const Model& model, const Scene& before, const Scene& scene, Simulation& sim);
 
@@ -76,10 +76,10 @@ inline double time_of(const Simulation& sim, const Scene& scene) {
   return static_cast<double>(sim.step) * scene.time.step;
 }
 
-/// The scene is over: the knot has been gone for long enough, or its duration has passed.
+/// Whether the scene is over: the knot has been gone for long enough, or its duration has passed.
 bool finished(const Simulation& sim, const Scene& scene);
 
-/// What a step began with and did. `sim` has moved on by the time it is read.
+/// The start and the result of a step. `sim` has moved on when it is read.
 struct StepRecord {
   std::int64_t step = 0;
   double time = 0;  ///< s
@@ -90,21 +90,22 @@ struct StepRecord {
   EnergyLedger ledger;      ///< up to `time`
   MomentumLedger momentum;  ///< up to `time`
   double head_drift = 0;    ///< cm; 0 while the head is free
-  double crossing = 0;      ///< deepest overlap on the way to the next state, cm; 0 of a short way
-  double left_out = 0;      ///< of the step's motion, at its end, where strands meet too fast, s
-  /// What this step gave rise to for the first time (guard.hpp).
+  double crossing = 0;      ///< deepest overlap on the path to the next state, cm; 0 if it is short
+  double left_out = 0;      ///< time at the step's end left out as strands met too fast, s
+  /// Warnings that this step was the first to cause (guard.hpp).
   std::vector<std::string> warnings;
 };
 
-/// Throws std::invalid_argument where `sim` is not of `model`, as one that was moved from.
+/// Throws std::invalid_argument if `sim` does not fit `model`, for example after a move.
 void require_of(const Model& model, const Simulation& sim);
 
-/// Takes one step, writing into the storage of `record`. Throws StepError, with the outcome by
-/// name, where it cannot; std::invalid_argument where `sim` is not of `model`; std::logic_error
-/// where a step of `sim` is under way, as in a law or another thread. Whatever it throws, `sim` is
-/// then as it was, but for storage whose contents do not matter; a step with another scene goes on
-/// as if nothing had been. `record` then has its step and time, the controller as far as it came
-/// and, where a guard refused the moment that the step led to, that moment.
+/// Takes one step, and writes into the storage of `record`. Throws StepError with a named outcome
+/// if the step cannot be taken. Throws std::invalid_argument if `sim` does not fit `model`, and
+/// std::logic_error if a step of `sim` is under way, for example in a law or another thread. After
+/// any of these `sim` is as it was, except storage whose contents do not matter. A step with
+/// another scene then works as if nothing had happened. `record` then has the step, its time and
+/// the controller up to the failure. If a guard refused the state after the step, it also has that
+/// state.
 void take_step(const Model& model, const Scene& scene, Simulation& sim, StepRecord& record);
 StepRecord take_step(const Model& model, const Scene& scene, Simulation& sim);
 

@@ -10,13 +10,13 @@
 
 namespace hagfish {
 
-/// The problem on `rows` (m): `factor` of H, `base` the velocity q̇* without their forces (nv),
-/// by which the bodies move as `bodies` says. `columns` is storage.
+/// The problem on `rows` (m). `factor` is that of H. `base` is the velocity q̇* without the forces
+/// of these rows (nv), and `bodies` has the motion of the bodies at it. `columns` is storage.
 void assemble_dual(const Model& model, const Kinematics& kin, const ArticulatedFactor& factor,
                    std::span<const Row> rows, const Eigen::VectorXd& base,
                    const BodyVelocities& bodies, RowColumns& columns, BoxQp& qp);
 
-/// The problem of a step on all of `rows`, with nothing prescribed, from Eq. 1 as assembled.
+/// The problem of a step on all of `rows`, from Eq. 1 as assembled. No row is prescribed.
 BoxQp whole_dual(const Model& model, const Kinematics& kin, const StepSystem& system,
                  std::span<const Row> rows);
 

@@ -1,5 +1,5 @@
-// The paper's rule of time: equations hold at the start of a step, which moves by the velocity that
-// it ends with.
+// The paper's time rule: the equations hold at the start of a step, and the step moves by the
+// velocity that it ends with.
 #pragma once
 
 #include "core/step/step_rule.hpp"

@@ -1,5 +1,5 @@
-// The paper's step as printed (3.1, Eqs. 1 to 4), on dense matrices and unhurried: the reference
-// for the step that the simulator takes, and what `hagfish record-qp --primal` records.
+// The paper's step as printed (3.1, Eqs. 1 to 4), on dense matrices and without regard to speed. It
+// is the reference for the simulator's step, and `hagfish record-qp --primal` records it.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,8 +11,8 @@
 
 namespace hagfish {
 
-/// J of one body, 6 x nv, about kin.reference (RedMax): the axes of the velocities ahead of it,
-/// zero behind.
+/// J of one body, 6 x nv, about kin.reference (RedMax): the axes of the velocities of the joints
+/// before it, and zeros for those behind it.
 Matrix6Xd body_jacobian(const Model& model, const Kinematics& kin, int body);
 
 /// Jacobian of a body's centre, 3 x nv, and of its material point at `offset` from kin.reference.

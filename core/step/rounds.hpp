@@ -1,5 +1,6 @@
-// Eqs. 3 and 4 of a step on its rows, in rounds: from Eq. 1 and rows near binding to multipliers
-// and the velocity that meets all rows. Knows no time rule: where the equations hold is given.
+// Eqs. 3 and 4 of a step on its rows, in rounds. They lead from Eq. 1 and the rows near binding to
+// multipliers and a velocity that meets all rows. They do not depend on the time rule, which gives
+// the place where the equations hold.
 #pragma once
 
 #include <functional>
@@ -16,11 +17,11 @@
 
 namespace hagfish {
 
-/// Eq. 3 or 4 of a step in its last round: how velocities answer to forces, and rows to
+/// Eq. 3 or 4 of a step in its last round: the response of velocities to forces, and of rows to
 /// multipliers.
 struct RowProblem {
-  ArticulatedFactor factor;                    ///< H⁻¹, with `prescribed` kept
-  std::vector<PrescribedVelocity> prescribed;  ///< velocities that rows prescribe
+  ArticulatedFactor factor;                    ///< H⁻¹ at fixed `prescribed` velocities
+  std::vector<PrescribedVelocity> prescribed;  ///< velocities of the prescribed rows
   Eigen::VectorXd base;                        ///< q̇ with the prescribed rows alone, nv
   Matrix6Xd base_twist;                        ///< twists of the bodies at `base`, 6 x N
   Eigen::Matrix3Xd base_centre_velocity;       ///< velocities of their centres, 3 x N, cm/s
@@ -31,8 +32,7 @@ struct RowProblem {
   BodyVelocities base_bodies() const { return {base_twist, base_centre_velocity}; }
 };
 
-/// Solves steps round by round, one step after the other. Copies have a back end and storage of
-/// their own.
+/// Solves steps round by round, one step after the other. A copy has its own back end and storage.
 class Rounds {
  public:
   /// `back_end`: one of box_qp_solver_names(). Throws std::invalid_argument otherwise.
@@ -43,20 +43,20 @@ class Rounds {
   Rounds& operator=(Rounds&&) = default;
   ~Rounds() = default;
 
-  /// Eq. 1 and the rows at `place`, with those of step.path_rows, and Eq. 3 or 4: step.qdot is a
-  /// velocity that meets all rows. Not ok where a number is not finite, rows contradict each other
-  /// or the back end fails.
+  /// Solves Eq. 1, and Eq. 3 or 4 on the rows at `place` and those of step.path_rows: step.qdot
+  /// becomes a velocity that meets all rows. Not ok where a number is not finite, rows contradict
+  /// each other or the back end fails.
   Status begin(const StepInput& in, const StepPlace& place, const WarmStart& warm,
                StepSolution& step);
 
-  /// Eq. 3 or 4 again, after rows were added to step.rows. Status as above.
+  /// Solves Eq. 3 or 4 again, after rows were added to step.rows. Status as above.
   Status resume(const StepInput& in, const StepPlace& place, const WarmStart& warm,
                 StepSolution& step);
 
   /// As StepSolver::stop_when.
   void stop_when(std::function<bool()> asked);
 
-  /// That of the last step.
+  /// The problem of the last step.
   const RowProblem& problem() const { return problem_; }
 
  private:
@@ -75,7 +75,7 @@ class Rounds {
   std::unique_ptr<BoxQpSolver> solver_;
   RowProblem problem_;
   bool factor_known_ = false;  ///< problem_.factor is of this step's Eq. 1
-  // Storage. A step of as many rows as the one before allocates nothing.
+  // Storage. A step with as many rows as the last one allocates nothing.
   std::vector<Row> violated_;                       ///< rows that the last answer violates
   std::vector<std::pair<int, std::size_t>> order_;  ///< of the rows: place_in_step, index
   std::vector<Row> ordered_;

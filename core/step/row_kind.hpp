@@ -20,9 +20,9 @@ enum class RowKind : std::uint8_t {
 
 struct RowKindEntry {
   RowKind value;
-  const char* name;  ///< in logs; obstacles' is older than they are
+  const char* name;  ///< in logs; "wall" dates from before other obstacles
   const char* description;
-  bool from_outside = false;  ///< what lies outside the animal pushes it; else forces are internal
+  bool from_outside = false;  ///< whether forces come from outside the animal
 };
 
 /// In the order in which logs and tables have them.
@@ -34,7 +34,7 @@ inline constexpr TableOf<RowKindEntry> row_kind_table{
      {RowKind::obstacle, "wall", "head plate and other obstacles", true}}};
 static_assert(lists_each_once(row_kind_table));
 
-/// In the order of the enumeration, in which sums are taken.
+/// In the order of the enumeration, which is the order of sums.
 inline constexpr auto row_kinds = [] {
   std::array<RowKind, row_kind_table.size()> kinds{};
   for (std::size_t k = 0; k < kinds.size(); ++k) kinds[k] = static_cast<RowKind>(k);

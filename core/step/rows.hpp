@@ -1,6 +1,6 @@
-// Constraint rows C q̇ >= d and G q̇ = e of the step's QP (paper, Eqs. 3, 4 and 6), all kept as one
-// list: a row is a unit dof, two dofs of a joint or the relative motion of two points, with bounds
-// on its multiplier.
+// Constraint rows C q̇ >= d and G q̇ = e of the step's QP (paper, Eqs. 3, 4 and 6), in one list. A
+// row constrains a single dof, two dofs of a joint, or the relative motion of two points. Its
+// multiplier has bounds.
 #pragma once
 
 #include <Eigen/Core>
@@ -29,10 +29,10 @@ struct Row {
   int dof = -1;
   double sign = 1;       ///< of a unit row +1 or -1
   double next_sign = 0;  ///< of a unit row 0
-  /// The same physical constraint has the same id in every step. A limit is told by its dof and
-  /// side, a cone by its dof, a contact by its segments, a plane by the body. A row of Eq. 6 is
-  /// told by its tangent and by the knot's end or the segments. Cones, contacts and planes may have
-  /// several rows in a step: their number is part of the id.
+  /// The same physical constraint has the same id in every step. The id of a limit has its dof and
+  /// side, of a cone its dof, of a contact its segments, of a plane the body. The id of a row of
+  /// Eq. 6 has its tangent and the knot's end or the segments. Cones, contacts and planes may have
+  /// several rows in a step, and their number is part of the id.
   std::int64_t id = 0;
   int obstacle = -1;  ///< of an obstacle's row: its index
   int command = -1;   ///< of a thigmotaxis row: the index of its command
@@ -40,12 +40,12 @@ struct Row {
   Eigen::Vector3d direction;  ///< unit, world
   SplineMix a, b;
   /// One point in space for both strands, from kin.reference, cm. ẋ_a and ẋ_b are then the
-  /// velocities of the rigid bodies at that point, mixed with the same weights. The forces of such
-  /// a row are internal: they have no sum and no moment.
+  /// velocities of the rigid bodies at this point, mixed with the same weights. The forces of such
+  /// a row are internal: their sum and their moment are zero.
   std::optional<Eigen::Vector3d> at;
   double rhs = 0;  ///< d, cm/s or rad/s
-  /// The part of λ that is an impact's and acts at once; half of the rest acts before the middle of
-  /// the step (midpoint rule, midpoint/impacts.hpp).
+  /// The part of λ of an impact, which acts at once. Half of the rest acts before the middle of the
+  /// step (midpoint rule, midpoint/impacts.hpp).
   double impact = 0;
   double lower = 0;  ///< bounds on the multiplier λ, dyn s or dyn cm s
   double upper = std::numeric_limits<double>::infinity();
@@ -55,15 +55,15 @@ struct Row {
   bool unit() const { return dof >= 0 && next_sign == 0; }
 };
 
-/// A row that is added because the path of the step overlaps (look_ahead.hpp). `contact` is the
-/// contact that it belongs to, if any, at the step's start.
+/// A row that was added since the path of the step overlaps (look_ahead.hpp). `contact` is its
+/// contact, if any, at the step's start.
 struct PathRow {
   Row row;
   std::optional<Contact> contact;
 };
 
-/// Calls `visit(body, force, offset)` for each force (world, per unit λ) that a row with points
-/// stands for, and where it acts, from kin.reference: C q̇ is the sum of force . velocity there.
+/// Calls `visit(body, force, offset)` for each force of a row with points (world, per unit λ) and
+/// the place where it acts, from kin.reference. C q̇ is the sum of force . velocity there.
 template <class Visit>
 void visit_forces(const Row& row, const Kinematics& kin, Visit visit) {
   const auto of_mix = [&](const SplineMix& mix, double sign) {
@@ -80,9 +80,9 @@ void visit_forces(const Row& row, const Kinematics& kin, Visit visit) {
 /// "limit of j05_bend_y (upper)", "contact of bodies 31 and 74", ...
 std::string row_name(const Model& model, const Row& row);
 
-/// The order of a step's rows, rising: those prescribed (and those of the head in any case) by dof,
-/// then the others from the tail on by the last velocity that they involve, which gives the columns
-/// of the dual problem their staircase.
+/// The order of a step's rows, rising. Prescribed rows, and those of the head in any case, come
+/// first, by dof. The others follow from the tail on, by the last velocity that they involve. This
+/// order makes the columns of the dual problem a staircase.
 int place_in_step(const Model& model, const Row& row);
 
 /// Whether a thigmotaxis row is along t_a; else it is along t_b.
@@ -95,9 +95,9 @@ double row_velocity(const Row& row, const BodyVelocities& bodies, const Eigen::V
 void add_row(const Row& row, const Kinematics& kin, double lambda, Matrix6Xd& wrench,
              Eigen::VectorXd& joint);
 
-// Rows are appended: a step gathers all kinds in one list, whose storage it keeps.
+// The functions below append rows: a step gathers all kinds in one list and reuses its storage.
 
-/// Selects the unilateral rows near binding; most of the animal's 500 are far from it.
+/// Selects the unilateral rows near binding. Most of the animal's 500 rows are far from it.
 struct NearBinding {
   const Eigen::VectorXd& v;  ///< a velocity, nv
   BodyVelocities bodies;     ///< at it
@@ -113,67 +113,69 @@ struct NearBinding {
   }
 };
 
-/// A contact's row, with no right-hand side yet: the exact rate of its gap. Where `at` is null, the
-/// points are where the contact was found; else they are the same points of the segments `at`.
-/// `number` 0 is the row of the step's start; rows that are added later count on (look_ahead.hpp).
+/// The row of a contact without a right-hand side: the exact rate of its gap. Where `at` is null,
+/// the points are where the contact was found. Else they are the same points of the segments `at`.
+/// `number` is 0 for the row of the step's start, and counts the rows that are added later
+/// (look_ahead.hpp).
 Row contact_row(const Model& model, const Contact& contact, const std::vector<SplineSegment>* at,
                 int number = 0);
-/// The row of body `body` against a plane, with no right-hand side yet.
+/// The row of body `body` against a plane, without a right-hand side.
 Row plane_row(const Model& model, int obstacle, int body);
 
-/// The row of a joint bent as `bend`, with no right-hand side yet: the exact rate of what its cone
-/// leaves it. `number` as above.
+/// The row of a joint bent by `bend`, without a right-hand side: the exact rate of the angle that
+/// is left to its cone. `number` as above.
 Row cone_row(const BendingCone& cone, const Bend& bend, int number);
 
-/// Six bilateral rows that keep the root at the origin and unturned (paper, Eq. 3); a drift is
-/// taken back at the rate baumgarte / h.
+/// Six bilateral rows that hold the root at the origin without rotation (paper, Eq. 3). They
+/// correct a drift at the rate baumgarte / h.
 void append_head_rows(const State& state, const ConstraintSettings& settings, double h,
                       std::vector<Row>& rows);
 
-/// One row per bounded side of each hinge, that of the nearer side first, and one per cone unless
+/// One row for each bounded side of each hinge, the nearer side first, and one for each cone unless
 /// its joint is straight.
 void append_limit_rows(const Model& model, const State& state, const ConstraintSettings& settings,
                        double h, const NearBinding& wanted, std::vector<Row>& rows);
 
-/// As Row::id of the contact's row.
+/// The Row::id of the contact's row.
 std::int64_t contact_row_id(const Contact& contact);
 
-/// The row of a contact, as placed at `at`: the exact rate of its gap.
+/// The row of a contact at `at`: the exact rate of its gap.
 void append_contact_row(const Model& model, const Contact& contact,
                         const std::vector<SplineSegment>* at, const ConstraintSettings& settings,
                         double h, const NearBinding& wanted, std::vector<Row>& rows);
 
-/// One row per body and plane that holds it.
+/// One row for each body and each plane that holds it.
 void append_plane_rows(const Model& model, const Kinematics& kin,
                        const ConstraintSettings& settings, double h, const NearBinding& wanted,
                        std::vector<Row>& rows);
 
-/// Which contact of a knot: its first or last one, as the controller follows them, or another.
+/// Which contact of a knot: the first or last one, which the controller follows, or another.
 enum class KnotEnd : std::uint8_t { first, last, neither };
 
 /// Commanded sliding at one contact.
 struct ThigmotaxisCommand {
   Contact contact;
   ThigmotaxisSpeeds speed;
-  BodyEnd towards = BodyEnd::head;  ///< where the knot shall go: to the tail, both tangents turn
-  double effort = 1;                ///< of ControllerSettings::cap, what bounds its rows
-  KnotEnd end = KnotEnd::neither;   ///< what tells its rows from others from step to step
+  BodyEnd towards = BodyEnd::head;  ///< goal of the slide; the tail reverses both tangents
+  double effort = 1;                ///< share of ControllerSettings::cap that bounds its rows
+  KnotEnd end = KnotEnd::neither;   ///< identifies its rows from step to step
 };
 
 /// Where the rows of Eq. 6 are placed.
 struct ThigmotaxisPlace {
   const Kinematics& kin;
   const std::vector<SplineSegment>& segments;  ///< of it
-  bool displaced;                              ///< from where the commands' contacts were found
+  bool displaced;  ///< the segments have moved since the contacts were found
 };
 
-/// A row of Eq. 6 with no right-hand side or bounds yet, along t_a or t_b of `contact`, whose
-/// tangents both turn where `towards` is the tail; `at` as ControllerSettings::eq6_at.
+/// A row of Eq. 6 without a right-hand side or bounds, along t_a or t_b of `contact`. Both tangents
+/// are reversed if `towards` is the tail. `at` as in ControllerSettings::eq6_at.
 Row eq6_row(const Model& model, const Kinematics& kin, const std::vector<SplineSegment>& segments,
             const Contact& contact, bool on_a, BodyEnd towards, Eq6Point at);
 
-/// Eq. 6 at the contacts commanded: rows t_a, t_b of each. settings.cap times the command's effort
-/// bounds λ / h. No two commands are of the same end or, of neither, of the same segments.
+/// Eq. 6 at the commanded contacts, with rows along t_a and t_b for each. settings.cap times the
+/// command's effort bounds λ / h. No two commands may have the same end or, with neither end, the
+/// same segments.
 void append_thigmotaxis_rows(const Model& model, const std::vector<ThigmotaxisCommand>& commands,
                              const ThigmotaxisPlace& place, const ControllerSettings& settings,
                              double h, std::vector<Row>& rows);

@@ -11,42 +11,42 @@
 
 namespace hagfish {
 
-/// Solves steps, one after the other, by the scene's time rule. A step is begun, resumed as often
-/// as rows are added to its solution, and finished; or solved at once. Copies have a back end and
-/// storage of their own.
+/// Solves steps, one after the other, by the scene's time rule. A caller begins a step, resumes it
+/// each time after it has added rows to the solution, and finishes it; solve() does this at once. A
+/// copy has its own back end and storage.
 class StepSolver {
  public:
   /// `back_end`: one of box_qp_solver_names(). Throws std::invalid_argument otherwise.
   explicit StepSolver(std::string back_end) : rounds_(std::move(back_end)) {}
 
-  /// Eq. 1, the rows, and Eq. 3 or 4: step.qdot is a velocity that meets all rows. By the midpoint
-  /// rule again, until the step's middle is where that leads. Not ok where a number is not finite,
-  /// rows contradict each other or the back end fails.
+  /// Solves Eq. 1, and Eq. 3 or 4 on the rows: step.qdot becomes a velocity that meets all rows.
+  /// The midpoint rule repeats this until the middle of the step converges. Not ok where a number
+  /// is not finite, rows contradict each other or the back end fails.
   Status begin(const StepInput& in, StepSolution& step);
 
-  /// Eq. 3 or 4 again, after rows were added to step.rows and step.path_rows. By the midpoint rule
-  /// the step's middle is found anew where these move it. Status as above.
+  /// Solves Eq. 3 or 4 again, after rows were added to step.rows and step.path_rows. The midpoint
+  /// rule finds the middle of the step again if these rows move it. Status as above.
   Status resume(const StepInput& in, StepSolution& step);
 
-  /// Forces and residuals of the step as solved; keeps its multipliers in `warm`.
+  /// Computes forces and residuals of the solved step, and keeps its multipliers in `warm`.
   void finish(const StepInput& in, StepSolution& step);
 
   /// begin and finish.
   Status solve(const StepInput& in, StepSolution& step);
 
-  /// A step ends, not ok (stopped), soon after `asked` returns true: it is called at each iteration
-  /// of the back end. Copies are asked the same.
+  /// A step ends with the outcome `stopped` soon after `asked` returns true, which is called at
+  /// each iteration of the back end. Copies call it too.
   void stop_when(std::function<bool()> asked) { rounds_.stop_when(std::move(asked)); }
 
-  /// Where the equations of the step last begun hold, which `in` is the input of.
+  /// Where the equations of the last begun step hold; `in` is the input of that step.
   StepPlace place(const StepInput& in) const {
     return by_euler(in) ? euler_.place(in) : midpoint_.place(in);
   }
 
-  /// Its rows and what answers to them.
+  /// The rows of the last step and their response.
   const RowProblem& problem() const { return rounds_.problem(); }
 
-  /// What the last step left for the next one, or a pass for the next.
+  /// Start values that the last step leaves for the next step, or a pass for the next pass.
   WarmStart warm;
 
  private:

@@ -9,9 +9,9 @@
 
 namespace hagfish {
 
-/// `solution` is a back end's failed answer to `qp`, the problem on `rows`. Names the rows that
-/// contradict each other, which the active-set method finds where that back end did not; without
-/// such rows, the one furthest from being met.
+/// The status of `solution`, a back end's failed answer to `qp`, the problem on `rows`. It names
+/// the rows that contradict each other, which the active-set method finds if the back end did not.
+/// Without such rows it names the row with the largest violation.
 Status describe_failure(const Model& model, const BoxQp& qp, const std::vector<Row>& rows,
                         const BoxQpSolution& solution);
 

@@ -10,14 +10,14 @@
 
 namespace hagfish {
 
-/// What the controller asks of a step.
+/// What the controller asks for in a step.
 struct Control {
   bool clamp_head = true;
   TipForce tip;
   std::vector<ThigmotaxisCommand> thigmotaxis;  ///< rows of Eq. 6 at any number of contacts
-  /// Angles that muscles pull the hinges to, rad, nv, 0 at the root; empty where they do not.
+  /// Angles to which the muscles pull the hinges, rad, nv, 0 at the root; empty where they do not.
   Eigen::VectorXd rest_shape;
-  ActiveTorque torque;  ///< further torques of the law; empty or 0 where there are none
+  ActiveTorque torque;  ///< other torques of the law; empty or 0 where there are none
   ActiveTorque active;  ///< torques towards the rest shape (active_curvature.hpp)
 };
 
@@ -31,12 +31,12 @@ struct StepInput {
 };
 
 /// Where the equations of a step hold, and how the animal moves there. It refers to the step's
-/// input, or to the time rule that found it.
+/// input, or to the time rule that found the place.
 struct StepPlace {
-  const Kinematics& kin;            ///< what Eq. 1 and the rows are of
-  StepMotion motion;                ///< the step's first velocity, there
-  const Eigen::VectorXd& velocity;  ///< by which the step moves, as far as known: that of kin, nv
-  /// Null at the step's start: contacts are then as they were found.
+  const Kinematics& kin;            ///< of Eq. 1 and the rows
+  StepMotion motion;                ///< that of the step's first velocity there
+  const Eigen::VectorXd& velocity;  ///< best estimate of the step's velocity: that of kin, nv
+  /// Null at the step's start, where contacts are as found.
   const std::vector<SplineSegment>* segments = nullptr;
 };
 

@@ -1,16 +1,16 @@
-// A rule of time: where the equations of a step hold, and what velocity it ends with.
+// A time rule: where the equations of a step hold, and with which velocity it ends.
 #pragma once
 
 #include "core/step/rounds.hpp"
 
 namespace hagfish {
 
-/// Calls the rounds that a step takes, and keeps what it works in from step to step.
+/// Calls the rounds of a step, and keeps its storage from step to step.
 class StepRule {
  public:
   virtual ~StepRule() = default;
 
-  /// Finds the step's place and solves the step there: step.qdot and step.next. Status as
+  /// Finds the place of the step and solves it there: step.qdot and step.next. Status as in
   /// Rounds::begin.
   virtual Status begin(const StepInput& in, Rounds& rounds, WarmStart& warm,
                        StepSolution& step) = 0;
@@ -19,11 +19,11 @@ class StepRule {
   virtual Status resume(const StepInput& in, Rounds& rounds, WarmStart& warm,
                         StepSolution& step) = 0;
 
-  /// Ends a step that is solved: step.mean_velocity, and multipliers of its whole force. Notes in
-  /// `warm` what the next step begins with.
+  /// Ends a solved step: step.mean_velocity, and multipliers of the whole force. Notes in `warm`
+  /// what the next step starts with.
   virtual void end(const StepInput& in, WarmStart& warm, StepSolution& step) = 0;
 
-  /// Where the equations of the step hold, once it has begun.
+  /// Where the equations of the step hold. Call it after begin.
   virtual StepPlace place(const StepInput& in) const = 0;
 };
 

@@ -1,4 +1,4 @@
-// What a step leaves for the next one to start from.
+// Start values that a step leaves for the next one.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,16 +14,16 @@ class WarmStart {
     std::int64_t id = 0;
     double lambda = 0;  ///< dyn s or dyn cm s
   };
-  /// As new, but for its storage.
+  /// Restores the initial values, but keeps the storage.
   void forget();
   /// Forgets the multipliers.
   void begin() { entries_.clear(); }
-  /// Ids may come in any order, once each; end() before the next look.
+  /// Ids may come in any order, once each. Call end() before any look-up.
   void add(std::int64_t id, double lambda) { entries_.push_back({id, lambda}); }
   void end();
-  /// What is kept of a row, or null.
+  /// The entry of a row, or null.
   const Kept* find(std::int64_t id) const;
-  /// The multiplier kept of a row, 0 where there is none.
+  /// The multiplier of a row, 0 where there is none.
   double multiplier(std::int64_t id) const;
   std::size_t size() const { return entries_.size(); }
   /// Half of the change of velocity by steady forces, in the last step and in the one before it,

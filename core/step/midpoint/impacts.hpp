@@ -6,9 +6,9 @@
 
 namespace hagfish {
 
-/// step.next and the impacts of step.rows, of a step that is solved at `place` by `problem`; half
-/// of what steady forces change the velocity by in it into `half_change` (nv). Not ok (non_finite)
-/// where a prescribed limit cannot be let go.
+/// Computes step.next and the impacts of step.rows, for a step that is solved at `place` by
+/// `problem`. Writes into `half_change` (nv) half of the change of velocity by steady forces. Not
+/// ok (non_finite) where a prescribed limit cannot be released.
 Status set_next_velocity(const StepInput& in, const StepPlace& place, const RowProblem& problem,
                          StepSolution& step, Eigen::VectorXd& half_change);
 

@@ -1,4 +1,4 @@
-// The midpoint rule (core/README.md, "Steps in time"): equations hold in the middle of a step,
+// The midpoint rule (core/README.md, "Steps in time"): the equations hold in the middle of a step,
 // which passes of the rounds find.
 #pragma once
 
@@ -8,9 +8,9 @@
 
 namespace hagfish {
 
-/// What a step takes StepMiddle::remaining as from the one before: the measure of a step fades
-/// towards 1 by this power, so that it is taken anew each ten steps or so (after Hairer and Wanner,
-/// Solving Ordinary Differential Equations II, IV.8).
+/// A step takes StepMiddle::remaining of the last step to this power. So a measured value fades
+/// towards 1, and is measured again every ten steps or so (after Hairer and Wanner, Solving
+/// Ordinary Differential Equations II, IV.8).
 inline double guessed_remaining(double before) { return std::pow(before, 0.9); }
 
 class MidpointRule : public StepRule {

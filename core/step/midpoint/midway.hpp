@@ -1,5 +1,5 @@
-// Where the equations of a step hold, and the motion that it starts with there: at its start
-// (Euler's rule), or in its middle (the midpoint rule, core/README.md, "Steps in time").
+// Where the equations of a step hold, and the first motion there: at the step's start (Euler's
+// rule), or in its middle (the midpoint rule, core/README.md, "Steps in time").
 #pragma once
 
 #include <vector>
@@ -11,7 +11,7 @@ namespace hagfish {
 
 /// The middle of a step, as far as it is known.
 struct Midway {
-  Eigen::VectorXd step_velocity;        ///< by which the step moves, nv
+  Eigen::VectorXd step_velocity;        ///< velocity by which the step moves, nv
   Eigen::VectorXd mean_velocity;        ///< mean of those before and after the step, nv
   Eigen::VectorXd q;                    ///< where the step velocity leads in half a step, nq
   Kinematics kin;                       ///< at q, of both velocities
@@ -20,7 +20,7 @@ struct Midway {
   Eigen::Matrix3Xd centre_velocity;     ///< of their centres at it, 3 x N, cm/s
   Matrix6Xd mean_twist;                 ///< at the mean velocity, 6 x N
   BiasPower bias_power;                 ///< where `balanced`
-  bool balanced = false;                ///< so that Coriolis forces make no energy
+  bool balanced = false;                ///< whether Coriolis forces make no energy
   State next;                           ///< where the whole step leads by the two velocities
   Eigen::VectorXd next_energy;          ///< kinetic energy of each body there, erg, N
 
@@ -29,8 +29,9 @@ struct Midway {
   }
 };
 
-/// Places the middle of a step of `h` (s) from `state` by both of its velocities; `now` is of
-/// `state`. The bias is `balanced`, so that Coriolis forces make no energy, or as it comes.
+/// Places the middle of a step of `h` (s) from `state` by both of its velocities; `now` belongs to
+/// `state`. `balanced` decides whether the bias is balanced, so that Coriolis forces make no
+/// energy.
 void place_midway(const Model& model, const State& state, const Kinematics& now, double h,
                   bool balanced, Midway& midway);
 
