@@ -12,8 +12,8 @@ from pathlib import Path
 HEAD = """# Keys of a scene
 
 `python3 experiments/reference/scene_keys.py data/table1.toml experiments/reference/scene_keys.md` makes this page from the comments of the file.
-Values are those of the scene `table1`. A scene that names a base says only what differs. An *addition* is what the paper does not state.
-Keys of scripts of positions stand in `data/overhand_waypoints.toml`, those of other starts in `experiments/stability/`.
+Values are those of the scene `table1`. A scene that names a base holds only what differs. An *addition* is what the paper does not state.
+`data/overhand_waypoints.toml` shows the keys of a script of positions, and `experiments/stability/` those of other starts.
 Obstacles and curvature programs are in [data/README.md](../../data/README.md).
 """
 SECTION = re.compile(r"\[([a-z_.]+)\]$")
