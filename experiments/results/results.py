@@ -244,7 +244,8 @@ def without_comments(path: str, text: str) -> str:
     if cpp:
         text = QUOTED.sub('""', text)
     words = " ".join(re.sub(r"//.*" if cpp else r"#.*", "", line) for line in text.splitlines()).split()
-    return re.sub(r'(""\s*)+', '""', " ".join(words))
+    joined = re.sub(r'(""\s*)+', '""', " ".join(words))
+    return re.sub(r"(?<=\W) | (?=\W)", "", joined) if cpp else joined  # a longer message may break its line elsewhere
 
 
 def texts_of(commit: str, names: list[str]) -> list[str]:

@@ -80,6 +80,7 @@ def test_only_code_makes_a_page_old():
     assert results.without_comments("a.cpp", cpp) != results.without_comments("a.cpp", "int g();\n")
     told = 'say("strands \\"meet\\" {}; " // why\n    "stop", x);'
     assert results.without_comments("a.cpp", told) == results.without_comments("a.cpp", 'say("halt", x);')
+    assert results.without_comments("a.cpp", told) == results.without_comments("a.cpp", 'say(\n    "strands {}", x);')
     assert results.without_comments("a.cpp", told) != results.without_comments("a.cpp", 'say("halt", y);')
     assert results.without_comments("a.toml", 'a = "b"  # c\n') != results.without_comments("a.toml", 'a = "d"\n')
 
