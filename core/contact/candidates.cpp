@@ -9,9 +9,9 @@
 namespace hagfish {
 namespace {
 
-/// Distance between bounding spheres up to which pairs are carried beyond the margin, cm, half a
-/// radius of the body: twice what a segment may move before they are listed again. Affects speed
-/// only.
+/// Distance between bounding spheres, beyond the margin, up to which pairs are listed, cm: half a
+/// radius of the body. It is twice the motion of a segment after which the pairs are listed again.
+/// It affects speed alone.
 double carried_beyond(const std::vector<SplineSegment>& segments) {
   double thickest = 0;
   for (const SplineSegment& segment : segments) {
@@ -31,8 +31,8 @@ void visit_ends(const std::vector<SplineSegment>& segments, const Visit& visit) 
   visit(n, segments.back().point(1), (third * segments.back().slope(1)).eval());
 }
 
-/// Adds to candidates.displacement how far each segment may have moved since candidates.ends: a
-/// cubic stays as close to another as their Bézier points, which are its ends and these plus or
+/// Adds to candidates.displacement the largest motion of each segment since candidates.ends. Two
+/// cubics are no further apart than their Bézier points. These are the ends, and the ends plus or
 /// minus a third of the slopes there.
 void add_motion(const std::vector<SplineSegment>& segments, Candidates& candidates) {
   SegmentEnds& ends = candidates.ends;
@@ -81,13 +81,13 @@ void list_pairs(const std::vector<SplineSegment>& segments, const ContactSetting
   index_pairs(segments.size(), candidates);
 }
 
-/// Whether the pairs from `i` on, as many as there are lanes, are of segments b that follow each
-/// other, as most of one segment a are.
+/// Whether the segments b of the pairs from `i` on, one pair for each lane, follow each other. For
+/// most pairs of one segment a they do.
 bool in_line(const Candidates& candidates, int i) {
   return candidates.pairs[i + lane_count - 1].b == candidates.pairs[i].b + lane_count - 1;
 }
 
-/// Lists those of the pairs in line from `first` on that must be evaluated, at once.
+/// Lists those of the consecutive pairs from `first` on that must be evaluated, one for each lane.
 void list_pairs_in_line(const Candidates& candidates, int first, std::vector<int>& pairs) {
   const SegmentPair& pair = candidates.pairs[first];
   const Lanes displacement =
@@ -185,7 +185,7 @@ int find_pair(const Candidates& candidates, int a, int b) {
   if (a < 0 || a + 1 >= static_cast<int>(candidates.first.size())) {
     return -1;
   }
-  // Partners of a segment mostly follow each other.
+  // The partners of a segment mostly follow each other.
   const int first = candidates.first[a];
   const int last = candidates.first[a + 1];
   if (first == last || b < candidates.pairs[first].b) {

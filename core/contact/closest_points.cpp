@@ -12,20 +12,20 @@ namespace hagfish {
 namespace {
 
 constexpr int iteration_limit = 50;
-// Times that a step is halved for the gap to fall, to some 1e-4 of it.
+// How often a step is halved until the gap falls, down to about 1e-4 of it.
 constexpr int cut_limit = 14;
-// A whole Newton step in parameters of [0, 1] below this leaves an error of about its square, and
-// in the gap of the square of that, which is rounding.
+// After a full Newton step below this, in parameters of [0, 1], the error is about its square. The
+// error of the gap is the square of that, which is rounding.
 constexpr double whole_step_tolerance = 1e-4;
-// A step that was cut leaves an error of about its own size.
+// After a shortened step the error is about the size of the step.
 constexpr double cut_step_tolerance = 1e-7;
-// A Hessian below this share of its positive part is taken as singular.
+// A Hessian below this share of its positive part counts as singular.
 constexpr double least_share = 1e-12;
-// Samples of a segment are at most so far apart, of its radius, and at least 3: they must resolve
-// the basins of the minima, which are as wide as the body bends.
+// Largest distance of samples on a segment, as a share of its radius, and at least 3 samples. They
+// must resolve the basins of the minima, which are as wide as the body's bends.
 constexpr double sample_spacing = 0.09;
 
-// Single precision is enough to choose starts, in half the time.
+// Single precision is sufficient to choose starts, and takes half the time.
 using SampleLanes = FloatLanes;
 constexpr int sample_lanes = float_lane_count;
 
@@ -35,7 +35,7 @@ struct SampledSegments {
   std::array<SampleLanes, most_samples> radius;
 };
 
-/// `of(k)` is the segment of lane k and the origin that it is seen from.
+/// `of(k)` is the segment of lane k and the origin from which it is seen.
 template <class Of>
 void sample_segments(int count, int samples, Of of, SampledSegments& sampled) {
   std::array<std::array<FloatLaneValues, 3>, 4> c{};
@@ -62,8 +62,8 @@ void sample_segments(int count, int samples, Of of, SampledSegments& sampled) {
   }
 }
 
-/// Local minima of the gap on the grid, one in each basin that it resolves: bit 8 i + j for sample
-/// i of a and j of b.
+/// Local minima of the gap on the grid, one in each basin that the grid resolves: bit 8 i + j for
+/// sample i of a and j of b.
 std::array<std::uint64_t, sample_lanes> basins(const SampledSegments& a, const SampledSegments& b,
                                                int samples) {
   // With a border of infinite gap.
@@ -141,7 +141,7 @@ struct LaneSegments {
   Lanes radius(const Lanes& t) const { return r0 + t * r1; }
 };
 
-/// Pairs of points on their way down.
+/// The present iterates of several descents.
 struct Iterate {
   Lanes t_a, t_b;
   LaneVector apart;  ///< x_b - x_a
@@ -156,7 +156,7 @@ Iterate iterate_at(const LaneSegments& a, const LaneSegments& b, const Lanes& t_
   return {t_a, t_b, apart, distance, distance - a.radius(t_a) - b.radius(t_b)};
 }
 
-/// Where `which`, the iterate becomes `next`.
+/// In the lanes of `which`, the iterate becomes `next`.
 void move(const LaneMask& which, const Iterate& next, Iterate& at) {
   at.t_a = which ? next.t_a : at.t_a;
   at.t_b = which ? next.t_b : at.t_b;
@@ -167,12 +167,12 @@ void move(const LaneMask& which, const Iterate& next, Iterate& at) {
 }
 
 struct Direction {
-  Lanes a, b;       ///< step of each parameter, 0 where it is not free
-  LaneMask moving;  ///< where one at least is free
+  Lanes a, b;       ///< step of each parameter, 0 if it is not free
+  LaneMask moving;  ///< whether at least one is free
 };
 
-/// The Newton direction on the free parameters, downhill. A parameter on its bound is free where
-/// the gap falls inwards.
+/// The Newton direction on the free parameters, downhill. A parameter on its bound is free if the
+/// gap falls inwards.
 Direction direction(const LaneSegments& a, const LaneSegments& b, const Iterate& at) {
   const Lanes zero{};
   const Lanes one = lanes_of(1);
@@ -194,9 +194,9 @@ Direction direction(const LaneSegments& a, const LaneSegments& b, const Iterate&
   const Lanes haa = one - (an * an * inverse + dot(a.bend(at.t_a), n)) * width_a;
   const Lanes hbb = one - (bn * bn * inverse - dot(b.bend(at.t_b), n)) * width_b;
   const Lanes hab = -(dot(xa, xb) - an * bn) * inverse * width;
-  // Where it is indefinite, the gap falls from a crest towards both ends of a valley, the faster
-  // the further off. |H|, with its eigenvalues m ± r made positive, doubles that distance at each
-  // step: it is (m H + (r² - m²) 1) / r.
+  // Where the Hessian is indefinite, the gap falls from a crest towards both ends of a valley,
+  // faster further away from the crest. |H|, with its eigenvalues m ± r made positive, doubles the
+  // distance at each step: it is (m H + (r² - m²) 1) / r.
   const Lanes determinant = haa * hbb - hab * hab;
   const Lanes mean = 0.5 * (haa + hbb);
   const Lanes inverse_radius = one / root(mean * mean - determinant);
@@ -222,7 +222,7 @@ void descend_lanes(const LaneSegments& a, const LaneSegments& b, Iterate& at) {
   const Lanes one = lanes_of(1);
   LaneMask active = at.distance >= zero;
   for (int iteration = 0; iteration < iteration_limit; ++iteration) {
-    active &= at.distance > zero;  // else the centrelines cross: the gap is as low as it gets
+    active &= at.distance > zero;  // else the centrelines cross, and the gap is minimal
     const Direction step = direction(a, b, at);
     active &= step.moving;
     LaneMask searching = active;
@@ -303,18 +303,18 @@ void ClosestPointsSearch::sample(int samples, std::span<const ClosestPointsQuery
           single && query(k).guess ? *query(k).guess : ClosestPoints{t_a, t_b};
       const bool near = std::max(std::abs(guess.t_a - t_a), std::abs(guess.t_b - t_b)) <= spacing;
       descents_.push_back({first + k, t_a, t_b, near ? guess.t_a : t_a, near ? guess.t_b : t_b});
-      if (!near) {  // it may be of a basin that the samples do not resolve
+      if (!near) {  // it may be in a basin that the samples do not resolve
         descents_.push_back({first + k, guess.t_a, guess.t_b, guess.t_a, guess.t_b});
       }
     }
   }
 }
 
-/// Goes down from a batch of starts, each from the lower one of it and its guess.
+/// Descends from a batch of starts, each from the lower one of the sample and the guess.
 void ClosestPointsSearch::descend(std::span<ClosestPointsQuery> queries, std::size_t first) const {
   const int count = static_cast<int>(std::min<std::size_t>(lane_count, descents_.size() - first));
   const auto descent = [&](int k) -> const Descent& {
-    return descents_[first + std::min(k, count - 1)];  // spare lanes go along
+    return descents_[first + std::min(k, count - 1)];  // spare lanes repeat the last start
   };
   const LaneSegments a([&](int k) -> const auto& { return *queries[descent(k).query].a; });
   const LaneSegments b([&](int k) -> const auto& { return *queries[descent(k).query].b; });

@@ -33,8 +33,8 @@ void evaluate(const std::vector<SplineSegment>& segments, const ContactSettings&
   }
 }
 
-// A minimum on the border of two segments is found from both, with gaps that differ by rounding:
-// by less than this share of the margin of the search.
+// A minimum on the border of two segments is found from both. The two gaps differ by rounding, less
+// than this share of the search margin.
 constexpr double same_gap = 1e-8;
 
 /// Which neighbour shares the border that `t` lies on: -1, +1, or 0 inside the segment.
@@ -55,9 +55,9 @@ void visit_across(const Candidates& candidates, int index, const Visit& visit) {
   }
 }
 
-/// A minimum inside both segments always counts; one on a border counts unless the gap decreases
-/// beyond it, and only for the first of the pairs that find it. Neighbours that this search has not
-/// evaluated are left out. Gaps that differ by `same` (cm) are one.
+/// A minimum inside both segments always counts. One on a border counts unless the gap decreases
+/// beyond the border, and only for the first of the pairs that find it. Neighbours that this search
+/// has not evaluated are ignored. Gaps that differ by less than `same` (cm) count as equal.
 bool is_local_minimum(const ContactSearch& search, double same, int index) {
   const std::vector<std::optional<ClosestPoints>>& closest = search.candidates.closest;
   if (search.scratch.known[index] == PairState::beaten) {
@@ -74,8 +74,8 @@ bool is_local_minimum(const ContactSearch& search, double same, int index) {
   return lowest;
 }
 
-/// Evaluates the queued pairs, and all neighbours that it takes to tell which of those
-/// within the margin are minima.
+/// Evaluates the queued pairs, and all neighbours that are needed to decide which pairs within the
+/// margin are minima.
 void evaluate_with_neighbours(const std::vector<SplineSegment>& segments,
                               const ContactSettings& settings, ContactSearch& search) {
   double slenderest = 0;

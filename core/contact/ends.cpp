@@ -8,12 +8,12 @@ namespace hagfish {
 namespace {
 
 constexpr int iteration_limit = 50;
-// A Newton step in a parameter of [0, 1] below this leaves an error of its square.
+// After a Newton step below this, in a parameter of [0, 1], the error is its square.
 constexpr double step_tolerance = 1e-6;
 
-/// The point of the other strand that is nearest to one of the first.
+/// The point of the other strand nearest to a point of the first.
 struct Nearest {
-  double gap = 0;    ///< cm; at most the margin, where there is none
+  double gap = 0;    ///< cm; the margin if there is none
   int segment = -1;  ///< -1: there is none
   double t = 0;
   double rate = NAN;  ///< of the gap by the first strand's parameter, cm
@@ -32,8 +32,8 @@ struct GapAt {
         rate(apart.dot(segment.slope(t)) / distance - segment.r1) {}
 };
 
-/// Where the gap is least between two points of a segment, at which it falls and rises: Newton's
-/// method on its rate, and halves where that leaves them.
+/// Where the gap is least between two points of a segment at which it falls and rises. Newton's
+/// method on its rate, with bisection where that leaves the interval.
 double least_between(const SplineSegment& segment, const Eigen::Vector3d& x, double r, double falls,
                      double rises, double start) {
   double t = start;
@@ -52,8 +52,8 @@ double least_between(const SplineSegment& segment, const Eigen::Vector3d& x, dou
   return t;
 }
 
-/// The gaps from four points of a segment, evenly from its start to its end, to the skin of radius
-/// r about x, side by side, and their rates.
+/// The gaps, and their rates, from four points of a segment to the skin of radius r about x, one in
+/// each lane. The points are evenly spaced from the start to the end of the segment.
 struct FourGaps {
   static constexpr int parts = 3;
   Eigen::Array4d at{0, 1.0 / 3, 2.0 / 3, 1}, gap, rate;
@@ -72,8 +72,8 @@ struct FourGaps {
   }
 };
 
-/// The nearest point of a segment to x, where the skin of radius r is. Samples tell its minima
-/// apart: along a strand that winds about x the gap falls and rises more than once.
+/// The nearest point of a segment to x, where the skin has radius r. Samples separate its minima,
+/// since along a strand that winds about x the gap falls and rises more than once.
 Nearest nearest_on(const SplineSegment& segment, const Eigen::Vector3d& x, double r) {
   const FourGaps samples(segment, x, r);
   int least = 0;
@@ -91,7 +91,7 @@ Nearest nearest_on(const SplineSegment& segment, const Eigen::Vector3d& x, doubl
   return best;
 }
 
-/// One strand's points against the body's others.
+/// Finds nearest points of the body's other strands for points of one strand.
 class Strand {
  public:
   Strand(const std::vector<SplineSegment>& segments, const ContactSettings& settings, bool tail)
@@ -100,12 +100,12 @@ class Strand {
         least_arc_(settings.least_arc * (1 - 1e-9)),
         tail_(tail) {}
 
-  /// To the point `t` of segment `own`, of all that may touch it.
+  /// For the point `t` of segment `own`, among all segments that may touch it.
   Nearest nearest(int own, double t) const {
     const Eigen::Vector3d x = segments_[own].point(t);
     const double r = segments_[own].radius(t);
     Nearest best;
-    best.gap = settings_.margin + 0.01 * r;  // beyond what is asked for
+    best.gap = settings_.margin + 0.01 * r;  // more than the caller needs
     const int count = static_cast<int>(segments_.size());
     for (int k = tail_ ? 0 : own + 1; k < (tail_ ? own : count); ++k) {
       const double reach = best.gap + segments_[k].bound + r;
@@ -116,7 +116,7 @@ class Strand {
     return with_rate(best, own, t);
   }
 
-  /// The same where segment `start` has the nearest point, or those beside it.
+  /// The same if segment `start` or one beside it has the nearest point.
   Nearest nearest(int own, double t, int start) const {
     if (start < 0) return nearest(own, t);
     const auto to = [&](int k) {
@@ -153,18 +153,19 @@ class Strand {
 
   const std::vector<SplineSegment>& segments_;
   const ContactSettings& settings_;
-  double least_arc_;  ///< with slack for rounding, as the search has it
+  double least_arc_;  ///< with slack for rounding, as in the search
   bool tail_;
 };
 
-/// A point of a segment, and what is nearest to it.
+/// A point of a segment, and the point nearest to it.
 struct Place {
   double t;
   Nearest nearest;
 };
 
-/// Where the gap passes `level` between the point `inside` of the level set and `outer`, which is
-/// outside of it: Newton's method on nearest(t, segment that was nearest), which closes in.
+/// Where the gap passes `level` between the point `inside` of the level set and the point `outer`
+/// outside of it. Newton's method on nearest(t, last nearest segment), within an interval that
+/// shrinks.
 template <class Search>
 Place close_in(double level, double inside, const Place& outer, const Search& nearest) {
   double outside = outer.t;
@@ -182,7 +183,7 @@ Place close_in(double level, double inside, const Place& outer, const Search& ne
   return {at, here};
 }
 
-/// Where the level set that holds the point `t` of segment `own` ends, to the tail or to the head.
+/// Where the level set around the point `t` of segment `own` ends, towards the tail or the head.
 Contact end_from(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
                  double level, bool tail, int own, double t) {
   const Strand strand(segments, settings, tail);
@@ -199,8 +200,8 @@ Contact end_from(const std::vector<SplineSegment>& segments, const ContactSettin
     end.nearest = strand.nearest(own, border);
   }
   if (end.nearest.gap > level) {
-    // Along one strand first. If that end is another strand's, or where its own set begins: along
-    // all.
+    // Along one strand first. If the end found belongs to another strand, or is where that strand's
+    // own set begins, along all strands.
     const Place outer = end;
     end = close_in(level, t, outer,
                    [&](double at, int start) { return strand.nearest(own, at, start); });

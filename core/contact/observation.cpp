@@ -8,9 +8,9 @@
 namespace hagfish {
 namespace {
 
-/// Pairs of segments that are no minimum of the gap are listed where they could close it in a step
-/// at this share of the speed at which strands that overlap are pushed apart: next to a minimum,
-/// strands close slower than there.
+/// Pairs of segments that are not a minimum of the gap are listed if they could close it in a step
+/// at this share of the speed at which overlapping strands are pushed apart. Beside a minimum
+/// strands close more slowly than at it.
 constexpr double closing_speed = 0.2;
 
 }  // namespace

@@ -6,13 +6,13 @@
 namespace hagfish {
 namespace {
 
-/// A ball is the tube about a curve of this length, of its radius: one of no length has no
-/// direction.
+/// A ball is a tube about a curve whose length is this share of its radius. A curve without length
+/// would have no direction.
 constexpr double ball_length = 1e-7;
 
 int point_count(const Obstacle& strand) { return static_cast<int>(strand.points.size()); }
 
-/// Point `i` of a strand, cm. Beyond the ends of an open one the polygon is continued straight.
+/// Point `i` of a strand, cm. Beyond the ends of an open strand the polygon is continued straight.
 Eigen::Vector3d point_of(const Obstacle& strand, int i) {
   const std::vector<Eigen::Vector3d>& p = strand.points;
   const int n = point_count(strand);
@@ -32,8 +32,8 @@ SplineSegment segment_of(const Obstacle& strand, int i) {
   return s;
 }
 
-/// What lies between two strands. Its first end is that of the segment before, whose motion is told
-/// by it (SegmentEnds).
+/// The dummy segment between two strands. Its first end is the last end of the segment before it,
+/// since SegmentEnds gives that segment's motion.
 SplineSegment gap_behind(const SplineSegment& before, int obstacle) {
   SplineSegment s;
   s.c0 = before.point(1);
@@ -42,7 +42,8 @@ SplineSegment gap_behind(const SplineSegment& before, int obstacle) {
   s.r0 = before.radius(1);
   s.s0 = std::numeric_limits<double>::infinity();
   s.middle = s.c0;
-  s.bound = std::numeric_limits<double>::quiet_NaN();  // no distance is below it
+  s.bound =
+      std::numeric_limits<double>::quiet_NaN();  // no comparison of a distance with it is true
   s.obstacle = obstacle;
   return s;
 }

@@ -29,8 +29,8 @@ void ActivationSolver::solve(const Model& model, const Kinematics& kin,
     qp.A.diagonal().array() += 1;
     qp.b.noalias() = weight * give.transpose() * wanted;
     qp.lower.setZero(group.count);
-    // The objective at a = 0 is w |torque|^2, so that no a is beyond this: bounds that are far away
-    // on the scale of a small torque cost digits.
+    // The objective at a = 0 is w |torque|^2, so no a is beyond this. Bounds that are far away on
+    // the scale of a small torque would cost digits.
     qp.upper.setConstant(group.count, std::min(1.0, std::sqrt(weight) * wanted.norm()));
     solver.solve(qp, qp.lower, solution);
     if (solution.status != SolveStatus::solved) {

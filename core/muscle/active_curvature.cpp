@@ -7,7 +7,7 @@
 namespace hagfish {
 namespace {
 
-/// One of the program's values at a place among its times, rad per body length.
+/// One of the program's values at one station, interpolated in time, rad per body length.
 double program_value(const CurvatureProgram& program, const TablePlace& when, int row,
                      std::size_t station) {
   return value_at(when, [&](std::size_t k) {

@@ -15,7 +15,7 @@ PointMotion motion_of(const Matrix6Xd& twist, const Eigen::Matrix3Xd& velocity, 
   return {twist.col(body).head<3>(), velocity.col(body)};
 }
 
-/// What the impacts of a step of Euler's rule lose.
+/// The loss by impacts of a step by Euler's rule.
 double lost_at_impacts(const StepInput& in, const StepPlace& place, const StepSolution& step) {
   const BodyVelocities before = place.motion.before();
   double lost = 0;
@@ -40,15 +40,15 @@ EnergyLedger open_ledger(const Model& model, const Moment& now) {
   return ledger;
 }
 
-// The step solves M (v' - v) = h (f(x) - b) + C'λ, with the mean velocity x and
-// f(x) = f - D x - K (q + r x) - β K (2 x - v) + w, and moves by t u. Euler's rule: u = x = v',
-// r = h, β = 0, M at the start. Midpoint: x = (v + v')/2, r = h/2, M in the middle; u = x but for
-// impacts. With y = (v + v')/2 and all at that place,
+// The step solves M (v' - v) = h (f(x) - b) + C'λ, with the mean velocity x and f(x) = f - D x - K
+// (q + r x) - β K (2 x - v) + w, and moves by t u. Euler's rule: u = x = v', r = h, β = 0, M at the
+// start. Midpoint rule: x = (v + v')/2, r = h/2, M in the middle, and u = x without impacts. With y
+// = (v + v')/2 and all at that place,
 //   T(v') - T(v) = y'MΔv = (t/h) u'MΔv + (y - (t/h) u)'MΔv,
 //   (t/h) u'MΔv = t u'(f - D x) + (t/h) u'C'λ - t u'K (q + r x + β (2 x - v)) + t u'w - t u'b,
 //   V(q + t u) - V(q) = t u'K q + ½ t² u'K u   of the springs.
-// Their sum is works less dissipation and the integrator's own terms below, with what T changes by
-// on the way to that place and from there. Of (y - (t/h) u)'MΔv impacts have a part of their own.
+// Their sum is works less dissipation and the integrator's own terms below, and the change of T on
+// the way to that place and from there. Impacts have their own part of (y - (t/h) u)'MΔv.
 void book_step(const StepInput& in, const StepPlace& place, const StepSolution& step,
                const Moment& next, double travelled, EnergyLedger& ledger) {
   const Model& model = in.model;
@@ -79,7 +79,7 @@ void book_step(const StepInput& in, const StepPlace& place, const StepSolution& 
   double jump = 0;             // (u - y)'MΔv
   double moved = 0;            // T(v') - T(v) at the place of the step
   double fall = 0;             // work of gravity
-  double bias = 0;             // and of what inertia asks for
+  double bias = 0;             // work of the inertial forces
   for (int b = 0; b < model.body_count(); ++b) {
     const PointMotion old = motion_of(before.twist, before.centre_velocity, b);
     const PointMotion by = motion_of(step.twist, step.centre_velocity, b);

@@ -6,8 +6,8 @@
 namespace hagfish {
 namespace {
 
-/// The sum over all bodies of what `of(body)` has at each one's centre, a moment and a force or
-/// angular and linear momentum, with moments about `centre` (cm, world).
+/// The sum over all bodies of `of(body)`, a moment and a force, or angular and linear momentum, at
+/// each body's centre; moments about `centre` (cm, world).
 template <class Of>
 Momentum sum_over_bodies(const Model& model, const Kinematics& kin, const Eigen::Vector3d& centre,
                          Of of) {
@@ -21,7 +21,7 @@ Momentum sum_over_bodies(const Model& model, const Kinematics& kin, const Eigen:
   return {linear, angular};
 }
 
-/// Drag and what acts from outside over the step `in`, with moments about `centre`.
+/// Drag and outside forces over the step `in`, with moments about `centre`.
 struct Impulses {
   Momentum drag, outside;
 };
@@ -48,10 +48,9 @@ Impulses impulses_of(const StepInput& in, const Kinematics& kin, const StepSolut
   return {drag * h, outside * h};
 }
 
-/// What the root's rows of Eq. 1 say that the step gains, with moments about `centre`:
-/// Σ m (v' - v) + h Σ bias, with the velocities v, v' of the bodies' centres before and after at
-/// the positions of the step's equations. Forces between two parts of the body, of joints and of
-/// muscles add up to nothing.
+/// The gain of the step by the root's rows of Eq. 1, with moments about `centre`: Σ m (v' - v) + h
+/// Σ bias, with the velocities v, v' of the bodies' centres before and after, at the positions of
+/// the step's equations. Forces between two parts of the body, of joints and of muscles cancel.
 Momentum gained(const StepInput& in, const StepPlace& place, const StepSolution& step,
                 const Eigen::Vector3d& centre) {
   const double h = in.scene.time.step;
@@ -67,8 +66,7 @@ Momentum gained(const StepInput& in, const StepPlace& place, const StepSolution&
   });
 }
 
-/// Moments of inertia of all bodies as if joints were locked, about their centre of mass, world
-/// axes, g cm².
+/// Inertia of all bodies with locked joints, about their centre of mass, world axes, g cm².
 Eigen::Matrix3d locked_inertia(const Model& model, const Kinematics& kin,
                                const Eigen::Vector3d& centre) {
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
@@ -83,17 +81,16 @@ Eigen::Matrix3d locked_inertia(const Model& model, const Kinematics& kin,
   return inertia;
 }
 
-/// Share of its energy that a body without motion between its parts may gain in a step that gives
-/// its momentum back; more is not given.
+/// Share of its energy that a body without internal motion may gain when a step gives its momentum
+/// back. No more is given.
 constexpr double most_added = 1e-3;
-/// Motion between parts with less of the energy is rounding.
+/// Internal motion with a smaller share of the energy is rounding.
 constexpr double rounding = 1e-12;
 
-/// Gives `next`, which has `now` and the kinetic energy `whole` (erg), the momentum `wanted`, by a
-/// motion of the whole as one rigid body about its centre of mass. Its kinetic energy stays as it
-/// is: velocities between its parts take or give by one factor what that motion has more or less.
-/// Where they have not enough, nothing is given, of which the watch on momentum tells. Whether it
-/// was.
+/// Gives `next`, which has the momentum `now` and the kinetic energy `whole` (erg), the momentum
+/// `wanted`, by a motion of the whole body as one rigid body about its centre of mass. The kinetic
+/// energy stays the same: one factor on the internal velocities takes up the difference. If no
+/// factor can, nothing is given, and the guard of momentum warns. Returns whether it was given.
 bool give(const Model& model, double whole, const Momentum& now, const Momentum& wanted,
           Moment& next) {
   Kinematics& kin = next.observation.kin;

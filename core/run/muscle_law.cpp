@@ -8,7 +8,7 @@
 namespace hagfish {
 namespace {
 
-/// The paper's law's control of the step from `at`, whose own rest shape is in `memory`.
+/// The control of the paper's law for the step from `at`. Its rest shape is in `memory`.
 void paper_control(const Situation& at, const Eigen::VectorXd& memory, const Control& given,
                    Eigen::VectorXd& shape_ahead, Control& control) {
   const auto& [model, scene, now, time, so_far] = at;

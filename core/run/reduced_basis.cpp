@@ -16,7 +16,7 @@ namespace {
 
 constexpr Eigen::Index head = 3;  // numbers of the memory before the amplitudes
 
-/// Of all shapes, the part about the axis of `hinge` at `x`: cm of arc, or a share of the window.
+/// For all shapes, the part about the axis of `hinge` at `x`: cm of arc, or a share of the window.
 void set_shapes(const ReducedBasisSettings& basis, const Hinge& hinge, double sign, double x,
                 Eigen::MatrixXd::RowXpr shapes) {
   // Columns are about Y, about Z, twist.
@@ -38,9 +38,9 @@ void set_shapes(const ReducedBasisSettings& basis, const Hinge& hinge, double si
   }
 }
 
-/// The torque towards the rest shape of the step to come, on the mean over `steps` such steps, in
-/// which the hinges move evenly and tone follows them. The passive spring is fed forward, so that
-/// what it does over the one long step is taken back.
+/// The torque towards the rest shape, as a mean over `steps` steps to come in which the hinges move
+/// evenly and tone follows them. The passive spring is compensated, so its work over the one long
+/// step is taken back.
 void mean_tone_torque(const Situation& at, double steps, const Eigen::VectorXd& rest,
                       ActiveTorque& torque) {
   const Model& model = at.model;
@@ -60,8 +60,8 @@ void mean_tone_torque(const Situation& at, double steps, const Eigen::VectorXd& 
   }
 }
 
-/// The paper's step of `scene` from `at`, which is `steps` of the run's long: what bears in it is
-/// held below.
+/// The paper's step of `scene` from `at`, `steps` of the run's steps long. The rows with a force in
+/// it are held below.
 void look_forward(const Situation& at, const Scene& scene, double steps, const Control& control,
                   UntakenStep& ahead) {
   ahead.control.clamp_head = control.clamp_head;
@@ -77,18 +77,18 @@ void look_forward(const Situation& at, const Scene& scene, double steps, const C
 
 /// Eq. 6 after a step as a function of a: gain a >= shortfall.
 struct Eq6 {
-  Eigen::MatrixXd gain;       ///< cm/s of each row by a unit of each of a
-  Eigen::VectorXd shortfall;  ///< of each row where a is 0, cm/s
+  Eigen::MatrixXd gain;       ///< cm/s of each row for a unit of each a
+  Eigen::VectorXd shortfall;  ///< of each row at a = 0, cm/s
 };
 
-/// That of the step `ahead` of length `h` (s), with the velocities of those rows kept that bear in
-/// it.
+/// Eq. 6 after the step `ahead` of length `h` (s), with the velocities of the rows that have a
+/// force in it fixed.
 Eq6 eq6_after(const Situation& at, double h, const Eigen::MatrixXd& shapes,
               const UntakenStep& ahead) {
   const StepSolution& step = ahead.step;
   const RowProblem& problem = ahead.solver.problem();
   const auto row_of = [&](Eigen::Index i) -> const Row& { return step.rows[step.prescribed + i]; };
-  std::vector<Eigen::Index> bearing, asked;  // rows: those that bear, those of Eq. 6
+  std::vector<Eigen::Index> bearing, asked;  // rows with a force, rows of Eq. 6
   for (Eigen::Index i = 0; i < problem.qp.b.size(); ++i) {
     if (row_of(i).kind == RowKind::thigmotaxis) {
       asked.push_back(i);
@@ -96,7 +96,7 @@ Eq6 eq6_after(const Situation& at, double h, const Eigen::MatrixXd& shapes,
       bearing.push_back(i);
     }
   }
-  // What the bearing rows bear of a unit row of Eq. 6.
+  // The force of the held rows for a unit row of Eq. 6.
   Eigen::MatrixXd share = problem.qp.A(bearing, asked);
   if (!bearing.empty()) {
     Eigen::LDLT<Eigen::MatrixXd>(problem.qp.A(bearing, bearing)).solveInPlace(share);
@@ -109,7 +109,8 @@ Eq6 eq6_after(const Situation& at, double h, const Eigen::MatrixXd& shapes,
   Matrix6Xd wrench, twist;
   Eigen::VectorXd joint, velocity, reaction;
   for (Eigen::Index t = 0; t < count; ++t) {
-    // H⁻¹ is symmetric: how the hinges answer to the row is how the row answers to them.
+    // H⁻¹ is symmetric: the response of the hinges to the row is the response of the row to the
+    // hinges.
     wrench.setZero(6, at.model.body_count());
     joint.setZero(at.model.nv());
     add_row(row_of(asked[t]), kin, 1, wrench, joint);
@@ -123,8 +124,8 @@ Eq6 eq6_after(const Situation& at, double h, const Eigen::MatrixXd& shapes,
   return eq6;
 }
 
-/// The least |a| that meets `eq6`, softly, and within the bound on the torques: the dual is a box
-/// QP of as many multipliers as Eq. 6 has rows.
+/// The smallest |a| that meets `eq6`, softly, within the bound on the torques. The dual is a box QP
+/// with one multiplier for each row of Eq. 6.
 Eigen::VectorXd find_least(const ReducedBasisSettings& basis, const Eq6& eq6,
                            const Eigen::MatrixXd& shapes) {
   const Eigen::Index count = eq6.shortfall.size();
@@ -142,7 +143,7 @@ Eigen::VectorXd find_least(const ReducedBasisSettings& basis, const Eq6& eq6,
   return a;
 }
 
-/// a as played at the knot's place.
+/// The played a at the knot's place.
 void play(const ReducedBasisSettings& basis, double head_end, Eigen::VectorXd& a) {
   const TablePlace place = place_among(basis.places, head_end);
   const auto size = static_cast<std::size_t>(a.size());
@@ -160,7 +161,7 @@ void begin(const ReducedBasisSettings& basis, double time, const KnotSpan& windo
   memory.now.setZero(basis_size(basis));
 }
 
-/// How far a first-order filter follows in a step.
+/// The share of its difference that a first-order filter covers in a step.
 double follows(double h, double time_constant) {
   return time_constant > 0 ? 1 - std::exp(-h / time_constant) : 1;
 }

@@ -20,7 +20,7 @@ double arc_of(const Model& model, int k) {
 /// Length of body that a hinge stands for, cm.
 double span_of(const Model& model, int k) { return hinge_span(model, model.hinges[k].body); }
 
-/// The next hinge of the same kind, tailward (`way` 1) or headward (-1); -1 where there is none.
+/// The next hinge of the same kind, tailward (`way` 1) or headward (-1); -1 if there is none.
 int neighbour(const Model& model, int k, int way) {
   const auto count = static_cast<int>(model.hinges.size());
   for (int i = k + way; i >= 0 && i < count; i += way) {
@@ -29,14 +29,15 @@ int neighbour(const Model& model, int k, int way) {
   return -1;
 }
 
-/// From a hinge to the next one of its kind, cm; where there is none, as chains alternate.
+/// Distance from a hinge to the next one of its kind, cm. Without a next one, that of alternating
+/// joints.
 double spacing(const Model& model, int k, int way) {
   const int next = neighbour(model, k, way);
   const int bodies = next < 0 ? 2 : std::abs(model.hinges[next].body - model.hinges[k].body);
   return bodies * model.bodies[model.hinges[k].body].length;
 }
 
-/// Whether the scene has a hinge copy, where the body touches itself as `contacts` say.
+/// Whether the scene lets a hinge copy, given the `contacts` of the body with itself.
 bool copies(const Model& model, const ControllerSettings& controller, const ContactSet& contacts,
             int k) {
   const ReflexSettings& reflex = controller.reflex;
@@ -52,7 +53,7 @@ bool copies(const Model& model, const ControllerSettings& controller, const Cont
          });
 }
 
-/// Where the hinges will be when the forces of a step act, rad.
+/// Angles of the hinges when the forces of a step act, rad.
 void look_ahead(const Scene& scene, const Eigen::VectorXd& q, const Eigen::VectorXd& qdot,
                 Eigen::VectorXd& own) {
   const Eigen::Index count = qdot.size() - root_dofs;
@@ -63,15 +64,15 @@ std::int64_t step_at(const Scene& scene, double time) {
   return std::llround(time / scene.time.step);
 }
 
-/// Each sensed angle is wrong by its own draw, the same for the same seed and step.
+/// Each sensed angle has its own error, the same for the same seed and step.
 void add_noise(const ReflexSettings& reflex, std::int64_t step, Eigen::VectorXd& sensed) {
   if (reflex.noise == 0) return;
-  constexpr unsigned stride = 7919;  // no step has the draws of another seed's next one
+  constexpr unsigned stride = 7919;  // so that no step repeats the draws of another seed's step
   std::mt19937 random(reflex.seed + stride * static_cast<unsigned>(step));
   for (double& angle : sensed) angle *= 1 + reflex.noise * normal_draw(random);
 }
 
-/// The angles of some steps ago, which `memory` keeps.
+/// The angles of some steps ago, which `memory` holds.
 void sense_late(const Scene& scene, double time, const Eigen::VectorXd& q, Eigen::Index count,
                 Eigen::VectorXd& memory, Eigen::VectorXd& sensed) {
   const int lag = reflex_lag(scene);
@@ -147,7 +148,7 @@ void reflex_law(const Situation& at, Eigen::VectorXd& memory, Control& control,
   control.thigmotaxis.clear();
   if (!reflex_acts(so_far.phase)) {
     memory.resize(0);
-    // Without a program there is no shape to form, and none to be let go little by little.
+    // Without a program there is no shape to form, and none to relax from.
     if (scene.script.kind != ScriptSettings::Kind::curvature) control.rest_shape.resize(0);
     return;
   }
@@ -164,7 +165,7 @@ void reflex_law(const Situation& at, Eigen::VectorXd& memory, Control& control,
 
 namespace {
 
-/// What the senses show in the step, where they are late; else the state says it.
+/// The sensed angles of the step, if they are delayed. Else the state gives them.
 constexpr LawNumbers numbers[] = {
     {.path = "/reflex/sensed",
      .unit = "rad",

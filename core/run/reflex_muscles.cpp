@@ -7,7 +7,7 @@
 namespace hagfish {
 namespace {
 
-/// In place of each angle that the senses have not shown yet, rad: no hinge turns so far.
+/// Stands for each angle that the senses have not shown yet, rad: no hinge turns so far.
 constexpr double none = 1e6;
 
 Eigen::Index muscle_count(const Model& model) {

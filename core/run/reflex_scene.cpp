@@ -1,4 +1,4 @@
-// What keeps a scene from having the reflex.
+// The reasons why a scene cannot have the reflex.
 #include <cmath>
 #include <string>
 #include <utility>
@@ -30,7 +30,7 @@ std::optional<SceneFault> reflex_fault(const Specimen& specimen, const Scene& sc
   if (reflex.delay > 0 && reflex.delay < scene.time.step) {
     return SceneFault{table + "delay", "must not be less than time.step"};
   }
-  constexpr int most_lag = 10000;  // more steps than this are kept by no run
+  constexpr int most_lag = 10000;  // largest delay, in steps
   if (reflex.delay > most_lag * scene.time.step) {
     return SceneFault{table + "delay",
                       "must be at most " + std::to_string(most_lag) + " times time.step"};

@@ -7,7 +7,7 @@
 namespace hagfish {
 namespace {
 
-/// Where a knot is, noise and all.
+/// Place of a knot, including noise.
 Eigen::Vector3d at(const ScriptKnot& knot) { return knot.value + knot.noise; }
 
 /// Catmull-Rom tangent of knot k by finite differences in time.
@@ -55,7 +55,7 @@ TipForce script_force(const ScriptSettings& script, double time, const TimeSetti
   TipForce implicit{script.spring * (script_value(script, time + h) - position),
                     h * script.spring + script.damper};
   if (step.rule == TimeRule::midpoint) {
-    // A spring too stiff for the step, whose script does not damp it, rings: so it is damped at the
+    // A spring too stiff for the step rings unless the script damps it. So it is damped at the
     // velocity after the step, 2 x - v (core/README.md, "Steps in time").
     const double ringing = std::max(0.0, h * script.spring - script.damper);
     implicit.value += ringing * velocity;

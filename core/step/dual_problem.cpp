@@ -3,13 +3,13 @@
 namespace hagfish {
 namespace {
 
-/// A_ii of a row between points, times the mass of a body that it acts on, is below this where
-/// prescribed velocities keep these points from moving against each other: then it is rounding,
-/// some 1e-32. Where they move at all it is far above.
+/// Where prescribed velocities keep the two points of a row from moving against each other, A_ii
+/// times the mass of a body of the row is rounding, about 1e-32. Where the points can move it is
+/// far above this bound.
 constexpr double immovable = 1e-20;
 
-/// Makes A 0 for those of `rows` that cannot move: the solver would take rounding for a way to move
-/// them.
+/// Sets A to 0 for those of `rows` that cannot move, since the solver would take rounding for a way
+/// to move them.
 void clear_immovable(const Model& model, std::span<const Row> rows, Eigen::MatrixXd& A) {
   for (Eigen::Index i = 0; i < A.rows(); ++i) {
     if (rows[i].dof < 0 && A(i, i) * model.bodies[rows[i].a.first].mass < immovable) {

@@ -10,7 +10,7 @@
 namespace hagfish {
 namespace {
 
-/// Adds `row`, or replaces the one of its id in place, so that it keeps its multiplier.
+/// Adds `row`, or replaces the row with the same id in place, so that it keeps its multiplier.
 void put(PathRow row, StepSolution& step) {
   const auto id = [](const PathRow& other) { return other.row.id; };
   put_row(row.row, step.rows);
@@ -22,7 +22,7 @@ void put(PathRow row, StepSolution& step) {
   }
 }
 
-/// How many rows of the contact with this id the path has given in this step.
+/// The number of rows that the path has given the contact with this id in this step.
 int rows_of_contact(std::int64_t id, const StepSolution& step) {
   return static_cast<int>(std::ranges::count_if(step.path_rows, [&](const PathRow& path_row) {
     return path_row.contact && contact_row_id(*path_row.contact) == id;
@@ -41,7 +41,8 @@ bool add_missed_rows(const StepInput& in, const StepPlace& place, const Observat
   const ConstraintSettings& settings = in.scene.constraints;
   const Observation& now = in.observation;
   const double h = in.scene.time.step;
-  // On the way strands must not pass through each other; its end is the next step's start.
+  // On the path strands must only not pass through each other. The end is the start of the next
+  // step.
   const double tolerance = t < h ? way_tolerance * settings.stride : settings.tolerance;
   bool any = false;
   const auto check = [&](double gap_now, double gap_there, const auto& make_row) {
@@ -52,7 +53,7 @@ bool add_missed_rows(const StepInput& in, const StepPlace& place, const Observat
       PathRow path_row = make_row();
       Row& row = path_row.row;
       const double missed = gap_there - gap_now - t * row_velocity(row, step.bodies(), step.qdot);
-      // At great speeds what the linear row misses grows beyond all sense; rows that ask strands to
+      // At great speeds the error of the linear row grows without bound. Rows that ask strands to
       // part by more than they may move between samples only contradict each other.
       row.rhs = std::min(goal - gap_now - missed * (h / t) * (h / t), settings.stride) / h;
       put(std::move(path_row), step);

@@ -84,8 +84,8 @@ Status Rounds::resume(const StepInput& in, const StepPlace& place, const WarmSta
   return {};
 }
 
-/// A round. Where the rows cannot all be met with those prescribed, another one, with none
-/// prescribed.
+/// One round. If the rows cannot all be met with the prescribed ones, it repeats without any
+/// prescribed row.
 Status Rounds::round(const StepInput& in, const StepPlace& place, const WarmStart& warm,
                      StepSolution& step) {
   while (true) {
@@ -114,23 +114,23 @@ Status Rounds::round(const StepInput& in, const StepPlace& place, const WarmStar
   }
 }
 
-/// Whether the factor is of Eq. 1 and the rows that are prescribed now.
+/// Whether the factor belongs to Eq. 1 and the rows that are prescribed now.
 bool Rounds::factor_is_current(const StepSolution& step) const {
   return factor_known_ && static_cast<std::size_t>(std::ranges::count_if(
                               step.rows, &Row::prescribed)) == problem_.prescribed.size();
 }
 
-/// Releases rows and adds others where the solution asks for it; whether it did.
+/// Releases rows and adds others as the solution requires. Returns whether it did.
 bool Rounds::change_rows(const StepInput& in, const StepPlace& place, StepSolution& step) {
   const bool released = release_pulling(step);
   return add_violated(in, place, step) || released;
 }
 
-/// Sorts the rows by their places, prescribed ones first, and gathers the multipliers to start
-/// from: the last round's, or the last step's.
+/// Sorts the rows by place_in_step, prescribed ones first. Collects start values of the multipliers
+/// from the last round or, in the first, from the last step.
 void Rounds::order_rows(const Model& model, const WarmStart& warm, StepSolution& step) {
   const std::size_t m = step.rows.size();
-  // Rows of the round before, if there was one, come first and are still in their places.
+  // Rows of the last round, if there was one, come first and are already in order.
   const std::size_t solved = step.rounds > 0 ? static_cast<std::size_t>(step.lambda.size()) : 0;
   order_.clear();
   step.prescribed = 0;
@@ -172,8 +172,8 @@ Status Rounds::base_motion(const StepInput& in, const StepPlace& place, StepSolu
   return {};
 }
 
-/// q̇ = H⁻¹ (g + C'λ) with the λ of the rows that are not prescribed; with it the bodies' twists and
-/// the λ of those that are.
+/// q̇ = H⁻¹ (g + C'λ) with the λ of the rows that are not prescribed. Also the twists of the
+/// bodies, and the λ of the prescribed rows.
 void Rounds::set_velocity(const StepInput& in, const StepPlace& place, StepSolution& step) {
   const Kinematics& kin = place.kin;
   wrench_ = step.system.wrench;
@@ -190,8 +190,8 @@ void Rounds::set_velocity(const StepInput& in, const StepPlace& place, StepSolut
   }
 }
 
-/// Eq. 4 on the rows that are not prescribed, as one small problem in the multipliers. False where
-/// the back end failed, as it must where those contradict the prescribed ones.
+/// Eq. 4 on the rows that are not prescribed, as one small problem in the multipliers. False if the
+/// back end fails, as it must if these rows contradict the prescribed ones.
 bool Rounds::solve_multipliers(StepSolution& step) {
   BoxQpSolution& solution = solution_;
   step.kind = SolveKind::qp;
@@ -206,7 +206,7 @@ bool Rounds::solve_multipliers(StepSolution& step) {
   return true;
 }
 
-/// Adds rows that were left out and that q̇ violates; whether there were any.
+/// Adds rows that were left out and that q̇ violates. Returns whether there were any.
 bool Rounds::add_violated(const StepInput& in, const StepPlace& place, StepSolution& step) {
   gather_violated_rows(in, place, step, violated_);
   bool any = false;

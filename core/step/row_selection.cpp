@@ -7,15 +7,15 @@ namespace hagfish {
 namespace {
 
 /// A row is left out at first if neither rest nor the last velocity brings it nearer than this to
-/// binding in a step. The unit is rad for angles, and the body's radius for points. Only speed
-/// depends on it: rows that were left out are checked after the solve.
+/// binding in a step. The unit is rad for angles, and the body's radius for points. The value
+/// affects speed alone, since rows that were left out are checked after the solve.
 constexpr double lazy_reach = 6e-5;
-/// A row left out counts as violated below this in a step, likewise.
+/// A row that was left out counts as violated below this in a step, in the same units.
 constexpr double lazy_tolerance = 2e-11;
 constexpr double nowhere = -std::numeric_limits<double>::infinity();
 
-/// The unilateral rows that are near binding. Of pairs of segments that are no minimum of the gap,
-/// those for which `is_considered` holds: at 400 bodies each minimum has many neighbours, and few
+/// The unilateral rows near binding. Pairs of segments that are not a minimum of the gap are
+/// included only if `is_considered` holds. At 400 bodies each minimum has many neighbours, and few
 /// of them push.
 template <class Condition>
 void append_unilateral_rows(const StepInput& in, const StepPlace& place, const NearBinding& wanted,

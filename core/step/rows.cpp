@@ -10,14 +10,15 @@ namespace {
 
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 
-/// The last number of a limit row's id: 0 for a hinge's lower limit, 1 for its upper one, from here
-/// on for a cone.
+/// The last number of a limit row's id: 0 for the lower limit of a hinge, 1 for the upper limit,
+/// larger ones for a cone.
 constexpr int first_cone_row = 2;
 
-/// The last number of an obstacle row's id: the index of a plane, from here on a strand's segment.
+/// The last number of an obstacle row's id: the index of a plane, or from here on a strand's
+/// segment.
 constexpr int first_strand_segment = 1 << 16;
 
-/// What the ids of a contact's rows in one step differ by: more than any kind's.
+/// Difference between the ids of a contact's rows in one step: more than any number above.
 constexpr std::int64_t next_cut = std::int64_t{1} << 48;
 
 std::int64_t row_id(RowKind kind, int first, int second) {
@@ -25,8 +26,8 @@ std::int64_t row_id(RowKind kind, int first, int second) {
          second;
 }
 
-/// The first number of a thigmotaxis row's id: 0 and 1 for the knot's first and last contact, from
-/// here on its segment a.
+/// The first number of the id of a row of Eq. 6: 0 and 1 for the knot's first and last contact,
+/// from here on its segment a.
 constexpr int first_segment = 2;
 
 std::int64_t thigmotaxis_id(const ThigmotaxisCommand& command, bool on_a) {
@@ -37,7 +38,7 @@ std::int64_t thigmotaxis_id(const ThigmotaxisCommand& command, bool on_a) {
              : row_id(RowKind::thigmotaxis, static_cast<int>(command.end), along);
 }
 
-/// Relative motion along `direction` of the two spline points of a contact; an obstacle's rests.
+/// Relative motion along `direction` of the two spline points of a contact. An obstacle is at rest.
 void set_points(Row& row, const Contact& contact, const Eigen::Vector3d& direction,
                 const Model& model) {
   row.direction = direction;
@@ -70,9 +71,9 @@ double relative_velocity(const Row& row, const BodyVelocities& bodies) {
                                   : apart(row, bodies.centre));
 }
 
-/// The right-hand side of a unilateral row at `gap`; none where the row is not in force.
-/// Speculative rows let a gap close within the step; a violation is pushed out over several.
-/// `fastest` bounds the speed of that.
+/// The right-hand side of a unilateral row at `gap`; none if the row does not act. Speculative rows
+/// let a gap close within the step. A violation is corrected over several steps, at no more than
+/// the speed `fastest`.
 std::optional<double> unilateral(double gap, const ConstraintSettings& settings, double h,
                                  double fastest) {
   if (gap >= 0 && settings.activation == Activation::violated) {
@@ -184,7 +185,7 @@ Row cone_row(const BendingCone& cone, const Bend& bend, int number) {
 
 void append_head_rows(const State& state, const ConstraintSettings& settings, double h,
                       std::vector<Row>& rows) {
-  // The turn from the clamped orientation, as a rotation vector of small angle, body frame.
+  // The rotation from the clamped orientation, as a rotation vector of small angle, body frame.
   const Eigen::Vector3d turn = 2 * std::copysign(1.0, state.q[3]) * state.q.segment<3>(4);
   for (int k = 0; k < root_dofs; ++k) {
     Row& row = rows.emplace_back();
@@ -200,7 +201,7 @@ namespace {
 
 void append_hinge_rows(const Model& model, const State& state, const ConstraintSettings& settings,
                        double h, const NearBinding& wanted, std::vector<Row>& rows) {
-  // Most hinges are clear of both sides by this.
+  // Most hinges are further than this from both limits.
   const double reach = std::max(wanted.slack, wanted.slack_at_rest);
   const double clear = h * (reach + 1e-9 * std::abs(reach));  // beyond rounding
   for (int k = root_dofs; k < model.nv(); ++k) {
@@ -209,7 +210,7 @@ void append_hinge_rows(const Model& model, const State& state, const ConstraintS
     if (least_gap >= 0 && least_gap - h * std::abs(wanted.v[k]) > clear && least_gap > clear) {
       continue;
     }
-    // The nearer side first: an order that a mirror image, which swaps the sides, keeps.
+    // The nearer side first: a mirror image swaps the sides, and this order stays the same.
     const double nearer = state.q[k + 1] - hinge.lower <= hinge.upper - state.q[k + 1] ? 1 : -1;
     for (const double sign : {nearer, -nearer}) {
       const double gap = sign > 0 ? state.q[k + 1] - hinge.lower : hinge.upper - state.q[k + 1];
@@ -231,8 +232,8 @@ void append_cone_rows(const Model& model, const State& state, const ConstraintSe
                       double h, const NearBinding& wanted, std::vector<Row>& rows) {
   for (const BendingCone& cone : model.cones) {
     const auto angles = state.q.segment<2>(cone.dof + 1);
-    // θ is at most the length of both angles and grows no faster than they do: most joints are far
-    // from their cones by this.
+    // θ is at most the length of the vector of both angles and grows no faster. By this bound most
+    // joints are far from their cones.
     if (!wanted(-wanted.v.segment<2>(cone.dof).norm(), (angles.norm() - cone.limit) / h)) {
       continue;
     }

@@ -6,7 +6,8 @@
 namespace hagfish {
 namespace {
 
-/// λ, rows brought to unit diagonal, is kept for the next step above this share of the largest.
+/// The next step starts from all λ, scaled to rows of unit diagonal, above this share of the
+/// largest.
 constexpr double active_share = 1e-6;
 
 /// Eqs. 7 and 8: f = C'λ / h of one kind of row.
@@ -33,9 +34,10 @@ void sum_forces(RowKind kind, const Model& model, const Kinematics& kin, double 
   }
 }
 
-/// step.net_force, and |H x - g - C'λ r / h| (x: the mean velocity; by Euler's rule q̇, r = h) over
-/// the largest of the first two and of what one kind of force alone makes: their sum may be nothing
-/// but rounding, and all of the three are where forces hold each other at rest.
+/// Computes step.net_force, and |H x - g - C'λ r / h| over a scale (x: the mean velocity; by
+/// Euler's rule q̇, r = h). The scale is the largest of the first two terms and of the force of
+/// each kind alone. The sum of forces may be mere rounding, and all three terms are where forces
+/// balance at rest.
 double stationarity(const Model& model, const Kinematics& kin, double reach, ReportStorage& storage,
                     StepSolution& step) {
   const StepSystem& system = step.system;
@@ -58,8 +60,8 @@ double stationarity(const Model& model, const Kinematics& kin, double reach, Rep
   return scale == 0 ? 0 : change.lpNorm<Eigen::Infinity>() / scale;
 }
 
-/// |λ| with rows brought to unit diagonal (prescribed ones to about that), so that those of cm/s
-/// and rad/s compare, into storage.scaled; what brings them there into storage.row_scale.
+/// Writes |λ|, scaled to rows of unit diagonal (prescribed rows: about that), into storage.scaled,
+/// so that rows in cm/s and rad/s compare. Writes the scale into storage.row_scale.
 void scale_multipliers(const RowProblem& problem, const StepSolution& step,
                        ReportStorage& storage) {
   Eigen::VectorXd& scaled = storage.scaled;
@@ -97,7 +99,8 @@ void measure_rows(const RowProblem& problem, ReportStorage& storage, StepSolutio
   for (Eigen::Index i = 0; i < m; ++i) {
     step.excess[i] = row_velocity(step.rows[i], step.bodies(), step.qdot) - step.rows[i].rhs;
   }
-  // β of the whole problem: where a prescribed row binds alone, b over its scale is this.
+  // The scale of b over the whole problem: where a prescribed row binds alone, it is its b over its
+  // scale.
   const double beta = step.prescribed == 0 ? 0 : storage.scaled.head(step.prescribed).maxCoeff();
   const Eigen::Index solved = m - step.prescribed;
   step.kkt = solved == 0

@@ -8,26 +8,26 @@
 namespace hagfish {
 namespace {
 
-/// Rows that repeat each other leave their Eq. 4 singular: this share of its largest diagonal entry
-/// is added, which changes impacts by as little.
+/// Rows that repeat each other make their Eq. 4 singular. This share of its largest diagonal entry
+/// is added, which changes impacts by the same share.
 constexpr double least_pivot = 1e-10;
 
-/// Velocities of prescribed rows that jump by less, rad/s or cm/s, are rounding to the other rows.
+/// Jumps of prescribed velocities below this, rad/s or cm/s, are rounding for the other rows.
 constexpr double least_jump = 1e-9;
 
 bool pushes(const Row& row, double lambda) {
   return lambda != 0 && lambda > row.lower && lambda < row.upper;
 }
 
-/// The impacts of one step in the making.
+/// Computes the impacts of one step.
 class Impacts {
  public:
   Impacts(const StepInput& in, const StepPlace& place, const RowProblem& problem,
           StepSolution& step)
       : in_(in), place_(place), problem_(problem), step_(step) {}
 
-  /// What they change the velocity by, nv; empty where nothing hits. Throws
-  /// std::domain_error as ArticulatedFactor::factorise does.
+  /// The change of velocity by impacts, nv; empty without impacts. Throws std::domain_error as
+  /// ArticulatedFactor::factorise does.
   const Eigen::VectorXd& change();
 
  private:
@@ -43,20 +43,20 @@ class Impacts {
   const RowProblem& problem_;
   StepSolution& step_;
   std::vector<std::size_t> prescribed_rows_;  ///< prescribed rows that push, and
-  std::vector<PrescribedVelocity> jumps_;     ///< what their velocities change by
+  std::vector<PrescribedVelocity> jumps_;     ///< changes of their velocities
   std::vector<std::size_t> saturated_rows_;   ///< rows at their upper bound
   std::vector<std::size_t> impact_rows_;      ///< other rows with an impact
-  std::vector<double> impact_b_, impact_x_;   ///< Eq. 4 of those, and its answer
-  Matrix6Xd wrench_;                          ///< of all impacts but those of prescribed rows
+  std::vector<double> impact_b_, impact_x_;   ///< Eq. 4 of these rows, and its solution
+  Matrix6Xd wrench_;                          ///< of all impacts except prescribed rows
   Eigen::VectorXd joint_;
   Eigen::VectorXd change_, reaction_;
   Matrix6Xd twist_;  ///< of the bodies at `change_`, 6 x N
 };
 
-/// Rows that push: a force that begins or stays stops what comes, so that the step ends with the
-/// velocities that they ask for. Prescribed ones go into prescribed_rows_ and jumps_, the others
-/// into impact_rows_, with what their velocities change by. What a row at its upper bound has acts
-/// at once: saturated_rows_. False where no velocity changes.
+/// Finds the rows that push. Where a force begins or stays, it stops the approach, so that the step
+/// ends with the velocities that these rows ask for. Prescribed rows go into prescribed_rows_ and
+/// jumps_, the others into impact_rows_, with their changes of velocity. The force of a row at its
+/// upper bound acts at once (saturated_rows_). Returns false if no velocity changes.
 bool Impacts::find() {
   bool any = false;
   for (std::size_t i = 0; i < step_.rows.size(); ++i) {
@@ -82,7 +82,7 @@ bool Impacts::find() {
   return any;
 }
 
-/// Solves A_impact μ = impact_b_, of the same A as Eq. 4, into impact_x_.
+/// Solves A_impact μ = impact_b_ into impact_x_, with the same A as in Eq. 4.
 void Impacts::solve_impacts() {
   const auto m = static_cast<Eigen::Index>(impact_rows_.size());
   Eigen::MatrixXd A(m, m);
@@ -103,8 +103,8 @@ double Impacts::coupling(Eigen::Index i, std::size_t row) const {
                        static_cast<Eigen::Index>(row - first));
 }
 
-/// Impacts of the rows impact_rows_. Those that would have a force that they may not have keep the
-/// bound, and the others are solved again. Adds all to wrench_ and joint_.
+/// The impacts of the rows impact_rows_. A row whose force would be out of bounds keeps the bound,
+/// and the others are solved again. Adds all of them to wrench_ and joint_.
 void Impacts::bound_impacts() {
   for (bool again = true; again && !impact_rows_.empty();) {
     again = false;
@@ -130,8 +130,8 @@ void Impacts::bound_impacts() {
   }
 }
 
-/// What the velocity changes by in the impacts of the rows impact_rows_ and the jumps of the
-/// prescribed ones, and the impacts of those.
+/// The change of velocity by the impacts of the rows impact_rows_ and the jumps of the prescribed
+/// rows. Also the impacts of the latter.
 void Impacts::respond(const ArticulatedFactor& factor) {
   factor.solve(in_.model, place_.kin, wrench_, joint_, jumps_, change_, twist_, reaction_);
   for (std::size_t k = 0; k < prescribed_rows_.size(); ++k) {
@@ -140,8 +140,8 @@ void Impacts::respond(const ArticulatedFactor& factor) {
   }
 }
 
-/// Prescribed limits that would pull over the whole step are let go, with no force; whether there
-/// were any.
+/// Releases prescribed limits that would pull over the whole step, without a force. Returns whether
+/// there were any.
 bool Impacts::release_pulling_limits() {
   std::size_t left = 0;
   for (std::size_t k = 0; k < prescribed_rows_.size(); ++k) {
@@ -182,7 +182,7 @@ const Eigen::VectorXd& Impacts::change() {
     bound_impacts();
   }
   respond(problem_.factor);
-  ArticulatedFactor free_factor;  // with limits that would pull let go
+  ArticulatedFactor free_factor;  // after the release of limits that would pull
   while (release_pulling_limits()) {
     free_factor.factorise(in_.model, place_.kin, step_.system.op, jumps_);
     respond(free_factor);

@@ -8,7 +8,7 @@
 namespace hagfish {
 namespace {
 
-/// Less than this of a pass's change is never taken to remain.
+/// Least share of a pass's change that is taken to remain.
 constexpr double least_remaining = 1e-3;
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
@@ -35,7 +35,8 @@ Status MidpointRule::begin(const StepInput& in, Rounds& rounds, WarmStart& warm,
   return settle(in, rounds, warm, step);
 }
 
-/// The velocity that the middle is first placed by: as it changed in the last two steps.
+/// The velocity that places the middle at first: extrapolated from its changes in the last two
+/// steps.
 void MidpointRule::guess_middle(const StepInput& in, const WarmStart& warm) {
   const Eigen::Index nv = in.model.nv();
   first_guess_.resize(2 * nv);
@@ -46,10 +47,10 @@ void MidpointRule::guess_middle(const StepInput& in, const WarmStart& warm) {
   first_guess_.tail(nv) = first_guess_.head(nv);
 }
 
-/// Passes from first_guess_ on, and what is done where they do not settle.
+/// Passes from first_guess_ on, and the remedies if they do not converge.
 Status MidpointRule::settle(const StepInput& in, Rounds& rounds, WarmStart& warm,
                             StepSolution& step) {
-  // Where a balanced bias keeps the passes from settling, they may without.
+  // A balanced bias may keep the passes from converging; without it they may converge.
   Status status = find_middle(in, true, rounds, warm, step);
   const auto settled_or_stopped = [&] {
     return status.ok() ? step.middle.unsettled == 0 : status.outcome == Outcome::stopped;
@@ -60,8 +61,8 @@ Status MidpointRule::settle(const StepInput& in, Rounds& rounds, WarmStart& warm
   if (settled_or_stopped()) {
     return status;
   }
-  // Passes that do not settle may run away, so far that one fails: the step is taken as from its
-  // own first velocity.
+  // Passes that do not converge may diverge until one fails. Then the step is taken from its own
+  // first velocity.
   if (!status.ok()) step.middle.unsettled = unlimited;
   midway_.step_velocity = midway_.mean_velocity = in.state.qdot;
   place_midway(in.model, in.state, in.observation.kin, in.scene.time.step, false, midway_);
@@ -69,8 +70,8 @@ Status MidpointRule::settle(const StepInput& in, Rounds& rounds, WarmStart& warm
   return solve_here(in, rounds, warm, step);
 }
 
-/// Passes that place the step's middle until it has settled; step.middle.unsettled where it does
-/// not.
+/// Passes that place the step's middle until it converges. If it does not, step.middle.unsettled
+/// says so.
 Status MidpointRule::find_middle(const StepInput& in, bool balanced, Rounds& rounds,
                                  WarmStart& warm, StepSolution& step) {
   const TimeSettings& time = in.scene.time;
@@ -81,7 +82,7 @@ Status MidpointRule::find_middle(const StepInput& in, bool balanced, Rounds& rou
   middle.passes = balanced ? 0 : time.passes;
   middle.unsettled = 0;
   middle.remaining = guessed_remaining(warm.remaining);
-  double before = 0;  // what the last pass changed
+  double before = 0;  // change in the last pass
   passes_.restart();
   placed_by_.resize(2 * nv);
   led_to_.resize(2 * nv);
@@ -93,7 +94,7 @@ Status MidpointRule::find_middle(const StepInput& in, bool balanced, Rounds& rou
     }
     const double off = (step.qdot - midway_.step_velocity).lpNorm<Eigen::Infinity>();
     if (pass > 1) {
-      // Changes fall by a share θ each: what is left is off (θ + θ² + ...) = off θ / (1 - θ).
+      // Changes shrink by the factor θ: the rest is off (θ + θ² + ...) = off θ / (1 - θ).
       middle.remaining = off < before ? std::max(off / (before - off), least_remaining) : unlimited;
     }
     if (off == 0 || middle.remaining * off <= time.settled) {
@@ -113,7 +114,7 @@ Status MidpointRule::find_middle(const StepInput& in, bool balanced, Rounds& rou
   }
 }
 
-/// The step where midway_ is, with the velocity after it.
+/// Solves the step at midway_, and finds the velocity after it.
 Status MidpointRule::solve_here(const StepInput& in, Rounds& rounds, const WarmStart& warm,
                                 StepSolution& step) {
   Status status = rounds.begin(in, place(in), warm, step);
@@ -143,7 +144,7 @@ void MidpointRule::end(const StepInput& in, WarmStart& warm, StepSolution& step)
   warm.half_before = warm.half_change;
   warm.half_change = half_change_;
   warm.remaining = step.middle.remaining;
-  // Multipliers of the velocity by which the step moves become those of its whole force.
+  // The multipliers of the step velocity become those of the step's whole force.
   for (std::size_t i = 0; i < step.rows.size(); ++i) {
     step.lambda[i] = 2 * step.lambda[i] - step.rows[i].impact;
   }

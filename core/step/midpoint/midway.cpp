@@ -6,20 +6,20 @@
 namespace hagfish {
 namespace {
 
-/// BiasPower::least over the mean momentum of the bodies over their motion. At a hundredth whips
-/// keep their energy to what passes leave; at a millionth some still blow up, where a body that
-/// stands for a moment is given speeds of many times its own.
+/// BiasPower::least over the mean of the bodies' momenta over the motion. With a hundredth, whips
+/// keep their energy up to the error of the passes. With a millionth some still blow up: a body
+/// that is at rest for a moment gets speeds many times its own.
 constexpr double least_share = 0.01;
 
-/// Where no body turns by more than this in a step, rad, Coriolis forces make or take some 1e-7 of
-/// the kinetic energy (its third power over 12), which is not worth the price of knowing
-/// it.
+/// If no body turns by more than this in a step, rad, Coriolis forces make or take about 1e-7 of
+/// the kinetic energy (the third power of the angle over 12). This is not worth the cost of the
+/// correction.
 constexpr double least_turn = 0.01;
 
-/// What makes the kinetic energy of each body change by the work of the forces on it alone: with
-/// the velocities v and v' before and after the step and its middle m,
+/// The power of each body's bias with which its kinetic energy changes by the work of the forces on
+/// it alone. With the velocities v and v' before and after the step and its middle m,
 ///   T(q', v') - T(q, v) = T_m(v') - T_m(v) + h times the power of its bias.
-/// (A discrete gradient, body by body: Gonzalez, J. Nonlinear Sci. 6, 1996.)
+/// (This is a discrete gradient, body by body: Gonzalez, J. Nonlinear Sci. 6, 1996.)
 void set_bias_power(const Model& model, const State& state, const Kinematics& now, double h,
                     Midway& midway) {
   advance(state.q, midway.step_velocity, h, midway.next.q);
