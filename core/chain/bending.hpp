@@ -1,5 +1,6 @@
-// The total bend of a universal joint, which turns by y about Y, then by z about Z: the angle
-// between the X axes of its two bodies, and the limit on it, a cone.
+// The total bend of a universal joint: the angle between the X axes of its two bodies, and the
+// limit on it, a cone. The joint turns by y about Y, then by z about Z. In a joint that turns about
+// Z first (make_hagfish), y stands for the first angle and z for the second.
 #pragma once
 
 #include <Eigen/Core>

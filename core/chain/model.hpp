@@ -26,7 +26,7 @@ struct Body {
 
 enum class Axis { x = 0, y = 1, z = 2 };
 
-/// One angle. A joint with several turns about its axes in the order given (Y before Z).
+/// One angle. A joint with several turns about its axes in the order of its hinges.
 struct Hinge {
   int body = 0;
   Axis axis = Axis::y;
@@ -39,7 +39,7 @@ struct Hinge {
 /// A limit on the total angle of a universal joint, whose hinges have none of their own: its second
 /// body's X axis stays within a cone about that of its first (core/chain/bending.hpp).
 struct BendingCone {
-  int dof = 0;       ///< velocity of its Y hinge; that of its Z hinge is the next
+  int dof = 0;       ///< first velocity of the joint; that of its other hinge is the next
   double limit = 0;  ///< rad, below pi/2
 };
 
@@ -101,11 +101,12 @@ double hinge_span(const Model& model, int body);
 /// places in this list are their indices everywhere.
 std::vector<Obstacle> obstacles_of(const Scene& scene);
 
-/// The animal (design: alternating YZ-universal and X-revolute joints, paper 3.1; or universal ones
-/// alone). Mass is in proportion to r^2; stiffness and damping are those of the length of body that
-/// a joint stands for, bending limits those of the way from one bending joint to the next, so that
-/// the physics per length does not depend on the number of bodies. Scaled as ModelSettings says,
-/// and among the scene's obstacles. Throws std::invalid_argument for a body count outside 2..400.
+/// The animal: universal joints (about Y and Z) and revolute joints (about X) in turn (paper, 3.1),
+/// or universal joints alone. Of universal joints every second one turns about Z first. Mass is in
+/// proportion to r^2. Stiffness and damping are those of the length of body that a joint stands
+/// for, and bending limits those of the distance between bending joints. So the physics per length
+/// does not depend on the number of bodies. Scaled by ModelSettings, with the scene's obstacles.
+/// Throws std::invalid_argument for a body count outside 2..400.
 Model make_hagfish(const Specimen& specimen, const Scene& scene);
 
 }  // namespace hagfish
