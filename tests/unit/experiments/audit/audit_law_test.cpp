@@ -188,20 +188,6 @@ TEST_F(AuditLaw, OfAReducedBasisTorquesAreItsShapesTimesItsNumbers) {
   EXPECT_NE(capped.find("/eq6/cap"), std::string::npos) << capped;
 }
 
-/// A knot that has come loose in the slide has no window, and its law no numbers.
-TEST_F(AuditLaw, WhereNothingTouchesAReducedBasisDoesNothing) {
-  write(scene_of("reduced_basis",
-                 {"controller.reduced_basis.cosines=3", "controller.contact_gap=1e-9",
-                  "controller.reduced_basis.period=0.01", "controller.reduced_basis.softness=0.1",
-                  "controller.reduced_basis.most=1e4"}),
-        {});
-  const std::string good = objections();
-  EXPECT_EQ(good.find("muscles"), std::string::npos) << good;
-  const std::string text = objections_to<double>(
-      "/forces/active", [](double) { return true; }, [](double v) { return v + 10; });
-  EXPECT_NE(text.find("/forces/active"), std::string::npos) << text;
-}
-
 /// Of the reflex the rest shape is what it copies, whatever its senses are.
 TEST_F(AuditLaw, OfTheReflexTheRestShapeIsWhatItCopies) {
   const std::vector<std::string> senses[] = {
