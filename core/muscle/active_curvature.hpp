@@ -25,7 +25,6 @@ Eigen::VectorXd program_shape(const Model& model, const CurvatureProgram& progra
 ///   release, free       q_ref' = -q_ref / relax_time, towards straight.
 /// The two decays are exact over the step at constant q. A run that begins after form begins with
 /// the shape of `q`.
-/// the shape of `q`.
 void move_rest_shape(const Model& model, const Scene& scene, Phase phase, const Eigen::VectorXd& q,
                      double time, Eigen::VectorXd& rest);
 
