@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/contact/patch.hpp"
+
 namespace hagfish {
 namespace {
 
@@ -218,8 +220,8 @@ Contact end_from(const std::vector<SplineSegment>& segments, const ContactSettin
 }  // namespace
 
 TouchingEnds touching_ends(const std::vector<SplineSegment>& segments,
-                           const std::vector<Contact>& contacts, const ContactSettings& settings,
-                           double gap) {
+                           const std::vector<Contact>& contacts, const Scene& scene) {
+  const double gap = scene.controller.contact_gap;
   const Contact* first = nullptr;
   const Contact* last = nullptr;
   for (const Contact& contact : contacts) {
@@ -228,8 +230,22 @@ TouchingEnds touching_ends(const std::vector<SplineSegment>& segments,
     if (last == nullptr || contact.arc_b > last->arc_b) last = &contact;
   }
   if (first == nullptr) return {};
-  return {end_from(segments, settings, gap, false, first->segment_a, first->t_a),
-          end_from(segments, settings, gap, true, last->segment_b, last->t_b)};
+  const Contact head_end =
+      end_from(segments, scene.contact, gap, false, first->segment_a, first->t_a);
+  const Contact tail_end = end_from(segments, scene.contact, gap, true, last->segment_b, last->t_b);
+  return {head_end, tail_end, end_arc(segments, head_end, false, scene),
+          end_arc(segments, tail_end, true, scene)};
+}
+
+double end_arc(const std::vector<SplineSegment>& segments, const Contact& end, bool tail,
+               const Scene& scene) {
+  const auto own_arc = [tail](const Contact& c) { return tail ? c.arc_b : c.arc_a; };
+  std::vector<PatchPoint> patch;
+  contact_patch(segments, scene, end, tail, patch);
+  if (patch.empty()) return own_arc(end);
+  double mean = 0;
+  for (const auto& [contact, share] : patch) mean += share * own_arc(contact);
+  return mean;
 }
 
 }  // namespace hagfish

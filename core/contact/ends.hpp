@@ -15,13 +15,18 @@ namespace hagfish {
 /// the gap do not: they hop along a strand from joint to joint.
 struct TouchingEnds {
   std::optional<Contact> first, last;  ///< both or none
+  double head_end = 0, tail_end = 0;   ///< of the knot: their end_arc, cm; 0 where there are none
 };
 
 /// `contacts` are the local minima of the gap of `segments`. Each part of the level set contains a
-/// minimum whose gap is at most `gap`. So the search starts at the outermost of these minima and
-/// follows the level set from there.
+/// minimum whose gap is at most controller.contact_gap. So the search starts at the outermost of
+/// these minima and follows the level set from there.
 TouchingEnds touching_ends(const std::vector<SplineSegment>& segments,
-                           const std::vector<Contact>& contacts, const ContactSettings& settings,
-                           double gap);
+                           const std::vector<Contact>& contacts, const Scene& scene);
+
+/// The place of an end of the knot on its own strand, cm of arc: the mean over the patch of contact
+/// that begins at `end` (patch.hpp), or that of `end` itself where controller.contact_patch is 0.
+double end_arc(const std::vector<SplineSegment>& segments, const Contact& end, bool tail,
+               const Scene& scene);
 
 }  // namespace hagfish

@@ -224,6 +224,9 @@ void check_expectations(const TableReader& root, const Scene& scene) {
     root.fail("controller.contact_gap",
               "must not exceed contact.margin, " + shortest(scene.contact.margin));
   }
+  if (scene.controller.contact_gap == 0 && scene.controller.contact_patch > 0) {
+    root.fail("controller.contact_gap", "must be positive where controller.contact_patch is");
+  }
 }
 
 }  // namespace

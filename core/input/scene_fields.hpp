@@ -259,6 +259,7 @@ void controller_fields(Io& io, ControllerSettings& s) {
                               {{"paper", Eq6Slip::paper}, {"shape", Eq6Slip::shape}});
   io.number("cap", s.cap, positive(cgs::dyn));
   io.number("contact_gap", s.contact_gap, not_negative(cgs::cm));
+  io.number("contact_patch", s.contact_patch, not_negative(cgs::cm));
   io.length("tail_through", s.tail_through, not_negative());
   io.number("tighten_from", s.tighten_from, not_negative());
   io.length("tight_span", s.tight_span, positive());

@@ -126,8 +126,8 @@ void serialize(Archive& archive, ContactSet& set) {
 
 template <class Archive>
 void serialize(Archive& archive, TouchingEnds& ends) {
-  auto& [first, last] = ends;
-  archive(first, last);
+  auto& [first, last, head_end, tail_end] = ends;
+  archive(first, last, head_end, tail_end);
 }
 
 template <class Archive>

@@ -123,12 +123,18 @@ void declare_knot(LogTable<Frame>& t) {
           [](const Frame& f) { return f.knot.type.v2; });
   t.number("/knot/agreement", {"1", "share of the projections that agree"},
            [](const Frame& f) { return f.knot.agreement; });
-  t.number("/knot/head_end", {"cm", "arc length from the head of the first contact"},
+  t.number("/knot/head_end",
+           {"cm",
+            "arc length from the head of the knot's head end: the first contact, in the mean over "
+            "its patch"},
            [](const Frame& f) {
              const auto span = knot_span(f.record.controller);
              return span ? span->head_end : nan;
            });
-  t.number("/knot/tail_end", {"cm", "arc length from the head of the last contact"},
+  t.number("/knot/tail_end",
+           {"cm",
+            "arc length from the head of the knot's tail end: the last contact, in the mean over "
+            "its patch"},
            [](const Frame& f) {
              const auto span = knot_span(f.record.controller);
              return span ? span->tail_end : nan;

@@ -29,7 +29,7 @@ ThigmotaxisRow thigmotaxis_row(const Control& control, const StepSolution& solut
   r.towards = of.towards;
   r.spline_a = row.a.parameter;
   r.spline_b = row.b.parameter;
-  r.command = r.along_a ? of.speed.a : of.speed.b;
+  r.command = row.rhs;
   r.cap = row.upper / h;
   r.lambda = solution.lambda[index] / h;
   r.speed = solution.excess[index] + row.rhs;

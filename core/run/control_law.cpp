@@ -49,9 +49,7 @@ void command_ends(const Situation& at, std::vector<ThigmotaxisCommand>& commands
                             : 1;
   const CommandedSpeeds speeds = commanded_speeds(at);
   const auto command = [&](const Contact& contact, const ThigmotaxisSpeeds& speed, KnotEnd end) {
-    commands.push_back({contact,
-                        settings.eq6_slip == Eq6Slip::paper ? speed : slip_of_shape(contact, speed),
-                        speeds.towards, effort, end});
+    commands.push_back({contact, speed, speeds.towards, effort, end, settings.eq6_slip});
   };
   command(*so_far.ends.first, speeds.first, KnotEnd::first);
   command(*so_far.ends.last, speeds.last, KnotEnd::last);
@@ -125,11 +123,6 @@ void paper_law(const Situation& at, Control& control) {
   }
 }
 
-ThigmotaxisSpeeds slip_of_shape(const Contact& contact, const ThigmotaxisSpeeds& speed) {
-  const double cosine = contact.tangent_a.dot(contact.tangent_b);
-  return {speed.a - speed.b * cosine, speed.b - speed.a * cosine};
-}
-
 void all_contacts_law(const Situation& at, Control& control) {
   paper_law(at, control);
   if (control.thigmotaxis.empty() || at.so_far.phase == Phase::tighten) {
@@ -144,7 +137,7 @@ void all_contacts_law(const Situation& at, Control& control) {
       continue;
     }
     control.thigmotaxis.push_back(
-        {contact, slip_of_shape(contact, speed), first.towards, first.effort, KnotEnd::neither});
+        {contact, speed, first.towards, first.effort, KnotEnd::neither, Eq6Slip::shape});
   }
 }
 

@@ -47,18 +47,6 @@ using ControlLaw =
 /// shape.
 void paper_law(const Situation& at, Control& control);
 
-/// The left sides of Eq. 6 at `contact` where both strands run along themselves,
-/// ẋ_a = speed.a t_a and ẋ_b = speed.b t_b, as those of a knot of constant shape do at one speed:
-///
-///     t_a . (ẋ_a - ẋ_b) = speed.a - speed.b t_a . t_b
-///     t_b . (ẋ_b - ẋ_a) = speed.b - speed.a t_a . t_b
-///
-/// At one speed v both are v (1 - t_a . t_b). This is v where strands cross at right angles, 2 v
-/// where they run in opposite directions, and 0 side by side. The paper has v on both rows. Side by
-/// side these contradict each other, as they ask for v along t_a and against it. The motion above
-/// meets both rows at any angle.
-ThigmotaxisSpeeds slip_of_shape(const Contact& contact, const ThigmotaxisSpeeds& speed);
-
 /// The paper's law, and while the knot slides also Eq. 6 at every other touching contact, with the
 /// slip of its strands at the head contact's speeds (addition).
 void all_contacts_law(const Situation& at, Control& control);

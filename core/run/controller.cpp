@@ -134,7 +134,7 @@ std::optional<KnotSpan> knot_span(const ControllerState& controller) {
   if (!controller.ends.first || !controller.ends.last) {
     return std::nullopt;
   }
-  return KnotSpan{controller.ends.first->arc_a, controller.ends.last->arc_b};
+  return KnotSpan{controller.ends.head_end, controller.ends.tail_end};
 }
 
 bool clamps_head(const Scene& scene, Phase phase) {

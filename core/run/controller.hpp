@@ -43,7 +43,7 @@ struct ControllerState {
   Eigen::VectorXd memory;      ///< of the control law
 };
 
-/// Where the knot begins and ends: arc lengths of the first and the last contact, cm.
+/// Where the knot begins and ends: TouchingEnds::head_end and tail_end, cm of arc.
 struct KnotSpan {
   double head_end = 0, tail_end = 0;
 };

@@ -258,8 +258,11 @@ struct ControllerSettings {
   ThigmotaxisSpeeds reverse_head, reverse_tail;
   BodyEnd leave_by = BodyEnd::head;  ///< tail: at the head the knot turns back
   Phase free_from = Phase::release;  ///< a clamped head is free from this phase on
-  double cap = 5000;           ///< largest lambda / h of a thigmotaxis row, dyn: the rows are soft
-  double contact_gap = 0.05;   ///< strands this close count as touching, cm (TouchingEnds)
+  double cap = 5000;          ///< largest lambda / h of a thigmotaxis row, dyn: the rows are soft
+  double contact_gap = 0.05;  ///< strands this close count as touching, cm (TouchingEnds)
+  /// Eq. 6 at an end of the knot holds in the mean over a patch of contact (contact_patch) whose
+  /// area is the square of this, cm; 0: at its first (last) point.
+  double contact_patch = 0;
   double tail_through = 8.0;   ///< tighten once this much body is past the last contact, cm of arc
   double tighten_from = 0;     ///< and not before this time: a script may end by pulling tight, s
   double tight_span = 20.352;  ///< slide once the knot spans no more body than this, cm of arc

@@ -28,8 +28,8 @@ void load_row(const Model& model, const Kinematics& kin, const Row& row, Eigen::
     columns.load_joint(row.dof + 1, column, row.next_sign);
   }
   visit_forces(row, kin,
-               [&](int body, const Eigen::Vector3d& force, const Eigen::Vector3d& offset) {
-                 columns.load(model, body, column, offset.cross(force), force);
+               [&](int body, const Eigen::Vector3d& moment, const Eigen::Vector3d& force) {
+                 columns.load(model, body, column, moment, force);
                });
 }
 

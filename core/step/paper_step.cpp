@@ -15,11 +15,7 @@ Matrix6Xd body_jacobian(const Model& model, const Kinematics& kin, int body) {
 }
 
 Eigen::Matrix3Xd centre_jacobian(const Model& model, const Kinematics& kin, int body) {
-  return point_jacobian(model, kin, body, kin.centre_offset(body));
-}
-
-Eigen::Matrix3Xd point_jacobian(const Model& model, const Kinematics& kin, int body,
-                                const Eigen::Vector3d& offset) {
+  const Eigen::Vector3d offset = kin.centre_offset(body);
   const Matrix6Xd jacobian = body_jacobian(model, kin, body);
   Eigen::Matrix3Xd velocity = jacobian.bottomRows<3>();
   for (Eigen::Index k = 0; k < velocity.cols(); ++k) {
@@ -38,8 +34,10 @@ Eigen::MatrixXd dense_rows(const Model& model, const Kinematics& kin,
       if (row.next_sign != 0) c(i, row.dof + 1) = row.next_sign;
     }
     visit_forces(row, kin,
-                 [&](int body, const Eigen::Vector3d& force, const Eigen::Vector3d& offset) {
-                   c.row(i) += force.transpose() * point_jacobian(model, kin, body, offset);
+                 [&](int body, const Eigen::Vector3d& moment, const Eigen::Vector3d& force) {
+                   const Matrix6Xd jacobian = body_jacobian(model, kin, body);
+                   c.row(i) += moment.transpose() * jacobian.topRows<3>() +
+                               force.transpose() * jacobian.bottomRows<3>();
                  });
   }
   return c;

@@ -15,10 +15,8 @@ namespace hagfish {
 /// before it, and zeros for those behind it.
 Matrix6Xd body_jacobian(const Model& model, const Kinematics& kin, int body);
 
-/// Jacobian of a body's centre, 3 x nv, and of its material point at `offset` from kin.reference.
+/// Jacobian of a body's centre, 3 x nv.
 Eigen::Matrix3Xd centre_jacobian(const Model& model, const Kinematics& kin, int body);
-Eigen::Matrix3Xd point_jacobian(const Model& model, const Kinematics& kin, int body,
-                                const Eigen::Vector3d& offset);
 
 /// Rows as a dense matrix, m x nv.
 Eigen::MatrixXd dense_rows(const Model& model, const Kinematics& kin, const std::vector<Row>& rows);

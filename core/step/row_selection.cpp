@@ -47,7 +47,7 @@ void gather_rows(const StepInput& in, const StepPlace& place, const WarmStart& w
       in.model, in.control.thigmotaxis,
       {place.kin, place.segments == nullptr ? in.observation.segments : *place.segments,
        place.segments != nullptr},
-      in.scene.controller, h, rows);
+      in.scene, h, rows);
   const auto pushed = [&](const Contact& contact) {
     return warm.find(contact_row_id(contact)) != nullptr;
   };

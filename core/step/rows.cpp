@@ -30,27 +30,6 @@ std::int64_t row_id(RowKind kind, int first, int second) {
 /// from here on its segment a.
 constexpr int first_segment = 2;
 
-std::int64_t thigmotaxis_id(const ThigmotaxisCommand& command, bool on_a) {
-  const int along = on_a ? 0 : 1;
-  return command.end == KnotEnd::neither
-             ? row_id(RowKind::thigmotaxis, first_segment + command.contact.segment_a,
-                      2 * command.contact.segment_b + along)
-             : row_id(RowKind::thigmotaxis, static_cast<int>(command.end), along);
-}
-
-/// Relative motion along `direction` of the two spline points of a contact. An obstacle is at rest.
-void set_points(Row& row, const Contact& contact, const Eigen::Vector3d& direction,
-                const Model& model) {
-  row.direction = direction;
-  row.a = spline_mix(contact.segment_a, contact.t_a, model.body_count());
-  if (contact.obstacle < 0) {
-    row.b = spline_mix(contact.segment_b, contact.t_b, model.body_count());
-  } else {
-    row.b = {};
-    row.b.parameter = strand_parameter(model, contact);
-  }
-}
-
 /// The mix a less the mix b of columns.
 template <class Columns>
 auto apart(const Row& row, const Columns& columns) {
@@ -65,8 +44,16 @@ auto apart(const Row& row, const Columns& columns) {
   return sum;
 }
 
-/// C q̇ of a row with points: along its direction ẋ_a - ẋ_b.
+/// C q̇ of a row with points, along its direction ẋ_a - ẋ_b, or of a patch.
 double relative_velocity(const Row& row, const BodyVelocities& bodies) {
+  if (!row.patch.empty()) {
+    double sum = 0;
+    for (const auto& [body, moment, force] : row.patch) {
+      sum += moment.dot(bodies.twist.col(body).head<3>()) +
+             force.dot(bodies.twist.col(body).tail<3>());
+    }
+    return sum;
+  }
   return row.direction.dot(row.at ? point_velocity(apart(row, bodies.twist), *row.at)
                                   : apart(row, bodies.centre));
 }
@@ -117,9 +104,16 @@ int place_in_step(const Model& model, const Row& row) {
   if (row.dof >= 0) {
     return -row.dof - (row.unit() ? 1 : 2);
   }
-  const Body& last =
-      model.bodies[std::max(row.a.first + row.a.count, row.b.first + row.b.count) - 1];
+  const int points = std::max(row.a.first + row.a.count, row.b.first + row.b.count);
+  const Body& last = model.bodies[row.patch.empty() ? points - 1 : row.patch.back().body];
   return -last.first_dof - last.dofs;
+}
+
+std::int64_t thigmotaxis_row_id(KnotEnd end, const Contact& contact, bool on_a) {
+  const int along = on_a ? 0 : 1;
+  return end == KnotEnd::neither ? row_id(RowKind::thigmotaxis, first_segment + contact.segment_a,
+                                          2 * contact.segment_b + along)
+                                 : row_id(RowKind::thigmotaxis, static_cast<int>(end), along);
 }
 
 bool along_a(const Row& row) { return row.id % 2 == 0; }
@@ -141,8 +135,9 @@ void add_row(const Row& row, const Kinematics& kin, double lambda, Matrix6Xd& wr
     return;
   }
   visit_forces(row, kin,
-               [&](int body, const Eigen::Vector3d& force, const Eigen::Vector3d& offset) {
-                 add_wrench_of_force(lambda * force, offset, wrench.col(body));
+               [&](int body, const Eigen::Vector3d& moment, const Eigen::Vector3d& force) {
+                 wrench.col(body).head<3>() += lambda * moment;
+                 wrench.col(body).tail<3>() += lambda * force;
                });
 }
 
@@ -150,6 +145,18 @@ std::int64_t contact_row_id(const Contact& contact) {
   return contact.obstacle < 0 ? row_id(RowKind::contact, contact.segment_a, contact.segment_b)
                               : row_id(RowKind::obstacle, contact.segment_a,
                                        first_strand_segment + contact.segment_b);
+}
+
+void set_points(Row& row, const Contact& contact, const Eigen::Vector3d& direction,
+                const Model& model) {
+  row.direction = direction;
+  row.a = spline_mix(contact.segment_a, contact.t_a, model.body_count());
+  if (contact.obstacle < 0) {
+    row.b = spline_mix(contact.segment_b, contact.t_b, model.body_count());
+  } else {
+    row.b = {};
+    row.b.parameter = strand_parameter(model, contact);
+  }
 }
 
 Row contact_row(const Model& model, const Contact& contact, const std::vector<SplineSegment>* at,
@@ -282,40 +289,6 @@ void append_plane_rows(const Model& model, const Kinematics& kin,
       rows.emplace_back(plane_row(model, obstacle, body)).rhs = *rhs;
     }
   });
-}
-
-Row eq6_row(const Model& model, const Kinematics& kin, const std::vector<SplineSegment>& segments,
-            const Contact& contact, bool on_a, BodyEnd towards, Eq6Point at) {
-  // Eq. 6: t_a' (ẋ_a - ẋ_b) >= v_a and t_b' (ẋ_b - ẋ_a) >= v_b.
-  const double sense = towards == BodyEnd::head ? 1 : -1;
-  Row row;
-  row.kind = RowKind::thigmotaxis;
-  set_points(row, contact, sense * (on_a ? contact.tangent_a : -contact.tangent_b), model);
-  if (at == Eq6Point::skin) {
-    row.at = skin_point(segments, contact) - kin.reference;
-  }
-  return row;
-}
-
-void append_thigmotaxis_rows(const Model& model, const std::vector<ThigmotaxisCommand>& commands,
-                             const ThigmotaxisPlace& place, const ControllerSettings& settings,
-                             double h, std::vector<Row>& rows) {
-  for (std::size_t k = 0; k < commands.size(); ++k) {
-    const ThigmotaxisCommand& command = commands[k];
-    const Contact& found = command.contact;
-    const Contact contact = place.displaced ? contact_at(place.segments, found.segment_a, found.t_a,
-                                                         found.segment_b, found.t_b)
-                                            : found;
-    for (const bool on_a : {true, false}) {
-      Row& row = rows.emplace_back(eq6_row(model, place.kin, place.segments, contact, on_a,
-                                           command.towards, settings.eq6_at));
-      row.id = thigmotaxis_id(command, on_a);
-      row.command = static_cast<int>(k);
-      row.rhs = on_a ? command.speed.a : command.speed.b;
-      row.upper =
-          command.effort * settings.cap * h;  // the soft row: its L1 slack is this bound's dual
-    }
-  }
 }
 
 }  // namespace hagfish

@@ -23,6 +23,12 @@
 
 namespace hagfish {
 
+/// A force and its moment about kin.reference, world axes.
+struct BodyWrench {
+  int body = 0;
+  Eigen::Vector3d moment, force;
+};
+
 struct Row {
   RowKind kind = RowKind::limit;
   /// C q̇ = sign * q̇[dof] + next_sign * q̇[dof + 1]; -1 where points are used.
@@ -43,6 +49,9 @@ struct Row {
   /// velocities of the rigid bodies at this point, mixed with the same weights. The forces of such
   /// a row are internal: their sum and their moment are zero.
   std::optional<Eigen::Vector3d> at;
+  /// Of a row of Eq. 6 over a patch of contact: C' of each body that takes part, rising. The points
+  /// above are then only where the patch begins.
+  std::vector<BodyWrench> patch;
   double rhs = 0;  ///< d, cm/s or rad/s
   /// The part of λ of an impact, which acts at once. Half of the rest acts before the middle of the
   /// step (midpoint rule, midpoint/impacts.hpp).
@@ -62,15 +71,18 @@ struct PathRow {
   std::optional<Contact> contact;
 };
 
-/// Calls `visit(body, force, offset)` for each force of a row with points (world, per unit λ) and
-/// the place where it acts, from kin.reference. C q̇ is the sum of force . velocity there.
+/// Calls `visit(body, moment, force)` for each force of a row with points, or of a patch: world
+/// axes, per unit λ, moments about kin.reference. C q̇ is the sum of their powers.
 template <class Visit>
 void visit_forces(const Row& row, const Kinematics& kin, Visit visit) {
+  for (const BodyWrench& wrench : row.patch) visit(wrench.body, wrench.moment, wrench.force);
+  if (!row.patch.empty()) return;
   const auto of_mix = [&](const SplineMix& mix, double sign) {
     for (int k = 0; k < mix.count; ++k) {
       const int body = mix.first + k;
-      visit(body, (sign * mix.weight[k] * row.direction).eval(),
-            row.at ? *row.at : kin.centre_offset(body));
+      const Eigen::Vector3d force = sign * mix.weight[k] * row.direction;
+      const Eigen::Vector3d offset = row.at ? *row.at : kin.centre_offset(body);
+      visit(body, offset.cross(force).eval(), force);
     }
   };
   of_mix(row.a, 1);
@@ -84,6 +96,12 @@ std::string row_name(const Model& model, const Row& row);
 /// first, by dof. The others follow from the tail on, by the last velocity that they involve. This
 /// order makes the columns of the dual problem a staircase.
 int place_in_step(const Model& model, const Row& row);
+
+/// Which contact of a knot: the first or last one, which the controller follows, or another.
+enum class KnotEnd : std::uint8_t { first, last, neither };
+
+/// The Row::id of a row of Eq. 6 at an end of the knot, or at another `contact`.
+std::int64_t thigmotaxis_row_id(KnotEnd end, const Contact& contact, bool on_a);
 
 /// Whether a thigmotaxis row is along t_a; else it is along t_b.
 bool along_a(const Row& row);
@@ -112,6 +130,11 @@ struct NearBinding {
     return row_velocity - rhs < radius * slack || -rhs < radius * slack_at_rest;
   }
 };
+
+/// Sets a row to the relative motion along `direction` of the two spline points of a contact. An
+/// obstacle is at rest.
+void set_points(Row& row, const Contact& contact, const Eigen::Vector3d& direction,
+                const Model& model);
 
 /// The row of a contact without a right-hand side: the exact rate of its gap. Where `at` is null,
 /// the points are where the contact was found. Else they are the same points of the segments `at`.
@@ -148,36 +171,5 @@ void append_contact_row(const Model& model, const Contact& contact,
 void append_plane_rows(const Model& model, const Kinematics& kin,
                        const ConstraintSettings& settings, double h, const NearBinding& wanted,
                        std::vector<Row>& rows);
-
-/// Which contact of a knot: the first or last one, which the controller follows, or another.
-enum class KnotEnd : std::uint8_t { first, last, neither };
-
-/// Commanded sliding at one contact.
-struct ThigmotaxisCommand {
-  Contact contact;
-  ThigmotaxisSpeeds speed;
-  BodyEnd towards = BodyEnd::head;  ///< goal of the slide; the tail reverses both tangents
-  double effort = 1;                ///< share of ControllerSettings::cap that bounds its rows
-  KnotEnd end = KnotEnd::neither;   ///< identifies its rows from step to step
-};
-
-/// Where the rows of Eq. 6 are placed.
-struct ThigmotaxisPlace {
-  const Kinematics& kin;
-  const std::vector<SplineSegment>& segments;  ///< of it
-  bool displaced;  ///< the segments have moved since the contacts were found
-};
-
-/// A row of Eq. 6 without a right-hand side or bounds, along t_a or t_b of `contact`. Both tangents
-/// are reversed if `towards` is the tail. `at` as in ControllerSettings::eq6_at.
-Row eq6_row(const Model& model, const Kinematics& kin, const std::vector<SplineSegment>& segments,
-            const Contact& contact, bool on_a, BodyEnd towards, Eq6Point at);
-
-/// Eq. 6 at the commanded contacts, with rows along t_a and t_b for each. settings.cap times the
-/// command's effort bounds λ / h. No two commands may have the same end or, with neither end, the
-/// same segments.
-void append_thigmotaxis_rows(const Model& model, const std::vector<ThigmotaxisCommand>& commands,
-                             const ThigmotaxisPlace& place, const ControllerSettings& settings,
-                             double h, std::vector<Row>& rows);
 
 }  // namespace hagfish

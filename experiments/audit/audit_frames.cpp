@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "core/log/log_writer.hpp"
+#include "experiments/audit/row_force.hpp"
 
 namespace hagfish {
 namespace {
@@ -138,10 +139,6 @@ void FrameAudit::see_knot(const AuditedFrame& frame, const KnotVote& knot) {
   from_q_.compare_exactly("/knot/v2", v2_[f], knot.type.v2);
   from_q_.compare("/knot/agreement", agreement_[f], knot.agreement);
   const std::vector<SplineSegment>& segments = frame.observation.segments;
-  const auto arc = [&](double parameter) {
-    const auto [segment, t] = spline_point(log_.model, parameter);
-    return segments[segment].arc(t);
-  };
   const double first = spline_a_(f, 0);
   const double last = spline_b_(f, 1);
   const TouchingEnds& ends = frame.observation.ends;
@@ -150,9 +147,15 @@ void FrameAudit::see_knot(const AuditedFrame& frame, const KnotVote& knot) {
     followed_ += std::isnan(a) ? 0 : 1;
     late_ += is_contact(place == 0 ? ends.first : ends.last, a, spline_b_(f, place)) ? 0 : 1;
   }
-  const bool span = on_spline(log_.model, first) && on_spline(log_.model, last);
-  from_q_.compare("/knot/head_end", head_end_[f], span ? arc(first) : NAN);
-  from_q_.compare("/knot/tail_end", tail_end_[f], span ? arc(last) : NAN);
+  const bool span = on_spline(log_.model, first) && on_spline(log_.model, last) &&
+                    on_spline(log_.model, spline_b_(f, 0)) &&
+                    on_spline(log_.model, spline_a_(f, 1));
+  const auto end = [&](int place) {
+    const Contact at = contact_of(log_.model, segments, spline_a_(f, place), spline_b_(f, place));
+    return end_arc(segments, at, place == 1, log_.resolved.scene);
+  };
+  from_q_.compare("/knot/head_end", head_end_[f], span ? end(0) : NAN);
+  from_q_.compare("/knot/tail_end", tail_end_[f], span ? end(1) : NAN);
 }
 
 void FrameAudit::see_energy(const AuditedFrame& frame) {

@@ -37,15 +37,6 @@ Eigen::Vector4d commands(const Scene& scene, Phase phase) {
                                     : four(c.slide_head, c.slide_tail);
 }
 
-/// What the rows along t_a and t_b ask for at the points `a` and `b` of the spline, where strands a
-/// and b are to run at `speed` and, with `shape`, Eq. 6 asks for the slip of strands that do; cm/s.
-Eigen::Vector2d asked_slip(const Model& model, const AuditedFrame& frame, double a, double b,
-                           const Eigen::Vector2d& speed, bool shape) {
-  if (!shape) return speed;
-  const Contact contact = contact_of(model, frame.observation.segments, a, b);
-  return speed - contact.tangent_a.dot(contact.tangent_b) * speed.reverse();
-}
-
 }  // namespace
 
 double nearest_body(double place, double logged) {
@@ -90,7 +81,6 @@ ThigmotaxisAudit::ThigmotaxisAudit(const LogContents& log)
 ThigmotaxisAudit::Rows ThigmotaxisAudit::see(const AuditedFrame& frame, Rebuilt& rebuilt,
                                              std::set<std::string>& shape) {
   const Model& model = log_.model;
-  const Scene& scene = log_.resolved.scene;
   const double cap_of_rows = cap_of_scene(frame, cap_[frame.index]);
   std::vector<LoggedRow> rows;
   if (table_) {
@@ -104,9 +94,7 @@ ThigmotaxisAudit::Rows ThigmotaxisAudit::see(const AuditedFrame& frame, Rebuilt&
   Rows seen{Eigen::MatrixXd::Zero(model.nv(), 4), Eigen::VectorXd::Zero(model.nv())};
   const std::string group = table_ ? "/eq6/" : "/thigmotaxis/";
   for (const LoggedRow& r : rows) {
-    const Contact contact = contact_of(model, frame.segments, r.spline_a, r.spline_b);
-    const Row row = eq6_row(model, frame.kin, frame.segments, contact, r.along == 0,
-                            r.sense > 0 ? BodyEnd::head : BodyEnd::tail, scene.controller.eq6_at);
+    const Row row = rows_of(frame, r, {0, 0}, Eq6Slip::paper)[static_cast<std::size_t>(r.along)];
     const double speed =
         row_velocity(row, {frame.step_twist, frame.step_centre_velocity}, frame.qdot_step);
     rebuilt.compare(group + "speed", r.speed, speed);
@@ -130,6 +118,20 @@ ThigmotaxisAudit::Rows ThigmotaxisAudit::see(const AuditedFrame& frame, Rebuilt&
   return seen;
 }
 
+std::array<Row, 2> ThigmotaxisAudit::rows_of(const AuditedFrame& frame, const LoggedRow& row,
+                                             const Eigen::Vector2d& speed, Eq6Slip slip) const {
+  const Contact contact = contact_of(log_.model, frame.segments, row.spline_a, row.spline_b);
+  const BodyEnd towards = row.sense > 0 ? BodyEnd::head : BodyEnd::tail;
+  return eq6_rows(log_.model, frame.kin, frame.segments,
+                  {contact, {speed[0], speed[1]}, towards, 1, row.end, slip}, log_.resolved.scene);
+}
+
+Eigen::Vector2d ThigmotaxisAudit::asked(const AuditedFrame& frame, const LoggedRow& row,
+                                        const Eigen::Vector2d& speed, Eq6Slip slip) const {
+  const std::array<Row, 2> rows = rows_of(frame, row, speed, slip);
+  return {rows[0].rhs, rows[1].rhs};
+}
+
 std::vector<ThigmotaxisAudit::LoggedRow> ThigmotaxisAudit::rows_at_ends(const AuditedFrame& frame,
                                                                         Rebuilt& rebuilt) const {
   const Eigen::Index f = frame.index;
@@ -143,20 +145,20 @@ std::vector<ThigmotaxisAudit::LoggedRow> ThigmotaxisAudit::rows_at_ends(const Au
     const bool there =
         on_spline(log_.model, a) && on_spline(log_.model, b) && !std::isnan(commanded[0]);
     see_bodies(f, place, there ? a : NAN, there ? b : NAN, rebuilt);
-    const Eigen::Vector2d asked =
-        there ? asked_slip(log_.model, frame, a, b, commanded.segment<2>(2 * place),
-                           scene.controller.eq6_slip == Eq6Slip::shape)
+    const Eigen::Vector2d wanted =
+        there ? asked(frame, {.end = end, .spline_a = a, .spline_b = b},
+                      commanded.segment<2>(2 * place), scene.controller.eq6_slip)
               : Eigen::Vector2d::Constant(NAN);
     for (const int along : {0, 1}) {
       const Eigen::Index k = 2 * place + along;
-      rebuilt.compare("/thigmotaxis/command", command_(f, k), asked[along]);
+      rebuilt.compare("/thigmotaxis/command", command_(f, k), wanted[along]);
       if (!there) {
         rebuilt.compare("/thigmotaxis/speed", speed_(f, k), NAN);
         rebuilt.compare("/thigmotaxis/lambda", lambda_(f, k), 0);
         continue;
       }
-      rows.push_back({end, along, towards_tail(scene, frame.phase) ? -1.0 : 1.0, a, b, asked[along],
-                      cap_[f], lambda_(f, k), speed_(f, k)});
+      rows.push_back({end, along, towards_tail(scene, frame.phase) ? -1.0 : 1.0, a, b,
+                      wanted[along], cap_[f], lambda_(f, k), speed_(f, k)});
     }
   }
   return rows;
@@ -190,16 +192,15 @@ void ThigmotaxisAudit::see_commands(const AuditedFrame& frame, const std::vector
                                     double cap, Rebuilt& rebuilt) const {
   const Scene& scene = log_.resolved.scene;
   if (log_.own_law()) return;
-  const AskedRows asked = asked_rows(frame.phase);
+  const AskedRows scaled = asked_rows(frame.phase);
   const Eigen::Vector4d commanded = commands(scene, frame.phase);
   std::optional<double> scale;  // the same of all rows
   for (const LoggedRow& r : rows) {
     const bool other = r.end == KnotEnd::neither;
-    double wanted = asked_slip(log_.model, frame, r.spline_a, r.spline_b,
-                               commanded.segment<2>(other ? 0 : r.place() - r.along),
-                               other || scene.controller.eq6_slip == Eq6Slip::shape)[r.along];
-    if (asked.least_scale < asked.most_scale && wanted != 0) {
-      scale = scale.value_or(std::clamp(r.command / wanted, asked.least_scale, asked.most_scale));
+    double wanted = asked(frame, r, commanded.segment<2>(other ? 0 : r.place() - r.along),
+                          other ? Eq6Slip::shape : scene.controller.eq6_slip)[r.along];
+    if (scaled.least_scale < scaled.most_scale && wanted != 0) {
+      scale = scale.value_or(std::clamp(r.command / wanted, scaled.least_scale, scaled.most_scale));
       wanted *= *scale;
     }
     rebuilt.compare("/eq6/command", r.command, wanted);

@@ -2,6 +2,7 @@
 // and with what force.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <set>
 #include <string>
@@ -48,6 +49,12 @@ class ThigmotaxisAudit {
   std::vector<LoggedRow> rows_at_ends(const AuditedFrame& frame, Rebuilt& rebuilt) const;
   std::vector<LoggedRow> rows_of_table(const AuditedFrame& frame, Rebuilt& rebuilt,
                                        std::set<std::string>& shape);
+  /// The rows of the contact of a logged row, of strands that are asked for `speed` by `slip`.
+  std::array<Row, 2> rows_of(const AuditedFrame& frame, const LoggedRow& row,
+                             const Eigen::Vector2d& speed, Eq6Slip slip) const;
+  /// Their right sides, cm/s.
+  Eigen::Vector2d asked(const AuditedFrame& frame, const LoggedRow& row,
+                        const Eigen::Vector2d& speed, Eq6Slip slip) const;
   /// What the scene's law has the rows of a frame ask for.
   void see_commands(const AuditedFrame& frame, const std::vector<LoggedRow>& rows, double cap,
                     Rebuilt& rebuilt) const;

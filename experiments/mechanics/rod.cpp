@@ -221,7 +221,7 @@ Eigen::Vector3d Pulled::force_behind(int body) const {
     if (solution().rows[i].kind != RowKind::contact) continue;
     const double push = solution().lambda[static_cast<Eigen::Index>(i)] / scene_.time.step;
     visit_forces(solution().rows[i], kin(),
-                 [&](int b, const Eigen::Vector3d& unit, const Eigen::Vector3d&) {
+                 [&](int b, const Eigen::Vector3d&, const Eigen::Vector3d& unit) {
                    if (b >= body) force += push * unit;
                  });
   }

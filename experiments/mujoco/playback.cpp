@@ -80,15 +80,15 @@ Eigen::Index Slide::frames_in(double interval) const {
 
 /// What is seen of the body after a step.
 struct Seen {
-  double head_end = NAN;    ///< arc length of the first touching contact, cm; nan without one
+  double head_end = NAN;    ///< of the knot, cm of arc; nan without contact
   double penetration = 0;   ///< of the spline skin, as the core measures it, cm
   Eigen::Matrix3Xd centre;  ///< cm
 };
 
 Seen look(const Model& model, const Scene& scene, const State& state) {
   const Observation observation = observe(model, state, scene);
-  const std::optional<Contact>& first = observation.ends.first;
-  return {first ? first->arc_a : NAN, observation.penetration, observation.kin.centre};
+  return {observation.ends.first ? observation.ends.head_end : NAN, observation.penetration,
+          observation.kin.centre};
 }
 
 /// MuJoCo with its own contacts and limits (but for cones, which it has not), its head clamped,
@@ -225,7 +225,7 @@ void playback(const LogContents& log, Hdf5Writer& h5) {
     head_end[i] = logged[i].head_end;
   }
   h5.numbers("/time", time, {"s", "frames of the sliding phase; what MuJoCo did has no first"});
-  h5.numbers("/head_end", head_end, {"cm", "arc length of the first touching contact in the log"});
+  h5.numbers("/head_end", head_end, {"cm", "arc length of the knot's head end in the log"});
   if (!log.model.cones.empty()) {
     fmt::print("without bending limits: MuJoCo knows none on the total angle of a joint\n");
   }

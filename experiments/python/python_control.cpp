@@ -36,6 +36,15 @@ BodyEnd body_end_called(const std::string& name) {
   return name == "head" ? BodyEnd::head : BodyEnd::tail;
 }
 
+const char* name_of(Eq6Slip slip) { return slip == Eq6Slip::paper ? "paper" : "shape"; }
+
+Eq6Slip slip_called(const std::string& name) {
+  if (name != "paper" && name != "shape") {
+    throw py::value_error("slip = " + name + R"(: "paper" or "shape")");
+  }
+  return name == "paper" ? Eq6Slip::paper : Eq6Slip::shape;
+}
+
 /// Views hold on to the storage, which therefore stays where it is.
 void set_dofs(Eigen::VectorXd& values, const Vector& given, Eigen::Index nv) {
   if (given.ndim() != 1 || given.size() != nv) {
@@ -104,15 +113,17 @@ void declare_controls(py::module_& module) {
                                  R"(Commanded sliding at one contact: two rows of Eq. 6.)")
       .def(
           py::init([](const Contact& contact, double a, double b, const std::string& towards,
-                      double effort, const std::string& end) {
-            return ThigmotaxisCommand{
-                contact, {a, b}, body_end_called(towards), effort, end_called(end)};
+                      double effort, const std::string& end, const std::string& slip) {
+            return ThigmotaxisCommand{contact, {a, b},          body_end_called(towards),
+                                      effort,  end_called(end), slip_called(slip)};
           }),
           py::arg("contact"), py::arg("a"), py::arg("b"), py::kw_only(),
           py::arg("towards") = "head", py::arg("effort") = 1.0, py::arg("end") = "neither",
+          py::arg("slip") = "paper",
           R"(`a`, `b`: speeds along the tangents of the two strands, cm/s. `towards`: "head", or "tail", which turns
 both tangents. `effort`: share of controller.cap that bounds the rows' forces. `end`: "first" or "last" where
-the contact is that one of the knot.)")
+the contact is that one of the knot. `slip`: "paper" asks the rows for these speeds, as printed, "shape" for the
+slip of strands that run along themselves at them (controller.eq6_slip).)")
       .def_readwrite("contact", &ThigmotaxisCommand::contact)
       .def_property(
           "a", [](const ThigmotaxisCommand& c) { return c.speed.a; },
@@ -126,7 +137,10 @@ the contact is that one of the knot.)")
           [](ThigmotaxisCommand& c, const std::string& name) { c.towards = body_end_called(name); })
       .def_property(
           "end", [](const ThigmotaxisCommand& c) { return name_of(c.end); },
-          [](ThigmotaxisCommand& c, const std::string& name) { c.end = end_called(name); });
+          [](ThigmotaxisCommand& c, const std::string& name) { c.end = end_called(name); })
+      .def_property(
+          "slip", [](const ThigmotaxisCommand& c) { return name_of(c.slip); },
+          [](ThigmotaxisCommand& c, const std::string& name) { c.slip = slip_called(name); });
 
   py::class_<PythonControl>(module, "Control", R"(What the animal does in a step.)")
       .def_property(

@@ -73,6 +73,8 @@ class ControllerTest : public testing::Test {
       std::optional<Contact>&first = observation.ends.first, &last = observation.ends.last;
       if (!first || c.arc_a < first->arc_a) first = c;
       if (!last || c.arc_b > last->arc_b) last = c;
+      observation.ends.head_end = first->arc_a;
+      observation.ends.tail_end = last->arc_b;
     }
     Control control;
     const Status status = decide(model, scene, moment, now, named, state, control);

@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/step/rows.hpp"
+#include "core/step/eq6_rows.hpp"
 
 namespace hagfish {
 
@@ -59,7 +59,9 @@ inline std::vector<Row> thigmotaxis_rows(const Model& model,
                                          double h) {
   std::vector<Row> rows;
   const std::vector<SplineSegment> segments = spline(model, kin.centre);
-  append_thigmotaxis_rows(model, commands, {kin, segments, false}, settings, h, rows);
+  Scene scene;
+  scene.controller = settings;
+  append_thigmotaxis_rows(model, commands, {kin, segments, false}, scene, h, rows);
   return rows;
 }
 

@@ -48,8 +48,8 @@ void scale(ControllerSettings& s, const Scale& by) {
     scale(*speed, by.speed());
   }
   s.cap *= by.force();
-  for (double* length : {&s.contact_gap, &s.tail_through, &s.tight_span, &s.release_at,
-                         &s.reflex.shift, &s.reflex.pull_shift, &s.reflex.reach}) {
+  for (double* length : {&s.contact_gap, &s.contact_patch, &s.tail_through, &s.tight_span,
+                         &s.release_at, &s.reflex.shift, &s.reflex.pull_shift, &s.reflex.reach}) {
     *length *= by.length;
   }
   for (double* time : {&s.tighten_from, &s.tight_hold, &s.tighten_time, &s.untied_for, &s.free_time,

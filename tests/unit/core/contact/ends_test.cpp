@@ -22,8 +22,9 @@ std::vector<SplineSegment> trefoil(const Model& fish, double height) {
 }
 
 TouchingEnds ends_of(const std::vector<SplineSegment>& segments) {
-  const ContactSettings settings;
-  return touching_ends(segments, find_contacts(segments, settings).contacts, settings, level);
+  Scene scene;
+  scene.controller.contact_gap = level;
+  return touching_ends(segments, find_contacts(segments, scene.contact).contacts, scene);
 }
 
 /// Least gap of the point `t` of segment `own` to dense samples of the strand before (behind) it.

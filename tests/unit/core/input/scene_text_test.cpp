@@ -111,8 +111,8 @@ class Bits {
   void put(const ControllerSettings& s) {
     const auto& [law, eq6_at, eq6_slip, knot_speed, reduced_basis, reflex, tighten_head,
                  tighten_tail, slide_head, slide_tail, reverse_head, reverse_tail, leave_by,
-                 free_from, cap, contact_gap, tail_through, tighten_from, tight_span, tight_hold,
-                 tighten_time, release_at, untied_for, free_time] = s;
+                 free_from, cap, contact_gap, contact_patch, tail_through, tighten_from, tight_span,
+                 tight_hold, tighten_time, release_at, untied_for, free_time] = s;
     add(law, eq6_at, eq6_slip, knot_speed, reduced_basis, reflex, tighten_head, tighten_tail,
         slide_head, slide_tail, reverse_head, reverse_tail, leave_by, free_from, cap, contact_gap,
         tail_through, tighten_from, tight_span, tight_hold, tighten_time, release_at, untied_for,

@@ -156,7 +156,7 @@ struct CappedRow {
     append_thigmotaxis_rows(model,
                             {{contact, {1, 1}, BodyEnd::head, 1, KnotEnd::first},
                              {contact, {1, 1}, BodyEnd::head, 1, KnotEnd::last}},
-                            {now.kin, now.segments, false}, scene.controller, 1, step.rows);
+                            {now.kin, now.segments, false}, scene, 1, step.rows);
     const std::vector<Row> limits = limit_rows(model, state, scene.constraints, 1);
     step.rows.insert(step.rows.end(), limits.begin() + 20, limits.begin() + 23);
     step.qdot = Eigen::VectorXd::Zero(model.nv());
@@ -272,7 +272,7 @@ TEST(Guard, WatchesTheCapOfAnyNumberOfContacts) {
   ASSERT_GE(commands.size(), 3u);
   capped.step.rows.clear();
   append_thigmotaxis_rows(capped.model, commands, {capped.now.kin, capped.now.segments, false},
-                          capped.scene.controller, 1, capped.step.rows);
+                          capped.scene, 1, capped.step.rows);
   const auto count = static_cast<Eigen::Index>(capped.step.rows.size());
   capped.step.lambda = Eigen::VectorXd::Zero(count);
   capped.step.excess = Eigen::VectorXd::Constant(count, -0.5);

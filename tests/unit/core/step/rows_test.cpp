@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/contact/patch.hpp"
 #include "core/step/paper_step.hpp"
 #include "tests/support/random_chain.hpp"
 #include "tests/support/row_lists.hpp"
@@ -69,17 +70,26 @@ struct Tangle {
 
   /// Eq. 6 of `commands_`, at the speeds commanded, whatever those now.
   std::vector<Row> at_once(const std::vector<ThigmotaxisCommand>& commands_,
-                           Eq6Point at = Eq6Point::skin) const {
+                           Eq6Point at = Eq6Point::skin, double patch = 0) const {
     ControllerSettings settings;
     settings.eq6_at = at;
+    settings.contact_patch = patch;
     return thigmotaxis_rows(model, commands_, settings, kin, h);
+  }
+
+  /// The same two contacts as the knot's ends, over patches of the size `side` (cm).
+  std::vector<Row> over_patches(Eq6Point at = Eq6Point::skin, double side = 0.3) const {
+    std::vector<ThigmotaxisCommand> ends = commands;
+    ends[0].end = KnotEnd::first;
+    ends[1].end = KnotEnd::last;
+    return at_once(ends, at, side);
   }
 
   std::vector<Row> rows() const {
     std::vector<Row> all = head_rows(state, speculative, h);
     for (const auto& more :
          {limit_rows(model, state, speculative, h), contact_rows(model, set, speculative, h),
-          plane_rows(model, kin, speculative, h), at_once(commands)}) {
+          plane_rows(model, kin, speculative, h), at_once(commands), over_patches()}) {
       all.insert(all.end(), more.begin(), more.end());
     }
     return all;
@@ -154,7 +164,7 @@ TEST(ContactRows, PositiveForcePushesTheStrandsApart) {
     // Forces of action and reaction: none in sum.
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     visit_forces(row, t.kin,
-                 [&](int, const Eigen::Vector3d& force, const Eigen::Vector3d&) { sum += force; });
+                 [&](int, const Eigen::Vector3d&, const Eigen::Vector3d& force) { sum += force; });
     EXPECT_LT(sum.norm(), 1e-15);
   }
 }
@@ -204,7 +214,7 @@ TEST(PlaneRows, SkipTheNeckAndLookAlongX) {
     const double gap = 0.424 * (body + 0.5) - 20.1055 - fish.bodies[body].radius;
     int forces = 0;
     visit_forces(rows[i], kin,
-                 [&](int loaded, const Eigen::Vector3d& force, const Eigen::Vector3d&) {
+                 [&](int loaded, const Eigen::Vector3d&, const Eigen::Vector3d& force) {
                    ++forces;
                    EXPECT_EQ(loaded, body);
                    EXPECT_EQ(force, Eigen::Vector3d::UnitX());
@@ -319,6 +329,43 @@ TEST(ThigmotaxisRows, HaveNoSumAndNoMomentAtTheSkin) {
     EXPECT_LT(whole(centreline[i]).tail<3>().norm(), 1e-14);
     EXPECT_LT((whole(centreline[i]).head<3>() - couple).norm(), 1e-12);
     EXPECT_GT(couple.norm(), 0.5);
+  }
+  for (const Row& row : t.over_patches()) EXPECT_LT(whole(row).norm(), 1e-14);
+  for (const Row& row : t.over_patches(Eq6Point::centreline)) {
+    EXPECT_GT(whole(row).head<3>().norm(), 0.5);
+  }
+}
+
+// Over a patch Eq. 6 is the mean of its rows at the points of the patch, by their shares.
+TEST(ThigmotaxisRows, OverAPatchAreMeans) {
+  const Tangle t(83);
+  const std::vector<SplineSegment> segments = spline(t.model, t.kin.centre);
+  Scene scene;
+  scene.controller.contact_patch = 0.3;
+  for (const Eq6Slip slip : {Eq6Slip::paper, Eq6Slip::shape}) {
+    for (const KnotEnd end : {KnotEnd::first, KnotEnd::last}) {
+      ThigmotaxisCommand command = t.commands[static_cast<std::size_t>(end)];
+      command.end = end;
+      command.slip = slip;
+      std::vector<PatchPoint> patch;
+      contact_patch(segments, scene, command.contact, end == KnotEnd::last, patch);
+      ASSERT_GE(patch.size(), 3U);
+      Eigen::Vector4d mean = Eigen::Vector4d::Zero();  // left sides, right sides
+      const auto sides = [&] {
+        const auto rows = eq6_rows(t.model, t.kin, segments, command, scene);
+        const auto left = [&](const Row& row) {
+          return row_velocity(row, t.kin.velocities(), t.state.qdot);
+        };
+        return Eigen::Vector4d(left(rows[0]), left(rows[1]), rows[0].rhs, rows[1].rhs);
+      };
+      const Eigen::Vector4d over_patch = sides();
+      command.end = KnotEnd::neither;
+      for (const auto& [contact, share] : patch) {
+        command.contact = contact;
+        mean += share * sides();
+      }
+      EXPECT_LT((over_patch - mean).norm(), 1e-12 * mean.norm());
+    }
   }
 }
 
