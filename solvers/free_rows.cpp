@@ -13,7 +13,7 @@ constexpr double rank_threshold = 1e-12;
 /// other miss by far more than this.
 constexpr double consistency = 1e-9;
 /// Of the terms that make up what is left of b.
-constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
+constexpr double terms_rounding = 8 * std::numeric_limits<double>::epsilon();
 
 }  // namespace
 
@@ -62,9 +62,9 @@ BoundedPart::BoundedPart(const BoxQp& qp) : size_(qp.b.size()) {
     consistent_ = factor.meets(free_at_zero_, b, unsure(free_));
     S += coupling.transpose() * response;
     S = (0.5 * (S + S.transpose())).eval();
-    c_rounding +=
-        rounding * (c.cwiseAbs() + coupling.transpose().cwiseAbs() * free_at_zero_.cwiseAbs()) +
-        response.transpose().cwiseAbs() * unsure(free_);
+    c_rounding += terms_rounding *
+                      (c.cwiseAbs() + coupling.transpose().cwiseAbs() * free_at_zero_.cwiseAbs()) +
+                  response.transpose().cwiseAbs() * unsure(free_);
     c -= coupling.transpose() * free_at_zero_;
   }
   const Eigen::VectorXd scale = row_scale(qp.A);
