@@ -56,16 +56,17 @@ SplineMix mix_at(const Model& model, double parameter) {
 
 MujocoLoop::MujocoLoop(const Model& model, const Scene& scene, const MujocoSettings& settings)
     : model_(model), scene_(scene), settings_(settings) {
-  if (scene.wall.present) throw InputError("wall.present: MuJoCo's model has no head plate");
-  if (!scene.obstacles.empty()) throw InputError("obstacle: a run in MuJoCo knows none");
+  if (scene.wall.present)
+    throw InputError("wall.present: must be false, since MuJoCo's model has no head plate");
+  if (!scene.obstacles.empty()) throw InputError("obstacle: a run in MuJoCo cannot have obstacles");
   using Kind = ScriptSettings::Kind;
   if (scene.script.kind == Kind::force || scene.script.kind == Kind::position) {
     throw InputError(
-        "script.kind: nothing pulls the tail in MuJoCo; it must be \"curvature\" or "
+        "script.kind: no script can pull the tail in MuJoCo; it must be \"curvature\" or "
         "\"none\"");
   }
   if (scene.time.rule != TimeRule::euler) {
-    throw InputError("time.rule: in MuJoCo it is \"euler\"");
+    throw InputError("time.rule: must be \"euler\" for a run in MuJoCo");
   }
 }
 
@@ -182,8 +183,8 @@ void MujocoLoop::take_step(Simulation& sim, StepRecord& record) {
   }
   record.controller = sim.controller;
   if (!record.control.thigmotaxis.empty()) {
-    throw StepError(
-        {Outcome::solver_failed, "the law asks for rows of Eq. 6, which MuJoCo has not"});
+    throw StepError({Outcome::solver_failed,
+                     "the control law asks for rows of Eq. 6, which MuJoCo does not have"});
   }
   MujocoModel& mirror = this->mirror(record.control.clamp_head ? Head::clamped : Head::free);
   set_state(model_, sim.now.state, mirror);

@@ -295,9 +295,9 @@ Image OffscreenRenderer::draw(const std::vector<mjvGeom>& geoms, const View& vie
                               const std::string& words, const ColourBar* bar) {
   mjrContext& context = parts_->context;
   if (view.width > context.offWidth || view.height > context.offHeight) {
-    throw std::runtime_error(fmt::format("picture of {} x {} px: the renderer goes to {} x {}",
-                                         view.width, view.height, context.offWidth,
-                                         context.offHeight));
+    throw std::runtime_error(
+        fmt::format("picture of {} x {} px: the renderer can draw at most {} x {}", view.width,
+                    view.height, context.offWidth, context.offHeight));
   }
   const double extent = parts_->model->stat.extent;
   const Vector3d middle = middle_of(geoms, view, skin);

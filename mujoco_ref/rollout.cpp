@@ -31,7 +31,7 @@ std::string blow_up(const Model& model, const State& state, Head head, double ti
   const double speed = state.qdot.cwiseAbs().maxCoeff(&fastest);
   return fmt::format(
       "{} at t = {:.4g} s with the head {}; {} was the fastest, at {:.3g} {}. Limits and drag are "
-      "left out here, so less gravity helps, or a smaller time.step",
+      "left out here; try less gravity or a smaller time.step",
       why, time, head == Head::clamped ? "clamped" : "free",
       dof_name(model, static_cast<int>(fastest)), speed, fastest < 3 ? "cm/s" : "rad/s");
 }

@@ -39,7 +39,7 @@ void check_box_qp(const BoxQp& qp) {
     throw std::invalid_argument("box QP: A or b is not finite");
   }
   if (!((qp.lower.array() <= 0).all() && (qp.upper.array() >= 0).all())) {
-    throw std::invalid_argument("box QP: bounds leave out 0");
+    throw std::invalid_argument("box QP: the bounds must include 0");
   }
 }
 

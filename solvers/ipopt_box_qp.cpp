@@ -276,8 +276,7 @@ void IpoptBoxQp::solve(const BoxQp& qp, const Eigen::VectorXd& start, BoxQpSolut
     solution.x = part.expand(reduced);
     const bool solved = kkt_residuals(qp, solution.x).worst() <= engine_->settings.accepted;
     solution.status = solved ? SolveStatus::solved : SolveStatus::failed;
-    if (!solved)
-      solution.message = "no force of the bounded rows, which ask for none, is no solution";
+    if (!solved) solution.message = "zero force of the bounded rows does not solve the problem";
     return;
   }
   engine_->attempt(*engine_->fast, part, part.restrict_to_reduced(start), qp, engine_->settings.far,

@@ -55,14 +55,15 @@ void read_basis_csv(const std::string& text, const std::string& name, double len
   });
   if (basis.stations.size() < 2) throw_input_error(name + ": a basis needs two stations or more");
   if (basis.bend_y.size() % basis.stations.size() != 0) {
-    throw_input_error(name + ": its last shape has not all stations");
+    throw_input_error(name + ": the last shape does not have all stations");
   }
   const double end = window ? 1 : length;
   if (std::abs(basis.stations.back() - end) > rounding * end) {
     throw_input_error(
-        window ? fmt::format("{}: its stations end at {:g} of the knot's window, not at 1", name,
-                             basis.stations.back())
-               : fmt::format("{}: the basis of a body of {:g} cm, but the animal has {:g} cm", name,
+        window ? fmt::format(
+                     "{}: the last station is {:g} and must be 1, the end of the knot's window",
+                     name, basis.stations.back())
+               : fmt::format("{}: made for a body of {:g} cm, but the animal is {:g} cm long", name,
                              basis.stations.back(), length));
   }
 }

@@ -58,7 +58,7 @@ CurvatureProgram read_curvature_csv(const std::string& text, const std::string& 
   const std::size_t times = program.time.size();
   if (times < 2) throw_input_error(name + ": a program needs two times or more");
   if (program.value.back().cols() != program.value.front().cols()) {
-    throw_input_error(name + ": its last time has not all stations");
+    throw_input_error(name + ": the last time does not have all stations");
   }
   return program;
 }

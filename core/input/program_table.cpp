@@ -18,7 +18,7 @@ CurvatureProgram resolve_table(const TableReader& root, const ProgramTable& tabl
   rising("times", table.times);
   rising("stations", table.stations);
   if (table.times[0] != 0 || table.times.size() < 2) {
-    root.fail("script.curvature.times", "must be two or more, the first 0");
+    root.fail("script.curvature.times", "must have two times or more, the first 0");
   }
   const auto stations = static_cast<Eigen::Index>(table.stations.size());
   CurvatureProgram program{table.times, table.stations, {}, {}};

@@ -34,14 +34,15 @@ void check_start(const TableReader& root, const ResolvedScene& resolved) {
   check_stations(root, "start.bend", start.bend);
   check_stations(root, "start.bend_rate", start.bend_rate);
   if (resolved.scene.clamp_head && !start.spin.isZero(0)) {
-    root.fail("start.spin", "the head is clamped (clamp_head)");
+    root.fail("start.spin", "must be 0, since the head is clamped (clamp_head)");
   }
-  if (!start.q.empty() && !start.bend.empty()) root.fail("start.q", "start.bend is given too");
+  if (!start.q.empty() && !start.bend.empty())
+    root.fail("start.q", "start.bend is also given; give only one");
   if (resolved.scene.mirror && (!start.q.empty() || !start.qdot.empty() || start.noise > 0)) {
-    root.fail("mirror", "start.q, start.qdot and start.noise have no mirror image");
+    root.fail("mirror", "start.q, start.qdot and start.noise_deg cannot be mirrored");
   }
   if (!start.qdot.empty() && (!start.bend_rate.empty() || !start.spin.isZero(0))) {
-    root.fail("start.qdot", "start.bend_rate or start.spin is given too");
+    root.fail("start.qdot", "start.bend_rate or start.spin is also given; give only one");
   }
   if (start.q.empty() && start.qdot.empty()) return;
   const Model model = make_hagfish(resolved.specimen, resolved.scene);
@@ -88,7 +89,7 @@ void check_active(const TableReader& root, const Scene& scene) {
   const double end = scene.script.curvature.time.back();
   if (end < scene.controller.tighten_from) {
     root.fail("controller.tighten_from",
-              "the curvature program ends before, at " + shortest(end) + " s");
+              "the curvature program ends earlier, at " + shortest(end) + " s");
   }
 }
 
@@ -110,8 +111,8 @@ void check_muscles(const TableReader& root, const ResolvedScene& resolved) {
                                    {"radius_share", tissue.radius_share},
                                    {"oblique_angle", tissue.oblique_angle}}) {
     if (settings.present && value == 0) {
-      root.fail("muscle.present",
-                "the specimen's muscle." + std::string(key) + " is 0 or missing, must be positive");
+      root.fail("muscle.present", "the specimen's muscle." + std::string(key) +
+                                      " is 0 or missing, but must be positive");
     }
   }
 }
@@ -129,19 +130,19 @@ void check_food(const TableReader& root, const Scene& scene) {
   const FoodSettings& food = scene.food;
   if (food.hold == 0) return;
   const Phase free_from = scene.controller.free_from;
-  if (!scene.clamp_head)
-    root.fail("food.hold", "no food holds a head that is not clamped (clamp_head)");
+  if (!scene.clamp_head) root.fail("food.hold", "food needs a clamped head (clamp_head = true)");
   if (phase_order(free_from) <= phase_order(Phase::pull)) {
-    root.fail("food.hold", "no food holds a head that is free from \"" +
-                               std::string(phase_name(free_from)) + "\" on (controller.free_from)");
+    root.fail("food.hold", "food needs a clamped head, but controller.free_from = \"" +
+                               std::string(phase_name(free_from)) + "\" frees it");
   }
   if (!scene.wall.present && scene.obstacles.empty()) {
-    root.fail(
-        "food.hold",
-        "without a head plate (wall.present) or an obstacle the knot presses against nothing");
+    root.fail("food.hold",
+              "food needs a head plate (wall.present = true) or an obstacle for the knot to press "
+              "against");
   }
   if (scene.controller.leave_by == BodyEnd::tail) {
-    root.fail("food.hold", "a knot that pulls cannot turn back (controller.leave_by)");
+    root.fail("food.hold",
+              "a knot that pulls at food cannot leave by the tail (controller.leave_by)");
   }
   if (food.cap.from == 0) root.fail("food.cap.from", "must be positive where there is food");
   if (food.cap.to < food.cap.from) {
@@ -176,7 +177,8 @@ void check_times(const TableReader& root, const TimeSettings& time) {
   // A frame or a run of more than 1e9 steps is taken for an error.
   const double steps = time.frame_interval / time.step;
   if (steps > 1e9 || std::abs(steps - std::round(steps)) > 1e-9 * steps) {
-    root.fail("time.frame_interval", "must be a whole number of time.step, " + shortest(time.step));
+    root.fail("time.frame_interval",
+              "must be a whole multiple of time.step, " + shortest(time.step));
   }
   if (time.duration / time.step > 1e9) {
     root.fail("time.duration", "must be at most 1e9 times time.step, " + shortest(time.step));

@@ -102,7 +102,7 @@ CurvatureProgram resolve_program(const TableReader& root, const ScriptFile& file
                                  const Sources& sources) {
   if (file.program.empty()) return resolve_table(root, file.curvature);
   if (!file.curvature.times.empty()) {
-    root.fail("script.program", "script.curvature is given too");
+    root.fail("script.program", "script.curvature is also given; give only one");
   }
   const auto [text, name] = named_file(root, "script.program", file.program, sources);
   return read_curvature_csv(text, name);
@@ -113,9 +113,10 @@ void resolve_basis(const TableReader& root, double length, const Sources& source
                    ReducedBasisSettings& basis) {
   const std::string table = "controller.reduced_basis.";
   if (!basis.file.empty()) {
-    if (basis.cosines > 0) root.fail(table + "file", "controller.reduced_basis.cosines is set too");
+    if (basis.cosines > 0)
+      root.fail(table + "file", "controller.reduced_basis.cosines is also given; give only one");
     if (!basis.stations.empty()) {
-      root.fail(table + "file", "controller.reduced_basis.stations is given too");
+      root.fail(table + "file", "controller.reduced_basis.stations is also given; give only one");
     }
     const auto [text, name] = named_file(root, table + "file", basis.file, sources);
     read_basis_csv(text, name, length, basis);
@@ -235,18 +236,18 @@ std::vector<Obstacle> resolve_obstacles(const TableReader& root, std::vector<Obs
     } else if (file.kind == Kind::ring) {
       if (file.inner_radius <= thickest) {
         fail("inner_radius = " + shortest(file.inner_radius) +
-             " cm is a hole too narrow for the body, whose radius is " + shortest(thickest) +
+             " cm: the hole is too narrow for the body, whose radius is " + shortest(thickest) +
              " cm");
       }
       close_ring(root, i, file);
     }
     const std::size_t count = obstacle.points.size();
     points += count;
-    if (points > most_points) fail("points: all strands together may have 2000");
+    if (points > most_points) fail("points: all strands together may have at most 2000");
     if (obstacle.closed && count < 3) fail("points: a closed strand needs three or more");
     for (std::size_t k = obstacle.closed ? 0 : 1; k < count; ++k) {
       if (obstacle.points[k] == obstacle.points[(k + count - 1) % count]) {
-        fail("points: point " + std::to_string(k + 1) + " is where the one before it is");
+        fail("points: point " + std::to_string(k + 1) + " is the same as the last one");
       }
     }
     obstacles.push_back(obstacle);

@@ -37,7 +37,7 @@ std::string fault_in(const std::string& file, const toml::exception& error) {
 
 toml::value parse(const std::string& text, const std::string& file) {
   if (!is_utf8(text) || text.find('\0') != std::string::npos) {
-    throw_input_error(file + ": is not UTF-8, which TOML is: save it as such");
+    throw_input_error(file + ": is not in UTF-8, the encoding of TOML: save it as UTF-8");
   }
   check_toml_bounds(text, file);
   try {

@@ -80,7 +80,7 @@ struct TableReader::Impl {
   std::pair<Place, double> ask_angle(std::string_view name) {
     const std::string degrees = std::string(name) + "_deg", radians = std::string(name) + "_rad";
     if (peek(degrees) && peek(radians)) {
-      fail({radians, peek(radians)}, degrees + " is given too");
+      fail({radians, peek(radians)}, degrees + " is also given; give only one");
     }
     const bool in_rad = peek(radians);
     const Place place = ask(in_rad ? radians : degrees);
@@ -255,7 +255,7 @@ bool TableReader::in_si(std::string_view key) const {
 
 void TableReader::only_cgs(std::initializer_list<std::string_view> keys) const {
   for (const std::string_view key : keys) {
-    if (in_si(key)) fail(key, "has numbers of several units: say them in a file of CGS");
+    if (in_si(key)) fail(key, "has numbers of several units: use a file without units = \"SI\"");
   }
 }
 

@@ -80,7 +80,7 @@ template <class T>
 void load(BinaryInputArchive& archive, std::optional<T>& entry) {
   std::uint8_t absent = 0;
   archive(absent);
-  hagfish::require(absent <= 1, "what may be absent is neither there nor absent");
+  hagfish::require(absent <= 1, "a flag is neither 0 nor 1");
   entry.reset();
   if (absent == 0) {
     archive(entry.emplace());
@@ -335,7 +335,7 @@ void check(const Simulation& sim, const LogState& log, const Model& model) {
             "a change of velocity that is not of its model");
   }
   require(sim.solver.warm.remaining > 0 && std::isfinite(sim.solver.warm.remaining),
-          "a share of passes that is none");
+          "a share of passes that is not positive");
   require(log.means.size() == model.nv(), "means that are not of its model");
 }
 

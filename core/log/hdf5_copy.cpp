@@ -241,14 +241,14 @@ int await(pid_t child, const std::string& file) {
 
 void require_copied(int status, const std::string& file) {
   if (WIFSIGNALED(status) && WTERMSIG(status) == SIGPROF) {
-    throw FileError(file + ": the file is damaged: HDF5 comes to no end reading it");
+    throw FileError(file + ": the file is damaged: HDF5 does not finish reading it");
   }
   if (WIFSIGNALED(status)) {
     // HDF5 does not look whether it got memory.
     rlimit memory{};
     const bool bounded = getrlimit(RLIMIT_AS, &memory) == 0 && memory.rlim_cur != RLIM_INFINITY;
     throw FileError(file + (bounded ? ": no memory to read it, or" : ":") +
-                    " the file is damaged: HDF5 crashes reading it");
+                    " the file is damaged: HDF5 crashes when it reads it");
   }
   if (WEXITSTATUS(status) == not_hdf5) {
     guarded(file, "read as HDF5", [&] { H5::H5File(file, H5F_ACC_RDONLY); });

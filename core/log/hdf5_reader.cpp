@@ -97,7 +97,7 @@ H5::DataSet Hdf5Reader::open(const std::string& path) const {
   }
   return guarded(file_, "read " + path, [&] {
     if (h5_.childObjType(path) != H5O_TYPE_DATASET) {
-      throw FileError(file_ + ": " + path + " is no dataset");
+      throw FileError(file_ + ": " + path + " is not a dataset");
     }
     const H5::DataSet set = h5_.openDataSet(path);
     const H5::DSetCreatPropList made = set.getCreatePlist();
@@ -136,7 +136,7 @@ bool Hdf5Reader::holds(const std::string& path) const {
       return true;
     }
     if (h5_.childObjType(part) != H5O_TYPE_GROUP) {
-      throw FileError(file_ + ": " + part + " is no group");
+      throw FileError(file_ + ": " + part + " is not a group");
     }
   }
 }
@@ -279,7 +279,7 @@ void Hdf5Reader::require_group(const std::string& path) const {
     throw FileError(file_ + ": has no " + path);
   }
   if (guarded(file_, "read " + path, [&] { return h5_.childObjType(path); }) != H5O_TYPE_GROUP) {
-    throw FileError(file_ + ": " + path + " is no group");
+    throw FileError(file_ + ": " + path + " is not a group");
   }
 }
 

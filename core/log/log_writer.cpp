@@ -285,7 +285,7 @@ LogWriter::~LogWriter() {
 void LogWriter::require_ours() const {
   if (output_->is_ours()) return;
   throw FileError(output_->partial().string() +
-                  ": is being made by the process that forked this one");
+                  ": only the process that began this log can write to it");
 }
 
 void LogWriter::write(const StepRecord& record, const Simulation& sim, double wall_time) {

@@ -60,12 +60,11 @@ std::string OutputFile::obstacle() const {
   const bool part = fs::exists(partial_, error);
   if (existing_ == Existing::refuse && part) {
     return partial_.string() +
-           ": left by a process that did not end; `hagfish run --resume` goes on with a run, "
-           "--force "
+           ": left by a run that was interrupted; `hagfish run --resume` continues it, --force "
            "replaces it";
   }
   if (existing_ == Existing::go_on && whole && part) {
-    return partial_.string() + ": cannot be gone on with, as " + file_.string() + " exists";
+    return partial_.string() + ": cannot be continued, since " + file_.string() + " exists";
   }
   if (existing_ == Existing::go_on && !whole && !part) {
     return file_.string() + ": no such file";
@@ -116,9 +115,10 @@ void OutputFile::publish() {
     return;
   }
   const std::string reason = errno == EEXIST
-                                 ? "appeared while it was made"
+                                 ? "another program created this file during the run"
                                  : std::string("cannot be named: ") + std::strerror(errno);
-  throw FileError(file_.string() + ": " + reason + "; what was made is " + partial_.string());
+  throw FileError(file_.string() + ": " + reason + "; the output of this run is in " +
+                  partial_.string());
 }
 
 }  // namespace hagfish

@@ -27,7 +27,8 @@ SavedRun run_of(const Hdf5Reader& h5, std::span<const std::uint8_t> bytes) {
     }
   }();
   if (!fits_law(model, resolved.scene, sim.controller.memory)) {
-    throw FileError(h5.file() + ": a checkpoint's memory is not of its scene's law");
+    throw FileError(h5.file() +
+                    ": the memory in a checkpoint does not fit the scene's controller.law");
   }
   const std::vector<double> wall_time = h5.doubles("/diagnostics/wall_time");
   return {std::move(resolved),
@@ -55,10 +56,9 @@ void require_log(const Hdf5Reader& h5) {
 
 void require_own_steps(const Hdf5Reader& h5) {
   if (h5.has_root_attribute("simulator")) {
-    throw FileError(
-        fmt::format("{}: its steps were taken by {}, and only this program's own can be audited or "
-                    "gone on with",
-                    h5.file(), h5.root_text("simulator")));
+    throw FileError(fmt::format(
+        "{}: made by {}; only logs of this program's own steps can be audited or continued",
+        h5.file(), h5.root_text("simulator")));
   }
 }
 
@@ -74,8 +74,7 @@ LogLevel level_of(const Hdf5Reader& h5) {
 void require_level(const Hdf5Reader& h5, LogLevel least) {
   if (const LogLevel level = level_of(h5); level < least) {
     throw FileError(
-        fmt::format("{}: logged with --log {}, which leaves out what this needs: run it "
-                    "with --log {}",
+        fmt::format("{}: made with --log {}, but this command needs a log made with --log {}",
                     h5.file(), log_level_name(level), log_level_name(least)));
   }
 }
@@ -97,7 +96,8 @@ std::vector<LoggedCheckpoint> logged_checkpoints(const Hdf5Reader& h5) {
                     std::ranges::is_sorted(ends) && (ends.empty() || ends.front() >= 0) &&
                     (ends.empty() ? 0 : ends.back()) == static_cast<std::int64_t>(bytes.size());
   if (!fits) {
-    throw FileError(h5.file() + ": /checkpoints/step, end and data do not fit each other");
+    throw FileError(h5.file() +
+                    ": the file is damaged: /checkpoints/step, end and data do not fit each other");
   }
   std::vector<LoggedCheckpoint> checkpoints;
   std::int64_t begin = 0;

@@ -14,17 +14,17 @@
 namespace hagfish {
 namespace {
 
-/// Numbers that knot_speed_law keeps.
+/// The memory of knot_speed_law.
 constexpr Eigen::Index knot_speed_memory = 2;
 
-/// The knot leaves, or has left, by the tail in this phase.
+/// Whether the knot leaves, or has left, by the tail in this phase.
 bool goes_back(const Situation& at) {
   const Phase phase = at.so_far.phase;
   return phase == Phase::reverse ||
          (phase == Phase::release && at.scene.controller.leave_by == BodyEnd::tail);
 }
 
-/// Speeds at which the strands are to run at the first and the last contact, and where to.
+/// Speeds of the strands at the first and the last contact, and the end to slide to.
 struct CommandedSpeeds {
   ThigmotaxisSpeeds first, last;
   BodyEnd towards;
@@ -61,8 +61,9 @@ bool same_segments(const Contact& x, const Contact& y) {
 
 void check_torque(const Model& model, const char* name, const Eigen::VectorXd& v) {
   if (v.size() != 0 && v.size() != model.nv()) {
-    throw std::invalid_argument(fmt::format("control: {} has {} numbers, the animal has {} dofs",
-                                            name, v.size(), model.nv()));
+    throw std::invalid_argument(
+        fmt::format("control: {} has {} numbers, but the animal has {} velocities", name, v.size(),
+                    model.nv()));
   }
   if (!v.allFinite()) {
     throw std::invalid_argument(fmt::format("control: {} holds a number that is not finite", name));
@@ -83,13 +84,14 @@ void check_command(const Model& model, const ThigmotaxisCommand& command) {
   const auto unit = [](const Eigen::Vector3d& v) { return std::abs(v.norm() - 1) <= rounding; };
   if (!on_body(c.segment_a, c.t_a) || !on_body(c.segment_b, c.t_b) || !unit(c.tangent_a) ||
       !unit(c.tangent_b)) {
-    throw std::invalid_argument("control: thigmotaxis at a contact that is not on the body");
+    throw std::invalid_argument(
+        "control: a command of Eq. 6 is at a contact that is not on the body");
   }
   if (!std::isfinite(command.speed.a) || !std::isfinite(command.speed.b) ||
       !std::isfinite(command.effort) || command.effort < 0) {
     throw std::invalid_argument(fmt::format(
-        "control: thigmotaxis of bodies {} and {}: speeds {:g} and {:g} cm/s with an effort of "
-        "{:g}, which must be finite and not negative",
+        "control: a command of Eq. 6 at bodies {} and {}: speeds {:g} and {:g} cm/s and effort "
+        "{:g} must be finite, and the effort not negative",
         c.body_a(), c.body_b(), command.speed.a, command.speed.b, command.effort));
   }
 }
@@ -150,8 +152,7 @@ void knot_speed_law(const Situation& at, Eigen::VectorXd& memory, Control& contr
   const double h = at.scene.time.step;
   const double arc = control.thigmotaxis[0].contact.arc_a;
   const double kept = std::exp(-h / loop.filter);
-  const double lag =
-      h / (1 - kept);  // of the smoothed place of the step before, at steady speed, s
+  const double lag = h / (1 - kept);  // of the smoothed place of the last step, at steady speed, s
   if (memory.size() == 0) {
     memory.resize(knot_speed_memory);
     memory << arc + lag * loop.target, 1;
@@ -207,8 +208,8 @@ std::string cure_of_torque(const Control& control, const Status& status) {
   const bool asked = control.torque.value.size() > 0 && !control.torque.value.isZero(0) &&
                      control.torque.rate.isZero(0);
   return blown_up && asked
-             ? "; the law's torques know nothing of the step's end, which stiff or damping ones "
-               "must: torque_rate takes damping, and rest_shape a pull to angles, implicitly"
+             ? "; stiff or damping torques of a control law must be implicit: give damping as "
+               "torque_rate, and a pull to angles as rest_shape"
              : "";
 }
 
@@ -217,16 +218,16 @@ void check_control(const Model& model, const Control& control) {
   check_torque(model, "torque", control.torque.value);
   check_torque(model, "torque's rate", control.torque.rate);
   if (control.torque.rate.size() != control.torque.value.size()) {
-    throw std::invalid_argument("control: torque and its rate differ in length");
+    throw std::invalid_argument("control: torque and torque's rate differ in length");
   }
   if ((control.torque.rate.array() < 0).any() || !(control.tip.rate >= 0)) {
-    throw std::invalid_argument("control: a rate is negative, which would feed what it damps");
+    throw std::invalid_argument("control: a damping rate is negative; it must be 0 or more");
   }
   if (!control.tip.value.allFinite() || !std::isfinite(control.tip.rate)) {
     throw std::invalid_argument("control: the tip force is not finite");
   }
   if (control.tip.body < -1 || control.tip.body >= model.body_count()) {
-    throw std::invalid_argument("control: the tip force is on a body that is not there");
+    throw std::invalid_argument("control: the tip force is on a body that does not exist");
   }
   const std::vector<ThigmotaxisCommand>& commands = control.thigmotaxis;
   for (std::size_t i = 0; i < commands.size(); ++i) {
@@ -236,7 +237,7 @@ void check_control(const Model& model, const Control& control) {
           (commands[i].end != KnotEnd::neither ||
            same_segments(commands[i].contact, commands[j].contact))) {
         throw std::invalid_argument(
-            fmt::format("control: two commands of thigmotaxis {}",
+            fmt::format("control: two commands of Eq. 6 are {}",
                         commands[i].end == KnotEnd::neither
                             ? fmt::format("at bodies {} and {}", commands[i].contact.body_a(),
                                           commands[i].contact.body_b())

@@ -9,7 +9,8 @@
 namespace hagfish {
 namespace {
 
-// A script that has not tied within this share of its own time after its last knot will not.
+// A script that has not tied the knot within this share of its duration after its last knot has
+// failed.
 constexpr double patience = 0.4;
 
 void enter(ControllerState& controller, Phase phase, double time) {
@@ -17,7 +18,7 @@ void enter(ControllerState& controller, Phase phase, double time) {
   controller.phase_start = time;
 }
 
-/// Notes the knot type just seen, and since when it has been there.
+/// Notes the present knot type, and since when it has been there.
 void look_at_knot(const Scene& scene, const Observation& observation, double time,
                   ControllerState& controller) {
   const KnotInvariants before = controller.knot.type;
@@ -31,7 +32,7 @@ void look_at_knot(const Scene& scene, const Observation& observation, double tim
   }
 }
 
-/// "a 3_1, tied since 8.64 s", or "no knot", with the last one that there was.
+/// "a 3_1, tied since 8.64 s", or "no knot" with the last knot before.
 std::string knot_seen_text(const ControllerState& controller) {
   if (controller.knot.type != KnotInvariants{}) {
     return fmt::format("a {}, tied since {:.2f} s", knot_name(controller.knot.type),
@@ -39,25 +40,26 @@ std::string knot_seen_text(const ControllerState& controller) {
   }
   const PastKnot& past = controller.past;
   if (past.type == KnotInvariants{}) {
-    return "no knot, and tied none before";
+    return "no knot (none was tied before)";
   }
-  return fmt::format("no knot, after a {} from {:.2f} to {:.2f} s", knot_name(past.type), past.from,
-                     past.to);
+  return fmt::format("no knot (there was a {} from {:.2f} to {:.2f} s)", knot_name(past.type),
+                     past.from, past.to);
 }
 
-/// A script that is over without what the scene expects: the knot, and its tail pulled through.
+/// The status of a script that ended without what the scene expects: the knot, and enough tail
+/// through it.
 Status failed_script(const Scene& scene, const ControllerState& controller, double through) {
   if (knot_name(controller.knot.type) != scene.expect.knot) {
     return {Outcome::never_tied, fmt::format("the script ended with {}, but expect.knot = {}",
                                              knot_seen_text(controller), scene.expect.knot)};
   }
   return {Outcome::never_tied,
-          fmt::format("the script ended with {}, but {:.2f} cm of tail through it where "
+          fmt::format("the script ended with {}, but only {:.2f} cm of tail is through it; "
                       "controller.tail_through = {:g} cm",
                       knot_seen_text(controller), through, scene.controller.tail_through)};
 }
 
-/// Phase changes that follow from the knot type just seen.
+/// Phase changes that follow from the present knot type.
 Status switch_by_knot(const Model& model, const Scene& scene, double time,
                       ControllerState& controller) {
   const std::optional<KnotInvariants> wanted = knot_called(scene.expect.knot);
@@ -114,8 +116,8 @@ void switch_by_span(const Model& model, const Scene& scene, double time,
   }
 }
 
-/// The food gives where a mean of the pull passes its strength. Means end at whole multiples of
-/// their time; the first one counts once it is of the pull alone.
+/// The food tears off when a mean of the pull exceeds its strength. Means end at whole multiples of
+/// their duration. The first one counts only if it lies within the pull.
 bool food_gives(const Scene& scene, double time, PullSum& pull) {
   const double h = scene.time.step;
   const double window = std::max(1.0, std::round(scene.food.average / h));  // in steps
@@ -186,7 +188,8 @@ void command(const Model& model, const Scene& scene, const Moment& now, double t
   } else if (scene.controller.law == own_law) {
     own(at, controller.memory, control);
   } else {
-    throw std::invalid_argument(R"(the run has a law of its own: controller.law must be "own")");
+    throw std::invalid_argument(
+        R"(the program sets a control law, so controller.law must be "own")");
   }
   if (control.torque.rate.size() == 0) {
     control.torque.rate.setZero(control.torque.value.size());

@@ -17,13 +17,13 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-/// What happened and what to do about it; where the run goes on, also whether it can be used.
+/// What happened and what to do about it. If the run continues, also whether it can be used.
 std::string told(GuardAction action, const std::string& what, const std::string& use,
                  const std::string& remedy) {
   return action == GuardAction::stop ? what + "; " + remedy : what + ". " + use + "; " + remedy;
 }
 
-/// The deepest overlap of a state by the names of what touches.
+/// Names the bodies or obstacle at the deepest overlap of a state.
 std::string deepest_overlap(const Model& model, const Observation& observation) {
   double least = 0;
   std::string name = "none";
@@ -73,7 +73,7 @@ std::string furthest_limit(const Model& model, const State& state) {
   return bent == nullptr ? dof_name(model, static_cast<int>(worst)) : cone_joint_name(model, *bent);
 }
 
-/// The rows whose forces work hardest against row i, at most three, hardest first.
+/// The rows whose forces resist row i most, at most three, strongest first.
 std::vector<const Row*> opponents(const Model& model, const Kinematics& kin,
                                   const StepSolution& step, Eigen::Index i) {
   const Eigen::MatrixXd A = whole_dual(model, kin, step.system, step.rows).A;
@@ -91,19 +91,19 @@ std::vector<const Row*> opponents(const Model& model, const Kinematics& kin,
   return rows;
 }
 
-/// What a thigmotaxis row at its cap suffers from, and what would help, by what holds it back most.
+/// Advice for a row of Eq. 6 at its cap, by the row that holds it back most.
 std::string cure_of_cap(const Row& row, const std::vector<const Row*>& against) {
   const RowKind kind = against.empty() ? RowKind::contact : against[0]->kind;
   if (kind == RowKind::thigmotaxis && against[0]->command == row.command) {
     const double angle =
         std::acos(std::min(1.0, std::abs(row.direction.dot(against[0]->direction))));
     return fmt::format(
-        "its strands run {:.2g} deg apart, where both rows cannot hold: try controller.eq6_slip = "
-        "\"shape\"",
+        "its strands cross at only {:.2g} deg, so it cannot have both speeds: try "
+        "controller.eq6_slip = \"shape\"",
         angle / degree);
   }
   if (kind == RowKind::limit) {
-    return "joint limits leave no way: try a lower speed or a larger model.limit_scale";
+    return "joint limits block the motion: try a lower speed or a larger model.limit_scale";
   }
   if (kind == RowKind::obstacle) {
     return "an obstacle is in the way: try a larger controller.release_at";
@@ -152,24 +152,24 @@ Status guard_state(const Model& model, const Moment& moment, double crossing, co
   const GuardSettings& guard = scene.guard;
   const Observation& seen = moment.observation;
   if (!seen.kin.centre.allFinite()) {
-    return {Outcome::non_finite, "non-finite state"};
+    return {Outcome::non_finite,
+            "positions or velocities are not finite numbers; try a smaller time.step"};
   }
   Status status;
   const auto look = [&](Outcome outcome, const std::string& what, const std::string& remedy) {
-    status =
-        report(outcome, told(guard.action, what, "Forces from here on are not to be used", remedy),
-               guard.action, watch, warnings);
+    status = report(outcome, told(guard.action, what, "Do not use forces after this time", remedy),
+                    guard.action, watch, warnings);
   };
   const char* finer = "try a smaller time.step or more constraints.corrections";
   if (seen.penetration > guard.penetration) {
     look(Outcome::penetration,
-         fmt::format("penetration {:.3g} cm of {} exceeds guard.penetration = {:g} cm",
+         fmt::format("{1} overlap by {0:.3g} cm, over guard.penetration = {2:g} cm",
                      seen.penetration, deepest_overlap(model, seen), guard.penetration),
          finer);
   } else if (crossing > guard.penetration) {
     look(Outcome::penetration,
-         fmt::format("strands go {:.3g} cm into each other on the way, over guard.penetration = "
-                     "{:g} cm",
+         fmt::format("strands overlap by {:.3g} cm on the way to the next state, over "
+                     "guard.penetration = {:g} cm",
                      crossing, guard.penetration),
          finer);
   }
@@ -193,8 +193,9 @@ Status guard_energy(const Model& model, const Scene& scene, Moment& moment, Ener
   Status status;
   if (!(made <= allowed)) {
     std::string what = fmt::format(
-        "the integrator made {:.3g} erg of energy, over guard.energy_gain = {:g} of the {:.3g} erg "
-        "that the body had or lost",
+        "numerical errors added {:.3g} erg, over guard.energy_gain = {:g} times the body's energy "
+        "and "
+        "losses ({:.3g} erg)",
         made, guard.energy_gain, passed);
     if (guard.energy_action == EnergyAction::hold && scene.time.rule == TimeRule::euler) {
       const double taken = std::min(made - allowed, ledger.kinetic);
@@ -203,13 +204,13 @@ Status guard_energy(const Model& model, const Scene& scene, Moment& moment, Ener
       update_velocities(model, moment.state.qdot, moment.observation.kin);
       ledger.kinetic -= taken;
       ledger.integrator_held -= taken;
-      what += ", and the excess was taken out of the velocities";
+      what += "; velocities were reduced by the excess";
     }
     const bool stop = guard.energy_action == EnergyAction::stop;
     const GuardAction action = stop ? GuardAction::stop : GuardAction::warn;
     status =
         report(Outcome::energy_gain,
-               told(action, what, "Speeds around this time are not to be used, earlier ones are",
+               told(action, what, "Do not use speeds around this time; earlier speeds can be used",
                     "try a smaller time.step, or more drag or damping"),
                action, watch, warnings);
   }
@@ -224,7 +225,7 @@ void guard_momentum(const StepInput& in, const MomentumLedger& before, const Mom
     return;
   }
   watch.made += now.integrator + now.given_back - before.integrator - before.given_back;
-  // Of a body that moves as one |P|² <= 2 m T and |L|² <= 2 I T; a straight one has the largest I.
+  // For a rigid motion |P|² <= 2 m T and |L|² <= 2 I T; a straight body has the largest I.
   const double linear = std::sqrt(2 * mass_of(in.model) * energy.largest);
   const double angular = linear * in.model.length() / std::sqrt(12.0);
   const double share =
@@ -232,13 +233,14 @@ void guard_momentum(const StepInput& in, const MomentumLedger& before, const Mom
   if (share > in.scene.guard.momentum_gain) {
     std::ignore = report(
         Outcome::momentum_gain,
-        told(GuardAction::warn,
-             fmt::format(
-                 "the integrator pushed the free body by {:.3g} dyn s and turned it by {:.3g} dyn "
-                 "cm s, over guard.momentum_gain = {:g} of what its energy allows",
-                 watch.made.linear.norm(), watch.made.angular.norm(), in.scene.guard.momentum_gain),
-             "The body's shape can be used, its way through the water cannot",
-             "try time.momentum = \"kept\" or a smaller time.step"),
+        told(
+            GuardAction::warn,
+            fmt::format(
+                "numerical errors pushed the free body by {:.3g} dyn s and turned it by {:.3g} dyn "
+                "cm s, over guard.momentum_gain = {:g}",
+                watch.made.linear.norm(), watch.made.angular.norm(), in.scene.guard.momentum_gain),
+            "The shape of the body can be used, but not its path through the water",
+            "try time.momentum = \"kept\" or a smaller time.step"),
         GuardAction::warn, watch, warnings);
   }
 }
@@ -264,7 +266,7 @@ void guard_cap(const Model& model, const Kinematics& kin, const Scene& scene, Ph
       capped.push_back({row.id, time});
       continue;
     }
-    // Naming the opponents takes a factorisation: once.
+    // The names take a factorisation, so they are found only once.
     if (time - one->since > scene.guard.capped_time && !watch.has_warned(Outcome::capped)) {
       const Eigen::Index i = &row - step.rows.data();
       const std::vector<const Row*> against = opponents(model, kin, step, i);
@@ -274,13 +276,13 @@ void guard_cap(const Model& model, const Kinematics& kin, const Scene& scene, Ph
       }
       std::ignore = report(
           Outcome::capped,
-          told(GuardAction::warn,
-               fmt::format("{} has been at controller.cap = {:g} dyn for {:g} s, is {:.3g} cm/s "
-                           "too slow and is held back most by {}",
-                           row_name(model, row), scene.controller.cap, scene.guard.capped_time,
-                           -step.excess[i], names.empty() ? "no row" : names),
-               "Paths can be used, forces at a cap are the cap's and not the animal's",
-               cure_of_cap(row, against)),
+          told(
+              GuardAction::warn,
+              fmt::format("{} has been at controller.cap = {:g} dyn for {:g} s and is still {:.3g} "
+                          "cm/s too slow, held back most by {}",
+                          row_name(model, row), scene.controller.cap, scene.guard.capped_time,
+                          -step.excess[i], names.empty() ? "no row" : names),
+              "Paths can be used, but not forces at the cap", cure_of_cap(row, against)),
           GuardAction::warn, watch, warnings);
     }
   }
@@ -303,7 +305,7 @@ void guard_muscles(const Model& model, const Scene& scene, const Control& contro
                            "limits of {:.3g} and {:.3g} deg",
                            dof_name(model, static_cast<int>(k) + root_dofs), angles[k] / degree,
                            time + scene.time.reach(), ranges(0, k) / degree, ranges(1, k) / degree),
-               "The run can be used, but for torques of muscles that work against a limit",
+               "The run can be used, except torques of muscles that work against a limit",
                "try a program within the limits or a larger model.limit_scale"),
           GuardAction::warn, watch, warnings);
     }
@@ -311,16 +313,16 @@ void guard_muscles(const Model& model, const Scene& scene, const Control& contro
   const int saturated =
       control.active.saturated >= 0 ? control.active.saturated : control.torque.saturated;
   if (saturated >= 0 && !watch.has_warned(Outcome::saturated)) {
-    std::ignore =
-        report(Outcome::saturated,
-               told(GuardAction::warn,
-                    fmt::format("{} takes all of active.capacity = {:g} dyn cm at {:.2f} s",
-                                dof_name(model, saturated), scene.active.capacity, time),
-                    "The run can be used: it is of an animal too weak for what it is asked",
-                    control.active.saturated >= 0
-                        ? "try a slower program, a softer body or more capacity"
-                        : "try a law that asks for less, or active.bounds_laws = false"),
-               GuardAction::warn, watch, warnings);
+    std::ignore = report(
+        Outcome::saturated,
+        told(GuardAction::warn,
+             fmt::format("{} needs more torque than active.capacity = {:g} dyn cm at {:.2f} s",
+                         dof_name(model, saturated), scene.active.capacity, time),
+             "The run can be used, as one of an animal too weak for this movement",
+             control.active.saturated >= 0
+                 ? "try a slower program, a softer body or more capacity"
+                 : "try a law that asks for less, or active.bounds_laws = false"),
+        GuardAction::warn, watch, warnings);
   }
 }
 

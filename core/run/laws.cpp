@@ -39,9 +39,10 @@ bool fits_law(const Model& model, const Scene& scene, const Eigen::VectorXd& mem
 void ask_law(const Situation& at, Eigen::VectorXd& memory, Control& control, NamedLaw& named) {
   const Law& law = law_of(at.scene);
   if (law.make == nullptr) {
-    throw std::invalid_argument(R"(controller.law = "own")"
-                                ": the law is of the C++ or Python program that runs the scene, "
-                                "and this one has none");
+    throw std::invalid_argument(
+        R"(controller.law = "own")"
+        ": this program must set a control law (Simulation::law) to run the "
+        "scene");
   }
   if (named.law != &law) named = {&law, law.make()};
   named.act(at, memory, control);

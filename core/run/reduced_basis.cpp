@@ -134,8 +134,9 @@ Eigen::VectorXd find_least(const ReducedBasisSettings& basis, const Eq6& eq6,
   qp.A.diagonal().array() += basis.softness * qp.A.diagonal().maxCoeff();
   const BoxQpSolution solution = make_box_qp_solver("active-set")->solve(qp, qp.lower);
   if (solution.status != SolveStatus::solved) {
-    throw StepError({Outcome::solver_failed, "the numbers of the reduced basis: " +
-                                                 std::string(status_name(solution.status))});
+    throw StepError(
+        {Outcome::solver_failed, "the QP for the numbers of the reduced basis failed: " +
+                                     std::string(status_name(solution.status))});
   }
   Eigen::VectorXd a = eq6.gain.transpose() * solution.x;
   const double largest = (shapes * a).lpNorm<Eigen::Infinity>();
@@ -174,13 +175,13 @@ std::optional<SceneFault> fault(const Specimen& /*specimen*/, const Scene& scene
     return SceneFault{std::string("controller.reduced_basis.") + key, why, element};
   };
   if ((basis.cosines > 0) != basis.stations.empty()) {
-    return at("cosines", "must be positive, or shapes be given by file, not both," + where);
+    return at("cosines", "must be positive, or file must be given, but not both," + where);
   }
   if (basis.most == 0) return at("most", "must be positive" + where);
   if (basis.places.empty()) {
     if (basis.period == 0) return at("period", "must be positive" + where);
     if (basis.softness == 0) return at("softness", "must be positive" + where);
-    if (!basis.played.empty()) return at("played", "has no places");
+    if (!basis.played.empty()) return at("played", "needs places");
     return {};
   }
   for (std::size_t i = 1; i < basis.places.size(); ++i) {

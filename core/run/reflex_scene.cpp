@@ -19,7 +19,7 @@ std::optional<SceneFault> reflex_fault(const Specimen& specimen, const Scene& sc
     }
   }
   if (!reflex.bend_y && !reflex.bend_z && !reflex.twist) {
-    return SceneFault{table + "bend_y", "must be true, or bend_z, or twist: nothing is copied"};
+    return SceneFault{table + "bend_y", "must be true, or bend_z or twist must be true"};
   }
   if (reflex.gate == ReflexGate::touch && reflex.reach == 0) {
     return SceneFault{table + "reach", "must be positive where gate = \"touch\""};

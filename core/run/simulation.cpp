@@ -18,7 +18,7 @@ void require_bodies(const Model& model) {
 
 void require_of(const Model& model, const State& state) {
   if (state.q.size() == model.nq() && state.qdot.size() == model.nv()) return;
-  throw std::invalid_argument("the state is of a chain of another number of bodies");
+  throw std::invalid_argument("the state has another number of bodies than the model");
 }
 
 }  // namespace
@@ -26,7 +26,7 @@ void require_of(const Model& model, const State& state) {
 void require_of(const Model& model, const Simulation& sim) {
   require_of(model, sim.now.state);
   if (sim.now.observation.kin.centre.cols() != model.body_count()) {
-    throw std::invalid_argument("what was seen of the state is of another chain");
+    throw std::invalid_argument("the kinematics of the state are those of another model");
   }
 }
 
@@ -42,7 +42,7 @@ Simulation start_from(const Model& model, const Scene& scene, const std::string&
   require_bodies(model);
   require_of(model, state);
   StepSolver solver(
-      back_end);  // before anything is moved: GCC 12 destroys that twice if this throws
+      back_end);  // before any move: if this throws, GCC 12 destroys moved objects twice
   Simulation sim{.step = step,
                  .now = {std::move(state), {}},
                  .search = {},
@@ -64,7 +64,7 @@ void change_scene(const Model& model, const Scene& before, const Scene& scene, S
   constexpr double rounding = 1e-9;  // of a number of frames that is whole
   if (std::abs(frames - std::round(frames)) > rounding * std::max(1.0, frames)) {
     throw std::invalid_argument(
-        fmt::format("its time, {:g} s, is no multiple of time.frame_interval, {:g} s",
+        fmt::format("its time, {:g} s, is not a multiple of time.frame_interval = {:g} s",
                     time_of(sim, before), scene.time.frame_interval));
   }
   sim.step = std::llround(time_of(sim, before) / scene.time.step);

@@ -12,7 +12,7 @@
 namespace hagfish {
 namespace {
 
-/// A step on its way from `sim.now` to `record.moment`, which change places once it is taken.
+/// A step from `sim.now` to `record.moment`. The two are swapped once the step is taken.
 struct Attempt {
   const StepInput in;
   Simulation& sim;
@@ -33,7 +33,7 @@ bool looks_ahead(const Scene& scene) {
   return scene.constraints.activation == Activation::speculative;
 }
 
-/// What the animal does, by the controller and its law.
+/// Decides what the animal does, by the controller and its law.
 void decide_control(const Attempt& step) {
   const auto& [in, sim, record] = step;
   record.step = sim.step;
@@ -42,14 +42,15 @@ void decide_control(const Attempt& step) {
   step.require(decide(in.model, in.scene, sim.now, record.time, sim.named_law, sim.controller,
                       record.control, sim.law));
   if (!sim.controller.lost.empty()) {
-    step.warn(Outcome::knot_lost,
-              sim.controller.lost +
-                  ". What follows is not of the scene's knot; try a smaller time.step, or another "
-                  "script or expect.knot");
+    step.warn(
+        Outcome::knot_lost,
+        sim.controller.lost +
+            ". From here on the run does not show the scene's knot; try a smaller time.step, or "
+            "another script or expect.knot");
   }
 }
 
-/// Eq. 2: where the step's velocity leads within time `t` (s), and what it looks like there.
+/// Eq. 2: moves by the step's velocity for the time `t` (s), and observes the state there.
 void move(const Attempt& step, double t) {
   const auto& [in, sim, record] = step;
   auto& [state, observation] = record.moment;
@@ -64,8 +65,8 @@ void move(const Attempt& step, double t) {
   }
 }
 
-/// Moves along the step's path to its end. Where the path overlaps or leaves a cone and `correct`
-/// is set, adds the rows that show it and returns true: the step is to be solved again.
+/// Moves along the step's path to its end. If the path overlaps or leaves a cone and `correct` is
+/// set, adds rows for this and returns true: the step must be solved again.
 bool look_along_path(const Attempt& step, bool correct) {
   const auto& [in, sim, record] = step;
   StepSolution& solution = record.solution;
@@ -93,8 +94,9 @@ bool look_along_path(const Attempt& step, bool correct) {
   return false;
 }
 
-/// Solves the step, and again as long as its path misses rows, up to scene.constraints.corrections
-/// times. Where the rows added cannot all be met the step goes without them.
+/// Solves the step, and solves it again while its path shows missing rows, up to
+/// scene.constraints.corrections times. If the added rows contradict each other, the step is taken
+/// without them.
 void solve_along_path(const Attempt& step) {
   const auto& [in, sim, record] = step;
   StepSolution& solution = record.solution;
@@ -115,15 +117,17 @@ void solve_along_path(const Attempt& step) {
   if (solution.middle.unsettled > 0) {
     step.warn(
         Outcome::unsettled,
-        fmt::format("after {} passes the middle of a step is known to {:.3g} rad/s or cm/s only, "
-                    "over time.settled = {:g}. The run can be used, with larger errors than "
-                    "this rule's own; try a smaller time.step",
-                    solution.middle.passes, solution.middle.unsettled, in.scene.time.settled));
+        fmt::format(
+            "after {} passes velocities in the middle of a step still change by {:.3g} rad/s or "
+            "cm/s, over time.settled = {:g}. The run can be used, but its errors are larger "
+            "than those of the midpoint rule; try a smaller time.step",
+            solution.middle.passes, solution.middle.unsettled, in.scene.time.settled));
   }
 }
 
-/// A step whose path still overlaps ends where strands meet: the rest of its motion is left out,
-/// and the next step, with strands close, can see and stop them. The time travelled, s.
+/// Ends a step whose path still overlaps where the strands meet. The rest of its motion is left
+/// out, and the next step, with strands close, can see and stop them. Returns the time travelled,
+/// s.
 double end_where_strands_meet(const Attempt& step) {
   const auto& [in, sim, record] = step;
   const double stride = in.scene.constraints.stride;
@@ -132,8 +136,8 @@ double end_where_strands_meet(const Attempt& step) {
   const int samples = path_samples(record.solution.centre_velocity, step.h(), stride);
   const double before = in.observation.penetration;
   const double allowed = std::max(before, way_tolerance * stride);
-  // What corrections leave at most, and half of what was there before; of a long way, whose rows
-  // ask for too little (add_missed_rows), there may be more.
+  // The largest overlap that corrections leave, and half of an earlier overlap. On a long path,
+  // whose rows ask for too little (add_missed_rows), there may be more.
   const double left = samples > 1 ? std::max(before, 3 * in.scene.constraints.tolerance) : allowed;
   if (!looks_ahead(in.scene) || (record.crossing <= allowed && penetration <= left)) {
     return step.h();
@@ -148,16 +152,17 @@ double end_where_strands_meet(const Attempt& step) {
   if (clear == count) return step.h();
   move(step, step.h() * clear / count);
   record.crossing = 0;
-  step.warn(Outcome::speed,
-            fmt::format(
-                "strands meet too fast for the step, which ends there with {:.3g} s of its "
-                "motion left out. The run can be used, but for speeds at this time; try a smaller "
-                "time.step",
-                step.h() * (count - clear) / count));
+  step.warn(
+      Outcome::speed,
+      fmt::format(
+          "strands meet too fast for time.step, so the step ends where they meet and its last "
+          "{:.3g} s are left out. The run can be used, except speeds at this time; try a "
+          "smaller time.step",
+          step.h() * (count - clear) / count));
   return step.h() * clear / count;
 }
 
-/// Bounds of sanity, of the step and of where it has led.
+/// The guards of the step and of the state after it.
 void watch(const Attempt& step) {
   const auto& [in, sim, record] = step;
   guard_muscles(in.model, in.scene, in.control, record.time, sim.watch, record.warnings);
@@ -168,8 +173,8 @@ void watch(const Attempt& step) {
   record.head_drift = record.control.clamp_head ? head_drift(in.model, in.observation.kin) : 0;
 }
 
-/// Energy, which may not grow by itself, and momentum of what has moved for the time `travelled`
-/// (s).
+/// The ledger of energy, which may not grow by itself, and the ledger of momentum, after a motion
+/// for the time `travelled` (s).
 void book(const Attempt& step, double travelled) {
   const auto& [in, sim, record] = step;
   Moment& next = record.moment;
@@ -181,12 +186,13 @@ void book(const Attempt& step, double travelled) {
   guard_momentum(in, record.momentum, sim.momentum, sim.ledger, sim.watch, record.warnings);
 }
 
-/// One step at a time.
+/// Marks a step as under way, so that there is only one at a time.
 class Guard {
  public:
   explicit Guard(StepUnderWay& under_way) : under_way_(under_way) {
     if (!under_way.begin()) {
-      throw std::logic_error("a step of this simulation is under way: a copy can take another");
+      throw std::logic_error(
+          "this simulation is already taking a step; take the other step in a copy of it");
     }
   }
   ~Guard() { under_way_.end(); }

@@ -39,7 +39,8 @@ void Rounds::stop_when(std::function<bool()> asked) {
 Status Rounds::begin(const StepInput& in, const StepPlace& place, const WarmStart& warm,
                      StepSolution& step) {
   if (!in.state.q.allFinite() || !in.state.qdot.allFinite()) {
-    return {Outcome::non_finite, "non-finite state"};
+    return {Outcome::non_finite,
+            "positions or velocities are not finite numbers; try a smaller time.step"};
   }
   const double reach = in.scene.time.reach();
   assemble_step_system(in.model, in.state, place.motion, place.kin, in.control.tip,
@@ -79,7 +80,8 @@ Status Rounds::resume(const StepInput& in, const StepPlace& place, const WarmSta
     }
   } while (change_rows(in, place, step));
   if (!step.qdot.allFinite()) {
-    return {Outcome::non_finite, "non-finite velocity"};
+    return {Outcome::non_finite,
+            "velocities after the step are not finite numbers; try a smaller time.step"};
   }
   return {};
 }
@@ -163,7 +165,8 @@ Status Rounds::base_motion(const StepInput& in, const StepPlace& place, StepSolu
   step.lambda.setZero(static_cast<Eigen::Index>(step.rows.size()));
   set_velocity(in, place, step);
   if (!step.qdot.allFinite()) {
-    return {Outcome::non_finite, "non-finite unconstrained velocity"};
+    return {Outcome::non_finite,
+            "velocities without constraints are not finite numbers; try a smaller time.step"};
   }
   problem_.base = step.qdot;
   problem_.base_twist = step.twist;

@@ -14,7 +14,7 @@ constexpr std::size_t most_named = 12;  ///< rows in a message
 Status describe_failure(const Model& model, const BoxQp& qp, const std::vector<Row>& rows,
                         const BoxQpSolution& solution) {
   if (solution.status == SolveStatus::stopped) {
-    return {Outcome::stopped, fmt::format("stopped while solving {} rows", qp.b.size())};
+    return {Outcome::stopped, fmt::format("stopped while solving for {} constraints", qp.b.size())};
   }
   std::vector<Eigen::Index> contradicting = solution.contradicting;
   if (contradicting.empty()) {
@@ -29,15 +29,16 @@ Status describe_failure(const Model& model, const BoxQp& qp, const std::vector<R
     if (contradicting.size() > most_named) {
       names += fmt::format("; and {} more", contradicting.size() - most_named);
     }
-    return {Outcome::infeasible,
-            fmt::format("rows contradict each other: {}; try a start without overlap, a lower "
-                        "controller.cap or a smaller time.step",
-                        names)};
+    return {
+        Outcome::infeasible,
+        fmt::format("constraints contradict each other: {}; try a start without overlap, a lower "
+                    "controller.cap or a smaller time.step",
+                    names)};
   }
   Eigen::Index worst = 0;
   (qp.b - qp.A * solution.x).cwiseQuotient(row_scale(qp.A)).maxCoeff(&worst);
   return {Outcome::solver_failed,
-          fmt::format("solver failed: {} on {} rows, furthest from being met: {}{}; try another "
+          fmt::format("the QP solver failed ({}) on {} constraints, worst of all {}{}; try another "
                       "--qp or a smaller time.step",
                       status_name(solution.status), qp.b.size(), row_name(model, rows[worst]),
                       solution.message.empty() ? "" : fmt::format(" ({})", solution.message))};

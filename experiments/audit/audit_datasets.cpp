@@ -59,8 +59,8 @@ void require_own_version(const LogContents& log) {
   const auto require = [&log](const std::string& path) {
     if (log.h5.has(path)) return;
     throw FileError(fmt::format(
-        "{}: has no {}: hagfish {} wrote it at revision {}, before logs had one; check it with "
-        "that revision, or run its scene again (view and export read it)",
+        "{}: has no {}: hagfish {} wrote it at revision {}, before logs had one. Check it with "
+        "that revision or run its scene again; view and export can read it",
         log.h5.file(), path, log.h5.root_text("creator_version"),
         log.h5.root_text("git_revision")));
   };

@@ -56,8 +56,8 @@ void LogContents::check_model() const {
                             std::size_t count, const auto& wanted) {
     const std::vector<double> found = h5.doubles("/model/" + name);
     if (found.size() != first + count) {
-      throw FileError(fmt::format("{}: /model/{} holds {} values, its scene makes {}", h5.file(),
-                                  name, found.size(), first + count));
+      throw FileError(fmt::format("{}: /model/{} holds {} values, but its scene makes {}",
+                                  h5.file(), name, found.size(), first + count));
     }
     for (std::size_t i = 0; i < count; ++i) {
       // Another machine's compiler may round otherwise.
@@ -65,8 +65,9 @@ void LogContents::check_model() const {
                         (std::isfinite(wanted(i)) &&
                          std::abs(found[first + i] - wanted(i)) <= 1e-12 * std::abs(wanted(i)));
       if (!same) {
-        throw FileError(fmt::format("{}: /model/{} of {} {} is {:.17g}, its scene makes {:.17g}",
-                                    h5.file(), name, of, i, found[first + i], wanted(i)));
+        throw FileError(
+            fmt::format("{}: /model/{} of {} {} is {:.17g}, but its scene makes {:.17g}", h5.file(),
+                        name, of, i, found[first + i], wanted(i)));
       }
     }
   };

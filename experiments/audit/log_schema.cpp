@@ -109,8 +109,10 @@ void check_steps(const Hdf5Reader& log, const Scene& scene) {
     // The state at the end may come sooner after the frame before.
     const bool end = f + 1 == step.size() && (!steps_known || ends_with_end_frame(log));
     if (on != stride && !(end && on > 0 && on < stride)) {
-      refuse(log, fmt::format("/trajectory/step goes from {} to {}, its scene has {} steps a frame",
-                              step[f - 1], step[f], stride));
+      refuse(log,
+             fmt::format(
+                 "/trajectory/step goes from {} to {}, but its scene has {} steps between frames",
+                 step[f - 1], step[f], stride));
     }
   }
   if (steps_known && !ends_with_end_frame(log) &&

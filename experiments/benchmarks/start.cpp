@@ -45,7 +45,7 @@ Start knotted_start(const std::string& log, TimeRule rule) {
   const auto slide = static_cast<std::int64_t>(Phase::slide);
   const auto [first, last] = std::ranges::equal_range(contents.phase, slide);
   if (first == last) {
-    throw FileError(log + ": the knot never slides");
+    throw FileError(log + ": has no slide of the knot");
   }
   Start start{contents.resolved.scene, contents.model, {}};
   start.scene.time.rule = rule;

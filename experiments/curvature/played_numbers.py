@@ -19,11 +19,11 @@ from hagfish_log import HagfishLog, LogError  # noqa: E402
 def numbers_in_slide(log: HagfishLog) -> tuple[np.ndarray, np.ndarray]:
     """Of the frames of the slide the head end of the window (cm) and the numbers (dyn cm)."""
     if log.scene()["controller"]["law"] != "reduced_basis":
-        raise LogError(f"{log.path}: no numbers slide its knot")
+        raise LogError(f"{log.path}: has no slide of a knot by a reduced basis")
     place, numbers = log["/basis/window"][:, 0], log["/basis/amplitude"]
     known = np.isfinite(place) & np.isfinite(numbers).all(axis=1)
     if known.sum() < 2:
-        raise LogError(f"{log.path}: the knot never slides")
+        raise LogError(f"{log.path}: has no slide of the knot")
     return place[known], numbers[known]
 
 

@@ -25,7 +25,7 @@ def forces_in_slide(log: HagfishLog) -> tuple[np.ndarray, np.ndarray]:
     force = log["/mean/forces/thigmotaxis"][frames][:, log.hinges()[0]]
     known = np.isfinite(force).all(axis=1) & (np.abs(force).sum(axis=1) > 0)
     if known.sum() < 2:
-        raise LogError(f"{log.path}: f_thigmo slides no knot in it")
+        raise LogError(f"{log.path}: has no slide of a knot by f_thigmo")
     ends = np.stack([log[f"/knot/{end}_end"][frames] for end in ("head", "tail")], axis=1)
     return force[known], ends[known]
 

@@ -78,15 +78,16 @@ void claim(const DesignOptions& options) {
   std::error_code error;
   fs::create_directories(options.folder, error);
   if (!fs::exists(file)) {
-    if (options.resume) throw FileError(file.string() + ": no search to go on with");
+    if (options.resume) throw FileError(file.string() + ": no search to continue");
     return write_text(file, identity(options));
   }
   if (!options.resume) {
-    throw FileError(options.folder.string() + ": has a search already; --resume goes on with it");
+    throw FileError(options.folder.string() + ": has a search already; --resume continues it");
   }
   if (read_text(file) != identity(options)) {
     throw FileError(file.string() +
-                    ": is a search for another knot or animal, by another seed or program");
+                    ": holds a search with another knot, animal, seed or program version; choose "
+                    "another folder");
   }
 }
 
@@ -305,13 +306,14 @@ class Search {
 
 std::string DesignOutcome::in_words() const {
   if (found) {
-    return fmt::format("Try {} is good: {} and {} of {} starts by the laws paper and reflex",
-                       best->number, best->passed[0], best->passed[1], judged_starts);
+    return fmt::format(
+        "Try {} is good: it succeeds from {} (law paper) and {} (law reflex) of {} starts",
+        best->number, best->passed[0], best->passed[1], judged_starts);
   }
-  if (!best) return fmt::format("None of {} tries tied it", tries);
+  if (!best) return fmt::format("None of {} tries tied the knot", tries);
   return fmt::format(
-      "Nothing is good enough: {} of {} tries tied it in the soft body, and the best "
-      "of them, try {}, came to {} of {} runs in the living one ({})",
+      "No try is good enough: {} of {} tied the knot in the soft body. The best "
+      "one, try {}, succeeded in {} of {} runs of the living animal ({})",
       candidates.size(), tries, best->number, best->passes(), 2 * judged_starts, best->shortcoming);
 }
 

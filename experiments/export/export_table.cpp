@@ -33,7 +33,7 @@ ExportTable::ExportTable(std::string name, std::vector<ExportColumn> columns, bo
 
 void ExportTable::add(const std::vector<Cell>& cells) {
   if (cells.size() != columns_.size()) {
-    throw std::invalid_argument(name_ + ": a row has not a cell for each column");
+    throw std::invalid_argument(name_ + ": a row does not have a cell for each column");
   }
   std::vector<std::string>& row = rows_.emplace_back();
   for (std::size_t k = 0; k < cells.size(); ++k) {

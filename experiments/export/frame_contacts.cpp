@@ -23,8 +23,8 @@ FrameContacts::FrameContacts(const LogContents& log) : log_(log), bearing_(log.t
   for (const LoggedContact& one : logged_contacts(log)) {
     if (!is_placed(log.model, one)) {
       throw FileError(
-          fmt::format("{}: /contacts has one at {:g} and {:g}, which is beyond its {} "
-                      "bodies or no obstacle's",
+          fmt::format("{}: /contacts has a contact at {:g} and {:g}, which is on none of its {} "
+                      "bodies and obstacles",
                       log.h5.file(), one.a, one.b, log.model.body_count()));
     }
     bearing_[static_cast<std::size_t>(one.frame)].push_back(one);

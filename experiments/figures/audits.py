@@ -26,7 +26,7 @@ def read_findings(path: Path) -> list[Finding]:
     """The findings on one log, in the order of the audit."""
     rows = read_csv(path, COLUMNS)
     if len({row["log"] for row in rows}) > 1:
-        raise LogError(f"{path}: of several logs; one was expected")
+        raise LogError(f"{path}: covers several logs, but must be of one")
     return [Finding(row["criterion"], row["value"], row["bound"], row["unit"], row["met"] == "yes") for row in rows]
 
 

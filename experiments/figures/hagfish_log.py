@@ -46,7 +46,7 @@ def dataset_of(file: h5py.File, path: str) -> h5py.Dataset:
         found = file.get(path)
     if not isinstance(found, h5py.Dataset):
         level = file.attrs.get("log_level", "full")
-        raise LogError(f"{file.filename}: no dataset {path}" + ("" if level == "full" else f": logged with --log {level}, not full"))
+        raise LogError(f"{file.filename}: no dataset {path}" + ("" if level == "full" else f": made with --log {level}, but this script needs --log full"))
     return found
 
 

@@ -30,7 +30,7 @@ def stages_of(log: HagfishLog) -> list[Stage]:
     """Tied by the script, tightened, at the head, and half way through letting go."""
     tighten, slide, release = (log.in_phase(phase) for phase in ("tighten", "slide", "release"))
     if not (tighten.size and slide.size and release.size):
-        raise LogError(f"{log.path}: does not get as far as letting the knot go")
+        raise LogError(f"{log.path}: ends before the knot is let go")
     return [Stage(int(tighten[0]), "tied"), Stage(int(slide[0]), "tightened"), Stage(int(release[0]), "slid to the head"),
             Stage(int(release[release.size // 2]), "slipping off")]
 

@@ -21,7 +21,7 @@ from script import run_script
 def sliding(log: HagfishLog) -> np.ndarray:
     frames = log.intervals_in("slide")
     if not frames.size:
-        raise LogError(f"{log.path}: the knot never slides")
+        raise LogError(f"{log.path}: has no slide of the knot")
     return frames
 
 

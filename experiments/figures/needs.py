@@ -78,7 +78,7 @@ def needs(folder: Path) -> tuple[Run, list[Need]]:
     runs = {run.name.removeprefix("need_"): run for run in read_runs(folder, "need")}
     missing = {AS_IS, *CHOICES} - set(runs)
     if missing:
-        raise LogError(f"{folder}: without run need_{sorted(missing)[0]}")
+        raise LogError(f"{folder}: has no run need_{sorted(missing)[0]}")
     as_is = runs[AS_IS]
     least_force = LEAST_FORCE * max(chance(folder, step).force for step in CHANCE_STEPS)
     return as_is, [Need(choice, instead, run, run.cpu / as_is.cpu, run.slide - as_is.slide,

@@ -92,7 +92,7 @@ def read(folder: Path) -> Sure:
     if len(causes) != len(table.texts["outcome"]):
         raise LogError(f"{folder}: causes.csv has {len(causes)} cells, table.csv {len(table.texts['outcome'])}")
     if table.texts["outcome"][0] != "ok":
-        raise LogError(f"{folder}: the scene as it is does not come to its end: {table.texts['message'][0]}")
+        raise LogError(f"{folder}: the unchanged scene fails: {table.texts['message'][0]}")
     return Sure(table, causes)
 
 

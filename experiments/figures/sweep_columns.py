@@ -60,7 +60,7 @@ def read_sweep(path: Path) -> SweepTable:
         rows = csv.reader(file)
         heading = next(rows, [])
         if heading[:1] != ["cell"] or heading[-len(FIGURES) - len(TEXTS):] != [*TEXTS, *FIGURES]:
-            raise LogError(f"{path}: is not a table of hagfish sweep, or of another version")
+            raise LogError(f"{path}: not a table of this version of hagfish sweep")
         first = len(heading) - len(FIGURES)
         words: list[list[str]] = [[] for _ in heading[:first]]
         numbers = [array("d") for _ in FIGURES]

@@ -46,5 +46,5 @@ def read_csv(path: Path, wanted: Iterable[str]) -> list[dict[str, str]]:
         raise LogError(f"{path}: holds no rows")
     for name in wanted:
         if name not in rows[0]:
-            raise LogError(f"{path}: without column {name}")
+            raise LogError(f"{path}: has no column {name}")
     return rows

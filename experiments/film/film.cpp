@@ -42,7 +42,7 @@ void sort_points(const std::string& file, FilmTable& table) {
   const auto same = [&](const FilmPoint& a, const FilmPoint& b) {
     if (key(a) != key(b)) return false;
     if (a.place == b.place || (!a.place.allFinite() && !b.place.allFinite())) return true;
-    throw_input_error(fmt::format("{}: time {:g} s: {} {:g} stands there twice, with other numbers",
+    throw_input_error(fmt::format("{}: time {:g} s: {} {:g} occurs twice with different numbers",
                                   file, a.time, table.by_arc ? "s" : "point", a.number));
   };
   const auto again = std::ranges::unique(table.points, same);
@@ -179,7 +179,7 @@ Film read_film(const std::string& file, const FilmReading& reading) {
     }
     for (const double s : numbers) places.push_back(std::min(s / film.length, 1.0));
   } else if (reading.length > 0) {
-    fail("--animal-length says how far s is from the tail, and this film has no s_cm");
+    fail("--animal-length needs a column s_cm, which this film does not have");
   } else {
     places = places_of(numbers, table);
   }
@@ -192,7 +192,7 @@ Film read_film(const std::string& file, const FilmReading& reading) {
       Eigen::Vector3d place = table.points[k].place;
       if (!place.allFinite()) continue;
       if (place.lpNorm<Eigen::Infinity>() > largest_place) {
-        fail(fmt::format("time {:g} s: a point is at {:g} {}: must be of at most {:g}", frame.time,
+        fail(fmt::format("time {:g} s: a point is at {:g} {}: must be at most {:g}", frame.time,
                          place.lpNorm<Eigen::Infinity>(), film.unit, largest_place));
       }
       if (down) place.y() = -place.y();
@@ -210,21 +210,22 @@ Film read_film(const std::string& file, const FilmReading& reading) {
     film.frames.push_back(std::move(frame));
   }
   film.expected = rows * (table.by_arc ? most : numbers.size());
-  if (film.frames.size() < 2) fail("midlines of two times or more are needed");
+  if (film.frames.size() < 2) fail("needs midlines at two times or more");
 
   Spacing spacing = hagfish::spacing(film);
   if (spacing.ratio.empty()) fail("no midline has two points");
   const double apart = quantile(spacing.apart, 0.5);
   if (!table.by_arc) film.length = quantile(spacing.ratio, 0.75);
-  if (!(film.length > least_length)) fail(fmt::format("an animal {:g} cm long", film.length));
+  if (!(film.length > least_length))
+    fail(fmt::format("the animal would be {:g} cm long: check units and scale", film.length));
   if (table.by_arc) {
     const double ratio = quantile(spacing.ratio, 0.5) / film.length;
     const bool near = ratio < least_ratio && !film.planar && apart < corners_from;
     if (ratio > most_ratio || near || ratio < least_ratio * least_ratio * least_ratio) {
-      fail(
-          fmt::format("points that s says are {:.3g} {} apart along the body are {:.3g} times as "
-                      "far from each other: is one in another unit, or the scale wrong?",
-                      apart * film.length, film.unit, ratio));
+      fail(fmt::format(
+          "points that are {:.3g} {} apart by s are {:.3g} times as far apart in space: "
+          "check units and scale",
+          apart * film.length, film.unit, ratio));
     }
   }
   return film;

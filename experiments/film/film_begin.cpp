@@ -121,7 +121,7 @@ Frames follow_frames(const ProgramShape& shape, const Film& film, std::size_t ti
   }
   if (begun.which.size() < 2) {
     throw InputError(std::to_string(first_points) +
-                     " points or more in two of its midlines are needed");
+                     " points or more are needed in at least two midlines");
   }
   return begun;
 }

@@ -78,7 +78,7 @@ void drop_zeros(Film& film, FilmRemarks& remarks) {
     keep(frame, kept);
   }
   if (points > 0) {
-    remarks.told.push_back(fmt::format("{} points at 0,0 in {} midlines ({} s): taken as lost",
+    remarks.told.push_back(fmt::format("{} points at 0,0 in {} midlines ({} s): taken as missing",
                                        points, times.size(), times_text(times)));
   }
 }
@@ -116,8 +116,8 @@ void drop_far(Film& film, FilmRemarks& remarks) {
   }
   if (points > 0) {
     remarks.told.push_back(
-        fmt::format("{} points in {} midlines ({} s) are farther from the others than the body "
-                    "reaches: left out",
+        fmt::format("{} points in {} midlines ({} s) are farther from the others than the body is "
+                    "long: left out",
                     points, times.size(), times_text(times)));
   }
 }
@@ -165,13 +165,12 @@ void drop_repeats(Film& film, FilmRemarks& remarks) {
       const double from = film.frames[f - 1].time, to = film.frames[end - 1].time;
       if (end == film.frames.size()) {
         remarks.doubts.push_back(
-            fmt::format("the midlines from {:g} s to the end at {:g} s are one and the same: does "
-                        "the film stand still there?",
+            fmt::format("the midlines from {:g} s to the end at {:g} s are identical: check that "
+                        "the animal really stands still",
                         from, to));
       } else if (apart(curves[end - 1], curves[end]) > thaw_times * usual) {
         remarks.told.push_back(fmt::format(
-            "the midlines from {:g} to {:g} s repeat one, and the next is elsewhere: left out",
-            from, to));
+            "the midlines from {:g} to {:g} s are copies of one midline: left out", from, to));
         std::fill(dropped.begin() + static_cast<std::ptrdiff_t>(f),
                   dropped.begin() + static_cast<std::ptrdiff_t>(end), true);
       }
@@ -257,13 +256,13 @@ void tell_jumps(const Film& film, FilmRemarks& remarks) {
   if (!sudden_times.empty()) {
     remarks.told.push_back(
         fmt::format("the body changes more than {:.2g} {} from one midline to the next ({} s): "
-                    "look at these times",
+                    "check these times",
                     sudden, film.unit, times_text(sudden_times)));
   }
   if (!times.empty()) {
     remarks.doubts.push_back(
         fmt::format("the whole body jumps by up to {:.2g} {} from one midline "
-                    "to the next ({} s)",
+                    "to the next ({} s): check these times",
                     largest, film.unit, times_text(times)));
   }
 }
@@ -289,8 +288,8 @@ void tell_crossings(const Film& film, FilmRemarks& remarks) {
   }
   if (!times.empty()) {
     remarks.doubts.push_back(
-        fmt::format("{} midlines cross themselves ({} s), which nothing in a plane does: one "
-                    "camera does not tell which strand is over",
+        fmt::format("{} midlines cross themselves ({} s): one camera does not show which "
+                    "strand is on top",
                     times.size(), times_text(times)));
   }
 }

@@ -51,7 +51,7 @@ FilmDistance film_distance(const LogContents& log, const Film& film, const FilmP
   std::vector<Eigen::Matrix3Xd> own;
   Eigen::Index count = 0;
   if (!placing.aligned && !film.length_known) {
-    throw InputError("--as-is needs s_cm, which says where a point is");
+    throw InputError("--as-is needs a column s_cm, the place of each point along the body");
   }
   const double length = log.model.length();
   const double along = placing.aligned ? 1 : film.length / length;
@@ -73,7 +73,7 @@ FilmDistance film_distance(const LogContents& log, const Film& film, const FilmP
     count += points.cols();
   }
   if (common.empty()) {
-    throw InputError(log.h5.file() + ": the film has no time of the log's");
+    throw InputError(log.h5.file() + ": has no time in common with the film");
   }
   FilmDistance distance;
   distance.scale = placing.aligned ? length / film.length : 1;

@@ -113,8 +113,8 @@ class TableReader {
                                     shortened(std::string(text_.cell(row, column)))));
     }
     if (std::abs(*value) > largest_number) {
-      throw_input_error(fmt::format("{}:{}: {} = {:g}: must be of at most {:g}", file_, line, name,
-                                    *value, largest_number));
+      throw_input_error(fmt::format("{}:{}: {} = {:g}: must be at most {:g} in size", file_, line,
+                                    name, *value, largest_number));
     }
     return *value;
   }
@@ -173,7 +173,7 @@ class TableReader {
     table_.pixels = any;
     const bool scale_matters = !all || (arc != nullptr && !arc->pixels);
     if (any && scale_matters && reading_.pixels_per_cm <= 0) {
-      fail("columns in px beside others in a unit of length need --scale, px/cm");
+      fail("has columns in px and columns in a unit of length: needs --scale, px/cm");
     }
     if (!any && (arc == nullptr || !arc->pixels)) return;
     const double px = any ? pixel_size(reading_, table_.unit) : 1;
@@ -370,19 +370,20 @@ std::size_t chosen_individual(const std::string& file, const std::vector<std::st
   for (const std::string& name : names) known += (known.empty() ? "" : ", ") + name;
   if (asked.empty()) {
     if (names.size() == 1) return 0;
-    throw_input_error(fmt::format("{}: has several animals, say which by --individual: {}", file,
+    throw_input_error(fmt::format("{}: has several animals: choose one by --individual: {}", file,
                                   shortened(known)));
   }
   const auto at = std::ranges::find(names, asked);
   if (at == names.end()) {
-    throw_input_error(
-        fmt::format("{}: --individual {}: there is {}", file, shortened(asked), shortened(known)));
+    throw_input_error(fmt::format("{}: --individual {}: must be one of {}", file, shortened(asked),
+                                  shortened(known)));
   }
   return static_cast<std::size_t>(at - names.begin());
 }
 
 double frame_time(const std::string& file, const FilmReading& reading, double frame) {
-  if (!(reading.fps > 0)) throw_input_error(file + ": counts frames: needs --fps, frames a second");
+  if (!(reading.fps > 0))
+    throw_input_error(file + ": gives time as frames: needs --fps, frames a second");
   return frame / reading.fps;
 }
 

@@ -64,12 +64,12 @@ FilmJudgement judge(const Model& model, const Film& film, const FilmRemarks& rem
                     100 * (1 - out.share_used)));
   }
   if (!left_out.empty()) {
-    say(FilmVerdict::doubtful, fmt::format("{} midlines are not where the others are ({} s)",
+    say(FilmVerdict::doubtful, fmt::format("{} midlines are far from where the others are ({} s)",
                                            left_out.size(), times_text(left_out)));
   }
   if (!off.empty()) {
-    say(FilmVerdict::doubtful,
-        fmt::format("{} midlines lie over {:.2g} cm off ({} s)", off.size(), far, times_text(off)));
+    say(FilmVerdict::doubtful, fmt::format("{} midlines lie over {:.2g} cm from the shapes ({} s)",
+                                           off.size(), far, times_text(off)));
   }
   if (fit.of_limit > past_limit) {
     say(FilmVerdict::doubtful,
@@ -77,7 +77,7 @@ FilmJudgement judge(const Model& model, const Film& film, const FilmRemarks& rem
                     "{:.2g} of the body from the head",
                     fit.of_limit, fit.of_limit_time, fit.of_limit_station));
   }
-  if (!fit.settled) say(FilmVerdict::doubtful, "the fit came to no end");
+  if (!fit.settled) say(FilmVerdict::doubtful, "the fit did not converge");
   for (const std::string& doubt : remarks.doubts) say(FilmVerdict::doubtful, doubt);
   return out;
 }

@@ -107,8 +107,8 @@ int rollout_steps(double h, const Comparison& settings) {
   const double steps = std::round(settings.rollout_time / h);
   if (!(steps >= 1 && steps <= most)) {
     throw InputError(
-        fmt::format("time.step = {:g} s: what is compared lasts {:g} s, in 1 to {:g} steps", h,
-                    settings.rollout_time, most));
+        fmt::format("time.step = {:g} s: the comparison lasts {:g} s and must take 1 to {:g} steps",
+                    h, settings.rollout_time, most));
   }
   return static_cast<int>(steps);
 }

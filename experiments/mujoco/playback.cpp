@@ -47,7 +47,7 @@ Slide::Slide(const LogContents& log) {
   // The state at the end may come sooner after the frame before than others do.
   const auto count = std::min(last - first, static_cast<std::ptrdiff_t>(log.begun - begin));
   if (count < 2) {
-    throw FileError(log.h5.file() + ": the knot does not slide in it");
+    throw FileError(log.h5.file() + ": has no slide of the knot");
   }
   const std::vector<std::int64_t> index = log.h5.integers("/trajectory/step");
   const Hdf5Reader::Rows means = log.h5.rows("/mean/forces/thigmotaxis");
@@ -71,7 +71,7 @@ Eigen::Index Slide::frames_in(double interval) const {
   // Both are decimal fractions of a second that a double does not hold exactly.
   if (whole < 1 || std::abs(frames - whole) > 1e-9 * frames) {
     throw FileError(fmt::format(
-        "{}: a restart every {:g} s is no whole number of its frames, one every {:g} s (run with "
+        "{}: restarts every {:g} s do not fall on its frames, one every {:g} s (run with "
         "time.frame_interval = 0.02)",
         file, interval, frame_interval));
   }
@@ -227,7 +227,7 @@ void playback(const LogContents& log, Hdf5Writer& h5) {
   h5.numbers("/time", time, {"s", "frames of the sliding phase; what MuJoCo did has no first"});
   h5.numbers("/head_end", head_end, {"cm", "arc length of the knot's head end in the log"});
   if (!log.model.cones.empty()) {
-    fmt::print("without bending limits: MuJoCo knows none on the total angle of a joint\n");
+    fmt::print("without bending limits: MuJoCo has none on the total angle of a joint\n");
   }
   fmt::print("{:<12} {:>8} {:>10} {:>10} {:>10} {:>11} {:>8} {:>8} {:>4}\n", "driven by", "restart",
              "slid", "log slid", "drift", "knot kept", "overlap", "capsules", "blew");

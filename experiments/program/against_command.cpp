@@ -58,8 +58,8 @@ void compare_hands(const LogContents& log, const Film& film, double later,
     return;
   }
   fmt::print(
-      "{}: at {:g} s its {} is {}-handed, that of {} {}-handed: which of them has y the "
-      "wrong way (--y-up, --y-down)?\n",
+      "{}: at {:g} s its {} is {}-handed, but that of {} is {}-handed: check the "
+      "direction of y (--y-up, --y-down)\n",
       printable(options.film), last.time, seen.name, seen.hand == Hand::right ? "right" : "left",
       printable(options.log), own.hand == Hand::right ? "right" : "left");
 }
@@ -87,7 +87,7 @@ int against(const AgainstOptions& options) {
     for (const std::string& line : lines) fmt::print("{}: {}\n", printable(options.film), line);
   }
   if (film.planar) {
-    fmt::print("{}: has no z: one camera does not tell how far its strands are apart\n",
+    fmt::print("{}: has no z: one camera does not show how far apart strands are\n",
                printable(options.film));
   } else {
     compare_hands(log, film, later, options);

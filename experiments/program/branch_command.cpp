@@ -40,8 +40,8 @@ int branch(const BranchOptions& options, const std::string& typed) {
   }
   if (finished(run.sim, run.resolved.scene)) {
     throw InputError(
-        fmt::format("{}: cannot branch at {:g} s: the scene is over there "
-                    "(time.duration = {:g} s; --time branches earlier)",
+        fmt::format("{}: cannot branch at {:g} s: the scene has ended by then "
+                    "(time.duration = {:g} s; use --time for an earlier branch)",
                     options.log, time, run.resolved.scene.time.duration));
   }
   run.sim.watch = {};  // the branch's own log warns of what it does

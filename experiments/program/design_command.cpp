@@ -46,7 +46,7 @@ double seconds_of(const std::string& text) {
 int make_design(const DesignArguments& arguments, const std::string& typed) {
   DesignOptions options;
   if (!name_in_scene(arguments.knot) || arguments.knot == "0_1") {
-    throw InputError(printable(arguments.knot) + ": no knot that is known: " + known_names);
+    throw InputError(printable(arguments.knot) + ": not a known knot: " + known_names);
   }
   options.knot = arguments.knot;
   if (!arguments.specimen.empty()) {
@@ -66,7 +66,7 @@ int make_design(const DesignArguments& arguments, const std::string& typed) {
   note_signals();
   const DesignOutcome outcome = design(options);
   if (outcome.interrupted) {
-    say("hagfish: {}: interrupted after {} tries; --resume goes on\n", printable(arguments.out),
+    say("hagfish: {}: interrupted after {} tries; --resume continues\n", printable(arguments.out),
         outcome.tries);
     return exit_code::failed;
   }
@@ -93,7 +93,7 @@ void add_design(Program& program) {
   app->add_option("--seed", arguments->seed, "of the search")
       ->check(from_to(0, 1e9))
       ->capture_default_str();
-  app->add_flag("--resume", arguments->resume, "go on with a search that was stopped");
+  app->add_flag("--resume", arguments->resume, "continue a search that was stopped");
   app->add_flag("--quiet", arguments->quiet, "no progress");
   app->callback([arguments, &program] { program.code = make_design(*arguments, program.typed); });
 }

@@ -55,15 +55,16 @@ std::string scaled(const Film& film, double scale) {
 
 std::string tail_note(const FilmReading& reading, const std::string& scaled) {
   return scaled.empty() || reading.length > 0 ? ""
-                                              : "the last point is taken for the tail's tip: if "
-                                                "the film never shows that, say where "
-                                                "it is (s_cm and --animal-length)\n";
+                                              : "the last point is taken as the tip of the tail: "
+                                                "if the film never shows the tip, give "
+                                                "s_cm and --animal-length\n";
 }
 
 std::string flat_note(const std::string& film) {
   return fmt::format(
-      "{}: has no z: the animal is taken to lie in a plane. No knot does, and one camera does not "
-      "tell which strand is over, nor a knot from its mirror image: for a knot, film it with two\n",
+      "{}: has no z, so the animal is taken to lie in a plane. One camera shows neither which "
+      "strand "
+      "is on top nor the hand of a knot: film a knot with two cameras\n",
       printable(film));
 }
 

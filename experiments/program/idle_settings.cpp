@@ -42,7 +42,7 @@ const std::vector<IdleKey>& idle_keys() {
   const char* const no_rows = "controller.law asks for no speeds of Eq. 6";
   const char* const of_midpoint = "only time.rule = \"midpoint\" reads it";
   const char* const of_position = "only script.kind = \"position\" reads it";
-  const char* const of_animal = "model.passive = \"specimen\": the animal's own is taken";
+  const char* const of_animal = "model.passive = \"specimen\": the animal's own values are used";
   const auto own_passive = [](const Scene& s) {
     return s.model.passive == PassiveSource::specimen;
   };
@@ -50,8 +50,8 @@ const std::vector<IdleKey>& idle_keys() {
       {"start.seed", [](const Scene& s) { return s.start.noise == 0; }, "start.noise_deg is 0"},
       {"script.noise_seed", [](const Scene& s) { return s.script.noise == 0; },
        "script.noise is 0"},
-      {"script.knots", no_script, "script.kind is \"none\": nothing ties"},
-      {"script.noise", no_script, "script.kind is \"none\": nothing ties"},
+      {"script.knots", no_script, "script.kind is \"none\": there is no script"},
+      {"script.noise", no_script, "script.kind is \"none\": there is no script"},
       {"script.spring", no_spring, of_position},
       {"script.damper", no_spring, of_position},
       {"script.largest_force", no_spring, of_position},
@@ -70,8 +70,10 @@ const std::vector<IdleKey>& idle_keys() {
       {"controller.tighten_head", ignores_speeds, no_rows},
       {"controller.tighten_tail", ignores_speeds, no_rows},
       {"controller.eq6_slip", ignores_speeds, no_rows},
-      {"controller.reverse_head", tail, "controller.leave_by is \"head\": there is no way back"},
-      {"controller.reverse_tail", tail, "controller.leave_by is \"head\": there is no way back"},
+      {"controller.reverse_head", tail,
+       "controller.leave_by is \"head\": there is no slide to the tail"},
+      {"controller.reverse_tail", tail,
+       "controller.leave_by is \"head\": there is no slide to the tail"},
       {"controller.knot_speed", [](const Scene& s) { return !has_law(s, {"knot_speed"}); },
        "only controller.law = \"knot_speed\" reads it"},
       {"controller.reduced_basis", [](const Scene& s) { return !has_law(s, {"reduced_basis"}); },
@@ -139,7 +141,7 @@ const char* why_idle(std::span<const Scene> scenes, const std::string& key) {
 void require_settings_act(const Scene& scene, const std::vector<std::string>& set) {
   for (const std::string& key : keys_of(set)) {
     if (const char* why = why_idle({&scene, 1}, key)) {
-      throw InputError(fmt::format("--set {}: does nothing here: {}", key, why));
+      throw InputError(fmt::format("--set {}: has no effect here: {}", key, why));
     }
   }
 }
@@ -148,7 +150,7 @@ void require_settings_act_somewhere(const std::vector<Scene>& scenes,
                                     const std::vector<std::string>& set) {
   for (const std::string& key : keys_of(set)) {
     if (const char* why = why_idle(scenes, key)) {
-      throw InputError(fmt::format("{}: does nothing in any cell: {}", key, why));
+      throw InputError(fmt::format("{}: has no effect in any cell: {}", key, why));
     }
   }
 }
@@ -160,11 +162,11 @@ void require_settings_act_from(const Simulation& sim, const Scene& scene,
   for (const std::string& key : keys_of(set)) {
     if (concerns(key, "start")) {
       throw InputError(
-          fmt::format("--set {}: does nothing here: the branch begins where its log stands", key));
+          fmt::format("--set {}: has no effect here: the branch begins where its log stands", key));
     }
     for (const PastKey& one : past_keys) {
       if (concerns(key, one.key) && phase_order(now) > phase_order(one.last)) {
-        throw InputError(fmt::format("--set {}: does nothing here: the branch begins in phase {}",
+        throw InputError(fmt::format("--set {}: has no effect here: the branch begins in phase {}",
                                      key, phase_name(now)));
       }
     }

@@ -70,7 +70,7 @@ std::string hand_text(const FilmedKnot& knot) {
   return knot.hand == Hand::right  ? ", right-handed"
          : knot.hand == Hand::left ? ", left-handed"
          : knot.name == "0_1"      ? ""
-                                   : ", which has no hand: y the wrong way would not show";
+                              : ", which has no hand, so a wrong direction of y would not show";
 }
 
 /// A scene file that `hagfish run` takes, of what scene_of_film() changes.
@@ -110,7 +110,7 @@ void run_by(const MidlinesOptions& options, const ResolvedScene& resolved,
              hand_text(knot));
   double stiffness = resolved.scene.active.stiffness;
   if (resolved.scene.script.kind != ScriptSettings::Kind::curvature || !(stiffness > 0)) {
-    fmt::print("{}: is no scene of an animal that bends itself: see `hagfish scenes`, living_...\n",
+    fmt::print("{}: has no curvature program: choose a scene living_... (see `hagfish scenes`)\n",
                printable(options.scene));
     return;
   }
@@ -121,14 +121,15 @@ void run_by(const MidlinesOptions& options, const ResolvedScene& resolved,
     if (best) {
       stiffness = best->stiffness;
       fmt::print(
-          "run by it with active.stiffness = {:g}: {:.2g} cm from its shapes (rms), ends with "
+          "run by this program with active.stiffness = {:g}: {:.2g} cm from its shapes (rms), ends "
+          "with "
           "{}{}\n",
           stiffness, best->rms, best->knot.name == "0_1" ? "no knot" : "a " + best->knot.name,
           best->knot.name == knot.name && best->knot.hand == knot.hand
               ? ", as the film does"
-              : ": muscles as stiff or softer do not tie the film's");
+              : ": muscles of this stiffness or less do not tie the film's knot");
     } else {
-      fmt::print("run by it, the animal comes to no end: a film that is smoother may help\n");
+      fmt::print("no run by this program reached its end: a smoother film may help\n");
     }
   }
   out.write(scene_text(options, model, program, knot, stiffness));
@@ -143,7 +144,7 @@ int midlines(const MidlinesOptions& options) {
   const ResolvedScene resolved = scene_argument(options.scene, {});
   const Model model = make_hagfish(resolved.specimen, resolved.scene);
   if (const int most = model.body_count() / 4; options.stations > most) {
-    throw InputError(fmt::format("--stations {}: an animal of {} bodies has {} at most",
+    throw InputError(fmt::format("--stations {}: an animal of {} bodies can have at most {}",
                                  options.stations, model.body_count(), most));
   }
   Film film = read_film(options.film, options.reading);
@@ -154,9 +155,9 @@ int midlines(const MidlinesOptions& options) {
   }
   const FilmRemarks remarks = tidy(film);
   if (film.frames.size() < 2) {
-    throw InputError(
-        fmt::format("{}: has {} midlines{} that can be used", options.film, film.frames.size(),
-                    options.until > 0 ? fmt::format(" up to {:g} s", options.until) : ""));
+    throw InputError(fmt::format(
+        "{}: has {} usable midlines{}; two are needed", options.film, film.frames.size(),
+        options.until > 0 ? fmt::format(" up to {:g} s", options.until) : ""));
   }
   const int times = options.times > 0 ? options.times : times_of(film);
   FilmFit fit;
@@ -167,7 +168,7 @@ int midlines(const MidlinesOptions& options) {
     throw InputError(options.film + ": " + error.what());
   }
   if (!std::isfinite(fit.rms) || fit.error.empty()) {
-    throw InputError(options.film + ": no shape can be computed from its numbers");
+    throw InputError(options.film + ": no shape fits its points: check units and scale");
   }
   const FilmJudgement judgement = judge(model, film, remarks, fit);
   const std::string scale = scaled(film, fit.scale);
@@ -177,7 +178,7 @@ int midlines(const MidlinesOptions& options) {
              tail_note(options.reading, scale));
   for (const std::string& told : remarks.told) fmt::print("{}\n", told);
   for (const auto& [from, to] : gaps(film)) {
-    fmt::print("no midlines from {:.4g} to {:.4g} s: bridged\n", from, to);
+    fmt::print("no midlines from {:.4g} to {:.4g} s: filled in between\n", from, to);
   }
   fmt::print(
       "{}: {:.2g} cm from {:.3g} % of the points (rms), whose noise is {:.2g} cm a coordinate; the "

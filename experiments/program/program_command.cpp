@@ -28,12 +28,12 @@ int make_program(const ProgramOptions& options) {
   for (std::size_t f = 0; f < log.time.size() && taken(f); ++f) time.push_back(log.time[f]);
   const auto frames = static_cast<Eigen::Index>(time.size());
   if (time.size() < 2 || time[0] != 0) {
-    throw FileError(options.log + ": does not show a knot being formed from time 0 on");
+    throw FileError(options.log + ": has no phase form that begins at time 0");
   }
   if (options.times > frames || options.stations > log.model.body_count() / 4) {
-    throw InputError(fmt::format("{}: {} frames and {} bodies can tell {} times and {} stations",
-                                 options.log, frames, log.model.body_count(), frames,
-                                 log.model.body_count() / 4));
+    throw InputError(fmt::format(
+        "{}: {} frames and {} bodies allow at most {} times and {} stations", options.log, frames,
+        log.model.body_count(), frames, log.model.body_count() / 4));
   }
   TextFile out(options.out, options.force);
   const ProgramFit fit =

@@ -73,7 +73,7 @@ int record_qp(const RecordQpOptions& options, const std::string& typed) {
   const ResolvedScene resolved = scene_argument(options.scene, options.set);
   const Scene& scene = resolved.scene;
   if (scene.time.rule != TimeRule::euler) {
-    throw InputError("time.rule = midpoint: the QPs recorded are those of \"euler\"");
+    throw InputError("time.rule = midpoint: QPs can only be recorded by \"euler\"");
   }
   const Model model = make_hagfish(resolved.specimen, scene);
   check_sense(resolved, model, options.force);
@@ -107,7 +107,7 @@ int record_qp(const RecordQpOptions& options, const std::string& typed) {
              recorder.left_out() == 0
                  ? ""
                  : fmt::format("; {} left out, as a row is at its controller.cap, which "
-                               "{{H, g, G, e, C, d}} cannot say",
+                               "{{H, g, G, e, C, d}} cannot express",
                                recorder.left_out()));
   if (!failure.empty()) {
     std::fflush(stdout);

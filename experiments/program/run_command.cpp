@@ -70,8 +70,8 @@ int resume(NewRunOptions options) {
   require_named_law(run.resolved.scene, part_or_whole + ": ");
   LogWriter log(options.run.out, run, h5);
   if (run.git_revision != build_revision()) {
-    say("hagfish: {}: begun by revision {}, gone on with by {}: from here on not bit by bit the "
-        "same\n",
+    say("hagfish: {}: begun by revision {}, continued by {}: the result may differ from "
+        "that of an uninterrupted run\n",
         printable(options.run.out), printable(run.git_revision), build_revision());
   }
   return take_run(run.model, run.resolved.scene, run.sim, options.run, log, run.wall_time);
@@ -99,9 +99,8 @@ void add_run(Program& program) {
                                    "or full (audit, branches)")
                        ->check(one_of(log_level_names()))
                        ->capture_default_str());
-  CLI::Option* resumed =
-      run->add_option("--resume", options->resume,
-                      "go on with this log, F.h5.part or F.h5, of a run that did not end");
+  CLI::Option* resumed = run->add_option(
+      "--resume", options->resume, "continue the unfinished run of this log, F.h5.part or F.h5");
   for (CLI::Option* option : of_new) {
     resumed->excludes(option);
   }

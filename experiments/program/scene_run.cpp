@@ -22,7 +22,7 @@ struct Ending {
 /// Why a step was stopped: by whom, or by the limit.
 std::string reason_of_stop(double limit) {
   return interrupted() ? "interrupted"
-                       : fmt::format("the step took over --step-limit {:g} s", limit);
+                       : fmt::format("a step took longer than --step-limit {:g} s", limit);
 }
 
 /// Steps until the scene is over.

@@ -52,15 +52,15 @@ std::vector<std::string> odd_things(const ResolvedScene& scene) {
   std::vector<std::string> odd;
   const double dense = density(scene);
   if (dense > odd_ratio * water || dense < water / odd_ratio) {
-    odd.push_back(fmt::format(
-        "specimen: a density of {:.3g} g/cm^3, where an animal's is near water's 1: scripts "
-        "for other animals may not tie it",
-        dense));
+    odd.push_back(
+        fmt::format("specimen: a density of {:.3g} g/cm^3, but an animal has about 1; built-in "
+                    "scripts may not tie it",
+                    dense));
   }
   if (scene.specimen.length > longest) {
     odd.push_back(
-        fmt::format("specimen.length = {:g} cm: the largest hagfish have {:g}: scripts for "
-                    "other animals may not tie it",
+        fmt::format("specimen.length = {:g} cm: the largest hagfish are {:g} cm long; built-in "
+                    "scripts may not tie this animal",
                     scene.specimen.length, longest));
   }
   return odd;
@@ -70,24 +70,23 @@ void require_named_law(const Scene& scene, const std::string& where) {
   if (scene.controller.law == own_law) {
     throw InputError(
         where +
-        R"(controller.law = "own": the law is of the C++ or Python program that runs the scene)");
+        R"(controller.law = "own": only a C++ or Python program that sets a control law can run this scene)");
   }
 }
 
 void check_sense(const ResolvedScene& scene, const Model& model, bool force) {
   require_named_law(scene.scene, "");
   if (const double dense = density(scene); dense > densest) {
-    throw InputError(
-        fmt::format("specimen: a density of {:.3g} g/cm^3: no matter has more than {:g}; mass is "
-                    "in g, lengths are "
-                    "in cm",
-                    dense, densest));
+    throw InputError(fmt::format(
+        "specimen: a density of {:.3g} g/cm^3 is more than any matter has ({:g}); is mass "
+        "in g, and length in cm?",
+        dense, densest));
   }
   const RunSize size = run_size(scene.scene, model);
   if (!force && (size.steps > most_steps || size.bytes > most_bytes)) {
     throw InputError(fmt::format(
-        "time.duration = {:g} s at time.step = {:g} s: {:.3g} steps and up to {:.3g} GB of log "
-        "(--force runs it; at most {:g} steps and {:g} GB without)",
+        "time.duration = {:g} s at time.step = {:g} s: {:.3g} steps and up to {:.3g} GB of log. "
+        "More than {:g} steps or {:g} GB need --force",
         scene.scene.time.duration, scene.scene.time.step, size.steps, 1e-9 * size.bytes, most_steps,
         1e-9 * most_bytes));
   }

@@ -45,8 +45,8 @@ fs::path script_file(const std::string& script) {
     std::error_code error;
     if (fs::is_regular_file(folder / script, error)) return folder / script;
   }
-  throw InputError(fmt::format("{}: the scripts that draw are neither in {} nor in {}", script,
-                               installed.string(), HAGFISH_FIGURES));
+  throw InputError(fmt::format("{}: the Python scripts for figures are neither in {} nor in {}",
+                               script, installed.string(), HAGFISH_FIGURES));
 }
 
 }  // namespace
@@ -69,7 +69,7 @@ int run_script(const std::string& script, const std::vector<std::string>& argume
   std::vector<std::string> list{python, "-B", file.string(), "--"};
   list.insert(list.end(), arguments.begin(), arguments.end());
   const int code = run(list, false);
-  if (code < 0) throw std::runtime_error(script + ": Python was ended by a signal");
+  if (code < 0) throw std::runtime_error(script + ": Python was killed by a signal");
   return code;
 }
 

@@ -52,15 +52,15 @@ struct SpecimenOptions {
 
 void check(const SpecimenOptions& options) {
   if (printable(options.name) != options.name) {
-    throw InputError("--name " + printable(options.name) + ": must be letters");
+    throw InputError("--name " + printable(options.name) + ": must be printable characters");
   }
   const std::tuple<const char*, const std::vector<double>&, double> lists[] = {
       {"--circumference", options.circumference, most_around},
       {"--bending", options.bending, most_bending}};
   for (const auto& [name, list, most] : lists) {
     if (!list.empty() && list.size() != options.station.size()) {
-      throw InputError(
-          fmt::format("{}: {} values for {} stations", name, list.size(), options.station.size()));
+      throw InputError(fmt::format("{}: has {} values, but there are {} stations", name,
+                                   list.size(), options.station.size()));
     }
     for (const double value : list) {
       if (!(value > 0 && value < most)) {
@@ -161,8 +161,9 @@ void tell_whether_it_ties(const std::string& knot, const AnimalRatios& beside) {
   const double thickest = base_scenes.at(knot).thickest;
   if (beside.thickness() <= thickest * (1 + rounding)) return;
   fmt::print(
-      "knot           {} may not be tied: {:.3g} times as thick for its length as the paper's, "
-      "whose program tied up to {:g}\n",
+      "knot           {} may not be tied: the animal is {:.3g} times as thick for its length as "
+      "the "
+      "paper's; up to {:g} was tied\n",
       knot, beside.thickness(), thickest);
 }
 

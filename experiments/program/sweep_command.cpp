@@ -20,7 +20,7 @@ SweepPart part_of(const std::string& text, std::size_t cells) {
   const SweepPart part{whole(text.substr(0, slash)),
                        slash == std::string::npos ? 0 : whole(text.substr(slash + 1))};
   if (part.index < 1 || part.count < 1) {
-    throw_input_error("--part " + text + ": must be I/N, a part from 1 and their number");
+    throw_input_error("--part " + text + ": must be I/N, part I (from 1) of N parts");
   }
   if (part.index > part.count) {
     throw_input_error(fmt::format("--part {}: there are only {} parts", text, part.count));

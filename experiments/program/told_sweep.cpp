@@ -19,7 +19,8 @@ constexpr std::size_t progress_lines = 10;
 }  // namespace
 
 void add_sweep_options(CLI::App& app, SweepArguments& arguments) {
-  app.add_option("--out", arguments.out, "folder for the table; goes on with what it has")
+  app.add_option("--out", arguments.out,
+                 "folder for the table; a table that was begun is continued")
       ->required();
   app.add_option("--threads", arguments.threads, "runs side by side (one a core)")
       ->check(from_to(1, most_threads));
@@ -44,7 +45,7 @@ bool run_told_sweep(const Grid& grid, const SweepPart& part, const SweepArgument
   note_signals();
   const SweepOutcome outcome = run_sweep(grid, options);
   if (!outcome.whole()) {
-    say("hagfish: {}: interrupted with {} of {} cells done; the same command goes on\n",
+    say("hagfish: {}: interrupted with {} of {} cells done; the same command continues\n",
         printable(arguments.out), outcome.before + outcome.now, outcome.cells);
     return false;
   }

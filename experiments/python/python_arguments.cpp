@@ -44,7 +44,7 @@ double time_of(const py::object& until) {
     PyErr_Clear();
     refuse("until", until, wanted);
   }
-  if (std::isnan(time)) throw py::value_error("until = nan: no time");
+  if (std::isnan(time)) throw py::value_error("until = nan: must be a number");
   return time;
 }
 

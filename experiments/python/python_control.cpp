@@ -49,7 +49,7 @@ Eq6Slip slip_called(const std::string& name) {
 void set_dofs(Eigen::VectorXd& values, const Vector& given, Eigen::Index nv) {
   if (given.ndim() != 1 || given.size() != nv) {
     throw py::value_error(
-        fmt::format("{} numbers, where the animal has {} velocities", given.size(), nv));
+        fmt::format("{} numbers, but the animal has {} velocities", given.size(), nv));
   }
   values = Eigen::VectorXd::Map(given.data(), given.size());
 }
@@ -86,7 +86,7 @@ void PythonControl::end() {
   for (const py::handle command : commands) {
     if (!py::isinstance<ThigmotaxisCommand>(command)) {
       throw py::type_error("control.commands has " + std::string(py::repr(command)) +
-                           ", where each is a Command");
+                           ", but each must be a Command");
     }
     control->thigmotaxis.push_back(command.cast<const ThigmotaxisCommand&>());
   }

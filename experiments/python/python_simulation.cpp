@@ -69,14 +69,14 @@ class PythonSimulation::Work {
 void PythonSimulation::require_readable() const {
   if (worker_ == std::thread::id() || worker_ == std::this_thread::get_id()) return;
   throw std::runtime_error(
-      "the simulation is at work in another thread; it is one thread's at a time");
+      "another thread is using the simulation; only one thread can use it at a time");
 }
 
 void PythonSimulation::require_idle() const {
   require_readable();
   if (worker_ == std::thread::id()) return;
   throw std::runtime_error(
-      "the simulation is at work: what it calls takes no steps of it, but may of a copy");
+      "a function that the simulation calls cannot step it; step a copy of it");
 }
 
 PythonSimulation::PythonSimulation(const PythonRun& run)
@@ -140,7 +140,7 @@ void PythonSimulation::ask_python() {
 void PythonSimulation::take_commands(PythonControl& asked) const {
   if (asked.nv != model.nv()) {
     throw std::invalid_argument(
-        fmt::format("a control of {} velocities, where the animal has {}", asked.nv, model.nv()));
+        fmt::format("the control has {} velocities, but the animal has {}", asked.nv, model.nv()));
   }
   asked.end();
   for (const ThigmotaxisCommand& command : asked.control->thigmotaxis) {
@@ -196,7 +196,7 @@ void PythonSimulation::step() {
 void PythonSimulation::step_by(PythonControl& asked) {
   if (log_ && resolved.scene.controller.law != own_law) {
     throw std::invalid_argument(
-        "a step was given a control, but the log says that the scene's law has it: "
+        "a step was given a control, but controller.law is not \"own\": begin the run with "
         R"(set={"controller.law": "own"})");
   }
   const Work work(*this);

@@ -23,7 +23,7 @@ Eigen::VectorXd applied_force(const Model& model, const State& state, const Kine
 
 void guard(const Observation& observation, const GuardSettings& limits) {
   if (!observation.kin.centre.allFinite()) {
-    throw StepError({Outcome::non_finite, "non-finite state"});
+    throw StepError({Outcome::non_finite, "positions or velocities are not finite numbers"});
   }
   if (observation.penetration > limits.penetration) {
     throw StepError({Outcome::penetration, "deeper than guard.penetration"});

@@ -270,13 +270,13 @@ def runs(folder: Path, asked: list[str]) -> list[dict]:
             off = np.array([moved_off(own, x) for own, x in zip(bodies(joints_of(fit.bend, fit.station)), true)])
             way = ways_between(true, bool(free))
             same = rolled_to(fit, lambda roll: at_stations(joints_along(way, roll), fit.station), bool(free))
-            tried = [line for line in said.splitlines() if line.startswith("run by it")]
+            tried = [line for line in said.splitlines() if line.startswith("run by this program")]
             row |= {"shapes off (cm)": rms(off), "within bands of 90 %": in_band(fit, same), "seen": said.split("film's end: ")[1].split("\n")[0].split(", which")[0],
                     "stiffness (dyn cm^2)": tried[0].split("= ")[1].split(":")[0] if tried else ""}
             code, told = hagfish(folder, "run", "p.toml", "--until", "form", "--quiet", "--force", "--out", "again.h5")
             row["run ties"] = "the same" if code == 0 else told.strip().splitlines()[-1].split("failed: ")[-1]  # the scene expects the knot
             code, told = hagfish(folder, "against", "again.h5", "film.csv", "--start", 0, *read_as)
-            if "y the wrong way" in told:
+            if "check the direction of y" in told:
                 row["run ties"] = "the mirror image"
             row["run off the film, noise and all (cm)"] = float(told.split(" cm from ")[0].split(": ")[-1]) if code == 0 else np.nan
             row["CPU of midlines (s)"] = took
@@ -321,7 +321,7 @@ def damaged(folder: Path, count: int = 300) -> list[dict]:
         before = cpu()
         code, said = hagfish(folder, "midlines", "damaged.csv", "--scene", "table1", "--out", "d.csv", "--force", *arguments)
         row = {"case": case, "faults": " + ".join(faults), "code": code, "CPU (s)": cpu() - before}
-        told = any(word in said for word in ("look at", "left out", "taken as lost", "turned round", "scaled to", "bridged"))
+        told = any(word in said for word in ("look at", "left out", "taken as missing", "turned round", "scaled to", "filled in"))
         if code == 0:
             fit = Program(folder / "d.csv")
             sign = -1 if "y down" in faults else 1  # told by nothing in a plane but said not to be: the animal in its mirror

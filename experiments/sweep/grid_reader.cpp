@@ -73,8 +73,8 @@ GridAxis read_axis(TableReader& table) {
   for (std::size_t k = 0; k < axis.keys.size(); ++k) {
     if (const std::size_t count = axis.values[k].size(); count != axis.size()) {
       table.fail(axis.keys[k],
-                 fmt::format("has {} values, {} has {}: keys of one axis change together", count,
-                             axis.keys.front(), axis.size()));
+                 fmt::format("has {} values, but {} has {}: keys of one axis change together",
+                             count, axis.keys.front(), axis.size()));
     }
   }
   if (!axis.keys.empty() && axis.size() > most_places) {
@@ -110,8 +110,8 @@ void check_keys(const TableReader& root, const Grid& grid, bool has_seeds) {
       for (const auto& [other, where] : seen) {
         if (!overlap(key, other)) continue;
         const std::string why = other == key
-                                    ? fmt::format("{} is set by {} too", key, where)
-                                    : fmt::format("{} is set by {} of {} too", key, other, where);
+                                    ? fmt::format("{} is also set in {}", key, where)
+                                    : fmt::format("{} overlaps with {} of {}", key, other, where);
         if (seeds) root.fail("seeds", why);
         root.fail_element("axis", a, why);
       }
@@ -160,7 +160,7 @@ Grid read_grid(const std::filesystem::path& file) {
     }
     grid.axes.push_back(axis);
   }
-  if (grid.axes.empty()) root.fail("axis", "is missing, and so is seeds: nothing to sweep");
+  if (grid.axes.empty()) root.fail("axis", "is missing: give an axis or seeds");
   double cells = 1;
   bool has_scene = !grid.scene.empty();
   for (std::size_t a = 0; a < grid.axes.size(); ++a) {
@@ -169,7 +169,8 @@ Grid read_grid(const std::filesystem::path& file) {
     cells *= static_cast<double>(axis.size());
     for (std::size_t k = 0; k < axis.keys.size(); ++k) {
       if (axis.keys[k] != scene_key) continue;
-      if (!grid.scene.empty()) root.fail_element("axis", a, "has a scene, which the file has too");
+      if (!grid.scene.empty())
+        root.fail_element("axis", a, "has a scene, but the file names one too");
       has_scene = true;
       for (std::string& name : axis.values[k]) name = beside(file, name);
     }
@@ -177,7 +178,7 @@ Grid read_grid(const std::filesystem::path& file) {
   check_keys(root, grid, seeds > 0);
   if (!has_scene) root.fail("scene", "is missing");
   if (cells > most_cells) {
-    root.fail("axis", fmt::format("makes {:g} cells; at most {:g}", cells, most_cells));
+    root.fail("axis", fmt::format("makes {:g} cells; at most {:g} are allowed", cells, most_cells));
   }
   grid.scene = beside(file, grid.scene);
   if (!try_values(grid) && seeds > 1) {

@@ -85,7 +85,7 @@ void claim_folder(const fs::path& folder, const std::string& identity) {
   }
   const auto [there, here] = first_difference(text_of(file), identity);
   if (there != here) {
-    throw FileError(fmt::format("{}: holds another sweep: \"{}\" where this one has \"{}\"",
+    throw FileError(fmt::format("{}: holds another sweep: it has \"{}\", this one \"{}\"",
                                 folder.string(), shortened(printable(there)),
                                 shortened(printable(here))));
   }

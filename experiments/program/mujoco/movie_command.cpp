@@ -44,8 +44,8 @@ std::vector<std::size_t> film_frames(const LogContents& log, double rate, double
   const double count = std::floor(seconds * rate + rounding) + 1;
   constexpr double most = 1e6;
   if (count > most) {
-    throw InputError(
-        fmt::format("--speed {:g}: makes {:.3g} pictures, over {:g}", speed, count, most));
+    throw InputError(fmt::format("--speed {:g}: makes {:.3g} pictures; at most {:g} are allowed",
+                                 speed, count, most));
   }
   for (int k = 0; k < static_cast<int>(count); ++k) {
     frames.push_back(frame_at(log, std::min(log.time.front() + k * speed / rate, log.time.back())));
@@ -65,7 +65,7 @@ int movie(const MovieOptions& options) {
   const FilmFormat format = film_format(options.out);
   const PictureSize size = picture_size(options.size, "--size");
   if (format == FilmFormat::mp4 && (size.width % 2 != 0 || size.height % 2 != 0)) {
-    throw InputError("--size " + options.size + ": films need even numbers");
+    throw InputError("--size " + options.size + ": width and height of an MP4 must be even");
   }
   require_ffmpeg();
   const LogContents log(options.log, LogLevel::frames);

@@ -56,13 +56,13 @@ Beginning begin_slide(const MujocoRunOptions& options) {
   const auto slides = [](std::int64_t phase) { return phase == static_cast<int>(Phase::slide); };
   const auto first = std::ranges::find_if(log.phase, slides) - log.phase.begin();
   if (first == static_cast<std::ptrdiff_t>(log.phase.size())) {
-    throw FileError(options.from + ": the knot does not slide in it");
+    throw FileError(options.from + ": has no slide of the knot");
   }
   ResolvedScene resolved =
       read_scene_text(log.h5.root_text("scene"), options.from + ": scene", changes(options));
   Model model = make_hagfish(resolved.specimen, resolved.scene);
   if (model.nv() != log.model.nv()) {
-    throw InputError(options.from + ": its animal has another number of bodies (model.bodies)");
+    throw InputError(options.from + ": its animal and the scene differ in model.bodies");
   }
   ControllerState controller;
   controller.phase = Phase::slide;

@@ -153,7 +153,7 @@ TEST_F(OffscreenTest, RefusesAViewBeyondItsBuffer) {
     renderer.render(chain(0), view);
     FAIL() << "no error";
   } catch (const std::runtime_error& error) {
-    EXPECT_STREQ(error.what(), "picture of 280 x 200 px: the renderer goes to 100 x 100");
+    EXPECT_STREQ(error.what(), "picture of 280 x 200 px: the renderer can draw at most 100 x 100");
   }
   EXPECT_THROW(OffscreenRenderer(*mirror.model(), 100, 30000), std::runtime_error);
 }

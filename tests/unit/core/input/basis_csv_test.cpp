@@ -32,7 +32,7 @@ TEST(BasisCsv, ReadsAShapeAfterTheOther) {
 
 TEST(BasisCsv, OfAnotherBodyIsRefused) {
   EXPECT_EQ(complaint(heading + "1,0,1,2,3\n1,30,4,5,6\n"),
-            "b.csv: the basis of a body of 30 cm, but the animal has 40 cm");
+            "b.csv: made for a body of 30 cm, but the animal is 40 cm long");
   EXPECT_NE(
       complaint(heading + "1,0,1,2,3\n1,40,4,5,6\n", BasisFrame::knot).find("station (window)"),
       std::string::npos);
@@ -45,7 +45,7 @@ TEST(BasisCsv, WhatIsNoBasisIsRefusedWithItsLine) {
   EXPECT_EQ(complaint(heading + "2,0,1,2,3\n"),
             "b.csv:2: shapes must be 1, 2, 3, ..., each with all stations");
   EXPECT_EQ(complaint(heading + "1,0,1,2,3\n1,40,1,2,3\n2,0,1,2,3\n"),
-            "b.csv: its last shape has not all stations");
+            "b.csv: the last shape does not have all stations");
   EXPECT_EQ(complaint(heading + "1,0,1,2,3\n1,40,1,2,3\n2,1,1,2,3\n"),
             "b.csv:4: each shape must have the stations of the first");
   EXPECT_EQ(complaint(heading), "b.csv: a basis needs two stations or more");

@@ -64,7 +64,7 @@ TEST(CurvatureCsv, TellsWhatIsWrong) {
   EXPECT_EQ(complaint(heading + "0,0,1,2,3\n0,1,1,2,3\n2,0.5,1,2,3\n"),
             "p.csv:4: each time must have the stations of the first");
   EXPECT_EQ(complaint(heading + "0,0,1,2,3\n0,1,1,2,3\n2,0,1,2,3\n"),
-            "p.csv: its last time has not all stations");
+            "p.csv: the last time does not have all stations");
   EXPECT_NE(complaint(heading + "0,0,1,2\n").find("p.csv"), std::string::npos);
 }
 

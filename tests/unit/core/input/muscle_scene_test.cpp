@@ -30,7 +30,7 @@ TEST(MuscleScene, RefusesWhatIsNoMuscle) {
             "s: --set specimen.muscle.oblique_area=[0.5]: specimen: its muscle.oblique_area must "
             "have as many values as station, 2");
   EXPECT_EQ(complaint(text, {"specimen.muscle.stress=0"}),
-            "s:2: muscle.present = true: the specimen's muscle.stress is 0 or missing, must be "
+            "s:2: muscle.present = true: the specimen's muscle.stress is 0 or missing, but must be "
             "positive");
   EXPECT_EQ(complaint(present + plain_scene),
             "s:2: muscle.present = true: the specimen has no muscle.longitudinal_area");

@@ -74,7 +74,7 @@ TEST(ObstacleScene, RefusesWhatIsNone) {
   EXPECT_EQ(scene_complaint(strand + "points = [[1, 5]]\nradius = 1\n"),
             "s.toml:3: obstacle 1.points = [1, 5]: point 1 must be three lengths [x, y, z]");
   EXPECT_EQ(scene_complaint(strand + "points = [[1, 5, 0], [1, 5, 0]]\nradius = 1\n"),
-            "s.toml:1: obstacle: points: point 2 is where the one before it is");
+            "s.toml:1: obstacle: points: point 2 is the same as the last one");
   EXPECT_EQ(
       scene_complaint(strand + "points = [[1, 5, 0], [2, 5, 0]]\nclosed = true\nradius = 1\n"),
       "s.toml:1: obstacle: points: a closed strand needs three or more");
@@ -84,8 +84,8 @@ TEST(ObstacleScene, RefusesWhatIsNone) {
             "s.toml:5: obstacle 1.inner_radius = 0: must be positive");
   EXPECT_EQ(
       scene_complaint(ring + "inner_radius = 0.79\nradius = 1\n"),
-      "s.toml:1: obstacle: inner_radius = 0.79 cm is a hole too narrow for the body, whose radius "
-      "is 0.7957747154594768 cm");
+      "s.toml:1: obstacle: inner_radius = 0.79 cm: the hole is too narrow for the body, whose "
+      "radius is 0.7957747154594768 cm");
   EXPECT_EQ(
       scene_complaint("[[obstacle]]\nkind = 'plane'\npoint = [0, 0, 0]\nnormal = [0, 0, 0]\n"),
       "s.toml:1: obstacle: normal must not be all 0");

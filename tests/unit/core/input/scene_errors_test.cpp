@@ -33,7 +33,7 @@ TEST(SceneErrors, TellsMissingAndUnreadableFiles) {
 }
 
 TEST(SceneErrors, RefusesWhatIsNotUtf8) {
-  const std::string complaint = "s.toml: is not UTF-8, which TOML is: save it as such";
+  const std::string complaint = "s.toml: is not in UTF-8, the encoding of TOML: save it as UTF-8";
   EXPECT_EQ(scene_complaint("# caf\xe9\n"), complaint);                               // Latin-1
   EXPECT_EQ(scene_complaint(std::string("t\0i\0", 4)), complaint);                    // UTF-16
   EXPECT_EQ(scene_complaint("# caf\xc3\xa9\ntitle = 3\n").substr(0, 8), "s.toml:2");  // UTF-8
@@ -82,11 +82,13 @@ TEST(SceneErrors, RefusesStartsThatDoNotFit) {
             "s.toml:4: start.q = [0, 0, 0, 0, 0, 0, 0, 0, 0]: numbers 4 to 7 are a quaternion and "
             "must not all be 0");
   EXPECT_EQ(scene_complaint("[start]\nspin = [1, 0, 0]\n"),
-            "s.toml:2: start.spin = [1, 0, 0]: the head is clamped (clamp_head)");
+            "s.toml:2: start.spin = [1, 0, 0]: must be 0, since the head is clamped "
+            "(clamp_head)");
   EXPECT_EQ(scene_complaint("[start]\nbend = [[0, 0, 0, 1]]\nq = [1]\n"),
-            "s.toml:3: start.q = [1]: start.bend is given too");
+            "s.toml:3: start.q = [1]: start.bend is also given; give only one");
   EXPECT_EQ(scene_complaint("[start]\nbend_rate = [[0, 0, 0, 1]]\nqdot = [1]\n"),
-            "s.toml:3: start.qdot = [1]: start.bend_rate or start.spin is given too");
+            "s.toml:3: start.qdot = [1]: start.bend_rate or start.spin is also given; "
+            "give only one");
   EXPECT_EQ(scene_complaint("[start]\nphase = 'tie'\n"),
             "s.toml:2: start.phase = 'tie': must be one of \"form\", \"tighten\", \"slide\", "
             "\"release\", \"free\"");
@@ -102,15 +104,16 @@ TEST(SceneErrors, RefusesFoodThatCannotBePulled) {
   const std::string food = "[food]\nhold = 2\ncap = { from = 10, to = 20, time = 1 }\n";
   EXPECT_EQ(scene_complaint(food), "no error");
   EXPECT_EQ(scene_complaint(food + "[wall]\npresent = false\n"),
-            "s.toml:2: food.hold = 2: without a head plate (wall.present) or an obstacle the "
-            "knot presses against nothing");
+            "s.toml:2: food.hold = 2: food needs a head plate (wall.present = true) or an "
+            "obstacle for the knot to press against");
   EXPECT_EQ(scene_complaint("clamp_head = false\n" + food),
-            "s.toml:3: food.hold = 2: no food holds a head that is not clamped (clamp_head)");
+            "s.toml:3: food.hold = 2: food needs a clamped head (clamp_head = true)");
   EXPECT_EQ(scene_complaint(food + "[controller]\nfree_from = 'slide'\n"),
-            "s.toml:2: food.hold = 2: no food holds a head that is free from \"slide\" on "
-            "(controller.free_from)");
+            "s.toml:2: food.hold = 2: food needs a clamped head, but controller.free_from = "
+            "\"slide\" frees it");
   EXPECT_EQ(scene_complaint(food + "[controller]\nleave_by = 'tail'\n"),
-            "s.toml:2: food.hold = 2: a knot that pulls cannot turn back (controller.leave_by)");
+            "s.toml:2: food.hold = 2: a knot that pulls at food cannot leave by the tail "
+            "(controller.leave_by)");
   EXPECT_EQ(scene_complaint("[food]\nhold = 2\n"),
             "s.toml: food.cap.from: must be positive where there is food");
   EXPECT_EQ(scene_complaint("[food]\nhold = 2\ncap = { from = 20, to = 10, time = 1 }\n"),

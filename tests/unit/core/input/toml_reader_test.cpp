@@ -202,7 +202,7 @@ TEST(TomlReader, RefusesBadAngles) {
   EXPECT_EQ(complaint("bend_rad = 1.6", read),
             "f.toml:1: bend_rad = 1.6: must be above 0 and below 90 degrees");
   EXPECT_EQ(complaint("bend_deg = 1\nbend_rad = 1", read),
-            "f.toml:2: bend_rad = 1: bend_deg is given too");
+            "f.toml:2: bend_rad = 1: bend_deg is also given; give only one");
   EXPECT_EQ(complaint("bend = 1", read), "f.toml:1: bend = 1: unknown key; did you mean bend_deg?");
 }
 

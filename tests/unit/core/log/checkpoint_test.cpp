@@ -165,7 +165,7 @@ TEST_F(BadBytes, NeitherThereNorAbsentIsRefused) {
   s.sim.controller.ends.last.reset();
   const auto flag = std::ranges::mismatch(bytes, s.bytes()).in1;
   *flag = 199;
-  EXPECT_EQ(refusal(bytes), "checkpoint: what may be absent is neither there nor absent");
+  EXPECT_EQ(refusal(bytes), "checkpoint: a flag is neither 0 nor 1");
 }
 
 TEST_F(BadBytes, NoChangeOfAByteLeadsOutOfBounds) {

@@ -237,11 +237,12 @@ TEST_F(HostileHdf5, WhatIsNoDatasetOrGroupIsSaidToBeNone) {
     H5::DataType type(H5::PredType::NATIVE_DOUBLE);
     type.commit(h5, "type");
   });
-  EXPECT_EQ(refusal_of("/g"), "/g is no dataset");
-  EXPECT_EQ(refusal_of("/type"), "/type is no dataset");
-  EXPECT_EQ(refusal_of("/v/x"), "/v is no group");
-  EXPECT_EQ(refusal([](const Hdf5Reader& in) { in.names("/v"); }), "/v is no group");
-  EXPECT_EQ(refusal([](const Hdf5Reader& in) { in.attribute_int("/v", "x"); }), "/v is no group");
+  EXPECT_EQ(refusal_of("/g"), "/g is not a dataset");
+  EXPECT_EQ(refusal_of("/type"), "/type is not a dataset");
+  EXPECT_EQ(refusal_of("/v/x"), "/v is not a group");
+  EXPECT_EQ(refusal([](const Hdf5Reader& in) { in.names("/v"); }), "/v is not a group");
+  EXPECT_EQ(refusal([](const Hdf5Reader& in) { in.attribute_int("/v", "x"); }),
+            "/v is not a group");
 }
 
 TEST_F(HostileHdf5, PipesDevicesAndFoldersAreNotOpened) {

@@ -78,7 +78,7 @@ TEST_F(OutputFileTest, KeepsWhatIsThereUnlessAsked) {
 TEST_F(OutputFileTest, KeepsWhatACrashLeftUnlessAsked) {
   put(part, "680 frames");
   put(lock, "");  // of a process that is gone
-  EXPECT_EQ(complaint(file, false).find(part.string() + ": left by a process that did not end"),
+  EXPECT_EQ(complaint(file, false).find(part.string() + ": left by a run that was interrupted"),
             0u);
   EXPECT_EQ(text_of(part), "680 frames");
   EXPECT_FALSE(fs::exists(lock));
@@ -119,8 +119,11 @@ TEST_F(OutputFileTest, DoesNotReplaceAFileThatAppearedMeanwhile) {
     put(file, "theirs");
     output.publish();
   });
-  EXPECT_EQ(message,
-            file.string() + ": appeared while it was made; what was made is " + part.string());
+  EXPECT_EQ(
+      message,
+      file.string() +
+          ": another program created this file during the run; the output of this run is in " +
+          part.string());
   EXPECT_EQ(text_of(file), "theirs");
   EXPECT_EQ(text_of(part), "mine");
 }

@@ -13,7 +13,7 @@ TEST_F(ControllerStops, ThrowsWhereTheScriptEndsUntied) {
   EXPECT_NO_THROW(step({}));
   now = 7.1;
   EXPECT_EQ(complaint({}),
-            "the script ended with no knot, and tied none before, but expect.knot = 3_1");
+            "the script ended with no knot (none was tied before), but expect.knot = 3_1");
 }
 
 TEST_F(ControllerStops, TellsWhichKnotCameUndoneAndWhen) {
@@ -26,7 +26,7 @@ TEST_F(ControllerStops, TellsWhichKnotCameUndoneAndWhen) {
   now = 7.1;
   EXPECT_EQ(
       complaint({}),
-      "the script ended with no knot, after a 3_1 from 3.00 to 4.50 s, but expect.knot = 3_1");
+      "the script ended with no knot (there was a 3_1 from 3.00 to 4.50 s), but expect.knot = 3_1");
 }
 
 TEST_F(ControllerStops, WaitsForTheScenesKnotAndTellsWhichOneCame) {
@@ -46,8 +46,8 @@ TEST_F(ControllerStops, TellsOfTooLittleTailThrough) {
   step({contact(5, 35)});
   now = 7.1;
   EXPECT_EQ(complaint({contact(5, 35)}),
-            "the script ended with a 3_1, tied since 3.00 s, but 7.40 cm of tail through it where "
-            "controller.tail_through = 8 cm");
+            "the script ended with a 3_1, tied since 3.00 s, but only 7.40 cm of tail is through "
+            "it; controller.tail_through = 8 cm");
 }
 
 TEST_F(ControllerStops, ThrowsWhereTheKnotIsLost) {

@@ -47,7 +47,7 @@ TEST(Guard, NamesTheBodiesThatOverlapAndWhatWouldHelp) {
   const std::string message = message_of(Outcome::penetration, knot.look());
   const auto deepest =
       std::ranges::min_element(knot.observation.contact.contacts, {}, &Contact::gap);
-  EXPECT_NE(message.find("of bodies " + std::to_string(deepest->body_a()) + " and " +
+  EXPECT_NE(message.find("bodies " + std::to_string(deepest->body_a()) + " and " +
                          std::to_string(deepest->body_b())),
             std::string::npos)
       << message;
@@ -67,10 +67,10 @@ void expect_told(const std::string& warning) {
   for (std::size_t at = 0; (at = warning.find(". ", at)) != std::string::npos; ++at) ++ends;
   EXPECT_EQ(ends, 1u) << warning;
   EXPECT_TRUE(warning.find("can be used") != std::string::npos ||
-              warning.find("not to be used") != std::string::npos)
+              warning.find("Do not use") != std::string::npos)
       << warning;
   EXPECT_NE(warning.rfind("try "), std::string::npos) << warning;
-  EXPECT_GT(warning.rfind("try "), warning.rfind("used")) << warning;
+  EXPECT_GT(warning.rfind("try "), warning.rfind(" use")) << warning;
 }
 
 TEST(Guard, NamesTheJointPastItsLimit) {
@@ -90,7 +90,7 @@ TEST(Guard, WarnsOnceWhereTheSceneAsksForIt) {
   EXPECT_TRUE(knot.look().ok());
   EXPECT_TRUE(knot.look().ok());
   ASSERT_EQ(knot.warnings.size(), 1u);
-  EXPECT_EQ(knot.warnings[0].find("penetration 0."), 0u) << knot.warnings[0];
+  EXPECT_NE(knot.warnings[0].find(" overlap by 0."), std::string::npos) << knot.warnings[0];
   expect_told(knot.warnings[0]);
 }
 
@@ -138,7 +138,8 @@ TEST(Guard, TellsOnceWhatMusclesCannotDo) {
   EXPECT_EQ(warnings[0].find("the curvature program bends " + dof_name(model, 7) + " to -"), 0u)
       << warnings[0];
   EXPECT_NE(warnings[0].find(" at 1.00 s"), std::string::npos) << warnings[0];
-  EXPECT_EQ(warnings[1].find(dof_name(model, 8) + " takes all of active.capacity = 100000"), 0u)
+  EXPECT_EQ(
+      warnings[1].find(dof_name(model, 8) + " needs more torque than active.capacity = 100000"), 0u)
       << warnings[1];
   for (const std::string& warning : warnings) expect_told(warning);
 }
@@ -228,12 +229,12 @@ TEST(Guard, TellsWhyARowIsAtItsCap) {
     expect_told(warning([&](CappedRow& capped) { alone(capped, other); }));
   }
   const std::string sides = warning([&](CappedRow& capped) { alone(capped, 0); });
-  EXPECT_NE(sides.find("where both rows cannot hold"), std::string::npos) << sides;
+  EXPECT_NE(sides.find("it cannot have both speeds"), std::string::npos) << sides;
   EXPECT_NE(sides.find("controller.eq6_slip"), std::string::npos) << sides;
   const std::string end = warning([&](CappedRow& capped) { alone(capped, 3); });
   EXPECT_NE(end.find("try a lower speed or a higher cap"), std::string::npos) << end;
   const std::string limits = warning([&](CappedRow& capped) { alone(capped, 4); });
-  EXPECT_NE(limits.find("joint limits leave no way"), std::string::npos) << limits;
+  EXPECT_NE(limits.find("joint limits block the motion"), std::string::npos) << limits;
   const std::string plate = warning([&](CappedRow& capped) {
     capped.step.rows[4] = plane_row(capped.model, 0, 30);
     alone(capped, 4);
@@ -385,7 +386,7 @@ class EnergyWatch : public testing::Test {
     for (int k = 0; k < steps; ++k) {
       take_step(model, scene, sim, record);
       for (const std::string& warning : record.warnings) {  // of momentum it warns too
-        if (warning.starts_with("the integrator made")) warnings.push_back(warning);
+        if (warning.starts_with("numerical errors added")) warnings.push_back(warning);
       }
       // The ledger closes to rounding, what was taken back included.
       EXPECT_LT(std::abs(sim.ledger.imbalance()), 1e-9 * sim.ledger.initial);
@@ -403,7 +404,7 @@ class EnergyWatch : public testing::Test {
 TEST_F(EnergyWatch, HoldsWhatTheIntegratorMakes) {
   EXPECT_LE(growth(EnergyAction::hold), 1 + 1.02 * scene.guard.energy_gain);
   ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_EQ(warnings[0].find("the integrator made"), 0u) << warnings[0];
+  EXPECT_EQ(warnings[0].find("numerical errors added"), 0u) << warnings[0];
   expect_told(warnings[0]);
 }
 

@@ -20,9 +20,10 @@ TEST(Step, NamesRowsThatContradictEachOther) {
     StepSolution step;
     const Status status = s.solver.solve({s.model, s.scene, s.state, now, s.control}, step);
     EXPECT_EQ(status.outcome, Outcome::infeasible) << status.message;
-    EXPECT_EQ(status.message.find("rows contradict each other: head clamp, velocity 0; head plate "
-                                  "at body "),
-              0u)
+    EXPECT_EQ(
+        status.message.find("constraints contradict each other: head clamp, velocity 0; head plate "
+                            "at body "),
+        0u)
         << status.message;
   }
 }

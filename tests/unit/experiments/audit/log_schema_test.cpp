@@ -84,7 +84,8 @@ TEST_F(LogSchema, WantsStepsThatAreThere) {
   set<std::int64_t>("/trajectory/step", PredType::NATIVE_INT64, 2, most);
   EXPECT_EQ(refusal(), "/trajectory/step holds 9223372036854775807, not 0 to 9007199254740992");
   set<std::int64_t>("/trajectory/step", PredType::NATIVE_INT64, 2, 100);
-  EXPECT_EQ(refusal(), "/trajectory/step goes from 5 to 100, its scene has 5 steps a frame");
+  EXPECT_EQ(refusal(),
+            "/trajectory/step goes from 5 to 100, but its scene has 5 steps between frames");
 }
 
 TEST_F(LogSchema, WantsBodiesFramesAndKindsThatThereAre) {

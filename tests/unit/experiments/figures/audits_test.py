@@ -24,7 +24,7 @@ def test_what_failed(check):
 
 def test_findings_on_two_logs_are_not_those_on_one(tmp_path):
     tables.write_csv(tmp_path / "c.csv", audits.COLUMNS, [*FINDINGS, ["b.h5", *FINDINGS[0][1:]]])
-    with pytest.raises(LogError, match="of several logs"):
+    with pytest.raises(LogError, match="covers several logs"):
         audits.read_findings(tmp_path / "c.csv")
 
 

@@ -75,5 +75,5 @@ def test_maps_are_of_what_changes(folder):
 
 def test_a_table_of_another_version_is_refused(folder):
     (folder / "table.csv").write_text(HEADING.replace("kkt,", "") + "0\n")
-    with pytest.raises(LogError, match="of another version"):
+    with pytest.raises(LogError, match="not a table of this version"):
         sweep_columns.read_sweep(folder / "table.csv")

@@ -121,5 +121,5 @@ def test_a_slide_at_its_cap_that_ends_in_failure(content, sweep):
 
 def test_what_is_no_sweep(tmp_path):
     write_csv(tmp_path / "table.csv", ["log", "figure"], [["a.h5", 1]])
-    with pytest.raises(LogError, match="is not a table of hagfish sweep"):
+    with pytest.raises(LogError, match="not a table of this version of hagfish sweep"):
         slides.read_slides(tmp_path)

@@ -14,7 +14,7 @@ def test_markdown():
 def test_csv_to_six_digits_and_back(tmp_path):
     tables.write_csv(tmp_path / "t.csv", ["a", "b"], [[1 / 3, "x, y"], [2, ""]])
     assert tables.read_csv(tmp_path / "t.csv", ["b"]) == [{"a": "0.333333", "b": "x, y"}, {"a": "2", "b": ""}]
-    with pytest.raises(LogError, match="without column c"):
+    with pytest.raises(LogError, match="has no column c"):
         tables.read_csv(tmp_path / "t.csv", ["a", "c"])
     tables.write_csv(tmp_path / "empty.csv", ["a"], [])
     with pytest.raises(LogError, match="holds no rows"):

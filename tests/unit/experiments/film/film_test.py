@@ -133,7 +133,7 @@ def test_a_flat_film_makes_a_flat_program(tmp_path):
     write_film(tmp_path / "flat.csv", time, s, np.array(bent), names=("x", "y"))
     said = hagfish(tmp_path, "midlines", "flat.csv", "--out", "p.csv", "--stations", 5, "--times", 5)
     assert "two dimensions" in said
-    assert "one camera does not tell which strand is over" in said and "hagfish run" not in said and not (tmp_path / "p.toml").exists()
+    assert "neither which strand is on top" in said and "hagfish run" not in said and not (tmp_path / "p.toml").exists()
     p = table(tmp_path / "p.csv")
     # An arc of 30 cm at 0.05 t /cm, of an animal of any length: 1.5 t rad per length, all along it.
     inner = (p["station (L)"] > 0.1) & (p["station (L)"] < 0.9)
@@ -181,7 +181,7 @@ def test_bad_films_are_one_line(tmp_path, film):
              "word": (good.replace("1,3,3,0", "1,3,three,0"), "three"), "time": (good.replace("1,3,3,0", ",3,3,0"), "missing"),
              "few": ("time_s,s_cm,x_cm,y_cm\n0,0,0,0\n1,0,0,0\n", "points"), "twice": (good.replace("0,2,2,0", "0,1,2,0"), "twice"),
              "one": (good[:good.index("1,0,0,0")], "two times"), "empty": ("", "time_s"), "semicolons": (good.replace(",", ";").replace("x_cm", "w"), "the 4 that semicolons"),
-             "millimetres": (good.replace("x_cm", "x_mm"), "another unit"), "metres": (good.replace("s_cm", "s_m"), "another unit"), "inf": (good.replace("1,3,3,0", "1,3,inf,0"), "number"),
+             "millimetres": (good.replace("x_cm", "x_mm"), "check units and scale"), "metres": (good.replace("s_cm", "s_m"), "check units and scale"), "inf": (good.replace("1,3,3,0", "1,3,inf,0"), "number"),
              "one and a half": ("time_s,s_cm,x_cm,y_cm\n" + "".join(f"{t},{s},{1.5 * s},0\n" for t in (0, 1) for s in range(6)), "1.5 times"),
              "huge": (good.replace("1,3,3,0", "1,3,1e300,0"), "at most"), "far": (good.replace("x_cm", "x_m").replace("1,3,3,0", "1,3,1e8,0"), "at most"),
              "frames": (good.replace("time_s", "frame"), "--fps"), "several": ("individual," + good.replace("\n0,", "\na,0,").replace("\n1,", "\nb,1,"), "a, b"),
@@ -191,8 +191,8 @@ def test_bad_films_are_one_line(tmp_path, film):
         refused(tmp_path, "midlines", "bad.csv", "--out", "p.csv", parts=("bad.csv", part))
     refused(tmp_path, "midlines", "none.csv", "--out", "p.csv", parts=("none.csv",))
     (tmp_path / "good.csv").write_text(good)
-    refused(tmp_path, "midlines", "good.csv", "--out", "p.csv", "--until", 0.5, "--times", 2, parts=("1 midlines up to 0.5 s",))
-    refused(tmp_path, "midlines", "good.csv", "--out", "p.csv", "--times", 2, "--stations", 26, parts=("--stations 26", "25 at most"))
+    refused(tmp_path, "midlines", "good.csv", "--out", "p.csv", "--until", 0.5, "--times", 2, parts=("1 usable midlines up to 0.5 s",))
+    refused(tmp_path, "midlines", "good.csv", "--out", "p.csv", "--times", 2, "--stations", 26, parts=("--stations 26", "at most 25"))
     refused(tmp_path, "against", "none.h5", "good.csv", parts=("none.h5",))
     late = good.replace("\n0,", "\n1000,").replace("\n1,", "\n1001,")
     (film / "late.csv").write_text(late)
@@ -248,7 +248,7 @@ def test_gaps_in_time_are_told_and_bridged(tmp_path):
     points = points + NOISE * np.random.default_rng(1).standard_normal(points.shape)
     write_rows(tmp_path / "f.csv", time, s, points, kept=lambda f, i: not 3.2 < time[f] < 4.9)
     said, p = bends(tmp_path, "f.csv", "--times", 60)
-    assert "no midlines from 3.2 to 4.9 s: bridged" in said
+    assert "no midlines from 3.2 to 4.9 s: filled in between" in said
     np.testing.assert_allclose(p["bend_z (rad/L)"], 0.6 * p["time (s)"], atol=0.15)
     # The film says less there, and so do the standard errors.
     middle = (p["station (L)"] > 0.4) & (p["station (L)"] < 0.6)
@@ -289,11 +289,11 @@ def test_a_tail_that_is_never_seen_is_not_bent_nor_scaled_in_silence(tmp_path):
     write_rows(tmp_path / "by point.csv", time, s, points, column="point")
     for arguments in (["listed.csv"], ["by point.csv"], ["cut.csv", "--animal-length", LENGTH]):
         said, p = bends(tmp_path, *arguments)
-        assert "scaled" not in said and "tail's tip" not in said
+        assert "scaled" not in said and "tip of the tail" not in said
         np.testing.assert_allclose(p["bend_z (rad/L)"], 1 + p["time (s)"], atol=0.05, err_msg=arguments[0])
     said, _ = bends(tmp_path, "cut.csv")
-    assert "animal of 33.9 cm scaled to 42.4 cm" in said and "the last point is taken for the tail's tip" in said
-    refused(tmp_path, "midlines", "by point.csv", "--out", "q.csv", "--animal-length", LENGTH, parts=("by point.csv", "no s_cm"))
+    assert "animal of 33.9 cm scaled to 42.4 cm" in said and "the last point is taken as the tip of the tail" in said
+    refused(tmp_path, "midlines", "by point.csv", "--out", "q.csv", "--animal-length", LENGTH, parts=("by point.csv", "needs a column s_cm"))
 
 
 def test_points_that_are_not_even_are_placed_by_their_distances(tmp_path):
@@ -341,9 +341,9 @@ def test_what_no_body_can_do_is_taken_out_and_told(tmp_path):
     assert "farther from the others" in film("outliers", outliers)
     assert "16 points at 0,0 in 4 midlines" in film("lost", lost)
     assert "head and tail are exchanged in 2 midlines (0.6667, 2 s)" in film("exchanged", exchanged)
-    assert "repeat one, and the next is elsewhere: left out" in film("repeated", repeated)
-    assert "repeat one, and the next is elsewhere: left out" in film("repeated and lost", repeated_and_lost)
-    assert all(word not in film("none", lambda points: None) for word in ("left out", "taken as lost", "turned round", "bridged"))
+    assert "are copies of one midline: left out" in film("repeated", repeated)
+    assert "are copies of one midline: left out" in film("repeated and lost", repeated_and_lost)
+    assert all(word not in film("none", lambda points: None) for word in ("left out", "taken as missing", "turned round", "filled in"))
 
 
 def test_one_camera_does_not_tell_a_knot(film, tmp_path):
@@ -352,7 +352,7 @@ def test_one_camera_does_not_tell_a_knot(film, tmp_path):
     rows = [f"{a:.6g},{s:.6g},{x:.6g},{y:.6g}" for a, s, x, y in zip(t["time_s"], t["s_cm"], t["x_cm"], t["y_cm"])]
     (tmp_path / "flat.csv").write_text("\n".join(["time_s,s_cm,x_cm,y_cm", *rows]) + "\n")
     said = hagfish(tmp_path, "midlines", "flat.csv", "--out", "p.csv", "--times", 48)
-    assert "doubtful: " in said and "midlines cross themselves" in said and "one camera does not tell" in said and "mirror image" in said
+    assert "doubtful: " in said and "midlines cross themselves" in said and "one camera does not show which strand" in said and "hand of a knot" in said
     assert "hagfish run" not in said
 
 
@@ -465,5 +465,5 @@ def test_the_hand_of_a_knot_is_said(film):
     """y the wrong way makes the mirror image of a knot: midlines and against say which hand they see."""
     said = hagfish(film, "midlines", "film.csv", "--out", "down.csv", "--y-down", "--times", 48)
     assert "3_1, left-handed" in said
-    assert "which of them has y the wrong way" in hagfish(film, "against", "a.h5", "film.csv", "--y-down")
-    assert "which of them" not in hagfish(film, "against", "a.h5", "film.csv")
+    assert "check the direction of y" in hagfish(film, "against", "a.h5", "film.csv", "--y-down")
+    assert "check the direction of y" not in hagfish(film, "against", "a.h5", "film.csv")

@@ -53,7 +53,7 @@ def test_what_is_odd_is_said(tmp_path):
 def test_bad_measures_are_one_line(tmp_path):
     at = lambda k, value: [*ANIMAL[:k], value, *ANIMAL[k + 1:], "--out", "x.toml"]
     refused(tmp_path, "specimen", *at(1, -3), parts=("--length",))
-    refused(tmp_path, "specimen", *at(5, "4.6,4.4"), parts=("--circumference", "2 values for 4"))
+    refused(tmp_path, "specimen", *at(5, "4.6,4.4"), parts=("--circumference", "has 2 values, but there are 4 stations"))
     refused(tmp_path, "specimen", *at(7, "25,80,50,0"), parts=("--bending 0",))
     # What the reader of specimen files would refuse.
     refused(tmp_path, "specimen", *at(7, "25,80,50,180"), parts=("--bending 180", "below 180"))
@@ -130,7 +130,7 @@ def test_a_fresh_animal_ties_its_knot_and_passes_its_audit(tmp_path, knot, anima
 @pytest.mark.parametrize("knot", ["4_1", "5_2"])
 def test_an_animal_too_thick_for_its_knot_is_told(tmp_path, knot):
     said = hagfish(tmp_path, "specimen", "--thicker", 1.2, "--knot", knot, "--out", "mine.toml", "--scene-out", "knot.toml", "--name", "mine")
-    assert f"{knot} may not be tied: 1.2 times as thick for its length as the paper's, whose program tied up to 1.1" in said
+    assert f"{knot} may not be tied: the animal is 1.2 times as thick for its length as the paper's; up to 1.1 was tied" in said
     done = hagfish(tmp_path, "run", "knot.toml", "--quiet", "--out", "a.h5", code=3)
     assert "the script ended with" in done
     # A longer one of that girth is as slender as the paper's.

@@ -95,5 +95,5 @@ def test_a_log_without_numbers_is_one_line(folder):
     hagfish(folder, "run", "table1", "--set", "time.step=0.02", "--set", "time.duration=0.2", "--quiet", "--out", "c.h5")
     script = [sys.executable, str(ROOT / "experiments/curvature/played_numbers.py")]
     done = subprocess.run([*script, "c.h5", "c.toml", "--base", "table1"], cwd=folder, capture_output=True, text=True)
-    assert done.returncode == 2 and "c.h5: no numbers slide its knot" in done.stderr
+    assert done.returncode == 2 and "c.h5: has no slide of a knot by a reduced basis" in done.stderr
     assert not (folder / "c.toml").exists()

@@ -31,7 +31,7 @@ from program import hagfish, refused  # noqa: E402
     ],
 )
 def test_a_run_refuses_what_does_nothing(tmp_path, scene, key, why):
-    refused(tmp_path, "run", scene, "--set", key, "--out", "a.h5", parts=(f"--set {key.split('=')[0]}: does nothing here", why))
+    refused(tmp_path, "run", scene, "--set", key, "--out", "a.h5", parts=(f"--set {key.split('=')[0]}: has no effect here", why))
 
 
 def test_what_acts_is_taken(tmp_path):
@@ -49,7 +49,7 @@ def test_what_acts_is_taken(tmp_path):
 )
 def test_a_sweep_refuses_what_does_nothing_in_all_cells(tmp_path, grid, key, why):
     (tmp_path / "grid.toml").write_text(f'scene = "table1"\n{grid}')
-    refused(tmp_path, "sweep", "grid.toml", "--out", "out", parts=("grid.toml", f"{key}: does nothing in any cell", why))
+    refused(tmp_path, "sweep", "grid.toml", "--out", "out", parts=("grid.toml", f"{key}: has no effect in any cell", why))
 
 
 def test_a_sweep_takes_what_two_of_its_axes_make_act(tmp_path):

@@ -34,7 +34,7 @@ TEST_F(ProgramTest, ComparesWithMujoco) {
   for (const std::string step : {"3", "1e-07"}) {
     expect_refused("compare --set model.bodies=3 --set time.frame_interval=3 --set time.step=" +
                        step + " --out compare.h5",
-                   {"time.step = " + step, "in 1 to 100000 steps"});
+                   {"time.step = " + step, "1 to 100000 steps"});
     EXPECT_FALSE(fs::exists(folder / "compare.h5"));
   }
 }

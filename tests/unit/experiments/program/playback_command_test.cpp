@@ -11,7 +11,7 @@ namespace hagfish::playback_command_test {
 
 TEST_F(ProgramTest, PlaybackRefusesALogWithoutASlide) {
   EXPECT_EQ(run_program(brief_run + "--out a.log").code, 0);
-  expect_refused("playback a.log --out p.h5", {"a.log", "does not slide"});
+  expect_refused("playback a.log --out p.h5", {"a.log", "has no slide of the knot"});
 }
 
 TEST_F(ProgramTest, PlaybackRefusesRestartsBetweenFrames) {

@@ -37,7 +37,7 @@ TEST_F(ResumeTest, AnInterruptedRunGoesOn) {
   // The step limit is as good as a signal, and strikes where rows are solved for.
   const ProgramOutcome stopped = run_program(quick + "--step-limit 1e-9 --out a.h5");
   EXPECT_EQ(stopped.code, 1) << stopped.output;
-  EXPECT_NE(stopped.output.find("the step took over --step-limit 1e-09 s at step "),
+  EXPECT_NE(stopped.output.find("a step took longer than --step-limit 1e-09 s at step "),
             std::string::npos)
       << stopped.output;
   const ProgramOutcome resumed = run_program("run --quiet --resume a.h5");
@@ -61,13 +61,13 @@ TEST_F(ResumeTest, WhatCannotGoOnStaysAsItIs) {
   expect("branch a.h5 --time 0.05 --out b.h5",
          "a.h5: has no checkpoint up to 0.05 s; the first one is at 0.1 s");
   expect("branch a.h5 --set model.bodies=50 --out b.h5",
-         "a.h5: cannot branch at 0.4 s: the state is of a chain of another number of bodies");
+         "a.h5: cannot branch at 0.4 s: the state has another number of bodies than the model");
   expect("branch a.h5 --time 0.1 --set time.step=0.03 --set time.frame_interval=0.03 --out b.h5",
-         "a.h5: cannot branch at 0.1 s: its time, 0.1 s, is no multiple of time.frame_interval, "
-         "0.03 s");
+         "a.h5: cannot branch at 0.1 s: its time, 0.1 s, is not a multiple of time.frame_interval "
+         "= 0.03 s");
   expect("branch a.h5 --out b.h5",
-         "a.h5: cannot branch at 0.4 s: the scene is over there (time.duration = 0.4 s; --time "
-         "branches earlier)");
+         "a.h5: cannot branch at 0.4 s: the scene has ended by then (time.duration = 0.4 s; use "
+         "--time for an earlier branch)");
   expect("branch a.h5 --time 0.1 --out a.h5", "a.h5: already exists (--force replaces it)");
   EXPECT_NE(run_program("run table1 --resume a.h5").output.find("--resume"), std::string::npos);
   fs::copy_file(folder / "a.h5", folder / "a.h5.part");

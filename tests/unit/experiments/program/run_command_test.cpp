@@ -105,7 +105,7 @@ TEST_F(ProgramTest, AScriptThatTiesNothingEndsWithCode3AndSaysSo) {
   EXPECT_EQ(run.code, 3) << run.output;
   EXPECT_EQ(std::count(run.output.begin(), run.output.end(), '\n'), 1) << run.output;
   EXPECT_NE(
-      run.output.find("a.h5: failed: the script ended with no knot, and tied none before, but "
+      run.output.find("a.h5: failed: the script ended with no knot (none was tied before), but "
                       "expect.knot = 3_1"),
       std::string::npos)
       << run.output;

@@ -22,16 +22,16 @@ TEST(SceneSense, TheMeasuredAnimalIsNotOdd) {
 TEST(SceneSense, DensitiesAndLengthsThatNoHagfishHas) {
   EXPECT_EQ(
       odd_things(stored_scene({"specimen.mass=160"})),
-      std::vector<std::string>{"specimen: a density of 1.74 g/cm^3, where an animal's is near "
-                               "water's 1: scripts for other animals may not tie it"});
+      std::vector<std::string>{"specimen: a density of 1.74 g/cm^3, but an animal has about 1; "
+                               "built-in scripts may not tie it"});
   EXPECT_EQ(odd_things(stored_scene({"specimen.mass=20"})).size(), 1u);
   EXPECT_EQ(
       odd_things(stored_scene({"specimen.length=350", "specimen.mass=660"})),
-      std::vector<std::string>{"specimen.length = 350 cm: the largest hagfish have 130: scripts "
-                               "for other animals may not tie it"});
+      std::vector<std::string>{"specimen.length = 350 cm: the largest hagfish are 130 cm long; "
+                               "built-in scripts may not tie this animal"});
   const std::string dense = refusal({"specimen.mass=80000"});
   EXPECT_TRUE(
-      dense.ends_with("g/cm^3: no matter has more than 22.6; mass is in g, lengths are in cm"))
+      dense.ends_with("g/cm^3 is more than any matter has (22.6); is mass in g, and length in cm?"))
       << dense;
   EXPECT_EQ(refusal({"specimen.mass=80000"}, true), dense) << "whatever is forced";
 }

@@ -133,9 +133,9 @@ def test_what_is_no_unit_is_refused_by_one_line(tmp_path):
     told(base, "specimen.units=CGS: only a file has units", more=("--set", "specimen.units=CGS"))
     ring = '[[obstacle]]\nkind = "ring"\ncentre = [0.5, 1, 0]\naxis = [1, 0, 0]\n'
     si = f'units = "SI"\n{base}'
-    told(f"{si}{ring}inner_radius = 0.01\nradius = 0.01\n", "inner_radius = 1 cm is a hole too narrow for the body, whose radius is 2.4987")
+    told(f"{si}{ring}inner_radius = 0.01\nradius = 0.01\n", "inner_radius = 1 cm: the hole is too narrow for the body, whose radius is 2.4987")
     told(f"{si}{ring}inner_radius = 0.03\nradius = 0\n", "radius = 0: must be positive")
     told(f'{si}[[obstacle]]\nkind = "strand"\npoints = [[0.5, -0.2, 0], [0.5, 0.2, 0]]\nradius = 0.01\n', "overlaps body", "at the start by 3.49", "cm")
     told(f"{si}[constraints]\nstride = 0\n", "constraints.stride = 0: must be at least 0.001 cm")
     told(f'{si}[wall]\nneck = "3 feet"\n', "must be a number of m, or as")
-    told(f"{si}[start]\nq = [0, 0]\n", "start.q", "in a file of CGS")
+    told(f"{si}[start]\nq = [0, 0]\n", "start.q", "use a file without units")

@@ -162,10 +162,10 @@ def test_a_control_that_is_none_is_refused_in_a_line(tied):
 
     assert "torque acts on the root" in refused(root, tied)
     assert "not finite" in refused(nan, tied)
-    assert f"3 numbers, where the animal has {tied.nv} velocities" in refused(short, tied)
+    assert f"3 numbers, but the animal has {tied.nv} velocities" in refused(short, tied)
     assert "rate is negative" in refused(damping, tied)
-    assert "two commands of thigmotaxis at one end of the knot" in refused(twice, tied)
-    assert "effort of -1" in refused(effort, tied)
+    assert "two commands of Eq. 6 are at one end of the knot" in refused(twice, tied)
+    assert "effort -1 must be finite" in refused(effort, tied)
 
 
 def test_what_a_law_raises_comes_through(tied):
@@ -202,7 +202,7 @@ def test_the_program_refuses_a_law_that_it_does_not_have(tmp_path, program):
     with hagfish.Simulation("table1", set=own, log=log) as sim:
         for _ in range(5):
             sim.step(sim.control())
-    line = 'controller.law = "own": the law is of the C++ or Python program that runs the scene'
+    line = 'controller.law = "own": only a C++ or Python program that sets a control law can run this scene'
     scene = tmp_path / "own.toml"
     scene.write_text(sim.scene)
     assert program("run", scene, "--out", tmp_path / "x.h5") == (2, f"hagfish: {line}")
@@ -253,5 +253,5 @@ def test_an_explicit_torque_that_blows_up_is_told_what_cures_it():
         control.torque[6:] = 1e7 * (0.3 - sim.q[7:]) - 1e6 * sim.qdot[6:]
 
     sim = hagfish.Simulation("table1", set={**FAST, "guard.speed": 100.0}, law=stiff)
-    with pytest.raises(hagfish.StepError, match="torque_rate takes damping, and rest_shape a pull"):
+    with pytest.raises(hagfish.StepError, match="give damping as torque_rate, and a pull to angles as rest_shape"):
         sim.run(until=1.0)

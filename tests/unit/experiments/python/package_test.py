@@ -105,7 +105,7 @@ def test_the_installed_package_is_whole(tmp_path):
 def test_a_design_says_what_it_found(tmp_path):
     sought = hagfish.design("7_7", out=tmp_path / "seven", budget="0.001s", threads=1)
     assert not sought.found
-    assert "None of 32 tries tied it" in sought.message
+    assert "None of 32 tries tied the knot" in sought.message
     assert sought.figures == {}
-    with pytest.raises(hagfish.InputError, match="no knot that is known"):
+    with pytest.raises(hagfish.InputError, match="not a known knot"):
         hagfish.design("3_2", out=tmp_path / "none")

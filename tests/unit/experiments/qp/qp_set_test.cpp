@@ -230,7 +230,7 @@ TEST_F(QpSetTest, RefusesWhatIsNoSet) {
     h5.createGroup("/qp");
     h5.createDataSet("/qp/0", H5::PredType::NATIVE_INT, H5::DataSpace(H5S_SCALAR));
   };
-  EXPECT_EQ(failure(no_group), file + ": /qp/0 is no group");
+  EXPECT_EQ(failure(no_group), file + ": /qp/0 is not a group");
 }
 
 }  // namespace hagfish::qp_set_test

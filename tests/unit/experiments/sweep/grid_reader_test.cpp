@@ -113,12 +113,12 @@ TEST_F(GridTest, RefusesBadGridsInOneLine) {
   expect_refused(axis("'time.step' = [0.05]\n[[axis]]\n'time.frame_interval' = [0.02, 0.03]"),
                  {"time.frame_interval", "0.05"});
   expect_refused(axis("'model.bodies' = [50]\n[[axis]]\n'model.bodies' = [60]"),
-                 {"model.bodies", "axis 1 too"});
+                 {"model.bodies", "axis 1"});
   expect_refused(axis("'start.noise_deg' = [1]\n[[axis]]\n'start.noise_rad' = [1]"),
-                 {"start.noise_rad", "start.noise_deg of axis 1 too"});
+                 {"start.noise_rad", "start.noise_deg of axis 1"});
   expect_refused(axis("'food.cap' = [1]\n'food.cap.from' = [1]"), {"food.cap"});
   expect_refused("set = ['time.step=0.01']\n" + axis("'time.step' = [0.02]"),
-                 {"time.step", "set too"});
+                 {"time.step", "time.step is also set in set"});
   expect_refused("set = ['time.step']\n" + axis("'model.bodies' = [50]"), {":1", "KEY=VALUE"});
   expect_refused("seeds = 2\n" + axis("'start.seed' = [1]"), {"start.seed"});
   expect_refused(axis("'model.bodies' = [50]\n'time.step' = [0.01, 0.02]"),
@@ -130,7 +130,7 @@ TEST_F(GridTest, RefusesBadGridsInOneLine) {
   expect_refused(axis("'drag.normal' = { from = 1, to = 2, count = 3, steps = 4 }"),
                  {"steps", "unknown key"});
   expect_refused(axis("scene = ['table1']"), {"has a scene"});
-  expect_refused(scene, {"nothing to sweep"});
+  expect_refused(scene, {"give an axis or seeds"});
   expect_refused("seeds = 2\n", {"scene", "missing"});
   expect_refused(scene + "seeds = 2\n", {"seeds = 2", "noise"});
   expect_refused(scene + "seeds = 0\n", {"seeds", "from 1"});
