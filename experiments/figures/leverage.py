@@ -1,6 +1,6 @@
-"""The pull of every knot: tables, a CSV of all runs (tables/leverage_runs.csv), and a figure of what it depends on.
+"""The pull of every knot: tables, one of all runs (tables/leverage_runs.csv) among them, and a figure of what it depends on.
 
-Usage: leverage.py RUNS OUT.png OUT.md (writes a PDF beside).
+Usage: leverage.py RUNS OUT_FOLDER (writes leverage.png and a PDF beside).
 """
 
 from __future__ import annotations
@@ -16,8 +16,8 @@ import leverage_picture as picture
 import plots
 import tables
 from hagfish_log import HagfishLog, LogError
-from leverage_picture import BASE, HEAD, SWEEPS
-from pulls import NEWTON, Pull, read_pull, read_strand, settled
+from leverage_picture import HEAD, SWEEPS
+from pulls import Pull, read_pull, read_strand
 from script import run_script
 
 BODIES = {"table1": "Table 1", "living": "living"}
@@ -58,87 +58,59 @@ def read_run(path: Path) -> Run:
     return Run(kind, body, plots.SCENES[knot], value, int(seed), outcome, pull, deepest, "penetration" in unmet)
 
 
-def chosen(runs: Iterable[Run], body: str, knot: str, *kinds: str, value: str | None = None) -> list[Run]:
-    return [run for run in runs if run.body == body and run.knot == knot and run.kind in kinds and value in (None, run.value)]
+def chosen(runs: Iterable[Run], body: str, knot: str, kind: str) -> list[Run]:
+    return [run for run in runs if (run.body, run.knot, run.kind) == (body, knot, kind)]
 
 
-def spread(values: list[float], digits: int = 2) -> str:
+def pulls_of(runs: Iterable[Run]) -> list[Pull]:
+    """Of those whose strands are not too deep in each other: what a crushed knot pulls is no pull."""
+    return [run.pull for run in runs if run.pull and not run.deep]
+
+
+def spread(values: list[float]) -> str:
     """Mean ± standard deviation."""
-    if not values:
-        return "none"
-    return f"{np.mean(values):.{digits}f}" + (f" ± {np.std(values, ddof=1):.{digits}f}" if len(values) > 1 else "")
+    return f"{np.mean(values):.3f} ± {np.std(values, ddof=1):.3f}" if len(values) > 1 else ", ".join(f"{value:.3f}" for value in values)
 
 
-def starts_table(runs: list[Run], out: Path) -> list[str]:
+def starts_table(runs: list[Run], out: Path) -> None:
     rows = []
     for body, label in BODIES.items():
         for knot in plots.SCENES.values():
-            all_starts = chosen(runs, body, knot, "start")
-            pulls = [run.pull for run in all_starts if run.pull]
-            mirrored, plain = ([(run.outcome, run.pull and run.pull.mean) for run in chosen(runs, body, knot, kind)]
-                               for kind in ("mirror", "plain"))
-            same = "yes" if plain and mirrored == plain else "no"
-            of_each = lambda figure, digits=2: spread([float(figure(pull)) for pull in pulls], digits)
-            deepest = max((run.overlap for run in all_starts), default=np.nan)
-            rows.append([label, knot, f"{len(pulls)} of {len(all_starts)}", of_each(lambda p: p.mean, 3),
-                         of_each(lambda p: p.force.std(), 3), of_each(lambda p: p.mean / p.sum),
-                         of_each(lambda p: p.mean / p.rows.mean(axis=0).max()), of_each(lambda p: p.torque.mean()),
-                         of_each(lambda p: p.mean / p.torque.mean()), of_each(lambda p: p.mean / p.estimate),
-                         of_each(lambda p: np.linalg.norm(np.nanmean(p.bearing, axis=0)), 1), f"{deepest:.4f}", same])
-    return tables.of_page(out, "leverage", ["body", "knot", "pulled", "pull, N", "it swings by, N", "over the sum of the rows",
-                            "over the largest row", "largest torque, N cm", "pull over it, 1/cm", "over the rope estimate",
-                            "plate's force off the head by, cm", "deepest overlap, cm", "mirror image the same"], rows)
+            pulls = pulls_of(starts := chosen(runs, body, knot, "start"))
+            mirrored, plain = ([(run.outcome, run.pull and run.pull.mean) for run in chosen(runs, body, knot, kind)] for kind in ("mirror", "plain"))
+            mean = lambda figure: f"{np.mean([figure(pull) for pull in pulls]):.2g}" if pulls else ""
+            rows.append([label, knot, f"{len(pulls)} of {len(starts)}", spread([pull.mean for pull in pulls]), mean(lambda p: p.mean / p.sum),
+                         mean(lambda p: p.mean / p.rows.mean(axis=0).max()), mean(lambda p: p.mean / p.torque.mean()),
+                         "yes" if plain and mirrored == plain else "no"])
+    tables.of_page(out, "leverage", ["body", "knot", "pulled", "pull, N", "over the sum of the rows", "over the largest row",
+                                     "pull over the largest torque, 1/cm", "mirror image the same"], rows)
 
 
-def work_table(folder: Path, out: Path) -> list[str]:
+def work_table(runs: list[Run], folder: Path, out: Path) -> None:
     """What a slip of the whole body along itself would cost and yield, were the knot to keep its shape."""
     rows = []
     for body, label in BODIES.items():
         for scene, knot in plots.SCENES.items():
-            path = folder / f"plain-{body}-{scene}-0-1.h5"
-            if not path.is_file() or not settled(log := HagfishLog(path)).size:
-                continue
-            pull, work = read_pull(log).mean, read_strand(log).work
-            rows.append([label, knot, f"{pull:.3f}", *(f"{work[key]:.3f}" for key in ("rows", "contacts", "plate")),
-                         f"{pull - sum(work.values()):.3f}"])
-    head = ["body", "knot", "pull", "rows of Eq. 6", "contacts", "head plate", "left to bending, limits, muscles"]
-    return tables.of_page(out, "leverage_work", head, rows)
+            if pulls_of(chosen(runs, body, knot, "plain")):
+                log = HagfishLog(folder / f"plain-{body}-{scene}-0-0.h5")
+                pull, work = read_pull(log).mean, read_strand(log).work
+                rows.append([label, knot, *(f"{force:.3f}" for force in (pull, work["rows"], work["contacts"] + work["plate"], pull - sum(work.values())))])
+    tables.of_page(out, "leverage_work", ["body", "knot", "pull", "rows of Eq. 6", "contacts and head plate", "left to bending, limits, muscles"], rows)
 
 
-def points(runs: list[Run], body: str, knot: str, kind: str) -> list[tuple[float, float]]:
-    """Value and pull, N, of the runs that pulled, and the mean of the starts."""
-    found = [(float(run.value), run.pull.mean) for run in chosen(runs, body, knot, kind) if run.pull]
-    starts = [run.pull.mean for run in chosen(runs, body, knot, "start") if run.pull]
-    return sorted(found + [(BASE[kind][body], float(np.mean(starts)))] * bool(starts))
-
-
-def sweep_table(runs: list[Run], kind: str, out: Path) -> list[str]:
-    values = sorted({float(run.value) for run in runs if run.kind == kind} | set(BASE[kind].values()))
-    rows = []
-    for body in BASE[kind]:
-        for knot in plots.SCENES.values():
-            there = chosen(runs, body, knot, kind)
-            pulls = dict(points(runs, body, knot, kind))
-            deep = {float(run.value) for run in there if run.deep}
-            failed = {float(run.value): run.outcome for run in there if not run.pull}
-            cells = [f"{pulls[v]:.3f}" + "*" * (v in deep) if v in pulls else failed.get(v, "") for v in values]
-            rows.append([BODIES[body], knot, *cells])
-    return tables.of_page(out, f"leverage_{kind}", ["body", "knot", *(f"{v:g}" for v in values)], rows)
-
-
-def summary_table(runs: list[Run], out: Path) -> list[str]:
+def changes_table(runs: list[Run], out: Path) -> None:
     """What each change makes of the pull, over that of the starts: the least and the largest of the knots that pulled."""
     rows = []
     for kind, label in SWEEPS.items():
-        for body in BASE[kind]:
-            for value in sorted({float(run.value) for run in runs if run.kind == kind and run.body == body}):
-                ratios = []
-                for knot in plots.SCENES.values():
-                    starts = [run.pull.mean for run in chosen(runs, body, knot, "start") if run.pull]
-                    ratios += [run.pull.mean / np.mean(starts) for run in chosen(runs, body, knot, kind) if run.pull and starts and float(run.value) == value]
-                rows.append([f"{label}: {value:g}", BODIES[body], f"{len(ratios)} of {len(plots.SCENES)}",
-                             f"{min(ratios):.2f} to {max(ratios):.2f}" if ratios else ""])
-    return tables.of_page(out, "leverage_changes", ["what is changed", "body", "pulled", "pull, over that of the starts"], rows)
+        for value in sorted({float(run.value) for run in runs if run.kind == kind}):
+            cells = []
+            for body in BODIES:
+                there = [run for run in runs if (run.kind, run.body, float(run.value)) == (kind, body, value)]
+                ratios = [pull.mean / np.mean([start.mean for start in starts]) for run in there for pull in pulls_of([run])
+                          if (starts := pulls_of(chosen(runs, body, run.knot, "start")))]
+                cells += [f"{len(ratios)} of {len(there)}" if there else "", " to ".join(dict.fromkeys(f"{ratio:.2f}" for ratio in (min(ratios), max(ratios)))) if ratios else ""]
+            rows.append([f"{label}: {value:g}", *cells])
+    tables.of_page(out, "leverage_changes", ["what is changed", *(f"{label}: {what}" for label in BODIES.values() for what in ("pulled", "pull, over that of the starts"))], rows)
 
 
 def csv_row(run: Run) -> list[str | float]:
@@ -152,22 +124,17 @@ def csv_row(run: Run) -> list[str | float]:
             p.mean / torque, p.estimate, *map(float, p.turn.mean(axis=0)), run.overlap, deep]
 
 
-def main(folder: Path, out: Path, page: Path) -> None:
+def main(folder: Path, out: Path) -> None:
     runs = [read_run(path) for path in sorted(folder.glob("*-*-*-*-*.check.csv"))]
     if not any(run.pull for run in runs):
         raise LogError(f"{folder}: holds no run that pulled")
-    (page.parent / "tables").mkdir(parents=True, exist_ok=True)
-    table = page.parent / "tables/leverage_runs.csv"
+    starts_table(runs, out)
+    work_table(runs, folder, out)
+    changes_table(runs, out)
+    table = out / "tables/leverage_runs.csv"
     tables.write_csv(table, HEAD, [csv_row(run) for run in runs])
-    picture.draw(tables.read_csv(table, HEAD), out)
-    note = "Pulls in N, means over the settled pull; ± is the standard deviation over starts; * overlaps too deep for its scene."
-    lines = ["# Leverage", "", note, "", *starts_table(runs, page.parent)]
-    lines += ["## Work, N cm for each cm that the head is drawn in", "", *work_table(folder, page.parent)]
-    lines += ["## Each change", "", *summary_table(runs, page.parent)]
-    for kind, label in SWEEPS.items():
-        lines += [f"## By {label}", "", *sweep_table(runs, kind, page.parent)]
-    tables.write_page(page, lines)
+    picture.draw(tables.read_csv(table, HEAD), out / "leverage.png")
 
 
 if __name__ == "__main__":
-    run_script(__doc__, ["RUNS", "OUT.png", "OUT.md"], main)
+    run_script(__doc__, ["RUNS", "OUT_FOLDER"], main)

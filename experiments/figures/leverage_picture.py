@@ -32,9 +32,9 @@ BESIDE = 0.012  # of a panel's width: knots at one value
 Runs = list[dict[str, str]]
 
 
-def chosen(runs: Runs, body: str, knot: str, kind: str) -> Runs:
-    """Of those that pulled."""
-    return [run for run in runs if run["pull_N"] and (run["body"], run["knot"], run["kind"]) == (body, knot, kind)]
+def chosen(runs: Runs, body: str, knot: str, kind: str, deep: bool = False) -> Runs:
+    """Of those that pulled; with `deep` also those whose strands are too deep in each other."""
+    return [run for run in runs if run["pull_N"] and (deep or run["too_deep"] != "yes") and (run["body"], run["knot"], run["kind"]) == (body, knot, kind)]
 
 
 def pulls(runs: Runs) -> np.ndarray:
@@ -53,7 +53,7 @@ def draw_starts(axes: plots.plt.Axes, runs: Runs, body: str, knot: str, at: floa
     if not starts.size:
         return
     mean, fill = starts.mean(), look.colour if body == "living" else "white"
-    mesh = np.r_[mean, *(pulls([run for run in chosen(runs, body, knot, kind) if run["too_deep"] != "yes"]) for kind in MESH)]
+    mesh = np.r_[mean, *(pulls(chosen(runs, body, knot, kind)) for kind in MESH)]
     axes.plot([at, at], [mesh.min(), mesh.max()], color=look.colour, lw=0.7, zorder=1)
     axes.errorbar(at, mean, starts.std(ddof=1) if starts.size > 1 else 0, color=look.colour, marker=look.marker, ms=5.5, mfc=fill, elinewidth=2.2, capsize=3)
 
@@ -66,7 +66,7 @@ def draw_sweep(axes: plots.plt.Axes, runs: Runs, kind: str, scale: float = 1, lo
         by = BESIDE * (k - 1.5) * wide
         moved = lambda value, by=by: scale * (value * np.exp(by) if log else value + by)
         for body, base in BASE[kind].items():
-            for run in chosen(runs, body, knot, kind):
+            for run in chosen(runs, body, knot, kind, deep=kind == "cap"):
                 axes.plot(moved(float(run["value"])), float(run["pull_N"]), **style(run))
             draw_starts(axes, runs, body, knot, moved(base))
 
@@ -77,20 +77,20 @@ def draw(runs: Runs, out: Path) -> None:
         "stiffness of the body", "girth", "time step"])
     draw_sweep(axes[0], runs, "cap", 1 / NEWTON)
     axes[0].axhline(TOOTH_MUSCLE, color=plots.GREY, ls=":", lw=1)
-    axes[0].text(2.4, TOOTH_MUSCLE * 1.1, "tooth muscle, 16 N", fontsize=7, color=plots.GREY, va="bottom", ha="right")
-    axes[0].set(xscale="log", yscale="log", xlim=(0.008, 2.6), ylim=(0.01, 40), ylabel="pull, N",
+    axes[0].text(0.008, TOOTH_MUSCLE * 1.1, "tooth muscle, 16 N", fontsize=7, color=plots.GREY, va="bottom")
+    axes[0].set(xscale="log", yscale="log", xlim=(0.007, 3), ylim=(0.01, 40), ylabel="pull, N",
                 xlabel="largest force of each of the four rows, N")
     for run in runs:
-        if run["pull_N"]:
+        if run["pull_N"] and run["too_deep"] != "yes":
             for panel, across in ((axes[1], "torque_mean_N_cm"), (axes[2], "estimate_N")):
                 panel.plot(float(run[across]), float(run["pull_N"]), **style(run) | {"ms": 3.5})
     axes[1].axvline(CAPACITY, color=plots.GREY, ls="--", lw=0.8)
-    axes[1].text(CAPACITY, 0.004, " a guess at\n the capacity", fontsize=7, color=plots.GREY)
-    axes[1].set(xscale="log", yscale="log", xlabel="largest torque of a joint, N cm", ylabel="pull, N", ylim=(0.003, None))
-    ends = [0.01, 5]
+    axes[1].text(CAPACITY, 0.018, " a guess at\n the capacity", fontsize=7, color=plots.GREY)
+    axes[1].set(xscale="log", yscale="log", xlabel="largest torque of a joint, N cm", ylabel="pull, N", ylim=(0.015, None))
+    ends = [0.02, 4]
     axes[2].plot(ends, ends, color=plots.GREY, lw=0.8, ls="--")
     axes[2].text(1.6, 2.2, "rope", fontsize=7, color=plots.GREY, rotation=45)
-    axes[2].set(xscale="log", yscale="log", xlabel="estimate, sum of λ (1 - cos θ) / h, N", ylabel="pull, N", ylim=(0.003, None))
+    axes[2].set(xscale="log", yscale="log", xlabel="estimate, sum of λ (1 - cos θ) / h, N", ylabel="pull, N", ylim=(0.015, None))
     draw_sweep(axes[3], runs, "stiffness")
     axes[3].set(xscale="log", xlabel=SWEEPS["stiffness"], ylabel="pull, N", ylim=(0, None))
     draw_sweep(axes[4], runs, "girth", log=False)
@@ -100,7 +100,7 @@ def draw(runs: Runs, out: Path) -> None:
     plots.plain_ticks(axes[5].xaxis, [2, 5, 10])
     handles = [axes[0].plot([], [], label=look.label, ls="", **look.style)[0] for look in plots.KNOTS.values()]
     handles += [axes[0].plot([], [], color=plots.INK, marker=marker, mfc=fill, ls="", label=label)[0]
-                for marker, fill, label in (("o", plots.INK, "living body"), ("o", "white", "Table 1 body"), ("x", plots.INK, "overlaps too deep"))]
+                for marker, fill, label in (("o", plots.INK, "living body"), ("o", "white", "Table 1 body"), ("x", plots.INK, "overlaps too deep, in (a) alone"))]
     handles.append(axes[0].errorbar([], [], [], color=plots.INK, elinewidth=2.2, capsize=3, ls="", label="starts: standard deviation"))
     handles += axes[0].plot([], [], color=plots.INK, lw=0.7, label="steps of 2 and 10 ms, 60 and 150 bodies")
     plots.legend_above(figure, handles, 5, 0.075)

@@ -14,7 +14,7 @@ from hagfish_log import HagfishLog
 from pulls import Strand, read_pull, read_strand, settled
 from script import run_script
 
-SHOWN = {"3_1": "plain-table1-overhand-0-1", "4_1": "plain-table1-figure_eight-0-1", "4_1 living": "plain-living-figure_eight-0-1"}
+SHOWN = {"3_1": "plain-table1-overhand-0-0", "4_1": "plain-table1-figure_eight-0-0", "4_1 living": "plain-living-figure_eight-0-0"}
 
 
 def draw_pulley(axes: plots.plt.Axes) -> None:
@@ -61,7 +61,7 @@ def main(folder: Path, out: Path) -> None:
     for panel, name in zip(axes[1:], SHOWN.values(), strict=True):
         log = HagfishLog(folder / f"{name}.h5")
         draw_strand(panel, read_strand(log), log)
-    axes[1].legend()
+    axes[1].legend(loc="center right")
     plots.save(figure, out)
 
 

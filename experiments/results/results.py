@@ -11,6 +11,8 @@ A block begins with one of these lines and ends with `<!-- end -->`:
     <!-- table: FILE.csv -->             the table; `; rows: WORDS; WORDS` picks the rows whose first cell has the words
     <!-- stamp: NAME -->                 when, where and by what the page's tables were made
     <!-- index -->                       a row a page
+A figure in a sentence stands between <!-- of: FILE.csv; COLUMN; WORDS --> and <!-- end -->: the cell of the row whose cells have
+the words (several with + between), or, of several rows, the least to the largest of their first numbers. Without words, of all rows.
 """
 
 from __future__ import annotations
@@ -31,6 +33,7 @@ RESULTS = ROOT / "experiments" / "results"
 FIGURES = ROOT / "experiments" / "figures"
 CODE = ("core", "solvers", "mujoco_ref", "data")  # what moves the animal: a change there may change figures
 BLOCK = re.compile(r"<!-- (table|stamp|index)(?:: ([^;>]+?))?(?:; rows: ([^>]+?))? -->\n(?:.*?\n)??<!-- end -->", re.DOTALL)
+VALUE = re.compile(r"(<!-- of: ([^;>]+); ([^;>]+?)(?:; ([^>]+?))? -->).*?(<!-- end -->)")
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 NAME = re.compile(r"\b\d_\d\b")  # of a knot, which is no number
 ROUNDING = 1e-5  # figures below are rounding errors, of which the order of magnitude counts
@@ -62,6 +65,18 @@ class Table:
         if len(found) != 1:
             raise ResultsError(f"{len(found)} rows have {words!r} in their first cell")
         return found[0]
+
+    def value(self, column: str, words: list[str]) -> str:
+        """The cell of the only row that has all of the words, or the range of the numbers of several."""
+        if column not in self.head:
+            raise ResultsError(f"no column {column!r}")
+        cells = [row[self.head.index(column)] for row in self.rows if all(any(word in cell for cell in row) for word in words)]
+        numbers = sorted((found[0] for cell in cells if (found := NUMBER.search(cell))), key=float)
+        if not numbers:
+            raise ResultsError(f"no number of {column!r} in rows with {words}")
+        if len(cells) == 1:
+            return cells[0]
+        return numbers[0] if numbers[0] == numbers[-1] else f"{numbers[0]} to {numbers[-1]}"
 
 
 def read(path: Path) -> Table:
@@ -150,7 +165,14 @@ def rendered(path: Path) -> str:
             except ResultsError as error:
                 raise ResultsError(f"{path.name}: {what}: {error}") from None
         return "\n".join([first, *lines, "<!-- end -->"])
-    return BLOCK.sub(block, path.read_text(encoding="utf-8"))
+
+    def value(match: re.Match[str]) -> str:
+        try:
+            words = match[4].split(" + ") if match[4] else []
+            return f"{match[1]}{read(path.parent / match[2]).value(match[3], words)}{match[5]}"
+        except ResultsError as error:
+            raise ResultsError(f"{path.name}: {match[2]}: {error}") from None
+    return VALUE.sub(value, BLOCK.sub(block, path.read_text(encoding="utf-8")))
 
 
 def documents() -> list[Path]:

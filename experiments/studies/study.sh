@@ -54,7 +54,7 @@ timed_run() {
 job() {
   local -a fields
   IFS=$'\t' read -ra fields <<<"$1"
-  "${fields[@]}"
+  "${fields[@]}" || return # parallel ends the study
   [[ -t 2 ]] || echo "$PARALLEL_SEQ of $jobs: ${fields[1]}"
 }
 export -f timed_run job

@@ -24,7 +24,8 @@ def test_each_table_is_its_csv(path):
 
 @pytest.mark.parametrize("name", OWN)
 def test_prose_has_no_figure_by_hand(name):
-    for paragraph in paragraphs((results.RESULTS / f"{name}.md").read_text(encoding="utf-8")):
+    text = (results.RESULTS / f"{name}.md").read_text(encoding="utf-8")
+    for paragraph in paragraphs(results.VALUE.sub("figure", text)):
         words = NO_FIGURE.sub("", plain(paragraph))
         assert not re.search(r"\d", words), paragraph
 
@@ -103,6 +104,22 @@ def house(tmp_path, monkeypatch):
     git("add", ".")
     git("commit", "-qm", "one")
     return tmp_path
+
+
+def test_a_figure_in_a_sentence_is_a_cell_of_its_table(house):
+    page = house / "experiments/results/p.md"
+    (house / "experiments/results/p.csv").write_text("a,b,c\nx,u,1.50 ± 0.1\nx,v,-2 (few)\ny,v,7\n")
+
+    def said(of):
+        page.write_text(f"By <!-- of: p.csv; {of} -->9<!-- end --> N.\n")
+        return results.rendered(page)
+
+    assert "-->1.50 ± 0.1<!--" in said("c; x + u")
+    assert "-->-2 to 1.50<!--" in said("c; x")
+    assert "-->-2 to 7<!--" in said("c")
+    for of, why in (("d; x", "p.md: p.csv: no column 'd'"), ("c; z", "no number of 'c' in rows with")):
+        with pytest.raises(results.ResultsError, match=why):
+            said(of)
 
 
 @pytest.mark.skipif(shutil.which("git") is None, reason="needs git")

@@ -63,10 +63,12 @@ class Pulled:
 
 
 def test_what_changes_a_pull(tmp_path):
-    run = lambda kind, value, seed, mean: leverage.Run(kind, "living", "3_1", value, seed, "pulled" if mean else "knot lost", Pulled(mean) if mean else None, 0, False)
-    runs = [run("start", "0", 1, 0.2), run("start", "0", 2, 0.4), run("speed", "4", 1, 0.6), run("speed", "0.5", 1, None)]
-    leverage.summary_table(runs, tmp_path)
-    assert read(tmp_path, "leverage_changes")[1:] == [["commanded speed, cm/s: 0.5", "living", "0 of 4", ""], ["commanded speed, cm/s: 4", "living", "1 of 4", "2.00 to 2.00"]]
+    run = lambda kind, value, seed, mean, deep=False: leverage.Run(kind, "living", "3_1", value, seed, "pulled" if mean else "knot lost", Pulled(mean) if mean else None, 0, deep)
+    runs = [run("start", "0", 1, 0.2), run("start", "0", 2, 0.4), run("start", "0", 3, 90, True), run("speed", "4", 1, 0.6), run("speed", "0.5", 1, None),
+            run("speed", "8", 1, 50, True)]
+    leverage.changes_table(runs, tmp_path)
+    rows = {row[0]: row[3:] for row in read(tmp_path, "leverage_changes")[1:]}
+    assert rows == {"commanded speed, cm/s: 0.5": ["0 of 1", ""], "commanded speed, cm/s: 4": ["1 of 1", "2.00"], "commanded speed, cm/s: 8": ["0 of 1", ""]}
 
 
 class Swept:
