@@ -57,7 +57,7 @@ def draw(points: list[Point], out: Path) -> None:
     handles = {label: handle for handle, label in zip(*panels[0, 0].get_legend_handles_labels())}
     plots.legend_above(figure, list(handles.values()), len(handles), 0.07, title="a point is one start; numbers found each")
     panels[0, 0].text(0.97, ENOUGH - 0.02, f"all the way: {ENOUGH:g}", transform=panels[0, 0].get_yaxis_transform(), ha="right", va="top", fontsize=7, color=plots.GREY)
-    panels[2, 3].text(0.97, 0.04, "none where they do not\nslide all the way", transform=panels[2, 3].transAxes, ha="right", va="bottom", fontsize=7, color=plots.GREY)
+    panels[2, 3].text(0.97, 0.96, "none where they do not\nslide all the way", transform=panels[2, 3].transAxes, ha="right", va="top", fontsize=7, color=plots.GREY)
     plots.save(figure, out)
 
 
