@@ -11,6 +11,9 @@ const QUANTITIES = { // name: what the colours mean, where along the body
 const ENERGY = ["kinetic_energy", "elastic_energy", "work_tip", "work_active", "work_thigmotaxis", "dissipated"];
 const LARGE_SHARE = 0.99; // of positive values are within the scale of the colours
 const REDRAW = 400; // ms between two drawings of the plots while the scene runs
+// Where the processor draws, it also steps: a picture that takes longer than LONG (ms) is followed by a rest of so many times that, unless the
+// scene keeps up with its speed.
+const LONG = 60, REST = 3, LONGEST_REST = 1000;
 
 /** Numbers that grow in number: `values` is those so far. */
 class Growing {
@@ -123,6 +126,7 @@ class LiveViewer extends Viewer {
     this.following = true;
     this.drawn = 0;
     this.pictures = 0;
+    this.orbit.addEventListener("start", () => { this.turned = true; });
     element("speed").addEventListener("change", () => this.setSpeed());
     this.addPull();
   }
@@ -180,16 +184,39 @@ class LiveViewer extends Viewer {
   }
 
   /** More frames have come. */
-  grow() {
+  grow(behind = false) {
     const [log] = this.logs;
     this.last = log.last();
     element("scrub").max = log.frames - 1;
     this.bodies[0].measure();
-    if (this.fresh) { this.fresh = false; this.resetView(); }
+    if (this.fresh || !(this.turned || this.inSight())) this.resetView();
+    this.fresh = false;
     if (this.following) this.time = this.last;
+    const slow = behind && this.took > LONG;
+    if (!slow) this.drawSoon();
+    else if (!this.rest) this.rest = setTimeout(() => this.drawSoon(), Math.min(REST * this.took, LONGEST_REST));
+  }
+
+  drawSoon() {
+    clearTimeout(this.rest);
+    this.rest = 0;
     if (this.waiting) return;
     this.waiting = true;
     requestAnimationFrame(() => { this.waiting = false; this.showNow(); });
+  }
+
+  /** Whether the whole animal is, with its skin, in its last frame. */
+  inSight() {
+    const [log] = this.logs, perCm = 1 / Math.tan(Math.PI / 180 * this.camera.fov / 2);
+    return log.animal.radius.every((radius, body) => {
+      const place = this.centre(body), high = radius * perCm / place.distanceTo(this.camera.position), { x, y } = place.project(this.camera);
+      return Math.abs(x) + high / this.camera.aspect <= 1 && Math.abs(y) + high <= 1;
+    });
+  }
+
+  resetView() {
+    super.resetView();
+    this.turned = false;
   }
 
   /** Draws what there is: the body each time, the plots as often as leaves time for it. A scene that has only begun has nothing. */
@@ -207,7 +234,15 @@ class LiveViewer extends Viewer {
     this.cost = this.drawn - begin;
   }
 
-  render() { super.render(); ++this.pictures; }
+  recolour() { if (this.logs[0].frames) super.recolour(); }
+
+  /** Draws, and takes note of the time until the next picture could be: the drawing itself goes on elsewhere. */
+  render() {
+    const begin = performance.now();
+    super.render();
+    ++this.pictures;
+    requestAnimationFrame(() => requestAnimationFrame(() => { this.took = performance.now() - begin; }));
+  }
 
   words() {
     const [log] = this.logs, f = this.shown[0], hand = Math.hypot(log.hand[3 * f], log.hand[3 * f + 1], log.hand[3 * f + 2]);

@@ -130,6 +130,9 @@ class Page {
       this.log = new LiveLog(data);
     }
     this.viewer.running = false;
+    // Of an animal without muscles, what the paper shows.
+    if (this.name !== this.coloured) element("colour").value = number(this.values["active.stiffness"]) > 0 ? "active" : "thigmotaxis";
+    this.coloured = this.name;
     this.viewer.adopt(this.log);
     this.viewer.strength = number(this.values["controller.cap"]);
     this.viewer.setSpeed();
@@ -167,7 +170,7 @@ class Page {
     this.digest = data.digest;
     this.over = data.over;
     if (data.warnings) this.say(data.warnings.trim().split("\n").pop());
-    this.viewer.grow();
+    this.viewer.grow(data.behind);
     if (this.log.frames > MOST_FRAMES) {
       this.ask({ kind: "play", on: false });
       this.say(`${MOST_FRAMES} frames are kept, and no more: save what you need, and restart`);

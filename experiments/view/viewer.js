@@ -13,7 +13,8 @@ class Viewer {
     this.last = Math.max(...logs.map((log) => log.time[log.frames - 1]));
     const two = logs.length > 1;
     this.renderer = new THREE.WebGLRenderer({ canvas: element("scene"), antialias: true });
-    this.renderer.setClearColor(getComputedStyle(document.documentElement).getPropertyValue("--stage").trim());
+    this.setBackground();
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => { this.setBackground(); this.ask(); });
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
     this.camera = new THREE.PerspectiveCamera(30, 1, 0.5, 2000);
     this.camera.up.set(0, 0, 1);
@@ -39,6 +40,9 @@ class Viewer {
     this.resize();
     window.addEventListener("resize", () => this.resize());
   }
+
+  /** The stage's colour, light or dark. */
+  setBackground() { this.renderer.setClearColor(getComputedStyle(document.documentElement).getPropertyValue("--stage").trim()); }
 
   emptyScene() {
     const scene = new THREE.Scene();
@@ -78,8 +82,10 @@ class Viewer {
     for (const [kind, words] of Object.entries(ARROW_WORDS)) {
       if (!this.bodies.some((body) => body.largest[kind] > 1e-6)) continue;
       const line = element("arrow-words").appendChild(document.createElement("div"));
-      line.textContent = "→ " + words;
-      line.style.color = "#" + ARROWS[kind].toString(16).padStart(6, "0");
+      const arrow = line.appendChild(document.createElement("b"));
+      arrow.textContent = "→ ";
+      arrow.style.color = "#" + ARROWS[kind].toString(16).padStart(6, "0");
+      line.append(words);
     }
   }
 
@@ -120,7 +126,7 @@ class Viewer {
 
   /** The whole of what the animals do in sight, from the side and above. */
   resetView() {
-    const toward = new THREE.Vector3(-0.12, -0.62, 0.78).normalize(), skin = 1.2;
+    const toward = new THREE.Vector3(-0.12, -0.62, 0.78).normalize(), skin = 0.3 + d3.max(this.logs, (log) => d3.max(log.animal.radius));
     const right = new THREE.Vector3().crossVectors(this.camera.up, toward).normalize(), up = new THREE.Vector3().crossVectors(toward, right);
     const points = [], place = (axis, p) => p.dot(axis);
     for (const log of this.logs) {
@@ -139,6 +145,7 @@ class Viewer {
     const away = d3.max(points, (p) => place(toward, p) - z + Math.max((Math.abs(place(right, p) - x) + skin) / wide, (Math.abs(place(up, p) - y) + skin) / half));
     this.camera.position.copy(this.orbit.target).addScaledVector(toward, away);
     this.orbit.update();
+    this.camera.updateMatrixWorld(); // what asks where bodies are seen may come before the next picture
     this.ask();
   }
 

@@ -262,6 +262,27 @@ def test_a_thousand_random_inputs_never_break_it(page):
     page.until("log.last() > 0.2", "it is broken")
 
 
+def test_the_whole_animal_stays_in_view_until_the_view_is_turned(page):
+    seen = """Math.max(...Array.from({ length: page.log.position.length / 3 }, (_, b) => {
+      const at = new THREE.Vector3(...page.log.position.subarray(3 * b, 3 * b + 3)).project(viewer.camera);
+      return Math.max(Math.abs(at.x), Math.abs(at.y));
+    }))"""
+    page.call("Emulation.setDeviceMetricsOverride", width=1400, height=850, deviceScaleFactor=1, mobile=False)
+    page.start("table1", ["time.duration=10"])
+    page.until("page.over", "the run does not end")
+    assert page.run(seen) < 1
+    page.start("table1", ["time.duration=10"], speed=1)
+    page.run("viewer.orbit.dispatchEvent({ type: 'start' }), page.ask({ kind: 'speed', value: 1000 })")
+    page.until("page.over", "the run does not end")
+    assert page.run(seen) > 1
+
+
+def test_the_stage_is_light_or_dark_as_the_page_is(page):
+    for theme in ["dark", "light"]:
+        page.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": theme}])
+        page.wait("getComputedStyle(element('stage')).backgroundColor === viewer.renderer.getClearColor().getStyle().replaceAll(',', ', ')", theme)
+
+
 @pytest.mark.parametrize("width", [1400, 400])
 def test_nothing_is_cut_off(page, width):
     page.call("Emulation.setDeviceMetricsOverride", width=width, height=850, deviceScaleFactor=1, mobile=False)
