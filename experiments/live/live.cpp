@@ -1,5 +1,5 @@
 // The simulator for a browser: functions that a page calls in WebAssembly. A text goes in by
-// live_text() and is used by the call that follows; what comes out is read from memory. An error
+// live_text() and is used by the calls that follow; what comes out is read from memory. An error
 // ends the instance: it is handed over as one line (live_failed), and nothing may be called after.
 #include <algorithm>
 #include <cstdlib>

@@ -1,6 +1,8 @@
 "use strict";
 // The simulator in WebAssembly: an instance of it for one scene after another. Also run by node (digest.mjs).
 
+const encoder = new TextEncoder();
+
 /** What a scene is made of: { name, text, files: { name: text }, set: ["KEY=VALUE"] }. */
 class Simulator {
   /** An instance of a compiled module. `clock` gives seconds. */
@@ -33,7 +35,7 @@ class Simulator {
 
   /** Calls `live_name` with a text, which may be empty. */
   give(name, text) {
-    const bytes = new TextEncoder().encode(text);
+    const bytes = encoder.encode(text);
     const at = this.calls.live_text(bytes.length);
     new Uint8Array(this.memory.buffer, at, bytes.length).set(bytes);
     return this.calls["live_" + name]();
@@ -66,7 +68,7 @@ class Simulator {
   /** A view of an array, good until the next call. */
   array(name) {
     const at = this.give("array", name);
-    return new Float64Array(this.memory.buffer, at, this.give("array_size", name));
+    return new Float64Array(this.memory.buffer, at, this.calls.live_array_size());
   }
 }
 

@@ -9,10 +9,12 @@ const SLICE = 0.02; // s for which it steps before it looks at what the page ask
 const BATCH = 8; // steps between two looks at the clock
 const LONG_FRAME = 1000; // steps to the next frame for which a change does not wait
 const PICTURE = 1 / 60; // s from one picture to the next: at low speeds, frames come as often
+const next = new MessageChannel(); // a timer of no time waits 4 ms all the same
+next.port1.onmessage = ({ data }) => { if (data === turn) loop(); };
 const clock = () => performance.now() / 1e3;
 
 let compiled, runner, checker, scene, digest;
-let playing = false, over = false, speed = 1, due = 0, before = 0, taken = 0, timer = 0;
+let playing = false, over = false, behind = false, speed = 1, due = 0, before = 0, taken = 0, timer = 0, turn = 0;
 let sent = false; // and the page has not taken it yet
 let rows = [], contacts = [], counts = [], names = {};
 
@@ -23,10 +25,10 @@ function takeFrame() {
   runner.calls.live_frame();
   over = runner.array("over")[0] > 0;
   if (taken % stepsPerFrame() === 0) digest.add(runner.array("q"));
-  for (const name of SENT) rows.push(Float32Array.from(runner.array(name)));
+  for (const name of SENT) rows.push(new Float32Array(runner.array(name)));
   const type = Array.from(runner.array("knot"));
   if (!names[type.join()]) names[type.join()] = runner.text("knot_name", ...type);
-  const own = Float32Array.from(runner.array("contacts"));
+  const own = new Float32Array(runner.array("contacts"));
   contacts.push(own);
   counts.push(own.length / 9);
 }
@@ -43,7 +45,7 @@ function send(ended = false) {
   if (!counts.length || (sent && !ended)) return;
   sent = true;
   const frames = joined(rows), touching = joined(contacts), warnings = ended ? "" : runner.text("warnings");
-  postMessage({ kind: "frames", count: counts.length, frames, touching, counts, names, digest: digest.text(), over, warnings }, [frames.buffer, touching.buffer]);
+  postMessage({ kind: "frames", count: counts.length, frames, touching, counts, names, digest: digest.text(), over, behind, warnings }, [frames.buffer, touching.buffer]);
   rows = []; contacts = []; counts = [];
 }
 
@@ -128,7 +130,9 @@ function loop() {
   try {
     const now = clock(), [step] = runner.array("clock");
     // What cannot be kept up with is left out.
-    due = Math.min(due + (now - before) * speed, speed * 0.1 + 0.02);
+    due += (now - before) * speed;
+    behind = due > speed * 0.1 + 0.02;
+    if (behind) due = speed * 0.1 + 0.02;
     before = now;
     const whole = stepsPerFrame(), most = Math.max(1, Math.min(whole, Math.round(speed * PICTURE / step)));
     while (due >= step && clock() - now < SLICE && !over) {
@@ -139,7 +143,8 @@ function loop() {
     }
     send();
     if (over) { play(false); return; }
-    timer = setTimeout(loop, due >= step * most ? 0 : 1e3 * PICTURE / 2);
+    if (due >= step * most) next.port2.postMessage(turn);
+    else timer = setTimeout(loop, 1e3 * PICTURE / 2);
   } catch (error) { fail(error); }
 }
 
@@ -147,6 +152,8 @@ function play(on) {
   playing = on && runner && !over;
   if (timer) clearTimeout(timer);
   timer = 0;
+  ++turn;
+  behind = false;
   postMessage({ kind: "playing", on: Boolean(playing) });
   if (playing) { before = clock(); due = 0; timer = setTimeout(loop, 0); }
 }
