@@ -27,7 +27,7 @@ class Plot {
     this.reading = words.append("span").attr("class", "reading");
     this.names = box.append("div").attr("class", "line-names");
     const drawing = box.append("div").attr("class", "drawing").style("height", height + TOP + BOTTOM + "px");
-    this.height = height;
+    Object.assign(this, { box, height });
     this.canvas = drawing.append("canvas").node();
     this.svg = drawing.append("svg");
     this.inside = this.svg.append("g").attr("transform", `translate(${LEFT},${TOP})`);
@@ -137,6 +137,7 @@ class Plots {
     const speeds = this.logs.map((log) => EQ6.map((row, k) => ({ name: row, values: column(log.eq6.speed, 4, k) })));
     const before = (lists) => this.logs.flatMap((log, k) => lists[k].map((values) => untilRelease(log, Array.from(values))));
     this.eq6.scale(rangeOf([...before(speeds.map((own) => own.map((s) => s.values))), ...this.logs.map((log) => log.eq6.command)]), "cm/s", 4);
+    this.eq6.box.style("display", this.logs.some((log) => log.eq6.speed.some(Number.isFinite)) ? "" : "none");
     this.logs.forEach((log, k) => {
       this.eq6.lines(log, speeds[k], k > 0);
       this.eq6.lines(log, EQ6.map((row, i) => ({ name: row, values: column(log.eq6.command, 4, i) })), true);
