@@ -197,7 +197,22 @@ std::optional<Finding> commanded_speed(const LogContents& log) {
                                         criterion.value, rows, criterion.bound));
 }
 
-/// The head's end comes back through the plane expect.out_of, and until then the knot is tied.
+/// Whether the animal itself let go of what holds its head, before a frame: it pulled for as long
+/// as food.hold says. What gives ends the pull earlier.
+bool let_go(const LogContents& log, std::size_t before) {
+  double first = log.time[before];
+  double last = first;
+  for (std::size_t f = before; f-- > 0;) {
+    if (phase_at(log, f) != Phase::pull) continue;
+    if (last == log.time[before]) last = log.time[f];
+    first = log.time[f];
+  }
+  const Scene& scene = log.resolved.scene;
+  return scene.food.hold > 0 && last - first > scene.food.hold - 2 * scene.time.frame_interval;
+}
+
+/// The head's end comes back through the plane expect.out_of. Until then the knot is tied, and the
+/// animal does not let go of what holds its head.
 Finding head_out(const LogContents& log, const std::vector<std::string>& type) {
   const ExpectSettings& expect = log.resolved.scene.expect;
   const auto plane = std::ranges::find(log.model.obstacles, expect.out_of, &Obstacle::name);
@@ -209,11 +224,12 @@ Finding head_out(const LogContents& log, const std::vector<std::string>& type) {
     const bool tied = type[f] == expect.knot;
     if (was_in && phase_order(phase_at(log, f)) > phase_order(Phase::form) &&
         (before > 0 || !tied)) {
+      const bool of_itself = let_go(log, f);
       return {"head out",
-              tied,
-              fmt::format("{} at {:.2f} s, with a {}; its end is {:.2f} cm in front of the {}",
-                          tied ? "it came" : "the knot was gone", log.time[f], type[f], before,
-                          expect.out_of),
+              tied && !of_itself,
+              fmt::format("{} at {:.2f} s, with a {}{}; its end is {:.2f} cm in front of the {}",
+                          tied ? "it came" : "the knot was gone", log.time[f], type[f],
+                          of_itself ? ", after the animal had let go" : "", before, expect.out_of),
               fmt::format("{}", before),
               "0",
               "cm"};

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/input/scene_reader.hpp"
 #include "core/log/hdf5_error.hpp"
 #include "experiments/audit/audit.hpp"
 #include "experiments/audit/logged_contacts.hpp"
@@ -87,6 +88,17 @@ TEST(AuditOfAHole, AHeadThatStaysInIsNotOut) {
   };
   EXPECT_TRUE(objects("face"));
   EXPECT_FALSE(objects(""));
+}
+
+TEST(AuditOfAHole, AHeadThatTheAnimalLetGoOfWasNotPulledOut) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder / "log.h5";
+  const auto objections = [&](const std::string& hold) {
+    write_log(file, read_scene(HAGFISH_DATA_DIR "/reflex_hole_overhand.toml", {hold}));
+    return audit_objections(file);
+  };
+  EXPECT_EQ(objections("food.hold=30"), "");
+  EXPECT_NE(objections("food.hold=0.3").find("after the animal had let go"), std::string::npos);
 }
 
 }  // namespace hagfish::audit_obstacles_test
