@@ -24,7 +24,7 @@ constexpr double largest_share_off = 0.2;
 /// segments of the spline. A search that sees a minimum late may make them others, at up to this
 /// share of the frames.
 constexpr double found_tolerance = 1e-5;
-constexpr double largest_share_late = 0.02;
+constexpr double largest_share_late = 0.005;
 /// Figures that are nothing but rounding have no scale of their own, cm and rad.
 constexpr double nothing_but_rounding = 1e-9;
 

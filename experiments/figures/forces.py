@@ -344,6 +344,8 @@ def page(rows: list[Row], notes: list[str]) -> list[str]:
         "## Why", "",
         "- The first and the last contact are where the gap between strands reaches `controller.contact_gap` (`core/contact/ends.hpp`). "
         f"Such a place moves as the body does. In {len(still)} of {len(usual)} slides no end of the knot hops.",
+        "- Eq. 6 holds in the mean over a patch of contact at either end (`controller.contact_patch`). "
+        "The outermost point alone jumps from strand to strand, and the forces jump with it.",
         "- Where strands run side by side, the two rows of one contact contradict each other by the paper's words. "
         "`controller.eq6_slip = \"shape\"` asks for the slip of a knot that keeps its shape, which can be met at any angle.",
         "- Rows need neither hysteresis nor a bounded acceleration. Both were taken out.", "",

@@ -140,7 +140,9 @@ slip of strands that run along themselves at them (controller.eq6_slip).)")
           [](ThigmotaxisCommand& c, const std::string& name) { c.end = end_called(name); })
       .def_property(
           "slip", [](const ThigmotaxisCommand& c) { return name_of(c.slip); },
-          [](ThigmotaxisCommand& c, const std::string& name) { c.slip = slip_called(name); });
+          [](ThigmotaxisCommand& c, const std::string& name) { c.slip = slip_called(name); },
+          "\"paper\": a and b are asked of the rows; \"shape\": of the strands "
+          "(controller.eq6_slip)");
 
   py::class_<PythonControl>(module, "Control", R"(What the animal does in a step.)")
       .def_property(

@@ -145,7 +145,7 @@ const RuleCell rule_cells[] = {
     {"midpoint", "whip", 0.002},           {"midpoint", "spinning", 0.01},
     {"midpoint", "tight_bend", 0.002},     {"midpoint", "short_bodies", 0.02},
     {"midpoint", "pulled_knot", 0.01},     {"midpoint", "knot_into_head", 0.02},
-    {"midpoint", "parallel", 0.02},        {"midpoint", "table1", 0.02},
+    {"midpoint", "parallel", 0.02},        {"midpoint", "table1", 0.01},
     {"midpoint", "stiff_joints", 0.05},    {"midpoint", "stiff_tip", 0.02},
     {"midpoint", "closing", 0.0005},       {"midpoint", "coil", 0.05},
     {"midpoint", "mass_ratio", 0.05},      {"midpoint", "overlap", 0.05},

@@ -17,6 +17,7 @@ _Law = Callable[[Simulation, Control], object]
 _Phase = Literal["form", "tighten", "slide", "pull", "reverse", "release", "free"]
 _End = Literal["head", "tail"]
 _KnotEnd = Literal["first", "last", "neither"]
+_Slip = Literal["paper", "shape"]
 
 laws: dict[str, str]
 revision: str
@@ -68,6 +69,7 @@ class Command:
     effort: float
     towards: _End
     end: _KnotEnd
+    slip: _Slip
     def __init__(
         self,
         contact: Contact,
@@ -77,6 +79,7 @@ class Command:
         towards: _End = "head",
         effort: float = 1.0,
         end: _KnotEnd = "neither",
+        slip: _Slip = "paper",
     ) -> None: ...
 
 class Control:

@@ -15,7 +15,8 @@ namespace hagfish::thigmotaxis_rows_test {
 class ThigmotaxisRowsTest : public testing::Test {
  protected:
   ResolvedScene resolved = stored_scene({"controller.slide_head.a=0.5", "controller.slide_head.b=1",
-                                         "controller.slide_tail.a=3", "controller.slide_tail.b=4"});
+                                         "controller.slide_tail.a=3", "controller.slide_tail.b=4",
+                                         "controller.contact_patch=0"});
   const Scene& scene = resolved.scene;
   Model model = make_hagfish(resolved.specimen, scene);
   Simulation sim = resume(model, scene, stored_states().at(3));

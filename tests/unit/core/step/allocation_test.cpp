@@ -39,6 +39,7 @@ class Allocation : public testing::Test {
  protected:
   void start(const std::string& name, BendingLimit limit = BendingLimit::box) {
     scene.model.bending_limit = limit;
+    scene.controller.contact_patch = 0;  // over a patch each row of Eq. 6 has a list of its own
     model = make_hagfish(stored_scene().specimen, scene);
     scene.knot.interval = std::numeric_limits<double>::infinity();
     const std::vector<StoredState> states = stored_states();

@@ -121,8 +121,8 @@ const std::map<std::string, std::string>& watchers() {
     watch["/contacts/spline_a"] = "/forces/contact";
     watch["/contacts/spline_b"] = "/forces/contact";
     watch["/contacts/force"] = "/forces/contact";
-    watch["/thigmotaxis/spline_a"] = "/forces/thigmotaxis";
-    watch["/thigmotaxis/spline_b"] = "/forces/thigmotaxis";
+    watch["/thigmotaxis/spline_a"] = "spline_a";
+    watch["/thigmotaxis/spline_b"] = "spline_b";
     watch["/trajectory/q"] = "/trajectory/position";
     watch["/trajectory/qdot"] = "force balance";
     watch["/trajectory/qdot_next"] = "force balance";

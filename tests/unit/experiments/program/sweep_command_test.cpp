@@ -171,7 +171,7 @@ set = ["time.duration=0.12"]
 TEST_F(SweepTest, ARowSaysWhatTheLogSays) {
   folder.write("runs.toml", R"(
 keep = "all"
-set = ["time.step=0.02", "time.frame_interval=0.1", "food.strength=100"]
+set = ["time.step=0.02", "time.frame_interval=0.02", "food.strength=100"]
 [[axis]]
 scene = ["table1", "overhand_reverse", "pull_overhand", "table1"]
 "time.duration" = [25, 25, 25, 5]

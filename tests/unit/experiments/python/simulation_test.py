@@ -67,7 +67,7 @@ def test_a_view_outlives_the_name_of_its_simulation():
 def test_the_knot_its_ends_and_contacts(tied):
     assert (tied.phase, tied.knot) == ("slide", "3_1")
     first, last = tied.first_contact, tied.last_contact
-    assert (tied.head_end, tied.tail_end) == (first.arc_a, last.arc_b)
+    assert first.arc_a < tied.head_end < first.arc_a + 2 < last.arc_b - 2 < tied.tail_end < last.arc_b  # the means over patches, cm
     assert len(tied.contacts) > 3
     for contact in tied.contacts:
         a, b = (tied.position[round(s)] for s in (contact.spline_a, contact.spline_b))
