@@ -1,4 +1,4 @@
-"""Smooth motions: error at the end against CPU time per simulated time, for the core and MuJoCo.
+"""Smooth motions: error at the end against CPU time per simulated time, for the simulator and MuJoCo.
 
 Usage: integration.py RUNS OUT.csv OUT.png (writes a PDF beside), with RUNS/coil.h5, ... of `hagfish integrate`.
 """
@@ -16,11 +16,35 @@ from hagfish_log import Results
 from script import run_script
 
 MOTIONS = ("coil", "hanging", "whip")
+STEPS = (10.0, 2.0, 0.5)  # ms, of the table
+WANTED = 0.01  # cm, an error whose price the table has
 
 
 def steps(results: Results, method: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """h (ms), CPU time per simulated time, and error (cm, infinite where it blew up)."""
     return results[f"/{method}/h"] * 1e3, results[f"/{method}/cost"], results[f"/{method}/error"]
+
+
+def reached(cost: np.ndarray, error: np.ndarray) -> float:
+    """Least CPU time at which the error is WANTED or less, between the steps tried; nan where none comes so near."""
+    known = np.isfinite(error)
+    cost, error = cost[known], error[known]
+    if not error.size or error.min() > WANTED:
+        return np.nan
+    order = np.argsort(error)
+    between = np.exp(np.interp(np.log(WANTED), np.log(error[order]), np.log(cost[order])))
+    return float(min(between, cost[error <= WANTED].min()))
+
+
+def row(results: Results, method: str) -> list[str]:
+    """Of the table: a motion by a method. Order is by the last two of STEPS."""
+    h, cost, error = steps(results, method)
+    at = {step: float(error[np.isclose(h, step)][0]) for step in STEPS}
+    coarse, fine = STEPS[-2:]
+    order = np.log(at[coarse] / at[fine]) / np.log(coarse / fine)
+    price = reached(cost, error)
+    return [results.root("motion"), plots.INTEGRATORS[method].label, *(f"{value:.1e}" if np.isfinite(value) else "blew up" for value in at.values()),
+            f"{order:.1f}" if np.isfinite(order) else "", f"{price:.2g}" if np.isfinite(price) else ""]
 
 
 def draw(axes: Any, results: Results) -> None:
@@ -53,9 +77,8 @@ def main(folder: Path, csv: Path, png: Path) -> None:
     panels[0].set(ylabel="largest error of a body centre at 0.5 s, cm", xlim=(4e-4, 40), ylim=(1e-10, 30))
     panels[0].legend(loc="lower left", bbox_to_anchor=(0, 0.06))
     plots.save(figure, png)
-    tables.write_csv(csv, ["motion", "method", "h_ms", "cpu_per_simulated_time", "error_cm"],
-                     [[motion, method, *map(float, step)] for motion, results in motions.items()
-                      for method in plots.INTEGRATORS for step in zip(*steps(results, method))])
+    tables.write_csv(csv, ["motion", "method", *(f"error at {h:g} ms, cm" for h in STEPS), "order", "CPU time per simulated time for 0.01 cm"],
+                     [row(results, method) for results in motions.values() for method in plots.INTEGRATORS])
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What accuracy costs: smooth motions, QPs, whole runs of the Table 1 scene and the choices of its
-# model, each measured over step, size and method. Leaves CSV, figures and conclusions.md.
+# What accuracy costs while an animal ties itself, by rule, step, bodies and back end; in smooth motions, beside MuJoCo; and what each
+# choice of the Table 1 scene costs and buys. Slides are in contracting.sh. Leaves tables and two figures.
 #   bash experiments/studies/speed_accuracy.sh [OUTPUT_FOLDER]     default: out/speed_accuracy
 # Stopped, it goes on where it was. Times are CPU times; jobs share the machine.
 set -euo pipefail
@@ -9,63 +9,34 @@ source "$(dirname "${BASH_SOURCE[0]}")/study.sh"
 integrate() {
   [[ -e $runs/$1.h5 ]] || "$hagfish" integrate --motion "$1" --out "$runs/$1.h5" --force >"$runs/$1.txt"
 }
-# QPs of every tenth step of a run, solved by each back end down to each tolerance.
-back_ends() {
-  local set=$runs/$1.h5 tolerance
-  local -a tolerances=()
-  for tolerance in 1e-2 1e-4 1e-6 1e-8 1e-10; do tolerances+=(--tolerance "$tolerance"); done
-  [[ -e $runs/$1.csv ]] && return
-  "$hagfish" record-qp table1 --qp active-set --set time.step=0.002 --every 10 --out "$set" --force --quiet >"$runs/$1.txt"
-  # A tolerance that a back end cannot reach fails, which the table counts.
-  "$hagfish" qp "$set" "${tolerances[@]}" --csv "$runs/$1.csv.new" --force >>"$runs/$1.txt" 2>&1 || (($? == 1))
-  mv "$runs/$1.csv.new" "$runs/$1.csv"
-}
-export -f integrate back_ends
+export -f integrate
 
-# Frames every 50 ms, a multiple of every step here.
-frames="--set time.frame_interval=0.05"
-whole_runs() {
-  local bodies h activation
-  for bodies in 100 50 200 70 35 140 25; do
-    for h in 0.0005 0.001 0.002 0.005 0.01 0.025 0.05; do
-      # The midpoint rule, which needs no watch.
-      printf 'timed_run\t%s\t1\t%s\n' "whole_${bodies}_${h}_midpoint_active-set" "table1 --qp active-set $frames \
---set model.bodies=$bodies --set time.step=$h --set time.rule=midpoint"
-      for activation in speculative violated; do
-        local sets="$frames --set model.bodies=$bodies --set time.step=$h --set constraints.activation=$activation"
-        printf 'timed_run\t%s\t1\t%s\n' "whole_${bodies}_${h}_${activation}_active-set" "table1 --qp active-set $sets"
-        # Ipopt gives the same answers: two sizes show what it costs.
-        if [[ $bodies == 50 || $bodies == 100 ]] && [[ $h != 0.0005 || $activation == speculative ]]; then
-          printf 'timed_run\t%s\t1\t%s\n' "whole_${bodies}_${h}_${activation}_ipopt" "table1 --qp ipopt $sets"
-        fi
-        # The force script, fitted to 100 bodies, does not tie so few: waypoints do.
-        if [[ $bodies == 25 ]]; then
-          printf 'timed_run\t%s\t1\t%s\n' "whole_waypoints_${bodies}_${h}_${activation}_active-set" \
-            "overhand_waypoints --qp active-set $sets"
-        fi
+# Two living animals, to the end of their programs: experiments/figures/tying.py compares them from 5 s on. The smallest step is for
+# the limit alone.
+ties() {
+  local knot bodies step rule
+  local -A until=([overhand]=11.5 [figure_eight]=13)
+  tie() { printf 'unchecked_run\ttie_%s_%s_%s_%s_%s\t3\t%s\n' "$1" "$2" "$3" "$4" "$5" "living_$1 --qp $2 --log frames --set time.rule=$3 \
+--set model.bodies=$4 --set time.step=$5 --set time.duration=${until[$1]} --set time.frame_interval=0.1 --set expect.types=[]"; }
+  for knot in overhand figure_eight; do
+    for bodies in 400 200 100 50 25; do
+      for step in 0.02 0.01 0.005 0.0025 0.00125; do
+        for rule in euler midpoint; do tie $knot active-set $rule $bodies $step; done
       done
+      tie $knot active-set euler $bodies 0.000625
+      tie $knot ipopt euler $bodies 0.01
     done
   done
 }
 
-# The reference of the whole runs and the default, each from starts that differ by rounding.
-chance() {
-  local h seed
-  for h in 0.0005 0.002; do
-    for seed in {1..8}; do
-      printf 'timed_run\t%s\t1\t%s\n' "chance_${h}_$seed" \
-        "table1 --qp active-set $frames --set time.step=$h $rounding --set start.seed=$seed"
-    done
-  done
-}
-
+frames="--set time.frame_interval=0.05"
 # One choice of the scene changed at a time; `as_is` is none.
-needs() {
+choices() {
   local name sets key
   while read -r name sets; do
     local line="table1 --qp active-set $frames"
     for key in $sets; do line+=" --set $key"; done
-    printf 'timed_run\t%s\t3\t%s\n' "need_$name" "$line"
+    printf 'timed_run\t%s\t7\t%s\n' "choice_$name" "$line"
   done <<'LIST'
 as_is
 bodies_25 model.bodies=25
@@ -89,15 +60,12 @@ no_wall wall.present=false
 LIST
 }
 
-whole_runs | work "$cores" "Whole runs"
-chance | work "$cores" "Chance"
-needs | work "$cores" "Choices of the model"
-{ printf 'back_ends\tqps\n'; printf 'integrate\t%s\n' coil hanging whip; } | work "$cores" "QPs and smooth motions"
+ties | work "$cores" "Knots that are tied"
+choices | work "$cores" "Choices of the scene"
+printf 'integrate\t%s\n' coil hanging whip | work "$cores" "Smooth motions"
 
 echo "Drawing"
-draw integration.py "$runs" "$out/integration.csv" "$out/integration.png"
-draw back_ends.py "$runs" "$out/back_ends.csv" "$out/back_ends.png"
-draw whole_runs.py "$runs" "$out/tables/speed_accuracy_runs.csv" "$out/speed_accuracy.png"
-draw needs.py "$runs" "$out/needs.csv" "$out/needs.png"
-draw conclusions.py "$runs" "$out/conclusions.md"
-finish "$out/conclusions.md"
+draw tying.py "$runs" "$out"
+draw integration.py "$runs" "$out/tables/speed_accuracy_motions.csv" "$out/integration.png"
+draw choices.py "$runs" "$out/tables/speed_accuracy_choices.csv"
+list_output

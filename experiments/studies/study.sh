@@ -24,31 +24,38 @@ echo "$version" >"$runs/version"
 
 # One job a line, fields by tabs: NAME REPEATS and the arguments of `hagfish run`. A job that is done has a NAME.cpu: user
 # and system time of each repeat, s. A run may fail, or tie another knot: that is a result.
-timed_run() {
+timed() {
   local name=$1 repeats=$2
   local -a arguments
   read -ra arguments <<<"$3"
-  local log=$runs/$name.h5 i code
-  [[ -e $runs/$name.cpu ]] && return
+  local i code
   TIMEFORMAT='%U %S'
   rm -f "$runs/$name.times"
   for ((i = 0; i < repeats; ++i)); do
     code=0
-    { time "$hagfish" run "${arguments[@]}" --out "$log" --force --quiet 2>"$runs/$name.err"; } 2>>"$runs/$name.times" ||
+    { time "$hagfish" run "${arguments[@]}" --out "$runs/$name.h5" --force --quiet 2>"$runs/$name.err"; } 2>>"$runs/$name.times" ||
       code=$?
     if ((code == 2)) || grep -q 'failed: interrupted' "$runs/$name.err"; then
       cat "$runs/$name.err" >&2
       return 2
     fi
   done
+}
+timed_run() {
+  local name=$1 code=0
+  [[ -e $runs/$name.cpu ]] && return
+  timed "$@" || return
   # A log that fails its audit is a result, too.
-  code=0
-  "$hagfish" check "$log" --csv "$runs/$name.check.csv" --force >/dev/null 2>"$runs/$name.err" || code=$?
+  "$hagfish" check "$runs/$name.h5" --csv "$runs/$name.check.csv" --force >/dev/null 2>"$runs/$name.err" || code=$?
   if ((code > 1)); then
     cat "$runs/$name.err" >&2
     return "$code"
   fi
   mv "$runs/$name.times" "$runs/$name.cpu"
+}
+unchecked_run() {
+  [[ -e $runs/$1.cpu ]] && return
+  timed "$@" && mv "$runs/$1.times" "$runs/$1.cpu"
 }
 # One job, which says that it is done where no bar does.
 job() {
@@ -57,7 +64,7 @@ job() {
   "${fields[@]}" || return # parallel ends the study
   [[ -t 2 ]] || echo "$PARALLEL_SEQ of $jobs: ${fields[1]}"
 }
-export -f timed_run job
+export -f timed timed_run unchecked_run job
 
 # work AT_ONCE TITLE: the jobs of standard input, `function TAB arguments`, so many at once.
 work() {

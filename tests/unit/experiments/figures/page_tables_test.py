@@ -5,6 +5,7 @@ import re
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 import benchmarks
 import claim_map
@@ -13,6 +14,7 @@ import leverage
 import living
 import sliding_map
 import stability
+import tying
 
 ROOT = Path(__file__).resolve().parents[4]
 
@@ -94,3 +96,27 @@ def test_ratios_of_steps():
     assert table["knotted step: MuJoCo over core, 100 steps a start"] == ["5.0", "5.0"]
     assert table["knotted step, over 100 bodies"] == ["0.25", "1.00"]
     assert len(table) == len(rows)
+
+
+def test_errors_while_tying(tmp_path):
+    """Of made-up motions whose errors are of first order in the step and of second in the length of a body."""
+    rows = []
+    for knot in tying.KNOTS.values():
+        for bodies in tying.SIZES:
+            mesh = 100 / bodies**2
+            rows.append(dict(zip(tying.HEAD, [knot, "euler", "active-set", bodies, 0.0, "", mesh, 1.0, 0.0])))
+            for rule in ("euler", "midpoint"):
+                rows += [dict(zip(tying.HEAD, [knot, rule, "active-set", bodies, step, 1 / step, mesh + step, 1.0, step])) for step in (10.0, 5.0)]
+            rows.append(dict(zip(tying.HEAD, [knot, "euler", "ipopt", bodies, 10.0, 0.5, mesh + 10, 1.0, 10.0])))
+    one = tying.one(rows, knot="3_1", rule="midpoint", bodies=50, step_ms=5.0)
+    one["place_by_step_cm"] = ""
+    tying.runs_table(rows, tmp_path)
+    assert read(tmp_path, "speed_accuracy_tying")[3:5] == [["3_1", "50", "0.04", "euler", "10", "5", "0.1", "5"], ["3_1", "50", "0.04", "midpoint", "10", "stopped", "0.1", ""]]
+    tying.presets_table(rows, tmp_path)
+    assert read(tmp_path, "speed_accuracy_presets")[1] == ["quick", "3_1", "euler, 100 bodies, 10 ms", "0.1", "10", "1", "10"]
+
+
+def test_a_motion_is_off_by_what_it_is_moved():
+    at = lambda x: tying.Motion(np.full((2, 3, 3), [x, 0, 0]), np.full((2, 9), 1 + x))
+    assert at(0.1).errors(at(0.0)) == pytest.approx((0.1, 10))
+    assert at(0.1).towards(at(0.2), -1).errors(at(0.0)) == pytest.approx((0, 0), abs=1e-12)

@@ -8,7 +8,6 @@ import pytest
 import few_numbers_picture
 import leverage_picture
 import plots
-import speed_accuracy_picture
 import stability_picture
 import tables
 
@@ -54,16 +53,6 @@ def test_pulls_have_the_spread_of_their_starts_and_meshes(tmp_path, drawn):
     assert [0.1, 0.6] in [list(line.get_ydata()) for line in stiffness.lines if line.get_linestyle() == "-"]
     low, high = stiffness.collections[0].get_segments()[0][:, 1]
     assert (low, high) == pytest.approx((0.3 - np.std([0.2, 0.4], ddof=1), 0.3 + np.std([0.2, 0.4], ddof=1)))
-
-
-def test_runs_that_fail_are_counted(tmp_path, drawn):
-    run = lambda bodies, h, outcome: {"run": f"whole_{bodies}_{h}", "scene": "table1", "bodies": bodies, "h_ms": h, "rule": "euler", "activation": "speculative", "back_end": "active-set",
-                                      "cpu_s": 1, "outcome": outcome, "position_error_rms_cm": 0.1, "force_error_percent": 2, "penetration_cm": 1e-3}
-    rows = [run(100, 5, speed_accuracy_picture.SLID), run(100, 2, speed_accuracy_picture.SLID), run(25, 5, "lost"), run(25, 2, speed_accuracy_picture.SLID),
-            {"run": "chance, 8 starts", "position_error_rms_cm": 0.05, "force_error_percent": 4}]
-    speed_accuracy_picture.draw(table_of(tmp_path, speed_accuracy_picture.HEAD, rows), Path("x.png"))
-    words = [text.get_text() for text in drawn[0].axes[5].texts]
-    assert words == ["1 of 2", "0 of 2"]
 
 
 def test_methods_without_a_watch_stand_beside_mujoco(tmp_path, drawn):

@@ -1,8 +1,11 @@
-"""Means, slides and runs of the studies: what was commanded, what came of it, and how far two runs are apart."""
+"""Means, slides and runs of the studies: what was commanded, and what came of it."""
+
+import dataclasses
 
 import numpy as np
 import pytest
 
+import choices
 import means
 import slides
 import study
@@ -42,26 +45,14 @@ def test_effort_is_force_over_time_per_way(content, log):
     assert means.effort_per_cm(log(), own, "tail") == pytest.approx(means.effort_per_cm(log(), own), rel=1e-9)
 
 
-def run_of(**changes):
-    time = np.arange(0, 5, 0.02)
-    fields = dict.fromkeys(study.Run.__dataclass_fields__, 0) | {
-        "time": time, "head_end": 12 - 2 * time + 0.1 * np.sin(9 * time), "tail_end": 30 - 2 * time} | changes
-    return study.Run(**fields)
-
-
-def test_a_path_is_the_same_to_within_a_frame_of_time():
-    run = run_of()
-    # Between samples a path is a line, off by its curvature, 0.1 * 9^2, over 8 times the square of a frame: twice, here.
-    late = run_of(head_end=np.interp(run.time + 0.01, run.time, run.head_end))
-    assert study.path_error(late, run)[0] == pytest.approx(0, abs=2 * 0.1 * 81 / 8 * 0.02**2)
-
-
-def test_a_path_that_is_off_everywhere():
-    """A constant distance on a path of constant speed is a shift in time, of which one frame, 0.04 cm, is free."""
-    time = np.arange(0, 5, 0.02)
-    straight, off = (run_of(head_end=12 - 2 * time + away) for away in (0.0, 0.5))
-    assert study.path_error(off, straight) == pytest.approx((0.46, 0.46), rel=1e-9)
-    assert np.isnan(study.path_error(run_of(time=np.empty(0)), straight)).all()
+@pytest.mark.parametrize("changes, verdict", [
+    ({}, "keep: the same motion to the last bit"), ({"cpu": 0.8}, "change: saves time"), ({"cpu": 1.2}, "keep: else it takes longer"),
+    ({"failure": "the knot stayed on"}, "keep: else the knot stayed on"), ({"unmet": ["Eq. 6"]}, "keep: else the audit fails (Eq. 6)"),
+    ({"penetration": 3.0}, "keep: else strands overlap more"), ({"penetration": 0.3}, "change: strands overlap less"),
+    ({"force": 1.2}, "keep: else the sliding force is another"), ({"force": 1.01}, "keep: no difference that counts")])
+def test_a_choice_is_kept_or_changed_for_what_it_does(changes, verdict):
+    as_is = study.Run("choice_as_is", cpu=1, failure="", unmet=[], penetration=1, slide=9, force=1)
+    assert choices.verdict_of(dataclasses.replace(as_is, **changes), as_is) == verdict
 
 
 def test_pareto_front():
