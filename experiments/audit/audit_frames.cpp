@@ -24,7 +24,7 @@ constexpr double largest_share_off = 0.2;
 /// segments of the spline. A search that sees a minimum late may make them others, at up to this
 /// share of the frames.
 constexpr double found_tolerance = 1e-5;
-constexpr double largest_share_late = 0.005;
+constexpr double largest_share_late = 0.002;
 /// Figures that are nothing but rounding have no scale of their own, cm and rad.
 constexpr double nothing_but_rounding = 1e-9;
 
@@ -253,8 +253,9 @@ std::vector<Finding> FrameAudit::findings() const {
                          contacts_off_, frames_, 100 * largest_share_off, contacts_off_by_,
                          most_contacts_off)),
       judged(
-          {"contacts followed", share(late_, largest_share_late, followed_), 1,
-           "of what is allowed"},
+          {"contacts followed",
+           static_cast<double>(late_) / std::max(1.0, static_cast<double>(followed_)),
+           largest_share_late, "of the frames"},
           followed_ == 0
               ? "no contact was followed"
               : fmt::format("/thigmotaxis/spline_a and spline_b are not where the body begins and "
