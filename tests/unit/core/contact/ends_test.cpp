@@ -7,19 +7,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tests/support/random_chain.hpp"
+#include "tests/support/trefoil.hpp"
 
 namespace hagfish::ends_test {
 
 constexpr double level = 0.05;
-
-/// Along the open trefoil of the tests, its crossings some 0.7 `height` apart.
-std::vector<SplineSegment> trefoil(const Model& fish, double height) {
-  const int n = fish.body_count();
-  Eigen::Matrix3Xd centre(3, n);
-  for (int b = 0; b < n; ++b) centre.col(b) = trefoil_point((b + 0.5) / n, height);
-  return spline(fish, centre);
-}
 
 TouchingEnds ends_of(const std::vector<SplineSegment>& segments) {
   Scene scene;
