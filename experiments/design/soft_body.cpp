@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "experiments/design/knot_table.hpp"
 #include "core/run/simulation.hpp"
 #include "core/step/outcome.hpp"
+#include "experiments/design/knot_table.hpp"
 #include "experiments/sweep/sweep.hpp"
 
 namespace hagfish {

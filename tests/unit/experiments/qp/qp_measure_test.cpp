@@ -115,8 +115,7 @@ TEST_F(QpMeasureTest, MeasuresVelocitiesOfPrimalQps) {
   EXPECT_EQ(report.primal, 1u);
   EXPECT_GT(report.rows[0].velocity.largest, 0);
   // |v|∞ = 1.5 and 2 without rows, and the box problem knows no v.
-  EXPECT_NEAR(report.rows[0].velocity.largest_relative, report.rows[0].velocity.largest / 2,
-              1e-15);
+  EXPECT_NEAR(report.rows[0].velocity.largest_relative, report.rows[0].velocity.largest / 2, 1e-15);
 }
 
 TEST_F(QpMeasureTest, CountsWhatIsSolvedButHasNoSolution) {
