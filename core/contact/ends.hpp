@@ -10,9 +10,10 @@
 namespace hagfish {
 
 /// The first contact is at the smallest s_a, and the last one at the largest s_b, at which the gap
-/// to the nearest point of the other strand is at most `gap` (ControllerSettings::contact_gap).
-/// These places move continuously with the body, and they converge as bodies become more. Minima of
-/// the gap do not: they hop along a strand from joint to joint.
+/// to the nearest point of the other strand is at most ControllerSettings::contact_gap. These
+/// places converge as bodies become more. They move continuously with the body, and jump only where
+/// a part of it begins or ceases to touch. Minima of the gap hop along a strand from joint to
+/// joint.
 struct TouchingEnds {
   std::optional<Contact> first, last;  ///< both or none
   double head_end = 0, tail_end = 0;   ///< of the knot: their end_arc, cm; 0 where there are none

@@ -8,7 +8,7 @@
 
 namespace hagfish {
 
-/// A pair of points of a patch, whatever their gap, and its share in the patch.
+/// A pair of points that touch, and its share in the patch.
 struct PatchPoint {
   Contact contact;
   double share = 0;

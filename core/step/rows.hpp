@@ -1,6 +1,6 @@
 // Constraint rows C q̇ >= d and G q̇ = e of the step's QP (paper, Eqs. 3, 4 and 6), in one list. A
-// row constrains a single dof, two dofs of a joint, or the relative motion of two points. Its
-// multiplier has bounds.
+// row constrains a single dof, two dofs of a joint, or the relative motion of two points or over a
+// patch of contact. Its multiplier has bounds.
 #pragma once
 
 #include <Eigen/Core>
@@ -31,7 +31,7 @@ struct BodyWrench {
 
 struct Row {
   RowKind kind = RowKind::limit;
-  /// C q̇ = sign * q̇[dof] + next_sign * q̇[dof + 1]; -1 where points are used.
+  /// C q̇ = sign * q̇[dof] + next_sign * q̇[dof + 1]; -1 of a row with points or a patch.
   int dof = -1;
   double sign = 1;       ///< of a unit row +1 or -1
   double next_sign = 0;  ///< of a unit row 0

@@ -62,7 +62,7 @@ TEST(ContactPatch, OfCrossingLegsIsInTheirMiddleWhereItIsAllThatTouches) {
 }
 
 /// As a knot tightens, its outermost point of contact jumps where a crossing begins to touch. The
-/// mean over a patch does not: it moves by less than 0.1 mm where the point moves by centimetres.
+/// mean over a patch does not: it moves by less than 0.1 cm where the point moves by more than 1.
 TEST(ContactPatch, MovesAsTheBodyDoesWhereItsPointJumps) {
   const Model fish = table1_hagfish();
   const Scene scene = scene_of(0.2);
