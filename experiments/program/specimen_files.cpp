@@ -127,8 +127,15 @@ std::string specimen_scene_text(const Specimen& animal, const std::string& file,
       "[drag]\n"
       "normal = {:.4g}  # g/(s cm): by its first power\n"
       "tangential = {:.4g}  # g/(s cm)\n\n"
+      "[constraints]\n"
+      "tolerance = {:.4g}  # cm: lengths across the body by its mean diameter\n"
+      "stride = {:.4g}  # cm\n\n"
+      "[contact]\n"
+      "margin = {:.4g}  # cm\n\n"
       "[controller]\n"
-      "cap = {:.4g}  # dyn\n\n"
+      "cap = {:.4g}  # dyn\n"
+      "contact_gap = {:.4g}  # cm\n"
+      "contact_patch = {:.4g}  # cm\n\n"
       "[time]\n"
       "step = {:.6g}  # s\n\n"
       "[expect]\n"
@@ -136,8 +143,10 @@ std::string specimen_scene_text(const Specimen& animal, const std::string& file,
       base_name, base_name, quoted(fmt::format("{}, tied by {}", knot, animal.name)), quoted(file),
       beside.stiffness() * scene.active.stiffness, beside.torque() * scene.active.capacity,
       beside.drag() * scene.drag.normal, beside.drag() * scene.drag.tangential,
-      std::max(1.0, beside.stiffness()) * scene.controller.cap, step_of(beside, scene),
-      share_of_slide * scene.expect.slide_distance / base.specimen.length);
+      beside.girth * scene.constraints.tolerance, beside.girth * scene.constraints.stride,
+      beside.girth * scene.contact.margin, std::max(1.0, beside.stiffness()) * scene.controller.cap,
+      beside.girth * scene.controller.contact_gap, beside.girth * scene.controller.contact_patch,
+      step_of(beside, scene), share_of_slide * scene.expect.slide_distance / base.specimen.length);
 }
 
 }  // namespace hagfish
