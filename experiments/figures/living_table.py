@@ -40,8 +40,8 @@ def table(folder: Path, out: Path) -> list[str]:
          *off(starts("held"))],
         ["free: tied, kept and off; slide within 10 %", *off(starts("free"))],
         ["of 10 other animals, clamped: tied, kept and off", *(str(sum(run.outcome == "off" for run in each)) for each in animals)],
-        ["sliding steps of these that meet Eq. 6, %: median, least",
-         *("{:.0f}, {:.0f}".format(*(100 * pick([run.met for run in each if run.outcome == "off"])
+        ["of these that slide: sliding steps that meet Eq. 6, %: median, least",
+         *("{:.0f}, {:.0f}".format(*(100 * pick([run.met for run in each if run.outcome == "off" and living.np.isfinite(run.met)])
                                      for pick in (living.np.median, min))) for each in animals)]])
 
 

@@ -99,10 +99,12 @@ def test_its_scene_is_of_its_knot_and_animal(tmp_path, knot, title):
     scene = tomllib.loads(h5py.File(tmp_path / "a.h5").attrs["scene"])
     assert scene["title"] == f"{title}, tied by mine" and scene["expect"]["knot"] == knot
     with (DATA / "table1.toml").open("rb") as file:
-        drag = tomllib.load(file)["drag"]
+        paper = tomllib.load(file)
     girth = np.mean(np.interp((np.arange(1000) + 0.5) / 1000, [0.2, 0.4, 0.6, 0.8], [4.6, 4.4, 4.4, 3.2]))
     papers = np.mean(np.interp((np.arange(1000) + 0.5) / 1000, [0.2, 0.4, 0.6, 0.8], [5.6, 5.5, 5.6, 4.3]))
-    assert scene["drag"]["normal"] == pytest.approx(girth / papers * drag["normal"], rel=1e-3)
+    for table, key in (("drag", "normal"), ("constraints", "tolerance"), ("constraints", "stride"), ("contact", "margin"), ("controller", "contact_gap"),
+                       ("controller", "contact_patch")):
+        assert scene[table][key] == pytest.approx(girth / papers * paper[table][key], rel=1e-3), key
     refused(tmp_path, "specimen", "--knot", "6_1", "--out", "x.toml", parts=("--knot",))
 
 
