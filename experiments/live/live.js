@@ -219,6 +219,12 @@ class LiveViewer extends Viewer {
     this.turned = false;
   }
 
+  /** A window of another shape shows the whole animal too, unless the view was turned. */
+  resize() {
+    super.resize();
+    if (this.logs[0].frames && !this.turned && !this.inSight()) this.resetView();
+  }
+
   /** Draws what there is: the body each time, the plots as often as leaves time for it. A scene that has only begun has nothing. */
   showNow() {
     if (!this.logs[0].frames) return;

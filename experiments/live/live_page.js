@@ -7,6 +7,8 @@ const FIRST_SCENE = "reflex_overhand";
 const SPEED_ROWS = ["slide_head", "slide_tail"].flatMap((end) => ["a", "b"].map((strand) => `controller.${end}.${strand}`));
 const LAWS = ["paper", "all_contacts", "knot_speed", "muscles", "reflex", "reflex_muscles"];
 
+const reflexive = (v) => /^"reflex/.test(v["controller.law"]); // without rows of Eq. 6
+
 /**
  * What can be changed: the key of the scene that is shown, and what a typed value sets. `again`: the scene has to start
  * again, since it is of another number of bodies.
@@ -18,16 +20,17 @@ const FIELDS = [
   { key: "specimen.passive.bending_stiffness", words: "stiffness, bending", unit: "dyn cm²", list: true, when: (v) => v["model.passive"] !== '"scene"' },
   { key: "specimen.length", words: "length", unit: "cm" },
   { key: "specimen.circumference", words: "girth, where thickest", unit: "cm", list: true },
-  { key: "model.limit_scale", words: "joint limits, times", unit: "1" },
-  { key: "model.bodies", words: "bodies (starts again)", unit: "1", again: true },
+  { key: "model.limit_scale", words: "joint limits, times" },
+  { key: "model.bodies", words: "bodies (starts again)", again: true },
   { group: "Water" },
   { key: "drag.normal", words: "drag, across", unit: "g/(s cm)" },
   { key: "drag.tangential", words: "drag, along", unit: "g/(s cm)" },
   { group: "What it does" },
   { key: "controller.law", words: "control law", choices: LAWS },
-  { key: "controller.reflex.shift", words: "reflex: Δ", unit: "cm" },
-  { key: "controller.slide_head.a", words: "sliding speed", unit: "cm/s", sets: SPEED_ROWS },
-  { key: "controller.cap", words: "cap of a row of Eq. 6", unit: "dyn" },
+  { key: "controller.reflex.shift", words: "reflex: Δ", unit: "cm", when: reflexive },
+  { key: "controller.slide_head.a", words: "sliding speed", unit: "cm/s", sets: SPEED_ROWS, when: (v) => !reflexive(v) },
+  { key: "controller.cap", words: "cap of a row of Eq. 6", unit: "dyn", when: (v) => !reflexive(v) },
+  { key: "controller.contact_patch", words: "patch of Eq. 6, side (0: a point)", unit: "cm", when: (v) => !reflexive(v) },
   { key: "active.stiffness", words: "muscles' stiffness", unit: "dyn cm²" },
   { key: "active.capacity", words: "muscles' largest torque", unit: "dyn cm" },
   { group: "Time" },
@@ -354,18 +357,18 @@ class Page {
 
 const TRIES = [
   { words: "1. A knot ties itself", scene: "living_overhand", speed: 4,
-    first: "The animal's own torques bend it into an overhand knot. Watch the knot's name change from 0_1 to 3_1 at about 11 s." },
+    first: "The animal's own torques bend it into an overhand knot. Watch the knot's name change from 0_1 to 3_1 at about 9 s." },
   { words: "2. Slide it by one number", scene: "reflex_overhand", speed: 4, goesOn: true,
     first: "First it ties the knot. Then every joint copies the bend of its neighbour, a little behind it.",
     then: "Now only the reflex acts: each joint copies the bend Δ behind it, and the knot slides to the head. Δ is now twice what it was.",
     act: (page) => page.set([["controller.reflex.shift", literal(String(2 * number(page.values["controller.reflex.shift"])))]]) },
   { words: "3. Knock the reflex out", scene: "reflex_overhand", speed: 4, goesOn: true,
     first: "First it ties the knot. Then the reflex is taken away.",
-    then: "Δ is now next to nothing: no joint copies its neighbour, and the knot stays where it is.",
+    then: "Δ is now next to nothing: no joint copies its neighbour. The knot slips back a little, and then stays where it is.",
     act: (page) => page.set([["controller.reflex.shift", "1e-9"]]) },
   { words: "4. Make the neck stiffer", scene: "reflex_overhand", speed: 4, goesOn: true,
     first: "First it ties the knot. Then the first fifth of the body becomes four times as stiff.",
-    then: "The first stations of the body are now four times as stiff. The nearer the knot comes to the head, the harder it is to bend.",
+    then: "The first fifth of the body is now four times as stiff. The knot slides on, but the joints near the head need more torque. A message tells where it is more than the muscles have.",
     act: (page) => {
       const list = page.values["specimen.passive.bending_stiffness"].slice(1, -1).split(",").map(Number);
       page.set([["specimen.passive.bending_stiffness", `[${list.map((x, k) => literal(String(k === 0 ? 4 * x : x))).join(", ")}]`]]);

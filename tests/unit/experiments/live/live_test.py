@@ -104,12 +104,13 @@ def test_it_begins_to_move_by_itself(page):
 
 
 @needs_native
-def test_a_run_in_the_page_ties_a_3_1_and_has_the_digest_of_the_native_program(page):
-    page.start("table1")
+@pytest.mark.parametrize("scene", ["table1", "living_overhand", "reflex_overhand"])
+def test_a_run_in_the_page_ties_a_3_1_and_has_the_digest_of_the_native_program(page, scene):
+    page.start(scene)
     page.until("page.over", "the run does not end")
     knots = page.run("(() => { const log = page.log; return Array.from({ length: log.frames }, (_, f) => log.phaseName(f) + ' ' + log.knotName(f)); })()")
     assert "slide 3_1" in knots and knots[-1] == "free 0_1"
-    assert page.run("page.digest") == digest_of(NATIVE, "table1")
+    assert page.run("page.digest") == digest_of(NATIVE, scene)
 
 
 def test_a_link_makes_the_same_run(page):
@@ -139,6 +140,29 @@ def test_without_the_reflex_the_knot_stays(page):
         assert ends[0] - ends[1] > 0.2, ends
         slid[shift] = ends[2] - ends[3]  # in the second second after the change
     assert slid["0.0106"] > 0.2 and abs(slid["1e-9"]) < 0.1 * slid["0.0106"], slid
+
+
+def test_the_patch_of_eq_6_is_changed_and_a_reflex_has_none(page):
+    there = "getComputedStyle(document.querySelector('[data-key=\"controller.contact_patch\"]').parentElement).display !== 'none'"
+    page.start("table1", ["time.duration=13.5"])
+    page.until("page.over", "it does not come to slide")
+    assert page.run(there) and page.run("page.log.phaseName(page.log.frames - 1)") == "slide"
+    page.type("controller.contact_patch", "0")
+    page.wait("page.accepted.includes('controller.contact_patch=0')", "no change")
+    page.type("time.duration", "14")
+    page.wait("page.accepted.includes('time.duration=14')", "no longer run")
+    page.run("page.ask({ kind: 'play', on: true })")
+    page.until("log.last() > 13.9 && page.over", "it does not go on")
+    assert page.message() == ""
+    page.start("reflex_overhand")
+    assert not page.run(there)
+
+
+def test_the_first_guided_step_names_the_time_of_the_knot(page):
+    page.start("living_overhand", ["time.duration=10"])
+    page.until("page.over", "the run does not end")
+    tied = page.run("page.log.time[page.log.knot.findIndex((one) => page.log.knots[one] === '3_1')]")
+    assert f"at about {tied:.0f} s" in page.run("TRIES[0].first"), tied
 
 
 def test_a_change_while_it_runs_goes_on_from_where_it_was(page):
@@ -271,6 +295,10 @@ def test_the_whole_animal_stays_in_view_until_the_view_is_turned(page):
     page.start("table1", ["time.duration=10"])
     page.until("page.over", "the run does not end")
     assert page.run(seen) < 1
+    page.call("Emulation.setDeviceMetricsOverride", width=400, height=850, deviceScaleFactor=1, mobile=False)
+    page.wait("innerWidth === 400 && viewer.renderer.domElement.clientWidth <= 400", "no narrow window")
+    page.wait(f"{seen} < 1", "cut off in a narrow window")
+    page.call("Emulation.setDeviceMetricsOverride", width=1400, height=850, deviceScaleFactor=1, mobile=False)
     page.start("table1", ["time.duration=10"], speed=1)
     page.run("viewer.orbit.dispatchEvent({ type: 'start' }), page.ask({ kind: 'speed', value: 1000 })")
     page.until("page.over", "the run does not end")
