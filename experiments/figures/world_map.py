@@ -52,7 +52,7 @@ def main(table: Path, out: Path) -> None:
         axes.set(xlabel=label, xticks=at)
         axes.axhline(0.5, color=plots.GREY, lw=0.8, zorder=0)
     grid[0].set(ylabel="largest pull, N", ylim=(0, None))
-    grid[2].legend(fontsize=7)
+    plots.legend_above(figure, grid[2].get_legend_handles_labels()[0], 6, 0.09)
     plots.save(figure, out)
 
 
