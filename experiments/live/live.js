@@ -221,8 +221,9 @@ class LiveViewer extends Viewer {
 
   /** A window of another shape shows the whole animal too, unless the view was turned. */
   resize() {
+    const before = this.camera.aspect;
     super.resize();
-    if (this.logs[0].frames && !this.turned && !this.inSight()) this.resetView();
+    if (this.logs[0].frames && !this.turned && this.camera.aspect !== before) this.resetView();
   }
 
   /** Draws what there is: the body each time, the plots as often as leaves time for it. A scene that has only begun has nothing. */

@@ -299,6 +299,7 @@ def test_the_whole_animal_stays_in_view_until_the_view_is_turned(page):
     page.wait("innerWidth === 400 && viewer.renderer.domElement.clientWidth <= 400", "no narrow window")
     page.wait(f"{seen} < 1", "cut off in a narrow window")
     page.call("Emulation.setDeviceMetricsOverride", width=1400, height=850, deviceScaleFactor=1, mobile=False)
+    page.wait(f"innerWidth === 1400 && {seen} > 0.7", "small in a wide window")
     page.start("table1", ["time.duration=10"], speed=1)
     page.run("viewer.orbit.dispatchEvent({ type: 'start' }), page.ask({ kind: 'speed', value: 1000 })")
     page.until("page.over", "the run does not end")
