@@ -132,7 +132,7 @@ class Search {
       : options_(options),
         wanted_(*knot_called(*name_in_scene(options.knot))),
         body_(std::move(body)),
-        archive_(options.seed),
+        archive_(options.seed, options.knot),
         known_tries_(numbered_lines(options.folder / "tries.csv")),
         known_candidates_(numbered_lines(options.folder / "candidates.csv")),
         tries_file_(options.folder / "tries.csv"),
@@ -165,25 +165,25 @@ class Search {
   /// Tries a batch; gives the tries that tied the knot.
   std::vector<int> try_batch() {
     const int first = outcome_.tries;
-    std::vector<TailPath> paths(batch_size);
     std::vector<std::optional<Tying>> tyings(batch_size);
     in_parallel(batch_size, options_.threads, [&](int k) {
       const int number = first + k;
-      paths[k] = archive_.path_of(number);
       if (const auto known = known_tries_.find(number); known != known_tries_.end()) {
         tyings[k] = tying_of(known->second);
       }
       if (tyings[k]) return;
-      tyings[k] = try_path(body_, paths[k], options_.interrupted);
+      Draw draw(options_.seed + 1, static_cast<unsigned>(number));
+      tyings[k] =
+          try_plan(body_, archive_.plan_of(number), wanted_, draw, options_.interrupted);
       if (tyings[k]) tries_file_.add(fmt::format("{},{}\n", number, tying_text(*tyings[k])));
     });
     if (options_.interrupted()) return {};
     std::vector<int> tied;
     for (int k = 0; k < batch_size; ++k) {
-      archive_.add(first + k, paths[k], *tyings[k]);
+      archive_.add(first + k, *tyings[k]);
       if (tyings[k]->tied() == wanted_) {
         tied.push_back(first + k);
-        tied_paths_[first + k] = paths[k];
+        tied_paths_[first + k] = tyings[k]->path;
       }
     }
     outcome_.tries += batch_size;

@@ -1,5 +1,6 @@
 #include "experiments/design/soft_body.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/run/simulation.hpp"
@@ -12,6 +13,12 @@ namespace {
 
 constexpr double look = 0.4;     // s, between looks at the knot
 constexpr double lasting = 1.0;  // s, that a knot must be there
+
+/// Waypoints of a path without a pull.
+std::ptrdiff_t waypoints_after(const TailPath& path, double time) {
+  const auto after = [&](const TailPath::Waypoint& at) { return at.time > time; };
+  return std::ranges::count_if(path.swing, after) + std::ranges::count_if(path.turns, after);
+}
 
 /// The scene with a path.
 Scene led_along(const SoftBody& body, const TailPath& path, double step) {
@@ -45,21 +52,36 @@ SoftBody soft_body(const std::string& specimen) {
 }
 
 std::optional<KnotInvariants> Tying::tied() const {
-  if (failed || seen.back().to - seen.back().from < lasting) return std::nullopt;
+  if (failed || path.pull.empty() || seen.back().to - seen.back().from < lasting) {
+    return std::nullopt;
+  }
   return seen.back().type;
 }
 
-std::optional<Tying> try_path(const SoftBody& body, const TailPath& path,
+std::optional<Tying> try_plan(const SoftBody& body, const PathPlan& plan,
+                              const KnotInvariants& wanted, Draw& draw,
                               const std::function<bool()>& interrupted) {
+  Tying tying{.seen = {{}}, .path = plan.path};
+  TailPath& path = tying.path;
   Scene scene = led_along(body, path, 0.02);
   scene.expect.knot.clear();  // nothing is waited for
   scene.expect.types.clear();
   scene.knot.interval = look;
   Simulation sim = start(body.model, scene, sweep_qp);
-  Tying tying{.seen = {{}}};
   StepRecord record;
-  const double end = path_end(path) + lasting;
-  while (time_of(sim, scene) < end) {
+  const auto centre = [&]() -> Eigen::Matrix3Xd {
+    return sim.now.observation.kin.centre / body.model.length();
+  };
+  int strand = 0;
+  std::size_t next = 0;
+  while (true) {
+    const double time = time_of(sim, scene);
+    // Two waypoints ahead are known: a path that is taken again is then the same up to any time.
+    if (path.pull.empty() && next < plan.turns.size() && waypoints_after(path, time + scene.time.step) < 2) {
+      add_turn(path, plan.turns[next++], centre(), strand);
+      scene.script.knots = script_knots(path, body.model.length());
+    }
+    if (time >= path_end(path) + (path.pull.empty() ? 0 : lasting)) return tying;
     if (interrupted()) return std::nullopt;
     try {
       take_step(body.model, scene, sim, record);
@@ -67,14 +89,18 @@ std::optional<Tying> try_path(const SoftBody& body, const TailPath& path,
       tying.failed = true;
       return tying;
     }
-    const double time = record.controller.knot_seen;
-    if (!std::isfinite(time)) continue;
+    const double seen_at = record.controller.knot_seen;
+    if (!std::isfinite(seen_at)) continue;
     if (record.controller.knot.type != tying.seen.back().type) {
-      tying.seen.push_back({record.controller.knot.type, time, time});
+      tying.seen.push_back({record.controller.knot.type, seen_at, seen_at});
     }
-    tying.seen.back().to = time;
+    TypeSeen& seen = tying.seen.back();
+    seen.to = seen_at;
+    if (path.pull.empty() && seen.type == wanted && seen.to > seen.from) {
+      end_with_pull(path, time_of(sim, scene), centre(), draw);
+      scene.script.knots = script_knots(path, body.model.length());
+    }
   }
-  return tying;
 }
 
 Shapes tied_shapes(const SoftBody& body, const TailPath& path, const std::string& wanted,
@@ -107,6 +133,9 @@ Shapes tied_shapes(const SoftBody& body, const TailPath& path, const std::string
     }
   }
   if (shapes.failure.empty() && !tightens) shapes.failure = "it was never tightened";
+  if (const std::optional<KnotSpan> span = knot_span(sim.controller)) {
+    shapes.head_end = span->head_end;
+  }
   if (shapes.failure.empty() && fingerprint_called(wanted)) {
     const std::string name = full_knot_name(sim.now.observation.kin.centre, scene.knot);
     if (name != wanted) shapes.failure = "it is a " + name;

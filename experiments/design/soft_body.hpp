@@ -37,13 +37,17 @@ struct TypeSeen {
 struct Tying {
   std::vector<TypeSeen> seen;  ///< one after the other; the first is the unknot, from 0
   bool failed = false;         ///< a guard or the solver ended the run
+  TailPath path;               ///< that was taken; with a pull where the wanted type was seen
 
-  /// The type at the end of a run that did not fail, where it lasted a second.
+  /// The type at the end of a run that did not fail and ended with a pull, where it lasted a
+  /// second.
   std::optional<KnotInvariants> tied() const;
 };
 
-/// Leads the tail along `path`, at steps of 20 ms. Nothing where `interrupted`.
-std::optional<Tying> try_path(const SoftBody& body, const TailPath& path,
+/// Leads the tail as planned, at steps of 20 ms. As soon as `wanted` has been seen at two looks,
+/// the path ends with a pull, drawn by `draw`. Nothing where `interrupted`.
+std::optional<Tying> try_plan(const SoftBody& body, const PathPlan& plan,
+                              const KnotInvariants& wanted, Draw& draw,
                               const std::function<bool()>& interrupted);
 
 /// Shapes of a body while it is knotted and pulled together.
@@ -51,6 +55,7 @@ struct Shapes {
   std::vector<double> time;  ///< s, from 0
   Eigen::MatrixXd q;         ///< a row each
   double tighten_from = 0;   ///< s
+  double head_end = 0;       ///< of the knot in the end, cm of arc
   std::string failure;       ///< why there are no shapes up to the end, or empty
 };
 

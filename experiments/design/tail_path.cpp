@@ -9,69 +9,55 @@ namespace hagfish {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
-constexpr int most_turns = 24;          // waypoints: the tail is used up before
-constexpr double displacement = 0.015;  // of a waypoint by a mutation, body lengths
+constexpr int most_turns = 32;          // waypoints: the tail is used up before
+constexpr double displacement = 0.015;  // of a waypoint, body lengths
+constexpr double strands_within = 0.25;          // to strands that the tail may wind about, body lengths
+constexpr double tail_share = 0.25;           // body length next to the tip, which it cannot wind about
+constexpr double neck_share = 0.06;           // body length next to the head, which the plate holds
 
-/// A strand that the tail winds about, as a line.
-struct Strand {
-  Eigen::Vector3d point, along, across, beside;
-};
-
-/// The part of the body that lies straight, or that which the swing leads back to it: where these
-/// are is known well enough before anything has moved.
-Strand choose_strand(const TailPath& path, Draw& draw) {
-  Strand strand;
-  if (draw.chance(0.6)) {
-    strand.point.setZero();
-    strand.along = Eigen::Vector3d::UnitX();
-  } else {
-    strand.point = {path.swing.back().place.x() - draw.uniform(0, 0.1), 0.1, 0.03};
-    strand.along = Eigen::Vector3d(draw.uniform(0.1, 0.8), 1, draw.uniform(-0.1, 0.2)).normalized();
-  }
-  strand.across = strand.along.cross(Eigen::Vector3d::UnitZ()).normalized();
-  strand.beside = strand.along.cross(strand.across);
-  return strand;
+TailPath::Waypoint last_of(const TailPath& path) {
+  return path.turns.empty() ? path.swing.back() : path.turns.back();
 }
 
-double last_time(const TailPath& path) {
-  return path.turns.empty() ? path.swing.back().time : path.turns.back().time;
-}
-
-Eigen::Vector3d last_place(const TailPath& path) {
-  return path.turns.empty() ? path.swing.back().place : path.turns.back().place;
-}
-
-void add_turns(TailPath& path, int count, Draw& draw) {
-  Eigen::Vector3d place = last_place(path);
-  double time = last_time(path);
-  while (count > 0 && path.turns.size() < most_turns) {
-    const Strand strand = choose_strand(path, draw);
-    const Eigen::Vector3d from = place - strand.point;
-    double along = from.dot(strand.along);
-    double angle = std::atan2(from.dot(strand.beside), from.dot(strand.across));
+/// Turns about one strand, some on about the same, then perhaps about another.
+void draw_turns(PathPlan& plan, int count, Draw& draw) {
+  while (count > 0) {
     const double sense = draw.chance(0.5) ? 1 : -1;
-    const double advance = draw.uniform(-0.03, 0.03);  // along it, for each waypoint
-    // On about this strand for some waypoints, then perhaps about another.
+    const double along = draw.uniform(-0.03, 0.03);
+    bool first = true;
     do {
-      angle += sense * draw.uniform(50 * degree, 110 * degree);
-      along += advance + 0.015 * draw.normal();
-      const double radius = draw.uniform(0.055, 0.13);
-      place = strand.point + along * strand.along +
-              radius * (std::cos(angle) * strand.across + std::sin(angle) * strand.beside);
-      place.x() = std::clamp(place.x(), 0.06, 0.6);
-      time += draw.uniform(0.5, 0.75);
-      path.turns.push_back({time, place});
+      Winding turn;
+      turn.choice = first ? draw.uniform(0, 1) : -1;
+      turn.angle = sense * draw.uniform(50 * degree, 110 * degree);
+      turn.along = along + 0.015 * draw.normal();
+      turn.radius = draw.uniform(0.055, 0.13);
+      turn.duration = draw.uniform(0.5, 0.75);
+      plan.turns.push_back(turn);
+      first = false;
       --count;
-    } while (count > 0 && path.turns.size() < most_turns && !draw.chance(0.15));
+    } while (count > 0 && !draw.chance(0.15));
   }
 }
 
-void add_pull(TailPath& path, Draw& draw) {
-  const Eigen::Vector3d place = last_place(path);
-  const double time = last_time(path);
-  Eigen::Vector3d way(draw.normal(), draw.normal(), draw.normal());
-  way = draw.uniform(0.1, 0.25) * way.normalized();
-  path.pull = {{time + 1, place + 0.6 * way}, {time + 2, place + way}};
+/// Bodies that the tail may wind about from `place`: within reach of it, or else the nearest.
+std::vector<int> strands_near(const Eigen::Vector3d& place, const Eigen::Matrix3Xd& centre) {
+  const auto bodies = static_cast<double>(centre.cols());
+  const int first = static_cast<int>(neck_share * bodies);
+  const int last = static_cast<int>((1 - tail_share) * bodies);
+  std::vector<int> near;
+  int nearest = first;
+  const auto away = [&](int k) { return (centre.col(k) - place).norm(); };
+  for (int k = first; k <= last; ++k) {
+    if (away(k) < strands_within) near.push_back(k);
+    if (away(k) < away(nearest)) nearest = k;
+  }
+  return near.empty() ? std::vector{nearest} : near;
+}
+
+void displace(TailPath& path, Draw& draw) {
+  for (TailPath::Waypoint& waypoint : path.turns) {
+    for (double& x : waypoint.place) x += displacement * draw.normal();
+  }
 }
 
 void add_swing(TailPath& path, Draw& draw) {
@@ -91,36 +77,72 @@ void add_swing(TailPath& path, Draw& draw) {
 
 }  // namespace
 
-TailPath random_path(Draw& draw) {
-  TailPath path;
-  add_swing(path, draw);
-  add_turns(path, 5 + draw.below(12), draw);
-  add_pull(path, draw);
-  return path;
+PathPlan random_plan(Draw& draw) {
+  PathPlan plan;
+  add_swing(plan.path, draw);
+  draw_turns(plan, 5 + draw.below(12), draw);
+  return plan;
 }
 
-TailPath mutated_path(const TailPath& parent, Draw& draw) {
-  TailPath path = parent;
-  const double what = draw.uniform(0, 1);
-  if (what < 0.4) {
-    for (TailPath::Waypoint& waypoint : path.turns) {
-      for (double& x : waypoint.place) x += displacement * draw.normal();
-    }
-  } else if (what < 0.8) {
-    if (!path.turns.empty() && draw.chance(0.4)) {
-      path.turns.resize(path.turns.size() -
-                        std::min<std::size_t>(path.turns.size(), 1 + draw.below(4)));
-    }
-    add_turns(path, 1 + draw.below(6), draw);
+PathPlan further_plan(const TailPath& path, Draw& draw) {
+  PathPlan plan{path, {}};
+  plan.path.pull.clear();
+  if (draw.chance(0.3)) {
+    const std::size_t turns = plan.path.turns.size();
+    plan.path.turns.resize(turns - std::min<std::size_t>(turns, 1 + draw.below(4)));
   }
-  if (what > 0.4 || draw.chance(0.3)) add_pull(path, draw);
-  return path;
+  if (draw.chance(0.3)) displace(plan.path, draw);
+  draw_turns(plan, 1 + draw.below(8), draw);
+  return plan;
 }
 
-TailPath shortened_path(const TailPath& path, double time, Draw& draw) {
+TailPath displaced_path(const TailPath& path, Draw& draw) {
+  TailPath other = path;
+  if (draw.chance(0.8)) displace(other, draw);
+  if (draw.chance(0.5)) {
+    for (double& x : other.pull.back().place) x += 0.1 * draw.normal();
+  }
+  return other;
+}
+
+void add_turn(TailPath& path, const Winding& turn, const Eigen::Matrix3Xd& centre, int& strand) {
+  if (path.turns.size() >= most_turns) return;
+  const TailPath::Waypoint before = last_of(path);
+  if (turn.choice >= 0) {
+    const std::vector<int> near = strands_near(before.place, centre);
+    strand = near[std::min(near.size() - 1, static_cast<std::size_t>(turn.choice * static_cast<double>(near.size())))];
+  }
+  const Eigen::Vector3d middle = centre.col(strand);
+  const Eigen::Vector3d along = (centre.col(strand + 2) - centre.col(strand - 2)).normalized();
+  const Eigen::Vector3d across =
+      along.cross(std::abs(along.z()) < 0.8 ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitX())
+          .normalized();
+  const Eigen::Vector3d beside = along.cross(across);
+  const Eigen::Vector3d from = before.place - middle;
+  const double angle = std::atan2(from.dot(beside), from.dot(across)) + turn.angle;
+  // Strands are followed for a tenth of the body, as if they were straight.
+  const double on = std::clamp(from.dot(along) + turn.along, -0.1, 0.1);
+  Eigen::Vector3d place =
+      middle + on * along + turn.radius * (std::cos(angle) * across + std::sin(angle) * beside);
+  place.x() = std::max(place.x(), neck_share);
+  path.turns.push_back({before.time + turn.duration, place});
+}
+
+void end_with_pull(TailPath& path, double time, const Eigen::Matrix3Xd& centre, Draw& draw) {
+  path = path_until(path, time);
+  const Eigen::Index tip = centre.cols() - 1;
+  const Eigen::Vector3d place = centre.col(tip);
+  path.turns.push_back({time, place});
+  const Eigen::Vector3d points = (place - centre.col(tip - 6)).normalized();
+  Eigen::Vector3d way = points + 0.5 * Eigen::Vector3d(draw.normal(), draw.normal(), draw.normal());
+  way = draw.uniform(0.1, 0.25) * way.normalized();
+  path.pull = {{time + 1, place + 0.6 * way}, {time + 2, place + way}};
+}
+
+TailPath path_until(const TailPath& path, double time) {
   TailPath shorter = path;
-  std::erase_if(shorter.turns, [&](const TailPath::Waypoint& at) { return at.time > time; });
-  add_pull(shorter, draw);
+  std::erase_if(shorter.turns, [&](const TailPath::Waypoint& at) { return at.time >= time; });
+  shorter.pull.clear();
   return shorter;
 }
 
@@ -133,6 +155,8 @@ std::vector<ScriptKnot> script_knots(const TailPath& path, double length) {
   return knots;
 }
 
-double path_end(const TailPath& path) { return path.pull.back().time; }
+double path_end(const TailPath& path) {
+  return path.pull.empty() ? last_of(path).time : path.pull.back().time;
+}
 
 }  // namespace hagfish

@@ -19,14 +19,41 @@ struct TailPath {
   std::vector<Waypoint> swing, turns, pull;  ///< one after the other
 };
 
-/// A swing over, 5 to 16 waypoints about strands, and a pull: nothing is known of any knot.
-TailPath random_path(Draw& draw);
+/// The next waypoint, on about a strand of the body, which is known once the body is there.
+struct Winding {
+  double choice = 0;    ///< 0 to 1: which strand within reach; negative: that of the turn before
+  double angle = 0;     ///< about the strand, from the waypoint before, rad
+  double along = 0;     ///< along the strand, from the waypoint before, body lengths
+  double radius = 0;    ///< from the strand's middle, body lengths
+  double duration = 0;  ///< s
+};
 
-/// A path like `parent`: its turns displaced, or more or fewer of them, or another end.
-TailPath mutated_path(const TailPath& parent, Draw& draw);
+/// A path and how it goes on from its end.
+struct PathPlan {
+  TailPath path;
+  std::vector<Winding> turns;
+};
 
-/// The path up to `time` (s), then pulled away.
-TailPath shortened_path(const TailPath& path, double time, Draw& draw);
+/// A swing over and 5 to 16 turns about strands: nothing is known of any knot.
+PathPlan random_plan(Draw& draw);
+
+/// On from the end of `path`, perhaps displaced and without its last turns, by 1 to 8 turns.
+PathPlan further_plan(const TailPath& path, Draw& draw);
+
+/// `path`, which ends with a pull, with its waypoints displaced, or another pull, or both.
+TailPath displaced_path(const TailPath& path, Draw& draw);
+
+/// Adds the waypoint of a turn. `centre`: of the bodies, 3 x n, body lengths. `strand` is the body
+/// that the turn before was about, and becomes that of this one. Does nothing where the path has as
+/// many turns as a tail can make.
+void add_turn(TailPath& path, const Winding& turn, const Eigen::Matrix3Xd& centre, int& strand);
+
+/// Takes away what lies behind `time` (s) and pulls the tail on, more or less to where it points.
+/// `centre`: as above, at that time.
+void end_with_pull(TailPath& path, double time, const Eigen::Matrix3Xd& centre, Draw& draw);
+
+/// The path up to `time`, without a pull.
+TailPath path_until(const TailPath& path, double time);
 
 /// The script's knots for an animal of that length, cm.
 std::vector<ScriptKnot> script_knots(const TailPath& path, double length);
