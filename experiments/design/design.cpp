@@ -148,10 +148,7 @@ class Search {
     };
     const auto over = [&] { return options_.interrupted() || elapsed() > options_.budget; };
     do {
-      const std::vector<int> tied = try_batch();
-      for (std::size_t k = 0; k < tied.size() && !outcome_.found && !over(); ++k) {
-        judge(tied[k]);
-      }
+      judge(try_batch(), over);
       report(elapsed());
     } while (!outcome_.found && !over());
     outcome_.interrupted = options_.interrupted();
@@ -173,8 +170,7 @@ class Search {
       }
       if (tyings[k]) return;
       Draw draw(options_.seed + 1, static_cast<unsigned>(number));
-      tyings[k] =
-          try_plan(body_, archive_.plan_of(number), wanted_, draw, options_.interrupted);
+      tyings[k] = try_plan(body_, archive_.plan_of(number), wanted_, draw, options_.interrupted);
       if (tyings[k]) tries_file_.add(fmt::format("{},{}\n", number, tying_text(*tyings[k])));
     });
     if (options_.interrupted()) return {};
@@ -198,59 +194,78 @@ class Search {
     return found_scene(body_, shapes, options_.knot, options_.specimen);
   }
 
-  /// Tries a path that tied the knot in the living body.
-  void judge(int number) {
-    std::optional<Candidate> candidate;
-    if (const auto known = known_candidates_.find(number); known != known_candidates_.end()) {
-      candidate = candidate_of(number, known->second);
-    }
-    if (!candidate) {
-      candidate = judged(number);
-      if (options_.interrupted()) return;
-      candidates_file_.add(candidate_text(*candidate));
-    }
-    outcome_.candidates.push_back(*candidate);
-    if (!outcome_.best || candidate->passes() > outcome_.best->passes() ||
-        candidate->shortcoming.empty()) {
-      outcome_.best = candidate;
-    }
-    outcome_.found = candidate->shortcoming.empty();
+  std::optional<Candidate> known_candidate(int number) const {
+    const auto known = known_candidates_.find(number);
+    if (known == known_candidates_.end()) return std::nullopt;
+    return candidate_of(number, known->second);
   }
 
-  Candidate judged(int number) {
+  /// Tries paths that tied the knot in the living body, until one is good enough: all of them from
+  /// a straight start, of which few succeed, then these from starts with noise.
+  void judge(const std::vector<int>& tied, const std::function<bool()>& over) {
+    std::vector<Candidate> candidates(tied.size());
+    std::vector<FoundScene> scenes(tied.size());
+    in_parallel(static_cast<int>(tied.size()), options_.threads, [&](int k) {
+      if (const std::optional<Candidate> known = known_candidate(tied[k])) {
+        candidates[k] = *known;
+      } else {
+        candidates[k] = from_straight(tied[k], scenes[k]);
+      }
+    });
+    for (std::size_t k = 0; k < tied.size() && !outcome_.found && !over(); ++k) {
+      Candidate& candidate = candidates[k];
+      if (!known_candidate(tied[k])) {
+        if (candidate.shortcoming.empty()) judge_starts(scenes[k], candidate);
+        if (options_.interrupted()) return;
+        candidates_file_.add(candidate_text(candidate));
+      }
+      outcome_.candidates.push_back(candidate);
+      outcome_.found = candidate.shortcoming.empty();
+      if (!outcome_.best || candidate.passes() > outcome_.best->passes() || outcome_.found) {
+        outcome_.best = candidate;
+      }
+    }
+  }
+
+  /// The scene of a try, and why it does not succeed without noise by one law and the other.
+  Candidate from_straight(int number, FoundScene& scene) const {
     Candidate candidate;
     candidate.number = number;
-    const FoundScene found = found_of(number, candidate.shortcoming);
+    scene = found_of(number, candidate.shortcoming);
     if (!candidate.shortcoming.empty()) {
       candidate.shortcoming = "soft body: " + candidate.shortcoming;
-      return candidate;
     }
-    // The straight start first, then ever more: most candidates are given up soon.
-    for (const auto& [first, last] : {std::pair(0, 0), {1, 4}, {5, judged_starts}}) {
+    for (int law = 0; law < 2 && candidate.shortcoming.empty(); ++law) {
+      const std::optional<RunSummary> run = run_trial(scene, {.law = law}, options_.interrupted);
+      if (run && !succeeds(*run)) candidate.shortcoming = why_not(law, 0, *run);
+    }
+    return candidate;
+  }
+
+  static std::string why_not(int law, int start, const RunSummary& run) {
+    return fmt::format("{}, start {}: {}", judged_laws[law], start, shortcoming(run));
+  }
+
+  /// A few starts first, then the others: most candidates are given up soon.
+  void judge_starts(const FoundScene& scene, Candidate& candidate) {
+    for (const auto& [first, last] : {std::pair(1, 4), {5, judged_starts}}) {
       const int starts = last - first + 1;
       std::vector<std::optional<RunSummary>> runs(2 * starts);
       in_parallel(2 * starts, options_.threads, [&](int k) {
-        runs[k] = run_trial(found, {.law = k % 2, .seed = first + k / 2}, options_.interrupted);
+        runs[k] = run_trial(scene, {.law = k % 2, .seed = first + k / 2}, options_.interrupted);
       });
-      if (options_.interrupted()) return candidate;
-      if (first > 0) candidate.judged = last;
+      if (options_.interrupted()) return;
+      candidate.judged = last;
       for (int k = 0; k < 2 * starts; ++k) {
+        int& passed = candidate.passed[k % 2];
         if (succeeds(*runs[k])) {
-          if (first > 0) ++candidate.passed[k % 2];
-        } else if (first == 0 || candidate.judged - candidate.passed[k % 2] > allowed_failures) {
-          candidate.shortcoming = fmt::format("{}, start {}: {}", judged_laws[k % 2], first + k / 2,
-                                              shortcoming(*runs[k]));
+          ++passed;
+        } else if (first + k / 2 - passed > allowed_failures) {
+          candidate.shortcoming = why_not(k % 2, first + k / 2, *runs[k]);
         }
       }
-      for (const int passed : candidate.passed) {
-        if (candidate.judged - passed > allowed_failures && candidate.shortcoming.empty()) {
-          candidate.shortcoming =
-              fmt::format("{} of {} starts fail", candidate.judged - passed, candidate.judged);
-        }
-      }
-      if (!candidate.shortcoming.empty()) return candidate;
+      if (!candidate.shortcoming.empty()) return;
     }
-    return candidate;
   }
 
   void note_types() {

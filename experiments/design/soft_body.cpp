@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/run/simulation.hpp"
 #include "core/step/outcome.hpp"
 #include "experiments/design/knot_table.hpp"
 #include "experiments/sweep/sweep.hpp"
@@ -11,14 +10,9 @@
 namespace hagfish {
 namespace {
 
-constexpr double look = 0.4;     // s, between looks at the knot
+constexpr double look = 0.4;  // s, between looks at the knot
+constexpr int waypoints_ahead = 2;
 constexpr double lasting = 1.0;  // s, that a knot must be there
-
-/// Waypoints of a path without a pull.
-std::ptrdiff_t waypoints_after(const TailPath& path, double time) {
-  const auto after = [&](const TailPath::Waypoint& at) { return at.time > time; };
-  return std::ranges::count_if(path.swing, after) + std::ranges::count_if(path.turns, after);
-}
 
 /// The scene with a path.
 Scene led_along(const SoftBody& body, const TailPath& path, double step) {
@@ -62,12 +56,13 @@ std::optional<Tying> try_plan(const SoftBody& body, const PathPlan& plan,
                               const KnotInvariants& wanted, Draw& draw,
                               const std::function<bool()>& interrupted) {
   Tying tying{.seen = {{}}, .path = plan.path};
+  if (plan.reached) tying.seen = plan.reached->seen;
   TailPath& path = tying.path;
   Scene scene = led_along(body, path, 0.02);
   scene.expect.knot.clear();  // nothing is waited for
   scene.expect.types.clear();
   scene.knot.interval = look;
-  Simulation sim = start(body.model, scene, sweep_qp);
+  Simulation sim = plan.reached ? plan.reached->sim : start(body.model, scene, sweep_qp);
   StepRecord record;
   const auto centre = [&]() -> Eigen::Matrix3Xd {
     return sim.now.observation.kin.centre / body.model.length();
@@ -76,8 +71,9 @@ std::optional<Tying> try_plan(const SoftBody& body, const PathPlan& plan,
   std::size_t next = 0;
   while (true) {
     const double time = time_of(sim, scene);
-    // Two waypoints ahead are known: a path that is taken again is then the same up to any time.
-    if (path.pull.empty() && next < plan.turns.size() && waypoints_after(path, time + scene.time.step) < 2) {
+    // Those ahead are known, so that a path that is taken again is the same up to any time.
+    if (path.pull.empty() && next < plan.turns.size() &&
+        waypoints_after(path, time + scene.time.step) < waypoints_ahead) {
       add_turn(path, plan.turns[next++], centre(), strand);
       scene.script.knots = script_knots(path, body.model.length());
     }
@@ -90,17 +86,28 @@ std::optional<Tying> try_plan(const SoftBody& body, const PathPlan& plan,
       return tying;
     }
     const double seen_at = record.controller.knot_seen;
-    if (!std::isfinite(seen_at)) continue;
+    if (!std::isfinite(seen_at) || seen_at == tying.seen.back().to) continue;
     if (record.controller.knot.type != tying.seen.back().type) {
-      tying.seen.push_back({record.controller.knot.type, seen_at, seen_at});
+      tying.seen.push_back({record.controller.knot.type, seen_at, seen_at, {}});
+      continue;
     }
     TypeSeen& seen = tying.seen.back();
+    const bool second = seen.to == seen.from;
     seen.to = seen_at;
-    if (path.pull.empty() && seen.type == wanted && seen.to > seen.from) {
+    if (!second || !path.pull.empty()) continue;
+    if (seen.type == wanted) {
       end_with_pull(path, time_of(sim, scene), centre(), draw);
       scene.script.knots = script_knots(path, body.model.length());
+    } else if (tying.seen.size() > 1) {
+      Reached here{sim, path, tying.seen};
+      for (TypeSeen& before : here.seen) before.reached.reset();
+      seen.reached = std::make_shared<Reached>(std::move(here));
     }
   }
+}
+
+TailPath path_reached(const TailPath& path, double from) {
+  return path_with_ahead(path, from + look, waypoints_ahead);
 }
 
 Shapes tied_shapes(const SoftBody& body, const TailPath& path, const std::string& wanted,

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "core/chain/model.hpp"
 #include "core/input/scene_reader.hpp"
 #include "core/knot/knot.hpp"
+#include "core/run/simulation.hpp"
 #include "experiments/design/tail_path.hpp"
 
 namespace hagfish {
@@ -27,11 +29,25 @@ SoftBody soft_body(const std::string& specimen);
 /// names tell apart, the invariants. Nothing of any other text.
 std::optional<std::string> name_in_scene(const std::string& knot);
 
+struct Reached;
+
 /// A stretch of time in which the knot has one type.
 struct TypeSeen {
   KnotInvariants type;
-  double from = 0, to = 0;  ///< s
+  double from = 0, to = 0;                 ///< s
+  std::shared_ptr<const Reached> reached;  ///< at the second look, or nothing
 };
+
+/// A try on its way, from which others go on as if they had come all the way.
+struct Reached {
+  Simulation sim;
+  TailPath path;  ///< with the two waypoints ahead
+  std::vector<TypeSeen> seen;
+};
+
+/// Of the path that a try has taken: up to the two waypoints that were ahead when a type, seen from
+/// `from` (s) on, was looked at for the second time.
+TailPath path_reached(const TailPath& path, double from);
 
 /// What a path tied.
 struct Tying {
@@ -45,7 +61,8 @@ struct Tying {
 };
 
 /// Leads the tail as planned, at steps of 20 ms. As soon as `wanted` has been seen at two looks,
-/// the path ends with a pull, drawn by `draw`. Nothing where `interrupted`.
+/// the path ends with a pull, drawn by `draw`. What is found does not depend on whether the plan
+/// has where its path has led already (PathPlan::reached). Nothing where `interrupted`.
 std::optional<Tying> try_plan(const SoftBody& body, const PathPlan& plan,
                               const KnotInvariants& wanted, Draw& draw,
                               const std::function<bool()>& interrupted);

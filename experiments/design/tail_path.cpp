@@ -9,11 +9,11 @@ namespace hagfish {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
-constexpr int most_turns = 32;          // waypoints: the tail is used up before
-constexpr double displacement = 0.015;  // of a waypoint, body lengths
-constexpr double strands_within = 0.25;          // to strands that the tail may wind about, body lengths
-constexpr double tail_share = 0.25;           // body length next to the tip, which it cannot wind about
-constexpr double neck_share = 0.06;           // body length next to the head, which the plate holds
+constexpr int most_turns = 32;           // waypoints: the tail is used up before
+constexpr double displacement = 0.015;   // of a waypoint, body lengths
+constexpr double strands_within = 0.25;  // to strands that the tail may wind about, body lengths
+constexpr double tail_share = 0.25;      // body length next to the tip, which it cannot wind about
+constexpr double neck_share = 0.06;      // body length next to the head, which the plate holds
 
 TailPath::Waypoint last_of(const TailPath& path) {
   return path.turns.empty() ? path.swing.back() : path.turns.back();
@@ -54,12 +54,6 @@ std::vector<int> strands_near(const Eigen::Vector3d& place, const Eigen::Matrix3
   return near.empty() ? std::vector{nearest} : near;
 }
 
-void displace(TailPath& path, Draw& draw) {
-  for (TailPath::Waypoint& waypoint : path.turns) {
-    for (double& x : waypoint.place) x += displacement * draw.normal();
-  }
-}
-
 void add_swing(TailPath& path, Draw& draw) {
   // Half of an ellipse from the tail's place to above the body.
   const double to = draw.uniform(0.12, 0.4), height = draw.uniform(0.28, 0.45);
@@ -85,21 +79,20 @@ PathPlan random_plan(Draw& draw) {
 }
 
 PathPlan further_plan(const TailPath& path, Draw& draw) {
-  PathPlan plan{path, {}};
-  plan.path.pull.clear();
-  if (draw.chance(0.3)) {
-    const std::size_t turns = plan.path.turns.size();
-    plan.path.turns.resize(turns - std::min<std::size_t>(turns, 1 + draw.below(4)));
-  }
-  if (draw.chance(0.3)) displace(plan.path, draw);
+  PathPlan plan;
+  plan.path = path;
   draw_turns(plan, 1 + draw.below(8), draw);
   return plan;
 }
 
 TailPath displaced_path(const TailPath& path, Draw& draw) {
   TailPath other = path;
-  if (draw.chance(0.8)) displace(other, draw);
-  if (draw.chance(0.5)) {
+  if (path.pull.empty() || draw.chance(0.8)) {
+    for (TailPath::Waypoint& waypoint : other.turns) {
+      for (double& x : waypoint.place) x += displacement * draw.normal();
+    }
+  }
+  if (!path.pull.empty() && draw.chance(0.5)) {
     for (double& x : other.pull.back().place) x += 0.1 * draw.normal();
   }
   return other;
@@ -110,7 +103,8 @@ void add_turn(TailPath& path, const Winding& turn, const Eigen::Matrix3Xd& centr
   const TailPath::Waypoint before = last_of(path);
   if (turn.choice >= 0) {
     const std::vector<int> near = strands_near(before.place, centre);
-    strand = near[std::min(near.size() - 1, static_cast<std::size_t>(turn.choice * static_cast<double>(near.size())))];
+    strand = near[std::min(
+        near.size() - 1, static_cast<std::size_t>(turn.choice * static_cast<double>(near.size())))];
   }
   const Eigen::Vector3d middle = centre.col(strand);
   const Eigen::Vector3d along = (centre.col(strand + 2) - centre.col(strand - 2)).normalized();
@@ -129,7 +123,7 @@ void add_turn(TailPath& path, const Winding& turn, const Eigen::Matrix3Xd& centr
 }
 
 void end_with_pull(TailPath& path, double time, const Eigen::Matrix3Xd& centre, Draw& draw) {
-  path = path_until(path, time);
+  std::erase_if(path.turns, [&](const TailPath::Waypoint& at) { return at.time >= time; });
   const Eigen::Index tip = centre.cols() - 1;
   const Eigen::Vector3d place = centre.col(tip);
   path.turns.push_back({time, place});
@@ -139,11 +133,19 @@ void end_with_pull(TailPath& path, double time, const Eigen::Matrix3Xd& centre, 
   path.pull = {{time + 1, place + 0.6 * way}, {time + 2, place + way}};
 }
 
-TailPath path_until(const TailPath& path, double time) {
+TailPath path_with_ahead(const TailPath& path, double time, int ahead) {
   TailPath shorter = path;
-  std::erase_if(shorter.turns, [&](const TailPath::Waypoint& at) { return at.time >= time; });
   shorter.pull.clear();
+  while (!shorter.turns.empty() && waypoints_after(shorter, time) > ahead) {
+    shorter.turns.pop_back();
+  }
   return shorter;
+}
+
+int waypoints_after(const TailPath& path, double time) {
+  const auto after = [&](const TailPath::Waypoint& at) { return at.time > time; };
+  return static_cast<int>(std::ranges::count_if(path.swing, after) +
+                          std::ranges::count_if(path.turns, after));
 }
 
 std::vector<ScriptKnot> script_knots(const TailPath& path, double length) {

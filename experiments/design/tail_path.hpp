@@ -3,12 +3,15 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <vector>
 
 #include "core/scene/settings.hpp"
 #include "experiments/design/draw.hpp"
 
 namespace hagfish {
+
+struct Reached;  // soft_body.hpp
 
 /// Waypoints of the last body's centre, for a script of kind position.
 struct TailPath {
@@ -28,19 +31,20 @@ struct Winding {
   double duration = 0;  ///< s
 };
 
-/// A path and how it goes on from its end.
+/// A path, and how it goes on from its end.
 struct PathPlan {
   TailPath path;
   std::vector<Winding> turns;
+  std::shared_ptr<const Reached> reached;  ///< by the path, so that it need not be taken again
 };
 
 /// A swing over and 5 to 16 turns about strands: nothing is known of any knot.
 PathPlan random_plan(Draw& draw);
 
-/// On from the end of `path`, perhaps displaced and without its last turns, by 1 to 8 turns.
+/// On from the end of `path` by 1 to 8 turns.
 PathPlan further_plan(const TailPath& path, Draw& draw);
 
-/// `path`, which ends with a pull, with its waypoints displaced, or another pull, or both.
+/// `path` with its waypoints displaced, or another pull where it ends with one, or both.
 TailPath displaced_path(const TailPath& path, Draw& draw);
 
 /// Adds the waypoint of a turn. `centre`: of the bodies, 3 x n, body lengths. `strand` is the body
@@ -52,8 +56,11 @@ void add_turn(TailPath& path, const Winding& turn, const Eigen::Matrix3Xd& centr
 /// `centre`: as above, at that time.
 void end_with_pull(TailPath& path, double time, const Eigen::Matrix3Xd& centre, Draw& draw);
 
-/// The path up to `time`, without a pull.
-TailPath path_until(const TailPath& path, double time);
+/// The path up to that many waypoints behind `time` (s), without a pull.
+TailPath path_with_ahead(const TailPath& path, double time, int ahead);
+
+/// Of swing and turns, behind `time` (s).
+int waypoints_after(const TailPath& path, double time);
 
 /// The script's knots for an animal of that length, cm.
 std::vector<ScriptKnot> script_knots(const TailPath& path, double length);

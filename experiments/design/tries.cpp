@@ -12,9 +12,7 @@ namespace {
 
 constexpr std::size_t kept_of_type = 40;
 constexpr double random_share = 0.25;
-constexpr double displaced_share = 0.5;  // once the wanted type was tied
-// s after a type was first seen, up to which its path is kept: the next waypoints are behind that.
-constexpr double going_on = 0.4;
+constexpr double displaced_share = 0.5;      // once the wanted type was tied
 constexpr std::size_t most_waypoints = 100;  // of a part, in a file that is whole
 constexpr const char* failed_word = "failed";
 
@@ -31,12 +29,25 @@ int crossings_of(const std::string& name) {
   return named ? name[0] - '0' : many;
 }
 
-void keep(int number, const TailPath& path, std::vector<TailPath>& paths) {
+template <class Path>
+void keep(int number, const Path& path, std::vector<Path>& paths) {
   if (paths.size() < kept_of_type) {
     paths.push_back(path);
   } else {
     paths[static_cast<std::size_t>(number) % kept_of_type] = path;
   }
+}
+
+template <class Path>
+const Path& one_of(const std::vector<Path>& paths, Draw& draw) {
+  return paths[draw.below(static_cast<int>(paths.size()))];
+}
+
+bool same(const TailPath& a, const TailPath& b) {
+  const auto equal = [](const TailPath::Waypoint& at, const TailPath::Waypoint& other) {
+    return at.time == other.time && at.place == other.place;
+  };
+  return std::ranges::equal(a.swing, b.swing, equal) && std::ranges::equal(a.turns, b.turns, equal);
 }
 
 /// What tying_text() has behind how the run ended; false where it is not whole.
@@ -53,10 +64,6 @@ bool read_path(std::istream& words, TailPath& path) {
   return words >> end && end == ".";
 }
 
-const TailPath& one_of(const std::vector<TailPath>& paths, Draw& draw) {
-  return paths[draw.below(static_cast<int>(paths.size()))];
-}
-
 }  // namespace
 
 Archive::Archive(unsigned seed, const std::string& wanted)
@@ -66,12 +73,17 @@ Archive::Archive(unsigned seed, const std::string& wanted)
 
 PathPlan Archive::plan_of(int number) const {
   Draw draw(seed_, static_cast<unsigned>(number));
-  if (!tied_.empty() && draw.chance(displaced_share)) {
-    return {displaced_path(one_of(tied_, draw), draw), {}};
+  const std::vector<TailPath>& with_pull = tied_.empty() ? lost_ : tied_;
+  if (!with_pull.empty() && draw.chance(displaced_share)) {
+    return {displaced_path(one_of(with_pull, draw), draw), {}, {}};
   }
   if (paths_.empty() || draw.chance(random_share)) return random_plan(draw);
   const auto type = std::next(paths_.begin(), draw.below(static_cast<int>(paths_.size())));
-  return further_plan(one_of(type->second, draw), draw);
+  const PathPlan& from = one_of(type->second, draw);
+  if (draw.chance(0.3)) return further_plan(displaced_path(from.path, draw), draw);
+  PathPlan plan = further_plan(from.path, draw);
+  plan.reached = from.reached;
+  return plan;
 }
 
 void Archive::add(int number, const Tying& tying) {
@@ -80,11 +92,20 @@ void Archive::add(int number, const Tying& tying) {
   for (const TypeSeen& seen : tying.seen) {
     if (seen.to == seen.from) continue;
     seen_here.insert(key(seen.type));
-    if (seen.type == none || crossings_of(knot_name(seen.type)) > crossings_) continue;
-    keep(number, path_until(tying.path, seen.from + going_on), paths_[key(seen.type)]);
+    if (seen.type == none || seen.type == wanted_ ||
+        crossings_of(knot_name(seen.type)) > crossings_) {
+      continue;
+    }
+    PathPlan to_there{path_reached(tying.path, seen.from), {}, {}};
+    std::vector<PathPlan>& paths = paths_[key(seen.type)];
+    const auto is_there = [&](const PathPlan& plan) { return same(plan.path, to_there.path); };
+    if (std::ranges::any_of(paths, is_there)) continue;  // its try went on from there
+    if (seen.reached && same(seen.reached->path, to_there.path)) to_there.reached = seen.reached;
+    keep(number, to_there, paths);
   }
   for (const Type& type : seen_here) ++counts_[type];
-  if (tying.tied() == wanted_) keep(number, tying.path, tied_);
+  if (tying.path.pull.empty()) return;
+  keep(number, tying.path, tying.tied() == wanted_ ? tied_ : lost_);
 }
 
 std::string tying_text(const Tying& tying) {

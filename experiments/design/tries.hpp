@@ -34,8 +34,8 @@ class Archive {
   unsigned seed_;
   KnotInvariants wanted_;
   int crossings_;                                // of wanted_
-  std::map<Type, std::vector<TailPath>> paths_;  // up to where the type was seen
-  std::vector<TailPath> tied_;                   // the wanted type, each ends with a pull
+  std::map<Type, std::vector<PathPlan>> paths_;  // to where the type was seen, without turns
+  std::vector<TailPath> tied_, lost_;            // the wanted type, which the pull kept or not
   std::map<Type, int> counts_;
 };
 
