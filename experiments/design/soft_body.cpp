@@ -12,7 +12,8 @@ namespace {
 
 constexpr double look = 0.4;  // s, between looks at the knot
 constexpr int waypoints_ahead = 2;
-constexpr double lasting = 1.0;  // s, that a knot must be there
+constexpr double search_step = 0.02;  // s
+constexpr double lasting = 1.0;       // s, that a knot must be there
 
 /// The scene with a path.
 Scene led_along(const SoftBody& body, const TailPath& path, double step) {
@@ -58,7 +59,7 @@ std::optional<Tying> try_plan(const SoftBody& body, const PathPlan& plan,
   Tying tying{.seen = {{}}, .path = plan.path};
   if (plan.reached) tying.seen = plan.reached->seen;
   TailPath& path = tying.path;
-  Scene scene = led_along(body, path, 0.02);
+  Scene scene = led_along(body, path, search_step);
   scene.expect.knot.clear();  // nothing is waited for
   scene.expect.types.clear();
   scene.knot.interval = look;
@@ -71,7 +72,8 @@ std::optional<Tying> try_plan(const SoftBody& body, const PathPlan& plan,
   std::size_t next = 0;
   while (true) {
     const double time = time_of(sim, scene);
-    // Those ahead are known, so that a path that is taken again is the same up to any time.
+    // A spline depends on the waypoint behind the next one. With both known ahead of time, a path
+    // that is taken again leads the tail as it did before.
     if (path.pull.empty() && next < plan.turns.size() &&
         waypoints_after(path, time + scene.time.step) < waypoints_ahead) {
       add_turn(path, plan.turns[next++], centre(), strand);
@@ -98,7 +100,8 @@ std::optional<Tying> try_plan(const SoftBody& body, const PathPlan& plan,
     if (seen.type == wanted) {
       end_with_pull(path, time_of(sim, scene), centre(), draw);
       scene.script.knots = script_knots(path, body.model.length());
-    } else if (tying.seen.size() > 1) {
+    } else if (tying.seen.size() > 1 &&
+               waypoints_after(path, seen_at + search_step) >= waypoints_ahead) {
       Reached here{sim, path, tying.seen};
       for (TypeSeen& before : here.seen) before.reached.reset();
       seen.reached = std::make_shared<Reached>(std::move(here));
@@ -107,7 +110,7 @@ std::optional<Tying> try_plan(const SoftBody& body, const PathPlan& plan,
 }
 
 TailPath path_reached(const TailPath& path, double from) {
-  return path_with_ahead(path, from + look, waypoints_ahead);
+  return path_with_ahead(path, from + look + search_step, waypoints_ahead);
 }
 
 Shapes tied_shapes(const SoftBody& body, const TailPath& path, const std::string& wanted,

@@ -34,8 +34,9 @@ struct Reached;
 /// A stretch of time in which the knot has one type.
 struct TypeSeen {
   KnotInvariants type;
-  double from = 0, to = 0;                 ///< s
-  std::shared_ptr<const Reached> reached;  ///< at the second look, or nothing
+  double from = 0, to = 0;  ///< s
+  std::shared_ptr<const Reached>
+      reached;  ///< at the second look, if its path had two waypoints ahead
 };
 
 /// A try on its way, from which others go on as if they had come all the way.

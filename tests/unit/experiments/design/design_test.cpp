@@ -105,15 +105,51 @@ TEST(Design, AnimalTooShortIsRefusedWithTheLengthItNeeds) {
 
 TEST(Design, TyingsAreReadBackAsTheyWereWritten) {
   Tying tying;
-  tying.seen = {{{}, 0, 8.4}, {{3, 1}, 8.8, 11.2}, {{9, 2}, 11.6, 13.2}};
+  tying.seen = {{{}, 0, 8.4, {}}, {{3, 1}, 8.8, 11.2, {}}, {{9, 2}, 11.6, 13.2, {}}};
+  tying.path.swing = {{0, {1, 0, 0}}, {4.5, {0.1, 0.2, 1.0 / 3}}};
+  tying.path.pull = {{13.2, {0, 0, 0}}};
   const std::string text = tying_text(tying);
   const std::optional<Tying> back = tying_of(text);
   ASSERT_TRUE(back);
   EXPECT_EQ(tying_text(*back), text);
   EXPECT_EQ(*back->tied(), (KnotInvariants{9, 2}));
-  EXPECT_FALSE(tying_of(text.substr(0, text.size() - 1)));
+  for (std::size_t cut = 0; cut < text.size(); ++cut) EXPECT_FALSE(tying_of(text.substr(0, cut)));
   tying.failed = true;
   EXPECT_FALSE(tying_of(tying_text(tying))->tied());
+}
+
+TEST(Design, TypesOfMoreCrossingsThanWantedAreLedOnFromByNoPath) {
+  Draw draw(1, 1);
+  TailPath path = random_plan(draw).path;
+  path.turns = {{5, {0.3, 0.1, 0}}, {6, {0.3, 0, 0.1}}, {7, {0.3, -0.1, 0}}, {8, {0.3, 0, -0.1}}};
+  const auto led_on = [&](const char* wanted) {
+    Archive archive(1, wanted);
+    archive.add(0, {.seen = {{{}, 0, 4, {}}, {{7, 2}, 4.4, 6, {}}}, .failed = false, .path = path});
+    int count = 0;
+    for (int number = 1; number <= 100; ++number) {
+      count += archive.plan_of(number).path.turns.empty() ? 0 : 1;
+    }
+    return count;
+  };
+  EXPECT_EQ(led_on("4_1"), 0);
+  EXPECT_GT(led_on("6_1"), 50);
+}
+
+TEST(Design, PathsThatTiedTheKnotAreDisplaced) {
+  Draw draw(1, 1);
+  TailPath path = random_plan(draw).path;
+  path.turns = {{5, {0.3, 0.1, 0}}};
+  path.pull = {{6, {0.3, 0.1, 0.1}}, {7, {0.3, 0.1, 0.2}}};
+  Archive archive(1, "3_1");
+  archive.add(0, {.seen = {{{}, 0, 4, {}}, {{3, 1}, 4.4, 7, {}}}, .failed = false, .path = path});
+  int displaced = 0;
+  for (int number = 1; number <= 100; ++number) {
+    const TailPath tried = archive.plan_of(number).path;
+    if (tried.pull.empty()) continue;
+    ++displaced;
+    EXPECT_LT((tried.turns[0].place - path.turns[0].place).norm(), 0.1);
+  }
+  EXPECT_GT(displaced, 30);
 }
 
 }  // namespace hagfish::design_test
