@@ -44,14 +44,16 @@ def audited(folder: Path, step: str) -> str:
 def read_study(folder: Path) -> tuple[list[Row], list[str]]:
     rows = []
     results = []
+    revisions = set()
     for search in sorted(folder.glob("*/search.toml")):
         result = search.parent / "result.csv"
+        what = tomllib.loads(search.read_text(encoding="utf-8"))
+        revisions.add(what["revision"])
         if result.exists():
             results.append(result)
             row = tables.read_csv(result, KEPT)[0]
             rows.append({**{name: row[name] for name in KEPT}, **{f"audit_{step}_s": audited(result.parent, step) for step in STEPS}})
         else:  # nothing tied the knot
-            what = tomllib.loads(search.read_text(encoding="utf-8"))
             tries = (search.parent / "tries.csv").read_text(encoding="utf-8").count("\n")
             rows.append({**dict.fromkeys([*KEPT, *(f"audit_{step}_s" for step in STEPS)], ""), "knot_wanted": what["knot"],
                          "seed": str(what["seed"]), "found": "no", "tries": str(tries), "tied_in_soft_body": "0"})
@@ -59,7 +61,7 @@ def read_study(folder: Path) -> tuple[list[Row], list[str]]:
         raise LogError(f"{folder}: holds no folder with a result.csv")
     log = HagfishLog(results[0].parent / "knot.h5")
     date = datetime.datetime.fromtimestamp(results[0].stat().st_mtime, datetime.UTC)
-    return rows, [f"Measured at {str(log.attribute('git_revision'))[:12]} on {log.attribute('cpu')}, {date:%Y-%m-%d}."]
+    return rows, [f"Measured at {', '.join(sorted(revisions))} on {log.attribute('cpu')}, {date:%Y-%m-%d}."]
 
 
 def read_table(path: Path) -> tuple[list[Row], list[str]]:
@@ -118,6 +120,8 @@ def page(rows: list[Row], notes: list[str]) -> list[str]:
         *tables.markdown(["what", "figure"], TRIED),
         "## What this page does not show", "",
         "- Other animals: the search was run for Table 1's alone.",
+        "- How long a search takes on a quiet machine: other programs took most of this one's time.",
+        "- Searches of the same knot by other seeds than those of the table. One without success may have been stopped before its 15 minutes were over.",
         "- Knots of six crossings and more, and composites. The classifier tells them apart; their searches were not run.",
         "- What the rows of what was tried are worth: they are of one seed and few tries.",
         "- A refinement of found programs. The first program that passes is kept, not the best.",
