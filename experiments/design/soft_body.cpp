@@ -79,7 +79,7 @@ std::optional<Tying> try_plan(const SoftBody& body, const PathPlan& plan,
       add_turn(path, plan.turns[next++], centre(), strand);
       scene.script.knots = script_knots(path, body.model.length());
     }
-    if (time >= path_end(path) + (path.pull.empty() ? 0 : lasting)) return tying;
+    if (time >= path_end(path) + lasting) return tying;
     if (interrupted()) return std::nullopt;
     try {
       take_step(body.model, scene, sim, record);

@@ -19,6 +19,50 @@ TailPath::Waypoint last_of(const TailPath& path) {
   return path.turns.empty() ? path.swing.back() : path.turns.back();
 }
 
+/// A strand that the tail winds about, as a line.
+struct Line {
+  Eigen::Vector3d point, along, across, beside;
+};
+
+/// The part of the body that lies straight, or that which the swing leads back to it: where these
+/// are is known well enough before anything has moved.
+Line choose_line(const TailPath& path, Draw& draw) {
+  Line line;
+  if (draw.chance(0.6)) {
+    line.point.setZero();
+    line.along = Eigen::Vector3d::UnitX();
+  } else {
+    line.point = {path.swing.back().place.x() - draw.uniform(0, 0.1), 0.1, 0.03};
+    line.along = Eigen::Vector3d(draw.uniform(0.1, 0.8), 1, draw.uniform(-0.1, 0.2)).normalized();
+  }
+  line.across = line.along.cross(Eigen::Vector3d::UnitZ()).normalized();
+  line.beside = line.along.cross(line.across);
+  return line;
+}
+
+/// Turns about lines, whatever the body does in the meantime.
+void add_turns_about_lines(TailPath& path, int count, Draw& draw) {
+  while (count > 0) {
+    const Line line = choose_line(path, draw);
+    const Eigen::Vector3d from = last_of(path).place - line.point;
+    double along = from.dot(line.along);
+    double angle = std::atan2(from.dot(line.beside), from.dot(line.across));
+    const double sense = draw.chance(0.5) ? 1 : -1;
+    const double advance = draw.uniform(-0.03, 0.03);
+    do {
+      angle += sense * draw.uniform(50 * degree, 110 * degree);
+      along += advance + 0.015 * draw.normal();
+      const double radius = draw.uniform(0.055, 0.13);
+      Eigen::Vector3d place =
+          line.point + along * line.along +
+          radius * (std::cos(angle) * line.across + std::sin(angle) * line.beside);
+      place.x() = std::clamp(place.x(), 0.06, 0.6);
+      path.turns.push_back({last_of(path).time + draw.uniform(0.5, 0.75), place});
+      --count;
+    } while (count > 0 && !draw.chance(0.15));
+  }
+}
+
 /// Turns about one strand, some on about the same, then perhaps about another.
 void draw_turns(PathPlan& plan, int count, Draw& draw) {
   while (count > 0) {
@@ -74,7 +118,12 @@ void add_swing(TailPath& path, Draw& draw) {
 PathPlan random_plan(Draw& draw) {
   PathPlan plan;
   add_swing(plan.path, draw);
-  draw_turns(plan, 5 + draw.below(12), draw);
+  const int count = 5 + draw.below(12);
+  if (draw.chance(0.5)) {
+    add_turns_about_lines(plan.path, count, draw);
+  } else {
+    draw_turns(plan, count, draw);
+  }
   return plan;
 }
 

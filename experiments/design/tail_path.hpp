@@ -38,7 +38,8 @@ struct PathPlan {
   std::shared_ptr<const Reached> reached;  ///< by the path, so that it need not be taken again
 };
 
-/// A swing over and 5 to 16 turns about strands: nothing is known of any knot.
+/// A swing over and 5 to 16 turns: nothing is known of any knot. Half of the plans turn about
+/// strands where they then lie, half about lines where strands lie before anything moves.
 PathPlan random_plan(Draw& draw);
 
 /// On from the end of `path` by 1 to 8 turns.
