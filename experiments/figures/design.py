@@ -103,7 +103,8 @@ def page(rows: list[Row], notes: list[str]) -> list[str]:
         "**Question.** Does a body find out by itself how to knot itself?", "",
         f"**Answer.** {answer}", "",
         "## How it is found", "",
-        "1. A hand leads the tail of an animal with a soft body. The tail winds about strands near it, which are drawn at random. Half of the paths wind about lines where strands lie before anything moves.",
+        "1. A hand leads the tail of an animal with a soft body. The tail winds about strands near it, which are drawn at random. "
+        "Half of the paths wind about lines where strands lie before anything moves.",
         "2. A path on which some knot was seen is continued in other ways. It is drawn by type, so that rare knots are continued as often as common ones.",
         "3. As soon as the wanted knot is seen twice, 0.4 s apart, the tail is pulled on to where it points. Such paths are then displaced at random.",
         "4. The soft body is tightened. Its shapes become a curvature program of 25 stations, a time every 0.35 s.",
