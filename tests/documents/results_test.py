@@ -146,6 +146,30 @@ def test_a_study_is_adopted_and_ages(house):
     assert results.OLDER in csv.read_text() and results.OLDER in page.read_text()
 
 
+@pytest.mark.skipif(shutil.which("git") is None, reason="needs git")
+def test_code_that_moves_scenes_alike_ages_no_page(house, monkeypatch):
+    program, csv = house / "digest", house / "experiments/results/p.csv"
+    program.write_text('#!/bin/sh\necho "$1: $(cut -c1-5 ' + str(house / "core/a.cpp") + ') of 3 frames"\n')
+    program.chmod(0o755)
+    monkeypatch.setattr(results, "DIGESTS", house / "experiments/results/digests.csv")
+    commit = results.git("rev-parse", "HEAD").strip()
+    csv.write_text(f"# Measured at {commit} on a machine, 2026-01-01.\n,a\nx,1\ny,2\n")
+    results.note_digests(program)
+    old = lambda: results.mark() or results.OLDER in csv.read_text()
+    (house / "core/a.cpp").write_text("int a; int b;\n")
+    assert old()  # its digests are not known
+    results.note_digests(program)
+    assert not old()
+    (house / "core/a.cpp").write_text("long a;\n")
+    results.note_digests(program)
+    assert old()  # other digests
+    (house / "core/a.cpp").write_text("int a; int b;\n")
+    (house / "data").mkdir()
+    (house / "data/s.toml").write_text("other = 1\n")
+    results.git("add", "data")
+    assert old()  # no digest tells of scenes
+
+
 def test_a_picture_says_where_it_was_measured(tmp_path):
     image = pytest.importorskip("PIL.Image")
     image.new("RGB", (4, 2), (10, 20, 30)).save(tmp_path / "a.png")
