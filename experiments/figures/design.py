@@ -113,7 +113,7 @@ def page(rows: list[Row], notes: list[str]) -> list[str]:
         "No script and no program of `data/` is a start of the search. The head is clamped.", "",
         "## What was found", "",
         *found_table(rows),
-        "Times are of two threads and hold everything: the search, the fit and all runs of the starts. The machine was shared, so compare CPU times.", "",
+        "Times hold everything: the search, the fit and all runs of the starts. The machine was shared, so compare CPU times.", "",
         "## What each takes", "",
         "These are figures of the run from a straight start by the paper's law. The audit is `hagfish check`.", "",
         *needs_table(rows),
@@ -123,7 +123,7 @@ def page(rows: list[Row], notes: list[str]) -> list[str]:
         "- Other animals: the search was run for Table 1's alone.",
         "- How long a search takes on a quiet machine: other programs took most of this one's time.",
         "- Searches of the same knot by other seeds than those of the table. One without success may have been stopped before its 15 minutes were over.",
-        "- Knots of six crossings and more, and composites. The classifier tells them apart; their searches were not run.",
+        "- Knots of six crossings and more, and composites. The classifier tells them apart; ten minutes of one thread each found none of them.",
         "- What the rows of what was tried are worth: they are of one seed and few tries.",
         "- A refinement of found programs. The first program that passes is kept, not the best.",
     ]
