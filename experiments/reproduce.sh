@@ -4,7 +4,7 @@
 #   bash experiments/reproduce.sh [NAME...]     default: all pages
 #   bash experiments/reproduce.sh --list        their names, questions, and how long each took
 #   bash experiments/reproduce.sh --mark        notes on each page whether the simulator has changed since it was made
-#   bash experiments/reproduce.sh --digest      notes how this code moves ten scenes, to the last bit: code that moves them alike ages no page
+#   bash experiments/reproduce.sh --digest      notes how this code moves each scene, to the last bit: code that moves all alike ages no page
 # Stopped, it goes on where it was: studies keep what they have in out/reproduce, and a page that is done by the same program
 # is not made again. Exits 1 if anything differs.
 set -euo pipefail

@@ -1,6 +1,5 @@
 #include "experiments/design/soft_body.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "core/step/outcome.hpp"
@@ -143,9 +142,6 @@ Shapes tied_shapes(const SoftBody& body, const TailPath& path, const std::string
     }
   }
   if (shapes.failure.empty() && !tightens) shapes.failure = "it was never tightened";
-  if (const std::optional<KnotSpan> span = knot_span(sim.controller)) {
-    shapes.head_end = span->head_end;
-  }
   if (shapes.failure.empty() && fingerprint_called(wanted)) {
     const std::string name = full_knot_name(sim.now.observation.kin.centre, scene.knot);
     if (name != wanted) shapes.failure = "it is a " + name;

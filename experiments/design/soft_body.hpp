@@ -73,7 +73,6 @@ struct Shapes {
   std::vector<double> time;  ///< s, from 0
   Eigen::MatrixXd q;         ///< a row each
   double tighten_from = 0;   ///< s
-  double head_end = 0;       ///< of the knot in the end, cm of arc
   std::string failure;       ///< why there are no shapes up to the end, or empty
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace hagfish {
 namespace {
@@ -22,7 +23,26 @@ TailPath::Waypoint last_of(const TailPath& path) {
 /// A strand that the tail winds about, as a line.
 struct Line {
   Eigen::Vector3d point, along, across, beside;
+
+  double angle_of(const Eigen::Vector3d& place) const {
+    const Eigen::Vector3d from = place - point;
+    return std::atan2(from.dot(beside), from.dot(across));
+  }
+  Eigen::Vector3d place(double on, double radius, double angle) const {
+    return point + on * along + radius * (std::cos(angle) * across + std::sin(angle) * beside);
+  }
 };
+
+/// A turn on about the strand of the turn before, which has `sense` and goes `along` it on average.
+Winding draw_winding(double sense, double along, Draw& draw) {
+  Winding turn;
+  turn.choice = -1;
+  turn.angle = sense * draw.uniform(50 * degree, 110 * degree);
+  turn.along = along + 0.015 * draw.normal();
+  turn.radius = draw.uniform(0.055, 0.13);
+  turn.duration = draw.uniform(0.5, 0.75);
+  return turn;
+}
 
 /// The part of the body that lies straight, or that which the swing leads back to it: where these
 /// are is known well enough before anything has moved.
@@ -44,20 +64,17 @@ Line choose_line(const TailPath& path, Draw& draw) {
 void add_turns_about_lines(TailPath& path, int count, Draw& draw) {
   while (count > 0) {
     const Line line = choose_line(path, draw);
-    const Eigen::Vector3d from = last_of(path).place - line.point;
-    double along = from.dot(line.along);
-    double angle = std::atan2(from.dot(line.beside), from.dot(line.across));
+    double on = (last_of(path).place - line.point).dot(line.along);
+    double angle = line.angle_of(last_of(path).place);
     const double sense = draw.chance(0.5) ? 1 : -1;
-    const double advance = draw.uniform(-0.03, 0.03);
+    const double along = draw.uniform(-0.03, 0.03);
     do {
-      angle += sense * draw.uniform(50 * degree, 110 * degree);
-      along += advance + 0.015 * draw.normal();
-      const double radius = draw.uniform(0.055, 0.13);
-      Eigen::Vector3d place =
-          line.point + along * line.along +
-          radius * (std::cos(angle) * line.across + std::sin(angle) * line.beside);
-      place.x() = std::clamp(place.x(), 0.06, 0.6);
-      path.turns.push_back({last_of(path).time + draw.uniform(0.5, 0.75), place});
+      const Winding turn = draw_winding(sense, along, draw);
+      angle += turn.angle;
+      on += turn.along;
+      Eigen::Vector3d place = line.place(on, turn.radius, angle);
+      place.x() = std::clamp(place.x(), neck_share, 0.6);
+      path.turns.push_back({last_of(path).time + turn.duration, place});
       --count;
     } while (count > 0 && !draw.chance(0.15));
   }
@@ -68,16 +85,10 @@ void draw_turns(PathPlan& plan, int count, Draw& draw) {
   while (count > 0) {
     const double sense = draw.chance(0.5) ? 1 : -1;
     const double along = draw.uniform(-0.03, 0.03);
-    bool first = true;
+    double choice = draw.uniform(0, 1);
     do {
-      Winding turn;
-      turn.choice = first ? draw.uniform(0, 1) : -1;
-      turn.angle = sense * draw.uniform(50 * degree, 110 * degree);
-      turn.along = along + 0.015 * draw.normal();
-      turn.radius = draw.uniform(0.055, 0.13);
-      turn.duration = draw.uniform(0.5, 0.75);
-      plan.turns.push_back(turn);
-      first = false;
+      plan.turns.push_back(draw_winding(sense, along, draw));
+      plan.turns.back().choice = std::exchange(choice, -1);
       --count;
     } while (count > 0 && !draw.chance(0.15));
   }
@@ -155,18 +166,17 @@ void add_turn(TailPath& path, const Winding& turn, const Eigen::Matrix3Xd& centr
     strand = near[std::min(
         near.size() - 1, static_cast<std::size_t>(turn.choice * static_cast<double>(near.size())))];
   }
-  const Eigen::Vector3d middle = centre.col(strand);
-  const Eigen::Vector3d along = (centre.col(strand + 2) - centre.col(strand - 2)).normalized();
-  const Eigen::Vector3d across =
-      along.cross(std::abs(along.z()) < 0.8 ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitX())
-          .normalized();
-  const Eigen::Vector3d beside = along.cross(across);
-  const Eigen::Vector3d from = before.place - middle;
-  const double angle = std::atan2(from.dot(beside), from.dot(across)) + turn.angle;
+  Line line;
+  line.point = centre.col(strand);
+  line.along = (centre.col(strand + 2) - centre.col(strand - 2)).normalized();
+  line.across = line.along
+                    .cross(std::abs(line.along.z()) < 0.8 ? Eigen::Vector3d::UnitZ()
+                                                          : Eigen::Vector3d::UnitX())
+                    .normalized();
+  line.beside = line.along.cross(line.across);
   // Strands are followed for a tenth of the body, as if they were straight.
-  const double on = std::clamp(from.dot(along) + turn.along, -0.1, 0.1);
-  Eigen::Vector3d place =
-      middle + on * along + turn.radius * (std::cos(angle) * across + std::sin(angle) * beside);
+  const double on = std::clamp((before.place - line.point).dot(line.along) + turn.along, -0.1, 0.1);
+  Eigen::Vector3d place = line.place(on, turn.radius, line.angle_of(before.place) + turn.angle);
   place.x() = std::max(place.x(), neck_share);
   path.turns.push_back({before.time + turn.duration, place});
 }

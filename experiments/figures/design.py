@@ -76,7 +76,7 @@ def number(text: str, digits: int = 3) -> str:
 
 
 def passed(row: Row, law: str) -> str:
-    return f"{row[f'starts_by_{law}']} of {row['starts']}" if row["starts"] else "-"
+    return f"{row[f'starts_by_{law}']} of {row['starts']}" if row["starts"] not in ("", "0") else "-"
 
 
 def found_table(rows: list[Row]) -> list[str]:

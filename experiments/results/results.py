@@ -37,8 +37,6 @@ FIGURES = ROOT / "experiments" / "figures"
 CODE = ("core", "solvers", "mujoco_ref", "data")  # what moves the animal: a change there may change figures
 MOTION = ("core", "solvers")  # of these, what digests of scenes can tell to be as it was
 DIGESTS = RESULTS / "digests.csv"
-SCENES = ("table1", "living_overhand", "reflex_overhand", "pull_overhand", "overhand_reverse", "overhand_free_head", "muscles_forward",
-          "thigmotaxis_everywhere", "robot_overhand", "living_figure_eight time.rule=midpoint")
 BLOCK = re.compile(r"<!-- (table|stamp|index)(?:: ([^;>]+?))?(?:; rows: ([^>]+?))? -->\n(?:.*?\n)??<!-- end -->", re.DOTALL)
 VALUE = re.compile(r"(<!-- of: ([^;>]+); ([^;>]+?)(?:; ([^>]+?))? -->).*?(<!-- end -->)")
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
@@ -297,22 +295,33 @@ def texts_of(commit: str, names: list[str]) -> list[str]:
 
 def motion_key(commit: str | None) -> str:
     """Of the code of MOTION at a commit, or as it lies here, without comments and messages."""
-    listed = git("ls-tree", "-r", "--name-only", commit, "--", *MOTION) if commit else git("ls-files", "--", *MOTION)
-    names = sorted(name for name in listed.split() if name.endswith((".cpp", ".hpp")))
+    lying = ("ls-files", "--cached", "--others", "--exclude-standard")
+    listed = git(*(("ls-tree", "-r", "--name-only", commit) if commit else lying), "--", *MOTION)
+    names = sorted(name for name in listed.split() if name.endswith((".cpp", ".hpp")) and (commit or (ROOT / name).is_file()))
     texts = texts_of(commit, names) if commit else [(ROOT / name).read_text(encoding="utf-8") for name in names]
     code = "\0".join(f"{name}\0{without_comments(name, text)}" for name, text in zip(names, texts))
     return hashlib.sha256(code.encode()).hexdigest()[:16]
 
 
-def digests() -> dict[str, list[str]]:
-    return {row[0]: row[1:] for row in read(DIGESTS).rows} if DIGESTS.exists() else {}
+def scenes() -> list[str]:
+    """All built-in scenes, and one by the other time rule."""
+    return [*sorted(path.stem for path in (ROOT / "data").glob("*.toml") if path.stem != "presets"), "living_figure_eight time.rule=midpoint"]
+
+
+def digests() -> dict[str, dict[str, str]]:
+    """By motion_key, of each scene."""
+    if not DIGESTS.exists():
+        return {}
+    table = read(DIGESTS)
+    return {row[0]: dict(zip(table.head[1:], row[1:])) for row in table.rows}
 
 
 def note_digests(program: Path) -> None:
-    """`program SCENE` says `SCENE: DIGEST of ...`."""
-    said = [subprocess.run([program, *scene.split()], check=True, capture_output=True, text=True).stdout for scene in SCENES]
-    known = {**digests(), motion_key(None): [line.split()[1] for line in said]}
-    write(DIGESTS, Table(["code", *SCENES], [[key, *row] for key, row in known.items()],
+    """`program SCENE` says `SCENE: DIGEST of ...`. Digests of other scenes than today's are dropped."""
+    digest = lambda scene: subprocess.run([program, *scene.split()], check=True, capture_output=True, text=True).stdout.split()[1]
+    now = {scene: digest(scene) for scene in scenes()}
+    known = {key: row for key, row in digests().items() if list(row) == list(now)} | {motion_key(None): now}
+    write(DIGESTS, Table(["code", *now], [[key, *row.values()] for key, row in known.items()],
                          ["Digests of q at every frame by the portable build (live_digest), for the code of core and solvers with that key."]))
 
 

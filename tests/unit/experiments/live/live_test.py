@@ -18,8 +18,9 @@ import pytest
 
 sys.dont_write_bytecode = True
 ROOT = Path(__file__).parents[4]
-sys.path.insert(0, str(ROOT / "tests/support"))
+sys.path[:0] = [str(ROOT / "tests/support"), str(ROOT / "experiments/results")]
 
+import results  # noqa: E402
 from browser import CHROMIUM, Browser  # noqa: E402
 from program import hagfish  # noqa: E402
 
@@ -49,6 +50,15 @@ def test_q_at_every_frame_is_that_of_the_native_program_to_the_last_bit(scene):
     changed = digest_of(NATIVE, scene, "time.duration=1", "drag.normal=9.4340")
     assert changed == digest_of(NATIVE, scene, "time.duration=1")  # the same double
     assert changed != digest_of(NATIVE, scene, "time.duration=1", "drag.normal=9.434000000000002")  # the next one
+
+
+@needs_native
+@pytest.mark.parametrize("scene", ["table1", "pull_overhand", "living_figure_eight time.rule=midpoint"])
+def test_the_digest_noted_for_this_code_is_its_own(scene):
+    noted = results.digests().get(results.motion_key(None))
+    if noted is None:
+        pytest.skip("not noted: bash experiments/reproduce.sh --digest")
+    assert digest_of(NATIVE, *scene.split()).split()[0] == noted[scene]
 
 
 class Live(Browser):
