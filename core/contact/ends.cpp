@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/contact/patch.hpp"
-
 namespace hagfish {
 namespace {
 
@@ -220,7 +218,10 @@ Contact end_from(const std::vector<SplineSegment>& segments, const ContactSettin
 }  // namespace
 
 TouchingEnds touching_ends(const std::vector<SplineSegment>& segments,
-                           const std::vector<Contact>& contacts, const Scene& scene) {
+                           const std::vector<Contact>& contacts, const Scene& scene,
+                           EndPatches& patches) {
+  patches.first.clear();
+  patches.last.clear();
   const double gap = scene.controller.contact_gap;
   const Contact* first = nullptr;
   const Contact* last = nullptr;
@@ -233,15 +234,14 @@ TouchingEnds touching_ends(const std::vector<SplineSegment>& segments,
   const Contact head_end =
       end_from(segments, scene.contact, gap, false, first->segment_a, first->t_a);
   const Contact tail_end = end_from(segments, scene.contact, gap, true, last->segment_b, last->t_b);
-  return {head_end, tail_end, end_arc(segments, head_end, false, scene),
-          end_arc(segments, tail_end, true, scene)};
+  contact_patch(segments, scene, head_end, false, patches.first);
+  contact_patch(segments, scene, tail_end, true, patches.last);
+  return {head_end, tail_end, end_arc(head_end, patches.first, false),
+          end_arc(tail_end, patches.last, true)};
 }
 
-double end_arc(const std::vector<SplineSegment>& segments, const Contact& end, bool tail,
-               const Scene& scene) {
+double end_arc(const Contact& end, const std::vector<PatchPoint>& patch, bool tail) {
   const auto own_arc = [tail](const Contact& c) { return tail ? c.arc_b : c.arc_a; };
-  std::vector<PatchPoint> patch;
-  contact_patch(segments, scene, end, tail, patch);
   if (patch.empty()) return own_arc(end);
   double mean = 0;
   for (const auto& [contact, share] : patch) mean += share * own_arc(contact);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/contact/contact.hpp"
+#include "core/contact/patch.hpp"
 #include "core/scene/settings.hpp"
 
 namespace hagfish {
@@ -19,15 +20,20 @@ struct TouchingEnds {
   double head_end = 0, tail_end = 0;   ///< of the knot: their end_arc, cm; 0 where there are none
 };
 
+/// The patches of contact that begin at both ends (patch.hpp).
+struct EndPatches {
+  std::vector<PatchPoint> first, last;
+};
+
 /// `contacts` are the local minima of the gap of `segments`. Each part of the level set contains a
 /// minimum whose gap is at most controller.contact_gap. So the search starts at the outermost of
-/// these minima and follows the level set from there.
+/// these minima and follows the level set from there. Writes the ends' `patches`, too.
 TouchingEnds touching_ends(const std::vector<SplineSegment>& segments,
-                           const std::vector<Contact>& contacts, const Scene& scene);
+                           const std::vector<Contact>& contacts, const Scene& scene,
+                           EndPatches& patches);
 
 /// The place of an end of the knot on its own strand, cm of arc: the mean over the patch of contact
-/// that begins at `end` (patch.hpp), or that of `end` itself where controller.contact_patch is 0.
-double end_arc(const std::vector<SplineSegment>& segments, const Contact& end, bool tail,
-               const Scene& scene);
+/// that begins at `end`, or that of `end` itself where the patch is empty.
+double end_arc(const Contact& end, const std::vector<PatchPoint>& patch, bool tail);
 
 }  // namespace hagfish

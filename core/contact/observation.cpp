@@ -28,7 +28,7 @@ void observe_placed(const Model& model, const State& state, const Scene& scene,
   update_segments(model, o.kin.centre, o.segments);
   const double near = closing_speed * scene.constraints.baumgarte_speed * scene.time.step;
   find_contacts(o.segments, scene.contact, near, search, o.contact);
-  o.ends = touching_ends(o.segments, o.contact.contacts, scene);
+  o.ends = touching_ends(o.segments, o.contact.contacts, scene, o.patches);
   o.penetration = std::max(0.0, -o.contact.least_gap);
   visit_plane_gaps(model, o.kin,
                    [&](int, int, double gap) { o.penetration = std::max(o.penetration, -gap); });

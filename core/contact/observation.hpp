@@ -18,6 +18,7 @@ struct Observation {
   std::vector<SplineSegment> segments;  ///< of the body and of obstacles (obstacles.hpp)
   ContactSet contact;
   TouchingEnds ends;           ///< of the body with itself
+  EndPatches patches;          ///< that begin there
   double penetration = 0;      ///< deepest overlap of skins or with an obstacle, cm, >= 0
   double limit_violation = 0;  ///< largest angle past a limit, rad, >= 0
 };

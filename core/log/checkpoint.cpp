@@ -132,8 +132,8 @@ void serialize(Archive& archive, TouchingEnds& ends) {
 
 template <class Archive>
 void serialize(Archive& archive, Observation& observation) {
-  auto& [kin, segments, contact, ends, penetration, limit_violation] =
-      observation;  // two follow from q
+  // The first two follow from q, and the patches from these and the ends.
+  auto& [kin, segments, contact, ends, patches, penetration, limit_violation] = observation;
   archive(contact, ends, penetration, limit_violation);
 }
 

@@ -1,8 +1,7 @@
 #include "core/step/eq6_rows.hpp"
 
+#include <algorithm>
 #include <utility>
-
-#include "core/contact/patch.hpp"
 
 namespace hagfish {
 namespace {
@@ -10,34 +9,57 @@ namespace {
 /// The sum of rows with points, by body.
 class WrenchSum {
  public:
-  explicit WrenchSum(const Model& model)
-      : wrench_(Matrix6Xd::Zero(6, model.body_count())),
-        loaded_(static_cast<std::size_t>(model.body_count())) {}
-
   void add(const Row& row, const Kinematics& kin, double share) {
     visit_forces(row, kin,
                  [&](int body, const Eigen::Vector3d& moment, const Eigen::Vector3d& force) {
-                   wrench_.col(body).head<3>() += share * moment;
-                   wrench_.col(body).tail<3>() += share * force;
-                   loaded_[static_cast<std::size_t>(body)] = 1;
+                   BodyWrench& sum = of(body);
+                   sum.moment += share * moment;
+                   sum.force += share * force;
                  });
   }
 
-  std::vector<BodyWrench> of_bodies() const {
-    std::vector<BodyWrench> found;
-    for (int body = 0; body < static_cast<int>(wrench_.cols()); ++body) {
-      if (loaded_[static_cast<std::size_t>(body)] == 0) continue;
-      found.push_back({body, wrench_.col(body).head<3>(), wrench_.col(body).tail<3>()});
-    }
-    return found;
-  }
+  /// Of the bodies that take part, rising.
+  std::vector<BodyWrench>& wrenches() { return wrenches_; }
 
  private:
-  Matrix6Xd wrench_;
-  std::vector<char> loaded_;
+  BodyWrench& of(int body) {
+    const auto at = std::ranges::lower_bound(wrenches_, body, {}, &BodyWrench::body);
+    if (at != wrenches_.end() && at->body == body) return *at;
+    return *wrenches_.insert(at, {body, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()});
+  }
+
+  std::vector<BodyWrench> wrenches_;
 };
 
 double cosine_of(const Contact& contact) { return contact.tangent_a.dot(contact.tangent_b); }
+
+/// t_a, or t_b with the sign that turns ẋ_a - ẋ_b into ẋ_b - ẋ_a; both reversed towards the tail.
+Eigen::Vector3d direction_of(const Contact& contact, bool on_a, BodyEnd towards) {
+  const double sense = towards == BodyEnd::head ? 1 : -1;
+  return sense * (on_a ? contact.tangent_a : -contact.tangent_b);
+}
+
+bool same_points(const std::optional<Contact>& x, const Contact& y) {
+  return x && x->segment_a == y.segment_a && x->t_a == y.t_a && x->segment_b == y.segment_b &&
+         x->t_b == y.t_b;
+}
+
+/// The patch that begins at the contact of a command: that of `found`, if it has one of this
+/// contact. An observation out of a checkpoint has none.
+const std::vector<PatchPoint>& patch_of(const std::vector<SplineSegment>& segments,
+                                        const ThigmotaxisCommand& command, const Scene& scene,
+                                        const Observation* found,
+                                        std::vector<PatchPoint>& storage) {
+  if (command.end == KnotEnd::neither) return storage;
+  const bool tail = command.end == KnotEnd::last;
+  if (found != nullptr) {
+    const std::vector<PatchPoint>& patch = tail ? found->patches.last : found->patches.first;
+    const std::optional<Contact>& end = tail ? found->ends.last : found->ends.first;
+    if (!patch.empty() && same_points(end, command.contact)) return patch;
+  }
+  contact_patch(segments, scene, command.contact, tail, storage);
+  return storage;
+}
 
 }  // namespace
 
@@ -48,10 +70,9 @@ ThigmotaxisSpeeds slip_of_shape(double cosine, const ThigmotaxisSpeeds& speed) {
 Row eq6_row(const Model& model, const Kinematics& kin, const std::vector<SplineSegment>& segments,
             const Contact& contact, bool on_a, BodyEnd towards, Eq6Point at) {
   // Eq. 6: t_a' (ẋ_a - ẋ_b) >= v_a and t_b' (ẋ_b - ẋ_a) >= v_b.
-  const double sense = towards == BodyEnd::head ? 1 : -1;
   Row row;
   row.kind = RowKind::thigmotaxis;
-  set_points(row, contact, sense * (on_a ? contact.tangent_a : -contact.tangent_b), model);
+  set_points(row, contact, direction_of(contact, on_a, towards), model);
   if (at == Eq6Point::skin) {
     row.at = skin_point(segments, contact) - kin.reference;
   }
@@ -60,26 +81,31 @@ Row eq6_row(const Model& model, const Kinematics& kin, const std::vector<SplineS
 
 std::array<Row, 2> eq6_rows(const Model& model, const Kinematics& kin,
                             const std::vector<SplineSegment>& segments,
-                            const ThigmotaxisCommand& command, const Scene& scene) {
-  const auto at = [&](const Contact& contact, bool on_a) {
-    return eq6_row(model, kin, segments, contact, on_a, command.towards, scene.controller.eq6_at);
+                            const ThigmotaxisCommand& command, const Scene& scene,
+                            const Observation* found) {
+  const auto along_a = [&](const Contact& contact) {
+    return eq6_row(model, kin, segments, contact, true, command.towards, scene.controller.eq6_at);
   };
-  std::array<Row, 2> rows{at(command.contact, true), at(command.contact, false)};
+  const auto turn_to_b = [&](Row& row, const Contact& contact) {
+    row.direction = direction_of(contact, false, command.towards);
+  };
+  std::array<Row, 2> rows;
+  rows.fill(along_a(command.contact));
+  turn_to_b(rows[1], command.contact);
   double cosine = cosine_of(command.contact);
-  std::vector<PatchPoint> patch;
-  if (command.end != KnotEnd::neither) {
-    contact_patch(segments, scene, command.contact, command.end == KnotEnd::last, patch);
-  }
+  std::vector<PatchPoint> storage;
+  const std::vector<PatchPoint>& patch = patch_of(segments, command, scene, found, storage);
   if (!patch.empty()) {
-    WrenchSum along_a(model), along_b(model);
+    std::array<WrenchSum, 2> sums;
     cosine = 0;
     for (const auto& [contact, share] : patch) {
-      along_a.add(at(contact, true), kin, share);
-      along_b.add(at(contact, false), kin, share);
+      Row row = along_a(contact);
+      sums[0].add(row, kin, share);
+      turn_to_b(row, contact);
+      sums[1].add(row, kin, share);
       cosine += share * cosine_of(contact);
     }
-    rows[0].patch = along_a.of_bodies();
-    rows[1].patch = along_b.of_bodies();
+    for (std::size_t k = 0; k < 2; ++k) rows[k].patch = std::move(sums[k].wrenches());
   }
   const ThigmotaxisSpeeds asked =
       command.slip == Eq6Slip::paper ? command.speed : slip_of_shape(cosine, command.speed);
@@ -98,7 +124,8 @@ void append_thigmotaxis_rows(const Model& model, const std::vector<ThigmotaxisCo
       command.contact =
           contact_at(place.segments, found.segment_a, found.t_a, found.segment_b, found.t_b);
     }
-    std::array<Row, 2> pair = eq6_rows(model, place.kin, place.segments, command, scene);
+    std::array<Row, 2> pair =
+        eq6_rows(model, place.kin, place.segments, command, scene, place.found);
     for (const bool on_a : {true, false}) {
       Row& row = rows.emplace_back(std::move(pair[on_a ? 0 : 1]));
       row.id = thigmotaxis_row_id(command.end, command.contact, on_a);

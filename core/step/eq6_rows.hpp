@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "core/contact/observation.hpp"
 #include "core/step/rows.hpp"
 
 namespace hagfish {
@@ -37,16 +38,19 @@ Row eq6_row(const Model& model, const Kinematics& kin, const std::vector<SplineS
             const Contact& contact, bool on_a, BodyEnd towards, Eq6Point at);
 
 /// The rows of a command along t_a and t_b, with right-hand sides. At an end of the knot they are
-/// the means of such rows over a patch (ControllerSettings::contact_patch).
+/// the means of such rows over a patch (ControllerSettings::contact_patch). `found` is of the same
+/// segments, or null. Its patches serve a contact that is one of its ends.
 std::array<Row, 2> eq6_rows(const Model& model, const Kinematics& kin,
                             const std::vector<SplineSegment>& segments,
-                            const ThigmotaxisCommand& command, const Scene& scene);
+                            const ThigmotaxisCommand& command, const Scene& scene,
+                            const Observation* found = nullptr);
 
 /// Where the rows of Eq. 6 are placed.
 struct ThigmotaxisPlace {
   const Kinematics& kin;
   const std::vector<SplineSegment>& segments;  ///< of it
-  bool displaced;  ///< the segments have moved since the contacts were found
+  bool displaced;                      ///< the segments have moved since the contacts were found
+  const Observation* found = nullptr;  ///< of the segments, if there is one (eq6_rows)
 };
 
 /// Eq. 6 at the commanded contacts. controller.cap times the command's effort bounds λ / h. No two

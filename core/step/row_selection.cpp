@@ -43,11 +43,11 @@ void gather_rows(const StepInput& in, const StepPlace& place, const WarmStart& w
   if (in.control.clamp_head) {
     append_head_rows(in.state, in.scene.constraints, h, rows);
   }
-  append_thigmotaxis_rows(
-      in.model, in.control.thigmotaxis,
-      {place.kin, place.segments == nullptr ? in.observation.segments : *place.segments,
-       place.segments != nullptr},
-      in.scene, h, rows);
+  const bool displaced = place.segments != nullptr;
+  append_thigmotaxis_rows(in.model, in.control.thigmotaxis,
+                          {place.kin, displaced ? *place.segments : in.observation.segments,
+                           displaced, displaced ? nullptr : &in.observation},
+                          in.scene, h, rows);
   const auto pushed = [&](const Contact& contact) {
     return warm.find(contact_row_id(contact)) != nullptr;
   };

@@ -152,7 +152,9 @@ void FrameAudit::see_knot(const AuditedFrame& frame, const KnotVote& knot) {
                     on_spline(log_.model, spline_a_(f, 1));
   const auto end = [&](int place) {
     const Contact at = contact_of(log_.model, segments, spline_a_(f, place), spline_b_(f, place));
-    return end_arc(segments, at, place == 1, log_.resolved.scene);
+    std::vector<PatchPoint> patch;
+    contact_patch(segments, log_.resolved.scene, at, place == 1, patch);
+    return end_arc(at, patch, place == 1);
   };
   from_q_.compare("/knot/head_end", head_end_[f], span ? end(0) : NAN);
   from_q_.compare("/knot/tail_end", tail_end_[f], span ? end(1) : NAN);

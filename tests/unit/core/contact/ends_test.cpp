@@ -16,7 +16,8 @@ constexpr double level = 0.05;
 TouchingEnds ends_of(const std::vector<SplineSegment>& segments) {
   Scene scene;
   scene.controller.contact_gap = level;
-  return touching_ends(segments, find_contacts(segments, scene.contact).contacts, scene);
+  EndPatches patches;
+  return touching_ends(segments, find_contacts(segments, scene.contact).contacts, scene, patches);
 }
 
 /// Least gap of the point `t` of segment `own` to dense samples of the strand before (behind) it.

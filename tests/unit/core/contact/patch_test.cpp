@@ -20,7 +20,8 @@ Scene scene_of(double side) {
 }
 
 TouchingEnds ends_of(const std::vector<SplineSegment>& segments, const Scene& scene) {
-  return touching_ends(segments, find_contacts(segments, scene.contact).contacts, scene);
+  EndPatches patches;
+  return touching_ends(segments, find_contacts(segments, scene.contact).contacts, scene, patches);
 }
 
 TEST(ContactPatch, OfCrossingLegsIsInTheirMiddleWhereItIsAllThatTouches) {
