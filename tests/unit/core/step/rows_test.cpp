@@ -369,6 +369,47 @@ TEST(ThigmotaxisRows, OverAPatchAreMeans) {
   }
 }
 
+TEST(ThigmotaxisRows, TakeTheObservedPatchForTheObservedEndAlone) {
+  const Tangle t(83);
+  Scene scene;
+  scene.controller.contact_patch = 0.3;
+  Observation seen = observe(t.model, t.state, scene);
+  ASSERT_TRUE(seen.ends.first && seen.ends.last);
+  const auto rows = [&](const Contact& contact, KnotEnd end, const Observation* found) {
+    ThigmotaxisCommand command{contact, {0.5, 2}};
+    command.end = end;
+    return eq6_rows(t.model, seen.kin, seen.segments, command, scene, found);
+  };
+  const auto differ = [](const std::array<Row, 2>& x, const std::array<Row, 2>& y) {
+    const auto as_numbers = [](const Row& row) {
+      std::vector<double> numbers{row.rhs};
+      for (const auto& [body, moment, force] : row.patch) {
+        numbers.push_back(body);
+        numbers.insert(numbers.end(), moment.begin(), moment.end());
+        numbers.insert(numbers.end(), force.begin(), force.end());
+      }
+      return numbers;
+    };
+    return as_numbers(x[0]) != as_numbers(y[0]) || as_numbers(x[1]) != as_numbers(y[1]);
+  };
+  const Contact first = *seen.ends.first, last = *seen.ends.last;
+  Contact further = first;
+  further.segment_a += 2;
+  for (const auto& [contact, end] :
+       {std::pair(first, KnotEnd::first), {last, KnotEnd::last}, {further, KnotEnd::first}}) {
+    EXPECT_FALSE(differ(rows(contact, end, &seen), rows(contact, end, nullptr)));
+  }
+  // Another patch shows at the end that it is of, and nowhere else.
+  seen.patches.first.resize(1);
+  seen.patches.first[0].share = 1;
+  EXPECT_TRUE(differ(rows(first, KnotEnd::first, &seen), rows(first, KnotEnd::first, nullptr)));
+  EXPECT_FALSE(
+      differ(rows(further, KnotEnd::first, &seen), rows(further, KnotEnd::first, nullptr)));
+  EXPECT_FALSE(differ(rows(last, KnotEnd::last, &seen), rows(last, KnotEnd::last, nullptr)));
+  seen.patches = {};  // as out of a checkpoint
+  EXPECT_FALSE(differ(rows(first, KnotEnd::first, &seen), rows(first, KnotEnd::first, nullptr)));
+}
+
 // Eq. 6 by the paper's words: velocities of the two spline points at fixed parameters, by
 // differences of positions, times the tangents. Speeds of some 20 cm/s: 1e-15 20 / 1e-6.
 TEST(ThigmotaxisRows, AreEquationSixOfThePaper) {
