@@ -9,26 +9,32 @@ namespace {
 /// The sum of rows with points, by body.
 class WrenchSum {
  public:
+  explicit WrenchSum(int bodies)
+      : wrench_(Matrix6Xd::Zero(6, bodies)), loaded_(static_cast<std::size_t>(bodies)) {}
+
   void add(const Row& row, const Kinematics& kin, double share) {
     visit_forces(row, kin,
                  [&](int body, const Eigen::Vector3d& moment, const Eigen::Vector3d& force) {
-                   BodyWrench& sum = of(body);
-                   sum.moment += share * moment;
-                   sum.force += share * force;
+                   wrench_.col(body).head<3>() += share * moment;
+                   wrench_.col(body).tail<3>() += share * force;
+                   loaded_[static_cast<std::size_t>(body)] = 1;
                  });
   }
 
   /// Of the bodies that take part, rising.
-  std::vector<BodyWrench>& wrenches() { return wrenches_; }
-
- private:
-  BodyWrench& of(int body) {
-    const auto at = std::ranges::lower_bound(wrenches_, body, {}, &BodyWrench::body);
-    if (at != wrenches_.end() && at->body == body) return *at;
-    return *wrenches_.insert(at, {body, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()});
+  std::vector<BodyWrench> of_bodies() const {
+    std::vector<BodyWrench> found;
+    found.reserve(static_cast<std::size_t>(std::ranges::count(loaded_, 1)));
+    for (int body = 0; body < static_cast<int>(wrench_.cols()); ++body) {
+      if (loaded_[static_cast<std::size_t>(body)] == 0) continue;
+      found.push_back({body, wrench_.col(body).head<3>(), wrench_.col(body).tail<3>()});
+    }
+    return found;
   }
 
-  std::vector<BodyWrench> wrenches_;
+ private:
+  Matrix6Xd wrench_;
+  std::vector<char> loaded_;
 };
 
 double cosine_of(const Contact& contact) { return contact.tangent_a.dot(contact.tangent_b); }
@@ -96,16 +102,17 @@ std::array<Row, 2> eq6_rows(const Model& model, const Kinematics& kin,
   std::vector<PatchPoint> storage;
   const std::vector<PatchPoint>& patch = patch_of(segments, command, scene, found, storage);
   if (!patch.empty()) {
-    std::array<WrenchSum, 2> sums;
+    WrenchSum sum_a(model.body_count()), sum_b(model.body_count());
     cosine = 0;
     for (const auto& [contact, share] : patch) {
       Row row = along_a(contact);
-      sums[0].add(row, kin, share);
+      sum_a.add(row, kin, share);
       turn_to_b(row, contact);
-      sums[1].add(row, kin, share);
+      sum_b.add(row, kin, share);
       cosine += share * cosine_of(contact);
     }
-    for (std::size_t k = 0; k < 2; ++k) rows[k].patch = std::move(sums[k].wrenches());
+    rows[0].patch = sum_a.of_bodies();
+    rows[1].patch = sum_b.of_bodies();
   }
   const ThigmotaxisSpeeds asked =
       command.slip == Eq6Slip::paper ? command.speed : slip_of_shape(cosine, command.speed);
