@@ -58,9 +58,8 @@ void loose() {
 
 void tight() {
   std::puts("type,link,bodies,shortening,rest,cpu");
-  const std::vector<double> usual{0.2, 0.17, 0.14};
   for (const std::string type : {"3_1", "4_1", "5_1", "5_2"}) {
-    for (const double link : usual) {
+    for (const double link : {0.2, 0.17, 0.14}) {
       const TightKnot knot = tighten(type, link);
       std::printf("%s,%g,%d,%.4f,%s,%.2g\n", knot.type.c_str(), link, knot.bodies, knot.shortening,
                   knot.at_rest ? "yes" : "no", knot.cpu);
