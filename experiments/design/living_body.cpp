@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "core/input/curvature_csv.hpp"
 #include "experiments/curvature/program_fit.hpp"
+#include "experiments/specimen/specimen_files.hpp"
 #include "experiments/sweep/sweep_run.hpp"
 
 namespace hagfish {
@@ -23,6 +25,16 @@ FoundScene found_scene(const SoftBody& body, const Shapes& shapes, const std::st
   const double end = shapes.time.back();
   const int times = 1 + static_cast<int>(std::ceil(end / between_times));
   const ProgramFit fit = fit_program(body.model, shapes.time, shapes.q, times, stations);
+  // The base scene is for the paper's animal: what goes with the size is another one's own.
+  std::map<std::string, std::string> sized;
+  if (!specimen.empty()) {
+    sized = sized_tables(body.resolved.specimen,
+                         read_scene_text("base = \"living_overhand\"\n", "design"));
+  }
+  std::string tables;
+  for (const auto& [name, lines] : sized) {
+    if (name != "controller") tables += fmt::format("\n[{}]\n{}", name, lines);
+  }
   FoundScene found;
   found.program = curvature_csv(fit.program);
   found.specimen = specimen;
@@ -37,7 +49,7 @@ program = "{2}"
 [controller]
 tighten_from = {3:.2f}            # s: the program ends by pulling the knot together
 tighten_time = 1.0              # s
-
+{5}{6}
 [expect]
 knot = "{4}"
 hand = "any"
@@ -49,7 +61,7 @@ slide_distance = "0.04 L"
 energy_loss = 0.15              # by Euler's rule at its release
 )",
       knot, specimen.empty() ? "" : fmt::format("specimen = \"{}\"\n", specimen_file), program_file,
-      end, in_scene);
+      end, in_scene, sized["controller"], tables);
   return found;
 }
 

@@ -4,6 +4,7 @@
 
 #include "core/step/outcome.hpp"
 #include "experiments/design/knot_table.hpp"
+#include "experiments/specimen/specimen_files.hpp"
 #include "experiments/sweep/sweep.hpp"
 
 namespace hagfish {
@@ -22,6 +23,26 @@ Scene led_along(const SoftBody& body, const TailPath& path, double step) {
   return scene;
 }
 
+/// Forces and stiffness by which another animal's tail is led as that of the `paper`'s animal is:
+/// in water a force goes with girth, speed and length.
+void lead_like(ResolvedScene& resolved, const Specimen& paper) {
+  const AnimalRatios beside = ratios(resolved.specimen, paper);
+  const double force = beside.drag() * beside.length * beside.length;
+  Scene& scene = resolved.scene;
+  for (double* one : {&scene.drag.normal, &scene.drag.tangential}) *one *= beside.drag();
+  for (double* one : {&scene.script.spring, &scene.script.damper}) *one *= force / beside.length;
+  scene.script.largest_force *= force;
+  for (double* one : {&scene.model.bending_stiffness, &scene.model.bending_damping,
+                      &scene.model.twist_stiffness, &scene.model.twist_damping}) {
+    *one *= force * beside.length * beside.length;
+  }
+  for (double* one :
+       {&scene.constraints.tolerance, &scene.constraints.stride, &scene.contact.margin,
+        &scene.controller.contact_gap, &scene.controller.contact_patch}) {
+    *one *= beside.girth;
+  }
+}
+
 }  // namespace
 
 std::optional<std::string> name_in_scene(const std::string& knot) {
@@ -38,9 +59,11 @@ SoftBody soft_body(const std::string& specimen) {
       "contact.least_arc=1.8 D",      "wall.neck=0.07 L",         "controller.tail_through=0.02 L",
       "controller.release_at=0.04 L", "time.frame_interval=0.02", "time.duration=60.0"};
   constexpr const char* file = "specimen.toml";
-  std::string text = "base = \"overhand_waypoints\"\n";
+  const std::string led = "base = \"overhand_waypoints\"\n";
+  std::string text = led;
   if (!specimen.empty()) text += std::string("specimen = \"") + file + "\"\n";
   ResolvedScene resolved = read_scene_text(text, "design", set, {{file, specimen}});
+  if (!specimen.empty()) lead_like(resolved, read_scene_text(led, "design").specimen);
   Model model = make_hagfish(resolved.specimen, resolved.scene);
   return {std::move(resolved), std::move(model)};
 }

@@ -13,7 +13,7 @@
 #include "experiments/program/program.hpp"
 #include "experiments/program/scene_argument.hpp"
 #include "experiments/program/shell_word.hpp"
-#include "experiments/program/specimen_files.hpp"
+#include "experiments/specimen/specimen_files.hpp"
 #include "experiments/program/suggestion.hpp"
 #include "experiments/program/text_file.hpp"
 

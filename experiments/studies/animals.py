@@ -1,6 +1,7 @@
 """Settings of other animals, drawn at random: a line each, `--set KEY=VALUE ...`, or all as an axis of `hagfish sweep`.
 
 Usage: animals.py COUNT [axis]
+       animals.py specimen NUMBER      the specimen file of one of them, from 1
 
 The Pacific hagfish of data/specimens is made 25 to 60 cm long, each circumference and bending limit and the twisting limit are
 changed by up to 20 %, and it has 60 to 200 bodies. Mass goes with volume. Muscles and passive stiffness go with the fourth
@@ -9,6 +10,7 @@ power of the diameter, as that of rods of one material does; capacity, area time
 
 from __future__ import annotations
 
+import json
 import random
 import sys
 import tomllib
@@ -49,6 +51,23 @@ def settings(seed: int) -> dict[str, object]:
     } | {f"specimen.passive.{key}": [value * thicker**4 for value in values] for key, values in own["passive"].items()}
 
 
+def specimen_file(number: int) -> None:
+    """TOML, with what the animals have in common from the Pacific hagfish's own file."""
+    own = tomllib.loads((DATA / "specimens/pacific_hagfish.toml").read_text(encoding="utf-8"))
+    own["name"] = f"Animal {number}, drawn at random"
+    for key, value in settings(FIRST_SEED + number - 1).items():
+        table, _, rest = key.partition(".")
+        if table == "specimen":
+            place, _, last = rest.rpartition(".")
+            (own[place] if place else own)[last] = value
+    tables = {key: value for key, value in own.items() if isinstance(value, dict)}
+    for key, value in own.items():
+        if key not in tables:
+            print(f"{key} = {json.dumps(value)}")
+    for name, table in tables.items():
+        print(f"\n[{name}]", *(f"{key} = {json.dumps(value)}" for key, value in table.items()), sep="\n")
+
+
 def main(count: int, axis: bool) -> None:
     animals = [settings(FIRST_SEED + animal) for animal in range(count)]
     if axis:
@@ -61,4 +80,7 @@ def main(count: int, axis: bool) -> None:
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]), sys.argv[2:] == ["axis"])
+    if sys.argv[1] == "specimen":
+        specimen_file(int(sys.argv[2]))
+    else:
+        main(int(sys.argv[1]), sys.argv[2:] == ["axis"])

@@ -2,6 +2,7 @@
 // is that one's, scaled.
 #pragma once
 
+#include <map>
 #include <string>
 
 #include "core/input/scene_text.hpp"
@@ -25,6 +26,10 @@ AnimalRatios ratios(const Specimen& animal, const Specimen& paper);
 
 /// The specimen file: what is not in `animal` is `paper`'s, scaled.
 std::string specimen_text(const Specimen& animal, const Specimen& paper);
+
+/// What of the scene `base` goes with the size of `animal`: the lines of each TOML table by its
+/// name. Lengths across the body go with the girth, torques and stiffness as in AnimalRatios.
+std::map<std::string, std::string> sized_tables(const Specimen& animal, const ResolvedScene& base);
 
 /// The scene file: `base`, the built-in scene `base_name`, with the animal of `file`.
 std::string specimen_scene_text(const Specimen& animal, const std::string& file,

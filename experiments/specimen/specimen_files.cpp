@@ -1,4 +1,4 @@
-#include "experiments/program/specimen_files.hpp"
+#include "experiments/specimen/specimen_files.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -111,42 +111,54 @@ std::string specimen_text(const Specimen& animal, const Specimen& paper) {
       paper.muscle.stress, paper.muscle.radius_share, to_degrees * paper.muscle.oblique_angle);
 }
 
+std::map<std::string, std::string> sized_tables(const Specimen& animal, const ResolvedScene& base) {
+  const Scene& scene = base.scene;
+  const AnimalRatios beside = ratios(animal, base.specimen);
+  return {
+      {"active", fmt::format("stiffness = {:.4g}  # dyn cm^2: by the fourth power of the mean "
+                             "diameter\n"
+                             "capacity = {:.4g}  # dyn cm: by its third power\n",
+                             beside.stiffness() * scene.active.stiffness,
+                             beside.torque() * scene.active.capacity)},
+      {"drag",
+       fmt::format("normal = {:.4g}  # g/(s cm): by its first power\n"
+                   "tangential = {:.4g}  # g/(s cm)\n",
+                   beside.drag() * scene.drag.normal, beside.drag() * scene.drag.tangential)},
+      {"constraints", fmt::format("tolerance = {:.4g}  # cm: lengths across the body by its mean "
+                                  "diameter\n"
+                                  "stride = {:.4g}  # cm\n",
+                                  beside.girth * scene.constraints.tolerance,
+                                  beside.girth * scene.constraints.stride)},
+      {"contact", fmt::format("margin = {:.4g}  # cm\n", beside.girth * scene.contact.margin)},
+      {"controller", fmt::format("cap = {:.4g}  # dyn\n"
+                                 "contact_gap = {:.4g}  # cm\n"
+                                 "contact_patch = {:.4g}  # cm\n",
+                                 std::max(1.0, beside.stiffness()) * scene.controller.cap,
+                                 beside.girth * scene.controller.contact_gap,
+                                 beside.girth * scene.controller.contact_patch)},
+      {"time", fmt::format("step = {:.6g}  # s\n", step_of(beside, scene))},
+  };
+}
+
 std::string specimen_scene_text(const Specimen& animal, const std::string& file,
                                 const std::string& base_name, const ResolvedScene& base) {
   const Scene& scene = base.scene;
-  const AnimalRatios beside = ratios(animal, base.specimen);
   const std::string knot = scene.title.substr(0, scene.title.find(','));
-  return fmt::format(
+  std::string text = fmt::format(
       "# Written by `hagfish specimen`: {} with another animal. Lengths are shares of its body.\n"
       "base = \"{}\"\n"
       "title = {}\n"
-      "specimen = {}\n\n"
-      "[active]\n"
-      "stiffness = {:.4g}  # dyn cm^2: by the fourth power of the mean diameter\n"
-      "capacity = {:.4g}  # dyn cm: by its third power\n\n"
-      "[drag]\n"
-      "normal = {:.4g}  # g/(s cm): by its first power\n"
-      "tangential = {:.4g}  # g/(s cm)\n\n"
-      "[constraints]\n"
-      "tolerance = {:.4g}  # cm: lengths across the body by its mean diameter\n"
-      "stride = {:.4g}  # cm\n\n"
-      "[contact]\n"
-      "margin = {:.4g}  # cm\n\n"
-      "[controller]\n"
-      "cap = {:.4g}  # dyn\n"
-      "contact_gap = {:.4g}  # cm\n"
-      "contact_patch = {:.4g}  # cm\n\n"
-      "[time]\n"
-      "step = {:.6g}  # s\n\n"
-      "[expect]\n"
-      "slide_distance = \"{:.3g} L\"  # a quarter of what the paper's animal must slide\n",
-      base_name, base_name, quoted(fmt::format("{}, tied by {}", knot, animal.name)), quoted(file),
-      beside.stiffness() * scene.active.stiffness, beside.torque() * scene.active.capacity,
-      beside.drag() * scene.drag.normal, beside.drag() * scene.drag.tangential,
-      beside.girth * scene.constraints.tolerance, beside.girth * scene.constraints.stride,
-      beside.girth * scene.contact.margin, std::max(1.0, beside.stiffness()) * scene.controller.cap,
-      beside.girth * scene.controller.contact_gap, beside.girth * scene.controller.contact_patch,
-      step_of(beside, scene), share_of_slide * scene.expect.slide_distance / base.specimen.length);
+      "specimen = {}\n\n",
+      base_name, base_name, quoted(fmt::format("{}, tied by {}", knot, animal.name)), quoted(file));
+  const std::map<std::string, std::string> tables = sized_tables(animal, base);
+  for (const char* name : {"active", "drag", "constraints", "contact", "controller", "time"}) {
+    text += fmt::format("[{}]\n{}\n", name, tables.at(name));
+  }
+  return text + fmt::format(
+                    "[expect]\n"
+                    "slide_distance = \"{:.3g} L\"  # a quarter of what the paper's animal "
+                    "must slide\n",
+                    share_of_slide * scene.expect.slide_distance / base.specimen.length);
 }
 
 }  // namespace hagfish
