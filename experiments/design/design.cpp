@@ -69,8 +69,9 @@ void write_text(const fs::path& file, const std::string& text) {
 
 /// What makes a search what it is.
 std::string identity(const DesignOptions& options) {
-  return fmt::format("knot = \"{}\"\nseed = {}\nrevision = \"{}\"\nspecimen = '''\n{}'''\n",
-                     options.knot, options.seed, build_revision(), options.specimen);
+  return fmt::format(
+      "knot = \"{}\"\nseed = {}\nanimals = {}\nrevision = \"{}\"\nspecimen = '''\n{}'''\n",
+      options.knot, options.seed, options.animals, build_revision(), options.specimen);
 }
 
 void claim(const DesignOptions& options) {
@@ -110,8 +111,9 @@ void end_last_line(const fs::path& name, AppendedFile& file) {
 }
 
 std::string candidate_text(const Candidate& candidate) {
-  return fmt::format("{},{},{},{},{}\n", candidate.number, candidate.judged, candidate.passed[0],
-                     candidate.passed[1], candidate.shortcoming);
+  return fmt::format("{},{},{},{},{},{},{}\n", candidate.number, candidate.judged,
+                     candidate.passed[0], candidate.passed[1], candidate.animals[0],
+                     candidate.animals[1], candidate.shortcoming);
 }
 
 std::optional<Candidate> candidate_of(int number, const std::string& text) {
@@ -119,8 +121,11 @@ std::optional<Candidate> candidate_of(int number, const std::string& text) {
   Candidate candidate;
   candidate.number = number;
   char comma = 0;
-  stream >> candidate.judged >> comma >> candidate.passed[0] >> comma >> candidate.passed[1] >>
-      comma;
+  stream >> candidate.judged >> comma;
+  for (int* count :
+       {&candidate.passed[0], &candidate.passed[1], &candidate.animals[0], &candidate.animals[1]}) {
+    stream >> *count >> comma;
+  }
   if (!stream) return std::nullopt;
   std::getline(stream, candidate.shortcoming);
   return candidate;
@@ -137,6 +142,7 @@ class Search {
         known_candidates_(numbered_lines(options.folder / "candidates.csv")),
         tries_file_(options.folder / "tries.csv"),
         candidates_file_(options.folder / "candidates.csv") {
+    if (options.animals) outcome_.judged_runs += 2 * judged_animals;
     end_last_line(options.folder / "tries.csv", tries_file_);
     end_last_line(options.folder / "candidates.csv", candidates_file_);
   }
@@ -216,6 +222,9 @@ class Search {
       Candidate& candidate = candidates[k];
       if (!known_candidate(tied[k])) {
         if (candidate.shortcoming.empty()) judge_starts(scenes[k], candidate);
+        if (options_.animals && candidate.shortcoming.empty()) {
+          judge_animals(scenes[k], candidate);
+        }
         if (options_.interrupted()) return;
         candidates_file_.add(candidate_text(candidate));
       }
@@ -268,6 +277,30 @@ class Search {
     }
   }
 
+  /// The same with other animals, without noise.
+  void judge_animals(const FoundScene& scene, Candidate& candidate) {
+    for (const auto& [first, last] : {std::pair(1, 3), {4, judged_animals}}) {
+      const int count = last - first + 1;
+      std::vector<std::optional<RunSummary>> runs(2 * count);
+      in_parallel(2 * count, options_.threads, [&](int k) {
+        const FoundScene other =
+            in_other_animal(scene, body_.resolved.specimen, static_cast<unsigned>(first + k / 2));
+        runs[k] = run_trial(other, {.law = k % 2}, options_.interrupted);
+      });
+      if (options_.interrupted()) return;
+      for (int k = 0; k < 2 * count; ++k) {
+        int& served = candidate.animals[k % 2];
+        if (succeeds(*runs[k])) {
+          ++served;
+        } else if (first + k / 2 - served > allowed_animals) {
+          candidate.shortcoming = fmt::format("{}, other animal {}: {}", judged_laws[k % 2],
+                                              first + k / 2, shortcoming(*runs[k]));
+        }
+      }
+      if (!candidate.shortcoming.empty()) return;
+    }
+  }
+
   void note_types() {
     outcome_.types.clear();
     for (const auto& [type, count] : archive_.counts()) {
@@ -282,7 +315,7 @@ class Search {
     std::string best = outcome_.candidates.empty()
                            ? std::string("none tied yet")
                            : fmt::format("{} tied, best {} of {}", outcome_.candidates.size(),
-                                         outcome_.best->passes(), 2 * judged_starts);
+                                         outcome_.best->passes(), outcome_.judged_runs);
     options_.progress(
         fmt::format("{:.0f} s, {} tries:{}; {}", elapsed, outcome_.tries, types, best));
   }
@@ -321,15 +354,20 @@ class Search {
 
 std::string DesignOutcome::in_words() const {
   if (found) {
-    return fmt::format(
+    std::string words = fmt::format(
         "Try {} is good: it succeeds from {} (law paper) and {} (law reflex) of {} starts",
         best->number, best->passed[0], best->passed[1], judged_starts);
+    if (judged_runs > 2 * judged_starts) {
+      words += fmt::format(", and in {} and {} of {} other animals", best->animals[0],
+                           best->animals[1], judged_animals);
+    }
+    return words;
   }
   if (!best) return fmt::format("None of {} tries tied the knot", tries);
   return fmt::format(
       "No try is good enough: {} of {} tied the knot in the soft body. The best "
       "one, try {}, succeeded in {} of {} runs of the living animal ({})",
-      candidates.size(), tries, best->number, best->passes(), 2 * judged_starts, best->shortcoming);
+      candidates.size(), tries, best->number, best->passes(), judged_runs, best->shortcoming);
 }
 
 DesignOutcome design(const DesignOptions& options) {

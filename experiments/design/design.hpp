@@ -9,6 +9,12 @@
 
 namespace hagfish {
 
+/// Starts with noise that a program is judged by, for each law, and how many of them may fail.
+inline constexpr int judged_starts = 20, allowed_failures = 1;
+
+/// Other animals that it is judged by if asked for, for each law, and how many of them may fail.
+inline constexpr int judged_animals = 10, allowed_animals = 1;
+
 struct DesignOptions {
   std::string knot;              ///< as name_in_scene() reads it
   std::string specimen;          ///< text of the animal's file; empty: Table 1's animal
@@ -17,6 +23,7 @@ struct DesignOptions {
   double budget = 900;           ///< wall time for the search, s
   int threads = 1;
   unsigned seed = 1;
+  bool animals = false;                              ///< a program must serve other animals, too
   std::string typed;                                 ///< the command line, for the log
   std::function<bool()> interrupted;                 ///< asked at each step, by every thread
   std::function<void(const std::string&)> progress;  ///< gets a line now and then
@@ -28,7 +35,8 @@ struct Candidate {
   std::string shortcoming;  ///< why it was given up; empty of one that is good enough
   int judged = 0;           ///< starts
   int passed[2] = {0, 0};   ///< of these, by judged_laws
-  int passes() const { return passed[0] + passed[1]; }
+  int animals[2] = {0, 0};  ///< other ones that it serves, by judged_laws
+  int passes() const { return passed[0] + passed[1] + animals[0] + animals[1]; }
 };
 
 struct DesignTime {
@@ -39,15 +47,13 @@ struct DesignOutcome {
   bool found = false;        ///< a program of enough starts; its files are in the folder
   bool interrupted = false;  ///< all is kept: go on by `resume`
   int tries = 0;
+  int judged_runs = 2 * judged_starts;             ///< of the living animal, for each candidate
   std::optional<Candidate> best;                   ///< the found one, or which came nearest
   std::vector<Candidate> candidates;               ///< all, in the order of their tries
   std::vector<std::pair<std::string, int>> types;  ///< tied by how many tries
   DesignTime time;
   std::string in_words() const;  ///< one line: what was found, or how near it came
 };
-
-/// Starts with noise that a program is judged by, for each law, and how many of them may fail.
-inline constexpr int judged_starts = 20, allowed_failures = 1;
 
 /// Searches by whole batches until a program is found, the budget is over, or it is interrupted.
 /// Which program is found depends on knot, animal and seed alone. The folder gets tries.csv and

@@ -34,6 +34,15 @@ std::string design_page(const DesignOptions& options, const DesignOutcome& outco
       "| law that slides it | starts that succeed |\n|---|---|\n"
       "| paper | {} of {} |\n| reflex | {} of {} |\n\n",
       start_noise_deg, best.passed[0], best.judged, best.passed[1], best.judged);
+  if (options.animals) {
+    page += fmt::format(
+        "Other animals are 0.6 to 1.4 times as long. Their girth for the length and their limits "
+        "are changed "
+        "by up to 20 %.\n\n"
+        "| law that slides it | other animals that tie it, hold it and slide it |\n|---|---|\n"
+        "| paper | {1} of {0} |\n| reflex | {2} of {0} |\n\n",
+        judged_animals, best.animals[0], best.animals[1]);
+  }
   page += fmt::format(
       "## What it takes\n\n"
       "These figures are of the run from a straight start by the paper's law.\n\n"
@@ -85,6 +94,10 @@ std::string design_row(const DesignOptions& options, const DesignOutcome& outcom
   add("starts", std::to_string(best.judged));
   for (const int law : {0, 1}) {
     add(fmt::format("starts_by_{}", judged_laws[law]), std::to_string(best.passed[law]));
+  }
+  for (const int law : {0, 1}) {
+    add(fmt::format("animals_by_{}", judged_laws[law]),
+        options.animals ? std::to_string(best.animals[law]) : "");
   }
   add("cpu_s", fmt::format("{:.1f}", outcome.time.cpu));
   add("wall_s", fmt::format("{:.1f}", outcome.time.wall));

@@ -8,6 +8,7 @@
 
 #include "core/input/curvature_csv.hpp"
 #include "experiments/curvature/program_fit.hpp"
+#include "experiments/design/draw.hpp"
 #include "experiments/specimen/specimen_files.hpp"
 #include "experiments/sweep/sweep_run.hpp"
 
@@ -17,28 +18,17 @@ namespace {
 constexpr double between_times = 0.35;  // s, of the program
 constexpr int stations = 25;
 
-}  // namespace
-
-FoundScene found_scene(const SoftBody& body, const Shapes& shapes, const std::string& knot,
-                       const std::string& specimen) {
-  const std::string in_scene = *name_in_scene(knot);
-  const double end = shapes.time.back();
-  const int times = 1 + static_cast<int>(std::ceil(end / between_times));
-  const ProgramFit fit = fit_program(body.model, shapes.time, shapes.q, times, stations);
-  // The base scene is for the paper's animal: what goes with the size is another one's own.
+/// The scene of a found program; `animal` is null where it is the base scene's.
+std::string scene_text(const FoundScene& found, const Specimen* animal) {
   std::map<std::string, std::string> sized;
-  if (!specimen.empty()) {
-    sized = sized_tables(body.resolved.specimen,
-                         read_scene_text("base = \"living_overhand\"\n", "design"));
+  if (animal != nullptr) {
+    sized = sized_tables(*animal, read_scene_text("base = \"living_overhand\"\n", "design"));
   }
   std::string tables;
   for (const auto& [name, lines] : sized) {
     if (name != "controller") tables += fmt::format("\n[{}]\n{}", name, lines);
   }
-  FoundScene found;
-  found.program = curvature_csv(fit.program);
-  found.specimen = specimen;
-  found.scene = fmt::format(
+  return fmt::format(
       R"(# The animal ties a {0} itself, by a program that `hagfish design` found. Keys and units: the built-in scene table1.
 base = "living_overhand"
 title = "{0}, tied by the animal itself"
@@ -60,9 +50,43 @@ types = [  # type, from, to: s, or a phase and s after it
 slide_distance = "0.04 L"
 energy_loss = 0.15              # by Euler's rule at its release
 )",
-      knot, specimen.empty() ? "" : fmt::format("specimen = \"{}\"\n", specimen_file), program_file,
-      end, in_scene, sized["controller"], tables);
+      found.knot, animal == nullptr ? "" : fmt::format("specimen = \"{}\"\n", specimen_file),
+      program_file, found.tighten_from, *name_in_scene(found.knot), sized["controller"], tables);
+}
+
+/// An animal like `own`, with the density that it has.
+Specimen other_animal(const Specimen& own, unsigned number) {
+  Draw draw(0, number);
+  const auto changed = [&](double value) { return value * draw.uniform(0.8, 1.2); };
+  Specimen other = own;
+  const double longer = draw.uniform(0.6, 1.4);
+  other.length *= longer;
+  other.bending_span *= longer;
+  for (double& around : other.circumference) around = changed(longer * around);
+  for (double& limit : other.bending_limit) limit = changed(limit);
+  other.twist_limit = changed(other.twist_limit);
+  other.mass *= volume_of(other) / volume_of(own);
+  return other;
+}
+
+}  // namespace
+
+FoundScene found_scene(const SoftBody& body, const Shapes& shapes, const std::string& knot,
+                       const std::string& specimen) {
+  const double end = shapes.time.back();
+  const int times = 1 + static_cast<int>(std::ceil(end / between_times));
+  const ProgramFit fit = fit_program(body.model, shapes.time, shapes.q, times, stations);
+  FoundScene found{"", curvature_csv(fit.program), specimen, knot, end};
+  found.scene = scene_text(found, specimen.empty() ? nullptr : &body.resolved.specimen);
   return found;
+}
+
+FoundScene in_other_animal(const FoundScene& found, const Specimen& own, unsigned number) {
+  const Specimen animal = other_animal(own, number);
+  FoundScene other = found;
+  other.specimen = specimen_text(animal, own);
+  other.scene = scene_text(other, &animal);
+  return other;
 }
 
 std::vector<std::string> trial_settings(const Trial& trial) {

@@ -18,6 +18,8 @@ struct FoundScene {
   std::string scene;    ///< TOML, names the others: program.csv and, where not empty, specimen.toml
   std::string program;  ///< CSV
   std::string specimen;
+  std::string knot;         ///< its name
+  double tighten_from = 0;  ///< s
 };
 
 inline constexpr const char* scene_file = "scene.toml";
@@ -28,6 +30,10 @@ inline constexpr const char* specimen_file = "specimen.toml";
 /// `specimen`: text of the animal's file; empty for the base scene's.
 FoundScene found_scene(const SoftBody& body, const Shapes& shapes, const std::string& knot,
                        const std::string& specimen);
+
+/// The same program in an animal like `own`, drawn by `number`: 0.6 to 1.4 times as long; girth
+/// for its length and limits within 20 %. Muscles and passive stiffness go with the girth.
+FoundScene in_other_animal(const FoundScene& found, const Specimen& own, unsigned number);
 
 /// The control laws by which a found knot is slid.
 inline constexpr const char* judged_laws[] = {"paper", "reflex"};

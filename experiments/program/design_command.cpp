@@ -24,7 +24,7 @@ struct DesignArguments {
   std::string budget = "15m";
   int threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   int seed = 1;
-  bool resume = false, quiet = false;
+  bool animals = false, resume = false, quiet = false;
 };
 
 /// "90s", "15m", "1h" or a number of seconds, in s.
@@ -58,6 +58,7 @@ int make_design(const DesignArguments& arguments, const std::string& typed) {
   options.budget = seconds_of(arguments.budget);
   options.threads = arguments.threads;
   options.seed = static_cast<unsigned>(arguments.seed);
+  options.animals = arguments.animals;
   options.typed = typed;
   options.interrupted = interrupted;
   options.progress = [&](const std::string& line) {
@@ -93,6 +94,7 @@ void add_design(Program& program) {
   app->add_option("--seed", arguments->seed, "of the search")
       ->check(from_to(0, 1e9))
       ->capture_default_str();
+  app->add_flag("--animals", arguments->animals, "what is found must serve other animals, too");
   app->add_flag("--resume", arguments->resume, "continue a search that was stopped");
   app->add_flag("--quiet", arguments->quiet, "no progress");
   app->callback([arguments, &program] { program.code = make_design(*arguments, program.typed); });

@@ -13,9 +13,9 @@
 #include "experiments/program/program.hpp"
 #include "experiments/program/scene_argument.hpp"
 #include "experiments/program/shell_word.hpp"
-#include "experiments/specimen/specimen_files.hpp"
 #include "experiments/program/suggestion.hpp"
 #include "experiments/program/text_file.hpp"
+#include "experiments/specimen/specimen_files.hpp"
 
 namespace hagfish {
 namespace {
@@ -74,17 +74,6 @@ void check(const SpecimenOptions& options) {
       throw InputError(fmt::format("--station {:g}: must rise from 0 to 1", here));
     }
   }
-}
-
-/// The volume of round cross-sections, cm^3.
-double volume_of(const Specimen& animal) {
-  constexpr int parts = 1000;
-  double volume = 0;
-  for (int k = 0; k < parts; ++k) {
-    const double around = profile(animal.station, animal.circumference, (k + 0.5) / parts);
-    volume += around * around / (4 * std::numbers::pi) * animal.length / parts;
-  }
-  return volume;
 }
 
 double slenderness(const Specimen& animal) { return animal.length / mean_diameter(animal); }

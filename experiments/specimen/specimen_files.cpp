@@ -56,6 +56,16 @@ std::vector<double> areas(const Specimen& animal, const Specimen& paper,
 
 }  // namespace
 
+double volume_of(const Specimen& animal) {
+  constexpr int parts = 1000;
+  double volume = 0;
+  for (int k = 0; k < parts; ++k) {
+    const double around = profile(animal.station, animal.circumference, (k + 0.5) / parts);
+    volume += around * around / (4 * std::numbers::pi) * animal.length / parts;
+  }
+  return volume;
+}
+
 double AnimalRatios::stiffness() const { return std::pow(girth, 4); }
 double AnimalRatios::torque() const { return std::pow(girth, 3); }
 

@@ -9,6 +9,9 @@
 
 namespace hagfish {
 
+/// The volume of round cross-sections, cm^3.
+double volume_of(const Specimen& animal);
+
 /// An animal over the paper's: each figure a factor.
 struct AnimalRatios {
   double length = 1, girth = 1, mass = 1, limits = 1;  ///< girth: of the mean diameter
