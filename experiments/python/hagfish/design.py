@@ -48,6 +48,7 @@ def design(
     budget: str = "15m",
     threads: int | None = None,
     seed: int = 1,
+    animals: bool = False,
     resume: bool = False,
 ) -> Design:
     """Searches a program by which the animal of `specimen` (Table 1's) ties `knot`, and leaves it in the folder `out`.
@@ -60,8 +61,7 @@ def design(
         command += ["--specimen", str(specimen)]
     if threads is not None:
         command += ["--threads", str(threads)]
-    if resume:
-        command.append("--resume")
+    command += ["--animals"] * animals + ["--resume"] * resume
     done = subprocess.run(command, stderr=subprocess.PIPE, text=True, check=False)
     message = done.stderr.strip().removeprefix("hagfish: ")
     if done.returncode == _BAD_INPUT:
