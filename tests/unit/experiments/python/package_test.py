@@ -103,8 +103,9 @@ def test_the_installed_package_is_whole(tmp_path):
 
 
 def test_a_design_says_what_it_found(tmp_path):
-    sought = hagfish.design("7_7", out=tmp_path / "seven", budget="0.001s", threads=1)
+    sought = hagfish.design("7_7", out=tmp_path / "seven", budget="0.001s", threads=1, animals=True)
     assert not sought.found
+    assert "animals = true" in (tmp_path / "seven/search.toml").read_text()
     assert "None of 32 tries tied the knot" in sought.message
     assert sought.figures == {}
     with pytest.raises(hagfish.InputError, match="not a known knot"):
