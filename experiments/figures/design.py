@@ -111,16 +111,16 @@ def animals_table(rows: list[Row]) -> list[str]:
 
 
 def needs_table(rows: list[Row]) -> list[str]:
-    head = ["knot", "seed", "tightened from, s", "way, cm", "untied at, s", "largest active torque, dyn cm", "largest torque of f_thigmo, dyn cm",
+    head = ["knot", "seed", "other animals asked for", "tightened from, s", "way, cm", "untied at, s", "largest active torque, dyn cm", "largest torque of f_thigmo, dyn cm",
             "work of active torques, erg", "audit at 1 ms", "at 2 ms", "at 5 ms"]
-    return tables.markdown(head, [[row["knot_wanted"], row["seed"], number(row["tighten_from_s"]), number(row["slide_distance_cm"], 2), number(row["free_from_s"]),
+    return tables.markdown(head, [[row["knot_wanted"], row["seed"], row["for_animals"], number(row["tighten_from_s"]), number(row["slide_distance_cm"], 2), number(row["free_from_s"]),
                                    number(row["largest_active_dyn_cm"], 2), number(row["largest_thigmotaxis_dyn_cm"], 2),
                                    number(row["work_active_erg"], 2), *(row[f"audit_{step}_s"] for step in STEPS)] for row in rows if row["try"]])
 
 
 def page(all_rows: list[Row], notes: list[str]) -> list[str]:
     rows = [row for row in all_rows if not row["animal"]]
-    others = [row for row in all_rows if row["animal"]]
+    others = sorted((row for row in all_rows if row["animal"]), key=lambda row: (len(row["animal"]), row["animal"]))
     found = [row for row in rows if row["found"] == "yes"]
     longest = max((float(row["cpu_s"]) for row in found), default=0)
     answer = (f"It does: {len(found)} of {len(rows)} searches found their knot, each within {math.ceil(longest)} s of CPU time." if found else "It did not here.")
@@ -158,6 +158,7 @@ def page(all_rows: list[Row], notes: list[str]) -> list[str]:
         "## What this page does not show", "",
         "- How long a search takes on a quiet machine: other programs took most of this one's time.",
         "- Searches of the same knot by other seeds than those of the table. One without success may have been stopped before its 15 minutes were over.",
+        "- Other drawings of random animals than the ten.",
         "- Knots of six crossings and more, and composites. The classifier tells them apart; ten minutes of one thread each found none of them.",
         "- What the rows of what was tried are worth: they are of one seed and few tries.",
         "- A refinement of found programs. The first program that passes is kept, not the best.",
