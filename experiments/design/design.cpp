@@ -246,59 +246,59 @@ class Search {
     }
     for (int law = 0; law < 2 && candidate.shortcoming.empty(); ++law) {
       const std::optional<RunSummary> run = run_trial(scene, {.law = law}, options_.interrupted);
-      if (run && !succeeds(*run)) candidate.shortcoming = why_not(law, 0, *run);
+      if (run && !succeeds(*run)) candidate.shortcoming = why_not(law, "start", 0, *run);
     }
     return candidate;
   }
 
-  static std::string why_not(int law, int start, const RunSummary& run) {
-    return fmt::format("{}, start {}: {}", judged_laws[law], start, shortcoming(run));
+  static std::string why_not(int law, const char* what, int number, const RunSummary& run) {
+    return fmt::format("{}, {} {}: {}", judged_laws[law], what, number, shortcoming(run));
   }
 
-  /// A few starts first, then the others: most candidates are given up soon.
-  void judge_starts(const FoundScene& scene, Candidate& candidate) {
-    for (const auto& [first, last] : {std::pair(1, 4), {5, judged_starts}}) {
-      const int starts = last - first + 1;
-      std::vector<std::optional<RunSummary>> runs(2 * starts);
-      in_parallel(2 * starts, options_.threads, [&](int k) {
-        runs[k] = run_trial(scene, {.law = k % 2, .seed = first + k / 2}, options_.interrupted);
-      });
-      if (options_.interrupted()) return;
-      candidate.judged = last;
-      for (int k = 0; k < 2 * starts; ++k) {
-        int& passed = candidate.passed[k % 2];
+  /// Runs that a candidate is judged by, numbered from 1, for each law.
+  struct Series {
+    const char* what;
+    int few;  ///< run first: most candidates are given up soon
+    int all, allowed;
+  };
+
+  /// Counts those that succeed into `passed`, by law. Returns how many were judged by each law.
+  int judge_series(const Series& series, Candidate& candidate, int (&passed)[2],
+                   const std::function<std::optional<RunSummary>(int number, int law)>& run) const {
+    for (const auto& [first, last] : {std::pair(1, series.few), {series.few + 1, series.all}}) {
+      const int numbers = last - first + 1;
+      std::vector<std::optional<RunSummary>> runs(2 * numbers);
+      in_parallel(2 * numbers, options_.threads,
+                  [&](int k) { runs[k] = run(first + k / 2, k % 2); });
+      if (options_.interrupted()) return 0;
+      for (int k = 0; k < 2 * numbers; ++k) {
+        const int number = first + k / 2;
         if (succeeds(*runs[k])) {
-          ++passed;
-        } else if (first + k / 2 - passed > allowed_failures) {
-          candidate.shortcoming = why_not(k % 2, first + k / 2, *runs[k]);
+          ++passed[k % 2];
+        } else if (number - passed[k % 2] > series.allowed) {
+          candidate.shortcoming = why_not(k % 2, series.what, number, *runs[k]);
         }
       }
-      if (!candidate.shortcoming.empty()) return;
+      if (!candidate.shortcoming.empty()) return last;
     }
+    return series.all;
   }
 
-  /// The same with other animals, without noise.
-  void judge_animals(const FoundScene& scene, Candidate& candidate) {
-    for (const auto& [first, last] : {std::pair(1, 3), {4, judged_animals}}) {
-      const int count = last - first + 1;
-      std::vector<std::optional<RunSummary>> runs(2 * count);
-      in_parallel(2 * count, options_.threads, [&](int k) {
-        const FoundScene other =
-            in_other_animal(scene, body_.resolved.specimen, static_cast<unsigned>(first + k / 2));
-        runs[k] = run_trial(other, {.law = k % 2}, options_.interrupted);
-      });
-      if (options_.interrupted()) return;
-      for (int k = 0; k < 2 * count; ++k) {
-        int& served = candidate.animals[k % 2];
-        if (succeeds(*runs[k])) {
-          ++served;
-        } else if (first + k / 2 - served > allowed_animals) {
-          candidate.shortcoming = fmt::format("{}, other animal {}: {}", judged_laws[k % 2],
-                                              first + k / 2, shortcoming(*runs[k]));
-        }
-      }
-      if (!candidate.shortcoming.empty()) return;
-    }
+  void judge_starts(const FoundScene& scene, Candidate& candidate) const {
+    candidate.judged =
+        judge_series({"start", 4, judged_starts, allowed_failures}, candidate, candidate.passed,
+                     [&](int seed, int law) {
+                       return run_trial(scene, {.law = law, .seed = seed}, options_.interrupted);
+                     });
+  }
+
+  void judge_animals(const FoundScene& scene, Candidate& candidate) const {
+    judge_series({"other animal", 3, judged_animals, allowed_animals}, candidate, candidate.animals,
+                 [&](int number, int law) {
+                   return run_trial(in_other_animal(scene, body_.resolved.specimen,
+                                                    static_cast<unsigned>(number)),
+                                    {.law = law}, options_.interrupted);
+                 });
   }
 
   void note_types() {

@@ -36,12 +36,12 @@ std::string design_page(const DesignOptions& options, const DesignOutcome& outco
       start_noise_deg, best.passed[0], best.judged, best.passed[1], best.judged);
   if (options.animals) {
     page += fmt::format(
-        "Other animals are 0.6 to 1.4 times as long. Their girth for the length and their limits "
-        "are changed "
-        "by up to 20 %.\n\n"
+        "Other animals are {3:g} to {4:g} times as long. Their girth for the length and their "
+        "limits are changed by up to {5:g} %.\n\n"
         "| law that slides it | other animals that tie it, hold it and slide it |\n|---|---|\n"
         "| paper | {1} of {0} |\n| reflex | {2} of {0} |\n\n",
-        judged_animals, best.animals[0], best.animals[1]);
+        judged_animals, best.animals[0], best.animals[1], shortest_animal, longest_animal,
+        100 * animal_change);
   }
   page += fmt::format(
       "## What it takes\n\n"

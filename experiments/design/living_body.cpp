@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "core/input/curvature_csv.hpp"
 #include "experiments/curvature/program_fit.hpp"
@@ -20,13 +19,16 @@ constexpr int stations = 25;
 
 /// The scene of a found program; `animal` is null where it is the base scene's.
 std::string scene_text(const FoundScene& found, const Specimen* animal) {
-  std::map<std::string, std::string> sized;
+  std::string controller, tables;
   if (animal != nullptr) {
-    sized = sized_tables(*animal, read_scene_text("base = \"living_overhand\"\n", "design"));
-  }
-  std::string tables;
-  for (const auto& [name, lines] : sized) {
-    if (name != "controller") tables += fmt::format("\n[{}]\n{}", name, lines);
+    const ResolvedScene base = read_scene_text("base = \"living_overhand\"\n", "design");
+    for (const auto& [name, lines] : sized_tables(*animal, base)) {
+      if (name == "controller") {
+        controller = lines;
+      } else {
+        tables += fmt::format("\n[{}]\n{}", name, lines);
+      }
+    }
   }
   return fmt::format(
       R"(# The animal ties a {0} itself, by a program that `hagfish design` found. Keys and units: the built-in scene table1.
@@ -51,15 +53,17 @@ slide_distance = "0.04 L"
 energy_loss = 0.15              # by Euler's rule at its release
 )",
       found.knot, animal == nullptr ? "" : fmt::format("specimen = \"{}\"\n", specimen_file),
-      program_file, found.tighten_from, *name_in_scene(found.knot), sized["controller"], tables);
+      program_file, found.tighten_from, *name_in_scene(found.knot), controller, tables);
 }
 
 /// An animal like `own`, with the density that it has.
 Specimen other_animal(const Specimen& own, unsigned number) {
   Draw draw(0, number);
-  const auto changed = [&](double value) { return value * draw.uniform(0.8, 1.2); };
+  const auto changed = [&](double value) {
+    return value * draw.uniform(1 - animal_change, 1 + animal_change);
+  };
   Specimen other = own;
-  const double longer = draw.uniform(0.6, 1.4);
+  const double longer = draw.uniform(shortest_animal, longest_animal);
   other.length *= longer;
   other.bending_span *= longer;
   for (double& around : other.circumference) around = changed(longer * around);

@@ -31,8 +31,12 @@ inline constexpr const char* specimen_file = "specimen.toml";
 FoundScene found_scene(const SoftBody& body, const Shapes& shapes, const std::string& knot,
                        const std::string& specimen);
 
-/// The same program in an animal like `own`, drawn by `number`: 0.6 to 1.4 times as long; girth
-/// for its length and limits within 20 %. Muscles and passive stiffness go with the girth.
+/// Other animals: their length over the own one's, and by what share their girth for the length and
+/// their limits differ at most.
+inline constexpr double shortest_animal = 0.6, longest_animal = 1.4, animal_change = 0.2;
+
+/// The same program in such an animal, drawn by `number`. Muscles and passive stiffness go with the
+/// girth.
 FoundScene in_other_animal(const FoundScene& found, const Specimen& own, unsigned number);
 
 /// The control laws by which a found knot is slid.

@@ -23,23 +23,18 @@ Scene led_along(const SoftBody& body, const TailPath& path, double step) {
   return scene;
 }
 
-/// Forces and stiffness by which another animal's tail is led as that of the `paper`'s animal is:
-/// in water a force goes with girth, speed and length.
+/// Another animal's tail is led as that of the `paper`'s animal is. In water a force goes with
+/// girth, speed and length. Stiffness goes with that force and the length squared.
 void lead_like(ResolvedScene& resolved, const Specimen& paper) {
   const AnimalRatios beside = ratios(resolved.specimen, paper);
   const double force = beside.drag() * beside.length * beside.length;
   Scene& scene = resolved.scene;
-  for (double* one : {&scene.drag.normal, &scene.drag.tangential}) *one *= beside.drag();
+  go_with_size(scene, beside);
   for (double* one : {&scene.script.spring, &scene.script.damper}) *one *= force / beside.length;
   scene.script.largest_force *= force;
   for (double* one : {&scene.model.bending_stiffness, &scene.model.bending_damping,
                       &scene.model.twist_stiffness, &scene.model.twist_damping}) {
     *one *= force * beside.length * beside.length;
-  }
-  for (double* one :
-       {&scene.constraints.tolerance, &scene.constraints.stride, &scene.contact.margin,
-        &scene.controller.contact_gap, &scene.controller.contact_patch}) {
-    *one *= beside.girth;
   }
 }
 

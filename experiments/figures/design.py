@@ -149,7 +149,7 @@ def page(all_rows: list[Row], notes: list[str]) -> list[str]:
         "## Other animals", "",
         "Ten animals are drawn at random, 25 to 60 cm long, with girths and limits changed by up to 20 %. No search judged by them. "
         "A program serves an animal that ties, holds and slides the knot by it, within all bounds. "
-        "Where other animals are asked for (`--animals`), a program is kept if nine of ten others by each law are served; those are drawn otherwise.", "",
+        "With `--animals` a program is kept only if it serves nine of ten other animals by each law. Those are drawn otherwise.", "",
         *unseen_table(rows),
         "From nothing for each of them, a 4_1:", "",
         *animals_table(others),

@@ -121,32 +121,42 @@ std::string specimen_text(const Specimen& animal, const Specimen& paper) {
       paper.muscle.stress, paper.muscle.radius_share, to_degrees * paper.muscle.oblique_angle);
 }
 
-std::map<std::string, std::string> sized_tables(const Specimen& animal, const ResolvedScene& base) {
-  const Scene& scene = base.scene;
-  const AnimalRatios beside = ratios(animal, base.specimen);
+void go_with_size(Scene& scene, const AnimalRatios& beside) {
+  scene.active.stiffness *= beside.stiffness();
+  scene.active.capacity *= beside.torque();
+  scene.controller.cap *= std::max(1.0, beside.stiffness());
+  for (double* drag : {&scene.drag.normal, &scene.drag.tangential}) *drag *= beside.drag();
+  for (double* across :
+       {&scene.constraints.tolerance, &scene.constraints.stride, &scene.contact.margin,
+        &scene.controller.contact_gap, &scene.controller.contact_patch}) {
+    *across *= beside.girth;
+  }
+  scene.time.step = step_of(beside, scene);
+}
+
+std::vector<std::pair<std::string, std::string>> sized_tables(const Specimen& animal,
+                                                              const ResolvedScene& base) {
+  Scene scene = base.scene;
+  go_with_size(scene, ratios(animal, base.specimen));
   return {
       {"active", fmt::format("stiffness = {:.4g}  # dyn cm^2: by the fourth power of the mean "
                              "diameter\n"
                              "capacity = {:.4g}  # dyn cm: by its third power\n",
-                             beside.stiffness() * scene.active.stiffness,
-                             beside.torque() * scene.active.capacity)},
-      {"drag",
-       fmt::format("normal = {:.4g}  # g/(s cm): by its first power\n"
-                   "tangential = {:.4g}  # g/(s cm)\n",
-                   beside.drag() * scene.drag.normal, beside.drag() * scene.drag.tangential)},
+                             scene.active.stiffness, scene.active.capacity)},
+      {"drag", fmt::format("normal = {:.4g}  # g/(s cm): by its first power\n"
+                           "tangential = {:.4g}  # g/(s cm)\n",
+                           scene.drag.normal, scene.drag.tangential)},
       {"constraints", fmt::format("tolerance = {:.4g}  # cm: lengths across the body by its mean "
                                   "diameter\n"
                                   "stride = {:.4g}  # cm\n",
-                                  beside.girth * scene.constraints.tolerance,
-                                  beside.girth * scene.constraints.stride)},
-      {"contact", fmt::format("margin = {:.4g}  # cm\n", beside.girth * scene.contact.margin)},
+                                  scene.constraints.tolerance, scene.constraints.stride)},
+      {"contact", fmt::format("margin = {:.4g}  # cm\n", scene.contact.margin)},
       {"controller", fmt::format("cap = {:.4g}  # dyn\n"
                                  "contact_gap = {:.4g}  # cm\n"
                                  "contact_patch = {:.4g}  # cm\n",
-                                 std::max(1.0, beside.stiffness()) * scene.controller.cap,
-                                 beside.girth * scene.controller.contact_gap,
-                                 beside.girth * scene.controller.contact_patch)},
-      {"time", fmt::format("step = {:.6g}  # s\n", step_of(beside, scene))},
+                                 scene.controller.cap, scene.controller.contact_gap,
+                                 scene.controller.contact_patch)},
+      {"time", fmt::format("step = {:.6g}  # s\n", scene.time.step)},
   };
 }
 
@@ -160,9 +170,8 @@ std::string specimen_scene_text(const Specimen& animal, const std::string& file,
       "title = {}\n"
       "specimen = {}\n\n",
       base_name, base_name, quoted(fmt::format("{}, tied by {}", knot, animal.name)), quoted(file));
-  const std::map<std::string, std::string> tables = sized_tables(animal, base);
-  for (const char* name : {"active", "drag", "constraints", "contact", "controller", "time"}) {
-    text += fmt::format("[{}]\n{}\n", name, tables.at(name));
+  for (const auto& [name, lines] : sized_tables(animal, base)) {
+    text += fmt::format("[{}]\n{}\n", name, lines);
   }
   return text + fmt::format(
                     "[expect]\n"

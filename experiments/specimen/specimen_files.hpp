@@ -2,8 +2,9 @@
 // is that one's, scaled.
 #pragma once
 
-#include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/input/scene_text.hpp"
 
@@ -30,9 +31,14 @@ AnimalRatios ratios(const Specimen& animal, const Specimen& paper);
 /// The specimen file: what is not in `animal` is `paper`'s, scaled.
 std::string specimen_text(const Specimen& animal, const Specimen& paper);
 
-/// What of the scene `base` goes with the size of `animal`: the lines of each TOML table by its
-/// name. Lengths across the body go with the girth, torques and stiffness as in AnimalRatios.
-std::map<std::string, std::string> sized_tables(const Specimen& animal, const ResolvedScene& base);
+/// Scales what of the paper's animal's `scene` goes with the size of an animal: lengths across the
+/// body with the girth, torques, stiffness and drag as in AnimalRatios. A smaller animal's step is
+/// halved as often as its length is.
+void go_with_size(Scene& scene, const AnimalRatios& beside);
+
+/// The same of `base` for `animal`, as TOML: each table's name, and its lines.
+std::vector<std::pair<std::string, std::string>> sized_tables(const Specimen& animal,
+                                                              const ResolvedScene& base);
 
 /// The scene file: `base`, the built-in scene `base_name`, with the animal of `file`.
 std::string specimen_scene_text(const Specimen& animal, const std::string& file,

@@ -56,8 +56,7 @@ TEST(LivingBody, OfAnotherSizeHasMusclesDragAndContactOfItsOwn) {
 }
 
 TEST(SoftBody, OfAnotherSizeIsLedAsTheFirstOne) {
-  // In water a force goes with girth, speed and length; the stiffness that resists it by as much
-  // goes with the length squared besides.
+  // Forces in water go with girth, speed and length; stiffness with that and the length squared.
   const SoftBody own = soft_body("");
   const SoftBody larger = soft_body(sized_text(1.25));
   const Scene &one = own.resolved.scene, &other = larger.resolved.scene;

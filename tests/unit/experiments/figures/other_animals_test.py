@@ -23,6 +23,19 @@ def test_other_animals_are_what_is_said_of_them():
             own["mass"] / sliced(own["circumference"], own["station"], own["length"]), rel=1e-4)
 
 
+def test_a_specimen_file_has_the_animals_own_figures(capsys):
+    animals.specimen_file(3)
+    file = animals.tomllib.loads(capsys.readouterr().out)
+    common = animals.tomllib.loads((animals.DATA / "specimens/pacific_hagfish.toml").read_text())
+    for key, value in animals.settings(animals.FIRST_SEED + 2).items():
+        table, _, name = key.partition(".")
+        if table == "specimen":
+            place, _, last = name.rpartition(".")
+            assert (file[place] if place else file)[last] == value
+    assert file.keys() == common.keys() and file["passive"].keys() == common["passive"].keys()
+    assert file["station"] == common["station"] and file["muscle"] == common["muscle"]
+
+
 def sliced(circumference, station, length):
     place = (np.arange(2000) + 0.5) / 2000
     return float((np.interp(place, station, circumference) ** 2).mean()) * length

@@ -1,0 +1,64 @@
+// What is told of a found program says which law and which runs its counts are of.
+#include "experiments/design/design_page.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <sstream>
+
+#include "core/input/scene_reader.hpp"
+
+namespace hagfish::design_page_test {
+
+/// A candidate whose counts all differ.
+DesignOutcome outcome() {
+  Candidate best;
+  best.number = 7;
+  best.judged = 20;
+  std::ranges::copy(std::array{20, 19}, best.passed);
+  std::ranges::copy(std::array{8, 9}, best.animals);
+  DesignOutcome outcome;
+  outcome.best = best;
+  return outcome;
+}
+
+/// A field of the only row, by its heading.
+std::string field(const std::string& csv, const std::string& name) {
+  std::istringstream lines(csv);
+  std::string heads, row;
+  std::getline(lines, heads);
+  std::getline(lines, row);
+  std::istringstream head(heads), value(row);
+  for (std::string one, other; std::getline(head, one, ',') && std::getline(value, other, ',');) {
+    if (one == name) return other;
+  }
+  return "no such column";
+}
+
+TEST(DesignRow, HasTheCountsOfEachLaw) {
+  DesignOptions options;
+  const auto of = [&](const char* name) { return field(design_row(options, outcome(), {}), name); };
+  EXPECT_EQ(of("starts_by_paper"), "20");
+  EXPECT_EQ(of("starts_by_reflex"), "19");
+  EXPECT_EQ(of("animals_by_paper"), "");
+  options.animals = true;
+  EXPECT_EQ(of("animals_by_paper"), "8");
+  EXPECT_EQ(of("animals_by_reflex"), "9");
+}
+
+TEST(DesignPage, HasTheCountsOfEachLaw) {
+  const ResolvedScene scene = read_scene_text("base = \"living_overhand\"\n", "design");
+  DesignOptions options;
+  const auto page = [&] { return design_page(options, outcome(), scene, {}); };
+  EXPECT_EQ(page().find("Other animals"), std::string::npos);
+  options.animals = true;
+  EXPECT_NE(page().find("| paper | 20 of 20 |\n| reflex | 19 of 20 |"), std::string::npos);
+  EXPECT_NE(
+      page().find("Other animals are 0.6 to 1.4 times as long. Their girth for the length and "
+                  "their limits are changed by up to 20 %."),
+      std::string::npos);
+  EXPECT_NE(page().find("| paper | 8 of 10 |\n| reflex | 9 of 10 |"), std::string::npos);
+}
+
+}  // namespace hagfish::design_page_test
