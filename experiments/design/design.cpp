@@ -22,6 +22,10 @@
 #include "experiments/design/tries.hpp"
 #include "experiments/sweep/appended_file.hpp"
 #include "experiments/sweep/sweep_run.hpp"
+#ifdef HAGFISH_MUJOCO
+#include "experiments/audit/log_contents.hpp"
+#include "experiments/picture/strip.hpp"
+#endif
 
 namespace hagfish {
 namespace {
@@ -30,6 +34,9 @@ namespace fs = std::filesystem;
 
 // s, that the knot is pulled together in the soft body: the program ends with a knot that holds.
 constexpr double tightening = 1.5;
+
+constexpr const char *tries_name = "tries.csv", *candidates_name = "candidates.csv",
+                     *start_name = "start.csv", *log_name = "knot.h5", *strip_name = "strip.png";
 
 /// work(k) for k from 0 to count - 1, each once, by so many threads. Throws what one of them does.
 void in_parallel(int count, int threads, const std::function<void(int)>& work) {
@@ -80,6 +87,11 @@ void claim(const DesignOptions& options) {
   fs::create_directories(options.folder, error);
   if (!fs::exists(file)) {
     if (options.resume) throw FileError(file.string() + ": no search to continue");
+    if (!options.start.empty()) {
+      const fs::path tries = options.start / tries_name;
+      if (!fs::exists(tries)) throw FileError(tries.string() + ": no tries to start from");
+      write_text(options.folder / start_name, read_text(tries));
+    }
     return write_text(file, identity(options));
   }
   if (!options.resume) {
@@ -138,13 +150,16 @@ class Search {
         wanted_(*knot_called(*name_in_scene(options.knot))),
         body_(std::move(body)),
         archive_(options.seed, options.knot),
-        known_tries_(numbered_lines(options.folder / "tries.csv")),
-        known_candidates_(numbered_lines(options.folder / "candidates.csv")),
-        tries_file_(options.folder / "tries.csv"),
-        candidates_file_(options.folder / "candidates.csv") {
+        known_tries_(numbered_lines(options.folder / tries_name)),
+        known_candidates_(numbered_lines(options.folder / candidates_name)),
+        tries_file_(options.folder / tries_name),
+        candidates_file_(options.folder / candidates_name) {
     if (options.animals) outcome_.judged_runs += 2 * judged_animals;
-    end_last_line(options.folder / "tries.csv", tries_file_);
-    end_last_line(options.folder / "candidates.csv", candidates_file_);
+    end_last_line(options.folder / tries_name, tries_file_);
+    end_last_line(options.folder / candidates_name, candidates_file_);
+    for (const auto& [number, text] : numbered_lines(options.folder / start_name)) {
+      if (const std::optional<Tying> tying = tying_of(text)) archive_.add(first_++, {}, *tying);
+    }
   }
 
   DesignOutcome run() {
@@ -167,8 +182,10 @@ class Search {
  private:
   /// Tries a batch; gives the tries that tied the knot.
   std::vector<int> try_batch() {
-    const int first = outcome_.tries;
+    const int first = first_ + outcome_.tries;
+    std::vector<PathPlan> plans(batch_size);
     std::vector<std::optional<Tying>> tyings(batch_size);
+    for (int k = 0; k < batch_size; ++k) plans[k] = archive_.plan_of(first + k);
     in_parallel(batch_size, options_.threads, [&](int k) {
       const int number = first + k;
       if (const auto known = known_tries_.find(number); known != known_tries_.end()) {
@@ -176,13 +193,13 @@ class Search {
       }
       if (tyings[k]) return;
       Draw draw(options_.seed + 1, static_cast<unsigned>(number));
-      tyings[k] = try_plan(body_, archive_.plan_of(number), wanted_, draw, options_.interrupted);
+      tyings[k] = try_plan(body_, plans[k], wanted_, draw, options_.interrupted);
       if (tyings[k]) tries_file_.add(fmt::format("{},{}\n", number, tying_text(*tyings[k])));
     });
     if (options_.interrupted()) return {};
     std::vector<int> tied;
     for (int k = 0; k < batch_size; ++k) {
-      archive_.add(first + k, *tyings[k]);
+      archive_.add(first + k, plans[k], *tyings[k]);
       if (tyings[k]->tied() == wanted_) {
         tied.push_back(first + k);
         tied_paths_[first + k] = tyings[k]->path;
@@ -221,14 +238,12 @@ class Search {
     for (std::size_t k = 0; k < tied.size() && !outcome_.found && !over(); ++k) {
       Candidate& candidate = candidates[k];
       if (!known_candidate(tied[k])) {
-        if (candidate.shortcoming.empty()) judge_starts(scenes[k], candidate);
-        if (options_.animals && candidate.shortcoming.empty()) {
-          judge_animals(scenes[k], candidate);
-        }
+        if (candidate.shortcoming.empty()) judge_variety(scenes[k], candidate);
         if (options_.interrupted()) return;
         candidates_file_.add(candidate_text(candidate));
       }
       outcome_.candidates.push_back(candidate);
+      archive_.judged(candidate.number, candidate.passes());
       outcome_.found = candidate.shortcoming.empty();
       if (!outcome_.best || candidate.passes() > outcome_.best->passes() || outcome_.found) {
         outcome_.best = candidate;
@@ -258,47 +273,50 @@ class Search {
   /// Runs that a candidate is judged by, numbered from 1, for each law.
   struct Series {
     const char* what;
-    int few;  ///< run first: most candidates are given up soon
-    int all, allowed;
+    int allowed;       ///< failures
+    int (&passed)[2];  ///< of the candidate
+    std::function<std::optional<RunSummary>(int number, int law)> run;
   };
 
-  /// Counts those that succeed into `passed`, by law. Returns how many were judged by each law.
-  int judge_series(const Series& series, Candidate& candidate, int (&passed)[2],
-                   const std::function<std::optional<RunSummary>(int number, int law)>& run) const {
-    for (const auto& [first, last] : {std::pair(1, series.few), {series.few + 1, series.all}}) {
-      const int numbers = last - first + 1;
-      std::vector<std::optional<RunSummary>> runs(2 * numbers);
-      in_parallel(2 * numbers, options_.threads,
-                  [&](int k) { runs[k] = run(first + k / 2, k % 2); });
-      if (options_.interrupted()) return 0;
-      for (int k = 0; k < 2 * numbers; ++k) {
-        const int number = first + k / 2;
-        if (succeeds(*runs[k])) {
-          ++passed[k % 2];
-        } else if (number - passed[k % 2] > series.allowed) {
-          candidate.shortcoming = why_not(k % 2, series.what, number, *runs[k]);
-        }
+  /// Runs numbers `first` to `last`; false where too many have failed by now, or it is interrupted.
+  bool serves(const Series& series, int first, int last, Candidate& candidate) const {
+    const int count = 2 * (last - first + 1);
+    std::vector<std::optional<RunSummary>> runs(count);
+    in_parallel(count, options_.threads,
+                [&](int k) { runs[k] = series.run(first + k / 2, k % 2); });
+    if (options_.interrupted()) return false;
+    for (int k = 0; k < count; ++k) {
+      const int number = first + k / 2;
+      if (succeeds(*runs[k])) {
+        ++series.passed[k % 2];
+      } else if (number - series.passed[k % 2] > series.allowed) {
+        candidate.shortcoming = why_not(k % 2, series.what, number, *runs[k]);
       }
-      if (!candidate.shortcoming.empty()) return last;
     }
-    return series.all;
+    return candidate.shortcoming.empty();
   }
 
-  void judge_starts(const FoundScene& scene, Candidate& candidate) const {
-    candidate.judged =
-        judge_series({"start", 4, judged_starts, allowed_failures}, candidate, candidate.passed,
-                     [&](int seed, int law) {
-                       return run_trial(scene, {.law = law, .seed = seed}, options_.interrupted);
-                     });
-  }
-
-  void judge_animals(const FoundScene& scene, Candidate& candidate) const {
-    judge_series({"other animal", 3, judged_animals, allowed_animals}, candidate, candidate.animals,
-                 [&](int number, int law) {
-                   return run_trial(in_other_animal(scene, body_.resolved.specimen,
-                                                    static_cast<unsigned>(number)),
-                                    {.law = law}, options_.interrupted);
-                 });
+  /// A few runs of each kind first, then the others, of which starts seldom fail where animals did
+  /// not: most candidates are given up soon.
+  void judge_variety(const FoundScene& scene, Candidate& candidate) const {
+    const Series starts{"start", allowed_failures, candidate.passed, [&](int seed, int law) {
+                          return run_trial(scene, {.law = law, .seed = seed}, options_.interrupted);
+                        }};
+    const Series animals{
+        "other animal", allowed_animals, candidate.animals, [&](int number, int law) {
+          return run_trial(
+              in_other_animal(scene, body_.resolved.specimen, static_cast<unsigned>(number)),
+              {.law = law}, options_.interrupted);
+        }};
+    constexpr int few = 4;
+    candidate.judged = few;
+    if (!serves(starts, 1, few, candidate)) return;
+    if (options_.animals && !(serves(animals, 1, few, candidate) &&
+                              serves(animals, few + 1, judged_animals, candidate))) {
+      return;
+    }
+    candidate.judged = judged_starts;
+    serves(starts, few + 1, judged_starts, candidate);
   }
 
   void note_types() {
@@ -333,17 +351,32 @@ class Search {
                         {{program_file, found.program}, {specimen_file, found.specimen}});
     const std::optional<SweepRun> run =
         run_for_summary(resolved, options_.interrupted,
-                        SweepLog{options_.folder / "knot.h5", options_.typed, alone});
+                        SweepLog{options_.folder / log_name, options_.typed, alone});
     if (!run) return;
     write_text(options_.folder / "result.csv", design_row(options_, outcome_, run->summary));
     write_text(options_.folder / "README.md",
-               design_page(options_, outcome_, resolved, run->summary));
+               design_page(options_, outcome_, resolved, run->summary, draw_strip(run->summary)));
+  }
+
+  /// The file of the film strip; none where nothing is knotted, or there is no renderer.
+  std::string draw_strip([[maybe_unused]] const RunSummary& run) const {
+#ifdef HAGFISH_MUJOCO
+    try {
+      const LogContents log((options_.folder / log_name).string(), LogLevel::frames);
+      write_png(strip_of(log, strip_times(run), {420, 330}), options_.folder / strip_name);
+      return strip_name;
+    } catch (const InputError& error) {
+      options_.progress(fmt::format("no film strip: {}", error.what()));
+    }
+#endif
+    return "";
   }
 
   const DesignOptions& options_;
   KnotInvariants wanted_;
   SoftBody body_;
   Archive archive_;
+  int first_ = 0;  // number of its own first try: those of the start come before
   std::map<int, std::string> known_tries_, known_candidates_;
   AppendedFile tries_file_, candidates_file_;
   std::map<int, TailPath> tied_paths_;

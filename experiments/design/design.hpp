@@ -20,7 +20,8 @@ struct DesignOptions {
   std::string specimen;          ///< text of the animal's file; empty: Table 1's animal
   std::filesystem::path folder;  ///< files of the search and of what it found
   bool resume = false;           ///< goes on in it
-  double budget = 900;           ///< wall time for the search, s
+  std::filesystem::path start;  ///< folder of another search, whose paths are gone on from, or none
+  double budget = 900;          ///< wall time for the search, s
   int threads = 1;
   unsigned seed = 1;
   bool animals = false;                              ///< a program must serve other animals, too
@@ -56,11 +57,11 @@ struct DesignOutcome {
 };
 
 /// Searches by whole batches until a program is found, the budget is over, or it is interrupted.
-/// Which program is found depends on knot, animal and seed alone. The folder gets tries.csv and
-/// candidates.csv, by which it is resumed, and of the best program, where there is one, the files
-/// of FoundScene, knot.h5, README.md and result.csv. Throws InputError for a knot that the animal
-/// is too short for (length_bound.hpp), FileError where the folder holds another search, or cannot
-/// be written.
+/// Which program is found depends on knot, animal, seed and the tries of `start` alone. The folder
+/// gets tries.csv and candidates.csv, and start.csv, the tries of `start`, by which it is resumed,
+/// and of the best program, where there is one, the files of FoundScene, knot.h5, strip.png,
+/// README.md and result.csv. Throws InputError for a knot that the animal is too short for
+/// (length_bound.hpp), FileError where the folder holds another search, or cannot be written.
 DesignOutcome design(const DesignOptions& options);
 
 }  // namespace hagfish

@@ -10,23 +10,33 @@
 
 namespace hagfish {
 
+std::vector<double> strip_times(const RunSummary& run) {
+  std::vector<double> times;
+  for (const double time :
+       {0.25 * run.tighten_from, 0.5 * run.tighten_from, 0.75 * run.tighten_from, run.tighten_from,
+        run.release_from, run.free_from}) {
+    if (std::isfinite(time)) times.push_back(time);
+  }
+  return times;
+}
+
 std::string design_page(const DesignOptions& options, const DesignOutcome& outcome,
-                        const ResolvedScene& scene, const RunSummary& run) {
+                        const ResolvedScene& scene, const RunSummary& run,
+                        const std::string& strip) {
   const Candidate& best = *outcome.best;
   std::string page = fmt::format(
       "# {0}, tied by {1}\n\n"
       "`hagfish design {0}` searched for this program from nothing. {2}.\n\n"
       "    hagfish run {3} --out again.h5   # the animal ties and slides the knot, and loses it\n"
       "    hagfish check knot.h5            # audits the run that is here already\n"
-      "    hagfish picture knot.h5 --out strip.png",
+      "    hagfish picture knot.h5 --out knot.png",
       options.knot, scene.specimen.name, outcome.in_words(), scene_file);
-  // The way to the knot, tied, slid and untied.
-  for (const double time :
-       {0.25 * run.tighten_from, 0.5 * run.tighten_from, 0.75 * run.tighten_from, run.tighten_from,
-        run.release_from, run.free_from}) {
-    if (std::isfinite(time)) page += fmt::format(" --time {:.2f}", time);
-  }
+  for (const double time : strip_times(run)) page += fmt::format(" --time {:.2f}", time);
   page += "\n\n";
+  if (!strip.empty()) {
+    page +=
+        fmt::format("![The way to the knot, and the knot tied, slid and untied]({})\n\n", strip);
+  }
   page += fmt::format(
       "## How sure it is\n\n"
       "A start has normal noise of {:g} degrees on every hinge. A run succeeds if the animal ties, "

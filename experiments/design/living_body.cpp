@@ -16,15 +16,19 @@ namespace {
 
 constexpr double between_times = 0.35;  // s, of the program
 constexpr int stations = 25;
+constexpr double time_to_slide = 28;  // s, as the base scene has behind its program
 
 /// The scene of a found program; `animal` is null where it is the base scene's.
 std::string scene_text(const FoundScene& found, const Specimen* animal) {
   std::string controller, tables;
+  std::string time = fmt::format("duration = {:.1f}  # s\n", found.tighten_from + time_to_slide);
   if (animal != nullptr) {
     const ResolvedScene base = read_scene_text("base = \"living_overhand\"\n", "design");
     for (const auto& [name, lines] : sized_tables(*animal, base)) {
       if (name == "controller") {
         controller = lines;
+      } else if (name == "time") {
+        time += lines;
       } else {
         tables += fmt::format("\n[{}]\n{}", name, lines);
       }
@@ -42,6 +46,8 @@ program = "{2}"
 tighten_from = {3:.2f}            # s: the program ends by pulling the knot together
 tighten_time = 1.0              # s
 {5}{6}
+[time]
+{7}
 [expect]
 knot = "{4}"
 hand = "any"
@@ -53,7 +59,7 @@ slide_distance = "0.04 L"
 energy_loss = 0.15              # by Euler's rule at its release
 )",
       found.knot, animal == nullptr ? "" : fmt::format("specimen = \"{}\"\n", specimen_file),
-      program_file, found.tighten_from, *name_in_scene(found.knot), controller, tables);
+      program_file, found.tighten_from, *name_in_scene(found.knot), controller, tables, time);
 }
 
 /// An animal like `own`, with the density that it has.

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/knot/knot.hpp"
 #include "core/step/outcome.hpp"
 #include "experiments/design/knot_table.hpp"
 #include "experiments/specimen/specimen_files.hpp"
@@ -14,6 +15,7 @@ constexpr double look = 0.4;  // s, between looks at the knot
 constexpr int waypoints_ahead = 2;
 constexpr double search_step = 0.02;  // s
 constexpr double lasting = 1.0;       // s, that a knot must be there
+constexpr double more_tail = 0.04;    // of the body, for which a later look is gone on from
 
 /// The scene with a path.
 Scene led_along(const SoftBody& body, const TailPath& path, double step) {
@@ -107,18 +109,20 @@ std::optional<Tying> try_plan(const SoftBody& body, const PathPlan& plan,
     const double seen_at = record.controller.knot_seen;
     if (!std::isfinite(seen_at) || seen_at == tying.seen.back().to) continue;
     if (record.controller.knot.type != tying.seen.back().type) {
-      tying.seen.push_back({record.controller.knot.type, seen_at, seen_at, {}});
+      tying.seen.push_back({.type = record.controller.knot.type, .from = seen_at, .to = seen_at});
       continue;
     }
     TypeSeen& seen = tying.seen.back();
-    const bool second = seen.to == seen.from;
     seen.to = seen_at;
-    if (!second || !path.pull.empty()) continue;
+    if (!path.pull.empty() || tying.seen.size() < 2) continue;
     if (seen.type == wanted) {
       end_with_pull(path, time_of(sim, scene), centre(), draw);
       scene.script.knots = script_knots(path, body.model.length());
-    } else if (tying.seen.size() > 1 &&
-               waypoints_after(path, seen_at + search_step) >= waypoints_ahead) {
+    } else if (waypoints_after(path, seen_at + search_step) >= waypoints_ahead) {
+      const double left = tail_left(sim.now.observation.kin.centre, seen.type, scene.knot);
+      if (seen.at > 0 && left < seen.left + more_tail) continue;
+      seen.at = seen_at;
+      seen.left = left;
       Reached here{sim, path, tying.seen};
       for (TypeSeen& before : here.seen) before.reached.reset();
       seen.reached = std::make_shared<Reached>(std::move(here));
@@ -126,13 +130,25 @@ std::optional<Tying> try_plan(const SoftBody& body, const PathPlan& plan,
   }
 }
 
-TailPath path_reached(const TailPath& path, double from) {
-  return path_with_ahead(path, from + look + search_step, waypoints_ahead);
+TailPath path_reached(const TailPath& path, double at) {
+  return path_with_ahead(path, at + search_step, waypoints_ahead);
+}
+
+double tail_left(const Eigen::Matrix3Xd& centre, const KnotInvariants& type,
+                 const KnotSettings& settings) {
+  KnotSettings few = settings;
+  few.votes = 5;
+  const Eigen::Index bodies = centre.cols();
+  Eigen::Index cut = 0;
+  for (Eigen::Index more = bodies / 4; more > 1; more /= 2) {
+    if (knot_type(centre.leftCols(bodies - cut - more), few).type == type) cut += more;
+  }
+  return static_cast<double>(cut) / static_cast<double>(bodies);
 }
 
 Shapes tied_shapes(const SoftBody& body, const TailPath& path, const std::string& wanted,
                    double tightening) {
-  Scene scene = led_along(body, path, 0.01);
+  Scene scene = led_along(body, path, search_step);
   scene.expect.knot = *name_in_scene(wanted);
   scene.controller.tighten_from = path_end(path);
   scene.controller.tight_span = 0;
@@ -154,10 +170,8 @@ Shapes tied_shapes(const SoftBody& body, const TailPath& path, const std::string
       tightens = true;
       shapes.tighten_from = record.time;
     }
-    if (record.step % 2 == 0) {
-      shapes.time.push_back(record.time);
-      q.push_back(record.moment.state.q);
-    }
+    shapes.time.push_back(record.time);
+    q.push_back(record.moment.state.q);
   }
   if (shapes.failure.empty() && !tightens) shapes.failure = "it was never tightened";
   if (shapes.failure.empty() && fingerprint_called(wanted)) {

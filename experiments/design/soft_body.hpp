@@ -35,8 +35,10 @@ struct Reached;
 struct TypeSeen {
   KnotInvariants type;
   double from = 0, to = 0;  ///< s
-  std::shared_ptr<const Reached>
-      reached;  ///< at the second look, if its path had two waypoints ahead
+  double at = 0;    ///< s, the look from which other tries go on: with two waypoints ahead and most
+                    ///< of the tail left; 0: none
+  double left = 0;  ///< of the body, then: see tail_left()
+  std::shared_ptr<const Reached> reached{};  ///< then
 };
 
 /// A try on its way, from which others go on as if they had come all the way.
@@ -46,9 +48,13 @@ struct Reached {
   std::vector<TypeSeen> seen;
 };
 
-/// Of the path that a try has taken: up to the two waypoints that were ahead when a type, seen from
-/// `from` (s) on, was looked at for the second time.
-TailPath path_reached(const TailPath& path, double from);
+/// Of the path that a try has taken: up to the two waypoints that were ahead of TypeSeen::at.
+TailPath path_reached(const TailPath& path, double at);
+
+/// The share of the body that can be cut off behind without another type: what is left of the tail
+/// to go on with. `centre`: of the bodies, 3 x n, any length unit.
+double tail_left(const Eigen::Matrix3Xd& centre, const KnotInvariants& type,
+                 const KnotSettings& settings);
 
 /// What a path tied.
 struct Tying {
@@ -76,7 +82,7 @@ struct Shapes {
   std::string failure;       ///< why there are no shapes up to the end, or empty
 };
 
-/// The same at steps of 10 ms, and the knot, which must be `wanted` (a name of knot_table.hpp, or
+/// The same again, and the knot, which must be `wanted` (a name of knot_table.hpp, or
 /// invariants_text()), is then tightened for `tightening` (s).
 Shapes tied_shapes(const SoftBody& body, const TailPath& path, const std::string& wanted,
                    double tightening);

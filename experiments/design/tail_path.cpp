@@ -13,8 +13,9 @@ constexpr double degree = std::numbers::pi / 180;
 constexpr int most_turns = 32;           // waypoints: the tail is used up before
 constexpr double displacement = 0.015;   // of a waypoint, body lengths
 constexpr double strands_within = 0.25;  // to strands that the tail may wind about, body lengths
-constexpr double tail_share = 0.25;      // body length next to the tip, which it cannot wind about
-constexpr double neck_share = 0.06;      // body length next to the head, which the plate holds
+constexpr double quickest = 0.35;    // of the tail from waypoint to waypoint, body lengths per s
+constexpr double tail_share = 0.25;  // body length next to the tip, which it cannot wind about
+constexpr double neck_share = 0.06;  // body length next to the head, which the plate holds
 
 TailPath::Waypoint last_of(const TailPath& path) {
   return path.turns.empty() ? path.swing.back() : path.turns.back();
@@ -141,6 +142,13 @@ PathPlan random_plan(Draw& draw) {
 PathPlan further_plan(const TailPath& path, Draw& draw) {
   PathPlan plan;
   plan.path = path;
+  if (draw.chance(0.35)) {
+    Winding off;
+    off.off = draw.uniform(0.1, 0.35);
+    off.aside = 0.35 * Eigen::Vector3d(draw.normal(), draw.normal(), draw.normal());
+    off.duration = draw.uniform(1, 2);
+    plan.turns.push_back(off);
+  }
   draw_turns(plan, 1 + draw.below(8), draw);
   return plan;
 }
@@ -158,11 +166,21 @@ TailPath displaced_path(const TailPath& path, Draw& draw) {
   return other;
 }
 
-void add_turn(TailPath& path, const Winding& turn, const Eigen::Matrix3Xd& centre, int& strand) {
-  if (path.turns.size() >= most_turns) return;
-  const TailPath::Waypoint before = last_of(path);
+namespace {
+
+/// Away from the middle of what the tail may wind about.
+Eigen::Vector3d place_off(const Eigen::Vector3d& place, const Winding& turn,
+                          const Eigen::Matrix3Xd& centre) {
+  const auto all_but_tail =
+      static_cast<Eigen::Index>((1 - tail_share) * static_cast<double>(centre.cols()));
+  const Eigen::Vector3d middle = centre.leftCols(all_but_tail).rowwise().mean();
+  return place + turn.off * ((place - middle).normalized() + turn.aside).normalized();
+}
+
+Eigen::Vector3d place_about(const Eigen::Vector3d& place, const Winding& turn,
+                            const Eigen::Matrix3Xd& centre, int& strand) {
   if (turn.choice >= 0) {
-    const std::vector<int> near = strands_near(before.place, centre);
+    const std::vector<int> near = strands_near(place, centre);
     strand = near[std::min(
         near.size() - 1, static_cast<std::size_t>(turn.choice * static_cast<double>(near.size())))];
   }
@@ -175,10 +193,20 @@ void add_turn(TailPath& path, const Winding& turn, const Eigen::Matrix3Xd& centr
                     .normalized();
   line.beside = line.along.cross(line.across);
   // Strands are followed for a tenth of the body, as if they were straight.
-  const double on = std::clamp((before.place - line.point).dot(line.along) + turn.along, -0.1, 0.1);
-  Eigen::Vector3d place = line.place(on, turn.radius, line.angle_of(before.place) + turn.angle);
+  const double on = std::clamp((place - line.point).dot(line.along) + turn.along, -0.1, 0.1);
+  return line.place(on, turn.radius, line.angle_of(place) + turn.angle);
+}
+
+}  // namespace
+
+void add_turn(TailPath& path, const Winding& turn, const Eigen::Matrix3Xd& centre, int& strand) {
+  if (path.turns.size() >= most_turns) return;
+  const TailPath::Waypoint before = last_of(path);
+  Eigen::Vector3d place = turn.off > 0 ? place_off(before.place, turn, centre)
+                                       : place_about(before.place, turn, centre, strand);
   place.x() = std::max(place.x(), neck_share);
-  path.turns.push_back({before.time + turn.duration, place});
+  const double least = (place - before.place).norm() / quickest;
+  path.turns.push_back({before.time + std::max(turn.duration, least), place});
 }
 
 void end_with_pull(TailPath& path, double time, const Eigen::Matrix3Xd& centre, Draw& draw) {

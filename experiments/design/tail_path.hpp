@@ -22,33 +22,38 @@ struct TailPath {
   std::vector<Waypoint> swing, turns, pull;  ///< one after the other
 };
 
-/// The next waypoint, on about a strand of the body, which is known once the body is there.
+/// The next waypoint, on about a strand of the body, which is known once the body is there; or off
+/// it, which tightens what is tied and leaves more of the tail.
 struct Winding {
   double choice = 0;    ///< 0 to 1: which strand within reach; negative: that of the turn before
   double angle = 0;     ///< about the strand, from the waypoint before, rad
   double along = 0;     ///< along the strand, from the waypoint before, body lengths
   double radius = 0;    ///< from the strand's middle, body lengths
-  double duration = 0;  ///< s
+  double duration = 0;  ///< s; more where the tail would have to hurry
+  double off = 0;       ///< so far off the body in place of a turn, body lengths; 0 for a turn
+  Eigen::Vector3d aside = Eigen::Vector3d::Zero();  ///< added to the unit vector off the body
 };
 
 /// A path, and how it goes on from its end.
 struct PathPlan {
   TailPath path;
   std::vector<Winding> turns;
-  std::shared_ptr<const Reached> reached;  ///< by the path, so that it need not be taken again
+  std::shared_ptr<const Reached> reached{};  ///< by the path, so that it need not be taken again
+  int parent = -1;                           ///< number of the try whose path this was, or none
 };
 
 /// A swing over and 5 to 16 turns: nothing is known of any knot. Half of the plans turn about
 /// strands where they then lie, half about lines where strands lie before anything moves.
 PathPlan random_plan(Draw& draw);
 
-/// On from the end of `path` by 1 to 8 turns.
+/// On from the end of `path` by 1 to 8 turns; a third of the plans leads the tail off the body
+/// first.
 PathPlan further_plan(const TailPath& path, Draw& draw);
 
 /// `path` with its waypoints displaced, or another pull where it ends with one, or both.
 TailPath displaced_path(const TailPath& path, Draw& draw);
 
-/// Adds the waypoint of a turn. `centre`: of the bodies, 3 x n, body lengths. `strand` is the body
+/// Adds the next waypoint. `centre`: of the bodies, 3 x n, body lengths. `strand` is the body
 /// that the turn before was about, and becomes that of this one. Does nothing where the path has as
 /// many turns as a tail can make.
 void add_turn(TailPath& path, const Winding& turn, const Eigen::Matrix3Xd& centre, int& strand);

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
-#include <set>
+#include <limits>
 #include <sstream>
 
 namespace hagfish {
@@ -12,7 +12,8 @@ namespace {
 
 constexpr std::size_t kept_of_type = 40;
 constexpr double random_share = 0.25;
-constexpr double displaced_share = 0.5;      // once the wanted type was tied
+constexpr double displaced_share = 0.7;      // of paths on which the wanted type was seen, at most
+constexpr double doubt = 0.3;                // promise by which half of that is displaced
 constexpr std::size_t most_waypoints = 100;  // of a part, in a file that is whole
 constexpr const char* failed_word = "failed";
 
@@ -27,20 +28,6 @@ int crossings_of(const std::string& name) {
   constexpr int many = 100;
   const bool named = name.size() > 1 && name[1] == '_';
   return named ? name[0] - '0' : many;
-}
-
-template <class Path>
-void keep(int number, const Path& path, std::vector<Path>& paths) {
-  if (paths.size() < kept_of_type) {
-    paths.push_back(path);
-  } else {
-    paths[static_cast<std::size_t>(number) % kept_of_type] = path;
-  }
-}
-
-template <class Path>
-const Path& one_of(const std::vector<Path>& paths, Draw& draw) {
-  return paths[draw.below(static_cast<int>(paths.size()))];
 }
 
 bool same(const TailPath& a, const TailPath& b) {
@@ -67,52 +54,96 @@ bool read_path(std::istream& words, TailPath& path) {
 }  // namespace
 
 Archive::Archive(unsigned seed, const std::string& wanted)
-    : seed_(seed),
-      wanted_(*knot_called(*name_in_scene(wanted))),
-      crossings_(crossings_of(wanted)) {}
+    : seed_(seed), wanted_(*knot_called(*name_in_scene(wanted))), crossings_(crossings_of(wanted)) {
+  const std::size_t sum = wanted.find('#');
+  if (sum == std::string::npos) return;
+  for (const std::string& one : {wanted.substr(0, sum), wanted.substr(sum + 1)}) {
+    // Types are blind to mirror images.
+    const std::string image = one.starts_with('-') ? one.substr(1) : one;
+    summands_.insert(key(*knot_called(*name_in_scene(image))));
+  }
+}
+
+bool Archive::leads_on(const KnotInvariants& type) const {
+  if (type == KnotInvariants{} || type == wanted_) return false;
+  if (!summands_.empty()) return summands_.contains(key(type));
+  return crossings_of(knot_name(type)) <= crossings_;
+}
+
+double Archive::promise(const PathPlan& plan) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (int line = plan.parent; line >= 0; line = lines_[line].parent) {
+    least = std::min(least, (1.0 + lines_[line].passes) / (1.0 + lines_[line].failures));
+  }
+  return least;
+}
+
+const PathPlan& Archive::likely(const std::vector<Kept>& kept, Draw& draw) const {
+  double rest = 0;
+  for (const Kept& one : kept) rest += promise(one.plan);
+  rest = draw.uniform(0, rest);
+  for (const Kept& one : kept) {
+    rest -= promise(one.plan);
+    if (rest < 0) return one.plan;
+  }
+  return kept.back().plan;
+}
 
 PathPlan Archive::plan_of(int number) const {
   Draw draw(seed_, static_cast<unsigned>(number));
-  const std::vector<TailPath>& with_pull = tied_.empty() ? lost_ : tied_;
-  if (!with_pull.empty() && draw.chance(displaced_share)) {
-    return {displaced_path(one_of(with_pull, draw), draw), {}, {}};
+  double promised = 0;
+  for (const Kept& one : with_pull_) promised = std::max(promised, promise(one.plan));
+  if (draw.chance(displaced_share * promised / (promised + doubt))) {
+    const PathPlan& from = likely(with_pull_, draw);
+    return {.path = displaced_path(from.path, draw), .turns = {}, .parent = from.parent};
   }
   if (paths_.empty() || draw.chance(random_share)) return random_plan(draw);
   const auto type = std::next(paths_.begin(), draw.below(static_cast<int>(paths_.size())));
-  const PathPlan& from = one_of(type->second, draw);
-  if (draw.chance(0.3)) return further_plan(displaced_path(from.path, draw), draw);
-  PathPlan plan = further_plan(from.path, draw);
-  plan.reached = from.reached;
+  const PathPlan& from = likely(type->second, draw);
+  const bool displaced = draw.chance(0.3);
+  PathPlan plan = further_plan(displaced ? displaced_path(from.path, draw) : from.path, draw);
+  plan.parent = from.parent;
+  if (!displaced) plan.reached = from.reached;
   return plan;
 }
 
-void Archive::add(int number, const Tying& tying) {
-  const KnotInvariants none;
+void Archive::add(int number, const PathPlan& plan, const Tying& tying) {
+  lines_.resize(number + 1);
+  lines_[number] = {.parent = plan.parent, .failures = 0, .passes = 0};
   std::set<Type> seen_here;
   for (const TypeSeen& seen : tying.seen) {
     if (seen.to == seen.from) continue;
     seen_here.insert(key(seen.type));
-    if (seen.type == none || seen.type == wanted_ ||
-        crossings_of(knot_name(seen.type)) > crossings_) {
-      continue;
-    }
-    PathPlan to_there{path_reached(tying.path, seen.from), {}, {}};
-    std::vector<PathPlan>& paths = paths_[key(seen.type)];
-    const auto is_there = [&](const PathPlan& plan) { return same(plan.path, to_there.path); };
+    if (seen.at == 0 || !leads_on(seen.type)) continue;
+    PathPlan to_there{.path = path_reached(tying.path, seen.at), .turns = {}, .parent = number};
+    std::vector<Kept>& paths = paths_[key(seen.type)];
+    const auto is_there = [&](const Kept& kept) { return same(kept.plan.path, to_there.path); };
     if (std::ranges::any_of(paths, is_there)) continue;  // its try went on from there
     if (seen.reached && same(seen.reached->path, to_there.path)) to_there.reached = seen.reached;
-    keep(number, to_there, paths);
+    const auto less =
+        std::ranges::find_if(paths, [&](const Kept& kept) { return kept.left < seen.left; });
+    paths.insert(less, {to_there, seen.left});
+    if (paths.size() > kept_of_type) paths.pop_back();
   }
   for (const Type& type : seen_here) ++counts_[type];
-  if (tying.path.pull.empty()) return;
-  keep(number, tying.path, tying.tied() == wanted_ ? tied_ : lost_);
+  if (!seen_here.contains(key(wanted_)) || tying.path.pull.empty()) return;
+  if (with_pull_.size() == kept_of_type) with_pull_.erase(with_pull_.begin());
+  with_pull_.push_back({{.path = tying.path, .turns = {}, .parent = number}, 0});
+  if (tying.tied() != wanted_) judged(number, 0);
+}
+
+void Archive::judged(int number, int passes) {
+  for (int line = number; line >= 0; line = lines_[line].parent) {
+    ++lines_[line].failures;
+    lines_[line].passes = std::max(lines_[line].passes, passes);
+  }
 }
 
 std::string tying_text(const Tying& tying) {
   std::string text;
   for (const TypeSeen& seen : tying.seen) {
-    text += fmt::format("{}{} {:.17g} {:.17g}", text.empty() ? "" : " ", knot_name(seen.type),
-                        seen.from, seen.to);
+    text += fmt::format("{}{} {:.17g} {:.17g} {:.17g} {:.17g}", text.empty() ? "" : " ",
+                        knot_name(seen.type), seen.from, seen.to, seen.at, seen.left);
   }
   text += tying.failed ? std::string(" ") + failed_word : " .";
   for (const auto* part : {&tying.path.swing, &tying.path.turns, &tying.path.pull}) {
@@ -137,7 +168,7 @@ std::optional<Tying> tying_of(const std::string& text) {
     }
     const std::optional<KnotInvariants> type = knot_called(name);
     TypeSeen seen;
-    if (!type || !(words >> seen.from >> seen.to)) return std::nullopt;
+    if (!type || !(words >> seen.from >> seen.to >> seen.at >> seen.left)) return std::nullopt;
     seen.type = *type;
     tying.seen.push_back(seen);
   }

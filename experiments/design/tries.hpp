@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,9 +13,12 @@ namespace hagfish {
 
 /// Paths on which a type was seen, by type. New paths are random ones, go on from these, each type
 /// being as likely, so that what is rare is looked into as often as what is common, or displace
-/// those that tied the wanted type. Types of more crossings than that are led on from by no path.
-/// Which try makes which path depends on the seed and on the results of all batches before its own,
-/// so that results may come in any order and from anywhere.
+/// those on which the wanted type was seen. Types of more crossings than that are led on from by no
+/// path; for a sum, its summands alone are. Of each type the paths that left most of the tail are
+/// kept. A path is the less likely gone on from, the more often what came of it, or of a path
+/// before it, failed in the living body, and the more likely, the more runs the best of that
+/// passed. Which try makes which path depends on the seed and on the results of all batches before
+/// its own, so that results may come in any order and from anywhere.
 class Archive {
  public:
   Archive(unsigned seed, const std::string& wanted);
@@ -23,7 +27,10 @@ class Archive {
   PathPlan plan_of(int number) const;
 
   /// The result of that try, one after the other.
-  void add(int number, const Tying& tying);
+  void add(int number, const PathPlan& plan, const Tying& tying);
+
+  /// How many runs of the living body the program of that try, which was added, passed.
+  void judged(int number, int passes);
 
   /// In how many tries each type was seen at two looks in a row.
   const std::map<std::pair<int, int>, int>& counts() const { return counts_; }
@@ -33,17 +40,30 @@ class Archive {
 
   unsigned seed_;
   KnotInvariants wanted_;
-  int crossings_;                                // of wanted_
-  std::map<Type, std::vector<PathPlan>> paths_;  // to where the type was seen, without turns
-  std::vector<TailPath> tied_, lost_;            // the wanted type, which the pull kept or not
+  int crossings_;            // of wanted_
+  std::set<Type> summands_;  // of wanted_, where it is a sum
+  struct Kept {
+    PathPlan plan;  // to where the type was seen, without turns
+    double left;    // of the tail
+  };
+  struct Line {
+    int parent, failures, passes;  // of the try, and of what came of it; the best
+  };
+  bool leads_on(const KnotInvariants& type) const;
+  double promise(const PathPlan& plan) const;
+  const PathPlan& likely(const std::vector<Kept>& kept, Draw& draw) const;
+
+  std::map<Type, std::vector<Kept>> paths_;  // most of the tail first
+  std::vector<Kept> with_pull_;              // on which the wanted type was seen
+  std::vector<Line> lines_;                  // by number
   std::map<Type, int> counts_;
 };
 
 /// Tries whose paths are made of the same archive.
 inline constexpr int batch_size = 32;
 
-/// As a file of tries has it: "0_1 0 8.4 3_1 8.8 12 .", types with the times of their first and
-/// last looks (s), how it ended, and each part of the path: how many waypoints, and these.
+/// As a file of tries has it: "0_1 0 8.4 0 0 3_1 8.8 12 9.6 0.2 .", the fields of each TypeSeen but
+/// `reached`, how it ended, and each part of the path: how many waypoints, and these.
 std::string tying_text(const Tying& tying);
 /// What tying_text() made, or nothing where it is not whole.
 std::optional<Tying> tying_of(const std::string& text);

@@ -20,7 +20,7 @@ namespace {
 constexpr const char* known_names = "3_1 to 8_21, A#B or A#-B of two of these, or det=..,v2=..";
 
 struct DesignArguments {
-  std::string knot, specimen, out;
+  std::string knot, specimen, out, start;
   std::string budget = "15m";
   int threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   int seed = 1;
@@ -55,6 +55,7 @@ int make_design(const DesignArguments& arguments, const std::string& typed) {
   }
   options.folder = arguments.out;
   options.resume = arguments.resume;
+  options.start = arguments.start;
   options.budget = seconds_of(arguments.budget);
   options.threads = arguments.threads;
   options.seed = static_cast<unsigned>(arguments.seed);
@@ -95,7 +96,10 @@ void add_design(Program& program) {
       ->check(from_to(0, 1e9))
       ->capture_default_str();
   app->add_flag("--animals", arguments->animals, "what is found must serve other animals, too");
-  app->add_flag("--resume", arguments->resume, "continue a search that was stopped");
+  CLI::Option* start = app->add_option("--start", arguments->start,
+                                       "folder of another search, whose paths are continued");
+  app->add_flag("--resume", arguments->resume, "continue a search that was stopped")
+      ->excludes(start);
   app->add_flag("--quiet", arguments->quiet, "no progress");
   app->callback([arguments, &program] { program.code = make_design(*arguments, program.typed); });
 }

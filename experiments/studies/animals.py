@@ -1,11 +1,13 @@
 """Settings of other animals, drawn at random: a line each, `--set KEY=VALUE ...`, or all as an axis of `hagfish sweep`.
 
-Usage: animals.py COUNT [axis]
+Usage: animals.py COUNT [axis] [slender]
        animals.py specimen NUMBER      the specimen file of one of them, from 1
+       animals.py specimen slender     that of the Pacific hagfish, 1.5 times as long and no thicker
 
 The Pacific hagfish of data/specimens is made 25 to 60 cm long, each circumference and bending limit and the twisting limit are
 changed by up to 20 %, and it has 60 to 200 bodies. Mass goes with volume. Muscles and passive stiffness go with the fourth
-power of the diameter, as that of rods of one material does; capacity, area times arm, with the third.
+power of the diameter, as that of rods of one material does; capacity, area times arm, with the third. With `slender` all are 1.5
+times as long and no thicker.
 """
 
 from __future__ import annotations
@@ -18,6 +20,7 @@ from pathlib import Path
 
 DATA = Path(__file__).parents[2] / "data"
 FIRST_SEED = 1000
+SLENDER = 1.5
 
 
 def volume(circumference: list[float], station: list[float], length: float) -> float:
@@ -28,7 +31,8 @@ def volume(circumference: list[float], station: list[float], length: float) -> f
     return (ends + cones) * length
 
 
-def settings(seed: int) -> dict[str, object]:
+def settings(seed: int, longer: float = 1) -> dict[str, object]:
+    """`longer`: times as long as its girth goes with."""
     own = tomllib.loads((DATA / "specimens/pacific_hagfish.toml").read_text(encoding="utf-8"))
     active = tomllib.loads((DATA / "living_overhand.toml").read_text(encoding="utf-8"))["active"]
     draw = random.Random(seed)
@@ -38,8 +42,8 @@ def settings(seed: int) -> dict[str, object]:
     circumference = [scale * value for value in changed(own["circumference"])]
     thicker = sum(circumference) / sum(own["circumference"])
     return {
-        "specimen.length": length,
-        "specimen.mass": own["mass"] * volume(circumference, own["station"], length)
+        "specimen.length": longer * length,
+        "specimen.mass": own["mass"] * volume(circumference, own["station"], longer * length)
         / volume(own["circumference"], own["station"], own["length"]),
         "specimen.circumference": circumference,
         "specimen.bending_limit_deg": changed(own["bending_limit_deg"]),
@@ -51,8 +55,13 @@ def settings(seed: int) -> dict[str, object]:
     } | {f"specimen.passive.{key}": [value * thicker**4 for value in values] for key, values in own["passive"].items()}
 
 
+def slender_file() -> None:
+    own = tomllib.loads((DATA / "specimens/pacific_hagfish.toml").read_text(encoding="utf-8"))
+    write(own | {"name": f"Pacific hagfish {SLENDER:g} times as slender", "length": SLENDER * own["length"], "mass": SLENDER * own["mass"]})
+
+
 def specimen_file(number: int) -> None:
-    """TOML, with what the animals have in common from the Pacific hagfish's own file."""
+    """What the animals have in common is from the Pacific hagfish's own file."""
     own = tomllib.loads((DATA / "specimens/pacific_hagfish.toml").read_text(encoding="utf-8"))
     own["name"] = f"Animal {number}, drawn at random"
     for key, value in settings(FIRST_SEED + number - 1).items():
@@ -60,6 +69,11 @@ def specimen_file(number: int) -> None:
         if table == "specimen":
             place, _, last = rest.rpartition(".")
             (own[place] if place else own)[last] = value
+    write(own)
+
+
+def write(own: dict[str, object]) -> None:
+    """TOML."""
     tables = {key: value for key, value in own.items() if isinstance(value, dict)}
     for key, value in own.items():
         if key not in tables:
@@ -68,8 +82,8 @@ def specimen_file(number: int) -> None:
         print(f"\n[{name}]", *(f"{key} = {json.dumps(value)}" for key, value in table.items()), sep="\n")
 
 
-def main(count: int, axis: bool) -> None:
-    animals = [settings(FIRST_SEED + animal) for animal in range(count)]
+def main(count: int, axis: bool, longer: float) -> None:
+    animals = [settings(FIRST_SEED + animal, longer) for animal in range(count)]
     if axis:
         print("[[axis]]")
         for key in animals[0]:
@@ -80,7 +94,9 @@ def main(count: int, axis: bool) -> None:
 
 
 if __name__ == "__main__":
-    if sys.argv[1] == "specimen":
+    if sys.argv[1:] == ["specimen", "slender"]:
+        slender_file()
+    elif sys.argv[1] == "specimen":
         specimen_file(int(sys.argv[2]))
     else:
-        main(int(sys.argv[1]), sys.argv[2:] == ["axis"])
+        main(int(sys.argv[1]), "axis" in sys.argv[2:], SLENDER if "slender" in sys.argv[2:] else 1)

@@ -1,19 +1,21 @@
 #!/usr/bin/env bash
-# `hagfish design` from nothing for the Table 1 animal, by three seeds, and 4_1 for ten random animals: how long each knot takes on two
-# cores, how sure the found programs are, the audit of their runs at steps of 1, 2 and 5 ms, and which of ten animals that the search
-# never saw they serve. Leaves experiments/results/design.csv and design.md, made of it.
+# `hagfish design` from nothing: small knots for the Table 1 animal, by three seeds; larger ones for one that is 1.5 times as slender;
+# 4_1 for ten random animals. How long each takes on two cores, how sure the found programs are, the audit of their runs at steps of 1, 2
+# and 5 ms, and which of ten animals that the search never saw they serve. Leaves experiments/results/design.csv and design.md, made of
+# it, and experiments/figures/design.png.
 #   bash experiments/studies/design.sh [OUTPUT_FOLDER]     default: out/design
-# KNOTS, SEEDS, ANIMALS (numbers of random ones) and ROBUST (knots whose programs must serve other animals, by seed 1) in the environment
-# are others. Stopped, it goes on where it was.
+# In the environment KNOTS, SEEDS, LARGE, ANIMALS (numbers of random ones) and ROBUST and ROBUST_LARGE (knots whose programs must serve
+# other animals, by seed 1) are others, and BEYOND are large knots that the Table 1 animal tries. Stopped, it goes on where it was.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+animals=$root/experiments/studies/animals.py
 
-# search FOLDER ARGUMENT...: `hagfish design`, and runs of what it found at three steps.
+# search FOLDER BUDGET ARGUMENT...: `hagfish design`, and runs of what it found at three steps.
 search() {
   local folder=$out/$1 resume=() step log
   if [[ ! -e $folder/result.csv ]]; then
     [[ -e $folder/search.toml ]] && resume=(--resume)
-    "$hagfish" design "${@:2}" --out "$folder" --budget 15m --threads 2 "${resume[@]}" || (($? == 3))
+    "$hagfish" design "${@:3}" --out "$folder" --budget "$2" --threads 2 "${resume[@]}" || (($? == 3))
   fi
   [[ -e $folder/scene.toml ]] || return 0
   for step in 0.001 0.002 0.005; do
@@ -23,7 +25,7 @@ search() {
   done
 }
 
-# unseen FOLDER: what was found there, in ten animals that no search saw.
+# unseen FOLDER [slender]: what was found there, in ten animals that no search saw.
 unseen() {
   local folder=$out/$1 law
   [[ -e $folder/scene.toml ]] || return 0
@@ -32,25 +34,36 @@ unseen() {
       echo 'scene = "scene.toml"'
       [[ $law == paper ]] ||
         echo 'set = ["controller.law=reflex", "controller.tighten_time=0.04", "controller.reflex.shift=2.5e-4 L", "expect.speed_share=0.0"]'
-      /usr/bin/python3 "$root/experiments/studies/animals.py" 10 axis
+      /usr/bin/python3 "$animals" 10 axis "${@:2}"
     } >"$folder/unseen_$law.toml"
     "$hagfish" sweep "$folder/unseen_$law.toml" --out "$folder/unseen_$law" --quiet
   done
 }
 
+slender=$out/slender.toml
+/usr/bin/python3 "$animals" specimen slender >"$slender"
 for knot in ${KNOTS-3_1 4_1 5_1 5_2}; do
   for seed in ${SEEDS-1 2 3}; do
-    search "$knot-$seed" "$knot" --seed "$seed"
+    search "$knot-$seed" 15m "$knot" --seed "$seed"
     unseen "$knot-$seed"
   done
 done
+for knot in ${LARGE-6_1 6_2 6_3 7_1 3_1#3_1 3_1#-3_1}; do
+  search "$knot-1-slender" 1h "$knot" --specimen "$slender"
+  unseen "$knot-1-slender" slender
+done
 for knot in ${ROBUST-3_1 4_1 5_1 5_2}; do
-  search "$knot-1-animals" "$knot" --animals
+  search "$knot-1-animals" 15m "$knot" --animals
   unseen "$knot-1-animals"
 done
-for animal in ${ANIMALS-1 2 3 4 5 6 7 8 9 10}; do
-  /usr/bin/python3 "$root/experiments/studies/animals.py" specimen "$animal" >"$out/animal_$animal.toml"
-  search "4_1-animal-$animal" 4_1 --specimen "$out/animal_$animal.toml"
+for knot in ${ROBUST_LARGE-6_1 6_2 6_3 7_1 3_1#3_1 3_1#-3_1}; do
+  search "$knot-1-slender-animals" 1h "$knot" --specimen "$slender" --animals
+  unseen "$knot-1-slender-animals" slender
 done
-draw design.py "$out" "$root/experiments/results/design.csv" "$root/experiments/results/design.md"
+for knot in ${BEYOND-6_1}; do search "$knot-1-beyond" 1h "$knot"; done
+for animal in ${ANIMALS-1 2 3 4 5 6 7 8 9 10}; do
+  /usr/bin/python3 "$animals" specimen "$animal" >"$out/animal_$animal.toml"
+  search "4_1-animal-$animal" 15m 4_1 --specimen "$out/animal_$animal.toml"
+done
+draw design.py "$out" "$root/experiments/results/design.csv" "$root/experiments/results/design.md" "$root/experiments/figures/design.png"
 finish "$root/experiments/results/design.md"

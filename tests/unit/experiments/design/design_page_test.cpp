@@ -50,7 +50,7 @@ TEST(DesignRow, HasTheCountsOfEachLaw) {
 TEST(DesignPage, HasTheCountsOfEachLaw) {
   const ResolvedScene scene = read_scene_text("base = \"living_overhand\"\n", "design");
   DesignOptions options;
-  const auto page = [&] { return design_page(options, outcome(), scene, {}); };
+  const auto page = [&] { return design_page(options, outcome(), scene, {}, ""); };
   EXPECT_EQ(page().find("Other animals"), std::string::npos);
   options.animals = true;
   EXPECT_NE(page().find("| paper | 20 of 20 |\n| reflex | 19 of 20 |"), std::string::npos);
@@ -59,6 +59,17 @@ TEST(DesignPage, HasTheCountsOfEachLaw) {
                   "their limits are changed by up to 20 %."),
       std::string::npos);
   EXPECT_NE(page().find("| paper | 8 of 10 |\n| reflex | 9 of 10 |"), std::string::npos);
+}
+
+TEST(DesignPage, ShowsTheStripOfWhatHappened) {
+  const ResolvedScene scene = read_scene_text("base = \"living_overhand\"\n", "design");
+  RunSummary run;
+  run.tighten_from = 12;
+  run.release_from = 20;
+  EXPECT_EQ(strip_times(run), (std::vector<double>{3, 6, 9, 12, 20}));  // it never came off
+  const std::string page = design_page({}, outcome(), scene, run, "strip.png");
+  EXPECT_NE(page.find("](strip.png)"), std::string::npos);
+  EXPECT_NE(page.find(" --time 12.00 --time 20.00\n"), std::string::npos);
 }
 
 }  // namespace hagfish::design_page_test

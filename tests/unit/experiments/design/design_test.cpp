@@ -67,6 +67,28 @@ TEST(Design, TriesAreTheSameWhateverTheThreadsAndStops) {
   EXPECT_THROW(design(again), FileError);
 }
 
+TEST(Design, StartsFromTheTriesOfAnotherSearch) {
+  const TemporaryFolder folder;
+  design(one_batch(folder.path() / "first", 2));
+  DesignOptions options = one_batch(folder.path() / "second", 2);
+  options.seed = 3;
+  options.start = folder.path() / "first";
+  EXPECT_EQ(design(options).tries, batch_size);
+  const std::vector<std::string> lines = sorted_lines(options.folder / "tries.csv");
+  // Its own tries are numbered behind those; some of them go on from what was seen there.
+  EXPECT_EQ(std::ranges::count_if(
+                lines, [](const std::string& line) { return std::stoi(line) < batch_size; }),
+            0);
+  options.resume = true;
+  options.start.clear();
+  design(options);
+  EXPECT_EQ(sorted_lines(options.folder / "tries.csv"), lines);
+  options = one_batch(folder.path() / "third", 2);
+  options.start = folder.path() / "none";
+  EXPECT_THROW(design(options), FileError);
+  EXPECT_FALSE(fs::exists(options.folder / "search.toml"));
+}
+
 TEST(Design, InterruptedSearchKeepsItsTries) {
   const TemporaryFolder folder;
   DesignOptions options = one_batch(folder.path() / "stopped", 1);
@@ -103,9 +125,15 @@ TEST(Design, AnimalTooShortIsRefusedWithTheLengthItNeeds) {
   EXPECT_FALSE(least_diameters("det=9,v2=10"));
 }
 
+TypeSeen seen(const KnotInvariants& type, double from, double to) {
+  return {.type = type, .from = from, .to = to};
+}
+
 TEST(Design, TyingsAreReadBackAsTheyWereWritten) {
   Tying tying;
-  tying.seen = {{{}, 0, 8.4, {}}, {{3, 1}, 8.8, 11.2, {}}, {{9, 2}, 11.6, 13.2, {}}};
+  tying.seen = {seen({}, 0, 8.4), seen({3, 1}, 8.8, 11.2), seen({9, 2}, 11.6, 13.2)};
+  tying.seen[1].at = 9.6;
+  tying.seen[1].left = 0.2;
   tying.path.swing = {{0, {1, 0, 0}}, {4.5, {0.1, 0.2, 1.0 / 3}}};
   tying.path.pull = {{13.2, {0, 0, 0}}};
   const std::string text = tying_text(tying);
@@ -118,21 +146,75 @@ TEST(Design, TyingsAreReadBackAsTheyWereWritten) {
   EXPECT_FALSE(tying_of(tying_text(tying))->tied());
 }
 
+/// A try on which that type was seen, with so much of the tail left. Paths differ by number.
+Tying tying_with(const KnotInvariants& type, double left, unsigned number) {
+  Draw draw(2, number);  // other paths than the archive's
+  Tying tying;
+  tying.path.swing = random_plan(draw).path.swing;
+  tying.path.turns = {
+      {5, {0.3, 0.1, 0}}, {6, {0.3, 0, 0.1}}, {7, {0.3, -0.1, 0}}, {8, {0.3, 0, -0.1}}};
+  tying.seen = {seen({}, 0, 4), seen(type, 4.4, 6)};
+  tying.seen[1].at = 4.8;
+  tying.seen[1].left = left;
+  return tying;
+}
+
+/// How many of a thousand plans go on from that try.
+int led_on(const Archive& archive, const Tying& tying, int first) {
+  int count = 0;
+  for (int number = first; number < first + 1000; ++number) {
+    const PathPlan plan = archive.plan_of(number);
+    count += plan.path.swing.back().place == tying.path.swing.back().place ? 1 : 0;
+  }
+  return count;
+}
+
 TEST(Design, TypesOfMoreCrossingsThanWantedAreLedOnFromByNoPath) {
-  Draw draw(2, 1);  // other paths than the archive's
-  TailPath path = random_plan(draw).path;
-  path.turns = {{5, {0.3, 0.1, 0}}, {6, {0.3, 0, 0.1}}, {7, {0.3, -0.1, 0}}, {8, {0.3, 0, -0.1}}};
-  const auto led_on = [&](const char* wanted) {
-    Archive archive(1, wanted);
-    archive.add(0, {.seen = {{{}, 0, 4, {}}, {{7, 2}, 4.4, 6, {}}}, .failed = false, .path = path});
-    int count = 0;
-    for (int number = 1; number <= 100; ++number) {
-      count += archive.plan_of(number).path.swing.back().place == path.swing.back().place ? 1 : 0;
-    }
-    return count;
-  };
-  EXPECT_EQ(led_on("4_1"), 0);
-  EXPECT_GT(led_on("6_1"), 50);
+  const Tying tying = tying_with({7, 2}, 0.2, 1);
+  Archive four(1, "4_1"), six(1, "6_1");
+  four.add(0, {}, tying);
+  six.add(0, {}, tying);
+  EXPECT_EQ(led_on(four, tying, 1), 0);
+  EXPECT_GT(led_on(six, tying, 1), 500);
+}
+
+TEST(Design, ASumIsTiedFromItsSummands) {
+  const Tying trefoil = tying_with({3, 1}, 0.2, 1), other = tying_with({5, -1}, 0.3, 2);
+  Archive square(1, "3_1#-3_1");
+  square.add(0, {}, trefoil);
+  square.add(1, {}, other);
+  EXPECT_GT(led_on(square, trefoil, 2), 500);
+  EXPECT_EQ(led_on(square, other, 2), 0);
+}
+
+TEST(Design, PathsThatLeaveMostOfTheTailAreKept) {
+  Archive archive(1, "6_1");
+  const Tying least = tying_with({7, 2}, 0.1, 0);
+  archive.add(0, {}, least);
+  for (int number = 1; number <= 200; ++number) {
+    archive.add(number, {}, tying_with({7, 2}, 0.2, static_cast<unsigned>(number)));
+  }
+  const Tying most = tying_with({7, 2}, 0.3, 201);
+  archive.add(201, {}, most);
+  EXPECT_EQ(led_on(archive, least, 300), 0);
+  EXPECT_GT(led_on(archive, most, 300), 0);
+}
+
+TEST(Design, PathsWhoseProgramsFailAreLedOnFromLessOften) {
+  Archive archive(1, "6_1");
+  const Tying bad = tying_with({7, 2}, 0.2, 1), good = tying_with({7, 2}, 0.2, 2),
+              of_bad = tying_with({5, -1}, 0.2, 3);
+  PathPlan from_bad;
+  from_bad.parent = 0;
+  archive.add(0, {}, bad);
+  archive.add(1, {}, good);
+  archive.add(2, from_bad, of_bad);
+  for (int k = 0; k < 10; ++k) archive.judged(2, 0);
+  const int seldom = led_on(archive, bad, 10);
+  EXPECT_GT(seldom, 0);
+  EXPECT_GT(led_on(archive, good, 10), 5 * seldom);
+  archive.judged(2, 30);  // of 40 runs
+  EXPECT_GT(led_on(archive, bad, 10), led_on(archive, good, 10));
 }
 
 TEST(Design, PathsThatTiedTheKnotAreDisplaced) {
@@ -141,7 +223,10 @@ TEST(Design, PathsThatTiedTheKnotAreDisplaced) {
   path.turns = {{5, {0.3, 0.1, 0}}};
   path.pull = {{6, {0.3, 0.1, 0.1}}, {7, {0.3, 0.1, 0.2}}};
   Archive archive(1, "3_1");
-  archive.add(0, {.seen = {{{}, 0, 4, {}}, {{3, 1}, 4.4, 7, {}}}, .failed = false, .path = path});
+  Tying tying;
+  tying.seen = {seen({}, 0, 4), seen({3, 1}, 4.4, 7)};
+  tying.path = path;
+  archive.add(0, {}, tying);
   int displaced = 0;
   for (int number = 1; number <= 100; ++number) {
     const TailPath tried = archive.plan_of(number).path;

@@ -36,6 +36,18 @@ def test_a_specimen_file_has_the_animals_own_figures(capsys):
     assert file["station"] == common["station"] and file["muscle"] == common["muscle"]
 
 
+def test_slender_animals_are_longer_and_no_thicker(capsys):
+    own, longer = animals.settings(animals.FIRST_SEED), animals.settings(animals.FIRST_SEED, animals.SLENDER)
+    grow = {"specimen.length", "specimen.mass"}
+    for key in own:
+        assert longer[key] == (pytest.approx(1.5 * own[key]) if key in grow else own[key])
+    animals.slender_file()
+    file = animals.tomllib.loads(capsys.readouterr().out)
+    common = animals.tomllib.loads((animals.DATA / "specimens/pacific_hagfish.toml").read_text())
+    assert file["length"] == 1.5 * common["length"] and file["mass"] == 1.5 * common["mass"]
+    assert {key for key in common if file[key] != common[key]} == {"name", "length", "mass"}
+
+
 def sliced(circumference, station, length):
     place = (np.arange(2000) + 0.5) / 2000
     return float((np.interp(place, station, circumference) ** 2).mean()) * length
