@@ -193,7 +193,7 @@ class Search {
       }
       if (tyings[k]) return;
       Draw draw(options_.seed + 1, static_cast<unsigned>(number));
-      tyings[k] = try_plan(body_, plans[k], wanted_, draw, options_.interrupted);
+      tyings[k] = try_plan(body_, plans[k], options_.knot, draw, options_.interrupted);
       if (tyings[k]) tries_file_.add(fmt::format("{},{}\n", number, tying_text(*tyings[k])));
     });
     if (options_.interrupted()) return {};

@@ -305,4 +305,13 @@ std::string full_knot_name(const Eigen::Matrix3Xd& centreline, const KnotSetting
   return most == votes.end() ? invariants_text(type) : most->first;
 }
 
+bool is_knot(const std::string& name, const Eigen::Matrix3Xd& centreline,
+             const KnotSettings& settings) {
+  const std::optional<KnotFingerprint> wanted = fingerprint_called(name);
+  if (!wanted) return knot_called(name) == knot_type(centreline, settings).type;
+  // Of a composite there are several names.
+  const auto seen = fingerprint_called(full_knot_name(centreline, settings));
+  return seen && seen->same_but_for_image(*wanted);
+}
+
 }  // namespace hagfish

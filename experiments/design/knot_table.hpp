@@ -58,4 +58,9 @@ std::optional<KnotFingerprint> fingerprint_called(std::string_view name);
 /// `settings.votes` closures. Throws as knot_type.
 std::string full_knot_name(const Eigen::Matrix3Xd& centreline, const KnotSettings& settings);
 
+/// Whether the open polygon is of the type called `name` (as of fingerprint_called), or has the
+/// invariants of which that is the text, but for its image. Throws as knot_type.
+bool is_knot(const std::string& name, const Eigen::Matrix3Xd& centreline,
+             const KnotSettings& settings);
+
 }  // namespace hagfish

@@ -72,9 +72,9 @@ std::optional<KnotInvariants> Tying::tied() const {
   return seen.back().type;
 }
 
-std::optional<Tying> try_plan(const SoftBody& body, const PathPlan& plan,
-                              const KnotInvariants& wanted, Draw& draw,
-                              const std::function<bool()>& interrupted) {
+std::optional<Tying> try_plan(const SoftBody& body, const PathPlan& plan, const std::string& wanted,
+                              Draw& draw, const std::function<bool()>& interrupted) {
+  const KnotInvariants wanted_type = *knot_called(*name_in_scene(wanted));
   Tying tying{.seen = {{}}, .path = plan.path};
   if (plan.reached) tying.seen = plan.reached->seen;
   TailPath& path = tying.path;
@@ -115,7 +115,7 @@ std::optional<Tying> try_plan(const SoftBody& body, const PathPlan& plan,
     TypeSeen& seen = tying.seen.back();
     seen.to = seen_at;
     if (!path.pull.empty() || tying.seen.size() < 2) continue;
-    if (seen.type == wanted) {
+    if (seen.type == wanted_type && is_knot(wanted, sim.now.observation.kin.centre, scene.knot)) {
       end_with_pull(path, time_of(sim, scene), centre(), draw);
       scene.script.knots = script_knots(path, body.model.length());
     } else if (waypoints_after(path, seen_at + search_step) >= waypoints_ahead) {
@@ -174,9 +174,8 @@ Shapes tied_shapes(const SoftBody& body, const TailPath& path, const std::string
     q.push_back(record.moment.state.q);
   }
   if (shapes.failure.empty() && !tightens) shapes.failure = "it was never tightened";
-  if (shapes.failure.empty() && fingerprint_called(wanted)) {
-    const std::string name = full_knot_name(sim.now.observation.kin.centre, scene.knot);
-    if (name != wanted) shapes.failure = "it is a " + name;
+  if (shapes.failure.empty() && !is_knot(wanted, sim.now.observation.kin.centre, scene.knot)) {
+    shapes.failure = "it is no longer a " + wanted;
   }
   shapes.q.resize(static_cast<Eigen::Index>(q.size()), body.model.nq());
   for (std::size_t k = 0; k < q.size(); ++k) shapes.q.row(static_cast<Eigen::Index>(k)) = q[k];

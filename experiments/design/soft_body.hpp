@@ -67,12 +67,12 @@ struct Tying {
   std::optional<KnotInvariants> tied() const;
 };
 
-/// Leads the tail as planned, at steps of 20 ms. As soon as `wanted` has been seen at two looks,
-/// the path ends with a pull, drawn by `draw`. What is found does not depend on whether the plan
-/// has where its path has led already (PathPlan::reached). Nothing where `interrupted`.
-std::optional<Tying> try_plan(const SoftBody& body, const PathPlan& plan,
-                              const KnotInvariants& wanted, Draw& draw,
-                              const std::function<bool()>& interrupted);
+/// Leads the tail as planned, at steps of 20 ms. As soon as `wanted` (as of tied_shapes) has been
+/// seen at two looks, and is what its full name says, the path ends with a pull, drawn by `draw`.
+/// What is found does not depend on whether the plan has where its path has led already
+/// (PathPlan::reached). Nothing where `interrupted`.
+std::optional<Tying> try_plan(const SoftBody& body, const PathPlan& plan, const std::string& wanted,
+                              Draw& draw, const std::function<bool()>& interrupted);
 
 /// Shapes of a body while it is knotted and pulled together.
 struct Shapes {

@@ -65,9 +65,8 @@ Archive::Archive(unsigned seed, const std::string& wanted)
 }
 
 bool Archive::leads_on(const KnotInvariants& type) const {
-  if (type == KnotInvariants{} || type == wanted_) return false;
   if (!summands_.empty()) return summands_.contains(key(type));
-  return crossings_of(knot_name(type)) <= crossings_;
+  return type != KnotInvariants{} && crossings_of(knot_name(type)) < crossings_;
 }
 
 double Archive::promise(const PathPlan& plan) const {

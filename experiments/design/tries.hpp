@@ -13,12 +13,12 @@ namespace hagfish {
 
 /// Paths on which a type was seen, by type. New paths are random ones, go on from these, each type
 /// being as likely, so that what is rare is looked into as often as what is common, or displace
-/// those on which the wanted type was seen. Types of more crossings than that are led on from by no
-/// path; for a sum, its summands alone are. Of each type the paths that left most of the tail are
-/// kept. A path is the less likely gone on from, the more often what came of it, or of a path
-/// before it, failed in the living body, and the more likely, the more runs the best of that
-/// passed. Which try makes which path depends on the seed and on the results of all batches before
-/// its own, so that results may come in any order and from anywhere.
+/// those on which the wanted type was seen. Only types of fewer crossings than that are led on
+/// from; for a sum, only its summands. Of each type the paths that left most of the tail are kept.
+/// A path is the less likely gone on from, the more often what came of it, or of a path before it,
+/// failed in the living body, and the more likely, the more runs the best of that passed. Which try
+/// makes which path depends on the seed and on the results of all batches before its own, so that
+/// results may come in any order and from anywhere.
 class Archive {
  public:
   Archive(unsigned seed, const std::string& wanted);

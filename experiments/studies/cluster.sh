@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # From one machine to a cluster: 1,000 short runs by `hagfish sweep` alone, and again in ten parts by Snakemake and a Slurm that this
 # script starts and stops. Meanwhile one worker is killed, and one job cancelled, as if its node had failed. The two tables must be the
-# same, byte for byte. Leaves alone/ and slurm/, each with table.csv, the latter with table.h5 and page.html.
+# same, byte for byte. Then searches for a 3_1 by three seeds, of which one is made without Slurm, too, to be the same. Leaves alone/ and
+# slurm/, each with table.csv, the latter with table.h5 and page.html, and searches/ and search/.
 #   bash experiments/studies/cluster.sh [OUTPUT_FOLDER]     default: out/cluster
 # Stopped, it goes on where it was.
 set -euo pipefail
@@ -68,4 +69,14 @@ cmp "$out/alone/table.csv" "$out/slurm/table.csv"
 echo "$(($(wc -l <"$out/slurm/table.csv") - 1)) rows, the same byte for byte"
 echo "Parts that went on where they had been stopped:"
 grep -h ' of them now' "$out"/slurm/parts/*.log | grep -v ' 100 of them' | sed 's/^[^:]*: /  /'
+
+echo "Searches for a 3_1 by three seeds through Slurm"
+(
+  cd "$slurm"
+  exec snakemake --snakefile "$root/experiments/cluster/design.smk" --profile "$root/experiments/cluster/profiles/slurm" \
+    --latency-wait 10 --config knot="'3_1'" out="$out/searches" seeds=3 hagfish="$hagfish"
+) &>"$out/searches.log" || { tail -n 30 "$out/searches.log" >&2; exit 1; }
+[[ -e $out/search/result.csv ]] || "$hagfish" design 3_1 --seed 2 --out "$out/search" --quiet
+for table in tries candidates; do cmp <(sort "$out/search/$table.csv") <(sort "$out/searches/2/$table.csv"); done
+echo "$(($(wc -l <"$out/searches/found.csv") - 1)) of 3 found; that of seed 2 is the same without Slurm"
 list_output

@@ -49,6 +49,7 @@ def design(
     threads: int | None = None,
     seed: int = 1,
     animals: bool = False,
+    start: str | PathLike[str] | None = None,
     resume: bool = False,
 ) -> Design:
     """Searches a program by which the animal of `specimen` (Table 1's) ties `knot`, and leaves it in the folder `out`.
@@ -59,6 +60,8 @@ def design(
     command = [_program(), "design", knot, "--out", str(out), "--budget", budget, "--seed", str(seed), "--quiet"]
     if specimen is not None:
         command += ["--specimen", str(specimen)]
+    if start is not None:
+        command += ["--start", str(start)]
     if threads is not None:
         command += ["--threads", str(threads)]
     command += ["--animals"] * animals + ["--resume"] * resume

@@ -169,12 +169,14 @@ int led_on(const Archive& archive, const Tying& tying, int first) {
   return count;
 }
 
-TEST(Design, TypesOfMoreCrossingsThanWantedAreLedOnFromByNoPath) {
+TEST(Design, OnlyTypesOfFewerCrossingsThanWantedAreLedOnFrom) {
   const Tying tying = tying_with({7, 2}, 0.2, 1);
-  Archive four(1, "4_1"), six(1, "6_1");
+  Archive four(1, "4_1"), five(1, "5_1"), six(1, "6_1");
   four.add(0, {}, tying);
+  five.add(0, {}, tying);
   six.add(0, {}, tying);
   EXPECT_EQ(led_on(four, tying, 1), 0);
+  EXPECT_EQ(led_on(five, tying, 1), 0);
   EXPECT_GT(led_on(six, tying, 1), 500);
 }
 

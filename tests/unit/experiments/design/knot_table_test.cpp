@@ -90,6 +90,10 @@ TEST(KnotTable, OpenPolygonsHaveTheirFullNames) {
   EXPECT_EQ(full_knot_name(opened(sum_of(trefoil, trefoil, false)), settings), "3_1#3_1");
   EXPECT_EQ(full_knot_name(opened(sum_of(trefoil, trefoil, true)), settings), "3_1#-3_1");
   EXPECT_EQ(full_knot_name(opened(sum_of(trefoil, eight, false)), settings), "3_1#4_1");
+  EXPECT_TRUE(is_knot("4_1#3_1", opened(sum_of(trefoil, eight, false)), settings));
+  EXPECT_TRUE(is_knot("det=9,v2=2", opened(sum_of(trefoil, trefoil, true)), settings));
+  EXPECT_FALSE(is_knot("3_1#3_1", opened(sum_of(trefoil, trefoil, true)), settings));
+  EXPECT_FALSE(is_knot("det=9,v2=3", opened(sum_of(trefoil, trefoil, true)), settings));
   EXPECT_EQ(full_knot_name(opened(torus_knot(9)), settings), "det=9,v2=10");
 }
 

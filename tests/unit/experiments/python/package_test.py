@@ -108,5 +108,7 @@ def test_a_design_says_what_it_found(tmp_path):
     assert "animals = true" in (tmp_path / "seven/search.toml").read_text()
     assert "None of 32 tries tied the knot" in sought.message
     assert sought.figures == {}
+    hagfish.design("7_7", out=tmp_path / "on", budget="0.001s", threads=1, start=tmp_path / "seven")
+    assert (tmp_path / "on/start.csv").read_text() == (tmp_path / "seven/tries.csv").read_text()
     with pytest.raises(hagfish.InputError, match="not a known knot"):
         hagfish.design("3_2", out=tmp_path / "none")
