@@ -2,6 +2,9 @@
 
 from pathlib import Path
 
+import numpy as np
+import pytest
+
 import design
 import tables
 
@@ -21,3 +24,28 @@ def test_an_animal_is_served_by_a_run_that_ends_and_meets_all(tmp_path):
     assert design.served(tmp_path, "paper") == "1"
     assert design.served(tmp_path, "reflex") == "2"
     assert design.served(tmp_path / "none", "paper") == ""
+
+
+class Log(dict):
+    """Two bodies, of 3 and 1 cm, in frames before, during and after a slide."""
+
+    def __init__(self, phases):
+        super().__init__({"/model/length": np.array([3.0, 1.0]), "/model/radius": np.array([0.5, 0.3]),
+                          "/knot/head_end": np.array([0.5, 1.0, 0.2]), "/knot/tail_end": np.array([np.nan, 3.25, 3.0])})
+        self.phases = np.array(phases)
+
+    def in_phase(self, name):
+        return np.flatnonzero(self.phases == name)
+
+
+def test_the_body_in_the_knot_is_that_between_its_ends_as_it_starts_to_slide():
+    row = design.of_log(Log(["slide", "slide", "slide"]))
+    assert float(row["length_cm"]) == 4 and float(row["body_in_knot_cm"]) == 2.25
+    assert float(row["body_in_knot_diameters"]) == pytest.approx(2.25 / 0.9)
+    assert design.of_log(Log(["script", "script", "script"])) == {"length_cm": "4", "body_in_knot_cm": "", "body_in_knot_diameters": ""}
+
+
+def test_the_gallery_has_of_each_knot_the_program_that_serves_most_animals():
+    row = lambda knot, found, paper, reflex: {"knot_wanted": knot, "found": found, "unseen_by_paper": paper, "unseen_by_reflex": reflex}
+    rows = [row("3_1#3_1", "yes", "", ""), row("4_1", "yes", "3", "4"), row("4_1", "yes", "8", "9"), row("4_1", "no", "10", "10"), row("3_1", "yes", "1", "1")]
+    assert design.one_of_each(rows) == [rows[4], rows[2], rows[0]]
