@@ -3,8 +3,8 @@
 #   snakemake --snakefile experiments/cluster/design.smk --profile experiments/cluster/profiles/local \
 #     --config knot="'KNOT'" out=FOLDER seeds=N [budget=15m] [specimen=FILE] [threads=T] [hagfish=PROGRAM]
 #
-# Leaves FOLDER/SEED/, what `hagfish design` leaves, for seeds 1 to N, and FOLDER/found.csv, a row for each seed that tied the knot. A search
-# that is killed goes on where it was when it is tried again.
+# Leaves FOLDER/SEED/, what `hagfish design` leaves, for seeds 1 to N, and FOLDER/found.csv, a row for each seed that tied the knot, the soft
+# body at least: see its column `found`. A search that is killed goes on where it was when it is tried again.
 from pathlib import Path
 
 for key in ("knot", "out"):

@@ -28,6 +28,9 @@ void paint(const Model& model, const Specimen& specimen, const std::vector<doubl
 /// The colours of paint() from 0 to its scale, even.
 std::vector<std::array<unsigned char, 3>> colour_steps();
 
+/// Degrees, where nothing else is asked for.
+inline constexpr double usual_pitch = -70, usual_yaw = 22;
+
 /// Looks along -Z with +X to the right, then turned about X by `pitch` and about the picture's
 /// vertical by `yaw` (degrees). Its window is yet to be set.
 View turned_view(double pitch, double yaw);

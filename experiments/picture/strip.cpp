@@ -8,8 +8,7 @@ namespace hagfish {
 
 Image strip_of(const LogContents& log, const std::vector<double>& times, PictureSize size) {
   if (times.empty()) throw InputError("a film strip needs a time");
-  constexpr double pitch = -70, yaw = 22;  // degrees, as `hagfish picture` has them
-  const FramePictures pictures(log, pitch, yaw);
+  const FramePictures pictures(log, usual_pitch, usual_yaw);
   Shown shown;
   for (const double time : times) pictures.add(frame_at(log, time), shown);
   View view = pictures.view();

@@ -4,7 +4,7 @@
 # and 5 ms, and which of ten animals that the search never saw they serve. Leaves experiments/results/design.csv and design.md, made of
 # it, and experiments/figures/design.png.
 #   bash experiments/studies/design.sh [OUTPUT_FOLDER]     default: out/design
-# In the environment KNOTS, SEEDS, LARGE, ANIMALS (numbers of random ones) and ROBUST and ROBUST_LARGE (knots whose programs must serve
+# In the environment KNOTS, SEEDS, LARGE, LARGE_SEEDS, ANIMALS (numbers of random ones) and ROBUST and ROBUST_LARGE (knots whose programs must serve
 # other animals, by seed 1) are others, and BEYOND are large knots that the Table 1 animal tries. Stopped, it goes on where it was.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -49,8 +49,10 @@ for knot in ${KNOTS-3_1 4_1 5_1 5_2}; do
   done
 done
 for knot in ${LARGE-6_1 6_2 6_3 7_1 3_1#3_1 3_1#-3_1}; do
-  search "$knot-1-slender" 1h "$knot" --specimen "$slender"
-  unseen "$knot-1-slender" slender
+  for seed in ${LARGE_SEEDS-1 2}; do
+    search "$knot-$seed-slender" 1h "$knot" --specimen "$slender" --seed "$seed"
+    unseen "$knot-$seed-slender" slender
+  done
 done
 for knot in ${ROBUST-3_1 4_1 5_1 5_2}; do
   search "$knot-1-animals" 15m "$knot" --animals

@@ -30,10 +30,10 @@ struct MovieOptions {
   std::string log;
   std::string out;
   std::string size = "1280x720";
-  double speed = 1;    ///< simulated seconds a second of film
-  std::string colour;  ///< quantity of the body; its own colour where empty
-  double pitch = -70;  ///< of the view, degrees; see turned_view in picture.hpp
-  double yaw = 22;     ///< degrees
+  double speed = 1;            ///< simulated seconds a second of film
+  std::string colour;          ///< quantity of the body; its own colour where empty
+  double pitch = usual_pitch;  ///< of the view, degrees; see turned_view in picture.hpp
+  double yaw = usual_yaw;      ///< degrees
   bool force = false, quiet = false;
 };
 

@@ -20,11 +20,11 @@ struct PictureOptions {
   std::string log;
   std::string out;  ///< PNG to write; numbered where there are several times
   bool force = false;
-  std::vector<double> times;  ///< s; the last frame where empty
-  std::string size;           ///< of every picture; that of what each shows where empty
-  std::string colour;         ///< quantity of the body; its own colour where empty
-  double pitch = -70;         ///< of the view, degrees; see view_of in picture.hpp
-  double yaw = 22;            ///< degrees
+  std::vector<double> times;   ///< s; the last frame where empty
+  std::string size;            ///< of every picture; that of what each shows where empty
+  std::string colour;          ///< quantity of the body; its own colour where empty
+  double pitch = usual_pitch;  ///< of the view, degrees; see turned_view in picture.hpp
+  double yaw = usual_yaw;      ///< degrees
 };
 
 /// OUT.png for one picture, OUT_1.png, OUT_2.png... for several, with as many digits as the last.

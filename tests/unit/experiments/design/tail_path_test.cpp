@@ -120,6 +120,7 @@ TEST(TailPath, GoingOnFromWhereATryWasIsTakingItsPathAgain) {
   PathPlan plan = further_plan(path_reached(first.path, seen.at), draw);
   const std::string again = tying_text(*try_plan(body, plan, wanted, draw, never));
   plan.reached = seen.reached;
+  EXPECT_EQ(plan.path.turns.size(), seen.reached->path.turns.size());
   EXPECT_EQ(tying_text(*try_plan(body, plan, wanted, draw, never)), again);
 }
 
