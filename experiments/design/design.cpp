@@ -35,6 +35,8 @@ namespace fs = std::filesystem;
 // s, that the knot is pulled together in the soft body: the program ends with a knot that holds.
 constexpr double tightening = 1.5;
 
+constexpr int few = 4;  // starts or animals, of each law, by which most programs are given up
+
 constexpr const char *tries_name = "tries.csv", *candidates_name = "candidates.csv",
                      *start_name = "start.csv", *log_name = "knot.h5", *strip_name = "strip.png";
 
@@ -123,9 +125,9 @@ void end_last_line(const fs::path& name, AppendedFile& file) {
 }
 
 std::string candidate_text(const Candidate& candidate) {
-  return fmt::format("{},{},{},{},{},{},{}\n", candidate.number, candidate.judged,
-                     candidate.passed[0], candidate.passed[1], candidate.animals[0],
-                     candidate.animals[1], candidate.shortcoming);
+  return fmt::format("{},{:g},{},{},{},{},{},{}\n", candidate.number, candidate.slower,
+                     candidate.judged, candidate.passed[0], candidate.passed[1],
+                     candidate.animals[0], candidate.animals[1], candidate.shortcoming);
 }
 
 std::optional<Candidate> candidate_of(int number, const std::string& text) {
@@ -133,7 +135,7 @@ std::optional<Candidate> candidate_of(int number, const std::string& text) {
   Candidate candidate;
   candidate.number = number;
   char comma = 0;
-  stream >> candidate.judged >> comma;
+  stream >> candidate.slower >> comma >> candidate.judged >> comma;
   for (int* count :
        {&candidate.passed[0], &candidate.passed[1], &candidate.animals[0], &candidate.animals[1]}) {
     stream >> *count >> comma;
@@ -194,6 +196,7 @@ class Search {
       if (tyings[k]) return;
       Draw draw(options_.seed + 1, static_cast<unsigned>(number));
       tyings[k] = try_plan(body_, plans[k], options_.knot, draw, options_.interrupted);
+      if (tyings[k] && !try_living(*tyings[k])) tyings[k].reset();
       if (tyings[k]) tries_file_.add(fmt::format("{},{}\n", number, tying_text(*tyings[k])));
     });
     if (options_.interrupted()) return {};
@@ -209,12 +212,36 @@ class Search {
     return tied;
   }
 
-  /// The shapes and the scene of a try that tied the knot, or why there are none.
-  FoundScene found_of(int number, std::string& shortcoming) const {
-    const Shapes shapes = tied_shapes(body_, tied_paths_.at(number), options_.knot, tightening);
-    shortcoming = shapes.failure;
-    if (!shapes.failure.empty()) return {};
-    return found_scene(body_, shapes, options_.knot, options_.specimen);
+  FoundScene other_animal(const FoundScene& scene, int number) const {
+    return in_other_animal(scene, body_.resolved.specimen, static_cast<unsigned>(number));
+  }
+
+  /// Finds out where the living body repeats what a try tied, in a few other animals,
+  /// too, where the program must serve these; false where it is interrupted.
+  bool try_living(Tying& tying) const {
+    for (TypeSeen& seen : tying.seen) {
+      if (!archive_.would_keep(tying.path, seen)) continue;
+      const Shapes shapes = led_shapes(body_, path_reached(tying.path, seen.at), seen.at);
+      if (!shapes.failure.empty()) continue;
+      const FoundScene scene = found_scene(body_, shapes, knot_name(seen.type), options_.specimen,
+                                           std::ranges::max(paces));
+      seen.repeats = repeats(scene, options_.interrupted);
+      const int animals = options_.animals ? few : 0;
+      for (int k = 1; k <= animals && seen.repeats; ++k) {
+        seen.repeats = repeats(other_animal(scene, k), options_.interrupted);
+      }
+      if (options_.interrupted()) return false;
+    }
+    return true;
+  }
+
+  /// Of the path of a try that tied the knot.
+  Shapes shapes_of(int number) const {
+    return tied_shapes(body_, tied_paths_.at(number), options_.knot, tightening);
+  }
+
+  FoundScene found_from(const Shapes& shapes, double slower) const {
+    return found_scene(body_, shapes, options_.knot, options_.specimen, slower);
   }
 
   std::optional<Candidate> known_candidate(int number) const {
@@ -251,19 +278,31 @@ class Search {
     }
   }
 
-  /// The scene of a try, and why it does not succeed without noise by one law and the other.
+  /// The scene of a try at the first pace at which it succeeds without noise by one law and the
+  /// other, or why it succeeds at none.
   Candidate from_straight(int number, FoundScene& scene) const {
     Candidate candidate;
     candidate.number = number;
-    scene = found_of(number, candidate.shortcoming);
-    if (!candidate.shortcoming.empty()) {
-      candidate.shortcoming = "soft body: " + candidate.shortcoming;
+    const Shapes shapes = shapes_of(number);
+    if (!shapes.failure.empty()) {
+      candidate.shortcoming = "soft body: " + shapes.failure;
+      return candidate;
     }
-    for (int law = 0; law < 2 && candidate.shortcoming.empty(); ++law) {
-      const std::optional<RunSummary> run = run_trial(scene, {.law = law}, options_.interrupted);
-      if (run && !succeeds(*run)) candidate.shortcoming = why_not(law, "start", 0, *run);
+    for (const double slower : paces) {
+      scene = found_from(shapes, slower);
+      candidate.slower = slower;
+      candidate.shortcoming = why_not_from_straight(scene);
+      if (candidate.shortcoming.empty()) break;
     }
     return candidate;
+  }
+
+  std::string why_not_from_straight(const FoundScene& scene) const {
+    for (int law = 0; law < 2; ++law) {
+      const std::optional<RunSummary> run = run_trial(scene, {.law = law}, options_.interrupted);
+      if (run && !succeeds(*run)) return why_not(law, "start", 0, *run);
+    }
+    return "";
   }
 
   static std::string why_not(int law, const char* what, int number, const RunSummary& run) {
@@ -304,11 +343,8 @@ class Search {
                         }};
     const Series animals{
         "other animal", allowed_animals, candidate.animals, [&](int number, int law) {
-          return run_trial(
-              in_other_animal(scene, body_.resolved.specimen, static_cast<unsigned>(number)),
-              {.law = law}, options_.interrupted);
+          return run_trial(other_animal(scene, number), {.law = law}, options_.interrupted);
         }};
-    constexpr int few = 4;
     candidate.judged = few;
     if (!serves(starts, 1, few, candidate)) return;
     if (options_.animals && !(serves(animals, 1, few, candidate) &&
@@ -339,9 +375,9 @@ class Search {
   }
 
   void write_best() {
-    std::string none;
-    const FoundScene found = found_of(outcome_.best->number, none);
-    if (!none.empty()) return;
+    const Shapes shapes = shapes_of(outcome_.best->number);
+    if (!shapes.failure.empty()) return;
+    const FoundScene found = found_from(shapes, outcome_.best->slower);
     write_text(options_.folder / scene_file, found.scene);
     write_text(options_.folder / program_file, found.program);
     if (!found.specimen.empty()) write_text(options_.folder / specimen_file, found.specimen);

@@ -33,6 +33,7 @@ struct DesignOptions {
 /// A path that ties the knot, tried in the living body.
 struct Candidate {
   int number = 0;           ///< of the try
+  double slower = 1;        ///< of `paces` (living_body.hpp): the last that was tried
   std::string shortcoming;  ///< why it was given up; empty of one that is good enough
   int judged = 0;           ///< starts
   int passed[2] = {0, 0};   ///< of these, by judged_laws

@@ -14,7 +14,7 @@
 namespace hagfish {
 namespace {
 
-constexpr double between_times = 0.35;  // s, of the program
+constexpr double between_times = 0.35;  // s of the soft body
 constexpr int stations = 25;
 constexpr double time_to_slide = 28;  // s, as the base scene has behind its program
 
@@ -79,13 +79,26 @@ Specimen other_animal(const Specimen& own, unsigned number) {
   return other;
 }
 
+/// The run of a found scene with these settings. Nothing where `interrupted`.
+std::optional<RunSummary> run_with(const FoundScene& found, const std::vector<std::string>& set,
+                                   const std::function<bool()>& interrupted) {
+  const ResolvedScene resolved =
+      read_scene_text(found.scene, scene_file, set,
+                      {{program_file, found.program}, {specimen_file, found.specimen}});
+  const std::optional<SweepRun> run = run_for_summary(resolved, interrupted, std::nullopt);
+  if (!run) return std::nullopt;
+  return run->summary;
+}
+
 }  // namespace
 
 FoundScene found_scene(const SoftBody& body, const Shapes& shapes, const std::string& knot,
-                       const std::string& specimen) {
-  const double end = shapes.time.back();
-  const int times = 1 + static_cast<int>(std::ceil(end / between_times));
-  const ProgramFit fit = fit_program(body.model, shapes.time, shapes.q, times, stations);
+                       const std::string& specimen, double slower) {
+  std::vector<double> time = shapes.time;
+  for (double& one : time) one *= slower;
+  const double end = time.back();
+  const int times = 1 + static_cast<int>(std::ceil(shapes.time.back() / between_times));
+  const ProgramFit fit = fit_program(body.model, time, shapes.q, times, stations);
   FoundScene found{"", curvature_csv(fit.program), specimen, knot, end};
   found.scene = scene_text(found, specimen.empty() ? nullptr : &body.resolved.specimen);
   return found;
@@ -115,12 +128,13 @@ std::vector<std::string> trial_settings(const Trial& trial) {
 
 std::optional<RunSummary> run_trial(const FoundScene& found, const Trial& trial,
                                     const std::function<bool()>& interrupted) {
-  const ResolvedScene resolved =
-      read_scene_text(found.scene, scene_file, trial_settings(trial),
-                      {{program_file, found.program}, {specimen_file, found.specimen}});
-  const std::optional<SweepRun> run = run_for_summary(resolved, interrupted, std::nullopt);
-  if (!run) return std::nullopt;
-  return run->summary;
+  return run_with(found, trial_settings(trial), interrupted);
+}
+
+bool repeats(const FoundScene& found, const std::function<bool()>& interrupted) {
+  const std::optional<RunSummary> run = run_with(
+      found, {"time.step=0.01", "time.until=form", "controller.tail_through=0"}, interrupted);
+  return run && run->outcome == "ok";
 }
 
 bool succeeds(const RunSummary& run) { return run.outcome == "ok" && run.unmet.empty(); }

@@ -26,10 +26,14 @@ inline constexpr const char* scene_file = "scene.toml";
 inline constexpr const char* program_file = "program.csv";
 inline constexpr const char* specimen_file = "specimen.toml";
 
-/// A curvature program fitted to `shapes`, in the scene of an animal that ties `knot` with it.
-/// `specimen`: text of the animal's file; empty for the base scene's.
+/// How many times slower than the soft body an animal ties what that tied, in the order in which
+/// programs are tried: it has no hand to lead its tail, and its muscles are weaker than that.
+inline constexpr double paces[] = {1, 1.5};
+
+/// A curvature program fitted to `shapes`, in the scene of an animal that ties `knot` with it,
+/// `slower` times as slowly. `specimen`: text of the animal's file; empty for the base scene's.
 FoundScene found_scene(const SoftBody& body, const Shapes& shapes, const std::string& knot,
-                       const std::string& specimen);
+                       const std::string& specimen, double slower = 1);
 
 /// Other animals: their length over the own one's, and by what share their girth for the length and
 /// their limits differ at most.
@@ -56,6 +60,10 @@ std::vector<std::string> trial_settings(const Trial& trial);
 /// Runs it to its end. Nothing where `interrupted`.
 std::optional<RunSummary> run_trial(const FoundScene& found, const Trial& trial,
                                     const std::function<bool()>& interrupted);
+
+/// Whether the living body has the knot at the end of the program, at steps of 10 ms. False where
+/// `interrupted`.
+bool repeats(const FoundScene& found, const std::function<bool()>& interrupted);
 
 /// The animal ties the knot, holds it, tightens and slides it, and it comes off, within all bounds.
 bool succeeds(const RunSummary& run);

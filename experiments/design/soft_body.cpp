@@ -1,6 +1,7 @@
 #include "experiments/design/soft_body.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include "core/knot/knot.hpp"
 #include "core/step/outcome.hpp"
@@ -22,6 +23,8 @@ Scene led_along(const SoftBody& body, const TailPath& path, double step) {
   Scene scene = body.resolved.scene;
   scene.script.knots = script_knots(path, body.model.length());
   scene.time.step = step;
+  scene.expect.knot.clear();  // nothing is waited for
+  scene.expect.types.clear();
   return scene;
 }
 
@@ -79,8 +82,6 @@ std::optional<Tying> try_plan(const SoftBody& body, const PathPlan& plan, const 
   if (plan.reached) tying.seen = plan.reached->seen;
   TailPath& path = tying.path;
   Scene scene = led_along(body, path, search_step);
-  scene.expect.knot.clear();  // nothing is waited for
-  scene.expect.types.clear();
   scene.knot.interval = look;
   Simulation sim = plan.reached ? plan.reached->sim : start(body.model, scene, sweep_qp);
   StepRecord record;
@@ -146,6 +147,39 @@ double tail_left(const Eigen::Matrix3Xd& centre, const KnotInvariants& type,
   return static_cast<double>(cut) / static_cast<double>(bodies);
 }
 
+namespace {
+
+/// Shapes of a body in `scene` until it is finished or `until` (s); `sim`: then.
+Shapes shapes_in(const SoftBody& body, const Scene& scene, double until, Simulation& sim) {
+  Shapes shapes;
+  std::vector<Eigen::VectorXd> q;
+  StepRecord record;
+  while (!finished(sim, scene) && time_of(sim, scene) < until) {
+    try {
+      take_step(body.model, scene, sim, record);
+    } catch (const std::exception& error) {
+      shapes.failure = error.what();
+      break;
+    }
+    if (shapes.tighten_from == 0 && record.controller.phase == Phase::tighten) {
+      shapes.tighten_from = record.time;
+    }
+    shapes.time.push_back(record.time);
+    q.push_back(record.moment.state.q);
+  }
+  shapes.q.resize(static_cast<Eigen::Index>(q.size()), body.model.nq());
+  for (std::size_t k = 0; k < q.size(); ++k) shapes.q.row(static_cast<Eigen::Index>(k)) = q[k];
+  return shapes;
+}
+
+}  // namespace
+
+Shapes led_shapes(const SoftBody& body, const TailPath& path, double until) {
+  const Scene scene = led_along(body, path, search_step);
+  Simulation sim = start(body.model, scene, sweep_qp);
+  return shapes_in(body, scene, until, sim);
+}
+
 Shapes tied_shapes(const SoftBody& body, const TailPath& path, const std::string& wanted,
                    double tightening) {
   Scene scene = led_along(body, path, search_step);
@@ -155,30 +189,11 @@ Shapes tied_shapes(const SoftBody& body, const TailPath& path, const std::string
   scene.controller.tighten_time = tightening;
   scene.time.until = Phase::tighten;
   Simulation sim = start(body.model, scene, sweep_qp);
-  Shapes shapes;
-  std::vector<Eigen::VectorXd> q;
-  StepRecord record;
-  bool tightens = false;
-  while (!finished(sim, scene)) {
-    try {
-      take_step(body.model, scene, sim, record);
-    } catch (const std::exception& error) {
-      shapes.failure = error.what();
-      break;
-    }
-    if (!tightens && record.controller.phase == Phase::tighten) {
-      tightens = true;
-      shapes.tighten_from = record.time;
-    }
-    shapes.time.push_back(record.time);
-    q.push_back(record.moment.state.q);
-  }
-  if (shapes.failure.empty() && !tightens) shapes.failure = "it was never tightened";
+  Shapes shapes = shapes_in(body, scene, std::numeric_limits<double>::infinity(), sim);
+  if (shapes.failure.empty() && shapes.tighten_from == 0) shapes.failure = "it was never tightened";
   if (shapes.failure.empty() && !is_knot(wanted, sim.now.observation.kin.centre, scene.knot)) {
     shapes.failure = "it is no longer a " + wanted;
   }
-  shapes.q.resize(static_cast<Eigen::Index>(q.size()), body.model.nq());
-  for (std::size_t k = 0; k < q.size(); ++k) shapes.q.row(static_cast<Eigen::Index>(k)) = q[k];
   return shapes;
 }
 

@@ -38,6 +38,7 @@ struct TypeSeen {
   double at = 0;    ///< s, the look from which other tries go on: with two waypoints ahead and most
                     ///< of the tail left; 0: none
   double left = 0;  ///< of the body, then: see tail_left()
+  bool repeats = false;  ///< the living body ties it, too, by the shapes up to then: see repeats()
   std::shared_ptr<const Reached> reached{};  ///< then
 };
 
@@ -78,11 +79,14 @@ std::optional<Tying> try_plan(const SoftBody& body, const PathPlan& plan, const 
 struct Shapes {
   std::vector<double> time;  ///< s, from 0
   Eigen::MatrixXd q;         ///< a row each
-  double tighten_from = 0;   ///< s
+  double tighten_from = 0;   ///< s; 0 where it was never tightened
   std::string failure;       ///< why there are no shapes up to the end, or empty
 };
 
-/// The same again, and the knot, which must be `wanted` (a name of knot_table.hpp, or
+/// The path again, up to `until` (s).
+Shapes led_shapes(const SoftBody& body, const TailPath& path, double until);
+
+/// The path again, and the knot, which must be `wanted` (a name of knot_table.hpp, or
 /// invariants_text()), is then tightened for `tightening` (s).
 Shapes tied_shapes(const SoftBody& body, const TailPath& path, const std::string& wanted,
                    double tightening);

@@ -88,6 +88,17 @@ const PathPlan& Archive::likely(const std::vector<Kept>& kept, Draw& draw) const
   return kept.back().plan;
 }
 
+bool Archive::would_keep(const TailPath& path, const TypeSeen& seen) const {
+  if (seen.at == 0 || !leads_on(seen.type)) return false;
+  const auto of_type = paths_.find(key(seen.type));
+  if (of_type == paths_.end()) return true;
+  const std::vector<Kept>& kept = of_type->second;
+  const TailPath to_there = path_reached(path, seen.at);
+  const auto is_it = [&](const Kept& one) { return same(one.plan.path, to_there); };
+  if (std::ranges::any_of(kept, is_it)) return false;  // a try went on from there
+  return kept.size() < kept_of_type || kept.back().left < seen.left;
+}
+
 PathPlan Archive::plan_of(int number) const {
   Draw draw(seed_, static_cast<unsigned>(number));
   double promised = 0;
@@ -113,11 +124,9 @@ void Archive::add(int number, const PathPlan& plan, const Tying& tying) {
   for (const TypeSeen& seen : tying.seen) {
     if (seen.to == seen.from) continue;
     seen_here.insert(key(seen.type));
-    if (seen.at == 0 || !leads_on(seen.type)) continue;
+    if (!seen.repeats || !would_keep(tying.path, seen)) continue;
     PathPlan to_there{.path = path_reached(tying.path, seen.at), .turns = {}, .parent = number};
     std::vector<Kept>& paths = paths_[key(seen.type)];
-    const auto is_there = [&](const Kept& kept) { return same(kept.plan.path, to_there.path); };
-    if (std::ranges::any_of(paths, is_there)) continue;  // its try went on from there
     if (seen.reached && same(seen.reached->path, to_there.path)) to_there.reached = seen.reached;
     const auto less =
         std::ranges::find_if(paths, [&](const Kept& kept) { return kept.left < seen.left; });
@@ -141,8 +150,8 @@ void Archive::judged(int number, int passes) {
 std::string tying_text(const Tying& tying) {
   std::string text;
   for (const TypeSeen& seen : tying.seen) {
-    text += fmt::format("{}{} {:.17g} {:.17g} {:.17g} {:.17g}", text.empty() ? "" : " ",
-                        knot_name(seen.type), seen.from, seen.to, seen.at, seen.left);
+    text += fmt::format("{}{} {:.17g} {:.17g} {:.17g} {:.17g} {:d}", text.empty() ? "" : " ",
+                        knot_name(seen.type), seen.from, seen.to, seen.at, seen.left, seen.repeats);
   }
   text += tying.failed ? std::string(" ") + failed_word : " .";
   for (const auto* part : {&tying.path.swing, &tying.path.turns, &tying.path.pull}) {
@@ -167,7 +176,9 @@ std::optional<Tying> tying_of(const std::string& text) {
     }
     const std::optional<KnotInvariants> type = knot_called(name);
     TypeSeen seen;
-    if (!type || !(words >> seen.from >> seen.to >> seen.at >> seen.left)) return std::nullopt;
+    if (!type || !(words >> seen.from >> seen.to >> seen.at >> seen.left >> seen.repeats)) {
+      return std::nullopt;
+    }
     seen.type = *type;
     tying.seen.push_back(seen);
   }

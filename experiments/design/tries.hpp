@@ -14,7 +14,8 @@ namespace hagfish {
 /// Paths on which a type was seen, by type. New paths are random ones, go on from these, each type
 /// being as likely, so that what is rare is looked into as often as what is common, or displace
 /// those on which the wanted type was seen. Only types of fewer crossings than that are led on
-/// from; for a sum, only its summands. Of each type the paths that left most of the tail are kept.
+/// from; for a sum, only its summands. Of each type the paths that left most of the tail are kept,
+/// of those alone that the living body repeats.
 /// A path is the less likely gone on from, the more often what came of it, or of a path before it,
 /// failed in the living body, and the more likely, the more runs the best of that passed. Which try
 /// makes which path depends on the seed and on the results of all batches before its own, so that
@@ -22,6 +23,9 @@ namespace hagfish {
 class Archive {
  public:
   Archive(unsigned seed, const std::string& wanted);
+
+  /// Whether the path of a try to where it saw a type is to be kept, if the living body repeats it.
+  bool would_keep(const TailPath& path, const TypeSeen& seen) const;
 
   /// The plan of a try, whose results of all batches before are there.
   PathPlan plan_of(int number) const;
@@ -62,8 +66,8 @@ class Archive {
 /// Tries whose paths are made of the same archive.
 inline constexpr int batch_size = 32;
 
-/// As a file of tries has it: "0_1 0 8.4 0 0 3_1 8.8 12 9.6 0.2 .", the fields of each TypeSeen but
-/// `reached`, how it ended, and each part of the path: how many waypoints, and these.
+/// As a file of tries has it: "0_1 0 8.4 0 0 0 3_1 8.8 12 9.6 0.2 1 .", the fields of each TypeSeen
+/// but `reached`, how it ended, and each part of the path: how many waypoints, and these.
 std::string tying_text(const Tying& tying);
 /// What tying_text() made, or nothing where it is not whole.
 std::optional<Tying> tying_of(const std::string& text);

@@ -16,6 +16,7 @@ DesignOutcome outcome() {
   Candidate best;
   best.number = 7;
   best.judged = 20;
+  best.slower = 1.5;
   std::ranges::copy(std::array{20, 19}, best.passed);
   std::ranges::copy(std::array{8, 9}, best.animals);
   DesignOutcome outcome;
@@ -39,6 +40,7 @@ std::string field(const std::string& csv, const std::string& name) {
 TEST(DesignRow, HasTheCountsOfEachLaw) {
   DesignOptions options;
   const auto of = [&](const char* name) { return field(design_row(options, outcome(), {}), name); };
+  EXPECT_EQ(of("slower"), "1.5");
   EXPECT_EQ(of("starts_by_paper"), "20");
   EXPECT_EQ(of("starts_by_reflex"), "19");
   EXPECT_EQ(of("animals_by_paper"), "");
@@ -54,6 +56,7 @@ TEST(DesignPage, HasTheCountsOfEachLaw) {
   EXPECT_EQ(page().find("Other animals"), std::string::npos);
   options.animals = true;
   EXPECT_NE(page().find("| paper | 20 of 20 |\n| reflex | 19 of 20 |"), std::string::npos);
+  EXPECT_NE(page().find("over that of the soft body | 1.5 |"), std::string::npos);
   EXPECT_NE(
       page().find("Other animals are 0.6 to 1.4 times as long. Their girth for the length and "
                   "their limits are changed by up to 20 %."),

@@ -134,6 +134,7 @@ TEST(Design, TyingsAreReadBackAsTheyWereWritten) {
   tying.seen = {seen({}, 0, 8.4), seen({3, 1}, 8.8, 11.2), seen({9, 2}, 11.6, 13.2)};
   tying.seen[1].at = 9.6;
   tying.seen[1].left = 0.2;
+  tying.seen[1].repeats = true;
   tying.path.swing = {{0, {1, 0, 0}}, {4.5, {0.1, 0.2, 1.0 / 3}}};
   tying.path.pull = {{13.2, {0, 0, 0}}};
   const std::string text = tying_text(tying);
@@ -156,6 +157,7 @@ Tying tying_with(const KnotInvariants& type, double left, unsigned number) {
   tying.seen = {seen({}, 0, 4), seen(type, 4.4, 6)};
   tying.seen[1].at = 4.8;
   tying.seen[1].left = left;
+  tying.seen[1].repeats = true;
   return tying;
 }
 
@@ -200,6 +202,20 @@ TEST(Design, PathsThatLeaveMostOfTheTailAreKept) {
   archive.add(201, {}, most);
   EXPECT_EQ(led_on(archive, least, 300), 0);
   EXPECT_GT(led_on(archive, most, 300), 0);
+}
+
+TEST(Design, PathsThatTheLivingBodyDoesNotRepeatAreNotKept) {
+  Archive archive(1, "6_1");
+  Tying tying = tying_with({7, 2}, 0.2, 1);
+  EXPECT_TRUE(archive.would_keep(tying.path, tying.seen[1]));
+  tying.seen[1].repeats = false;
+  archive.add(0, {}, tying);
+  EXPECT_EQ(led_on(archive, tying, 1), 0);
+  tying.seen[1].repeats = true;
+  archive.add(1, {}, tying);
+  EXPECT_GT(led_on(archive, tying, 2), 500);
+  // It is there already.
+  EXPECT_FALSE(archive.would_keep(tying.path, tying.seen[1]));
 }
 
 TEST(Design, PathsWhoseProgramsFailAreLedOnFromLessOften) {

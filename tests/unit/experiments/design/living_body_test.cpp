@@ -65,6 +65,27 @@ TEST(SoftBody, OfAnotherSizeIsLedAsTheFirstOne) {
   EXPECT_NEAR(other.model.bending_stiffness / one.model.bending_stiffness, std::pow(1.25, 5), 1e-2);
 }
 
+TEST(LivingBody, SlowerProgramsHaveTheSameShapesLater) {
+  const SoftBody body = soft_body("");
+  const FoundScene one = found_scene(body, straight(body), "3_1", "");
+  const FoundScene slow = found_scene(body, straight(body), "3_1", "", 1.5);
+  EXPECT_EQ(slow.tighten_from, 1.5 * one.tighten_from);
+  const CurvatureProgram of_one = resolved(one).scene.script.curvature,
+                         of_slow = resolved(slow).scene.script.curvature;
+  ASSERT_EQ(of_slow.time.size(), of_one.time.size());
+  EXPECT_NEAR(of_slow.time.back(), 1.5 * of_one.time.back(), 1e-6);
+}
+
+TEST(LivingBody, RepeatsWhatItsProgramTies) {
+  const auto never = [] { return false; };
+  FoundScene found;
+  found.scene = "base = \"living_overhand\"\n";
+  EXPECT_TRUE(repeats(found, never));
+  found.scene += "[expect]\nknot = \"4_1\"\n";
+  EXPECT_FALSE(repeats(found, never));
+  EXPECT_FALSE(repeats(found, [] { return true; }));
+}
+
 TEST(OtherAnimals, AreTheSameForTheSameNumberAndWithinBounds) {
   const SoftBody body = soft_body("");
   const Specimen& own = body.resolved.specimen;
