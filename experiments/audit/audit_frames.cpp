@@ -15,8 +15,9 @@ namespace hagfish {
 namespace {
 
 /// A search that carries its pairs from step to step may see a minimum beside another one late, and
-/// with it an overlap that much deeper, cm: in the built-in scenes 1.3e-4 at most.
-constexpr double search_tolerance = 2e-4;
+/// with it an overlap that much deeper, of the body's length: 5e-6 at most in built-in scenes and
+/// in those that designs found.
+constexpr double search_tolerance = 1e-5;
 /// So many minima more or less, at such a share of the frames.
 constexpr std::int64_t most_contacts_off = 6;
 constexpr double largest_share_off = 0.2;
@@ -188,7 +189,8 @@ void FrameAudit::see_bounds(const AuditedFrame& frame) {
     return;
   }
   const Eigen::Index step = steps_.at(f);
-  from_q_.compare("/steps/penetration", penetration_[step], s.penetration, search_tolerance);
+  from_q_.compare("/steps/penetration", penetration_[step], s.penetration,
+                  search_tolerance * log_.model.length());
   from_q_.compare("/steps/limit_violation", limit_violation_[step], s.limit_violation,
                   nothing_but_rounding);
   from_q_.compare("/steps/head_drift", head_drift_[step], drift, nothing_but_rounding);
@@ -202,7 +204,8 @@ void FrameAudit::see_worst_at_end(const Observation& end, double drift) {
     from_q_.compare(path, log_.h5.doubles(path).back(),
                     std::accumulate(since, of_steps.end(), own, worse), allowed);
   };
-  compare("/diagnostics/penetration", penetration_, end.penetration, search_tolerance);
+  compare("/diagnostics/penetration", penetration_, end.penetration,
+          search_tolerance * log_.model.length());
   compare("/diagnostics/limit_violation", limit_violation_, end.limit_violation,
           nothing_but_rounding);
   compare("/diagnostics/head_drift", head_drift_, drift, nothing_but_rounding);

@@ -24,13 +24,18 @@ std::string design_page(const DesignOptions& options, const DesignOutcome& outco
                         const ResolvedScene& scene, const RunSummary& run,
                         const std::string& strip) {
   const Candidate& best = *outcome.best;
+  std::string by_reflex;
+  for (const std::string& set : trial_settings({.law = 1})) {
+    by_reflex += fmt::format(" --set \"{}\"", set);
+  }
   std::string page = fmt::format(
       "# {0}, tied by {1}\n\n"
       "`hagfish design {0}` searched for this program from nothing. {2}.\n\n"
       "    hagfish run {3} --out again.h5   # the animal ties and slides the knot, and loses it\n"
+      "    hagfish run {3} --out reflex.h5{4}   # the same by the reflex\n"
       "    hagfish check knot.h5            # audits the run that is here already\n"
       "    hagfish picture knot.h5 --out knot.png",
-      options.knot, scene.specimen.name, outcome.in_words(), scene_file);
+      options.knot, scene.specimen.name, outcome.in_words(), scene_file, by_reflex);
   for (const double time : strip_times(run)) page += fmt::format(" --time {:.2f}", time);
   page += "\n\n";
   if (!strip.empty()) {

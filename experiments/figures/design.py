@@ -9,23 +9,19 @@ from __future__ import annotations
 import csv
 import datetime
 import math
-import os
-import subprocess
-import tempfile
 import tomllib
 from pathlib import Path
 
-import matplotlib.image
 import numpy as np
 
 import plots
 import tables
 from audits import read_findings, unmet
 from hagfish_log import HagfishLog, LogError
+from log_pictures import pictures_of
 from script import run_script
 
 ROOT = Path(__file__).resolve().parents[2]
-HAGFISH = Path(os.environ.get("HAGFISH_PROGRAM", ROOT / "build/release/experiments/hagfish"))
 OWN = "Table 1's"  # animal
 RANDOM = "drawn at random"  # in the names of such animals
 # Kinds of animals that tie it. Hagfish: A. Haney and T. Uyeno in New Scientist, 6 January 2020, and the paper. Morays: "A moray's many
@@ -273,15 +269,11 @@ def draw_gallery(folder: Path, rows: list[Row], out: Path) -> None:
     figure, axes = plots.plt.subplots(math.ceil(len(kept) / COLUMNS), COLUMNS, figsize=(11, 2.3 * math.ceil(len(kept) / COLUMNS)), squeeze=False)
     for panel in axes.flat:
         panel.set_axis_off()
-    with tempfile.TemporaryDirectory() as temporary:
-        for panel, row in zip(axes.flat, kept):
-            log = folder / row["folder"] / "knot.h5"
-            slides = HagfishLog(log)["/trajectory/time"][HagfishLog(log).in_phase("slide")]
-            picture = Path(temporary) / "knot.png"
-            subprocess.run([HAGFISH, "picture", log, "--out", picture, "--force", "--size", SIZE, "--time", f"{slides[0]:g}"], check=True,
-                           stdout=subprocess.DEVNULL)
-            panel.imshow(matplotlib.image.imread(picture))
-            panel.set_title(f"{row['knot_wanted']}: {float(row['body_in_knot_cm']):.0f} of {float(row['length_cm']):.0f} cm")
+    for panel, row in zip(axes.flat, kept):
+        log = folder / row["folder"] / "knot.h5"
+        slides = HagfishLog(log)["/trajectory/time"][HagfishLog(log).in_phase("slide")]
+        panel.imshow(pictures_of(log, slides[:1], size=SIZE)[0])
+        panel.set_title(f"{row['knot_wanted']}: {float(row['body_in_knot_cm']):.0f} of {float(row['length_cm']):.0f} cm")
     figure.tight_layout(pad=0.4)
     plots.save(figure, out)
 

@@ -6,11 +6,15 @@ from __future__ import annotations
 import argparse
 import contextlib
 import errno
+import os
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 from hagfish_log import LogError
+
+# The program as built.
+HAGFISH = Path(os.environ.get("HAGFISH_PROGRAM", Path(__file__).resolve().parents[2] / "build/release/experiments/hagfish"))
 
 
 def run_script(description: str | None, names: Sequence[str], work: Callable[..., None]) -> None:

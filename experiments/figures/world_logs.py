@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import csv
 import json
-import os
 import subprocess
 import tempfile
 from pathlib import Path
@@ -17,10 +16,8 @@ from typing import Any
 import numpy as np
 
 from hagfish_log import HagfishLog
-from script import run_script, whole
+from script import HAGFISH, run_script, whole
 
-ROOT = Path(__file__).resolve().parents[2]
-HAGFISH = Path(os.environ.get("HAGFISH_PROGRAM", ROOT / "build/release/experiments/hagfish"))
 SETTLED = 4.0  # s, after which a wave runs evenly
 
 

@@ -6,7 +6,6 @@ of other sizes and ways. Leaves tables/world_pole.csv. Needs the program as buil
 
 from __future__ import annotations
 
-import os
 import subprocess
 from pathlib import Path
 
@@ -14,10 +13,8 @@ import numpy as np
 
 import tables
 from hagfish_log import HagfishLog
-from script import run_script
+from script import HAGFISH, run_script
 
-ROOT = Path(__file__).resolve().parents[2]
-HAGFISH = Path(os.environ.get("HAGFISH_PROGRAM", ROOT / "build/release/experiments/hagfish"))
 START, HELD_FOR = 13.0, 1.0  # s: where the slide goes on, and how long a knot must hold
 FORCES = (0.01, 0.02, 0.05, 0.1, 0.2, 0.4, 0.8)  # N
 NO_DRAG = ("drag.normal=0", "drag.tangential=0")

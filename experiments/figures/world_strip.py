@@ -5,20 +5,15 @@ Usage: world_strip.py REFLEX.h5 PAPER.h5 BURROW.h5 POLE.h5 ROBOT.h5 OUT.png. Nee
 
 from __future__ import annotations
 
-import os
-import subprocess
-import tempfile
 from pathlib import Path
 
 import matplotlib.image
 import numpy as np
 
 from hagfish_log import HagfishLog
+from log_pictures import pictures_of
 from script import run_script
 
-ROOT = Path(__file__).resolve().parents[2]
-HAGFISH = Path(os.environ.get("HAGFISH_PROGRAM", ROOT / "build/release/experiments/hagfish"))
-SIZE = "420x330"
 OUT_FOR = 0.1  # s, after which the last picture shows it
 
 
@@ -38,14 +33,8 @@ def moments_of_slide(log: HagfishLog) -> list[float]:
 
 
 def main(reflex: Path, paper: Path, burrow: Path, pole: Path, robot: Path, out: Path) -> None:
-    rows = []
-    with tempfile.TemporaryDirectory() as folder:
-        strips = ((reflex, moments), (paper, moments), (burrow, moments), (pole, moments_of_slide), (robot, moments_of_slide))
-        for row, (path, moments_of) in enumerate(strips):
-            picture = Path(folder) / f"{row}.png"
-            at = [word for time in moments_of(HagfishLog(path)) for word in ("--time", f"{time:g}")]
-            subprocess.run([HAGFISH, "picture", path, "--out", picture, "--size", SIZE, *at], check=True, stdout=subprocess.DEVNULL)
-            rows.append(np.hstack([matplotlib.image.imread(picture.with_stem(f"{picture.stem}_{k + 1}"))[..., :3] for k in range(4)]))
+    strips = ((reflex, moments), (paper, moments), (burrow, moments), (pole, moments_of_slide), (robot, moments_of_slide))
+    rows = [np.hstack(pictures_of(path, moments_of(HagfishLog(path)))) for path, moments_of in strips]
     matplotlib.image.imsave(out, np.vstack(rows))
 
 

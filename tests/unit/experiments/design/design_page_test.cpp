@@ -57,6 +57,8 @@ TEST(DesignPage, HasTheCountsOfEachLaw) {
   options.animals = true;
   EXPECT_NE(page().find("| paper | 20 of 20 |\n| reflex | 19 of 20 |"), std::string::npos);
   EXPECT_NE(page().find("over that of the soft body | 1.5 |"), std::string::npos);
+  EXPECT_NE(page().find("--out reflex.h5 --set \"controller.law=reflex\" --set"),
+            std::string::npos);
   EXPECT_NE(
       page().find("Other animals are 0.6 to 1.4 times as long. Their girth for the length and "
                   "their limits are changed by up to 20 %."),
