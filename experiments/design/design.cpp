@@ -38,7 +38,8 @@ constexpr double tightening = 1.5;
 constexpr int few = 4;  // starts or animals, of each law, by which most programs are given up
 
 constexpr const char *tries_name = "tries.csv", *candidates_name = "candidates.csv",
-                     *start_name = "start.csv", *log_name = "knot.h5", *strip_name = "strip.png";
+                     *times_name = "times.csv", *start_name = "start.csv", *log_name = "knot.h5",
+                     *strip_name = "strip.png";
 
 /// work(k) for k from 0 to count - 1, each once, by so many threads. Throws what one of them does.
 void in_parallel(int count, int threads, const std::function<void(int)>& work) {
@@ -124,6 +125,20 @@ void end_last_line(const fs::path& name, AppendedFile& file) {
   if (!text.empty() && text.back() != '\n') file.add("\n");
 }
 
+/// The last line "WALL,CPU" of a file that holds the time spent at each report, s; zero without
+/// one.
+DesignTime time_before(const fs::path& file) {
+  DesignTime time;
+  std::ifstream stream(file);
+  for (std::string line; std::getline(stream, line) && !stream.eof();) {
+    std::istringstream fields(line);
+    DesignTime of_line;
+    char comma = 0;
+    if (fields >> of_line.wall >> comma >> of_line.cpu) time = of_line;
+  }
+  return time;
+}
+
 std::string candidate_text(const Candidate& candidate) {
   return fmt::format("{},{:g},{},{},{},{},{},{}\n", candidate.number, candidate.slower,
                      candidate.judged, candidate.passed[0], candidate.passed[1],
@@ -154,11 +169,14 @@ class Search {
         archive_(options.seed, options.knot),
         known_tries_(numbered_lines(options.folder / tries_name)),
         known_candidates_(numbered_lines(options.folder / candidates_name)),
+        before_(time_before(options.folder / times_name)),
         tries_file_(options.folder / tries_name),
-        candidates_file_(options.folder / candidates_name) {
+        candidates_file_(options.folder / candidates_name),
+        times_file_(options.folder / times_name) {
     if (options.animals) outcome_.judged_runs += 2 * judged_animals;
     end_last_line(options.folder / tries_name, tries_file_);
     end_last_line(options.folder / candidates_name, candidates_file_);
+    end_last_line(options.folder / times_name, times_file_);
     for (const auto& [number, text] : numbered_lines(options.folder / start_name)) {
       if (const std::optional<Tying> tying = tying_of(text)) archive_.add(first_++, {}, *tying);
     }
@@ -166,16 +184,18 @@ class Search {
 
   DesignOutcome run() {
     const auto begin = std::chrono::steady_clock::now();
+    const std::clock_t cpu_begin = std::clock();
     const auto elapsed = [&] {
       return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     };
     const auto over = [&] { return options_.interrupted() || elapsed() > options_.budget; };
     do {
       judge(try_batch(), over);
-      report(elapsed());
+      const double cpu = static_cast<double>(std::clock() - cpu_begin) / CLOCKS_PER_SEC;
+      outcome_.time = {before_.wall + elapsed(), before_.cpu + cpu};
+      report();
     } while (!outcome_.found && !over());
     outcome_.interrupted = options_.interrupted();
-    outcome_.time = {elapsed(), static_cast<double>(std::clock()) / CLOCKS_PER_SEC};
     note_types();
     if (outcome_.best && !outcome_.interrupted) write_best();
     return outcome_;
@@ -362,7 +382,8 @@ class Search {
     }
   }
 
-  void report(double elapsed) {
+  void report() {
+    times_file_.add(fmt::format("{:.1f},{:.1f}\n", outcome_.time.wall, outcome_.time.cpu));
     note_types();
     std::string types;
     for (const auto& [name, count] : outcome_.types) types += fmt::format(" {} {}", name, count);
@@ -371,7 +392,7 @@ class Search {
                            : fmt::format("{} tied, best {} of {}", outcome_.candidates.size(),
                                          outcome_.best->passes(), outcome_.judged_runs);
     options_.progress(
-        fmt::format("{:.0f} s, {} tries:{}; {}", elapsed, outcome_.tries, types, best));
+        fmt::format("{:.0f} s, {} tries:{}; {}", outcome_.time.wall, outcome_.tries, types, best));
   }
 
   void write_best() {
@@ -414,7 +435,8 @@ class Search {
   Archive archive_;
   int first_ = 0;  // number of its own first try: those of the start come before
   std::map<int, std::string> known_tries_, known_candidates_;
-  AppendedFile tries_file_, candidates_file_;
+  DesignTime before_;
+  AppendedFile tries_file_, candidates_file_, times_file_;
   std::map<int, TailPath> tied_paths_;
   DesignOutcome outcome_;
 };

@@ -42,7 +42,7 @@ struct Candidate {
 };
 
 struct DesignTime {
-  double wall = 0, cpu = 0;  ///< s, of this process
+  double wall = 0, cpu = 0;  ///< s, with that of the search before it was resumed
 };
 
 struct DesignOutcome {
@@ -59,10 +59,10 @@ struct DesignOutcome {
 
 /// Searches by whole batches until a program is found, the budget is over, or it is interrupted.
 /// Which program is found depends on knot, animal, seed and the tries of `start` alone. The folder
-/// gets tries.csv and candidates.csv, and start.csv, the tries of `start`, by which it is resumed,
-/// and of the best program, where there is one, the files of FoundScene, knot.h5, strip.png,
-/// README.md and result.csv. Throws InputError for a knot that the animal is too short for
-/// (length_bound.hpp), FileError where the folder holds another search, or cannot be written.
+/// gets tries.csv, candidates.csv and times.csv, and start.csv, the tries of `start`, by which it
+/// is resumed, and of the best program, where there is one, the files of FoundScene, knot.h5,
+/// strip.png, README.md and result.csv. Throws InputError for a knot that the animal is too short
+/// for (length_bound.hpp), FileError where the folder holds another search, or cannot be written.
 DesignOutcome design(const DesignOptions& options);
 
 }  // namespace hagfish

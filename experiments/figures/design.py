@@ -73,6 +73,11 @@ def served(folder: Path, law: str) -> str:
     return str(sum(row["outcome"] == "ok" and not row["unmet"] for row in tables.read_csv(table, ["outcome", "unmet"])))
 
 
+def time_spent(folder: Path) -> list[str]:
+    """By the clock, and of CPU, s, of a search that goes on."""
+    return (folder / "times.csv").read_text(encoding="utf-8").splitlines()[-1].split(",")
+
+
 def of_log(log: HagfishLog) -> Row:
     """The body, and what of it lies between the knot's ends as it starts to slide; none of that in a run that does not."""
     length = log["/model/length"]
@@ -101,8 +106,9 @@ def read_study(folder: Path) -> tuple[list[Row], list[str]]:
                          **of_log(HagfishLog(search.parent / "knot.h5"))})
         else:  # nothing tied the knot
             tries = (search.parent / "tries.csv").read_text(encoding="utf-8").count("\n")
+            wall, cpu = time_spent(search.parent)
             rows.append({**dict.fromkeys([*KEPT, *(f"audit_{step}_s" for step in STEPS), *OF_LOG], ""), "knot_wanted": what["knot"],
-                         "seed": str(what["seed"]), "found": "no", "tries": str(tries), "tied_in_soft_body": "0", **beside})
+                         "seed": str(what["seed"]), "found": "no", "tries": str(tries), "tied_in_soft_body": "0", "cpu_s": cpu, "wall_s": wall, **beside})
     if not results:
         raise LogError(f"{folder}: holds no folder with a result.csv")
     log = HagfishLog(results[0].parent / "knot.h5")

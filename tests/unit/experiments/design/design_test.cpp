@@ -60,7 +60,12 @@ TEST(Design, TriesAreTheSameWhateverTheThreadsAndStops) {
   EXPECT_THROW(design(one_batch(folder.path() / "three", 1)), FileError);
   DesignOptions again = one_batch(folder.path() / "three", 1);
   again.resume = true;
-  EXPECT_EQ(design(again).in_words(), one.in_words());
+  std::ofstream(folder.path() / "three/times.csv") << "1000.0,2000.0\n3000.0,40";
+  const DesignOutcome mended_one = design(again);
+  EXPECT_EQ(mended_one.in_words(), one.in_words());
+  EXPECT_GE(mended_one.time.wall, 1000);
+  EXPECT_GE(mended_one.time.cpu, 2000);
+  EXPECT_LT(mended_one.time.wall, 3000);
   const std::vector<std::string> mended = sorted_lines(folder.path() / "three/tries.csv");
   EXPECT_TRUE(std::ranges::includes(mended, lines));
   again.seed = 2;
