@@ -16,6 +16,7 @@
 #include "core/input/input_error.hpp"
 #include "core/log/build_info.hpp"
 #include "core/log/hdf5_error.hpp"
+#include "experiments/audit/audit.hpp"
 #include "experiments/design/design_page.hpp"
 #include "experiments/design/length_bound.hpp"
 #include "experiments/design/living_body.hpp"
@@ -286,6 +287,7 @@ class Search {
       Candidate& candidate = candidates[k];
       if (!known_candidate(tied[k])) {
         if (candidate.shortcoming.empty()) judge_variety(scenes[k], candidate);
+        if (candidate.shortcoming.empty()) judge_steps(scenes[k], candidate);
         if (options_.interrupted()) return;
         candidates_file_.add(candidate_text(candidate));
       }
@@ -375,6 +377,26 @@ class Search {
     serves(starts, few + 1, judged_starts, candidate);
   }
 
+  /// Its run must not depend on the time step, and its log must pass the audit.
+  void judge_steps(const FoundScene& scene, Candidate& candidate) const {
+    constexpr int count = static_cast<int>(std::size(finer_steps));
+    std::vector<std::optional<RunSummary>> runs(count);
+    in_parallel(count, options_.threads, [&](int k) {
+      runs[k] = run_trial(scene, {.step = finer_steps[k]}, options_.interrupted);
+    });
+    for (int k = 0; k < count; ++k) {
+      if (runs[k] && !succeeds(*runs[k])) {
+        candidate.shortcoming =
+            fmt::format("steps of {:g} s: {}", finer_steps[k], shortcoming(*runs[k]));
+        return;
+      }
+    }
+    if (!write_run(scene)) return;
+    for (const Finding& finding : audit((options_.folder / log_name).string())) {
+      if (!finding.passed) candidate.shortcoming = "audit: " + finding.name;
+    }
+  }
+
   void note_types() {
     outcome_.types.clear();
     for (const auto& [type, count] : archive_.counts()) {
@@ -395,24 +417,26 @@ class Search {
         fmt::format("{:.0f} s, {} tries:{}; {}", outcome_.time.wall, outcome_.tries, types, best));
   }
 
-  void write_best() {
-    const Shapes shapes = shapes_of(outcome_.best->number);
-    if (!shapes.failure.empty()) return;
-    const FoundScene found = found_from(shapes, outcome_.best->slower);
+  /// The scene, what it names, and the log of its run. Nothing where it is interrupted.
+  std::optional<SweepRun> write_run(const FoundScene& found) const {
     write_text(options_.folder / scene_file, found.scene);
     write_text(options_.folder / program_file, found.program);
     if (!found.specimen.empty()) write_text(options_.folder / specimen_file, found.specimen);
     std::mutex alone;
-    const ResolvedScene resolved =
-        read_scene_text(found.scene, scene_file, {},
-                        {{program_file, found.program}, {specimen_file, found.specimen}});
-    const std::optional<SweepRun> run =
-        run_for_summary(resolved, options_.interrupted,
-                        SweepLog{options_.folder / log_name, options_.typed, alone});
+    return run_for_summary(resolved_scene(found, {}), options_.interrupted,
+                           SweepLog{options_.folder / log_name, options_.typed, alone});
+  }
+
+  void write_best() {
+    const Shapes shapes = shapes_of(outcome_.best->number);
+    if (!shapes.failure.empty()) return;
+    const FoundScene found = found_from(shapes, outcome_.best->slower);
+    const std::optional<SweepRun> run = write_run(found);
     if (!run) return;
     write_text(options_.folder / "result.csv", design_row(options_, outcome_, run->summary));
     write_text(options_.folder / "README.md",
-               design_page(options_, outcome_, resolved, run->summary, draw_strip(run->summary)));
+               design_page(options_, outcome_, resolved_scene(found, {}), run->summary,
+                           draw_strip(run->summary)));
   }
 
   /// The file of the film strip; none where nothing is knotted, or there is no renderer.

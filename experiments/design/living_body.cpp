@@ -82,10 +82,8 @@ Specimen other_animal(const Specimen& own, unsigned number) {
 /// The run of a found scene with these settings. Nothing where `interrupted`.
 std::optional<RunSummary> run_with(const FoundScene& found, const std::vector<std::string>& set,
                                    const std::function<bool()>& interrupted) {
-  const ResolvedScene resolved =
-      read_scene_text(found.scene, scene_file, set,
-                      {{program_file, found.program}, {specimen_file, found.specimen}});
-  const std::optional<SweepRun> run = run_for_summary(resolved, interrupted, std::nullopt);
+  const std::optional<SweepRun> run =
+      run_for_summary(resolved_scene(found, set), interrupted, std::nullopt);
   if (!run) return std::nullopt;
   return run->summary;
 }
@@ -123,7 +121,13 @@ std::vector<std::string> trial_settings(const Trial& trial) {
     set.push_back(fmt::format("start.noise_deg={:g}", start_noise_deg));
     set.push_back(fmt::format("start.seed={}", trial.seed));
   }
+  if (trial.step > 0) set.push_back(fmt::format("time.step={:g}", trial.step));
   return set;
+}
+
+ResolvedScene resolved_scene(const FoundScene& found, const std::vector<std::string>& set) {
+  return read_scene_text(found.scene, scene_file, set,
+                         {{program_file, found.program}, {specimen_file, found.specimen}});
 }
 
 std::optional<RunSummary> run_trial(const FoundScene& found, const Trial& trial,

@@ -48,14 +48,21 @@ inline constexpr const char* judged_laws[] = {"paper", "reflex"};
 
 /// One run of a found scene: a law, and a start.
 struct Trial {
-  int law = 0;   ///< of judged_laws
-  int seed = 0;  ///< of noise on every hinge; 0: straight
+  int law = 0;      ///< of judged_laws
+  int seed = 0;     ///< of noise on every hinge; 0: straight
+  double step = 0;  ///< time step, s; 0: the scene's
 };
+
+/// Time steps at which a found scene must succeed, too, s.
+inline constexpr double finer_steps[] = {0.001, 0.002};
 
 inline constexpr double start_noise_deg = 3;
 
 /// What is changed of the scene for a trial, as after --set.
 std::vector<std::string> trial_settings(const Trial& trial);
+
+/// A found scene with such changes.
+ResolvedScene resolved_scene(const FoundScene& found, const std::vector<std::string>& set);
 
 /// Runs it to its end. Nothing where `interrupted`.
 std::optional<RunSummary> run_trial(const FoundScene& found, const Trial& trial,

@@ -66,6 +66,15 @@ TEST(DesignPage, HasTheCountsOfEachLaw) {
   EXPECT_NE(page().find("| paper | 8 of 10 |\n| reflex | 9 of 10 |"), std::string::npos);
 }
 
+TEST(DesignPage, SaysOfAFoundKnotAloneThatItIsAudited) {
+  const ResolvedScene scene = read_scene_text("base = \"living_overhand\"\n", "design");
+  const std::string said = "succeeds at steps of 1 and 2 ms, too. Its log passes `hagfish check`.";
+  DesignOutcome of = outcome();
+  EXPECT_EQ(design_page({}, of, scene, {}, "").find(said), std::string::npos);
+  of.found = true;
+  EXPECT_NE(design_page({}, of, scene, {}, "").find(said), std::string::npos);
+}
+
 TEST(DesignPage, ShowsTheStripOfWhatHappened) {
   const ResolvedScene scene = read_scene_text("base = \"living_overhand\"\n", "design");
   RunSummary run;
