@@ -26,6 +26,11 @@ def test_an_animal_is_served_by_a_run_that_ends_and_meets_all(tmp_path):
     assert design.served(tmp_path / "none", "paper") == ""
 
 
+def test_a_search_that_goes_on_has_the_time_of_its_last_report(tmp_path):
+    (tmp_path / "times.csv").write_text("10.0,15.5\n20.0,30.5\n")
+    assert design.time_spent(tmp_path) == ["20.0", "30.5"]
+
+
 class Log(dict):
     """Two bodies, of 3 and 1 cm, in frames before, during and after a slide."""
 
