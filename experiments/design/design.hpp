@@ -12,9 +12,6 @@ namespace hagfish {
 /// Starts with noise that a program is judged by, for each law, and how many of them may fail.
 inline constexpr int judged_starts = 20, allowed_failures = 1;
 
-/// Other animals that it is judged by if asked for, for each law, and how many of them may fail.
-inline constexpr int judged_animals = 10, allowed_animals = 1;
-
 struct DesignOptions {
   std::string knot;              ///< as name_in_scene() reads it
   std::string specimen;          ///< text of the animal's file; empty: Table 1's animal

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numeric>
+#include <utility>
 
 #include "core/input/curvature_csv.hpp"
 #include "experiments/curvature/program_fit.hpp"
@@ -62,8 +65,8 @@ energy_loss = 0.15              # by Euler's rule at its release
       program_file, found.tighten_from, *name_in_scene(found.knot), controller, tables, time);
 }
 
-/// An animal like `own`, with the density that it has.
-Specimen other_animal(const Specimen& own, unsigned number) {
+/// The animal of a draw: like `own`, with the density that it has.
+Specimen drawn_animal(const Specimen& own, unsigned number) {
   Draw draw(0, number);
   const auto changed = [&](double value) {
     return value * draw.uniform(1 - animal_change, 1 + animal_change);
@@ -77,6 +80,23 @@ Specimen other_animal(const Specimen& own, unsigned number) {
   other.twist_limit = changed(other.twist_limit);
   other.mass *= volume_of(other) / volume_of(own);
   return other;
+}
+
+double thickness(const Specimen& animal) {
+  return std::accumulate(animal.circumference.begin(), animal.circumference.end(), 0.0) /
+         animal.length;
+}
+
+Specimen other_animal(const Specimen& own, unsigned number) {
+  constexpr unsigned drawn_for_each = 4;
+  std::vector<std::pair<double, unsigned>> draws;  // thickness, number of the draw
+  for (unsigned k = 1; k <= drawn_for_each * judged_animals; ++k) {
+    draws.emplace_back(thickness(drawn_animal(own, k)), k);
+  }
+  std::ranges::sort(draws, std::greater());
+  const unsigned pair = (number - 1) / 2;
+  const unsigned rank = number % 2 == 1 ? pair : judged_animals - 1 - pair;
+  return drawn_animal(own, draws.at(drawn_for_each * rank + 1).second);
 }
 
 /// The run of a found scene with these settings. Nothing where `interrupted`.

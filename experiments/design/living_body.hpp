@@ -35,12 +35,17 @@ inline constexpr double paces[] = {1, 1.5};
 FoundScene found_scene(const SoftBody& body, const Shapes& shapes, const std::string& knot,
                        const std::string& specimen, double slower = 1);
 
+/// Other animals that a program is judged by if asked for, for each law, and how many may fail.
+inline constexpr int judged_animals = 10, allowed_animals = 1;
+
 /// Other animals: their length over the own one's, and by what share their girth for the length and
 /// their limits differ at most.
 inline constexpr double shortest_animal = 0.6, longest_animal = 1.4, animal_change = 0.2;
 
-/// The same program in such an animal, drawn by `number`. Muscles and passive stiffness go with the
-/// girth.
+/// The same program in such an animal. Muscles and passive stiffness go with the girth. `number`,
+/// from 1 to judged_animals: the thickest for its length first, then the thinnest, the second
+/// thickest, and so on. They are of four times as many drawn animals, one of each four in the order
+/// of thickness, so that they are as thick as animals at large: thick ones tie least.
 FoundScene in_other_animal(const FoundScene& found, const Specimen& own, unsigned number);
 
 /// The control laws by which a found knot is slid.

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
 #include <set>
 
 #include "core/input/text_file.hpp"
@@ -91,7 +92,8 @@ TEST(OtherAnimals, AreTheSameForTheSameNumberAndWithinBounds) {
   const Specimen& own = body.resolved.specimen;
   const FoundScene found = found_scene(body, straight(body), "4_1", "");
   std::set<std::string> animals;
-  for (unsigned number = 1; number <= 10; ++number) {
+  std::vector<double> thickness;
+  for (unsigned number = 1; number <= judged_animals; ++number) {
     const FoundScene other = in_other_animal(found, own, number);
     EXPECT_EQ(other.specimen, in_other_animal(found, own, number).specimen);
     EXPECT_EQ(other.program, found.program);
@@ -101,12 +103,17 @@ TEST(OtherAnimals, AreTheSameForTheSameNumberAndWithinBounds) {
     EXPECT_GT(beside.length, 0.6);
     EXPECT_LT(beside.length, 1.4);
     EXPECT_NEAR(beside.thickness(), 1, 0.2);
+    thickness.push_back(beside.thickness());
     EXPECT_NEAR(beside.mass, beside.length * beside.girth * beside.girth, 0.1 * beside.mass);
     for (std::size_t k = 0; k < own.bending_limit.size(); ++k) {
       EXPECT_NEAR(animal.bending_limit[k] / own.bending_limit[k], 1, 0.2001);
     }
   }
   EXPECT_EQ(animals.size(), 10U);
+  // As many thick as thin ones, the extreme ones first.
+  EXPECT_GT(thickness[0], 1.08);
+  EXPECT_LT(thickness[1], 0.92);
+  EXPECT_NEAR(std::accumulate(thickness.begin(), thickness.end(), 0.0) / 10, 1, 0.02);
 }
 
 }  // namespace hagfish::living_body_test
