@@ -91,7 +91,8 @@ constexpr double rounding = 1e-12;
 /// Gives `next`, which has the momentum `now` and the kinetic energy `whole` (erg), the momentum
 /// `wanted`, by a motion of the whole body as one rigid body about its centre of mass. The kinetic
 /// energy stays the same: one factor on the internal velocities takes up the difference. If no
-/// factor can, nothing is given, and the guard of momentum warns. Returns whether it was given.
+/// factor can, it grows by a share of up to most_added. Else nothing is given, and the guard of
+/// momentum warns. Returns whether it was given.
 bool give(const Model& model, double whole, const Momentum& now, const Momentum& wanted,
           Moment& next) {
   Kinematics& kin = next.observation.kin;

@@ -66,7 +66,8 @@ Eigen::Vector3d centre_after(const StepInput& in, const StepPlace& place, const 
 /// Books the step `in` from the ledger's last entry, by its solution at `place`, to `next`. If the
 /// step keeps momentum, `next` first gets the momentum that the impulses leave, by a motion of the
 /// whole body as one rigid body. One factor on the velocities within the body keeps the kinetic
-/// energy. If no factor can, nothing is given back. `energy` books the remaining change.
+/// energy. If no factor can, the body gains a little, or else nothing is given back. `energy` books
+/// the remaining change.
 void book_momentum(const StepInput& in, const StepPlace& place, const StepSolution& step,
                    Moment& next, EnergyLedger& energy, MomentumLedger& ledger);
 

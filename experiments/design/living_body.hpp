@@ -51,7 +51,7 @@ FoundScene in_other_animal(const FoundScene& found, const Specimen& own, unsigne
 /// The control laws by which a found knot is slid.
 inline constexpr const char* judged_laws[] = {"paper", "reflex"};
 
-/// One run of a found scene: a law, and a start.
+/// One run of a found scene: a law, a start and a time step.
 struct Trial {
   int law = 0;      ///< of judged_laws
   int seed = 0;     ///< of noise on every hinge; 0: straight

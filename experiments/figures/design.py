@@ -75,9 +75,11 @@ def served(folder: Path, law: str) -> str:
     return str(sum(row["outcome"] == "ok" and not row["unmet"] for row in tables.read_csv(table, ["outcome", "unmet"])))
 
 
-def time_spent(folder: Path) -> list[str]:
-    """By the clock, and of CPU, s, of a search that goes on."""
-    return (folder / "times.csv").read_text(encoding="utf-8").splitlines()[-1].split(",")
+def without_result(folder: Path) -> Row:
+    """What there is of a search that wrote no result.csv: no path could be tightened."""
+    lines = {name: (folder / f"{name}.csv").read_text(encoding="utf-8").splitlines() for name in ("tries", "candidates", "times")}
+    wall, cpu = lines["times"][-1].split(",")
+    return {"found": "no", "tries": str(len(lines["tries"])), "tied_in_soft_body": str(len(lines["candidates"])), "cpu_s": cpu, "wall_s": wall}
 
 
 def of_log(log: HagfishLog) -> Row:
@@ -106,11 +108,9 @@ def read_study(folder: Path) -> tuple[list[Row], list[str]]:
             row = tables.read_csv(result, KEPT)[0]
             rows.append({**{name: row[name] for name in KEPT}, **{f"audit_{step}_s": audited(result.parent, step) for step in STEPS}, **beside,
                          **of_log(HagfishLog(search.parent / "knot.h5"))})
-        else:  # nothing tied the knot
-            lines = lambda name: (search.parent / name).read_text(encoding="utf-8").count("\n")
-            wall, cpu = time_spent(search.parent)
+        else:
             rows.append({**dict.fromkeys([*KEPT, *(f"audit_{step}_s" for step in STEPS), *OF_LOG], ""), "knot_wanted": what["knot"],
-                         "seed": str(what["seed"]), "found": "no", "tries": str(lines("tries.csv")), "tied_in_soft_body": str(lines("candidates.csv")), "cpu_s": cpu, "wall_s": wall, **beside})
+                         "seed": str(what["seed"]), **without_result(search.parent), **beside})
     if not results:
         raise LogError(f"{folder}: holds no folder with a result.csv")
     log = HagfishLog(results[0].parent / "knot.h5")

@@ -2,6 +2,7 @@
 // cannot be.
 #include "experiments/design/design.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -66,6 +67,9 @@ TEST(Design, TriesAreTheSameWhateverTheThreadsAndStops) {
   EXPECT_GE(mended_one.time.wall, 1000);
   EXPECT_GE(mended_one.time.cpu, 2000);
   EXPECT_LT(mended_one.time.wall, 3000);
+  const std::string times = read_text_file((folder.path() / "three/times.csv").string());
+  EXPECT_TRUE(
+      times.ends_with(fmt::format("\n{:.1f},{:.1f}\n", mended_one.time.wall, mended_one.time.cpu)));
   const std::vector<std::string> mended = sorted_lines(folder.path() / "three/tries.csv");
   EXPECT_TRUE(std::ranges::includes(mended, lines));
   again.seed = 2;

@@ -32,17 +32,13 @@ std::string sized_text(double size) {
   return specimen_text(animal, own);
 }
 
-ResolvedScene resolved(const FoundScene& found) {
-  return read_scene_text(found.scene, scene_file, {},
-                         {{program_file, found.program}, {specimen_file, found.specimen}});
-}
-
 TEST(LivingBody, OfAnotherSizeHasMusclesDragAndContactOfItsOwn) {
   const SoftBody own = soft_body("");
   const std::string text = sized_text(1.25);
   const SoftBody larger = soft_body(text);
-  const Scene base = resolved(found_scene(own, straight(own), "3_1", "")).scene;
-  const ResolvedScene other = resolved(found_scene(larger, straight(larger), "3_1", text));
+  const Scene base = resolved_scene(found_scene(own, straight(own), "3_1", ""), {}).scene;
+  const ResolvedScene other =
+      resolved_scene(found_scene(larger, straight(larger), "3_1", text), {});
   EXPECT_NEAR(other.specimen.length, 1.25 * own.resolved.specimen.length, 1e-4);
   const auto ratio = [](double of, double to) { return of / to; };
   constexpr double rounding = 1e-3;  // of the digits in the files
@@ -71,8 +67,8 @@ TEST(LivingBody, SlowerProgramsHaveTheSameShapesLater) {
   const FoundScene one = found_scene(body, straight(body), "3_1", "");
   const FoundScene slow = found_scene(body, straight(body), "3_1", "", 1.5);
   EXPECT_EQ(slow.tighten_from, 1.5 * one.tighten_from);
-  const CurvatureProgram of_one = resolved(one).scene.script.curvature,
-                         of_slow = resolved(slow).scene.script.curvature;
+  const CurvatureProgram of_one = resolved_scene(one, {}).scene.script.curvature,
+                         of_slow = resolved_scene(slow, {}).scene.script.curvature;
   ASSERT_EQ(of_slow.time.size(), of_one.time.size());
   EXPECT_NEAR(of_slow.time.back(), 1.5 * of_one.time.back(), 1e-6);
 }
@@ -98,7 +94,7 @@ TEST(OtherAnimals, AreTheSameForTheSameNumberAndWithinBounds) {
     EXPECT_EQ(other.specimen, in_other_animal(found, own, number).specimen);
     EXPECT_EQ(other.program, found.program);
     animals.insert(other.specimen);
-    const Specimen animal = resolved(other).specimen;
+    const Specimen animal = resolved_scene(other, {}).specimen;
     const AnimalRatios beside = ratios(animal, own);
     EXPECT_GT(beside.length, 0.6);
     EXPECT_LT(beside.length, 1.4);

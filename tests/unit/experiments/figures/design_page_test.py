@@ -26,9 +26,11 @@ def test_an_animal_is_served_by_a_run_that_ends_and_meets_all(tmp_path):
     assert design.served(tmp_path / "none", "paper") == ""
 
 
-def test_a_search_that_goes_on_has_the_time_of_its_last_report(tmp_path):
+def test_a_search_without_a_result_has_its_counts_and_the_time_of_its_last_report(tmp_path):
+    for name, lines in (("tries", 3), ("candidates", 2)):
+        (tmp_path / f"{name}.csv").write_text("7,a\n" * lines)
     (tmp_path / "times.csv").write_text("10.0,15.5\n20.0,30.5\n")
-    assert design.time_spent(tmp_path) == ["20.0", "30.5"]
+    assert design.without_result(tmp_path) == {"found": "no", "tries": "3", "tied_in_soft_body": "2", "cpu_s": "30.5", "wall_s": "20.0"}
 
 
 class Log(dict):
