@@ -36,7 +36,8 @@ namespace fs = std::filesystem;
 // s, that the knot is pulled together in the soft body: the program ends with a knot that holds.
 constexpr double tightening = 1.5;
 
-constexpr int few = 4;  // starts or animals, of each law, by which most programs are given up
+constexpr int few_starts = 4;   // of each law, by which most programs are given up
+constexpr int few_animals = 4;  // that must repeat what is to be gone on from
 
 constexpr const char *tries_name = "tries.csv", *candidates_name = "candidates.csv",
                      *times_name = "times.csv", *start_name = "start.csv", *log_name = "knot.h5",
@@ -163,10 +164,11 @@ std::optional<Candidate> candidate_of(int number, const std::string& text) {
 
 class Search {
  public:
-  Search(const DesignOptions& options, SoftBody body)
+  Search(const DesignOptions& options, const Specimen& own)
       : options_(options),
         wanted_(*knot_called(*name_in_scene(options.knot))),
-        body_(std::move(body)),
+        own_(own),
+        body_(soft_body(options.animals ? other_animal(own, thickest_animal) : options.specimen)),
         archive_(options.seed, options.knot),
         known_tries_(numbered_lines(options.folder / tries_name)),
         known_candidates_(numbered_lines(options.folder / candidates_name)),
@@ -233,8 +235,8 @@ class Search {
     return tied;
   }
 
-  FoundScene other_animal(const FoundScene& scene, int number) const {
-    return in_other_animal(scene, body_.resolved.specimen, static_cast<unsigned>(number));
+  FoundScene in_other(const FoundScene& scene, int number) const {
+    return in_other_animal(scene, own_, static_cast<unsigned>(number));
   }
 
   /// Finds out where the living body repeats what a try tied, in a few other animals,
@@ -244,12 +246,12 @@ class Search {
       if (!archive_.would_keep(tying.path, seen)) continue;
       const Shapes shapes = led_shapes(body_, path_reached(tying.path, seen.at), seen.at);
       if (!shapes.failure.empty()) continue;
-      const FoundScene scene = found_scene(body_, shapes, knot_name(seen.type), options_.specimen,
-                                           std::ranges::max(paces));
+      const FoundScene scene = found_scene(body_.model, shapes, knot_name(seen.type),
+                                           options_.specimen, std::ranges::max(paces));
       seen.repeats = repeats(scene, options_.interrupted);
-      const int animals = options_.animals ? few : 0;
+      const int animals = options_.animals ? few_animals : 0;
       for (int k = 1; k <= animals && seen.repeats; ++k) {
-        seen.repeats = repeats(other_animal(scene, k), options_.interrupted);
+        seen.repeats = repeats(in_other(scene, k), options_.interrupted);
       }
       if (options_.interrupted()) return false;
     }
@@ -262,7 +264,7 @@ class Search {
   }
 
   FoundScene found_from(const Shapes& shapes, double slower) const {
-    return found_scene(body_, shapes, options_.knot, options_.specimen, slower);
+    return found_scene(body_.model, shapes, options_.knot, options_.specimen, slower);
   }
 
   std::optional<Candidate> known_candidate(int number) const {
@@ -357,24 +359,22 @@ class Search {
     return candidate.shortcoming.empty();
   }
 
-  /// A few runs of each kind first, then the others, of which starts seldom fail where animals did
-  /// not: most candidates are given up soon.
+  /// A few starts first, by which most candidates are given up. Then all animals: how many a
+  /// program serves tells which paths to go on from. The other starts seldom fail where these did
+  /// not.
   void judge_variety(const FoundScene& scene, Candidate& candidate) const {
     const Series starts{"start", allowed_failures, candidate.passed, [&](int seed, int law) {
                           return run_trial(scene, {.law = law, .seed = seed}, options_.interrupted);
                         }};
     const Series animals{
         "other animal", allowed_animals, candidate.animals, [&](int number, int law) {
-          return run_trial(other_animal(scene, number), {.law = law}, options_.interrupted);
+          return run_trial(in_other(scene, number), {.law = law}, options_.interrupted);
         }};
-    candidate.judged = few;
-    if (!serves(starts, 1, few, candidate)) return;
-    if (options_.animals && !(serves(animals, 1, few, candidate) &&
-                              serves(animals, few + 1, judged_animals, candidate))) {
-      return;
-    }
+    candidate.judged = few_starts;
+    if (!serves(starts, 1, few_starts, candidate)) return;
+    if (options_.animals && !serves(animals, 1, judged_animals, candidate)) return;
     candidate.judged = judged_starts;
-    serves(starts, few + 1, judged_starts, candidate);
+    serves(starts, few_starts + 1, judged_starts, candidate);
   }
 
   /// Its run must not depend on the time step, and its log must pass the audit.
@@ -455,7 +455,8 @@ class Search {
 
   const DesignOptions& options_;
   KnotInvariants wanted_;
-  SoftBody body_;
+  Specimen own_;
+  SoftBody body_;  // the animal's; the thickest other one's where a program must serve these
   Archive archive_;
   int first_ = 0;  // number of its own first try: those of the start come before
   std::map<int, std::string> known_tries_, known_candidates_;
@@ -486,11 +487,11 @@ std::string DesignOutcome::in_words() const {
 }
 
 DesignOutcome design(const DesignOptions& options) {
-  SoftBody body = soft_body(options.specimen);
-  const std::string why = too_short_for(body.resolved.specimen, options.knot);
+  const Specimen own = soft_body(options.specimen).resolved.specimen;
+  const std::string why = too_short_for(own, options.knot);
   if (!why.empty()) throw InputError(why);
   claim(options);
-  Search search(options, std::move(body));
+  Search search(options, own);
   return search.run();
 }
 

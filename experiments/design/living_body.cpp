@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/input/curvature_csv.hpp"
+#include "core/input/scene_text.hpp"
 #include "experiments/curvature/program_fit.hpp"
 #include "experiments/design/draw.hpp"
 #include "experiments/specimen/specimen_files.hpp"
@@ -21,13 +22,14 @@ constexpr double between_times = 0.35;  // s of the soft body
 constexpr int stations = 25;
 constexpr double time_to_slide = 28;  // s, as the base scene has behind its program
 
-/// The scene of a found program; `animal` is null where it is the base scene's.
-std::string scene_text(const FoundScene& found, const Specimen* animal) {
+/// The scene of a found program.
+std::string scene_text(const FoundScene& found) {
   std::string controller, tables;
   std::string time = fmt::format("duration = {:.1f}  # s\n", found.tighten_from + time_to_slide);
-  if (animal != nullptr) {
+  if (!found.specimen.empty()) {
     const ResolvedScene base = read_scene_text("base = \"living_overhand\"\n", "design");
-    for (const auto& [name, lines] : sized_tables(*animal, base)) {
+    const Specimen animal = read_specimen_text(found.specimen, specimen_file);
+    for (const auto& [name, lines] : sized_tables(animal, base)) {
       if (name == "controller") {
         controller = lines;
       } else if (name == "time") {
@@ -61,7 +63,7 @@ types = [  # type, from, to: s, or a phase and s after it
 slide_distance = "0.04 L"
 energy_loss = 0.15              # by Euler's rule at its release
 )",
-      found.knot, animal == nullptr ? "" : fmt::format("specimen = \"{}\"\n", specimen_file),
+      found.knot, found.specimen.empty() ? "" : fmt::format("specimen = \"{}\"\n", specimen_file),
       program_file, found.tighten_from, *name_in_scene(found.knot), controller, tables, time);
 }
 
@@ -87,18 +89,6 @@ double thickness(const Specimen& animal) {
          animal.length;
 }
 
-Specimen other_animal(const Specimen& own, unsigned number) {
-  constexpr unsigned drawn_for_each = 4;
-  std::vector<std::pair<double, unsigned>> draws;  // thickness, number of the draw
-  for (unsigned k = 1; k <= drawn_for_each * judged_animals; ++k) {
-    draws.emplace_back(thickness(drawn_animal(own, k)), k);
-  }
-  std::ranges::sort(draws, std::greater());
-  const unsigned pair = (number - 1) / 2;
-  const unsigned rank = number % 2 == 1 ? pair : judged_animals - 1 - pair;
-  return drawn_animal(own, draws.at(drawn_for_each * rank + 1).second);
-}
-
 /// The run of a found scene with these settings. Nothing where `interrupted`.
 std::optional<RunSummary> run_with(const FoundScene& found, const std::vector<std::string>& set,
                                    const std::function<bool()>& interrupted) {
@@ -110,23 +100,34 @@ std::optional<RunSummary> run_with(const FoundScene& found, const std::vector<st
 
 }  // namespace
 
-FoundScene found_scene(const SoftBody& body, const Shapes& shapes, const std::string& knot,
+std::string other_animal(const Specimen& own, unsigned number) {
+  constexpr unsigned drawn_for_each = 4;
+  std::vector<std::pair<double, unsigned>> draws;  // thickness, number of the draw
+  for (unsigned k = 1; k <= drawn_for_each * judged_animals; ++k) {
+    draws.emplace_back(thickness(drawn_animal(own, k)), k);
+  }
+  std::ranges::sort(draws, std::greater());
+  const unsigned pair = (number - 1) / 2;
+  const unsigned rank = number % 2 == 1 ? pair : judged_animals - 1 - pair;
+  return specimen_text(drawn_animal(own, draws.at(drawn_for_each * rank + 1).second), own);
+}
+
+FoundScene found_scene(const Model& led, const Shapes& shapes, const std::string& knot,
                        const std::string& specimen, double slower) {
   std::vector<double> time = shapes.time;
   for (double& one : time) one *= slower;
   const double end = time.back();
   const int times = 1 + static_cast<int>(std::ceil(shapes.time.back() / between_times));
-  const ProgramFit fit = fit_program(body.model, time, shapes.q, times, stations);
+  const ProgramFit fit = fit_program(led, time, shapes.q, times, stations);
   FoundScene found{"", curvature_csv(fit.program), specimen, knot, end};
-  found.scene = scene_text(found, specimen.empty() ? nullptr : &body.resolved.specimen);
+  found.scene = scene_text(found);
   return found;
 }
 
 FoundScene in_other_animal(const FoundScene& found, const Specimen& own, unsigned number) {
-  const Specimen animal = other_animal(own, number);
   FoundScene other = found;
-  other.specimen = specimen_text(animal, own);
-  other.scene = scene_text(other, &animal);
+  other.specimen = other_animal(own, number);
+  other.scene = scene_text(other);
   return other;
 }
 

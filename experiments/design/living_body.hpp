@@ -30,9 +30,10 @@ inline constexpr const char* specimen_file = "specimen.toml";
 /// programs are tried: it has no hand to lead its tail, and its muscles are weaker than that.
 inline constexpr double paces[] = {1, 1.5};
 
-/// A curvature program fitted to `shapes`, in the scene of an animal that ties `knot` with it,
-/// `slower` times as slowly. `specimen`: text of the animal's file; empty for the base scene's.
-FoundScene found_scene(const SoftBody& body, const Shapes& shapes, const std::string& knot,
+/// A curvature program fitted to the `shapes` of the body that was `led`, in the scene of an animal
+/// that ties `knot` with it, `slower` times as slowly. `specimen`: text of the animal's file; empty
+/// for the base scene's.
+FoundScene found_scene(const Model& led, const Shapes& shapes, const std::string& knot,
                        const std::string& specimen, double slower = 1);
 
 /// Other animals that a program is judged by if asked for, for each law, and how many may fail.
@@ -42,10 +43,15 @@ inline constexpr int judged_animals = 10, allowed_animals = 1;
 /// their limits differ at most.
 inline constexpr double shortest_animal = 0.6, longest_animal = 1.4, animal_change = 0.2;
 
-/// The same program in such an animal. Muscles and passive stiffness go with the girth. `number`,
-/// from 1 to judged_animals: the thickest for its length first, then the thinnest, the second
-/// thickest, and so on. They are of four times as many drawn animals, one of each four in the order
-/// of thickness, so that they are as thick as animals at large: thick ones tie least.
+/// The file of such an animal. Muscles and passive stiffness go with the girth. `number`, from 1 to
+/// judged_animals: the thickest for its length first, then the thinnest, the second thickest, and
+/// so on. They are of four times as many drawn animals, one of each four in the order of thickness,
+/// so that they are as thick as animals at large: thick ones tie least.
+std::string other_animal(const Specimen& own, unsigned number);
+
+inline constexpr unsigned thickest_animal = 1;
+
+/// The same program in that animal.
 FoundScene in_other_animal(const FoundScene& found, const Specimen& own, unsigned number);
 
 /// The control laws by which a found knot is slid.

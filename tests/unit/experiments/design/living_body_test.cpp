@@ -36,9 +36,9 @@ TEST(LivingBody, OfAnotherSizeHasMusclesDragAndContactOfItsOwn) {
   const SoftBody own = soft_body("");
   const std::string text = sized_text(1.25);
   const SoftBody larger = soft_body(text);
-  const Scene base = resolved_scene(found_scene(own, straight(own), "3_1", ""), {}).scene;
+  const Scene base = resolved_scene(found_scene(own.model, straight(own), "3_1", ""), {}).scene;
   const ResolvedScene other =
-      resolved_scene(found_scene(larger, straight(larger), "3_1", text), {});
+      resolved_scene(found_scene(larger.model, straight(larger), "3_1", text), {});
   EXPECT_NEAR(other.specimen.length, 1.25 * own.resolved.specimen.length, 1e-4);
   const auto ratio = [](double of, double to) { return of / to; };
   constexpr double rounding = 1e-3;  // of the digits in the files
@@ -64,8 +64,8 @@ TEST(SoftBody, OfAnotherSizeIsLedAsTheFirstOne) {
 
 TEST(LivingBody, SlowerProgramsHaveTheSameShapesLater) {
   const SoftBody body = soft_body("");
-  const FoundScene one = found_scene(body, straight(body), "3_1", "");
-  const FoundScene slow = found_scene(body, straight(body), "3_1", "", 1.5);
+  const FoundScene one = found_scene(body.model, straight(body), "3_1", "");
+  const FoundScene slow = found_scene(body.model, straight(body), "3_1", "", 1.5);
   EXPECT_EQ(slow.tighten_from, 1.5 * one.tighten_from);
   const CurvatureProgram of_one = resolved_scene(one, {}).scene.script.curvature,
                          of_slow = resolved_scene(slow, {}).scene.script.curvature;
@@ -86,7 +86,7 @@ TEST(LivingBody, RepeatsWhatItsProgramTies) {
 TEST(OtherAnimals, AreTheSameForTheSameNumberAndWithinBounds) {
   const SoftBody body = soft_body("");
   const Specimen& own = body.resolved.specimen;
-  const FoundScene found = found_scene(body, straight(body), "4_1", "");
+  const FoundScene found = found_scene(body.model, straight(body), "4_1", "");
   std::set<std::string> animals;
   std::vector<double> thickness;
   for (unsigned number = 1; number <= judged_animals; ++number) {
