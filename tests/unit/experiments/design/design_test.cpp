@@ -15,6 +15,7 @@
 #include "core/input/text_file.hpp"
 #include "core/log/hdf5_error.hpp"
 #include "experiments/design/length_bound.hpp"
+#include "experiments/design/living_body.hpp"
 #include "experiments/design/tries.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -74,6 +75,32 @@ TEST(Design, TriesAreTheSameWhateverTheThreadsAndStops) {
   EXPECT_TRUE(std::ranges::includes(mended, lines));
   again.seed = 2;
   EXPECT_THROW(design(again), FileError);
+}
+
+TEST(Design, ForOtherAnimalsTheThickestOfTheseIsLed) {
+  const TemporaryFolder folder;
+  DesignOptions options = one_batch(folder.path(), 2);
+  options.animals = true;
+  design(options);
+  const SoftBody own = soft_body("");
+  const SoftBody thickest = soft_body(other_animal(own.resolved.specimen, thickest_animal));
+  const Archive archive(options.seed, options.knot);
+  bool differs = false;  // turns about strands do; others are laid beforehand
+  for (const std::string& line : sorted_lines(folder.path() / "tries.csv")) {
+    const auto number = static_cast<unsigned>(std::stoi(line));
+    if (number >= 4) continue;
+    const auto path_in = [&](const SoftBody& body) {
+      Draw draw(options.seed + 1, number);
+      const Tying tying = *try_plan(body, archive.plan_of(static_cast<int>(number)), options.knot,
+                                    draw, options.interrupted);
+      return tying_text({.seen = {}, .path = tying.path});
+    };
+    const std::string path =
+        tying_text({.seen = {}, .path = tying_of(line.substr(line.find(',') + 1))->path});
+    EXPECT_EQ(path, path_in(thickest));
+    differs |= path != path_in(own);
+  }
+  EXPECT_TRUE(differs);
 }
 
 TEST(Design, StartsFromTheTriesOfAnotherSearch) {
