@@ -168,20 +168,25 @@ class Search {
       : options_(options),
         wanted_(*knot_called(*name_in_scene(options.knot))),
         own_(own),
-        body_(soft_body(options.animals ? other_animal(own, thickest_animal) : options.specimen)),
-        archive_(options.seed, options.knot),
         known_tries_(numbered_lines(options.folder / tries_name)),
         known_candidates_(numbered_lines(options.folder / candidates_name)),
         before_(time_before(options.folder / times_name)),
         tries_file_(options.folder / tries_name),
         candidates_file_(options.folder / candidates_name),
         times_file_(options.folder / times_name) {
-    if (options.animals) outcome_.judged_runs += 2 * judged_animals;
+    lead_too(options.specimen);
+    if (options.animals) {
+      lead_too(other_animal(own, thickest_animal));
+      outcome_.judged_runs += 2 * judged_animals;
+    }
     end_last_line(options.folder / tries_name, tries_file_);
     end_last_line(options.folder / candidates_name, candidates_file_);
     end_last_line(options.folder / times_name, times_file_);
     for (const auto& [number, text] : numbered_lines(options.folder / start_name)) {
-      if (const std::optional<Tying> tying = tying_of(text)) archive_.add(first_++, {}, *tying);
+      const std::optional<Tying> tying = tying_of(text);
+      if (!tying) continue;
+      led_by(first_).archive.add(first_, {}, *tying);
+      ++first_;
     }
   }
 
@@ -205,12 +210,28 @@ class Search {
   }
 
  private:
+  /// A soft body, and what was tried with it.
+  struct LedBody {
+    SoftBody body;
+    Archive archive;
+  };
+
+  void lead_too(const std::string& specimen) {
+    led_.push_back({soft_body(specimen), Archive(options_.seed, options_.knot)});
+  }
+
+  /// By turns the animal's own body and, where a program must serve others, the thickest of these.
+  LedBody& led_by(int number) { return led_[number % led_.size()]; }
+  const LedBody& led_by(int number) const { return led_[number % led_.size()]; }
+
   /// Tries a batch; gives the tries that tied the knot.
   std::vector<int> try_batch() {
     const int first = first_ + outcome_.tries;
     std::vector<PathPlan> plans(batch_size);
     std::vector<std::optional<Tying>> tyings(batch_size);
-    for (int k = 0; k < batch_size; ++k) plans[k] = archive_.plan_of(first + k);
+    for (int k = 0; k < batch_size; ++k) {
+      plans[k] = led_by(first + k).archive.plan_of(first + k);
+    }
     in_parallel(batch_size, options_.threads, [&](int k) {
       const int number = first + k;
       if (const auto known = known_tries_.find(number); known != known_tries_.end()) {
@@ -218,14 +239,15 @@ class Search {
       }
       if (tyings[k]) return;
       Draw draw(options_.seed + 1, static_cast<unsigned>(number));
-      tyings[k] = try_plan(body_, plans[k], options_.knot, draw, options_.interrupted);
-      if (tyings[k] && !try_living(*tyings[k])) tyings[k].reset();
+      const LedBody& led = led_by(number);
+      tyings[k] = try_plan(led.body, plans[k], options_.knot, draw, options_.interrupted);
+      if (tyings[k] && !try_living(led, *tyings[k])) tyings[k].reset();
       if (tyings[k]) tries_file_.add(fmt::format("{},{}\n", number, tying_text(*tyings[k])));
     });
     if (options_.interrupted()) return {};
     std::vector<int> tied;
     for (int k = 0; k < batch_size; ++k) {
-      archive_.add(first + k, plans[k], *tyings[k]);
+      led_by(first + k).archive.add(first + k, plans[k], *tyings[k]);
       if (tyings[k]->tied() == wanted_) {
         tied.push_back(first + k);
         tied_paths_[first + k] = tyings[k]->path;
@@ -241,12 +263,12 @@ class Search {
 
   /// Finds out where the living body repeats what a try tied, in a few other animals,
   /// too, where the program must serve these; false where it is interrupted.
-  bool try_living(Tying& tying) const {
+  bool try_living(const LedBody& led, Tying& tying) const {
     for (TypeSeen& seen : tying.seen) {
-      if (!archive_.would_keep(tying.path, seen)) continue;
-      const Shapes shapes = led_shapes(body_, path_reached(tying.path, seen.at), seen.at);
+      if (!led.archive.would_keep(tying.path, seen)) continue;
+      const Shapes shapes = led_shapes(led.body, path_reached(tying.path, seen.at), seen.at);
       if (!shapes.failure.empty()) continue;
-      const FoundScene scene = found_scene(body_.model, shapes, knot_name(seen.type),
+      const FoundScene scene = found_scene(led.body.model, shapes, knot_name(seen.type),
                                            options_.specimen, std::ranges::max(paces));
       seen.repeats = repeats(scene, options_.interrupted);
       const int animals = options_.animals ? few_animals : 0;
@@ -260,11 +282,11 @@ class Search {
 
   /// Of the path of a try that tied the knot.
   Shapes shapes_of(int number) const {
-    return tied_shapes(body_, tied_paths_.at(number), options_.knot, tightening);
+    return tied_shapes(led_by(number).body, tied_paths_.at(number), options_.knot, tightening);
   }
 
-  FoundScene found_from(const Shapes& shapes, double slower) const {
-    return found_scene(body_.model, shapes, options_.knot, options_.specimen, slower);
+  FoundScene found_from(int number, const Shapes& shapes, double slower) const {
+    return found_scene(led_by(number).body.model, shapes, options_.knot, options_.specimen, slower);
   }
 
   std::optional<Candidate> known_candidate(int number) const {
@@ -294,7 +316,7 @@ class Search {
         candidates_file_.add(candidate_text(candidate));
       }
       outcome_.candidates.push_back(candidate);
-      archive_.judged(candidate.number, candidate.passes());
+      led_by(candidate.number).archive.judged(candidate.number, candidate.passes());
       outcome_.found = candidate.shortcoming.empty();
       if (!outcome_.best || candidate.passes() > outcome_.best->passes() || outcome_.found) {
         outcome_.best = candidate;
@@ -313,7 +335,7 @@ class Search {
       return candidate;
     }
     for (const double slower : paces) {
-      scene = found_from(shapes, slower);
+      scene = found_from(number, shapes, slower);
       candidate.slower = slower;
       candidate.shortcoming = why_not_from_straight(scene);
       if (candidate.shortcoming.empty()) break;
@@ -399,7 +421,11 @@ class Search {
 
   void note_types() {
     outcome_.types.clear();
-    for (const auto& [type, count] : archive_.counts()) {
+    std::map<std::pair<int, int>, int> counts;
+    for (const LedBody& led : led_) {
+      for (const auto& [type, count] : led.archive.counts()) counts[type] += count;
+    }
+    for (const auto& [type, count] : counts) {
       outcome_.types.emplace_back(knot_name({type.first, type.second}), count);
     }
   }
@@ -430,7 +456,7 @@ class Search {
   void write_best() {
     const Shapes shapes = shapes_of(outcome_.best->number);
     if (!shapes.failure.empty()) return;
-    const FoundScene found = found_from(shapes, outcome_.best->slower);
+    const FoundScene found = found_from(outcome_.best->number, shapes, outcome_.best->slower);
     const std::optional<SweepRun> run = write_run(found);
     if (!run) return;
     write_text(options_.folder / "result.csv", design_row(options_, outcome_, run->summary));
@@ -456,8 +482,7 @@ class Search {
   const DesignOptions& options_;
   KnotInvariants wanted_;
   Specimen own_;
-  SoftBody body_;  // the animal's; the thickest other one's where a program must serve these
-  Archive archive_;
+  std::vector<LedBody> led_;
   int first_ = 0;  // number of its own first try: those of the start come before
   std::map<int, std::string> known_tries_, known_candidates_;
   DesignTime before_;
