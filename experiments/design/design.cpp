@@ -36,7 +36,7 @@ namespace fs = std::filesystem;
 // s, that the knot is pulled together in the soft body: the program ends with a knot that holds.
 constexpr double tightening = 1.5;
 
-constexpr int few_starts = 4;   // of each law, by which most programs are given up
+constexpr int few_starts = 4;   // of each law, before the animals and the other starts
 constexpr int few_animals = 4;  // that must repeat what is to be gone on from
 
 constexpr const char *tries_name = "tries.csv", *candidates_name = "candidates.csv",
@@ -164,19 +164,18 @@ std::optional<Candidate> candidate_of(int number, const std::string& text) {
 
 class Search {
  public:
-  Search(const DesignOptions& options, const Specimen& own)
+  Search(const DesignOptions& options, SoftBody own)
       : options_(options),
         wanted_(*knot_called(*name_in_scene(options.knot))),
-        own_(own),
         known_tries_(numbered_lines(options.folder / tries_name)),
         known_candidates_(numbered_lines(options.folder / candidates_name)),
         before_(time_before(options.folder / times_name)),
         tries_file_(options.folder / tries_name),
         candidates_file_(options.folder / candidates_name),
         times_file_(options.folder / times_name) {
-    lead_too(options.specimen);
+    lead_too(std::move(own));
     if (options.animals) {
-      lead_too(other_animal(own, thickest_animal));
+      lead_too(soft_body(other_animal(own_animal(), thickest_animal)));
       outcome_.judged_runs += 2 * judged_animals;
     }
     end_last_line(options.folder / tries_name, tries_file_);
@@ -216,9 +215,11 @@ class Search {
     Archive archive;
   };
 
-  void lead_too(const std::string& specimen) {
-    led_.push_back({soft_body(specimen), Archive(options_.seed, options_.knot)});
+  void lead_too(SoftBody body) {
+    led_.push_back({std::move(body), Archive(options_.seed, options_.knot)});
   }
+
+  const Specimen& own_animal() const { return led_.front().body.resolved.specimen; }
 
   /// By turns the animal's own body and, where a program must serve others, the thickest of these.
   LedBody& led_by(int number) { return led_[number % led_.size()]; }
@@ -258,7 +259,7 @@ class Search {
   }
 
   FoundScene in_other(const FoundScene& scene, int number) const {
-    return in_other_animal(scene, own_, static_cast<unsigned>(number));
+    return in_other_animal(scene, own_animal(), static_cast<unsigned>(number));
   }
 
   /// Finds out where the living body repeats what a try tied, in a few other animals,
@@ -381,9 +382,8 @@ class Search {
     return candidate.shortcoming.empty();
   }
 
-  /// A few starts first, by which most candidates are given up. Then all animals: how many a
-  /// program serves tells which paths to go on from. The other starts seldom fail where these did
-  /// not.
+  /// A few starts first, then all animals: how many a program serves tells which paths to go on
+  /// from. The other starts seldom fail where these did not.
   void judge_variety(const FoundScene& scene, Candidate& candidate) const {
     const Series starts{"start", allowed_failures, candidate.passed, [&](int seed, int law) {
                           return run_trial(scene, {.law = law, .seed = seed}, options_.interrupted);
@@ -481,9 +481,8 @@ class Search {
 
   const DesignOptions& options_;
   KnotInvariants wanted_;
-  Specimen own_;
-  std::vector<LedBody> led_;
-  int first_ = 0;  // number of its own first try: those of the start come before
+  std::vector<LedBody> led_;  // the animal's own body first
+  int first_ = 0;             // number of its own first try: those of the start come before
   std::map<int, std::string> known_tries_, known_candidates_;
   DesignTime before_;
   AppendedFile tries_file_, candidates_file_, times_file_;
@@ -512,11 +511,11 @@ std::string DesignOutcome::in_words() const {
 }
 
 DesignOutcome design(const DesignOptions& options) {
-  const Specimen own = soft_body(options.specimen).resolved.specimen;
-  const std::string why = too_short_for(own, options.knot);
+  SoftBody own = soft_body(options.specimen);
+  const std::string why = too_short_for(own.resolved.specimen, options.knot);
   if (!why.empty()) throw InputError(why);
   claim(options);
-  Search search(options, own);
+  Search search(options, std::move(own));
   return search.run();
 }
 

@@ -17,6 +17,12 @@ def test_the_page_is_made_of_its_table(tmp_path):
     assert (tmp_path / "design.md").read_text(encoding="utf-8") == (RESULTS / "design.md").read_text(encoding="utf-8")
 
 
+def test_each_row_names_a_revision_of_the_heading():
+    rows, notes = design.read_table(RESULTS / "design.csv")
+    named = notes[0].removeprefix("Measured at ").split(" on ")[0].split(", ")
+    assert sorted({row["revision"] for row in rows}) == named
+
+
 def test_an_animal_is_served_by_a_run_that_ends_and_meets_all(tmp_path):
     for law, rows in (("paper", ["ok,,", "ok,Eq. 6,", "never tied,,why"]), ("reflex", ["ok,,", "ok,,", "capped,slide,why"])):
         (tmp_path / f"unseen_{law}").mkdir()
