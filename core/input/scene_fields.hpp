@@ -359,8 +359,10 @@ void expect_fields(Io& io, ExpectSettings& s) {
   io.template choice<Hand>("hand", s.hand,
                            {{"any", Hand::any}, {"right", Hand::right}, {"left", Hand::left}});
   io.length("slide_distance", s.slide_distance, not_negative());
+  io.number("slide_share", s.slide_share, within(0, 1));
   io.length("reverse_distance", s.reverse_distance, not_negative());
   io.string("out_of", s.out_of);
+  io.number("torque_share", s.torque_share, not_negative());
   io.number("pull", s.pull, not_negative());
   io.number("pull_settled", s.pull_settled, not_negative());
   io.number("pull_drift", s.pull_drift, not_negative());

@@ -42,9 +42,6 @@ Impulses impulses_of(const StepInput& in, const Kinematics& kin, const StepSolut
     outside.linear += step.force[kind].head<3>();
     outside.angular += moment_of_root(step.force[kind], kin, centre);
   }
-  if (in.scene.controller.eq6_at == Eq6Point::centreline) {
-    outside.angular += moment_of_root(step.force[RowKind::thigmotaxis], kin, centre);
-  }
   return {drag * h, outside * h};
 }
 

@@ -44,7 +44,7 @@ Momentum momentum_of(const Model& model, const Kinematics& kin);
 struct MomentumLedger {
   Momentum initial, momentum;
   Momentum drag;
-  Momentum outside;  ///< tip, head clamp, head plate, gravity; moments of Eq. 6 at the centreline
+  Momentum outside;  ///< tip, head clamp, head plate, gravity
   /// Gain of the integrator: bodies turn within a step while their velocities do not, and the
   /// explicit Coriolis force differs from this. Also what guards take from the velocity.
   Momentum integrator;

@@ -163,10 +163,11 @@ struct ThigmotaxisSpeeds {
 /// The end of the animal by which the knot leaves it.
 enum class BodyEnd { head, tail };
 
-/// Where the two strands' velocities of Eq. 6 are taken.
+/// Where the two strands' velocities of Eq. 6 are taken. The forces are internal in both cases.
 enum class Eq6Point {
-  skin,       ///< at one point, where the skins touch: f_thigmo is internal
-  centreline  ///< at the two closest points of the spline: f_thigmo has a couple from outside
+  skin,  ///< at one point, where the skins touch
+  /// At the two closest points of the spline, as seen from the head: as the joints move them.
+  centreline
 };
 
 /// What Eq. 6 asks of two strands that are commanded to run at given speeds.
@@ -409,9 +410,15 @@ struct ExpectSettings {
   /// Headward travel of the knot's head end while sliding, cm; where the knot began nearer to its
   /// release than that, all the way there, but half of this at least.
   double slide_distance = 0;
+  /// Least Slide::share() of the slide and of the way back: both ends of the knot move, and the
+  /// body's curvature with them.
+  double slide_share = 0;
   double reverse_distance = 0;  ///< tailward travel of its tail end on the way back, cm
   std::string out_of;  ///< plane behind which the head is until the knot pulls it out; "" for none
-  double pull = 0;     ///< mean pull at the food, N
+  /// Largest torque of a hinge while the knot slides or pulls, as a share of active.capacity: the
+  /// animal's own and f_thigmo together, both of which muscles make. 0: not bounded.
+  double torque_share = 0;
+  double pull = 0;                    ///< mean pull at the food, N
   double pull_settled = 1;            ///< of all of the pull but its first part, this long, s
   double pull_drift = 0.4;            ///< between the halves of that, of its mean
   double pull_balance = 0.005;        ///< of the mean force of the head plate from it, of it

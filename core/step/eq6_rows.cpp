@@ -37,6 +37,26 @@ class WrenchSum {
   std::vector<char> loaded_;
 };
 
+/// The forces of a row with points, by body.
+std::vector<BodyWrench> wrenches_of(const Row& row, const Kinematics& kin) {
+  std::vector<BodyWrench> found;
+  visit_forces(row, kin,
+               [&](int body, const Eigen::Vector3d& moment, const Eigen::Vector3d& force) {
+                 found.push_back({body, moment, force});
+               });
+  return found;
+}
+
+/// Adds a couple at the head, which takes up the moment of the others.
+void take_up_moment(std::vector<BodyWrench>& wrenches) {
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+  for (const BodyWrench& one : wrenches) moment += one.moment;
+  if (wrenches.front().body > 0) {
+    wrenches.insert(wrenches.begin(), {0, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()});
+  }
+  wrenches.front().moment -= moment;
+}
+
 double cosine_of(const Contact& contact) { return contact.tangent_a.dot(contact.tangent_b); }
 
 /// t_a, or t_b with the sign that turns ẋ_a - ẋ_b into ẋ_b - ẋ_a; both reversed towards the tail.
@@ -113,6 +133,12 @@ std::array<Row, 2> eq6_rows(const Model& model, const Kinematics& kin,
     }
     rows[0].patch = sum_a.of_bodies();
     rows[1].patch = sum_b.of_bodies();
+  }
+  if (scene.controller.eq6_at == Eq6Point::centreline) {
+    for (Row& row : rows) {
+      if (row.patch.empty()) row.patch = wrenches_of(row, kin);
+      take_up_moment(row.patch);
+    }
   }
   const ThigmotaxisSpeeds asked =
       command.slip == Eq6Slip::paper ? command.speed : slip_of_shape(cosine, command.speed);

@@ -49,8 +49,8 @@ struct Row {
   /// velocities of the rigid bodies at this point, mixed with the same weights. The forces of such
   /// a row are internal: their sum and their moment are zero.
   std::optional<Eigen::Vector3d> at;
-  /// Of a row of Eq. 6 over a patch of contact: C' of each body that takes part, rising. The points
-  /// above are then only where the patch begins.
+  /// Of a row of Eq. 6 over a patch of contact, or seen from the head: C' of each body that takes
+  /// part, rising. The points above are then only where the patch begins.
   std::vector<BodyWrench> patch;
   double rhs = 0;  ///< d, cm/s or rad/s
   /// The part of λ of an impact, which acts at once. Half of the rest acts before the middle of the

@@ -263,7 +263,7 @@ std::vector<Finding> momentum(const LogContents& log) {
   }
   using Kind = ScriptSettings::Kind;
   const bool free = !log.own_law() && !scene.clamp_head && log.model.obstacles.empty() &&
-                    scene.gravity.isZero(0) && scene.controller.eq6_at == Eq6Point::skin &&
+                    scene.gravity.isZero(0) &&
                     (scene.script.kind == Kind::none || scene.script.kind == Kind::curvature);
   if (free) {
     findings.push_back(judged_over(

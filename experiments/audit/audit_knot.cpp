@@ -14,11 +14,6 @@
 namespace hagfish {
 namespace {
 
-/// The last frame of a slide is this near to its end: 20 ms at some cm/s, cm of arc.
-constexpr double arrived_within = 0.2;
-/// Share of expect.slide_distance that every animal must slide.
-constexpr double least_slide = 0.5;
-
 Phase phase_at(const LogContents& log, std::size_t frame) {
   return static_cast<Phase>(log.phase[frame]);
 }
@@ -140,26 +135,24 @@ Finding hand(const LogContents& log, const std::vector<SeenKnot>& seen,
           "writhe"};
 }
 
-/// Nothing where no frame shows it.
-std::optional<KnotWay> way(const LogContents& log, Phase phase, const char* end) {
-  const std::vector<double> arc = log.h5.doubles(end);
-  std::optional<KnotWay> seen;
-  for (std::size_t f = 0; f < arc.size(); ++f) {
-    if (phase_at(log, f) == phase && !std::isnan(arc[f])) {
-      seen = seen.value_or(KnotWay{arc[f], arc[f], !begins_within(log, phase)});
-      seen->last = arc[f];
-    }
+/// What `criteria`, the way of the leading end and the share of both, say of a slide.
+std::vector<Finding> moved(const std::vector<Criterion>& criteria, const Slide& slide,
+                           BodyEnd towards) {
+  const Criterion &way = criteria.at(0), &both = criteria.at(1);
+  if (std::isnan(way.value)) {
+    const std::string none = "no " + way.name;
+    return {judged(way, fmt::format("{} (at least {:g} cm)", none, way.bound)), judged(both, none)};
   }
-  return seen;
-}
-
-/// "head" end of the knot moved "headward".
-Finding moved(const Criterion& criterion, const char* end, const char* way) {
-  return judged(criterion,
-                std::isnan(criterion.value)
-                    ? fmt::format("no {} (at least {:g} cm)", criterion.name, criterion.bound)
-                    : fmt::format("{} end of the knot moved {:.2f} cm {} (at least {:g})", end,
-                                  criterion.value, way, criterion.bound));
+  const bool headward = towards == BodyEnd::head;
+  return {judged(way, fmt::format("{} end of the knot moved {:.2f} cm {}ward (at least {:g})",
+                                  headward ? "head" : "tail", way.value, headward ? "head" : "tail",
+                                  way.bound)),
+          judged(both, fmt::format("the knot {}: its {} end moved {:.2f} cm of {:.2f} that taper "
+                                   "asks, curvature {:.2f} cm "
+                                   "(correlation {:.2f}); {:.0f} % (at least {:g} %)",
+                                   slide_name(slide, 0.01 * both.bound), headward ? "tail" : "head",
+                                   slide.trailing_way, slide.taper_asks, slide.travel,
+                                   slide.correlation, both.value, both.bound))};
 }
 
 /// Whether the scene's law asks for Eq. 6 while the knot slides; of a law of the run's own, whether
@@ -240,25 +233,35 @@ Finding head_out(const LogContents& log, const std::vector<std::string>& type) {
 
 }  // namespace
 
+SlideWatch slides_of(const LogContents& log,
+                     const std::function<void(const SlideWatch& so_far)>& seen) {
+  const std::vector<double> head = log.h5.doubles("/knot/head_end");
+  const std::vector<double> tail = log.h5.doubles("/knot/tail_end");
+  SlideWatch watch(log.model);
+  for (std::size_t f = 0; f < head.size(); ++f) {
+    const bool knotted = !std::isnan(head[f]) && !std::isnan(tail[f]);
+    watch.see(phase_at(log, f), knotted ? std::optional(KnotSpan{head[f], tail[f]}) : std::nullopt,
+              log.q.row(static_cast<Eigen::Index>(f)));
+    if (seen) seen(watch);
+  }
+  return watch;
+}
+
+double largest_muscle_torque(const LogContents& log) {
+  const Hdf5Reader::Rows torque =
+      log.h5.rows("/mean/forces/active") + log.h5.rows("/mean/forces/thigmotaxis");
+  double largest = 0;
+  for (Eigen::Index f = 1; f < torque.rows(); ++f) {
+    if (!slides_or_pulls(phase_at(log, static_cast<std::size_t>(f - 1)))) continue;
+    const double most = torque.row(f).tail(torque.cols() - root_dofs).cwiseAbs().maxCoeff();
+    largest = worse(largest, most);
+  }
+  return largest;
+}
+
 SeenKnot see_knot(const LogContents& log, const AuditedFrame& frame) {
   const Eigen::Matrix3Xd& centre = frame.observation.kin.centre;
   return {knot_type(centre, log.resolved.scene.knot), holds_knot(frame.phase) ? writhe(centre) : 0};
-}
-
-Criterion slide_found(const Scene& scene, const std::optional<KnotWay>& head_end) {
-  if (!head_end) {
-    return slide_criterion(scene.expect, std::nullopt);
-  }
-  ExpectSettings asked = scene.expect;
-  const double there = head_end->first - scene.controller.release_at - arrived_within;
-  asked.slide_distance = std::clamp(there, head_end->whole ? least_slide * asked.slide_distance : 0,
-                                    asked.slide_distance);
-  return slide_criterion(asked, head_end->first - head_end->last);
-}
-
-Criterion reverse_found(const Scene& scene, const std::optional<KnotWay>& tail_end) {
-  return reverse_criterion(
-      scene.expect, tail_end ? std::optional(tail_end->last - tail_end->first) : std::nullopt);
 }
 
 std::vector<Finding> audit_knot(const LogContents& log, const std::vector<SeenKnot>& seen) {
@@ -282,6 +285,9 @@ std::vector<Finding> audit_knot(const LogContents& log, const std::vector<SeenKn
     type.push_back(knot_name(knot.vote.type));
   }
   std::vector<Finding> findings;
+  const auto append = [&findings](const std::vector<Finding>& more) {
+    findings.insert(findings.end(), more.begin(), more.end());
+  };
   if (shows_knot) {
     findings.push_back(held(log, type));
   }
@@ -295,23 +301,28 @@ std::vector<Finding> audit_knot(const LogContents& log, const std::vector<SeenKn
                         type.back() + (ended ? "" : ", but the run ended before the knot was off"),
                         type.back(), "0_1", ""});
   }
-  const std::vector<Finding> through_time = types_through_time(log, type);
-  findings.insert(findings.end(), through_time.begin(), through_time.end());
+  append(types_through_time(log, type));
   if (shows_knot && expect.hand != Hand::any) {
     findings.push_back(hand(log, seen, type));
   }
+  const SlideWatch slides = slides_of(log);
   if (shows(Phase::slide)) {
-    findings.push_back(
-        moved(slide_found(scene, way(log, Phase::slide, "/knot/head_end")), "head", "headward"));
+    const Slide slide = slides.slide();
+    append(moved(slide_criteria(scene, slide, !begins_within(log, Phase::slide)), slide,
+                 BodyEnd::head));
   }
   if (shows(Phase::reverse) && !begins_within(log, Phase::reverse) &&
       scene.controller.leave_by == BodyEnd::tail) {
-    findings.push_back(moved(reverse_found(scene, way(log, Phase::reverse, "/knot/tail_end")),
-                             "tail", "tailward"));
+    const Slide back = slides.way_back();
+    append(moved(way_back_criteria(scene, back), back, BodyEnd::tail));
   }
   if (!expect.out_of.empty() && reaches(Phase::free)) findings.push_back(head_out(log, type));
   if (shows(Phase::slide)) {
     if (const auto finding = commanded_speed(log)) findings.push_back(*finding);
+    if (expect.torque_share > 0) {
+      findings.push_back(judged_over(torque_criterion(scene, largest_muscle_torque(log)),
+                                     "largest of a hinge while the knot slides or pulls"));
+    }
   }
   return findings;
 }

@@ -1,10 +1,11 @@
 // The part of an audit that is about the knot: its type through time, its hand, how it slid.
 #pragma once
 
-#include <optional>
+#include <functional>
 #include <vector>
 
 #include "core/knot/knot.hpp"
+#include "core/run/slide.hpp"
 #include "experiments/audit/audit.hpp"
 #include "experiments/audit/audited_frame.hpp"
 
@@ -17,17 +18,14 @@ struct SeenKnot {
 };
 SeenKnot see_knot(const LogContents& log, const AuditedFrame& frame);
 
-/// Where an end of the knot is at the first and last frame of a phase that show it, cm of arc.
-struct KnotWay {
-  double first = 0, last = 0;
-  bool whole = true;  ///< the log has the phase from its beginning, as a branch need not have
-};
-/// The slide of a knot's head end in `scene`, against what is asked of it: the scene's distance,
-/// or, where the knot was nearer to where it is released, all the way there, but half of that
-/// distance at least where the whole slide is seen. And the way back of its tail end. Nothing found
-/// is never met.
-Criterion slide_found(const Scene& scene, const std::optional<KnotWay>& head_end);
-Criterion reverse_found(const Scene& scene, const std::optional<KnotWay>& tail_end);
+/// The slide and the way back of a log that has q. Calls `seen`, if any, after each frame, with
+/// what there was up to it.
+SlideWatch slides_of(const LogContents& log,
+                     const std::function<void(const SlideWatch& so_far)>& seen = {});
+
+/// Largest torque of a hinge while the knot slides or pulls, the animal's own and f_thigmo
+/// together, mean from frame to frame, dyn cm.
+double largest_muscle_torque(const LogContents& log);
 
 /// Findings against the scene's [expect]; none where the scene expects no knot. What a run that
 /// stops early (time.until) does not reach is not judged.

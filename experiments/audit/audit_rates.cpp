@@ -107,10 +107,7 @@ void RateAudit::see_outside(const AuditedFrame& frame, const Eigen::Vector3d& ce
   rebuilt_.compare("/diagnostics/impulse_outside", grew, wanted,
                    rebuilt_tolerance * outside_.cwiseAbs().maxCoeff());
   // Of the root's moment alone is known that arms move from frame to frame.
-  Eigen::VectorXd turning = head_.row(f) + wall_.row(f);
-  if (log_.resolved.scene.controller.eq6_at == Eq6Point::centreline) {
-    turning += thigmotaxis_.row(f);
-  }
+  const Eigen::VectorXd turning = head_.row(f) + wall_.row(f);
   growths_[6].compare(f, elapsed * moment_of_root(turning, frame.observation.kin, centre));
 }
 

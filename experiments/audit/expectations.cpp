@@ -1,12 +1,23 @@
 #include "experiments/audit/expectations.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
+#include <string>
 
 namespace hagfish {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 constexpr double percent = 0.01;
+/// The last frame of a slide is this near to its end: 20 ms at some cm/s, cm of arc.
+constexpr double arrived_within = 0.2;
+/// Share of expect.slide_distance that every animal must slide.
+constexpr double least_slide = 0.5;
+
+Criterion both_ends(const std::string& name, const ExpectSettings& expect, const Slide& slide) {
+  return {name, slide.share() / percent, expect.slide_share / percent, "%", true};
+}
 
 }  // namespace
 
@@ -34,12 +45,23 @@ Criterion energy_loss_criterion(const ExpectSettings& expect, double largest) {
   return {"energy loss", largest, expect.energy_loss, "of the energy that passed"};
 }
 
-Criterion slide_criterion(const ExpectSettings& expect, std::optional<double> travel) {
-  return {"slide", travel.value_or(NAN), expect.slide_distance, "cm", true};
+std::vector<Criterion> slide_criteria(const Scene& scene, const Slide& slide, bool whole) {
+  const double asked = scene.expect.slide_distance;
+  const double there = slide.from - scene.controller.release_at - arrived_within;
+  const double least =
+      std::isnan(there) ? asked : std::clamp(there, whole ? least_slide * asked : 0, asked);
+  return {{"slide", slide.leading_way, least, "cm", true},
+          both_ends("slide of both ends", scene.expect, slide)};
 }
 
-Criterion reverse_criterion(const ExpectSettings& expect, std::optional<double> travel) {
-  return {"reverse", travel.value_or(NAN), expect.reverse_distance, "cm", true};
+std::vector<Criterion> way_back_criteria(const Scene& scene, const Slide& way_back) {
+  return {{"reverse", way_back.leading_way, scene.expect.reverse_distance, "cm", true},
+          both_ends("reverse of both ends", scene.expect, way_back)};
+}
+
+Criterion torque_criterion(const Scene& scene, double largest) {
+  return {"torque", largest / scene.active.capacity, scene.expect.torque_share,
+          "of active.capacity"};
 }
 
 Criterion pull_criterion(const ExpectSettings& expect, double mean) {

@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <optional>
 #include <string>
+#include <vector>
 
+#include "core/run/slide.hpp"
 #include "core/scene/settings.hpp"
 
 namespace hagfish {
@@ -35,10 +36,17 @@ Criterion kkt_criterion(const ExpectSettings& expect, double largest);
 Criterion energy_gain_criterion(const ExpectSettings& expect, double largest);
 /// As IntegratorLoss has it, of the most energy that there was, worked or went to drag and damping.
 Criterion energy_loss_criterion(const ExpectSettings& expect, double largest);
-/// Headward travel of the knot's head end while sliding, cm; nothing where it never slid.
-Criterion slide_criterion(const ExpectSettings& expect, std::optional<double> travel);
-/// Tailward travel of its tail end on the way back, cm; likewise.
-Criterion reverse_criterion(const ExpectSettings& expect, std::optional<double> travel);
+/// A slide against what the scene asks of it: the way of the knot's head end, cm, and the share by
+/// which it is a slide of both ends, in %. The head end is asked for the scene's distance. If it
+/// began nearer to where it is released, it is asked for all the way there, but for half of that
+/// distance at least where the slide is seen `whole`.
+std::vector<Criterion> slide_criteria(const Scene& scene, const Slide& slide, bool whole = true);
+/// The same of the way back, by the tail end and wherever it began.
+std::vector<Criterion> way_back_criteria(const Scene& scene, const Slide& way_back);
+/// The phases of ExpectSettings::torque_share.
+inline bool slides_or_pulls(Phase phase) { return phase == Phase::slide || phase == Phase::pull; }
+/// Largest torque of a hinge in these phases, own and f_thigmo, mean from frame to frame, dyn cm.
+Criterion torque_criterion(const Scene& scene, double largest);
 /// Mean pull at the food, dyn; judged in N.
 Criterion pull_criterion(const ExpectSettings& expect, double mean);
 /// Mean of the later half of the pull less that of the earlier one, dyn, of their mean.

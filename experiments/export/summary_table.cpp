@@ -4,6 +4,7 @@
 
 #include "core/knot/knot.hpp"
 #include "core/scene/phase.hpp"
+#include "experiments/audit/audit_knot.hpp"
 #include "experiments/audit/rebuilt.hpp"
 #include "experiments/export/export_tables.hpp"
 
@@ -168,8 +169,7 @@ ExportTable summary_table(const LogContents& log, const SweptSkin& swept, bool s
   const std::size_t end = log.time.size() - 1;
   const Stretch tighten = stretch_of(log, Phase::tighten), slide = stretch_of(log, Phase::slide),
                 release = stretch_of(log, Phase::release), free = stretch_of(log, Phase::free);
-  const std::vector<double> head_end = log.h5.doubles("/knot/head_end");
-  const double way = slide.reached ? head_end[slide.first] - head_end[slide.last] : nan;
+  const Slide slid = slides_of(log).slide();
   const double lasted = slide.reached ? log.time[slide.last] - log.time[slide.first] : 0;
   const auto from = [&](const Stretch& stretch) {
     return stretch.reached ? log.time[stretch.first] : nan;
@@ -195,10 +195,18 @@ ExportTable summary_table(const LogContents& log, const SweptSkin& swept, bool s
        {"free_from", second, "when the knot was gone"},
        {"slide_distance", centimetre, "way of the knot's head end while it slides, to the head"},
        {"slide_speed", speed, "that way over its time"},
+       {"tail_distance", centimetre, "way of the knot's tail end meanwhile"},
+       {"taper_asks", centimetre, "way that the tail end of a knot as tight would come by"},
+       {"curvature_travel", centimetre, "way of the body's curvature meanwhile"},
+       {"curvature_correlation", none, "of curvature before and after, the least of four quarters"},
+       {"both_ends_percent", none, "share by which this is a slide of both ends, %"},
+       {"slide", none, "what this is by name"},
        {"sliding_force", force,
         "sum of the four multipliers of Eq. 6: median over the slide of means from frame to frame"},
        {"largest_thigmotaxis", torque, "f_thigmo of any hinge, mean from frame to frame"},
        {"largest_active", torque, "torque of the muscles at any hinge, likewise"},
+       {"largest_torque", torque,
+        "of both together, of any hinge while the knot slides or pulls, likewise"},
        {"penetration", centimetre, "deepest overlap of skins at any step up to the last frame"},
        {"limit_violation", radian, "furthest past a joint limit at any step up to the last frame"},
        {"work_tip", energy, "of the scripted force on the tail, in all"},
@@ -222,11 +230,18 @@ ExportTable summary_table(const LogContents& log, const SweptSkin& swept, bool s
              from(slide),
              from(release),
              from(free),
-             way,
-             lasted > 0 ? way / lasted : nan,
+             slid.leading_way,
+             lasted > 0 ? slid.leading_way / lasted : nan,
+             slid.trailing_way,
+             slid.taper_asks,
+             slid.travel,
+             slid.correlation,
+             100 * slid.share(),
+             slide_name(slid, scene.expect.slide_share),
              sliding_force(log, slide),
              largest(log.h5.rows("/mean/forces/thigmotaxis")),
              largest(log.h5.rows("/mean/forces/active")),
+             largest_muscle_torque(log),
              largest(log.h5.doubles("/diagnostics/penetration")),
              largest(log.h5.doubles("/diagnostics/limit_violation")),
              at_end("work_tip"),

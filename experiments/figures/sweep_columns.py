@@ -12,7 +12,8 @@ import numpy as np
 from hagfish_log import LogError
 
 TEXTS = {"outcome": "ok where the run came to its end, else why it stopped", "unmet": "criteria of [expect] that it does not meet",
-         "message": "why it stopped", "knot": "type at the start of tightening, or at the end where it never tightened"}
+         "message": "why it stopped", "knot": "type at the start of tightening, or at the end where it never tightened",
+         "slide": "what the slide is by name: by both ends, or the knot only grows"}
 FIGURES = {  # unit, meaning
     "duration_s": ("s", "simulated"),
     "tighten_from_s": ("s", "start of tightening"),
@@ -21,9 +22,15 @@ FIGURES = {  # unit, meaning
     "free_from_s": ("s", "when the knot was gone"),
     "slide_distance_cm": ("cm", "way of the knot's head end while it slides, to the head"),
     "slide_speed_cm_per_s": ("cm/s", "that way over its time"),
+    "tail_distance_cm": ("cm", "way of the knot's tail end meanwhile"),
+    "taper_asks_cm": ("cm", "way that the tail end of a knot as tight would come by"),
+    "curvature_travel_cm": ("cm", "way of the body's curvature meanwhile"),
+    "curvature_correlation": ("1", "of curvature before and after, the least of four quarters"),
+    "both_ends_percent": ("%", "share by which this is a slide of both ends"),
     "sliding_force_dyn": ("dyn", "sum of the four multipliers of Eq. 6: median over the slide of means from frame to frame"),
     "largest_thigmotaxis_dyn_cm": ("dyn cm", "f_thigmo of any hinge, mean from frame to frame"),
     "largest_active_dyn_cm": ("dyn cm", "torque of the muscles at any hinge, likewise"),
+    "largest_torque_dyn_cm": ("dyn cm", "own torque and f_thigmo together, of any hinge while the knot slides or pulls, likewise"),
     "pull_N": ("N", "mean pull at food, once settled"),
     "penetration_cm": ("cm", "deepest overlap of skins at any step"),
     "limit_violation_rad": ("rad", "furthest past a joint limit at any step"),

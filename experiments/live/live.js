@@ -80,7 +80,7 @@ class LiveLog {
   /** Shows what has come in under the names that a log has. */
   renew() {
     const of = (name) => this.store[name].values;
-    for (const name of ["time", "position", "phase", "clamped", "head", "tip", "hand", "held", "head_end", "tail_end", "penetration"]) this[name] = of(name);
+    for (const name of ["time", "position", "phase", "clamped", "head", "tip", "hand", "held", "head_end", "tail_end", "slide", "penetration"]) this[name] = of(name);
     this.plate_force = of("plate");
     this.eq6 = { speed: of("speed"), slack: of("slack"), lambda: of("lambda"), command: of("command") };
     this.energy = Object.fromEntries(ENERGY.map((name) => [name, of(name)]));

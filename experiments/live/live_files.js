@@ -105,7 +105,7 @@ function replayPage(log) {
     name: log.name, title: log.title, specimen: log.specimen, status: "run in a browser", plate: log.plate, obstacles: log.obstacles,
     animal: { length: log.animal.length, station: log.animal.station, radius: f4(log.animal.radius), arc: f4(log.animal.arc) },
     time: f4(log.time), phases: log.phases, knots: log.knots, phase: u1(log.phase), knot: u1(log.knot), clamped: u1(log.clamped),
-    head_end: f4(log.head_end), tail_end: f4(log.tail_end), position: f4(log.position), quantities,
+    head_end: f4(log.head_end), tail_end: f4(log.tail_end), slide: f4(log.slide), position: f4(log.position), quantities,
     contacts: { first: { u4: base64(new Uint8Array(Uint32Array.from(log.first).buffer)) }, values: f4(log.contacts.values) },
     tip: f4(log.tip), hand: f4(log.hand), held: f4(log.held), head: f4(log.head), plate_force: f4(log.plate_force),
     eq6: Object.fromEntries(Object.entries(log.eq6).map(([name, values]) => [name, f4(values)])),

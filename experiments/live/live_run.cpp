@@ -111,7 +111,8 @@ LiveRun::LiveRun(ResolvedScene resolved)
     : resolved_(std::move(resolved)),
       model_(make_hagfish(resolved_.specimen, resolved_.scene)),
       sim_(start(model_, resolved_.scene, "active-set")),
-      means_(model_.nv()) {
+      means_(model_.nv()),
+      slides_(model_) {
   hold_pull();
 }
 
@@ -172,6 +173,9 @@ std::span<const LiveArray> LiveRun::frame() {
                static_cast<double>(controller.knot.type.v2)});
   put("clamped", {clamps_head(scene, controller.phase) ? 1.0 : 0.0});
   put("ends", {span ? span->head_end : nan, span ? span->tail_end : nan});
+  slides_.see(controller.phase, span, state.q);
+  const Slide slide = slides_.slide();
+  put("slide", {slide.leading_way, slide.trailing_way, slide.taper_asks, slide.travel});
   put("over", {over() ? 1.0 : 0.0});
   put("penetration", {seen.penetration});
   const auto zero = [&](const Eigen::VectorXd& force) {

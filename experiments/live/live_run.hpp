@@ -11,6 +11,7 @@
 #include "core/input/scene_text.hpp"
 #include "core/log/log_means.hpp"
 #include "core/run/simulation.hpp"
+#include "core/run/slide.hpp"
 
 namespace hagfish {
 
@@ -63,6 +64,7 @@ class LiveRun {
   Scene pulled_scene_;  ///< the same by a law of its own, which pulls besides
   NamedLaw named_law_;
   RunningMeans means_;
+  SlideWatch slides_;
   StepRecord record_;
   std::optional<Pull> pull_;
   std::string warnings_;

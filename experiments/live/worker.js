@@ -2,7 +2,7 @@
 // In a worker of the page: runs the scene, and sends what is to be drawn. After simulator.js.
 
 /** Arrays of a frame that the page gets, in one row of 32-bit floats; `contacts`, of any number, apart. */
-const SENT = ["time", "position", "phase", "knot", "clamped", "ends", "penetration", "head", "plate", "tip", "hand", "speed", "slack", "lambda",
+const SENT = ["time", "position", "phase", "knot", "clamped", "ends", "slide", "penetration", "head", "plate", "tip", "hand", "speed", "slack", "lambda",
   "command", "energy", "thigmotaxis", "active", "curvature", "twist", "contact"];
 const ANIMAL = ["length", "radius", "arc", "bending", "twisting", "station", "obstacles", "wall", "clock"];
 const SLICE = 0.02; // s for which it steps before it looks at what the page asks

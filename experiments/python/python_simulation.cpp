@@ -84,6 +84,7 @@ PythonSimulation::PythonSimulation(const PythonRun& run)
       model(make_hagfish(resolved.specimen, resolved.scene)),
       sim(start(model, resolved.scene, run.qp)),
       control(record.control, model.nv()),
+      slides(model),
       scene_(resolved.scene),
       law_(run.law) {
   hold_views();
@@ -99,6 +100,7 @@ PythonSimulation::PythonSimulation(const PythonSimulation& other, const py::obje
       model(make_hagfish(resolved.specimen, resolved.scene)),
       sim(other.sim),
       control(record.control, model.nv()),
+      slides(other.slides),
       scene_(resolved.scene),
       law_(law.is_none() ? other.law_ : law) {
   if (!set.empty()) change_scene(model, other.resolved.scene, resolved.scene, sim);
@@ -171,6 +173,7 @@ void PythonSimulation::take() {
     const auto elapsed = std::chrono::steady_clock::now() - begin_;
     log_->write(record, sim, std::chrono::duration<double>(elapsed).count());
   }
+  slides.see(record.controller.phase, knot_span(record.controller), record.moment.state.q);
   show();
 }
 

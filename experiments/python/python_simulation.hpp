@@ -13,6 +13,7 @@
 #include "core/input/scene_reader.hpp"
 #include "core/log/log_writer.hpp"
 #include "core/run/simulation.hpp"
+#include "core/run/slide.hpp"
 #include "experiments/python/python_control.hpp"
 
 namespace hagfish {
@@ -66,6 +67,7 @@ class PythonSimulation {
   Eigen::VectorXd q, qdot;
   Eigen::Matrix3Xd position, velocity;
   PythonControl control;  ///< of the record
+  SlideWatch slides;      ///< of the states after its steps
 
  private:
   class Work;

@@ -2,6 +2,8 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
+#include <cmath>
+
 #include "core/log/coordinate_names.hpp"
 #include "core/log/energy_losses.hpp"
 #include "experiments/python/begun.hpp"
@@ -58,6 +60,22 @@ py::dict momenta(const PythonSimulation& run) {
   put("integrator", ledger.integrator);
   put("given_back", ledger.given_back);
   return m;
+}
+
+/// None before the knot slides.
+py::object slide_of(const PythonSimulation& run) {
+  const bool back = run.sim.controller.phase == Phase::reverse;
+  const Slide slide = back ? run.slides.way_back() : run.slides.slide();
+  if (std::isnan(slide.leading_way)) return py::none();
+  py::dict found;
+  found["name"] = slide_name(slide, run.resolved.scene.expect.slide_share);
+  found["leading_way"] = slide.leading_way;
+  found["trailing_way"] = slide.trailing_way;
+  found["taper_asks"] = slide.taper_asks;
+  found["curvature_travel"] = slide.travel;
+  found["curvature_correlation"] = slide.correlation;
+  found["share"] = slide.share();
+  return found;
 }
 
 std::vector<std::string> dof_names(const Model& model) {
@@ -203,6 +221,14 @@ changes. `log`: a file to write; `force` replaces one that is there. Raises Inpu
                              "arc length of the knot's first contact from the head, cm, or None")
       .def_property_readonly("tail_end", readable(knot_end(&KnotSpan::tail_end)),
                              "arc length of its last contact, cm, or None")
+      .def_property_readonly(
+          "slide", readable(&slide_of),
+          "the slide so far, or the way back while it lasts, or None. name: \"slides by both "
+          "ends\" "
+          "or what it is instead; ways of the knot's leading and trailing end and of the body's "
+          "curvature, and what the body's taper asks of the trailing end, cm; the least "
+          "correlation "
+          "of the curvature; share: 1 or more where all moves alike")
       .def_property_readonly("finished", &Run::over, "whether the scene is over")
       .def_property_readonly("energy", readable(&energies), "the energy ledger by name, erg")
       .def_property_readonly(

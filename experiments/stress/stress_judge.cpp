@@ -36,7 +36,7 @@ std::string unmet(const Criterion& criterion) {
 }  // namespace
 
 StressJudge::StressJudge(const Model& model, const Scene& scene, const State& start, double energy)
-    : model_(model), scene_(scene), gain_(energy), phase_(scene.start.phase) {
+    : model_(model), scene_(scene), gain_(energy), phase_(scene.start.phase), slides_(model) {
   const auto thinner = [](const Body& x, const Body& y) { return x.radius < y.radius; };
   thinnest_ = std::min_element(model.bodies.begin(), model.bodies.end(), thinner)->radius;
   const Observation observation = observe(model, start, scene);
@@ -100,10 +100,7 @@ void StressJudge::see_control(const StepRecord& record) {
   if (phase_ != Phase::slide || !span) {
     return;
   }
-  if (slide_steps_ == 0) {
-    slide_from_ = span->head_end;
-  }
-  slide_to_ = span->head_end;
+  slides_.see(phase_, span, record.moment.state.q);
   ++slide_steps_;
   slide_met_ += thigmotaxis_rows_of(record.control, record.solution, scene_.time.step).met ? 1 : 0;
 }
@@ -131,9 +128,8 @@ Status StressJudge::thigmotaxis() const {
   if (expect.slide_distance > 0 && slide_steps_ == 0) {
     return {Outcome::capped, "no slide"};
   }
-  const auto slide = slide_found(scene_, KnotWay{slide_from_, slide_to_, true});
-  if (expect.slide_distance > 0 && !slide.met()) {
-    return {Outcome::capped, unmet(slide)};
+  for (const Criterion& slide : slide_criteria(scene_, slides_.slide())) {
+    if (expect.slide_distance > 0 && !slide.met()) return {Outcome::capped, unmet(slide)};
   }
   const auto eq6 = eq6_criterion(expect, slide_met_, slide_steps_);
   if (slide_steps_ > 0 && !eq6.met()) {

@@ -66,7 +66,7 @@ class StressJudge {
   double knot_seen_ = 0;  ///< s
   std::string lost_;      ///< what the knot became before its release
   bool tightened_ = false;
-  double slide_from_ = 0, slide_to_ = 0;  ///< head end of the knot, cm of arc
+  SlideWatch slides_;
   long slide_steps_ = 0, slide_met_ = 0;
   double kkt_ = 0;
 };

@@ -68,6 +68,7 @@ std::vector<std::pair<std::string, std::string>> RunSummary::fields() const {
           {"unmet", unmet},
           {"message", message},
           {"knot", knot},
+          {"slide", slide},
           {"duration_s", number(duration)},
           {"tighten_from_s", number(tighten_from)},
           {"slide_from_s", number(slide_from)},
@@ -75,9 +76,15 @@ std::vector<std::pair<std::string, std::string>> RunSummary::fields() const {
           {"free_from_s", number(free_from)},
           {"slide_distance_cm", number(slide_distance)},
           {"slide_speed_cm_per_s", number(slide_speed)},
+          {"tail_distance_cm", number(tail_distance)},
+          {"taper_asks_cm", number(taper_asks)},
+          {"curvature_travel_cm", number(curvature_travel)},
+          {"curvature_correlation", number(curvature_correlation)},
+          {"both_ends_percent", number(both_ends)},
           {"sliding_force_dyn", number(sliding_force)},
           {"largest_thigmotaxis_dyn_cm", number(largest_thigmotaxis)},
           {"largest_active_dyn_cm", number(largest_active)},
+          {"largest_torque_dyn_cm", number(largest_torque)},
           {"pull_N", number(pull)},
           {"penetration_cm", number(penetration)},
           {"limit_violation_rad", number(limit_violation)},
@@ -95,7 +102,11 @@ std::vector<std::pair<std::string, std::string>> RunSummary::fields() const {
 }
 
 RunFigures::RunFigures(const Model& model, const Scene& scene)
-    : model_(model), scene_(scene), means_(model.nv()), stride_(frame_stride(scene.time)) {}
+    : model_(model),
+      scene_(scene),
+      means_(model.nv()),
+      stride_(frame_stride(scene.time)),
+      slides_(model) {}
 
 void RunFigures::see(const StepRecord& record) {
   const ThigmotaxisRows rows =
@@ -137,9 +148,15 @@ void RunFigures::see_frame(const StepRecord& record) {
   if (phase == Phase::tighten && !stretch(phase).reached) {
     tightened_ = type_name(record.moment.observation.kin.centre, scene_.knot);
   }
-  frames_.push_back({record.time, phase, span ? span->head_end : nan, span ? span->tail_end : nan,
+  slides_.see(phase, span, record.moment.state.q);
+  frames_.push_back({record.time, phase,
                      std::accumulate(mean.lambda.begin(), mean.lambda.end(), 0.0),
                      pull_of(mean.force[RowKind::head]), mean.force[RowKind::obstacle][0]});
+  // What happens between two frames counts to the phase of the first.
+  if (frames_.size() > 1 && slides_or_pulls(frames_[frames_.size() - 2].phase)) {
+    largest_torque_ = std::max(
+        largest_torque_, largest_hinge(mean.active_torque + mean.force[RowKind::thigmotaxis]));
+  }
   last_centreline_ = record.moment.observation.kin.centre;
   largest_thigmotaxis_ =
       std::max(largest_thigmotaxis_, largest_hinge(mean.force[RowKind::thigmotaxis]));
@@ -198,23 +215,31 @@ RunSummary RunFigures::summary(const std::string& outcome, const std::string& me
     const Stretch found = stretch(phase);
     return found.reached ? frames_[found.first].time : nan;
   };
-  const Stretch slide = stretch(Phase::slide);
+  const Stretch sliding = stretch(Phase::slide);
   run.knot = stretch(Phase::tighten).reached ? tightened_ : type_at_end();
   run.duration = static_cast<double>(steps_) * scene_.time.step;
   run.tighten_from = from(Phase::tighten);
   run.slide_from = from(Phase::slide);
   run.release_from = from(Phase::release);
   run.free_from = from(Phase::free);
-  if (slide.reached) {
-    const Seen &first = frames_[slide.first], &last = frames_[slide.last];
-    run.slide_distance = first.head_end - last.head_end;
-    run.slide_speed = last.time > first.time ? run.slide_distance / (last.time - first.time) : nan;
+  if (sliding.reached) {
+    const Slide slide = slides_.slide();
+    const double lasted = frames_[sliding.last].time - frames_[sliding.first].time;
+    run.slide_distance = slide.leading_way;
+    run.slide_speed = lasted > 0 ? run.slide_distance / lasted : nan;
+    run.tail_distance = slide.trailing_way;
+    run.taper_asks = slide.taper_asks;
+    run.curvature_travel = slide.travel;
+    run.curvature_correlation = slide.correlation;
+    run.both_ends = 100 * slide.share();
+    run.slide = slide_name(slide, scene_.expect.slide_share);
     std::vector<double> sums;
-    for (std::size_t f = slide.first + 1; f <= slide.last; ++f) sums.push_back(frames_[f].rows);
+    for (std::size_t f = sliding.first + 1; f <= sliding.last; ++f) sums.push_back(frames_[f].rows);
     run.sliding_force = sums.empty() ? nan : median(sums);
   }
   run.largest_thigmotaxis = largest_thigmotaxis_;
   run.largest_active = largest_active_;
+  run.largest_torque = largest_torque_;
   run.penetration = penetration_;
   run.limit_violation = limit_violation_;
   run.head_drift = head_drift_;
@@ -238,16 +263,6 @@ RunSummary RunFigures::summary(const std::string& outcome, const std::string& me
 
 std::string RunFigures::type_at_end() const { return type_name(last_centreline_, scene_.knot); }
 
-std::optional<KnotWay> RunFigures::way(Phase phase, double Seen::*end) const {
-  std::optional<KnotWay> seen;
-  for (const Seen& frame : frames_) {
-    if (frame.phase == phase && !std::isnan(frame.*end)) {
-      seen = {seen ? seen->first : frame.*end, frame.*end};
-    }
-  }
-  return seen;
-}
-
 std::vector<PullMeans> RunFigures::pull() const {
   std::vector<PullMeans> means;
   // The means before the state at the end may be of less time.
@@ -270,16 +285,20 @@ std::vector<Criterion> RunFigures::criteria(const RunSummary& run) const {
                                    energy_gain_criterion(expect, run.energy_gain),
                                    energy_loss_criterion(expect, run.energy_loss),
                                    {"momentum ledger", run.momentum_ledger, expect.energy, ""}};
+  const auto append = [&judged](const std::vector<Criterion>& more) {
+    judged.insert(judged.end(), more.begin(), more.end());
+  };
   if (!expect.knot.empty() && reaches(Phase::slide)) {
-    judged.push_back(slide_found(scene_, way(Phase::slide, &Seen::head_end)));
+    append(slide_criteria(scene_, slides_.slide()));
     const Law& law = law_of(scene_);
     if (law.rows == nullptr || law.rows(scene_, Phase::slide).any) {
       judged.push_back(eq6_criterion(expect, eq6_met_, eq6_steps_));
     }
   }
+  if (expect.torque_share > 0) judged.push_back(torque_criterion(scene_, run.largest_torque));
   if (!expect.knot.empty() && reaches(Phase::reverse) &&
       scene_.controller.leave_by == BodyEnd::tail) {
-    judged.push_back(reverse_found(scene_, way(Phase::reverse, &Seen::tail_end)));
+    append(way_back_criteria(scene_, slides_.way_back()));
   }
   return judged;
 }

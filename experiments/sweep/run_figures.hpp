@@ -27,12 +27,16 @@ struct RunSummary {
   double duration = none;  // s
   double tighten_from = none, slide_from = none, release_from = none, free_from = none;  // s
   double slide_distance = none, slide_speed = none;                                      // cm, cm/s
-  double sliding_force = none;                                                           // dyn
-  double largest_thigmotaxis = none, largest_active = none;                              // dyn cm
-  double pull = none;                                                                    // N
-  double penetration = none, limit_violation = none;                                     // cm, rad
-  double head_drift = none, kkt = none;                                                  // cm, 1
-  double eq6 = none;                                                                     // %
+  /// Slide::trailing_way, taper_asks, travel, cm; correlation; 100 share(), %; slide_name().
+  double tail_distance = none, taper_asks = none, curvature_travel = none;
+  double curvature_correlation = none, both_ends = none;
+  std::string slide;
+  double sliding_force = none;                                                      // dyn
+  double largest_thigmotaxis = none, largest_active = none, largest_torque = none;  // dyn cm
+  double pull = none;                                                               // N
+  double penetration = none, limit_violation = none;                                // cm, rad
+  double head_drift = none, kkt = none;                                             // cm, 1
+  double eq6 = none;                                                                // %
   double energy_ledger = none, energy_gain = none, energy_loss = none, momentum_ledger = none;  // 1
   double work_tip = none, work_active = none, work_thigmotaxis = none, dissipated = none;  // erg
 
@@ -57,9 +61,8 @@ class RunFigures {
   struct Seen {
     double time = 0;  // s
     Phase phase = Phase::form;
-    double head_end = 0, tail_end = 0;  // cm of arc; nan without contacts
-    double rows = 0;                    // sum of the four mean λ / h, dyn
-    double pull = 0, plate = 0;         // means, dyn
+    double rows = 0;             // sum of the four mean λ / h, dyn
+    double pull = 0, plate = 0;  // means, dyn
   };
   struct Stretch {
     std::size_t first = 0, last = 0;  // indices along the frames
@@ -70,7 +73,6 @@ class RunFigures {
   void see_ledgers(const StepRecord& record);
   Stretch stretch(Phase phase) const;
   bool reaches(Phase phase) const;
-  std::optional<KnotWay> way(Phase phase, double Seen::*end) const;
   std::vector<Criterion> criteria(const RunSummary& run) const;
   std::vector<PullMeans> pull() const;
   std::string type_at_end() const;
@@ -82,11 +84,12 @@ class RunFigures {
   std::int64_t stride_;     // steps a frame
   std::int64_t steps_ = 0;  // seen
   std::vector<Seen> frames_;
+  SlideWatch slides_;
   std::string tightened_;             // type at the first frame of tightening
   Eigen::Matrix3Xd last_centreline_;  // at the last frame
   bool lost_ = false, clamped_ = false, ended_ = false;
   double penetration_ = 0, limit_violation_ = 0, head_drift_ = 0, kkt_ = 0;
-  double largest_thigmotaxis_ = 0, largest_active_ = 0;
+  double largest_thigmotaxis_ = 0, largest_active_ = 0, largest_torque_ = 0;
   std::int64_t eq6_met_ = 0, eq6_steps_ = 0;              // of slides, up to the last frame
   std::int64_t eq6_met_since_ = 0, eq6_steps_since_ = 0;  // and since
   double first_balance_ = 0, imbalance_ = 0, worked_ = 0, dissipated_ = 0;

@@ -8,6 +8,7 @@
 #include "core/input/input_text.hpp"
 #include "core/knot/knot.hpp"
 #include "core/run/controller.hpp"
+#include "experiments/audit/audit_knot.hpp"
 #include "experiments/export/body_quantity.hpp"
 #include "experiments/export/frame_contacts.hpp"
 #include "experiments/view/drawn_plane.hpp"
@@ -96,6 +97,18 @@ Json obstacles(const Scene& scene, double length) {
   return all;
 }
 
+/// The slide up to each frame: ways of head end and tail end, what taper asks of the latter, way of
+/// the curvature, cm.
+Json slide_so_far(const LogContents& log) {
+  std::vector<double> values;
+  slides_of(log, [&values](const SlideWatch& so_far) {
+    const Slide slide = so_far.slide();
+    values.insert(values.end(),
+                  {slide.leading_way, slide.trailing_way, slide.taper_asks, slide.travel});
+  });
+  return floats(values);
+}
+
 /// Phases and knot types as places in lists of their names.
 void add_stages(const LogContents& log, Json& json) {
   const std::vector<std::int64_t> determinant = log.h5.integers("/knot/determinant");
@@ -119,6 +132,7 @@ void add_stages(const LogContents& log, Json& json) {
   json["clamped"] = {{"u1", base64(clamped)}};
   json["head_end"] = floats(log.h5.doubles("/knot/head_end"));
   json["tail_end"] = floats(log.h5.doubles("/knot/tail_end"));
+  json["slide"] = slide_so_far(log);
 }
 
 /// Contacts that bear; those of frame f are number first[f] to first[f + 1].

@@ -227,7 +227,9 @@ class Viewer {
     const log = this.logs[0], f = this.shown[0], ends = [log.head_end[f], log.tail_end[f]];
     const span = log.knotName(f) !== "0_1" && ends.every(Number.isFinite) ? `, ${ends[0].toFixed(1)} to ${ends[1].toFixed(1)} cm` : "";
     const knot = log.knotName(f) === "0_1" ? "no knot" : `knot ${log.knotName(f)}`;
-    return `t = ${log.time[f].toFixed(2)} s, ${log.phaseName(f)}, ${knot}${span}`;
+    const [leads, trails, asked, travel] = Array.from(log.slide.slice(4 * f, 4 * f + 4), (cm) => cm.toFixed(1));
+    const slid = Number.isFinite(log.slide[4 * f]) ? `; slide: head end ${leads} cm, tail end ${trails} of ${asked} that taper asks, curvature ${travel}` : "";
+    return `t = ${log.time[f].toFixed(2)} s, ${log.phaseName(f)}, ${knot}${span}${slid}`;
   }
 
   /** Draws at the next chance: only what has changed is drawn. */

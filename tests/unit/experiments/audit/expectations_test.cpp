@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <vector>
 
 namespace hagfish::expectations_test {
 
@@ -14,8 +15,6 @@ ExpectSettings expected() {
   expect.head_drift = 0.125;
   expect.kkt = 0.5;
   expect.energy_gain = 0.0625;
-  expect.slide_distance = 9;
-  expect.reverse_distance = 11;
   expect.speed_share = 0.75;
   expect.pull = 0.3125;
   expect.pull_drift = 0.4;
@@ -32,8 +31,6 @@ TEST(Expectations, HoldEachFigureAgainstItsOwnBound) {
         {head_drift_criterion(e, 0.125), head_drift_criterion(e, 0.1251)},
         {kkt_criterion(e, 0.5), kkt_criterion(e, 0.51)},
         {energy_gain_criterion(e, 0.0625), energy_gain_criterion(e, 0.0626)},
-        {slide_criterion(e, 9), slide_criterion(e, 8.99)},
-        {reverse_criterion(e, 11), reverse_criterion(e, 10.99)},
         {pull_criterion(e, 31250), pull_criterion(e, 31249)},
         {pull_drift_criterion(e, 80, 120), pull_drift_criterion(e, 120.1, 80)},
         {pull_balance_criterion(e, 33, 32), pull_balance_criterion(e, 30.9, 32)},
@@ -46,12 +43,47 @@ TEST(Expectations, HoldEachFigureAgainstItsOwnBound) {
 
 TEST(Expectations, WhatDidNotHappenIsNotMet) {
   ExpectSettings e = expected();
-  e.slide_distance = e.reverse_distance = e.speed_share = 0;
-  EXPECT_FALSE(slide_criterion(e, std::nullopt).met());
-  EXPECT_FALSE(reverse_criterion(e, std::nullopt).met());
+  e.speed_share = 0;
   EXPECT_FALSE(eq6_criterion(e, 0, 0).met());
   EXPECT_FALSE(penetration_criterion(e, NAN).met());
   EXPECT_FALSE(pull_balance_criterion(e, 0, 0).met());
+}
+
+/// A slide that keeps to what taper asks, but for `trailing`.
+Slide slid(double from, double leading, double trailing) {
+  return {.from = from,
+          .leading_way = leading,
+          .trailing_way = trailing,
+          .taper_asks = 8,
+          .travel = 8,
+          .correlation = 1};
+}
+
+std::vector<bool> met(const std::vector<Criterion>& criteria) {
+  std::vector<bool> all;
+  for (const Criterion& one : criteria) all.push_back(one.met());
+  return all;
+}
+
+// The leading end is asked for its distance or, from nearer, for all the way to its release.
+TEST(Expectations, ASlideIsAskedForItsWayAndForBothEnds) {
+  using Met = std::vector<bool>;
+  Scene scene;
+  scene.expect.slide_distance = 9;
+  scene.expect.reverse_distance = 11;
+  scene.expect.slide_share = 0.75;
+  scene.controller.release_at = 2;
+  EXPECT_EQ(met(slide_criteria(scene, slid(12, 9, 6))), (Met{true, true}));
+  EXPECT_EQ(met(slide_criteria(scene, slid(12, 8.99, 6))), (Met{false, true}));
+  EXPECT_EQ(met(slide_criteria(scene, slid(12, 9, 5.99))), (Met{true, false}));
+  EXPECT_EQ(met(slide_criteria(scene, slid(8, 5.8, 6))), (Met{true, true}));
+  EXPECT_EQ(met(slide_criteria(scene, slid(5, 2.8, 6))), (Met{false, true}));
+  EXPECT_EQ(met(slide_criteria(scene, slid(5, 2.8, 6), false)), (Met{true, true}));
+  EXPECT_EQ(met(way_back_criteria(scene, slid(12, 11, 6))), (Met{true, true}));
+  EXPECT_EQ(met(way_back_criteria(scene, slid(12, 10.99, 5.99))), (Met{false, false}));
+  scene.expect = {};
+  EXPECT_EQ(met(slide_criteria(scene, {})), (Met{false, false}));  // there was none
+  EXPECT_EQ(met(way_back_criteria(scene, {})), (Met{false, false}));
 }
 
 TEST(EnergyGainTest, IsWhatExceedsStartAndInput) {

@@ -1,0 +1,169 @@
+#include "core/run/slide.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "core/chain/bending.hpp"
+#include "core/scene/interpolation.hpp"
+
+namespace hagfish {
+namespace {
+
+constexpr int quarters = 4;
+/// Curvature is compared at so many places along the body, between which it is linear.
+constexpr int places = 400;
+/// Largest shift of curvature from one quarter to the next, of the length of the body.
+constexpr double largest_shift = 0.1;
+
+/// A function on the body by its values at rising places `s`; linear between, constant outside.
+struct Profile {
+  std::vector<double> s;
+  Eigen::VectorXd value;
+
+  double operator()(double at) const {
+    return value_at(place_among(s, at),
+                    [this](std::size_t k) { return value[static_cast<Eigen::Index>(k)]; });
+  }
+};
+
+bool bends(const Body& body) { return body.dofs == 2; }
+
+/// Of the bending joints, from the head, cm of arc.
+std::vector<double> joint_places(const Model& model) {
+  std::vector<double> found;
+  double arc = 0;
+  for (const Body& body : model.bodies) {
+    if (bends(body)) found.push_back(arc);
+    arc += body.length;
+  }
+  return found;
+}
+
+/// Radii of body up to each place: the integral of ds / r from the head, on a fine grid.
+Profile radii_along(const Model& model) {
+  Profile radius;
+  double arc = 0;
+  radius.value.resize(model.body_count());
+  for (int b = 0; b < model.body_count(); ++b) {
+    radius.s.push_back(arc + 0.5 * model.bodies[b].length);
+    radius.value[b] = model.bodies[b].radius;
+    arc += model.bodies[b].length;
+  }
+  Profile sum;
+  sum.value.setZero(places + 1);
+  const double ds = arc / places;
+  for (int i = 0; i <= places; ++i) {
+    sum.s.push_back(i * ds);
+    if (i > 0) sum.value[i] = sum.value[i - 1] + ds / radius((i - 0.5) * ds);
+  }
+  return sum;
+}
+
+double correlation(const Eigen::VectorXd& x, const Eigen::VectorXd& y) {
+  const Eigen::ArrayXd a = x.array() - x.mean(), b = y.array() - y.mean();
+  const double size = std::sqrt(a.square().sum() * b.square().sum());
+  return size > 0 ? (a * b).sum() / size : 0;
+}
+
+/// The shift (cm, headward) that best lays curvature `now` on curvature `before`, and their
+/// correlation there.
+std::pair<double, double> best_shift(const Model& model, const Eigen::VectorXd& before,
+                                     const Eigen::VectorXd& now) {
+  const double length = model.length();
+  Profile of{joint_places(model), before};
+  const Eigen::VectorXd grid = Eigen::VectorXd::LinSpaced(places, 0, length);
+  const Eigen::VectorXd old = grid.unaryExpr([&of](double s) { return of(s); });
+  of.value = now;
+  const Eigen::VectorXd shown = grid.unaryExpr([&of](double s) { return of(s); });
+  const int most = static_cast<int>(largest_shift * places);
+  Eigen::VectorXd likeness(2 * most + 1);
+  for (int k = -most; k <= most; ++k) {
+    // now(s) = before(s + shift)
+    const int overlap = places - std::abs(k);
+    likeness[k + most] =
+        correlation(old.segment(std::max(k, 0), overlap), shown.segment(std::max(-k, 0), overlap));
+  }
+  Eigen::Index best = 0;
+  const double most_alike = likeness.maxCoeff(&best);
+  double between = 0;  // the top of a parabola
+  if (best > 0 && best + 1 < likeness.size()) {
+    const double left = likeness[best - 1], right = likeness[best + 1];
+    const double bend = left - 2 * most_alike + right;
+    if (bend < 0) between = 0.5 * (left - right) / bend;
+  }
+  return {(static_cast<double>(best) - most + between) * length / (places - 1), most_alike};
+}
+
+}  // namespace
+
+Eigen::VectorXd curvature_along(const Model& model, const Eigen::VectorXd& q) {
+  std::vector<double> found;
+  for (int b = 1; b < model.body_count(); ++b) {
+    const Body& body = model.bodies[b];
+    if (!bends(body)) continue;
+    const double angle = total_bend(q[body.first_dof + 1], q[body.first_dof + 2]).angle;
+    found.push_back(angle / hinge_span(model, b));
+  }
+  return Eigen::VectorXd::Map(found.data(), std::ssize(found));
+}
+
+double Slide::share() const {
+  if (std::isnan(leading_way)) return none;
+  if (!(leading_way > 0 && trailing_way > 0)) return 0;
+  return std::min(trailing_way / taper_asks, travel / std::min(leading_way, trailing_way));
+}
+
+Slide slide_through(const Model& model, std::span<const SlideMoment> moments, BodyEnd towards) {
+  Slide slide;
+  if (moments.empty()) return slide;
+  const bool headward = towards == BodyEnd::head;
+  const double sense = headward ? 1 : -1;
+  const auto lead = [headward](const SlideMoment& m) {
+    return headward ? m.knot.head_end : m.knot.tail_end;
+  };
+  const auto trail = [headward](const SlideMoment& m) {
+    return headward ? m.knot.tail_end : m.knot.head_end;
+  };
+  const SlideMoment &first = moments.front(), &last = moments.back();
+  slide.from = lead(first);
+  slide.leading_way = sense * (lead(first) - lead(last));
+  slide.trailing_way = sense * (trail(first) - trail(last));
+  const Profile radii = radii_along(model);
+  const double kept = radii(lead(last)) + radii(trail(first)) - radii(lead(first));
+  const std::vector<double> sums(radii.value.begin(), radii.value.end());
+  const Profile place{sums, Eigen::VectorXd::Map(radii.s.data(), std::ssize(radii.s))};
+  slide.taper_asks = sense * (trail(first) - place(kept));
+  if (!(slide.leading_way > 0)) return slide;
+  slide.travel = 0;
+  slide.correlation = 1;
+  const SlideMoment* before = &first;
+  for (int k = 1; k <= quarters; ++k) {
+    const double way = slide.leading_way * k / quarters;
+    const auto there = std::ranges::find_if(
+        moments, [&](const SlideMoment& m) { return sense * (lead(first) - lead(m)) >= way; });
+    const SlideMoment& now = there == moments.end() ? last : *there;
+    const auto [shift, alike] = best_shift(model, before->curvature, now.curvature);
+    slide.travel += sense * shift;
+    slide.correlation = std::min(slide.correlation, alike);
+    before = &now;
+  }
+  return slide;
+}
+
+void SlideWatch::see(Phase phase, const std::optional<KnotSpan>& knot, const Eigen::VectorXd& q) {
+  if (!knot || (phase != Phase::slide && phase != Phase::reverse)) return;
+  (phase == Phase::slide ? slide_ : way_back_).push_back({*knot, curvature_along(*model_, q)});
+}
+
+std::string slide_name(const Slide& slide, double least_share) {
+  if (!(slide.leading_way > 0)) return "does not slide";
+  if (slide.share() >= least_share) return "slides by both ends";
+  const double trails = slide.trailing_way / slide.taper_asks;
+  return trails >= least_share       ? "keeps its bends in place"
+         : trails >= 1 - least_share ? "slides and grows"
+                                     : "only grows";
+}
+
+}  // namespace hagfish
