@@ -369,6 +369,7 @@ void expect_fields(Io& io, ExpectSettings& s) {
   io.number("pull_balance", s.pull_balance, not_negative());
   io.number("speed_share", s.speed_share, within(0, 1));
   io.number("penetration", s.penetration, not_negative(cgs::cm));
+  io.number("skin_fold", s.skin_fold, not_negative());
   io.angle("limit_violation", s.limit_violation, not_negative());
   io.number("head_drift", s.head_drift, not_negative(cgs::cm));
   io.number("kkt", s.kkt, not_negative());

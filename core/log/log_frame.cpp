@@ -329,6 +329,11 @@ void declare_diagnostics(LogTable<Frame>& t) {
            [](const Frame& f) { return f.worst.kkt; });
   t.number(path + "penetration", {"cm", "deepest at any step since the last frame"},
            [](const Frame& f) { return f.worst.penetration; });
+  t.number(path + "skin_fold",
+           {"1",
+            "largest radius of the skin over radius of curvature across one diameter of the body: "
+            "above 1 the skin inside of a bend folds into itself"},
+           [](const Frame& f) { return f.skin_fold; });
   t.number(path + "limit_violation", {"rad", "largest at any step since the last frame"},
            [](const Frame& f) { return f.worst.limit_violation; });
   t.number(path + "head_drift", {"cm", "largest since the last frame while clamped"},

@@ -24,6 +24,7 @@ struct Frame {
   const ThigmotaxisRows& thigmotaxis;
   const FrameMeans& mean;
   KnotVote knot;
+  double skin_fold = 0;  ///< skin_fold()
   Worst worst;
   double wall_time = 0;  ///< s
   /// What muscles have to do, of the means since the frame before; nan at the first frame.

@@ -1,4 +1,5 @@
 #include "core/log/log_writer.hpp"
+#include "core/chain/skin_fold.hpp"
 
 #include <fmt/format.h>
 
@@ -142,7 +143,8 @@ struct LogWriter::Contents {
                               ? record.controller.knot
                               : knot_type(record.moment.observation.kin.centre, knot);
     if (!model.muscles.empty()) see_muscles(record, mean);
-    frames.append({record, rows_of_step, mean, type, worst, wall_time, muscles});
+    const double fold = skin_fold(model, record.moment.observation.kin);
+    frames.append({record, rows_of_step, mean, type, fold, worst, wall_time, muscles});
   }
 
   /// The state at the end as a frame. What a run goes on with, `log`, does not know of it.

@@ -157,13 +157,13 @@ void SlideWatch::see(Phase phase, const std::optional<KnotSpan>& knot, const Eig
   (phase == Phase::slide ? slide_ : way_back_).push_back({*knot, curvature_along(*model_, q)});
 }
 
-std::string slide_name(const Slide& slide, double least_share) {
+std::string slide_name(const Slide& slide) {
   if (!(slide.leading_way > 0)) return "does not slide";
-  if (slide.share() >= least_share) return "slides by both ends";
+  if (slide.share() >= both_ends_share) return "slides by both ends";
   const double trails = slide.trailing_way / slide.taper_asks;
-  return trails >= least_share       ? "keeps its bends in place"
-         : trails >= 1 - least_share ? "slides and grows"
-                                     : "only grows";
+  return trails >= both_ends_share       ? "keeps its bends in place"
+         : trails >= 1 - both_ends_share ? "slides and grows"
+                                         : "only grows";
 }
 
 }  // namespace hagfish

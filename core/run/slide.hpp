@@ -67,10 +67,12 @@ class SlideWatch {
   std::vector<SlideMoment> slide_, way_back_;
 };
 
-/// What a slide is by name. "slides by both ends": it has at least this share (0.5 or more). Else
-/// "only grows", whose trailing end stays, or "slides and grows", whose trailing end comes by too
-/// little; or "keeps its bends in place", whose curvature stays. "does not slide": its leading end
-/// stays.
-std::string slide_name(const Slide& slide, double least_share);
+/// Least share() of what is called a slide of both ends.
+inline constexpr double both_ends_share = 0.7;
+
+/// What a slide is by name. "slides by both ends": it has at least this share. Else "only grows",
+/// whose trailing end stays, or "slides and grows", whose trailing end comes by too little; or
+/// "keeps its bends in place", whose curvature stays. "does not slide": its leading end stays.
+std::string slide_name(const Slide& slide);
 
 }  // namespace hagfish

@@ -424,6 +424,7 @@ struct ExpectSettings {
   double pull_balance = 0.005;        ///< of the mean force of the head plate from it, of it
   double speed_share = 0.95;          ///< of sliding steps that meet Eq. 6 without slack
   double penetration = 0.0015;        ///< deepest at any step, cm
+  double skin_fold = 0;               ///< largest skin_fold() while the knot is held; 0: no bound
   double limit_violation = 1.745e-5;  ///< largest at any step, rad (0.001 degrees)
   double head_drift = 1e-6;           ///< largest at any step while clamped, cm
   double kkt = 1e-8;                  ///< largest scaled KKT residual of any step

@@ -37,24 +37,17 @@ class WrenchSum {
   std::vector<char> loaded_;
 };
 
-/// The forces of a row with points, by body.
-std::vector<BodyWrench> wrenches_of(const Row& row, const Kinematics& kin) {
-  std::vector<BodyWrench> found;
-  visit_forces(row, kin,
-               [&](int body, const Eigen::Vector3d& moment, const Eigen::Vector3d& force) {
-                 found.push_back({body, moment, force});
-               });
-  return found;
-}
-
-/// Adds a couple at the head, which takes up the moment of the others.
-void take_up_moment(std::vector<BodyWrench>& wrenches) {
-  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
-  for (const BodyWrench& one : wrenches) moment += one.moment;
-  if (wrenches.front().body > 0) {
-    wrenches.insert(wrenches.begin(), {0, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()});
-  }
-  wrenches.front().moment -= moment;
+/// From the point on strand b to that on strand a of a row, cm.
+Eigen::Vector3d arm_of(const Row& row, const Kinematics& kin) {
+  Eigen::Vector3d arm = Eigen::Vector3d::Zero();
+  const auto add = [&](const SplineMix& mix, double sign) {
+    for (int k = 0; k < mix.count; ++k) {
+      arm += sign * mix.weight[k] * kin.centre_offset(mix.first + k);
+    }
+  };
+  add(row.a, 1);
+  add(row.b, -1);
+  return arm;
 }
 
 double cosine_of(const Contact& contact) { return contact.tangent_a.dot(contact.tangent_b); }
@@ -101,6 +94,8 @@ Row eq6_row(const Model& model, const Kinematics& kin, const std::vector<SplineS
   set_points(row, contact, direction_of(contact, on_a, towards), model);
   if (at == Eq6Point::skin) {
     row.at = skin_point(segments, contact) - kin.reference;
+  } else {
+    row.head_couple = row.direction.cross(arm_of(row, kin));
   }
   return row;
 }
@@ -109,15 +104,10 @@ std::array<Row, 2> eq6_rows(const Model& model, const Kinematics& kin,
                             const std::vector<SplineSegment>& segments,
                             const ThigmotaxisCommand& command, const Scene& scene,
                             const Observation* found) {
-  const auto along_a = [&](const Contact& contact) {
-    return eq6_row(model, kin, segments, contact, true, command.towards, scene.controller.eq6_at);
+  const auto along = [&](const Contact& contact, bool on_a) {
+    return eq6_row(model, kin, segments, contact, on_a, command.towards, scene.controller.eq6_at);
   };
-  const auto turn_to_b = [&](Row& row, const Contact& contact) {
-    row.direction = direction_of(contact, false, command.towards);
-  };
-  std::array<Row, 2> rows;
-  rows.fill(along_a(command.contact));
-  turn_to_b(rows[1], command.contact);
+  std::array<Row, 2> rows = {along(command.contact, true), along(command.contact, false)};
   double cosine = cosine_of(command.contact);
   std::vector<PatchPoint> storage;
   const std::vector<PatchPoint>& patch = patch_of(segments, command, scene, found, storage);
@@ -125,20 +115,12 @@ std::array<Row, 2> eq6_rows(const Model& model, const Kinematics& kin,
     WrenchSum sum_a(model.body_count()), sum_b(model.body_count());
     cosine = 0;
     for (const auto& [contact, share] : patch) {
-      Row row = along_a(contact);
-      sum_a.add(row, kin, share);
-      turn_to_b(row, contact);
-      sum_b.add(row, kin, share);
+      sum_a.add(along(contact, true), kin, share);
+      sum_b.add(along(contact, false), kin, share);
       cosine += share * cosine_of(contact);
     }
     rows[0].patch = sum_a.of_bodies();
     rows[1].patch = sum_b.of_bodies();
-  }
-  if (scene.controller.eq6_at == Eq6Point::centreline) {
-    for (Row& row : rows) {
-      if (row.patch.empty()) row.patch = wrenches_of(row, kin);
-      take_up_moment(row.patch);
-    }
   }
   const ThigmotaxisSpeeds asked =
       command.slip == Eq6Slip::paper ? command.speed : slip_of_shape(cosine, command.speed);

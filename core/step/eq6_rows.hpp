@@ -32,17 +32,17 @@ struct ThigmotaxisCommand {
 /// meets both rows at any angle. `cosine` is t_a . t_b, or its mean over a patch.
 ThigmotaxisSpeeds slip_of_shape(double cosine, const ThigmotaxisSpeeds& speed);
 
-/// A row of Eq. 6 without a right-hand side or bounds, along t_a or t_b of `contact`, as the world
-/// sees it. Both tangents are reversed if `towards` is the tail. `at` as in
-/// ControllerSettings::eq6_at.
+/// A row of Eq. 6 without a right-hand side or bounds, along t_a or t_b of `contact`. Both tangents
+/// are reversed if `towards` is the tail. `at` as in ControllerSettings::eq6_at.
+///
+/// At the centreline its velocity is the one seen from the head, which the rates of the joints
+/// determine. Forces at two points a diameter apart have a moment, and a couple at the head takes
+/// it up. So the forces are torques of joints, and nothing turns the animal from outside. A clamped
+/// head does not turn, so there the world sees the same.
 Row eq6_row(const Model& model, const Kinematics& kin, const std::vector<SplineSegment>& segments,
             const Contact& contact, bool on_a, BodyEnd towards, Eq6Point at);
 
-/// The rows of a command along t_a and t_b, with right-hand sides. At the centreline their
-/// velocities are those seen from the head, which the rates of the joints determine: forces at two
-/// points a diameter apart have a moment, and a couple at the head takes it up. So their forces are
-/// torques of joints, and nothing pushes or turns the animal from outside. A clamped head does not
-/// turn, so there the world sees the same. At an end of the knot they are
+/// The rows of a command along t_a and t_b, with right-hand sides. At an end of the knot they are
 /// the means of such rows over a patch (ControllerSettings::contact_patch). `found` is of the same
 /// segments, or null. Its patches serve a contact that is one of its ends.
 std::array<Row, 2> eq6_rows(const Model& model, const Kinematics& kin,

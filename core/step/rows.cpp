@@ -54,8 +54,9 @@ double relative_velocity(const Row& row, const BodyVelocities& bodies) {
     }
     return sum;
   }
-  return row.direction.dot(row.at ? point_velocity(apart(row, bodies.twist), *row.at)
-                                  : apart(row, bodies.centre));
+  const double speed = row.direction.dot(row.at ? point_velocity(apart(row, bodies.twist), *row.at)
+                                                : apart(row, bodies.centre));
+  return row.head_couple ? speed + row.head_couple->dot(bodies.twist.col(0).head<3>()) : speed;
 }
 
 /// The right-hand side of a unilateral row at `gap`; none if the row does not act. Speculative rows

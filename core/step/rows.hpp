@@ -49,8 +49,11 @@ struct Row {
   /// velocities of the rigid bodies at this point, mixed with the same weights. The forces of such
   /// a row are internal: their sum and their moment are zero.
   std::optional<Eigen::Vector3d> at;
-  /// Of a row of Eq. 6 over a patch of contact, or seen from the head: C' of each body that takes
-  /// part, rising. The points above are then only where the patch begins.
+  /// Of a row that is seen from the head: the couple at the head per unit λ that takes up the
+  /// moment of the forces at the two points, world axes, cm.
+  std::optional<Eigen::Vector3d> head_couple;
+  /// Of a row of Eq. 6 over a patch of contact: C' of each body that takes part, rising. The points
+  /// above are then only where the patch begins.
   std::vector<BodyWrench> patch;
   double rhs = 0;  ///< d, cm/s or rad/s
   /// The part of λ of an impact, which acts at once. Half of the rest acts before the middle of the
@@ -87,6 +90,7 @@ void visit_forces(const Row& row, const Kinematics& kin, Visit visit) {
   };
   of_mix(row.a, 1);
   of_mix(row.b, -1);
+  if (row.head_couple) visit(0, *row.head_couple, Eigen::Vector3d(Eigen::Vector3d::Zero()));
 }
 
 /// "limit of j05_bend_y (upper)", "contact of bodies 31 and 74", ...

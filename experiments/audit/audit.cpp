@@ -9,7 +9,6 @@
 #include "core/log/frame_rows.hpp"
 #include "core/log/log_writer.hpp"
 #include "core/log/saved_run.hpp"
-#include "core/run/laws.hpp"
 #include "core/run/momentum.hpp"
 #include "core/run/simulation.hpp"
 #include "experiments/audit/audit_activation.hpp"
@@ -27,9 +26,6 @@
 
 namespace hagfish {
 namespace {
-
-/// A spline point loads bodies up to two past the one nearest to it.
-constexpr int spline_reach = 2;
 
 double largest(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0, worse);
@@ -57,34 +53,6 @@ std::vector<Finding> constraints(const LogContents& log, double deepest, double 
           every_step(limits_criterion(expect, violation)),
           every_step(head_drift_criterion(expect, largest(log.h5.doubles("/steps/head_drift")))),
           every_step(kkt_criterion(expect, largest(log.h5.doubles("/steps/kkt"))))};
-}
-
-/// f_thigmo at dofs of bodies tailward of the last contact's spline points.
-Finding thigmotaxis_extent(const LogContents& log) {
-  const Model& model = log.model;
-  const Hdf5Reader::Rows force = log.h5.rows("/forces/thigmotaxis");
-  const Hdf5Reader::Rows body_b = log.h5.rows("/thigmotaxis/body_b");
-  // Without rows, -1, there must be no force at all.
-  Eigen::VectorXd furthest = body_b.rowwise().maxCoeff();
-  if (law_of(log.resolved.scene).logs_rows) {
-    const std::vector<std::int64_t> frame = log.h5.integers("/eq6/frame");
-    const std::vector<double> spline_b = log.h5.doubles("/eq6/spline_b");
-    for (std::size_t i = 0; i < frame.size(); ++i) {
-      double& most = furthest[frame[i]];
-      most = std::max(most, std::floor(spline_b[i] + 0.5));
-    }
-  }
-  double beyond = 0;
-  for (Eigen::Index f = 0; f < log.begun; ++f) {
-    const int last = static_cast<int>(furthest[f]);
-    for (int b = last < 0 ? 0 : last + spline_reach + 1; b < model.body_count(); ++b) {
-      const Body& body = model.bodies[b];
-      for (int k = body.first_dof; k < body.first_dof + body.dofs; ++k) {
-        beyond = worse(beyond, std::abs(force(f, k)));
-      }
-    }
-  }
-  return judged_over({"f_thigmo past the knot", beyond, 0, "dyn cm"});
 }
 
 Eigen::ArrayXd diagnostic(const LogContents& log, const char* name) {
@@ -341,7 +309,6 @@ std::vector<Finding> audit(const std::string& file, bool anew) {
   append(activations.findings());
   append(audit_pull(log));
   findings.push_back(forward_inverse.finding());
-  findings.push_back(thigmotaxis_extent(log));
   append(energy(log));
   findings.push_back(energy_gain(log));
   append(momentum(log));

@@ -127,8 +127,10 @@ Finding audit_seal(const LogContents& log) {
   if (!log.h5.has(seal_path)) {
     const bool ended = log.h5.root_text("status") != "running";
     const bool taken = ended && log.h5.root_text("git_revision") == build_revision();
-    return {"seal", !taken, taken ? "taken out: logs of this revision have one" : "none",
-            "",     "",     ""};
+    const char* why = taken   ? "taken out: logs of this revision have one"
+                      : ended ? "not sealed: made by another revision"
+                              : "not sealed: the run has not ended";
+    return {"seal", !taken, why, "", "", ""};
   }
   const Seal then = read_seal(log.h5.text(seal_path));
   const H5::DataSet any = log.h5.open("/trajectory/time");

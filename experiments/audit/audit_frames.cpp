@@ -8,6 +8,7 @@
 #include <numeric>
 #include <optional>
 
+#include "core/chain/skin_fold.hpp"
 #include "core/log/log_writer.hpp"
 #include "experiments/audit/row_force.hpp"
 
@@ -101,6 +102,7 @@ FrameAudit::FrameAudit(const LogContents& log)
       gravity_(log.h5.doubles("/diagnostics/gravity_energy")),
       integrator_(sum_of(log, {"inertia", "potential", "coriolis", "held", "given_back"})),
       integrator_error_(log.h5.doubles("/diagnostics/integrator_error")),
+      skin_fold_(log.h5.doubles("/diagnostics/skin_fold")),
       penetration_(log.h5.doubles("/steps/penetration")),
       left_out_(log.h5.doubles("/steps/left_out")),
       limit_violation_(log.h5.doubles("/steps/limit_violation")),
@@ -115,6 +117,7 @@ FrameAudit::FrameAudit(const LogContents& log)
 void FrameAudit::see(const AuditedFrame& frame, const KnotVote& knot) {
   see_trajectory(frame);
   see_knot(frame, knot);
+  see_fold(frame);
   see_energy(frame);
   see_bounds(frame);
   see_motion(frame);
@@ -159,6 +162,15 @@ void FrameAudit::see_knot(const AuditedFrame& frame, const KnotVote& knot) {
   };
   from_q_.compare("/knot/head_end", head_end_[f], span ? end(0) : NAN);
   from_q_.compare("/knot/tail_end", tail_end_[f], span ? end(1) : NAN);
+}
+
+void FrameAudit::see_fold(const AuditedFrame& frame) {
+  const double fold = skin_fold(log_.model, frame.observation.kin);
+  from_q_.compare("/diagnostics/skin_fold", skin_fold_[frame.index], fold);
+  if (!holds_knot(frame.phase)) return;
+  ++held_;
+  folded_ += fold > 1 ? 1 : 0;
+  largest_fold_ = std::max(largest_fold_, fold);
 }
 
 void FrameAudit::see_energy(const AuditedFrame& frame) {
@@ -240,6 +252,22 @@ void FrameAudit::see_motion(const AuditedFrame& frame) {
   left_with_ = arrived_with;
 }
 
+Finding FrameAudit::skin() const {
+  const ExpectSettings& expect = log_.resolved.scene.expect;
+  std::string text = "the knot is never held";
+  if (held_ > 0) {
+    text = folded_ > 0
+               ? fmt::format("inside of a bend the skin folds into itself at {} of {} frames",
+                             folded_, held_)
+               : "inside of no bend does the skin fold into itself";
+    text += fmt::format(
+        "; radius of the skin up to {:.2f} of the radius of curvature, across one diameter",
+        largest_fold_);
+  }
+  if (expect.skin_fold > 0) text += fmt::format(" (at most {:g})", expect.skin_fold);
+  return judged(skin_fold_criterion(expect, largest_fold_), text);
+}
+
 std::vector<Finding> FrameAudit::findings() const {
   // At one frame more or less, whatever the share.
   const auto share = [](std::int64_t count, double most, std::int64_t of) {
@@ -250,6 +278,7 @@ std::vector<Finding> FrameAudit::findings() const {
   return {
       by_itself_.finding("frames", "the frame's number, the phase before, the integrator's terms"),
       from_q_.finding("figures of q", "q and q̇ at every frame"),
+      skin(),
       judged_over({"motion", off_way_, 1, "of what is allowed"},
                   "way of the centre of mass between frames, against its velocities there"),
       judged({"contacts", off, 1, "of what is allowed"},

@@ -150,7 +150,7 @@ std::vector<Finding> moved(const std::vector<Criterion>& criteria, const Slide& 
           judged(both, fmt::format("the knot {}: its {} end moved {:.2f} cm of {:.2f} that taper "
                                    "asks, curvature {:.2f} cm "
                                    "(correlation {:.2f}); {:.0f} % (at least {:g} %)",
-                                   slide_name(slide, 0.01 * both.bound), headward ? "tail" : "head",
+                                   slide_name(slide), headward ? "tail" : "head",
                                    slide.trailing_way, slide.taper_asks, slide.travel,
                                    slide.correlation, both.value, both.bound))};
 }

@@ -44,10 +44,22 @@ double nearest_body(double place, double logged) {
   return std::abs(place - logged) <= 0.5 + rounding ? logged : std::floor(place + 0.5);
 }
 
+int last_loaded(const std::vector<SplineSegment>& segments, const Scene& scene,
+                const Contact& contact, KnotEnd end) {
+  std::vector<PatchPoint> patch;
+  if (end != KnotEnd::neither) {
+    contact_patch(segments, scene, contact, end == KnotEnd::last, patch);
+  }
+  int last = patch.empty() ? contact.segment_b : 0;
+  for (const PatchPoint& point : patch) last = std::max(last, point.contact.segment_b);
+  return last + 2;
+}
+
 ThigmotaxisAudit::ThigmotaxisAudit(const LogContents& log)
     : log_(log),
       law_(law_of(log.resolved.scene)),
       table_(law_.logs_rows),
+      force_(log.h5.rows("/forces/thigmotaxis")),
       lambda_(log.h5.rows("/thigmotaxis/lambda")),
       command_(log.h5.rows("/thigmotaxis/command")),
       speed_(log.h5.rows("/thigmotaxis/speed")),
@@ -91,6 +103,7 @@ ThigmotaxisAudit::Rows ThigmotaxisAudit::see(const AuditedFrame& frame, Rebuilt&
     rows = rows_at_ends(frame, rebuilt);
     rebuilt.compare("/thigmotaxis/cap", cap_[frame.index], rows.empty() ? NAN : cap_of_rows);
   }
+  see_extent(frame, rows);
   Rows seen{Eigen::MatrixXd::Zero(model.nv(), 4), Eigen::VectorXd::Zero(model.nv())};
   const std::string group = table_ ? "/eq6/" : "/thigmotaxis/";
   for (const LoggedRow& r : rows) {
@@ -244,6 +257,19 @@ void ThigmotaxisAudit::see_ends(const AuditedFrame& frame, const std::vector<Log
   }
 }
 
+void ThigmotaxisAudit::see_extent(const AuditedFrame& frame, const std::vector<LoggedRow>& rows) {
+  int last = -1;  // without rows there is no force at all
+  for (const LoggedRow& r : rows) {
+    const Contact at = contact_of(log_.model, frame.segments, r.spline_a, r.spline_b);
+    last = std::max(last, last_loaded(frame.segments, log_.resolved.scene, at, r.end));
+  }
+  if (last + 1 >= log_.model.body_count()) return;
+  const int first_dof = log_.model.bodies[last + 1].first_dof;
+  for (const double force : force_.row(frame.index).tail(log_.model.nv() - first_dof)) {
+    past_ = worse(past_, std::abs(force));
+  }
+}
+
 AskedRows ThigmotaxisAudit::asked_rows(Phase phase) const {
   return law_.rows == nullptr ? AskedRows{} : law_.rows(log_.resolved.scene, phase);
 }
@@ -266,7 +292,8 @@ std::vector<Finding> ThigmotaxisAudit::findings() const {
   return {judged_over({"thigmotaxis as asked", ask_miss_, ask_tolerance, "cm/s"},
                       "rows below their cap"),
           judged_over({"thigmotaxis cap", most_, 1 + cap_tolerance, "of controller.cap"},
-                      "largest multiplier")};
+                      "largest multiplier"),
+          judged_over({"f_thigmo past the knot", past_, 0, "dyn cm"})};
 }
 
 }  // namespace hagfish

@@ -18,6 +18,13 @@ namespace hagfish {
 /// which the place, a rounded sum, does not tell apart, it is the one that was `logged`.
 double nearest_body(double place, double logged);
 
+/// The tailmost body that rows of Eq. 6 at a contact may load, where the body is as `segments` are.
+/// A spline point loads the four bodies about it. At an end of the knot the rows hold over a patch
+/// (ControllerSettings::contact_patch). In the middle of a step, to which the body has moved on,
+/// this may reach further tailward than the contact that was found at its start.
+int last_loaded(const std::vector<SplineSegment>& segments, const Scene& scene,
+                const Contact& contact, KnotEnd end);
+
 class ThigmotaxisAudit {
  public:
   /// The log is referred to.
@@ -33,7 +40,7 @@ class ThigmotaxisAudit {
   /// Frames in their order. Datasets go to `rebuilt`; those with a force that pulls to `shape`.
   Rows see(const AuditedFrame& frame, Rebuilt& rebuilt, std::set<std::string>& shape);
 
-  /// "thigmotaxis as asked" and "thigmotaxis cap".
+  /// "thigmotaxis as asked", "thigmotaxis cap" and "f_thigmo past the knot".
   std::vector<Finding> findings() const;
 
  private:
@@ -64,6 +71,8 @@ class ThigmotaxisAudit {
   /// /thigmotaxis against the rows at the knot's ends.
   void see_ends(const AuditedFrame& frame, const std::vector<LoggedRow>& rows,
                 Rebuilt& rebuilt) const;
+  /// The force against the reach of the rows.
+  void see_extent(const AuditedFrame& frame, const std::vector<LoggedRow>& rows);
   /// What the scene's law asks for at the ends in a phase.
   AskedRows asked_rows(Phase phase) const;
   /// The bound on the forces of rows that the scene has, dyn: in the phase `pull`, in which it
@@ -73,13 +82,13 @@ class ThigmotaxisAudit {
   const LogContents& log_;
   const Law& law_;
   bool table_;  ///< the rows are those of /eq6
-  Hdf5Reader::Rows lambda_, command_, speed_, spline_a_, spline_b_, body_a_, body_b_;
+  Hdf5Reader::Rows force_, lambda_, command_, speed_, spline_a_, spline_b_, body_a_, body_b_;
   std::vector<double> cap_;
   std::vector<std::int64_t> frame_, end_, along_, towards_;  ///< /eq6
   std::vector<double> row_a_, row_b_, row_command_, row_cap_, row_lambda_, row_speed_, row_slack_;
   std::size_t next_row_ = 0;  ///< first one of frames not seen yet
   double pull_from_ = NAN;    ///< time of the last frame before the pull, s
-  double ask_miss_ = 0, most_ = 0;
+  double ask_miss_ = 0, most_ = 0, past_ = 0;
 };
 
 }  // namespace hagfish

@@ -25,6 +25,11 @@ Criterion penetration_criterion(const ExpectSettings& expect, double deepest) {
   return {"penetration", deepest, expect.penetration, "cm"};
 }
 
+Criterion skin_fold_criterion(const ExpectSettings& expect, double largest) {
+  return {"skin fold", largest, expect.skin_fold > 0 ? expect.skin_fold : INFINITY,
+          "of radius of curvature"};
+}
+
 Criterion limits_criterion(const ExpectSettings& expect, double furthest) {
   return {"limits", furthest / degree, expect.limit_violation / degree, "deg"};
 }

@@ -26,6 +26,8 @@ struct Criterion {
 
 /// Deepest overlap of skins at any step, cm.
 Criterion penetration_criterion(const ExpectSettings& expect, double deepest);
+/// Largest skin_fold() while the knot is held, 0 where it never is.
+Criterion skin_fold_criterion(const ExpectSettings& expect, double largest);
 /// Furthest that a joint is past its limit at any step, rad; judged in degrees.
 Criterion limits_criterion(const ExpectSettings& expect, double furthest);
 /// Largest way of the clamped head at any step, cm.

@@ -495,7 +495,7 @@ class Search {
 std::string DesignOutcome::in_words() const {
   if (found) {
     std::string words = fmt::format(
-        "Try {} is good: it succeeds from {} (law paper) and {} (law reflex) of {} starts",
+        "Try {} is good: it succeeds from {} (Eq. 6) and {} (reflex) of {} starts",
         best->number, best->passed[0], best->passed[1], judged_starts);
     if (judged_runs > 2 * judged_starts) {
       words += fmt::format(", and in {} and {} of {} other animals", best->animals[0],

@@ -47,14 +47,14 @@ std::string design_page(const DesignOptions& options, const DesignOutcome& outco
       "A start has normal noise of {:g} degrees on every hinge. A run succeeds if the animal ties, "
       "holds, tightens and slides the knot, and it comes off, within all bounds of the scene.\n\n"
       "| law that slides it | starts that succeed |\n|---|---|\n"
-      "| paper | {} of {} |\n| reflex | {} of {} |\n\n",
+      "| Eq. 6 | {} of {} |\n| reflex | {} of {} |\n\n",
       start_noise_deg, best.passed[0], best.judged, best.passed[1], best.judged);
   if (options.animals) {
     page += fmt::format(
         "Other animals are {3:g} to {4:g} times as long. Their girth for the length and their "
         "limits are changed by up to {5:g} %.\n\n"
         "| law that slides it | other animals that tie it, hold it and slide it |\n|---|---|\n"
-        "| paper | {1} of {0} |\n| reflex | {2} of {0} |\n\n",
+        "| Eq. 6 | {1} of {0} |\n| reflex | {2} of {0} |\n\n",
         judged_animals, best.animals[0], best.animals[1], shortest_animal, longest_animal,
         100 * animal_change);
   }
@@ -67,7 +67,7 @@ std::string design_page(const DesignOptions& options, const DesignOutcome& outco
   }
   page += fmt::format(
       "## What it takes\n\n"
-      "These figures are of the run from a straight start by the paper's law.\n\n"
+      "These figures are of the run from a straight start by Eq. 6.\n\n"
       "| figure | value |\n|---|---|\n"
       "| time of the program, over that of the soft body | {:g} |\n"
       "| tied and tightened from | {:.2f} s |\n"

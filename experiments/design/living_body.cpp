@@ -49,7 +49,6 @@ program = "{2}"
 
 [controller]
 tighten_from = {3:.2f}            # s: the program ends by pulling the knot together
-tighten_time = 1.0              # s
 {5}{6}
 [time]
 {7}
@@ -134,8 +133,7 @@ FoundScene in_other_animal(const FoundScene& found, const Specimen& own, unsigne
 std::vector<std::string> trial_settings(const Trial& trial) {
   std::vector<std::string> set;
   if (trial.law == 1) {
-    set = {"controller.law=reflex", "controller.tighten_time=0.04",
-           "controller.reflex.shift=2.5e-4 L",
+    set = {"controller.law=reflex", "controller.reflex.shift=2.5e-4 L",
            "expect.speed_share=0.0"};  // there are no rows of Eq. 6 to be met
   }
   if (trial.seed > 0) {

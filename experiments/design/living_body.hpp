@@ -54,8 +54,8 @@ inline constexpr unsigned thickest_animal = 1;
 /// The same program in that animal.
 FoundScene in_other_animal(const FoundScene& found, const Specimen& own, unsigned number);
 
-/// The control laws by which a found knot is slid.
-inline constexpr const char* judged_laws[] = {"paper", "reflex"};
+/// The control laws by which a found knot is slid: Eq. 6 as the scene has it, and the reflex.
+inline constexpr const char* judged_laws[] = {"eq6", "reflex"};
 
 /// One run of a found scene: a law, a start and a time step.
 struct Trial {

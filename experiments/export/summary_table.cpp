@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "core/chain/skin_fold.hpp"
 #include "core/knot/knot.hpp"
 #include "core/scene/phase.hpp"
 #include "experiments/audit/audit_knot.hpp"
@@ -53,6 +54,18 @@ double sliding_force(const LogContents& log, const Stretch& slide) {
     sums.push_back(lambda.row(static_cast<Eigen::Index>(f)).sum());
   }
   return sums.empty() ? std::numeric_limits<double>::quiet_NaN() : median(sums);
+}
+
+/// The largest skin_fold() at frames of the held knot, also of logs from before they had one.
+double largest_fold(const LogContents& log) {
+  double most = 0;
+  Kinematics kin;
+  for (std::size_t f = 0; f < log.time.size(); ++f) {
+    if (!holds_knot(static_cast<Phase>(log.phase[f]))) continue;
+    update_positions(log.model, log.q.row(static_cast<Eigen::Index>(f)), kin);
+    most = std::max(most, skin_fold(log.model, kin));
+  }
+  return most;
 }
 
 /// Time that was simulated, s: steps go on behind the last frame, where the log has them.
@@ -188,7 +201,8 @@ ExportTable summary_table(const LogContents& log, const SweptSkin& swept, bool s
        {"mass", gram, "of the animal"},
        {"step", second, "h, of the integration"},
        {"duration", second, "simulated; of a log of frames, up to the last one"},
-       {"knot", none, "type at the start of tightening, or at the end where it never tightened"},
+       {"knot", none,
+        "type as tightening or the slide begins, or at the end where it comes to neither"},
        {"tighten_from", second, "start of tightening"},
        {"slide_from", second, "start of the slide"},
        {"release_from", second, "when the head was let go"},
@@ -208,6 +222,9 @@ ExportTable summary_table(const LogContents& log, const SweptSkin& swept, bool s
        {"largest_torque", torque,
         "of both together, of any hinge while the knot slides or pulls, likewise"},
        {"penetration", centimetre, "deepest overlap of skins at any step up to the last frame"},
+       {"skin_fold", none,
+        "largest radius of the skin over radius of curvature while the knot is held, across one "
+        "diameter: above 1 the skin inside of a bend folds into itself"},
        {"limit_violation", radian, "furthest past a joint limit at any step up to the last frame"},
        {"work_tip", energy, "of the scripted force on the tail, in all"},
        {"work_active", energy, "of the muscles, in all"},
@@ -225,7 +242,9 @@ ExportTable summary_table(const LogContents& log, const SweptSkin& swept, bool s
              animal.mass,
              scene.time.step,
              simulated(log),
-             knot_at(log, tighten.reached ? tighten.first : end),
+             knot_at(log, tighten.reached ? tighten.first
+                          : slide.reached ? slide.first
+                                          : end),
              from(tighten),
              from(slide),
              from(release),
@@ -237,12 +256,13 @@ ExportTable summary_table(const LogContents& log, const SweptSkin& swept, bool s
              slid.travel,
              slid.correlation,
              100 * slid.share(),
-             slide_name(slid, scene.expect.slide_share),
+             slide_name(slid),
              sliding_force(log, slide),
              largest(log.h5.rows("/mean/forces/thigmotaxis")),
              largest(log.h5.rows("/mean/forces/active")),
              largest_muscle_torque(log),
              largest(log.h5.doubles("/diagnostics/penetration")),
+             largest_fold(log),
              largest(log.h5.doubles("/diagnostics/limit_violation")),
              at_end("work_tip"),
              at_end("work_active"),

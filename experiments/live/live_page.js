@@ -357,7 +357,7 @@ class Page {
 
 const TRIES = [
   { words: "1. A knot ties itself", scene: "living_overhand", speed: 4,
-    first: "The animal's own torques bend it into an overhand knot. Watch the knot's name change from 0_1 to 3_1 at about 9 s." },
+    first: "The animal's own torques bend it into an overhand knot. Watch the knot's name change from 0_1 to 3_1 at about 9 s. Then the knot slides: both of its ends and the bends of the body go to the head." },
   { words: "2. Slide it by one number", scene: "reflex_overhand", speed: 4, goesOn: true,
     first: "First it ties the knot. Then every joint copies the bend of its neighbour, a little behind it.",
     then: "Now only the reflex acts: each joint copies the bend Δ behind it, and the knot slides to the head. Δ is now twice what it was.",

@@ -68,7 +68,7 @@ py::object slide_of(const PythonSimulation& run) {
   const Slide slide = back ? run.slides.way_back() : run.slides.slide();
   if (std::isnan(slide.leading_way)) return py::none();
   py::dict found;
-  found["name"] = slide_name(slide, run.resolved.scene.expect.slide_share);
+  found["name"] = slide_name(slide);
   found["leading_way"] = slide.leading_way;
   found["trailing_way"] = slide.trailing_way;
   found["taper_asks"] = slide.taper_asks;

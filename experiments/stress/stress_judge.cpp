@@ -95,7 +95,7 @@ void StressJudge::see_knot(const Observation& observation, double time) {
 void StressJudge::see_control(const StepRecord& record) {
   kkt_ = std::max(kkt_, record.solution.kkt.worst());
   phase_ = record.controller.phase;
-  tightened_ = tightened_ || phase_ == Phase::tighten;
+  tied_ = tied_ || holds_knot(phase_);
   const std::optional<KnotSpan> span = knot_span(record.controller);
   if (phase_ != Phase::slide || !span) {
     return;
@@ -122,7 +122,7 @@ Status StressJudge::root_cause() const {
 
 Status StressJudge::thigmotaxis() const {
   const ExpectSettings& expect = scene_.expect;
-  if (expect.slide_distance > 0 && scene_.start.phase == Phase::form && !tightened_) {
+  if (expect.slide_distance > 0 && scene_.start.phase == Phase::form && !tied_) {
     return {Outcome::never_tied, "the knot was never ready to tighten"};
   }
   if (expect.slide_distance > 0 && slide_steps_ == 0) {

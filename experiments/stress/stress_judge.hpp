@@ -65,7 +65,7 @@ class StressJudge {
   bool knotted_at_start_ = false;
   double knot_seen_ = 0;  ///< s
   std::string lost_;      ///< what the knot became before its release
-  bool tightened_ = false;
+  bool tied_ = false;  ///< the controller took the knot as tied
   SlideWatch slides_;
   long slide_steps_ = 0, slide_met_ = 0;
   double kkt_ = 0;

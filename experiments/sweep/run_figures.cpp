@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/chain/skin_fold.hpp"
 #include "core/input/toml_range.hpp"
 #include "core/log/end_of_run.hpp"
 #include "core/log/log_writer.hpp"
@@ -87,6 +88,7 @@ std::vector<std::pair<std::string, std::string>> RunSummary::fields() const {
           {"largest_torque_dyn_cm", number(largest_torque)},
           {"pull_N", number(pull)},
           {"penetration_cm", number(penetration)},
+          {"skin_fold", number(skin_fold)},
           {"limit_violation_rad", number(limit_violation)},
           {"head_drift_cm", number(head_drift)},
           {"kkt", number(kkt)},
@@ -145,8 +147,8 @@ void RunFigures::see_frame(const StepRecord& record) {
   const FrameMeans& mean = means_.close();
   const std::optional<KnotSpan> span = knot_span(record.controller);
   const Phase phase = record.controller.phase;
-  if (phase == Phase::tighten && !stretch(phase).reached) {
-    tightened_ = type_name(record.moment.observation.kin.centre, scene_.knot);
+  if (holds_knot(phase) && held_.empty()) {
+    held_ = type_name(record.moment.observation.kin.centre, scene_.knot);
   }
   slides_.see(phase, span, record.moment.state.q);
   frames_.push_back({record.time, phase,
@@ -156,6 +158,9 @@ void RunFigures::see_frame(const StepRecord& record) {
   if (frames_.size() > 1 && slides_or_pulls(frames_[frames_.size() - 2].phase)) {
     largest_torque_ = std::max(
         largest_torque_, largest_hinge(mean.active_torque + mean.force[RowKind::thigmotaxis]));
+  }
+  if (holds_knot(phase)) {
+    skin_fold_ = std::max(skin_fold_, skin_fold(model_, record.moment.observation.kin));
   }
   last_centreline_ = record.moment.observation.kin.centre;
   largest_thigmotaxis_ =
@@ -216,7 +221,7 @@ RunSummary RunFigures::summary(const std::string& outcome, const std::string& me
     return found.reached ? frames_[found.first].time : nan;
   };
   const Stretch sliding = stretch(Phase::slide);
-  run.knot = stretch(Phase::tighten).reached ? tightened_ : type_at_end();
+  run.knot = held_.empty() ? type_at_end() : held_;
   run.duration = static_cast<double>(steps_) * scene_.time.step;
   run.tighten_from = from(Phase::tighten);
   run.slide_from = from(Phase::slide);
@@ -232,7 +237,7 @@ RunSummary RunFigures::summary(const std::string& outcome, const std::string& me
     run.curvature_travel = slide.travel;
     run.curvature_correlation = slide.correlation;
     run.both_ends = 100 * slide.share();
-    run.slide = slide_name(slide, scene_.expect.slide_share);
+    run.slide = slide_name(slide);
     std::vector<double> sums;
     for (std::size_t f = sliding.first + 1; f <= sliding.last; ++f) sums.push_back(frames_[f].rows);
     run.sliding_force = sums.empty() ? nan : median(sums);
@@ -241,6 +246,7 @@ RunSummary RunFigures::summary(const std::string& outcome, const std::string& me
   run.largest_active = largest_active_;
   run.largest_torque = largest_torque_;
   run.penetration = penetration_;
+  run.skin_fold = skin_fold_;
   run.limit_violation = limit_violation_;
   run.head_drift = head_drift_;
   run.kkt = kkt_;
@@ -278,6 +284,7 @@ std::vector<PullMeans> RunFigures::pull() const {
 std::vector<Criterion> RunFigures::criteria(const RunSummary& run) const {
   const ExpectSettings& expect = scene_.expect;
   std::vector<Criterion> judged = {penetration_criterion(expect, run.penetration),
+                                   skin_fold_criterion(expect, run.skin_fold),
                                    limits_criterion(expect, run.limit_violation),
                                    head_drift_criterion(expect, run.head_drift),
                                    kkt_criterion(expect, run.kkt),
@@ -310,8 +317,8 @@ std::vector<std::string> RunFigures::unmet(const RunSummary& run) const {
   };
   if (!scene_.expect.knot.empty()) {
     if (reaches(Phase::tighten)) {
-      judge("knot held", stretch(Phase::tighten).reached && !lost_ &&
-                             run.outcome != outcome_name(Outcome::knot_lost));
+      judge("knot held",
+            !held_.empty() && !lost_ && run.outcome != outcome_name(Outcome::knot_lost));
     }
     if (reaches(Phase::free)) {
       judge("unknot at end", frames_.back().phase == Phase::free && type_at_end() == knot_name({}));

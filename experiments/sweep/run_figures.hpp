@@ -23,7 +23,7 @@ struct RunSummary {
   std::string outcome;     ///< "ok" of a run that came to its end, else as outcome_name has it
   std::string unmet;       ///< criteria of [expect] that it does not meet, joined by "; "
   std::string message;     ///< why it stopped
-  std::string knot;        ///< type at the start of tightening, or at the end
+  std::string knot;        ///< type as it first must hold, or at the end
   double duration = none;  // s
   double tighten_from = none, slide_from = none, release_from = none, free_from = none;  // s
   double slide_distance = none, slide_speed = none;                                      // cm, cm/s
@@ -35,6 +35,7 @@ struct RunSummary {
   double largest_thigmotaxis = none, largest_active = none, largest_torque = none;  // dyn cm
   double pull = none;                                                               // N
   double penetration = none, limit_violation = none;                                // cm, rad
+  double skin_fold = none;                                                          // 1
   double head_drift = none, kkt = none;                                             // cm, 1
   double eq6 = none;                                                                // %
   double energy_ledger = none, energy_gain = none, energy_loss = none, momentum_ledger = none;  // 1
@@ -85,10 +86,10 @@ class RunFigures {
   std::int64_t steps_ = 0;  // seen
   std::vector<Seen> frames_;
   SlideWatch slides_;
-  std::string tightened_;             // type at the first frame of tightening
+  std::string held_;                  // type at the first frame at which it must hold
   Eigen::Matrix3Xd last_centreline_;  // at the last frame
   bool lost_ = false, clamped_ = false, ended_ = false;
-  double penetration_ = 0, limit_violation_ = 0, head_drift_ = 0, kkt_ = 0;
+  double penetration_ = 0, skin_fold_ = 0, limit_violation_ = 0, head_drift_ = 0, kkt_ = 0;
   double largest_thigmotaxis_ = 0, largest_active_ = 0, largest_torque_ = 0;
   std::int64_t eq6_met_ = 0, eq6_steps_ = 0;              // of slides, up to the last frame
   std::int64_t eq6_met_since_ = 0, eq6_steps_since_ = 0;  // and since

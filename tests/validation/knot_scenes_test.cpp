@@ -4,13 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <iostream>
 #include <string>
+#include <string_view>
 #include <tuple>
 
+#include "core/input/builtin_files.hpp"
 #include "core/input/scene_reader.hpp"
 #include "core/knot/writhe.hpp"
 #include "core/log/log_frame.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tests/support/written_log.hpp"
 
 namespace hagfish::knot_scenes_test {
 
@@ -64,8 +69,6 @@ Seen run(const ResolvedScene& resolved) {
   return seen;
 }
 
-std::string scene_name(const testing::TestParamInfo<const char*>& scene) { return scene.param; }
-
 /// A whole run of a scene shows what it expects, but for overlap.
 void expect_but_for_overlap(const ResolvedScene& resolved, const Seen& seen) {
   const ExpectSettings& expect = resolved.scene.expect;
@@ -102,23 +105,17 @@ void expect_whole(const ResolvedScene& resolved) {
   EXPECT_LE(seen.worst.penetration, resolved.scene.expect.penetration);
 }
 
-class KnotScenes : public testing::TestWithParam<const char*> {};
+class BuiltInScenes : public testing::TestWithParam<std::string_view> {};
 
-TEST_P(KnotScenes, TieHoldSlideAndComeOff) { expect_whole(scene_called(GetParam())); }
+TEST_P(BuiltInScenes, RunToTheirEndAndPassTheirOwnCheck) {
+  const TemporaryFolder folder;
+  const std::filesystem::path log = folder.path() / "run.h5";
+  write_log(log, scene_called(std::string(GetParam())));
+  EXPECT_EQ(audit_objections(log), "");
+}
 
-INSTANTIATE_TEST_SUITE_P(
-    BuiltIn, KnotScenes,
-    testing::Values("figure_eight", "double_overhand", "three_twist", "overhand_reverse",
-                    "overhand_free_head", "overhand_fast", "thigmotaxis_everywhere",
-                    "double_overhand_paced", "muscles_forward", "living_overhand",
-                    "living_figure_eight", "living_double_overhand", "living_three_twist",
-                    "living_overhand_free", "living_figure_eight_free",
-                    "living_double_overhand_free", "living_three_twist_free", "reflex_overhand",
-                    "reflex_figure_eight", "reflex_double_overhand", "reflex_three_twist",
-                    "reflex_overhand_free", "reflex_figure_eight_free",
-                    "reflex_double_overhand_free", "reflex_three_twist_free", "reflex_reverse",
-                    "reflex_muscles", "robot_overhand"),
-    scene_name);
+INSTANTIATE_TEST_SUITE_P(All, BuiltInScenes, testing::ValuesIn(builtin_scene_names()),
+                         [](const auto& scene) { return std::string(scene.param); });
 
 /// What muscles that lag behind a stiff spring do must not hang on the step's own damping.
 TEST(KnotScenesByActivations, TieHoldSlideAndComeOffAtAnyStep) {
@@ -227,20 +224,6 @@ TEST(KnotScenesByTheMidpointRule, TieAtOnePlaceFromTwoMillisecondsOn) {
   EXPECT_LE(std::abs(middle - coarse), 0.005);
   EXPECT_LE(std::abs(fine - middle), 0.0016);
 }
-
-INSTANTIATE_TEST_SUITE_P(Pull, KnotScenes,
-                         testing::Values("pull_overhand", "pull_figure_eight",
-                                         "pull_double_overhand", "pull_living_overhand",
-                                         "pull_living_figure_eight", "pull_living_double_overhand",
-                                         "pull_living_three_twist", "pull_morsel",
-                                         "reflex_pull_overhand", "reflex_pull_figure_eight"),
-                         scene_name);
-
-INSTANTIATE_TEST_SUITE_P(OutOfAHole, KnotScenes,
-                         testing::Values("hole_overhand", "hole_figure_eight", "hole_three_twist",
-                                         "reflex_hole_overhand", "reflex_hole_figure_eight",
-                                         "reflex_hole_three_twist", "reflex_burrow", "reflex_pole"),
-                         scene_name);
 
 TEST(KnotScenesWithCones, TieHoldSlideAndComeOff) {
   expect_whole(scene_called("table1", {"model.bending_limit=cone"}));

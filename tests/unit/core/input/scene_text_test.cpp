@@ -151,13 +151,14 @@ class Bits {
     add(type, run_time_text(from), run_time_text(to));
   }
   void put(const ExpectSettings& s) {
-    const auto& [knot, types, hand, slide_distance, reverse_distance, out_of, pull, pull_settled,
-                 pull_drift, pull_balance, speed_share, penetration, limit_violation, head_drift,
-                 kkt, force_balance, forward_inverse, energy, energy_gain, energy_loss, momentum] =
-        s;
-    add(knot, types, hand, slide_distance, reverse_distance, out_of, pull, pull_settled, pull_drift,
-        pull_balance, speed_share, penetration, limit_violation, head_drift, kkt, force_balance,
-        forward_inverse, energy, energy_gain, energy_loss, momentum);
+    const auto& [knot, types, hand, slide_distance, slide_share, reverse_distance, out_of,
+                 torque_share, pull, pull_settled, pull_drift, pull_balance, speed_share,
+                 penetration, skin_fold, limit_violation, head_drift, kkt, force_balance,
+                 forward_inverse, energy, energy_gain, energy_loss, momentum] = s;
+    add(knot, types, hand, slide_distance, slide_share, reverse_distance, out_of, torque_share,
+        pull, pull_settled, pull_drift, pull_balance, speed_share, penetration, skin_fold,
+        limit_violation, head_drift, kkt, force_balance, forward_inverse, energy, energy_gain,
+        energy_loss, momentum);
   }
   void put(const Specimen& s) {
     const auto& [name, length, mass, station, circumference, bending_limit, bending_span,
@@ -274,20 +275,19 @@ ResolvedScene odd_scene() {
   s.constraints.stride = odd();
   s.guard = {GuardAction::warn, odd(), odd(), odd(), odd(), EnergyAction::stop, odd()};
   s.time.until = Phase::reverse;
-  s.expect = {"4_1",
-              {{"0_1", {std::nullopt, 0}, {std::nullopt, odd()}},
-               {"det=9,v2=2", {Phase::tighten, odd()}, {std::nullopt, INFINITY}}},
-              Hand::left,
-              odd(),
-              odd(),
-              "a plane",
-              odd(),
-              odd(),
-              odd(),
-              odd(),
-              odd(),
-              odd(),
-              odd()};
+  s.expect.knot = "4_1";
+  s.expect.types = {{"0_1", {std::nullopt, 0}, {std::nullopt, odd()}},
+                    {"det=9,v2=2", {Phase::tighten, odd()}, {std::nullopt, INFINITY}}};
+  s.expect.hand = Hand::left;
+  s.expect.out_of = "a plane";
+  for (double ExpectSettings::*each :
+       {&ExpectSettings::slide_distance, &ExpectSettings::slide_share,
+        &ExpectSettings::reverse_distance, &ExpectSettings::torque_share,
+        &ExpectSettings::speed_share, &ExpectSettings::penetration, &ExpectSettings::skin_fold,
+        &ExpectSettings::limit_violation, &ExpectSettings::head_drift, &ExpectSettings::kkt,
+        &ExpectSettings::force_balance, &ExpectSettings::forward_inverse}) {
+    s.expect.*each = odd();
+  }
   s.expect.pull = odd();
   s.expect.pull_settled = odd();
   s.expect.pull_drift = odd();

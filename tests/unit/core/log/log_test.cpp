@@ -111,6 +111,7 @@ std::vector<Dataset> contract(hsize_t t, hsize_t n, hsize_t nq, hsize_t nv) {
           {"/diagnostics/kkt_primal", {t}, "1"},
           {"/diagnostics/kkt_complementarity", {t}, "1"},
           {"/diagnostics/penetration", {t}, "cm"},
+          {"/diagnostics/skin_fold", {t}, "1"},
           {"/diagnostics/limit_violation", {t}, "rad"},
           {"/diagnostics/head_drift", {t}, "cm"},
           {"/diagnostics/kinetic_energy", {t}, "erg"},

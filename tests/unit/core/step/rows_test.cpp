@@ -309,7 +309,7 @@ TEST(ThigmotaxisRows, AreOfTheSkinsWhereTheyTouch) {
 }
 
 // An animal cannot push or turn itself as a whole.
-TEST(ThigmotaxisRows, HaveNoSumAndNoMomentAtTheSkin) {
+TEST(ThigmotaxisRows, HaveNoSumAndNoMoment) {
   const Tangle t(83);
   const auto whole = [&](const Row& row) {
     Matrix6Xd wrench = Matrix6Xd::Zero(6, t.model.body_count());
@@ -317,22 +317,13 @@ TEST(ThigmotaxisRows, HaveNoSumAndNoMomentAtTheSkin) {
     add_row(row, t.kin, 1, wrench, joint);
     return Vector6d(wrench.rowwise().sum());
   };
-  const std::vector<Row> skin = t.at_once(t.commands);
-  const std::vector<Row> centreline = t.at_once(t.commands, Eq6Point::centreline);
-  const std::vector<SplineSegment> now = spline(t.model, t.kin.centre);
-  for (std::size_t i = 0; i < skin.size(); ++i) {
-    EXPECT_LT(whole(skin[i]).norm(), 1e-14);  // rounding of some ten numbers of up to 20
-    // The paper's two points are two radii apart: a couple.
-    const Contact& c = t.commands[i / 2].contact;
-    const Eigen::Vector3d arm = now[c.segment_a].point(c.t_a) - now[c.segment_b].point(c.t_b);
-    const Eigen::Vector3d couple = arm.cross(centreline[i].direction);
-    EXPECT_LT(whole(centreline[i]).tail<3>().norm(), 1e-14);
-    EXPECT_LT((whole(centreline[i]).head<3>() - couple).norm(), 1e-12);
-    EXPECT_GT(couple.norm(), 0.5);
-  }
-  for (const Row& row : t.over_patches()) EXPECT_LT(whole(row).norm(), 1e-14);
-  for (const Row& row : t.over_patches(Eq6Point::centreline)) {
-    EXPECT_GT(whole(row).head<3>().norm(), 0.5);
+  for (const Eq6Point at : {Eq6Point::skin, Eq6Point::centreline}) {
+    for (const auto& rows : {t.at_once(t.commands, at), t.over_patches(at)}) {
+      ASSERT_EQ(rows.size(), 4U);
+      for (const Row& row : rows) {
+        EXPECT_LT(whole(row).norm(), 1e-13);  // rounding of some ten numbers of up to 20
+      }
+    }
   }
 }
 
@@ -411,7 +402,8 @@ TEST(ThigmotaxisRows, TakeTheObservedPatchForTheObservedEndAlone) {
 }
 
 // Eq. 6 by the paper's words: velocities of the two spline points at fixed parameters, by
-// differences of positions, times the tangents. Speeds of some 20 cm/s: 1e-15 20 / 1e-6.
+// differences of positions, times the tangents. They are seen from the head, which turns. Speeds of
+// some 20 cm/s: 1e-15 20 / 1e-6.
 TEST(ThigmotaxisRows, AreEquationSixOfThePaper) {
   const Tangle t(83);
   const double e = 1e-6;
@@ -433,11 +425,15 @@ TEST(ThigmotaxisRows, AreEquationSixOfThePaper) {
         (after[c.segment_b].point(c.t_b) - before[c.segment_b].point(c.t_b)) / (2 * e);
     const Eigen::Vector3d tangent_a = now[c.segment_a].slope(c.t_a).normalized();
     const Eigen::Vector3d tangent_b = now[c.segment_b].slope(c.t_b).normalized();
+    const Eigen::Vector3d turn = t.kin.twist.col(0).head<3>();
+    const Eigen::Vector3d arm = now[c.segment_a].point(c.t_a) - now[c.segment_b].point(c.t_b);
+    const Eigen::Vector3d slip = a - b - turn.cross(arm);
+    EXPECT_GT(turn.cross(arm).norm(), 0.1);
     const auto velocity = [&](const Row& row) {
       return row_velocity(row, t.kin.velocities(), t.state.qdot);
     };
-    EXPECT_NEAR(velocity(rows[2 * place]), tangent_a.dot(a - b), 1e-6);
-    EXPECT_NEAR(velocity(rows[2 * place + 1]), tangent_b.dot(b - a), 1e-6);
+    EXPECT_NEAR(velocity(rows[2 * place]), tangent_a.dot(slip), 1e-6);
+    EXPECT_NEAR(velocity(rows[2 * place + 1]), -tangent_b.dot(slip), 1e-6);
     EXPECT_EQ(rows[2 * place].rhs, t.commands[place].speed.a);
     EXPECT_EQ(rows[2 * place + 1].rhs, t.commands[place].speed.b);
   }

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "core/log/hdf5_writer.hpp"
+#include "core/step/eq6_rows.hpp"
 #include "experiments/audit/audit_thigmotaxis.hpp"
 #include "mujoco_ref/mjcf.hpp"
 #include "tests/support/errors.hpp"
@@ -192,9 +193,41 @@ TEST_F(AuditTest, SeesAMultiplierThatPulls) {
 }
 
 TEST_F(AuditTest, SeesAForceBehindTheKnot) {
-  const hsize_t nv = Hdf5Reader(file).shape("/forces/thigmotaxis")[1];
-  tamper("/forces/thigmotaxis", nv - 1, 1e-12);
+  const int last = static_cast<int>(Hdf5Reader(file).doubles("/thigmotaxis/spline_b")[1]) + 2;
+  const Body next = make_hagfish(stored_scene().specimen, stored_scene().scene).bodies[last + 1];
+  tamper("/forces/thigmotaxis", next.first_dof, 1e-12);
   EXPECT_FALSE(passes("f_thigmo past the knot"));
+  tamper("/forces/thigmotaxis", next.first_dof, -1e-12);
+  EXPECT_TRUE(passes("f_thigmo past the knot"));
+}
+
+// In the middle of its step a body has moved on from where the contact was found, here by a segment
+// of the spline; the patch of contact then begins further out.
+TEST(LastLoaded, IsTheLastBodyThatRowsLoad) {
+  for (const char* patch : {"controller.contact_patch=0", "controller.contact_patch=1"}) {
+    const ResolvedScene resolved = stored_scene({patch});
+    const Scene& scene = resolved.scene;
+    const Model model = make_hagfish(resolved.specimen, scene);
+    const Observation seen = observe(model, stored_states().at(3).state, scene);
+    int further = 0;
+    for (const int moved_on : {0, 1}) {
+      for (const KnotEnd end : {KnotEnd::first, KnotEnd::last, KnotEnd::neither}) {
+        const Contact& found = end == KnotEnd::first ? *seen.ends.first : *seen.ends.last;
+        const Contact contact = contact_at(seen.segments, found.segment_a, found.t_a,
+                                           found.segment_b - moved_on, found.t_b);
+        const ThigmotaxisCommand command{.contact = contact, .speed = {1, 1}, .end = end};
+        int last = 0;
+        for (const Row& row : eq6_rows(model, seen.kin, seen.segments, command, scene)) {
+          visit_forces(row, seen.kin, [&last](int body, const auto&, const auto&) {
+            last = std::max(last, body);
+          });
+        }
+        EXPECT_EQ(last_loaded(seen.segments, scene, contact, end), last) << patch;
+        further += last > contact.segment_b + 2 ? 1 : 0;
+      }
+    }
+    EXPECT_EQ(further > 0, scene.controller.contact_patch > 0);
+  }
 }
 
 TEST_F(AuditTest, DoesNotLetNanPass) {

@@ -55,7 +55,7 @@ TEST(DesignPage, HasTheCountsOfEachLaw) {
   const auto page = [&] { return design_page(options, outcome(), scene, {}, ""); };
   EXPECT_EQ(page().find("Other animals"), std::string::npos);
   options.animals = true;
-  EXPECT_NE(page().find("| paper | 20 of 20 |\n| reflex | 19 of 20 |"), std::string::npos);
+  EXPECT_NE(page().find("| Eq. 6 | 20 of 20 |\n| reflex | 19 of 20 |"), std::string::npos);
   EXPECT_NE(page().find("over that of the soft body | 1.5 |"), std::string::npos);
   EXPECT_NE(page().find("--out reflex.h5 --set \"controller.law=reflex\" --set"),
             std::string::npos);
@@ -63,7 +63,7 @@ TEST(DesignPage, HasTheCountsOfEachLaw) {
       page().find("Other animals are 0.6 to 1.4 times as long. Their girth for the length and "
                   "their limits are changed by up to 20 %."),
       std::string::npos);
-  EXPECT_NE(page().find("| paper | 8 of 10 |\n| reflex | 9 of 10 |"), std::string::npos);
+  EXPECT_NE(page().find("| Eq. 6 | 8 of 10 |\n| reflex | 9 of 10 |"), std::string::npos);
 }
 
 TEST(DesignPage, SaysOfAFoundKnotAloneThatItIsAudited) {

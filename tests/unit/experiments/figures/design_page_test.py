@@ -24,12 +24,12 @@ def test_each_row_names_a_revision_of_the_heading():
 
 
 def test_an_animal_is_served_by_a_run_that_ends_and_meets_all(tmp_path):
-    for law, rows in (("paper", ["ok,,", "ok,Eq. 6,", "never tied,,why"]), ("reflex", ["ok,,", "ok,,", "capped,slide,why"])):
+    for law, rows in (("eq6", ["ok,,", "ok,Eq. 6,", "never tied,,why"]), ("reflex", ["ok,,", "ok,,", "capped,slide,why"])):
         (tmp_path / f"unseen_{law}").mkdir()
         (tmp_path / f"unseen_{law}/table.csv").write_text(HEAD + "".join(f"{cell},{row}\n" for cell, row in enumerate(rows)))
-    assert design.served(tmp_path, "paper") == "1"
+    assert design.served(tmp_path, "eq6") == "1"
     assert design.served(tmp_path, "reflex") == "2"
-    assert design.served(tmp_path / "none", "paper") == ""
+    assert design.served(tmp_path / "none", "eq6") == ""
 
 
 def test_a_search_without_a_result_has_its_counts_and_the_time_of_its_last_report(tmp_path):
@@ -59,7 +59,7 @@ def test_the_body_in_the_knot_is_that_between_its_ends_as_it_starts_to_slide():
 
 
 def test_the_gallery_has_of_each_knot_the_program_that_serves_most_animals():
-    row = lambda knot, found, paper, reflex: {"knot_wanted": knot, "found": found, "unseen_by_paper": paper, "unseen_by_reflex": reflex}
+    row = lambda knot, found, paper, reflex: {"knot_wanted": knot, "found": found, "unseen_by_eq6": paper, "unseen_by_reflex": reflex}
     rows = [row("3_1#3_1", "yes", "", ""), row("4_1", "yes", "3", "4"), row("4_1", "yes", "8", "9"), row("4_1", "no", "10", "10"), row("3_1", "yes", "1", "1")]
     assert design.one_of_each(rows) == [rows[4], rows[2], rows[0]]
     assert design.least_served(rows[1:3]) == 3

@@ -15,7 +15,7 @@ HEADING = ",".join(["cell", "drag.normal", "script.kind", "start.seed", *TEXTS, 
 
 def row(cell, drag, kind, seed, outcome="ok", unmet="", message='"no, ""none"""', force=""):
     figures = dict.fromkeys(FIGURES, "0.5") | {"sliding_force_dyn": force}
-    return ",".join([str(cell), drag, kind, str(seed), outcome, unmet, message, "3_1", *figures.values()]) + "\n"
+    return ",".join([str(cell), drag, kind, str(seed), outcome, unmet, message, "3_1", "slides by both ends", *figures.values()]) + "\n"
 
 
 # Two settings of drag and kind, changed together, from two starts each.

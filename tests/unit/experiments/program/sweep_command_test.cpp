@@ -203,8 +203,9 @@ scene = ["table1", "overhand_reverse", "pull_overhand", "table1"]
         ++compared;
       }
     }
-    EXPECT_EQ(compared, 16) << log;
+    EXPECT_EQ(compared, 17) << log;
     const std::map<std::string, std::string> columns{{"penetration", "penetration_cm"},
+                                                     {"skin fold", "skin_fold"},
                                                      {"head drift", "head_drift_cm"},
                                                      {"KKT residual", "kkt"},
                                                      {"Eq. 6", "eq6_percent"},
