@@ -9,6 +9,7 @@ import numpy as np
 import claims
 from hagfish_log import HagfishLog
 from script import run_script
+from study import tied
 from tables import write_csv
 
 MEASURES = ["slide_cm", "beyond_dyn_cm", "near_over_far", "roughness_space", "roughness_time", "dct_modes_95"]
@@ -17,7 +18,7 @@ HEADING = ["outcome", *MEASURES, *claims.NAMES]
 
 def outcome_of(log: HagfishLog) -> str:
     """What the run came to, in a word or two."""
-    if not log.in_phase("tighten").size:
+    if not tied(log):
         return "not tied"
     if str(log.attribute("status")) != "complete":
         return "stopped"

@@ -20,6 +20,7 @@ import tables
 from hagfish_log import HagfishLog, LogError
 from script import run_script
 from slides import read_slide
+from study import tied
 
 SWEEPS = {"stiffness": "flexural rigidity, dyn cm²", "drag": "drag, times that of the scenes", "haste": "speed of the program"}
 CAPACITY = 2.7e5  # dyn cm, a guess: data/living_overhand.toml
@@ -46,7 +47,7 @@ def outcome_of(log: HagfishLog, unmet: list[str]) -> str:
     status = str(log.attribute("status"))
     if status != "complete":
         return status.removeprefix("failed: ").split(" at step")[0]
-    if not log.in_phase("tighten").size:
+    if not tied(log):
         return "not tied in time"
     return "knot lost" if "knot held" in unmet else "still tied" if "unknot at end" in unmet else "off"
 

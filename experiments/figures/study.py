@@ -37,11 +37,16 @@ def cause(status: str) -> str:
     return re.sub(r" is [\d.]+ \w+ past", " went past", re.sub(r"^body \d+", "a body", text))
 
 
+def tied(log: HagfishLog) -> bool:
+    """Whether the controller took the knot as tied: it then tightens it, or slides it at once."""
+    return bool(log.in_phase("tighten").size or log.in_phase("slide").size)
+
+
 def failure_of(log: HagfishLog, unmet: list[str]) -> str:
     status = str(log.attribute("status"))
     if status != "complete":
         return cause(status)
-    if not log.in_phase("tighten").size:
+    if not tied(log):
         return "the knot was never ready to tighten"
     if not log.in_phase("slide").size:
         return "the knot never slid"

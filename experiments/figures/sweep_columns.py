@@ -12,7 +12,7 @@ import numpy as np
 from hagfish_log import LogError
 
 TEXTS = {"outcome": "ok where the run came to its end, else why it stopped", "unmet": "criteria of [expect] that it does not meet",
-         "message": "why it stopped", "knot": "type at the start of tightening, or at the end where it never tightened",
+         "message": "why it stopped", "knot": "type as tightening or the slide begins, or at the end where it comes to neither",
          "slide": "what the slide is by name: by both ends, or the knot only grows"}
 FIGURES = {  # unit, meaning
     "duration_s": ("s", "simulated"),
@@ -33,6 +33,7 @@ FIGURES = {  # unit, meaning
     "largest_torque_dyn_cm": ("dyn cm", "own torque and f_thigmo together, of any hinge while the knot slides or pulls, likewise"),
     "pull_N": ("N", "mean pull at food, once settled"),
     "penetration_cm": ("cm", "deepest overlap of skins at any step"),
+    "skin_fold": ("1", "largest radius of the skin over radius of curvature while the knot is held, across one diameter: above 1 the skin folds into itself"),
     "limit_violation_rad": ("rad", "furthest past a joint limit at any step"),
     "head_drift_cm": ("cm", "largest way of the clamped head at any step"),
     "kkt": ("1", "largest scaled KKT residual of any step"),

@@ -23,7 +23,7 @@ REFLEX = "reflex"
 VARIED = {"meshes": ("model.bodies", "bodies"), "steps": ("time.step", "time step, s"),
           "speeds": ("controller.slide_head.a", "commanded speed, cm/s"), "starts": ("start.seed", "start with noise, number")}
 BEFORE, AFTER = 0.5, 1.0  # s of the figure around the slide
-STRENGTH = 0.6  # 1/cm, curvature of the darkest colour
+STRENGTH = 0.8  # 1/cm, curvature of the darkest colour
 
 
 def knot_of(scene: str) -> tuple[str, str]:
@@ -62,8 +62,7 @@ def law_rows(folder: Path) -> list[list[str]]:
             met = "" if law_of(table, cell) == REFLEX else f"{of['eq6_percent']:.0f}"
             rows.append([knot, head, law_of(table, cell), f"{of['slide_distance_cm']:.1f}", f"{of['tail_distance_cm']:.1f} of {of['taper_asks_cm']:.1f}",
                          f"{of['curvature_travel_cm']:.1f} ({of['curvature_correlation']:.2f})", table.texts["slide"][cell], met,
-                         f"{of['largest_torque_dyn_cm'] / capacity(log):.2f}", f"{all_work:.2g}", f"{thigmotaxis:.2g}",
-                         table.texts["unmet"][cell] if table.texts["outcome"][cell] == "ok" else table.texts["outcome"][cell]])
+                         f"{of['largest_torque_dyn_cm'] / capacity(log):.2f}", f"{all_work:.2g}", f"{thigmotaxis:.2g}"])
     order = [*LAWS.values(), REFLEX]
     return sorted(rows, key=lambda row: (row[0], row[1] == "free", order.index(row[2])))
 
@@ -77,7 +76,7 @@ def run_rows(folder: Path) -> list[list[str]]:
         knots = np.array([" ".join(knot_of(scene)) for scene in table.axes["scene"]])
         by = np.array([f"{value}, {bodies} bodies" for value, bodies in zip(table.axes[axis], table.axes["model.bodies"])]
                       if grid == "steps" else table.axes[axis])
-        slid = np.array(table.texts["slide"]) == "slides by both ends"
+        slid = (np.array(table.texts["slide"]) == "slides by both ends") & (np.array(table.texts["outcome"]) == "ok")
         for value in dict.fromkeys(by) if grid != "starts" else [""]:
             of = by == value if grid != "starts" else np.ones(len(by), dtype=bool)
             failed = [f"{knot} {'' if np.isnan(share) else f'{share:.0f} %'}".strip() for knot, share in zip(knots[of & ~slid], shares[of & ~slid])]
@@ -99,8 +98,8 @@ def draw(folder: Path, path: Path) -> None:
             knot, head = knot_of(scene)
             if head == "held":
                 cells[knot, law_of(table, cell)] = log_of(folder / grid, str(cell))
-    titles = [f"{plots.KNOTS[knot].label}: {law}" for knot in plots.KNOTS for law in DRAWN]
-    figure, panels = plots.panels(len(plots.KNOTS), len(DRAWN), (8.2, 9.6), titles, sharex=True)
+    titles = [f"{plots.KNOTS[knot].label.split()[0]}: {law}" for knot in plots.KNOTS for law in DRAWN]
+    figure, panels = plots.panels(len(plots.KNOTS), len(DRAWN), (8.6, 8.4), titles, sharex=True)
     for axes, (knot, law) in zip(panels, [(knot, law) for knot in plots.KNOTS for law in DRAWN]):
         log = HagfishLog(cells[knot, law])
         time, slide = log["/trajectory/time"], log.in_phase("slide")
@@ -109,7 +108,7 @@ def draw(folder: Path, path: Path) -> None:
         arc, curvature = curvature_of(log, shown)
         image = axes.pcolormesh(arc, time[shown] - start, curvature, cmap="Greys", vmin=0, vmax=STRENGTH, shading="nearest", rasterized=True)
         for name, style in (("head", "-"), ("tail", "--")):
-            axes.plot(log[f"/knot/{name}_end"][shown], time[shown] - start, style, color=plots.VERMILION, lw=1.4, label=f"{name} end of the knot")
+            axes.plot(log[f"/knot/{name}_end"][slide], time[slide] - start, style, color=plots.VERMILION, lw=1.4, label=f"{name} end of the knot")
         axes.axhspan(end - start, end - start + AFTER, color=plots.BLUE, alpha=0.12, lw=0)
         axes.set(ylim=(end - start + AFTER, -BEFORE), xlim=(0, float(log["/model/length"].sum())))
         axes.grid(False)
@@ -117,8 +116,8 @@ def draw(folder: Path, path: Path) -> None:
         axes.set_ylabel("time of the slide, s")
     for axes in panels[-len(DRAWN):]:
         axes.set_xlabel("along the body, cm")
-    panels[0].legend(loc="lower right")
-    figure.colorbar(image, ax=list(panels), label="curvature, 1/cm", shrink=0.5, aspect=40, location="bottom")
+    panels[len(DRAWN) - 1].legend(loc="lower right")
+    figure.colorbar(image, ax=list(panels), label="curvature, 1/cm", shrink=0.4, aspect=50, location="right")
     plots.save(figure, path)
 
 
@@ -135,7 +134,7 @@ def curvature_of(log: HagfishLog, frames: np.ndarray) -> tuple[np.ndarray, np.nd
 def main(folder: Path) -> None:
     tables.of_page(folder, "thigmotaxis", ["knot", "head", "Eq. 6 at", "head end of the knot, cm", "its tail end, of what taper asks, cm",
                      "curvature travels, cm (correlation)", "the knot", "steps that meet Eq. 6, %", "largest torque, of capacity",
-                     "work, erg/cm", "of it f_thigmo", "not met"], law_rows(folder))
+                     "work, erg/cm", "of it f_thigmo"], law_rows(folder))
     tables.of_page(folder, "thigmotaxis_runs", ["what is changed", "slide by both ends", "least share, %", "median share, %",
                      "least steps that meet Eq. 6, %", "largest torque, of capacity", "which do not"], run_rows(folder))
     draw(folder, folder / "thigmotaxis.png")

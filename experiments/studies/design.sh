@@ -30,11 +30,11 @@ search() {
 unseen() {
   local folder=$out/$1 law
   [[ -e $folder/scene.toml ]] || return 0
-  for law in paper reflex; do
+  for law in eq6 reflex; do
     {
       echo 'scene = "scene.toml"'
-      [[ $law == paper ]] ||
-        echo 'set = ["controller.law=reflex", "controller.tighten_time=0.04", "controller.reflex.shift=2.5e-4 L", "expect.speed_share=0.0"]'
+      [[ $law == eq6 ]] ||
+        echo 'set = ["controller.law=reflex", "controller.reflex.shift=2.5e-4 L", "expect.speed_share=0.0"]'
       /usr/bin/python3 "$animals" 10 axis "${@:2}"
     } >"$folder/unseen_$law.toml"
     "$hagfish" sweep "$folder/unseen_$law.toml" --out "$folder/unseen_$law" --quiet
