@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 ResolvedScene living_scene(std::vector<std::string> set = {}) {
   set.insert(set.end(),
              {"time.frame_interval=0.05", "knot.votes=5", "time.duration=15.5", "expect.types=[]",
-              "expect.slide_distance=0.5", "controller.release_at=10.5"});
+              "expect.slide_distance=0.5", "expect.slide_share=0", "controller.release_at=10.5"});
   return read_scene(std::string(HAGFISH_DATA_DIR) + "/living_overhand_free.toml", set);
 }
 
