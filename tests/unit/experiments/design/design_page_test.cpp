@@ -41,11 +41,11 @@ TEST(DesignRow, HasTheCountsOfEachLaw) {
   DesignOptions options;
   const auto of = [&](const char* name) { return field(design_row(options, outcome(), {}), name); };
   EXPECT_EQ(of("slower"), "1.5");
-  EXPECT_EQ(of("starts_by_paper"), "20");
+  EXPECT_EQ(of("starts_by_eq6"), "20");
   EXPECT_EQ(of("starts_by_reflex"), "19");
-  EXPECT_EQ(of("animals_by_paper"), "");
+  EXPECT_EQ(of("animals_by_eq6"), "");
   options.animals = true;
-  EXPECT_EQ(of("animals_by_paper"), "8");
+  EXPECT_EQ(of("animals_by_eq6"), "8");
   EXPECT_EQ(of("animals_by_reflex"), "9");
 }
 
