@@ -158,6 +158,7 @@ void SlideWatch::see(Phase phase, const std::optional<KnotSpan>& knot, const Eig
 }
 
 std::string slide_name(const Slide& slide) {
+  if (std::isnan(slide.leading_way)) return "";
   if (!(slide.leading_way > 0)) return "does not slide";
   if (slide.share() >= both_ends_share) return "slides by both ends";
   const double trails = slide.trailing_way / slide.taper_asks;

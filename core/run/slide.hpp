@@ -73,6 +73,7 @@ inline constexpr double both_ends_share = 0.7;
 /// What a slide is by name. "slides by both ends": it has at least this share. Else "only grows",
 /// whose trailing end stays, or "slides and grows", whose trailing end comes by too little; or
 /// "keeps its bends in place", whose curvature stays. "does not slide": its leading end stays.
+/// Empty where there was no slide.
 std::string slide_name(const Slide& slide);
 
 }  // namespace hagfish
