@@ -9,6 +9,9 @@
 
 namespace hagfish {
 
+/// Whether a body's joint bends (the others twist, or belong to the root).
+inline bool bends(const Body& body) { return body.dofs == 2; }
+
 struct Bend {
   double angle = 0;  ///< θ, rad, 0 to pi
   /// dθ/dy, dθ/dz; 0 where the joint is straight: θ has no slope there.

@@ -91,10 +91,12 @@ inline CentreWrench bias_at_centre(const Model& model, const Kinematics& kin,
   CentreWrench wrench{inertia.times(axes, bias - turn.cross(spin)) + turn.cross(angular),
                       mass * acceleration};
   if (motion.bias_power != nullptr) {
-    const Eigen::Vector3d linear = mass * point_velocity(motion.mean_twist.col(body), offset);
-    const double work = std::max(angular.dot(turn) + linear.dot(shift), motion.bias_power->least);
-    const double missing =
-        motion.bias_power->value[body] - wrench.moment.dot(turn) - wrench.force.dot(shift);
+    const BiasPower& power = *motion.bias_power;
+    const Eigen::Vector3d seen = shift - power.observer;
+    const Eigen::Vector3d linear =
+        mass * (point_velocity(motion.mean_twist.col(body), offset) - power.observer);
+    const double work = std::max(angular.dot(turn) + linear.dot(seen), power.least);
+    const double missing = power.value[body] - wrench.moment.dot(turn) - wrench.force.dot(seen);
     const double share = work > 0 ? missing / work : 0;
     wrench.moment += share * angular;
     wrench.force += share * linear;
@@ -239,6 +241,15 @@ double kinetic_energy(const Model& model, const Kinematics& kin) {
   double energy = 0;
   for (int b = 0; b < model.body_count(); ++b) {
     energy += kinetic_energy(model, kin, b, kin.twist.col(b), kin.centre_velocity.col(b));
+  }
+  return energy;
+}
+
+double inner_kinetic_energy(const Model& model, const Kinematics& kin) {
+  const Eigen::Vector3d mean = mean_by_mass(model, kin.centre_velocity);
+  double energy = 0;
+  for (int b = 0; b < model.body_count(); ++b) {
+    energy += kinetic_energy(model, kin, b, kin.twist.col(b), kin.centre_velocity.col(b) - mean);
   }
   return energy;
 }

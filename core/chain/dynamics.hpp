@@ -95,6 +95,8 @@ double kinetic_energy(const Model& model, const Kinematics& kin, int body, const
 
 /// Of all bodies, at kin.twist.
 double kinetic_energy(const Model& model, const Kinematics& kin);
+/// The same about their centre of mass, which is the same for each observer.
+double inner_kinetic_energy(const Model& model, const Kinematics& kin);
 
 /// Of each body, erg (N), straight from a state: its kinematics need not be known.
 void kinetic_energies(const Model& model, const State& state, Eigen::VectorXd& energies);

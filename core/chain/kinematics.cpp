@@ -107,10 +107,14 @@ void place_centre(const Model& model, const Eigen::Vector3d& centre, Eigen::Vect
 }
 
 Eigen::Vector3d centre_of_mass(const Model& model, const Kinematics& kin) {
+  return mean_by_mass(model, kin.centre);
+}
+
+Eigen::Vector3d mean_by_mass(const Model& model, const Eigen::Matrix3Xd& of) {
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
   double mass = 0;
   for (int b = 0; b < model.body_count(); ++b) {
-    moment += model.bodies[b].mass * kin.centre.col(b);
+    moment += model.bodies[b].mass * of.col(b);
     mass += model.bodies[b].mass;
   }
   return moment / mass;

@@ -40,6 +40,8 @@ struct BiasPower {
   /// A body's momentum over its motion counts as no less, erg: what hardly moves would need forces
   /// far larger than its own.
   double least = 0;
+  /// Mean velocity of the observer who sees this power, cm/s, world.
+  Eigen::Vector3d observer = Eigen::Vector3d::Zero();
 };
 
 /// What Eq. 1 needs to know of the motion at the place of its step.
@@ -68,6 +70,9 @@ void place_centre(const Model& model, const Eigen::Vector3d& centre, Eigen::Vect
 
 /// Of all bodies, cm, world.
 Eigen::Vector3d centre_of_mass(const Model& model, const Kinematics& kin);
+
+/// The mean of the columns of `of` (3 x N), one for each body, by their masses.
+Eigen::Vector3d mean_by_mass(const Model& model, const Eigen::Matrix3Xd& of);
 
 /// Twists and bias twists; after update_positions.
 void update_velocities(const Model& model, const Eigen::VectorXd& qdot, Kinematics& kin);

@@ -4,12 +4,11 @@
 #include <cmath>
 #include <vector>
 
+#include "core/chain/bending.hpp"
 #include "core/scene/interpolation.hpp"
 
 namespace hagfish {
 namespace {
-
-bool bends(const Body& body) { return body.dofs > 1; }
 
 /// The direction of the body, not of unit length, from half way before its first bending joint to
 /// half way behind its last one.

@@ -203,9 +203,10 @@ void serialize(Archive& archive, WarmStart::Kept& kept) {
 template <class Archive>
 void serialize(Archive& archive, EnergyLedger& ledger) {
   auto& [initial, kinetic, elastic, gravity, work_tip, work_active, work, dissipated, impacts,
-         inertia, potential, coriolis, held, momentum, lowest_error, largest] = ledger;
+         inertia, potential, coriolis, held, momentum, translation, lowest_error, largest] = ledger;
   archive(initial, kinetic, elastic, gravity, work_tip, work_active, work.of_kind, dissipated,
-          impacts, inertia, potential, coriolis, held, momentum, lowest_error, largest);
+          impacts, inertia, potential, coriolis, held, momentum, translation, lowest_error,
+          largest);
 }
 
 template <class Archive>

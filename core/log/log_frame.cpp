@@ -375,6 +375,10 @@ void declare_energy(LogTable<Frame>& t) {
   energy("integrator_given_back",
          "gained so far as momentum that the integrator made is given back (momentum_given_back)",
          &EnergyLedger::integrator_momentum);
+  energy("integrator_translation",
+         "what of integrator_error the translation of a free body's centre of mass has, which "
+         "depends on the observer",
+         &EnergyLedger::integrator_translation);
   t.number("/diagnostics/integrator_error", {"erg", "sum of the integrator's terms"},
            [](const Frame& f) { return f.record.ledger.integrator_error(); });
 }
@@ -401,8 +405,7 @@ void declare_momentum(LogTable<Frame>& t) {
   for (const RowKindEntry& force : row_kind_table) {
     if (force.from_outside) outside += std::string(force.description) + ", ";
   }
-  outside.replace(outside.rfind(", "), 2,
-                  " and gravity, and the moment of f_thigmo where controller.eq6_at is centreline");
+  outside.replace(outside.rfind(", "), 2, " and gravity");
   ledger("momentum", "angular_momentum", "g cm/s", "g cm²/s", "momentum of all bodies",
          &MomentumLedger::momentum);
   ledger("impulse_drag", "angular_impulse_drag", "dyn s", "dyn cm s", "impulse of drag so far",

@@ -8,15 +8,8 @@ namespace hagfish {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-// Relative to the commanded speed, or to 1 cm/s where that is less: Ipopt's tolerance moves the
-// speed of a row by 1e-8 of the largest in the step.
-constexpr double slack_tolerance = 1e-6;
 
 }  // namespace
-
-bool meets_command(double slack, double command) {
-  return slack <= slack_tolerance * std::max(1.0, std::abs(command));
-}
 
 ThigmotaxisRow thigmotaxis_row(const Control& control, const StepSolution& solution, std::size_t i,
                                double h) {

@@ -49,7 +49,4 @@ struct ThigmotaxisRows {
 
 ThigmotaxisRows thigmotaxis_rows_of(const Control& control, const StepSolution& solution, double h);
 
-/// Whether a row counts as met: its slack against its command, both cm/s.
-bool meets_command(double slack, double command);
-
 }  // namespace hagfish

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/run/momentum.hpp"
+
 namespace hagfish {
 namespace {
 
@@ -13,6 +15,34 @@ void set_energies(const Model& model, const Moment& now, EnergyLedger& ledger) {
 
 PointMotion motion_of(const Matrix6Xd& twist, const Eigen::Matrix3Xd& velocity, int body) {
   return {twist.col(body).head<3>(), velocity.col(body)};
+}
+
+/// What the integrator makes in this step of the translation of a body that nothing holds, erg: of
+/// ½ M V² and of the energy in gravity, beyond the work of what acts from outside on the centre of
+/// mass. What bears on an obstacle has its frame of reference, in which nothing counts so. The
+/// momentum that will be given back (momentum.hpp) counts always. `fallen`: the change of the
+/// energy in gravity.
+double made_of_translation(const StepInput& in, const StepPlace& place, const StepSolution& step,
+                           const Moment& next, double travelled, double fallen) {
+  const Model& model = in.model;
+  Eigen::Vector3d force = step.tip + step.force[RowKind::obstacle].head<3>();
+  for (int b = 0; b < model.body_count(); ++b) {
+    force +=
+        drag_on_body(model, place.kin, b, motion_of(step.mean_twist, step.mean_centre_velocity, b))
+            .force;
+  }
+  const double mass = mass_of(model);
+  const Eigen::Vector3d before = mean_by_mass(model, in.observation.kin.centre_velocity);
+  Eigen::Vector3d after = mean_by_mass(model, next.observation.kin.centre_velocity);
+  double made = 0;
+  if (keeps_momentum(in.scene, in.control)) {
+    const Eigen::Vector3d kept = before + in.scene.time.step * (force / mass + model.gravity);
+    made = mass * kept.dot(after - kept);
+    after = kept;
+  }
+  if (!step.force[RowKind::obstacle].isZero(0)) return made;
+  return made + 0.5 * mass * (after - before).dot(after + before) + fallen -
+         travelled * force.dot(mean_by_mass(model, step.centre_velocity));
 }
 
 /// The loss by impacts of a step by Euler's rule.
@@ -32,11 +62,12 @@ double lost_at_impacts(const StepInput& in, const StepPlace& place, const StepSo
 
 }  // namespace
 
-EnergyLedger open_ledger(const Model& model, const Moment& now) {
+EnergyLedger open_ledger(const Model& model, const Moment& now, bool held) {
   EnergyLedger ledger;
   set_energies(model, now, ledger);
   ledger.initial = ledger.kinetic + ledger.elastic + ledger.gravity;
-  ledger.largest = ledger.kinetic + ledger.elastic;
+  const double inner = held ? ledger.kinetic : inner_kinetic_energy(model, now.observation.kin);
+  ledger.largest = inner + ledger.elastic;
   return ledger;
 }
 
@@ -106,6 +137,10 @@ void book_step(const StepInput& in, const StepPlace& place, const StepSolution& 
   ledger.integrator_inertia += impulse + lost;
   ledger.integrator_potential += t * stretch + fall + ledger.gravity - gravity;
   ledger.integrator_coriolis += ledger.kinetic - kinetic - moved - bias;
+  if (!in.control.clamp_head) {
+    ledger.integrator_translation +=
+        made_of_translation(in, place, step, next, t, ledger.gravity - gravity);
+  }
 }
 
 }  // namespace hagfish

@@ -42,8 +42,12 @@ struct EnergyLedger {
   double integrator_held = 0;
   /// Energy change by the correction of a free body's momentum (momentum.hpp).
   double integrator_momentum = 0;
-  double lowest_error = 0;  ///< of integrator_error() so far
-  double largest = 0;       ///< kinetic + elastic so far
+  /// What of integrator_error() the translation of the centre of mass has, while nothing outside
+  /// but water, gravity and the tip's force acts. It depends on the observer.
+  double integrator_translation = 0;
+  double lowest_error = 0;  ///< of own_error() so far
+  /// Kinetic + elastic so far; while nothing holds the head, about the centre of mass.
+  double largest = 0;
 
   double works() const {
     return std::accumulate(work.of_kind.begin(), work.of_kind.end(), work_tip + work_active);
@@ -52,6 +56,8 @@ struct EnergyLedger {
     return integrator_inertia + integrator_potential + integrator_coriolis + integrator_held +
            integrator_momentum;
   }
+  /// integrator_error() as one sees it who moves with a free body.
+  double own_error() const { return integrator_error() - integrator_translation; }
   /// The energy that the ledger does not explain, erg.
   double imbalance() const {
     return kinetic + elastic + gravity - initial - works() + dissipated + impacts -
@@ -59,8 +65,8 @@ struct EnergyLedger {
   }
 };
 
-/// Opens the ledger at a moment.
-EnergyLedger open_ledger(const Model& model, const Moment& now);
+/// Opens the ledger at a moment; `held`: the head is.
+EnergyLedger open_ledger(const Model& model, const Moment& now, bool held);
 
 /// Books the step `in` from the ledger's last entry, by its solution at `place`, to `next`, the
 /// state after the time `travelled` (s), 0 to h.

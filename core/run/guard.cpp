@@ -10,6 +10,7 @@
 
 #include "core/contact/obstacles.hpp"
 #include "core/step/dual_problem.hpp"
+#include "core/step/eq6_rows.hpp"
 #include "core/step/look_ahead.hpp"
 
 namespace hagfish {
@@ -125,11 +126,12 @@ Status report(Outcome outcome, const std::string& message, GuardAction action, W
   return {};
 }
 
-Status guard_speed(const Eigen::Matrix3Xd& centre_velocity, const Scene& scene) {
+Status guard_speed(const Eigen::Matrix3Xd& centre_velocity, const Eigen::Vector3d& observer,
+                   const Scene& scene) {
   const GuardSettings& guard = scene.guard;
   const double farthest = most_path_samples * scene.constraints.stride;
   for (Eigen::Index b = 0; b < centre_velocity.cols(); ++b) {
-    const double speed = centre_velocity.col(b).norm();
+    const double speed = (centre_velocity.col(b) - observer).norm();
     if (!(speed <= guard.speed)) {
       return {
           Outcome::speed,
@@ -183,25 +185,35 @@ Status guard_state(const Model& model, const Moment& moment, double crossing, co
   return status;
 }
 
-Status guard_energy(const Model& model, const Scene& scene, Moment& moment, EnergyLedger& ledger,
+Status guard_energy(const StepInput& in, double passing, Moment& moment, EnergyLedger& ledger,
                     Watch& watch, std::vector<std::string>& warnings) {
-  const GuardSettings& guard = scene.guard;
+  const Model& model = in.model;
+  const GuardSettings& guard = in.scene.guard;
+  Kinematics& kin = moment.observation.kin;
+  const bool held = in.control.clamp_head;
+  const double kinetic = held ? ledger.kinetic : inner_kinetic_energy(model, kin);
   const double passed = ledger.largest + ledger.dissipated;
   const double allowed = guard.energy_gain * passed;
-  const double made = ledger.integrator_error() - ledger.lowest_error;
-  ledger.lowest_error = std::min(ledger.lowest_error, ledger.integrator_error());
+  const double made = ledger.own_error() - ledger.lowest_error;
+  ledger.lowest_error = std::min(ledger.lowest_error, ledger.own_error());
   Status status;
-  if (!(made <= allowed)) {
+  const double rounding = passing_rounding * passing * passing / (2 * mass_of(model));
+  if (!(made <= std::max(allowed, rounding))) {
     std::string what = fmt::format(
         "numerical errors added {:.3g} erg, over guard.energy_gain = {:g} times the body's energy "
         "and "
         "losses ({:.3g} erg)",
         made, guard.energy_gain, passed);
-    if (guard.energy_action == EnergyAction::hold && scene.time.rule == TimeRule::euler) {
-      const double taken = std::min(made - allowed, ledger.kinetic);
-      const double share = ledger.kinetic > 0 ? std::sqrt(1 - taken / ledger.kinetic) : 0;
-      moment.state.qdot *= share;
-      update_velocities(model, moment.state.qdot, moment.observation.kin);
+    if (guard.energy_action == EnergyAction::hold && in.scene.time.rule == TimeRule::euler) {
+      const double taken = std::min(made - allowed, kinetic);
+      const double share = kinetic > 0 ? std::sqrt(1 - taken / kinetic) : 0;
+      Eigen::VectorXd& v = moment.state.qdot;
+      const Eigen::Vector3d whole = held ? Eigen::Vector3d(Eigen::Vector3d::Zero())
+                                         : mean_by_mass(model, kin.centre_velocity);
+      v.head<3>() -= whole;
+      v *= share;
+      v.head<3>() += whole;
+      update_velocities(model, v, kin);
       ledger.kinetic -= taken;
       ledger.integrator_held -= taken;
       what += "; velocities were reduced by the excess";
@@ -214,23 +226,26 @@ Status guard_energy(const Model& model, const Scene& scene, Moment& moment, Ener
                     "try a smaller time.step, or more drag or damping"),
                action, watch, warnings);
   }
-  ledger.largest = std::max(ledger.largest, ledger.kinetic + ledger.elastic);
+  const double left = held ? ledger.kinetic : inner_kinetic_energy(model, kin);
+  ledger.largest = std::max(ledger.largest, left + ledger.elastic);
   return status;
 }
 
-void guard_momentum(const StepInput& in, const MomentumLedger& before, const MomentumLedger& now,
-                    const EnergyLedger& energy, Watch& watch, std::vector<std::string>& warnings) {
+void guard_momentum(const StepInput& in, double passing, const MomentumLedger& before,
+                    const MomentumLedger& now, const EnergyLedger& energy, Watch& watch,
+                    std::vector<std::string>& warnings) {
   if (in.control.clamp_head) {
     watch.made = {};
     return;
   }
   watch.made += now.integrator + now.given_back - before.integrator - before.given_back;
   // For a rigid motion |P|² <= 2 m T and |L|² <= 2 I T; a straight body has the largest I.
-  const double linear = std::sqrt(2 * mass_of(in.model) * energy.largest);
-  const double angular = linear * in.model.length() / std::sqrt(12.0);
-  const double share =
-      std::max(watch.made.linear.norm() / linear, watch.made.angular.norm() / angular);
-  if (share > in.scene.guard.momentum_gain) {
+  const double largest = std::sqrt(2 * mass_of(in.model) * energy.largest);
+  const double allowed =
+      std::max(in.scene.guard.momentum_gain * largest, passing_rounding * passing);
+  const double arm = in.model.length() / std::sqrt(12.0);
+  if (std::max(watch.made.linear.norm(), watch.made.angular.norm() / arm) > allowed) {
+    const bool kept = in.scene.time.momentum == FreeMomentum::kept;
     std::ignore = report(
         Outcome::momentum_gain,
         told(
@@ -240,7 +255,8 @@ void guard_momentum(const StepInput& in, const MomentumLedger& before, const Mom
                 "cm s, over guard.momentum_gain = {:g}",
                 watch.made.linear.norm(), watch.made.angular.norm(), in.scene.guard.momentum_gain),
             "The shape of the body can be used, but not its path through the water",
-            "try time.momentum = \"kept\" or a smaller time.step"),
+            kept ? "try a smaller time.step"
+                 : "try time.momentum = \"kept\" or a smaller time.step"),
         GuardAction::warn, watch, warnings);
   }
 }
@@ -250,7 +266,8 @@ void guard_cap(const Model& model, const Kinematics& kin, const Scene& scene, Ph
                std::vector<std::string>& warnings) {
   const auto at_cap = [&](const Row& row) {
     return phase != Phase::pull && row.kind == RowKind::thigmotaxis && row.upper > 0 &&
-           step.lambda[&row - step.rows.data()] >= row.upper;
+           step.lambda[&row - step.rows.data()] >= row.upper &&
+           !meets_command(-step.excess[&row - step.rows.data()], row.rhs);
   };
   std::vector<CapWatch>& capped = watch.capped;
   std::erase_if(capped, [&](const CapWatch& one) {

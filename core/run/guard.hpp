@@ -33,9 +33,11 @@ struct Watch {
 Status report(Outcome outcome, const std::string& message, GuardAction action, Watch& watch,
               std::vector<std::string>& warnings);
 
-/// Checks body speeds of a solved step before anything moves: over guard.speed, or so far in one
-/// step that its path cannot be checked (most_path_samples times constraints.stride).
-Status guard_speed(const Eigen::Matrix3Xd& centre_velocity, const Scene& scene);
+/// Checks body speeds of a solved step before anything moves, for an observer who moves with
+/// `observer` (cm/s): over guard.speed, or so far in one step that its path cannot be checked
+/// (most_path_samples times constraints.stride).
+Status guard_speed(const Eigen::Matrix3Xd& centre_velocity, const Eigen::Vector3d& observer,
+                   const Scene& scene);
 
 /// Checks the state after a step, and the deepest overlap on the way there (`crossing`, cm).
 /// Messages name the bodies or the joint with the largest violation, and the setting that would
@@ -46,15 +48,17 @@ Status guard_state(const Model& model, const Moment& moment, double crossing, co
 /// Checks the energy that the integrator has made since the sum of its own terms was lowest
 /// (impacts lower it). The reference is what there was before this step: the largest kinetic and
 /// elastic energy, and the loss by drag and damping. With action `hold` and Euler's rule the excess
-/// is taken back: one factor scales the velocities of `moment` down, and the ledger books it.
-Status guard_energy(const Model& model, const Scene& scene, Moment& moment, EnergyLedger& ledger,
+/// is taken back: one factor scales the velocities of `moment` down, and the ledger books it. Where
+/// nothing holds the head, all of this is about the centre of mass. `passing` as passing_momentum.
+Status guard_energy(const StepInput& in, double passing, Moment& moment, EnergyLedger& ledger,
                     Watch& watch, std::vector<std::string>& warnings);
 
 /// Warns if the momentum that the integrator has made since the head was last held exceeds
 /// guard.momentum_gain. The reference is the largest momentum that a body can have with the largest
-/// energy so far. The ledgers are those `before` the step `in` and after it.
-void guard_momentum(const StepInput& in, const MomentumLedger& before, const MomentumLedger& now,
-                    const EnergyLedger& energy, Watch& watch, std::vector<std::string>& warnings);
+/// energy so far. The ledgers are those `before` the step `in` and after it. `passing` as above.
+void guard_momentum(const StepInput& in, double passing, const MomentumLedger& before,
+                    const MomentumLedger& now, const EnergyLedger& energy, Watch& watch,
+                    std::vector<std::string>& warnings);
 
 /// Warns of a row of Eq. 6 whose force has been at its cap for longer than the scene permits, and
 /// names the rows that resist it most. It does not warn in the phase `pull`, where rows may give

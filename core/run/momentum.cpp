@@ -78,32 +78,35 @@ Eigen::Matrix3d locked_inertia(const Model& model, const Kinematics& kin,
   return inertia;
 }
 
-/// Share of its energy that a body may gain when a step gives its momentum back, beyond what its
-/// internal motion has. More is not given. The most seen is 0.013: by Euler's rule, in steps of
-/// 5 ms, as a knot comes off.
+/// Share of its energy about the centre of mass that a body may gain when a step gives its momentum
+/// back, beyond what its internal motion has. More is not given. The most seen is 0.013: by Euler's
+/// rule, in steps of 5 ms, as a knot comes off.
 constexpr double most_added = 0.02;
 /// Internal motion with a smaller share of the energy is rounding.
 constexpr double rounding = 1e-12;
 
-/// Gives `next`, which has the momentum `now` and the kinetic energy `whole` (erg), the momentum
+/// Gives `next`, which has the momentum `now` and the kinetic energy `kinetic` (erg), the momentum
 /// `wanted`, by a motion of the whole body as one rigid body about its centre of mass. The kinetic
-/// energy stays the same: one factor on the internal velocities takes up the difference. If no
-/// factor can, it grows by a share of up to most_added. Else nothing is given, and the guard of
-/// momentum warns. Returns whether it was given.
-bool give(const Model& model, double whole, const Momentum& now, const Momentum& wanted,
+/// energy stays the same for who moves with that momentum: one factor on the internal velocities
+/// takes up the difference. If no factor can, it grows by a share of up to most_added. Else the
+/// body keeps its angular momentum, and the guard of momentum warns.
+void give(const Model& model, double kinetic, const Momentum& now, const Momentum& wanted,
           Moment& next) {
   Kinematics& kin = next.observation.kin;
   const Eigen::Vector3d centre = centre_of_mass(model, kin);
   const auto inertia = locked_inertia(model, kin, centre).llt();
   const double mass = mass_of(model);
-  const Eigen::Vector3d old_turn = inertia.solve(now.angular), turn = inertia.solve(wanted.angular);
-  const auto energy = [mass](const Momentum& of, const Eigen::Vector3d& at) {
-    return 0.5 * (of.linear.squaredNorm() / mass + of.angular.dot(at));
-  };
-  const double inner = whole - energy(now, old_turn);
-  const double left = whole - energy(wanted, turn);
-  if (left < -most_added * whole) return false;
-  const double factor = inner > rounding * whole && left > 0 ? std::sqrt(left / inner) : 1;
+  const Eigen::Vector3d old_turn = inertia.solve(now.angular);
+  Eigen::Vector3d turn = inertia.solve(wanted.angular);
+  const double whole =
+      inner_kinetic_energy(model, kin) + 0.5 * (now.linear - wanted.linear).squaredNorm() / mass;
+  const double inner = whole - 0.5 * now.angular.dot(old_turn);
+  double left = whole - 0.5 * wanted.angular.dot(turn);
+  if (left < -most_added * whole - rounding * kinetic) {
+    turn = old_turn;
+    left = inner;
+  }
+  const double factor = inner > rounding * kinetic && left > 0 ? std::sqrt(left / inner) : 1;
   const Eigen::Vector3d arm = kin.origin.col(0) - centre;
   Eigen::VectorXd& v = next.state.qdot;
   const Eigen::Vector3d linear = v.head<3>() - now.linear / mass - old_turn.cross(arm);
@@ -112,7 +115,6 @@ bool give(const Model& model, double whole, const Momentum& now, const Momentum&
   v.head<3>() = factor * linear + wanted.linear / mass + turn.cross(arm);
   v.segment<3>(3) = kin.rotation[0].transpose() * (factor * spin + turn);
   update_velocities(model, v, kin);
-  return true;
 }
 
 }  // namespace
@@ -145,6 +147,18 @@ Momentum momentum_of(const Model& model, const Kinematics& kin) {
   return sum_over_bodies(model, kin, centre_of_mass(model, kin), [&](int b) {
     return body_momentum(model, kin, b, {kin.twist.col(b).head<3>(), kin.centre_velocity.col(b)});
   });
+}
+
+double passing_momentum(const StepInput& in, const StepSolution& step) {
+  double force = mass_of(in.model) * in.model.gravity.norm() + step.tip.norm();
+  for (const RowKind kind : row_kinds) {
+    if (from_outside(kind)) force += step.force[kind].head<3>().norm();
+  }
+  double sum = in.scene.time.step * force;
+  for (int b = 0; b < in.model.body_count(); ++b) {
+    sum += in.model.bodies[b].mass * in.observation.kin.centre_velocity.col(b).norm();
+  }
+  return sum;
 }
 
 MomentumLedger open_momentum(const Model& model, const Moment& now) {
@@ -183,12 +197,14 @@ void book_momentum(const StepInput& in, const StepPlace& place, const StepSoluti
   ledger.drag += drag;
   ledger.outside += outside;
   const Momentum before = ledger.momentum;
-  if (keeps_momentum(in.scene, in.control) &&
-      give(model, energy.kinetic, before, old + drag + outside, next)) {
+  if (keeps_momentum(in.scene, in.control)) {
+    give(model, energy.kinetic, before, old + drag + outside, next);
     ledger.momentum = momentum_of(model, kin);
     ledger.given_back += ledger.momentum - before;
     const double kinetic = kinetic_energy(model, kin);
     energy.integrator_momentum += kinetic - energy.kinetic;
+    const Eigen::Vector3d given = ledger.momentum.linear - before.linear;
+    energy.integrator_translation += given.dot(ledger.momentum.linear) / mass_of(model);
     energy.kinetic = kinetic;
   }
 }

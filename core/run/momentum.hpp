@@ -7,7 +7,6 @@
 // itself is computed from its own formula and not as the remainder. So the ledger closes to
 // rounding, or the forces are not what they claim. While nothing holds the head, this gain is given
 // back after each step if the scene says so (TimeSettings::momentum).
-// step, where the scene says so (TimeSettings::momentum).
 #pragma once
 
 #include "core/run/energy.hpp"
@@ -51,6 +50,13 @@ struct MomentumLedger {
   Momentum given_back;  ///< minus the gain of steps with a free head
 };
 
+/// Momentum that passes through the body in a step, g cm/s: the sum of the sizes of what its parts
+/// have before it, and of the impulses of its weight, the tip's force and rows from outside. It
+/// does not vanish where these hold each other: figures below `passing_rounding` of it are nothing.
+double passing_momentum(const StepInput& in, const StepSolution& step);
+/// Rounding of the sums of a hundred bodies over up to a million steps.
+inline constexpr double passing_rounding = 1e-9;
+
 /// Opens the ledger at a moment.
 MomentumLedger open_momentum(const Model& model, const Moment& now);
 
@@ -66,8 +72,9 @@ Eigen::Vector3d centre_after(const StepInput& in, const StepPlace& place, const 
 /// Books the step `in` from the ledger's last entry, by its solution at `place`, to `next`. If the
 /// step keeps momentum, `next` first gets the momentum that the impulses leave, by a motion of the
 /// whole body as one rigid body. One factor on the velocities within the body keeps the kinetic
-/// energy. If no factor can, the body gains a little, or else nothing is given back. `energy` books
-/// the remaining change.
+/// energy as seen by who moves with that momentum, so that no observer matters. If no factor can,
+/// the body gains a little, or else its angular momentum stays as it is. `energy` books the change
+/// of all kinetic energy.
 void book_momentum(const StepInput& in, const StepPlace& place, const StepSolution& step,
                    Moment& next, EnergyLedger& energy, MomentumLedger& ledger);
 

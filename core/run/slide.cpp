@@ -28,8 +28,6 @@ struct Profile {
   }
 };
 
-bool bends(const Body& body) { return body.dofs == 2; }
-
 /// Of the bending joints, from the head, cm of arc.
 std::vector<double> joint_places(const Model& model) {
   std::vector<double> found;
@@ -111,7 +109,7 @@ Eigen::VectorXd curvature_along(const Model& model, const Eigen::VectorXd& q) {
 
 double Slide::share() const {
   if (std::isnan(leading_way)) return none;
-  if (!(leading_way > 0 && trailing_way > 0)) return 0;
+  if (!(correlation >= least_correlation && trailing_way > 0)) return 0;
   return std::min(trailing_way / taper_asks, travel / std::min(leading_way, trailing_way));
 }
 
@@ -135,7 +133,7 @@ Slide slide_through(const Model& model, std::span<const SlideMoment> moments, Bo
   const std::vector<double> sums(radii.value.begin(), radii.value.end());
   const Profile place{sums, Eigen::VectorXd::Map(radii.s.data(), std::ssize(radii.s))};
   slide.taper_asks = sense * (trail(first) - place(kept));
-  if (!(slide.leading_way > 0)) return slide;
+  if (!(slide.leading_way >= least_way * model.length())) return slide;
   slide.travel = 0;
   slide.correlation = 1;
   const SlideMoment* before = &first;
@@ -159,7 +157,7 @@ void SlideWatch::see(Phase phase, const std::optional<KnotSpan>& knot, const Eig
 
 std::string slide_name(const Slide& slide) {
   if (std::isnan(slide.leading_way)) return "";
-  if (!(slide.leading_way > 0)) return "does not slide";
+  if (std::isnan(slide.travel)) return "does not slide";
   if (slide.share() >= both_ends_share) return "slides by both ends";
   const double trails = slide.trailing_way / slide.taper_asks;
   return trails >= both_ends_share       ? "keeps its bends in place"

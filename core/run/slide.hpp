@@ -38,11 +38,13 @@ struct Slide {
   /// Way of the body's curvature. The way of the leading end is cut in quarters. From each to the
   /// next, the shift along the body is taken that maximises the correlation of the curvatures.
   /// Shifts are added up.
+  /// `none` for a leading end that advances by less than least_way.
   double travel = none;
   double correlation = none;  ///< the least of these four, -1 to 1
 
   /// How far this is a slide of both ends: the lesser of trailing_way / taper_asks and of travel
-  /// over the lesser way of the ends. 0 for a knot whose leading end does not advance; nan where
+  /// over the lesser way of the ends. 0 for a knot whose leading end does not advance, or whose
+  /// curvature is not that of a quarter before (correlation below least_correlation); nan where
   /// there was none.
   double share() const;
 };
@@ -67,13 +69,17 @@ class SlideWatch {
   std::vector<SlideMoment> slide_, way_back_;
 };
 
+/// Least way of a slide, of the length of the body: of less the shares say nothing.
+inline constexpr double least_way = 0.005;
+/// Least correlation of curvatures that are laid on each other. Slides have 0.8 to 1.
+inline constexpr double least_correlation = 0.5;
 /// Least share() of what is called a slide of both ends.
 inline constexpr double both_ends_share = 0.7;
 
 /// What a slide is by name. "slides by both ends": it has at least this share. Else "only grows",
 /// whose trailing end stays, or "slides and grows", whose trailing end comes by too little; or
-/// "keeps its bends in place", whose curvature stays. "does not slide": its leading end stays.
-/// Empty where there was no slide.
+/// "keeps its bends in place", whose curvature stays. "does not slide": its leading end stays
+/// (least_way). Empty where there was no slide.
 std::string slide_name(const Slide& slide);
 
 }  // namespace hagfish

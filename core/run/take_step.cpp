@@ -20,6 +20,16 @@ struct Attempt {
 
   double h() const { return in.scene.time.step; }
   StepPlace place() const { return sim.solver.place(in); }
+  /// Velocity of the one who watches the path, cm/s: who moves with a body that nothing holds and
+  /// no obstacle may stop, else who stands.
+  Eigen::Vector3d observer() const {
+    if (in.control.clamp_head || !in.model.obstacles.empty()) return Eigen::Vector3d::Zero();
+    return mean_by_mass(in.model, record.solution.centre_velocity);
+  }
+  int samples() const {
+    return path_samples(record.solution.centre_velocity, observer(), h(),
+                        in.scene.constraints.stride);
+  }
   void warn(Outcome outcome, const std::string& message) const {
     std::ignore = report(outcome, message, GuardAction::warn, sim.watch, record.warnings);
   }
@@ -71,7 +81,7 @@ bool look_along_path(const Attempt& step, bool correct) {
   const auto& [in, sim, record] = step;
   StepSolution& solution = record.solution;
   Moment& there = record.moment;
-  const int count = path_samples(solution.centre_velocity, step.h(), in.scene.constraints.stride);
+  const int count = step.samples();
   there.state.qdot = solution.next;
   record.crossing = 0;
   for (int i = 1; i <= count; ++i) {
@@ -103,7 +113,7 @@ void solve_along_path(const Attempt& step) {
   int corrections = looks_ahead(in.scene) ? in.scene.constraints.corrections : 0;
   Status status = sim.solver.begin(in, solution);
   for (int k = 0; status.ok(); ++k) {
-    status = guard_speed(solution.centre_velocity, in.scene);
+    status = guard_speed(solution.centre_velocity, step.observer(), in.scene);
     if (!status.ok() || !look_along_path(step, k < corrections)) {
       break;
     }
@@ -133,7 +143,7 @@ double end_where_strands_meet(const Attempt& step) {
   const double stride = in.scene.constraints.stride;
   constexpr int least_samples = 16;
   const double& penetration = record.moment.observation.penetration;
-  const int samples = path_samples(record.solution.centre_velocity, step.h(), stride);
+  const int samples = step.samples();
   const double before = in.observation.penetration;
   const double allowed = std::max(before, way_tolerance * stride);
   // The largest overlap that corrections leave, and half of an earlier overlap. On a long path,
@@ -180,10 +190,12 @@ void book(const Attempt& step, double travelled) {
   Moment& next = record.moment;
   record.ledger = sim.ledger;
   book_step(in, step.place(), record.solution, next, travelled, sim.ledger);
-  step.require(guard_energy(in.model, in.scene, next, sim.ledger, sim.watch, record.warnings));
+  const double passing = passing_momentum(in, record.solution);
+  step.require(guard_energy(in, passing, next, sim.ledger, sim.watch, record.warnings));
   record.momentum = sim.momentum;
   book_momentum(in, step.place(), record.solution, next, sim.ledger, sim.momentum);
-  guard_momentum(in, record.momentum, sim.momentum, sim.ledger, sim.watch, record.warnings);
+  guard_momentum(in, passing, record.momentum, sim.momentum, sim.ledger, sim.watch,
+                 record.warnings);
 }
 
 /// Marks a step as under way, so that there is only one at a time.

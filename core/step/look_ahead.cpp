@@ -31,8 +31,10 @@ int rows_of_contact(std::int64_t id, const StepSolution& step) {
 
 }  // namespace
 
-int path_samples(const Eigen::Matrix3Xd& centre_velocity, double h, double stride) {
-  const double longest = h * std::sqrt(centre_velocity.colwise().squaredNorm().maxCoeff());
+int path_samples(const Eigen::Matrix3Xd& centre_velocity, const Eigen::Vector3d& observer, double h,
+                 double stride) {
+  const double longest =
+      h * std::sqrt((centre_velocity.colwise() - observer).colwise().squaredNorm().maxCoeff());
   return std::max(1, static_cast<int>(std::ceil(longest / stride)));
 }
 

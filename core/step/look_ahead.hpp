@@ -20,8 +20,10 @@ inline constexpr int most_path_samples = 10000;
 inline constexpr double way_tolerance = 0.25;
 
 /// The number of samples of the path of a step of h (s) such that no body moves further than
-/// `stride` (cm) between two of them. 1 is the end alone.
-int path_samples(const Eigen::Matrix3Xd& centre_velocity, double h, double stride);
+/// `stride` (cm) between two of them, for an observer who moves with `observer` (cm/s). 1 is the
+/// end alone.
+int path_samples(const Eigen::Matrix3Xd& centre_velocity, const Eigen::Vector3d& observer, double h,
+                 double stride);
 
 /// Checks the contacts and the gaps to planes of `there`, which is where the velocities of `step`
 /// lead within time `t` (s). Each overlap deeper than `constraints.tolerance` gets a row in

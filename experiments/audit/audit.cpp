@@ -74,23 +74,25 @@ Totals since_start(const Totals& totals) {
   return since;
 }
 
-Finding energy_gain(const LogContents& log) {
+Finding energy_gain(const LogContents& log, const Passed& passed) {
   const Eigen::ArrayXd energy = mechanical_energy(log);
   const Eigen::ArrayXd works = diagnostic(log, "work_tip") + diagnostic(log, "work_active") +
                                diagnostic(log, "work_thigmotaxis");
   const Eigen::ArrayXd put_in = since_start(works);
-  const double rounding = totals_rounding * works.abs().maxCoeff();
-  EnergyGain gain(energy[0]);
+  const Eigen::ArrayXd gravity = diagnostic(log, "gravity_energy");
+  const double rounding = totals_rounding * std::max({works.abs().maxCoeff(),
+                                                      gravity.abs().maxCoeff(), passed.energy()});
+  EnergyGain gain(energy[0], gravity[0]);
   for (Eigen::Index f = 0; f < energy.size(); ++f) {
-    gain.see(energy[f] - rounding, put_in[f]);
+    gain.see(energy[f] - rounding, put_in[f], gravity[f]);
   }
   return judged_over(energy_gain_criterion(log.resolved.scene.expect, gain.largest()));
 }
 
 /// The ledger's imbalance, and what the integrator takes, over the energy that has passed through
 /// it.
-std::vector<Finding> energy(const LogContents& log) {
-  double largest_total = 0;
+std::vector<Finding> energy(const LogContents& log, const Passed& through) {
+  double largest_total = through.energy();
   const auto get = [&](const char* name) {
     const Eigen::ArrayXd total = diagnostic(log, name);
     largest_total = std::max(largest_total, total.abs().maxCoeff());
@@ -98,7 +100,7 @@ std::vector<Finding> energy(const LogContents& log) {
   };
   const Eigen::ArrayXd energy = since_start(mechanical_energy(log));
   Eigen::ArrayXd works = Eigen::ArrayXd::Zero(energy.size());
-  double passed = 0;  // works of forces that hold each other cancel
+  double passed = through.energy();  // works of forces that hold each other cancel
   for (const char* name : {"work_tip", "work_active", "work_thigmotaxis", "work_contact",
                            "work_limit", "work_head", "work_wall"}) {
     const Eigen::ArrayXd work = get(name);
@@ -120,7 +122,8 @@ std::vector<Finding> energy(const LogContents& log) {
       "; {:.0f} erg worked, {:.0f} dissipated, {:.0f} lost at impacts, {:.0f} integrator's own",
       works[works.size() - 1], dissipated[dissipated.size() - 1], impacts[impacts.size() - 1],
       error[error.size() - 1]);
-  const double loss = share_of(IntegratorLoss::of(error), std::max(passed, had), largest_total);
+  const double loss = share_of(IntegratorLoss::of(error - get("integrator_translation")),
+                               std::max(passed, had), largest_total);
   return {finding, judged_over(energy_loss_criterion(log.resolved.scene.expect, loss),
                                "by the integrator, without impacts")};
 }
@@ -146,8 +149,9 @@ struct MomentumColumns {
   static double most(const Hdf5Reader::Rows& rows) {
     return rows.allFinite() ? rows.cwiseAbs().maxCoeff() : INFINITY;
   }
-  double passed() const {
-    return std::max({most(momentum), most(drag), most(outside), most(integrator)});
+  /// `through`: the sum of the sizes of forces.
+  double passed(double through) const {
+    return std::max({most(momentum), most(drag), most(outside), most(integrator), through});
   }
 
   double largest_total = 0;  ///< of any
@@ -155,11 +159,11 @@ struct MomentumColumns {
 };
 
 Finding momentum_ledger(const LogContents& log, const std::string& name, const char* unit,
-                        const MomentumColumns& of) {
+                        const MomentumColumns& of, double through) {
   const auto most = &MomentumColumns::most;
   const double off =
       most(since_start(of.momentum) - of.drag - of.outside - of.integrator - of.given_back);
-  const double relative = share_of(off, of.passed(), of.largest_total);
+  const double relative = share_of(off, of.passed(through), of.largest_total);
   Finding finding = judged_over(
       {name, relative, log.resolved.scene.expect.energy, "of the momentum that passed"});
   finding.text += fmt::format(
@@ -179,8 +183,9 @@ bool given_while_held(const LogContents& log, const MomentumColumns& of) {
 }
 
 /// What the integrator makes of a momentum, and does not give back, from frames to frames at which
-/// nothing holds the head, over the most that passed and that the body's parts have.
-double made_while_free(const LogContents& log, const MomentumColumns& of, double of_parts) {
+/// nothing holds the head, over the most that passed and that the body's parts have about the
+/// centre of mass: `scale` but for drag. What all of the body has depends on the observer.
+double made_while_free(const LogContents& log, const MomentumColumns& of, double scale) {
   Eigen::RowVector3d made = Eigen::RowVector3d::Zero();
   double most = 0;
   for (Eigen::Index f = 1; f < of.momentum.rows(); ++f) {
@@ -192,25 +197,26 @@ double made_while_free(const LogContents& log, const MomentumColumns& of, double
             of.given_back.row(f - 1);
     most = worse(most, made.norm());
   }
-  const double scale = std::max({MomentumColumns::most(of.momentum), MomentumColumns::most(of.drag),
-                                 MomentumColumns::most(of.outside), of_parts});
-  return share_of(most, scale, of.largest_total);
+  return share_of(most, std::max(scale, MomentumColumns::most(of.drag)), of.largest_total);
 }
 
 /// What happens to momentum; where nothing holds or pulls the animal, that nothing does.
-std::vector<Finding> momentum(const LogContents& log) {
+std::vector<Finding> momentum(const LogContents& log, const Passed& passed) {
   MomentumColumns linear(log, "");
   MomentumColumns angular(log, "angular_");
   // As GuardSettings::momentum_gain: with the largest kinetic energy.
-  const double parts =
-      std::sqrt(2 * mass_of(log.model) * diagnostic(log, "kinetic_energy").maxCoeff());
-  const double turning_parts = parts * log.model.length() / std::sqrt(12.0);
+  const double mass = passed.mass();
+  const Eigen::ArrayXd kinetic = diagnostic(log, "kinetic_energy");
+  const Eigen::ArrayXd whole = 0.5 / mass * linear.momentum.rowwise().squaredNorm().array();
+  const double through = passed.momentum();
+  const double parts = std::sqrt(2 * mass * (kinetic - whole).cwiseMax(0).maxCoeff());
   // A body that falls has parts that are large where all of it is not.
-  linear.largest_total = worse(linear.largest_total, parts);
-  angular.largest_total = worse(angular.largest_total, turning_parts);
-  std::vector<Finding> findings{
-      momentum_ledger(log, "momentum ledger", "dyn s", linear),
-      momentum_ledger(log, "angular momentum ledger", "dyn cm s", angular)};
+  const double all = std::max(through, std::sqrt(2 * mass * kinetic.maxCoeff()));
+  linear.largest_total = worse(linear.largest_total, all);
+  angular.largest_total = worse(angular.largest_total, all * passed.arm());
+  std::vector<Finding> findings{momentum_ledger(log, "momentum ledger", "dyn s", linear, through),
+                                momentum_ledger(log, "angular momentum ledger", "dyn cm s", angular,
+                                                passed.angular_momentum())};
   const int held =
       (given_while_held(log, linear) ? 1 : 0) + (given_while_held(log, angular) ? 1 : 0);
   findings.push_back(judged({"given back", static_cast<double>(held), 0, "ledgers"},
@@ -223,8 +229,9 @@ std::vector<Finding> momentum(const LogContents& log) {
     ever_free = ever_free || !(log.clamped(f - 1) || log.clamped(f));
   }
   if (ever_free) {
-    const double share =
-        worse(made_while_free(log, linear, parts), made_while_free(log, angular, turning_parts));
+    const double scale = std::max(parts, through);
+    const double share = worse(made_while_free(log, linear, scale),
+                               made_while_free(log, angular, scale * passed.arm()));
     findings.push_back(
         judged_over({"free momentum", share, scene.expect.momentum, "of the momentum that passed"},
                     "made by the integrator while nothing held the head"));
@@ -309,9 +316,9 @@ std::vector<Finding> audit(const std::string& file, bool anew) {
   append(activations.findings());
   append(audit_pull(log));
   findings.push_back(forward_inverse.finding());
-  append(energy(log));
-  findings.push_back(energy_gain(log));
-  append(momentum(log));
+  append(energy(log, rates.passed()));
+  findings.push_back(energy_gain(log, rates.passed()));
+  append(momentum(log, rates.passed()));
   append(rates.findings());
   if (!(anew && comes_again(log))) findings.push_back(audit_checkpoints(log));
   return findings;

@@ -47,12 +47,14 @@ struct ForwardInverseAudit::Driven {
   Hdf5Reader::Rows tip;
   double largest_error = 0;
 
-  /// Largest entry of the velocities that one kind of force alone gives the animal at rest at `q`.
+  /// Largest entry of the velocities that one kind of force alone gives the animal at rest at `q`,
+  /// each beside gravity. A kind that does not act leaves gravity's.
   double largest_alone(Eigen::Index frame, const Eigen::VectorXd& q) {
     const State rest{q, Eigen::VectorXd::Zero(log.model.nv())};
     double largest = 0;
+    const bool falls = !log.model.gravity.isZero(0);
     const auto see = [&](const Eigen::VectorXd& force, const Eigen::Vector3d& at_tip) {
-      if (force.isZero(0) && at_tip.isZero(0)) return;
+      if (force.isZero(0) && at_tip.isZero(0) && !falls) return;
       const Eigen::VectorXd alone = driven_velocity(log.model, rest, force, at_tip, mirror);
       largest = std::max(largest, alone.lpNorm<Eigen::Infinity>());
     };

@@ -11,8 +11,8 @@ namespace {
 
 /// Forces and velocities are known as means from frame to frame, or at frames, so that a total
 /// grows otherwise by some hundredths of its growth, and by up to a third where rows switch within
-/// a frame. With another column's forces it is off by all of its growth or more. Moments and works
-/// of joints cancel each other, so that growth is measured by the sum of their sizes.
+/// a frame. With another column's forces it is off by all of its growth or more. What bodies and
+/// joints do cancels, so that growth is measured by the sum of its sizes.
 constexpr double growth_tolerance = 0.7;
 constexpr int frames_for_rates = 5;  // to tell
 
@@ -25,12 +25,18 @@ RateAudit::RateAudit(const LogContents& log)
       thigmotaxis_(log.h5.rows("/mean/forces/thigmotaxis")),
       active_(log.h5.rows("/mean/forces/active")),
       head_(log.h5.rows("/mean/forces/head")),
-      wall_(log.h5.rows("/mean/forces/wall")) {
-  for (const char* name : {"work_tip", "work_thigmotaxis", "work_active", "impulse_drag",
-                           "angular_impulse_drag", "dissipated", "angular_impulse_outside"}) {
-    const std::string path = std::string("/diagnostics/") + name;
-    growths_.push_back({name, log.h5.rows(path)});
+      wall_(log.h5.rows("/mean/forces/wall")),
+      passed_(log.model, log.resolved.scene.time.step) {
+  const auto add = [&](const std::string& name, double (Passed::*through)() const) {
+    growths_.push_back({name, through, log.h5.rows("/diagnostics/" + name)});
+  };
+  for (const char* name : {"work_tip", "work_thigmotaxis", "work_active"}) {
+    add(name, &Passed::energy);
   }
+  add("impulse_drag", &Passed::momentum);
+  add("angular_impulse_drag", &Passed::angular_momentum);
+  add("dissipated", &Passed::energy);
+  add("angular_impulse_outside", &Passed::angular_momentum);
   outside_ = log.h5.rows("/diagnostics/impulse_outside");
   if (log.has_end()) tip_.row(log.begun) = tip_.row(log.begun - 1);  // up to the end
 }
@@ -55,15 +61,17 @@ void RateAudit::see(const AuditedFrame& frame) {
   const Eigen::Index bodies = log_.model.body_count();
   const Eigen::Matrix3Xd moved = (position_.row(f) - position_.row(f - 1)).reshaped(3, bodies);
   const Eigen::Vector3d tip = 0.5 * (tip_.row(f) + tip_.row(f - 1));
+  passed_.see(elapsed, tip, head_.row(f), wall_.row(f));
   const Kinematics& kin = frame.observation.kin;
   const Eigen::Vector3d centre = centre_of_mass(log_.model, kin);
   Eigen::Vector3d drag = Eigen::Vector3d::Zero();
   Eigen::Vector3d drag_moment = drag;
-  double moments = 0, dissipated = 0;
+  double drags = 0, moments = 0, dissipated = 0;
   for (int b = 0; b < bodies; ++b) {
     const PointMotion motion{elapsed * kin.twist.col(b).head<3>(), moved.col(b)};
     const auto [moment, force] = drag_on_body(log_.model, kin, b, motion);
     drag += force;
+    drags += force.norm();
     const Eigen::Vector3d about = moment + (kin.centre.col(b) - centre).cross(force);
     drag_moment += about;
     moments += about.norm();
@@ -73,14 +81,15 @@ void RateAudit::see(const AuditedFrame& frame) {
     dissipated += log_.model.hinges[k - root_dofs].damping * way[k] * way[k] / elapsed;
   }
   const auto one = [](double value) { return Eigen::VectorXd::Constant(1, value); };
-  growths_[0].compare(f, one(tip.dot(moved.col(bodies - 1))));
+  const Eigen::Vector3d tip_moved = moved.col(bodies - 1);
+  growths_[0].compare(f, one(tip.dot(tip_moved)), tip.norm() * tip_moved.norm());
   const auto work = [&way](const auto& force) {
     return force.transpose().cwiseProduct(way).eval();
   };
   const Eigen::VectorXd thigmotaxis = work(thigmotaxis_.row(f)), active = work(active_.row(f));
   growths_[1].compare(f, one(thigmotaxis.sum()), thigmotaxis.lpNorm<1>());
   growths_[2].compare(f, one(active.sum()), active.lpNorm<1>());
-  growths_[3].compare(f, drag);
+  growths_[3].compare(f, drag, drags);
   growths_[4].compare(f, drag_moment, moments);
   growths_[5].compare(f, one(dissipated));
   see_outside(frame, centre, elapsed);
@@ -104,8 +113,9 @@ void RateAudit::see_outside(const AuditedFrame& frame, const Eigen::Vector3d& ce
   const Eigen::VectorXd wanted = elapsed * (force + mass * log_.model.gravity);
   const Eigen::VectorXd grew = outside_.row(f) - outside_.row(f - 1);
   // What grows is a difference of totals.
-  rebuilt_.compare("/diagnostics/impulse_outside", grew, wanted,
-                   rebuilt_tolerance * outside_.cwiseAbs().maxCoeff());
+  rebuilt_.compare(
+      "/diagnostics/impulse_outside", grew, wanted,
+      rebuilt_tolerance * std::max(outside_.cwiseAbs().maxCoeff(), passed_.momentum()));
   // Of the root's moment alone is known that arms move from frame to frame.
   const Eigen::VectorXd turning = head_.row(f) + wall_.row(f);
   growths_[6].compare(f, elapsed * moment_of_root(turning, frame.observation.kin, centre));
@@ -119,8 +129,10 @@ std::vector<Finding> RateAudit::findings() const {
   }
   for (const Growth& growth : growths_) {
     // What never grew must not be made to.
-    const double rounding = growth.total.cwiseAbs().maxCoeff() * static_cast<double>(log_.q.rows());
-    const double share = share_of(growth.off, growth.grown, rounding);
+    const double largest =
+        std::max(growth.total.cwiseAbs().maxCoeff(), (passed_.*growth.through)());
+    const double share =
+        share_of(growth.off, growth.grown, largest * static_cast<double>(log_.q.rows()));
     findings.push_back(judged_over({growth.name, share, growth_tolerance, "of its growth"},
                                    "as the forces and the motion from frame to frame make it"));
   }

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <string>
 
+#include "core/run/momentum.hpp"
+
 namespace hagfish {
 namespace {
 
@@ -88,9 +90,22 @@ Criterion eq6_criterion(const ExpectSettings& expect, std::int64_t met, std::int
   return {"Eq. 6", share / percent, expect.speed_share / percent, "% of sliding steps", true};
 }
 
-void EnergyGain::see(double energy, double put_in) {
+Passed::Passed(const Model& model, double h)
+    : mass_(mass_of(model)),
+      weight_(mass_ * model.gravity.norm()),
+      arm_(model.length() / std::sqrt(12.0)),
+      h_(h) {}
+
+void Passed::see(double elapsed, const Eigen::Vector3d& tip, const Eigen::VectorXd& head,
+                 const Eigen::VectorXd& obstacles) {
+  const double force = weight_ + tip.norm() + head.head<3>().norm() + obstacles.head<3>().norm();
+  momentum_ += elapsed * force;
+  step_momentum_ = std::max(step_momentum_, h_ * force);
+}
+
+void EnergyGain::see(double energy, double put_in, double gravity) {
   const double had = start_ + put_in;
-  most_ = std::max(most_, had);
+  most_ = std::max(most_, had - gravity);
   largest_ = worse(largest_, most_ > 0 ? (energy - had) / most_ : 0);
 }
 

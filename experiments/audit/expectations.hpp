@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/chain/model.hpp"
 #include "core/run/slide.hpp"
 #include "core/scene/settings.hpp"
 
@@ -63,14 +64,47 @@ inline double worse(double a, double b) {
   return std::isnan(a) || std::isnan(b) ? INFINITY : std::max(a, b);
 }
 
+/// What passes through the body: sums of the sizes of its weight, the tip's force, and those of
+/// head clamp and obstacles. They do not vanish at rest, nor cancel where forces hold each other.
+class Passed {
+ public:
+  /// By a scene's model and its steps of `h` (s).
+  Passed(const Model& model, double h);
+  /// Means of generalised forces (nv) from one frame to the next, `elapsed` (s) later; dyn, dyn cm.
+  void see(double elapsed, const Eigen::Vector3d& tip, const Eigen::VectorXd& head,
+           const Eigen::VectorXd& obstacles);
+  double momentum() const { return momentum_; }                 ///< dyn s
+  double angular_momentum() const { return arm_ * momentum_; }  ///< of a straight body, dyn cm s
+  /// Most that these forces would give the body in one step, erg.
+  double energy() const { return 0.5 * step_momentum_ * step_momentum_ / mass_; }
+  double mass() const { return mass_; }
+  /// Radius of gyration of a straight body, cm.
+  double arm() const { return arm_; }
+
+ private:
+  double mass_, weight_, arm_, h_;
+  double momentum_ = 0, step_momentum_ = 0;
+};
+
+/// Sums of all steps are known to this share of the largest of them: some thousand additions round.
+inline constexpr double totals_rounding = 1e-12;
+
+/// A difference of totals as a share of `scale`: 0 where the difference is no more than what
+/// rounding leaves of totals up to `largest_total`.
+inline double share_of(double off, double scale, double largest_total) {
+  if (off <= totals_rounding * largest_total) return 0;
+  return scale > 0 ? off / scale : off;
+}
+
 /// Mechanical energy (kinetic, elastic, gravity) above what there was and what script and
-/// thigmotaxis put in, over the most that there was of these so far.
+/// thigmotaxis put in, over the most kinetic and elastic energy that there could be so far.
 class EnergyGain {
  public:
-  /// `energy` at the start, erg.
-  explicit EnergyGain(double energy) : start_(energy), most_(energy) {}
-  /// A later moment: `energy`, and what was put in since the start, erg.
-  void see(double energy, double put_in);
+  /// `energy` at the start, of it in gravity, erg.
+  explicit EnergyGain(double energy, double gravity = 0)
+      : start_(energy), most_(energy - gravity) {}
+  /// A later moment: `energy`, what was put in since the start, and the energy in gravity, erg.
+  void see(double energy, double put_in, double gravity = 0);
   double largest() const { return largest_; }
 
  private:

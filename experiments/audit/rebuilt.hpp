@@ -14,16 +14,6 @@ namespace hagfish {
 /// of a hundred bodies round differently on another machine, by 1e-13.
 inline constexpr double rebuilt_tolerance = 1e-9;
 
-/// Sums of all steps are known to this share of the largest of them: some thousand additions round.
-inline constexpr double totals_rounding = 1e-12;
-
-/// A difference of totals as a share of `scale`, which vanishes at rest as the difference does: 0
-/// where the difference is no more than what rounding leaves of totals up to `largest_total`.
-inline double share_of(double off, double scale, double largest_total) {
-  if (off <= totals_rounding * largest_total) return 0;
-  return scale > 0 ? off / scale : off;
-}
-
 /// The middle one; there must be some.
 double median(std::vector<double> values);
 

@@ -30,6 +30,11 @@ def read_findings(path: Path) -> list[Finding]:
     return [Finding(row["criterion"], row["value"], row["bound"], row["unit"], row["met"] == "yes") for row in rows]
 
 
+def value_of(findings: list[Finding], criterion: str) -> float:
+    """Value of a criterion that is a number; nan where the log has none."""
+    return next((float(finding.value) for finding in findings if finding.criterion == criterion and finding.value), float("nan"))
+
+
 def unmet(findings: list[Finding]) -> list[str]:
     """Criteria that failed."""
     return [finding.criterion for finding in findings if not finding.met]

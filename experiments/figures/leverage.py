@@ -16,7 +16,7 @@ import leverage_picture as picture
 import plots
 import tables
 from hagfish_log import HagfishLog, LogError
-from leverage_picture import HEAD, SWEEPS
+from leverage_picture import HEAD, MESH, SWEEPS, TIME_HEAD
 from pulls import Pull, read_pull, read_strand
 from script import run_script
 
@@ -67,23 +67,33 @@ def pulls_of(runs: Iterable[Run]) -> list[Pull]:
     return [run.pull for run in runs if run.pull and not run.deep]
 
 
-def spread(values: list[float]) -> str:
-    """Mean ± standard deviation."""
-    return f"{np.mean(values):.3f} ± {np.std(values, ddof=1):.3f}" if len(values) > 1 else ", ".join(f"{value:.3f}" for value in values)
+def spread(values: Iterable[float]) -> str:
+    """Least and largest."""
+    there = [f"{value:.2f}" for value in values if not np.isnan(value)]
+    return " to ".join(dict.fromkeys((min(there, key=float), max(there, key=float)))) if there else ""
 
 
-def starts_table(runs: list[Run], out: Path) -> None:
+def knots_table(runs: list[Run], out: Path) -> None:
+    """Of each knot: its pull over time, and how far chance and meshes move the mean."""
     rows = []
     for body, label in BODIES.items():
         for knot in plots.SCENES.values():
             pulls = pulls_of(starts := chosen(runs, body, knot, "start"))
-            mirrored, plain = ([(run.outcome, run.pull and run.pull.mean) for run in chosen(runs, body, knot, kind)] for kind in ("mirror", "plain"))
+            plain, mirrored = (chosen(runs, body, knot, kind) for kind in ("plain", "mirror"))
+            same = [(run.outcome, run.pull and run.pull.mean) for run in plain] == [(run.outcome, run.pull and run.pull.mean) for run in mirrored]
+            seconds = [force for pull in pulls_of(plain) for force in pull.over(1)[1]]
+            third = ", ".join(f"{part.mean():.2f}" for part in np.array_split(seconds, 3)) if len(seconds) > 2 else ""
             mean = lambda figure: f"{np.mean([figure(pull) for pull in pulls]):.2g}" if pulls else ""
-            rows.append([label, knot, f"{len(pulls)} of {len(starts)}", spread([pull.mean for pull in pulls]), mean(lambda p: p.mean / p.sum),
-                         mean(lambda p: p.mean / p.rows.mean(axis=0).max()), mean(lambda p: p.mean / p.torque.mean()),
-                         "yes" if plain and mirrored == plain else "no"])
-    tables.of_page(out, "leverage", ["body", "knot", "pulled", "pull, N", "over the sum of the rows", "over the largest row",
-                                     "pull over the largest torque, 1/cm", "mirror image the same"], rows)
+            rows.append([label, knot, mean(lambda p: p.cap), f"{len(pulls)} of {len(starts)}", third, spread(seconds), spread(pull.mean for pull in pulls),
+                         *(spread(pull.mean for pull in pulls_of([*chosen(runs, body, knot, kind), *plain])) for kind in MESH),
+                         mean(lambda p: p.mean / p.rows.mean()), mean(lambda p: p.mean / p.torque.mean()), "yes" if plain and same else "no"])
+    tables.of_page(out, "leverage", ["body", "knot", "cap of a row, N", "pulled", "pull in the thirds of its time, N", "of its seconds, N", "means of starts, N",
+                                     "of steps, N", "of numbers of bodies, N", "over the sum of the rows", "over the largest torque, 1/cm", "mirror image the same"], rows)
+
+
+def time_table(runs: list[Run], out: Path) -> None:
+    rows = [[run.body, run.knot, float(second), float(force)] for run in runs if run.kind == "plain" and run.pull for second, force in zip(*run.pull.over(1))]
+    tables.write_csv(out / "tables/leverage_time.csv", TIME_HEAD, rows)
 
 
 def work_table(runs: list[Run], folder: Path, out: Path) -> None:
@@ -118,22 +128,21 @@ def csv_row(run: Run) -> list[str | float]:
     if not run.pull:
         return [run.kind, run.body, run.knot, run.value, run.seed, run.outcome, *[""] * (len(HEAD) - 8), run.overlap, deep]
     p = run.pull
-    torque = float(p.torque.mean())
-    return [run.kind, run.body, run.knot, run.value, run.seed, run.outcome, p.mean, float(p.force.std()),
-            float(p.plate.mean()), p.sum, float(p.rows.mean(axis=0).max()), torque, float(p.torque.max()), p.mean / p.sum,
-            p.mean / torque, p.estimate, *map(float, p.turn.mean(axis=0)), run.overlap, deep]
+    return [run.kind, run.body, run.knot, run.value, run.seed, run.outcome, p.cap, p.mean, float(p.plate.mean()), float(p.rows.mean()),
+            float(p.torque.mean()), float(p.torque.max()), float(p.estimate.mean()), run.overlap, deep]
 
 
 def main(folder: Path, out: Path) -> None:
     runs = [read_run(path) for path in sorted(folder.glob("*-*-*-*-*.check.csv"))]
     if not any(run.pull for run in runs):
         raise LogError(f"{folder}: holds no run that pulled")
-    starts_table(runs, out)
+    knots_table(runs, out)
+    time_table(runs, out)
     work_table(runs, folder, out)
     changes_table(runs, out)
     table = out / "tables/leverage_runs.csv"
     tables.write_csv(table, HEAD, [csv_row(run) for run in runs])
-    picture.draw(tables.read_csv(table, HEAD), out / "leverage.png")
+    picture.draw(tables.read_csv(table, HEAD), tables.read_csv(out / "tables/leverage_time.csv", TIME_HEAD), out / "leverage.png")
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 """The pull of every knot, and what it depends on: of a table of runs.
 
-Usage: leverage_picture.py leverage_runs.csv OUT.png (writes a PDF beside).
+Usage: leverage_picture.py leverage_runs.csv leverage_time.csv OUT.png (writes a PDF beside).
 """
 
 from __future__ import annotations
@@ -10,20 +10,17 @@ from pathlib import Path
 import numpy as np
 
 import plots
-from pulls import NEWTON
 from script import run_script
 from tables import read_csv
 
-HEAD = ["kind", "body", "knot", "value", "seed", "outcome", "pull_N", "pull_sd_N", "plate_N", "rows_N", "largest_row_N",
-        "torque_mean_N_cm", "torque_largest_N_cm", "advantage_rows", "advantage_torque_1_cm", "estimate_N", "turn_first",
-        "turn_last", "deepest_overlap_cm", "too_deep"]
-SWEEPS = {"cap": "largest force of a row, dyn", "speed": "commanded speed, cm/s", "stiffness": "flexural rigidity, dyn cm²",
+HEAD = ["kind", "body", "knot", "value", "seed", "outcome", "cap_N", "pull_N", "plate_N", "rows_N", "torque_mean_N_cm", "torque_largest_N_cm", "estimate_N",
+        "deepest_overlap_cm", "too_deep"]
+TIME_HEAD = ["body", "knot", "second", "pull_N"]
+SWEEPS = {"cap": "largest force of a row, times the scene's", "speed": "commanded speed, cm/s", "stiffness": "flexural rigidity, dyn cm²",
           "girth": "girth, times the animal's", "capacity": "capacity of a hinge's muscles, dyn cm", "step": "time step, s",
           "bodies": "number of bodies"}
 # What the starts have, by body.
-BASE = {"cap": {"table1": 5e3, "living": 3e4}, "speed": {"table1": 2.0, "living": 1.0}, "stiffness": {"living": 2e5},
-        "girth": {"table1": 1.0, "living": 1.0}, "capacity": {"living": 2.7e5}, "step": {"table1": 0.005, "living": 0.005},
-        "bodies": {"table1": 100.0, "living": 100.0}}
+BASE = {"cap": {"table1": 1.0, "living": 1.0}, "girth": {"table1": 1.0, "living": 1.0}, "stiffness": {"living": 2e5}}
 MESH = ("step", "bodies")  # changes that should change nothing
 TOOTH_MUSCLE = 16.0  # N, clavatus of the tooth plate: Clark & Summers 2007, J. Exp. Biol. 210:3897
 CAPACITY = 2.7  # N cm, a guess: data/living_overhand.toml
@@ -58,28 +55,27 @@ def draw_starts(axes: plots.plt.Axes, runs: Runs, body: str, knot: str, at: floa
     axes.errorbar(at, mean, starts.std(ddof=1) if starts.size > 1 else 0, color=look.colour, marker=look.marker, ms=5.5, mfc=fill, elinewidth=2.2, capsize=3)
 
 
-def draw_sweep(axes: plots.plt.Axes, runs: Runs, kind: str, scale: float = 1, log: bool = True) -> None:
+def draw_sweep(axes: plots.plt.Axes, runs: Runs, kind: str, log: bool = True) -> None:
     """Single runs are points; the starts have bars."""
     values = [float(run["value"]) for run in runs if run["kind"] == kind] + list(BASE[kind].values())
     wide = np.log(max(values) / min(values)) if log else max(values) - min(values)
     for k, knot in enumerate(plots.KNOTS):
         by = BESIDE * (k - 1.5) * wide
-        moved = lambda value, by=by: scale * (value * np.exp(by) if log else value + by)
+        moved = lambda value, by=by: value * np.exp(by) if log else value + by
         for body, base in BASE[kind].items():
             for run in chosen(runs, body, knot, kind, deep=kind == "cap"):
                 axes.plot(moved(float(run["value"])), float(run["pull_N"]), **style(run))
             draw_starts(axes, runs, body, knot, moved(base))
 
 
-def draw(runs: Runs, out: Path) -> None:
+def draw(runs: Runs, seconds: Runs, out: Path) -> None:
     figure, axes = plots.panels(2, 3, (11, 7.4), [
         "the harder it slides, the harder it pulls", "what that asks of a joint", "against a frictionless rope",
-        "stiffness of the body", "girth", "time step"])
-    draw_sweep(axes[0], runs, "cap", 1 / NEWTON)
+        "stiffness of the body", "girth", "force over time"])
+    draw_sweep(axes[0], runs, "cap")
     axes[0].axhline(TOOTH_MUSCLE, color=plots.GREY, ls=":", lw=1)
-    axes[0].text(0.008, TOOTH_MUSCLE * 1.1, "tooth muscle, 16 N", fontsize=7, color=plots.GREY, va="bottom")
-    axes[0].set(xscale="log", yscale="log", xlim=(0.007, 3), ylim=(0.01, 40), ylabel="pull, N",
-                xlabel="largest force of each of the four rows, N")
+    axes[0].text(0.22, TOOTH_MUSCLE * 1.1, "tooth muscle, 16 N", fontsize=7, color=plots.GREY, va="bottom")
+    axes[0].set(xscale="log", yscale="log", xlim=(0.2, 30), ylim=(0.01, 40), ylabel="pull, N", xlabel=SWEEPS["cap"])
     for run in runs:
         if run["pull_N"] and run["too_deep"] != "yes":
             for panel, across in ((axes[1], "torque_mean_N_cm"), (axes[2], "estimate_N")):
@@ -95,17 +91,21 @@ def draw(runs: Runs, out: Path) -> None:
     axes[3].set(xscale="log", xlabel=SWEEPS["stiffness"], ylabel="pull, N", ylim=(0, None))
     draw_sweep(axes[4], runs, "girth", log=False)
     axes[4].set(xlabel=SWEEPS["girth"], ylabel="pull, N", ylim=(0, None), xticks=[0.8, 1, 1.2])
-    draw_sweep(axes[5], runs, "step", 1e3)
-    axes[5].set(xscale="log", xlabel="time step, ms", ylabel="pull, N", ylim=(0, None))
-    plots.plain_ticks(axes[5].xaxis, [2, 5, 10])
+    for body in ("table1", "living"):
+        for knot, look in plots.KNOTS.items():
+            there = [row for row in seconds if (row["body"], row["knot"]) == (body, knot)]
+            axes[5].plot([float(row["second"]) for row in there], pulls(there), color=look.colour, ls="-" if body == "living" else ":")
+    axes[5].set(xlabel="since the pull counts as settled, s", ylabel="pull, N", ylim=(0, None))
     handles = [axes[0].plot([], [], label=look.label, ls="", **look.style)[0] for look in plots.KNOTS.values()]
     handles += [axes[0].plot([], [], color=plots.INK, marker=marker, mfc=fill, ls="", label=label)[0]
                 for marker, fill, label in (("o", plots.INK, "living body"), ("o", "white", "Table 1 body"), ("x", plots.INK, "overlaps too deep, in (a) alone"))]
     handles.append(axes[0].errorbar([], [], [], color=plots.INK, elinewidth=2.2, capsize=3, ls="", label="starts: standard deviation"))
-    handles += axes[0].plot([], [], color=plots.INK, lw=0.7, label="steps of 2 and 10 ms, 60 and 150 bodies")
+    handles += axes[0].plot([], [], color=plots.INK, lw=0.7, label="other steps and numbers of bodies")
+    handles += axes[0].plot([], [], color=plots.INK, ls=":", label="Table 1 body over time")
     plots.legend_above(figure, handles, 5, 0.075)
     plots.save(figure, out)
 
 
 if __name__ == "__main__":
-    run_script(__doc__, ["leverage_runs.csv", "OUT.png"], lambda table, out: draw(read_csv(table, HEAD), out))
+    run_script(__doc__, ["leverage_runs.csv", "leverage_time.csv", "OUT.png"],
+               lambda table, seconds, out: draw(read_csv(table, HEAD), read_csv(seconds, TIME_HEAD), out))

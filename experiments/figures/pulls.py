@@ -45,49 +45,75 @@ def settled(log: HagfishLog) -> np.ndarray:
 
 
 @dataclass
-class Pull:
-    """The settled pull of one run."""
+class Rows:
+    """Rows of Eq. 6 at some frames, in one list."""
 
-    force: np.ndarray  # of each frame, mean over its 20 ms, N
+    at: np.ndarray  # place of the frame among these
+    along: np.ndarray  # 0 along the tangent of strand a, 1 of strand b
+    a: np.ndarray  # spline parameters on the two strands
+    b: np.ndarray
+    force: np.ndarray  # λ / h, N
+
+    def sums(self, frames: int, factor: np.ndarray | float = 1.0) -> np.ndarray:
+        return np.bincount(self.at, self.force * factor, frames)
+
+
+def rows_of(log: HagfishLog, frames: np.ndarray) -> Rows:
+    """Of a law at all contacts, or the four of the paper's."""
+    if log.scene()["controller"]["law"] == "paper":
+        ends = [np.repeat(log[f"/thigmotaxis/spline_{strand}"][frames], 2, axis=1) for strand in "ab"]
+        force = log["/thigmotaxis/lambda"][frames]
+        at, along = np.nonzero(~np.isnan(ends[0]))
+        return Rows(at, along % 2, ends[0][at, along], ends[1][at, along], force[at, along] / NEWTON)
+    frame = log["/eq6/frame"]
+    which = np.flatnonzero(np.isin(frame, frames))
+    of = lambda name: log[f"/eq6/{name}"][which]
+    return Rows(np.searchsorted(frames, frame[which]), of("along"), of("spline_a"), of("spline_b"), of("lambda") / NEWTON)
+
+
+def tangents(log: HagfishLog, frames: np.ndarray, rows: Rows) -> tuple[np.ndarray, np.ndarray]:
+    """Of the two strands of each row, both to the tail: R x 3."""
+    position = log["/trajectory/position"][frames][rows.at]
+    found = []
+    for parameter in (rows.a, rows.b):
+        slope = np.einsum("rb,rbx->rx", weights(parameter, position.shape[1])[1], position)
+        found.append(slope / np.linalg.norm(slope, axis=1, keepdims=True))
+    return found[0], found[1]
+
+
+@dataclass
+class Pull:
+    """The settled pull of one run; a value for each frame."""
+
+    time: np.ndarray  # s
+    force: np.ndarray  # mean over the interval before, N
     plate: np.ndarray  # N
-    rows: np.ndarray  # λ / h of the four rows of Eq. 6, F x 4, N
+    rows: np.ndarray  # sum of λ / h of the rows of Eq. 6, N
+    estimate: np.ndarray  # pull of a frictionless rope in the same knot, sum of λ (1 - cos θ) / h, N
     torque: np.ndarray  # largest of a hinge, N cm
-    bearing: np.ndarray  # y, z of the plate's force, F x 2, cm
-    turn: np.ndarray  # 1 - cos θ at the first and the last contact, F x 2
+    cap: float  # of a row at the end, N
 
     @property
     def mean(self) -> float:
         return float(self.force.mean()) if self.force.size else np.nan
 
-    @property
-    def sum(self) -> float:
-        """Of the four rows, N."""
-        return float(self.rows.sum(axis=1).mean()) if self.force.size else np.nan
-
-    @property
-    def estimate(self) -> float:
-        """Pull of a frictionless rope in the same knot, sum of λ (1 - cos θ) / h, N."""
-        return float((self.rows * np.repeat(self.turn, 2, axis=1)).sum(axis=1).mean()) if self.force.size else np.nan
-
-
-def turns(log: HagfishLog, frames: np.ndarray) -> np.ndarray:
-    """1 - cos θ between the tangents of the two strands, both to the tail, at the contacts followed: F x 2."""
-    position = log["/trajectory/position"][frames]
-    bodies = position.shape[1]
-    tangent = []
-    for strand in "ab":
-        parameter = log[f"/thigmotaxis/spline_{strand}"][frames]
-        slope = np.stack([np.einsum("fb,fbx->fx", weights(np.nan_to_num(parameter[:, k]), bodies)[1], position) for k in (0, 1)], 1)
-        tangent.append(slope / np.linalg.norm(slope, axis=2, keepdims=True))
-    turn = 1 - (tangent[0] * tangent[1]).sum(axis=2)
-    return np.where(np.isnan(log["/thigmotaxis/spline_a"][frames]), 0, turn)
+    def over(self, seconds: float) -> tuple[np.ndarray, np.ndarray]:
+        """Time since it settled, s, and mean force, N, of each whole stretch of so many seconds."""
+        if not self.time.size:
+            return np.array([]), np.array([])
+        stretch = ((self.time - self.time[0]) / seconds).astype(int)
+        whole = np.arange(int((self.time[-1] - self.time[0]) / seconds + 1e-6))
+        return (whole + 0.5) * seconds, np.array([self.force[stretch == k].mean() for k in whole])
 
 
 def read_pull(log: HagfishLog) -> Pull:
     frames = settled(log)
-    rows = log["/mean/thigmotaxis/lambda"][frames]
-    return Pull(log["/pull/force"][frames] / NEWTON, log["/pull/plate"][frames] / NEWTON, rows / NEWTON,
-                log["/pull/torque"][frames] / NEWTON, log["/pull/bearing"][frames], turns(log, frames))
+    rows = rows_of(log, frames)
+    t_a, t_b = tangents(log, frames, rows)
+    turn = 1 - (t_a * t_b).sum(axis=1)
+    return Pull(log["/trajectory/time"][frames], log["/pull/force"][frames] / NEWTON, log["/pull/plate"][frames] / NEWTON,
+                rows.sums(len(frames)), rows.sums(len(frames), turn), log["/pull/torque"][frames] / NEWTON,
+                float(log.scene()["food"]["cap"]["to"]) / NEWTON)
 
 
 @dataclass
@@ -124,15 +150,11 @@ def read_strand(log: HagfishLog) -> Strand:
         on_b = weights(b[i : i + 1], bodies)[0][0]
         normal = (on_a - on_b) @ position[k]
         contact[k] += np.outer(on_a - on_b, force[i] * normal / np.linalg.norm(normal))
-    value = log["/thigmotaxis/lambda"][frames]
-    ends = [log[f"/thigmotaxis/spline_{strand}"][frames] for strand in "ab"]
-    for place in (0, 1):
-        there = np.flatnonzero(~np.isnan(ends[0][:, place]))
-        (point_a, slope_a), (point_b, slope_b) = (weights(end[there, place], bodies) for end in ends)
-        for k, frame in enumerate(there):
-            t_a, t_b = slope_a[k] @ position[frame], slope_b[k] @ position[frame]
-            push = value[frame, 2 * place] * t_a / np.linalg.norm(t_a) - value[frame, 2 * place + 1] * t_b / np.linalg.norm(t_b)
-            thigmotaxis[frame] += np.outer(point_a[k] - point_b[k], push)
+    rows = rows_of(log, frames)
+    on_a, on_b = (weights(parameter, bodies)[0] for parameter in (rows.a, rows.b))
+    push = np.where(rows.along == 0, rows.force, -rows.force)[:, None] * np.where(rows.along[:, None] == 0, *tangents(log, frames, rows)) * NEWTON
+    for k, difference, along_strand in zip(rows.at, on_a - on_b, push):
+        thigmotaxis[k] += np.outer(difference, along_strand)
     along = lambda force: float((force * tangent).sum(axis=(1, 2)).mean()) / NEWTON
     behind = np.cumsum((contact + thigmotaxis + plate)[:, ::-1], axis=1)[:, ::-1]
     length = log["/model/length"]

@@ -70,6 +70,7 @@ def law_rows(folder: Path) -> list[list[str]]:
 def run_rows(folder: Path) -> list[list[str]]:
     """A row for each change, over all knots: how many runs slide by both ends, and by how much."""
     rows = []
+    most = capacity(HagfishLog(log_of(folder / "laws", "0")))  # one animal
     for grid, (axis, words) in VARIED.items():
         table = read_sweep(folder / grid / "table.csv")
         shares, torque = table.figures["both_ends_percent"], table.figures["largest_torque_dyn_cm"]
@@ -82,11 +83,8 @@ def run_rows(folder: Path) -> list[list[str]]:
             failed = [f"{knot} {'' if np.isnan(share) else f'{share:.0f} %'}".strip() for knot, share in zip(knots[of & ~slid], shares[of & ~slid])]
             rows.append([words + (f": {value}" if value else f"s 1 to {len(set(by))}"), f"{slid[of].sum()} of {of.sum()}",
                          f"{np.nanmin(shares[of]):.0f}", f"{np.nanmedian(shares[of]):.0f}", f"{np.nanmin(table.figures['eq6_percent'][of]):.0f}",
-                         f"{np.nanmax(torque[of]) / CAPACITY:.2f}", "; ".join(failed)])
+                         f"{np.nanmax(torque[of]) / most:.2f}", "; ".join(failed)])
     return rows
-
-
-CAPACITY = 2.7e5  # dyn cm, of the living scenes
 
 
 def draw(folder: Path, path: Path) -> None:

@@ -173,11 +173,15 @@ std::string specimen_scene_text(const Specimen& animal, const std::string& file,
   for (const auto& [name, lines] : sized_tables(animal, base)) {
     text += fmt::format("[{}]\n{}\n", name, lines);
   }
-  return text + fmt::format(
-                    "[expect]\n"
-                    "slide_distance = \"{:.3g} L\"  # a quarter of what the paper's animal "
-                    "must slide\n",
-                    share_of_slide * scene.expect.slide_distance / base.specimen.length);
+  return text +
+         fmt::format(
+             "[expect]\n"
+             "slide_distance = \"{:.3g} L\"  # a quarter of what the paper's animal "
+             "must slide\n"
+             "slide_share = 0.0   # the paper's animal alone is known to slide by both ends,\n"
+             "torque_share = 0.0  # and within its muscles' capacity\n"
+             "speed_share = 0.9\n",
+             share_of_slide * scene.expect.slide_distance / base.specimen.length);
 }
 
 }  // namespace hagfish

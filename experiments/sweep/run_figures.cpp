@@ -56,9 +56,6 @@ std::string type_name(const Eigen::Matrix3Xd& centreline, const KnotSettings& se
   }
 }
 
-/// Imbalance over what passed, or by itself where nothing did.
-double share(double off, double passed) { return passed > 0 ? off / passed : off; }
-
 }  // namespace
 
 std::vector<std::pair<std::string, std::string>> RunSummary::fields() const {
@@ -108,7 +105,8 @@ RunFigures::RunFigures(const Model& model, const Scene& scene)
       scene_(scene),
       means_(model.nv()),
       stride_(frame_stride(scene.time)),
-      slides_(model) {}
+      slides_(model),
+      passed_(model, scene.time.step) {}
 
 void RunFigures::see(const StepRecord& record) {
   const ThigmotaxisRows rows =
@@ -151,6 +149,12 @@ void RunFigures::see_frame(const StepRecord& record) {
     held_ = type_name(record.moment.observation.kin.centre, scene_.knot);
   }
   slides_.see(phase, span, record.moment.state.q);
+  if (!frames_.empty()) {
+    const Eigen::Vector3d tip =
+        record.solution.tip.allFinite() ? record.solution.tip : Eigen::Vector3d::Zero();
+    passed_.see(record.time - frames_.back().time, tip, mean.force[RowKind::head],
+                mean.force[RowKind::obstacle]);
+  }
   frames_.push_back({record.time, phase,
                      std::accumulate(mean.lambda.begin(), mean.lambda.end(), 0.0),
                      pull_of(mean.force[RowKind::head]), mean.force[RowKind::obstacle][0]});
@@ -175,22 +179,27 @@ void RunFigures::see_ledgers(const StepRecord& record) {
   const MomentumLedger& momentum = record.momentum;
   ledger_ = record.ledger;
   if (frames_.size() == 1) {
-    gain_ = EnergyGain(total(ledger_));
+    gain_ = EnergyGain(total(ledger_), ledger_.gravity);
     first_balance_ = balance(ledger_);
     first_momentum_ = momentum.momentum.linear;
-    first_error_ = ledger_.integrator_error();
+    first_error_ = ledger_.own_error();
   }
-  gain_.see(total(ledger_), put_in(ledger_));
+  for (const double of : {ledger_.works(), ledger_.dissipated, ledger_.impacts, total(ledger_),
+                          ledger_.gravity, ledger_.integrator_error(), passed_.energy()}) {
+    largest_energy_ = std::max(largest_energy_, std::abs(of));
+  }
+  gain_.see(total(ledger_) - totals_rounding * largest_energy_, put_in(ledger_), ledger_.gravity);
   imbalance_ = worse(imbalance_, std::abs(balance(ledger_) - first_balance_));
   worked_ = std::max(worked_, std::abs(ledger_.works()));
   dissipated_ = std::max(dissipated_, std::abs(ledger_.dissipated));
-  loss_.see(ledger_.integrator_error() - first_error_);
+  loss_.see(ledger_.own_error() - first_error_);
   had_ = std::max(had_, ledger_.kinetic + ledger_.elastic);
   momentum_off_ = worse(momentum_off_, most(balance(momentum) - first_momentum_));
   for (const Momentum* of :
        {&momentum.momentum, &momentum.drag, &momentum.outside, &momentum.integrator}) {
     momentum_passed_ = std::max(momentum_passed_, most(of->linear));
   }
+  largest_momentum_ = std::max(largest_momentum_, std::sqrt(2 * passed_.mass() * ledger_.kinetic));
 }
 
 RunFigures::Stretch RunFigures::stretch(Phase phase) const {
@@ -251,10 +260,15 @@ RunSummary RunFigures::summary(const std::string& outcome, const std::string& me
   run.head_drift = head_drift_;
   run.kkt = kkt_;
   run.eq6 = eq6_criterion(scene_.expect, eq6_met_, eq6_steps_).value;
-  run.energy_ledger = share(imbalance_, std::max(worked_, dissipated_));
+  const double through = passed_.energy();
+  const double momentum = std::max({momentum_passed_, largest_momentum_, passed_.momentum()});
+  run.energy_ledger =
+      share_of(imbalance_, std::max({worked_, dissipated_, through}), largest_energy_);
   run.energy_gain = gain_.largest();
-  run.energy_loss = share(loss_.largest(), std::max({worked_, dissipated_, had_}));
-  run.momentum_ledger = share(momentum_off_, momentum_passed_);
+  run.energy_loss =
+      share_of(loss_.largest(), std::max({worked_, dissipated_, had_, through}), largest_energy_);
+  run.momentum_ledger =
+      share_of(momentum_off_, std::max(momentum_passed_, passed_.momentum()), momentum);
   run.work_tip = ledger_.work_tip;
   run.work_active = ledger_.work_active;
   run.work_thigmotaxis = ledger_.work[RowKind::thigmotaxis];

@@ -93,6 +93,8 @@ class RunFigures {
   double largest_thigmotaxis_ = 0, largest_active_ = 0, largest_torque_ = 0;
   std::int64_t eq6_met_ = 0, eq6_steps_ = 0;              // of slides, up to the last frame
   std::int64_t eq6_met_since_ = 0, eq6_steps_since_ = 0;  // and since
+  Passed passed_;
+  double largest_energy_ = 0, largest_momentum_ = 0;  // of any total
   double first_balance_ = 0, imbalance_ = 0, worked_ = 0, dissipated_ = 0;
   Eigen::Vector3d first_momentum_ = Eigen::Vector3d::Zero();
   double momentum_off_ = 0, momentum_passed_ = 0;

@@ -12,6 +12,13 @@ namespace {
 constexpr double least_remaining = 1e-3;
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
+/// How far velocities differ (nv both): the largest of the hinges' rates, rad/s, and of the root's
+/// velocity as a whole, cm/s, and turn. So it is the same however the world's axes lie.
+double difference(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+  const Eigen::VectorXd off = a - b;
+  return std::max(off.head<3>().norm(), off.tail(off.size() - 3).lpNorm<Eigen::Infinity>());
+}
+
 /// Keeps the multipliers of a pass for the next one.
 void keep_pass(const StepSolution& step, WarmStart& warm) {
   warm.begin();
@@ -44,6 +51,9 @@ void MidpointRule::guess_middle(const StepInput& in, const WarmStart& warm) {
   if (warm.half_before.size() > 0) {
     first_guess_.head(nv) += 2 * warm.half_change - warm.half_before;
   }
+  if (warm.half_change.size() == 0 && !in.control.clamp_head) {
+    first_guess_.head<3>() += in.scene.time.reach() * in.model.gravity;
+  }
   first_guess_.tail(nv) = first_guess_.head(nv);
 }
 
@@ -65,7 +75,8 @@ Status MidpointRule::settle(const StepInput& in, Rounds& rounds, WarmStart& warm
   // first velocity.
   if (!status.ok()) step.middle.unsettled = unlimited;
   midway_.step_velocity = midway_.mean_velocity = in.state.qdot;
-  place_midway(in.model, in.state, in.observation.kin, in.scene.time.step, false, midway_);
+  place_midway(in.model, in.state, in.observation.kin, in.scene.time.step, false,
+               in.control.clamp_head, midway_);
   step.middle.remaining = 1;
   return solve_here(in, rounds, warm, step);
 }
@@ -88,11 +99,12 @@ Status MidpointRule::find_middle(const StepInput& in, bool balanced, Rounds& rou
   led_to_.resize(2 * nv);
   for (int pass = 1;; ++pass) {
     ++middle.passes;
-    place_midway(in.model, in.state, in.observation.kin, time.step, balanced, midway_);
+    place_midway(in.model, in.state, in.observation.kin, time.step, balanced, in.control.clamp_head,
+                 midway_);
     if (Status status = solve_here(in, rounds, warm, step); !status.ok()) {
       return status;
     }
-    const double off = (step.qdot - midway_.step_velocity).lpNorm<Eigen::Infinity>();
+    const double off = difference(step.qdot, midway_.step_velocity);
     if (pass > 1) {
       // Changes shrink by the factor θ: the rest is off (θ + θ² + ...) = off θ / (1 - θ).
       middle.remaining = off < before ? std::max(off / (before - off), least_remaining) : unlimited;
@@ -128,8 +140,7 @@ Status MidpointRule::resume(const StepInput& in, Rounds& rounds, WarmStart& warm
   if (status.ok()) {
     status = set_next_velocity(in, place(in), rounds.problem(), step, half_change_);
   }
-  if (!status.ok() ||
-      (step.qdot - midway_.step_velocity).lpNorm<Eigen::Infinity>() <= in.scene.time.settled) {
+  if (!status.ok() || difference(step.qdot, midway_.step_velocity) <= in.scene.time.settled) {
     return status;
   }
   keep_pass(step, warm);

@@ -21,9 +21,17 @@ constexpr double least_turn = 0.01;
 ///   T(q', v') - T(q, v) = T_m(v') - T_m(v) + h times the power of its bias.
 /// (This is a discrete gradient, body by body: Gonzalez, J. Nonlinear Sci. 6, 1996.)
 void set_bias_power(const Model& model, const State& state, const Kinematics& now, double h,
-                    Midway& midway) {
+                    bool held, Midway& midway) {
+  Eigen::Vector3d observer = Eigen::Vector3d::Zero();
+  Eigen::Vector3d fall = observer;  // of the observer, in the step
+  if (!held) {
+    observer = mean_by_mass(model, now.centre_velocity);
+    fall = h * model.gravity;
+  }
   advance(state.q, midway.step_velocity, h, midway.next.q);
   midway.next.qdot = 2 * midway.mean_velocity - state.qdot;
+  midway.next.qdot.head<3>() -= observer + fall;
+  midway.bias_power.observer = observer + 0.5 * fall;
   kinetic_energies(model, midway.next, midway.next_energy);
   const int n = model.body_count();
   midway.bias_power.value.resize(n);
@@ -32,12 +40,13 @@ void set_bias_power(const Model& model, const State& state, const Kinematics& no
     const Vector6d old = midway.twist.col(b);
     const Vector6d mean = midway.mean_twist.col(b);
     const Eigen::Vector3d velocity =
-        point_velocity(midway.mean_twist.col(b), midway.kin.centre_offset(b));
+        point_velocity(midway.mean_twist.col(b), midway.kin.centre_offset(b)) -
+        midway.bias_power.observer;
+    const Eigen::Vector3d first = midway.centre_velocity.col(b) - observer;
     const BodyMomentum gained =
-        body_momentum(model, midway.kin, b,
-                      {2 * (mean - old).head<3>(), 2 * (velocity - midway.centre_velocity.col(b))});
+        body_momentum(model, midway.kin, b, {2 * (mean - old).head<3>(), 2 * (velocity - first)});
     const double before =
-        kinetic_energy(model, now, b, now.twist.col(b), now.centre_velocity.col(b));
+        kinetic_energy(model, now, b, now.twist.col(b), now.centre_velocity.col(b) - observer);
     const double after = midway.next_energy[b];
     midway.bias_power.value[b] = (after - before - gained.times({mean.head<3>(), velocity})) / h;
     momentum += before + after;
@@ -48,7 +57,7 @@ void set_bias_power(const Model& model, const State& state, const Kinematics& no
 }  // namespace
 
 void place_midway(const Model& model, const State& state, const Kinematics& now, double h,
-                  bool balanced, Midway& midway) {
+                  bool balanced, bool held, Midway& midway) {
   advance(state.q, midway.step_velocity, h / 2, midway.q);
   update_positions(model, midway.q, midway.kin);
   update_velocities(model, midway.step_velocity, midway.mean_velocity, midway.kin);
@@ -59,7 +68,7 @@ void place_midway(const Model& model, const State& state, const Kinematics& now,
   const double fastest = midway.kin.twist.topRows<3>().colwise().squaredNorm().maxCoeff();
   midway.balanced = balanced && h * h * fastest > least_turn * least_turn;
   if (midway.balanced) {
-    set_bias_power(model, state, now, h, midway);
+    set_bias_power(model, state, now, h, held, midway);
   }
 }
 

@@ -94,14 +94,17 @@ TEST(Guard, WarnsOnceWhereTheSceneAsksForIt) {
   expect_told(knot.warnings[0]);
 }
 
+const Eigen::Vector3d still = Eigen::Vector3d::Zero();  // an observer who stands
+
 TEST(Guard, StopsAtSpeed) {
   Eigen::Matrix3Xd velocity = Eigen::Matrix3Xd::Zero(3, 5);
   Scene scene;
-  EXPECT_TRUE(guard_speed(velocity, scene).ok());
+  EXPECT_TRUE(guard_speed(velocity, still, scene).ok());
   velocity.col(3) << 0, 0, 2 * scene.guard.speed;
-  EXPECT_EQ(message_of(Outcome::speed, guard_speed(velocity, scene)).find("body 3 moves at"), 0u);
+  EXPECT_EQ(message_of(Outcome::speed, guard_speed(velocity, still, scene)).find("body 3 moves at"),
+            0u);
   velocity(0, 3) = std::numeric_limits<double>::quiet_NaN();
-  message_of(Outcome::speed, guard_speed(velocity, scene));
+  message_of(Outcome::speed, guard_speed(velocity, still, scene));
 }
 
 TEST(Guard, StopsAStepWhosePathIsTooLongToLookAlong) {
@@ -109,12 +112,13 @@ TEST(Guard, StopsAStepWhosePathIsTooLongToLookAlong) {
   Eigen::Matrix3Xd velocity = Eigen::Matrix3Xd::Zero(3, 5);
   velocity(1, 2) = 100;
   scene.time.step = 0.99 * most_path_samples * scene.constraints.stride / 100;
-  EXPECT_TRUE(guard_speed(velocity, scene).ok());
-  EXPECT_LE(path_samples(velocity, scene.time.step, scene.constraints.stride), most_path_samples);
+  EXPECT_TRUE(guard_speed(velocity, still, scene).ok());
+  EXPECT_LE(path_samples(velocity, still, scene.time.step, scene.constraints.stride),
+            most_path_samples);
   scene.time.step *= 1.02;
-  EXPECT_EQ(
-      message_of(Outcome::speed, guard_speed(velocity, scene)).find("body 2 moves 2.52e+03 cm"),
-      0u);
+  EXPECT_EQ(message_of(Outcome::speed, guard_speed(velocity, still, scene))
+                .find("body 2 moves 2.52e+03 cm"),
+            0u);
 }
 
 TEST(Guard, TellsOnceWhatMusclesCannotDo) {
@@ -312,7 +316,7 @@ class MomentumWatch : public testing::Test {
     ledger.integrator += made;
     ledger.given_back += given_back;
     std::vector<std::string> warnings;
-    guard_momentum({model, scene, state, now, control}, before, ledger, energy, watch, warnings);
+    guard_momentum({model, scene, state, now, control}, 0, before, ledger, energy, watch, warnings);
     return warnings;
   }
 
@@ -362,7 +366,7 @@ class EnergyWatch : public testing::Test {
  protected:
   EnergyWatch() {
     scene = table1_scene(20);
-    scene.clamp_head = false;
+    scene.clamp_head = control.clamp_head = false;
     scene.wall.present = false;
     scene.drag = {};
     scene.model.bending_stiffness = 0;
@@ -375,13 +379,17 @@ class EnergyWatch : public testing::Test {
       hinge.upper = std::numeric_limits<double>::infinity();
     }
   }
-  /// Energy at the end over that at the start.
+  /// Energy about the centre of mass at the end over that at the start.
   double growth(EnergyAction action, int steps = 400) {
     scene.guard.energy_action = action;
     scene.contact.least_arc = 100;  // strands pass each other: no impacts
     State state = bent_state(model, 0.05, 0);
     state.qdot.tail(model.nv() - root_dofs).setConstant(2);
     Simulation sim = start_from(model, scene, "active-set", state, {}, 0);
+    const auto inner = [&] {
+      return inner_kinetic_energy(model, sim.now.observation.kin) + sim.ledger.elastic;
+    };
+    const double before = inner();
     StepRecord record;
     for (int k = 0; k < steps; ++k) {
       take_step(model, scene, sim, record);
@@ -394,9 +402,10 @@ class EnergyWatch : public testing::Test {
       EXPECT_NEAR(kinetic_energy(model, kinematics(model, sim.now.state)), sim.ledger.kinetic,
                   1e-9 * sim.ledger.initial);
     }
-    return (sim.ledger.kinetic + sim.ledger.elastic) / sim.ledger.initial;
+    return inner() / before;
   }
   Scene scene;
+  Control control;
   Model model;
   std::vector<std::string> warnings;
 };
@@ -410,10 +419,13 @@ TEST_F(EnergyWatch, HoldsWhatTheIntegratorMakes) {
 
 TEST_F(EnergyWatch, TakesNothingFromABodyAtRest) {
   Moment moment{rest_state(model), observe(model, rest_state(model), scene)};
-  EnergyLedger ledger = open_ledger(model, moment);
+  EnergyLedger ledger = open_ledger(model, moment, false);
+  const Moment at = moment;
   ledger.integrator_coriolis = 1;
   Watch watch;
-  EXPECT_TRUE(guard_energy(model, scene, moment, ledger, watch, warnings).ok());
+  EXPECT_TRUE(guard_energy({model, scene, at.state, at.observation, control}, 0, moment, ledger,
+                           watch, warnings)
+                  .ok());
   EXPECT_TRUE(moment.state.qdot.isZero(0));
   EXPECT_EQ(ledger.kinetic, 0);
   EXPECT_EQ(warnings.size(), 1u);
@@ -425,11 +437,14 @@ TEST_F(EnergyWatch, OnlyWarnsByTheMidpointRule) {
   for (const TimeRule rule : {TimeRule::euler, TimeRule::midpoint}) {
     scene.time.rule = rule;
     Moment moment{moving, observe(model, moving, scene)};
-    EnergyLedger ledger = open_ledger(model, moment);
+    EnergyLedger ledger = open_ledger(model, moment, false);
+    const Moment at = moment;
     ledger.integrator_coriolis = 0.1 * ledger.kinetic;
     Watch watch;
     warnings.clear();
-    EXPECT_TRUE(guard_energy(model, scene, moment, ledger, watch, warnings).ok());
+    EXPECT_TRUE(guard_energy({model, scene, at.state, at.observation, control}, 0, moment, ledger,
+                             watch, warnings)
+                    .ok());
     EXPECT_EQ(warnings.size(), 1u);
     EXPECT_EQ(moment.state.qdot == moving.qdot, rule == TimeRule::midpoint);
     EXPECT_EQ(ledger.integrator_held == 0, rule == TimeRule::midpoint);

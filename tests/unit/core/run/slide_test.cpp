@@ -83,6 +83,20 @@ TEST(Slide, BackwardsOrNotAtAllHasNoShare) {
   EXPECT_TRUE(std::isnan(SlideWatch(tapering(1)).slide().share()));
 }
 
+TEST(Slide, ThatIsTooShortOrHasAnotherShapeHasNoShare) {
+  const Model model = tapering(1);
+  const auto to = [&](double way, double width) {
+    SlideWatch watch(model);
+    watch.see(Phase::slide, KnotSpan{14, 30}, bent(model, 18));
+    watch.see(Phase::slide, KnotSpan{14 - way, 30 - way}, width * bent(model, 18 - way));
+    return watch.slide();
+  };
+  EXPECT_EQ(slide_name(to(0.99 * least_way * model.length(), 1)), "does not slide");
+  EXPECT_EQ(slide_name(to(1.01 * least_way * model.length(), 1)), "slides by both ends");
+  EXPECT_NEAR(to(2, 0.1).share(), 1, 0.05);
+  EXPECT_EQ(to(2, 0).share(), 0);
+}
+
 // r = r0 (1 - s / 80): ∫ ds / r goes with log(80 - s), so the knot keeps (80 - tail) / (80 - head).
 TEST(Slide, OfATaperingBodyAsksLessOfTheTailEnd) {
   const Slide slid = slide(tapering(0.5), 0.8, 1);

@@ -32,11 +32,11 @@ double deepest_on_way(const Model& model, const Scene& scene, const StepRecord& 
 
 TEST(LookAhead, ShortStepsAreLookedAtTheirEndAlone) {
   Eigen::Matrix3Xd velocity = Eigen::Matrix3Xd::Zero(3, 4);
-  EXPECT_EQ(path_samples(velocity, 0.01, 0.25), 1);
+  EXPECT_EQ(path_samples(velocity, Eigen::Vector3d::Zero(), 0.01, 0.25), 1);
   velocity.col(2) << 0, 24, 0;
-  EXPECT_EQ(path_samples(velocity, 0.01, 0.25), 1);
+  EXPECT_EQ(path_samples(velocity, Eigen::Vector3d::Zero(), 0.01, 0.25), 1);
   velocity.col(2) << 0, -60, 80;  // 1 cm
-  EXPECT_EQ(path_samples(velocity, 0.01, 0.3), 4);
+  EXPECT_EQ(path_samples(velocity, Eigen::Vector3d::Zero(), 0.01, 0.3), 4);
 }
 
 /// Steps of the stored knot that slides, ten times as long as the scene's.

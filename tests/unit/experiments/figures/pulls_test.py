@@ -27,6 +27,7 @@ class Log:
     held by the head plate at the bight."""
 
     path = Path("by hand")
+    law = "paper"
 
     def __init__(self) -> None:
         frames = 3
@@ -35,9 +36,9 @@ class Log:
         self.datasets = {
             "/trajectory/time": 0.02 * np.arange(frames), "/trajectory/position": np.tile(hairpin(), (frames, 1, 1)),
             "/thigmotaxis/spline_a": strand(5.0), "/thigmotaxis/spline_b": strand(34.0), "/thigmotaxis/lambda": four,
-            "/mean/thigmotaxis/lambda": four, "/pull/force": np.array([np.nan, 1.5e5, 1.5e5]),
+            "/pull/force": np.array([np.nan, 1.5e5, 1.5e5]),
             "/pull/plate": np.array([np.nan, 1.5e5, 1.5e5]), "/pull/torque": np.full(frames, 2e5),
-            "/pull/bearing": np.zeros((frames, 2)), "/model/length": np.ones(BODIES),
+            "/model/length": np.ones(BODIES),
             "/contacts/frame": np.array([0, 1, 2, 2]), "/contacts/spline_a": np.array([20.0, 19.5, 19.5, 4.0]),
             "/contacts/spline_b": np.array([np.nan, np.nan, np.nan, 35.0]),
             "/contacts/force": np.array([9e5, 1.5e5, 1.5e5, 0.2e5])}
@@ -49,7 +50,7 @@ class Log:
         return np.array([1, 2]) if phase == "pull" else np.array([], dtype=int)
 
     def scene(self) -> dict[str, dict[str, float]]:
-        return {"expect": {"pull_settled": 0.0}}
+        return {"expect": {"pull_settled": 0.0}, "food": {"cap": {"to": 5e4}}, "controller": {"law": self.law}}
 
 
 def test_weights_are_those_of_the_spline() -> None:
@@ -70,10 +71,26 @@ def test_weights_are_those_of_the_spline() -> None:
 def test_a_hairpin_is_a_pulley() -> None:
     pull = pulls.read_pull(Log())
     assert pull.mean == 1.5
-    assert pull.turn[:, 0] == pytest.approx(2)  # opposite strands
-    assert pull.sum == pytest.approx(0.75)
-    assert pull.estimate == pytest.approx(1.5)
+    assert pull.rows == pytest.approx(0.75)
+    assert pull.estimate == pytest.approx(1.5)  # opposite strands: twice
     assert pull.torque.mean() == 2
+
+
+def test_rows_of_all_contacts_are_those_of_their_list() -> None:
+    log = Log()
+    log.law = "all_contacts"
+    log.datasets |= {"/eq6/frame": np.array([0, 1, 1, 2, 2]), "/eq6/along": np.array([0, 0, 1, 0, 1]),
+                     "/eq6/spline_a": np.full(5, 5.0), "/eq6/spline_b": np.full(5, 34.0), "/eq6/lambda": np.array([9, 0.5, 0.25, 0.5, 0.25]) * 1e5}
+    for key in ("/thigmotaxis/spline_a", "/thigmotaxis/spline_b", "/thigmotaxis/lambda"):
+        del log.datasets[key]
+    assert pulls.read_pull(log).estimate == pytest.approx(1.5)
+    assert pulls.read_strand(log).thigmotaxis == pytest.approx(pulls.read_strand(Log()).thigmotaxis)
+
+
+def test_a_pull_is_shown_by_the_second() -> None:
+    time = np.arange(0.0, 2.51, 0.1)
+    at, force = pulls.Pull(time, np.floor(time + 1e-9), *[time] * 4, 1).over(1)
+    assert (list(at), list(force)) == ([0.5, 1.5], [0, 1])
 
 
 def test_tension_is_all_that_pulls_behind() -> None:
