@@ -13,7 +13,7 @@ namespace hagfish {
 std::vector<double> strip_times(const RunSummary& run) {
   std::vector<double> times;
   for (const double time :
-       {0.25 * run.tighten_from, 0.5 * run.tighten_from, 0.75 * run.tighten_from, run.tighten_from,
+       {0.25 * run.slide_from, 0.5 * run.slide_from, 0.75 * run.slide_from, run.slide_from,
         run.release_from, run.free_from}) {
     if (std::isfinite(time)) times.push_back(time);
   }
@@ -70,7 +70,7 @@ std::string design_page(const DesignOptions& options, const DesignOutcome& outco
       "These figures are of the run from a straight start by Eq. 6.\n\n"
       "| figure | value |\n|---|---|\n"
       "| time of the program, over that of the soft body | {:g} |\n"
-      "| tied and tightened from | {:.2f} s |\n"
+      "| tied, and slides from | {:.2f} s |\n"
       "| way of the knot to the head | {:.1f} cm |\n"
       "| released at | {:.2f} s |\n"
       "| untied at | {:.2f} s |\n"
@@ -79,7 +79,7 @@ std::string design_page(const DesignOptions& options, const DesignOutcome& outco
       "| work of the active torques | {:.2g} erg |\n"
       "| deepest overlap | {:.2g} cm |\n"
       "| bounds not met | {} |\n\n",
-      best.slower, run.tighten_from, run.slide_distance, run.release_from, run.free_from,
+      best.slower, run.slide_from, run.slide_distance, run.release_from, run.free_from,
       run.largest_active, scene.scene.active.capacity, run.largest_thigmotaxis, run.work_active,
       run.penetration, run.unmet.empty() ? "none" : run.unmet);
   page += fmt::format(

@@ -10,12 +10,12 @@ from pathlib import Path
 
 import numpy as np
 
+import audits
 import plots
 import tables
 from hagfish_log import HagfishLog, LogError
 from muscle_log import Effort, Muscles
 from script import run_script
-
 
 
 def sliding(log: HagfishLog) -> np.ndarray:
@@ -66,15 +66,16 @@ def forward(folder: Path, out: Path) -> list[str]:
         log = HagfishLog(path)
         frames = log.in_phase("slide")
         if not frames.size:
-            rows.append([path.stem, "never slides", "", "", ""])
+            rows.append([path.stem, "never slides", "", "", "", ""])
             continue
         held = np.isin(log.labels("/trajectory/phase"), ("tighten", "slide"))
         types = {(int(d), int(v)) for d, v in zip(log["/knot/determinant"][held], log["/knot/v2"][held])}
         time = log["/trajectory/time"][frames]
         driven = log["/muscle/driven"][frames]
-        rows.append([path.stem, "kept" if len(types) == 1 else "lost", f"{way(log):.2f}", f"{way(log) / (time[-1] - time[0]):.2f}",
+        share = audits.value_of(audits.read_findings(path.with_suffix(".check.csv")), "slide of both ends")
+        rows.append([path.stem, "kept" if len(types) == 1 else "lost", f"{way(log):.2f}", f"{share:.0f}", f"{way(log) / (time[-1] - time[0]):.2f}",
                      f"{np.quantile(driven, 0.999):.2f}"])
-    return tables.of_page(out, "muscles_forward", ["on activations", "type until release", "slide, cm", "cm/s", "peak activation"], rows)
+    return tables.of_page(out, "muscles_forward", ["on activations", "type until release", "way of the head end, cm", "share of a slide by both ends, %", "cm/s", "peak activation"], rows)
 
 
 def stiffness(folder: Path, picture: Path, out: Path) -> list[str]:

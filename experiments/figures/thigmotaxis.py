@@ -58,10 +58,14 @@ def law_rows(folder: Path) -> list[list[str]]:
             of = {key: values[cell] for key, values in table.figures.items()}
             log = HagfishLog(log_of(folder / grid, str(cell)))
             knot, head = knot_of(scene)
+            if not table.texts["slide"][cell]:
+                rows.append([knot, head, law_of(table, cell), *["-"] * 3, "never slides", *["-"] * 4])
+                continue
+            travel = "-" if np.isnan(of["curvature_travel_cm"]) else f"{of['curvature_travel_cm']:.1f} ({of['curvature_correlation']:.2f})"
             all_work, thigmotaxis = work_per_cm(log, of["slide_distance_cm"])
             met = "" if law_of(table, cell) == REFLEX else f"{of['eq6_percent']:.0f}"
             rows.append([knot, head, law_of(table, cell), f"{of['slide_distance_cm']:.1f}", f"{of['tail_distance_cm']:.1f} of {of['taper_asks_cm']:.1f}",
-                         f"{of['curvature_travel_cm']:.1f} ({of['curvature_correlation']:.2f})", table.texts["slide"][cell], met,
+                         travel, table.texts["slide"][cell], met,
                          f"{of['largest_torque_dyn_cm'] / capacity(log):.2f}", f"{all_work:.2g}", f"{thigmotaxis:.2g}"])
     order = [*LAWS.values(), REFLEX]
     return sorted(rows, key=lambda row: (row[0], row[1] == "free", order.index(row[2])))

@@ -12,9 +12,7 @@ import numpy as np
 
 import tables
 from script import run_script
-from world_logs import taken
-
-LAWS = {"paper": "paper's", "reflex": "reflex"}
+from world_logs import LAWS, taken
 
 
 def number(value: float, digits: int = 3) -> str:
@@ -98,9 +96,9 @@ def skin(folder: Path) -> None:
 
 def robot(folder: Path) -> None:
     rows = [[f"{run['weight']:.2g}", "held" if run["held"] else "free", f"{run['capacity']:g}", f"{run['stiffness']:g}", run["became"],
-             "" if np.isnan(run["way"]) else f"{run['way']:.3g}", f"{run['torque']:.2g}", overlap(run)] for run in taken(folder / "robot" / "logs")]
+             *("" if np.isnan(run[name]) else f"{run[name]:.3g}" for name in ("way", "share")), f"{run['torque']:.2g}", overlap(run)] for run in taken(folder / "robot" / "logs")]
     tables.write_csv(folder / "tables" / "world_robot.csv", ["weight, of all of it", "head", "torque bound, N m", "stiffness of a joint, N m/rad", "what became of it",
-                                                             "slide, cm", "largest torque, N m", "deepest overlap, 1e-3 cm"], rows)
+                                                             "way of the head end, cm", "share of a slide by both ends, %", "largest torque, N m", "deepest overlap, 1e-3 cm"], rows)
 
 
 def main(folder: Path) -> None:

@@ -21,6 +21,9 @@ from script import HAGFISH, run_script, whole
 SETTLED = 4.0  # s, after which a wave runs evenly
 
 
+LAWS = {"all_contacts": "Eq. 6", "reflex": "reflex"}
+
+
 def taken(folder: Path) -> list[dict[str, Any]]:
     """What was taken of the logs of a folder, in the order of their names, which numbers are."""
     paths = sorted(folder.glob("*.json"), key=lambda path: (len(path.stem), path.stem) if path.stem.isdigit() else (0, path.stem))
@@ -36,6 +39,14 @@ def types(log: HagfishLog) -> np.ndarray:
     """The knot's name at each frame."""
     names = log.named("knot", by="knot_invariants")
     return np.array([names.get(f"det={d},v2={v}", "") for d, v in zip(log["/knot/determinant"], log["/knot/v2"])])
+
+
+def both_ends(log: HagfishLog) -> float:
+    """Share of a slide by both ends, %; nan where there was none."""
+    with tempfile.TemporaryDirectory() as folder:
+        table = Path(folder) / "check.csv"
+        subprocess.run([HAGFISH, "check", log.path, "--csv", table], check=False, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        return audits.value_of(audits.read_findings(table), "slide of both ends")
 
 
 def first(time: np.ndarray, where: np.ndarray) -> float:
@@ -94,7 +105,7 @@ def robot(log: HagfishLog) -> dict[str, Any]:
     # A released knot is gone where the run comes to the phase free.
     became = "it never tied" if not slide.size else "it tied, slid and came off" if (phase == "free").any() else "it tied, and lost the knot"
     return {"weight": abs(scene["gravity"][2]) / 981, "held": scene["clamp_head"], "capacity": scene["active"]["capacity"] / 1e7,
-            "stiffness": scene["active"]["stiffness"] / 4e7, "became": became, "way": way,
+            "stiffness": scene["active"]["stiffness"] / 4e7, "became": became, "way": way, "share": both_ends(log),
             "torque": float(np.nanmax(np.abs(log["/mean/forces/active"][:, 6:]))) / 1e7, "penetration": penetration(log)}
 
 

@@ -17,7 +17,7 @@ from script import run_script
 CHANGED = re.compile(r"hole ([\d.]+) cm, (\w+); girth ([\d.]+) cm; muscles ([\d.e]+) dyn")
 PULL = re.compile(r"([\d.]+) \(([\d.]+) to ([\d.]+)\)")
 GIRTH, MUSCLES = 5.6, 5e5  # cm, dyn cm^2: of rows where the other is changed
-STYLES = {"paper's": {"ls": "-", "marker": "o"}, "reflex": {"ls": "--", "marker": "s"}}
+STYLES = {"Eq. 6": {"ls": "-", "marker": "o"}, "reflex": {"ls": "--", "marker": "s"}}
 
 
 def pull_of(cell: str) -> tuple[float, ...]:

@@ -13,9 +13,8 @@ from matplotlib.patches import Patch
 
 import plots
 from script import run_script
-from world_logs import taken
+from world_logs import LAWS, taken
 
-LAWS = {"paper": "paper's law", "reflex": "reflex"}
 NEVER, THERE, BACK = 0, 1, 2
 COLOURS = {NEVER: plots.GRID, THERE: plots.BLUE, BACK: plots.ORANGE}
 

@@ -1,4 +1,4 @@
-"""A film strip, a row each: a head pulled out of a hole by a reflex and by the paper's law, a front out of a burrow, a knot round a pole, a robot's.
+"""A film strip, a row each: a head pulled out of a hole by a reflex and by Eq. 6, a front out of a burrow, a knot round a pole, a robot's.
 
 Usage: world_strip.py REFLEX.h5 PAPER.h5 BURROW.h5 POLE.h5 ROBOT.h5 OUT.png. Needs the program as built (HAGFISH_PROGRAM).
 """

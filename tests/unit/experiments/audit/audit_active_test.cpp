@@ -68,6 +68,13 @@ fs::path AuditActive::file;
 
 TEST_F(AuditActive, AGoodLogIsGood) { EXPECT_EQ(objections(), ""); }
 
+// The torque of sliding is bounded by a share of the capacity: a smaller capacity is passed.
+TEST_F(AuditActive, BoundsTheTorqueOfTheSlide) {
+  const fs::path weak = *folder / "weak.h5";
+  write_log(weak, living_scene({"expect.torque_share=0.2"}));
+  EXPECT_NE(audit_objections(weak, "unknot at end").find("torque"), std::string::npos);
+}
+
 TEST_F(AuditActive, WatchesTheMusclesInEveryPhase) {
   const std::size_t nv = Hdf5Reader(file).shape("/forces/active")[1];
   for (const Phase phase : {Phase::form, Phase::slide, Phase::release}) {

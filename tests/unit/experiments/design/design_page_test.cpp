@@ -78,7 +78,7 @@ TEST(DesignPage, SaysOfAFoundKnotAloneThatItIsAudited) {
 TEST(DesignPage, ShowsTheStripOfWhatHappened) {
   const ResolvedScene scene = read_scene_text("base = \"living_overhand\"\n", "design");
   RunSummary run;
-  run.tighten_from = 12;
+  run.slide_from = 12;
   run.release_from = 20;
   EXPECT_EQ(strip_times(run), (std::vector<double>{3, 6, 9, 12, 20}));  // it never came off
   const std::string page = design_page({}, outcome(), scene, run, "strip.png");

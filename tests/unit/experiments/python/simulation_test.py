@@ -1,5 +1,6 @@
 """Runs in Python: the same as the program's, arrays that show the present, errors by the same line."""
 
+import csv
 import threading
 
 import hagfish
@@ -26,6 +27,12 @@ def test_a_run_is_that_of_the_program(tmp_path, program, differences):
     set_too = ("--set", "time.step=0.005", "--set", "wall.neck=0.07 L")
     assert program("run", "table1", *set_too, "--out", tmp_path / "b.h5", "--quiet") == (0, "")
     assert differences(tmp_path / "a.h5", tmp_path / "b.h5") == []
+    program("check", tmp_path / "b.h5", "--csv", tmp_path / "b.csv")
+    with (tmp_path / "b.csv").open() as file:
+        found = {row["criterion"]: row["value"] for row in csv.DictReader(file)}
+    slide = sim.slide
+    assert slide["name"] == "slides by both ends"
+    assert (slide["leading_way"], 100 * slide["share"]) == pytest.approx((float(found["slide"]), float(found["slide of both ends"])), rel=5e-3)  # by step, by frame
     with hagfish.Log(tmp_path / "a.h5") as a, hagfish.Log(tmp_path / "b.h5") as b:
         assert a.attribute("scene") == b.attribute("scene")
         assert a.status == b.status == "complete"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import csv
 import json
 import sys
 from pathlib import Path
@@ -82,6 +83,13 @@ def test_the_page_holds_what_the_log_holds(run):
     np.testing.assert_allclose(decoded(page["tip"]), log["forces/tip"][()].ravel(), rtol=1e-6)
     for name, values in page["energy"].items():
         np.testing.assert_allclose(decoded(values), log[f"diagnostics/{name}"][()], rtol=1e-6)
+    # The slide as it ended is that of the check: the head end's way, and the share of both ends.
+    hagfish(run, "check", "a.h5", "--csv", "a.csv", "--force")
+    found = {row["criterion"]: float(row["value"]) for row in csv.DictReader((run / "a.csv").open()) if row["criterion"].startswith("slide")}
+    leads, trails, asked, travel = decoded(page["slide"]).reshape(frames, 4)[-1]
+    assert leads == pytest.approx(found["slide"], abs=1e-4)
+    assert 100 * min(trails / asked, travel / min(leads, trails)) == pytest.approx(found["slide of both ends"], rel=1e-4)
+    assert np.isnan(decoded(page["slide"])[0])  # none before it
     for end in ("head_end", "tail_end"):
         np.testing.assert_allclose(decoded(page[end]), log[f"knot/{end}"][()], rtol=1e-6)
     first, contacts = decoded(page["contacts"]["first"]), decoded(page["contacts"]["values"]).reshape(-1, 9)
