@@ -375,10 +375,6 @@ void declare_energy(LogTable<Frame>& t) {
   energy("integrator_given_back",
          "gained so far as momentum that the integrator made is given back (momentum_given_back)",
          &EnergyLedger::integrator_momentum);
-  energy("integrator_translation",
-         "what of integrator_error the translation of a free body's centre of mass has, which "
-         "depends on the observer",
-         &EnergyLedger::integrator_translation);
   t.number("/diagnostics/integrator_error", {"erg", "sum of the integrator's terms"},
            [](const Frame& f) { return f.record.ledger.integrator_error(); });
 }

@@ -122,8 +122,7 @@ std::vector<Finding> energy(const LogContents& log, const Passed& through) {
       "; {:.0f} erg worked, {:.0f} dissipated, {:.0f} lost at impacts, {:.0f} integrator's own",
       works[works.size() - 1], dissipated[dissipated.size() - 1], impacts[impacts.size() - 1],
       error[error.size() - 1]);
-  const double loss = share_of(IntegratorLoss::of(error - get("integrator_translation")),
-                               std::max(passed, had), largest_total);
+  const double loss = share_of(IntegratorLoss::of(error), std::max(passed, had), largest_total);
   return {finding, judged_over(energy_loss_criterion(log.resolved.scene.expect, loss),
                                "by the integrator, without impacts")};
 }

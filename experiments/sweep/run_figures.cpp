@@ -182,7 +182,7 @@ void RunFigures::see_ledgers(const StepRecord& record) {
     gain_ = EnergyGain(total(ledger_), ledger_.gravity);
     first_balance_ = balance(ledger_);
     first_momentum_ = momentum.momentum.linear;
-    first_error_ = ledger_.own_error();
+    first_error_ = ledger_.integrator_error();
   }
   for (const double of : {ledger_.works(), ledger_.dissipated, ledger_.impacts, total(ledger_),
                           ledger_.gravity, ledger_.integrator_error(), passed_.energy()}) {
@@ -192,7 +192,7 @@ void RunFigures::see_ledgers(const StepRecord& record) {
   imbalance_ = worse(imbalance_, std::abs(balance(ledger_) - first_balance_));
   worked_ = std::max(worked_, std::abs(ledger_.works()));
   dissipated_ = std::max(dissipated_, std::abs(ledger_.dissipated));
-  loss_.see(ledger_.own_error() - first_error_);
+  loss_.see(ledger_.integrator_error() - first_error_);
   had_ = std::max(had_, ledger_.kinetic + ledger_.elastic);
   momentum_off_ = worse(momentum_off_, most(balance(momentum) - first_momentum_));
   for (const Momentum* of :
