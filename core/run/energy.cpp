@@ -17,11 +17,11 @@ PointMotion motion_of(const Matrix6Xd& twist, const Eigen::Matrix3Xd& velocity, 
   return {twist.col(body).head<3>(), velocity.col(body)};
 }
 
-/// What the integrator makes in this step of the translation of a body that nothing holds, erg: of
-/// ½ M V² and of the energy in gravity, beyond the work of what acts from outside on the centre of
-/// mass. What bears on an obstacle has its frame of reference, in which nothing counts so. The
-/// momentum that will be given back (momentum.hpp) counts always. `fallen`: the change of the
-/// energy in gravity.
+/// What the integrator makes in this step of the translation of a body that keeps its momentum,
+/// erg: of ½ M V² and of the energy in gravity, beyond the work of what acts from outside on the
+/// centre of mass. What bears on an obstacle has its frame of reference, in which nothing counts
+/// so. The momentum that will be given back counts always. `fallen`: the change of the energy in
+/// gravity.
 double made_of_translation(const StepInput& in, const StepPlace& place, const StepSolution& step,
                            const Moment& next, double travelled, double fallen) {
   const Model& model = in.model;
@@ -33,15 +33,11 @@ double made_of_translation(const StepInput& in, const StepPlace& place, const St
   }
   const double mass = mass_of(model);
   const Eigen::Vector3d before = mean_by_mass(model, in.observation.kin.centre_velocity);
-  Eigen::Vector3d after = mean_by_mass(model, next.observation.kin.centre_velocity);
-  double made = 0;
-  if (keeps_momentum(in.scene, in.control)) {
-    const Eigen::Vector3d kept = before + in.scene.time.step * (force / mass + model.gravity);
-    made = mass * kept.dot(after - kept);
-    after = kept;
-  }
+  const Eigen::Vector3d after = mean_by_mass(model, next.observation.kin.centre_velocity);
+  const Eigen::Vector3d kept = before + in.scene.time.step * (force / mass + model.gravity);
+  const double made = 0.5 * mass * (after - kept).dot(after + kept);
   if (!step.force[RowKind::obstacle].isZero(0)) return made;
-  return made + 0.5 * mass * (after - before).dot(after + before) + fallen -
+  return made + 0.5 * mass * (kept - before).dot(kept + before) + fallen -
          travelled * force.dot(mean_by_mass(model, step.centre_velocity));
 }
 
@@ -137,7 +133,7 @@ void book_step(const StepInput& in, const StepPlace& place, const StepSolution& 
   ledger.integrator_inertia += impulse + lost;
   ledger.integrator_potential += t * stretch + fall + ledger.gravity - gravity;
   ledger.integrator_coriolis += ledger.kinetic - kinetic - moved - bias;
-  if (!in.control.clamp_head) {
+  if (keeps_momentum(in.scene, in.control)) {
     ledger.integrator_translation +=
         made_of_translation(in, place, step, next, t, ledger.gravity - gravity);
   }

@@ -190,7 +190,7 @@ Status guard_energy(const StepInput& in, double passing, Moment& moment, EnergyL
   const Model& model = in.model;
   const GuardSettings& guard = in.scene.guard;
   Kinematics& kin = moment.observation.kin;
-  const bool held = in.control.clamp_head;
+  const bool held = !keeps_momentum(in.scene, in.control);
   const double kinetic = held ? ledger.kinetic : inner_kinetic_energy(model, kin);
   const double passed = ledger.largest + ledger.dissipated;
   const double allowed = guard.energy_gain * passed;
@@ -198,7 +198,7 @@ Status guard_energy(const StepInput& in, double passing, Moment& moment, EnergyL
   ledger.lowest_error = std::min(ledger.lowest_error, ledger.own_error());
   Status status;
   const double rounding = passing_rounding * passing * passing / (2 * mass_of(model));
-  if (!(made <= std::max(allowed, rounding))) {
+  if (!(made <= allowed + rounding)) {
     std::string what = fmt::format(
         "numerical errors added {:.3g} erg, over guard.energy_gain = {:g} times the body's energy "
         "and "

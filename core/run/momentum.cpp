@@ -87,7 +87,7 @@ constexpr double rounding = 1e-12;
 
 /// Gives `next`, which has the momentum `now` and the kinetic energy `kinetic` (erg), the momentum
 /// `wanted`, by a motion of the whole body as one rigid body about its centre of mass. The kinetic
-/// energy stays the same for who moves with that momentum: one factor on the internal velocities
+/// energy about that centre stays the same: one factor on the internal velocities
 /// takes up the difference. If no factor can, it grows by a share of up to most_added. Else the
 /// body keeps its angular momentum, and the guard of momentum warns.
 void give(const Model& model, double kinetic, const Momentum& now, const Momentum& wanted,
@@ -98,8 +98,7 @@ void give(const Model& model, double kinetic, const Momentum& now, const Momentu
   const double mass = mass_of(model);
   const Eigen::Vector3d old_turn = inertia.solve(now.angular);
   Eigen::Vector3d turn = inertia.solve(wanted.angular);
-  const double whole =
-      inner_kinetic_energy(model, kin) + 0.5 * (now.linear - wanted.linear).squaredNorm() / mass;
+  const double whole = inner_kinetic_energy(model, kin);
   const double inner = whole - 0.5 * now.angular.dot(old_turn);
   double left = whole - 0.5 * wanted.angular.dot(turn);
   if (left < -most_added * whole - rounding * kinetic) {
@@ -204,7 +203,8 @@ void book_momentum(const StepInput& in, const StepPlace& place, const StepSoluti
     const double kinetic = kinetic_energy(model, kin);
     energy.integrator_momentum += kinetic - energy.kinetic;
     const Eigen::Vector3d given = ledger.momentum.linear - before.linear;
-    energy.integrator_translation += given.dot(ledger.momentum.linear) / mass_of(model);
+    energy.integrator_translation +=
+        0.5 * given.dot(ledger.momentum.linear + before.linear) / mass_of(model);
     energy.kinetic = kinetic;
   }
 }

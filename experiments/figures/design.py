@@ -209,7 +209,7 @@ def beside_table(rows: list[Row]) -> list[str]:
     found = {row["knot_wanted"]: row for row in one_of_each([row for row in rows if not row["animal"]])}
     lines = []
     for knot in head[1:]:
-        lines.append([knot, "of data/", of("of 10 other animals", knot), larger(of("largest torque of a hinge", knot)), of("clamped: slide", knot).split(";")[0]])
+        lines.append([knot, "of data/", of("of 10 other animals", knot), larger(of("largest torque of a hinge", knot)), of("clamped: way", knot).split(";")[0]])
         if knot in found:
             lines.append([knot, "found", found[knot]["unseen_by_eq6"] or "-", number(found[knot]["largest_active_dyn_cm"], 2),
                           number(found[knot]["slide_distance_cm"], 2)])

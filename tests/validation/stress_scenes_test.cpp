@@ -138,7 +138,7 @@ void PrintTo(const RuleCell& cell, std::ostream* out) { *out << cell.method << "
 const RuleCell rule_cells[] = {
     {"no_watch", "short_bodies", 0.002},   {"no_watch", "pulled_knot", 0.002},
     {"no_watch", "knot_into_head", 0.005}, {"no_watch", "parallel", 0.001},
-    {"no_watch", "table1", 0.01},          {"no_watch", "stiff_joints", 0.05},
+    {"no_watch", "table1", 0.005},         {"no_watch", "stiff_joints", 0.05},
     {"no_watch", "stiff_tip", 0.05},       {"no_watch", "coil", 0.05},
     {"no_watch", "mass_ratio", 0.05},      {"no_watch", "overlap", 0.05},
     {"no_watch", "redundant", 0.05},       {"no_watch", "tight_limits", 0.01},
