@@ -74,7 +74,8 @@ MujocoLoop::MujocoLoop(const Model& model, const Scene& scene, const MujocoSetti
 /// which the muscles have done in the step.
 void MujocoLoop::book(double work, const Moment& next, Simulation& sim) const {
   const EnergyLedger before = sim.ledger;
-  sim.ledger = open_ledger(model_, next, clamps_head(scene_, sim.controller.phase));
+  sim.ledger =
+      open_ledger(model_, next, keeps_momentum(scene_, clamps_head(scene_, sim.controller.phase)));
   sim.ledger.initial = before.initial;
   sim.ledger.work_active = before.work_active + work;
   sim.ledger.work.of_kind.fill(nan);

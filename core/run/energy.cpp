@@ -19,25 +19,27 @@ PointMotion motion_of(const Matrix6Xd& twist, const Eigen::Matrix3Xd& velocity, 
 
 /// What the integrator makes in this step of the translation of a body that keeps its momentum,
 /// erg: of ½ M V² and of the energy in gravity, beyond the work of what acts from outside on the
-/// centre of mass. What bears on an obstacle has its frame of reference, in which nothing counts
-/// so. The momentum that will be given back counts always. `fallen`: the change of the energy in
-/// gravity.
+/// centre of mass. What bears on an obstacle has its frame of reference: then it is only what will
+/// be taken as momentum is given back. `fallen`: the change of the energy in gravity.
 double made_of_translation(const StepInput& in, const StepPlace& place, const StepSolution& step,
                            const Moment& next, double travelled, double fallen) {
   const Model& model = in.model;
+  const double mass = mass_of(model);
   Eigen::Vector3d force = step.tip + step.force[RowKind::obstacle].head<3>();
   for (int b = 0; b < model.body_count(); ++b) {
     force +=
         drag_on_body(model, place.kin, b, motion_of(step.mean_twist, step.mean_centre_velocity, b))
             .force;
   }
-  const double mass = mass_of(model);
   const Eigen::Vector3d before = mean_by_mass(model, in.observation.kin.centre_velocity);
   const Eigen::Vector3d after = mean_by_mass(model, next.observation.kin.centre_velocity);
-  const Eigen::Vector3d kept = before + in.scene.time.step * (force / mass + model.gravity);
-  const double made = 0.5 * mass * (after - kept).dot(after + kept);
-  if (!step.force[RowKind::obstacle].isZero(0)) return made;
-  return made + 0.5 * mass * (kept - before).dot(kept + before) + fallen -
+  const auto made_since = [&](const Eigen::Vector3d& velocity) {
+    return 0.5 * mass * (after - velocity).dot(after + velocity);
+  };
+  if (!step.force[RowKind::obstacle].isZero(0)) {
+    return made_since(before + in.scene.time.step * (force / mass + model.gravity));
+  }
+  return made_since(before) + fallen -
          travelled * force.dot(mean_by_mass(model, step.centre_velocity));
 }
 
@@ -58,12 +60,12 @@ double lost_at_impacts(const StepInput& in, const StepPlace& place, const StepSo
 
 }  // namespace
 
-EnergyLedger open_ledger(const Model& model, const Moment& now, bool held) {
+EnergyLedger open_ledger(const Model& model, const Moment& now, bool kept) {
   EnergyLedger ledger;
   set_energies(model, now, ledger);
   ledger.initial = ledger.kinetic + ledger.elastic + ledger.gravity;
-  const double inner = held ? ledger.kinetic : inner_kinetic_energy(model, now.observation.kin);
-  ledger.largest = inner + ledger.elastic;
+  const double own = kept ? inner_kinetic_energy(model, now.observation.kin) : ledger.kinetic;
+  ledger.largest = own + ledger.elastic;
   return ledger;
 }
 
@@ -133,7 +135,7 @@ void book_step(const StepInput& in, const StepPlace& place, const StepSolution& 
   ledger.integrator_inertia += impulse + lost;
   ledger.integrator_potential += t * stretch + fall + ledger.gravity - gravity;
   ledger.integrator_coriolis += ledger.kinetic - kinetic - moved - bias;
-  if (keeps_momentum(in.scene, in.control)) {
+  if (keeps_momentum(in)) {
     ledger.integrator_translation +=
         made_of_translation(in, place, step, next, t, ledger.gravity - gravity);
   }

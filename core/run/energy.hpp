@@ -42,11 +42,11 @@ struct EnergyLedger {
   double integrator_held = 0;
   /// Energy change by the correction of a free body's momentum (momentum.hpp).
   double integrator_momentum = 0;
-  /// What of integrator_error() the translation of the centre of mass has, while nothing outside
-  /// but water, gravity and the tip's force acts. It depends on the observer.
+  /// What of integrator_error() the translation of the centre of mass has, while momentum is kept
+  /// (step_input.hpp) and no obstacle bears. It depends on the observer.
   double integrator_translation = 0;
   double lowest_error = 0;  ///< of own_error() so far
-  /// Kinetic + elastic so far; while nothing holds the head, about the centre of mass.
+  /// Kinetic + elastic so far; while momentum is kept, about the centre of mass.
   double largest = 0;
 
   double works() const {
@@ -65,8 +65,8 @@ struct EnergyLedger {
   }
 };
 
-/// Opens the ledger at a moment; `held`: the head is.
-EnergyLedger open_ledger(const Model& model, const Moment& now, bool held);
+/// Opens the ledger at a moment; `kept`: momentum is (step_input.hpp).
+EnergyLedger open_ledger(const Model& model, const Moment& now, bool kept);
 
 /// Books the step `in` from the ledger's last entry, by its solution at `place`, to `next`, the
 /// state after the time `travelled` (s), 0 to h.

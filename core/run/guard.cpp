@@ -190,8 +190,8 @@ Status guard_energy(const StepInput& in, double passing, Moment& moment, EnergyL
   const Model& model = in.model;
   const GuardSettings& guard = in.scene.guard;
   Kinematics& kin = moment.observation.kin;
-  const bool held = !keeps_momentum(in.scene, in.control);
-  const double kinetic = held ? ledger.kinetic : inner_kinetic_energy(model, kin);
+  const bool kept = keeps_momentum(in);
+  double kinetic = kept ? inner_kinetic_energy(model, kin) : ledger.kinetic;
   const double passed = ledger.largest + ledger.dissipated;
   const double allowed = guard.energy_gain * passed;
   const double made = ledger.own_error() - ledger.lowest_error;
@@ -208,12 +208,13 @@ Status guard_energy(const StepInput& in, double passing, Moment& moment, EnergyL
       const double taken = std::min(made - allowed, kinetic);
       const double share = kinetic > 0 ? std::sqrt(1 - taken / kinetic) : 0;
       Eigen::VectorXd& v = moment.state.qdot;
-      const Eigen::Vector3d whole = held ? Eigen::Vector3d(Eigen::Vector3d::Zero())
-                                         : mean_by_mass(model, kin.centre_velocity);
+      Eigen::Vector3d whole = Eigen::Vector3d::Zero();
+      if (kept) whole = mean_by_mass(model, kin.centre_velocity);
       v.head<3>() -= whole;
       v *= share;
       v.head<3>() += whole;
       update_velocities(model, v, kin);
+      kinetic -= taken;
       ledger.kinetic -= taken;
       ledger.integrator_held -= taken;
       what += "; velocities were reduced by the excess";
@@ -226,8 +227,7 @@ Status guard_energy(const StepInput& in, double passing, Moment& moment, EnergyL
                     "try a smaller time.step, or more drag or damping"),
                action, watch, warnings);
   }
-  const double left = held ? ledger.kinetic : inner_kinetic_energy(model, kin);
-  ledger.largest = std::max(ledger.largest, left + ledger.elastic);
+  ledger.largest = std::max(ledger.largest, kinetic + ledger.elastic);
   return status;
 }
 

@@ -49,7 +49,7 @@ Status guard_state(const Model& model, const Moment& moment, double crossing, co
 /// (impacts lower it). The reference is what there was before this step: the largest kinetic and
 /// elastic energy, and the loss by drag and damping. With action `hold` and Euler's rule the excess
 /// is taken back: one factor scales the velocities of `moment` down, and the ledger books it. Where
-/// nothing holds the head, all of this is about the centre of mass. `passing` as passing_momentum.
+/// momentum is kept, all of this is about the centre of mass. `passing` as passing_momentum.
 Status guard_energy(const StepInput& in, double passing, Moment& moment, EnergyLedger& ledger,
                     Watch& watch, std::vector<std::string>& warnings);
 

@@ -87,9 +87,9 @@ constexpr double rounding = 1e-12;
 
 /// Gives `next`, which has the momentum `now` and the kinetic energy `kinetic` (erg), the momentum
 /// `wanted`, by a motion of the whole body as one rigid body about its centre of mass. The kinetic
-/// energy about that centre stays the same: one factor on the internal velocities
-/// takes up the difference. If no factor can, it grows by a share of up to most_added. Else the
-/// body keeps its angular momentum, and the guard of momentum warns.
+/// energy about that centre stays the same: one factor on the internal velocities takes up the
+/// difference. If no factor can, it grows by a share of up to most_added. Else the body keeps its
+/// angular momentum, and the guard of momentum warns.
 void give(const Model& model, double kinetic, const Momentum& now, const Momentum& wanted,
           Moment& next) {
   Kinematics& kin = next.observation.kin;
@@ -167,10 +167,6 @@ MomentumLedger open_momentum(const Model& model, const Moment& now) {
   return ledger;
 }
 
-bool keeps_momentum(const Scene& scene, const Control& control) {
-  return scene.time.momentum == FreeMomentum::kept && !control.clamp_head;
-}
-
 Eigen::Vector3d centre_after(const StepInput& in, const StepPlace& place, const StepSolution& step,
                              const Momentum& before, double travelled) {
   // M (w - v) + r b = r f + C'λ, with the velocity w that the step moves by and its reach r.
@@ -196,7 +192,7 @@ void book_momentum(const StepInput& in, const StepPlace& place, const StepSoluti
   ledger.drag += drag;
   ledger.outside += outside;
   const Momentum before = ledger.momentum;
-  if (keeps_momentum(in.scene, in.control)) {
+  if (keeps_momentum(in)) {
     give(model, energy.kinetic, before, old + drag + outside, next);
     ledger.momentum = momentum_of(model, kin);
     ledger.given_back += ledger.momentum - before;

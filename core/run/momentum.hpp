@@ -60,9 +60,6 @@ inline constexpr double passing_rounding = 1e-9;
 /// Opens the ledger at a moment.
 MomentumLedger open_momentum(const Model& model, const Moment& now);
 
-/// Whether a step by `control` keeps momentum: nothing holds the head, and the scene asks for it.
-bool keeps_momentum(const Scene& scene, const Control& control);
-
 /// Where the centre of mass is when the step `in`, as solved at `place`, has moved for the time
 /// `travelled` (s) from `now`; cm, world. It moves by the momentum before the step and the forces
 /// of Eq. 1.
@@ -72,9 +69,9 @@ Eigen::Vector3d centre_after(const StepInput& in, const StepPlace& place, const 
 /// Books the step `in` from the ledger's last entry, by its solution at `place`, to `next`. If the
 /// step keeps momentum, `next` first gets the momentum that the impulses leave, by a motion of the
 /// whole body as one rigid body. One factor on the velocities within the body keeps the kinetic
-/// energy as seen by who moves with that momentum, so that no observer matters. If no factor can,
-/// the body gains a little, or else its angular momentum stays as it is. `energy` books the change
-/// of all kinetic energy.
+/// energy about the centre of mass, so that no observer matters. If no factor can, the body gains a
+/// little, or else its angular momentum stays as it is. `energy` books the change of all kinetic
+/// energy.
 void book_momentum(const StepInput& in, const StepPlace& place, const StepSolution& step,
                    Moment& next, EnergyLedger& energy, MomentumLedger& ledger);
 

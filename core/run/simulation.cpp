@@ -53,7 +53,8 @@ Simulation start_from(const Model& model, const Scene& scene, const std::string&
                  .watch = {},
                  .before = {}};
   observe(model, sim.now.state, scene, sim.search, sim.now.observation);
-  sim.ledger = open_ledger(model, sim.now, clamps_head(scene, sim.controller.phase));
+  sim.ledger =
+      open_ledger(model, sim.now, keeps_momentum(scene, clamps_head(scene, sim.controller.phase)));
   sim.momentum = open_momentum(model, sim.now);
   return sim;
 }
@@ -74,7 +75,8 @@ void change_scene(const Model& model, const Scene& before, const Scene& scene, S
   }
   sim.search = {};
   observe(model, sim.now.state, scene, sim.search, sim.now.observation);
-  const EnergyLedger now = open_ledger(model, sim.now, clamps_head(scene, sim.controller.phase));
+  const EnergyLedger now =
+      open_ledger(model, sim.now, keeps_momentum(scene, clamps_head(scene, sim.controller.phase)));
   const Momentum now_momentum = open_momentum(model, sim.now).momentum;
   EnergyLedger& ledger = sim.ledger;
   ledger.initial += now.initial - (ledger.kinetic + ledger.elastic + ledger.gravity);

@@ -37,8 +37,7 @@ struct Slide {
   double taper_asks = none;
   /// Way of the body's curvature. The way of the leading end is cut in quarters. From each to the
   /// next, the shift along the body is taken that maximises the correlation of the curvatures.
-  /// Shifts are added up.
-  /// `none` for a leading end that advances by less than least_way.
+  /// Shifts are added up. `none` for a leading end that advances by less than least_way.
   double travel = none;
   double correlation = none;  ///< the least of these four, -1 to 1
 

@@ -65,7 +65,7 @@ void move(const Attempt& step, double t) {
   const auto& [in, sim, record] = step;
   auto& [state, observation] = record.moment;
   advance(in.state.q, record.solution.qdot, t, state.q);
-  if (keeps_momentum(in.scene, in.control)) {
+  if (keeps_momentum(in)) {
     place_centre(in.model,
                  centre_after(in, step.place(), record.solution, sim.momentum.momentum, t), state.q,
                  observation.kin);

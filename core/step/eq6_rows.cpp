@@ -1,6 +1,7 @@
 #include "core/step/eq6_rows.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace hagfish {
@@ -81,6 +82,13 @@ const std::vector<PatchPoint>& patch_of(const std::vector<SplineSegment>& segmen
 }
 
 }  // namespace
+
+bool meets_command(double slack, double command) {
+  // Relative to the commanded speed, or to 1 cm/s where that is less: Ipopt's tolerance moves the
+  // speed of a row by 1e-8 of the largest in the step.
+  constexpr double slack_tolerance = 1e-6;
+  return slack <= slack_tolerance * std::max(1.0, std::abs(command));
+}
 
 ThigmotaxisSpeeds slip_of_shape(double cosine, const ThigmotaxisSpeeds& speed) {
   return {speed.a - speed.b * cosine, speed.b - speed.a * cosine};

@@ -1,9 +1,7 @@
 // Rows of Eq. 6 (paper, 3.2): the body is to slide along itself where it touches itself.
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <vector>
 
 #include "core/contact/observation.hpp"
@@ -53,12 +51,7 @@ std::array<Row, 2> eq6_rows(const Model& model, const Kinematics& kin,
                             const Observation* found = nullptr);
 
 /// Whether a row counts as met: its slack against its command, both cm/s.
-inline bool meets_command(double slack, double command) {
-  // Relative to the commanded speed, or to 1 cm/s where that is less: Ipopt's tolerance moves the
-  // speed of a row by 1e-8 of the largest in the step.
-  constexpr double slack_tolerance = 1e-6;
-  return slack <= slack_tolerance * std::max(1.0, std::abs(command));
-}
+bool meets_command(double slack, double command);
 
 /// Where the rows of Eq. 6 are placed.
 struct ThigmotaxisPlace {

@@ -30,6 +30,15 @@ struct StepInput {
   const Control& control;
 };
 
+/// Whether a step keeps momentum: nothing holds the head, and the scene asks for it. It then has no
+/// frame of reference, so that all that acts on velocities is for one who moves with the body.
+inline bool keeps_momentum(const Scene& scene, bool clamp_head) {
+  return scene.time.momentum == FreeMomentum::kept && !clamp_head;
+}
+inline bool keeps_momentum(const StepInput& in) {
+  return keeps_momentum(in.scene, in.control.clamp_head);
+}
+
 /// Where the equations of a step hold, and how the animal moves there. It refers to the step's
 /// input, or to the time rule that found the place.
 struct StepPlace {

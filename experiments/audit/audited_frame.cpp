@@ -10,8 +10,7 @@ Midway midway_of(const LogContents& log, const State& state, const Kinematics& k
     midway.step_velocity = log.middle_step_velocity.row(frame);
     midway.mean_velocity = log.middle_mean_velocity.row(frame);
     place_midway(log.model, state, kin, log.resolved.scene.time.step, log.balanced(frame),
-                 log.clamped(frame) || log.resolved.scene.time.momentum != FreeMomentum::kept,
-                 midway);
+                 keeps_momentum(log.resolved.scene, log.clamped(frame)), midway);
   }
   return midway;
 }

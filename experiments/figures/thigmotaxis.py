@@ -71,10 +71,9 @@ def law_rows(folder: Path) -> list[list[str]]:
     return sorted(rows, key=lambda row: (row[0], row[1] == "free", order.index(row[2])))
 
 
-def run_rows(folder: Path) -> list[list[str]]:
-    """A row for each change, over all knots: how many runs slide by both ends, and by how much."""
+def run_rows(folder: Path, most: float) -> list[list[str]]:
+    """A row for each change, over all knots: how many runs slide by both ends, and by how much. `most`: the muscles' capacity, dyn cm."""
     rows = []
-    most = capacity(HagfishLog(log_of(folder / "laws", "0")))  # one animal
     for grid, (axis, words) in VARIED.items():
         table = read_sweep(folder / grid / "table.csv")
         shares, torque = table.figures["both_ends_percent"], table.figures["largest_torque_dyn_cm"]
@@ -138,7 +137,8 @@ def main(folder: Path) -> None:
                      "curvature travels, cm (correlation)", "the knot", "steps that meet Eq. 6, %", "largest torque, of capacity",
                      "work, erg/cm", "of it f_thigmo"], law_rows(folder))
     tables.of_page(folder, "thigmotaxis_runs", ["what is changed", "slide by both ends", "least share, %", "median share, %",
-                     "least steps that meet Eq. 6, %", "largest torque, of capacity", "which do not"], run_rows(folder))
+                     "least steps that meet Eq. 6, %", "largest torque, of capacity", "which do not"],
+                   run_rows(folder, capacity(HagfishLog(log_of(folder / "laws", "0")))))  # one animal
     draw(folder, folder / "thigmotaxis.png")
 
 

@@ -15,6 +15,7 @@ from typing import Any
 
 import numpy as np
 
+import audits
 from hagfish_log import HagfishLog
 from script import HAGFISH, run_script, whole
 

@@ -8,11 +8,10 @@ set -euo pipefail
 inputs=("$(dirname "${BASH_SOURCE[0]}")"/../../data/pull_*.toml)
 source "$(dirname "${BASH_SOURCE[0]}")/study.sh"
 
-# $1 times the largest force of a row that the scene has ($2: its body, $3: its knot), dyn.
+# $1 times the largest force of a row that the scene $2 has, dyn.
 cap() {
-  local base=2500
-  if [[ $2 == table1 ]]; then base=5000; elif [[ $3 == overhand ]]; then base=3750; fi
-  awk -v c="$1" -v b=$base 'BEGIN { printf "--set food.cap.from=%g --set food.cap.to=%g", c * b, c * b }'
+  awk -v c="$1" '/^cap = / { match($0, /from = [0-9.]+/); b = substr($0, RSTART + 7, RLENGTH - 7)
+    printf "--set food.cap.from=%g --set food.cap.to=%g", c * b, c * b }' "$root/data/$2.toml"
 }
 # Commanded speed $1 of all rows while sliding and pulling, cm/s.
 speed() {
@@ -37,7 +36,7 @@ sweep() {
       for seed in $starts; do
         start="--set start.noise_deg=$noise --set start.seed=$seed"
         if [[ $seed == 0 ]]; then start=""; fi
-        if [[ $kind == cap ]]; then start+=" $(cap "$value" "$body" "$knot")"; fi
+        if [[ $kind == cap ]]; then start+=" $(cap "$value" "$scene")"; fi
         printf 'timed_run\t%s\t1\t%s\n' "$kind-$body-$knot-$value-$seed" \
           "$scene --qp active-set --set expect.types=[] --set time.duration=80 --set time.step=0.005 \
 --set time.frame_interval=0.1 $start ${*:5}"

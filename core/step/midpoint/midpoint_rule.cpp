@@ -19,12 +19,6 @@ double difference(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
   return std::max(off.head<3>().norm(), off.tail(off.size() - 3).lpNorm<Eigen::Infinity>());
 }
 
-/// Whether energies are those for who stands: not where a free body's momentum is kept, which has
-/// no frame of reference.
-bool stands(const StepInput& in) {
-  return in.control.clamp_head || in.scene.time.momentum != FreeMomentum::kept;
-}
-
 /// Keeps the multipliers of a pass for the next one.
 void keep_pass(const StepSolution& step, WarmStart& warm) {
   warm.begin();
@@ -81,8 +75,8 @@ Status MidpointRule::settle(const StepInput& in, Rounds& rounds, WarmStart& warm
   // first velocity.
   if (!status.ok()) step.middle.unsettled = unlimited;
   midway_.step_velocity = midway_.mean_velocity = in.state.qdot;
-  place_midway(in.model, in.state, in.observation.kin, in.scene.time.step, false, stands(in),
-               midway_);
+  place_midway(in.model, in.state, in.observation.kin, in.scene.time.step, false,
+               keeps_momentum(in), midway_);
   step.middle.remaining = 1;
   return solve_here(in, rounds, warm, step);
 }
@@ -105,7 +99,8 @@ Status MidpointRule::find_middle(const StepInput& in, bool balanced, Rounds& rou
   led_to_.resize(2 * nv);
   for (int pass = 1;; ++pass) {
     ++middle.passes;
-    place_midway(in.model, in.state, in.observation.kin, time.step, balanced, stands(in), midway_);
+    place_midway(in.model, in.state, in.observation.kin, time.step, balanced, keeps_momentum(in),
+                 midway_);
     if (Status status = solve_here(in, rounds, warm, step); !status.ok()) {
       return status;
     }

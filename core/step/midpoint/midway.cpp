@@ -21,10 +21,10 @@ constexpr double least_turn = 0.01;
 ///   T(q', v') - T(q, v) = T_m(v') - T_m(v) + h times the power of its bias.
 /// (This is a discrete gradient, body by body: Gonzalez, J. Nonlinear Sci. 6, 1996.)
 void set_bias_power(const Model& model, const State& state, const Kinematics& now, double h,
-                    bool held, Midway& midway) {
+                    bool kept, Midway& midway) {
   Eigen::Vector3d observer = Eigen::Vector3d::Zero();
   Eigen::Vector3d fall = observer;  // of the observer, in the step
-  if (!held) {
+  if (kept) {
     observer = mean_by_mass(model, now.centre_velocity);
     fall = h * model.gravity;
   }
@@ -57,7 +57,7 @@ void set_bias_power(const Model& model, const State& state, const Kinematics& no
 }  // namespace
 
 void place_midway(const Model& model, const State& state, const Kinematics& now, double h,
-                  bool balanced, bool held, Midway& midway) {
+                  bool balanced, bool kept, Midway& midway) {
   advance(state.q, midway.step_velocity, h / 2, midway.q);
   update_positions(model, midway.q, midway.kin);
   update_velocities(model, midway.step_velocity, midway.mean_velocity, midway.kin);
@@ -68,7 +68,7 @@ void place_midway(const Model& model, const State& state, const Kinematics& now,
   const double fastest = midway.kin.twist.topRows<3>().colwise().squaredNorm().maxCoeff();
   midway.balanced = balanced && h * h * fastest > least_turn * least_turn;
   if (midway.balanced) {
-    set_bias_power(model, state, now, h, held, midway);
+    set_bias_power(model, state, now, h, kept, midway);
   }
 }
 

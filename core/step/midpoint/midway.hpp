@@ -31,9 +31,9 @@ struct Midway {
 
 /// Places the middle of a step of `h` (s) from `state` by both of its velocities; `now` belongs to
 /// `state`. `balanced` decides whether the bias is balanced, so that Coriolis forces make no
-/// energy: for one who stands where the head is `held`, else for one who falls freely beside the
-/// body, with the velocity of its centre of mass at first.
+/// energy: where momentum is `kept` for one who falls freely beside the body, with the velocity of
+/// its centre of mass at first, else for one who stands.
 void place_midway(const Model& model, const State& state, const Kinematics& now, double h,
-                  bool balanced, bool held, Midway& midway);
+                  bool balanced, bool kept, Midway& midway);
 
 }  // namespace hagfish

@@ -27,7 +27,7 @@ struct BookedRun {
 
   BookedRun(Model of, Scene in, State from)
       : model(std::move(of)), scene(std::move(in)), state(std::move(from)) {
-    ledger = open_ledger(model, {state, observe(model, state, scene)}, true);
+    ledger = open_ledger(model, {state, observe(model, state, scene)}, false);
   }
   /// `spoil` changes the solved step before it is taken and booked. It moves for `share` of its
   /// length.

@@ -419,7 +419,7 @@ TEST_F(EnergyWatch, HoldsWhatTheIntegratorMakes) {
 
 TEST_F(EnergyWatch, TakesNothingFromABodyAtRest) {
   Moment moment{rest_state(model), observe(model, rest_state(model), scene)};
-  EnergyLedger ledger = open_ledger(model, moment, false);
+  EnergyLedger ledger = open_ledger(model, moment, true);
   const Moment at = moment;
   ledger.integrator_coriolis = 1;
   Watch watch;
@@ -437,7 +437,7 @@ TEST_F(EnergyWatch, OnlyWarnsByTheMidpointRule) {
   for (const TimeRule rule : {TimeRule::euler, TimeRule::midpoint}) {
     scene.time.rule = rule;
     Moment moment{moving, observe(model, moving, scene)};
-    EnergyLedger ledger = open_ledger(model, moment, false);
+    EnergyLedger ledger = open_ledger(model, moment, true);
     const Moment at = moment;
     ledger.integrator_coriolis = 0.1 * ledger.kinetic;
     Watch watch;

@@ -7,13 +7,17 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import audits
 import benchmarks
 import claim_map
 import claims
 import leverage
 import living
+import pulls
 import sliding_map
 import stability
+import sweep_columns
+import thigmotaxis
 import tying
 
 ROOT = Path(__file__).resolve().parents[4]
@@ -71,6 +75,52 @@ def test_what_changes_a_pull(tmp_path):
     leverage.changes_table(runs, tmp_path)
     rows = {row[0]: row[3:] for row in read(tmp_path, "leverage_changes")[1:]}
     assert rows == {"commanded speed, cm/s: 0.5": ["0 of 1", ""], "commanded speed, cm/s: 4": ["1 of 1", "2.00"], "commanded speed, cm/s: 8": ["0 of 1", ""]}
+
+
+def test_a_pull_is_told_over_time_and_by_what_may_move_it(tmp_path):
+    time = np.arange(0.0, 6.01, 0.5)
+    pull = lambda force: pulls.Pull(time, force * np.ones(13), *[np.full(13, value) for value in (9.0, 2.0, 9.0, 4.0)], cap=0.05)
+    rising = pulls.Pull(time, np.floor(time), *[np.ones(13)] * 4, cap=0.05)
+    run = lambda kind, value, seed, of: leverage.Run(kind, "living", "3_1", value, seed, "pulled", of, 0, False)
+    runs = [run("start", "0", 1, pull(2)), run("start", "0", 2, pull(4)), run("plain", "0", 0, rising), run("mirror", "0", 0, rising),
+            run("step", "0.002", 1, pull(7)), run("bodies", "150", 1, pull(8))]
+    leverage.knots_table(runs, tmp_path)
+    head, *rows = read(tmp_path, "leverage")
+    row = dict(zip(head, next(row for row in rows if row[:2] == ["living", "3_1"])))
+    mean = f"{rising.mean:.2f}"
+    assert row == {"body": "living", "knot": "3_1", "cap of a row, N": "0.05", "pulled": "2 of 2", "pull in the thirds of its time, N": "0.50, 2.50, 4.50",
+                   "of its seconds, N": "0.00 to 5.00", "means of starts, N": "2.00 to 4.00", "of steps, N": f"{mean} to 7.00",
+                   "of numbers of bodies, N": f"{mean} to 8.00", "over the sum of the rows": "1.5", "over the largest torque, 1/cm": "0.75", "mirror image the same": "yes"}
+    leverage.time_table(runs, tmp_path)
+    assert read(tmp_path, "leverage_time") == [leverage.TIME_HEAD, *[["living", "3_1", f"{k}.5", f"{k}"] for k in range(6)]]
+
+
+def test_a_value_of_an_audit_is_that_of_its_criterion(tmp_path):
+    (tmp_path / "a.csv").write_text("log,criterion,value,bound,unit,met\na,slide,9.1,2,cm,yes\na,slide of both ends,76.5,70,%,yes\na,hand,,,,yes\n")
+    findings = audits.read_findings(tmp_path / "a.csv")
+    assert audits.value_of(findings, "slide of both ends") == 76.5
+    assert np.isnan(audits.value_of(findings, "hand")) and np.isnan(audits.value_of(findings, "reverse"))
+
+
+def test_slides_are_counted_by_what_is_varied(tmp_path):
+    def sweep(name, axis, cells):
+        (tmp_path / name).mkdir()
+        lines = [",".join(["cell", "scene", axis, *sweep_columns.TEXTS, *sweep_columns.FIGURES])]
+        for k, (scene, value, outcome, slide, share, met, torque) in enumerate(cells):
+            texts = {"outcome": outcome, "slide": slide}
+            figures = {"both_ends_percent": share, "eq6_percent": met, "largest_torque_dyn_cm": torque}
+            lines.append(",".join(map(str, [k, scene, value, *(texts.get(key, "") for key in sweep_columns.TEXTS), *(figures.get(key, "") for key in sweep_columns.FIGURES)])))
+        (tmp_path / name / "table.csv").write_text("\n".join(lines) + "\n")
+    both, grows = "slides by both ends", "only grows"
+    sweep("meshes", "model.bodies", [("living_overhand", 60, "ok", both, 90, 99, 1e5), ("living_figure_eight_free", 60, "ok", grows, 10, 98, 2e5),
+                                     ("living_overhand", 100, "capped", both, 80, 97, 1e5)])
+    sweep("steps", "model.bodies,time.step", [("living_overhand", "100,0.005", "ok", both, 75, 100, 1e5)])
+    sweep("speeds", "controller.slide_head.a", [("living_overhand", 0.5, "ok", both, 85, 100, 3e5)])
+    sweep("starts", "start.seed", [("living_overhand", seed, "ok", both, 90 + seed, 100, 1e5) for seed in (1, 2)])
+    assert thigmotaxis.run_rows(tmp_path, 2e5) == [
+        ["bodies: 60", "1 of 2", "10", "50", "98", "1.00", "4_1 free 10 %"], ["bodies: 100", "0 of 1", "80", "80", "97", "0.50", "3_1 held 80 %"],
+        ["time step, s: 0.005, 100 bodies", "1 of 1", "75", "75", "100", "0.50", ""], ["commanded speed, cm/s: 0.5", "1 of 1", "85", "85", "100", "1.50", ""],
+        ["start with noise, numbers 1 to 2", "2 of 2", "91", "92", "100", "0.50", ""]]
 
 
 class Swept:
