@@ -323,7 +323,6 @@ void time_fields(Io& io, TimeSettings& s) {
   io.integer("passes", s.passes, within(1, 1000));
   io.number("ring_damping", s.ring_damping, not_negative());
   io.number("frame_interval", s.frame_interval, positive());
-  io.number("checkpoint_interval", s.checkpoint_interval, positive());
   io.number("duration", s.duration, positive());
   io.choice("until", s.until, phases_from(Phase::form, true));
 }

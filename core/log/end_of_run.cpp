@@ -30,15 +30,4 @@ StepRecord end_record(const Model& model, double time, const Simulation& sim, bo
   return record;
 }
 
-bool has_end_frame(const Hdf5Reader& h5, std::int64_t next) {
-  const std::vector<std::int64_t> step = h5.integers("/trajectory/step");
-  return !step.empty() && step.back() == next;
-}
-
-void drop_end_frame(const std::filesystem::path& file, const SeriesList& frames, hsize_t rows) {
-  Hdf5Writer h5(file);
-  for (const auto& series : frames) h5.append(series->layout(), rows - 1, 0, nullptr);
-  h5.close();
-}
-
 }  // namespace hagfish

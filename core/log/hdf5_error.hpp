@@ -16,6 +16,13 @@ class FileError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Opens files where the system has no locks, too, and lets others read what is open.
+inline H5::FileAccPropList without_locks() {
+  H5::FileAccPropList access;
+  H5Pset_file_locking(access.getId(), 0, 1);
+  return access;
+}
+
 /// Runs `work`, turning HDF5's exceptions into one line. The system's reason (disk full, no
 /// permission) is more useful than HDF5's own, where there is one.
 template <class Work>

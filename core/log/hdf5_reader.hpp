@@ -1,7 +1,8 @@
 // Reading logs and other HDF5, of any origin. Every failure is thrown as FileError in one line that
 // names the file. Nothing is read but what the file itself holds: links, and datasets whose numbers
 // are in other files, are refused; so are datasets that say they hold more than the file can,
-// before memory is asked for.
+// before memory is asked for. HDF5 1.10 crashes on some damaged files and comes to no end on
+// others: commands read foreign files in a process of their own, which SIGVTALRM ends in time.
 #pragma once
 
 #include <H5Cpp.h>
@@ -9,6 +10,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,16 +19,11 @@
 
 namespace hagfish {
 
-/// Who wrote a file. What this process wrote just now is read as it is, all else as a copy of it
-/// (hdf5_copy.hpp).
-enum class Origin { anywhere, own };
-
 /// A file being read.
 class Hdf5Reader {
  public:
-  /// Throws FileError where the file is missing, not a regular one, unreadable, not HDF5, or such
-  /// that HDF5 crashes on it or comes to no end (hdf5_copy.hpp).
-  explicit Hdf5Reader(const std::filesystem::path& file, Origin origin = Origin::anywhere);
+  /// Throws FileError where the file is missing, not a regular one, unreadable or not HDF5.
+  explicit Hdf5Reader(const std::filesystem::path& file);
   bool has(const std::string& path) const;
   /// Attributes of the file: one text, one whole number.
   std::string root_text(const std::string& name) const;
@@ -44,9 +41,12 @@ class Hdf5Reader {
   /// All values, row by row.
   std::vector<double> doubles(const std::string& path) const;
   std::vector<std::int64_t> integers(const std::string& path) const;
-  std::vector<std::uint8_t> bytes(const std::string& path) const;
   std::vector<std::string> texts(const std::string& path) const;
   std::string text(const std::string& path) const;  ///< of a dataset that holds one
+  /// What a dataset says of itself, by name: its attributes, its type, and the labels of its axes.
+  std::map<std::string, std::string> words(const std::string& path) const;
+  /// Paths of all datasets.
+  std::vector<std::string> datasets() const;
   /// Names of what lies in a group, in order.
   std::vector<std::string> names(const std::string& group) const;
   /// Rows as a matrix, rows x (product of the other extents).
@@ -55,12 +55,13 @@ class Hdf5Reader {
   /// Throws FileError where there is none.
   H5::DataSet open(const std::string& path) const;
   const std::string& file() const { return file_; }
-  /// Writes what is read to a file of another name. Throws FileError where that cannot be written.
-  void write_to(const std::filesystem::path& file) const;
 
  private:
+  template <class Work>
+  auto reading(const std::string& what, Work&& work) const;
   bool holds(const std::string& path) const;
   void require_group(const std::string& path) const;
+  void add_datasets(const std::string& group, std::vector<std::string>& paths) const;
   std::string file_;
   std::uintmax_t file_size_ = 0;  // bytes
   H5::H5File h5_;

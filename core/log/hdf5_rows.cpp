@@ -1,4 +1,4 @@
-// Rows of series in a file: writing them, and copying their chunks from another file.
+// Writing rows of series to a file.
 #include <algorithm>
 #include <cstring>
 #include <functional>
@@ -91,37 +91,6 @@ void Hdf5Writer::append(const SeriesLayout& layout, hsize_t first, hsize_t count
     const hsize_t columns = layout.row_shape.back();
     for (hsize_t begin = 0; begin < columns; begin += layout.chunk_columns) {
       rows.write(set, begin, std::min(columns, begin + layout.chunk_columns));
-    }
-  });
-}
-
-void Hdf5Writer::copy_chunks(const Hdf5Reader& from, const SeriesLayout& layout, hsize_t begin,
-                             hsize_t end) {
-  const std::vector<hsize_t> extent = layout.shape(end * layout.chunk_rows);
-  guarded(name_, "write " + layout.path, [&] {
-    const H5::DataSet source = from.open(layout.path);
-    const H5::DataSet target = h5_.openDataSet(layout.path);
-    target.extend(extent.data());
-    std::vector<hsize_t> offset(extent.size(), 0);
-    std::vector<char> stored;
-    for (hsize_t chunk = begin; chunk < end; ++chunk) {
-      offset[0] = chunk * layout.chunk_rows;
-      hsize_t size = 0;
-      haddr_t place = HADDR_UNDEF;
-      unsigned skipped = 0;  // filters
-      std::uint32_t filters = 0;
-      bool done =
-          H5Dget_chunk_info_by_coord(source.getId(), offset.data(), &skipped, &place, &size) >= 0;
-      if (done && place == HADDR_UNDEF) continue;  // all of it is 0
-      stored.resize(size);
-      done =
-          done &&
-          H5Dread_chunk(source.getId(), H5P_DEFAULT, offset.data(), &filters, stored.data()) >= 0 &&
-          H5Dwrite_chunk(target.getId(), H5P_DEFAULT, filters, offset.data(), size,
-                         stored.data()) >= 0;
-      if (!done) {
-        throw H5::DataSetIException("copy_chunks", "a chunk cannot be copied");
-      }
     }
   });
 }

@@ -12,8 +12,6 @@ namespace {
 
 // Higher levels take up to twice as long and gain nothing.
 constexpr int deflate_level = 1;
-// In which bytes without rows are stored.
-constexpr hsize_t bytes_chunk = 16384;
 // By which the file grows in memory, bytes.
 constexpr std::size_t memory_increment = std::size_t{1} << 16;
 // In which texts are converted, bytes; HDF5's own, of 1 MB, is cleared for each of them.
@@ -50,7 +48,9 @@ void describe(H5::DataSet& set, const Meaning& meaning) {
 
 Hdf5Writer::Hdf5Writer(const std::filesystem::path& file) : name_(file.string()) {
   H5::Exception::dontPrint();
-  guarded(name_, "open", [&] { h5_ = H5::H5File(name_, H5F_ACC_RDWR); });
+  guarded(name_, "open", [&] {
+    h5_ = H5::H5File(name_, H5F_ACC_RDWR, H5::FileCreatPropList::DEFAULT, without_locks());
+  });
 }
 
 Hdf5Writer::Hdf5Writer() : name_("file in memory") {
@@ -140,25 +140,6 @@ void Hdf5Writer::texts(const std::string& path, const std::vector<std::string>& 
     h5_.createDataSet(path, text_type(), H5::DataSpace(1, &size))
         .write(static_cast<const void*>(pointers.data()), text_type(), H5::DataSpace::ALL,
                H5::DataSpace::ALL, text_transfer());
-  });
-}
-
-void Hdf5Writer::bytes(const std::string& path, const std::vector<std::uint8_t>& values,
-                       const std::string& description) {
-  const hsize_t size = values.size();
-  guarded(name_, "write " + path, [&] {
-    if (!h5_.nameExists(path)) {
-      const hsize_t most = H5S_UNLIMITED;
-      H5::DSetCreatPropList storage;
-      storage.setChunk(1, &bytes_chunk);
-      storage.setFletcher32();
-      H5::DataSet created = h5_.createDataSet(path, H5::PredType::NATIVE_UINT8,
-                                              H5::DataSpace(1, &size, &most), storage);
-      describe(created, {"1", description});
-    }
-    H5::DataSet set = h5_.openDataSet(path);
-    set.extend(&size);
-    set.write(values.data(), H5::PredType::NATIVE_UINT8);
   });
 }
 

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "core/log/hdf5_error.hpp"
-#include "core/log/hdf5_reader.hpp"
 
 namespace hagfish {
 
@@ -92,17 +91,10 @@ class Hdf5Writer {
   /// dataset's group the labels get their own name again, by which netCDF's readers find them.
   void label(const std::string& path, const std::vector<std::string>& labels);
 
-  /// Bytes of any number, in place of those that were there.
-  void bytes(const std::string& path, const std::vector<std::uint8_t>& values,
-             const std::string& description);
-
   /// A series without rows, in groups that are created with it.
   void create(const SeriesLayout& layout);
   /// Sets rows `first` on of a series, and no others behind them, from `count` rows of values.
   void append(const SeriesLayout& layout, hsize_t first, hsize_t count, const void* values);
-  /// Sets chunks [begin, end) of a series to those of another file, as they are stored, and no rows
-  /// behind them.
-  void copy_chunks(const Hdf5Reader& from, const SeriesLayout& layout, hsize_t begin, hsize_t end);
   /// Closes a file on the disk. Throws FileError where that fails, after which it is of no use.
   void close();
 

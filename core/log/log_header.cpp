@@ -45,6 +45,17 @@ void write_header(const LogHeader& header, Hdf5Writer& h5) {
   if (!header.branched_from.empty()) {
     h5.root_attribute("branched_from", header.branched_from);
   }
+  if (!header.past.empty()) {
+    std::vector<std::string> scenes;
+    Eigen::VectorXd ends(static_cast<Eigen::Index>(header.past.size()));
+    for (const SceneBefore& before : header.past) {
+      ends[static_cast<Eigen::Index>(scenes.size())] = static_cast<double>(before.end);
+      scenes.push_back(before.scene);
+    }
+    h5.group("/branch");
+    h5.texts(past_scenes, scenes);
+    h5.numbers(past_ends, ends, {"1", "step before which each scene gave way to the next one"});
+  }
   h5.group("/mjcf");
   if (header.level == LogLevel::summary) return;  // without q there is nothing to replay
   for (const auto& [name, text] : header.mjcf) {

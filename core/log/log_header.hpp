@@ -15,6 +15,15 @@ namespace hagfish {
 inline constexpr const char* log_format = "hagfish-log";
 inline constexpr int log_format_version = 1;
 
+/// A scene that a branch's run was in before the log's own.
+struct SceneBefore {
+  std::string scene;     ///< fully resolved TOML
+  std::int64_t end = 0;  ///< step before which the next one began
+};
+/// Where a branch's log has these.
+inline constexpr const char* past_scenes = "/branch/scene";
+inline constexpr const char* past_ends = "/branch/end";
+
 /// How a log came about.
 struct LogHeader {
   std::string command;  ///< as typed
@@ -25,6 +34,7 @@ struct LogHeader {
   LogLevel level = LogLevel::full;
   std::string simulator;      ///< that took the steps, where that is not this program
   std::string branched_from;  ///< of a branch: log, step and time; empty otherwise
+  std::vector<SceneBefore> past;
 };
 
 /// Root attributes, and /mjcf.

@@ -8,9 +8,8 @@ namespace {
 
 /// What only logs of a level and those above it hold, by how its path begins.
 const std::vector<std::string> only_full = {
-    "/steps/",        "/midway/",          "/control/",        "/basis/",           "/reflex/",
-    "/eq6/",          "/checkpoints/step", "/checkpoints/end", "/checkpoints/data", "/forces/",
-    "/trajectory/qd", "/trajectory/q_ref", "/mean/forces/net", "/muscle/driven"};
+    "/steps/",  "/midway/",       "/control/",         "/basis/",          "/reflex/",      "/eq6/",
+    "/forces/", "/trajectory/qd", "/trajectory/q_ref", "/mean/forces/net", "/muscle/driven"};
 const std::vector<std::string> not_in_summaries = {
     "/trajectory/q", "/trajectory/position", "/mean/forces/", "/contacts/", "/forces/", "/muscle/"};
 const std::vector<std::string> single = {"/trajectory/position", "/mean/forces/", "/muscle/"};

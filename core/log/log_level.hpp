@@ -11,7 +11,7 @@ namespace hagfish {
 enum class LogLevel {
   summary,  ///< along the frames: time, phase, knot, Eq. 6, pull, energies, worst figures
   frames,   ///< also the motion and what acts on it, as figures, tables, replays and films need
-  full      ///< every step, forces at the frames, checkpoints: what an audit and a branch need
+  full      ///< every step, and forces at the frames: what an audit needs
 };
 
 /// Their names, in the order of the values.

@@ -29,13 +29,6 @@ class RunningMeans {
   /// Means of all steps since the last call; then starts over.
   const FrameMeans& close();
 
-  Eigen::Index size() const { return sum_.net_force.size(); }
-  /// What is summed up so far, for a checkpoint.
-  template <class Archive>
-  void serialize(Archive& archive) {
-    archive(sum_, steps_, with_row_);
-  }
-
  private:
   void clear();
   FrameMeans sum_, mean_;

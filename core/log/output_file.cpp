@@ -80,7 +80,11 @@ void OutputFile::take_lock() {
     if (lock_descriptor_ < 0) {
       throw FileError(file_.string() + ": cannot be created: " + std::strerror(errno));
     }
-    if (::flock(lock_descriptor_, LOCK_EX | LOCK_NB) != 0) {
+    const bool locked_it = ::flock(lock_descriptor_, LOCK_EX | LOCK_NB) == 0;
+    if (!locked_it && (errno == ENOLCK || errno == ENOSYS || errno == EOPNOTSUPP)) {
+      return;  // a file system without locks
+    }
+    if (!locked_it) {
       const int reason = errno;
       ::close(lock_descriptor_);
       throw FileError(file_.string() +
@@ -106,17 +110,17 @@ OutputFile::~OutputFile() {
 }
 
 void OutputFile::publish() {
-  if (existing_ == Existing::replace) {
-    if (std::rename(partial_.c_str(), file_.c_str()) == 0) {
-      return;
-    }
-  } else if (::link(partial_.c_str(), file_.c_str()) == 0) {  // fails where the name is taken
+  const bool replace = existing_ == Existing::replace;
+  if (!replace && ::link(partial_.c_str(), file_.c_str()) == 0) {  // fails where the name is taken
     ::unlink(partial_.c_str());
     return;
   }
-  const std::string reason = errno == EEXIST
-                                 ? "another program created this file during the run"
-                                 : std::string("cannot be named: ") + std::strerror(errno);
+  // On a file system without hard links, as a USB stick's, a look at the name has to do.
+  std::error_code error;
+  const bool taken = !replace && fs::exists(file_, error);
+  if (!taken && std::rename(partial_.c_str(), file_.c_str()) == 0) return;
+  const std::string reason = taken ? "another program created this file during the run"
+                                   : std::string("cannot be named: ") + std::strerror(errno);
   throw FileError(file_.string() + ": " + reason + "; the output of this run is in " +
                   partial_.string());
 }

@@ -65,36 +65,19 @@ std::size_t AnySeries::room() const {
   return index_size + (end - begin) * (chunk * width + blocks * index_entry);
 }
 
-void AnySeries::write(const Hdf5Reader& newer, Hdf5Writer& older) const {
-  hsize_t from = first_;
-  if (layout_.meaning.storage == Storage::packed) {
-    // Chunks that are full in the newer file.
-    const hsize_t begin = first_ / layout_.chunk_rows;
-    const hsize_t end = saved_ / layout_.chunk_rows;
-    if (begin < end) {
-      older.copy_chunks(newer, layout_, begin, end);
-      from = end * layout_.chunk_rows;
-    }
-  }
-  if (total_ > from) {
-    older.append(layout_, from, total_ - from, waiting(from - first_));
-  }
+void AnySeries::write(Hdf5Writer& file) const {
+  if (total_ > first_) file.append(layout_, first_, total_ - first_, waiting());
+}
+
+void AnySeries::written() {
+  keep(0);
+  first_ = total_;
 }
 
 void AnySeries::cut(hsize_t rows) {
   if (rows >= total_) return;
   keep(rows - first_);
   total_ = rows;
-}
-
-void AnySeries::saved() {
-  files_are_alike();
-  saved_ = total_;
-}
-
-void AnySeries::files_are_alike() {
-  forget(saved_ - first_);
-  first_ = saved_;
 }
 
 template <class T>
@@ -111,21 +94,6 @@ void Series<T>::append(const T* row, std::size_t count) {
     }
   }
   count_rows(1);
-}
-
-template <class T>
-void Series<T>::append_all(const std::vector<T>& values) {
-  if (row_size() != 1) {
-    throw std::logic_error("log row has the wrong size");
-  }
-  waiting_.insert(waiting_.end(), values.begin(), values.end());
-  count_rows(values.size());
-}
-
-template <class T>
-void Series<T>::forget(std::size_t rows) {
-  waiting_.erase(waiting_.begin(),
-                 waiting_.begin() + static_cast<std::ptrdiff_t>(rows * row_size()));
 }
 
 template class Series<double>;

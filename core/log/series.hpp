@@ -7,13 +7,11 @@
 #include <type_traits>
 #include <vector>
 
-#include "core/log/hdf5_reader.hpp"
 #include "core/log/hdf5_writer.hpp"
 
 namespace hagfish {
 
-/// A growing dataset of whatever type. It is saved to two files by turns (TwinFile), so rows wait
-/// until both have them: those from `first` on.
+/// A growing dataset of whatever type. Rows wait in memory until they are written to the file.
 class AnySeries {
  public:
   AnySeries(SeriesLayout layout, std::size_t value_size);
@@ -28,24 +26,20 @@ class AnySeries {
   std::size_t row_bytes() const { return row_size_ * value_size_; }
   /// Rows so far, saved or not.
   hsize_t rows() const { return total_; }
-  /// Goes on behind `rows` that both files have; nothing has been appended yet.
-  void go_on(hsize_t rows) { first_ = saved_ = total_ = rows; }
-  /// Drops all but the first `rows`; those dropped must not have been saved.
+  /// Drops all but the first `rows`; those dropped must not have been written.
   void cut(hsize_t rows);
-  /// Bytes that write() may add to a file.
+  /// Bytes that write() may add to the file.
   std::size_t room() const;
-  /// Writes all that waits to `older`, the one of the two files that has fewer rows. What `newer`
-  /// has compressed already is not compressed again.
-  void write(const Hdf5Reader& newer, Hdf5Writer& older) const;
-  /// What was written is saved: now the other file has fewer rows.
-  void saved();
-  /// Both files have the rows of the one that had more.
-  void files_are_alike();
+  /// Writes all that waits to the file, which has the rows before.
+  void write(Hdf5Writer& file) const;
+  /// What was written waits no more.
+  void written();
+  /// Of what waits.
+  std::size_t waiting_bytes() const { return (total_ - first_) * row_bytes(); }
 
  protected:
-  virtual const void* waiting(std::size_t skipped_rows) const = 0;
-  virtual void forget(std::size_t rows) = 0;  ///< the first ones that wait
-  virtual void keep(std::size_t rows) = 0;    ///< of those that wait the first ones alone
+  virtual const void* waiting() const = 0;
+  virtual void keep(std::size_t rows) = 0;  ///< of those that wait the first ones alone
   std::size_t row_size() const { return row_size_; }
   void count_rows(hsize_t rows) { total_ += rows; }
 
@@ -53,8 +47,7 @@ class AnySeries {
   SeriesLayout layout_;
   std::size_t row_size_;    // values
   std::size_t value_size_;  // bytes
-  hsize_t first_ = 0;       // that waits: rows of the file that has fewer
-  hsize_t saved_ = 0;       // rows of the file that has more
+  hsize_t first_ = 0;       // that waits: rows of the file
   hsize_t total_ = 0;
 };
 
@@ -68,14 +61,9 @@ class Series final : public AnySeries {
   /// Appends one row; `count` must be the row's size.
   void append(const T* row, std::size_t count);
   void append(T value) { append(&value, 1); }
-  /// Appends rows of one value each.
-  void append_all(const std::vector<T>& values);
 
  protected:
-  const void* waiting(std::size_t skipped_rows) const override {
-    return waiting_.data() + skipped_rows * row_size();
-  }
-  void forget(std::size_t rows) override;
+  const void* waiting() const override { return waiting_.data(); }
   void keep(std::size_t rows) override { waiting_.resize(rows * row_size()); }
 
  private:

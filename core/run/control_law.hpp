@@ -36,9 +36,8 @@ struct Situation {
 /// Writes into `control` what the step from `at` does. At the call `control` holds the scene's
 /// clamp of the phase and the rest shape of the last step (empty at first). It holds no tip force
 /// and no commands, and its torques are 0 or empty. `memory` is for the law: what it keeps from
-/// step to step, as numbers of any meaning. It is empty at first, saved in checkpoints, and
-/// restored where a step cannot be taken. A law that keeps anything else does not resume as it was.
-/// The law may throw; take_step passes this on.
+/// step to step, as numbers of any meaning. It is empty at first, and restored where a step cannot
+/// be taken: a law keeps nothing else. The law may throw; take_step passes this on.
 using ControlLaw =
     std::function<void(const Situation& at, Eigen::VectorXd& memory, Control& control)>;
 

@@ -349,8 +349,6 @@ struct TimeSettings {
   /// times h² of their stiffness damps them, at the velocity after the step, 1/s.
   double ring_damping = 1;
   double frame_interval = 0.020;  ///< time between logged frames, s; a whole number of steps
-  /// Time between checkpoints in the log, from which a run can branch, rounded to whole frames, s.
-  double checkpoint_interval = 1;
   double duration = 30;       ///< the run ends here at the latest, s
   Phase until = Phase::free;  ///< the run ends with this phase
 

@@ -65,7 +65,7 @@ bool same_points(const std::optional<Contact>& x, const Contact& y) {
 }
 
 /// The patch that begins at the contact of a command: that of `found`, if it has one of this
-/// contact. An observation out of a checkpoint has none.
+/// contact.
 const std::vector<PatchPoint>& patch_of(const std::vector<SplineSegment>& segments,
                                         const ThigmotaxisCommand& command, const Scene& scene,
                                         const Observation* found,

@@ -31,11 +31,6 @@ class WarmStart {
   /// none.
   Eigen::VectorXd half_change, half_before;
   double remaining = 1;  ///< of the last step (StepSolution)
-  /// The multipliers, for a checkpoint.
-  template <class Archive>
-  void serialize(Archive& archive) {
-    archive(entries_);
-  }
 
  private:
   std::vector<Kept> entries_;  // by id

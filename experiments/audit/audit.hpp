@@ -30,9 +30,9 @@ Finding judged_over(const Criterion& criterion, const std::string& scope = "");
 Finding all_of(const std::string& name, std::int64_t count, std::int64_t of,
                const std::string& unit, const std::string& text);
 
-/// All findings on one log, in the order of its groups. Checkpoints are not followed where the
-/// caller is going to run the scene `anew` and that shows as much (comes_again). Throws FileError
-/// or InputError where the file is not a log of this format and version, or a dataset is missing.
-std::vector<Finding> audit(const std::string& file, bool anew = false);
+/// All findings on one log, in the order of its groups. Throws FileError or InputError where it is
+/// not a log of this format and version, or a dataset is missing.
+std::vector<Finding> audit(const LogContents& log);
+std::vector<Finding> audit(const std::string& file);
 
 }  // namespace hagfish

@@ -7,8 +7,8 @@
 
 #include "core/chain/dynamics.hpp"
 #include "mujoco_ref/forward_inverse.hpp"
-#include "mujoco_ref/log_model.hpp"
 #include "mujoco_ref/mirror.hpp"
+#include "mujoco_ref/mjcf.hpp"
 #endif
 
 namespace hagfish {
@@ -28,11 +28,7 @@ std::vector<Hdf5Reader::Rows> generalised_forces(const LogContents& log) {
 
 MujocoModel mirror_of(const LogContents& log) {
   const TimeSettings& time = log.resolved.scene.time;
-  MujocoModel mirror = mujoco_model_of(log.h5);
-  const std::string difference = first_difference(*mirror.model(), log.model, time.step);
-  if (!difference.empty()) {
-    throw FileError(log.h5.file() + ": /mjcf is not the scene's model: " + difference);
-  }
+  MujocoModel mirror(mjcf_files(log.model, log.resolved.scene.contact.least_arc, time.step));
   mirror.model()->opt.timestep = time.reach();
   use_core_rule(mirror);
   return mirror;

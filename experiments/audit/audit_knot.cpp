@@ -261,7 +261,9 @@ double largest_muscle_torque(const LogContents& log) {
 
 SeenKnot see_knot(const LogContents& log, const AuditedFrame& frame) {
   const Eigen::Matrix3Xd& centre = frame.observation.kin.centre;
-  return {knot_type(centre, log.resolved.scene.knot), holds_knot(frame.phase) ? writhe(centre) : 0};
+  const Scene& scene = log.resolved.scene;
+  const bool asked = scene.expect.hand != Hand::any && holds_knot(frame.phase);
+  return {knot_type(centre, scene.knot), asked ? writhe(centre) : 0};
 }
 
 std::vector<Finding> audit_knot(const LogContents& log, const std::vector<SeenKnot>& seen) {

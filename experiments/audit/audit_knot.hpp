@@ -14,7 +14,7 @@ namespace hagfish {
 /// The knot of one frame, from the body as its q says.
 struct SeenKnot {
   KnotVote vote;
-  double writhe = 0;  ///< while the knot is held, else 0
+  double writhe = 0;  ///< while the knot is held and its hand is asked for, else 0
 };
 SeenKnot see_knot(const LogContents& log, const AuditedFrame& frame);
 

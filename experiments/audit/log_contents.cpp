@@ -8,7 +8,7 @@
 #include "core/log/axis_labels.hpp"
 #include "core/log/log_header.hpp"
 #include "core/log/log_writer.hpp"
-#include "core/log/saved_run.hpp"
+#include "core/log/logged_run.hpp"
 #include "core/run/controller.hpp"
 #include "experiments/audit/log_schema.hpp"
 
@@ -17,7 +17,7 @@ namespace hagfish {
 LogContents::LogContents(const std::string& file, LogLevel least) : h5(file) {
   require_log(h5);
   require_level(h5, least);
-  resolved = read_scene_text(h5.root_text("scene"), file + ": scene");
+  resolved = logged_scene(h5);
   model = make_hagfish(resolved.specimen, resolved.scene);
   check_schema(h5, model, resolved.scene);
   time = h5.doubles("/trajectory/time");

@@ -9,12 +9,11 @@
 #include <functional>
 #include <numeric>
 
-#include "core/log/end_of_run.hpp"
 #include "core/log/frame_rows.hpp"
 #include "core/log/log_frame.hpp"
 #include "core/log/log_step.hpp"
 #include "core/log/log_writer.hpp"
-#include "core/log/saved_run.hpp"
+#include "core/log/logged_run.hpp"
 
 namespace hagfish {
 namespace {
@@ -45,6 +44,13 @@ constexpr const char* always_there[] = {"/trajectory/time",
                                         "/diagnostics/wall_time",
                                         "/steps/kkt"};
 
+/// Type and extents of a dataset.
+struct DatasetForm {
+  std::string path;
+  std::vector<hsize_t> shape;
+  H5T_class_t type;
+};
+
 [[noreturn]] void refuse(const Hdf5Reader& log, const std::string& what) {
   throw FileError(log.file() + ": " + what);
 }
@@ -70,8 +76,8 @@ hsize_t rows_of(const Hdf5Reader& log, const std::string& path) {
 
 void add_forms(const SeriesList& table, hsize_t rows, std::vector<DatasetForm>& forms) {
   for (const auto& series : table) {
-    const auto layout = std::make_shared<SeriesLayout>(series->layout());
-    forms.push_back({layout->path, layout->shape(rows), layout->type.getClass(), layout});
+    const SeriesLayout& layout = series->layout();
+    forms.push_back({layout.path, layout.shape(rows), layout.type.getClass()});
   }
 }
 
@@ -168,14 +174,8 @@ void check_activations(const Hdf5Reader& log) {
   }
 }
 
-}  // namespace
-
-bool ends_with_end_frame(const Hdf5Reader& log) {
-  const std::vector<std::int64_t> step = log.integers("/trajectory/step");
-  return step.size() > 1 && holds(level_of(log), "/steps/kkt") &&
-         has_end_frame(log, step.front() + static_cast<std::int64_t>(rows_of(log, "/steps/kkt")));
-}
-
+/// Every dataset along frames, steps and contacts as the writer of logs declares it, with the rows
+/// that this log has of each.
 std::vector<DatasetForm> log_forms(const Hdf5Reader& log, const Model& model, const Scene& scene) {
   // The writer says what there must be; nothing is written.
   const LogLevel level = level_of(log);
@@ -199,6 +199,14 @@ void check_form(const Hdf5Reader& log, const DatasetForm& form) {
     refuse(log, fmt::format("{} has the shape ({}), not ({}), that of its model and frames",
                             form.path, fmt::join(shape, ", "), fmt::join(form.shape, ", ")));
   }
+}
+
+}  // namespace
+
+bool ends_with_end_frame(const Hdf5Reader& log) {
+  const std::vector<std::int64_t> step = log.integers("/trajectory/step");
+  return step.size() > 1 && holds(level_of(log), "/steps/kkt") &&
+         step.back() == step.front() + static_cast<std::int64_t>(rows_of(log, "/steps/kkt"));
 }
 
 void check_schema(const Hdf5Reader& log, const Model& model, const Scene& scene) {

@@ -15,6 +15,7 @@
 #include "core/chain/dynamics.hpp"
 #include "core/chain/start.hpp"
 #include "core/contact/observation.hpp"
+#include "core/run/drive.hpp"
 #include "experiments/benchmarks/mujoco_setting.hpp"
 #include "experiments/benchmarks/start.hpp"
 #include "mujoco_ref/mirror.hpp"
@@ -66,13 +67,12 @@ Seen run_core(const ResolvedScene& resolved, double h) {
   StepRecord record;
   Seen seen;
   const double begin = cpu_time();
-  while (!finished(sim, scene)) {
-    take_step(model, scene, sim, record);
-    if (time_of(sim, scene) > 0.5 * scene.time.duration) {
-      seen.overlap = std::max(seen.overlap, sim.now.observation.penetration);
-      seen.limits = std::max(seen.limits, sim.now.observation.limit_violation);
-    }
-  }
+  const auto look = [&](const StepRecord&, const Simulation& at) {
+    if (time_of(at, scene) <= 0.5 * scene.time.duration) return;
+    seen.overlap = std::max(seen.overlap, at.now.observation.penetration);
+    seen.limits = std::max(seen.limits, at.now.observation.limit_violation);
+  };
+  if (const Status end = drive(model, scene, sim, record, {look}); !end.ok()) throw StepError(end);
   seen.cpu = (cpu_time() - begin) / scene.time.duration;
   return seen;
 }

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/knot/knot.hpp"
+#include "core/run/drive.hpp"
 #include "core/step/outcome.hpp"
 #include "experiments/design/knot_table.hpp"
 #include "experiments/specimen/specimen_files.hpp"
@@ -154,18 +155,19 @@ Shapes shapes_in(const SoftBody& body, const Scene& scene, double until, Simulat
   Shapes shapes;
   std::vector<Eigen::VectorXd> q;
   StepRecord record;
-  while (!finished(sim, scene) && time_of(sim, scene) < until) {
-    try {
-      take_step(body.model, scene, sim, record);
-    } catch (const std::exception& error) {
-      shapes.failure = error.what();
-      break;
+  const auto keep = [&](const StepRecord& step, const Simulation&) {
+    if (shapes.tighten_from == 0 && step.controller.phase == Phase::tighten) {
+      shapes.tighten_from = step.time;
     }
-    if (shapes.tighten_from == 0 && record.controller.phase == Phase::tighten) {
-      shapes.tighten_from = record.time;
-    }
-    shapes.time.push_back(record.time);
-    q.push_back(record.moment.state.q);
+    shapes.time.push_back(step.time);
+    q.push_back(step.moment.state.q);
+  };
+  try {
+    const Status end = drive(body.model, scene, sim, record, {keep},
+                             [&] { return time_of(sim, scene) >= until; });
+    if (end.outcome != Outcome::stopped) shapes.failure = end.message;
+  } catch (const std::exception& error) {
+    shapes.failure = error.what();
   }
   shapes.q.resize(static_cast<Eigen::Index>(q.size()), body.model.nq());
   for (std::size_t k = 0; k < q.size(); ++k) shapes.q.row(static_cast<Eigen::Index>(k)) = q[k];

@@ -1,6 +1,6 @@
 """What a knot tied round a smooth pole holds: weights that pull the whole animal along the pole and across it.
 
-Usage: world_pole.py FOLDER, of experiments/studies/world.sh. Goes on from a checkpoint of pole/run.h5, in the slide, with gravity
+Usage: world_pole.py FOLDER, of experiments/studies/world.sh. Goes on from a frame of pole/run.h5, in the slide, with gravity
 of other sizes and ways. Leaves tables/world_pole.csv. Needs the program as built (HAGFISH_PROGRAM).
 """
 

@@ -8,6 +8,7 @@
 #include "core/input/input_text.hpp"
 #include "core/knot/knot.hpp"
 #include "core/knot/writhe.hpp"
+#include "core/run/drive.hpp"
 #include "core/run/simulation.hpp"
 #include "core/scene/interpolation.hpp"
 #include "experiments/film/film_rigid.hpp"
@@ -116,17 +117,18 @@ std::vector<FilmTrial> try_stiffness(const ResolvedScene& base, const CurvatureP
     try {
       Simulation sim = start(model, scene, "active-set");
       StepRecord record;
-      while (time_of(sim, scene) < program.time.back() && sim.controller.phase == Phase::form &&
-             !finished(sim, scene)) {
-        const double time = time_of(sim, scene);
-        if (time >= next) {
-          squares += squares_off(kinematics(model, sim.now.state), shape, values_at(program, time),
-                                 places, scene.clamp_head);
-          count += static_cast<double>(places.size());
-          next += compare_each;
-        }
-        take_step(model, scene, sim, record);
-      }
+      const auto compare = [&](const StepRecord& step, const Simulation&) {
+        if (step.time < next) return;
+        squares += squares_off(kinematics(model, step.moment.state), shape,
+                               values_at(program, step.time), places, scene.clamp_head);
+        count += static_cast<double>(places.size());
+        next += compare_each;
+      };
+      const auto formed = [&] {
+        return time_of(sim, scene) >= program.time.back() || sim.controller.phase != Phase::form;
+      };
+      const Status end = drive(model, scene, sim, record, {compare}, formed);
+      if (!end.ok() && end.outcome != Outcome::stopped) throw StepError(end);
       const Kinematics kin = kinematics(model, sim.now.state);
       trial.knot = knot_of(kin.centre, scene.knot);
       trial.rms = std::sqrt(squares / std::max(count, 1.0));

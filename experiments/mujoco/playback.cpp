@@ -8,10 +8,9 @@
 #include <cstdio>
 
 #include "core/chain/dynamics.hpp"
-#include "core/log/saved_run.hpp"
+#include "core/log/logged_run.hpp"
 #include "core/run/controller.hpp"
 #include "core/step/step.hpp"
-#include "mujoco_ref/log_model.hpp"
 #include "mujoco_ref/mirror.hpp"
 
 namespace hagfish {

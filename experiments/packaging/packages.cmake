@@ -25,5 +25,5 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-xarray, python3-h5netcdf")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libhagfish-dev)
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Libraries and headers of the simulator of knotting hagfish.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-  "pkg-config, libeigen3-dev, libhdf5-dev, zlib1g-dev, libfmt-dev, coinor-libipopt-dev, libmujoco-dev, libegl-dev, libpng-dev, libtinyxml2-dev")
+  "pkg-config, libeigen3-dev, libhdf5-dev, libfmt-dev, coinor-libipopt-dev, libmujoco-dev, libegl-dev, libpng-dev")
 include(CPack)

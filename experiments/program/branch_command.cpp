@@ -1,8 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 
-#include "experiments/audit/log_schema.hpp"
+#include "core/log/logged_run.hpp"
 #include "experiments/program/idle_settings.hpp"
 #include "experiments/program/program.hpp"
 #include "experiments/program/scene_run.hpp"
@@ -18,38 +19,50 @@ struct BranchOptions {
   RunOptions run;
 };
 
-int branch(const BranchOptions& options, const std::string& typed) {
-  const Hdf5Reader h5(options.log);
-  SavedRun run = saved_run_at(h5, options.time);
-  check_schema(h5, run.model, run.resolved.scene);
-  require_named_law(run.resolved.scene, options.log + ": ");
-  const double time = time_of(run.sim, run.resolved.scene);
-  if (!options.set.empty()) {
-    const ResolvedScene resolved =
-        read_scene_text(h5.root_text("scene"), options.log + ": scene", options.set);
-    run.model = make_hagfish(resolved.specimen, resolved.scene);
-    check_sense(resolved, run.model, options.run.force);
-    require_settings_act_from(run.sim, resolved.scene, options.set);
-    try {
-      change_scene(run.model, run.resolved.scene, resolved.scene, run.sim);
-    } catch (const std::invalid_argument& error) {
-      throw InputError(
-          fmt::format("{}: cannot branch at {:g} s: {}", options.log, time, error.what()));
-    }
-    run.resolved = resolved;
+/// The step of the last frame up to `time` (s).
+std::int64_t frame_up_to(const Hdf5Reader& h5, double time) {
+  const std::vector<double> times = h5.doubles("/trajectory/time");
+  // Half a step of slack: the time of a step is a product and may come out larger by rounding.
+  const double slack = 0.5 * logged_scene(h5).scene.time.step;
+  const auto behind = std::ranges::upper_bound(times, time + slack) - times.begin();
+  if (behind == 0) {
+    throw FileError(fmt::format("{}: begins at {:g} s", h5.file(), times.at(0)));
   }
-  if (finished(run.sim, run.resolved.scene)) {
+  return h5.integers("/trajectory/step").at(static_cast<std::size_t>(behind - 1));
+}
+
+int branch_off(const BranchOptions& options, const std::string& typed) {
+  const Hdf5Reader h5(options.log);
+  const LoggedRun run = logged_run(h5);
+  const std::int64_t step = frame_up_to(h5, options.time);
+  Simulation sim = begin_again(run);
+  go_on_to(step, run.model, run.resolved.scene, sim);
+  const double time = time_of(sim, run.resolved.scene);
+  const ResolvedScene resolved = logged_scene(h5, options.set);
+  const Model model = make_hagfish(resolved.specimen, resolved.scene);
+  if (!options.set.empty()) {
+    check_sense(resolved, model, options.run.force);
+    require_settings_act_from(sim, resolved.scene, options.set);
+  }
+  try {
+    branch(model, run.resolved, resolved, sim);
+  } catch (const std::invalid_argument& error) {
+    throw InputError(
+        fmt::format("{}: cannot branch at {:g} s: {}", options.log, time, error.what()));
+  }
+  if (finished(sim, resolved.scene)) {
     throw InputError(
         fmt::format("{}: cannot branch at {:g} s: the scene has ended by then "
                     "(time.duration = {:g} s; use --time for an earlier branch)",
-                    options.log, time, run.resolved.scene.time.duration));
+                    options.log, time, resolved.scene.time.duration));
   }
-  run.sim.watch = {};  // the branch's own log warns of what it does
-  LogHeader header = log_header(run.resolved, run.model, run.qp, typed);
-  header.branched_from = fmt::format("{}, step {}, t = {:g} s", options.log, run.sim.step, time);
-  LogWriter log(options.run.out, options.run.force, header, run.model, run.resolved.scene);
-  if (!options.set.empty()) warn_of_odd_things(run.resolved);
-  return take_run(run.model, run.resolved.scene, std::move(run.sim), options.run, log);
+  LogHeader header = log_header(resolved, model, run.qp, typed);
+  header.branched_from = fmt::format("{}, step {}, t = {:g} s", options.log, step, time);
+  header.past = run.past;
+  header.past.push_back({h5.root_text("scene"), step});
+  LogWriter log(options.run.out, options.run.force, header, model, resolved.scene);
+  if (!options.set.empty()) warn_of_odd_things(resolved);
+  return take_run(model, resolved.scene, std::move(sim), options.run, log);
 }
 
 }  // namespace
@@ -57,14 +70,14 @@ int branch(const BranchOptions& options, const std::string& typed) {
 void add_branch(Program& program) {
   const auto options = std::make_shared<BranchOptions>();
   CLI::App* branched = program.app.add_subcommand(
-      "branch", "go on from a checkpoint of a log, with other settings if wanted");
+      "branch", "go on from a frame of a log, with other settings if wanted");
   branched->add_option("LOG", options->log, "a log, or what a run left of it")->required();
   branched->add_option("--time", options->time,
-                       "from the last checkpoint up to this simulated time, s (the last one)");
+                       "from the last frame up to this simulated time, s (the last one)");
   branched->add_option("--set", options->set, set_help)->allow_extra_args(false);
   branched->add_option("--out", options->run.out, "log to write")->required();
   add_run_options(*branched, options->run);
-  branched->callback([options, &program] { program.code = branch(*options, program.typed); });
+  branched->callback([options, &program] { program.code = branch_off(*options, program.typed); });
 }
 
 }  // namespace hagfish

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/input/input_text.hpp"
-#include "core/log/saved_run.hpp"
+#include "core/log/logged_run.hpp"
 #include "core/run/controller.hpp"
 #include "experiments/audit/log_contents.hpp"
 #include "experiments/export/swept_skin.hpp"

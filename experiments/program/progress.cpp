@@ -32,7 +32,7 @@ Progress::Progress(const Model& model, const Scene& scene, bool quiet, double be
     : model_(model),
       scene_(scene),
       quiet_(quiet),
-      terminal_(isatty(STDERR_FILENO) != 0),
+      terminal_(isatty(fileno(stderr)) != 0),
       before_(before),
       begin_(std::chrono::steady_clock::now()) {}
 

@@ -4,6 +4,7 @@
 
 #include "core/input/input_error.hpp"
 #include "core/input/input_text.hpp"
+#include "core/run/drive.hpp"
 #include "experiments/program/number_options.hpp"
 #include "experiments/program/program.hpp"
 #include "experiments/program/progress.hpp"
@@ -85,21 +86,20 @@ int record_qp(const RecordQpOptions& options, const std::string& typed) {
   std::string failure;
   Simulation sim = start(model, scene, options.qp);
   sim.solver.stop_when(interrupted);
-  while (failure.empty() && !finished(sim, scene)) {
-    if (interrupted()) {
-      failure = fmt::format("interrupted at step {}", sim.step);
-      break;
-    }
-    try {
-      const WarmStart warm = sim.solver.warm;
-      const StepRecord record = take_step(model, scene, sim);
-      recorder.take(record, warm);
-      progress.show(record);
-    } catch (const StepError& error) {
-      failure = fmt::format("{} at step {} (t = {:.4f} s)",
-                            error.outcome() == Outcome::stopped ? "interrupted" : error.what(),
-                            sim.step, time_of(sim, scene));
-    }
+  WarmStart warm;
+  StepRecord record;
+  const auto take = [&](Simulation& of, StepRecord& step) {
+    warm = of.solver.warm;
+    take_step(model, scene, of, step);
+  };
+  const auto see = [&](const StepRecord& step, const Simulation&) {
+    recorder.take(step, warm);
+    progress.show(step);
+  };
+  if (const Status end = drive(scene, take, sim, record, {see}, interrupted); !end.ok()) {
+    failure = fmt::format("{} at step {} (t = {:.4f} s)",
+                          end.outcome == Outcome::stopped ? "interrupted" : end.message, sim.step,
+                          time_of(sim, scene));
   }
   progress.end();
   set.finish();

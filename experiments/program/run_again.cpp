@@ -1,17 +1,16 @@
 #include "experiments/program/run_again.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <filesystem>
-#include <optional>
 
+#include "core/log/build_info.hpp"
 #include "core/log/log_writer.hpp"
-#include "core/log/saved_run.hpp"
-#include "core/log/seal.hpp"
-#include "experiments/audit/audit_checkpoints.hpp"
+#include "core/log/logged_run.hpp"
+#include "core/run/drive.hpp"
+#include "experiments/audit/compare_logs.hpp"
 #include "experiments/program/run_header.hpp"
 
 namespace hagfish {
@@ -19,35 +18,40 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Two runs have parted where velocities differ by this share of the largest; forces, which are
-/// changes of velocity over a step, differ by more: by `parted_forces` of the largest of their
-/// dataset.
-constexpr double parted = 1e-9;
-constexpr double parted_forces = 1e-3;
+/// Differences that are told.
+constexpr std::size_t most_told = 5;
+
+/// Whether this build made the log, on a machine of this kind.
+bool is_of_this_build(const Hdf5Reader& h5) {
+  return h5.root_text("git_revision") == build_revision() &&
+         h5.root_text("compiler") == build_compiler() && h5.root_text("cpu") == cpu_name();
+}
 
 /// A log in a folder of its own, which goes with it.
 class Rerun {
  public:
-  Rerun(const LogContents& log, std::int64_t steps) {
+  Rerun(const LoggedRun& run, std::int64_t steps) {
     std::string name = (fs::temp_directory_path() / "hagfish-XXXXXX").string();
     if (::mkdtemp(name.data()) == nullptr) {
       throw FileError(name + ": cannot be made: " + std::strerror(errno));
     }
     folder_ = name;
-    const Scene& scene = log.resolved.scene;
-    const std::string qp = log.h5.root_text("qp");
-    LogWriter writer(file(), false, log_header(log.resolved, log.model, qp, ""), log.model, scene);
-    Simulation sim = start(log.model, scene, qp);
+    const Scene& scene = run.resolved.scene;
+    LogHeader header = log_header(run.resolved, run.model, run.qp, "");
+    header.past = run.past;
+    if (!run.past.empty()) header.branched_from = "another log";
+    LogWriter writer(file(), false, header, run.model, scene);
+    Simulation sim = begin_again(run);
+    const std::int64_t end = sim.step + steps;
     StepRecord record;
-    try {
-      while (sim.step < steps) {
-        take_step(log.model, scene, sim, record);
-        writer.write(record, sim, 0);
-      }
-      writer.finish("complete", sim);
-    } catch (const StepError& error) {
-      writer.finish(std::string("failed: ") + error.what(), sim);
-    }
+    const auto write = [&writer](const StepRecord& step, const Simulation& at) {
+      writer.write(step, at, 0);
+    };
+    const Status ending =
+        drive(run.model, scene, sim, record, {write}, [&sim, end] { return sim.step == end; });
+    if (ending.outcome != Outcome::stopped) failure_ = ending.message;
+    complete_ = finished(sim, scene);
+    writer.finish("complete", sim);
   }
   ~Rerun() {
     std::error_code ignored;
@@ -57,153 +61,49 @@ class Rerun {
   Rerun& operator=(const Rerun&) = delete;
 
   fs::path file() const { return folder_ / "again.h5"; }
+  /// Why it ended early; empty where it did not.
+  const std::string& failure() const { return failure_; }
+  /// Whether its scene is over.
+  bool complete() const { return complete_; }
 
  private:
   fs::path folder_;
+  std::string failure_;
+  bool complete_ = false;
 };
 
-/// Datasets that a sealed log holds, but those that say how long the computer took.
-std::vector<std::string> datasets(const Hdf5Reader& h5) {
-  std::vector<std::string> paths;
-  for (const auto& [name, digest] : read_seal(h5.text(seal_path))) {
-    const bool wall = name.ends_with("/qp_time") || name.ends_with("/wall_time");
-    const bool link = digest == 0;  // to labels that are elsewhere in the file
-    if (!wall && !link && name.find(": attribute ") == std::string::npos) paths.push_back(name);
+/// What is otherwise in the run made again, and how far it is not.
+LogComparison compared(const LogContents& log) {
+  const auto steps = static_cast<std::int64_t>(log.h5.shape("/steps/time").at(0));
+  const Rerun rerun(logged_run(log.h5), steps);
+  LogComparison compared = compare_logs(log, rerun.file(), is_of_this_build(log.h5));
+  std::vector<std::string>& otherwise = compared.differences;
+  if (!rerun.failure().empty()) otherwise.insert(otherwise.begin(), "fails: " + rerun.failure());
+  if (log.h5.root_text("status") == "complete" && !rerun.complete()) {
+    otherwise.emplace_back("its scene is not over where the log ends");
   }
-  return paths;
-}
-
-/// Rows of a series as numbers, or of texts as their lengths and characters.
-Hdf5Reader::Rows numbers(const Hdf5Reader& h5, const std::string& path) {
-  if (h5.type(path) == H5T_FLOAT) return h5.rows(path);
-  std::vector<double> values;
-  if (h5.type(path) == H5T_STRING) {
-    for (const std::string& text : h5.texts(path)) {
-      values.push_back(static_cast<double>(std::hash<std::string>()(text)));
-    }
-  } else {
-    const std::vector<std::int64_t> whole = h5.integers(path);
-    values.assign(whole.begin(), whole.end());
-  }
-  const std::vector<hsize_t> shape = h5.shape(path);
-  const auto rows = static_cast<Eigen::Index>(shape.empty() ? 1 : shape[0]);
-  const auto width = rows > 0 ? static_cast<Eigen::Index>(values.size()) / rows : 0;
-  return Eigen::Map<const Hdf5Reader::Rows>(values.data(), rows, width);
-}
-
-/// The first row at which two differ by more than `tolerance` of the largest number; a difference
-/// in extent is one behind the shorter one's end.
-std::optional<Eigen::Index> first_difference(const Hdf5Reader::Rows& a, const Hdf5Reader::Rows& b,
-                                             double tolerance) {
-  const auto finite = [](double v) { return std::isfinite(v) ? std::abs(v) : 0; };
-  const double scale = a.size() > 0 ? a.unaryExpr(finite).maxCoeff() : 0;
-  const auto same = [&](double x, double y) {
-    if (tolerance == 0) return std::memcmp(&x, &y, sizeof x) == 0;
-    return (std::isnan(x) && std::isnan(y)) || x == y || std::abs(x - y) <= tolerance * scale;
-  };
-  const Eigen::Index rows = std::min(a.rows(), b.rows());
-  for (Eigen::Index i = 0; i < rows && a.cols() == b.cols(); ++i) {
-    for (Eigen::Index k = 0; k < a.cols(); ++k) {
-      if (!same(a(i, k), b(i, k))) return i;
-    }
-  }
-  if (a.cols() != b.cols() && rows > 0) return 0;
-  return a.rows() != b.rows() ? std::optional(rows) : std::nullopt;
-}
-
-/// When a row of a dataset was logged, s; 0 of what is not of frames or steps.
-double time_of_row(const LogContents& log, const std::string& path, Eigen::Index row) {
-  const auto at = [row](const std::vector<double>& time) {
-    return time[std::min<std::size_t>(row, time.size() - 1)];
-  };
-  if (path.starts_with("/steps/")) return at(log.h5.doubles("/steps/time"));
-  if (path.starts_with("/contacts/") || path.starts_with("/eq6/")) {
-    const std::string group = path.substr(0, path.find('/', 1));
-    const std::vector<std::int64_t> frame = log.h5.integers(group + "/frame");
-    return row < std::ssize(frame) ? log.time[frame[row]] : log.time.back();
-  }
-  if (path == "/checkpoints/step" || path == "/checkpoints/end") {
-    return static_cast<double>(log.h5.integers("/checkpoints/step").at(row)) *
-           log.resolved.scene.time.step;
-  }
-  if (path.starts_with("/checkpoints/") || path == "/checkpoints/last") return log.time.back();
-  const bool fixed = path.starts_with("/model/") || path.starts_with("/mjcf/") ||
-                     path.starts_with("/enumerations/");
-  return fixed ? 0 : at(log.time);
-}
-
-struct Difference {
-  double time = INFINITY;
-  std::string text;
-};
-
-/// A dataset of the rerun, but for the state at its end where the log, of an earlier version or of
-/// a run that was killed, has none.
-Hdf5Reader::Rows rows_again(const LogContents& log, const Hdf5Reader& again,
-                            const std::string& path) {
-  const Hdf5Reader::Rows rows = numbers(again, path);
-  const bool more = !log.has_end() && again.shape("/trajectory/time").at(0) > log.time.size() &&
-                    rows.rows() == log.q.rows() + 1;
-  return more ? rows.topRows(log.q.rows()).eval() : rows;
-}
-
-/// The earliest difference up to `end` (s), of numbers that may differ by `tolerance`.
-Difference earliest(const LogContents& log, const Hdf5Reader& again, double tolerance, double end) {
-  Difference first;
-  for (const std::string& path : datasets(again)) {
-    if (!log.h5.has(path)) return {0, path + " is not there"};
-    // How rounding is met, and what is left of it, may be another matter there.
-    if (tolerance > 0 && (log.h5.type(path) != H5T_FLOAT || path.starts_with("/mjcf/") ||
-                          path.find("kkt") != std::string::npos)) {
-      continue;
-    }
-    const auto row =
-        first_difference(numbers(log.h5, path), rows_again(log, again, path), tolerance);
-    if (!row) continue;
-    const double time = time_of_row(log, path, *row);
-    if (time >= first.time || time >= end) continue;
-    first = {time, fmt::format("{}, {} {}, {:g} s", path,
-                               path.starts_with("/steps/") ? "step" : "row", *row, time)};
-  }
-  return first;
-}
-
-/// When the motion of two runs differs first, s; infinite where it never does.
-double parting(const LogContents& log, const Hdf5Reader& again) {
-  const auto frame = first_difference(log.qdot, rows_again(log, again, "/trajectory/qdot"), parted);
-  return frame ? time_of_row(log, "/trajectory/qdot", *frame) : INFINITY;
+  return compared;
 }
 
 }  // namespace
 
-Finding audit_again(const std::string& file) {
-  const LogContents log(file);
-  require_own_steps(log.h5);
-  if (log.own_law()) {
-    return {"again", true, "not run anew: the law is the run's own", "", "", ""};
+Finding audit_again(const LogContents& log) try {
+  if (const std::string why = why_not_again(log.h5); !why.empty()) {
+    return {"again", true, "not run again: " + why, "", "", ""};
   }
-  if (log.h5.has_root_attribute("branched_from")) {
-    return {"again", true, "not run anew: where the branch begins is in another log", "", "", ""};
+  auto [otherwise, reach] = compared(log);
+  const std::size_t count = otherwise.size();
+  std::string text = "all of it comes again " + reach;
+  if (count > 0) {
+    if (count > most_told) otherwise.resize(most_told);
+    text = fmt::format("comes otherwise: {}", fmt::join(otherwise, "; "));
+    if (count > most_told) text += fmt::format("; and {} more", count - most_told);
   }
-  const auto steps = static_cast<std::int64_t>(log.h5.shape("/steps/time").at(0));
-  const Rerun rerun(log, steps);
-  const Hdf5Reader again(rerun.file(), Origin::own);
-  if (comes_again(log)) {
-    const Difference first = earliest(log, again, 0, INFINITY);
-    return judged({"again", first.text.empty() ? 0.0 : 1.0, 0, "differences"},
-                  first.text.empty() ? fmt::format("all of {} steps comes again bit by bit", steps)
-                                     : "comes otherwise first: " + first.text);
-  }
-  const double end = parting(log, again);
-  const Difference first = earliest(log, again, parted_forces, end);
-  const std::string upto =
-      std::isinf(end) ? "to the end" : fmt::format("up to {:g} s, where rounding parts them", end);
-  return judged({"again", first.text.empty() && end > 0 ? 0.0 : 1.0, 0, "differences"},
-                first.text.empty()
-                    ? fmt::format("made by another build or on another machine: the motion agrees "
-                                  "to {:g} {}",
-                                  parted, upto)
-                    : "comes otherwise first: " + first.text);
+  return judged({"again", static_cast<double>(count), 0, "differences"}, text);
+} catch (const FileError& error) {
+  return {
+      "again", false, fmt::format("cannot be run again: {} (--fast leaves it out)", error.what()),
+      "",      "",    ""};
 }
 
 }  // namespace hagfish

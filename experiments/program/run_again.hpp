@@ -1,17 +1,17 @@
-// Whether a log comes again from its scene.
+// The part of a check that makes a log's run again.
 #pragma once
 
-#include <string>
+#include <vector>
 
 #include "experiments/audit/audit.hpp"
+#include "experiments/audit/log_contents.hpp"
 
 namespace hagfish {
 
-/// Runs the scene of a log anew, for as many steps, and compares all that both logs hold but wall
-/// times and how they were made. A log of this build on this machine must come again bit by bit;
-/// the first difference is named. One of another build or machine rounds otherwise, which grows:
-/// the velocities of both part, and up to there all numbers must agree. Not judged, and so told: a
-/// branch, whose run's start is in another log, and a law of the run's own. Throws as audit().
-Finding audit_again(const std::string& file);
+/// Makes the run of a log again and compares all that the log holds, but for how long a computer
+/// took and what tells when, where and by which command it was made (compare_logs.hpp). Of a law of
+/// the run's own, and of a run whose beginning the log does not have, it says that it was not made
+/// again. Throws as LogWriter and take_step().
+Finding audit_again(const LogContents& log);
 
 }  // namespace hagfish

@@ -4,8 +4,7 @@
 
 #include "core/input/input_text.hpp"
 #include "core/log/build_info.hpp"
-#include "core/log/hdf5_error.hpp"
-#include "experiments/audit/log_schema.hpp"
+#include "core/log/logged_run.hpp"
 #include "experiments/program/idle_settings.hpp"
 #include "experiments/program/presets.hpp"
 #include "experiments/program/program.hpp"
@@ -59,22 +58,28 @@ std::string without_part(const std::string& file) {
   return path.extension() == ".part" ? fs::path(path).replace_extension().string() : file;
 }
 
-int resume(NewRunOptions options) {
+int resume(NewRunOptions options, const std::string& typed) {
   options.run.out = without_part(options.resume);
   const std::string part = options.run.out + ".part";
   // Read before anything is renamed: what cannot be gone on with stays as it is.
   const std::string part_or_whole = fs::exists(part) ? part : options.run.out;
   const Hdf5Reader h5(part_or_whole);
-  const SavedRun run = saved_run(h5);
-  check_schema(h5, run.model, run.resolved.scene);
-  require_named_law(run.resolved.scene, part_or_whole + ": ");
-  LogWriter log(options.run.out, run, h5);
-  if (run.git_revision != build_revision()) {
-    say("hagfish: {}: begun by revision {}, continued by {}: the result may differ from "
-        "that of an uninterrupted run\n",
-        printable(options.run.out), printable(run.git_revision), build_revision());
+  const LoggedRun run = logged_run(h5);
+  if (h5.root_text("status") == "complete") throw FileError(h5.file() + ": the run is complete");
+  const Scene& scene = run.resolved.scene;
+  LogHeader header = log_header(run.resolved, run.model, run.qp, typed);
+  header.level = level_of(h5);
+  header.past = run.past;
+  if (!run.past.empty()) header.branched_from = h5.root_text("branched_from");
+  const std::string revision = h5.root_text("git_revision");
+  LogWriter log(options.run.out, true, header, run.model, scene, run.steps);
+  say("{}: its scene is run again from the start; what there is, {:g} s, stays until then\n",
+      printable(part_or_whole), static_cast<double>(run.steps) * scene.time.step);
+  if (revision != build_revision()) {
+    say("hagfish: {}: begun by revision {}, made again by {}: it may come otherwise\n",
+        printable(options.run.out), printable(revision), build_revision());
   }
-  return take_run(run.model, run.resolved.scene, run.sim, options.run, log, run.wall_time);
+  return take_run(run.model, scene, begin_again(run), options.run, log);
 }
 
 }  // namespace
@@ -96,17 +101,19 @@ void add_run(Program& program) {
       "stop when this phase has ended: form, tighten, slide, pull, reverse, release"));
   of_new.push_back(run->add_option("--log", options->level,
                                    "how much is logged: summary, frames (figures, tables, films) "
-                                   "or full (audit, branches)")
+                                   "or full (audit)")
                        ->check(one_of(log_level_names()))
                        ->capture_default_str());
-  CLI::Option* resumed = run->add_option(
-      "--resume", options->resume, "continue the unfinished run of this log, F.h5.part or F.h5");
+  CLI::Option* resumed =
+      run->add_option("--resume", options->resume,
+                      "make the unfinished run of this log, F.h5.part or F.h5, to its end");
   for (CLI::Option* option : of_new) {
     resumed->excludes(option);
   }
   add_run_options(*run, options->run);
   run->callback([options, &program] {
-    program.code = options->resume.empty() ? run_anew(*options, program.typed) : resume(*options);
+    program.code = options->resume.empty() ? run_anew(*options, program.typed)
+                                           : resume(*options, program.typed);
   });
 }
 

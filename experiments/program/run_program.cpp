@@ -10,6 +10,7 @@
 #include "core/input/input_text.hpp"
 #include "core/log/build_info.hpp"
 #include "experiments/program/failure.hpp"
+#include "experiments/program/own_process.hpp"
 #include "experiments/program/program.hpp"
 #include "experiments/program/suggestion.hpp"
 #include "experiments/program/terminal.hpp"
@@ -45,11 +46,7 @@ int dispatch(int argc, char** argv) {
   return program.code;
 }
 
-}  // namespace
-
-int run_program(int argc, char** argv) {
-  open_standard_streams();
-  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is told by its write
+int run_here(int argc, char** argv) {
   try {
     const int code = dispatch(argc, argv);
     if (!standard_output_arrived()) {
@@ -64,6 +61,15 @@ int run_program(int argc, char** argv) {
     say("hagfish: internal error: an exception of no standard kind\n");
     return exit_code::failed;
   }
+}
+
+}  // namespace
+
+int run_program(int argc, char** argv) {
+  open_standard_streams();
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is told by its write
+  const auto work = [&] { return run_here(argc, argv); };
+  return reads_hdf5(argc, argv) ? in_own_process(work, argc, argv) : work();
 }
 
 }  // namespace hagfish

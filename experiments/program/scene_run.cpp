@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "core/input/input_text.hpp"
+#include "core/run/drive.hpp"
 #include "experiments/program/failure.hpp"
 #include "experiments/program/number_options.hpp"
 #include "experiments/program/progress.hpp"
@@ -19,13 +20,7 @@ struct Ending {
   int code = exit_code::done;
 };
 
-/// Why a step was stopped: by whom, or by the limit.
-std::string reason_of_stop(double limit) {
-  return interrupted() ? "interrupted"
-                       : fmt::format("a step took longer than --step-limit {:g} s", limit);
-}
-
-/// Steps until the scene is over.
+/// Steps until the scene is over. A step may take `limit` (s).
 Ending take_steps(const Scene& scene, Simulation& sim, double limit, const TakeStep& take,
                   LogWriter& log, Progress& progress) {
   using Clock = std::chrono::steady_clock;
@@ -33,30 +28,35 @@ Ending take_steps(const Scene& scene, Simulation& sim, double limit, const TakeS
   sim.solver.stop_when([&begin, limit] {
     return interrupted() || std::chrono::duration<double>(Clock::now() - begin).count() > limit;
   });
+  const auto timed = [&](Simulation& of, StepRecord& step) {
+    begin = Clock::now();
+    take(of, step);
+  };
+  const auto write = [&](const StepRecord& step, const Simulation& of) {
+    log.write(step, of, progress.elapsed());
+    progress.warn(step);
+    progress.show(step);
+  };
   StepRecord record;
-  while (!finished(sim, scene)) {
-    if (interrupted()) {
-      return {fmt::format("failed: interrupted at step {}", sim.step), exit_code::failed};
+  const auto failed = [&sim](const std::string& what, const std::string& when = "") {
+    return Ending{fmt::format("failed: {} at step {}{}", what, sim.step, when), exit_code::failed};
+  };
+  try {
+    const Status end = drive(scene, timed, sim, record, {write}, interrupted);
+    if (end.ok()) return {"complete", exit_code::done};
+    if (interrupted()) return failed("interrupted");
+    Ending ending = failed(end.outcome == Outcome::stopped
+                               ? fmt::format("a step took longer than --step-limit {:g} s", limit)
+                               : end.message,
+                           fmt::format(" (t = {:.4f} s, {})", time_of(sim, scene),
+                                       phase_name(record.controller.phase)));
+    if (end.outcome == Outcome::never_tied || end.outcome == Outcome::knot_lost) {
+      ending.code = exit_code::wrong_knot;
     }
-    try {
-      begin = Clock::now();
-      take(sim, record);
-      log.write(record, sim, progress.elapsed());
-      progress.warn(record);
-      progress.show(record);
-    } catch (const StepError& error) {
-      const bool knot =
-          error.outcome() == Outcome::never_tied || error.outcome() == Outcome::knot_lost;
-      const std::string what =
-          error.outcome() == Outcome::stopped ? reason_of_stop(limit) : error.what();
-      return {fmt::format("failed: {} at step {} (t = {:.4f} s, {})", what, sim.step,
-                          time_of(sim, scene), phase_name(record.controller.phase)),
-              knot ? exit_code::wrong_knot : exit_code::failed};
-    } catch (const std::exception& error) {
-      return {fmt::format("failed: {} at step {}", reason(error), sim.step), exit_code::failed};
-    }
+    return ending;
+  } catch (const std::exception& error) {
+    return failed(reason(error));
   }
-  return {"complete", exit_code::done};
 }
 
 }  // namespace

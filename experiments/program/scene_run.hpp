@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/log/log_writer.hpp"
+#include "core/run/drive.hpp"
 #include "experiments/program/program.hpp"
 #include "experiments/program/run_header.hpp"
 
@@ -20,11 +21,9 @@ struct RunOptions {
 /// Adds --force, --quiet and --step-limit.
 void add_run_options(CLI::App& command, RunOptions& options);
 
-/// Takes one step of a run, as take_step() does, which is what does it where none is given.
-using TakeStep = std::function<void(Simulation& sim, StepRecord& record)>;
-
 /// Steps until the scene is over, or something ends the run, and finishes the log. `before`: wall
-/// time that the run took before, s. Returns the program's exit code.
+/// time that the run took before, s. `take`: take_step() where none is given. Returns the program's
+/// exit code.
 int take_run(const Model& model, const Scene& scene, Simulation sim, const RunOptions& options,
              LogWriter& log, double before = 0, TakeStep take = {});
 

@@ -28,7 +28,11 @@ int run(std::vector<std::string> list, bool silent) {
   argv.push_back(nullptr);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
-  if (silent) posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", 1, 0);
+  if (silent) {
+    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", 1, 0);
+  } else {
+    posix_spawn_file_actions_adddup2(&actions, ::fileno(stderr), STDERR_FILENO);
+  }
   pid_t process = -1;
   const int error = posix_spawn(&process, argv[0], &actions, nullptr, argv.data(), environ);
   posix_spawn_file_actions_destroy(&actions);

@@ -242,7 +242,7 @@ changes. `log`: a file to write; `force` replaces one that is there. Raises Inpu
             r.require_readable();
             r.sim.controller.memory = memory;
           },
-          "(any,) copy: numbers that a law keeps from step to step, which checkpoints save")
+          "(any,) copy: numbers that a law keeps from step to step")
       .def_property_readonly("warnings", readable([](const Run& r) { return r.record.warnings; }),
                              "list of what the last step was warned of")
       .def_property_readonly(

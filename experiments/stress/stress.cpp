@@ -9,6 +9,7 @@
 #include <functional>
 #include <stdexcept>
 
+#include "core/run/drive.hpp"
 #include "experiments/stress/stress_mujoco.hpp"
 #include "solvers/box_qp.hpp"
 
@@ -56,29 +57,23 @@ bool run_in_core(const Model& model, const Scene& scene, const char* qp,
   Simulation sim = start(model, scene, qp);
   sim.solver.stop_when(out_of_time);
   StepRecord record;
-  while (!finished(sim, scene)) {
-    if (out_of_time()) {
-      return false;
-    }
-    const auto see = [&](const State& before, const Moment& after, const EnergyLedger& ledger) {
-      judge.see(before, after.state, after.observation, time_of(sim, scene),
-                {ledger.kinetic + ledger.elastic + ledger.gravity,
-                 ledger.work_tip + ledger.work_active + ledger.work[RowKind::thigmotaxis]});
-    };
-    try {
-      take_step(model, scene, sim, record);
-    } catch (const StepError& error) {
-      if (error.outcome() == Outcome::stopped) return false;
-      // A guard refused where the step led: that is in the record, while the simulation stayed.
-      if (error.outcome() == Outcome::penetration || error.outcome() == Outcome::limits) {
-        see(sim.now.state, record.moment, sim.ledger);
-      }
-      throw;
-    }
-    judge.see_control(record);
-    see(record.moment.state, sim.now, sim.ledger);
+  const auto see = [&](const State& before, const Moment& after) {
+    const EnergyLedger& ledger = sim.ledger;
+    judge.see(before, after.state, after.observation, time_of(sim, scene),
+              {ledger.kinetic + ledger.elastic + ledger.gravity,
+               ledger.work_tip + ledger.work_active + ledger.work[RowKind::thigmotaxis]});
+  };
+  const auto watch = [&](const StepRecord& step, const Simulation& of) {
+    judge.see_control(step);
+    see(step.moment.state, of.now);
+  };
+  const Status end = drive(model, scene, sim, record, {watch}, out_of_time);
+  if (end.ok() || end.outcome == Outcome::stopped) return end.ok();
+  // A guard refused where the step led: that is in the record, while the simulation stayed.
+  if (end.outcome == Outcome::penetration || end.outcome == Outcome::limits) {
+    see(sim.now.state, record.moment);
   }
-  return true;
+  throw StepError(end);
 }
 
 Status run_cell(const Model& model, const Scene& scene, const StressMethod& method,

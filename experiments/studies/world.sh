@@ -57,7 +57,7 @@ draw world.py "$out"
 draw world_map.py "$out/tables/world_map.csv" "$out/world_map.png"
 draw world_skin.py "$out/skin/logs" "$out/world_skin.png"
 
-# Round a pole: the slide goes on from the run's checkpoint, with weights along the pole and across it.
+# Round a pole: the slide goes on from a frame of the run, with weights along the pole and across it.
 mkdir -p "$out/pole" "$out/strip"
 "$hagfish" run reflex_pole --out "$out/pole/run.h5" --force --quiet
 draw world_pole.py "$out"

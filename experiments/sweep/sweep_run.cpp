@@ -7,6 +7,7 @@
 
 #include "core/log/build_info.hpp"
 #include "core/log/log_writer.hpp"
+#include "core/run/drive.hpp"
 #include "experiments/program/failure.hpp"
 #include "experiments/sweep/sweep.hpp"
 #include "mujoco_ref/mjcf.hpp"
@@ -77,26 +78,27 @@ std::optional<SweepRun> run_for_summary(const ResolvedScene& resolved,
   sim.solver.stop_when(
       [&] { return interrupted() || thread_cpu_time() - step_begin > step_cpu_limit; });
   StepRecord record;
-  while (!finished(sim, scene) && message.empty()) {
-    if (interrupted()) return std::nullopt;
+  const auto timed = [&](Simulation& of, StepRecord& step) {
     step_begin = thread_cpu_time();
-    try {
-      take_step(model, scene, sim, record);
-      cpu_time += thread_cpu_time() - step_begin;
-    } catch (const StepError& error) {
-      if (interrupted()) return std::nullopt;
-      outcome = outcome_name(error.outcome());
-      message = error.what();
-      continue;
-    } catch (const std::bad_alloc&) {
-      throw;  // of no meaning for the cell
-    } catch (const std::exception& error) {
-      outcome = "error";
-      message = reason(error);
-      continue;
-    }
-    figures.see(record);
-    kept.write(record, sim, step_begin - begin);
+    take_step(model, scene, of, step);
+    cpu_time += thread_cpu_time() - step_begin;
+  };
+  const auto write = [&](const StepRecord& step, const Simulation& of) {
+    figures.see(step);
+    kept.write(step, of, step_begin - begin);
+  };
+  try {
+    const Status end = drive(scene, timed, sim, record, {write}, interrupted);
+    if (interrupted()) return std::nullopt;
+    outcome = outcome_name(end.outcome);
+    message = end.message;
+  } catch (const FileError&) {
+    throw;  // so is this of its log
+  } catch (const std::bad_alloc&) {
+    throw;  // of no meaning for the cell
+  } catch (const std::exception& error) {
+    outcome = "error";
+    message = reason(error);
   }
   figures.see_end(sim);
   const std::string at = fmt::format("{} at step {}", message, sim.step);

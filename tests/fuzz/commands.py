@@ -6,7 +6,7 @@ import mutations
 
 SHORT = [
     part
-    for value in ("duration=0.1", "step=0.01", "frame_interval=0.02", "checkpoint_interval=0.04")
+    for value in ("duration=0.1", "step=0.01", "frame_interval=0.02")
     for part in ("--set", "time." + value)
 ]
 SMALL = ["--set", "model.bodies=8"]

@@ -254,7 +254,7 @@ def extreme_overrides(random, any_bodies=True):
         "controller.slide_head.a": wild, "controller.slide_tail.b": lambda: -wild(), "controller.leave_by": lambda: random.choice(["head", "tail"]),
         "food.hold": wild, "food.strength": wild, "food.average": wild, "mirror": lambda: random.choice(["true", "false"]),
         "time.rule": lambda: random.choice(["euler", "midpoint"]), "time.settled": wild, "time.passes": lambda: random.choice([1, 1000]),
-        "time.checkpoint_interval": wild, "start.spin": lambda: f"[{wild():g}, {-wild():g}, {wild():g}]",
+        "start.spin": lambda: f"[{wild():g}, {-wild():g}, {wild():g}]",
         "script.spring": wild, "script.damper": wild, "script.largest_force": wild,
         "specimen.length": wild, "specimen.mass": wild, "specimen.twist_limit_deg": wild,
         "specimen.circumference": lambda: f"[{wild():g}, {wild():g}, {wild():g}, {wild():g}]",

@@ -1,5 +1,5 @@
 """Hostile inputs by name: each is a change of a good log that once crashed or hung a command. What the readers of
-HDF5 and MJCF refuse whatever asks them is in their own tests (hdf5_hostile_test, mjcf_vocabulary_test)."""
+HDF5 and MJCF refuse whatever asks them is in their own tests (hdf5_hostile_test)."""
 
 import os
 import shutil

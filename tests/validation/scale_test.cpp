@@ -85,8 +85,8 @@ void scale(Scene& s, const Scale& by) {
   s.active.capacity *= by.torque();
   scale(s.controller, by);
   s.knot.interval *= by.time;
-  for (double* time : {&s.time.step, &s.time.frame_interval, &s.time.checkpoint_interval,
-                       &s.time.duration, &s.guard.capped_time}) {
+  for (double* time :
+       {&s.time.step, &s.time.frame_interval, &s.time.duration, &s.guard.capped_time}) {
     *time *= by.time;
   }
   s.guard.penetration *= by.length;

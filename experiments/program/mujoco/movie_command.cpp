@@ -82,7 +82,7 @@ int movie(const MovieOptions& options) {
   pictures.fit(shown, size, view);
   const std::vector<std::int64_t> determinant = log.h5.integers("/knot/determinant");
   const std::vector<std::int64_t> v2 = log.h5.integers("/knot/v2");
-  const bool progress = !options.quiet && ::isatty(STDERR_FILENO) != 0;
+  const bool progress = !options.quiet && ::isatty(::fileno(stderr)) != 0;
   note_signals();
   std::error_code ignored;
   try {

@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 
+#include "core/log/logged_run.hpp"
 #include "experiments/audit/log_contents.hpp"
 #include "experiments/program/number_options.hpp"
 #include "experiments/program/program.hpp"
@@ -58,8 +59,7 @@ Beginning begin_slide(const MujocoRunOptions& options) {
   if (first == static_cast<std::ptrdiff_t>(log.phase.size())) {
     throw FileError(options.from + ": has no slide of the knot");
   }
-  ResolvedScene resolved =
-      read_scene_text(log.h5.root_text("scene"), options.from + ": scene", changes(options));
+  ResolvedScene resolved = logged_scene(log.h5, changes(options));
   Model model = make_hagfish(resolved.specimen, resolved.scene);
   if (model.nv() != log.model.nv()) {
     throw InputError(options.from + ": its animal and the scene differ in model.bodies");

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include "mujoco_ref/agreement.hpp"
-#include "mujoco_ref/log_model.hpp"
 #include "mujoco_ref/mirror.hpp"
 #include "mujoco_ref/mjcf.hpp"
 #include "tests/support/muscled_hagfish.hpp"
@@ -49,7 +48,7 @@ INSTANTIATE_TEST_SUITE_P(Heads, MjcfMuscles, testing::Values(Head::free, Head::c
                            return head.param == Head::free ? "free" : "clamped";
                          });
 
-/// A run moved by activations, by what its log alone has: its MJCF, states, activations, torques.
+/// A run moved by activations, by what its log has: states, activations, torques.
 TEST(MjcfMusclesOfALog, MakeItsTorques) {
   const ResolvedScene resolved =
       stored_scene({"controller.law=muscles", "muscle.present=true", "muscle.activation_time=0.1",
@@ -59,7 +58,8 @@ TEST(MjcfMusclesOfALog, MakeItsTorques) {
   const std::filesystem::path file = folder / "log.h5";
   write_log(file, resolved, model, resume(model, resolved.scene, stored_states().at(3)), 63);
   const Hdf5Reader log(file);
-  MujocoModel mirror = mujoco_model_of(log);
+  MujocoModel mirror(
+      mjcf_files(model, resolved.scene.contact.least_arc, resolved.scene.time.step));
   mirror.model()->opt.disableflags |= mjDSBL_CONSTRAINT;
   const Hdf5Reader::Rows q = log.rows("/trajectory/q"), qdot = log.rows("/trajectory/qdot"),
                          driven = log.rows("/muscle/driven"), torque = log.rows("/forces/active");

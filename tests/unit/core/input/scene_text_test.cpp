@@ -135,10 +135,9 @@ class Bits {
     add(votes, seed, interval, mirror);
   }
   void put(const TimeSettings& s) {
-    const auto& [rule, momentum, step, settled, passes, ring_damping, frame_interval,
-                 checkpoint_interval, duration, until] = s;
-    add(rule, momentum, step, settled, passes, ring_damping, frame_interval, checkpoint_interval,
-        duration, until);
+    const auto& [rule, momentum, step, settled, passes, ring_damping, frame_interval, duration,
+                 until] = s;
+    add(rule, momentum, step, settled, passes, ring_damping, frame_interval, duration, until);
   }
   void put(const GuardSettings& s) {
     const auto& [action, penetration, limit_violation, speed, energy_gain, energy_action,

@@ -51,21 +51,6 @@ class LogTest : public testing::Test {
   Simulation sim = start(model, scene, "ipopt");
 };
 
-/// Two logs are of the same run, whichever was stopped in between.
-void expect_same_run(const fs::path& one, const fs::path& other) {
-  const Hdf5Reader a(one), b(other);
-  for (const char* path :
-       {"/trajectory/step", "/trajectory/q", "/trajectory/qdot", "/forces/limit",
-        "/mean/forces/limit", "/diagnostics/limit_violation", "/diagnostics/work_tip", "/steps/kkt",
-        "/steps/rows", "/checkpoints/step", "/checkpoints/end", "/checkpoints/data"}) {
-    const std::vector<double> x = a.doubles(path);
-    const std::vector<double> y = b.doubles(path);
-    ASSERT_EQ(x.size(), y.size()) << path;
-    EXPECT_EQ(std::memcmp(x.data(), y.data(), x.size() * sizeof(double)), 0) << path;
-  }
-  EXPECT_EQ(a.bytes("/checkpoints/last"), b.bytes("/checkpoints/last"));
-}
-
 struct Dataset {
   std::string path;
   std::vector<hsize_t> shape;
@@ -204,85 +189,59 @@ TEST_F(LogTest, KeepsWhatWasSavedUnlessFinished) {
   EXPECT_EQ(Hdf5Reader(folder / "run.h5.part").root_text("status"), "running");
 }
 
-TEST_F(LogTest, GoesOnWithALogAsIfNothingHadBeen) {
-  scene.time.checkpoint_interval = 0.02;
-  header.scene = scene_to_toml(scene, table1_specimen());
-  const fs::path whole = folder / "whole.h5";
+TEST_F(LogTest, WhatThereIsOfARunStaysUntilItHasComeAsFarAgain) {
+  const fs::path file = folder / "run.h5", part = folder / "run.h5.part";
   {
-    LogWriter log(whole, false, header, model, scene);
-    write(log, 41, 0.01);
-    log.finish("complete", sim);
-  }
-  const fs::path file = folder / "run.h5";
-  {
-    sim = start(model, scene, "ipopt");
     LogWriter log(file, false, header, model, scene);
-    write(log, 23, 100);  // a save at each step; nothing finishes it
+    write(log, 23, 1000);  // a save at most steps; nothing finishes it
   }
-  for (const int more : {0, 1, 7}) {
-    const Hdf5Reader part(folder / "run.h5.part");
-    const SavedRun run = saved_run(part);
-    sim = run.sim;
-    LogWriter log(file, run, part);
-    write(log, more, 1e6);
+  const auto steps = [&] { return static_cast<int>(Hdf5Reader(part).shape("/steps/kkt")[0]); };
+  const int had = steps();
+  ASSERT_GT(had, 15);
+  for (const int more : {7, had - 1}) {
+    sim = start(model, scene, "ipopt");
+    LogWriter log(file, false, header, model, scene, had);
+    write(log, more, 1000);
+    EXPECT_EQ(steps(), had) << more;
+    EXPECT_THROW(log.finish("failed: interrupted", sim), FileError);
+    EXPECT_EQ(steps(), had) << more;
   }
-  {
-    const Hdf5Reader part(folder / "run.h5.part");
-    const SavedRun run = saved_run(part);
-    EXPECT_EQ(run.sim.step, 31);
-    EXPECT_EQ(run.resumed, "23, 24");  // one that took no step left nothing
-    sim = run.sim;
-    LogWriter log(file, run, part);
-    write(log, 10);
-    log.finish("complete", sim);
-  }
-  expect_same_run(whole, file);
-  EXPECT_EQ(error_of<FileError>([&] { saved_run(Hdf5Reader(file)); }),
-            file.string() + ": the run is complete");
+  EXPECT_FALSE(fs::exists(folder / "run.h5.part.next"));
+  sim = start(model, scene, "ipopt");
+  LogWriter log(file, false, header, model, scene, had);
+  write(log, had + 1, 1000);
+  EXPECT_GE(steps(), had);
+  log.finish("complete", sim);
+  EXPECT_FALSE(fs::exists(part));
 }
 
-TEST_F(LogTest, TheStateAtTheEndIsTheLastFrameUntilTheRunGoesOn) {
-  const fs::path whole = folder / "whole.h5", file = folder / "run.h5",
-                 part = folder / "run.h5.part";
-  const auto steps_at_frames = [](const fs::path& of) {
-    return Hdf5Reader(of).integers("/trajectory/step");
-  };
-  {
-    LogWriter log(whole, false, header, model, scene);
-    write(log, 35, 0.01);
-    log.finish("complete", sim);
-  }
-  for (const int before : {23, 25}) {
-    fs::remove(file);
-    {
-      sim = start(model, scene, "ipopt");
-      LogWriter log(file, false, header, model, scene);
-      write(log, before, 0.01);
-      log.finish("failed: interrupted", sim);
-    }
+TEST_F(LogTest, TheStateAtTheEndIsTheLastFrame) {
+  for (const int steps : {23, 25}) {
+    const fs::path file = folder / (std::to_string(steps) + ".h5");
+    sim = start(model, scene, "ipopt");
+    LogWriter log(file, false, header, model, scene);
+    write(log, steps, 0.01);
+    log.finish("failed: interrupted", sim);
     const Hdf5Reader ended(file);
-    std::vector<std::int64_t> frames{0, 5, 10, 15, 20, before};
-    EXPECT_EQ(steps_at_frames(file), frames);
+    EXPECT_EQ(ended.integers("/trajectory/step"),
+              (std::vector<std::int64_t>{0, 5, 10, 15, 20, steps}));
     EXPECT_EQ(ended.rows("/trajectory/q").bottomRows(1).transpose(), sim.now.state.q);
     EXPECT_EQ(ended.doubles("/diagnostics/kinetic_energy").back(), sim.ledger.kinetic);
     EXPECT_TRUE(ended.rows("/forces/head").bottomRows(1).array().isNaN().all());
     EXPECT_TRUE(ended.rows("/mean/forces/head").bottomRows(1).allFinite());
-    {
-      const SavedRun run = saved_run(ended);
-      sim = run.sim;
-      LogWriter log(file, run, ended);
-      write(log, 1, 1e6);  // is saved; then the run is killed
-    }
-    if (before % 5 != 0) frames.pop_back();
-    EXPECT_EQ(steps_at_frames(part), frames);
-    const Hdf5Reader killed(part);
-    const SavedRun run = saved_run(killed);
-    sim = run.sim;
-    LogWriter log(file, run, killed);
-    write(log, 34 - before);
-    log.finish("complete", sim);
-    expect_same_run(whole, file);
   }
+}
+
+// Whoever opens what there is of a run has it as it was then, however the run goes on.
+TEST_F(LogTest, WhoReadsARunningLogIsNotDisturbed) {
+  LogWriter log(folder / "run.h5", false, header, model, scene);
+  write(log, 6, 100);
+  const Hdf5Reader then(folder / "run.h5.part");
+  const Hdf5Reader::Rows q = then.rows("/trajectory/q");
+  write(log, 30, 200);
+  EXPECT_EQ(Hdf5Reader(folder / "run.h5.part").shape("/steps/kkt")[0], 36u);
+  EXPECT_EQ(then.shape("/steps/kkt")[0], 6u);
+  EXPECT_EQ(then.rows("/trajectory/q"), q);
 }
 
 TEST_F(LogTest, AFlippedBitInAChunkIsRefused) {

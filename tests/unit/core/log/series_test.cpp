@@ -1,5 +1,4 @@
-// Series: rows saved to two files by turns come out as those that were appended, whatever was
-// saved when.
+// Series: rows come out as those that were appended, whatever was saved when.
 #include "core/log/series.hpp"
 
 #include <gtest/gtest.h>
@@ -9,14 +8,13 @@
 
 #include "core/log/hdf5_reader.hpp"
 #include "core/log/log_table.hpp"
-#include "core/log/twin_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace hagfish::series_test {
 
 using Shape = std::vector<hsize_t>;
 
-/// One series of each kind in a file that takes turns with its twin.
+/// One series of each kind in a file.
 class SeriesTest : public testing::Test {
  protected:
   SeriesTest() {
@@ -25,7 +23,6 @@ class SeriesTest : public testing::Test {
       s->create(h5);
     }
     h5.save(file);
-    twin.emplace(file);
   }
 
   /// Row k of each.
@@ -41,19 +38,14 @@ class SeriesTest : public testing::Test {
   }
 
   void save() {
-    if (twin->prepare()) {
-      for (AnySeries* s : all) s->files_are_alike();
-    }
     std::size_t room = 65536;
     for (AnySeries* s : all) room += s->room();
     const auto before = std::filesystem::file_size(file);
-    Hdf5Writer h5(twin->begin(room));
-    const Hdf5Reader newer(file);
-    for (AnySeries* s : all) s->write(newer, h5);
+    Hdf5Writer h5(file);
+    for (AnySeries* s : all) s->write(h5);
     h5.close();
-    twin->commit();
-    EXPECT_LE(std::filesystem::file_size(file), before + 2 * room);  // of two saves
-    for (AnySeries* s : all) s->saved();
+    EXPECT_LE(std::filesystem::file_size(file), before + room);
+    for (AnySeries* s : all) s->written();
   }
 
   /// Rows 0 to `count` - 1 are in the file, and no others.
@@ -100,7 +92,6 @@ class SeriesTest : public testing::Test {
   Series<std::int64_t> longs{layout_of<std::int64_t>("/longs", {}, {"1", "longs"})};
   Series<std::uint8_t> choices{layout_of_choices("/choices", {"zero", "one", "two"}, {"1", "c"})};
   std::vector<AnySeries*> all = {&dense, &sparse, &blocks, &ints, &longs, &choices};
-  std::optional<TwinFile> twin;
 };
 
 TEST_F(SeriesTest, EverySaveHasAllRowsSoFar) {
@@ -129,7 +120,6 @@ TEST_F(SeriesTest, RowsOfZerosComeBack) {
     sparse.append(row.data(), row.size());
     if (random() % 5 == 0) save();
   }
-  save();
   save();
   const Hdf5Reader in(file);
   for (const char* path : {"/a/dense", "/a/b/sparse"}) {
@@ -181,36 +171,6 @@ TEST_F(SeriesTest, ColumnsOfZerosTakeNoRoomInBlocks) {
   EXPECT_GE(size_after(1) - before - sparse_size, 2 * sparse_size);
 }
 
-TEST_F(SeriesTest, ATwinThatIsLostIsMadeAnew) {
-  for (int k = 0; k < 30; ++k) {
-    append(k);
-    if (k % 4 == 0) save();
-    if (k % 12 == 0) twin->abandon();
-  }
-  save();
-  expect_rows(30);
-}
-
-TEST_F(SeriesTest, GoesOnBehindRowsThatAreThere) {
-  for (int k = 0; k < 10; ++k) append(k);
-  save();
-  Series<std::int32_t> more{ints.layout()};
-  more.go_on(Hdf5Reader(file).shape("/ints")[0]);
-  more.append(-10);
-  {
-    const Hdf5Reader newer(file);
-    twin->abandon();
-    twin->prepare();
-    Hdf5Writer h5(twin->begin(more.room()));
-    more.write(newer, h5);
-    h5.close();
-  }
-  twin->commit();
-  const std::vector<std::int64_t> values = Hdf5Reader(file).integers("/ints");
-  EXPECT_EQ(values.size(), 11u);
-  EXPECT_EQ(values.back(), -10);
-}
-
 TEST_F(SeriesTest, ATableHasNoRowOfWhichAColumnThrows) {
   LogTable<int> table({.level = LogLevel::full, .labels = "", .chunk_rows = 4});
   table.number("/steps/kkt", {"1", "first"}, [](int k) { return 1.0 * k; });
@@ -229,7 +189,6 @@ TEST_F(SeriesTest, RefusesRowsOfAnotherSize) {
   const std::vector<double> row(2);
   EXPECT_THROW(dense.append(row.data(), row.size()), std::logic_error);
   EXPECT_THROW(dense.append(1.0), std::logic_error);
-  EXPECT_THROW(dense.append_all(row), std::logic_error);
 }
 
 TEST_F(SeriesTest, UnitDescriptionAndNamesAreStored) {

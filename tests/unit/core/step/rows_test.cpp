@@ -397,7 +397,7 @@ TEST(ThigmotaxisRows, TakeTheObservedPatchForTheObservedEndAlone) {
   EXPECT_FALSE(
       differ(rows(further, KnotEnd::first, &seen), rows(further, KnotEnd::first, nullptr)));
   EXPECT_FALSE(differ(rows(last, KnotEnd::last, &seen), rows(last, KnotEnd::last, nullptr)));
-  seen.patches = {};  // as out of a checkpoint
+  seen.patches = {};
   EXPECT_FALSE(differ(rows(first, KnotEnd::first, &seen), rows(first, KnotEnd::first, nullptr)));
 }
 

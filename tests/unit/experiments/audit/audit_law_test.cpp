@@ -74,7 +74,7 @@ TEST_F(AuditLaw, OfTheRunsOwnEachFigureIsWatched) {
   const std::string good = objections();
   // The run is not whole; nothing else is wrong.
   for (const char* wrong : {"/eq6", "/control", "/forces", "/steps", "/thigmotaxis", "balance",
-                            "inverse", "ledger", "cap", "asked", "muscles", "checkpoints"}) {
+                            "inverse", "ledger", "cap", "asked", "muscles"}) {
     EXPECT_EQ(good.find(wrong), std::string::npos) << good;
   }
   const std::map<std::string, std::string> numbers = {
@@ -88,19 +88,11 @@ TEST_F(AuditLaw, OfTheRunsOwnEachFigureIsWatched) {
       {"/eq6/slack", "/eq6/slack"},
       {"/eq6/spline_a", "/eq6/speed"},
       {"/eq6/spline_b", "/eq6/speed"},
-      {"/steps/thigmotaxis_others_slack", "/steps/thigmotaxis_others_slack"},
       {"/thigmotaxis/command", "/thigmotaxis/command"},
       {"/thigmotaxis/cap", "/thigmotaxis/cap"}};
   const std::function<bool(double)> some = [](double v) { return std::abs(v) > 1e-3; };
   for (const auto& [path, watcher] : numbers) {
-    // Of the steps, one that begins at a frame: the others are watched by /steps/eq6 alone.
-    const bool steps = path.starts_with("/steps");
-    int k = 0;
-    const std::function<bool(double)> at_frame = [&](double v) {
-      return (21 + k++) % 5 == 0 && some(v);
-    };
-    const std::string text =
-        objections_to<double>(path, steps ? at_frame : some, [](double v) { return 1.01 * v; });
+    const std::string text = objections_to<double>(path, some, [](double v) { return 1.01 * v; });
     EXPECT_NE(text.find(watcher), std::string::npos) << path << ": " << text;
   }
   // What is asked for binds or does not: it is seen where it would have bound otherwise.
@@ -125,14 +117,8 @@ TEST_F(AuditLaw, OfTheRunsOwnEachFigureIsWatched) {
       {flipped("/control/has_rest_shape", 1, 0), "/forces/active"},
       {flipped("/eq6/along", 0, 1), "/eq6/speed"},
       {flipped("/eq6/towards", 1, -1), "/eq6/speed"},
-      {flipped("/eq6/end", 2, 1), "/steps/thigmotaxis_others"},
       {flipped("/eq6/end", 0, 1), "/thigmotaxis/"},
-      {objections_to<Whole>("/eq6/frame", any, [](Whole v) { return v + 1; }), "/eq6"},
-      {objections_to<Whole>(
-           "/steps/thigmotaxis_others",
-           [k = 0](Whole v) mutable { return (21 + k++) % 5 == 0 && v > 0; },  // of a frame
-           [](Whole) { return Whole{0}; }),
-       "/steps/"}};
+      {objections_to<Whole>("/eq6/frame", any, [](Whole v) { return v + 1; }), "/eq6"}};
   for (const auto& [text, watcher] : flips) {
     EXPECT_NE(text.find(watcher), std::string::npos) << watcher << " in " << text;
   }
@@ -143,7 +129,6 @@ TEST_F(AuditLaw, OfANamedOneWhatItAsksForIsToo) {
   write(scene_of("all_contacts"), {});
   const std::string good = objections();
   EXPECT_EQ(good.find("forces of rows"), std::string::npos) << good;
-  EXPECT_EQ(good.find("checkpoints"), std::string::npos) << good;
   const auto some = [](double v) { return std::abs(v) > 1e-3; };
   for (const char* path : {"/eq6/command", "/eq6/cap"}) {
     const std::string text = objections_to<double>(path, some, [](double v) { return 1.01 * v; });
@@ -175,7 +160,7 @@ TEST_F(AuditLaw, OfAReducedBasisTorquesAreItsShapesTimesItsNumbers) {
                   "controller.reduced_basis.most=1e4"}),
         {});
   const std::string good = objections();
-  for (const char* wrong : {"forces of rows", "muscles", "balance", "cap", "checkpoints"}) {
+  for (const char* wrong : {"forces of rows", "muscles", "balance", "cap"}) {
     EXPECT_EQ(good.find(wrong), std::string::npos) << good;
   }
   for (const char* path : {"/basis/amplitude", "/basis/window"}) {
@@ -198,7 +183,7 @@ TEST_F(AuditLaw, OfTheReflexTheRestShapeIsWhatItCopies) {
     set.insert(set.end(), {"controller.reflex.shift=0.1", "active.relax_time=1"});
     write(scene_of("reflex", set), {});
     const std::string good = objections();
-    for (const char* wrong : {"muscles", "balance", "checkpoints", "/forces", "/trajectory"}) {
+    for (const char* wrong : {"muscles", "balance", "/forces", "/trajectory"}) {
       EXPECT_EQ(good.find(wrong), std::string::npos) << good;
     }
     const auto some = [](double v) { return std::abs(v) > 1e-3; };

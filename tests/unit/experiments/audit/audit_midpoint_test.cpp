@@ -20,7 +20,7 @@ class AuditMidpoint : public testing::Test {
     const ResolvedScene resolved =
         read_scene(std::string(HAGFISH_DATA_DIR) + "/table1.toml",
                    {"time.rule=midpoint", "time.step=0.01", "time.frame_interval=0.2",
-                    "time.checkpoint_interval=6", "knot.votes=5", "expect.slide_distance=8"});
+                    "knot.votes=5", "expect.slide_distance=8"});
     write_log(file, resolved);
   }
   static void TearDownTestSuite() { folder.reset(); }

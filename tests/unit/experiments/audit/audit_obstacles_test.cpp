@@ -51,9 +51,10 @@ class AuditObstacles : public testing::Test {
 
 TEST_F(AuditObstacles, EachFigureIsWatched) {
   EXPECT_EQ(objections(), "");
-  const LogContents log(file.string(), LogLevel::full);
   int pressed = 0;
-  for (const LoggedContact& contact : logged_contacts(log)) pressed += contact.obstacle == 1;
+  for (const LoggedContact& contact : logged_contacts(LogContents(file.string()))) {
+    pressed += contact.obstacle == 1;
+  }
   ASSERT_GT(pressed, 3);
   const auto number = [this](const std::string& path, const std::function<double(double)>& change) {
     return objections_to<double>(path, H5::PredType::NATIVE_DOUBLE, change);

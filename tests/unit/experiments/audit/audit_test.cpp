@@ -10,7 +10,6 @@
 #include "core/log/hdf5_writer.hpp"
 #include "core/step/eq6_rows.hpp"
 #include "experiments/audit/audit_thigmotaxis.hpp"
-#include "mujoco_ref/mjcf.hpp"
 #include "tests/support/errors.hpp"
 #include "tests/support/random_chain.hpp"
 #include "tests/support/stored_states.hpp"
@@ -99,34 +98,6 @@ TEST_F(AuditTest, RefusesAModelThatIsNotTheScenes) {
   tamper("/model/limit_upper", root_dofs + 4, 0.25);
   EXPECT_NE(refusal().find("/model/limit_upper of hinge 4 is "), std::string::npos) << refusal();
   tamper("/model/limit_upper", root_dofs + 4, -0.25);
-
-  Scene damped = stored_scene().scene;
-  damped.model.bending_damping = 1;
-  H5::H5File h5(file.string(), H5F_ACC_RDWR);
-  H5::StrType text(H5::PredType::C_S1, H5T_VARIABLE);
-  text.setCset(H5T_CSET_UTF8);  // as the log's: HDF5 converts none into another
-  const Model other = make_hagfish(stored_scene().specimen, damped);
-  for (const auto& [name, content] : mjcf_files(other, damped.contact.least_arc, 0.002)) {
-    h5.openDataSet("/mjcf/" + name).write(content, text);
-  }
-  h5.close();
-  EXPECT_NE(refusal().find("/mjcf is not the scene's model: damping of j01_bend_z"),
-            std::string::npos)
-      << refusal();
-}
-
-TEST_F(AuditTest, SaysWhichVersionCanAuditALogThatLacksWhatThisOneHas) {
-  H5::H5File(file.string(), H5F_ACC_RDWR).unlink("/enumerations/loss");
-  const auto refusal = [this] { return error_of<FileError>([this] { audit(file); }); };
-  EXPECT_EQ(refusal(), file.string() + ": has no /enumerations/loss");
-  // Checkpoints begin with the number of their layout.
-  rewrite<std::int64_t>(file, "/checkpoints/last", H5::PredType::NATIVE_INT64,
-                        [](std::vector<std::int64_t>& bytes) { bytes[0] = 1; });
-  Hdf5Writer h5(file);
-  h5.root_attribute("git_revision", "0123abc");
-  h5.close();
-  EXPECT_TRUE(refusal().starts_with(file.string() + ": has no /enumerations/loss: hagfish "));
-  EXPECT_NE(refusal().find("wrote it at revision 0123abc"), std::string::npos) << refusal();
 }
 
 /// The same run with limits on the total angle of its joints.

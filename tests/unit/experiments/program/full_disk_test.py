@@ -92,9 +92,14 @@ def test_a_quota(whole, name):
 
 
 def test_a_log_is_read_whatever_may_be_written(whole):
-    for command in (["info", "a.h5"], ["check", "a.h5"]):
+    for command in (["info", "a.h5"], ["check", "--fast", "a.h5"]):
         done, free = outcome(whole, command, preexec_fn=quota(0)), outcome(whole, command)
         assert (done.returncode, done.stdout, done.stderr) == (free.returncode, free.stdout, free.stderr) and free.stdout
+
+
+def test_a_check_says_that_there_is_no_room_for_the_second_run(whole):
+    done = outcome(whole, ["check", "a.h5"], preexec_fn=quota(0))
+    assert done.returncode == 1 and "cannot be run again: " in done.stdout and "(--fast leaves it out)" in done.stdout, done
 
 
 def test_a_log_that_memory_does_not_hold_is_not_called_damaged(whole):

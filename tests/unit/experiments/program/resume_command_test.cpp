@@ -12,9 +12,7 @@ namespace hagfish::resume_command_test {
 
 namespace fs = std::filesystem;
 
-/// 0.4 s of the run with a checkpoint each 0.1 s.
-const std::string short_run =
-    "run --quiet --qp active-set --set time.duration=0.4 --set time.checkpoint_interval=0.1 ";
+const std::string short_run = "run --quiet --qp active-set --set time.duration=0.4 ";
 
 class ResumeTest : public ProgramTest {
  protected:
@@ -43,7 +41,6 @@ TEST_F(ResumeTest, AnInterruptedRunGoesOn) {
   const ProgramOutcome resumed = run_program("run --quiet --resume a.h5");
   EXPECT_EQ(resumed.code, 0) << resumed.output;
   EXPECT_EQ(log("a.h5").root_text("status"), "complete");
-  EXPECT_TRUE(log("a.h5").has_root_attribute("resumed"));
   for (const char* path : {"/trajectory/q", "/trajectory/qdot", "/steps/kkt"}) {
     expect_same_rows(log("whole.h5"), log("a.h5"), path, 0);
   }
@@ -58,8 +55,7 @@ TEST_F(ResumeTest, WhatCannotGoOnStaysAsItIs) {
   };
   expect("run --resume a.h5", "a.h5: the run is complete");
   expect("run --resume none.h5.part", "none.h5: no such file");
-  expect("branch a.h5 --time 0.05 --out b.h5",
-         "a.h5: has no checkpoint up to 0.05 s; the first one is at 0.1 s");
+  expect("branch a.h5 --time -0.05 --out b.h5", "a.h5: begins at 0 s");
   expect("branch a.h5 --set model.bodies=50 --out b.h5",
          "a.h5: cannot branch at 0.4 s: the state has another number of bodies than the model");
   expect("branch a.h5 --time 0.1 --set time.step=0.03 --set time.frame_interval=0.03 --out b.h5",
@@ -76,19 +72,9 @@ TEST_F(ResumeTest, WhatCannotGoOnStaysAsItIs) {
   EXPECT_TRUE(fs::exists(folder / "a.h5.part"));
 }
 
-TEST_F(ResumeTest, ALogWithoutARowOfAStepStaysAsItIs) {
-  ASSERT_EQ(run_program("run --quiet --preset quick --step-limit 1e-9 --out a.h5").code, 1);
-  H5::H5File(folder / "a.h5", H5F_ACC_RDWR).unlink("/steps/rows");
-  const auto bytes = fs::file_size(folder / "a.h5");
-  const ProgramOutcome outcome = run_program("run --resume a.h5");
-  EXPECT_EQ(outcome.code, 2);
-  EXPECT_EQ(outcome.output, "hagfish: a.h5: has no /steps/rows\n");
-  EXPECT_EQ(fs::file_size(folder / "a.h5"), bytes);
-}
-
 TEST_F(ResumeTest, ABranchWithoutChangesFollowsTheRun) {
   ASSERT_EQ(run_program(short_run + "--out a.h5").code, 0);
-  const ProgramOutcome branch = run_program("branch a.h5 --time 0.25 --out b.h5 --quiet");
+  const ProgramOutcome branch = run_program("branch a.h5 --time 0.21 --out b.h5 --quiet");
   ASSERT_EQ(branch.code, 0) << branch.output;
   EXPECT_EQ(log("b.h5").root_text("branched_from"), "a.h5, step 40, t = 0.2 s");
   for (const char* path : {"/trajectory/q", "/trajectory/qdot", "/forces/limit", "/forces/head",
@@ -112,9 +98,24 @@ TEST_F(ResumeTest, ABranchTakesOtherSettings) {
   EXPECT_NE(b.root_text("scene").find("bending_stiffness = 1000"), std::string::npos);
   // All but what a run so short cannot show.
   const std::string check = run_program("check b.h5").output;
-  for (const char* finding : {"energy ledger", "force balance", "checkpoints"}) {
+  for (const char* finding : {"energy ledger", "force balance", "again"}) {
     EXPECT_NE(check.find(std::string("\nok   ") + finding), std::string::npos) << check;
   }
+}
+
+// What a branch's run was before is in its log: it can be checked, and be branched off again.
+TEST_F(ResumeTest, ABranchOfABranchComesAgain) {
+  ASSERT_EQ(run_program(short_run + "--out a.h5").code, 0);
+  ASSERT_EQ(run_program("branch a.h5 --time 0.1 --set model.bending_stiffness=1000 --set "
+                        "time.step=0.0025 --out b.h5 --quiet")
+                .code,
+            0);
+  ASSERT_EQ(run_program("branch b.h5 --time 0.3 --set model.bending_stiffness=500 --out c.h5 "
+                        "--quiet")
+                .code,
+            0);
+  const std::string check = run_program("check c.h5").output;
+  EXPECT_NE(check.find("comes again to the end, bit by bit"), std::string::npos) << check;
 }
 
 }  // namespace hagfish::resume_command_test

@@ -23,7 +23,7 @@ def numbers(file: Path) -> dict[str, np.ndarray]:
     found = {}
 
     def take(name, node):
-        if isinstance(node, h5py.Dataset) and node.dtype.kind in "fiu" and not name.startswith("checkpoints"):
+        if isinstance(node, h5py.Dataset) and node.dtype.kind in "fiu":
             if name.split("/")[-1] not in CLOCKS:
                 found[name] = node[()]
 

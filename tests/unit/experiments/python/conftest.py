@@ -34,7 +34,7 @@ def verdicts(program):
 
 @pytest.fixture(scope="session")
 def differences():
-    """Numeric datasets, but for wall times and checkpoints, that differ in two logs, or that one lacks."""
+    """Numeric datasets, but for wall times, that differ in two logs, or that one lacks."""
 
     def between(a: Path, b: Path):
         def series(file):
@@ -44,7 +44,7 @@ def differences():
             return {
                 name: node[()]
                 for name, node in kept.items()
-                if not name.startswith("checkpoints") and name.split("/")[-1] not in ("wall_time", "qp_time")
+                if name.split("/")[-1] not in ("wall_time", "qp_time")
             }
 
         with h5py.File(a) as first, h5py.File(b) as second:

@@ -1,0 +1,116 @@
+#include "experiments/program/own_process.hpp"
+
+#include <fcntl.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "core/input/input_text.hpp"
+#include "experiments/program/failure.hpp"
+#include "experiments/program/program.hpp"
+#include "experiments/program/terminal.hpp"
+
+namespace hagfish {
+namespace {
+
+volatile std::sig_atomic_t child = 0;
+
+/// What a terminal sends reaches both processes.
+void pass_on(int signal, siginfo_t* from, void* /*context*/) {
+  if (from->si_code <= 0) ::kill(child, signal);
+}
+
+bool is_hdf5(const char* name) {
+  constexpr std::array<char, 8> signature = {'\x89', 'H', 'D', 'F', '\r', '\n', '\x1a', '\n'};
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(name, error)) return false;
+  std::array<char, 8> begin{};
+  std::ifstream(name, std::ios::binary).read(begin.data(), begin.size());
+  return begin == signature;
+}
+
+/// What HDF5 may do on a damaged file, or an empty text.
+std::string misfortune(int signal) {
+  switch (signal) {
+    case SIGVTALRM:
+      return "HDF5 comes to no end on it";
+    case SIGSEGV:
+    case SIGBUS:
+    case SIGABRT:
+    case SIGFPE:
+    case SIGILL:
+      return std::string("reading it ended in a crash (") + ::strsignal(signal) + ")";
+    default:
+      return "";
+  }
+}
+
+/// The C library says on descriptor 2 that memory was spoilt, before it ends the process. Our own
+/// words go to a copy of it, so that these alone are read.
+void keep_words() {
+#ifndef __SANITIZE_ADDRESS__  // whose reports go there, too
+  std::FILE* const words = ::fdopen(::dup(STDERR_FILENO), "w");
+  const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+  if (words == nullptr || nowhere < 0) return;
+  std::setvbuf(words, nullptr, _IONBF, 0);
+  stderr = words;
+  ::dup2(nowhere, STDERR_FILENO);
+#endif
+}
+
+}  // namespace
+
+bool reads_hdf5(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i) {
+    if (is_hdf5(argv[i])) return true;
+  }
+  return false;
+}
+
+int in_own_process(const std::function<int()>& work, int argc, char** argv) {
+  const pid_t parent = ::getpid();
+  child = ::fork();
+  if (child < 0) return work();
+  if (child == 0) {
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (::getppid() != parent) std::_Exit(exit_code::failed);
+    const rlimit no_core{0, 0};
+    ::setrlimit(RLIMIT_CORE, &no_core);
+    keep_words();
+    const int code = work();
+    std::fflush(nullptr);
+    std::_Exit(code);
+  }
+  struct sigaction action {};
+  action.sa_sigaction = pass_on;
+  action.sa_flags = SA_SIGINFO;
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) ::sigaction(signal, &action, nullptr);
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
+  if (!WIFSIGNALED(status)) return WEXITSTATUS(status);
+  const int signal = WTERMSIG(status);
+  const std::string what = misfortune(signal);
+  if (what.empty()) {  // it was sent
+    std::signal(signal, SIG_DFL);
+    ::raise(signal);
+  }
+  std::string files;
+  for (int i = 1; i < argc; ++i) {
+    if (is_hdf5(argv[i])) files += (files.empty() ? "" : ", ") + std::string(argv[i]);
+  }
+  say("hagfish: {}: {}: the file is damaged\n", printable(files), what);
+  return exit_code::bad_input;
+}
+
+}  // namespace hagfish
