@@ -37,7 +37,7 @@ int check_log(const std::string& file, bool fast, CsvTable& table) {
   if (unmet.empty()) {
     return exit_code::done;
   }
-  std::fflush(stdout);
+  if (std::fflush(stdout) != 0) throw std::runtime_error("standard output cannot be written");
   say("hagfish: {}: check failed: {}\n", printable(file), fmt::join(unmet, ", "));
   return exit_code::failed;
 }

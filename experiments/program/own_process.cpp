@@ -109,7 +109,7 @@ int in_own_process(const std::function<int()>& work, int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     if (is_hdf5(argv[i])) files += (files.empty() ? "" : ", ") + std::string(argv[i]);
   }
-  say("hagfish: {}: {}: the file is damaged\n", printable(files), what);
+  say("hagfish: {}: {}: the file is damaged, or memory is short\n", printable(files), what);
   return exit_code::bad_input;
 }
 
