@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <regex>
 #include <stdexcept>
 
 #include "core/run/drive.hpp"
@@ -12,11 +11,15 @@
 namespace hagfish {
 namespace {
 
+/// Logs of before 0.3 had checkpoints, and a key for them.
+std::string without_checkpoints(std::string text) {
+  const std::size_t at = text.find("\ncheckpoint_interval = ");
+  return at == std::string::npos ? text : text.erase(at, text.find('\n', at + 1) - at);
+}
+
 ResolvedScene scene_of(const std::string& text, const std::string& file,
                        const std::vector<std::string>& overrides = {}) {
-  // Logs of before 0.3 had checkpoints, and a key for them.
-  static const std::regex no_more("(^|\n)checkpoint_interval = [^\n]*");
-  return read_scene_text(std::regex_replace(text, no_more, ""), file + ": scene", overrides);
+  return read_scene_text(without_checkpoints(text), file + ": scene", overrides);
 }
 
 /// Scenes of a branch before its own.

@@ -37,15 +37,18 @@ void falsify(const fs::path& file, const std::string& path) {
     double& value = values[count / 2];
     value = std::isfinite(value) ? std::nextafter(value, 1e300) : 1;
     set.write(values.data(), H5::PredType::NATIVE_DOUBLE);
+  } else if (kind == H5T_ENUM) {
+    std::vector<std::uint8_t> values(count);
+    set.read(values.data(), set.getDataType());
+    std::uint8_t& value = values[count / 2];
+    value = value == 1 ? 2 : 1;
+    set.write(values.data(), set.getDataType());
   } else {
-    const H5::DataType type =
-        kind == H5T_ENUM ? set.getDataType() : H5::DataType(H5::PredType::NATIVE_INT64);
     std::vector<std::int64_t> values(count);
-    set.read(values.data(), type);
-    auto& some = kind == H5T_ENUM ? reinterpret_cast<std::uint8_t*>(values.data())[count / 2]
-                                  : reinterpret_cast<std::uint8_t&>(values[count / 2]);
-    some = static_cast<std::uint8_t>(some == 1 ? 2 : 1);
-    set.write(values.data(), type);
+    set.read(values.data(), H5::PredType::NATIVE_INT64);
+    std::int64_t& value = values[count / 2];
+    value += value > 0 ? -1 : 1;
+    set.write(values.data(), H5::PredType::NATIVE_INT64);
   }
 }
 
