@@ -19,7 +19,7 @@ class FileError : public std::runtime_error {
 /// Opens files where the system has no locks, too, and lets others read what is open.
 inline H5::FileAccPropList without_locks() {
   H5::FileAccPropList access;
-  H5Pset_file_locking(access.getId(), 0, 1);
+  H5Pset_file_locking(access.getId(), false, true);
   return access;
 }
 
