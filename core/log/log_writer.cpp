@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // From one save to the next: at least so many s of wall time, this share of what has passed, and so
-// many times what the last save took. Each save copies the log, a run of an hour some 80 times.
+// many times what the last save took. Each save copies the log, a run of an hour some 70 times.
 constexpr double save_interval = 1;
 constexpr double save_share = 0.1;
 constexpr double save_price = 30;
@@ -201,9 +201,8 @@ std::int64_t frame_stride(const TimeSettings& time) {
 }
 
 LogWriter::LogWriter(const fs::path& file, bool replace, const LogHeader& header,
-                     const Model& model, const Scene& scene, std::int64_t steps)
-    : output_(
-          std::make_unique<OutputFile>(file, steps > 0 ? Existing::go_on : replaced_if(replace))),
+                     const Model& model, const Scene& scene, std::optional<std::int64_t> steps)
+    : output_(std::make_unique<OutputFile>(file, steps ? Existing::go_on : replaced_if(replace))),
       contents_(std::make_unique<Contents>(model, scene, header.level, output_->partial())) {
   require_memory(hdf5_memory);
   Hdf5Writer h5;
@@ -213,7 +212,7 @@ LogWriter::LogWriter(const fs::path& file, bool replace, const LogHeader& header
   label_series(contents_->series, h5);
   h5.save(contents_->next);
   contents_->ahead = true;
-  contents_->spare = steps;
+  contents_->spare = steps.value_or(0);
 }
 
 LogWriter::~LogWriter() {
@@ -239,12 +238,13 @@ void LogWriter::write(const StepRecord& record, const Simulation& sim, double wa
   c.clamped = record.control.clamp_head;
   c.worst.take(record);
   c.steps.append({record, rows});
-  if (record.step % c.stride == 0) write_frame(record, rows);
+  const bool frame = record.step % c.stride == 0;
+  if (frame) write_frame(record, rows);
   // The step that begins at a frame counts to the next one's means.
   c.means.take(record, rows);
   if (wall_time >= c.next_save && sim.step >= c.spare) {
     c.save();
-  } else if (c.waiting_bytes() > most_waiting) {
+  } else if (frame && c.waiting_bytes() > most_waiting) {
     c.change({}, c.series);
   }
 }

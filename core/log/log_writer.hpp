@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "core/log/log_header.hpp"
@@ -20,11 +21,12 @@ std::int64_t frame_stride(const TimeSettings& time);
 /// FILE.part is whole, and who reads it has what was saved when it was opened.
 class LogWriter {
  public:
-  /// Writes to FILE.part until finish(). `steps`: of the log that FILE or FILE.part has of this run
-  /// already, which stays until this one has as many; 0 where it has none. Throws FileError as
-  /// OutputFile, or where the header cannot be written.
+  /// Writes to FILE.part until finish(). `steps`: where FILE or FILE.part is a log of this run
+  /// already (Existing::go_on, whatever `replace` says), those that it has; it stays until this one
+  /// has as many. Throws FileError as OutputFile, or where the header cannot be written.
   LogWriter(const std::filesystem::path& file, bool replace, const LogHeader& header,
-            const Model& model, const Scene& scene, std::int64_t steps = 0);
+            const Model& model, const Scene& scene,
+            std::optional<std::int64_t> steps = std::nullopt);
   /// Without finish(), FILE.part stays as it was last saved.
   ~LogWriter();
   LogWriter(const LogWriter&) = delete;

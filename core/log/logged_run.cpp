@@ -78,16 +78,10 @@ ResolvedScene logged_scene(const Hdf5Reader& h5, const std::vector<std::string>&
 
 std::string why_not_again(const Hdf5Reader& h5) {
   if (h5.has_root_attribute("simulator")) return h5.root_text("simulator") + " took its steps";
-  const Scene scene = logged_scene(h5).scene;
-  if (scene.controller.law == own_law) return "the law is the run's own";
-  const std::vector<double> time = h5.doubles("/trajectory/time");
-  double begin = 0;
-  if (const std::vector<SceneBefore> past = past_of(h5); !past.empty()) {
-    const auto& [text, end] = past.back();
-    begin = static_cast<double>(end) * scene_of(text, h5.file()).scene.time.step;
-  }
-  const bool begins_there = !time.empty() && std::abs(time[0] - begin) < 0.5 * scene.time.step;
-  return begins_there ? "" : "it does not say how it began";
+  if (logged_scene(h5).scene.controller.law == own_law) return "the law is the run's own";
+  // Branches of before 0.3 do not have what they were before.
+  const bool told = h5.has(past_scenes) || !h5.has_root_attribute("branched_from");
+  return told ? "" : "where the branch began is in another log";
 }
 
 LoggedRun logged_run(const Hdf5Reader& h5) {
@@ -97,7 +91,18 @@ LoggedRun logged_run(const Hdf5Reader& h5) {
   }
   LoggedRun run{logged_scene(h5), {}, h5.root_text("qp"), past_of(h5), 0};
   run.model = make_hagfish(run.resolved.specimen, run.resolved.scene);
-  run.steps = h5.integers("/trajectory/step").back();
+  const std::vector<std::int64_t> steps = h5.integers("/trajectory/step");
+  double begin = 0;
+  if (!run.past.empty()) {
+    const auto& [text, end] = run.past.back();
+    begin = static_cast<double>(end) * scene_of(text, h5.file()).scene.time.step;
+  }
+  const double h = run.resolved.scene.time.step;
+  if (steps.empty() || std::abs(static_cast<double>(steps[0]) * h - begin) >= 0.5 * h) {
+    throw FileError(
+        fmt::format("{}: does not begin where its run does, at {:g} s", h5.file(), begin));
+  }
+  run.steps = steps.back();
   return run;
 }
 

@@ -1,13 +1,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
+#include "core/input/input_text.hpp"
 #include "core/log/logged_run.hpp"
 #include "experiments/program/idle_settings.hpp"
 #include "experiments/program/program.hpp"
 #include "experiments/program/scene_run.hpp"
 #include "experiments/program/scene_sense.hpp"
+#include "experiments/program/terminal.hpp"
 
 namespace hagfish {
 namespace {
@@ -19,24 +22,39 @@ struct BranchOptions {
   RunOptions run;
 };
 
-/// The step of the last frame up to `time` (s).
-std::int64_t frame_up_to(const Hdf5Reader& h5, double time) {
+/// The last frame up to `time` (s); times of steps are known to `slack`.
+std::size_t frame_up_to(const Hdf5Reader& h5, double time, double slack) {
   const std::vector<double> times = h5.doubles("/trajectory/time");
-  // Half a step of slack: the time of a step is a product and may come out larger by rounding.
-  const double slack = 0.5 * logged_scene(h5).scene.time.step;
   const auto behind = std::ranges::upper_bound(times, time + slack) - times.begin();
   if (behind == 0) {
     throw FileError(fmt::format("{}: begins at {:g} s", h5.file(), times.at(0)));
   }
-  return h5.integers("/trajectory/step").at(static_cast<std::size_t>(behind - 1));
+  return static_cast<std::size_t>(behind - 1);
+}
+
+/// Tells where the run made again is not at the frame that its log has, as by another program.
+void tell_other_state(const Hdf5Reader& h5, std::size_t frame, const Eigen::VectorXd& q) {
+  if (level_of(h5) == LogLevel::summary) return;
+  constexpr double rounding = 1e-9;  // cm, rad: logs of frames alone have multiples of 2^-32
+  const Hdf5Reader::Rows logged = h5.rows("/trajectory/q");
+  const auto row = static_cast<Eigen::Index>(frame);
+  const bool fits = row < logged.rows() && logged.cols() == q.size();
+  const double off = fits ? (logged.row(row).transpose() - q).lpNorm<Eigen::Infinity>() : INFINITY;
+  if (off <= rounding) return;
+  say("hagfish: {}: made by revision {}; run again by this one it comes there otherwise, by {:.2g} "
+      "cm or rad, and the branch begins from that\n",
+      printable(h5.file()), printable(h5.root_text("git_revision")), off);
 }
 
 int branch_off(const BranchOptions& options, const std::string& typed) {
   const Hdf5Reader h5(options.log);
   const LoggedRun run = logged_run(h5);
-  const std::int64_t step = frame_up_to(h5, options.time);
+  // Half a step of slack: the time of a step is a product and may come out larger by rounding.
+  const std::size_t frame = frame_up_to(h5, options.time, 0.5 * run.resolved.scene.time.step);
+  const std::int64_t step = h5.integers("/trajectory/step").at(frame);
   Simulation sim = begin_again(run);
   go_on_to(step, run.model, run.resolved.scene, sim);
+  tell_other_state(h5, frame, sim.now.state.q);
   const double time = time_of(sim, run.resolved.scene);
   const ResolvedScene resolved = logged_scene(h5, options.set);
   const Model model = make_hagfish(resolved.specimen, resolved.scene);

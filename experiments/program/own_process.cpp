@@ -1,22 +1,20 @@
 #include "experiments/program/own_process.hpp"
 
+#include <H5Cpp.h>
 #include <fcntl.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <string>
-#include <vector>
 
 #include "core/input/input_text.hpp"
+#include "core/input/regular_file.hpp"
 #include "experiments/program/failure.hpp"
 #include "experiments/program/program.hpp"
 #include "experiments/program/terminal.hpp"
@@ -29,15 +27,6 @@ volatile std::sig_atomic_t child = 0;
 /// What a terminal sends reaches both processes.
 void pass_on(int signal, siginfo_t* from, void* /*context*/) {
   if (from->si_code <= 0) ::kill(child, signal);
-}
-
-bool is_hdf5(const char* name) {
-  constexpr std::array<char, 8> signature = {'\x89', 'H', 'D', 'F', '\r', '\n', '\x1a', '\n'};
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(name, error)) return false;
-  std::array<char, 8> begin{};
-  std::ifstream(name, std::ios::binary).read(begin.data(), begin.size());
-  return begin == signature;
 }
 
 /// What HDF5 may do on a damaged file, or an empty text.
@@ -71,14 +60,18 @@ void keep_words() {
 
 }  // namespace
 
-bool reads_hdf5(int argc, char** argv) {
+std::string hdf5_arguments(int argc, char** argv) {
+  H5::Exception::dontPrint();
+  std::string files;
   for (int i = 1; i < argc; ++i) {
-    if (is_hdf5(argv[i])) return true;
+    const std::string name = argv[i];
+    if (argv[i - 1] == std::string("--out") || !unreadable(name).empty()) continue;
+    if (H5Fis_hdf5(name.c_str()) > 0) files += (files.empty() ? "" : ", ") + name;
   }
-  return false;
+  return files;
 }
 
-int in_own_process(const std::function<int()>& work, int argc, char** argv) {
+int in_own_process(const std::string& files, const std::function<int()>& work) {
   const pid_t parent = ::getpid();
   child = ::fork();
   if (child < 0) return work();
@@ -104,10 +97,6 @@ int in_own_process(const std::function<int()>& work, int argc, char** argv) {
   if (what.empty()) {  // it was sent
     std::signal(signal, SIG_DFL);
     ::raise(signal);
-  }
-  std::string files;
-  for (int i = 1; i < argc; ++i) {
-    if (is_hdf5(argv[i])) files += (files.empty() ? "" : ", ") + std::string(argv[i]);
   }
   say("hagfish: {}: {}: the file is damaged, or memory is short\n", printable(files), what);
   return exit_code::bad_input;

@@ -2,15 +2,17 @@
 #pragma once
 
 #include <functional>
+#include <string>
 
 namespace hagfish {
 
-/// Whether an argument names an HDF5 file, on which HDF5 may crash or come to no end.
-bool reads_hdf5(int argc, char** argv);
+/// The HDF5 files among the arguments, but for one to be written (--out): HDF5 may crash on them or
+/// come to no end.
+std::string hdf5_arguments(int argc, char** argv);
 
-/// Returns what `work` returns, in a process of its own that ends with this one. Signals to this
-/// one are passed on. Where a library crashes there, or comes to no end, tells it in one line and
-/// returns exit_code::bad_input.
-int in_own_process(const std::function<int()>& work, int argc, char** argv);
+/// Returns what `work` on such `files` returns, in a process of its own that ends with this one.
+/// Signals to this one are passed on. Where a library crashes there, or comes to no end, tells it
+/// in one line and returns exit_code::bad_input.
+int in_own_process(const std::string& files, const std::function<int()>& work);
 
 }  // namespace hagfish

@@ -28,16 +28,15 @@ std::string span_text(const ControllerState& controller) {
 
 }  // namespace
 
-Progress::Progress(const Model& model, const Scene& scene, bool quiet, double before)
+Progress::Progress(const Model& model, const Scene& scene, bool quiet)
     : model_(model),
       scene_(scene),
       quiet_(quiet),
       terminal_(isatty(fileno(stderr)) != 0),
-      before_(before),
       begin_(std::chrono::steady_clock::now()) {}
 
 double Progress::elapsed() const {
-  return before_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
 }
 
 double Progress::estimated_end(const StepRecord& record) const {

@@ -10,8 +10,7 @@ namespace hagfish {
 class Progress {
  public:
   /// Silent where `quiet`. On a terminal one line is redrawn; elsewhere a line now and then.
-  /// `before`: wall time that the run took before, s.
-  Progress(const Model& model, const Scene& scene, bool quiet, double before = 0);
+  Progress(const Model& model, const Scene& scene, bool quiet);
   ~Progress() { end(); }
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -33,7 +32,6 @@ class Progress {
   bool quiet_;
   bool terminal_;
   bool drawn_ = false;
-  double before_;
   std::chrono::steady_clock::time_point begin_;
   double next_ = 0;  // elapsed() at the next line, s
   Phase phase_ = Phase::form;

@@ -100,7 +100,7 @@ Finding audit_again(const LogContents& log) try {
     if (count > most_told) text += fmt::format("; and {} more", count - most_told);
   }
   return judged({"again", static_cast<double>(count), 0, "differences"}, text);
-} catch (const FileError& error) {
+} catch (const std::runtime_error& error) {  // of a file, or of a step before a branch
   return {
       "again", false, fmt::format("cannot be run again: {} (--fast leaves it out)", error.what()),
       "",      "",    ""};

@@ -73,8 +73,10 @@ int resume(NewRunOptions options, const std::string& typed) {
   if (!run.past.empty()) header.branched_from = h5.root_text("branched_from");
   const std::string revision = h5.root_text("git_revision");
   LogWriter log(options.run.out, true, header, run.model, scene, run.steps);
-  say("{}: its scene is run again from the start; what there is, {:g} s, stays until then\n",
-      printable(part_or_whole), static_cast<double>(run.steps) * scene.time.step);
+  if (!options.run.quiet) {
+    say("{}: its scene is run again from the start; what there is, {:g} s, stays until then\n",
+        printable(part_or_whole), static_cast<double>(run.steps) * scene.time.step);
+  }
   if (revision != build_revision()) {
     say("hagfish: {}: begun by revision {}, made again by {}: it may come otherwise\n",
         printable(options.run.out), printable(revision), build_revision());

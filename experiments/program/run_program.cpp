@@ -69,7 +69,8 @@ int run_program(int argc, char** argv) {
   open_standard_streams();
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is told by its write
   const auto work = [&] { return run_here(argc, argv); };
-  return reads_hdf5(argc, argv) ? in_own_process(work, argc, argv) : work();
+  const std::string files = hdf5_arguments(argc, argv);
+  return files.empty() ? work() : in_own_process(files, work);
 }
 
 }  // namespace hagfish

@@ -70,12 +70,12 @@ void add_run_options(CLI::App& command, RunOptions& options) {
 }
 
 int take_run(const Model& model, const Scene& scene, Simulation sim, const RunOptions& options,
-             LogWriter& log, double before, TakeStep take) {
+             LogWriter& log, TakeStep take) {
   if (!take) {
     take = [&](Simulation& of, StepRecord& record) { take_step(model, scene, of, record); };
   }
   note_signals();
-  Progress progress(model, scene, options.quiet, before);
+  Progress progress(model, scene, options.quiet);
   const Ending ending = take_steps(scene, sim, options.step_limit, take, log, progress);
   progress.end();
   try {

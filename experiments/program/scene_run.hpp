@@ -21,10 +21,9 @@ struct RunOptions {
 /// Adds --force, --quiet and --step-limit.
 void add_run_options(CLI::App& command, RunOptions& options);
 
-/// Steps until the scene is over, or something ends the run, and finishes the log. `before`: wall
-/// time that the run took before, s. `take`: take_step() where none is given. Returns the program's
-/// exit code.
+/// Steps until the scene is over, or something ends the run, and finishes the log. `take`:
+/// take_step() where none is given. Returns the program's exit code.
 int take_run(const Model& model, const Scene& scene, Simulation sim, const RunOptions& options,
-             LogWriter& log, double before = 0, TakeStep take = {});
+             LogWriter& log, TakeStep take = {});
 
 }  // namespace hagfish

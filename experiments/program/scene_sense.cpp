@@ -66,16 +66,11 @@ std::vector<std::string> odd_things(const ResolvedScene& scene) {
   return odd;
 }
 
-void require_named_law(const Scene& scene, const std::string& where) {
-  if (scene.controller.law == own_law) {
+void check_sense(const ResolvedScene& scene, const Model& model, bool force) {
+  if (scene.scene.controller.law == own_law) {
     throw InputError(
-        where +
         R"(controller.law = "own": only a C++ or Python program that sets a control law can run this scene)");
   }
-}
-
-void check_sense(const ResolvedScene& scene, const Model& model, bool force) {
-  require_named_law(scene.scene, "");
   if (const double dense = density(scene); dense > densest) {
     throw InputError(fmt::format(
         "specimen: a density of {:.3g} g/cm^3 is more than any matter has ({:g}); is mass "

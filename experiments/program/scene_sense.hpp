@@ -19,12 +19,8 @@ RunSize run_size(const Scene& scene, const Model& model);
 /// What is odd about the animal but may be meant, a line each: its density, its length.
 std::vector<std::string> odd_things(const ResolvedScene& scene);
 
-/// Throws InputError, which begins with `where`, where the scene's control law is of the program
-/// that made it, as this one cannot know it.
-void require_named_law(const Scene& scene, const std::string& where);
-
-/// Throws InputError where a run cannot be meant: a law that is not there (require_named_law),
-/// matter denser than any; or, without `force`, more than 1e8 steps or 10 GB of log.
+/// Throws InputError where a run cannot be meant: a law of the program that made it, which this one
+/// does not have, matter denser than any; or, without `force`, more than 1e8 steps or 10 GB of log.
 void check_sense(const ResolvedScene& scene, const Model& model, bool force);
 
 /// Says what is odd on standard error; once nothing else keeps the run from being taken.

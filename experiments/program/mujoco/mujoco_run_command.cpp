@@ -81,7 +81,7 @@ int run_in_mujoco(const MujocoRunOptions& options, const std::string& typed) {
   LogHeader header = log_header(begun.resolved, begun.model, "active-set", typed);
   header.simulator = fmt::format("MuJoCo {}", mj_versionString());
   LogWriter log(options.run.out, options.run.force, header, begun.model, scene);
-  return take_run(begun.model, scene, std::move(begun.sim), options.run, log, 0,
+  return take_run(begun.model, scene, std::move(begun.sim), options.run, log,
                   [&loop](Simulation& sim, StepRecord& record) { loop.take_step(sim, record); });
 }
 

@@ -215,6 +215,19 @@ TEST_F(LogTest, WhatThereIsOfARunStaysUntilItHasComeAsFarAgain) {
   EXPECT_FALSE(fs::exists(part));
 }
 
+// However little there is of it: a run that goes on replaces no other file.
+TEST_F(LogTest, ARunThatGoesOnDoesNotReplaceAWholeLog) {
+  const fs::path file = folder / "run.h5", part = folder / "run.h5.part";
+  {
+    LogWriter log(file, false, header, model, scene);
+    write(log, 3);
+    log.finish("complete", sim);
+  }
+  fs::copy_file(file, part);
+  EXPECT_THROW(LogWriter(file, true, header, model, scene, 0), FileError);
+  EXPECT_TRUE(fs::exists(file) && fs::exists(part));
+}
+
 TEST_F(LogTest, TheStateAtTheEndIsTheLastFrame) {
   for (const int steps : {23, 25}) {
     const fs::path file = folder / (std::to_string(steps) + ".h5");

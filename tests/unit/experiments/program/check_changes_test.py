@@ -114,6 +114,41 @@ def test_what_is_said_of_a_log_is_compared_too(folder, change, name):
     assert any(name in text for text in said.values()), said
 
 
+def test_a_log_begins_where_its_run_does(folder):
+    def later(log):
+        log["trajectory/step"][...] += 100
+        for path in ("trajectory/time", "steps/time"):
+            log[path][...] += 0.5
+
+    assert "does not begin where its run does" in changed(folder, later)["again"]
+
+
+@pytest.mark.parametrize("path", ["steps/qp_time", "diagnostics/wall_time"])
+def test_no_time_that_a_computer_took_is_below_zero(folder, path):
+    def change(log):
+        log[path][7] = -1e-9
+
+    assert f"/{path} is below 0" in changed(folder, change)["again"]
+
+
+def test_a_run_that_goes_on_hears_signals_and_leaves_what_there_is(folder):
+    """It is in a process of its own, which reads a log."""
+    process = subprocess.Popen([HAGFISH, "run", "table1", "--quiet", "--set", "time.step=0.0001", "--out", "heard.h5"], cwd=folder)
+    part = folder / "heard.h5.part"
+    time.sleep(1.5)  # of a run of some ten seconds
+    process.kill()
+    process.wait()
+    left = part.read_bytes()
+    resumed = subprocess.Popen([HAGFISH, "run", "--resume", "heard.h5"], cwd=folder, stderr=subprocess.PIPE, text=True)
+    assert "run again from the start" in resumed.stderr.readline()
+    time.sleep(0.2)
+    resumed.send_signal(signal.SIGTERM)
+    said = resumed.communicate()[1]
+    assert resumed.returncode == 1 and "stays as it was" in said and "interrupted" in said, said
+    assert part.read_bytes() == left
+    part.unlink()
+
+
 def test_a_scene_that_is_not_the_runs_makes_another_one(folder):
     def change(log):
         log.attrs["scene"] = log.attrs["scene"].replace("bending_stiffness = ", "bending_stiffness = 1")

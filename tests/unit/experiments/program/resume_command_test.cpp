@@ -7,6 +7,7 @@
 
 #include "core/log/hdf5_reader.hpp"
 #include "tests/support/program_runs.hpp"
+#include "tests/support/written_log.hpp"
 
 namespace hagfish::resume_command_test {
 
@@ -116,6 +117,22 @@ TEST_F(ResumeTest, ABranchOfABranchComesAgain) {
             0);
   const std::string check = run_program("check c.h5").output;
   EXPECT_NE(check.find("comes again to the end, bit by bit"), std::string::npos) << check;
+  rewrite<double>(folder / "c.h5", "/branch/end", H5::PredType::NATIVE_DOUBLE,
+                  [](std::vector<double>& ends) { ends.back() += 20; });
+  const std::string other = run_program("check c.h5").output;
+  EXPECT_NE(other.find("does not begin where its run does"), std::string::npos) << other;
+}
+
+TEST_F(ResumeTest, ABranchFromAnotherStateThanTheLogHasSaysSo) {
+  ASSERT_EQ(run_program(short_run + "--out a.h5").code, 0);
+  const std::string word = "comes there otherwise";
+  const auto branch = [this](const std::string& out) {
+    return run_program("branch a.h5 --time 0.2 --quiet --out " + out).output;
+  };
+  EXPECT_EQ(branch("b.h5").find(word), std::string::npos);
+  rewrite<double>(folder / "a.h5", "/trajectory/q", H5::PredType::NATIVE_DOUBLE,
+                  [](std::vector<double>& q) { q[q.size() / 21 * 10 + 20] += 1e-6; });
+  EXPECT_NE(branch("c.h5").find(word), std::string::npos);
 }
 
 }  // namespace hagfish::resume_command_test
