@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/log/energy_losses.hpp"
+#include "core/log/ledger_columns.hpp"
 #include "core/log/pull_figures.hpp"
 #include "core/run/laws.hpp"
 
@@ -345,76 +345,28 @@ void declare_diagnostics(LogTable<Frame>& t) {
 }
 
 void declare_energy(LogTable<Frame>& t) {
-  const auto energy = [&t](const char* name, const char* description,
-                           double EnergyLedger::*member) {
-    t.number(std::string("/diagnostics/") + name, {"erg", description},
-             [member](const Frame& f) { return f.record.ledger.*member; });
-  };
-  energy("kinetic_energy", "kinetic energy", &EnergyLedger::kinetic);
-  energy("elastic_energy", "energy in the joint springs", &EnergyLedger::elastic);
-  energy("gravity_energy", "potential energy, 0 at the world's origin", &EnergyLedger::gravity);
-  energy("work_tip", "work of the scripted force so far", &EnergyLedger::work_tip);
-  energy("work_active", "work of the active torque so far", &EnergyLedger::work_active);
-  for (const RowKindEntry& force : row_kind_table) {
-    t.number(std::string("/diagnostics/work_") + force.name,
-             {"erg", "work so far of: " + std::string(force.description)},
-             [kind = force.value](const Frame& f) { return f.record.ledger.work[kind]; });
-  }
-  for (const EnergyLoss& loss : energy_losses) energy(loss.name, loss.description, loss.member);
-  energy("integrator_inertia",
-         "gained by the integrator from velocity changes, without impacts, so far",
-         &EnergyLedger::integrator_inertia);
-  energy("integrator_potential",
-         "gained by the integrator from springs, their numerical damping and gravity so far",
-         &EnergyLedger::integrator_potential);
-  energy("integrator_coriolis", "gained by the integrator from explicit Coriolis forces so far",
-         &EnergyLedger::integrator_coriolis);
-  energy("integrator_held",
-         "taken back from the velocity so far: what the integrator gained too much",
-         &EnergyLedger::integrator_held);
-  energy("integrator_given_back",
-         "gained so far as momentum that the integrator made is given back (momentum_given_back)",
-         &EnergyLedger::integrator_momentum);
+  visit_energies([&t](const std::string& name, const std::string& description, const auto& of) {
+    t.number("/diagnostics/" + name, {"erg", description},
+             [of](const Frame& f) { return of(f.record.ledger); });
+  });
   t.number("/diagnostics/integrator_error", {"erg", "sum of the integrator's terms"},
            [](const Frame& f) { return f.record.ledger.integrator_error(); });
 }
 
 void declare_momentum(LogTable<Frame>& t) {
-  const auto vector = [&t](const std::string& name, const char* unit,
-                           const std::string& description, auto get) {
-    t.numbers("/diagnostics/" + name, {space}, {unit, description + ", world axes"}, get);
-  };
-  const auto ledger = [&vector](const std::string& linear, const std::string& angular,
-                                const char* unit, const char* angular_unit,
-                                const std::string& description, Momentum MomentumLedger::*member) {
-    vector(
-        linear, unit, description, [member](const Frame& f) -> const auto& {
-          return (f.record.momentum.*member).linear;
-        });
-    vector(
-        angular, angular_unit,
-        description + ": about the centre of mass", [member](const Frame& f) -> const auto& {
-          return (f.record.momentum.*member).angular;
-        });
-  };
-  std::string outside = "impulse so far of tip, ";
-  for (const RowKindEntry& force : row_kind_table) {
-    if (force.from_outside) outside += std::string(force.description) + ", ";
+  for (const MomentumColumn& column : momentum_columns) {
+    const auto vector = [&](const char* name, const char* unit, const char* about,
+                            Eigen::Vector3d Momentum::*part) {
+      t.numbers(
+          std::string("/diagnostics/") + name, {space},
+          {unit, std::string(column.description) + about + ", world axes"},
+          [ part, member = column.member ](const Frame& f) -> const auto& {
+            return f.record.momentum.*member.*part;
+          });
+    };
+    vector(column.linear, column.unit, "", &Momentum::linear);
+    vector(column.angular, column.angular_unit, ": about the centre of mass", &Momentum::angular);
   }
-  outside.replace(outside.rfind(", "), 2, " and gravity");
-  ledger("momentum", "angular_momentum", "g cm/s", "g cm²/s", "momentum of all bodies",
-         &MomentumLedger::momentum);
-  ledger("impulse_drag", "angular_impulse_drag", "dyn s", "dyn cm s", "impulse of drag so far",
-         &MomentumLedger::drag);
-  ledger("impulse_outside", "angular_impulse_outside", "dyn s", "dyn cm s", outside.c_str(),
-         &MomentumLedger::outside);
-  ledger("integrator_momentum", "integrator_angular_momentum", "g cm/s", "g cm²/s",
-         "gained by the rule of the steps itself so far, before it is given back",
-         &MomentumLedger::integrator);
-  ledger("momentum_given_back", "angular_momentum_given_back", "g cm/s", "g cm²/s",
-         "given back so far, after steps in which nothing held the head: what such a step gained "
-         "itself, so that no motion of a free animal is the integrator's",
-         &MomentumLedger::given_back);
 }
 
 }  // namespace

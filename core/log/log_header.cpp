@@ -10,7 +10,7 @@
 #include "core/log/axis_labels.hpp"
 #include "core/log/build_info.hpp"
 #include "core/log/coordinate_names.hpp"
-#include "core/log/energy_losses.hpp"
+#include "core/log/ledger_columns.hpp"
 #include "core/scene/phase.hpp"
 #include "core/step/row_kind.hpp"
 
@@ -95,7 +95,7 @@ std::vector<std::pair<std::string, std::vector<std::string>>> enumerations() {
     meanings.emplace_back(phase.description);
   }
   for (const RowKindEntry& kind : row_kind_table) forces.emplace_back(kind.name);
-  for (const EnergyLoss& loss : energy_losses) losses.emplace_back(loss.name);
+  for (const EnergyColumn& loss : energy_losses) losses.emplace_back(loss.name);
   for (const NamedKnot& knot : named_knots()) {
     knots.emplace_back(knot.name);
     invariants.push_back(invariants_text(knot.type));

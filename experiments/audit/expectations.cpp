@@ -1,5 +1,7 @@
 #include "experiments/audit/expectations.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -22,6 +24,30 @@ Criterion both_ends(const std::string& name, const ExpectSettings& expect, const
 }
 
 }  // namespace
+
+Finding judged(const Criterion& criterion, const std::string& text) {
+  const auto number = [](double value) {
+    return std::isfinite(value) ? fmt::format("{}", value) : "";
+  };
+  return {criterion.name,          criterion.met(),         text,
+          number(criterion.value), number(criterion.bound), criterion.unit};
+}
+
+Finding judged_over(const Criterion& criterion, const std::string& scope) {
+  return judged(criterion,
+                fmt::format("{}{}{} (at {} {:g})",
+                            std::isfinite(criterion.value)
+                                ? fmt::format("{:.3g} {}", criterion.value, criterion.unit)
+                                : "no finite number",
+                            scope.empty() ? "" : ", ", scope, criterion.at_least ? "least" : "most",
+                            criterion.bound));
+}
+
+Finding all_of(const std::string& name, std::int64_t count, std::int64_t of,
+               const std::string& unit, const std::string& text) {
+  const auto number = [of](std::int64_t n) { return of > 0 ? std::to_string(n) : ""; };
+  return {name, of > 0 && count == of, text, number(count), number(of), unit};
+}
 
 Criterion penetration_criterion(const ExpectSettings& expect, double deepest) {
   return {"penetration", deepest, expect.penetration, "cm"};

@@ -25,6 +25,25 @@ struct Criterion {
   bool met() const { return at_least ? value >= bound : value <= bound; }
 };
 
+/// What was judged, in figures and in words. Figures are numbers, or words where it is those that
+/// are compared; empty where the log has none.
+struct Finding {
+  std::string name;    ///< what was judged, in a word or two
+  bool passed = true;  ///< false fails the log
+  std::string text;    ///< the figure and its bound, in one line
+  std::string value, bound, unit;
+};
+
+/// A finding on a figure, described by `text`.
+Finding judged(const Criterion& criterion, const std::string& text);
+
+/// The same, described as "VALUE UNIT, SCOPE (at most BOUND)".
+Finding judged_over(const Criterion& criterion, const std::string& scope = "");
+
+/// So many of so many: all must be, and there must be some.
+Finding all_of(const std::string& name, std::int64_t count, std::int64_t of,
+               const std::string& unit, const std::string& text);
+
 /// Deepest overlap of skins at any step, cm.
 Criterion penetration_criterion(const ExpectSettings& expect, double deepest);
 /// Largest skin_fold() while the knot is held, 0 where it never is.
@@ -92,7 +111,7 @@ inline constexpr double totals_rounding = 1e-12;
 /// A difference of totals as a share of `scale`: 0 where the difference is no more than what
 /// rounding leaves of totals up to `largest_total`.
 inline double share_of(double off, double scale, double largest_total) {
-  if (off <= totals_rounding * largest_total) return 0;
+  if (std::isfinite(off) && off <= totals_rounding * largest_total) return 0;
   return scale > 0 ? off / scale : off;
 }
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/input/scene_reader.hpp"
+#include "experiments/audit/judge.hpp"
 #include "experiments/design/design.hpp"
-#include "experiments/sweep/run_figures.hpp"
 
 namespace hagfish {
 

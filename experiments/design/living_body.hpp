@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/input/scene_reader.hpp"
+#include "experiments/audit/judge.hpp"
 #include "experiments/design/soft_body.hpp"
-#include "experiments/sweep/run_figures.hpp"
 
 namespace hagfish {
 

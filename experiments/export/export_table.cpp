@@ -52,7 +52,7 @@ void ExportTable::add(const std::vector<Cell>& cells) {
 
 void ExportTable::describe(CsvTable& dictionary) const {
   for (std::size_t k = 0; k < columns_.size(); ++k) {
-    const ExportUnit& unit = columns_[k].unit;
+    const FigureUnit& unit = columns_[k].unit;
     dictionary.push_back(
         {name_, rows_[0][k], in_words(si_ ? unit.si : unit.cgs), columns_[k].meaning});
   }

@@ -7,34 +7,14 @@
 #include <variant>
 #include <vector>
 
+#include "experiments/audit/figure_unit.hpp"
 #include "experiments/program/csv.hpp"
 
 namespace hagfish {
 
-/// What a column's values count, as its name ends.
-struct ExportUnit {
-  const char* cgs;
-  const char* si;
-  double si_per_cgs;
-};
-namespace export_unit {
-inline constexpr ExportUnit none{"", "", 1};
-inline constexpr ExportUnit second{"s", "s", 1};
-inline constexpr ExportUnit radian{"rad", "rad", 1};
-inline constexpr ExportUnit centimetre{"cm", "m", 1e-2};
-inline constexpr ExportUnit area{"cm2", "m2", 1e-4};
-inline constexpr ExportUnit gram{"g", "kg", 1e-3};
-inline constexpr ExportUnit per_length{"rad_per_cm", "rad_per_m", 1e2};
-inline constexpr ExportUnit speed{"cm_per_s", "m_per_s", 1e-2};
-inline constexpr ExportUnit force{"dyn", "N", 1e-5};
-inline constexpr ExportUnit torque{"dyn_cm", "N_m", 1e-7};
-inline constexpr ExportUnit torque_time{"dyn_cm_s", "N_m_s", 1e-7};
-inline constexpr ExportUnit energy{"erg", "J", 1e-7};
-}  // namespace export_unit
-
 struct ExportColumn {
   std::string name;  ///< without its unit
-  ExportUnit unit;
+  FigureUnit unit;
   std::string meaning;
 };
 

@@ -10,8 +10,8 @@
 namespace hagfish {
 
 /// What every row of a table along the frames begins with.
-inline const ExportColumn frame_column{"frame", export_unit::none, "index of the frame, from 0"};
-inline const ExportColumn time_column{"time", export_unit::second, "simulated time"};
+inline const ExportColumn frame_column{"frame", figure_unit::none, "index of the frame, from 0"};
+inline const ExportColumn time_column{"time", figure_unit::second, "simulated time"};
 
 /// midline, curvature, knot, contacts: where the body is, recomputed from q.
 std::vector<ExportTable> shape_tables(const LogContents& log, bool si);

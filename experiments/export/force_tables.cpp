@@ -3,14 +3,14 @@
 #include <utility>
 
 #include "core/chain/dynamics.hpp"
-#include "core/log/energy_losses.hpp"
+#include "core/log/ledger_columns.hpp"
 #include "core/step/row_kind.hpp"
 #include "experiments/export/export_tables.hpp"
 
 namespace hagfish {
 namespace {
 
-using namespace export_unit;
+using namespace figure_unit;
 
 const std::string mean = "; mean since the frame before";
 
@@ -176,7 +176,7 @@ ExportTable energy_table(const LogContents& log, bool si) {
   for (const RowKindEntry& kind : row_kind_table) {
     terms.emplace_back(std::string("work_") + kind.name, of(kind) + ", so far");
   }
-  for (const EnergyLoss& loss : energy_losses) {
+  for (const EnergyColumn& loss : energy_losses) {
     const bool logged =
         log.h5.has(std::string("/diagnostics/") + loss.name);  // earlier logs differ
     if (logged) terms.emplace_back(loss.name, loss.description);

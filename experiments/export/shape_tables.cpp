@@ -10,7 +10,7 @@
 namespace hagfish {
 namespace {
 
-using namespace export_unit;
+using namespace figure_unit;
 
 ExportTable midline_table(bool si) {
   return {"midline.csv",

@@ -2,17 +2,14 @@
 #include <filesystem>
 #include <limits>
 
-#include "core/chain/skin_fold.hpp"
-#include "core/knot/knot.hpp"
 #include "core/scene/phase.hpp"
-#include "experiments/audit/audit_knot.hpp"
-#include "experiments/audit/rebuilt.hpp"
+#include "experiments/audit/replay.hpp"
 #include "experiments/export/export_tables.hpp"
 
 namespace hagfish {
 namespace {
 
-using namespace export_unit;
+using namespace figure_unit;
 
 /// Times of the frames of one phase, s; nan where it was not reached.
 struct Stretch {
@@ -29,49 +26,6 @@ Stretch stretch_of(const LogContents& log, Phase phase) {
     stretch.reached = true;
   }
   return stretch;
-}
-
-double largest(const Hdf5Reader::Rows& rows) {
-  double most = 0;
-  for (const double value : rows.rightCols(rows.cols() - root_dofs).reshaped()) {
-    if (std::abs(value) > most) most = std::abs(value);  // nan at the first frame
-  }
-  return most;
-}
-
-double largest(const std::vector<double>& values) {
-  double most = 0;
-  for (const double value : values) most = std::max(most, value);
-  return most;
-}
-
-/// Median over the slide of the sum of the four multipliers of Eq. 6, means from frame to frame,
-/// dyn.
-double sliding_force(const LogContents& log, const Stretch& slide) {
-  const Hdf5Reader::Rows lambda = log.h5.rows("/mean/thigmotaxis/lambda");
-  std::vector<double> sums;
-  for (std::size_t f = slide.first + 1; slide.reached && f <= slide.last; ++f) {
-    sums.push_back(lambda.row(static_cast<Eigen::Index>(f)).sum());
-  }
-  return sums.empty() ? std::numeric_limits<double>::quiet_NaN() : median(sums);
-}
-
-/// The largest skin_fold() at frames of the held knot, also of logs from before they had one.
-double largest_fold(const LogContents& log) {
-  double most = 0;
-  Kinematics kin;
-  for (std::size_t f = 0; f < log.time.size(); ++f) {
-    if (!holds_knot(static_cast<Phase>(log.phase[f]))) continue;
-    update_positions(log.model, log.q.row(static_cast<Eigen::Index>(f)), kin);
-    most = std::max(most, skin_fold(log.model, kin));
-  }
-  return most;
-}
-
-/// Time that was simulated, s: steps go on behind the last frame, where the log has them.
-double simulated(const LogContents& log) {
-  if (!log.h5.has("/steps/time")) return log.time[log.time.size() - 1] - log.time[0];
-  return static_cast<double>(log.h5.shape("/steps/time").at(0)) * log.resolved.scene.time.step;
 }
 
 /// The largest of some columns over the frames from `first` to `last`, in size; nan means count for
@@ -105,11 +59,6 @@ double effort_of(const LogContents& log, const Hdf5Reader::Rows& force, std::siz
     }
   }
   return sum;
-}
-
-std::string knot_at(const LogContents& log, std::size_t frame) {
-  return knot_name({static_cast<int>(log.h5.integers("/knot/determinant")[frame]),
-                    static_cast<int>(log.h5.integers("/knot/v2")[frame])});
 }
 
 }  // namespace
@@ -176,100 +125,33 @@ ExportTable phases_table(const LogContents& log, bool si) {
 }
 
 ExportTable summary_table(const LogContents& log, const SweptSkin& swept, bool si) {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  const Scene& scene = log.resolved.scene;
   const Specimen& animal = log.resolved.specimen;
-  const std::size_t end = log.time.size() - 1;
-  const Stretch tighten = stretch_of(log, Phase::tighten), slide = stretch_of(log, Phase::slide),
-                release = stretch_of(log, Phase::release), free = stretch_of(log, Phase::free);
-  const Slide slid = slides_of(log).slide();
-  const double lasted = slide.reached ? log.time[slide.last] - log.time[slide.first] : 0;
-  const auto from = [&](const Stretch& stretch) {
-    return stretch.reached ? log.time[stretch.first] : nan;
-  };
-  const auto at_end = [&](const char* name) {
-    return log.h5.doubles(std::string("/diagnostics/") + name)[end];
-  };
-  ExportTable table(
-      "summary.csv",
-      {{"log", none, "the file"},
-       {"scene", none, "its title"},
-       {"specimen", none, "the animal"},
-       {"status", none, "complete, running, or failed and why"},
-       {"bodies", none, "rigid bodies of the chain"},
-       {"length", centimetre, "of the animal"},
-       {"mass", gram, "of the animal"},
-       {"step", second, "h, of the integration"},
-       {"duration", second, "simulated; of a log of frames, up to the last one"},
-       {"knot", none,
-        "type as tightening or the slide begins, or at the end where it comes to neither"},
-       {"tighten_from", second, "start of tightening"},
-       {"slide_from", second, "start of the slide"},
-       {"release_from", second, "when the head was let go"},
-       {"free_from", second, "when the knot was gone"},
-       {"slide_distance", centimetre, "way of the knot's head end while it slides, to the head"},
-       {"slide_speed", speed, "that way over its time"},
-       {"tail_distance", centimetre, "way of the knot's tail end meanwhile"},
-       {"taper_asks", centimetre, "way that the tail end of a knot as tight would come by"},
-       {"curvature_travel", centimetre, "way of the body's curvature meanwhile"},
-       {"curvature_correlation", none, "of curvature before and after, the least of four quarters"},
-       {"both_ends_percent", none, "share by which this is a slide of both ends, %"},
-       {"slide", none, "what this is by name"},
-       {"sliding_force", force,
-        "sum of the four multipliers of Eq. 6: median over the slide of means from frame to frame"},
-       {"largest_thigmotaxis", torque, "f_thigmo of any hinge, mean from frame to frame"},
-       {"largest_active", torque, "torque of the muscles at any hinge, likewise"},
-       {"largest_torque", torque,
-        "of both together, of any hinge while the knot slides or pulls, likewise"},
-       {"penetration", centimetre, "deepest overlap of skins at any step up to the last frame"},
-       {"skin_fold", none,
-        "largest radius of the skin over radius of curvature while the knot is held, across one "
-        "diameter: above 1 the skin inside of a bend folds into itself"},
-       {"limit_violation", radian, "furthest past a joint limit at any step up to the last frame"},
-       {"work_tip", energy, "of the scripted force on the tail, in all"},
-       {"work_active", energy, "of the muscles, in all"},
-       {"work_thigmotaxis", energy, "of f_thigmo, in all"},
-       {"dissipated", energy, "lost to water drag and joint damping, in all"},
-       {"swept", area, "skin that the knot swept, of skin.csv"},
-       {"swept_percent", none, "of all skin, %"}},
-      si);
-  table.add({std::filesystem::path(log.h5.file()).filename().string(),
-             scene.title,
-             animal.name,
-             log.h5.root_text("status"),
-             std::int64_t{log.model.body_count()},
-             animal.length,
-             animal.mass,
-             scene.time.step,
-             simulated(log),
-             knot_at(log, tighten.reached ? tighten.first
-                          : slide.reached ? slide.first
-                                          : end),
-             from(tighten),
-             from(slide),
-             from(release),
-             from(free),
-             slid.leading_way,
-             lasted > 0 ? slid.leading_way / lasted : nan,
-             slid.trailing_way,
-             slid.taper_asks,
-             slid.travel,
-             slid.correlation,
-             100 * slid.share(),
-             slide_name(slid),
-             sliding_force(log, slide),
-             largest(log.h5.rows("/mean/forces/thigmotaxis")),
-             largest(log.h5.rows("/mean/forces/active")),
-             largest_muscle_torque(log),
-             largest(log.h5.doubles("/diagnostics/penetration")),
-             largest_fold(log),
-             largest(log.h5.doubles("/diagnostics/limit_violation")),
-             at_end("work_tip"),
-             at_end("work_active"),
-             at_end("work_thigmotaxis"),
-             at_end("dissipated"),
-             swept.swept(),
-             100 * swept.swept() / swept.all()});
+  std::vector<ExportColumn> columns{{"log", none, "the file"},
+                                    {"scene", none, "its title"},
+                                    {"specimen", none, "the animal"},
+                                    {"status", none, "complete, running, or failed and why"},
+                                    {"bodies", none, "rigid bodies of the chain"},
+                                    {"length", centimetre, "of the animal"},
+                                    {"mass", gram, "of the animal"},
+                                    {"step", second, "h, of the integration"}};
+  std::vector<ExportTable::Cell> cells{std::filesystem::path(log.h5.file()).filename().string(),
+                                       log.resolved.scene.title,
+                                       animal.name,
+                                       log.h5.root_text("status"),
+                                       std::int64_t{log.model.body_count()},
+                                       animal.length,
+                                       animal.mass,
+                                       log.resolved.scene.time.step};
+  const RunSummary run = judged_log(log).summary("", "");
+  for (const RunFigure& figure : run_figures()) {
+    columns.push_back({figure.name, figure.unit, figure.meaning});
+    cells.push_back(std::visit([&](auto of) { return ExportTable::Cell(run.*of); }, figure.value));
+  }
+  columns.push_back({"swept", area, "skin that the knot swept, of skin.csv"});
+  columns.push_back({"swept_percent", none, "of all skin, %"});
+  cells.insert(cells.end(), {swept.swept(), 100 * swept.swept() / swept.all()});
+  ExportTable table("summary.csv", std::move(columns), si);
+  table.add(cells);
   return table;
 }
 

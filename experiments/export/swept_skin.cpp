@@ -76,10 +76,10 @@ SweptSkin swept_skin(const LogContents& log) {
 ExportTable skin_table(const SweptSkin& swept, const Model& model, bool si) {
   ExportTable table(
       "skin.csv",
-      {{"s", export_unit::centimetre, "arc length from the head of the cell's middle"},
-       {"side", export_unit::radian, "way round to its middle, from the body's Y axis over its Z"},
-       {"area", export_unit::area, "of the cell"},
-       {"since", export_unit::second, "when the knot first touched it; empty where it never did"}},
+      {{"s", figure_unit::centimetre, "arc length from the head of the cell's middle"},
+       {"side", figure_unit::radian, "way round to its middle, from the body's Y axis over its Z"},
+       {"area", figure_unit::area, "of the cell"},
+       {"since", figure_unit::second, "when the knot first touched it; empty where it never did"}},
       si);
   const auto stations = static_cast<double>(swept.area.cols());
   const auto sides = static_cast<double>(swept.area.rows());

@@ -104,16 +104,16 @@ std::vector<double> places_of(const std::vector<double>& numbers, const FilmTabl
     middle.push_back(quantile(ways, 0.5));
     by_way.push_back(by_way.back() + middle.back());
   }
-  const double mean = by_way.back() / static_cast<double>(n - 1);
-  if (!(mean > 0)) return even;
+  const double mean_way = by_way.back() / static_cast<double>(n - 1);
+  if (!(mean_way > 0)) return even;
   bool uneven = false;
   for (std::size_t i = 0; i + 1 < n; ++i) {
-    const double off = std::abs(middle[i] - mean);
+    const double off = std::abs(middle[i] - mean_way);
     for (double& w : way[i]) w = std::abs(w - middle[i]);
     // Of a median, from the median of what is off it.
     const double error =
         1.9 * quantile(way[i], 0.5) / std::sqrt(static_cast<double>(way[i].size()));
-    uneven = uneven || (off > even_share * mean && off > even_errors * error);
+    uneven = uneven || (off > even_share * mean_way && off > even_errors * error);
   }
   if (!uneven) return even;
   for (double& place : by_way) place /= by_way.back();

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/log/coordinate_names.hpp"
-#include "core/log/energy_losses.hpp"
+#include "core/log/ledger_columns.hpp"
 #include "experiments/python/begun.hpp"
 #include "experiments/python/python_arguments.hpp"
 #include "experiments/python/python_simulation.hpp"
@@ -40,7 +40,7 @@ py::dict energies(const PythonSimulation& run) {
   for (const RowKindEntry& kind : row_kind_table) {
     e[(std::string("work_") + kind.name).c_str()] = ledger.work[kind.value];
   }
-  for (const EnergyLoss& loss : energy_losses) e[loss.name] = ledger.*loss.member;
+  for (const EnergyColumn& loss : energy_losses) e[loss.name] = ledger.*loss.member;
   e["integrator_error"] = ledger.integrator_error();
   return e;
 }

@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/knot/knot.hpp"
 #include "core/log/thigmotaxis_rows.hpp"
-#include "experiments/audit/audit_knot.hpp"
 
 namespace hagfish {
 namespace {

@@ -5,6 +5,7 @@
 
 #include "core/chain/start.hpp"
 #include "core/run/simulation.hpp"
+#include "core/run/slide.hpp"
 #include "experiments/audit/expectations.hpp"
 
 namespace hagfish {
@@ -65,7 +66,7 @@ class StressJudge {
   bool knotted_at_start_ = false;
   double knot_seen_ = 0;  ///< s
   std::string lost_;      ///< what the knot became before its release
-  bool tied_ = false;  ///< the controller took the knot as tied
+  bool tied_ = false;     ///< the controller took the knot as tied
   SlideWatch slides_;
   long slide_steps_ = 0, slide_met_ = 0;
   double kkt_ = 0;

@@ -8,6 +8,7 @@
 #include "core/log/build_info.hpp"
 #include "core/log/log_writer.hpp"
 #include "core/run/drive.hpp"
+#include "experiments/audit/run_watch.hpp"
 #include "experiments/program/failure.hpp"
 #include "experiments/sweep/sweep.hpp"
 #include "mujoco_ref/mjcf.hpp"
@@ -69,7 +70,8 @@ std::optional<SweepRun> run_for_summary(const ResolvedScene& resolved,
   const Scene& scene = resolved.scene;
   const Model model = make_hagfish(resolved.specimen, scene);
   KeptLog kept(log, resolved, model);
-  RunFigures figures(model, scene);
+  Judge judge(model, scene);
+  RunWatch watch(model, scene, judge);
   const double begin = thread_cpu_time();
   std::string outcome = outcome_name(Outcome::ok), message;
   Simulation sim = start(model, scene, sweep_qp);
@@ -84,7 +86,7 @@ std::optional<SweepRun> run_for_summary(const ResolvedScene& resolved,
     cpu_time += thread_cpu_time() - step_begin;
   };
   const auto write = [&](const StepRecord& step, const Simulation& of) {
-    figures.see(step);
+    watch.see(step);
     kept.write(step, of, step_begin - begin);
   };
   try {
@@ -100,10 +102,10 @@ std::optional<SweepRun> run_for_summary(const ResolvedScene& resolved,
     outcome = "error";
     message = reason(error);
   }
-  figures.see_end(sim);
+  watch.see_end(sim);
   const std::string at = fmt::format("{} at step {}", message, sim.step);
   kept.finish(message.empty() ? "complete" : "failed: " + at, sim);
-  return SweepRun{figures.summary(outcome, message.empty() ? "" : at), cpu_time};
+  return SweepRun{judge.summary(outcome, message.empty() ? "" : at), cpu_time};
 }
 
 }  // namespace hagfish

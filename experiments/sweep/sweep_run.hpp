@@ -8,7 +8,7 @@
 #include <string>
 
 #include "core/input/scene_reader.hpp"
-#include "experiments/sweep/run_figures.hpp"
+#include "experiments/audit/judge.hpp"
 
 namespace hagfish {
 

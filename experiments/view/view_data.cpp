@@ -8,7 +8,7 @@
 #include "core/input/input_text.hpp"
 #include "core/knot/knot.hpp"
 #include "core/run/controller.hpp"
-#include "experiments/audit/audit_knot.hpp"
+#include "experiments/audit/replay.hpp"
 #include "experiments/export/body_quantity.hpp"
 #include "experiments/export/frame_contacts.hpp"
 #include "experiments/view/drawn_plane.hpp"
@@ -101,11 +101,15 @@ Json obstacles(const Scene& scene, double length) {
 /// the curvature, cm.
 Json slide_so_far(const LogContents& log) {
   std::vector<double> values;
-  slides_of(log, [&values](const SlideWatch& so_far) {
+  const LogFrames frames(log);
+  SlideWatch so_far(log.model);
+  for (Eigen::Index f = 0; f < log.q.rows(); ++f) {
+    const RunFrame frame = frames.at(f);
+    so_far.see(frame.phase, frame.span, frame.q);
     const Slide slide = so_far.slide();
     values.insert(values.end(),
                   {slide.leading_way, slide.trailing_way, slide.taper_asks, slide.travel});
-  });
+  }
   return floats(values);
 }
 
