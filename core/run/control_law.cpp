@@ -193,13 +193,7 @@ extern constinit const Law knot_speed_record{
     .description = "the paper's, its speeds scaled until the knot has the speed wanted",
     .make = [] { return ControlLaw(knot_speed_law); },
     .memory_size = [](const Model& /*model*/, const Scene& /*scene*/) { return knot_speed_memory; },
-    .fault = knot_speed_fault,
-    .rows =
-        [](const Scene& scene, Phase phase) {
-          return phase == Phase::slide
-                     ? AskedRows{.least_scale = 0, .most_scale = scene.controller.knot_speed.most}
-                     : AskedRows{};
-        }};
+    .fault = knot_speed_fault};
 
 std::string cure_of_torque(const Control& control, const Status& status) {
   const bool blown_up = status.outcome == Outcome::speed || status.outcome == Outcome::non_finite ||

@@ -50,31 +50,11 @@ struct LawNumbers {
   Eigen::VectorXd (*of)(const Eigen::VectorXd& memory, Eigen::Index size);
 };
 
-/// What an audit knows of the start of a logged step.
-struct LoggedSituation {
-  const Model& model;
-  const Scene& scene;
-  const Kinematics& kin;
-  const Eigen::VectorXd& q;
-  const Eigen::VectorXd& qdot;
-  const ContactSet& contacts;
-  Phase phase;
-  double time;                           ///< s
-  std::vector<Eigen::VectorXd> numbers;  ///< of Law::numbers, in their order
-};
-
-/// The rows of Eq. 6 that a law asks for at the knot's ends in a phase, compared with the paper's.
-struct AskedRows {
-  bool any = true;                         ///< whether there are any
-  double effort = 1;                       ///< share of controller.cap
-  double least_scale = 1, most_scale = 1;  ///< of the commanded speeds, the same of all rows
-};
-
 struct Law {
   std::string_view name;         ///< in scenes
   std::string_view description;  ///< in one line
   /// Makes the law, with its own storage. nullptr: the law belongs to the program that runs the
-  /// scene. Its memory then has any size, and an audit knows only its control as logged.
+  /// scene. Its memory then has any size, and its run cannot be made again from the log.
   ControlLaw (*make)();
   /// How many numbers it keeps from step to step while it keeps any. nullptr: it never does.
   Eigen::Index (*memory_size)(const Model& model, const Scene& scene) = nullptr;
@@ -86,15 +66,8 @@ struct Law {
   bool logs_rows = true;
   std::span<const LawNumbers> numbers = {};
 
-  /// Whether it has a memory, and asks for torques, in a phase. nullptr: in each.
-  bool (*remembers)(Phase phase) = nullptr;
-  /// Its rows at the ends. nullptr: the paper's.
-  AskedRows (*rows)(const Scene& scene, Phase phase) = nullptr;
-  /// The rest shape of the step (nv, 0 at the root), empty where there is none. No value: it is the
-  /// paper's. nullptr: it always is.
-  std::optional<Eigen::VectorXd> (*rest_shape)(const LoggedSituation& at) = nullptr;
-  /// Torques besides those towards the rest shape, dyn cm, nv. nullptr: none.
-  Eigen::VectorXd (*torque)(const LoggedSituation& at) = nullptr;
+  /// Whether it asks for Eq. 6 while the knot slides.
+  bool asks_for_eq6 = true;
 };
 
 /// All laws.

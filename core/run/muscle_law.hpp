@@ -60,16 +60,10 @@ inline constexpr LawNumbers driven_numbers[] = {
        return Eigen::VectorXd(memory.tail(size));
      }}};
 
-/// The record of such a law: what it logs, and what an audit may ask of it.
+/// The record of such a law.
 constexpr Law driven_law(Law law) {
   law.numbers = driven_numbers;
-  law.rows = [](const Scene& /*scene*/, Phase /*phase*/) { return AskedRows{.any = false}; };
-  law.rest_shape = [](const LoggedSituation& /*at*/) { return std::optional(Eigen::VectorXd()); };
-  law.torque = [](const LoggedSituation& at) {
-    Eigen::VectorXd torque;
-    muscle_torque(at.model, at.kin, at.numbers[0], torque);
-    return torque;
-  };
+  law.asks_for_eq6 = false;
   return law;
 }
 

@@ -289,15 +289,6 @@ extern constinit const Law reduced_basis_record{
       return head + 2 * basis_size(scene.controller.reduced_basis);
     },
     .fault = fault,
-    .numbers = numbers,
-    .remembers = [](Phase phase) { return phase == Phase::slide; },
-    .rows = [](const Scene& /*scene*/,
-               Phase phase) { return AskedRows{.effort = phase == Phase::slide ? 0.0 : 1.0}; },
-    .torque =
-        [](const LoggedSituation& at) {
-          Eigen::MatrixXd shapes;
-          basis_shapes(at.model, at.scene, {at.numbers[1][0], at.numbers[1][1]}, shapes);
-          return Eigen::VectorXd(shapes * at.numbers[0]);
-        }};
+    .numbers = numbers};
 
 }  // namespace hagfish

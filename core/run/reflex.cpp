@@ -176,16 +176,6 @@ constexpr LawNumbers numbers[] = {
      .of = [](const Eigen::VectorXd& memory,
               Eigen::Index size) { return Eigen::VectorXd(memory.head(size)); }}};
 
-std::optional<Eigen::VectorXd> rest_shape(const LoggedSituation& at) {
-  if (!reflex_acts(at.phase)) return {};
-  Eigen::VectorXd own, rest;
-  look_ahead(at.scene, at.q, at.qdot, own);
-  Eigen::VectorXd sensed = reflex_lag(at.scene) > 0 ? at.numbers[0] : own;
-  add_noise(at.scene.controller.reflex, step_at(at.scene, at.time), sensed);
-  copy_neighbours(at.model, at.scene, at.phase, at.contacts, own, sensed, rest);
-  return rest;
-}
-
 }  // namespace
 
 extern constinit const Law reflex_record{
@@ -195,8 +185,6 @@ extern constinit const Law reflex_record{
     .memory_size = reflex_memory_size,
     .fault = reflex_fault,
     .numbers = numbers,
-    .remembers = reflex_acts,
-    .rows = [](const Scene& /*scene*/, Phase /*phase*/) { return AskedRows{.any = false}; },
-    .rest_shape = rest_shape};
+    .asks_for_eq6 = false};
 
 }  // namespace hagfish

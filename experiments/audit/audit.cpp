@@ -4,7 +4,6 @@
 #include "experiments/audit/audit_forces.hpp"
 #include "experiments/audit/audit_forward_inverse.hpp"
 #include "experiments/audit/audit_frames.hpp"
-#include "experiments/audit/audit_muscles.hpp"
 #include "experiments/audit/replay.hpp"
 
 namespace hagfish {
@@ -23,19 +22,16 @@ void append(std::vector<Finding>& findings, const std::vector<Finding>& more) {
 class StepAudits {
  public:
   explicit StepAudits(const LogContents& log)
-      : forces_(log), muscles_(log), activations_(log), forward_inverse_(log) {}
+      : forces_(log), activations_(log), forward_inverse_(log) {}
 
   void see(const AuditedFrame& frame) {
     forces_.see(frame);
     activations_.see(frame);
-    if (!frame.begins_step) return;
-    muscles_.see(frame);
-    forward_inverse_.see(frame);
+    if (frame.begins_step) forward_inverse_.see(frame);
   }
 
   std::vector<Finding> findings() const {
     std::vector<Finding> findings = forces_.findings();
-    append(findings, muscles_.findings());
     append(findings, activations_.findings());
     findings.push_back(forward_inverse_.finding());
     return findings;
@@ -43,7 +39,6 @@ class StepAudits {
 
  private:
   ForceAudit forces_;
-  MuscleAudit muscles_;
   ActivationAudit activations_;
   ForwardInverseAudit forward_inverse_;
 };

@@ -25,6 +25,7 @@ ActivationAudit::ActivationAudit(const LogContents& log) : log_(log) {
   if (std::ranges::find(numbers, std::string_view(driven_activations), &LawNumbers::path) !=
       numbers.end()) {
     driven_ = log.h5.rows(driven_activations);
+    active_ = log.h5.rows("/forces/active");
   }
 }
 
@@ -52,6 +53,10 @@ void ActivationAudit::see(const AuditedFrame& frame) {
 
 void ActivationAudit::see_driven(const AuditedFrame& frame) {
   const Eigen::Index f = frame.index;
+  muscle_torque(log_.model, frame.observation.kin, driven_.row(f).transpose(), given_);
+  // In phases without the law there is neither.
+  if (driven_.row(f).allFinite())
+    rebuilt_.compare("/forces/active", active_.row(f).transpose(), given_);
   if (f == 0) return;
   // e stays between 0 and 1, so that a cannot come nearer to either than by the whole of them.
   const double kept =

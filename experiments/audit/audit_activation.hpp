@@ -23,7 +23,7 @@ class ActivationAudit {
 
   const LogContents& log_;
   Hdf5Reader::Rows torque_;  ///< mean of u + f_thigmo
-  Hdf5Reader::Rows activation_, residual_, driven_;
+  Hdf5Reader::Rows activation_, residual_, driven_, active_;
   ActivationSolver solver_;
   MuscleEffort effort_;    ///< storage
   Eigen::VectorXd given_;  ///< R a F_max, storage

@@ -6,8 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/run/script.hpp"
-#include "core/step/midpoint/midpoint_rule.hpp"
+#include "core/step/step.hpp"
 #include "experiments/audit/row_force.hpp"
 
 namespace hagfish {
@@ -62,22 +61,6 @@ double lowest_tenth(std::vector<double> values) {
   return *at;
 }
 
-/// Steps of the midpoint rule whose number of passes and `remaining` contradict each other.
-double false_passes(const LogContents& log, const std::vector<double>& remaining) {
-  constexpr double guess_rounding = 1e-12;
-  const int most = log.resolved.scene.time.passes;
-  double count = 0;
-  for (std::size_t k = 1; k < remaining.size(); ++k) {
-    const double guess = guessed_remaining(remaining[k - 1]);
-    const bool guessed = std::abs(remaining[k] - guess) <= guess_rounding * guess;
-    // One that did not settle counts as unknown, 1, which is also what is guessed after such a one.
-    const bool unknown = remaining[k] == 1 && log.passes[k] == 2 * most;
-    const std::int64_t passes = log.passes[k] - (log.passes[k] > most ? most : 0);
-    count += passes >= 1 && (guessed == (passes == 1) || unknown) ? 0 : 1;
-  }
-  return count;
-}
-
 }  // namespace
 
 ForceAudit::ForceAudit(const LogContents& log)
@@ -89,17 +72,11 @@ ForceAudit::ForceAudit(const LogContents& log)
       mean_net_(log.h5.rows("/mean/forces/net")),
       mean_lambda_(log.h5.rows("/mean/thigmotaxis/lambda")),
       contacts_(logged_contacts(log)),
-      active_(log.h5.integers("/diagnostics/active")),
-      middle_off_(log.midpoint() ? log.h5.doubles("/steps/middle_off") : std::vector<double>{}),
       remaining_(log.midpoint() ? log.h5.doubles("/steps/remaining") : std::vector<double>{}),
       steps_(log) {
   for (const RowKindEntry& kind : row_kind_table) {
     force_[kind.value] = log.h5.rows(std::string("/forces/") + kind.name);
     mean_[kind.value] = log.h5.rows(std::string("/mean/forces/") + kind.name);
-  }
-  if (log.own_law()) {
-    asked_tip_ = log.h5.rows("/control/tip");
-    asked_tip_rate_ = log.h5.doubles("/control/tip_rate");
   }
 }
 
@@ -113,40 +90,14 @@ void ForceAudit::see(const AuditedFrame& frame) {
   const ThigmotaxisAudit::Rows rows = rows_.see(frame, from_rows_, shape_);
   from_rows_.compare("/forces/thigmotaxis", force_[RowKind::thigmotaxis].row(f).transpose(),
                      rows.force);
-  const std::size_t first_contact = next_contact_;
   see_contacts(frame);
   see_limits(frame);
   see_head(frame);
-  see_tip(frame);
   see_balance(frame);
   if (frame.index > 0) {
     see_means(frame, rows);
   }
   rows_before_ = rows;
-  const std::int64_t head = (force_[RowKind::head].row(f).array() != 0).count();
-  const std::int64_t bearing = rows.bearing + bearing_limits(frame) + head +
-                               static_cast<std::int64_t>(next_contact_ - first_contact);
-  // A cone that bears may be followed by one more tangent a correction.
-  const std::int64_t most =
-      bearing + bearing_cones(frame) * log_.resolved.scene.constraints.corrections;
-  from_rows_.compare_exactly("/diagnostics/active", active_[f],
-                             std::clamp(active_[f], bearing, most));
-}
-
-std::int64_t ForceAudit::bearing_limits(const AuditedFrame& frame) const {
-  const Eigen::VectorXd force = force_[RowKind::limit].row(frame.index);
-  std::int64_t count = (force.array() != 0).count();
-  for (const BendingCone& cone : log_.model.cones) {  // one row on both
-    count -= force[cone.dof] != 0 && force[cone.dof + 1] != 0 ? 1 : 0;
-  }
-  return count;
-}
-
-std::int64_t ForceAudit::bearing_cones(const AuditedFrame& frame) const {
-  const Eigen::VectorXd force = force_[RowKind::limit].row(frame.index);
-  return std::ranges::count_if(log_.model.cones, [&force](const BendingCone& cone) {
-    return !force.segment<2>(cone.dof).isZero(0);
-  });
 }
 
 void ForceAudit::see_contacts(const AuditedFrame& frame) {
@@ -223,22 +174,6 @@ void ForceAudit::see_head(const AuditedFrame& frame) {
   }
 }
 
-void ForceAudit::see_tip(const AuditedFrame& frame) {
-  const Scene& scene = log_.resolved.scene;
-  const Kinematics& kin = frame.observation.kin;
-  const int last = log_.model.body_count() - 1;
-  TipForce tip;
-  if (log_.own_law()) {
-    tip = {asked_tip_.row(frame.index).transpose(), asked_tip_rate_[frame.index]};
-  } else if (frame.phase == Phase::form) {
-    tip = script_force(scene.script, log_.time[frame.index], scene.time, kin.centre.col(last),
-                       kin.centre_velocity.col(last));
-  }
-  const Eigen::Vector3d velocity = frame.mean_centre_velocity.col(last);
-  from_rows_.compare("/forces/tip", tip_.row(frame.index).transpose(),
-                     tip.value - tip.rate * velocity);
-}
-
 void ForceAudit::see_balance(const AuditedFrame& frame) {
   const Eigen::Index f = frame.index;
   const Model& model = log_.model;
@@ -256,7 +191,6 @@ void ForceAudit::see_balance(const AuditedFrame& frame) {
     const std::size_t step = steps_.at(f);
     const double left = remaining_[step] * off.lpNorm<Eigen::Infinity>();
     unsettled_ += left <= time.settled ? 0 : 1;
-    from_rows_.compare("/steps/middle_off", middle_off_[step], off.norm());
   }
   imbalance_ = worse(
       imbalance_,
@@ -281,6 +215,8 @@ void ForceAudit::see_means(const AuditedFrame& frame, const ThigmotaxisAudit::Ro
   const Eigen::VectorXd wall = row(mean_[RowKind::obstacle]);
   const Eigen::Index hinges = sum.size() - root_dofs;
   ask("/mean/forces/limit", row(mean_[RowKind::limit]).head(root_dofs).isZero(0));
+  // Muscles hold on to nothing outside.
+  ask("/forces/active", row(active_torque_).head(root_dofs).isZero(0) || !frame.begins_step);
   ask("/mean/forces/active", row(mean_active_).head(root_dofs).isZero(0));
   ask("/mean/forces/head", row(mean_[RowKind::head]).tail(hinges).isZero(0));
   // Action is reaction within the body, not at obstacles. The head plate pushes tailward.
@@ -335,9 +271,6 @@ std::vector<Finding> ForceAudit::findings() const {
     const double share = unsettled_ / static_cast<double>(log_.q.rows());
     findings.push_back(judged_over({"middle of steps", share, unsettled_share, "of the frames"},
                                    "further from where /midway/qdot leads than time.settled"));
-    findings.push_back(
-        judged({"passes of steps", false_passes(log_, remaining_), 0, "steps"},
-               "/steps/remaining is guessed where there was one pass, and only there"));
   }
   findings.push_back(
       judged_over({"balance of means", mean_imbalance_, expect.force_balance, "of scale"},

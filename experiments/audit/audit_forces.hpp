@@ -22,15 +22,11 @@ class ForceAudit {
   std::vector<Finding> findings() const;
 
  private:
-  /// Hinges and cones with a force.
-  std::int64_t bearing_limits(const AuditedFrame& frame) const;
-  std::int64_t bearing_cones(const AuditedFrame& frame) const;
   void see_contacts(const AuditedFrame& frame);
   void see_limits(const AuditedFrame& frame);
   /// `force` on the two hinges of a cone's joint, dyn cm.
   void see_cone(const AuditedFrame& frame, const BendingCone& cone, const Eigen::Vector2d& force);
   void see_head(const AuditedFrame& frame);
-  void see_tip(const AuditedFrame& frame);
   void see_balance(const AuditedFrame& frame);
   void see_means(const AuditedFrame& frame, const ThigmotaxisAudit::Rows& rows);
 
@@ -39,11 +35,8 @@ class ForceAudit {
   ByKind<Hdf5Reader::Rows> force_, mean_;
   Hdf5Reader::Rows tip_, active_torque_, mean_active_, mean_net_, mean_lambda_;
   std::vector<LoggedContact> contacts_;
-  std::vector<std::int64_t> active_;
-  std::vector<double> middle_off_, remaining_;  ///< of each step, by the midpoint rule
+  std::vector<double> remaining_;  ///< of each step, by the midpoint rule
   Steps steps_;
-  Hdf5Reader::Rows asked_tip_;  ///< by a law of the run's own
-  std::vector<double> asked_tip_rate_;
   std::size_t next_contact_ = 0;  ///< first one of frames not seen yet
   Rebuilt from_rows_;
   double imbalance_ = 0, unsettled_ = 0, mean_imbalance_ = 0, limit_miss_ = 0, cone_miss_ = 0,

@@ -1,4 +1,4 @@
-// The part of an audit that rebuilds the rows of Eq. 6: what they were asked for, what they gave
+// The part of an audit that rebuilds the rows of Eq. 6: what they gave for what they were asked,
 // and with what force.
 #pragma once
 
@@ -14,10 +14,6 @@
 
 namespace hagfish {
 
-/// The body nearest to a place on the spline, in segments from its beginning. Half way between two,
-/// which the place, a rounded sum, does not tell apart, it is the one that was `logged`.
-double nearest_body(double place, double logged);
-
 /// The tailmost body that rows of Eq. 6 at a contact may load, where the body is as `segments` are.
 /// A spline point loads the four bodies about it. At an end of the knot the rows hold over a patch
 /// (ControllerSettings::contact_patch). In the middle of a step, to which the body has moved on,
@@ -32,10 +28,9 @@ class ThigmotaxisAudit {
 
   /// What the rows of a frame come to.
   struct Rows {
-    Eigen::MatrixXd columns;   ///< C' of those at the knot's ends, nv x 4, zero where there is none
-    Eigen::VectorXd force;     ///< of all, generalised, nv
-    std::int64_t bearing = 0;  ///< how many have a force
-    bool others = false;       ///< some are at other contacts
+    Eigen::MatrixXd columns;  ///< C' of those at the knot's ends, nv x 4, zero where there is none
+    Eigen::VectorXd force;    ///< of all, generalised, nv
+    bool others = false;      ///< some are at other contacts
   };
   /// Frames in their order. Datasets go to `rebuilt`; those with a force that pulls to `shape`.
   Rows see(const AuditedFrame& frame, Rebuilt& rebuilt, std::set<std::string>& shape);
@@ -50,44 +45,22 @@ class ThigmotaxisAudit {
     int along = 0;     ///< 0 t_a, 1 t_b
     double sense = 1;  ///< of both tangents
     double spline_a = 0, spline_b = 0, command = 0, cap = 0, lambda = 0, speed = 0;
-    int place() const { return 2 * static_cast<int>(end) + along; }
   };
   /// The rows of a frame, from /thigmotaxis by the paper's law, else from /eq6.
-  std::vector<LoggedRow> rows_at_ends(const AuditedFrame& frame, Rebuilt& rebuilt) const;
-  std::vector<LoggedRow> rows_of_table(const AuditedFrame& frame, Rebuilt& rebuilt,
-                                       std::set<std::string>& shape);
-  /// The rows of the contact of a logged row, of strands that are asked for `speed` by `slip`.
-  std::array<Row, 2> rows_of(const AuditedFrame& frame, const LoggedRow& row,
-                             const Eigen::Vector2d& speed, Eq6Slip slip) const;
-  /// Their right sides, cm/s.
-  Eigen::Vector2d asked(const AuditedFrame& frame, const LoggedRow& row,
-                        const Eigen::Vector2d& speed, Eq6Slip slip) const;
-  /// What the scene's law has the rows of a frame ask for.
-  void see_commands(const AuditedFrame& frame, const std::vector<LoggedRow>& rows, double cap,
-                    Rebuilt& rebuilt) const;
-  /// The bodies at an end of the knot against the places `a` and `b` of its strands on the spline,
-  /// nan where there are no rows.
-  void see_bodies(Eigen::Index frame, Eigen::Index end, double a, double b, Rebuilt& rebuilt) const;
-  /// /thigmotaxis against the rows at the knot's ends.
-  void see_ends(const AuditedFrame& frame, const std::vector<LoggedRow>& rows,
-                Rebuilt& rebuilt) const;
+  std::vector<LoggedRow> rows_at_ends(const AuditedFrame& frame) const;
+  std::vector<LoggedRow> rows_of_table(const AuditedFrame& frame, std::set<std::string>& shape);
+  Row row_of(const AuditedFrame& frame, const LoggedRow& row) const;
   /// The force against the reach of the rows.
   void see_extent(const AuditedFrame& frame, const std::vector<LoggedRow>& rows);
-  /// What the scene's law asks for at the ends in a phase.
-  AskedRows asked_rows(Phase phase) const;
-  /// The bound on the forces of rows that the scene has, dyn: in the phase `pull`, in which it
-  /// rises, the one nearest to what was logged.
-  double cap_of_scene(const AuditedFrame& frame, double logged);
 
   const LogContents& log_;
-  const Law& law_;
   bool table_;  ///< the rows are those of /eq6
-  Hdf5Reader::Rows force_, lambda_, command_, speed_, spline_a_, spline_b_, body_a_, body_b_;
+  Hdf5Reader::Rows force_;
+  Hdf5Reader::Rows lambda_, command_, speed_, spline_a_, spline_b_;  ///< /thigmotaxis
   std::vector<double> cap_;
   std::vector<std::int64_t> frame_, end_, along_, towards_;  ///< /eq6
-  std::vector<double> row_a_, row_b_, row_command_, row_cap_, row_lambda_, row_speed_, row_slack_;
+  std::vector<double> row_a_, row_b_, row_command_, row_cap_, row_lambda_, row_speed_;
   std::size_t next_row_ = 0;  ///< first one of frames not seen yet
-  double pull_from_ = NAN;    ///< time of the last frame before the pull, s
   double ask_miss_ = 0, most_ = 0, past_ = 0;
 };
 

@@ -174,9 +174,8 @@ std::vector<Finding> Judge::of_motion() const {
 /// Eq. 6 at the steps of both slides; nothing where the law never asks for it.
 std::optional<Finding> Judge::eq6() const {
   if (scene_.expect.knot.empty() || !knot_.shows_slide()) return std::nullopt;
-  const Law& law = law_of(scene_);
   const bool own = scene_.controller.law == own_law;
-  const bool asks = own ? sliding_ > 0 : law.rows == nullptr || law.rows(scene_, Phase::slide).any;
+  const bool asks = own ? sliding_ > 0 : law_of(scene_).asks_for_eq6;
   if (!asks) return std::nullopt;
   const Criterion eq6 = eq6_criterion(scene_.expect, met_, sliding_);
   if (sliding_ == 0) {

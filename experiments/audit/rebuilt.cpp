@@ -37,11 +37,6 @@ void Rebuilt::compare(const std::string& path, const Eigen::Ref<const Eigen::Vec
   }
 }
 
-void Rebuilt::compare_exactly(const std::string& path, std::int64_t logged, std::int64_t wanted) {
-  Deviation& d = datasets_[path];
-  d.off = logged == wanted ? d.off : INFINITY;
-}
-
 Finding Rebuilt::finding(const std::string& name, const std::string& from) const {
   double worst = 0;
   std::string worst_path;

@@ -24,8 +24,6 @@ class Rebuilt {
   void compare(const std::string& path, double logged, double wanted, double allowed = 0);
   void compare(const std::string& path, const Eigen::Ref<const Eigen::VectorXd>& logged,
                const Eigen::Ref<const Eigen::VectorXd>& wanted, double allowed = 0);
-  /// The same of a whole number, which must be met.
-  void compare_exactly(const std::string& path, std::int64_t logged, std::int64_t wanted);
 
   /// Passes where all are met; else names each dataset that is not, with its deviation. `from` says
   /// what all were rebuilt from.

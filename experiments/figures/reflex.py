@@ -75,7 +75,7 @@ def knots_table(rows: list[Row]) -> list[str]:
     for head in ("clamped", "free"):
         for knot in KNOTS:
             own, paper = one(rows, study="knots", knot=knot, head=head, setting=USUAL), one(rows, study="paper", knot=knot, head=head)
-            for name, row in (("reflex", own), ("paper", paper)):
+            for name, row in (("reflex", own), ("Eq. 6", paper)):
                 if row is not None:
                     body.append([f"{knot}, {head}", name, came(row), row.held, figure_of(row.torque, 2), figure_of(row.effort, 2),
                                  figure_of(row.put_in, 2), figure_of(row.work, 2), figure_of(row.wave, 2), figure_of(row.travel, 2)])
@@ -138,7 +138,7 @@ def wiped_table(rows: list[Row]) -> list[str]:
         for knot in KNOTS:
             pair = [one(rows, study=study, knot=knot, head=head, setting=USUAL) for study in ("knots", "paper")]
             body.append([f"{knot}, {head}", *(figure_of(getattr(row, key) if row else None, 2) for row in pair for key in ("rings", "skin"))])
-    return tables.markdown(["share that skin pressed on", "reflex: length", "reflex: skin", "paper's law: length", "paper's law: skin"], body)
+    return tables.markdown(["share that skin pressed on", "reflex: length", "reflex: skin", "Eq. 6: length", "Eq. 6: skin"], body)
 
 
 def loose_table(rows: list[Row]) -> list[str]:
@@ -187,7 +187,7 @@ def robust_table(rows: list[Row]) -> list[str]:
 
 def claims_table(rows: list[Row]) -> list[str]:
     body = []
-    for study, name in (("knots", "reflex"), ("paper", "paper")):
+    for study, name in (("knots", "reflex"), ("paper", "Eq. 6")):
         for knot in KNOTS:
             row = one(rows, study=study, knot=knot, head="clamped", setting=USUAL)
             if row is not None and row.behind is not None:
@@ -198,7 +198,7 @@ def claims_table(rows: list[Row]) -> list[str]:
 
 
 def pull_table(rows: list[Row]) -> list[str]:
-    body = [[row.knot, "paper's law" if row.setting == "paper" else "reflex, scene's Δ", figure_of(row.pull, 2), row.held]
+    body = [[row.knot, "Eq. 6 at all contacts" if row.setting == "paper" else "reflex, scene's Δ", figure_of(row.pull, 2), row.held]
             for row in pick(rows, study="pull")]
     body += [[row.knot, f"reflex, Δ = {row.setting} cm", figure_of(row.pull, 2), row.held] for row in pick(rows, study="pull_shift")]
     return tables.markdown(["knot", "law", "pull, N", "type held"], sorted(body, key=lambda cells: cells[0]))
@@ -261,12 +261,12 @@ def page(rows: list[Row], notes: list[str]) -> list[str]:
         "    torque = B_a (κ(s + Δ) - κ(s)) ≈ B_a Δ ∂κ/∂s          and the same share of the body's own stiffness B",
         "    C ∂κ/∂t = (B_a + B) Δ ∂κ/∂s   has the solution   κ(s, t) = κ(s + v t, 0),   v = Δ (B_a + B) / C", "",
         "C is the damping of the body, s the arc length from the head. Any shape travels to the head as it is. A knot is a shape. No term knows of knots, contacts or forces.", "",
-        "## All four knots, beside the paper's law", "",
+        "## All four knots, beside Eq. 6 at all contacts", "",
         "The animal is the same, and so is the program that ties the knot. Effort is the mean over the body of all torque, for each cm of way. "
         "*Travel* is the share of the shape's change that a wave to the head explains.", "",
         *knots_table(rows),
-        f"- The reflex takes {span(efforts, lambda v: f'{v:.2f}')} times the effort of the paper's law.",
-        f"- Its shape travels: {span([row.travel for row in usual])} of all change; by the paper's law {span([row.travel for row in paper])}.",
+        f"- The reflex takes {span(efforts, lambda v: f'{v:.2f}')} times the effort of Eq. 6 at all contacts.",
+        f"- Its shape travels: {span([row.travel for row in usual])} of all change; by Eq. 6 {span([row.travel for row in paper])}.",
         f"- The wave has {span([row.wave for row in usual])} times the speed of the knot.",
         "- Its net work is negative: the body's springs, bent by the program, give more back than water and joints take.", "",
         *mesh_table(rows),
@@ -322,14 +322,14 @@ def page(rows: list[Row], notes: list[str]) -> list[str]:
         "- *Smooth along the body, noisy in time*: the other way round. It is smooth in time, and as rough along the body as the shape's gradient.", "",
         "## What else it does", "",
         *pull_table(rows),
-        f"- Does it pull at food? Yes, harder than the paper's law as its scenes are set: {pulls}.", "",
+        f"- Does it pull at food? Yes; here beside Eq. 6 at all contacts, each as its scenes are set: {pulls}.", "",
         *loose_table(rows),
         "- Does it tighten a knot? The 3_1, by a fifth, if Δ is three times as large at the knot's tail end; even, hardly. Others it does not.",
         "- Does it form a knot from a loose loop? No: cut off a second early, no knot came to be what it was to be.", "",
         *wiped_table(rows),
         f"- Does it wipe? Yes: skin pressed on {span([row.rings for row in usual])} of the body's length, and on {span([row.skin for row in usual])} of all skin at least, "
-        f"in one slide; by the paper's law on {span([row.rings for row in paper])} and {span([row.skin for row in paper])}. Contacts are counted as points.", "",
-        *tables.markdown(["knot, EI, dyn cm²", "reflex", "paper's law"], [[f"{own.knot}, {own.setting}", came(own), came(other)] for own, other in soft]),
+        f"in one slide; by Eq. 6 on {span([row.rings for row in paper])} and {span([row.skin for row in paper])}. Contacts are counted as points.", "",
+        *tables.markdown(["knot, EI, dyn cm²", "reflex", "Eq. 6 at all contacts"], [[f"{own.knot}, {own.setting}", came(own), came(other)] for own, other in soft]),
         (f"- Does it keep a knot that Eq. 6 loses? Of the {len(lost)} that Eq. 6 lost here it kept {sum(own.held == 'yes' for own, _ in lost)}. " if lost else
          f"- Does it keep a knot that Eq. 6 loses? None was found: Eq. 6 lost none of {len(soft)} here. ")
         + f"The reflex came to the head in {sum(own.slid == 'yes' for own, _ in soft)} of them, Eq. 6 in {sum(other.slid == 'yes' for _, other in soft)}.", "",

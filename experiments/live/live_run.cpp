@@ -3,47 +3,22 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
-#include "core/chain/bending.hpp"
 #include "core/run/laws.hpp"
+#include "experiments/view/along_body.hpp"
 #include "experiments/view/drawn_plane.hpp"
 
 namespace hagfish {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-/// Standard deviation of the body length over which a contact's force is spread, cm, and how many
-/// of them away nothing is left of it.
-constexpr double spread = 0.5, reach = 5;
-
 template <class Values>
 std::vector<double> list(const Values& values) {
   std::vector<double> all;
   for (const double value : values.reshaped()) all.push_back(value);
   return all;
 }
-
-/// A number for each joint of `dofs` hinges: bending ones have two, twisting ones one.
-template <class Value>
-std::vector<double> of_joints(const Model& model, int dofs, const Value& value) {
-  std::vector<double> values;
-  for (int b = 1; b < model.body_count(); ++b) {
-    if (model.bodies[b].dofs == dofs) values.push_back(value(b, model.bodies[b].first_dof));
-  }
-  return values;
-}
-
-/// Size of a torque (nv) at each joint; 0 where there is no mean yet.
-std::vector<double> torques(const Model& model, int dofs, const Eigen::VectorXd& torque) {
-  return of_joints(model, dofs, [&](int /*body*/, int first) {
-    const double size = torque.segment(first, dofs).norm();
-    return std::isfinite(size) ? size : 0;
-  });
-}
-
-double body_length(const Model& model) { return model.length() / model.body_count(); }
 
 /// A contact that bears: where skins meet, the push on strand a, its size, arcs.
 struct Bearing {
@@ -78,17 +53,10 @@ std::vector<Bearing> bearing_contacts(const Model& model, const StepRecord& reco
 
 /// Force per length, dyn/cm, at the bodies.
 std::vector<double> contact_along(const Model& model, const std::vector<Bearing>& contacts) {
-  const double length = body_length(model);
   std::vector<double> along(static_cast<std::size_t>(model.body_count()), 0.0);
   for (const Bearing& c : contacts) {
     for (const double arc : {c.arc_a, c.arc_b}) {
-      if (!std::isfinite(arc)) continue;
-      for (std::size_t k = 0; k < along.size(); ++k) {
-        const double away = ((static_cast<double>(k) + 0.5) * length - arc) / spread;
-        if (std::abs(away) > reach) continue;
-        along[k] +=
-            c.force * std::exp(-0.5 * away * away) / (spread * std::sqrt(2 * std::numbers::pi));
-      }
+      if (std::isfinite(arc)) spread_contact(model, c.force, arc, along);
     }
   }
   return along;
@@ -200,15 +168,10 @@ std::span<const LiveArray> LiveRun::frame() {
   const EnergyLedger& ledger = sim_.ledger;
   put("energy", {ledger.kinetic, ledger.elastic, ledger.work_tip, ledger.work_active,
                  ledger.work[RowKind::thigmotaxis], ledger.dissipated});
-  put("thigmotaxis", torques(model_, 2, mean.force[RowKind::thigmotaxis]));
-  put("active", torques(model_, 2, mean.active_torque));
-  const auto span_of = [&](int body) { return hinge_span(model_, body); };
-  put("curvature", of_joints(model_, 2, [&](int body, int first) {
-        return total_bend(state.q[first + 1], state.q[first + 2]).angle / span_of(body);
-      }));
-  put("twist", of_joints(model_, 1, [&](int body, int first) {
-        return std::abs(state.q[first + 1]) / span_of(body);
-      }));
+  put("thigmotaxis", torques_along(model_, Turn::bend, mean.force[RowKind::thigmotaxis]));
+  put("active", torques_along(model_, Turn::bend, mean.active_torque));
+  put("curvature", shape_along(model_, Turn::bend, state.q));
+  put("twist", shape_along(model_, Turn::twist, state.q));
   const std::vector<Bearing> contacts =
       moved ? bearing_contacts(model_, record_, scene.time.step) : std::vector<Bearing>{};
   put("contact", contact_along(model_, contacts));
@@ -222,15 +185,8 @@ std::span<const LiveArray> LiveRun::frame() {
 }
 
 std::vector<LiveArray> LiveRun::animal() const {
-  const double length = body_length(model_);
-  std::vector<double> radius, arc;
-  for (int b = 0; b < model_.body_count(); ++b) {
-    radius.push_back(model_.bodies[b].radius);
-    arc.push_back((b + 0.5) * length);
-  }
-  const auto joints = [&](int dofs) {
-    return of_joints(model_, dofs, [length](int body, int /*first*/) { return body * length; });
-  };
+  std::vector<double> radius;
+  for (const Body& body : model_.bodies) radius.push_back(body.radius);
   // Of each: 1 and the middle, normal, half side and hole of a plane's square, or 0, radius,
   // whether it is closed and a rim, the number of points, and these.
   std::vector<double> obstacles;
@@ -257,9 +213,9 @@ std::vector<LiveArray> LiveRun::animal() const {
   const Scene& scene = resolved_.scene;
   return {{"length", {model_.length()}},
           {"radius", radius},
-          {"arc", arc},
-          {"bending", joints(2)},
-          {"twisting", joints(1)},
+          {"arc", body_centres(model_)},
+          {"bending", joint_arcs(model_, Turn::bend)},
+          {"twisting", joint_arcs(model_, Turn::twist)},
           {"station", resolved_.specimen.station},
           {"obstacles", obstacles},
           {"wall", {scene.wall.present ? 1.0 : 0.0}},

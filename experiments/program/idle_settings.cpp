@@ -27,8 +27,7 @@ bool has_script(const Scene& scene, ScriptSettings::Kind kind) { return scene.sc
 
 /// Whether the law asks for no rows of Eq. 6.
 bool ignores_speeds(const Scene& scene) {
-  const Law& law = law_of(scene);
-  return law.rows != nullptr && !law.rows(scene, Phase::slide).any;
+  return !law_of(scene).asks_for_eq6;
 }
 
 const std::vector<IdleKey>& idle_keys() {

@@ -11,6 +11,7 @@
 #include "experiments/audit/replay.hpp"
 #include "experiments/export/body_quantity.hpp"
 #include "experiments/export/frame_contacts.hpp"
+#include "experiments/view/along_body.hpp"
 #include "experiments/view/drawn_plane.hpp"
 
 namespace hagfish {
@@ -61,16 +62,12 @@ Json float_rows(const LogContents& log, const std::string& path) {
 Json animal(const LogContents& log) {
   Json json;
   const Model& model = log.model;
-  std::vector<double> radius, arc;
-  const double length = model.length() / model.body_count();
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    radius.push_back(model.bodies[b].radius);
-    arc.push_back((static_cast<double>(b) + 0.5) * length);
-  }
+  std::vector<double> radius;
+  for (const Body& body : model.bodies) radius.push_back(body.radius);
   json["length"] = model.length();
   json["station"] = log.resolved.specimen.station;
   json["radius"] = floats(radius);
-  json["arc"] = floats(arc);
+  json["arc"] = floats(body_centres(model));
   return json;
 }
 

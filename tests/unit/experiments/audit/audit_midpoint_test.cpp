@@ -48,35 +48,4 @@ TEST_F(AuditMidpoint, SeesAFalseMiddle) {
   }
 }
 
-// One number of it, of the whole animal's velocity, which no row and no force shows.
-TEST_F(AuditMidpoint, SeesAFalseWayOfOneStep) {
-  const auto change = [](double by) {
-    rewrite<double>(file, "/midway/qdot", H5::PredType::NATIVE_DOUBLE,
-                    [by](std::vector<double>& values) { values[values.size() / 2] += by; });
-  };
-  change(0.001);
-  EXPECT_NE(objections().find("/steps/middle_off"), std::string::npos) << objections();
-  change(-0.001);
-}
-
-// How the middle was found: a guess that is none, and a measure without a second pass.
-TEST_F(AuditMidpoint, SeesFalsePasses) {
-  const auto remaining = rewrite<double>(file, "/steps/remaining", H5::PredType::NATIVE_DOUBLE,
-                                         [](std::vector<double>& values) {
-                                           for (double& value : values) value *= 0.5;
-                                         });
-  EXPECT_NE(objections().find("passes of steps"), std::string::npos) << objections();
-  rewrite<double>(file, "/steps/remaining", H5::PredType::NATIVE_DOUBLE,
-                  [&remaining](std::vector<double>& values) { values = remaining; });
-  const auto before = rewrite<std::int32_t>(file, "/steps/passes", H5::PredType::NATIVE_INT32,
-                                            [](std::vector<std::int32_t>& values) {
-                                              std::int32_t& some = values[values.size() / 2];
-                                              some = some == 1 ? 2 : 1;
-                                            });
-  EXPECT_NE(objections().find("passes of steps"), std::string::npos) << objections();
-  rewrite<std::int32_t>(file, "/steps/passes", H5::PredType::NATIVE_INT32,
-                        [&before](std::vector<std::int32_t>& values) { values = before; });
-  EXPECT_EQ(objections(), "");
-}
-
 }  // namespace hagfish::audit_midpoint_test

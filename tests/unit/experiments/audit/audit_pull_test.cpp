@@ -62,15 +62,4 @@ TEST_F(AuditPull, SeesFoodAndBoundsThatAreNotTheScenes) {
   EXPECT_EQ(audit_objections(file), "");
 }
 
-TEST_F(AuditPull, SeesACapThatIsNotTheScenes) {
-  for (const char* change : {"food.cap.from=3900", "food.cap.to=5100", "food.cap.time=1.5"}) {
-    std::vector<std::string> set = rising;
-    set.emplace_back(change);
-    const std::string text = audit_objections_as(rising_file, pulling_scene(set));
-    EXPECT_NE(text.find("/thigmotaxis/cap"), std::string::npos) << change << ": " << text;
-  }
-  EXPECT_NE(audit_objections_as(file, pulling_scene(rising)).find("/thigmotaxis/cap"),
-            std::string::npos);
-}
-
 }  // namespace hagfish::audit_pull_test

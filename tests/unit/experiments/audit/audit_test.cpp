@@ -216,14 +216,6 @@ TEST_F(AuditTest, RefusesALogThatDoesNotFitItsModel) {
   EXPECT_THROW(audit(file), FileError);
 }
 
-TEST(NearestBody, IsEitherOneHalfWayBetweenTwo) {
-  EXPECT_EQ(nearest_body(55.5, 55), 55);
-  EXPECT_EQ(nearest_body(55.5, 56), 56);
-  EXPECT_EQ(nearest_body(55.5, 54), 56);
-  EXPECT_EQ(nearest_body(55.499, 56), 55);
-  EXPECT_EQ(nearest_body(55.501, 55), 56);
-}
-
 TEST_F(AuditTest, SeesABentLimit) {
   tamper("/trajectory/q", 7 + 20, 0.5);
   EXPECT_FALSE(passes("limits"));
