@@ -1,5 +1,5 @@
 // The control laws that a scene may name (controller.law). Each is a record: its name, its memory,
-// what its scene needs, how it acts, what it logs and what an audit may ask of it. The table of all
+// what its scene needs, how it acts, what it logs and whether it asks for Eq. 6. The table of all
 // laws is in laws.cpp; each record is beside its law.
 #pragma once
 

@@ -32,7 +32,7 @@ void MomentumWatch::see(const MomentumLedger& ledger, bool held, bool free) {
   const auto since_start = [&](Momentum MomentumLedger::*of, double& largest) {
     const Eigen::Vector3d& now = ledger.*of.*part_;
     if (now.allFinite()) total_ = std::max(total_, most(now));
-    const Eigen::Vector3d since = now - first_.*of.*part_;
+    Eigen::Vector3d since = now - first_.*of.*part_;
     largest = worse(largest, most(since));
     return since;
   };

@@ -66,7 +66,7 @@ TipForce force_of(const Pull& pull, const Scene& scene, const Kinematics& kin) {
   const double h = scene.time.reach();
   const Eigen::Vector3d position = kin.centre.col(pull.body);
   const Eigen::Vector3d velocity = kin.centre_velocity.col(pull.body);
-  const TipForce spring{pull.stiffness * (pull.to - position), h * pull.stiffness, pull.body};
+  TipForce spring{pull.stiffness * (pull.to - position), h * pull.stiffness, pull.body};
   const Eigen::Vector3d expected = spring.value - spring.rate * velocity;
   const double size = expected.norm();
   if (size <= pull.most) return spring;

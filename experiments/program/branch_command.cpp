@@ -54,7 +54,7 @@ int branch_off(const BranchOptions& options, const std::string& typed) {
   const std::int64_t step = h5.integers("/trajectory/step").at(frame);
   Simulation sim = begin_again(run);
   go_on_to(step, run.model, run.resolved.scene, sim);
-  tell_other_state(h5, frame, sim.now.state.q);
+  const Eigen::VectorXd q = sim.now.state.q;
   const double time = time_of(sim, run.resolved.scene);
   const ResolvedScene resolved = logged_scene(h5, options.set);
   const Model model = make_hagfish(resolved.specimen, resolved.scene);
@@ -79,6 +79,7 @@ int branch_off(const BranchOptions& options, const std::string& typed) {
   header.past = run.past;
   header.past.push_back({h5.root_text("scene"), step});
   LogWriter log(options.run.out, options.run.force, header, model, resolved.scene);
+  tell_other_state(h5, frame, q);
   if (!options.set.empty()) warn_of_odd_things(resolved);
   return take_run(model, resolved.scene, std::move(sim), options.run, log);
 }
