@@ -66,22 +66,30 @@ void visit_energies(const Visit& visit) {
   visit_all(integrator_terms);
 }
 
+/// "impulse so far of tip, ... and gravity".
+inline std::string outside_description() {
+  std::string text = "impulse so far of tip, ";
+  for (const RowKindEntry& force : row_kind_table) {
+    if (force.from_outside) text += std::string(force.description) + ", ";
+  }
+  return text.replace(text.rfind(", "), 2, " and gravity");
+}
+
 struct MomentumColumn {
   const char* linear;   ///< name below /diagnostics
   const char* angular;  ///< the same of what is about the centre of mass
   const char* unit;
   const char* angular_unit;
-  const char* description;
+  std::string description;
   Momentum MomentumLedger::*member;
 };
 
-inline constexpr MomentumColumn momentum_columns[] = {
+inline const MomentumColumn momentum_columns[] = {
     {"momentum", "angular_momentum", "g cm/s", "g cm²/s", "momentum of all bodies",
      &MomentumLedger::momentum},
     {"impulse_drag", "angular_impulse_drag", "dyn s", "dyn cm s", "impulse of drag so far",
      &MomentumLedger::drag},
-    {"impulse_outside", "angular_impulse_outside", "dyn s", "dyn cm s",
-     "impulse so far of tip, head clamp, head plate and other obstacles and gravity",
+    {"impulse_outside", "angular_impulse_outside", "dyn s", "dyn cm s", outside_description(),
      &MomentumLedger::outside},
     {"integrator_momentum", "integrator_angular_momentum", "g cm/s", "g cm²/s",
      "gained by the rule of the steps itself so far, before it is given back",

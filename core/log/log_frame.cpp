@@ -359,7 +359,7 @@ void declare_momentum(LogTable<Frame>& t) {
                             Eigen::Vector3d Momentum::*part) {
       t.numbers(
           std::string("/diagnostics/") + name, {space},
-          {unit, std::string(column.description) + about + ", world axes"},
+          {unit, column.description + about + ", world axes"},
           [ part, member = column.member ](const Frame& f) -> const auto& {
             return f.record.momentum.*member.*part;
           });

@@ -62,8 +62,7 @@ std::int64_t minima_by(const std::vector<LoggedContact>& contacts, const Audited
 }  // namespace
 
 Steps::Steps(const LogContents& log)
-    : first(log.h5.integers("/trajectory/step").front()),
-      stride(frame_stride(log.resolved.scene.time)),
+    : stride(frame_stride(log.resolved.scene.time)),
       count(static_cast<std::int64_t>(log.h5.shape("/steps/kkt").at(0))) {}
 
 FrameAudit::FrameAudit(const LogContents& log)

@@ -55,11 +55,11 @@ inline std::pair<int, double> spline_point(const Model& model, double parameter)
   return {segment, parameter - segment};
 }
 
-/// A run's steps by the frames of its log: frame f begins with step first + f stride, but for the
+/// A run's steps by the frames of its log: frame f begins with step f stride of the log, but for the
 /// state at the end, which comes after the last one.
 struct Steps {
   explicit Steps(const LogContents& log);
-  std::int64_t first = 0, stride = 1, count = 0;
+  std::int64_t stride = 1, count = 0;
   /// Index along /steps of the step that begins at a frame; of the state at the end, their number.
   Eigen::Index at(Eigen::Index frame) const { return std::min(frame * stride, count); }
 };

@@ -9,7 +9,6 @@
 
 #include "core/input/toml_range.hpp"
 #include "core/run/laws.hpp"
-#include "experiments/audit/rebuilt.hpp"
 
 namespace hagfish {
 namespace {
@@ -88,6 +87,13 @@ double largest_hinge(const Eigen::VectorXd& force) {
 }
 
 Finding every_step(const Criterion& criterion) { return judged_over(criterion, "every step"); }
+
+/// The middle one; there must be some.
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
 
 bool slides(Phase phase) { return phase == Phase::slide || phase == Phase::reverse; }
 
@@ -210,10 +216,11 @@ RunSummary Judge::summary(const std::string& outcome, const std::string& message
   run.duration =
       steps_ > 0 ? static_cast<double>(steps_) * scene_.time.step : last_time_ - first_time_;
   run.tighten_from = knot_.stretch(Phase::tighten).from;
-  run.slide_from = knot_.stretch(Phase::slide).from;
+  const KnotJudge::Stretch sliding = knot_.stretch(Phase::slide);
+  run.slide_from = sliding.from;
   run.release_from = knot_.stretch(Phase::release).from;
   run.free_from = knot_.stretch(Phase::free).from;
-  if (const KnotJudge::Stretch sliding = knot_.stretch(Phase::slide); sliding.reached) {
+  if (!std::isnan(sliding.from)) {
     const Slide slide = knot_.slides().slide();
     run.slide_distance = slide.leading_way;
     run.slide_speed =

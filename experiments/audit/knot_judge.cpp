@@ -71,15 +71,10 @@ void KnotJudge::see(const RunFrame& frame, const Kinematics& kin) {
 
 KnotJudge::Stretch KnotJudge::stretch(Phase phase) const {
   Stretch found;
-  for (std::size_t f = 0; f < frames_.size(); ++f) {
-    if (frames_[f].phase != phase) continue;
-    if (!found.reached) found.first = f;
-    found.last = f;
-    found.reached = true;
-  }
-  if (found.reached) {
-    found.from = frames_[found.first].time;
-    found.to = frames_[found.last].time;
+  for (const Seen& seen : frames_) {
+    if (seen.phase != phase) continue;
+    if (std::isnan(found.from)) found.from = seen.time;
+    found.to = seen.time;
   }
   return found;
 }

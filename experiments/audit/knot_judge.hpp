@@ -19,9 +19,7 @@ class KnotJudge {
 
   /// The frames of one phase.
   struct Stretch {
-    std::size_t first = 0, last = 0;  ///< places along the frames
-    bool reached = false;
-    double from = NAN, to = NAN;  ///< times of these, s
+    double from = NAN, to = NAN;  ///< times of the first and the last, s; nan where it has none
   };
   Stretch stretch(Phase phase) const;
   const SlideWatch& slides() const { return slides_; }

@@ -83,7 +83,6 @@ void LedgerJudge::see(const RunFrame& frame) {
     clamped_before_ = frame.clamped;
   } else {
     passed_.see(frame.time - time_before_, 0.5 * (tip_before_ + tip), frame.head, frame.obstacles);
-    ever_free_ = ever_free_ || !(clamped_before_ || frame.clamped);
   }
   // Scales: what is no number is told by what they measure.
   const auto passes = [&](double now, double at_start) {
@@ -109,6 +108,7 @@ void LedgerJudge::see(const RunFrame& frame) {
   parts_ =
       std::max(parts_, ledger.kinetic - 0.5 / mass * frame.momentum.momentum.linear.squaredNorm());
   const bool held = clamped_before_ && frame.clamped, free = !(clamped_before_ || frame.clamped);
+  ever_free_ = ever_free_ || (any_ && free);
   linear_.see(frame.momentum, held, free);
   angular_.see(frame.momentum, held, free);
   any_ = true;

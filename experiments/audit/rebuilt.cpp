@@ -7,12 +7,6 @@
 
 namespace hagfish {
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 double Rebuilt::Deviation::share() const {
   return off == 0 ? 0 : off / std::max(rebuilt_tolerance * scale, allowed);
 }

@@ -14,9 +14,6 @@ namespace hagfish {
 /// of a hundred bodies round differently on another machine, by 1e-13.
 inline constexpr double rebuilt_tolerance = 1e-9;
 
-/// The middle one; there must be some.
-double median(std::vector<double> values);
-
 class Rebuilt {
  public:
   /// Notes a number of dataset `path`. Two nan are the same. A deviation may be rebuilt_tolerance
