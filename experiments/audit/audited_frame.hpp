@@ -55,8 +55,8 @@ inline std::pair<int, double> spline_point(const Model& model, double parameter)
   return {segment, parameter - segment};
 }
 
-/// A run's steps by the frames of its log: frame f begins with step f stride of the log, but for the
-/// state at the end, which comes after the last one.
+/// A run's steps by the frames of its log: frame f begins with step f stride of the log, but for
+/// the state at the end, which comes after the last one.
 struct Steps {
   explicit Steps(const LogContents& log);
   std::int64_t stride = 1, count = 0;
