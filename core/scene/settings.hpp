@@ -349,8 +349,8 @@ struct TimeSettings {
   /// times h² of their stiffness damps them, at the velocity after the step, 1/s.
   double ring_damping = 1;
   double frame_interval = 0.020;  ///< time between logged frames, s; a whole number of steps
-  double duration = 30;       ///< the run ends here at the latest, s
-  Phase until = Phase::free;  ///< the run ends with this phase
+  double duration = 30;           ///< the run ends here at the latest, s
+  Phase until = Phase::free;      ///< the run ends with this phase
 
   /// How far into a step its forces act, s.
   double reach() const { return rule == TimeRule::euler ? step : step / 2; }
