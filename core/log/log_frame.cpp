@@ -59,6 +59,7 @@ constexpr const char* active_description = "active torque of the animal's muscle
 
 void declare_trajectory(const Model& model, LogTable<Frame>& t) {
   const LabelledAxis n{static_cast<hsize_t>(model.body_count()), body_labels};
+  const LabelledAxis joints{static_cast<hsize_t>(model.body_count()), joint_labels};
   const LabelledAxis nq{static_cast<hsize_t>(model.nq()), coordinate_labels};
   const LabelledAxis nv = dofs_of(model);
   const std::string rates = "cm/s, rad/s";
@@ -93,6 +94,12 @@ void declare_trajectory(const Model& model, LogTable<Frame>& t) {
   t.numbers(
       "/trajectory/position", {n, space}, {"cm", "body centres, world axes"},
       [](const Frame& f) -> const auto& { return f.record.moment.observation.kin.centre; });
+  t.numbers(
+      "/trajectory/curvature", {joints, space},
+      {"1/cm",
+       "turn of each joint as a vector in axes halfway through it, over the body it stands for",
+       Storage::blocks},
+      [model](const Frame& f) { return joint_curvature(model, f.record.moment.observation.kin); });
 }
 
 /// /midway: what the midpoint rule's equations are of.
@@ -250,6 +257,23 @@ void declare_means(const Model& model, LogTable<Frame>& t) {
       "/mean/forces/net", {dofs_of(model)},
       {"dyn, dyn·cm", "H (qdot_next - qdot*) / h, what they add up to, from the motion" + since},
       [](const Frame& f) -> const auto& { return f.mean.net_force; });
+  const LabelledAxis joints{static_cast<hsize_t>(model.body_count()), joint_labels};
+  const auto moment = [&](const std::string& name, const std::string& description, auto of) {
+    t.numbers(
+        "/mean/moments/" + name, {joints, space},
+        {"dyn·cm", "moment about each joint, in axes halfway through it, of " + description + since,
+         Storage::blocks},
+        of);
+  };
+  for (const RowKindEntry& force : row_kind_table) {
+    if (force.value == RowKind::head) continue;  // it is on the head alone
+    moment(
+        force.name, force.description + std::string(" on the bodies behind it"),
+        [kind = force.value](const Frame& f) -> const auto& { return f.moments.of_rows[kind]; });
+  }
+  moment(
+      "active", "the muscles' torques",
+      [](const Frame& f) -> const auto& { return f.moments.active; });
   const auto row = [&](const char* name, const char* unit, const std::string& description,
                        std::array<double, 4> FrameMeans::*member) {
     t.numbers(

@@ -4,6 +4,7 @@
 #include "core/log/log_level.hpp"
 #include "core/log/log_means.hpp"
 #include "core/log/log_table.hpp"
+#include "core/log/moment_means.hpp"
 #include "core/log/thigmotaxis_rows.hpp"
 #include "core/muscle/activation.hpp"
 #include "core/run/simulation.hpp"
@@ -23,6 +24,7 @@ struct Frame {
   const StepRecord& record;
   const ThigmotaxisRows& thigmotaxis;
   const FrameMeans& mean;
+  const JointMoments& moments;  ///< means over the same steps
   KnotVote knot;
   double skin_fold = 0;  ///< skin_fold()
   Worst worst;

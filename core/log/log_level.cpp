@@ -10,9 +10,17 @@ namespace {
 const std::vector<std::string> only_full = {
     "/steps/",  "/midway/",       "/control/",         "/basis/",          "/reflex/",      "/eq6/",
     "/forces/", "/trajectory/qd", "/trajectory/q_ref", "/mean/forces/net", "/muscle/driven"};
-const std::vector<std::string> not_in_summaries = {
-    "/trajectory/q", "/trajectory/position", "/mean/forces/", "/contacts/", "/forces/", "/muscle/"};
+const std::vector<std::string> not_in_summaries = {"/trajectory/q",
+                                                   "/trajectory/position",
+                                                   "/trajectory/curvature",
+                                                   "/mean/forces/",
+                                                   "/mean/moments/",
+                                                   "/contacts/",
+                                                   "/forces/",
+                                                   "/muscle/"};
 const std::vector<std::string> single = {"/trajectory/position", "/mean/forces/", "/muscle/"};
+/// What follows from other datasets, and is single at every level.
+const std::vector<std::string> always_single = {"/trajectory/curvature", "/mean/moments/"};
 /// The one force of a step that replays show, small enough.
 const std::string tip = "/forces/tip";
 
@@ -45,7 +53,7 @@ bool holds(LogLevel level, const std::string& path) {
 }
 
 bool in_single_precision(LogLevel level, const std::string& path) {
-  return level != LogLevel::full && any_begins(path, single);
+  return any_begins(path, always_single) || (level != LogLevel::full && any_begins(path, single));
 }
 
 double resolution(LogLevel level, const std::string& path) {

@@ -22,8 +22,8 @@ LogLevel log_level_called(const std::string& name);
 
 /// Whether a log of this level holds a dataset.
 bool holds(LogLevel level, const std::string& path);
-/// Whether it holds it in single precision, which no audit could make up for: below `full`, the
-/// places of bodies and means of forces.
+/// Whether it holds it in single precision: moments and curvatures; below `full` also what no audit
+/// could make up for, the places of bodies and means of forces.
 bool in_single_precision(LogLevel level, const std::string& path);
 /// Values are rounded to multiples of this, in their unit, which makes them easy to compress; 0 for
 /// none. Below `full`, of places and of q, far below anything that is made of them.

@@ -60,6 +60,7 @@ struct LogWriter::Contents {
         rows(row_table(level)),
         with_rows(law_of(scene).logs_rows),
         means(model.nv()),
+        moments(model),
         knot(scene.knot),
         h(scene.time.step),
         stride(frame_stride(scene.time)),
@@ -100,7 +101,8 @@ struct LogWriter::Contents {
                               : knot_type(record.moment.observation.kin.centre, knot);
     if (!model.muscles.empty()) see_muscles(record, mean);
     const double fold = skin_fold(model, record.moment.observation.kin);
-    frames.append({record, rows_of_step, mean, type, fold, worst, wall_time, muscles});
+    frames.append(
+        {record, rows_of_step, mean, moments.close(), type, fold, worst, wall_time, muscles});
     worst = {};
   }
 
@@ -179,6 +181,7 @@ struct LogWriter::Contents {
   bool with_rows;     // the log has that table
   SeriesList series;  // of all tables
   RunningMeans means;
+  MomentMeans moments;
   Worst worst;
   ActivationSolver activations;
   MuscleEffort muscles;
@@ -242,6 +245,7 @@ void LogWriter::write(const StepRecord& record, const Simulation& sim, double wa
   if (frame) write_frame(record, rows);
   // The step that begins at a frame counts to the next one's means.
   c.means.take(record, rows);
+  c.moments.take(c.model, record, c.h);
   if (wall_time >= c.next_save && sim.step >= c.spare) {
     c.save();
   } else if (frame && c.waiting_bytes() > most_waiting) {

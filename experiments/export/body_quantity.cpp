@@ -26,11 +26,25 @@ void fill(const LogContents& log, Turn turn, BodyQuantity& quantity, const OfFra
   }
 }
 
-void fill_torque(const LogContents& log, const std::string& dataset, Turn turn,
+/// Earlier logs have torques of hinges alone.
+void fill_moment(const LogContents& log, const std::string& kind, Turn turn,
                  BodyQuantity& quantity) {
-  const Hdf5Reader::Rows rows = log.h5.rows(dataset);
-  fill(log, turn, quantity,
-       [&](Eigen::Index f) { return torques_along(log.model, turn, rows.row(f)); });
+  const int n = log.model.body_count();
+  const bool known = log.h5.has("/mean/moments/" + kind);
+  const Hdf5Reader::Rows rows = log.h5.rows((known ? "/mean/moments/" : "/mean/forces/") + kind);
+  if (!known) quantity.label += " (torques of hinges)";
+  fill(log, turn, quantity, [&](Eigen::Index f) {
+    Eigen::Matrix3Xd moments = Eigen::Matrix3Xd::Zero(3, n);
+    if (known) {
+      moments = Eigen::Map<const Eigen::Matrix3Xd>(rows.row(f).data(), 3, n);
+    } else {
+      for (Eigen::Index k = root_dofs; k < rows.cols(); ++k) {
+        const Hinge& hinge = log.model.hinges[k - root_dofs];
+        moments(static_cast<int>(hinge.axis), hinge.body) = rows(f, k);
+      }
+    }
+    return moments_along(log.model, turn, moments);
+  });
 }
 
 void fill_activation(const LogContents& log, BodyQuantity& quantity) {
@@ -90,10 +104,10 @@ BodyQuantity body_quantity(const LogContents& log, const std::string& name) {
   if (name == "thigmotaxis" || name == "thigmotaxis-twist") {
     const Turn turn = name == "thigmotaxis" ? Turn::bend : Turn::twist;
     quantity = made(turn == Turn::bend ? "f_thigmo, bending" : "f_thigmo, twisting", "dyn cm");
-    fill_torque(log, "/mean/forces/thigmotaxis", turn, quantity);
+    fill_moment(log, "thigmotaxis", turn, quantity);
   } else if (name == "active") {
-    quantity = made("active torque, bending", "dyn cm");
-    fill_torque(log, "/mean/forces/active", Turn::bend, quantity);
+    quantity = made("muscles' moment, bending", "dyn cm");
+    fill_moment(log, "active", Turn::bend, quantity);
   } else if (name == "activation") {
     quantity = made("largest activation of a bending joint", "1");
     fill_activation(log, quantity);

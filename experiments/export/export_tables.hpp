@@ -16,8 +16,8 @@ inline const ExportColumn time_column{"time", figure_unit::second, "simulated ti
 /// midline, curvature, knot, contacts: where the body is, recomputed from q.
 std::vector<ExportTable> shape_tables(const LogContents& log, bool si);
 
-/// torques, joints (the same, a column a hinge), eq6, head, energy: what the log has of forces, as
-/// means since the frame before, and what it leaves to be computed, the springs.
+/// torques, joints (the same, a column a hinge), moments, eq6, head, energy: what the log has of
+/// forces, as means since the frame before, and what it leaves to be computed, the springs.
 std::vector<ExportTable> force_tables(const LogContents& log, bool si);
 
 /// phases: a row a phase that the run reached, in the order of time.

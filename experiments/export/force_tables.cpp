@@ -31,7 +31,9 @@ ExportTable torque_table(const LogContents& log, bool si) {
       frame_column,
       time_column,
       {"joint", none, "by the body behind it"},
-      {"axis", none, "bend_y, bend_z or twist, about the body's own Y, Z or X axis"},
+      {"axis", none,
+       "bend_y, bend_z or twist, about Y, Z or X: of the body before for a joint's first row, of "
+       "the body behind for its last one; joints take turns in which axis comes first"},
       {"s", centimetre, "arc length of the joint from the head's end at rest"},
       {"angle", radian, "of the hinge at the frame"},
       {"spring", torque, "of the body's own stiffness, at the frame"}};
@@ -59,6 +61,40 @@ ExportTable torque_table(const LogContents& log, bool si) {
                                          q[dof + 1],
                                          spring[dof]};
       for (const Hdf5Reader::Rows& rows : kinds) row.emplace_back(rows(f, dof));
+      table.add(row);
+    }
+  }
+  return table;
+}
+
+/// What the same forces do about each joint as vectors, which unlike hinges' torques are the
+/// body's.
+ExportTable moment_table(const LogContents& log, bool si) {
+  const std::string axes = " axis halfway through the joint";
+  std::vector<ExportColumn> columns{
+      frame_column,
+      time_column,
+      {"joint", none, "by the body behind it"},
+      {"s", centimetre, "arc length of the joint from the head's end at rest"}};
+  std::vector<Hdf5Reader::Rows> vectors{log.h5.rows("/trajectory/curvature")};
+  const auto add = [&](const std::string& name, const auto& unit, const std::string& meaning) {
+    columns.push_back({name + "_x", unit, meaning + ", about the X" + axes});
+    for (const char* axis : {"_y", "_z"}) columns.push_back({name + axis, unit, "the same"});
+  };
+  add("turn", per_length, "turn of the joint over the body that it stands for, at the frame");
+  for (const auto& [kind, meaning] : torque_kinds()) {
+    add(kind, torque, "moment " + meaning + mean);
+    vectors.push_back(log.h5.rows("/mean/moments/" + kind));
+  }
+  ExportTable table("moments.csv", columns, si);
+  const double length = log.model.length() / log.model.body_count();
+  for (Eigen::Index f = 0; f < log.q.rows(); ++f) {
+    for (Eigen::Index joint = 1; joint < log.model.body_count(); ++joint) {
+      std::vector<ExportTable::Cell> row{std::int64_t{f}, log.time[f], std::int64_t{joint},
+                                         static_cast<double>(joint) * length};
+      for (const Hdf5Reader::Rows& rows : vectors) {
+        for (Eigen::Index k = 3 * joint; k < 3 * joint + 3; ++k) row.emplace_back(rows(f, k));
+      }
       table.add(row);
     }
   }
@@ -202,6 +238,8 @@ ExportTable energy_table(const LogContents& log, bool si) {
 std::vector<ExportTable> force_tables(const LogContents& log, bool si) {
   std::vector<ExportTable> tables{torque_table(log, si), joint_table(log, si), eq6_table(log, si),
                                   head_table(log, si), energy_table(log, si)};
+  if (log.h5.has("/mean/moments/active"))
+    tables.push_back(moment_table(log, si));  // not in earlier logs
   if (!log.model.muscles.empty()) tables.push_back(muscle_table(log, si));
   return tables;
 }

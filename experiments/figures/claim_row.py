@@ -32,22 +32,13 @@ def outcome_of(log: HagfishLog) -> str:
     return "jammed" if cut_off else "slid"
 
 
-def near_over_far(s: claims.Sliding) -> float:
-    """Effort, the sum of |f_thigmo| over the body, in the third of the slide nearest to the head over that in the
-    furthest third."""
-    ruled = np.isfinite(s.head_end)
-    place, effort = s.head_end[ruled], np.abs(s.force[ruled]).sum(axis=1)
-    low, high = (place.min() + share * np.ptp(place) for share in (1 / 3, 2 / 3))
-    return float(effort[place <= low].mean() / effort[place >= high].mean())
-
-
 def judged(log: HagfishLog) -> list[object]:
     s = claims.read_sliding(log)
     a, b, c = claims.zero_behind(s), claims.larger_near_head(s), claims.smooth_in_space(s)
     worst = lambda key: max(own[key] for own in c["axes"].values())
     verdict = claims.verdicts(a, b, c)
     return ["slid", float(s.head_end[0] - s.head_end[-1]), float(a["largest_beyond_reach_of_rows_dyn_cm"]),
-            near_over_far(s), worst("roughness_in_space"), worst("roughness_in_time"),
+            float(b["measures"][claims.EFFORT]["near_over_far"]), worst("roughness_in_space"), worst("roughness_in_time"),
             worst("dct_modes_95"), *(verdict[name] for name in claims.NAMES)]
 
 

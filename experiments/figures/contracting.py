@@ -95,7 +95,7 @@ def motion(log: HagfishLog, law: str) -> Motion:
     frames = np.flatnonzero((time > first + 0.5 * FRAME) & (time < last + 0.5 * FRAME))
     bodies = len(log["/model/length"])
     place = np.array([through(centres, STATIONS * bodies) for centres in log["/trajectory/position"][frames]])
-    of = lambda name: moments_of(log, log[f"/mean/forces/{name}"][frames])
+    of = lambda name: moments_of(log, name, frames)
     return Motion(log["/knot/head_end"][frames], place, of("active"), long_means(of("thigmotaxis"), LONG))
 
 

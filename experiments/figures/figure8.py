@@ -1,4 +1,4 @@
-"""Figure 8: f_thigmo (Eq. 8) about X, Y and Z over time and joint number while the knot slides, and a
+"""Figure 8: the moment of f_thigmo (Eq. 8) about X, Y and Z over time and joint number while the knot slides, and a
 page that tests the paper's three claims about it. Forces are means from one frame of the log to the
 next (by default 20 ms); nothing else is filtered.
 
@@ -72,8 +72,8 @@ def surfaces(s: claims.Sliding, out: Path) -> None:
     figure.colorbar(image, cax=bar, extend="both")
     bar.tick_params(labelsize=6.5, pad=1)
     bar.set_title("dyn cm", fontsize=7)
-    figure.text(0.055, 0.015, r"$f_\mathrm{thigmo}=C_\mathrm{thigmo}^\top\lambda_\mathrm{thigmo}/h$ on each hinge while "
-                f"the knot slides: means over {1000 * s.interval:.0f} ms, from frame to frame of the log. The largest is "
+    figure.text(0.055, 0.015, r"Moment of $f_\mathrm{thigmo}=C_\mathrm{thigmo}^\top\lambda_\mathrm{thigmo}/h$ at each joint, in axes halfway through it, "
+                f"while the knot slides: means over {1000 * s.interval:.0f} ms, from frame to frame of the log. The largest is "
                 f"{np.abs(s.force).max():.0f} dyn cm.\nColours saturate at the 99th percentile of the non-zero magnitudes, "
                 f"{scale:.0f} dyn cm.", fontsize=7.5)
     plots.save(figure, out)
@@ -99,8 +99,7 @@ def draw_zero(axes: Any, s: claims.Sliding) -> None:
 def draw_growth(axes: Any, s: claims.Sliding, name: str, found: dict[str, float]) -> None:
     """Claim (b): one measure of size against the knot's head end."""
     y = claims.measures(s)[name]
-    axes.plot(s.head_end, y, ".", ms=3, color=plots.BLUE, label=f"means; Spearman {found['spearman_with_head_end']:+.2f} "
-              f"[{found['spearman_95_low']:+.2f}, {found['spearman_95_high']:+.2f}]")
+    axes.plot(s.head_end, y, ".", ms=3, color=plots.BLUE, label=f"means; Spearman {found['spearman_with_head_end']:+.2f}")
     x = np.array([np.nanmin(s.head_end), np.nanmax(s.head_end)])
     axes.plot(x, found["fit_slope_per_cm"] * x + found["fit_intercept"], color=plots.INK, lw=1,
               label=f"line: {found['fit_slope_per_cm']:+.3g} per cm, $R^2$ = {found['fit_r2']:.2f}")
@@ -154,10 +153,9 @@ def plain_words(a: dict[str, Any], b: dict[str, Any], c: dict[str, Any]) -> list
             f"{a['nonzero_beyond_reach_of_rows']} of {a['values_beyond_reach_of_rows']} not 0. Largest force, a mean over "
             f"{1000 * c['mean_over_s']:.0f} ms: {a['largest_force_dyn_cm']:.4g} dyn cm; {100 * a['share_of_plane_zero']:.0f} % "
             "of all values are 0. Rule: exactly 0 beyond the rows' reach.")
-    rows = [f"{name.split(',')[0]} ×{m['median_near_third'] / max(m['median_far_third'], 1e-300):.2f} "
-            f"(Spearman {m['spearman_with_head_end']:+.2f})" for name, m in b["measures"].items()]
-    growth = ("median of the third of the means nearest the head over that of the furthest third: " + "; ".join(rows)
-              + ". Rule: the 95 % intervals of the first two correlations with the distance to the head lie below 0.")
+    rows = [f"{name.split(',')[0]} ×{m['near_over_far']:.2f} (Spearman {m['spearman_with_head_end']:+.2f})" for name, m in b["measures"].items()]
+    growth = ("mean over the third of the way nearest the head, over that of the furthest third: " + "; ".join(rows)
+              + f". Rule: the first is at least {claims.LARGER}; at most 1 disagrees.")
     each = c["axes"].items()
     rough = ("; ".join(f"{axis}: {own['roughness_in_space']:.3f} along the body, {own['roughness_in_time']:.3f} in time"
                        for axis, own in each)

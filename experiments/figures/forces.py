@@ -69,18 +69,17 @@ def knot_of(scene: str) -> str:
     return plots.SCENES[scene.removeprefix("pull_").removeprefix("living_").removesuffix("_waypoints")]
 
 
-def moments_of(log: HagfishLog, force: np.ndarray) -> np.ndarray:
-    """Generalised forces, rows x nv, at STATIONS: rows x (3 kinds of turn times stations), dyn cm: moments of the body, which are the
-    same of any mesh."""
-    dof, joint, kind = log.hinges()
+def moments_of(log: HagfishLog, force: str, frames: np.ndarray) -> np.ndarray:
+    """Moments of one kind of force at STATIONS: frames x (3 axes times stations), dyn cm. They are the body's, which any mesh has."""
+    _, joint, kind = log.hinges()
     arc = log.joint_arc()
-    place = arc[joint] / (arc[-1] + log["/model/length"][-1])
-    return np.concatenate([[np.interp(STATIONS, place[kind == each], row[dof[kind == each]]) for row in force] for each in KINDS], axis=1)
+    place, values = arc[joint] / (arc[-1] + log["/model/length"][-1]), log.at_hinges(log.moments(force)[frames])
+    return np.concatenate([[np.interp(STATIONS, place[kind == each], row[kind == each]) for row in values] for each in KINDS], axis=1)
 
 
 def moments(log: HagfishLog) -> np.ndarray:
     """Those of f_thigmo in the slide, means from frame to frame."""
-    return moments_of(log, log["/mean/forces/thigmotaxis"][log.intervals_in("slide")])
+    return moments_of(log, "thigmotaxis", log.intervals_in("slide"))
 
 
 def off(found: np.ndarray, wanted: np.ndarray) -> float:

@@ -16,6 +16,7 @@ import numpy as np
 
 FORMAT = "hagfish-log"
 VERSION = 1
+KINDS = ("twist", "bend_y", "bend_z")  # of hinges: about X, Y and Z
 FRAME_GROUPS = ("trajectory", "forces", "thigmotaxis", "mean", "muscle", "pull", "knot", "diagnostics")
 
 
@@ -148,6 +149,16 @@ class HagfishLog:
         """Arc length from the head of each joint at rest, cm (J): joint j is the front of body j."""
         length = self["/model/length"]
         return np.concatenate([[0.0], np.cumsum(length)[:-1]])
+
+    def moments(self, force: str) -> np.ndarray:
+        """Moment about each joint of one kind of force ("thigmotaxis", "active", ...), in axes halfway through it, frames x joints x 3,
+        dyn cm: means since the frame before. It is the body's; torques of hinges (/mean/forces) are its parts along axes that take turns."""
+        return self[f"/mean/moments/{force}"]
+
+    def at_hinges(self, vectors: np.ndarray) -> np.ndarray:
+        """Of vectors at joints (... x joints x 3) the part about the axis of each hinge's kind: X of twists, Y or Z of bends."""
+        _, joint, kind = self.hinges()
+        return vectors[..., joint, [KINDS.index(each) for each in kind]]
 
     def hinges(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Every velocity behind the root: (its index in qvel, its joint, its kind), where the kind

@@ -148,9 +148,9 @@ def claims_table(folder: Path, out: Path) -> list[str]:
             if judged[-1] is None:
                 others[outcome] += 1
         own = [row for row in judged if row]
-        counts = [" / ".join(str(sum(row[name] == verdict for row in own)) for verdict in plots.VERDICTS) for name in claims.NAMES]
+        verdicts = [claims.over_runs([row[name] for row in own]) for name in claims.NAMES]
         spread = lambda what: "{1:.3g} ({0:.3g} to {2:.3g})".format(*np.percentile([row[what] for row in own], [0, 50, 100])) if own else ""
-        rows.append([knot, f"{len(own)} of {len(judged)}", *counts, *map(spread, claim_row.MEASURES[1:]),
+        rows.append([knot, f"{len(own)} of {len(judged)}", *verdicts, *map(spread, claim_row.MEASURES[1:]),
                      ", ".join(f"{what}: {count}" for what, count in others.items())])
     return tables.of_page(out, "living_claims", ["knot", "let go at the head", *claims.NAMES, "beyond, dyn cm", "near over far", "roughness along the body", "in time",
                             "Fourier modes for 95 %", "what else became of it"], rows)
@@ -221,7 +221,7 @@ def main(folder: Path, table: Path, out: Path, page: Path) -> None:
         "# The animal ties itself", "", "`ipopt`: that back end; `fine`: h = 2 ms instead of 5. Works are until release.", "",
         *tables.markdown(head, run_rows(scenes)), "## Noisy starts", "", *starts_table(folder, page.parent), "## Other animals", "",
         *tables.of_page(page.parent, "living_animals", head, run_rows(animals)), "## The paper's claims, starts with a degree of noise", "",
-        "Verdicts: agrees / undecided / disagrees, of the runs that slid to the head.", "", *claims_table(folder, page.parent), "## Sweeps", "",
+        "Verdicts are over the runs that slid to the head.", "", *claims_table(folder, page.parent), "## Sweeps", "",
         *tables.of_page(page.parent, "living_sweeps", ["what is changed", "knots tied and slid off", "largest torque of a hinge while forming, dyn cm"],
                         sweep_rows(sweeps)),
         *tables.markdown(head, run_rows(of_sweeps)), "## Two things at once", "", *tables.markdown(head, run_rows(both))])

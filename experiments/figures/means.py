@@ -23,7 +23,7 @@ class Means:
     window: float  # s
     start: np.ndarray  # frame at which each begins
     end: np.ndarray  # and ends
-    force: np.ndarray  # f_thigmo on the hinges, dyn cm
+    force: np.ndarray  # moment of f_thigmo about the axis of each hinge's kind, windows x hinges, dyn cm
     lambdas: np.ndarray  # the four multipliers over h, dyn
     slack: np.ndarray  # shortfall of the four rows of Eq. 6, cm/s; nan where no row
     span: float  # share of the body's length that each hinge stands for
@@ -38,10 +38,10 @@ def read_means(log: HagfishLog, phase: str = "slide", window: float = WINDOW) ->
     """Means of one phase. Windows that are no whole number of the log's frame intervals are an error; what is left of the phase
     after the last whole window is left out."""
     frames = log.intervals_in(phase)
-    hinges, joints, _ = log.hinges()
+    _, joints, _ = log.hinges()
     span = 2 / (joints.max() + 1)  # bend and twist take turns from body to body
     if not frames.size:
-        return Means(window, frames, frames, np.empty((0, hinges.size)), np.empty((0, 4)), np.empty((0, 4)), span)
+        return Means(window, frames, frames, np.empty((0, joints.size)), np.empty((0, 4)), np.empty((0, 4)), span)
     time = log["/trajectory/time"]
     interval = float(np.median(time[frames] - time[frames - 1]))
     count = max(1, round(window / interval))
@@ -50,7 +50,7 @@ def read_means(log: HagfishLog, phase: str = "slide", window: float = WINDOW) ->
     frames = frames[: frames.size // count * count].reshape(-1, count)
     rows = lambda path: log[path][frames]
     slack = np.ma.masked_invalid(rows("/mean/thigmotaxis/slack")).mean(axis=1).filled(np.nan)
-    return Means(window, frames[:, 0] - 1, frames[:, -1], rows("/mean/forces/thigmotaxis").mean(axis=1)[:, hinges],
+    return Means(window, frames[:, 0] - 1, frames[:, -1], log.at_hinges(rows("/mean/moments/thigmotaxis").mean(axis=1)),
                  rows("/mean/thigmotaxis/lambda").mean(axis=1), slack, span)
 
 

@@ -22,11 +22,11 @@ LARGE = 99  # percentile at which colours saturate
 PHASE_WIDTH = 0.07  # of the time shown: what the name of a phase takes
 
 
-def of_joints(log: HagfishLog, rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Arc length of the joints that bend, cm, and the size of both axes' values on each: frames x joints."""
-    index, joint, kind = log.hinges()
-    y, z = rows[:, index[kind == "bend_y"]], rows[:, index[kind == "bend_z"]]
-    return log.joint_arc()[joint[kind == "bend_y"]], np.nan_to_num(np.hypot(y, z))
+def bending(log: HagfishLog, vectors: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Arc length of the joints that bend, cm, and the size of the bending part of vectors at each: frames x joints."""
+    _, joint, kind = log.hinges()
+    joints = joint[kind == "bend_y"]
+    return log.joint_arc()[joints], np.nan_to_num(np.hypot(vectors[:, joints, 1], vectors[:, joints, 2]))
 
 
 def draw_map(axes: Any, log: HagfishLog, arc: np.ndarray, values: np.ndarray, unit: str) -> None:
@@ -73,13 +73,11 @@ def main(path: Path, out: Path) -> None:
     scene = log.scene()
     animal, length = scene["specimen"].get("name", "the animal"), log["/model/length"].sum()
     figure, panels = plots.panels(5, 1, (8.5, 11), [
-        "bending part of $f_\\mathrm{thigmo}$, means from frame to frame", "curvature", "Eq. 6: speed along each tangent, means from frame to frame",
+        "bending moment of $f_\\mathrm{thigmo}$, means from frame to frame", "curvature", "Eq. 6: speed along each tangent, means from frame to frame",
         "force that clamps the head, and that of the head plate, means", "energy, and work so far"], sharex=True)
-    arc, force = of_joints(log, log["/mean/forces/thigmotaxis"])
+    arc, force = bending(log, log.moments("thigmotaxis"))
     draw_map(panels[0], log, arc, force, "dyn cm")
-    # q has one coordinate more than q̇ has velocities, the root's quaternion.
-    _, angle = of_joints(log, log["/trajectory/q"][:, 1:])
-    draw_map(panels[1], log, arc, angle / (2 * np.median(log["/model/length"])), "rad/cm")
+    draw_map(panels[1], log, *bending(log, log["/trajectory/curvature"]), "rad/cm")
     draw_lines(panels[2], time, dict(zip(ROWS, log["/mean/thigmotaxis/speed"].T)), "cm/s", columns=1)  # there are none while the knot forms
     draw_lines(panels[3], time, {"clamp": np.linalg.norm(log["/mean/forces/head"][:, :3], axis=1), "plate": log["/mean/forces/wall"][:, 0]}, "dyn")
     terms = {name: log[f"/diagnostics/{key}"] for key, name in ENERGIES.items()}

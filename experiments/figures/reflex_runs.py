@@ -152,9 +152,8 @@ def travel_of(log: HagfishLog) -> tuple[float, float]:
 
 
 def torques(log: HagfishLog, frames: np.ndarray) -> np.ndarray:
-    """What slides the knot: of the muscles and of Eq. 6 together, means from frame to frame, frames x hinges."""
-    dof, _, _ = log.hinges()
-    return (log["/mean/forces/active"] + log["/mean/forces/thigmotaxis"])[frames][:, dof]
+    """What slides the knot: moments of the muscles and of Eq. 6 together, means from frame to frame, frames x hinges."""
+    return log.at_hinges((log.moments("active") + log.moments("thigmotaxis"))[frames])
 
 
 def springs(log: HagfishLog, frames: np.ndarray) -> np.ndarray:
@@ -168,9 +167,8 @@ def springs(log: HagfishLog, frames: np.ndarray) -> np.ndarray:
 
 def asked_torques(log: HagfishLog, frames: np.ndarray) -> np.ndarray:
     """What a law asks for to slide the knot, frames x hinges, dyn cm: f_thigmo, or the reflex's torque beyond what holds the shape."""
-    dof, _, _ = log.hinges()
-    thigmotaxis = log["/mean/forces/thigmotaxis"][frames][:, dof]
-    return thigmotaxis if np.any(thigmotaxis) else log["/mean/forces/active"][frames][:, dof] - springs(log, frames)
+    thigmotaxis, active = (log.at_hinges(log.moments(force)[frames]) for force in ("thigmotaxis", "active"))
+    return thigmotaxis if np.any(thigmotaxis) else active - springs(log, frames)
 
 
 def gradient_likeness(log: HagfishLog, frames: np.ndarray, torque: np.ndarray) -> float:
@@ -204,10 +202,8 @@ def add_log(row: Row, log: HagfishLog) -> None:
     past = np.abs(asked)[arc[None, :] > tail[:, None]]
     row.behind = float(past.max() / np.abs(asked).max()) if past.size else 0.0
     size = np.abs(asked).sum(axis=1)
-    near, far = head <= np.percentile(head, 100 / 3), head >= np.percentile(head, 200 / 3)
-    row.near = float(np.median(size[near]) / np.median(size[far]))
-    low, high = claims.spearman_interval(head, size)
-    row.rank = "agrees" if high < 0 else "disagrees" if low > 0 else "undecided"
+    row.near = claims.near_over_far(head, size)
+    row.rank = claims.grows(row.near)
     rough = [[claims.roughness(asked[:, kind == each], axis) for each in (*KINDS, "twist")] for axis in (1, 0)]
     row.rough_space, row.rough_time = max(rough[0]), min(rough[1])
     row.middle = middle_of(log, row.knot)

@@ -12,6 +12,7 @@ import numpy as np
 import plots
 import tables
 from hagfish_log import HagfishLog
+from overview import bending
 from script import run_script
 from slides import log_of
 from sweep_columns import SweepTable, read_sweep
@@ -106,7 +107,7 @@ def draw(folder: Path, path: Path) -> None:
         time, slide = log["/trajectory/time"], log.in_phase("slide")
         start, end = time[slide[0]], time[slide[-1]]
         shown = np.flatnonzero((time >= start - BEFORE) & (time <= end + AFTER))
-        arc, curvature = curvature_of(log, shown)
+        arc, curvature = bending(log, log["/trajectory/curvature"][shown])
         image = axes.pcolormesh(arc, time[shown] - start, curvature, cmap="Greys", vmin=0, vmax=STRENGTH, shading="nearest", rasterized=True)
         for name, style in (("head", "-"), ("tail", "--")):
             axes.plot(log[f"/knot/{name}_end"][slide], time[slide] - start, style, color=plots.VERMILION, lw=1.4, label=f"{name} end of the knot")
@@ -120,16 +121,6 @@ def draw(folder: Path, path: Path) -> None:
     panels[len(DRAWN) - 1].legend(loc="lower right")
     figure.colorbar(image, ax=list(panels), label="curvature, 1/cm", shrink=0.4, aspect=50, location="right")
     plots.save(figure, path)
-
-
-def curvature_of(log: HagfishLog, frames: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Places of bending joints, cm, and their total bend over the body between them, frames x joints, 1/cm."""
-    dof, joint, kind = log.hinges()
-    q = log["/trajectory/q"][frames]
-    of = lambda which: q[:, dof[kind == which] + 1][:, np.argsort(joint[kind == which])]
-    bends = np.arccos(np.clip(np.cos(of("bend_y")) * np.cos(of("bend_z")), -1, 1))
-    arc = log.joint_arc()[np.sort(joint[kind == "bend_y"])]
-    return arc, bends / float(np.median(np.diff(arc)))
 
 
 def main(folder: Path) -> None:

@@ -54,7 +54,7 @@ def read_motion(path: Path) -> Motion | None:
     frames = np.flatnonzero(log["/trajectory/time"] > FROM)
     bodies = len(log["/model/length"])
     place = np.array([through(centres, STATIONS * bodies) for centres in log["/trajectory/position"][frames]])
-    return Motion(place, moments_of(log, log["/mean/forces/active"][frames]))
+    return Motion(place, moments_of(log, "active", frames))
 
 
 def read_runs(folder: Path, knot: str) -> Rows:

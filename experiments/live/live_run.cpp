@@ -80,6 +80,7 @@ LiveRun::LiveRun(ResolvedScene resolved)
       model_(make_hagfish(resolved_.specimen, resolved_.scene)),
       sim_(start(model_, resolved_.scene, "active-set")),
       means_(model_.nv()),
+      moments_(model_),
       slides_(model_) {
   hold_pull();
 }
@@ -112,6 +113,7 @@ int LiveRun::advance(int count) {
     }
     take_step(model_, pull_ ? pulled_scene_ : scene, sim_, record_);
     means_.take(record_, thigmotaxis_rows_of(record_.control, record_.solution, scene.time.step));
+    moments_.take(model_, record_, scene.time.step);
     for (const std::string& warning : record_.warnings) warnings_ += warning + "\n";
   }
   return taken;
@@ -131,6 +133,7 @@ std::span<const LiveArray> LiveRun::frame() {
   const Observation& seen = sim_.now.observation;
   const ControllerState& controller = sim_.controller;
   const FrameMeans& mean = means_.close();
+  const JointMoments& moments = moments_.close();
   const bool moved = sim_.step > 0;
   const auto span = knot_span(controller);
   put("time", {time_of(sim_, scene)});
@@ -168,8 +171,8 @@ std::span<const LiveArray> LiveRun::frame() {
   const EnergyLedger& ledger = sim_.ledger;
   put("energy", {ledger.kinetic, ledger.elastic, ledger.work_tip, ledger.work_active,
                  ledger.work[RowKind::thigmotaxis], ledger.dissipated});
-  put("thigmotaxis", torques_along(model_, Turn::bend, mean.force[RowKind::thigmotaxis]));
-  put("active", torques_along(model_, Turn::bend, mean.active_torque));
+  put("thigmotaxis", moments_along(model_, Turn::bend, moments.of_rows[RowKind::thigmotaxis]));
+  put("active", moments_along(model_, Turn::bend, moments.active));
   put("curvature", shape_along(model_, Turn::bend, state.q));
   put("twist", shape_along(model_, Turn::twist, state.q));
   const std::vector<Bearing> contacts =

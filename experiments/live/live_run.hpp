@@ -10,6 +10,7 @@
 
 #include "core/input/scene_text.hpp"
 #include "core/log/log_means.hpp"
+#include "core/log/moment_means.hpp"
 #include "core/run/simulation.hpp"
 #include "core/run/slide.hpp"
 
@@ -64,6 +65,7 @@ class LiveRun {
   Scene pulled_scene_;  ///< the same by a law of its own, which pulls besides
   NamedLaw named_law_;
   RunningMeans means_;
+  MomentMeans moments_;
   SlideWatch slides_;
   StepRecord record_;
   std::optional<Pull> pull_;

@@ -6,6 +6,7 @@
 
 #include "core/log/coordinate_names.hpp"
 #include "core/log/ledger_columns.hpp"
+#include "core/log/moment_means.hpp"
 #include "experiments/python/begun.hpp"
 #include "experiments/python/python_arguments.hpp"
 #include "experiments/python/python_simulation.hpp"
@@ -27,6 +28,18 @@ py::dict forces(const py::object& self) {
   views["active"] = view(self, step.active_torque.data(), {nv}, false);
   views["tip"] = view(self, step.tip.data(), {3}, false);
   return views;
+}
+
+py::dict moments(const PythonSimulation& run) {
+  run.require_readable();
+  JointMoments of = no_moments(run.model);
+  add_moments(run.model, run.record, run.resolved.scene.time.step, of);
+  py::dict named;
+  for (const RowKindEntry& kind : row_kind_table) {
+    if (kind.value != RowKind::head) named[kind.name] = of.of_rows[kind.value].transpose().eval();
+  }
+  named["active"] = of.active.transpose().eval();
+  return named;
 }
 
 py::dict energies(const PythonSimulation& run) {
@@ -196,6 +209,9 @@ changes. `log`: a file to write; `force` replaces one that is there. Raises Inpu
                              "views of the last step's generalised forces by name, (nv,), dyn and "
                              "dyn cm, of all kinds "
                              "of rows and active; and tip (3,), dyn")
+      .def_property_readonly("moments", &moments,
+                             "the last step's moments about each joint by name, (bodies, 3), dyn "
+                             "cm, in axes halfway through the joint")
       .def_property_readonly(
           "contacts", readable([](const Run& r) { return r.sim.now.observation.contact.contacts; }),
           "list of Contact within contact.margin, a copy, sorted from the head")

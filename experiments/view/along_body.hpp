@@ -32,11 +32,13 @@ inline std::vector<double> joint_arcs(const Model& model, Turn turn) {
   return of_joints(model, turn, [&](int body, int /*first*/) { return body * body_length(model); });
 }
 
-/// Size of a torque (nv), of both axes of a bend together; 0 where there is no mean yet.
-inline std::vector<double> torques_along(const Model& model, Turn turn,
-                                         const Eigen::VectorXd& torque) {
-  return of_joints(model, turn, [&](int /*body*/, int first) {
-    const double size = torque.segment(first, static_cast<int>(turn)).norm();
+/// Size of the moments (3 x N, in axes_of_joints) about the axes that these joints turn about; 0
+/// where there is no mean yet.
+inline std::vector<double> moments_along(const Model& model, Turn turn,
+                                         const Eigen::Ref<const Eigen::Matrix3Xd>& moments) {
+  return of_joints(model, turn, [&](int body, int /*first*/) {
+    const Eigen::Vector3d moment = moments.col(body);
+    const double size = turn == Turn::bend ? moment.tail<2>().norm() : std::abs(moment.x());
     return std::isfinite(size) ? size : 0;
   });
 }

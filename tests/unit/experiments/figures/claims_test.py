@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import claims
-from claim_row import near_over_far, outcome_of
+from claim_row import outcome_of
 from conftest import KNOT, LAST_BODY, SPEED, STEP, STEPS, hinges_of
 from hagfish_log import LogError
 
@@ -53,17 +53,16 @@ def test_force_that_is_a_line_over_the_way(content, log, slope, verdict):
     assert found["fit_slope_per_cm"] == pytest.approx(14 * slope, rel=1e-9)
     assert found["fit_r2"] == pytest.approx(1, rel=1e-9)
     assert verdicts(s)[claims.NAMES[1]] == verdict
-    # The way goes from 9.9 to 4 cm; in a third are 20 means, whose median and mean are that of their middle.
+    # The way goes from 9.9 to 4 cm; in a third are 20 means, whose mean is that of their middle.
     near, far = (1000 + slope * (middle - 4) for middle in (4.95, 8.95))
-    assert found["median_near_third"] == pytest.approx(14 * near, rel=1e-3)
-    assert near_over_far(s) == pytest.approx(near / far, rel=1e-3)
+    assert found["near_over_far"] == pytest.approx(near / far, rel=1e-3)
 
 
-def test_chance_leaves_growth_undecided(content, log):
-    size = np.random.default_rng(1).uniform(500, 1500, content.slide.size)
-    for name in FORCES:
-        content.data[name][content.slide, 6:20] = size[:, None]
-    assert verdicts(claims.read_sliding(log()))[claims.NAMES[1]] == "undecided"
+def test_what_is_hardly_larger_is_undecided_and_so_are_runs_that_do_not_agree():
+    assert [claims.grows(ratio) for ratio in (0.79, 1.0, 1.05, 1.1)] == ["disagrees", "disagrees", "undecided", "agrees"]
+    assert claims.over_runs(["disagrees"] * 19 + ["agrees"]) == "disagrees"
+    assert claims.over_runs(["disagrees"] * 15 + ["agrees"]) == "undecided"
+    assert claims.over_runs([]) == ""
 
 
 def test_ranks_share_ties_and_a_constant_has_no_correlation():

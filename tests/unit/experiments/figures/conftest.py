@@ -125,11 +125,20 @@ class Content:
                      *TEXTS["enumerations/loss"], "integrator_error", *(f"work_{name}" for name in TEXTS["enumerations/force"])):
             self.data[f"diagnostics/{name}"] = np.zeros(n)
 
+    def moments(self) -> np.ndarray:
+        """Moments at joints whose parts about the axes of the hinges are /mean/forces/thigmotaxis."""
+        force = self.data["mean/forces/thigmotaxis"]
+        moments = np.zeros((len(force), BODIES, 3))
+        for axis, kind in enumerate(("twist", "bend_y", "bend_z")):
+            own = hinges_of(kind)
+            moments[:, [int(dof_names()[i][1:3]) for i in own], axis] = force[:, own]
+        return moments
+
     def write(self, path: Path) -> Path:
         enums = {"trajectory/phase": PHASES, "steps/solve": SOLVES, "diagnostics/solve": SOLVES}
         with h5py.File(path, "w") as file:
             file.attrs.update(self.attributes)
-            for name, values in self.data.items():
+            for name, values in ({"mean/moments/thigmotaxis": self.moments()} | self.data).items():
                 kind = h5py.enum_dtype(enums[name], basetype="u1") if name in enums else values.dtype
                 file.create_dataset(name, data=values, dtype=kind)
             for name, words in TEXTS.items():

@@ -1,0 +1,35 @@
+// Moments at the joints, as means over the steps from one frame of the log to the next.
+#pragma once
+
+#include "core/chain/joint_moments.hpp"
+#include "core/run/simulation.hpp"
+
+namespace hagfish {
+
+/// Moments about the joints, in axes_of_joints, 3 x N, dyn cm.
+struct JointMoments {
+  ByKind<Eigen::Matrix3Xd> of_rows;  ///< of the forces of each kind of row
+  Eigen::Matrix3Xd active;           ///< of the muscles' torques
+};
+
+JointMoments no_moments(const Model& model);
+
+/// Adds what the forces of a step of `h` (s) do about the joints where that step begins.
+void add_moments(const Model& model, const StepRecord& record, double h, JointMoments& sum);
+
+class MomentMeans {
+ public:
+  explicit MomentMeans(const Model& model) : sum_(no_moments(model)) {}
+  void take(const Model& model, const StepRecord& record, double h) {
+    add_moments(model, record, h, sum_);
+    ++steps_;
+  }
+  /// Means of all steps since the last call, nan where there are none; then starts over.
+  const JointMoments& close();
+
+ private:
+  JointMoments sum_, mean_;
+  int steps_ = 0;
+};
+
+}  // namespace hagfish
