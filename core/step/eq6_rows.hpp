@@ -16,7 +16,7 @@ struct ThigmotaxisCommand {
   BodyEnd towards = BodyEnd::head;  ///< goal of the slide; the tail reverses both tangents
   double effort = 1;                ///< share of ControllerSettings::cap that bounds its rows
   KnotEnd end = KnotEnd::neither;   ///< identifies its rows from step to step
-  /// Whether `speed` is asked of the rows as printed, or of the strands: slip_of_shape.
+  /// Whether `speed` is asked of the rows, as in Eq. 6, or of the strands: slip_of_shape.
   Eq6Slip slip = Eq6Slip::paper;
 };
 

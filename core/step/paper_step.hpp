@@ -1,5 +1,6 @@
-// The paper's step as printed (3.1, Eqs. 1 to 4), on dense matrices and without regard to speed. It
-// is the reference for the simulator's step, and `hagfish record-qp --primal` records it.
+// The paper's step (3.1, Eqs. 1 to 4) on dense matrices and without regard to speed, with the
+// implicit springs and the rows of this simulator. It is the reference for the simulator's step,
+// and `hagfish record-qp --primal` records it.
 #pragma once
 
 #include <Eigen/Core>

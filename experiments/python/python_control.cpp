@@ -122,7 +122,7 @@ void declare_controls(py::module_& module) {
           py::arg("slip") = "paper",
           R"(`a`, `b`: speeds along the tangents of the two strands, cm/s. `towards`: "head", or "tail", which turns
 both tangents. `effort`: share of controller.cap that bounds the rows' forces. `end`: "first" or "last" where
-the contact is that one of the knot. `slip`: "paper" asks the rows for these speeds, as printed, "shape" for the
+the contact is that one of the knot. `slip`: "paper" asks the rows for these speeds, as in Eq. 6, "shape" for the
 slip of strands that run along themselves at them (controller.eq6_slip).)")
       .def_readwrite("contact", &ThigmotaxisCommand::contact)
       .def_property(

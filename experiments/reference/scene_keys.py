@@ -12,7 +12,8 @@ from pathlib import Path
 HEAD = """# Keys of a scene
 
 `python3 experiments/reference/scene_keys.py data/table1.toml experiments/reference/scene_keys.md` makes this page from the comments of the file.
-Values are those of the scene `table1`. A scene that names a base holds only what differs. An *addition* is what the paper does not state.
+Values are those of the scene `table1`. A scene that names a base holds only what differs.
+*(paper, PLACE)* marks a value that the paper states at that place. All other values are ours.
 `data/overhand_waypoints.toml` shows the keys of a script of positions, and `experiments/stability/` those of other starts.
 Obstacles and curvature programs are in [data/README.md](../../data/README.md).
 """

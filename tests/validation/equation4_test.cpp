@@ -1,5 +1,5 @@
-// The step against the paper's as printed: dense H, dense rows, all of them that could matter. The
-// step's velocity and multipliers meet the conditions of the paper's Eq. 4, which has one solution.
+// The step against the same Eq. 4 on dense matrices, with all rows that could matter. Its velocity
+// and multipliers meet the conditions of Eq. 4, which has one solution.
 #include <gtest/gtest.h>
 
 #include <algorithm>

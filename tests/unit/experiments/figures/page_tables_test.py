@@ -11,6 +11,7 @@ import audits
 import benchmarks
 import claim_map
 import claims
+import departures
 import leverage
 import living
 import pulls
@@ -53,6 +54,14 @@ def test_claims_by_change(tmp_path):
             for reading, seed, outcome, word in (("box", 1, "slid", "agrees"), ("box", 2, "slid", "undecided"), ("cone", 1, "jammed", "agrees"))]
     claim_map.page(runs, tmp_path)
     assert read(tmp_path, "claims")[1] == ["Table 1", "2", "agrees 1, undecided 1", "none slid", "", "0.1", "0.1", "0.1"]
+
+
+def test_departures_of_one_title_share_a_row():
+    run = lambda way, slide, outcome="ok": {"slide_distance_cm": way, "slide": slide, "outcome": outcome}
+    way = lambda *runs: departures.shown(list(runs), "head end of the knot, cm")
+    assert way(run("9.14", "slides"), run("8.96", "slides")) == "9.0 to 9.1"
+    assert way(run("9.14", "slides")) == "9.1" and way(run("0", "", "limits")) == "-"
+    assert [departures.became(run("", slide, outcome)) for slide, outcome in (("only grows", "ok"), ("", "limits"), ("", "knot lost"))] == ["only grows", "stopped: limits", "lost"]
 
 
 def test_stability_by_scene_and_start(tmp_path):
