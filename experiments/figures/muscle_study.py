@@ -103,7 +103,7 @@ def stiffness(folder: Path, picture: Path, out: Path) -> list[str]:
     for axes, name in zip(panels, ("activation", "% of frames")):
         axes.set_xscale("log")
         plots.plain_ticks(axes.xaxis, (0.4, 1, 2, 3, 4, 6, 8))
-        axes.set(xlabel="flexural rigidity EI, $10^5$ dyn cm²", ylabel=name)
+        axes.set(xlabel="flexural rigidity EI, $10^5$ dyn cm²\n(muscles' stiffness: 5, and 2.5 EI above EI = 2)", ylabel=name)
     panels[0].legend()
     plots.save(figure, picture)
     return tables.of_page(out, "muscles_stiffness", ["EI, dyn cm²: peak activation; frames in which a muscle is too weak, %", *plots.SCENES.values()],

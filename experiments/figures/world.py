@@ -95,9 +95,9 @@ def skin(folder: Path) -> None:
 
 
 def robot(folder: Path) -> None:
-    rows = [[f"{run['weight']:.2g}", "held" if run["held"] else "free", f"{run['capacity']:g}", f"{run['stiffness']:g}", run["became"],
+    rows = [[f"{run['mass']:.3g}", f"{run['weight']:.2g}", f"{run['drag']:g}", f"{run['capacity']:g}", f"{run['stiffness']:g}", run["became"],
              *("" if np.isnan(run[name]) else f"{run[name]:.3g}" for name in ("way", "share")), f"{run['torque']:.2g}", overlap(run)] for run in taken(folder / "robot" / "logs")]
-    tables.write_csv(folder / "tables" / "world_robot.csv", ["weight, of all of it", "head", "torque bound, N m", "stiffness of a joint, N m/rad", "what became of it",
+    tables.write_csv(folder / "tables" / "world_robot.csv", ["mass, kg", "weight left, of all of it", "drag across, kg/(s m)", "torque bound, N m", "stiffness of a joint, N m/rad", "what became of it",
                                                              "way of the head end, cm", "share of a slide by both ends, %", "largest torque, N m", "deepest overlap, 1e-3 cm"], rows)
 
 

@@ -105,7 +105,7 @@ def robot(log: HagfishLog) -> dict[str, Any]:
     way = float(log["/knot/head_end"][slide[0]] - log["/knot/head_end"][slide[-1]]) if slide.size else np.nan
     # A released knot is gone where the run comes to the phase free.
     became = "it never tied" if not slide.size else "it tied, slid and came off" if (phase == "free").any() else "it tied, and lost the knot"
-    return {"weight": abs(scene["gravity"][2]) / 981, "held": scene["clamp_head"], "capacity": scene["active"]["capacity"] / 1e7,
+    return {"weight": abs(scene["gravity"][2]) / 981, "drag": scene["drag"]["normal"] / 10, "mass": scene["specimen"]["mass"] / 1e3, "capacity": scene["active"]["capacity"] / 1e7,
             "stiffness": scene["active"]["stiffness"] / 4e7, "became": became, "way": way, "share": both_ends(log),
             "torque": float(np.nanmax(np.abs(log["/mean/forces/active"][:, 6:]))) / 1e7, "penetration": penetration(log)}
 

@@ -20,7 +20,7 @@ sweep "$grids/world_holes.toml" "$out/holes" hole 6
 sweep "$grids/world_hole_map.toml" "$out/hole_map" pull 12
 sweep "$grids/world_hole_chance.toml" "$out/hole_chance" pull 6
 sweep "$grids/world_skin.toml" "$out/skin" skin 4
-sweep "$grids/world_robot.toml" "$out/robot" robot 1
+sweep "$grids/world_robot.toml" "$out/robot" robot 2
 
 # Holes of other widths, cm: an array of tables is no axis of a grid.
 scenes=()

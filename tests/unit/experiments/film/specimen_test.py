@@ -48,6 +48,9 @@ def test_what_is_odd_is_said(tmp_path):
                    "--station", "0.3,0.7", "--twist", 60, "--out", "odd.toml")
     assert "slenderness" in said and said.count("ODD") == 2
     assert "95 degrees at 0.7 L: a joint bends by 85 at most" in said
+    for density, odd in ((0.84, 1), (0.86, 0), (1.14, 0), (1.16, 1)):
+        said = hagfish(tmp_path, "specimen", "--mass", density * 80 / 0.8707, "--out", "any.toml", "--force")
+        assert said.count("ODD") == odd
 
 
 def test_bad_measures_are_one_line(tmp_path):
@@ -67,7 +70,7 @@ def test_bad_measures_are_one_line(tmp_path):
 def test_what_was_not_measured_is_the_papers_animal_scaled(tmp_path):
     with (DATA / "specimens/pacific_hagfish.toml").open("rb") as file:
         paper = tomllib.load(file)
-    hagfish(tmp_path, "specimen", "--out", "same.toml")
+    assert "0.871 g/cm^3 of round cross-sections, water 1: plausible" in hagfish(tmp_path, "specimen", "--out", "same.toml")
     hagfish(tmp_path, "specimen", "--length", 21.2, "--out", "half.toml")
     said = hagfish(tmp_path, "specimen", "--thicker", 1.1, "--out", "thick.toml")
     same, half, thick = (tomllib.loads((tmp_path / f"{name}.toml").read_text()) for name in ("same", "half", "thick"))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 import sys
 import tomllib
@@ -111,7 +112,8 @@ def test_each_key_of_a_specimen_is_read_in_its_unit(tmp_path):
 
 def test_a_robot_is_the_same_in_both_units(tmp_path):
     si = (ROOT / "data/robot_overhand.toml").read_text()
-    cgs = {'"SI"': '"CGS"', "-0.981]": "-98.1]", "0.02 ": "2e7 ", "-0.026]": "-2.6]", "= 0.4 ": "= 4e8 ", "= 2.0  ": "= 2e7  ", "0.002 ": "0.2 "}
+    cgs = {'"SI"': '"CGS"', "-0.886]": "-88.6]", "= 0.1 ": "= 1e8 ", "= 2.5 ": "= 25 ", "= 0.08 ": "= 0.8 ", "-0.025]": "-2.5]", "= 1.0 ": "= 1e9 ", "= 2.0 ": "= 2e7 ",
+           "0.015 ": "1.5 "}
     text = si
     for old, new in cgs.items():
         assert old in text, old
@@ -119,6 +121,12 @@ def test_a_robot_is_the_same_in_both_units(tmp_path):
     (tmp_path / "specimens").mkdir()
     (tmp_path / "specimens/snake_robot.toml").write_text((ROOT / "data/specimens/snake_robot.toml").read_text())
     assert same(scene_of(tmp_path, si), scene_of(tmp_path, text))
+
+
+def test_water_bears_what_the_robot_displaces():
+    scene, robot = (tomllib.loads((ROOT / "data" / name).read_text()) for name in ("robot_overhand.toml", "specimens/snake_robot.toml"))
+    displaced = 1000 * robot["length"] * robot["circumference"][0] ** 2 / (4 * math.pi)  # kg
+    assert -scene["gravity"][2] == pytest.approx(9.81 * (1 - displaced / robot["mass"]), rel=1e-3) and scene["drag"]["normal"] > 0
 
 
 def test_what_is_no_unit_is_refused_by_one_line(tmp_path):
