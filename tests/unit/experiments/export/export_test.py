@@ -16,7 +16,7 @@ sys.path.insert(0, str(Path(__file__).parents[3] / "support"))
 from program import hagfish, refused, table  # noqa: E402
 
 DIGITS = 1e-8  # of a column's largest: nine digits are written
-FILES = ("midline", "curvature", "knot", "contacts", "torques", "joints", "eq6", "head", "energy", "phases", "skin", "summary")
+FILES = ("midline", "curvature", "knot", "contacts", "torques", "joints", "moments", "eq6", "head", "energy", "phases", "skin", "summary")
 SI = {"cm2": 1e-4, "cm": 1e-2, "dyn": 1e-5, "dyn_cm": 1e-7, "dyn_cm_s": 1e-7, "erg": 1e-7, "g": 1e-3, "cm_per_s": 1e-2, "rad_per_cm": 1e2}
 SI_NAME = {"cm2": "m2", "cm": "m", "dyn": "N", "dyn_cm": "N_m", "dyn_cm_s": "N_m_s", "erg": "J", "g": "kg", "cm_per_s": "m_per_s", "rad_per_cm": "rad_per_m"}
 
@@ -95,6 +95,18 @@ def test_torques_add_up(run):
     same(columns["spring"], -np.array(stiffness) * log["trajectory/q"][:, 7:])
     same(t["angle_rad"].reshape(-1, hinges), log["trajectory/q"][:, 7:])
     assert [f"j{int(joint):02d}_{axis}" for joint, axis in zip(t["joint"][:hinges], t["axis"][:hinges])] == names[6:]
+
+
+def test_moments(run):
+    _, log, tables = run
+    t, joints = tables["moments"], len(log["model/length"]) - 1
+    place = {axis: k for k, axis in enumerate("xyz")}
+    for axis, k in place.items():
+        same(t[f"turn_{axis}_rad_per_cm"].reshape(-1, joints), log["trajectory/curvature"][:, 1:, k])
+        for kind in ("active", "thigmotaxis", "contact", "limit", "wall"):
+            same(t[f"{kind}_{axis}_dyn_cm"].reshape(-1, joints), log[f"mean/moments/{kind}"][:, 1:, k])
+            assert kind == "active" or np.nanmax(np.abs(log[f"mean/moments/{kind}"])) > 0
+    same(t["joint"][:joints], 1 + np.arange(joints))
 
 
 def spline_point(centres, lengths, s):

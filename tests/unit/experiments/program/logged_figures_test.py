@@ -95,3 +95,47 @@ def test_muscles_hold_on_to_nothing_and_the_body_follows_the_rest_shape(tmp_path
         q, rest, torque = (file[path][50:-1] for path in ("/trajectory/q", "/trajectory/q_ref", "/forces/active"))
     assert not rest[:, :ROOT].any() and not torque[:, :ROOT].any()
     assert np.corrcoef(rest[:, ROOT:].ravel(), q[:, ROOT + 1:].ravel())[0, 1] > 0.9  # which the body follows
+
+
+def turned(axis: np.ndarray, angle: np.ndarray, vector: np.ndarray) -> np.ndarray:
+    """Vectors turned about unit axes (Rodrigues)."""
+    along = (axis * vector).sum(axis=-1, keepdims=True) * axis
+    return along + np.cos(angle)[..., None] * (vector - along) + np.sin(angle)[..., None] * np.cross(axis, vector)
+
+
+def frames_along(q: np.ndarray, names: list[str]) -> tuple[np.ndarray, dict[int, np.ndarray]]:
+    """Axes of each body in world (bodies x 3 x 3, rows X, Y, Z), and of each hinge; both up to the root's turn."""
+    body, bodies, hinges = np.eye(3), [np.eye(3)], {}
+    for dof, name in enumerate(names[ROOT:], ROOT):
+        joint = int(name[1:3])
+        if joint == len(bodies):
+            bodies.append(body)
+        axis = bodies[joint][{"twist": 0, "bend_y": 1, "bend_z": 2}[name[4:]]]
+        hinges[dof] = axis
+        body = turned(axis, np.full(3, q[dof + 1]), bodies[joint])
+        bodies[joint] = body
+    return np.array(bodies), hinges
+
+
+def test_moments_have_the_torques_of_hinges_as_their_parts(tmp_path):
+    hagfish(tmp_path, "run", "living_overhand", "--quiet", "--set", "time.step=0.01", "--set", "time.frame_interval=0.01", "--set", "knot.votes=5",
+            "--set", "time.duration=16.5", "--set", "expect.types=[]", "--out", "a.h5")
+    with h5py.File(tmp_path / "a.h5") as log:
+        names, q = list(log["/model/dof_name"].asstr()[()]), log["/trajectory/q"][()]
+        count = len(log["/model/length"])
+        shown = np.flatnonzero(log["/mean/forces/thigmotaxis"][:, ROOT:].any(axis=1))[::67]
+        assert len(shown) > 3
+        for frame in shown[shown > 1]:
+            bodies, hinges = frames_along(q[frame - 1], names)  # a frame's mean is of the step before it
+            halfway = [np.linalg.svd(before.T + behind.T) for before, behind in zip(bodies, bodies[1:])]
+            axes = np.concatenate([np.eye(3)[None], [u @ v for u, _, v in halfway]])  # the rotation nearest to the mean, to world
+            for kind in ("thigmotaxis", "contact", "limit", "active"):
+                moment = np.einsum("jkx,jx->jk", axes, log[f"/mean/moments/{kind}"][frame])
+                torque = log[f"/mean/forces/{kind}"][frame]
+                own = np.array([hinges[dof] @ moment[int(names[dof][1:3])] for dof in range(ROOT, len(names))])
+                scale = max(1e-9, np.abs(moment).max())
+                np.testing.assert_allclose(own, torque[ROOT:], rtol=0, atol=3e-6 * scale, err_msg=f"{kind}, {frame}")
+            bend = log["/trajectory/curvature"][frame - 1] * [[2 * log["/model/length"][0]]]  # of joints amidst others
+            cosine = 1 + 2 * np.cos(np.linalg.norm(bend, axis=1))
+            trace = np.einsum("jkx,jkx->j", bodies[:-1], bodies[1:])
+            np.testing.assert_allclose(cosine[3:count - 3], trace[2:count - 4], atol=1e-6)

@@ -109,6 +109,7 @@ def test_a_control_given_to_a_step_is_what_is_done():
     control.tip = (0, 100, 0)
     sim.step(control)
     assert sim.forces["active"][10] == 50
+    assert sim.moments["active"].shape == (100, 3) and np.abs(sim.moments["active"]).max() == pytest.approx(50)
     assert_array_equal(sim.forces["tip"], (0, 100, 0))
     assert sim.forces["head"].any()
     control.clamp_head = False

@@ -55,13 +55,13 @@ def test_the_page_holds_what_the_log_holds(run):
         {v: k for k, v in h5py.check_enum_dtype(log["trajectory/phase"].dtype).items()}[int(p)] for p in log["trajectory/phase"]]
     assert np.all((np.array(page["knots"])[decoded(page["knot"])] == "3_1") == (log["knot/determinant"][()] == 3))
     axes = np.array([name.split("_")[-1] for name in log["model/dof_name"].asstr()[()][6:]])
-    force, angle = np.nan_to_num(log["mean/forces/thigmotaxis"][:, 6:]), log["trajectory/q"][:, 7:]
-    bend, twist = lambda rows: np.hypot(rows[:, axes == "y"], rows[:, axes == "z"]), lambda rows: np.abs(rows[:, axes == "twist"])
+    moment, angle = np.nan_to_num(log["mean/moments/thigmotaxis"][()]), log["trajectory/q"][:, 7:]
+    twist = lambda rows: np.abs(rows[:, axes == "twist"])
     length, n = log["model/length"][0], len(log["model/length"])
     spans = lambda joints: length * np.array([(n if j + 2 >= n else j + 1) - (0 if j <= 2 else j - 1) for j in joints])
     odd, even = np.arange(1, n, 2), np.arange(2, n, 2)
     y, z = angle[:, axes == "y"], angle[:, axes == "z"]
-    wanted = {"thigmotaxis": bend(force), "thigmotaxis-twist": twist(force), "twist": twist(angle) / spans(even),
+    wanted = {"thigmotaxis": np.hypot(moment[:, odd, 1], moment[:, odd, 2]), "thigmotaxis-twist": np.abs(moment[:, even, 0]), "twist": twist(angle) / spans(even),
               "curvature": 2 * np.arcsin(np.sqrt(np.sin(y / 2) ** 2 + np.cos(y) * np.sin(z / 2) ** 2)) / spans(odd)}
     for name, values in wanted.items():
         own = page["quantities"][name]
