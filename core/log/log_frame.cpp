@@ -97,8 +97,7 @@ void declare_trajectory(const Model& model, LogTable<Frame>& t) {
   t.numbers(
       "/trajectory/curvature", {joints, space},
       {"1/cm",
-       "turn of each joint as a vector in axes halfway through it, over the body it stands for",
-       Storage::blocks},
+       "turn of each joint as a vector in axes halfway through it, over the body it stands for"},
       [model](const Frame& f) { return joint_curvature(model, f.record.moment.observation.kin); });
 }
 
@@ -259,11 +258,10 @@ void declare_means(const Model& model, LogTable<Frame>& t) {
       [](const Frame& f) -> const auto& { return f.mean.net_force; });
   const LabelledAxis joints{static_cast<hsize_t>(model.body_count()), joint_labels};
   const auto moment = [&](const std::string& name, const std::string& description, auto of) {
-    t.numbers(
-        "/mean/moments/" + name, {joints, space},
-        {"dyn·cm", "moment about each joint, in axes halfway through it, of " + description + since,
-         Storage::blocks},
-        of);
+    t.numbers("/mean/moments/" + name, {joints, space},
+              {"dyn·cm",
+               "moment about each joint, in axes halfway through it, of " + description + since},
+              of);
   };
   for (const RowKindEntry& force : row_kind_table) {
     if (force.value == RowKind::head) continue;  // it is on the head alone

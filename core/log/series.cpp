@@ -119,6 +119,7 @@ SeriesLayout layout_of(const std::string& path, const std::vector<hsize_t>& row_
   SeriesLayout layout{path, row_shape, meaning, stored_type<T>(), 1, 0, false, 0, {}};
   if (meaning.storage == Storage::packed) pack<T>(layout);
   if (meaning.storage == Storage::blocks) {
+    if (row_shape.size() != 1) throw std::logic_error(path + ": blocks are of rows of one axis");
     const hsize_t columns = row_shape.back();
     const hsize_t blocks = (columns + block_columns - 1) / block_columns;
     layout.chunk_columns = (columns + blocks - 1) / blocks;

@@ -21,6 +21,7 @@ FIGURES = {  # heading: column of a sweep, its form, what it is multiplied by
     "steps that meet Eq. 6, %": ("eq6_percent", ".1f", 1), "penetration, cm": ("penetration_cm", ".2g", 1),
     "past a limit, °": ("limit_violation_rad", ".2g", math.degrees(1)), "largest f_thigmo, dyn cm": ("largest_thigmotaxis_dyn_cm", ".0f", 1),
     "sum of multipliers, dyn": ("sliding_force_dyn", ".0f", 1), "work of f_thigmo, erg": ("work_thigmotaxis_erg", ".0f", 1), "CPU, s": ("cpu_s", ".2g", 1)}
+ALONE = {"ipopt": "Ipopt for the quadratic programs", "explicit": "springs by the angles at the start of a step, by a law in Python"}  # folders
 SLID = ("head end of the knot, cm", "largest f_thigmo, dyn cm", "sum of multipliers, dyn", "work of f_thigmo, erg")  # 0 means nothing where no knot slid
 
 
@@ -45,10 +46,11 @@ def read_runs(folder: Path) -> list[dict[str, str]]:
     for run, time in zip(tables.read_csv(sweep, ["scene"]), times):
         scene = tomllib.loads((folder / "scenes" / Path(run["scene"]).name).read_text(encoding="utf-8"))
         runs.append(run | time | {"base": Path(scene["base"]).stem, "title": scene["title"]})
-    for scene in ("table1", PRINTED):
-        cpu = sum(map(float, (folder / f"ipopt/{scene}.cpu").read_text().split()))
-        summary = tables.read_csv(folder / f"ipopt/{scene}/summary.csv", ["slide"])[0]
-        runs.append(summary | {"outcome": summary["status"], "base": scene, "title": "Ipopt for the quadratic programs", "cpu_s": str(cpu)})
+    for way, title in ALONE.items():
+        for scene in ("table1", PRINTED):
+            cpu = sum(map(float, (folder / way / f"{scene}.cpu").read_text().split()))
+            summary = tables.read_csv(folder / way / scene / "summary.csv", ["slide"])[0]
+            runs.append(summary | {"outcome": summary["status"], "base": scene, "title": title, "cpu_s": str(cpu)})
     return runs
 
 

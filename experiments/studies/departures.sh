@@ -4,10 +4,11 @@
 #   bash experiments/studies/departures.sh [OUTPUT_FOLDER]     default: out/departures
 # Stopped, it goes on where it was.
 set -euo pipefail
+targets=(hagfish_python)
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 rm -rf "$out/scenes"
-mkdir -p "$out/scenes" "$out/ipopt"
+mkdir -p "$out/scenes"
 # change SCENE WORDS LINE...: one more scene file, with these lines besides.
 number=100
 change() {
@@ -68,11 +69,19 @@ both "a step of 1 ms" "time.step = 0.001"
 } >"$out/grid.toml"
 "$hagfish" sweep "$out/grid.toml" --out "$out/sweep"
 
+# What no setting does: alone WAY SCENE COMMAND... makes a log.
+alone() {
+  local folder=$out/$1 scene=$2
+  [[ -e $folder/$scene/summary.csv ]] && return
+  mkdir -p "$folder"
+  { time "${@:3}" 2>"$folder/$scene.err"; } 2>"$folder/$scene.cpu"
+  "$hagfish" export "$folder/$scene.h5" --out "$folder/$scene" --force
+}
 TIMEFORMAT="%U %S"
 for scene in table1 table1_as_printed; do
-  [[ -e $out/ipopt/$scene/summary.csv ]] && continue
-  { time "$hagfish" run "$scene" --qp ipopt --out "$out/ipopt/$scene.h5" --force --quiet 2>"$out/ipopt/$scene.err"; } 2>"$out/ipopt/$scene.cpu"
-  "$hagfish" export "$out/ipopt/$scene.h5" --out "$out/ipopt/$scene" --force
+  alone ipopt "$scene" "$hagfish" run "$scene" --qp ipopt --out "$out/ipopt/$scene.h5" --force --quiet
+  PYTHONPATH=$root/build/release/experiments/python alone explicit "$scene" /usr/bin/python3 "$root/experiments/studies/explicit_springs.py" \
+    "$scene" "$out/explicit/$scene.h5"
 done
 draw departures.py "$out"
 list_output

@@ -294,7 +294,7 @@ TEST_F(LogTest, AFullDiskIsOneLineAndKeepsWhatWasSaved) {
   // In a child: a limit on file size stands for a full disk and cannot be taken back.
   const fs::path file = folder / "run.h5";
   const auto fill = [&] {
-    const rlimit limit{1150000, 1150000};  // room for the header and some frames
+    const rlimit limit{1500000, 1500000};  // room for the header and some frames
     std::signal(SIGXFSZ, SIG_IGN);
     setrlimit(RLIMIT_FSIZE, &limit);
     try {

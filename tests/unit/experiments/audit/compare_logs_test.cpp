@@ -35,7 +35,10 @@ void falsify(const fs::path& file, const std::string& path) {
     std::vector<double> values(count);
     set.read(values.data(), H5::PredType::NATIVE_DOUBLE);
     double& value = values[count / 2];
-    value = std::isfinite(value) ? std::nextafter(value, 1e300) : 1;
+    const bool single = set.getFloatType().getSize() == sizeof(float);
+    const double next =
+        single ? std::nextafter(static_cast<float>(value), 1e30F) : std::nextafter(value, 1e300);
+    value = std::isfinite(value) ? next : 1;
     set.write(values.data(), H5::PredType::NATIVE_DOUBLE);
   } else if (kind == H5T_ENUM) {
     std::vector<std::uint8_t> values(count);

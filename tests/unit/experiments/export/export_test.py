@@ -16,7 +16,7 @@ sys.path.insert(0, str(Path(__file__).parents[3] / "support"))
 from program import hagfish, refused, table  # noqa: E402
 
 DIGITS = 1e-8  # of a column's largest: nine digits are written
-FILES = ("midline", "curvature", "knot", "contacts", "torques", "joints", "moments", "eq6", "head", "energy", "phases", "skin", "summary")
+FILES = ("midline", "curvature", "knot", "contacts", "torques", "joints", "eq6", "head", "energy", "moments", "phases", "skin", "summary")
 SI = {"cm2": 1e-4, "cm": 1e-2, "dyn": 1e-5, "dyn_cm": 1e-7, "dyn_cm_s": 1e-7, "erg": 1e-7, "g": 1e-3, "cm_per_s": 1e-2, "rad_per_cm": 1e2}
 SI_NAME = {"cm2": "m2", "cm": "m", "dyn": "N", "dyn_cm": "N_m", "dyn_cm_s": "N_m_s", "erg": "J", "g": "kg", "cm_per_s": "m_per_s", "rad_per_cm": "rad_per_m"}
 

@@ -108,7 +108,7 @@ def test_a_missing_attribute_of_results_is_named(tmp_path):
 
 
 @pytest.mark.parametrize("script, outputs, missing", [
-    ("claim_row.py", ["row.csv"], "knot/head_end"), ("claim_row.py", ["row.csv"], "trajectory/phase"), ("figure8.py", ["8.png", "c.png"], "mean/forces/thigmotaxis")])
+    ("claim_row.py", ["row.csv"], "knot/head_end"), ("claim_row.py", ["row.csv"], "trajectory/phase"), ("figure8.py", ["8.png", "c.png"], "mean/thigmotaxis/lambda")])
 def test_a_script_says_which_dataset_is_missing_in_one_line(content, tmp_path, script, outputs, missing):
     del content.data[missing]
     path = content.write(tmp_path / "log.h5")

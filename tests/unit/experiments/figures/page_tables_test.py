@@ -53,7 +53,7 @@ def test_claims_by_change(tmp_path):
     runs = [claim_map.Claim(reading, "Table 1", 0.005, seed, outcome, verdict | {growth: word}, measure)
             for reading, seed, outcome, word in (("box", 1, "slid", "agrees"), ("box", 2, "slid", "undecided"), ("cone", 1, "jammed", "agrees"))]
     claim_map.page(runs, tmp_path)
-    assert read(tmp_path, "claims")[1] == ["Table 1", "2", "agrees 1, undecided 1", "none slid", "", "0.1", "0.1", "0.1"]
+    assert read(tmp_path, "claims")[1] == ["Table 1", "2 of 2", "2", "undecided", "0 of 1", "", "", "agrees", "0.1", "0.1", "agrees", "0.1", "agrees"]
 
 
 def test_departures_of_one_title_share_a_row():
