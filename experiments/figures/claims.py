@@ -196,10 +196,7 @@ def over_runs(verdicts: Sequence[str]) -> str:
 def verdicts(a: dict[str, Any], b: dict[str, Any], c: dict[str, Any]) -> dict[str, str]:
     """'agrees', 'disagrees' or 'undecided' for each claim; the rules are printed with them."""
     exact = a["nonzero_beyond_reach_of_rows"] == 0 and a["largest_in_steps_without_rows_dyn_cm"] == 0
-    axes = c["axes"].values()
-    smooth = ("agrees" if all(own["roughness_in_space"] <= min(SMOOTH, own["roughness_in_time"] / 2) for own in axes)
-              else "disagrees" if all(own["roughness_in_space"] >= own["roughness_in_time"] for own in axes)
-              else "undecided")
-    few = [own["dct_modes_95"] <= own["joints"] / 4 for own in axes]
-    modes = "agrees" if all(few) else "disagrees" if not any(few) else "undecided"
+    on_axes = lambda holds: "agrees" if all(holds) else "undecided" if any(holds) else "disagrees"
+    smooth = on_axes([own["roughness_in_space"] <= min(SMOOTH, own["roughness_in_time"] / 2) for own in c["axes"].values()])
+    modes = on_axes([own["dct_modes_95"] <= own["joints"] / 4 for own in c["axes"].values()])
     return dict(zip(NAMES, ("agrees" if exact else "disagrees", grows(b["measures"][EFFORT]["near_over_far"]), smooth, modes)))

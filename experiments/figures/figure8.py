@@ -162,7 +162,7 @@ def plain_words(a: dict[str, Any], b: dict[str, Any], c: dict[str, Any]) -> list
              + f", of means over {1000 * c['mean_over_s']:.0f} ms. The four multipliers in time: "
              f"{c['multipliers_roughness_in_time']:.3f} from mean to mean, "
              f"{c['multipliers_roughness_in_time_every_step']:.3f} from step to step. Rule: on each axis at most "
-             f"{claims.SMOOTH} along the body, and at most half of that in time.")
+             f"{claims.SMOOTH} along the body, and at most half of that in time; on none of them disagrees.")
     modes = ("; ".join(f"{axis}: Fourier {own['dct_modes_95']} / {own['dct_modes_99']}, SVD {own['svd_modes_95']} / "
                        f"{own['svd_modes_99']} of {own['joints']}" for axis, own in each)
              + " modes hold 95 / 99 % of the energy of these means. Rule: 95 % in a quarter of the Fourier modes on each axis.")
