@@ -121,8 +121,8 @@ def measures(s: Sliding) -> dict[str, np.ndarray]:
     """Sizes of the mean force, interval by interval."""
     active = np.maximum((s.force != 0).sum(axis=1), 1)
     return {EFFORT: np.abs(s.force).sum(axis=1),
-            "rms over all hinges, dyn cm": np.sqrt((s.force**2).mean(axis=1)),
-            "rms over hinges in reach, dyn cm": np.sqrt((s.force**2).sum(axis=1) / active),
+            "rms over all joints, dyn cm": np.sqrt((s.force**2).mean(axis=1)),
+            "rms over joints in reach, dyn cm": np.sqrt((s.force**2).sum(axis=1) / active),
             "sum of the multipliers / h, dyn": s.lambdas.sum(axis=1)}
 
 

@@ -17,6 +17,7 @@ import numpy as np
 FORMAT = "hagfish-log"
 VERSION = 1
 KINDS = ("twist", "bend_y", "bend_z")  # of hinges: about X, Y and Z
+SINCE = ("/trajectory/curvature", "/mean/moments/thigmotaxis", "/mean/moments/active")  # version 0.3
 FRAME_GROUPS = ("trajectory", "forces", "thigmotaxis", "mean", "muscle", "pull", "knot", "diagnostics")
 
 
@@ -47,7 +48,8 @@ def dataset_of(file: h5py.File, path: str) -> h5py.Dataset:
         found = file.get(path)
     if not isinstance(found, h5py.Dataset):
         level = file.attrs.get("log_level", "full")
-        raise LogError(f"{file.filename}: no dataset {path}" + ("" if level == "full" else f": made with --log {level}, but this script needs --log full"))
+        why = f": made with --log {level}, but this script needs --log full" if level != "full" else ": make the run again, logs before 0.3 lack it" if path in SINCE else ""
+        raise LogError(f"{file.filename}: no dataset {path}{why}")
     return found
 
 
