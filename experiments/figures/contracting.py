@@ -18,8 +18,7 @@ import numpy as np
 import contracting_today as today
 import plots
 import tables
-from carried_curve import through
-from forces import STATIONS, long_means, moments_of, off, shown
+from forces import STATIONS, moments_of, off, shown, through
 from hagfish_log import HagfishLog, LogError
 from script import run_script
 from study import pareto
@@ -87,6 +86,11 @@ class Motion:
 
     def __mul__(self, share: float) -> Motion:
         return Motion(*(share * a for a in vars(self).values()))
+
+
+def long_means(force: np.ndarray, frames: int) -> np.ndarray:
+    whole = len(force) // frames
+    return force[:whole * frames].reshape(whole, frames, -1).mean(axis=1)
 
 
 def motion(log: HagfishLog, law: str) -> Motion:

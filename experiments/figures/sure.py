@@ -118,6 +118,7 @@ def words(sure: Sure) -> list[str]:
     lines = ["  ".join(cell.ljust(w) if k == 0 else cell.rjust(w) for k, (cell, w) in enumerate(zip(row, width))) for row in rows]
     counted = int(sure.counted.sum())
     return [*lines, "", "Columns in % say how far from the scene as it is a cause takes a figure. Numerics are chance, step and bodies.",
+            "Each change is a single run, so an end of an interval may be its chance.",
             f"{counted} of {len(sure.causes)} runs end with the scene's knot and count."
             + ("" if counted == len(sure.causes) else " Others: " + "; ".join(sure.lost()) + ".")]
 

@@ -13,9 +13,8 @@ import numpy as np
 
 import plots
 import tables
-from carried_curve import through
 from contracting import presets
-from forces import STATIONS, moments_of, off
+from forces import STATIONS, moments_of, off, through
 from hagfish_log import HagfishLog, LogError
 from script import run_script
 
