@@ -317,18 +317,18 @@ def digests() -> dict[str, dict[str, str]]:
 
 
 def note_digests(program: Path) -> None:
-    """`program SCENE` says `SCENE: DIGEST of ...`. Digests of other scenes than today's are dropped."""
+    """`program SCENE` says `SCENE: DIGEST of ...`. Digests of scenes that are no more are dropped; a scene that was not yet has none."""
     digest = lambda scene: subprocess.run([program, *scene.split()], check=True, capture_output=True, text=True).stdout.split()[1]
     now = {scene: digest(scene) for scene in scenes()}
-    known = {key: row for key, row in digests().items() if list(row) == list(now)} | {motion_key(None): now}
+    known = {key: {scene: row.get(scene, "") for scene in now} for key, row in digests().items()} | {motion_key(None): now}
     write(DIGESTS, Table(["code", *now], [[key, *row.values()] for key, row in known.items()],
                          ["Digests of q at every frame by the portable build (live_digest), for the code of core and solvers with that key."]))
 
 
 def moves_as(commit: str) -> bool:
     known = digests()
-    then = known.get(motion_key(commit))
-    return then is not None and then == known.get(motion_key(None))
+    then, now = known.get(motion_key(commit)), known.get(motion_key(None))
+    return then is not None and now is not None and all(digest in ("", now[scene]) for scene, digest in then.items())
 
 
 def changed_since(commit: str) -> int | None:
