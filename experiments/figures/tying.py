@@ -13,17 +13,18 @@ import numpy as np
 
 import plots
 import tables
-from contracting import presets
+from contracting import name_of, pick, presets
 from forces import STATIONS, moments_of, off, through
 from hagfish_log import HagfishLog, LogError
 from script import run_script
 
 FROM = 5.0  # s: before that nothing is knotted
 KNOTS = {"overhand": "3_1", "figure_eight": "4_1"}
-METHODS = {("euler", "active-set"): plots.Look("Euler", plots.BLUE, "o"), ("midpoint", "active-set"): plots.Look("midpoint", plots.VERMILION, "v"),
-           ("euler", "ipopt"): plots.Look("Euler, by Ipopt", plots.PURPLE, "D")}
+METHODS = {("euler", "active-set"): plots.INTEGRATORS["core"], ("midpoint", "active-set"): plots.INTEGRATORS["core_midpoint"],
+           ("euler", "ipopt"): plots.Look("core, Euler, by Ipopt", plots.GREY, "P")}
 SIZES = {25: 2.0, 50: 3.5, 100: 5.0, 200: 7.0, 400: 9.0}  # of markers, by bodies
 MEASURES = {"place_cm": "places off, cm", "torque_percent": "torques off, %"}
+LABELLED = 400  # bodies of the points that tell their step
 USUAL = 10.0  # ms: the step at which CPU times are compared
 HEAD = ["knot", "rule", "back_end", "bodies", "step_ms", "cpu_s", *MEASURES, "place_by_step_cm"]
 
@@ -92,8 +93,8 @@ def presets_table(rows: Rows, out: Path) -> None:
     body = []
     for knot in KNOTS.values():
         for name, of in presets().items():
-            run = one(rows, knot=knot, back_end="active-set", rule=of["rule"], bodies=of["bodies"], step_ms=of["step"])
-            body.append([name, knot, f"{of['rule']}, {of['bodies']} bodies, {of['step']:g} ms", *(shown(run[key]) for key in ("cpu_s", *MEASURES, "place_by_step_cm"))])
+            run = one(rows, knot=knot, back_end="active-set", **of)
+            body.append([name, knot, name_of(run), *(shown(run[key]) for key in ("cpu_s", *MEASURES, "place_by_step_cm"))])
     tables.of_page(out, "speed_accuracy_presets", ["preset", "knot", "what it is", "CPU, s", *MEASURES.values(), "of which by the step, cm"], body)
 
 
@@ -124,10 +125,12 @@ def draw(rows: Rows, out: Path) -> None:
                              key=lambda row: row["step_ms"])
                 axes.plot([row["cpu_s"] for row in own], [row[measure] for row in own], **look.style, markersize=size, lw=0.7)
         for name, of in presets().items():
-            run = one(rows, knot=knot, back_end="active-set", rule=of["rule"], bodies=of["bodies"], step_ms=of["step"])
+            run = one(rows, knot=knot, back_end="active-set", **of)
             axes.plot(run["cpu_s"], run[measure], "o", mfc="none", mec=plots.INK, ms=13, mew=0.9)
-            side = {"xytext": (4, 8), "ha": "left", "va": "bottom"} if name == "default" else {"xytext": (-7, -7), "ha": "right", "va": "top"}
-            axes.annotate(name, (run["cpu_s"], run[measure]), textcoords="offset points", fontsize=7, **side)
+            axes.annotate(name, (run["cpu_s"], run[measure]), (-7, -7), textcoords="offset points", fontsize=7, ha="right", va="top")
+        for row in pick(rows, knot=knot, back_end="active-set", rule="euler", bodies=LABELLED):
+            if row["cpu_s"]:
+                axes.annotate(f"{row['step_ms']:g} ms", (row["cpu_s"], row[measure]), (5, 3), textcoords="offset points", fontsize=6)
         axes.set(xscale="log", yscale="log", ylabel=MEASURES[measure])
     for axes in panels[2:]:
         axes.set_xlabel("CPU time of the run, s")

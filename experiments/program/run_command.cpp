@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 struct NewRunOptions {
   std::string scene = default_scene;  ///< a built-in scene's name or a file
-  std::string preset = "default";     ///< settings by name (presets.hpp)
+  std::string preset;                 ///< settings by name (presets.hpp); none where empty
   std::string qp;                     ///< QP back end; the preset's where empty
   std::vector<std::string> set;       ///< KEY=VALUE overrides, after the preset's
   std::string until;                  ///< ends with this phase: time.until; the scene's where empty
@@ -32,7 +32,7 @@ struct NewRunOptions {
 };
 
 int run_anew(NewRunOptions options, const std::string& typed) {
-  const Preset preset = preset_called(options.preset);
+  const Preset preset = options.preset.empty() ? Preset{} : preset_called(options.preset);
   std::vector<std::string> set = preset.set;
   set.insert(set.end(), options.set.begin(), options.set.end());
   if (!options.until.empty()) set.push_back("time.until=" + options.until);
@@ -93,8 +93,7 @@ void add_run(Program& program) {
   of_new.push_back(run->add_option("SCENE", options->scene, scene_help)->capture_default_str());
   of_new.push_back(run->add_option("--out", options->run.out, "log to write (SCENE.h5)"));
   of_new.push_back(run->add_option("--preset", options->preset, "settings by name")
-                       ->check(one_of(preset_names()))
-                       ->capture_default_str());
+                       ->check(one_of(preset_names())));
   of_new.push_back(run->add_option("--qp", options->qp, "QP back end, instead of the preset's")
                        ->check(one_of(box_qp_solver_names())));
   of_new.push_back(run->add_option("--set", options->set, set_help)->allow_extra_args(false));

@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
 # What accuracy costs where a motion forgets its start: a living overhand knot that slides by reflex, here and in MuJoCo, and by
-# Eq. 6, over steps, rules, bodies and back ends. Leaves experiments/results/contracting.csv, contracting_today.csv,
-# contracting.md and experiments/figures/contracting.png.
+# Eq. 6, over steps, rules and bodies. Leaves contracting.png and tables.
 #   bash experiments/studies/contracting.sh [OUTPUT_FOLDER]     default: out/contracting
 # Stopped, it goes on where it was. One run at a time, since CPU times are measured.
 set -euo pipefail
@@ -24,10 +23,10 @@ run() {
 
 # Up to 0.1 s after the last frame that counts (experiments/figures/contracting.py). MuJoCo's model has no head plate.
 declare -A scene=([reflex]="reflex_overhand --set wall.present=false --set time.duration=16.9" [paper]="living_overhand --set time.duration=15.9")
-here() { # LAW QP RULE BODIES STEP
+here() { # LAW RULE BODIES STEP
   local -a of
   read -ra of <<<"${scene[$1]}"
-  run "$1_$2_$3_$4_$5" run "${of[@]}" --qp "$2" --set time.rule="$3" --set model.bodies="$4" --set time.step="$5"
+  run "$1_here_$2_$3_$4" run "${of[@]}" --set time.rule="$2" --set model.bodies="$3" --set time.step="$4"
 }
 mujoco() { # RULE BODIES STEP [CONTACT_TIME]
   local -a of
@@ -39,16 +38,13 @@ for law in reflex paper; do
   for bodies in 50 100 200 400; do
     [[ "$law $bodies" == "paper 50" ]] && continue # too coarse for Eq. 6: its slide differs from step to step
     for step in 0.02 0.01 0.005 0.002 0.001; do
-      here $law active-set euler $bodies $step
-      here $law active-set midpoint $bodies $step
+      here $law euler $bodies $step
+      here $law midpoint $bodies $step
     done
-    here $law active-set euler $bodies 0.0005
+    here $law euler $bodies 0.0005
   done
-  here $law active-set midpoint 100 0.0005
-  here $law active-set euler 100 0.00025
-done
-for bodies in 50 100 200; do
-  for step in 0.01 0.005; do here reflex ipopt euler $bodies $step; done
+  here $law midpoint 100 0.0005
+  here $law euler 100 0.00025
 done
 for step in 0.01 0.005 0.002 0.001; do mujoco euler 100 $step; done
 for step in 0.01 0.005; do mujoco implicit 100 $step; done
@@ -60,8 +56,8 @@ mujoco euler 100 0.001 0.002
 [[ -e $out/tied.toml ]] || /usr/bin/python3 "$root/experiments/studies/tied_knot.py" "$hagfish" "$out/tied.toml"
 dry=("$out/tied.toml" --set drag.normal=0 --set drag.tangential=0 --set time.duration=3.8)
 for step in 0.005 0.002 0.001; do
-  run dry_active-set_euler_100_$step run "${dry[@]}" --set time.step=$step
-  run dry_active-set_midpoint_100_$step run "${dry[@]}" --set time.rule=midpoint --set time.step=$step
+  run dry_here_euler_100_$step run "${dry[@]}" --set time.step=$step
+  run dry_here_midpoint_100_$step run "${dry[@]}" --set time.rule=midpoint --set time.step=$step
   run dry_mujoco-0.005_euler_100_$step mujoco-run "${dry[@]}" --step $step
 done
 if command -v npm >/dev/null; then
@@ -77,6 +73,5 @@ if command -v npm >/dev/null; then
 fi
 
 echo "Drawing"
-draw contracting.py "$runs" "$root/experiments/results/contracting.csv" "$root/experiments/results/contracting_today.csv" "$root/experiments/results/contracting.md" "$out/contracting.png"
-cp "$out/contracting.png" "$root/experiments/figures/contracting.png"
-finish "$root/experiments/results/contracting.md"
+draw contracting.py "$runs" "$out"
+list_output

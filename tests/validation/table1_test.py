@@ -19,7 +19,7 @@ def test_the_page_states_what_the_table_1_run_measures(tmp_path):
     assert done.returncode == 0, done.stderr
 
 
-@pytest.mark.parametrize("preset", ["quick", "default", "figure"])
+@pytest.mark.parametrize("preset", ["quick", "figure"])
 def test_every_preset_passes_the_audit(tmp_path, preset):
     program, log = os.environ["HAGFISH_PROGRAM"], tmp_path / "table1.h5"
     subprocess.run([program, "run", "table1", "--preset", preset, "--out", log, "--quiet"], check=True)

@@ -46,10 +46,10 @@ TEST_F(CommandLine, ASlipIsToldTheNameMeant) {
               "`table1`?");
   expect_line("run nowhere", "nowhere: no built-in scene of that name (see `hagfish scenes`)");
   expect_line("run --preset quik",
-              "--preset: quik is not one of quick, default, figure; did you mean `quick`? (see "
+              "--preset: quik is not one of quick, figure; did you mean `quick`? (see "
               "`hagfish run --help`)");
   expect_line("run --preset best",
-              "--preset: best is not one of quick, default, figure (see `hagfish run --help`)");
+              "--preset: best is not one of quick, figure (see `hagfish run --help`)");
   expect_line("run --set model.bodie=100",
               "table1 (built in): --set model.bodie=100: unknown key; did you mean model.bodies?");
   expect_line("run --set modle.bodies=100",

@@ -21,7 +21,6 @@ TEST_F(ProgramTest, APresetComesBeforeSetAndQp) {
     return std::pair(log.resolved.scene.time.step, log.h5.root_text("qp"));
   };
   EXPECT_EQ(written(""), std::pair(0.005, std::string("active-set")));
-  EXPECT_EQ(written("--preset default"), std::pair(0.005, std::string("active-set")));
   EXPECT_EQ(written("--preset quick"), std::pair(0.01, std::string("active-set")));
   EXPECT_EQ(written("--preset quick --set time.step=0.02").first, 0.02);
   EXPECT_EQ(written("--preset quick --qp ipopt").second, "ipopt");
