@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -70,7 +72,6 @@ ExportTable torque_table(const LogContents& log, bool si) {
 /// What the same forces do about each joint as vectors, which unlike hinges' torques are the
 /// body's.
 ExportTable moment_table(const LogContents& log, bool si) {
-  const std::string axes = " axis halfway through the joint";
   std::vector<ExportColumn> columns{
       frame_column,
       time_column,
@@ -78,7 +79,8 @@ ExportTable moment_table(const LogContents& log, bool si) {
       {"s", centimetre, "arc length of the joint from the head's end at rest"}};
   std::vector<Hdf5Reader::Rows> vectors{log.h5.rows("/trajectory/curvature")};
   const auto add = [&](const std::string& name, const auto& unit, const std::string& meaning) {
-    columns.push_back({name + "_x", unit, meaning + ", about the X" + axes});
+    columns.push_back({name + "_x", unit,
+                       fmt::format("{}, about the X axis halfway through the joint", meaning)});
     for (const char* axis : {"_y", "_z"}) columns.push_back({name + axis, unit, "the same"});
   };
   add("turn", per_length, "turn of the joint over the body that it stands for, at the frame");
