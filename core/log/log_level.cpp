@@ -24,11 +24,11 @@ const std::vector<std::string> always_single = {"/trajectory/curvature", "/mean/
 /// The one force of a step that replays show, small enough.
 const std::string tip = "/forces/tip";
 
+}  // namespace
+
 bool any_begins(const std::string& path, const std::vector<std::string>& beginnings) {
   return std::ranges::any_of(beginnings, [&](const auto& b) { return path.starts_with(b); });
 }
-
-}  // namespace
 
 const std::vector<std::string>& log_level_names() {
   static const std::vector<std::string> names = {"summary", "frames", "full"};

@@ -20,6 +20,9 @@ const std::string& log_level_name(LogLevel level);
 /// Throws std::invalid_argument where there is none of that name.
 LogLevel log_level_called(const std::string& name);
 
+/// Whether a path begins as one of `beginnings`.
+bool any_begins(const std::string& path, const std::vector<std::string>& beginnings);
+
 /// Whether a log of this level holds a dataset.
 bool holds(LogLevel level, const std::string& path);
 /// Whether it holds it in single precision: moments and curvatures; below `full` also what no audit

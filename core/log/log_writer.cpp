@@ -62,7 +62,7 @@ struct LogWriter::Contents {
         means(model.nv()),
         moments(model),
         knot(scene.knot),
-        h(scene.time.step),
+        time(scene.time),
         stride(frame_stride(scene.time)),
         part(file),
         next(file.string() + ".next") {
@@ -108,11 +108,12 @@ struct LogWriter::Contents {
 
   /// The state at the end as a frame.
   void append_end(const Simulation& sim) {
-    const StepRecord end = end_record(model, static_cast<double>(sim.step) * h, sim, clamped);
+    const StepRecord end =
+        end_record(model, static_cast<double>(sim.step) * time.step, sim, clamped);
     const double kkt = worst.kkt;  // the end has none
     worst.take(end);
     worst.kkt = kkt;
-    append_frame(end, thigmotaxis_rows_of(end.control, end.solution, h));
+    append_frame(end, thigmotaxis_rows_of(end.control, end.solution, time.step));
   }
 
   /// Changes FILE.part.next, which first becomes what FILE.part holds where it is not more.
@@ -186,7 +187,7 @@ struct LogWriter::Contents {
   ActivationSolver activations;
   MuscleEffort muscles;
   KnotSettings knot;
-  double h;
+  TimeSettings time;
   std::int64_t stride;                         // steps a frame
   std::map<std::string, std::string> changed;  // attributes of the root, for the next save
   fs::path part, next;
@@ -236,7 +237,7 @@ void LogWriter::write(const StepRecord& record, const Simulation& sim, double wa
     all += fmt::format("{}step {} (t = {:.4f} s): {}", all.empty() ? "" : "\n", record.step,
                        record.time, warning);
   }
-  const ThigmotaxisRows rows = thigmotaxis_rows_of(record.control, record.solution, c.h);
+  const ThigmotaxisRows rows = thigmotaxis_rows_of(record.control, record.solution, c.time.step);
   c.wall_time = wall_time;
   c.clamped = record.control.clamp_head;
   c.worst.take(record);
@@ -245,7 +246,7 @@ void LogWriter::write(const StepRecord& record, const Simulation& sim, double wa
   if (frame) write_frame(record, rows);
   // The step that begins at a frame counts to the next one's means.
   c.means.take(record, rows);
-  c.moments.take(c.model, record, c.h);
+  c.moments.take(c.model, c.time, record);
   if (wall_time >= c.next_save && sim.step >= c.spare) {
     c.save();
   } else if (frame && c.waiting_bytes() > most_waiting) {
@@ -260,12 +261,12 @@ void LogWriter::write_frame(const StepRecord& record, const ThigmotaxisRows& row
   const StepSolution& step = record.solution;
   for (std::size_t i = 0; i < step.rows.size(); ++i) {
     const Row& row = step.rows[i];
-    const double force = step.lambda[static_cast<Eigen::Index>(i)] / c.h;
+    const double force = step.lambda[static_cast<Eigen::Index>(i)] / c.time.step;
     if ((row.kind == RowKind::contact || row.kind == RowKind::obstacle) && force != 0) {
       c.contacts.append({frame, row, force});
     }
     if (row.kind == RowKind::thigmotaxis && c.with_rows) {
-      c.rows.append({frame, thigmotaxis_row(record.control, step, i, c.h)});
+      c.rows.append({frame, thigmotaxis_row(record.control, step, i, c.time.step)});
     }
   }
 }

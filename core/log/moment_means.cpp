@@ -19,10 +19,16 @@ JointMoments no_moments(const Model& model) {
   return none;
 }
 
-void add_moments(const Model& model, const StepRecord& record, double h, JointMoments& sum) {
+void add_moments(const Model& model, const TimeSettings& time, const StepRecord& record,
+                 JointMoments& sum) {
   const StepSolution& step = record.solution;
   if ((step.lambda.array() == 0).all() && step.active_torque.isZero(0)) return;
-  const Kinematics& kin = record.moment.observation.kin;
+  Kinematics middle;
+  if (time.rule == TimeRule::midpoint) {
+    const Eigen::VectorXd& q = record.moment.state.q;
+    update_positions(model, advance(q, step.middle.step_velocity, time.step / 2), middle);
+  }
+  const Kinematics& kin = time.rule == TimeRule::midpoint ? middle : record.moment.observation.kin;
   const std::vector<Eigen::Matrix3d> axes = axes_of_joints(kin);
   Matrix6Xd wrench;
   Eigen::VectorXd joint;  // rows on bodies leave it as it is
@@ -34,7 +40,7 @@ void add_moments(const Model& model, const StepRecord& record, double h, JointMo
       if (row.kind != kind || row.dof >= 0 || lambda == 0) continue;
       if (!on_bodies) wrench.setZero(6, model.body_count());
       on_bodies = true;
-      add_row(row, kin, lambda / h, wrench, joint);
+      add_row(row, kin, lambda / time.step, wrench, joint);
     }
     if (on_bodies) add_moments(kin, wrench, axes, sum.of_rows[kind]);
   }

@@ -12,16 +12,20 @@ struct JointMoments {
   Eigen::Matrix3Xd active;           ///< of the muscles' torques
 };
 
+/// All 0.
 JointMoments no_moments(const Model& model);
 
-/// Adds what the forces of a step of `h` (s) do about the joints where that step begins.
-void add_moments(const Model& model, const StepRecord& record, double h, JointMoments& sum);
+/// Adds what the forces of a step do about the joints at the place of its equations: where it
+/// starts, by the midpoint rule in its middle.
+void add_moments(const Model& model, const TimeSettings& time, const StepRecord& record,
+                 JointMoments& sum);
 
+/// Adds up the moments of the steps from frame to frame.
 class MomentMeans {
  public:
   explicit MomentMeans(const Model& model) : sum_(no_moments(model)) {}
-  void take(const Model& model, const StepRecord& record, double h) {
-    add_moments(model, record, h, sum_);
+  void take(const Model& model, const TimeSettings& time, const StepRecord& record) {
+    add_moments(model, time, record, sum_);
     ++steps_;
   }
   /// Means of all steps since the last call, nan where there are none; then starts over.

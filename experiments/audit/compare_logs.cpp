@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 #include <functional>
@@ -22,13 +21,9 @@ constexpr double parted_forces = 1e-3;
 /// Figures that are nothing but rounding have no scale of their own; in their unit.
 constexpr double nothing_but_rounding = 1e-9;
 /// What logs had before 0.3 and no run makes again.
-constexpr std::array no_more = {"/checkpoints", "/seal"};
+const std::vector<std::string> no_more = {"/checkpoints", "/seal"};
 /// What logs of earlier versions lack.
-constexpr std::array not_before = {"/mean/moments/", "/trajectory/curvature"};
-
-bool any_begins(const std::string& path, const auto& beginnings) {
-  return std::ranges::any_of(beginnings, [&](const char* b) { return path.starts_with(b); });
-}
+const std::vector<std::string> not_before = {"/mean/moments/", "/trajectory/curvature"};
 
 /// Rows of a series as numbers, or of texts as digests.
 Hdf5Reader::Rows numbers(const Hdf5Reader& h5, const std::string& path) {

@@ -26,7 +26,7 @@ SHARES = (0.95, 0.99)
 SMOOTH = 0.25  # roughness, of white noise's 1
 LARGER = 1.1  # effort near the head over that far from it, from which on it is larger; at 1 and below it is not
 MOST_RUNS = 0.95  # share of the runs that a verdict over all of them needs
-LEAST_FRAMES = 12
+LEAST_FRAMES = 12  # of a slide that can be judged
 EFFORT = "sum of magnitudes, dyn cm"
 NAMES = ("zero behind the knot", "larger near the head", "smooth in space, noisy in time", "a few Fourier modes would do")
 

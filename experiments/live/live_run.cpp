@@ -113,7 +113,7 @@ int LiveRun::advance(int count) {
     }
     take_step(model_, pull_ ? pulled_scene_ : scene, sim_, record_);
     means_.take(record_, thigmotaxis_rows_of(record_.control, record_.solution, scene.time.step));
-    moments_.take(model_, record_, scene.time.step);
+    moments_.take(model_, scene.time, record_);
     for (const std::string& warning : record_.warnings) warnings_ += warning + "\n";
   }
   return taken;

@@ -33,7 +33,7 @@ py::dict forces(const py::object& self) {
 py::dict moments(const PythonSimulation& run) {
   run.require_readable();
   JointMoments of = no_moments(run.model);
-  add_moments(run.model, run.record, run.resolved.scene.time.step, of);
+  if (run.sim.step > 0) add_moments(run.model, run.resolved.scene.time, run.record, of);
   py::dict named;
   for (const RowKindEntry& kind : row_kind_table) {
     if (kind.value != RowKind::head) named[kind.name] = of.of_rows[kind.value].transpose().eval();

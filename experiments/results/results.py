@@ -338,7 +338,7 @@ def changed_since(commit: str) -> int | None:
         names = git("diff", "--name-only", "--no-renames", commit, "--", *CODE).split()
     except subprocess.CalledProcessError:
         return None
-    names = [name for name in names if not name.endswith((".md", ".cmake", "presets.toml"))]
+    names = [name for name in names if not name.endswith((".md", ".cmake"))]
     now = [(ROOT / name).read_text(encoding="utf-8", errors="replace") if (ROOT / name).is_file() else "" for name in names]
     changed = [name for name, old, new in zip(names, texts_of(commit, names), now) if without_comments(name, old) != without_comments(name, new)]
     if changed and all(name.startswith(MOTION) for name in changed) and moves_as(commit):

@@ -84,13 +84,15 @@ TEST(JointMoments, OfAStepAreThoseOfItsRows) {
   row.direction = Eigen::Vector3d::UnitY();
   row.a = {30, 1, {1}, 30};
   row.b = {60, 1, {1}, 60};
-  constexpr double h = 0.005, force = 7;
+  TimeSettings time;
+  time.step = 0.005;
+  constexpr double force = 7;
   record.solution.rows = {row};
-  record.solution.lambda = Eigen::VectorXd::Constant(1, force * h);
+  record.solution.lambda = Eigen::VectorXd::Constant(1, force * time.step);
   MomentMeans means(fish);
-  means.take(fish, record, h);
+  means.take(fish, time, record);
   record.solution.lambda *= 3;
-  means.take(fish, record, h);
+  means.take(fish, time, record);
   const JointMoments& mean = means.close();
   const double length = fish.length() / fish.body_count();
   for (int b = 0; b < fish.body_count(); ++b) {

@@ -5,6 +5,7 @@
 
 #include <numeric>
 #include <random>
+#include <stdexcept>
 
 #include "core/log/hdf5_reader.hpp"
 #include "core/log/log_table.hpp"
@@ -195,6 +196,13 @@ TEST_F(SeriesTest, UnitDescriptionAndNamesAreStored) {
   const Hdf5Reader in(file);
   EXPECT_EQ(in.attribute("/a/b/sparse", "unit"), "dyn");
   EXPECT_EQ(in.attribute("/a/b/sparse", "description"), "compressed");
+}
+
+// A row of two axes would be told to be zero by its last axis alone, and left out.
+TEST(SeriesLayout, BlocksAreOfRowsOfOneAxis) {
+  const Meaning blocks{"1", "", Storage::blocks};
+  EXPECT_NO_THROW(layout_of<double>("/a", {70}, blocks));
+  EXPECT_THROW(layout_of<double>("/a", {70, 3}, blocks), std::logic_error);
 }
 
 }  // namespace hagfish::series_test

@@ -121,6 +121,18 @@ TEST_F(CompareLogs, EachDatasetIsWatchedWhoeverIsSaidToHaveMadeIt) {
   EXPECT_GT(others.size(), 80u);
 }
 
+// Earlier versions had no moments; this one has, and what all had must be there.
+TEST_F(CompareLogs, OnlyAnotherBuildMayLackWhatCameLater) {
+  for (const auto& [path, later] : {std::pair{"/mean/moments/contact", true},
+                                    {"/trajectory/curvature", true},
+                                    {"/mean/thigmotaxis/lambda", false}}) {
+    fs::copy_file(again, file, fs::copy_options::overwrite_existing);
+    H5::H5File(file.string(), H5F_ACC_RDWR).unlink(path);
+    EXPECT_NE(differences(true).find(path), std::string::npos) << differences(true);
+    EXPECT_EQ(differences(false).empty(), later) << differences(false);
+  }
+}
+
 TEST_F(CompareLogs, UnitsWordsAndLabelsAreWatched) {
   for (const std::string path : {"/trajectory/q", "/steps/kkt", "/model/mass", "/contacts/force"}) {
     for (const std::string word : {"unit", "description"}) {

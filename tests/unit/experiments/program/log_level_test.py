@@ -3,6 +3,7 @@ are named for h5py and xarray."""
 
 from __future__ import annotations
 
+import re
 import sys
 from pathlib import Path
 
@@ -53,6 +54,14 @@ def test_each_level_holds_the_same_numbers_as_the_full_log(logs):
             assert own.fletcher32, path
     assert "/trajectory/q" in series(files["frames"]) and "/steps/kkt" not in series(files["frames"])
     assert h5py.File(logs / "default.h5").attrs["log_level"] == "full"
+
+
+def test_the_reference_tells_the_sizes(tmp_path):
+    text = (Path(__file__).parents[4] / "experiments/reference/log_format.md").read_text(encoding="utf-8")
+    for level in LEVELS:
+        hagfish(tmp_path, "run", "table1", "--quiet", "--log", level, "--out", f"{level}.h5")
+        told = float(re.search(rf"^\| `{level}`.* ([\d.]+) MB \|$", text, re.MULTILINE)[1])
+        assert (tmp_path / f"{level}.h5").stat().st_size / 1e6 == pytest.approx(told, rel=0.1, abs=0.06), level
 
 
 def test_commands_that_need_more_say_so_in_one_line(logs):

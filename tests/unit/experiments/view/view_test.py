@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import csv
 import json
+import shutil
 import sys
 from pathlib import Path
 
@@ -44,6 +45,19 @@ def run(tmp_path_factory):
     hagfish(folder, "view", "a.h5", "--out", "a.html")
     hagfish(folder, "view", "a.h5", "b.h5", "--out", "both.html")
     return folder
+
+
+def test_a_log_without_moments_shows_torques_of_hinges_by_name(run):
+    shutil.copy(run / "a.h5", run / "early.h5")
+    with h5py.File(run / "early.h5", "r+") as log:
+        del log["mean/moments"]
+    hagfish(run, "view", "early.h5", "--out", "early.html")
+    (page,), log = logs_of(run / "early.html"), h5py.File(run / "early.h5")
+    own, names = page["quantities"]["thigmotaxis"], log["model/dof_name"].asstr()[()][6:]
+    y, z = (np.nan_to_num(log["mean/forces/thigmotaxis"][:, 6:][:, [name.endswith(axis) for name in names]]) for axis in ("_y", "_z"))
+    values = np.hypot(y, z)
+    assert own["label"] == "f_thigmo, bending (torques of hinges)"
+    np.testing.assert_allclose(decoded(own["values"]).reshape(values.shape), values, atol=values.max() / 60000)
 
 
 def test_the_page_holds_what_the_log_holds(run):
