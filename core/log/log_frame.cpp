@@ -284,6 +284,10 @@ void declare_means(const Model& model, LogTable<Frame>& t) {
   row("speed", "cm/s", "left side of Eq. 6 where there was a row, else nan", &FrameMeans::speed);
   row("slack", "cm/s", "shortfall of the command where there was a row, else nan",
       &FrameMeans::slack);
+  t.number(
+      "/mean/thigmotaxis/sum",
+      {"dyn", "sum of the multipliers over h of all rows of Eq. 6, at other contacts, too" + since},
+      [](const Frame& f) { return f.mean.sum_of_rows; });
 }
 
 /// /muscle: what muscles have to do for the torques.

@@ -27,6 +27,7 @@ void RunningMeans::clear() {
   sum_.lambda = {};
   sum_.speed = {};
   sum_.slack = {};
+  sum_.sum_of_rows = 0;
   sum_.pulls = false;
   with_row_ = {};
   steps_ = 0;
@@ -41,6 +42,7 @@ void RunningMeans::take(const StepRecord& record, const ThigmotaxisRows& rows) {
   }
   sum_.active_torque += step.active_torque;
   sum_.net_force += step.net_force;
+  sum_.sum_of_rows += rows.sum;
   for (int k = 0; k < 4; ++k) {
     if (rows.present[k]) {
       ++with_row_[k];
@@ -55,6 +57,7 @@ const FrameMeans& RunningMeans::close() {
   const double per_step = steps_ > 0 ? 1.0 / steps_ : std::numeric_limits<double>::quiet_NaN();
   mean_ = sum_;
   visit_vectors(mean_, [per_step](Eigen::VectorXd& v) { v *= per_step; });
+  mean_.sum_of_rows *= per_step;
   for (int k = 0; k < 4; ++k) {
     mean_.lambda[k] *= per_step;
     mean_.speed[k] /= with_row_[k];  // 0 / 0 where there was no row

@@ -17,6 +17,7 @@ struct FrameMeans {
   Eigen::VectorXd net_force;           ///< the same of StepSolution::net_force, nv
   std::array<double, 4> lambda;        ///< over h, dyn; a step without the row counts as 0
   std::array<double, 4> speed, slack;  ///< over the steps that have the row, cm/s; nan where none
+  double sum_of_rows;                  ///< of the multipliers of all rows over h, dyn
   bool pulls = false;                  ///< the first step is of the phase `pull`
 };
 

@@ -1,7 +1,6 @@
 #include "core/log/pull_figures.hpp"
 
 #include <limits>
-#include <numeric>
 
 namespace hagfish {
 namespace {
@@ -24,8 +23,7 @@ PullFigures pull_figures(const FrameMeans& mean) {
   pull.torque = (mean.active_torque + mean.force[RowKind::thigmotaxis])
                     .tail(hinges)
                     .lpNorm<Eigen::Infinity>();
-  pull.advantage_rows =
-      ratio(pull.force, std::accumulate(mean.lambda.begin(), mean.lambda.end(), 0.0));
+  pull.advantage_rows = ratio(pull.force, mean.sum_of_rows);
   pull.advantage_torque = ratio(pull.force, pull.torque);
   return pull;
 }

@@ -44,6 +44,7 @@ ThigmotaxisRows thigmotaxis_rows_of(const Control& control, const StepSolution& 
     const ThigmotaxisRow row = thigmotaxis_row(control, solution, i, h);
     const bool other = row.end == KnotEnd::neither;
     rows.any = true;
+    rows.sum += row.lambda;
     rows.met = rows.met && meets_command(row.slack, other ? 0 : row.command);
     if (other) {
       ++rows.others;

@@ -40,7 +40,8 @@ struct ThigmotaxisRows {
   std::array<double, 4> speed{};    ///< left side of Eq. 6 at the solution, cm/s; nan where no row
   std::array<double, 4> slack{};    ///< cm/s; nan where no row
   double cap = std::numeric_limits<double>::quiet_NaN();  ///< of their λ / h, dyn; nan: no row
-  int others = 0;                                         ///< rows at other contacts
+  double sum = 0;  ///< of the multipliers of all rows over h, dyn
+  int others = 0;  ///< rows at other contacts
   double others_slack = std::numeric_limits<double>::quiet_NaN();  ///< the largest of theirs, cm/s
   bool any = false;
   /// All rows at their commanded speed without slack; others to within that of a command of 0.

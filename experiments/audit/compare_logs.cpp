@@ -23,7 +23,8 @@ constexpr double nothing_but_rounding = 1e-9;
 /// What logs had before 0.3 and no run makes again.
 const std::vector<std::string> no_more = {"/checkpoints", "/seal"};
 /// What logs of earlier versions lack.
-const std::vector<std::string> not_before = {"/mean/moments/", "/trajectory/curvature"};
+const std::vector<std::string> not_before = {"/mean/moments/", "/mean/thigmotaxis/sum",
+                                             "/trajectory/curvature"};
 
 /// Rows of a series as numbers, or of texts as digests.
 Hdf5Reader::Rows numbers(const Hdf5Reader& h5, const std::string& path) {

@@ -42,7 +42,8 @@ constexpr RunFigure figures[] = {
     {"both_ends_percent", figure_unit::none, "share by which this is a slide of both ends, %",
      &RunSummary::both_ends},
     {"sliding_force", force,
-     "sum of the four multipliers of Eq. 6: median over the slide of means from frame to frame",
+     "sum of the multipliers of all rows of Eq. 6: median over the slide of means from frame to "
+     "frame",
      &RunSummary::sliding_force},
     {"largest_thigmotaxis", torque, "f_thigmo of any hinge, mean from frame to frame",
      &RunSummary::largest_thigmotaxis},

@@ -6,6 +6,17 @@
 #include "core/log/logged_run.hpp"
 
 namespace hagfish {
+namespace {
+
+/// Of each frame, dyn; of logs before 0.3 those of the knot's ends, which is all that they hold.
+std::vector<double> sums_of_rows(const LogContents& log) {
+  const std::string path = "/mean/thigmotaxis/sum";
+  if (log.h5.has(path)) return log.h5.doubles(path);
+  const Eigen::VectorXd sums = log.h5.rows("/mean/thigmotaxis/lambda").rowwise().sum();
+  return {sums.begin(), sums.end()};
+}
+
+}  // namespace
 
 LogFrames::LogFrames(const LogContents& log)
     : log_(log),
@@ -16,7 +27,7 @@ LogFrames::LogFrames(const LogContents& log)
       thigmotaxis_(log.h5.rows("/mean/forces/thigmotaxis")),
       head_(log.h5.rows("/mean/forces/head")),
       obstacles_(log.h5.rows("/mean/forces/wall")),
-      lambda_(log.h5.rows("/mean/thigmotaxis/lambda")),
+      rows_(sums_of_rows(log)),
       energy_(log.time.size()),
       momentum_(log.time.size()) {
   visit_energies([this](const std::string& name, const std::string& /*what*/, const auto& of) {
@@ -55,7 +66,7 @@ RunFrame LogFrames::at(Eigen::Index frame) const {
           .thigmotaxis = thigmotaxis_.row(frame),
           .head = head_.row(frame),
           .obstacles = obstacles_.row(frame),
-          .rows = lambda_.row(frame).sum(),
+          .rows = rows_[f],
           .energy = energy_[f],
           .momentum = momentum_[f]};
 }

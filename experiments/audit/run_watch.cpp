@@ -1,7 +1,5 @@
 #include "experiments/audit/run_watch.hpp"
 
-#include <numeric>
-
 #include "core/input/toml_range.hpp"
 #include "core/log/end_of_run.hpp"
 #include "core/log/log_writer.hpp"
@@ -46,7 +44,7 @@ void RunWatch::see_frame(const StepRecord& record, bool at_end) {
                       .thigmotaxis = mean.force[RowKind::thigmotaxis],
                       .head = mean.force[RowKind::head],
                       .obstacles = mean.force[RowKind::obstacle],
-                      .rows = std::accumulate(mean.lambda.begin(), mean.lambda.end(), 0.0),
+                      .rows = mean.sum_of_rows,
                       .energy = record.ledger,
                       .momentum = record.momentum});
 }

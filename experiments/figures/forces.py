@@ -73,12 +73,8 @@ def through(points: np.ndarray, at: np.ndarray) -> np.ndarray:
 
 def slide_of(log: HagfishLog, way: float) -> Slide:
     means = log.intervals_in("slide")
-    if log.scene()["controller"]["law"] == "all_contacts":  # rows beside those of the first and the last contact
-        rows = np.bincount(log["/eq6/frame"], log["/eq6/lambda"], log.frames)
-    else:
-        rows = log["/mean/thigmotaxis/lambda"].sum(axis=1)
     work = log["/diagnostics/work_thigmotaxis"][log.in_phase("slide")]
-    return Slide(way, float(rows[means].mean()), float(work[-1] - work[0]) / way, moments_of(log, "thigmotaxis", means),
+    return Slide(way, float(log["/mean/thigmotaxis/sum"][means].mean()), float(work[-1] - work[0]) / way, moments_of(log, "thigmotaxis", means),
                  np.minimum.accumulate(log["/knot/head_end"][means]))
 
 

@@ -38,7 +38,7 @@ class Run:
     travel: float  # of the knot's head end
     share: float  # of a slide by both ends, %
     met: float  # share of sliding steps that meet Eq. 6
-    force: float  # median of the sum of the four multipliers / h while sliding, dyn
+    force: float  # median of the sum of the multipliers of Eq. 6 / h while sliding, dyn
     penetration: float
     torque: dict[str, float]  # largest of a hinge, by phase
     worked: dict[str, float]  # muscles, drag and damping, stored, thigmotaxis, until release

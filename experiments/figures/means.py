@@ -24,14 +24,9 @@ class Means:
     start: np.ndarray  # frame at which each begins
     end: np.ndarray  # and ends
     force: np.ndarray  # moment of f_thigmo about the axis of each hinge's kind, windows x hinges, dyn cm
-    lambdas: np.ndarray  # the four multipliers over h, dyn
+    total: np.ndarray  # sum of the multipliers of all rows of Eq. 6 over h, dyn
     slack: np.ndarray  # shortfall of the four rows of Eq. 6, cm/s; nan where no row
     span: float  # share of the body's length that each hinge stands for
-
-    @property
-    def total(self) -> np.ndarray:
-        """Sum of the four multipliers over h, dyn."""
-        return self.lambdas.sum(axis=1)
 
 
 def read_means(log: HagfishLog, phase: str = "slide", window: float = WINDOW) -> Means:
@@ -41,7 +36,7 @@ def read_means(log: HagfishLog, phase: str = "slide", window: float = WINDOW) ->
     _, joints, _ = log.hinges()
     span = 2 / (joints.max() + 1)  # bend and twist take turns from body to body
     if not frames.size:
-        return Means(window, frames, frames, np.empty((0, joints.size)), np.empty((0, 4)), np.empty((0, 4)), span)
+        return Means(window, frames, frames, np.empty((0, joints.size)), np.empty(0), np.empty((0, 4)), span)
     time = log["/trajectory/time"]
     interval = float(np.median(time[frames] - time[frames - 1]))
     count = max(1, round(window / interval))
@@ -51,7 +46,7 @@ def read_means(log: HagfishLog, phase: str = "slide", window: float = WINDOW) ->
     rows = lambda path: log[path][frames]
     slack = np.ma.masked_invalid(rows("/mean/thigmotaxis/slack")).mean(axis=1).filled(np.nan)
     return Means(window, frames[:, 0] - 1, frames[:, -1], log.at_hinges(rows("/mean/moments/thigmotaxis").mean(axis=1)),
-                 rows("/mean/thigmotaxis/lambda").mean(axis=1), slack, span)
+                 rows("/mean/thigmotaxis/sum").mean(axis=1), slack, span)
 
 
 def effort(means: Means) -> np.ndarray:

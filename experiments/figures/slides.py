@@ -37,7 +37,7 @@ class Slide:
     commanded: float  # speed, cm/s
     speed: float  # of the knot's leading end, a line through its places; nan where it never slid
     travel: float  # of that end
-    force: float  # sum of the four multipliers / h, median of the means
+    force: float  # sum of the multipliers of Eq. 6 / h, median of the means
     peak: float  # largest of them
     capped: float  # share of rows at controller.cap, of all steps
     slack: float  # largest shortfall of the four rows of Eq. 6, median of the means, cm/s

@@ -83,7 +83,7 @@ def draw(places: list[Place], out: Path) -> None:
     works.plot([], [], ls="-", color=plots.INK, label="and every bound met")
     works.set(xscale="log", ylabel="starts, %", ylim=(-4, 104))
     works.legend(loc="lower left", bbox_to_anchor=(0.0, 0.06), fontsize=7)
-    force.set(yscale="log", ylabel="sum of the four $\\lambda/h$ while sliding, dyn\n(median and quartiles of starts)")
+    force.set(yscale="log", ylabel="sum of $\\lambda/h$ of Eq. 6 while sliding, dyn\n(median and quartiles of starts)")
     work.set(yscale="log", ylabel="work of $f_{thigmo}$, erg for each cm of slide")
     for axes in (works, force, work):
         axes.set_xlabel("bending stiffness, dyn cm$^2$")

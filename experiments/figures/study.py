@@ -28,7 +28,7 @@ class Run:
     unmet: list[str]  # what the audit names, the penetration aside
     penetration: float  # deepest of every step
     slide: float  # headward travel of the knot's head end, cm
-    force: float  # sum of the four multipliers / h while sliding: median of means over FORCE_WINDOW
+    force: float  # sum of the multipliers of Eq. 6 / h while sliding: median of means over FORCE_WINDOW
 
 
 def cause(status: str) -> str:

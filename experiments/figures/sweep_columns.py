@@ -27,7 +27,7 @@ FIGURES = {  # unit, meaning
     "curvature_travel_cm": ("cm", "way of the body's curvature meanwhile"),
     "curvature_correlation": ("1", "of curvature before and after, the least of four quarters"),
     "both_ends_percent": ("%", "share by which this is a slide of both ends"),
-    "sliding_force_dyn": ("dyn", "sum of the four multipliers of Eq. 6: median over the slide of means from frame to frame"),
+    "sliding_force_dyn": ("dyn", "sum of the multipliers of all rows of Eq. 6: median over the slide of means from frame to frame"),
     "largest_thigmotaxis_dyn_cm": ("dyn cm", "f_thigmo of any hinge, mean from frame to frame"),
     "largest_active_dyn_cm": ("dyn cm", "torque of the muscles at any hinge, likewise"),
     "largest_torque_dyn_cm": ("dyn cm", "own torque and f_thigmo together, of any hinge while the knot slides or pulls, likewise"),

@@ -9,7 +9,7 @@ FrameMeans means() {
   FrameMeans mean;
   for (Eigen::VectorXd& force : mean.force.of_kind) force = Eigen::VectorXd::Zero(root_dofs + 3);
   mean.active_torque = Eigen::VectorXd::Zero(root_dofs + 3);
-  mean.lambda = {10, 20, 30, 40};
+  mean.sum_of_rows = 100;
   mean.force[RowKind::head][0] = -250;
   // Two bodies against the plate at (y, z) = (1, 2) and (-3, 0.5), with 100 and 140 dyn.
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
@@ -38,7 +38,7 @@ TEST(PullFigures, AreThoseOfTheirMeans) {
 
 TEST(PullFigures, HaveNoAdvantageWhereNothingPushes) {
   FrameMeans mean = means();
-  mean.lambda = {};
+  mean.sum_of_rows = 0;
   mean.force[RowKind::obstacle].setZero();
   mean.force[RowKind::thigmotaxis] = -mean.active_torque;
   const PullFigures pull = pull_figures(mean);

@@ -96,10 +96,11 @@ TEST_F(ThigmotaxisRowsTest, RowsAtOtherContactsLeaveThoseOfTheEndsInTheirColumns
   EXPECT_EQ(rows.others, 2 * others);
   EXPECT_FALSE(rows.met) << "50 cm/s are out of reach";
   // Each row by its contact, from the solution's velocity.
-  double worst = 0;
+  double worst = 0, sum = 0;
   int seen = 0;
   for (std::size_t i = 0; i < step.rows.size(); ++i) {
     if (step.rows[i].kind != RowKind::thigmotaxis) continue;
+    sum += step.lambda[static_cast<Eigen::Index>(i)];
     const ThigmotaxisRow row = thigmotaxis_row(control, step, i, scene.time.step);
     if (row.end != KnotEnd::neither) continue;
     ++seen;
@@ -118,6 +119,10 @@ TEST_F(ThigmotaxisRowsTest, RowsAtOtherContactsLeaveThoseOfTheEndsInTheirColumns
     worst = std::max(worst, row.slack);
   }
   EXPECT_EQ(seen, rows.others);
+  EXPECT_NEAR(rows.sum * scene.time.step, sum, 1e-12 * sum);
+  EXPECT_GT(sum, 1.01 * scene.time.step *
+                     (rows.lambda[0] + rows.lambda[1] + rows.lambda[2] + rows.lambda[3]))
+      << "others bear, too";
   EXPECT_DOUBLE_EQ(rows.others_slack, worst);
 }
 
@@ -127,12 +132,14 @@ TEST_F(ThigmotaxisRowsTest, MeansAreThoseOfTheSteps) {
   constexpr int steps = 7;
   Eigen::VectorXd contact = Eigen::VectorXd::Zero(model.nv());
   Eigen::VectorXd net = contact;
+  double sum = 0;
   std::array<double, 4> lambda{}, speed{};
   for (int i = 0; i < steps; ++i) {
     const StepRecord record = take_step(model, scene, sim);
     const ThigmotaxisRows rows =
         thigmotaxis_rows_of(record.control, record.solution, scene.time.step);
     means.take(record, rows);
+    sum += rows.sum / steps;
     contact += record.solution.force[RowKind::contact] / steps;
     net += record.solution.force.total() / steps;
     for (int k = 0; k < 4; ++k) {
@@ -141,6 +148,7 @@ TEST_F(ThigmotaxisRowsTest, MeansAreThoseOfTheSteps) {
     }
   }
   const FrameMeans& mean = means.close();
+  EXPECT_NEAR(mean.sum_of_rows, sum, 1e-9 * (1 + sum));
   const double rounding = 1e-9 * net.lpNorm<Eigen::Infinity>();
   EXPECT_LE((mean.force[RowKind::contact] - contact).lpNorm<Eigen::Infinity>(), rounding);
   EXPECT_LE((mean.net_force - net).lpNorm<Eigen::Infinity>(), rounding);

@@ -255,7 +255,7 @@ def test_summary(run):
     head_end, time = log["knot/head_end"][()], log["trajectory/time"][()]
     same(row["slide_distance_cm"], head_end[slide[0]] - head_end[slide[-1]])
     same(row["slide_speed_cm_per_s"], row["slide_distance_cm"] / (time[slide[-1]] - time[slide[0]]))
-    sums = np.sort(log["mean/thigmotaxis/lambda"][slide[1:]].sum(axis=1))
+    sums = np.sort(log["mean/thigmotaxis/sum"][slide[1:]])
     same(row["sliding_force_dyn"], sums[len(sums) // 2])
     same(row["largest_thigmotaxis_dyn_cm"], np.nanmax(np.abs(log["mean/forces/thigmotaxis"][:, 6:])))
     same(row["penetration_cm"], log["steps/penetration"][()].max())

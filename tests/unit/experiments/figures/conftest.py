@@ -115,6 +115,7 @@ class Content:
             "thigmotaxis/body_b": np.where(ruled[:, None], [LAST_BODY - 10, LAST_BODY], -1),
             "forces/thigmotaxis": force, "mean/forces/thigmotaxis": first_nan(force),
             "mean/thigmotaxis/lambda": first_nan(np.where(ruled[:, None], 50.0, 0.0) * np.ones(4)),
+            "mean/thigmotaxis/sum": first_nan(np.where(ruled, 200.0, 0.0)),
             "mean/thigmotaxis/slack": first_nan(rows(0.0, ruled)), "mean/thigmotaxis/speed": first_nan(rows(2.0, ruled)),
             "steps/thigmotaxis_lambda": np.where(step_ruled[:, None], 50.0, 0.0) * np.ones(4),
             "steps/thigmotaxis_slack": rows(0.0, step_ruled), "steps/eq6": np.where(step_ruled, 1, -1),
