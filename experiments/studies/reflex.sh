@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The reflex (core/run/reflex.hpp): the four knots at two meshes and steps beside the paper's law, what it needs, its law of speed, where
+# The reflex (core/control/reflex.hpp): the four knots at two meshes and steps beside the paper's law, what it needs, its law of speed, where
 # it fails, pulls at food, and the same in MuJoCo. Leaves experiments/results/reflex.csv, reflex.md, made of it, and
 # experiments/figures/reflex.png.
 #   bash experiments/studies/reflex.sh [OUTPUT_FOLDER]     default: out/reflex

@@ -3,7 +3,7 @@
 # levels of stress. Leaves stability.csv, a heat map per scene, and summary.md and stability.png: the largest step that
 # each method survives; and how far the reflex goes.
 #   bash experiments/studies/stability.sh [OUTPUT_FOLDER]     default: out/stability
-# Stopped, it goes on where it was. `hagfish stress` judges a cell (experiments/stress/stress_judge.hpp).
+# Stopped, it goes on where it was. `hagfish stress` judges a cell (experiments/mujoco/stress_judge.hpp).
 set -euo pipefail
 scenes=$(cd "$(dirname "${BASH_SOURCE[0]}")/../stability" && pwd)
 export scenes
