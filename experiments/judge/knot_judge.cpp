@@ -48,7 +48,7 @@ std::vector<Finding> moved(const std::vector<Criterion>& criteria, const Slide& 
 KnotJudge::KnotJudge(const Model& model, const Scene& scene, bool branch)
     : model_(model), scene_(scene), branch_(branch), slides_(model) {
   const auto plane = std::ranges::find(model.obstacles, scene.expect.out_of, &Obstacle::name);
-  if (plane != model.obstacles.end()) out_of_ = &*plane;
+  if (plane != model.obstacles.end()) out_of_ = plane->plane();
 }
 
 void KnotJudge::see(const RunFrame& frame, const Kinematics& kin) {

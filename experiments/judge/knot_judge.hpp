@@ -57,7 +57,7 @@ class KnotJudge {
   const Model& model_;
   const Scene& scene_;
   bool branch_;
-  const Obstacle* out_of_ = nullptr;
+  const Plane* out_of_ = nullptr;
   std::vector<Seen> frames_;
   SlideWatch slides_;
   double first_writhe_ = NAN;         ///< of the first frame that holds the knot
