@@ -63,7 +63,7 @@ inline StepMotion motion_of(const Kinematics& kin) {
 /// Positions and axes; does not touch the velocity fields.
 void update_positions(const Model& model, const Eigen::VectorXd& q, Kinematics& kin);
 
-/// Places the root so that the centre of mass is at `centre` (cm, world), and writes it into `q`.
+/// Positions and axes with the centre of mass at `centre` (cm, world); puts the root into `q`.
 void place_centre(const Model& model, const Eigen::Vector3d& centre, Eigen::VectorXd& q,
                   Kinematics& kin);
 
