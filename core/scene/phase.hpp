@@ -17,7 +17,7 @@ struct PhaseEntry {
   bool optional = false;  ///< only where the scene asks for it
 };
 
-/// In the order of time.
+/// Phases in the order of time.
 inline constexpr TableOf<PhaseEntry> phase_table{{{Phase::form, "form", "knot forming"},
                                                   {Phase::tighten, "tighten", "tightening"},
                                                   {Phase::slide, "slide", "sliding"},
