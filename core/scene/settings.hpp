@@ -416,7 +416,7 @@ struct ExpectSettings {
   double pull = 0;                    ///< mean pull at the food, N
   double pull_settled = 1;            ///< first part of the pull that these figures leave out, s
   double pull_drift = 0.4;            ///< difference between the means of both halves, of the mean
-  double pull_balance = 0.005;        ///< of the mean force of the head plate from it, of it
+  double pull_balance = 0.005;        ///< difference of the plate's mean force and the pull, of it
   double speed_share = 0.95;          ///< least share of sliding steps with Eq. 6 met without slack
   double penetration = 0.0015;        ///< deepest at any step, cm
   double skin_fold = 0;               ///< largest skin_fold() while the knot is held; 0: no bound
