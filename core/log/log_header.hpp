@@ -26,7 +26,7 @@ inline constexpr const char* past_ends = "/branch/end";
 
 /// How a log came about.
 struct LogHeader {
-  std::string command;  ///< as typed
+  std::string command;  ///< command line as typed
   std::string scene;    ///< fully resolved TOML
   std::string qp;       ///< QP back end
   std::string libraries;

@@ -36,7 +36,7 @@ class Archive {
   /// How many runs of the living body the program of that try, which was added, passed.
   void judged(int number, int passes);
 
-  /// In how many tries each type was seen at two looks in a row.
+  /// Number of tries in which each type was seen at two looks in a row.
   const std::map<std::pair<int, int>, int>& counts() const { return counts_; }
 
  private:
@@ -66,7 +66,7 @@ class Archive {
 /// Tries whose paths are made of the same archive.
 inline constexpr int batch_size = 32;
 
-/// As a file of tries has it: "0_1 0 8.4 0 0 0 3_1 8.8 12 9.6 0.2 1 .", the fields of each TypeSeen
+/// A line of a file of tries: "0_1 0 8.4 0 0 0 3_1 8.8 12 9.6 0.2 1 .", the fields of each TypeSeen
 /// but `reached`, how it ended, and each part of the path: how many waypoints, and these.
 std::string tying_text(const Tying& tying);
 /// What tying_text() made, or nothing where it is not whole.

@@ -15,7 +15,7 @@ class FilmPrior {
   /// `shape` of the program, its count of times and how far these are apart, s.
   FilmPrior(const ProgramShape& shape, Eigen::Index times, double interval, bool still);
 
-  /// Of `values`, ProgramShape's x times, cm^2.
+  /// Cost of `values`, ProgramShape's x times, cm^2.
   double cost(const Eigen::MatrixXd& values) const;
   /// Adds to half of the matrix and of the gradient: `share` of what smooths, and the wall.
   void add(const Eigen::MatrixXd& values, double share, BlockArrow& matrix,
@@ -23,7 +23,7 @@ class FilmPrior {
   /// Keeps what smooths and the wall at the limits in proportion to the matrix's diagonal.
   void bound(double size);
 
-  /// By time: traces of the matrix's inverse times what smooths, and squares of differences.
+  /// Sums by time: traces of the matrix's inverse times what smooths, and squares of differences.
   struct Traces {
     Eigen::VectorXd along, along_squares, time, time_squares;
   };

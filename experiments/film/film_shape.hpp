@@ -23,8 +23,8 @@ class ProgramShape {
 
   /// The points (3 x n, cm) at `place` (n, rising, 0 to 1, shares of the length).
   Eigen::Matrix3Xd points(const Eigen::VectorXd& values, const std::vector<double>& place) const;
-  /// The same, and their rates by each value, 3n x values, a point after the other, cm per rad per
-  /// body length.
+  /// These points, and their rates by each value, 3n x values, a point after the other, cm per rad
+  /// per body length.
   Eigen::Matrix3Xd points(const Eigen::VectorXd& values, const std::vector<double>& place,
                           Eigen::MatrixXd& rate) const;
 

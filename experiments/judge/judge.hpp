@@ -77,7 +77,7 @@ class Judge {
   std::int64_t steps_ = 0;
   bool any_ = false;
   double first_time_ = 0, last_time_ = 0;
-  Phase phase_ = Phase::form;  ///< of the last frame
+  Phase phase_ = Phase::form;  ///< phase of the last frame
   EnergyLedger ledger_;        ///< there
   std::vector<double> rows_;   ///< RunFrame::rows of frames of the slide
   Worst worst_;

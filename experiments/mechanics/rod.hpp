@@ -73,7 +73,7 @@ class Pulled {
   /// One more, as long as the last one.
   void step();
   std::string knot() const;
-  /// Of the last step.
+  /// Forces of contacts in the last step.
   std::vector<ContactForce> contact_forces() const;
   /// Mean of the twist joints' moments, dyn cm.
   double twisting_moment() const;

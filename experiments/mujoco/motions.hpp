@@ -9,7 +9,7 @@
 
 namespace hagfish {
 
-/// Where a motion starts: straight and at rest but for its hinges.
+/// Start of a motion: straight and at rest but for its hinges.
 struct Motion {
   /// A hinge's angle, rad, and rate, rad/s.
   struct Bend {
