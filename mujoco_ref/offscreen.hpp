@@ -46,7 +46,7 @@ struct PictureQuality {
 /// What the colours of a skin stand for: drawn as a bar in the lower right corner.
 struct ColourBar {
   std::vector<std::array<unsigned char, 3>> colour;  ///< colours from least value to largest
-  std::string title, least, most;                    ///< above it, and below its ends
+  std::string title, least, most;                    ///< words above it, and below its ends
 };
 /// Height of the lower edge of a picture that a bar and its words take, px.
 inline constexpr int colour_bar_room = 76;

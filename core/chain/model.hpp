@@ -32,7 +32,7 @@ struct Hinge {
   Axis axis = Axis::y;
   double lower = 0;      ///< rad; -infinity where free
   double upper = 0;      ///< rad; +infinity where free
-  double stiffness = 0;  ///< towards angle 0, dyn cm / rad
+  double stiffness = 0;  ///< spring towards angle 0, dyn cm / rad
   double damping = 0;    ///< dyn cm s / rad
 };
 

@@ -10,7 +10,7 @@
 namespace hagfish {
 
 struct EnergyColumn {
-  const char* name;  ///< below /diagnostics
+  const char* name;  ///< name below /diagnostics
   const char* description;
   double EnergyLedger::*member;  ///< erg
 };

@@ -24,7 +24,7 @@ class LogTable {
     LogLevel level = LogLevel::full;
     std::string labels;      ///< path of the series among them that labels the rows; empty for none
     hsize_t chunk_rows = 1;  ///< most rows that are stored together
-    bool packed = false;     ///< all of them, or only those whose meaning says so
+    bool packed = false;     ///< whether all are; else those whose meaning says so
   };
   /// A table of the datasets that a log of the level holds.
   explicit LogTable(Form form) : form_(std::move(form)) {}

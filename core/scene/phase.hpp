@@ -14,7 +14,7 @@ struct PhaseEntry {
   Phase value;
   const char* name;
   const char* description;
-  bool optional = false;  ///< only where the scene asks for it
+  bool optional = false;  ///< whether only scenes that ask for it have it
 };
 
 /// Phases in the order of time.

@@ -54,14 +54,14 @@ struct ModelSettings {
 
 /// Linear water drag per unit length of body (addition to the paper), g / (s cm).
 struct DragSettings {
-  double normal = 0;      ///< across the body
-  double tangential = 0;  ///< along it
+  double normal = 0;      ///< drag across the body
+  double tangential = 0;  ///< drag along it
 };
 
 /// Time at which a unilateral row (joint limit, contact, obstacle) enters the problem.
 enum class Activation {
-  speculative,  ///< within reach: C v >= -gap / h, so that the gap closes and does not cross
-  violated      ///< only once violated, as RedMax does
+  speculative,  ///< acts within reach: C v >= -gap / h, so the gap closes and does not cross
+  violated      ///< acts only once violated, as RedMax does
 };
 
 struct ConstraintSettings {
@@ -138,7 +138,7 @@ struct ScriptSettings {
 /// hinge is pulled towards its angle in a rest shape. While the knot forms, the program is the rest
 /// shape; then muscle tone follows the shape that the knot takes, until release lets it go.
 struct ActiveSettings {
-  double stiffness = 0;   ///< towards the rest shape, B_a, dyn cm^2: per hinge, over hinge_span()
+  double stiffness = 0;   ///< B_a towards the rest shape, dyn cm^2: per hinge, over hinge_span()
   double tone_time = 0;   ///< time constant by which the rest shape follows the body, tau, s
   double relax_time = 0;  ///< time constant by which it becomes straight from release on, s
   /// Torque of one hinge that the muscles can make, dyn cm: above it the torque is constant within
@@ -206,7 +206,7 @@ struct ReducedBasisSettings {
   std::vector<double> stations;  ///< rising: cm of arc, or shares of the window from 0 to 1
   /// One shape after the other at all stations, linear between them and zero outside.
   std::vector<double> bend_y, bend_z, twist;
-  double period = 0;  ///< between two findings of a, s: rounded to whole steps, one at least
+  double period = 0;  ///< time between two findings of a, s: rounded to whole steps, one at least
   double filter = 0;  ///< time constant by which the torques follow a, s
   /// How far Eq. 6 may be missed for a smaller |a|: added to the diagonal of the problem in its
   /// multipliers, as a share of the largest entry there.

@@ -36,8 +36,8 @@ struct AuditedFrame {
   // The step that begins at the frame; nan where none does.
   Midway midway;                               ///< middle by the midpoint rule
   const Kinematics& kin;                       ///< pose at the place where its equations hold
-  const std::vector<SplineSegment>& segments;  ///< there
-  StepMotion motion;                           ///< there
+  const std::vector<SplineSegment>& segments;  ///< segments there
+  StepMotion motion;                           ///< motion there
   Eigen::VectorXd qdot_next;                   ///< velocity after it
   Eigen::VectorXd qdot_step;                   ///< velocity by which it moves
   Eigen::VectorXd qdot_mean;                   ///< velocity of springs, damping and drag

@@ -48,7 +48,7 @@ struct DesignOutcome {
   int tries = 0;
   int judged_runs = 2 * judged_starts;             ///< runs of the living animal for each candidate
   std::optional<Candidate> best;                   ///< the found one, or which came nearest
-  std::vector<Candidate> candidates;               ///< all, in the order of their tries
+  std::vector<Candidate> candidates;               ///< candidates in the order of their tries
   std::vector<std::pair<std::string, int>> types;  ///< tied by how many tries
   DesignTime time;
   std::string in_words() const;  ///< one line: what was found, or how near it came

@@ -39,7 +39,7 @@ struct TypeSeen {
                     ///< of the tail left; 0: none
   double left = 0;  ///< share of the body left then: see tail_left()
   bool repeats = false;  ///< the living body ties it, too, by the shapes up to then: see repeats()
-  std::shared_ptr<const Reached> reached{};  ///< then
+  std::shared_ptr<const Reached> reached{};  ///< state reached then
 };
 
 /// A try on its way, from which others go on as if they had come all the way.

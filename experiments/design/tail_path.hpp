@@ -30,7 +30,7 @@ struct Winding {
   double along = 0;     ///< way along the strand, from the waypoint before, body lengths
   double radius = 0;    ///< distance from the strand's middle, body lengths
   double duration = 0;  ///< s; more where the tail would have to hurry
-  double off = 0;       ///< so far off the body in place of a turn, body lengths; 0 for a turn
+  double off = 0;       ///< distance off the body in place of a turn, body lengths; 0: a turn
   Eigen::Vector3d aside = Eigen::Vector3d::Zero();  ///< added to the unit vector off the body
 };
 

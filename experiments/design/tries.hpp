@@ -44,22 +44,22 @@ class Archive {
 
   unsigned seed_;
   KnotInvariants wanted_;
-  int crossings_;            // of wanted_
-  std::set<Type> summands_;  // of wanted_, where it is a sum
+  int crossings_;            // crossings of wanted_
+  std::set<Type> summands_;  // summands of wanted_, where it is a sum
   struct Kept {
-    PathPlan plan;  // to where the type was seen, without turns
-    double left;    // of the tail
+    PathPlan plan;  // path to where the type was seen, without turns
+    double left;    // share left of the tail
   };
   struct Line {
-    int parent, failures, passes;  // of the try, and of what came of it; the best
+    int parent, failures, passes;  // the try's; of it and what came of it; the best
   };
   bool leads_on(const KnotInvariants& type) const;
   double promise(const PathPlan& plan) const;
   const PathPlan& likely(const std::vector<Kept>& kept, Draw& draw) const;
 
   std::map<Type, std::vector<Kept>> paths_;  // most of the tail first
-  std::vector<Kept> with_pull_;              // on which the wanted type was seen
-  std::vector<Line> lines_;                  // by number
+  std::vector<Kept> with_pull_;              // paths on which the wanted type was seen
+  std::vector<Line> lines_;                  // lines by number
   std::map<Type, int> counts_;
 };
 

@@ -33,7 +33,7 @@ class DelimitedText {
   std::string text_;
   char separator_ = ',';
   std::vector<std::string_view> cell_;
-  std::vector<std::size_t> first_, line_;  // of each row: its first cell, its line
+  std::vector<std::size_t> first_, line_;  // first cell and line of each row
 };
 
 }  // namespace hagfish

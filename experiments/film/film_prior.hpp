@@ -49,8 +49,8 @@ class FilmPrior {
   double interval_;
   bool still_;
   Eigen::MatrixXd along_form_;
-  Eigen::VectorXd limit_;               // by station
-  Eigen::VectorXd along_at_, time_at_;  // by time, over along_ and in_time_
+  Eigen::VectorXd limit_;               // limit by station
+  Eigen::VectorXd along_at_, time_at_;  // weights by time, over along_ and in_time_
   double in_time_, along_, size_ = 1, wall_ = 0;
 };
 

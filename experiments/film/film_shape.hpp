@@ -38,13 +38,13 @@ class ProgramShape {
 
   const Model& model_;
   Eigen::Index stations_, axes_;
-  Eigen::MatrixXd shares_;  // of each value (columns) that each velocity (rows) takes
+  Eigen::MatrixXd shares_;  // shares of each value (columns) that each velocity (rows) takes
   /// The values of which a velocity takes a share.
   struct Part {
     Eigen::Index value = 0;
     double share = 0;
   };
-  std::vector<std::vector<Part>> parts_;  // of each velocity
+  std::vector<std::vector<Part>> parts_;  // parts of each velocity
 };
 
 }  // namespace hagfish

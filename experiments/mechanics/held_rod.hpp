@@ -14,7 +14,7 @@ namespace hagfish {
 /// pulled.
 struct RodEnds {
   std::vector<int> tail;
-  double tension = 0;      ///< along +X, dyn
+  double tension = 0;      ///< pull along +X, dyn
   std::vector<int> level;  ///< bodies whose frame's z is held at 0, too
 };
 

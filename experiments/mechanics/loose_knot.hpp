@@ -32,7 +32,7 @@ struct LooseKnot {
   double load = 0;       ///< F R² / B, 1 / R: mean curvature from the first touch to the last
   double integral =
       0;  ///< (tension + B κ² / 2) / F half way between them: 1 all along a frictionless rod
-  std::vector<Touch> touches;  ///< along the head's strand
+  std::vector<Touch> touches;  ///< touches along the head's strand
   double cpu = 0;              ///< s
 };
 LooseKnot pull_loose_knot(const LooseKnotInput& input);

@@ -18,7 +18,7 @@ struct Motion {
   };
   std::string_view name;
   std::string_view title;
-  double gravity = 0;  ///< along the straight body, from head to tail, cm/s^2
+  double gravity = 0;  ///< gravity along the straight body, from head to tail, cm/s^2
   /// Bend about Y at `station` (0 head to 1 tail) of a hinge that stands for `arc` cm of body.
   Bend (*bend)(double station, double arc) = nullptr;
 };

@@ -106,7 +106,7 @@ class Hdf5Writer {
   /// The dataset, opened unless it is open.
   H5::DataSet& dataset(const std::string& path);
 
-  std::string name_;  // in messages
+  std::string name_;  // name in messages
   H5::H5File h5_;
   // Datasets to be labelled, by path: opening them anew for each label took a fifth of a log's
   // creation. Rows are written to one opened for it, as closing gives its chunks' cache back.

@@ -13,7 +13,7 @@ namespace hagfish {
 /// One row of Eq. 6.
 struct ThigmotaxisRow {
   KnotEnd end = KnotEnd::neither;
-  bool along_a = true;                ///< along t_a, not t_b
+  bool along_a = true;                ///< whether it is along t_a, not t_b
   BodyEnd towards = BodyEnd::head;    ///< end of the body as commanded
   double spline_a = 0, spline_b = 0;  ///< spline parameters, segment + t
   double command = 0;                 ///< right side of Eq. 6, cm/s
