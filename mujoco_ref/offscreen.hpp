@@ -55,9 +55,9 @@ inline constexpr int colour_bar_room = 76;
 class OffscreenRenderer {
  public:
   /// Makes pictures of at most `width` x `height` px (8192 either way) of things about as large as
-  /// `model`, whose own settings for pictures are not used. Throws InputError, one line with the
-  /// step that failed and EGL's or MuJoCo's reason, where this machine has no OpenGL for it, and
-  /// std::runtime_error beyond that size.
+  /// `model`. Its own settings for pictures are not used. Throws std::runtime_error beyond that
+  /// size, and InputError where this machine has no OpenGL for it: one line with the step that
+  /// failed and EGL's or MuJoCo's reason.
   OffscreenRenderer(const mjModel& model, int width, int height,
                     const PictureQuality& quality = {});
   ~OffscreenRenderer();
@@ -65,9 +65,9 @@ class OffscreenRenderer {
   /// Draws `geoms` (mjv_initGeom, cm) before white, with shadows. Throws std::runtime_error where
   /// the view is larger than what the renderer was made for.
   Image render(const std::vector<mjvGeom>& geoms, const View& view);
-  /// Draws these and a skin of as many points as skin_model() made the renderer's model for (else
-  /// std::invalid_argument), a line of text in the lower left corner unless it is empty, and the
-  /// bar, if any.
+  /// Draws these and a skin. It has as many points as skin_model() made the renderer's model for
+  /// (else std::invalid_argument). A line of text comes in the lower left corner unless it is
+  /// empty, and the bar, if any.
   Image render(const std::vector<mjvGeom>& geoms, const View& view, const Skin& skin,
                const std::string& words = "", const ColourBar* bar = nullptr);
 

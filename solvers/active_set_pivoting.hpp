@@ -54,9 +54,9 @@ class ActiveSetPivoting {
   const Eigen::Map<Eigen::VectorXd>& scale() const { return scale_; }
   /// Changes of sides so far, a block counting as one.
   int changes() const { return changes_; }
-  /// Contradicting rows, ascending. Multipliers t_i with t_i > 0 on rows without an upper bound
-  /// (any sign on free rows) exist with Σ t_i A_i = 0 and Σ t_i b_i > 0, and with no row left out:
-  /// Farkas' certificate.
+  /// Contradicting rows, ascending: Farkas' certificate. Multipliers t_i exist with Σ t_i A_i = 0
+  /// and Σ t_i b_i > 0, and with no row left out. On rows without an upper bound t_i > 0; on free
+  /// rows it has any sign.
   const std::vector<Eigen::Index>& contradicting() const { return contradicting_; }
 
  private:

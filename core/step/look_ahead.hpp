@@ -29,7 +29,7 @@ int path_samples(const Eigen::Matrix3Xd& centre_velocity, const Eigen::Vector3d&
 /// lead within time `t` (s). Each overlap deeper than `constraints.tolerance` gets a row in
 /// step.rows between the same material points. Before the step's end (t < h) way_tolerance times
 /// `stride` is permitted instead. C is taken at `place`, where the equations hold:
-///     φ_now + h C q̇ + (φ_there - φ_now - t C q̇_step) (h/t)² >= goal,
+///     φ_now + h C q̇ + (φ_there - φ_now - t C q̇_step) (h/t)² >= goal.
 /// The bracket is the error of the linear row at t, of second order. The goal is 0, or what the
 /// Baumgarte gain leaves of an earlier overlap. No row asks for h C q̇ over `stride`. The first
 /// added row of a contact replaces the row of the step's start. Later rows come on top of it, since

@@ -13,8 +13,8 @@ namespace hagfish {
 /// there.
 void require_settings_act(const Scene& scene, const std::vector<std::string>& set);
 
-/// Requires this of a sweep: of its settings and of the keys of its axes, none of which may be idle
-/// in all of `scenes`, one of each axis's values at least.
+/// Requires this of a sweep: of its settings and of the keys of its axes. None of them may be idle
+/// in all of `scenes`, which have the values of each axis, of seeds one.
 void require_settings_act_somewhere(const std::vector<Scene>& scenes,
                                     const std::vector<std::string>& set);
 

@@ -49,8 +49,8 @@ struct KnotFingerprint {
   std::int64_t alexander = 1;
   bool same_but_for_image(const KnotFingerprint& other) const;
 };
-/// Fingerprint of "0_1", "3_1" to "8_21", or of a composite "A#B" or "A#-B" (of A and the table's
-/// mirror image of B) of two of these; nothing of any other name.
+/// Fingerprint of "0_1", "3_1" to "8_21", or of a composite of two of these; nothing of any other
+/// name. "A#B" is of A and B, "A#-B" of A and the table's mirror image of B.
 std::optional<KnotFingerprint> fingerprint_called(std::string_view name);
 
 /// The name of the open polygon's type, as knot_type() takes it; of a composite of table knots

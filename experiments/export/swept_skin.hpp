@@ -8,8 +8,8 @@
 
 namespace hagfish {
 
-/// Cells of skin, sides x stations: stations are equal parts of the length, two for each body,
-/// sides are equal parts of the way round, from the body's Y axis over its Z axis.
+/// Cells of skin, sides x stations. Stations are equal parts of the length, two for each body.
+/// Sides are equal parts of the way round, from the body's Y axis over its Z axis.
 struct SweptSkin {
   Eigen::MatrixXd area;   ///< area of skin, cm^2
   Eigen::MatrixXd since;  ///< time of the first touch, s; nan where there was none

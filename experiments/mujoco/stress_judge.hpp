@@ -44,8 +44,8 @@ class StressJudge {
   /// The outcome of a run that came to its end. In this order: tunnelled, knot lost, energy gain,
   /// penetration, limits, solver failed (KKT), never tied, capped (Eq. 6), ok.
   Status ended() const;
-  /// Status of a run that an error stopped: by its cause, or by the first three above where they
-  /// hold and the cause is penetration, limits, speed or a lost knot, which follow from them.
+  /// Status of a run that an error stopped: by its cause. Penetration, limits, speed and a lost
+  /// knot follow from the first three above: these are the status where they hold.
   Status stopped(const StepError& error) const;
 
  private:
