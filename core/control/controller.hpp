@@ -24,26 +24,26 @@ struct PastKnot {
 
 /// The pull at the food since its mean was last taken.
 struct PullSum {
-  double sum = 0;  ///< of the steps' pulls, dyn
+  double sum = 0;  ///< sum of the steps' pulls, dyn
   int steps = 0;
 };
 
 struct ControllerState {
   Phase phase = Phase::form;
   double phase_start = 0;  ///< s
-  double loose = 0;        ///< when the knot last spanned more than tight_span, s
-  KnotVote knot;           ///< as last seen
-  double knot_seen = -std::numeric_limits<double>::infinity();  ///< when that was, s
-  double knot_from = 0;                                         ///< when it became of that type, s
-  PastKnot past;      ///< the last knot before it; an unknot where there was none
-  std::string lost;   ///< where the scene only warns: how the knot was lost; empty before that
-  TouchingEnds ends;  ///< the knot's first and last contact
+  double loose = 0;        ///< time at which the knot last spanned more than tight_span, s
+  KnotVote knot;           ///< knot as last seen
+  double knot_seen = -std::numeric_limits<double>::infinity();  ///< time at which it was seen, s
+  double knot_from = 0;  ///< time since when it is of that type, s
+  PastKnot past;         ///< the last knot before it; an unknot where there was none
+  std::string lost;      ///< how the knot was lost, in scenes that only warn; empty before that
+  TouchingEnds ends;     ///< the knot's first and last contact
   PullSum pull;
-  Eigen::VectorXd rest_shape;  ///< as last commanded (Control), nv or empty
-  Eigen::VectorXd memory;      ///< of the control law
+  Eigen::VectorXd rest_shape;  ///< rest shape as last commanded (Control), nv or empty
+  Eigen::VectorXd memory;      ///< memory of the control law
 };
 
-/// Where the knot begins and ends: TouchingEnds::head_end and tail_end, cm of arc.
+/// Extent of the knot: TouchingEnds::head_end and tail_end, cm of arc.
 struct KnotSpan {
   double head_end = 0, tail_end = 0;
 };

@@ -36,12 +36,12 @@ ControlLaw law_with_storage() {
 struct SceneFault {
   std::string key;                          ///< dotted
   std::string why;                          ///< "must be positive"
-  std::optional<std::size_t> element = {};  ///< of the array at the key
+  std::optional<std::size_t> element = {};  ///< element of the array at the key
 };
 
 /// Numbers of a law's memory that a log holds, one row for each frame.
 struct LawNumbers {
-  const char* path;  ///< of the dataset
+  const char* path;  ///< path of the dataset
   const char* unit;
   const char* description;
   /// How many there are. 0: no dataset; nullptr: one for each muscle.
@@ -51,8 +51,8 @@ struct LawNumbers {
 };
 
 struct Law {
-  std::string_view name;         ///< in scenes
-  std::string_view description;  ///< in one line
+  std::string_view name;         ///< name in scenes
+  std::string_view description;  ///< description in one line
   /// Makes the law, with its own storage. nullptr: the law belongs to the program that runs the
   /// scene. Its memory then has any size, and its run cannot be made again from the log.
   ControlLaw (*make)();

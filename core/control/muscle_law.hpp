@@ -16,9 +16,9 @@ inline constexpr const char* driven_activations = "/muscle/driven";
 
 /// Storage of muscle_law.
 struct MuscleStorage {
-  UntakenStep paper;            ///< the paper's law's
-  Eigen::VectorXd shape_ahead;  ///< the program's when the muscles answer, rad, nv
-  Eigen::VectorXd torque;       ///< what that step takes, dyn cm, nv
+  UntakenStep paper;            ///< step of the paper's law
+  Eigen::VectorXd shape_ahead;  ///< the program's shape when the muscles answer, rad, nv
+  Eigen::VectorXd torque;       ///< torque that this step takes, dyn cm, nv
   ActivationSolver activations;
   MuscleEffort wanted;
 };

@@ -14,7 +14,7 @@ namespace hagfish {
 /// The law's `memory`, by name.
 struct ReducedBasisMemory {
   double next = 0;           ///< time at which a is computed again, s
-  KnotSpan window;           ///< of the knot, smoothed and without its margin, cm of arc
+  KnotSpan window;           ///< the knot's window, smoothed and without its margin, cm of arc
   Eigen::VectorXd aim, now;  ///< a as last found, and as the torques have it, dyn cm
 };
 

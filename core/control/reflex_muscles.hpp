@@ -11,7 +11,7 @@ struct ReflexMusclesStorage {
   ReflexStorage reflex;
   Eigen::VectorXd senses;  ///< memory of the reflex
   ActiveTorque active;
-  Eigen::VectorXd torque;  ///< that is asked for, dyn cm, nv
+  Eigen::VectorXd torque;  ///< torque that is asked for, dyn cm, nv
   ActivationSolver activations;
   MuscleEffort wanted;
 };

@@ -8,7 +8,7 @@ namespace hagfish {
 
 /// Storage of such a step, which is allocated once.
 struct UntakenStep {
-  Control control;  ///< of the step
+  Control control;  ///< control of the step
   StepSolver solver{"active-set"};
   StepSolution step;
 };

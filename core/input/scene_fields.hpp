@@ -1,5 +1,5 @@
 // The keys of scene and specimen files, once for the reader and the writer: `Io` is TableReader or
-// TomlWriter. Included by scene_reader.cpp only.
+// TomlWriter. Included by scene_text.cpp only.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ namespace hagfish {
 
 enum class KnotUnit { unsaid, dyn, newton, cm, metre, body_length };
 
-/// What the noise of a script's knots is in.
+/// Unit of the noise of a script's knots.
 inline Unit knot_unit(ScriptSettings::Kind kind) {
   using Kind = ScriptSettings::Kind;
   return kind == Kind::force ? cgs::dyn : kind == Kind::position ? cgs::cm : cgs::one;
@@ -45,7 +45,7 @@ struct ObstacleFile {
   Plane plane;
   Strand strand;
   Eigen::Vector3d centre = Eigen::Vector3d::Zero(), axis = Eigen::Vector3d::UnitX();
-  double inner_radius = 0;  ///< of the hole, cm
+  double inner_radius = 0;  ///< radius of the hole, cm
 };
 
 template <class Io>
@@ -60,7 +60,7 @@ void specimen_fields(Io& io, Specimen& s) {
   io.angle("twist_limit", s.twist_limit, positive());
 }
 
-/// What a specimen may leave out.
+/// Keys that a specimen may leave out.
 template <class Io>
 void passive_fields(Io& io, Specimen& s) {
   io.table("passive", [&s](Io& table) {
@@ -379,7 +379,7 @@ void expect_fields(Io& io, ExpectSettings& s) {
   io.number("momentum", s.momentum, not_negative());
 }
 
-/// All but `specimen`, which is a file name or a table.
+/// Keys of a scene but `specimen`, which is a file name or a table.
 template <class Io>
 void scene_fields(Io& io, Scene& s, ScriptFile& script, std::vector<ObstacleFile>& obstacles) {
   io.string("title", s.title);

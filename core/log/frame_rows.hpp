@@ -14,7 +14,7 @@ namespace hagfish {
 /// A contact with a force, of the step at a frame.
 struct BearingContact {
   std::int32_t frame = 0;  ///< index along the frames
-  const Row& row;          ///< of kind contact or obstacle
+  const Row& row;          ///< a row of kind contact or obstacle
   double force = 0;        ///< λ / h, dyn
 };
 

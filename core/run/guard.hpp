@@ -23,7 +23,7 @@ struct CapWatch {
 struct Watch {
   std::bitset<outcome_count> warned;  ///< warnings given: each cause once a run
   std::vector<CapWatch> capped;       ///< the thigmotaxis rows at their caps, by id
-  Momentum made;                      ///< by the integrator since the head was last held
+  Momentum made;                      ///< gain not given back since the head was last held
 
   bool has_warned(Outcome of) const { return warned.test(static_cast<std::size_t>(of)); }
 };

@@ -31,10 +31,10 @@ class WarmStart {
   /// nv. The midpoint rule extrapolates them to the middle of the next step. Empty where there was
   /// none.
   Eigen::VectorXd half_change, half_before;
-  double remaining = 1;  ///< of the last step (StepSolution)
+  double remaining = 1;  ///< StepMiddle::remaining of the last step
 
  private:
-  std::vector<Kept> entries_;  // by id
+  std::vector<Kept> entries_;  // sorted by id
 };
 
 }  // namespace hagfish

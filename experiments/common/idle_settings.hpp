@@ -13,13 +13,13 @@ namespace hagfish {
 /// there.
 void require_settings_act(const Scene& scene, const std::vector<std::string>& set);
 
-/// The same of a sweep: of its settings and of the keys of its axes, none of which may be idle in
-/// all of `scenes`, one of each axis's values at least.
+/// Requires this of a sweep: of its settings and of the keys of its axes. None of them may be idle
+/// in all of `scenes`, which have the values of each axis, of seeds one.
 void require_settings_act_somewhere(const std::vector<Scene>& scenes,
                                     const std::vector<std::string>& set);
 
-/// The same of a run that goes on from `sim` in `scene`: what only its start or a phase that is
-/// over reads.
+/// Requires this of a run that goes on from `sim` in `scene`: what only its start or a phase that
+/// is over reads cannot act.
 void require_settings_act_from(const Simulation& sim, const Scene& scene,
                                const std::vector<std::string>& set);
 

@@ -9,7 +9,7 @@
 
 namespace hagfish {
 
-/// Of a run in `scene` with the QP back end `qp`, by the command line as `typed`.
+/// Header of a run in `scene` with the QP back end `qp`, by the command line as `typed`.
 LogHeader log_header(const ResolvedScene& resolved, const Model& model, const std::string& qp,
                      const std::string& typed);
 

@@ -21,7 +21,7 @@ struct AnimalRatios {
   double stiffness() const;
   double torque() const;
   double drag() const { return girth; }
-  /// For its length.
+  /// Girth for its length.
   double thickness() const { return girth / length; }
 };
 
@@ -36,7 +36,7 @@ std::string specimen_text(const Specimen& animal, const Specimen& paper);
 /// halved as often as its length is.
 void go_with_size(Scene& scene, const AnimalRatios& beside);
 
-/// The same of `base` for `animal`, as TOML: each table's name, and its lines.
+/// Tables of `base` for `animal`, as TOML: each table's name, and its lines.
 std::vector<std::pair<std::string, std::string>> sized_tables(const Specimen& animal,
                                                               const ResolvedScene& base);
 

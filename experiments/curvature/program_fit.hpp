@@ -15,7 +15,7 @@ namespace hagfish {
 struct ProgramFit {
   CurvatureProgram program;
   double rms_error = 0, largest_error = 0;
-  double rms_angle = 0;  ///< of the hinges, to compare with
+  double rms_angle = 0;  ///< rms of the hinges' angles, to compare with
 };
 
 /// The program of `times` from 0 to time.back() and `stations` from 0 to 1, both even, whose shapes

@@ -10,7 +10,7 @@ namespace hagfish {
 
 struct BodyQuantity {
   std::string name, label, unit;
-  std::vector<double> arc;  ///< of the stations, rising, cm from the head
+  std::vector<double> arc;  ///< places of the stations, rising, cm from the head
   Hdf5Reader::Rows values;  ///< frames x stations, not negative
 };
 

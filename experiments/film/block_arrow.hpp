@@ -40,7 +40,7 @@ class BlockArrow {
   Eigen::MatrixXd chain_solve(const Eigen::MatrixXd& right) const;
 
   Eigen::Index blocks_, size_, border_, pairs_;
-  std::vector<Eigen::MatrixXd> own_, below_, beside_;  // of pairs: (K, K), (K + 1, K), border
+  std::vector<Eigen::MatrixXd> own_, below_, beside_;  // pairs: (K, K), (K + 1, K), border
   Eigen::MatrixXd corner_;
   std::vector<Eigen::LLT<Eigen::MatrixXd>> factor_;
   std::vector<Eigen::MatrixXd> ahead_;  // own^-1 below' of factored pairs

@@ -1,4 +1,4 @@
-// Where the fit of a film begins: its frames by themselves, and the program through them.
+// Start of a film's fit: its frames by themselves, and the program through them.
 #pragma once
 
 #include <vector>
@@ -10,12 +10,12 @@ namespace hagfish {
 
 /// What is fitted.
 struct FilmUnknowns {
-  Eigen::MatrixXd values;      ///< of ProgramShape x times
+  Eigen::MatrixXd values;      ///< values of ProgramShape x times
   std::vector<FilmPose> pose;  ///< one, or one for each frame
   double scale = 1;            ///< cm of the model in one of the film's lengths
 };
 
-/// Where a frame's time is among the program's, `knots`.
+/// Place of a frame's time among the program's, `knots`.
 TablePlace film_place(const Film& film, std::size_t frame, const std::vector<double>& knots);
 
 /// What smooths to begin with, cm^2 of squared distance for 1 (rad per length)^2 of second

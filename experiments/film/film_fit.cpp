@@ -150,6 +150,8 @@ class Fit {
       Eigen::MatrixXd beside = misfit.rate.transpose() * by_border;
       Eigen::MatrixXd corner = by_border.transpose() * by_border;
       Eigen::VectorXd border_slope = by_border.transpose() * misfit.off;
+      // A free head's pose belongs to its frame alone. So it is eliminated at once (Schur
+      // complement), and the matrix has blocks of times and a border only. stepped() finds it.
       if (!still_) {
         FramePose& own = frame_pose_[f];
         Eigen::MatrixXd pose = misfit.by_pose.transpose() * misfit.by_pose;
@@ -167,6 +169,7 @@ class Fit {
         corner -= own.by_border.transpose() * own.own.solve(own.by_border);
         border_slope -= own.by_border.transpose() * own.own.solve(own.gradient);
       }
+      // The frame's values lie between those of two times, so each time gets its share.
       const double shares[] = {1 - at.share, at.share};
       for (int a = 0; a < 2; ++a) {
         if (shares[a] == 0) continue;

@@ -11,7 +11,7 @@ namespace hagfish {
 
 /// What the film's axes are: where the head is and how it is turned.
 enum class FilmHead {
-  still,  ///< the same all through the film: it is clamped
+  still,  ///< fixed all through the film: it is clamped
   free    ///< anything at each time, so that nothing is known of how the animal rolls
 };
 

@@ -30,13 +30,13 @@ inline Eigen::Index dimensions(const ProgramShape& shape) { return shape.axes() 
 Eigen::MatrixXd distances(const ProgramShape& shape, const FilmFrame& frame,
                           const Eigen::VectorXd& values, const FilmPose& pose, double scale);
 
-/// The same, a point after the other, and their rates.
+/// Distances of a frame's points, a point after the other, and their rates.
 struct Misfit {
   Eigen::Index dimensions = 0;
   Eigen::VectorXd off;
-  Eigen::MatrixXd rate;      ///< by each value
-  Eigen::MatrixXd by_pose;   ///< by each part of a step of the pose
-  Eigen::VectorXd by_scale;  ///< by the logarithm of the scale
+  Eigen::MatrixXd rate;      ///< rates by each value
+  Eigen::MatrixXd by_pose;   ///< rates by each part of a step of the pose
+  Eigen::VectorXd by_scale;  ///< rates by the logarithm of the scale
 };
 Misfit misfit(const ProgramShape& shape, const FilmFrame& frame, const Eigen::VectorXd& values,
               const FilmPose& pose, double scale, Eigen::Index pose_size);

@@ -15,7 +15,7 @@ class FilmPrior {
   /// `shape` of the program, its count of times and how far these are apart, s.
   FilmPrior(const ProgramShape& shape, Eigen::Index times, double interval, bool still);
 
-  /// Of `values`, ProgramShape's x times, cm^2.
+  /// Cost of `values`, ProgramShape's x times, cm^2.
   double cost(const Eigen::MatrixXd& values) const;
   /// Adds to half of the matrix and of the gradient: `share` of what smooths, and the wall.
   void add(const Eigen::MatrixXd& values, double share, BlockArrow& matrix,
@@ -23,7 +23,7 @@ class FilmPrior {
   /// Keeps what smooths and the wall at the limits in proportion to the matrix's diagonal.
   void bound(double size);
 
-  /// By time: traces of the matrix's inverse times what smooths, and squares of differences.
+  /// Sums by time: traces of the matrix's inverse times what smooths, and squares of differences.
   struct Traces {
     Eigen::VectorXd along, along_squares, time, time_squares;
   };
@@ -49,8 +49,8 @@ class FilmPrior {
   double interval_;
   bool still_;
   Eigen::MatrixXd along_form_;
-  Eigen::VectorXd limit_;               // by station
-  Eigen::VectorXd along_at_, time_at_;  // by time, over along_ and in_time_
+  Eigen::VectorXd limit_;               // limit by station
+  Eigen::VectorXd along_at_, time_at_;  // weights by time, over along_ and in_time_
   double in_time_, along_, size_ = 1, wall_ = 0;
 };
 

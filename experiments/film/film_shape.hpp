@@ -23,8 +23,8 @@ class ProgramShape {
 
   /// The points (3 x n, cm) at `place` (n, rising, 0 to 1, shares of the length).
   Eigen::Matrix3Xd points(const Eigen::VectorXd& values, const std::vector<double>& place) const;
-  /// The same, and their rates by each value, 3n x values, a point after the other, cm per rad per
-  /// body length.
+  /// These points, and their rates by each value, 3n x values, a point after the other, cm per rad
+  /// per body length.
   Eigen::Matrix3Xd points(const Eigen::VectorXd& values, const std::vector<double>& place,
                           Eigen::MatrixXd& rate) const;
 
@@ -38,13 +38,13 @@ class ProgramShape {
 
   const Model& model_;
   Eigen::Index stations_, axes_;
-  Eigen::MatrixXd shares_;  // of each value (columns) that each velocity (rows) takes
+  Eigen::MatrixXd shares_;  // shares of each value (columns) that each velocity (rows) takes
   /// The values of which a velocity takes a share.
   struct Part {
     Eigen::Index value = 0;
     double share = 0;
   };
-  std::vector<std::vector<Part>> parts_;  // of each velocity
+  std::vector<std::vector<Part>> parts_;  // parts of each velocity
 };
 
 }  // namespace hagfish

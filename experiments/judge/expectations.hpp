@@ -37,7 +37,7 @@ struct Finding {
 /// A finding on a figure, described by `text`.
 Finding judged(const Criterion& criterion, const std::string& text);
 
-/// The same, described as "VALUE UNIT, SCOPE (at most BOUND)".
+/// A finding described as "VALUE UNIT, SCOPE (at most BOUND)".
 Finding judged_over(const Criterion& criterion, const std::string& scope = "");
 
 /// So many of so many: all must be, and there must be some.
@@ -54,16 +54,17 @@ Criterion limits_criterion(const ExpectSettings& expect, double furthest);
 Criterion head_drift_criterion(const ExpectSettings& expect, double largest);
 /// Largest scaled KKT residual of any step.
 Criterion kkt_criterion(const ExpectSettings& expect, double largest);
-/// As EnergyGain has it.
+/// Criterion of EnergyGain.
 Criterion energy_gain_criterion(const ExpectSettings& expect, double largest);
-/// As IntegratorLoss has it, of the most energy that there was, worked or went to drag and damping.
+/// Criterion of IntegratorLoss, of the most energy that there was, worked or went to drag and
+/// damping.
 Criterion energy_loss_criterion(const ExpectSettings& expect, double largest);
 /// A slide against what the scene asks of it: the way of the knot's head end, cm, and the share by
 /// which it is a slide of both ends, in %. The head end is asked for the scene's distance. If it
 /// began nearer to where it is released, it is asked for all the way there, but for half of that
 /// distance at least where the slide is seen `whole`.
 std::vector<Criterion> slide_criteria(const Scene& scene, const Slide& slide, bool whole = true);
-/// The same of the way back, by the tail end and wherever it began.
+/// Criteria of the way back, by the tail end and wherever it began.
 std::vector<Criterion> way_back_criteria(const Scene& scene, const Slide& way_back);
 /// The phases of ExpectSettings::torque_share.
 inline bool slides_or_pulls(Phase phase) { return phase == Phase::slide || phase == Phase::pull; }
@@ -87,13 +88,13 @@ inline double worse(double a, double b) {
 /// head clamp and obstacles. They do not vanish at rest, nor cancel where forces hold each other.
 class Passed {
  public:
-  /// By a scene's model and its steps of `h` (s).
+  /// Counts by a scene's model and its steps of `h` (s).
   Passed(const Model& model, double h);
   /// Means of generalised forces (nv) from one frame to the next, `elapsed` (s) later; dyn, dyn cm.
   void see(double elapsed, const Eigen::Vector3d& tip, const Eigen::VectorXd& head,
            const Eigen::VectorXd& obstacles);
   double momentum() const { return momentum_; }                 ///< dyn s
-  double angular_momentum() const { return arm_ * momentum_; }  ///< of a straight body, dyn cm s
+  double angular_momentum() const { return arm_ * momentum_; }  ///< a straight body's, dyn cm s
   /// Most that these forces would give the body in one step, erg.
   double energy() const { return 0.5 * step_momentum_ * step_momentum_ / mass_; }
   double mass() const { return mass_; }
@@ -139,7 +140,7 @@ class IntegratorLoss {
     largest_ = worse(largest_, highest_ - error);
   }
   double largest() const { return largest_; }
-  /// Of sums from the start on.
+  /// Loss by sums from the start on.
   template <class Errors>
   static double of(const Errors& errors) {
     IntegratorLoss loss;

@@ -77,12 +77,12 @@ class Judge {
   std::int64_t steps_ = 0;
   bool any_ = false;
   double first_time_ = 0, last_time_ = 0;
-  Phase phase_ = Phase::form;  ///< of the last frame
-  EnergyLedger ledger_;        ///< there
+  Phase phase_ = Phase::form;  ///< phase of the last frame
+  EnergyLedger ledger_;        ///< ledger at the last frame
   std::vector<double> rows_;   ///< RunFrame::rows of frames of the slide
   Worst worst_;
   double largest_thigmotaxis_ = 0, largest_active_ = 0, largest_torque_ = 0;
-  std::int64_t met_ = 0, sliding_ = 0;              // of slides' steps, up to the last frame
+  std::int64_t met_ = 0, sliding_ = 0;              // counts of slides' steps, up to the last frame
   std::int64_t met_since_ = 0, sliding_since_ = 0;  // and since
 };
 

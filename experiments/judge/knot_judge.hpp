@@ -39,12 +39,12 @@ class KnotJudge {
     double time = 0;  ///< s
     Phase phase = Phase::form;
     std::string type;   ///< empty of a body past having one: it touches itself, or is too tangled
-    double before = 0;  ///< of the head's end in front of the plane expect.out_of, cm
+    double before = 0;  ///< way of the head's end in front of the plane expect.out_of, cm
   };
   Phase first_phase() const { return branch_ ? frames_.front().phase : scene_.start.phase; }
   bool reaches(Phase phase) const;
   bool shows(Phase phase) const;
-  /// Of a branch that does not show a phase from its beginning.
+  /// Whether a branch does not show a phase from its beginning.
   bool begins_within(Phase phase) const { return branch_ && first_phase() == phase; }
   double clock_of(const RunTime& time) const;
   std::string never_held() const;
@@ -60,8 +60,8 @@ class KnotJudge {
   const Plane* out_of_ = nullptr;
   std::vector<Seen> frames_;
   SlideWatch slides_;
-  double first_writhe_ = NAN;         ///< of the first frame that holds the knot
-  Eigen::Matrix3Xd held_centreline_;  ///< of the last one
+  double first_writhe_ = NAN;         ///< writhe of the first frame that holds the knot
+  Eigen::Matrix3Xd held_centreline_;  ///< centreline of the last one
   double largest_fold_ = 0;
   std::int64_t held_ = 0, folded_ = 0;  ///< frames
 };

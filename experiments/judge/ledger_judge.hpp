@@ -35,7 +35,7 @@ class MomentumWatch {
   /// Largest entries: of the momentum; of the others since the first frame.
   double momentum_ = 0, drag_ = 0, outside_ = 0, integrator_ = 0, given_back_ = 0;
   double off_ = 0, made_ = 0;
-  double total_ = 0;  ///< of any running total
+  double total_ = 0;  ///< largest of any running total
 };
 
 /// Watches both ledgers, frame by frame. Totals count since the first frame: a branch goes on with
@@ -46,7 +46,7 @@ class LedgerJudge {
   void see(const RunFrame& frame);
 
   double energy_off() const;   ///< imbalance of the ledger, of the energy that passed
-  double energy_loss() const;  ///< as ExpectSettings::energy_loss
+  double energy_loss() const;  ///< loss of ExpectSettings::energy_loss
   double energy_gain() const { return gain_.largest(); }
   double momentum_off() const;  ///< imbalance of linear momentum, of the momentum that passed
   std::vector<Finding> findings() const;

@@ -23,9 +23,9 @@ class PullJudge {
   struct Means {
     double time = 0;  ///< s
     bool pulls = false;
-    double force = 0;  ///< of the head at the food
-    double plate = 0;  ///< of the head plate
-    double water = 0;  ///< of the drag along x
+    double force = 0;  ///< pull of the head at the food
+    double plate = 0;  ///< force of the head plate
+    double water = 0;  ///< drag along x
   };
   /// Frames of the pull whose frame before is of it too: all steps between them are.
   std::vector<std::size_t> intervals() const;

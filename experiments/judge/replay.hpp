@@ -19,7 +19,7 @@ class LogFrames {
   const LogContents& log_;
   std::vector<double> head_end_, tail_end_;
   Hdf5Reader::Rows tip_, active_, thigmotaxis_, head_, obstacles_;
-  std::vector<double> rows_;  ///< of each frame: sum of the multipliers of Eq. 6 over h, dyn
+  std::vector<double> rows_;  ///< sum of the multipliers of Eq. 6 over h in each frame, dyn
   std::vector<EnergyLedger> energy_;
   std::vector<MomentumLedger> momentum_;
 };

@@ -10,7 +10,7 @@ namespace hagfish {
 
 /// The figures of a step that the judge looks at.
 struct RunStep {
-  Worst worst;   ///< of this step alone
+  Worst worst;   ///< worst figures of this step alone
   int eq6 = -1;  ///< -1 no rows of Eq. 6, 0 with slack, 1 met
 };
 
@@ -19,7 +19,7 @@ struct RunFrame {
   Phase phase = Phase::form;
   bool clamped = false;          ///< the head is, in the step that begins here
   bool at_end = false;           ///< the state at the run's end, where no step begins
-  std::optional<KnotSpan> span;  ///< where the knot begins and ends
+  std::optional<KnotSpan> span;  ///< extent of the knot
   Eigen::VectorXd q;             ///< nq
   Eigen::Vector3d tip = Eigen::Vector3d::Zero();  ///< force on the tip, of the step here, dyn
   /// Means over the steps since the frame before, dyn and dyn cm, nv each; nan at the first frame.

@@ -10,7 +10,7 @@ namespace hagfish {
 
 enum class FilmFormat { mp4, gif };
 
-/// By the file's name. Throws InputError for any other.
+/// Format by the file's name. Throws InputError for any other.
 FilmFormat film_format(const std::string& file);
 
 /// Throws InputError, one line, where there is no ffmpeg.

@@ -23,7 +23,7 @@ struct StressFigures {
 /// Mechanical energy of a moment, erg.
 struct EnergyState {
   double total = 0;   ///< kinetic, elastic and gravity
-  double put_in = 0;  ///< by script and thigmotaxis since the start
+  double put_in = 0;  ///< energy put in by script and thigmotaxis since the start
 };
 
 /// Watches a run step by step, whoever takes the steps, and judges it by the scene's [expect]:
@@ -44,8 +44,8 @@ class StressJudge {
   /// The outcome of a run that came to its end. In this order: tunnelled, knot lost, energy gain,
   /// penetration, limits, solver failed (KKT), never tied, capped (Eq. 6), ok.
   Status ended() const;
-  /// Of one that an error stopped: by its cause, but the first three above where they are so and
-  /// the run was stopped by penetration, limits, speed or a lost knot, which follow from them.
+  /// Status of a run that an error stopped: by its cause. Penetration, limits, speed and a lost
+  /// knot follow from the first three above: these are the status where they hold.
   Status stopped(const StepError& error) const;
 
  private:

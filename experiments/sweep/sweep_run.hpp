@@ -29,7 +29,7 @@ struct SweepLog {
 
 struct SweepRun {
   RunSummary summary;
-  double cpu_time = 0;  ///< of taking steps, s
+  double cpu_time = 0;  ///< CPU time of taking steps, s
 };
 
 /// Runs a scene to its end. Nothing where `interrupted` ended it. Throws FileError where the log

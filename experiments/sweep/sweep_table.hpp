@@ -49,7 +49,7 @@ class SweepTable {
  private:
   void read_rows();
   std::filesystem::path table_, times_;
-  std::vector<std::size_t> cells_;  ///< of the part
+  std::vector<std::size_t> cells_;  ///< cells of the part
   std::string heading_;
   std::unique_ptr<OutputFile> file_;  ///< none where the table is whole
   std::unique_ptr<AppendedFile> rows_;

@@ -14,7 +14,7 @@ inline constexpr double drawn_plate_half = 2.6;
 /// A square of a plane, in it.
 struct DrawnPlane {
   Eigen::Vector3d middle;  ///< world, cm
-  double half = 0;         ///< of its side, cm
+  double half = 0;         ///< half of its side, cm
   double hole = 0;         ///< radius, about the middle, cm; 0: none
 };
 
@@ -26,7 +26,7 @@ inline bool is_rim(const Strand& strand, const Plane& plane) {
          });
 }
 
-/// The same of a hole in any plane of `obstacles`.
+/// Whether `strand` closes about a hole of any plane of `obstacles`.
 inline bool is_rim(const Strand& strand, const std::vector<Obstacle>& obstacles) {
   return std::ranges::any_of(obstacles, [&](const Obstacle& one) {
     return one.plane() != nullptr && is_rim(strand, *one.plane());

@@ -21,8 +21,8 @@ CurvatureProgram read_curvature_csv(const std::string& text, const std::string& 
 /// curvature_rounding.
 std::string curvature_csv(const CurvatureProgram& program);
 
-/// Of a written program's values, rad per body length: a hinge of 100 bodies, which takes a
-/// fiftieth of it, cannot tell.
+/// Rounding of a written program's values, rad per body length: a hinge of 100 bodies, which takes
+/// a fiftieth of it, cannot tell.
 inline constexpr double curvature_rounding = 1e-3;
 
 }  // namespace hagfish

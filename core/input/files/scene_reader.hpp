@@ -16,8 +16,8 @@ Specimen read_specimen(const std::filesystem::path& file);
 ResolvedScene read_scene(const std::filesystem::path& file,
                          const std::vector<std::string>& overrides = {});
 
-/// The same from text; `name` stands for the file in errors. A file that the text names is looked
-/// for in `files` and then among the built-in ones.
+/// Reads a scene from text; `name` stands for the file in errors. A file that the text names is
+/// looked for in `files` and then among the built-in ones.
 ResolvedScene read_scene_text(const std::string& text, const std::string& name,
                               const std::vector<std::string>& overrides = {},
                               const TextFiles& files = {});

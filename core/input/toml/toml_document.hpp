@@ -16,9 +16,9 @@ struct TomlDocument {
   std::string file;  ///< its name in errors
   toml::value root;
   std::set<std::string> bases;                ///< the files of inherited values
-  std::set<std::string> si_files;             ///< of these, the files of numbers in SI
-  std::map<std::string, Override> overrides;  ///< by path in this document; key is the shown one
-  double body_length = 0, body_diameter = 0;  ///< of the animal, cm: units of lengths
+  std::set<std::string> si_files;             ///< files whose numbers are in SI
+  std::map<std::string, Override> overrides;  ///< keyed by path here; `key` is the shown one
+  double body_length = 0, body_diameter = 0;  ///< size of the animal, cm: units of lengths
 
   /// Takes from `base` what this document does not have, table by table.
   void inherit(const TomlDocument& base);

@@ -31,7 +31,7 @@ struct Range {
   double high = std::numeric_limits<double>::infinity();
   bool open = false;     ///< the ends are excluded
   std::string rule;      ///< what to tell the user: "must be positive"
-  Unit unit = cgs::one;  ///< of the number in memory
+  Unit unit = cgs::one;  ///< unit of the number in memory
 
   bool contains(double x) const { return open ? x > low && x < high : x >= low && x <= high; }
 };
@@ -61,7 +61,7 @@ inline std::string shortest(double x) {
   return {buffer, end};
 }
 
-/// From `low` to `high`, both included.
+/// The interval from `low` to `high`, both included.
 inline Range within(double low, double high, Unit unit = cgs::one) {
   return {low, high, false, "must be from " + shortest(low) + " to " + shortest(high), unit};
 }

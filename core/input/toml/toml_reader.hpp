@@ -45,7 +45,7 @@ class TableReader {
   /// Length and mean diameter of the animal, cm, for length() of this table and all in it.
   void set_body(double length, double diameter);
 
-  /// From here on an absent key is an error, reported by finish().
+  /// Makes an absent key an error from here on, reported by finish().
   void require_all();
 
   bool has(std::string_view key) const;
@@ -57,7 +57,7 @@ class TableReader {
   bool in_si(std::string_view key) const;
   bool is_table(std::string_view key) const;
   bool is_array(std::string_view key) const;
-  bool was_set(std::string_view key) const;  ///< by set()
+  bool was_set(std::string_view key) const;  ///< whether set() put it there
   /// The file that the value at the dotted `key` was read from: this table's, or a base's.
   std::string file_of(std::string_view key) const;
 
@@ -71,13 +71,13 @@ class TableReader {
   /// A length in cm: a number, or a string of a number and its unit, "0.2 L" of body lengths or
   /// "12 D" of mean diameters, as set_body() has said. `range` is in either.
   void length(std::string_view key, double& value, const Range& range);
-  /// As number(), three in an array.
+  /// Three numbers in an array, each as number() reads it.
   void vector(std::string_view key, Eigen::Vector3d& value, Unit unit = cgs::one);
-  /// As length(), three in an array: a place in the world.
+  /// A place in the world: three lengths in an array, each as length() reads it.
   void place(std::string_view key, Eigen::Vector3d& value);
-  /// As place(), one or more in an array.
+  /// One or more places in an array, each as place() reads it.
   void places(std::string_view key, std::vector<Eigen::Vector3d>& value);
-  /// As number(), one or more in an array.
+  /// One or more numbers in an array, each as number() reads it.
   void numbers(std::string_view key, std::vector<double>& value, const Range& range);
   /// An array of arrays of four numbers; errors call an element `noun`, count from 1 and name its
   /// `columns`, "t, x, y, z", of which all but the first are in `unit`.
@@ -94,7 +94,7 @@ class TableReader {
   std::vector<std::string> keys() const;
   /// An angle in rad, read from NAME_deg or NAME_rad; `range` is in degrees.
   void angle(std::string_view name, double& value, const Range& range);
-  /// As angle(), one or more in an array.
+  /// One or more angles in an array, each as angle() reads it.
   void angles(std::string_view name, std::vector<double>& value, const Range& range);
 
   /// A string out of a fixed list.
@@ -123,8 +123,8 @@ class TableReader {
     }
   }
 
-  /// The same for a list of them, which `read(TableReader&, T&)` reads one by one; left as it is
-  /// where the key is absent.
+  /// Reads them into a list by `read(TableReader&, T&)`, one by one; leaves it as it is where the
+  /// key is absent.
   template <class T, class Read>
   void tables(std::string_view key, std::vector<T>& list, Read read) {
     if (!has(key)) return;
@@ -138,7 +138,7 @@ class TableReader {
 
   /// Throws InputError about `key`, a dotted path below this table.
   [[noreturn]] void fail(std::string_view key, const std::string& why) const;
-  /// The same about one element, counted from 0, of the array at `key`.
+  /// Throws InputError about one element, counted from 0, of the array at `key`.
   [[noreturn]] void fail_element(std::string_view key, std::size_t index,
                                  const std::string& why) const;
 

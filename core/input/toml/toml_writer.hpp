@@ -28,7 +28,7 @@ class TomlWriter {
   void integer(std::string_view key, int value, const Range& range);
   void integer(std::string_view key, unsigned value, const Range& range);
   void number(std::string_view key, double value, const Range& range);
-  /// In cm: a number that undoes a product with the body's length is not always there.
+  /// Writes cm: a number that undoes a product with the body's length is not always there.
   void length(std::string_view key, double value, const Range& range);
   void vector(std::string_view key, const Eigen::Vector3d& value, Unit unit = cgs::one);
   void place(std::string_view key, const Eigen::Vector3d& value);

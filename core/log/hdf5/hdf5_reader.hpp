@@ -42,7 +42,7 @@ class Hdf5Reader {
   std::vector<double> doubles(const std::string& path) const;
   std::vector<std::int64_t> integers(const std::string& path) const;
   std::vector<std::string> texts(const std::string& path) const;
-  std::string text(const std::string& path) const;  ///< of a dataset that holds one
+  std::string text(const std::string& path) const;  ///< text of a dataset that holds one
   /// What a dataset says of itself, by name: its attributes, its type, and the labels of its axes.
   std::map<std::string, std::string> words(const std::string& path) const;
   /// Paths of all datasets.

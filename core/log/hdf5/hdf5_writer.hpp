@@ -16,8 +16,8 @@ namespace hagfish {
 
 /// How a series is stored. Chunks of zeros take no room in any of them.
 enum class Storage : std::uint8_t {
-  rows,    ///< in chunks of whole rows
-  blocks,  ///< in chunks of some columns: mostly zeros, as forces that act on a part of the body
+  rows,    ///< chunks of whole rows
+  blocks,  ///< chunks of some columns: mostly zeros, as forces that act on a part of the body
   packed   ///< compressed, at a price in CPU time: alike in time
 };
 
@@ -42,11 +42,11 @@ struct SeriesLayout {
   Meaning meaning;
   H5::DataType type;
   hsize_t chunk_rows = 1;
-  hsize_t chunk_columns = 0;  ///< of the last axis; 0: all of them
+  hsize_t chunk_columns = 0;  ///< columns of a chunk along the last axis; 0: all of them
   bool single = false;        ///< doubles are stored as floats
   double resolution = 0;      ///< doubles are rounded to multiples of it; 0 for none
   std::vector<std::string>
-      labels;  ///< of each axis, as LabelledAxis::labels; none where nothing does
+      labels;  ///< labels of each axis, as LabelledAxis::labels; none where nothing does
 
   /// Extents of so many rows.
   std::vector<hsize_t> shape(hsize_t rows) const {
@@ -77,10 +77,10 @@ class Hdf5Writer {
   void root_attribute(const std::string& name, const std::string& value);
   void root_attribute(const std::string& name, int value);
   void numbers(const std::string& path, const Eigen::VectorXd& values, const Meaning& meaning);
-  /// The same without unit and meaning, where a file's thousands of datasets share theirs.
+  /// Writes numbers without unit and meaning, where a file's thousands of datasets share theirs.
   void plain(const std::string& path, const Eigen::VectorXd& values);
   void plain(const std::string& path, const Eigen::MatrixXd& values);
-  /// Of a group.
+  /// Attribute of a group.
   void attribute(const std::string& path, const std::string& name, std::int64_t value);
   void text(const std::string& path, const std::string& value);
   void texts(const std::string& path, const std::vector<std::string>& values);
@@ -103,10 +103,10 @@ class Hdf5Writer {
   void save(const std::filesystem::path& file) const;
 
  private:
-  /// Opened where it is not.
+  /// The dataset, opened unless it is open.
   H5::DataSet& dataset(const std::string& path);
 
-  std::string name_;  // in messages
+  std::string name_;  // name in messages
   H5::H5File h5_;
   // Datasets to be labelled, by path: opening them anew for each label took a fifth of a log's
   // creation. Rows are written to one opened for it, as closing gives its chunks' cache back.

@@ -32,7 +32,7 @@ class OutputFile {
   OutputFile& operator=(const OutputFile&) = delete;
 
   const std::filesystem::path& partial() const { return partial_; }
-  /// Not a copy in a forked child.
+  /// Whether this is no copy in a forked child.
   bool is_ours() const;
 
   /// Gives FILE.part its name. Throws FileError, and keeps FILE.part, where that fails or a FILE

@@ -22,7 +22,7 @@ class AnySeries {
   const SeriesLayout& layout() const { return layout_; }
   /// Creates the dataset in `file`, without rows.
   void create(Hdf5Writer& file) const { file.create(layout_); }
-  /// Of one row.
+  /// Bytes of one row.
   std::size_t row_bytes() const { return row_size_ * value_size_; }
   /// Rows so far, saved or not.
   hsize_t rows() const { return total_; }
@@ -34,12 +34,12 @@ class AnySeries {
   void write(Hdf5Writer& file) const;
   /// What was written waits no more.
   void written();
-  /// Of what waits.
+  /// Bytes of what waits.
   std::size_t waiting_bytes() const { return (total_ - first_) * row_bytes(); }
 
  protected:
   virtual const void* waiting() const = 0;
-  virtual void keep(std::size_t rows) = 0;  ///< of those that wait the first ones alone
+  virtual void keep(std::size_t rows) = 0;  ///< keeps the first rows of those that wait
   std::size_t row_size() const { return row_size_; }
   void count_rows(hsize_t rows) { total_ += rows; }
 
@@ -47,7 +47,7 @@ class AnySeries {
   SeriesLayout layout_;
   std::size_t row_size_;    // values
   std::size_t value_size_;  // bytes
-  hsize_t first_ = 0;       // that waits: rows of the file
+  hsize_t first_ = 0;       // rows of the file: those before what waits
   hsize_t total_ = 0;
 };
 

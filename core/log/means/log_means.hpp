@@ -13,11 +13,11 @@ namespace hagfish {
 /// Means over the steps since the frame before; nan at the first frame, which has none before it.
 struct FrameMeans {
   ConstraintForces force;              ///< Σ impulse / elapsed time, by kind, nv each
-  Eigen::VectorXd active_torque;       ///< the same of StepSolution::active_torque, nv
-  Eigen::VectorXd net_force;           ///< the same of StepSolution::net_force, nv
-  std::array<double, 4> lambda;        ///< over h, dyn; a step without the row counts as 0
-  std::array<double, 4> speed, slack;  ///< over the steps that have the row, cm/s; nan where none
-  double sum_of_rows;                  ///< of the multipliers of all rows over h, dyn
+  Eigen::VectorXd active_torque;       ///< mean of StepSolution::active_torque, nv
+  Eigen::VectorXd net_force;           ///< mean of StepSolution::net_force, nv
+  std::array<double, 4> lambda;        ///< mean over h, dyn; a step without the row counts as 0
+  std::array<double, 4> speed, slack;  ///< mean over steps with the row, cm/s; nan if none has it
+  double sum_of_rows;                  ///< sum of the multipliers of all rows over h, dyn
   bool pulls = false;                  ///< the first step is of the phase `pull`
 };
 

@@ -8,8 +8,8 @@ namespace hagfish {
 
 /// Moments about the joints, in axes_of_joints, 3 x N, dyn cm.
 struct JointMoments {
-  ByKind<Eigen::Matrix3Xd> of_rows;  ///< of the forces of each kind of row
-  Eigen::Matrix3Xd active;           ///< of the muscles' torques
+  ByKind<Eigen::Matrix3Xd> of_rows;  ///< moments of the forces of each kind of row
+  Eigen::Matrix3Xd active;           ///< moments of the muscles' torques
 };
 
 /// All 0.

@@ -13,12 +13,12 @@ namespace hagfish {
 /// One row of Eq. 6.
 struct ThigmotaxisRow {
   KnotEnd end = KnotEnd::neither;
-  bool along_a = true;                ///< along t_a, not t_b
-  BodyEnd towards = BodyEnd::head;    ///< as commanded
+  bool along_a = true;                ///< whether it is along t_a, not t_b
+  BodyEnd towards = BodyEnd::head;    ///< end of the body as commanded
   double spline_a = 0, spline_b = 0;  ///< spline parameters, segment + t
   double command = 0;                 ///< right side of Eq. 6, cm/s
-  double cap = 0;                     ///< of its λ / h, dyn
-  double lambda = 0;                  ///< over h, dyn
+  double cap = 0;                     ///< bound of λ / h, dyn
+  double lambda = 0;                  ///< λ / h, dyn
   double speed = 0;                   ///< left side of Eq. 6 at the solution, cm/s
   /// Shortfall of the command, cm/s: only of a row at its cap.
   double slack = 0;
@@ -35,12 +35,12 @@ inline const std::string strand_order = "first t_a, first t_b, last t_a, last t_
 /// there is of others.
 struct ThigmotaxisRows {
   std::array<bool, 4> present{};
-  std::array<double, 4> lambda{};   ///< over h, dyn; 0 where there is no row
+  std::array<double, 4> lambda{};   ///< λ / h, dyn; 0 where there is no row
   std::array<double, 4> command{};  ///< right side of Eq. 6, cm/s; nan where no row
   std::array<double, 4> speed{};    ///< left side of Eq. 6 at the solution, cm/s; nan where no row
   std::array<double, 4> slack{};    ///< cm/s; nan where no row
-  double cap = std::numeric_limits<double>::quiet_NaN();  ///< of their λ / h, dyn; nan: no row
-  double sum = 0;  ///< of the multipliers of all rows over h, dyn
+  double cap = std::numeric_limits<double>::quiet_NaN();  ///< bound of λ / h, dyn; nan: no row
+  double sum = 0;  ///< sum of the multipliers of all rows over h, dyn
   int others = 0;  ///< rows at other contacts
   double others_slack = std::numeric_limits<double>::quiet_NaN();  ///< the largest of theirs, cm/s
   bool any = false;

@@ -20,9 +20,9 @@ struct LogContents {
   explicit LogContents(const std::string& file, LogLevel least = LogLevel::full);
   Hdf5Reader h5;
   ResolvedScene resolved;
-  Model model;                      ///< that the scene makes
+  Model model;                      ///< model that the scene makes
   std::vector<double> time;         ///< s
-  std::vector<std::int64_t> phase;  ///< as Phase
+  std::vector<std::int64_t> phase;  ///< values of Phase
   /// Frames x nq, nv, nv. Below LogLevel::frames there is no q, below full neither velocity.
   Hdf5Reader::Rows q, qdot, qdot_next;
   /// /midway, frames x nv each; empty of logs by Euler's rule, where they would be qdot and
@@ -32,8 +32,8 @@ struct LogContents {
   /// LogLevel::full it is not known, and all are counted.
   Eigen::Index begun = 0;
   bool has_end() const { return begun < std::ssize(time); }
-  std::vector<std::int64_t> passes;      ///< of each step, as StepSolution::passes; or empty
-  std::vector<std::int64_t> clamp_head;  ///< by a law of the run's own, 1 or 0; else empty
+  std::vector<std::int64_t> passes;      ///< StepSolution's passes of each step; or empty
+  std::vector<std::int64_t> clamp_head;  ///< 1 or 0 by a law of the run's own; else empty
   bool own_law() const { return resolved.scene.controller.law == hagfish::own_law; }
   /// Whether the head is clamped in the step that begins at a frame.
   bool clamped(Eigen::Index frame) const;

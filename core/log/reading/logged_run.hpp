@@ -34,7 +34,7 @@ struct LoggedRun {
   Model model;
   std::string qp;                 ///< QP back end
   std::vector<SceneBefore> past;  ///< scenes of a branch before its own
-  std::int64_t steps = 0;         ///< before which the last frame stands
+  std::int64_t steps = 0;         ///< step before which the last frame stands
 };
 
 /// Why the run of a log cannot be made again; empty where it can.

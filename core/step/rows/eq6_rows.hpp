@@ -53,12 +53,12 @@ std::array<Row, 2> eq6_rows(const Model& model, const Kinematics& kin,
 /// Whether a row counts as met: its slack against its command, both cm/s.
 bool meets_command(double slack, double command);
 
-/// Where the rows of Eq. 6 are placed.
+/// A place for the rows of Eq. 6.
 struct ThigmotaxisPlace {
   const Kinematics& kin;
-  const std::vector<SplineSegment>& segments;  ///< of it
+  const std::vector<SplineSegment>& segments;  ///< segments at `kin`
   bool displaced;                      ///< the segments have moved since the contacts were found
-  const Observation* found = nullptr;  ///< of the segments, if there is one (eq6_rows)
+  const Observation* found = nullptr;  ///< observation of the segments, if there is one (eq6_rows)
 };
 
 /// Eq. 6 at the commanded contacts. controller.cap times the command's effort bounds λ / h. No two

@@ -9,8 +9,7 @@
 namespace hagfish {
 
 /// The row of a joint bent by `bend`, without a right-hand side: the exact rate of the angle that
-/// is left to its cone. `number` counts the rows of the cone
-/// in a step.
+/// is left to its cone. `number` counts the rows of the cone in a step.
 Row cone_row(const BendingCone& cone, const Bend& bend, int number);
 
 /// Six bilateral rows that hold the root at the origin without rotation (paper, Eq. 3). They

@@ -31,10 +31,10 @@ struct BodyWrench {
   Eigen::Vector3d moment, force;
 };
 
-/// Which contact of a knot: the first or last one, which the controller follows, or another.
+/// A contact of a knot: the first or last one, which the controller follows, or another.
 enum class KnotEnd : std::uint8_t { first, last, neither };
 
-/// The same physical constraint has the same id in every step.
+/// Identity of a row: one physical constraint has the same id in every step.
 struct RowId {
   enum class Of : std::uint8_t {
     head,
@@ -48,7 +48,7 @@ struct RowId {
     along_b
   };
   Of of = Of::head;
-  KnotEnd end = KnotEnd::neither;  ///< of a row of Eq. 6
+  KnotEnd end = KnotEnd::neither;  ///< end of a row of Eq. 6
   /// Head and limits: the dof. Plane: body, obstacle. Contacts, strands, and rows of Eq. 6 at
   /// neither end of the knot: segments.
   int first = 0, second = 0;
@@ -57,11 +57,11 @@ struct RowId {
   auto operator<=>(const RowId&) const = default;
 };
 
-/// C q̇ = sign q̇[dof] + next_sign q̇[dof + 1].
+/// C q̇ = sign q̇[dof] + next_sign q̇[dof + 1]. A *unit row* has sign +1 or -1 and next_sign 0.
 struct OnJoint {
   int dof = -1;
-  double sign = 1;       ///< of a unit row +1 or -1
-  double next_sign = 0;  ///< of a unit row 0
+  double sign = 1;       ///< coefficient of q̇[dof]
+  double next_sign = 0;  ///< coefficient of q̇[dof + 1]
 };
 
 /// C q̇ = direction . (ẋ_a - ẋ_b), each point a mix of body centres; `b` may have none.
@@ -72,15 +72,15 @@ struct BetweenPoints {
   /// velocities of the rigid bodies at this point, mixed with the same weights. The forces of such
   /// a row are internal: their sum and their moment are zero.
   std::optional<Eigen::Vector3d> at;
-  /// Of a row that is seen from the head: the couple at the head per unit λ that takes up the
-  /// moment of the forces at the two points, world axes, cm.
+  /// The couple at the head, per unit λ, of a row that is seen from the head. It takes up the
+  /// moment of the forces at the two points. World axes, cm.
   std::optional<Eigen::Vector3d> head_couple;
 };
 
 /// The mean of rows between points over a patch of contact (Eq. 6), of which the points are only
 /// where the patch begins.
 struct OverPatch : BetweenPoints {
-  std::vector<BodyWrench> wrenches;  ///< C', of each body that takes part, rising
+  std::vector<BodyWrench> wrenches;  ///< C' on each body that takes part, rising
 };
 
 /// One row of C q̇ >= d, or of C q̇ = d.
@@ -88,8 +88,8 @@ struct Row {
   RowKind kind = RowKind::limit;
   RowId id;
   std::variant<OnJoint, BetweenPoints, OverPatch> shape;
-  int obstacle = -1;  ///< of an obstacle's row: its index
-  int command = -1;   ///< of a thigmotaxis row: the index of its command
+  int obstacle = -1;  ///< index of the obstacle, in rows of obstacles
+  int command = -1;   ///< index of the command, in rows of thigmotaxis
   double rhs = 0;     ///< d, cm/s or rad/s
   /// The part of λ of an impact, which acts at once. Half of the rest acts before the middle of the
   /// step (midpoint rule, midpoint/impacts.hpp).
@@ -102,7 +102,7 @@ struct Row {
   /// Null where it has another shape.
   const OnJoint* joint() const { return std::get_if<OnJoint>(&shape); }
   const OverPatch* patch() const { return std::get_if<OverPatch>(&shape); }
-  /// Those of a row that is not on a joint.
+  /// The points of a row that is not on a joint.
   const BetweenPoints& points() const {
     const OverPatch* over = patch();
     return over != nullptr ? *over : std::get<BetweenPoints>(shape);

@@ -20,12 +20,12 @@ enum class RowKind : std::uint8_t {
 
 struct RowKindEntry {
   RowKind value;
-  const char* name;  ///< in logs; "wall" dates from before other obstacles
+  const char* name;  ///< name in logs; "wall" dates from before other obstacles
   const char* description;
   bool from_outside = false;  ///< whether forces come from outside the animal
 };
 
-/// In the order in which logs and tables have them.
+/// Kinds in the order in which logs and tables have them.
 inline constexpr TableOf<RowKindEntry> row_kind_table{
     {{RowKind::thigmotaxis, "thigmotaxis", "f_thigmo = C_thigmo' lambda_thigmo / h (Eq. 8)"},
      {RowKind::contact, "contact", "self-contact"},
@@ -34,7 +34,7 @@ inline constexpr TableOf<RowKindEntry> row_kind_table{
      {RowKind::obstacle, "wall", "head plate and other obstacles", true}}};
 static_assert(lists_each_once(row_kind_table));
 
-/// In the order of the enumeration, which is the order of sums.
+/// Kinds in the order of the enumeration, which is the order of sums.
 inline constexpr auto row_kinds = [] {
   std::array<RowKind, row_kind_table.size()> kinds{};
   for (std::size_t k = 0; k < kinds.size(); ++k) kinds[k] = static_cast<RowKind>(k);
@@ -45,7 +45,7 @@ constexpr bool from_outside(RowKind kind) {
   return row_kind_table[place_in(row_kind_table, kind)].from_outside;
 }
 
-/// One of each kind.
+/// One T for each kind.
 template <class T>
 struct ByKind {
   std::array<T, row_kinds.size()> of_kind{};

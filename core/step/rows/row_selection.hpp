@@ -1,4 +1,4 @@
-// Which rows a step's problem contains: those near binding at first, violated ones later.
+// The rows of a step's problem: those near binding at first, violated ones later.
 #pragma once
 
 #include <vector>

@@ -11,9 +11,9 @@ namespace hagfish {
 /// Selects the unilateral rows near binding. Most of the animal's 500 rows are far from it.
 struct NearBinding {
   const Eigen::VectorXd& v;  ///< a velocity, nv
-  BodyVelocities bodies;     ///< at it
+  BodyVelocities bodies;     ///< motion of the bodies at it
   double slack;              ///< rows of angles are near where C v - d is below this, rad/s
-  double slack_at_rest;      ///< or where -d is below this: they touch
+  double slack_at_rest;      ///< rows with -d below this are near, too: they touch
   double radius = 1;         ///< rows of points: both bounds times this, cm
 
   bool operator()(double row_velocity, double rhs) const {
