@@ -14,7 +14,7 @@ run_of() {
 }
 # A body of the rigidity EI = $1 and muscles without a bound. They follow their program as those of the living scenes do, so they are stiffer in a
 # body that is stiffer than these, and no softer in a softer one.
-rigid() { awk -v b="$1" 'BEGIN { printf "--set active.stiffness=%g --set active.capacity=1e9 ", b > 2e5 ? 2.5 * b : 5e5 }' && stiffness "$1"; }
+rigid() { awk -v b="$1" 'BEGIN { printf "--set active.stiffness=%g --set active.capacity=1e9 ", (b > 2e5 ? 2.5 * b : 5e5) }' && stiffness "$1"; }
 
 with="--set muscle.present=true"
 moved="$with --set controller.law=muscles --set muscle.activation_time=0.1 --set expect.speed_share=0"
