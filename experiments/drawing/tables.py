@@ -27,10 +27,11 @@ def markdown(head: Sequence[str], rows: Iterable[Sequence[str]]) -> list[str]:
     return [line(head), "|" + "---|" * len(head), *map(line, rows)]
 
 
-def write_table(folder: Path, name: str, head: Sequence[str], rows: Iterable[Sequence[Any]]) -> None:
+def write_table(
+        folder: Path, name: str, head: Sequence[str], rows: Iterable[Sequence[Any]], notes: Sequence[str] = ()) -> None:
     """A table of a page of results, where results.py takes it."""
     (folder / "tables").mkdir(parents=True, exist_ok=True)
-    write_csv(folder / "tables" / f"{name}.csv", head, rows)
+    write_csv(folder / "tables" / f"{name}.csv", head, rows, notes)
 
 
 def write_csv(path: Path, head: Sequence[str], rows: Iterable[Sequence[Any]], notes: Sequence[str] = ()) -> None:

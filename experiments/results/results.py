@@ -103,8 +103,11 @@ def question_of(name: str) -> str:
 
 
 def shown_by(name: str) -> list[str]:
-    """The tables of a page, in its order, as it names them: other pages' have their folder before them."""
-    return list(dict.fromkeys(match[2] for match in BLOCK.finditer(text_of(name)) if match[1] == "table"))
+    """The tables of a page, in its order, as it names them: other pages' have their folder before them. Those come last of
+    which it has figures in sentences alone."""
+    text = text_of(name)
+    tables = [match[2] for match in BLOCK.finditer(text) if match[1] == "table"]
+    return list(dict.fromkeys([*tables, *(match[2] for match in VALUE.finditer(text))]))
 
 
 def tables_of(name: str) -> list[Path]:

@@ -1,8 +1,8 @@
-"""The reflex: its table, its page and its figure.
+"""The reflex: its tables and figures.
 
-Usage: reflex.py FOLDER OUT.csv OUT.md OUT.png (writes a PDF beside). FOLDER is what study.sh leaves. Rows of OUT.csv
-stay where FOLDER has not their part of the study, so that a part can be made anew by itself. The page is made of the table alone: a test
-makes it again.
+Usage: reflex.py FOLDER KNOWN.csv. FOLDER is what study.sh leaves, KNOWN.csv the table of all runs as the page has it. Its rows
+stay where FOLDER has not their part of the study, so that a part can be made anew by itself: of an empty FOLDER all tables are
+made of those that are known. A test makes them so.
 """
 
 from __future__ import annotations
@@ -12,27 +12,33 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
+import matplotlib.image
 import numpy as np
 
 import plots
 import reflex_runs
+import skin
 import tables
 from hagfish_log import HagfishLog
+from log_pictures import pictures_of
 from reflex_runs import Row, read_table
 from script import run_script
 from slides import log_of
 
 KNOTS = list(plots.KNOTS)
 USUAL, FINE_MESH, FINE_STEP, FINEST = "100; 2", "200; 2", "100; 1", "200; 1"  # bodies; step, ms
-ASKED_MESH = 3  # %, by which the time of the slide may differ between meshes
 STIFFNESS, RIGIDITY, DAMPING = 5e5, 2e5, 3e3  # B_a of living_overhand; B and C of the specimen: dyn cm^2, dyn cm^2, dyn cm^2 s
 NAMES = {"delay": "senses late by, s", "noise": "senses wrong by, share of each angle", "bodies": "bodies", "step": "step, s",
          "drag": "drag across the body, g/(s cm)", "muscle": "muscles B_a, dyn cm²", "damping": "damping C, dyn cm² s",
          "stiffness": "body EI, dyn cm²", "animals": "other animals", "starts": "starts with 3° of noise"}
+SHIFT = 0.0106  # cm: the scenes' 2.5e-4 L
 UNTIED = "not tied"
 CHANGES = {"shift": "Δ, cm", "delay": NAMES["delay"], "noise": NAMES["noise"], "normal": NAMES["drag"], "bending_damping": NAMES["damping"],
            "noise_deg": "starts with noise, degrees"}
 LOOSE = {"tighten": "where the knot is first there", "form": "a second before that"}
+
+
+Cells = tuple[list[str], list[list[str]]]  # heading and rows of a table
 
 
 def pick(rows: Iterable[Row], **wanted: str) -> list[Row]:
@@ -70,7 +76,7 @@ def span(values: Iterable[float | None], form: Callable[[float], str] = lambda v
     return least if least == most else f"{least} to {most}"
 
 
-def knots_table(rows: list[Row]) -> list[str]:
+def knots_table(rows: list[Row]) -> Cells:
     body = []
     for head in ("clamped", "free"):
         for knot in KNOTS:
@@ -79,8 +85,7 @@ def knots_table(rows: list[Row]) -> list[str]:
                 if row is not None:
                     body.append([f"{knot}, {head}", name, came(row), row.held, figure_of(row.torque, 2), figure_of(row.effort, 2),
                                  figure_of(row.put_in, 2), figure_of(row.work, 2), figure_of(row.wave, 2), figure_of(row.travel, 2)])
-    return tables.markdown(["knot, head", "law", "way, cm, in time", "type held", "largest torque, dyn cm", "effort, dyn s",
-                            "work put in, erg/cm", "net work, erg/cm", "wave's speed, of the knot's", "travel, share of change"], body)
+    return ["knot, head", "law", "way, cm, in time", "type held", "largest torque, dyn cm", "effort, dyn s", "work put in, erg/cm", "net work, erg/cm", "wave's speed, of the knot's", "travel, share of change"], body
 
 
 def apart(a: float | None, b: float | None) -> str:
@@ -88,7 +93,7 @@ def apart(a: float | None, b: float | None) -> str:
     return f"{100 * (b / a - 1):+.1f}" if a and b else "-"
 
 
-def mesh_table(rows: list[Row]) -> list[str]:
+def mesh_table(rows: list[Row]) -> Cells:
     settings = [USUAL, FINE_MESH, FINE_STEP, FINEST]
     body = []
     for head in ("clamped", "free"):
@@ -98,11 +103,10 @@ def mesh_table(rows: list[Row]) -> list[str]:
             time, middle = of("time"), of("middle")
             body.append([f"{knot}, {head}", *("; ".join(figure_of(value) for value in pair) for pair in zip(time, middle)),
                          *(apart(values[0], values[1]) for values in (time, middle)), apart(middle[1], middle[3])])
-    return tables.markdown(["slide; its middle, s", *(f"{s.split('; ')[0]} bodies, {s.split('; ')[1]} ms" for s in settings),
-                            "slide, 200 against 100 bodies, %", "middle, the same, %", "middle, 1 against 2 ms, 200 bodies, %"], body)
+    return ["slide; its middle, s", *(f"{s.split('; ')[0]} bodies, {s.split('; ')[1]} ms" for s in settings), "slide, 200 against 100 bodies, %", "middle, the same, %", "middle, 1 against 2 ms, 200 bodies, %"], body
 
 
-def meshes_table(rows: list[Row]) -> list[str]:
+def meshes_table(rows: list[Row]) -> Cells:
     own = pick(rows, study="meshes")
     counts = list(dict.fromkeys(row.setting for row in own))
     body = []
@@ -111,51 +115,31 @@ def meshes_table(rows: list[Row]) -> list[str]:
             found = [one(own, knot=knot, head=head, setting=count) for count in counts]
             times = {count: row.middle for count, row in zip(counts, found) if row}
             body.append([f"{knot}, {head}", *(figure_of(times.get(count)) for count in counts), apart(times.get("200"), times.get("400"))])
-    return tables.markdown(["middle of the slide, s", *(f"{count} bodies" for count in counts), "400 against 200, %"], body)
+    return ["middle of the slide, s", *(f"{count} bodies" for count in counts), "400 against 200, %"], body
 
 
-def changed_table(rows: list[Row]) -> list[str]:
-    """The free head: one setting changed at a time, and starts."""
-    own = pick(rows, study="free")
-    body = []
-    for setting in dict.fromkeys(row.setting for row in own):
-        name, _, value = setting.partition(" = ")
-        cells = []
-        for knot in KNOTS:
-            runs = pick(own, knot=knot, setting=setting)
-            cells.append(came(runs[0]) if len(runs) == 1 else f"{len(pick(runs, slid='yes'))} of {len(runs)}")
-        body.append([f"{CHANGES.get(name, name)}: {value}" if value else setting, *cells])
-    programs = pick(rows, study="free_programs")
-    if programs:
-        tied = lambda knot: [row for row in pick(programs, knot=knot) if row.way is not None]
-        body.append(["programs with noise of 0.2 rad/L", *(f"{len(pick(tied(knot), slid='yes'))} of {len(tied(knot))} tied" for knot in KNOTS)])
-    return tables.markdown(["3_1 to 5_2, free, h = 5 ms", *KNOTS], body)
-
-
-def wiped_table(rows: list[Row]) -> list[str]:
+def wiped_table(rows: list[Row]) -> Cells:
     body = []
     for head in ("clamped", "free"):
         for knot in KNOTS:
             pair = [one(rows, study=study, knot=knot, head=head, setting=USUAL) for study in ("knots", "paper")]
             body.append([f"{knot}, {head}", *(figure_of(getattr(row, key) if row else None, 2) for row in pair for key in ("rings", "skin"))])
-    return tables.markdown(["share that skin pressed on", "reflex: length", "reflex: skin", "Eq. 6: length", "Eq. 6: skin"], body)
+    return ["share that skin pressed on", "reflex: length", "reflex: skin", "Eq. 6: length", "Eq. 6: skin"], body
 
 
-def loose_table(rows: list[Row]) -> list[str]:
+def loose_table(rows: list[Row]) -> Cells:
     body = [[row.knot, LOOSE[row.study], row.setting, figure_of(row.time, 2), row.types.replace(" ", ", "), figure_of(row.span_from), figure_of(row.span_to)]
             for row in rows if row.study in ("tighten", "form")]
-    return tables.markdown(["knot", "the reflex begins", "Δ at the tail end, of that at the head end", "for, s", "what there was, in turn", "span then, cm",
-                            "least span, cm"], body)
+    return ["knot", "the reflex begins", "Δ at the tail end, of that at the head end", "for, s", "what there was, in turn", "span then, cm", "least span, cm"], body
 
 
-def grid_table(rows: list[Row], study: str) -> list[str]:
+def grid_table(rows: list[Row], study: str) -> Cells:
     own = pick(rows, study=study)
     settings = list(dict.fromkeys(row.setting for row in own))
-    return tables.markdown(["what copies", *KNOTS], [[setting, *(came(one(own, knot=knot, setting=setting)) for knot in KNOTS)]
-                                                     for setting in settings])
+    return ["what copies", *KNOTS], [[setting, *(came(one(own, knot=knot, setting=setting)) for knot in KNOTS)] for setting in settings]
 
 
-def speed_table(rows: list[Row]) -> list[str]:
+def speed_table(rows: list[Row]) -> Cells:
     own = pick(rows, study="speed")
     cases = list(dict.fromkeys((row.knot, row.head) for row in own))
     shifts = list(dict.fromkeys(row.setting.split("; ")[0] for row in own))
@@ -167,25 +151,36 @@ def speed_table(rows: list[Row]) -> list[str]:
             pair = [one(own, knot=knot, head=head, setting=f"{shift}; {step}") for step in (5, 2)]
             cells.append("; ".join(f"{row.speed / law:.2f}" + ("" if row.slid == "yes" else "*") for row in pair if row and row.way))
         body.append([shift, figure_of(law), *cells])
-    return tables.markdown(["Δ, cm", "law, cm/s", *(f"{knot}, {head}: measured of law, 5 ms; 2 ms" for knot, head in cases)], body)
+    return ["Δ, cm", "law, cm/s", *(f"{knot}, {head}: measured of law, 5 ms; 2 ms" for knot, head in cases)], body
 
 
-def robust_table(rows: list[Row]) -> list[str]:
+def slid_of(rows: list[Row]) -> str:
+    return f"{len(pick(rows, slid='yes'))} of {len(rows)}"
+
+
+def robust_table(rows: list[Row]) -> Cells:
+    """One setting changed at a time, other animals and starts."""
     body = []
+    tied = lambda own, knot: [row for row in pick(own, knot=knot) if row.way is not None]
     for study, name in NAMES.items():
         own = pick(rows, study=study)
-        if not own:
-            continue
         if study in ("animals", "starts"):
-            tied = lambda knot: [row for row in pick(own, knot=knot) if row.way is not None]
-            body.append([name, *(f"{len(pick(tied(k), slid='yes'))} of {len(tied(k))} tied" for k in KNOTS)])
+            body += [[f"clamped, {name}", *(f"{slid_of(tied(own, knot))} tied" for knot in KNOTS)]] if own else []
             continue
         for setting in dict.fromkeys(row.setting for row in own):
-            body.append([f"{name}: {setting}", *(came(one(own, knot=knot, setting=setting)) for knot in KNOTS)])
-    return tables.markdown(["3_1 to 5_2, clamped, h = 5 ms", *KNOTS], body)
+            body.append([f"clamped, {name}: {setting}", *(came(one(own, knot=knot, setting=setting)) for knot in KNOTS)])
+    own = pick(rows, study="free")
+    for setting in dict.fromkeys(row.setting for row in own):
+        name, _, value = setting.partition(" = ")
+        runs = [pick(own, knot=knot, setting=setting) for knot in KNOTS]
+        body.append([f"free, {CHANGES.get(name, name)}: {value}" if value else f"free, {setting}",
+                     *(came(each[0]) if len(each) == 1 else slid_of(each) for each in runs)])
+    if programs := pick(rows, study="free_programs"):
+        body.append(["free, programs with noise of 0.2 rad/L", *(f"{slid_of(tied(programs, knot))} tied" for knot in KNOTS)])
+    return ["3_1 to 5_2, h = 5 ms", *KNOTS], body
 
 
-def claims_table(rows: list[Row]) -> list[str]:
+def claims_table(rows: list[Row]) -> Cells:
     body = []
     for study, name in (("knots", "reflex"), ("paper", "Eq. 6")):
         for knot in KNOTS:
@@ -193,15 +188,25 @@ def claims_table(rows: list[Row]) -> list[str]:
             if row is not None and row.behind is not None:
                 body.append([knot, name, figure_of(row.behind, 2), figure_of(row.near, 2), row.rank, figure_of(row.rough_space, 2),
                              figure_of(row.rough_time, 2), figure_of(row.likeness, 2)])
-    return tables.markdown(["knot", "law", "largest behind the knot, of the largest", "near the head, of far from it", "grows to the head",
-                            "roughness along the body", "roughness in time", "cosine with the curvature's gradient"], body)
+    return ["knot", "law", "largest behind the knot, of the largest", "near the head, of far from it", "grows to the head", "roughness along the body", "roughness in time", "cosine with the curvature's gradient"], body
 
 
-def pull_table(rows: list[Row]) -> list[str]:
+def pull_table(rows: list[Row]) -> Cells:
     body = [[row.knot, "Eq. 6 at all contacts" if row.setting == "paper" else "reflex, scene's Δ", figure_of(row.pull, 2), row.held]
             for row in pick(rows, study="pull")]
     body += [[row.knot, f"reflex, Δ = {row.setting} cm", figure_of(row.pull, 2), row.held] for row in pick(rows, study="pull_shift")]
-    return tables.markdown(["knot", "law", "pull, N", "type held"], sorted(body, key=lambda cells: cells[0]))
+    return ["knot", "law", "pull, N", "type held"], sorted(body, key=lambda cells: cells[0])
+
+
+def soft_pairs(rows: list[Row]) -> list[tuple[Row, Row]]:
+    """The same soft body slid by the reflex and by Eq. 6."""
+    return [(own, other) for other in pick(rows, study="paper_soft")
+            for own in pick(rows, study="stiffness", knot=other.knot, setting=other.setting)]
+
+
+def soft_table(rows: list[Row]) -> Cells:
+    return ["knot, EI, dyn cm²", "reflex", "Eq. 6 at all contacts"], [
+        [f"{own.knot}, {own.setting}", came(own), came(other)] for own, other in soft_pairs(rows)]
 
 
 def beside(rows: list[Row], row: Row) -> Row | None:
@@ -209,159 +214,80 @@ def beside(rows: list[Row], row: Row) -> Row | None:
     return one(rows, study="beside", knot=row.knot, head=row.head, setting=row.setting if row.setting.startswith("no drag") else "with drag")
 
 
-def mujoco_table(rows: list[Row]) -> list[str]:
+def mujoco_table(rows: list[Row]) -> Cells:
     body = []
     for row in pick(rows, study="mujoco"):
         own = beside(rows, row)
         body.append([f"{row.knot}, {row.head}", row.setting or "from the straight body", came(row), row.held, came(own),
                      figure_of(own.time / row.time if own and own.time else None), figure_of(own.middle / row.middle if own and own.middle and row.middle else None)])
-    return tables.markdown(["knot, head", "run", "MuJoCo: way, cm, in time", "type held", "here", "speed there, of that here", "the same, middle of the slide"], body)
+    return ["knot, head", "run", "MuJoCo: way, cm, in time", "type held", "here", "speed there, of that here", "the same, middle of the slide"], body
 
 
-def counted(rows: list[Row], study: str) -> tuple[int, int]:
-    own = [row for row in pick(rows, study=study) if row.way is not None]
-    return len(pick(own, slid="yes")), len(own)
-
-
-def page(rows: list[Row], notes: list[str]) -> list[str]:
-    usual = pick(rows, study="knots", setting=USUAL)
-    paper = pick(rows, study="paper")
-    all_slid = f"{len(pick(usual, slid='yes'))} of {len(usual)}"
+def figures_table(rows: list[Row]) -> Cells:
+    """What sentences of the page say and no other table has."""
+    usual, paper, rate = pick(rows, study="knots", setting=USUAL), pick(rows, study="paper"), pick(rows, study="rate")
     efforts = [own.effort / other.effort for own in usual if own.effort
                for other in pick(paper, knot=own.knot, head=own.head) if other.effort]
-    starts, animals = counted(rows, "starts"), counted(rows, "animals")
-    off = lambda key, setting, base=USUAL, **of: max((100 * abs(getattr(other, key) / getattr(own, key) - 1) for own in pick(rows, study="knots", setting=base, **of)
-                                                      if getattr(own, key) for other in pick(rows, study="knots", setting=setting, knot=own.knot, head=own.head)
-                                                      if getattr(other, key)), default=np.nan)
-    middles = lambda study, setting, knot, head: getattr(one(rows, study=study, setting=setting, knot=knot, head=head), "middle", None)
-    curves = {knot: apart(middles("curves", "100", knot, "clamped"), middles("curves", "200", knot, "clamped")) for knot in KNOTS}
-    free_runs = pick(rows, study="free") + pick(rows, study="free_programs")
-    free_tied = [row for row in free_runs if row.way is not None]
-    rate = pick(rows, study="rate")
-    soft = [(own, other) for other in pick(rows, study="paper_soft") for own in pick(rows, study="stiffness", knot=other.knot, setting=other.setting)]
-    lost = [(own, other) for own, other in soft if other.held == "no"]
-    free = [row.speed / law_speed(0.0106) for row in usual if row.head == "free"]  # the scenes' 2.5e-4 L
-    nothing = [row.way for row in pick(rows, study="knockouts", setting="nothing copied")]
+    tied = lambda *studies: [row for study in studies for row in pick(rows, study=study) if row.way is not None]
     shuffled = [row for row in pick(rows, study="laws") if row.setting.startswith("shuffled")]
-    reflex_pull, paper_pull = pick(rows, study="pull", setting="reflex"), pick(rows, study="pull", setting="paper")
-    which = {"drag": lambda row: not row.setting.startswith("no drag"), "none": lambda row: row.setting == "no drag", "fine": lambda row: "200 bodies" in row.setting}
-    ratios = lambda key, of: [getattr(own, key) / getattr(row, key) for row in pick(rows, study="mujoco") if which[of](row) for own in [beside(rows, row)]
-                              if own and getattr(own, key) and getattr(row, key)]
-    pulls = "; ".join(f"{knot}: {figure_of(one(reflex_pull, knot=knot).pull, 2)} N against {figure_of(one(paper_pull, knot=knot).pull, 2)} N"
-                      for knot in KNOTS if one(reflex_pull, knot=knot) and one(paper_pull, knot=knot))
-    return [
-        "# One local rule slides every knot: the reflex", "",
-        "`bash study.sh` makes this page, [its table](reflex.csv) and the figure. " + " ".join(notes), "",
-        "**Question.** How could a hagfish control so many joints while a knot slides to its head?", "",
-        "**Answer.** It need not compute forces: if every joint copies its tailward neighbour, each of the four knots slides. "
-        f"Here {all_slid} runs did, with the head held and free, by one number.", "",
-        "![Ways, torque and gradient, law of speed, and where the rule holds](../figures/reflex.png)", "",
-        "## Why", "",
-        "Each joint takes the curvature that its body has a small length Δ behind it. Muscles of stiffness B_a pull there:", "",
-        "    torque = B_a (κ(s + Δ) - κ(s)) ≈ B_a Δ ∂κ/∂s          and the same share of the body's own stiffness B",
-        "    C ∂κ/∂t = (B_a + B) Δ ∂κ/∂s   has the solution   κ(s, t) = κ(s + v t, 0),   v = Δ (B_a + B) / C", "",
-        "C is the damping of the body, s the arc length from the head. Any shape travels to the head as it is. A knot is a shape. No term knows of knots, contacts or forces.", "",
-        "## All four knots, beside Eq. 6 at all contacts", "",
-        "The animal is the same, and so is the program that ties the knot. Effort is the mean over the body of all torque, for each cm of way. "
-        "*Travel* is the share of the shape's change that a wave to the head explains.", "",
-        *knots_table(rows),
-        f"- The reflex takes {span(efforts, lambda v: f'{v:.2f}')} times the effort of Eq. 6 at all contacts.",
-        f"- Its shape travels: {span([row.travel for row in usual])} of all change; by Eq. 6 {span([row.travel for row in paper])}.",
-        f"- The wave has {span([row.wave for row in usual])} times the speed of the knot.",
-        "- Its net work is negative: the body's springs, bent by the program, give more back than water and joints take.", "",
-        *mesh_table(rows),
-        f"*Steps.* Between 2 and 1 ms no time differs by more than {max(off('time', FINE_STEP), off('time', FINEST, FINE_MESH), off('middle', FINE_STEP), off('middle', FINEST, FINE_MESH)):.1f} %.", "",
-        "*Meshes.* A slide begins and ends with contacts that come and go, and the log's head end hops from joint to joint, by up to a centimetre. The middle of a "
-        "slide is timed between two arcs of the place where skins first come within 0.05 cm, which goes evenly "
-        f"({'; '.join(f'{knot}: {first:g} to {last:g} cm' for knot, (first, last) in reflex_runs.MIDDLE.items())}).", "",
-        f"- Free heads: 200 bodies differ from 100 by up to {off('middle', FINE_MESH, head='free'):.1f} % there, where {ASKED_MESH} % were asked for.",
-        f"- Clamped heads: by up to {off('middle', FINE_MESH, head='clamped'):.1f} %: not within {ASKED_MESH} %. A head plate besides holds up the end of these slides.", "",
-        *meshes_table(rows),
-        "One cause is the rule itself. Between two joints it takes the curvature on a straight line, so that a shape smears as it travels, by v/2 times the spacing of joints. "
-        "Where joints copy a parabola through three of them instead, 200 bodies differ from 100, clamped, by "
-        + "; ".join(f"{knot}: {value} %" for knot, value in curves.items() if value != "-") + ". That brings the 3_1 within 3 %, and not the 4_1. What holds the others apart was not found.", "",
-        "## The law of speed", "",
-        "Measured speed over v = Δ (B_a + B) / C. A star marks a knot that came less far than its scene asks.", "",
-        *speed_table(rows),
-        f"With a free head the four knots have {span(free, lambda v: f'{v:.2f}')} times the law's speed, at the scenes' Δ. "
-        "With a clamped head they are slower. At large Δ the speed no longer grows in proportion; what stops it was not measured.", "",
-        "## What it needs: knock-outs", "",
-        "Way of the head end in cm, and the time where the knot came to the head. Without a time it stayed on the body.", "",
-        *grid_table(rows, "knockouts"),
-        f"- Where nothing is copied, nothing slides: {span(nothing, lambda v: f'{v:.1f}')} cm in all that time.",
-        "- Copying the headward neighbour sends the knot to the tail and off.",
-        "- Either bend is enough for some knots, both bends for all. Twist alone slides nothing, and is not needed.",
-        "- Joints near a contact are enough if the reach is some centimetres.", "",
-        "Fewer joints, from the same tied knot (`experiments/results/reflex/reflex_laws.py`, without the C++ law):", "",
-        *grid_table(rows, "laws"),
-        f"- Shuffled neighbours lose the knot: {len(pick(shuffled, held='no'))} of {len(shuffled)} runs.",
-        "- Joints of the knot are enough. Those outside it do nothing: cutting them changes little.",
-        "- Each joint must copy: one joint of two is not enough.",
-        "- The first third of the knot is enough for some knots, and slow.",
-        "- Muscles of one side are enough, and take longer.", "",
-        "Fewer numbers: each joint gets a new command some times a second, and holds it in between. It holds its torque beyond that of its own angle, "
-        "or its rest shape, taken as far behind as a shape travels until the next one:", "",
-        *grid_table(rows, "rate"),
-        f"- {len(pick(rate, slid='yes'))} of {len(rate)} runs came to the head. One new torque a second is enough for each knot.",
-        "- One new shape a second is a leap by 2.5 cm, which takes the knot along.", "",
-        "## How robust it is", "",
-        f"Of starts that tied, {starts[0]} of {starts[1]} slid; of other animals that tied, {animals[0]} of {animals[1]}." if animals[1] else
-        f"Of starts that tied, {starts[0]} of {starts[1]} slid. Other animals were not run.", "",
-        *robust_table(rows),
-        *changed_table(rows),
-        f"- Free heads: of {len(free_tied)} runs that tied {len(pick(free_tied, slid='yes'))} slid to the head.",
-        "- Noise of the start is gone when the slide begins: the program has the same shape made of it. Noise of the program is not.",
-        "- The free 5_2 comes undone at the head a little before its first contact is at the scene's mark. That counts as lost.",
-        "- *Not tied* is no failure of the reflex: the program could not bend so stiff a body, or so coarse a chain.",
-        "- Senses may be later than the slide is long: then the torques stay what they were at its start. A short slide needs no feedback at all.", "",
-        "## The paper's claims about the sliding force", "",
-        "Held against the reflex's own torque, which is what its muscles do beyond holding the body's shape (clamped, means over 20 ms).", "",
-        *claims_table(rows),
-        "- *Zero behind the knot*: no. Joints that are bent behind the last contact copy too.",
-        "- *Larger near the head*: no. It follows the shape, and the shape hardly changes.",
-        "- *Smooth along the body, noisy in time*: the other way round. It is smooth in time, and as rough along the body as the shape's gradient.", "",
-        "## What else it does", "",
-        *pull_table(rows),
-        f"- Does it pull at food? Yes; here beside Eq. 6 at all contacts, each as its scenes are set: {pulls}.", "",
-        *loose_table(rows),
-        "- Does it tighten a knot? The 3_1, by a fifth, if Δ is three times as large at the knot's tail end; even, hardly. Others it does not.",
-        "- Does it form a knot from a loose loop? No: cut off a second early, no knot came to be what it was to be.", "",
-        *wiped_table(rows),
-        f"- Does it wipe? Yes: skin pressed on {span([row.rings for row in usual])} of the body's length, and on {span([row.skin for row in usual])} of all skin at least, "
-        f"in one slide; by Eq. 6 on {span([row.rings for row in paper])} and {span([row.skin for row in paper])}. Contacts are counted as points.", "",
-        *tables.markdown(["knot, EI, dyn cm²", "reflex", "Eq. 6 at all contacts"], [[f"{own.knot}, {own.setting}", came(own), came(other)] for own, other in soft]),
-        (f"- Does it keep a knot that Eq. 6 loses? Of the {len(lost)} that Eq. 6 lost here it kept {sum(own.held == 'yes' for own, _ in lost)}. " if lost else
-         f"- Does it keep a knot that Eq. 6 loses? None was found: Eq. 6 lost none of {len(soft)} here. ")
-        + f"The reflex came to the head in {sum(own.slid == 'yes' for own, _ in soft)} of them, Eq. 6 in {sum(other.slid == 'yes' for _, other in soft)}.", "",
-        "## In MuJoCo, in closed loop", "", "`hagfish mujoco-run`: MuJoCo's own soft contacts and limits, h = 2 ms. No restarts. MuJoCo's model has no head plate, so the runs here have none either.", "",
-        *mujoco_table(rows),
-        f"- With drag the knot's speed there is {span(ratios('time', 'drag'), lambda v: f'{v:.2f}')} times that here over the slide, and {span(ratios('middle', 'drag'), lambda v: f'{v:.2f}')} in its middle.",
-        f"- Without drag it is {span(ratios('time', 'none'), lambda v: f'{v:.2f}')} times. The 5_1 alone is apart, and of 200 bodies it is not: there {span(ratios('time', 'fine'), lambda v: f'{v:.2f}')} times.",
-        "- Held against runs here with a head plate, the 5_2 was 1.21 times as fast: the plate holds up its last centimetre.", "",
-        "![The three-twist knot here and in MuJoCo](../figures/reflex_strip.png)", "",
-        "Above: here. Below: MuJoCo. Colours: bending torque of the muscles, to 1.2e5 dyn cm (yellow). Both simulators side by side, as a replay and as films:", "",
-        "    hagfish run reflex_three_twist --set wall.present=false --out here.h5",
-        "    hagfish mujoco-run reflex_three_twist --out there.h5",
-        "    hagfish view here.h5 there.h5 --out replay.html",
-        "    hagfish movie there.h5 --out there.mp4 --colour active", "",
-        "## What an experiment could look for", "",
-        "1. The wave of bending along the body has the knot's own speed. By f_thigmo it has not.",
-        "2. Late senses do no harm: a knot slides on when its animal cannot feel what it does.",
-        "3. Cutting the feedback beyond the knot changes nothing.",
-        "4. Stiffer muscles slide the knot faster; more damping of the body slows it.",
-        "5. Muscles may be told anew as rarely as once a second, and the knot slides on.", "",
-        "## What f_thigmo tells that the reflex does not", "",
-        "f_thigmo is what joints must do so that the body slides along itself at given speeds. It bounds the speed at contacts, "
-        "and says where forces must act if nothing behind the knot may. It is not the gradient of the shape, as its cosine shows. "
-        "The reflex commands no speed at a contact: contacts, water and damping decide. Inverse dynamics tell what is needed; the reflex tells how little is enough.", "",
-        "## What is new", "",
-        "A controller of one number that knows neither knot, contact nor model slides all four knots, and a closed form of its speed. "
-        "Muscle torques are found by each joint alone.", "",
-        "## What this page does not show", "",
-        "- That a hagfish does it: nobody has measured how bending travels in a sliding knot.",
-        "- Friction and flesh, which the model lacks.",
-        "- Pairs of changes at once, and laws that the tables lack: they were not run.",
-        "- The law of speed at many Δ with a free head."]
+    free = [row.speed / law_speed(SHIFT) for row in usual if row.head == "free"]
+    nothing = [row.way for row in pick(rows, study="knockouts", setting="nothing copied")]
+    soft = soft_pairs(rows)
+    lost = [own for own, other in soft if other.held == "no"]
+    there = [(beside(rows, row), row) for row in pick(rows, study="mujoco")]
+    two, one_digit = (lambda value: f"{value:.2f}"), (lambda value: f"{value:.1f}")
+
+    def off(key: str, setting: str, base: str = USUAL, **of: str) -> float:
+        """The most by which runs of a setting differ from those of another, %."""
+        pairs = [(getattr(own, key), getattr(other, key)) for own in pick(rows, study="knots", setting=base, **of)
+                 for other in pick(rows, study="knots", setting=setting, knot=own.knot, head=own.head)]
+        return max((100 * abs(other / own - 1) for own, other in pairs if own and other), default=np.nan)
+
+    def ratios(key: str, wanted: Callable[[str], bool]) -> str:
+        pairs = [(getattr(own, key), getattr(row, key)) for own, row in there if own and wanted(row.setting)]
+        return span([own / other for own, other in pairs if own and other], two)
+
+    def curved(knot: str) -> str:
+        middles = [row.middle for setting in ("100", "200") for row in pick(rows, study="curves", knot=knot, setting=setting)]
+        return apart(*middles)
+
+    with_drag = lambda setting: not setting.startswith("no drag")
+    plate, no_plate = (one(rows, study=study, knot="5_2", head="clamped", setting=setting) for study, setting in (
+        ("knots", USUAL), ("mujoco", "from the slide")))
+    steps = max(off(key, *settings) for key in ("time", "middle") for settings in ((FINE_STEP,), (FINEST, FINE_MESH)))
+    return ["figure", "value"], [
+        ["runs that slid", slid_of(usual)],
+        ["effort, of that of Eq. 6", span(efforts, two)],
+        ["times at two steps differ by at most, %", one_digit(steps)],
+        ["skins touch within, cm", f"{skin.TOUCHING:g}"],
+        *([f"arcs of the middle, {knot}, cm", f"{first:g} to {last:g}"] for knot, (first, last) in reflex_runs.MIDDLE.items()),
+        *([f"meshes differ, {head}, %", one_digit(off("middle", FINE_MESH, head=head))] for head in ("free", "clamped")),
+        *([f"meshes by a parabola, {knot}, %", curved(knot)] for knot in KNOTS if pick(rows, study="curves", knot=knot)),
+        ["speed of a free head, of the law's", span(free, two)],
+        ["way where nothing is copied, cm", span(nothing, one_digit)],
+        ["shuffled neighbours that lose the knot", f"{len(pick(shuffled, held='no'))} of {len(shuffled)}"],
+        ["runs by rate that came to the head", slid_of(rate)],
+        ["leap of a shape held for a second, cm", figure_of(law_speed(SHIFT), 2)],
+        ["starts that slid", slid_of(tied("starts"))],
+        ["animals that slid", slid_of(tied("animals"))],
+        ["free heads that tied", str(len(tied("free", "free_programs")))],
+        ["free heads that slid", str(len(pick(tied("free", "free_programs"), slid="yes")))],
+        ["lost by Eq. 6", f"{len(lost)} of {len(soft)}"],
+        ["of these kept by the reflex", str(len(pick(lost, held="yes")))],
+        ["soft bodies at the head by the reflex", str(len(pick([own for own, _ in soft], slid="yes")))],
+        ["soft bodies at the head by Eq. 6", str(len(pick([other for _, other in soft], slid="yes")))],
+        ["MuJoCo with drag, whole slide", ratios("time", with_drag)],
+        ["MuJoCo with drag, middle", ratios("middle", with_drag)],
+        ["MuJoCo without drag", ratios("time", lambda setting: setting == "no drag")],
+        ["MuJoCo without it, fine mesh", ratios("time", lambda setting: "200 bodies" in setting)],
+        ["5_2 here with a head plate, of MuJoCo's time", two(plate.time / no_plate.time)]]
+
+
+TABLES: dict[str, Callable[[list[Row]], Cells]] = {
+    "knots": knots_table, "mesh": mesh_table, "meshes": meshes_table, "speed": speed_table,
+    "knockouts": lambda rows: grid_table(rows, "knockouts"), "laws": lambda rows: grid_table(rows, "laws"),
+    "rate": lambda rows: grid_table(rows, "rate"), "robust": robust_table, "claims": claims_table, "pull": pull_table,
+    "loose": loose_table, "wiped": wiped_table, "soft": soft_table, "mujoco": mujoco_table, "figures": figures_table}
 
 
 def draw_ways(axes: Any, folder: Path) -> None:
@@ -448,24 +374,38 @@ def draw(folder: Path, rows: list[Row], out: Path) -> None:
     plots.save(figure, out)
 
 
-def notes_of(folder: Path, kept: list[str]) -> list[str]:
-    """Which machine, and when: of the part of the study that was last run."""
-    logs = sorted((log for log in folder.glob("*/logs/*.h5")), key=lambda path: path.stat().st_mtime)
+def draw_strip(here: Path, there: Path, out: Path) -> None:
+    """One slide here (above) and in MuJoCo (below), at the same times."""
+    slides = [log["/trajectory/time"][log.in_phase("slide")] for log in map(HagfishLog, (here, there))]
+    times = np.linspace(max(slide[0] for slide in slides), min(slide[-1] for slide in slides), 4)
+    # The legend of colours below is too small to be read here.
+    rows = [np.hstack([each[:int(0.75 * len(each))] for each in pictures_of(path, times, "--colour", "active")])
+            for path in (here, there)]
+    matplotlib.image.imsave(out, np.vstack(rows))
+
+
+def note_of(folder: Path, rows: list[Row], kept: list[str]) -> str:
+    """By which programs, on which machine and when: of the part of the study that was last run."""
+    logs = sorted(folder.glob("*/logs/*.h5"), key=lambda path: path.stat().st_mtime)
     if not logs:
-        return kept
+        return kept[0]
     date = datetime.datetime.fromtimestamp(logs[-1].stat().st_mtime, datetime.UTC)
-    return [f"Measured on {HagfishLog(logs[-1]).attribute('cpu')}, {date:%Y-%m-%d}; the column commit has the program of each run."]
+    programs = ", ".join(sorted({row.commit for row in rows}))
+    return f"Measured at {programs} on {HagfishLog(logs[-1]).attribute('cpu')}, {date:%Y-%m-%d}."
 
 
-def main(folder: Path, table: Path, out: Path, figure: Path) -> None:
-    kept, notes = read_table(table) if table.is_file() else ([], [])
+def main(folder: Path, known: Path) -> None:
+    kept, notes = read_table(known) if known.is_file() else ([], [])
     rows = reflex_runs.with_parts(kept, reflex_runs.read_study(folder))
-    reflex_runs.write_table(table, rows, notes_of(folder, notes))
-    rows, notes = read_table(table)
-    tables.write_page(out, page(rows, notes))
+    notes = [note_of(folder, rows, notes)]
+    tables.write_table(folder, "reflex", reflex_runs.HEADING, reflex_runs.cells_of(rows), notes)
+    rows, _ = read_table(folder / "tables/reflex.csv")  # to six digits
+    for name, table in TABLES.items():
+        tables.write_table(folder, f"reflex_{name}", *table(rows), notes)
     if all((folder / part / "table.csv").is_file() for part in ("knots", "beside")):
-        draw(folder, rows, figure)
+        draw(folder, rows, folder / "reflex.png")
+        draw_strip(folder / "beside/logs/6.h5", folder / "mujoco/reflex_three_twist.h5", folder / "reflex_strip.png")
 
 
 if __name__ == "__main__":
-    run_script(__doc__, ["FOLDER", "OUT.csv", "OUT.md", "OUT.png"], main)
+    run_script(__doc__, ["FOLDER", "KNOWN.csv"], main)

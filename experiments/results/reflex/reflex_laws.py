@@ -1,11 +1,13 @@
 """The reflex on few joints and on few numbers: laws in Python that copy at some joints alone, from the wrong neighbour, or now and then.
 A row a run, as CSV.
 
-Usage: PYTHONPATH=build/release/experiments/python python3 experiments/results/reflex/reflex_laws.py laws|rate OUT.csv
+Usage: PYTHONPATH=build/release/experiments/python python3 experiments/results/reflex/reflex_laws.py laws|rate|loose OUT.csv
        ... reflex_laws.py curves DIR
 
-Each knot is tied once; every law begins from there. A joint that does not copy is left to the springs of the body. `curves` leaves logs of
-runs in which a joint copies the parabola through its own curvature and its two neighbours', of 100 and 200 bodies.
+Each knot is tied once; every law begins from there. A joint that does not copy is left to the springs of the body. `curves` leaves
+logs of runs in which a joint copies the parabola through its own curvature and its two neighbours', of 100 and 200 bodies.
+`loose` cuts off the program that ties the knot: where the knot is first there ("tighten"), seen every half second, or a second
+before ("form"). From then on every joint copies, by Δ of the scene or by three times that at the knot's tail end.
 """
 
 from __future__ import annotations
@@ -27,6 +29,9 @@ ALL = "all joints"
 RATES = (1, 2, 5, 10, 20, 50)  # Hz
 RATE_SHIFT = 2.47  # cm: what a shape travels in a second by the law of speed, at the scenes' Δ
 MOST = 30.0  # s after the knot is tied
+MOST_LOOSE = 8.0  # s after the program is cut off
+GROWTH = (1, 3)  # of Δ, from the knot's head end to its tail end
+GRID = 0.5  # s, of the times at which the program is cut off
 KNOTS = {"3_1": "living_overhand", "4_1": "living_figure_eight", "5_1": "living_double_overhand", "5_2": "living_three_twist"}
 SETTINGS = {"controller.tighten_time": 0.0, "expect.speed_share": 0.0, "expect.types": []}
 Mask = Callable[[hagfish.Simulation, "Body"], np.ndarray]  # share of the copying that each hinge does
@@ -167,6 +172,73 @@ def curves(folder: Path) -> None:
                 sim.run()
 
 
+def growing(growth: float) -> Callable[..., None]:
+    body: list[Body] = []
+
+    def act(sim: hagfish.Simulation, control: hagfish.Control) -> None:
+        control.commands = []
+        if not body:
+            body.append(Body(sim))
+        angles = sim.q[-(sim.nv - ROOT):] + sim.h * sim.qdot[ROOT:]
+        rest = np.zeros(sim.nv)
+        rest[ROOT:] = angles
+        arc, head, tail = body[0].arc, sim.head_end, sim.tail_end
+        scale = np.ones(arc.size)
+        if head is not None and tail is not None and tail > head:
+            scale = 1 + (growth - 1) * np.clip((arc - head) / (tail - head), 0, 1)
+        shift = SHIFT * body[0].length / (2 * body[0].length / sim.bodies)
+        for own in body[0].kinds.values():
+            rest[ROOT + own] += scale[own] * shift * (np.append(angles[own][1:], 0.0) - angles[own])
+        control.rest_shape = rest
+
+    return act
+
+
+def program(sim: hagfish.Simulation, control: hagfish.Control) -> None:
+    """As the scene has it."""
+
+
+def cut_off(scene: str, knot: str) -> tuple[hagfish.Simulation, hagfish.Simulation]:
+    """The run just after the knot is tied, and just before."""
+    sim = hagfish.Simulation(scene, set=SETTINGS | {"guard.action": "warn"}, law=program)
+    kept: list[hagfish.Simulation] = []
+    while str(sim.knot) != knot:
+        kept.append(sim.copy(law=program))
+        sim.run(until=sim.time + GRID)
+    return sim, kept[-2]
+
+
+def follow(sim: hagfish.Simulation) -> tuple[list[float], list[str]]:
+    """Spans of the knot and its types in turn, until it is at the head, the program would be over without a knot, or MOST_LOOSE is over."""
+    spans, types, begin = [], [], sim.time
+    try:
+        while sim.time < begin + MOST_LOOSE and sim.phase not in ("release", "free"):
+            sim.step()
+            if not types or types[-1] != str(sim.knot):
+                types.append(str(sim.knot))
+            if sim.head_end is not None and sim.tail_end is not None:
+                spans.append(sim.tail_end - sim.head_end)
+    except hagfish.StepError as error:
+        if error.outcome != "never tied":
+            raise
+    return spans, types
+
+
+def loose(out: Path) -> None:
+    with out.open("w", newline="", encoding="utf-8") as file:
+        table = csv.writer(file, lineterminator="\n")
+        table.writerow(["task", "knot", "commit", "begin_s", "growth", "slide_s", "types", "span_from_cm", "span_least_cm"])
+        for knot, scene in KNOTS.items():
+            for task, cut in zip(("tighten", "form"), cut_off(scene, knot)):
+                for growth in GROWTH:
+                    sim = cut.copy(law=growing(growth))
+                    begin = sim.time
+                    spans, types = follow(sim)
+                    table.writerow([task, knot, hagfish.revision[:12], f"{begin:.4g}", growth, f"{sim.time - begin:.4g}", " ".join(types),
+                                    f"{spans[0]:.4g}", f"{min(spans):.4g}"])
+                    file.flush()
+
+
 def main(which: str, out: Path) -> None:
     made = {"laws": laws, "rate": rates}[which]
     with out.open("w", newline="", encoding="utf-8") as file:
@@ -191,7 +263,8 @@ def main(which: str, out: Path) -> None:
 
 
 if __name__ == "__main__":
-    if sys.argv[1] == "curves":
-        curves(Path(sys.argv[2]))
+    kind, place = sys.argv[1], Path(sys.argv[2])
+    if kind in ("curves", "loose"):
+        {"curves": curves, "loose": loose}[kind](place)
     else:
-        main(sys.argv[1], Path(sys.argv[2]))
+        main(kind, place)

@@ -1,9 +1,8 @@
 """What the study of the reflex measured: a row a run, read from its sweeps and logs (`read_study`), or from the table that is kept
-of them (`read_table`), of which the page is made."""
+of them (`read_table`), of which the page's tables are made."""
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Iterable
 from dataclasses import astuple, dataclass, fields
 from pathlib import Path
@@ -264,9 +263,9 @@ def changed_settings(table: SweepTable) -> list[str]:
 
 
 def read_laws(part: str, path: Path) -> list[Row]:
-    with path.open(newline="", encoding="utf-8") as file:
-        return [Row(part, line["knot"], line["head"], line["law"], float(line["head_end_from_cm"]) - float(line["head_end_to_cm"]),
-                    float(line["slide_s"]), line["type_held"], line["reached_head"], commit=line["commit"]) for line in csv.DictReader(file)]
+    return [Row(part, line["knot"], line["head"], line["law"], float(line["head_end_from_cm"]) - float(line["head_end_to_cm"]),
+                float(line["slide_s"]), line["type_held"], line["reached_head"], commit=line["commit"])
+            for line in tables.read_csv(path, ["law"])]
 
 
 def log_row(study: str, path: Path) -> Row:
@@ -283,9 +282,9 @@ def log_row(study: str, path: Path) -> Row:
 
 
 def read_loose(path: Path) -> list[Row]:
-    with path.open(newline="", encoding="utf-8") as file:
-        return [Row(line["task"], line["knot"], "clamped", line["growth"], time=float(line["slide_s"]), span_from=float(line["span_from_cm"]),
-                    span_to=float(line["span_least_cm"]), types=line["types"], commit=line["commit"]) for line in csv.DictReader(file)]
+    return [Row(line["task"], line["knot"], "clamped", line["growth"], time=float(line["slide_s"]),
+                span_from=float(line["span_from_cm"]), span_to=float(line["span_least_cm"]), types=line["types"],
+                commit=line["commit"]) for line in tables.read_csv(path, ["growth"])]
 
 
 def read_study(folder: Path) -> dict[str, list[Row]]:
@@ -324,17 +323,16 @@ def with_parts(rows: list[Row], parts: dict[str, list[Row]]) -> list[Row]:
     return [row for part in PARTS for row in (parts[part] if part in parts else [row for row in rows if row.study == part])]
 
 
-def write_table(path: Path, rows: list[Row], notes: list[str]) -> None:
-    tables.write_csv(path, HEADING, [["" if cell is None else cell for cell in astuple(row)] for row in rows], notes)
+def cells_of(rows: list[Row]) -> list[list[object]]:
+    return [["" if cell is None else cell for cell in astuple(row)] for row in rows]
 
 
 def read_table(path: Path) -> tuple[list[Row], list[str]]:
     """Rows, and the notes above them."""
-    lines = path.read_text(encoding="utf-8").splitlines()
-    notes = [line[2:] for line in lines if line.startswith("# ")]
+    table = tables.read_table(path)
     words = {field.name for field in fields(Row) if field.type == "str"}
     rows = []
-    for line in csv.DictReader(line for line in lines if not line.startswith("# ")):
-        cells = {field.name: line[name] for field, name in zip(fields(Row), HEADING)}
+    for line in table.rows:
+        cells = {field.name: text for field, text in zip(fields(Row), line, strict=True)}
         rows.append(Row(**{name: text if name in words else float(text) if text else None for name, text in cells.items()}))
-    return rows, notes
+    return rows, table.notes

@@ -4,21 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
+from accuracy import through
 from hagfish_log import HagfishLog
 
 TOUCHING = 0.05  # cm between skins, as controller.contact_gap
 SAMPLES = 600  # of the body's length
 SECTORS = 12  # round the body
 RING = 1.0  # cm of the body's length
-
-
-def spline(centres: np.ndarray, parameter: np.ndarray) -> np.ndarray:
-    """Points of the uniform Catmull-Rom spline through the bodies' centres; parameters count bodies."""
-    ends = np.vstack([2 * centres[0] - centres[1], centres, 2 * centres[-1] - centres[-2]])
-    segment = np.minimum(parameter.astype(int), len(centres) - 2)
-    t = (parameter - segment)[:, None]
-    a, b, c, d = (ends[segment + k] for k in range(4))
-    return 0.5 * (2 * b + (c - a) * t + (2 * a - 5 * b + 4 * c - d) * t**2 + (3 * b - a - 3 * c + d) * t**3)
 
 
 def knot_place(log: HagfishLog, frames: np.ndarray) -> np.ndarray:
@@ -33,7 +25,7 @@ def knot_place(log: HagfishLog, frames: np.ndarray) -> np.ndarray:
     touching = np.where(apart, (thick[near, None] + thick[None, :] + TOUCHING) ** 2, -1.0)
     place = np.full(frames.size, np.nan)
     for i, frame in enumerate(frames):
-        points = spline(log["/trajectory/position"][frame].reshape(-1, 3), parameter)
+        points = through(log["/trajectory/position"][frame].reshape(-1, 3), parameter + 0.5)
         square = (points**2).sum(axis=1)
         over = square[near, None] + square[None, :] - 2 * points[near] @ points.T - touching
         least = np.where(apart, over, np.inf).min(axis=1)
@@ -89,7 +81,7 @@ def swept(log: HagfishLog, frames: np.ndarray) -> tuple[float, float]:
             continue
         centres, turn = log["/trajectory/position"][frame].reshape(-1, 3), turns(log, int(frame))
         a, b = log["/contacts/spline_a"][rows], log["/contacts/spline_b"][rows]
-        at, other = spline(centres, a), spline(centres, b)
+        at, other = through(centres, a + 0.5), through(centres, b + 0.5)
         for mine, way in ((a, other - at), (b, at - other)):
             body = np.minimum(np.round(mine).astype(int), count - 1)
             side = np.einsum("nij,ni->nj", turn[body], way)

@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
 # The reflex (core/run/reflex.hpp): the four knots at two meshes and steps beside the paper's law, what it needs, its law of speed, where
-# it fails, pulls at food, and the same in MuJoCo. Leaves experiments/results/reflex.csv, reflex.md, made of it, and
-# experiments/figures/reflex.png.
+# it fails, pulls at food, and the same in MuJoCo. Leaves tables, reflex.png and reflex_strip.png.
 #   bash experiments/results/reflex/study.sh [OUTPUT_FOLDER]     default: out/reflex
 # Stopped, it goes on where it was; logs of MuJoCo and tables of laws in Python that are there already are not made again. Rows of the table
 # whose part of the study the output folder has not stay as they are.
@@ -28,7 +27,7 @@ in_python() {
 in_python reflex_laws.py laws "$out/laws.csv"
 in_python reflex_laws.py rate "$out/rate.csv"
 in_python reflex_laws.py curves "$out/curves"
-in_python reflex_loose.py "$out/loose.csv"
+in_python reflex_laws.py loose "$out/loose.csv"
 
 # in_mujoco NAME ARGUMENT...
 mkdir -p "$out/mujoco"
@@ -51,6 +50,5 @@ for scene in reflex_double_overhand{,_free}; do
     --set drag.tangential=0 --set time.until=slide --set 'expect.types=[]' --out "$log"
   in_mujoco "$scene-$fine" --from "$log"
 done
-draw reflex.py "$out" "$root/experiments/results/reflex.csv" "$root/experiments/results/reflex.md" "$root/experiments/figures/reflex.png"
-draw reflex_strip.py "$out/beside/logs/6.h5" "$out/mujoco/reflex_three_twist.h5" "$root/experiments/figures/reflex_strip.png"
-finish "$root/experiments/results/reflex.md"
+draw reflex.py "$out" "$page/reflex.csv"
+list_output

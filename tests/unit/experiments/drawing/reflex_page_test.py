@@ -1,14 +1,12 @@
-"""The page of results on the reflex says what its table says."""
-
-from pathlib import Path
+"""The page's tables are made of the table of all runs."""
 
 import reflex
-import tables
+from conftest import RESULTS
+from tables import read_table
 
-RESULTS = Path(__file__).resolve().parents[4] / "experiments" / "results"
 
-
-def test_the_page_is_made_of_its_table(tmp_path):
-    rows, notes = reflex.read_table(RESULTS / "reflex.csv")
-    tables.write_page(tmp_path / "reflex.md", reflex.page(rows, notes))
-    assert (tmp_path / "reflex.md").read_text(encoding="utf-8") == (RESULTS / "reflex.md").read_text(encoding="utf-8")
+def test_tables_are_made_of_the_runs(tmp_path):
+    reflex.main(tmp_path, RESULTS / "reflex/reflex.csv")
+    for path in (RESULTS / "reflex").glob("*.csv"):
+        made, stated = read_table(tmp_path / "tables" / path.name), read_table(path)
+        assert (made.head, made.rows) == (stated.head, stated.rows), path.name
