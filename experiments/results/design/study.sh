@@ -1,8 +1,7 @@
 #!/usr/bin/env bash
 # `hagfish design` from nothing: small knots for the Table 1 animal, by three seeds; larger ones for one that is 1.5 times as slender;
 # 4_1 for ten random animals. How long each takes on two cores, how sure the found programs are, the audit of their runs at steps of 1, 2
-# and 5 ms, and which of ten animals that the search never saw they serve. Leaves experiments/results/design.csv and design.md, made of
-# it, and experiments/figures/design.png.
+# and 5 ms, and which of ten animals that the search never saw they serve. Leaves tables and design.png.
 #   bash experiments/results/design/study.sh [OUTPUT_FOLDER]     default: out/design
 # In the environment KNOTS, SEEDS, LARGE, LARGE_SEEDS, ANIMALS (numbers of random ones), ROBUST and ROBUST_LARGE (knots whose programs must serve
 # other animals) and ROBUST_SEEDS (of these) are others, and BEYOND are large knots that the Table 1 animal tries. Seed 2 of ROBUST_LARGE was
@@ -70,5 +69,5 @@ for animal in ${ANIMALS-1 2 3 4 5 6 7 8 9 10}; do
   /usr/bin/python3 "$animals" specimen "$animal" >"$out/animal_$animal.toml"
   search "4_1-animal-$animal" 15m 4_1 --specimen "$out/animal_$animal.toml"
 done
-draw design.py "$out" "$root/experiments/results/design.csv" "$root/experiments/results/design.md" "$root/experiments/figures/design.png"
-finish "$root/experiments/results/design.md"
+draw design.py "$out" "$page/design.csv"
+list_output

@@ -1,14 +1,11 @@
-"""How well `hagfish midlines` gives back what was filmed: closed forms, ten runs as films with a tracker's faults, 300 damaged films; and what the tutorial takes.
+"""How well `hagfish midlines` gives back what was filmed: closed forms, ten runs as films with a tracker's faults, 300 damaged
+films; and what the tutorial takes.
 
-Usage: films.py [--only forms|runs|damaged|tutorial|page] [--run SCENE]... [--out DIR]. Needs the program as built (HAGFISH_PROGRAM), python3-numpy and python3-h5py.
-Writes experiments/results/films_PART.csv for each part and, where all are there, films.md. Runs that DIR has a row of are not made again.
+Usage: films.py RUNS OUT_FOLDER. Needs the program as built (HAGFISH_PROGRAM). Runs that RUNS has a row of are not made again.
 """
 
 from __future__ import annotations
 
-import argparse
-import csv
-import datetime
 import os
 import re
 import resource
@@ -20,9 +17,10 @@ from time import monotonic
 import h5py
 import numpy as np
 
-ROOT = Path(__file__).resolve().parents[3]
-RESULTS = ROOT / "experiments/results"
-HAGFISH = Path(os.environ.get("HAGFISH_PROGRAM", ROOT / "build/release/experiments/hagfish"))
+import tables
+from script import HAGFISH, run_script
+
+TUTORIAL = Path(__file__).resolve().parents[2] / "tutorials/film_to_torques.md"
 LENGTH, BODIES = 42.4, 100  # cm, of the animal of the scenes
 NOISE = 0.1  # cm, on each coordinate of each point
 WITHIN, SURELY = 1.645, 2.576  # standard errors, of bands of 90 and 99 %
@@ -42,9 +40,8 @@ def cpu() -> float:
 
 
 def read(path: Path) -> dict[str, np.ndarray]:
-    with path.open(newline="") as file:
-        heading, *rows = csv.reader(file)
-    return {name: np.array([float(row[k]) for row in rows]) for k, name in enumerate(heading)}
+    table = tables.read_table(path)
+    return {name: np.array([float(row[k]) for row in table.rows]) for k, name in enumerate(table.head)}
 
 
 class Program:
@@ -243,12 +240,13 @@ def run_name(run: tuple[str, bool]) -> str:
     return run[0] + (" (mirror)" if run[1] else "")
 
 
-def runs(folder: Path, asked: list[str]) -> list[dict]:
-    rows, before = [], of_table(folder / "films_runs.csv")
+def runs(folder: Path) -> list[dict]:
+    done = folder / "films_runs.csv"
+    rows, before = [], tables.read_csv(done, ["run"]) if done.exists() else []
     for number, (scene, mirror) in enumerate(RUNS):
         name = run_name((scene, mirror))
         known = [row for row in before if row["run"] == name]
-        if (asked and name not in asked) or known:
+        if known:
             rows += known
             continue
         hagfish(folder, "run", scene, "--preset", "quick", "--set", f"mirror={'true' if mirror else 'false'}", "--until", "form", "--log", "frames", "--quiet", "--force", "--out", "run.h5")
@@ -281,7 +279,7 @@ def runs(folder: Path, asked: list[str]) -> list[dict]:
             row["run off the film, noise and all (cm)"] = float(told.split(" cm from ")[0].split(": ")[-1]) if code == 0 else np.nan
             row["CPU of midlines (s)"] = took
         rows.append(row)
-        write(folder / "films_runs.csv", rows)
+        tables.write_csv(done, *cells_of(rows))
         print(row, flush=True)
     return rows
 
@@ -342,7 +340,7 @@ def tutorial(folder: Path) -> list[dict]:
     shutil.rmtree(place, ignore_errors=True)
     place.mkdir(parents=True)
     environment = os.environ | {"PATH": f"{HAGFISH.parent}:/usr/bin:/bin", "OPENBLAS_NUM_THREADS": "1"}
-    for chapter in (ROOT / "experiments/tutorials/film_to_torques.md").read_text().split("\n## ")[2:]:
+    for chapter in TUTORIAL.read_text(encoding="utf-8").split("\n## ")[2:]:
         title, commands = chapter.split("\n", 1)[0].split(". ")[-1], re.findall(r"^```bash\n(.*?)^```$", chapter, re.MULTILINE | re.DOTALL)
         if commands:
             before, begin = cpu(), monotonic()
@@ -355,123 +353,60 @@ PARTS = forms, runs, damaged, tutorial
 
 # Tables ------------------------------------------------------------------------------------------------------------------------------------------
 
-def write(path: Path, rows: list[dict]) -> None:
+def cells_of(rows: list[dict]) -> tuple[list[str], list[list[str]]]:
     names = list(dict.fromkeys(name for row in rows for name in row))
-    with path.open("w", newline="") as file:
-        table = csv.DictWriter(file, names, lineterminator="\n")
-        table.writeheader()
-        table.writerows({name: f"{v:.3g}" if isinstance(v, float) else v for name, v in row.items()} for row in rows)
+    text = lambda value: f"{value:.3g}" if isinstance(value, float) else str(value)
+    return names, [[text(row.get(name, "")) for name in names] for row in rows]
 
 
-def of_table(path: Path) -> list[dict[str, str]]:
-    """Its rows; none where there is no such file."""
-    if not path.exists():
-        return []
-    with path.open(newline="") as file:
-        return list(csv.DictReader(file))
+def outcomes(films: list[dict[str, str]]) -> list[list[str]]:
+    """How many damaged films came to each."""
+    known = ("right", "told", "failed", "refused", "silently off", "crashed")
+    return [[outcome, str(sum(row["outcome"] == outcome for row in films))] for outcome in known]
 
 
-def markdown(rows: list[dict]) -> str:
-    line = lambda cells: "| " + " | ".join(map(str, cells)) + " |\n"
-    return line(rows[0]) + "|" + "---|" * len(rows[0]) + "\n" + "".join(line(row.values()) for row in rows)
-
-
-def measured(log: Path) -> str:
-    if not log.exists():
-        return ""
-    with h5py.File(log) as h5:
-        text = lambda name: h5.attrs[name].decode() if isinstance(h5.attrs[name], bytes) else str(h5.attrs[name])
-        return f" Measured at {text('git_revision')[:12]} on {text('cpu')}, {datetime.date.today()}."
-
-
-def answer(forms: list[dict], runs: list[dict], films: list[dict], chapters: list[dict]) -> str:
+def figures(forms: list[dict], runs: list[dict], films: list[dict], chapters: list[dict]) -> list[list[str]]:
+    """What sentences of the page say and no other table has."""
     number = lambda rows, name: [float(row[name]) for row in rows if row.get(name)]
     exact, noisy = ([row for row in forms if (float(row["noise (cm)"]) > 0) == noise] for noise in (False, True))
-    off = "bends off, rms (rad/L)"
-    off_by, held = number(runs, "shapes off (cm)"), [100 * share for share in number(runs, "within bands of 90 %")]
-    took = number(runs, "CPU of midlines (s)")
-    ties = sum(row.get("run ties") == "the same" for row in runs)
-    silent = sum(row["outcome"] == "silently off" for row in films)
-    return (f"Without noise, closed forms come back to {max(number(exact, 'off (cm)')):.2g} cm and {max(number(exact, off)):.2g} rad/L at worst. "
-            f"With a millimetre of noise it is {max(number(noisy, off)):.2g} rad/L. "
-            f"Of {len(runs)} runs as films with all faults at once, {len(off_by)} get a program, within {max(off_by):.2g} cm at worst; {sum(row['verdict'] == 'doubtful' for row in runs)} of these are called doubtful. "
-            f"{ties} of the animals that follow the fit tie the knot of the film, of the same hand. "
-            f"Bands of 90 % hold {min(held):.0f} to {max(held):.0f} % of the true bends; asked for were 85 to 95 %, which {sum(85 <= share <= 95 for share in held)} of them keep. "
-            f"Of {len(films)} damaged films, {silent} are off and nothing is said. A knot's film takes {min(took):.0f} to {max(took):.0f} s of CPU time. "
-            f"The tutorial's way from film to torque table takes {sum(number(chapters, 'by the clock (s)')) / 60:.1f} minutes; a quarter of an hour was asked for.")
+    bends, worst = "bends off, rms (rad/L)", (lambda rows, name: f"{max(number(rows, name)):.2g}")
+    held, took = [100 * share for share in number(runs, "within bands of 90 %")], number(runs, "CPU of midlines (s)")
+    times = number(films, "CPU (s)")
+    few = [row for row in films if row["outcome"] == "right" and float(row["within bands of 90 %"]) <= 0.75 and row["told"] == "no"]
+    return [[name, str(value)] for name, value in [
+        ("a band of 90 %, standard errors to each side", WITHIN),
+        ("length of the body, cm", LENGTH),
+        ("closed forms without noise: points off by at most, cm", worst(exact, "off (cm)")),
+        ("closed forms without noise: bends off by at most, rad/L", worst(exact, bends)),
+        ("closed forms with noise: bends off by at most, rad/L", worst(noisy, bends)),
+        ("runs as films", len(runs)),
+        ("runs that get a program", len(number(runs, "shapes off (cm)"))),
+        ("runs: shapes off by at most, cm", worst(runs, "shapes off (cm)")),
+        ("runs called doubtful", sum(row["verdict"] == "doubtful" for row in runs)),
+        ("runs whose animal ties the same", sum(row.get("run ties") == "the same" for row in runs)),
+        ("runs: bends within bands of 90 %, %", f"{min(held):.0f} to {max(held):.0f}"),
+        ("runs of which 85 to 95 % are", sum(85 <= share <= 95 for share in held)),
+        ("runs: CPU of a film, s", f"{min(took):.0f} to {max(took):.0f}"),
+        ("damaged films", len(films)),
+        ("silently off", sum(row["outcome"] == "silently off" for row in films)),
+        ("right with few bends in their bands and nothing said", len(few)),
+        ("damaged: median fit, s", f"{np.median(times):.2g}"),
+        ("damaged: longest fit, s", f"{max(times):.2g}"),
+        ("tutorial, minutes", f"{sum(number(chapters, 'by the clock (s)')) / 60:.1f}")]]
 
 
-def page(folder: Path) -> str:
-    """Of the tables alone, but for where they were measured."""
-    forms, runs, films, chapters = (of_table(RESULTS / f"films_{part.__name__}.csv") for part in PARTS)
-    outcomes = [{"outcome": o, "films": sum(row["outcome"] == o for row in films)} for o in ("right", "told", "failed", "refused", "silently off", "crashed")]
-    times = [float(row["CPU (s)"]) for row in films]
-    few = sum(row["outcome"] == "right" and float(row["within bands of 90 %"]) <= 0.75 and row["told"] == "no" for row in films)
-    missing = "".join(f"- The run {name}: it is not measured yet.\n" for name in map(run_name, RUNS) if name not in [row["run"] for row in runs])
-    return f"""# How well does a film give back the animal?
-
-`bash study.sh` makes this page and its tables: [closed forms](films_forms.csv), [runs](films_runs.csv), [damaged films](films_damaged.csv), [the tutorial](films_tutorial.csv).{measured(folder / "run.h5")}
-
-**Answer.** {answer(forms, runs, films, chapters)}
-
-Bends are in rad per body length L. Bands reach {WITHIN} standard errors to each side. These are of the noise and of what smoothing moves. Points of a body of {LENGTH} cm are off by the noise in each coordinate.
-
-## Closed forms
-
-Each film has 61 midlines of 41 points in 3 s. The distance is that of the points from the shapes. A chain of {BODIES} straight bodies cannot lie on a curve: that is what is left without noise.
-
-{markdown(forms)}
-## Runs as films
-
-A living animal ties its knot, at h = 20 ms. A camera films 50 of its points, 30 times a second, in pixels, with y down and turned. These faults are in every film:
-
-- a millimetre of noise,
-- 5 % of the points lost,
-- 1 % of them 15 cm off,
-- a second without midlines,
-- head and tail exchanged in two midlines.
-
-Shapes are held against the run's own bodies. Bands are held against the joints of the run's bodies. Their head is rolled as the fit's is, of which a midline says nothing.
-The last columns are of the animal that follows the fit. It is run with the stiffness that `midlines` finds by trying.
-
-{markdown(runs)}
-## Damaged films
-
-{len(films)} films of an arc that grows have one or two random faults each. *Right*: three quarters of the bends or more are within their bands of 99 %. *Told*: something is said that a reader must look at.
-A smooth film's errors are alike all along the body. So bands of 90 % miss over a quarter of the bends in some films; here in {few} of which nothing is said.
-A film with y down is held against the mirror image, since nothing in a plane tells it.
-
-{markdown(outcomes)}
-A fit takes {np.median(times):.2g} s of CPU time, at most {max(times):.2g} s.
-
-## From film to torque table
-
-All commands of [the tutorial](../tutorials/film_to_torques.md), its film among them, as they stand there. The clock counts what else the machine does.
-
-{markdown(chapters)}
-## What this page does not show
-
-- No film of a living hagfish is among them: none with digitised midlines is at hand.
-- One camera is fitted as an animal in a plane. It does not tell which strand is over, and the command says so.
-- A film that never shows the tail counts as a whole animal, unless its points or `--animal-length` say where the tail is. The command says so.
-- Whether a head is free must be known: `--free-head`. Such a fit takes longer, and is called doubtful as it comes to no end: its roll at each time is told by nothing.
-{missing}"""
+def write_summaries(folder: Path) -> None:
+    """Of the tables of all parts."""
+    forms, runs, films, chapters = (tables.read_csv(folder / "tables" / f"films_{part.__name__}.csv", []) for part in PARTS)
+    tables.write_table(folder, "films_outcomes", ["outcome", "films"], outcomes(films))
+    tables.write_table(folder, "films_figures", ["figure", "value"], figures(forms, runs, films, chapters))
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--only", choices=[*(part.__name__ for part in PARTS), "page"])
-    parser.add_argument("--run", action="append", default=[], help="of the ten runs, such as living_overhand or 'living_overhand (mirror)'; where not given, all")
-    parser.add_argument("--out", type=Path, default=ROOT / "out/films")
-    options = parser.parse_args()
-    options.out.mkdir(parents=True, exist_ok=True)
+def main(folder: Path, out: Path) -> None:
     for part in PARTS:
-        if options.only in (None, part.__name__):
-            rows = part(options.out, options.run) if part is runs else part(options.out)
-            write(RESULTS / f"films_{part.__name__}.csv", rows)
-    if all((RESULTS / f"films_{part.__name__}.csv").exists() for part in PARTS):
-        (RESULTS / "films.md").write_text(page(options.out))
+        tables.write_table(out, f"films_{part.__name__}", *cells_of(part(folder)))
+    write_summaries(out)
 
 
 if __name__ == "__main__":
-    main()
+    run_script(__doc__, ["RUNS", "OUT_FOLDER"], main)

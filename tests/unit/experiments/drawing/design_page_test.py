@@ -1,26 +1,26 @@
-"""The page of found programs says what its table says."""
-
-from pathlib import Path
+"""Tables of found programs say what the table of all searches says."""
 
 import numpy as np
 import pytest
 
 import design
-import tables
+from conftest import RESULTS
+from tables import read_csv, read_table
 
 HEAD = "cell,outcome,unmet,message\n"
-RESULTS = Path(__file__).resolve().parents[4] / "experiments" / "results"
+PAGE = RESULTS / "design"
 
 
-def test_the_page_is_made_of_its_table(tmp_path):
-    tables.write_page(tmp_path / "design.md", design.page(*design.read_table(RESULTS / "design.csv")))
-    assert (tmp_path / "design.md").read_text(encoding="utf-8") == (RESULTS / "design.md").read_text(encoding="utf-8")
+def test_tables_are_made_of_the_searches(tmp_path):
+    design.main(tmp_path, PAGE / "design.csv")
+    for path in PAGE.glob("*.csv"):
+        made, stated = read_table(tmp_path / "tables" / path.name), read_table(path)
+        assert (made.head, made.rows) == (stated.head, stated.rows), path.name
 
 
 def test_each_row_names_a_revision_of_the_heading():
-    rows, notes = design.read_table(RESULTS / "design.csv")
-    named = notes[0].removeprefix("Measured at ").split(" on ")[0].split(", ")
-    assert sorted({row["revision"] for row in rows}) == named
+    named = read_table(PAGE / "design.csv").notes[0].removeprefix("Measured at ").split(" on ")[0].split(", ")
+    assert sorted({row["revision"] for row in read_csv(PAGE / "design.csv", ["revision"])}) == named
 
 
 def test_an_animal_is_served_by_a_run_that_ends_and_meets_all(tmp_path):

@@ -2,6 +2,7 @@
 
 import csv
 import re
+import shutil
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ import benchmarks
 import claim_map
 import claims
 import departures
+import films
 import leverage
 import living
 import pulls
@@ -20,6 +22,7 @@ import sweep_columns
 import thigmotaxis
 import tying
 from conftest import RESULTS
+from tables import read_table
 
 
 def read(folder, name):
@@ -32,7 +35,8 @@ def test_each_table_of_a_page_is_written_by_a_script_beside_it():
         scripts = "\n".join(path.read_text(encoding="utf-8") for end in ("py", "sh") for path in table.parent.glob(f"*.{end}"))
         tail = table.stem.removeprefix(table.parent.name)
         stem, _, end = table.stem.rpartition("_")
-        assert re.search(rf"\b{table.stem}\.csv|\"({table.stem}|{tail})\"", scripts) or f'f"{stem}_{{' in scripts and f'"{end}"' in scripts, table
+        named = re.search(rf"\b{table.stem}\.csv|\"({table.stem}|{tail})\"", scripts)
+        assert named or f'f"{stem}_{{' in scripts and re.search(rf'"{end}"|def {end}\b', scripts), table
 
 
 def test_sliding_by_speed_and_stiffness(tmp_path):
@@ -175,3 +179,11 @@ def test_a_motion_is_off_by_what_it_is_moved():
     at = lambda x: tying.Motion(np.full((2, 3, 3), [x, 0, 0]), np.full((2, 9), 1 + x))
     assert at(0.1).errors(at(0.0)) == pytest.approx((0.1, 10))
     assert at(0.1).towards(at(0.2), -1).errors(at(0.0)) == pytest.approx((0, 0), abs=1e-12)
+
+
+def test_films_have_their_summaries(tmp_path):
+    shutil.copytree(RESULTS / "films", tmp_path / "tables")
+    films.write_summaries(tmp_path)
+    for name in ("outcomes", "figures"):
+        stated = read_table(RESULTS / f"films/films_{name}.csv")
+        assert read(tmp_path, f"films_{name}") == [stated.head, *stated.rows]
