@@ -3,7 +3,6 @@
 # script starts and stops. Meanwhile one worker is killed, and one job cancelled, as if its node had failed. The two tables must be the
 # same, byte for byte. Then searches for a 3_1 by three seeds, of which one is made without Slurm, too, to be the same. Leaves alone/ and
 # slurm/, each with table.csv, the latter with table.h5 and page.html, and searches/ and search/.
-#   bash experiments/cluster/cluster.sh [OUTPUT_FOLDER]     default: out/cluster
 # Stopped, it goes on where it was.
 set -euo pipefail
 export HAGFISH_CLUSTER=1 # has setup.sh install Snakemake and Slurm
@@ -79,4 +78,3 @@ echo "Searches for a 3_1 by three seeds through Slurm"
 [[ -e $out/search/result.csv ]] || "$hagfish" design 3_1 --seed 2 --out "$out/search" --quiet
 for table in tries candidates; do cmp <(sort "$out/search/$table.csv") <(sort "$out/searches/2/$table.csv"); done
 echo "$(awk -F, 'NR > 1 && $3 == "yes"' "$out/searches/found.csv" | wc -l) of 3 found; that of seed 2 is the same without Slurm"
-list_output

@@ -80,12 +80,6 @@ def plain_ticks(axis: Any, values: Iterable[float]) -> None:
     axis.set_minor_locator(NullLocator())
 
 
-def draw_diagonal(axes: Any, values: Iterable[float]) -> None:
-    """Where y = x over the range of `values`: what is measured is what was commanded."""
-    ends = [min(values), max(values)]
-    axes.plot(ends, ends, color=GREY, lw=0.8, ls="--", zorder=0, label="as commanded")
-
-
 def legend_above(figure: Any, handles: Sequence[Any], columns: int, room: float, **options: Any) -> None:
     """One legend for all panels, over them, in `room` of the figure's height."""
     figure.get_layout_engine().set(rect=(0, 0, 1, 1 - room))

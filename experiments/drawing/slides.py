@@ -5,15 +5,12 @@ A run is a cell of a sweep that kept its logs, or NAME.h5 (its log) with NAME.ch
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 import audits
-import plots
 from hagfish_log import HagfishLog
 from means import WINDOW, read_means
 from study import failure_of
@@ -29,7 +26,6 @@ MEAN = f"{1000 * WINDOW:g} ms mean"  # what forces are, for headings
 class Slide:
     """One phase of one run in which the knot slides; cm, s, dyn. Forces are means over WINDOW."""
 
-    name: str  # of the run: the file of its log, without .h5
     knot: str  # expected type
     commanded: float  # speed, cm/s
     speed: float  # of the knot's leading end, a line through its places; nan where it never slid
@@ -41,11 +37,8 @@ class Slide:
     met: float  # share of steps without slack
     penetration: float  # deepest of any step in the phase
     allowed: float  # deepest that the scene expects
-    held: bool  # the knot had its type at every frame
     failure: str  # why the run did not go on to its end; empty where it did
-    time: np.ndarray  # from the beginning of the phase
-    head_end: np.ndarray
-    tail_end: np.ndarray
+    seconds: float
 
 
 def unmet_of(folder: Path, name: str) -> list[str]:
@@ -54,10 +47,10 @@ def unmet_of(folder: Path, name: str) -> list[str]:
 
 
 def read_slide(folder: Path, name: str, phase: str = "slide") -> Slide:
-    return slide_of(HagfishLog(folder / f"{name}.h5"), name, unmet_of(folder, name), phase)
+    return slide_of(HagfishLog(folder / f"{name}.h5"), unmet_of(folder, name), phase)
 
 
-def slide_of(log: HagfishLog, name: str, unmet: list[str], phase: str) -> Slide:
+def slide_of(log: HagfishLog, unmet: list[str], phase: str) -> Slide:
     """`unmet`: criteria of the scene that the run does not meet, as `hagfish check` and `hagfish sweep` name them."""
     scene = log.scene()
     end = "head" if phase == "slide" else "tail"
@@ -74,40 +67,23 @@ def slide_of(log: HagfishLog, name: str, unmet: list[str], phase: str) -> Slide:
     at_cap = log["/steps/thigmotaxis_lambda"][steps] >= AT_CAP * scene["controller"]["cap"]
     ended = str(log.attribute("status")) == "complete" and "unknot at end" not in unmet
     commanded = float(scene["controller"][f"{phase}_head"]["a"])
-    return Slide(name, scene["expect"]["knot"], commanded, sign * slope, sign * travel,
+    return Slide(scene["expect"]["knot"], commanded, sign * slope, sign * travel,
                  float(np.median(means.total)) if some else np.nan, float(means.total.max()) if some else np.nan,
                  float(at_cap.mean()) if steps.any() else np.nan,
                  float(np.nanmedian(np.fmax.reduce(means.slack, axis=1))) if some else np.nan,
                  float((log["/steps/eq6"][steps] == 1).mean()) if steps.any() else np.nan,
                  float(log["/steps/penetration"][steps].max()) if steps.any() else np.nan,
                  float(scene["expect"]["penetration"]),
-                 "knot held" not in unmet, "" if ended else failure_of(log, unmet),
-                 time - time[0] if moved else time, log["/knot/head_end"][frames], log["/knot/tail_end"][frames])
+                 "" if ended else failure_of(log, unmet), float(time[-1] - time[0]) if moved else np.nan)
 
 
 def read_slides(folder: Path, phase: str = "slide") -> list[Slide]:
     """All runs of a sweep that kept its logs, by knot and speed."""
     unmet = read_sweep(folder / "table.csv").texts["unmet"]
-    slides = [slide_of(HagfishLog(log_of(folder, str(cell))), str(cell), text.split("; "), phase) for cell, text in enumerate(unmet)]
+    slides = [slide_of(HagfishLog(log_of(folder, str(cell))), text.split("; "), phase) for cell, text in enumerate(unmet)]
     return sorted(slides, key=lambda s: (s.knot, s.commanded))
 
 
 def log_of(folder: Path, name: str) -> Path:
     """The log of a cell of a sweep."""
     return folder / "logs" / f"{name}.h5"
-
-
-def of_knot(slides: list[Slide], knot: str) -> list[Slide]:
-    return [slide for slide in slides if slide.knot == knot]
-
-
-def draw_over_speed(axes: Any, slides: list[Slide], measure: Callable[[Slide], float], **style: Any) -> None:
-    """A measure over commanded speed, a line for each knot; open where the knot was lost or the run failed. What is not
-    above 0, which logarithmic axes lack, is left out."""
-    for knot, look in plots.KNOTS.items():
-        own = [s for s in slides if s.knot == knot and measure(s) > 0]
-        axes.plot([s.commanded for s in own], [measure(s) for s in own], label=look.label, **(look.style | style))
-        lost = [s for s in own if s.failure]
-        axes.plot([s.commanded for s in lost], [measure(s) for s in lost], **(look.style | style | {"ls": "", "mfc": "white"}))
-    axes.set(xscale="log", yscale="log", xlabel="commanded speed, cm/s")
-    plots.plain_ticks(axes.xaxis, sorted({s.commanded for s in slides}))

@@ -1,20 +1,22 @@
 # shellcheck shell=bash
-# Sourced by the pages' study.sh, not run: sets up and builds, and makes the output folder, the script's argument or out/ with the
-# page's name. Comes after targets=(...), what to build besides the program, if anything. Leaves root, page (its folder), grids (of
-# `hagfish sweep`), out, hagfish (the program) and stiffness (settings). When the script ends, in whatever way, it says how long it
-# took; building counts, and what an earlier run of it left does not.
+# Sourced by a page's study.sh, not run: sets up and builds, and makes the output folder, the script's argument or out/NAME:
+#   bash experiments/results/NAME/study.sh [OUTPUT_FOLDER]
+# Comes after targets=(...), what to build besides the program, if anything. Leaves root, page (its folder), grids (of `hagfish
+# sweep`), out, hagfish (the program), stiffness (settings) and draw. When the script ends, in whatever way, it says what is in out
+# and how long it took; building counts, and what an earlier run of it left does not.
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 page=$(cd "$(dirname "$0")" && pwd)
 # shellcheck disable=SC2034 # for the studies
 grids=$page/grids
 out=${1:-$root/out/$(basename "$page")}
 elapsed() {
-  echo
+  printf '\nIn %s:\n' "$out"
+  ls "$out"
   echo "$(basename "$page") took $((SECONDS / 60)) min $((SECONDS % 60)) s on $(env -u OMP_NUM_THREADS nproc) cores"
 }
-trap elapsed EXIT
 mkdir -p "$out"
 out=$(cd "$out" && pwd)
+trap elapsed EXIT
 # shellcheck disable=SC2154 # targets may be unset
 bash "$root/experiments/setup.sh" --target hagfish "${targets[@]}"
 # Serial BLAS, so that runs repeat to the last bit.
@@ -39,10 +41,3 @@ draw() {
   /usr/bin/python3 -B "$script" "${@:2}"
 }
 export -f draw
-
-# Closes a script: what lies in the output folder.
-list_output() {
-  echo
-  echo "In $out:"
-  ls "$out"
-}

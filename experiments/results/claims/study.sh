@@ -3,7 +3,6 @@
 # over its scale, where the knot is let go, stiffness and drag, each from eight perturbed starts and at two steps. The
 # force script of Table 1 is open loop and ties at its own stiffness and drag alone: for others waypoints lead the tail.
 # Leaves claims.png and a table.
-#   bash experiments/results/claims/study.sh [OUTPUT_FOLDER]     default: out/claims
 # Stopped, it goes on where it was.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../jobs.sh"
@@ -66,4 +65,3 @@ list() {
 list | work "$cores" "Claims"
 
 draw claim_map.py "$runs" "$out"
-list_output

@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
 # What accuracy costs where a motion forgets its start: a living overhand knot that slides by reflex, here and in MuJoCo, and by
 # Eq. 6, over steps, rules and bodies. Leaves contracting.png and tables.
-#   bash experiments/results/contracting/study.sh [OUTPUT_FOLDER]     default: out/contracting
 # Stopped, it goes on where it was. One run at a time, since CPU times are measured.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../jobs.sh"
@@ -74,4 +73,3 @@ fi
 
 echo "Drawing"
 draw contracting.py "$runs" "$out"
-list_output

@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
 # What each departure from the paper changes: table1 with one thing as the paper has it, or may have it, and table1_as_printed with one
 # thing as table1 has it. Leaves two tables.
-#   bash experiments/results/departures/study.sh [OUTPUT_FOLDER]     default: out/departures
 # Stopped, it goes on where it was.
 set -euo pipefail
 targets=(hagfish_python)
@@ -84,4 +83,3 @@ for scene in table1 table1_as_printed; do
     "$scene" "$out/explicit/$scene.h5"
 done
 draw departures.py "$out"
-list_output

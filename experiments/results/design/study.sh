@@ -2,7 +2,6 @@
 # `hagfish design` from nothing: small knots for the Table 1 animal, by three seeds; larger ones for one that is 1.5 times as slender;
 # 4_1 for ten random animals. How long each takes on two cores, how sure the found programs are, the audit of their runs at steps of 1, 2
 # and 5 ms, and which of ten animals that the search never saw they serve. Leaves tables and design.png.
-#   bash experiments/results/design/study.sh [OUTPUT_FOLDER]     default: out/design
 # In the environment KNOTS, SEEDS, LARGE, LARGE_SEEDS, ANIMALS (numbers of random ones), ROBUST and ROBUST_LARGE (knots whose programs must serve
 # other animals) and ROBUST_SEEDS (of these) are others, and BEYOND are large knots that the Table 1 animal tries. Seed 2 of ROBUST_LARGE was
 # tried of 6_3 and 3_1#-3_1 alone. Stopped, it goes on where it was.
@@ -70,4 +69,3 @@ for animal in ${ANIMALS-1 2 3 4 5 6 7 8 9 10}; do
   search "4_1-animal-$animal" 15m 4_1 --specimen "$out/animal_$animal.toml"
 done
 draw design.py "$out" "$page/design.csv"
-list_output

@@ -3,7 +3,6 @@
 # (grids/starts.toml), a free head (grids/free.toml), ten other animals (grids/animals.toml and
 # animals.py), what they take against f_thigmo, and, for each knot, numbers played by its place and shapes learned from f_thigmo, at
 # other steps and bodies and mirrored too. Leaves tables and few_numbers.png.
-#   bash experiments/results/few_numbers/study.sh [OUTPUT_FOLDER]     default: out/few_numbers
 # Stopped, it goes on where it was; logs that are there already are not made again.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../common.sh"
@@ -47,4 +46,3 @@ for knot in overhand figure_eight double_overhand three_twist; do
   transfers_of "learned_$knot" "living_$knot" "${numbers[@]}" --set "controller.reduced_basis.file=$runs/shapes_$knot.csv"
 done
 draw few_numbers.py "$out"
-list_output

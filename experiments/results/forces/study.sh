@@ -1,10 +1,8 @@
 #!/usr/bin/env bash
 # What f_thigmo is worth: its sums and how it is spread, by step, mesh, girth and start. Leaves three tables.
-#   bash experiments/results/forces/study.sh [OUTPUT_FOLDER]     default: out/forces
 # Stopped, it goes on where it was.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../common.sh"
 
 "$hagfish" sweep "$grids/forces.toml" --out "$out/slides"
 draw forces.py "$out"
-list_output

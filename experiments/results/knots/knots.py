@@ -1,4 +1,4 @@
-"""Four knots side by side: pictures of four stages, force profiles of the slides, and tables of how surely each is tied.
+"""Four knots side by side: pictures of four stages, and tables of how surely each is tied.
 
 Usage: knots.py RUNS HAGFISH OUT_FOLDER, where HAGFISH is the program.
 """
@@ -23,7 +23,6 @@ WIDTH = 7.2  # of the pictures, inches
 NOISES = ("0.2", "0.5", "1")
 STEPS = ("0.0005", "0.001", "0.005", "0.01", "0.02")
 CHANCE_STEPS = ("0.002", "0.001")
-SMOOTHED = 5  # means in the running median over time
 
 
 def stages_of(log: HagfishLog) -> list[Stage]:
@@ -74,11 +73,6 @@ def draw_pictures(logs: dict[str, HagfishLog], hagfish: Path, out: Path) -> None
     plots.save(figure, out)
 
 
-def running_median(values: np.ndarray) -> np.ndarray:
-    padded = np.pad(values, SMOOTHED // 2, mode="edge")
-    return np.median(np.lib.stride_tricks.sliding_window_view(padded, SMOOTHED), axis=1)
-
-
 def force_figures(log: HagfishLog, means: Means) -> dict[str, float]:
     """f_thigmo over the slide, in means over WINDOW, dyn, dyn cm, dyn s; the work in erg."""
     first, last = means.start[0], means.end[-1]
@@ -98,32 +92,6 @@ def chance_figures(folder: Path, scene: str, step: str) -> dict[str, np.ndarray]
         raise LogError(f"{folder}: holds too few runs chance_{scene}_{step}_*")
     found = [force_figures(log, read_means(log)) for log in map(HagfishLog, paths)]
     return {name: np.array([each[name] for each in found]) for name in found[0]}
-
-
-def draw_forces(logs: dict[str, HagfishLog], slides: dict[str, claims.Sliding], out: Path) -> None:
-    figure, (over_time, along, modes) = plots.panels(1, 3, (11.5, 3.9), [
-        f"thin: {MEAN}s; thick: running median of {SMOOTHED}", "where along the body, three axes added",
-        f"how many modes hold the {MEAN}s"])
-    for knot, log in logs.items():
-        look, means, s = plots.KNOTS[knot], read_means(log), slides[knot]
-        time = means.window * (np.arange(means.end.size) + 0.5)
-        over_time.plot(time, means.total, color=look.colour, lw=0.5, alpha=0.3)
-        over_time.plot(time, running_median(means.total), **look.style, markevery=[-1], lw=1.4, label=look.label)
-        # Two joints make one, as they bend and twist in turn.
-        _, joint, _ = log.hinges()
-        arc, size = log.joint_arc(), np.abs(means.force).mean(axis=0)
-        pairs = [each for each in np.unique(joint // 2) if np.unique(joint[joint // 2 == each]).size == 2]
-        along.plot([arc[joint[joint // 2 == each]].mean() for each in pairs], [size[joint // 2 == each].sum() for each in pairs],
-                   **look.style, markevery=6)
-        held = np.sum([np.linalg.svd(s.axis(axis)[1], compute_uv=False)[:30] ** 2 for axis in claims.KINDS], axis=0)
-        modes.plot(np.arange(1, held.size + 1), 100 * (1 - np.cumsum(held) / (s.force**2).sum()), **look.style, ms=4, lw=1)
-    over_time.set(xlabel="time since the slide began, s", ylabel=r"sum of the four $\lambda/h$, dyn", yscale="log")
-    over_time.legend(loc="upper right")
-    along.set(xlabel="joint, cm from the head", ylabel=r"$|f_\mathrm{thigmo}|$, mean over the slide, dyn cm", yscale="log",
-              ylim=(10, 1e4))
-    modes.set(xlabel="SVD modes of each axis kept", ylabel="energy left out, %", yscale="log", ylim=(0.1, 100), xlim=(0.5, 12.5))
-    modes.axhline(5, color=plots.GREY, lw=0.8, ls="--", zorder=0)
-    plots.save(figure, out)
 
 
 def outcome(folder: Path, name: str) -> str:
@@ -229,7 +197,6 @@ def main(folder: Path, hagfish: Path, out: Path) -> None:
     logs = {knot: HagfishLog(folder / f"plain_{scene_of(folder, knot)}.h5") for knot in plots.KNOTS}
     slides = {knot: claims.read_sliding(log) for knot, log in logs.items()}
     draw_pictures(logs, hagfish, out / "knots.png")
-    draw_forces(logs, slides, out / "knot_forces.png")
     write_tables(folder, logs, slides, out)
 
 

@@ -1,8 +1,7 @@
 #!/usr/bin/env bash
 # Every knot the animal ties: overhand (3_1), figure-eight (4_1), double overhand (5_1) and three-twist (5_2), their mirror
-# images, from noisy starts, with coarse and fine steps and from starts that differ by rounding. Leaves pictures, force
-# profiles and tables.
-#   bash experiments/results/knots/study.sh [OUTPUT_FOLDER]     default: out/knots
+# images, from noisy starts, with coarse and fine steps and from starts that differ by rounding. Leaves pictures and
+# tables.
 # Stopped, it goes on where it was.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../jobs.sh"
@@ -34,4 +33,3 @@ runs_of_all | work "$cores" "Four knots"
 
 echo "Drawing"
 draw knots.py "$runs" "$hagfish" "$out"
-list_output

@@ -2,7 +2,6 @@
 # What a knot is for: the pull at the food of every knot, in the Table 1 body and in the living one, against what the rows of
 # Eq. 6 may give, speed, stiffness, girth, muscles, time step and number of bodies. Leaves tables, leverage.png and
 # leverage_why.png.
-#   bash experiments/results/leverage/study.sh [OUTPUT_FOLDER]     default: out/leverage
 # Stopped, it goes on where it was.
 set -euo pipefail
 inputs=("$(dirname "${BASH_SOURCE[0]}")"/../../../data/pull_*.toml)
@@ -62,4 +61,3 @@ runs_of_all | work "$cores" "Leverage"
 echo "Drawing"
 draw leverage.py "$runs" "$out"
 draw leverage_why.py "$runs" "$out/leverage_why.png"
-list_output

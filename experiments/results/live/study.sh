@@ -2,7 +2,6 @@
 # The simulator in WebAssembly: how fast Table 1 runs in node, and what a step costs beside one of today's MuJoCo in the same engine; whether
 # both have the same model.
 # Builds the page, and gets MuJoCo from npm, which this study alone needs.
-#   bash experiments/results/live/study.sh [OUTPUT_FOLDER]     default: out/live
 set -euo pipefail
 targets=(--target mechanics)
 source "$(dirname "${BASH_SOURCE[0]}")/../common.sh"
@@ -18,4 +17,3 @@ mujoco=$out/node_modules/@mujoco/mujoco/mujoco.js
 node "$page/live_mujoco.mjs" "$wasm" "$mujoco" "$out/mjcf" >"$out/tables/live.csv"
 "$root/build/release/experiments/mechanics" states >"$out/states.json"
 node "$page/live_mirror.mjs" "$out/states.json" "$mujoco" "$out/mjcf" >"$out/tables/live_mirror.csv"
-list_output

@@ -1,5 +1,4 @@
-"""The animal that ties itself: torques and where their work goes, noisy starts, other animals, the paper's claims, and sweeps
-of stiffness, drag and haste.
+"""The animal that ties itself: torques, noisy starts, other animals, the paper's claims, and sweeps of stiffness, drag and haste.
 
 Usage: living.py RUNS OUT_FOLDER.
 """
@@ -41,7 +40,6 @@ class Run:
     force: float  # median of the sum of the multipliers of Eq. 6 / h while sliding, dyn
     penetration: float
     torque: dict[str, float]  # largest of a hinge, by phase
-    worked: dict[str, float]  # muscles, drag and damping, stored, thigmotaxis, until release
 
 
 def outcome_of(log: HagfishLog, unmet: list[str]) -> str:
@@ -60,14 +58,9 @@ def read_run(folder: Path, name: str, knot: str) -> Run:
     slide = read_slide(folder, name)
     torque = np.abs(np.nan_to_num(log["/forces/active"])).max(axis=1)  # no step begins at the end
     frames = {phase: log.in_phase(phase) for phase in PHASES}
-    held = np.concatenate([frames[phase] for phase in ("form", "tighten", "slide")])
-    total = lambda what: float(log[f"/diagnostics/{what}"][held[-1]])
-    start = float(log["/diagnostics/elastic_energy"][0] + log["/diagnostics/kinetic_energy"][0])
-    worked = {"muscles": total("work_active"), "thigmotaxis": total("work_thigmotaxis"),
-              "water and damping": total("dissipated"), "stored": total("elastic_energy") + total("kinetic_energy") - start}
     return Run(name, knot, outcome_of(log, unmet), slide.travel, audits.value_of(findings, "slide of both ends"), slide.met, slide.force,
                float(log["/steps/penetration"].max()),
-               {phase: float(torque[rows].max()) if rows.size else np.nan for phase, rows in frames.items()}, worked)
+               {phase: float(torque[rows].max()) if rows.size else np.nan for phase, rows in frames.items()})
 
 
 def shape_apart(log: HagfishLog, other: HagfishLog) -> tuple[np.ndarray, np.ndarray]:
@@ -77,59 +70,9 @@ def shape_apart(log: HagfishLog, other: HagfishLog) -> tuple[np.ndarray, np.ndar
     return log["/trajectory/time"][:frames], np.abs(q - p).max(axis=1)
 
 
-def likeness(log: HagfishLog, other: HagfishLog) -> float:
-    """Median correlation along the body of f_thigmo at frames in which both runs slide."""
-    f, g = (np.nan_to_num(one["/forces/thigmotaxis"]) for one in (log, other))
-    both = np.intersect1d(log.in_phase("slide"), other.in_phase("slide"))
-    rows = [np.corrcoef(f[k], g[k])[0, 1] for k in both if f[k].any() and g[k].any()]
-    return float(np.median(rows)) if rows else np.nan
-
-
 def names_of(folder: Path, kind: str, scene: str) -> list[str]:
     """All runs KIND_SCENE_VALUE."""
     return sorted(path.name.removesuffix(".check.csv") for path in folder.glob(f"{kind}_{scene}_*.check.csv"))
-
-
-@dataclass
-class Starts:
-    """What noisy starts of one scene came to, beside the undisturbed run."""
-
-    noise: float  # degrees on every hinge
-    count: int
-    off: int  # tied, kept the knot, and it came off
-    shares: list[float]  # of a slide by both ends, %
-    met: list[float]  # share of sliding steps that meet Eq. 6
-    apart: list[float]  # hinges, at the end of forming, rad
-    alike: list[float]  # median correlation of f_thigmo
-
-
-def read_starts(folder: Path, head: str, scene: str) -> Starts:
-    plain = HagfishLog(folder / f"{head}_{scene}.h5")
-    end = plain.in_phase("form")[-1]
-    result = Starts(0, 0, 0, [], [], [], [])
-    for name in names_of(folder, f"{head}start", scene):
-        run = read_run(folder, name, plots.SCENES[scene])
-        log = HagfishLog(folder / f"{name}.h5")
-        start = log.scene()["start"]
-        result.noise = np.degrees(float(start.get("noise_rad", np.radians(start.get("noise_deg", 0)))))
-        result.count += 1
-        result.off += run.outcome == "off"
-        result.shares.append(run.share)
-        result.met.append(run.met)
-        result.apart.append(shape_apart(plain, log)[1][min(end, log.frames - 1)])
-        result.alike.append(likeness(plain, log))
-    return result
-
-
-def starts_table(folder: Path, out: Path) -> None:
-    rows = []
-    for head in ("held", "free"):
-        for scene, knot in plots.SCENES.items():
-            starts = read_starts(folder, head, scene)
-            rows.append([head, knot, f"{starts.noise:g}", f"{starts.off} of {starts.count}", f"{np.nanmin(starts.shares):.0f}", f"{100 * np.nanmin(starts.met):.0f}", f"{max(starts.apart):.1e}", f"{np.nanmin(starts.alike):.4f}",
-                         f"{np.nanmedian(starts.alike):.4f}"])
-    tables.write_table(out, "living_starts", ["head", "knot", "noise, deg", "tied, kept, off", "share of a slide by both ends, least, %", "Eq. 6 met, least, %",
-                            "hinges apart at the end of forming, rad", "likeness of f_thigmo, least of the medians", "median of them"], rows)
 
 
 def claims_table(folder: Path, out: Path) -> None:
@@ -193,31 +136,47 @@ def sweep_rows(sweeps: dict[str, dict[str, list[tuple[float, Run]]]]) -> list[li
     return rows
 
 
-def run_rows(named: list[tuple[str, Run]]) -> list[list[str]]:
-    return [[name, run.knot, run.outcome, f"{run.travel:.1f}", f"{run.share:.0f}", f"{100 * run.met:.1f}", f"{run.force:.0f}", f"{run.penetration:.1e}",
-             f"{run.torque['form']:.2g}", f"{run.torque['slide']:.2g}",
-             *(f"{run.worked[key]:.2g}" for key in ("muscles", "thigmotaxis", "water and damping", "stored"))]
-            for name, run in named]
+def short(value: float) -> str:
+    return f"{value:.1e}".replace("e+0", "e")
+
+
+def main_table(folder: Path, out: Path) -> None:
+    of = lambda kind: [read_run(folder, f"{kind}_{scene}", knot) for scene, knot in plots.SCENES.items()]
+    every = lambda kind: [[read_run(folder, name, knot) for name in names_of(folder, kind, scene)]
+                          for scene, knot in plots.SCENES.items()]
+    held, free, animals = of("held"), of("free"), every("animal")
+    programs = [HagfishLog(folder / f"held_{scene}.h5").scene()["script"]["curvature"] for scene in plots.SCENES]
+    slid = lambda run: f"{run.travel:.1f}; {run.share:.0f}; {100 * run.met:.0f}"
+    came_off = lambda runs: sum(run.outcome == "off" for run in runs)
+    off = lambda kind: [f"{came_off(runs)}; {np.nanmin([run.share for run in runs]):.0f}" for runs in every(kind)]
+    tables.write_table(out, "living", ["h = 5 ms, `active-set`", *plots.SCENES.values()], [
+        ["clamped: way of the knot's head end, cm; share of a slide by both ends, %; steps that meet Eq. 6, %", *map(slid, held)],
+        ["free, no plate: the same", *map(slid, free)],
+        ["deepest penetration at any step, release included, cm",
+         *(f"{max(a.penetration, b.penetration):.4f}" for a, b in zip(held, free))],
+        ["λ/h of the first and last contact while sliding, clamped, median, dyn", *(short(run.force) for run in held)],
+        ["largest torque of a hinge, forming; sliding, dyn cm",
+         *(f"{short(run.torque['form'])}; {short(run.torque['slide'])}" for run in held)],
+        ["values of the program: stations x times", *(f"{len(each['stations'])} x {len(each['times'])}" for each in programs)],
+        ["of 20 starts with 3 degrees (3_1: 5) of noise on every hinge, clamped: tied, kept and off; least share, %",
+         *off("heldstart")],
+        ["free: the same", *off("freestart")],
+        ["of 10 other animals, clamped: tied, kept and off", *(str(came_off(each)) for each in animals)],
+        ["of these: least share, %", *("{:.0f}".format(min(run.share for run in each if run.outcome == "off")) for each in animals)],
+        ["of these that slide: sliding steps that meet Eq. 6, %: median, least",
+         *("{:.0f}, {:.0f}".format(*(100 * pick([run.met for run in each if run.outcome == "off" and np.isfinite(run.met)])
+                                     for pick in (np.median, min))) for each in animals)]])
 
 
 def main(folder: Path, out: Path) -> None:
     if not list(folder.glob("held_*.check.csv")):
         raise LogError(f"{folder}: holds no run held_*")
-    value_of = lambda name: name.rsplit("_", 1)[1]
-    runs_of = lambda kind, scene: [(value_of(name), read_run(folder, name, plots.SCENES[scene])) for name in names_of(folder, kind, scene)]
-    scenes = [(kind, read_run(folder, f"{kind}_{scene}", knot))
-              for kind in ("held", "free", "ipopt", "fine") for scene, knot in plots.SCENES.items()]
-    sweeps = {what: {knot: sorted(((float(value), run) for value, run in runs_of(what, scene)), key=lambda each: each[0])
-                     for scene, knot in plots.SCENES.items()} for what in SWEEPS}
-    of_sweeps = [(f"{what} {value:g}", run) for what, knots in sweeps.items() for runs in knots.values() for value, run in runs]
-    both = [(value.replace("-", " "), run) for scene in plots.SCENES for value, run in runs_of("both", scene)]
-    animals = [(f"animal {value}", run) for scene in plots.SCENES for value, run in sorted(runs_of("animal", scene), key=lambda each: int(each[0]))]
+    value_of = lambda name: float(name.rsplit("_", 1)[1])
+    runs_of = lambda what, scene, knot: [(value_of(name), read_run(folder, name, knot)) for name in names_of(folder, what, scene)]
+    sweeps = {what: {knot: sorted(runs_of(what, scene, knot), key=lambda each: each[0]) for scene, knot in plots.SCENES.items()}
+              for what in SWEEPS}
     draw(folder, sweeps, out / "living.png")
-    head = ["run", "knot", "outcome", "way of the head end, cm", "share of a slide by both ends, %", "Eq. 6 met, %", "λ/h of the first and last contact, median, dyn", "deepest overlap, cm",
-            "torque forming, dyn cm", "torque sliding, dyn cm", "work of muscles, erg", "of thigmotaxis, erg",
-            "to water and damping, erg", "stored, erg"]
-    tables.write_table(out, "living_runs", head, run_rows(scenes + of_sweeps + both + animals))
-    starts_table(folder, out)
+    main_table(folder, out)
     claims_table(folder, out)
     tables.write_table(out, "living_sweeps", [
         "what is changed", "knots tied and slid off", "largest torque of a hinge while forming, dyn cm"], sweep_rows(sweeps))

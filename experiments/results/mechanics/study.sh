@@ -1,6 +1,5 @@
 #!/usr/bin/env bash
 # Rods and knots whose forces are known. Leaves the tables of the page.
-#   bash experiments/results/mechanics/study.sh [OUTPUT_FOLDER]     default: out/mechanics
 set -euo pipefail
 targets=(--target mechanics)
 source "$(dirname "${BASH_SOURCE[0]}")/../common.sh"
@@ -9,4 +8,3 @@ for table in twisted hooked loose mujoco ply tight time; do
   "$root/build/release/experiments/mechanics" $table >"$out/$table.csv"
 done
 draw mechanics.py "$out"
-list_output

@@ -2,7 +2,6 @@
 # Muscles: what the living scenes take of them while tying, sliding and pulling, in softer and stiffer bodies too, and the knots tied
 # and slid by activations alone, also from noisy starts and with quicker and slower muscles. Leaves muscles.md, muscles_stiffness.png
 # and, of the overhand knot, muscles.png.
-#   bash experiments/results/muscles/study.sh [OUTPUT_FOLDER]     default: out/muscles
 # Logs that are there already are not made again.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../common.sh"
@@ -35,4 +34,3 @@ moved="$with --set controller.law=muscles --set muscle.activation_time=0.1 --set
 }
 draw muscle_study.py "$out"
 draw muscles.py "$out/tie_overhand.h5" "$out/muscles.png"
-list_output

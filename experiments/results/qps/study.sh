@@ -1,6 +1,5 @@
 #!/usr/bin/env bash
 # The QPs of a Table 1 run at h = 5 ms, solved by each back end, from zero and from warm starts. Leaves q.h5, qps.csv and a table.
-#   bash experiments/results/qps/study.sh [OUTPUT_FOLDER]     default: out/qps
 # The QPs are not recorded again where they are there already.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../common.sh"
@@ -11,4 +10,3 @@ if [[ ! -e $out/q.h5 ]]; then
 fi
 "$hagfish" qp "$out/q.h5" --csv "$out/qps.csv" --force || (($? == 1)) # a back end that fails is a result
 draw qp_table.py "$out/qps.csv" "$out"
-list_output

@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
 # What accuracy costs while an animal ties itself, by rule, step, bodies and back end; in smooth motions, beside MuJoCo; and what each
 # choice of the Table 1 scene costs and buys. Slides are in contracting/. Leaves tables and two figures.
-#   bash experiments/results/speed_accuracy/study.sh [OUTPUT_FOLDER]     default: out/speed_accuracy
 # Stopped, it goes on where it was. Times are CPU times; jobs share the machine.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../jobs.sh"
@@ -68,4 +67,3 @@ echo "Drawing"
 draw tying.py "$runs" "$out"
 draw integration.py "$runs" "$out/tables/speed_accuracy_motions.csv" "$out/integration.png"
 draw choices.py "$runs" "$out/tables/speed_accuracy_choices.csv"
-list_output

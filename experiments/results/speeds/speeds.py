@@ -4,17 +4,30 @@ it. Usage: speeds.py SWEEP.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 import plots
 import tables
 from script import run_script
-from slides import MEAN, Slide, draw_over_speed, read_slides
+from slides import MEAN, Slide, read_slides
 
 LEAST_SHARE = 1e-4  # of steps, where a logarithmic axis ends
-WITHIN = 0.1  # a speed counts as met when measured to this share
+
+
+def draw_over_speed(axes: Any, slides: list[Slide], measure: Callable[[Slide], float], **style: Any) -> None:
+    """A measure over commanded speed, a line for each knot; open where the knot was lost or the run failed. What is not
+    above 0, which logarithmic axes lack, is left out."""
+    for knot, look in plots.KNOTS.items():
+        own = [s for s in slides if s.knot == knot and measure(s) > 0]
+        axes.plot([s.commanded for s in own], [measure(s) for s in own], label=look.label, **(look.style | style))
+        lost = [s for s in own if s.failure]
+        axes.plot([s.commanded for s in lost], [measure(s) for s in lost], **(look.style | style | {"ls": "", "mfc": "white"}))
+    axes.set(xscale="log", yscale="log", xlabel="commanded speed, cm/s")
+    plots.plain_ticks(axes.xaxis, sorted({s.commanded for s in slides}))
 
 
 def draw(slides: list[Slide], out: Path) -> None:
@@ -22,7 +35,8 @@ def draw(slides: list[Slide], out: Path) -> None:
                                                      "penetration"])
     speed, force, slack, deep = panels
     draw_over_speed(speed, slides, lambda s: s.speed)
-    plots.draw_diagonal(speed, [s.commanded for s in slides])
+    ends = [min(s.commanded for s in slides), max(s.commanded for s in slides)]
+    speed.plot(ends, ends, color=plots.GREY, lw=0.8, ls="--", zorder=0, label="as commanded")
     speed.set_ylabel("measured speed, cm/s")
     speed.legend(loc="upper left")
     draw_over_speed(force, slides, lambda s: s.force)

@@ -2,7 +2,6 @@
 # The failure map: stress scenes (experiments/stability/*.toml, and the Table 1 run) over time steps, methods and
 # levels of stress. Leaves stability.csv, a heat map per scene, and summary.md and stability.png: the largest step that
 # each method survives; and how far the reflex goes.
-#   bash experiments/results/stability/study.sh [OUTPUT_FOLDER]     default: out/stability
 # Stopped, it goes on where it was. `hagfish stress` judges a cell (experiments/stress/stress_judge.hpp).
 set -euo pipefail
 scenes=$(cd "$(dirname "${BASH_SOURCE[0]}")/../../stability" && pwd)
@@ -115,4 +114,3 @@ list | sort -t$'\t' -k5,5gr | work "$cores" cells
 } >"$out/stability.csv"
 draw stability.py "$out/stability.csv" "$out"
 /usr/bin/python3 "$page/reflex_limits.py" "$hagfish" "$out/reflex" "$out/tables/stability_reflex.csv"
-list_output

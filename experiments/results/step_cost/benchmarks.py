@@ -1,6 +1,6 @@
-"""What the parts of a step cost, from `hagfish_benchmarks`: a CSV beside the figure, ratios to MuJoCo on standard output.
+"""What the parts of a step cost, from `hagfish_benchmarks`: times as CSV, ratios to MuJoCo as the page's table.
 
-Usage: benchmarks.py BENCHMARKS.json OUT.png (writes a PDF and a CSV beside).
+Usage: benchmarks.py BENCHMARKS.json OUT_FOLDER.
 """
 
 from __future__ import annotations
@@ -9,24 +9,13 @@ import json
 from pathlib import Path
 from typing import Any
 
-import plots
 import tables
 from script import run_script
 
-# Steps between restarts from the knotted state; the figure has the first.
+# Steps between restarts from the knotted state.
 RESTARTS = (10, 100)
 # MuJoCo's accelerations may be this far from its own converged ones, as a share of what constraints change them by.
 CONVERGED = 0.01
-PARTS = {"kinematics": "kinematics", "mass_matrix": "mass matrix, dense", "bias": "bias",
-         "system": "Eq. 1: M, factor, solve", "contact": "contact", "rows": "rows", "dual": "A and b of the QP",
-         "qp_active-set": "QP, active-set"}
-SIMULATORS = {"core": ("core", plots.INK), "mujoco": ("MuJoCo", plots.BLUE)}
-# Part, label, marker and line; the colour is the simulator's.
-STEPS = {("core", "step_knotted_ipopt:10"): ("knotted, core with Ipopt", "s", ":"),
-         ("mujoco", "step_knotted:10"): ("knotted, MuJoCo's quickest that converges", "o", "-"),
-         ("core", "step_knotted_active-set:10"): ("knotted, core with active-set", "o", "-"),
-         ("mujoco", "step_free:10"): ("without contact, MuJoCo", "^", "--"),
-         ("core", "step_free:10"): ("without contact, core", "^", "--")}
 Times = dict[tuple[str, str], dict[int, float]]
 # By restart and bodies: the setting of MuJoCo's solver with the quickest step of those that converge, and its residual.
 Quickest = dict[int, dict[int, tuple[str, float]]]
@@ -89,43 +78,13 @@ def ratios(times: Times, quickest: Quickest) -> list[list[str]]:
     return rows
 
 
-def draw_steps(axes: Any, times: Times) -> None:
-    for (simulator, part), (label, marker, line) in STEPS.items():
-        by_bodies = dict(sorted(times[(simulator, part)].items()))
-        axes.loglog(by_bodies.keys(), by_bodies.values(), line, color=SIMULATORS[simulator][1], marker=marker, label=label)
-    plots.plain_ticks(axes.xaxis, by_bodies)
-    axes.set(xlabel="bodies", ylabel="CPU time of a whole step, µs")
-    axes.legend(loc="upper left")
-
-
-def draw_parts(axes: Any, times: Times, bodies: int) -> None:
-    for row, part in enumerate(PARTS):
-        for shift, (simulator, (label, colour)) in zip((-0.18, 0.18), SIMULATORS.items()):
-            if (simulator, part) in times:
-                time = times[(simulator, part)][bodies]
-                axes.barh(row + shift, time, 0.34, color=colour, label=label if row == 0 else None)
-                axes.text(time * 1.1, row + shift, f"{time:.2g}" if time < 10 else f"{time:.0f}", va="center", fontsize=8)
-    axes.set(xscale="log", xlabel="CPU time, µs", xlim=(1, 2 * axes.get_xlim()[1]))
-    axes.set_yticks(range(len(PARTS)), PARTS.values())
-    axes.grid(axis="y", visible=False)
-    axes.invert_yaxis()
-    axes.legend(loc="lower right")
-
-
 def main(benchmarks: Path, out: Path) -> None:
     results = json.loads(benchmarks.read_text(encoding="utf-8"))
     times, quickest = medians(results["benchmarks"])
-    write_times(times, results["context"], out.with_suffix(".csv"))
+    write_times(times, results["context"], out / "benchmarks.csv")
     head, *rows = ratios(times, quickest)
-    tables.write_table(out.parent, "step_cost", head, rows)
-    for cells in (head, *rows):
-        print(f"{cells[0]:<50}" + "".join(f"{value:>20}" for value in cells[1:]))
-    bodies = 100
-    figure, (step, parts) = plots.panels(1, 2, (11, 4.4), ["one step", f"parts of the knotted step, {bodies} bodies"])
-    draw_steps(step, times)
-    draw_parts(parts, times, bodies)
-    plots.save(figure, out)
+    tables.write_table(out, "step_cost", head, rows)
 
 
 if __name__ == "__main__":
-    run_script(__doc__, ["BENCHMARKS.json", "OUT.png"], main)
+    run_script(__doc__, ["BENCHMARKS.json", "OUT_FOLDER"], main)

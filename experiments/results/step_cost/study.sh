@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
 # What each part of a step costs at 25 to 400 bodies, with MuJoCo's part beside it in one process.
-# Leaves a CSV with processor, flags and library versions, a table of ratios and a figure.
-#   bash experiments/results/step_cost/study.sh [OUTPUT_FOLDER]     default: out/step_cost
+# Leaves a CSV with processor, flags and library versions and two tables.
 set -euo pipefail
 targets=(hagfish_benchmarks hagfish_overlap)
 source "$(dirname "${BASH_SOURCE[0]}")/../common.sh"
@@ -22,6 +21,5 @@ taskset --cpu-list 0 "$root/build/release/experiments/benchmarks/hagfish_benchma
 # What it costs to keep strands apart: a knot pulled as hard in both simulators.
 taskset --cpu-list 0 "$root/build/release/experiments/benchmarks/hagfish_overlap" \
   "$root/experiments/stability/pulled_knot.toml" "$out"/{50,100}.h5 >"$out/overlap.csv"
-draw benchmarks.py "$out/benchmarks.json" "$out/benchmarks.png"
+draw benchmarks.py "$out/benchmarks.json" "$out"
 draw overlap.py "$out/overlap.csv" "$out"
-list_output

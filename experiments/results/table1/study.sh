@@ -2,7 +2,6 @@
 # The Table 1 experiment from nothing to figures: sets up, builds, runs the scene with Ipopt, audits
 # the log and draws. Leaves table1.h5, figure7, figure8, claims, summary.md and the table of
 # the page in one folder.
-#   bash experiments/table1.sh [OUTPUT_FOLDER]     default: out/table1
 set -euo pipefail
 export HAGFISH_RUN_ONLY=1 # no packages for films, tests and other studies
 source "$(dirname "${BASH_SOURCE[0]}")/../common.sh"
@@ -23,5 +22,4 @@ draw summary.py "$out/table1.h5" "$out/check.csv" "$out/summary.md"
 draw table1.py "$out/check.csv" "$page/table1.csv" "$out" || (($? == 1))
 echo
 cat "$out/claims.txt"
-list_output
 exit "$failed"

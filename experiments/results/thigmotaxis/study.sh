@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
 # What slides the knot of a stiff animal: Eq. 6 at two contacts, at the skin, at all contacts, or the reflex; by knots, meshes, steps,
 # speeds and starts. Leaves thigmotaxis.png and two tables.
-#   bash experiments/results/thigmotaxis/study.sh [OUTPUT_FOLDER]     default: out/thigmotaxis
 # Stopped, it goes on where it was.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../common.sh"
@@ -10,4 +9,3 @@ for grid in laws reflex meshes steps speeds starts; do
   "$hagfish" sweep "$grids/$grid.toml" --out "$out/$grid"
 done
 draw thigmotaxis.py "$out"
-list_output

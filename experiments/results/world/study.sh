@@ -2,7 +2,6 @@
 # A world to knot in: the head pulled out of a hole by knots and by waves without a knot, the skin that knots sweep,
 # and a snake robot on a floor. Leaves tables/world.csv, world_waves.csv, world_map.csv, world_chance.csv, world_skin.csv,
 # world_pole.csv, world_robot.csv, world.png, world_map.png and world_skin.png.
-#   bash experiments/results/world/study.sh [OUTPUT_FOLDER]     default: out/world
 # Stopped, it goes on where it was. What it needs of a log is taken at once, and the log removed: it takes less than 0.5 GB.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../common.sh"
@@ -65,4 +64,3 @@ for scene in reflex_hole_overhand hole_overhand reflex_burrow robot_overhand; do
   "$hagfish" run "$scene" --out "$out/strip/$scene.h5" --force --quiet
 done
 draw world_strip.py "$out"/strip/{reflex_hole_overhand,hole_overhand,reflex_burrow}.h5 "$out/pole/run.h5" "$out/strip/robot_overhand.h5" "$out/world.png"
-list_output
