@@ -11,9 +11,9 @@
 #include "core/chain/start.hpp"
 #include "core/contact/observation.hpp"
 #include "core/contact/obstacles.hpp"
-#include "core/input/toml_range.hpp"
+#include "core/control/laws.hpp"
+#include "core/input/toml/toml_range.hpp"
 #include "core/knot/knot.hpp"
-#include "core/run/laws.hpp"
 
 namespace hagfish {
 namespace {

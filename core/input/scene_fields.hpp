@@ -11,10 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include "core/input/program_table.hpp"
+#include "core/control/laws.hpp"
+#include "core/input/csv/program_table.hpp"
 #include "core/input/run_time_text.hpp"
-#include "core/input/toml_range.hpp"
-#include "core/run/laws.hpp"
+#include "core/input/toml/toml_range.hpp"
 #include "core/scene/settings.hpp"
 #include "core/scene/specimen.hpp"
 

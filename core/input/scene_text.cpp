@@ -6,16 +6,16 @@
 #include <numbers>
 #include <random>
 
-#include "core/input/basis_csv.hpp"
 #include "core/input/builtin_files.hpp"
-#include "core/input/curvature_csv.hpp"
+#include "core/input/csv/basis_csv.hpp"
+#include "core/input/csv/curvature_csv.hpp"
+#include "core/input/csv/program_table.hpp"
 #include "core/input/input_text.hpp"
-#include "core/input/program_table.hpp"
 #include "core/input/scene_base.hpp"
 #include "core/input/scene_checks.hpp"
 #include "core/input/scene_fields.hpp"
-#include "core/input/toml_reader.hpp"
-#include "core/input/toml_writer.hpp"
+#include "core/input/toml/toml_reader.hpp"
+#include "core/input/toml/toml_writer.hpp"
 #include "core/scene/normal_draw.hpp"
 
 namespace hagfish {

@@ -5,9 +5,9 @@
 
 #include "core/log/log_level.hpp"
 #include "core/log/log_table.hpp"
-#include "core/log/thigmotaxis_rows.hpp"
+#include "core/log/means/thigmotaxis_rows.hpp"
 #include "core/scene/settings.hpp"
-#include "core/step/rows.hpp"
+#include "core/step/rows/rows.hpp"
 
 namespace hagfish {
 

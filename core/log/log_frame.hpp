@@ -2,10 +2,10 @@
 #pragma once
 
 #include "core/log/log_level.hpp"
-#include "core/log/log_means.hpp"
 #include "core/log/log_table.hpp"
-#include "core/log/moment_means.hpp"
-#include "core/log/thigmotaxis_rows.hpp"
+#include "core/log/means/log_means.hpp"
+#include "core/log/means/moment_means.hpp"
+#include "core/log/means/thigmotaxis_rows.hpp"
 #include "core/muscle/activation.hpp"
 #include "core/run/simulation.hpp"
 

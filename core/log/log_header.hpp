@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/chain/model.hpp"
-#include "core/log/hdf5_writer.hpp"
+#include "core/log/hdf5/hdf5_writer.hpp"
 #include "core/log/log_level.hpp"
 
 namespace hagfish {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "core/log/axis_labels.hpp"
+#include "core/log/hdf5/series.hpp"
 #include "core/log/log_level.hpp"
-#include "core/log/series.hpp"
 
 namespace hagfish {
 

@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "core/contact/obstacles.hpp"
-#include "core/step/dual_problem.hpp"
-#include "core/step/eq6_rows.hpp"
 #include "core/step/look_ahead.hpp"
+#include "core/step/rows/dual_problem.hpp"
+#include "core/step/rows/eq6_rows.hpp"
 
 namespace hagfish {
 namespace {

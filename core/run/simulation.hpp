@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/run/controller.hpp"
+#include "core/control/controller.hpp"
 #include "core/run/energy.hpp"
 #include "core/run/guard.hpp"
 #include "core/run/momentum.hpp"

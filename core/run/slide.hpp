@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/chain/model.hpp"
-#include "core/run/controller.hpp"
+#include "core/control/controller.hpp"
 #include "core/scene/phase.hpp"
 
 namespace hagfish {

@@ -229,8 +229,8 @@ enum class ReflexGate {
   touch  ///< those within a reach of where the body touches itself; the others keep their angle
 };
 
-/// The rule of the law reflex (core/run/reflex.hpp): every joint copies what the animal senses of
-/// its own shape a little further on.
+/// The rule of the law reflex (core/control/reflex.hpp): every joint copies what the animal senses
+/// of its own shape a little further on.
 struct ReflexSettings {
   /// Δ, cm of arc: how far behind itself (negative: before itself) a joint finds what it copies. On
   /// a way back to the tail it is turned round.
@@ -246,7 +246,7 @@ struct ReflexSettings {
 
 /// The thigmotaxis controller (paper, 3.2, Eq. 6) and its switches between phases.
 struct ControllerSettings {
-  std::string law = "paper";  ///< that controls the animal in each phase (core/run/laws.hpp)
+  std::string law = "paper";  ///< that controls the animal in each phase (core/control/laws.hpp)
   Eq6Point eq6_at = Eq6Point::skin;
   Eq6Slip eq6_slip = Eq6Slip::paper;
   KnotSpeedSettings knot_speed;

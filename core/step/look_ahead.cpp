@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/contact/obstacles.hpp"
-#include "core/step/row_selection.hpp"
+#include "core/step/rows/row_selection.hpp"
 
 namespace hagfish {
 namespace {

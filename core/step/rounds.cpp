@@ -7,8 +7,8 @@
 #include <span>
 #include <stdexcept>
 
-#include "core/step/prescribed_rows.hpp"
-#include "core/step/row_selection.hpp"
+#include "core/step/rows/prescribed_rows.hpp"
+#include "core/step/rows/row_selection.hpp"
 #include "core/step/step_failure.hpp"
 
 namespace hagfish {

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/step/dual_problem.hpp"
 #include "core/step/outcome.hpp"
+#include "core/step/rows/dual_problem.hpp"
 #include "core/step/step_input.hpp"
 #include "core/step/step_solution.hpp"
 #include "core/step/warm_start.hpp"

@@ -6,7 +6,7 @@
 
 #include "core/chain/dynamics.hpp"
 #include "core/contact/observation.hpp"
-#include "core/step/eq6_rows.hpp"
+#include "core/step/rows/eq6_rows.hpp"
 
 namespace hagfish {
 

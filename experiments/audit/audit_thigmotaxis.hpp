@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/run/laws.hpp"
+#include "core/control/laws.hpp"
 #include "experiments/audit/audited_frame.hpp"
 #include "experiments/audit/rebuilt.hpp"
 

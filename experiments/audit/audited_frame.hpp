@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/log/reading/log_contents.hpp"
 #include "core/run/simulation.hpp"
 #include "core/step/midpoint/midway.hpp"
-#include "experiments/audit/log_contents.hpp"
 
 namespace hagfish {
 

@@ -12,8 +12,8 @@
 #include <utility>
 
 #include "core/log/build_info.hpp"
-#include "core/step/dual_problem.hpp"
-#include "core/step/row_selection.hpp"
+#include "core/step/rows/dual_problem.hpp"
+#include "core/step/rows/row_selection.hpp"
 #include "experiments/benchmarks/mujoco_setting.hpp"
 #include "experiments/benchmarks/start.hpp"
 #include "mujoco_ref/mirror.hpp"

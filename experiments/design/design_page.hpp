@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "core/input/scene_reader.hpp"
-#include "experiments/audit/judge.hpp"
+#include "core/input/files/scene_reader.hpp"
 #include "experiments/design/design.hpp"
+#include "experiments/judge/judge.hpp"
 
 namespace hagfish {
 

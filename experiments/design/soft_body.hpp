@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/chain/model.hpp"
-#include "core/input/scene_reader.hpp"
+#include "core/input/files/scene_reader.hpp"
 #include "core/knot/knot.hpp"
 #include "core/run/simulation.hpp"
 #include "experiments/design/tail_path.hpp"

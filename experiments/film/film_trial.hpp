@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/chain/model.hpp"
-#include "core/input/scene_reader.hpp"
+#include "core/input/files/scene_reader.hpp"
 
 namespace hagfish {
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "core/run/laws.hpp"
+#include "core/control/laws.hpp"
 #include "experiments/view/along_body.hpp"
 #include "experiments/view/drawn_plane.hpp"
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/input/scene_text.hpp"
-#include "core/log/log_means.hpp"
-#include "core/log/moment_means.hpp"
+#include "core/log/means/log_means.hpp"
+#include "core/log/means/moment_means.hpp"
 #include "core/run/simulation.hpp"
 #include "core/run/slide.hpp"
 

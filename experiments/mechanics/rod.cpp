@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/chain/dynamics.hpp"
+#include "core/control/control_law.hpp"
 #include "core/knot/knot.hpp"
-#include "core/run/control_law.hpp"
 
 namespace hagfish {
 namespace {

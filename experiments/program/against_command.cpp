@@ -6,16 +6,16 @@
 #include "core/chain/kinematics.hpp"
 #include "core/input/input_error.hpp"
 #include "core/input/input_text.hpp"
+#include "experiments/common/csv.hpp"
+#include "experiments/common/text_file.hpp"
 #include "experiments/film/film_checks.hpp"
 #include "experiments/film/film_curve.hpp"
 #include "experiments/film/film_distance.hpp"
 #include "experiments/film/film_trial.hpp"
-#include "experiments/program/csv.hpp"
 #include "experiments/program/film_words.hpp"
 #include "experiments/program/number_options.hpp"
 #include "experiments/program/program.hpp"
 #include "experiments/program/scripts.hpp"
-#include "experiments/program/text_file.hpp"
 
 namespace hagfish {
 namespace {

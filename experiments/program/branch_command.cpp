@@ -5,12 +5,12 @@
 #include <limits>
 
 #include "core/input/input_text.hpp"
-#include "core/log/logged_run.hpp"
-#include "experiments/program/idle_settings.hpp"
+#include "core/log/reading/logged_run.hpp"
+#include "experiments/common/idle_settings.hpp"
+#include "experiments/common/scene_sense.hpp"
+#include "experiments/common/terminal.hpp"
 #include "experiments/program/program.hpp"
 #include "experiments/program/scene_run.hpp"
-#include "experiments/program/scene_sense.hpp"
-#include "experiments/program/terminal.hpp"
 
 namespace hagfish {
 namespace {

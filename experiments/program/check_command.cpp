@@ -6,12 +6,12 @@
 
 #include "core/input/input_text.hpp"
 #include "experiments/audit/audit.hpp"
-#include "experiments/program/csv.hpp"
-#include "experiments/program/failure.hpp"
+#include "experiments/common/csv.hpp"
+#include "experiments/common/failure.hpp"
+#include "experiments/common/terminal.hpp"
+#include "experiments/common/text_file.hpp"
 #include "experiments/program/program.hpp"
 #include "experiments/program/run_again.hpp"
-#include "experiments/program/terminal.hpp"
-#include "experiments/program/text_file.hpp"
 
 namespace hagfish {
 namespace {

@@ -4,15 +4,15 @@
 #include <sstream>
 #include <thread>
 
+#include "core/input/files/scene_reader.hpp"
+#include "core/input/files/text_file.hpp"
 #include "core/input/input_error.hpp"
 #include "core/input/input_text.hpp"
-#include "core/input/scene_reader.hpp"
-#include "core/input/text_file.hpp"
+#include "experiments/common/terminal.hpp"
 #include "experiments/design/design.hpp"
 #include "experiments/design/soft_body.hpp"
 #include "experiments/program/number_options.hpp"
 #include "experiments/program/program.hpp"
-#include "experiments/program/terminal.hpp"
 
 namespace hagfish {
 namespace {

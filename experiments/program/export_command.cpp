@@ -4,10 +4,10 @@
 #include <memory>
 
 #include "core/input/input_text.hpp"
-#include "core/log/hdf5_error.hpp"
+#include "core/log/hdf5/hdf5_error.hpp"
+#include "experiments/common/text_file.hpp"
 #include "experiments/export/export_tables.hpp"
 #include "experiments/program/program.hpp"
-#include "experiments/program/text_file.hpp"
 
 namespace hagfish {
 namespace {

@@ -1,6 +1,6 @@
 #include <filesystem>
 
-#include "experiments/audit/log_contents.hpp"
+#include "core/log/reading/log_contents.hpp"
 #include "experiments/program/program.hpp"
 #include "experiments/program/scripts.hpp"
 

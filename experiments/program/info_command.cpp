@@ -3,10 +3,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/control/controller.hpp"
 #include "core/input/input_text.hpp"
-#include "core/log/logged_run.hpp"
-#include "core/run/controller.hpp"
-#include "experiments/audit/log_contents.hpp"
+#include "core/log/reading/log_contents.hpp"
+#include "core/log/reading/logged_run.hpp"
 #include "experiments/export/swept_skin.hpp"
 #include "experiments/program/program.hpp"
 

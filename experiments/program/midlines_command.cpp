@@ -7,19 +7,19 @@
 #include <optional>
 #include <sstream>
 
-#include "core/input/curvature_csv.hpp"
+#include "core/input/csv/curvature_csv.hpp"
 #include "core/input/input_error.hpp"
 #include "core/input/input_text.hpp"
+#include "experiments/common/scene_argument.hpp"
+#include "experiments/common/text_file.hpp"
 #include "experiments/film/film_fit.hpp"
 #include "experiments/film/film_trial.hpp"
 #include "experiments/film/film_verdict.hpp"
 #include "experiments/program/film_words.hpp"
 #include "experiments/program/number_options.hpp"
 #include "experiments/program/program.hpp"
-#include "experiments/program/scene_argument.hpp"
 #include "experiments/program/scripts.hpp"
 #include "experiments/program/shell_word.hpp"
-#include "experiments/program/text_file.hpp"
 
 namespace hagfish {
 namespace {

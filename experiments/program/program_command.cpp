@@ -1,12 +1,12 @@
 #include <fmt/format.h>
 
-#include "core/input/curvature_csv.hpp"
+#include "core/input/csv/curvature_csv.hpp"
 #include "core/input/input_text.hpp"
-#include "experiments/audit/log_contents.hpp"
+#include "core/log/reading/log_contents.hpp"
+#include "experiments/common/text_file.hpp"
 #include "experiments/curvature/program_fit.hpp"
 #include "experiments/program/number_options.hpp"
 #include "experiments/program/program.hpp"
-#include "experiments/program/text_file.hpp"
 
 namespace hagfish {
 namespace {

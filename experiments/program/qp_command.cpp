@@ -4,12 +4,11 @@
 #include <cstdio>
 
 #include "core/input/input_text.hpp"
-#include "experiments/program/csv.hpp"
+#include "experiments/common/csv.hpp"
+#include "experiments/common/terminal.hpp"
+#include "experiments/common/text_file.hpp"
 #include "experiments/program/number_options.hpp"
 #include "experiments/program/program.hpp"
-#include "experiments/program/suggestion.hpp"
-#include "experiments/program/terminal.hpp"
-#include "experiments/program/text_file.hpp"
 #include "experiments/qp/qp_table.hpp"
 
 namespace hagfish {

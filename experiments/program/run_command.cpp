@@ -4,15 +4,14 @@
 
 #include "core/input/input_text.hpp"
 #include "core/log/build_info.hpp"
-#include "core/log/logged_run.hpp"
-#include "experiments/program/idle_settings.hpp"
-#include "experiments/program/presets.hpp"
+#include "core/log/reading/logged_run.hpp"
+#include "experiments/common/idle_settings.hpp"
+#include "experiments/common/presets.hpp"
+#include "experiments/common/scene_argument.hpp"
+#include "experiments/common/scene_sense.hpp"
+#include "experiments/common/terminal.hpp"
 #include "experiments/program/program.hpp"
-#include "experiments/program/scene_argument.hpp"
 #include "experiments/program/scene_run.hpp"
-#include "experiments/program/scene_sense.hpp"
-#include "experiments/program/suggestion.hpp"
-#include "experiments/program/terminal.hpp"
 #include "solvers/box_qp.hpp"
 
 namespace hagfish {

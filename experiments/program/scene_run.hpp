@@ -6,8 +6,8 @@
 
 #include "core/log/log_writer.hpp"
 #include "core/run/drive.hpp"
+#include "experiments/common/run_header.hpp"
 #include "experiments/program/program.hpp"
-#include "experiments/program/run_header.hpp"
 
 namespace hagfish {
 

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "core/input/builtin_files.hpp"
-#include "core/input/scene_reader.hpp"
+#include "core/input/files/scene_reader.hpp"
 #include "experiments/program/program.hpp"
 
 namespace hagfish {

@@ -12,7 +12,7 @@
 #include <stdexcept>
 
 #include "core/input/input_error.hpp"
-#include "core/log/output_file.hpp"
+#include "core/log/hdf5/output_file.hpp"
 
 namespace hagfish {
 namespace {

@@ -9,13 +9,12 @@
 
 #include "core/input/input_error.hpp"
 #include "core/input/input_text.hpp"
+#include "experiments/common/scene_argument.hpp"
+#include "experiments/common/specimen_files.hpp"
+#include "experiments/common/text_file.hpp"
 #include "experiments/program/number_options.hpp"
 #include "experiments/program/program.hpp"
-#include "experiments/program/scene_argument.hpp"
 #include "experiments/program/shell_word.hpp"
-#include "experiments/program/suggestion.hpp"
-#include "experiments/program/text_file.hpp"
-#include "experiments/specimen/specimen_files.hpp"
 
 namespace hagfish {
 namespace {

@@ -1,10 +1,10 @@
 #include <filesystem>
 
-#include "experiments/program/csv.hpp"
+#include "experiments/common/csv.hpp"
+#include "experiments/common/scene_argument.hpp"
+#include "experiments/common/text_file.hpp"
 #include "experiments/program/program.hpp"
-#include "experiments/program/scene_argument.hpp"
 #include "experiments/program/scripts.hpp"
-#include "experiments/program/text_file.hpp"
 #include "experiments/program/told_sweep.hpp"
 #include "experiments/sweep/sure.hpp"
 

@@ -2,7 +2,7 @@
 
 #include "core/input/input_error.hpp"
 #include "core/input/input_text.hpp"
-#include "experiments/program/idle_settings.hpp"
+#include "experiments/common/idle_settings.hpp"
 #include "experiments/program/program.hpp"
 #include "experiments/program/told_sweep.hpp"
 #include "experiments/sweep/grid_reader.hpp"

@@ -3,8 +3,8 @@
 #include <filesystem>
 
 #include "core/input/input_text.hpp"
+#include "experiments/common/text_file.hpp"
 #include "experiments/program/program.hpp"
-#include "experiments/program/text_file.hpp"
 #include "experiments/view/view_data.hpp"
 #include "experiments/view/view_page.hpp"
 

@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "core/input/scene_reader.hpp"
+#include "core/input/files/scene_reader.hpp"
 #include "core/log/log_writer.hpp"
 #include "core/run/simulation.hpp"
 #include "core/run/slide.hpp"

@@ -16,9 +16,9 @@
 #include <string>
 #include <vector>
 
-#include "core/log/hdf5_reader.hpp"
-#include "core/log/hdf5_writer.hpp"
-#include "core/log/output_file.hpp"
+#include "core/log/hdf5/hdf5_reader.hpp"
+#include "core/log/hdf5/hdf5_writer.hpp"
+#include "core/log/hdf5/output_file.hpp"
 #include "solvers/box_qp.hpp"
 #include "solvers/primal_qp.hpp"
 

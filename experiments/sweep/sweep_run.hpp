@@ -7,8 +7,8 @@
 #include <optional>
 #include <string>
 
-#include "core/input/scene_reader.hpp"
-#include "experiments/audit/judge.hpp"
+#include "core/input/files/scene_reader.hpp"
+#include "experiments/judge/judge.hpp"
 
 namespace hagfish {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/log/output_file.hpp"
+#include "core/log/hdf5/output_file.hpp"
 #include "experiments/sweep/appended_file.hpp"
 #include "experiments/sweep/grid.hpp"
 

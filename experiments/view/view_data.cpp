@@ -5,12 +5,12 @@
 #include <cereal/external/base64.hpp>
 #include <cmath>
 
+#include "core/control/controller.hpp"
 #include "core/input/input_text.hpp"
 #include "core/knot/knot.hpp"
-#include "core/run/controller.hpp"
-#include "experiments/audit/replay.hpp"
 #include "experiments/export/body_quantity.hpp"
 #include "experiments/export/frame_contacts.hpp"
+#include "experiments/judge/replay.hpp"
 #include "experiments/view/along_body.hpp"
 #include "experiments/view/drawn_plane.hpp"
 

@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/step/eq6_rows.hpp"
+#include "core/step/rows/eq6_rows.hpp"
 
 namespace hagfish {
 

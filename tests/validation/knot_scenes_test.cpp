@@ -11,7 +11,7 @@
 #include <tuple>
 
 #include "core/input/builtin_files.hpp"
-#include "core/input/scene_reader.hpp"
+#include "core/input/files/scene_reader.hpp"
 #include "core/knot/writhe.hpp"
 #include "core/log/log_frame.hpp"
 #include "tests/support/temporary_folder.hpp"

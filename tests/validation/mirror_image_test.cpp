@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/input/scene_reader.hpp"
+#include "core/input/files/scene_reader.hpp"
 #include "core/knot/writhe.hpp"
 #include "core/run/simulation.hpp"
 

@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "core/chain/start.hpp"
-#include "core/input/scene_reader.hpp"
-#include "core/run/control_law.hpp"
+#include "core/control/control_law.hpp"
+#include "core/input/files/scene_reader.hpp"
 #include "core/run/simulation.hpp"
 #include "tests/support/random_chain.hpp"
 

@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <ranges>
 
-#include "core/input/scene_reader.hpp"
-#include "experiments/program/scene_argument.hpp"
-#include "experiments/stress/stress.hpp"
+#include "core/input/files/scene_reader.hpp"
+#include "experiments/common/scene_argument.hpp"
+#include "experiments/mujoco/stress.hpp"
 
 namespace hagfish::stress_scenes_test {
 

@@ -1,6 +1,6 @@
 // Today's MuJoCo, in WebAssembly: a tied knot slides by the reflex in closed loop, without water.
 //   node experiments/results/contracting/contracting_mujoco.mjs FOLDER/node_modules/@mujoco/mujoco/mujoco.js MJCF TIED.toml RULE STEP OUT.json
-// RULE: Euler, implicitfast, discrete. The law is that of core/run/reflex.hpp, as mujoco_ref/closed_loop.cpp has it.
+// RULE: Euler, implicitfast, discrete. The law is that of core/control/reflex.hpp, as mujoco_ref/closed_loop.cpp has it.
 import { readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { resolve } from "node:path";
 import { pathToFileURL } from "node:url";

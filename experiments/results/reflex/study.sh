@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The reflex (core/run/reflex.hpp): the four knots at two meshes and steps beside the paper's law, what it needs, its law of speed, where
+# The reflex (core/control/reflex.hpp): the four knots at two meshes and steps beside the paper's law, what it needs, its law of speed, where
 # it fails, pulls at food, and the same in MuJoCo. Leaves tables, reflex.png and reflex_strip.png.
 # Stopped, it goes on where it was; logs of MuJoCo and tables of laws in Python that are there already are not made again. Rows of the table
 # whose part of the study the output folder has not stay as they are.

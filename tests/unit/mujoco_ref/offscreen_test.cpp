@@ -10,9 +10,9 @@
 #include <fstream>
 #include <numbers>
 
-#include "core/log/hdf5_error.hpp"
-#include "experiments/picture/obstacle_geoms.hpp"
-#include "experiments/picture/picture.hpp"
+#include "core/log/hdf5/hdf5_error.hpp"
+#include "experiments/mujoco/obstacle_geoms.hpp"
+#include "experiments/mujoco/picture.hpp"
 #include "mujoco_ref/mjcf.hpp"
 #include "mujoco_ref/mujoco_model.hpp"
 #include "tests/support/random_chain.hpp"

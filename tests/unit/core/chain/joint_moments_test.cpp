@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/log/moment_means.hpp"
+#include "core/log/means/moment_means.hpp"
 #include "tests/support/random_chain.hpp"
 
 namespace hagfish::joint_moments_test {

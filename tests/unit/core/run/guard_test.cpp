@@ -6,9 +6,9 @@
 #include <functional>
 
 #include "core/run/simulation.hpp"
-#include "core/step/dual_problem.hpp"
 #include "core/step/look_ahead.hpp"
 #include "core/step/paper_step.hpp"
+#include "core/step/rows/dual_problem.hpp"
 #include "tests/support/random_chain.hpp"
 #include "tests/support/row_lists.hpp"
 
