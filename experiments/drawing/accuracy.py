@@ -21,7 +21,8 @@ def moments_of(log: HagfishLog, force: str, frames: np.ndarray) -> np.ndarray:
     _, joint, kind = log.hinges()
     arc = log.joint_arc()
     place, values = arc[joint] / (arc[-1] + log["/model/length"][-1]), log.at_hinges(log.moments(force)[frames])
-    return np.concatenate([[np.interp(STATIONS, place[kind == each], row[kind == each]) for row in values] for each in KINDS if each in kind], axis=1)
+    return np.concatenate([[np.interp(STATIONS, place[kind == each], row[kind == each]) for row in values] for each in KINDS
+                           if each in kind], axis=1)
 
 
 def through(points: np.ndarray, at: np.ndarray) -> np.ndarray:
@@ -51,7 +52,8 @@ def presets() -> dict[str, dict[str, Any]]:
     found = {}
     for preset in tomllib.loads(PRESETS.read_text(encoding="utf-8"))["preset"]:
         of = dict(setting.split("=") for setting in preset["set"])
-        found[preset["name"]] = {"rule": of.get("time.rule", "euler"), "bodies": int(of.get("model.bodies", 100)), "step_ms": 1e3 * float(of.get("time.step", 0.005))}
+        found[preset["name"]] = {"rule": of.get("time.rule", "euler"), "bodies": int(of.get("model.bodies", 100)),
+                                 "step_ms": 1e3 * float(of.get("time.step", 0.005))}
     return found
 
 

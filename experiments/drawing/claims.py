@@ -190,7 +190,8 @@ def smooth_in_space(s: Sliding) -> dict[str, Any]:
 
 def over_runs(verdicts: Sequence[str]) -> str:
     """The verdict of nearly all runs, "undecided" where there is none; "" without runs."""
-    return next((word for word in dict.fromkeys(verdicts) if verdicts.count(word) >= MOST_RUNS * len(verdicts)), "undecided") if verdicts else ""
+    return next((word for word in dict.fromkeys(verdicts) if verdicts.count(word) >= MOST_RUNS * len(verdicts)),
+                "undecided") if verdicts else ""
 
 
 def verdicts(a: dict[str, Any], b: dict[str, Any], c: dict[str, Any]) -> dict[str, str]:

@@ -153,7 +153,8 @@ def plain_words(a: dict[str, Any], b: dict[str, Any], c: dict[str, Any]) -> list
             f"{a['nonzero_beyond_reach_of_rows']} of {a['values_beyond_reach_of_rows']} not 0. Largest force, a mean over "
             f"{1000 * c['mean_over_s']:.0f} ms: {a['largest_force_dyn_cm']:.4g} dyn cm; {100 * a['share_of_plane_zero']:.0f} % "
             "of all values are 0. Rule: exactly 0 beyond the rows' reach.")
-    rows = [f"{name.split(',')[0]} ×{m['near_over_far']:.2f} (Spearman {m['spearman_with_head_end']:+.2f})" for name, m in b["measures"].items()]
+    rows = [f"{name.split(',')[0]} ×{m['near_over_far']:.2f} (Spearman {m['spearman_with_head_end']:+.2f})" for name,
+            m in b["measures"].items()]
     growth = ("mean over the third of the way nearest the head, over that of the furthest third: " + "; ".join(rows)
               + f". Rule: the first is at least {claims.LARGER}; at most 1 disagrees.")
     each = c["axes"].items()

@@ -28,7 +28,8 @@ def main(table: Path, out: Path) -> None:
         for k, at in enumerate(SHOWN):
             near = int(np.argmin(np.abs(stations - at)))
             line, = axis.plot(times, bend[:, near], label=f"{stations[near]:.2f} L")
-            axis.fill_between(times, bend[:, near] - BAND * error[:, near], bend[:, near] + BAND * error[:, near], color=line.get_color(), alpha=0.25, linewidth=0)
+            axis.fill_between(times, bend[:, near] - BAND * error[:, near], bend[:, near] + BAND * error[:, near], color=line.get_color(),
+                              alpha=0.25, linewidth=0)
         axis.set(xlabel="time, s", ylabel="rad / length, 90 % band")
     axes[0].legend(ncol=len(SHOWN), fontsize=7)
     image = axes[2].pcolormesh(times, stations, np.hypot(error_y, error_z).T, cmap="viridis", vmin=0, shading="nearest", rasterized=True)

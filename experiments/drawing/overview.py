@@ -31,7 +31,8 @@ def bending(log: HagfishLog, vectors: np.ndarray) -> tuple[np.ndarray, np.ndarra
 
 def draw_map(axes: Any, log: HagfishLog, arc: np.ndarray, values: np.ndarray, unit: str) -> None:
     time, large = log["/trajectory/time"], values[values > 0]
-    image = axes.imshow(values.T, aspect="auto", origin="lower", cmap="viridis", vmin=0, vmax=np.percentile(large, LARGE) if large.size else 1,
+    image = axes.imshow(values.T, aspect="auto", origin="lower", cmap="viridis", vmin=0,
+                        vmax=np.percentile(large, LARGE) if large.size else 1,
                         extent=(time[0], time[-1], arc[0], arc[-1]), interpolation="nearest")
     for end, style in (("head", "-"), ("tail", "--")):
         axes.plot(time, log[f"/knot/{end}_end"], style, color="white", lw=1, label=f"knot, {end} end")
@@ -73,13 +74,15 @@ def main(path: Path, out: Path) -> None:
     scene = log.scene()
     animal, length = scene["specimen"].get("name", "the animal"), log["/model/length"].sum()
     figure, panels = plots.panels(5, 1, (8.5, 11), [
-        "bending moment of $f_\\mathrm{thigmo}$, means from frame to frame", "curvature", "Eq. 6: speed along each tangent, means from frame to frame",
+        "bending moment of $f_\\mathrm{thigmo}$, means from frame to frame", "curvature",
+        "Eq. 6: speed along each tangent, means from frame to frame",
         "force that clamps the head, and that of the head plate, means", "energy, and work so far"], sharex=True)
     arc, force = bending(log, log.moments("thigmotaxis"))
     draw_map(panels[0], log, arc, force, "dyn cm")
     draw_map(panels[1], log, *bending(log, log["/trajectory/curvature"]), "rad/cm")
     draw_lines(panels[2], time, dict(zip(ROWS, log["/mean/thigmotaxis/speed"].T)), "cm/s", columns=1)  # there are none while the knot forms
-    draw_lines(panels[3], time, {"clamp": np.linalg.norm(log["/mean/forces/head"][:, :3], axis=1), "plate": log["/mean/forces/wall"][:, 0]}, "dyn")
+    draw_lines(panels[3], time, {"clamp": np.linalg.norm(log["/mean/forces/head"][:, :3], axis=1), "plate": log["/mean/forces/wall"][:, 0]},
+               "dyn")
     terms = {name: log[f"/diagnostics/{key}"] for key, name in ENERGIES.items()}
     draw_lines(panels[4], time, {name: values for name, values in terms.items() if np.any(values != 0)}, "erg")
     panels[4].set_xlabel("time, s")

@@ -49,7 +49,8 @@ class Look:
 SCENES = {"overhand": "3_1", "figure_eight": "4_1", "double_overhand": "5_1", "three_twist": "5_2"}  # what each knot's scenes are called
 KNOTS = {"3_1": Look("$3_1$ overhand", BLUE, "o"), "4_1": Look("$4_1$ figure-eight", ORANGE, "s"),
          "5_1": Look("$5_1$ double overhand", INK, "^"), "5_2": Look("$5_2$ three-twist", PURPLE, "D")}
-INTEGRATORS = {"core": Look("core, Euler", INK, "o"), "core_midpoint": Look("core, midpoint", VERMILION, "v"), "mujoco_euler": Look("MuJoCo Euler", BLUE, "s"),
+INTEGRATORS = {"core": Look("core, Euler", INK, "o"), "core_midpoint": Look("core, midpoint", VERMILION, "v"),
+               "mujoco_euler": Look("MuJoCo Euler", BLUE, "s"),
                "mujoco_implicit": Look("MuJoCo implicit", ORANGE, "^"), "mujoco_rk4": Look("MuJoCo RK4", PURPLE, "D")}
 VERDICTS = {"agrees": Look("agrees", BLUE, "^"), "undecided": Look("undecided", GREY, "o"),
             "disagrees": Look("disagrees", ORANGE, "v")}

@@ -152,7 +152,8 @@ def read_strand(log: HagfishLog) -> Strand:
         contact[k] += np.outer(on_a - on_b, force[i] * normal / np.linalg.norm(normal))
     rows = rows_of(log, frames)
     on_a, on_b = (weights(parameter, bodies)[0] for parameter in (rows.a, rows.b))
-    push = np.where(rows.along == 0, rows.force, -rows.force)[:, None] * np.where(rows.along[:, None] == 0, *tangents(log, frames, rows)) * NEWTON
+    push = np.where(rows.along == 0, rows.force, -rows.force)[:, None] * np.where(rows.along[:, None] == 0,
+                                                                                  *tangents(log, frames, rows)) * NEWTON
     for k, difference, along_strand in zip(rows.at, on_a - on_b, push):
         thigmotaxis[k] += np.outer(difference, along_strand)
     along = lambda force: float((force * tangent).sum(axis=(1, 2)).mean()) / NEWTON

@@ -23,7 +23,8 @@ from tables import read_csv, write_csv
 AS_IS, ALL = "as it is", "all"
 NUMERICS = ("chance", "step", "bodies")  # the rest is the animal's
 # Of the run's quality, which are bounds and no figures of the animal.
-QUALITY = {"penetration_cm", "limit_violation_rad", "head_drift_cm", "kkt", "eq6_percent", "energy_ledger", "energy_gain", "energy_loss", "momentum_ledger"}
+QUALITY = {"penetration_cm", "limit_violation_rad", "head_drift_cm", "kkt", "eq6_percent", "energy_ledger", "energy_gain", "energy_loss",
+           "momentum_ledger"}
 COLUMNS = 3
 MESH, ANIMAL = ("o", plots.BLUE), ("D", plots.ORANGE)
 HEADING = ["figure", "unit", "as_it_is", "cause", "least", "most", "furthest_percent", "runs", "runs_of"]
@@ -71,7 +72,8 @@ class Sure:
             return Spread(cause, np.nan, np.nan, np.nan, 0, int(own.sum()))
         with_own = np.append(found, values[0])
         off = np.abs(found - values[0]).max()
-        return Spread(cause, with_own.min(), with_own.max(), 100 * off / abs(values[0]) if values[0] else (np.inf if off else 0.0), found.size, int(own.sum()))
+        return Spread(cause, with_own.min(), with_own.max(), 100 * off / abs(values[0]) if values[0] else (np.inf if off else 0.0),
+                      found.size, int(own.sum()))
 
     def spreads(self, values: np.ndarray) -> list[Spread]:
         """Of each cause by itself, of the numerical ones, and of all."""
@@ -153,7 +155,8 @@ def draw(sure: Sure, png: Path) -> None:
 
 def main(folder: Path) -> None:
     sure = read(folder)
-    write_csv(folder / "sure.csv", HEADING, [[name, FIGURES[name][0], float(values[0]), s.cause, float(s.least), float(s.most), float(s.furthest), s.runs, s.of]
+    write_csv(folder / "sure.csv", HEADING, [[name, FIGURES[name][0], float(values[0]), s.cause, float(s.least), float(s.most),
+                                              float(s.furthest), s.runs, s.of]
                                              for name, values in sure.figures() for s in sure.spreads(values)])
     draw(sure, folder / "sure.png")
     print("\n".join(words(sure)))

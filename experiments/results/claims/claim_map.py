@@ -22,7 +22,8 @@ from hagfish_log import LogError
 from script import run_script
 
 GROWTH = claims.NAMES[1]
-CHANGES = {"as-it-is": "Table 1", "scale": "limits ×", "release": "let go at, cm:", "waypoints": "waypoints", "stiffness": "same, stiffness ×",
+CHANGES = {"as-it-is": "Table 1", "scale": "limits ×", "release": "let go at, cm:", "waypoints": "waypoints",
+           "stiffness": "same, stiffness ×",
            "drag": "same, drag ×"}
 READINGS = {"box": "limit on each axis (box)", "cone": "limit on the total angle (cone)"}
 HEAD = ["what is changed", "box: slid", "effort near over far", "larger near the head?", "cone: slid",
@@ -119,7 +120,8 @@ def summary(runs: list[Claim]) -> list[list[str]]:
             slid = [run for run in own if run.outcome == "slid"]
             row += [f"{len(slid)} of {len(own)}", median(slid, "near_over_far"), over_runs(slid, GROWTH)]
         slid = [run for run in of_group(runs, (next(iter(READINGS)), change)) if run.outcome == "slid"]
-        rows.append([*row, over_runs(slid, claims.NAMES[0]), median(slid, "roughness_space"), median(slid, "roughness_time"), over_runs(slid, claims.NAMES[2]),
+        rows.append([*row, over_runs(slid, claims.NAMES[0]), median(slid, "roughness_space"), median(slid, "roughness_time"),
+                     over_runs(slid, claims.NAMES[2]),
                      median(slid, "dct_modes_95"), over_runs(slid, claims.NAMES[3])])
     return rows
 

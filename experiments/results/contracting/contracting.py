@@ -34,7 +34,8 @@ STEPS = (20.0, 10.0, 5.0, 2.0, 1.0, 0.5)  # ms, of a table
 NOISE = 0.1  # share of an error by which runs must differ to be told apart
 # A row a run. Errors are against the reference; by_step_ against the same bodies in the same simulator, extrapolated to no step; off_here_cm
 # of MuJoCo's knot's path against the same bodies here, so extrapolated. Rows of step 0 are what is extrapolated.
-HEAD = ["law", "simulator", "contact_ms", "rule", "bodies", "step_ms", "cpu_s", "outcome", *MEASURES, *(f"by_step_{name}" for name in MEASURES), "off_here_cm"]
+HEAD = ["law", "simulator", "contact_ms", "rule", "bodies", "step_ms", "cpu_s", "outcome", *MEASURES,
+        *(f"by_step_{name}" for name in MEASURES), "off_here_cm"]
 
 Rows = list[dict[str, Any]]
 Motion = dict[str, np.ndarray]
@@ -84,7 +85,8 @@ def read_runs(folder: Path) -> list[tuple[dict[str, Any], Motion | None]]:
     for path in sorted(path for law in LAWS for path in folder.glob(f"{law}_*.cpu")):
         law, method, rule, bodies, step = path.stem.split("_")
         simulator, _, contact = method.partition("-")
-        row = {"law": law, "simulator": simulator, "contact_ms": f"{1e3 * float(contact):g}" if contact else "", "rule": rule, "bodies": int(bodies),
+        row = {"law": law, "simulator": simulator, "contact_ms": f"{1e3 * float(contact):g}" if contact else "", "rule": rule,
+               "bodies": int(bodies),
                "step_ms": 1e3 * float(step), "cpu_s": cpu_of(path), "outcome": "ok"}
         own = None
         try:
@@ -122,7 +124,8 @@ def reference_of(still: dict[tuple[str, str, int], Motion], law: str) -> Motion:
 def read_study(folder: Path) -> Rows:
     runs = read_runs(folder)
     still = extrapolated(runs)
-    runs += [({"law": law, "simulator": simulator, "contact_ms": CONTACT[simulator], "rule": "euler", "bodies": bodies, "step_ms": 0.0, "outcome": "extrapolated"}, moved)
+    runs += [({"law": law, "simulator": simulator, "contact_ms": CONTACT[simulator], "rule": "euler", "bodies": bodies, "step_ms": 0.0,
+               "outcome": "extrapolated"}, moved)
              for (law, simulator, bodies), moved in still.items()]
     for row, own in runs:
         if own is None:
@@ -158,13 +161,16 @@ def choice_table(rows: Rows, out: Path) -> None:
         cells = [f"{MEASURES[measure]} to {limit:g} {unit(measure)}"]
         for law in LAWS:
             known = any(measure in row for row in pick(rows, law=law))
-            meshes = {row["bodies"] for row in pick(rows, law=law, simulator="here", outcome="extrapolated") if known and row[measure] <= limit}
+            meshes = {row["bodies"] for row in pick(rows, law=law, simulator="here", outcome="extrapolated") if known
+                      and row[measure] <= limit}
             near = [row for row in done(rows, law=law) if row["bodies"] in meshes and row[measure] <= limit]
             named = [f"{name}, {row['cpu_s']:.2g} s" for row in near for name, of in presets().items() if pick([row], **of)]
-            run = [f"{name_of(near[0])}: {near[0][measure]:.2g} {unit(measure)}", f"{near[0]['cpu_s']:.2g}"] if near else ["none" if known else "", ""]
+            run = [f"{name_of(near[0])}: {near[0][measure]:.2g} {unit(measure)}",
+                   f"{near[0]['cpu_s']:.2g}"] if near else ["none" if known else "", ""]
             cells += [*run, named[0] if named else "none" if known else ""]
         body.append(cells)
-    tables.write_table(out, "contracting_choice", ["you need", *(f"{name}{what}" for name in LAWS.values() for what in (": quickest run", ": CPU, s", ": quickest preset"))], body)
+    tables.write_table(out, "contracting_choice", ["you need", *(f"{name}{what}" for name in LAWS.values()
+                                                                 for what in (": quickest run", ": CPU, s", ": quickest preset"))], body)
 
 
 def steps_table(rows: Rows, out: Path) -> None:
@@ -177,9 +183,11 @@ def steps_table(rows: Rows, out: Path) -> None:
             halves = [step for step in own if 2 * step in own and step > 2 * min(own)]  # the smallest make the limit, or are near it
             orders = [np.log2(own[2 * step][f"by_step_{measure}"] / own[step][f"by_step_{measure}"]) for step in halves]
             cells = [shown(own[step][f"by_step_{measure}"], ".2g") if step in own else "" for step in STEPS]
-            body.append([LAWS[law], MEASURES[measure], look.label, *cells, " to ".join(dict.fromkeys((f"{min(orders):.1f}", f"{max(orders):.1f}"))) if orders else "",
+            body.append([LAWS[law], MEASURES[measure], look.label, *cells,
+                         " to ".join(dict.fromkeys((f"{min(orders):.1f}", f"{max(orders):.1f}"))) if orders else "",
                          f"{own[5.0]['cpu_s']:.2g}" if 5.0 in own else ""])
-    tables.write_table(out, "contracting_steps", ["slide by", "of", "method", *(f"off at {step:g} ms, %" for step in STEPS), "order", "CPU at 5 ms, s"], body)
+    tables.write_table(out, "contracting_steps", ["slide by", "of", "method", *(f"off at {step:g} ms, %" for step in STEPS), "order",
+                                                  "CPU at 5 ms, s"], body)
 
 
 def meshes_table(rows: Rows, out: Path) -> None:
@@ -189,7 +197,9 @@ def meshes_table(rows: Rows, out: Path) -> None:
         finer = pick(still, law=row["law"], bodies=2 * row["bodies"])
         body.append([LAWS[row["law"]], str(row["bodies"]), *(shown(row.get(measure), ".2g") for measure in MEASURES),
                      f"{np.log2(row['place_cm'] / finer[0]['place_cm']):.1f}" if finer else ""])
-    tables.write_table(out, "contracting_meshes", ["slide by", "bodies", *(f"{name} off, {unit(measure)}" for measure, name in MEASURES.items()), "order of places to the next"], body)
+    tables.write_table(out, "contracting_meshes", ["slide by", "bodies",
+                                                   *(f"{name} off, {unit(measure)}" for measure, name in MEASURES.items()),
+                                                   "order of places to the next"], body)
 
 
 def mujoco_table(rows: Rows, out: Path) -> None:
@@ -197,9 +207,11 @@ def mujoco_table(rows: Rows, out: Path) -> None:
     body = []
     for row in pick(rows, simulator="mujoco", outcome="ok"):
         near = [own["cpu_s"] for own in done(rows, law="reflex") if own["knot_cm"] <= row["knot_cm"]]
-        body.append([f"{name_of(row)}, contacts {row['contact_ms']} ms", f"{row['cpu_s']:.2g}", *(shown(row[key], ".2g") for key in ("knot_cm", "off_here_cm")),
+        body.append([f"{name_of(row)}, contacts {row['contact_ms']} ms", f"{row['cpu_s']:.2g}",
+                     *(shown(row[key], ".2g") for key in ("knot_cm", "off_here_cm")),
                      f"{row['cpu_s'] / near[0]:.0f}" if near else ""])
-    tables.write_table(out, "contracting_mujoco", ["run", "CPU, s", "knot's path off the reference, cm", "off the path here, cm", "CPU, of a run here as near"], body)
+    tables.write_table(out, "contracting_mujoco", ["run", "CPU, s", "knot's path off the reference, cm", "off the path here, cm",
+                                                   "CPU, of a run here as near"], body)
 
 
 def read_dry(folder: Path) -> dict[str, dict[float, tuple[float, np.ndarray]]]:
@@ -213,7 +225,8 @@ def read_dry(folder: Path) -> dict[str, dict[float, tuple[float, np.ndarray]]]:
         found.setdefault(METHODS[method.split("-")[0], rule].label, {})[1e3 * float(step)] = cpu_of(path), places
     for path in sorted(folder.glob("dry_*.json")):  # none where the study had no npm
         run = json.loads(path.read_text(encoding="utf-8"))
-        found.setdefault(f"MuJoCo {run['version']} (WebAssembly), {run['rule']}", {})[1e3 * run["step"]] = run["cpu"], np.array(run["places"])[:round(DRY / FRAME)]
+        found.setdefault(f"MuJoCo {run['version']} (WebAssembly), {run['rule']}",
+                         {})[1e3 * run["step"]] = run["cpu"], np.array(run["places"])[:round(DRY / FRAME)]
     return found
 
 
@@ -221,13 +234,17 @@ def dry_table(runs: dict[str, dict[float, tuple[float, np.ndarray]]], out: Path)
     still = {name: 2 * of[min(of)][1] - of[2 * min(of)][1] for name, of in runs.items()}
     here = still[METHODS["here", "euler"].label]
     steps = sorted({step for of in runs.values() for step in of}, reverse=True)
-    body = [[name, f"{of[min(of)][0]:.2g}", *(f"{distance(of[step][1], still[name]):.2g}" for step in steps), f"{distance(of[min(of)][1], here):.2g}"] for name, of in runs.items()]
-    tables.write_table(out, "contracting_today", ["simulator", f"CPU at {steps[-1]:g} ms, s", *(f"places off its own at {step:g} ms, cm" for step in steps), f"off the places here at {steps[-1]:g} ms, cm"], body)
+    body = [[name, f"{of[min(of)][0]:.2g}", *(f"{distance(of[step][1], still[name]):.2g}" for step in steps),
+             f"{distance(of[min(of)][1], here):.2g}"] for name, of in runs.items()]
+    tables.write_table(out, "contracting_today", ["simulator", f"CPU at {steps[-1]:g} ms, s",
+                                                  *(f"places off its own at {step:g} ms, cm" for step in steps),
+                                                  f"off the places here at {steps[-1]:g} ms, cm"], body)
 
 
 def draw(rows: Rows, out: Path) -> None:
     shows = [("reflex", "knot_cm"), ("reflex", "torque_percent"), ("paper", "knot_cm"), ("paper", "force_percent")]
-    figure, panels = plots.panels(2, 4, (11.5, 6), [f"{LAWS[law]}: {MEASURES[measure]}" for law, measure in shows] + [f"by the step alone, {USUAL} bodies"] * 4)
+    figure, panels = plots.panels(2, 4, (11.5, 6), [f"{LAWS[law]}: {MEASURES[measure]}" for law,
+                                                    measure in shows] + [f"by the step alone, {USUAL} bodies"] * 4)
     for k, (axes, (law, measure)) in enumerate(zip(panels, shows * 2)):
         by_step = k >= len(shows)
         error = f"by_step_{measure}" if by_step else measure
@@ -235,7 +252,8 @@ def draw(rows: Rows, out: Path) -> None:
             for bodies, size in SIZES.items():
                 own = [row for row in done(rows, simulator, law=law, rule=rule, bodies=bodies) if not by_step or bodies == USUAL]
                 axes.plot([row["cpu_s"] for row in own], [row[error] for row in own], **look.style, markersize=size, lw=0.6)
-        axes.set(xscale="log", yscale="log", ylabel=f"error, {unit(measure)}", xlabel="CPU time of the run, s" if by_step else "", xmargin=0.12)
+        axes.set(xscale="log", yscale="log", ylabel=f"error, {unit(measure)}", xlabel="CPU time of the run, s" if by_step else "",
+                 xmargin=0.12)
         for row in done(rows, law=law, rule="euler", bodies=USUAL) if by_step else []:
             axes.annotate(f"{row['step_ms']:g} ms", (row["cpu_s"], row[error]), (4, 2), textcoords="offset points", fontsize=6)
         if not by_step:
@@ -252,7 +270,8 @@ def draw(rows: Rows, out: Path) -> None:
     line = lambda **of: plots.plt.Line2D([], [], **of)
     handles = [line(label=look.label, **look.style) for look in METHODS.values()]
     handles += [line(color=plots.GREY, marker="o", ls="", markersize=size, label=f"{bodies} bodies") for bodies, size in SIZES.items()]
-    handles += [line(color=plots.INK, marker="o", ls="", mfc="none", ms=11, label="presets"), line(color=plots.GREY, lw=5, alpha=0.3, label="front")]
+    handles += [line(color=plots.INK, marker="o", ls="", mfc="none", ms=11, label="presets"),
+                line(color=plots.GREY, lw=5, alpha=0.3, label="front")]
     plots.legend_above(figure, handles, 10, 0.06)
     plots.save(figure, out)
 

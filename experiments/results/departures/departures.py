@@ -19,10 +19,13 @@ FIGURES = {  # heading: column of a sweep, its form, what it is multiplied by
     "its tail end, cm": ("tail_distance_cm", ".1f", 1), "taper asks, cm": ("taper_asks_cm", ".1f", 1),
     "curvature travels, cm": ("curvature_travel_cm", ".1f", 1), "share of a slide of both ends, %": ("both_ends_percent", ".0f", 1),
     "steps that meet Eq. 6, %": ("eq6_percent", ".1f", 1), "penetration, cm": ("penetration_cm", ".2g", 1),
-    "past a limit, °": ("limit_violation_rad", ".2g", math.degrees(1)), "largest f_thigmo, dyn cm": ("largest_thigmotaxis_dyn_cm", ".0f", 1),
-    "sum of multipliers, dyn": ("sliding_force_dyn", ".0f", 1), "work of f_thigmo, erg": ("work_thigmotaxis_erg", ".0f", 1), "CPU, s": ("cpu_s", ".2g", 1)}
+    "past a limit, °": ("limit_violation_rad", ".2g", math.degrees(1)),
+    "largest f_thigmo, dyn cm": ("largest_thigmotaxis_dyn_cm", ".0f", 1),
+    "sum of multipliers, dyn": ("sliding_force_dyn", ".0f", 1), "work of f_thigmo, erg": ("work_thigmotaxis_erg", ".0f", 1),
+    "CPU, s": ("cpu_s", ".2g", 1)}
 ALONE = {"ipopt": "Ipopt for the quadratic programs", "explicit": "springs by the angles at the start of a step, by a law in Python"}  # folders
-SLID = ("head end of the knot, cm", "largest f_thigmo, dyn cm", "sum of multipliers, dyn", "work of f_thigmo, erg")  # 0 means nothing where no knot slid
+SLID = ("head end of the knot, cm", "largest f_thigmo, dyn cm", "sum of multipliers, dyn",
+        "work of f_thigmo, erg")  # 0 means nothing where no knot slid
 
 
 def became(run: dict[str, str]) -> str:

@@ -28,8 +28,10 @@ RANDOM = "drawn at random"  # in the names of such animals
 SEEN = {"3_1": "hagfish, morays", "4_1": "hagfish, morays", "5_1": "morays", "5_2": "hagfish"}
 SIZE, COLUMNS = "420x360", 4
 STEPS = ("0.001", "0.002", "0.005")  # s, of the audited runs
-KEPT = ["knot_wanted", "seed", "found", "tries", "tied_in_soft_body", "try", "slower", "starts", "starts_by_eq6", "starts_by_reflex", "cpu_s", "wall_s",
-        "tighten_from_s", "slide_distance_cm", "release_from_s", "free_from_s", "largest_active_dyn_cm", "largest_thigmotaxis_dyn_cm",
+KEPT = ["knot_wanted", "seed", "found", "tries", "tied_in_soft_body", "try", "slower", "starts", "starts_by_eq6",
+        "starts_by_reflex", "cpu_s", "wall_s",
+        "tighten_from_s", "slide_distance_cm", "release_from_s", "free_from_s", "largest_active_dyn_cm",
+        "largest_thigmotaxis_dyn_cm",
         "work_active_erg", "penetration_cm"]
 LAWS = ("eq6", "reflex")
 OF_LOG = ["length_cm", "body_in_knot_cm", "body_in_knot_diameters"]
@@ -55,9 +57,11 @@ def served(folder: Path, law: str) -> str:
 
 def without_result(folder: Path) -> Row:
     """What there is of a search that wrote no result.csv: no path could be tightened."""
-    lines = {name: (folder / f"{name}.csv").read_text(encoding="utf-8").splitlines() for name in ("tries", "candidates", "times")}
+    lines = {name: (folder / f"{name}.csv").read_text(encoding="utf-8").splitlines()
+             for name in ("tries", "candidates", "times")}
     wall, cpu = lines["times"][-1].split(",")
-    return {"found": "no", "tries": str(len(lines["tries"])), "tied_in_soft_body": str(len(lines["candidates"])), "cpu_s": cpu, "wall_s": wall}
+    return {"found": "no", "tries": str(len(lines["tries"])), "tied_in_soft_body": str(len(lines["candidates"])),
+            "cpu_s": cpu, "wall_s": wall}
 
 
 def of_log(log: HagfishLog) -> Row:
@@ -67,7 +71,8 @@ def of_log(log: HagfishLog) -> Row:
     between = log["/knot/tail_end"] - log["/knot/head_end"]  # NaN where it has none
     slides = between[log.in_phase("slide")]
     body = float(slides[np.isfinite(slides)][0]) if np.isfinite(slides).any() else math.nan
-    return {name: f"{value:.3g}" if math.isfinite(value) else "" for name, value in zip(OF_LOG, (float(length.sum()), body, body / diameter), strict=True)}
+    return {name: f"{value:.3g}" if math.isfinite(value) else "" for name,
+            value in zip(OF_LOG, (float(length.sum()), body, body / diameter), strict=True)}
 
 
 def read_study(folder: Path) -> tuple[list[Row], list[str]]:
@@ -79,15 +84,18 @@ def read_study(folder: Path) -> tuple[list[Row], list[str]]:
         what = tomllib.loads(search.read_text(encoding="utf-8"))
         revisions.add(what["revision"])
         animal = tomllib.loads(what["specimen"])
-        beside = {"folder": search.parent.name, "revision": what["revision"], "animal": animal.get("name", ""), "for_animals": "yes" if what.get("animals") else "no",
+        beside = {"folder": search.parent.name, "revision": what["revision"], "animal": animal.get("name", ""),
+                  "for_animals": "yes" if what.get("animals") else "no",
                   **{f"unseen_by_{law}": served(search.parent, law) for law in LAWS}}
         if result.exists():
             results.append(result)
             row = tables.read_csv(result, KEPT)[0]
-            rows.append({**{name: row[name] for name in KEPT}, **{f"audit_{step}_s": audited(result.parent, step) for step in STEPS}, **beside,
+            rows.append({**{name: row[name] for name in KEPT},
+                         **{f"audit_{step}_s": audited(result.parent, step) for step in STEPS}, **beside,
                          **of_log(HagfishLog(search.parent / "knot.h5"))})
         else:
-            rows.append({**dict.fromkeys([*KEPT, *(f"audit_{step}_s" for step in STEPS), *OF_LOG], ""), "knot_wanted": what["knot"],
+            rows.append({**dict.fromkeys([*KEPT, *(f"audit_{step}_s" for step in STEPS), *OF_LOG], ""),
+                         "knot_wanted": what["knot"],
                          "seed": str(what["seed"]), **without_result(search.parent), **beside})
     if not results:
         raise LogError(f"{folder}: holds no folder with a result.csv")
@@ -109,31 +117,42 @@ def animal(row: Row) -> str:
 
 
 def found_table(rows: list[Row]) -> Cells:
-    head = ["knot", "animal", "seed", "other animals asked for", "found", "CPU time, s", "clock, s", "paths tried", "paths that tied it",
+    head = ["knot", "animal", "seed", "other animals asked for", "found", "CPU time, s", "clock, s", "paths tried",
+            "paths that tied it",
             "starts, Eq. 6", "starts, reflex"]
-    return head, [[row["knot_wanted"], animal(row), row["seed"], row["for_animals"], row["found"], number(row["cpu_s"]), number(row["wall_s"]),
-                                   row["tries"], row["tied_in_soft_body"], passed(row, "eq6"), passed(row, "reflex")] for row in rows]
+    return head, [[row["knot_wanted"], animal(row), row["seed"], row["for_animals"], row["found"], number(row["cpu_s"]),
+                   number(row["wall_s"]),
+                                   row["tries"], row["tied_in_soft_body"], passed(row, "eq6"), passed(row, "reflex")]
+                                   for row in rows]
 
 
 def unseen_table(rows: list[Row]) -> Cells:
     head = ["knot", "animal", "seed", "other animals asked for", "of ten, Eq. 6", "of ten, reflex"]
-    return head, [[row["knot_wanted"], animal(row), row["seed"], row["for_animals"], *(row[f"unseen_by_{law}"] for law in LAWS)]
+    return head, [[row["knot_wanted"], animal(row), row["seed"], row["for_animals"],
+                   *(row[f"unseen_by_{law}"] for law in LAWS)]
                                   for row in rows if row["found"] == "yes" and row["unseen_by_eq6"]]
 
 
 def animals_table(rows: list[Row]) -> Cells:
-    head = ["animal", "length, cm", "found", "CPU time, s", "clock, s", "paths tried", "starts, Eq. 6", "starts, reflex", "audit at 1 ms",
+    head = ["animal", "length, cm", "found", "CPU time, s", "clock, s", "paths tried", "starts, Eq. 6",
+            "starts, reflex", "audit at 1 ms",
             "at 2 ms", "at 5 ms"]
-    return head, [[row["animal"], number(row["length_cm"]), row["found"], number(row["cpu_s"]), number(row["wall_s"]), row["tries"],
-                                   passed(row, "eq6"), passed(row, "reflex"), *(row[f"audit_{step}_s"] for step in STEPS)] for row in rows]
+    return head, [[row["animal"], number(row["length_cm"]), row["found"], number(row["cpu_s"]), number(row["wall_s"]),
+                   row["tries"],
+                                   passed(row, "eq6"), passed(row, "reflex"),
+                                   *(row[f"audit_{step}_s"] for step in STEPS)] for row in rows]
 
 
 def needs_table(rows: list[Row]) -> Cells:
-    head = ["knot", "animal", "seed", "other animals asked for", "times as slow", "tightened from, s", "way, cm", "untied at, s", "largest torque of f_thigmo, dyn cm",
+    head = ["knot", "animal", "seed", "other animals asked for", "times as slow", "tightened from, s", "way, cm",
+            "untied at, s", "largest torque of f_thigmo, dyn cm",
             "work of active torques, erg", "audit at 1 ms", "at 2 ms", "at 5 ms"]
-    return head, [[row["knot_wanted"], animal(row), row["seed"], row["for_animals"], number(row["slower"]), number(row["tighten_from_s"]),
-                                   number(row["slide_distance_cm"], 2), number(row["free_from_s"]), number(row["largest_thigmotaxis_dyn_cm"], 2),
-                                   number(row["work_active_erg"], 2), *(row[f"audit_{step}_s"] for step in STEPS)] for row in rows if row["found"] == "yes"]
+    return head, [[row["knot_wanted"], animal(row), row["seed"], row["for_animals"], number(row["slower"]),
+                   number(row["tighten_from_s"]),
+                                   number(row["slide_distance_cm"], 2), number(row["free_from_s"]),
+                                   number(row["largest_thigmotaxis_dyn_cm"], 2),
+                                   number(row["work_active_erg"], 2), *(row[f"audit_{step}_s"] for step in STEPS)]
+                                   for row in rows if row["found"] == "yes"]
 
 
 def one_of_each(rows: list[Row]) -> list[Row]:
@@ -152,9 +171,12 @@ def least_served(rows: list[Row]) -> int:
 
 
 def gallery_table(rows: list[Row]) -> Cells:
-    head = ["knot", "animal", "body in the knot, cm", "in mean diameters", "largest active torque, dyn cm", "who is seen to tie it"]
-    return head, [[row["knot_wanted"], animal(row), number(row["body_in_knot_cm"]), number(row["body_in_knot_diameters"]),
-                                   number(row["largest_active_dyn_cm"], 2), SEEN.get(row["knot_wanted"], "nobody")] for row in one_of_each(rows)]
+    head = ["knot", "animal", "body in the knot, cm", "in mean diameters", "largest active torque, dyn cm",
+            "who is seen to tie it"]
+    return head, [[row["knot_wanted"], animal(row), number(row["body_in_knot_cm"]),
+                   number(row["body_in_knot_diameters"]),
+                                   number(row["largest_active_dyn_cm"], 2), SEEN.get(row["knot_wanted"], "nobody")]
+                                   for row in one_of_each(rows)]
 
 
 def beside_table(rows: list[Row]) -> Cells:
@@ -165,9 +187,11 @@ def beside_table(rows: list[Row]) -> Cells:
     found = {row["knot_wanted"]: row for row in one_of_each([row for row in rows if not row["animal"]])}
     lines = []
     for knot in living.head[1:]:
-        lines.append([knot, "of data/", of("of 10 other animals", knot), larger(of("largest torque of a hinge", knot)), of("clamped: way", knot).split(";")[0]])
+        lines.append([knot, "of data/", of("of 10 other animals", knot), larger(of("largest torque of a hinge", knot)),
+                      of("clamped: way", knot).split(";")[0]])
         if knot in found:
-            lines.append([knot, "found", found[knot]["unseen_by_eq6"] or "-", number(found[knot]["largest_active_dyn_cm"], 2),
+            lines.append([knot, "found", found[knot]["unseen_by_eq6"] or "-",
+                          number(found[knot]["largest_active_dyn_cm"], 2),
                           number(found[knot]["slide_distance_cm"], 2)])
     return ["knot", "program", "other animals that it serves, of ten", "largest torque, dyn cm", "way, cm"], lines
 
@@ -194,16 +218,20 @@ def figures_table(rows: list[Row], others: list[Row]) -> Cells:
 
 def page_tables(every: list[Row]) -> dict[str, Cells]:
     """The page's tables of all searches."""
-    order = lambda row: (row["animal"] != "", "#" in row["knot_wanted"], row["knot_wanted"], row["seed"], row["for_animals"])
+    order = lambda row: (row["animal"] != "", "#" in row["knot_wanted"], row["knot_wanted"], row["seed"],
+                         row["for_animals"])
     rows = sorted((row for row in every if RANDOM not in row["animal"]), key=order)
-    others = sorted((row for row in every if RANDOM in row["animal"]), key=lambda row: (len(row["animal"]), row["animal"]))
-    return {"found": found_table(rows), "gallery": gallery_table(rows), "needs": needs_table(rows), "unseen": unseen_table(rows),
+    others = sorted((row for row in every if RANDOM in row["animal"]),
+                    key=lambda row: (len(row["animal"]), row["animal"]))
+    return {"found": found_table(rows), "gallery": gallery_table(rows), "needs": needs_table(rows),
+            "unseen": unseen_table(rows),
             "beside": beside_table(rows), "animals": animals_table(others), "figures": figures_table(rows, others)}
 
 
 def draw_gallery(folder: Path, rows: list[Row], out: Path) -> None:
     kept = one_of_each([row for row in rows if RANDOM not in row["animal"]])
-    figure, axes = plots.plt.subplots(math.ceil(len(kept) / COLUMNS), COLUMNS, figsize=(11, 2.3 * math.ceil(len(kept) / COLUMNS)), squeeze=False)
+    figure, axes = plots.plt.subplots(math.ceil(len(kept) / COLUMNS), COLUMNS,
+                                      figsize=(11, 2.3 * math.ceil(len(kept) / COLUMNS)), squeeze=False)
     for panel in axes.flat:
         panel.set_axis_off()
     for panel, row in zip(axes.flat, kept):

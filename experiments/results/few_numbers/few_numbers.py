@@ -21,7 +21,8 @@ from sweep_columns import SweepTable, read_sweep
 
 SCENES = {f"living_{name}": knot for name, knot in plots.SCENES.items()}
 NUMBERS = (3, 6, 9, 12, 18)
-TRANSFERS = {"": "as found", "_start": "3 degrees of noise at the start", "_step": "h = 2 ms", "_bodies": "60 bodies", "_mirror": "mirrored"}
+TRANSFERS = {"": "as found", "_start": "3 degrees of noise at the start", "_step": "h = 2 ms", "_bodies": "60 bodies",
+             "_mirror": "mirrored"}
 
 
 class Grid:
@@ -113,7 +114,8 @@ def free_head(table: SweepTable) -> list[list[str]]:
         row = [f"{count} numbers"]
         for one in SCENES:
             full = np.median(way[(scene == one) & (numbers == 0)])
-            row.append(", ".join(f"{way[(scene == one) & (numbers == count) & (period == each)][0] / full:.2f}" for each in sorted(set(period))))
+            row.append(", ".join(f"{way[(scene == one) & (numbers == count) & (period == each)][0] / full:.2f}"
+                                 for each in sorted(set(period))))
         rows.append(row)
     return rows
 
@@ -195,7 +197,8 @@ def points_of(grid: Grid, many: SweepTable, efforts: dict[str, list[tuple[int, f
         own, numbers, way = np.array(many.axes["scene"]) == scene, numbers_of(many), held_way(many)
         full = np.median(way[own & (numbers == 0)])
         for count in sorted(set(numbers[numbers > 0])):
-            rows += [["starts", knot, "knot", "0.1", str(count), str(start), f"{each / full:.3f}"] for start, each in enumerate(way[own & (numbers == count)])]
+            rows += [["starts", knot, "knot", "0.1", str(count), str(start), f"{each / full:.3f}"] for start,
+                     each in enumerate(way[own & (numbers == count)])]
         rows += [["effort", knot, "knot", "0.1", str(count), "0", f"{value:.3f}"] for count, value in efforts[scene] if np.isfinite(value)]
     return rows
 

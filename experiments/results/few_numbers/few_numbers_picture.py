@@ -37,7 +37,8 @@ def draw(points: list[Point], out: Path) -> None:
             for k, (period, (colour, marker)) in enumerate(zip(periods, LOOKS)):
                 beside = BESIDE * (k - (len(periods) - 1) / 2)
                 found = of(figure="share", knot=knot, frame=frame, **{"found each, s": period})
-                axes.plot(x_of(found, beside), np.clip(y_of(found), 0, None), marker, color=colour, ms=4.5, label=f"{1000 * float(period):g} ms")
+                axes.plot(x_of(found, beside), np.clip(y_of(found), 0, None), marker, color=colour, ms=4.5,
+                          label=f"{1000 * float(period):g} ms")
                 many = of(figure="starts", knot=knot, frame=frame, **{"found each, s": period})
                 for count in sorted({p["numbers"] for p in many}, key=int):
                     ways = np.clip(y_of([p for p in many if p["numbers"] == count]), 0, None)
@@ -56,8 +57,10 @@ def draw(points: list[Point], out: Path) -> None:
     panels[2, 0].set_ylabel("effort for each cm,\nover that of $f_{thigmo}$")
     handles = {label: handle for handle, label in zip(*panels[0, 0].get_legend_handles_labels())}
     plots.legend_above(figure, list(handles.values()), len(handles), 0.07, title="a point is one start; numbers found each")
-    panels[0, 0].text(0.97, ENOUGH - 0.02, f"all the way: {ENOUGH:g}", transform=panels[0, 0].get_yaxis_transform(), ha="right", va="top", fontsize=7, color=plots.GREY)
-    panels[2, 3].text(0.97, 0.96, "none where they do not\nslide all the way", transform=panels[2, 3].transAxes, ha="right", va="top", fontsize=7, color=plots.GREY)
+    panels[0, 0].text(0.97, ENOUGH - 0.02, f"all the way: {ENOUGH:g}", transform=panels[0, 0].get_yaxis_transform(), ha="right", va="top",
+                      fontsize=7, color=plots.GREY)
+    panels[2, 3].text(0.97, 0.96, "none where they do not\nslide all the way", transform=panels[2, 3].transAxes, ha="right", va="top",
+                      fontsize=7, color=plots.GREY)
     plots.save(figure, out)
 
 

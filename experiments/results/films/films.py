@@ -24,8 +24,10 @@ TUTORIAL = Path(__file__).resolve().parents[2] / "tutorials/film_to_torques.md"
 LENGTH, BODIES = 42.4, 100  # cm, of the animal of the scenes
 NOISE = 0.1  # cm, on each coordinate of each point
 WITHIN, SURELY = 1.645, 2.576  # standard errors, of bands of 90 and 99 %
-RUNS = [("living_overhand", False), ("living_overhand", True), ("living_overhand_free", False), ("living_figure_eight", False), ("living_figure_eight_free", False),
-        ("living_double_overhand", False), ("living_double_overhand", True), ("living_double_overhand_free", False), ("living_three_twist", False), ("living_three_twist", True)]
+RUNS = [("living_overhand", False), ("living_overhand", True), ("living_overhand_free", False),
+        ("living_figure_eight", False), ("living_figure_eight_free", False),
+        ("living_double_overhand", False), ("living_double_overhand", True), ("living_double_overhand_free", False),
+        ("living_three_twist", False), ("living_three_twist", True)]
 
 
 def hagfish(folder: Path, *arguments: object) -> tuple[int, str]:
@@ -63,14 +65,18 @@ SPAN = (np.where(JOINTS + 2 >= BODIES, BODIES, JOINTS + 1) - np.where(JOINTS <= 
 
 def turns(angle: np.ndarray, joint: int) -> np.ndarray:
     """Of a joint's angles y + i z, by its place in JOINTS."""
-    (cy, sy), (cz, sz), none = (np.cos(angle.real), np.sin(angle.real)), (np.cos(angle.imag), np.sin(angle.imag)), 0 * angle.real
-    rows = [cz * cy, -sz, cz * sy, sz * cy, cz, sz * sy, -sy, none, cy] if joint % 2 == 0 else [cy * cz, -cy * sz, sy, sz, cz, none, -sy * cz, sy * sz, cy]
+    (cy, sy), (cz, sz), none = (np.cos(angle.real), np.sin(angle.real)), (np.cos(angle.imag),
+                                                                          np.sin(angle.imag)), 0 * angle.real
+    rows = [cz * cy, -sz, cz * sy, sz * cy, cz, sz * sy, -sy, none, cy] if joint % 2 == 0 else [cy * cz, -cy * sz, sy,
+                                                                                                sz, cz, none, -sy * cz,
+                                                                                                sy * sz, cy]
     return np.stack(rows, axis=-1).reshape(*angle.shape, 3, 3)
 
 
 def joints_of(bend: np.ndarray, station: np.ndarray) -> np.ndarray:
     """Angles of the joints, times x joints, of bends at stations."""
-    return np.array([np.interp(JOINTS / BODIES, station, row.real) + 1j * np.interp(JOINTS / BODIES, station, row.imag) for row in bend]) * SPAN
+    return np.array([np.interp(JOINTS / BODIES, station, row.real) + 1j * np.interp(JOINTS / BODIES, station, row.imag)
+                     for row in bend]) * SPAN
 
 
 def ways(angle: np.ndarray) -> np.ndarray:
@@ -95,7 +101,8 @@ def joints_along(way: np.ndarray, roll: np.ndarray) -> np.ndarray:
     angles = []
     for joint, there in enumerate(way[:, 1:].swapaxes(0, 1)):
         x, y, z = np.einsum("tji,tj->it", turn, there)
-        angles.append(-np.arcsin(np.clip(z, -1, 1)) + 1j * np.arctan2(y, x) if joint % 2 == 0 else np.arctan2(-z, x) + 1j * np.arcsin(np.clip(y, -1, 1)))
+        angles.append(-np.arcsin(np.clip(z, -1, 1)) + 1j * np.arctan2(y, x) if joint % 2 == 0
+                      else np.arctan2(-z, x) + 1j * np.arcsin(np.clip(y, -1, 1)))
         turn = turn @ turns(angles[-1], joint)
     return np.stack(angles, axis=1)
 
@@ -104,7 +111,8 @@ def ways_between(centres: np.ndarray, free: bool) -> np.ndarray:
     """ways() of bodies' centres, times x BODIES x 3, in axes in which the head's way is along X: at the first time, or for a free head at each."""
     way = centres[:, 2::2] - centres[:, 1:-1:2]
     half = LENGTH / BODIES / 2 * way / np.linalg.norm(way, axis=2, keepdims=True)
-    way = np.concatenate([(centres[:, 1] - half[:, 0] - centres[:, 0])[:, None], way, (centres[:, -1] - centres[:, -2] - half[:, -1])[:, None]], axis=1)
+    way = np.concatenate([(centres[:, 1] - half[:, 0] - centres[:, 0])[:, None], way,
+                          (centres[:, -1] - centres[:, -2] - half[:, -1])[:, None]], axis=1)
     way /= np.linalg.norm(way, axis=2, keepdims=True)
     first = way[:, 0] if free else way[:1, 0]
     beside = np.cross(first, np.eye(3)[np.argmin(np.abs(first), axis=1)])
@@ -145,16 +153,19 @@ def rms(x: np.ndarray) -> float:
 def in_band(fit: Program, true: np.ndarray) -> float:
     """Share of the bends whose true value lies within their band."""
     off, flat = fit.bend - true, np.max(np.abs(fit.bend.real)) == 0
-    inside = [np.abs(off.imag) <= WITHIN * fit.error.imag] + ([] if flat else [np.abs(off.real) <= WITHIN * fit.error.real])
+    inside = [np.abs(off.imag) <= WITHIN * fit.error.imag] + ([] if flat
+                                                              else [np.abs(off.real) <= WITHIN * fit.error.real])
     return float(np.mean(inside))
 
 
-# Closed forms ------------------------------------------------------------------------------------------------------------------------------------
+# Closed forms -------------------------------------------------------------------------------------------------------
 
 FORMS = {  # bend (rad per length) at time t and place s (share of the length), torsion (the same): the curve's own normal and binormal
-    "straight": (lambda t, s: 0 * s, 0.0), "arc of 4 rad": (lambda t, s: 4 + 0 * s, 0.0), "arc of 8 rad": (lambda t, s: 8 + 0 * s, 0.0),
+    "straight": (lambda t, s: 0 * s, 0.0), "arc of 4 rad": (lambda t, s: 4 + 0 * s, 0.0),
+    "arc of 8 rad": (lambda t, s: 8 + 0 * s, 0.0),
     "growing arc": (lambda t, s: 2 * t + 0 * s, 0.0), "helix": (lambda t, s: 6 + 0 * s, 4.0),
-    "S": (lambda t, s: 3 * np.sin(2 * np.pi * s), 0.0), "travelling wave": (lambda t, s: 3 * np.sin(2 * np.pi * (s - t / 2)), 0.0)}
+    "S": (lambda t, s: 3 * np.sin(2 * np.pi * s), 0.0),
+    "travelling wave": (lambda t, s: 3 * np.sin(2 * np.pi * (s - t / 2)), 0.0)}
 
 
 def curve(bend, torsion: float, t: float, places: np.ndarray, steps: int = 1200) -> np.ndarray:
@@ -164,7 +175,8 @@ def curve(bend, torsion: float, t: float, places: np.ndarray, steps: int = 1200)
     for kappa in k:
         axis = torsion * frame[0] + kappa * frame[2]
         size = np.linalg.norm(axis)
-        half = lambda v, a: v if size == 0 else v * np.cos(a) + np.cross(axis / size, v) * np.sin(a) + axis * (axis @ v) / size ** 2 * (1 - np.cos(a))
+        unit = axis / size if size else axis
+        half = lambda v, a: v * np.cos(a) + np.cross(unit, v) * np.sin(a) + unit * (unit @ v) * (1 - np.cos(a))
         at = at + half(frame[0], size / steps / 2) * LENGTH / steps
         frame = np.array([half(v, size / steps) for v in frame])
         points.append(at)
@@ -186,28 +198,36 @@ def write_film(path: Path, time, s, points, header="time_s,s_cm,x_cm,y_cm,z_cm",
             for i, place in enumerate(s):
                 if kept is not None and not kept[f, i]:
                     continue
-                file.write(f"{t:.6g},{place:.6g}," + ",".join("" if np.isnan(v) else f"{v:.6g}" for v in points[f, i]) + "\n")
+                file.write(f"{t:.6g},{place:.6g}," + ",".join("" if np.isnan(v) else f"{v:.6g}"
+                                                              for v in points[f, i]) + "\n")
 
 
 def forms(folder: Path) -> list[dict]:
     rows, time, places = [], np.linspace(0, 3, 61), np.linspace(0, 1, 41)
     for name, (bend, torsion) in FORMS.items():
-        true = np.array([curve(bend, torsion, t, places) for t in (time if name in ("growing arc", "travelling wave") else time[:1])])
+        true = np.array([curve(bend, torsion, t, places)
+                         for t in (time if name in ("growing arc", "travelling wave") else time[:1])])
         true = np.broadcast_to(true, (61, *true.shape[1:]))
         for noise in (0, NOISE):
-            write_film(folder / "form.csv", time, places * LENGTH, true + noise * np.random.default_rng(1).standard_normal(true.shape))
-            code, said = hagfish(folder, "midlines", "form.csv", "--out", "form_p.csv", "--stations", 25, "--force", "--scene", "table1")
+            write_film(folder / "form.csv", time, places * LENGTH,
+                       true + noise * np.random.default_rng(1).standard_normal(true.shape))
+            code, said = hagfish(folder, "midlines", "form.csv", "--out", "form_p.csv", "--stations", 25, "--force",
+                                 "--scene", "table1")
             fit = Program(folder / "form_p.csv")
-            true_by = lambda roll: np.array([true_bends(bend, torsion, t, fit.station, r) for t, r in zip(fit.time, roll)])
+            true_by = lambda roll: np.array([true_bends(bend, torsion, t, fit.station, r) for t,
+                                             r in zip(fit.time, roll)])
             turned = rolled_to(fit, true_by, False) if torsion else true_by(np.zeros(len(fit.time)))
             off = fit.bend - turned
-            rows.append({"form": name, "noise (cm)": noise, "code": code, "verdict": said.split("\n")[1].split(":")[0], "off (cm)": float(said.split("fitted: ")[1].split(" cm")[0]),
-                         "bends off, rms (rad/L)": rms(off), "in the middle eight tenths (rad/L)": rms(off[:, (fit.station > 0.1) & (fit.station < 0.9)]),
-                         "mean error (rad/L)": float(np.mean(fit.error.imag)), "within bands of 90 %": in_band(fit, turned)})
+            rows.append({"form": name, "noise (cm)": noise, "code": code, "verdict": said.split("\n")[1].split(":")[0],
+                         "off (cm)": float(said.split("fitted: ")[1].split(" cm")[0]),
+                         "bends off, rms (rad/L)": rms(off),
+                         "in the middle eight tenths (rad/L)": rms(off[:, (fit.station > 0.1) & (fit.station < 0.9)]),
+                         "mean error (rad/L)": float(np.mean(fit.error.imag)),
+                         "within bands of 90 %": in_band(fit, turned)})
     return rows
 
 
-# Runs as films -----------------------------------------------------------------------------------------------------------------------------------
+# Runs as films ------------------------------------------------------------------------------------------------------
 
 def filmed(log: Path, until: float, seed: int, fps=30, points=50, pixels=25.0):
     """A film of a log with a tracker's faults, in pixels with y down: its text, and the times at which head and tail are exchanged."""
@@ -225,14 +245,19 @@ def filmed(log: Path, until: float, seed: int, fps=30, points=50, pixels=25.0):
     kept = (time < begin) | (time > begin + 1)
     exchanged = random.choice(np.flatnonzero(kept)[5:-5], 2, replace=False)
     a, b = random.uniform(-1, 1, 2)
-    turn = np.array([[np.cos(a), -np.sin(a), 0], [np.sin(a), np.cos(a), 0], [0, 0, 1]]) @ np.array([[1, 0, 0], [0, np.cos(b), -np.sin(b)], [0, np.sin(b), np.cos(b)]])
+    turn = np.array([[np.cos(a), -np.sin(a), 0], [np.sin(a), np.cos(a), 0], [0, 0, 1]]) @ np.array([[1, 0, 0],
+                                                                                                    [0, np.cos(b),
+                                                                                                     -np.sin(b)],
+                                                                                                     [0, np.sin(b),
+                                                                                                      np.cos(b)]])
     place = (place @ turn.T + [20, 30, 10]) * [pixels, -pixels, pixels]
     lines = ["frame,s_cm,x_px,y_px,z_px"]
     for f in np.flatnonzero(kept):
         turned = f in exchanged
         for i in range(points):
             where = LENGTH - s[-1 - i] if turned else s[i]
-            lines.append(f"{f},{where:.6g}," + ",".join("" if np.isnan(v) else f"{v:.2f}" for v in place[f, points - 1 - i if turned else i]))
+            lines.append(f"{f},{where:.6g}," + ",".join("" if np.isnan(v) else f"{v:.2f}"
+                                                        for v in place[f, points - 1 - i if turned else i]))
     return "\n".join(lines) + "\n", [f"{f / fps:.4g}" for f in sorted(exchanged)]
 
 
@@ -249,7 +274,8 @@ def runs(folder: Path) -> list[dict]:
         if known:
             rows += known
             continue
-        hagfish(folder, "run", scene, "--preset", "quick", "--set", f"mirror={'true' if mirror else 'false'}", "--until", "form", "--log", "frames", "--quiet", "--force", "--out", "run.h5")
+        hagfish(folder, "run", scene, "--preset", "quick", "--set", f"mirror={'true' if mirror else 'false'}",
+                "--until", "form", "--log", "frames", "--quiet", "--force", "--out", "run.h5")
         with h5py.File(folder / "run.h5") as h5:
             time, centres = h5["trajectory/time"][()], h5["trajectory/position"][()]
         until = time[-1]
@@ -258,18 +284,23 @@ def runs(folder: Path) -> list[dict]:
         text, exchanged = filmed(folder / "run.h5", until, number)
         (folder / "film.csv").write_text(text)
         begin = cpu()
-        code, said = hagfish(folder, "midlines", "film.csv", "--scene", scene, "--stations", 25, "--out", "p.csv", "--force", *read_as, *free)
+        code, said = hagfish(folder, "midlines", "film.csv", "--scene", scene, "--stations", 25, "--out", "p.csv",
+                             "--force", *read_as, *free)
         took = cpu() - begin
-        row = {"run": name, "code": code, "verdict": next((line.split(":")[0] for line in said.splitlines() if line.split(":")[0] in ("fitted", "doubtful", "failed")), "refused"),
+        row = {"run": name, "code": code, "verdict": next((line.split(":")[0] for line in said.splitlines()
+                                                           if line.split(":")[0] in ("fitted", "doubtful", "failed")),
+                                                           "refused"),
                "exchanged frames named": sum(t in said for t in exchanged)}
         if code == 0:
             fit = Program(folder / "p.csv")
-            true = np.stack([np.stack([np.interp(fit.time, time, centres[:, k, d]) for d in range(3)], axis=1) for k in range(BODIES)], axis=1)
+            true = np.stack([np.stack([np.interp(fit.time, time, centres[:, k, d]) for d in range(3)], axis=1)
+                             for k in range(BODIES)], axis=1)
             off = np.array([moved_off(own, x) for own, x in zip(bodies(joints_of(fit.bend, fit.station)), true)])
             way = ways_between(true, bool(free))
             same = rolled_to(fit, lambda roll: at_stations(joints_along(way, roll), fit.station), bool(free))
             tried = [line for line in said.splitlines() if line.startswith("run by this program")]
-            row |= {"shapes off (cm)": rms(off), "within bands of 90 %": in_band(fit, same), "seen": said.split("film's end: ")[1].split("\n")[0].split(", which")[0],
+            row |= {"shapes off (cm)": rms(off), "within bands of 90 %": in_band(fit, same),
+                    "seen": said.split("film's end: ")[1].split("\n")[0].split(", which")[0],
                     "stiffness (dyn cm^2)": tried[0].split("= ")[1].split(":")[0] if tried else ""}
             code, told = hagfish(folder, "run", "p.toml", "--until", "form", "--quiet", "--force", "--out", "again.h5")
             row["run ties"] = "the same" if code == 0 else told.strip().splitlines()[-1].split("failed: ")[-1]  # the scene expects the knot
@@ -284,7 +315,7 @@ def runs(folder: Path) -> list[dict]:
     return rows
 
 
-# Damaged films -----------------------------------------------------------------------------------------------------------------------------------
+# Damaged films ------------------------------------------------------------------------------------------------------
 
 def damaged(folder: Path, count: int = 300) -> list[dict]:
     """Films of an arc that grows, with a millimetre of noise and one or two random faults: how the program takes them, and how far it is off."""
@@ -292,9 +323,11 @@ def damaged(folder: Path, count: int = 300) -> list[dict]:
     true = np.array([curve(*FORMS["growing arc"], t, places, 300) for t in time])[..., :2]
     for case in range(count):
         random = np.random.default_rng(case)
-        points, kept, s = true + NOISE * random.standard_normal(true.shape), np.ones(true.shape[:2], bool), places * LENGTH
+        points, kept, s = true + NOISE * random.standard_normal(true.shape), np.ones(true.shape[:2],
+                                                                                     bool), places * LENGTH
         header, arguments, faults = "time_s,s_cm,x_cm,y_cm", [], list(random.choice(
-            ["outliers", "lost", "tail", "gap", "zeros", "exchanged", "repeated", "jump", "scale", "units", "cut", "y down", "noise", "order", "times"], random.integers(1, 3), replace=False))
+            ["outliers", "lost", "tail", "gap", "zeros", "exchanged", "repeated", "jump", "scale", "units", "cut",
+             "y down", "noise", "order", "times"], random.integers(1, 3), replace=False))
         begin, some = random.integers(5, 30), random.random(true.shape[:2])
         for fault in faults:
             if fault == "outliers": points[some < random.uniform(0.005, 0.05)] += random.uniform(-15, 15, 2)
@@ -317,22 +350,27 @@ def damaged(folder: Path, count: int = 300) -> list[dict]:
             (folder / "damaged.csv").write_text("\n".join([heading, *random.permutation(lines)]) + "\n")
         if "times" in faults: arguments += ["--times", random.integers(2, 60)]
         before = cpu()
-        code, said = hagfish(folder, "midlines", "damaged.csv", "--scene", "table1", "--out", "d.csv", "--force", *arguments)
+        code, said = hagfish(folder, "midlines", "damaged.csv", "--scene", "table1", "--out", "d.csv", "--force",
+                             *arguments)
         row = {"case": case, "faults": " + ".join(faults), "code": code, "CPU (s)": cpu() - before}
-        told = any(word in said for word in ("look at", "left out", "taken as missing", "turned round", "scaled to", "filled in"))
+        told = any(word in said for word in ("look at", "left out", "taken as missing", "turned round", "scaled to",
+                                             "filled in"))
         if code == 0:
             fit = Program(folder / "d.csv")
             sign = -1 if "y down" in faults else 1  # told by nothing in a plane but said not to be: the animal in its mirror
             z = (fit.bend.imag - sign * 2 * (fit.time[:, None] + time[0])) / fit.error.imag
-            row |= {"bends off, in standard errors, rms": rms(z), "within bands of 90 %": float(np.mean(np.abs(z) < WITHIN)), "within bands of 99 %": float(np.mean(np.abs(z) < SURELY))}
+            row |= {"bends off, in standard errors, rms": rms(z),
+                    "within bands of 90 %": float(np.mean(np.abs(z) < WITHIN)),
+                    "within bands of 99 %": float(np.mean(np.abs(z) < SURELY))}
             right = row["within bands of 99 %"] > 0.75
         row["told"] = "yes" if told else "no"
-        row["outcome"] = "refused" if code == 2 else "failed" if code == 3 else "crashed" if code else "right" if right else "told" if told else "silently off"
+        fitted = "right" if code == 0 and right else "told" if told else "silently off"
+        row["outcome"] = {0: fitted, 2: "refused", 3: "failed"}.get(code, "crashed")
         rows.append(row)
     return rows
 
 
-# The tutorial ------------------------------------------------------------------------------------------------------------------------------------
+# The tutorial -------------------------------------------------------------------------------------------------------
 
 def tutorial(folder: Path) -> list[dict]:
     """What each chapter of the tutorial takes, from nothing."""
@@ -341,17 +379,19 @@ def tutorial(folder: Path) -> list[dict]:
     place.mkdir(parents=True)
     environment = os.environ | {"PATH": f"{HAGFISH.parent}:/usr/bin:/bin", "OPENBLAS_NUM_THREADS": "1"}
     for chapter in TUTORIAL.read_text(encoding="utf-8").split("\n## ")[2:]:
-        title, commands = chapter.split("\n", 1)[0].split(". ")[-1], re.findall(r"^```bash\n(.*?)^```$", chapter, re.MULTILINE | re.DOTALL)
+        title, commands = chapter.split("\n", 1)[0].split(". ")[-1], re.findall(r"^```bash\n(.*?)^```$", chapter,
+                                                                                re.MULTILINE | re.DOTALL)
         if commands:
             before, begin = cpu(), monotonic()
-            subprocess.run(["bash", "-euc", "\n".join(commands)], cwd=place, env=environment, stdout=subprocess.DEVNULL, check=True)
+            subprocess.run(["bash", "-euc", "\n".join(commands)], cwd=place, env=environment, stdout=subprocess.DEVNULL,
+                           check=True)
             rows.append({"chapter": title, "CPU (s)": cpu() - before, "by the clock (s)": monotonic() - begin})
     return rows
 
 
 PARTS = forms, runs, damaged, tutorial
 
-# Tables ------------------------------------------------------------------------------------------------------------------------------------------
+# Tables -------------------------------------------------------------------------------------------------------------
 
 def cells_of(rows: list[dict]) -> tuple[list[str], list[list[str]]]:
     names = list(dict.fromkeys(name for row in rows for name in row))
@@ -372,7 +412,8 @@ def figures(forms: list[dict], runs: list[dict], films: list[dict], chapters: li
     bends, worst = "bends off, rms (rad/L)", (lambda rows, name: f"{max(number(rows, name)):.2g}")
     held, took = [100 * share for share in number(runs, "within bands of 90 %")], number(runs, "CPU of midlines (s)")
     times = number(films, "CPU (s)")
-    few = [row for row in films if row["outcome"] == "right" and float(row["within bands of 90 %"]) <= 0.75 and row["told"] == "no"]
+    few = [row for row in films if row["outcome"] == "right" and float(row["within bands of 90 %"]) <= 0.75
+           and row["told"] == "no"]
     return [[name, str(value)] for name, value in [
         ("a band of 90 %, standard errors to each side", WITHIN),
         ("length of the body, cm", LENGTH),
@@ -397,7 +438,8 @@ def figures(forms: list[dict], runs: list[dict], films: list[dict], chapters: li
 
 def write_summaries(folder: Path) -> None:
     """Of the tables of all parts."""
-    forms, runs, films, chapters = (tables.read_csv(folder / "tables" / f"films_{part.__name__}.csv", []) for part in PARTS)
+    forms, runs, films, chapters = (tables.read_csv(folder / "tables" / f"films_{part.__name__}.csv", [])
+                                    for part in PARTS)
     tables.write_table(folder, "films_outcomes", ["outcome", "films"], outcomes(films))
     tables.write_table(folder, "films_figures", ["figure", "value"], figures(forms, runs, films, chapters))
 

@@ -47,7 +47,8 @@ class Slide:
 def slide_of(log: HagfishLog, way: float) -> Slide:
     means = log.intervals_in("slide")
     work = log["/diagnostics/work_thigmotaxis"][log.in_phase("slide")]
-    return Slide(way, float(log["/mean/thigmotaxis/sum"][means].mean()), float(work[-1] - work[0]) / way, moments_of(log, "thigmotaxis", means),
+    return Slide(way, float(log["/mean/thigmotaxis/sum"][means].mean()), float(work[-1] - work[0]) / way,
+                 moments_of(log, "thigmotaxis", means),
                  np.minimum.accumulate(log["/knot/head_end"][means]))
 
 
@@ -118,7 +119,8 @@ def turns_rows() -> list[list[str]]:
     counts = (100, 200, 400)
     rows = {**{words: [turns_off(bodies, in_turn) for bodies in counts] for words, in_turn in ORDERS.items()},
             f"centres, on a circle of {RADIUS:g} cm, inside it": [inside(bodies) for bodies in counts]}
-    return [[words, *(shown(value, ".4f") for value in values), shown(np.log2(values[-2] / values[-1]), ".1f")] for words, values in rows.items()]
+    return [[words, *(shown(value, ".4f") for value in values), shown(np.log2(values[-2] / values[-1]), ".1f")] for words,
+            values in rows.items()]
 
 
 def main(folder: Path) -> None:
@@ -130,10 +132,12 @@ def main(folder: Path) -> None:
             worst = {name: [max(found[name] for found in of) for of in each] for name in each[0][0]}
             ends = lambda name: [shown(np.median(worst[name]), ".1f"), shown(max(worst[name]), ".1f")]
             sums.append([change, animals, *(cell for name in SUMS for cell in ends(name))])
-            spread.append([change, animals, *(shown(value, ".1f") for value in worst["mean"]), ends("mean")[0], *ends("time"), *ends("place")])
+            spread.append([change, animals, *(shown(value, ".1f") for value in worst["mean"]), ends("mean")[0], *ends("time"),
+                           *ends("place")])
     both = lambda names: [f"{name}, {end}" for name in names for end in ("median", "at most")]
     tables.write_table(folder, "forces", ["change", "animals", *both(SUMS)], sums)
-    tables.write_table(folder, "forces_spread", ["change", "animals", *plots.KNOTS, "median", *both(["frames at equal time", "frames at equal place"])], spread)
+    tables.write_table(folder, "forces_spread", ["change", "animals", *plots.KNOTS, "median",
+                                                 *both(["frames at equal time", "frames at equal place"])], spread)
     tables.write_table(folder, "forces_turns", ["", "100 bodies, cm", "200 bodies, cm", "400 bodies, cm", "order"], turns_rows())
 
 

@@ -80,19 +80,25 @@ def knots_table(runs: list[Run], out: Path) -> None:
         for knot in plots.SCENES.values():
             pulls = pulls_of(starts := chosen(runs, body, knot, "start"))
             plain, mirrored = (chosen(runs, body, knot, kind) for kind in ("plain", "mirror"))
-            same = [(run.outcome, run.pull and run.pull.mean) for run in plain] == [(run.outcome, run.pull and run.pull.mean) for run in mirrored]
+            same = [(run.outcome, run.pull and run.pull.mean) for run in plain] == [(run.outcome, run.pull and run.pull.mean)
+                                                                                    for run in mirrored]
             seconds = [force for pull in pulls_of(plain) for force in pull.over(1)[1]]
             third = ", ".join(f"{part.mean():.2f}" for part in np.array_split(seconds, 3)) if len(seconds) > 2 else ""
             mean = lambda figure: f"{np.mean([figure(pull) for pull in pulls]):.2g}" if pulls else ""
-            rows.append([label, knot, mean(lambda p: p.cap), f"{len(pulls)} of {len(starts)}", third, spread(seconds), spread(pull.mean for pull in pulls),
+            rows.append([label, knot, mean(lambda p: p.cap), f"{len(pulls)} of {len(starts)}", third, spread(seconds),
+                         spread(pull.mean for pull in pulls),
                          *(spread(pull.mean for pull in pulls_of([*chosen(runs, body, knot, kind), *plain])) for kind in MESH),
-                         mean(lambda p: p.mean / p.rows.mean()), mean(lambda p: p.mean / p.torque.mean()), "yes" if plain and same else "no"])
-    tables.write_table(out, "leverage", ["body", "knot", "cap of a row, N", "pulled", "pull in the thirds of its time, N", "of its seconds, N", "means of starts, N",
-                                     "of steps, N", "of numbers of bodies, N", "over the sum of the rows", "over the largest torque, 1/cm", "mirror image the same"], rows)
+                         mean(lambda p: p.mean / p.rows.mean()), mean(lambda p: p.mean / p.torque.mean()),
+                         "yes" if plain and same else "no"])
+    tables.write_table(out, "leverage", ["body", "knot", "cap of a row, N", "pulled", "pull in the thirds of its time, N",
+                                         "of its seconds, N", "means of starts, N",
+                                     "of steps, N", "of numbers of bodies, N", "over the sum of the rows", "over the largest torque, 1/cm",
+                                     "mirror image the same"], rows)
 
 
 def time_table(runs: list[Run], out: Path) -> None:
-    rows = [[run.body, run.knot, float(second), float(force)] for run in runs if run.kind == "plain" and run.pull for second, force in zip(*run.pull.over(1))]
+    rows = [[run.body, run.knot, float(second), float(force)] for run in runs if run.kind == "plain" and run.pull for second,
+            force in zip(*run.pull.over(1))]
     tables.write_csv(out / "tables/leverage_time.csv", TIME_HEAD, rows)
 
 
@@ -104,8 +110,10 @@ def work_table(runs: list[Run], folder: Path, out: Path) -> None:
             if pulls_of(chosen(runs, body, knot, "plain")):
                 log = HagfishLog(folder / f"plain-{body}-{scene}-0-0.h5")
                 pull, work = read_pull(log).mean, read_strand(log).work
-                rows.append([label, knot, *(f"{force:.3f}" for force in (pull, work["rows"], work["contacts"] + work["plate"], pull - sum(work.values())))])
-    tables.write_table(out, "leverage_work", ["body", "knot", "pull", "rows of Eq. 6", "contacts and head plate", "left to bending, limits, muscles"], rows)
+                rows.append([label, knot, *(f"{force:.3f}" for force in (pull, work["rows"], work["contacts"] + work["plate"],
+                                                                         pull - sum(work.values())))])
+    tables.write_table(out, "leverage_work", ["body", "knot", "pull", "rows of Eq. 6", "contacts and head plate",
+                                              "left to bending, limits, muscles"], rows)
 
 
 def changes_table(runs: list[Run], out: Path) -> None:
@@ -118,9 +126,12 @@ def changes_table(runs: list[Run], out: Path) -> None:
                 there = [run for run in runs if (run.kind, run.body, float(run.value)) == (kind, body, value)]
                 ratios = [pull.mean / np.mean([start.mean for start in starts]) for run in there for pull in pulls_of([run])
                           if (starts := pulls_of(chosen(runs, body, run.knot, "start")))]
-                cells += [f"{len(ratios)} of {len(there)}" if there else "", " to ".join(dict.fromkeys(f"{ratio:.2f}" for ratio in (min(ratios), max(ratios)))) if ratios else ""]
+                cells += [f"{len(ratios)} of {len(there)}" if there else "",
+                          " to ".join(dict.fromkeys(f"{ratio:.2f}" for ratio in (min(ratios), max(ratios)))) if ratios else ""]
             rows.append([f"{label}: {value:g}", *cells])
-    tables.write_table(out, "leverage_changes", ["what is changed", *(f"{label}: {what}" for label in BODIES.values() for what in ("pulled", "pull, over that of the starts"))], rows)
+    tables.write_table(out, "leverage_changes", ["what is changed",
+                                                 *(f"{label}: {what}" for label in BODIES.values()
+                                                   for what in ("pulled", "pull, over that of the starts"))], rows)
 
 
 def csv_row(run: Run) -> list[str | float]:

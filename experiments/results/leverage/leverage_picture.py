@@ -13,7 +13,8 @@ import plots
 from script import run_script
 from tables import read_csv
 
-HEAD = ["kind", "body", "knot", "value", "seed", "outcome", "cap_N", "pull_N", "plate_N", "rows_N", "torque_mean_N_cm", "torque_largest_N_cm", "estimate_N",
+HEAD = ["kind", "body", "knot", "value", "seed", "outcome", "cap_N", "pull_N", "plate_N", "rows_N", "torque_mean_N_cm",
+        "torque_largest_N_cm", "estimate_N",
         "deepest_overlap_cm", "too_deep"]
 TIME_HEAD = ["body", "knot", "second", "pull_N"]
 SWEEPS = {"cap": "largest force of a row, times the scene's", "speed": "commanded speed, cm/s", "stiffness": "flexural rigidity, dyn cm²",
@@ -31,7 +32,8 @@ Runs = list[dict[str, str]]
 
 def chosen(runs: Runs, body: str, knot: str, kind: str, deep: bool = False) -> Runs:
     """Of those that pulled; with `deep` also those whose strands are too deep in each other."""
-    return [run for run in runs if run["pull_N"] and (deep or run["too_deep"] != "yes") and (run["body"], run["knot"], run["kind"]) == (body, knot, kind)]
+    return [run for run in runs if run["pull_N"] and (deep or run["too_deep"] != "yes")
+            and (run["body"], run["knot"], run["kind"]) == (body, knot, kind)]
 
 
 def pulls(runs: Runs) -> np.ndarray:
@@ -52,7 +54,8 @@ def draw_starts(axes: plots.plt.Axes, runs: Runs, body: str, knot: str, at: floa
     mean, fill = starts.mean(), look.colour if body == "living" else "white"
     mesh = np.r_[mean, *(pulls(chosen(runs, body, knot, kind)) for kind in MESH)]
     axes.plot([at, at], [mesh.min(), mesh.max()], color=look.colour, lw=0.7, zorder=1)
-    axes.errorbar(at, mean, starts.std(ddof=1) if starts.size > 1 else 0, color=look.colour, marker=look.marker, ms=5.5, mfc=fill, elinewidth=2.2, capsize=3)
+    axes.errorbar(at, mean, starts.std(ddof=1) if starts.size > 1 else 0, color=look.colour, marker=look.marker, ms=5.5, mfc=fill,
+                  elinewidth=2.2, capsize=3)
 
 
 def draw_sweep(axes: plots.plt.Axes, runs: Runs, kind: str, log: bool = True) -> None:
@@ -98,7 +101,8 @@ def draw(runs: Runs, seconds: Runs, out: Path) -> None:
     axes[5].set(xlabel="since the pull counts as settled, s", ylabel="pull, N", ylim=(0, None))
     handles = [axes[0].plot([], [], label=look.label, ls="", **look.style)[0] for look in plots.KNOTS.values()]
     handles += [axes[0].plot([], [], color=plots.INK, marker=marker, mfc=fill, ls="", label=label)[0]
-                for marker, fill, label in (("o", plots.INK, "living body"), ("o", "white", "Table 1 body"), ("x", plots.INK, "overlaps too deep, in (a) alone"))]
+                for marker, fill, label in (("o", plots.INK, "living body"), ("o", "white", "Table 1 body"),
+                                            ("x", plots.INK, "overlaps too deep, in (a) alone"))]
     handles.append(axes[0].errorbar([], [], [], color=plots.INK, elinewidth=2.2, capsize=3, ls="", label="starts: standard deviation"))
     handles += axes[0].plot([], [], color=plots.INK, lw=0.7, label="other steps and numbers of bodies")
     handles += axes[0].plot([], [], color=plots.INK, ls=":", label="Table 1 body over time")

@@ -30,7 +30,8 @@ def twisted(folder: Path) -> None:
             coarser, before = before, error
         if name[1] == "in turn":  # of second order
             rows.append([*name, "extrapolated", f"{round(100 * (error - (coarser - error) / 3), 2) + 0:.2f}", "", ""])
-    write_table(folder, "mechanics", ["problem", "universal joints", "bending over twist rigidity", "bodies", "error of the moment, %", "order", "CPU time, s"],
+    write_table(folder, "mechanics", ["problem", "universal joints", "bending over twist rigidity", "bodies", "error of the moment, %",
+                                      "order", "CPU time, s"],
             rows)
 
 
@@ -38,9 +39,11 @@ def hooked(folder: Path) -> None:
     rows = []
     for rope in read_csv(folder / "hooked.csv", ["value"]):
         value, expected = float(rope["value"]), float(rope["expected"])
-        rows.append([rope["problem"], rope["figure"], rope["link"], rope["bodies"], f"{value:.4f}", f"{expected:.4f}", f"{100 * (value / expected - 1):.2f}",
+        rows.append([rope["problem"], rope["figure"], rope["link"], rope["bodies"], f"{value:.4f}", f"{expected:.4f}",
+                     f"{100 * (value / expected - 1):.2f}",
                      rope["rest"], rope["cpu"]])
-    write_table(folder, "mechanics_hooked", ["rope", "figure", "link", "bodies", "measured", "theory", "error, %", "at rest", "CPU time, s"], rows)
+    write_table(folder, "mechanics_hooked", ["rope", "figure", "link", "bodies", "measured", "theory", "error, %", "at rest",
+                                             "CPU time, s"], rows)
 
 
 def mujoco(folder: Path) -> None:
@@ -50,9 +53,11 @@ def mujoco(folder: Path) -> None:
     own = {rope["link"]: rope for rope in read_csv(folder / "hooked.csv", ["value"]) if rope["figure"] == "distance of the tips"}
     for link, ropes in groupby(read_csv(folder / "mujoco.csv", ["tips"]), lambda rope: rope["link"]):
         here = own[link]
-        rows.append(["this one", "", "", here["bodies"], f"{float(here['value']):.4f}", error(here["value"], here["expected"]), "", here["rest"], here["cpu"]])
+        rows.append(["this one", "", "", here["bodies"], f"{float(here['value']):.4f}", error(here["value"], here["expected"]), "",
+                     here["rest"], here["cpu"]])
         for rope in ropes:
-            rows.append(["MuJoCo 2.2.2", rope["step"], rope["density"], rope["bodies"], f"{float(rope['tips']):.4f}", error(rope["tips"], rope["expected"]),
+            rows.append(["MuJoCo 2.2.2", rope["step"], rope["density"], rope["bodies"], f"{float(rope['tips']):.4f}",
+                         error(rope["tips"], rope["expected"]),
                          rope["overlap"], rope["rest"], rope["cpu"]])
     write_table(folder, "mechanics_mujoco", ["simulator", "step, s", "mass, g/cm", "bodies", "distance of the tips, diameters", "error, %",
                                          "overlap of capsules, diameters", "at rest", "CPU time, s"], rows)
@@ -60,9 +65,11 @@ def mujoco(folder: Path) -> None:
 
 def ply(folder: Path) -> None:
     percent = lambda over: f"{100 * (float(over) - 1):.1f}"
-    rows = [[rod["bodies"], rod["per_radius"], rod["angle"], percent(rod["radius"]), percent(rod["force"]), percent(rod["moment"]), rod["rest"], rod["cpu"]]
+    rows = [[rod["bodies"], rod["per_radius"], rod["angle"], percent(rod["radius"]), percent(rod["force"]), percent(rod["moment"]),
+             rod["rest"], rod["cpu"]]
             for rod in read_csv(folder / "ply.csv", ["force"])]
-    write_table(folder, "mechanics_ply", ["bodies", "bodies to a radius", "angle of the strands, rad", "their distance over two radii, %", "error of F, %",
+    write_table(folder, "mechanics_ply", ["bodies", "bodies to a radius", "angle of the strands, rad", "their distance over two radii, %",
+                                          "error of F, %",
                                       "error of M, %", "at rest", "CPU time, s"], rows)
 
 
@@ -85,7 +92,8 @@ def loose(folder: Path) -> None:
     for knot in knots:
         error = f"{100 * (float(knot['load']) / 0.5 - 1):.1f}"
         twist = knot["ratio"] if float(knot["ratio"]) else "no twist"
-        rows.append([knot["type"], knot["thin"], knot["bodies"], twist, knot["load"], error, knot["integral"], knot["touches"], knot["interval"],
+        rows.append([knot["type"], knot["thin"], knot["bodies"], twist, knot["load"], error, knot["integral"], knot["touches"],
+                     knot["interval"],
                      knot["points"], knot["rest"], knot["cpu"]])
     for kind in dict.fromkeys(knot["type"] for knot in knots):
         thin = [knot for knot in knots if knot["type"] == kind and knot["series"] == "thin"][-3:]
@@ -105,12 +113,14 @@ def tight(folder: Path) -> None:
     for kind, (chain, rope) in KNOWN.items():
         same = [knot for knot in knots if knot["type"] == kind]
         for knot in same:
-            rows.append([kind, knot["link"], knot["bodies"], knot["shortening"], f"{100 * (float(knot['shortening']) / rope - 1):.2f}", "", "", knot["rest"],
+            rows.append([kind, knot["link"], knot["bodies"], knot["shortening"], f"{100 * (float(knot['shortening']) / rope - 1):.2f}", "",
+                         "", knot["rest"],
                          knot["cpu"]])
         ideal = limit([(float(knot["link"]) ** 2, float(knot["shortening"])) for knot in same])
         rows.append([kind, "extrapolated", "", f"{ideal:.3f}", f"{100 * (ideal / rope - 1):.2f}", f"{chain:.2f}", f"{rope:.2f}", "", ""])
     write_table(folder, "mechanics_tight",
-            ["knot", "link, diameters", "bodies", "shortening, diameters", "over the rope code's, %", "animal's chain before", "rope code", "at rest",
+            ["knot", "link, diameters", "bodies", "shortening, diameters", "over the rope code's, %", "animal's chain before", "rope code",
+             "at rest",
              "CPU time, s"], rows)
 
 

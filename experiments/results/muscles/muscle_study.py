@@ -53,7 +53,8 @@ def by_knot(folder: Path) -> None:
     rows = rows_of("tying", [m.of(m.log.intervals_in("form")) for m in tied])
     rows += rows_of("sliding", slid)
     rows += rows_of("pulling", [m.of(m.log.intervals_in("pull")) for m in pulled])
-    rows += [["sliding: mean activation times time, s for each cm", *(f"{e.mean * e.seconds / way(m.log):.3f}" for m, e in zip(tied, slid))],
+    rows += [["sliding: mean activation times time, s for each cm",
+              *(f"{e.mean * e.seconds / way(m.log):.3f}" for m, e in zip(tied, slid))],
              ["sliding: work of muscles, erg for each cm", *(f"{work(m.log, f) / way(m.log):.2g}" for m, f in zip(tied, slides))],
              ["sliding: one pair of constant arms instead, off by: median; largest, %",
               *("{:.0f}; {:.0f}".format(*(100 * off for off in m.pair_off(f))) for m, f in zip(tied, slides))]]
@@ -73,9 +74,11 @@ def forward(folder: Path) -> None:
         time = log["/trajectory/time"][frames]
         driven = log["/muscle/driven"][frames]
         share = audits.value_of(audits.read_findings(path.with_suffix(".check.csv")), "slide of both ends")
-        rows.append([path.stem, "kept" if len(types) == 1 else "lost", f"{way(log):.2f}", f"{share:.0f}", f"{way(log) / (time[-1] - time[0]):.2f}",
+        rows.append([path.stem, "kept" if len(types) == 1 else "lost", f"{way(log):.2f}", f"{share:.0f}",
+                     f"{way(log) / (time[-1] - time[0]):.2f}",
                      f"{np.quantile(driven, 0.999):.2f}"])
-    tables.write_table(folder, "muscles_forward", ["on activations", "type until release", "way of the head end, cm", "share of a slide by both ends, %", "cm/s", "peak activation"], rows)
+    tables.write_table(folder, "muscles_forward", ["on activations", "type until release", "way of the head end, cm",
+                                                   "share of a slide by both ends, %", "cm/s", "peak activation"], rows)
 
 
 def stiffness(folder: Path) -> None:
@@ -106,7 +109,8 @@ def stiffness(folder: Path) -> None:
         axes.set(xlabel="flexural rigidity EI, $10^5$ dyn cm²\n(muscles' stiffness: 5, and 2.5 EI above EI = 2)", ylabel=name)
     panels[0].legend()
     plots.save(figure, folder / "muscles_stiffness.png")
-    tables.write_table(folder, "muscles_stiffness", ["EI, dyn cm²: peak activation; frames in which a muscle is too weak, %", *plots.SCENES.values()],
+    tables.write_table(folder, "muscles_stiffness", ["EI, dyn cm²: peak activation; frames in which a muscle is too weak, %",
+                                                     *plots.SCENES.values()],
                           [[f"{value:.0e}".replace("e+0", "e"), *cells] for value, cells in sorted(rows.items())])
 
 

@@ -28,12 +28,14 @@ from slides import log_of
 KNOTS = list(plots.KNOTS)
 USUAL, FINE_MESH, FINE_STEP, FINEST = "100; 2", "200; 2", "100; 1", "200; 1"  # bodies; step, ms
 STIFFNESS, RIGIDITY, DAMPING = 5e5, 2e5, 3e3  # B_a of living_overhand; B and C of the specimen: dyn cm^2, dyn cm^2, dyn cm^2 s
-NAMES = {"delay": "senses late by, s", "noise": "senses wrong by, share of each angle", "bodies": "bodies", "step": "step, s",
+NAMES = {"delay": "senses late by, s", "noise": "senses wrong by, share of each angle", "bodies": "bodies",
+         "step": "step, s",
          "drag": "drag across the body, g/(s cm)", "muscle": "muscles B_a, dyn cm²", "damping": "damping C, dyn cm² s",
          "stiffness": "body EI, dyn cm²", "animals": "other animals", "starts": "starts with 3° of noise"}
 SHIFT = 0.0106  # cm: the scenes' 2.5e-4 L
 UNTIED = "not tied"
-CHANGES = {"shift": "Δ, cm", "delay": NAMES["delay"], "noise": NAMES["noise"], "normal": NAMES["drag"], "bending_damping": NAMES["damping"],
+CHANGES = {"shift": "Δ, cm", "delay": NAMES["delay"], "noise": NAMES["noise"], "normal": NAMES["drag"],
+           "bending_damping": NAMES["damping"],
            "noise_deg": "starts with noise, degrees"}
 LOOSE = {"tighten": "where the knot is first there", "form": "a second before that"}
 
@@ -80,12 +82,16 @@ def knots_table(rows: list[Row]) -> Cells:
     body = []
     for head in ("clamped", "free"):
         for knot in KNOTS:
-            own, paper = one(rows, study="knots", knot=knot, head=head, setting=USUAL), one(rows, study="paper", knot=knot, head=head)
+            own, paper = one(rows, study="knots", knot=knot, head=head, setting=USUAL), one(rows, study="paper",
+                                                                                            knot=knot, head=head)
             for name, row in (("reflex", own), ("Eq. 6", paper)):
                 if row is not None:
-                    body.append([f"{knot}, {head}", name, came(row), row.held, figure_of(row.torque, 2), figure_of(row.effort, 2),
-                                 figure_of(row.put_in, 2), figure_of(row.work, 2), figure_of(row.wave, 2), figure_of(row.travel, 2)])
-    return ["knot, head", "law", "way, cm, in time", "type held", "largest torque, dyn cm", "effort, dyn s", "work put in, erg/cm", "net work, erg/cm", "wave's speed, of the knot's", "travel, share of change"], body
+                    body.append([f"{knot}, {head}", name, came(row), row.held, figure_of(row.torque, 2),
+                                 figure_of(row.effort, 2),
+                                 figure_of(row.put_in, 2), figure_of(row.work, 2), figure_of(row.wave, 2),
+                                 figure_of(row.travel, 2)])
+    return ["knot, head", "law", "way, cm, in time", "type held", "largest torque, dyn cm", "effort, dyn s",
+            "work put in, erg/cm", "net work, erg/cm", "wave's speed, of the knot's", "travel, share of change"], body
 
 
 def apart(a: float | None, b: float | None) -> str:
@@ -101,9 +107,11 @@ def mesh_table(rows: list[Row]) -> Cells:
             found = [one(rows, study="knots", knot=knot, head=head, setting=setting) for setting in settings]
             of = lambda key: [getattr(row, key) if row else None for row in found]
             time, middle = of("time"), of("middle")
-            body.append([f"{knot}, {head}", *("; ".join(figure_of(value) for value in pair) for pair in zip(time, middle)),
+            body.append([f"{knot}, {head}", *("; ".join(figure_of(value) for value in pair)
+                                              for pair in zip(time, middle)),
                          *(apart(values[0], values[1]) for values in (time, middle)), apart(middle[1], middle[3])])
-    return ["slide; its middle, s", *(f"{s.split('; ')[0]} bodies, {s.split('; ')[1]} ms" for s in settings), "slide, 200 against 100 bodies, %", "middle, the same, %", "middle, 1 against 2 ms, 200 bodies, %"], body
+    return ["slide; its middle, s", *(f"{s.split('; ')[0]} bodies, {s.split('; ')[1]} ms" for s in settings),
+            "slide, 200 against 100 bodies, %", "middle, the same, %", "middle, 1 against 2 ms, 200 bodies, %"], body
 
 
 def meshes_table(rows: list[Row]) -> Cells:
@@ -114,7 +122,8 @@ def meshes_table(rows: list[Row]) -> Cells:
         for knot in KNOTS:
             found = [one(own, knot=knot, head=head, setting=count) for count in counts]
             times = {count: row.middle for count, row in zip(counts, found) if row}
-            body.append([f"{knot}, {head}", *(figure_of(times.get(count)) for count in counts), apart(times.get("200"), times.get("400"))])
+            body.append([f"{knot}, {head}", *(figure_of(times.get(count)) for count in counts),
+                         apart(times.get("200"), times.get("400"))])
     return ["middle of the slide, s", *(f"{count} bodies" for count in counts), "400 against 200, %"], body
 
 
@@ -123,20 +132,24 @@ def wiped_table(rows: list[Row]) -> Cells:
     for head in ("clamped", "free"):
         for knot in KNOTS:
             pair = [one(rows, study=study, knot=knot, head=head, setting=USUAL) for study in ("knots", "paper")]
-            body.append([f"{knot}, {head}", *(figure_of(getattr(row, key) if row else None, 2) for row in pair for key in ("rings", "skin"))])
+            body.append([f"{knot}, {head}", *(figure_of(getattr(row, key) if row else None, 2) for row in pair
+                                              for key in ("rings", "skin"))])
     return ["share that skin pressed on", "reflex: length", "reflex: skin", "Eq. 6: length", "Eq. 6: skin"], body
 
 
 def loose_table(rows: list[Row]) -> Cells:
-    body = [[row.knot, LOOSE[row.study], row.setting, figure_of(row.time, 2), row.types.replace(" ", ", "), figure_of(row.span_from), figure_of(row.span_to)]
+    body = [[row.knot, LOOSE[row.study], row.setting, figure_of(row.time, 2), row.types.replace(" ", ", "),
+             figure_of(row.span_from), figure_of(row.span_to)]
             for row in rows if row.study in ("tighten", "form")]
-    return ["knot", "the reflex begins", "Δ at the tail end, of that at the head end", "for, s", "what there was, in turn", "span then, cm", "least span, cm"], body
+    return ["knot", "the reflex begins", "Δ at the tail end, of that at the head end", "for, s",
+            "what there was, in turn", "span then, cm", "least span, cm"], body
 
 
 def grid_table(rows: list[Row], study: str) -> Cells:
     own = pick(rows, study=study)
     settings = list(dict.fromkeys(row.setting for row in own))
-    return ["what copies", *KNOTS], [[setting, *(came(one(own, knot=knot, setting=setting)) for knot in KNOTS)] for setting in settings]
+    return ["what copies", *KNOTS], [[setting, *(came(one(own, knot=knot, setting=setting)) for knot in KNOTS)]
+                                     for setting in settings]
 
 
 def speed_table(rows: list[Row]) -> Cells:
@@ -149,7 +162,8 @@ def speed_table(rows: list[Row]) -> Cells:
         cells = []
         for knot, head in cases:
             pair = [one(own, knot=knot, head=head, setting=f"{shift}; {step}") for step in (5, 2)]
-            cells.append("; ".join(f"{row.speed / law:.2f}" + ("" if row.slid == "yes" else "*") for row in pair if row and row.way))
+            cells.append("; ".join(f"{row.speed / law:.2f}" + ("" if row.slid == "yes" else "*") for row in pair if row
+                                   and row.way))
         body.append([shift, figure_of(law), *cells])
     return ["Δ, cm", "law, cm/s", *(f"{knot}, {head}: measured of law, 5 ms; 2 ms" for knot, head in cases)], body
 
@@ -168,7 +182,8 @@ def robust_table(rows: list[Row]) -> Cells:
             body += [[f"clamped, {name}", *(f"{slid_of(tied(own, knot))} tied" for knot in KNOTS)]] if own else []
             continue
         for setting in dict.fromkeys(row.setting for row in own):
-            body.append([f"clamped, {name}: {setting}", *(came(one(own, knot=knot, setting=setting)) for knot in KNOTS)])
+            body.append([f"clamped, {name}: {setting}",
+                         *(came(one(own, knot=knot, setting=setting)) for knot in KNOTS)])
     own = pick(rows, study="free")
     for setting in dict.fromkeys(row.setting for row in own):
         name, _, value = setting.partition(" = ")
@@ -176,7 +191,8 @@ def robust_table(rows: list[Row]) -> Cells:
         body.append([f"free, {CHANGES.get(name, name)}: {value}" if value else f"free, {setting}",
                      *(came(each[0]) if len(each) == 1 else slid_of(each) for each in runs)])
     if programs := pick(rows, study="free_programs"):
-        body.append(["free, programs with noise of 0.2 rad/L", *(f"{slid_of(tied(programs, knot))} tied" for knot in KNOTS)])
+        body.append(["free, programs with noise of 0.2 rad/L",
+                     *(f"{slid_of(tied(programs, knot))} tied" for knot in KNOTS)])
     return ["3_1 to 5_2, h = 5 ms", *KNOTS], body
 
 
@@ -186,15 +202,20 @@ def claims_table(rows: list[Row]) -> Cells:
         for knot in KNOTS:
             row = one(rows, study=study, knot=knot, head="clamped", setting=USUAL)
             if row is not None and row.behind is not None:
-                body.append([knot, name, figure_of(row.behind, 2), figure_of(row.near, 2), row.rank, figure_of(row.rough_space, 2),
+                body.append([knot, name, figure_of(row.behind, 2), figure_of(row.near, 2), row.rank,
+                             figure_of(row.rough_space, 2),
                              figure_of(row.rough_time, 2), figure_of(row.likeness, 2)])
-    return ["knot", "law", "largest behind the knot, of the largest", "near the head, of far from it", "grows to the head", "roughness along the body", "roughness in time", "cosine with the curvature's gradient"], body
+    return ["knot", "law", "largest behind the knot, of the largest", "near the head, of far from it",
+            "grows to the head", "roughness along the body", "roughness in time",
+            "cosine with the curvature's gradient"], body
 
 
 def pull_table(rows: list[Row]) -> Cells:
-    body = [[row.knot, "Eq. 6 at all contacts" if row.setting == "paper" else "reflex, scene's Δ", figure_of(row.pull, 2), row.held]
+    body = [[row.knot, "Eq. 6 at all contacts" if row.setting == "paper" else "reflex, scene's Δ",
+             figure_of(row.pull, 2), row.held]
             for row in pick(rows, study="pull")]
-    body += [[row.knot, f"reflex, Δ = {row.setting} cm", figure_of(row.pull, 2), row.held] for row in pick(rows, study="pull_shift")]
+    body += [[row.knot, f"reflex, Δ = {row.setting} cm", figure_of(row.pull, 2), row.held]
+             for row in pick(rows, study="pull_shift")]
     return ["knot", "law", "pull, N", "type held"], sorted(body, key=lambda cells: cells[0])
 
 
@@ -211,7 +232,8 @@ def soft_table(rows: list[Row]) -> Cells:
 
 def beside(rows: list[Row], row: Row) -> Row | None:
     """The run here that a run in MuJoCo is held against: the same without the head plate."""
-    return one(rows, study="beside", knot=row.knot, head=row.head, setting=row.setting if row.setting.startswith("no drag") else "with drag")
+    return one(rows, study="beside", knot=row.knot, head=row.head,
+               setting=row.setting if row.setting.startswith("no drag") else "with drag")
 
 
 def mujoco_table(rows: list[Row]) -> Cells:
@@ -219,8 +241,10 @@ def mujoco_table(rows: list[Row]) -> Cells:
     for row in pick(rows, study="mujoco"):
         own = beside(rows, row)
         body.append([f"{row.knot}, {row.head}", row.setting or "from the straight body", came(row), row.held, came(own),
-                     figure_of(own.time / row.time if own and own.time else None), figure_of(own.middle / row.middle if own and own.middle and row.middle else None)])
-    return ["knot, head", "run", "MuJoCo: way, cm, in time", "type held", "here", "speed there, of that here", "the same, middle of the slide"], body
+                     figure_of(own.time / row.time if own and own.time else None),
+                     figure_of(own.middle / row.middle if own and own.middle and row.middle else None)])
+    return ["knot, head", "run", "MuJoCo: way, cm, in time", "type held", "here", "speed there, of that here",
+            "the same, middle of the slide"], body
 
 
 def figures_table(rows: list[Row]) -> Cells:
@@ -248,7 +272,8 @@ def figures_table(rows: list[Row]) -> Cells:
         return span([own / other for own, other in pairs if own and other], two)
 
     def curved(knot: str) -> str:
-        middles = [row.middle for setting in ("100", "200") for row in pick(rows, study="curves", knot=knot, setting=setting)]
+        middles = [row.middle for setting in ("100", "200")
+                   for row in pick(rows, study="curves", knot=knot, setting=setting)]
         return apart(*middles)
 
     with_drag = lambda setting: not setting.startswith("no drag")
@@ -260,9 +285,12 @@ def figures_table(rows: list[Row]) -> Cells:
         ["effort, of that of Eq. 6", span(efforts, two)],
         ["times at two steps differ by at most, %", one_digit(steps)],
         ["skins touch within, cm", f"{skin.TOUCHING:g}"],
-        *([f"arcs of the middle, {knot}, cm", f"{first:g} to {last:g}"] for knot, (first, last) in reflex_runs.MIDDLE.items()),
-        *([f"meshes differ, {head}, %", one_digit(off("middle", FINE_MESH, head=head))] for head in ("free", "clamped")),
-        *([f"meshes by a parabola, {knot}, %", curved(knot)] for knot in KNOTS if pick(rows, study="curves", knot=knot)),
+        *([f"arcs of the middle, {knot}, cm", f"{first:g} to {last:g}"] for knot,
+          (first, last) in reflex_runs.MIDDLE.items()),
+        *([f"meshes differ, {head}, %", one_digit(off("middle", FINE_MESH, head=head))]
+          for head in ("free", "clamped")),
+        *([f"meshes by a parabola, {knot}, %", curved(knot)] for knot in KNOTS
+          if pick(rows, study="curves", knot=knot)),
         ["speed of a free head, of the law's", span(free, two)],
         ["way where nothing is copied, cm", span(nothing, one_digit)],
         ["shuffled neighbours that lose the knot", f"{len(pick(shuffled, held='no'))} of {len(shuffled)}"],
@@ -298,13 +326,15 @@ def draw_ways(axes: Any, folder: Path) -> None:
         if row.setting != "with drag" or row.head != "clamped":
             continue
         scene, look = table.axes["scene"][cell], plots.KNOTS[row.knot]
-        for path, style in ((log_of(folder / "beside", str(cell)), {"label": look.label}), (folder / f"mujoco/{scene}-from_the_slide.h5", {"ls": "--"})):
+        for path, style in ((log_of(folder / "beside", str(cell)), {"label": look.label}),
+                            (folder / f"mujoco/{scene}-from_the_slide.h5", {"ls": "--"})):
             log = HagfishLog(path)
             frames = log.in_phase("slide")
             time = log["/trajectory/time"][frames]
             axes.plot(time - time[0], log["/knot/head_end"][frames], color=look.colour, **style)
     axes.plot([], [], color=plots.GREY, ls="--", label="in MuJoCo")
-    axes.set(xlabel="time since the start of the slide, s", ylabel="head end of the knot, cm from the head", ylim=(0, 13))
+    axes.set(xlabel="time since the start of the slide, s", ylabel="head end of the knot, cm from the head",
+             ylim=(0, 13))
     axes.legend(loc="upper right", ncols=2)
 
 
@@ -318,7 +348,8 @@ def draw_torque(axes: Any, folder: Path) -> None:
     slope = np.gradient(curvature[0, 0], apart)
     own = reflex_runs.asked_torques(log, frame)[0, kind == "bend_y"]
     scale = (STIFFNESS + RIGIDITY) * float(log.scene()["controller"]["reflex"]["shift"]) / 1e3
-    axes.axvspan(float(log["/knot/head_end"][frame[0]]), float(log["/knot/tail_end"][frame[0]]), color=plots.GRID, lw=0, label="the knot")
+    axes.axvspan(float(log["/knot/head_end"][frame[0]]), float(log["/knot/tail_end"][frame[0]]), color=plots.GRID, lw=0,
+                 label="the knot")
     axes.plot(arc, scale * slope, color=plots.GREY, lw=2.5, label=r"$\Delta\,(B_a+B)\,\partial\kappa/\partial s$")
     axes.plot(arc, own / 1e3, color=plots.VERMILION, marker="o", ms=3, lw=1, label="torque of the reflex")
     axes.set(xlabel="arc length from the head, cm", ylabel="bending about Y, 1000 dyn cm", xlim=(0, arc[-1]))
@@ -329,16 +360,21 @@ def draw_speeds(axes: Any, rows: list[Row]) -> None:
     own = [row for row in pick(rows, study="speed") if row.way and row.setting.endswith("; 2")]
     for (knot, head), marker in zip(dict.fromkeys((row.knot, row.head) for row in own), "oDs"):
         of = pick(own, knot=knot, head=head)
-        axes.plot([float(row.setting.split("; ")[0]) for row in of], [row.speed for row in of], color=plots.KNOTS[knot].colour, marker=marker,
-                  ls="-" if head == "clamped" else "--", mfc="white" if head == "free" else None, label=f"{plots.KNOTS[knot].label}, {head}")
+        axes.plot([float(row.setting.split("; ")[0]) for row in of], [row.speed for row in of],
+                  color=plots.KNOTS[knot].colour, marker=marker,
+                  ls="-" if head == "clamped" else "--", mfc="white" if head == "free" else None,
+                  label=f"{plots.KNOTS[knot].label}, {head}")
     shifts = sorted({float(row.setting.split("; ")[0]) for row in own})
-    axes.plot(shifts, [law_speed(shift) for shift in shifts], color=plots.GREY, lw=0.9, ls=":", label=r"$v=\Delta\,(B_a+B)/C$", zorder=0)
-    axes.set(xscale="log", yscale="log", xlabel=r"length by which joints copy, $\Delta$, cm", ylabel="speed of the knot, cm/s")
+    axes.plot(shifts, [law_speed(shift) for shift in shifts], color=plots.GREY, lw=0.9, ls=":",
+              label=r"$v=\Delta\,(B_a+B)/C$", zorder=0)
+    axes.set(xscale="log", yscale="log", xlabel=r"length by which joints copy, $\Delta$, cm",
+             ylabel="speed of the knot, cm/s")
     plots.plain_ticks(axes.xaxis, shifts)
     axes.legend(loc="upper left")
 
 
-MAPPED = {"delay": "late, s", "noise": "wrong, share", "bodies": "bodies", "step": "step, s", "drag": "drag, g/(s cm)", "muscle": "$B_a$",
+MAPPED = {"delay": "late, s", "noise": "wrong, share", "bodies": "bodies", "step": "step, s", "drag": "drag, g/(s cm)",
+          "muscle": "$B_a$",
           "damping": "$C$", "stiffness": "$EI$"}
 
 
@@ -354,7 +390,8 @@ def draw_map(axes: Any, rows: list[Row]) -> None:
                     continue
                 tied = row.way is not None
                 look = plots.KNOTS[knot]
-                axes.plot(x - 0.24 + 0.16 * k, y + 0.16, ls="", marker=look.marker if tied else "x", ms=5.5, mec=look.colour,
+                axes.plot(x - 0.24 + 0.16 * k, y + 0.16, ls="", marker=look.marker if tied else "x", ms=5.5,
+                          mec=look.colour,
                           mfc=look.colour if row.slid == "yes" else "white", color=look.colour)
             axes.text(x, y - 0.26, setting, ha="center", va="center", fontsize=6.5)
     axes.set_yticks(range(len(studies)), [MAPPED[study] for study in studies])
@@ -366,7 +403,8 @@ def draw_map(axes: Any, rows: list[Row]) -> None:
 
 def draw(folder: Path, rows: list[Row], out: Path) -> None:
     figure, (ways, torque, speeds, where) = plots.panels(2, 2, (11, 8), [
-        "every knot slides to the head", "the torque is the gradient of the shape ($3_1$, half way)", "the law of speed", "where it holds"])
+        "every knot slides to the head", "the torque is the gradient of the shape ($3_1$, half way)",
+        "the law of speed", "where it holds"])
     draw_ways(ways, folder)
     draw_torque(torque, folder)
     draw_speeds(speeds, rows)

@@ -32,7 +32,8 @@ MOST = 30.0  # s after the knot is tied
 MOST_LOOSE = 8.0  # s after the program is cut off
 GROWTH = (1, 3)  # of Δ, from the knot's head end to its tail end
 GRID = 0.5  # s, of the times at which the program is cut off
-KNOTS = {"3_1": "living_overhand", "4_1": "living_figure_eight", "5_1": "living_double_overhand", "5_2": "living_three_twist"}
+KNOTS = {"3_1": "living_overhand", "4_1": "living_figure_eight", "5_1": "living_double_overhand",
+         "5_2": "living_three_twist"}
 SETTINGS = {"controller.tighten_time": 0.0, "expect.speed_share": 0.0, "expect.types": []}
 Mask = Callable[[hagfish.Simulation, "Body"], np.ndarray]  # share of the copying that each hinge does
 
@@ -133,7 +134,8 @@ def held(rate: float, shape: bool) -> Callable[..., None]:
 
 def rates() -> dict[str, Callable[..., None]]:
     everywhere: Mask = lambda sim, body: np.ones_like(body.arc)
-    return {ALL: law(everywhere)} | {f"{rate} a second, {word}": held(rate, shape) for word, shape in (("torque held", False), ("shape held", True))
+    return {ALL: law(everywhere)} | {f"{rate} a second, {word}": held(rate, shape) for word,
+                                     shape in (("torque held", False), ("shape held", True))
                                      for rate in RATES}
 
 
@@ -145,7 +147,8 @@ def laws() -> dict[str, Callable[..., None]]:
     named |= {"joints of the knot": law(within(0, 1)), "joints outside the knot": law(beyond),
               "first third of the knot": law(within(0, 1 / 3)), "middle third of the knot": law(within(1 / 3, 2 / 3)),
               "last third of the knot": law(within(2 / 3, 1)), "muscles of one side": law(everywhere, side=1.0)}
-    return named | {f"shuffled neighbours {seed}": law(everywhere, np.random.default_rng(seed)) for seed in range(1, SHUFFLES + 1)}
+    return named | {f"shuffled neighbours {seed}": law(everywhere, np.random.default_rng(seed))
+                    for seed in range(1, SHUFFLES + 1)}
 
 
 def parabola(sim: hagfish.Simulation, control: hagfish.Control) -> None:
@@ -167,7 +170,8 @@ def curves(folder: Path) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     for scene in KNOTS.values():
         for bodies in (100, 200):
-            with hagfish.Simulation(scene, set=SETTINGS | {"model.bodies": bodies, "time.step": 0.002, "time.until": "slide"}, law=parabola,
+            with hagfish.Simulation(scene, set=SETTINGS | {"model.bodies": bodies, "time.step": 0.002,
+                                                           "time.until": "slide"}, law=parabola,
                                     log=str(folder / f"{scene}-{bodies}.h5")) as sim:
                 sim.run()
 
@@ -227,14 +231,16 @@ def follow(sim: hagfish.Simulation) -> tuple[list[float], list[str]]:
 def loose(out: Path) -> None:
     with out.open("w", newline="", encoding="utf-8") as file:
         table = csv.writer(file, lineterminator="\n")
-        table.writerow(["task", "knot", "commit", "begin_s", "growth", "slide_s", "types", "span_from_cm", "span_least_cm"])
+        table.writerow(["task", "knot", "commit", "begin_s", "growth", "slide_s", "types", "span_from_cm",
+                        "span_least_cm"])
         for knot, scene in KNOTS.items():
             for task, cut in zip(("tighten", "form"), cut_off(scene, knot)):
                 for growth in GROWTH:
                     sim = cut.copy(law=growing(growth))
                     begin = sim.time
                     spans, types = follow(sim)
-                    table.writerow([task, knot, hagfish.revision[:12], f"{begin:.4g}", growth, f"{sim.time - begin:.4g}", " ".join(types),
+                    table.writerow([task, knot, hagfish.revision[:12], f"{begin:.4g}", growth,
+                                    f"{sim.time - begin:.4g}", " ".join(types),
                                     f"{spans[0]:.4g}", f"{min(spans):.4g}"])
                     file.flush()
 
@@ -243,7 +249,8 @@ def main(which: str, out: Path) -> None:
     made = {"laws": laws, "rate": rates}[which]
     with out.open("w", newline="", encoding="utf-8") as file:
         table = csv.writer(file, lineterminator="\n")
-        table.writerow(["knot", "head", "commit", "law", "head_end_from_cm", "head_end_to_cm", "slide_s", "type_held", "reached_head"])
+        table.writerow(["knot", "head", "commit", "law", "head_end_from_cm", "head_end_to_cm", "slide_s", "type_held",
+                        "reached_head"])
         for knot, scene in KNOTS.items():
             tied = hagfish.Simulation(scene, set=SETTINGS, law=made()[ALL])
             tied.run(until="form")
@@ -257,8 +264,10 @@ def main(which: str, out: Path) -> None:
                             start, head = (sim.head_end if start is None else start), sim.head_end
                 except hagfish.StepError as error:
                     held = error.outcome != "knot lost"
-                table.writerow([knot, "clamped", hagfish.revision[:12], name, f"{start or np.nan:.4g}", f"{head or np.nan:.4g}", f"{sim.time - begin:.4g}",
-                                "yes" if held else "no", "yes" if held and sim.phase not in ("tighten", "slide") else "no"])
+                table.writerow([knot, "clamped", hagfish.revision[:12], name, f"{start or np.nan:.4g}",
+                                f"{head or np.nan:.4g}", f"{sim.time - begin:.4g}",
+                                "yes" if held else "no",
+                                "yes" if held and sim.phase not in ("tighten", "slide") else "no"])
                 file.flush()
 
 

@@ -61,7 +61,8 @@ class Row:
         return self.way / self.time if self.way is not None and self.time else float("nan")
 
 
-UNITS = {"way": "way_cm", "time": "time_s", "torque": "torque_dyn_cm", "effort": "effort_dyn_s", "work": "work_erg_per_cm", "put_in": "put_in_erg_per_cm",
+UNITS = {"way": "way_cm", "time": "time_s", "torque": "torque_dyn_cm", "effort": "effort_dyn_s",
+         "work": "work_erg_per_cm", "put_in": "put_in_erg_per_cm",
          "pull": "pull_N", "wave": "wave_of_knot_speed", "travel": "travel_share", "near": "near_of_far",
          "middle": "middle_s", "rings": "rings_swept", "skin": "skin_swept",
          "span_from": "span_from_cm", "span_to": "span_least_cm"}
@@ -88,12 +89,15 @@ def sweep_rows(study: str, table: SweepTable, settings: Iterable[str]) -> list[R
     rows = []
     for i, setting in enumerate(settings):
         scene, outcome = table.axes["scene"][i], table.texts["outcome"][i]
-        unmet, of = table.texts["unmet"][i].split("; "), {key: float(values[i]) for key, values in table.figures.items()}
+        unmet, of = table.texts["unmet"][i].split("; "), {key: float(values[i]) for key,
+                                                          values in table.figures.items()}
         held = outcome == "ok"
         known = lambda value: None if np.isnan(value) else value
         rows.append(Row(study, knot_of(scene), "free" if scene.endswith("_free") else "clamped", setting,
-                        known(of["slide_distance_cm"]), known(of["duration_s"] - of["slide_from_s"]), "yes" if held else "no",
-                        "yes" if held and "slide" not in unmet and of["slide_distance_cm"] > 0 else "no", pull=known(of["pull_N"])))
+                        known(of["slide_distance_cm"]), known(of["duration_s"] - of["slide_from_s"]),
+                        "yes" if held else "no",
+                        "yes" if held and "slide" not in unmet and of["slide_distance_cm"] > 0 else "no",
+                        pull=known(of["pull_N"])))
     return rows
 
 
@@ -116,7 +120,8 @@ def knockout_settings(table: SweepTable) -> list[str]:
         elif len(kinds) < 3:
             out.append("both bends" if len(kinds) == 2 else f"{kinds[0]} alone")
         else:
-            out.append("all" if float(shift) >= 1e-3 else "nothing copied" if float(shift) > 0 else "headward neighbour")
+            out.append("all" if float(shift) >= 1e-3 else "nothing copied" if float(shift) > 0
+                       else "headward neighbour")
     return out
 
 
@@ -217,7 +222,8 @@ def middle_of(log: HagfishLog, knot: str) -> float:
     return last - first
 
 
-SWEEPS = ("delay", "noise", "bodies", "step", "drag", "muscle", "damping", "stiffness", "starts", "animals", "pull_shift", "paper_soft", "free", "free_programs")
+SWEEPS = ("delay", "noise", "bodies", "step", "drag", "muscle", "damping", "stiffness", "starts", "animals",
+          "pull_shift", "paper_soft", "free", "free_programs")
 
 
 def add_middle(row: Row, log: HagfishLog) -> None:
@@ -257,13 +263,15 @@ def changed_settings(table: SweepTable) -> list[str]:
     first = {key: table.axes[key][0] for key in keys}
     out = []
     for cell in range(len(table.axes["scene"])):
-        changed = [f"{key.split('.')[-1]} = {number(table.axes[key][cell])}" for key in keys if table.axes[key][cell] != first[key]]
+        changed = [f"{key.split('.')[-1]} = {number(table.axes[key][cell])}" for key in keys
+                   if table.axes[key][cell] != first[key]]
         out.append(changed[0] if changed else "as it is")
     return out
 
 
 def read_laws(part: str, path: Path) -> list[Row]:
-    return [Row(part, line["knot"], line["head"], line["law"], float(line["head_end_from_cm"]) - float(line["head_end_to_cm"]),
+    return [Row(part, line["knot"], line["head"], line["law"],
+                float(line["head_end_from_cm"]) - float(line["head_end_to_cm"]),
                 float(line["slide_s"]), line["type_held"], line["reached_head"], commit=line["commit"])
             for line in tables.read_csv(path, ["law"])]
 
@@ -315,12 +323,14 @@ def read_study(folder: Path) -> dict[str, list[Row]]:
     return parts
 
 
-PARTS = ("knots", "meshes", "curves", "paper", "knockouts", "laws", "rate", "speed", *SWEEPS, "pull", "tighten", "form", "beside", "mujoco")
+PARTS = ("knots", "meshes", "curves", "paper", "knockouts", "laws", "rate", "speed", *SWEEPS, "pull", "tighten", "form",
+         "beside", "mujoco")
 
 
 def with_parts(rows: list[Row], parts: dict[str, list[Row]]) -> list[Row]:
     """Rows of a table, those of some parts of the study made anew."""
-    return [row for part in PARTS for row in (parts[part] if part in parts else [row for row in rows if row.study == part])]
+    return [row for part in PARTS for row in (parts[part] if part in parts
+                                              else [row for row in rows if row.study == part])]
 
 
 def cells_of(rows: list[Row]) -> list[list[object]]:
@@ -334,5 +344,6 @@ def read_table(path: Path) -> tuple[list[Row], list[str]]:
     rows = []
     for line in table.rows:
         cells = {field.name: text for field, text in zip(fields(Row), line, strict=True)}
-        rows.append(Row(**{name: text if name in words else float(text) if text else None for name, text in cells.items()}))
+        rows.append(Row(**{name: text if name in words else float(text) if text else None for name,
+                           text in cells.items()}))
     return rows, table.notes

@@ -62,7 +62,8 @@ def turns(log: HagfishLog, frame: int) -> np.ndarray:
     for body in range(count):
         for axis, angle in own[body]:
             c, s = np.cos(angle), np.sin(angle)
-            turn = turn @ {"twist": np.array([[1, 0, 0], [0, c, -s], [0, s, c]]), "bend_y": np.array([[c, 0, s], [0, 1, 0], [-s, 0, c]]),
+            turn = turn @ {"twist": np.array([[1, 0, 0], [0, c, -s], [0, s, c]]),
+                           "bend_y": np.array([[c, 0, s], [0, 1, 0], [-s, 0, c]]),
                            "bend_z": np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])}[axis]
         found[body] = turn
     return found

@@ -95,7 +95,8 @@ def by_speed(places: list[Place]) -> list[list[str]]:
     stiffest body that is tied takes, over the softest."""
     def counts(own: list[Place]) -> list[str]:
         total = lambda what: sum(getattr(p, what) for p in own)
-        return [f"{total('tied')} of {total('starts')}", f"{total('arrived')} of {total('tied')}", f"{100 * total('passed') / total('tied'):.0f} %"]
+        return [f"{total('tied')} of {total('starts')}", f"{total('arrived')} of {total('tied')}",
+                f"{100 * total('passed') / total('tied'):.0f} %"]
 
     rows = []
     for speed in sorted({p.speed for p in places}):

@@ -43,7 +43,8 @@ def row(results: Results, method: str) -> list[str]:
     coarse, fine = STEPS[-2:]
     order = np.log(at[coarse] / at[fine]) / np.log(coarse / fine)
     price = reached(cost, error)
-    return [results.root("motion"), plots.INTEGRATORS[method].label, *(f"{value:.1e}" if np.isfinite(value) else "blew up" for value in at.values()),
+    return [results.root("motion"), plots.INTEGRATORS[method].label,
+            *(f"{value:.1e}" if np.isfinite(value) else "blew up" for value in at.values()),
             f"{order:.1f}" if np.isfinite(order) else "", f"{price:.2g}" if np.isfinite(price) else ""]
 
 
@@ -77,7 +78,8 @@ def main(folder: Path, csv: Path, png: Path) -> None:
     panels[0].set(ylabel="largest error of a body centre at 0.5 s, cm", xlim=(4e-4, 40), ylim=(1e-10, 30))
     panels[0].legend(loc="lower left", bbox_to_anchor=(0, 0.06))
     plots.save(figure, png)
-    tables.write_csv(csv, ["motion", "method", *(f"error at {h:g} ms, cm" for h in STEPS), "order", "CPU time per simulated time for 0.01 cm"],
+    tables.write_csv(csv, ["motion", "method", *(f"error at {h:g} ms, cm" for h in STEPS), "order",
+                           "CPU time per simulated time for 0.01 cm"],
                      [row(results, method) for results in motions.values() for method in plots.INTEGRATORS])
 
 

@@ -73,7 +73,8 @@ def read_runs(folder: Path, knot: str) -> Rows:
         still[bodies] = fine.towards(coarse, -1)
     middle, fine = sorted(still)[-2:]
     limit = still[fine].towards(still[middle], -1 / 3)
-    rows = [dict(zip(HEAD, [KNOTS[knot], "euler", "active-set", bodies, 0.0, "", *moved.errors(limit), 0.0])) for bodies, moved in still.items()]
+    rows = [dict(zip(HEAD, [KNOTS[knot], "euler", "active-set", bodies, 0.0, "", *moved.errors(limit), 0.0])) for bodies,
+            moved in still.items()]
     for (rule, back_end, bodies, step), (cpu, own) in sorted(runs.items()):
         errors = (*own.errors(limit), own.errors(still[bodies])[0]) if own else ("", "", "")
         rows.append(dict(zip(HEAD, [KNOTS[knot], rule, back_end, bodies, step, cpu, *errors])))
@@ -94,7 +95,8 @@ def presets_table(rows: Rows, out: Path) -> None:
         for name, of in presets().items():
             run = one(rows, knot=knot, back_end="active-set", **of)
             body.append([name, knot, name_of(run), *(shown(run[key]) for key in ("cpu_s", *MEASURES, "place_by_step_cm"))])
-    tables.write_table(out, "speed_accuracy_presets", ["preset", "knot", "what it is", "CPU, s", *MEASURES.values(), "of which by the step, cm"], body)
+    tables.write_table(out, "speed_accuracy_presets", ["preset", "knot", "what it is", "CPU, s", *MEASURES.values(),
+                                                       "of which by the step, cm"], body)
 
 
 def runs_table(rows: Rows, out: Path) -> None:
@@ -108,8 +110,10 @@ def runs_table(rows: Rows, out: Path) -> None:
                 of = {step: one(rows, knot=knot, rule=rule, back_end="active-set", bodies=bodies, step_ms=step) for step in steps}
                 cpu = of[USUAL]["cpu_s"]
                 ipopt = f"{one(rows, knot=knot, back_end='ipopt', bodies=bodies)['cpu_s'] / cpu:.2g}" if rule == "euler" else ""
-                body.append([knot, str(bodies), shown(mesh["place_cm"]), rule, *(shown(of[step]["place_by_step_cm"]) for step in steps), f"{cpu:.2g}", ipopt])
-    tables.write_table(out, "speed_accuracy_tying", ["knot", "bodies", "places off by the mesh, cm", "rule", *(f"by the step at {step:g} ms, cm" for step in steps),
+                body.append([knot, str(bodies), shown(mesh["place_cm"]), rule, *(shown(of[step]["place_by_step_cm"]) for step in steps),
+                             f"{cpu:.2g}", ipopt])
+    tables.write_table(out, "speed_accuracy_tying", ["knot", "bodies", "places off by the mesh, cm", "rule",
+                                                     *(f"by the step at {step:g} ms, cm" for step in steps),
                                                  f"CPU at {USUAL:g} ms, s", "times that by Ipopt"], body)
 
 
@@ -120,7 +124,9 @@ def draw(rows: Rows, out: Path) -> None:
     for axes, (knot, measure) in zip(panels, shows):
         for (rule, back_end), look in METHODS.items():
             for bodies, size in SIZES.items():
-                own = sorted((row for row in rows if (row["knot"], row["rule"], row["back_end"], row["bodies"]) == (knot, rule, back_end, bodies) and row["cpu_s"] and row[measure] != ""),
+                own = sorted((row for row in rows if (row["knot"], row["rule"], row["back_end"], row["bodies"]) == (knot, rule, back_end,
+                                                                                                                    bodies) and row["cpu_s"]
+                                                                                                                    and row[measure] != ""),
                              key=lambda row: row["step_ms"])
                 axes.plot([row["cpu_s"] for row in own], [row[measure] for row in own], **look.style, markersize=size, lw=0.7)
         for name, of in presets().items():

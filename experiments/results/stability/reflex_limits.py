@@ -27,7 +27,8 @@ GROWS: dict[str, tuple[list[float], Callable[[float], list[str]]]] = {
     "Δ, cm": ([0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2], lambda shift: [f"controller.reflex.shift={shift:g}"]),
     "senses late by, s": ([0.1, 0.2, 0.5, 1, 2, 5], lambda delay: [f"controller.reflex.delay={delay:g}"]),
     "muscles B_a, dyn cm²": ([5e5, 1e6, 2e6, 5e6, 1e7, 2e7, 5e7, 1e8], lambda b: [f"active.stiffness={b:g}"]),
-    "body EI, dyn cm²": ([2e5, 5e5, 1e6, 2e6, 5e6, 1e7, 1e8], lambda b: [all_four("bending_stiffness", b), all_four("twist_stiffness", 0.65 * b)])}
+    "body EI, dyn cm²": ([2e5, 5e5, 1e6, 2e6, 5e6, 1e7, 1e8], lambda b: [all_four("bending_stiffness", b),
+                                                                         all_four("twist_stiffness", 0.65 * b)])}
 SHORT = [0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1]  # ms, of EXPLICIT
 
 
@@ -37,7 +38,8 @@ def run(hagfish: Path, command: tuple[str, ...], scene: str, log: Path, settings
     step = next((setting.split("=")[1] for setting in settings if setting.startswith("time.step=")), f"{USUAL:g}")
     own = ["--step", step] if kind == "mujoco-run" else ["--set", f"time.step={step}"]
     sets = [word for setting in settings if not setting.startswith("time.step=") for word in ("--set", setting)]
-    done = subprocess.run([str(hagfish), kind, scene, *options, *own, *sets, "--out", str(log), "--force", "--quiet"], capture_output=True, text=True, check=False)
+    done = subprocess.run([str(hagfish), kind, scene, *options, *own, *sets, "--out", str(log), "--force", "--quiet"], capture_output=True,
+                          text=True, check=False)
     if done.returncode == 2:
         raise LogError(done.stderr.strip())
     return HagfishLog(log) if done.returncode == 0 else None

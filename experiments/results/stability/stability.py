@@ -23,7 +23,8 @@ from tables import read_csv, write_table
 LEGEND_COLUMNS, LEGEND_ROWS = 5, 2
 CELL, LETTER = 0.3, 0.075  # inches, of a cell's side and of a label's letter
 # Without the watch beside MuJoCo, which has none.
-METHODS = ["default", "violated", "baumgarte_0.2", "baumgarte_1", "hard_thigmotaxis", "ipopt", "no_watch", "midpoint", "mujoco_euler", "mujoco_implicit", "mujoco_rk4"]
+METHODS = ["default", "violated", "baumgarte_0.2", "baumgarte_1", "hard_thigmotaxis", "ipopt", "no_watch", "midpoint", "mujoco_euler",
+           "mujoco_implicit", "mujoco_rk4"]
 TITLES = {"no_watch": "Euler, no watch", "midpoint": "midpoint, no watch", "baumgarte_0.2": "Baumgarte 0.2",
           "baumgarte_1": "Baumgarte 1", "hard_thigmotaxis": "hard Eq. 6",
           "ipopt": "Ipopt", "mujoco_euler": "MuJoCo Euler", "mujoco_implicit": "MuJoCo implicit",
@@ -195,7 +196,8 @@ def behind_mujoco(cells: list[Cell], method: str) -> list[str]:
 
 def summary_table(cells: list[Cell]) -> tuple[list[str], list[list[str]]]:
     methods = [m for m in METHODS if m in {cell["method"] for cell in cells}]
-    return ["scene", *(TITLES.get(m, m) for m in methods)], [[SCENES.get(scene, scene), *(survived(own_cells(cells, scene, m))[0] for m in methods)]
+    return ["scene", *(TITLES.get(m, m) for m in methods)], [[SCENES.get(scene, scene),
+                                                              *(survived(own_cells(cells, scene, m))[0] for m in methods)]
                                                              for scene in scenes_of(cells)]
 
 

@@ -65,7 +65,8 @@ def draw_summary(head: list[str], rows: list[list[str]], png: Path) -> None:
     axes.xaxis.tick_top()
     axes.tick_params(axis="x", length=0)
     codes = ", ".join(f"{letter} {name}" for name, (letter, _) in LOOKS.items() if letter not in ("", "-"))
-    figure.supxlabel("Largest step, ms, up to which every step is survived, and what comes first beyond it; blank: not run.\n" + codes, fontsize=7.5)
+    figure.supxlabel("Largest step, ms, up to which every step is survived, and what comes first beyond it; blank: not run.\n" + codes,
+                     fontsize=7.5)
     plots.save(figure, png)
 
 

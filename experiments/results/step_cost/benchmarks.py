@@ -70,10 +70,12 @@ def ratios(times: Times, quickest: Quickest) -> list[list[str]]:
     row("QP: Ipopt over active-set, both warm",
         [f"{times[('core', 'qp_ipopt')][n] / times[('core', 'qp_active-set')][n]:.0f}" for n in bodies])
     as_is = times[("core", "prescribe_all")]
-    for text, part in (("Eqs. 1 and 4: nothing prescribed over as it is", "prescribe_nothing"), ("Eqs. 1 and 4: head alone prescribed", "prescribe_head")):
+    for text, part in (("Eqs. 1 and 4: nothing prescribed over as it is", "prescribe_nothing"),
+                       ("Eqs. 1 and 4: head alone prescribed", "prescribe_head")):
         row(text, [f"{times[('core', part)][n] / as_is[n]:.2f}" for n in bodies])
     row("step without contact, over 100 bodies", [f"{free[n] / free[100]:.2f}" for n in bodies])
-    for text, part in (("knotted step, µs", "step_knotted_active-set:10"), ("step without contact, µs", "step_free:10"), ("contact alone, µs", "contact")):
+    for text, part in (("knotted step, µs", "step_knotted_active-set:10"), ("step without contact, µs", "step_free:10"),
+                       ("contact alone, µs", "contact")):
         row(text, [f"{times[('core', part)][n]:.3g}" for n in bodies])
     return rows
 

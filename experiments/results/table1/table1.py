@@ -80,7 +80,8 @@ def main(check: Path, known: Path, out: Path) -> None:
     if len(old) != len(new):
         differ.append(f"has {len(old)} rows where the run has {len(new)}")
     if differ:
-        print("\n".join(f"{known.name} {words}" for words in differ), f"{out}/tables/table1.csv is the table as it is now.", sep="\n", file=sys.stderr)
+        print("\n".join(f"{known.name} {words}" for words in differ), f"{out}/tables/table1.csv is the table as it is now.", sep="\n",
+              file=sys.stderr)
         sys.exit(1)
 
 

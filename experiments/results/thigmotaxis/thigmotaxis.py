@@ -65,7 +65,8 @@ def law_rows(folder: Path) -> list[list[str]]:
             travel = "-" if np.isnan(of["curvature_travel_cm"]) else f"{of['curvature_travel_cm']:.1f} ({of['curvature_correlation']:.2f})"
             all_work, thigmotaxis = work_per_cm(log, of["slide_distance_cm"])
             met = "" if law_of(table, cell) == REFLEX else f"{of['eq6_percent']:.0f}"
-            rows.append([knot, head, law_of(table, cell), f"{of['slide_distance_cm']:.1f}", f"{of['tail_distance_cm']:.1f} of {of['taper_asks_cm']:.1f}",
+            rows.append([knot, head, law_of(table, cell), f"{of['slide_distance_cm']:.1f}",
+                         f"{of['tail_distance_cm']:.1f} of {of['taper_asks_cm']:.1f}",
                          travel, table.texts["slide"][cell], met,
                          f"{of['largest_torque_dyn_cm'] / capacity(log):.2f}", f"{all_work:.2g}", f"{thigmotaxis:.2g}"])
     order = [*LAWS.values(), REFLEX]
@@ -84,9 +85,11 @@ def run_rows(folder: Path, most: float) -> list[list[str]]:
         slid = (np.array(table.texts["slide"]) == "slides by both ends") & (np.array(table.texts["outcome"]) == "ok")
         for value in dict.fromkeys(by) if grid != "starts" else [""]:
             of = by == value if grid != "starts" else np.ones(len(by), dtype=bool)
-            failed = [f"{knot} {'' if np.isnan(share) else f'{share:.0f} %'}".strip() for knot, share in zip(knots[of & ~slid], shares[of & ~slid])]
+            failed = [f"{knot} {'' if np.isnan(share) else f'{share:.0f} %'}".strip() for knot,
+                      share in zip(knots[of & ~slid], shares[of & ~slid])]
             rows.append([words + (f": {value}" if value else f"s 1 to {len(set(by))}"), f"{slid[of].sum()} of {of.sum()}",
-                         f"{np.nanmin(shares[of]):.0f}", f"{np.nanmedian(shares[of]):.0f}", f"{np.nanmin(table.figures['eq6_percent'][of]):.0f}",
+                         f"{np.nanmin(shares[of]):.0f}", f"{np.nanmedian(shares[of]):.0f}",
+                         f"{np.nanmin(table.figures['eq6_percent'][of]):.0f}",
                          f"{np.nanmax(torque[of]) / most:.2f}", "; ".join(failed)])
     return rows
 
@@ -108,9 +111,11 @@ def draw(folder: Path, path: Path) -> None:
         start, end = time[slide[0]], time[slide[-1]]
         shown = np.flatnonzero((time >= start - BEFORE) & (time <= end + AFTER))
         arc, curvature = bending(log, log["/trajectory/curvature"][shown])
-        image = axes.pcolormesh(arc, time[shown] - start, curvature, cmap="Greys", vmin=0, vmax=STRENGTH, shading="nearest", rasterized=True)
+        image = axes.pcolormesh(arc, time[shown] - start, curvature, cmap="Greys", vmin=0, vmax=STRENGTH, shading="nearest",
+                                rasterized=True)
         for name, style in (("head", "-"), ("tail", "--")):
-            axes.plot(log[f"/knot/{name}_end"][slide], time[slide] - start, style, color=plots.VERMILION, lw=1.4, label=f"{name} end of the knot")
+            axes.plot(log[f"/knot/{name}_end"][slide], time[slide] - start, style, color=plots.VERMILION, lw=1.4,
+                      label=f"{name} end of the knot")
         axes.axhspan(end - start, end - start + AFTER, color=plots.BLUE, alpha=0.12, lw=0)
         axes.set(ylim=(end - start + AFTER, -BEFORE), xlim=(0, float(log["/model/length"].sum())))
         axes.grid(False)
@@ -124,7 +129,8 @@ def draw(folder: Path, path: Path) -> None:
 
 
 def main(folder: Path) -> None:
-    tables.write_table(folder, "thigmotaxis", ["knot", "head", "Eq. 6 at", "head end of the knot, cm", "its tail end, of what taper asks, cm",
+    tables.write_table(folder, "thigmotaxis", ["knot", "head", "Eq. 6 at", "head end of the knot, cm",
+                                               "its tail end, of what taper asks, cm",
                      "curvature travels, cm (correlation)", "the knot", "steps that meet Eq. 6, %", "largest torque, of capacity",
                      "work, erg/cm", "of it f_thigmo"], law_rows(folder))
     tables.write_table(folder, "thigmotaxis_runs", ["what is changed", "slide by both ends", "least share, %", "median share, %",

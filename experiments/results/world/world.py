@@ -28,9 +28,11 @@ def overlap(run: dict[str, Any]) -> str:
 
 
 def holes(folder: Path) -> None:
-    rows = [[*knot_and_law(run), f"{run['strength']:g}", f"{1000 * run['step']:g}", number(run["pulls"]), number(run["gives"]), number(run["out"]),
+    rows = [[*knot_and_law(run), f"{run['strength']:g}", f"{1000 * run['step']:g}", number(run["pulls"]), number(run["gives"]),
+             number(run["out"]),
              "yes" if run["held"] else "no", overlap(run)] for run in taken(folder / "holes" / "logs")]
-    tables.write_csv(folder / "tables" / "world.csv", ["knot", "law", "held with, N", "step, ms", "pulls from, s", "it gives at, s", "head out at, s",
+    tables.write_csv(folder / "tables" / "world.csv", ["knot", "law", "held with, N", "step, ms", "pulls from, s", "it gives at, s",
+                                                       "head out at, s",
                                                        "type held until then", "deepest overlap, 1e-3 cm"], rows)
 
 
@@ -44,10 +46,13 @@ def waves(folder: Path) -> None:
         means, peaks, over = (np.array([run[name] for run in runs]) for name in ("mean", "peak", "over"))
         strength = runs[0]["strength"]
         rows.append([*wave, f"{len(runs)}", f"{means.min():.2g} to {means.max():.2g}", f"{peaks.min():.2g} to {peaks.max():.2g}",
-                     f"{100 * over.mean():.2g}", "no" if (peaks < strength).all() else "yes" if (peaks > strength).all() else "at some phases",
+                     f"{100 * over.mean():.2g}", "no" if (peaks < strength).all() else "yes" if (peaks > strength).all()
+                     else "at some phases",
                      f"{max(run['torque'] for run in runs):.1e}".replace("+0", "")])
-    tables.write_csv(folder / "tables" / "world_waves.csv", ["angle, rad", "length, L", "period, s", "phases", "mean pull, N", "largest pull, N",
-                                                             "over what holds, % of time", "head comes out", "largest torque, dyn cm"], rows)
+    tables.write_csv(folder / "tables" / "world_waves.csv", ["angle, rad", "length, L", "period, s", "phases", "mean pull, N",
+                                                             "largest pull, N",
+                                                             "over what holds, % of time", "head comes out", "largest torque, dyn cm"],
+                                                             rows)
 
 
 def hole_map(folder: Path) -> None:
@@ -95,10 +100,14 @@ def skin(folder: Path) -> None:
 
 
 def robot(folder: Path) -> None:
-    rows = [[f"{run['mass']:.3g}", f"{run['weight']:.2g}", f"{run['drag']:g}", f"{run['capacity']:g}", f"{run['stiffness']:g}", run["became"],
-             *("" if np.isnan(run[name]) else f"{run[name]:.3g}" for name in ("way", "share")), f"{run['torque']:.2g}", overlap(run)] for run in taken(folder / "robot" / "logs")]
-    tables.write_csv(folder / "tables" / "world_robot.csv", ["mass, kg", "weight left, of all of it", "drag across, kg/(s m)", "torque bound, N m", "stiffness of a joint, N m/rad", "what became of it",
-                                                             "way of the head end, cm", "share of a slide by both ends, %", "largest torque, N m", "deepest overlap, 1e-3 cm"], rows)
+    rows = [[f"{run['mass']:.3g}", f"{run['weight']:.2g}", f"{run['drag']:g}", f"{run['capacity']:g}", f"{run['stiffness']:g}",
+             run["became"],
+             *("" if np.isnan(run[name]) else f"{run[name]:.3g}" for name in ("way", "share")), f"{run['torque']:.2g}", overlap(run)]
+             for run in taken(folder / "robot" / "logs")]
+    tables.write_csv(folder / "tables" / "world_robot.csv", ["mass, kg", "weight left, of all of it", "drag across, kg/(s m)",
+                                                             "torque bound, N m", "stiffness of a joint, N m/rad", "what became of it",
+                                                             "way of the head end, cm", "share of a slide by both ends, %",
+                                                             "largest torque, N m", "deepest overlap, 1e-3 cm"], rows)
 
 
 def main(folder: Path) -> None:

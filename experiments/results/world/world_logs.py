@@ -64,7 +64,8 @@ def hole(log: HagfishLog) -> dict[str, Any]:
     pulls = first(time, phase == "pull")
     out = first(time, (log["/trajectory/q"][:, 0] > plate["point"][0]) & (time > pulls))
     held = bool((types(log)[(time >= pulls) & (time <= out)] == scene["expect"]["knot"]).all())
-    return {**knot_and_law(log), "strength": scene["food"]["strength"], "step": scene["time"]["step"], "pulls": pulls, "gives": first(time, phase == "release"),
+    return {**knot_and_law(log), "strength": scene["food"]["strength"], "step": scene["time"]["step"], "pulls": pulls,
+            "gives": first(time, phase == "release"),
             "out": out, "held": held, "penetration": penetration(log)}
 
 
@@ -72,7 +73,8 @@ def wave(log: HagfishLog) -> dict[str, Any]:
     """The pull is a mean over a frame's time, as that at which food gives, N."""
     late, strength = log["/trajectory/time"] > SETTLED, log.scene()["food"]["strength"]
     pull = -log["/mean/forces/head"][late, 0] / 1e5
-    return {"wave": log.path.stem.split("_")[:3], "mean": float(pull.mean()), "peak": float(pull.max()), "over": float((pull > strength).mean()),
+    return {"wave": log.path.stem.split("_")[:3], "mean": float(pull.mean()), "peak": float(pull.max()),
+            "over": float((pull > strength).mean()),
             "strength": strength, "torque": float(np.abs(log["/mean/forces/active"][late]).max())}
 
 
@@ -96,7 +98,8 @@ def skin(log: HagfishLog) -> dict[str, Any]:
     s, side = (np.unique([float(cell[name]) for cell in cells]) for name in ("s_cm", "side_rad"))
     table = lambda name: np.array([float(cell[name] or "nan") for cell in cells]).reshape(s.size, side.size).T
     back = log.in_phase("reverse")
-    return {**knot_and_law(log), "back": log.scene()["controller"]["leave_by"] == "tail", "turn": float(log["/trajectory/time"][back[0]]) if back.size else np.nan,
+    return {**knot_and_law(log), "back": log.scene()["controller"]["leave_by"] == "tail",
+            "turn": float(log["/trajectory/time"][back[0]]) if back.size else np.nan,
             "s": s.tolist(), "area": table("area_cm2").tolist(), "since": table("since_s").tolist()}
 
 
@@ -105,7 +108,8 @@ def robot(log: HagfishLog) -> dict[str, Any]:
     way = float(log["/knot/head_end"][slide[0]] - log["/knot/head_end"][slide[-1]]) if slide.size else np.nan
     # A released knot is gone where the run comes to the phase free.
     became = "it never tied" if not slide.size else "it tied, slid and came off" if (phase == "free").any() else "it tied, and lost the knot"
-    return {"weight": abs(scene["gravity"][2]) / 981, "drag": scene["drag"]["normal"] / 10, "mass": scene["specimen"]["mass"] / 1e3, "capacity": scene["active"]["capacity"] / 1e7,
+    return {"weight": abs(scene["gravity"][2]) / 981, "drag": scene["drag"]["normal"] / 10, "mass": scene["specimen"]["mass"] / 1e3,
+            "capacity": scene["active"]["capacity"] / 1e7,
             "stiffness": scene["active"]["stiffness"] / 4e7, "became": became, "way": way, "share": both_ends(log),
             "torque": float(np.nanmax(np.abs(log["/mean/forces/active"][:, 6:]))) / 1e7, "penetration": penetration(log)}
 

@@ -42,13 +42,15 @@ def main(table: Path, out: Path) -> None:
             panels[2].append((muscles / 1e5, row))
     figure, grid = plots.plt.subplots(1, 3, figsize=(9, 3.4), layout="constrained", sharey=True)
     knots = list(dict.fromkeys(head.split(", ")[0] for head in rows[0] if head != "changed"))
-    for axes, points, label in zip(grid, panels, ("width of the hole, cm (rings)", "girth of the animal, cm", "stiffness of muscles, 1e5 dyn cm²")):
+    for axes, points, label in zip(grid, panels, ("width of the hole, cm (rings)", "girth of the animal, cm",
+                                                  "stiffness of muscles, 1e5 dyn cm²")):
         points.sort(key=lambda point: point[0])
         at = [point[0] for point in points]
         for head in (head for head in rows[0] if head != "changed"):
             knot, law = head.split(", ")
             middle, least, most = np.array([pull_of(row[head]) for _, row in points]).T
-            axes.errorbar(at, middle, [middle - least, most - middle], color=f"C{knots.index(knot)}", capsize=2, ms=4, lw=1.2, label=head, **STYLES[law])
+            axes.errorbar(at, middle, [middle - least, most - middle], color=f"C{knots.index(knot)}", capsize=2, ms=4, lw=1.2, label=head,
+                          **STYLES[law])
         axes.set(xlabel=label, xticks=at)
         axes.axhline(0.5, color=plots.GREY, lw=0.8, zorder=0)
     grid[0].set(ylabel="largest pull, N", ylim=(0, None))

@@ -43,7 +43,8 @@ def pulled(run: Path, force: np.ndarray, *settings: str) -> HagfishLog:
     gravity = ",".join(f"{x:.9g}" for x in force * 1e5 / HagfishLog(run)["/model/mass"].sum())
     every = [word for setting in (f"gravity=[{gravity}]", *settings) for word in ("--set", setting)]
     log.unlink(missing_ok=True)
-    subprocess.run([HAGFISH, "branch", run, "--time", f"{START:g}", *every, "--out", log, "--force", "--quiet"], check=False, stderr=subprocess.DEVNULL)
+    subprocess.run([HAGFISH, "branch", run, "--time", f"{START:g}", *every, "--out", log, "--force", "--quiet"], check=False,
+                   stderr=subprocess.DEVNULL)
     return HagfishLog(log)
 
 
@@ -71,8 +72,10 @@ def main(folder: Path) -> None:
     for force in FORCES:
         way = way_along(pole, pulled(run, force * pole.axis, *NO_DRAG)) - still
         across = [held(pole, pulled(run, sign * force * axis)) for axis in pole.across for sign in (1, -1)]
-        rows.append([f"{force:g}", f"{way:.3g}", f"{force * 1e5 / mass * HELD_FOR**2 / 2:.3g}", *("yes" if each else "no" for each in across)])
-    tables.write_csv(folder / "tables" / "world_pole.csv", ["force, N", "way along the pole in 1 s, no water, cm", "that of a free fall, cm",
+        rows.append([f"{force:g}", f"{way:.3g}", f"{force * 1e5 / mass * HELD_FOR**2 / 2:.3g}",
+                     *("yes" if each else "no" for each in across)])
+    tables.write_csv(folder / "tables" / "world_pole.csv", ["force, N", "way along the pole in 1 s, no water, cm",
+                                                            "that of a free fall, cm",
                                                             *(f"holds across, {degrees} degrees" for degrees in (0, 180, 90, 270))], rows)
 
 
