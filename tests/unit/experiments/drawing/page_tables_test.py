@@ -4,6 +4,7 @@ import csv
 import re
 import shutil
 
+import h5py
 import numpy as np
 import pytest
 
@@ -20,6 +21,7 @@ import sliding_map
 import stability
 import sweep_columns
 import thigmotaxis
+import two_simulators
 import tying
 from conftest import RESULTS
 from tables import read_table
@@ -187,3 +189,25 @@ def test_films_have_their_summaries(tmp_path):
     for name in ("outcomes", "figures"):
         stated = read_table(RESULTS / f"films/films_{name}.csv")
         assert read(tmp_path, f"films_{name}") == [stated.head, *stated.rows]
+
+
+def test_one_animal_in_two_simulators(tmp_path):
+    """MuJoCo comes half as far as the log between restarts, and a quarter as far without f_thigmo."""
+    time = np.linspace(0, 2, 51)
+    with h5py.File(tmp_path / "compare.h5", "w") as file:
+        for head in two_simulators.HEADS:
+            for name in two_simulators.QUANTITIES:
+                file[f"states/{head}/{name}"], file[f"states/{head}/{name}_bound"] = [1e-14, 3e-14], [1e-11]
+            file[f"rollout/{head}/velocity"], file[f"rollout/{head}/velocity_bound"] = [1e-13, 2e-13], [1e-10]
+    with h5py.File(tmp_path / "playback.h5", "w") as file:
+        file["time"], file["head_end"] = time, 9 - time
+        for interval in two_simulators.INTERVALS:
+            since = np.arange(50) % round(float(interval) / 0.04) + 1
+            for force, share in (("thigmotaxis", 0.5), ("none", 0.25)):
+                file[f"{force}_{interval}s/head_end"] = 9 - time[1:] + (1 - share) * 0.04 * since
+            for what in ("drift", "capsule_penetration"):
+                file[f"thigmotaxis_{interval}s/{what}"] = 0.01 * since
+    two_simulators.main(tmp_path / "compare.h5", tmp_path / "playback.h5", tmp_path)
+    assert read(tmp_path, "two_simulators")[1::5] == [["positions", "1e-11", "3e-14", "3e-14"], ["q̇ along a run by the same rule", "1e-10", "2e-13", "2e-13"]]
+    shares = [set(row[1:]) for row in read(tmp_path, "two_simulators_playback")[1:3]]
+    assert shares == [{"50"}, {"25"}]

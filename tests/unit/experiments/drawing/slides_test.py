@@ -8,12 +8,14 @@ import pytest
 import accuracy
 import choices
 import means
+import reverse
 import slides
+import speeds
 import study
 from conftest import SPEED, STEP, STEPS
 from hagfish_log import LogError
 from sweep_columns import FIGURES, TEXTS
-from tables import write_csv
+from tables import read_table, write_csv
 
 INTERVAL = STEP * STEPS
 
@@ -108,6 +110,17 @@ def test_a_slide_at_its_cap_that_ends_in_failure(content, sweep):
     content.attributes["status"] = "failed: tunnelled at step 7"
     (slide,) = sweep()
     assert (slide.capped, slide.met, slide.failure) == (0.5, 0.5, "tunnelled")
+
+
+def test_pages_of_slides_have_their_tables(content, sweep, tmp_path):
+    content.attributes["scene"] = content.attributes["scene"].replace("[expect]", "[controller.reverse_head]\na = 3.0\n[expect]")
+    sweep()
+    speeds.main(tmp_path)
+    (row,) = read_table(tmp_path / "tables/speeds.csv").rows
+    assert row == ["3_1", "2", "5", "200", "200", "100.0", "0", "0", "0", "complete"]
+    reverse.main(tmp_path)  # of a run that never turned
+    (row,) = read_table(tmp_path / "tables/reverse.csv").rows
+    assert (*row[:3], row[-1]) == ("3_1", "3", "nan", "untied at the tail")
 
 
 def test_what_is_no_sweep(tmp_path):
