@@ -58,7 +58,26 @@ def values_of(dataset: h5py.Dataset, rows: slice | tuple[()] = ()) -> np.ndarray
         return dataset[rows]
 
 
-class HagfishLog:
+class Results:
+    """An open HDF5 file of a study (`hagfish compare`, `hagfish playback`): `results["/time"]` is an array."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self._file = open_hdf5(path)
+
+    def __getitem__(self, path: str) -> np.ndarray:
+        return values_of(dataset_of(self._file, path))
+
+    def attribute(self, name: str) -> Any:
+        """A root attribute."""
+        with reading(f"{self.path}: the root attribute '{name}'"):
+            value = self._file.attrs.get(name)
+            if value is None:
+                raise LogError(f"{self.path}: no root attribute '{name}'")
+            return value.decode() if isinstance(value, bytes) else value
+
+
+class HagfishLog(Results):
     """An open log. `log["/knot/head_end"]` is the whole dataset as a numpy array.
 
     Datasets along time are cut to the frames that all of them hold, so that the log of a run that
@@ -66,9 +85,8 @@ class HagfishLog:
     """
 
     def __init__(self, path: Path) -> None:
-        self.path = path
+        super().__init__(path)
         self._read: dict[str, np.ndarray] = {}
-        self._file = open_hdf5(path)
         if self.attribute("format") != FORMAT:
             raise LogError(f"{path}: not a {FORMAT} file (its format is {self.attribute('format')!r})")
         with reading(f"{path}: the root attribute 'format_version'"):
@@ -88,14 +106,6 @@ class HagfishLog:
             if isinstance(self._file.get(group), h5py.Group):
                 self._file[group].visititems(take)
         return found
-
-    def attribute(self, name: str) -> Any:
-        """A root attribute."""
-        with reading(f"{self.path}: the root attribute '{name}'"):
-            value = self._file.attrs.get(name)
-            if value is None:
-                raise LogError(f"{self.path}: no root attribute '{name}', so not a {FORMAT} file")
-            return value.decode() if isinstance(value, bytes) else value
 
     def __getitem__(self, path: str) -> np.ndarray:
         if path not in self._read:
@@ -171,27 +181,3 @@ class HagfishLog:
             joint = np.array([int(names[i].split("_", 1)[0].lstrip("j")) for i in index])
             kind = np.array([names[i].split("_", 1)[1] for i in index])
         return index, joint, kind
-
-
-class Results:
-    """An HDF5 file of a study (`hagfish compare`, `hagfish playback`): `results["/time"]` is an array."""
-
-    def __init__(self, path: Path) -> None:
-        self.path = path
-        self._file = open_hdf5(path)
-
-    def __getitem__(self, path: str) -> np.ndarray:
-        return values_of(dataset_of(self._file, path))
-
-    def root(self, name: str) -> str:
-        """A text attribute of the file."""
-        return self._text(self._file, name)
-
-    def attribute(self, path: str, name: str) -> str:
-        """A text attribute of a dataset."""
-        return self._text(dataset_of(self._file, path), name)
-
-    def _text(self, item: h5py.File | h5py.Dataset, name: str) -> str:
-        if name not in item.attrs:
-            raise LogError(f"{self.path}: {item.name} has no attribute '{name}'")
-        return str(item.attrs[name])

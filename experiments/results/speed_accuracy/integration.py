@@ -43,7 +43,7 @@ def row(results: Results, method: str) -> list[str]:
     coarse, fine = STEPS[-2:]
     order = np.log(at[coarse] / at[fine]) / np.log(coarse / fine)
     price = reached(cost, error)
-    return [results.root("motion"), plots.INTEGRATORS[method].label,
+    return [results.attribute("motion"), plots.INTEGRATORS[method].label,
             *(f"{value:.1e}" if np.isfinite(value) else "blew up" for value in at.values()),
             f"{order:.1f}" if np.isfinite(order) else "", f"{price:.2g}" if np.isfinite(price) else ""]
 
@@ -71,7 +71,7 @@ def draw(axes: Any, results: Results) -> None:
 
 def main(folder: Path, csv: Path, png: Path) -> None:
     motions = {motion: Results(folder / f"{motion}.h5") for motion in MOTIONS}
-    figure, panels = plots.panels(1, 3, (11, 4.4), [results.root("motion") for results in motions.values()],
+    figure, panels = plots.panels(1, 3, (11, 4.4), [results.attribute("motion") for results in motions.values()],
                                   sharex=True, sharey=True)
     for axes, results in zip(panels, motions.values()):
         draw(axes, results)

@@ -102,7 +102,7 @@ def test_a_missing_attribute_of_results_is_named(tmp_path):
         file["time"] = np.arange(3.0)
     results = Results(tmp_path / "results.h5")
     assert list(results["/time"]) == [0, 1, 2]
-    for ask in (lambda: results.root("motion"), lambda: results.attribute("/time", "unit"), lambda: results["/none"]):
+    for ask in (lambda: results.attribute("motion"), lambda: results["/none"]):
         with pytest.raises(LogError):
             ask()
 
