@@ -9,7 +9,7 @@ import numpy as np
 import claims
 from hagfish_log import HagfishLog
 from script import run_script
-from study import tied
+from slides import tied
 from tables import write_csv
 
 MEASURES = ["slide_cm", "beyond_dyn_cm", "near_over_far", "roughness_space", "roughness_time", "dct_modes_95"]

@@ -5,6 +5,7 @@ A run is a cell of a sweep that kept its logs, or NAME.h5 (its log) with NAME.ch
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -13,7 +14,6 @@ import numpy as np
 import audits
 from hagfish_log import HagfishLog
 from means import WINDOW, read_means
-from study import failure_of
 from summary import step_phases
 from sweep_columns import read_sweep
 
@@ -39,6 +39,31 @@ class Slide:
     allowed: float  # deepest that the scene expects
     failure: str  # why the run did not go on to its end; empty where it did
     seconds: float
+
+
+def cause(status: str) -> str:
+    """Why a run stopped, without its numbers."""
+    text = status.removeprefix("failed: ").split(" at step ")[0].split(",")[0]
+    return re.sub(r" is [\d.]+ \w+ past", " went past", re.sub(r"^body \d+", "a body", text))
+
+
+def tied(log: HagfishLog) -> bool:
+    """Whether the controller took the knot as tied: it then tightens it, or slides it at once."""
+    return bool(log.in_phase("tighten").size or log.in_phase("slide").size)
+
+
+def failure_of(log: HagfishLog, unmet: list[str]) -> str:
+    status = str(log.attribute("status"))
+    if status != "complete":
+        return cause(status)
+    if not tied(log):
+        return "the knot was never ready to tighten"
+    if not log.in_phase("slide").size:
+        return "the knot never slid"
+    for name, words in (("knot held", "the knot was lost early"), ("unknot at end", "the knot stayed on")):
+        if name in unmet:
+            return words
+    return ""
 
 
 def unmet_of(folder: Path, name: str) -> list[str]:

@@ -18,8 +18,7 @@ import plots
 import tables
 from hagfish_log import HagfishLog, LogError
 from script import run_script
-from slides import read_slide
-from study import tied
+from slides import read_slide, tied
 
 SWEEPS = {"stiffness": "flexural rigidity, dyn cm²", "drag": "drag, times that of the scenes",
           "haste": "speed of the program"}

@@ -5,13 +5,16 @@ Usage: choices.py RUNS OUT.csv. RUNS is what study.sh leaves.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from hagfish_log import LogError
+import audits
+from hagfish_log import HagfishLog, LogError
+from means import read_means
 from script import run_script
-from study import Run, read_runs
+from slides import failure_of
 from tables import write_csv
 
 AS_IS = "as_is"
@@ -33,6 +36,44 @@ LEAST_SAVING = 0.1  # of CPU time, to change what works
 LEAST_FACTOR = 2  # of penetration, to count as deeper
 LEAST_FORCE = 2  # % of the sliding force, to count as another: chance makes far less
 HEADING = ["choice", "instead", "CPU time, of the scene's", "slide, cm more", "sliding force, % more", "penetration, cm", "verdict"]
+FORCE_WINDOW = 0.1  # s, of the means of forces: a multiple of every interval between frames in the study
+
+
+@dataclass
+class Run:
+    """One run; cm, s, dyn."""
+
+    name: str
+    cpu: float  # the least of the repeats
+    failure: str  # why the knot did not slide to the head; empty where it did
+    unmet: list[str]  # what the audit names, the penetration aside
+    penetration: float  # deepest of every step
+    slide: float  # headward travel of the knot's head end, cm
+    force: float  # sum of the multipliers of Eq. 6 / h while sliding: median of means over FORCE_WINDOW
+
+
+def read_run(folder: Path, name: str) -> Run:
+    log = HagfishLog(folder / f"{name}.h5")
+    try:
+        cpu = [sum(map(float, line.split())) for line in (folder / f"{name}.cpu").read_text().splitlines()]
+    except OSError as error:
+        raise LogError(f"{error.filename}: cannot be read ({error.strerror})") from None
+    unmet = audits.unmet(audits.read_findings(folder / f"{name}.check.csv"))
+    slides = log.in_phase("slide")
+    known = slides[np.isfinite(log["/knot/head_end"][slides])]
+    force = read_means(log, "slide", FORCE_WINDOW).total
+    head_end = log["/knot/head_end"][known]
+    return Run(name, min(cpu), failure_of(log, unmet), [what for what in unmet if what != "penetration"],
+               float(log["/steps/penetration"].max()), float(head_end[0] - head_end[-1]) if known.size else np.nan,
+               float(np.median(force)) if force.size else np.nan)
+
+
+def read_runs(folder: Path, prefix: str) -> list[Run]:
+    """All runs called PREFIX_..., by name."""
+    names = sorted(path.stem for path in folder.glob(f"{prefix}_*.cpu"))
+    if not names:
+        raise LogError(f"{folder}: holds no run {prefix}_*")
+    return [read_run(folder, name) for name in names]
 
 
 def verdict_of(run: Run, as_is: Run) -> str:

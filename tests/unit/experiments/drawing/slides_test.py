@@ -11,7 +11,6 @@ import means
 import reverse
 import slides
 import speeds
-import study
 from conftest import SPEED, STEP, STEPS
 from hagfish_log import LogError
 from sweep_columns import FIGURES, TEXTS
@@ -54,7 +53,7 @@ def test_effort_is_force_over_time_per_way(content, log):
     ({"penetration": 3.0}, "keep: else strands overlap more"), ({"penetration": 0.3}, "change: strands overlap less"),
     ({"force": 1.2}, "keep: else the sliding force is another"), ({"force": 1.01}, "keep: no difference that counts")])
 def test_a_choice_is_kept_or_changed_for_what_it_does(changes, verdict):
-    as_is = study.Run("choice_as_is", cpu=1, failure="", unmet=[], penetration=1, slide=9, force=1)
+    as_is = choices.Run("choice_as_is", cpu=1, failure="", unmet=[], penetration=1, slide=9, force=1)
     assert choices.verdict_of(dataclasses.replace(as_is, **changes), as_is) == verdict
 
 
@@ -68,15 +67,15 @@ def test_pareto_front():
     ("complete", "")])
 def test_why_a_run_failed(content, log, status, words):
     content.attributes["status"] = status
-    assert study.failure_of(log(), []) == words
+    assert slides.failure_of(log(), []) == words
 
 
 def test_a_complete_run_may_have_failed(content, log):
-    assert study.failure_of(log(), ["knot held"]) == "the knot was lost early"
+    assert slides.failure_of(log(), ["knot held"]) == "the knot was lost early"
     content.data["trajectory/phase"][content.slide] = 1
-    assert study.failure_of(log(), []) == "the knot never slid"
+    assert slides.failure_of(log(), []) == "the knot never slid"
     content.data["trajectory/phase"][:] = 0
-    assert study.failure_of(log(), []) == "the knot was never ready to tighten"
+    assert slides.failure_of(log(), []) == "the knot was never ready to tighten"
 
 
 @pytest.fixture
