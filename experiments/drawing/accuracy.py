@@ -61,6 +61,11 @@ def name_of(row: dict[str, Any]) -> str:
     return f"{row['rule']}, {row['bodies']} bodies, {row['step_ms']:g} ms"
 
 
+def cpu_of(path: Path) -> float:
+    """CPU time, s, of a file with user and system time, a line for each repeat: the least."""
+    return min(sum(map(float, line.split())) for line in path.read_text(encoding="utf-8").splitlines())
+
+
 def pareto(cost: np.ndarray, error: np.ndarray) -> np.ndarray:
     """Indices, by rising cost, of what nothing else beats in both."""
     order = np.lexsort((error, cost))

@@ -13,7 +13,7 @@ import numpy as np
 
 import plots
 import tables
-from accuracy import STATIONS, moments_of, name_of, off, pareto, pick, presets, shown, through
+from accuracy import STATIONS, cpu_of, moments_of, name_of, off, pareto, pick, presets, shown, through
 from hagfish_log import HagfishLog, LogError
 from script import run_script
 
@@ -74,10 +74,6 @@ def distance(found: np.ndarray, wanted: np.ndarray) -> float:
 def apart(found: Motion, wanted: Motion, of: str = "") -> dict[str, float]:
     """f_thigmo only where there is any."""
     return {of + name: (distance if unit(name) == "cm" else off)(found[name], wanted[name]) for name in wanted if wanted[name].any()}
-
-
-def cpu_of(path: Path) -> float:
-    return sum(map(float, path.read_text(encoding="utf-8").split()))
 
 
 def read_runs(folder: Path) -> list[tuple[dict[str, Any], Motion | None]]:

@@ -10,6 +10,7 @@ import tomllib
 from pathlib import Path
 
 import tables
+from accuracy import cpu_of
 from script import run_script
 from sweep_columns import read_sweep
 
@@ -51,7 +52,7 @@ def read_runs(folder: Path) -> list[dict[str, str]]:
         runs.append(run | time | {"base": Path(scene["base"]).stem, "title": scene["title"]})
     for way, title in ALONE.items():
         for scene in ("table1", PRINTED):
-            cpu = sum(map(float, (folder / way / f"{scene}.cpu").read_text().split()))
+            cpu = cpu_of(folder / way / f"{scene}.cpu")
             summary = tables.read_csv(folder / way / scene / "summary.csv", ["slide"])[0]
             runs.append(summary | {"outcome": summary["status"], "base": scene, "title": title, "cpu_s": str(cpu)})
     return runs

@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 
 import audits
+from accuracy import cpu_of
 from hagfish_log import HagfishLog, LogError
 from means import read_means
 from script import run_script
@@ -54,16 +55,12 @@ class Run:
 
 def read_run(folder: Path, name: str) -> Run:
     log = HagfishLog(folder / f"{name}.h5")
-    try:
-        cpu = [sum(map(float, line.split())) for line in (folder / f"{name}.cpu").read_text().splitlines()]
-    except OSError as error:
-        raise LogError(f"{error.filename}: cannot be read ({error.strerror})") from None
     unmet = audits.unmet(audits.read_findings(folder / f"{name}.check.csv"))
     slides = log.in_phase("slide")
     known = slides[np.isfinite(log["/knot/head_end"][slides])]
     force = read_means(log, "slide", FORCE_WINDOW).total
     head_end = log["/knot/head_end"][known]
-    return Run(name, min(cpu), failure_of(log, unmet), [what for what in unmet if what != "penetration"],
+    return Run(name, cpu_of(folder / f"{name}.cpu"), failure_of(log, unmet), [what for what in unmet if what != "penetration"],
                float(log["/steps/penetration"].max()), float(head_end[0] - head_end[-1]) if known.size else np.nan,
                float(np.median(force)) if force.size else np.nan)
 

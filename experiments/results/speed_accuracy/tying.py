@@ -13,7 +13,7 @@ import numpy as np
 
 import plots
 import tables
-from accuracy import STATIONS, moments_of, name_of, off, pick, presets, through
+from accuracy import STATIONS, cpu_of, moments_of, name_of, off, pick, presets, through
 from hagfish_log import HagfishLog, LogError
 from script import run_script
 
@@ -62,8 +62,7 @@ def read_runs(folder: Path, knot: str) -> Rows:
     runs = {}
     for path in sorted(folder.glob(f"tie_{knot}_*.cpu")):
         _, back_end, rule, bodies, step = path.stem.removeprefix("tie_").removeprefix(knot).split("_")
-        cpu = min(sum(map(float, line.split())) for line in path.read_text(encoding="utf-8").splitlines())
-        runs[rule, back_end, int(bodies), 1e3 * float(step)] = cpu, read_motion(path.with_suffix(".h5"))
+        runs[rule, back_end, int(bodies), 1e3 * float(step)] = cpu_of(path), read_motion(path.with_suffix(".h5"))
     still = {}
     for bodies in SIZES:
         least, more = sorted(step for rule, back_end, of, step in runs if (rule, back_end, of) == ("euler", "active-set", bodies))[:2]
