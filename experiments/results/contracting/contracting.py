@@ -281,7 +281,7 @@ def page(rows: Rows, out: Path) -> None:
 def main(folder: Path, out: Path) -> None:
     rows = read_study(folder)
     page(rows, out)
-    tables.write_csv(out / "tables/contracting.csv", HEAD, [[row.get(name, "") for name in HEAD] for row in rows])
+    tables.write_table(out, "contracting", HEAD, [[row.get(name, "") for name in HEAD] for row in rows])
     dry_table(read_dry(folder), out)
 
 

@@ -92,14 +92,14 @@ def knots_table(runs: list[Run], out: Path) -> None:
                          "yes" if plain and same else "no"])
     tables.write_table(out, "leverage", ["body", "knot", "cap of a row, N", "pulled", "pull in the thirds of its time, N",
                                          "of its seconds, N", "means of starts, N",
-                                     "of steps, N", "of numbers of bodies, N", "over the sum of the rows", "over the largest torque, 1/cm",
-                                     "mirror image the same"], rows)
+                                         "of steps, N", "of numbers of bodies, N", "over the sum of the rows", "over the largest torque, 1/cm",
+                                         "mirror image the same"], rows)
 
 
 def time_table(runs: list[Run], out: Path) -> None:
     rows = [[run.body, run.knot, float(second), float(force)] for run in runs if run.kind == "plain" and run.pull for second,
             force in zip(*run.pull.over(1))]
-    tables.write_csv(out / "tables/leverage_time.csv", TIME_HEAD, rows)
+    tables.write_table(out, "leverage_time", TIME_HEAD, rows)
 
 
 def work_table(runs: list[Run], folder: Path, out: Path) -> None:

@@ -100,7 +100,7 @@ def claims_table(folder: Path, out: Path) -> None:
                      ", ".join(f"{what}: {count}" for what, count in others.items())])
     tables.write_table(out, "living_claims", ["knot", "let go at the head", *claims.NAMES, "beyond, dyn cm",
                                               "near over far", "roughness along the body", "in time",
-                            "Fourier modes for 95 %", "what else became of it"], rows)
+                                              "Fourier modes for 95 %", "what else became of it"], rows)
 
 
 def draw(folder: Path, sweeps: dict[str, dict[str, list[tuple[float, Run]]]], out: Path) -> None:
@@ -160,24 +160,24 @@ def main_table(folder: Path, out: Path) -> None:
     tables.write_table(out, "living", ["h = 5 ms, `active-set`", *plots.SCENES.values()], [
         ["clamped: way of the knot's head end, cm; share of a slide by both ends, %; steps that meet Eq. 6, %",
          *map(slid, held)],
-        ["free, no plate: the same", *map(slid, free)],
-        ["deepest penetration at any step, release included, cm",
-         *(f"{max(a.penetration, b.penetration):.4f}" for a, b in zip(held, free))],
-        ["λ/h of the first and last contact while sliding, clamped, median, dyn", *(short(run.force) for run in held)],
-        ["largest torque of a hinge, forming; sliding, dyn cm",
-         *(f"{short(run.torque['form'])}; {short(run.torque['slide'])}" for run in held)],
-        ["values of the program: stations x times", *(f"{len(each['stations'])} x {len(each['times'])}"
-                                                      for each in programs)],
-        ["of 20 starts with 3 degrees (3_1: 5) of noise on every hinge, clamped: tied, kept and off; least share, %",
-         *off("heldstart")],
-        ["free: the same", *off("freestart")],
-        ["of 10 other animals, clamped: tied, kept and off", *(str(came_off(each)) for each in animals)],
-        ["of these: least share, %", *("{:.0f}".format(min(run.share for run in each if run.outcome == "off"))
-                                       for each in animals)],
-        ["of these that slide: sliding steps that meet Eq. 6, %: median, least",
-         *("{:.0f}, {:.0f}".format(*(100 * pick([run.met for run in each if run.outcome == "off"
-                                                 and np.isfinite(run.met)])
-                                     for pick in (np.median, min))) for each in animals)]])
+                                                                                           ["free, no plate: the same", *map(slid, free)],
+                                                                                           ["deepest penetration at any step, release included, cm",
+                                                                                            *(f"{max(a.penetration, b.penetration):.4f}" for a, b in zip(held, free))],
+                                                                                           ["λ/h of the first and last contact while sliding, clamped, median, dyn", *(short(run.force) for run in held)],
+                                                                                           ["largest torque of a hinge, forming; sliding, dyn cm",
+                                                                                            *(f"{short(run.torque['form'])}; {short(run.torque['slide'])}" for run in held)],
+                                                                                           ["values of the program: stations x times", *(f"{len(each['stations'])} x {len(each['times'])}"
+                                                                                                                                         for each in programs)],
+                                                                                           ["of 20 starts with 3 degrees (3_1: 5) of noise on every hinge, clamped: tied, kept and off; least share, %",
+                                                                                            *off("heldstart")],
+                                                                                           ["free: the same", *off("freestart")],
+                                                                                           ["of 10 other animals, clamped: tied, kept and off", *(str(came_off(each)) for each in animals)],
+                                                                                           ["of these: least share, %", *("{:.0f}".format(min(run.share for run in each if run.outcome == "off"))
+                                                                                                                          for each in animals)],
+                                                                                           ["of these that slide: sliding steps that meet Eq. 6, %: median, least",
+                                                                                            *("{:.0f}, {:.0f}".format(*(100 * pick([run.met for run in each if run.outcome == "off"
+                                                                                                                                    and np.isfinite(run.met)])
+                                                                                                                        for pick in (np.median, min))) for each in animals)]])
 
 
 def main(folder: Path, out: Path) -> None:
@@ -194,7 +194,7 @@ def main(folder: Path, out: Path) -> None:
     claims_table(folder, out)
     tables.write_table(out, "living_sweeps", [
         "what is changed", "knots tied and slid off", "largest torque of a hinge while forming, dyn cm"],
-        sweep_rows(sweeps))
+                       sweep_rows(sweeps))
 
 
 if __name__ == "__main__":

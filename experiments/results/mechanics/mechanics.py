@@ -32,7 +32,7 @@ def twisted(folder: Path) -> None:
             rows.append([*name, "extrapolated", f"{round(100 * (error - (coarser - error) / 3), 2) + 0:.2f}", "", ""])
     write_table(folder, "mechanics", ["problem", "universal joints", "bending over twist rigidity", "bodies", "error of the moment, %",
                                       "order", "CPU time, s"],
-            rows)
+                rows)
 
 
 def hooked(folder: Path) -> None:
@@ -60,7 +60,7 @@ def mujoco(folder: Path) -> None:
                          error(rope["tips"], rope["expected"]),
                          rope["overlap"], rope["rest"], rope["cpu"]])
     write_table(folder, "mechanics_mujoco", ["simulator", "step, s", "mass, g/cm", "bodies", "distance of the tips, diameters", "error, %",
-                                         "overlap of capsules, diameters", "at rest", "CPU time, s"], rows)
+                                             "overlap of capsules, diameters", "at rest", "CPU time, s"], rows)
 
 
 def ply(folder: Path) -> None:
@@ -70,7 +70,7 @@ def ply(folder: Path) -> None:
             for rod in read_csv(folder / "ply.csv", ["force"])]
     write_table(folder, "mechanics_ply", ["bodies", "bodies to a radius", "angle of the strands, rad", "their distance over two radii, %",
                                           "error of F, %",
-                                      "error of M, %", "at rest", "CPU time, s"], rows)
+                                          "error of M, %", "at rest", "CPU time, s"], rows)
 
 
 def time_rules(folder: Path) -> None:
@@ -100,8 +100,8 @@ def loose(folder: Path) -> None:
         load = limit([(float(knot["thin"]) ** 2, float(knot["load"])) for knot in thin])
         rows.append([kind, "extrapolated", "", "no twist", f"{load:.4f}", f"{100 * (load / 0.5 - 1):.1f}", *[""] * 6])
     write_table(folder, "mechanics_loose",
-            ["knot", "ε", "bodies", "twist over bending rigidity", "F R² / B", "error of 1/2, %", "(T + B κ² / 2) / F", "touches",
-             "interval, bodies", "points, bodies", "at rest", "CPU time, s"], rows)
+                ["knot", "ε", "bodies", "twist over bending rigidity", "F R² / B", "error of 1/2, %", "(T + B κ² / 2) / F", "touches",
+                 "interval, bodies", "points, bodies", "at rest", "CPU time, s"], rows)
 
 
 KNOWN = {"3_1": (10.10, 10.08), "4_1": (13.71, 13.70), "5_1": (17.21, 17.19), "5_2": (17.22, 17.20)}  # animal's chain, rope code
@@ -119,9 +119,9 @@ def tight(folder: Path) -> None:
         ideal = limit([(float(knot["link"]) ** 2, float(knot["shortening"])) for knot in same])
         rows.append([kind, "extrapolated", "", f"{ideal:.3f}", f"{100 * (ideal / rope - 1):.2f}", f"{chain:.2f}", f"{rope:.2f}", "", ""])
     write_table(folder, "mechanics_tight",
-            ["knot", "link, diameters", "bodies", "shortening, diameters", "over the rope code's, %", "animal's chain before", "rope code",
-             "at rest",
-             "CPU time, s"], rows)
+                ["knot", "link, diameters", "bodies", "shortening, diameters", "over the rope code's, %", "animal's chain before", "rope code",
+                 "at rest",
+                 "CPU time, s"], rows)
 
 
 def main(folder: Path) -> None:

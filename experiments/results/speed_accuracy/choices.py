@@ -1,6 +1,6 @@
 """What each choice of the Table 1 scene costs and buys: the run with one choice changed, against the scene as it is.
 
-Usage: choices.py RUNS OUT.csv. RUNS is what study.sh leaves.
+Usage: choices.py RUNS OUT_FOLDER. RUNS is what study.sh leaves.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from hagfish_log import HagfishLog, LogError
 from means import read_means
 from script import run_script
 from slides import failure_of
-from tables import write_csv
+from tables import write_table
 
 AS_IS = "as_is"
 # Run, the choice as it is, what is tried instead.
@@ -110,9 +110,9 @@ def rows(folder: Path) -> list[list[object]]:
     return found
 
 
-def main(folder: Path, csv: Path) -> None:
-    write_csv(csv, HEADING, rows(folder))
+def main(folder: Path, out: Path) -> None:
+    write_table(out, "speed_accuracy_choices", HEADING, rows(folder))
 
 
 if __name__ == "__main__":
-    run_script(__doc__, ["RUNS", "OUT.csv"], main)
+    run_script(__doc__, ["RUNS", "OUT_FOLDER"], main)

@@ -1,6 +1,6 @@
 """Smooth motions: error at the end against CPU time per simulated time, for the simulator and MuJoCo.
 
-Usage: integration.py RUNS OUT.csv OUT.png (writes a PDF beside), with RUNS/coil.h5, ... of `hagfish integrate`.
+Usage: integration.py RUNS OUT_FOLDER, with RUNS/coil.h5, ... of `hagfish integrate`.
 """
 
 from __future__ import annotations
@@ -69,7 +69,7 @@ def draw(axes: Any, results: Results) -> None:
     axes.set_xlabel("CPU time per simulated time")
 
 
-def main(folder: Path, csv: Path, png: Path) -> None:
+def main(folder: Path, out: Path) -> None:
     motions = {motion: Results(folder / f"{motion}.h5") for motion in MOTIONS}
     figure, panels = plots.panels(1, 3, (11, 4.4), [results.attribute("motion") for results in motions.values()],
                                   sharex=True, sharey=True)
@@ -77,11 +77,11 @@ def main(folder: Path, csv: Path, png: Path) -> None:
         draw(axes, results)
     panels[0].set(ylabel="largest error of a body centre at 0.5 s, cm", xlim=(4e-4, 40), ylim=(1e-10, 30))
     panels[0].legend(loc="lower left", bbox_to_anchor=(0, 0.06))
-    plots.save(figure, png)
-    tables.write_csv(csv, ["motion", "method", *(f"error at {h:g} ms, cm" for h in STEPS), "order",
-                           "CPU time per simulated time for 0.01 cm"],
-                     [row(results, method) for results in motions.values() for method in plots.INTEGRATORS])
+    plots.save(figure, out / "integration.png")
+    tables.write_table(out, "speed_accuracy_motions", ["motion", "method", *(f"error at {h:g} ms, cm" for h in STEPS), "order",
+                                                       "CPU time per simulated time for 0.01 cm"],
+                       [row(results, method) for results in motions.values() for method in plots.INTEGRATORS])
 
 
 if __name__ == "__main__":
-    run_script(__doc__, ["RUNS", "OUT.csv", "OUT.png"], main)
+    run_script(__doc__, ["RUNS", "OUT_FOLDER"], main)

@@ -65,5 +65,5 @@ printf 'integrate\t%s\n' coil hanging whip | work "$cores" "Smooth motions"
 
 echo "Drawing"
 draw tying.py "$runs" "$out"
-draw integration.py "$runs" "$out/tables/speed_accuracy_motions.csv" "$out/integration.png"
-draw choices.py "$runs" "$out/tables/speed_accuracy_choices.csv"
+draw integration.py "$runs" "$out"
+draw choices.py "$runs" "$out"

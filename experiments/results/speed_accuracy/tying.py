@@ -113,7 +113,7 @@ def runs_table(rows: Rows, out: Path) -> None:
                              f"{cpu:.2g}", ipopt])
     tables.write_table(out, "speed_accuracy_tying", ["knot", "bodies", "places off by the mesh, cm", "rule",
                                                      *(f"by the step at {step:g} ms, cm" for step in steps),
-                                                 f"CPU at {USUAL:g} ms, s", "times that by Ipopt"], body)
+                                                     f"CPU at {USUAL:g} ms, s", "times that by Ipopt"], body)
 
 
 def draw(rows: Rows, out: Path) -> None:
@@ -149,7 +149,7 @@ def main(folder: Path, out: Path) -> None:
     rows = [row for knot in KNOTS for row in read_runs(folder, knot)]
     presets_table(rows, out)
     runs_table(rows, out)
-    tables.write_csv(out / "tables/speed_accuracy_runs.csv", HEAD, [list(row.values()) for row in rows])
+    tables.write_table(out, "speed_accuracy_runs", HEAD, [list(row.values()) for row in rows])
     draw(rows, out / "speed_accuracy.png")
 
 

@@ -1,7 +1,7 @@
 """How far the reflex goes in each simulator and by each rule: from one tied knot the step, the shift, the delay of the senses and the
 stiffness grow until the knot does not come to the head any more.
 
-Usage: reflex_limits.py HAGFISH FOLDER OUT.csv. FOLDER keeps the tied knot and one run at a time.
+Usage: reflex_limits.py HAGFISH OUT_FOLDER. Its folder reflex keeps the tied knot and one run at a time.
 """
 
 from __future__ import annotations
@@ -60,8 +60,9 @@ def last(values: list[float], holds: Callable[[float], bool]) -> str:
     return f"all ({found})"
 
 
-def main(hagfish: Path, folder: Path, out: Path) -> None:
-    folder.mkdir(parents=True, exist_ok=True)
+def main(hagfish: Path, out: Path) -> None:
+    folder = out / "reflex"
+    folder.mkdir(exist_ok=True)
     scene = folder / "tied.toml"
     tied_knot.main(hagfish, scene)
     rows = []
@@ -76,8 +77,8 @@ def main(hagfish: Path, folder: Path, out: Path) -> None:
             else:
                 cells.append("")
         rows.append(cells)
-    tables.write_csv(out, ["grows", *METHODS], rows)
+    tables.write_table(out, "stability_reflex", ["grows", *METHODS], rows)
 
 
 if __name__ == "__main__":
-    run_script(__doc__, ["HAGFISH", "FOLDER", "OUT.csv"], main)
+    run_script(__doc__, ["HAGFISH", "OUT_FOLDER"], main)

@@ -113,4 +113,4 @@ list | sort -t$'\t' -k5,5gr | work "$cores" cells
   tail -qn 1 "$runs"/*.csv
 } >"$out/stability.csv"
 draw stability.py "$out/stability.csv" "$out"
-/usr/bin/python3 "$page/reflex_limits.py" "$hagfish" "$out/reflex" "$out/tables/stability_reflex.csv"
+draw reflex_limits.py "$hagfish" "$out"

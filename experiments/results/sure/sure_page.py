@@ -43,9 +43,9 @@ def main(folder: Path) -> None:
     found = {scene: sure.read(folder / scene) for scene in SCENES}
     kinds = next(iter(found.values())).kinds
     tables.write_table(folder, "sure", ["scene and figure", "as it is", *kinds, "chance, step, bodies", "all", "runs that count"],
-                   [row for scene, of in found.items() for row in rows(scene, of)])
+                       [row for scene, of in found.items() for row in rows(scene, of)])
     tables.write_table(folder, "sure_slides", ["", "as it is", "over chance, steps, bodies", "over all causes", "runs that count"],
-                   [row[:2] + row[-3:] for scene, of in found.items() for row in rows(scene, of)[:1]])
+                       [row[:2] + row[-3:] for scene, of in found.items() for row in rows(scene, of)[:1]])
 
 
 if __name__ == "__main__":

@@ -31,9 +31,9 @@ def holes(folder: Path) -> None:
     rows = [[*knot_and_law(run), f"{run['strength']:g}", f"{1000 * run['step']:g}", number(run["pulls"]), number(run["gives"]),
              number(run["out"]),
              "yes" if run["held"] else "no", overlap(run)] for run in taken(folder / "holes" / "logs")]
-    tables.write_csv(folder / "tables" / "world.csv", ["knot", "law", "held with, N", "step, ms", "pulls from, s", "it gives at, s",
-                                                       "head out at, s",
-                                                       "type held until then", "deepest overlap, 1e-3 cm"], rows)
+    tables.write_table(folder, "world", ["knot", "law", "held with, N", "step, ms", "pulls from, s", "it gives at, s",
+                                         "head out at, s",
+                                         "type held until then", "deepest overlap, 1e-3 cm"], rows)
 
 
 def waves(folder: Path) -> None:
@@ -49,10 +49,10 @@ def waves(folder: Path) -> None:
                      f"{100 * over.mean():.2g}", "no" if (peaks < strength).all() else "yes" if (peaks > strength).all()
                      else "at some phases",
                      f"{max(run['torque'] for run in runs):.1e}".replace("+0", "")])
-    tables.write_csv(folder / "tables" / "world_waves.csv", ["angle, rad", "length, L", "period, s", "phases", "mean pull, N",
-                                                             "largest pull, N",
-                                                             "over what holds, % of time", "head comes out", "largest torque, dyn cm"],
-                                                             rows)
+    tables.write_table(folder, "world_waves", ["angle, rad", "length, L", "period, s", "phases", "mean pull, N",
+                                               "largest pull, N",
+                                               "over what holds, % of time", "head comes out", "largest torque, dyn cm"],
+                       rows)
 
 
 def hole_map(folder: Path) -> None:
@@ -63,8 +63,8 @@ def hole_map(folder: Path) -> None:
                    f"muscles {run['stiffness']:.1e} dyn cm^2").replace("e+0", "e")
         found.setdefault(changed, {}).setdefault(knot_and_law(run), []).append(run["pull"])
     columns = list(dict.fromkeys(key for cell in found.values() for key in cell))
-    tables.write_csv(folder / "tables" / "world_map.csv", ["changed", *(f"{knot}, {law}" for knot, law in columns)],
-                     [[changed, *(pulled(cell.get(key, [])) for key in columns)] for changed, cell in found.items()])
+    tables.write_table(folder, "world_map", ["changed", *(f"{knot}, {law}" for knot, law in columns)],
+                       [[changed, *(pulled(cell.get(key, [])) for key in columns)] for changed, cell in found.items()])
 
 
 def pulled(starts: list[float]) -> str:
@@ -80,7 +80,7 @@ def chance(folder: Path) -> None:
     for (knot, law), of in pulls.items():
         tied = [pull for pull in of if pull > 0]
         rows.append([knot, law, f"{len(tied)} of {len(of)}", *(f"{value:.2f}" for value in (min(tied), np.median(tied), max(tied)))])
-    tables.write_csv(folder / "tables" / "world_chance.csv", ["knot", "law", "tied", "lowest, N", "median, N", "highest, N"], rows)
+    tables.write_table(folder, "world_chance", ["knot", "law", "tied", "lowest, N", "median, N", "highest, N"], rows)
 
 
 def skin(folder: Path) -> None:
@@ -94,9 +94,9 @@ def skin(folder: Path) -> None:
         rows.append([*knot_and_law(run), "to the head and back" if run["back"] else "to the head", number(area[swept].sum()), share(swept),
                      number(area[~swept].sum()), share(~swept), number(reached.min(), 2), number(s.max() - reached.max(), 2), share(beyond),
                      share(~beyond & ~swept)])
-    tables.write_csv(folder / "tables" / "world_skin.csv",
-                     ["knot", "law", "slides", "swept, cm^2", "swept, %", "never, cm^2", "never, %", "never: head, cm", "never: tail, cm",
-                      "never: these two, %", "never: sides between them, %"], rows)
+    tables.write_table(folder, "world_skin",
+                       ["knot", "law", "slides", "swept, cm^2", "swept, %", "never, cm^2", "never, %", "never: head, cm", "never: tail, cm",
+                        "never: these two, %", "never: sides between them, %"], rows)
 
 
 def robot(folder: Path) -> None:
@@ -104,14 +104,13 @@ def robot(folder: Path) -> None:
              run["became"],
              *("" if np.isnan(run[name]) else f"{run[name]:.3g}" for name in ("way", "share")), f"{run['torque']:.2g}", overlap(run)]
              for run in taken(folder / "robot" / "logs")]
-    tables.write_csv(folder / "tables" / "world_robot.csv", ["mass, kg", "weight left, of all of it", "drag across, kg/(s m)",
-                                                             "torque bound, N m", "stiffness of a joint, N m/rad", "what became of it",
-                                                             "way of the head end, cm", "share of a slide by both ends, %",
-                                                             "largest torque, N m", "deepest overlap, 1e-3 cm"], rows)
+    tables.write_table(folder, "world_robot", ["mass, kg", "weight left, of all of it", "drag across, kg/(s m)",
+                                               "torque bound, N m", "stiffness of a joint, N m/rad", "what became of it",
+                                               "way of the head end, cm", "share of a slide by both ends, %",
+                                               "largest torque, N m", "deepest overlap, 1e-3 cm"], rows)
 
 
 def main(folder: Path) -> None:
-    (folder / "tables").mkdir(exist_ok=True)
     for table in (holes, waves, hole_map, chance, skin, robot):
         table(folder)
 
