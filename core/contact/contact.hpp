@@ -25,6 +25,9 @@ struct Contact {
   /// Body of the chain nearest to the point on strand a (b, where that is of the body).
   int body_a() const { return segment_a + (t_a >= 0.5 ? 1 : 0); }
   int body_b() const { return segment_b + (t_b >= 0.5 ? 1 : 0); }
+  bool same_segments(const Contact& other) const {
+    return segment_a == other.segment_a && segment_b == other.segment_b;
+  }
 };
 
 struct ContactSet {

@@ -50,10 +50,6 @@ void paper_law(const Situation& at, Control& control);
 /// slip of its strands at the head contact's speeds (addition).
 void all_contacts_law(const Situation& at, Control& control);
 
-/// The paper's law with the speeds of the slide scaled by feedback of the knot's measured speed:
-/// KnotSpeedSettings (addition). `memory`: smoothed arc length of the head end, cm; scale.
-void knot_speed_law(const Situation& at, Eigen::VectorXd& memory, Control& control);
-
 /// Advice to add to `status` if explicit torques of `control` may have made the step fail by
 /// growing from step to step. Else empty.
 std::string cure_of_torque(const Control& control, const Status& status);

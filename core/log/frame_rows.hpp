@@ -7,7 +7,7 @@
 #include "core/log/log_table.hpp"
 #include "core/log/means/thigmotaxis_rows.hpp"
 #include "core/scene/settings.hpp"
-#include "core/step/rows/rows.hpp"
+#include "core/step/rows/row.hpp"
 
 namespace hagfish {
 

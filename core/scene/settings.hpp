@@ -376,9 +376,6 @@ struct GuardSettings {
   /// drag and damping took.
   double energy_gain = 0.005;
   EnergyAction energy_action = EnergyAction::hold;
-  /// Momentum that the integrator makes while nothing holds the head, over the most that the body
-  /// could have with its largest energy so far: warns.
-  double momentum_gain = 0.001;
   double capped_time = 0.25;  ///< a thigmotaxis row at its cap for this long is reported, s
 };
 
@@ -426,8 +423,6 @@ struct ExpectSettings {
   double limit_violation = 1.745e-5;  ///< largest at any step, rad (0.001 degrees)
   double head_drift = 1e-6;           ///< largest at any step while clamped, cm
   double kkt = 1e-8;                  ///< largest scaled KKT residual of any step
-  double force_balance = 1e-9;        ///< |H (q̇ - q̇*) - h Σ f| of its scale, every frame
-  double forward_inverse = 1e-8;  ///< q̇ that MuJoCo makes of the forces, over its largest entry
   double energy = 1e-6;           ///< imbalance of the ledger, of the energy that passed
   /// Share by which kinetic, elastic and gravity energy may exceed what there was and what the
   /// script and thigmotaxis put in, at any step.

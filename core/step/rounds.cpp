@@ -189,7 +189,7 @@ void Rounds::set_velocity(const StepInput& in, const StepPlace& place, StepSolut
   problem_.factor.solve(in.model, kin, wrench_, joint_, step.qdot, step.twist, reaction_);
   centre_velocities(kin, step.twist, step.centre_velocity);
   for (Eigen::Index i = 0; i < step.prescribed; ++i) {
-    step.lambda[i] = step.rows[i].sign * reaction_[i];
+    step.lambda[i] = step.rows[i].joint()->sign * reaction_[i];
   }
 }
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/chain/dynamics.hpp"
-#include "core/step/rows/rows.hpp"
+#include "core/step/rows/row.hpp"
 #include "solvers/box_qp.hpp"
 
 namespace hagfish {

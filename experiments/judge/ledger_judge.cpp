@@ -131,7 +131,7 @@ double LedgerJudge::energy_loss() const {
 double LedgerJudge::parts() const { return std::sqrt(2 * passed_.mass() * parts_); }
 
 double LedgerJudge::all() const {
-  // As GuardSettings::momentum_gain: with the largest kinetic energy. A body that falls has parts
+  // As momentum_gain of the guards: with the largest kinetic energy. A body that falls has parts
   // that are large where all of it is not.
   return std::max(passed_.momentum(), std::sqrt(2 * passed_.mass() * kinetic_));
 }

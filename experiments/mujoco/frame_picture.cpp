@@ -82,7 +82,7 @@ std::vector<mjvGeom> FramePictures::obstacles(std::size_t frame, bool floors) co
   }
   const std::vector<Obstacle>& all = log_.resolved.scene.obstacles;
   for (const Obstacle& obstacle : all) {
-    if (!floors && is_floor(obstacle)) continue;
+    if (!floors && obstacle.plane() != nullptr && is_floor(*obstacle.plane())) continue;
     std::ranges::copy(obstacle_geoms(obstacle, all, log_.model.length(), view_.toward()),
                       std::back_inserter(geoms));
   }

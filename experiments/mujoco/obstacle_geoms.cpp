@@ -81,14 +81,13 @@ mjvGeom plate_geom(bool holds_head) {
 std::vector<mjvGeom> obstacle_geoms(const Obstacle& obstacle,
                                     const std::vector<Obstacle>& obstacles, double length,
                                     const Vector3d& toward) {
-  if (obstacle.kind == Obstacle::Kind::plane) {
-    return plate_geoms(drawn_plane(obstacle, obstacles, length), obstacle.normal, plate_colour);
+  if (const Plane* plane = obstacle.plane()) {
+    return plate_geoms(drawn_plane(*plane, obstacles, length), plane->normal, plate_colour);
   }
-  const bool rim = std::ranges::any_of(
-      obstacles, [&](const Obstacle& plane) { return is_rim(obstacle, plane); });
-  const bool cut = obstacle.closed && !rim;
+  const Strand& strand = *obstacle.strand();
+  const bool cut = strand.closed && !is_rim(strand, obstacles);
   std::vector<mjvGeom> geoms;
-  const Eigen::Matrix3Xd curve = strand_curve(obstacle);
+  const Eigen::Matrix3Xd curve = strand_curve(strand);
   const Vector3d centre = curve.rowwise().mean();
   for (Eigen::Index k = 0; k + 1 < curve.cols(); ++k) {
     const Vector3d along = curve.col(k + 1) - curve.col(k);
@@ -96,7 +95,7 @@ std::vector<mjvGeom> obstacle_geoms(const Obstacle& obstacle,
     if (cut && toward.dot(middle - centre) > 0) continue;
     const double half = 0.5 * along.norm();
     const Vector3d axis = along.normalized();
-    geoms.push_back(geom_at(mjGEOM_CAPSULE, {obstacle.radius, obstacle.radius, half}, middle,
+    geoms.push_back(geom_at(mjGEOM_CAPSULE, {strand.radius, strand.radius, half}, middle,
                             axis.unitOrthogonal(), axis, cut ? tube_colour : rim_colour));
   }
   return geoms;

@@ -54,7 +54,7 @@ Seen run(const ResolvedScene& resolved) {
     const bool tied = knot_name(now.knot.type) == scene.expect.knot;
     if (now.phase == Phase::release && tied && face != scene.obstacles.end()) {
       const Eigen::Vector3d end = sim.now.state.q.head<3>();
-      seen.head_out = seen.head_out || face->normal.dot(end - face->point) > 0;
+      seen.head_out = seen.head_out || face->plane()->normal.dot(end - face->plane()->point) > 0;
     }
     if (holds_knot(now.phase)) {
       seen.held = seen.held && tied;

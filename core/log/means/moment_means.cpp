@@ -37,7 +37,7 @@ void add_moments(const Model& model, const TimeSettings& time, const StepRecord&
     for (std::size_t i = 0; i < step.rows.size(); ++i) {
       const Row& row = step.rows[i];
       const double lambda = step.lambda[static_cast<Eigen::Index>(i)];
-      if (row.kind != kind || row.dof >= 0 || lambda == 0) continue;
+      if (row.kind != kind || row.joint() != nullptr || lambda == 0) continue;
       if (!on_bodies) wrench.setZero(6, model.body_count());
       on_bodies = true;
       add_row(row, kin, lambda / time.step, wrench, joint);

@@ -20,8 +20,8 @@ ThigmotaxisRow thigmotaxis_row(const Control& control, const StepSolution& solut
   r.end = of.end;
   r.along_a = along_a(row);
   r.towards = of.towards;
-  r.spline_a = row.a.parameter;
-  r.spline_b = row.b.parameter;
+  r.spline_a = row.points().a.parameter;
+  r.spline_b = row.points().b.parameter;
   r.command = row.rhs;
   r.cap = row.upper / h;
   r.lambda = solution.lambda[index] / h;

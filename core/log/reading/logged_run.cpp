@@ -11,15 +11,19 @@
 namespace hagfish {
 namespace {
 
-/// Logs of before 0.3 had checkpoints, and a key for them.
-std::string without_checkpoints(std::string text) {
-  const std::size_t at = text.find("\ncheckpoint_interval = ");
-  return at == std::string::npos ? text : text.erase(at, text.find('\n', at + 1) - at);
+/// Logs of before 0.3 have keys that are no settings any more.
+std::string without_former_keys(std::string text) {
+  for (const char* key :
+       {"checkpoint_interval", "momentum_gain", "force_balance", "forward_inverse"}) {
+    const std::size_t at = text.find(std::string("\n") + key + " = ");
+    if (at != std::string::npos) text.erase(at, text.find('\n', at + 1) - at);
+  }
+  return text;
 }
 
 ResolvedScene scene_of(const std::string& text, const std::string& file,
                        const std::vector<std::string>& overrides = {}) {
-  return read_scene_text(without_checkpoints(text), file + ": scene", overrides);
+  return read_scene_text(without_former_keys(text), file + ": scene", overrides);
 }
 
 /// Scenes of a branch before its own.

@@ -73,7 +73,7 @@ bool Impacts::find() {
     any = any || change != 0;
     if (row.prescribed) {
       prescribed_rows_.push_back(i);
-      jumps_.push_back({row.dof, row.sign * change});
+      jumps_.push_back({row.joint()->dof, row.joint()->sign * change});
     } else {
       impact_rows_.push_back(i);
       impact_b_.push_back(change);
@@ -136,7 +136,7 @@ void Impacts::respond(const ArticulatedFactor& factor) {
   factor.solve(in_.model, place_.kin, wrench_, joint_, jumps_, change_, twist_, reaction_);
   for (std::size_t k = 0; k < prescribed_rows_.size(); ++k) {
     Row& row = step_.rows[prescribed_rows_[k]];
-    row.impact = row.sign * reaction_[static_cast<Eigen::Index>(k)];
+    row.impact = row.joint()->sign * reaction_[static_cast<Eigen::Index>(k)];
   }
 }
 

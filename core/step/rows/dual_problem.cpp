@@ -12,7 +12,8 @@ constexpr double immovable = 1e-20;
 /// to move them.
 void clear_immovable(const Model& model, std::span<const Row> rows, Eigen::MatrixXd& A) {
   for (Eigen::Index i = 0; i < A.rows(); ++i) {
-    if (rows[i].dof < 0 && A(i, i) * model.bodies[rows[i].a.first].mass < immovable) {
+    if (rows[i].joint() == nullptr &&
+        A(i, i) * model.bodies[rows[i].points().a.first].mass < immovable) {
       A.row(i).setZero();
       A.col(i).setZero();
     }
@@ -21,11 +22,10 @@ void clear_immovable(const Model& model, std::span<const Row> rows, Eigen::Matri
 
 void load_row(const Model& model, const Kinematics& kin, const Row& row, Eigen::Index column,
               RowColumns& columns) {
-  if (row.dof >= 0) {
-    columns.load_joint(row.dof, column, row.sign);
-  }
-  if (row.next_sign != 0) {
-    columns.load_joint(row.dof + 1, column, row.next_sign);
+  if (const OnJoint* joint = row.joint()) {
+    columns.load_joint(joint->dof, column, joint->sign);
+    if (!row.unit()) columns.load_joint(joint->dof + 1, column, joint->next_sign);
+    return;
   }
   visit_forces(row, kin,
                [&](int body, const Eigen::Vector3d& moment, const Eigen::Vector3d& force) {

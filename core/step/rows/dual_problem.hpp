@@ -5,7 +5,7 @@
 
 #include "core/chain/articulated.hpp"
 #include "core/chain/dynamics.hpp"
-#include "core/step/rows/rows.hpp"
+#include "core/step/rows/row.hpp"
 #include "solvers/box_qp.hpp"
 
 namespace hagfish {

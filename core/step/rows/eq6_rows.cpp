@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/step/rows/contact_rows.hpp"
+
 namespace hagfish {
 namespace {
 
@@ -39,7 +41,7 @@ class WrenchSum {
 };
 
 /// From the point on strand b to that on strand a of a row, cm.
-Eigen::Vector3d arm_of(const Row& row, const Kinematics& kin) {
+Eigen::Vector3d arm_of(const BetweenPoints& row, const Kinematics& kin) {
   Eigen::Vector3d arm = Eigen::Vector3d::Zero();
   const auto add = [&](const SplineMix& mix, double sign) {
     for (int k = 0; k < mix.count; ++k) {
@@ -99,12 +101,13 @@ Row eq6_row(const Model& model, const Kinematics& kin, const std::vector<SplineS
   // Eq. 6: t_a' (ẋ_a - ẋ_b) >= v_a and t_b' (ẋ_b - ẋ_a) >= v_b.
   Row row;
   row.kind = RowKind::thigmotaxis;
-  set_points(row, contact, direction_of(contact, on_a, towards), model);
+  BetweenPoints points = between_points(contact, direction_of(contact, on_a, towards), model);
   if (at == Eq6Point::skin) {
-    row.at = skin_point(segments, contact) - kin.reference;
+    points.at = skin_point(segments, contact) - kin.reference;
   } else {
-    row.head_couple = row.direction.cross(arm_of(row, kin));
+    points.head_couple = points.direction.cross(arm_of(points, kin));
   }
+  row.shape = points;
   return row;
 }
 
@@ -127,8 +130,8 @@ std::array<Row, 2> eq6_rows(const Model& model, const Kinematics& kin,
       sum_b.add(along(contact, false), kin, share);
       cosine += share * cosine_of(contact);
     }
-    rows[0].patch = sum_a.of_bodies();
-    rows[1].patch = sum_b.of_bodies();
+    rows[0].shape = OverPatch{rows[0].points(), sum_a.of_bodies()};
+    rows[1].shape = OverPatch{rows[1].points(), sum_b.of_bodies()};
   }
   const ThigmotaxisSpeeds asked =
       command.slip == Eq6Slip::paper ? command.speed : slip_of_shape(cosine, command.speed);
@@ -151,7 +154,11 @@ void append_thigmotaxis_rows(const Model& model, const std::vector<ThigmotaxisCo
         eq6_rows(model, place.kin, place.segments, command, scene, place.found);
     for (const bool on_a : {true, false}) {
       Row& row = rows.emplace_back(std::move(pair[on_a ? 0 : 1]));
-      row.id = thigmotaxis_row_id(command.end, command.contact, on_a);
+      row.id = {.of = on_a ? RowId::Of::along_a : RowId::Of::along_b, .end = command.end};
+      if (command.end == KnotEnd::neither) {
+        row.id.first = found.segment_a;
+        row.id.second = found.segment_b;
+      }
       row.command = static_cast<int>(k);
       // The soft row: its L1 slack is the dual of this bound.
       row.upper = command.effort * scene.controller.cap * h;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/contact/observation.hpp"
-#include "core/step/rows/rows.hpp"
+#include "core/step/rows/row.hpp"
 
 namespace hagfish {
 

@@ -27,16 +27,16 @@ bool release_where(StepSolution& step, Condition condition) {
 void prescribe_rows(const WarmStart& warm, std::vector<Row>& rows) {
   int last = -1;  // at most one of a joint's two limits, which follow each other
   for (Row& row : rows) {
-    row.prescribed = probably_binds(row, warm) && row.dof != last;
-    last = row.prescribed ? row.dof : last;
+    row.prescribed = probably_binds(row, warm) && row.joint()->dof != last;
+    last = row.prescribed ? row.joint()->dof : last;
   }
 }
 
 void prescribed_velocities(const StepSolution& step, std::vector<PrescribedVelocity>& velocities) {
   velocities.clear();
   for (Eigen::Index i = 0; i < step.prescribed; ++i) {
-    const Row& row = step.rows[i];
-    velocities.push_back({row.dof, row.sign * row.rhs});
+    const OnJoint& joint = *step.rows[i].joint();
+    velocities.push_back({joint.dof, joint.sign * step.rows[i].rhs});
   }
 }
 

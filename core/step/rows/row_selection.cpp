@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/step/rows/contact_rows.hpp"
+#include "core/step/rows/joint_rows.hpp"
+
 namespace hagfish {
 namespace {
 
@@ -63,7 +66,8 @@ Row placed_row(const StepPlace& place, const PathRow& path_row) {
   }
   Row row = path_row.row;
   if (place.segments != nullptr) {
-    row.direction = contact_normal(*place.segments, *path_row.contact);
+    std::get<BetweenPoints>(row.shape).direction =
+        contact_normal(*place.segments, *path_row.contact);
   }
   return row;
 }

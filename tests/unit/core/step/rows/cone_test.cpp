@@ -133,14 +133,14 @@ struct Swung {
   void step() {
     take_step(model, scene, *sim, record);
     worst = std::max(worst, sim->now.observation.limit_violation);
-    std::set<std::int64_t> ids;
+    std::set<RowId> ids;
     for (const Row& row : record.solution.rows) {
       EXPECT_TRUE(ids.insert(row.id).second) << row_name(model, row);
     }
     for (const BendingCone& cone : model.cones) {
       int rows = 0;
       for (const Row& row : record.solution.rows) {
-        rows += row.kind == RowKind::limit && row.dof == cone.dof ? 1 : 0;
+        rows += row.id.of == RowId::Of::cone && row.id.first == cone.dof ? 1 : 0;
       }
       most_rows = std::max(most_rows, rows);
       pushing += record.solution.force[RowKind::limit].segment<2>(cone.dof).isZero(0) ? 0 : 1;

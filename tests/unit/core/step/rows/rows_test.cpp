@@ -1,4 +1,4 @@
-#include "core/step/rows/rows.hpp"
+#include "core/step/rows/row.hpp"
 
 #include <gtest/gtest.h>
 
@@ -45,8 +45,8 @@ TEST(LimitRows, TheNearerSideComesFirstSoThatMirrorImagesKeepTheOrder) {
     c.state.q[7] = 0.1 * side;
     const std::vector<Row> rows = limit_rows(c.model, c.state, speculative, h);
     ASSERT_EQ(rows.size(), 2U);
-    EXPECT_EQ(rows[0].sign, -side);
-    EXPECT_EQ(rows[1].sign, side);
+    EXPECT_EQ(rows[0].joint()->sign, -side);
+    EXPECT_EQ(rows[1].joint()->sign, side);
   }
 }
 
@@ -102,14 +102,14 @@ TEST(LimitRows, BoundBothSides) {
   ASSERT_EQ(rows.size(), 2U);
   for (const Row& row : rows) {
     EXPECT_EQ(row.kind, RowKind::limit);
-    EXPECT_EQ(row.dof, 6);
+    EXPECT_EQ(row.joint()->dof, 6);
     EXPECT_EQ(row.lower, 0);
     EXPECT_EQ(row.upper, unbounded);
   }
   // q̇ >= -(q - lower) / h and -q̇ >= -(upper - q) / h: at most to the limit within the step.
-  EXPECT_EQ(rows[0].sign, 1);
+  EXPECT_EQ(rows[0].joint()->sign, 1);
   EXPECT_DOUBLE_EQ(rows[0].rhs, -0.4 / h);
-  EXPECT_EQ(rows[1].sign, -1);
+  EXPECT_EQ(rows[1].joint()->sign, -1);
   EXPECT_DOUBLE_EQ(rows[1].rhs, -0.4 / h);
 }
 
@@ -117,11 +117,11 @@ TEST(LimitRows, PushAViolationOutByItsShare) {
   const OneHinge over = one_hinge(0.52);
   const Row upper = limit_rows(over.model, over.state, speculative, h)[0];
   EXPECT_NEAR(upper.rhs, 0.5 * 0.02 / h, 1e-12);
-  EXPECT_EQ(upper.sign, -1);  // so -q̇ >= a positive speed: back in
+  EXPECT_EQ(upper.joint()->sign, -1);  // so -q̇ >= a positive speed: back in
   const OneHinge under = one_hinge(-0.32);
   const Row lower = limit_rows(under.model, under.state, speculative, h)[0];
   EXPECT_NEAR(lower.rhs, 0.5 * 0.02 / h, 1e-12);
-  EXPECT_EQ(lower.sign, 1);
+  EXPECT_EQ(lower.joint()->sign, 1);
 }
 
 TEST(LimitRows, WaitForAViolationWhereToldTo) {
@@ -130,7 +130,7 @@ TEST(LimitRows, WaitForAViolationWhereToldTo) {
   const OneHinge over = one_hinge(0.52);
   const std::vector<Row> rows = limit_rows(over.model, over.state, violated, h);
   ASSERT_EQ(rows.size(), 1U);
-  EXPECT_EQ(rows[0].sign, -1);
+  EXPECT_EQ(rows[0].joint()->sign, -1);
   EXPECT_NEAR(rows[0].rhs, 0.5 * 0.02 / h, 1e-12);
 }
 
@@ -139,7 +139,7 @@ TEST(LimitRows, LeaveFreeSidesOut) {
   c.model.hinges[0].upper = unbounded;
   const std::vector<Row> rows = limit_rows(c.model, c.state, speculative, h);
   ASSERT_EQ(rows.size(), 1U);
-  EXPECT_EQ(rows[0].sign, 1);
+  EXPECT_EQ(rows[0].joint()->sign, 1);
 }
 
 TEST(ContactRows, CloseAGapAndPushOutAnOverlap) {
@@ -204,7 +204,7 @@ TEST(PlaneRows, SkipTheNeckAndLookAlongX) {
   State state = rest_state(fish);
   state.q[0] = -20.1055;  // one body is a few micrometres in
   const Kinematics kin = kinematics(fish, state);
-  fish.obstacles.at(0).neck = 2.9;
+  fish.obstacles.at(0).shape = Plane{.neck = 2.9};
   const std::vector<Row> rows = plane_rows(fish, kin, speculative, h);
   // Centres at 0.424 (b + ½): the first beyond 2.9 cm is body 7.
   ASSERT_EQ(rows.size(), 93U);
@@ -229,7 +229,7 @@ TEST(PlaneRows, SkipTheNeckAndLookAlongX) {
   const std::vector<Row> late = plane_rows(fish, kin, violated, h);
   EXPECT_LT(late.size(), rows.size());
   for (const Row& row : late) EXPECT_GT(row.rhs, 0);
-  fish.obstacles.at(0).neck = 0;
+  fish.obstacles.at(0).shape = Plane{.neck = 0};
   EXPECT_EQ(plane_rows(fish, kin, speculative, h).size(), 100U);
   fish.obstacles.clear();
   EXPECT_TRUE(plane_rows(fish, kin, speculative, h).empty());
@@ -252,7 +252,7 @@ TEST(HeadRows, TakeADriftBack) {
     const std::vector<Row> rows = head_rows(state, speculative, h);
     Eigen::VectorXd v = Eigen::VectorXd::Zero(fish.nv());
     for (int k = 0; k < 6; ++k) {
-      EXPECT_EQ(rows[k].dof, k);
+      EXPECT_EQ(rows[k].joint()->dof, k);
       EXPECT_EQ(rows[k].lower, -unbounded);
       EXPECT_EQ(rows[k].upper, unbounded);
       v[k] = rows[k].rhs;
@@ -374,7 +374,7 @@ TEST(ThigmotaxisRows, TakeTheObservedPatchForTheObservedEndAlone) {
   const auto differ = [](const std::array<Row, 2>& x, const std::array<Row, 2>& y) {
     const auto as_numbers = [](const Row& row) {
       std::vector<double> numbers{row.rhs};
-      for (const auto& [body, moment, force] : row.patch) {
+      for (const auto& [body, moment, force] : row.patch()->wrenches) {
         numbers.push_back(body);
         numbers.insert(numbers.end(), moment.begin(), moment.end());
         numbers.insert(numbers.end(), force.begin(), force.end());
@@ -481,7 +481,7 @@ TEST(Rows, TowardsTheTailBothTangentsTurn) {
   const std::vector<Row> tailward = t.at_once(back);
   ASSERT_EQ(tailward.size(), headward.size());
   for (std::size_t i = 0; i < headward.size(); ++i) {
-    EXPECT_EQ(tailward[i].direction, -headward[i].direction);
+    EXPECT_EQ(tailward[i].points().direction, -headward[i].points().direction);
     EXPECT_EQ(tailward[i].rhs, headward[i].rhs);
     EXPECT_EQ(tailward[i].upper, headward[i].upper);
     EXPECT_EQ(tailward[i].id, headward[i].id);
@@ -491,7 +491,7 @@ TEST(Rows, TowardsTheTailBothTangentsTurn) {
 TEST(Rows, EachHasItsOwnIdAndKeepsIt) {
   const Tangle t(87);
   const std::vector<Row> rows = t.rows();
-  std::set<std::int64_t> ids;
+  std::set<RowId> ids;
   for (const Row& row : rows) ids.insert(row.id);
   EXPECT_EQ(ids.size(), rows.size());
 
