@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import io
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -48,7 +47,8 @@ def read_table(path: Path) -> Table:
         lines = path.read_text(encoding="utf-8").splitlines(keepends=True)
     except OSError as error:
         raise LogError(f"{path}: {error.strerror}") from None
-    head, *rows = csv.reader(io.StringIO("".join(line for line in lines if not line.startswith("#"))))
+    rows = [row for row in csv.reader(line for line in lines if not line.startswith("#")) if row]
+    head = rows.pop(0) if rows else []
     for row in rows:
         if len(row) != len(head):
             raise LogError(f"{path}: a row of {len(row)} cells under {len(head)} headings: {row[0]}")
