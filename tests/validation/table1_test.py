@@ -15,8 +15,9 @@ def test_the_page_states_what_the_table_1_run_measures(tmp_path):
     program, log, check = os.environ["HAGFISH_PROGRAM"], tmp_path / "table1.h5", tmp_path / "check.csv"
     subprocess.run([program, "run", "table1", "--qp", "ipopt", "--out", log, "--quiet"], check=True)
     subprocess.run([program, "check", log, "--csv", check], check=True, stdout=subprocess.DEVNULL)
-    done = subprocess.run([sys.executable, "-B", PAGE / "table1.py", check, PAGE / "table1.csv",
-                           tmp_path / "table1.md"], capture_output=True, text=True)
+    modules = os.environ | {"PYTHONPATH": f"{ROOT}/experiments/drawing:{ROOT}/experiments/results"}
+    done = subprocess.run([sys.executable, "-B", PAGE / "table1.py", check, PAGE / "table1.csv", tmp_path],
+                          env=modules, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
 
 

@@ -10,6 +10,7 @@ import sys
 from pathlib import Path
 
 import audits
+import results
 from hagfish_log import LogError
 from script import run_script
 from tables import read_table, write_table
@@ -24,10 +25,9 @@ ROWS = {"knot held": ("the knot is a 3_1 from tightening to release, frames", "a
         "f_thigmo past the knot": ("f_thigmo past the knot, dyn cm", "{}"), "force balance": ("forces balance, of their scale", "≤ {}"),
         "balance of means": ("their means balance", "≤ {}"), "forward-inverse": ("MuJoCo makes q̇ of them, off by", "≤ {}"),
         "energy ledger": ("energy ledger closes, of the energy that passed", "≤ {}")}
-ROUNDING = 1e-6  # figures below are rounding, of which the order of magnitude counts
+ROUNDING = 1e-6  # figures below are rounding, of which one digit is shown
 ROUNDING_OF_TOLERANCE = 1e-5  # the same of what is a share of a tolerance of 1e-9
-FACTOR = 10  # by which such a figure may differ, on another machine
-SHARE = 0.02  # by which any other may: starts that differ by rounding differ by less at h = 2 ms
+SHARE = 0.02  # by which a figure may differ on another machine: starts that differ by rounding differ by less at h = 2 ms
 DEEPEST = 0.5  # by which the deepest of all steps may, which is one step's: at h = 2 ms 0.00028 cm with AVX-512, 0.00033 without FMA
 
 
@@ -62,14 +62,8 @@ def stated(path: Path) -> list[list[str]]:
 
 def same(old: list[str], new: list[str]) -> bool:
     """Whether two rows say the same: words and bounds to the letter, figures to what chance and rounding leave open."""
-    if old == new or old[:-1] != new[:-1]:
-        return old == new
-    try:
-        a, b = float(old[-1]), float(new[-1])
-    except ValueError:
-        return False
     share = DEEPEST if old[0] == ROWS["penetration"][0] else SHARE
-    return max(a, b) < rounding_of(old[0]) and max(a, b) <= FACTOR * min(a, b) or abs(a - b) <= share * max(a, b)
+    return old[:-1] == new[:-1] and results.same(old[-1], new[-1], share)
 
 
 def main(check: Path, known: Path, out: Path) -> None:
