@@ -12,7 +12,7 @@ namespace {
 
 constexpr double to_degrees = 180 / std::numbers::pi;
 // Nobody knows how far a fresh animal's knot slides; of the paper's animal other meshes alone make
-// it less than half (experiments/results/sure.md).
+// it less than half (experiments/results/sure/page.md).
 constexpr double share_of_slide = 0.25;
 
 /// A smaller animal is as much faster: its step is the scene's halved as often as it takes.

@@ -18,7 +18,7 @@ from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "figures"))
+sys.path.insert(0, str(Path(__file__).parents[1] / "drawing"))
 from hagfish_log import HagfishLog, LogError  # noqa: E402
 from script import fail  # noqa: E402
 

@@ -4,7 +4,7 @@
 // radius on each length of chain, pi F in all. Forces of Eq. 6 between the two strands, which run
 // in opposite directions, count twice: of each, one half pulls the head's strand and the other one
 // the strand that comes back, which the post hands on. That is sum λ (1 - cos θ) / h of
-// experiments/results/leverage.md, with θ = 180 degrees.
+// experiments/results/leverage/page.md, with θ = 180 degrees.
 #include <gtest/gtest.h>
 
 #include <cmath>

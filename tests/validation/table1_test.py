@@ -8,14 +8,16 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
+PAGE = ROOT / "experiments/results/table1"
 
 
 def test_the_page_states_what_the_table_1_run_measures(tmp_path):
     program, log, check = os.environ["HAGFISH_PROGRAM"], tmp_path / "table1.h5", tmp_path / "check.csv"
     subprocess.run([program, "run", "table1", "--qp", "ipopt", "--out", log, "--quiet"], check=True)
     subprocess.run([program, "check", log, "--csv", check], check=True, stdout=subprocess.DEVNULL)
-    done = subprocess.run([sys.executable, "-B", ROOT / "experiments/figures/table1.py", check, ROOT / "experiments/results/table1.csv",
-                           tmp_path / "table1.md"], capture_output=True, text=True)
+    modules = os.environ | {"PYTHONPATH": f"{ROOT}/experiments/drawing:{ROOT}/experiments/results"}
+    done = subprocess.run([sys.executable, "-B", PAGE / "table1.py", check, PAGE / "table1.csv", tmp_path],
+                          env=modules, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
 
 

@@ -11,7 +11,7 @@ import pytest
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).parents[3] / "support"))
-sys.path.insert(0, str(Path(__file__).parents[4] / "experiments/studies"))
+sys.path[:0] = [str(Path(__file__).parents[4] / "experiments" / folder) for folder in ("drawing", "results/films")]
 
 import films  # noqa: E402
 from program import hagfish, refused, table  # noqa: E402

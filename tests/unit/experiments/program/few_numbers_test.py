@@ -12,7 +12,8 @@ import pytest
 
 ROOT = Path(__file__).parents[4]
 sys.dont_write_bytecode = True
-sys.path[:0] = [str(ROOT / "tests/support"), str(ROOT / "experiments/figures"), str(ROOT / "experiments/curvature")]
+sys.path[:0] = [str(ROOT / folder) for folder in ("tests/support", "experiments/drawing", "experiments/curvature",
+                                                  "experiments/results/few_numbers")]
 
 from few_numbers import basis_torque  # noqa: E402
 from hagfish_log import HagfishLog  # noqa: E402

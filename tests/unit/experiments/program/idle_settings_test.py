@@ -58,7 +58,8 @@ def test_a_sweep_takes_what_two_of_its_axes_make_act(tmp_path):
     refused(tmp_path, "sweep", "grid.toml", "--out", "out", "--part", "2/1", parts=("--part 2/1",))
 
 
-@pytest.mark.parametrize("grid", sorted((ROOT / "experiments/studies/grids").glob("*.toml")), ids=lambda grid: grid.stem)
+@pytest.mark.parametrize("grid", sorted((ROOT / "experiments/results").glob("*/grids/*.toml")),
+                         ids=lambda grid: f"{grid.parts[-3]}-{grid.stem}")
 def test_all_that_the_studies_set_does_something(tmp_path, grid):
     """What is refused is the part, after the keys: no run begins."""
     refused(tmp_path, "sweep", str(grid), "--out", "out", "--part", "2/1", parts=("--part 2/1",))

@@ -11,7 +11,7 @@ import pytest
 
 ROOT = Path(__file__).parents[4]
 sys.dont_write_bytecode = True
-sys.path[:0] = [str(ROOT / "tests/support"), str(ROOT / "experiments/figures")]
+sys.path[:0] = [str(ROOT / "tests/support"), str(ROOT / "experiments/drawing")]
 
 import sure  # noqa: E402
 import sweep_columns  # noqa: E402

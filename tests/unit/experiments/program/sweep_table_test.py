@@ -7,7 +7,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[4]
 sys.dont_write_bytecode = True
-sys.path[:0] = [str(ROOT / "tests/support"), str(ROOT / "experiments/figures")]
+sys.path[:0] = [str(ROOT / "tests/support"), str(ROOT / "experiments/drawing")]
 
 import gather  # noqa: E402
 from program import hagfish  # noqa: E402
