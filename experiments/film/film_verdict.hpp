@@ -6,7 +6,7 @@
 
 #include "core/chain/model.hpp"
 #include "experiments/film/film_checks.hpp"
-#include "experiments/film/film_fit.hpp"
+#include "experiments/film/fit/film_fit.hpp"
 
 namespace hagfish {
 

@@ -1,5 +1,5 @@
 // What the subcommands of `hagfish` share. Each has a file of its own, NAME_command.cpp, in
-// mujoco/ where it needs that: its options, its registration, its call.
+// commands/, or in mujoco/ where it needs that: its options, its registration, its call.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -157,7 +157,7 @@ class Worker:
         (self.folder / "film.csv").write_text(self.film)
         (self.folder / "small.toml").write_text('base = "living_overhand"\n[model]\nbodies = 20\n')
         (self.folder / "scene_grid.toml").write_text(commands.grid_text("table1", commands.SHORT + commands.SMALL))
-        for file in (self.source / "experiments/stability").glob("*.toml"):
+        for file in (self.source / "experiments/results/stability/scenes").glob("*.toml"):
             shutil.copyfile(file, self.folder / file.name)
         for folder in ("programs", "specimens"):
             shutil.copytree(self.source / "data" / folder, self.folder / folder, dirs_exist_ok=True)
@@ -315,7 +315,7 @@ def go_through_kinds(worker, options, begin, end):
 
 def make_bases(options, folder):
     server = Server(options.server, folder / "bases")
-    scenes = pathlib.Path(options.source) / "experiments/stability"
+    scenes = pathlib.Path(options.source) / "experiments/results/stability/scenes"
     bases = {}
     for name, arguments in BASES.items():
         full = [a.replace("SCENES", str(scenes)) for a in arguments] + ["--out", name, "--force"]

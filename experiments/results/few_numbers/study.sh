@@ -32,7 +32,7 @@ transfers_of() {
 }
 numbers=(--set controller.law=reduced_basis --set expect.speed_share=0)
 for setting in frame=knot margin=2 smooth=0.1 period=0.1 softness=0.03 most=1e5; do numbers+=(--set "controller.reduced_basis.$setting"); done
-python() { /usr/bin/python3 "$root/experiments/curvature/$1" "${@:2}"; }
+python() { /usr/bin/python3 "$root/experiments/results/few_numbers/$1" "${@:2}"; }
 declare -A enough=([overhand]=3 [figure_eight]=3 [double_overhand]=6 [three_twist]=3) # cosines
 declare -A modes=([overhand]=2 [figure_eight]=6 [double_overhand]=6 [three_twist]=6) # learned
 for knot in overhand figure_eight double_overhand three_twist; do

@@ -20,7 +20,7 @@ import numpy as np
 import tables
 from script import HAGFISH, run_script
 
-TUTORIAL = Path(__file__).resolve().parents[2] / "tutorials/film_to_torques.md"
+TUTORIAL = Path(__file__).resolve().parents[2] / "docs/tutorials/film_to_torques.md"
 LENGTH, BODIES = 42.4, 100  # cm, of the animal of the scenes
 NOISE = 0.1  # cm, on each coordinate of each point
 WITHIN, SURELY = 1.645, 2.576  # standard errors, of bands of 90 and 99 %

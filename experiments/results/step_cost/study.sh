@@ -20,6 +20,6 @@ taskset --cpu-list 0 "$root/build/release/experiments/benchmarks/hagfish_benchma
   "$out"/{25,50,100,200,400}.h5 >"$out/benchmarks.log" 2>&1 || { cat "$out/benchmarks.log" >&2; exit 2; }
 # What it costs to keep strands apart: a knot pulled as hard in both simulators.
 taskset --cpu-list 0 "$root/build/release/experiments/benchmarks/hagfish_overlap" \
-  "$root/experiments/stability/pulled_knot.toml" "$out"/{50,100}.h5 >"$out/overlap.csv"
+  "$root/experiments/results/stability/scenes/pulled_knot.toml" "$out"/{50,100}.h5 >"$out/overlap.csv"
 draw benchmarks.py "$out/benchmarks.json" "$out"
 draw overlap.py "$out/overlap.csv" "$out"

@@ -55,7 +55,7 @@ def test_a_profile_is_of_means_by_place():
 
 
 def test_a_profile_is_a_scene_that_plays_it(folder):
-    script = [sys.executable, str(ROOT / "experiments/curvature/played_numbers.py")]
+    script = [sys.executable, str(ROOT / "experiments/results/few_numbers/played_numbers.py")]
     subprocess.run([*script, "a.h5", "b.toml", "4", "--base", "few_numbers"], cwd=folder, check=True)
     hagfish(folder, "run", "b.toml", "--set", "time.duration=14.5", "--quiet", "--out", "b.h5")
     basis = tomllib.loads((folder / "b.toml").read_text())["controller"]["reduced_basis"]
@@ -68,7 +68,7 @@ def test_a_profile_is_a_scene_that_plays_it(folder):
 
 def test_learned_shapes_make_up_the_forces_that_they_were_learned_from(folder):
     hagfish(folder, "run", "table1", "--set", "time.step=0.02", "--until", "slide", "--quiet", "--out", "d.h5")
-    script = [sys.executable, str(ROOT / "experiments/curvature/sliding_shapes.py")]
+    script = [sys.executable, str(ROOT / "experiments/results/few_numbers/sliding_shapes.py")]
     done = subprocess.run([*script, "d.h5", "d.csv", "knot", "4"], cwd=folder, capture_output=True, text=True, check=True)
     said = float(done.stdout.split("hold ")[1].split(" %")[0]) / 100
     rows = np.loadtxt(folder / "d.csv", delimiter=",", skiprows=2)
@@ -94,7 +94,7 @@ def test_learned_shapes_make_up_the_forces_that_they_were_learned_from(folder):
 
 def test_a_log_without_numbers_is_one_line(folder):
     hagfish(folder, "run", "table1", "--set", "time.step=0.02", "--set", "time.duration=0.2", "--quiet", "--out", "c.h5")
-    script = [sys.executable, str(ROOT / "experiments/curvature/played_numbers.py")]
+    script = [sys.executable, str(ROOT / "experiments/results/few_numbers/played_numbers.py")]
     done = subprocess.run([*script, "c.h5", "c.toml", "--base", "table1"], cwd=folder, capture_output=True, text=True)
     assert done.returncode == 2 and "c.h5: has no slide of a knot by a reduced basis" in done.stderr
     assert not (folder / "c.toml").exists()

@@ -57,7 +57,7 @@ def test_each_level_holds_the_same_numbers_as_the_full_log(logs):
 
 
 def test_the_reference_tells_the_sizes(tmp_path):
-    text = (Path(__file__).parents[4] / "experiments/reference/log_format.md").read_text(encoding="utf-8")
+    text = (Path(__file__).parents[4] / "experiments/docs/reference/log_format.md").read_text(encoding="utf-8")
     for level in LEVELS:
         hagfish(tmp_path, "run", "table1", "--quiet", "--log", level, "--out", f"{level}.h5")
         told = float(re.search(rf"^\| `{level}`.* ([\d.]+) MB \|$", text, re.MULTILINE)[1])

@@ -13,7 +13,7 @@ import pytest
 
 ROOT = Path(__file__).parents[4]
 sys.dont_write_bytecode = True
-sys.path[:0] = [str(ROOT / "tests/support"), str(ROOT / "experiments/reference")]
+sys.path[:0] = [str(ROOT / "tests/support"), str(ROOT / "experiments/docs/reference")]
 
 from program import hagfish, refused  # noqa: E402
 from scene_keys import rows_of  # noqa: E402
