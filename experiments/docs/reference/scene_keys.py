@@ -15,7 +15,7 @@ HEAD = """# Keys of a scene
 Values are those of the scene `table1`. A scene that names a base holds only what differs.
 *(paper, PLACE)* marks a value that the paper states at that place. All other values are ours.
 `data/overhand_waypoints.toml` shows the keys of a script of positions, and `experiments/results/stability/scenes/` those of other starts.
-Obstacles and curvature programs are in [data/README.md](../../data/README.md).
+Obstacles and curvature programs are in [data/README.md](../../../data/README.md).
 """
 SECTION = re.compile(r"\[([a-z_.]+)\]$")
 KEY = re.compile(r"([a-z_0-9]+) = (.*?)(?:  +# ?(.*)| # (.*))?$")
