@@ -145,11 +145,11 @@ void Rounds::order_rows(const Model& model, const WarmStart& warm, StepSolution&
   problem_.start.resize(static_cast<Eigen::Index>(m) - step.prescribed);
   for (std::size_t k = 0; k < m; ++k) {
     const std::size_t i = order_[k].second;
-    ordered_.push_back(step.rows[i]);
     const Eigen::Index place = static_cast<Eigen::Index>(k) - step.prescribed;
     if (place >= 0) {
       problem_.start[place] = i < solved ? step.lambda[i] : warm.multiplier(step.rows[i].id);
     }
+    ordered_.push_back(std::move(step.rows[i]));
   }
   std::swap(step.rows, ordered_);
 }
