@@ -22,7 +22,8 @@ OPTIONS = {
     "--circumference": ["5,5,5,4"], "--bending": ["20,70,40,50"], "--twist": ["48"],
 }  # fmt: skip
 ENDINGS = {"picture": ".png", "movie": ".gif"}  # of --out
-BESIDE = {"program": ["--until", "0.08"], "integrate": ["--set", "model.bodies=3"], "design": ["--budget", "1e-6"]}
+BESIDE = {"program": ["--until", "0.08"], "integrate": ["--set", "model.bodies=3"], "design": ["--budget", "1e-6"],
+          "branch": ["--time", "0.04"], "mujoco-run": ["--set", "script.kind=none"]}
 
 
 class Command:

@@ -2,21 +2,15 @@
 
 from __future__ import annotations
 
-import sys
 import tomllib
-from pathlib import Path
 
 import h5py
 import numpy as np
 import pytest
 
-sys.dont_write_bytecode = True
-sys.path.insert(0, str(Path(__file__).parents[3] / "support"))
+from program import ROOT, hagfish, logged, refused, table
 
-DATA = Path(__file__).parents[4] / "data"
-
-from program import hagfish, refused, table  # noqa: E402
-
+DATA = ROOT / "data"
 ANIMAL = ["--length", 35, "--mass", 45, "--circumference", "4.6,4.4,4.4,3.2", "--bending", "25,80,50,55", "--twist", 60]
 
 
@@ -111,8 +105,8 @@ def test_its_scene_is_of_its_knot_and_animal(tmp_path, knot, title):
     refused(tmp_path, "specimen", "--knot", "6_1", "--out", "x.toml", parts=("--knot",))
 
 
-FRESH = [("3_1", ANIMAL), ("3_1", ["--thicker", 1.1]), ("3_1", ["--thicker", 0.9]), ("3_1", ["--length", 80]), ("3_1", ["--length", 20]),
-         ("4_1", ANIMAL), ("4_1", ["--thicker", 1.1]), ("5_1", ["--thicker", 0.9]), ("5_2", ANIMAL), ("5_2", ["--thicker", 1.1])]
+FRESH = [("3_1", ANIMAL), ("3_1", ["--thicker", 0.9]), ("3_1", ["--length", 80]), ("4_1", ["--thicker", 1.1]),
+         ("5_1", ["--length", 20]), ("5_2", ["--thicker", 1.1])]
 
 
 @pytest.mark.parametrize("knot, animal", FRESH, ids=str)
