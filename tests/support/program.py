@@ -60,7 +60,8 @@ def runs_of_this_program() -> Path:
 def logged(folder: Path, *arguments: object, out: str = "a.h5") -> Path:
     """The log of `hagfish run` as folder/out. Whoever asks for the same run, in whichever process, gets a copy of one."""
     words = [str(word) for word in arguments]
-    files = [(folder / word).read_bytes() for word in words if (folder / word).is_file()]
+    own = any((folder / word).is_file() for word in words)  # a file may name others beside it
+    files = sorted((path.name, path.read_bytes()) for path in folder.iterdir() if own and path.suffix in (".toml", ".csv"))
     kept = runs_of_this_program() / f"{hashlib.sha256(repr((words, files)).encode()).hexdigest()[:16]}.h5"
     with kept.with_suffix(".lock").open("w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)  # who comes second waits
@@ -78,11 +79,11 @@ def series(file: h5py.File, kinds: str = "fiu") -> dict[str, h5py.Dataset]:
     return {name: node for name, node in found.items() if node.dtype.kind in kinds and not name.endswith(CLOCKS)}
 
 
-def different(a: Path, b: Path) -> list[str]:
+def different(a: Path, b: Path, least: int = 50) -> list[str]:
     """Series of numbers that two logs do not have alike, to the last bit, or that one lacks."""
     with h5py.File(a) as first, h5py.File(b) as second:
         x, y = series(first), series(second)
-        assert len(x) > 50
+        assert len(x) > least
         same = {name for name in x.keys() & y.keys() if np.array_equal(x[name], y[name], equal_nan=True)}
     return sorted((x.keys() | y.keys()) - same)
 
