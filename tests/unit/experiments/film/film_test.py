@@ -1,4 +1,4 @@
-"""`hagfish midlines` and `against`: midlines of a run, with the noise of digitising, give back its knot and its midlines."""
+"""`hagfish midlines` and `against`: midlines of a run, with the noise of digitising, give back its knot and midlines."""
 
 from __future__ import annotations
 
@@ -18,7 +18,8 @@ FITTED = ["--times", 48]  # enough for a knot
 
 def write_film(path, time, s, points, unit="cm", column="s", kept=lambda f, i: True):
     """Points, frames x along the body x 2 or 3. `column`: s, or point, for their numbers."""
-    names = ["time_s", f"s_{unit}" if column == "s" else column, *(f"{axis}_{unit}" for axis in "xyz"[:points.shape[2]])]
+    axes = "xyz"[:points.shape[2]]
+    names = ["time_s", f"s_{unit}" if column == "s" else column, *(f"{axis}_{unit}" for axis in axes)]
     rows = [",".join(f"{value:.6g}" for value in (t, s[i] if column == "s" else i + 1, *points[f, i]))
             for f, t in enumerate(time) for i in range(len(s)) if kept(f, i)]
     path.write_text("\n".join([",".join(names), *rows]) + "\n")
@@ -30,7 +31,7 @@ def points_of(t, frames):
 
 @pytest.fixture(scope="module")
 def film(tmp_path_factory):
-    """A living animal's run, and a film of it while it ties its knot, as seen by a camera that stands somewhere else."""
+    """A living animal's run, and a film of it while it ties its knot, by a camera that stands somewhere else."""
     folder = tmp_path_factory.mktemp("film")
     logged(folder, "living_overhand")
     hagfish(folder, "export", "a.h5", "--out", "a")
@@ -59,7 +60,7 @@ def rms_of(text):
 
 
 def test_a_run_is_on_its_own_film(film):
-    assert rms_of(hagfish(film, "against", "a.h5", "true.csv", "--as-is")) < 1e-4  # six digits of some 40 cm are written
+    assert rms_of(hagfish(film, "against", "a.h5", "true.csv", "--as-is")) < 1e-4  # six digits of some 40 cm
     before = set(film.iterdir())
     said = hagfish(film, "against", "a.h5", "film.csv", "--csv", "off.csv", "--png", "off.png")
     assert {path.name for path in set(film.iterdir()) - before} == {"off.csv", "off.png"}
@@ -113,7 +114,7 @@ def test_a_flat_film_makes_a_flat_program(tmp_path):
     s, time = np.linspace(0, 30, 40), np.linspace(0, 2, 21)
     k = 1e-6 + 0.05 * time[:, None]  # an arc of a growing curvature
     write_film(tmp_path / "flat.csv", time, s, np.stack([np.sin(k * s) / k, (1 - np.cos(k * s)) / k], axis=2))
-    said = hagfish(tmp_path, "midlines", "flat.csv", "--out", "p.csv", "--stations", 5, "--times", 5)
+    said = hagfish(tmp_path, "midlines", "flat.csv", "--out", "p.csv", "--stations", 5, "--times", 5, "--png", "p.png")
     assert "two dimensions" in said and "neither which strand is on top" in said
     assert "hagfish run" not in said and not (tmp_path / "p.toml").exists()
     p = table(tmp_path / "p.csv")
@@ -121,16 +122,10 @@ def test_a_flat_film_makes_a_flat_program(tmp_path):
     inner = (p["station (L)"] > 0.1) & (p["station (L)"] < 0.9)
     total = np.hypot(p["bend_y (rad/L)"], p["bend_z (rad/L)"])
     np.testing.assert_allclose(total[inner], 1.5 * p["time (s)"][inner], atol=0.02)
+    assert (tmp_path / "p.png").read_bytes().startswith(b"\x89PNG")
     # Of its first half no point is missing.
     half = hagfish(tmp_path, "midlines", "flat.csv", "--out", "half.csv", "--until", 1, "--times", 5)
     assert "fitted: " in half and "from 100 % of" in half
-    # Points without s, placed by the way between them, say the same.
-    rows = [row.split(",") for row in (tmp_path / "flat.csv").read_text().splitlines()[1:]]
-    by_point = [",".join([row[0], str(i % 40), *row[2:]]) for i, row in enumerate(rows)]
-    (tmp_path / "points.csv").write_text("\n".join(["time_s,point,x_cm,y_cm", *by_point]) + "\n")
-    hagfish(tmp_path, "midlines", "points.csv", "--out", "q.csv", "--stations", 5, "--times", 5)
-    q = table(tmp_path / "q.csv")
-    np.testing.assert_allclose(np.hypot(q["bend_y (rad/L)"], q["bend_z (rad/L)"]), total, atol=0.05)
 
 
 def test_a_film_has_a_clock_and_an_animal_of_its_own(film, fitted, tmp_path):
@@ -169,10 +164,8 @@ BAD = {
     "empty": ("", "time_s"),
     "semicolons": (GOOD.replace(",", ";").replace("x_cm", "w"), "the 4 that semicolons"),
     "millimetres": (GOOD.replace("x_cm", "x_mm"), "check units and scale"),
-    "metres": (GOOD.replace("s_cm", "s_m"), "check units and scale"),
     "infinite": (GOOD.replace(POINT, "1,3,inf,0"), "number"),
     "huge": (GOOD.replace(POINT, "1,3,1e300,0"), "at most"),
-    "far": (GOOD.replace("x_cm", "x_m").replace(POINT, "1,3,1e8,0"), "at most"),
     "frames": (GOOD.replace("time_s", "frame"), "--fps"),
     "several": ("individual," + GOOD.replace("\n0,", "\na,0,").replace("\n1,", "\nb,1,"), "a, b"),
     "tiny": ("time_s,s_cm,x_cm,y_cm\n" + "".join(f"{t},{s}e-300,{s},0\n" for t in (0, 1) for s in range(6)), "cm long"),
@@ -200,7 +193,7 @@ def test_what_a_film_does_not_bear_is_one_line(film, tmp_path):
 
 
 def bent(time, total, points=21, start=0.0):
-    """Midlines of a body that is an arc of `total`(t) rad, head still at the origin: closed form. frames x points x 2; and s."""
+    """s, and midlines of a body that is an arc of `total`(t) rad, head still at the origin: frames x points x 2."""
     s = np.linspace(start, LENGTH, points)
     k = np.array([total(t) / LENGTH for t in time])[:, None] + 1e-12
     return s, np.stack([np.sin(k * s) / k, (1 - np.cos(k * s)) / k], axis=2)
@@ -246,14 +239,15 @@ def test_gaps_in_time_are_told_and_bridged(tmp_path):
 
 
 def test_points_are_where_their_numbers_say(tmp_path):
-    """The last five are missing in every third midline, as rows, as empty cells, as words; rows may come in any order."""
+    """The last five are missing in every third midline, as rows, empty cells or words; rows may come in any order."""
     time = np.arange(24) / 10
     s, points = bent(time, lambda t: 2.0)
     write_film(tmp_path / "rows.csv", time, s, points, column="point", kept=lambda f, i: f % 3 != 1 or i < 16)
     write_film(tmp_path / "whole.csv", time, s, points, column="point")
     heading, *rows = (tmp_path / "whole.csv").read_text().splitlines()
     number = lambda row: row[:row.index(",", row.index(",") + 1)]  # time and point
-    lost = lambda missing: [row if k // 21 % 3 != 1 or k % 21 < 16 else f"{number(row)},{missing}" for k, row in enumerate(rows)]
+    seen = lambda k: k // 21 % 3 != 1 or k % 21 < 16
+    lost = lambda missing: [row if seen(k) else f"{number(row)},{missing}" for k, row in enumerate(rows)]
     unsure = [f"{number(row)},3,3,0.1" if k % 7 == 3 else f"{row},0.9" for k, row in enumerate(rows)]
     written = {
         "empty": "\n".join([heading, *lost(",")]),
@@ -273,7 +267,7 @@ def test_points_are_where_their_numbers_say(tmp_path):
 
 
 def test_a_tail_that_is_never_seen_is_not_bent_nor_scaled_in_silence(tmp_path):
-    """A film of the first four fifths: told where it ends, or with missing points listed, it is right; else it says what it took."""
+    """A film of four fifths: told where it ends, or with missing points listed, it is right; else it says what it took."""
     time = np.arange(24) / 10
     s, points = bent(time, lambda t: 1 + t)
     write_film(tmp_path / "cut.csv", time, s, points, kept=lambda f, i: i < 17)
@@ -300,7 +294,7 @@ def test_points_that_are_not_even_are_placed_by_their_distances(tmp_path):
 
 
 def test_what_no_body_can_do_is_taken_out_and_told(tmp_path):
-    """Each fault alone, on an arc that grows, with a millimetre of noise: the program is within the noise's reach of the true one."""
+    """Each fault alone, on an arc that grows, with a millimetre of noise, which is all that the program is off by."""
     time = np.arange(91) / 30
     s, true = bent(time, lambda t: 2 * t, points=41)
     random = np.random.default_rng(2)
@@ -347,12 +341,6 @@ def test_one_camera_does_not_tell_a_knot(film, tmp_path):
     for part in ("doubtful: ", "midlines cross themselves", "one camera does not show which strand", "hand of a knot"):
         assert part in said
     assert "hagfish run" not in said
-
-
-def test_errors_are_drawn(tmp_path):
-    write_film(tmp_path / "f.csv", np.array([0.0, 1.0]), *bent(np.array([0.0, 1.0]), lambda t: 2.0))
-    hagfish(tmp_path, "midlines", "f.csv", "--out", "p.csv", "--png", "p.png")
-    assert (tmp_path / "p.png").read_bytes().startswith(b"\x89PNG")
 
 
 def test_what_cannot_be_put_right_is_doubtful_or_fails(tmp_path):
