@@ -17,8 +17,8 @@ BACK_ENDS = ["active-set", "ipopt", "ipopt-unpolished"]
 ARGUMENTS = {"LOG": "good.h5", "SCENE": "table1", "GRID": "scene_grid.toml", "SET": "good.qp.h5", "FILM": "film.csv",
              "KNOT": "7_7"}
 OPTIONS = {
-    "--force": [], "--quiet": [], "--qp": ["active-set"], "--backend": ["active-set"], "--repeat": ["1"], "--threads": ["1"], "--cpu-limit": ["3"],
-    "--size": ["64x48"], "--stations": ["3"], "--times": ["3"], "--scene": ["small.toml"], "--length": ["40"], "--mass": ["80"],
+    "--force": [], "--quiet": [], "--qp": ["active-set"], "--backend": ["active-set"], "--repeat": ["1"],
+    "--threads": ["1"], "--cpu-limit": ["3"], "--size": ["64x48"], "--stations": ["3"], "--times": ["3"], "--scene": ["small.toml"], "--length": ["40"], "--mass": ["80"],
     "--circumference": ["5,5,5,4"], "--bending": ["20,70,40,50"], "--twist": ["48"],
 }  # fmt: skip
 ENDINGS = {"picture": ".png", "movie": ".gif"}  # of --out
@@ -27,7 +27,7 @@ BESIDE = {"program": ["--until", "0.08"], "integrate": ["--set", "model.bodies=3
 
 
 class Command:
-    """A subcommand as its help has it: a good command line, whose options may be made extreme, and which take values."""
+    """A subcommand as its help has it: a good command line, and which options take values."""
 
     def __init__(self, name, help_text):
         positionals, _, options = help_text.partition("Options:\n")
@@ -108,12 +108,12 @@ def grid_text(scene, cut):
 
 
 # Files to write: never one outside the working folder.
-OUT = ["", ".", "..", "none/such/x", "a" * 300, "x\x1b[31my", "good.h5", "film.csv", "small.toml", "x", "x.h5", "x.csv", "x.png", "x.gif", "x.mp4"]
+OUT = ["", ".", "..", "none/such/x", "a" * 300, "x\x1b[31my", "good.h5", "film.csv", "small.toml", "x", "x.h5", "x.csv",
+       "x.png", "x.gif", "x.mp4"]
 VALUES = [
-    "", "nan", "inf", "-inf", "1e308", "-1e308", "1e-308", "1e-320", "0", "-0", "-1", "1", "2", "1e12", "1e-12", "99999999999999999999",
-    "2147483648", "x", "\x1b[31mx", "a" * 60000, "\udcff", "[[1]]", "=", "a=b", "1/1", "0/0", "64x48", "99999x99999", "-1x-1", "0x0",
-    "time.step", "time.step=", "time.step=nan", "start.bend=[]", "title=\"\x07\"", "model.bodies=400000", "/dev/zero", "/etc/passwd", ".", "..",
-]  # fmt: skip
+    *("nan inf -inf 1e308 -1e308 1e-308 1e-320 0 -0 -1 1 2 1e12 1e-12 99999999999999999999 2147483648 x [[1]] = a=b "
+      "1/1 0/0 64x48 99999x99999 -1x-1 0x0 time.step time.step= time.step=nan start.bend=[] model.bodies=400000 /dev/zero "
+      "/etc/passwd . ..").split(), "", "\x1b[31mx", "a" * 60000, "\udcff", 'title="\x07"']
 # What would rightly take for ever.
 PATIENT = {("qp", "--repeat"): {"2147483648", "1e12"},
            ("design", "--budget"): {"2147483648", "1e12", "1e308", "99999999999999999999"}}
@@ -132,7 +132,8 @@ def extreme_options(known, random):
         if option is None or random.random() < 0.1:
             # No words beside: of several logs, each has its line.
             words = ["--no-such", "--", "--help=1", "-x", "--\x1b[31m"]
-            arguments.append(str(random.choice(words if name in ("info", "check") else [*words, "-", "x\x1b[31m", "", "-1"])))
+            words += [] if name in ("info", "check") else ["-", "x\x1b[31m", "", "-1"]
+            arguments.append(str(random.choice(words)))
             continue
         writes = option in ("--out", "--csv", "--png", "--scene-out")
         value = str(random.choice(OUT if writes else VALUES))

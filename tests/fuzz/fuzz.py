@@ -23,20 +23,20 @@ import mutations
 
 LATE = 10  # s of CPU time; what takes longer counts as hung
 NAMED_SHARE = 0.4  # of the time at most, for the named cases
-KINDS = {"log flip": 150, "qp flip": 50, "log change": 3, "qp change": 2, "toml": 2, "grid": 1, "csv": 1, "film": 1, "scene": 10,
-         "options": 10}  # and their shares
+KINDS = {"log flip": 150, "qp flip": 50, "log change": 3, "qp change": 2, "toml": 2, "grid": 1, "csv": 1, "film": 1,
+         "scene": 10, "options": 10}  # and their shares
 CASES = 23000
 WHOLE = {"log flip": 60}  # one in so many flips goes through all quick commands, the others through one each
 SLOW = {"log flip": 150}  # commands that draw, compare or start others take part in one of so many cases;
 SLOW_OF_OTHERS = 10  # of other kinds
 PATIENCE = {"figures": 60, "integrate": 600, "compare": 60}  # s: Python and the program again; many steps by design
 BASES = {
-    "rest.h5": ["run", "muscles", "--qp", "active-set", "--quiet", *commands.SMALL, *commands.SHORT],
-    "slide.h5": ["run", "SCENES/knot_into_head.toml", "--qp", "active-set", "--quiet", *commands.SHORT],
-    "box.qp.h5": ["record-qp", "SCENES/redundant.toml", "--qp", "active-set", "--quiet", *commands.SMALL, *commands.SHORT],
-    "primal.qp.h5": [
-        "record-qp", "SCENES/redundant.toml", "--primal", "--qp", "active-set", "--quiet", *commands.SMALL, *commands.SHORT],
+    "rest.h5": ["run", "muscles", *commands.SMALL],
+    "slide.h5": ["run", "SCENES/knot_into_head.toml"],
+    "box.qp.h5": ["record-qp", "SCENES/redundant.toml", *commands.SMALL],
+    "primal.qp.h5": ["record-qp", "SCENES/redundant.toml", "--primal", *commands.SMALL],
 }
+BRIEFLY = ["--qp", "active-set", "--quiet", *commands.SHORT, "--force", "--out"]
 
 
 def is_clean(text):
@@ -79,8 +79,8 @@ class Server:
         environment = dict(os.environ, OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1")
         environment["ASAN_OPTIONS"] = "detect_leaks=0:allocator_may_return_null=1:max_allocation_size_mb=8000"
         environment["UBSAN_OPTIONS"] = "halt_on_error=1:print_stacktrace=1"
-        self.process = subprocess.Popen([program], stdin=subprocess.PIPE, stdout=subprocess.PIPE, cwd=folder, env=environment,
-                                        encoding="utf-8", errors="surrogateescape")
+        pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "encoding": "utf-8", "errors": "surrogateescape"}
+        self.process = subprocess.Popen([program], cwd=folder, env=environment, **pipes)
 
     def run(self, arguments, seconds=LATE):
         self.process.stdin.write("\t".join([str(seconds), *arguments]) + "\n")
@@ -173,7 +173,8 @@ class Worker:
         cut = commands.SHORT + commands.SMALL
         if kind == "csv":
             shapes = self.random.random() < 0.3
-            (self.folder / "case.csv").write_bytes(mutations.mutated_csv(BASIS if shapes else self.program, self.random))
+            damaged = mutations.mutated_csv(BASIS if shapes else self.program, self.random)
+            (self.folder / "case.csv").write_bytes(damaged)
             file.write_text(BASIS_SCENE if shapes else PROGRAM_SCENE)
         elif kind == "film":
             file = self.folder / "case.csv"
@@ -193,8 +194,9 @@ class Worker:
         elif kind.endswith("flip"):
             base = self.base(kind)
             file.write_bytes(mutations.flipped(self.bases[base], self.blocks[base], self.random))
-        elif not mutations.changed_log(self.paths[self.base(kind)], lambda log: mutations.structured(log, self.random), file):
-            return None
+        else:
+            change = lambda log: mutations.structured(log, self.random)
+            return (file.name, cut) if mutations.changed_log(self.paths[self.base(kind)], change, file) else None
         return file.name, cut
 
     def commands_for(self, kind, file, cut):
@@ -306,7 +308,7 @@ def make_bases(options, folder):
     scenes = pathlib.Path(options.source) / "experiments/stability"
     bases = {}
     for name, arguments in BASES.items():
-        full = [a.replace("SCENES", str(scenes)) for a in arguments] + ["--out", name, "--force"]
+        full = [a.replace("SCENES", str(scenes)) for a in arguments] + [*BRIEFLY, name]
         status, _, error = server.run(full, 60)
         if status != "0":
             sys.exit(f"fuzz: {' '.join(full)}: {status}: {error.decode()}")

@@ -1,5 +1,5 @@
-"""Damage: to the bytes of a file, to the datasets and attributes of HDF5, to texts of scenes, to cells of a CSV. It is random but
-for NAMED, the changes of a log that once crashed or hung a command and that chance would hardly make."""
+"""Damage: to the bytes of a file, to datasets and attributes of HDF5, to texts of scenes, to cells of a CSV. It is
+random but for NAMED, the changes of a log that once crashed or hung a command and that chance would hardly make."""
 
 import os
 import pathlib
@@ -15,8 +15,9 @@ import scene_keys
 EXTREME_NUMBERS = [0.0, -0.0, 1.0, -1.0, 1e-300, 1e300, -1e300, np.inf, -np.inf, np.nan, 2.0**31, 2.0**63, 1e9, -1e9]
 EXTREME_INTEGERS = [0, 1, -1, -2, 2**31 - 1, -(2**31), 2**63 - 1, -(2**63), 255]
 TEXTS = ["", "\x1b[31m", "a" * 70000, "\0", "\n", "[" * 3000, "../..", "/dev/zero", "\udcff"]
-WORDS = """1e308 -1e308 1e-308 0 -1 nan inf -inf 9223372036854775807 -9223372036854775808 99999999999999999999 2147483647
-    4294967296 true "" "\\u001b[31m" [] {} [[[[1]]]] 1979-05-27 "/dev/zero" "/etc/passwd" 0x7fffffffffffffff 1e-9 1e9""".split()
+WORDS = """1e308 -1e308 1e-308 0 -1 nan inf -inf 9223372036854775807 -9223372036854775808 99999999999999999999
+    2147483647 4294967296 true "" "\\u001b[31m" [] {} [[[[1]]]] 1979-05-27 "/dev/zero" "/etc/passwd" 0x7fffffffffffffff
+    1e-9 1e9""".split()
 TEXT = {"dtype": h5py.string_dtype()}
 
 
@@ -160,9 +161,9 @@ def set_one(log, path, random):
 
 def change_shape(log, path, random):
     changes = [
-        lambda v: v[:0], lambda v: v[:1], lambda v: v[:-1], lambda v: v[: len(v) // 2], lambda v: v[::-1], lambda v: v.T,
-        lambda v: np.concatenate([v, v]), lambda v: v[..., None], lambda v: v.ravel()[0], lambda v: v.ravel(),
-        lambda v: np.repeat(v[..., None], 3, -1),
+        lambda v: v[:0], lambda v: v[:1], lambda v: v[:-1], lambda v: v[: len(v) // 2], lambda v: v[::-1],
+        lambda v: v.T, lambda v: np.concatenate([v, v]), lambda v: v[..., None], lambda v: v.ravel()[0],
+        lambda v: v.ravel(),        lambda v: np.repeat(v[..., None], 3, -1),
     ]
     if log[path].ndim:
         put(log, path, changes[random.integers(len(changes))](log[path][()]))
@@ -214,7 +215,8 @@ def link(log, path, random):
     del log[path]
     kind = random.integers(5)
     if kind <= 2:
-        log[path] = [h5py.SoftLink("/" + other), h5py.ExternalLink("/etc/passwd", "/x"), h5py.ExternalLink(".", "/" + other)][kind]
+        outside = h5py.ExternalLink("/etc/passwd", "/x")
+        log[path] = [h5py.SoftLink("/" + other), outside, h5py.ExternalLink(".", "/" + other)][kind]
     elif kind == 3:
         log.create_dataset(path, shape, dtype, external=[("/etc/passwd", 0, h5py.h5f.UNLIMITED)])
     else:
@@ -258,8 +260,8 @@ def change_texts(log, path, random):
             put(log, path, mutated_xml(value.decode(), random), **TEXT)
 
 
-CHANGES = [fill_with_extremes, set_one, set_one, change_shape, change_type, change_kind, claim_rows, remove, link, swap, change_attribute,
-           change_texts]
+CHANGES = [fill_with_extremes, set_one, set_one, change_shape, change_type, change_kind, claim_rows, remove, link, swap,
+           change_attribute, change_texts]
 
 
 def structured(log, random):
@@ -339,13 +341,13 @@ def mutated_csv(text, random):
 
 
 # A script, muscles, torques of few numbers, food, and a knot that slides.
-EXTREME_SCENES = ["table1", "table1", "muscles", "few_numbers", "pull_overhand", "overhand_reverse", "knot_into_head.toml"]
+EXTREME_SCENES = "table1 table1 muscles few_numbers pull_overhand overhand_reverse knot_into_head.toml".split()
 
 
 DATA = pathlib.Path(__file__).resolve().parents[2] / "data"
-NEEDS_OTHERS = {"", "start", "expect", "time"}  # sections of texts and of postures, and that which has its own values below
+NEEDS_OTHERS = {"", "start", "expect", "time"}  # of texts, of postures, and with values of its own below
 FEW = {"model.bodies": [2, 3, 5, 8, 20], "knot.votes": [1, 15, 200], "controller.leave_by": ["head", "tail"],
-       "controller.law": ["paper", "all_contacts", "knot_speed", "reduced_basis", "muscles", "reflex", "reflex_muscles"]}
+       "controller.law": "paper all_contacts knot_speed reduced_basis muscles reflex reflex_muscles".split()}
 ACT_WITH = {  # what settings need so that anything reads them
     "controller.reflex": {"controller.law": "reflex", "controller.reflex.shift": 1},
     "controller.knot_speed": {"controller.law": "knot_speed", "controller.knot_speed.target": 1},
@@ -359,13 +361,14 @@ def settings():
     """Keys of scenes with a good value and the words that their comments name, from the two commented files."""
     found = {"time.rule": ("euler", ["euler", "midpoint"])}
     for prefix, file in (("", "table1.toml"), ("specimen.", "specimens/pacific_hagfish.toml")):
-        for section, key, value, comment in scene_keys.rows_of((DATA / file).read_text().split("\n\n", 1)[1].splitlines()):
+        lines = (DATA / file).read_text().split("\n\n", 1)[1].splitlines()
+        for section, key, value, comment in scene_keys.rows_of(lines):
             if key and value not in ("[...]", '""') and (prefix or section not in NEEDS_OTHERS):
                 name = f"{prefix}{section}.{key}".replace("..", ".")
                 good = tomllib.loads(f"v = {value}")["v"]
                 words = FEW.get(name) or re.findall(r'"(\w+)"', f"{value} {comment}")
-                parts = {f"{name}.{part}": each for part, each in good.items()} if isinstance(good, dict) else {name: good}
-                found |= {part: (each, words) for part, each in parts.items()}
+                parts = good if isinstance(good, dict) else {"": good}
+                found |= {f"{name}.{part}".rstrip("."): (each, words) for part, each in parts.items()}
     return found
 
 
@@ -373,7 +376,7 @@ SETTINGS = settings()
 
 
 def extreme_overrides(random, any_bodies=True):
-    """`--set` values far from any animal, for a run of some steps. A scene that gives a posture has its own number of bodies."""
+    """`--set` values far from any animal, for some steps. A scene that gives a posture has its own number of bodies."""
 
     def extreme(good, words):
         if isinstance(good, list):

@@ -24,7 +24,7 @@ def turned(axis: np.ndarray, angle: float, vector: np.ndarray) -> np.ndarray:
 
 
 def axes_along(angles: np.ndarray, names: list[str]) -> tuple[np.ndarray, np.ndarray]:
-    """Axes of each body (bodies x 3 x 3, rows X, Y, Z) and of each hinge, seen from the first body; hinges by their names."""
+    """Axes of each body (bodies x 3 x 3, rows X, Y, Z) and of each hinge, by its name, seen from the first body."""
     bodies, hinges = [np.eye(3)], []
     for angle, name in zip(angles, names):
         joint = int(name[1:3])

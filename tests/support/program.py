@@ -57,11 +57,17 @@ def runs_of_this_program() -> Path:
     return own
 
 
+def sets(*settings: str) -> list[str]:
+    """Settings as options."""
+    return [word for setting in settings for word in ("--set", setting)]
+
+
 def logged(folder: Path, *arguments: object, out: str = "a.h5") -> Path:
-    """The log of `hagfish run` as folder/out. Whoever asks for the same run, in whichever process, gets a copy of one."""
+    """The log of `hagfish run` as folder/out. Who asks for the same run, in whichever process, gets a copy of one."""
     words = [str(word) for word in arguments]
-    own = any((folder / word).is_file() for word in words)  # a file may name others beside it
-    files = sorted((path.name, path.read_bytes()) for path in folder.iterdir() if own and path.suffix in (".toml", ".csv"))
+    # A file may name others beside it.
+    beside = folder.iterdir() if any((folder / word).is_file() for word in words) else []
+    files = sorted((path.name, path.read_bytes()) for path in beside if path.suffix in (".toml", ".csv"))
     kept = runs_of_this_program() / f"{hashlib.sha256(repr((words, files)).encode()).hexdigest()[:16]}.h5"
     with kept.with_suffix(".lock").open("w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)  # who comes second waits

@@ -1,4 +1,4 @@
-"""The page of the Table 1 run says what the program does: run anew, audited, and compared with its table. Presets pass the audit."""
+"""The page of the Table 1 run says what the program does: run, audited and held against its table. Presets pass the audit."""
 
 import subprocess
 import sys

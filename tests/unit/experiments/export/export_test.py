@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from animal import axes_along, spans, spline_point, total_bend
-from program import hagfish, logged, phases, refused, table
+from program import hagfish, logged, phases, refused, sets, table
 
 DIGITS = 1e-8  # of a column's largest: nine digits are written
 FILES = ("midline", "curvature", "knot", "contacts", "torques", "joints", "eq6", "head", "energy", "moments", "phases",
@@ -81,9 +81,10 @@ def test_torques_add_up(run):
         same(values, log[f"mean/forces/{kind}"][:, 6:])
         assert kind == "active" or np.nanmax(np.abs(values)) > 0
     same(sum(columns.values()) + log["mean/forces/head"][:, 6:], log["mean/forces/net"][:, 6:])
-    stiffness = [scene["model"]["twist_stiffness" if name.endswith("twist") else "bending_stiffness"] / span[int(name[1:3])]
-                 for name in names]
-    same(t["spring_dyn_cm"].reshape(-1, len(names)), -np.array(stiffness) * log["trajectory/q"][:, 7:])
+    model, joint = scene["model"], np.array([int(name[1:3]) for name in names])
+    twists = np.array([name.endswith("twist") for name in names])
+    stiffness = np.where(twists, model["twist_stiffness"], model["bending_stiffness"]) / span[joint]
+    same(t["spring_dyn_cm"].reshape(-1, len(names)), -stiffness * log["trajectory/q"][:, 7:])
     same(t["angle_rad"].reshape(-1, len(names)), log["trajectory/q"][:, 7:])
     assert [f"j{int(joint):02d}_{axis}" for joint, axis in zip(t["joint"], t["axis"])][:len(names)] == names
     # The joints' torques, a column a hinge.
@@ -136,10 +137,12 @@ def test_what_the_log_has_is_as_the_log_has_it(run):
     same(knot["span_cm"], log["knot/tail_end"][()] - log["knot/head_end"][()])
     assert list(knot["phase"]) == phases(log)
     assert set(knot["knot"][log["knot/determinant"][()] == 3]) == {"3_1"}
-    for column, path in (("command_cm_per_s", "thigmotaxis/command"), ("speed_cm_per_s", "mean/thigmotaxis/speed"),
-                         ("shortfall_cm_per_s", "mean/thigmotaxis/slack"), ("multiplier_dyn", "mean/thigmotaxis/lambda")):
+    paths = {"command_cm_per_s": "thigmotaxis/command", "speed_cm_per_s": "mean/thigmotaxis/speed",
+             "shortfall_cm_per_s": "mean/thigmotaxis/slack", "multiplier_dyn": "mean/thigmotaxis/lambda"}
+    for column, path in paths.items():
         same(eq6[column].reshape(-1, 4), log[path][()])
-    same(np.hstack([vectors(head, "force_", "dyn"), vectors(head, "torque_", "dyn_cm")]), log["mean/forces/head"][:, :6])
+    acts = np.hstack([vectors(head, "force_", "dyn"), vectors(head, "torque_", "dyn_cm")])
+    same(acts, log["mean/forces/head"][:, :6])
     same(head["plate_force_x_dyn"], log["mean/forces/wall"][:, 0])
     for name in energy:
         if name.endswith("_erg"):
@@ -259,9 +262,9 @@ def test_a_log_without_means_is_one_line(run, tmp_path):
 
 
 def test_muscles(tmp_path):
-    """Of a scene that has them, beside the other tables; the force is what the log's activation makes of the largest."""
-    log = h5py.File(logged(tmp_path, "muscles", "--set", "time.step=0.02", "--set", "time.duration=0.2", "--set",
-                           "specimen.muscle.stress=2e4"))
+    """Of a scene that has them, beside the other tables; the force is what the activation makes of the largest."""
+    weak = sets("time.step=0.02", "time.duration=0.2", "specimen.muscle.stress=2e4")
+    log = h5py.File(logged(tmp_path, "muscles", *weak))
     hagfish(tmp_path, "export", "a.h5", "--out", "t")
     assert {path.stem for path in (tmp_path / "t").iterdir()} == {*FILES, "muscles", "dictionary"}
     t, activation = table(tmp_path / "t" / "muscles.csv"), log["muscle/activation"][()]

@@ -1,4 +1,4 @@
-"""`hagfish midlines` and `against`: midlines of a run, with the noise of digitising, give back its knot and midlines."""
+"""`hagfish midlines` and `against`: a run's midlines, with the noise of digitising, give back its knot and shapes."""
 
 from __future__ import annotations
 
@@ -267,7 +267,7 @@ def test_points_are_where_their_numbers_say(tmp_path):
 
 
 def test_a_tail_that_is_never_seen_is_not_bent_nor_scaled_in_silence(tmp_path):
-    """A film of four fifths: told where it ends, or with missing points listed, it is right; else it says what it took."""
+    """A film of four fifths: told where it ends, or with missing points listed, it is right; else it is told."""
     time = np.arange(24) / 10
     s, points = bent(time, lambda t: 1 + t)
     write_film(tmp_path / "cut.csv", time, s, points, kept=lambda f, i: i < 17)

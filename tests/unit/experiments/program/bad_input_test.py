@@ -1,5 +1,5 @@
-"""Files that are not there, are no logs, cannot be written or would be replaced: each command of the program's help says so in one
-line, with exit 2, and leaves nothing behind. Damaged logs are the fuzz test's (tests/fuzz)."""
+"""Files that are not there, are no logs, cannot be written or would be replaced: each command of the program's help says
+so in one line, with exit 2, and leaves nothing behind. Damaged logs are the fuzz test's (tests/fuzz)."""
 
 from __future__ import annotations
 
@@ -68,7 +68,8 @@ def test_a_file_that_is_there_is_replaced_by_force_alone(folder, name, option):
     assert kept.read_text() == "precious"
     if name != "playback":  # of which the log has no slide
         done = outcome(folder, *line(name, option, out), "--force")
-        assert done.returncode in (0, 1, 3) and kept.read_bytes() != b"precious", done  # 1: a run so short fails its audit
+        # 1: a run so short fails its audit.
+        assert done.returncode in (0, 1, 3) and kept.read_bytes() != b"precious", done
 
 
 @pytest.mark.parametrize("name", [name for name, command in KNOWN.items() if command.reads_log])

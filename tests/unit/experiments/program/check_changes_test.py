@@ -1,4 +1,4 @@
-"""`hagfish check` names what was changed in a log and what does not come again; a run that was killed comes to the same end."""
+"""`hagfish check` names what was changed in a log and does not come again; a killed run comes to the same end."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ import h5py
 import numpy as np
 import pytest
 
-from program import HAGFISH, different, hagfish, logged, outcome
+from program import HAGFISH, different, hagfish, logged, outcome, sets
 
 # A run of the form alone: nothing else is asked of it.
-BRIEF = ["--set", "time.until=form", "--set", "time.duration=3", "--set", "expect.types=[]", "--set", "expect.knot="]
+BRIEF = sets("time.until=form", "time.duration=3", "expect.types=[]", "expect.knot=")
 
 
 @pytest.fixture(scope="module")
@@ -26,7 +26,7 @@ def folder(tmp_path_factory):
 
 
 def changed(folder, change, *options):
-    """What the check says, by finding, of a copy that `change` has been at; those that fail alone. A refusal is one, too."""
+    """Findings of the check of a copy that `change` has been at, of those that fail. A refusal is one, too."""
     shutil.copy(folder / "good.h5", folder / "changed.h5")
     with h5py.File(folder / "changed.h5", "r+") as log:
         change(log)
@@ -182,7 +182,7 @@ def test_a_run_that_was_killed_is_readable_and_comes_to_the_same_end(folder, see
 
 
 def test_a_file_on_which_hdf5_crashes_is_one_line(folder):
-    """HDF5 1.10 copies a text of whatever length its heap says to where there is room for as much as its attribute says."""
+    """HDF5 1.10 copies a text as long as its heap says to where there is room for as much as its attribute says."""
     good = (folder / "good.h5").read_bytes()
     with h5py.File(folder / "good.h5") as log:
         words = log.attrs["scene"].encode()

@@ -9,7 +9,8 @@ import pytest
 from program import ROOT, hagfish
 
 SHOWN = re.compile(r"^(?:    )?hagfish ([a-z-]+)([^#\n]*)", re.MULTILINE)  # in blocks of commands, up to a comment
-PAGES = [*(path for folder in ("experiments", "data") for path in sorted((ROOT / folder).rglob("*.md"))), ROOT / "README.md"]
+FOLDERS = (ROOT / "experiments", ROOT / "data")
+PAGES = [ROOT / "README.md", *sorted(path for folder in FOLDERS for path in folder.rglob("*.md"))]
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda path: str(path.relative_to(ROOT)))

@@ -1,4 +1,4 @@
-"""What the study of few numbers reads from logs: the torques of the numbers, and profiles of them by the knot's place."""
+"""What the study of few numbers reads from logs: torques of the numbers, and profiles of them by the knot's place."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from animal import spans
 from few_numbers import basis_torque
 from hagfish_log import HagfishLog
 from played_numbers import profile
-from program import ROOT, logged
+from program import ROOT, logged, sets
 
-BRIEF = ["--set", "time.duration=14.5"]
+BRIEF = sets("time.duration=14.5")
 
 
 def script(folder, name, *arguments):
@@ -85,13 +85,13 @@ def test_learned_shapes_make_up_the_forces_that_they_were_learned_from(folder):
                 shapes[of, k] = np.interp(share[inside][of], own[:, 1], own[:, column])
         left += np.sum((force - shapes @ np.linalg.lstsq(shapes, force, rcond=None)[0]) ** 2)
         total += np.sum(force**2)
-    # Stations are not hinges, and joints take turns in which axis comes first: seen 0.0102 apart. With two axes exchanged
-    # shapes make up 0.31.
+    # Stations are not hinges, and joints take turns in which axis comes first: seen 0.0102 apart. With two axes
+    # exchanged shapes make up 0.31.
     assert 0.8 < said < 1 and abs(1 - left / total - said) < 0.02
 
 
 def test_a_log_without_numbers_is_one_line(folder):
-    logged(folder, "table1", "--set", "time.step=0.02", "--set", "time.duration=0.2", out="c.h5")
+    logged(folder, "table1", *sets("time.step=0.02", "time.duration=0.2"), out="c.h5")
     done = script(folder, "played_numbers.py", "c.h5", "c.toml", "--base", "table1")
     assert done.returncode == 2 and "c.h5: has no slide of a knot by a reduced basis" in done.stderr
     assert not (folder / "c.toml").exists()

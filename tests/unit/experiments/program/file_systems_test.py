@@ -1,4 +1,4 @@
-"""File systems without hard links or locks, as on USB sticks and network shares: commands write their files all the same."""
+"""File systems without hard links or locks (USB sticks, network shares): commands write their files all the same."""
 
 from __future__ import annotations
 
@@ -26,7 +26,8 @@ def poor(tmp_path_factory):
 
 def test_a_run_and_its_tables_are_written_without_links_and_locks(poor, tmp_path):
     run = ["run", "table1", "--quiet", "--set", "time.duration=0.2", "--out", "a.h5"]
-    for command in (run, [*run, "--force"], ["export", "a.h5", "--out", "tables"], ["check", "a.h5", "--csv", "check.csv"]):
+    tables, check = ["export", "a.h5", "--out", "tables"], ["check", "a.h5", "--csv", "check.csv"]
+    for command in (run, [*run, "--force"], tables, check):
         done = outcome(tmp_path, *command, env=poor)
         assert done.returncode == 0 or command[0] == "check", done
         assert "cannot be" not in done.stderr, done

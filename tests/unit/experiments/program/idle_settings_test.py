@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from program import ROOT, hagfish, logged, refused
+from program import ROOT, hagfish, logged, refused, sets
 
 
 @pytest.mark.parametrize(
@@ -24,13 +24,14 @@ from program import ROOT, hagfish, logged, refused
     ],
 )
 def test_a_run_refuses_what_does_nothing(tmp_path, scene, key, why):
-    refused(tmp_path, "run", scene, "--set", key, "--out", "a.h5", parts=(f"--set {key.split('=')[0]}: has no effect here", why))
+    told = f"--set {key.split('=')[0]}: has no effect here"
+    refused(tmp_path, "run", scene, "--set", key, "--out", "a.h5", parts=(told, why))
 
 
 def test_what_acts_is_taken(tmp_path):
     brief = ["--quiet", "--set", "time.duration=0.02", "--force", "--out", "a.h5"]
     for seed, amount in (("start.seed=3", "start.noise_deg=0.3"), ("script.noise_seed=2", "script.noise=1")):
-        hagfish(tmp_path, "run", "table1", "--set", seed, "--set", amount, *brief)
+        hagfish(tmp_path, "run", "table1", *sets(seed, amount), *brief)
 
 
 @pytest.mark.parametrize(
@@ -42,12 +43,13 @@ def test_what_acts_is_taken(tmp_path):
 )
 def test_a_sweep_refuses_what_does_nothing_in_all_cells(tmp_path, grid, key, why):
     (tmp_path / "grid.toml").write_text(f'scene = "table1"\n{grid}')
-    refused(tmp_path, "sweep", "grid.toml", "--out", "out", parts=("grid.toml", f"{key}: has no effect in any cell", why))
+    told = f"{key}: has no effect in any cell"
+    refused(tmp_path, "sweep", "grid.toml", "--out", "out", parts=("grid.toml", told, why))
 
 
 def test_a_sweep_takes_what_two_of_its_axes_make_act(tmp_path):
-    axes = {"controller.law": ["paper", "reflex"], "controller.reflex.noise": [0, 0.1], "controller.reflex.seed": [1, 2]}
-    text = "".join(f'[[axis]]\n"{key}" = {values}\n' for key, values in axes.items())
+    axes = {"law": ["paper", "reflex"], "reflex.noise": [0, 0.1], "reflex.seed": [1, 2]}
+    text = "".join(f'[[axis]]\n"controller.{key}" = {values}\n' for key, values in axes.items())
     (tmp_path / "grid.toml").write_text(f'scene = "reflex_overhand"\n{text}')
     refused(tmp_path, "sweep", "grid.toml", "--out", "out", "--part", "2/1", parts=("--part 2/1",))
 
@@ -79,5 +81,4 @@ def folder(tmp_path_factory):
     ],
 )
 def test_a_branch_refuses_what_does_nothing(folder, time, set_, parts):
-    options = [word for one in set_ for word in ("--set", one)]
-    refused(folder, "branch", "a.h5", "--time", time, *options, "--out", "b.h5", parts=parts)
+    refused(folder, "branch", "a.h5", "--time", time, *sets(*set_), "--out", "b.h5", parts=parts)

@@ -1,5 +1,5 @@
-"""`hagfish run --log`: what logs of each level hold, what each command says of one that holds too little, and that their axes
-are named for h5py and xarray."""
+"""`hagfish run --log`: what logs of each level hold, what each command says of one that holds too little, and names of
+their axes for h5py and xarray."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ import pytest
 from program import ROOT, different, hagfish, logged, refused, series, table
 
 LEVELS = ("summary", "frames", "full")  # the last one where nothing is asked
-WANTS = {"check": "full", "playback": "full", "export": "frames", "view": "frames", "figures": "frames", "picture": "frames",
-         "movie": "frames", "program": "frames"}
+WANTS = dict.fromkeys(("check", "playback"), "full") | dict.fromkeys(
+    ("export", "view", "figures", "picture", "movie", "program"), "frames")
 ENDING = {"picture": ".png", "movie": ".mp4"}
 MICROMETRE = 1e-4  # cm: places are rounded to 2^-13 cm and, like means of forces, stored as floats
 SINGLE = 1e-7  # relative
@@ -66,7 +66,8 @@ def test_commands_that_need_more_say_so_in_one_line(logs):
         for held in LEVELS[:LEVELS.index(level)]:
             refused(logs, command, f"{held}.h5", *arguments, parts=(f"{held}.h5", f"--log {held}", f"--log {level}"))
     for level in LEVELS:
-        assert "slide" in hagfish(logs, "info", f"{level}.h5") and level in hagfish(logs, "info", f"{level}.h5", "--json")
+        assert "slide" in hagfish(logs, "info", f"{level}.h5")
+        assert level in hagfish(logs, "info", f"{level}.h5", "--json")
     hagfish(logs, "check", "full.h5")
 
 
@@ -107,9 +108,8 @@ def test_every_axis_has_its_labels(logs):
 def test_xarray_opens_every_group_named(logs):
     import xarray  # with h5netcdf
 
-    groups = ("model", "trajectory", "forces", "thigmotaxis", "mean/forces", "mean/thigmotaxis", "knot", "diagnostics", "steps",
-              "contacts", "pull")
-    for group in groups:
+    groups = "model trajectory forces thigmotaxis mean/forces mean/thigmotaxis knot diagnostics steps contacts pull"
+    for group in groups.split():
         opened = xarray.open_dataset(logs / "full.h5", group=group, engine="h5netcdf")
         assert not any(name.startswith("phony") for name in opened.dims), group
         assert set(opened.dims) == set(opened.coords), group

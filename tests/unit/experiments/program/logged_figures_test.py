@@ -1,5 +1,5 @@
-"""Datasets of a log by name, against other datasets and formulas of this file: an exchanged column is another number here, though a run
-made again would have it exchanged, too."""
+"""Datasets of a log by name, against other datasets and formulas of this file: an exchanged column is another number
+here, though a run made again would have it exchanged, too."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from animal import axes_along
-from program import logged
+from program import logged, sets
 
 FORM, SLIDE, PULL = 0, 2, 6  # of /trajectory/phase
 ROOT = 6  # velocities
@@ -16,9 +16,9 @@ ROOT = 6  # velocities
 
 @pytest.fixture(scope="module")
 def log(tmp_path_factory):
-    settings = ("time.step=0.005", "time.frame_interval=0.02", "food.average=0.02", "food.hold=1", "knot.votes=5")
+    settings = sets("time.step=0.005", "time.frame_interval=0.02", "food.average=0.02", "food.hold=1", "knot.votes=5")
     folder = tmp_path_factory.mktemp("figures")
-    logged(folder, "pull_overhand", *(word for each in settings for word in ("--set", each)))
+    logged(folder, "pull_overhand", *settings)
     with h5py.File(folder / "a.h5") as file:
         yield file
 
@@ -31,8 +31,9 @@ def test_pull_is_of_the_means(log):
     bears = pulls & (wall[:, 0] > 0)
     assert bears.sum() > 20
     divided = lambda a, b: np.divide(a, b, out=np.full(len(a), np.nan), where=b > 0)
-    wanted = {"force": -head[:, 0], "plate": wall[:, 0], "torque": torque,
-              "advantage_rows": divided(-head[:, 0], rows.sum(axis=1)), "advantage_torque": divided(-head[:, 0], torque)}
+    pull = -head[:, 0]
+    wanted = {"force": pull, "plate": wall[:, 0], "torque": torque, "advantage_rows": divided(pull, rows.sum(axis=1)),
+              "advantage_torque": divided(pull, torque)}
     for name, values in wanted.items():
         np.testing.assert_allclose(log[f"/pull/{name}"][pulls], values[pulls], rtol=1e-12, err_msg=name)
         assert np.isnan(log[f"/pull/{name}"][~pulls]).all(), name
@@ -86,7 +87,8 @@ def test_spline_places_name_their_bodies(log):
 
 
 def test_muscles_hold_on_to_nothing_and_the_body_follows_the_rest_shape(tmp_path):
-    with h5py.File(logged(tmp_path, "living_overhand_free", "--set", "time.duration=3", "--set", "expect.types=[]")) as file:
+    log = logged(tmp_path, "living_overhand_free", *sets("time.duration=3", "expect.types=[]"))
+    with h5py.File(log) as file:
         q, rest, torque = (file[path][50:-1] for path in ("/trajectory/q", "/trajectory/q_ref", "/forces/active"))
     assert not rest[:, :ROOT].any() and not torque[:, :ROOT].any()
     assert np.corrcoef(rest[:, ROOT:].ravel(), q[:, ROOT + 1:].ravel())[0, 1] > 0.9  # which the body follows
@@ -94,9 +96,10 @@ def test_muscles_hold_on_to_nothing_and_the_body_follows_the_rest_shape(tmp_path
 
 @pytest.mark.parametrize("rule", ["euler", "midpoint"])
 def test_moments_have_the_torques_of_hinges_as_their_parts(tmp_path, rule):
-    settings = ("time.step=0.01", "time.frame_interval=0.01", "knot.votes=5", f"time.rule={rule}", "expect.types=[]")
+    each_step = sets("time.step=0.01", "time.frame_interval=0.01")
+    settings = [*each_step, *sets("knot.votes=5", f"time.rule={rule}", "expect.types=[]")]
     seen = set()
-    with h5py.File(logged(tmp_path, "living_overhand", *(word for each in settings for word in ("--set", each)))) as log:
+    with h5py.File(logged(tmp_path, "living_overhand", *settings)) as log:
         names, q = list(log["/model/dof_name"].asstr()[ROOT:]), log["/trajectory/q"][()]
         joint, length = [int(name[1:3]) for name in names], log["/model/length"][()]
         acts = lambda kind: np.flatnonzero(np.nan_to_num(log[f"/mean/forces/{kind}"][:, ROOT:]).any(axis=1))

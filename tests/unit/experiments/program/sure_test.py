@@ -10,9 +10,9 @@ import pytest
 
 import sure
 import sweep_columns
-from program import hagfish, logged, refused, table
+from program import hagfish, logged, refused, sets, table
 
-SHORT = ["--set", "time.duration=0.2", "--set", "time.until=form", "--set", "expect.knot="]
+SHORT = sets("time.duration=0.2", "time.until=form", "expect.knot=")
 
 
 @pytest.fixture(scope="module")
@@ -57,7 +57,8 @@ def test_what_it_says_and_leaves_is_the_spread_of_the_runs(folder):
     cells, causes = rows(folder / "s/table.csv"), [row["cause"] for row in rows(folder / "s/causes.csv")]
     work = np.array([float(cell["work_tip_erg"]) for cell in cells])
     own = work[[cause in ("as it is", "bodies") for cause in causes]]
-    (found,) = [row for row in rows(folder / "s/sure.csv") if (row["figure"], row["cause"]) == ("work_tip_erg", "bodies")]
+    spreads = {(row["figure"], row["cause"]): row for row in rows(folder / "s/sure.csv")}
+    found = spreads["work_tip_erg", "bodies"]
     wanted = [own.min(), own.max(), 100 * np.abs(own / work[0] - 1).max()]
     assert [float(found[name]) for name in ("least", "most", "furthest_percent")] == pytest.approx(wanted, rel=1e-5)
     said = (folder / "said.txt").read_text()

@@ -1,4 +1,4 @@
-"""`hagfish sweep` and what reads its tables: threads and parts, gathered, make the table of one process, byte for byte."""
+"""`hagfish sweep` and what reads its tables: threads and gathered parts make one table, byte for byte."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Files in SI: each key's unit, as the comments of the commented files have it, is the one by which the program reads it."""
+"""Files in SI: each key's unit, as the comments of the commented files have it, is the one by which it is read."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import tomllib
 import h5py
 import pytest
 
-from program import ROOT, logged, refused
+from program import ROOT, logged, refused, sets
 from scene_keys import rows_of
 
 # The longest first: one is part of another. An SI unit is so many of it.
@@ -44,7 +44,7 @@ def written(value: object) -> str:
 
 
 def files(name: str, least: float = 0) -> tuple[str, str, int]:
-    """The numbers of a commented file, 0 replaced by `least`, in CGS and in SI, as texts, and how many keys have units."""
+    """Numbers of a commented file, `least` for 0, in CGS and in SI, as texts, and how many keys have units."""
     text = (ROOT / "data" / name).read_text()
     whole, texts, units, begun = tomllib.loads(text), ["", 'units = "SI"\n'], 0, ""
     for section, key, _, comment in rows_of(text.split("\n\n", 1)[1].splitlines()):  # without the comment of the file
@@ -66,8 +66,8 @@ def files(name: str, least: float = 0) -> tuple[str, str, int]:
 def scene_of(folder, text: str) -> dict:
     """The scene that the program made of a file."""
     (folder / "s.toml").write_text(text)
-    brief = ("time.duration=0.02", "time.step=0.005", "time.frame_interval=0.02", "expect.types=[]")
-    with h5py.File(logged(folder, "s.toml", "--log", "summary", *(word for one in brief for word in ("--set", one)))) as log:
+    brief = sets("time.duration=0.02", "time.step=0.005", "time.frame_interval=0.02", "expect.types=[]")
+    with h5py.File(logged(folder, "s.toml", "--log", "summary", *brief)) as log:
         return tomllib.loads(log.attrs["scene"])
 
 
@@ -84,23 +84,27 @@ def test_each_key_of_a_scene_is_read_in_its_unit(tmp_path):
     assert units >= 40
     first, second = (scene_of(tmp_path, 'base = "table1"\n' + text) for text in (cgs, si))
     assert first["units"] == second["units"] == "CGS"  # of a log's scene
-    tables = {name: keys for name, keys in first.items() if isinstance(keys, dict)}
-    different = [f"{table}.{key}" for table, keys in tables.items() for key in keys if not same(keys[key], second[table][key])]
-    assert different == [] and same(first, second)
+    for table, keys in first.items():
+        if isinstance(keys, dict):
+            assert [key for key, value in keys.items() if not same(value, second[table][key])] == [], table
+    assert same(first, second)
 
 
 def test_each_key_of_a_specimen_is_read_in_its_unit(tmp_path):
     _, si, units = files("specimens/pacific_hagfish.toml")
     assert units >= 10
     (tmp_path / "animal.toml").write_text('name = "animal"\n' + si)
-    own, first = (scene_of(tmp_path, f'base = "table1"\n{more}')["specimen"] for more in ('specimen = "animal.toml"\n', ""))
-    assert same({**first, "name": "animal"}, own)
+    first = scene_of(tmp_path, 'base = "table1"\n')["specimen"]
+    second = scene_of(tmp_path, 'base = "table1"\nspecimen = "animal.toml"\n')["specimen"]
+    assert same({**first, "name": "animal"}, second)
 
 
 def test_water_bears_what_the_robot_displaces():
-    scene, robot = (tomllib.loads((ROOT / "data" / name).read_text()) for name in ("robot_overhand.toml", "specimens/snake_robot.toml"))
+    files = ("robot_overhand.toml", "specimens/snake_robot.toml")
+    scene, robot = (tomllib.loads((ROOT / "data" / name).read_text()) for name in files)
     displaced = 1000 * robot["length"] * robot["circumference"][0] ** 2 / (4 * math.pi)  # kg
-    assert -scene["gravity"][2] == pytest.approx(9.81 * (1 - displaced / robot["mass"]), rel=1e-3) and scene["drag"]["normal"] > 0
+    assert -scene["gravity"][2] == pytest.approx(9.81 * (1 - displaced / robot["mass"]), rel=1e-3)
+    assert scene["drag"]["normal"] > 0
 
 
 BASE = 'base = "robot_overhand"\n'
@@ -114,7 +118,7 @@ STRAND = f'{IN_SI}[[obstacle]]\nkind = "strand"\npoints = [[0.5, -0.2, 0], [0.5,
     [
         (f'units = "MKS"\n{BASE}', ('s.toml:1: units = "MKS"', '"CGS", "SI"')),
         (f"units = 3\n{BASE}", ("s.toml:1: units = 3",)),
-        (f"{RING}inner_radius = 0.01\nradius = 0.01\n", ("inner_radius = 1 cm: the hole is too narrow", "radius is 2.4987")),
+        (f"{RING}inner_radius = 0.01\nradius = 0.01\n", ("inner_radius = 1 cm: the hole is too", "radius is 2.4987")),
         (f"{RING}inner_radius = 0.03\nradius = 0\n", ("radius = 0: must be positive",)),
         (STRAND, ("overlaps body", "at the start by 3.49", "cm")),
         (f"{IN_SI}[constraints]\nstride = 0\n", ("constraints.stride = 0: must be at least 0.001 cm",)),
@@ -129,4 +133,5 @@ def test_what_is_no_length_of_its_unit_is_refused_by_one_line(tmp_path, text, pa
 
 def test_only_a_file_has_units(tmp_path):
     for key in ("units=SI", "specimen.units=CGS"):
-        refused(tmp_path, "run", "robot_overhand", "--set", key, "--out", "s.h5", parts=(f"{key}: only a file has units",))
+        told = f"{key}: only a file has units"
+        refused(tmp_path, "run", "robot_overhand", "--set", key, "--out", "s.h5", parts=(told,))

@@ -98,7 +98,10 @@ assert refused > 10 and sim.time >= 6.0
     script_ends_well(BEGUN % ("None", "None") + readers, tmp_path)
 
 
-@pytest.mark.parametrize("law", ["None", *(f"lambda s, c: {work}" for work in ("None", "time.sleep(0.02)", "time.sleep(1000)"))])
+LAWS = ["None", *(f"lambda s, c: {work}" for work in ("None", "time.sleep(0.02)", "time.sleep(1000)"))]
+
+
+@pytest.mark.parametrize("law", LAWS)
 @pytest.mark.parametrize("log", ["None", '"left.h5"'])
 def test_python_ends_while_a_daemon_thread_runs(tmp_path, law, log):
     daemon = "threading.Thread(target=sim.run, daemon=True).start()\ntime.sleep(0.3)\n"

@@ -13,7 +13,7 @@ import pytest
 
 from animal import spans, total_bend
 from browser import CHROMIUM, Browser
-from program import hagfish, logged, phases, refused
+from program import hagfish, logged, phases, refused, sets
 
 TYPES = {"f4": "<f4", "i2": "<i2", "u1": "u1", "u4": "<u4"}
 PLACE = 1e-4  # cm, of the log's
@@ -40,7 +40,7 @@ def shown(page, name, frames):
 def run(tmp_path_factory):
     folder = tmp_path_factory.mktemp("view")
     logged(folder, "table1", "--preset", "quick")
-    logged(folder, "living_overhand", "--preset", "quick", "--set", "time.duration=3", "--set", "expect.types=[]", out="b.h5")
+    logged(folder, "living_overhand", "--preset", "quick", *sets("time.duration=3", "expect.types=[]"), out="b.h5")
     hagfish(folder, "view", "a.h5", "--out", "a.html")
     hagfish(folder, "view", "a.h5", "b.h5", "--out", "both.html")
     return folder
@@ -61,12 +61,13 @@ def test_a_log_without_moments_shows_torques_of_hinges_by_name(run):
 
 def test_the_page_holds_what_the_log_holds(run):
     (page,), log = logs_of(run / "a.html"), h5py.File(run / "a.h5")
-    frames = len(log["trajectory/time"])
-    np.testing.assert_allclose(decoded(page["position"]).reshape(frames, -1, 3), log["trajectory/position"][()], atol=PLACE)
+    places, own = log["trajectory/position"][()], decoded(page["position"])
+    np.testing.assert_allclose(own, places.ravel(), atol=PLACE)
     assert [page["phases"][k] for k in decoded(page["phase"])] == phases(log)
     assert np.all((np.array(page["knots"])[decoded(page["knot"])] == "3_1") == (log["knot/determinant"][()] == 3))
     # Some of the six are 0 but for rounding.
-    np.testing.assert_allclose(decoded(page["head"]).reshape(frames, 6), log["mean/forces/head"][:, :6], rtol=1e-6, atol=1e-30)
+    head = log["mean/forces/head"][:, :6]
+    np.testing.assert_allclose(decoded(page["head"]), head.ravel(), rtol=1e-6, atol=1e-30)
     series = {"trajectory/time": page["time"], "thigmotaxis/command": page["eq6"]["command"], "forces/tip": page["tip"],
               **{f"mean/thigmotaxis/{name}": page["eq6"][name] for name in ("speed", "slack", "lambda")},
               **{f"knot/{end}": page[end] for end in ("head_end", "tail_end")},
@@ -127,7 +128,7 @@ def test_it_is_one_file_that_asks_for_nothing(run):
 
 def test_texts_of_a_log_stay_texts(tmp_path):
     title = "</script><script>document.title=1</script>"
-    logged(tmp_path, "table1", "--preset", "quick", "--set", "time.duration=0.1", "--set", f'title="{title}"')
+    logged(tmp_path, "table1", "--preset", "quick", *sets("time.duration=0.1", f'title="{title}"'))
     hagfish(tmp_path, "view", "a.h5")
     assert "document.title=1</script>" not in (tmp_path / "replay.html").read_text()
     assert logs_of(tmp_path / "replay.html")[0]["title"] == title
@@ -194,7 +195,7 @@ MET = """((y, z) => { viewer.scenes[0].updateMatrixWorld();
 
 @needs_chromium
 def test_a_plate_has_its_hole(tmp_path, browser):
-    logged(tmp_path, "hole_overhand", "--set", "time.duration=0.1", "--set", "expect.types=[]")
+    logged(tmp_path, "hole_overhand", *sets("time.duration=0.1", "expect.types=[]"))
     hagfish(tmp_path, "view", "a.h5", "--out", "a.html")
     browser.open(tmp_path / "a.html")
     for y, z in ((0, 0), (0.9, 0), (0, -0.9), (3, 0)):
