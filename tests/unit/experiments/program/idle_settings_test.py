@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from program import ROOT, hagfish, logged, refused, sets
+from program import ROOT, logged, refused, sets
 
 
 @pytest.mark.parametrize(
@@ -26,12 +26,6 @@ from program import ROOT, hagfish, logged, refused, sets
 def test_a_run_refuses_what_does_nothing(tmp_path, scene, key, why):
     told = f"--set {key.split('=')[0]}: has no effect here"
     refused(tmp_path, "run", scene, "--set", key, "--out", "a.h5", parts=(told, why))
-
-
-def test_what_acts_is_taken(tmp_path):
-    brief = ["--quiet", "--set", "time.duration=0.02", "--force", "--out", "a.h5"]
-    for seed, amount in (("start.seed=3", "start.noise_deg=0.3"), ("script.noise_seed=2", "script.noise=1")):
-        hagfish(tmp_path, "run", "table1", *sets(seed, amount), *brief)
 
 
 @pytest.mark.parametrize(

@@ -10,7 +10,7 @@ import pytest
 
 import sure
 import sweep_columns
-from program import hagfish, logged, refused, sets, table
+from program import hagfish, logged, sets, table
 
 SHORT = sets("time.duration=0.2", "time.until=form", "expect.knot=")
 
@@ -81,8 +81,3 @@ def test_runs_that_end_otherwise_do_not_count():
     assert (step.least, step.most, step.furthest, step.runs, step.of) == (10, 12, 20, 1, 2)
     assert np.isnan(bodies.least) and (every.runs, every.of) == (1, 3)
     assert found.lost() == ["step: 1 of 2: never tied", "bodies: 1 of 1: tied 0_1"]
-
-
-def test_bad_input_is_one_line(tmp_path):
-    refused(tmp_path, "sure", "table2", "--out", "s", parts=("table2",))
-    refused(tmp_path, "sure", "table1", "--set", "drag=2", "--out", "s", parts=("drag",))

@@ -1,7 +1,5 @@
 """Runs in Python: the same as the program's, arrays that show the present, errors by the same line."""
 
-import threading
-
 import hagfish
 import numpy as np
 import pytest
@@ -126,13 +124,3 @@ def test_a_step_that_cannot_be_taken_leaves_the_run_as_it_was(tmp_path):
         assert log.status.startswith("failed: body ") and f"at step {steps} (t = " in log.status
     with pytest.raises(ValueError, match="closed"):
         sim.step()
-
-
-def test_other_threads_go_on_while_it_steps(tied):
-    sim = tied.copy()
-    worker = threading.Thread(target=sim.run)
-    worker.start()
-    seen = set()
-    while worker.is_alive():
-        seen.add(sim.steps)
-    assert seen - {tied.steps, sim.steps}  # on the way
