@@ -26,7 +26,7 @@ NAMED_SHARE = 0.4  # of the time at most, for the named cases
 KINDS = {"log flip": 150, "qp flip": 50, "log change": 3, "qp change": 2, "toml": 2, "grid": 1, "csv": 1, "film": 1,
          "scene": 10, "options": 10}  # and their shares
 CASES = 23000
-WHOLE = {"log flip": 60}  # one in so many flips goes through all quick commands, the others through one each
+WHOLE = {"log flip": 60, "qp flip": 60}  # one in so many goes through all quick commands, the others through one each
 SLOW = {"log flip": 150}  # commands that draw, compare or start others take part in one of so many cases;
 SLOW_OF_OTHERS = 10  # of other kinds
 PATIENCE = {"figures": 60, "integrate": 600, "compare": 60}  # s: Python and the program again; many steps by design
@@ -204,17 +204,9 @@ class Worker:
         count = self.cases[kind if kind in self.cases else "named"]
         if kind == "options":
             return [commands.extreme_options(self.known, self.random)]
-        if kind.startswith("log"):
-            quick, slow = commands.of_log(file, self.known)
-        elif kind.startswith("qp"):
-            quick, slow = commands.of_qps(file, commands.BACK_ENDS[count % len(commands.BACK_ENDS)])
-        elif kind == "grid":
-            quick, slow = commands.of_grid(file)
-        elif kind == "film":
-            quick, slow = commands.of_film(file)
-        else:
-            # Smooth motions take minutes of as many bodies as a file may ask for.
-            quick, slow = commands.of_scene(file, cut, whole=kind == "scene" and "." not in file)
+        place = {"log": "LOG", "qp": "SET", "grid": "GRID", "film": "FILM"}.get(kind.split()[0], "SCENE")
+        quick, slow = commands.through(place, file, self.known, cut, whole=kind == "scene" and "." not in file)
+        if place == "SCENE":
             (self.folder / "scene_grid.toml").write_text(commands.grid_text(file, cut))
         every = SLOW.get(kind, SLOW_OF_OTHERS)
         slow = slow[count // every % len(slow)] if slow and count % every == 0 else None
