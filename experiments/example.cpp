@@ -2,7 +2,7 @@
 #include <iostream>
 
 #include "core/input/builtin_files.hpp"
-#include "core/input/scene_reader.hpp"
+#include "core/input/files/scene_reader.hpp"
 #include "core/run/simulation.hpp"
 
 int main() {

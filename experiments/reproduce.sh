@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Makes pages of results again, from nothing: runs each study, takes its tables and figures into experiments/results and
-# experiments/figures, and says what differs from those that were there by more than chance.
+# Makes pages of results again, from nothing: runs the study of each, takes its tables and figures into the page's folder
+# (experiments/results/NAME), and says what differs from those that were there by more than chance.
 #   bash experiments/reproduce.sh [NAME...]     default: all pages
 #   bash experiments/reproduce.sh --list        their names, questions, and how long each took
 #   bash experiments/reproduce.sh --mark        notes on each page whether the simulator has changed since it was made
@@ -21,7 +21,7 @@ case ${1-} in
 esac
 names=("$@")
 if ((${#names[@]} == 0)); then mapfile -t names < <(results names); fi
-for name in "${names[@]}"; do results study "$name" >/dev/null; done # unknown names end it before any work
+for name in "${names[@]}"; do results page "$name"; done # unknown names end it before any work
 
 bash "$root/experiments/setup.sh" --target hagfish
 version=$("$root/build/release/experiments/hagfish" --version)
@@ -35,8 +35,7 @@ for name in "${names[@]}"; do
   mkdir -p "$out"
   start=$SECONDS
   echo "$name: running"
-  study=$root/experiments/studies/$(results study "$name")
-  bash "$study" "$out" >"$out/study.txt" 2>&1 || {
+  bash "$root/experiments/results/$name/study.sh" "$out" >"$out/study.txt" 2>&1 || {
     tail -n 20 "$out/study.txt" >&2
     echo "reproduce: $name: its study failed; all that it said is in $out/study.txt" >&2
     exit 1

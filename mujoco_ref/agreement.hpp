@@ -20,15 +20,15 @@ struct Agreement {
   double bias = 0;          ///< Coriolis, gyroscopic, gravity, spring and damper forces, over the
                             ///< largest of them
   double acceleration = 0;  ///< q̈ without contacts, limits and drag, over its largest entry
-  double condition = 1;     ///< of M with unit diagonal: by so much rounding of forces grows in q̈
+  double condition = 1;     ///< condition of M with unit diagonal: rounding grows so in q̈
 };
 
 /// What must be met, by rounding: a chain of 100 bodies multiplies as many rotations, bias sums
 /// terms that cancel, and q̈ has the condition of M besides.
 inline constexpr Agreement agreement_bound{1e-12, 1e-12, 1e-11, 1e-10, 1e-9};
 
-/// Of the acceleration in states in which M has that condition, at most: as above, but that unlike
-/// masses condition M worse than any chain of the animal's.
+/// Bound of the acceleration in states in which M has that condition, at most: agreement_bound's,
+/// but that unlike masses condition M worse than any chain of the animal's.
 double acceleration_bound(double condition);
 
 /// Compares in one state; of `mirror` the constraints are switched off. With a clamped head the

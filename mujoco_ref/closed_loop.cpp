@@ -152,13 +152,12 @@ void MujocoLoop::note_forces(const Simulation& sim, MujocoModel& mirror, StepSol
     const int b = m.geom_bodyid[contact.geom2] - 1;
     Row row;
     row.kind = RowKind::contact;
-    row.direction = -Eigen::Vector3d::Map(contact.frame);
-    row.a = mix_at(model_, parameter_of(model_, kin, a, point));
-    row.b = mix_at(model_, parameter_of(model_, kin, b, point));
-    if (a > b) {
-      std::swap(row.a, row.b);
-      row.direction = -row.direction;
-    }
+    const auto mix = [&](int body) {
+      return mix_at(model_, parameter_of(model_, kin, body, point));
+    };
+    const Eigen::Vector3d normal = Eigen::Vector3d::Map(contact.frame);
+    row.shape = a > b ? BetweenPoints{normal, mix(b), mix(a), {}, {}}
+                      : BetweenPoints{-normal, mix(a), mix(b), {}, {}};
     step.rows.push_back(row);
     lambda.push_back(h * d.efc_force[contact.efc_address]);
   }

@@ -35,10 +35,9 @@ class MujocoLoop {
   /// what MuJoCo has not: a head plate, a script's force on the tail, rows of Eq. 6.
   MujocoLoop(const Model& model, const Scene& scene, const MujocoSettings& settings = {});
 
-  /// As take_step(): what the step began with and did is written into `record`, and `sim` moves on.
-  /// Of the solution there are the velocities, contacts and limits with their forces, and the
-  /// active torque; what MuJoCo does not tell, the clamp's force, works and residuals, is nan.
-  /// Throws StepError.
+  /// Takes a step as hagfish::take_step() does. The solution in `record` has the velocities,
+  /// contacts and limits with their forces, and the active torque. What MuJoCo does not tell is
+  /// nan: the clamp's force, works and residuals. Throws StepError.
   void take_step(Simulation& sim, StepRecord& record);
 
  private:
@@ -58,7 +57,7 @@ class MujocoLoop {
   const Scene& scene_;
   MujocoSettings settings_;
   std::optional<MujocoModel> clamped_, free_;
-  MuscleTorque muscles_;  ///< of the last step
+  MuscleTorque muscles_;  ///< torque of the last step
 };
 
 }  // namespace hagfish

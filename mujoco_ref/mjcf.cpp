@@ -144,16 +144,22 @@ void write_excludes(std::ostream& out, const Model& model, double least_arc) {
 /// What the world holds that bodies touch.
 void write_obstacles(std::ostream& out, const Model& model) {
   for (const Obstacle& obstacle : model.obstacles) {
-    if (obstacle.kind == Obstacle::Kind::plane) {
-      if (obstacle.neck > 0) continue;
-      out << "<geom type=\"plane\" pos=\"" << obstacle.point.transpose() << "\" zaxis=\""
-          << obstacle.normal.transpose() << "\" size=\"20 20 1\"/>\n";
+    if (const Plane* plane = obstacle.plane()) {
+      if (plane->neck > 0) continue;
+      out << "<geom type=\"plane\" pos=\"" << plane->point.transpose() << "\" zaxis=\""
+          << plane->normal.transpose() << "\" size=\"20 20 1\"/>\n";
       continue;
     }
-    const Eigen::Matrix3Xd curve = strand_curve(obstacle);
+    const Strand& strand = *obstacle.strand();
+    if (strand.points.size() == 1) {
+      out << "<geom type=\"sphere\" pos=\"" << strand.points[0].transpose() << "\" size=\""
+          << strand.radius << "\"/>\n";
+      continue;
+    }
+    const Eigen::Matrix3Xd curve = strand_curve(strand);
     for (Eigen::Index k = 0; k + 1 < curve.cols(); ++k) {
       out << "<geom fromto=\"" << curve.col(k).transpose() << ' ' << curve.col(k + 1).transpose()
-          << "\" size=\"" << obstacle.radius << "\"/>\n";
+          << "\" size=\"" << strand.radius << "\"/>\n";
     }
   }
 }

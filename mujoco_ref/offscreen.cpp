@@ -13,7 +13,7 @@
 #include <stdexcept>
 
 #include "core/input/input_error.hpp"
-#include "core/log/hdf5_error.hpp"
+#include "core/log/hdf5/hdf5_error.hpp"
 
 namespace hagfish {
 namespace {

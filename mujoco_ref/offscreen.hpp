@@ -34,19 +34,19 @@ struct View {
   int width = 0, height = 0;                      ///< px
   double scale = 0;                               ///< px/cm
 
-  Eigen::Vector3d toward() const { return right.cross(up); }  ///< from the scene to the viewer
+  Eigen::Vector3d toward() const { return right.cross(up); }  ///< way from the scene to the viewer
 };
 
 /// What a picture costs: with the software renderer most of it goes to shadows.
 struct PictureQuality {
   int shadows = 3;         ///< lights with a shadow, in a ring so that theirs overlap to a soft one
-  int shadow_size = 4096;  ///< of their shadow maps, px
+  int shadow_size = 4096;  ///< size of their shadow maps, px
 };
 
 /// What the colours of a skin stand for: drawn as a bar in the lower right corner.
 struct ColourBar {
-  std::vector<std::array<unsigned char, 3>> colour;  ///< from the least value to the largest
-  std::string title, least, most;                    ///< above it, and below its ends
+  std::vector<std::array<unsigned char, 3>> colour;  ///< colours from least value to largest
+  std::string title, least, most;                    ///< words above it, and below its ends
 };
 /// Height of the lower edge of a picture that a bar and its words take, px.
 inline constexpr int colour_bar_room = 76;
@@ -54,10 +54,10 @@ inline constexpr int colour_bar_room = 76;
 /// One OpenGL context for any number of pictures. Keep one at a time, in the thread that made it.
 class OffscreenRenderer {
  public:
-  /// For pictures of at most `width` x `height` px (8192 either way) of things about as large as
-  /// `model`, whose own settings for pictures are not used. Throws InputError, one line with the
-  /// step that failed and EGL's or MuJoCo's reason, where this machine has no OpenGL for it, and
-  /// std::runtime_error beyond that size.
+  /// Makes pictures of at most `width` x `height` px (8192 either way) of things about as large as
+  /// `model`. Its own settings for pictures are not used. Throws std::runtime_error beyond that
+  /// size, and InputError where this machine has no OpenGL for it: one line with the step that
+  /// failed and EGL's or MuJoCo's reason.
   OffscreenRenderer(const mjModel& model, int width, int height,
                     const PictureQuality& quality = {});
   ~OffscreenRenderer();
@@ -65,9 +65,9 @@ class OffscreenRenderer {
   /// Draws `geoms` (mjv_initGeom, cm) before white, with shadows. Throws std::runtime_error where
   /// the view is larger than what the renderer was made for.
   Image render(const std::vector<mjvGeom>& geoms, const View& view);
-  /// The same with a skin of as many points as skin_model() made the renderer's model for (else
-  /// std::invalid_argument), a line of text in the lower left corner unless it is empty, and the
-  /// bar, if any.
+  /// Draws these and a skin. It has as many points as skin_model() made the renderer's model for
+  /// (else std::invalid_argument). A line of text comes in the lower left corner unless it is
+  /// empty, and the bar, if any.
   Image render(const std::vector<mjvGeom>& geoms, const View& view, const Skin& skin,
                const std::string& words = "", const ColourBar* bar = nullptr);
 

@@ -19,7 +19,7 @@ Model smooth(Model model);
 std::vector<State> core_rollout(const Model& model, const State& start, Head head, TimeRule rule,
                                 double h, int steps);
 
-/// The same in MuJoCo, by the rule and timestep that `mirror` is set to. Throws StepError where
+/// These states in MuJoCo, by the rule and timestep that `mirror` is set to. Throws StepError where
 /// MuJoCo finds its state bad, which it would otherwise reset and go on.
 std::vector<State> mujoco_rollout(const Model& model, const State& start, MujocoModel& mirror,
                                   int steps);

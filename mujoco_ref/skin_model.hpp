@@ -14,7 +14,7 @@ namespace hagfish {
 struct Skin {
   int sides = 0;                                     ///< points of a ring
   Eigen::Matrix3Xf point, normal;                    ///< 3 x rings * sides, cm; outward, unit
-  std::vector<std::array<unsigned char, 3>> colour;  ///< of each ring, red, green, blue
+  std::vector<std::array<unsigned char, 3>> colour;  ///< colour of each ring, red, green, blue
   float specular = 0;
 
   int rings() const { return static_cast<int>(colour.size()); }

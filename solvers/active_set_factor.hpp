@@ -52,7 +52,7 @@ class ActiveSetFactor {
   Eigen::VectorXd L_;
   Eigen::VectorXd inverse_pivot_;  ///< 1 / L_kk by position
   Eigen::VectorXd work_;
-  Eigen::VectorXd sums_;  ///< of solve_upper: tile_rows for each position
+  Eigen::VectorXd sums_;  ///< storage of solve_upper: tile_rows for each position
   std::vector<Eigen::Index> rows_;
   std::vector<char> active_;
 };

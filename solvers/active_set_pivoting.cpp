@@ -269,6 +269,9 @@ Eigen::Index ActiveSetPivoting::worst_row() const {
 /// lets it take the place of the row that blocks. False where nothing blocks and `row` is missed by
 /// more than rounding.
 bool ActiveSetPivoting::exchange(Eigen::Index row) {
+  // Along the ray A x stays as it is, and the active rows have w = 0. So the objective falls by |w|
+  // of `row` all the way to a bound. Without a bound it falls for ever: the rows contradict each
+  // other, and those on the ray are the proof (Farkas).
   const auto share = factor_.solve(qp_->A.col(row));
   const int sign = push(row);
   moving_ = factor_.rows();
@@ -284,6 +287,8 @@ bool ActiveSetPivoting::exchange(Eigen::Index row) {
     }
   }
   const double size = std::abs(w_[row]) * inverse_scale_[row];
+  // w of `row` is the same sum of the active rows' w, so that it has the sum of their rounding. A
+  // row that is off by no more is met: to choose it again would lead back here.
   tolerated_[row] = noise_ * sum + unsure;
   if (size <= tolerated_[row]) {
     return true;

@@ -1,4 +1,4 @@
-// Which rows of a box QP rest on a bound and which have w = A x - b = 0: found by pivoting.
+// Pivoting finds which rows of a box QP rest on a bound and which have w = A x - b = 0.
 #pragma once
 
 #include <Eigen/Core>
@@ -46,7 +46,7 @@ class ActiveSetPivoting {
   /// none does, rows contradict each other.
   Ending change_singly();
 
-  /// Within the bounds after change_blocks returned true, and after change_singly.
+  /// x, within the bounds after change_blocks returned true, and after change_singly.
   const Eigen::Map<Eigen::VectorXd>& x() const { return x_; }
   /// A x - b, to rounding, where x has settled.
   const Eigen::Map<Eigen::VectorXd>& w() const { return w_; }
@@ -54,8 +54,9 @@ class ActiveSetPivoting {
   const Eigen::Map<Eigen::VectorXd>& scale() const { return scale_; }
   /// Changes of sides so far, a block counting as one.
   int changes() const { return changes_; }
-  /// Ascending. Multipliers t_i with t_i > 0 on rows without an upper bound (any sign on free rows)
-  /// exist with Σ t_i A_i = 0 and Σ t_i b_i > 0, and with no row left out: Farkas' certificate.
+  /// Contradicting rows, ascending: Farkas' certificate. Multipliers t_i exist with Σ t_i A_i = 0
+  /// and Σ t_i b_i > 0, and with no row left out. On rows without an upper bound t_i > 0; on free
+  /// rows it has any sign.
   const std::vector<Eigen::Index>& contradicting() const { return contradicting_; }
 
  private:
@@ -72,10 +73,10 @@ class ActiveSetPivoting {
   std::function<bool()> stop_;
   const BoxQp* qp_ = nullptr;
   ActiveSetFactor factor_;
-  Eigen::MatrixXd memory_;  ///< of the vectors below: Eigen's own allocate at each change of size
+  Eigen::MatrixXd memory_;  ///< storage of the vectors below: Eigen's own allocate at each resize
   Eigen::Map<Eigen::VectorXd> scale_{nullptr, 0}, inverse_scale_{nullptr, 0}, x_{nullptr, 0},
       w_{nullptr, 0};
-  Eigen::Map<Eigen::VectorXd> step_{nullptr, 0};       ///< of the rows in moving_, in their order
+  Eigen::Map<Eigen::VectorXd> step_{nullptr, 0};       ///< step of the rows moving_, in their order
   Eigen::Map<Eigen::VectorXd> tolerated_{nullptr, 0};  ///< |ŵ| β up to which a row may go unmet
   Eigen::Map<Eigen::VectorXd> unsure_{nullptr, 0};     ///< rounding of b, brought to unit diagonal
   double beta_ = 1;                                    ///< size of b, brought to unit diagonal

@@ -21,8 +21,8 @@ struct BoxQp {
   Eigen::VectorXd b;      ///< m
   Eigen::VectorXd lower;  ///< m, <= 0, -infinity where free
   Eigen::VectorXd upper;  ///< m, >= 0, +infinity where free
-  /// m, or empty where b is exact: b_i is a difference of larger numbers and known to this alone.
-  /// Rows that miss by no more are met.
+  /// Rounding of b, m, or empty where b is exact: b_i is a difference of larger numbers and known
+  /// to this alone. Rows that miss by no more are met.
   Eigen::VectorXd rounding = {};
 };
 
@@ -44,7 +44,7 @@ inline bool pushes_at_zero(const BoxQp& qp, Eigen::Index i) {
 /// sqrt(A_ii), m: what brings rows of different units to unit diagonal. A row below 1e-20 of the
 /// largest cannot move: its scale is 1e-10 of the largest (1 where A = 0).
 Eigen::VectorXd row_scale(const Eigen::MatrixXd& A);
-/// The same into memory of the caller's, `s` (m).
+/// Writes the same scale into memory of the caller's, `s` (m).
 void row_scale(const Eigen::MatrixXd& A, Eigen::Ref<Eigen::VectorXd> s);
 
 /// β = max |b_i| / s_i over rows that can move and that push at x = 0; 1 where there is none. The b
@@ -60,8 +60,8 @@ struct BoxQpSolution {
   SolveStatus status = SolveStatus::failed;
   int iterations = 0;
   std::string message;  ///< the back end's own word where it failed
-  /// Where infeasible: rows that cannot be met together, rising. Empty where the back end does not
-  /// know them.
+  /// Rows that cannot be met together, rising, if the problem is infeasible. Empty where the back
+  /// end does not know them.
   std::vector<Eigen::Index> contradicting;
 };
 
@@ -80,7 +80,7 @@ struct KktResiduals {
 /// Residuals of any x against the problem; knows no back end. Infinite where x or w is not finite.
 KktResiduals kkt_residuals(const BoxQp& qp, const Eigen::Ref<const Eigen::VectorXd>& x);
 
-/// The same from w = C v - d as measured on the primal side instead of A x - b, with s =
+/// Residuals from w = C v - d as measured on the primal side instead of A x - b, with s =
 /// row_scale(A). β is at least `least_beta`: of a larger problem of which this one is a part.
 KktResiduals kkt_residuals(const BoxQp& qp, const Eigen::Ref<const Eigen::VectorXd>& x,
                            const Eigen::Ref<const Eigen::VectorXd>& w,

@@ -1,4 +1,4 @@
-// From an interior point to the vertex next to it.
+// The way from an interior point to the vertex next to it.
 #pragma once
 
 #include <Eigen/Core>

@@ -19,7 +19,7 @@ class AndersonMixing {
   static constexpr int depth = 3;  ///< changes between passes that are looked back on
   int passes_ = 0;
   Eigen::VectorXd residual_, last_residual_, last_g_;
-  Eigen::Matrix<double, Eigen::Dynamic, depth> residual_change_, g_change_;  ///< in a ring
+  Eigen::Matrix<double, Eigen::Dynamic, depth> residual_change_, g_change_;  ///< columns in a ring
 };
 
 }  // namespace hagfish

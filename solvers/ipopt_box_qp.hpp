@@ -13,20 +13,21 @@ struct IpoptSettings {
   /// Ipopt stops at this error in w - z and in x z. `accepted` holds at this value even where
   /// crossover finds nothing better.
   double tolerance = 1e-9;
-  /// The same of a first attempt whose point goes through crossover: near enough to tell which rows
-  /// bind. Where it is not, by `accepted`, a second attempt stops at `tolerance`. Affects speed
-  /// only.
+  /// This error in a first attempt whose point goes through crossover: near enough to tell which
+  /// rows bind. Where it is not, by `accepted`, a second attempt stops at `tolerance`. Affects
+  /// speed only.
   double polished_tolerance = 1e-4;
   /// Largest kkt_residuals of a point that is called solved.
   double accepted = 1e-8;
-  /// Usually 3 to 10 are taken; 60 where rows are far from independent.
+  /// Most iterations. Usually 3 to 10 are taken; 60 where rows are far from independent.
   int iteration_limit = 100;
   /// Barrier parameter of the start over its natural residual, and its least value. Smaller takes
   /// fewer iterations from good starts and more from bad ones.
   double barrier_share = 1e-4;
   double least_barrier = 1e-9;
-  /// Added to the diagonal while Ipopt runs, so that redundant rows do not let multipliers run away
-  /// to infinity. Crossover works without it; where that finds nothing, w is off by this times ŷ.
+  /// Number added to the diagonal while Ipopt runs, so that redundant rows do not let multipliers
+  /// run away to infinity. Crossover works without it; where that finds nothing, w is off by this
+  /// times ŷ.
   double regularisation = 1e-12;
   /// A problem whose objective falls below minus this is infeasible: it is ½ |v - v*|² in the H
   /// norm, over the change of velocity that the worst row alone needs; 5e7 is a change 1e4 times

@@ -25,9 +25,9 @@ void check_primal_qp(const PrimalQp& qp);
 /// [G; C], (p + m) x n.
 Eigen::MatrixXd all_rows(const PrimalQp& qp);
 
-/// The same problem in its multipliers, rows of G first: A = [G; C] H⁻¹ [G; C]' by a dense Cholesky
-/// factorisation, and the rounding of b, which is a difference. Throws std::invalid_argument where
-/// H is not positive definite.
+/// The dual problem, in the multipliers, rows of G first: A = [G; C] H⁻¹ [G; C]' by a dense
+/// Cholesky factorisation, and the rounding of b, which is a difference. Throws
+/// std::invalid_argument where H is not positive definite.
 BoxQp dual_of(const PrimalQp& qp);
 
 }  // namespace hagfish

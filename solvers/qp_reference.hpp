@@ -10,15 +10,15 @@
 
 namespace hagfish {
 
-/// How far the velocity v = H⁻¹ (g + J' x) of an answer x is from that of the solution x*. v is
+/// Distance of the velocity v = H⁻¹ (g + J' x) of an answer x from that of the solution x*. v is
 /// unique where x is not.
 struct VelocityError {
   double norm = 0;  ///< |v - v*| in the H norm: sqrt((x - x*)' A (x - x*))
-  /// That over the change |v* - H⁻¹ g| = sqrt(x*' A x*) or rhs_scale, whichever is larger: where
+  /// `norm` over the change |v* - H⁻¹ g| = sqrt(x*' A x*) or rhs_scale, whichever is larger: where
   /// rows hardly do anything, errors count as in kkt_residuals.
   double relative = 0;
   double largest = 0;           ///< |v - v*|∞; 0 where v is not known (BoxQp)
-  double largest_relative = 0;  ///< that over |v*|∞, or |v|∞ without rows where that is more
+  double largest_relative = 0;  ///< `largest` over |v*|∞, or |v|∞ without rows where that is more
 };
 
 /// A problem, its elimination of v and its solution, all in long double (64 bits of mantissa on
@@ -36,7 +36,7 @@ class QpReference {
   /// double: rows contradict each other, or the guess is too poor for a singular A.
   bool solve(const Eigen::VectorXd& guess);
 
-  /// Of `x` (m) against the solution found; solve() must have returned true.
+  /// Error of `x` (m) against the solution found; solve() must have returned true.
   VelocityError error(const Eigen::VectorXd& x) const;
 
  private:

@@ -1,9 +1,9 @@
 # What the documents repeat is what it repeats: cmake -DROOT=... -DVERSION=... -P documents.cmake
-file(READ ${ROOT}/experiments/reference/cpp.md page)
+file(READ ${ROOT}/experiments/docs/reference/cpp.md page)
 file(READ ${ROOT}/experiments/example.cpp example)
 string(FIND "${page}" "```cpp\n${example}```\n" found)
 if(found EQUAL -1)
-  message(SEND_ERROR "experiments/reference/cpp.md does not quote experiments/example.cpp as it is")
+  message(SEND_ERROR "experiments/docs/reference/cpp.md does not quote experiments/example.cpp as it is")
 endif()
 
 file(STRINGS ${ROOT}/CITATION.cff cited REGEX "^version:")

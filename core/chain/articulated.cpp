@@ -54,9 +54,9 @@ void ArticulatedFactor::factorise(const Model& model, const Kinematics& kin, con
   inverse_pivot_.resize(model.nv());
   prescribed_.assign(prescribed.begin(), prescribed.end());
   auto next = prescribed_.rbegin();
-  // Sums are written in the order in which each waits least for the one before. `articulated` lacks
-  // what the dof behind takes from it, u u' over its pivot, which is taken from the products with
-  // it: so each dof waits for the pivot of the one behind alone, and not for the matrix after it.
+  // Latency bounds this loop, so sums are in the order in which each waits least. `articulated` is
+  // kept one rank-one update behind, u u' over the pivot of the dof behind. Products with it
+  // subtract that update. So a dof waits for one pivot only, and not for the matrix.
   using Column = Eigen::Matrix<double, 8, 1>;
   Eigen::Matrix<double, 8, 6> articulated = Eigen::Matrix<double, 8, 6>::Zero();
   Column u = Column::Zero();
@@ -88,7 +88,7 @@ void ArticulatedFactor::factorise(const Model& model, const Kinematics& kin, con
       coupling_[k] = coupling;
       pivot_[k] = pivot;
       if (next != prescribed_.rend() && next->dof == k) {
-        inverse = 0;
+        inverse = 0;  // it does not give way, so all inertia behind it is felt before it
         ++next;
       } else {
         inverse = 1 / pivot;

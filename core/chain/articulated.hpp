@@ -25,34 +25,35 @@ struct PaddedOperator {
 };
 
 struct StepOperator {
-  std::vector<PaddedOperator> inertia;  ///< Î, one, positive, per body, about O
-  Eigen::VectorXd diagonal;             ///< δ >= 0, nv
+  std::vector<PaddedOperator> inertia;  ///< Î of each body about O, positive: g cm^2, g cm, g
+  Eigen::VectorXd diagonal;             ///< δ >= 0, nv: g cm^2 for a turn, g for a translation
 };
 
-/// H v in O(n); `twist` are those of the bodies at v (6 x N), `wrench` is storage.
+/// Writes H v into `product` (nv), an impulse, dyn s or dyn cm s, in O(n). `v` (nv) is laid out as
+/// State::qdot, `twist` has the bodies' twists at v (6 x N), and `wrench` (6 x N) is storage.
 void multiply(const Model& model, const Kinematics& kin, const StepOperator& op,
               const Eigen::VectorXd& v, const Matrix6Xd& twist, Matrix6Xd& wrench,
               Eigen::VectorXd& product);
 Eigen::VectorXd multiply(const Model& model, const Kinematics& kin, const StepOperator& op,
                          const Eigen::VectorXd& v);
 
-/// Lower and upper triangle of H, dense nv x nv (composite rigid bodies; with Î the bodies'
-/// inertias and δ = 0 this is the mass matrix M).
+/// Lower and upper triangle of H, dense nv x nv, g, g cm and g cm² (composite rigid bodies). With Î
+/// the bodies' inertias and δ = 0 this is the mass matrix M.
 Eigen::MatrixXd dense(const Model& model, const Kinematics& kin, const StepOperator& op);
 
-/// C' of m rows, column by column: joint forces and wrenches on single bodies; then Y with
-/// Y'Y = C H⁻¹ C'. A column ends with the last velocity that moves what its row is about; those
-/// that end late are best put first, as the work on a panel of them ends with the longest.
+/// C' of m rows, column by column: joint forces and wrenches on single bodies, per unit λ; then Y
+/// with Y'Y = C H⁻¹ C'. A column is zero beyond the last dof that moves its row. Panels of 8 are
+/// processed to their longest column: order rows by falling last dof.
 class RowColumns {
  public:
   /// Empties all for `m` columns.
   void reset(const Model& model, Eigen::Index m);
-  /// Adds a wrench on one body to a column: a moment about O and a force.
+  /// Adds a wrench on one body to a column, in world axes: a moment about O, cm, and a force, 1.
   void load(const Model& model, int body, Eigen::Index column, const Eigen::Vector3d& moment,
             const Eigen::Vector3d& force);
-  /// Adds a force on one velocity to a column.
+  /// Adds a force (1) on one velocity to a column.
   void load_joint(Eigen::Index dof, Eigen::Index column, double force);
-  /// A = Y'Y, m x m, after half_solve. Symmetric and semidefinite by construction.
+  /// A = Y'Y, m x m, after half_solve: rates of rows per unit λ. Symmetric and semidefinite.
   void gram(Eigen::MatrixXd& A) const;
 
  private:
@@ -75,7 +76,7 @@ class RowColumns {
   std::vector<Load> loads_;
   std::vector<JointLoad> joint_loads_;
   std::vector<int> newest_, newest_joint_;  ///< load of each body, velocity; -1 where it has none
-  std::vector<Eigen::Index> end_;           ///< of each panel: 1 + last velocity
+  std::vector<Eigen::Index> end_;           ///< 1 + the last velocity of each panel
   std::vector<Eigen::Index> width_;         ///< panels times columns that reach each velocity
   /// Y, nv x m' with m' >= m, row-major so that one operation serves all columns. Rows past the end
   /// of a panel are not set.
@@ -93,20 +94,21 @@ struct PrescribedVelocity {
 /// Featherstone 2008, ch. 9.2).
 class ArticulatedFactor {
  public:
-  /// `prescribed` by rising dof, once each. Throws std::domain_error, naming the dof, where H is
-  /// not positive definite.
+  /// Factorises H of `op` in the pose of `kin`. `prescribed` is by rising dof, once each. Throws
+  /// std::domain_error, naming the dof, where H is not positive definite.
   void factorise(const Model& model, const Kinematics& kin, const StepOperator& op,
                  std::span<const PrescribedVelocity> prescribed = {});
 
-  /// H v = J' w + τ + the reactions of prescribed velocities, for one wrench per body (6 x N) and
-  /// joint forces τ (nv): v (nv), the twists of the bodies at it (6 x N), and `reaction`, the joint
-  /// force at each prescribed velocity.
+  /// Solves H v = J' w + τ + the reactions of prescribed velocities. `wrench` has w, an impulse on
+  /// each body about O (6 x N, dyn cm s and dyn s). `joint` has τ (nv, dyn cm s or dyn s). Writes
+  /// `v` (nv, as State::qdot), the bodies' twists at it (6 x N), and `reaction`, the impulse at
+  /// each prescribed velocity.
   void solve(const Model& model, const Kinematics& kin, const Matrix6Xd& wrench,
              const Eigen::VectorXd& joint, Eigen::VectorXd& v, Matrix6Xd& twist,
              Eigen::VectorXd& reaction) const;
   Eigen::VectorXd solve(const Model& model, const Kinematics& kin, const Matrix6Xd& wrench,
                         const Eigen::VectorXd& joint) const;
-  /// The same where the prescribed velocities have the values of `prescribed`.
+  /// Solves this with the values of `prescribed`, whose dofs are those of the factorisation.
   void solve(const Model& model, const Kinematics& kin, const Matrix6Xd& wrench,
              const Eigen::VectorXd& joint, std::span<const PrescribedVelocity> prescribed,
              Eigen::VectorXd& v, Matrix6Xd& twist, Eigen::VectorXd& reaction) const;
@@ -115,8 +117,8 @@ class ArticulatedFactor {
   /// Prescribed velocities do not answer to a force.
   void half_solve(const Model& model, const Kinematics& kin, RowColumns& columns) const;
 
-  /// S' Î^A S + δ: force over velocity at a dof (prescribed or not) where all nearer the head are
-  /// prescribed.
+  /// S' Î^A S + δ, g or g cm²: impulse over velocity at a dof (prescribed or not) where all nearer
+  /// the head are prescribed.
   double pivot(int dof) const { return pivot_[dof]; }
 
  private:

@@ -42,7 +42,7 @@ Eigen::VectorXd stiffness_force(const Model& model, const Eigen::VectorXd& q);
 struct TipForce {
   Eigen::Vector3d value = Eigen::Vector3d::Zero();  ///< dyn, world
   double rate = 0;                                  ///< dyn s / cm
-  int body = -1;                                    ///< that it is on; -1: the last one
+  int body = -1;                                    ///< body that it is on; -1: the last one
 
   int on(const Model& model) const { return body >= 0 ? body : model.body_count() - 1; }
 };
@@ -59,14 +59,14 @@ struct ActiveTorque {
 /// One step's unconstrained problem H q̇* = M q̇0 + h f (paper, Eq. 1).
 struct StepSystem {
   StepOperator op;        ///< H = M + h D - h² K
-  Matrix6Xd bias;         ///< as bias_wrench, but with moments about the bodies' centres, 6 x N
-  Matrix6Xd wrench;       ///< right-hand side, body part, 6 x N (times s)
-  Eigen::VectorXd joint;  ///< right-hand side, joint part, nv (times s)
+  Matrix6Xd bias;         ///< bias_wrench, but with moments about the bodies' centres, 6 x N
+  Matrix6Xd wrench;       ///< right-hand side, body part, 6 x N, dyn cm s and dyn s
+  Eigen::VectorXd joint;  ///< right-hand side, joint part, nv, dyn cm s or dyn s
 };
 
-/// When the forces of a step act (TimeSettings).
+/// Timing of a step's forces (TimeSettings).
 struct ForceTiming {
-  double reach = 0;           ///< how far into it, s
+  double reach = 0;           ///< how far into the step they act, s
   double spring_damping = 0;  ///< numerical damping of springs, over their stiffness, s
 };
 
@@ -82,7 +82,7 @@ Eigen::VectorXd ring_damping_force(const Model& model, double damping,
 void assemble_step_system(const Model& model, const State& state, const StepMotion& motion,
                           const Kinematics& kin, const TipForce& tip, const ForceTiming& when,
                           StepSystem& system);
-/// The same of a step that starts where and as `kin` says.
+/// Assembles Eq. 1 of a step that starts where and as `kin` says.
 StepSystem step_system(const Model& model, const State& state, const Kinematics& kin,
                        const TipForce& tip, double h);
 
@@ -93,12 +93,12 @@ void add_active_torque(const ActiveTorque& torque, double h, StepSystem& system)
 double kinetic_energy(const Model& model, const Kinematics& kin, int body, const Vector6d& twist,
                       const Eigen::Vector3d& velocity);
 
-/// Of all bodies, at kin.twist.
+/// Kinetic energy of all bodies at kin.twist, erg.
 double kinetic_energy(const Model& model, const Kinematics& kin);
-/// The same about their centre of mass, which is the same for each observer.
+/// Kinetic energy about the centre of mass, erg: the same for each observer.
 double inner_kinetic_energy(const Model& model, const Kinematics& kin);
 
-/// Of each body, erg (N), straight from a state: its kinematics need not be known.
+/// Kinetic energy of each body, erg (N), straight from a state: its kinematics need not be known.
 void kinetic_energies(const Model& model, const State& state, Eigen::VectorXd& energies);
 
 // What follows is asked of every body in each step, where calls would put vectors into memory.
@@ -160,7 +160,7 @@ inline double drag_power(const Model& model, const Kinematics& kin, int body,
 struct BodyMomentum {
   Eigen::Vector3d angular, linear;
 
-  /// Over a motion, erg: twice the kinetic energy over the same motion.
+  /// Power over a motion, erg: twice the kinetic energy over the same motion.
   double times(const PointMotion& motion) const {
     return angular.dot(motion.spin) + linear.dot(motion.velocity);
   }

@@ -19,7 +19,7 @@ std::vector<Eigen::Matrix3d> axes_of_joints(const Kinematics& kin);
 void add_moments(const Kinematics& kin, const Matrix6Xd& wrench,
                  const std::vector<Eigen::Matrix3d>& axes, Eigen::Matrix3Xd& moment);
 
-/// The same of torques of hinges (nv, dyn cm): a joint's are one vector along its hinges' axes.
+/// Adds moments of hinges' torques (nv, dyn cm): a joint's are one vector along its hinges' axes.
 void add_hinge_moments(const Model& model, const Kinematics& kin, const Eigen::VectorXd& torque,
                        const std::vector<Eigen::Matrix3d>& axes, Eigen::Matrix3Xd& moment);
 

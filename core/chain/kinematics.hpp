@@ -1,4 +1,4 @@
-// Where the bodies are and how they move, from q and q̇: once per step, used by all that follows.
+// Positions and motions of the bodies, from q and q̇: once per step, used by all that follows.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,8 +12,8 @@ namespace hagfish {
 
 /// How all bodies move at one velocity of the chain.
 struct BodyVelocities {
-  const Matrix6Xd& twist;          ///< about O, 6 x N
-  const Eigen::Matrix3Xd& centre;  ///< of their centres, 3 x N, cm/s
+  const Matrix6Xd& twist;          ///< twists about O, 6 x N
+  const Eigen::Matrix3Xd& centre;  ///< velocities of their centres, 3 x N, cm/s
 };
 
 /// World axes. Spatial vectors are about `reference`, the centre of the middle body: taken about
@@ -23,20 +23,20 @@ struct Kinematics {
   std::vector<Eigen::Matrix3d> rotation;                ///< N, body to world
   Eigen::Matrix3Xd origin;                              ///< 3 x N, body frames, cm
   Eigen::Matrix3Xd centre;                              ///< 3 x N, centres of mass, cm
-  Eigen::VectorXd sine, cosine;                         ///< of the hinges' angles
+  Eigen::VectorXd sine, cosine;                         ///< sines and cosines of the hinges' angles
   Matrix6Xd axis;   ///< 6 x nv: column k of the Jacobian of every body at or behind dof k
   Matrix6Xd twist;  ///< 6 x N, body twists at q̇
-  Eigen::Matrix3Xd centre_velocity;  ///< 3 x N, of the centres of mass at q̇, cm/s
+  Eigen::Matrix3Xd centre_velocity;  ///< velocities of the centres of mass at q̇, 3 x N, cm/s
   Matrix6Xd bias_twist;              ///< 6 x N, J̇ q̇: rates of the twists at q̈ = 0
 
   Eigen::Vector3d centre_offset(int body) const { return centre.col(body) - reference; }
-  BodyVelocities velocities() const { return {twist, centre_velocity}; }  ///< at q̇
+  BodyVelocities velocities() const { return {twist, centre_velocity}; }  ///< motion at q̇
 };
 
 /// What the bodies' bias is to work over a step, so that Coriolis forces neither make nor take
 /// energy (core/README.md, "Steps in time").
 struct BiasPower {
-  Eigen::VectorXd value;  ///< of each body, erg/s, N
+  Eigen::VectorXd value;  ///< power of each body, erg/s, N
   /// A body's momentum over its motion counts as no less, erg: what hardly moves would need forces
   /// far larger than its own.
   double least = 0;
@@ -46,12 +46,12 @@ struct BiasPower {
 
 /// What Eq. 1 needs to know of the motion at the place of its step.
 struct StepMotion {
-  const Matrix6Xd& twist;                   ///< of the bodies at the step's first velocity, 6 x N
-  const Eigen::Matrix3Xd& centre_velocity;  ///< of their centres at it, 3 x N, cm/s
-  const Matrix6Xd& mean_twist;              ///< at what they have on the mean, 6 x N
+  const Matrix6Xd& twist;                   ///< bodies' twists at the step's first velocity, 6 x N
+  const Eigen::Matrix3Xd& centre_velocity;  ///< velocities of their centres at it, 3 x N, cm/s
+  const Matrix6Xd& mean_twist;              ///< bodies' twists at the mean velocity, 6 x N
   const BiasPower* bias_power = nullptr;    ///< null where the bias works what it does
 
-  /// At the step's first velocity.
+  /// Motion at the step's first velocity.
   BodyVelocities before() const { return {twist, centre_velocity}; }
 };
 
@@ -63,12 +63,11 @@ inline StepMotion motion_of(const Kinematics& kin) {
 /// Positions and axes; does not touch the velocity fields.
 void update_positions(const Model& model, const Eigen::VectorXd& q, Kinematics& kin);
 
-/// The same with the root where it takes the centre of mass to `centre` (cm, world), which is
-/// written into `q`.
+/// Positions and axes with the centre of mass at `centre` (cm, world); puts the root into `q`.
 void place_centre(const Model& model, const Eigen::Vector3d& centre, Eigen::VectorXd& q,
                   Kinematics& kin);
 
-/// Of all bodies, cm, world.
+/// Centre of mass of all bodies, cm, world.
 Eigen::Vector3d centre_of_mass(const Model& model, const Kinematics& kin);
 
 /// The mean of the columns of `of` (3 x N), one for each body, by their masses.
@@ -76,9 +75,9 @@ Eigen::Vector3d mean_by_mass(const Model& model, const Eigen::Matrix3Xd& of);
 
 /// Twists and bias twists; after update_positions.
 void update_velocities(const Model& model, const Eigen::VectorXd& qdot, Kinematics& kin);
-/// The same where bodies move by `step_velocity`, but have the velocities `mean_velocity` (nv both)
-/// on the mean while they do (midpoint rule): bias_twist is the rate of J along `step_velocity`,
-/// times `mean_velocity`; the rest is of `step_velocity`.
+/// Twists and bias twists where bodies move by `step_velocity`, but have the velocities
+/// `mean_velocity` (nv both) on the mean while they do (midpoint rule): bias_twist is the rate of J
+/// along `step_velocity`, times `mean_velocity`; the rest is of `step_velocity`.
 void update_velocities(const Model& model, const Eigen::VectorXd& step_velocity,
                        const Eigen::VectorXd& mean_velocity, Kinematics& kin);
 

@@ -21,7 +21,7 @@ using LaneMask = std::int64_t __attribute__((vector_size(lane_count * sizeof(dou
 using LaneValues = std::array<double, lane_count>;
 
 namespace detail {
-/// The same bytes as another type.
+/// Reads the bytes of `from` as another type.
 template <class To, class From>
 To bits_as(const From& from) {
   static_assert(sizeof(To) == sizeof(From));
@@ -40,10 +40,10 @@ inline Lanes lanes_at(const double* values) {
   std::memcpy(&lanes, values, sizeof lanes);
   return lanes;
 }
-/// The same number in all lanes.
+/// One number in all lanes.
 inline Lanes lanes_of(double value) { return Lanes{} + value; }
 
-/// The same in single precision: twice as many.
+/// Lanes in single precision: twice as many.
 inline constexpr int float_lane_count = 2 * lane_count;
 using FloatLanes = float __attribute__((vector_size(float_lane_count * sizeof(float))));
 using FloatLaneMask = std::int32_t __attribute__((vector_size(float_lane_count * sizeof(float))));
@@ -72,7 +72,7 @@ inline unsigned bits_of(const LaneMask& mask) {
 }
 inline bool any(const LaneMask& mask) { return bits_of(mask) != 0; }
 
-/// Of two numbers, or of those in each lane.
+/// The lesser of two numbers, or of those in each lane.
 template <class Real>
 Real least(const Real& x, const Real& y) {
   return x < y ? x : y;
@@ -80,7 +80,7 @@ Real least(const Real& x, const Real& y) {
 inline Lanes largest(const Lanes& x, const Lanes& y) { return x > y ? x : y; }
 inline Lanes magnitude(const Lanes& x) { return largest(x, -x); }
 
-/// To two units in the last place; 0 below the smallest normal number. Of numbers that are finite.
+/// Square root to two units in the last place, of finite numbers; 0 below the smallest normal one.
 inline Lanes root(const Lanes& x) {
   using Values = Eigen::Array<double, lane_count, 1>;
   return detail::bits_as<Lanes>(Values(detail::bits_as<Values>(x).sqrt()));

@@ -148,10 +148,7 @@ double hinge_span(const Model& model, int body) {
 std::vector<Obstacle> obstacles_of(const Scene& scene) {
   std::vector<Obstacle> all;
   if (scene.wall.present) {
-    Obstacle& plate = all.emplace_back();
-    plate.name = "head plate";
-    plate.kind = Obstacle::Kind::plane;
-    plate.neck = scene.wall.neck;
+    all.push_back({"head plate", Plane{.neck = scene.wall.neck}});
   }
   all.insert(all.end(), scene.obstacles.begin(), scene.obstacles.end());
   return all;

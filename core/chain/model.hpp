@@ -18,8 +18,8 @@ namespace hagfish {
 struct Body {
   double mass = 0;                                    ///< g
   double length = 0;                                  ///< cm
-  double radius = 0;                                  ///< of the skin, cm
-  Eigen::Vector3d inertia = Eigen::Vector3d::Zero();  ///< about the centre, body axes, g cm^2
+  double radius = 0;                                  ///< radius of the skin, cm
+  Eigen::Vector3d inertia = Eigen::Vector3d::Zero();  ///< moments at the centre, body axes, g cm^2
   int first_dof = 0;                                  ///< index of its first velocity
   int dofs = 0;                                       ///< number of its velocities
 };
@@ -32,7 +32,7 @@ struct Hinge {
   Axis axis = Axis::y;
   double lower = 0;      ///< rad; -infinity where free
   double upper = 0;      ///< rad; +infinity where free
-  double stiffness = 0;  ///< towards angle 0, dyn cm / rad
+  double stiffness = 0;  ///< spring towards angle 0, dyn cm / rad
   double damping = 0;    ///< dyn cm s / rad
 };
 
@@ -47,8 +47,8 @@ struct Model {
   std::vector<Body> bodies;   ///< head to tail
   std::vector<Hinge> hinges;  ///< head to tail; hinge k has velocity 6 + k and coordinate 7 + k
   std::vector<BendingCone> cones;   ///< head to tail; none where each hinge has its own limit
-  std::vector<Muscle> muscles;      ///< by joint, head to tail; none but where the scene has them
-  std::vector<Obstacle> obstacles;  ///< what its bodies and skin stay out of
+  std::vector<Muscle> muscles;      ///< head to tail; none but where the scene has them
+  std::vector<Obstacle> obstacles;  ///< obstacles that bodies and skin stay out of
   DragSettings drag;
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< cm / s^2
 

@@ -19,20 +19,20 @@ struct Model;
 /// A straight line of fibres across a joint.
 struct MuscleLine {
   Eigen::Vector3d head;  ///< its end on the body before the joint, in that body's frame, cm
-  Eigen::Vector3d tail;  ///< on the body behind it, in that body's frame, cm
+  Eigen::Vector3d tail;  ///< its end on the body behind it, in that body's frame, cm
 };
 
 /// Lines that are active together, between two neighbouring bodies: it turns the hinges of one
 /// joint and of no other.
 struct Muscle {
   std::string name;  ///< "j01_left"
-  int body = 0;      ///< behind its joint, >= 1
+  int body = 0;      ///< body behind its joint, >= 1
   double force = 0;  ///< F_max of each of its lines, dyn
   std::vector<MuscleLine> lines;
 };
 
-/// Those of the chain `model` by what the specimen has (Specimen::muscle), joint by joint from the
-/// head; at a bending joint left, right, dorsal, ventral, at a twisting one right_handed,
+/// The muscles of the chain `model` by what the specimen has (Specimen::muscle), joint by joint
+/// from the head; at a bending joint left, right, dorsal, ventral, at a twisting one right_handed,
 /// left_handed. The animal's left is -y, its back is +z.
 std::vector<Muscle> muscles_of(const Specimen& specimen, const Model& model);
 

@@ -20,7 +20,7 @@ inline Vector6d wrench_of_force(const Eigen::Vector3d& force, const Eigen::Vecto
   return w;
 }
 
-/// The same, added to a column of wrenches: halves that stay in registers, where vectors of six
+/// Adds that wrench to a column of wrenches: halves that stay in registers, where vectors of six
 /// would go through memory.
 template <class Column>
 void add_wrench_of_force(const Eigen::Vector3d& force, const Eigen::Vector3d& offset,

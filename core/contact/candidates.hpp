@@ -28,9 +28,9 @@ struct Candidates {
   std::vector<SegmentPair> pairs;  ///< sorted
   /// The pair needs no evaluation until its two segments together have moved this far, cm.
   std::vector<double> clear_until;
-  std::vector<std::optional<ClosestPoints>> closest;  ///< of the last evaluation
+  std::vector<std::optional<ClosestPoints>> closest;  ///< answer of the last evaluation
   std::vector<int> first;  ///< index of each segment's first pair; at the end, the number of pairs
-  SegmentEnds ends;        ///< of the segments of the last search
+  SegmentEnds ends;        ///< ends of the segments of the last search
   std::vector<double> displacement;  ///< bound for each segment since the pairs were listed, cm
   /// Pairs that were evaluated since the last keep_candidates(), unless all have changed.
   std::vector<int> changed;

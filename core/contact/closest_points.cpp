@@ -187,7 +187,8 @@ Direction direction(const LaneSegments& a, const LaneSegments& b, const Iterate&
   const Lanes gb = bn - b.r1;
   const LaneMask free_a = ~(((at.t_a <= zero) & (ga >= zero)) | ((at.t_a >= one) & (ga <= zero)));
   const LaneMask free_b = ~(((at.t_b <= zero) & (gb >= zero)) | ((at.t_b >= one) & (gb <= zero)));
-  // The Hessian over the part of its diagonal that is always positive.
+  // The Hessian over the part of its diagonal that is always positive, |x'|² over the distance. So
+  // it has no unit, and least_share suits segments of any length.
   const Lanes width_a = one / (dot(xa, xa) * inverse);
   const Lanes width_b = one / (dot(xb, xb) * inverse);
   const Lanes width = root(width_a * width_b);
@@ -204,11 +205,13 @@ Direction direction(const LaneSegments& a, const LaneSegments& b, const Iterate&
   const Lanes turn = crest ? mean * inverse_radius : one;
   const Lanes lift = crest ? -determinant * inverse_radius : zero;
   const LaneMask regular = crest | ((haa > zero) & (determinant > lanes_of(least_share)));
-  const Lanes maa = regular ? turn * haa + lift : 2 * one;  // else Gauss-Newton, at half its step
+  // Elsewhere 2 stands for the positive part, whose eigenvalues are 1 ± |cos| of the slopes' angle:
+  // a step that far along the gradient does not overshoot it.
+  const Lanes maa = regular ? turn * haa + lift : 2 * one;
   const Lanes mbb = regular ? turn * hbb + lift : 2 * one;
   const Lanes mab = regular ? turn * hab : zero;
   const LaneMask both = free_a & free_b;
-  const Lanes alone = magnitude(free_a ? haa : hbb);
+  const Lanes alone = magnitude(free_a ? haa : hbb);  // |h|: downhill also on a crest
   const Lanes divisor = both ? maa * mbb - mab * mab : alone;
   const Lanes share = divisor > lanes_of(least_share) ? one / divisor : one;
   const Lanes step_a = share * (both ? mab * width * gb - mbb * width_a * ga : -width_a * ga);

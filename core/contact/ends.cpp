@@ -92,9 +92,10 @@ Nearest nearest_on(const SplineSegment& segment, const Eigen::Vector3d& x, doubl
 }
 
 /// Finds nearest points of the body's other strands for points of one strand.
-class Strand {
+class NearestFinder {
  public:
-  Strand(const std::vector<SplineSegment>& segments, const ContactSettings& settings, bool tail)
+  NearestFinder(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
+                bool tail)
       : segments_(segments),
         settings_(settings),
         least_arc_(settings.least_arc * (1 - 1e-9)),
@@ -186,7 +187,7 @@ Place close_in(double level, double inside, const Place& outer, const Search& ne
 /// Where the level set around the point `t` of segment `own` ends, towards the tail or the head.
 Contact end_from(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
                  double level, bool tail, int own, double t) {
-  const Strand strand(segments, settings, tail);
+  const NearestFinder strand(segments, settings, tail);
   const double border = tail ? 1 : 0;
   const auto is_last = [&](int segment) {
     return tail ? segment + 1 == static_cast<int>(segments.size()) ||

@@ -1,4 +1,4 @@
-// Where the body begins and ends to touch itself: the knot's first and last contact.
+// The knot's first and last contact: where the body begins and ends to touch itself.
 #pragma once
 
 #include <optional>
@@ -17,7 +17,7 @@ namespace hagfish {
 /// joint.
 struct TouchingEnds {
   std::optional<Contact> first, last;  ///< both or none
-  double head_end = 0, tail_end = 0;   ///< of the knot: their end_arc, cm; 0 where there are none
+  double head_end = 0, tail_end = 0;   ///< the knot's end_arc at both, cm; 0 where there are none
 };
 
 /// The patches of contact that begin at both ends (patch.hpp).

@@ -31,7 +31,7 @@ void observe_placed(const Model& model, const State& state, const Scene& scene,
   o.ends = touching_ends(o.segments, o.contact.contacts, scene, o.patches);
   o.penetration = std::max(0.0, -o.contact.least_gap);
   visit_plane_gaps(model, o.kin,
-                   [&](int, int, double gap) { o.penetration = std::max(o.penetration, -gap); });
+                   [&](const PlaneGap& at) { o.penetration = std::max(o.penetration, -at.gap); });
   double past_limit = 0;
   for (int k = root_dofs; k < model.nv(); ++k) {
     const Hinge& hinge = model.hinges[k - root_dofs];

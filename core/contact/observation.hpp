@@ -15,10 +15,10 @@ namespace hagfish {
 /// Computed once for each state; used by controller, constraints and log.
 struct Observation {
   Kinematics kin;
-  std::vector<SplineSegment> segments;  ///< of the body and of obstacles (obstacles.hpp)
+  std::vector<SplineSegment> segments;  ///< segments of the body and of obstacles (obstacles.hpp)
   ContactSet contact;
-  TouchingEnds ends;           ///< of the body with itself
-  EndPatches patches;          ///< that begin there
+  TouchingEnds ends;           ///< ends of the body's contact with itself
+  EndPatches patches;          ///< patches that begin there
   double penetration = 0;      ///< deepest overlap of skins or with an obstacle, cm, >= 0
   double limit_violation = 0;  ///< largest angle past a limit, rad, >= 0
 };
@@ -34,7 +34,7 @@ struct Moment {
 void observe(const Model& model, const State& state, const Scene& scene, ContactSearch& search,
              Observation& observation);
 Observation observe(const Model& model, const State& state, const Scene& scene);
-/// The same where the positions in observation.kin are those of `state` already.
+/// Observes a state whose positions are in observation.kin already.
 void observe_placed(const Model& model, const State& state, const Scene& scene,
                     ContactSearch& search, Observation& observation);
 

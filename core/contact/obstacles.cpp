@@ -10,10 +10,10 @@ namespace {
 /// would have no direction.
 constexpr double ball_length = 1e-7;
 
-int point_count(const Obstacle& strand) { return static_cast<int>(strand.points.size()); }
+int point_count(const Strand& strand) { return static_cast<int>(strand.points.size()); }
 
 /// Point `i` of a strand, cm. Beyond the ends of an open strand the polygon is continued straight.
-Eigen::Vector3d point_of(const Obstacle& strand, int i) {
+Eigen::Vector3d point_of(const Strand& strand, int i) {
   const std::vector<Eigen::Vector3d>& p = strand.points;
   const int n = point_count(strand);
   if (n == 1) return p[0] + i * ball_length * strand.radius * Eigen::Vector3d::UnitX();
@@ -22,7 +22,7 @@ Eigen::Vector3d point_of(const Obstacle& strand, int i) {
   return i < n ? p[i] : (2 * p[n - 1] - p[n - 2]).eval();
 }
 
-SplineSegment segment_of(const Obstacle& strand, int i) {
+SplineSegment segment_of(const Strand& strand, int i) {
   SplineSegment s;
   s.r0 = strand.radius;
   s.s0 = std::numeric_limits<double>::infinity();
@@ -50,17 +50,12 @@ SplineSegment gap_behind(const SplineSegment& before, int obstacle) {
 
 }  // namespace
 
-bool has_strand(const Model& model, int obstacle) {
-  return obstacle >= 0 && obstacle < static_cast<int>(model.obstacles.size()) &&
-         model.obstacles[obstacle].kind == Obstacle::Kind::strand;
-}
-
-int segments_of(const Obstacle& strand) {
+int segments_of(const Strand& strand) {
   const int n = point_count(strand);
   return strand.closed || n == 1 ? n : n - 1;
 }
 
-Eigen::Matrix3Xd strand_curve(const Obstacle& strand) {
+Eigen::Matrix3Xd strand_curve(const Strand& strand) {
   constexpr int pieces = 6;  // of a segment
   const int count = segments_of(strand);
   Eigen::Matrix3Xd curve(3, pieces * count + 1);
@@ -74,8 +69,8 @@ Eigen::Matrix3Xd strand_curve(const Obstacle& strand) {
 int strand_begin(const Model& model, int obstacle) {
   int at = model.body_count() - 1;
   for (int k = 0; k <= obstacle; ++k) {
-    const Obstacle& strand = model.obstacles[k];
-    if (strand.kind == Obstacle::Kind::strand) at += 1 + (k < obstacle ? segments_of(strand) : 0);
+    const Strand* strand = model.obstacles[k].strand();
+    if (strand != nullptr) at += 1 + (k < obstacle ? segments_of(*strand) : 0);
   }
   return at;
 }
@@ -86,8 +81,8 @@ double strand_parameter(const Model& model, const Contact& contact) {
 
 int segment_count(const Model& model) {
   int count = model.body_count() - 1;
-  for (const Obstacle& strand : model.obstacles) {
-    if (strand.kind == Obstacle::Kind::strand) count += 1 + segments_of(strand);
+  for (const Obstacle& obstacle : model.obstacles) {
+    if (const Strand* strand = obstacle.strand()) count += 1 + segments_of(*strand);
   }
   return count;
 }
@@ -97,11 +92,11 @@ void update_segments(const Model& model, const Eigen::Matrix3Xd& centre,
   update_spline(model, centre, segments);
   if (segments.empty()) return;  // a single body has no skin between bodies
   for (int k = 0; k < static_cast<int>(model.obstacles.size()); ++k) {
-    const Obstacle& strand = model.obstacles[k];
-    if (strand.kind != Obstacle::Kind::strand) continue;
+    const Strand* strand = model.obstacles[k].strand();
+    if (strand == nullptr) continue;
     segments.push_back(gap_behind(segments.back(), k));
-    for (int i = 0; i < segments_of(strand); ++i) {
-      segments.push_back(segment_of(strand, i));
+    for (int i = 0; i < segments_of(*strand); ++i) {
+      segments.push_back(segment_of(*strand, i));
       segments.back().obstacle = k;
     }
   }

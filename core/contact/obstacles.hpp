@@ -13,37 +13,40 @@ namespace hagfish {
 
 /// Gap of a body's sphere to a plane, cm; negative where the sphere is behind the plane. `kin`
 /// needs positions only.
-inline double plane_gap(const Model& model, const Kinematics& kin, const Obstacle& plane,
-                        int body) {
+inline double plane_gap(const Model& model, const Kinematics& kin, const Plane& plane, int body) {
   return plane.normal.dot(kin.centre.col(body) - plane.point) - model.bodies[body].radius;
 }
 
-/// Calls `visit(obstacle, body, gap)` for each body that a plane holds, plane by plane; `obstacle`
-/// is the plane's index.
+/// A body that a plane holds.
+struct PlaneGap {
+  int obstacle;  ///< index of the plane
+  const Plane& plane;
+  int body;
+  double gap;  ///< cm
+};
+
+/// Calls `visit(PlaneGap)` for each body that a plane holds, plane by plane.
 template <class Visit>
 void visit_plane_gaps(const Model& model, const Kinematics& kin, Visit visit) {
   for (int k = 0; k < static_cast<int>(model.obstacles.size()); ++k) {
-    const Obstacle& plane = model.obstacles[k];
+    const Plane* plane = model.obstacles[k].plane();
     double arc = 0;
-    for (int b = 0; plane.kind == Obstacle::Kind::plane && b < model.body_count(); ++b) {
+    for (int b = 0; plane != nullptr && b < model.body_count(); ++b) {
       const Body& body = model.bodies[b];
       arc += body.length;
-      if (arc - 0.5 * body.length >= plane.neck) {
-        visit(k, b, plane_gap(model, kin, plane, b));
+      if (arc - 0.5 * body.length >= plane->neck) {
+        visit(PlaneGap{k, *plane, b, plane_gap(model, kin, *plane, b)});
       }
     }
   }
 }
 
-/// Whether there is an obstacle with this index and it is a strand.
-bool has_strand(const Model& model, int obstacle);
-
 /// Number of segments of a strand's curve.
-int segments_of(const Obstacle& strand);
+int segments_of(const Strand& strand);
 
 /// Points along the curve of a strand for drawing, 3 x N, cm. Straight lines between them are off
 /// by about 0.1 % of the radius of curvature where the strand's points turn by 30 degrees.
-Eigen::Matrix3Xd strand_curve(const Obstacle& strand);
+Eigen::Matrix3Xd strand_curve(const Strand& strand);
 
 /// Index of a strand's first segment in the list of update_segments().
 int strand_begin(const Model& model, int obstacle);

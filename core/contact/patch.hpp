@@ -14,12 +14,13 @@ struct PatchPoint {
   double share = 0;
 };
 
-/// Two strands touch where their gap is below controller.contact_gap, by 1 - gap / contact_gap of
-/// each area ds_a ds_b. The patch is the outermost part of this area, contact_patch² of it, or all
-/// that there is. It begins at the head end (`tail`: at the tail end) of the contact; `end` is the
-/// first (last) contact of TouchingEnds. So means over it move continuously with the body, where
-/// the end itself may jump. Writes points a few to a segment into `patch`; their shares add up to
-/// 1. The patch is empty where none of them touch, and where contact_patch is 0.
+/// Pairs of points that touch: each pair with gap < controller.contact_gap counts with the weight
+/// (1 - gap / contact_gap) ds_a ds_b. From the head end (`tail`: the tail end) of the contact
+/// inwards, the patch collects pairs until the weights sum to contact_patch², or all that there
+/// are. `end` is the first (last) contact of TouchingEnds. So means over the patch move
+/// continuously with the body, where the end itself may jump. Writes points a few to a segment into
+/// `patch`; their shares add up to 1. The patch is empty where none of them touch, and where
+/// contact_patch is 0.
 void contact_patch(const std::vector<SplineSegment>& segments, const Scene& scene,
                    const Contact& end, bool tail, std::vector<PatchPoint>& patch);
 

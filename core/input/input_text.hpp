@@ -12,7 +12,7 @@ namespace hagfish {
 /// One `--set KEY=VALUE` of the command line.
 struct Override {
   std::string key;    ///< dotted
-  std::string value;  ///< as typed; TOML, or the bare text of a string
+  std::string value;  ///< value as typed; TOML, or the bare text of a string
 };
 
 /// Splits "KEY=VALUE" at the first '='. Throws InputError where there is none or KEY has an empty
@@ -48,8 +48,8 @@ std::string shortened(const std::string& text);
 /// The candidate with the least edit distance to `word`; empty where there is no candidate.
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
 
-/// The same, but only one that `word` may be a slip of: up to half of its letters are others, or
-/// one begins with the other. Empty where there is none.
+/// The nearest candidate that `word` may be a slip of: up to half of its letters are others, or one
+/// begins with the other. Empty where there is none.
 std::string similar(std::string_view word, const std::vector<std::string>& candidates);
 
 /// "; did you mean `CANDIDATE`?" of the similar one; empty where there is none.

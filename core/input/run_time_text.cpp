@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/input/input_text.hpp"
-#include "core/input/toml_range.hpp"
+#include "core/input/toml/toml_range.hpp"
 
 namespace hagfish {
 namespace {

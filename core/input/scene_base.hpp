@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/input/scene_text.hpp"
-#include "core/input/toml_reader.hpp"
+#include "core/input/toml/toml_reader.hpp"
 
 namespace hagfish {
 

@@ -11,9 +11,9 @@
 #include "core/chain/start.hpp"
 #include "core/contact/observation.hpp"
 #include "core/contact/obstacles.hpp"
-#include "core/input/toml_range.hpp"
+#include "core/control/laws.hpp"
+#include "core/input/toml/toml_range.hpp"
 #include "core/knot/knot.hpp"
-#include "core/run/laws.hpp"
 
 namespace hagfish {
 namespace {
@@ -167,7 +167,8 @@ void check_obstacles(const TableReader& root, const ResolvedScene& resolved) {
   for (const Contact& contact : seen.contact.on_obstacles) {
     check(contact.obstacle, contact.body_a(), contact.gap);
   }
-  visit_plane_gaps(model, seen.kin, check);
+  visit_plane_gaps(model, seen.kin,
+                   [&](const PlaneGap& at) { check(at.obstacle, at.body, at.gap); });
 }
 
 void check_times(const TableReader& root, const TimeSettings& time) {
@@ -217,7 +218,7 @@ void check_expectations(const TableReader& root, const Scene& scene) {
     }
   }
   const auto is_called = [&](const Obstacle& one) {
-    return one.kind == Obstacle::Kind::plane && one.name == scene.expect.out_of;
+    return one.plane() != nullptr && one.name == scene.expect.out_of;
   };
   if (!scene.expect.out_of.empty() && std::ranges::none_of(obstacles_of(scene), is_called)) {
     root.fail("expect.out_of", "must be the name of a plane that is an obstacle, or empty");

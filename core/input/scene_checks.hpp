@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/input/scene_text.hpp"
-#include "core/input/toml_reader.hpp"
+#include "core/input/toml/toml_reader.hpp"
 
 namespace hagfish {
 

@@ -1,5 +1,5 @@
 // The keys of scene and specimen files, once for the reader and the writer: `Io` is TableReader or
-// TomlWriter. Included by scene_reader.cpp only.
+// TomlWriter. Included by scene_text.cpp only.
 #pragma once
 
 #include <array>
@@ -11,10 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include "core/input/program_table.hpp"
+#include "core/control/laws.hpp"
+#include "core/input/csv/program_table.hpp"
 #include "core/input/run_time_text.hpp"
-#include "core/input/toml_range.hpp"
-#include "core/run/laws.hpp"
+#include "core/input/toml/toml_range.hpp"
 #include "core/scene/settings.hpp"
 #include "core/scene/specimen.hpp"
 
@@ -22,7 +22,7 @@ namespace hagfish {
 
 enum class KnotUnit { unsaid, dyn, newton, cm, metre, body_length };
 
-/// What the noise of a script's knots is in.
+/// Unit of the noise of a script's knots.
 inline Unit knot_unit(ScriptSettings::Kind kind) {
   using Kind = ScriptSettings::Kind;
   return kind == Kind::force ? cgs::dyn : kind == Kind::position ? cgs::cm : cgs::one;
@@ -40,10 +40,12 @@ struct ScriptFile {
 /// An obstacle as its file spells it: a ring is a closed strand by another name.
 struct ObstacleFile {
   enum class Kind { plane, strand, ring };
-  Obstacle obstacle;
+  std::string name;
   Kind kind = Kind::plane;
+  Plane plane;
+  Strand strand;
   Eigen::Vector3d centre = Eigen::Vector3d::Zero(), axis = Eigen::Vector3d::UnitX();
-  double inner_radius = 0;  ///< of the hole, cm
+  double inner_radius = 0;  ///< radius of the hole, cm
 };
 
 template <class Io>
@@ -58,7 +60,7 @@ void specimen_fields(Io& io, Specimen& s) {
   io.angle("twist_limit", s.twist_limit, positive());
 }
 
-/// What a specimen may leave out.
+/// Keys that a specimen may leave out.
 template <class Io>
 void passive_fields(Io& io, Specimen& s) {
   io.table("passive", [&s](Io& table) {
@@ -143,22 +145,22 @@ void obstacle_fields(Io& io, ObstacleFile& s) {
     for (const char* key : keys) io.require(key);
   };
   require({"kind"});
-  io.string("name", s.obstacle.name);
+  io.string("name", s.name);
   io.template choice<Kind>(
       "kind", s.kind, {{"plane", Kind::plane}, {"strand", Kind::strand}, {"ring", Kind::ring}});
   if (s.kind == Kind::plane) {
     require({"point", "normal"});
-    io.place("point", s.obstacle.point);
-    io.vector("normal", s.obstacle.normal);
-    io.length("neck", s.obstacle.neck, not_negative());
+    io.place("point", s.plane.point);
+    io.vector("normal", s.plane.normal);
+    io.length("neck", s.plane.neck, not_negative());
     return;
   }
   require({"radius"});
-  io.length("radius", s.obstacle.radius, positive());
+  io.length("radius", s.strand.radius, positive());
   if (s.kind == Kind::strand) {
     require({"points"});
-    io.places("points", s.obstacle.points);
-    io.boolean("closed", s.obstacle.closed);
+    io.places("points", s.strand.points);
+    io.boolean("closed", s.strand.closed);
   } else {
     require({"centre", "axis", "inner_radius"});
     io.place("centre", s.centre);
@@ -338,7 +340,6 @@ void guard_fields(Io& io, GuardSettings& s) {
   io.template choice<EnergyAction>(
       "energy_action", s.energy_action,
       {{"hold", EnergyAction::hold}, {"warn", EnergyAction::warn}, {"stop", EnergyAction::stop}});
-  io.number("momentum_gain", s.momentum_gain, not_negative());
   io.number("capped_time", s.capped_time, not_negative());
 }
 
@@ -372,15 +373,13 @@ void expect_fields(Io& io, ExpectSettings& s) {
   io.angle("limit_violation", s.limit_violation, not_negative());
   io.number("head_drift", s.head_drift, not_negative(cgs::cm));
   io.number("kkt", s.kkt, not_negative());
-  io.number("force_balance", s.force_balance, not_negative());
-  io.number("forward_inverse", s.forward_inverse, not_negative());
   io.number("energy", s.energy, not_negative());
   io.number("energy_gain", s.energy_gain, not_negative());
   io.number("energy_loss", s.energy_loss, not_negative());
   io.number("momentum", s.momentum, not_negative());
 }
 
-/// All but `specimen`, which is a file name or a table.
+/// Keys of a scene but `specimen`, which is a file name or a table.
 template <class Io>
 void scene_fields(Io& io, Scene& s, ScriptFile& script, std::vector<ObstacleFile>& obstacles) {
   io.string("title", s.title);

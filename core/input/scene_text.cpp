@@ -6,16 +6,16 @@
 #include <numbers>
 #include <random>
 
-#include "core/input/basis_csv.hpp"
 #include "core/input/builtin_files.hpp"
-#include "core/input/curvature_csv.hpp"
+#include "core/input/csv/basis_csv.hpp"
+#include "core/input/csv/curvature_csv.hpp"
+#include "core/input/csv/program_table.hpp"
 #include "core/input/input_text.hpp"
-#include "core/input/program_table.hpp"
 #include "core/input/scene_base.hpp"
 #include "core/input/scene_checks.hpp"
 #include "core/input/scene_fields.hpp"
-#include "core/input/toml_reader.hpp"
-#include "core/input/toml_writer.hpp"
+#include "core/input/toml/toml_reader.hpp"
+#include "core/input/toml/toml_writer.hpp"
 #include "core/scene/normal_draw.hpp"
 
 namespace hagfish {
@@ -201,13 +201,13 @@ void close_ring(const TableReader& root, std::size_t index, ObstacleFile& ring) 
   constexpr int points = 32;  // the spline through them is round to 4e-5 of its radius
   const Eigen::Vector3d axis = unit(root, index, "axis", ring.axis);
   const Eigen::Vector3d across = axis.unitOrthogonal();
-  const double radius = ring.inner_radius + ring.obstacle.radius;
+  const double radius = ring.inner_radius + ring.strand.radius;
   for (int k = 0; k < points; ++k) {
     const double turn = 2 * std::numbers::pi * k / points;
-    ring.obstacle.points.emplace_back(
+    ring.strand.points.emplace_back(
         ring.centre + radius * (std::cos(turn) * across + std::sin(turn) * axis.cross(across)));
   }
-  ring.obstacle.closed = true;
+  ring.strand.closed = true;
 }
 
 /// Checks what `files` spell and turns it into obstacles, for an animal of at most `thickest` (cm)
@@ -221,19 +221,20 @@ std::vector<Obstacle> resolve_obstacles(const TableReader& root, std::vector<Obs
   std::vector<Obstacle> obstacles;
   for (std::size_t i = 0; i < files.size(); ++i) {
     ObstacleFile& file = files[i];
-    Obstacle& obstacle = file.obstacle;
     const auto fail = [&](const std::string& why) { root.fail_element("obstacle", i, why); };
-    if (obstacle.name.empty()) obstacle.name = "obstacle " + std::to_string(i + 1);
+    if (file.name.empty()) file.name = "obstacle " + std::to_string(i + 1);
     const auto allowed = [](unsigned char c) {
       return std::isalnum(c) != 0 || c == ' ' || c == '_' || c == '-';
     };
-    if (obstacle.name.size() > longest_name || !std::ranges::all_of(obstacle.name, allowed)) {
+    if (file.name.size() > longest_name || !std::ranges::all_of(file.name, allowed)) {
       fail("name must be at most 40 letters, digits, spaces, _ and -");
     }
     if (file.kind == Kind::plane) {
-      obstacle.kind = Obstacle::Kind::plane;
-      obstacle.normal = unit(root, i, "normal", obstacle.normal);
-    } else if (file.kind == Kind::ring) {
+      file.plane.normal = unit(root, i, "normal", file.plane.normal);
+      obstacles.push_back({file.name, file.plane});
+      continue;
+    }
+    if (file.kind == Kind::ring) {
       if (file.inner_radius <= thickest) {
         fail("inner_radius = " + shortest(file.inner_radius) +
              " cm: the hole is too narrow for the body, whose radius is " + shortest(thickest) +
@@ -241,16 +242,17 @@ std::vector<Obstacle> resolve_obstacles(const TableReader& root, std::vector<Obs
       }
       close_ring(root, i, file);
     }
-    const std::size_t count = obstacle.points.size();
+    const auto& [through, _, closed] = file.strand;
+    const std::size_t count = through.size();
     points += count;
     if (points > most_points) fail("points: all strands together may have at most 2000");
-    if (obstacle.closed && count < 3) fail("points: a closed strand needs three or more");
-    for (std::size_t k = obstacle.closed ? 0 : 1; k < count; ++k) {
-      if (obstacle.points[k] == obstacle.points[(k + count - 1) % count]) {
+    if (closed && count < 3) fail("points: a closed strand needs three or more");
+    for (std::size_t k = closed ? 0 : 1; k < count; ++k) {
+      if (through[k] == through[(k + count - 1) % count]) {
         fail("points: point " + std::to_string(k + 1) + " is the same as the last one");
       }
     }
-    obstacles.push_back(obstacle);
+    obstacles.push_back({file.name, file.strand});
   }
   return obstacles;
 }
@@ -285,9 +287,12 @@ void reflect(Scene& scene) {
     }
   }
   for (Obstacle& obstacle : scene.obstacles) {
-    obstacle.point.y() *= -1;
-    obstacle.normal.y() *= -1;
-    for (Eigen::Vector3d& point : obstacle.points) point.y() *= -1;
+    if (auto* plane = std::get_if<Plane>(&obstacle.shape)) {
+      plane->point.y() *= -1;
+      plane->normal.y() *= -1;
+    } else if (auto* strand = std::get_if<Strand>(&obstacle.shape)) {
+      for (Eigen::Vector3d& point : strand->points) point.y() *= -1;
+    }
   }
   scene.start.spin.x() *= -1;
   scene.start.spin.z() *= -1;
@@ -360,8 +365,13 @@ std::string scene_to_toml(const Scene& scene, const Specimen& specimen) {
   script.curvature = program_table(fields.script.curvature);
   std::vector<ObstacleFile> obstacles;
   for (const Obstacle& one : fields.obstacles) {
-    const bool plane = one.kind == Obstacle::Kind::plane;
-    obstacles.push_back({one, plane ? ObstacleFile::Kind::plane : ObstacleFile::Kind::strand});
+    ObstacleFile& file = obstacles.emplace_back();
+    file.name = one.name;
+    if (const Plane* plane = one.plane()) file.plane = *plane;
+    if (const Strand* strand = one.strand()) {
+      file.kind = ObstacleFile::Kind::strand;
+      file.strand = *strand;
+    }
   }
   TomlWriter writer;
   writer.string("units", "CGS");

@@ -34,7 +34,7 @@ using TextFiles = std::map<std::string, std::string>;
 /// A text, before it is read.
 struct SceneSource {
   std::string text;
-  std::string name;                 ///< in errors
+  std::string name;                 ///< name in errors
   std::optional<std::string> file;  ///< the path of its file; nothing for a text of no file
 };
 

@@ -13,8 +13,8 @@ namespace hagfish {
 /// until turn() is called.
 class RandomClosures {
  public:
-  /// Of the polygon through the columns of `centreline` (3 x n, n >= 2, any length unit), which
-  /// must outlive this. The same `seed` gives the same directions on every platform.
+  /// Closures of the polygon through the columns of `centreline` (3 x n, n >= 2, any length unit),
+  /// which must outlive this. The same `seed` gives the same directions on every platform.
   RandomClosures(const Eigen::Matrix3Xd& centreline, unsigned seed);
 
   /// The diagram of the next closure; not generic where the closure or the line of sight is not.

@@ -21,11 +21,11 @@ struct WholeMatrix {
 /// and arc are left out. `diagram` has at least one crossing.
 WholeMatrix colouring_minor(const Diagram& diagram, std::int64_t t);
 
-/// For 0 < value < prime.
+/// The inverse of `value` modulo `prime`, for 0 < value < prime.
 std::int64_t inverse_modulo(std::int64_t value, std::int64_t prime);
 
-/// Of `matrix`, whose entries are between -prime and prime, modulo a prime below 2^31: between
-/// -prime/2 and prime/2.
+/// Determinant of `matrix`, with entries between -prime and prime, modulo a prime below 2^31:
+/// between -prime/2 and prime/2.
 std::int64_t determinant_modulo(WholeMatrix matrix, std::int64_t prime);
 
 }  // namespace hagfish

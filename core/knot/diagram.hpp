@@ -8,8 +8,8 @@ namespace hagfish {
 
 /// One of the two visits of the polygon to a crossing.
 struct Passage {
-  int edge = 0;   ///< from vertex `edge` to the next one
-  double at = 0;  ///< from the edge's start, projected length
+  int edge = 0;   ///< the edge from vertex `edge` to the next one
+  double at = 0;  ///< distance from the edge's start, projected length
   int crossing = 0;
   bool over = false;
 };
@@ -18,8 +18,8 @@ struct Passage {
 /// left has two.
 struct Diagram {
   std::vector<Passage> passages;
-  /// By crossing, whether left or not: +1 where the over strand turns anticlockwise into the under
-  /// strand.
+  /// Sign by crossing, whether left or not: +1 where the over strand turns anticlockwise into the
+  /// under strand.
   std::vector<int> sign;
   /// Whether the projection tells each passage from the next and over from under; where it does
   /// not, the rest says nothing.
@@ -59,8 +59,8 @@ class SeenArc {
   Eigen::Matrix3d axes_;   // the third one points at the observer
   Eigen::Matrix3Xd view_;  // along them; the last two columns are the ends of the closure
   double tolerance_;       // same unit
-  EdgeBoxes boxes_;        // of the edges of view_
-  Diagram own_;            // of the arc, passages in its order
+  EdgeBoxes boxes_;        // boxes of the edges of view_
+  Diagram own_;            // diagram of the arc, passages in its order
 };
 
 }  // namespace hagfish

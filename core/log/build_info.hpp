@@ -5,7 +5,7 @@
 
 namespace hagfish {
 
-std::string build_version();  ///< of the project
+std::string build_version();  ///< version of the project
 std::string
 build_revision();  ///< git revision, "+" where the tree had changes, "unknown" outside git
 std::string build_compiler();  ///< name, version, flags

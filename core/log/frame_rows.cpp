@@ -21,13 +21,13 @@ LogTable<BearingContact> contact_table(const Scene& scene, LogLevel level) {
            {"1",
             "spline parameter on the strand nearer the head, segment + t; of the head plate, or "
             "another plane, the body"},
-           [](const BearingContact& c) { return c.row.a.parameter; });
+           [](const BearingContact& c) { return c.row.points().a.parameter; });
   t.number("/contacts/spline_b",
            {"1",
             "spline parameter on the strand nearer the tail; nan where it is the head plate, or "
             "another obstacle"},
            [](const BearingContact& c) {
-             return c.row.kind == RowKind::obstacle ? nan : c.row.b.parameter;
+             return c.row.kind == RowKind::obstacle ? nan : c.row.points().b.parameter;
            });
   t.number("/contacts/force",
            {"dyn", "multiplier over h of the step at the frame, along the normal"},
@@ -41,7 +41,7 @@ LogTable<BearingContact> contact_table(const Scene& scene, LogLevel level) {
          "spline parameter on the strand that is an obstacle, its segment + t; nan where it is "
          "a plane or the body itself"},
         [](const BearingContact& c) {
-          return c.row.kind == RowKind::obstacle ? c.row.b.parameter : nan;
+          return c.row.kind == RowKind::obstacle ? c.row.points().b.parameter : nan;
         });
   }
   return t;

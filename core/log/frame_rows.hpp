@@ -5,16 +5,16 @@
 
 #include "core/log/log_level.hpp"
 #include "core/log/log_table.hpp"
-#include "core/log/thigmotaxis_rows.hpp"
+#include "core/log/means/thigmotaxis_rows.hpp"
 #include "core/scene/settings.hpp"
-#include "core/step/rows.hpp"
+#include "core/step/rows/row.hpp"
 
 namespace hagfish {
 
 /// A contact with a force, of the step at a frame.
 struct BearingContact {
   std::int32_t frame = 0;  ///< index along the frames
-  const Row& row;          ///< of kind contact or obstacle
+  const Row& row;          ///< a row of kind contact or obstacle
   double force = 0;        ///< λ / h, dyn
 };
 

@@ -10,7 +10,7 @@
 namespace hagfish {
 
 struct EnergyColumn {
-  const char* name;  ///< below /diagnostics
+  const char* name;  ///< name below /diagnostics
   const char* description;
   double EnergyLedger::*member;  ///< erg
 };
@@ -28,7 +28,7 @@ inline constexpr EnergyColumn energy_losses[] = {
     {"impact_loss", "lost where bodies hit each other, a limit or what holds them, so far",
      &EnergyLedger::impacts}};
 
-/// Together they are integrator_error().
+/// Terms of integrator_error(), which is their sum.
 inline constexpr EnergyColumn integrator_terms[] = {
     {"integrator_inertia",
      "gained by the integrator from velocity changes, without impacts, so far",
@@ -77,7 +77,7 @@ inline std::string outside_description() {
 
 struct MomentumColumn {
   const char* linear;   ///< name below /diagnostics
-  const char* angular;  ///< the same of what is about the centre of mass
+  const char* angular;  ///< name of the same about the centre of mass
   const char* unit;
   const char* angular_unit;
   std::string description;

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "core/control/laws.hpp"
 #include "core/log/ledger_columns.hpp"
-#include "core/log/pull_figures.hpp"
-#include "core/run/laws.hpp"
+#include "core/log/means/pull_figures.hpp"
 
 namespace hagfish {
 namespace {

@@ -2,10 +2,10 @@
 #pragma once
 
 #include "core/log/log_level.hpp"
-#include "core/log/log_means.hpp"
 #include "core/log/log_table.hpp"
-#include "core/log/moment_means.hpp"
-#include "core/log/thigmotaxis_rows.hpp"
+#include "core/log/means/log_means.hpp"
+#include "core/log/means/moment_means.hpp"
+#include "core/log/means/thigmotaxis_rows.hpp"
 #include "core/muscle/activation.hpp"
 #include "core/run/simulation.hpp"
 
@@ -29,13 +29,12 @@ struct Frame {
   double skin_fold = 0;  ///< skin_fold()
   Worst worst;
   double wall_time = 0;  ///< s
-  /// What muscles have to do, of the means since the frame before; nan at the first frame.
+  /// Effort of the muscles for the means since the frame before; nan at the first frame.
   const MuscleEffort& muscles;
 };
 
-/// Every dataset along the frames (log schema, rows along T). Of a law other than the paper's what
-/// it asks for does not all follow from the scene: /control holds it where the law is the run's
-/// own.
+/// Every dataset along the frames (log schema, rows along T). The requests of a law other than the
+/// paper's do not all follow from the scene: /control holds them where the law is the run's own.
 LogTable<Frame> frame_table(const Model& model, const Scene& scene, LogLevel level);
 
 }  // namespace hagfish

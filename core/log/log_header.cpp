@@ -12,7 +12,7 @@
 #include "core/log/coordinate_names.hpp"
 #include "core/log/ledger_columns.hpp"
 #include "core/scene/phase.hpp"
-#include "core/step/row_kind.hpp"
+#include "core/step/rows/row_kind.hpp"
 
 namespace hagfish {
 namespace {

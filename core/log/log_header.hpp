@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/chain/model.hpp"
-#include "core/log/hdf5_writer.hpp"
+#include "core/log/hdf5/hdf5_writer.hpp"
 #include "core/log/log_level.hpp"
 
 namespace hagfish {
@@ -20,20 +20,20 @@ struct SceneBefore {
   std::string scene;     ///< fully resolved TOML
   std::int64_t end = 0;  ///< step before which the next one began
 };
-/// Where a branch's log has these.
+/// Paths of these in a branch's log.
 inline constexpr const char* past_scenes = "/branch/scene";
 inline constexpr const char* past_ends = "/branch/end";
 
 /// How a log came about.
 struct LogHeader {
-  std::string command;  ///< as typed
+  std::string command;  ///< command line as typed
   std::string scene;    ///< fully resolved TOML
   std::string qp;       ///< QP back end
   std::string libraries;
   std::map<std::string, std::string> mjcf;  ///< the mirrored model's files by name
   LogLevel level = LogLevel::full;
-  std::string simulator;      ///< that took the steps, where that is not this program
-  std::string branched_from;  ///< of a branch: log, step and time; empty otherwise
+  std::string simulator;      ///< program that took the steps, unless it is this one
+  std::string branched_from;  ///< log, step and time of a branch's origin; empty otherwise
   std::vector<SceneBefore> past;
 };
 
@@ -43,7 +43,7 @@ void write_header(const LogHeader& header, Hdf5Writer& h5);
 /// Arc length of each body's middle from the head's end at rest, cm (N).
 Eigen::VectorXd body_arcs(const Model& model);
 
-/// Where the obstacles' names are, of a model that has some, and the names.
+/// Path of the obstacles' names, in logs of a model that has some, and the names.
 inline constexpr const char* obstacle_names_path = "/model/obstacle_name";
 std::vector<std::string> obstacle_names(const Model& model);
 

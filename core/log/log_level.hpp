@@ -9,7 +9,7 @@ namespace hagfish {
 
 /// Each holds what the ones before it hold.
 enum class LogLevel {
-  summary,  ///< along the frames: time, phase, knot, Eq. 6, pull, energies, worst figures
+  summary,  ///< frames' time, phase, knot, Eq. 6, pull, energies, worst figures
   frames,   ///< also the motion and what acts on it, as figures, tables, replays and films need
   full      ///< every step, and forces at the frames: what an audit needs
 };

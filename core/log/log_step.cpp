@@ -3,7 +3,7 @@
 #include <array>
 #include <string>
 
-#include "core/run/laws.hpp"
+#include "core/control/laws.hpp"
 
 namespace hagfish {
 namespace {

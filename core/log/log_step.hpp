@@ -3,7 +3,7 @@
 
 #include "core/log/log_level.hpp"
 #include "core/log/log_table.hpp"
-#include "core/log/thigmotaxis_rows.hpp"
+#include "core/log/means/thigmotaxis_rows.hpp"
 #include "core/run/simulation.hpp"
 
 namespace hagfish {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "core/log/axis_labels.hpp"
+#include "core/log/hdf5/series.hpp"
 #include "core/log/log_level.hpp"
-#include "core/log/series.hpp"
 
 namespace hagfish {
 
@@ -23,10 +23,10 @@ class LogTable {
   struct Form {
     LogLevel level = LogLevel::full;
     std::string labels;      ///< path of the series among them that labels the rows; empty for none
-    hsize_t chunk_rows = 1;  ///< that are stored together, at most
-    bool packed = false;     ///< all of them, or only those whose meaning says so
+    hsize_t chunk_rows = 1;  ///< most rows that are stored together
+    bool packed = false;     ///< whether all are; else those whose meaning says so
   };
-  /// Those that a log of the level holds.
+  /// A table of the datasets that a log of the level holds.
   explicit LogTable(Form form) : form_(std::move(form)) {}
 
   template <class Get>  // double(const Source&)
@@ -83,7 +83,7 @@ class LogTable {
       throw;
     }
   }
-  /// In the order of declaration.
+  /// Series in the order of declaration.
   const SeriesList& series() const { return series_; }
 
  private:

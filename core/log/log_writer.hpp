@@ -7,9 +7,9 @@
 #include <optional>
 #include <string>
 
+#include "core/log/hdf5/output_file.hpp"
 #include "core/log/log_header.hpp"
-#include "core/log/output_file.hpp"
-#include "core/log/thigmotaxis_rows.hpp"
+#include "core/log/means/thigmotaxis_rows.hpp"
 #include "core/run/simulation.hpp"
 
 namespace hagfish {

@@ -11,7 +11,7 @@ namespace hagfish {
 
 /// How well the muscles can produce a torque.
 struct MuscleEffort {
-  Eigen::VectorXd activation;  ///< a, of each of Model::muscles, 0 to 1
+  Eigen::VectorXd activation;  ///< a of each of Model::muscles, 0 to 1
   Eigen::VectorXd residual;    ///< torque - R a F_max, dyn cm, nv; 0 at the root
 };
 
@@ -37,7 +37,7 @@ class ActivationSolver {
     BoxQpSolution solution;
     Eigen::MatrixXd give;  ///< R F_max, hinges x muscles
   };
-  std::array<Joint, most_muscles + 1> joints_;  ///< by the number of muscles
+  std::array<Joint, most_muscles + 1> joints_;  ///< one for each number of muscles
 };
 
 }  // namespace hagfish

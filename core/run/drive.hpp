@@ -20,7 +20,7 @@ using TakeStep = std::function<void(Simulation& sim, StepRecord& record)>;
 /// has what take_step leaves there. Other exceptions go through.
 Status drive(const Scene& scene, const TakeStep& take, Simulation& sim, StepRecord& record,
              std::initializer_list<Watcher> watchers, const Stop& stop = {});
-/// By take_step.
+/// Drives by take_step.
 Status drive(const Model& model, const Scene& scene, Simulation& sim, StepRecord& record,
              std::initializer_list<Watcher> watchers, const Stop& stop = {});
 

@@ -103,6 +103,7 @@ void book_step(const StepInput& in, const StepPlace& place, const StepSolution& 
                 ring * (2 * step.mean_velocity[k] - in.state.qdot[k]));
   }
   const StepMotion& before = place.motion;
+  // The velocity v' is known to `next` at another place. Here Δv follows from x - v.
   const double whole = h / r;  // Δv over x - v
   double impulse = 0;          // (y - (t/h) u)'MΔv
   double jump = 0;             // (u - y)'MΔv
@@ -131,6 +132,7 @@ void book_step(const StepInput& in, const StepPlace& place, const StepSolution& 
   set_energies(model, next, ledger);
   const double lost =
       in.scene.time.rule == TimeRule::euler ? lost_at_impacts(in, place, step) : jump;
+  // `impulse` has the loss by impacts, too. It is booked as such, and the rest is the integrator's.
   ledger.impacts += lost;
   ledger.integrator_inertia += impulse + lost;
   ledger.integrator_potential += t * stretch + fall + ledger.gravity - gravity;

@@ -19,9 +19,9 @@ struct EnergyLedger {
   double initial = 0;  ///< kinetic + elastic + gravity at the start
   double kinetic = 0, elastic = 0, gravity = 0;
   double work_tip = 0;
-  double work_active = 0;  ///< of the muscles: of the active torque
-  ByKind<double> work;     ///< of the constraint forces
-  double dissipated = 0;   ///< by drag and joint damping
+  double work_active = 0;  ///< work of the active torque of the muscles
+  ByKind<double> work;     ///< work of the constraint forces
+  double dissipated = 0;   ///< loss by drag and joint damping
   /// Energy lost where bodies hit each other, a limit or a clamp, or where Eq. 6 stops or starts
   /// them at once. Midpoint rule: (u - x)'M Δv, since u = x without impacts. Euler's rule knows the
   /// forces of rows over whole steps only: Σ ½ λ C Δv of the rows, except those of Eq. 6, that come
@@ -42,11 +42,11 @@ struct EnergyLedger {
   double integrator_held = 0;
   /// Energy change by the correction of a free body's momentum (momentum.hpp).
   double integrator_momentum = 0;
-  /// What of integrator_error() the translation of the centre of mass has, while momentum is kept
-  /// (step_input.hpp) and no obstacle bears. It depends on the observer.
+  /// Part of integrator_error() that the translation of the centre of mass has, while momentum is
+  /// kept (step_input.hpp) and no obstacle bears. It depends on the observer.
   double integrator_translation = 0;
-  double lowest_error = 0;  ///< of own_error() so far
-  /// Kinetic + elastic so far; while momentum is kept, about the centre of mass.
+  double lowest_error = 0;  ///< lowest own_error() so far
+  /// Largest kinetic + elastic so far; while momentum is kept, about the centre of mass.
   double largest = 0;
 
   double works() const {

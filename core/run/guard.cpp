@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "core/contact/obstacles.hpp"
-#include "core/step/dual_problem.hpp"
-#include "core/step/eq6_rows.hpp"
 #include "core/step/look_ahead.hpp"
+#include "core/step/rows/dual_problem.hpp"
+#include "core/step/rows/eq6_rows.hpp"
 
 namespace hagfish {
 namespace {
@@ -42,10 +42,10 @@ std::string deepest_overlap(const Model& model, const Observation& observation) 
       }
     }
   }
-  visit_plane_gaps(model, observation.kin, [&](int obstacle, int body, double gap) {
-    if (gap < least) {
-      least = gap;
-      name = of_obstacle(body, obstacle);
+  visit_plane_gaps(model, observation.kin, [&](const PlaneGap& at) {
+    if (at.gap < least) {
+      least = at.gap;
+      name = of_obstacle(at.body, at.obstacle);
     }
   });
   return name;
@@ -96,8 +96,8 @@ std::vector<const Row*> opponents(const Model& model, const Kinematics& kin,
 std::string cure_of_cap(const Row& row, const std::vector<const Row*>& against) {
   const RowKind kind = against.empty() ? RowKind::contact : against[0]->kind;
   if (kind == RowKind::thigmotaxis && against[0]->command == row.command) {
-    const double angle =
-        std::acos(std::min(1.0, std::abs(row.direction.dot(against[0]->direction))));
+    const double angle = std::acos(
+        std::min(1.0, std::abs(row.points().direction.dot(against[0]->points().direction))));
     return fmt::format(
         "its strands cross at only {:.2g} deg, so it cannot have both speeds: try "
         "controller.eq6_slip = \"shape\"",
@@ -242,7 +242,7 @@ void guard_momentum(const StepInput& in, double passing, const MomentumLedger& b
   // For a rigid motion |P|² <= 2 m T and |L|² <= 2 I T; a straight body has the largest I.
   const double largest = std::sqrt(2 * mass_of(in.model) * energy.largest);
   const double allowed =
-      std::max(in.scene.guard.momentum_gain * largest, passing_rounding * passing);
+      std::max(momentum_gain * largest, passing_rounding * passing);
   const double arm = in.model.length() / std::sqrt(12.0);
   if (std::max(watch.made.linear.norm(), watch.made.angular.norm() / arm) > allowed) {
     const bool kept = in.scene.time.momentum == FreeMomentum::kept;
@@ -252,8 +252,8 @@ void guard_momentum(const StepInput& in, double passing, const MomentumLedger& b
             GuardAction::warn,
             fmt::format(
                 "numerical errors pushed the free body by {:.3g} dyn s and turned it by {:.3g} dyn "
-                "cm s, over guard.momentum_gain = {:g}",
-                watch.made.linear.norm(), watch.made.angular.norm(), in.scene.guard.momentum_gain),
+                "cm s, over {:g} of the most that it can have",
+                watch.made.linear.norm(), watch.made.angular.norm(), momentum_gain),
             "The shape of the body can be used, but not its path through the water",
             kept ? "try a smaller time.step"
                  : "try time.momentum = \"kept\" or a smaller time.step"),

@@ -15,15 +15,15 @@ namespace hagfish {
 
 /// The time since which a row of Eq. 6 has been at its cap.
 struct CapWatch {
-  std::int64_t id = 0;  ///< Row::id
-  double since = 0;     ///< s
+  RowId id;
+  double since = 0;  ///< s
 };
 
 /// Memory of a run's guards.
 struct Watch {
   std::bitset<outcome_count> warned;  ///< warnings given: each cause once a run
   std::vector<CapWatch> capped;       ///< the thigmotaxis rows at their caps, by id
-  Momentum made;                      ///< by the integrator since the head was last held
+  Momentum made;                      ///< gain not given back since the head was last held
 
   bool has_warned(Outcome of) const { return warned.test(static_cast<std::size_t>(of)); }
 };
@@ -53,9 +53,12 @@ Status guard_state(const Model& model, const Moment& moment, double crossing, co
 Status guard_energy(const StepInput& in, double passing, Moment& moment, EnergyLedger& ledger,
                     Watch& watch, std::vector<std::string>& warnings);
 
-/// Warns if the momentum that the integrator has made since the head was last held exceeds
-/// guard.momentum_gain. The reference is the largest momentum that a body can have with the largest
-/// energy so far. The ledgers are those `before` the step `in` and after it. `passing` as above.
+/// The share of the most momentum that a free body could have with its largest energy so far at
+/// which guard_momentum() warns. A path through the water that is off by it cannot be seen.
+constexpr double momentum_gain = 0.001;
+
+/// Warns if the integrator has made more momentum than momentum_gain since the head was last held.
+/// The ledgers are those `before` the step `in` and after it. `passing` as above.
 void guard_momentum(const StepInput& in, double passing, const MomentumLedger& before,
                     const MomentumLedger& now, const EnergyLedger& energy, Watch& watch,
                     std::vector<std::string>& warnings);

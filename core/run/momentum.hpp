@@ -60,7 +60,7 @@ inline constexpr double passing_rounding = 1e-9;
 /// Opens the ledger at a moment.
 MomentumLedger open_momentum(const Model& model, const Moment& now);
 
-/// Where the centre of mass is when the step `in`, as solved at `place`, has moved for the time
+/// Place of the centre of mass when the step `in`, as solved at `place`, has moved for the time
 /// `travelled` (s) from `now`; cm, world. It moves by the momentum before the step and the forces
 /// of Eq. 1.
 Eigen::Vector3d centre_after(const StepInput& in, const StepPlace& place, const StepSolution& step,

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/run/controller.hpp"
+#include "core/control/controller.hpp"
 #include "core/run/energy.hpp"
 #include "core/run/guard.hpp"
 #include "core/run/momentum.hpp"
@@ -21,7 +21,7 @@ struct BeforeStep {
   EnergyLedger ledger;
   MomentumLedger momentum;
   Watch watch;
-  Candidates candidates;  ///< of the search
+  Candidates candidates;  ///< candidates of the search
 };
 
 /// Set while a step is under way, so that a second step of the same simulation is refused. A copy
@@ -44,7 +44,7 @@ class StepUnderWay {
 struct Simulation {
   std::int64_t step = 0;  ///< steps taken
   Moment now;
-  ContactSearch search;  ///< that found its contacts
+  ContactSearch search;  ///< search that found its contacts
   ControllerState controller;
   StepSolver solver;
   EnergyLedger ledger;
@@ -52,7 +52,7 @@ struct Simulation {
   Watch watch;
   BeforeStep before;
   NamedLaw named_law = {};
-  ControlLaw law = {};  ///< of its own, where the scene says so (control_law.hpp); else empty
+  ControlLaw law = {};  ///< law of its own, if the scene says so (control_law.hpp); else empty
   StepUnderWay under_way = {};
 };
 
@@ -83,12 +83,12 @@ bool finished(const Simulation& sim, const Scene& scene);
 struct StepRecord {
   std::int64_t step = 0;
   double time = 0;  ///< s
-  Moment moment;    ///< at `time`
+  Moment moment;    ///< state and observation at `time`
   ControllerState controller;
   Control control;
   StepSolution solution;
-  EnergyLedger ledger;      ///< up to `time`
-  MomentumLedger momentum;  ///< up to `time`
+  EnergyLedger ledger;      ///< ledger up to `time`
+  MomentumLedger momentum;  ///< ledger up to `time`
   double head_drift = 0;    ///< cm; 0 while the head is free
   double crossing = 0;      ///< deepest overlap on the path to the next state, cm; 0 if it is short
   double left_out = 0;      ///< time at the step's end left out as strands met too fast, s

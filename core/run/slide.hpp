@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/chain/model.hpp"
-#include "core/run/controller.hpp"
+#include "core/control/controller.hpp"
 #include "core/scene/phase.hpp"
 
 namespace hagfish {
@@ -28,9 +28,9 @@ Eigen::VectorXd curvature_along(const Model& model, const Eigen::VectorXd& q);
 /// Ways are towards the end of the body to which the knot slides, cm of arc.
 struct Slide {
   static constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  double from = none;         ///< place of the knot's leading end as the slide begins, cm of arc
-  double leading_way = none;  ///< of the knot's end that goes first: the head end on a way headward
-  double trailing_way = none;  ///< of its other end
+  double from = none;          ///< place of the knot's leading end as the slide begins, cm of arc
+  double leading_way = none;   ///< way of the end that goes first: headward, the head end
+  double trailing_way = none;  ///< way of its other end
   /// Way of the trailing end of a knot that stays as tight. Such a knot spans as many radii of body
   /// everywhere, so it keeps the integral of ds / r between its ends. On a tapering body this is
   /// not the leading end's way.
@@ -59,7 +59,7 @@ class SlideWatch {
   /// A moment, in the order of time: coordinates `q` (nq) and the knot's ends, if it has any. Those
   /// of other phases count for nothing.
   void see(Phase phase, const std::optional<KnotSpan>& knot, const Eigen::VectorXd& q);
-  /// Of what was seen so far.
+  /// Slide and way back by what was seen so far.
   Slide slide() const { return slide_through(*model_, slide_, BodyEnd::head); }
   Slide way_back() const { return slide_through(*model_, way_back_, BodyEnd::tail); }
 

@@ -8,7 +8,7 @@
 
 namespace hagfish {
 
-/// Where a number lies among knots: the last one at or before it, and the share of the way to the
+/// A number's place among knots: the last one at or before it, and the share of the way to the
 /// next; share 0 outside, at the first or the last knot.
 struct TablePlace {
   std::size_t index = 0;

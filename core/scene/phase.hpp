@@ -14,10 +14,10 @@ struct PhaseEntry {
   Phase value;
   const char* name;
   const char* description;
-  bool optional = false;  ///< only where the scene asks for it
+  bool optional = false;  ///< whether only scenes that ask for it have it
 };
 
-/// In the order of time.
+/// Phases in the order of time.
 inline constexpr TableOf<PhaseEntry> phase_table{{{Phase::form, "form", "knot forming"},
                                                   {Phase::tighten, "tighten", "tightening"},
                                                   {Phase::slide, "slide", "sliding"},

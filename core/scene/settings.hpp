@@ -2,7 +2,7 @@
 // a scene that says nothing: head clamped, head plate in place, no gravity, drag, stiffness or
 // script.
 //
-// Units are cm, g, s, rad, dyn throughout; scene files give angles in degrees (scene_reader.cpp).
+// Units are cm, g, s, rad, dyn throughout; scene files give angles in degrees (toml_reader.hpp).
 #pragma once
 
 #include <Eigen/Core>
@@ -22,15 +22,15 @@ enum class BendingLimit {
   cone  ///< the angle between the X axes of its two bodies
 };
 
-/// Which joints the chain has behind its free head.
+/// Layout of the joints behind the free head.
 enum class JointLayout {
   alternating,  ///< universal about Y and Z, then revolute about X, and so on (paper, 3.1)
   universal     ///< universal ones alone, as robots have them: no twist (addition)
 };
 
-/// Where the body's passive stiffness and damping come from.
+/// Source of the body's passive stiffness and damping.
 enum class PassiveSource {
-  scene,    ///< ModelSettings, the same all along the body
+  scene,    ///< ModelSettings: one value all along the body
   specimen  ///< what is known of the animal, Specimen::bending_stiffness and so on
 };
 
@@ -46,7 +46,7 @@ struct ModelSettings {
   /// Largest bending limit of one hinge or cone, rad. A coarse chain must bend further per joint to
   /// reach the same curvature; past 90 degrees a universal joint loses its second axis.
   double largest_limit = 1.4835298641951802;
-  double limit_scale = 1;  ///< on every bending and twisting limit, before the bound above
+  double limit_scale = 1;  ///< factor of every bending and twisting limit, before the bound above
   /// Last body's density over the first's, geometric in between; the mass of the whole is kept.
   double mass_ratio = 1;
   BendingLimit bending_limit = BendingLimit::box;
@@ -54,14 +54,14 @@ struct ModelSettings {
 
 /// Linear water drag per unit length of body (addition to the paper), g / (s cm).
 struct DragSettings {
-  double normal = 0;      ///< across the body
-  double tangential = 0;  ///< along it
+  double normal = 0;      ///< drag across the body
+  double tangential = 0;  ///< drag along it
 };
 
-/// When a unilateral row (joint limit, contact, obstacle) enters the problem.
+/// Time at which a unilateral row (joint limit, contact, obstacle) enters the problem.
 enum class Activation {
-  speculative,  ///< within reach: C v >= -gap / h, so that the gap closes and does not cross
-  violated      ///< only once violated, as RedMax does
+  speculative,  ///< acts within reach: C v >= -gap / h, so the gap closes and does not cross
+  violated      ///< acts only once violated, as RedMax does
 };
 
 struct ConstraintSettings {
@@ -75,7 +75,7 @@ struct ConstraintSettings {
   /// Speculative rows only: a step whose path overlaps by this much more than it should is solved
   /// again with rows that see it, cm.
   double tolerance = 0.0003;
-  int corrections = 8;  ///< at most this often; 0: never
+  int corrections = 8;  ///< most corrections of a step; 0: none
   /// A step that moves a body further than this is checked along its path too, cm: less than the
   /// radius of the thinnest body, so that no strand passes through another unseen.
   double stride = 0.25;
@@ -131,26 +131,26 @@ struct ScriptSettings {
   /// Standard deviation of the normal noise on each coordinate of each knot, cm or dyn, or on each
   /// value of a curvature program, rad per body length: no animal does the same thing twice.
   double noise = 0;
-  unsigned noise_seed = 1;  ///< which draw
+  unsigned noise_seed = 1;  ///< number of the draw
 };
 
 /// How the animal's own torques bend it, where the script is a curvature program (addition): each
 /// hinge is pulled towards its angle in a rest shape. While the knot forms, the program is the rest
 /// shape; then muscle tone follows the shape that the knot takes, until release lets it go.
 struct ActiveSettings {
-  double stiffness = 0;   ///< towards the rest shape, B_a, dyn cm^2: per hinge, over hinge_span()
+  double stiffness = 0;   ///< B_a towards the rest shape, dyn cm^2: per hinge, over hinge_span()
   double tone_time = 0;   ///< time constant by which the rest shape follows the body, tau, s
-  double relax_time = 0;  ///< by which it becomes straight from release on, s
+  double relax_time = 0;  ///< time constant by which it becomes straight from release on, s
   /// Torque of one hinge that the muscles can make, dyn cm: above it the torque is constant within
   /// the step, and the run reports it.
   double capacity = 0;
-  bool bounds_laws = false;  ///< the same of torques that a law of the run's own asks for besides
+  bool bounds_laws = false;  ///< bounds also torques that a law of the run's own asks for besides
 };
 
 /// Muscles that make the animal's torques (addition; core/chain/muscle.hpp).
 struct MuscleSettings {
   bool present = false;  ///< the specimen's: the activations that the torques take are logged
-  /// Of the first-order dynamics by which a muscle follows its excitation, s (law muscles).
+  /// Time constant by which a muscle follows its excitation, s (law muscles).
   double activation_time = 0;
 };
 
@@ -163,10 +163,10 @@ struct ThigmotaxisSpeeds {
 /// The end of the animal by which the knot leaves it.
 enum class BodyEnd { head, tail };
 
-/// Where the two strands' velocities of Eq. 6 are taken. The forces are internal in both cases.
+/// Points whose velocities Eq. 6 takes. The forces are internal in both cases.
 enum class Eq6Point {
-  skin,  ///< at one point, where the skins touch
-  /// At the two closest points of the spline, as seen from the head: as the joints move them.
+  skin,  ///< one point, where the skins touch
+  /// The two closest points of the spline, as seen from the head: as the joints move them.
   centreline
 };
 
@@ -182,7 +182,7 @@ inline constexpr const char* own_law = "own";
 /// The loop of the law knot_speed: s' = gain (1 - v / target) for the scale s of the commanded
 /// speeds, with v the knot's speed.
 struct KnotSpeedSettings {
-  double target = 0;  ///< of the knot's leading end along the body, cm/s
+  double target = 0;  ///< speed of the knot's leading end along the body, cm/s
   double gain = 0;    ///< 1/s
   double filter = 0;  ///< time constant by which the end's place is smoothed to tell its speed, s
   double most = 1;    ///< largest s; the least is 0
@@ -199,14 +199,14 @@ enum class BasisFrame {
 /// body, the columns of B, with no unit. Shapes are cosines, or learned ones of a file.
 struct ReducedBasisSettings {
   BasisFrame frame = BasisFrame::knot;
-  double margin = 0;  ///< of the knot's window, cm of arc
+  double margin = 0;  ///< margin of the knot's window, cm of arc
   double smooth = 0;  ///< time constant by which the window follows the two contacts, s
-  int cosines = 0;    ///< for bending about Y, about Z and twist each; 0: the shapes are learned
-  std::string file;   ///< of learned shapes, as a scene names it; empty once they are read
+  int cosines = 0;    ///< number per bending axis and twist; 0: the shapes are learned
+  std::string file;   ///< file of learned shapes, as a scene names it; empty once they are read
   std::vector<double> stations;  ///< rising: cm of arc, or shares of the window from 0 to 1
   /// One shape after the other at all stations, linear between them and zero outside.
   std::vector<double> bend_y, bend_z, twist;
-  double period = 0;  ///< between two findings of a, s: rounded to whole steps, one at least
+  double period = 0;  ///< time between two findings of a, s: rounded to whole steps, one at least
   double filter = 0;  ///< time constant by which the torques follow a, s
   /// How far Eq. 6 may be missed for a smaller |a|: added to the diagonal of the problem in its
   /// multipliers, as a share of the largest entry there.
@@ -223,30 +223,30 @@ inline int basis_size(const ReducedBasisSettings& basis) {
                            : static_cast<int>(basis.bend_y.size() / basis.stations.size());
 }
 
-/// Which joints the law reflex moves.
+/// Joints that the law reflex moves.
 enum class ReflexGate {
   all,
   touch  ///< those within a reach of where the body touches itself; the others keep their angle
 };
 
-/// The rule of the law reflex (core/run/reflex.hpp): every joint copies what the animal senses of
-/// its own shape a little further on.
+/// The rule of the law reflex (core/control/reflex.hpp): every joint copies what the animal senses
+/// of its own shape a little further on.
 struct ReflexSettings {
   /// Δ, cm of arc: how far behind itself (negative: before itself) a joint finds what it copies. On
   /// a way back to the tail it is turned round.
   double shift = 0;
-  double pull_shift = 0;  ///< the same while the head pulls at food; 0: as before that
-  bool bend_y = true, bend_z = true, twist = true;  ///< which turns are copied, each from its kind
+  double pull_shift = 0;  ///< shift while the head pulls at food; 0: as before that
+  bool bend_y = true, bend_z = true, twist = true;  ///< turns that are copied, each from its kind
   ReflexGate gate = ReflexGate::all;
-  double reach = 0;   ///< of ReflexGate::touch, along either strand, cm of arc
-  double delay = 0;   ///< of the senses, s: rounded to whole steps
+  double reach = 0;   ///< reach of ReflexGate::touch, along either strand, cm of arc
+  double delay = 0;   ///< delay of the senses, s: rounded to whole steps
   double noise = 0;   ///< standard deviation of each sensed angle at each step, share of it
-  unsigned seed = 1;  ///< of the noise
+  unsigned seed = 1;  ///< seed of the noise
 };
 
 /// The thigmotaxis controller (paper, 3.2, Eq. 6) and its switches between phases.
 struct ControllerSettings {
-  std::string law = "paper";  ///< that controls the animal in each phase (core/run/laws.hpp)
+  std::string law = "paper";  ///< law of the animal in each phase (core/control/laws.hpp)
   Eq6Point eq6_at = Eq6Point::skin;
   Eq6Slip eq6_slip = Eq6Slip::paper;
   KnotSpeedSettings knot_speed;
@@ -254,7 +254,7 @@ struct ControllerSettings {
   ReflexSettings reflex;
   ThigmotaxisSpeeds tighten_head, tighten_tail;  ///< first and last contact while tightening
   ThigmotaxisSpeeds slide_head, slide_tail;      ///< first and last contact while sliding
-  /// The same on the way back to the tail. Eq. 6 bounds speeds from below, so that v < 0 asks for
+  /// Speeds on the way back to the tail. Eq. 6 bounds speeds from below, so that v < 0 asks for
   /// nothing: here both tangents point to the head.
   ThigmotaxisSpeeds reverse_head, reverse_tail;
   BodyEnd leave_by = BodyEnd::head;  ///< tail: at the head the knot turns back
@@ -265,10 +265,10 @@ struct ControllerSettings {
   /// area is the square of this, cm; 0: at its first (last) point.
   double contact_patch = 0;
   double tail_through = 8.0;   ///< tighten once this much body is past the last contact, cm of arc
-  double tighten_from = 0;     ///< and not before this time: a script may end by pulling tight, s
+  double tighten_from = 0;     ///< earliest time to tighten, s: a script may end by pulling tight
   double tight_span = 20.352;  ///< slide once the knot spans no more body than this, cm of arc
-  double tight_hold = 0.25;    ///< for this long: a loose loop touches itself here and there, s
-  double tighten_time = 2.0;   ///< or after this long in any case, s
+  double tight_hold = 0.25;    ///< time for which it must be so, s: loose loops touch at times
+  double tighten_time = 2.0;   ///< slide after this long in any case, s
   /// The slide ends when the first contact is this near the head, and a way back when the last one
   /// is this near the tail: then it is released, cm of arc.
   double release_at = 1.6;
@@ -283,9 +283,9 @@ inline constexpr double dyn_per_newton = 1e5;
 /// A number that rises, or stays.
 struct Ramp {
   double from = 0, to = 0;
-  double time = 0;  ///< from the one to the other, s
+  double time = 0;  ///< duration of the way from the one to the other, s
 
-  double at(double since) const {  ///< s after its start
+  double at(double since) const {  ///< the value this long after its start, s
     return since < time ? from + (to - from) * (since / time) : to;
   }
 };
@@ -296,7 +296,7 @@ struct Ramp {
 struct FoodSettings {
   double hold = 0;         ///< the animal lets go after this long, s; 0: there is no food
   double strength = 1000;  ///< the food gives where the pull passes this, N
-  double average = 0.02;   ///< as a mean over this time, s
+  double average = 0.02;   ///< the pull is a mean over this time, s
   /// Largest lambda / h of a thigmotaxis row while pulling, in place of ControllerSettings::cap,
   /// dyn.
   Ramp cap;
@@ -307,20 +307,20 @@ struct StartSettings {
   /// Bend of the body [station, about x, y, z], rad per cm of body, linear between stations (0 head
   /// to 1 tail). A hinge takes the share of the body that it stands for, and stops at its limits.
   std::vector<Eigen::Vector4d> bend;
-  std::vector<Eigen::Vector4d> bend_rate;  ///< the same of its velocity, rad/(cm s)
+  std::vector<Eigen::Vector4d> bend_rate;  ///< rate of bend, rad/(cm s)
   /// Turn of the body as a whole, rad/s, head's own axes; the head must be free.
   Eigen::Vector3d spin = Eigen::Vector3d::Zero();
-  std::vector<double> q;      ///< in place of bend: the whole state as State::q has it, or empty
-  std::vector<double> qdot;   ///< likewise, in place of bend_rate and spin
+  std::vector<double> q;      ///< State::q in place of bend, or empty
+  std::vector<double> qdot;   ///< State::qdot in place of bend_rate and spin, or empty
   double noise = 0;           ///< normal noise on each hinge, stopped by its limits, rad
-  unsigned seed = 1;          ///< of the noise
+  unsigned seed = 1;          ///< seed of the noise
   Phase phase = Phase::form;  ///< what the controller takes the state to be
 };
 
 /// Topology of the open centreline, by vote over closures and projections.
 struct KnotSettings {
   int votes = 15;            ///< directions tried
-  unsigned seed = 20220301;  ///< of the directions
+  unsigned seed = 20220301;  ///< seed of the directions
   double interval = 0.02;    ///< time between checks while the controller waits for a change, s
   bool mirror = false;       ///< tries the directions' mirror images, y to -y: see Scene::mirror
 };
@@ -344,7 +344,7 @@ struct TimeSettings {
   /// The middle of a step has settled once further passes change the velocity by no more than this,
   /// as far as can be told: rad/s of each hinge, and cm/s and rad/s of the root.
   double settled = 0.001;
-  int passes = 20;  ///< to settle in at most, twice: with a balanced bias, and without
+  int passes = 20;  ///< most passes to settle in, twice: with a balanced bias, and without
   /// Far stiffer springs than the step resolves ring from step to step by the midpoint rule: this
   /// times h² of their stiffness damps them, at the velocity after the step, 1/s.
   double ring_damping = 1;
@@ -367,18 +367,15 @@ enum class EnergyAction {
 
 /// Bounds of sanity, not physics: past one of these something is wrong with a run.
 struct GuardSettings {
-  /// At too much penetration, a limit passed too far or a lost knot. Speed always stops.
+  /// Action at too much penetration, a limit passed too far or a lost knot. Speed always stops.
   GuardAction action = GuardAction::stop;
   double penetration = 0.5;      ///< cm
   double limit_violation = 0.2;  ///< rad
-  double speed = 1e4;            ///< of any body centre, cm/s
+  double speed = 1e4;            ///< speed of any body centre, cm/s
   /// Energy that the integrator makes, over the largest kinetic and elastic energy so far and what
   /// drag and damping took.
   double energy_gain = 0.005;
   EnergyAction energy_action = EnergyAction::hold;
-  /// Momentum that the integrator makes while nothing holds the head, over the most that the body
-  /// could have with its largest energy so far: warns.
-  double momentum_gain = 0.001;
   double capped_time = 0.25;  ///< a thigmotaxis row at its cap for this long is reported, s
 };
 
@@ -387,13 +384,13 @@ enum class Hand { any, right, left };
 
 /// A time of a run: by the clock, or after a phase has begun, as no two animals are as quick.
 struct RunTime {
-  std::optional<Phase> after;  ///< counted from its start; from that of the run where there is none
+  std::optional<Phase> after;  ///< counted from this phase's start; none: from the run's
   double time = 0;             ///< s; infinite for the run's end
 };
 
 /// A stretch of the run in which the knot has one type.
 struct KnotStretch {
-  std::string type;  ///< as knot_name() gives it
+  std::string type;  ///< type by knot_name()
   RunTime from, to;  ///< both included where they are times by the clock; else up to before `to`
 };
 
@@ -404,7 +401,7 @@ struct ExpectSettings {
   std::string knot;
   /// Knot type through time. Between the stretches, while it changes, any type will do.
   std::vector<KnotStretch> types;
-  Hand hand = Hand::any;  ///< of the knot until release
+  Hand hand = Hand::any;  ///< hand of the knot until release
   /// Headward travel of the knot's head end while sliding, cm; where the knot began nearer to its
   /// release than that, all the way there, but half of this at least.
   double slide_distance = 0;
@@ -417,18 +414,16 @@ struct ExpectSettings {
   /// animal's own and f_thigmo together, both of which muscles make. 0: not bounded.
   double torque_share = 0;
   double pull = 0;                    ///< mean pull at the food, N
-  double pull_settled = 1;            ///< of all of the pull but its first part, this long, s
-  double pull_drift = 0.4;            ///< between the halves of that, of its mean
-  double pull_balance = 0.005;        ///< of the mean force of the head plate from it, of it
-  double speed_share = 0.95;          ///< of sliding steps that meet Eq. 6 without slack
+  double pull_settled = 1;            ///< first part of the pull that these figures leave out, s
+  double pull_drift = 0.4;            ///< difference between the means of both halves, of the mean
+  double pull_balance = 0.005;        ///< difference of the plate's mean force and the pull, of it
+  double speed_share = 0.95;          ///< least share of sliding steps with Eq. 6 met without slack
   double penetration = 0.0015;        ///< deepest at any step, cm
   double skin_fold = 0;               ///< largest skin_fold() while the knot is held; 0: no bound
   double limit_violation = 1.745e-5;  ///< largest at any step, rad (0.001 degrees)
   double head_drift = 1e-6;           ///< largest at any step while clamped, cm
   double kkt = 1e-8;                  ///< largest scaled KKT residual of any step
-  double force_balance = 1e-9;        ///< |H (q̇ - q̇*) - h Σ f| of its scale, every frame
-  double forward_inverse = 1e-8;  ///< q̇ that MuJoCo makes of the forces, over its largest entry
-  double energy = 1e-6;           ///< imbalance of the ledger, of the energy that passed
+  double energy = 1e-6;               ///< imbalance of the ledger, of the energy that passed
   /// Share by which kinetic, elastic and gravity energy may exceed what there was and what the
   /// script and thigmotaxis put in, at any step.
   double energy_gain = 0.01;

@@ -7,30 +7,30 @@
 
 namespace hagfish {
 
-/// What the body's muscles are made of, where that is known or guessed: lists at the stations.
+/// The tissue of the body's muscles, known or guessed: lists at the stations.
 struct MuscleTissue {
   /// Cross-section of the fibres along the body on each of four sides, left, right, dorsal and
   /// ventral, cm^2. Empty where nothing is said of muscles.
   std::vector<double> longitudinal_area;
-  std::vector<double> oblique_area;  ///< of the oblique fibres of each hand, across them, cm^2
-  double stress = 0;                 ///< largest of the fibres, dyn / cm^2
-  double radius_share = 0;           ///< where they lie, of the skin's radius
-  double oblique_angle = 0;          ///< of the oblique fibres to the body's axis, rad
+  std::vector<double> oblique_area;  ///< oblique fibres of each hand, across them, cm^2
+  double stress = 0;                 ///< largest stress of the fibres, dyn / cm^2
+  double radius_share = 0;           ///< radius at which they lie, of the skin's
+  double oblique_angle = 0;          ///< angle of the oblique fibres to the body's axis, rad
 };
 
 /// A measured specimen (paper, Table 1; what that does not have, by other sources). Profiles are
 /// linear between stations and constant outside.
 struct Specimen {
   std::string name;
-  double length = 0;            ///< head to tail, cm
-  double mass = 0;              ///< whole body, g
-  std::vector<double> station;  ///< where the profiles were measured, fraction of length, rising
-  std::vector<double> circumference;  ///< at the stations, cm
-  std::vector<double> bending_limit;  ///< at the stations, rad; see bending_span
+  double length = 0;                  ///< head to tail, cm
+  double mass = 0;                    ///< whole body, g
+  std::vector<double> station;        ///< places of the profiles, fraction of length, rising
+  std::vector<double> circumference;  ///< circumference at the stations, cm
+  std::vector<double> bending_limit;  ///< limit at the stations, rad; see bending_span
   /// Length of body over which one bending limit was read, cm. The limits bound each axis of a
   /// universal joint, and the paper's chain of 100 bodies has one such joint per 2 L / 100.
   double bending_span = 0;
-  /// Measured on the whole body, rad. Each revolute joint may turn by this over the number of
+  /// Limit measured on the whole body, rad. Each revolute joint may turn by this over the number of
   /// bodies to each side (Table 1), and every second joint is one.
   double twist_limit = 0;
   /// How the dead body resists bending and twisting, at the stations; empty where it was never

@@ -5,7 +5,9 @@
 #include <utility>
 
 #include "core/contact/obstacles.hpp"
-#include "core/step/row_selection.hpp"
+#include "core/step/rows/contact_rows.hpp"
+#include "core/step/rows/joint_rows.hpp"
+#include "core/step/rows/row_selection.hpp"
 
 namespace hagfish {
 namespace {
@@ -23,7 +25,7 @@ void put(PathRow row, StepSolution& step) {
 }
 
 /// The number of rows that the path has given the contact with this id in this step.
-int rows_of_contact(std::int64_t id, const StepSolution& step) {
+int rows_of_contact(const RowId& id, const StepSolution& step) {
   return static_cast<int>(std::ranges::count_if(step.path_rows, [&](const PathRow& path_row) {
     return path_row.contact && contact_row_id(*path_row.contact) == id;
   }));
@@ -76,9 +78,9 @@ bool add_missed_rows(const StepInput& in, const StepPlace& place, const Observat
       }
     }
   }
-  visit_plane_gaps(in.model, there.kin, [&](int obstacle, int body, double gap) {
-    check(plane_gap(in.model, now.kin, in.model.obstacles[obstacle], body), gap, [&] {
-      return PathRow{plane_row(in.model, obstacle, body), {}};
+  visit_plane_gaps(in.model, there.kin, [&](const PlaneGap& at) {
+    check(plane_gap(in.model, now.kin, at.plane, at.body), at.gap, [&] {
+      return PathRow{plane_row(at), {}};
     });
   });
   return any;
@@ -101,7 +103,7 @@ bool add_missed_bends(const StepInput& in, const Eigen::VectorXd& there, StepSol
     }
     Row row = cone_row(cone, total_bend(goal[0], goal[1]), tangents);
     const Eigen::Vector2d way = goal - now.segment<2>(cone.dof + 1);
-    row.rhs = (row.sign * way[0] + row.next_sign * way[1]) / in.scene.time.step;
+    row.rhs = (row.joint()->sign * way[0] + row.joint()->next_sign * way[1]) / in.scene.time.step;
     put({row, {}}, step);
     any = true;
   }

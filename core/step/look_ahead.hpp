@@ -27,14 +27,14 @@ int path_samples(const Eigen::Matrix3Xd& centre_velocity, const Eigen::Vector3d&
 
 /// Checks the contacts and the gaps to planes of `there`, which is where the velocities of `step`
 /// lead within time `t` (s). Each overlap deeper than `constraints.tolerance` gets a row in
-/// step.rows between the same material points. C is taken at `place`, where the equations hold:
-///     φ_now + h C q̇ + (φ_there - φ_now - t C q̇_step) (h/t)² >= goal,
+/// step.rows between the same material points. Before the step's end (t < h) way_tolerance times
+/// `stride` is permitted instead. C is taken at `place`, where the equations hold:
+///     φ_now + h C q̇ + (φ_there - φ_now - t C q̇_step) (h/t)² >= goal.
 /// The bracket is the error of the linear row at t, of second order. The goal is 0, or what the
 /// Baumgarte gain leaves of an earlier overlap. No row asks for h C q̇ over `stride`. The first
 /// added row of a contact replaces the row of the step's start. Later rows come on top of it, since
-/// strands turn about the points of one row and may meet elsewhere. A row of a plane replaces the
-/// last one. Returns whether any row was added.
-/// one before. Returns whether any row was added.
+/// strands turn about the points of one row and may meet elsewhere. A plane has one row per body:
+/// the new row replaces it. Returns whether any row was added.
 bool add_missed_rows(const StepInput& in, const StepPlace& place, const Observation& there,
                      double t, StepSolution& step);
 
@@ -43,8 +43,8 @@ bool add_missed_rows(const StepInput& in, const StepPlace& place, const Observat
 /// degrees that a log may show (ExpectSettings::limit_violation).
 inline constexpr double bend_tolerance = 5e-6;
 
-/// The same for the cones of universal joints, with coordinates `there` (nq) at the end of the
-/// step. A joint gets one more row if it is further past its cone than bend_tolerance and what the
+/// Checks the cones of universal joints, with coordinates `there` (nq) at the end of the step. A
+/// joint gets one more row if it is further past its cone than bend_tolerance and what the
 /// Baumgarte gain leaves of an earlier violation. The row is the tangent of the cone at the bend of
 /// `there`. The angles within a cone are a convex set, which no tangent cuts. So earlier rows stay,
 /// and a path that ends within the cone has never left it. Returns whether any row was added.

@@ -20,7 +20,7 @@ enum class Outcome : std::uint8_t {
   knot_lost,       ///< the knot changed its type before its release
   capped,          ///< not done in time, or thigmotaxis rows stayed at controller.cap
   tunnelled,       ///< strands passed through each other: they overlapped by more than a radius
-  stopped,         ///< on request, or after its time limit
+  stopped,         ///< stopped on request, or after its time limit
   not_applicable,  ///< the scene needs something that this simulator does not have
   overbent,        ///< a curvature program bends a joint past its limits
   saturated,       ///< muscles are at their capacity

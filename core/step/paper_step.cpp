@@ -29,9 +29,9 @@ Eigen::MatrixXd dense_rows(const Model& model, const Kinematics& kin,
   Eigen::MatrixXd c = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(rows.size()), model.nv());
   for (Eigen::Index i = 0; i < c.rows(); ++i) {
     const Row& row = rows[i];
-    if (row.dof >= 0) {
-      c(i, row.dof) = row.sign;
-      if (row.next_sign != 0) c(i, row.dof + 1) = row.next_sign;
+    if (const OnJoint* joint = row.joint()) {
+      c(i, joint->dof) = joint->sign;
+      if (!row.unit()) c(i, joint->dof + 1) = joint->next_sign;
     }
     visit_forces(row, kin,
                  [&](int body, const Eigen::Vector3d& moment, const Eigen::Vector3d& force) {

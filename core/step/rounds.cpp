@@ -7,8 +7,8 @@
 #include <span>
 #include <stdexcept>
 
-#include "core/step/prescribed_rows.hpp"
-#include "core/step/row_selection.hpp"
+#include "core/step/rows/prescribed_rows.hpp"
+#include "core/step/rows/row_selection.hpp"
 #include "core/step/step_failure.hpp"
 
 namespace hagfish {
@@ -189,7 +189,7 @@ void Rounds::set_velocity(const StepInput& in, const StepPlace& place, StepSolut
   problem_.factor.solve(in.model, kin, wrench_, joint_, step.qdot, step.twist, reaction_);
   centre_velocities(kin, step.twist, step.centre_velocity);
   for (Eigen::Index i = 0; i < step.prescribed; ++i) {
-    step.lambda[i] = step.rows[i].sign * reaction_[i];
+    step.lambda[i] = step.rows[i].joint()->sign * reaction_[i];
   }
 }
 

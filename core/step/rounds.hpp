@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/step/dual_problem.hpp"
 #include "core/step/outcome.hpp"
+#include "core/step/rows/dual_problem.hpp"
 #include "core/step/step_input.hpp"
 #include "core/step/step_solution.hpp"
 #include "core/step/warm_start.hpp"
@@ -53,7 +53,7 @@ class Rounds {
   Status resume(const StepInput& in, const StepPlace& place, const WarmStart& warm,
                 StepSolution& step);
 
-  /// As StepSolver::stop_when.
+  /// StepSolver::stop_when for these rounds.
   void stop_when(std::function<bool()> asked);
 
   /// The problem of the last step.
@@ -77,7 +77,7 @@ class Rounds {
   bool factor_known_ = false;  ///< problem_.factor is of this step's Eq. 1
   // Storage. A step with as many rows as the last one allocates nothing.
   std::vector<Row> violated_;                       ///< rows that the last answer violates
-  std::vector<std::pair<int, std::size_t>> order_;  ///< of the rows: place_in_step, index
+  std::vector<std::pair<int, std::size_t>> order_;  ///< place_in_step and index of each row
   std::vector<Row> ordered_;
   BoxQpSolution solution_;
   Matrix6Xd wrench_;

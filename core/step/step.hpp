@@ -38,7 +38,7 @@ class StepSolver {
   /// each iteration of the back end. Copies call it too.
   void stop_when(std::function<bool()> asked) { rounds_.stop_when(std::move(asked)); }
 
-  /// Where the equations of the last begun step hold; `in` is the input of that step.
+  /// The place where the equations of the last begun step hold; `in` is the input of that step.
   StepPlace place(const StepInput& in) const {
     return by_euler(in) ? euler_.place(in) : midpoint_.place(in);
   }

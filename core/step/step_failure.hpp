@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/step/outcome.hpp"
-#include "core/step/rows.hpp"
+#include "core/step/rows/row.hpp"
 #include "solvers/box_qp.hpp"
 
 namespace hagfish {

@@ -6,7 +6,7 @@
 
 #include "core/chain/dynamics.hpp"
 #include "core/contact/observation.hpp"
-#include "core/step/eq6_rows.hpp"
+#include "core/step/rows/eq6_rows.hpp"
 
 namespace hagfish {
 
@@ -26,7 +26,7 @@ struct StepInput {
   const Model& model;
   const Scene& scene;
   const State& state;
-  const Observation& observation;  ///< of `state`
+  const Observation& observation;  ///< observation of `state`
   const Control& control;
 };
 
@@ -39,11 +39,12 @@ inline bool keeps_momentum(const StepInput& in) {
   return keeps_momentum(in.scene, in.control.clamp_head);
 }
 
-/// Where the equations of a step hold, and how the animal moves there. It refers to the step's
-/// input, or to the time rule that found the place.
+/// The place where the equations of a step hold, and how the animal moves there. Its references and
+/// pointers are into the step's input (start_of) or into the time rule (StepSolver::place). They
+/// hold while these live. The rule's next pass or step overwrites what it holds.
 struct StepPlace {
-  const Kinematics& kin;            ///< of Eq. 1 and the rows
-  StepMotion motion;                ///< that of the step's first velocity there
+  const Kinematics& kin;            ///< pose of Eq. 1 and of the rows
+  StepMotion motion;                ///< the step's first velocity there, and the mean one
   const Eigen::VectorXd& velocity;  ///< best estimate of the step's velocity: that of kin, nv
   /// Null at the step's start, where contacts are as found.
   const std::vector<SplineSegment>* segments = nullptr;

@@ -19,7 +19,7 @@ void sum_forces(RowKind kind, const Model& model, const Kinematics& kin, double 
   for (std::size_t i = 0; i < step.rows.size(); ++i) {
     const Row& row = step.rows[i];
     if (row.kind == kind && step.lambda[i] != 0) {
-      if (row.dof < 0 && !on_bodies) {
+      if (row.joint() == nullptr && !on_bodies) {
         storage.wrench.setZero(6, model.body_count());
         on_bodies = true;
       }
@@ -67,7 +67,7 @@ void scale_multipliers(const RowProblem& problem, const StepSolution& step,
   Eigen::VectorXd& scaled = storage.scaled;
   scaled.resize(step.lambda.size());
   for (Eigen::Index i = 0; i < step.prescribed; ++i) {
-    scaled[i] = 1 / std::sqrt(problem.factor.pivot(step.rows[i].dof));
+    scaled[i] = 1 / std::sqrt(problem.factor.pivot(step.rows[i].joint()->dof));
   }
   const Eigen::Index solved = scaled.size() - step.prescribed;
   if (solved > 0) {

@@ -1,4 +1,4 @@
-// A time rule: where the equations of a step hold, and with which velocity it ends.
+// A time rule: the place where the equations of a step hold, and the velocity with which it ends.
 #pragma once
 
 #include "core/step/rounds.hpp"
@@ -15,7 +15,7 @@ class StepRule {
   virtual Status begin(const StepInput& in, Rounds& rounds, WarmStart& warm,
                        StepSolution& step) = 0;
 
-  /// The same again, after rows were added to step.rows and step.path_rows.
+  /// Solves the step again, after rows were added to step.rows and step.path_rows.
   virtual Status resume(const StepInput& in, Rounds& rounds, WarmStart& warm,
                         StepSolution& step) = 0;
 
@@ -23,7 +23,7 @@ class StepRule {
   /// what the next step starts with.
   virtual void end(const StepInput& in, WarmStart& warm, StepSolution& step) = 0;
 
-  /// Where the equations of the step hold. Call it after begin.
+  /// The place where the equations of the step hold. Call it after begin.
   virtual StepPlace place(const StepInput& in) const = 0;
 };
 

@@ -8,14 +8,14 @@
 #include <vector>
 
 #include "core/chain/dynamics.hpp"
-#include "core/step/rows.hpp"
+#include "core/step/rows/row.hpp"
 #include "solvers/box_qp.hpp"
 
 namespace hagfish {
 
 /// Eq. 1, Eq. 3 (with limits as bilateral rows too) or Eq. 4.
 enum class SolveKind : std::uint8_t { linear, kkt, qp };
-/// In the order of the enumeration.
+/// Names in the order of the enumeration.
 inline constexpr std::array solve_kind_names = {"linear", "kkt", "qp"};
 
 /// Multiplier forces C'λ / h (paper, Eqs. 7 and 8), generalised, nv each.
@@ -37,43 +37,44 @@ struct StepMiddle {
   int passes = 0;
   /// Norm of the difference between qdot and the velocity that placed the middle, rad/s and cm/s.
   double off = 0;
-  Eigen::VectorXd step_velocity, mean_velocity;  ///< as in Midway, of the last pass, nv
+  Eigen::VectorXd step_velocity, mean_velocity;  ///< velocities of Midway in the last pass, nv
 };
 
 struct StepSolution {
   Eigen::VectorXd qdot;           ///< the step's velocity, which meets the rows, nv
   Eigen::VectorXd next;           ///< velocity after the step, nv; qdot by Euler's rule
-  Eigen::VectorXd mean_velocity;  ///< at which springs, damping and drag act, nv: qdot; midpoint
-                                  ///< rule: mean of the velocities before and after
-  Matrix6Xd mean_twist;           ///< of the bodies at mean_velocity, 6 x N
-  Eigen::Matrix3Xd mean_centre_velocity;  ///< of their centres at mean_velocity, 3 x N, cm/s
-  Matrix6Xd twist;                        ///< of the bodies at qdot, 6 x N
-  Eigen::Matrix3Xd centre_velocity;       ///< of their centres at qdot, 3 x N, cm/s
-  BodyVelocities bodies() const { return {twist, centre_velocity}; }  ///< at qdot
+  Eigen::VectorXd mean_velocity;  ///< velocity of springs, damping and drag, nv: qdot, or by the
+                                  ///< midpoint rule the mean of those before and after
+  Matrix6Xd mean_twist;           ///< bodies' twists at mean_velocity, 6 x N
+  Eigen::Matrix3Xd mean_centre_velocity;  ///< velocities of their centres at it, 3 x N, cm/s
+  Matrix6Xd twist;                        ///< bodies' twists at qdot, 6 x N
+  Eigen::Matrix3Xd centre_velocity;       ///< velocities of their centres at qdot, 3 x N, cm/s
+  BodyVelocities bodies() const { return {twist, centre_velocity}; }  ///< motion at qdot
   ConstraintForces force;
   Eigen::Vector3d tip = Eigen::Vector3d::Zero();  ///< tip force as applied, dyn, world
   /// Total torque of the muscles as applied, dyn cm, nv; 0 at the root.
   Eigen::VectorXd active_torque;
   SolveKind kind = SolveKind::linear;
-  std::vector<Row> rows;           ///< of the problem, in the order of place_in_step
+  std::vector<Row> rows;           ///< rows of the problem, in the order of place_in_step
   std::vector<PathRow> path_rows;  ///< rows that were added along the step's path
   Eigen::Index prescribed = 0;     ///< number of prescribed rows, the first of `rows`
   Eigen::VectorXd lambda;          ///< their multipliers, dyn s or dyn cm s
   Eigen::VectorXd excess;          ///< C q̇ - d of each row at the solution, cm/s or rad/s
   int active = 0;                  ///< rows with a force
-  int iterations = 0;              ///< of the back end, all rounds together
+  int iterations = 0;              ///< iterations of the back end, all rounds together
   /// QP rounds. Each adds violated rows and releases prescribed limits with λ < 0.
   int rounds = 0;
-  /// (H q̇ - g) / h without the active torque, nv. It follows from the motion alone. It equals the
-  /// sum of the active torque and the forces of all rows.
+  /// (H x - g) / reach without the active torque in H and g, nv; x is mean_velocity. It follows
+  /// from the motion alone. It must equal active_torque + force.total().
   Eigen::VectorXd net_force;
-  double stationarity = 0;  ///< |H q̇ - g - C'λ| over the largest of these three, infinity norms
-  KktResiduals kkt;         ///< of the rows that are not prescribed, on the scale of all rows
+  /// |H x - g - reach force.total()| over the largest of H x, g and each kind of force times reach.
+  double stationarity = 0;
+  KktResiduals kkt;  ///< residuals of rows not prescribed, on the scale of all rows
   /// The largest of `stationarity` and the residuals of `kkt`.
   double worst_residual() const { return std::max(kkt.worst(), stationarity); }
   double qp_time = 0;  ///< s spent in the QP back end
   StepSystem system;   ///< Eq. 1 as assembled
-  StepMiddle middle;   ///< of the midpoint rule
+  StepMiddle middle;   ///< passes of the midpoint rule
 };
 
 }  // namespace hagfish

@@ -13,12 +13,12 @@ void WarmStart::forget() {
 
 void WarmStart::end() { std::ranges::sort(entries_, {}, &Kept::id); }
 
-const WarmStart::Kept* WarmStart::find(std::int64_t id) const {
+const WarmStart::Kept* WarmStart::find(const RowId& id) const {
   const auto it = std::ranges::lower_bound(entries_, id, {}, &Kept::id);
   return it == entries_.end() || it->id != id ? nullptr : &*it;
 }
 
-double WarmStart::multiplier(std::int64_t id) const {
+double WarmStart::multiplier(const RowId& id) const {
   const Kept* kept = find(id);
   return kept == nullptr ? 0 : kept->lambda;
 }

@@ -2,8 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
 #include <vector>
+
+#include "core/step/rows/row.hpp"
 
 namespace hagfish {
 
@@ -11,7 +12,7 @@ namespace hagfish {
 class WarmStart {
  public:
   struct Kept {
-    std::int64_t id = 0;
+    RowId id;
     double lambda = 0;  ///< dyn s or dyn cm s
   };
   /// Restores the initial values, but keeps the storage.
@@ -19,21 +20,21 @@ class WarmStart {
   /// Forgets the multipliers.
   void begin() { entries_.clear(); }
   /// Ids may come in any order, once each. Call end() before any look-up.
-  void add(std::int64_t id, double lambda) { entries_.push_back({id, lambda}); }
+  void add(const RowId& id, double lambda) { entries_.push_back({id, lambda}); }
   void end();
   /// The entry of a row, or null.
-  const Kept* find(std::int64_t id) const;
+  const Kept* find(const RowId& id) const;
   /// The multiplier of a row, 0 where there is none.
-  double multiplier(std::int64_t id) const;
+  double multiplier(const RowId& id) const;
   std::size_t size() const { return entries_.size(); }
   /// Half of the change of velocity by steady forces, in the last step and in the one before it,
   /// nv. The midpoint rule extrapolates them to the middle of the next step. Empty where there was
   /// none.
   Eigen::VectorXd half_change, half_before;
-  double remaining = 1;  ///< of the last step (StepSolution)
+  double remaining = 1;  ///< StepMiddle::remaining of the last step
 
  private:
-  std::vector<Kept> entries_;  // by id
+  std::vector<Kept> entries_;  // sorted by id
 };
 
 }  // namespace hagfish

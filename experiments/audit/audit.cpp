@@ -4,7 +4,7 @@
 #include "experiments/audit/audit_forces.hpp"
 #include "experiments/audit/audit_forward_inverse.hpp"
 #include "experiments/audit/audit_frames.hpp"
-#include "experiments/audit/replay.hpp"
+#include "experiments/judge/replay.hpp"
 
 namespace hagfish {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "experiments/audit/expectations.hpp"
-#include "experiments/audit/log_contents.hpp"
+#include "core/log/reading/log_contents.hpp"
+#include "experiments/judge/expectations.hpp"
 
 namespace hagfish {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/run/laws.hpp"
-#include "core/run/muscle_law.hpp"
+#include "core/control/laws.hpp"
+#include "core/control/muscle_law.hpp"
 
 namespace hagfish {
 namespace {

@@ -15,6 +15,8 @@ namespace {
 /// How far from its limit a joint that bears on it may end a step, rad: the speed of Ipopt's rows
 /// is met to 1e-8 of the largest, some rad/s, over a step of some ms.
 constexpr double limit_tolerance = 1e-8;
+/// Of |H (q̇ - q̇*) - h Σ f| and its scale: both are rounded.
+constexpr double balance_tolerance = 1e-9;
 /// A cone is followed by tangents, rad: a step's end may be this far inside or past it, and the
 /// force that far turned from the bend.
 constexpr double cone_tolerance = 2e-5;
@@ -242,7 +244,6 @@ void ForceAudit::see_means(const AuditedFrame& frame, const ThigmotaxisAudit::Ro
 }
 
 std::vector<Finding> ForceAudit::findings() const {
-  const ExpectSettings& expect = log_.resolved.scene.expect;
   std::vector<Finding> findings{
       from_rows_.finding("forces of rows", "q, spline parameters and multipliers")};
   findings.push_back(judged_over({"limits bear at limits", limit_miss_, limit_tolerance,
@@ -265,7 +266,7 @@ std::vector<Finding> ForceAudit::findings() const {
       {"shape of forces", static_cast<double>(shape.size()), 0, "datasets"},
       shape.empty() ? "each kind acts where it can, contacts push"
                     : fmt::format("act where they cannot, or pull: {}", fmt::join(shape, ", "))));
-  findings.push_back(judged_over({"force balance", imbalance_, expect.force_balance, "of scale"},
+  findings.push_back(judged_over({"force balance", imbalance_, balance_tolerance, "of scale"},
                                  "H(q̇ - q̇*) - h Σ f recomputed at every frame"));
   if (log_.midpoint()) {
     const double share = unsettled_ / static_cast<double>(log_.q.rows());
@@ -273,7 +274,7 @@ std::vector<Finding> ForceAudit::findings() const {
                                    "further from where /midway/qdot leads than time.settled"));
   }
   findings.push_back(
-      judged_over({"balance of means", mean_imbalance_, expect.force_balance, "of scale"},
+      judged_over({"balance of means", mean_imbalance_, balance_tolerance, "of scale"},
                   "Σ /mean/forces against /mean/forces/net at every frame"));
   const double tolerance =
       mean_tolerance + mean_tolerance_growth * log_.resolved.scene.time.frame_interval;

@@ -35,7 +35,7 @@ class ForceAudit {
   ByKind<Hdf5Reader::Rows> force_, mean_;
   Hdf5Reader::Rows tip_, active_torque_, mean_active_, mean_net_, mean_lambda_;
   std::vector<LoggedContact> contacts_;
-  std::vector<double> remaining_;  ///< of each step, by the midpoint rule
+  std::vector<double> remaining_;  ///< StepMiddle::remaining of each step, by the midpoint rule
   Steps steps_;
   std::size_t next_contact_ = 0;  ///< first one of frames not seen yet
   Rebuilt from_rows_;
@@ -43,8 +43,8 @@ class ForceAudit {
          cone_turn_ = 0;
   double momentum_ = 0, momentum_before_ = 0;  ///< largest over h, at this frame and the one before
   std::set<std::string> shape_;                ///< datasets with a force where there can be none
-  ThigmotaxisAudit::Rows rows_before_;         ///< of the frame before
-  std::vector<double> mean_deviation_;         ///< of mean f_thigmo from C' of the mean λ, shares
+  ThigmotaxisAudit::Rows rows_before_;         ///< rows of the frame before
+  std::vector<double> mean_deviation_;         ///< how far mean f_thigmo is off C' mean λ, shares
 };
 
 }  // namespace hagfish

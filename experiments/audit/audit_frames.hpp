@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "experiments/audit/audited_frame.hpp"
-#include "experiments/audit/expectations.hpp"
 #include "experiments/audit/logged_contacts.hpp"
+#include "experiments/judge/expectations.hpp"
 
 namespace hagfish {
 

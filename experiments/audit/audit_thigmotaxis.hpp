@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/run/laws.hpp"
+#include "core/control/laws.hpp"
 #include "experiments/audit/audited_frame.hpp"
 #include "experiments/audit/rebuilt.hpp"
 
@@ -29,7 +29,7 @@ class ThigmotaxisAudit {
   /// What the rows of a frame come to.
   struct Rows {
     Eigen::MatrixXd columns;  ///< C' of those at the knot's ends, nv x 4, zero where there is none
-    Eigen::VectorXd force;    ///< of all, generalised, nv
+    Eigen::VectorXd force;    ///< force of all rows, generalised, nv
     bool others = false;      ///< some are at other contacts
   };
   /// Frames in their order. Datasets go to `rebuilt`; those with a force that pulls to `shape`.
@@ -43,7 +43,7 @@ class ThigmotaxisAudit {
   struct LoggedRow {
     KnotEnd end = KnotEnd::neither;
     int along = 0;     ///< 0 t_a, 1 t_b
-    double sense = 1;  ///< of both tangents
+    double sense = 1;  ///< sign of both tangents
     double spline_a = 0, spline_b = 0, command = 0, cap = 0, lambda = 0, speed = 0;
   };
   /// The rows of a frame, from /thigmotaxis by the paper's law, else from /eq6.

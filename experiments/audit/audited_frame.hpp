@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/log/reading/log_contents.hpp"
 #include "core/run/simulation.hpp"
 #include "core/step/midpoint/midway.hpp"
-#include "experiments/audit/log_contents.hpp"
 
 namespace hagfish {
 
@@ -18,7 +18,7 @@ struct ShownFrame {
   Eigen::Index index;
   Phase phase;
   Eigen::VectorXd q;
-  Observation observation;  ///< at rest there
+  Observation observation;  ///< observation at rest there
 };
 
 struct AuditedFrame {
@@ -34,15 +34,15 @@ struct AuditedFrame {
   Observation observation;  ///< observed again from the logged state
 
   // The step that begins at the frame; nan where none does.
-  Midway midway;                               ///< by the midpoint rule
-  const Kinematics& kin;                       ///< of the place where its equations hold
-  const std::vector<SplineSegment>& segments;  ///< there
-  StepMotion motion;                           ///< there
-  Eigen::VectorXd qdot_next;                   ///< after it
-  Eigen::VectorXd qdot_step;                   ///< by which it moves
-  Eigen::VectorXd qdot_mean;                   ///< that springs, damping and drag act on
-  Matrix6Xd step_twist, mean_twist;            ///< of the bodies at these, 6 x N
-  Eigen::Matrix3Xd step_centre_velocity, mean_centre_velocity;  ///< of their centres, 3 x N, cm/s
+  Midway midway;                               ///< middle by the midpoint rule
+  const Kinematics& kin;                       ///< pose at the place where its equations hold
+  const std::vector<SplineSegment>& segments;  ///< segments there
+  StepMotion motion;                           ///< motion there
+  Eigen::VectorXd qdot_next;                   ///< velocity after it
+  Eigen::VectorXd qdot_step;                   ///< velocity by which it moves
+  Eigen::VectorXd qdot_mean;                   ///< velocity of springs, damping and drag
+  Matrix6Xd step_twist, mean_twist;            ///< bodies' twists at these, 6 x N
+  Eigen::Matrix3Xd step_centre_velocity, mean_centre_velocity;  ///< centre velocities, 3 x N, cm/s
 };
 
 /// Whether a logged spline parameter lies on the animal.

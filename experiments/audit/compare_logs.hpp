@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/audit/log_contents.hpp"
+#include "core/log/reading/log_contents.hpp"
 
 namespace hagfish {
 

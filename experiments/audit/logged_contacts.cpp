@@ -37,9 +37,10 @@ bool is_placed(const Model& model, const LoggedContact& contact) {
     return false;
   }
   const Obstacle& obstacle = model.obstacles[contact.obstacle];
-  return obstacle.kind == Obstacle::Kind::plane
-             ? std::isnan(contact.on_obstacle) && contact.a == std::floor(contact.a)
-             : contact.on_obstacle >= 0 && contact.on_obstacle <= segments_of(obstacle);
+  if (const Strand* strand = obstacle.strand()) {
+    return contact.on_obstacle >= 0 && contact.on_obstacle <= segments_of(*strand);
+  }
+  return std::isnan(contact.on_obstacle) && contact.a == std::floor(contact.a);
 }
 
 Contact placed_contact(const Model& model, const Kinematics& kin,
@@ -50,18 +51,19 @@ Contact placed_contact(const Model& model, const Kinematics& kin,
     return contact_at(segments, segment_a, t_a, segment_b, t_b);
   }
   const Obstacle& obstacle = model.obstacles[logged.obstacle];
-  if (obstacle.kind == Obstacle::Kind::strand) {
-    const int segment = std::min(static_cast<int>(logged.on_obstacle), segments_of(obstacle) - 1);
+  if (const Strand* strand = obstacle.strand()) {
+    const int segment = std::min(static_cast<int>(logged.on_obstacle), segments_of(*strand) - 1);
     return contact_at(segments, segment_a, t_a, strand_begin(model, logged.obstacle) + segment,
                       logged.on_obstacle - segment);
   }
+  const Plane& plane = *obstacle.plane();
   Contact contact;
   contact.segment_a = segment_a;
   contact.t_a = t_a;
   contact.arc_a = segments[segment_a].arc(t_a);
   contact.arc_b = std::numeric_limits<double>::infinity();
-  contact.gap = plane_gap(model, kin, obstacle, static_cast<int>(logged.a));
-  contact.normal = obstacle.normal;
+  contact.gap = plane_gap(model, kin, plane, static_cast<int>(logged.a));
+  contact.normal = plane.normal;
   contact.tangent_a = segments[segment_a].slope(t_a).normalized();
   contact.tangent_b.setZero();
   contact.obstacle = logged.obstacle;

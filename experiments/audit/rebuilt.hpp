@@ -29,7 +29,7 @@ class Rebuilt {
  private:
   struct Deviation {
     double off = 0, scale = 0, allowed = 0;
-    double share() const;  ///< of what is allowed
+    double share() const;  ///< share of what is allowed
   };
   std::map<std::string, Deviation> datasets_;
 };

@@ -10,9 +10,7 @@ Row motion_row(const Model& model, const Eigen::Vector3d& direction, double a, d
     return spline_mix(segment, t, model.body_count());
   };
   Row row;
-  row.direction = direction;
-  row.a = mix(a);
-  row.b = std::isnan(b) ? SplineMix{} : mix(b);
+  row.shape = BetweenPoints{direction, mix(a), std::isnan(b) ? SplineMix{} : mix(b), {}, {}};
   return row;
 }
 

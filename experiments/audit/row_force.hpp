@@ -1,7 +1,7 @@
 // Rows rebuilt from what a log says of them: spline parameters and a direction.
 #pragma once
 
-#include "core/step/rows.hpp"
+#include "core/step/rows/row.hpp"
 #include "experiments/audit/audited_frame.hpp"
 
 namespace hagfish {

@@ -12,8 +12,8 @@
 #include <utility>
 
 #include "core/log/build_info.hpp"
-#include "core/step/dual_problem.hpp"
-#include "core/step/row_selection.hpp"
+#include "core/step/rows/dual_problem.hpp"
+#include "core/step/rows/row_selection.hpp"
 #include "experiments/benchmarks/mujoco_setting.hpp"
 #include "experiments/benchmarks/start.hpp"
 #include "mujoco_ref/mirror.hpp"
@@ -144,7 +144,7 @@ void add_prescribing(const std::string& name, const std::shared_ptr<Parts>& part
     Row row = step.rows[i];
     row.prescribed = row.prescribed && select(row);
     if (row.prescribed) {
-      run->prescribed.push_back({row.dof, row.sign * row.rhs});
+      run->prescribed.push_back({row.joint()->dof, row.joint()->sign * row.rhs});
     } else {
       order.emplace_back(place_in_step(model, row), i);
     }

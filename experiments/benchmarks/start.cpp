@@ -6,8 +6,8 @@
 #include <numbers>
 #include <utility>
 
-#include "core/log/hdf5_error.hpp"
-#include "experiments/audit/log_contents.hpp"
+#include "core/log/hdf5/hdf5_error.hpp"
+#include "core/log/reading/log_contents.hpp"
 #include "mujoco_ref/mirror.hpp"
 
 namespace hagfish {

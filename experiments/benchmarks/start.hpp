@@ -1,10 +1,10 @@
-// Where the benchmarks begin: states of one animal, ready to step in both simulators.
+// States with which the benchmarks begin: one animal, ready to step in both simulators.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "core/input/scene_reader.hpp"
+#include "core/input/files/scene_reader.hpp"
 #include "core/run/simulation.hpp"
 #include "mujoco_ref/mujoco_model.hpp"
 
@@ -16,7 +16,7 @@ namespace hagfish {
 struct Start {
   Scene scene;
   Model model;
-  std::vector<Simulation> sims;  ///< with the active-set back end
+  std::vector<Simulation> sims;  ///< runs with the active-set back end
 
   const Simulation& middle() const { return sims[sims.size() / 2]; }
 };
@@ -25,7 +25,7 @@ struct Start {
 /// head clamped, to go on by `rule`. Throws FileError where the log has no slide.
 Start knotted_start(const std::string& log, TimeRule rule = TimeRule::euler);
 
-/// The same animal without contact: a gentle wave that stays clear of limits and of itself, slowly
+/// The animal without contact: a gentle wave that stays clear of limits and of itself, slowly
 /// moving, the head free.
 Start free_start(const Start& knotted);
 

@@ -15,7 +15,7 @@
 
 #include "core/input/input_error.hpp"
 #include "core/log/build_info.hpp"
-#include "core/log/hdf5_error.hpp"
+#include "core/log/hdf5/hdf5_error.hpp"
 #include "experiments/audit/audit.hpp"
 #include "experiments/design/design_page.hpp"
 #include "experiments/design/length_bound.hpp"
@@ -24,8 +24,8 @@
 #include "experiments/sweep/appended_file.hpp"
 #include "experiments/sweep/sweep_run.hpp"
 #ifdef HAGFISH_MUJOCO
-#include "experiments/audit/log_contents.hpp"
-#include "experiments/picture/strip.hpp"
+#include "core/log/reading/log_contents.hpp"
+#include "experiments/mujoco/strip.hpp"
 #endif
 
 namespace hagfish {
@@ -494,9 +494,9 @@ class Search {
 
 std::string DesignOutcome::in_words() const {
   if (found) {
-    std::string words = fmt::format(
-        "Try {} is good: it succeeds from {} (Eq. 6) and {} (reflex) of {} starts",
-        best->number, best->passed[0], best->passed[1], judged_starts);
+    std::string words =
+        fmt::format("Try {} is good: it succeeds from {} (Eq. 6) and {} (reflex) of {} starts",
+                    best->number, best->passed[0], best->passed[1], judged_starts);
     if (judged_runs > 2 * judged_starts) {
       words += fmt::format(", and in {} and {} of {} other animals", best->animals[0],
                            best->animals[1], judged_animals);

@@ -1,4 +1,4 @@
-// From the name of a knot to a program by which the animal ties it itself.
+// Makes a program by which the animal ties a knot itself, from the knot's name.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,7 @@ namespace hagfish {
 inline constexpr int judged_starts = 20, allowed_failures = 1;
 
 struct DesignOptions {
-  std::string knot;              ///< as name_in_scene() reads it
+  std::string knot;              ///< name that name_in_scene() reads
   std::string specimen;          ///< text of the animal's file; empty: Table 1's animal
   std::filesystem::path folder;  ///< files of the search and of what it found
   bool resume = false;           ///< goes on in it
@@ -29,11 +29,11 @@ struct DesignOptions {
 
 /// A path that ties the knot, tried in the living body.
 struct Candidate {
-  int number = 0;           ///< of the try
-  double slower = 1;        ///< of `paces` (living_body.hpp): the last that was tried
+  int number = 0;           ///< number of the try
+  double slower = 1;        ///< the last tried of `paces` (living_body.hpp)
   std::string shortcoming;  ///< why it was given up; empty of one that is good enough
   int judged = 0;           ///< starts
-  int passed[2] = {0, 0};   ///< of these, by judged_laws
+  int passed[2] = {0, 0};   ///< how many of these succeed, by judged_laws
   int animals[2] = {0, 0};  ///< other ones that it serves, by judged_laws
   int passes() const { return passed[0] + passed[1] + animals[0] + animals[1]; }
 };
@@ -46,9 +46,9 @@ struct DesignOutcome {
   bool found = false;        ///< a program of enough starts; its files are in the folder
   bool interrupted = false;  ///< all is kept: go on by `resume`
   int tries = 0;
-  int judged_runs = 2 * judged_starts;             ///< of the living animal, for each candidate
+  int judged_runs = 2 * judged_starts;             ///< runs of the living animal for each candidate
   std::optional<Candidate> best;                   ///< the found one, or which came nearest
-  std::vector<Candidate> candidates;               ///< all, in the order of their tries
+  std::vector<Candidate> candidates;               ///< candidates in the order of their tries
   std::vector<std::pair<std::string, int>> types;  ///< tied by how many tries
   DesignTime time;
   std::string in_words() const;  ///< one line: what was found, or how near it came

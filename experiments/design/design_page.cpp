@@ -5,16 +5,15 @@
 #include <cmath>
 #include <map>
 
+#include "experiments/common/csv.hpp"
 #include "experiments/design/living_body.hpp"
-#include "experiments/program/csv.hpp"
 
 namespace hagfish {
 
 std::vector<double> strip_times(const RunSummary& run) {
   std::vector<double> times;
-  for (const double time :
-       {0.25 * run.slide_from, 0.5 * run.slide_from, 0.75 * run.slide_from, run.slide_from,
-        run.release_from, run.free_from}) {
+  for (const double time : {0.25 * run.slide_from, 0.5 * run.slide_from, 0.75 * run.slide_from,
+                            run.slide_from, run.release_from, run.free_from}) {
     if (std::isfinite(time)) times.push_back(time);
   }
   return times;

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "core/input/scene_reader.hpp"
-#include "experiments/audit/judge.hpp"
+#include "core/input/files/scene_reader.hpp"
 #include "experiments/design/design.hpp"
+#include "experiments/judge/judge.hpp"
 
 namespace hagfish {
 
@@ -19,7 +19,7 @@ std::string design_page(const DesignOptions& options, const DesignOutcome& outco
                         const ResolvedScene& scene, const RunSummary& run,
                         const std::string& strip);
 
-/// The same as a row of a table, with its heading: CSV.
+/// The outcome as a row of a table, with its heading: CSV.
 std::string design_row(const DesignOptions& options, const DesignOutcome& outcome,
                        const RunSummary& run);
 

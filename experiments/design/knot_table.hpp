@@ -19,11 +19,11 @@ namespace hagfish {
 /// Values of the Jones polynomial of a knot and of its mirror image at one number, modulo 2^31 - 1.
 struct JonesValues {
   std::int64_t knot = 1, image = 1;
-  /// Of the same knot or of one another's mirror image.
+  /// Whether both are of one knot, or of one and the other's mirror image.
   bool same_but_for_image(const JonesValues& other) const;
 };
 
-/// Of the knot of a diagram, by smoothing one crossing after the other (Kauffman's bracket).
+/// Values of the knot of a diagram, by smoothing one crossing after the other (Kauffman's bracket).
 /// Throws std::overflow_error where that leaves too many ways in which loose ends are joined.
 JonesValues jones_of(const Diagram& diagram);
 
@@ -49,8 +49,8 @@ struct KnotFingerprint {
   std::int64_t alexander = 1;
   bool same_but_for_image(const KnotFingerprint& other) const;
 };
-/// Of "0_1", "3_1" to "8_21", or of a composite "A#B" or "A#-B" (of A and the table's mirror image
-/// of B) of two of these; nothing of any other name.
+/// Fingerprint of "0_1", "3_1" to "8_21", or of a composite of two of these; nothing of any other
+/// name. "A#B" is of A and B, "A#-B" of A and the table's mirror image of B.
 std::optional<KnotFingerprint> fingerprint_called(std::string_view name);
 
 /// The name of the open polygon's type, as knot_type() takes it; of a composite of table knots

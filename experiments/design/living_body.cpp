@@ -8,11 +8,11 @@
 #include <numeric>
 #include <utility>
 
-#include "core/input/curvature_csv.hpp"
+#include "core/input/csv/curvature_csv.hpp"
 #include "core/input/scene_text.hpp"
-#include "experiments/curvature/program_fit.hpp"
+#include "experiments/common/specimen_files.hpp"
 #include "experiments/design/draw.hpp"
-#include "experiments/specimen/specimen_files.hpp"
+#include "experiments/design/program_fit.hpp"
 #include "experiments/sweep/sweep_run.hpp"
 
 namespace hagfish {

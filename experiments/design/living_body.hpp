@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "core/input/scene_reader.hpp"
-#include "experiments/audit/judge.hpp"
+#include "core/input/files/scene_reader.hpp"
 #include "experiments/design/soft_body.hpp"
+#include "experiments/judge/judge.hpp"
 
 namespace hagfish {
 
@@ -51,7 +51,7 @@ std::string other_animal(const Specimen& own, unsigned number);
 
 inline constexpr unsigned thickest_animal = 1;
 
-/// The same program in that animal.
+/// The found program in that animal.
 FoundScene in_other_animal(const FoundScene& found, const Specimen& own, unsigned number);
 
 /// The control laws by which a found knot is slid: Eq. 6 as the scene has it, and the reflex.
@@ -59,8 +59,8 @@ inline constexpr const char* judged_laws[] = {"eq6", "reflex"};
 
 /// One run of a found scene: a law, a start and a time step.
 struct Trial {
-  int law = 0;      ///< of judged_laws
-  int seed = 0;     ///< of noise on every hinge; 0: straight
+  int law = 0;      ///< index in judged_laws
+  int seed = 0;     ///< seed of noise on every hinge; 0: straight
   double step = 0;  ///< time step, s; 0: the scene's
 };
 
@@ -86,7 +86,7 @@ bool repeats(const FoundScene& found, const std::function<bool()>& interrupted);
 /// The animal ties the knot, holds it, tightens and slides it, and it comes off, within all bounds.
 bool succeeds(const RunSummary& run);
 
-/// In a few words, why not; "" of one that succeeds.
+/// The reason for failure in a few words; "" of one that succeeds.
 std::string shortcoming(const RunSummary& run);
 
 }  // namespace hagfish

@@ -6,8 +6,8 @@
 #include "core/knot/knot.hpp"
 #include "core/run/drive.hpp"
 #include "core/step/outcome.hpp"
+#include "experiments/common/specimen_files.hpp"
 #include "experiments/design/knot_table.hpp"
-#include "experiments/specimen/specimen_files.hpp"
 #include "experiments/sweep/sweep.hpp"
 
 namespace hagfish {
@@ -163,8 +163,8 @@ Shapes shapes_in(const SoftBody& body, const Scene& scene, double until, Simulat
     q.push_back(step.moment.state.q);
   };
   try {
-    const Status end = drive(body.model, scene, sim, record, {keep},
-                             [&] { return time_of(sim, scene) >= until; });
+    const Status end =
+        drive(body.model, scene, sim, record, {keep}, [&] { return time_of(sim, scene) >= until; });
     if (end.outcome != Outcome::stopped) shapes.failure = end.message;
   } catch (const std::exception& error) {
     shapes.failure = error.what();

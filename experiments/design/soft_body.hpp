@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/chain/model.hpp"
-#include "core/input/scene_reader.hpp"
+#include "core/input/files/scene_reader.hpp"
 #include "core/knot/knot.hpp"
 #include "core/run/simulation.hpp"
 #include "experiments/design/tail_path.hpp"
@@ -37,19 +37,19 @@ struct TypeSeen {
   double from = 0, to = 0;  ///< s
   double at = 0;    ///< s, the look from which other tries go on: with two waypoints ahead and most
                     ///< of the tail left; 0: none
-  double left = 0;  ///< of the body, then: see tail_left()
+  double left = 0;  ///< share of the body left then: see tail_left()
   bool repeats = false;  ///< the living body ties it, too, by the shapes up to then: see repeats()
-  std::shared_ptr<const Reached> reached{};  ///< then
+  std::shared_ptr<const Reached> reached{};  ///< state reached then
 };
 
 /// A try on its way, from which others go on as if they had come all the way.
 struct Reached {
   Simulation sim;
-  TailPath path;  ///< with the two waypoints ahead
+  TailPath path;  ///< path with the two waypoints ahead
   std::vector<TypeSeen> seen;
 };
 
-/// Of the path that a try has taken: up to the two waypoints that were ahead of TypeSeen::at.
+/// Part of the path that a try has taken: up to the two waypoints that were ahead of TypeSeen::at.
 TailPath path_reached(const TailPath& path, double at);
 
 /// The share of the body that can be cut off behind without another type: what is left of the tail
@@ -61,7 +61,7 @@ double tail_left(const Eigen::Matrix3Xd& centre, const KnotInvariants& type,
 struct Tying {
   std::vector<TypeSeen> seen;  ///< one after the other; the first is the unknot, from 0
   bool failed = false;         ///< a guard or the solver ended the run
-  TailPath path;               ///< that was taken; with a pull where the wanted type was seen
+  TailPath path;               ///< path that was taken; with a pull if the wanted type was seen
 
   /// The type at the end of a run that did not fail and ended with a pull, where it lasted a
   /// second.

@@ -26,11 +26,11 @@ struct TailPath {
 /// it, which tightens what is tied and leaves more of the tail.
 struct Winding {
   double choice = 0;    ///< 0 to 1: which strand within reach; negative: that of the turn before
-  double angle = 0;     ///< about the strand, from the waypoint before, rad
-  double along = 0;     ///< along the strand, from the waypoint before, body lengths
-  double radius = 0;    ///< from the strand's middle, body lengths
+  double angle = 0;     ///< turn about the strand, from the waypoint before, rad
+  double along = 0;     ///< way along the strand, from the waypoint before, body lengths
+  double radius = 0;    ///< distance from the strand's middle, body lengths
   double duration = 0;  ///< s; more where the tail would have to hurry
-  double off = 0;       ///< so far off the body in place of a turn, body lengths; 0 for a turn
+  double off = 0;       ///< distance off the body in place of a turn, body lengths; 0: a turn
   Eigen::Vector3d aside = Eigen::Vector3d::Zero();  ///< added to the unit vector off the body
 };
 
@@ -38,7 +38,7 @@ struct Winding {
 struct PathPlan {
   TailPath path;
   std::vector<Winding> turns;
-  std::shared_ptr<const Reached> reached{};  ///< by the path, so that it need not be taken again
+  std::shared_ptr<const Reached> reached{};  ///< state that the path reached, to go on from
   int parent = -1;                           ///< number of the try whose path this was, or none
 };
 
@@ -46,8 +46,8 @@ struct PathPlan {
 /// strands where they then lie, half about lines where strands lie before anything moves.
 PathPlan random_plan(Draw& draw);
 
-/// On from the end of `path` by 1 to 8 turns; a third of the plans leads the tail off the body
-/// first.
+/// A plan that goes on from the end of `path` by 1 to 8 turns; a third of the plans leads the tail
+/// off the body first.
 PathPlan further_plan(const TailPath& path, Draw& draw);
 
 /// `path` with its waypoints displaced, or another pull where it ends with one, or both.
@@ -65,7 +65,7 @@ void end_with_pull(TailPath& path, double time, const Eigen::Matrix3Xd& centre, 
 /// The path up to that many waypoints behind `time` (s), without a pull.
 TailPath path_with_ahead(const TailPath& path, double time, int ahead);
 
-/// Of swing and turns, behind `time` (s).
+/// Number of waypoints of swing and turns behind `time` (s).
 int waypoints_after(const TailPath& path, double time);
 
 /// The script's knots for an animal of that length, cm.

@@ -36,7 +36,7 @@ class Archive {
   /// How many runs of the living body the program of that try, which was added, passed.
   void judged(int number, int passes);
 
-  /// In how many tries each type was seen at two looks in a row.
+  /// Number of tries in which each type was seen at two looks in a row.
   const std::map<std::pair<int, int>, int>& counts() const { return counts_; }
 
  private:
@@ -44,29 +44,29 @@ class Archive {
 
   unsigned seed_;
   KnotInvariants wanted_;
-  int crossings_;            // of wanted_
-  std::set<Type> summands_;  // of wanted_, where it is a sum
+  int crossings_;            // crossings of wanted_
+  std::set<Type> summands_;  // summands of wanted_, where it is a sum
   struct Kept {
-    PathPlan plan;  // to where the type was seen, without turns
-    double left;    // of the tail
+    PathPlan plan;  // path to where the type was seen, without turns
+    double left;    // share left of the tail
   };
   struct Line {
-    int parent, failures, passes;  // of the try, and of what came of it; the best
+    int parent, failures, passes;  // the try's; of it and what came of it; the best
   };
   bool leads_on(const KnotInvariants& type) const;
   double promise(const PathPlan& plan) const;
   const PathPlan& likely(const std::vector<Kept>& kept, Draw& draw) const;
 
   std::map<Type, std::vector<Kept>> paths_;  // most of the tail first
-  std::vector<Kept> with_pull_;              // on which the wanted type was seen
-  std::vector<Line> lines_;                  // by number
+  std::vector<Kept> with_pull_;              // paths on which the wanted type was seen
+  std::vector<Line> lines_;                  // lines by number
   std::map<Type, int> counts_;
 };
 
 /// Tries whose paths are made of the same archive.
 inline constexpr int batch_size = 32;
 
-/// As a file of tries has it: "0_1 0 8.4 0 0 0 3_1 8.8 12 9.6 0.2 1 .", the fields of each TypeSeen
+/// A line of a file of tries: "0_1 0 8.4 0 0 0 3_1 8.8 12 9.6 0.2 1 .", the fields of each TypeSeen
 /// but `reached`, how it ended, and each part of the path: how many waypoints, and these.
 std::string tying_text(const Tying& tying);
 /// What tying_text() made, or nothing where it is not whole.

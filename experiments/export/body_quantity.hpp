@@ -4,13 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "experiments/audit/log_contents.hpp"
+#include "core/log/reading/log_contents.hpp"
 
 namespace hagfish {
 
 struct BodyQuantity {
   std::string name, label, unit;
-  std::vector<double> arc;  ///< of the stations, rising, cm from the head
+  std::vector<double> arc;  ///< places of the stations, rising, cm from the head
   Hdf5Reader::Rows values;  ///< frames x stations, not negative
 };
 

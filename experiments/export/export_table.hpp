@@ -7,8 +7,8 @@
 #include <variant>
 #include <vector>
 
-#include "experiments/audit/figure_unit.hpp"
-#include "experiments/program/csv.hpp"
+#include "experiments/common/csv.hpp"
+#include "experiments/judge/figure_unit.hpp"
 
 namespace hagfish {
 

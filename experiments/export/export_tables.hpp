@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "experiments/audit/log_contents.hpp"
+#include "core/log/reading/log_contents.hpp"
 #include "experiments/export/export_table.hpp"
 #include "experiments/export/swept_skin.hpp"
 

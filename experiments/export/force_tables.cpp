@@ -6,7 +6,7 @@
 
 #include "core/chain/dynamics.hpp"
 #include "core/log/ledger_columns.hpp"
-#include "core/step/row_kind.hpp"
+#include "core/step/rows/row_kind.hpp"
 #include "experiments/export/export_tables.hpp"
 
 namespace hagfish {

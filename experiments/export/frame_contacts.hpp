@@ -11,11 +11,11 @@ namespace hagfish {
 struct FrameContact {
   int obstacle = -1;       ///< index in Model::obstacles; -1: of two strands of the body
   double arc_a = 0;        ///< arc length from the head, cm; of the strand nearer the head
-  double arc_b = 0;        ///< of the other one; nan of an obstacle
+  double arc_b = 0;        ///< arc length on the other one; nan of an obstacle
   double gap = 0;          ///< cm
-  Eigen::Vector3d point;   ///< in the middle of the gap, world, cm
+  Eigen::Vector3d point;   ///< middle of the gap, world, cm
   Eigen::Vector3d normal;  ///< unit, world: the way that strand a is pushed
-  double force = 0;        ///< of the step at the frame, dyn; 0 where it does not bear
+  double force = 0;        ///< force in the frame's step, dyn; 0 where it does not bear
 };
 
 /// What a log holds of its contacts, by frame.
@@ -23,12 +23,12 @@ class FrameContacts {
  public:
   /// The log is referred to. Throws FileError where a contact lies beyond the animal's ends.
   explicit FrameContacts(const LogContents& log);
-  /// From head to tail by strand a, those with obstacles among them.
+  /// Contacts from head to tail by strand a, those with obstacles among them.
   std::vector<FrameContact> at(const ShownFrame& frame) const;
 
  private:
   const LogContents& log_;
-  std::vector<std::vector<LoggedContact>> bearing_;  ///< by frame
+  std::vector<std::vector<LoggedContact>> bearing_;  ///< bearing contacts of each frame
 };
 
 }  // namespace hagfish

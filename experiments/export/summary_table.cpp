@@ -3,8 +3,8 @@
 #include <limits>
 
 #include "core/scene/phase.hpp"
-#include "experiments/audit/replay.hpp"
 #include "experiments/export/export_tables.hpp"
+#include "experiments/judge/replay.hpp"
 
 namespace hagfish {
 namespace {

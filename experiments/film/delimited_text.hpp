@@ -19,9 +19,9 @@ class DelimitedText {
   std::size_t cells(std::size_t row) const;
   /// Empty behind a row's end.
   std::string_view cell(std::size_t row, std::size_t column) const;
-  std::size_t line(std::size_t row) const { return line_[row]; }  ///< in the file, from 1
+  std::size_t line(std::size_t row) const { return line_[row]; }  ///< line in the file, from 1
   char separator() const { return separator_; }
-  /// As said of it: "commas", "semicolons" or "tabs".
+  /// Words for the separator: "commas", "semicolons" or "tabs".
   const char* separator_name() const;
 
   /// The number in a cell, with a decimal comma where these do not separate; NaN where it is
@@ -33,7 +33,7 @@ class DelimitedText {
   std::string text_;
   char separator_ = ',';
   std::vector<std::string_view> cell_;
-  std::vector<std::size_t> first_, line_;  // of each row: its first cell, its line
+  std::vector<std::size_t> first_, line_;  // first cell and line of each row
 };
 
 }  // namespace hagfish

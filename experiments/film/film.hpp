@@ -10,7 +10,7 @@ namespace hagfish {
 /// One midline. What the film lacks is not here.
 struct FilmFrame {
   double time = 0;            ///< s
-  std::vector<double> place;  ///< of each point, share of the length from the head, 0 to 1, rising
+  std::vector<double> place;  ///< each point's share of the length from the head, 0 to 1, rising
   Eigen::Matrix3Xd point;     ///< the film's unit and axes; z is 0 in two dimensions
 };
 
@@ -19,8 +19,8 @@ struct Film {
   bool planar = false;            ///< it has no z
   /// Of the animal, by s, or by the points' distances where there is no s: then a fit finds it.
   double length = 0;
-  bool length_known = false;  ///< by s
-  std::string unit = "cm";    ///< of points and length: "px" where nothing says how large these are
+  bool length_known = false;  ///< known by s
+  std::string unit = "cm";    ///< unit of points and length: "px" if nothing says their size
   std::string format;         ///< what it was read as, for the user
   std::string turned;         ///< what was done to its axes; empty where nothing was
   std::size_t expected = 0;   ///< points that it would have if none were missing
@@ -29,11 +29,11 @@ struct Film {
 
 /// How a film is to be read.
 struct FilmReading {
-  double pixels_per_cm = 0;  ///< of columns in px; 0 where not given
-  double fps = 0;            ///< of films that count frames; 0 where not given
+  double pixels_per_cm = 0;  ///< scale of columns in px; 0 where not given
+  double fps = 0;            ///< frame rate of films that count frames; 0 where not given
   double likelihood = 0.6;   ///< points that their tracker is less sure of are missing
-  double length = 0;         ///< of the film's animal, cm; 0: its last s is its tail
-  std::string individual;    ///< of films of several
+  double length = 0;         ///< length of the film's animal, cm; 0: its last s is its tail
+  std::string individual;    ///< the one to read in films of several
   bool y_up = false;         ///< columns in px have y up: else it runs down, as rows of images do
   bool y_down = false;       ///< columns in a unit of length have y down
 };

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/film/film_curve.hpp"
+#include "experiments/film/fit/film_curve.hpp"
 
 namespace hagfish {
 namespace {

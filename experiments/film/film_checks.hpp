@@ -21,7 +21,7 @@ struct FilmRemarks {
 /// that cross themselves.
 FilmRemarks tidy(Film& film);
 
-/// From one midline to the next, in the middle, s.
+/// Median time from one midline to the next, s.
 double usual_interval(const Film& film);
 
 /// Intervals without midlines, [from, to], s of the film: far longer than from one to the next.

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/input/input_error.hpp"
-#include "experiments/film/film_rigid.hpp"
-#include "experiments/film/film_shape.hpp"
+#include "experiments/film/fit/film_rigid.hpp"
+#include "experiments/film/fit/film_shape.hpp"
 
 namespace hagfish {
 namespace {

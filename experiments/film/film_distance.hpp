@@ -3,17 +3,17 @@
 
 #include <vector>
 
-#include "experiments/audit/log_contents.hpp"
+#include "core/log/reading/log_contents.hpp"
 #include "experiments/film/film.hpp"
 
 namespace hagfish {
 
 struct FilmDistance {
-  std::vector<double> time;  ///< of the frames that log and film both have, on the log's clock, s
-  std::vector<std::vector<double>> arc;     ///< of each point of each, cm of the log's animal
+  std::vector<double> time;  ///< times of the frames in both log and film, on the log's clock, s
+  std::vector<std::vector<double>> arc;     ///< arc of each point of each, cm of the log's animal
   std::vector<std::vector<double>> off;     ///< its distance from the animal's midline there, cm
   double scale = 1;                         ///< what the film's lengths were multiplied by
-  double rms() const;                       ///< of all points, cm
+  double rms() const;                       ///< rms of all points, cm
   std::vector<double> rms_by_time() const;  ///< cm
 };
 
@@ -27,8 +27,9 @@ struct FilmPlacing {
   double later = 0;  ///< the log's clock minus the film's, s
 };
 
-/// At each time of the film the log's shape, linear between its frames. Throws InputError where
-/// they have no time in common, and where a film whose points have no s is not to be scaled.
+/// Distances from the log's shape, linear between its frames, at each time of the film. Throws
+/// InputError where they have no time in common, and where a film whose points have no s is not to
+/// be scaled.
 FilmDistance film_distance(const LogContents& log, const Film& film, const FilmPlacing& placing);
 
 }  // namespace hagfish

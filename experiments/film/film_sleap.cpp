@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "core/input/input_text.hpp"
-#include "core/log/hdf5_reader.hpp"
+#include "core/log/hdf5/hdf5_reader.hpp"
 #include "experiments/film/film_table.hpp"
 
 namespace hagfish {

@@ -11,10 +11,10 @@
 #include <limits>
 #include <sstream>
 
+#include "core/input/files/regular_file.hpp"
 #include "core/input/input_error.hpp"
 #include "core/input/input_text.hpp"
-#include "core/input/regular_file.hpp"
-#include "core/log/hdf5_error.hpp"
+#include "core/log/hdf5/hdf5_error.hpp"
 #include "experiments/film/delimited_text.hpp"
 
 namespace hagfish {

@@ -13,12 +13,12 @@ namespace hagfish {
 /// A point at a time, as the file has it.
 struct FilmPoint {
   double time = 0;        ///< s
-  double number = 0;      ///< of the point, or its s, in FilmTable::unit
+  double number = 0;      ///< number of the point, or its s, in FilmTable::unit
   Eigen::Vector3d place;  ///< NaN where missing, in FilmTable::unit
 };
 
 struct FilmTable {
-  std::vector<FilmPoint> points;  ///< in any order
+  std::vector<FilmPoint> points;  ///< points in any order
   bool planar = true;
   bool by_arc = false;  ///< numbers are s
   std::string unit;     ///< "cm" or "px"
@@ -33,8 +33,7 @@ FilmTable read_film_table(const std::string& file, const FilmReading& reading);
 /// and `point_scores`. Throws as read_film().
 FilmTable read_sleap(const std::string& file, const FilmReading& reading);
 
-/// Which of a film's individuals is meant, by `reading`. Throws InputError where that is not one of
-/// them.
+/// Index of the individual `asked` for, or of the only one. Throws InputError where there is none.
 std::size_t chosen_individual(const std::string& file, const std::vector<std::string>& names,
                               const std::string& asked);
 

@@ -11,8 +11,8 @@
 #include "core/run/drive.hpp"
 #include "core/run/simulation.hpp"
 #include "core/scene/interpolation.hpp"
-#include "experiments/film/film_rigid.hpp"
-#include "experiments/film/film_shape.hpp"
+#include "experiments/film/fit/film_rigid.hpp"
+#include "experiments/film/fit/film_shape.hpp"
 
 namespace hagfish {
 namespace {

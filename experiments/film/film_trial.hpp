@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/chain/model.hpp"
-#include "core/input/scene_reader.hpp"
+#include "core/input/files/scene_reader.hpp"
 
 namespace hagfish {
 
@@ -16,10 +16,10 @@ struct FilmedKnot {
   Hand hand = Hand::any;  ///< any where the knot is its own mirror image, or none
 };
 
-/// That of an open polygon (3 x n, any unit); "0_1" also where none can be told.
+/// Knot of an open polygon (3 x n, any unit); "0_1" also where none can be told.
 FilmedKnot knot_of(const Eigen::Matrix3Xd& points, const KnotSettings& settings);
 
-/// That of a program's shape at one of its times.
+/// Knot of a program's shape at one of its times.
 FilmedKnot knot_of(const Model& model, const CurvatureProgram& program, std::size_t time,
                    const KnotSettings& settings);
 
@@ -33,9 +33,9 @@ std::vector<Eigen::Vector4d> first_bends(const Model& model, const CurvatureProg
 
 struct FilmTrial {
   double stiffness = 0;  ///< ActiveSettings::stiffness, dyn cm^2
-  bool lasted = false;   ///< to the program's end
-  FilmedKnot knot;       ///< at the end
-  double rms = 0;        ///< of the bodies' centres from the program's shapes, cm
+  bool lasted = false;   ///< lasted to the program's end
+  FilmedKnot knot;       ///< knot at the end
+  double rms = 0;        ///< rms distance of the bodies' centres from the program's shapes, cm
 };
 
 /// Runs with the scene's stiffness and doubles of it, until two in a row do not last.

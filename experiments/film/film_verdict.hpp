@@ -6,20 +6,20 @@
 
 #include "core/chain/model.hpp"
 #include "experiments/film/film_checks.hpp"
-#include "experiments/film/film_fit.hpp"
+#include "experiments/film/fit/film_fit.hpp"
 
 namespace hagfish {
 
 enum class FilmVerdict {
-  fitted,    ///< it can
-  doubtful,  ///< by who has looked at what is told
-  failed     ///< it is not the film's animal
+  fitted,    ///< can be used
+  doubtful,  ///< can be used by who has looked at what is told
+  failed     ///< cannot be used: it is not the film's animal
 };
 
 struct FilmJudgement {
   FilmVerdict verdict = FilmVerdict::fitted;
   std::vector<std::string> why;      ///< a line each; none where it is fitted
-  double share_used = 0;             ///< of the points that the film should have
+  double share_used = 0;             ///< share of the points that the film should have
   double worst = 0, worst_time = 0;  ///< midline: rms, cm of the model, and when, s of the film
 };
 

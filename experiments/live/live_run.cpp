@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "core/run/laws.hpp"
+#include "core/control/laws.hpp"
 #include "experiments/view/along_body.hpp"
 #include "experiments/view/drawn_plane.hpp"
 
@@ -34,19 +34,20 @@ std::vector<Bearing> bearing_contacts(const Model& model, const StepRecord& reco
     const Row& row = record.solution.rows[i];
     const double force = record.solution.lambda[static_cast<Eigen::Index>(i)] / h;
     const bool touches = row.kind == RowKind::contact || row.kind == RowKind::obstacle;
-    if (!touches || row.dof >= 0 || !(force > 0)) continue;
+    if (!touches || !(force > 0)) continue;
+    const BetweenPoints& at = row.points();
     Eigen::Vector3d point = Eigen::Vector3d::Zero();
-    for (int k = 0; k < row.a.count; ++k) {
-      point += row.a.weight[k] * centre.col(row.a.first + k);
+    for (int k = 0; k < at.a.count; ++k) {
+      point += at.a.weight[k] * centre.col(at.a.first + k);
     }
     const int segment =
-        std::min(static_cast<int>(row.a.parameter), std::max(0, model.body_count() - 2));
-    const double t = row.a.parameter - segment;
+        std::min(static_cast<int>(at.a.parameter), std::max(0, model.body_count() - 2));
+    const double t = at.a.parameter - segment;
     const double radius =
         (1 - t) * model.bodies[segment].radius + t * model.bodies[segment + 1].radius;
-    found.push_back({point - radius * row.direction, row.direction, force,
-                     (row.a.parameter + 0.5) * length,
-                     row.kind == RowKind::contact ? (row.b.parameter + 0.5) * length : nan});
+    found.push_back({point - radius * at.direction, at.direction, force,
+                     (at.a.parameter + 0.5) * length,
+                     row.kind == RowKind::contact ? (at.b.parameter + 0.5) * length : nan});
   }
   return found;
 }
@@ -198,20 +199,20 @@ std::vector<LiveArray> LiveRun::animal() const {
   };
   const std::vector<Obstacle>& all = resolved_.scene.obstacles;
   for (const Obstacle& one : all) {
-    const bool plane = one.kind == Obstacle::Kind::plane;
-    obstacles.push_back(plane ? 1 : 0);
-    if (plane) {
-      const DrawnPlane square = drawn_plane(one, all, model_.length());
+    const Plane* plane = one.plane();
+    obstacles.push_back(plane != nullptr ? 1 : 0);
+    if (plane != nullptr) {
+      const DrawnPlane square = drawn_plane(*plane, all, model_.length());
       add(square.middle);
-      add(one.normal);
+      add(plane->normal);
       obstacles.insert(obstacles.end(), {square.half, square.hole});
       continue;
     }
-    const bool rim =
-        std::ranges::any_of(all, [&one](const Obstacle& other) { return is_rim(one, other); });
-    obstacles.insert(obstacles.end(), {one.radius, one.closed ? 1.0 : 0.0, rim ? 1.0 : 0.0,
-                                       static_cast<double>(one.points.size())});
-    for (const Eigen::Vector3d& point : one.points) add(point);
+    const Strand& strand = *one.strand();
+    obstacles.insert(obstacles.end(),
+                     {strand.radius, strand.closed ? 1.0 : 0.0, is_rim(strand, all) ? 1.0 : 0.0,
+                      static_cast<double>(strand.points.size())});
+    for (const Eigen::Vector3d& point : strand.points) add(point);
   }
   const Scene& scene = resolved_.scene;
   return {{"length", {model_.length()}},

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/input/scene_text.hpp"
-#include "core/log/log_means.hpp"
-#include "core/log/moment_means.hpp"
+#include "core/log/means/log_means.hpp"
+#include "core/log/means/moment_means.hpp"
 #include "core/run/simulation.hpp"
 #include "core/run/slide.hpp"
 
@@ -62,7 +62,7 @@ class LiveRun {
   ResolvedScene resolved_;
   Model model_;
   Simulation sim_;
-  Scene pulled_scene_;  ///< the same by a law of its own, which pulls besides
+  Scene pulled_scene_;  ///< the scene by a law of its own, which pulls besides
   NamedLaw named_law_;
   RunningMeans means_;
   MomentMeans moments_;

@@ -19,12 +19,12 @@ ClaspChain clasp_chain(double link);
 inline constexpr double clasp_pull = 1;   // dyn, at each of the four ends
 inline constexpr double clasp_apart = 4;  // cm of rope: no rope touches itself
 
-/// In diameters of the rope, which has no stiffness.
+/// Two hooked ropes without stiffness, in diameters of the rope.
 struct Clasp {
   int bodies = 0;
   bool at_rest = false;
-  double tips = 0;  ///< from the middle line of one rope to that of the other one where they hook
-  double load = 0;  ///< that one rope puts on the other one, over the pull: 2
+  double tips = 0;  ///< distance of the ropes' middle lines where they hook
+  double load = 0;  ///< load that one rope puts on the other one, over the pull: 2
   double cpu = 0;   ///< s
 };
 Clasp hook(double link);

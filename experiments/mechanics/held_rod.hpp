@@ -14,7 +14,7 @@ namespace hagfish {
 /// pulled.
 struct RodEnds {
   std::vector<int> tail;
-  double tension = 0;      ///< along +X, dyn
+  double tension = 0;      ///< pull along +X, dyn
   std::vector<int> level;  ///< bodies whose frame's z is held at 0, too
 };
 
@@ -41,9 +41,9 @@ class HeldRod {
 
   Model model_;
   RodEnds ends_;
-  Eigen::VectorXd angles_;       ///< of the hinges
-  Eigen::VectorXd multipliers_;  ///< of what is held, dyn and dyn cm
-  Eigen::Vector3d place_;        ///< of the tail end at first
+  Eigen::VectorXd angles_;       ///< angles of the hinges
+  Eigen::VectorXd multipliers_;  ///< multipliers of what is held, dyn and dyn cm
+  Eigen::Vector3d place_;        ///< place of the tail end at first
   Eigen::Matrix3d rotation_;     ///< the last body's at first
 };
 

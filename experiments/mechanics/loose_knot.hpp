@@ -11,7 +11,7 @@ namespace hagfish {
 
 struct LooseKnotInput {
   int crossings = 3;     ///< 3: trefoil, 5: cinquefoil
-  double radius = 0.01;  ///< of the rod, times the loop's radius in the thin limit: ε²
+  double radius = 0.01;  ///< radius of the rod, times the loop's radius in the thin limit: ε²
   double per_braid = 3;  ///< bodies to a length ε of that radius, which the braid is some of
   double ratio = 0;      ///< C / B; 0: universal joints alone, a rod that cannot twist
 };
@@ -19,12 +19,12 @@ struct LooseKnotInput {
 /// A stretch of the rod that touches another one. At an isolated point a chain spreads the force
 /// over contacts that are within one body of each other.
 struct Touch {
-  double head = 0, tail = 0;  ///< where the two strands meet, bodies from the head: means by force
-  double extent = 0;          ///< from the first contact to the last, bodies, but for fringes
+  double head = 0, tail = 0;  ///< meeting of both strands, bodies from the head: means by force
+  double extent = 0;          ///< length from first contact to last, bodies, but for fringes
   double force = 0;           ///< sum, over the pull
 };
 
-/// At rest. The pull is F, the bending rigidity B.
+/// A loose knot at rest. The pull is F, the bending rigidity B.
 struct LooseKnot {
   int bodies = 0;
   std::string type;      ///< "3_1"
@@ -32,7 +32,7 @@ struct LooseKnot {
   double load = 0;       ///< F R² / B, 1 / R: mean curvature from the first touch to the last
   double integral =
       0;  ///< (tension + B κ² / 2) / F half way between them: 1 all along a frictionless rod
-  std::vector<Touch> touches;  ///< along the head's strand
+  std::vector<Touch> touches;  ///< touches along the head's strand
   double cpu = 0;              ///< s
 };
 LooseKnot pull_loose_knot(const LooseKnotInput& input);

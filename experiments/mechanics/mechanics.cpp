@@ -1,4 +1,4 @@
-// Tables of experiments/results/mechanics.md on standard output: rows of CSV, but where said.
+// Tables of experiments/results/mechanics/page.md on standard output: rows of CSV, but where said.
 //   mechanics twisted    moments at which twisted rods give way, over those of theory
 //   mechanics hooked     ropes round a post, and ropes that hook into each other
 //   mechanics loose      loose open knots in elastic rods, pulled

@@ -11,7 +11,7 @@ struct MujocoRope {
 struct MujocoClasp {
   int bodies = 0;
   bool at_rest = false;  ///< the tips move no more
-  double tips = 0;       ///< as in Clasp
+  double tips = 0;       ///< Clasp::tips
   double overlap = 0;    ///< deepest of two capsules, diameters
   double cpu = 0;        ///< s
 };

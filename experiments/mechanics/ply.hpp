@@ -6,15 +6,15 @@
 namespace hagfish {
 
 struct PlyInput {
-  double angle = 0.35;    ///< of the strands to their axis in theory, rad
+  double angle = 0.35;    ///< angle of the strands to their axis in theory, rad
   double per_radius = 2;  ///< bodies to a radius of the rod
 };
 
-/// At rest, without friction. What theory has is that of the measured angle.
+/// A ply at rest, without friction. What theory has is that of the measured angle.
 struct Ply {
   int bodies = 0;
   bool at_rest = false;
-  double angle = 0;   ///< in the middle of the ply, rad
+  double angle = 0;   ///< angle in the middle of the ply, rad
   double radius = 0;  ///< half of the strands' distance there, over the rod's
   double force = 0;   ///< pull, over that of theory
   double moment = 0;  ///< twisting moment of the strands, over that of theory

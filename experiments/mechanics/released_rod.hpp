@@ -8,7 +8,7 @@
 
 namespace hagfish {
 
-/// When 0.4 of the period of its slowest small bend have passed, in so many equal steps.
+/// A rod after 0.4 of the period of its slowest small bend, in so many equal steps.
 struct ReleasedRod {
   Eigen::Vector3d tail;  ///< middle of the last body, over the rod's length
   double cpu = 0;        ///< s

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/chain/dynamics.hpp"
+#include "core/control/control_law.hpp"
 #include "core/knot/knot.hpp"
-#include "core/run/control_law.hpp"
 
 namespace hagfish {
 namespace {
@@ -188,7 +188,8 @@ std::vector<ContactForce> Pulled::contact_forces() const {
     const Row& row = solution().rows[i];
     const double push = solution().lambda[static_cast<Eigen::Index>(i)];
     if (row.kind == RowKind::contact && push > 0) {
-      forces.push_back({row.a.parameter, row.b.parameter, push / scene_.time.step});
+      forces.push_back(
+          {row.points().a.parameter, row.points().b.parameter, push / scene_.time.step});
     }
   }
   return forces;

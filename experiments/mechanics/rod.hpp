@@ -18,7 +18,7 @@ struct Rod {
   double twisting = 0;  ///< rigidity C, dyn cm^2: joints alternate; 0: universal joints alone
   double sharpest = 0;  ///< curvature that no joint exceeds, 1/cm; 0: any
   bool in_turn = true;  ///< universal joints turn about Y before Z and Z before Y in turn
-  double drag = 1;      ///< across the rod, a tenth of it along, g / (s cm)
+  double drag = 1;      ///< drag across the rod, a tenth of it along, g / (s cm)
 };
 
 /// A chain that stands for the rod, with these links (unit vectors, head to tail) of `link` (cm)
@@ -73,7 +73,7 @@ class Pulled {
   /// One more, as long as the last one.
   void step();
   std::string knot() const;
-  /// Of the last step.
+  /// Forces of contacts in the last step.
   std::vector<ContactForce> contact_forces() const;
   /// Mean of the twist joints' moments, dyn cm.
   double twisting_moment() const;

@@ -9,7 +9,7 @@ namespace hagfish {
 /// Pulled to rest. Nothing rubs, so that the pull sets the time that it takes alone.
 struct TightKnot {
   std::string type;  ///< "3_1"
-  int bodies = 0;    ///< at rest
+  int bodies = 0;    ///< number of bodies at rest
   bool at_rest = false;
   double shortening = 0;  ///< rope less the distance of its ends, diameters
   double cpu = 0;         ///< s

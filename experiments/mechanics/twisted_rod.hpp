@@ -7,7 +7,7 @@ namespace hagfish {
 struct TwistedRod {
   int bodies = 0;       ///< a multiple of 4
   double ratio = 1;     ///< B / C
-  bool in_turn = true;  ///< as chain_of() has it
+  bool in_turn = true;  ///< chain_of()'s `in_turn`
 };
 
 /// Over that of theory.

@@ -1,8 +1,8 @@
 // The core held against MuJoCo: random states, rollouts by the same rule, errors over the step.
 #pragma once
 
-#include "core/input/scene_reader.hpp"
-#include "core/log/hdf5_writer.hpp"
+#include "core/input/files/scene_reader.hpp"
+#include "core/log/hdf5/hdf5_writer.hpp"
 
 namespace hagfish {
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/step/step.hpp"
-#include "experiments/program/terminal.hpp"
+#include "experiments/common/terminal.hpp"
 #include "mujoco_ref/rollout.hpp"
 
 namespace hagfish {

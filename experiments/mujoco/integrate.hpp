@@ -1,8 +1,8 @@
 // Error against CPU time of the core's and MuJoCo's steps along a smooth motion.
 #pragma once
 
-#include "core/input/scene_reader.hpp"
-#include "core/log/hdf5_writer.hpp"
+#include "core/input/files/scene_reader.hpp"
+#include "core/log/hdf5/hdf5_writer.hpp"
 #include "experiments/mujoco/motions.hpp"
 
 namespace hagfish {

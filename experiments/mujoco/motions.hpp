@@ -9,7 +9,7 @@
 
 namespace hagfish {
 
-/// Where a motion starts: straight and at rest but for its hinges.
+/// Start of a motion: straight and at rest but for its hinges.
 struct Motion {
   /// A hinge's angle, rad, and rate, rad/s.
   struct Bend {
@@ -18,7 +18,7 @@ struct Motion {
   };
   std::string_view name;
   std::string_view title;
-  double gravity = 0;  ///< along the straight body, from head to tail, cm/s^2
+  double gravity = 0;  ///< gravity along the straight body, from head to tail, cm/s^2
   /// Bend about Y at `station` (0 head to 1 tail) of a hinge that stands for `arc` cm of body.
   Bend (*bend)(double station, double arc) = nullptr;
 };

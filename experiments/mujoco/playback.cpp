@@ -8,8 +8,8 @@
 #include <cstdio>
 
 #include "core/chain/dynamics.hpp"
-#include "core/log/logged_run.hpp"
-#include "core/run/controller.hpp"
+#include "core/control/controller.hpp"
+#include "core/log/reading/logged_run.hpp"
 #include "core/step/step.hpp"
 #include "mujoco_ref/mirror.hpp"
 

@@ -1,8 +1,8 @@
 // The slide of a log in MuJoCo under f_thigmo alone, the log's mean from frame to frame.
 #pragma once
 
-#include "core/log/hdf5_writer.hpp"
-#include "experiments/audit/log_contents.hpp"
+#include "core/log/hdf5/hdf5_writer.hpp"
+#include "core/log/reading/log_contents.hpp"
 
 namespace hagfish {
 

@@ -15,7 +15,7 @@ inline constexpr const char* film_help =
 /// Adds the options that say how a film is to be read.
 void add_film_options(CLI::App& command, FilmReading& reading);
 
-/// The same options as words of a command line, each with a blank before it.
+/// These options as words of a command line, each with a blank before it.
 std::string film_option_words(const FilmReading& reading);
 
 /// ", its animal of 35 cm scaled to 42.4 cm"; empty where the lengths are the same to 0.1 %.

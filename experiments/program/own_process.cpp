@@ -13,11 +13,11 @@
 #include <cstring>
 #include <string>
 
+#include "core/input/files/regular_file.hpp"
 #include "core/input/input_text.hpp"
-#include "core/input/regular_file.hpp"
-#include "experiments/program/failure.hpp"
+#include "experiments/common/failure.hpp"
+#include "experiments/common/terminal.hpp"
 #include "experiments/program/program.hpp"
-#include "experiments/program/terminal.hpp"
 
 namespace hagfish {
 namespace {

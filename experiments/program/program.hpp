@@ -1,5 +1,5 @@
 // What the subcommands of `hagfish` share. Each has a file of its own, NAME_command.cpp, in
-// mujoco/ where it needs that: its options, its registration, its call.
+// commands/, or in mujoco/ where it needs that: its options, its registration, its call.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -33,5 +33,12 @@ std::vector<Registrar> commands();
 inline constexpr const char* default_scene = "table1";
 inline constexpr const char* scene_help = "a built-in scene (see `scenes`) or a TOML file";
 inline constexpr const char* set_help = "override a scene's key: KEY=VALUE, repeatable";
+
+/// One line on a command line that CLI11 rejects, with the command or option that was perhaps
+/// meant; a scene or log in the place of a command is told which command takes it.
+std::string complaint(const CLI::App& app, const CLI::ParseError& error);
+
+/// Lets an option take one of `names` only.
+CLI::Validator one_of(const std::vector<std::string>& names);
 
 }  // namespace hagfish

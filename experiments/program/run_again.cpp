@@ -8,10 +8,10 @@
 
 #include "core/log/build_info.hpp"
 #include "core/log/log_writer.hpp"
-#include "core/log/logged_run.hpp"
+#include "core/log/reading/logged_run.hpp"
 #include "core/run/drive.hpp"
 #include "experiments/audit/compare_logs.hpp"
-#include "experiments/program/run_header.hpp"
+#include "experiments/common/run_header.hpp"
 
 namespace hagfish {
 namespace {

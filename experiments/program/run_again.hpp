@@ -1,8 +1,8 @@
 // The part of a check that makes a log's run again.
 #pragma once
 
+#include "core/log/reading/log_contents.hpp"
 #include "experiments/audit/audit.hpp"
-#include "experiments/audit/log_contents.hpp"
 
 namespace hagfish {
 

@@ -9,11 +9,10 @@
 
 #include "core/input/input_text.hpp"
 #include "core/log/build_info.hpp"
-#include "experiments/program/failure.hpp"
+#include "experiments/common/failure.hpp"
+#include "experiments/common/terminal.hpp"
 #include "experiments/program/own_process.hpp"
 #include "experiments/program/program.hpp"
-#include "experiments/program/suggestion.hpp"
-#include "experiments/program/terminal.hpp"
 
 namespace hagfish {
 namespace {

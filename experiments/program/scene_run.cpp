@@ -6,10 +6,10 @@
 
 #include "core/input/input_text.hpp"
 #include "core/run/drive.hpp"
-#include "experiments/program/failure.hpp"
+#include "experiments/common/failure.hpp"
+#include "experiments/common/progress.hpp"
+#include "experiments/common/terminal.hpp"
 #include "experiments/program/number_options.hpp"
-#include "experiments/program/progress.hpp"
-#include "experiments/program/terminal.hpp"
 
 namespace hagfish {
 namespace {

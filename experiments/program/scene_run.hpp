@@ -6,8 +6,8 @@
 
 #include "core/log/log_writer.hpp"
 #include "core/run/drive.hpp"
+#include "experiments/common/run_header.hpp"
 #include "experiments/program/program.hpp"
-#include "experiments/program/run_header.hpp"
 
 namespace hagfish {
 
@@ -21,8 +21,8 @@ struct RunOptions {
 /// Adds --force, --quiet and --step-limit.
 void add_run_options(CLI::App& command, RunOptions& options);
 
-/// Steps until the scene is over, or something ends the run, and finishes the log. `take`:
-/// take_step() where none is given. Returns the program's exit code.
+/// Steps until the scene is over, or something ends the run, and finishes the log. `take` is
+/// take_step() by default. Returns the exit code.
 int take_run(const Model& model, const Scene& scene, Simulation sim, const RunOptions& options,
              LogWriter& log, TakeStep take = {});
 

@@ -12,7 +12,7 @@
 #include <stdexcept>
 
 #include "core/input/input_error.hpp"
-#include "core/log/output_file.hpp"
+#include "core/log/hdf5/output_file.hpp"
 
 namespace hagfish {
 namespace {
@@ -44,13 +44,13 @@ int run(std::vector<std::string> list, bool silent) {
 }
 
 fs::path script_file(const std::string& script) {
-  const fs::path installed = own_program().parent_path().parent_path() / HAGFISH_SHARE / "figures";
-  for (const fs::path& folder : {installed, fs::path(HAGFISH_FIGURES)}) {
+  const fs::path installed = own_program().parent_path().parent_path() / HAGFISH_SHARE / "drawing";
+  for (const fs::path& folder : {installed, fs::path(HAGFISH_DRAWING)}) {
     std::error_code error;
     if (fs::is_regular_file(folder / script, error)) return folder / script;
   }
   throw InputError(fmt::format("{}: the Python scripts for figures are neither in {} nor in {}",
-                               script, installed.string(), HAGFISH_FIGURES));
+                               script, installed.string(), HAGFISH_DRAWING));
 }
 
 }  // namespace

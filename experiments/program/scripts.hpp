@@ -7,7 +7,7 @@
 
 namespace hagfish {
 
-/// Runs SCRIPT of experiments/figures, or of share/hagfish/figures of an installed program, with
+/// Runs SCRIPT of experiments/drawing, or of share/hagfish/drawing of an installed program, with
 /// Debian's python3. Returns its exit code. Throws InputError, one line, where there is no such
 /// script, no python3, or none that has h5py and matplotlib; std::runtime_error where a signal ends
 /// it.

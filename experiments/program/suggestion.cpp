@@ -1,4 +1,4 @@
-#include "experiments/program/suggestion.hpp"
+#include "experiments/program/program.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -6,9 +6,9 @@
 #include <thread>
 
 #include "core/input/input_text.hpp"
-#include "experiments/program/failure.hpp"
+#include "experiments/common/failure.hpp"
+#include "experiments/common/terminal.hpp"
 #include "experiments/program/number_options.hpp"
-#include "experiments/program/terminal.hpp"
 
 namespace hagfish {
 namespace {

@@ -33,7 +33,7 @@ class WithGil {
   PyGILState_STATE state_;
 };
 
-/// To be called between steps, without the lock: does not return where Python ends.
+/// Call this between steps, without the lock: does not return where Python ends.
 void sleep_if_python_ends();
 
 /// What `ask` returns, called with the lock within the life of a WithoutGil.

@@ -2,11 +2,11 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include "core/control/laws.hpp"
 #include "core/input/builtin_files.hpp"
 #include "core/input/input_error.hpp"
 #include "core/log/build_info.hpp"
-#include "core/log/hdf5_error.hpp"
-#include "core/run/laws.hpp"
+#include "core/log/hdf5/hdf5_error.hpp"
 #include "core/step/outcome.hpp"
 #include "experiments/python/gil.hpp"
 #include "experiments/python/python_control.hpp"

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "core/input/input_text.hpp"
-#include "experiments/program/idle_settings.hpp"
-#include "experiments/program/run_header.hpp"
-#include "experiments/program/scene_argument.hpp"
+#include "experiments/common/idle_settings.hpp"
+#include "experiments/common/run_header.hpp"
+#include "experiments/common/scene_argument.hpp"
 #include "experiments/python/gil.hpp"
 
 namespace py = pybind11;

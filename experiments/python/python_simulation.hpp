@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "core/input/scene_reader.hpp"
+#include "core/input/files/scene_reader.hpp"
 #include "core/log/log_writer.hpp"
 #include "core/run/simulation.hpp"
 #include "core/run/slide.hpp"
@@ -24,9 +24,9 @@ struct PythonRun {
   std::vector<std::string> set;  ///< KEY=VALUE overrides
   std::string qp;                ///< QP back end
   pybind11::object law;          ///< callable(simulation, control), or None
-  std::string log;               ///< to write; empty: none
+  std::string log;               ///< log to write; empty: none
   bool force = false;            ///< replaces a log that is there
-  std::string command;           ///< as the log has it
+  std::string command;           ///< command that the log has
 };
 
 class PythonSimulation {
@@ -66,8 +66,8 @@ class PythonSimulation {
   // What `sim` has, which there moves about: storage of views.
   Eigen::VectorXd q, qdot;
   Eigen::Matrix3Xd position, velocity;
-  PythonControl control;  ///< of the record
-  SlideWatch slides;      ///< of the states after its steps
+  PythonControl control;  ///< control of the record
+  SlideWatch slides;      ///< slides through the states after its steps
 
  private:
   class Work;
@@ -83,8 +83,8 @@ class PythonSimulation {
   std::optional<LogWriter> log_;
   bool closed_ = false;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
-  std::string failure_;     ///< of the last step
-  std::string raised_;      ///< by Python in it, in a line
+  std::string failure_;     ///< failure of the last step
+  std::string raised_;      ///< what Python raised in it, in a line
   std::thread::id worker_;  ///< thread that has it at work
 };
 

@@ -6,7 +6,7 @@
 
 #include "core/log/coordinate_names.hpp"
 #include "core/log/ledger_columns.hpp"
-#include "core/log/moment_means.hpp"
+#include "core/log/means/moment_means.hpp"
 #include "experiments/python/begun.hpp"
 #include "experiments/python/python_arguments.hpp"
 #include "experiments/python/python_simulation.hpp"

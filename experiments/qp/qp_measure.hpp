@@ -27,21 +27,21 @@ struct Performance {
   BackEnd back_end;
   bool warm = false;
   std::vector<double>
-      time;        ///< of each QP, s: wall time of solve() alone, the least of the repeats
+      time;        ///< time of each QP, s: wall time of solve() alone, the least of the repeats
   double kkt = 0;  ///< worst of kkt_residuals
   /// Worst of each; QPs without a reference do not count.
   VelocityError velocity;
   int failures = 0;
-  std::int64_t iterations = 0;  ///< of all QPs together
+  std::int64_t iterations = 0;  ///< sum over all QPs
 };
 
 struct QpReport {
   std::vector<Performance> rows;
-  std::vector<Eigen::Index> row_counts;  ///< of each QP
+  std::vector<Eigen::Index> row_counts;  ///< number of rows of each QP
   std::size_t primal = 0;                ///< QPs that came in primal form
   std::size_t sequences = 0;
   std::size_t stored_starts = 0;      ///< warm starts that came with the QP
-  std::size_t carried_starts = 0;     ///< that were the back end's answer to the QP before
+  std::size_t carried_starts = 0;     ///< starts that were the back end's answer to the QP before
   std::size_t without_reference = 0;  ///< QPs that were solved, though no reference was found
   std::vector<std::string> failures;  ///< group, back end, start and reason of the first ten
 };

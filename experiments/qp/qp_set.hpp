@@ -16,9 +16,9 @@
 #include <string>
 #include <vector>
 
-#include "core/log/hdf5_reader.hpp"
-#include "core/log/hdf5_writer.hpp"
-#include "core/log/output_file.hpp"
+#include "core/log/hdf5/hdf5_reader.hpp"
+#include "core/log/hdf5/hdf5_writer.hpp"
+#include "core/log/hdf5/output_file.hpp"
 #include "solvers/box_qp.hpp"
 #include "solvers/primal_qp.hpp"
 
@@ -26,7 +26,7 @@ namespace hagfish {
 
 struct StoredQp {
   BoxQp box;                       ///< the problem that back ends solve
-  std::optional<PrimalQp> primal;  ///< where it came so; `box` is then its dual_of
+  std::optional<PrimalQp> primal;  ///< primal form, if stored so; `box` is then its dual_of
   Eigen::VectorXd start;           ///< m, or empty where none is stored
   std::optional<std::int64_t> sequence;
   std::string group;  ///< "/qp/000000"; not used in writing

@@ -7,7 +7,7 @@
 
 namespace hagfish {
 
-/// Of the times of a back end, beside their median.
+/// Quantile of a back end's times, beside their median.
 inline constexpr double upper_quantile = 0.99;
 
 /// What was measured: the QPs of `file`, their warm starts, each solved `repeat` times.

@@ -1,132 +1,122 @@
-"""Pages of results: tables from the CSV files beside them, their stamps, and their index.
+"""Pages of results, a folder each: page.md, page.toml, study.sh and what it needs, tables as CSV, figures as PNG.
 
 Usage: results.py render                 makes the blocks between markers again, of all pages and of README.md
-       results.py adopt NAME FOLDER VERSION S   takes tables and figures that a study left in FOLDER, by the program VERSION in S
-                                         seconds; says what differs from those that were here by more than chance (exit code 1)
+       results.py adopt NAME FOLDER VERSION S   takes tables and figures that a study left in FOLDER, by the program
+                                         VERSION in S seconds; says what differs from those that were here by more
+                                         than chance (exit code 1)
        results.py mark                   notes in each CSV whether code has changed since it was measured, and renders
-       results.py digest PROGRAM         notes the digests of scenes by this code, of PROGRAM (live_digest of the portable build):
-                                         code of the same digests moves the animal alike, and a page is not older by it
+       results.py digest PROGRAM         notes the digests of scenes by this code, of PROGRAM (live_digest of the
+                                         portable build): code of the same digests moves the animal alike, and a page
+                                         is not older by it
        results.py names | list           names of pages; with their questions and times
-       results.py study NAME             the page's script, from experiments/studies
+       results.py page NAME              exit code 2 where there is no such page
 
-A block begins with one of these lines and ends with `<!-- end -->`:
+page.toml has `chance`, the share by which a figure may differ from one machine to another, and `data`: CSV files that
+figures are drawn from, besides the tables. Of its study's folder a page takes tables/NAME.csv of all these, and the PNG
+files that it shows. A block of a page begins with one of these lines and ends with `<!-- end -->`:
     <!-- table: FILE.csv -->             the table; `; rows: WORDS; WORDS` picks the rows whose first cell has the words
     <!-- stamp: NAME -->                 when, where and by what the page's tables were made
-    <!-- index -->                       a row a page
-A figure in a sentence stands between <!-- of: FILE.csv; COLUMN; WORDS --> and <!-- end -->: the cell of the row whose cells have
-the words (several with + between), or, of several rows, the least to the largest of their first numbers. Without words, of all rows.
+    <!-- index: NAME, NAME -->           a row a page: the index of README.md has all pages, in their order
+A figure in a sentence stands between <!-- of: FILE.csv; COLUMN; WORDS --> and <!-- end -->: the cell of the row whose
+cells have the words (several with + between), or, of several rows, the least to the largest of their first numbers.
+Without words, of all rows.
 """
 
 from __future__ import annotations
 
-import csv
 import datetime
 import hashlib
-import io
 import re
 import subprocess
 import sys
 import tomllib
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+sys.path.append(str(Path(__file__).resolve().parents[1] / "drawing"))
+from hagfish_log import LogError  # noqa: E402
+from tables import Table, markdown, read_table, write_csv  # noqa: E402
+
 ROOT = Path(__file__).resolve().parents[2]
 RESULTS = ROOT / "experiments" / "results"
-FIGURES = ROOT / "experiments" / "figures"
 CODE = ("core", "solvers", "mujoco_ref", "data")  # what moves the animal: a change there may change figures
 MOTION = ("core", "solvers")  # of these, what digests of scenes can tell to be as it was
 DIGESTS = RESULTS / "digests.csv"
-BLOCK = re.compile(r"<!-- (table|stamp|index)(?:: ([^;>]+?))?(?:; rows: ([^>]+?))? -->\n(?:.*?\n)??<!-- end -->", re.DOTALL)
+BLOCK = re.compile(
+    r"<!-- (table|stamp|index)(?:: ([^;>]+?))?(?:; rows: ([^>]+?))? -->\n(?:.*?\n)??<!-- end -->", re.DOTALL)
 VALUE = re.compile(r"(<!-- of: ([^;>]+); ([^;>]+?)(?:; ([^>]+?))? -->).*?(<!-- end -->)")
+FIGURE = re.compile(r"^!\[.*\]\(([^/)]+\.png)\)$", re.MULTILINE)
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 NAME = re.compile(r"\b\d_\d\b")  # of a knot, which is no number
 ROUNDING = 1e-5  # figures below are rounding errors, of which the order of magnitude counts
 FACTOR = 10  # by which such a figure may differ
-MEASURED = re.compile(r"Measured at ([0-9a-f]{7,40})\+? on (.+), (\d{4}-\d\d-\d\d)\.")
+MEASURED = re.compile(r"Measured at ([0-9a-f]{7,40}\+?(?:, [0-9a-f]{7,40}\+?)*) on (.+), (\d{4}-\d\d-\d\d)\.")
 OLDER = "Since then"
-COMMAND = re.compile(r"`(?:bash|python3) experiments/[^`]+`")
 QUOTED = re.compile(r'"(?:[^"\\\n]|\\.)*"')
 
 
-class ResultsError(Exception):
-    """One line on what is wrong with a page or a table."""
+def row_of(table: Table, words: str) -> list[str]:
+    found = [row for row in table.rows if words in row[0]]
+    if len(found) != 1:
+        raise LogError(f"{len(found)} rows have {words!r} in their first cell")
+    return found[0]
 
 
-@dataclass
-class Table:
-    """A CSV file: notes (lines behind a #), headings, rows of text."""
-
-    head: list[str]
-    rows: list[list[str]]
-    notes: list[str] = field(default_factory=list)
-
-    def markdown(self, wanted: list[str] | None = None) -> list[str]:
-        line = lambda cells: "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"
-        return [line(self.head), "|" + "---|" * len(self.head), *map(line, self.rows if wanted is None else [self.row(words) for words in wanted])]
-
-    def row(self, words: str) -> list[str]:
-        found = [row for row in self.rows if words in row[0]]
-        if len(found) != 1:
-            raise ResultsError(f"{len(found)} rows have {words!r} in their first cell")
-        return found[0]
-
-    def value(self, column: str, words: list[str]) -> str:
-        """The cell of the only row that has all of the words, or the range of the numbers of several."""
-        if column not in self.head:
-            raise ResultsError(f"no column {column!r}")
-        cells = [row[self.head.index(column)] for row in self.rows if all(any(word in cell for cell in row) for word in words)]
-        numbers = sorted((found[0] for cell in cells if (found := NUMBER.search(cell))), key=float)
-        if not numbers:
-            raise ResultsError(f"no number of {column!r} in rows with {words}")
-        if len(cells) == 1:
-            return cells[0]
-        return numbers[0] if numbers[0] == numbers[-1] else f"{numbers[0]} to {numbers[-1]}"
-
-
-def read(path: Path) -> Table:
-    try:
-        lines = path.read_text(encoding="utf-8").splitlines(keepends=True)
-    except OSError as error:
-        raise ResultsError(f"{path}: {error.strerror}") from None
-    notes = [line[1:].strip() for line in lines if line.startswith("#")]
-    head, *rows = csv.reader(io.StringIO("".join(line for line in lines if not line.startswith("#"))))
-    for row in rows:
-        if len(row) != len(head):
-            raise ResultsError(f"{path}: a row of {len(row)} cells under {len(head)} headings: {row[0]}")
-    return Table(head, rows, notes)
+def value_of(table: Table, column: str, words: list[str]) -> str:
+    """The cell of the only row that has all of the words, or the range of the numbers of several."""
+    if column not in table.head:
+        raise LogError(f"no column {column!r}")
+    named = [row for row in table.rows if all(any(word in cell for cell in row) for word in words)]
+    cells = [row[table.head.index(column)] for row in named]
+    numbers = sorted((found[0] for cell in cells if (found := NUMBER.search(cell))), key=float)
+    if not numbers:
+        raise LogError(f"no number of {column!r} in rows with {words}")
+    if len(cells) == 1:
+        return cells[0]
+    return numbers[0] if numbers[0] == numbers[-1] else f"{numbers[0]} to {numbers[-1]}"
 
 
 def write(path: Path, table: Table) -> None:
-    with path.open("w", newline="", encoding="utf-8") as file:
-        file.writelines(f"# {note}\n" for note in table.notes)
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerows([table.head, *table.rows])
+    write_csv(path, table.head, table.rows, table.notes)
 
 
-def pages() -> dict[str, dict[str, Any]]:
-    return tomllib.loads((RESULTS / "pages.toml").read_text(encoding="utf-8"))
+def names() -> list[str]:
+    """Of pages, in the order of the index; those that it lacks come last."""
+    text = (RESULTS / "README.md").read_text(encoding="utf-8")
+    listed = [name for block in BLOCK.finditer(text) if block[1] == "index" for name in block[2].split(", ")]
+    there = sorted(path.parent.name for path in RESULTS.glob("*/page.toml"))
+    return sorted(there, key=lambda name: listed.index(name) if name in listed else len(listed))
 
 
-def page_of(name: str) -> dict[str, Any]:
-    if name not in pages():
-        raise ResultsError(f"no page {name}; there are {', '.join(pages())}")
-    return pages()[name]
+def settings_of(name: str) -> dict[str, Any]:
+    if name not in names():
+        raise LogError(f"no page {name}; there are {', '.join(names())}")
+    return tomllib.loads((RESULTS / name / "page.toml").read_text(encoding="utf-8"))
 
 
-def shown_by(name: str, borrowed: bool = True) -> list[str]:
-    """The tables of a page, in its order, with or without those of which it shows single rows: another page's. A study may leave more."""
-    text = (RESULTS / f"{name}.md").read_text(encoding="utf-8")
-    return list(dict.fromkeys(match[2] for match in BLOCK.finditer(text) if match[1] == "table" and (borrowed or not match[3])))
+def text_of(name: str) -> str:
+    return (RESULTS / name / "page.md").read_text(encoding="utf-8")
+
+
+def question_of(name: str) -> str:
+    return text_of(name).splitlines()[0].removeprefix("# ")
+
+
+def shown_by(name: str) -> list[str]:
+    """The tables of a page, in its order, as it names them: other pages' have their folder before them. Those of which it
+    has figures in sentences alone come last."""
+    text = text_of(name)
+    tables = [match[2] for match in BLOCK.finditer(text) if match[1] == "table"]
+    return list(dict.fromkeys([*tables, *(match[2] for match in VALUE.finditer(text))]))
 
 
 def tables_of(name: str) -> list[Path]:
-    return [RESULTS / table for table in shown_by(name)]
+    return [RESULTS / name / table for table in shown_by(name)]
 
 
 def data_of(name: str) -> list[Path]:
     """What its figures are drawn from, besides its tables; there once a study has left it."""
-    return [path for data in page_of(name).get("data", ()) if (path := RESULTS / data).exists()]
+    return [path for data in settings_of(name).get("data", ()) if (path := RESULTS / name / data).exists()]
 
 
 def stamp(name: str) -> list[str]:
@@ -134,54 +124,54 @@ def stamp(name: str) -> list[str]:
     notes: dict[str, list[str]] = {}
     tables = tables_of(name)
     for path in tables:
-        for note in read(path).notes:
+        for note in read_table(path).notes:
             notes.setdefault(note, []).append(path.stem)
     said = [note if len(of) == len(tables) else f"{note[:-1]} ({', '.join(of)})." for note, of in notes.items()]
-    chance = page_of(name).get("chance", 0)
+    chance = settings_of(name)["chance"]
     again = f"`bash experiments/reproduce.sh {name}` makes this page's tables again" + (
         f"; figures may differ by {100 * chance:g} % from machine to machine." if chance else ".")
-    links = lambda paths: ", ".join(f"[{path.name}]({path.name})" for path in paths)
-    drawn = [f"Figures are drawn from {links(data_of(name))}."] if data_of(name) else []
-    return [*said, again, f"Tables are CSV files: {links(tables)}.", *drawn]
+    links = lambda files: ", ".join(f"[{file.rpartition('/')[2]}]({file})" for file in files)
+    data = [path.name for path in data_of(name)]
+    drawn = [f"Figures are drawn from {links(data)}."] if data else []
+    return [*said, again, f"Tables are CSV files: {links(shown_by(name))}.", *drawn]
 
 
-def index() -> list[str]:
-    rows = [[f"[{page['question']}]({name}.md)", f"`bash experiments/reproduce.sh {name}`"] for name, page in pages().items()]
-    for path in sorted(RESULTS.glob("*.md")):
-        if path.stem not in pages() and path.name != "README.md":  # made by a study that is no page of pages.toml
-            text = path.read_text(encoding="utf-8")
-            command = COMMAND.search(text)
-            rows.append([f"[{text.splitlines()[0].removeprefix('# ')}]({path.name})", command[0] if command else ""])
-    return Table(["question", "command"], rows).markdown()
+def index(wanted: list[str]) -> list[str]:
+    rows = [[f"[{question_of(name)}]({name}/page.md)", f"`bash experiments/reproduce.sh {name}`"] for name in wanted]
+    return markdown(["question", "command"], rows)
 
 
 def rendered(path: Path) -> str:
     """The page with its blocks as they should be."""
     def block(match: re.Match[str]) -> str:
         kind, what, rows = match[1], match[2], match[3]
-        first = match[0].split("\n", 1)[0]
         if kind == "index":
-            lines = index()
+            lines = index(what.split(", "))
         elif kind == "stamp":
             lines = stamp(what)
         else:
-            try:
-                lines = read(path.parent / what).markdown([words.strip() for words in rows.split(";")] if rows else None)
-            except ResultsError as error:
-                raise ResultsError(f"{path.name}: {what}: {error}") from None
-        return "\n".join([first, *lines, "<!-- end -->"])
+            table = read_table(path.parent / what)
+            lines = markdown(table.head, [row_of(table, words.strip()) for words in rows.split(";")] if rows
+                             else table.rows)
+        return "\n".join([match[0].split("\n", 1)[0], *lines, "<!-- end -->"])
 
     def value(match: re.Match[str]) -> str:
-        try:
-            words = match[4].split(" + ") if match[4] else []
-            return f"{match[1]}{read(path.parent / match[2]).value(match[3], words)}{match[5]}"
-        except ResultsError as error:
-            raise ResultsError(f"{path.name}: {match[2]}: {error}") from None
-    return VALUE.sub(value, BLOCK.sub(block, path.read_text(encoding="utf-8")))
+        words = match[4].split(" + ") if match[4] else []
+        return f"{match[1]}{value_of(read_table(path.parent / match[2]), match[3], words)}{match[5]}"
+
+    def told(work: Any) -> Any:
+        """What is wrong names the page and the table."""
+        def told_work(match: re.Match[str]) -> str:
+            try:
+                return work(match)
+            except LogError as error:
+                raise LogError(f"{path.relative_to(ROOT)}: {match[2]}: {error}") from None
+        return told_work
+    return VALUE.sub(told(value), BLOCK.sub(told(block), path.read_text(encoding="utf-8")))
 
 
 def documents() -> list[Path]:
-    return [ROOT / "README.md", *sorted(RESULTS.glob("*.md"))]
+    return [ROOT / "README.md", RESULTS / "README.md", *(RESULTS / name / "page.md" for name in names())]
 
 
 def render() -> None:
@@ -216,12 +206,14 @@ def differences(name: str, old: Table, new: Table, chance: float) -> list[str]:
         if was is None:
             found.append(f"{name}: a new row: {row[0]}")
             continue
-        found += [f"{name}: {row[0]}, {head}: was {a!r}, is {b!r}" for head, a, b in zip(new.head, was, row) if not same(a, b, chance)]
+        found += [f"{name}: {row[0]}, {head}: was {a!r}, is {b!r}"
+                  for head, a, b in zip(new.head, was, row) if not same(a, b, chance)]
     return found + [f"{name}: no row any more: {first}" for first in (before if keyed else ())]
 
 
 def git(*arguments: str) -> str:
-    return subprocess.run(["git", "-C", str(ROOT), *arguments], check=True, capture_output=True, text=True, errors="replace").stdout
+    return subprocess.run(["git", "-C", str(ROOT), *arguments], check=True, capture_output=True, text=True,
+                          errors="replace").stdout
 
 
 def processor() -> str:
@@ -248,19 +240,19 @@ def take_figure(source: Path, target: Path, text: str) -> None:
 
 
 def adopt(name: str, folder: Path, version: str, seconds: float) -> list[str]:
-    """Takes what a study left; returns what differs from what was here."""
-    page = page_of(name)
-    if page.get("writes_itself"):
-        return []
-    found = []
-    for wanted in [*page.get("data", ()), *(shown := shown_by(name, borrowed=False))]:
-        new, here = read(folder / "tables" / wanted), RESULTS / wanted
-        new.notes += measured(version, seconds)
+    """Takes what a study left; returns what differs from what was here. A table that says itself where it was measured
+    is of several programs: a part of its study was made anew."""
+    settings, found = settings_of(name), []
+    shown = [table for table in shown_by(name) if "/" not in table]
+    for wanted in [*settings.get("data", ()), *shown]:
+        new, here = read_table(folder / "tables" / wanted), RESULTS / name / wanted
+        if not any(MEASURED.match(note) for note in new.notes):
+            new.notes += measured(version, seconds)
         if wanted in shown and here.exists():
-            found += differences(here.stem, read(here), new, page["chance"])
+            found += differences(here.stem, read_table(here), new, settings["chance"])
         write(here, new)
-    for figure in page.get("figures", ()):
-        take_figure(folder / figure, FIGURES / figure, measured(version, seconds)[0])
+    for figure in FIGURE.findall(text_of(name)):
+        take_figure(folder / figure, RESULTS / name / figure, measured(version, seconds)[0])
     render()
     return found
 
@@ -278,7 +270,8 @@ def without_comments(path: str, text: str) -> str:
 def texts_of(commit: str, names: list[str]) -> list[str]:
     """Files as they were; empty where there was none."""
     asked = "".join(f"{commit}:{name}\n" for name in names).encode()
-    said = subprocess.run(["git", "-C", str(ROOT), "cat-file", "--batch"], input=asked, check=True, capture_output=True).stdout
+    said = subprocess.run(["git", "-C", str(ROOT), "cat-file", "--batch"], input=asked, check=True,
+                          capture_output=True).stdout
     texts, at = [], 0
     for _ in names:
         end = said.index(b"\n", at)
@@ -297,7 +290,8 @@ def motion_key(commit: str | None) -> str:
     """Of the code of MOTION at a commit, or as it lies here, without comments and messages."""
     lying = ("ls-files", "--cached", "--others", "--exclude-standard")
     listed = git(*(("ls-tree", "-r", "--name-only", commit) if commit else lying), "--", *MOTION)
-    names = sorted(name for name in listed.split() if name.endswith((".cpp", ".hpp")) and (commit or (ROOT / name).is_file()))
+    names = sorted(name for name in listed.split() if name.endswith((".cpp", ".hpp"))
+                   and (commit or (ROOT / name).is_file()))
     texts = texts_of(commit, names) if commit else [(ROOT / name).read_text(encoding="utf-8") for name in names]
     code = "\0".join(f"{name}\0{without_comments(name, text)}" for name, text in zip(names, texts))
     return hashlib.sha256(code.encode()).hexdigest()[:16]
@@ -305,24 +299,29 @@ def motion_key(commit: str | None) -> str:
 
 def scenes() -> list[str]:
     """All built-in scenes, and one by the other time rule."""
-    return [*sorted(path.stem for path in (ROOT / "data").glob("*.toml") if path.stem != "presets"), "living_figure_eight time.rule=midpoint"]
+    return [*sorted(path.stem for path in (ROOT / "data").glob("*.toml") if path.stem != "presets"),
+            "living_figure_eight time.rule=midpoint"]
 
 
 def digests() -> dict[str, dict[str, str]]:
     """By motion_key, of each scene."""
     if not DIGESTS.exists():
         return {}
-    table = read(DIGESTS)
+    table = read_table(DIGESTS)
     return {row[0]: dict(zip(table.head[1:], row[1:])) for row in table.rows}
 
 
 def note_digests(program: Path) -> None:
-    """`program SCENE` says `SCENE: DIGEST of ...`. Digests of scenes that are no more are dropped; a scene that was not yet has none."""
-    digest = lambda scene: subprocess.run([program, *scene.split()], check=True, capture_output=True, text=True).stdout.split()[1]
+    """`program SCENE` says `SCENE: DIGEST of ...`. Digests of scenes that are no more are dropped; a scene that was not
+    yet has none."""
+    digest = lambda scene: subprocess.run([program, *scene.split()], check=True, capture_output=True,
+                                          text=True).stdout.split()[1]
     now = {scene: digest(scene) for scene in scenes()}
-    known = {key: {scene: row.get(scene, "") for scene in now} for key, row in digests().items()} | {motion_key(None): now}
+    known = {key: {scene: row.get(scene, "") for scene in now} for key,
+             row in digests().items()} | {motion_key(None): now}
     write(DIGESTS, Table(["code", *now], [[key, *row.values()] for key, row in known.items()],
-                         ["Digests of q at every frame by the portable build (live_digest), for the code of core and solvers with that key."]))
+                         ["Digests of q at every frame by the portable build (live_digest), for the code of core and "
+                          "solvers with that key."]))
 
 
 def moves_as(commit: str) -> bool:
@@ -339,8 +338,10 @@ def changed_since(commit: str) -> int | None:
     except subprocess.CalledProcessError:
         return None
     names = [name for name in names if not name.endswith((".md", ".cmake"))]
-    now = [(ROOT / name).read_text(encoding="utf-8", errors="replace") if (ROOT / name).is_file() else "" for name in names]
-    changed = [name for name, old, new in zip(names, texts_of(commit, names), now) if without_comments(name, old) != without_comments(name, new)]
+    now = [(ROOT / name).read_text(encoding="utf-8", errors="replace") if (ROOT / name).is_file() else ""
+           for name in names]
+    changed = [name for name, old, new in zip(names, texts_of(commit, names), now)
+               if without_comments(name, old) != without_comments(name, new)]
     if changed and all(name.startswith(MOTION) for name in changed) and moves_as(commit):
         return 0
     return len(changed)
@@ -348,28 +349,28 @@ def changed_since(commit: str) -> int | None:
 
 def mark() -> None:
     counts: dict[str, int | None] = {}
-    own = [name for name, page in pages().items() if not page.get("writes_itself")]
-    for path in (path for name in own for path in tables_of(name) + data_of(name)):
-        table = read(path)
+    for path in dict.fromkeys(path for name in names() for path in tables_of(name) + data_of(name)):
+        table = read_table(path)
         match = next((found for note in table.notes if (found := MEASURED.match(note))), None)
         if match is None:
-            raise ResultsError(f"{path.name}: no note says at which commit it was measured")
-        commit = match[1]
-        counts.setdefault(commit, changed_since(commit))
+            raise LogError(f"{path.name}: no note says at which commit it was measured")
+        for commit in (commits := match[1].replace("+", "").split(", ")):
+            counts.setdefault(commit, changed_since(commit))
         notes = [note for note in table.notes if not note.startswith(OLDER)]
-        if counts[commit] is None:
+        if any(counts[commit] is None for commit in commits):
             notes.append(f"{OLDER} the history has been rewritten; how much code has changed is not known.")
-        elif counts[commit]:
+        elif any(counts[commit] for commit in commits):
             notes.append(f"{OLDER} the simulator or its scenes have changed, in more than comments and messages.")
         if notes != table.notes:
-            write(path, Table(table.head, table.rows, notes))
+            write_csv(path, table.head, table.rows, notes)
     render()
 
 
 def list_pages() -> None:
-    for name, page in pages().items():
-        took = [note for path in tables_of(name)[:1] for note in read(path).notes if note.startswith("The study took")]
-        print(f"{name:16s} {page['question']} {took[0] if took else ''}".rstrip())
+    for name in names():
+        took = [note for path in tables_of(name)[:1] for note in read_table(path).notes
+                if note.startswith("The study took")]
+        print(f"{name:16s} {question_of(name)} {took[0] if took else ''}".rstrip())
 
 
 def main(arguments: list[str]) -> int:
@@ -382,11 +383,11 @@ def main(arguments: list[str]) -> int:
             case ["digest", program]:
                 note_digests(Path(program))
             case ["names"]:
-                print(*pages(), sep="\n")
+                print(*names(), sep="\n")
             case ["list"]:
                 list_pages()
-            case ["study", name]:
-                print(page_of(name)["study"])
+            case ["page", name]:
+                settings_of(name)
             case ["adopt", name, folder, version, seconds]:
                 found = adopt(name, Path(folder), version, float(seconds))
                 print(*(found or [f"{name}: nothing differs by more than chance"]), sep="\n")
@@ -394,7 +395,7 @@ def main(arguments: list[str]) -> int:
             case _:
                 print(__doc__, file=sys.stderr)
                 return 2
-    except ResultsError as error:
+    except LogError as error:
         print(f"results: {error}", file=sys.stderr)
         return 2
     return 0

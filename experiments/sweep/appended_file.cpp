@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "core/log/hdf5_error.hpp"
+#include "core/log/hdf5/hdf5_error.hpp"
 
 namespace hagfish {
 

@@ -7,7 +7,7 @@
 
 #include "core/input/input_text.hpp"
 #include "core/log/build_info.hpp"
-#include "experiments/program/scene_argument.hpp"
+#include "experiments/common/scene_argument.hpp"
 
 namespace hagfish {
 namespace {

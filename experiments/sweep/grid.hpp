@@ -5,15 +5,15 @@
 #include <string>
 #include <vector>
 
-#include "core/input/scene_reader.hpp"
+#include "core/input/files/scene_reader.hpp"
 
 namespace hagfish {
 
 /// Settings that change together, as often as an axis has places.
 struct GridAxis {
   std::vector<std::string> keys;                 ///< dotted; "scene" is the scene itself
-  std::vector<std::vector<std::string>> values;  ///< of each key, at each place; as --set
-                                                 ///< has them, or empty: as the scene has it
+  std::vector<std::vector<std::string>> values;  ///< values of each key, at each place; as
+                                                 ///< --set has them, or empty: the scene's
   std::size_t size() const { return values.front().size(); }
 };
 
@@ -27,7 +27,7 @@ struct Grid {
   std::string file;  ///< its name in errors
   std::string scene;
   std::vector<std::string> set;  ///< KEY=VALUE of every cell
-  std::vector<GridAxis> axes;    ///< of the product; the last one changes first
+  std::vector<GridAxis> axes;    ///< axes of the product; the last one changes first
   KeptLogs keep = KeptLogs::none;
 
   /// Number of cells.

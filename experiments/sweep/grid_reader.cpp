@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/input/files/text_file.hpp"
 #include "core/input/input_text.hpp"
-#include "core/input/text_file.hpp"
-#include "core/input/toml_reader.hpp"
+#include "core/input/toml/toml_reader.hpp"
 
 namespace hagfish {
 namespace {

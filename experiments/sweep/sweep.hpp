@@ -25,7 +25,7 @@ struct SweepOptions {
 
 /// How a sweep went.
 struct SweepOutcome {
-  std::size_t cells = 0, before = 0, now = 0;  ///< of the part; with a row before, and made now
+  std::size_t cells = 0, before = 0, now = 0;  ///< cells of the part; with rows before; made now
   double wall_time = 0;                        ///< s
   double simulated = 0, cpu = 0;               ///< CPU time of taking steps, and of the process, s
   bool whole() const { return before + now == cells; }

@@ -8,8 +8,8 @@
 #include "core/log/build_info.hpp"
 #include "core/log/log_writer.hpp"
 #include "core/run/drive.hpp"
-#include "experiments/audit/run_watch.hpp"
-#include "experiments/program/failure.hpp"
+#include "experiments/common/failure.hpp"
+#include "experiments/judge/run_watch.hpp"
 #include "experiments/sweep/sweep.hpp"
 #include "mujoco_ref/mjcf.hpp"
 

@@ -7,8 +7,8 @@
 #include <optional>
 #include <string>
 
-#include "core/input/scene_reader.hpp"
-#include "experiments/audit/judge.hpp"
+#include "core/input/files/scene_reader.hpp"
+#include "experiments/judge/judge.hpp"
 
 namespace hagfish {
 
@@ -29,7 +29,7 @@ struct SweepLog {
 
 struct SweepRun {
   RunSummary summary;
-  double cpu_time = 0;  ///< of taking steps, s
+  double cpu_time = 0;  ///< CPU time of taking steps, s
 };
 
 /// Runs a scene to its end. Nothing where `interrupted` ended it. Throws FileError where the log

@@ -13,8 +13,8 @@
 #include <utility>
 
 #include "core/input/input_text.hpp"
-#include "experiments/program/csv.hpp"
-#include "experiments/program/text_file.hpp"
+#include "experiments/common/csv.hpp"
+#include "experiments/common/text_file.hpp"
 
 namespace hagfish {
 namespace {

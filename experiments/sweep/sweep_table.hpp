@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/log/output_file.hpp"
+#include "core/log/hdf5/output_file.hpp"
 #include "experiments/sweep/appended_file.hpp"
 #include "experiments/sweep/grid.hpp"
 
@@ -49,7 +49,7 @@ class SweepTable {
  private:
   void read_rows();
   std::filesystem::path table_, times_;
-  std::vector<std::size_t> cells_;  ///< of the part
+  std::vector<std::size_t> cells_;  ///< cells of the part
   std::string heading_;
   std::unique_ptr<OutputFile> file_;  ///< none where the table is whole
   std::unique_ptr<AppendedFile> rows_;

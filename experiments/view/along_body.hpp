@@ -27,7 +27,7 @@ std::vector<double> of_joints(const Model& model, Turn turn, const Value& value)
   return values;
 }
 
-/// Where these joints are, cm of arc.
+/// Places of these joints, cm of arc.
 inline std::vector<double> joint_arcs(const Model& model, Turn turn) {
   return of_joints(model, turn, [&](int body, int /*first*/) { return body * body_length(model); });
 }

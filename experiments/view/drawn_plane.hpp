@@ -14,30 +14,35 @@ inline constexpr double drawn_plate_half = 2.6;
 /// A square of a plane, in it.
 struct DrawnPlane {
   Eigen::Vector3d middle;  ///< world, cm
-  double half = 0;         ///< of its side, cm
+  double half = 0;         ///< half of its side, cm
   double hole = 0;         ///< radius, about the middle, cm; 0: none
 };
 
 /// Whether `strand` closes about a hole of `plane`: flush with it, as the rim of a ring.
-inline bool is_rim(const Obstacle& strand, const Obstacle& plane) {
+inline bool is_rim(const Strand& strand, const Plane& plane) {
   constexpr double rounding = 1e-9;
-  return strand.closed && plane.kind == Obstacle::Kind::plane &&
-         std::ranges::all_of(strand.points, [&](const Eigen::Vector3d& point) {
+  return strand.closed && std::ranges::all_of(strand.points, [&](const Eigen::Vector3d& point) {
            return std::abs(plane.normal.dot(point - plane.point)) <= strand.radius + rounding;
          });
 }
 
-/// A plane that no body passes: a floor or a wall.
-inline bool is_floor(const Obstacle& obstacle) {
-  return obstacle.kind == Obstacle::Kind::plane && obstacle.neck == 0;
+/// Whether `strand` closes about a hole of any plane of `obstacles`.
+inline bool is_rim(const Strand& strand, const std::vector<Obstacle>& obstacles) {
+  return std::ranges::any_of(obstacles, [&](const Obstacle& one) {
+    return one.plane() != nullptr && is_rim(strand, *one.plane());
+  });
 }
+
+/// A plane that no body passes: a floor or a wall.
+inline bool is_floor(const Plane& plane) { return plane.neck == 0; }
 
 /// The square of `plane`, one of `obstacles`. Its hole ends within the tube of its rim. A
 /// floor is as large as an animal of `length` (cm) that lies along X needs.
-inline DrawnPlane drawn_plane(const Obstacle& plane, const std::vector<Obstacle>& obstacles,
+inline DrawnPlane drawn_plane(const Plane& plane, const std::vector<Obstacle>& obstacles,
                               double length) {
-  for (const Obstacle& rim : obstacles) {
-    if (!is_rim(rim, plane)) continue;
+  for (const Obstacle& one : obstacles) {
+    if (one.strand() == nullptr || !is_rim(*one.strand(), plane)) continue;
+    const Strand& rim = *one.strand();
     Eigen::Vector3d centre = Eigen::Vector3d::Zero();
     for (const auto& point : rim.points) centre += point / static_cast<double>(rim.points.size());
     const double hole = (rim.points.front() - centre).norm();

@@ -5,12 +5,12 @@
 #include <cereal/external/base64.hpp>
 #include <cmath>
 
+#include "core/control/controller.hpp"
 #include "core/input/input_text.hpp"
 #include "core/knot/knot.hpp"
-#include "core/run/controller.hpp"
-#include "experiments/audit/replay.hpp"
 #include "experiments/export/body_quantity.hpp"
 #include "experiments/export/frame_contacts.hpp"
+#include "experiments/judge/replay.hpp"
 #include "experiments/view/along_body.hpp"
 #include "experiments/view/drawn_plane.hpp"
 
@@ -77,19 +77,19 @@ Json obstacles(const Scene& scene, double length) {
   Json all = Json::array();
   for (const Obstacle& one : scene.obstacles) {
     Json& json = all.emplace_back(Json{{"name", printable(one.name)}});
-    if (one.kind == Obstacle::Kind::plane) {
-      const DrawnPlane square = drawn_plane(one, scene.obstacles, length);
+    if (const Plane* plane = one.plane()) {
+      const DrawnPlane square = drawn_plane(*plane, scene.obstacles, length);
       json["point"] = numbers(square.middle);
-      json["normal"] = numbers(one.normal);
+      json["normal"] = numbers(plane->normal);
       json["half"] = square.half;
       json["hole"] = square.hole;
       continue;
     }
-    json["radius"] = one.radius;
-    json["closed"] = one.closed;
-    json["rim"] = std::ranges::any_of(scene.obstacles,
-                                      [&one](const Obstacle& plane) { return is_rim(one, plane); });
-    for (const Eigen::Vector3d& point : one.points) json["points"].push_back(numbers(point));
+    const Strand& strand = *one.strand();
+    json["radius"] = strand.radius;
+    json["closed"] = strand.closed;
+    json["rim"] = is_rim(strand, scene.obstacles);
+    for (const Eigen::Vector3d& point : strand.points) json["points"].push_back(numbers(point));
   }
   return all;
 }

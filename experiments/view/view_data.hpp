@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "experiments/audit/log_contents.hpp"
+#include "core/log/reading/log_contents.hpp"
 
 namespace hagfish {
 

@@ -3,7 +3,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "core/log/hdf5_error.hpp"
+#include "core/log/hdf5/hdf5_error.hpp"
 #include "experiments/view/view_files.hpp"
 
 namespace hagfish {

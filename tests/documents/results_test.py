@@ -12,52 +12,50 @@ from pages import ROOT, paragraphs, plain
 sys.path.insert(0, str(ROOT / "experiments/results"))
 import results  # noqa: E402
 
-OWN = [name for name, page in results.pages().items() if not page.get("writes_itself")]
+NAMES = results.names()
 # Words with digits that are no figures: knots, equations, figures and tables of the paper, eigenvalues of nothing.
 NO_FIGURE = re.compile(r"\bRK4\b|\b\d_\d\b|\bEqs?\. ?\d+(?: (?:and|to) \d+)?|\b(?:Table|Figure) \d\b|\bO\(n\)|[A-Z]\. [A-Za-z]+\. [A-Za-z]+\. \d+[:\d, ]*")
 
 
-@pytest.mark.parametrize("path", results.documents(), ids=lambda path: path.name)
+@pytest.mark.parametrize("path", results.documents(), ids=lambda path: path.parent.name)
 def test_each_table_is_its_csv(path):
     assert results.rendered(path) == path.read_text(encoding="utf-8")
 
 
-@pytest.mark.parametrize("name", OWN)
+@pytest.mark.parametrize("name", NAMES)
 def test_prose_has_no_figure_by_hand(name):
-    text = (results.RESULTS / f"{name}.md").read_text(encoding="utf-8")
-    for paragraph in paragraphs(results.VALUE.sub("figure", text)):
+    for paragraph in paragraphs(results.VALUE.sub("figure", results.text_of(name))):
         words = NO_FIGURE.sub("", plain(paragraph))
         assert not re.search(r"\d", words), paragraph
 
 
-@pytest.mark.parametrize("name", OWN)
+@pytest.mark.parametrize("name", NAMES)
 def test_a_page_has_question_answer_command_and_limits(name):
-    text = (results.RESULTS / f"{name}.md").read_text(encoding="utf-8")
+    text = results.text_of(name)
     for part in ("**Answer.**", f"<!-- stamp: {name} -->", "## What this page does not show"):
         assert part in text
-    assert text.startswith(f"# {results.pages()[name]['question']}\n")
+    assert results.question_of(name).endswith("?")
 
 
-@pytest.mark.parametrize("name", OWN)
+@pytest.mark.parametrize("name", NAMES)
 def test_each_table_says_where_it_was_measured(name):
     assert results.tables_of(name)
     for path in results.tables_of(name):
-        assert any(results.MEASURED.match(note) for note in results.read(path).notes), path.name
+        assert any(results.MEASURED.match(note) for note in results.read_table(path).notes), path.name
 
 
-@pytest.mark.parametrize("name", OWN)
+@pytest.mark.parametrize("name", NAMES)
 def test_each_csv_of_a_page_is_shown(name):
-    longer = [other for other in results.pages() if other.startswith(f"{name}_")]
-    mine = {path.name for path in results.RESULTS.glob(f"{name}*.csv") if path.stem == name or path.stem.startswith(f"{name}_")}
-    assert {each for each in mine if not each.startswith(tuple(longer))} <= {*results.shown_by(name), *results.page_of(name).get("data", ())}
+    there = {path.name for path in (results.RESULTS / name).glob("*.csv")}
+    assert there == {*(table for table in results.shown_by(name) if "/" not in table), *results.settings_of(name).get("data", ())}
 
 
-def test_each_page_has_its_study_and_is_listed():
-    for name, page in results.pages().items():
-        assert (ROOT / "experiments/studies" / page["study"]).is_file()
-        assert f"]({name}.md)" in (results.RESULTS / "README.md").read_text(encoding="utf-8")
-        for figure in page.get("figures", ()):
-            assert (results.FIGURES / figure).is_file()
+@pytest.mark.parametrize("name", NAMES)
+def test_each_page_has_its_study_and_figures_and_is_listed(name):
+    folder = results.RESULTS / name
+    assert (folder / "study.sh").is_file()
+    assert (results.RESULTS / "README.md").read_text(encoding="utf-8").count(f"]({name}/page.md)") == 1
+    assert sorted(results.FIGURE.findall(results.text_of(name))) == sorted(path.name for path in folder.glob("*.png"))
 
 
 @pytest.mark.parametrize("old, new, chance, same", [
@@ -89,15 +87,14 @@ def test_only_code_makes_a_page_old():
 @pytest.fixture
 def house(tmp_path, monkeypatch):
     """A project of one page, under version control."""
-    (tmp_path / "experiments/results").mkdir(parents=True)
-    (tmp_path / "experiments/figures").mkdir()
+    (tmp_path / "experiments/results/p").mkdir(parents=True)
     (tmp_path / "core").mkdir()
     (tmp_path / "core/a.cpp").write_text("int a;\n")
-    (tmp_path / "README.md").write_text("# R\n<!-- table: experiments/results/p.csv; rows: y -->\n<!-- end -->\n")
-    (tmp_path / "experiments/results/pages.toml").write_text('[p]\nquestion = "Q?"\nstudy = "p.sh"\nchance = 0.1\ndata = ["d.csv"]\n')
-    (tmp_path / "experiments/results/README.md").write_text("# I\n<!-- index -->\n<!-- end -->\n")
-    (tmp_path / "experiments/results/p.md").write_text("# Q?\n<!-- table: p.csv -->\n<!-- end -->\n<!-- stamp: p -->\n<!-- end -->\n")
-    for name, path in (("ROOT", tmp_path), ("RESULTS", tmp_path / "experiments/results"), ("FIGURES", tmp_path / "experiments/figures")):
+    (tmp_path / "README.md").write_text("# R\n<!-- table: experiments/results/p/p.csv; rows: y -->\n<!-- end -->\n")
+    (tmp_path / "experiments/results/p/page.toml").write_text('chance = 0.1\ndata = ["d.csv"]\n')
+    (tmp_path / "experiments/results/README.md").write_text("# I\n<!-- index: p -->\n<!-- end -->\n")
+    (tmp_path / "experiments/results/p/page.md").write_text("# Q?\n<!-- table: p.csv -->\n<!-- end -->\n<!-- stamp: p -->\n<!-- end -->\n")
+    for name, path in (("ROOT", tmp_path), ("RESULTS", tmp_path / "experiments/results")):
         monkeypatch.setattr(results, name, path)
     git = lambda *words: subprocess.run(["git", "-C", tmp_path, "-c", "user.name=n", "-c", "user.email=e", *words], check=True, capture_output=True)
     git("init", "-q")
@@ -107,8 +104,8 @@ def house(tmp_path, monkeypatch):
 
 
 def test_a_figure_in_a_sentence_is_a_cell_of_its_table(house):
-    page = house / "experiments/results/p.md"
-    (house / "experiments/results/p.csv").write_text("a,b,c\nx,u,1.50 ± 0.1\nx,v,-2 (few)\ny,v,7\n")
+    page = house / "experiments/results/p/page.md"
+    (house / "experiments/results/p/p.csv").write_text("a,b,c\nx,u,1.50 ± 0.1\nx,v,-2 (few)\ny,v,7\n")
 
     def said(of):
         page.write_text(f"By <!-- of: p.csv; {of} -->9<!-- end --> N.\n")
@@ -117,20 +114,20 @@ def test_a_figure_in_a_sentence_is_a_cell_of_its_table(house):
     assert "-->1.50 ± 0.1<!--" in said("c; x + u")
     assert "-->-2 to 1.50<!--" in said("c; x")
     assert "-->-2 to 7<!--" in said("c")
-    for of, why in (("d; x", "p.md: p.csv: no column 'd'"), ("c; z", "no number of 'c' in rows with")):
-        with pytest.raises(results.ResultsError, match=why):
+    for of, why in (("d; x", "p/page.md: p.csv: no column 'd'"), ("c; z", "no number of 'c' in rows with")):
+        with pytest.raises(results.LogError, match=why):
             said(of)
 
 
 @pytest.mark.skipif(shutil.which("git") is None, reason="needs git")
 def test_a_study_is_adopted_and_ages(house):
-    page, csv = house / "experiments/results/p.md", house / "experiments/results/p.csv"
+    page, csv = house / "experiments/results/p/page.md", house / "experiments/results/p/p.csv"
     commit = results.git("rev-parse", "HEAD").strip()
     (house / "s/tables").mkdir(parents=True)
     (house / "s/tables/p.csv").write_text(",a\nx,1\ny,2|3\n")
     (house / "s/tables/d.csv").write_text("b\n1\n")
     assert results.adopt("p", house / "s", "0.2.0 abcdef1", 61) == []
-    assert "Figures are drawn from [d.csv](d.csv)." in page.read_text() and "abcdef1" in (house / "experiments/results/d.csv").read_text()
+    assert "Figures are drawn from [d.csv](d.csv)." in page.read_text() and "abcdef1" in (house / "experiments/results/p/d.csv").read_text()
     assert "| y | 2\\|3 |" in page.read_text() and "took 1 min 1 s" in page.read_text()
     assert "| y | 2\\|3 |" in (house / "README.md").read_text() and "| x |" not in (house / "README.md").read_text()
     (house / "s/tables/p.csv").write_text(",a\nx,1.5\ny,2|3\n")
@@ -148,7 +145,7 @@ def test_a_study_is_adopted_and_ages(house):
 
 @pytest.mark.skipif(shutil.which("git") is None, reason="needs git")
 def test_code_that_moves_scenes_alike_ages_no_page(house, monkeypatch):
-    program, csv = house / "digest", house / "experiments/results/p.csv"
+    program, csv = house / "digest", house / "experiments/results/p/p.csv"
     program.write_text('#!/bin/sh\necho "$1: $(cut -c1-5 ' + str(house / "core/a.cpp") + ') of 3 frames"\n')
     program.chmod(0o755)
     monkeypatch.setattr(results, "DIGESTS", house / "experiments/results/digests.csv")
@@ -179,18 +176,11 @@ def test_a_picture_says_where_it_was_measured(tmp_path):
         assert picture.size == (4, 2) and picture.convert("RGB").getpixel((3, 1)) == (10, 20, 30)
 
 
-def test_a_page_that_a_study_writes_is_listed(house):
-    (house / "experiments/results/p.csv").write_text(",a\nx,1\ny,2\n")
-    (house / "experiments/results/own.md").write_text("# Own question?\n\n`bash experiments/studies/own.sh` makes this page.\n")
-    results.render()
-    assert "| [Own question?](own.md) | `bash experiments/studies/own.sh` |" in (house / "experiments/results/README.md").read_text()
-
-
 def test_bad_pages_are_told(house):
-    with pytest.raises(results.ResultsError, match="No such file"):
+    with pytest.raises(results.LogError, match="No such file"):
         results.adopt("p", house, "0.2.0 abcdef1", 1)
-    with pytest.raises(results.ResultsError, match="no page q"):
-        results.page_of("q")
-    (house / "experiments/results/p.csv").write_text(",a\nx,1,2\n")
-    with pytest.raises(results.ResultsError, match="3 cells under 2 headings"):
+    with pytest.raises(results.LogError, match="no page q"):
+        results.settings_of("q")
+    (house / "experiments/results/p/p.csv").write_text(",a\nx,1,2\n")
+    with pytest.raises(results.LogError, match="3 cells under 2 headings"):
         results.render()

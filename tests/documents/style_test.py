@@ -9,7 +9,7 @@ from pages import FENCE, LINK, ROOT, documents, paragraphs, plain, sentences
 
 LONGEST = 40  # words of a sentence
 MEAN = 18
-FOR_ALL = [ROOT / "README.md", ROOT / "experiments/README.md", *sorted(ROOT.glob("experiments/tutorials/*.md")), *sorted(ROOT.glob("experiments/howto/*.md"))]
+FOR_ALL = [ROOT / "README.md", ROOT / "experiments/README.md", *sorted(ROOT.glob("experiments/docs/tutorials/*.md")), *sorted(ROOT.glob("experiments/docs/howto/*.md"))]
 COMMIT = re.compile(r"\b(?=[0-9a-f]*\d)(?=[0-9a-f]*[a-f])[0-9a-f]{7,40}\b")
 STAMP = "Measured "  # of a page that a study writes
 name = lambda path: str(path.relative_to(ROOT))

@@ -18,14 +18,14 @@ import pytest
 from pages import ROOT, documents
 
 PROGRAM = Path(os.environ.get("HAGFISH_PROGRAM", ROOT / "build/release/experiments/hagfish"))
-TUTORIALS = sorted((ROOT / "experiments/tutorials").glob("*.md"))
-HOWTO = sorted(path for path in (ROOT / "experiments/howto").glob("*.md") if "```bash" in path.read_text(encoding="utf-8"))
+TUTORIALS = sorted((ROOT / "experiments/docs/tutorials").glob("*.md"))
+HOWTO = sorted(path for path in (ROOT / "experiments/docs/howto").glob("*.md") if "```bash" in path.read_text(encoding="utf-8"))
 BLOCK = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 README = ROOT / "README.md"
 PACKAGE = PROGRAM.parent / "python"  # of Python, as built
 # What other tests run: the two commands of README.md, as whole scripts (table1_page and this), its flowchart, which is drawn, and what the
 # consumer test builds (consumer.sh).
-ELSEWHERE = {(README, "bash"), (README, "mermaid"), (ROOT / "experiments/reference/cpp.md", "cpp"), (ROOT / "experiments/reference/cpp.md", "cmake")}
+ELSEWHERE = {(README, "bash"), (README, "mermaid"), (ROOT / "experiments/docs/reference/cpp.md", "cpp"), (ROOT / "experiments/docs/reference/cpp.md", "cmake")}
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 NEAR = 0.2  # share by which numbers of a tutorial may be off: those of another build differ, those of another result are old
 

@@ -16,7 +16,7 @@ import time
 import h5py
 import numpy as np
 
-sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "experiments/reference"))  # of mutations
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "experiments/docs/reference"))  # of mutations
 
 import commands
 import mutations
@@ -158,8 +158,8 @@ class Worker:
         (self.folder / "film.csv").write_text(self.film)
         (self.folder / "small.toml").write_text('base = "living_overhand"\n[model]\nbodies = 20\n')
         (self.folder / "scene_grid.toml").write_text(commands.grid_text("table1", commands.SHORT + commands.SMALL))
-        for file in (self.source / "experiments/stability").glob("*.toml"):
-            (self.folder / file.name).write_text(file.read_text().replace("../../data/", ""))
+        for file in (self.source / "experiments/results/stability/scenes").glob("*.toml"):
+            (self.folder / file.name).write_text(re.sub(r'"[./]*/data/', '"', file.read_text()))
         for folder in ("programs", "specimens"):
             shutil.copytree(self.source / "data" / folder, self.folder / folder, dirs_exist_ok=True)
 
@@ -297,7 +297,7 @@ def go_through_kinds(worker, options, end):
 
 def make_bases(options, folder):
     server = Server(options.server, folder / "bases")
-    scenes = pathlib.Path(options.source) / "experiments/stability"
+    scenes = pathlib.Path(options.source) / "experiments/results/stability/scenes"
     bases = {}
     for name, arguments in BASES.items():
         full = [a.replace("SCENES", str(scenes)) for a in arguments] + [*BRIEFLY, name]

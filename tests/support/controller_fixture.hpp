@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/run/controller.hpp"
+#include "core/control/controller.hpp"
 #include "core/step/outcome.hpp"
 #include "tests/support/random_chain.hpp"
 

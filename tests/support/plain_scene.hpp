@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/input/scene_reader.hpp"
+#include "core/input/files/scene_reader.hpp"
 #include "tests/support/errors.hpp"
 
 namespace hagfish {

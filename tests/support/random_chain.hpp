@@ -13,7 +13,7 @@
 #include "core/chain/state.hpp"
 #include "core/scene/settings.hpp"
 #include "core/scene/specimen.hpp"
-#include "core/step/rows.hpp"
+#include "core/step/rows/row.hpp"
 
 namespace hagfish {
 

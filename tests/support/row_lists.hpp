@@ -4,7 +4,9 @@
 #include <limits>
 #include <vector>
 
-#include "core/step/eq6_rows.hpp"
+#include "core/step/rows/contact_rows.hpp"
+#include "core/step/rows/eq6_rows.hpp"
+#include "core/step/rows/joint_rows.hpp"
 
 namespace hagfish {
 

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "core/log/hdf5_error.hpp"
+#include "core/log/hdf5/hdf5_error.hpp"
 #include "core/log/log_writer.hpp"
 #include "experiments/audit/audit.hpp"
 #include "mujoco_ref/mjcf.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/input/scene_reader.hpp"
+#include "core/input/files/scene_reader.hpp"
 #include "core/run/simulation.hpp"
 
 namespace hagfish {

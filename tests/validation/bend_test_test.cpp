@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "core/chain/dynamics.hpp"
-#include "core/input/scene_reader.hpp"
+#include "core/input/files/scene_reader.hpp"
 
 namespace hagfish::bend_test_test {
 

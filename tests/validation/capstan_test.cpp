@@ -4,7 +4,7 @@
 // radius on each length of chain, pi F in all. Forces of Eq. 6 between the two strands, which run
 // in opposite directions, count twice: of each, one half pulls the head's strand and the other one
 // the strand that comes back, which the post hands on. That is sum λ (1 - cos θ) / h of
-// experiments/results/leverage.md, with θ = 180 degrees.
+// experiments/results/leverage/page.md, with θ = 180 degrees.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -30,10 +30,8 @@ ChainRun chain_round_a_post() {
     model.hinges.back().damping = 0.1;  // dyn cm s
   }
   model.drag = {.normal = 1, .tangential = 1};
-  Obstacle& pole = model.obstacles.emplace_back();
-  pole.name = "post";
-  pole.points = {post - 5 * Eigen::Vector3d::UnitZ(), post + 5 * Eigen::Vector3d::UnitZ()};
-  pole.radius = post_radius;
+  const Eigen::Vector3d half(0, 0, 5);
+  model.obstacles.push_back({"post", Strand{{post - half, post + half}, post_radius}});
   ChainRun run(model, bare_scene(0.002));
   run.scene.controller.eq6_at = Eq6Point::centreline;
   // The joints that turn by the angle that a link takes on the post.
@@ -96,7 +94,7 @@ class Capstan : public testing::Test {
     for (std::size_t i = 0; i < solution.rows.size(); ++i) {
       if (solution.rows[i].kind == RowKind::obstacle) {
         sum -= solution.lambda[static_cast<Eigen::Index>(i)] / run.scene.time.step *
-               solution.rows[i].direction;
+               solution.rows[i].points().direction;
       }
     }
     return sum;

@@ -1,7 +1,7 @@
 // What `hagfish design` finds is right: its own run, its log, and its steps.
 #include <gtest/gtest.h>
 
-#include "core/input/text_file.hpp"
+#include "core/input/files/text_file.hpp"
 #include "experiments/audit/audit.hpp"
 #include "experiments/design/design.hpp"
 #include "experiments/design/living_body.hpp"

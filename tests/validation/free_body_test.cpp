@@ -9,7 +9,7 @@
 #include <iterator>
 #include <numbers>
 
-#include "core/input/scene_reader.hpp"
+#include "core/input/files/scene_reader.hpp"
 #include "core/run/simulation.hpp"
 #include "mujoco_ref/mirror.hpp"
 #include "tests/support/stored_states.hpp"

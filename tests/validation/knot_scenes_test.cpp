@@ -11,7 +11,7 @@
 #include <tuple>
 
 #include "core/input/builtin_files.hpp"
-#include "core/input/scene_reader.hpp"
+#include "core/input/files/scene_reader.hpp"
 #include "core/knot/writhe.hpp"
 #include "core/log/log_frame.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -54,7 +54,7 @@ Seen run(const ResolvedScene& resolved) {
     const bool tied = knot_name(now.knot.type) == scene.expect.knot;
     if (now.phase == Phase::release && tied && face != scene.obstacles.end()) {
       const Eigen::Vector3d end = sim.now.state.q.head<3>();
-      seen.head_out = seen.head_out || face->normal.dot(end - face->point) > 0;
+      seen.head_out = seen.head_out || face->plane()->normal.dot(end - face->plane()->point) > 0;
     }
     if (holds_knot(now.phase)) {
       seen.held = seen.held && tied;

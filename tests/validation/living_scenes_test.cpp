@@ -2,7 +2,7 @@
 // That the living scenes tie, hold, slide and come off: knot_scenes_test.cpp.
 #include <gtest/gtest.h>
 
-#include "core/input/scene_reader.hpp"
+#include "core/input/files/scene_reader.hpp"
 #include "core/run/simulation.hpp"
 
 namespace hagfish::living_scenes_test {

@@ -2,7 +2,7 @@
 // that carries no tension, F R² / B = 1/2 for a rod of no thickness, and the braid touches itself
 // in an interval and one isolated point on each side of it (Audoly, Clauvelin, Neukirch, "Elastic
 // knots", Phys. Rev. Lett. 99, 2007, and "Matched asymptotic expansions for knotted elastic rods",
-// 2009). Thickness adds 1.34 ε² to the load, ε² = r / R: experiments/results/mechanics.md.
+// 2009). Thickness adds 1.34 ε² to the load, ε² = r / R: experiments/results/mechanics/page.md.
 #include <gtest/gtest.h>
 
 #include "experiments/mechanics/loose_knot.hpp"

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/input/scene_reader.hpp"
+#include "core/input/files/scene_reader.hpp"
 #include "core/knot/writhe.hpp"
 #include "core/run/simulation.hpp"
 
@@ -87,7 +87,7 @@ class Comparison {
     for (std::size_t i = 0; i < std::min(s.rows.size(), image.rows.size()); ++i) {
       const Row& row = s.rows[i];
       const std::string name = row_name(model_, row);
-      const double sign = row.kind == RowKind::head ? parity_[row.dof] : 1;
+      const double sign = row.kind == RowKind::head ? parity_[row.joint()->dof] : 1;
       same("kind of " + name, row.kind, image.rows[i].kind);
       same("lambda of " + name, sign * s.lambda[i], image.lambda[i]);
       same("excess of " + name, sign * s.excess[i], image.excess[i]);

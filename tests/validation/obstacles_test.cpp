@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "core/chain/start.hpp"
-#include "core/input/scene_reader.hpp"
-#include "core/run/control_law.hpp"
+#include "core/control/control_law.hpp"
+#include "core/input/files/scene_reader.hpp"
 #include "core/run/simulation.hpp"
 #include "tests/support/random_chain.hpp"
 
@@ -19,12 +19,7 @@ constexpr double allowed_overlap = 0.001;  // cm, of any step
 
 Obstacle strand(const std::string& name, const std::vector<Eigen::Vector3d>& points, double radius,
                 bool closed = false) {
-  Obstacle one;
-  one.name = name;
-  one.points = points;
-  one.radius = radius;
-  one.closed = closed;
-  return one;
+  return {name, Strand{points, radius, closed}};
 }
 
 /// A run of a model with obstacles, pulled by a force on its last body.
@@ -60,8 +55,8 @@ class Obstructed {
     const StepSolution& step = record.solution;
     for (std::size_t i = 0; i < step.rows.size(); ++i) {
       if (step.rows[i].obstacle == obstacle) {
-        sum +=
-            step.lambda[static_cast<Eigen::Index>(i)] / scene_.time.step * step.rows[i].direction;
+        sum += step.lambda[static_cast<Eigen::Index>(i)] / scene_.time.step *
+               step.rows[i].points().direction;
       }
     }
     return sum;
@@ -208,7 +203,7 @@ TEST(KnotRoundAPole, SlidesUntilItHangsOnThePole) {
   ASSERT_TRUE(span);
   EXPECT_GT(tied - span->head_end, 3);  // it slid,
   EXPECT_GT(span->head_end, 5);         // and hangs: without the pole it is at the head by now
-  const Obstacle& pole = model.obstacles.at(1);
+  const Strand& pole = *model.obstacles.at(1).strand();
   EXPECT_GT(std::abs(winding(model, sim.now.observation.kin.centre, span->head_end, span->tail_end,
                              pole.points[0], pole.points[1])),
             0.6);
@@ -220,7 +215,7 @@ TEST(LivingKnotRoundAPole, IsPushedAcrossThePoleAlone) {
   const ResolvedScene resolved = read_scene(std::string(HAGFISH_DATA_DIR) + "/reflex_pole.toml");
   const Scene& scene = resolved.scene;
   const Model model = make_hagfish(resolved.specimen, scene);
-  const Obstacle& pole = model.obstacles.at(0);
+  const Strand& pole = *model.obstacles.at(0).strand();
   const Eigen::Vector3d axis = (pole.points.back() - pole.points.front()).normalized();
   Simulation sim = start(model, scene, "active-set");
   StepRecord record;
@@ -231,7 +226,7 @@ TEST(LivingKnotRoundAPole, IsPushedAcrossThePoleAlone) {
     for (std::size_t i = 0; i < step.rows.size(); ++i) {
       if (step.rows[i].obstacle != 0) continue;
       const double push = step.lambda[static_cast<Eigen::Index>(i)] / scene.time.step;
-      along = std::max(along, std::abs(push * step.rows[i].direction.dot(axis)));
+      along = std::max(along, std::abs(push * step.rows[i].points().direction.dot(axis)));
       across = std::max(across, push);
     }
     if (record.controller.phase == Phase::slide) {

@@ -1,6 +1,6 @@
 // The reflex on whole animals: it slides each knot, and what is taken from it keeps it from that;
 // MuJoCo slides the same knot by it at the same speed.
-#include "core/run/reflex.hpp"
+#include "core/control/reflex.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/input/scene_reader.hpp"
+#include "core/input/files/scene_reader.hpp"
 #include "core/run/simulation.hpp"
 #include "mujoco_ref/closed_loop.hpp"
 

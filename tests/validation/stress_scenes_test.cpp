@@ -1,4 +1,4 @@
-// The scenes of experiments/studies/stability.sh: each is read, runs for four steps by the core and
+// The scenes of experiments/results/stability/study.sh: each is read, runs for four steps by the core and
 // in MuJoCo, and ends in the outcome that the scene is made for.
 #include <gtest/gtest.h>
 
@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <ranges>
 
-#include "core/input/scene_reader.hpp"
-#include "experiments/program/scene_argument.hpp"
-#include "experiments/stress/stress.hpp"
+#include "core/input/files/scene_reader.hpp"
+#include "experiments/common/scene_argument.hpp"
+#include "experiments/mujoco/stress.hpp"
 
 namespace hagfish::stress_scenes_test {
 
@@ -128,7 +128,7 @@ INSTANTIATE_TEST_SUITE_P(Stability, MendedCells, testing::ValuesIn(mended_cells)
 
 /// The largest step (s) at which a scene passes by a rule with the watch off, from every one of
 /// eight starts, as it does at all lower ones from one. What lies beyond is the map's to tell
-/// (experiments/studies/stability.sh).
+/// (experiments/results/stability/study.sh).
 struct RuleCell {
   std::string method, scene;
   double largest;

@@ -73,7 +73,7 @@ bool Impacts::find() {
     any = any || change != 0;
     if (row.prescribed) {
       prescribed_rows_.push_back(i);
-      jumps_.push_back({row.dof, row.sign * change});
+      jumps_.push_back({row.joint()->dof, row.joint()->sign * change});
     } else {
       impact_rows_.push_back(i);
       impact_b_.push_back(change);
@@ -136,7 +136,7 @@ void Impacts::respond(const ArticulatedFactor& factor) {
   factor.solve(in_.model, place_.kin, wrench_, joint_, jumps_, change_, twist_, reaction_);
   for (std::size_t k = 0; k < prescribed_rows_.size(); ++k) {
     Row& row = step_.rows[prescribed_rows_[k]];
-    row.impact = row.sign * reaction_[static_cast<Eigen::Index>(k)];
+    row.impact = row.joint()->sign * reaction_[static_cast<Eigen::Index>(k)];
   }
 }
 
@@ -169,6 +169,8 @@ const Eigen::VectorXd& Impacts::change() {
     add_row(step_.rows[i], place_.kin, step_.rows[i].impact, wrench_, joint_);
   }
   if (!impact_rows_.empty()) {
+    // Saturated rows and jumps of prescribed velocities change the velocities of the other rows,
+    // too. So impacts of the others have only the rest of the change to make.
     if (!saturated_rows_.empty() || std::ranges::any_of(jumps_, [](const auto& jump) {
           return std::abs(jump.value) > least_jump;
         })) {
@@ -182,7 +184,9 @@ const Eigen::VectorXd& Impacts::change() {
     bound_impacts();
   }
   respond(problem_.factor);
-  ArticulatedFactor free_factor;  // after the release of limits that would pull
+  // A limit that would pull over the whole step is let go. Its velocity is then free, which takes
+  // another factorisation, and may make others pull. Each round frees at least one, so this ends.
+  ArticulatedFactor free_factor;
   while (release_pulling_limits()) {
     free_factor.factorise(in_.model, place_.kin, step_.system.op, jumps_);
     respond(free_factor);

@@ -27,8 +27,8 @@ class MidpointRule : public StepRule {
                      StepSolution& step);
   Status solve_here(const StepInput& in, Rounds& rounds, const WarmStart& warm, StepSolution& step);
 
-  Midway midway_;                ///< of the step last begun
-  Eigen::VectorXd half_change_;  ///< of the last pass (impacts.hpp), nv
+  Midway midway_;                ///< middle of the step last begun
+  Eigen::VectorXd half_change_;  ///< half change of the last pass (impacts.hpp), nv
   // Step velocity and mean velocity, 2 nv.
   AndersonMixing passes_;
   Eigen::VectorXd first_guess_, placed_by_, led_to_, mixed_;

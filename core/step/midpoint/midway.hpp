@@ -1,5 +1,4 @@
-// Where the equations of a step hold, and the first motion there: at the step's start (Euler's
-// rule), or in its middle (the midpoint rule, core/README.md, "Steps in time").
+// The middle of a midpoint-rule step (core/README.md, "Steps in time").
 #pragma once
 
 #include <vector>
@@ -13,15 +12,15 @@ namespace hagfish {
 struct Midway {
   Eigen::VectorXd step_velocity;        ///< velocity by which the step moves, nv
   Eigen::VectorXd mean_velocity;        ///< mean of those before and after the step, nv
-  Eigen::VectorXd q;                    ///< where the step velocity leads in half a step, nq
-  Kinematics kin;                       ///< at q, of both velocities
-  std::vector<SplineSegment> segments;  ///< at q
-  Matrix6Xd twist;                      ///< of the bodies at the step's first velocity, 6 x N
-  Eigen::Matrix3Xd centre_velocity;     ///< of their centres at it, 3 x N, cm/s
-  Matrix6Xd mean_twist;                 ///< at the mean velocity, 6 x N
-  BiasPower bias_power;                 ///< where `balanced`
+  Eigen::VectorXd q;                    ///< coordinates after half a step by the step velocity, nq
+  Kinematics kin;                       ///< pose q and its motion by both velocities
+  std::vector<SplineSegment> segments;  ///< segments at q
+  Matrix6Xd twist;                      ///< bodies' twists at the step's first velocity, 6 x N
+  Eigen::Matrix3Xd centre_velocity;     ///< velocities of their centres at it, 3 x N, cm/s
+  Matrix6Xd mean_twist;                 ///< bodies' twists at the mean velocity, 6 x N
+  BiasPower bias_power;                 ///< powers of the bias, if `balanced`
   bool balanced = false;                ///< whether Coriolis forces make no energy
-  State next;                           ///< where the whole step leads by the two velocities
+  State next;                           ///< state after the whole step by the two velocities
   Eigen::VectorXd next_energy;          ///< kinetic energy of each body there, erg, N
 
   StepMotion motion() const {

@@ -2,9 +2,9 @@
 
 #include <optional>
 
-#include "core/log/output_file.hpp"
+#include "core/log/hdf5/output_file.hpp"
+#include "experiments/common/scene_argument.hpp"
 #include "experiments/program/program.hpp"
-#include "experiments/program/scene_argument.hpp"
 
 namespace hagfish {
 namespace {

@@ -2,10 +2,9 @@
 
 #include <algorithm>
 
-#include "core/log/output_file.hpp"
+#include "core/log/hdf5/output_file.hpp"
+#include "experiments/common/scene_argument.hpp"
 #include "experiments/program/program.hpp"
-#include "experiments/program/scene_argument.hpp"
-#include "experiments/program/suggestion.hpp"
 
 namespace hagfish {
 namespace {

@@ -6,10 +6,10 @@
 #include "core/chain/model.hpp"
 #include "core/input/input_error.hpp"
 #include "core/input/input_text.hpp"
-#include "core/log/hdf5_error.hpp"
+#include "core/log/hdf5/hdf5_error.hpp"
+#include "experiments/common/scene_argument.hpp"
+#include "experiments/common/text_file.hpp"
 #include "experiments/program/program.hpp"
-#include "experiments/program/scene_argument.hpp"
-#include "experiments/program/text_file.hpp"
 #include "mujoco_ref/mjcf.hpp"
 #include "mujoco_ref/mujoco_model.hpp"
 

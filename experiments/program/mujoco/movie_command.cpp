@@ -7,14 +7,13 @@
 #include "core/input/input_error.hpp"
 #include "core/input/input_text.hpp"
 #include "core/knot/knot.hpp"
-#include "core/log/output_file.hpp"
-#include "experiments/picture/encoder.hpp"
-#include "experiments/picture/frame_picture.hpp"
+#include "core/log/hdf5/output_file.hpp"
+#include "experiments/common/terminal.hpp"
+#include "experiments/common/text_file.hpp"
+#include "experiments/mujoco/encoder.hpp"
+#include "experiments/mujoco/frame_picture.hpp"
 #include "experiments/program/number_options.hpp"
 #include "experiments/program/program.hpp"
-#include "experiments/program/suggestion.hpp"
-#include "experiments/program/terminal.hpp"
-#include "experiments/program/text_file.hpp"
 
 namespace hagfish {
 namespace {

@@ -4,13 +4,13 @@
 #include <map>
 #include <string>
 
-#include "core/log/logged_run.hpp"
-#include "experiments/audit/log_contents.hpp"
+#include "core/log/reading/log_contents.hpp"
+#include "core/log/reading/logged_run.hpp"
+#include "experiments/common/scene_argument.hpp"
+#include "experiments/common/scene_sense.hpp"
 #include "experiments/program/number_options.hpp"
 #include "experiments/program/program.hpp"
-#include "experiments/program/scene_argument.hpp"
 #include "experiments/program/scene_run.hpp"
-#include "experiments/program/scene_sense.hpp"
 #include "mujoco_ref/closed_loop.hpp"
 
 namespace hagfish {

@@ -6,10 +6,9 @@
 
 #include "core/input/input_error.hpp"
 #include "core/input/input_text.hpp"
-#include "experiments/picture/frame_picture.hpp"
+#include "experiments/common/text_file.hpp"
+#include "experiments/mujoco/frame_picture.hpp"
 #include "experiments/program/program.hpp"
-#include "experiments/program/suggestion.hpp"
-#include "experiments/program/text_file.hpp"
 
 namespace hagfish {
 namespace {

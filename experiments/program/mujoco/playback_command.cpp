@@ -1,6 +1,6 @@
 #include "experiments/mujoco/playback.hpp"
 
-#include "core/log/output_file.hpp"
+#include "core/log/hdf5/output_file.hpp"
 #include "experiments/program/program.hpp"
 
 namespace hagfish {

@@ -1,16 +1,15 @@
-#include "experiments/stress/stress.hpp"
+#include "experiments/mujoco/stress.hpp"
 
 #include <fmt/format.h>
 
 #include <filesystem>
 #include <numbers>
 
-#include "experiments/program/csv.hpp"
+#include "experiments/common/csv.hpp"
+#include "experiments/common/scene_argument.hpp"
+#include "experiments/common/text_file.hpp"
 #include "experiments/program/number_options.hpp"
 #include "experiments/program/program.hpp"
-#include "experiments/program/scene_argument.hpp"
-#include "experiments/program/suggestion.hpp"
-#include "experiments/program/text_file.hpp"
 
 namespace hagfish {
 namespace {

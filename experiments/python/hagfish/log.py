@@ -24,7 +24,7 @@ class Log:
             raise ValueError(f"{path}: not a hagfish-log file")
 
     def __getitem__(self, name: str) -> np.ndarray:
-        """All of a dataset, shape and unit as experiments/reference/log_format.md says."""
+        """All of a dataset, shape and unit as experiments/docs/reference/log_format.md says."""
         return self.file[name][()]
 
     def __enter__(self) -> Log:

@@ -357,6 +357,24 @@ TEST(Mjcf, LeavesConesOutAndSaysSo) {
   EXPECT_TRUE(mujoco.model()->jnt_limited[3]);
 }
 
+TEST(Mjcf, ABallIsASphereAndAPoleIsCapsules) {
+  Model model = hagfish(10);
+  model.obstacles = {{"ball", Strand{{{3, 4, 5}}, 0.5}},
+                     {"pole", Strand{{{1, 9, 0}, {2, 9, 0}}, 0.25}}};
+  const MujocoModel mujoco(mjcf_files(model, least_arc, timestep));
+  const mjModel& m = *mujoco.model();
+  std::map<int, int> of_world;
+  for (int g = 0; g < m.ngeom; ++g) {
+    if (m.geom_bodyid[g] != 0) continue;
+    ++of_world[m.geom_type[g]];
+    if (m.geom_type[g] != mjGEOM_SPHERE) continue;
+    EXPECT_EQ(m.geom_size[3 * g], 0.5);
+    EXPECT_EQ(Eigen::Vector3d::Map(m.geom_pos + 3 * g), Eigen::Vector3d(3, 4, 5));
+  }
+  EXPECT_EQ(of_world[mjGEOM_SPHERE], 1);
+  EXPECT_EQ(of_world[mjGEOM_CAPSULE], 6);  // pieces of the pole's one segment
+}
+
 // MuJoCo drops what its buffers cannot hold. A tight knot of 100 bodies has up to 150 touching
 // pairs (core/contact/contact.hpp), with two contacts in a pair at most.
 TEST(Mjcf, HasRoomForTheContactsOfATightKnot) {

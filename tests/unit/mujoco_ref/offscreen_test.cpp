@@ -10,9 +10,9 @@
 #include <fstream>
 #include <numbers>
 
-#include "core/log/hdf5_error.hpp"
-#include "experiments/picture/obstacle_geoms.hpp"
-#include "experiments/picture/picture.hpp"
+#include "core/log/hdf5/hdf5_error.hpp"
+#include "experiments/mujoco/obstacle_geoms.hpp"
+#include "experiments/mujoco/picture.hpp"
 #include "mujoco_ref/mjcf.hpp"
 #include "mujoco_ref/mujoco_model.hpp"
 #include "tests/support/random_chain.hpp"
@@ -310,21 +310,19 @@ TEST(PictureTest, TheWindowHoldsWhatIsShown) {
 
 /// A ring of 0.3 cm about a hole of 1 cm, both radii, about the X axis.
 Obstacle ring_at(double x) {
-  Obstacle ring;
+  Strand ring;
   for (int k = 0; k < 32; ++k) {
     const double turn = 2 * std::numbers::pi * k / 32;
     ring.points.emplace_back(x, 1.3 * std::cos(turn), 1.3 * std::sin(turn));
   }
   ring.radius = 0.3;
   ring.closed = true;
-  return ring;
+  return {"ring", ring};
 }
 
 TEST_F(OffscreenTest, AHoleIsSeenThroughAndATubeIsCutOpen) {
-  Obstacle plate;
-  plate.kind = Obstacle::Kind::plane;
-  plate.point = {2, 0.5, 0};  // the hole is where its rim is
-  plate.neck = 3;
+  // The hole is where its rim is.
+  const Obstacle plate{"plate", Plane{.point = {2, 0.5, 0}, .neck = 3}};
   const std::vector<Obstacle> all{plate, ring_at(1.7), ring_at(1.1)};
   const auto picture = [&](View& from, std::initializer_list<int> shown) {
     std::vector<mjvGeom> geoms;

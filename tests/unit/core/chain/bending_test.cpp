@@ -134,10 +134,10 @@ TEST(ConeRows, AreTheRateOfWhatTheConeLeaves) {
   const Kinematics kin = kinematics(model, state);
   int cones = 0;
   for (const Row& row : limit_rows(model, state, speculative, h)) {
-    const int body = model.hinges[row.dof - root_dofs].body;
+    const int body = model.hinges[row.joint()->dof - root_dofs].body;
     if (model.bodies[body].dofs != 2) continue;
     ++cones;
-    const auto found = std::ranges::find(model.cones, row.dof, &BendingCone::dof);
+    const auto found = std::ranges::find(model.cones, row.joint()->dof, &BendingCone::dof);
     ASSERT_NE(found, model.cones.end());
     const double gap = found->limit - angle_of(model, state.q, body);
     // Sines and cosines side by side are known to 4 units in the last place: 4e-15 / h.
@@ -161,7 +161,7 @@ TEST(ConeRows, StandInForTheFourOfABox) {
   const State state = random_state(random, model, 0.1);
   const std::vector<Row> rows = limit_rows(model, state, speculative, h);
   EXPECT_EQ(rows.size(), 49U * 2 + 50U);  // twist limits as ever
-  std::set<std::int64_t> ids;
+  std::set<RowId> ids;
   std::set<std::string> names;
   for (const Row& row : rows) {
     ids.insert(row.id);
@@ -204,7 +204,7 @@ TEST(ConeRows, OnlyThoseNearBindingAreAppended) {
   const Kinematics kin = kinematics(model, state);
   const BodyVelocities velocity = kin.velocities();
   for (const auto& [slack, at_rest] : {std::pair(-10.0, -INFINITY), {0.1, -INFINITY}, {10, 0.1}}) {
-    std::vector<std::int64_t> expected, found;
+    std::vector<RowId> expected, found;
     for (const Row& row : limit_rows(model, state, speculative, h)) {
       if (row_velocity(row, velocity, state.qdot) < row.rhs + slack || row.rhs > -at_rest) {
         expected.push_back(row.id);

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/log/moment_means.hpp"
+#include "core/log/means/moment_means.hpp"
 #include "tests/support/random_chain.hpp"
 
 namespace hagfish::joint_moments_test {
@@ -81,9 +81,7 @@ TEST(JointMoments, OfAStepAreThoseOfItsRows) {
   record.solution.active_torque.setZero(fish.nv());
   Row row;
   row.kind = RowKind::thigmotaxis;
-  row.direction = Eigen::Vector3d::UnitY();
-  row.a = {30, 1, {1}, 30};
-  row.b = {60, 1, {1}, 60};
+  row.shape = BetweenPoints{Eigen::Vector3d::UnitY(), {30, 1, {1}, 30}, {60, 1, {1}, 60}, {}, {}};
   TimeSettings time;
   time.step = 0.005;
   constexpr double force = 7;

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/step/rows.hpp"
+#include "core/step/rows/row.hpp"
 #include "tests/support/random_chain.hpp"
 #include "tests/support/row_lists.hpp"
 

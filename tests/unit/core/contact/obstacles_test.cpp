@@ -14,12 +14,7 @@
 namespace hagfish::obstacles_test {
 
 Obstacle strand(const std::vector<Eigen::Vector3d>& points, double radius, bool closed = false) {
-  Obstacle one;
-  one.name = "strand";
-  one.points = points;
-  one.radius = radius;
-  one.closed = closed;
-  return one;
+  return {"strand", Strand{points, radius, closed}};
 }
 
 Obstacle ring(const Eigen::Vector3d& centre, double radius, double thickness) {
@@ -48,24 +43,20 @@ struct Among {
 };
 
 TEST(Obstacles, AnyPlaneHoldsBodiesAsSpheres) {
-  Obstacle plane;
-  plane.kind = Obstacle::Kind::plane;
-  plane.point = {0, 0, -3};
-  plane.normal = Eigen::Vector3d(0, 0.6, 0.8);
-  plane.neck = 20;
-  const Among among({plane});
+  const Plane plane{{0, 0, -3}, {0, 0.6, 0.8}, 20};
+  const Among among({{"floor", plane}});
   const Observation seen = among.look();
   int held = 0;
-  visit_plane_gaps(among.model, seen.kin, [&](int obstacle, int body, double gap) {
+  visit_plane_gaps(among.model, seen.kin, [&](const PlaneGap& at) {
     ++held;
-    EXPECT_EQ(obstacle, 0);
-    EXPECT_GE((body + 0.5) * 0.424, 20);
-    EXPECT_NEAR(gap, 2.4 - among.model.bodies[body].radius, 1e-13);
+    EXPECT_EQ(at.obstacle, 0);
+    EXPECT_GE((at.body + 0.5) * 0.424, 20);
+    EXPECT_NEAR(at.gap, 2.4 - among.model.bodies[at.body].radius, 1e-13);
   });
   EXPECT_EQ(held, 53);
-  const Row row = plane_row(among.model, 0, 60);
-  EXPECT_EQ(row.direction, plane.normal);
-  EXPECT_EQ(row_name(among.model, row), " at body 60");
+  const Row row = plane_row({0, plane, 60, 0});
+  EXPECT_EQ(row.points().direction, plane.normal);
+  EXPECT_EQ(row_name(among.model, row), "floor at body 60");
 }
 
 TEST(Obstacles, APoleIsAsFarAsItsAxisLessBothRadii) {
@@ -113,7 +104,7 @@ TEST(Obstacles, SegmentsFollowThoseOfTheBody) {
   for (int k = 0; k < 3; ++k) {
     EXPECT_EQ(strand_begin(among.model, k), begins[k]);
     EXPECT_EQ(seen.segments[begins[k]].obstacle, k);
-    EXPECT_EQ(seen.segments[begins[k]].point(0), among.model.obstacles[k].points[0]);
+    EXPECT_EQ(seen.segments[begins[k]].point(0), among.model.obstacles[k].strand()->points[0]);
   }
 }
 
@@ -135,7 +126,7 @@ TEST(Obstacles, RowsAreTheRatesOfTheirGaps) {
   for (const Contact& c : seen.contact.on_obstacles) {
     const Row row = contact_row(among.model, c, nullptr);
     EXPECT_EQ(row.kind, RowKind::obstacle);
-    EXPECT_EQ(row.b.count, 0);
+    EXPECT_EQ(row.points().b.count, 0);
     const auto gap_at = [&](double t) {
       const Kinematics kin =
           kinematics(among.model, {advance(among.state.q, among.state.qdot, t), among.state.qdot});

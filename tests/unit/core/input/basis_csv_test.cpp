@@ -1,5 +1,5 @@
 // Learned shapes as CSV files: what is wrong, and a basis of another body, is told in one line.
-#include "core/input/basis_csv.hpp"
+#include "core/input/csv/basis_csv.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Curvature programs as CSV files: what is written is read, and what is wrong is told in one line.
-#include "core/input/curvature_csv.hpp"
+#include "core/input/csv/curvature_csv.hpp"
 
 #include <gtest/gtest.h>
 

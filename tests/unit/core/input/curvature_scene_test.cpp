@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/input/builtin_files.hpp"
-#include "core/input/curvature_csv.hpp"
+#include "core/input/csv/curvature_csv.hpp"
 #include "tests/support/plain_scene.hpp"
 #include "tests/support/temporary_folder.hpp"
 

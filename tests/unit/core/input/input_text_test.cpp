@@ -1,5 +1,5 @@
 #include "core/input/input_text.hpp"
-#include "core/input/text_file.hpp"
+#include "core/input/files/text_file.hpp"
 
 #include <gtest/gtest.h>
 

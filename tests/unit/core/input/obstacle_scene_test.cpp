@@ -19,13 +19,13 @@ TEST(ObstacleScene, ReadsPlanesStrandsAndRings) {
       "radius = 0.2\n");
   ASSERT_EQ(found.size(), 3U);
   EXPECT_EQ(found[0].name, "floor");
-  EXPECT_EQ(found[0].normal, Eigen::Vector3d::UnitZ());
-  EXPECT_EQ(found[0].neck, 4);
+  EXPECT_EQ(found[0].plane()->normal, Eigen::Vector3d::UnitZ());
+  EXPECT_EQ(found[0].plane()->neck, 4);
   EXPECT_EQ(found[1].name, "obstacle 2");
-  EXPECT_EQ(found[1].points, (std::vector<Eigen::Vector3d>{{1, 5, 0}, {20, 5, 1}}));
-  EXPECT_FALSE(found[1].closed);
-  EXPECT_TRUE(found[2].closed);
-  for (const Eigen::Vector3d& point : found[2].points) {
+  EXPECT_EQ(found[1].strand()->points, (std::vector<Eigen::Vector3d>{{1, 5, 0}, {20, 5, 1}}));
+  EXPECT_FALSE(found[1].strand()->closed);
+  EXPECT_TRUE(found[2].strand()->closed);
+  for (const Eigen::Vector3d& point : found[2].strand()->points) {
     EXPECT_NEAR((point - Eigen::Vector3d(20, 0, 0)).norm(), 1.7, 1e-14);
     EXPECT_EQ(point.x(), 20);
   }
@@ -57,9 +57,9 @@ TEST(ObstacleScene, MirrorsTurnThemRound) {
   const std::vector<Obstacle> found = read_obstacles(
       "mirror = true\n[[obstacle]]\nkind = 'strand'\npoints = [[1, 5, 0], [1, 6, 1]]\n"
       "radius = 0.4\n[[obstacle]]\nkind = 'plane'\npoint = [0, -9, 0]\nnormal = [0, 1, 0]\n");
-  EXPECT_EQ(found[0].points[1], Eigen::Vector3d(1, -6, 1));
-  EXPECT_EQ(found[1].point, Eigen::Vector3d(0, 9, 0));
-  EXPECT_EQ(found[1].normal, Eigen::Vector3d(0, -1, 0));
+  EXPECT_EQ(found[0].strand()->points[1], Eigen::Vector3d(1, -6, 1));
+  EXPECT_EQ(found[1].plane()->point, Eigen::Vector3d(0, 9, 0));
+  EXPECT_EQ(found[1].plane()->normal, Eigen::Vector3d(0, -1, 0));
 }
 
 TEST(ObstacleScene, RefusesWhatIsNone) {

@@ -1,5 +1,5 @@
 // What scene files say reaches the scene.
-#include "core/input/scene_reader.hpp"
+#include "core/input/files/scene_reader.hpp"
 
 #include <gtest/gtest.h>
 

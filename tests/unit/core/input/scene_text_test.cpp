@@ -141,9 +141,8 @@ class Bits {
   }
   void put(const GuardSettings& s) {
     const auto& [action, penetration, limit_violation, speed, energy_gain, energy_action,
-                 momentum_gain, capped_time] = s;
-    add(action, penetration, limit_violation, speed, energy_gain, energy_action, momentum_gain,
-        capped_time);
+                 capped_time] = s;
+    add(action, penetration, limit_violation, speed, energy_gain, energy_action, capped_time);
   }
   void put(const KnotStretch& s) {
     const auto& [type, from, to] = s;
@@ -152,11 +151,11 @@ class Bits {
   void put(const ExpectSettings& s) {
     const auto& [knot, types, hand, slide_distance, slide_share, reverse_distance, out_of,
                  torque_share, pull, pull_settled, pull_drift, pull_balance, speed_share,
-                 penetration, skin_fold, limit_violation, head_drift, kkt, force_balance,
-                 forward_inverse, energy, energy_gain, energy_loss, momentum] = s;
+                 penetration, skin_fold, limit_violation, head_drift, kkt,
+                 energy, energy_gain, energy_loss, momentum] = s;
     add(knot, types, hand, slide_distance, slide_share, reverse_distance, out_of, torque_share,
         pull, pull_settled, pull_drift, pull_balance, speed_share, penetration, skin_fold,
-        limit_violation, head_drift, kkt, force_balance, forward_inverse, energy, energy_gain,
+        limit_violation, head_drift, kkt, energy, energy_gain,
         energy_loss, momentum);
   }
   void put(const Specimen& s) {
@@ -202,17 +201,16 @@ ResolvedScene odd_scene() {
   s.constraints = {Activation::violated, odd()};
   s.contact = {odd(), odd()};
   s.wall = {false, odd()};
-  Obstacle& plane = s.obstacles.emplace_back();
-  plane.name = "a plane";
-  plane.kind = Obstacle::Kind::plane;
+  Plane plane;
   plane.point = {odd() - 100, odd(), odd()};  // clear of the body
   plane.normal = Eigen::Vector3d(1, 0.1 * odd(), 0.1 * odd()).normalized();
   plane.neck = odd();
-  Obstacle& strand = s.obstacles.emplace_back();
-  strand.name = "a strand";
+  s.obstacles.push_back({"a plane", plane});
+  Strand strand;
   strand.points = {{odd(), odd(), odd() + 50}, {odd(), odd(), odd() + 51}, {odd(), 9, odd() + 52}};
   strand.radius = odd();
   strand.closed = true;
+  s.obstacles.push_back({"a strand", strand});
   s.script.kind = ScriptSettings::Kind::position;
   s.script.knots = {{0, {odd(), odd(), odd()}}, {odd(), {-odd(), odd(), odd()}}};
   s.script.spring = odd();
@@ -283,8 +281,7 @@ ResolvedScene odd_scene() {
        {&ExpectSettings::slide_distance, &ExpectSettings::slide_share,
         &ExpectSettings::reverse_distance, &ExpectSettings::torque_share,
         &ExpectSettings::speed_share, &ExpectSettings::penetration, &ExpectSettings::skin_fold,
-        &ExpectSettings::limit_violation, &ExpectSettings::head_drift, &ExpectSettings::kkt,
-        &ExpectSettings::force_balance, &ExpectSettings::forward_inverse}) {
+        &ExpectSettings::limit_violation, &ExpectSettings::head_drift, &ExpectSettings::kkt}) {
     s.expect.*each = odd();
   }
   s.expect.pull = odd();
@@ -296,7 +293,6 @@ ResolvedScene odd_scene() {
   s.expect.energy_gain = odd();
   s.expect.energy_loss = odd();
   s.expect.momentum = odd();
-  s.guard.momentum_gain = odd();
   s.active.bounds_laws = true;
   s.start.bend = {{odd(), odd(), -odd(), odd()}, {odd(), odd(), odd(), odd()}};
   for (int i = 0; i < 6 + 12; ++i) s.start.qdot.push_back(odd());  // of 7 bodies

@@ -1,9 +1,9 @@
 // Texts that would take the TOML parser's stack or its time are refused before it sees them.
-#include "core/input/toml_bounds.hpp"
+#include "core/input/toml/toml_bounds.hpp"
 
 #include <gtest/gtest.h>
 
-#include "core/input/scene_reader.hpp"
+#include "core/input/files/scene_reader.hpp"
 #include "tests/support/errors.hpp"
 
 namespace hagfish::toml_bounds_test {

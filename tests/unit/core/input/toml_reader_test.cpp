@@ -1,4 +1,4 @@
-#include "core/input/toml_reader.hpp"
+#include "core/input/toml/toml_reader.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <functional>
 #include <numbers>
 
-#include "core/input/toml_writer.hpp"
+#include "core/input/toml/toml_writer.hpp"
 #include "tests/support/errors.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <functional>
 
-#include "core/log/hdf5_reader.hpp"
+#include "core/log/hdf5/hdf5_reader.hpp"
 #include "tests/support/errors.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -6,8 +6,8 @@
 #include <fstream>
 #include <functional>
 
-#include "core/log/hdf5_reader.hpp"
-#include "core/log/hdf5_writer.hpp"
+#include "core/log/hdf5/hdf5_reader.hpp"
+#include "core/log/hdf5/hdf5_writer.hpp"
 #include "tests/support/errors.hpp"
 #include "tests/support/temporary_folder.hpp"
 

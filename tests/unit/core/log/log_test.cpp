@@ -9,8 +9,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "core/input/scene_reader.hpp"
-#include "core/log/hdf5_reader.hpp"
+#include "core/input/files/scene_reader.hpp"
+#include "core/log/hdf5/hdf5_reader.hpp"
 #include "core/log/log_writer.hpp"
 #include "tests/support/errors.hpp"
 #include "tests/support/random_chain.hpp"

@@ -1,5 +1,5 @@
 // A file under way: who may make it, what is left of it, and which name it gets.
-#include "core/log/output_file.hpp"
+#include "core/log/hdf5/output_file.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>

@@ -1,5 +1,5 @@
 // What the pull comes to, from means that are made by hand.
-#include "core/log/pull_figures.hpp"
+#include "core/log/means/pull_figures.hpp"
 
 #include <gtest/gtest.h>
 

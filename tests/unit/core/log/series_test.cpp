@@ -1,5 +1,5 @@
 // Series: rows come out as those that were appended, whatever was saved when.
-#include "core/log/series.hpp"
+#include "core/log/hdf5/series.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "core/log/hdf5_reader.hpp"
+#include "core/log/hdf5/hdf5_reader.hpp"
 #include "core/log/log_table.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -1,12 +1,12 @@
 // The rows of Eq. 6 in the log: each in its own column, whatever the order in which a step has
 // them; means over steps are what the single steps say.
-#include "core/log/thigmotaxis_rows.hpp"
+#include "core/log/means/thigmotaxis_rows.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "core/log/log_means.hpp"
+#include "core/log/means/log_means.hpp"
 #include "tests/support/stored_states.hpp"
 
 namespace hagfish::thigmotaxis_rows_test {

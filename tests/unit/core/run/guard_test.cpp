@@ -6,9 +6,9 @@
 #include <functional>
 
 #include "core/run/simulation.hpp"
-#include "core/step/dual_problem.hpp"
 #include "core/step/look_ahead.hpp"
 #include "core/step/paper_step.hpp"
+#include "core/step/rows/dual_problem.hpp"
 #include "tests/support/random_chain.hpp"
 #include "tests/support/row_lists.hpp"
 
@@ -240,7 +240,7 @@ TEST(Guard, TellsWhyARowIsAtItsCap) {
   const std::string limits = warning([&](CappedRow& capped) { alone(capped, 4); });
   EXPECT_NE(limits.find("joint limits block the motion"), std::string::npos) << limits;
   const std::string plate = warning([&](CappedRow& capped) {
-    capped.step.rows[4] = plane_row(capped.model, 0, 30);
+    capped.step.rows[4] = plane_row({0, *capped.model.obstacles[0].plane(), 30, 0});
     alone(capped, 4);
   });
   EXPECT_NE(plate.find("an obstacle is in the way"), std::string::npos) << plate;
@@ -306,7 +306,6 @@ TEST(Guard, WatchesTheCapOfAnyNumberOfContacts) {
 class MomentumWatch : public testing::Test {
  protected:
   MomentumWatch() {
-    scene.guard.momentum_gain = 0.01;
     control.clamp_head = false;
     energy.largest = 1000;
   }
@@ -328,8 +327,8 @@ class MomentumWatch : public testing::Test {
   EnergyLedger energy;
   MomentumLedger ledger;
   Watch watch;
-  // A hundredth of the most that a straight body of this energy can have.
-  double linear = 0.01 * std::sqrt(2 * 1000 * table1_specimen().mass);
+  // A thousandth of the most that a straight body of this energy can have.
+  double linear = 0.001 * std::sqrt(2 * 1000 * table1_specimen().mass);
   double angular = linear * model.length() / std::sqrt(12.0);
   Eigen::Vector3d along{0.6, 0, -0.8};
 };
@@ -344,7 +343,7 @@ TEST_F(MomentumWatch, WarnsOnceOfAPushOrATurnOfTheIntegratorsOwn) {
     EXPECT_TRUE(look(made(0.99)).empty());
     const std::vector<std::string> warnings = look(made(0.02));  // 1.01 in all
     ASSERT_EQ(warnings.size(), 1u) << pushed;
-    EXPECT_NE(warnings[0].find("guard.momentum_gain = 0.01"), std::string::npos) << warnings[0];
+    EXPECT_NE(warnings[0].find("over 0.001 of the most"), std::string::npos) << warnings[0];
     EXPECT_TRUE(look(made(5)).empty());
   }
 }

@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-#include "core/input/scene_reader.hpp"
+#include "core/input/files/scene_reader.hpp"
 
 namespace hagfish::specimen_test {
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <tuple>
 
-#include "core/run/muscle_law.hpp"
+#include "core/control/muscle_law.hpp"
 #include "core/run/simulation.hpp"
 #include "tests/support/random_chain.hpp"
 #include "tests/support/stored_states.hpp"

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/input/scene_reader.hpp"
+#include "core/input/files/scene_reader.hpp"
 #include "core/run/simulation.hpp"
 #include "core/step/paper_step.hpp"
 #include "tests/support/random_chain.hpp"

@@ -14,7 +14,7 @@ TEST(Step, NamesRowsThatContradictEachOther) {
   // The clamp holds a head that the plate, without a neck to let it through, wants to push out.
   for (const std::string& name : box_qp_solver_names()) {
     Stage s;
-    s.model.obstacles.at(0).neck = 0;
+    s.model.obstacles.at(0).shape = Plane{.neck = 0};
     s.solver = StepSolver(name);
     const Observation now = observe(s.model, s.state, s.scene);
     StepSolution step;

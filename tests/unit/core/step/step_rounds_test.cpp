@@ -23,10 +23,11 @@ TEST(Step, WarmStartKeepsTheRowsWithAForce) {
   // The answer does not depend on the guess: solver tolerance.
   const StepSolution warm = s.solve();
   EXPECT_LT(relative_error(warm.qdot, cold.qdot), 1e-7);
-  s.solver.warm.add(12345, 1e9);  // a row that is no more
+  const RowId gone{.of = RowId::Of::plane, .first = 12345};
+  s.solver.warm.add(gone, 1e9);
   s.solver.warm.end();
   EXPECT_LT(relative_error(s.solve().qdot, cold.qdot), 1e-7);
-  EXPECT_EQ(s.solver.warm.find(12345), nullptr);
+  EXPECT_EQ(s.solver.warm.find(gone), nullptr);
 }
 
 TEST(Step, RowsLeftOutComeInWhereTheAnswerViolatesThem) {

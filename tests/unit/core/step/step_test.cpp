@@ -143,7 +143,8 @@ TEST(Step, NoForceBehindTheLastContact) {
   int last = 0;
   for (const Row& row : step.rows) {
     if (row.kind != RowKind::contact && row.kind != RowKind::thigmotaxis) continue;
-    last = std::max({last, row.a.first + row.a.count - 1, row.b.first + row.b.count - 1});
+    const auto& [direction, a, b, at, couple] = row.points();
+    last = std::max({last, a.first + a.count - 1, b.first + b.count - 1});
   }
   ASSERT_LT(last, 99);
   const Eigen::Index behind = s.model.nv() - s.model.bodies[last + 1].first_dof;

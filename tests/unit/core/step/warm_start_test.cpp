@@ -10,8 +10,10 @@
 
 namespace hagfish::warm_start_test {
 
+RowId id_of(int n) { return {.of = RowId::Of::contact, .first = n}; }
+
 /// A step that leaves these multipliers, by id.
-void leave(WarmStart& warm, const std::vector<std::pair<std::int64_t, double>>& multipliers) {
+void leave(WarmStart& warm, const std::vector<std::pair<RowId, double>>& multipliers) {
   warm.begin();
   for (const auto& [id, lambda] : multipliers) warm.add(id, lambda);
   warm.end();
@@ -20,33 +22,36 @@ void leave(WarmStart& warm, const std::vector<std::pair<std::int64_t, double>>& 
 TEST(WarmStart, HasNothingAtFirst) {
   const WarmStart warm;
   EXPECT_EQ(warm.size(), 0u);
-  EXPECT_EQ(warm.find(0), nullptr);
-  EXPECT_EQ(warm.multiplier(0), 0);
+  EXPECT_EQ(warm.find({}), nullptr);
+  EXPECT_EQ(warm.multiplier({}), 0);
 }
 
 TEST(WarmStart, FindsRowsByIdInWhateverOrderTheyCame) {
   WarmStart warm;
-  const std::int64_t large = std::int64_t{4} << 40;  // ids use the upper half as well
-  leave(warm, {{7, 0.7}, {large, 4}, {-3, 0.3}, {5, -0.5}, {large + 7, 5}});
+  const RowId upper{.of = RowId::Of::upper, .first = 7}, cone{.of = RowId::Of::cone, .first = 7},
+      second{.of = RowId::Of::cone, .first = 7, .number = 1},
+      end{.of = RowId::Of::along_b, .end = KnotEnd::last};
+  leave(warm, {{second, 0.7}, {end, 4}, {id_of(3), 0.3}, {upper, -0.5}, {cone, 5}});
   EXPECT_EQ(warm.size(), 5u);
-  EXPECT_EQ(warm.multiplier(-3), 0.3);
-  EXPECT_EQ(warm.multiplier(5), -0.5);
-  EXPECT_EQ(warm.multiplier(7), 0.7);
-  EXPECT_EQ(warm.multiplier(large), 4);
-  EXPECT_EQ(warm.multiplier(large + 7), 5);
-  for (const std::int64_t none : {std::int64_t{-4}, std::int64_t{6}, large + 1, large + 8}) {
-    EXPECT_EQ(warm.find(none), nullptr) << none;
-    EXPECT_EQ(warm.multiplier(none), 0) << none;
+  EXPECT_EQ(warm.multiplier(id_of(3)), 0.3);
+  EXPECT_EQ(warm.multiplier(upper), -0.5);
+  EXPECT_EQ(warm.multiplier(second), 0.7);
+  EXPECT_EQ(warm.multiplier(end), 4);
+  EXPECT_EQ(warm.multiplier(cone), 5);
+  for (const RowId& none : {id_of(4), RowId{.of = RowId::Of::lower, .first = 7},
+                            RowId{.of = RowId::Of::along_b, .end = KnotEnd::first}}) {
+    EXPECT_EQ(warm.find(none), nullptr);
+    EXPECT_EQ(warm.multiplier(none), 0);
   }
 }
 
 TEST(WarmStart, KeepsTheLastStepAlone) {
   WarmStart warm;
-  leave(warm, {{2, 1}, {4, 3}});
-  leave(warm, {{4, 5}});
+  leave(warm, {{id_of(2), 1}, {id_of(4), 3}});
+  leave(warm, {{id_of(4), 5}});
   EXPECT_EQ(warm.size(), 1u);
-  EXPECT_EQ(warm.multiplier(4), 5);
-  EXPECT_EQ(warm.find(2), nullptr);
+  EXPECT_EQ(warm.multiplier(id_of(4)), 5);
+  EXPECT_EQ(warm.find(id_of(2)), nullptr);
   leave(warm, {});
   EXPECT_EQ(warm.size(), 0u);
 }
@@ -54,14 +59,15 @@ TEST(WarmStart, KeepsTheLastStepAlone) {
 TEST(WarmStart, FollowsManyRowsOverManySteps) {
   Random random(1);
   WarmStart warm;
-  std::map<std::int64_t, double> now;
+  std::map<RowId, double> now;
   for (int step = 0; step < 50; ++step) {
     now.clear();
-    while (now.size() < 40) now[random() % 100] = uniform(random, 0, 1);
-    std::vector<std::pair<std::int64_t, double>> rows(now.begin(), now.end());
+    while (now.size() < 40) now[id_of(static_cast<int>(random() % 100))] = uniform(random, 0, 1);
+    std::vector<std::pair<RowId, double>> rows(now.begin(), now.end());
     for (std::size_t i = rows.size(); i > 1; --i) std::swap(rows[i - 1], rows[random() % i]);
     leave(warm, rows);
-    for (std::int64_t id = 0; id < 100; ++id) {
+    for (int k = 0; k < 100; ++k) {
+      const RowId id = id_of(k);
       ASSERT_EQ(warm.find(id) != nullptr, now.contains(id));
       if (!now.contains(id)) continue;
       EXPECT_EQ(warm.find(id)->id, id);

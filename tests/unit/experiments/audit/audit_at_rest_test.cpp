@@ -7,7 +7,7 @@
 #include <fstream>
 #include <numbers>
 
-#include "experiments/audit/log_contents.hpp"
+#include "core/log/reading/log_contents.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/written_log.hpp"
 

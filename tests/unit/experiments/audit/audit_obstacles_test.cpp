@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "core/input/scene_reader.hpp"
-#include "core/log/hdf5_error.hpp"
+#include "core/input/files/scene_reader.hpp"
+#include "core/log/hdf5/hdf5_error.hpp"
 #include "experiments/audit/audit.hpp"
 #include "experiments/audit/logged_contacts.hpp"
 #include "tests/support/stored_states.hpp"

@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <optional>
 
-#include "core/log/hdf5_writer.hpp"
-#include "core/step/eq6_rows.hpp"
+#include "core/log/hdf5/hdf5_writer.hpp"
+#include "core/step/rows/eq6_rows.hpp"
 #include "experiments/audit/audit_thigmotaxis.hpp"
 #include "tests/support/errors.hpp"
 #include "tests/support/random_chain.hpp"

@@ -1,4 +1,4 @@
-#include "experiments/audit/expectations.hpp"
+#include "experiments/judge/expectations.hpp"
 
 #include <gtest/gtest.h>
 

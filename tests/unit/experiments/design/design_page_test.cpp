@@ -7,7 +7,7 @@
 #include <array>
 #include <sstream>
 
-#include "core/input/scene_reader.hpp"
+#include "core/input/files/scene_reader.hpp"
 
 namespace hagfish::design_page_test {
 

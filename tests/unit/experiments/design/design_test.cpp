@@ -9,11 +9,11 @@
 #include <filesystem>
 #include <fstream>
 
+#include "core/input/files/scene_reader.hpp"
+#include "core/input/files/text_file.hpp"
 #include "core/input/input_error.hpp"
 #include "core/input/input_text.hpp"
-#include "core/input/scene_reader.hpp"
-#include "core/input/text_file.hpp"
-#include "core/log/hdf5_error.hpp"
+#include "core/log/hdf5/hdf5_error.hpp"
 #include "experiments/design/length_bound.hpp"
 #include "experiments/design/living_body.hpp"
 #include "experiments/design/tries.hpp"

@@ -8,8 +8,8 @@
 #include <numeric>
 #include <set>
 
-#include "core/input/text_file.hpp"
-#include "experiments/specimen/specimen_files.hpp"
+#include "core/input/files/text_file.hpp"
+#include "experiments/common/specimen_files.hpp"
 
 namespace hagfish::living_body_test {
 

@@ -1,12 +1,12 @@
 // A film strip has the frames that it is asked for, one after the other.
-#include "experiments/picture/strip.hpp"
+#include "experiments/mujoco/strip.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
+#include "core/input/files/scene_reader.hpp"
 #include "core/input/input_error.hpp"
-#include "core/input/scene_reader.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/written_log.hpp"
 

@@ -1,4 +1,4 @@
-#include "experiments/program/csv.hpp"
+#include "experiments/common/csv.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "experiments/program/failure.hpp"
+#include "experiments/common/failure.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "core/input/input_error.hpp"
-#include "core/log/hdf5_error.hpp"
+#include "core/log/hdf5/hdf5_error.hpp"
 #include "core/step/outcome.hpp"
 
 namespace hagfish::failure_test {

@@ -19,7 +19,7 @@ BRIEF = sets("time.duration=14.5")
 
 
 def script(folder, name, *arguments):
-    command = [sys.executable, str(ROOT / "experiments/curvature" / name), *arguments]
+    command = [sys.executable, str(ROOT / "experiments/results/few_numbers" / name), *arguments]
     return subprocess.run(command, cwd=folder, capture_output=True, text=True)
 
 

@@ -48,10 +48,10 @@ def test_a_sweep_takes_what_two_of_its_axes_make_act(tmp_path):
     refused(tmp_path, "sweep", "grid.toml", "--out", "out", "--part", "2/1", parts=("--part 2/1",))
 
 
-GRIDS = sorted((ROOT / "experiments/studies/grids").glob("*.toml"))
+GRIDS = sorted((ROOT / "experiments/results").glob("*/grids/*.toml"))
 
 
-@pytest.mark.parametrize("grid", GRIDS, ids=lambda grid: grid.stem)
+@pytest.mark.parametrize("grid", GRIDS, ids=lambda grid: f"{grid.parts[-3]}-{grid.stem}")
 def test_all_that_the_studies_set_does_something(tmp_path, grid):
     """What is refused is the part, after the keys: no run begins."""
     refused(tmp_path, "sweep", str(grid), "--out", "out", "--part", "2/1", parts=("--part 2/1",))

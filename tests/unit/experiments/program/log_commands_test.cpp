@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "core/log/hdf5_reader.hpp"
+#include "core/log/hdf5/hdf5_reader.hpp"
 #include "tests/support/program_runs.hpp"
 
 namespace hagfish::log_commands_test {

@@ -55,7 +55,7 @@ def test_each_level_holds_the_same_numbers_as_the_full_log(logs):
 
 @pytest.mark.parametrize("level", LEVELS)
 def test_the_reference_tells_the_sizes(tmp_path, level):
-    text = (ROOT / "experiments/reference/log_format.md").read_text(encoding="utf-8")
+    text = (ROOT / "experiments/docs/reference/log_format.md").read_text(encoding="utf-8")
     told = float(re.search(rf"^\| `{level}`.* ([\d.]+) MB \|$", text, re.MULTILINE)[1])
     assert of_level(tmp_path, level).stat().st_size / 1e6 == pytest.approx(told, rel=0.1, abs=0.06)
 

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "core/log/reading/log_contents.hpp"
 #include "core/scene/phase.hpp"
-#include "experiments/audit/log_contents.hpp"
 #include "tests/support/program_runs.hpp"
 
 namespace hagfish::playback_command_test {

@@ -1,9 +1,9 @@
-#include "experiments/program/presets.hpp"
+#include "experiments/common/presets.hpp"
 
 #include <gtest/gtest.h>
 
 #include "core/input/builtin_files.hpp"
-#include "experiments/program/scene_argument.hpp"
+#include "experiments/common/scene_argument.hpp"
 #include "solvers/box_qp.hpp"
 
 namespace hagfish::presets_test {

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "core/log/hdf5_reader.hpp"
+#include "core/log/hdf5/hdf5_reader.hpp"
 #include "tests/support/program_runs.hpp"
 #include "tests/support/written_log.hpp"
 

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "experiments/audit/log_contents.hpp"
+#include "core/log/reading/log_contents.hpp"
 #include "tests/support/program_runs.hpp"
 
 namespace hagfish::run_command_test {

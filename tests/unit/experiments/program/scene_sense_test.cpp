@@ -1,5 +1,5 @@
 // Scenes that cannot be meant are refused or pointed out before they run.
-#include "experiments/program/scene_sense.hpp"
+#include "experiments/common/scene_sense.hpp"
 
 #include <gtest/gtest.h>
 

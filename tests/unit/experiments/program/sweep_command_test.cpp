@@ -7,7 +7,7 @@
 #include <set>
 #include <sstream>
 
-#include "core/input/text_file.hpp"
+#include "core/input/files/text_file.hpp"
 #include "tests/support/program_runs.hpp"
 
 namespace hagfish::sweep_command_test {

@@ -1,4 +1,4 @@
-#include "experiments/stress/stress_judge.hpp"
+#include "experiments/mujoco/stress_judge.hpp"
 
 #include <gtest/gtest.h>
 

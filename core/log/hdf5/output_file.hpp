@@ -1,0 +1,53 @@
+// A file that is made over time: reserved by name, grown beside it, named when it is whole.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "core/log/hdf5/hdf5_error.hpp"
+
+namespace hagfish {
+
+/// What is to become of a FILE, or a FILE.part of a process that is gone, that exists.
+enum class Existing {
+  refuse,   ///< it stays
+  replace,  ///< it is replaced
+  go_on     ///< FILE.part is gone on with, or FILE, which becomes FILE.part
+};
+
+constexpr Existing replaced_if(bool force) { return force ? Existing::replace : Existing::refuse; }
+
+/// Reserves FILE while it lives. What is made goes to FILE.part, so that FILE is never half-written
+/// and what was made survives whatever ends the process; FILE.lock, locked by the kernel, tells a
+/// process at work from one that is gone. Symbolic links are followed and stay. A forked child has
+/// nothing of it: what it destroys stays the parent's.
+class OutputFile {
+ public:
+  /// Throws FileError where FILE is no name or that of no regular file; where it, or FILE.part,
+  /// exists and is to be refused, or both or none do and one is to be gone on with; where another
+  /// process is making FILE; or where its folder cannot be written.
+  OutputFile(const std::filesystem::path& file, Existing existing);
+  ~OutputFile();
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+
+  const std::filesystem::path& partial() const { return partial_; }
+  /// Whether this is no copy in a forked child.
+  bool is_ours() const;
+
+  /// Gives FILE.part its name. Throws FileError, and keeps FILE.part, where that fails or a FILE
+  /// that is not to be replaced has appeared meanwhile.
+  void publish();
+
+ private:
+  void take_lock();
+  /// What stands in the way, or an empty text.
+  std::string obstacle() const;
+
+  std::filesystem::path file_, partial_, lock_;
+  Existing existing_;
+  int lock_descriptor_ = -1;
+  int process_;
+};
+
+}  // namespace hagfish

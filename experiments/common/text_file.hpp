@@ -1,0 +1,29 @@
+// A text that a command writes when its work is done.
+#pragma once
+
+#include <string>
+
+#include "core/log/hdf5/output_file.hpp"
+
+namespace hagfish {
+
+inline constexpr const char* force_help = "replace an existing file";
+
+/// A file that could not be written, for no fault of the command line.
+class WriteError : public FileError {
+ public:
+  using FileError::FileError;
+};
+
+/// Reserves `file` before the work, as OutputFile does and throwing as it does.
+class TextFile {
+ public:
+  TextFile(const std::string& file, bool force) : file_(file, replaced_if(force)) {}
+  /// Throws WriteError, and leaves nothing, where it cannot be written.
+  void write(const std::string& text);
+
+ private:
+  OutputFile file_;
+};
+
+}  // namespace hagfish

@@ -1,0 +1,77 @@
+"""How far one motion is from another: places and moments at the same stations along the body, whatever its mesh."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from hagfish_log import HagfishLog
+
+PRESETS = Path(__file__).resolve().parents[2] / "data" / "presets.toml"
+KINDS = ("bend_y", "bend_z", "twist")
+STATIONS = np.linspace(0.01, 0.99, 99)  # along the body, at which moments of two meshes are compared
+
+
+def moments_of(log: HagfishLog, force: str, frames: np.ndarray) -> np.ndarray:
+    """Moments of one kind of force at STATIONS: frames x (axes times stations), dyn cm. They are the body's, which any mesh has."""
+    _, joint, kind = log.hinges()
+    arc = log.joint_arc()
+    place, values = arc[joint] / (arc[-1] + log["/model/length"][-1]), log.at_hinges(log.moments(force)[frames])
+    return np.concatenate([[np.interp(STATIONS, place[kind == each], row[kind == each]) for row in values] for each in KINDS
+                           if each in kind], axis=1)
+
+
+def through(points: np.ndarray, at: np.ndarray) -> np.ndarray:
+    """The Catmull-Rom spline of points at parameters 0.5, 1.5, ..., straight beyond its ends."""
+    i = np.clip(np.floor(at - 0.5).astype(int), 0, len(points) - 2)
+    t = (at - 0.5 - i)[:, None]
+    more = np.concatenate([[2 * points[0] - points[1]], points, [2 * points[-1] - points[-2]]])
+    a, b, c, d = (more[i + k] for k in range(4))
+    return b + 0.5 * t * (c - a + t * (2 * a - 5 * b + 4 * c - d + t * (3 * (b - c) + d - a)))
+
+
+def off(found: np.ndarray, wanted: np.ndarray) -> float:
+    """How far one is from the other, % of that."""
+    return float(100 * np.linalg.norm(found - wanted) / np.linalg.norm(wanted))
+
+
+def shown(value: float | None, form: str = ".0f") -> str:
+    return "-" if value is None or np.isnan(value) else f"{value:{form}}".replace("e+0", "e")
+
+
+def pick(rows: Iterable[dict[str, Any]], **wanted: object) -> list[dict[str, Any]]:
+    return [row for row in rows if all(row[key] == value for key, value in wanted.items())]
+
+
+def presets() -> dict[str, dict[str, Any]]:
+    """Rule, bodies and step of each preset, as these scenes have them."""
+    found = {}
+    for preset in tomllib.loads(PRESETS.read_text(encoding="utf-8"))["preset"]:
+        of = dict(setting.split("=") for setting in preset["set"])
+        found[preset["name"]] = {"rule": of.get("time.rule", "euler"), "bodies": int(of.get("model.bodies", 100)),
+                                 "step_ms": 1e3 * float(of.get("time.step", 0.005))}
+    return found
+
+
+def name_of(row: dict[str, Any]) -> str:
+    return f"{row['rule']}, {row['bodies']} bodies, {row['step_ms']:g} ms"
+
+
+def cpu_of(path: Path) -> float:
+    """CPU time, s, of a file with user and system time, a line for each repeat: the least."""
+    return min(sum(map(float, line.split())) for line in path.read_text(encoding="utf-8").splitlines())
+
+
+def pareto(cost: np.ndarray, error: np.ndarray) -> np.ndarray:
+    """Indices, by rising cost, of what nothing else beats in both."""
+    order = np.lexsort((error, cost))
+    best, front = np.inf, []
+    for i in order:
+        if error[i] < best:
+            best = error[i]
+            front.append(i)
+    return np.array(front, dtype=int)

@@ -1,0 +1,114 @@
+"""Slides of the studies of knots: what was commanded and what came of it.
+
+A run is a cell of a sweep that kept its logs, or NAME.h5 (its log) with NAME.check.csv (its audit).
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+import audits
+from hagfish_log import HagfishLog
+from means import WINDOW, read_means
+from summary import step_phases
+from sweep_columns import read_sweep
+
+LEAST_FRAMES = 5  # of a slide with a speed
+AT_CAP = 0.999  # of the cap, a multiplier that is at it
+MEAN = f"{1000 * WINDOW:g} ms mean"  # what forces are, for headings
+
+
+@dataclass
+class Slide:
+    """One phase of one run in which the knot slides; cm, s, dyn. Forces are means over WINDOW."""
+
+    knot: str  # expected type
+    commanded: float  # speed, cm/s
+    speed: float  # of the knot's leading end, a line through its places; nan where it never slid
+    travel: float  # of that end
+    force: float  # sum of the multipliers of Eq. 6 / h, median of the means
+    peak: float  # largest of them
+    capped: float  # share of rows at controller.cap, of all steps
+    slack: float  # largest shortfall of the four rows of Eq. 6, median of the means, cm/s
+    met: float  # share of steps without slack
+    penetration: float  # deepest of any step in the phase
+    allowed: float  # deepest that the scene expects
+    failure: str  # why the run did not go on to its end; empty where it did
+    seconds: float
+
+
+def cause(status: str) -> str:
+    """Why a run stopped, without its numbers."""
+    text = status.removeprefix("failed: ").split(" at step ")[0].split(",")[0]
+    return re.sub(r" is [\d.]+ \w+ past", " went past", re.sub(r"^body \d+", "a body", text))
+
+
+def tied(log: HagfishLog) -> bool:
+    """Whether the controller took the knot as tied: it then tightens it, or slides it at once."""
+    return bool(log.in_phase("tighten").size or log.in_phase("slide").size)
+
+
+def failure_of(log: HagfishLog, unmet: list[str]) -> str:
+    status = str(log.attribute("status"))
+    if status != "complete":
+        return cause(status)
+    if not tied(log):
+        return "the knot was never ready to tighten"
+    if not log.in_phase("slide").size:
+        return "the knot never slid"
+    for name, words in (("knot held", "the knot was lost early"), ("unknot at end", "the knot stayed on")):
+        if name in unmet:
+            return words
+    return ""
+
+
+def unmet_of(folder: Path, name: str) -> list[str]:
+    """What the audit of a run names as failed."""
+    return audits.unmet(audits.read_findings(folder / f"{name}.check.csv"))
+
+
+def read_slide(folder: Path, name: str, phase: str = "slide") -> Slide:
+    return slide_of(HagfishLog(folder / f"{name}.h5"), unmet_of(folder, name), phase)
+
+
+def slide_of(log: HagfishLog, unmet: list[str], phase: str) -> Slide:
+    """`unmet`: criteria of the scene that the run does not meet, as `hagfish check` and `hagfish sweep` name them."""
+    scene = log.scene()
+    end = "head" if phase == "slide" else "tail"
+    frames = log.in_phase(phase)
+    frames = frames[np.isfinite(log["/knot/head_end"][frames])]
+    time, place = log["/trajectory/time"][frames], log[f"/knot/{end}_end"][frames]
+    moved = frames.size >= LEAST_FRAMES
+    slope = float(np.polyfit(time, place, 1)[0]) if moved else np.nan
+    travel = float(place[-1] - place[0]) if moved else np.nan
+    sign = -1.0 if phase == "slide" else 1.0
+    means = read_means(log, phase)
+    some = moved and means.end.size > 0
+    steps = step_phases(log) == phase
+    at_cap = log["/steps/thigmotaxis_lambda"][steps] >= AT_CAP * scene["controller"]["cap"]
+    ended = str(log.attribute("status")) == "complete" and "unknot at end" not in unmet
+    commanded = float(scene["controller"][f"{phase}_head"]["a"])
+    return Slide(scene["expect"]["knot"], commanded, sign * slope, sign * travel,
+                 float(np.median(means.total)) if some else np.nan, float(means.total.max()) if some else np.nan,
+                 float(at_cap.mean()) if steps.any() else np.nan,
+                 float(np.nanmedian(np.fmax.reduce(means.slack, axis=1))) if some else np.nan,
+                 float((log["/steps/eq6"][steps] == 1).mean()) if steps.any() else np.nan,
+                 float(log["/steps/penetration"][steps].max()) if steps.any() else np.nan,
+                 float(scene["expect"]["penetration"]),
+                 "" if ended else failure_of(log, unmet), float(time[-1] - time[0]) if moved else np.nan)
+
+
+def read_slides(folder: Path, phase: str = "slide") -> list[Slide]:
+    """All runs of a sweep that kept its logs, by knot and speed."""
+    unmet = read_sweep(folder / "table.csv").texts["unmet"]
+    slides = [slide_of(HagfishLog(log_of(folder, str(cell))), text.split("; "), phase) for cell, text in enumerate(unmet)]
+    return sorted(slides, key=lambda s: (s.knot, s.commanded))
+
+
+def log_of(folder: Path, name: str) -> Path:
+    """The log of a cell of a sweep."""
+    return folder / "logs" / f"{name}.h5"

@@ -1,0 +1,8 @@
+#!/usr/bin/env bash
+# How well `hagfish midlines` gives back what was filmed: closed forms, ten runs as films with a tracker's faults, 300 damaged films;
+# and what the tutorial takes. Leaves tables.
+# Stopped, it goes on where it was.
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/../jobs.sh"
+
+HAGFISH_PROGRAM=$hagfish draw films.py "$runs" "$out"

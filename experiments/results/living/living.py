@@ -1,0 +1,201 @@
+"""The animal that ties itself: torques, noisy starts, other animals, the paper's claims, and sweeps of stiffness, drag and haste.
+
+Usage: living.py RUNS OUT_FOLDER.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+import audits
+import claim_row
+import claims
+import plots
+import tables
+from hagfish_log import HagfishLog, LogError
+from script import run_script
+from slides import read_slide, tied
+
+SWEEPS = {"stiffness": "flexural rigidity, dyn cm²", "drag": "drag, times that of the scenes",
+          "haste": "speed of the program"}
+CAPACITY = 2.7e5  # dyn cm, a guess: data/living_overhand.toml
+MARKER_EVERY = 0.1  # of the length of a line
+PHASES = ("form", "tighten", "slide", "release")
+
+
+@dataclass
+class Run:
+    """What one run shows; cm, dyn cm, erg."""
+
+    name: str
+    knot: str
+    outcome: str  # "off", or why the run is not one
+    travel: float  # of the knot's head end
+    share: float  # of a slide by both ends, %
+    met: float  # share of sliding steps that meet Eq. 6
+    force: float  # median of the sum of the multipliers of Eq. 6 / h while sliding, dyn
+    penetration: float
+    torque: dict[str, float]  # largest of a hinge, by phase
+
+
+def outcome_of(log: HagfishLog, unmet: list[str]) -> str:
+    status = str(log.attribute("status"))
+    if status != "complete":
+        return status.removeprefix("failed: ").split(" at step")[0]
+    if not tied(log):
+        return "not tied in time"
+    return "knot lost" if "knot held" in unmet else "still tied" if "unknot at end" in unmet else "off"
+
+
+def read_run(folder: Path, name: str, knot: str) -> Run:
+    log = HagfishLog(folder / f"{name}.h5")
+    findings = audits.read_findings(folder / f"{name}.check.csv")
+    unmet = audits.unmet(findings)
+    slide = read_slide(folder, name)
+    torque = np.abs(np.nan_to_num(log["/forces/active"])).max(axis=1)  # no step begins at the end
+    frames = {phase: log.in_phase(phase) for phase in PHASES}
+    return Run(name, knot, outcome_of(log, unmet), slide.travel, audits.value_of(findings, "slide of both ends"),
+               slide.met, slide.force,
+               float(log["/steps/penetration"].max()),
+               {phase: float(torque[rows].max()) if rows.size else np.nan for phase, rows in frames.items()})
+
+
+def shape_apart(log: HagfishLog, other: HagfishLog) -> tuple[np.ndarray, np.ndarray]:
+    """Time and the largest difference of a hinge's angle, rad, at frames that both runs have."""
+    frames = min(log.frames, other.frames)
+    q, p = (one["/trajectory/q"][:frames, 7:] for one in (log, other))
+    return log["/trajectory/time"][:frames], np.abs(q - p).max(axis=1)
+
+
+def names_of(folder: Path, kind: str, scene: str) -> list[str]:
+    """All runs KIND_SCENE_VALUE."""
+    return sorted(path.name.removesuffix(".check.csv") for path in folder.glob(f"{kind}_{scene}_*.check.csv"))
+
+
+def claims_table(folder: Path, out: Path) -> None:
+    """Verdicts and measures of claim_row.py over starts with a degree of noise."""
+    rows = []
+    for scene, knot in plots.SCENES.items():
+        judged, others = [], Counter()
+        for name in names_of(folder, "claims", scene):
+            log = HagfishLog(folder / f"{name}.h5")
+            outcome = claim_row.outcome_of(log)
+            try:
+                judged.append(dict(zip(claim_row.HEADING, claim_row.judged(log), strict=True)) if outcome == "slid"
+                              else None)
+            except claims.ShortSlide:
+                judged.append(None)
+                outcome = "hardly slid"
+            if judged[-1] is None:
+                others[outcome] += 1
+        own = [row for row in judged if row]
+        verdicts = [claims.over_runs([row[name] for row in own]) for name in claims.NAMES]
+        spread = lambda what: "{1:.3g} ({0:.3g} to {2:.3g})".format(*np.percentile([row[what] for row in own],
+                                                                                   [0, 50, 100])) if own else ""
+        rows.append([knot, f"{len(own)} of {len(judged)}", *verdicts, *map(spread, claim_row.MEASURES[1:]),
+                     ", ".join(f"{what}: {count}" for what, count in others.items())])
+    tables.write_table(out, "living_claims", ["knot", "let go at the head", *claims.NAMES, "beyond, dyn cm",
+                                              "near over far", "roughness along the body", "in time",
+                                              "Fourier modes for 95 %", "what else became of it"], rows)
+
+
+def draw(folder: Path, sweeps: dict[str, dict[str, list[tuple[float, Run]]]], out: Path) -> None:
+    figure, axes = plots.panels(2, 2, (10, 7), ["what a noisy start leaves behind",
+                                                *(f"torque by {what}" for what in SWEEPS)])
+    for scene, knot in plots.SCENES.items():
+        look = plots.KNOTS[knot]
+        plain = HagfishLog(folder / f"held_{scene}.h5")
+        time, apart = shape_apart(plain, HagfishLog(folder / f"heldstart_{scene}_1.h5"))
+        axes[0].plot(time, np.maximum(apart, 1e-12), label=look.label, markevery=MARKER_EVERY, **look.style)
+    axes[0].set(yscale="log", xlabel="time, s", ylabel="largest difference of a hinge's angle, rad")
+    axes[0].legend()
+    for panel, (what, label) in zip(axes[1:], SWEEPS.items(), strict=True):
+        for knot, runs in sweeps[what].items():
+            look = plots.KNOTS[knot]
+            largest = [run.torque["form"] for _, run in runs]
+            panel.plot([value for value, _ in runs], largest, label=look.label, **look.style)
+            lost = [(value, torque) for (value, run), torque in zip(runs, largest, strict=True) if run.outcome != "off"]
+            panel.plot([v for v, _ in lost], [t for _, t in lost], color=look.colour, marker=look.marker, mfc="white",
+                       ls="")
+        panel.axhline(CAPACITY, color=plots.GREY, ls="--", lw=0.8)
+        panel.set(xscale="log", xlabel=label, ylabel="largest torque of a hinge\nwhile the knot forms, dyn cm",
+                  ylim=(0, 1.1 * CAPACITY))
+        panel.ticklabel_format(axis="y", style="sci", scilimits=(5, 5))
+        if what != "stiffness":
+            plots.plain_ticks(panel.xaxis, [value for value, _ in next(iter(sweeps[what].values()))])
+    axes[1].set(yscale="log", ylim=(1e4, 5e5))
+    axes[2].legend(title="open: not tied, or not off\ndashed: a guess at the capacity", loc="lower left", ncol=2)
+    plots.save(figure, out)
+
+
+def sweep_rows(sweeps: dict[str, dict[str, list[tuple[float, Run]]]]) -> list[list[str]]:
+    """A row a value of each sweep: how many knots are tied and come off, and the span of their largest torques while forming, dyn cm."""
+    rows = []
+    for what, label in SWEEPS.items():
+        for value in sorted({value for runs in sweeps[what].values() for value, _ in runs}):
+            own = [run for runs in sweeps[what].values() for each, run in runs if each == value]
+            torques = [run.torque["form"] for run in own if run.outcome == "off"]
+            rows.append([f"{label}: {value:g}", f"{len(torques)} of {len(own)}",
+                         f"{min(torques):.2g} to {max(torques):.2g}" if torques else ""])
+    return rows
+
+
+def short(value: float) -> str:
+    return f"{value:.1e}".replace("e+0", "e")
+
+
+def main_table(folder: Path, out: Path) -> None:
+    of = lambda kind: [read_run(folder, f"{kind}_{scene}", knot) for scene, knot in plots.SCENES.items()]
+    every = lambda kind: [[read_run(folder, name, knot) for name in names_of(folder, kind, scene)]
+                          for scene, knot in plots.SCENES.items()]
+    held, free, animals = of("held"), of("free"), every("animal")
+    programs = [HagfishLog(folder / f"held_{scene}.h5").scene()["script"]["curvature"] for scene in plots.SCENES]
+    slid = lambda run: f"{run.travel:.1f}; {run.share:.0f}; {100 * run.met:.0f}"
+    came_off = lambda runs: sum(run.outcome == "off" for run in runs)
+    off = lambda kind: [f"{came_off(runs)}; {np.nanmin([run.share for run in runs]):.0f}" for runs in every(kind)]
+    tables.write_table(out, "living", ["h = 5 ms, `active-set`", *plots.SCENES.values()], [
+        ["clamped: way of the knot's head end, cm; share of a slide by both ends, %; steps that meet Eq. 6, %",
+         *map(slid, held)],
+                                                                                           ["free, no plate: the same", *map(slid, free)],
+                                                                                           ["deepest penetration at any step, release included, cm",
+                                                                                            *(f"{max(a.penetration, b.penetration):.4f}" for a, b in zip(held, free))],
+                                                                                           ["λ/h of the first and last contact while sliding, clamped, median, dyn", *(short(run.force) for run in held)],
+                                                                                           ["largest torque of a hinge, forming; sliding, dyn cm",
+                                                                                            *(f"{short(run.torque['form'])}; {short(run.torque['slide'])}" for run in held)],
+                                                                                           ["values of the program: stations x times", *(f"{len(each['stations'])} x {len(each['times'])}"
+                                                                                                                                         for each in programs)],
+                                                                                           ["of 20 starts with 3 degrees (3_1: 5) of noise on every hinge, clamped: tied, kept and off; least share, %",
+                                                                                            *off("heldstart")],
+                                                                                           ["free: the same", *off("freestart")],
+                                                                                           ["of 10 other animals, clamped: tied, kept and off", *(str(came_off(each)) for each in animals)],
+                                                                                           ["of these: least share, %", *("{:.0f}".format(min(run.share for run in each if run.outcome == "off"))
+                                                                                                                          for each in animals)],
+                                                                                           ["of these that slide: sliding steps that meet Eq. 6, %: median, least",
+                                                                                            *("{:.0f}, {:.0f}".format(*(100 * pick([run.met for run in each if run.outcome == "off"
+                                                                                                                                    and np.isfinite(run.met)])
+                                                                                                                        for pick in (np.median, min))) for each in animals)]])
+
+
+def main(folder: Path, out: Path) -> None:
+    if not list(folder.glob("held_*.check.csv")):
+        raise LogError(f"{folder}: holds no run held_*")
+    value_of = lambda name: float(name.rsplit("_", 1)[1])
+    runs_of = lambda what, scene, knot: [(value_of(name), read_run(folder, name, knot))
+                                         for name in names_of(folder, what, scene)]
+    sweeps = {what: {knot: sorted(runs_of(what, scene, knot), key=lambda each: each[0]) for scene,
+                     knot in plots.SCENES.items()}
+              for what in SWEEPS}
+    draw(folder, sweeps, out / "living.png")
+    main_table(folder, out)
+    claims_table(folder, out)
+    tables.write_table(out, "living_sweeps", [
+        "what is changed", "knots tied and slid off", "largest torque of a hinge while forming, dyn cm"],
+                       sweep_rows(sweeps))
+
+
+if __name__ == "__main__":
+    run_script(__doc__, ["RUNS", "OUT_FOLDER"], main)

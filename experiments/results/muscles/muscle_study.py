@@ -1,0 +1,123 @@
+"""What muscles tell by knot: while the animal ties, slides and pulls, from noisy starts moved by activations, and in stiffer bodies.
+
+Usage: muscle_study.py RUNS.
+"""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+
+import audits
+import plots
+import tables
+from hagfish_log import HagfishLog, LogError
+from muscles import Effort, Muscles
+from script import run_script
+
+
+def sliding(log: HagfishLog) -> np.ndarray:
+    frames = log.intervals_in("slide")
+    if not frames.size:
+        raise LogError(f"{log.path}: has no slide of the knot")
+    return frames
+
+
+def work(log: HagfishLog, frames: np.ndarray) -> float:
+    """Of u and f_thigmo between the first and the last frame, erg."""
+    total = log["/diagnostics/work_active"] + log["/diagnostics/work_thigmotaxis"]
+    return float(total[frames[-1]] - total[frames[0] - 1])
+
+
+def way(log: HagfishLog) -> float:
+    """Of the knot's head end while it slides, cm to the head."""
+    frames = log.in_phase("slide")
+    end = log["/knot/head_end"][frames]
+    return float(end[0] - end[-1])
+
+
+def rows_of(name: str, efforts: list[Effort]) -> list[list[str]]:
+    return [[f"{name}: peak activation of lines; of obliques", *(f"{e.lines:.2f}; {e.obliques:.2f}" for e in efforts)],
+            [f"{name}: mean activation", *(f"{e.mean:.3f}" for e in efforts)],
+            [f"{name}: antagonists' share of the force, %", *(f"{100 * e.antagonists:.1f}" for e in efforts)],
+            [f"{name}: frames in which a muscle is too weak, %", *(f"{100 * e.short:.0f}" for e in efforts)]]
+
+
+def by_knot(folder: Path) -> None:
+    tied = [Muscles(HagfishLog(folder / f"tie_{scene}.h5")) for scene in plots.SCENES]
+    pulled = [Muscles(HagfishLog(folder / f"pull_{scene}.h5")) for scene in plots.SCENES]
+    slides = [sliding(m.log) for m in tied]
+    slid = [m.of(frames) for m, frames in zip(tied, slides)]
+    rows = rows_of("tying", [m.of(m.log.intervals_in("form")) for m in tied])
+    rows += rows_of("sliding", slid)
+    rows += rows_of("pulling", [m.of(m.log.intervals_in("pull")) for m in pulled])
+    rows += [["sliding: mean activation times time, s for each cm",
+              *(f"{e.mean * e.seconds / way(m.log):.3f}" for m, e in zip(tied, slid))],
+             ["sliding: work of muscles, erg for each cm", *(f"{work(m.log, f) / way(m.log):.2g}" for m, f in zip(tied, slides))],
+             ["sliding: one pair of constant arms instead, off by: median; largest, %",
+              *("{:.0f}; {:.0f}".format(*(100 * off for off in m.pair_off(f))) for m, f in zip(tied, slides))]]
+    tables.write_table(folder, "muscles", ["", *plots.SCENES.values()], rows)
+
+
+def forward(folder: Path) -> None:
+    rows = []
+    for path in sorted(folder.glob("forward_*.h5")) + sorted(folder.glob("start_*.h5")) + sorted(folder.glob("lag_*.h5")):
+        log = HagfishLog(path)
+        frames = log.in_phase("slide")
+        if not frames.size:
+            rows.append([path.stem, "never slides", "", "", "", ""])
+            continue
+        held = np.isin(log.labels("/trajectory/phase"), ("tighten", "slide"))
+        types = {(int(d), int(v)) for d, v in zip(log["/knot/determinant"][held], log["/knot/v2"][held])}
+        time = log["/trajectory/time"][frames]
+        driven = log["/muscle/driven"][frames]
+        share = audits.value_of(audits.read_findings(path.with_suffix(".check.csv")), "slide of both ends")
+        rows.append([path.stem, "kept" if len(types) == 1 else "lost", f"{way(log):.2f}", f"{share:.0f}",
+                     f"{way(log) / (time[-1] - time[0]):.2f}",
+                     f"{np.quantile(driven, 0.999):.2f}"])
+    tables.write_table(folder, "muscles_forward", ["on activations", "type until release", "way of the head end, cm",
+                                                   "share of a slide by both ends, %", "cm/s", "peak activation"], rows)
+
+
+def stiffness(folder: Path) -> None:
+    figure, panels = plots.panels(1, 2, (8.5, 3.4), ["peak activation while tying and sliding", "frames in which a muscle is too weak"])
+    rows: dict[float, list[str]] = {}
+    for scene, knot in plots.SCENES.items():
+        found = {2e5: folder / f"tie_{scene}.h5"}
+        for path in folder.glob(f"ei_{scene}_*.h5"):
+            found[float(re.sub(r".*_", "", path.stem))] = path
+        points = []
+        for value, path in sorted(found.items()):
+            log = HagfishLog(path)
+            muscles = Muscles(log)
+            frames = np.flatnonzero(np.isin(log.labels("/trajectory/phase"), ("form", "tighten", "slide")))[1:]
+            effort = muscles.of(frames)
+            tied = log.in_phase("slide").size > 0
+            points.append((value / 1e5, max(effort.lines, effort.obliques), 100 * effort.short, tied))
+            rows.setdefault(value, []).append(f"{points[-1][1]:.2f}; {points[-1][2]:.0f}" + ("" if tied else "; not tied"))
+        for axes, column in zip(panels, (1, 2)):
+            x, y = [p[0] for p in points], [p[column] for p in points]
+            axes.plot(x, y, label=plots.KNOTS[knot].label, **plots.KNOTS[knot].style)
+            loose = [(p[0], p[column]) for p in points if not p[3]]
+            axes.plot(*zip(*loose) if loose else ((), ()), "x", ms=10, color=plots.VERMILION, ls="none")
+    panels[0].plot([], [], "x", ms=10, color=plots.VERMILION, label="does not tie")
+    for axes, name in zip(panels, ("activation", "% of frames")):
+        axes.set_xscale("log")
+        plots.plain_ticks(axes.xaxis, (0.4, 1, 2, 3, 4, 6, 8))
+        axes.set(xlabel="flexural rigidity EI, $10^5$ dyn cm²\n(muscles' stiffness: 5, and 2.5 EI above EI = 2)", ylabel=name)
+    panels[0].legend()
+    plots.save(figure, folder / "muscles_stiffness.png")
+    tables.write_table(folder, "muscles_stiffness", ["EI, dyn cm²: peak activation; frames in which a muscle is too weak, %",
+                                                     *plots.SCENES.values()],
+                       [[f"{value:.0e}".replace("e+0", "e"), *cells] for value, cells in sorted(rows.items())])
+
+
+def main(folder: Path) -> None:
+    for table in (by_knot, forward, stiffness):
+        table(folder)
+
+
+if __name__ == "__main__":
+    run_script(__doc__, ["RUNS"], main)

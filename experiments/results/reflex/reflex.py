@@ -1,0 +1,449 @@
+"""The reflex: its tables and figures.
+
+Usage: reflex.py FOLDER KNOWN.csv. FOLDER is what study.sh leaves, KNOWN.csv the table of all runs as the page has it. Its rows
+stay where FOLDER has not their part of the study, so that a part can be made anew by itself: of an empty FOLDER all tables are
+made of those that are known. A test makes them so.
+"""
+
+from __future__ import annotations
+
+import datetime
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import Any
+
+import matplotlib.image
+import numpy as np
+
+import plots
+import reflex_runs
+import skin
+import tables
+from hagfish_log import HagfishLog
+from log_pictures import pictures_of
+from reflex_runs import Row, read_table
+from script import run_script
+from slides import log_of
+
+KNOTS = list(plots.KNOTS)
+USUAL, FINE_MESH, FINE_STEP, FINEST = "100; 2", "200; 2", "100; 1", "200; 1"  # bodies; step, ms
+STIFFNESS, RIGIDITY, DAMPING = 5e5, 2e5, 3e3  # B_a of living_overhand; B and C of the specimen: dyn cm^2, dyn cm^2, dyn cm^2 s
+NAMES = {"delay": "senses late by, s", "noise": "senses wrong by, share of each angle", "bodies": "bodies",
+         "step": "step, s",
+         "drag": "drag across the body, g/(s cm)", "muscle": "muscles B_a, dyn cm²", "damping": "damping C, dyn cm² s",
+         "stiffness": "body EI, dyn cm²", "animals": "other animals", "starts": "starts with 3° of noise"}
+SHIFT = 0.0106  # cm: the scenes' 2.5e-4 L
+UNTIED = "not tied"
+CHANGES = {"shift": "Δ, cm", "delay": NAMES["delay"], "noise": NAMES["noise"], "normal": NAMES["drag"],
+           "bending_damping": NAMES["damping"],
+           "noise_deg": "starts with noise, degrees"}
+LOOSE = {"tighten": "where the knot is first there", "form": "a second before that"}
+
+
+Cells = tuple[list[str], list[list[str]]]  # heading and rows of a table
+
+
+def pick(rows: Iterable[Row], **wanted: str) -> list[Row]:
+    return [row for row in rows if all(getattr(row, key) == value for key, value in wanted.items())]
+
+
+def one(rows: Iterable[Row], **wanted: str) -> Row | None:
+    return next(iter(pick(rows, **wanted)), None)
+
+
+def law_speed(shift: float) -> float:
+    """v = Δ (B_a + B) / C, cm/s."""
+    return shift * (STIFFNESS + RIGIDITY) / DAMPING
+
+
+def figure_of(value: float | None, digits: int = 3) -> str:
+    if value is None or np.isnan(value):
+        return "-"
+    text = f"{value:.{digits}g}"
+    return text.replace("e+0", "e").replace("e-0", "e-")
+
+
+def came(row: Row | None) -> str:
+    """How far the knot came, in words."""
+    if row is None:
+        return "not run"
+    if row.way is None or row.time is None:
+        return UNTIED
+    return f"{row.way:.1f} in {row.time:.1f} s" if row.slid == "yes" else f"lost at {row.way:.1f}" if row.held == "no" else f"{row.way:.1f}"
+
+
+def span(values: Iterable[float | None], form: Callable[[float], str] = lambda v: figure_of(v, 2)) -> str:
+    known = [value for value in values if value is not None and not np.isnan(value)]
+    least, most = form(min(known)), form(max(known))
+    return least if least == most else f"{least} to {most}"
+
+
+def knots_table(rows: list[Row]) -> Cells:
+    body = []
+    for head in ("clamped", "free"):
+        for knot in KNOTS:
+            own, paper = one(rows, study="knots", knot=knot, head=head, setting=USUAL), one(rows, study="paper",
+                                                                                            knot=knot, head=head)
+            for name, row in (("reflex", own), ("Eq. 6", paper)):
+                if row is not None:
+                    body.append([f"{knot}, {head}", name, came(row), row.held, figure_of(row.torque, 2),
+                                 figure_of(row.effort, 2),
+                                 figure_of(row.put_in, 2), figure_of(row.work, 2), figure_of(row.wave, 2),
+                                 figure_of(row.travel, 2)])
+    return ["knot, head", "law", "way, cm, in time", "type held", "largest torque, dyn cm", "effort, dyn s",
+            "work put in, erg/cm", "net work, erg/cm", "wave's speed, of the knot's", "travel, share of change"], body
+
+
+def apart(a: float | None, b: float | None) -> str:
+    """By how much b differs from a, %."""
+    return f"{100 * (b / a - 1):+.1f}" if a and b else "-"
+
+
+def mesh_table(rows: list[Row]) -> Cells:
+    settings = [USUAL, FINE_MESH, FINE_STEP, FINEST]
+    body = []
+    for head in ("clamped", "free"):
+        for knot in KNOTS:
+            found = [one(rows, study="knots", knot=knot, head=head, setting=setting) for setting in settings]
+            of = lambda key: [getattr(row, key) if row else None for row in found]
+            time, middle = of("time"), of("middle")
+            body.append([f"{knot}, {head}", *("; ".join(figure_of(value) for value in pair)
+                                              for pair in zip(time, middle)),
+                         *(apart(values[0], values[1]) for values in (time, middle)), apart(middle[1], middle[3])])
+    return ["slide; its middle, s", *(f"{s.split('; ')[0]} bodies, {s.split('; ')[1]} ms" for s in settings),
+            "slide, 200 against 100 bodies, %", "middle, the same, %", "middle, 1 against 2 ms, 200 bodies, %"], body
+
+
+def meshes_table(rows: list[Row]) -> Cells:
+    own = pick(rows, study="meshes")
+    counts = list(dict.fromkeys(row.setting for row in own))
+    body = []
+    for head in ("clamped", "free"):
+        for knot in KNOTS:
+            found = [one(own, knot=knot, head=head, setting=count) for count in counts]
+            times = {count: row.middle for count, row in zip(counts, found) if row}
+            body.append([f"{knot}, {head}", *(figure_of(times.get(count)) for count in counts),
+                         apart(times.get("200"), times.get("400"))])
+    return ["middle of the slide, s", *(f"{count} bodies" for count in counts), "400 against 200, %"], body
+
+
+def wiped_table(rows: list[Row]) -> Cells:
+    body = []
+    for head in ("clamped", "free"):
+        for knot in KNOTS:
+            pair = [one(rows, study=study, knot=knot, head=head, setting=USUAL) for study in ("knots", "paper")]
+            body.append([f"{knot}, {head}", *(figure_of(getattr(row, key) if row else None, 2) for row in pair
+                                              for key in ("rings", "skin"))])
+    return ["share that skin pressed on", "reflex: length", "reflex: skin", "Eq. 6: length", "Eq. 6: skin"], body
+
+
+def loose_table(rows: list[Row]) -> Cells:
+    body = [[row.knot, LOOSE[row.study], row.setting, figure_of(row.time, 2), row.types.replace(" ", ", "),
+             figure_of(row.span_from), figure_of(row.span_to)]
+            for row in rows if row.study in ("tighten", "form")]
+    return ["knot", "the reflex begins", "Δ at the tail end, of that at the head end", "for, s",
+            "what there was, in turn", "span then, cm", "least span, cm"], body
+
+
+def grid_table(rows: list[Row], study: str) -> Cells:
+    own = pick(rows, study=study)
+    settings = list(dict.fromkeys(row.setting for row in own))
+    return ["what copies", *KNOTS], [[setting, *(came(one(own, knot=knot, setting=setting)) for knot in KNOTS)]
+                                     for setting in settings]
+
+
+def speed_table(rows: list[Row]) -> Cells:
+    own = pick(rows, study="speed")
+    cases = list(dict.fromkeys((row.knot, row.head) for row in own))
+    shifts = list(dict.fromkeys(row.setting.split("; ")[0] for row in own))
+    body = []
+    for shift in shifts:
+        law = law_speed(float(shift))
+        cells = []
+        for knot, head in cases:
+            pair = [one(own, knot=knot, head=head, setting=f"{shift}; {step}") for step in (5, 2)]
+            cells.append("; ".join(f"{row.speed / law:.2f}" + ("" if row.slid == "yes" else "*") for row in pair if row
+                                   and row.way))
+        body.append([shift, figure_of(law), *cells])
+    return ["Δ, cm", "law, cm/s", *(f"{knot}, {head}: measured of law, 5 ms; 2 ms" for knot, head in cases)], body
+
+
+def slid_of(rows: list[Row]) -> str:
+    return f"{len(pick(rows, slid='yes'))} of {len(rows)}"
+
+
+def robust_table(rows: list[Row]) -> Cells:
+    """One setting changed at a time, other animals and starts."""
+    body = []
+    tied = lambda own, knot: [row for row in pick(own, knot=knot) if row.way is not None]
+    for study, name in NAMES.items():
+        own = pick(rows, study=study)
+        if study in ("animals", "starts"):
+            body += [[f"clamped, {name}", *(f"{slid_of(tied(own, knot))} tied" for knot in KNOTS)]] if own else []
+            continue
+        for setting in dict.fromkeys(row.setting for row in own):
+            body.append([f"clamped, {name}: {setting}",
+                         *(came(one(own, knot=knot, setting=setting)) for knot in KNOTS)])
+    own = pick(rows, study="free")
+    for setting in dict.fromkeys(row.setting for row in own):
+        name, _, value = setting.partition(" = ")
+        runs = [pick(own, knot=knot, setting=setting) for knot in KNOTS]
+        body.append([f"free, {CHANGES.get(name, name)}: {value}" if value else f"free, {setting}",
+                     *(came(each[0]) if len(each) == 1 else slid_of(each) for each in runs)])
+    if programs := pick(rows, study="free_programs"):
+        body.append(["free, programs with noise of 0.2 rad/L",
+                     *(f"{slid_of(tied(programs, knot))} tied" for knot in KNOTS)])
+    return ["3_1 to 5_2, h = 5 ms", *KNOTS], body
+
+
+def claims_table(rows: list[Row]) -> Cells:
+    body = []
+    for study, name in (("knots", "reflex"), ("paper", "Eq. 6")):
+        for knot in KNOTS:
+            row = one(rows, study=study, knot=knot, head="clamped", setting=USUAL)
+            if row is not None and row.behind is not None:
+                body.append([knot, name, figure_of(row.behind, 2), figure_of(row.near, 2), row.rank,
+                             figure_of(row.rough_space, 2),
+                             figure_of(row.rough_time, 2), figure_of(row.likeness, 2)])
+    return ["knot", "law", "largest behind the knot, of the largest", "near the head, of far from it",
+            "grows to the head", "roughness along the body", "roughness in time",
+            "cosine with the curvature's gradient"], body
+
+
+def pull_table(rows: list[Row]) -> Cells:
+    body = [[row.knot, "Eq. 6 at all contacts" if row.setting == "paper" else "reflex, scene's Δ",
+             figure_of(row.pull, 2), row.held]
+            for row in pick(rows, study="pull")]
+    body += [[row.knot, f"reflex, Δ = {row.setting} cm", figure_of(row.pull, 2), row.held]
+             for row in pick(rows, study="pull_shift")]
+    return ["knot", "law", "pull, N", "type held"], sorted(body, key=lambda cells: cells[0])
+
+
+def soft_pairs(rows: list[Row]) -> list[tuple[Row, Row]]:
+    """The same soft body slid by the reflex and by Eq. 6."""
+    return [(own, other) for other in pick(rows, study="paper_soft")
+            for own in pick(rows, study="stiffness", knot=other.knot, setting=other.setting)]
+
+
+def soft_table(rows: list[Row]) -> Cells:
+    return ["knot, EI, dyn cm²", "reflex", "Eq. 6 at all contacts"], [
+        [f"{own.knot}, {own.setting}", came(own), came(other)] for own, other in soft_pairs(rows)]
+
+
+def beside(rows: list[Row], row: Row) -> Row | None:
+    """The run here that a run in MuJoCo is held against: the same without the head plate."""
+    return one(rows, study="beside", knot=row.knot, head=row.head,
+               setting=row.setting if row.setting.startswith("no drag") else "with drag")
+
+
+def mujoco_table(rows: list[Row]) -> Cells:
+    body = []
+    for row in pick(rows, study="mujoco"):
+        own = beside(rows, row)
+        body.append([f"{row.knot}, {row.head}", row.setting or "from the straight body", came(row), row.held, came(own),
+                     figure_of(own.time / row.time if own and own.time else None),
+                     figure_of(own.middle / row.middle if own and own.middle and row.middle else None)])
+    return ["knot, head", "run", "MuJoCo: way, cm, in time", "type held", "here", "speed there, of that here",
+            "the same, middle of the slide"], body
+
+
+def figures_table(rows: list[Row]) -> Cells:
+    """What sentences of the page say and no other table has."""
+    usual, paper, rate = pick(rows, study="knots", setting=USUAL), pick(rows, study="paper"), pick(rows, study="rate")
+    efforts = [own.effort / other.effort for own in usual if own.effort
+               for other in pick(paper, knot=own.knot, head=own.head) if other.effort]
+    tied = lambda *studies: [row for study in studies for row in pick(rows, study=study) if row.way is not None]
+    shuffled = [row for row in pick(rows, study="laws") if row.setting.startswith("shuffled")]
+    free = [row.speed / law_speed(SHIFT) for row in usual if row.head == "free"]
+    nothing = [row.way for row in pick(rows, study="knockouts", setting="nothing copied")]
+    soft = soft_pairs(rows)
+    lost = [own for own, other in soft if other.held == "no"]
+    there = [(beside(rows, row), row) for row in pick(rows, study="mujoco")]
+    two, one_digit = (lambda value: f"{value:.2f}"), (lambda value: f"{value:.1f}")
+
+    def off(key: str, setting: str, base: str = USUAL, **of: str) -> float:
+        """The most by which runs of a setting differ from those of another, %."""
+        pairs = [(getattr(own, key), getattr(other, key)) for own in pick(rows, study="knots", setting=base, **of)
+                 for other in pick(rows, study="knots", setting=setting, knot=own.knot, head=own.head)]
+        return max((100 * abs(other / own - 1) for own, other in pairs if own and other), default=np.nan)
+
+    def ratios(key: str, wanted: Callable[[str], bool]) -> str:
+        pairs = [(getattr(own, key), getattr(row, key)) for own, row in there if own and wanted(row.setting)]
+        return span([own / other for own, other in pairs if own and other], two)
+
+    def curved(knot: str) -> str:
+        middles = [row.middle for setting in ("100", "200")
+                   for row in pick(rows, study="curves", knot=knot, setting=setting)]
+        return apart(*middles)
+
+    with_drag = lambda setting: not setting.startswith("no drag")
+    plate, no_plate = (one(rows, study=study, knot="5_2", head="clamped", setting=setting) for study, setting in (
+        ("knots", USUAL), ("mujoco", "from the slide")))
+    steps = max(off(key, *settings) for key in ("time", "middle") for settings in ((FINE_STEP,), (FINEST, FINE_MESH)))
+    return ["figure", "value"], [
+        ["runs that slid", slid_of(usual)],
+        ["effort, of that of Eq. 6", span(efforts, two)],
+        ["times at two steps differ by at most, %", one_digit(steps)],
+        ["skins touch within, cm", f"{skin.TOUCHING:g}"],
+        *([f"arcs of the middle, {knot}, cm", f"{first:g} to {last:g}"] for knot,
+          (first, last) in reflex_runs.MIDDLE.items()),
+        *([f"meshes differ, {head}, %", one_digit(off("middle", FINE_MESH, head=head))]
+          for head in ("free", "clamped")),
+        *([f"meshes by a parabola, {knot}, %", curved(knot)] for knot in KNOTS
+          if pick(rows, study="curves", knot=knot)),
+        ["speed of a free head, of the law's", span(free, two)],
+        ["way where nothing is copied, cm", span(nothing, one_digit)],
+        ["shuffled neighbours that lose the knot", f"{len(pick(shuffled, held='no'))} of {len(shuffled)}"],
+        ["runs by rate that came to the head", slid_of(rate)],
+        ["leap of a shape held for a second, cm", figure_of(law_speed(SHIFT), 2)],
+        ["starts that slid", slid_of(tied("starts"))],
+        ["animals that slid", slid_of(tied("animals"))],
+        ["free heads that tied", str(len(tied("free", "free_programs")))],
+        ["free heads that slid", str(len(pick(tied("free", "free_programs"), slid="yes")))],
+        ["lost by Eq. 6", f"{len(lost)} of {len(soft)}"],
+        ["of these kept by the reflex", str(len(pick(lost, held="yes")))],
+        ["soft bodies at the head by the reflex", str(len(pick([own for own, _ in soft], slid="yes")))],
+        ["soft bodies at the head by Eq. 6", str(len(pick([other for _, other in soft], slid="yes")))],
+        ["MuJoCo with drag, whole slide", ratios("time", with_drag)],
+        ["MuJoCo with drag, middle", ratios("middle", with_drag)],
+        ["MuJoCo without drag", ratios("time", lambda setting: setting == "no drag")],
+        ["MuJoCo without it, fine mesh", ratios("time", lambda setting: "200 bodies" in setting)],
+        ["5_2 here with a head plate, of MuJoCo's time", two(plate.time / no_plate.time)]]
+
+
+TABLES: dict[str, Callable[[list[Row]], Cells]] = {
+    "knots": knots_table, "mesh": mesh_table, "meshes": meshes_table, "speed": speed_table,
+    "knockouts": lambda rows: grid_table(rows, "knockouts"), "laws": lambda rows: grid_table(rows, "laws"),
+    "rate": lambda rows: grid_table(rows, "rate"), "robust": robust_table, "claims": claims_table, "pull": pull_table,
+    "loose": loose_table, "wiped": wiped_table, "soft": soft_table, "mujoco": mujoco_table, "figures": figures_table}
+
+
+def draw_ways(axes: Any, folder: Path) -> None:
+    """The clamped knots without a head plate, here and, from the same state at the start of the slide, in MuJoCo."""
+    table = reflex_runs.read_sweep(folder / "beside/table.csv")
+    rows = reflex_runs.sweep_rows("beside", table, reflex_runs.settings_of("beside", table))
+    for cell, row in enumerate(rows):
+        if row.setting != "with drag" or row.head != "clamped":
+            continue
+        scene, look = table.axes["scene"][cell], plots.KNOTS[row.knot]
+        for path, style in ((log_of(folder / "beside", str(cell)), {"label": look.label}),
+                            (folder / f"mujoco/{scene}-from_the_slide.h5", {"ls": "--"})):
+            log = HagfishLog(path)
+            frames = log.in_phase("slide")
+            time = log["/trajectory/time"][frames]
+            axes.plot(time - time[0], log["/knot/head_end"][frames], color=look.colour, **style)
+    axes.plot([], [], color=plots.GREY, ls="--", label="in MuJoCo")
+    axes.set(xlabel="time since the start of the slide, s", ylabel="head end of the knot, cm from the head",
+             ylim=(0, 13))
+    axes.legend(loc="upper right", ncols=2)
+
+
+def draw_torque(axes: Any, folder: Path) -> None:
+    """The reflex's own torque along the body beside the gradient of curvature, half way through the slide of the 3_1."""
+    log = HagfishLog(log_of(folder / "knots", "0"))
+    frames = log.intervals_in("slide")
+    frame = frames[frames.size // 2: frames.size // 2 + 1]
+    _, joint, kind = log.hinges()
+    curvature, arc, apart = reflex_runs.shape(log, frame)
+    slope = np.gradient(curvature[0, 0], apart)
+    own = reflex_runs.asked_torques(log, frame)[0, kind == "bend_y"]
+    scale = (STIFFNESS + RIGIDITY) * float(log.scene()["controller"]["reflex"]["shift"]) / 1e3
+    axes.axvspan(float(log["/knot/head_end"][frame[0]]), float(log["/knot/tail_end"][frame[0]]), color=plots.GRID, lw=0,
+                 label="the knot")
+    axes.plot(arc, scale * slope, color=plots.GREY, lw=2.5, label=r"$\Delta\,(B_a+B)\,\partial\kappa/\partial s$")
+    axes.plot(arc, own / 1e3, color=plots.VERMILION, marker="o", ms=3, lw=1, label="torque of the reflex")
+    axes.set(xlabel="arc length from the head, cm", ylabel="bending about Y, 1000 dyn cm", xlim=(0, arc[-1]))
+    axes.legend(loc="upper right")
+
+
+def draw_speeds(axes: Any, rows: list[Row]) -> None:
+    own = [row for row in pick(rows, study="speed") if row.way and row.setting.endswith("; 2")]
+    for (knot, head), marker in zip(dict.fromkeys((row.knot, row.head) for row in own), "oDs"):
+        of = pick(own, knot=knot, head=head)
+        axes.plot([float(row.setting.split("; ")[0]) for row in of], [row.speed for row in of],
+                  color=plots.KNOTS[knot].colour, marker=marker,
+                  ls="-" if head == "clamped" else "--", mfc="white" if head == "free" else None,
+                  label=f"{plots.KNOTS[knot].label}, {head}")
+    shifts = sorted({float(row.setting.split("; ")[0]) for row in own})
+    axes.plot(shifts, [law_speed(shift) for shift in shifts], color=plots.GREY, lw=0.9, ls=":",
+              label=r"$v=\Delta\,(B_a+B)/C$", zorder=0)
+    axes.set(xscale="log", yscale="log", xlabel=r"length by which joints copy, $\Delta$, cm",
+             ylabel="speed of the knot, cm/s")
+    plots.plain_ticks(axes.xaxis, shifts)
+    axes.legend(loc="upper left")
+
+
+MAPPED = {"delay": "late, s", "noise": "wrong, share", "bodies": "bodies", "step": "step, s", "drag": "drag, g/(s cm)",
+          "muscle": "$B_a$",
+          "damping": "$C$", "stiffness": "$EI$"}
+
+
+def draw_map(axes: Any, rows: list[Row]) -> None:
+    """A line for each setting, a cell for each of its values, split in four: full where the knot came to the head."""
+    studies = [study for study in MAPPED if pick(rows, study=study)]
+    for y, study in enumerate(studies):
+        own = pick(rows, study=study)
+        for x, setting in enumerate(dict.fromkeys(row.setting for row in own)):
+            for k, knot in enumerate(KNOTS):
+                row = one(own, knot=knot, setting=setting)
+                if row is None:
+                    continue
+                tied = row.way is not None
+                look = plots.KNOTS[knot]
+                axes.plot(x - 0.24 + 0.16 * k, y + 0.16, ls="", marker=look.marker if tied else "x", ms=5.5,
+                          mec=look.colour,
+                          mfc=look.colour if row.slid == "yes" else "white", color=look.colour)
+            axes.text(x, y - 0.26, setting, ha="center", va="center", fontsize=6.5)
+    axes.set_yticks(range(len(studies)), [MAPPED[study] for study in studies])
+    axes.set_xticks([])
+    axes.grid(False)
+    axes.set(ylim=(len(studies) - 0.5, -0.6), xlim=(-0.6, 7.6))
+    axes.set_xlabel("full: came to the head; open: did not; cross: the program tied no knot", fontsize=8)
+
+
+def draw(folder: Path, rows: list[Row], out: Path) -> None:
+    figure, (ways, torque, speeds, where) = plots.panels(2, 2, (11, 8), [
+        "every knot slides to the head", "the torque is the gradient of the shape ($3_1$, half way)",
+        "the law of speed", "where it holds"])
+    draw_ways(ways, folder)
+    draw_torque(torque, folder)
+    draw_speeds(speeds, rows)
+    draw_map(where, rows)
+    plots.save(figure, out)
+
+
+def draw_strip(here: Path, there: Path, out: Path) -> None:
+    """One slide here (above) and in MuJoCo (below), at the same times."""
+    slides = [log["/trajectory/time"][log.in_phase("slide")] for log in map(HagfishLog, (here, there))]
+    times = np.linspace(max(slide[0] for slide in slides), min(slide[-1] for slide in slides), 4)
+    # The legend of colours below is too small to be read here.
+    rows = [np.hstack([each[:int(0.75 * len(each))] for each in pictures_of(path, times, "--colour", "active")])
+            for path in (here, there)]
+    matplotlib.image.imsave(out, np.vstack(rows))
+
+
+def note_of(folder: Path, rows: list[Row], kept: list[str]) -> str:
+    """By which programs, on which machine and when: of the part of the study that was last run."""
+    logs = sorted(folder.glob("*/logs/*.h5"), key=lambda path: path.stat().st_mtime)
+    if not logs:
+        return kept[0]
+    date = datetime.datetime.fromtimestamp(logs[-1].stat().st_mtime, datetime.UTC)
+    programs = ", ".join(sorted({row.commit for row in rows}))
+    return f"Measured at {programs} on {HagfishLog(logs[-1]).attribute('cpu')}, {date:%Y-%m-%d}."
+
+
+def main(folder: Path, known: Path) -> None:
+    kept, notes = read_table(known) if known.is_file() else ([], [])
+    rows = reflex_runs.with_parts(kept, reflex_runs.read_study(folder))
+    notes = [note_of(folder, rows, notes)]
+    tables.write_table(folder, "reflex", reflex_runs.HEADING, reflex_runs.cells_of(rows), notes)
+    rows, _ = read_table(folder / "tables/reflex.csv")  # to six digits
+    for name, table in TABLES.items():
+        tables.write_table(folder, f"reflex_{name}", *table(rows), notes)
+    if all((folder / part / "table.csv").is_file() for part in ("knots", "beside")):
+        draw(folder, rows, folder / "reflex.png")
+        draw_strip(folder / "beside/logs/6.h5", folder / "mujoco/reflex_three_twist.h5", folder / "reflex_strip.png")
+
+
+if __name__ == "__main__":
+    run_script(__doc__, ["FOLDER", "KNOWN.csv"], main)

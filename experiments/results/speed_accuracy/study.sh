@@ -1,0 +1,69 @@
+#!/usr/bin/env bash
+# What accuracy costs while an animal ties itself, by rule, step, bodies and back end; in smooth motions, beside MuJoCo; and what each
+# choice of the Table 1 scene costs and buys. Slides are in contracting/. Leaves tables and two figures.
+# Stopped, it goes on where it was. Times are CPU times; jobs share the machine.
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/../jobs.sh"
+
+integrate() {
+  [[ -e $runs/$1.h5 ]] || "$hagfish" integrate --motion "$1" --out "$runs/$1.h5" --force >"$runs/$1.txt"
+}
+export -f integrate
+
+# Two living animals, to the end of their programs: tying.py compares them from 5 s on. The smallest step is for
+# the limit alone.
+ties() {
+  local knot bodies step rule
+  local -A until=([overhand]=11.5 [figure_eight]=13)
+  tie() { printf 'unchecked_run\ttie_%s_%s_%s_%s_%s\t3\t%s\n' "$1" "$2" "$3" "$4" "$5" "living_$1 --qp $2 --log frames --set time.rule=$3 \
+--set model.bodies=$4 --set time.step=$5 --set time.duration=${until[$1]} --set time.frame_interval=0.1 --set expect.types=[]"; }
+  for knot in overhand figure_eight; do
+    for bodies in 400 200 100 50 25; do
+      for step in 0.02 0.01 0.005 0.0025 0.00125; do
+        for rule in euler midpoint; do tie $knot active-set $rule $bodies $step; done
+      done
+      tie $knot active-set euler $bodies 0.000625
+      tie $knot ipopt euler $bodies 0.01
+    done
+  done
+}
+
+frames="--set time.frame_interval=0.05"
+# One choice of the scene changed at a time; `as_is` is none.
+choices() {
+  local name sets key
+  while read -r name sets; do
+    local line="table1 --qp active-set $frames"
+    for key in $sets; do line+=" --set $key"; done
+    printf 'timed_run\t%s\t7\t%s\n' "choice_$name" "$line"
+  done <<'LIST'
+as_is
+bodies_25 model.bodies=25
+bodies_50 model.bodies=50
+bodies_200 model.bodies=200
+violated constraints.activation=violated
+margin_0.06 contact.margin=0.06
+margin_0.3 contact.margin=0.3
+least_arc_4.24 contact.least_arc=4.24
+least_arc_2.12 contact.least_arc=2.12
+no_stiffness model.bending_stiffness=0 model.twist_stiffness=0
+no_drag drag.normal=0 drag.tangential=0
+baumgarte_0.2 constraints.baumgarte=0.2
+baumgarte_1 constraints.baumgarte=1
+no_corrections constraints.corrections=0
+cap_1000 controller.cap=1000
+no_cap controller.cap=1e9
+votes_5 knot.votes=5
+votes_45 knot.votes=45
+no_wall wall.present=false
+LIST
+}
+
+ties | work "$cores" "Knots that are tied"
+choices | work "$cores" "Choices of the scene"
+printf 'integrate\t%s\n' coil hanging whip | work "$cores" "Smooth motions"
+
+echo "Drawing"
+draw tying.py "$runs" "$out"
+draw integration.py "$runs" "$out"
+draw choices.py "$runs" "$out"

@@ -1,0 +1,157 @@
+"""How near a knot is tied to what it should be, for how much CPU time: animals that tie themselves, over steps, rules, bodies and
+back ends. Tables and a chart.
+
+Usage: tying.py RUNS OUT_FOLDER (writes speed_accuracy.png and a PDF beside). RUNS is what study.sh leaves.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+import plots
+import tables
+from accuracy import STATIONS, cpu_of, moments_of, name_of, off, pick, presets, through
+from hagfish_log import HagfishLog, LogError
+from script import run_script
+
+FROM = 5.0  # s: before that nothing is knotted
+KNOTS = {"overhand": "3_1", "figure_eight": "4_1"}
+METHODS = {("euler", "active-set"): plots.INTEGRATORS["core"], ("midpoint", "active-set"): plots.INTEGRATORS["core_midpoint"],
+           ("euler", "ipopt"): plots.Look("core, Euler, by Ipopt", plots.GREY, "P")}
+SIZES = {25: 2.0, 50: 3.5, 100: 5.0, 200: 7.0, 400: 9.0}  # of markers, by bodies
+MEASURES = {"place_cm": "places off, cm", "torque_percent": "torques off, %"}
+LABELLED = 400  # bodies of the points that tell their step
+USUAL = 10.0  # ms: the step at which CPU times are compared
+HEAD = ["knot", "rule", "back_end", "bodies", "step_ms", "cpu_s", *MEASURES, "place_by_step_cm"]
+
+Rows = list[dict[str, object]]
+
+
+@dataclass
+class Motion:
+    """At the frames from FROM on: places at STATIONS (frames x 99 x 3, cm) and the muscles' moments there (dyn cm)."""
+
+    place: np.ndarray
+    torque: np.ndarray
+
+    def towards(self, other: Motion, share: float) -> Motion:
+        return Motion(self.place + share * (other.place - self.place), self.torque + share * (other.torque - self.torque))
+
+    def errors(self, wanted: Motion) -> tuple[float, float]:
+        """Root mean square of places, cm; of moments, %."""
+        return float(np.sqrt(((self.place - wanted.place) ** 2).sum(axis=2).mean())), off(self.torque, wanted.torque)
+
+
+def read_motion(path: Path) -> Motion | None:
+    """Nothing of a run that ended early."""
+    log = HagfishLog(path)
+    if log.attribute("status") != "complete":
+        return None
+    frames = np.flatnonzero(log["/trajectory/time"] > FROM)
+    bodies = len(log["/model/length"])
+    place = np.array([through(centres, STATIONS * bodies) for centres in log["/trajectory/position"][frames]])
+    return Motion(place, moments_of(log, "active", frames))
+
+
+def read_runs(folder: Path, knot: str) -> Rows:
+    """Errors are against the limit: Euler's two smallest steps extrapolated to none, in the first order, then the two finest meshes
+    to bodies of no length, in the second. That by the step is against the same bodies, so extrapolated: rows of step 0."""
+    runs = {}
+    for path in sorted(folder.glob(f"tie_{knot}_*.cpu")):
+        _, back_end, rule, bodies, step = path.stem.removeprefix("tie_").removeprefix(knot).split("_")
+        runs[rule, back_end, int(bodies), 1e3 * float(step)] = cpu_of(path), read_motion(path.with_suffix(".h5"))
+    still = {}
+    for bodies in SIZES:
+        least, more = sorted(step for rule, back_end, of, step in runs if (rule, back_end, of) == ("euler", "active-set", bodies))[:2]
+        fine, coarse = (runs["euler", "active-set", bodies, step][1] for step in (least, more))
+        if fine is None or coarse is None or not np.isclose(2 * least, more):
+            raise LogError(f"{folder}: {knot}, {bodies} bodies: the two smallest steps cannot be extrapolated")
+        still[bodies] = fine.towards(coarse, -1)
+    middle, fine = sorted(still)[-2:]
+    limit = still[fine].towards(still[middle], -1 / 3)
+    rows = [dict(zip(HEAD, [KNOTS[knot], "euler", "active-set", bodies, 0.0, "", *moved.errors(limit), 0.0])) for bodies,
+            moved in still.items()]
+    for (rule, back_end, bodies, step), (cpu, own) in sorted(runs.items()):
+        errors = (*own.errors(limit), own.errors(still[bodies])[0]) if own else ("", "", "")
+        rows.append(dict(zip(HEAD, [KNOTS[knot], rule, back_end, bodies, step, cpu, *errors])))
+    return rows
+
+
+def one(rows: Rows, **wanted: object) -> dict[str, object]:
+    return next(row for row in rows if all(row[key] == value for key, value in wanted.items()))
+
+
+def shown(value: object) -> str:
+    return f"{value:.2g}" if value != "" else "stopped"
+
+
+def presets_table(rows: Rows, out: Path) -> None:
+    body = []
+    for knot in KNOTS.values():
+        for name, of in presets().items():
+            run = one(rows, knot=knot, back_end="active-set", **of)
+            body.append([name, knot, name_of(run), *(shown(run[key]) for key in ("cpu_s", *MEASURES, "place_by_step_cm"))])
+    tables.write_table(out, "speed_accuracy_presets", ["preset", "knot", "what it is", "CPU, s", *MEASURES.values(),
+                                                       "of which by the step, cm"], body)
+
+
+def runs_table(rows: Rows, out: Path) -> None:
+    """A row a knot, rule and number of bodies."""
+    steps = sorted({row["step_ms"] for row in rows if row["rule"] == "midpoint"}, reverse=True)
+    body = []
+    for knot in KNOTS.values():
+        for bodies in SIZES:
+            mesh = one(rows, knot=knot, bodies=bodies, step_ms=0.0)
+            for rule in ("euler", "midpoint"):
+                of = {step: one(rows, knot=knot, rule=rule, back_end="active-set", bodies=bodies, step_ms=step) for step in steps}
+                cpu = of[USUAL]["cpu_s"]
+                ipopt = f"{one(rows, knot=knot, back_end='ipopt', bodies=bodies)['cpu_s'] / cpu:.2g}" if rule == "euler" else ""
+                body.append([knot, str(bodies), shown(mesh["place_cm"]), rule, *(shown(of[step]["place_by_step_cm"]) for step in steps),
+                             f"{cpu:.2g}", ipopt])
+    tables.write_table(out, "speed_accuracy_tying", ["knot", "bodies", "places off by the mesh, cm", "rule",
+                                                     *(f"by the step at {step:g} ms, cm" for step in steps),
+                                                     f"CPU at {USUAL:g} ms, s", "times that by Ipopt"], body)
+
+
+def draw(rows: Rows, out: Path) -> None:
+    named = {knot: label for knot, label in zip(KNOTS.values(), ("overhand knot", "figure-eight knot"))}
+    shows = [(knot, measure) for knot in named for measure in MEASURES]
+    figure, panels = plots.panels(2, 2, (9, 7), [f"{named[knot]}: {measure.split('_')[0]}s" for knot, measure in shows], sharex=True)
+    for axes, (knot, measure) in zip(panels, shows):
+        for (rule, back_end), look in METHODS.items():
+            for bodies, size in SIZES.items():
+                own = sorted((row for row in rows if (row["knot"], row["rule"], row["back_end"], row["bodies"]) == (knot, rule, back_end,
+                                                                                                                    bodies) and row["cpu_s"]
+                                                                                                                    and row[measure] != ""),
+                             key=lambda row: row["step_ms"])
+                axes.plot([row["cpu_s"] for row in own], [row[measure] for row in own], **look.style, markersize=size, lw=0.7)
+        for name, of in presets().items():
+            run = one(rows, knot=knot, back_end="active-set", **of)
+            axes.plot(run["cpu_s"], run[measure], "o", mfc="none", mec=plots.INK, ms=13, mew=0.9)
+            axes.annotate(name, (run["cpu_s"], run[measure]), (-7, -7), textcoords="offset points", fontsize=7, ha="right", va="top")
+        for row in pick(rows, knot=knot, back_end="active-set", rule="euler", bodies=LABELLED):
+            if row["cpu_s"]:
+                axes.annotate(f"{row['step_ms']:g} ms", (row["cpu_s"], row[measure]), (5, 3), textcoords="offset points", fontsize=6)
+        axes.set(xscale="log", yscale="log", ylabel=MEASURES[measure])
+    for axes in panels[2:]:
+        axes.set_xlabel("CPU time of the run, s")
+    line = lambda **of: plots.plt.Line2D([], [], **of)
+    handles = [line(label=look.label, **look.style) for look in METHODS.values()]
+    handles += [line(color=plots.GREY, marker="o", ls="", markersize=size, label=f"{bodies} bodies") for bodies, size in SIZES.items()]
+    plots.legend_above(figure, [*handles, line(color=plots.INK, marker="o", ls="", mfc="none", ms=11, label="presets")], 5, 0.075)
+    plots.save(figure, out)
+
+
+def main(folder: Path, out: Path) -> None:
+    rows = [row for knot in KNOTS for row in read_runs(folder, knot)]
+    presets_table(rows, out)
+    runs_table(rows, out)
+    tables.write_table(out, "speed_accuracy_runs", HEAD, [list(row.values()) for row in rows])
+    draw(rows, out / "speed_accuracy.png")
+
+
+if __name__ == "__main__":
+    run_script(__doc__, ["RUNS", "OUT_FOLDER"], main)

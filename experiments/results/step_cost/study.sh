@@ -1,0 +1,25 @@
+#!/usr/bin/env bash
+# What each part of a step costs at 25 to 400 bodies, with MuJoCo's part beside it in one process.
+# Leaves a CSV with processor, flags and library versions and two tables.
+set -euo pipefail
+targets=(hagfish_benchmarks hagfish_overlap)
+source "$(dirname "${BASH_SOURCE[0]}")/../common.sh"
+
+# The knotted states come from runs of the animal with as many bodies. At 25 the force script ends untied;
+# the waypoints tie, with less of the tail through.
+run() { "$hagfish" run "${@:2}" --qp active-set --out "$out/$1.h5" --force --quiet; }
+run 25 overhand_waypoints --set model.bodies=25 --set controller.tail_through=3 --set controller.tighten_from=10
+for bodies in 50 100 200 400; do
+  run "$bodies" table1 --set model.bodies="$bodies" --set time.step=0.002
+done
+
+# On one core, parts in random order, so that a busy spell of the machine falls on all alike.
+taskset --cpu-list 0 "$root/build/release/experiments/benchmarks/hagfish_benchmarks" \
+  --benchmark_min_time=0.1 --benchmark_repetitions=5 --benchmark_enable_random_interleaving=true \
+  --benchmark_out="$out/benchmarks.json" --benchmark_out_format=json \
+  "$out"/{25,50,100,200,400}.h5 >"$out/benchmarks.log" 2>&1 || { cat "$out/benchmarks.log" >&2; exit 2; }
+# What it costs to keep strands apart: a knot pulled as hard in both simulators.
+taskset --cpu-list 0 "$root/build/release/experiments/benchmarks/hagfish_overlap" \
+  "$root/experiments/results/stability/scenes/pulled_knot.toml" "$out"/{50,100}.h5 >"$out/overlap.csv"
+draw benchmarks.py "$out/benchmarks.json" "$out"
+draw overlap.py "$out/overlap.csv" "$out"

@@ -1,0 +1,129 @@
+"""What tables and figures of a world to knot in need of logs: a JSON file for each, after which the log is removed.
+
+Usage: world_logs.py KIND FOLDER, of study.sh: all logs of FOLDER, each of a hole, wave, pull, skin or robot (KIND).
+Needs the program as built (HAGFISH_PROGRAM).
+"""
+
+from __future__ import annotations
+
+import csv
+import json
+import subprocess
+import tempfile
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import audits
+from hagfish_log import HagfishLog
+from script import HAGFISH, run_script, whole
+
+SETTLED = 4.0  # s, after which a wave runs evenly
+
+
+LAWS = {"all_contacts": "Eq. 6", "reflex": "reflex"}
+
+
+def taken(folder: Path) -> list[dict[str, Any]]:
+    """What was taken of the logs of a folder, in the order of their names, which numbers are."""
+    paths = sorted(folder.glob("*.json"), key=lambda path: (len(path.stem), path.stem) if path.stem.isdigit() else (0, path.stem))
+    return [json.loads(path.read_text(encoding="utf-8")) for path in paths]
+
+
+def knot_and_law(log: HagfishLog) -> dict[str, str]:
+    scene = log.scene()
+    return {"knot": scene["expect"]["knot"], "law": scene["controller"]["law"]}
+
+
+def types(log: HagfishLog) -> np.ndarray:
+    """The knot's name at each frame."""
+    names = log.named("knot", by="knot_invariants")
+    return np.array([names.get(f"det={d},v2={v}", "") for d, v in zip(log["/knot/determinant"], log["/knot/v2"])])
+
+
+def both_ends(log: HagfishLog) -> float:
+    """Share of a slide by both ends, %; nan where there was none."""
+    with tempfile.TemporaryDirectory() as folder:
+        table = Path(folder) / "check.csv"
+        subprocess.run([HAGFISH, "check", log.path, "--csv", table], check=False, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        return audits.value_of(audits.read_findings(table), "slide of both ends")
+
+
+def first(time: np.ndarray, where: np.ndarray) -> float:
+    return float(time[np.argmax(where)]) if where.any() else np.nan
+
+
+def penetration(log: HagfishLog) -> float:
+    return float(np.max(log["/diagnostics/penetration"]))
+
+
+def hole(log: HagfishLog) -> dict[str, Any]:
+    scene, time, phase = log.scene(), log["/trajectory/time"], log.labels("/trajectory/phase")
+    plate = next(each for each in scene["obstacle"] if each["name"] == scene["expect"]["out_of"])
+    pulls = first(time, phase == "pull")
+    out = first(time, (log["/trajectory/q"][:, 0] > plate["point"][0]) & (time > pulls))
+    held = bool((types(log)[(time >= pulls) & (time <= out)] == scene["expect"]["knot"]).all())
+    return {**knot_and_law(log), "strength": scene["food"]["strength"], "step": scene["time"]["step"], "pulls": pulls,
+            "gives": first(time, phase == "release"),
+            "out": out, "held": held, "penetration": penetration(log)}
+
+
+def wave(log: HagfishLog) -> dict[str, Any]:
+    """The pull is a mean over a frame's time, as that at which food gives, N."""
+    late, strength = log["/trajectory/time"] > SETTLED, log.scene()["food"]["strength"]
+    pull = -log["/mean/forces/head"][late, 0] / 1e5
+    return {"wave": log.path.stem.split("_")[:3], "mean": float(pull.mean()), "peak": float(pull.max()),
+            "over": float((pull > strength).mean()),
+            "strength": strength, "torque": float(np.abs(log["/mean/forces/active"][late]).max())}
+
+
+def pull(log: HagfishLog) -> dict[str, Any]:
+    """The largest pull, of means over a frame's time, N, and what it is of."""
+    scene = log.scene()
+    rim = next(each for each in scene["obstacle"] if each["kind"] == "strand")
+    points = np.array(rim["points"])  # evenly round the hole
+    width = 2 * (np.linalg.norm(points - points.mean(axis=0), axis=1).mean() - rim["radius"])
+    return {**knot_and_law(log), "pull": float(np.nanmax(log["/pull/force"], initial=0)) / 1e5, "width": width,
+            "plate": "plane" if rim["name"] == "rim" else "rings", "girth": float(max(log["/model/radius"])) * 2 * np.pi,
+            "stiffness": scene["active"]["stiffness"]}
+
+
+def skin(log: HagfishLog) -> dict[str, Any]:
+    """A row a side of the body, a column a ring: when the knot first touched it, s; nan where it never did."""
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run([HAGFISH, "export", log.path, "--out", folder], check=True, stdout=subprocess.DEVNULL)
+        with (Path(folder) / "skin.csv").open(encoding="utf-8") as file:
+            cells = list(csv.DictReader(file))
+    s, side = (np.unique([float(cell[name]) for cell in cells]) for name in ("s_cm", "side_rad"))
+    table = lambda name: np.array([float(cell[name] or "nan") for cell in cells]).reshape(s.size, side.size).T
+    back = log.in_phase("reverse")
+    return {**knot_and_law(log), "back": log.scene()["controller"]["leave_by"] == "tail",
+            "turn": float(log["/trajectory/time"][back[0]]) if back.size else np.nan,
+            "s": s.tolist(), "area": table("area_cm2").tolist(), "since": table("since_s").tolist()}
+
+
+def robot(log: HagfishLog) -> dict[str, Any]:
+    scene, phase, slide = log.scene(), log.labels("/trajectory/phase"), log.in_phase("slide")
+    way = float(log["/knot/head_end"][slide[0]] - log["/knot/head_end"][slide[-1]]) if slide.size else np.nan
+    # A released knot is gone where the run comes to the phase free.
+    became = "it never tied" if not slide.size else "it tied, slid and came off" if (phase == "free").any() else "it tied, and lost the knot"
+    return {"weight": abs(scene["gravity"][2]) / 981, "drag": scene["drag"]["normal"] / 10, "mass": scene["specimen"]["mass"] / 1e3,
+            "capacity": scene["active"]["capacity"] / 1e7,
+            "stiffness": scene["active"]["stiffness"] / 4e7, "became": became, "way": way, "share": both_ends(log),
+            "torque": float(np.nanmax(np.abs(log["/mean/forces/active"][:, 6:]))) / 1e7, "penetration": penetration(log)}
+
+
+KINDS = {of.__name__: of for of in (hole, wave, pull, skin, robot)}
+
+
+def main(kind: Path, folder: Path) -> None:
+    for path in sorted(folder.glob("*.h5")):
+        found = KINDS[str(kind)](HagfishLog(path))
+        with whole(path.with_suffix(".json")) as file:
+            file.write_text(json.dumps(found) + "\n", encoding="utf-8")
+        path.unlink()
+
+
+if __name__ == "__main__":
+    run_script(__doc__, ["KIND", "FOLDER"], main)

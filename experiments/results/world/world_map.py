@@ -1,0 +1,62 @@
+"""The largest pull of a head in a hole by the hole's width, the animal's girth and its muscles: medians and ranges of starts.
+
+Usage: world_map.py WORLD_MAP.csv OUT.png, of world.py.
+"""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+
+import plots
+import tables
+from script import run_script
+
+CHANGED = re.compile(r"hole ([\d.]+) cm, (\w+); girth ([\d.]+) cm; muscles ([\d.e]+) dyn")
+PULL = re.compile(r"([\d.]+) \(([\d.]+) to ([\d.]+)\)")
+GIRTH, MUSCLES = 5.6, 5e5  # cm, dyn cm^2: of rows where the other is changed
+STYLES = {"Eq. 6": {"ls": "-", "marker": "o"}, "reflex": {"ls": "--", "marker": "s"}}
+
+
+def pull_of(cell: str) -> tuple[float, ...]:
+    """Median, least and most, N; zeros where nothing tied."""
+    match = PULL.match(cell)
+    return tuple(map(float, match.groups())) if match else (0.0, 0.0, 0.0)
+
+
+def main(table: Path, out: Path) -> None:
+    rows = tables.read_csv(table, ["changed"])
+    panels: list[list[tuple[float, dict[str, str]]]] = [[], [], []]
+    for row in rows:
+        match = CHANGED.match(row["changed"])
+        assert match, row["changed"]
+        width, plate, girth, muscles = float(match[1]), match[2], float(match[3]), float(match[4])
+        if plate == "rings":
+            panels[0].append((width, row))
+            continue
+        if muscles == MUSCLES:
+            panels[1].append((girth, row))
+        if girth == GIRTH:
+            panels[2].append((muscles / 1e5, row))
+    figure, grid = plots.plt.subplots(1, 3, figsize=(9, 3.4), layout="constrained", sharey=True)
+    knots = list(dict.fromkeys(head.split(", ")[0] for head in rows[0] if head != "changed"))
+    for axes, points, label in zip(grid, panels, ("width of the hole, cm (rings)", "girth of the animal, cm",
+                                                  "stiffness of muscles, 1e5 dyn cm²")):
+        points.sort(key=lambda point: point[0])
+        at = [point[0] for point in points]
+        for head in (head for head in rows[0] if head != "changed"):
+            knot, law = head.split(", ")
+            middle, least, most = np.array([pull_of(row[head]) for _, row in points]).T
+            axes.errorbar(at, middle, [middle - least, most - middle], color=f"C{knots.index(knot)}", capsize=2, ms=4, lw=1.2, label=head,
+                          **STYLES[law])
+        axes.set(xlabel=label, xticks=at)
+        axes.axhline(0.5, color=plots.GREY, lw=0.8, zorder=0)
+    grid[0].set(ylabel="largest pull, N", ylim=(0, None))
+    plots.legend_above(figure, grid[2].get_legend_handles_labels()[0], 6, 0.09)
+    plots.save(figure, out)
+
+
+if __name__ == "__main__":
+    run_script(__doc__, ["WORLD_MAP.csv", "OUT.png"], main)

@@ -1,0 +1,119 @@
+"""What cannot be read is said in one line; what is there is read as it is."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+
+from hagfish_log import HagfishLog, LogError, Results
+
+DRAWING = Path(__file__).parents[4] / "experiments/drawing"
+
+
+def test_frames_are_those_that_every_dataset_holds(content, log):
+    content.data["mean/forces/thigmotaxis"] = content.data["mean/forces/thigmotaxis"][:40]  # stopped while writing a frame
+    short = log()
+    assert short.frames == 40
+    assert len(short["/knot/head_end"]) == len(short.labels("/trajectory/phase")) == 40
+    assert len(short["/steps/kkt"]) == len(content.data["steps/kkt"])  # no frames
+
+
+def test_phases_and_intervals(content, log):
+    assert list(log().in_phase("slide")) == list(content.slide)
+    assert list(log().intervals_in("slide")) == list(content.slide[1:])  # the first mean reaches back into tightening
+    assert log().in_phase("reverse").size == 0
+
+
+def test_a_run_that_starts_in_its_phase_has_no_mean_at_its_first_frame(content, log):
+    content.data["trajectory/phase"][:] = 2
+    assert log().intervals_in("slide")[0] == 1
+
+
+def test_hinges_and_their_places(log):
+    index, joint, kind = log().hinges()
+    assert (index[0], joint[0], kind[0]) == (6, 1, "bend_z")
+    assert (index[2], joint[2], kind[2]) == (8, 2, "twist")
+    assert joint.max() == 40
+    assert log().joint_arc()[5] == pytest.approx(5.0, rel=1e-12)  # rounding of a sum
+
+
+@pytest.mark.parametrize("damage, words", [
+    (lambda c: c.attributes.pop("format"), "no root attribute 'format'"),
+    (lambda c: c.attributes.update(format="other"), "not a hagfish-log file"),
+    (lambda c: c.attributes.update(format_version=2), "version 2"),
+    (lambda c: c.data.update({name: values[:0] for name, values in c.data.items() if name[:5] not in ("model", "steps")}),
+     "holds no frames")])
+def test_a_foreign_or_empty_log_is_refused(content, log, damage, words):
+    damage(content)
+    with pytest.raises(LogError, match=words):
+        log()
+
+
+@pytest.mark.parametrize("what, by", [
+    (b"SNOD", b"SNOX"),  # a group's members
+    (b"TREE", b"TREX"),  # and chunks
+    (b"HEAP", b"HEAX"),  # and names
+    (b"[controller]", b"[controller."),  # no TOML
+    (b"_bend_y", b"\xffbend_y")])  # no UTF-8
+def test_a_damaged_log_is_one_line(log, what, by):
+    path = log().path
+    data = path.read_bytes()
+    assert what in data
+    path.write_bytes(data.replace(what, by))
+    with pytest.raises(LogError) as told:
+        damaged = HagfishLog(path)
+        damaged.scene(), damaged.hinges(), damaged["/trajectory/time"]
+    assert "\n" not in str(told.value) and path.name in str(told.value)
+
+
+@pytest.mark.parametrize("name", ["knot/head_end", "trajectory/time", "model/dof_name", "trajectory/phase"])
+def test_a_damaged_dataset_is_one_line(log, name):
+    path = log().path
+    with h5py.File(path) as file:
+        header = h5py.h5o.get_info(file[name].id).addr
+    data = bytearray(path.read_bytes())
+    data[header] = 9  # the version of a header that HDF5 does not know
+    path.write_bytes(data)
+    with pytest.raises(LogError) as told:
+        damaged = HagfishLog(path)
+        damaged.hinges(), damaged["/" + name], damaged.in_phase("slide")
+    assert "\n" not in str(told.value) and path.name in str(told.value)
+
+
+def test_missing_file_and_no_hdf5(tmp_path):
+    with pytest.raises(LogError, match="no such file"):
+        HagfishLog(tmp_path / "none.h5")
+    (tmp_path / "text.h5").write_text("text")
+    for reader in (HagfishLog, Results):
+        with pytest.raises(LogError, match="not a readable HDF5 file"):
+            reader(tmp_path / "text.h5")
+
+
+def test_a_dataset_that_is_no_enumeration_has_no_labels(content, log):
+    with pytest.raises(LogError, match="not an enumeration"):
+        log().labels("/knot/v2")
+
+
+def test_a_missing_attribute_of_results_is_named(tmp_path):
+    with h5py.File(tmp_path / "results.h5", "w") as file:
+        file["time"] = np.arange(3.0)
+    results = Results(tmp_path / "results.h5")
+    assert list(results["/time"]) == [0, 1, 2]
+    for ask in (lambda: results.attribute("motion"), lambda: results["/none"]):
+        with pytest.raises(LogError):
+            ask()
+
+
+@pytest.mark.parametrize("script, outputs, missing", [
+    ("claim_row.py", ["row.csv"], "knot/head_end"), ("claim_row.py", ["row.csv"], "trajectory/phase"), ("figure8.py", ["8.png", "c.png"], "mean/thigmotaxis/lambda")])
+def test_a_script_says_which_dataset_is_missing_in_one_line(content, tmp_path, script, outputs, missing):
+    del content.data[missing]
+    path = content.write(tmp_path / "log.h5")
+    done = subprocess.run([sys.executable, "-B", DRAWING / script, path, *(tmp_path / name for name in outputs)],
+                          capture_output=True, text=True)
+    assert done.returncode == 2
+    assert done.stderr == f"{script}: {path}: no dataset /{missing}\n"
+    assert not any((tmp_path / name).exists() for name in outputs)

@@ -1,0 +1,213 @@
+"""The tables of pages of results are what the studies' scripts write, of runs made up here."""
+
+import csv
+import re
+import shutil
+
+import h5py
+import numpy as np
+import pytest
+
+import audits
+import benchmarks
+import claim_map
+import claims
+import departures
+import films
+import leverage
+import living
+import pulls
+import sliding_map
+import stability
+import sweep_columns
+import thigmotaxis
+import two_simulators
+import tying
+from conftest import RESULTS
+from tables import read_table
+
+
+def read(folder, name):
+    with (folder / "tables" / f"{name}.csv").open(newline="") as file:
+        return list(csv.reader(file))
+
+
+def test_each_table_of_a_page_is_written_by_a_script_beside_it():
+    for table in RESULTS.glob("*/*.csv"):
+        scripts = "\n".join(path.read_text(encoding="utf-8") for end in ("py", "sh") for path in table.parent.glob(f"*.{end}"))
+        tail = table.stem.removeprefix(table.parent.name)
+        stem, _, end = table.stem.rpartition("_")
+        named = re.search(rf"\b{table.stem}\.csv|\"({table.stem}|{tail})\"", scripts)
+        assert named or f'f"{stem}_{{' in scripts and re.search(rf'"{end}"|def {end}\b', scripts), table
+
+
+def test_sliding_by_speed_and_stiffness(tmp_path):
+    place = lambda k, v, tied, passed, force: sliding_map.Place(k, v, 10, tied, tied, passed, np.full(3, force), np.full(3, 2 * force), np.full(3, v), "")
+    places = [place(10, 2, 10, 9, 100.0), place(100, 2, 10, 10, 150.0), place(1000, 2, 3, 3, 300.0), place(2000, 2, 0, 0, np.nan)]
+    sliding_map.write_tables(places, tmp_path)
+    assert read(tmp_path, "sliding")[1:] == [["2", "23 of 40", "23 of 23", "96 %", "1e+02", "3.0", "3.0"], ["all", "23 of 40", "23 of 23", "96 %", "", "", ""]]
+    assert read(tmp_path, "sliding_stiffness")[1:] == [["1e+03", "3 of 10"], ["2e+03", "0 of 10"]]
+
+
+def test_claims_by_change(tmp_path):
+    growth = claims.NAMES[1]
+    measure = dict.fromkeys(claim_map.MEASURES, 0.1) | {"near_over_far": 2.0}
+    verdict = dict.fromkeys(claims.NAMES, "agrees")
+    runs = [claim_map.Claim(reading, "Table 1", 0.005, seed, outcome, verdict | {growth: word}, measure)
+            for reading, seed, outcome, word in (("box", 1, "slid", "agrees"), ("box", 2, "slid", "undecided"), ("cone", 1, "jammed", "agrees"))]
+    assert claim_map.summary(runs)[0] == ["Table 1", "2 of 2", "2", "undecided", "0 of 1", "", "", "agrees", "0.1", "0.1", "agrees", "0.1", "agrees"]
+
+
+def test_departures_of_one_title_share_a_row():
+    run = lambda way, slide, outcome="ok": {"slide_distance_cm": way, "slide": slide, "outcome": outcome}
+    way = lambda *runs: departures.shown(list(runs), "head end of the knot, cm")
+    assert way(run("9.14", "slides"), run("8.96", "slides")) == "9.0 to 9.1"
+    assert way(run("9.14", "slides")) == "9.1" and way(run("0", "", "limits")) == "-"
+    assert [departures.became(run("", slide, outcome)) for slide, outcome in (("only grows", "ok"), ("", "limits"), ("", "knot lost"))] == ["only grows", "stopped: limits", "lost"]
+
+
+def test_stability_by_scene_and_start(tmp_path):
+    cells = [{"scene": "whip", "level": level, "method": "default", "h_ms": h, "outcome": outcome}
+             for level, h, outcome in (("as is", "1", "ok"), ("as is", "5", "limits"), ("seed 1", "1", "ok"), ("seed 2", "1", "ok"))]
+    stability.write_tables(cells, tmp_path)
+    assert read(tmp_path, "stability")[1][:2] == ["fast undamped whip", "1 (limits)"]
+    assert read(tmp_path, "stability_starts")[1] == ["1", "2 of 2", ""]
+
+
+class Pulled:
+    def __init__(self, mean):
+        self.mean = mean
+
+
+def test_what_changes_a_pull(tmp_path):
+    run = lambda kind, value, seed, mean, deep=False: leverage.Run(kind, "living", "3_1", value, seed, "pulled" if mean else "knot lost", Pulled(mean) if mean else None, 0, deep)
+    runs = [run("start", "0", 1, 0.2), run("start", "0", 2, 0.4), run("start", "0", 3, 90, True), run("speed", "4", 1, 0.6), run("speed", "0.5", 1, None),
+            run("speed", "8", 1, 50, True)]
+    leverage.changes_table(runs, tmp_path)
+    rows = {row[0]: row[3:] for row in read(tmp_path, "leverage_changes")[1:]}
+    assert rows == {"commanded speed, cm/s: 0.5": ["0 of 1", ""], "commanded speed, cm/s: 4": ["1 of 1", "2.00"], "commanded speed, cm/s: 8": ["0 of 1", ""]}
+
+
+def test_a_pull_is_told_over_time_and_by_what_may_move_it(tmp_path):
+    time = np.arange(0.0, 6.01, 0.5)
+    pull = lambda force: pulls.Pull(time, force * np.ones(13), *[np.full(13, value) for value in (9.0, 2.0, 9.0, 4.0)], cap=0.05)
+    rising = pulls.Pull(time, np.floor(time), *[np.ones(13)] * 4, cap=0.05)
+    run = lambda kind, value, seed, of: leverage.Run(kind, "living", "3_1", value, seed, "pulled", of, 0, False)
+    runs = [run("start", "0", 1, pull(2)), run("start", "0", 2, pull(4)), run("plain", "0", 0, rising), run("mirror", "0", 0, rising),
+            run("step", "0.002", 1, pull(7)), run("bodies", "150", 1, pull(8))]
+    leverage.knots_table(runs, tmp_path)
+    head, *rows = read(tmp_path, "leverage")
+    row = dict(zip(head, next(row for row in rows if row[:2] == ["living", "3_1"])))
+    mean = f"{rising.mean:.2f}"
+    assert row == {"body": "living", "knot": "3_1", "cap of a row, N": "0.05", "pulled": "2 of 2", "pull in the thirds of its time, N": "0.50, 2.50, 4.50",
+                   "of its seconds, N": "0.00 to 5.00", "means of starts, N": "2.00 to 4.00", "of steps, N": f"{mean} to 7.00",
+                   "of numbers of bodies, N": f"{mean} to 8.00", "over the sum of the rows": "1.5", "over the largest torque, 1/cm": "0.75", "mirror image the same": "yes"}
+    leverage.time_table(runs, tmp_path)
+    assert read(tmp_path, "leverage_time") == [leverage.TIME_HEAD, *[["living", "3_1", f"{k}.5", f"{k}"] for k in range(6)]]
+
+
+def test_a_value_of_an_audit_is_that_of_its_criterion(tmp_path):
+    (tmp_path / "a.csv").write_text("log,criterion,value,bound,unit,met\na,slide,9.1,2,cm,yes\na,slide of both ends,76.5,70,%,yes\na,hand,,,,yes\n")
+    findings = audits.read_findings(tmp_path / "a.csv")
+    assert audits.value_of(findings, "slide of both ends") == 76.5
+    assert np.isnan(audits.value_of(findings, "hand")) and np.isnan(audits.value_of(findings, "reverse"))
+
+
+def test_slides_are_counted_by_what_is_varied(tmp_path):
+    def sweep(name, axis, cells):
+        (tmp_path / name).mkdir()
+        lines = [",".join(["cell", "scene", axis, *sweep_columns.TEXTS, *sweep_columns.FIGURES])]
+        for k, (scene, value, outcome, slide, share, met, torque) in enumerate(cells):
+            texts = {"outcome": outcome, "slide": slide}
+            figures = {"both_ends_percent": share, "eq6_percent": met, "largest_torque_dyn_cm": torque}
+            lines.append(",".join(map(str, [k, scene, value, *(texts.get(key, "") for key in sweep_columns.TEXTS), *(figures.get(key, "") for key in sweep_columns.FIGURES)])))
+        (tmp_path / name / "table.csv").write_text("\n".join(lines) + "\n")
+    both, grows = "slides by both ends", "only grows"
+    sweep("meshes", "model.bodies", [("living_overhand", 60, "ok", both, 90, 99, 1e5), ("living_figure_eight_free", 60, "ok", grows, 10, 98, 2e5),
+                                     ("living_overhand", 100, "capped", both, 80, 97, 1e5)])
+    sweep("steps", "model.bodies,time.step", [("living_overhand", "100,0.005", "ok", both, 75, 100, 1e5)])
+    sweep("speeds", "controller.slide_head.a", [("living_overhand", 0.5, "ok", both, 85, 100, 3e5)])
+    sweep("starts", "start.seed", [("living_overhand", seed, "ok", both, 90 + seed, 100, 1e5) for seed in (1, 2)])
+    assert thigmotaxis.run_rows(tmp_path, 2e5) == [
+        ["bodies: 60", "1 of 2", "10", "50", "98", "1.00", "4_1 free 10 %"], ["bodies: 100", "0 of 1", "80", "80", "97", "0.50", "3_1 held 80 %"],
+        ["time step, s: 0.005, 100 bodies", "1 of 1", "75", "75", "100", "0.50", ""], ["commanded speed, cm/s: 0.5", "1 of 1", "85", "85", "100", "1.50", ""],
+        ["start with noise, numbers 1 to 2", "2 of 2", "91", "92", "100", "0.50", ""]]
+
+
+class Swept:
+    def __init__(self, outcome, torque):
+        self.outcome, self.torque = outcome, {"form": torque}
+
+
+def test_sweeps_of_living_animals():
+    sweeps = {what: {"3_1": [], "4_1": []} for what in living.SWEEPS}
+    sweeps["drag"] = {"3_1": [(1.0, Swept("off", 2e5))], "4_1": [(1.0, Swept("knot lost", 1e5))]}
+    assert living.sweep_rows(sweeps) == [["drag, times that of the scenes: 1", "1 of 2", "2e+05 to 2e+05"]]
+
+
+def test_ratios_of_steps():
+    part = lambda time: {25: time, 100: 4 * time}
+    names = ["step_free:10", "step_knotted_active-set:10", "step_knotted_active-set:100", "step_midpoint:10", "qp_ipopt", "qp_active-set", "prescribe_all",
+             "prescribe_nothing", "prescribe_head", "contact"]
+    times = {("core", name): part(2.0) for name in names} | {("mujoco", name): part(10.0) for name in ("step_free:10", "step_knotted:10", "step_knotted:100")}
+    quickest = {restart: {25: ("PGS", 1e-4), 100: ("CG", 1e-3)} for restart in benchmarks.RESTARTS}
+    head, *rows = benchmarks.ratios(times, quickest)
+    table = {first: cells for first, *cells in rows}
+    assert head == ["bodies", "25", "100"]
+    assert table["knotted step: MuJoCo over core, 100 steps a start"] == ["5.0", "5.0"]
+    assert table["knotted step, over 100 bodies"] == ["0.25", "1.00"]
+    assert len(table) == len(rows)
+
+
+def test_errors_while_tying(tmp_path):
+    """Of made-up motions whose errors are of first order in the step and of second in the length of a body."""
+    rows = []
+    for knot in tying.KNOTS.values():
+        for bodies in tying.SIZES:
+            mesh = 100 / bodies**2
+            rows.append(dict(zip(tying.HEAD, [knot, "euler", "active-set", bodies, 0.0, "", mesh, 1.0, 0.0])))
+            for rule in ("euler", "midpoint"):
+                rows += [dict(zip(tying.HEAD, [knot, rule, "active-set", bodies, step, 1 / step, mesh + step, 1.0, step])) for step in (10.0, 5.0)]
+            rows.append(dict(zip(tying.HEAD, [knot, "euler", "ipopt", bodies, 10.0, 0.5, mesh + 10, 1.0, 10.0])))
+    one = tying.one(rows, knot="3_1", rule="midpoint", bodies=50, step_ms=5.0)
+    one["place_by_step_cm"] = ""
+    tying.runs_table(rows, tmp_path)
+    assert read(tmp_path, "speed_accuracy_tying")[3:5] == [["3_1", "50", "0.04", "euler", "10", "5", "0.1", "5"], ["3_1", "50", "0.04", "midpoint", "10", "stopped", "0.1", ""]]
+    tying.presets_table(rows, tmp_path)
+    assert read(tmp_path, "speed_accuracy_presets")[1] == ["quick", "3_1", "euler, 100 bodies, 10 ms", "0.1", "10", "1", "10"]
+
+
+def test_a_motion_is_off_by_what_it_is_moved():
+    at = lambda x: tying.Motion(np.full((2, 3, 3), [x, 0, 0]), np.full((2, 9), 1 + x))
+    assert at(0.1).errors(at(0.0)) == pytest.approx((0.1, 10))
+    assert at(0.1).towards(at(0.2), -1).errors(at(0.0)) == pytest.approx((0, 0), abs=1e-12)
+
+
+def test_films_have_their_summaries(tmp_path):
+    shutil.copytree(RESULTS / "films", tmp_path / "tables")
+    films.write_summaries(tmp_path)
+    for name in ("outcomes", "figures"):
+        stated = read_table(RESULTS / f"films/films_{name}.csv")
+        assert read(tmp_path, f"films_{name}") == [stated.head, *stated.rows]
+
+
+def test_one_animal_in_two_simulators(tmp_path):
+    """MuJoCo comes half as far as the log between restarts, and a quarter as far without f_thigmo."""
+    time = np.linspace(0, 2, 51)
+    with h5py.File(tmp_path / "compare.h5", "w") as file:
+        for head in two_simulators.HEADS:
+            for name in two_simulators.QUANTITIES:
+                file[f"states/{head}/{name}"], file[f"states/{head}/{name}_bound"] = [1e-14, 3e-14], [1e-11]
+            file[f"rollout/{head}/velocity"], file[f"rollout/{head}/velocity_bound"] = [1e-13, 2e-13], [1e-10]
+    with h5py.File(tmp_path / "playback.h5", "w") as file:
+        file["time"], file["head_end"] = time, 9 - time
+        for interval in two_simulators.INTERVALS:
+            since = np.arange(50) % round(float(interval) / 0.04) + 1
+            for force, share in (("thigmotaxis", 0.5), ("none", 0.25)):
+                file[f"{force}_{interval}s/head_end"] = 9 - time[1:] + (1 - share) * 0.04 * since
+            for what in ("drift", "capsule_penetration"):
+                file[f"thigmotaxis_{interval}s/{what}"] = 0.01 * since
+    two_simulators.main(tmp_path / "compare.h5", tmp_path / "playback.h5", tmp_path)
+    assert read(tmp_path, "two_simulators")[1::5] == [["positions", "1e-11", "3e-14", "3e-14"], ["q̇ along a run by the same rule", "1e-10", "2e-13", "2e-13"]]
+    shares = [set(row[1:]) for row in read(tmp_path, "two_simulators_playback")[1:3]]
+    assert shares == [{"50"}, {"25"}]

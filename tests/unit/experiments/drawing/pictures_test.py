@@ -1,0 +1,66 @@
+"""Pictures are drawn from CSV files as studies leave them, of runs made up here."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import few_numbers_picture
+import leverage_picture
+import plots
+import stability_picture
+import tables
+from conftest import RESULTS
+
+
+@pytest.fixture
+def drawn(monkeypatch):
+    """The figures that would be written."""
+    figures = []
+    monkeypatch.setattr(plots, "save", lambda figure, png: figures.append(figure))
+    return figures
+
+
+def table_of(folder, head, rows):
+    path = folder / "t.csv"
+    tables.write_csv(path, head, [[row.get(name, "") for name in head] for row in rows], ["Measured at abc."])
+    return tables.read_csv(path, head)
+
+
+def joined(axes):
+    """Lines through points at several places, but for those across the whole panel."""
+    lines = [line for line in axes.lines if line.get_linestyle() != "None" and line.get_transform() == axes.transData]
+    return [line for line in lines if len(set(np.round(np.asarray(line.get_xdata(), float), 6))) > 1]
+
+
+def test_single_starts_are_not_joined(tmp_path, drawn):
+    point = lambda figure, frame, numbers, start, value: {"figure": figure, "knot": "3_1", "frame": frame, "found each, s": "0.1", "numbers": numbers, "start": start, "value": value}
+    rows = [point("share", frame, n, 0, n / 10) for frame in few_numbers_picture.FRAMES for n in (3, 6, 9)]
+    rows += [point("starts", "knot", 9, start, 0.8 + start / 10) for start in range(3)] + [point("effort", "knot", n, 0, 0.4) for n in (6, 9)]
+    few_numbers_picture.draw(table_of(tmp_path, few_numbers_picture.HEAD, rows), Path("x.png"))
+    panels = drawn[0].axes
+    assert not any(joined(axes) for axes in panels)
+    bars = [line for line in panels[0].lines if line.get_linestyle() == "-" and line.get_marker() == "_"]
+    assert [list(line.get_ydata()) for line in bars] == [[0.8, 1.0]]
+
+
+def test_pulls_have_the_spread_of_their_starts_and_meshes(tmp_path, drawn):
+    run = lambda kind, value, seed, pull: {"kind": kind, "body": "living", "knot": "4_1", "value": value, "seed": seed, "outcome": "pulled", "pull_N": pull,
+                                           "torque_mean_N_cm": 1, "estimate_N": 1, "too_deep": "no"}
+    rows = [run("start", 0, 1, 0.2), run("start", 0, 2, 0.4), run("step", 0.002, 1, 0.6), run("bodies", 150, 1, 0.1), run("stiffness", 400, 1, 0.3), run("girth", 0.8, 1, 0.3), run("cap", 2, 1, 0.3)]
+    seconds = [{"body": "living", "knot": "4_1", "second": k + 0.5, "pull_N": k} for k in range(3)]
+    leverage_picture.draw(table_of(tmp_path, leverage_picture.HEAD, rows), table_of(tmp_path, leverage_picture.TIME_HEAD, seconds), Path("x.png"))
+    assert [0, 1, 2] in [list(line.get_ydata()) for line in drawn[0].axes[5].lines]
+    stiffness = drawn[0].axes[3]
+    assert not joined(stiffness)
+    assert [0.1, 0.6] in [list(line.get_ydata()) for line in stiffness.lines if line.get_linestyle() == "-"]
+    low, high = stiffness.collections[0].get_segments()[0][:, 1]
+    assert (low, high) == pytest.approx((0.3 - np.std([0.2, 0.4], ddof=1), 0.3 + np.std([0.2, 0.4], ddof=1)))
+
+
+def test_methods_without_a_watch_stand_beside_mujoco(tmp_path, drawn):
+    head, *rows = ([*row] for row in (["scene", "default", "Euler, no watch", "MuJoCo Euler"], ["whip", "all (50)", "none (energy gain)", "5 (limits)"]))
+    stability_picture.draw_summary(head, rows, Path("x.png"))
+    assert [text.get_text() for text in drawn[0].axes[0].texts] == ["50", "none E", "5 L"]
+    stability_picture.main(RESULTS / "stability/stability.csv", Path("x.png"))
+    assert len(drawn) == 2
