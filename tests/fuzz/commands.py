@@ -10,23 +10,25 @@ SHORT = [
     for part in ("--set", "time." + value)
 ]
 SMALL = ["--set", "model.bodies=8"]
-BACK_ENDS = ["active-set", "ipopt", "ipopt-unpolished"]
 
 
 # Good values of arguments and options, by the names that help gives them; what is not here is left out.
 ARGUMENTS = {"LOG": "good.h5", "SCENE": "table1", "GRID": "scene_grid.toml", "SET": "good.qp.h5", "FILM": "film.csv",
              "KNOT": "7_7"}
 OPTIONS = {
-    "--force": [], "--quiet": [], "--qp": ["active-set"], "--backend": ["active-set"], "--repeat": ["1"], "--threads": ["1"], "--cpu-limit": ["3"],
-    "--size": ["64x48"], "--stations": ["3"], "--times": ["3"], "--scene": ["small.toml"], "--length": ["40"], "--mass": ["80"],
+    "--force": [], "--quiet": [], "--qp": ["active-set"], "--backend": ["active-set"], "--repeat": ["1"],
+    "--threads": ["1"], "--cpu-limit": ["3"], "--size": ["64x48"], "--stations": ["3"], "--times": ["3"],
+    "--scene": ["small.toml"], "--length": ["40"], "--mass": ["80"],
     "--circumference": ["5,5,5,4"], "--bending": ["20,70,40,50"], "--twist": ["48"],
 }  # fmt: skip
 ENDINGS = {"picture": ".png", "movie": ".gif"}  # of --out
-BESIDE = {"program": ["--until", "0.08"], "integrate": ["--set", "model.bodies=3"], "design": ["--budget", "1e-6"]}
+BESIDE = {"program": ["--until", "0.08"], "integrate": ["--set", "model.bodies=3"], "design": ["--budget", "1e-6"],
+          "branch": ["--time", "0.04"], "mujoco-run": ["--set", "script.kind=none"], "run": ["--out", "run.h5"],
+          "compare": ["--out", "compare.h5"]}
 
 
 class Command:
-    """A subcommand as its help has it: a good command line, whose options may be made extreme, and which take values."""
+    """A subcommand as its help has it: a good command line, and which options take values."""
 
     def __init__(self, name, help_text):
         positionals, _, options = help_text.partition("Options:\n")
@@ -46,58 +48,41 @@ class Command:
         self.good += BESIDE.get(name, [])
 
 
-SLOW = ("figures", "movie")  # start Python or ffmpeg
+# What a file goes through beside the good line of each command that takes it.
+MORE = {
+    "LOG": ["check FILE --csv check.csv", "info good.h5 FILE --json", "view FILE good.h5 --out replay.html",
+            "against FILE film.csv --csv against.csv", "against FILE film.csv --png against.png",
+            "run --resume FILE --quiet"],  # last, as it goes on in the file itself
+    "FILM": ["midlines FILE --scene small.toml --stations 3 --out midlines.csv --times 4 --free-head",
+             "against good.h5 FILE --csv against.csv", "against good.h5 FILE --as-is",
+             "against good.h5 FILE --png against.png"],
+    "SET": ["qp FILE --repeat 1 --backend ipopt --csv qp.csv", "qp FILE --repeat 1 --backend ipopt-unpolished"],
+    "SCENE": ["run FILE --qp ipopt --quiet --out run.h5", "sweep scene_grid.toml --out sweep --threads 1 --quiet"],
+    "GRID": [],
+}
+SLOW = ("figures", "movie", "compare", "integrate", "sweep")  # start Python or ffmpeg, or take long
+LEFT_OUT = ("sure", "mujoco-run")  # of scenes: thirty runs, and runs of MuJoCo
 
 
-def of_log(file, known):
-    """Two lists: the commands that read a log in this process, and those that start Python or ffmpeg."""
-    reading = {name: [file if a == "good.h5" else a for a in c.good] for name, c in known.items() if c.reads_log}
-    quick = [arguments for name, arguments in reading.items() if name not in SLOW]
-    quick += [
-        ["check", file, "--csv", "check.csv", "--force"],
-        ["info", "good.h5", file, "--json"],
-        ["view", file, "good.h5", "--out", "replay.html", "--force"],
-        ["against", file, "film.csv", "--csv", "against.csv", "--force"],
-        ["run", "--resume", file, "--quiet"],  # last, as it goes on in the file itself
-    ]
-    return quick, [*(reading[name] for name in SLOW), ["against", file, "film.csv", "--png", "against.png", "--force"]]
+def is_slow(line):
+    return line[0] in SLOW or "--png" in line or (line[0] == "run" and "ipopt" in line)
 
 
-def of_qps(file, back_end):
-    return [["qp", file, "--repeat", "1", "--backend", back_end, "--csv", "qp.csv", "--force"]], []
-
-
-def of_scene(file, cut, whole):
-    """Of a scene with the overrides `cut`; `whole` where it is small enough for smooth motions."""
-    quick = [
-        ["run", file, "--qp", "active-set", "--quiet", "--out", "run.h5", "--force", *cut],
-        ["record-qp", file, "--qp", "active-set", "--quiet", "--out", "qp.h5", "--force", *cut],
-        ["mjcf", file, "--out", "mjcf", "--force", *cut],
-        ["stress", file, "--cpu-limit", "3", *cut],
-    ]
-    slow = [
-        ["run", file, "--qp", "ipopt", "--quiet", "--out", "run.h5", "--force", *cut],
-        ["compare", file, "--out", "compare.h5", "--force", *cut],
-        ["sweep", "scene_grid.toml", "--out", "sweep", "--threads", "1", "--quiet"],
-    ]
-    if whole:
-        slow.append(["integrate", file, "--out", "integrate.h5", "--force", *cut])
-    return quick, slow
-
-
-def of_grid(file):
-    return [["sweep", file, "--out", "sweep", "--threads", "2", "--quiet"]], []
-
-
-def of_film(file):
-    fit = ["midlines", file, "--scene", "small.toml", "--stations", "3", "--out", "midlines.csv", "--force"]
-    quick = [
-        [*fit, "--times", "2"],
-        [*fit, "--times", "4", "--free-head"],
-        ["against", "good.h5", file, "--csv", "against.csv", "--force"],
-        ["against", "good.h5", file, "--as-is"],
-    ]
-    return quick, [["against", "good.h5", file, "--png", "against.png", "--force"]]
+def through(place, file, known, settings=(), whole=True):
+    """Two lists: quick and slow commands that take `file` in a place of the help. Smooth motions take minutes of as
+    many bodies as a file may ask for: they are left out where it is not `whole`."""
+    left_out = (*LEFT_OUT, *(() if whole else ("integrate",))) if place == "SCENE" else ()
+    good = [command.good for name, command in known.items() if ARGUMENTS[place] in command.good and name not in left_out]
+    lines = [[file if word == ARGUMENTS[place] else word for word in line] for line in good]
+    for line in MORE[place]:
+        words = [file if word == "FILE" else word for word in line.split()]
+        lines.append([*words, *(["--force"] if "--force" in known[words[0]].good and "--resume" not in words else [])])
+    if place == "SCENE":
+        lines = [[word for k, word in enumerate(line) if "--set" not in line[max(0, k - 1):k + 1]] for line in lines]
+        lines = [line if line[0] == "sweep" else [*line, *settings] for line in lines]
+        lines.sort(key=lambda line: line[0] != "run")  # which says whether the reader takes the scene
+    quick, slow = [line for line in lines if not is_slow(line)], [line for line in lines if is_slow(line)]
+    return (quick, slow) if quick else (slow, [])
 
 
 def grid_text(scene, cut):
@@ -107,12 +92,12 @@ def grid_text(scene, cut):
 
 
 # Files to write: never one outside the working folder.
-OUT = ["", ".", "..", "none/such/x", "a" * 300, "x\x1b[31my", "good.h5", "film.csv", "small.toml", "x", "x.h5", "x.csv", "x.png", "x.gif", "x.mp4"]
+OUT = ["", ".", "..", "none/such/x", "a" * 300, "x\x1b[31my", "good.h5", "film.csv", "small.toml", "x", "x.h5", "x.csv",
+       "x.png", "x.gif", "x.mp4"]
 VALUES = [
-    "", "nan", "inf", "-inf", "1e308", "-1e308", "1e-308", "1e-320", "0", "-0", "-1", "1", "2", "1e12", "1e-12", "99999999999999999999",
-    "2147483648", "x", "\x1b[31mx", "a" * 60000, "\udcff", "[[1]]", "=", "a=b", "1/1", "0/0", "64x48", "99999x99999", "-1x-1", "0x0",
-    "time.step", "time.step=", "time.step=nan", "start.bend=[]", "title=\"\x07\"", "model.bodies=400000", "/dev/zero", "/etc/passwd", ".", "..",
-]  # fmt: skip
+    *("nan inf -inf 1e308 -1e308 1e-308 1e-320 0 -0 -1 1 2 1e12 1e-12 99999999999999999999 2147483648 x [[1]] = a=b "
+      "1/1 0/0 64x48 99999x99999 -1x-1 0x0 time.step time.step= time.step=nan start.bend=[] model.bodies=400000 "
+      "/dev/zero /etc/passwd . ..").split(), "", "\x1b[31mx", "a" * 60000, "\udcff", 'title="\x07"']
 # What would rightly take for ever.
 PATIENT = {("qp", "--repeat"): {"2147483648", "1e12"},
            ("design", "--budget"): {"2147483648", "1e12", "1e308", "99999999999999999999"}}
@@ -131,7 +116,8 @@ def extreme_options(known, random):
         if option is None or random.random() < 0.1:
             # No words beside: of several logs, each has its line.
             words = ["--no-such", "--", "--help=1", "-x", "--\x1b[31m"]
-            arguments.append(str(random.choice(words if name in ("info", "check") else [*words, "-", "x\x1b[31m", "", "-1"])))
+            words += [] if name in ("info", "check") else ["-", "x\x1b[31m", "", "-1"]
+            arguments.append(str(random.choice(words)))
             continue
         writes = option in ("--out", "--csv", "--png", "--scene-out")
         value = str(random.choice(OUT if writes else VALUES))

@@ -16,26 +16,27 @@ import time
 import h5py
 import numpy as np
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "experiments/docs/reference"))  # of mutations
+
 import commands
 import mutations
-import named_cases
 
 LATE = 10  # s of CPU time; what takes longer counts as hung
 NAMED_SHARE = 0.4  # of the time at most, for the named cases
-WHOLE = {"log flip": 60}  # one in so many flips goes through all quick commands, the others through one each
+KINDS = {"log flip": 150, "qp flip": 50, "log change": 3, "qp change": 2, "toml": 2, "grid": 1, "csv": 1, "film": 1,
+         "scene": 10, "options": 10}  # and their shares
+CASES = 23000
+WHOLE = {"log flip": 60, "qp flip": 60}  # one in so many goes through all quick commands, the others through one each
 SLOW = {"log flip": 150}  # commands that draw, compare or start others take part in one of so many cases;
 SLOW_OF_OTHERS = 10  # of other kinds
-REPORT = 60  # s between lines that say how far it is
 PATIENCE = {"figures": 60, "integrate": 600, "compare": 60}  # s: Python and the program again; many steps by design
-KINDS = ["log flip", "qp flip", "log change", "qp change", "toml", "grid", "csv", "film", "scene", "options"]
 BASES = {
-    "rest.h5": ["run", "muscles", "--qp", "active-set", "--quiet", *commands.SMALL, *commands.SHORT],
-    "slide.h5": ["run", "SCENES/knot_into_head.toml", "--qp", "active-set", "--quiet", *commands.SHORT],
-    "box.qp.h5": ["record-qp", "SCENES/redundant.toml", "--qp", "active-set", "--quiet", *commands.SMALL, *commands.SHORT],
-    "primal.qp.h5": [
-        "record-qp", "SCENES/redundant.toml", "--primal", "--qp", "active-set", "--quiet", *commands.SMALL, *commands.SHORT,
-    ],
+    "rest.h5": ["run", "muscles", *commands.SMALL],
+    "slide.h5": ["run", "SCENES/knot_into_head.toml"],
+    "box.qp.h5": ["record-qp", "SCENES/redundant.toml", *commands.SMALL],
+    "primal.qp.h5": ["record-qp", "SCENES/redundant.toml", "--primal", *commands.SMALL],
 }
+BRIEFLY = ["--qp", "active-set", "--quiet", *commands.SHORT, "--force", "--out"]
 
 
 def is_clean(text):
@@ -78,9 +79,8 @@ class Server:
         environment = dict(os.environ, OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1")
         environment["ASAN_OPTIONS"] = "detect_leaks=0:allocator_may_return_null=1:max_allocation_size_mb=8000"
         environment["UBSAN_OPTIONS"] = "halt_on_error=1:print_stacktrace=1"
-        self.process = subprocess.Popen(
-            [program], stdin=subprocess.PIPE, stdout=subprocess.PIPE, cwd=folder, env=environment, encoding="utf-8", errors="surrogateescape"
-        )
+        pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "encoding": "utf-8", "errors": "surrogateescape"}
+        self.process = subprocess.Popen([program], cwd=folder, env=environment, **pipes)
 
     def run(self, arguments, seconds=LATE):
         self.process.stdin.write("\t".join([str(seconds), *arguments]) + "\n")
@@ -90,8 +90,8 @@ class Server:
 
 
 BASIS = "shape,station (cm),bend_y (1),bend_z (1),twist (1)\n" + "".join(
-    f"{shape},{station},{shape * station / 42.4},{0.5 - shape},{0.1}\n" for shape in (1, 2) for station in (0, 10.6, 21.2, 31.8, 42.4)
-)
+    f"{shape},{station},{shape * station / 42.4},{0.5 - shape},{0.1}\n"
+    for shape in (1, 2) for station in (0, 10.6, 21.2, 31.8, 42.4))
 BASIS_SCENE = """base = "few_numbers"
 [controller.reduced_basis]
 frame = "body"
@@ -119,7 +119,8 @@ def film_text(log):
     with h5py.File(log) as file:
         place = np.cumsum(file["model/length"][()]) - file["model/length"][()] / 2
         for time_s, points in zip(file["trajectory/time"][()], file["trajectory/position"][()]):
-            lines += [f"{time_s:.6g},{s:.6g}," + ",".join(f"{x:.6g}" for x in p) for s, p in list(zip(place, points))[::3]]
+            for s, point in list(zip(place, points))[::3]:
+                lines.append(",".join(f"{value:.6g}" for value in (time_s, s, *point)))
     return "\n".join(lines) + "\n"
 
 
@@ -158,7 +159,7 @@ class Worker:
         (self.folder / "small.toml").write_text('base = "living_overhand"\n[model]\nbodies = 20\n')
         (self.folder / "scene_grid.toml").write_text(commands.grid_text("table1", commands.SHORT + commands.SMALL))
         for file in (self.source / "experiments/results/stability/scenes").glob("*.toml"):
-            shutil.copyfile(file, self.folder / file.name)
+            (self.folder / file.name).write_text(re.sub(r'"[./]*/data/', '"', file.read_text()))
         for folder in ("programs", "specimens"):
             shutil.copytree(self.source / "data" / folder, self.folder / folder, dirs_exist_ok=True)
 
@@ -172,7 +173,8 @@ class Worker:
         cut = commands.SHORT + commands.SMALL
         if kind == "csv":
             shapes = self.random.random() < 0.3
-            (self.folder / "case.csv").write_bytes(mutations.mutated_csv(BASIS if shapes else self.program, self.random))
+            damaged = mutations.mutated_csv(BASIS if shapes else self.program, self.random)
+            (self.folder / "case.csv").write_bytes(damaged)
             file.write_text(BASIS_SCENE if shapes else PROGRAM_SCENE)
         elif kind == "film":
             file = self.folder / "case.csv"
@@ -192,10 +194,9 @@ class Worker:
         elif kind.endswith("flip"):
             base = self.base(kind)
             file.write_bytes(mutations.flipped(self.bases[base], self.blocks[base], self.random))
-        elif not named_cases.changed_log(
-            self.paths[self.base(kind)], lambda log: mutations.structured(log, self.random), file
-        ):
-            return None
+        else:
+            change = lambda log: mutations.structured(log, self.random)
+            return (file.name, cut) if mutations.changed_log(self.paths[self.base(kind)], change, file) else None
         return file.name, cut
 
     def commands_for(self, kind, file, cut):
@@ -203,17 +204,9 @@ class Worker:
         count = self.cases[kind if kind in self.cases else "named"]
         if kind == "options":
             return [commands.extreme_options(self.known, self.random)]
-        if kind.startswith("log"):
-            quick, slow = commands.of_log(file, self.known)
-        elif kind.startswith("qp"):
-            quick, slow = commands.of_qps(file, commands.BACK_ENDS[count % len(commands.BACK_ENDS)])
-        elif kind == "grid":
-            quick, slow = commands.of_grid(file)
-        elif kind == "film":
-            quick, slow = commands.of_film(file)
-        else:
-            # Smooth motions take minutes of as many bodies as a file may ask for.
-            quick, slow = commands.of_scene(file, cut, whole=kind == "scene" and "." not in file)
+        place = {"log": "LOG", "qp": "SET", "grid": "GRID", "film": "FILM"}.get(kind.split()[0], "SCENE")
+        quick, slow = commands.through(place, file, self.known, cut, whole=kind == "scene" and "." not in file)
+        if place == "SCENE":
             (self.folder / "scene_grid.toml").write_text(commands.grid_text(file, cut))
         every = SLOW.get(kind, SLOW_OF_OTHERS)
         slow = slow[count // every % len(slow)] if slow and count % every == 0 else None
@@ -225,7 +218,8 @@ class Worker:
         """Whether the first command accepted the case."""
         accepted = None
         # As they are now: to go on with a log changes it.
-        inputs = {path.name.replace("case", name, 1): path.read_bytes() for path in self.folder.glob("case*") if path.is_file()}
+        files = [path for path in self.folder.glob("case*") if path.is_file()]
+        inputs = {path.name.replace("case", name, 1): path.read_bytes() for path in files}
         kept = self.keep / f"{name}{pathlib.Path(file).suffix}" if file.startswith("case") else file
         for arguments in self.commands_for(kind, file, cut):
             shutil.rmtree(self.folder / "sweep", ignore_errors=True)
@@ -258,14 +252,14 @@ class Worker:
 
     def named(self, number, workers, seed, end):
         """This worker's share of them, in an order by the seed, until the time is over."""
-        cases = list(named_cases.log_changes().items())
+        cases = list(mutations.NAMED.items())
         np.random.default_rng(seed).shuffle(cases)
         for name, change in cases[number::workers]:
             for base in ("rest.h5", "slide.h5"):
                 if time.monotonic() > end:
                     return
                 file = self.folder / "case.h5"
-                if named_cases.changed_log(self.paths[base], change, file):
+                if mutations.changed_log(self.paths[base], change, file):
                     self.take("log", f"{name}_{base[:-3]}", file.name)
 
     def one(self, kind, count):
@@ -288,29 +282,17 @@ def work(number, options, folder, bases, texts, results):
     worker = Worker(number, options, folder, bases, texts)
     try:
         worker.named(number, options.jobs, options.seed, begin + NAMED_SHARE * (end - begin))
-        go_through_kinds(worker, options, begin, end)
+        go_through_kinds(worker, options, end)
     finally:  # what was found so far
         results.put((worker.cases, worker.seen, worker.longest, worker.faults))
 
 
-def go_through_kinds(worker, options, begin, end):
-    wanted = {
-        "log flip": 0.75 * options.flips, "qp flip": 0.25 * options.flips, "log change": 0.3 * options.changes,
-        "qp change": 0.2 * options.changes, "toml": 0.2 * options.changes, "grid": 0.1 * options.changes, "csv": 0.1 * options.changes,
-        "film": 0.1 * options.changes, "scene": options.scenes, "options": options.options,
-    }  # fmt: skip
-    wanted = {kind: int(np.ceil(count / options.jobs)) for kind, count in wanted.items()}
-    tries, told = 0, begin
-    while time.monotonic() < end:
+def go_through_kinds(worker, options, end):
+    tries, cases = 0, options.cases / options.jobs
+    while time.monotonic() < end and sum(worker.cases.values()) < cases:
         # The kind that is furthest behind, so that a short run has some of each.
-        left = {kind: 1 - worker.cases[kind] / count for kind, count in wanted.items() if worker.cases[kind] < count}
-        if not left:
-            break
-        worker.one(max(left, key=left.get), tries)
+        worker.one(min(KINDS, key=lambda kind: worker.cases[kind] / KINDS[kind]), tries)
         tries += 1
-        if time.monotonic() > told + REPORT:
-            told = time.monotonic()
-            print(f"{told - begin:.0f} s: {sum(worker.seen.values())} commands, {worker.cases}", flush=True)
 
 
 def make_bases(options, folder):
@@ -318,7 +300,7 @@ def make_bases(options, folder):
     scenes = pathlib.Path(options.source) / "experiments/results/stability/scenes"
     bases = {}
     for name, arguments in BASES.items():
-        full = [a.replace("SCENES", str(scenes)) for a in arguments] + ["--out", name, "--force"]
+        full = [a.replace("SCENES", str(scenes)) for a in arguments] + [*BRIEFLY, name]
         status, _, error = server.run(full, 60)
         if status != "0":
             sys.exit(f"fuzz: {' '.join(full)}: {status}: {error.decode()}")
@@ -348,10 +330,7 @@ def main():
     parser.add_argument("--source", default=str(pathlib.Path(__file__).parents[2]))
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--minutes", type=float, default=1e9, help="stop after this time")
-    parser.add_argument("--flips", type=int, default=20000)
-    parser.add_argument("--changes", type=int, default=1000)
-    parser.add_argument("--scenes", type=int, default=1000)
-    parser.add_argument("--options", type=int, default=1000)
+    parser.add_argument("--cases", type=int, default=CASES)
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--keep", default="out/fuzz", help="folder for inputs that found a fault")
     options = parser.parse_args()
@@ -361,10 +340,8 @@ def main():
         folder = pathlib.Path(temporary)
         bases, texts = make_bases(options, folder)
         results = multiprocessing.Queue()
-        workers = [
-            multiprocessing.Process(target=work, args=(n, options, folder, bases, texts, results))
-            for n in range(options.jobs)
-        ]
+        workers = [multiprocessing.Process(target=work, args=(number, options, folder, bases, texts, results))
+                   for number in range(options.jobs)]
         for worker in workers:
             worker.start()
         done = [results.get() for _ in workers]

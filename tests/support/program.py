@@ -1,20 +1,37 @@
-"""The program (HAGFISH_PROGRAM) from Python: for tests that read what it writes."""
+"""The program (HAGFISH_PROGRAM) from Python, and runs of it that tests share."""
 
 from __future__ import annotations
 
-import csv
+import fcntl
+import functools
+import hashlib
 import os
+import shutil
 import subprocess
+import tempfile
+import time
 from pathlib import Path
 
+import h5py
 import numpy as np
+import pandas
 
-HAGFISH = Path(os.environ.get("HAGFISH_PROGRAM", Path(__file__).parents[2] / "build/release/experiments/hagfish"))
+ROOT = Path(__file__).resolve().parents[2]
+HAGFISH = Path(os.environ.get("HAGFISH_PROGRAM", ROOT / "build/release/experiments/hagfish"))
+RUNS = Path(os.environ.get("HAGFISH_TEST_RUNS", f"{tempfile.gettempdir()}/hagfish_runs_{os.getuid()}"))
+OLD = 3600  # s after which runs of another program may go: no tests of it are at work any more
+CLOCKS = ("wall_time", "qp_time")  # datasets that no run repeats
+
+
+def outcome(folder: Path, *arguments: object, **options: object) -> subprocess.CompletedProcess[str]:
+    """Runs the program in `folder`, however it ends."""
+    return subprocess.run([HAGFISH, *map(str, arguments)], cwd=folder, text=True,
+                          **{"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, **options})
 
 
 def hagfish(folder: Path, *arguments: object, code: int = 0) -> str:
     """Runs the program in `folder`; it must end with `code`. Returns all that it said."""
-    done = subprocess.run([HAGFISH, *map(str, arguments)], cwd=folder, capture_output=True, text=True)
+    done = outcome(folder, *arguments)
     assert done.returncode == code, done.stdout + done.stderr
     return done.stdout + done.stderr
 
@@ -29,17 +46,63 @@ def refused(folder: Path, *arguments: object, parts: tuple[str, ...] = ()) -> No
     assert sorted(folder.rglob("*")) == before
 
 
+@functools.cache
+def runs_of_this_program() -> Path:
+    own = RUNS / hashlib.sha256(HAGFISH.read_bytes()).hexdigest()[:16]
+    own.mkdir(parents=True, exist_ok=True)
+    own.touch()
+    for other in RUNS.iterdir():
+        if time.time() - other.stat().st_mtime > OLD:
+            shutil.rmtree(other, ignore_errors=True)
+    return own
+
+
+def sets(*settings: str) -> list[str]:
+    """Settings as options."""
+    return [word for setting in settings for word in ("--set", setting)]
+
+
+def logged(folder: Path, *arguments: object, out: str = "a.h5") -> Path:
+    """The log of `hagfish run` as folder/out. Who asks for the same run, in whichever process, gets a copy of one."""
+    words = [str(word) for word in arguments]
+    if any((folder / word).is_file() for word in words):  # a scene of the test's own, which nobody shares
+        hagfish(folder, "run", *words, "--quiet", "--force", "--out", out)
+        return folder / out
+    kept = runs_of_this_program() / f"{hashlib.sha256(repr(words).encode()).hexdigest()[:16]}.h5"
+    with kept.with_suffix(".lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)  # who comes second waits
+        if not kept.exists():
+            made = kept.with_suffix(".made")
+            hagfish(folder, "run", *words, "--quiet", "--force", "--out", made)
+            made.rename(kept)
+    return Path(shutil.copyfile(kept, folder / out))
+
+
+def series(file: h5py.File) -> dict[str, h5py.Dataset]:
+    """Datasets of numbers by name, but for those that a clock wrote."""
+    found = {}
+    file.visititems(lambda name, node: found.__setitem__(name, node) if isinstance(node, h5py.Dataset) else None)
+    return {name: node for name, node in found.items() if node.dtype.kind in "fiu" and not name.endswith(CLOCKS)}
+
+
+def different(a: Path, b: Path, least: int = 50) -> list[str]:
+    """Series of numbers that two logs do not have alike, to the last bit, or that one lacks."""
+    with h5py.File(a) as first, h5py.File(b) as second:
+        x, y = series(first), series(second)
+        assert len(x) > least
+        same = {name for name in x.keys() & y.keys() if np.array_equal(x[name], y[name], equal_nan=True)}
+    return sorted((x.keys() | y.keys()) - same)
+
+
+def phases(file: h5py.File) -> list[str]:
+    """The phase of each frame by its name."""
+    kind = file["trajectory/phase"]
+    words = {value: word for word, value in h5py.check_enum_dtype(kind.dtype).items()}
+    return [words[int(value)] for value in kind]
+
+
 def table(path: Path) -> dict[str, np.ndarray]:
     """A CSV by its columns: numbers, with nan where a field is empty, or words."""
-    with path.open(newline="") as file:
-        heading, *rows = csv.reader(file)
-    columns = {}
-    for k, name in enumerate(heading):
-        fields = [row[k] for row in rows]
-        try:
-            if any("_" in field for field in fields):  # Python takes 3_1 for 31
-                raise ValueError
-            columns[name] = np.array([float(field) if field else np.nan for field in fields])
-        except ValueError:
-            columns[name] = np.array(fields)
-    return columns
+    read = pandas.read_csv(path, keep_default_na=False, na_values=[""])
+    return {name: column.fillna("").to_numpy(str) if column.dtype == object else column.to_numpy(float)
+            for name, column in read.items()}

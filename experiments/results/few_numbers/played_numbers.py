@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "drawing"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "drawing"))
 from hagfish_log import HagfishLog, LogError  # noqa: E402
 
 

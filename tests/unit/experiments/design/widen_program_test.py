@@ -1,13 +1,9 @@
 """Strands of a program are pushed apart, by a sum whose gradient is the true one."""
 
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
 
-sys.path.insert(0, str(Path(__file__).parents[4] / "experiments/curvature"))
-import widen_program as widening  # noqa: E402
+import widen_program as widening
 
 COUNT = 40
 

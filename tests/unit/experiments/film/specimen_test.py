@@ -2,40 +2,44 @@
 
 from __future__ import annotations
 
-import sys
+import re
 import tomllib
-from pathlib import Path
 
 import h5py
 import numpy as np
 import pytest
 
-sys.dont_write_bytecode = True
-sys.path.insert(0, str(Path(__file__).parents[3] / "support"))
-
-DATA = Path(__file__).parents[4] / "data"
-
-from program import hagfish, refused, table  # noqa: E402
+from program import ROOT, hagfish, logged, refused, table
 
 ANIMAL = ["--length", 35, "--mass", 45, "--circumference", "4.6,4.4,4.4,3.2", "--bending", "25,80,50,55", "--twist", 60]
 
 
+def specimen(folder, *arguments, out="mine"):
+    """What `hagfish specimen` says, and the animal that it writes."""
+    said = hagfish(folder, "specimen", *arguments, "--out", f"{out}.toml")
+    return said, tomllib.loads((folder / f"{out}.toml").read_text())
+
+
+def toml(name):
+    return tomllib.loads((ROOT / "data" / name).read_text())
+
+
+def along_body(values):
+    """Linear between stations and constant outside."""
+    return np.interp((np.arange(1000) + 0.5) / 1000, [0.2, 0.4, 0.6, 0.8], values)
+
+
 def test_it_writes_what_was_measured_and_works_out_the_rest(tmp_path):
-    said = hagfish(tmp_path, "specimen", *ANIMAL, "--out", "mine.toml", "--name", 'a "good" one')
-    with (tmp_path / "mine.toml").open("rb") as file:
-        mine = tomllib.load(file)
+    said, mine = specimen(tmp_path, *ANIMAL, "--name", 'a "good" one')
     assert mine["name"] == 'a "good" one'
     assert (mine["length"], mine["mass"], mine["twist_limit_deg"]) == (35, 45, 60)
     assert mine["circumference"] == [4.6, 4.4, 4.4, 3.2] and mine["bending_limit_deg"] == [25, 80, 50, 55]
     assert mine["bending_span"] == pytest.approx(2 * 35 / 100)
-    # Round cross-sections, linear between stations and constant outside.
-    s = (np.arange(1000) + 0.5) / 1000
-    around = np.interp(s, mine["station"], mine["circumference"])
-    assert f"{45 / np.mean(around ** 2 / (4 * np.pi) * 35):.3g} g/cm^3" in said
-    assert "plausible" in said and "ODD" not in said
+    assert mine["station"] == [0.2, 0.4, 0.6, 0.8]
+    round_sections = np.mean(along_body(mine["circumference"]) ** 2 / (4 * np.pi) * 35)
+    assert f"{45 / round_sections:.3g} g/cm^3" in said and "plausible" in said and "ODD" not in said
     # Muscles: those of the specimen file by the cross-section, where they were measured; the rest as it is.
-    with (DATA / "specimens/pacific_hagfish.toml").open("rb") as file:
-        other = tomllib.load(file)
+    other = toml("specimens/pacific_hagfish.toml")
     share = (np.array(mine["circumference"]) / other["circumference"]) ** 2
     for area in ("longitudinal_area", "oblique_area"):
         assert mine["muscle"][area] == pytest.approx(share * other["muscle"][area], rel=5e-3)  # three digits
@@ -44,108 +48,111 @@ def test_it_writes_what_was_measured_and_works_out_the_rest(tmp_path):
 
 
 def test_what_is_odd_is_said(tmp_path):
-    said = hagfish(tmp_path, "specimen", "--length", 35, "--mass", 450, "--circumference", "14,14", "--bending", "25,95",
-                   "--station", "0.3,0.7", "--twist", 60, "--out", "odd.toml")
+    thick = ["--length", 35, "--mass", 450, "--circumference", "14,14", "--station", "0.3,0.7", "--twist", 60]
+    said, _ = specimen(tmp_path, *thick, "--bending", "25,95")
     assert "slenderness" in said and said.count("ODD") == 2
     assert "95 degrees at 0.7 L: a joint bends by 85 at most" in said
     for density, odd in ((0.84, 1), (0.86, 0), (1.14, 0), (1.16, 1)):
-        said = hagfish(tmp_path, "specimen", "--mass", density * 80 / 0.8707, "--out", "any.toml", "--force")
+        said, _ = specimen(tmp_path, "--mass", density * 80 / 0.8707, "--force")
         assert said.count("ODD") == odd
 
 
-def test_bad_measures_are_one_line(tmp_path):
-    at = lambda k, value: [*ANIMAL[:k], value, *ANIMAL[k + 1:], "--out", "x.toml"]
-    refused(tmp_path, "specimen", *at(1, -3), parts=("--length",))
-    refused(tmp_path, "specimen", *at(5, "4.6,4.4"), parts=("--circumference", "has 2 values, but there are 4 stations"))
-    refused(tmp_path, "specimen", *at(7, "25,80,50,0"), parts=("--bending 0",))
-    # What the reader of specimen files would refuse.
-    refused(tmp_path, "specimen", *at(7, "25,80,50,180"), parts=("--bending 180", "below 180"))
-    refused(tmp_path, "specimen", *at(5, "4.6,4.4,4.4,1e308"), parts=("--circumference 1e+308",))
-    refused(tmp_path, "specimen", *at(9, 0), parts=("--twist",))
-    refused(tmp_path, "specimen", *ANIMAL, "--name", "a\nb", "--out", "x.toml", parts=("--name",))
-    refused(tmp_path, "specimen", *ANIMAL, "--station", "0.2,0.4,0.3,0.8", "--out", "x.toml", parts=("--station 0.3",))
-    refused(tmp_path, "specimen", *ANIMAL, "--out", "/no/folder/x.toml", parts=("/no/folder/x.toml",))
+@pytest.mark.parametrize(
+    ("option", "value", "parts"),
+    [
+        ("--length", -3, ("--length",)),
+        ("--circumference", "4.6,4.4", ("--circumference", "has 2 values, but there are 4 stations")),
+        ("--circumference", "4.6,4.4,4.4,1e308", ("--circumference 1e+308",)),
+        ("--bending", "25,80,50,0", ("--bending 0",)),
+        ("--bending", "25,80,50,180", ("--bending 180", "below 180")),
+        ("--twist", 0, ("--twist",)),
+        ("--name", "a\nb", ("--name",)),
+        ("--station", "0.2,0.4,0.3,0.8", ("--station 0.3",)),
+        ("--knot", "6_1", ("--knot",)),
+    ],
+)
+def test_a_bad_measure_is_one_line(tmp_path, option, value, parts):
+    words = [*ANIMAL, option, value]
+    if option in ANIMAL:
+        words = [*ANIMAL]
+        words[words.index(option) + 1] = value
+    refused(tmp_path, "specimen", *words, "--out", "x.toml", parts=parts)
 
 
 def test_what_was_not_measured_is_the_papers_animal_scaled(tmp_path):
-    with (DATA / "specimens/pacific_hagfish.toml").open("rb") as file:
-        paper = tomllib.load(file)
-    assert "0.871 g/cm^3 of round cross-sections, water 1: plausible" in hagfish(tmp_path, "specimen", "--out", "same.toml")
-    hagfish(tmp_path, "specimen", "--length", 21.2, "--out", "half.toml")
-    said = hagfish(tmp_path, "specimen", "--thicker", 1.1, "--out", "thick.toml")
-    same, half, thick = (tomllib.loads((tmp_path / f"{name}.toml").read_text()) for name in ("same", "half", "thick"))
+    paper = toml("specimens/pacific_hagfish.toml")
+    said, same = specimen(tmp_path, out="same")
+    assert "0.871 g/cm^3 of round cross-sections, water 1: plausible" in said
     for key in ("length", "mass", "circumference", "bending_limit_deg", "twist_limit_deg", "bending_span"):
         assert same[key] == pytest.approx(paper[key], rel=1e-5)
     assert same["passive"]["bending_stiffness"] == pytest.approx(paper["passive"]["bending_stiffness"])
     # The same shape and density; angles stay.
+    _, half = specimen(tmp_path, "--length", 21.2, out="half")
     assert half["mass"] == pytest.approx(paper["mass"] / 8, rel=1e-5)
     assert half["circumference"] == pytest.approx([c / 2 for c in paper["circumference"]])
     assert half["bending_limit_deg"] == pytest.approx(paper["bending_limit_deg"], rel=1e-5)
-    # Thicker: all that goes with the girth, in the file and in a line.
-    assert thick["mass"] == pytest.approx(1.21 * paper["mass"], rel=1e-5)
-    assert thick["bending_limit_deg"] == pytest.approx([limit / 1.1 for limit in paper["bending_limit_deg"]], rel=1e-5)
-    assert thick["passive"]["twist_damping"] == pytest.approx([1.1 ** 4 * each for each in paper["passive"]["twist_damping"]], rel=1e-3)
-    assert thick["muscle"]["longitudinal_area"] == pytest.approx([1.21 * each for each in paper["muscle"]["longitudinal_area"]], rel=5e-3)
-    line = next(line for line in said.splitlines() if line.startswith("beside paper's"))
-    for part in ("length x 1,", "girth x 1.1,", "mass x 1.21,", "limits x 0.909 at", "stiffness x 1.46,", "torques x 1.33,", "drag x 1.1"):
-        assert part in line
+
+
+def test_a_thicker_animal_is_thicker_in_all_that_goes_with_the_girth(tmp_path):
+    paper = toml("specimens/pacific_hagfish.toml")
+    said, thick = specimen(tmp_path, "--thicker", 1.1)
+    grows = [("mass", 2, 1e-5), ("bending_limit_deg", -1, 1e-5), ("twist_damping", 4, 1e-3), ("longitudinal_area", 2, 5e-3)]
+    for key, power, rounding in grows:
+        own, papers = (np.array((animal | animal["passive"] | animal["muscle"])[key]) for animal in (thick, paper))
+        np.testing.assert_allclose(own, papers * 1.1**power, rtol=rounding, err_msg=key)
+    (line,) = [line for line in said.splitlines() if line.startswith("beside paper's")]
+    for part in "length x 1|girth x 1.1|mass x 1.21|limits x 0.909|stiffness x 1.46|torques x 1.33|drag x 1.1".split("|"):
+        assert re.search(re.escape(part) + r"\b", line), part
     # Measured values are thickened, too.
-    hagfish(tmp_path, "specimen", *ANIMAL, "--thicker", 2, "--out", "twice.toml")
-    twice = tomllib.loads((tmp_path / "twice.toml").read_text())
+    _, twice = specimen(tmp_path, *ANIMAL, "--thicker", 2, out="twice")
     assert (twice["mass"], twice["twist_limit_deg"]) == (180, 30) and twice["circumference"] == [9.2, 8.8, 8.8, 6.4]
 
 
-@pytest.mark.parametrize("knot, title", [("3_1", "Overhand knot"), ("4_1", "Figure-eight knot"), ("5_1", "Double overhand knot"), ("5_2", "Three-twist knot")])
-def test_its_scene_is_of_its_knot_and_animal(tmp_path, knot, title):
-    hagfish(tmp_path, "specimen", *ANIMAL, "--knot", knot, "--out", "mine.toml", "--scene-out", "knot.toml", "--name", "mine")
-    hagfish(tmp_path, "run", "knot.toml", "--set", "time.duration=0.01", "--quiet", "--out", "a.h5")
-    scene = tomllib.loads(h5py.File(tmp_path / "a.h5").attrs["scene"])
-    assert scene["title"] == f"{title}, tied by mine" and scene["expect"]["knot"] == knot
-    with (DATA / "table1.toml").open("rb") as file:
-        paper = tomllib.load(file)
-    girth = np.mean(np.interp((np.arange(1000) + 0.5) / 1000, [0.2, 0.4, 0.6, 0.8], [4.6, 4.4, 4.4, 3.2]))
-    papers = np.mean(np.interp((np.arange(1000) + 0.5) / 1000, [0.2, 0.4, 0.6, 0.8], [5.6, 5.5, 5.6, 4.3]))
-    for table, key in (("drag", "normal"), ("constraints", "tolerance"), ("constraints", "stride"), ("contact", "margin"), ("controller", "contact_gap"),
-                       ("controller", "contact_patch")):
-        assert scene[table][key] == pytest.approx(girth / papers * paper[table][key], rel=1e-3), key
-    refused(tmp_path, "specimen", "--knot", "6_1", "--out", "x.toml", parts=("--knot",))
+KNOTS = {"3_1": ("Overhand knot", 3), "4_1": ("Figure-eight knot", 5), "5_1": ("Double overhand knot", 5),
+         "5_2": ("Three-twist knot", 7)}  # with their determinants
+FRESH = [("3_1", ANIMAL), ("3_1", ["--thicker", 0.9]), ("3_1", ["--length", 80]), ("4_1", ["--thicker", 1.1]),
+         ("5_1", ["--length", 20]), ("5_2", ["--thicker", 1.1])]
 
 
-FRESH = [("3_1", ANIMAL), ("3_1", ["--thicker", 1.1]), ("3_1", ["--thicker", 0.9]), ("3_1", ["--length", 80]), ("3_1", ["--length", 20]),
-         ("4_1", ANIMAL), ("4_1", ["--thicker", 1.1]), ("5_1", ["--thicker", 0.9]), ("5_2", ANIMAL), ("5_2", ["--thicker", 1.1])]
+def with_scene(folder, *arguments):
+    return specimen(folder, *arguments, "--scene-out", "knot.toml", "--name", "mine")[0]
 
 
-@pytest.mark.parametrize("knot, animal", FRESH, ids=str)
+@pytest.mark.parametrize(("knot", "animal"), FRESH, ids=str)
 def test_a_fresh_animal_ties_its_knot_and_passes_its_audit(tmp_path, knot, animal):
-    said = hagfish(tmp_path, "specimen", *animal, "--knot", knot, "--out", "mine.toml", "--scene-out", "knot.toml", "--name", "mine")
-    assert "may not be tied" not in said
-    hagfish(tmp_path, "run", "knot.toml", "--quiet", "--out", "a.h5")
-    log = h5py.File(tmp_path / "a.h5")
-    assert log.attrs["status"] == "complete" and {"3_1": 3, "4_1": 5, "5_1": 5, "5_2": 7}[knot] in log["knot/determinant"][()]
+    assert "may not be tied" not in with_scene(tmp_path, *animal, "--knot", knot)
+    log = h5py.File(logged(tmp_path, "knot.toml"))
+    title, determinant = KNOTS[knot]
+    assert log.attrs["status"] == "complete" and determinant in log["knot/determinant"][()]
     scene = tomllib.loads(log.attrs["scene"])
+    assert scene["title"] == f"{title}, tied by mine" and scene["expect"]["knot"] == knot
+    length = scene["specimen"]["length"]
     if knot == "3_1":
-        assert scene["expect"]["slide_distance"] == pytest.approx(0.05 * scene["specimen"]["length"])
-    assert scene["time"]["step"] == 0.005 / {35: 2, 20: 4}.get(round(scene["specimen"]["length"]), 1)
+        assert scene["expect"]["slide_distance"] == pytest.approx(0.05 * length)
+    assert scene["time"]["step"] == 0.005 / {35: 2, 20: 4}.get(round(length), 1)
     hagfish(tmp_path, "check", "a.h5")
     hagfish(tmp_path, "export", "a.h5", "--out", "a")
     summary = table(tmp_path / "a/summary.csv")
-    assert summary["specimen"][0] == "mine" and summary["length_cm"][0] == pytest.approx(scene["specimen"]["length"])
+    assert summary["specimen"][0] == "mine" and summary["length_cm"][0] == pytest.approx(length)
+
+
+def test_settings_that_go_with_the_girth_are_the_papers_by_it(tmp_path):
+    with_scene(tmp_path, *ANIMAL)
+    log = h5py.File(logged(tmp_path, "knot.toml", "--set", "muscle.present=true"))
+    scene, paper = tomllib.loads(log.attrs["scene"]), toml("table1.toml")
+    girth = np.mean(along_body([4.6, 4.4, 4.4, 3.2])) / np.mean(along_body([5.6, 5.5, 5.6, 4.3]))
+    keys = """drag.normal constraints.tolerance constraints.stride contact.margin controller.contact_gap
+        controller.contact_patch"""
+    for section, key in (name.split(".") for name in keys.split()):
+        assert scene[section][key] == pytest.approx(girth * paper[section][key], rel=1e-3), key
+    assert 0.1 < log["muscle/activation"][1:].max() <= 1  # its muscles can do it
+    hagfish(tmp_path, "check", "a.h5")
 
 
 @pytest.mark.parametrize("knot", ["4_1", "5_2"])
 def test_an_animal_too_thick_for_its_knot_is_told(tmp_path, knot):
-    said = hagfish(tmp_path, "specimen", "--thicker", 1.2, "--knot", knot, "--out", "mine.toml", "--scene-out", "knot.toml", "--name", "mine")
-    assert f"{knot} may not be tied: the animal is 1.2 times as thick for its length as the paper's; up to 1.1 was tied" in said
-    done = hagfish(tmp_path, "run", "knot.toml", "--quiet", "--out", "a.h5", code=3)
-    assert "the script ended with" in done
+    told = f"{knot} may not be tied: the animal is 1.2 times as thick for its length as the paper's; up to 1.1 was tied"
+    assert told in with_scene(tmp_path, "--thicker", 1.2, "--knot", knot)
+    assert "the script ended with" in hagfish(tmp_path, "run", "knot.toml", "--quiet", "--out", "a.h5", code=3)
     # A longer one of that girth is as slender as the paper's.
-    said = hagfish(tmp_path, "specimen", "--length", 42.4 * 1.2, "--knot", knot, "--out", "b.toml", "--scene-out", "long.toml")
-    assert "may not be tied" not in said
-
-
-def test_it_has_muscles(tmp_path):
-    hagfish(tmp_path, "specimen", *ANIMAL, "--out", "mine.toml", "--scene-out", "knot.toml")
-    hagfish(tmp_path, "run", "knot.toml", "--set", "muscle.present=true", "--quiet", "--out", "a.h5")
-    activation = h5py.File(tmp_path / "a.h5")["muscle/activation"][1:]
-    assert 0.1 < activation.max() <= 1
-    hagfish(tmp_path, "check", "a.h5")
+    assert "may not be tied" not in with_scene(tmp_path, "--length", 42.4 * 1.2, "--knot", knot, "--force")

@@ -3,19 +3,14 @@
 from __future__ import annotations
 
 import re
-import sys
-from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).parents[4]
-sys.dont_write_bytecode = True
-sys.path.insert(0, str(ROOT / "tests/support"))
-
-from program import hagfish  # noqa: E402
+from program import ROOT, hagfish
 
 SHOWN = re.compile(r"^(?:    )?hagfish ([a-z-]+)([^#\n]*)", re.MULTILINE)  # in blocks of commands, up to a comment
-PAGES = [path for folder in ("experiments", "data") for path in sorted((ROOT / folder).rglob("*.md"))] + [ROOT / "README.md"]
+FOLDERS = (ROOT / "experiments", ROOT / "data")
+PAGES = [ROOT / "README.md", *sorted(path for folder in FOLDERS for path in folder.rglob("*.md"))]
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda path: str(path.relative_to(ROOT)))

@@ -1,39 +1,39 @@
-"""What the study of few numbers reads from logs: the torques of the numbers, and profiles of them by the knot's place."""
+"""What the study of few numbers reads from logs: torques of the numbers, and profiles of them by the knot's place."""
 
 from __future__ import annotations
 
 import subprocess
 import sys
 import tomllib
-from pathlib import Path
 
 import numpy as np
 import pytest
 
-ROOT = Path(__file__).parents[4]
-sys.dont_write_bytecode = True
-sys.path[:0] = [str(ROOT / folder) for folder in ("tests/support", "experiments/drawing", "experiments/curvature",
-                                                  "experiments/results/few_numbers")]
+from animal import spans
+from few_numbers import basis_torque
+from hagfish_log import HagfishLog
+from played_numbers import profile
+from program import ROOT, logged, sets
 
-from few_numbers import basis_torque  # noqa: E402
-from hagfish_log import HagfishLog  # noqa: E402
-from played_numbers import profile  # noqa: E402
-from program import hagfish  # noqa: E402
+BRIEF = sets("time.duration=14.5")
+
+
+def script(folder, name, *arguments):
+    command = [sys.executable, str(ROOT / "experiments/results/few_numbers" / name), *arguments]
+    return subprocess.run(command, cwd=folder, capture_output=True, text=True)
 
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     folder = tmp_path_factory.mktemp("few")
-    hagfish(folder, "run", "few_numbers", "--set", "time.duration=14.5", "--quiet", "--out", "a.h5")
+    logged(folder, "few_numbers", *BRIEF)
     return folder
 
 
 def test_torques_of_the_numbers_are_what_the_run_took_beside_tone(folder):
     log = HagfishLog(folder / "a.h5")
     hinges, joint, kind = log.hinges()
-    n, length = len(log["/model/length"]), log["/model/length"][0]
-    span = np.array([((n if j + 2 >= n else j + 1) - (0 if j <= 2 else j - 1)) * length for j in joint])
-    scene = log.scene()
+    span, scene = spans(log)[joint], log.scene()
     passive = scene["specimen"]["passive"]  # the same at all stations
     stiffness = np.where(kind == "twist", passive["twist_stiffness"][0], passive["bending_stiffness"][0]) / span
     rest, q = log["/trajectory/q_ref"][:, hinges], log["/trajectory/q"][:, 7:]
@@ -44,7 +44,8 @@ def test_torques_of_the_numbers_are_what_the_run_took_beside_tone(folder):
     assert frames.size > 20
     wanted = (log["/forces/active"][:, hinges] - tone)[frames]
     assert np.abs(wanted).max() > 100
-    np.testing.assert_allclose(basis_torque(log)[frames], wanted, rtol=0, atol=1e-9 * np.nanmax(np.abs(log["/forces/active"])))
+    rounding = 1e-9 * np.nanmax(np.abs(log["/forces/active"]))
+    np.testing.assert_allclose(basis_torque(log)[frames], wanted, rtol=0, atol=rounding)
 
 
 def test_a_profile_is_of_means_by_place():
@@ -55,11 +56,9 @@ def test_a_profile_is_of_means_by_place():
 
 
 def test_a_profile_is_a_scene_that_plays_it(folder):
-    script = [sys.executable, str(ROOT / "experiments/results/few_numbers/played_numbers.py")]
-    subprocess.run([*script, "a.h5", "b.toml", "4", "--base", "few_numbers"], cwd=folder, check=True)
-    hagfish(folder, "run", "b.toml", "--set", "time.duration=14.5", "--quiet", "--out", "b.h5")
+    assert script(folder, "played_numbers.py", "a.h5", "b.toml", "4", "--base", "few_numbers").returncode == 0
+    log = HagfishLog(logged(folder, "b.toml", *BRIEF, out="b.h5"))
     basis = tomllib.loads((folder / "b.toml").read_text())["controller"]["reduced_basis"]
-    log = HagfishLog(folder / "b.h5")
     frame = log.in_phase("slide")[10]
     played = np.reshape(basis["played"], (4, 9))
     now = np.array([np.interp(log["/basis/window"][frame, 0], basis["places"], column) for column in played.T])
@@ -67,12 +66,10 @@ def test_a_profile_is_a_scene_that_plays_it(folder):
 
 
 def test_learned_shapes_make_up_the_forces_that_they_were_learned_from(folder):
-    hagfish(folder, "run", "table1", "--set", "time.step=0.02", "--until", "slide", "--quiet", "--out", "d.h5")
-    script = [sys.executable, str(ROOT / "experiments/results/few_numbers/sliding_shapes.py")]
-    done = subprocess.run([*script, "d.h5", "d.csv", "knot", "4"], cwd=folder, capture_output=True, text=True, check=True)
+    log = HagfishLog(logged(folder, "table1", "--set", "time.step=0.02", "--until", "slide", out="d.h5"))
+    done = script(folder, "sliding_shapes.py", "d.h5", "d.csv", "knot", "4")
     said = float(done.stdout.split("hold ")[1].split(" %")[0]) / 100
     rows = np.loadtxt(folder / "d.csv", delimiter=",", skiprows=2)
-    log = HagfishLog(folder / "d.h5")
     hinges, joint, kind = log.hinges()
     left = total = 0.0
     for frame in log.in_phase("slide")[1:]:
@@ -88,13 +85,13 @@ def test_learned_shapes_make_up_the_forces_that_they_were_learned_from(folder):
                 shapes[of, k] = np.interp(share[inside][of], own[:, 1], own[:, column])
         left += np.sum((force - shapes @ np.linalg.lstsq(shapes, force, rcond=None)[0]) ** 2)
         total += np.sum(force**2)
-    # Stations are not hinges, and joints take turns in which axis comes first: seen 0.0102 apart. With two axes exchanged shapes make up 0.31.
+    # Stations are not hinges, and joints take turns in which axis comes first: seen 0.0102 apart. With two axes
+    # exchanged shapes make up 0.31.
     assert 0.8 < said < 1 and abs(1 - left / total - said) < 0.02
 
 
 def test_a_log_without_numbers_is_one_line(folder):
-    hagfish(folder, "run", "table1", "--set", "time.step=0.02", "--set", "time.duration=0.2", "--quiet", "--out", "c.h5")
-    script = [sys.executable, str(ROOT / "experiments/results/few_numbers/played_numbers.py")]
-    done = subprocess.run([*script, "c.h5", "c.toml", "--base", "table1"], cwd=folder, capture_output=True, text=True)
+    logged(folder, "table1", *sets("time.step=0.02", "time.duration=0.2"), out="c.h5")
+    done = script(folder, "played_numbers.py", "c.h5", "c.toml", "--base", "table1")
     assert done.returncode == 2 and "c.h5: has no slide of a knot by a reduced basis" in done.stderr
     assert not (folder / "c.toml").exists()

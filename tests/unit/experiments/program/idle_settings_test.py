@@ -2,16 +2,9 @@
 
 from __future__ import annotations
 
-import sys
-from pathlib import Path
-
 import pytest
 
-ROOT = Path(__file__).parents[4]
-sys.dont_write_bytecode = True
-sys.path.insert(0, str(ROOT / "tests/support"))
-
-from program import hagfish, refused  # noqa: E402
+from program import ROOT, logged, refused, sets
 
 
 @pytest.mark.parametrize(
@@ -31,13 +24,8 @@ from program import hagfish, refused  # noqa: E402
     ],
 )
 def test_a_run_refuses_what_does_nothing(tmp_path, scene, key, why):
-    refused(tmp_path, "run", scene, "--set", key, "--out", "a.h5", parts=(f"--set {key.split('=')[0]}: has no effect here", why))
-
-
-def test_what_acts_is_taken(tmp_path):
-    brief = ["--quiet", "--set", "time.duration=0.02", "--force", "--out", "a.h5"]
-    hagfish(tmp_path, "run", "table1", "--set", "start.seed=3", "--set", "start.noise_deg=0.3", *brief)
-    hagfish(tmp_path, "run", "table1", "--set", "script.noise=1", "--set", "script.noise_seed=2", *brief)
+    told = f"--set {key.split('=')[0]}: has no effect here"
+    refused(tmp_path, "run", scene, "--set", key, "--out", "a.h5", parts=(told, why))
 
 
 @pytest.mark.parametrize(
@@ -49,17 +37,21 @@ def test_what_acts_is_taken(tmp_path):
 )
 def test_a_sweep_refuses_what_does_nothing_in_all_cells(tmp_path, grid, key, why):
     (tmp_path / "grid.toml").write_text(f'scene = "table1"\n{grid}')
-    refused(tmp_path, "sweep", "grid.toml", "--out", "out", parts=("grid.toml", f"{key}: has no effect in any cell", why))
+    told = f"{key}: has no effect in any cell"
+    refused(tmp_path, "sweep", "grid.toml", "--out", "out", parts=("grid.toml", told, why))
 
 
 def test_a_sweep_takes_what_two_of_its_axes_make_act(tmp_path):
-    axes = {"controller.law": ["paper", "reflex"], "controller.reflex.noise": [0, 0.1], "controller.reflex.seed": [1, 2]}
-    (tmp_path / "grid.toml").write_text('scene = "reflex_overhand"\n' + "".join(f'[[axis]]\n"{key}" = {values}\n' for key, values in axes.items()))
+    axes = {"law": ["paper", "reflex"], "reflex.noise": [0, 0.1], "reflex.seed": [1, 2]}
+    text = "".join(f'[[axis]]\n"controller.{key}" = {values}\n' for key, values in axes.items())
+    (tmp_path / "grid.toml").write_text(f'scene = "reflex_overhand"\n{text}')
     refused(tmp_path, "sweep", "grid.toml", "--out", "out", "--part", "2/1", parts=("--part 2/1",))
 
 
-@pytest.mark.parametrize("grid", sorted((ROOT / "experiments/results").glob("*/grids/*.toml")),
-                         ids=lambda grid: f"{grid.parts[-3]}-{grid.stem}")
+GRIDS = sorted((ROOT / "experiments/results").glob("*/grids/*.toml"))
+
+
+@pytest.mark.parametrize("grid", GRIDS, ids=lambda grid: f"{grid.parts[-3]}-{grid.stem}")
 def test_all_that_the_studies_set_does_something(tmp_path, grid):
     """What is refused is the part, after the keys: no run begins."""
     refused(tmp_path, "sweep", str(grid), "--out", "out", "--part", "2/1", parts=("--part 2/1",))
@@ -67,9 +59,7 @@ def test_all_that_the_studies_set_does_something(tmp_path, grid):
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("branch")
-    hagfish(folder, "run", "table1", "--quiet", "--out", "a.h5")
-    return folder
+    return logged(tmp_path_factory.mktemp("branch"), "table1").parent
 
 
 @pytest.mark.parametrize(
@@ -85,5 +75,4 @@ def folder(tmp_path_factory):
     ],
 )
 def test_a_branch_refuses_what_does_nothing(folder, time, set_, parts):
-    options = [word for one in set_ for word in ("--set", one)]
-    refused(folder, "branch", "a.h5", "--time", time, *options, "--out", "b.h5", parts=parts)
+    refused(folder, "branch", "a.h5", "--time", time, *sets(*set_), "--out", "b.h5", parts=parts)

@@ -44,18 +44,6 @@ class LogCommandsTest : public ProgramTest {
   }
 };
 
-TEST_F(LogCommandsTest, RunInfoAndCheck) {
-  EXPECT_EQ(run_program(brief_run + "--out a.h5").code, 0);
-  const ProgramOutcome info = run_program("info a.h5");
-  EXPECT_EQ(info.code, 0);
-  EXPECT_NE(info.output.find("status           complete"), std::string::npos) << info.output;
-  // Too short to tie: the audit must say what is missing and fail.
-  const ProgramOutcome check = run_program("check a.h5");
-  EXPECT_EQ(check.code, 1);
-  EXPECT_NE(check.output.find("check failed: knot held"), std::string::npos) << check.output;
-  EXPECT_NE(check.output.find("ok   force balance"), std::string::npos) << check.output;
-}
-
 TEST_F(LogCommandsTest, AProgramMadeOfALogRuns) {
   const std::string brief =
       "run living_overhand --qp active-set --quiet --force --set time.duration=1 "

@@ -1,19 +1,14 @@
-"""Datasets of a log by name, against other datasets and formulas of this file: an exchanged column is another number here, though a run
-made again would have it exchanged, too."""
+"""Datasets of a log by name, against other datasets and formulas of this file: an exchanged column is another number
+here, though a run made again would have it exchanged, too."""
 
 from __future__ import annotations
-
-import sys
-from pathlib import Path
 
 import h5py
 import numpy as np
 import pytest
 
-sys.dont_write_bytecode = True
-sys.path.insert(0, str(Path(__file__).parents[4] / "tests/support"))
-
-from program import hagfish, table  # noqa: E402
+from animal import axes_along
+from program import logged, sets
 
 FORM, SLIDE, PULL = 0, 2, 6  # of /trajectory/phase
 ROOT = 6  # velocities
@@ -21,9 +16,9 @@ ROOT = 6  # velocities
 
 @pytest.fixture(scope="module")
 def log(tmp_path_factory):
+    settings = sets("time.step=0.005", "time.frame_interval=0.02", "food.average=0.02", "food.hold=1", "knot.votes=5")
     folder = tmp_path_factory.mktemp("figures")
-    hagfish(folder, "run", "pull_overhand", "--quiet", "--set", "time.step=0.005", "--set", "time.frame_interval=0.02", "--set", "food.average=0.02",
-            "--set", "food.hold=1", "--set", "knot.votes=5", "--out", "a.h5")
+    logged(folder, "pull_overhand", *settings)
     with h5py.File(folder / "a.h5") as file:
         yield file
 
@@ -36,8 +31,9 @@ def test_pull_is_of_the_means(log):
     bears = pulls & (wall[:, 0] > 0)
     assert bears.sum() > 20
     divided = lambda a, b: np.divide(a, b, out=np.full(len(a), np.nan), where=b > 0)
-    wanted = {"force": -head[:, 0], "plate": wall[:, 0], "torque": torque, "advantage_rows": divided(-head[:, 0], rows.sum(axis=1)),
-              "advantage_torque": divided(-head[:, 0], torque)}
+    pull = -head[:, 0]
+    wanted = {"force": pull, "plate": wall[:, 0], "torque": torque, "advantage_rows": divided(pull, rows.sum(axis=1)),
+              "advantage_torque": divided(pull, torque)}
     for name, values in wanted.items():
         np.testing.assert_allclose(log[f"/pull/{name}"][pulls], values[pulls], rtol=1e-12, err_msg=name)
         assert np.isnan(log[f"/pull/{name}"][~pulls]).all(), name
@@ -58,12 +54,13 @@ def test_energy_and_momentum_are_those_of_the_motion(log):
 
 
 def test_works_are_of_what_acts(log):
-    works = {name: log[f"/diagnostics/{name}"][()] for name in ("work_tip", "work_active", "work_thigmotaxis", "work_head", "dissipated", "impact_loss")}
+    tip, active, thigmotaxis = (log[f"/diagnostics/work_{name}"][()] for name in ("tip", "active", "thigmotaxis"))
+    dissipated, impacts = (log[f"/diagnostics/{name}"][()] for name in ("dissipated", "impact_loss"))
     form = log["/trajectory/phase"][()] == FORM
-    assert not works["work_active"].any()  # a towed body has no muscles
-    assert np.ptp(works["work_tip"][form]) > 0 and not np.ptp(works["work_tip"][~form][1:])  # the tip is pulled while the knot forms
-    assert not works["work_thigmotaxis"][form].any() and works["work_thigmotaxis"][-1] > 0
-    assert (np.diff(works["dissipated"]) >= 0).all() and works["dissipated"][-1] > works["impact_loss"][-1] > 0
+    assert not active.any()  # a towed body has no muscles
+    assert np.ptp(tip[form]) > 0 and not np.ptp(tip[~form][1:])  # the tip is pulled while the knot forms
+    assert not thigmotaxis[form].any() and thigmotaxis[-1] > 0
+    assert (np.diff(dissipated) >= 0).all() and dissipated[-1] > impacts[-1] > 0
 
 
 def test_worst_figures_are_of_the_steps_since_the_frame_before(log):
@@ -90,58 +87,37 @@ def test_spline_places_name_their_bodies(log):
 
 
 def test_muscles_hold_on_to_nothing_and_the_body_follows_the_rest_shape(tmp_path):
-    hagfish(tmp_path, "run", "living_overhand_free", "--quiet", "--set", "time.duration=3", "--set", "expect.types=[]", "--out", "b.h5")
-    with h5py.File(tmp_path / "b.h5") as file:
+    log = logged(tmp_path, "living_overhand_free", *sets("time.duration=3", "expect.types=[]"))
+    with h5py.File(log) as file:
         q, rest, torque = (file[path][50:-1] for path in ("/trajectory/q", "/trajectory/q_ref", "/forces/active"))
     assert not rest[:, :ROOT].any() and not torque[:, :ROOT].any()
     assert np.corrcoef(rest[:, ROOT:].ravel(), q[:, ROOT + 1:].ravel())[0, 1] > 0.9  # which the body follows
 
 
-def turned(axis: np.ndarray, angle: np.ndarray, vector: np.ndarray) -> np.ndarray:
-    """Vectors turned about unit axes (Rodrigues)."""
-    along = (axis * vector).sum(axis=-1, keepdims=True) * axis
-    return along + np.cos(angle)[..., None] * (vector - along) + np.sin(angle)[..., None] * np.cross(axis, vector)
-
-
-def frames_along(q: np.ndarray, names: list[str]) -> tuple[np.ndarray, dict[int, np.ndarray]]:
-    """Axes of each body in world (bodies x 3 x 3, rows X, Y, Z), and of each hinge; both up to the root's turn."""
-    body, bodies, hinges = np.eye(3), [np.eye(3)], {}
-    for dof, name in enumerate(names[ROOT:], ROOT):
-        joint = int(name[1:3])
-        if joint == len(bodies):
-            bodies.append(body)
-        axis = bodies[joint][{"twist": 0, "bend_y": 1, "bend_z": 2}[name[4:]]]
-        hinges[dof] = axis
-        body = turned(axis, np.full(3, q[dof + 1]), bodies[joint])
-        bodies[joint] = body
-    return np.array(bodies), hinges
-
-
 @pytest.mark.parametrize("rule", ["euler", "midpoint"])
 def test_moments_have_the_torques_of_hinges_as_their_parts(tmp_path, rule):
-    hagfish(tmp_path, "run", "living_overhand", "--quiet", "--set", "time.step=0.01", "--set", "time.frame_interval=0.01", "--set", "knot.votes=5",
-            "--set", f"time.rule={rule}", "--set", "expect.types=[]", "--out", "a.h5")
+    each_step = sets("time.step=0.01", "time.frame_interval=0.01")
+    settings = [*each_step, *sets("knot.votes=5", f"time.rule={rule}", "expect.types=[]")]
     seen = set()
-    with h5py.File(tmp_path / "a.h5") as log:
-        names, q = list(log["/model/dof_name"].asstr()[()]), log["/trajectory/q"][()]
-        count = len(log["/model/length"])
+    with h5py.File(logged(tmp_path, "living_overhand", *settings)) as log:
+        names, q = list(log["/model/dof_name"].asstr()[ROOT:]), log["/trajectory/q"][()]
+        joint, length = [int(name[1:3]) for name in names], log["/model/length"][()]
         acts = lambda kind: np.flatnonzero(np.nan_to_num(log[f"/mean/forces/{kind}"][:, ROOT:]).any(axis=1))
         for frame in [*acts("thigmotaxis")[::67], *acts("wall")]:
-            where = q[frame - 1].copy()  # a frame's mean is of the step before it
-            bodies = frames_along(where, names)[0]
-            bend = log["/trajectory/curvature"][frame - 1] * [[2 * log["/model/length"][0]]]  # of joints amidst others
-            cosine = 1 + 2 * np.cos(np.linalg.norm(bend, axis=1))
+            angles = q[frame - 1, ROOT + 1:]  # a frame's mean is of the step before it
+            bodies, _ = axes_along(angles, names)
+            bend = log["/trajectory/curvature"][frame - 1] * 2 * length[0]  # of joints amidst others
             trace = np.einsum("jkx,jkx->j", bodies[:-1], bodies[1:])
-            np.testing.assert_allclose(cosine[3:count - 3], trace[2:count - 4], atol=1e-6)
+            np.testing.assert_allclose((1 + 2 * np.cos(np.linalg.norm(bend, axis=1)))[3:-3], trace[2:-3], atol=1e-6)
             if rule == "midpoint":  # whose equations hold in the middle of the step
-                where[ROOT + 1:] += 0.005 * log["/midway/moved"][frame - 1, ROOT:]
-            bodies, hinges = frames_along(where, names)
+                angles = angles + 0.005 * log["/midway/moved"][frame - 1, ROOT:]
+            bodies, hinges = axes_along(angles, names)
             halfway = [np.linalg.svd(before.T + behind.T) for before, behind in zip(bodies, bodies[1:])]
-            axes = np.concatenate([np.eye(3)[None], [u @ v for u, _, v in halfway]])  # the rotation nearest to the mean, to world
+            axes = np.concatenate([np.eye(3)[None], [u @ v for u, _, v in halfway]])  # the rotation nearest to the mean
             for kind in ("thigmotaxis", "contact", "limit", "wall", "active"):
                 moment = np.einsum("jkx,jx->jk", axes, log[f"/mean/moments/{kind}"][frame])
-                torque = log[f"/mean/forces/{kind}"][frame]
-                own = np.array([hinges[dof] @ moment[int(names[dof][1:3])] for dof in range(ROOT, len(names))])
-                np.testing.assert_allclose(own, torque[ROOT:], rtol=0, atol=3e-6 * np.abs(moment).max(), err_msg=f"{kind}, {frame}")
-                seen |= {kind} if moment.any() else set()
+                torque, most = log[f"/mean/forces/{kind}"][frame, ROOT:], np.abs(moment).max()
+                own = (hinges * moment[joint]).sum(axis=1)
+                np.testing.assert_allclose(own, torque, rtol=0, atol=3e-6 * most, err_msg=f"{kind}, {frame}")
+                seen |= {kind} if most else set()
     assert seen >= {"thigmotaxis", "contact", "limit", "active"} | ({"wall"} if rule == "euler" else set())

@@ -8,10 +8,6 @@
 
 namespace hagfish::presets_test {
 
-TEST(Presets, AreThoseOfTheReadme) {
-  EXPECT_EQ(preset_names(), (std::vector<std::string>{"quick", "figure"}));
-}
-
 TEST(Presets, FitEveryScene) {
   for (const Preset& preset : presets()) {
     EXPECT_NO_THROW(make_box_qp_solver(preset.qp)) << preset.name;

@@ -30,23 +30,6 @@ class ResumeTest : public ProgramTest {
   }
 };
 
-TEST_F(ResumeTest, AnInterruptedRunGoesOn) {
-  const std::string quick = "run --quiet --preset quick --until form ";
-  ASSERT_EQ(run_program(quick + "--out whole.h5").code, 0);
-  // The step limit is as good as a signal, and strikes where rows are solved for.
-  const ProgramOutcome stopped = run_program(quick + "--step-limit 1e-9 --out a.h5");
-  EXPECT_EQ(stopped.code, 1) << stopped.output;
-  EXPECT_NE(stopped.output.find("a step took longer than --step-limit 1e-09 s at step "),
-            std::string::npos)
-      << stopped.output;
-  const ProgramOutcome resumed = run_program("run --quiet --resume a.h5");
-  EXPECT_EQ(resumed.code, 0) << resumed.output;
-  EXPECT_EQ(log("a.h5").root_text("status"), "complete");
-  for (const char* path : {"/trajectory/q", "/trajectory/qdot", "/steps/kkt"}) {
-    expect_same_rows(log("whole.h5"), log("a.h5"), path, 0);
-  }
-}
-
 TEST_F(ResumeTest, WhatCannotGoOnStaysAsItIs) {
   ASSERT_EQ(run_program(short_run + "--out a.h5").code, 0);
   const auto expect = [this](const std::string& arguments, const std::string& message) {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <string>
 
 #include "core/log/reading/log_contents.hpp"
@@ -42,32 +41,6 @@ TEST_F(ProgramTest, RefusesBadInputInOneLine) {
   expect_refused("run --qp none", {"--qp", "ipopt"});
   expect_refused("run specimens/pacific_hagfish", {"scenes"});
   expect_refused("run --out /no/such/folder/x.h5", {"/no/such/folder/x.h5", "No such file"});
-}
-
-TEST_F(ProgramTest, KeepsAnExistingLogUnlessForced) {
-  std::ofstream(folder / "a.h5") << "precious";
-  const ProgramOutcome kept = run_program(brief_run + "--out a.h5");
-  EXPECT_EQ(kept.code, 2);
-  EXPECT_NE(kept.output.find("a.h5: already exists (--force replaces it)"), std::string::npos);
-  EXPECT_EQ(fs::file_size(folder / "a.h5"), 8u);
-  EXPECT_EQ(run_program(brief_run + "--out a.h5 --force").code, 0);
-  EXPECT_GT(fs::file_size(folder / "a.h5"), 8u);
-}
-
-TEST_F(ProgramTest, EveryFileIsKeptUnlessForced) {
-  ASSERT_EQ(run_program(brief_run + "--out a.log").code, 0);
-  ASSERT_EQ(run_program("record-qp --set time.duration=0.02 --quiet --out a.qps").code, 0);
-  for (const std::string command :
-       {"check a.log --csv kept", "picture a.log --out kept.png", "qp a.qps --csv kept",
-        "program a.log --stations 4 --times 2 --out kept", "stress table1 --out kept",
-        "compare --out kept", "integrate --motion coil --out kept", "record-qp --out kept",
-        "playback a.log --out kept", "branch a.log --out kept"}) {
-    const fs::path file = folder / (command.ends_with(".png") ? "kept.png" : "kept");
-    std::ofstream(file) << "precious";
-    const ProgramOutcome kept = run_program(command);
-    EXPECT_EQ(kept.code, 2) << command << ": " << kept.output;
-    EXPECT_EQ(fs::file_size(file), 8u) << command;
-  }
 }
 
 TEST_F(ProgramTest, FullDiskIsOneLine) {
@@ -140,20 +113,6 @@ TEST_F(ProgramTest, StopsWhenAPhaseHasEndedAndTellsTheKnotAsItGoes) {
   EXPECT_EQ(check.code, 0) << check.output;
   EXPECT_EQ(check.output.find("slide"), std::string::npos) << check.output;
   expect_refused("run --until tied --out b.h5", {"time.until=tied", "must be one of", "tighten"});
-}
-
-TEST_F(ProgramTest, AbsurdNumbersFailTheRunAndDoNotCrashIt) {
-  for (const char* absurd : {"specimen.length=1e200", "specimen.mass=1e300", "time.step=1e-300"}) {
-    const ProgramOutcome run =
-        run_program(std::string("run --quiet --force --out a.h5 --set ") + absurd);
-    EXPECT_TRUE(run.code >= 1 && run.code <= 3) << absurd << ": " << run.code << run.output;
-    std::size_t warnings = 0;
-    for (std::size_t at = 0; (at = run.output.find("hagfish: warning: ", at)) != std::string::npos;
-         ++at) {
-      ++warnings;
-    }
-    EXPECT_EQ(std::count(run.output.begin(), run.output.end(), '\n'), warnings + 1) << run.output;
-  }
 }
 
 TEST_F(ProgramTest, ListsTheScenes) {

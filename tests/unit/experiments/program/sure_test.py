@@ -3,21 +3,16 @@
 from __future__ import annotations
 
 import csv
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-ROOT = Path(__file__).parents[4]
-sys.dont_write_bytecode = True
-sys.path[:0] = [str(ROOT / "tests/support"), str(ROOT / "experiments/drawing")]
+import sure
+import sweep_columns
+from program import hagfish, logged, sets, table
 
-import sure  # noqa: E402
-import sweep_columns  # noqa: E402
-from program import hagfish, refused, table  # noqa: E402
-
-SHORT = ["--set", "time.duration=0.2", "--set", "time.until=form", "--set", "expect.knot="]
+SHORT = sets("time.duration=0.2", "time.until=form", "expect.knot=")
 
 
 @pytest.fixture(scope="module")
@@ -35,36 +30,37 @@ def rows(path: Path) -> list[dict[str, str]]:
 def test_each_cause_changes_its_own_settings_alone(folder):
     causes, cells = rows(folder / "s/causes.csv"), rows(folder / "s/table.csv")
     assert len(causes) == len(cells) and causes[0]["cause"] == "as it is"
-    keys = {"chance": "start.", "start": "start.", "step": "time.step", "bodies": "model.bodies", "girth": "specimen.circumference",
-            "limits": "model.limit_scale", "stiffness": "model."}
+    keys = {"chance": "start.", "start": "start.", "step": "time.step", "bodies": "model.bodies",
+            "girth": "specimen.circumference", "limits": "model.limit_scale", "stiffness": "model."}
     settings = list(cells[0])[1:list(cells[0]).index("outcome")]
     for cause, cell in zip(causes, cells):
         changed = {key for key in settings if cell[key]}
         assert bool(changed) == (cause["cause"] != "as it is")
         assert all(key.startswith(keys[cause["cause"]]) for key in changed)
     assert {row["cause"] for row in causes} == {"as it is", *keys}
-    bodies = sorted(int(cell["model.bodies"]) for cell in cells if cell["model.bodies"])
+    values = lambda key: sorted(float(cell[key].strip("[]").split(",")[0]) for cell in cells if cell[key])
+    bodies = values("model.bodies")
     assert bodies[0] == 60 and bodies[-1] == 200 and 96 in bodies
-    steps = sorted(float(cell["time.step"]) for cell in cells if cell["time.step"])
-    assert steps == pytest.approx([0.001, 0.00125, 0.0025])
-    girths = sorted(float(cell["specimen.circumference"].strip("[]").split(",")[0]) for cell in cells if cell["specimen.circumference"])
-    assert girths == pytest.approx([0.95 * 5.6, 1.05 * 5.6])
+    assert values("time.step") == pytest.approx([0.001, 0.00125, 0.0025])
+    assert values("specimen.circumference") == pytest.approx([0.95 * 5.6, 1.05 * 5.6])
 
 
 def test_a_cell_is_the_run_with_that_setting(folder):
     cell = next(cell for cell in rows(folder / "s/table.csv") if cell["model.bodies"] == "96")
-    hagfish(folder, "run", "table1", *SHORT, "--set", "model.bodies=96", "--quiet", "--out", "a.h5")
+    logged(folder, "table1", *SHORT, "--set", "model.bodies=96")
     hagfish(folder, "export", "a.h5", "--out", "a")
-    assert table(folder / "a/summary.csv")["work_tip_erg"][0] == pytest.approx(float(cell["work_tip_erg"]), rel=1e-8)  # nine digits
+    (work,) = table(folder / "a/summary.csv")["work_tip_erg"]
+    assert work == pytest.approx(float(cell["work_tip_erg"]), rel=1e-8)  # nine digits
 
 
 def test_what_it_says_and_leaves_is_the_spread_of_the_runs(folder):
     cells, causes = rows(folder / "s/table.csv"), [row["cause"] for row in rows(folder / "s/causes.csv")]
     work = np.array([float(cell["work_tip_erg"]) for cell in cells])
     own = work[[cause in ("as it is", "bodies") for cause in causes]]
-    found = next(row for row in rows(folder / "s/sure.csv") if (row["figure"], row["cause"]) == ("work_tip_erg", "bodies"))
-    assert float(found["least"]) == pytest.approx(own.min(), rel=1e-5) and float(found["most"]) == pytest.approx(own.max(), rel=1e-5)
-    assert float(found["furthest_percent"]) == pytest.approx(100 * np.abs(own / work[0] - 1).max(), rel=1e-5)
+    spreads = {(row["figure"], row["cause"]): row for row in rows(folder / "s/sure.csv")}
+    found = spreads["work_tip_erg", "bodies"]
+    wanted = [own.min(), own.max(), 100 * np.abs(own / work[0] - 1).max()]
+    assert [float(found[name]) for name in ("least", "most", "furthest_percent")] == pytest.approx(wanted, rel=1e-5)
     said = (folder / "said.txt").read_text()
     line = next(line for line in said.splitlines() if line.startswith("work_tip_erg"))
     assert f"{work.min():.4g}" in line.split()[-2:] and f"{work.max():.4g}" in line.split()[-2:]
@@ -77,14 +73,11 @@ def test_what_it_says_and_leaves_is_the_spread_of_the_runs(folder):
 
 def test_runs_that_end_otherwise_do_not_count():
     number = lambda *values: {name: np.array(values, float) for name in sweep_columns.FIGURES}
-    texts = {"outcome": ["ok", "ok", "never tied", "ok"], "unmet": [""] * 4, "message": [""] * 4, "knot": ["3_1", "3_1", "", "0_1"]}
-    found = sure.Sure(sweep_columns.SweepTable({}, texts, number(10, 12, 50, 90)), ["as it is", "step", "step", "bodies"])
+    texts = {"outcome": ["ok", "ok", "never tied", "ok"], "unmet": [""] * 4, "message": [""] * 4,
+             "knot": ["3_1", "3_1", "", "0_1"]}
+    made = sweep_columns.SweepTable({}, texts, number(10, 12, 50, 90))
+    found = sure.Sure(made, ["as it is", "step", "step", "bodies"])
     step, bodies, _, every = found.spreads(found.table.figures["slide_distance_cm"])
     assert (step.least, step.most, step.furthest, step.runs, step.of) == (10, 12, 20, 1, 2)
     assert np.isnan(bodies.least) and (every.runs, every.of) == (1, 3)
     assert found.lost() == ["step: 1 of 2: never tied", "bodies: 1 of 1: tied 0_1"]
-
-
-def test_bad_input_is_one_line(tmp_path):
-    refused(tmp_path, "sure", "table2", "--out", "s", parts=("table2",))
-    refused(tmp_path, "sure", "table1", "--set", "drag=2", "--out", "s", parts=("drag",))

@@ -64,30 +64,6 @@ seeds = 3
   std::string text(const std::string& file) const { return read_text_file(folder / file); }
 };
 
-TEST_F(SweepTest, RowsAreTheSameWhateverRunsThem) {
-  sweep("grid.toml --out one --threads 1");
-  sweep("grid.toml --out four --threads 4");
-  EXPECT_EQ(text("one/table.csv"), text("four/table.csv"));
-  for (const char* part : {"3/4", "1/4", "4/4", "2/4"}) {
-    sweep(std::string("grid.toml --out parts --part ") + part);
-  }
-  const std::vector<Row> whole = rows_of(folder / "one/table.csv");
-  ASSERT_EQ(whole.size(), 9u);
-  EXPECT_NE(whole[0].at("work_tip_erg"), whole[1].at("work_tip_erg"));
-  std::size_t seen = 0;
-  for (std::size_t part = 1; part <= 4; ++part) {
-    const std::string name = "parts/table." + std::to_string(part) + "-of-4.csv";
-    for (const Row& row : rows_of(folder / name)) {
-      const std::size_t cell = std::stoul(row.at("cell"));
-      EXPECT_EQ(cell % 4, part - 1);
-      EXPECT_EQ(row, whole.at(cell));
-      ++seen;
-    }
-  }
-  EXPECT_EQ(seen, 9u);
-  EXPECT_EQ(rows_of(folder / "one/times.csv").size(), 9u);
-}
-
 TEST_F(SweepTest, GoesOnWhereAKillLeftIt) {
   sweep("grid.toml --out whole");
   // Rows in the order in which they came, each with its CPU time, the last one half-written.

@@ -1,17 +1,10 @@
-"""`hagfish sweep` and what reads its tables: parts, gathered, are the table of one process, byte for byte."""
+"""`hagfish sweep` and what reads its tables: threads and gathered parts make one table, byte for byte."""
 
 from __future__ import annotations
 
-import sys
-from pathlib import Path
-
-ROOT = Path(__file__).parents[4]
-sys.dont_write_bytecode = True
-sys.path[:0] = [str(ROOT / "tests/support"), str(ROOT / "experiments/drawing")]
-
-import gather  # noqa: E402
-from program import hagfish  # noqa: E402
-from sweep_columns import read_sweep  # noqa: E402
+import gather
+from program import hagfish
+from sweep_columns import read_sweep
 
 GRID = """
 scene = "table1"
@@ -24,14 +17,16 @@ seeds = 3
 """
 
 
-def test_parts_gathered_are_the_whole_byte_for_byte(tmp_path):
+def test_threads_and_gathered_parts_make_the_same_table(tmp_path):
     (tmp_path / "grid.toml").write_text(GRID)
-    hagfish(tmp_path, "sweep", "grid.toml", "--out", "whole", "--quiet")
+    for threads in (1, 4):
+        hagfish(tmp_path, "sweep", "grid.toml", "--out", f"by{threads}", "--threads", threads, "--quiet")
     for part in (2, 3, 1):
         hagfish(tmp_path, "sweep", "grid.toml", "--out", "parts", "--part", f"{part}/3", "--quiet")
     gather.main(tmp_path / "parts")
-    assert (tmp_path / "parts/table.csv").read_bytes() == (tmp_path / "whole/table.csv").read_bytes()
-    table = read_sweep(tmp_path / "whole/table.csv")
+    assert len({(tmp_path / folder / "table.csv").read_bytes() for folder in ("by1", "by4", "parts")}) == 1
+    table = read_sweep(tmp_path / "by1/table.csv")
     assert table.axes["title"] == 2 * (3 * ["a"] + 3 * ["b, c"])
     assert len(set(table.figures["work_tip_erg"])) > 1
     assert set(table.figures["duration_s"]) == {0.4}  # to the end of the last step, which is no frame
+    assert len((tmp_path / "by1/times.csv").read_text().splitlines()) == 1 + 12

@@ -6,18 +6,14 @@ import base64
 import csv
 import json
 import shutil
-import sys
-from pathlib import Path
 
 import h5py
 import numpy as np
 import pytest
 
-sys.dont_write_bytecode = True
-sys.path.insert(0, str(Path(__file__).parents[3] / "support"))
-
-from browser import CHROMIUM, Browser  # noqa: E402
-from program import hagfish, refused  # noqa: E402
+from animal import spans, total_bend
+from browser import CHROMIUM, Browser
+from program import hagfish, logged, phases, refused, sets
 
 TYPES = {"f4": "<f4", "i2": "<i2", "u1": "u1", "u4": "<u4"}
 PLACE = 1e-4  # cm, of the log's
@@ -36,12 +32,15 @@ def logs_of(page):
     return json.JSONDecoder().raw_decode(text, start)[0]
 
 
+def shown(page, name, frames):
+    return decoded(page["quantities"][name]["values"]).reshape(frames, -1)
+
+
 @pytest.fixture(scope="module")
 def run(tmp_path_factory):
     folder = tmp_path_factory.mktemp("view")
-    hagfish(folder, "run", "table1", "--preset", "quick", "--quiet", "--out", "a.h5")
-    hagfish(folder, "run", "living_overhand", "--preset", "quick", "--quiet", "--set", "time.duration=3", "--set", "expect.types=[]",
-            "--out", "b.h5")
+    logged(folder, "table1", "--preset", "quick")
+    logged(folder, "living_overhand", "--preset", "quick", *sets("time.duration=3", "expect.types=[]"), out="b.h5")
     hagfish(folder, "view", "a.h5", "--out", "a.html")
     hagfish(folder, "view", "a.h5", "b.h5", "--out", "both.html")
     return folder
@@ -51,65 +50,72 @@ def test_a_log_without_moments_shows_torques_of_hinges_by_name(run):
     shutil.copy(run / "a.h5", run / "early.h5")
     with h5py.File(run / "early.h5", "r+") as log:
         del log["mean/moments"]
+        torques = np.nan_to_num(log["mean/forces/thigmotaxis"][:, 6:])
+        names = log["model/dof_name"].asstr()[6:]
     hagfish(run, "view", "early.h5", "--out", "early.html")
-    (page,), log = logs_of(run / "early.html"), h5py.File(run / "early.h5")
-    own, names = page["quantities"]["thigmotaxis"], log["model/dof_name"].asstr()[()][6:]
-    y, z = (np.nan_to_num(log["mean/forces/thigmotaxis"][:, 6:][:, [name.endswith(axis) for name in names]]) for axis in ("_y", "_z"))
-    values = np.hypot(y, z)
-    assert own["label"] == "f_thigmo, bending (torques of hinges)"
-    np.testing.assert_allclose(decoded(own["values"]).reshape(values.shape), values, atol=values.max() / 60000)
+    (page,) = logs_of(run / "early.html")
+    values = np.hypot(*(torques[:, [name.endswith(axis) for name in names]] for axis in ("_y", "_z")))
+    assert page["quantities"]["thigmotaxis"]["label"] == "f_thigmo, bending (torques of hinges)"
+    np.testing.assert_allclose(shown(page, "thigmotaxis", len(values)), values, atol=values.max() / 60000)
 
 
 def test_the_page_holds_what_the_log_holds(run):
     (page,), log = logs_of(run / "a.html"), h5py.File(run / "a.h5")
-    frames = len(log["trajectory/time"])
-    np.testing.assert_allclose(decoded(page["position"]).reshape(frames, -1, 3), log["trajectory/position"][()], atol=PLACE)
-    np.testing.assert_allclose(decoded(page["time"]), log["trajectory/time"][()], rtol=1e-6)
-    assert [page["phases"][k] for k in decoded(page["phase"])] == [
-        {v: k for k, v in h5py.check_enum_dtype(log["trajectory/phase"].dtype).items()}[int(p)] for p in log["trajectory/phase"]]
+    places, own = log["trajectory/position"][()], decoded(page["position"])
+    np.testing.assert_allclose(own, places.ravel(), atol=PLACE)
+    assert [page["phases"][k] for k in decoded(page["phase"])] == phases(log)
     assert np.all((np.array(page["knots"])[decoded(page["knot"])] == "3_1") == (log["knot/determinant"][()] == 3))
-    axes = np.array([name.split("_")[-1] for name in log["model/dof_name"].asstr()[()][6:]])
+    # Some of the six are 0 but for rounding.
+    head = log["mean/forces/head"][:, :6]
+    np.testing.assert_allclose(decoded(page["head"]), head.ravel(), rtol=1e-6, atol=1e-30)
+    series = {"trajectory/time": page["time"], "thigmotaxis/command": page["eq6"]["command"], "forces/tip": page["tip"],
+              **{f"mean/thigmotaxis/{name}": page["eq6"][name] for name in ("speed", "slack", "lambda")},
+              **{f"knot/{end}": page[end] for end in ("head_end", "tail_end")},
+              **{f"diagnostics/{name}": values for name, values in page["energy"].items()}}
+    for path, packed in series.items():
+        np.testing.assert_allclose(decoded(packed), log[path][()].ravel(), rtol=1e-6, err_msg=path)
+    np.testing.assert_allclose(decoded(page["plate_force"]), log["mean/forces/wall"][:, 0], rtol=1e-6)
+
+
+def test_the_page_colours_the_body_by_what_the_log_holds(run):
+    (page,), log = logs_of(run / "a.html"), h5py.File(run / "a.h5")
+    frames, length, span = len(log["trajectory/time"]), log["model/length"][0], spans(log)
+    axes = np.array([name.split("_")[-1] for name in log["model/dof_name"].asstr()[6:]])
     moment, angle = np.nan_to_num(log["mean/moments/thigmotaxis"][()]), log["trajectory/q"][:, 7:]
-    twist = lambda rows: np.abs(rows[:, axes == "twist"])
-    length, n = log["model/length"][0], len(log["model/length"])
-    spans = lambda joints: length * np.array([(n if j + 2 >= n else j + 1) - (0 if j <= 2 else j - 1) for j in joints])
-    odd, even = np.arange(1, n, 2), np.arange(2, n, 2)
-    y, z = angle[:, axes == "y"], angle[:, axes == "z"]
-    wanted = {"thigmotaxis": np.hypot(moment[:, odd, 1], moment[:, odd, 2]), "thigmotaxis-twist": np.abs(moment[:, even, 0]), "twist": twist(angle) / spans(even),
-              "curvature": 2 * np.arcsin(np.sqrt(np.sin(y / 2) ** 2 + np.cos(y) * np.sin(z / 2) ** 2)) / spans(odd)}
+    odd, even = np.arange(1, len(span), 2), np.arange(2, len(span), 2)
+    wanted = {"thigmotaxis": np.hypot(moment[:, odd, 1], moment[:, odd, 2]),
+              "thigmotaxis-twist": np.abs(moment[:, even, 0]),
+              "twist": np.abs(angle[:, axes == "twist"]) / span[even],
+              "curvature": total_bend(angle[:, axes == "y"], angle[:, axes == "z"]) / span[odd]}
     for name, values in wanted.items():
         own = page["quantities"][name]
-        np.testing.assert_allclose(decoded(own["values"]).reshape(frames, -1), values, atol=values.max() / 60000)
+        np.testing.assert_allclose(shown(page, name, frames), values, atol=values.max() / 60000)
         np.testing.assert_allclose(own["arc"], (even if "twist" in name else odd) * length)
         above = np.sort(values[values > 0])
         assert own["scale"] == pytest.approx(above[int(0.99 * (len(above) - 1))], rel=1e-3)
-    # Contacts, spread along the body, keep their sum: twice each, for its two strands.
-    along = decoded(page["quantities"]["contact"]["values"]).reshape(frames, -1)
-    sums = np.bincount(log["contacts/frame"][()], log["contacts/force"][()] * np.where(np.isnan(log["contacts/spline_b"][()]), 1, 2), frames)
-    inside = np.flatnonzero((sums > 0) & np.isin(log["trajectory/phase"][()], (1, 2)))  # of the tail's end some falls off
-    np.testing.assert_allclose(along[inside].sum(axis=1) * length, sums[inside], rtol=0.02)
     assert "active" not in page["quantities"]
-    for name in ("speed", "slack", "lambda"):
-        np.testing.assert_allclose(decoded(page["eq6"][name]), log[f"mean/thigmotaxis/{name}"][()].ravel(), rtol=1e-6)
-    np.testing.assert_allclose(decoded(page["eq6"]["command"]), log["thigmotaxis/command"][()].ravel(), rtol=1e-6)
-    np.testing.assert_allclose(decoded(page["head"]).reshape(frames, 6), log["mean/forces/head"][:, :6], rtol=1e-6, atol=1e-30)
-    np.testing.assert_allclose(decoded(page["plate_force"]), log["mean/forces/wall"][:, 0], rtol=1e-6)
-    np.testing.assert_allclose(decoded(page["tip"]), log["forces/tip"][()].ravel(), rtol=1e-6)
-    for name, values in page["energy"].items():
-        np.testing.assert_allclose(decoded(values), log[f"diagnostics/{name}"][()], rtol=1e-6)
-    # The slide as it ended is that of the check: the head end's way, and the share of both ends.
-    hagfish(run, "check", "a.h5", "--csv", "a.csv", "--force")
-    found = {row["criterion"]: float(row["value"]) for row in csv.DictReader((run / "a.csv").open()) if row["criterion"].startswith("slide")}
-    leads, trails, asked, travel = decoded(page["slide"]).reshape(frames, 4)[-1]
-    assert leads == pytest.approx(found["slide"], abs=1e-4)
-    assert 100 * min(trails / asked, travel / min(leads, trails)) == pytest.approx(found["slide of both ends"], rel=1e-4)
-    assert np.isnan(decoded(page["slide"])[0])  # none before it
-    for end in ("head_end", "tail_end"):
-        np.testing.assert_allclose(decoded(page[end]), log[f"knot/{end}"][()], rtol=1e-6)
+    # Contacts, spread along the body, keep their sum: twice each, for its two strands.
+    strands = np.where(np.isnan(log["contacts/spline_b"][()]), 1, 2)
+    sums = np.bincount(log["contacts/frame"][()], log["contacts/force"][()] * strands, frames)
+    inside = np.flatnonzero((sums > 0) & np.isin(phases(log), ("tighten", "slide")))  # of the tail's end some falls off
+    np.testing.assert_allclose(shown(page, "contact", frames)[inside].sum(axis=1) * length, sums[inside], rtol=0.02)
     first, contacts = decoded(page["contacts"]["first"]), decoded(page["contacts"]["values"]).reshape(-1, 9)
     np.testing.assert_array_equal(np.diff(first), np.bincount(log["contacts/frame"][()], minlength=frames))
     np.testing.assert_allclose(np.sort(contacts[:, 6]), np.sort(log["contacts/force"][()]), rtol=1e-6)
     np.testing.assert_allclose(np.linalg.norm(contacts[:, 3:6], axis=1), 1, rtol=1e-6)
+
+
+def test_the_slide_as_it_ended_is_that_of_the_check(run):
+    """The head end's way, and the share of both ends."""
+    hagfish(run, "check", "--fast", "a.h5", "--csv", "a.csv")
+    with (run / "a.csv").open(newline="") as file:
+        found = {row["criterion"]: row["value"] for row in csv.DictReader(file)}
+    slide = decoded(logs_of(run / "a.html")[0]["slide"]).reshape(-1, 4)
+    leads, trails, asked, travel = slide[-1]
+    assert leads == pytest.approx(float(found["slide"]), abs=1e-4)
+    share = min(trails / asked, travel / min(leads, trails))
+    assert 100 * share == pytest.approx(float(found["slide of both ends"]), rel=1e-4)
+    assert np.isnan(slide[0, 0])  # none before it
 
 
 def test_it_is_one_file_that_asks_for_nothing(run):
@@ -120,19 +126,15 @@ def test_it_is_one_file_that_asks_for_nothing(run):
         assert tag not in text, tag
 
 
-def test_texts_of_a_log_stay_texts(run, tmp_path):
-    hagfish(tmp_path, "run", "table1", "--preset", "quick", "--quiet", "--set", "time.duration=0.1", "--set",
-            'title="</script><script>document.title=1</script>"', "--out", "a.h5")
+def test_texts_of_a_log_stay_texts(tmp_path):
+    title = "</script><script>document.title=1</script>"
+    logged(tmp_path, "table1", "--preset", "quick", *sets("time.duration=0.1", f'title="{title}"'))
     hagfish(tmp_path, "view", "a.h5")
-    text = (tmp_path / "replay.html").read_text()
-    assert "document.title=1</script>" not in text
-    assert logs_of(tmp_path / "replay.html")[0]["title"] == "</script><script>document.title=1</script>"
+    assert "document.title=1</script>" not in (tmp_path / "replay.html").read_text()
+    assert logs_of(tmp_path / "replay.html")[0]["title"] == title
 
 
-def test_bad_input_is_one_line(run):
-    refused(run, "view", "none.h5", "--out", "x.html", parts=("none.h5", "no such file"))
-    refused(run, "view", "a.h5", "--out", "a.html", parts=("a.html", "--force"))
-    refused(run, "view", "a.h5", "--out", "/no/folder/x.html", parts=("/no/folder/x.html",))
+def test_three_logs_are_refused(run):
     refused(run, "view", "a.h5", "b.h5", "a.h5", "--out", "x.html")
 
 
@@ -193,7 +195,7 @@ MET = """((y, z) => { viewer.scenes[0].updateMatrixWorld();
 
 @needs_chromium
 def test_a_plate_has_its_hole(tmp_path, browser):
-    hagfish(tmp_path, "run", "hole_overhand", "--quiet", "--set", "time.duration=0.1", "--set", "expect.types=[]", "--out", "a.h5")
+    logged(tmp_path, "hole_overhand", *sets("time.duration=0.1", "expect.types=[]"))
     hagfish(tmp_path, "view", "a.h5", "--out", "a.html")
     browser.open(tmp_path / "a.html")
     for y, z in ((0, 0), (0.9, 0), (0, -0.9), (3, 0)):
