@@ -25,11 +25,7 @@ Capstan lie_round_post(double link) {
   for (int i = 0; i < samples; ++i) curve.emplace_back(leg - leg * i / samples, 2, 0);
   RodChain chain =
       chain_of({.radius = rope, .bending_damping = 10}, link, links_along(curve, link));
-  Obstacle& post = chain.model.obstacles.emplace_back();
-  post.name = "post";
-  const Eigen::Vector3d middle(leg, 1, 0);
-  post.points = {middle - Eigen::Vector3d::UnitZ(), middle + Eigen::Vector3d::UnitZ()};
-  post.radius = 1 - rope;
+  chain.model.obstacles.push_back({"post", Strand{{{leg, 1, -1}, {leg, 1, 1}}, 1 - rope}});
   constexpr double apart = 10;  // cm: the rope does not touch itself
   Pulled pulled(std::move(chain), pulled_scene(rope, -pull, 1e-3, apart));
   Capstan capstan;

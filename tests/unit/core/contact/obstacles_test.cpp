@@ -163,7 +163,7 @@ TEST(Obstacles, BruteForceFindsNothingNearer) {
     const int own = among.model.body_count() - 1;
     for (int k = 0; k < static_cast<int>(among.model.obstacles.size()); ++k) {
       const int first = strand_begin(among.model, k);
-      for (int b = first; b < first + segments_of(among.model.obstacles[k]); ++b) {
+      for (int b = first; b < first + segments_of(*among.model.obstacles[k].strand()); ++b) {
         for (int a = 0; a < own; ++a) {
           least = std::min(least, closest_points(seen.segments[a], seen.segments[b]).gap);
         }

@@ -71,8 +71,17 @@ class Bits {
     add(present, neck);
   }
   void put(const Obstacle& s) {
-    const auto& [name, kind, point, normal, neck, points, radius, closed] = s;
-    add(name, kind, point, normal, neck, points, radius, closed);
+    const auto& [name, shape] = s;
+    add(name);
+    std::visit([this](const auto& one) { put(one); }, shape);
+  }
+  void put(const Plane& s) {
+    const auto& [point, normal, neck] = s;
+    add(point, normal, neck);
+  }
+  void put(const Strand& s) {
+    const auto& [points, radius, closed] = s;
+    add(points, radius, closed);
   }
   void put(const ScriptKnot& s) {
     const auto& [time, value, noise] = s;
@@ -151,12 +160,11 @@ class Bits {
   void put(const ExpectSettings& s) {
     const auto& [knot, types, hand, slide_distance, slide_share, reverse_distance, out_of,
                  torque_share, pull, pull_settled, pull_drift, pull_balance, speed_share,
-                 penetration, skin_fold, limit_violation, head_drift, kkt,
-                 energy, energy_gain, energy_loss, momentum] = s;
+                 penetration, skin_fold, limit_violation, head_drift, kkt, energy, energy_gain,
+                 energy_loss, momentum] = s;
     add(knot, types, hand, slide_distance, slide_share, reverse_distance, out_of, torque_share,
         pull, pull_settled, pull_drift, pull_balance, speed_share, penetration, skin_fold,
-        limit_violation, head_drift, kkt, energy, energy_gain,
-        energy_loss, momentum);
+        limit_violation, head_drift, kkt, energy, energy_gain, energy_loss, momentum);
   }
   void put(const Specimen& s) {
     const auto& [name, length, mass, station, circumference, bending_limit, bending_span,

@@ -78,7 +78,7 @@ TEST(LookAhead, AddsRowsOnceAndMeetsThem) {
   LongSteps run({"time.step=0.02"});
   for (int k = 0; k < 50; ++k) {
     run.deepest(1);
-    std::set<std::int64_t> ids;
+    std::set<RowId> ids;
     for (const Row& row : run.record.solution.rows) {
       EXPECT_TRUE(ids.insert(row.id).second) << row_name(run.model, row);
     }

@@ -149,7 +149,7 @@ TEST(DualProblem, RowsThatPrescribedVelocitiesHoldCannotMove) {
   EXPECT_EQ(A_where([](int) { return true; }), Eigen::MatrixXd::Zero(count, count))
       << "which was some 1e-33";
   // They move where a joint between their points does.
-  const int between = k.model.bodies[contacts[0].b.first].first_dof;
+  const int between = k.model.bodies[contacts[0].points().b.first].first_dof;
   EXPECT_GT(A_where([&](int dof) { return dof != between; })(0, 0), 1e-6);
 }
 

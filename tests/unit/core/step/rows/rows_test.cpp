@@ -183,7 +183,7 @@ TEST(Rows, OnlyThoseNearBindingAreAppended) {
     }
     append_limit_rows(t.model, t.state, speculative, h, wanted, rows);
     append_plane_rows(t.model, t.kin, speculative, h, wanted, rows);
-    std::vector<std::int64_t> expected;
+    std::vector<RowId> expected;
     for (const auto& all : {contact_rows(t.model, t.set, speculative, h),
                             limit_rows(t.model, t.state, speculative, h),
                             plane_rows(t.model, t.kin, speculative, h)}) {
@@ -193,7 +193,7 @@ TEST(Rows, OnlyThoseNearBindingAreAppended) {
         }
       }
     }
-    std::vector<std::int64_t> found;
+    std::vector<RowId> found;
     for (const Row& row : rows) found.push_back(row.id);
     EXPECT_EQ(found, expected);
   }
