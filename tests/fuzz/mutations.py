@@ -191,8 +191,8 @@ def change_kind(log, path, random):
     elif kind == len(values) + 1:
         log[path] = np.dtype("f8")
     else:
-        texts = np.array([np.arange(3.0)] * rows, object)
-        log.create_dataset(path, data=texts, dtype=h5py.vlen_dtype(np.dtype("f8")))
+        lists = log.create_dataset(path, rows, h5py.vlen_dtype(np.dtype("f8")))
+        lists[0] = np.arange(3.0)
 
 
 def claim_rows(log, path, random):
