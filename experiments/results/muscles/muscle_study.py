@@ -100,9 +100,8 @@ def stiffness(folder: Path) -> None:
         for axes, column in zip(panels, (1, 2)):
             x, y = [p[0] for p in points], [p[column] for p in points]
             axes.plot(x, y, label=plots.KNOTS[knot].label, **plots.KNOTS[knot].style)
-            loose = [(p[0], p[column]) for p in points if not p[3]]
-            axes.plot(*zip(*loose) if loose else ((), ()), "x", ms=10, color=plots.VERMILION, ls="none")
-    panels[0].plot([], [], "x", ms=10, color=plots.VERMILION, label="does not tie")
+            if loose := [(p[0], p[column]) for p in points if not p[3]]:
+                axes.plot(*zip(*loose), "x", ms=10, color=plots.VERMILION, ls="none", label="does not tie")
     for axes, name in zip(panels, ("activation", "% of frames")):
         axes.set_xscale("log")
         plots.plain_ticks(axes.xaxis, (0.4, 1, 2, 3, 4, 6, 8))
