@@ -21,9 +21,9 @@ STYLES = {"Eq. 6": {"ls": "-", "marker": "o"}, "reflex": {"ls": "--", "marker": 
 
 
 def pull_of(cell: str) -> tuple[float, ...]:
-    """Median, least and most, N; zeros where nothing tied."""
+    """Median, least and most, N; nan where nothing tied."""
     match = PULL.match(cell)
-    return tuple(map(float, match.groups())) if match else (0.0, 0.0, 0.0)
+    return tuple(map(float, match.groups())) if match else (np.nan,) * 3
 
 
 def main(table: Path, out: Path) -> None:
@@ -40,8 +40,7 @@ def main(table: Path, out: Path) -> None:
             panels[1].append((girth, row))
         if girth == GIRTH:
             panels[2].append((muscles / 1e5, row))
-    figure, grid = plots.plt.subplots(1, 3, figsize=(9, 3.4), layout="constrained", sharey=True)
-    knots = list(dict.fromkeys(head.split(", ")[0] for head in rows[0] if head != "changed"))
+    figure, grid = plots.plt.subplots(1, 3, figsize=(9, 3.8), layout="constrained", sharey=True)
     for axes, points, label in zip(grid, panels, ("width of the hole, cm (rings)", "girth of the animal, cm",
                                                   "stiffness of muscles, 1e5 dyn cm²")):
         points.sort(key=lambda point: point[0])
@@ -49,12 +48,18 @@ def main(table: Path, out: Path) -> None:
         for head in (head for head in rows[0] if head != "changed"):
             knot, law = head.split(", ")
             middle, least, most = np.array([pull_of(row[head]) for _, row in points]).T
-            axes.errorbar(at, middle, [middle - least, most - middle], color=f"C{knots.index(knot)}", capsize=2, ms=4, lw=1.2, label=head,
-                          **STYLES[law])
+            colour = plots.KNOTS[knot].style["color"]
+            axes.errorbar(at, middle, [middle - least, most - middle], color=colour, capsize=2, ms=4, lw=1.2,
+                          label=f"{plots.KNOTS[knot].label}, {law}", **STYLES[law])
+            loose = np.array(at)[np.isnan(middle)]
+            if loose.size:
+                axes.plot(loose, 0 * loose, "x", color=colour, ms=8 if law == "Eq. 6" else 5, clip_on=False)
         axes.set(xlabel=label, xticks=at)
         axes.axhline(0.5, color=plots.GREY, lw=0.8, zorder=0)
     grid[0].set(ylabel="largest pull, N", ylim=(0, None))
-    plots.legend_above(figure, grid[2].get_legend_handles_labels()[0], 6, 0.09)
+    grid[2].plot([], [], "x", color=plots.GREY, label="not tied")
+    handles = grid[2].get_legend_handles_labels()[0]
+    plots.legend_above(figure, [*handles[1:], handles[0]], 4, 0.14)
     plots.save(figure, out)
 
 

@@ -33,15 +33,16 @@ def joined(axes):
     return [line for line in lines if len(set(np.round(np.asarray(line.get_xdata(), float), 6))) > 1]
 
 
-def test_single_starts_are_not_joined(tmp_path, drawn):
-    point = lambda figure, frame, numbers, start, value: {"figure": figure, "knot": "3_1", "frame": frame, "found each, s": "0.1", "numbers": numbers, "start": start, "value": value}
-    rows = [point("share", frame, n, 0, n / 10) for frame in few_numbers_picture.FRAMES for n in (3, 6, 9)]
-    rows += [point("starts", "knot", 9, start, 0.8 + start / 10) for start in range(3)] + [point("effort", "knot", n, 0, 0.4) for n in (6, 9)]
+def test_few_numbers_are_medians_of_the_knots_and_the_least(tmp_path, drawn):
+    point = lambda figure, knot, frame, numbers, value: {
+        "figure": figure, "knot": knot, "frame": frame, "found each, s": "0.1", "numbers": numbers, "start": 0, "value": value}
+    rows = [point("share", knot, frame, n, way * n / 9) for frame in few_numbers_picture.FRAMES for n in (3, 9)
+            for knot, way in (("3_1", 0.3), ("4_1", 0.9), ("5_1", 0.6))] + [point("effort", "3_1", "knot", 9, 7)]
     few_numbers_picture.draw(table_of(tmp_path, few_numbers_picture.HEAD, rows), Path("x.png"))
-    panels = drawn[0].axes
-    assert not any(joined(axes) for axes in panels)
-    bars = [line for line in panels[0].lines if line.get_linestyle() == "-" and line.get_marker() == "_"]
-    assert [list(line.get_ydata()) for line in bars] == [[0.8, 1.0]]
+    for line, _, (bars,) in drawn[0].axes[0].containers:
+        np.testing.assert_allclose(line.get_ydata(), [0.2, 0.6])
+        np.testing.assert_allclose([segment[:, 1].tolist() for segment in bars.get_segments()], [[0.1, 0.2], [0.3, 0.6]])
+    assert len(drawn[0].axes[0].containers) == len(few_numbers_picture.FRAMES)
 
 
 def test_pulls_have_the_spread_of_their_starts_and_meshes(tmp_path, drawn):
