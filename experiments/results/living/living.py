@@ -163,7 +163,7 @@ def main_table(folder: Path, out: Path) -> None:
                                                                                            ["free, no plate: the same", *map(slid, free)],
                                                                                            ["deepest penetration at any step, release included, cm",
                                                                                             *(f"{max(a.penetration, b.penetration):.4f}" for a, b in zip(held, free))],
-                                                                                           ["λ/h of the first and last contact while sliding, clamped, median, dyn", *(short(run.force) for run in held)],
+                                                                                           ["sum of λ/h of all rows while sliding, clamped, median, dyn", *(short(run.force) for run in held)],
                                                                                            ["largest torque of a hinge, forming; sliding, dyn cm",
                                                                                             *(f"{short(run.torque['form'])}; {short(run.torque['slide'])}" for run in held)],
                                                                                            ["values of the program: stations x times", *(f"{len(each['stations'])} x {len(each['times'])}"
