@@ -24,7 +24,7 @@ struct RunFrame {
   Eigen::Vector3d tip = Eigen::Vector3d::Zero();  ///< force on the tip, of the step here, dyn
   /// Means over the steps since the frame before, dyn and dyn cm, nv each; nan at the first frame.
   Eigen::VectorXd active, thigmotaxis, head, obstacles;
-  double rows = 0;  ///< sum of the mean λ / h of the four rows at the knot's ends, dyn
+  double rows = 0;  ///< sum of the mean λ / h of all rows of Eq. 6, dyn
   EnergyLedger energy;
   MomentumLedger momentum;
 

@@ -155,19 +155,17 @@ class Run:
         self.effort = effort_per_cm(log, means)
 
 
-def efforts(runs: dict[str, Run]) -> tuple[list[list[str]], dict[str, list[tuple[int, float]]]]:
-    """Rows of the table; for each scene the effort over that of f_thigmo, by numbers, nan where they do not slide all the way."""
+def efforts(runs: dict[str, Run]) -> list[list[str]]:
+    """The effort over that of f_thigmo, of those alone that slide all the way."""
     rows = [["f_thigmo of the paper's law, dyn s for each cm", *(f"{runs[f'paper_{short(s)}'].effort:.0f}" for s in SCENES)]]
-    points: dict[str, list[tuple[int, float]]] = {scene: [] for scene in SCENES}
     for count in NUMBERS:
         row = [f"{count} numbers, over that"]
         for scene in SCENES:
             paper, own = runs[f"paper_{short(scene)}"], runs[f"numbers_{short(scene)}_{count}"]
             all_the_way = own.ok and own.way >= ENOUGH * paper.way
             row.append(f"{own.effort / paper.effort:.2f}" if all_the_way else "-")
-            points[scene].append((count, own.effort / paper.effort if all_the_way else np.nan))
         rows.append(row)
-    return rows, points
+    return rows
 
 
 def short(scene: str) -> str:
@@ -185,30 +183,17 @@ def transfers(runs: dict[str, Run], name: str) -> list[list[str]]:
     return rows
 
 
-def points_of(grid: Grid, many: SweepTable, efforts: dict[str, list[tuple[int, float]]]) -> list[list[str]]:
-    """What the picture shows, a start a row; efforts of those alone that slide all the way."""
-    rows = []
-    for scene, knot in SCENES.items():
-        for frame in FRAMES:
-            for period in grid.periods():
-                for count in grid.counts():
-                    rows += [["share", knot, frame, f"{period:g}", str(count), str(start), f"{share:.3f}"]
-                             for start, share in enumerate(grid.shares(scene, frame, period, count))]
-        own, numbers, way = np.array(many.axes["scene"]) == scene, numbers_of(many), held_way(many)
-        full = np.median(way[own & (numbers == 0)])
-        for count in sorted(set(numbers[numbers > 0])):
-            rows += [["starts", knot, "knot", "0.1", str(count), str(start), f"{each / full:.3f}"] for start,
-                     each in enumerate(way[own & (numbers == count)])]
-        rows += [["effort", knot, "knot", "0.1", str(count), "0", f"{value:.3f}"] for count, value in efforts[scene] if np.isfinite(value)]
-    return rows
+def points_of(grid: Grid) -> list[list[str]]:
+    """What the picture shows, a run a row."""
+    return [[knot, frame, f"{period:g}", str(count), f"{share:.3f}"] for scene, knot in SCENES.items() for frame in FRAMES
+            for period in grid.periods() for count in grid.counts() for share in grid.shares(scene, frame, period, count)]
 
 
 def main(folder: Path) -> None:
     grid = Grid(read_sweep(folder / "numbers/table.csv"))
     runs = {path.stem: Run(path) for path in sorted((folder / "runs").glob("*.h5"))}
-    rows, effort = efforts(runs)
     many, free = read_sweep(folder / "starts/table.csv"), read_sweep(folder / "free/table.csv")
-    points = points_of(grid, many, effort)
+    points = points_of(grid)
     picture.draw([dict(zip(picture.HEAD, row)) for row in points], folder / "few_numbers.png")
     least = [[f"{words}, each {1000 * period:g} ms", *(grid.least(scene, frame, period) for scene in SCENES)]
              for frame, words in FRAMES.items() for period in grid.periods()]
@@ -218,7 +203,7 @@ def main(folder: Path) -> None:
     tables.write_table(folder, "few_numbers_points", picture.HEAD, points)
     table("", "least numbers from which on all slide", least)
     table("_starts", "all the way", starts(many) + animals(read_sweep(folder / "animals/table.csv")))
-    table("_effort", "effort in the knot's window, each 100 ms", rows)
+    table("_effort", "effort in the knot's window, each 100 ms", efforts(runs))
     table("_free", f"free head: share of the way, each {each} ms", free_head(free))
     table("_played", "played by the knot's place: share of the way; s", transfers(runs, "played"))
     table("_learned", "learned shapes: share of the way; s", transfers(runs, "learned"))

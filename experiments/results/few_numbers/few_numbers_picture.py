@@ -13,7 +13,7 @@ import plots
 from script import run_script
 from tables import read_csv
 
-HEAD = ["figure", "knot", "frame", "found each, s", "numbers", "start", "value"]
+HEAD = ["knot", "frame", "found each, s", "numbers", "share"]
 FRAMES = {"knot": "in the knot's window", "body": "along the body"}
 ENOUGH = 0.9  # of the way by the paper's law
 COLOURS = [plots.GREY, plots.BLUE, plots.ORANGE]
@@ -22,13 +22,12 @@ BESIDE = 0.06  # of the room between two numbers: lines beside each other
 
 
 def draw(points: list[dict[str, str]], out: Path) -> None:
-    shares = [p for p in points if p["figure"] == "share"]
-    counts = sorted({int(p["numbers"]) for p in shares})
-    periods = sorted({p["found each, s"] for p in shares}, key=float)
+    counts = sorted({int(p["numbers"]) for p in points})
+    periods = sorted({p["found each, s"] for p in points}, key=float)
     figure, (axes,) = plots.panels(1, 1, (6, 3.6), [""])
     for f, (frame, words) in enumerate(FRAMES.items()):
         for k, (period, colour) in enumerate(zip(periods, COLOURS)):
-            of = lambda count: np.clip([float(p["value"]) for p in shares if p["frame"] == frame and p["found each, s"] == period
+            of = lambda count: np.clip([float(p["share"]) for p in points if p["frame"] == frame and p["found each, s"] == period
                                         and int(p["numbers"]) == count], 0, None)
             ways = [of(count) for count in counts if of(count).size]
             at = np.array([n for n, count in enumerate(counts) if of(count).size]) + BESIDE * (k - 1 + 3 * (f - 0.5))

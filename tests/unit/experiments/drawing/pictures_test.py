@@ -34,10 +34,9 @@ def joined(axes):
 
 
 def test_few_numbers_are_medians_of_the_knots_and_the_least(tmp_path, drawn):
-    point = lambda figure, knot, frame, numbers, value: {
-        "figure": figure, "knot": knot, "frame": frame, "found each, s": "0.1", "numbers": numbers, "start": 0, "value": value}
-    rows = [point("share", knot, frame, n, way * n / 9) for frame in few_numbers_picture.FRAMES for n in (3, 9)
-            for knot, way in (("3_1", 0.3), ("4_1", 0.9), ("5_1", 0.6))] + [point("effort", "3_1", "knot", 9, 7)]
+    point = lambda knot, frame, numbers, share: {"knot": knot, "frame": frame, "found each, s": "0.1", "numbers": numbers, "share": share}
+    rows = [point(knot, frame, n, way * n / 9) for frame in few_numbers_picture.FRAMES for n in (3, 9)
+            for knot, way in (("3_1", 0.3), ("4_1", 0.9), ("5_1", 0.6))]
     few_numbers_picture.draw(table_of(tmp_path, few_numbers_picture.HEAD, rows), Path("x.png"))
     for line, _, (bars,) in drawn[0].axes[0].containers:
         np.testing.assert_allclose(line.get_ydata(), [0.2, 0.6])
