@@ -72,7 +72,7 @@ MujocoLoop::MujocoLoop(const Model& model, const Scene& scene, const MujocoSetti
 
 /// Energies and momentum are those of `next`; of works MuJoCo tells no more than `work` (erg),
 /// which the muscles have done in the step.
-void MujocoLoop::book(double work, const Moment& next, Simulation& sim) const {
+void MujocoLoop::book(double work, const ObservedState& next, Simulation& sim) const {
   const EnergyLedger before = sim.ledger;
   sim.ledger =
       open_ledger(model_, next, keeps_momentum(scene_, clamps_head(scene_, sim.controller.phase)));
@@ -192,7 +192,7 @@ void MujocoLoop::take_step(Simulation& sim, StepRecord& record) {
   mj_step(mirror.model(), mirror.data());
   check_stable(mirror);
   note_forces(sim, mirror, step);
-  Moment& next = record.moment;
+  ObservedState& next = record.after;
   next.state = state_of(model_, mirror);
   step.qdot = step.next = step.mean_velocity = next.state.qdot;
   const Eigen::VectorXd& acts_at = damps_implicitly() ? step.next : sim.now.state.qdot;

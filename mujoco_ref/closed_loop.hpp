@@ -47,7 +47,7 @@ class MujocoLoop {
   };
 
   MujocoModel& mirror(Head head);
-  void book(double work, const Moment& next, Simulation& sim) const;
+  void book(double work, const ObservedState& next, Simulation& sim) const;
   bool damps_implicitly() const;
   void apply(const Simulation& sim, const Control& control, MujocoModel& mirror,
              MuscleTorque& muscles) const;

@@ -34,12 +34,6 @@ To bits_as(const From& from) {
 }  // namespace detail
 
 inline Lanes lanes_of(const LaneValues& values) { return detail::bits_as<Lanes>(values); }
-/// The numbers from `values` on.
-inline Lanes lanes_at(const double* values) {
-  Lanes lanes;
-  std::memcpy(&lanes, values, sizeof lanes);
-  return lanes;
-}
 /// One number in all lanes.
 inline Lanes lanes_of(double value) { return Lanes{} + value; }
 
@@ -54,23 +48,20 @@ inline FloatLanes lanes_of(const FloatLaneValues& values) {
   return detail::bits_as<FloatLanes>(values);
 }
 
-/// Bit k is set where lane k of a mask is.
-inline unsigned bits_of(const LaneMask& mask) {
+/// Whether a mask is set in any lane.
+inline bool any(const LaneMask& mask) {
 #if defined(EIGEN_VECTORIZE_AVX512)
-  return _mm512_cmplt_epi64_mask(detail::bits_as<__m512i>(mask), _mm512_setzero_si512());
+  return _mm512_cmplt_epi64_mask(detail::bits_as<__m512i>(mask), _mm512_setzero_si512()) != 0;
 #elif defined(EIGEN_VECTORIZE_AVX)
-  return static_cast<unsigned>(_mm256_movemask_pd(detail::bits_as<__m256d>(mask)));
+  return _mm256_movemask_pd(detail::bits_as<__m256d>(mask)) != 0;
 #elif defined(EIGEN_VECTORIZE_SSE2)
-  return static_cast<unsigned>(_mm_movemask_pd(detail::bits_as<__m128d>(mask)));
+  return _mm_movemask_pd(detail::bits_as<__m128d>(mask)) != 0;
 #else
-  unsigned bits = 0;
-  for (int k = 0; k < lane_count; ++k) {
-    bits |= mask[k] != 0 ? 1U << k : 0;
-  }
-  return bits;
+  bool found = false;
+  for (int k = 0; k < lane_count; ++k) found = found || mask[k] != 0;
+  return found;
 #endif
 }
-inline bool any(const LaneMask& mask) { return bits_of(mask) != 0; }
 
 /// The lesser of two numbers, or of those in each lane.
 template <class Real>

@@ -1,10 +1,7 @@
 #include "core/contact/candidates.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-
-#include "core/chain/lanes.hpp"
 
 namespace hagfish {
 namespace {
@@ -76,26 +73,9 @@ void list_pairs(const std::vector<SplineSegment>& segments, const ContactSetting
       }
     }
   }
-  candidates.all_changed = true;
   candidates.closest.assign(candidates.pairs.size(), std::nullopt);
+  candidates.known_until.assign(candidates.pairs.size(), 0);
   index_pairs(segments.size(), candidates);
-}
-
-/// Whether the segments b of the pairs from `i` on, one pair for each lane, follow each other. For
-/// most pairs of one segment a they do.
-bool in_line(const Candidates& candidates, int i) {
-  return candidates.pairs[i + lane_count - 1].b == candidates.pairs[i].b + lane_count - 1;
-}
-
-/// Lists those of the consecutive pairs from `first` on that must be evaluated, one for each lane.
-void list_pairs_in_line(const Candidates& candidates, int first, std::vector<int>& pairs) {
-  const SegmentPair& pair = candidates.pairs[first];
-  const Lanes displacement =
-      candidates.displacement[pair.a] + lanes_at(&candidates.displacement[pair.b]);
-  const LaneMask clear = displacement < lanes_at(&candidates.clear_until[first]);
-  for (unsigned bits = bits_of(~clear); bits != 0; bits &= bits - 1) {
-    pairs.push_back(first + std::countr_zero(bits));
-  }
 }
 
 }  // namespace
@@ -138,10 +118,6 @@ void update_candidates(const std::vector<SplineSegment>& segments, const Contact
     return;
   }
   add_motion(segments, candidates);
-  if (candidates.changed.size() > candidates.pairs.size()) {  // nobody keeps them
-    candidates.changed.clear();
-    candidates.all_changed = true;
-  }
   if (!(std::ranges::max(candidates.displacement) <= 0.5 * carried_beyond(segments))) {
     list_pairs(segments, settings, candidates);
   }
@@ -149,36 +125,9 @@ void update_candidates(const std::vector<SplineSegment>& segments, const Contact
 
 void find_pairs_to_evaluate(const Candidates& candidates, std::vector<int>& pairs) {
   pairs.clear();
-  for (std::size_t a = 0; a + 1 < candidates.first.size(); ++a) {
-    const int end = candidates.first[a + 1];
-    for (int i = candidates.first[a]; i < end;) {
-      if (i + lane_count <= end && in_line(candidates, i)) {
-        list_pairs_in_line(candidates, i, pairs);
-        i += lane_count;
-      } else {
-        if (!(candidates.displacement_of(i) < candidates.clear_until[i])) pairs.push_back(i);
-        ++i;
-      }
-    }
+  for (int i = 0; i < static_cast<int>(candidates.pairs.size()); ++i) {
+    if (!(candidates.displacement_of(i) < candidates.clear_until[i])) pairs.push_back(i);
   }
-}
-
-void keep_candidates(Candidates& candidates, Candidates& kept) {
-  if (candidates.all_changed) {
-    kept = candidates;
-    for (Candidates* both : {&candidates, &kept}) {
-      both->all_changed = false;
-      both->changed.clear();
-    }
-    return;
-  }
-  kept.ends = candidates.ends;
-  kept.displacement = candidates.displacement;
-  for (const int i : candidates.changed) {
-    kept.clear_until[i] = candidates.clear_until[i];
-    kept.closest[i] = candidates.closest[i];
-  }
-  candidates.changed.clear();
 }
 
 int find_pair(const Candidates& candidates, int a, int b) {

@@ -23,19 +23,18 @@ struct SegmentEnds {
   Eigen::MatrixX3d third;  ///< a third of the slope there, cm
 };
 
-/// The pairs of segments. `pairs`, `clear_until` and `closest` have an entry for each pair.
+/// The pairs of segments. `pairs` to `known_until` have an entry for each pair.
 struct Candidates {
   std::vector<SegmentPair> pairs;  ///< sorted
   /// The pair needs no evaluation until its two segments together have moved this far, cm.
   std::vector<double> clear_until;
   std::vector<std::optional<ClosestPoints>> closest;  ///< answer of the last evaluation
+  /// `closest` lies in the only basin of the gap until the two segments together have moved this
+  /// far, cm.
+  std::vector<double> known_until;
   std::vector<int> first;  ///< index of each segment's first pair; at the end, the number of pairs
   SegmentEnds ends;        ///< ends of the segments of the last search
   std::vector<double> displacement;  ///< bound for each segment since the pairs were listed, cm
-  /// Pairs that were evaluated since the last keep_candidates(), unless all have changed.
-  std::vector<int> changed;
-  bool all_changed = true;
-
   double displacement_of(int pair) const {
     return displacement[pairs[pair].a] + displacement[pairs[pair].b];
   }
@@ -55,10 +54,6 @@ void update_candidates(const std::vector<SplineSegment>& segments, const Contact
 /// Lists, in their order, the pairs that have moved far enough since their evaluation to need
 /// another one.
 void find_pairs_to_evaluate(const Candidates& candidates, std::vector<int>& pairs);
-
-/// Makes `kept` equal to `candidates` by copying the changes since the last call, which must have
-/// been with the same `kept`.
-void keep_candidates(Candidates& candidates, Candidates& kept);
 
 /// The pair of segments a and b, or -1 if they are not a pair.
 int find_pair(const Candidates& candidates, int a, int b);

@@ -1,9 +1,14 @@
 #include "core/contact/contact.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace hagfish {
 namespace {
+
+/// Motion of two segments together after which samples must show again that the gap has one basin,
+/// as a share of the radius. In half of it a gap changes by much less than basins are deep.
+constexpr double basin_reach = 0.05;
 
 /// Computes the closest points of the queued pairs; lists those within the margin.
 void evaluate(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
@@ -17,13 +22,19 @@ void evaluate(const std::vector<SplineSegment>& segments, const ContactSettings&
     query.a = &segments[candidates.pairs[index].a];
     query.b = &segments[candidates.pairs[index].b];
     query.guess = candidates.closest[index];
+    query.one_basin = candidates.displacement_of(index) < candidates.known_until[index];
   }
   scratch.closest_points.answer(samples, scratch.queries);
   for (std::size_t k = 0; k < scratch.queue.size(); ++k) {
     const int index = scratch.queue[k];
     const ClosestPoints& closest = scratch.queries[k].closest;
+    if (candidates.displacement_of(index) >= candidates.known_until[index]) {
+      candidates.known_until[index] =
+          scratch.queries[k].one_basin
+              ? candidates.displacement_of(index) + basin_reach * segments[0].r0
+              : 0;
+    }
     candidates.closest[index] = closest;
-    candidates.changed.push_back(index);
     candidates.clear_until[index] =
         candidates.displacement_of(index) + closest.gap - settings.margin;
     scratch.known[index] = PairState::evaluated;
@@ -32,6 +43,9 @@ void evaluate(const std::vector<SplineSegment>& segments, const ContactSettings&
     }
   }
 }
+
+/// Distance along the body between near pairs, cm. Finer bodies need no more of them.
+constexpr double near_spacing = 0.2;
 
 // A minimum on the border of two segments is found from both. The two gaps differ by rounding, less
 // than this share of the search margin.
@@ -154,6 +168,8 @@ void find_contacts(const std::vector<SplineSegment>& segments, const ContactSett
   set.on_obstacles.clear();
   set.near_pairs.clear();
   set.least_gap = settings.margin;
+  if (search.scratch.close.empty()) return;
+  const int every = std::max(1, static_cast<int>(std::lround(near_spacing / segments[0].s1)));
   for (const int index : search.scratch.close) {
     const bool minimum = is_local_minimum(search, same_gap * settings.margin, index);
     const ClosestPoints& closest = *candidates.closest[index];
@@ -162,8 +178,9 @@ void find_contacts(const std::vector<SplineSegment>& segments, const ContactSett
     if (!minimum) {
       candidates.clear_until[index] = candidates.displacement_of(index) + gap - near;
     }
-    if (minimum || gap < near) {
-      const SegmentPair& pair = candidates.pairs[index];
+    const SegmentPair& pair = candidates.pairs[index];
+    const bool listed = pair.a % every == 0 && pair.b % every == 0 && gap < near;
+    if (minimum || listed) {
       const Contact contact = contact_at(segments, pair.a, closest.t_a, pair.b, closest.t_b);
       const bool on_obstacle = contact.obstacle >= 0;
       (!minimum ? set.near_pairs : (on_obstacle ? set.on_obstacles : set.contacts))

@@ -96,66 +96,42 @@ class NearestFinder {
  public:
   NearestFinder(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
                 bool tail)
-      : segments_(segments),
-        settings_(settings),
-        least_arc_(settings.least_arc * (1 - 1e-9)),
-        tail_(tail) {}
+      : segments_(segments), settings_(settings), tail_(tail) {}
 
   /// For the point `t` of segment `own`, among all segments that may touch it.
-  Nearest nearest(int own, double t) const {
+  Nearest nearest(int own, double t) {
     const Eigen::Vector3d x = segments_[own].point(t);
     const double r = segments_[own].radius(t);
+    const double most = settings_.margin + 0.01 * segments_[own].r0;  // more than the caller needs
+    if (own != own_) list_near(segments_, settings_, tail_, own_ = own, most, near_);
     Nearest best;
-    best.gap = settings_.margin + 0.01 * r;  // more than the caller needs
-    const int count = static_cast<int>(segments_.size());
-    for (int k = tail_ ? 0 : own + 1; k < (tail_ ? own : count); ++k) {
+    best.gap = most;
+    // First the one whose middle is nearest: most others then are too far.
+    const auto square = [&](int k) { return (segments_[k].middle - x).squaredNorm(); };
+    const auto first = std::ranges::min_element(near_, {}, square);
+    const auto look = [&](int k) {
       const double reach = best.gap + segments_[k].bound + r;
-      if ((segments_[k].middle - x).squaredNorm() >= reach * reach || !may_touch(own, k)) continue;
+      if (square(k) >= reach * reach) return;
       const Nearest there = nearest_on(segments_[k], x, r);
       if (there.gap < best.gap) best = {there.gap, k, there.t};
-    }
-    return with_rate(best, own, t);
-  }
-
-  /// The same if segment `start` or one beside it has the nearest point.
-  Nearest nearest(int own, double t, int start) const {
-    if (start < 0) return nearest(own, t);
-    const auto to = [&](int k) {
-      Nearest there = nearest_on(segments_[k], segments_[own].point(t), segments_[own].radius(t));
-      there.segment = k;
-      return there;
     };
-    Nearest best = to(start);
-    while (best.t == 0 || best.t == 1) {
-      const int beside = best.segment + (best.t == 0 ? -1 : 1);
-      if (!may_touch(own, beside)) break;
-      const Nearest there = to(beside);
-      if (!(there.gap < best.gap)) break;
-      best = there;
+    if (first != near_.end()) look(*first);
+    for (const int k : near_) {
+      if (k != *first) look(k);
     }
-    return with_rate(best, own, t);
+    if (best.segment >= 0) {
+      const Eigen::Vector3d apart = x - segments_[best.segment].point(best.t);
+      best.rate = apart.dot(segments_[own].slope(t)) / apart.norm() - segments_[own].r1;
+    }
+    return best;
   }
 
  private:
-  bool may_touch(int own, int other) const {
-    if (other < 0 || other >= static_cast<int>(segments_.size())) return false;
-    const SplineSegment& a = segments_[tail_ ? other : own];
-    const SplineSegment& b = segments_[tail_ ? own : other];
-    return (tail_ ? a : b).obstacle < 0 && b.s0 - a.arc(1) >= least_arc_;
-  }
-
-  Nearest with_rate(Nearest nearest, int own, double t) const {
-    if (nearest.segment < 0) return nearest;
-    const SplineSegment& segment = segments_[own];
-    const Eigen::Vector3d apart = segment.point(t) - segments_[nearest.segment].point(nearest.t);
-    nearest.rate = apart.dot(segment.slope(t)) / apart.norm() - segment.r1;
-    return nearest;
-  }
-
   const std::vector<SplineSegment>& segments_;
   const ContactSettings& settings_;
-  double least_arc_;  ///< with slack for rounding, as in the search
   bool tail_;
+  int own_ = -1;           ///< segment of the last search
+  std::vector<int> near_;  ///< segments that may be near it
 };
 
 /// A point of a segment, and the point nearest to it.
@@ -164,30 +140,28 @@ struct Place {
   Nearest nearest;
 };
 
-/// Where the gap passes `level` between the point `inside` of the level set and the point `outer`
-/// outside of it. Newton's method on nearest(t, last nearest segment), within an interval that
-/// shrinks.
-template <class Search>
-Place close_in(double level, double inside, const Place& outer, const Search& nearest) {
-  double outside = outer.t;
-  auto [at, here] = outer;
+/// Where the gap passes `level` between the point `inside` of the level set and the point `end` of
+/// segment `own` outside of it. Newton's method within an interval that shrinks.
+Place close_in(double level, int own, double inside, Place end, NearestFinder& strand) {
+  auto& [at, here] = end;
+  double outside = at;
   for (int k = 0; k < iteration_limit; ++k) {
     const double newton = at - (here.gap - level) / here.rate;
     const bool within = std::min(inside, outside) < newton && newton < std::max(inside, outside);
     const bool settled = within && std::abs(newton - at) <= step_tolerance;
     at = within ? newton : 0.5 * (inside + outside);
-    here = nearest(at, here.segment);
+    here = strand.nearest(own, at);
     (here.gap <= level ? inside : outside) = at;
     if (settled) break;
   }
-  if (here.segment < 0) here = nearest(at = inside, -1);
-  return {at, here};
+  if (here.segment < 0) here = strand.nearest(own, at = inside);
+  return end;
 }
 
 /// Where the level set around the point `t` of segment `own` ends, towards the tail or the head.
 Contact end_from(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
                  double level, bool tail, int own, double t) {
-  const NearestFinder strand(segments, settings, tail);
+  NearestFinder strand(segments, settings, tail);
   const double border = tail ? 1 : 0;
   const auto is_last = [&](int segment) {
     return tail ? segment + 1 == static_cast<int>(segments.size()) ||
@@ -200,17 +174,7 @@ Contact end_from(const std::vector<SplineSegment>& segments, const ContactSettin
     t = 1 - border;
     end.nearest = strand.nearest(own, border);
   }
-  if (end.nearest.gap > level) {
-    // Along one strand first. If the end found belongs to another strand, or is where that strand's
-    // own set begins, along all strands.
-    const Place outer = end;
-    end = close_in(level, t, outer,
-                   [&](double at, int start) { return strand.nearest(own, at, start); });
-    const bool grows = tail ? end.nearest.rate > 0 : end.nearest.rate < 0;
-    if (!grows || strand.nearest(own, end.t).gap < end.nearest.gap) {
-      end = close_in(level, t, outer, [&](double at, int) { return strand.nearest(own, at); });
-    }
-  }
+  if (end.nearest.gap > level) end = close_in(level, own, t, end, strand);
   const auto [at, other] = end;
   return tail ? contact_at(segments, other.segment, other.t, own, at)
               : contact_at(segments, own, at, other.segment, other.t);

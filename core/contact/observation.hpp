@@ -24,7 +24,7 @@ struct Observation {
 };
 
 /// A state and its observation.
-struct Moment {
+struct ObservedState {
   State state;
   Observation observation;
 };

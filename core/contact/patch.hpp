@@ -8,6 +8,11 @@
 
 namespace hagfish {
 
+/// Lists the segments that may touch segment `own` of the body, and whose gap to it may be less
+/// than `gap` (cm): those on the side of the tail, or of the head (`tail`).
+void list_near(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
+               bool tail, int own, double gap, std::vector<int>& near);
+
 /// A pair of points that touch, and its share in the patch.
 struct PatchPoint {
   Contact contact;

@@ -28,7 +28,7 @@ struct ControllerState;
 struct Situation {
   const Model& model;
   const Scene& scene;
-  const Moment& now;              ///< state, kinematics, contacts
+  const ObservedState& now;       ///< state, kinematics, contacts
   double time;                    ///< s
   const ControllerState& so_far;  ///< phase, knot, its first and last contact
 };

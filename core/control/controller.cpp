@@ -150,7 +150,7 @@ void note_pull(const StepSolution& step, ControllerState& controller) {
   }
 }
 
-Status follow(const Model& model, const Scene& scene, const Moment& now, double time,
+Status follow(const Model& model, const Scene& scene, const ObservedState& now, double time,
               ControllerState& controller) {
   const Observation& observation = now.observation;
   controller.ends = observation.ends;
@@ -172,7 +172,7 @@ Status follow(const Model& model, const Scene& scene, const Moment& now, double 
   return {};
 }
 
-void command(const Model& model, const Scene& scene, const Moment& now, double time,
+void command(const Model& model, const Scene& scene, const ObservedState& now, double time,
              const ControlLaw& own, NamedLaw& named, ControllerState& controller,
              Control& control) {
   control.clamp_head = clamps_head(scene, controller.phase);
@@ -208,7 +208,7 @@ void command(const Model& model, const Scene& scene, const Moment& now, double t
   }
 }
 
-Status decide(const Model& model, const Scene& scene, const Moment& now, double time,
+Status decide(const Model& model, const Scene& scene, const ObservedState& now, double time,
               NamedLaw& named, ControllerState& controller, Control& control,
               const ControlLaw& own) {
   Status status = follow(model, scene, now, time, controller);

@@ -63,17 +63,17 @@ void note_pull(const StepSolution& step, ControllerState& controller);
 /// never_tied if the script ends without the scene's knot, or with too little tail through it. It
 /// is knot_lost if the knot comes undone too early, unless the scene only warns. The message names
 /// the knot that is there, and since when.
-Status follow(const Model& model, const Scene& scene, const Moment& now, double time,
+Status follow(const Model& model, const Scene& scene, const ObservedState& now, double time,
               ControllerState& controller);
 
 /// Decides the control of that step, by `own` law or, without one, by the law that the scene names.
 /// Throws what the law throws, and std::invalid_argument if the scene's law and `own` do not fit,
 /// or if the control is invalid (check_control).
-void command(const Model& model, const Scene& scene, const Moment& now, double time,
+void command(const Model& model, const Scene& scene, const ObservedState& now, double time,
              const ControlLaw& own, NamedLaw& named, ControllerState& controller, Control& control);
 
 /// Calls both functions in turn.
-Status decide(const Model& model, const Scene& scene, const Moment& now, double time,
+Status decide(const Model& model, const Scene& scene, const ObservedState& now, double time,
               NamedLaw& named, ControllerState& controller, Control& control,
               const ControlLaw& own = {});
 

@@ -8,13 +8,14 @@ namespace hagfish {
 namespace {
 
 /// Place of a knot, including noise.
-Eigen::Vector3d at(const ScriptKnot& knot) { return knot.value + knot.noise; }
+Eigen::Vector3d at(const Waypoint& knot) { return knot.value + knot.noise; }
 
 /// Catmull-Rom tangent of knot k by finite differences in time.
-Eigen::Vector3d tangent(const std::vector<ScriptKnot>& knots, std::size_t k) {
+Eigen::Vector3d tangent(const std::vector<Waypoint>& waypoints, std::size_t k) {
   const std::size_t before = k > 0 ? k - 1 : k;
-  const std::size_t after = std::min(k + 1, knots.size() - 1);
-  return (at(knots[after]) - at(knots[before])) / (knots[after].time - knots[before].time);
+  const std::size_t after = std::min(k + 1, waypoints.size() - 1);
+  return (at(waypoints[after]) - at(waypoints[before])) /
+         (waypoints[after].time - waypoints[before].time);
 }
 
 }  // namespace
@@ -23,23 +24,24 @@ double script_end(const ScriptSettings& script) {
   if (script.kind == ScriptSettings::Kind::curvature) {
     return script.curvature.time.back();
   }
-  return script.knots.empty() ? 0 : script.knots.back().time;
+  return script.waypoints.empty() ? 0 : script.waypoints.back().time;
 }
 
 Eigen::Vector3d script_value(const ScriptSettings& script, double time) {
-  const std::vector<ScriptKnot>& knots = script.knots;
-  const auto [k, u] = place_among(knots, time, &ScriptKnot::time);
+  const std::vector<Waypoint>& waypoints = script.waypoints;
+  const auto [k, u] = place_among(waypoints, time, &Waypoint::time);
   if (u == 0) {
-    return at(knots[k]);
+    return at(waypoints[k]);
   }
-  const double span = knots[k + 1].time - knots[k].time;
+  const double span = waypoints[k + 1].time - waypoints[k].time;
   if (script.kind == ScriptSettings::Kind::force) {
-    return (1 - u) * at(knots[k]) + u * at(knots[k + 1]);
+    return (1 - u) * at(waypoints[k]) + u * at(waypoints[k + 1]);
   }
   const double u2 = u * u;
   const double u3 = u2 * u;
-  return (2 * u3 - 3 * u2 + 1) * at(knots[k]) + (u3 - 2 * u2 + u) * span * tangent(knots, k) +
-         (3 * u2 - 2 * u3) * at(knots[k + 1]) + (u3 - u2) * span * tangent(knots, k + 1);
+  return (2 * u3 - 3 * u2 + 1) * at(waypoints[k]) +
+         (u3 - 2 * u2 + u) * span * tangent(waypoints, k) +
+         (3 * u2 - 2 * u3) * at(waypoints[k + 1]) + (u3 - u2) * span * tangent(waypoints, k + 1);
 }
 
 TipForce script_force(const ScriptSettings& script, double time, const TimeSettings& step,

@@ -20,10 +20,10 @@
 
 namespace hagfish {
 
-enum class KnotUnit { unsaid, dyn, newton, cm, metre, body_length };
+enum class WaypointUnit { unsaid, dyn, newton, cm, metre, body_length };
 
 /// Unit of the noise of a script's knots.
-inline Unit knot_unit(ScriptSettings::Kind kind) {
+inline Unit waypoint_unit(ScriptSettings::Kind kind) {
   using Kind = ScriptSettings::Kind;
   return kind == Kind::force ? cgs::dyn : kind == Kind::position ? cgs::cm : cgs::one;
 }
@@ -31,7 +31,7 @@ inline Unit knot_unit(ScriptSettings::Kind kind) {
 /// A script as its file spells it: knots in rows [t, x, y, z], in `unit`.
 struct ScriptFile {
   ScriptSettings settings;  ///< all but the knots
-  KnotUnit unit = KnotUnit::unsaid;
+  WaypointUnit unit = WaypointUnit::unsaid;
   std::vector<Eigen::Vector4d> rows;
   std::string program;  ///< CSV file of a curvature program, or empty
   ProgramTable curvature;
@@ -180,14 +180,14 @@ void script_fields(Io& io, ScriptFile& s) {
   io.number("spring", s.settings.spring, not_negative(cgs::spring));
   io.number("damper", s.settings.damper, not_negative(cgs::damper));
   io.number("largest_force", s.settings.largest_force, not_negative(cgs::dyn));
-  io.number("noise", s.settings.noise, not_negative(knot_unit(s.settings.kind)));
+  io.number("noise", s.settings.noise, not_negative(waypoint_unit(s.settings.kind)));
   io.integer("noise_seed", s.settings.noise_seed, any_number());
-  io.template choice<KnotUnit>("unit", s.unit,
-                               {{"dyn", KnotUnit::dyn},
-                                {"N", KnotUnit::newton},
-                                {"cm", KnotUnit::cm},
-                                {"m", KnotUnit::metre},
-                                {"L", KnotUnit::body_length}});
+  io.template choice<WaypointUnit>("unit", s.unit,
+                                   {{"dyn", WaypointUnit::dyn},
+                                    {"N", WaypointUnit::newton},
+                                    {"cm", WaypointUnit::cm},
+                                    {"m", WaypointUnit::metre},
+                                    {"L", WaypointUnit::body_length}});
   io.rows("knots", "knot", "t, x, y, z", s.rows);
   io.string("program", s.program);
   io.table("curvature", [&s](Io& table) {

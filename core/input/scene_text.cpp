@@ -139,22 +139,22 @@ void resolve_basis(const TableReader& root, double length, const Sources& source
 /// One of the unit of the knots of `file`, dyn or cm, for an animal of `length` (cm).
 double knot_size(const TableReader& root, const ScriptFile& file, double length) {
   const bool position = file.settings.kind == ScriptSettings::Kind::position;
-  const bool force = file.unit == KnotUnit::dyn || file.unit == KnotUnit::newton;
-  if (file.unit != KnotUnit::unsaid && position == force) {
+  const bool force = file.unit == WaypointUnit::dyn || file.unit == WaypointUnit::newton;
+  if (file.unit != WaypointUnit::unsaid && position == force) {
     root.fail("script.unit", position ? "positions are in \"L\", \"cm\" or \"m\""
                                       : "forces are in \"dyn\" or \"N\"");
   }
   switch (file.unit) {
-    case KnotUnit::unsaid:
+    case WaypointUnit::unsaid:
       return position ? length : root.in_si("script.knots") ? 1e5 : 1;
-    case KnotUnit::newton:
+    case WaypointUnit::newton:
       return 1e5;
-    case KnotUnit::metre:
+    case WaypointUnit::metre:
       return 1e2;
-    case KnotUnit::body_length:
+    case WaypointUnit::body_length:
       return length;
-    case KnotUnit::dyn:
-    case KnotUnit::cm:
+    case WaypointUnit::dyn:
+    case WaypointUnit::cm:
       break;
   }
   return 1;
@@ -180,7 +180,7 @@ ScriptSettings resolve_script(const TableReader& root, const ScriptFile& file, d
       root.fail_element("script.knots", i,
                         "knot " + std::to_string(i + 1) + " must be later than the one before it");
     }
-    script.knots.push_back({row[0], row.tail<3>() * unit});
+    script.waypoints.push_back({row[0], row.tail<3>() * unit});
   }
   if (position && script.spring == 0) root.fail("script.spring", "must be positive");
   if (position && script.largest_force == 0) root.fail("script.largest_force", "must be positive");
@@ -264,7 +264,7 @@ void draw_noise(ScriptSettings& script) {
     Eigen::Matrix3Xd& noise = script.curvature.noise.emplace_back(3, value.cols());
     for (double& coordinate : noise.reshaped()) coordinate = script.noise * normal_draw(random);
   }
-  for (ScriptKnot& knot : script.knots) {
+  for (Waypoint& knot : script.waypoints) {
     for (double& coordinate : knot.noise) coordinate = script.noise * normal_draw(random);
   }
 }
@@ -272,7 +272,7 @@ void draw_noise(ScriptSettings& script) {
 /// The mirror image, y to -y, of all that the scene gives; applied twice, the scene itself.
 void reflect(Scene& scene) {
   scene.gravity.y() *= -1;
-  for (ScriptKnot& knot : scene.script.knots) {
+  for (Waypoint& knot : scene.script.waypoints) {
     knot.value.y() *= -1;
     knot.noise.y() *= -1;
   }
@@ -358,8 +358,8 @@ std::string scene_to_toml(const Scene& scene, const Specimen& specimen) {
   ScriptFile script;
   script.settings = fields.script;
   // Positions in cm, as they are in memory: a division by the length would not undo to the bit.
-  script.unit = scene.script.kind == Kind::position ? KnotUnit::cm : KnotUnit::dyn;
-  for (const auto& knot : fields.script.knots) {
+  script.unit = scene.script.kind == Kind::position ? WaypointUnit::cm : WaypointUnit::dyn;
+  for (const auto& knot : fields.script.waypoints) {
     script.rows.emplace_back(knot.time, knot.value.x(), knot.value.y(), knot.value.z());
   }
   script.curvature = program_table(fields.script.curvature);

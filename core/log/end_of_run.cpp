@@ -10,7 +10,7 @@ StepRecord end_record(const Model& model, double time, const Simulation& sim, bo
   StepRecord record;
   record.step = sim.step;
   record.time = time;
-  record.moment = sim.now;
+  record.after = sim.now;
   record.controller = sim.controller;
   record.controller.ends = sim.now.observation.ends;
   record.controller.rest_shape = none;

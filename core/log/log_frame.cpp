@@ -72,11 +72,11 @@ void declare_trajectory(const Model& model, LogTable<Frame>& t) {
   t.numbers(
       "/trajectory/q", {nq},
       {"mixed: cm, 1, rad", "root position, root quaternion wxyz, hinge angles (MuJoCo qpos)"},
-      [](const Frame& f) -> const auto& { return f.record.moment.state.q; });
+      [](const Frame& f) -> const auto& { return f.record.after.state.q; });
   t.numbers(
       "/trajectory/qdot", {nv},
       {rates, "root velocity (world), root rate (body axes), hinge rates (MuJoCo qvel)"},
-      [](const Frame& f) -> const auto& { return f.record.moment.state.qdot; });
+      [](const Frame& f) -> const auto& { return f.record.after.state.qdot; });
   t.numbers(
       "/trajectory/qdot_next", {nv},
       {rates, "velocity after the step that begins at the frame, to which its forces lead"},
@@ -93,12 +93,12 @@ void declare_trajectory(const Model& model, LogTable<Frame>& t) {
       });
   t.numbers(
       "/trajectory/position", {n, space}, {"cm", "body centres, world axes"},
-      [](const Frame& f) -> const auto& { return f.record.moment.observation.kin.centre; });
+      [](const Frame& f) -> const auto& { return f.record.after.observation.kin.centre; });
   t.numbers(
       "/trajectory/curvature", {joints, space},
       {"1/cm",
        "turn of each joint as a vector in axes halfway through it, over the body it stands for"},
-      [model](const Frame& f) { return joint_curvature(model, f.record.moment.observation.kin); });
+      [model](const Frame& f) { return joint_curvature(model, f.record.after.observation.kin); });
 }
 
 /// /midway: what the midpoint rule's equations are of.
@@ -339,7 +339,7 @@ void declare_diagnostics(LogTable<Frame>& t) {
   t.count(path + "active", "rows with a force",
           [](const Frame& f) { return f.record.solution.active; });
   t.count(path + "contacts", "local minima of the gap within the margin",
-          [](const Frame& f) { return f.record.moment.observation.contact.contacts.size(); });
+          [](const Frame& f) { return f.record.after.observation.contact.contacts.size(); });
   t.count(path + "iterations", "iterations of the QP back end",
           [](const Frame& f) { return f.record.solution.iterations; });
   t.number(path + "kkt_stationarity",
@@ -398,8 +398,8 @@ void declare_momentum(LogTable<Frame>& t) {
 }  // namespace
 
 void Worst::take(const StepRecord& record) {
-  penetration = std::max(penetration, record.moment.observation.penetration);
-  limit_violation = std::max(limit_violation, record.moment.observation.limit_violation);
+  penetration = std::max(penetration, record.after.observation.penetration);
+  limit_violation = std::max(limit_violation, record.after.observation.limit_violation);
   head_drift = std::max(head_drift, record.head_drift);
   // Nan where a step has none (of another simulator), and then of the whole frame.
   const double residual = record.solution.worst_residual();

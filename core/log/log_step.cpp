@@ -72,12 +72,12 @@ LogTable<LoggedStep> step_table(const Scene& scene, LogLevel level) {
   t.number("/steps/kkt", {"1", "largest KKT residual of each step"},
            [](const LoggedStep& s) { return s.record.solution.worst_residual(); });
   t.number("/steps/penetration", {"cm", "deepest at each step's start"},
-           [](const LoggedStep& s) { return s.record.moment.observation.penetration; });
+           [](const LoggedStep& s) { return s.record.after.observation.penetration; });
   t.number("/steps/left_out",
            {"s", "time of each step's motion that is left out, where strands meet too fast for it"},
            [](const LoggedStep& s) { return s.record.left_out; });
   t.number("/steps/limit_violation", {"rad", "largest at each step's start"},
-           [](const LoggedStep& s) { return s.record.moment.observation.limit_violation; });
+           [](const LoggedStep& s) { return s.record.after.observation.limit_violation; });
   t.number("/steps/head_drift", {"cm", "at each step's start while clamped"},
            [](const LoggedStep& s) { return s.record.head_drift; });
   t.number("/steps/qp_time", {"s", "wall time in the QP back end, each step"},

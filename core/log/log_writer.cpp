@@ -86,7 +86,7 @@ struct LogWriter::Contents {
   void see_muscles(const StepRecord& record, const FrameMeans& mean) {
     const Eigen::VectorXd torque = mean.active_torque + mean.force[RowKind::thigmotaxis];
     if (torque.allFinite()) {
-      activations.solve(model, record.moment.observation.kin, torque, muscles);
+      activations.solve(model, record.after.observation.kin, torque, muscles);
     } else {
       muscles.activation.setConstant(static_cast<Eigen::Index>(model.muscles.size()), NAN);
       muscles.residual.setConstant(model.nv(), NAN);
@@ -98,9 +98,9 @@ struct LogWriter::Contents {
     const FrameMeans& mean = means.close();
     const KnotVote type = record.controller.knot_seen == record.time
                               ? record.controller.knot
-                              : knot_type(record.moment.observation.kin.centre, knot);
+                              : knot_type(record.after.observation.kin.centre, knot);
     if (!model.muscles.empty()) see_muscles(record, mean);
-    const double fold = skin_fold(model, record.moment.observation.kin);
+    const double fold = skin_fold(model, record.after.observation.kin);
     frames.append(
         {record, rows_of_step, mean, moments.close(), type, fold, worst, wall_time, muscles});
     worst = {};

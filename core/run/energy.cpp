@@ -7,7 +7,7 @@
 namespace hagfish {
 namespace {
 
-void set_energies(const Model& model, const Moment& now, EnergyLedger& ledger) {
+void set_energies(const Model& model, const ObservedState& now, EnergyLedger& ledger) {
   ledger.kinetic = kinetic_energy(model, now.observation.kin);
   ledger.elastic = elastic_energy(model, now.state.q);
   ledger.gravity = gravity_energy(model, now.observation.kin);
@@ -22,7 +22,7 @@ PointMotion motion_of(const Matrix6Xd& twist, const Eigen::Matrix3Xd& velocity, 
 /// centre of mass. What bears on an obstacle has its frame of reference: then it is only what will
 /// be taken as momentum is given back. `fallen`: the change of the energy in gravity.
 double made_of_translation(const StepInput& in, const StepPlace& place, const StepSolution& step,
-                           const Moment& next, double travelled, double fallen) {
+                           const ObservedState& next, double travelled, double fallen) {
   const Model& model = in.model;
   const double mass = mass_of(model);
   Eigen::Vector3d force = step.tip + step.force[RowKind::obstacle].head<3>();
@@ -60,7 +60,7 @@ double lost_at_impacts(const StepInput& in, const StepPlace& place, const StepSo
 
 }  // namespace
 
-EnergyLedger open_ledger(const Model& model, const Moment& now, bool kept) {
+EnergyLedger open_ledger(const Model& model, const ObservedState& now, bool kept) {
   EnergyLedger ledger;
   set_energies(model, now, ledger);
   ledger.initial = ledger.kinetic + ledger.elastic + ledger.gravity;
@@ -79,7 +79,7 @@ EnergyLedger open_ledger(const Model& model, const Moment& now, bool kept) {
 // Their sum is works less dissipation and the integrator's own terms below, and the change of T on
 // the way to that place and from there. Impacts have their own part of (y - (t/h) u)'MΔv.
 void book_step(const StepInput& in, const StepPlace& place, const StepSolution& step,
-               const Moment& next, double travelled, EnergyLedger& ledger) {
+               const ObservedState& next, double travelled, EnergyLedger& ledger) {
   const Model& model = in.model;
   const Kinematics& kin = place.kin;
   const double t = travelled;

@@ -66,11 +66,11 @@ struct EnergyLedger {
 };
 
 /// Opens the ledger at a moment; `kept`: momentum is (step_input.hpp).
-EnergyLedger open_ledger(const Model& model, const Moment& now, bool kept);
+EnergyLedger open_ledger(const Model& model, const ObservedState& now, bool kept);
 
 /// Books the step `in` from the ledger's last entry, by its solution at `place`, to `next`, the
 /// state after the time `travelled` (s), 0 to h.
 void book_step(const StepInput& in, const StepPlace& place, const StepSolution& step,
-               const Moment& next, double travelled, EnergyLedger& ledger);
+               const ObservedState& next, double travelled, EnergyLedger& ledger);
 
 }  // namespace hagfish

@@ -149,10 +149,10 @@ Status guard_speed(const Eigen::Matrix3Xd& centre_velocity, const Eigen::Vector3
   return {};
 }
 
-Status guard_state(const Model& model, const Moment& moment, double crossing, const Scene& scene,
-                   Watch& watch, std::vector<std::string>& warnings) {
+Status guard_state(const Model& model, const ObservedState& after, double crossing,
+                   const Scene& scene, Watch& watch, std::vector<std::string>& warnings) {
   const GuardSettings& guard = scene.guard;
-  const Observation& seen = moment.observation;
+  const Observation& seen = after.observation;
   if (!seen.kin.centre.allFinite()) {
     return {Outcome::non_finite,
             "positions or velocities are not finite numbers; try a smaller time.step"};
@@ -178,18 +178,18 @@ Status guard_state(const Model& model, const Moment& moment, double crossing, co
   if (status.ok() && seen.limit_violation > guard.limit_violation) {
     look(Outcome::limits,
          fmt::format("{} is {:.3g} deg past its limit, over guard.limit_violation_deg = {:g}",
-                     furthest_limit(model, moment.state), seen.limit_violation / degree,
+                     furthest_limit(model, after.state), seen.limit_violation / degree,
                      guard.limit_violation / degree),
          "try constraints.activation = \"speculative\" or a smaller time.step");
   }
   return status;
 }
 
-Status guard_energy(const StepInput& in, double passing, Moment& moment, EnergyLedger& ledger,
+Status guard_energy(const StepInput& in, double passing, ObservedState& after, EnergyLedger& ledger,
                     Watch& watch, std::vector<std::string>& warnings) {
   const Model& model = in.model;
   const GuardSettings& guard = in.scene.guard;
-  Kinematics& kin = moment.observation.kin;
+  Kinematics& kin = after.observation.kin;
   const bool kept = keeps_momentum(in);
   double kinetic = kept ? inner_kinetic_energy(model, kin) : ledger.kinetic;
   const double passed = ledger.largest + ledger.dissipated;
@@ -207,7 +207,7 @@ Status guard_energy(const StepInput& in, double passing, Moment& moment, EnergyL
     if (guard.energy_action == EnergyAction::hold && in.scene.time.rule == TimeRule::euler) {
       const double taken = std::min(made - allowed, kinetic);
       const double share = kinetic > 0 ? std::sqrt(1 - taken / kinetic) : 0;
-      Eigen::VectorXd& v = moment.state.qdot;
+      Eigen::VectorXd& v = after.state.qdot;
       Eigen::Vector3d whole = Eigen::Vector3d::Zero();
       if (kept) whole = mean_by_mass(model, kin.centre_velocity);
       v.head<3>() -= whole;
@@ -241,8 +241,7 @@ void guard_momentum(const StepInput& in, double passing, const MomentumLedger& b
   watch.made += now.integrator + now.given_back - before.integrator - before.given_back;
   // For a rigid motion |P|² <= 2 m T and |L|² <= 2 I T; a straight body has the largest I.
   const double largest = std::sqrt(2 * mass_of(in.model) * energy.largest);
-  const double allowed =
-      std::max(momentum_gain * largest, passing_rounding * passing);
+  const double allowed = std::max(momentum_gain * largest, passing_rounding * passing);
   const double arm = in.model.length() / std::sqrt(12.0);
   if (std::max(watch.made.linear.norm(), watch.made.angular.norm() / arm) > allowed) {
     const bool kept = in.scene.time.momentum == FreeMomentum::kept;

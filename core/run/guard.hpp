@@ -42,15 +42,15 @@ Status guard_speed(const Eigen::Matrix3Xd& centre_velocity, const Eigen::Vector3
 /// Checks the state after a step, and the deepest overlap on the way there (`crossing`, cm).
 /// Messages name the bodies or the joint with the largest violation, and the setting that would
 /// help.
-Status guard_state(const Model& model, const Moment& moment, double crossing, const Scene& scene,
-                   Watch& watch, std::vector<std::string>& warnings);
+Status guard_state(const Model& model, const ObservedState& after, double crossing,
+                   const Scene& scene, Watch& watch, std::vector<std::string>& warnings);
 
 /// Checks the energy that the integrator has made since the sum of its own terms was lowest
 /// (impacts lower it). The reference is what there was before this step: the largest kinetic and
 /// elastic energy, and the loss by drag and damping. With action `hold` and Euler's rule the excess
-/// is taken back: one factor scales the velocities of `moment` down, and the ledger books it. Where
+/// is taken back: one factor scales the velocities of `after` down, and the ledger books it. Where
 /// momentum is kept, all of this is about the centre of mass. `passing` as passing_momentum.
-Status guard_energy(const StepInput& in, double passing, Moment& moment, EnergyLedger& ledger,
+Status guard_energy(const StepInput& in, double passing, ObservedState& after, EnergyLedger& ledger,
                     Watch& watch, std::vector<std::string>& warnings);
 
 /// The share of the most momentum that a free body could have with its largest energy so far at

@@ -91,7 +91,7 @@ constexpr double rounding = 1e-12;
 /// difference. If no factor can, it grows by a share of up to most_added. Else the body keeps its
 /// angular momentum, and the guard of momentum warns.
 void give(const Model& model, double kinetic, const Momentum& now, const Momentum& wanted,
-          Moment& next) {
+          ObservedState& next) {
   Kinematics& kin = next.observation.kin;
   const Eigen::Vector3d centre = centre_of_mass(model, kin);
   const auto inertia = locked_inertia(model, kin, centre).llt();
@@ -160,7 +160,7 @@ double passing_momentum(const StepInput& in, const StepSolution& step) {
   return sum;
 }
 
-MomentumLedger open_momentum(const Model& model, const Moment& now) {
+MomentumLedger open_momentum(const Model& model, const ObservedState& now) {
   MomentumLedger ledger;
   ledger.initial = momentum_of(model, now.observation.kin);
   ledger.momentum = ledger.initial;
@@ -181,7 +181,7 @@ Eigen::Vector3d centre_after(const StepInput& in, const StepPlace& place, const 
 }
 
 void book_momentum(const StepInput& in, const StepPlace& place, const StepSolution& step,
-                   Moment& next, EnergyLedger& energy, MomentumLedger& ledger) {
+                   ObservedState& next, EnergyLedger& energy, MomentumLedger& ledger) {
   const Model& model = in.model;
   const Kinematics& kin = next.observation.kin;
   const Eigen::Vector3d middle = centre_of_mass(model, place.kin);

@@ -58,7 +58,7 @@ double passing_momentum(const StepInput& in, const StepSolution& step);
 inline constexpr double passing_rounding = 1e-9;
 
 /// Opens the ledger at a moment.
-MomentumLedger open_momentum(const Model& model, const Moment& now);
+MomentumLedger open_momentum(const Model& model, const ObservedState& now);
 
 /// Place of the centre of mass when the step `in`, as solved at `place`, has moved for the time
 /// `travelled` (s) from `now`; cm, world. It moves by the momentum before the step and the forces
@@ -73,6 +73,6 @@ Eigen::Vector3d centre_after(const StepInput& in, const StepPlace& place, const 
 /// little, or else its angular momentum stays as it is. `energy` books the change of all kinetic
 /// energy.
 void book_momentum(const StepInput& in, const StepPlace& place, const StepSolution& step,
-                   Moment& next, EnergyLedger& energy, MomentumLedger& ledger);
+                   ObservedState& next, EnergyLedger& energy, MomentumLedger& ledger);
 
 }  // namespace hagfish

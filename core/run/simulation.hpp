@@ -43,7 +43,7 @@ class StepUnderWay {
 /// All that changes while a scene runs. Copies go on independently of each other.
 struct Simulation {
   std::int64_t step = 0;  ///< steps taken
-  Moment now;
+  ObservedState now;
   ContactSearch search;  ///< search that found its contacts
   ControllerState controller;
   StepSolver solver;
@@ -82,8 +82,8 @@ bool finished(const Simulation& sim, const Scene& scene);
 /// The start and the result of a step. `sim` has moved on when it is read.
 struct StepRecord {
   std::int64_t step = 0;
-  double time = 0;  ///< s
-  Moment moment;    ///< state and observation at `time`
+  double time = 0;      ///< s
+  ObservedState after;  ///< state and observation at `time`
   ControllerState controller;
   Control control;
   StepSolution solution;

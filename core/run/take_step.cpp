@@ -12,7 +12,7 @@
 namespace hagfish {
 namespace {
 
-/// A step from `sim.now` to `record.moment`. The two are swapped once the step is taken.
+/// A step from `sim.now` to `record.after`. The two are swapped once the step is taken.
 struct Attempt {
   const StepInput in;
   Simulation& sim;
@@ -63,7 +63,7 @@ void decide_control(const Attempt& step) {
 /// Eq. 2: moves by the step's velocity for the time `t` (s), and observes the state there.
 void move(const Attempt& step, double t) {
   const auto& [in, sim, record] = step;
-  auto& [state, observation] = record.moment;
+  auto& [state, observation] = record.after;
   advance(in.state.q, record.solution.qdot, t, state.q);
   if (keeps_momentum(in)) {
     place_centre(in.model,
@@ -80,7 +80,7 @@ void move(const Attempt& step, double t) {
 bool look_along_path(const Attempt& step, bool correct) {
   const auto& [in, sim, record] = step;
   StepSolution& solution = record.solution;
-  Moment& there = record.moment;
+  ObservedState& there = record.after;
   const int count = step.samples();
   there.state.qdot = solution.next;
   record.crossing = 0;
@@ -142,7 +142,7 @@ double end_where_strands_meet(const Attempt& step) {
   const auto& [in, sim, record] = step;
   const double stride = in.scene.constraints.stride;
   constexpr int least_samples = 16;
-  const double& penetration = record.moment.observation.penetration;
+  const double& penetration = record.after.observation.penetration;
   const int samples = step.samples();
   const double before = in.observation.penetration;
   const double allowed = std::max(before, way_tolerance * stride);
@@ -179,7 +179,7 @@ void watch(const Attempt& step) {
   guard_cap(in.model, step.place().kin, in.scene, sim.controller.phase, record.solution,
             record.time, sim.watch, record.warnings);
   step.require(
-      guard_state(in.model, record.moment, record.crossing, in.scene, sim.watch, record.warnings));
+      guard_state(in.model, record.after, record.crossing, in.scene, sim.watch, record.warnings));
   record.head_drift = record.control.clamp_head ? head_drift(in.model, in.observation.kin) : 0;
 }
 
@@ -187,7 +187,7 @@ void watch(const Attempt& step) {
 /// for the time `travelled` (s).
 void book(const Attempt& step, double travelled) {
   const auto& [in, sim, record] = step;
-  Moment& next = record.moment;
+  ObservedState& next = record.after;
   record.ledger = sim.ledger;
   book_step(in, step.place(), record.solution, next, travelled, sim.ledger);
   const double passing = passing_momentum(in, record.solution);
@@ -199,17 +199,17 @@ void book(const Attempt& step, double travelled) {
 }
 
 /// Marks a step as under way, so that there is only one at a time.
-class Guard {
+class OneStepAtATime {
  public:
-  explicit Guard(StepUnderWay& under_way) : under_way_(under_way) {
+  explicit OneStepAtATime(StepUnderWay& under_way) : under_way_(under_way) {
     if (!under_way.begin()) {
       throw std::logic_error(
           "this simulation is already taking a step; take the other step in a copy of it");
     }
   }
-  ~Guard() { under_way_.end(); }
-  Guard(const Guard&) = delete;
-  Guard& operator=(const Guard&) = delete;
+  ~OneStepAtATime() { under_way_.end(); }
+  OneStepAtATime(const OneStepAtATime&) = delete;
+  OneStepAtATime& operator=(const OneStepAtATime&) = delete;
 
  private:
   StepUnderWay& under_way_;
@@ -222,7 +222,7 @@ void keep(Simulation& sim) {
   before.ledger = sim.ledger;
   before.momentum = sim.momentum;
   before.watch = sim.watch;
-  keep_candidates(sim.search.candidates, before.candidates);
+  before.candidates = sim.search.candidates;
 }
 
 void put_back(Simulation& sim) {
@@ -239,7 +239,7 @@ void put_back(Simulation& sim) {
 
 void take_step(const Model& model, const Scene& scene, Simulation& sim, StepRecord& record) {
   require_of(model, sim);
-  const Guard guard(sim.under_way);
+  const OneStepAtATime only(sim.under_way);
   const Attempt step{
       {model, scene, sim.now.state, sim.now.observation, record.control}, sim, record};
   keep(sim);
@@ -258,7 +258,7 @@ void take_step(const Model& model, const Scene& scene, Simulation& sim, StepReco
     throw;
   }
   record.controller = sim.controller;
-  std::swap(sim.now, record.moment);
+  std::swap(sim.now, record.after);
   ++sim.step;
 }
 

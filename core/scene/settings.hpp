@@ -95,8 +95,8 @@ struct WallSettings {
   double neck = 3.0;  ///< bodies nearer the head than this pass through the plate, cm of arc
 };
 
-/// One knot of a script in time: a force (dyn) or a position of the last body's centre (cm).
-struct ScriptKnot {
+/// A waypoint of a script in time: a force (dyn) or a position of the last body's centre (cm).
+struct Waypoint {
   double time = 0;  ///< s
   Eigen::Vector3d value = Eigen::Vector3d::Zero();
   Eigen::Vector3d noise = Eigen::Vector3d::Zero();  ///< drawn on top of it, same unit
@@ -118,16 +118,16 @@ struct CurvatureProgram {
 struct ScriptSettings {
   enum class Kind {
     none,
-    force,     ///< the paper's: a force, linear between knots
+    force,     ///< the paper's: a force, linear between waypoints
     position,  ///< waypoints, Catmull-Rom through time, followed by a spring-damper
     curvature  ///< the animal bends itself (addition): `curvature`, by ActiveSettings
   };
   Kind kind = Kind::none;
   CurvatureProgram curvature;
-  std::vector<ScriptKnot> knots;  ///< times rising; first one at 0
-  double spring = 0;              ///< position script: dyn / cm, taken implicitly
-  double damper = 0;              ///< position script: dyn s / cm, taken implicitly
-  double largest_force = 0;       ///< position script: the spring-damper saturates here, dyn
+  std::vector<Waypoint> waypoints;  ///< times rising; first one at 0
+  double spring = 0;                ///< position script: dyn / cm, taken implicitly
+  double damper = 0;                ///< position script: dyn s / cm, taken implicitly
+  double largest_force = 0;         ///< position script: the spring-damper saturates here, dyn
   /// Standard deviation of the normal noise on each coordinate of each knot, cm or dyn, or on each
   /// value of a curvature program, rad per body length: no animal does the same thing twice.
   double noise = 0;

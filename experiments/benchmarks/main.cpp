@@ -158,7 +158,7 @@ void add_prescribing(const std::string& name, const std::shared_ptr<Parts>& part
   }
   add("core", name, model.body_count(), [parts, run] {
     const Model& of = parts->start->model;
-    const Kinematics& kin = parts->record.moment.observation.kin;
+    const Kinematics& kin = parts->record.after.observation.kin;
     const StepSystem& system = parts->record.solution.system;
     run->factor.factorise(of, kin, system.op, run->prescribed);
     run->factor.solve(of, kin, system.wrench, system.joint, run->base, run->twist, run->reaction);
@@ -176,24 +176,24 @@ void add_core_parts(const std::shared_ptr<Start>& start) {
     add("core", name, n, [parts, work] { work(*parts); });
   };
   part("kinematics", [](Parts& p) {
-    update_positions(p.start->model, p.record.moment.state.q, p.record.moment.observation.kin);
-    update_velocities(p.start->model, p.record.moment.state.qdot, p.record.moment.observation.kin);
+    update_positions(p.start->model, p.record.after.state.q, p.record.after.observation.kin);
+    update_velocities(p.start->model, p.record.after.state.qdot, p.record.after.observation.kin);
   });
   part("mass_matrix", [](Parts& p) {  // dense, for comparison: a step never forms it
-    const Kinematics& kin = p.record.moment.observation.kin;
+    const Kinematics& kin = p.record.after.observation.kin;
     const StepOperator op{body_inertias(p.start->model, kin),
                           Eigen::VectorXd::Zero(p.start->model.nv())};
     benchmark::DoNotOptimize(dense(p.start->model, kin, op));
   });
   part("bias", [](Parts& p) {
-    const Kinematics& kin = p.record.moment.observation.kin;
+    const Kinematics& kin = p.record.after.observation.kin;
     benchmark::DoNotOptimize(
         generalised_force(p.start->model, kin, bias_wrench(p.start->model, kin, motion_of(kin))));
   });
   part("system", [](Parts& p) {  // Eq. 1 assembled, factorised and solved
-    const Kinematics& kin = p.record.moment.observation.kin;
+    const Kinematics& kin = p.record.after.observation.kin;
     StepSystem& system = p.record.solution.system;
-    assemble_step_system(p.start->model, p.record.moment.state,
+    assemble_step_system(p.start->model, p.record.after.state,
                          {kin.twist, kin.centre_velocity, kin.twist}, kin, p.record.control.tip,
                          {p.start->scene.time.step}, system);
     p.factor.factorise(p.start->model, kin, system.op, p.sim.solver.problem().prescribed);
@@ -206,13 +206,13 @@ void add_core_parts(const std::shared_ptr<Start>& start) {
     find_contacts(p.segments, p.start->scene.contact, 0, p.search, p.contacts);
   });
   part("rows", [](Parts& p) {
-    const Moment& at = p.record.moment;
+    const ObservedState& at = p.record.after;
     const StepInput in{p.start->model, p.start->scene, at.state, at.observation, p.record.control};
     gather_rows(in, start_of(in), p.sim.solver.warm, p.rows);
   });
   part("dual", [](Parts& p) {
     const StepSolution& step = p.record.solution;
-    assemble_dual(p.start->model, p.record.moment.observation.kin, p.sim.solver.problem().factor,
+    assemble_dual(p.start->model, p.record.after.observation.kin, p.sim.solver.problem().factor,
                   std::span(step.rows).subspan(static_cast<std::size_t>(step.prescribed)),
                   p.sim.solver.problem().base, p.sim.solver.problem().base_bodies(), p.columns,
                   p.qp);

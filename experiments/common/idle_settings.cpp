@@ -35,9 +35,17 @@ const std::vector<IdleKey>& idle_keys() {
   const auto no_food = [](const Scene& s) { return s.food.hold == 0; };
   const auto euler = [](const Scene& s) { return s.time.rule != TimeRule::midpoint; };
   const auto no_script = [](const Scene& s) { return has_script(s, Kind::none); };
+  const auto no_program = [](const Scene& s) { return !has_script(s, Kind::curvature); };
+  const auto own_shape = [](const Scene& s) { return has_script(s, Kind::curvature); };
+  const auto nothing_active = [](const Scene& s) {
+    return !has_script(s, Kind::curvature) && has_law(s, {"paper", "all_contacts", "knot_speed"});
+  };
   const auto no_spring = [](const Scene& s) { return !has_script(s, Kind::position); };
   const char* const no_rows = "controller.law asks for no speeds of Eq. 6";
   const char* const of_midpoint = "only time.rule = \"midpoint\" reads it";
+  const char* const of_curvature = "only script.kind = \"curvature\" reads it";
+  const char* const of_active =
+      "no torque is active: script.kind is not \"curvature\", and controller.law asks for none";
   const char* const of_position = "only script.kind = \"position\" reads it";
   const char* const of_animal = "model.passive = \"specimen\": the animal's own values are used";
   const auto own_passive = [](const Scene& s) {
@@ -49,6 +57,9 @@ const std::vector<IdleKey>& idle_keys() {
        "script.noise is 0"},
       {"script.knots", no_script, "script.kind is \"none\": there is no script"},
       {"script.noise", no_script, "script.kind is \"none\": there is no script"},
+      {"script.knots", own_shape, "script.kind = \"curvature\" reads script.program"},
+      {"script.program", no_program, of_curvature},
+      {"script.curvature", no_program, of_curvature},
       {"script.spring", no_spring, of_position},
       {"script.damper", no_spring, of_position},
       {"script.largest_force", no_spring, of_position},
@@ -56,6 +67,12 @@ const std::vector<IdleKey>& idle_keys() {
       {"model.bending_damping", own_passive, of_animal},
       {"model.twist_stiffness", own_passive, of_animal},
       {"model.twist_damping", own_passive, of_animal},
+      {"active.stiffness", nothing_active, of_active},
+      {"active.tone_time", nothing_active, of_active},
+      {"active.relax_time", nothing_active, of_active},
+      {"constraints.corrections",
+       [](const Scene& s) { return s.constraints.activation == Activation::violated; },
+       "constraints.activation = \"violated\" corrects no step"},
       {"wall.neck", [](const Scene& s) { return !s.wall.present; }, "wall.present is false"},
       {"muscle.activation_time",
        [](const Scene& s) {
@@ -66,7 +83,11 @@ const std::vector<IdleKey>& idle_keys() {
       {"controller.slide_tail", ignores_speeds, no_rows},
       {"controller.tighten_head", ignores_speeds, no_rows},
       {"controller.tighten_tail", ignores_speeds, no_rows},
+      {"controller.eq6_at", ignores_speeds, no_rows},
       {"controller.eq6_slip", ignores_speeds, no_rows},
+      {"controller.cap", ignores_speeds, no_rows},
+      {"controller.free_from", [](const Scene& s) { return !s.clamp_head; },
+       "clamp_head is false: the head is never held"},
       {"controller.reverse_head", tail,
        "controller.leave_by is \"head\": there is no slide to the tail"},
       {"controller.reverse_tail", tail,
@@ -83,6 +104,7 @@ const std::vector<IdleKey>& idle_keys() {
       {"food.cap", no_food, "food.hold is 0: there is no food"},
       {"time.settled", euler, of_midpoint},
       {"time.passes", euler, of_midpoint},
+      {"time.ring_damping", euler, of_midpoint},
   };
   return keys;
 }

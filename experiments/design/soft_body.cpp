@@ -22,7 +22,7 @@ constexpr double more_tail = 0.04;    // of the body, for which a later look is 
 /// The scene with a path.
 Scene led_along(const SoftBody& body, const TailPath& path, double step) {
   Scene scene = body.resolved.scene;
-  scene.script.knots = script_knots(path, body.model.length());
+  scene.script.waypoints = waypoints_of(path, body.model.length());
   scene.time.step = step;
   scene.expect.knot.clear();  // nothing is waited for
   scene.expect.types.clear();
@@ -98,7 +98,7 @@ std::optional<Tying> try_plan(const SoftBody& body, const PathPlan& plan, const 
     if (path.pull.empty() && next < plan.turns.size() &&
         waypoints_after(path, time + scene.time.step) < waypoints_ahead) {
       add_turn(path, plan.turns[next++], centre(), strand);
-      scene.script.knots = script_knots(path, body.model.length());
+      scene.script.waypoints = waypoints_of(path, body.model.length());
     }
     if (time >= path_end(path) + lasting) return tying;
     if (interrupted()) return std::nullopt;
@@ -119,7 +119,7 @@ std::optional<Tying> try_plan(const SoftBody& body, const PathPlan& plan, const 
     if (!path.pull.empty() || tying.seen.size() < 2) continue;
     if (seen.type == wanted_type && is_knot(wanted, sim.now.observation.kin.centre, scene.knot)) {
       end_with_pull(path, time_of(sim, scene), centre(), draw);
-      scene.script.knots = script_knots(path, body.model.length());
+      scene.script.waypoints = waypoints_of(path, body.model.length());
     } else if (waypoints_after(path, seen_at + search_step) >= waypoints_ahead) {
       const double left = tail_left(sim.now.observation.kin.centre, seen.type, scene.knot);
       if (seen.at > 0 && left < seen.left + more_tail) continue;
@@ -160,7 +160,7 @@ Shapes shapes_in(const SoftBody& body, const Scene& scene, double until, Simulat
       shapes.tighten_from = step.time;
     }
     shapes.time.push_back(step.time);
-    q.push_back(step.moment.state.q);
+    q.push_back(step.after.state.q);
   };
   try {
     const Status end =

@@ -235,12 +235,12 @@ int waypoints_after(const TailPath& path, double time) {
                           std::ranges::count_if(path.turns, after));
 }
 
-std::vector<ScriptKnot> script_knots(const TailPath& path, double length) {
-  std::vector<ScriptKnot> knots;
+std::vector<Waypoint> waypoints_of(const TailPath& path, double length) {
+  std::vector<Waypoint> knots;
   for (const auto* part : {&path.swing, &path.turns, &path.pull}) {
     for (const TailPath::Waypoint& at : *part) knots.push_back({at.time, length * at.place, {}});
   }
-  for (ScriptKnot& knot : knots) knot.noise.setZero();
+  for (Waypoint& knot : knots) knot.noise.setZero();
   return knots;
 }
 

@@ -69,7 +69,7 @@ TailPath path_with_ahead(const TailPath& path, double time, int ahead);
 int waypoints_after(const TailPath& path, double time);
 
 /// The script's knots for an animal of that length, cm.
-std::vector<ScriptKnot> script_knots(const TailPath& path, double length);
+std::vector<Waypoint> waypoints_of(const TailPath& path, double length);
 
 double path_end(const TailPath& path);  ///< s
 

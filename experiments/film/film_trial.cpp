@@ -119,7 +119,7 @@ std::vector<FilmTrial> try_stiffness(const ResolvedScene& base, const CurvatureP
       StepRecord record;
       const auto compare = [&](const StepRecord& step, const Simulation&) {
         if (step.time < next) return;
-        squares += squares_off(kinematics(model, step.moment.state), shape,
+        squares += squares_off(kinematics(model, step.after.state), shape,
                                values_at(program, step.time), places, scene.clamp_head);
         count += static_cast<double>(places.size());
         next += compare_each;

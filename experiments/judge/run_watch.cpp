@@ -26,7 +26,7 @@ void RunWatch::see(const StepRecord& record) {
 void RunWatch::see_end(const Simulation& sim) {
   if (!any_) return;
   const StepRecord end = end_record(model_, time_of(sim, scene_), sim, clamped_);
-  const Observation& observation = end.moment.observation;
+  const Observation& observation = end.after.observation;
   judge_.see(Worst{observation.penetration, observation.limit_violation, end.head_drift, 0});
   see_frame(end, true);
 }
@@ -38,7 +38,7 @@ void RunWatch::see_frame(const StepRecord& record, bool at_end) {
                       .clamped = record.control.clamp_head,
                       .at_end = at_end,
                       .span = knot_span(record.controller),
-                      .q = record.moment.state.q,
+                      .q = record.after.state.q,
                       .tip = record.solution.tip,
                       .active = mean.active_torque,
                       .thigmotaxis = mean.force[RowKind::thigmotaxis],

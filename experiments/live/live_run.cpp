@@ -29,7 +29,7 @@ struct Bearing {
 std::vector<Bearing> bearing_contacts(const Model& model, const StepRecord& record, double h) {
   std::vector<Bearing> found;
   const double length = body_length(model);
-  const Eigen::Matrix3Xd& centre = record.moment.observation.kin.centre;
+  const Eigen::Matrix3Xd& centre = record.after.observation.kin.centre;
   for (std::size_t i = 0; i < record.solution.rows.size(); ++i) {
     const Row& row = record.solution.rows[i];
     const double force = record.solution.lambda[static_cast<Eigen::Index>(i)] / h;

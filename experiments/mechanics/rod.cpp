@@ -132,7 +132,7 @@ Scene pulled_scene(double radius, double force, double step, double apart) {
   scene.constraints.tolerance = 0.003 * radius;
   scene.constraints.stride = radius;
   scene.script.kind = ScriptSettings::Kind::force;
-  scene.script.knots = {{.time = 0, .value = Eigen::Vector3d(force, 0, 0)}};
+  scene.script.waypoints = {{.time = 0, .value = Eigen::Vector3d(force, 0, 0)}};
   scene.time.step = step;
   scene.time.duration = 1e9;
   scene.guard.speed = 1e12;  // no time that passes here is real

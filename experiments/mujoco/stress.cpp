@@ -57,7 +57,7 @@ bool run_in_core(const Model& model, const Scene& scene, const char* qp,
   Simulation sim = start(model, scene, qp);
   sim.solver.stop_when(out_of_time);
   StepRecord record;
-  const auto see = [&](const State& before, const Moment& after) {
+  const auto see = [&](const State& before, const ObservedState& after) {
     const EnergyLedger& ledger = sim.ledger;
     judge.see(before, after.state, after.observation, time_of(sim, scene),
               {ledger.kinetic + ledger.elastic + ledger.gravity,
@@ -65,13 +65,13 @@ bool run_in_core(const Model& model, const Scene& scene, const char* qp,
   };
   const auto watch = [&](const StepRecord& step, const Simulation& of) {
     judge.see_control(step);
-    see(step.moment.state, of.now);
+    see(step.after.state, of.now);
   };
   const Status end = drive(model, scene, sim, record, {watch}, out_of_time);
   if (end.ok() || end.outcome == Outcome::stopped) return end.ok();
   // A guard refused where the step led: that is in the record, while the simulation stayed.
   if (end.outcome == Outcome::penetration || end.outcome == Outcome::limits) {
-    see(sim.now.state, record.moment);
+    see(sim.now.state, record.after);
   }
   throw StepError(end);
 }

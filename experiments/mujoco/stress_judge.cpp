@@ -100,7 +100,7 @@ void StressJudge::see_control(const StepRecord& record) {
   if (phase_ != Phase::slide || !span) {
     return;
   }
-  slides_.see(phase_, span, record.moment.state.q);
+  slides_.see(phase_, span, record.after.state.q);
   ++slide_steps_;
   slide_met_ += thigmotaxis_rows_of(record.control, record.solution, scene_.time.step).met ? 1 : 0;
 }

@@ -173,7 +173,7 @@ void PythonSimulation::take() {
     const auto elapsed = std::chrono::steady_clock::now() - begin_;
     log_->write(record, sim, std::chrono::duration<double>(elapsed).count());
   }
-  slides.see(record.controller.phase, knot_span(record.controller), record.moment.state.q);
+  slides.see(record.controller.phase, knot_span(record.controller), record.after.state.q);
   show();
 }
 

@@ -29,7 +29,7 @@ bool at_cap(const StepSolution& solution) {
 }
 
 PrimalQp to_primal(const Model& model, const Scene& scene, const StepRecord& record) {
-  const Moment& now = record.moment;
+  const ObservedState& now = record.after;
   const StepInput in{model, scene, now.state, now.observation, record.control};
   PrimalQp primal = paper_problem(in, start_of(in), record.solution.rows);
   primal.cap.setConstant(std::numeric_limits<double>::infinity());

@@ -35,14 +35,14 @@ class ControllerTest : public testing::Test {
   Model model = table1_hagfish();
   ControllerState state;
   NamedLaw named;
-  Moment moment;
-  Observation& observation = moment.observation;
+  ObservedState seen;
+  Observation& observation = seen.observation;
   double now = 0;
 
   ControllerTest() {
     scene.expect.knot = "3_1";
     scene.script.kind = ScriptSettings::Kind::force;
-    scene.script.knots = {{0, {10, 20, 30}}, {5, {50, 60, 70}}};
+    scene.script.waypoints = {{0, {10, 20, 30}}, {5, {50, 60, 70}}};
     scene.controller.contact_gap = 0.05;
     scene.controller.tail_through = 8;
     scene.controller.tight_span = 20.352;
@@ -51,8 +51,8 @@ class ControllerTest : public testing::Test {
     scene.controller.release_at = 1.908;
     scene.knot.interval = 0.01;
     scene.time.step = 0.002;
-    moment.state = rest_state(model);
-    observation.kin = kinematics(model, moment.state);
+    seen.state = rest_state(model);
+    observation.kin = kinematics(model, seen.state);
     observation.segments = spline(model, observation.kin.centre);
   }
 
@@ -77,7 +77,7 @@ class ControllerTest : public testing::Test {
       observation.ends.tail_end = last->arc_b;
     }
     Control control;
-    const Status status = decide(model, scene, moment, now, named, state, control);
+    const Status status = decide(model, scene, seen, now, named, state, control);
     if (!status.ok()) throw StepError(status);
     now += scene.time.step;
     return control;

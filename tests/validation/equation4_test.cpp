@@ -18,8 +18,8 @@ int compare(const Model& model, Scene scene, Simulation sim) {
   for (int k = 0; k < 3; ++k) {
     SCOPED_TRACE(sim.step);
     const StepRecord record = take_step(model, scene, sim);
-    const State& before = record.moment.state;
-    expect_optimal({model, scene, before, record.moment.observation, record.control},
+    const State& before = record.after.state;
+    expect_optimal({model, scene, before, record.after.observation, record.control},
                    record.solution);
     // Eqs. 1 and 2: the new velocity, and where it leads.
     EXPECT_EQ(sim.now.state.qdot, record.solution.qdot);

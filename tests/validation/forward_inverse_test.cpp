@@ -27,9 +27,9 @@ class ForwardInverse : public testing::TestWithParam<StoredState> {
       const Eigen::VectorXd& next = record.solution.qdot;
       spoil(record.solution.force);
       const Eigen::VectorXd force =
-          record.solution.force.total() + drag_force(model, record.moment.observation.kin, next);
+          record.solution.force.total() + drag_force(model, record.after.observation.kin, next);
       const Eigen::VectorXd driven =
-          driven_velocity(model, record.moment.state, force, record.solution.tip, mirror);
+          driven_velocity(model, record.after.state, force, record.solution.tip, mirror);
       largest = std::max(
           largest, (driven - next).lpNorm<Eigen::Infinity>() / next.lpNorm<Eigen::Infinity>());
     }

@@ -208,7 +208,7 @@ double holonomy(const FreeRun& run) {
   const StepRecord& record = run.record;
   Eigen::VectorXd change = Eigen::VectorXd::Zero(run.model.nv());
   change.tail(run.model.nv() - root_dofs) =
-      (run.sim.now.state.q - record.moment.state.q).tail(run.model.nv() - root_dofs);
+      (run.sim.now.state.q - record.after.state.q).tail(run.model.nv() - root_dofs);
   return 0.5 * (rate(run.before, change) + rate(run.sim.now.observation.kin, change));
 }
 

@@ -43,7 +43,7 @@ class Comparison {
     motion(r, image);
     solution(r.solution, image.solution);
     for (auto list : {&ContactSet::contacts, &ContactSet::near_pairs}) {
-      contacts(r.moment.observation.contact.*list, image.moment.observation.contact.*list);
+      contacts(r.after.observation.contact.*list, image.after.observation.contact.*list);
     }
     controller(r.controller, image.controller);
     ledger(r.ledger, image.ledger);
@@ -59,13 +59,13 @@ class Comparison {
 
   void motion(const StepRecord& r, const StepRecord& image) {
     same("time", r.time, image.time);
-    same("q", reflected_q(model_, r.moment.state.q), image.moment.state.q);
-    same("qdot", r.moment.state.qdot.cwiseProduct(parity_).eval(), image.moment.state.qdot);
-    same("positions", (flip.asDiagonal() * r.moment.observation.kin.centre).eval(),
-         image.moment.observation.kin.centre);
-    same("penetration", r.moment.observation.penetration, image.moment.observation.penetration);
-    same("limit violation", r.moment.observation.limit_violation,
-         image.moment.observation.limit_violation);
+    same("q", reflected_q(model_, r.after.state.q), image.after.state.q);
+    same("qdot", r.after.state.qdot.cwiseProduct(parity_).eval(), image.after.state.qdot);
+    same("positions", (flip.asDiagonal() * r.after.observation.kin.centre).eval(),
+         image.after.observation.kin.centre);
+    same("penetration", r.after.observation.penetration, image.after.observation.penetration);
+    same("limit violation", r.after.observation.limit_violation,
+         image.after.observation.limit_violation);
     same("head drift", r.head_drift, image.head_drift);
     same("crossing", r.crossing, image.crossing);
   }
@@ -160,8 +160,8 @@ ControllerState expect_reflection(const char* name, std::vector<std::string> set
     comparison.compare(record, record_of_image);
     double w = 0, w_of_image = 0;
     if (record.step % 100 == 0) {
-      w = writhe(record.moment.observation.kin.centre);
-      w_of_image = writhe(record_of_image.moment.observation.kin.centre);
+      w = writhe(record.after.observation.kin.centre);
+      w_of_image = writhe(record_of_image.after.observation.kin.centre);
       most_writhe = std::max(most_writhe, std::abs(w));
     }
     if (!comparison.first().empty() || w != -w_of_image) {

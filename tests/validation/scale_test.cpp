@@ -71,7 +71,7 @@ void scale(Scene& s, const Scale& by) {
   s.contact.margin *= by.length;
   s.contact.least_arc *= by.length;
   s.wall.neck *= by.length;
-  for (ScriptKnot& knot : s.script.knots) {
+  for (Waypoint& knot : s.script.waypoints) {
     knot.time *= by.time;
     knot.value *= s.script.kind == ScriptSettings::Kind::force ? by.force() : by.length;
   }

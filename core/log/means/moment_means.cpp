@@ -25,10 +25,10 @@ void add_moments(const Model& model, const TimeSettings& time, const StepRecord&
   if ((step.lambda.array() == 0).all() && step.active_torque.isZero(0)) return;
   Kinematics middle;
   if (time.rule == TimeRule::midpoint) {
-    const Eigen::VectorXd& q = record.moment.state.q;
+    const Eigen::VectorXd& q = record.after.state.q;
     update_positions(model, advance(q, step.middle.step_velocity, time.step / 2), middle);
   }
-  const Kinematics& kin = time.rule == TimeRule::midpoint ? middle : record.moment.observation.kin;
+  const Kinematics& kin = time.rule == TimeRule::midpoint ? middle : record.after.observation.kin;
   const std::vector<Eigen::Matrix3d> axes = axes_of_joints(kin);
   Matrix6Xd wrench;
   Eigen::VectorXd joint;  // rows on bodies leave it as it is

@@ -9,37 +9,6 @@
 namespace hagfish {
 namespace {
 
-/// The sum of rows with points, by body.
-class WrenchSum {
- public:
-  explicit WrenchSum(int bodies)
-      : wrench_(Matrix6Xd::Zero(6, bodies)), loaded_(static_cast<std::size_t>(bodies)) {}
-
-  void add(const Row& row, const Kinematics& kin, double share) {
-    visit_forces(row, kin,
-                 [&](int body, const Eigen::Vector3d& moment, const Eigen::Vector3d& force) {
-                   wrench_.col(body).head<3>() += share * moment;
-                   wrench_.col(body).tail<3>() += share * force;
-                   loaded_[static_cast<std::size_t>(body)] = 1;
-                 });
-  }
-
-  /// Of the bodies that take part, rising.
-  std::vector<BodyWrench> of_bodies() const {
-    std::vector<BodyWrench> found;
-    found.reserve(static_cast<std::size_t>(std::ranges::count(loaded_, 1)));
-    for (int body = 0; body < static_cast<int>(wrench_.cols()); ++body) {
-      if (loaded_[static_cast<std::size_t>(body)] == 0) continue;
-      found.push_back({body, wrench_.col(body).head<3>(), wrench_.col(body).tail<3>()});
-    }
-    return found;
-  }
-
- private:
-  Matrix6Xd wrench_;
-  std::vector<char> loaded_;
-};
-
 /// From the point on strand b to that on strand a of a row, cm.
 Eigen::Vector3d arm_of(const BetweenPoints& row, const Kinematics& kin) {
   Eigen::Vector3d arm = Eigen::Vector3d::Zero();
@@ -64,6 +33,52 @@ Eigen::Vector3d direction_of(const Contact& contact, bool on_a, BodyEnd towards)
 bool same_points(const std::optional<Contact>& x, const Contact& y) {
   return x && x->segment_a == y.segment_a && x->t_a == y.t_a && x->segment_b == y.segment_b &&
          x->t_b == y.t_b;
+}
+
+/// Moment and force on each body of the row along t_a, then of the row along t_b.
+using PatchSum = Eigen::Matrix<double, 12, Eigen::Dynamic>;
+
+/// The rows of Eq. 6 at the points of a patch (eq6_row), each times its share. At the centreline
+/// the forces of a body have one arm, and the couple at the head balances all moments.
+PatchSum sum_over(const std::vector<PatchPoint>& patch, const Model& model, const Kinematics& kin,
+                  const std::vector<SplineSegment>& segments, BodyEnd towards, Eq6Point at) {
+  const bool at_skin = at == Eq6Point::skin;
+  PatchSum sum = PatchSum::Zero(12, model.body_count());
+  for (const auto& [contact, share] : patch) {
+    const Eigen::Vector3d a = share * direction_of(contact, true, towards);
+    const Eigen::Vector3d b = share * direction_of(contact, false, towards);
+    Eigen::Vector3d place = Eigen::Vector3d::Zero();
+    if (at_skin) place = skin_point(segments, contact) - kin.reference;
+    Eigen::Matrix<double, 12, 1> point;
+    point << place.cross(a), a, place.cross(b), b;
+    const auto add = [&](int segment, double t, double sign) {
+      const SplineMix mix = spline_mix(segment, t, model.body_count());
+      for (int k = 0; k < mix.count; ++k) sum.col(mix.first + k) += sign * mix.weight[k] * point;
+    };
+    add(contact.segment_a, contact.t_a, 1);
+    add(contact.segment_b, contact.t_b, -1);
+  }
+  if (at_skin) return sum;
+  for (const int moment : {0, 6}) {
+    Eigen::Vector3d total = Eigen::Vector3d::Zero();
+    for (int body = 0; body < model.body_count(); ++body) {
+      const Eigen::Vector3d force = sum.col(body).segment<3>(moment + 3);
+      sum.col(body).segment<3>(moment) = kin.centre_offset(body).cross(force);
+      total += sum.col(body).segment<3>(moment);
+    }
+    sum.col(0).segment<3>(moment) -= total;
+  }
+  return sum;
+}
+
+/// The bodies that take part in the row whose moments begin at row `moment` of `sum`, rising.
+std::vector<BodyWrench> wrenches(const PatchSum& sum, int moment) {
+  std::vector<BodyWrench> found;
+  for (int body = 0; body < static_cast<int>(sum.cols()); ++body) {
+    if (sum.col(body).segment<6>(moment).isZero(0)) continue;
+    found.push_back({body, sum.col(body).segment<3>(moment), sum.col(body).segment<3>(moment + 3)});
+  }
+  return found;
 }
 
 /// The patch that begins at the contact of a command: that of `found`, if it has one of this
@@ -123,15 +138,12 @@ std::array<Row, 2> eq6_rows(const Model& model, const Kinematics& kin,
   std::vector<PatchPoint> storage;
   const std::vector<PatchPoint>& patch = patch_of(segments, command, scene, found, storage);
   if (!patch.empty()) {
-    WrenchSum sum_a(model.body_count()), sum_b(model.body_count());
+    const PatchSum sum =
+        sum_over(patch, model, kin, segments, command.towards, scene.controller.eq6_at);
     cosine = 0;
-    for (const auto& [contact, share] : patch) {
-      sum_a.add(along(contact, true), kin, share);
-      sum_b.add(along(contact, false), kin, share);
-      cosine += share * cosine_of(contact);
-    }
-    rows[0].shape = OverPatch{rows[0].points(), sum_a.of_bodies()};
-    rows[1].shape = OverPatch{rows[1].points(), sum_b.of_bodies()};
+    for (const auto& [contact, share] : patch) cosine += share * cosine_of(contact);
+    rows[0].shape = OverPatch{rows[0].points(), wrenches(sum, 0)};
+    rows[1].shape = OverPatch{rows[1].points(), wrenches(sum, 6)};
   }
   const ThigmotaxisSpeeds asked =
       command.slip == Eq6Slip::paper ? command.speed : slip_of_shape(cosine, command.speed);

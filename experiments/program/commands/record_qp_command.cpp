@@ -42,7 +42,7 @@ class Recorder {
     StoredQp qp;
     qp.start = kept_multipliers(record.solution.rows, warm);
     if (!options_.primal) {
-      qp.box = whole_dual(model_, record.moment.observation.kin, record.solution.system,
+      qp.box = whole_dual(model_, record.after.observation.kin, record.solution.system,
                           record.solution.rows);
     } else {
       if (at_cap(record.solution)) {

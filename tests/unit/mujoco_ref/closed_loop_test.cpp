@@ -85,7 +85,7 @@ TEST(ClosedLoop, SaysWhatTheStepDid) {
   StepRecord record;
   const State before = sim.now.state;
   mujoco.take_step(sim, record);
-  EXPECT_EQ(record.moment.state.q, before.q);
+  EXPECT_EQ(record.after.state.q, before.q);
   EXPECT_EQ(record.solution.next, sim.now.state.qdot);
   EXPECT_EQ(sim.step, 1);
   const ActiveTorque& asked = record.control.active;

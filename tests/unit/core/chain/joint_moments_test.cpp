@@ -75,8 +75,8 @@ TEST(JointMoments, AxesAreHalfwayAndCurvatureIsTheTurnOverItsSpan) {
 TEST(JointMoments, OfAStepAreThoseOfItsRows) {
   const Model fish = table1_hagfish();
   StepRecord record;
-  record.moment.state = rest_state(fish);
-  record.moment.observation.kin = kinematics(fish, record.moment.state);
+  record.after.state = rest_state(fish);
+  record.after.observation.kin = kinematics(fish, record.after.state);
   record.solution.force[RowKind::limit].setZero(fish.nv());
   record.solution.active_torque.setZero(fish.nv());
   Row row;

@@ -184,10 +184,10 @@ TEST_F(ControlLaws, TheRunsOwnHasAMemoryAndIsAskedForEachStep) {
   scene.active = {100, 1, 1, 1e6};
   observation.contact.contacts = {contact(5, 30)};
   for (const double time : {0.0, 0.002, 0.004}) {
-    ASSERT_TRUE(decide(model, scene, moment, time, named, state, control, own).ok());
+    ASSERT_TRUE(decide(model, scene, seen, time, named, state, control, own).ok());
     EXPECT_EQ(control.torque.value[9], 7);
     EXPECT_EQ(control.rest_shape[9], 0.1);
-    const ActiveTorque towards = active_torque(model, scene, moment.state, control.rest_shape);
+    const ActiveTorque towards = active_torque(model, scene, seen.state, control.rest_shape);
     EXPECT_EQ(control.active.value, towards.value);
     EXPECT_GT(control.active.value[9], 0);
   }
@@ -201,7 +201,7 @@ TEST_F(ControlLaws, ATorqueWorksByItsValueAlone) {
   };
   observation.contact.contacts = {contact(5, 30)};
   for (int k = 0; k < 2; ++k) {
-    ASSERT_TRUE(decide(model, scene, moment, now, named, state, control, own).ok());
+    ASSERT_TRUE(decide(model, scene, seen, now, named, state, control, own).ok());
     EXPECT_EQ(control.torque.value[9], 7);
     EXPECT_EQ(control.torque.rate, Eigen::VectorXd::Zero(model.nv()));
   }
@@ -219,11 +219,11 @@ TEST_F(ControlLaws, TheCapacityBoundsTorquesOfLawsWhereTheSceneSaysSo) {
     c.rest_shape = 0.02 * Eigen::VectorXd::Unit(at.model.nv(), 11);
   };
   observation.contact.contacts = {contact(5, 30)};
-  ASSERT_TRUE(decide(model, scene, moment, now, named, state, control, own).ok());
+  ASSERT_TRUE(decide(model, scene, seen, now, named, state, control, own).ok());
   EXPECT_EQ(control.torque.value[9], -80);
   EXPECT_EQ(control.torque.saturated, -1);
   scene.active.bounds_laws = true;
-  ASSERT_TRUE(decide(model, scene, moment, now, named, state, control, own).ok());
+  ASSERT_TRUE(decide(model, scene, seen, now, named, state, control, own).ok());
   EXPECT_EQ(control.torque.value[9], -50);
   EXPECT_EQ(control.torque.rate[9], 0);
   EXPECT_EQ(control.torque.saturated, 9);
@@ -242,7 +242,7 @@ TEST_F(ControlLaws, TheCapacityBoundsTorquesOfLawsWhereTheSceneSaysSo) {
 TEST_F(ControlLaws, LawAndSceneMustAgree) {
   const auto complaint_of = [&](const ControlLaw& own) {
     return error_of<std::invalid_argument>(
-        [&] { static_cast<void>(decide(model, scene, moment, now, named, state, control, own)); });
+        [&] { static_cast<void>(decide(model, scene, seen, now, named, state, control, own)); });
   };
   observation.contact.contacts = {contact(5, 30)};
   const ControlLaw own = [](const Situation&, Eigen::VectorXd&, Control&) {};

@@ -34,7 +34,7 @@ class LawStorage : public ControllerTest {
   double ask(const ControlLaw& law) {
     Eigen::VectorXd memory;
     Control control;
-    law({model, scene, moment, now, state}, memory, control);
+    law({model, scene, seen, now, state}, memory, control);
     return memory[0];
   }
 };
@@ -54,7 +54,7 @@ TEST_F(LawStorage, IsOfTheLawThatTheSceneNamesNow) {
   Control control;
   for (const char* law : {"paper", "all_contacts", "paper"}) {
     scene.controller.law = law;
-    ask_law({model, scene, moment, now, state}, state.memory, control, named);
+    ask_law({model, scene, seen, now, state}, state.memory, control, named);
     EXPECT_EQ(named.law->name, law);
   }
 }

@@ -53,7 +53,7 @@ TEST_F(MuscleLaw, FollowsWhatThePaperAsksForByItsDynamicsAlone) {
   EXPECT_NEAR((first - gone * wanted.activation).lpNorm<Eigen::Infinity>(), 0,
               1e-7 * wanted.activation.maxCoeff());
   Eigen::VectorXd torque;
-  muscle_torque(model, record.moment.observation.kin, first, torque);
+  muscle_torque(model, record.after.observation.kin, first, torque);
   EXPECT_EQ(record.solution.active_torque, torque);
   // Later they stay between 0 and 1, and what they do follows from state and memory.
   for (int k = 0; k < 20; ++k) take_step(model, scene, sim);

@@ -20,7 +20,7 @@ constexpr double rounding = 1e-14;
 ScriptSettings script(ScriptSettings::Kind kind) {
   ScriptSettings s;
   s.kind = kind;
-  s.knots = {{0, {1, 0, 0}}, {0.5, {2, -1, 0}}, {2, {4, 3, 1}}, {3, {0, 0, 0}}};
+  s.waypoints = {{0, {1, 0, 0}}, {0.5, {2, -1, 0}}, {2, {4, 3, 1}}, {3, {0, 0, 0}}};
   s.spring = 3000;
   s.damper = 20;
   s.largest_force = 1200;
@@ -31,9 +31,9 @@ const ScriptSettings force = script(ScriptSettings::Kind::force);
 const ScriptSettings position = script(ScriptSettings::Kind::position);
 
 TEST(Script, ForcesAreLinearBetweenKnots) {
-  for (std::size_t k = 0; k + 1 < force.knots.size(); ++k) {
-    const ScriptKnot& a = force.knots[k];
-    const ScriptKnot& b = force.knots[k + 1];
+  for (std::size_t k = 0; k + 1 < force.waypoints.size(); ++k) {
+    const Waypoint& a = force.waypoints[k];
+    const Waypoint& b = force.waypoints[k + 1];
     for (const double u : {0.0, 0.25, 0.6}) {
       const Vector3d expected = (1 - u) * a.value + u * b.value;
       EXPECT_LT((script_value(force, a.time + u * (b.time - a.time)) - expected).norm(), rounding);
@@ -43,15 +43,15 @@ TEST(Script, ForcesAreLinearBetweenKnots) {
 
 TEST(Script, IsConstantOutside) {
   for (const ScriptSettings& s : {force, position}) {
-    EXPECT_EQ(script_value(s, -1), s.knots.front().value);
-    EXPECT_EQ(script_value(s, 0), s.knots.front().value);
-    EXPECT_EQ(script_value(s, 3), s.knots.back().value);
-    EXPECT_EQ(script_value(s, 100), s.knots.back().value);
+    EXPECT_EQ(script_value(s, -1), s.waypoints.front().value);
+    EXPECT_EQ(script_value(s, 0), s.waypoints.front().value);
+    EXPECT_EQ(script_value(s, 3), s.waypoints.back().value);
+    EXPECT_EQ(script_value(s, 100), s.waypoints.back().value);
   }
 }
 
 TEST(Script, PositionsPassThroughTheirKnots) {
-  for (const ScriptKnot& knot : position.knots) {
+  for (const Waypoint& knot : position.waypoints) {
     EXPECT_LT((script_value(position, knot.time) - knot.value).norm(), rounding);
   }
 }
@@ -63,9 +63,9 @@ TEST(Script, PositionsAreSmoothWithCatmullRomTangents) {
     return (script_value(position, to) - script_value(position, from)) / (to - from);
   };
   for (const std::size_t k : {1U, 2U}) {
-    const double t = position.knots[k].time;
-    const Vector3d chord = (position.knots[k + 1].value - position.knots[k - 1].value) /
-                           (position.knots[k + 1].time - position.knots[k - 1].time);
+    const double t = position.waypoints[k].time;
+    const Vector3d chord = (position.waypoints[k + 1].value - position.waypoints[k - 1].value) /
+                           (position.waypoints[k + 1].time - position.waypoints[k - 1].time);
     EXPECT_LT((slope(t - e, t) - chord).norm(), 1e-5) << k;
     EXPECT_LT((slope(t, t + e) - chord).norm(), 1e-5) << k;
   }
@@ -75,7 +75,7 @@ TEST(Script, PositionsOfEvenMotionAreEven) {
   // Catmull-Rom through time reproduces a line at one speed, whatever the spacing of the knots.
   ScriptSettings s = position;
   const Vector3d velocity(1, -2, 0.5);
-  for (ScriptKnot& knot : s.knots) knot.value = knot.time * velocity;
+  for (Waypoint& knot : s.waypoints) knot.value = knot.time * velocity;
   for (double time = 0; time <= 3; time += 0.1) {
     EXPECT_LT((script_value(s, time) - time * velocity).norm(), rounding);
   }
@@ -85,9 +85,9 @@ TEST(Script, NoiseMovesTheKnots) {
   for (const ScriptSettings& plain : {force, position}) {
     ScriptSettings noisy = plain;
     ScriptSettings moved = plain;
-    for (std::size_t k = 0; k < plain.knots.size(); ++k) {
-      noisy.knots[k].noise = Vector3d(0.1, -0.2, 0.3) * static_cast<double>(k + 1);
-      moved.knots[k].value += noisy.knots[k].noise;
+    for (std::size_t k = 0; k < plain.waypoints.size(); ++k) {
+      noisy.waypoints[k].noise = Vector3d(0.1, -0.2, 0.3) * static_cast<double>(k + 1);
+      moved.waypoints[k].value += noisy.waypoints[k].noise;
     }
     for (const double time : {-1.0, 0.0, 0.3, 0.5, 1.1, 2.9, 3.0, 4.0}) {
       EXPECT_EQ(script_value(noisy, time), script_value(moved, time)) << time;

@@ -45,8 +45,8 @@ TEST(SceneBase, TablesMergeKeyByKeyAndArraysReplace) {
   EXPECT_EQ(scene.controller.slide_head.a, 1);
   EXPECT_EQ(scene.controller.slide_head.b, 5);
   EXPECT_EQ(scene.script.kind, ScriptSettings::Kind::force);
-  ASSERT_EQ(scene.script.knots.size(), 2u);
-  EXPECT_EQ(scene.script.knots[1].value, Eigen::Vector3d(5, 5, 5));
+  ASSERT_EQ(scene.script.waypoints.size(), 2u);
+  EXPECT_EQ(scene.script.waypoints[1].value, Eigen::Vector3d(5, 5, 5));
   EXPECT_EQ(scene.drag.normal, 6);
   EXPECT_EQ(scene.drag.tangential, DragSettings{}.tangential);
 }

@@ -20,10 +20,12 @@ TEST(SceneKnots, MirrorReflectsAllThatTheSceneGives) {
     EXPECT_TRUE(image.knot.mirror);
     EXPECT_FALSE(scene.knot.mirror);
     EXPECT_EQ(image.gravity, scene.gravity.cwiseProduct(flip));
-    ASSERT_EQ(image.script.knots.size(), scene.script.knots.size());
-    for (std::size_t k = 0; k < scene.script.knots.size(); ++k) {
-      EXPECT_EQ(image.script.knots[k].value, scene.script.knots[k].value.cwiseProduct(flip));
-      EXPECT_EQ(image.script.knots[k].noise, scene.script.knots[k].noise.cwiseProduct(flip));
+    ASSERT_EQ(image.script.waypoints.size(), scene.script.waypoints.size());
+    for (std::size_t k = 0; k < scene.script.waypoints.size(); ++k) {
+      EXPECT_EQ(image.script.waypoints[k].value,
+                scene.script.waypoints[k].value.cwiseProduct(flip));
+      EXPECT_EQ(image.script.waypoints[k].noise,
+                scene.script.waypoints[k].noise.cwiseProduct(flip));
     }
   }
   EXPECT_EQ(read_scene(data + "/double_overhand.toml").scene.expect.hand, Hand::right);
@@ -36,7 +38,7 @@ TEST(SceneKnots, NoiseIsNormalAndOneDrawPerSeed) {
     std::vector<double> all;
     for (const auto& knot :
          read_scene(data + "/three_twist.toml", {"script.noise=0.2", "script.noise_seed=" + seed})
-             .scene.script.knots) {
+             .scene.script.waypoints) {
       all.insert(all.end(), knot.noise.begin(), knot.noise.end());
     }
     return all;
@@ -60,7 +62,7 @@ TEST(SceneKnots, NoiseIsNormalAndOneDrawPerSeed) {
   EXPECT_NEAR(sum / count / 0.2, 0, 0.08);
   EXPECT_NEAR(std::sqrt(square / count) / 0.2, 1, 0.052);
   EXPECT_NEAR(far / double(count), 0.3173, 0.034);
-  for (const auto& knot : read_scene(data + "/three_twist.toml").scene.script.knots) {
+  for (const auto& knot : read_scene(data + "/three_twist.toml").scene.script.waypoints) {
     EXPECT_EQ(knot.noise, Eigen::Vector3d::Zero());
   }
 }

@@ -83,7 +83,7 @@ class Bits {
     const auto& [points, radius, closed] = s;
     add(points, radius, closed);
   }
-  void put(const ScriptKnot& s) {
+  void put(const Waypoint& s) {
     const auto& [time, value, noise] = s;
     add(time, value, noise);
   }
@@ -220,7 +220,7 @@ ResolvedScene odd_scene() {
   strand.closed = true;
   s.obstacles.push_back({"a strand", strand});
   s.script.kind = ScriptSettings::Kind::position;
-  s.script.knots = {{0, {odd(), odd(), odd()}}, {odd(), {-odd(), odd(), odd()}}};
+  s.script.waypoints = {{0, {odd(), odd(), odd()}}, {odd(), {-odd(), odd(), odd()}}};
   s.script.spring = odd();
   s.script.damper = odd();
   s.script.largest_force = odd();

@@ -26,7 +26,7 @@ class LogTest : public testing::Test {
   LogTest() {
     scene.time.frame_interval = 0.01;
     scene.script.kind = ScriptSettings::Kind::force;
-    scene.script.knots = {{0, {100, 200, 0}}, {1, {100, 200, 0}}};
+    scene.script.waypoints = {{0, {100, 200, 0}}, {1, {100, 200, 0}}};
     header.command = "test";
     header.qp = "ipopt";
     header.scene = scene_to_toml(scene, table1_specimen());
@@ -38,7 +38,7 @@ class LogTest : public testing::Test {
     std::vector<State> states;
     for (int k = 0; k < steps; ++k) {
       const StepRecord record = take_step(model, scene, sim);
-      states.push_back(record.moment.state);
+      states.push_back(record.after.state);
       log.write(record, sim, wall_time * (k + 1));
     }
     return states;

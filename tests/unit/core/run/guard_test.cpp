@@ -417,15 +417,15 @@ TEST_F(EnergyWatch, HoldsWhatTheIntegratorMakes) {
 }
 
 TEST_F(EnergyWatch, TakesNothingFromABodyAtRest) {
-  Moment moment{rest_state(model), observe(model, rest_state(model), scene)};
-  EnergyLedger ledger = open_ledger(model, moment, true);
-  const Moment at = moment;
+  ObservedState after{rest_state(model), observe(model, rest_state(model), scene)};
+  EnergyLedger ledger = open_ledger(model, after, true);
+  const ObservedState at = after;
   ledger.integrator_coriolis = 1;
   Watch watch;
-  EXPECT_TRUE(guard_energy({model, scene, at.state, at.observation, control}, 0, moment, ledger,
+  EXPECT_TRUE(guard_energy({model, scene, at.state, at.observation, control}, 0, after, ledger,
                            watch, warnings)
                   .ok());
-  EXPECT_TRUE(moment.state.qdot.isZero(0));
+  EXPECT_TRUE(after.state.qdot.isZero(0));
   EXPECT_EQ(ledger.kinetic, 0);
   EXPECT_EQ(warnings.size(), 1u);
 }
@@ -435,17 +435,17 @@ TEST_F(EnergyWatch, OnlyWarnsByTheMidpointRule) {
   moving.qdot.setConstant(1);
   for (const TimeRule rule : {TimeRule::euler, TimeRule::midpoint}) {
     scene.time.rule = rule;
-    Moment moment{moving, observe(model, moving, scene)};
-    EnergyLedger ledger = open_ledger(model, moment, true);
-    const Moment at = moment;
+    ObservedState after{moving, observe(model, moving, scene)};
+    EnergyLedger ledger = open_ledger(model, after, true);
+    const ObservedState at = after;
     ledger.integrator_coriolis = 0.1 * ledger.kinetic;
     Watch watch;
     warnings.clear();
-    EXPECT_TRUE(guard_energy({model, scene, at.state, at.observation, control}, 0, moment, ledger,
+    EXPECT_TRUE(guard_energy({model, scene, at.state, at.observation, control}, 0, after, ledger,
                              watch, warnings)
                     .ok());
     EXPECT_EQ(warnings.size(), 1u);
-    EXPECT_EQ(moment.state.qdot == moving.qdot, rule == TimeRule::midpoint);
+    EXPECT_EQ(after.state.qdot == moving.qdot, rule == TimeRule::midpoint);
     EXPECT_EQ(ledger.integrator_held == 0, rule == TimeRule::midpoint);
   }
 }

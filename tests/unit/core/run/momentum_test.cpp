@@ -43,7 +43,7 @@ struct MomentumRun {
       solution.mean_centre_velocity = centre_velocities(place.kin, solution.mean_twist);
     }
     const State moved{advance(state.q, solution.qdot, scene.time.step), solution.next};
-    Moment next{moved, observe(model, moved, scene)};
+    ObservedState next{moved, observe(model, moved, scene)};
     const double kinetic = energy.kinetic = kinetic_energy(model, next.observation.kin);
     const double inner = inner_kinetic_energy(model, next.observation.kin);
     before = ledger;

@@ -14,7 +14,7 @@ namespace hagfish::simulation_start_test {
 struct Pulled {
   Pulled() {
     scene.script.kind = ScriptSettings::Kind::force;
-    scene.script.knots = {{0, {100, 200, 0}}, {1, {100, -200, 50}}};
+    scene.script.waypoints = {{0, {100, 200, 0}}, {1, {100, -200, 50}}};
   }
   Scene scene = table1_scene(10);
   Model model = table1_hagfish(10);
@@ -142,9 +142,9 @@ TEST(SimulationStart, ARecordIsOfTheMomentBeforeTheStep) {
     const StepRecord record = take_step(p.model, p.scene, sim);
     EXPECT_EQ(record.step, k);
     EXPECT_EQ(record.time, k * p.scene.time.step);
-    EXPECT_EQ(record.moment.state.q, before.q);
-    EXPECT_EQ(record.moment.state.qdot, before.qdot);
-    EXPECT_EQ(record.moment.observation.kin.centre, centre);
+    EXPECT_EQ(record.after.state.q, before.q);
+    EXPECT_EQ(record.after.state.qdot, before.qdot);
+    EXPECT_EQ(record.after.observation.kin.centre, centre);
     EXPECT_EQ(sim.step, k + 1);
     EXPECT_EQ(sim.now.state.qdot, record.solution.qdot);
     EXPECT_EQ(sim.now.observation.kin.centre, kinematics(p.model, sim.now.state).centre);

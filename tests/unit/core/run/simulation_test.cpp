@@ -139,7 +139,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Hindrance{"neverTied", Outcome::never_tied, "form",
                               [](Scene& scene, Model&) {
                                 scene.expect.knot = "4_1";
-                                scene.script.knots.resize(2);
+                                scene.script.waypoints.resize(2);
                                 scene.knot.interval = 0;
                               }},
                     Hindrance{"infeasible", Outcome::infeasible, "slide",

@@ -19,12 +19,11 @@ double deepest_on_way(const Model& model, const Scene& scene, const StepRecord& 
   // How long it went on, from the hinges: a step may end early.
   const Eigen::Index hinges = model.nv() - root_dofs;
   const Eigen::VectorXd rate = record.solution.qdot.tail(hinges);
-  const double time = rate.dot((end.q - record.moment.state.q).tail(hinges)) / rate.squaredNorm();
+  const double time = rate.dot((end.q - record.after.state.q).tail(hinges)) / rate.squaredNorm();
   double deepest = 0;
   for (int i = 1; i <= count; ++i) {
     const double t = time * i / count;
-    const State there{advance(record.moment.state.q, record.solution.qdot, t),
-                      record.solution.qdot};
+    const State there{advance(record.after.state.q, record.solution.qdot, t), record.solution.qdot};
     deepest = std::max(deepest, observe(model, there, scene).penetration);
   }
   return deepest;
@@ -140,7 +139,7 @@ TEST_P(ClosingArms, NeverPassThroughEachOther) {
     shortened = shortened || record.left_out > 0;
     const double travelled = scene.time.step - record.left_out;
     // Of the whole as one rigid body momentum decides (core/run/momentum.hpp).
-    EXPECT_LE((advance(record.moment.state.q, record.solution.qdot, travelled) - sim->now.state.q)
+    EXPECT_LE((advance(record.after.state.q, record.solution.qdot, travelled) - sim->now.state.q)
                   .tail(model.nv() - root_dofs)
                   .lpNorm<Eigen::Infinity>(),
               1e-12);

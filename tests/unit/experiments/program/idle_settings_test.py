@@ -19,7 +19,13 @@ from program import ROOT, logged, refused, sets
         ("table1", "controller.reflex.shift=1", "reflex"),
         ("table1", "controller.reverse_head.a=1", "controller.leave_by"),
         ("table1", "muscle.activation_time=0.1", "drives no muscles"),
+        ("table1", "time.ring_damping=2", "midpoint"),
+        ("table1", "active.tone_time=0.2", "no torque is active"),
+        ("table1", "script.program=p.csv", 'script.kind = "curvature"'),
+        ("table1_as_printed", "constraints.corrections=3", "corrects no step"),
         ("reflex_overhand", "controller.slide_head.a=1", "asks for no speeds"),
+        ("reflex_overhand", "controller.cap=3000", "asks for no speeds"),
+        ("living_overhand_free", "controller.free_from=slide", "clamp_head is false"),
         ("living_overhand", "model.bending_stiffness=1", "model.passive"),
     ],
 )

@@ -28,7 +28,7 @@ TEST_P(StepQp, BothFormsHaveTheStepsOwnSolution) {
   ASSERT_TRUE(has_qp(step));
   EXPECT_GE(step.prescribed, record.control.clamp_head ? 6 : 1);
 
-  const BoxQp box = whole_dual(model, record.moment.observation.kin, step.system, rows);
+  const BoxQp box = whole_dual(model, record.after.observation.kin, step.system, rows);
   ASSERT_EQ(box.b.size(), step.lambda.size());
   // To rounding of λ, of which a step finds those of prescribed rows in another way: seen 1e-12.
   EXPECT_LE(kkt_residuals(box, step.lambda).worst(), 1e-10);
@@ -43,7 +43,7 @@ TEST_P(StepQp, BothFormsHaveTheStepsOwnSolution) {
   EXPECT_LE(relative_error(dual.A, box.A), 3e-10);
   EXPECT_LE(relative_error(dual.b, box.b), 3e-10);
   EXPECT_EQ(dual.lower, box.lower);
-  const Eigen::MatrixXd C = dense_rows(model, record.moment.observation.kin, rows);
+  const Eigen::MatrixXd C = dense_rows(model, record.after.observation.kin, rows);
   EXPECT_LE(relative_error(primal.C, C.bottomRows(primal.d.size())), 1e-13);
 
   const Eigen::VectorXd start = kept_multipliers(rows, warm);

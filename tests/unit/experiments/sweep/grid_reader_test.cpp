@@ -83,7 +83,7 @@ scene = ["table1", "own.toml"]
 )");
   const ResolvedScene last = scene_at(grid, grid.places(3));
   EXPECT_EQ(last.scene.model.bodies, 50);
-  EXPECT_EQ(last.scene.script.knots[1].time, 2);
+  EXPECT_EQ(last.scene.script.waypoints[1].time, 2);
   EXPECT_FALSE(last.scene.wall.present);
   EXPECT_EQ(last.scene.title, "true story");
 }

@@ -23,10 +23,10 @@ TEST(SceneReader, Table1FileIsThePapersScene) {
   EXPECT_NEAR(scene.drag.normal, 4 / 0.424, 5e-4);
   EXPECT_NEAR(scene.drag.tangential, 1 / 0.424, 5e-4);
   EXPECT_EQ(scene.script.kind, ScriptSettings::Kind::force);
-  ASSERT_EQ(scene.script.knots.size(), 12u);
-  EXPECT_EQ(scene.script.knots[0].value, Eigen::Vector3d(564, -230, -31));
-  EXPECT_EQ(scene.script.knots[11].time, 11);
-  EXPECT_EQ(scene.script.knots[11].value, Eigen::Vector3d(-17, 16, 147));
+  ASSERT_EQ(scene.script.waypoints.size(), 12u);
+  EXPECT_EQ(scene.script.waypoints[0].value, Eigen::Vector3d(564, -230, -31));
+  EXPECT_EQ(scene.script.waypoints[11].time, 11);
+  EXPECT_EQ(scene.script.waypoints[11].value, Eigen::Vector3d(-17, 16, 147));
   EXPECT_EQ(scene.controller.tighten_head.b, 0);
   EXPECT_EQ(scene.controller.tighten_tail.a, 0.5);
   EXPECT_EQ(scene.controller.tighten_tail.b, 2);
@@ -41,9 +41,9 @@ TEST(SceneReader, WaypointFileIsInBodyLengths) {
   EXPECT_EQ(scene.script.spring, 3000);
   EXPECT_EQ(scene.script.damper, 60);
   EXPECT_EQ(scene.script.largest_force, 1200);
-  ASSERT_EQ(scene.script.knots.size(), 14u);
-  EXPECT_EQ(scene.script.knots[2].time, 2);
-  EXPECT_EQ(scene.script.knots[2].value, Eigen::Vector3d(0.849, 0.283, 0) * 42.4);
+  ASSERT_EQ(scene.script.waypoints.size(), 14u);
+  EXPECT_EQ(scene.script.waypoints[2].time, 2);
+  EXPECT_EQ(scene.script.waypoints[2].value, Eigen::Vector3d(0.849, 0.283, 0) * 42.4);
 }
 
 TEST(SceneReader, LengthsMayBeSharesOfTheBodyOrDiameters) {
@@ -83,7 +83,7 @@ TEST(SceneReader, OverridesReachSceneAndSpecimen) {
   EXPECT_EQ(scene.controller.tighten_tail.a, 0.5);
   EXPECT_EQ(scene.controller.tighten_tail.b, 1);
   EXPECT_EQ(specimen.mass, 90);
-  EXPECT_TRUE(scene.script.knots.empty());
+  EXPECT_TRUE(scene.script.waypoints.empty());
   EXPECT_EQ(read_scene_text(plain_scene, "s", {"specimen.mass=70"}).specimen.mass, 70);
 }
 

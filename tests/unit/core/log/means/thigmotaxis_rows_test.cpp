@@ -62,7 +62,7 @@ TEST_F(ThigmotaxisRowsTest, TheCapIsThatOfTheCommand) {
     command.effort = 0.25;
     command.speed = {100, 100};  // more than there is force for
   }
-  const Moment& now = record.moment;
+  const ObservedState& now = record.after;
   StepSolution step;
   ASSERT_TRUE(
       sim.solver.solve({model, scene, now.state, now.observation, record.control}, step).ok());
@@ -74,7 +74,7 @@ TEST_F(ThigmotaxisRowsTest, TheCapIsThatOfTheCommand) {
 
 TEST_F(ThigmotaxisRowsTest, RowsAtOtherContactsLeaveThoseOfTheEndsInTheirColumns) {
   StepRecord record = take_step(model, scene, sim);
-  const Moment& now = record.moment;
+  const ObservedState& now = record.after;
   Control& control = record.control;
   const std::vector<ThigmotaxisCommand> ends = control.thigmotaxis;
   control.thigmotaxis.clear();

@@ -123,7 +123,7 @@ struct Swung {
     scene.script.kind = ScriptSettings::Kind::force;
     for (int k = 0; k <= 40; ++k) {
       const double turn = 0.25 * std::numbers::pi * k;
-      scene.script.knots.push_back(
+      scene.script.waypoints.push_back(
           {0.1 * k, {-500, 3000 * std::cos(turn), 3000 * std::sin(turn)}, {0, 0, 0}});
     }
     model = make_hagfish(table1_specimen(), scene);
@@ -201,7 +201,7 @@ TEST(Cones, StepsMeetTheDenseEquation4) {
     swung.step();
     cut += swung.most_rows > 1 ? 1 : 0;
     const StepSolution& step = swung.record.solution;
-    const Kinematics& kin = swung.record.moment.observation.kin;
+    const Kinematics& kin = swung.record.after.observation.kin;
     const Eigen::MatrixXd c = dense_rows(swung.model, kin, step.rows);
     const Eigen::VectorXd g =
         generalised_force(swung.model, kin, step.system.wrench) + step.system.joint;
