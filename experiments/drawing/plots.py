@@ -23,6 +23,7 @@ from matplotlib.ticker import NullLocator
 from script import whole
 
 DPI = 200
+WIDTH = 7.2  # inches, of a page of a paper: texts are not made smaller there
 INK, GREY, GRID = "#000000", "#777777", "#e5e5e5"
 BLUE, YELLOW, ORANGE, VERMILION, PURPLE = "#0072b2", "#f0e442", "#e69f00", "#d55e00", "#cc79a7"
 plt.rcParams.update({

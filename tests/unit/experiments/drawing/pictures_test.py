@@ -47,14 +47,14 @@ def test_few_numbers_are_medians_of_the_knots_and_the_least(tmp_path, drawn):
 def test_pulls_have_the_spread_of_their_starts_and_meshes(tmp_path, drawn):
     run = lambda kind, value, seed, pull: {"kind": kind, "body": "living", "knot": "4_1", "value": value, "seed": seed, "outcome": "pulled", "pull_N": pull,
                                            "torque_mean_N_cm": 1, "estimate_N": 1, "too_deep": "no"}
-    rows = [run("start", 0, 1, 0.2), run("start", 0, 2, 0.4), run("step", 0.002, 1, 0.6), run("bodies", 150, 1, 0.1), run("stiffness", 400, 1, 0.3), run("girth", 0.8, 1, 0.3), run("cap", 2, 1, 0.3)]
+    rows = [run("start", 0, 1, 0.2), run("start", 0, 2, 0.4), run("step", 0.002, 1, 0.6), run("bodies", 150, 1, 0.1), run("cap", 2, 1, 0.3)]
     seconds = [{"body": "living", "knot": "4_1", "second": k + 0.5, "pull_N": k} for k in range(3)]
     leverage_picture.draw(table_of(tmp_path, leverage_picture.HEAD, rows), table_of(tmp_path, leverage_picture.TIME_HEAD, seconds), Path("x.png"))
-    assert [0, 1, 2] in [list(line.get_ydata()) for line in drawn[0].axes[5].lines]
-    stiffness = drawn[0].axes[3]
-    assert not joined(stiffness)
-    assert [0.1, 0.6] in [list(line.get_ydata()) for line in stiffness.lines if line.get_linestyle() == "-"]
-    low, high = stiffness.collections[0].get_segments()[0][:, 1]
+    assert [0, 1, 2] in [list(line.get_ydata()) for line in drawn[0].axes[3].lines]
+    caps = drawn[0].axes[0]
+    assert not joined(caps)
+    assert [0.1, 0.6] in [list(line.get_ydata()) for line in caps.lines if line.get_linestyle() == "-"]
+    low, high = caps.collections[0].get_segments()[0][:, 1]
     assert (low, high) == pytest.approx((0.3 - np.std([0.2, 0.4], ddof=1), 0.3 + np.std([0.2, 0.4], ddof=1)))
 
 
