@@ -23,7 +23,7 @@ from slides import read_slide, tied
 SWEEPS = {"stiffness": "flexural rigidity, dyn cm²", "drag": "drag, times that of the scenes",
           "haste": "speed of the program"}
 CAPACITY = 2.7e5  # dyn cm, a guess: data/living_overhand.toml
-MARKER_EVERY = 0.1  # of the length of a line
+MEASURED = (3e4, 1.2e6)  # dyn cm^2, made of Long et al. 2002: data/specimens/pacific_hagfish.toml
 PHASES = ("form", "tighten", "slide", "release")
 
 
@@ -64,13 +64,6 @@ def read_run(folder: Path, name: str, knot: str) -> Run:
                {phase: float(torque[rows].max()) if rows.size else np.nan for phase, rows in frames.items()})
 
 
-def shape_apart(log: HagfishLog, other: HagfishLog) -> tuple[np.ndarray, np.ndarray]:
-    """Time and the largest difference of a hinge's angle, rad, at frames that both runs have."""
-    frames = min(log.frames, other.frames)
-    q, p = (one["/trajectory/q"][:frames, 7:] for one in (log, other))
-    return log["/trajectory/time"][:frames], np.abs(q - p).max(axis=1)
-
-
 def names_of(folder: Path, kind: str, scene: str) -> list[str]:
     """All runs KIND_SCENE_VALUE."""
     return sorted(path.name.removesuffix(".check.csv") for path in folder.glob(f"{kind}_{scene}_*.check.csv"))
@@ -103,32 +96,26 @@ def claims_table(folder: Path, out: Path) -> None:
                                               "Fourier modes for 95 %", "what else became of it"], rows)
 
 
-def draw(folder: Path, sweeps: dict[str, dict[str, list[tuple[float, Run]]]], out: Path) -> None:
-    figure, axes = plots.panels(2, 2, (10, 7), ["what a noisy start leaves behind",
-                                                *(f"torque by {what}" for what in SWEEPS)])
-    for scene, knot in plots.SCENES.items():
-        look = plots.KNOTS[knot]
-        plain = HagfishLog(folder / f"held_{scene}.h5")
-        time, apart = shape_apart(plain, HagfishLog(folder / f"heldstart_{scene}_1.h5"))
-        axes[0].plot(time, np.maximum(apart, 1e-12), label=look.label, markevery=MARKER_EVERY, **look.style)
-    axes[0].set(yscale="log", xlabel="time, s", ylabel="largest difference of a hinge's angle, rad")
-    axes[0].legend()
-    for panel, (what, label) in zip(axes[1:], SWEEPS.items(), strict=True):
+def draw(sweeps: dict[str, dict[str, list[tuple[float, Run]]]], out: Path) -> None:
+    figure, axes = plots.panels(1, 3, (plots.WIDTH, 3.2), [f"by {what}" for what in SWEEPS], sharey=True)
+    for panel, (what, label) in zip(axes, SWEEPS.items(), strict=True):
         for knot, runs in sweeps[what].items():
             look = plots.KNOTS[knot]
-            largest = [run.torque["form"] for _, run in runs]
-            panel.plot([value for value, _ in runs], largest, label=look.label, **look.style)
-            lost = [(value, torque) for (value, run), torque in zip(runs, largest, strict=True) if run.outcome != "off"]
-            panel.plot([v for v, _ in lost], [t for _, t in lost], color=look.colour, marker=look.marker, mfc="white",
-                       ls="")
-        panel.axhline(CAPACITY, color=plots.GREY, ls="--", lw=0.8)
-        panel.set(xscale="log", xlabel=label, ylabel="largest torque of a hinge\nwhile the knot forms, dyn cm",
-                  ylim=(0, 1.1 * CAPACITY))
-        panel.ticklabel_format(axis="y", style="sci", scilimits=(5, 5))
-        if what != "stiffness":
-            plots.plain_ticks(panel.xaxis, [value for value, _ in next(iter(sweeps[what].values()))])
-    axes[1].set(yscale="log", ylim=(1e4, 5e5))
-    axes[2].legend(title="open: not tied, or not off\ndashed: a guess at the capacity", loc="lower left", ncol=2)
+            for fill, own in ((None, runs), ("white", [(value, run) for value, run in runs if run.outcome != "off"])):
+                panel.plot([value for value, _ in own], [run.torque["form"] / 1e3 for _, run in own], **look.style, mfc=fill, ls="-" if fill is None else "")
+        panel.axhline(CAPACITY / 1e3, color=plots.GREY, ls="--", lw=0.8)
+        panel.set(xscale="log", yscale="log", xlabel=label, ylim=(14, 350))
+        plots.plain_ticks(panel.xaxis, [value for value, _ in runs])
+    axes[0].axvspan(*MEASURED, color=plots.GRID, lw=0)
+    axes[0].text(MEASURED[0], 15, " measured", fontsize=8, va="bottom")
+    axes[0].set(ylabel="largest torque of a hinge while\nthe knot forms, 1000 dyn cm", xlim=(250, 2e6))
+    plots.plain_ticks(axes[0].xaxis, [1e3, 1e4, 1e5, 1e6])
+    axes[0].set_xticklabels(["10³", "10⁴", "10⁵", "10⁶"])
+    plots.plain_ticks(axes[0].yaxis, [20, 50, 100, 200])
+    handles = [axes[0].plot([], [], label=look.label, **look.style)[0] for look in plots.KNOTS.values()]
+    handles += axes[0].plot([], [], color=plots.INK, marker="o", mfc="white", ls="", label="not tied, or not off")
+    handles += axes[0].plot([], [], color=plots.GREY, ls="--", lw=0.8, label="a guess at the capacity")
+    plots.legend_above(figure, handles, 3, 0.13)
     plots.save(figure, out)
 
 
@@ -189,7 +176,7 @@ def main(folder: Path, out: Path) -> None:
     sweeps = {what: {knot: sorted(runs_of(what, scene, knot), key=lambda each: each[0]) for scene,
                      knot in plots.SCENES.items()}
               for what in SWEEPS}
-    draw(folder, sweeps, out / "living.png")
+    draw(sweeps, out / "living.png")
     main_table(folder, out)
     claims_table(folder, out)
     tables.write_table(out, "living_sweeps", [
