@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import few_numbers_picture
+import figure7
 import leverage_picture
 import plots
 import stability_picture
@@ -64,3 +65,12 @@ def test_methods_without_a_watch_stand_beside_mujoco(tmp_path, drawn):
     assert [text.get_text() for text in drawn[0].axes[0].texts] == ["50", "none E", "5 L"]
     stability_picture.main(RESULTS / "stability/stability.csv", Path("x.png"))
     assert len(drawn) == 2
+
+
+@pytest.mark.parametrize("length", (5.0, 42.4, 200.0))
+def test_stages_fill_the_page_whatever_the_length(length):
+    shares = np.array([1, 0.7, 0.5, 0.4, 0.4, 0.4, 0.4, 0.4, 0.9])
+    per_cm, rows = figure7.fitted(np.zeros(9), length * shares)
+    widths = np.maximum(length * shares * per_cm + 2 * figure7.GAP, figure7.LEAST_WIDTH)
+    assert sorted(sum(rows, [])) == list(range(9))
+    assert 0.97 * plots.WIDTH < max(sum(widths[i] for i in row) for row in rows) <= plots.WIDTH
