@@ -13,7 +13,7 @@ import numpy as np
 
 import plots
 import tables
-from accuracy import STATIONS, cpu_of, moments_of, name_of, off, pareto, pick, presets, shown, through
+from accuracy import cpu_of, moments_of, name_of, off, pareto, pick, places_of, presets, shown
 from hagfish_log import HagfishLog, LogError
 from script import run_script
 
@@ -55,10 +55,9 @@ def motion(log: HagfishLog, law: str) -> Motion:
     time = log["/trajectory/time"]
     first, last = WINDOWS[law]
     frames = np.flatnonzero((time > first + 0.5 * FRAME) & (time < last + 0.5 * FRAME))
-    bodies = len(log["/model/length"])
-    place = np.array([through(centres, STATIONS * bodies) for centres in log["/trajectory/position"][frames]])
     of = lambda name: moments_of(log, name, frames)
-    return dict(zip(MEASURES, [log["/knot/head_end"][frames][:, None, None], place, of("active"), long_means(of("thigmotaxis"), LONG)]))
+    return dict(zip(MEASURES, [log["/knot/head_end"][frames][:, None, None], places_of(log, frames), of("active"),
+                               long_means(of("thigmotaxis"), LONG)]))
 
 
 def beyond(coarse: Motion, fine: Motion, share: float = 1) -> Motion:
@@ -180,7 +179,7 @@ def steps_table(rows: Rows, out: Path) -> None:
             orders = [np.log2(own[2 * step][f"by_step_{measure}"] / own[step][f"by_step_{measure}"]) for step in halves]
             cells = [shown(own[step][f"by_step_{measure}"], ".2g") if step in own else "" for step in STEPS]
             body.append([LAWS[law], MEASURES[measure], look.label, *cells,
-                         " to ".join(dict.fromkeys((f"{min(orders):.1f}", f"{max(orders):.1f}"))) if orders else "",
+                         tables.span(orders, ".1f"),
                          f"{own[5.0]['cpu_s']:.2g}" if 5.0 in own else ""])
     tables.write_table(out, "contracting_steps", ["slide by", "of", "method", *(f"off at {step:g} ms, %" for step in STEPS), "order",
                                                   "CPU at 5 ms, s"], body)
@@ -246,13 +245,14 @@ def draw(rows: Rows, out: Path) -> None:
         by_step = k > 3
         error, texts = f"by_step_{measure}" if by_step else measure, []
         for (simulator, rule), look in METHODS.items():
-            for bodies, size in SIZES.items():
-                own = [row for row in done(rows, simulator, law=law, rule=rule, bodies=bodies) if not by_step or bodies == USUAL]
+            for bodies, size in SIZES.items() if not by_step else ((USUAL, SIZES[USUAL]),):
+                own = done(rows, simulator, law=law, rule=rule, bodies=bodies)
                 axes.plot([row["cpu_s"] for row in own], [row[error] for row in own], **look.style, markersize=size, lw=0.6)
                 side = "left" if simulator == "here" and (rule == "euler") == (law == "reflex") and by_step else "right"
                 texts += [(row["cpu_s"], row[error], f"{row['step_ms']:g} ms" if by_step else f"{bodies}", side)
                           for row in (own if by_step else own[-1:])]
-        axes.set(xscale="log", yscale="log", ylabel=f"off, {unit(measure)}", xlabel="CPU time of the run, s" if by_step else "", xmargin=0.25 if by_step else 0.14)
+        axes.set(xscale="log", yscale="log", ylabel=f"off, {unit(measure)}", xlabel="CPU time of the run, s" if by_step else "",
+                 xmargin=0.25 if by_step else 0.14)
         if not by_step:
             best = front(done(rows, law=law), measure)
             axes.plot([row["cpu_s"] for row in best], [row[measure] for row in best], color=plots.GREY, lw=5, alpha=0.3, zorder=0)

@@ -72,8 +72,8 @@ def draw_seconds(axes: plots.plt.Axes, runs: Runs, seconds: Runs, body: str) -> 
     for knot in plots.KNOTS:
         there = [row for row in seconds if (row["body"], row["knot"]) == (body, knot)]
         deep = not chosen(runs, body, knot, "start")
-        axes.plot([float(row["second"]) for row in there], pulls(there), **style({"body": body, "knot": knot, "too_deep": "yes" if deep else "no"})
-                  | {"ls": ":" if deep else "-"})
+        look = style({"body": body, "knot": knot, "too_deep": "yes" if deep else "no"})
+        axes.plot([float(row["second"]) for row in there], pulls(there), **look | {"ls": ":" if deep else "-"})
     axes.set(xlabel="since the pull counts as settled, s", ylabel="pull, N", xlim=(0, None), ylim=(0, None))
 
 

@@ -101,8 +101,8 @@ def draw(sweeps: dict[str, dict[str, list[tuple[float, Run]]]], out: Path) -> No
     for panel, (what, label) in zip(axes, SWEEPS.items(), strict=True):
         for knot, runs in sweeps[what].items():
             look = plots.KNOTS[knot]
-            for fill, own in ((None, runs), ("white", [(value, run) for value, run in runs if run.outcome != "off"])):
-                panel.plot([value for value, _ in own], [run.torque["form"] / 1e3 for _, run in own], **look.style, mfc=fill, ls="-" if fill is None else "")
+            for fill, line, own in ((None, "-", runs), ("white", "", [each for each in runs if each[1].outcome != "off"])):
+                panel.plot([value for value, _ in own], [run.torque["form"] / 1e3 for _, run in own], **look.style, mfc=fill, ls=line)
         panel.axhline(CAPACITY / 1e3, color=plots.GREY, ls="--", lw=0.8)
         panel.set(xscale="log", yscale="log", xlabel=label, ylim=(14, 350))
         plots.plain_ticks(panel.xaxis, [value for value, _ in runs])
@@ -137,34 +137,26 @@ def short(value: float) -> str:
 
 def main_table(folder: Path, out: Path) -> None:
     of = lambda kind: [read_run(folder, f"{kind}_{scene}", knot) for scene, knot in plots.SCENES.items()]
-    every = lambda kind: [[read_run(folder, name, knot) for name in names_of(folder, kind, scene)]
-                          for scene, knot in plots.SCENES.items()]
-    held, free, animals = of("held"), of("free"), every("animal")
+    every = lambda kind: [[read_run(folder, name, knot) for name in names_of(folder, kind, scene)] for scene, knot in plots.SCENES.items()]
+    off = lambda runs: [run for run in runs if run.outcome == "off"]
+    held, free, animals = of("held"), of("free"), list(map(off, every("animal")))
     programs = [HagfishLog(folder / f"held_{scene}.h5").scene()["script"]["curvature"] for scene in plots.SCENES]
     slid = lambda run: f"{run.travel:.1f}; {run.share:.0f}; {100 * run.met:.0f}"
-    came_off = lambda runs: sum(run.outcome == "off" for run in runs)
-    off = lambda kind: [f"{came_off(runs)}; {np.nanmin([run.share for run in runs]):.0f}" for runs in every(kind)]
+    share = lambda runs: f"{len(off(runs))}; {np.nanmin([run.share for run in runs]):.0f}"
+    met = [[100 * run.met for run in runs if np.isfinite(run.met)] for runs in animals]
     tables.write_table(out, "living", ["h = 5 ms, `active-set`", *plots.SCENES.values()], [
-        ["clamped: way of the knot's head end, cm; share of a slide by both ends, %; steps that meet Eq. 6, %",
-         *map(slid, held)],
-                                                                                           ["free, no plate: the same", *map(slid, free)],
-                                                                                           ["deepest penetration at any step, release included, cm",
-                                                                                            *(f"{max(a.penetration, b.penetration):.4f}" for a, b in zip(held, free))],
-                                                                                           ["sum of λ/h of all rows while sliding, clamped, median, dyn", *(short(run.force) for run in held)],
-                                                                                           ["largest torque of a hinge, forming; sliding, dyn cm",
-                                                                                            *(f"{short(run.torque['form'])}; {short(run.torque['slide'])}" for run in held)],
-                                                                                           ["values of the program: stations x times", *(f"{len(each['stations'])} x {len(each['times'])}"
-                                                                                                                                         for each in programs)],
-                                                                                           ["of 20 starts with 3 degrees (3_1: 5) of noise on every hinge, clamped: tied, kept and off; least share, %",
-                                                                                            *off("heldstart")],
-                                                                                           ["free: the same", *off("freestart")],
-                                                                                           ["of 10 other animals, clamped: tied, kept and off", *(str(came_off(each)) for each in animals)],
-                                                                                           ["of these: least share, %", *("{:.0f}".format(min(run.share for run in each if run.outcome == "off"))
-                                                                                                                          for each in animals)],
-                                                                                           ["of these that slide: sliding steps that meet Eq. 6, %: median, least",
-                                                                                            *("{:.0f}, {:.0f}".format(*(100 * pick([run.met for run in each if run.outcome == "off"
-                                                                                                                                    and np.isfinite(run.met)])
-                                                                                                                        for pick in (np.median, min))) for each in animals)]])
+        ["clamped: way of the knot's head end, cm; share of a slide by both ends, %; steps that meet Eq. 6, %", *map(slid, held)],
+        ["free, no plate: the same", *map(slid, free)],
+        ["deepest penetration at any step, release included, cm", *(f"{max(a.penetration, b.penetration):.4f}" for a, b in zip(held, free))],
+        ["sum of λ/h of all rows while sliding, clamped, median, dyn", *(short(run.force) for run in held)],
+        ["largest torque of a hinge, forming; sliding, dyn cm", *(f"{short(run.torque['form'])}; {short(run.torque['slide'])}" for run in held)],
+        ["values of the program: stations x times", *(f"{len(each['stations'])} x {len(each['times'])}" for each in programs)],
+        ["of 20 starts with 3 degrees (3_1: 5) of noise on every hinge, clamped: tied, kept and off; least share, %",
+         *map(share, every("heldstart"))],
+        ["free: the same", *map(share, every("freestart"))],
+        ["of 10 other animals, clamped: tied, kept and off", *(str(len(runs)) for runs in animals)],
+        ["of these: least share, %", *(f"{min(run.share for run in runs):.0f}" for runs in animals)],
+        ["of these that slide: sliding steps that meet Eq. 6, %: median, least", *(f"{np.median(each):.0f}, {min(each):.0f}" for each in met)]])
 
 
 def main(folder: Path, out: Path) -> None:

@@ -411,7 +411,8 @@ def draw_strip(here: Path, there: Path, out: Path) -> None:
             axes.spines[:].set_visible(False)
         panels[0].set_ylabel(name, fontsize=9)
     colours = matplotlib.cm.ScalarMappable(matplotlib.colors.Normalize(0, max(map(colour_top, logs)) / 1e3), "viridis")
-    figure.colorbar(colours, ax=grid, location="bottom", extend="max", shrink=0.6, aspect=40, label="bending moment of the muscles, 1000 dyn cm")
+    figure.colorbar(colours, ax=grid, location="bottom", extend="max", shrink=0.6, aspect=40,
+                    label="bending moment of the muscles, 1000 dyn cm")
     plots.save(figure, out)
 
 

@@ -13,7 +13,7 @@ import numpy as np
 
 import plots
 import tables
-from accuracy import STATIONS, cpu_of, moments_of, name_of, off, pick, presets, through
+from accuracy import cpu_of, moments_of, name_of, off, pick, places_of, presets
 from hagfish_log import HagfishLog, LogError
 from script import run_script
 
@@ -51,9 +51,7 @@ def read_motion(path: Path) -> Motion | None:
     if log.attribute("status") != "complete":
         return None
     frames = np.flatnonzero(log["/trajectory/time"] > FROM)
-    bodies = len(log["/model/length"])
-    place = np.array([through(centres, STATIONS * bodies) for centres in log["/trajectory/position"][frames]])
-    return Motion(place, moments_of(log, "active", frames))
+    return Motion(places_of(log, frames), moments_of(log, "active", frames))
 
 
 def read_runs(folder: Path, knot: str) -> Rows:
@@ -119,13 +117,14 @@ def runs_table(rows: Rows, out: Path) -> None:
 def draw(rows: Rows, out: Path) -> None:
     named = dict(zip(KNOTS.values(), ("overhand knot", "figure-eight knot")))
     shows = [(knot, measure) for knot in named for measure in MEASURES]
-    figure, panels = plots.panels(2, 2, (plots.WIDTH, 6.6), [f"{named[knot]}: {measure.split('_')[0]}s" for knot, measure in shows], sharex=True)
+    titles = [f"{named[knot]}: {measure.split('_')[0]}s" for knot, measure in shows]
+    figure, panels = plots.panels(2, 2, (plots.WIDTH, 6.6), titles, sharex=True)
     for axes, (knot, measure) in zip(panels, shows):
         texts = []
         for (rule, back_end), look in METHODS.items():
             for bodies, size in SIZES.items():
-                own = [row for row in pick(rows, knot=knot, rule=rule, back_end=back_end, bodies=bodies) if row["cpu_s"] and row[measure] != ""]
-                own.sort(key=lambda row: row["step_ms"])
+                own = pick(rows, knot=knot, rule=rule, back_end=back_end, bodies=bodies)
+                own = sorted((row for row in own if row["cpu_s"] and row[measure] != ""), key=lambda row: row["step_ms"])
                 axes.plot([row["cpu_s"] for row in own], [row[measure] for row in own], **look.style, markersize=size, lw=0.7)
                 if bodies == LABELLED and back_end == "active-set":
                     texts += [(row["cpu_s"], row[measure], f"{row['step_ms']:g} ms", side)
