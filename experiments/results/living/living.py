@@ -73,19 +73,10 @@ def claims_table(folder: Path, out: Path) -> None:
     """Verdicts and measures of claim_row.py over starts with a degree of noise."""
     rows = []
     for scene, knot in plots.SCENES.items():
-        judged, others = [], Counter()
-        for name in names_of(folder, "claims", scene):
-            log = HagfishLog(folder / f"{name}.h5")
-            outcome = claim_row.outcome_of(log)
-            try:
-                judged.append(dict(zip(claim_row.HEADING, claim_row.judged(log), strict=True)) if outcome == "slid"
-                              else None)
-            except claims.ShortSlide:
-                judged.append(None)
-                outcome = "hardly slid"
-            if judged[-1] is None:
-                others[outcome] += 1
-        own = [row for row in judged if row]
+        judged = [dict(zip(claim_row.HEADING, claim_row.row_of(HagfishLog(folder / f"{name}.h5")), strict=True))
+                  for name in names_of(folder, "claims", scene)]
+        own = [row for row in judged if row["outcome"] == "slid"]
+        others = Counter(row["outcome"] for row in judged if row["outcome"] != "slid")
         verdicts = [claims.over_runs([row[name] for row in own]) for name in claims.NAMES]
         spread = lambda what: "{1:.3g} ({0:.3g} to {2:.3g})".format(*np.percentile([row[what] for row in own],
                                                                                    [0, 50, 100])) if own else ""
