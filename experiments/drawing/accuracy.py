@@ -34,6 +34,11 @@ def through(points: np.ndarray, at: np.ndarray) -> np.ndarray:
     return b + 0.5 * t * (c - a + t * (2 * a - 5 * b + 4 * c - d + t * (3 * (b - c) + d - a)))
 
 
+def places_of(log: HagfishLog, frames: np.ndarray) -> np.ndarray:
+    """Of the body's centreline at STATIONS: frames x stations x 3, cm."""
+    return np.array([through(centres, STATIONS * len(log["/model/length"])) for centres in log["/trajectory/position"][frames]])
+
+
 def off(found: np.ndarray, wanted: np.ndarray) -> float:
     """How far one is from the other, % of that."""
     return float(100 * np.linalg.norm(found - wanted) / np.linalg.norm(wanted))

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 
 import claims
@@ -32,27 +30,22 @@ def outcome_of(log: HagfishLog) -> str:
     return "jammed" if cut_off else "slid"
 
 
-def judged(log: HagfishLog) -> list[object]:
-    s = claims.read_sliding(log)
-    a, b, c = claims.zero_behind(s), claims.larger_near_head(s), claims.smooth_in_space(s)
-    worst = lambda key: max(own[key] for own in c["axes"].values())
-    verdict = claims.verdicts(a, b, c)
-    return ["slid", float(s.head_end[0] - s.head_end[-1]), float(a["largest_beyond_reach_of_rows_dyn_cm"]),
-            float(b["measures"][claims.EFFORT]["near_over_far"]), worst("roughness_in_space"), worst("roughness_in_time"),
-            worst("dct_modes_95"), *(verdict[name] for name in claims.NAMES)]
-
-
-def main(path: Path, out: Path) -> None:
-    log = HagfishLog(path)
+def row_of(log: HagfishLog) -> list[object]:
+    """Of HEADING; a run that did not slide, or hardly, has its outcome alone."""
     outcome = outcome_of(log)
-    row: list[object] = [outcome] + [np.nan] * len(MEASURES) + [""] * len(claims.NAMES)
     if outcome == "slid":
         try:
-            row = judged(log)
+            s = claims.read_sliding(log)
+            a, b, c = claims.zero_behind(s), claims.larger_near_head(s), claims.smooth_in_space(s)
+            worst = lambda key: max(own[key] for own in c["axes"].values())
+            verdict = claims.verdicts(a, b, c)
+            return [outcome, float(s.head_end[0] - s.head_end[-1]), float(a["largest_beyond_reach_of_rows_dyn_cm"]),
+                    float(b["measures"][claims.EFFORT]["near_over_far"]), worst("roughness_in_space"), worst("roughness_in_time"),
+                    worst("dct_modes_95"), *(verdict[name] for name in claims.NAMES)]
         except claims.ShortSlide:
-            row[0] = "hardly slid"
-    write_csv(out, HEADING, [row])
+            outcome = "hardly slid"
+    return [outcome, *[np.nan] * len(MEASURES), *[""] * len(claims.NAMES)]
 
 
 if __name__ == "__main__":
-    run_script(__doc__, ["LOG.h5", "OUT.csv"], main)
+    run_script(__doc__, ["LOG.h5", "OUT.csv"], lambda log, out: write_csv(out, HEADING, [row_of(HagfishLog(log))]))

@@ -23,12 +23,12 @@ from hagfish_log import HagfishLog, LogError
 from script import run_script
 
 DPI = 400
-WIDTH = 7.2  # of the figure, inches: a full page width
 LEAST_PANELS = 8
-GAP = 1.2  # around the animal in a panel, cm
-LEAST_WIDTH = 17.5  # of a panel, cm: room for its caption
-LEAST_TRAVEL = 1.0  # of the knot's head end for pictures of it on its way, cm
-WORD = (0.22, 0.10)  # inches that "head" or "tail" takes
+GAP = 0.08  # around the animal in a panel, inches
+LEAST_WIDTH = 1.5  # of a panel, inches: room for its caption
+LEAST_TRAVEL = 0.025  # of the knot's head end for pictures of it on its way, shares of the length
+WORD = (0.26, 0.12)  # inches that "head" or "tail" takes
+BARS, BAR = (0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100), 0.15  # cm, and the most of the length, of the bar that tells the scale
 BACKGROUND = 0.98  # of a pixel's colour, where nothing is drawn
 
 
@@ -123,7 +123,7 @@ def sliding_stages(log: HagfishLog) -> list[Stage]:
         return []
     start, end = head_end[slide[0]], head_end[slide[-1]]
     stages = [Stage(slide[0], "knot tightened")]
-    if abs(end - start) < LEAST_TRAVEL:
+    if abs(end - start) < LEAST_TRAVEL * log["/model/length"].sum():
         return stages
     for share in (1 / 3, 2 / 3):
         passed = np.flatnonzero((head_end[slide] - (start + share * (end - start))) * np.sign(end - start) >= 0)
@@ -152,15 +152,15 @@ def choose_stages(log: HagfishLog) -> list[Stage]:
 def choose_camera(log: HagfishLog, stages: list[Stage]) -> Camera:
     """The view in which the knotted stages hide least of themselves: largest covered area."""
     knotted = [s.frame for s in stages if log["/knot/determinant"][s.frame] != 1] or [stages[-1].frame]
-    radius, cell = log["/model/radius"], 0.25
+    radius, cell = log["/model/radius"], log["/model/length"].sum() / 170
     best, best_area = Camera(20.0, 18.0), -1.0
     for pitch in range(-180, 180, 10):
         for yaw in (14.0, 22.0):  # enough to show the plate's front, too little to shorten the animal
             view, area = Camera(float(pitch), yaw), 0.0
             for frame in knotted:
                 flat = log["/trajectory/position"][frame] @ view.plane()
-                low = flat.min(axis=0) - 1.0
-                columns, rows = (np.arange(low[i], flat[:, i].max() + 1.0, cell) for i in range(2))
+                low, high = flat.min(axis=0) - radius.max(), flat.max(axis=0) + radius.max()
+                columns, rows = (np.arange(low[i], high[i], cell) for i in range(2))
                 covered = np.zeros((len(rows), len(columns)), dtype=bool)
                 for (x, y), r in zip(flat, radius):
                     covered |= (rows[:, None] - y) ** 2 + (columns[None, :] - x) ** 2 < r * r
@@ -187,7 +187,7 @@ def label_ends(axes: Any, log: HagfishLog, frame: int, view: Camera, picture: Pi
     per_pixel = (picture.right - picture.left) / drawn.shape[1]
     half = np.array(WORD) / per_cm / 2
     least, most = np.transpose([axes.get_xlim(), axes.get_ylim()])
-    around = [away * np.array([np.cos(angle), np.sin(angle)]) for away in np.arange(1.0, 8.0, 0.25)
+    around = [away * np.array([np.cos(angle), np.sin(angle)]) for away in np.arange(0.08, 0.6, 0.02) / per_cm
               for angle in np.linspace(0, 2 * np.pi, 24, endpoint=False)]
     labels: list[np.ndarray] = []
 
@@ -201,7 +201,7 @@ def label_ends(axes: Any, log: HagfishLog, frame: int, view: Camera, picture: Pi
     for word, end in (("head", centres[0]), ("tail", centres[-1])):
         place = next((end + offset for offset in around if free(end + offset)), end)
         labels.append(place)
-        axes.annotate(word, end, place, fontsize=6, ha="center", va="center",
+        axes.annotate(word, end, place, fontsize=7, ha="center", va="center",
                       arrowprops={"arrowstyle": "-", "color": plots.INK, "lw": 0.5, "shrinkA": 1, "shrinkB": 0})
 
 
@@ -216,43 +216,54 @@ def caption(log: HagfishLog, letter: str, stage: Stage) -> str:
     return text + (f"\nknot spans {ends[0]:.1f} to {ends[1]:.1f} cm" if knotted else "\nno knot")
 
 
+def fitted(left: np.ndarray, right: np.ndarray) -> tuple[float, list[list[int]]]:
+    """The largest scale, inches a cm, at which three rows of panels fit the page, and the rows."""
+    for per_cm in np.geomspace(2, 1e-3, 1000):
+        widths = list(np.maximum((right - left) * per_cm + 2 * GAP, LEAST_WIDTH))
+        rows = rows_of(widths, count=3)
+        if max(sum(widths[i] for i in row) for row in rows) <= plots.WIDTH:
+            break
+    return float(per_cm), rows
+
+
 def main(path: Path, hagfish: Path, out: Path) -> None:
     log = HagfishLog(path)
     stages = choose_stages(log)
     view = choose_camera(log, stages)
     pictures = take_pictures(log, hagfish, [stage.frame for stage in stages], view)
-    left = np.array([p.left - GAP for p in pictures])
-    right = np.maximum([p.right + GAP for p in pictures], left + LEAST_WIDTH)
-    rows = rows_of(list(right - left), count=3)
-    across = max(sum(right[i] - left[i] for i in row) for row in rows)
-    per_cm = WIDTH / across  # inches
+    per_cm, rows = fitted(*(np.array([getattr(p, side) for p in pictures]) for side in ("left", "right")))
+    cm, gap, across = 1 / per_cm, GAP / per_cm, plots.WIDTH / per_cm  # an inch, the gap, the page in cm of the picture plane
+    left = np.array([p.left for p in pictures]) - gap
+    right = np.maximum([p.right + gap for p in pictures], left + LEAST_WIDTH * cm)
     text = 0.50  # below each row, inches
-    low = [min(pictures[i].bottom for i in row) - GAP / 2 for row in rows]
-    high = [max(pictures[i].top for i in row) + GAP / 2 for row in rows]
-    tall = sum((h - l) * per_cm + text for l, h in zip(low, high)) + 0.28
-    figure = plt.figure(figsize=(WIDTH, tall))
+    low = [min(pictures[i].bottom for i in row) - gap / 2 for row in rows]
+    high = [max(pictures[i].top for i in row) + gap / 2 for row in rows]
+    tall = sum((h - l) * per_cm + text for l, h in zip(low, high)) + 0.34
+    figure = plt.figure(figsize=(plots.WIDTH, tall))
     top = tall
     for row, bottom, upper in zip(rows, low, high):
         spare = (across - sum(right[i] - left[i] for i in row)) / len(row)
         x, height = 0.0, (upper - bottom) * per_cm
         for i in row:
             width = right[i] - left[i] + spare
-            box = [x * per_cm / WIDTH, (top - height) / tall, width * per_cm / WIDTH, height / tall]
-            axes = figure.add_axes(box)
+            axes = figure.add_axes([x / across, (top - height) / tall, width / across, height / tall])
             p = pictures[i]
             axes.imshow(p.pixels, extent=(p.left, p.right, p.bottom, p.top))
             axes.set(xlim=(left[i], left[i] + width), ylim=(bottom, upper), aspect="auto")
             axes.axis("off")
             label_ends(axes, log, stages[i].frame, view, p, per_cm)
-            axes.text(left[i] + 0.35, bottom - 0.3, caption(log, ascii_lowercase[i], stages[i]), fontsize=7, va="top",
+            axes.text(left[i] + 0.03 * cm, bottom - 0.02 * cm, caption(log, ascii_lowercase[i], stages[i]), fontsize=7, va="top",
                       linespacing=1.25, clip_on=False)
             if i == 0:
-                axes.plot(left[i] + width - np.array([7, 2]), [bottom + 1.0] * 2, color="black", lw=1.5, solid_capstyle="butt")
-                axes.text(left[i] + width - 4.5, bottom + 1.3, "5 cm", fontsize=7, ha="center", va="bottom")
+                bar = max((each for each in BARS if each <= BAR * log["/model/length"].sum()), default=BARS[0])
+                end = left[i] + width - 0.15 * cm
+                axes.plot([end - bar, end], [bottom + 0.07 * cm] * 2, color="black", lw=1.5, solid_capstyle="butt")
+                axes.text(end - bar / 2, bottom + 0.09 * cm, f"{bar:g} cm", fontsize=7, ha="center", va="bottom")
             x += width
         top -= height + text
-    figure.text(0.01, 0.012, "Rings: 20, 40, 60, 80 % of the length, where the specimen was measured. Spans: arc "
-                "length from the head. Grey: head plate, pale once the head is free.", fontsize=6)
+    rings = ", ".join(f"{100 * station:g}" for station in log.scene()["specimen"]["station"])
+    figure.text(0.01, 0.012, f"Rings: {rings} % of the length, where the specimen was measured. Spans: arc length from the head.\n"
+                "Grey: head plate, pale once the head is free.", fontsize=7)
     plots.save(figure, out, DPI)
 
 

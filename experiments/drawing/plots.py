@@ -18,11 +18,13 @@ matplotlib.rcdefaults()  # the user's own matplotlibrc is for the user's own fig
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.patheffects import withStroke
 from matplotlib.ticker import NullLocator
 
 from script import whole
 
 DPI = 200
+WIDTH = 7.2  # inches, of a page of a paper: texts are not made smaller there
 INK, GREY, GRID = "#000000", "#777777", "#e5e5e5"
 BLUE, YELLOW, ORANGE, VERMILION, PURPLE = "#0072b2", "#f0e442", "#e69f00", "#d55e00", "#cc79a7"
 plt.rcParams.update({
@@ -55,6 +57,7 @@ INTEGRATORS = {"core": Look("core, Euler", INK, "o"), "core_midpoint": Look("cor
 VERDICTS = {"agrees": Look("agrees", BLUE, "^"), "undecided": Look("undecided", GREY, "o"),
             "disagrees": Look("disagrees", ORANGE, "v")}
 ROUGHNESS = {"space": Look("along the body", BLUE, "o"), "time": Look("in time", ORANGE, "D")}
+SIDES = {"left": ((-6, 0), "right", "center"), "right": ((6, 0), "left", "center"), "above": ((0, 5), "center", "bottom")}  # of labels
 TICKS_APART = 1.3  # least ratio of two ticks
 
 
@@ -79,6 +82,18 @@ def plain_ticks(axis: Any, values: Iterable[float]) -> None:
             kept.append(value)
     axis.set_ticks(kept, [f"{value:g}" for value in kept])
     axis.set_minor_locator(NullLocator())
+
+
+def label(axes: Any, points: Iterable[tuple[float, float, str, str]]) -> None:
+    """Text beside points (x, y, text, side), once limits and scales are set; of texts of a side that would meet, the first alone."""
+    placed: list[tuple[str, np.ndarray]] = []
+    for x, y, text, side in points:
+        at = axes.transAxes.inverted().transform(axes.transData.transform((x, y)))
+        if all(side != other or np.any(np.abs(at - place) > (0.13, 0.05)) for other, place in placed):
+            placed.append((side, at))
+            shift, across, up = SIDES[side]
+            axes.annotate(text, (x, y), shift, textcoords="offset points", fontsize=7, ha=across, va=up,
+                          path_effects=[withStroke(linewidth=2, foreground="white")])
 
 
 def legend_above(figure: Any, handles: Sequence[Any], columns: int, room: float, **options: Any) -> None:

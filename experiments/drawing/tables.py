@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -18,6 +19,12 @@ class Table:
     head: list[str]
     rows: list[list[str]]
     notes: list[str] = field(default_factory=list)
+
+
+def span(values: Iterable[float], form: str) -> str:
+    """The least to the largest of those that are numbers, in a format; the one where they read alike, nothing of none."""
+    known = [value for value in values if not math.isnan(value)]
+    return " to ".join(dict.fromkeys(f"{end(known):{form}}" for end in (min, max))) if known else ""
 
 
 def markdown(head: Sequence[str], rows: Iterable[Sequence[str]]) -> list[str]:

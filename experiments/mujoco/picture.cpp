@@ -179,8 +179,10 @@ void Shown::add(const View& view, const mjvGeom& box) {
 
 void fit(const Shown& shown, View& view) {
   view.scale = own_scale;
-  const Eigen::Array2d corner = (shown.low * own_scale - margin).floor();
-  const Eigen::Array2i size = ((shown.high * own_scale + margin).ceil() - corner).cast<int>();
+  // What is nearer by half a length looks larger by a hundredth: see lens in offscreen.cpp.
+  const Eigen::Array2d room = margin + 0.005 * own_scale * (shown.high - shown.low);
+  const Eigen::Array2d corner = (shown.low * own_scale - room).floor();
+  const Eigen::Array2i size = ((shown.high * own_scale + room).ceil() - corner).cast<int>();
   view.low = corner / own_scale;
   view.width = size.x();
   view.height = size.y();

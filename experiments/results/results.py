@@ -11,8 +11,9 @@ Usage: results.py render                 makes the blocks between markers again,
        results.py names | list           names of pages; with their questions and times
        results.py page NAME              exit code 2 where there is no such page
 
-page.toml has `chance`, the share by which a figure may differ from one machine to another, and `data`: CSV files that
-figures are drawn from, besides the tables. Of its study's folder a page takes tables/NAME.csv of all these, and the PNG
+page.toml has `[chance]`: of a table, by pattern of its headings, the share by which figures may differ from one machine to
+another, inf where a column is not compared. The first pattern counts. Columns without one are as they were, times of the
+computer are not compared. `data` are CSV files that figures are drawn from, besides the tables. Of its study's folder a page takes tables/NAME.csv of all these, and the PNG
 files that it shows. A block of a page begins with one of these lines and ends with `<!-- end -->`:
     <!-- table: FILE.csv -->             the table; `; rows: WORDS; WORDS` picks the rows whose first cell has the words
     <!-- stamp: NAME -->                 when, where and by what the page's tables were made
@@ -26,6 +27,7 @@ from __future__ import annotations
 
 import datetime
 import hashlib
+import math
 import re
 import subprocess
 import sys
@@ -48,6 +50,8 @@ VALUE = re.compile(r"(<!-- of: ([^;>]+); ([^;>]+?)(?:; ([^>]+?))? -->).*?(<!-- e
 FIGURE = re.compile(r"^!\[.*\]\(([^/)]+\.png)\)$", re.MULTILINE)
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 NAME = re.compile(r"\b\d_\d\b")  # of a knot, which is no number
+EQUAL = 1e-9  # share by which figures without a chance may differ
+TIMES = re.compile(r"CPU|clock|µs")  # headings of times of the computer
 ROUNDING = 1e-5  # figures below are rounding errors, of which the order of magnitude counts
 FACTOR = 10  # by which such a figure may differ
 MEASURED = re.compile(r"Measured at ([0-9a-f]{7,40}\+?(?:, [0-9a-f]{7,40}\+?)*) on (.+), (\d{4}-\d\d-\d\d)\.")
@@ -127,9 +131,10 @@ def stamp(name: str) -> list[str]:
         for note in read_table(path).notes:
             notes.setdefault(note, []).append(path.stem)
     said = [note if len(of) == len(tables) else f"{note[:-1]} ({', '.join(of)})." for note, of in notes.items()]
-    chance = settings_of(name)["chance"]
+    shares = [share for of in settings_of(name).get("chance", {}).values() for share in of.values() if share < math.inf]
     again = f"`bash experiments/reproduce.sh {name}` makes this page's tables again" + (
-        f"; figures may differ by {100 * chance:g} % from machine to machine." if chance else ".")
+        f"; of some columns figures may differ from machine to machine, by up to {100 * max(shares):g} % ([which](page.toml))."
+        if shares else ".")
     links = lambda files: ", ".join(f"[{file.rpartition('/')[2]}]({file})" for file in files)
     data = [path.name for path in data_of(name)]
     drawn = [f"Figures are drawn from {links(data)}."] if data else []
@@ -180,7 +185,9 @@ def render() -> None:
 
 
 def same(old: str, new: str, chance: float) -> bool:
-    """Whether two cells say the same: words to the letter, figures to `chance`, rounding errors to FACTOR."""
+    """Whether two cells say the same: words to the letter, figures to `chance`, rounding errors to FACTOR; any do where it is inf."""
+    if chance == math.inf:
+        return True
     if NAME.findall(old) != NAME.findall(new):
         return False
     old, new = NAME.sub("knot", old), NAME.sub("knot", new)
@@ -192,8 +199,14 @@ def same(old: str, new: str, chance: float) -> bool:
     return all(near(a, b) for a, b in pairs)
 
 
-def differences(name: str, old: Table, new: Table, chance: float) -> list[str]:
-    """A line for each cell that differs by more than chance, and for headings and rows that are not the same."""
+def chance_of(head: str, shares: dict[str, float]) -> float:
+    """Of a column; `shares` are those of its table, by pattern."""
+    known = (share for pattern, share in shares.items() if re.search(pattern, head))
+    return next(known, math.inf if TIMES.search(head) else EQUAL)
+
+
+def differences(name: str, old: Table, new: Table, shares: dict[str, float]) -> list[str]:
+    """A line for each cell that differs by more than its column's chance, and for headings and rows that are not the same."""
     if old.head != new.head:
         return [f"{name}: columns were {old.head}, are {new.head}"]
     before = {row[0]: row for row in old.rows}
@@ -207,7 +220,7 @@ def differences(name: str, old: Table, new: Table, chance: float) -> list[str]:
             found.append(f"{name}: a new row: {row[0]}")
             continue
         found += [f"{name}: {row[0]}, {head}: was {a!r}, is {b!r}"
-                  for head, a, b in zip(new.head, was, row) if not same(a, b, chance)]
+                  for head, a, b in zip(new.head, was, row) if not same(a, b, chance_of(head, shares))]
     return found + [f"{name}: no row any more: {first}" for first in (before if keyed else ())]
 
 
@@ -249,7 +262,7 @@ def adopt(name: str, folder: Path, version: str, seconds: float) -> list[str]:
         if not any(MEASURED.match(note) for note in new.notes):
             new.notes += measured(version, seconds)
         if wanted in shown and here.exists():
-            found += differences(here.stem, read_table(here), new, settings["chance"])
+            found += differences(here.stem, read_table(here), new, settings.get("chance", {}).get(here.stem, {}))
         write(here, new)
     for figure in FIGURE.findall(text_of(name)):
         take_figure(folder / figure, RESULTS / name / figure, measured(version, seconds)[0])

@@ -67,10 +67,27 @@ def test_what_chance_leaves_open(old, new, chance, same):
 
 def test_differences_are_named():
     old = results.Table(["", "a"], [["x", "1"], ["y", "2"]])
-    assert results.differences("t", old, results.Table(["", "a"], [["y", "2"], ["x", "1.05"]]), 0.1) == []
-    found = results.differences("t", old, results.Table(["", "a"], [["x", "2"], ["z", "2"]]), 0.1)
+    assert results.differences("t", old, results.Table(["", "a"], [["y", "2"], ["x", "1.05"]]), {"a": 0.1}) == []
+    found = results.differences("t", old, results.Table(["", "a"], [["x", "2"], ["z", "2"]]), {"a": 0.1})
     assert found == ["t: x, a: was '1', is '2'", "t: a new row: z", "t: no row any more: y"]
-    assert results.differences("t", old, results.Table(["", "b"], old.rows), 0.1) == ["t: columns were ['', 'a'], are ['', 'b']"]
+    assert results.differences("t", old, results.Table(["", "b"], old.rows), {}) == ["t: columns were ['', 'a'], are ['', 'b']"]
+
+
+def test_each_column_has_its_own_chance():
+    table = lambda *cells: results.Table(["", "force, N", "starts", "CPU, s", "quickest"], [["x", *cells]])
+    shares, old = {"force": 0.1, "quick": float("inf")}, table("10", "5 of 8", "1", "a: 3")
+    assert results.differences("t", old, table("10.9", "5 of 8", "9", "b"), shares) == []
+    assert results.differences("t", old, table("11.2", "6 of 8", "9", "b"), shares) == [
+        "t: x, force, N: was '10', is '11.2'", "t: x, starts: was '5 of 8', is '6 of 8'"]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_chances_are_of_columns_that_there_are(name):
+    for table, shares in results.settings_of(name).get("chance", {}).items():
+        assert f"{table}.csv" in results.shown_by(name)
+        for pattern in shares:
+            heads = results.read_table(results.RESULTS / name / f"{table}.csv").head
+            assert any(re.search(pattern, head) for head in heads), (table, pattern)
 
 
 def test_only_code_makes_a_page_old():
@@ -91,7 +108,7 @@ def house(tmp_path, monkeypatch):
     (tmp_path / "core").mkdir()
     (tmp_path / "core/a.cpp").write_text("int a;\n")
     (tmp_path / "README.md").write_text("# R\n<!-- table: experiments/results/p/p.csv; rows: y -->\n<!-- end -->\n")
-    (tmp_path / "experiments/results/p/page.toml").write_text('chance = 0.1\ndata = ["d.csv"]\n')
+    (tmp_path / "experiments/results/p/page.toml").write_text('data = ["d.csv"]\n[chance]\np = { a = 0.1 }\n')
     (tmp_path / "experiments/results/README.md").write_text("# I\n<!-- index: p -->\n<!-- end -->\n")
     (tmp_path / "experiments/results/p/page.md").write_text("# Q?\n<!-- table: p.csv -->\n<!-- end -->\n<!-- stamp: p -->\n<!-- end -->\n")
     for name, path in (("ROOT", tmp_path), ("RESULTS", tmp_path / "experiments/results")):

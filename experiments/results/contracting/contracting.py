@@ -13,7 +13,7 @@ import numpy as np
 
 import plots
 import tables
-from accuracy import STATIONS, cpu_of, moments_of, name_of, off, pareto, pick, presets, shown, through
+from accuracy import cpu_of, moments_of, name_of, off, pareto, pick, places_of, presets, shown
 from hagfish_log import HagfishLog, LogError
 from script import run_script
 
@@ -55,10 +55,9 @@ def motion(log: HagfishLog, law: str) -> Motion:
     time = log["/trajectory/time"]
     first, last = WINDOWS[law]
     frames = np.flatnonzero((time > first + 0.5 * FRAME) & (time < last + 0.5 * FRAME))
-    bodies = len(log["/model/length"])
-    place = np.array([through(centres, STATIONS * bodies) for centres in log["/trajectory/position"][frames]])
     of = lambda name: moments_of(log, name, frames)
-    return dict(zip(MEASURES, [log["/knot/head_end"][frames][:, None, None], place, of("active"), long_means(of("thigmotaxis"), LONG)]))
+    return dict(zip(MEASURES, [log["/knot/head_end"][frames][:, None, None], places_of(log, frames), of("active"),
+                               long_means(of("thigmotaxis"), LONG)]))
 
 
 def beyond(coarse: Motion, fine: Motion, share: float = 1) -> Motion:
@@ -180,7 +179,7 @@ def steps_table(rows: Rows, out: Path) -> None:
             orders = [np.log2(own[2 * step][f"by_step_{measure}"] / own[step][f"by_step_{measure}"]) for step in halves]
             cells = [shown(own[step][f"by_step_{measure}"], ".2g") if step in own else "" for step in STEPS]
             body.append([LAWS[law], MEASURES[measure], look.label, *cells,
-                         " to ".join(dict.fromkeys((f"{min(orders):.1f}", f"{max(orders):.1f}"))) if orders else "",
+                         tables.span(orders, ".1f"),
                          f"{own[5.0]['cpu_s']:.2g}" if 5.0 in own else ""])
     tables.write_table(out, "contracting_steps", ["slide by", "of", "method", *(f"off at {step:g} ms, %" for step in STEPS), "order",
                                                   "CPU at 5 ms, s"], body)
@@ -238,37 +237,40 @@ def dry_table(runs: dict[str, dict[float, tuple[float, np.ndarray]]], out: Path)
 
 
 def draw(rows: Rows, out: Path) -> None:
-    shows = [("reflex", "knot_cm"), ("reflex", "torque_percent"), ("paper", "knot_cm"), ("paper", "force_percent")]
-    figure, panels = plots.panels(2, 4, (11.5, 6), [f"{LAWS[law]}: {MEASURES[measure]}" for law,
-                                                    measure in shows] + [f"by the step alone, {USUAL} bodies"] * 4)
-    for k, (axes, (law, measure)) in enumerate(zip(panels, shows * 2)):
-        by_step = k >= len(shows)
-        error = f"by_step_{measure}" if by_step else measure
+    shows = [("reflex", "knot_cm"), ("paper", "knot_cm"), *[("reflex", "torque_percent"), ("paper", "force_percent")] * 2]
+    figure, panels = plots.panels(3, 2, (plots.WIDTH, 8.6), [
+        f"{LAWS[law]}: {MEASURES[measure]}" + (", by the step alone" if k > 3 else "")
+        for k, (law, measure) in enumerate(shows)])
+    for k, (axes, (law, measure)) in enumerate(zip(panels, shows)):
+        by_step = k > 3
+        error, texts = f"by_step_{measure}" if by_step else measure, []
         for (simulator, rule), look in METHODS.items():
-            for bodies, size in SIZES.items():
-                own = [row for row in done(rows, simulator, law=law, rule=rule, bodies=bodies) if not by_step or bodies == USUAL]
+            for bodies, size in SIZES.items() if not by_step else ((USUAL, SIZES[USUAL]),):
+                own = done(rows, simulator, law=law, rule=rule, bodies=bodies)
                 axes.plot([row["cpu_s"] for row in own], [row[error] for row in own], **look.style, markersize=size, lw=0.6)
-        axes.set(xscale="log", yscale="log", ylabel=f"error, {unit(measure)}", xlabel="CPU time of the run, s" if by_step else "",
-                 xmargin=0.12)
-        for row in done(rows, law=law, rule="euler", bodies=USUAL) if by_step else []:
-            axes.annotate(f"{row['step_ms']:g} ms", (row["cpu_s"], row[error]), (4, 2), textcoords="offset points", fontsize=6)
+                side = "left" if simulator == "here" and (rule == "euler") == (law == "reflex") and by_step else "right"
+                texts += [(row["cpu_s"], row[error], f"{row['step_ms']:g} ms" if by_step else f"{bodies}", side)
+                          for row in (own if by_step else own[-1:])]
+        axes.set(xscale="log", yscale="log", ylabel=f"off, {unit(measure)}", xlabel="CPU time of the run, s" if by_step else "",
+                 xmargin=0.25 if by_step else 0.14)
         if not by_step:
             best = front(done(rows, law=law), measure)
             axes.plot([row["cpu_s"] for row in best], [row[measure] for row in best], color=plots.GREY, lw=5, alpha=0.3, zorder=0)
             for name, of in presets().items():
                 row = done(rows, law=law, **of)[0]
-                axes.plot(row["cpu_s"], row[measure], "o", mfc="none", mec=plots.INK, ms=13, mew=0.9)
-                side = {"xytext": (5, 6)} if name == "quick" else {"xytext": (-7, -7), "ha": "right", "va": "top"}
-                axes.annotate(name, (row["cpu_s"], row[measure]), textcoords="offset points", fontsize=7, **side)
+                axes.plot(row["cpu_s"], row[measure], "o", mfc="none", mec=plots.INK, ms=12, mew=0.9, zorder=4)
+                axes.annotate(name, (row["cpu_s"], row[measure]), (-7, -6), textcoords="offset points", fontsize=7.5,
+                              ha="right", va="top", style="italic")
         for axis, (least, most) in ((axes.xaxis, axes.get_xlim()), (axes.yaxis, axes.get_ylim())):
-            ticks = [m * 10.0**k for k in range(-4, 3) for m in ((1, 2, 5) if most < 100 * least else (1,))]
+            ticks = [m * 10.0**k for k in range(-4, 3) for m in ((1, 2, 5) if most < 1000 * least else (1,))]
             plots.plain_ticks(axis, [tick for tick in ticks if least <= tick <= most])
+        plots.label(axes, texts)
     line = lambda **of: plots.plt.Line2D([], [], **of)
     handles = [line(label=look.label, **look.style) for look in METHODS.values()]
     handles += [line(color=plots.GREY, marker="o", ls="", markersize=size, label=f"{bodies} bodies") for bodies, size in SIZES.items()]
     handles += [line(color=plots.INK, marker="o", ls="", mfc="none", ms=11, label="presets"),
-                line(color=plots.GREY, lw=5, alpha=0.3, label="front")]
-    plots.legend_above(figure, handles, 10, 0.06)
+                line(color=plots.GREY, lw=5, alpha=0.3, label="quickest for its error")]
+    plots.legend_above(figure, handles, 5, 0.055, columnspacing=1.2)
     plots.save(figure, out)
 
 

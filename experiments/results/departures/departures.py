@@ -37,9 +37,7 @@ def became(run: dict[str, str]) -> str:
 def shown(runs: list[dict[str, str]], heading: str) -> str:
     """The figure of a run, or the least to the largest of several."""
     column, form, factor = FIGURES[heading]
-    found = sorted(factor * float(run[column]) for run in runs if run[column] and (run["slide"] or heading not in SLID))
-    ends = list(dict.fromkeys(f"{value:{form}}" for value in (found[:1] + found[-1:])))
-    return " to ".join(ends) or "-"
+    return tables.span((factor * float(run[column]) for run in runs if run[column] and (run["slide"] or heading not in SLID)), form) or "-"
 
 
 def read_runs(folder: Path) -> list[dict[str, str]]:

@@ -12,14 +12,14 @@ import numpy as np
 
 import claims
 import plots
-from figure7 import GAP, Stage, choose_camera, label_ends, take_pictures
+from figure7 import Stage, choose_camera, label_ends, take_pictures
 from hagfish_log import HagfishLog, LogError
 from means import Means, effort_per_cm, read_means
 from script import run_script
 from slides import MEAN, unmet_of
 from tables import write_table
 
-WIDTH = 7.2  # of the pictures, inches
+GAP = 1.2  # around the animal in a picture, cm
 NOISES = ("0.2", "0.5", "1")
 STEPS = ("0.0005", "0.001", "0.005", "0.01", "0.02")
 CHANCE_STEPS = ("0.002", "0.001")
@@ -43,9 +43,9 @@ def draw_pictures(logs: dict[str, HagfishLog], hagfish: Path, out: Path) -> None
         pictures[knot] = stages, take_pictures(log, hagfish, [s.frame for s in stages], view), view
     wide = max(p.right - p.left for _, row, _ in pictures.values() for p in row) + 2 * GAP
     heights = {knot: max(p.top for p in row) - min(p.bottom for p in row) + 2 * GAP for knot, (_, row, _) in pictures.items()}
-    per_cm, above, below = WIDTH / (4 * wide), 0.18, 0.32  # inches of text about a row
+    per_cm, above, below = plots.WIDTH / (4 * wide), 0.18, 0.32  # inches of text about a row
     tall = sum(heights.values()) * per_cm + (above + below) * len(pictures) + 0.25
-    figure, top = plt.figure(figsize=(WIDTH, tall)), tall - 0.25 - above
+    figure, top = plt.figure(figsize=(plots.WIDTH, tall)), tall - 0.25 - above
     for knot, (stages, row, view) in pictures.items():
         height, low = heights[knot] * per_cm, min(p.bottom for p in row) - GAP
         for column, (stage, p) in enumerate(zip(stages, row)):
@@ -58,14 +58,14 @@ def draw_pictures(logs: dict[str, HagfishLog], hagfish: Path, out: Path) -> None
             label_ends(axes, log, stage.frame, view, p, per_cm)
             ends = [log[f"/knot/{end}_end"][stage.frame] for end in ("head", "tail")]
             spans = f", {ends[0]:.1f} to {ends[1]:.1f} cm" if np.all(np.isfinite(ends)) else ""
-            axes.text(0.03, 0.0, f"$t$ = {log['/trajectory/time'][stage.frame]:.2f} s{spans}", fontsize=6.5, va="top",
+            axes.text(0.03, 0.0, f"$t$ = {log['/trajectory/time'][stage.frame]:.2f} s{spans}", fontsize=7, va="top",
                       transform=axes.transAxes)
             if column == 0:
                 axes.text(0.03, 1.0, plots.KNOTS[knot].label, fontsize=8.5, va="bottom", weight="bold", transform=axes.transAxes)
         top -= height + above + below
     for column, stage in enumerate(next(iter(pictures.values()))[0]):
         figure.text(column / 4 + 0.01, 1 - 0.16 / tall, stage.title, fontsize=8.5, va="center")
-    scale = figure.add_axes([1 - 5 * per_cm / WIDTH - 0.015, 1 - 0.16 / tall, 5 * per_cm / WIDTH, 0])
+    scale = figure.add_axes([1 - 5 * per_cm / plots.WIDTH - 0.015, 1 - 0.16 / tall, 5 * per_cm / plots.WIDTH, 0])
     scale.plot([0, 1], [0, 0], color=plots.INK, lw=1.5, solid_capstyle="butt", clip_on=False)
     scale.text(-0.1, 0, "5 cm", fontsize=7, ha="right", va="center")
     scale.set(xlim=(0, 1))

@@ -67,12 +67,6 @@ def pulls_of(runs: Iterable[Run]) -> list[Pull]:
     return [run.pull for run in runs if run.pull and not run.deep]
 
 
-def spread(values: Iterable[float]) -> str:
-    """Least and largest."""
-    there = [f"{value:.2f}" for value in values if not np.isnan(value)]
-    return " to ".join(dict.fromkeys((min(there, key=float), max(there, key=float)))) if there else ""
-
-
 def knots_table(runs: list[Run], out: Path) -> None:
     """Of each knot: its pull over time, and how far chance and meshes move the mean."""
     rows = []
@@ -85,9 +79,9 @@ def knots_table(runs: list[Run], out: Path) -> None:
             seconds = [force for pull in pulls_of(plain) for force in pull.over(1)[1]]
             third = ", ".join(f"{part.mean():.2f}" for part in np.array_split(seconds, 3)) if len(seconds) > 2 else ""
             mean = lambda figure: f"{np.mean([figure(pull) for pull in pulls]):.2g}" if pulls else ""
-            rows.append([label, knot, mean(lambda p: p.cap), f"{len(pulls)} of {len(starts)}", third, spread(seconds),
-                         spread(pull.mean for pull in pulls),
-                         *(spread(pull.mean for pull in pulls_of([*chosen(runs, body, knot, kind), *plain])) for kind in MESH),
+            rows.append([label, knot, mean(lambda p: p.cap), f"{len(pulls)} of {len(starts)}", third, tables.span(seconds, ".2f"),
+                         tables.span((pull.mean for pull in pulls), ".2f"),
+                         *(tables.span((pull.mean for pull in pulls_of([*chosen(runs, body, knot, kind), *plain])), ".2f") for kind in MESH),
                          mean(lambda p: p.mean / p.rows.mean()), mean(lambda p: p.mean / p.torque.mean()),
                          "yes" if plain and same else "no"])
     tables.write_table(out, "leverage", ["body", "knot", "cap of a row, N", "pulled", "pull in the thirds of its time, N",
@@ -126,8 +120,7 @@ def changes_table(runs: list[Run], out: Path) -> None:
                 there = [run for run in runs if (run.kind, run.body, float(run.value)) == (kind, body, value)]
                 ratios = [pull.mean / np.mean([start.mean for start in starts]) for run in there for pull in pulls_of([run])
                           if (starts := pulls_of(chosen(runs, body, run.knot, "start")))]
-                cells += [f"{len(ratios)} of {len(there)}" if there else "",
-                          " to ".join(dict.fromkeys(f"{ratio:.2f}" for ratio in (min(ratios), max(ratios)))) if ratios else ""]
+                cells += [f"{len(ratios)} of {len(there)}" if there else "", tables.span(ratios, ".2f")]
             rows.append([f"{label}: {value:g}", *cells])
     tables.write_table(out, "leverage_changes", ["what is changed",
                                                  *(f"{label}: {what}" for label in BODIES.values()

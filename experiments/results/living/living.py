@@ -23,7 +23,7 @@ from slides import read_slide, tied
 SWEEPS = {"stiffness": "flexural rigidity, dyn cm²", "drag": "drag, times that of the scenes",
           "haste": "speed of the program"}
 CAPACITY = 2.7e5  # dyn cm, a guess: data/living_overhand.toml
-MARKER_EVERY = 0.1  # of the length of a line
+MEASURED = (3e4, 1.2e6)  # dyn cm^2, made of Long et al. 2002: data/specimens/pacific_hagfish.toml
 PHASES = ("form", "tighten", "slide", "release")
 
 
@@ -64,13 +64,6 @@ def read_run(folder: Path, name: str, knot: str) -> Run:
                {phase: float(torque[rows].max()) if rows.size else np.nan for phase, rows in frames.items()})
 
 
-def shape_apart(log: HagfishLog, other: HagfishLog) -> tuple[np.ndarray, np.ndarray]:
-    """Time and the largest difference of a hinge's angle, rad, at frames that both runs have."""
-    frames = min(log.frames, other.frames)
-    q, p = (one["/trajectory/q"][:frames, 7:] for one in (log, other))
-    return log["/trajectory/time"][:frames], np.abs(q - p).max(axis=1)
-
-
 def names_of(folder: Path, kind: str, scene: str) -> list[str]:
     """All runs KIND_SCENE_VALUE."""
     return sorted(path.name.removesuffix(".check.csv") for path in folder.glob(f"{kind}_{scene}_*.check.csv"))
@@ -80,19 +73,10 @@ def claims_table(folder: Path, out: Path) -> None:
     """Verdicts and measures of claim_row.py over starts with a degree of noise."""
     rows = []
     for scene, knot in plots.SCENES.items():
-        judged, others = [], Counter()
-        for name in names_of(folder, "claims", scene):
-            log = HagfishLog(folder / f"{name}.h5")
-            outcome = claim_row.outcome_of(log)
-            try:
-                judged.append(dict(zip(claim_row.HEADING, claim_row.judged(log), strict=True)) if outcome == "slid"
-                              else None)
-            except claims.ShortSlide:
-                judged.append(None)
-                outcome = "hardly slid"
-            if judged[-1] is None:
-                others[outcome] += 1
-        own = [row for row in judged if row]
+        judged = [dict(zip(claim_row.HEADING, claim_row.row_of(HagfishLog(folder / f"{name}.h5")), strict=True))
+                  for name in names_of(folder, "claims", scene)]
+        own = [row for row in judged if row["outcome"] == "slid"]
+        others = Counter(row["outcome"] for row in judged if row["outcome"] != "slid")
         verdicts = [claims.over_runs([row[name] for row in own]) for name in claims.NAMES]
         spread = lambda what: "{1:.3g} ({0:.3g} to {2:.3g})".format(*np.percentile([row[what] for row in own],
                                                                                    [0, 50, 100])) if own else ""
@@ -103,32 +87,26 @@ def claims_table(folder: Path, out: Path) -> None:
                                               "Fourier modes for 95 %", "what else became of it"], rows)
 
 
-def draw(folder: Path, sweeps: dict[str, dict[str, list[tuple[float, Run]]]], out: Path) -> None:
-    figure, axes = plots.panels(2, 2, (10, 7), ["what a noisy start leaves behind",
-                                                *(f"torque by {what}" for what in SWEEPS)])
-    for scene, knot in plots.SCENES.items():
-        look = plots.KNOTS[knot]
-        plain = HagfishLog(folder / f"held_{scene}.h5")
-        time, apart = shape_apart(plain, HagfishLog(folder / f"heldstart_{scene}_1.h5"))
-        axes[0].plot(time, np.maximum(apart, 1e-12), label=look.label, markevery=MARKER_EVERY, **look.style)
-    axes[0].set(yscale="log", xlabel="time, s", ylabel="largest difference of a hinge's angle, rad")
-    axes[0].legend()
-    for panel, (what, label) in zip(axes[1:], SWEEPS.items(), strict=True):
+def draw(sweeps: dict[str, dict[str, list[tuple[float, Run]]]], out: Path) -> None:
+    figure, axes = plots.panels(1, 3, (plots.WIDTH, 3.2), [f"by {what}" for what in SWEEPS], sharey=True)
+    for panel, (what, label) in zip(axes, SWEEPS.items(), strict=True):
         for knot, runs in sweeps[what].items():
             look = plots.KNOTS[knot]
-            largest = [run.torque["form"] for _, run in runs]
-            panel.plot([value for value, _ in runs], largest, label=look.label, **look.style)
-            lost = [(value, torque) for (value, run), torque in zip(runs, largest, strict=True) if run.outcome != "off"]
-            panel.plot([v for v, _ in lost], [t for _, t in lost], color=look.colour, marker=look.marker, mfc="white",
-                       ls="")
-        panel.axhline(CAPACITY, color=plots.GREY, ls="--", lw=0.8)
-        panel.set(xscale="log", xlabel=label, ylabel="largest torque of a hinge\nwhile the knot forms, dyn cm",
-                  ylim=(0, 1.1 * CAPACITY))
-        panel.ticklabel_format(axis="y", style="sci", scilimits=(5, 5))
-        if what != "stiffness":
-            plots.plain_ticks(panel.xaxis, [value for value, _ in next(iter(sweeps[what].values()))])
-    axes[1].set(yscale="log", ylim=(1e4, 5e5))
-    axes[2].legend(title="open: not tied, or not off\ndashed: a guess at the capacity", loc="lower left", ncol=2)
+            for fill, line, own in ((None, "-", runs), ("white", "", [each for each in runs if each[1].outcome != "off"])):
+                panel.plot([value for value, _ in own], [run.torque["form"] / 1e3 for _, run in own], **look.style, mfc=fill, ls=line)
+        panel.axhline(CAPACITY / 1e3, color=plots.GREY, ls="--", lw=0.8)
+        panel.set(xscale="log", yscale="log", xlabel=label, ylim=(14, 350))
+        plots.plain_ticks(panel.xaxis, [value for value, _ in runs])
+    axes[0].axvspan(*MEASURED, color=plots.GRID, lw=0)
+    axes[0].text(MEASURED[0], 15, " measured", fontsize=8, va="bottom")
+    axes[0].set(ylabel="largest torque of a hinge while\nthe knot forms, 1000 dyn cm", xlim=(250, 2e6))
+    plots.plain_ticks(axes[0].xaxis, [1e3, 1e4, 1e5, 1e6])
+    axes[0].set_xticklabels(["10³", "10⁴", "10⁵", "10⁶"])
+    plots.plain_ticks(axes[0].yaxis, [20, 50, 100, 200])
+    handles = [axes[0].plot([], [], label=look.label, **look.style)[0] for look in plots.KNOTS.values()]
+    handles += axes[0].plot([], [], color=plots.INK, marker="o", mfc="white", ls="", label="not tied, or not off")
+    handles += axes[0].plot([], [], color=plots.GREY, ls="--", lw=0.8, label="a guess at the capacity")
+    plots.legend_above(figure, handles, 3, 0.13)
     plots.save(figure, out)
 
 
@@ -150,34 +128,26 @@ def short(value: float) -> str:
 
 def main_table(folder: Path, out: Path) -> None:
     of = lambda kind: [read_run(folder, f"{kind}_{scene}", knot) for scene, knot in plots.SCENES.items()]
-    every = lambda kind: [[read_run(folder, name, knot) for name in names_of(folder, kind, scene)]
-                          for scene, knot in plots.SCENES.items()]
-    held, free, animals = of("held"), of("free"), every("animal")
+    every = lambda kind: [[read_run(folder, name, knot) for name in names_of(folder, kind, scene)] for scene, knot in plots.SCENES.items()]
+    off = lambda runs: [run for run in runs if run.outcome == "off"]
+    held, free, animals = of("held"), of("free"), list(map(off, every("animal")))
     programs = [HagfishLog(folder / f"held_{scene}.h5").scene()["script"]["curvature"] for scene in plots.SCENES]
     slid = lambda run: f"{run.travel:.1f}; {run.share:.0f}; {100 * run.met:.0f}"
-    came_off = lambda runs: sum(run.outcome == "off" for run in runs)
-    off = lambda kind: [f"{came_off(runs)}; {np.nanmin([run.share for run in runs]):.0f}" for runs in every(kind)]
+    share = lambda runs: f"{len(off(runs))}; {np.nanmin([run.share for run in runs]):.0f}"
+    met = [[100 * run.met for run in runs if np.isfinite(run.met)] for runs in animals]
     tables.write_table(out, "living", ["h = 5 ms, `active-set`", *plots.SCENES.values()], [
-        ["clamped: way of the knot's head end, cm; share of a slide by both ends, %; steps that meet Eq. 6, %",
-         *map(slid, held)],
-                                                                                           ["free, no plate: the same", *map(slid, free)],
-                                                                                           ["deepest penetration at any step, release included, cm",
-                                                                                            *(f"{max(a.penetration, b.penetration):.4f}" for a, b in zip(held, free))],
-                                                                                           ["sum of λ/h of all rows while sliding, clamped, median, dyn", *(short(run.force) for run in held)],
-                                                                                           ["largest torque of a hinge, forming; sliding, dyn cm",
-                                                                                            *(f"{short(run.torque['form'])}; {short(run.torque['slide'])}" for run in held)],
-                                                                                           ["values of the program: stations x times", *(f"{len(each['stations'])} x {len(each['times'])}"
-                                                                                                                                         for each in programs)],
-                                                                                           ["of 20 starts with 3 degrees (3_1: 5) of noise on every hinge, clamped: tied, kept and off; least share, %",
-                                                                                            *off("heldstart")],
-                                                                                           ["free: the same", *off("freestart")],
-                                                                                           ["of 10 other animals, clamped: tied, kept and off", *(str(came_off(each)) for each in animals)],
-                                                                                           ["of these: least share, %", *("{:.0f}".format(min(run.share for run in each if run.outcome == "off"))
-                                                                                                                          for each in animals)],
-                                                                                           ["of these that slide: sliding steps that meet Eq. 6, %: median, least",
-                                                                                            *("{:.0f}, {:.0f}".format(*(100 * pick([run.met for run in each if run.outcome == "off"
-                                                                                                                                    and np.isfinite(run.met)])
-                                                                                                                        for pick in (np.median, min))) for each in animals)]])
+        ["clamped: way of the knot's head end, cm; share of a slide by both ends, %; steps that meet Eq. 6, %", *map(slid, held)],
+        ["free, no plate: the same", *map(slid, free)],
+        ["deepest penetration at any step, release included, cm", *(f"{max(a.penetration, b.penetration):.4f}" for a, b in zip(held, free))],
+        ["sum of λ/h of all rows while sliding, clamped, median, dyn", *(short(run.force) for run in held)],
+        ["largest torque of a hinge, forming; sliding, dyn cm", *(f"{short(run.torque['form'])}; {short(run.torque['slide'])}" for run in held)],
+        ["values of the program: stations x times", *(f"{len(each['stations'])} x {len(each['times'])}" for each in programs)],
+        ["of 20 starts with 3 degrees (3_1: 5) of noise on every hinge, clamped: tied, kept and off; least share, %",
+         *map(share, every("heldstart"))],
+        ["free: the same", *map(share, every("freestart"))],
+        ["of 10 other animals, clamped: tied, kept and off", *(str(len(runs)) for runs in animals)],
+        ["of these: least share, %", *(f"{min(run.share for run in runs):.0f}" for runs in animals)],
+        ["of these that slide: sliding steps that meet Eq. 6, %: median, least", *(f"{np.median(each):.0f}, {min(each):.0f}" for each in met)]])
 
 
 def main(folder: Path, out: Path) -> None:
@@ -189,7 +159,7 @@ def main(folder: Path, out: Path) -> None:
     sweeps = {what: {knot: sorted(runs_of(what, scene, knot), key=lambda each: each[0]) for scene,
                      knot in plots.SCENES.items()}
               for what in SWEEPS}
-    draw(folder, sweeps, out / "living.png")
+    draw(sweeps, out / "living.png")
     main_table(folder, out)
     claims_table(folder, out)
     tables.write_table(out, "living_sweeps", [

@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
-import matplotlib.image
+import matplotlib
 import numpy as np
 
 import plots
@@ -37,6 +37,7 @@ UNTIED = "not tied"
 CHANGES = {"shift": "Δ, cm", "delay": NAMES["delay"], "noise": NAMES["noise"], "normal": NAMES["drag"],
            "bending_damping": NAMES["damping"],
            "noise_deg": "starts with noise, degrees"}
+SIZE, LEGEND = "560x500", 80  # pixels of a picture, and of these its legend's height
 LOOSE = {"tighten": "where the knot is first there", "form": "a second before that"}
 
 
@@ -325,17 +326,14 @@ def draw_ways(axes: Any, folder: Path) -> None:
     for cell, row in enumerate(rows):
         if row.setting != "with drag" or row.head != "clamped":
             continue
-        scene, look = table.axes["scene"][cell], plots.KNOTS[row.knot]
-        for path, style in ((log_of(folder / "beside", str(cell)), {"label": look.label}),
-                            (folder / f"mujoco/{scene}-from_the_slide.h5", {"ls": "--"})):
+        there = folder / f"mujoco/{table.axes['scene'][cell]}-from_the_slide.h5"
+        for path, style in ((log_of(folder / "beside", str(cell)), {"marker": plots.KNOTS[row.knot].marker, "markevery": (0.0, 0.2)}),
+                            (there, {"ls": "--"})):
             log = HagfishLog(path)
             frames = log.in_phase("slide")
             time = log["/trajectory/time"][frames]
-            axes.plot(time - time[0], log["/knot/head_end"][frames], color=look.colour, **style)
-    axes.plot([], [], color=plots.GREY, ls="--", label="in MuJoCo")
-    axes.set(xlabel="time since the start of the slide, s", ylabel="head end of the knot, cm from the head",
-             ylim=(0, 13))
-    axes.legend(loc="upper right", ncols=2)
+            axes.plot(time - time[0], log["/knot/head_end"][frames], color=plots.KNOTS[row.knot].colour, ms=4, **style)
+    axes.set(xlabel="since the slide began, s", ylabel="head end, cm from the head", ylim=(0, None))
 
 
 def draw_torque(axes: Any, folder: Path) -> None:
@@ -348,78 +346,74 @@ def draw_torque(axes: Any, folder: Path) -> None:
     slope = np.gradient(curvature[0, 0], apart)
     own = reflex_runs.asked_torques(log, frame)[0, kind == "bend_y"]
     scale = (STIFFNESS + RIGIDITY) * float(log.scene()["controller"]["reflex"]["shift"]) / 1e3
-    axes.axvspan(float(log["/knot/head_end"][frame[0]]), float(log["/knot/tail_end"][frame[0]]), color=plots.GRID, lw=0,
-                 label="the knot")
+    ends = [float(log[f"/knot/{end}_end"][frame[0]]) for end in ("head", "tail")]
+    axes.axvspan(*ends, color=plots.GRID, lw=0)
+    axes.text(np.mean(ends), 0.98, "the knot", fontsize=8, ha="center", va="top", transform=axes.get_xaxis_transform())
     axes.plot(arc, scale * slope, color=plots.GREY, lw=2.5, label=r"$\Delta\,(B_a+B)\,\partial\kappa/\partial s$")
-    axes.plot(arc, own / 1e3, color=plots.VERMILION, marker="o", ms=3, lw=1, label="torque of the reflex")
-    axes.set(xlabel="arc length from the head, cm", ylabel="bending about Y, 1000 dyn cm", xlim=(0, arc[-1]))
-    axes.legend(loc="upper right")
+    axes.plot(arc, own / 1e3, color=plots.VERMILION, marker="o", ms=2.5, lw=1, label="torque: follows it")
+    axes.set(xlabel="arc from the head, cm", ylabel="about Y, 1000 dyn cm", xlim=(0, arc[-1]), ylim=(-1.3, 0.8))
+    axes.legend(loc="lower right")
 
 
 def draw_speeds(axes: Any, rows: list[Row]) -> None:
+    """Open where the knot came less far than its scene asks."""
     own = [row for row in pick(rows, study="speed") if row.way and row.setting.endswith("; 2")]
-    for (knot, head), marker in zip(dict.fromkeys((row.knot, row.head) for row in own), "oDs"):
+    shift_of = lambda row: float(row.setting.split("; ")[0])
+    for row in own:
+        axes.plot(shift_of(row), row.speed, **plots.KNOTS[row.knot].style, mfc=None if row.slid == "yes" else "white", zorder=3)
+    for knot, head in dict.fromkeys((row.knot, row.head) for row in own):
         of = pick(own, knot=knot, head=head)
-        axes.plot([float(row.setting.split("; ")[0]) for row in of], [row.speed for row in of],
-                  color=plots.KNOTS[knot].colour, marker=marker,
-                  ls="-" if head == "clamped" else "--", mfc="white" if head == "free" else None,
-                  label=f"{plots.KNOTS[knot].label}, {head}")
-    shifts = sorted({float(row.setting.split("; ")[0]) for row in own})
-    axes.plot(shifts, [law_speed(shift) for shift in shifts], color=plots.GREY, lw=0.9, ls=":",
-              label=r"$v=\Delta\,(B_a+B)/C$", zorder=0)
-    axes.set(xscale="log", yscale="log", xlabel=r"length by which joints copy, $\Delta$, cm",
-             ylabel="speed of the knot, cm/s")
-    plots.plain_ticks(axes.xaxis, shifts)
-    axes.legend(loc="upper left")
-
-
-MAPPED = {"delay": "late, s", "noise": "wrong, share", "bodies": "bodies", "step": "step, s", "drag": "drag, g/(s cm)",
-          "muscle": "$B_a$",
-          "damping": "$C$", "stiffness": "$EI$"}
-
-
-def draw_map(axes: Any, rows: list[Row]) -> None:
-    """A line for each setting, a cell for each of its values, split in four: full where the knot came to the head."""
-    studies = [study for study in MAPPED if pick(rows, study=study)]
-    for y, study in enumerate(studies):
-        own = pick(rows, study=study)
-        for x, setting in enumerate(dict.fromkeys(row.setting for row in own)):
-            for k, knot in enumerate(KNOTS):
-                row = one(own, knot=knot, setting=setting)
-                if row is None:
-                    continue
-                tied = row.way is not None
-                look = plots.KNOTS[knot]
-                axes.plot(x - 0.24 + 0.16 * k, y + 0.16, ls="", marker=look.marker if tied else "x", ms=5.5,
-                          mec=look.colour,
-                          mfc=look.colour if row.slid == "yes" else "white", color=look.colour)
-            axes.text(x, y - 0.26, setting, ha="center", va="center", fontsize=6.5)
-    axes.set_yticks(range(len(studies)), [MAPPED[study] for study in studies])
-    axes.set_xticks([])
-    axes.grid(False)
-    axes.set(ylim=(len(studies) - 0.5, -0.6), xlim=(-0.6, 7.6))
-    axes.set_xlabel("full: came to the head; open: did not; cross: the program tied no knot", fontsize=8)
+        axes.plot([shift_of(row) for row in of], [row.speed for row in of], color=plots.KNOTS[knot].colour,
+                  ls="-" if head == "clamped" else "--")
+    shifts = sorted({shift_of(row) for row in own})
+    axes.plot(shifts, [law_speed(shift) for shift in shifts], color=plots.GREY, lw=0.9, ls=":", zorder=0)
+    axes.set(xscale="log", yscale="log", xlabel=r"$\Delta$, cm", ylabel="speed of the knot, cm/s")
+    plots.plain_ticks(axes.xaxis, [0.0025, 0.01, 0.04, 0.16])
+    plots.plain_ticks(axes.yaxis, [0.5, 1, 2, 5, 10, 20, 50])
 
 
 def draw(folder: Path, rows: list[Row], out: Path) -> None:
-    figure, (ways, torque, speeds, where) = plots.panels(2, 2, (11, 8), [
-        "every knot slides to the head", "the torque is the gradient of the shape ($3_1$, half way)",
-        "the law of speed", "where it holds"])
+    figure, (ways, torque, speeds) = plots.panels(1, 3, (plots.WIDTH, 3.2), [
+        "knots slide to the head", "torque of the $3_1$, half way", "the law of speed"])
     draw_ways(ways, folder)
     draw_torque(torque, folder)
     draw_speeds(speeds, rows)
-    draw_map(where, rows)
+    handles = [ways.plot([], [], label=look.label, **look.style)[0] for look in plots.KNOTS.values()]
+    handles += ways.plot([], [], color=plots.GREY, ls="--", label="in MuJoCo")
+    handles += ways.plot([], [], color=plots.INK, marker="o", ls="", mfc="white", label="short of the head")
+    handles += ways.plot([], [], color=plots.GREY, ls=":", label=r"$v=\Delta\,(B_a+B)/C$")
+    plots.legend_above(figure, handles, 4, 0.13, columnspacing=1)
     plots.save(figure, out)
+
+
+def colour_top(log: HagfishLog) -> float:
+    """What `hagfish picture` gives the last colour: one in a hundred of the bending moments above 0 is larger, dyn cm."""
+    bends = np.unique(log.hinges()[1][log.hinges()[2] != "twist"])
+    size = np.linalg.norm(log.moments("active")[1:, bends, 1:], axis=2)
+    return float(np.percentile(size[size > 0], 99))
 
 
 def draw_strip(here: Path, there: Path, out: Path) -> None:
     """One slide here (above) and in MuJoCo (below), at the same times."""
-    slides = [log["/trajectory/time"][log.in_phase("slide")] for log in map(HagfishLog, (here, there))]
+    logs = [HagfishLog(path) for path in (here, there)]
+    slides = [log["/trajectory/time"][log.in_phase("slide")] for log in logs]
     times = np.linspace(max(slide[0] for slide in slides), min(slide[-1] for slide in slides), 4)
     # The legend of colours below is too small to be read here.
-    rows = [np.hstack([each[:int(0.75 * len(each))] for each in pictures_of(path, times, "--colour", "active")])
-            for path in (here, there)]
-    matplotlib.image.imsave(out, np.vstack(rows))
+    pictures = [[each[:-LEGEND] for each in pictures_of(log.path, times, "--colour", "active", size=SIZE)] for log in logs]
+    ink = np.min([each.min(axis=2) for row in pictures for each in row], axis=0) < 1
+    shown = tuple(slice(*np.flatnonzero(ink.any(axis=axis))[[0, -1]]) for axis in (1, 0))
+    figure, grid = plots.plt.subplots(2, 4, figsize=(plots.WIDTH, 3.9), layout="constrained")
+    for row, name, panels in zip(pictures, ("here", "in MuJoCo"), grid):
+        for axes, each, time in zip(panels, row, times):
+            axes.imshow(each[shown])
+            axes.set_title(f"{time - times[0]:.1f} s", loc="center", fontsize=9)
+            axes.set(xticks=[], yticks=[])
+            axes.spines[:].set_visible(False)
+        panels[0].set_ylabel(name, fontsize=9)
+    colours = matplotlib.cm.ScalarMappable(matplotlib.colors.Normalize(0, max(map(colour_top, logs)) / 1e3), "viridis")
+    figure.colorbar(colours, ax=grid, location="bottom", extend="max", shrink=0.6, aspect=40,
+                    label="bending moment of the muscles, 1000 dyn cm")
+    plots.save(figure, out)
 
 
 def note_of(folder: Path, rows: list[Row], kept: list[str]) -> str:

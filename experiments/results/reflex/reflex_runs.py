@@ -161,18 +161,22 @@ def torques(log: HagfishLog, frames: np.ndarray) -> np.ndarray:
 
 
 def springs(log: HagfishLog, frames: np.ndarray) -> np.ndarray:
-    """What the body's own springs take to hold its shape, frames x hinges, dyn cm."""
-    dof, joint, kind = log.hinges()
+    """What the body's own springs take to hold its shape, in the mean since the frame before: frames x hinges, dyn cm."""
+    dof, _, kind = log.hinges()
     apart = 2 * float(np.median(log["/model/length"]))  # hinges of one kind are two bodies apart
     passive = log.scene()["specimen"]["passive"]
     rigidity = np.where(kind == "twist", passive["twist_stiffness"][0], passive["bending_stiffness"][0])
-    return log["/trajectory/q"][frames][:, dof + 1] * rigidity / apart
+    q = log["/trajectory/q"][:, dof + 1]
+    return (q[frames] + q[frames - 1]) / 2 * rigidity / apart
 
 
 def asked_torques(log: HagfishLog, frames: np.ndarray) -> np.ndarray:
     """What a law asks for to slide the knot, frames x hinges, dyn cm: f_thigmo, or the reflex's torque beyond what holds the shape."""
-    thigmotaxis, active = (log.at_hinges(log.moments(force)[frames]) for force in ("thigmotaxis", "active"))
-    return thigmotaxis if np.any(thigmotaxis) else active - springs(log, frames)
+    thigmotaxis = log.at_hinges(log.moments("thigmotaxis")[frames])
+    if np.any(thigmotaxis):
+        return thigmotaxis
+    # Of hinges, as springs are: against the moment in other axes the small rest would be lost.
+    return log["/mean/forces/active"][frames][:, log.hinges()[0]] - springs(log, frames)
 
 
 def gradient_likeness(log: HagfishLog, frames: np.ndarray, torque: np.ndarray) -> float:

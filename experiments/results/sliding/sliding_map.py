@@ -5,7 +5,6 @@ Usage: sliding_map.py SWEEP.
 
 from __future__ import annotations
 
-from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -20,6 +19,10 @@ from sweep_columns import SweepTable, read_sweep
 STIFFNESS, SPEED = "model.bending_stiffness", "controller.slide_head.a"
 LOOKS = [plots.Look("", plots.BLUE, "o"), plots.Look("", plots.ORANGE, "s"), plots.Look("", plots.PURPLE, "D")]
 ARRIVED = "release_from_s"
+TABLE_1 = 424.0  # dyn cm^2: data/table1.toml
+HAGFISH = (3e4, 1.2e6)  # dyn cm^2, made of Long et al. 2002: data/specimens/pacific_hagfish.toml
+POINTS = ["stiffness_dyn_cm2", "speed_cm_per_s", "starts", "tied", "arrived", "passed",
+          *(f"{what}_{part}" for what in ("force_dyn", "work_erg_per_cm") for part in ("lower", "median", "upper"))]
 
 
 @dataclass
@@ -34,18 +37,11 @@ class Place:
     passed: int
     force: np.ndarray  # quartiles, dyn
     work: np.ndarray  # of f_thigmo for each cm of slide, erg/cm
-    measured: np.ndarray  # speed, cm/s
-    unmet: str  # bounds that those at the head most often missed, and how many did
 
 
 def quartiles(values: np.ndarray) -> np.ndarray:
     known = values[np.isfinite(values)]
     return np.percentile(known, [25, 50, 75]) if known.size else np.full(3, np.nan)
-
-
-def most_unmet(unmet: list[str], chosen: np.ndarray) -> str:
-    counts = Counter(name for text, own in zip(unmet, chosen) if own and text for name in text.split("; "))
-    return ", ".join(f"{name}: {count}" for name, count in counts.most_common(2))
 
 
 def places_of(table: SweepTable) -> list[Place]:
@@ -57,42 +53,45 @@ def places_of(table: SweepTable) -> list[Place]:
         arrived = here & np.isfinite(figures[ARRIVED])
         found.append(Place(k, v, int(here.sum()), int((here & np.isfinite(figures["tighten_from_s"])).sum()), int(arrived.sum()),
                            int((here & table.passed).sum()), quartiles(figures["sliding_force_dyn"][arrived]),
-                           quartiles((figures["work_thigmotaxis_erg"] / figures["slide_distance_cm"])[arrived]),
-                           quartiles(figures["slide_speed_cm_per_s"][arrived]), most_unmet(table.texts["unmet"], arrived)))
+                           quartiles((figures["work_thigmotaxis_erg"] / figures["slide_distance_cm"])[arrived])))
     return found
 
 
-def draw_quartiles(axes: Any, own: list[Place], measure: str, look: plots.Look, label: str) -> None:
-    x, y = np.array([p.stiffness for p in own]), np.array([getattr(p, measure) for p in own])
-    axes.fill_between(x, y[:, 0], y[:, 2], color=look.colour, alpha=0.25, lw=0)
-    axes.plot(x, y[:, 1], **(look.style | {"ms": 3}))
-    last = np.flatnonzero(np.isfinite(y[:, 1]))[-1]
-    axes.annotate(label, (x[last], y[last, 1]), xytext=(6, 0), textcoords="offset points", va="center", fontsize=8, color=look.colour)
+def draw_quartiles(axes: Any, own: list[dict[str, str]], what: str, look: plots.Look) -> None:
+    x, *y = (np.array([float(row[key]) for row in own if row[f"{what}_median"]])
+             for key in (POINTS[0], *(f"{what}_{part}" for part in ("lower", "median", "upper"))))
+    axes.fill_between(x, y[0], y[2], color=look.colour, alpha=0.25, lw=0)
+    axes.plot(x, y[1], **(look.style | {"ms": 3}))
 
 
-def draw(places: list[Place], out: Path) -> None:
-    figure, (works, force, work) = plots.panels(1, 3, (11.0, 3.9), ["where it works", "force", "work"], sharex=True)
-    for look, v in zip(LOOKS, sorted({p.speed for p in places})):
-        own = [p for p in places if p.speed == v]
-        x = [p.stiffness for p in own]
-        works.plot(x, [100 * p.arrived / p.starts for p in own], ls=":", color=look.colour)
-        works.plot(x, [100 * p.passed / p.starts for p in own], **(look.style | {"ms": 3}))
-        draw_quartiles(force, own, "force", look, f"{v:g} cm/s")
-        draw_quartiles(work, own, "work", look, f"{v:g} cm/s")
-    works.plot([], [], ls=":", color=plots.INK, label="knot at the head")
-    works.plot([], [], ls="-", color=plots.INK, label="and every bound met")
-    works.set(xscale="log", ylabel="starts, %", ylim=(-4, 104))
-    works.legend(loc="lower left", bbox_to_anchor=(0.0, 0.06), fontsize=7)
-    force.set(yscale="log", ylabel="sum of $\\lambda/h$ of Eq. 6 while sliding, dyn\n(median and quartiles of starts)")
-    work.set(yscale="log", ylabel="work of $f_{thigmo}$, erg for each cm of slide")
+def draw(rows: list[dict[str, str]], out: Path) -> None:
+    figure, (works, force, work) = plots.panels(1, 3, (plots.WIDTH, 3.1), ["every bound met", "force", "work"])
+    for look, v in zip(LOOKS, dict.fromkeys(row[POINTS[1]] for row in rows)):
+        own = [row for row in rows if row[POINTS[1]] == v]
+        share = lambda what: [100 * float(row[what]) / float(row["starts"]) for row in own]
+        works.plot([float(row[POINTS[0]]) for row in own], share("passed"), **(look.style | {"ms": 3}), label=f"{v} cm/s")
+        for axes, what in ((force, "force_dyn"), (work, "work_erg_per_cm")):
+            draw_quartiles(axes, own, what, look)
+    works.plot([float(row[POINTS[0]]) for row in own], share("tied"), color=plots.INK, lw=0.8, ls=":", label="knot tied")
+    works.axvspan(*HAGFISH, color=plots.GRID, lw=0)
+    works.text(np.sqrt(np.prod(HAGFISH)), 50, "a hagfish's own", fontsize=8, rotation=90, ha="center", va="center")
     for axes in (works, force, work):
-        axes.set_xlabel("bending stiffness, dyn cm$^2$")
+        axes.axvline(TABLE_1, color=plots.GREY, lw=0.8, ls="--", zorder=0, label="Table 1's body")
+        axes.set(xscale="log", xlabel="bending stiffness EI,\ndyn cm²")
+    works.set(ylabel="starts, %", ylim=(-4, 104))
+    plots.plain_ticks(works.xaxis, [10, 100, 1e3, 1e4, 1e5, 1e6])
+    works.set_xticklabels(["10", "100", "10³", "10⁴", "10⁵", "10⁶"])
+    for axes, label in ((force, "sum of $\\lambda/h$ while sliding, dyn"), (work, "work of f_thigmo, erg/cm")):
+        axes.set(yscale="log", ylabel=label)
+        plots.plain_ticks(axes.xaxis, [10, 30, 100, 300, 1000])
+        plots.plain_ticks(axes.yaxis, [100, 200, 500, 1000, 2000, 5000, 10000])
+    plots.legend_above(figure, works.get_legend_handles_labels()[0], 5, 0.08, columnspacing=1.2)
     plots.save(figure, out)
 
 
 def by_speed(places: list[Place]) -> list[list[str]]:
-    """A row a speed, and one of all: how many starts tie, come to the head and meet every bound; from which stiffness on all do; what the
-    stiffest body that is tied takes, over the softest."""
+    """A row a speed, and one of all: how many starts tie, come to the head and meet every bound; from which stiffness on all do;
+    what the stiffest body that is tied takes, over the softest."""
     def counts(own: list[Place]) -> list[str]:
         total = lambda what: sum(getattr(p, what) for p in own)
         return [f"{total('tied')} of {total('starts')}", f"{total('arrived')} of {total('tied')}",
@@ -126,10 +125,18 @@ def write_tables(places: list[Place], out: Path) -> None:
     tables.write_table(out, "sliding_stiffness", ["bending stiffness, dyn cm²", "starts that tie"], by_stiffness(places))
 
 
+def write_points(places: list[Place], out: Path) -> None:
+    """What the figure is drawn from."""
+    tables.write_table(out, "sliding_points", POINTS, [
+        [p.stiffness, f"{p.speed:g}", p.starts, p.tied, p.arrived, p.passed,
+         *("" if np.isnan(value) else float(value) for value in (*p.force, *p.work))] for p in places])
+
+
 def main(folder: Path) -> None:
     places = places_of(read_sweep(folder / "table.csv"))
-    draw(places, folder / "sliding.png")
     write_tables(places, folder)
+    write_points(places, folder)
+    draw(tables.read_csv(folder / "tables/sliding_points.csv", POINTS), folder / "sliding.png")
 
 
 if __name__ == "__main__":

@@ -13,7 +13,7 @@ import numpy as np
 
 import plots
 import tables
-from accuracy import STATIONS, cpu_of, moments_of, name_of, off, pick, presets, through
+from accuracy import cpu_of, moments_of, name_of, off, pick, places_of, presets
 from hagfish_log import HagfishLog, LogError
 from script import run_script
 
@@ -23,7 +23,7 @@ METHODS = {("euler", "active-set"): plots.INTEGRATORS["core"], ("midpoint", "act
            ("euler", "ipopt"): plots.Look("core, Euler, by Ipopt", plots.GREY, "P")}
 SIZES = {25: 2.0, 50: 3.5, 100: 5.0, 200: 7.0, 400: 9.0}  # of markers, by bodies
 MEASURES = {"place_cm": "places off, cm", "torque_percent": "torques off, %"}
-LABELLED = 400  # bodies of the points that tell their step
+LABELLED = 400  # bodies of the lines that tell their steps: each point has half the step of the last
 USUAL = 10.0  # ms: the step at which CPU times are compared
 HEAD = ["knot", "rule", "back_end", "bodies", "step_ms", "cpu_s", *MEASURES, "place_by_step_cm"]
 
@@ -51,9 +51,7 @@ def read_motion(path: Path) -> Motion | None:
     if log.attribute("status") != "complete":
         return None
     frames = np.flatnonzero(log["/trajectory/time"] > FROM)
-    bodies = len(log["/model/length"])
-    place = np.array([through(centres, STATIONS * bodies) for centres in log["/trajectory/position"][frames]])
-    return Motion(place, moments_of(log, "active", frames))
+    return Motion(places_of(log, frames), moments_of(log, "active", frames))
 
 
 def read_runs(folder: Path, knot: str) -> Rows:
@@ -117,31 +115,37 @@ def runs_table(rows: Rows, out: Path) -> None:
 
 
 def draw(rows: Rows, out: Path) -> None:
-    named = {knot: label for knot, label in zip(KNOTS.values(), ("overhand knot", "figure-eight knot"))}
+    named = dict(zip(KNOTS.values(), ("overhand knot", "figure-eight knot")))
     shows = [(knot, measure) for knot in named for measure in MEASURES]
-    figure, panels = plots.panels(2, 2, (9, 7), [f"{named[knot]}: {measure.split('_')[0]}s" for knot, measure in shows], sharex=True)
+    titles = [f"{named[knot]}: {measure.split('_')[0]}s" for knot, measure in shows]
+    figure, panels = plots.panels(2, 2, (plots.WIDTH, 6.6), titles, sharex=True)
     for axes, (knot, measure) in zip(panels, shows):
+        texts = []
         for (rule, back_end), look in METHODS.items():
             for bodies, size in SIZES.items():
-                own = sorted((row for row in rows if (row["knot"], row["rule"], row["back_end"], row["bodies"]) == (knot, rule, back_end,
-                                                                                                                    bodies) and row["cpu_s"]
-                                                                                                                    and row[measure] != ""),
-                             key=lambda row: row["step_ms"])
+                own = pick(rows, knot=knot, rule=rule, back_end=back_end, bodies=bodies)
+                own = sorted((row for row in own if row["cpu_s"] and row[measure] != ""), key=lambda row: row["step_ms"])
                 axes.plot([row["cpu_s"] for row in own], [row[measure] for row in own], **look.style, markersize=size, lw=0.7)
+                if bodies == LABELLED and back_end == "active-set":
+                    texts += [(row["cpu_s"], row[measure], f"{row['step_ms']:g} ms", side)
+                              for row, side in zip((own[-1], own[0]), ("above" if rule == "midpoint" else "right", "right"))]
         for name, of in presets().items():
             run = one(rows, knot=knot, back_end="active-set", **of)
-            axes.plot(run["cpu_s"], run[measure], "o", mfc="none", mec=plots.INK, ms=13, mew=0.9)
-            axes.annotate(name, (run["cpu_s"], run[measure]), (-7, -7), textcoords="offset points", fontsize=7, ha="right", va="top")
-        for row in pick(rows, knot=knot, back_end="active-set", rule="euler", bodies=LABELLED):
-            if row["cpu_s"]:
-                axes.annotate(f"{row['step_ms']:g} ms", (row["cpu_s"], row[measure]), (5, 3), textcoords="offset points", fontsize=6)
-        axes.set(xscale="log", yscale="log", ylabel=MEASURES[measure])
+            axes.plot(run["cpu_s"], run[measure], "o", mfc="none", mec=plots.INK, ms=12, mew=0.9, zorder=4)
+            axes.annotate(name, (run["cpu_s"], run[measure]), (-7, -6), textcoords="offset points", fontsize=7.5, ha="right", va="top",
+                          style="italic")
+        axes.set(xscale="log", yscale="log", ylabel=MEASURES[measure], xlim=(0.06, 10), ymargin=0.1)
+        low, high = axes.get_ylim()
+        plots.plain_ticks(axes.yaxis, [tick for tick in (0.001, 0.01, 0.1, 1, 10, 100) if low <= tick <= high])
+        plots.plain_ticks(axes.xaxis, [0.1, 0.2, 0.5, 1, 2, 5])
+        plots.label(axes, texts)
     for axes in panels[2:]:
         axes.set_xlabel("CPU time of the run, s")
     line = lambda **of: plots.plt.Line2D([], [], **of)
     handles = [line(label=look.label, **look.style) for look in METHODS.values()]
     handles += [line(color=plots.GREY, marker="o", ls="", markersize=size, label=f"{bodies} bodies") for bodies, size in SIZES.items()]
-    plots.legend_above(figure, [*handles, line(color=plots.INK, marker="o", ls="", mfc="none", ms=11, label="presets")], 5, 0.075)
+    plots.legend_above(figure, [*handles, line(color=plots.INK, marker="o", ls="", mfc="none", ms=11, label="presets")], 5, 0.075,
+                       columnspacing=1.2)
     plots.save(figure, out)
 
 

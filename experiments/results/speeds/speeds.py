@@ -8,58 +8,59 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 import plots
 import tables
 from script import run_script
-from slides import MEAN, Slide, read_slides
+from slides import MEAN, read_slides
 
-LEAST_SHARE = 1e-4  # of steps, where a logarithmic axis ends
+HEAD = ["knot", "commanded, cm/s", "measured, cm/s", f"force, median {MEAN}, dyn", f"largest {MEAN}, dyn", "steps that meet Eq. 6, %",
+        f"slack, median {MEAN}, cm/s", "rows at the cap, %", "penetration, cm", "run"]
+COMMANDED, MEASURED, FORCE, MET, DEEP, RUN = (HEAD[k] for k in (1, 2, 3, 5, 8, 9))
 
 
-def draw_over_speed(axes: Any, slides: list[Slide], measure: Callable[[Slide], float], **style: Any) -> None:
-    """A measure over commanded speed, a line for each knot; open where the knot was lost or the run failed. What is not
-    above 0, which logarithmic axes lack, is left out."""
+def draw_over_speed(axes: Any, rows: list[dict[str, str]], measure: Callable[[dict[str, str]], float]) -> None:
+    """A measure over commanded speed, a line for each knot; open where the knot was lost or the run failed."""
     for knot, look in plots.KNOTS.items():
-        own = [s for s in slides if s.knot == knot and measure(s) > 0]
-        axes.plot([s.commanded for s in own], [measure(s) for s in own], label=look.label, **(look.style | style))
-        lost = [s for s in own if s.failure]
-        axes.plot([s.commanded for s in lost], [measure(s) for s in lost], **(look.style | style | {"ls": "", "mfc": "white"}))
-    axes.set(xscale="log", yscale="log", xlabel="commanded speed, cm/s")
-    plots.plain_ticks(axes.xaxis, sorted({s.commanded for s in slides}))
+        for fill, own in (("full", rows), ("none", [row for row in rows if row[RUN] != "complete"])):
+            of = [row for row in own if row["knot"] == knot]
+            axes.plot([float(row[COMMANDED]) for row in of], [measure(row) for row in of], **look.style, fillstyle=fill,
+                      ls="-" if fill == "full" else "")
+    axes.set(xscale="log", xlabel="commanded speed, cm/s")
+    plots.plain_ticks(axes.xaxis, [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50])
 
 
-def draw(slides: list[Slide], out: Path) -> None:
-    figure, panels = plots.panels(2, 2, (8.2, 6.6), ["speed (open: knot lost, or run failed)", "force", "shortfall of Eq. 6",
-                                                     "penetration"])
-    speed, force, slack, deep = panels
-    draw_over_speed(speed, slides, lambda s: s.speed)
-    ends = [min(s.commanded for s in slides), max(s.commanded for s in slides)]
-    speed.plot(ends, ends, color=plots.GREY, lw=0.8, ls="--", zorder=0, label="as commanded")
-    speed.set_ylabel("measured speed, cm/s")
-    speed.legend(loc="upper left")
-    draw_over_speed(force, slides, lambda s: s.force)
-    force.set_ylabel(r"sum of the four $\lambda/h$, dyn" + f"\n(median {MEAN})")
-    draw_over_speed(slack, slides, lambda s: max(1 - s.met, LEAST_SHARE) if np.isfinite(s.met) else np.nan)
-    slack.set_ylabel("share of steps that fall short of Eq. 6\n(drawn at $10^{-4}$ where none does)")
-    draw_over_speed(deep, slides, lambda s: s.penetration)
-    deep.set_ylabel("deepest penetration, cm")
-    allowed = min(s.allowed for s in slides)
-    deep.axhline(allowed, color=plots.GREY, lw=0.8, ls="--", zorder=0)
-    deep.text(0.02, allowed * 0.9, "strictest bound of the scenes", color=plots.GREY, fontsize=8, va="top",
-              transform=deep.get_yaxis_transform())
+def draw(rows: list[dict[str, str]], allowed: float, out: Path) -> None:
+    """`allowed`: the least penetration that a scene bounds, cm."""
+    figure, panels = plots.panels(2, 2, (plots.WIDTH, 6), ["speed", "force", "steps that fall short of Eq. 6", "penetration"])
+    speed, force, short, deep = panels
+    draw_over_speed(speed, rows, lambda row: float(row[MEASURED]))
+    ends = [0.1, 50]
+    speed.plot(ends, ends, color=plots.GREY, lw=0.8, ls="--", zorder=0)
+    speed.text(0.22, 0.11, "as commanded", color=plots.GREY, fontsize=8)
+    draw_over_speed(force, rows, lambda row: float(row[FORCE]))
+    draw_over_speed(short, rows, lambda row: 100 - float(row[MET]))
+    draw_over_speed(deep, rows, lambda row: 1e4 * float(row[DEEP]))
+    deep.axhline(1e4 * allowed, color=plots.GREY, lw=0.8, ls="--", zorder=0)
+    deep.text(0.1, 1.02e4 * allowed, "strictest bound of the scenes", color=plots.GREY, fontsize=8, va="bottom")
+    for axes, label, top in ((short, "share, %", None), (deep, "deepest, µm", 1.15e4 * allowed)):
+        axes.set(ylabel=label, ylim=(0, top))
+    for axes, label, ticks in ((speed, "measured speed, cm/s", [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50]),
+                               (force, "sum of the four $\\lambda/h$, dyn", [50, 100, 200, 500, 1000, 2000, 5000, 10000, 20000])):
+        axes.set(ylabel=label, yscale="log")
+        plots.plain_ticks(axes.yaxis, ticks)
+    handles = [speed.plot([], [], label=look.label, **look.style)[0] for look in plots.KNOTS.values()]
+    if any(row[RUN] != "complete" for row in rows):
+        handles += speed.plot([], [], color=plots.INK, marker="o", mfc="white", ls="", label="knot lost, or run failed")
+    plots.legend_above(figure, handles, 5, 0.05)
     plots.save(figure, out)
 
 
 def main(folder: Path) -> None:
     slides = read_slides(folder)
-    draw(slides, folder / "speeds.png")
-    head = ["knot", "commanded, cm/s", "measured, cm/s", f"force, median {MEAN}, dyn", f"largest {MEAN}, dyn",
-            "steps that meet Eq. 6, %", f"slack, median {MEAN}, cm/s", "rows at the cap, %", "penetration, cm", "run"]
-    tables.write_table(folder, "speeds", head, [
+    tables.write_table(folder, "speeds", HEAD, [
         [s.knot, f"{s.commanded:g}", f"{s.speed:.3g}", f"{s.force:.0f}", f"{s.peak:.0f}", f"{100 * s.met:.1f}",
          f"{round(s.slack, 9):.2g}", f"{100 * s.capped:.0f}", f"{s.penetration:.2g}", s.failure or "complete"] for s in slides])
+    draw(tables.read_csv(folder / "tables/speeds.csv", HEAD), min(s.allowed for s in slides), folder / "speeds.png")
 
 
 if __name__ == "__main__":

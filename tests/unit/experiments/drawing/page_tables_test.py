@@ -42,7 +42,7 @@ def test_each_table_of_a_page_is_written_by_a_script_beside_it():
 
 
 def test_sliding_by_speed_and_stiffness(tmp_path):
-    place = lambda k, v, tied, passed, force: sliding_map.Place(k, v, 10, tied, tied, passed, np.full(3, force), np.full(3, 2 * force), np.full(3, v), "")
+    place = lambda k, v, tied, passed, force: sliding_map.Place(k, v, 10, tied, tied, passed, np.full(3, force), np.full(3, 2 * force))
     places = [place(10, 2, 10, 9, 100.0), place(100, 2, 10, 10, 150.0), place(1000, 2, 3, 3, 300.0), place(2000, 2, 0, 0, np.nan)]
     sliding_map.write_tables(places, tmp_path)
     assert read(tmp_path, "sliding")[1:] == [["2", "23 of 40", "23 of 23", "96 %", "1e+02", "3.0", "3.0"], ["all", "23 of 40", "23 of 23", "96 %", "", "", ""]]
