@@ -23,7 +23,7 @@ packages=(
 )
 if [[ -z ${HAGFISH_RUN_ONLY-} ]]; then
   packages+=(
-    python3-pytest python3-xarray python3-h5netcdf      # tests, and logs in Python
+    python3-pytest python3-xarray python3-h5netcdf mypy # tests, and logs in Python
     ffmpeg                                              # films
     parallel                                            # jobs of studies that are no grids
   )
