@@ -12,7 +12,7 @@ fi
 packages=(
   g++ cmake ninja-build pkg-config git ca-certificates  # to build
   libeigen3-dev libfmt-dev libtoml11-dev libcli11-dev   # C++ libraries
-  nlohmann-json3-dev libfccp-dev libcereal-dev
+  nlohmann-json3-dev libcereal-dev
   libhdf5-dev coinor-libipopt-dev libmujoco-dev
   libegl-dev libgl1-mesa-dri libpng-dev                 # pictures, without a display
   libqhull-dev libgl-dev libopengl-dev                  # named by MuJoCo's CMake file, but not by its package
